@@ -1,0 +1,31 @@
+# A room is a folder, a namespace and a target of the same name. Rooms under sixstep/ are the library: compiled
+# without exceptions and RTTI, which proves that they also live where neither exists.
+function(sixstep_room name)
+  cmake_parse_arguments(ROOM "LIBRARY" "" "SOURCES;DEPENDS" ${ARGN})
+  if(ROOM_SOURCES)
+    add_library(${name} STATIC ${ROOM_SOURCES})
+    target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
+    target_link_libraries(${name} PUBLIC ${ROOM_DEPENDS})
+    if(ROOM_LIBRARY)
+      target_compile_options(${name} PRIVATE -fno-exceptions -fno-rtti)
+    endif()
+  else()
+    add_library(${name} INTERFACE)
+    target_include_directories(${name} INTERFACE ${PROJECT_SOURCE_DIR})
+    target_link_libraries(${name} INTERFACE ${ROOM_DEPENDS})
+  endif()
+endfunction()
+
+# The text files of a folder as C++ constants, so that the program needs nothing beside itself.
+#   sixstep_embed(TARGET io NAMESPACE io::assets FILES a.html b.js)
+# makes io/assets.hpp-style code: for each file a std::string_view named after it, dots and dashes as underscores.
+function(sixstep_embed)
+  cmake_parse_arguments(E "" "TARGET;NAMESPACE;HEADER" "FILES" ${ARGN})
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/embedded/${E_HEADER})
+  add_custom_command(OUTPUT ${out}
+    COMMAND python3 ${PROJECT_SOURCE_DIR}/tools/embed.py --namespace ${E_NAMESPACE} --out ${out} ${E_FILES}
+    DEPENDS ${PROJECT_SOURCE_DIR}/tools/embed.py ${E_FILES}
+    COMMENT "Embedding ${E_HEADER}" VERBATIM)
+  target_sources(${E_TARGET} PRIVATE ${out})
+  target_include_directories(${E_TARGET} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/embedded)
+endfunction()

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mechanical and electrical angle are different types; only the number of pole pairs bridges them.
+#pragma once
+
+namespace sixstep::base {
+
+/// Angle of the shaft, rad.
+struct MechanicalAngle {
+  double rad = 0.0;
+  bool operator==(const MechanicalAngle&) const = default;
+};
+
+/// Angle of the rotor's field against the stator's, rad: theta_e = p theta_m (MODEL 1).
+struct ElectricalAngle {
+  double rad = 0.0;
+  bool operator==(const ElectricalAngle&) const = default;
+};
+
+struct PolePairs {
+  int count = 1;
+  constexpr ElectricalAngle electrical(MechanicalAngle m) const { return {m.rad * count}; }
+  constexpr MechanicalAngle mechanical(ElectricalAngle e) const { return {e.rad / count}; }
+};
+
+/// An electrical sector, 60 degrees, in rad: pi/3 rounded to nearest.
+inline constexpr double sector_rad = 1.0471975511965977461542144610932;
+inline constexpr double pi = 3.1415926535897932384626433832795;
+
+}  // namespace sixstep::base

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scenario as typed data: everything one run needs, files already resolved to numbers. What each key means, its
+// unit, range and default stands in scenario_description.hpp and nowhere else.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sixstep/control/bridge_command.hpp"
+#include "sixstep/design/sheet.hpp"
+
+namespace sixstep::study {
+
+struct Supply {
+  double voltage_V = 24.0;
+  double resistance_ohm = 0.0;   // with capacitance_F > 0: source behind R feeding C; else a stiff bus
+  double capacitance_F = 0.0;
+  bool sinks = true;
+};
+
+enum class Device : std::uint8_t { mosfet };
+
+struct Bridge {
+  Device device = Device::mosfet;
+  double on_resistance_ohm = 0.0;
+  double diode_drop_V = 0.0;
+  double diode_resistance_ohm = 0.0;
+  double dead_time_s = 0.0;
+  bool dead_time_at_commutation = false;
+};
+
+enum class Alignment : std::uint8_t { edge, centre };
+enum class CommutationAt : std::uint8_t { hall_edge, sample };
+
+struct Pwm {
+  double period_s = 30e-6;
+  Alignment alignment = Alignment::edge;
+  control::Chopping chopping = control::Chopping::soft;
+  CommutationAt commutation = CommutationAt::hall_edge;
+  int delay_periods = 0;
+  double timer_Hz = 0.0;  // 0: edges are not quantised
+};
+
+enum class CurrentLoopType : std::uint8_t { pi, hysteresis };
+enum class HysteresisOn : std::uint8_t { motor, phase };
+enum class Comparator : std::uint8_t { event, sampled };
+
+/// Gains of a discrete PI: given as d1, d0 or kp, ki (per sample), or left to the pole placement by settle_s, damping.
+struct CurrentLoop {
+  CurrentLoopType type = CurrentLoopType::pi;
+  std::optional<double> settle_s, damping;
+  std::optional<double> d1, d0;
+  std::optional<double> kp, ki;
+  double band_A = 0.2;
+  HysteresisOn on = HysteresisOn::motor;
+  Comparator comparator = Comparator::event;
+  std::optional<double> limit_A;  // of the current reference, in cascades
+};
+
+struct SpeedLoop {
+  std::optional<double> settle_s, damping;
+  std::optional<double> d1, d0;
+  std::optional<double> kp, ki;
+  std::optional<double> torque_limit_Nm;
+};
+
+struct PositionLoop {
+  double gain_rad_s_per_deg = 1.0;
+  std::optional<double> speed_limit_rad_s;
+};
+
+enum class Arithmetic : std::uint8_t { float64, float32 };
+
+struct Control {
+  control::Mode mode = control::Mode::off;
+  Arithmetic arithmetic = Arithmetic::float64;
+  CurrentLoop current;
+  SpeedLoop speed;
+  PositionLoop position;
+};
+
+enum class Shape : std::uint8_t { constant, steps, square };
+
+/// What is wanted over time, in the mode's unit: duty 1, current A, speed rad/s, position deg.
+struct Reference {
+  Shape shape = Shape::constant;
+  double value = 0.0;              // constant
+  std::vector<double> times_s;     // steps: values[n] holds from times_s[n] on
+  std::vector<double> values;
+  double high = 0.0, low = 0.0;    // square: high first
+  double period_s = 0.01;
+  std::optional<std::string> unit; // checked against the mode where given
+};
+
+struct Load {
+  double torque_Nm = 0.0;
+  std::vector<double> times_s;     // steps: torques_Nm[n] holds from times_s[n] on
+  std::vector<double> torques_Nm;
+  double viscous_Nm_s = 0.0;       // added to the motor's own friction
+  double coulomb_Nm = 0.0;
+  double static_Nm = 0.0;          // breakaway torque where larger than coulomb
+  double inertia_kg_m2 = 0.0;
+  bool locked = false;
+};
+
+struct Initial {
+  double speed_rad_s = 0.0;
+  double angle_rad = 0.0;          // mechanical
+  std::optional<double> bus_V;     // default: supply.voltage_V
+};
+
+struct Record {
+  std::optional<double> grid_s;    // default: pwm.period_s
+  bool events = false;
+  std::vector<std::string> columns;  // empty: all
+};
+
+/// A figure of merit over a signal, exact on the trajectory's polynomials (study/metrics.hpp).
+enum class MetricKind : std::uint8_t {
+  final_value, mean, rms, maximum, minimum, peak_to_peak, overshoot, reach_time, settling_time, band_excess,
+  band_deficit, switching_frequency
+};
+enum class Signal : std::uint8_t {
+  current, phase_a, phase_b, phase_c, current_magnitude, speed, position, torque, bus_voltage, bus_current
+};
+
+struct Measure {
+  MetricKind metric = MetricKind::final_value;
+  Signal signal = Signal::current;
+  std::optional<double> from_s, to_s;  // window; default: whole run
+  std::optional<double> level;         // reach_time, settling_time, overshoot: what is to be reached
+  std::optional<double> start;         // value the step starts from; default: value at from_s
+  double fraction = 0.98;              // reach_time: of the way from start to level
+  double band = 0.02;                  // settling_time: of the step's height
+  bool sampled = false;                // look at the controller's samples only
+  std::string label;                   // shown instead of metric and signal
+};
+
+struct Requirement {
+  Measure measure;
+  std::optional<double> min, max;
+};
+
+struct Comparison {
+  Measure measure;
+  double value = 0.0;
+  std::string source;
+};
+
+struct Scenario {
+  std::string title;
+  std::string motor;               // name or path as written
+  double duration_s = 0.0;
+  std::string notes;               // what the run teaches, shown in the report
+  design::Sheet sheet;             // the motor's sheet with overrides applied (filled by io)
+  Supply supply;
+  Bridge bridge;
+  Pwm pwm;
+  Control control;
+  Reference reference;
+  Load load;
+  Initial initial;
+  Record record;
+  std::vector<Requirement> require;
+  std::vector<Comparison> compare;
+};
+
+}  // namespace sixstep::study
