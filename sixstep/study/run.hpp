@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenario in, outcome out: compiles the scenario to a timeline and a rig, runs it, takes the figures of merit.
+#pragma once
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "sixstep/base/result.hpp"
+#include "sixstep/study/outcome.hpp"
+#include "sixstep/study/scenario.hpp"
+
+namespace sixstep::study {
+
+/// One recorded instant, in the order of the columns.
+using Row = std::span<const double>;
+
+/// Who listens to a run. Each may be empty. None of them can change the run's result by a bit.
+struct Listeners {
+  std::function<void(Row)> on_record;          ///< the scenario's [record]: columns record_columns(scenario)
+  std::function<void(Row)> on_event;           ///< every event, both sides of each jump: columns all_columns()
+  std::function<bool(double t_s)> keep_going;  ///< now and then; false ends the run early
+};
+
+/// Every column there is: t_s i_a_A i_b_A i_c_A u_a_V .. hall (DESIGN "Trace columns").
+const std::vector<Column>& all_columns();
+
+/// Those the scenario's record.columns asks for, t_s always first; Problems name unknown ones.
+base::Result<std::vector<Column>> record_columns(const Scenario& scenario);
+
+/// What is wrong with the scenario beyond the range of single values: contradictory gains, a sheet that says nothing
+/// of a needed quantity, steps out of order, an RC bus without R. `where` is the key's path: "control.current.d1".
+base::Problems check(const Scenario& scenario);
+
+/// Runs it. A fault (shoot-through, impossible Hall code) is part of the outcome; Problems mean it could not start.
+base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners = {});
+
+}  // namespace sixstep::study
