@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Taylor coefficients of one segment, in the segment's own time: s in [0, 1] is the fraction of its length h, so that
+// coefficient j is (h^j/j!) d^j y/dt^j. All series of a segment share one degree.
+#pragma once
+#include <array>
+
+namespace sixstep::series {
+
+/// 16 reaches rounding level over about half a time constant; more costs time and gains no length (ENGINE).
+inline constexpr int max_degree = 16;
+
+template <class Real>
+using Coefficients = std::array<Real, max_degree + 1>;
+
+/// y(s) - y(0): the increment without the leading value, so that a compensated sum can add it.
+template <class Real>
+inline Real increment(const Coefficients<Real>& c, int degree, Real s) {
+  Real sum = 0;
+  for (int j = degree; j >= 1; --j) sum = (sum + c[j]) * s;
+  return sum;
+}
+
+template <class Real>
+inline Real evaluate(const Coefficients<Real>& c, int degree, Real s) {
+  return c[0] + increment(c, degree, s);
+}
+
+/// Coefficient n of the product of two series (Cauchy).
+template <class Real>
+inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& b, int n) {
+  Real sum = 0;
+  for (int j = 0; j <= n; ++j) sum += a[j] * b[n - j];
+  return sum;
+}
+
+/// Integral of y over s from 0 to `to`, in units of h.
+template <class Real>
+inline Real integral(const Coefficients<Real>& c, int degree, Real to) {
+  Real sum = 0;
+  for (int j = degree; j >= 0; --j) sum = sum * to + c[j] / static_cast<Real>(j + 1);
+  return sum * to;
+}
+
+/// Integral of the product of two polynomials, exact up to rounding: all 2 degree + 1 terms are taken.
+template <class Real>
+inline Real product_integral(const Coefficients<Real>& a, const Coefficients<Real>& b, int degree, Real to) {
+  Real sum = 0;
+  for (int n = 2 * degree; n >= 0; --n) {
+    Real term = 0;
+    const int first = n > degree ? n - degree : 0;
+    const int last = n < degree ? n : degree;
+    for (int j = first; j <= last; ++j) term += a[j] * b[n - j];
+    sum = sum * to + term / static_cast<Real>(n + 1);
+  }
+  return sum * to;
+}
+
+/// The running sum y += dy with the rounding error kept in `low` (Kahan): a million segments lose nothing.
+template <class Real>
+inline void add_compensated(Real& y, Real& low, Real dy) {
+  const Real term = dy + low;
+  const Real sum = y + term;
+  low = term - (sum - y);
+  y = sum;
+}
+
+}  // namespace sixstep::series
