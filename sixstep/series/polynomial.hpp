@@ -55,6 +55,17 @@ inline Real product_integral(const Coefficients<Real>& a, const Coefficients<Rea
   return sum * to;
 }
 
+/// The same polynomial seen over [from, to]: its own s runs from 0 to 1 again (Taylor shift, then scaling).
+template <class Real>
+inline Coefficients<Real> restricted(Coefficients<Real> c, int degree, Real from, Real to) {
+  if (from != 0)
+    for (int level = 0; level < degree; ++level)
+      for (int j = degree - 1; j >= level; --j) c[j] += from * c[j + 1];
+  Real power = 1;
+  for (int j = 0; j <= degree; ++j, power *= to - from) c[j] *= power;
+  return c;
+}
+
 /// The running sum y += dy with the rounding error kept in `low` (Kahan): a million segments lose nothing.
 template <class Real>
 inline void add_compensated(Real& y, Real& low, Real dy) {

@@ -9,6 +9,7 @@
 #include "sixstep/base/problem.hpp"
 #include "sixstep/design/parameters.hpp"
 #include "sixstep/design/pole_placement.hpp"
+#include "sixstep/plant/audit.hpp"
 
 namespace sixstep::study {
 
@@ -43,20 +44,6 @@ struct ComparisonResult {
   std::string source;
 };
 
-/// Energy over the whole run, J; the residuals are what does not close, relative to the energy moved.
-struct EnergyBook {
-  double supplied = 0.0;    // integral U_s i_dc dt
-  double copper = 0.0;
-  double devices = 0.0;
-  double magnetic = 0.0;    // change of (1/2) L_s sum i^2
-  double air_gap = 0.0;     // integral T_e w dt
-  double friction = 0.0;
-  double load = 0.0;
-  double kinetic = 0.0;     // change of (1/2) J w^2
-  double electrical_residual = 0.0;  // relative
-  double mechanical_residual = 0.0;  // relative
-};
-
 /// How often each kind of event happened.
 struct EventCount {
   std::string event;
@@ -74,7 +61,8 @@ struct LoopGains {
 struct Outcome {
   std::vector<Verdict> verdicts;
   std::vector<ComparisonResult> comparisons;
-  EnergyBook energy;
+  plant::EnergyBook energy;
+  plant::Laws laws;
   std::vector<EventCount> events;
   std::vector<LoopGains> gains;
   design::MotorModel motor;
