@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// One description of a parameter feeds every face: TOML reading and its checks, `sixstep help KEY`, and later the
-// web form, the schema, Python and FMU. For each parameter struct S there is one free function template
+// One description of a parameter feeds every face: TOML reading and its checks, `sixstep help KEY`, and later
+// the web form, the schema, Python and FMU. For each parameter struct S there is one free function template
 //
 //   template <class Visitor> void describe(Visitor& v, S& s);
 //
 // that walks the members in reading order and calls on the visitor, per member,
-//   v.value(key, member, about)            double, int, std::int64_t, bool, std::string, std::optional<double>,
+//   v.value(key, member, about)            double, int, std::int64_t, bool, std::string,
+//   std::optional<double>,
 //                                          std::vector<double>, std::vector<std::string>
 //   v.choice(key, member, choices, about)  an enum (or optional enum), by its words
 //   v.quantity(key, member, about)         Quantity: a number with frame and source
@@ -41,12 +42,13 @@ constexpr Range strictly_between(double low, double high) { return {low, high, f
 
 /// What a face must know of one key.
 struct About {
-  std::string_view meaning;  ///< one plain sentence, no full stop
-  std::string_view unit = "";    ///< "V", "rad/s"; empty for counts, words and ratios
-  std::string_view frame = "";   ///< allowed frames, '|' between: "terminal|phase"; empty where only one exists
-  Range range = {};              ///< of the number as written
+  std::string_view meaning;    ///< one plain sentence, no full stop
+  std::string_view unit = "";  ///< "V", "rad/s"; empty for counts, words and ratios
+  std::string_view frame =
+      "";            ///< allowed frames, '|' between: "terminal|phase"; empty where only one exists
+  Range range = {};  ///< of the number as written
   bool required = false;
-  std::string_view cure = "";    ///< what to write instead; empty: derived from range and unit
+  std::string_view cure = "";  ///< what to write instead; empty: derived from range and unit
 };
 
 /// One word of an enumeration as written in files, and what it means.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The composition that firmware calls: position P -> speed PI -> current loop -> six-step, as deep as the mode asks.
-// Two entries: step() once per control tick, on_hall() in the Hall interrupt.
+// The composition that firmware calls: position P -> speed PI -> current loop -> six-step, as deep as the
+// mode asks. Two entries: step() once per control tick, on_hall() in the Hall interrupt.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/commutation.hpp"
@@ -17,22 +17,22 @@ struct DriveConfig {
   Mode mode = Mode::off;
   Chopping chopping = Chopping::soft;
   CurrentControl current_control = CurrentControl::pi;
-  PiConfig<Scalar> current{};            ///< A -> V
+  PiConfig<Scalar> current{};  ///< A -> V
   HysteresisConfig<Scalar> hysteresis{};
-  Scalar nominal_bus_V{};                ///< d = u / nominal_bus_V
-  PiConfig<Scalar> speed{};              ///< rad/s -> fraction of the torque limit
-  Scalar current_at_full_torque_A{};     ///< torque limit / K_t: i_ref = y * this
-  Scalar current_limit_A{};              ///< of the reference a speed loop gives
-  Scalar position_gain{};                ///< degrees -> rad/s
-  Scalar speed_limit_rad_s{};            ///< of the reference a position loop gives
+  Scalar nominal_bus_V{};             ///< d = u / nominal_bus_V
+  PiConfig<Scalar> speed{};           ///< rad/s -> fraction of the torque limit
+  Scalar current_at_full_torque_A{};  ///< torque limit / K_t: i_ref = y * this
+  Scalar current_limit_A{};           ///< of the reference a speed loop gives
+  Scalar position_gain{};             ///< degrees -> rad/s
+  Scalar speed_limit_rad_s{};         ///< of the reference a position loop gives
 };
 
 template <class Scalar>
 struct DriveState {
   PiState<Scalar> current{}, speed{};
   HysteresisState<Scalar> hysteresis{};
-  bool reversed = false;                 ///< sign of the last command
-  BridgeCommand<Scalar> command{};       ///< the last answer; on_hall moves it to the new pair
+  bool reversed = false;            ///< sign of the last command
+  BridgeCommand<Scalar> command{};  ///< the last answer; on_hall moves it to the new pair
 };
 
 /// What the loops had in hand; nobody reads it back.
@@ -41,7 +41,7 @@ struct Telemetry {
   Scalar motor_current_A{};
   Scalar current_reference_A{};
   Scalar speed_reference_rad_s{};
-  Scalar duty{};                         ///< signed
+  Scalar duty{};  ///< signed
 };
 
 namespace detail {
@@ -74,7 +74,8 @@ constexpr void arm_hysteresis(const DriveConfig<Scalar>& config, DriveState<Scal
   state.command.off_above_A = level + config.hysteresis.band_A;
   if (config.hysteresis.watch == Watch::none) {
     const Scalar current = reversed ? -motor_current : motor_current;
-    state.command.duty = hysteresis_step(config.hysteresis, state.hysteresis, current, level) ? Scalar(1) : Scalar(0);
+    state.command.duty =
+        hysteresis_step(config.hysteresis, state.hysteresis, current, level) ? Scalar(1) : Scalar(0);
   }
 }
 
@@ -87,8 +88,8 @@ constexpr Scalar speed_to_current(const DriveConfig<Scalar>& config, DriveState<
 
 }  // namespace detail
 
-/// One control tick. A cascade runs outer to inner from one sample (MODEL 4). An impossible Hall code turns the bridge
-/// off and reports a fault.
+/// One control tick. A cascade runs outer to inner from one sample (MODEL 4). An impossible Hall code turns
+/// the bridge off and reports a fault.
 template <class Scalar>
 constexpr BridgeCommand<Scalar> step(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                      const Measurement<Scalar>& measured, const Setpoint<Scalar>& setpoint,
@@ -110,7 +111,8 @@ constexpr BridgeCommand<Scalar> step(const DriveConfig<Scalar>& config, DriveSta
     if (config.mode != Mode::current) {
       Scalar w_ref = setpoint.value;
       if (config.mode == Mode::position)
-        w_ref = clamped(config.position_gain * (setpoint.value - measured.position_deg), config.speed_limit_rad_s);
+        w_ref = clamped(config.position_gain * (setpoint.value - measured.position_deg),
+                        config.speed_limit_rad_s);
       telemetry.speed_reference_rad_s = w_ref;
       i_ref = detail::speed_to_current(config, state, w_ref, measured.speed_rad_s);
     }
@@ -118,8 +120,9 @@ constexpr BridgeCommand<Scalar> step(const DriveConfig<Scalar>& config, DriveSta
     if (config.current_control == CurrentControl::hysteresis)
       detail::arm_hysteresis(config, state, positive, i_m, i_ref);
     else
-      detail::set_duty(state, positive,
-                       clamped(pi_step(config.current, state.current, i_ref - i_m) / config.nominal_bus_V, Scalar(1)));
+      detail::set_duty(
+          state, positive,
+          clamped(pi_step(config.current, state.current, i_ref - i_m) / config.nominal_bus_V, Scalar(1)));
   }
   telemetry.duty = state.reversed ? -state.command.duty : state.command.duty;
   return state.command;

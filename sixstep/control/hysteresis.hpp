@@ -18,10 +18,11 @@ struct HysteresisState {
   bool on = true;
 };
 
-/// The sampled form; `current` and `reference` are taken in the direction of the reference, so both are positive.
+/// The sampled form; `current` and `reference` are taken in the direction of the reference, so both are
+/// positive.
 template <class Scalar>
-constexpr bool hysteresis_step(const HysteresisConfig<Scalar>& config, HysteresisState<Scalar>& state, Scalar current,
-                               Scalar reference) {
+constexpr bool hysteresis_step(const HysteresisConfig<Scalar>& config, HysteresisState<Scalar>& state,
+                               Scalar current, Scalar reference) {
   if (current > reference + config.band_A) state.on = false;
   if (current < reference - config.band_A) state.on = true;
   return state.on;

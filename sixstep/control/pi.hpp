@@ -12,15 +12,15 @@ constexpr Scalar clamped(Scalar x, Scalar limit) {
 /// Defaults give no output at all: a forgotten gain is safe.
 template <class Scalar>
 struct PiConfig {
-  Scalar d1{};      ///< output per input: the proportional gain K
-  Scalar d0{};      ///< K_i = d1 + d0 per sample
-  Scalar limit{};   ///< |u| never exceeds it
+  Scalar d1{};     ///< output per input: the proportional gain K
+  Scalar d0{};     ///< K_i = d1 + d0 per sample
+  Scalar limit{};  ///< |u| never exceeds it
 };
 
 template <class Scalar>
 struct PiState {
-  Scalar u{};       ///< last output, clamped
-  Scalar e{};       ///< last error
+  Scalar u{};  ///< last output, clamped
+  Scalar e{};  ///< last error
 };
 
 /// u[n] = u[n-1] + d1 e[n] + d0 e[n-1], clamped; the clamped u is the state, so the integral cannot wind up.

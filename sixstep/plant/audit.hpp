@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Watches a run against the laws that hold for every one (MODEL 5): energy in = energy out, currents sum to zero, no
-// diode conducts backwards. Exact integrals of the segments' own polynomials.
+// Watches a run against the laws that hold for every one (MODEL 5): energy in = energy out, currents sum to
+// zero, no diode conducts backwards. Exact integrals of the segments' own polynomials.
 #pragma once
 #include "sixstep/plant/plant.hpp"
 
@@ -15,16 +15,17 @@ struct EnergyBook {
   double air_gap = 0.0;   ///< integral T_e w dt
   double friction = 0.0;
   double load = 0.0;
-  double kinetic = 0.0;   ///< change of (1/2) J w^2
-  double moved = 0.0;     ///< integral |U_s i_dc| + |T_e w| over segments: what the residuals are relative to
+  double kinetic = 0.0;  ///< change of (1/2) J w^2
+  double moved = 0.0;    ///< integral |U_s i_dc| + |T_e w| over segments: what the residuals are relative to
   double electrical_residual = 0.0;
   double mechanical_residual = 0.0;
 };
 
 struct Laws {
-  double current_sum_A = 0.0;      ///< worst |i_a + i_b + i_c| at a segment's ends
-  double reverse_diode_A = 0.0;    ///< worst current of the wrong sign in a conducting diode, at a segment's ends
-  double floating_current_A = 0.0; ///< worst current in a floating leg
+  double current_sum_A = 0.0;  ///< worst |i_a + i_b + i_c| at a segment's ends
+  double reverse_diode_A =
+      0.0;  ///< worst current of the wrong sign in a conducting diode, at a segment's ends
+  double floating_current_A = 0.0;  ///< worst current in a floating leg
 };
 
 template <class Real>
@@ -43,7 +44,8 @@ class Audit {
   bool begun_ = false;
   Real magnetic_start_ = 0, kinetic_start_ = 0, magnetic_end_ = 0, kinetic_end_ = 0;
   Real supplied_ = 0, copper_ = 0, devices_ = 0, air_gap_ = 0, friction_ = 0, load_ = 0, moved_ = 0;
-  Real supplied_low_ = 0, copper_low_ = 0, devices_low_ = 0, air_gap_low_ = 0, friction_low_ = 0, load_low_ = 0;
+  Real supplied_low_ = 0, copper_low_ = 0, devices_low_ = 0, air_gap_low_ = 0, friction_low_ = 0,
+       load_low_ = 0;
   Laws laws_;
 };
 
@@ -73,7 +75,9 @@ void Audit<Real>::check_laws(const Plant<Real>& plant, Real s) {
     laws_.current_sum_A = std::max(laws_.current_sum_A, static_cast<double>(detail::abs(i[0] + i[1] + i[2])));
     for (int k = 0; k < 3; ++k) {
       const Connection leg = plant.mode().legs[k];
-      const Real wrong = leg == Connection::low_diode ? -i[k] : leg == Connection::high_diode ? i[k] : Real(0);
+      const Real wrong = leg == Connection::low_diode    ? -i[k]
+                         : leg == Connection::high_diode ? i[k]
+                                                         : Real(0);
       laws_.reverse_diode_A = std::max(laws_.reverse_diode_A, static_cast<double>(wrong));
       if (is_floating(leg))
         laws_.floating_current_A = std::max(laws_.floating_current_A, static_cast<double>(detail::abs(i[k])));
@@ -111,7 +115,9 @@ void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
   const Real supplied = y.h * product_integral(y.bus, dc, n, s);
   const Real air_gap = y.h * product_integral(y.torque, y.w, n, s);
   const Real travel = y.h * integral(y.w, n, s);
-  const Real slide = plant.mode().motion == Motion::forward ? c.coulomb : plant.mode().motion == Motion::backward ? -c.coulomb : Real(0);
+  const Real slide = plant.mode().motion == Motion::forward    ? c.coulomb
+                     : plant.mode().motion == Motion::backward ? -c.coulomb
+                                                               : Real(0);
   add_compensated(supplied_, supplied_low_, supplied);
   add_compensated(copper_, copper_low_, y.h * copper);
   add_compensated(devices_, devices_low_, y.h * devices);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Back-EMF shapes as f_k = alpha_k phi0 + beta_k phi1 in each piece of a sector, so that two (or four) series products
-// serve all three phases. x is the angle since the sector's start, electrical rad.
+// Back-EMF shapes as f_k = alpha_k phi0 + beta_k phi1 in each piece of a sector, so that two (or four) series
+// products serve all three phases. x is the angle since the sector's start, electrical rad.
 //   trapezoid of any flat width: (phi0, phi1) = (1, x), up to three pieces per sector
 //   sine:                        (phi0, phi1) = (cos x, sin x), one piece
 #pragma once
@@ -38,8 +38,8 @@ constexpr int centre_distance_deg(int sector, int k) {
   return d;
 }
 
-/// f = 1 on the top, -1 on the bottom, (90 - |phi|)/(90 - w/2) on the ramps (MODEL 1), linear over one piece whose
-/// middle lies `middle_deg` behind the sector's start.
+/// f = 1 on the top, -1 on the bottom, (90 - |phi|)/(90 - w/2) on the ramps (MODEL 1), linear over one piece
+/// whose middle lies `middle_deg` behind the sector's start.
 template <class Real>
 constexpr void trapezoid_line(int start_deg, Real middle_deg, Real flat_deg, Real& alpha, Real& beta) {
   Real phi = Real(start_deg) + middle_deg;
@@ -76,12 +76,14 @@ constexpr EmfTable<Real> trapezoid_table(double flat_deg) {
     for (int b = 0; b < 3; ++b) {
       if (!(bound[b + 1] > bound[b])) continue;
       EmfPiece<Real>& piece = table[s].piece[count++];
-      const auto rad = [](Real deg) { return deg == Real(60) ? Real(base::sector_rad) : deg / 60 * Real(base::sector_rad); };
+      const auto rad = [](Real deg) {
+        return deg == Real(60) ? Real(base::sector_rad) : deg / 60 * Real(base::sector_rad);
+      };
       piece.from = rad(bound[b]);
       piece.to = rad(bound[b + 1]);
       for (int k = 0; k < 3; ++k)
-        detail::trapezoid_line(detail::centre_distance_deg(s, k), (bound[b] + bound[b + 1]) / 2, flat, piece.alpha[k],
-                               piece.beta[k]);
+        detail::trapezoid_line(detail::centre_distance_deg(s, k), (bound[b] + bound[b + 1]) / 2, flat,
+                               piece.alpha[k], piece.beta[k]);
     }
     table[s].count = count;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Taylor kernel: between events the right-hand side is polynomial in the state, so all coefficients follow from one
-// recurrence (ENGINE). Everything else - guards, dense output, energy - reads these same polynomials.
+// The Taylor kernel: between events the right-hand side is polynomial in the state, so all coefficients
+// follow from one recurrence (ENGINE). Everything else - guards, dense output, energy - reads these same
+// polynomials.
 #pragma once
 #include <cmath>
 
@@ -15,8 +16,8 @@ namespace sixstep::plant {
 template <class Real>
 struct Constants {
   Real R, inv_L, K_e, inv_J, B, pole_pairs, coulomb, breakaway;
-  Real V_0, inv_R_b, inv_C;    // inv_C = 0: stiff bus
-  Real load = 0;               // T_load at present
+  Real V_0, inv_R_b, inv_C;  // inv_C = 0: stiff bus
+  Real load = 0;             // T_load at present
   Devices devices;
   EmfTable<Real> emf;
   bool sine = false, locked = false, dry_friction = false, source_sinks = true;
@@ -29,7 +30,7 @@ struct Expansion {
   Real h = 0;                                       ///< length in seconds
   PerLeg<series::Coefficients<Real>> i, emf, pole;  ///< pole: of floating legs only, u_n + e_k
   series::Coefficients<Real> w, x, bus, torque;
-  series::Coefficients<Real> phi0, phi1;            ///< sine only: cos x, sin x
+  series::Coefficients<Real> phi0, phi1;  ///< sine only: cos x, sin x
 };
 
 namespace detail {
@@ -168,7 +169,8 @@ void recurrence(const Constants<Real>& c, const State<Real>& state, const Mode& 
 
 /// Expands the state in the given mode over `wanted` seconds, or over as much of it as full accuracy allows.
 template <class Real>
-void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode, Real wanted, Expansion<Real>& out) {
+void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode, Real wanted,
+            Expansion<Real>& out) {
   out.h = wanted;
   if (c.sine) {
     out.phi0[0] = static_cast<Real>(base::cos(static_cast<double>(state.x)));
@@ -184,7 +186,8 @@ template <class Real>
 Real useful_length(const Constants<Real>& c, const State<Real>& state) {
   const Real electrical = (c.R + Real(c.devices.R_on_ohm) + Real(c.devices.r_d_ohm)) * c.inv_L;
   const Real bus = c.inv_C * (c.inv_R_b + c.amp_scale / c.volt_scale);
-  return Real(0.5) / (electrical + bus + c.pole_pairs * detail::abs(state.w) + c.K_e * std::sqrt(c.inv_L * c.inv_J));
+  return Real(0.5) /
+         (electrical + bus + c.pole_pairs * detail::abs(state.w) + c.K_e * std::sqrt(c.inv_L * c.inv_J));
 }
 
 }  // namespace sixstep::plant

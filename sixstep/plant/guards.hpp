@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must stay >= 0 for the present mode to hold. Each guard is a polynomial made of the same series as the dynamics,
-// with the rounding level below which its coefficients say nothing. In order of what wins a tie: current zero,
-// standstill, sector edge, then rails and the rest (MODEL 4b).
+// What must stay >= 0 for the present mode to hold. Each guard is a polynomial made of the same series as the
+// dynamics, with the rounding level below which its coefficients say nothing. In order of what wins a tie:
+// current zero, standstill, sector edge, then rails and the rest (MODEL 4b).
 #pragma once
 #include "sixstep/plant/expansion.hpp"
 
@@ -13,19 +13,21 @@ inline constexpr int current_zero = 0;  // + k
 inline constexpr int standstill = 3;
 inline constexpr int edge_ahead = 4;
 inline constexpr int edge_behind = 5;
-inline constexpr int low_rail = 6;      // + k
-inline constexpr int high_rail = 9;     // + k
-inline constexpr int free_star = 12;    // + 3 j + k: e_j - e_k against the rails
+inline constexpr int low_rail = 6;    // + k
+inline constexpr int high_rail = 9;   // + k
+inline constexpr int free_star = 12;  // + 3 j + k: e_j - e_k against the rails
 inline constexpr int breakaway_forward = 21;
 inline constexpr int breakaway_backward = 22;
 inline constexpr int source = 23;
 inline constexpr int first_free = 24;
 }  // namespace guard
 
-/// Noise = 64 eps x natural scale (ENGINE, pitfall 6), widened by `slack` where rounding left no mode consistent.
+/// Noise = 64 eps x natural scale (ENGINE, pitfall 6), widened by `slack` where rounding left no mode
+/// consistent.
 template <class Real>
 constexpr Real noise_of(Real scale, Real slack) {
-  constexpr Real eps = sizeof(Real) > 8 ? Real(1.08420217248550443400745280086994171e-19L) : Real(2.220446049250313e-16L);
+  constexpr Real eps =
+      sizeof(Real) > 8 ? Real(1.08420217248550443400745280086994171e-19L) : Real(2.220446049250313e-16L);
   return 64 * eps * scale * slack;
 }
 
@@ -75,15 +77,19 @@ void free_star_guards(const Constants<Real>& c, const Expansion<Real>& y, Real n
 }
 
 template <class Real, class Visit>
-void rotor_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real slack, Visit&& visit) {
+void rotor_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real slack,
+                  Visit&& visit) {
   const Real torque_noise = noise_of(c.torque_scale, slack);
   if (mode.motion == Motion::forward)
     visit(guard::standstill, y.w, y.degree, noise_of(c.speed_scale, slack));
   else if (mode.motion == Motion::backward)
-    visit(guard::standstill, affine(y.w, y.degree, Real(-1), Real(0)), y.degree, noise_of(c.speed_scale, slack));
+    visit(guard::standstill, affine(y.w, y.degree, Real(-1), Real(0)), y.degree,
+          noise_of(c.speed_scale, slack));
   else if (mode.motion == Motion::stuck) {
-    visit(guard::breakaway_forward, affine(y.torque, y.degree, Real(-1), c.breakaway + c.load), y.degree, torque_noise);
-    visit(guard::breakaway_backward, affine(y.torque, y.degree, Real(1), c.breakaway - c.load), y.degree, torque_noise);
+    visit(guard::breakaway_forward, affine(y.torque, y.degree, Real(-1), c.breakaway + c.load), y.degree,
+          torque_noise);
+    visit(guard::breakaway_backward, affine(y.torque, y.degree, Real(1), c.breakaway - c.load), y.degree,
+          torque_noise);
   }
 }
 
@@ -91,7 +97,8 @@ void rotor_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Re
 
 /// Guards of the conduction, motion and supply modes: what settle() judges a mode by.
 template <class Real, class Visit>
-void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real slack, Visit&& visit) {
+void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real slack,
+                 Visit&& visit) {
   const Real amp_noise = noise_of(c.amp_scale, slack), volt_noise = noise_of(c.volt_scale, slack);
   bool star_free = true;
   for (int k = 0; k < 3; ++k) {
@@ -99,7 +106,8 @@ void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Rea
     if (mode.legs[k] == Connection::low_diode)
       visit(guard::current_zero + k, y.i[k], y.degree, amp_noise);
     else if (mode.legs[k] == Connection::high_diode)
-      visit(guard::current_zero + k, detail::affine(y.i[k], y.degree, Real(-1), Real(0)), y.degree, amp_noise);
+      visit(guard::current_zero + k, detail::affine(y.i[k], y.degree, Real(-1), Real(0)), y.degree,
+            amp_noise);
   }
   detail::rotor_guards(c, mode, y, slack, visit);
   if (star_free) {
@@ -110,7 +118,8 @@ void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Rea
   }
   if (!c.source_sinks)
     visit(guard::source,
-          mode.source_feeds ? detail::affine(y.bus, y.degree, Real(-1), c.V_0) : detail::affine(y.bus, y.degree, Real(1), -c.V_0),
+          mode.source_feeds ? detail::affine(y.bus, y.degree, Real(-1), c.V_0)
+                            : detail::affine(y.bus, y.degree, Real(1), -c.V_0),
           y.degree, volt_noise);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motor, bridge with diodes, shaft and supply as one system between events (MODEL 1, 2, 4b). The rig sets gates and load;
-// the run loop expands, advances and hands back located events.
+// Motor, bridge with diodes, shaft and supply as one system between events (MODEL 1, 2, 4b). The rig sets
+// gates and load; the run loop expands, advances and hands back located events.
 #pragma once
 #include <algorithm>
 
@@ -26,7 +26,8 @@ class Plant {
  public:
   using Real = RealType;
 
-  Plant(const Machine& machine, const Shaft& shaft, const Devices& devices, const Supply& supply, const Start& start);
+  Plant(const Machine& machine, const Shaft& shaft, const Devices& devices, const Supply& supply,
+        const Start& start);
 
   /// False: both switches of a leg on, a shoot-through; nothing is changed then.
   bool set_gates(const Gates& gates) {
@@ -41,7 +42,8 @@ class Plant {
     stale_ = true;
   }
 
-  /// Settles the mode where it is stale and expands; returns the length covered, negative where no mode is consistent.
+  /// Settles the mode where it is stale and expands; returns the length covered, negative where no mode is
+  /// consistent.
   double expand(double wanted);
   template <class Visit>
   void guards(Visit&& visit) const {
@@ -78,7 +80,8 @@ class Plant {
 };
 
 template <class Real>
-Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices, const Supply& supply, const Start& start)
+Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices, const Supply& supply,
+                   const Start& start)
     : constants_{}, y_{} {
   Constants<Real>& c = constants_;
   c.R = Real(m.R_ohm);
@@ -115,8 +118,8 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   while (mode_.piece + 1 < pieces.count && state_.x >= pieces.piece[mode_.piece].to) ++mode_.piece;
 }
 
-/// Currents within rounding of zero in legs without gate, and speeds within rounding of rest where friction may hold the
-/// rotor, are zero: what is consistent there is decided by settle(), not by a rounding error.
+/// Currents within rounding of zero in legs without gate, and speeds within rounding of rest where friction
+/// may hold the rotor, are zero: what is consistent there is decided by settle(), not by a rounding error.
 template <class Real>
 void Plant<Real>::snap() {
   const Real amp_noise = noise_of(constants_.amp_scale, Real(1));
@@ -166,7 +169,8 @@ void Plant<Real>::advance(Real s) {
   using series::add_compensated, series::increment;
   State<Real>& q = state_;
   const int n = y_.degree;
-  int independent = 3, dependent = 3, third = 3;  // of the connected legs, the last one follows from the others
+  int independent = 3, dependent = 3,
+      third = 3;  // of the connected legs, the last one follows from the others
   for (int k = 0; k < 3; ++k) {
     if (is_floating(mode_.legs[k])) continue;
     third = independent;

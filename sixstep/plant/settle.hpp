@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which mode is consistent now? Switches and nonzero currents name most connections; legs without gate and current, the
-// rotor at rest and the bus at the source's voltage are enumerated: exactly one combination is right, and where rounding
-// makes several look right, the one with most legs off (MODEL 2, 4b). Plain values first, series only for ties.
+// Which mode is consistent now? Switches and nonzero currents name most connections; legs without gate and
+// current, the rotor at rest and the bus at the source's voltage are enumerated: exactly one combination is
+// right, and where rounding makes several look right, the one with most legs off (MODEL 2, 4b). Plain values
+// first, series only for ties.
 #pragma once
 #include "sixstep/plant/guards.hpp"
 #include "sixstep/series/first_root.hpp"
@@ -44,7 +45,8 @@ Real torque(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
   return f[0] * s.i[0] + f[1] * s.i[1] + f[2] * s.i[2];
 }
 
-/// Legs by plain values: floating ones within the rails, diodes that just switched on driven in their direction.
+/// Legs by plain values: floating ones within the rails, diodes that just switched on driven in their
+/// direction.
 template <class Real>
 Judgement judge_legs(const Constants<Real>& c, const State<Real>& s, const Mode& m, Real slack) {
   const Real noise = noise_of(c.volt_scale, slack), V_f = Real(c.devices.V_f_V);
@@ -68,7 +70,8 @@ Judgement judge_motion(const Constants<Real>& c, const State<Real>& s, const Mod
   if (!c.dry_friction || s.w != 0 || m.motion == Motion::locked) return Judgement::holds;
   const Real noise = noise_of(c.torque_scale, slack), excess = torque(c, s, m) - c.load;
   if (m.motion == Motion::stuck) return judge(c.breakaway - abs(excess), noise);
-  // A breakaway torque above the sliding friction leaves a range in which only sticking is asked; slipping must overcome it.
+  // A breakaway torque above the sliding friction leaves a range in which only sticking is asked; slipping
+  // must overcome it.
   const Real push = m.motion == Motion::forward ? excess : -excess;
   return judge(push - c.breakaway, noise);
 }
@@ -90,7 +93,8 @@ bool holds_in_series(const Constants<Real>& c, const Mode& m, const Expansion<Re
   return ok;
 }
 
-/// Base-3 digit k of a combination: what an undecided leg tries. Few legs on come first by the order of the loop.
+/// Base-3 digit k of a combination: what an undecided leg tries. Few legs on come first by the order of the
+/// loop.
 constexpr Connection tried(int digit) {
   return digit == 0 ? Connection::floating : digit == 1 ? Connection::low_diode : Connection::high_diode;
 }
@@ -103,8 +107,8 @@ struct Question {
   const Constants<Real>& constants;
   const State<Real>& state;
   const Gates& gates;
-  Real h;                  ///< length over which series are judged
-  bool series_only;        ///< after an event without progress: plain values have been wrong once
+  Real h;            ///< length over which series are judged
+  bool series_only;  ///< after an event without progress: plain values have been wrong once
   Real slack = 1;
 };
 
@@ -143,7 +147,8 @@ bool settle_legs(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, 
         mode.legs[undecided[u]] = tried(rest % 3);
         legs_on += rest % 3 != 0;
       }
-      if (legs_on != on || (legs_on == 1 && connected_count(mode.legs) == 1)) continue;  // one leg alone carries nothing
+      if (legs_on != on || (legs_on == 1 && connected_count(mode.legs) == 1))
+        continue;  // one leg alone carries nothing
       if (accepts(q, mode, scratch, expanded)) return true;
     }
   return false;
@@ -164,8 +169,8 @@ bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch
 
 }  // namespace detail
 
-/// Finds the consistent mode and writes it; `expanded` tells whether `scratch` already holds its expansion over q.h.
-/// False: none is consistent at this rounding level.
+/// Finds the consistent mode and writes it; `expanded` tells whether `scratch` already holds its expansion
+/// over q.h. False: none is consistent at this rounding level.
 template <class Real>
 bool settle(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, bool& expanded) {
   using enum Motion;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the plant remembers: continuous state with the rounding errors of its running sums, and the discrete mode.
+// What the plant remembers: continuous state with the rounding errors of its running sums, and the discrete
+// mode.
 #pragma once
 #include <cstdint>
 
@@ -22,18 +23,18 @@ enum class Motion : std::uint8_t { free, forward, backward, stuck, locked };
 
 template <class Real>
 struct State {
-  PerLeg<Real> i{}, i_low{};      ///< phase currents, A, and their rounding remainders
-  Real w = 0, w_low = 0;          ///< mechanical speed, rad/s
-  std::int64_t sector = 0;        ///< electrical sectors since theta_e = 0, over all turns
-  Real x = 0, x_low = 0;          ///< electrical angle since the sector's start, rad
-  Real bus = 0, bus_low = 0;      ///< U_s, V
+  PerLeg<Real> i{}, i_low{};  ///< phase currents, A, and their rounding remainders
+  Real w = 0, w_low = 0;      ///< mechanical speed, rad/s
+  std::int64_t sector = 0;    ///< electrical sectors since theta_e = 0, over all turns
+  Real x = 0, x_low = 0;      ///< electrical angle since the sector's start, rad
+  Real bus = 0, bus_low = 0;  ///< U_s, V
 };
 
 struct Mode {
   Legs legs{};
   Motion motion = Motion::free;
-  bool source_feeds = true;       ///< a source that cannot sink: false while the bus is above it
-  std::uint8_t piece = 0;         ///< of the back-EMF within the sector
+  bool source_feeds = true;  ///< a source that cannot sink: false while the bus is above it
+  std::uint8_t piece = 0;    ///< of the back-EMF within the sector
   bool operator==(const Mode&) const = default;
 };
 

@@ -60,8 +60,9 @@ void Modulator::start_period(const Instant& t, const BoardCommand& command) {
   }
 }
 
-/// Turn-on and turn-off of the source leg's upper switch. Dead time delays a turn-on after the other switch of the leg
-/// was told to turn off: in complementary chopping at each edge, else only where the leg was the sink a moment ago.
+/// Turn-on and turn-off of the source leg's upper switch. Dead time delays a turn-on after the other switch
+/// of the leg was told to turn off: in complementary chopping at each edge, else only where the leg was the
+/// sink a moment ago.
 void Modulator::command_source(const Instant& t, bool on, bool leg_changed) {
   const bool waits = config_.dead_ticks > 0;
   const bool complementary = command_.chopping == Chopping::complementary;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The timer and comparators of the board: a bridge command becomes gates. Owns PWM edges, dead time and event comparators
-// (MODEL 3). The state belongs to the role (source leg, sink leg), not to a phase, so that a Hall edge moves it as it is.
+// The timer and comparators of the board: a bridge command becomes gates. Owns PWM edges, dead time and event
+// comparators (MODEL 3). The state belongs to the role (source leg, sink leg), not to a phase, so that a Hall
+// edge moves it as it is.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/plant/state.hpp"
@@ -76,10 +77,11 @@ class Modulator {
   BoardCommand command_{};
   bool source_on_ = false, sink_on_ = true;  ///< sink_on_: hard chopping's second comparator
   bool started_ = false;
-  bool leg_changed_ = false;                 ///< the roles were swapped by the last command
-  sim::Instant on_edge_ = sim::Instant::never(), off_edge_ = sim::Instant::never(), dead_end_ = sim::Instant::never();
-  bool dead_ = false;                        ///< the source leg waits with both switches off
-  plant::Gates blanked_{};                   ///< turn-ons delayed at a commutation
+  bool leg_changed_ = false;  ///< the roles were swapped by the last command
+  sim::Instant on_edge_ = sim::Instant::never(), off_edge_ = sim::Instant::never(),
+               dead_end_ = sim::Instant::never();
+  bool dead_ = false;       ///< the source leg waits with both switches off
+  plant::Gates blanked_{};  ///< turn-ons delayed at a commutation
   sim::Instant blank_end_ = sim::Instant::never();
   std::int64_t turn_ons_ = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual board around the plant: samples, runs the controller, modulates, and plays the scenario's timeline. It is
-// the System that sim::run drives; the order of things at one instant is act()'s (MODEL 4b).
+// The virtual board around the plant: samples, runs the controller, modulates, and plays the scenario's
+// timeline. It is the System that sim::run drives; the order of things at one instant is act()'s (MODEL 4b).
 #pragma once
 #include <array>
 
@@ -20,7 +20,17 @@ struct BoardConfig {
 enum class Fault : std::uint8_t { none, shoot_through, impossible_hall };
 
 /// Kinds of events, for the run's statistics.
-enum class Happening : std::uint8_t { sector_edge, diode_off, diode_on, standstill, breakaway, comparator, tick, pwm_edge, count };
+enum class Happening : std::uint8_t {
+  sector_edge,
+  diode_off,
+  diode_on,
+  standstill,
+  breakaway,
+  comparator,
+  tick,
+  pwm_edge,
+  count
+};
 
 template <class RealType, class Scalar>
 class Rig {
@@ -74,7 +84,8 @@ class Rig {
   std::size_t next_action_ = 0;
   double setpoint_ = 0.0;
   BoardCommand pending_{};
-  bool pending_reversed_ = false, reversed_ = false;  ///< sign of the command that waits, and of the one in effect
+  bool pending_reversed_ = false,
+       reversed_ = false;  ///< sign of the command that waits, and of the one in effect
   bool ticked_ = false;
   Fault fault_ = Fault::none;
   std::array<std::int64_t, static_cast<std::size_t>(Happening::count)> happened_{};
@@ -88,8 +99,9 @@ sim::Instant Rig<Real, Scalar>::next_known() const {
   return next;
 }
 
-/// All that is due now, decided by the clocks alone: scenario step, control tick, PWM edge, comparator, repeated until
-/// nothing is due. The gates follow at the end, so that a leg never sees an order of things at one instant.
+/// All that is due now, decided by the clocks alone: scenario step, control tick, PWM edge, comparator,
+/// repeated until nothing is due. The gates follow at the end, so that a leg never sees an order of things at
+/// one instant.
 template <class Real, class Scalar>
 bool Rig<Real, Scalar>::act() {
   ticked_ = false;
@@ -114,7 +126,8 @@ bool Rig<Real, Scalar>::do_timeline() {
     return true;
   }
   setpoint_ = action.value;
-  // An event hysteresis on the setpoint itself has no sample to wait for: its comparators follow at once (MODEL 4).
+  // An event hysteresis on the setpoint itself has no sample to wait for: its comparators follow at once
+  // (MODEL 4).
   const bool continuous = drive_.mode == control::Mode::current &&
                           drive_.current_control == control::CurrentControl::hysteresis &&
                           drive_.hysteresis.watch != control::Watch::none;
@@ -151,7 +164,8 @@ void Rig<Real, Scalar>::control_step(bool starts_period) {
     modulator_.rearm(now_, command);
 }
 
-/// Open loop with a steady bridge asks nothing of the coming ticks until the setpoint moves: they are not simulated.
+/// Open loop with a steady bridge asks nothing of the coming ticks until the setpoint moves: they are not
+/// simulated.
 template <class Real, class Scalar>
 void Rig<Real, Scalar>::skip_idle_ticks() {
   const bool open_loop = drive_.mode == control::Mode::off || drive_.mode == control::Mode::duty;
@@ -218,7 +232,8 @@ void Rig<Real, Scalar>::guards(Visit&& visit) const {
     for (int j = 0; j <= y.degree; ++j)
       g[j] = sign * (Real(weight[0]) * y.i[0][j] + Real(weight[1]) * y.i[1][j] + Real(weight[2]) * y.i[2][j]);
     g[0] -= sign * Real(c.level_A);
-    visit(plant::guard::first_free + which, g, y.degree, plant::noise_of(plant_.constants().amp_scale, Real(1)));
+    visit(plant::guard::first_free + which, g, y.degree,
+          plant::noise_of(plant_.constants().amp_scale, Real(1)));
   }
 }
 

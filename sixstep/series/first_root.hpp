@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where does a guard that should stay >= 0 first go below? Exact to rounding, and no root is missed: a cheap bound
-// first, Newton where the guard is strictly monotone, Bernstein subdivision for the rest.
+// Where does a guard that should stay >= 0 first go below? Exact to rounding, and no root is missed: a cheap
+// bound first, Newton where the guard is strictly monotone, Bernstein subdivision for the rest.
 #pragma once
 #include <array>
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace sixstep::series {
 
-/// The sign with which a guard leaves its start: coefficients within `noise` count as zero, the first real one decides.
-/// `order` is its index (degree + 1 where every coefficient is noise: the guard rests on zero).
+/// The sign with which a guard leaves its start: coefficients within `noise` count as zero, the first real
+/// one decides. `order` is its index (degree + 1 where every coefficient is noise: the guard rests on zero).
 struct Leading {
   int order = 0;
   int sign = 0;
@@ -93,8 +93,8 @@ Coefficients<Real> split_half(Coefficients<Real>& b, int degree) {
   return right;
 }
 
-/// Left-first subdivision of [0, length]; a piece with one sign change holds one root, with none it holds none
-/// (Descartes). Pieces too narrow to split further touch zero to rounding: that counts as the root.
+/// Left-first subdivision of [0, length]; a piece with one sign change holds one root, with none it holds
+/// none (Descartes). Pieces too narrow to split further touch zero to rounding: that counts as the root.
 template <class Real>
 std::optional<Real> subdivide(const Coefficients<Real>& c, int degree, Real length) {
   constexpr int depth_limit = 50;
@@ -126,8 +126,8 @@ std::optional<Real> subdivide(const Coefficients<Real>& c, int degree, Real leng
 }  // namespace detail
 
 /// First s in [0, length] at which the polynomial goes below zero; 0 where it does so from the start.
-/// `noise` is the rounding level of the guard: leading coefficients within it are taken as zero and divided out, so a
-/// restart on the boundary neither repeats the event nor needs a dead time.
+/// `noise` is the rounding level of the guard: leading coefficients within it are taken as zero and divided
+/// out, so a restart on the boundary neither repeats the event nor needs a dead time.
 template <class Real>
 std::optional<Real> first_root(const Coefficients<Real>& c, int degree, Real length, Real noise) {
   const auto magnitude = [](Real x) { return x < 0 ? -x : x; };

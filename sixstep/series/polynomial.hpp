@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Taylor coefficients of one segment, in the segment's own time: s in [0, 1] is the fraction of its length h, so that
-// coefficient j is (h^j/j!) d^j y/dt^j. All series of a segment share one degree.
+// Taylor coefficients of one segment, in the segment's own time: s in [0, 1] is the fraction of its length h,
+// so that coefficient j is (h^j/j!) d^j y/dt^j. All series of a segment share one degree.
 #pragma once
 #include <array>
 

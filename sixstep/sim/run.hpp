@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // What happens at an instant, on one page. Known instants are scheduled, only unknown ones are searched.
 //
-//   act on all that is due -> settle and expand (Taylor) -> first root of all guards -> observe -> advance -> apply ONE
+//   act on all that is due -> settle and expand (Taylor) -> first root of all guards -> observe -> advance ->
+//   apply ONE
 //
 // A System provides
 //   Instant now() const                    where it stands
 //   Instant next_known() const             the next instant it has scheduled, > now once act() is done
-//   bool act()                             does all that is due now, by its own clocks (never by what a step aimed at);
+//   bool act()                             does all that is due now, by its own clocks (never by what a step
+//   aimed at);
 //                                          false where a fault stops the run
-//   double expand(double h)                makes its discrete state consistent and its polynomials valid over the length it
+//   double expand(double h)                makes its discrete state consistent and its polynomials valid over
+//   the length it
 //                                          returns, <= h; negative where no consistent state exists
-//   void guards(Visit&&) const             calls visit(id, coefficients, degree, noise) for each guard that must stay
+//   void guards(Visit&&) const             calls visit(id, coefficients, degree, noise) for each guard that
+//   must stay
 //                                          >= 0, those that snap a state first (they win a tie)
 //   void advance(Real s, Instant to)       takes the state to the fraction s of the expanded length
 //   void apply(id)                         the one located event
@@ -24,10 +28,10 @@
 namespace sixstep::sim {
 
 enum class Stop : std::uint8_t {
-  end,          ///< the end was reached
-  fault,        ///< act() refused
-  unsettled,    ///< no consistent discrete state: a defect of the model
-  no_progress   ///< more than a hundred events without time going on
+  end,         ///< the end was reached
+  fault,       ///< act() refused
+  unsettled,   ///< no consistent discrete state: a defect of the model
+  no_progress  ///< more than a hundred events without time going on
 };
 
 struct Run {
@@ -62,7 +66,8 @@ Run run(System& system, Instant end, Observer& observer) {
     Real first = 1;
     int event = -1;
     system.guards([&](int id, const series::Coefficients<Real>& c, int degree, Real noise) {
-      if (const auto root = series::first_root(c, degree, first, noise); root && (*root < first || event < 0)) {
+      if (const auto root = series::first_root(c, degree, first, noise);
+          root && (*root < first || event < 0)) {
         first = *root;
         event = id;
       }
@@ -70,7 +75,8 @@ Run run(System& system, Instant end, Observer& observer) {
 
     observer.segment(system, first);
     const bool reached = event < 0 && length == wanted;
-    const Instant to = reached ? known : now.plus_seconds(static_cast<double>(first * static_cast<Real>(length)));
+    const Instant to =
+        reached ? known : now.plus_seconds(static_cast<double>(first * static_cast<Real>(length)));
     system.advance(first, to);
     if (event >= 0) system.apply(event);
     ++result.segments;

@@ -17,7 +17,8 @@ base::Result<LoopGains> loop_gains(const Loop& loop, const std::string& name, co
                                    double usual_settle_s, double period_s) {
   LoopGains out;
   out.loop = name;
-  const double settle = loop.settle_s.value_or(usual_settle_s), damping = loop.damping.value_or(usual_damping);
+  const double settle = loop.settle_s.value_or(usual_settle_s),
+               damping = loop.damping.value_or(usual_damping);
   base::Result<design::PolePlacement> placed = design::place_poles(plant, settle, damping, period_s);
   const GivenGains given = given_gains(loop, "control." + name);
   if (!given.problems.empty()) return given.problems;
@@ -57,7 +58,8 @@ rig::Timeline timeline_of(const Scenario& s) {
     timeline.push_back({sim::to_instant(level.at_s), rig::ActionKind::setpoint, level.value});
   timeline.push_back({sim::Instant{}, rig::ActionKind::load_torque, s.load.torque_Nm});
   for (std::size_t n = 0; n < s.load.times_s.size(); ++n)
-    timeline.push_back({sim::to_instant(s.load.times_s[n]), rig::ActionKind::load_torque, s.load.torques_Nm[n]});
+    timeline.push_back(
+        {sim::to_instant(s.load.times_s[n]), rig::ActionKind::load_torque, s.load.torques_Nm[n]});
   std::stable_sort(timeline.begin(), timeline.end(),
                    [](const rig::Action& a, const rig::Action& b) { return a.at < b.at; });
   return timeline;
@@ -75,14 +77,16 @@ base::Problems add_loops(const Scenario& s, Compiled& out) {
   if (s.control.current.type == CurrentLoopType::pi) {
     const design::ZohPlant plant =
         design::current_plant(2 * out.motor.machine.R_ohm, 2 * out.motor.machine.L_H, period_s);
-    base::Result<LoopGains> gains = loop_gains(s.control.current, "current", plant, current_settle_s, period_s);
+    base::Result<LoopGains> gains =
+        loop_gains(s.control.current, "current", plant, current_settle_s, period_s);
     if (!gains) return gains.problems();
     out.drive.current = {gains->d1, gains->d0, s.supply.voltage_V};
     out.gains.push_back(*gains);
   }
   if (mode == control::Mode::current) return {};
   const double torque_limit = s.control.speed.torque_limit_Nm.value_or(out.motor.stall_torque_Nm);
-  const design::ZohPlant plant = design::speed_plant(torque_limit, out.shaft.J_kg_m2, out.shaft.B_Nm_s, period_s);
+  const design::ZohPlant plant =
+      design::speed_plant(torque_limit, out.shaft.J_kg_m2, out.shaft.B_Nm_s, period_s);
   base::Result<LoopGains> gains = loop_gains(s.control.speed, "speed", plant, speed_settle_s, period_s);
   if (!gains) return gains.problems();
   out.drive.speed = {gains->d1, gains->d0, 1.0};
@@ -91,8 +95,10 @@ base::Problems add_loops(const Scenario& s, Compiled& out) {
   out.gains.push_back(*gains);
   if (mode == control::Mode::speed) return {};
   out.drive.position_gain = s.control.position.gain_rad_s_per_deg;
-  out.drive.speed_limit_rad_s = s.control.position.speed_limit_rad_s.value_or(s.supply.voltage_V / out.motor.K_t_Nm_A);
-  out.gains.push_back({"position", out.drive.position_gain, 0.0, "given as gain_rad_s_per_deg", std::nullopt});
+  out.drive.speed_limit_rad_s =
+      s.control.position.speed_limit_rad_s.value_or(s.supply.voltage_V / out.motor.K_t_Nm_A);
+  out.gains.push_back(
+      {"position", out.drive.position_gain, 0.0, "given as gain_rad_s_per_deg", std::nullopt});
   return {};
 }
 
@@ -100,7 +106,8 @@ base::Problems add_loops(const Scenario& s, Compiled& out) {
 
 std::vector<Level> reference_levels(const Reference& r, double duration_s) {
   switch (r.shape) {
-    case Shape::constant: return {{0.0, r.value}};
+    case Shape::constant:
+      return {{0.0, r.value}};
     case Shape::steps: {
       std::vector<Level> levels;
       if (r.times_s.empty() || r.times_s.front() > 0) levels.push_back({0.0, 0.0});
@@ -126,7 +133,9 @@ GivenGains given_gains(const Loop& loop, const std::string& where) {
     out.problems.push_back({where + "." + key, "", limit, cure});
   };
   if (d && (k || rule))
-    wrong(loop.d1 ? "d1" : "d0", k ? "contradicts kp, ki: the same gains are given twice" : "contradicts settle_s, damping: gains are either given or designed",
+    wrong(loop.d1 ? "d1" : "d0",
+          k ? "contradicts kp, ki: the same gains are given twice"
+            : "contradicts settle_s, damping: gains are either given or designed",
           "keep one of: d1 and d0 | kp and ki | settle_s and damping");
   else if (k && rule)
     wrong(loop.kp ? "kp" : "ki", "contradicts settle_s, damping: gains are either given or designed",
@@ -159,8 +168,9 @@ base::Result<Compiled> compile(const Scenario& s) {
   out.drive.mode = s.control.mode;
   out.drive.chopping = s.pwm.chopping;
   out.drive.nominal_bus_V = s.supply.voltage_V;
-  out.drive.current_control = s.control.current.type == CurrentLoopType::pi ? control::CurrentControl::pi
-                                                                            : control::CurrentControl::hysteresis;
+  out.drive.current_control = s.control.current.type == CurrentLoopType::pi
+                                  ? control::CurrentControl::pi
+                                  : control::CurrentControl::hysteresis;
   out.drive.hysteresis = {s.control.current.band_A, watch_of(s.control.current)};
   if (base::Problems problems = add_loops(s, out); !problems.empty()) return problems;
   return out;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenario -> what a run is made of: plant parameters, controller configuration, board, timeline, gains with their origin.
+// Scenario -> what a run is made of: plant parameters, controller configuration, board, timeline, gains with
+// their origin.
 #pragma once
 #include "sixstep/base/result.hpp"
 #include "sixstep/control/drive.hpp"
@@ -11,7 +12,7 @@ namespace sixstep::study {
 
 struct Compiled {
   design::MotorModel motor;
-  plant::Shaft shaft;          ///< the motor's with the load's share added
+  plant::Shaft shaft;  ///< the motor's with the load's share added
   plant::Devices devices;
   plant::Supply supply;
   plant::Start start;

@@ -39,9 +39,12 @@ void Gauge::part(const Series& c, int degree, double t0, double length) {
       lowest_ = std::min(lowest_, e.low);
       return;
     }
-    case MetricKind::reach_time: return reach_part(c, degree, t0, length);
-    case MetricKind::settling_time: return settle_part(c, degree, t0, length);
-    default: return;
+    case MetricKind::reach_time:
+      return reach_part(c, degree, t0, length);
+    case MetricKind::settling_time:
+      return settle_part(c, degree, t0, length);
+    default:
+      return;
   }
 }
 
@@ -75,8 +78,8 @@ void Gauge::settle_part(const Series& c, int degree, double t0, double length) {
   // Every crossing of a limit is an end of an excursion or its begin; the latest is where the last one ended.
   const double scale = series::magnitude_of(c, degree);
   for (const Series* side : {&above, &below})
-    series::for_each_sign_change(*side, degree, scale,
-                         [&](double s) { outside_until_ = std::max(outside_until_, t0 + s * length); });
+    series::for_each_sign_change(
+        *side, degree, scale, [&](double s) { outside_until_ = std::max(outside_until_, t0 + s * length); });
   if (outside(0.0)) outside_until_ = std::max(outside_until_, t0);
 }
 
@@ -100,16 +103,26 @@ std::optional<double> Gauge::value() const {
   if (!seen_) return std::nullopt;
   constexpr double never = std::numeric_limits<double>::infinity();
   switch (measure_.metric) {
-    case MetricKind::final_value: return last_;
-    case MetricKind::mean: return integral_ / seconds_;
-    case MetricKind::rms: return std::sqrt(integral_ / seconds_);
-    case MetricKind::maximum: return highest_;
-    case MetricKind::minimum: return lowest_;
-    case MetricKind::peak_to_peak: return highest_ - lowest_;
-    case MetricKind::overshoot: return std::max(0.0, sign() > 0 ? highest_ - level_ : level_ - lowest_);
-    case MetricKind::reach_time: return reached_ ? *reached_ - window_.from_s : never;
-    case MetricKind::settling_time: return outside_now_ ? never : std::max(0.0, outside_until_ - window_.from_s);
-    default: return std::nullopt;
+    case MetricKind::final_value:
+      return last_;
+    case MetricKind::mean:
+      return integral_ / seconds_;
+    case MetricKind::rms:
+      return std::sqrt(integral_ / seconds_);
+    case MetricKind::maximum:
+      return highest_;
+    case MetricKind::minimum:
+      return lowest_;
+    case MetricKind::peak_to_peak:
+      return highest_ - lowest_;
+    case MetricKind::overshoot:
+      return std::max(0.0, sign() > 0 ? highest_ - level_ : level_ - lowest_);
+    case MetricKind::reach_time:
+      return reached_ ? *reached_ - window_.from_s : never;
+    case MetricKind::settling_time:
+      return outside_now_ ? never : std::max(0.0, outside_until_ - window_.from_s);
+    default:
+      return std::nullopt;
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One figure of merit over one window, taken from the trajectory's polynomials as they pass: exact integrals, extremes
-// and crossings, no samples between which something could hide.
+// One figure of merit over one window, taken from the trajectory's polynomials as they pass: exact integrals,
+// extremes and crossings, no samples between which something could hide.
 #pragma once
 #include <limits>
 #include <optional>
@@ -19,8 +19,8 @@ struct Window {
 
 class Gauge {
  public:
-  /// `level` and `start` are what the step goes to and from (reach and settling times, overshoot); without `start` the
-  /// signal's value at the window's begin counts.
+  /// `level` and `start` are what the step goes to and from (reach and settling times, overshoot); without
+  /// `start` the signal's value at the window's begin counts.
   Gauge(const Measure& measure, Window window, double level, std::optional<double> start)
       : measure_(measure), window_(window), level_(level), start_(start) {}
 
@@ -29,7 +29,8 @@ class Gauge {
   void part(const Series& c, int degree, double t0, double length);
   /// What the controller sampled (measures with `sampled`).
   void sample(double t, double value);
-  /// Infinite where the level was never reached or the signal never settled; empty where the window saw nothing.
+  /// Infinite where the level was never reached or the signal never settled; empty where the window saw
+  /// nothing.
   std::optional<double> value() const;
 
  private:
@@ -44,9 +45,10 @@ class Gauge {
   std::optional<double> start_;
   bool seen_ = false;
   double integral_ = 0.0, seconds_ = 0.0, last_ = 0.0;
-  double highest_ = -std::numeric_limits<double>::infinity(), lowest_ = std::numeric_limits<double>::infinity();
+  double highest_ = -std::numeric_limits<double>::infinity(),
+         lowest_ = std::numeric_limits<double>::infinity();
   std::optional<double> reached_;
-  double outside_until_ = 0.0;   ///< last instant outside the band
+  double outside_until_ = 0.0;  ///< last instant outside the band
   bool outside_now_ = true;
 };
 

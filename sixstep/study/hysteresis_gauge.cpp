@@ -5,8 +5,8 @@
 
 namespace sixstep::study {
 
-void HysteresisGauge::part(Watched& watched, const Series& c, int degree, int sector, double key, double lower,
-                           double upper) {
+void HysteresisGauge::part(Watched& watched, const Series& c, int degree, int sector, double key,
+                           double lower, double upper) {
   if (key != watched.key) watched.excused_above = watched.excused_below = true;
   if (sector != watched.sector) watched.excused_below = true;
   watched.key = key;

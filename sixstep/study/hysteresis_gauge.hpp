@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well an event hysteresis keeps its band: excess above the upper limit, shortfall below the lower one outside of
-// the recovery from a commutation or a new reference, and the switching frequency.
+// How well an event hysteresis keeps its band: excess above the upper limit, shortfall below the lower one
+// outside of the recovery from a commutation or a new reference, and the switching frequency.
 #pragma once
 #include <algorithm>
 
@@ -35,14 +35,15 @@ class HysteresisGauge {
   const HysteresisFigures& figures() const { return figures_; }
 
  private:
-  /// What one comparator has seen last. A new reference excuses both limits until the current is back in the band, a
-  /// sector edge only the lower one: the mean of two phases drops there, it has no reason to rise.
+  /// What one comparator has seen last. A new reference excuses both limits until the current is back in the
+  /// band, a sector edge only the lower one: the mean of two phases drops there, it has no reason to rise.
   struct Watched {
     int sector = -1;
     double key = 0.0;  ///< upper limit with the sign of the reference
     bool excused_above = true, excused_below = true;
   };
-  void part(Watched& watched, const Series& c, int degree, int sector, double key, double lower, double upper);
+  void part(Watched& watched, const Series& c, int degree, int sector, double key, double lower,
+            double upper);
 
   HysteresisFigures figures_;
   Watched watched_[2]{};

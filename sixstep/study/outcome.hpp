@@ -15,9 +15,9 @@ namespace sixstep::study {
 
 /// A trace column: name with unit suffix as in the CSV header, unit and frame in words.
 struct Column {
-  std::string name;     // "i_a_A"
-  std::string unit;     // "A"
-  std::string frame;    // "phase, into the motor"
+  std::string name;   // "i_a_A"
+  std::string unit;   // "A"
+  std::string frame;  // "phase, into the motor"
   std::string meaning;
 };
 
@@ -29,7 +29,7 @@ struct Trace {
 };
 
 struct Verdict {
-  std::string figure;              // "settling time of current"
+  std::string figure;  // "settling time of current"
   std::string unit;
   double measured = 0.0;
   std::optional<double> min, max;  // the requirement
@@ -40,7 +40,7 @@ struct ComparisonResult {
   std::string figure;
   std::string unit;
   double measured = 0.0;
-  double value = 0.0;              // what the source says
+  double value = 0.0;  // what the source says
   std::string source;
 };
 
@@ -52,10 +52,10 @@ struct EventCount {
 
 /// Gains a loop ran with and where they come from.
 struct LoopGains {
-  std::string loop;                                   // "current", "speed", "position"
-  double d1 = 0.0, d0 = 0.0;                          // position: d1 is the gain, d0 = 0
-  std::string origin;                                 // "given as d1, d0", "pole placement, settle_s = 0.001, damping = 0.9"
-  std::optional<design::PolePlacement> derivation;    // of the exact design for the same loop
+  std::string loop;           // "current", "speed", "position"
+  double d1 = 0.0, d0 = 0.0;  // position: d1 is the gain, d0 = 0
+  std::string origin;         // "given as d1, d0", "pole placement, settle_s = 0.001, damping = 0.9"
+  std::optional<design::PolePlacement> derivation;  // of the exact design for the same loop
 };
 
 struct Outcome {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A signal over one segment as a polynomial: what the figures of merit integrate and search.
 #pragma once
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "sixstep/rig/rig.hpp"
+#include "sixstep/series/extremes.hpp"
 #include "sixstep/study/scenario.hpp"
 
 namespace sixstep::study {
@@ -13,11 +16,16 @@ using Series = series::Coefficients<double>;
 /// Unit of a signal, as shown behind a figure.
 constexpr const char* unit_of(Signal signal) {
   switch (signal) {
-    case Signal::speed: return "rad/s";
-    case Signal::position: return "deg";
-    case Signal::torque: return "N m";
-    case Signal::bus_voltage: return "V";
-    default: return "A";
+    case Signal::speed:
+      return "rad/s";
+    case Signal::position:
+      return "deg";
+    case Signal::torque:
+      return "N m";
+    case Signal::bus_voltage:
+      return "V";
+    default:
+      return "A";
   }
 }
 
@@ -30,8 +38,21 @@ inline plant::PerLeg<double> motor_current_weights(int sector) {
   return w;
 }
 
-/// Half the sum of the current magnitudes has kinks where a phase changes sign; within a part of a segment in which none
-/// does, `sign` makes it a polynomial. All other signals ignore `sign`.
+/// [from, to] cut at every sign change of a phase current.
+template <class Expansion>
+std::vector<double> magnitude_cuts(const Expansion& y, double from, double to) {
+  std::vector<double> cuts = {from, to};
+  for (int k = 0; k < 3; ++k) {
+    const Series i = series::restricted(y.i[k], y.degree, from, to);
+    series::for_each_sign_change(i, y.degree, series::magnitude_of(i, y.degree),
+                                 [&](double s) { cuts.push_back(from + s * (to - from)); });
+  }
+  std::sort(cuts.begin(), cuts.end());
+  return cuts;
+}
+
+/// Half the sum of the current magnitudes has kinks where a phase changes sign; within a part of a segment in
+/// which none does, `sign` makes it a polynomial. All other signals ignore `sign`.
 template <class Rig>
 Series signal_series(const Rig& rig, Signal signal, const plant::PerLeg<double>& sign) {
   const auto& y = rig.plant().expansion();
@@ -41,14 +62,22 @@ Series signal_series(const Rig& rig, Signal signal, const plant::PerLeg<double>&
     return c;
   };
   switch (signal) {
-    case Signal::current: return combined(motor_current_weights(rig.plant().sector()));
-    case Signal::phase_a: return y.i[0];
-    case Signal::phase_b: return y.i[1];
-    case Signal::phase_c: return y.i[2];
-    case Signal::current_magnitude: return combined({sign[0] / 2, sign[1] / 2, sign[2] / 2});
-    case Signal::speed: return y.w;
-    case Signal::torque: return y.torque;
-    case Signal::bus_voltage: return y.bus;
+    case Signal::current:
+      return combined(motor_current_weights(rig.plant().sector()));
+    case Signal::phase_a:
+      return y.i[0];
+    case Signal::phase_b:
+      return y.i[1];
+    case Signal::phase_c:
+      return y.i[2];
+    case Signal::current_magnitude:
+      return combined({sign[0] / 2, sign[1] / 2, sign[2] / 2});
+    case Signal::speed:
+      return y.w;
+    case Signal::torque:
+      return y.torque;
+    case Signal::bus_voltage:
+      return y.bus;
     case Signal::bus_current: {
       plant::PerLeg<double> w{};
       for (int k = 0; k < 3; ++k) w[k] = plant::is_high(rig.plant().mode().legs[k]) ? 1.0 : 0.0;
