@@ -70,7 +70,7 @@ void free_star_guards(const Constants<Real>& c, const Expansion<Real>& y, Real n
     for (int k = 0; k < 3; ++k) {
       if (j == k) continue;
       series::Coefficients<Real> g;
-      for (int n = 0; n <= y.degree; ++n) g[n] = y.bus[n] - y.emf[j][n] + y.emf[k][n];
+      for (int n = 0; n <= y.degree; ++n) g[n] = y.bus[n] - y.pole[j][n] + y.pole[k][n];  // here: e_j, e_k
       g[0] += 2 * Real(c.devices.V_f_V);
       visit(guard::free_star + 3 * j + k, g, y.degree, noise);
     }

@@ -107,6 +107,10 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   c.amp_scale = c.volt_scale / c.R;
   c.speed_scale = c.volt_scale / (2 * c.K_e);
   c.torque_scale = 2 * c.K_e * c.amp_scale;
+  for (int k = 0; k < 5; ++k) c.pole_terms[k] = pole_terms<Real>(static_cast<Connection>(k), devices);
+  const Real winding = (c.R + std::max(Real(devices.R_on_ohm), Real(devices.r_d_ohm))) * c.inv_L;
+  const Real electromechanical = c.locked ? Real(0) : c.K_e * std::sqrt(c.inv_L * c.inv_J);
+  c.steady_rate = winding + electromechanical + c.inv_C * (c.inv_R_b + 1 / c.R);
 
   state_.bus = stiff ? c.V_0 : Real(start.bus_V);
   state_.w = shaft.locked ? Real(0) : Real(start.speed_rad_s);

@@ -3,6 +3,7 @@
 // bound first, Newton where the guard is strictly monotone, Bernstein subdivision for the rest.
 #pragma once
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "sixstep/series/polynomial.hpp"
@@ -27,10 +28,13 @@ inline Leading leading(const Coefficients<Real>& c, int degree, Real noise) {
 
 namespace detail {
 
-/// A root known to lie alone in (low, high], with c(low) > 0 >= c(high): Newton, kept inside by bisection.
+/// A root known to lie alone in (low, high], with c(low) > 0 >= c(high): Newton from `guess`, kept inside by
+/// bisection.
 template <class Real>
-Real bracketed_root(const Coefficients<Real>& c, int degree, Real low, Real high) {
-  Real s = low + (high - low) / 2;
+Real bracketed_root(const Coefficients<Real>& c, int degree, Real low, Real high, Real guess) {
+  // Newton squares the error: a step this small leaves nothing above rounding for another one.
+  const Real last_step = Real(1e-10) * (high - low);
+  Real s = guess > low && guess < high ? guess : low + (high - low) / 2;
   for (int round = 0; round < 200; ++round) {
     Real value = c[degree], slope = 0;
     for (int j = degree - 1; j >= 0; --j) {
@@ -39,11 +43,13 @@ Real bracketed_root(const Coefficients<Real>& c, int degree, Real low, Real high
     }
     (value > 0 ? low : high) = s;
     Real next = slope < 0 ? s - value / slope : low;
-    if (!(next > low && next < high)) next = low + (high - low) / 2;
-    if (next == s || next <= low || next >= high) return next;
     const Real step = next > s ? next - s : s - next;
+    if (step <= last_step && next >= low && next <= high) return next;
+    if (!(next > low && next < high)) {
+      next = low + (high - low) / 2;
+      if (next <= low || next >= high) return next;
+    }
     s = next;
-    if (step <= s * Real(1e-17)) return s;
   }
   return s;
 }
@@ -113,7 +119,7 @@ std::optional<Real> subdivide(const Coefficients<Real>& c, int degree, Real leng
       if (!(piece.b[0] > 0)) return piece.low;
       continue;
     }
-    if (changes == 1 && piece.b[0] > 0) return bracketed_root(c, degree, piece.low, piece.high);
+    if (changes == 1 && piece.b[0] > 0) return bracketed_root(c, degree, piece.low, piece.high, piece.low);
     if (piece.depth >= depth_limit) return piece.low;
     const Real middle = piece.low + (piece.high - piece.low) / 2;
     const Coefficients<Real> right = split_half(piece.b, degree);
@@ -130,10 +136,9 @@ std::optional<Real> subdivide(const Coefficients<Real>& c, int degree, Real leng
 /// out, so a restart on the boundary neither repeats the event nor needs a dead time.
 template <class Real>
 std::optional<Real> first_root(const Coefficients<Real>& c, int degree, Real length, Real noise) {
-  const auto magnitude = [](Real x) { return x < 0 ? -x : x; };
   // The commonest answer first: the value cannot be used up by all other terms together.
   Real tail = 0;
-  for (int j = degree; j >= 1; --j) tail = (tail + magnitude(c[j])) * length;
+  for (int j = degree; j >= 1; --j) tail = (tail + std::fabs(c[j])) * length;
   if (c[0] > tail && c[0] > noise) return std::nullopt;
 
   const Leading start = leading(c, degree, noise);
@@ -147,13 +152,13 @@ std::optional<Real> first_root(const Coefficients<Real>& c, int degree, Real len
   Real slope_rest = 0, value_at_end = 0, power = length;  // sum_{j >= 2} j |q_j| length^(j-1)
   tail = 0;
   for (int j = n; j >= 0; --j) value_at_end = value_at_end * length + q[j];
-  for (int j = 2; j <= n; ++j, power *= length) slope_rest += static_cast<Real>(j) * magnitude(q[j]) * power;
-  for (int j = n; j >= 1; --j) tail = (tail + magnitude(q[j])) * length;
+  for (int j = 2; j <= n; ++j, power *= length) slope_rest += static_cast<Real>(j) * std::fabs(q[j]) * power;
+  for (int j = n; j >= 1; --j) tail = (tail + std::fabs(q[j])) * length;
   if (q[0] > tail) return std::nullopt;
   if (q[1] > slope_rest) return std::nullopt;  // strictly rising
   if (-q[1] > slope_rest) {                    // strictly falling: one root or none
     if (value_at_end > 0) return std::nullopt;
-    return detail::bracketed_root(q, n, Real(0), length);
+    return detail::bracketed_root(q, n, Real(0), length, -q[0] / q[1]);
   }
   return detail::subdivide(q, n, length);
 }

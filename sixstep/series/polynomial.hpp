@@ -25,12 +25,19 @@ inline Real evaluate(const Coefficients<Real>& c, int degree, Real s) {
   return c[0] + increment(c, degree, s);
 }
 
-/// Coefficient n of the product of two series (Cauchy).
-template <class Real>
-inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& b, int n) {
-  Real sum = 0;
-  for (int j = 0; j <= n; ++j) sum += a[j] * b[n - j];
-  return sum;
+/// Coefficient n of the product of two series (Cauchy); n is known at compile time and the sum unrolled. The
+/// newest coefficients come last, so that in a recurrence all else is summed while they are still being
+/// computed.
+template <int n, class Real>
+inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& b) {
+  if constexpr (n == 0) {
+    return a[0] * b[0];
+  } else {
+    Real even = 0, odd = 0;
+#pragma GCC unroll 32
+    for (int j = 1; j < n; ++j) (j % 2 == 0 ? even : odd) += a[j] * b[n - j];
+    return (even + odd) + (a[0] * b[n] + a[n] * b[0]);
+  }
 }
 
 /// Integral of y over s from 0 to `to`, in units of h.
