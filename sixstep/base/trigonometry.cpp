@@ -2,6 +2,7 @@
 // sin, cos, atan2: exact reduction, then a short Taylor series with the leading terms in double-double.
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -135,8 +136,7 @@ constexpr std::array<DoubleDouble, 9> atan_eighths{{{0.0, 0.0},
 /// atan(y/x) for 0 <= y <= x in [1, 2): atan c + atan s with c the nearest eighth, s = (y - c x)/(x + c y),
 /// |s| <= 1/16, atan s = s - s^3/3 + ...
 DoubleDouble atan_ratio(double y, double x) {
-  const std::size_t i = static_cast<std::size_t>(8.0 * (y / x) + 0.5);
-  const double c = 0.125 * static_cast<double>(i);
+  const double eighths = std::floor(8.0 * (y / x) + 0.5), c = eighths / 8.0;
   const DoubleDouble s = (-two_prod(c, x) + y) / (two_prod(c, y) + x);
   const double q = s.high * s.high;
   double p = -1.0 / 15;
@@ -146,7 +146,7 @@ DoubleDouble atan_ratio(double y, double x) {
   p = p * q - 1.0 / 7;
   p = p * q + 1.0 / 5;
   p = p * q - 1.0 / 3;
-  return atan_eighths[i] + (s + q * p * s.high);
+  return atan_eighths[static_cast<std::size_t>(eighths)] + (s + q * p * s.high);
 }
 
 bool sign_bit(double x) { return (std::bit_cast<std::uint64_t>(x) >> 63) != 0; }
