@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/document.hpp"
+#include "io/rooms.hpp"
 
 namespace io {
 

@@ -18,7 +18,8 @@ bool is_number(std::string_view word) {
 template <class Node>
 Node* child(Node& node, const std::string& word) {
   if (auto* table = node.as_table()) return table->get(word);
-  if (auto* array = node.as_array(); array && is_number(word)) return array->get(std::stoul(word));
+  auto* array = node.as_array();
+  if (array && is_number(word)) return array->get(std::stoul(word));
   return nullptr;
 }
 
@@ -78,7 +79,7 @@ base::Problems Document::set(std::span<const Setting> settings) {
   base::Problems problems;
   for (const Setting& setting : settings) {
     const std::vector<std::string> words = path_words(setting.path);
-    toml::parse_result parsed = toml::parse("x = " + setting.text);
+    toml::parse_result parsed = toml::parse(fmt::format("x = {}", setting.text));
     toml::table holder;
     if (parsed && parsed.table().size() == 1)
       holder = std::move(parsed).table();
@@ -93,10 +94,10 @@ base::Problems Document::set(std::span<const Setting> settings) {
     if (toml::table* table = place ? place->as_table() : nullptr) {
       put(*table, words.back(), *holder.get("x"));
     } else if (toml::array* array = place ? place->as_array() : nullptr;
-               array && child(*array, words.back())) {
+               array && child(*place, words.back())) {
       put(*array, std::stoul(words.back()), *holder.get("x"));
     } else {
-      problems.push_back({.where = "--set " + setting.path,
+      problems.push_back({.where = fmt::format("--set {}", setting.path),
                           .value = setting.text,
                           .limit = "does not name a key",
                           .cure = "write --set table.key=value, as in --set supply.voltage_V=12"});
@@ -144,7 +145,7 @@ std::string Document::place(toml::source_position at) const {
 }
 
 std::string Document::place(const toml::node& node, std::string_view path) const {
-  if (const Setting* setting = setting_of(path)) return "--set " + setting->path;
+  if (const Setting* setting = setting_of(path)) return fmt::format("--set {}", setting->path);
   if (node.source().begin) return place(node.source().begin);
   return nearest_place(path);
 }
@@ -153,7 +154,7 @@ std::string Document::nearest_place(std::string_view path) const {
   std::vector<std::string> words = path_words(path);
   while (!words.empty()) {
     const std::string joined = fmt::format("{}", fmt::join(words, "."));
-    if (const Setting* setting = setting_of(joined)) return "--set " + setting->path;
+    if (const Setting* setting = setting_of(joined)) return fmt::format("--set {}", setting->path);
     const toml::node* node = find(joined);
     if (node && node->source().begin) return place(node->source().begin);
     words.pop_back();

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/rooms.hpp"
 #include "io/toml.hpp"
 #include "sixstep/base/result.hpp"
 

@@ -5,7 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "io/rooms.hpp"
 #include "sixstep/base/describe.hpp"
+#include "sixstep/base/problem.hpp"
 
 namespace io {
 

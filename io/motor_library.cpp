@@ -41,7 +41,8 @@ base::Result<Document> find_motor(const MotorQuery& query) {
     return Document::parse(path, std::move(*text));
   }
   for (const motors::File& file : motors::all)
-    if (file.name == query.name) return Document::parse(fmt::format("built-in {}", file.name), std::string(file.text));
+    if (file.name == query.name)
+      return Document::parse(fmt::format("built-in {}", file.name), std::string(file.text));
   const std::vector<std::string> names = built_in_motors();
   const std::string near = nearest(query.name, names);
   return base::Problem{.limit = fmt::format("is neither {} nor a built-in motor", fmt::join(paths, " nor ")),

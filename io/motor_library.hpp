@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/document.hpp"
+#include "io/rooms.hpp"
 
 namespace io {
 
@@ -14,8 +15,8 @@ struct MotorQuery {
   std::string data_dir;  ///< holds motors/NAME.toml; empty: none
 };
 
-/// The motor's file, not yet read into a sheet. A Problem says where it was looked for and which name is near;
-/// its `where` is left empty for the caller, who knows who asked.
+/// The motor's file, not yet read into a sheet. A Problem says where it was looked for and which name is
+/// near; its `where` is left empty for the caller, who knows who asked.
 base::Result<Document> find_motor(const MotorQuery& query);
 
 /// Names of the motors compiled in.

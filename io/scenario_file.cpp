@@ -29,10 +29,11 @@ base::Result<SheetSource> sheet_of(Document document) {
   return SheetSource{std::move(document), std::move(sheet)};
 }
 
-/// The sheet that the scenario's `motor` names. What is wrong in the motor's own file is told of that file, what is
-/// wrong with the name at the name.
-std::optional<SheetSource> named_sheet(const Document& scenario, const std::string& folder, const ReadOptions& options,
-                                       Complaints& complaints, base::Problems& of_motor_file) {
+/// The sheet that the scenario's `motor` names. What is wrong in the motor's own file is told of that file,
+/// what is wrong with the name at the name.
+std::optional<SheetSource> named_sheet(const Document& scenario, const std::string& folder,
+                                       const ReadOptions& options, Complaints& complaints,
+                                       base::Problems& of_motor_file) {
   const toml::node* name = scenario.find("motor");
   if (!name || !name->is_string()) return {};  // told by the description
   base::Result<Document> document = find_motor({name->as_string()->get(), folder, options.data_dir});
@@ -49,7 +50,8 @@ std::optional<SheetSource> named_sheet(const Document& scenario, const std::stri
   return std::move(*source);
 }
 
-/// Torque constant and back-EMF constant say the same thing: overriding one makes the other's printed value stale.
+/// Torque constant and back-EMF constant say the same thing: overriding one makes the other's printed value
+/// stale.
 void drop_stale_constant(const Document& document, design::Sheet& sheet) {
   const bool torque = document.find("motor_override.torque_constant_mNm_A");
   const bool back_emf = document.find("motor_override.back_emf_mV_s");
@@ -81,7 +83,8 @@ void run_checks(const Document& document, const SheetSource& source, const study
   base::Problems of_scenario;
   for (base::Problem& problem : study::check(scenario)) {
     const std::optional<std::string> key = sheet_key(problem.where);
-    if (key && document.find("motor_override." + *key)) problem.where = "motor_override." + *key;
+    if (key && document.find("motor_override." + *key))
+      problem.where = "motor_override." + *key;
     else if (key) {
       problem.where = *key;
       of_motor.later(std::move(problem));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/document.hpp"
+#include "io/rooms.hpp"
 #include "sixstep/base/result.hpp"
 #include "sixstep/design/sheet.hpp"
 #include "sixstep/study/scenario.hpp"
@@ -16,8 +17,8 @@ struct ReadOptions {
   std::vector<Setting> overrides;  ///< from the command line, stronger than the file
 };
 
-/// Scenario and its motor's sheet, checked to the last rule of study::check. Each Problem's `where` begins with
-/// "file:line:column: " or "--set key", in the order of the lines.
+/// Scenario and its motor's sheet, checked to the last rule of study::check. Each Problem's `where` begins
+/// with "file:line:column: " or "--set key", in the order of the lines.
 base::Result<study::Scenario> read_scenario(const std::string& path, const ReadOptions& options = {});
 
 /// A motor by path or name. `data_dir` as above.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/complaints.hpp"
+#include "io/rooms.hpp"
 #include "sixstep/base/describe.hpp"
 
 namespace io {

@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 
+#include "io/rooms.hpp"
 #include "sixstep/base/result.hpp"
 
 namespace io {
