@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "faces/cli/terminal.hpp"
@@ -41,11 +42,16 @@ std::string of_table(const std::vector<KeyEntry>& entries, const KeyEntry& table
   return text;
 }
 
-/// The key by its whole path or, where only one has it, by its last word.
-const KeyEntry* look_up(const std::vector<KeyEntry>& entries, const std::string& key) {
+const KeyEntry* by_path(const std::vector<KeyEntry>& entries, const std::string& key) {
+  const auto found =
+      std::find_if(entries.begin(), entries.end(), [&](const KeyEntry& e) { return e.path == key; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+/// The key by its last word, where only one has it.
+const KeyEntry* by_name(const std::vector<KeyEntry>& entries, const std::string& key) {
   const KeyEntry* found = nullptr;
   for (const KeyEntry& entry : entries) {
-    if (entry.path == key) return &entry;
     if (!entry.path.ends_with("." + key) || inside(entry, "motor_override")) continue;
     if (found) return nullptr;
     found = &entry;
@@ -61,11 +67,15 @@ Exit help_command(const std::string& key) {
     print(overview(scenario, sheet));
     return Exit::ok;
   }
-  if (const KeyEntry* entry = look_up(scenario, key)) {
+  if (const KeyEntry* entry = by_path(scenario, key)) {
     print(is_table(*entry) ? of_table(scenario, *entry) : io::help_text(*entry));
     return Exit::ok;
   }
-  if (const KeyEntry* entry = look_up(sheet, key)) {
+  if (const KeyEntry* entry = by_path(sheet, key)) {
+    print(io::help_text(*entry) + "  in a motor file or in [motor_override]\n");
+    return Exit::ok;
+  }
+  if (const KeyEntry* entry = by_name(scenario, key)) {
     print(io::help_text(*entry));
     return Exit::ok;
   }

@@ -57,7 +57,7 @@ Exit run_program(int count, const char* const* words) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 all requirements hold, 1 a requirement failed, 2 bad input, 3 a fault stopped a run, "
-      "4 internal error");
+      "4 internal error\n");
 
   RunArguments run_arguments;
   CLI::App& run = *app.add_subcommand("run", "run scenarios and judge them");
