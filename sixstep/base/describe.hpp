@@ -8,16 +8,13 @@
 //   v.value(key, member, about)            double, int, std::int64_t, bool, std::string,
 //   std::optional<double>,
 //                                          std::vector<double>, std::vector<std::string>
-//   v.choice(key, member, choices, about)  an enum (or optional enum), by its words
+//   v.choice(key, member, choices, about)  an enum, by its words: choices is an array of Choice
 //   v.quantity(key, member, about)         Quantity: a number with frame and source
-//   v.table(key, member, about)            a described struct (or std::optional of one)
+//   v.table(key, member, about)            a described struct
 //   v.list(key, member, about)             std::vector of a described struct, TOML's [[key]]
 // The default of a member is what a default-constructed S holds.
 #pragma once
-#include <initializer_list>
 #include <limits>
-#include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -49,6 +46,10 @@ struct About {
   Range range = {};  ///< of the number as written
   bool required = false;
   std::string_view cure = "";  ///< what to write instead; empty: derived from range and unit
+<<<<<<< HEAD
+=======
+  bool partial = false;  ///< a table that changes single values of what is filled already: none is required
+>>>>>>> io
 };
 
 /// One word of an enumeration as written in files, and what it means.
@@ -58,6 +59,14 @@ struct Choice {
   Enum value;
   std::string_view meaning;
 };
+
+/// The word of a value; empty for a value that has none.
+template <class Choices, class Enum>
+constexpr std::string_view word(const Choices& choices, Enum value) {
+  for (const auto& choice : choices)
+    if (choice.value == value) return choice.word;
+  return {};
+}
 
 /// A number as printed, with the frame it is meant in and where it comes from.
 /// In TOML: `key = 1.03` or `key = { value = 1.03, frame = "terminal", source = "data sheet, line 10" }`.
