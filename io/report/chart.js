@@ -72,6 +72,26 @@ function stripped(values, index, count) {
   return Array.from(values, (v) => (v == null ? null : base + v * STRIP));
 }
 
+/** Largest round number (1, 2, 5 times a power of ten) that is not above the value. */
+function roundBelow(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return power * [5, 2, 1].find((m) => m * power <= value * 1.000001);
+}
+
+/** Lanes stand one below the other, each around its own zero; all have the same height and scale. */
+function inLanes(chart, raw) {
+  let size = 0;
+  for (const values of raw) for (const v of values) if (Math.abs(v) > size) size = Math.abs(v);
+  const tick = size > 0 ? roundBelow(size) : 1, height = 2.3 * (size || 1);
+  const zeros = raw.map((_, i) => (raw.length - 1 - i) * height);
+  chart.axis = {
+    range: [-height / 2, zeros[0] + height / 2],
+    splits: zeros.flatMap((zero) => [zero - tick, zero, zero + tick]).sort((a, b) => a - b),
+    labels: zeros.flatMap(() => [-tick, 0, tick]).map((v) => String(v).replace('-', '−')),
+  };
+  return raw.map((values, i) => Array.from(values, (v) => (v == null ? null : v + zeros[i])));
+}
+
 function curveOptions(curve, index, chart, count) {
   const color = () => palette[curve.style];
   const options = {label: curve.label, stroke: color, width: curve.style === 'main' ? 1.8 : 1.3, points: {show: false}};
@@ -98,6 +118,10 @@ function valueAxes(chart) {
     left.splits = () => chart.curves.map((_, i) => count - 1 - i + STRIP / 2);
     left.values = () => chart.curves.map((c) => c.label);
     left.grid = {show: false};
+  }
+  if (chart.lanes) {
+    left.splits = () => chart.axis.splits;
+    left.values = () => chart.axis.labels;
   }
   const right = {...common, side: 1, size: GUTTER.right, gap: 6, space: 28, grid: {show: false}};
   if (chart.other) {
@@ -132,7 +156,7 @@ function chartOptions(chart, width, time, hooks) {
   };
   return {
     width, height: chart.height, legend: {show: false}, padding: [6, 0, 0, 0],
-    scales: {x: {time: false}, y: chart.logic ? {range: () => [-0.12, count - 0.1]} : {range}},
+    scales: {x: {time: false}, y: chart.logic ? {range: () => [-0.12, count - 0.1]} : chart.lanes ? {range: () => chart.axis.range} : {range}},
     axes: [x, ...valueAxes(chart)],
     series: [{}, ...chart.curves.map((c, i) => curveOptions(c, i, chart, count))],
     cursor: {
@@ -181,7 +205,7 @@ function buildChart(parent, chart, axis, time, hooks) {
   box.className = chart.logic ? 'chart logic' : 'chart';
   box.id = 'chart-' + chart.id;
   const raw = chart.curves.map((c) => curveValues(c.data));
-  const drawn = chart.logic ? raw.map((v, i) => stripped(v, i, raw.length)) : raw;
+  const drawn = chart.logic ? raw.map((v, i) => stripped(v, i, raw.length)) : chart.lanes ? inLanes(chart, raw) : raw;
   const {caption, values} = captionOf(chart, (i, show) => plot.setSeries(i + 1, {show}));
   box.append(caption);
   const showValues = (u) => {

@@ -90,10 +90,11 @@ Scale scale_for(double magnitude, std::string_view unit) {
 std::string plain(double value, int digits, bool trim) {
   if (std::isnan(value)) return "–";
   if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
-  const int power = decade(value);
+  int power = decade(value);
+  if (std::abs(value) >= std::pow(10.0, power + 1) - 0.5 * std::pow(10.0, power + 1 - digits))
+    ++power;  // 9.9999
   if (value != 0.0 && (power < -4 || power > 7)) {
-    const int exponent = decade(value * (1.0 + 1e-15));
-    return fixed(value / std::pow(10.0, exponent), digits - 1, true) + "·10" + superscript(exponent);
+    return fixed(value / std::pow(10.0, power), digits - 1, true) + "·10" + superscript(power);
   }
   return fixed(value, digits - 1 - power, trim);
 }

@@ -60,7 +60,7 @@ Group logic(const Trace& trace, std::deque<std::vector<double>>& derived) {
 }
 
 Group line_voltages(const Trace& trace) {
-  Group g{.id = "line-voltages", .title = "Line voltages", .unit = "V"};
+  Group g{.id = "line-voltages", .title = "Line voltages", .unit = "V", .height_px = 216, .lanes = true};
   add(g, trace, "u_ab_V", "u_ab", "a");
   add(g, trace, "u_bc_V", "u_bc", "b");
   add(g, trace, "u_ca_V", "u_ca", "c");

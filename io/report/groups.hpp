@@ -20,7 +20,8 @@ struct Curve {
 struct Group {
   std::string id, title, unit;
   int height_px = 180;
-  bool logic = false;       ///< strips of zeros and ones, one below the other
+  bool logic = false;  ///< strips of zeros and ones, one below the other
+  bool lanes = false;  ///< one curve above the other, each around its own zero: what would hide each other
   std::string other_unit;   ///< right-hand axis
   double other_factor = 1;  ///< right = left * factor
   std::vector<Curve> curves;

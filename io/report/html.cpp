@@ -2,6 +2,7 @@
 #include "io/report/html.hpp"
 
 #include <bit>
+#include <cctype>
 #include <cstdint>
 
 namespace io::report {
@@ -60,6 +61,22 @@ std::string escaped(std::string_view text) {
       default:
         out += c;
     }
+  }
+  return out;
+}
+
+std::string with_subscripts(std::string_view text) {
+  const auto wordy = [](char c) { return c < 0 || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  std::string out;
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    if (text[n] != '_' || n == 0 || n + 1 == text.size() || !wordy(text[n - 1]) || !wordy(text[n + 1])) {
+      out += escaped(text.substr(n, 1));
+      continue;
+    }
+    std::size_t end = n + 1;
+    while (end < text.size() && wordy(text[end])) ++end;
+    out += "<sub>" + std::string(text.substr(n + 1, end - n - 1)) + "</sub>";
+    n = end - 1;
   }
   return out;
 }

@@ -12,6 +12,10 @@ namespace io::report {
 /// For element content and quoted attributes.
 std::string escaped(std::string_view text);
 
+/// The same, with "T_reg" set as T and a subscript: a letter, an underscore and what follows up to the next
+/// sign.
+std::string with_subscripts(std::string_view text);
+
 /// JSON on its way into <script>: "</script>" and "<!--" must not be seen by the HTML parser.
 std::string script_safe(std::string json);
 

@@ -24,7 +24,7 @@ std::string row(std::string_view name, const std::string& value, std::string_vie
                 std::string_view source) {
   return fmt::format(
       "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td>{}</td><td class=\"source\">{}</td></tr>\n",
-      name, escaped(value), escaped(frame), escaped(source));
+      name, escaped(value), escaped(frame), with_subscripts(source));
 }
 
 /// As printed: the sheet's own unit, no prefix juggling.
@@ -66,11 +66,11 @@ std::string sheet_section(const sixstep::design::Sheet& s) {
 std::string model_section(const sixstep::design::MotorModel& m) {
   const bool sine = m.machine.back_emf == sixstep::plant::BackEmf::sine;
   std::string html = model_head;
-  html += row("R<sub>s</sub>", given(m.machine.R_ohm, "ohm"), "phase", "terminal resistance / 2");
-  html += row("L<sub>s</sub> = L − M", given(m.machine.L_H, "H"), "phase", "terminal inductance / 2");
-  html += row("K<sub>e</sub>", given(m.machine.K_e_V_s, "V s"), "phase, peak, mechanical",
-              "mean over a sector of the shape makes K_t");
-  html += row("K<sub>t</sub>", given(m.K_t_Nm_A, "Nm/A"), "terminal, sector mean", "");
+  html += row("R<sub>s</sub>", given(m.machine.R_ohm, "ohm"), "phase", "R / 2");
+  html += row("L<sub>s</sub> = L − M", given(m.machine.L_H, "H"), "phase", "L / 2");
+  html +=
+      row("K<sub>e</sub>", given(m.machine.K_e_V_s, "V s"), "phase, peak", "K_t and the shape's sector mean");
+  html += row("K<sub>t</sub>", given(m.K_t_Nm_A, "Nm/A"), "terminal", "sector mean");
   html += row("Pole pairs p", std::to_string(m.machine.pole_pairs), "", "");
   html += row("Back-EMF shape",
               sine ? "sine" : fmt::format("trapezoid, {}° flat", plain(m.machine.flat_deg, 4, true)),

@@ -35,14 +35,10 @@ json windows_json(const Windows& windows, const sixstep::study::Scenario& scenar
 }
 
 json chart_json(const Group& group, std::size_t axis, const Thinned& rows, std::size_t recorded) {
-  json chart{{"id", group.id},
-             {"title", group.title},
-             {"unit", group.unit},
-             {"height", group.height_px},
-             {"logic", group.logic},
-             {"axis", axis},
-             {"complete", rows.complete},
-             {"recorded", recorded}};
+  json chart{
+      {"id", group.id},       {"title", group.title}, {"unit", group.unit}, {"height", group.height_px},
+      {"logic", group.logic}, {"lanes", group.lanes}, {"axis", axis},       {"complete", rows.complete},
+      {"recorded", recorded}};
   if (!group.other_unit.empty())
     chart["other"] = {{"unit", group.other_unit}, {"factor", group.other_factor}};
   for (const Curve& curve : group.curves)
