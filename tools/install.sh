@@ -7,23 +7,26 @@ cd "$(dirname "$0")/.."
 
 say() { printf 'install: %s\n' "$*"; }
 
-# The lines of one section as "package command", command empty where any installed version of the package will do.
+# The lines of one section as "package substitute"; the substitute is the command or file that makes it unnecessary.
 listed() {
   awk -v wanted="[$1]" '
     { sub(/#.*/, ""); gsub(/[ \t]+$/, "") }
     /^\[/ { inside = ($0 == wanted); next }
-    inside && NF { command = ""; package = $1
+    inside && NF { substitute = ""; package = $1
       if (match(package, /\(.*\)/)) {
-        command = substr(package, RSTART + 1, RLENGTH - 2); package = substr(package, 1, RSTART - 1) }
-      print package, command }' tools/packages.txt
+        substitute = substr(package, RSTART + 1, RLENGTH - 2); package = substr(package, 1, RSTART - 1) }
+      print package, substitute }' tools/packages.txt
 }
 
 # dpkg-query, not apt: it answers at once and needs no package lists.
 missing_packages() {
-  local section package command wanted=()
+  local section package substitute wanted=()
   for section in "$@"; do
-    while read -r package command; do
-      if [ -n "$command" ] && command -v "$command" >/dev/null; then continue; fi
+    while read -r package substitute; do
+      case $substitute in
+        /*) if [ -s "$substitute" ]; then continue; fi ;;
+        ?*) if command -v "$substitute" >/dev/null; then continue; fi ;;
+      esac
       wanted+=("$package")
     done < <(listed "$section")
   done

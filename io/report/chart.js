@@ -82,7 +82,7 @@ function roundBelow(value) {
 function inLanes(chart, raw) {
   let size = 0;
   for (const values of raw) for (const v of values) if (Math.abs(v) > size) size = Math.abs(v);
-  const tick = size > 0 ? roundBelow(size) : 1, height = 2.3 * (size || 1);
+  const tick = size > 0 ? roundBelow(size) : 1, height = 2.5 * (size || 1);
   const zeros = raw.map((_, i) => (raw.length - 1 - i) * height);
   chart.axis = {
     range: [-height / 2, zeros[0] + height / 2],

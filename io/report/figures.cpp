@@ -111,12 +111,11 @@ std::string computed(double value, std::string_view unit) {
 
 std::string deviation(double measured, double reference, std::string_view unit) {
   const double difference = measured - reference;
-  const std::string_view sign = difference > 0.0 ? "+" : "";
-  if (reference == 0.0) return fmt::format("{}{}", sign, computed(difference, unit));
-  const double percent = 100.0 * difference / std::abs(reference);
+  if (reference == 0.0) return fmt::format("{}{}", difference > 0.0 ? "+" : "", computed(difference, unit));
+  const double percent = 100.0 * difference / reference;
   const double size = std::abs(percent);
   const int decimals = size >= 100 ? 0 : size >= 10 ? 1 : size >= 0.095 ? 2 : 4;
-  return fmt::format("{}{}\u00a0%", sign, fixed(percent, decimals, false));
+  return fmt::format("{}{}\u00a0%", percent > 0.0 ? "+" : "", fixed(percent, decimals, false));
 }
 
 Judged judged(double measured, std::optional<double> min, std::optional<double> max, std::string_view unit) {

@@ -27,7 +27,7 @@ std::string given(double value, std::string_view unit);
 /// With four digits, for computed values.
 std::string computed(double value, std::string_view unit);
 
-/// "+1.3 %", or "+0.02 A" against a reference of zero.
+/// measured/reference - 1 as "+1.3 %", or "+0.02 A" against a reference of zero.
 std::string deviation(double measured, double reference, std::string_view unit);
 
 /// A figure beside its limits, all in one unit and with the digits that tell them apart.

@@ -87,7 +87,9 @@ Group speed(const Trace& trace) {
 Group torque(const Trace& trace) {
   Group g{.id = "torque", .title = "Torque", .unit = "Nm", .height_px = 150};
   add(g, trace, "torque_Nm", "T_e", "main");
-  add(g, trace, "load_Nm", "T_load", "reference");
+  const auto* load = find_column(trace, "load_Nm");
+  if (load && std::ranges::any_of(*load, [](double t) { return t != 0.0; }))
+    add(g, trace, "load_Nm", "T_load", "reference");
   return g;
 }
 

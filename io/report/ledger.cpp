@@ -38,7 +38,7 @@ std::string account(const Entry& total, std::initializer_list<Entry> entries, do
     // All rows show the same decimals, so that the column adds up under the reader's eye.
     return fmt::format(
         "<tr class=\"{}\"><th scope=\"row\">{}<small>{}</small></th><td class=\"num\">{}</td>"
-        "<td class=\"bar\"><i class=\"{}\" style=\"width:{:.1f}%\"></i></td></tr>\n",
+        "<td class=\"share\"><i class=\"{}\" style=\"width:{:.1f}%\"></i></td></tr>\n",
         css, e.name, e.law, fixed(joule, decimals), e.joule < 0.0 ? "negative" : "", share);
   };
   std::string html = fmt::format(

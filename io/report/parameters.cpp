@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "io/report/figures.hpp"
 #include "io/report/html.hpp"
 
@@ -82,42 +80,6 @@ std::string model_section(const sixstep::design::MotorModel& m) {
   if (m.shaft.static_Nm != 0.0)
     html += row("T<sub>static</sub>", given(m.shaft.static_Nm, "Nm"), "mechanical", "");
   return html + "</tbody></table>\n";
-}
-
-std::string setup_section(const sixstep::study::Scenario& s) {
-  using namespace sixstep;
-  static constexpr const char* modes[] = {"off", "duty", "current", "speed", "position"};
-  static constexpr const char* choppings[] = {"soft", "hard", "complementary"};
-  std::string html;
-  const auto add = [&](const char* name, const std::string& text) {
-    html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, escaped(text));
-  };
-  const bool stiff = s.supply.capacitance_F == 0.0;
-  add("Supply",
-      given(s.supply.voltage_V, "V") + (stiff ? ", stiff"
-                                              : ", " + given(s.supply.resistance_ohm, "ohm") + " into " +
-                                                    given(s.supply.capacitance_F, "F") +
-                                                    (s.supply.sinks ? "" : ", takes no current back")));
-  const bool ideal = s.bridge.on_resistance_ohm == 0.0 && s.bridge.diode_drop_V == 0.0 &&
-                     s.bridge.diode_resistance_ohm == 0.0;
-  add("Bridge",
-      (ideal ? std::string("ideal switches and diodes")
-             : given(s.bridge.on_resistance_ohm, "ohm") + " switches, " + given(s.bridge.diode_drop_V, "V") +
-                   " + " + given(s.bridge.diode_resistance_ohm, "ohm") + " diodes") +
-          (s.bridge.dead_time_s > 0.0 ? ", dead time " + given(s.bridge.dead_time_s, "s") : ""));
-  add("PWM", given(s.pwm.period_s, "s") + " (" + computed(1.0 / s.pwm.period_s, "Hz") + "), " +
-                 (s.pwm.alignment == study::Alignment::edge ? "edge" : "centre") + "-aligned, " +
-                 choppings[static_cast<int>(s.pwm.chopping)] + " chopping");
-  add("Commutation",
-      s.pwm.commutation == study::CommutationAt::hall_edge ? "at the Hall edge" : "at the next sample");
-  add("Control",
-      std::string(modes[static_cast<int>(s.control.mode)]) +
-          (s.control.arithmetic == study::Arithmetic::float32 ? ", 32-bit float" : ", 64-bit float") +
-          (s.pwm.delay_periods > 0 ? fmt::format(", acts {} period(s) later", s.pwm.delay_periods) : ""));
-  add("Shaft", s.load.locked             ? "locked"
-               : s.load.torque_Nm != 0.0 ? "free, load " + given(s.load.torque_Nm, "Nm")
-                                         : "free");
-  return html;
 }
 
 }  // namespace io::report

@@ -14,7 +14,7 @@ before(async () => {
   browser = await playwright.chromium.launch({
     executablePath: process.env.SIXSTEP_CHROMIUM ?? '/usr/bin/chromium',
     args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-background-networking', '--disable-component-update',
-      '--disable-sync', '--no-first-run'],
+      '--disable-sync', '--disable-dev-shm-usage', '--no-first-run'],
   });
 });
 after(() => browser?.close());

@@ -256,6 +256,7 @@ inline sixstep::study::Scenario synthetic_scenario(double duration_s) {
       "decides "
       "how much voltage is left.";
   s.control.mode = sixstep::control::Mode::current;
+  s.reference = {.shape = sixstep::study::Shape::square, .high = 5, .low = -5, .period_s = 0.01};
   s.sheet.name = "EC 45 flat 251601";
   s.sheet.maker = "maxon";
   s.sheet.nominal_voltage_V = {24, "", "data sheet, line 1"};
