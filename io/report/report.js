@@ -122,7 +122,7 @@ function start() {
   new ResizeObserver(resize).observe(element('charts'));
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', repaint);
   watchPrinter();
-  globalThis.sixstep = {charts: charts.map((c) => c.plot), show};  // for whoever wants to script the page
+  globalThis.sixstep = {charts: charts.map((c) => c.plot), show, ready_ms: performance.now()};  // for scripts and tests
 }
 
 start();

