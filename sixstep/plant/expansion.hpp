@@ -27,13 +27,22 @@ struct Constants {
   Real steady_rate;  // the part of the fastest rate that does not change, 1/s
 };
 
-/// Series over one segment. `pole` holds u_n + e_k of floating legs, or e_k itself where no leg is connected;
-/// both are known to one order less than the states, which is enough.
+/// The voltage of a floating terminal, u_n + e_k, as a law over the other series; where no leg is connected,
+/// e_k alone. Only a few segments come near a rail, so its own series is made when asked for.
+template <class Real>
+struct PoleLaw {
+  Real bus = 0, offset = 0, i = 0, w0 = 0, w1 = 0;  ///< per U_s, 1, i of `leg`, w phi0, w phi1
+  int leg = 0;
+};
+
+/// Series over one segment.
 template <class Real>
 struct Expansion {
   int degree = 0;
-  Real h = 0;  ///< length in seconds
-  PerLeg<series::Coefficients<Real>> i, pole;
+  Real h = 0;                  ///< length in seconds
+  Real inv_ph = 0;             ///< 1/(p h): w from the slope of x
+  PerLeg<PoleLaw<Real>> pole;  ///< of floating legs
+  PerLeg<series::Coefficients<Real>> i;
   series::Coefficients<Real> w, x, bus, torque;
   series::Coefficients<Real> phi0, phi1;  ///< sine only: cos x, sin x
 };
@@ -63,11 +72,9 @@ void shorten(Expansion<Real>& out, Real excess_last, Real excess_before) {
   Real factor = 1, half = 1;
   for (int j = 0; j < halvings; ++j) half /= 2;
   for (int j = 0; j <= n; ++j, factor *= half) {
-    for (int k = 0; k < 3; ++k) {
-      out.i[k][j] *= factor;
-      out.pole[k][j] *= factor;
-    }
-    for (series::Coefficients<Real>* c : {&out.w, &out.x, &out.bus, &out.torque}) (*c)[j] *= factor;
+    for (int k = 0; k < 3; ++k) out.i[k][j] *= factor;
+    for (series::Coefficients<Real>* c : {&out.w, &out.x, &out.bus, &out.torque, &out.phi0, &out.phi1})
+      (*c)[j] *= factor;
   }
   out.h *= half;
 }
@@ -86,8 +93,8 @@ struct Rotor {
 
   template <int n>
   void step(const Constants<Real>& c, Expansion<Real>& y, Order<n>, Real f) const {
-    const Real net = y.torque[n] - c.B * y.w[n] - (n == 0 ? drag : Real(0));
-    y.w[n + 1] = turns ? f * c.inv_J * net : Real(0);
+    const Real losses = c.B * y.w[n] + (n == 0 ? drag : Real(0));
+    y.w[n + 1] = turns ? (y.torque[n] - losses) * (f * c.inv_J) : Real(0);
     y.x[n + 1] = f * c.pole_pairs * y.w[n];
   }
 };
@@ -102,33 +109,36 @@ inline void shape_products(const Constants<Real>& c, Expansion<Real>& y, Real f,
     y.phi1[n + 1] = f * c.pole_pairs * w0;
   } else {
     w0 = y.w[n];
-    w1 = series::product_term<n>(y.w, y.x);
+    // w x = (x^2)'/2 over p h, and a square has half the products; x is one order ahead: x' = p h w.
+    const Real next = f * c.pole_pairs * y.w[n];
+    y.x[n + 1] = next;
+    w1 = series::half_square_term<n + 1>(y.x) * (Real(n + 1) * y.inv_ph);
   }
-}
-
-/// sum over alpha phi0 i + beta phi1 i at order n, for a current series already weighted.
-template <bool sine, int n, class Real>
-inline Real shape_times(const Expansion<Real>& y, const series::Coefficients<Real>& alpha_i,
-                        const series::Coefficients<Real>& beta_i) {
-  if constexpr (sine)
-    return series::product_term<n>(y.phi0, alpha_i) + series::product_term<n>(y.phi1, beta_i);
-  else
-    return alpha_i[n] + series::product_term<n>(y.x, beta_i);
 }
 
 /// Which legs are connected, in order; the rest float.
 struct Split {
-  std::array<int, 3> leg{};
-  int connected = 0;
-
-  explicit Split(const Legs& legs) {
-    int back = 3;
-    for (int k = 2; k >= 0; --k)
-      if (is_floating(legs[k])) leg[--back] = k;
-    for (int k = 0; k < 3; ++k)
-      if (!is_floating(legs[k])) leg[connected++] = k;
-  }
+  std::array<std::uint8_t, 3> leg{};
+  std::uint8_t connected = 0;
 };
+
+inline constexpr std::array<Split, 8> splits = [] {
+  std::array<Split, 8> all{};
+  for (unsigned mask = 0; mask < 8; ++mask) {
+    Split& s = all[mask];
+    std::uint8_t back = 3;
+    for (std::uint8_t k = 3; k-- > 0;)
+      if (!(mask >> k & 1)) s.leg[--back] = k;
+    for (std::uint8_t k = 0; k < 3; ++k)
+      if (mask >> k & 1) s.leg[s.connected++] = k;
+  }
+  return all;
+}();
+
+inline const Split& split_of(const Legs& legs) {
+  return splits[unsigned{!is_floating(legs[0])} | unsigned{!is_floating(legs[1])} << 1 |
+                unsigned{!is_floating(legs[2])} << 2];
+}
 
 /// U_s: C dU_s/dt = (V_0 - U_s)/R_b - i_dc while the source feeds.
 template <int n, class Real>
@@ -143,115 +153,143 @@ inline void bus_step(const Constants<Real>& c, const Mode& mode, Expansion<Real>
 /// Fewer than two legs connected: no current; the rotor coasts and the floating terminals are watched.
 template <bool sine, class Real>
 struct NoCurrent {
-  const EmfPiece<Real>& piece;
-  PerLeg<Real> alpha{}, beta{};
-  Real share = 0, offset = 0;
-
-  NoCurrent(const Constants<Real>& c, const Mode& mode, const Split& split, const EmfPiece<Real>& p)
-      : piece(p) {
-    alpha = p.alpha;
-    beta = p.beta;
+  NoCurrent(const Constants<Real>& c, const Mode& mode, const Split& split, const EmfPiece<Real>& p,
+            Expansion<Real>& y) {
+    for (int k = 0; k < 3; ++k) y.pole[k] = {.w0 = c.K_e * p.alpha[k], .w1 = c.K_e * p.beta[k]};
     if (split.connected == 0) return;
     const int s = split.leg[0];
     const PoleTerms<Real>& terms = c.pole_terms[static_cast<std::size_t>(mode.legs[s])];
-    share = terms.bus_share;
-    offset = terms.offset_V;
-    for (int k = 0; k < 3; ++k) {
-      alpha[k] -= p.alpha[s];
-      beta[k] -= p.beta[s];
-    }
+    for (int k = 0; k < 3; ++k)
+      y.pole[k] = {.bus = terms.bus_share,
+                   .offset = terms.offset_V,
+                   .w0 = c.K_e * (p.alpha[k] - p.alpha[s]),
+                   .w1 = c.K_e * (p.beta[k] - p.beta[s])};
   }
-  template <int n>
+  template <int n, bool bus>
   void step(const Constants<Real>& c, Expansion<Real>& y, Order<n>, Real f) {
-    Real w0, w1;
-    shape_products<sine, n>(c, y, f, w0, w1);
-    const Real rail = share * y.bus[n] + (n == 0 ? offset : Real(0));
-    for (int k = 0; k < 3; ++k) {
-      y.pole[k][n] = rail + c.K_e * (alpha[k] * w0 + beta[k] * w1);
-      y.i[k][n + 1] = 0;
+    if constexpr (sine) {
+      Real w0, w1;
+      shape_products<sine, n>(c, y, f, w0, w1);
     }
+    for (int k = 0; k < 3; ++k) y.i[k][n + 1] = 0;
     y.torque[n] = 0;
   }
+  Real size(const Expansion<Real>&, int) const { return 0; }
 };
 
-/// Two legs share one current: one recurrence.
-template <bool sine, class Real>
+/// Two legs share one current: one recurrence. Coefficients are multiplied out beforehand and the newest
+/// terms enter last: the orders follow from each other, so what counts is the length of that chain. `flat`:
+/// both on their flat tops, where neither current nor torque needs a product.
+template <bool sine, bool flat, class Real>
 struct OneCurrent {
   int j, k, floating;
-  Real share, offset, R, alpha, beta;                     // of leg j minus leg k
-  Real mean_share, mean_offset, mean_r, alpha_m, beta_m;  // of the floating terminal
-  series::Coefficients<Real> alpha_i, beta_i;
+  Real from_bus, from_offset, from_i, from_w0,
+      from_w1;              // di/dt, from 2 L di/dt = u_j - u_k - 2 R i - (e_j - e_k)
+  Real torque_0, torque_1;  // per phi0 i and phi1 i
 
-  OneCurrent(const Constants<Real>& c, const Mode& mode, const Split& split, const EmfPiece<Real>& p)
+  OneCurrent(const Constants<Real>& c, const Mode& mode, const Split& split, const EmfPiece<Real>& p,
+             Expansion<Real>& y)
       : j(split.leg[0]), k(split.leg[1]), floating(split.leg[2]) {
     const PoleTerms<Real>& a = c.pole_terms[static_cast<std::size_t>(mode.legs[j])];
     const PoleTerms<Real>& b = c.pole_terms[static_cast<std::size_t>(mode.legs[k])];
-    share = a.bus_share - b.bus_share;
-    offset = a.offset_V - b.offset_V;
-    R = 2 * c.R + a.r_ohm + b.r_ohm;
-    alpha = p.alpha[j] - p.alpha[k];
-    beta = p.beta[j] - p.beta[k];
-    mean_share = (a.bus_share + b.bus_share) / 2;
-    mean_offset = (a.offset_V + b.offset_V) / 2;
-    mean_r = (a.r_ohm - b.r_ohm) / 2;
-    alpha_m = p.alpha[floating] - (p.alpha[j] + p.alpha[k]) / 2;
-    beta_m = p.beta[floating] - (p.beta[j] + p.beta[k]) / 2;
+    const Real rate = c.inv_L / 2;
+    from_bus = rate * (a.bus_share - b.bus_share);
+    from_offset = rate * (a.offset_V - b.offset_V);
+    from_i = rate * (2 * c.R + a.r_ohm + b.r_ohm);
+    torque_0 = c.K_e * (p.alpha[j] - p.alpha[k]);
+    torque_1 = c.K_e * (p.beta[j] - p.beta[k]);
+    from_w0 = rate * torque_0;
+    from_w1 = rate * torque_1;
+    y.pole[floating] = {.bus = (a.bus_share + b.bus_share) / 2,
+                        .offset = (a.offset_V + b.offset_V) / 2,
+                        .i = (b.r_ohm - a.r_ohm) / 2,
+                        .w0 = c.K_e * (p.alpha[floating] - (p.alpha[j] + p.alpha[k]) / 2),
+                        .w1 = c.K_e * (p.beta[floating] - (p.beta[j] + p.beta[k]) / 2),
+                        .leg = j};
   }
-  template <int n>
+  template <int n, bool bus>
   void step(const Constants<Real>& c, Expansion<Real>& y, Order<n>, Real f) {
-    Real w0, w1;
-    shape_products<sine, n>(c, y, f, w0, w1);
-    const Real i = y.i[j][n], U = y.bus[n];
-    // 2 L di/dt = u_j - u_k - 2 R i - (e_j - e_k), MODEL 1 eq. 1 with eq. 5
-    const Real drive = share * U + (n == 0 ? offset : Real(0)) - R * i - c.K_e * (alpha * w0 + beta * w1);
-    y.i[j][n + 1] = f * c.inv_L * Real(0.5) * drive;
+    Real w0 = y.w[n], w1 = 0;
+    if constexpr (!flat) shape_products<sine, n>(c, y, f, w0, w1);
+    const Real i = y.i[j][n];
+    Real slope = -(from_i * i + from_w0 * w0);
+    if constexpr (n == 0 || bus) slope += from_bus * y.bus[n] + (n == 0 ? from_offset : Real(0));
+    if constexpr (!flat) slope -= from_w1 * w1;
+    y.i[j][n + 1] = f * slope;
     y.i[k][n + 1] = -y.i[j][n + 1];
     y.i[floating][n + 1] = 0;
-    y.pole[floating][n] =
-        mean_share * U + (n == 0 ? mean_offset : Real(0)) - mean_r * i + c.K_e * (alpha_m * w0 + beta_m * w1);
-    alpha_i[n] = alpha * i;
-    beta_i[n] = beta * i;
-    if constexpr (!sine) {
-      if (beta == 0) {  // both on their flat tops: no product at all
-        y.torque[n] = c.K_e * alpha_i[n];
-        return;
-      }
-    }
-    y.torque[n] = c.K_e * shape_times<sine, n>(y, alpha_i, beta_i);
+    if constexpr (sine)
+      y.torque[n] = torque_0 * series::product_term<n>(y.phi0, y.i[j]) +
+                    torque_1 * series::product_term<n>(y.phi1, y.i[j]);
+    else if constexpr (flat)
+      y.torque[n] = torque_0 * i;
+    else
+      y.torque[n] = torque_0 * i + torque_1 * series::product_term<n>(y.x, y.i[j]);
   }
+  Real size(const Expansion<Real>& y, int n) const { return 2 * abs(y.i[j][n]); }
 };
 
-/// All three legs: two recurrences, the third current follows.
+/// All three legs: two recurrences, the third current follows. Coefficients multiplied out as above, i_c
+/// eliminated.
 template <bool sine, class Real>
 struct TwoCurrents {
-  const EmfPiece<Real>& p;
-  PerLeg<Real> share, offset, R;
-  series::Coefficients<Real> alpha_i, beta_i;
+  struct Slope {
+    Real bus, offset, i_a, i_b, w0, w1;
+  };
+  Slope a, b;                                       // L di_k/dt = v_k - mean of v, v_k = u_k - R i_k - e_k
+  Real torque_0a, torque_0b, torque_1a, torque_1b;  // per phi i_a, phi i_b
+  series::Coefficients<Real> y0, y1;
 
-  TwoCurrents(const Constants<Real>& c, const Mode& mode, const Split&, const EmfPiece<Real>& piece)
-      : p(piece) {
+  TwoCurrents(const Constants<Real>& c, const Mode& mode, const Split&, const EmfPiece<Real>& p,
+              Expansion<Real>&) {
+    PerLeg<Real> share, offset, R;
     for (int k = 0; k < 3; ++k) {
       const PoleTerms<Real>& t = c.pole_terms[static_cast<std::size_t>(mode.legs[k])];
       share[k] = t.bus_share;
       offset[k] = t.offset_V;
       R[k] = c.R + t.r_ohm;
     }
+    const auto above_mean = [&](const PerLeg<Real>& v, int k) {
+      return c.inv_L * (v[k] - (v[0] + v[1] + v[2]) * Real(1.0L / 3));
+    };
+    const auto slope = [&](int k) {
+      const Real i_c = -c.inv_L * R[2] * Real(1.0L / 3);  // of the other two legs' share in the mean
+      const auto own = [&](int m) {
+        return c.inv_L * R[m] * ((m == k ? Real(1) : Real(0)) - Real(1.0L / 3));
+      };
+      return Slope{above_mean(share, k), above_mean(offset, k),          own(0) - i_c,
+                   own(1) - i_c,         c.K_e * above_mean(p.alpha, k), c.K_e * above_mean(p.beta, k)};
+    };
+    a = slope(0);
+    b = slope(1);
+    torque_0a = c.K_e * (p.alpha[0] - p.alpha[2]);
+    torque_0b = c.K_e * (p.alpha[1] - p.alpha[2]);
+    torque_1a = c.K_e * (p.beta[0] - p.beta[2]);
+    torque_1b = c.K_e * (p.beta[1] - p.beta[2]);
   }
-  template <int n>
+  template <int n, bool bus>
+  static Real rate(const Slope& s, const Expansion<Real>& y, Real w0, Real w1) {
+    Real known = -((s.i_a * y.i[0][n] + s.i_b * y.i[1][n]) + s.w0 * w0);
+    if constexpr (n == 0 || bus) known += s.bus * y.bus[n] + (n == 0 ? s.offset : Real(0));
+    return known - s.w1 * w1;
+  }
+  template <int n, bool bus>
   void step(const Constants<Real>& c, Expansion<Real>& y, Order<n>, Real f) {
     Real w0, w1;
     shape_products<sine, n>(c, y, f, w0, w1);
-    PerLeg<Real> v;
-    for (int k = 0; k < 3; ++k)
-      v[k] = share[k] * y.bus[n] + (n == 0 ? offset[k] : Real(0)) - R[k] * y.i[k][n] -
-             c.K_e * (p.alpha[k] * w0 + p.beta[k] * w1);
-    const Real u_n = (v[0] + v[1] + v[2]) * Real(1.0L / 3);
-    y.i[0][n + 1] = f * c.inv_L * (v[0] - u_n);
-    y.i[1][n + 1] = f * c.inv_L * (v[1] - u_n);
+    const Real i_a = y.i[0][n], i_b = y.i[1][n];
+    y.i[0][n + 1] = f * rate<n, bus>(a, y, w0, w1);
+    y.i[1][n + 1] = f * rate<n, bus>(b, y, w0, w1);
     y.i[2][n + 1] = -(y.i[0][n + 1] + y.i[1][n + 1]);
-    alpha_i[n] = p.alpha[0] * y.i[0][n] + p.alpha[1] * y.i[1][n] + p.alpha[2] * y.i[2][n];
-    beta_i[n] = p.beta[0] * y.i[0][n] + p.beta[1] * y.i[1][n] + p.beta[2] * y.i[2][n];
-    y.torque[n] = c.K_e * shape_times<sine, n>(y, alpha_i, beta_i);
+    y1[n] = torque_1a * i_a + torque_1b * i_b;
+    y0[n] = torque_0a * i_a + torque_0b * i_b;
+    if constexpr (sine)
+      y.torque[n] = series::product_term<n>(y.phi0, y0) + series::product_term<n>(y.phi1, y1);
+    else
+      y.torque[n] = y0[n] + series::product_term<n>(y.x, y1);
+  }
+  Real size(const Expansion<Real>& y, int n) const {
+    return abs(y.i[0][n]) + abs(y.i[1][n]) + abs(y.i[2][n]);
   }
 };
 
@@ -268,56 +306,67 @@ struct Convergence {
     w_limit = per_scale / c.speed_scale;
     bus_limit = c.inv_C > 0 ? per_scale / c.volt_scale : Real(0);
   }
-  void look(const Expansion<Real>& y, int n) {
+  template <bool bus>
+  void look(const Expansion<Real>& y, int n, Real currents) {
     before = last;
-    last = (abs(y.i[0][n]) + abs(y.i[1][n]) + abs(y.i[2][n])) * i_limit + abs(y.w[n]) * w_limit +
-           abs(y.bus[n]) * bus_limit;
+    last = currents * i_limit + abs(y.w[n]) * w_limit;
+    if constexpr (bus) last += abs(y.bus[n]) * bus_limit;
   }
-  bool reached() const { return last < 1 && before < 1; }
+  /// One small term may be a symmetry's zero; a small one after one not much larger is the end of the series.
+  bool reached() const { return last < 1 && before < 4096; }
 };
 
 /// Terms n + 1 of all series from terms n; true where that was enough.
-template <int n, class Currents, class Real>
+template <int n, bool bus, class Currents, class Real>
 [[gnu::always_inline]] inline bool take_order(const Constants<Real>& c, const Mode& mode, Currents& currents,
                                               const Rotor<Real>& rotor, Convergence<Real>& convergence,
                                               Expansion<Real>& y) {
   const Real f = y.h * Real(1.0L / (n + 1));
-  currents.step(c, y, Order<n>{}, f);
+  currents.template step<n, bus>(c, y, Order<n>{}, f);
   rotor.step(c, y, Order<n>{}, f);
-  if (c.inv_C > 0)
+  if constexpr (bus)
     bus_step<n>(c, mode, y, f);
   else
     y.bus[n + 1] = 0;
   y.degree = n + 1;
-  if constexpr (n < 1) return false;
-  convergence.look(y, n + 1);
+  if constexpr (n < 3) return false;  // no segment worth taking needs fewer
+  convergence.template look<bus>(y, n + 1, currents.size(y, n + 1));
   return convergence.reached();
 }
 
 /// Order by order until the last two terms are below rounding, or the degree is used up.
-template <class Currents, class Real>
-void recurrence(const Constants<Real>& c, const Mode& mode, Currents currents, Expansion<Real>& y) {
+template <bool bus, class Currents, class Real>
+void recurrence_with(const Constants<Real>& c, const Mode& mode, Currents& currents, Expansion<Real>& y) {
   const Rotor<Real> rotor(c, mode.motion);
   Convergence<Real> convergence(c);
   [&]<int... n>(std::integer_sequence<int, n...>) {
-    static_cast<void>((take_order<n>(c, mode, currents, rotor, convergence, y) || ...));
+    static_cast<void>((take_order<n, bus>(c, mode, currents, rotor, convergence, y) || ...));
   }
   (std::make_integer_sequence<int, series::max_degree>{});
-  for (int k = 0; k < 3; ++k) y.pole[k][y.degree] = 0;
   y.torque[y.degree] = 0;
   if (!convergence.reached()) shorten(y, convergence.last, convergence.before);
+}
+
+template <class Currents, class Real>
+void recurrence(const Constants<Real>& c, const Mode& mode, Currents&& currents, Expansion<Real>& y) {
+  if (c.inv_C > 0)
+    recurrence_with<true>(c, mode, currents, y);
+  else
+    recurrence_with<false>(c, mode, currents, y);
 }
 
 template <bool sine, class Real>
 void expand_shape(const Constants<Real>& c, const State<Real>& state, const Mode& mode, Expansion<Real>& y) {
   const EmfPiece<Real>& piece = c.emf[sector_in_turn(state.sector)].piece[mode.piece];
-  const Split split(mode.legs);
+  const Split& split = split_of(mode.legs);
   if (split.connected == 3)
-    recurrence(c, mode, TwoCurrents<sine, Real>(c, mode, split, piece), y);
-  else if (split.connected == 2)
-    recurrence(c, mode, OneCurrent<sine, Real>(c, mode, split, piece), y);
+    recurrence(c, mode, TwoCurrents<sine, Real>(c, mode, split, piece, y), y);
+  else if (split.connected < 2)
+    recurrence(c, mode, NoCurrent<sine, Real>(c, mode, split, piece, y), y);
+  else if (!sine && piece.beta[split.leg[0]] == piece.beta[split.leg[1]])
+    recurrence(c, mode, OneCurrent<sine, !sine, Real>(c, mode, split, piece, y), y);
   else
-    recurrence(c, mode, NoCurrent<sine, Real>(c, mode, split, piece), y);
+    recurrence(c, mode, OneCurrent<sine, false, Real>(c, mode, split, piece, y), y);
 }
 
 }  // namespace detail
@@ -327,6 +376,7 @@ template <class Real>
 void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode, Real wanted,
             Expansion<Real>& y) {
   y.h = wanted;
+  y.inv_ph = 1 / (c.pole_pairs * wanted);
   for (int k = 0; k < 3; ++k) y.i[k][0] = state.i[k];
   y.w[0] = mode.motion == Motion::locked || mode.motion == Motion::stuck ? Real(0) : state.w;
   y.x[0] = state.x;
@@ -339,6 +389,20 @@ void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode
   } else {
     detail::expand_shape<false>(c, state, mode, y);
   }
+}
+
+/// w phi0 and w phi1 over the whole degree, for a floating terminal that may reach a rail.
+template <class Real>
+series::Coefficients<Real> pole_series(const Constants<Real>& c, const Expansion<Real>& y, int k) {
+  const PoleLaw<Real>& law = y.pole[k];
+  series::Coefficients<Real> u;
+  for (int n = 0; n <= y.degree; ++n) {
+    const Real w0 = c.sine ? series::product_term(y.w, y.phi0, n) : y.w[n];
+    const Real w1 = series::product_term(y.w, c.sine ? y.phi1 : y.x, n);
+    u[n] = law.bus * y.bus[n] + law.i * y.i[law.leg][n] + law.w0 * w0 + law.w1 * w1;
+  }
+  u[0] += law.offset;
+  return u;
 }
 
 /// A cap on the length, so that few expansions are thrown away: about half of the fastest time constant

@@ -4,6 +4,7 @@
 // current zero, standstill, sector edge, then rails and the rest (MODEL 4b).
 #pragma once
 #include "sixstep/plant/expansion.hpp"
+#include "sixstep/series/first_root.hpp"
 
 namespace sixstep::plant {
 
@@ -33,13 +34,6 @@ constexpr Real noise_of(Real scale, Real slack) {
 
 namespace detail {
 
-template <class Real>
-Real tail_of(const series::Coefficients<Real>& c, int degree) {
-  Real sum = 0;
-  for (int j = 1; j <= degree; ++j) sum += abs(c[j]);
-  return sum;
-}
-
 /// sign * c + constant, as coefficients.
 template <class Real>
 series::Coefficients<Real> affine(const series::Coefficients<Real>& c, int degree, Real sign, Real constant) {
@@ -49,28 +43,51 @@ series::Coefficients<Real> affine(const series::Coefficients<Real>& c, int degre
   return out;
 }
 
+/// How far a floating terminal can move from its first value: cheap, and mostly enough to see that no rail is
+/// near.
+template <class Real>
+Real pole_tail(const Constants<Real>& c, const Expansion<Real>& y, const PoleLaw<Real>& law) {
+  const Real w = series::tail_bound(y.w, y.degree), x = series::tail_bound(y.x, y.degree);
+  // |w phi - (w phi)(0)| by product rule; a sine's phi0 and phi1 turn by no more than x does.
+  const Real phi1 = c.sine ? Real(1) : abs(y.x[0]);
+  Real tail = abs(law.w0) * (c.sine ? w + (abs(y.w[0]) + w) * x : w) +
+              abs(law.w1) * (abs(y.w[0]) * x + phi1 * w + w * x);
+  if (law.i != 0) tail += abs(law.i) * series::tail_bound(y.i[law.leg], y.degree);
+  if (c.inv_C > 0) tail += (abs(law.bus) + 1) * series::tail_bound(y.bus, y.degree);
+  return tail;
+}
+
+template <class Real>
+Real pole_start(const Constants<Real>& c, const Expansion<Real>& y, const PoleLaw<Real>& law) {
+  const Real phi0 = c.sine ? y.phi0[0] : Real(1), phi1 = c.sine ? y.phi1[0] : y.x[0];
+  return law.bus * y.bus[0] + law.offset + law.i * y.i[law.leg][0] + y.w[0] * (law.w0 * phi0 + law.w1 * phi1);
+}
+
 template <class Real, class Visit>
 void rail_guards(const Constants<Real>& c, const Expansion<Real>& y, int k, Real noise, Visit&& visit) {
-  const Real V_f = Real(c.devices.V_f_V), tail = tail_of(y.pole[k], y.degree);
-  if (y.pole[k][0] + V_f <= tail + noise)
-    visit(guard::low_rail + k, affine(y.pole[k], y.degree, Real(1), V_f), y.degree, noise);
-  const Real bus_tail = c.inv_C > 0 ? tail_of(y.bus, y.degree) : Real(0);
-  if (y.bus[0] + V_f - y.pole[k][0] <= tail + bus_tail + noise) {
-    series::Coefficients<Real> g;
-    for (int j = 0; j <= y.degree; ++j) g[j] = y.bus[j] - y.pole[k][j];
-    g[0] += V_f;
-    visit(guard::high_rail + k, g, y.degree, noise);
-  }
+  const Real V_f = Real(c.devices.V_f_V), start = pole_start(c, y, y.pole[k]);
+  const Real reach = pole_tail(c, y, y.pole[k]) + 2 * noise;
+  const bool low = start + V_f <= reach, high = y.bus[0] + V_f - start <= reach;
+  if (!low && !high) return;
+  const series::Coefficients<Real> pole = pole_series(c, y, k);
+  if (low) visit(guard::low_rail + k, affine(pole, y.degree, Real(1), V_f), y.degree, noise);
+  if (!high) return;
+  series::Coefficients<Real> g;
+  for (int j = 0; j <= y.degree; ++j) g[j] = y.bus[j] - pole[j];
+  g[0] += V_f;
+  visit(guard::high_rail + k, g, y.degree, noise);
 }
 
 /// |S| = 0: conduction starts when max e - min e > U_s + 2 V_f.
 template <class Real, class Visit>
 void free_star_guards(const Constants<Real>& c, const Expansion<Real>& y, Real noise, Visit&& visit) {
+  PerLeg<series::Coefficients<Real>> e;
+  for (int k = 0; k < 3; ++k) e[k] = pole_series(c, y, k);
   for (int j = 0; j < 3; ++j)
     for (int k = 0; k < 3; ++k) {
       if (j == k) continue;
       series::Coefficients<Real> g;
-      for (int n = 0; n <= y.degree; ++n) g[n] = y.bus[n] - y.pole[j][n] + y.pole[k][n];  // here: e_j, e_k
+      for (int n = 0; n <= y.degree; ++n) g[n] = y.bus[n] - e[j][n] + e[k][n];
       g[0] += 2 * Real(c.devices.V_f_V);
       visit(guard::free_star + 3 * j + k, g, y.degree, noise);
     }
@@ -126,7 +143,7 @@ void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Rea
 /// The rotor stays within the present piece of the back-EMF.
 template <class Real, class Visit>
 void edge_guards(const EmfPiece<Real>& piece, const Expansion<Real>& y, Visit&& visit) {
-  const Real noise = noise_of(Real(base::sector_rad), Real(1)), tail = detail::tail_of(y.x, y.degree);
+  const Real noise = noise_of(Real(base::sector_rad), Real(1)), tail = series::tail_bound(y.x, y.degree);
   if (piece.to - y.x[0] <= tail + noise)
     visit(guard::edge_ahead, detail::affine(y.x, y.degree, Real(-1), piece.to), y.degree, noise);
   if (y.x[0] - piece.from <= tail + noise)

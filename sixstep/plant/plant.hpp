@@ -150,7 +150,8 @@ template <class Real>
 bool Plant<Real>::resettle(Real wanted, bool& expanded) {
   snap();
   for (slack_ = 1; slack_ < 1e5; slack_ *= 16) {
-    const Question<Real> question{constants_, state_, gates_, wanted, doubted_, slack_};
+    const Question<Real> question{
+        constants_, state_, gates_, wanted, doubted_, slack_, detail::back_emf(constants_, state_, mode_)};
     if (settle(question, mode_, y_, expanded)) {
       stale_ = false;
       return true;
@@ -170,32 +171,44 @@ double Plant<Real>::expand(double wanted) {
 
 template <class Real>
 void Plant<Real>::advance(Real s) {
-  using series::add_compensated, series::increment;
+  using series::add_compensated;
   State<Real>& q = state_;
   const int n = y_.degree;
-  int independent = 3, dependent = 3,
-      third = 3;  // of the connected legs, the last one follows from the others
-  for (int k = 0; k < 3; ++k) {
-    if (is_floating(mode_.legs[k])) continue;
-    third = independent;
-    independent = dependent;
-    dependent = k;
+  const detail::Split& split = detail::split_of(mode_.legs);
+  const int first = split.leg[0], second = split.leg[1], third = split.leg[2];
+  // One pass for the four series that always move; the last connected leg's current follows from the others.
+  Real i_first = 0, i_second = 0, w = 0, x = 0;
+  if (s == 1) {  // the commonest case, and the same bits
+    for (int j = n; j >= 1; --j) {
+      i_first += y_.i[first][j];
+      i_second += y_.i[second][j];
+      w += y_.w[j];
+      x += y_.x[j];
+    }
+  } else {
+    for (int j = n; j >= 1; --j) {
+      i_first = (i_first + y_.i[first][j]) * s;
+      i_second = (i_second + y_.i[second][j]) * s;
+      w = (w + y_.w[j]) * s;
+      x = (x + y_.x[j]) * s;
+    }
   }
-  if (independent < 3) {
-    add_compensated(q.i[independent], q.i_low[independent], increment(y_.i[independent], n, s));
-    q.i[dependent] = -q.i[independent];
-    q.i_low[dependent] = -q.i_low[independent];
+  if (split.connected >= 2) {
+    add_compensated(q.i[first], q.i_low[first], i_first);
+    if (split.connected == 3) {
+      add_compensated(q.i[second], q.i_low[second], i_second);
+      q.i[third] = -(q.i[first] + q.i[second]);
+      q.i_low[third] = -(q.i_low[first] + q.i_low[second]);
+    } else {
+      q.i[second] = -q.i[first];
+      q.i_low[second] = -q.i_low[first];
+    }
   }
-  if (third < 3) {
-    add_compensated(q.i[third], q.i_low[third], increment(y_.i[third], n, s));
-    q.i[dependent] -= q.i[third];
-    q.i_low[dependent] -= q.i_low[third];
+  if (mode_.motion != Motion::locked && mode_.motion != Motion::stuck) {
+    add_compensated(q.w, q.w_low, w);
+    add_compensated(q.x, q.x_low, x);
   }
-  if (!constants_.locked && mode_.motion != Motion::stuck) {
-    add_compensated(q.w, q.w_low, increment(y_.w, n, s));
-    add_compensated(q.x, q.x_low, increment(y_.x, n, s));
-  }
-  if (constants_.inv_C > 0) add_compensated(q.bus, q.bus_low, increment(y_.bus, n, s));
+  if (constants_.inv_C > 0) add_compensated(q.bus, q.bus_low, series::increment(y_.bus, n, s));
   doubted_ = s == 0;
 }
 

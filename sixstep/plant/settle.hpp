@@ -48,15 +48,25 @@ Real torque(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
 /// Legs by plain values: floating ones within the rails, diodes that just switched on driven in their
 /// direction.
 template <class Real>
-Judgement judge_legs(const Constants<Real>& c, const State<Real>& s, const Mode& m, Real slack) {
+Judgement judge_legs(const Constants<Real>& c, const State<Real>& s, const PerLeg<Real>& e, const Mode& m,
+                     Real slack) {
   const Real noise = noise_of(c.volt_scale, slack), V_f = Real(c.devices.V_f_V);
-  const PerLeg<Real> e = back_emf(c, s, m);
-  const PerLeg<Real> u = pole_voltages(m.legs, c.devices, s.bus, s.i, e);
-  const Real u_n = star_voltage(m.legs, c.devices, s.bus, s.i, e);
+  PerLeg<Real> u{};
+  Real sum = 0;
+  int connected = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (is_floating(m.legs[k])) continue;
+    u[k] = pole_voltage(c.pole_terms[static_cast<std::size_t>(m.legs[k])], s.bus, s.i[k]);
+    sum += u[k] - e[k];
+    ++connected;
+  }
+  constexpr Real share[] = {Real(0), Real(1), Real(0.5), Real(1.0L / 3)};
+  const Real u_n = connected > 0 ? sum * share[connected] : star_voltage(m.legs, c.devices, s.bus, s.i, e);
   Judgement all = Judgement::holds;
   for (int k = 0; k < 3; ++k) {
     if (is_floating(m.legs[k])) {
-      all = both(all, both(judge(u[k] + V_f, noise), judge(s.bus + V_f - u[k], noise)));
+      const Real free = u_n + e[k];
+      all = both(all, both(judge(free + V_f, noise), judge(s.bus + V_f - free, noise)));
     } else if (is_diode(m.legs[k]) && s.i[k] == 0) {
       const Real drive = u[k] - u_n - e[k];  // L di/dt
       all = both(all, judge(m.legs[k] == Connection::low_diode ? drive : -drive, noise));
@@ -110,13 +120,14 @@ struct Question {
   Real h;            ///< length over which series are judged
   bool series_only;  ///< after an event without progress: plain values have been wrong once
   Real slack = 1;
+  PerLeg<Real> emf{};  ///< e_k now
 };
 
 namespace detail {
 
 template <class Real>
 bool accepts(const Question<Real>& q, const Mode& mode, Expansion<Real>& scratch, bool& expanded) {
-  const Judgement plain = both(judge_legs(q.constants, q.state, mode, q.slack),
+  const Judgement plain = both(judge_legs(q.constants, q.state, q.emf, mode, q.slack),
                                both(judge_motion(q.constants, q.state, mode, q.slack),
                                     judge_source(q.constants, q.state, mode, q.slack)));
   expanded = false;

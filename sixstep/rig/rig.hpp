@@ -42,7 +42,7 @@ class Rig {
       : plant_(plant), drive_(drive), board_(board), modulator_(board.modulator), timeline_(timeline) {}
 
   sim::Instant now() const { return now_; }
-  sim::Instant next_known() const;
+  sim::Instant next_known() const { return due_; }
   bool act();
   double expand(double wanted) { return plant_.expand(wanted); }
   template <class Visit>
@@ -63,6 +63,7 @@ class Rig {
   bool ticked() const { return ticked_; }
 
  private:
+  sim::Instant next_due() const;
   bool do_timeline();
   bool do_tick();
   void control_step(bool starts_period);
@@ -81,6 +82,8 @@ class Rig {
   control::DriveState<Scalar> drive_state_{};
   control::Telemetry<Scalar> telemetry_{};
   sim::Instant now_{}, next_tick_{};
+  sim::Instant due_{};  ///< the earliest of all clocks
+  bool moved_ = true;   ///< a located event changed what the board drives
   std::size_t next_action_ = 0;
   double setpoint_ = 0.0;
   BoardCommand pending_{};
@@ -92,7 +95,7 @@ class Rig {
 };
 
 template <class Real, class Scalar>
-sim::Instant Rig<Real, Scalar>::next_known() const {
+sim::Instant Rig<Real, Scalar>::next_due() const {
   sim::Instant next = modulator_.next_edge();
   if (next_tick_ < next) next = next_tick_;
   if (next_action_ < timeline_.size() && timeline_[next_action_].at < next) next = timeline_[next_action_].at;
@@ -105,6 +108,8 @@ sim::Instant Rig<Real, Scalar>::next_known() const {
 template <class Real, class Scalar>
 bool Rig<Real, Scalar>::act() {
   ticked_ = false;
+  const bool watching = modulator_.command().watch != control::Watch::none;
+  if (now_ < due_ && !moved_ && !watching) return true;
   for (bool acted = true; acted && fault_ == Fault::none;) {
     acted = do_timeline() || do_tick();
     if (!acted && modulator_.act(now_)) {
@@ -113,6 +118,8 @@ bool Rig<Real, Scalar>::act() {
     }
     if (!acted) acted = modulator_.compare(now_, plant_.state().i);
   }
+  moved_ = false;
+  due_ = next_due();
   if (fault_ == Fault::none && !plant_.set_gates(modulator_.gates())) fault_ = Fault::shoot_through;
   return fault_ == Fault::none;
 }
@@ -242,13 +249,16 @@ void Rig<Real, Scalar>::apply(int id) {
   using namespace plant;
   if (id >= guard::first_free) {
     count(Happening::comparator);
+    moved_ = true;
     return modulator_.comparator_tripped(now_, id - guard::first_free);
   }
   if (id < guard::standstill) count(Happening::diode_off);
   if (id == guard::standstill) count(Happening::standstill);
   if (id == guard::breakaway_forward || id == guard::breakaway_backward) count(Happening::breakaway);
   if (id >= guard::low_rail && id < guard::breakaway_forward) count(Happening::diode_on);
-  if (plant_.apply(id)) hall_edge();
+  if (!plant_.apply(id)) return;
+  hall_edge();
+  moved_ = true;
 }
 
 }  // namespace sixstep::rig

@@ -131,15 +131,22 @@ std::optional<Real> subdivide(const Coefficients<Real>& c, int degree, Real leng
 
 }  // namespace detail
 
-/// First s in [0, length] at which the polynomial goes below zero; 0 where it does so from the start.
-/// `noise` is the rounding level of the guard: leading coefficients within it are taken as zero and divided
-/// out, so a restart on the boundary neither repeats the event nor needs a dead time.
+/// |y(s) - y(0)| is nowhere in [0, 1] larger. Two sums, so that they overlap.
+template <class Real>
+inline Real tail_bound(const Coefficients<Real>& c, int degree) {
+  Real even = 0, odd = 0;
+  for (int j = 2; j <= degree; j += 2) even += std::fabs(c[j]);
+  for (int j = 1; j <= degree; j += 2) odd += std::fabs(c[j]);
+  return even + odd;
+}
+
+/// First s in [0, length], length <= 1, at which the polynomial goes below zero; 0 where it does so from the
+/// start. `noise` is the rounding level of the guard: leading coefficients within it are taken as zero and
+/// divided out, so a restart on the boundary neither repeats the event nor needs a dead time.
 template <class Real>
 std::optional<Real> first_root(const Coefficients<Real>& c, int degree, Real length, Real noise) {
   // The commonest answer first: the value cannot be used up by all other terms together.
-  Real tail = 0;
-  for (int j = degree; j >= 1; --j) tail = (tail + std::fabs(c[j])) * length;
-  if (c[0] > tail && c[0] > noise) return std::nullopt;
+  if (c[0] > noise && c[0] > tail_bound(c, degree)) return std::nullopt;
 
   const Leading start = leading(c, degree, noise);
   if (start.sign == 0) return std::nullopt;
@@ -149,11 +156,13 @@ std::optional<Real> first_root(const Coefficients<Real>& c, int degree, Real len
   for (int j = 0; j <= n; ++j) q[j] = c[j + start.order];
   if (n == 0) return std::nullopt;
 
-  Real slope_rest = 0, value_at_end = 0, power = length;  // sum_{j >= 2} j |q_j| length^(j-1)
-  tail = 0;
-  for (int j = n; j >= 0; --j) value_at_end = value_at_end * length + q[j];
-  for (int j = 2; j <= n; ++j, power *= length) slope_rest += static_cast<Real>(j) * std::fabs(q[j]) * power;
-  for (int j = n; j >= 1; --j) tail = (tail + std::fabs(q[j])) * length;
+  Real slope_rest = 0, value_at_end = 0, tail = 0;  // slope_rest: sum_{j >= 2} j |q_j| length^(j-1)
+  for (int j = n; j >= 1; --j) {
+    tail = (tail + std::fabs(q[j])) * length;
+    value_at_end = (value_at_end + q[j]) * length;
+    if (j >= 2) slope_rest = (slope_rest + static_cast<Real>(j) * std::fabs(q[j])) * length;
+  }
+  value_at_end += q[0];
   if (q[0] > tail) return std::nullopt;
   if (q[1] > slope_rest) return std::nullopt;  // strictly rising
   if (-q[1] > slope_rest) {                    // strictly falling: one root or none

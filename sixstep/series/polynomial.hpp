@@ -40,6 +40,23 @@ inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& 
   }
 }
 
+/// Half of coefficient n of a square: each pair of factors once.
+template <int n, class Real>
+inline Real half_square_term(const Coefficients<Real>& a) {
+  Real sum = n % 2 == 0 ? a[n / 2] * a[n / 2] / 2 : Real(0);
+#pragma GCC unroll 32
+  for (int j = (n + 1) / 2 - 1; j >= 1; --j) sum += a[j] * a[n - j];
+  return sum + a[0] * a[n];
+}
+
+/// The same with n known only at run time.
+template <class Real>
+inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& b, int n) {
+  Real sum = 0;
+  for (int j = 0; j <= n; ++j) sum += a[j] * b[n - j];
+  return sum;
+}
+
 /// Integral of y over s from 0 to `to`, in units of h.
 template <class Real>
 inline Real integral(const Coefficients<Real>& c, int degree, Real to) {

@@ -3,7 +3,6 @@
 // picosecond. Instants that a file names are whole ticks; duty edges and located events carry an offset.
 #pragma once
 #include <cmath>
-#include <compare>
 #include <cstdint>
 #include <limits>
 
@@ -17,7 +16,13 @@ struct Instant {
 
   static constexpr Instant never() { return {std::numeric_limits<std::int64_t>::max(), 0.0}; }
 
-  constexpr auto operator<=>(const Instant&) const = default;
+  constexpr bool operator==(const Instant&) const = default;
+  friend constexpr bool operator<(const Instant& a, const Instant& b) {
+    return a.ticks != b.ticks ? a.ticks < b.ticks : a.offset < b.offset;
+  }
+  friend constexpr bool operator>(const Instant& a, const Instant& b) { return b < a; }
+  friend constexpr bool operator<=(const Instant& a, const Instant& b) { return !(b < a); }
+  friend constexpr bool operator>=(const Instant& a, const Instant& b) { return !(a < b); }
 
   /// Later by a number of ticks that need not be whole.
   Instant plus_ticks(double count) const {
