@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "io/key_advice.hpp"
+#include "io/motors.hpp"
 #include "io/text_file.hpp"
-#include "motors.hpp"
 
 namespace io {
 namespace {

@@ -4,9 +4,11 @@
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 PROGRAM, SOURCE = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1))
@@ -114,6 +116,21 @@ class CommandLine(unittest.TestCase):
         good = self.write("a.toml", 1000)
         summary = json.loads(self.run_program("run", good, "--json", "-", "--set", "duration_s=2e-4").stdout)
         self.assertEqual(summary["duration_s"], 2e-4)
+
+    def test_ctrl_c_leaves_what_is_finished_under_a_partial_name(self):
+        good = self.write("a.toml", 1000)
+        words = [PROGRAM, "run", good, "--csv", "a.csv", "--json", "a.json", "--set", "duration_s=1e4",
+                 "--set", "record.grid_s=1"]
+        with subprocess.Popen(words, cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as program:
+            deadline = time.monotonic() + 20
+            while len(self.names()) < 3 and time.monotonic() < deadline:  # both outputs are open before the run begins
+                time.sleep(0.01)
+            time.sleep(0.2)
+            program.send_signal(signal.SIGINT)
+            program.communicate(timeout=20)
+        self.assertEqual(program.returncode, 130)
+        self.assertEqual(self.names(), ["a.partial.csv", "a.toml"])
+        self.assertTrue((self.path / "a.partial.csv").read_text().startswith("t_s,"))
 
     def test_help_explains_keys_and_answers_near_misses(self):
         self.assertIn("supply.voltage_V", self.run_program("help", "supply").stdout)
