@@ -74,7 +74,7 @@ class CommandLine(unittest.TestCase):
         good = self.write("a.toml", 1000)
         (self.path / "bad.toml").write_text('motor = "maxon-251601"\nduration_s = 0\n')
         result = self.run_program("run", good, "bad.toml", "--out", "out", code=2)
-        self.assertEqual(result.stderr, "bad.toml:2:14: duration_s = 0 must be above 0; it means: simulated time, in s\n")
+        self.assertEqual(result.stderr, "bad.toml:2:14: duration_s = 0 must be above 0 and at most 9000000; it means: simulated time, in s\n")
         self.run_program("run", "absent.toml", code=2)
         self.run_program("run", code=2)
         self.run_program("nonsense", code=2)
@@ -135,6 +135,7 @@ class CommandLine(unittest.TestCase):
     def test_help_explains_keys_and_answers_near_misses(self):
         self.assertIn("supply.voltage_V", self.run_program("help", "supply").stdout)
         self.assertIn("default 24", self.run_program("help", "supply.voltage_V").stdout)
+        self.assertIn("i_a_A", self.run_program("help", "columns").stdout)
         self.assertIn("terminal|phase", self.run_program("help", "resistance_ohm").stdout)
         self.assertIn("did you mean supply.voltage_V?", self.run_program("help", "suply.voltage_V", code=2).stderr)
 
