@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// One chart: data in, uPlot and its caption out. Knows nothing of the other charts but their common cursor.
+
+const GUTTER = {left: 62, right: 56};  // the same for all, so that one instant stands on one vertical line
+
+/** Little-endian numbers; every machine with a browser keeps them that way. */
+function unpack(text, Type) {
+  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  return new Type(bytes.buffer);
+}
+
+/** uPlot takes null for "no value here". */
+function curveValues(text) {
+  const values = unpack(text, Float32Array);
+  return values.some(Number.isNaN) ? Array.from(values, (v) => (Number.isNaN(v) ? null : v)) : values;
+}
+
+// The colours live in the style sheet alone; they are read once per theme.
+let palette = {};
+function readPalette() {
+  const style = getComputedStyle(document.documentElement);
+  const names = ['ink', 'quiet', 'grid', 'line', 'paper', 'a', 'b', 'c', 'a-soft', 'b-soft', 'c-soft', 'main', 'reference'];
+  // A canvas does not know color-mix(): let the browser compute it.
+  const probe = document.body.appendChild(document.createElement('i'));
+  palette = Object.fromEntries(names.map((name) => {
+    probe.style.color = `var(--${name})`;
+    return [name, getComputedStyle(probe).color];
+  }));
+  probe.remove();
+  return style;
+}
+const translucent = (color, share) => {
+  const [r, g, b] = color.match(/[\d.]+/g).map(Number);
+  return color.startsWith('color(') ? `rgb(${r * 255} ${g * 255} ${b * 255} / ${share})` : `rgb(${r} ${g} ${b} / ${share})`;
+};
+
+/** Time in the unit that suits the whole run, with the decimals that the step needs. */
+function timeFormat(duration) {
+  const [factor, unit] = duration < 2e-3 ? [1e6, 'µs'] : duration < 2 ? [1e3, 'ms'] : [1, 's'];
+  return {
+    unit,
+    text(t, step) {
+      const decimals = Math.max(0, Math.min(9, -Math.floor(Math.log10(step * factor * 1.0001))));
+      return (t * factor).toFixed(decimals).replace('-', '−');
+    },
+  };
+}
+
+/** Four digits, but never more than six behind the point. */
+function figure(value) {
+  if (value == null) return '–';
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 1e-4 || size >= 1e6)) return value.toExponential(2).replace(/-/g, '−');
+  const decimals = size === 0 ? 3 : Math.max(0, Math.min(6, 3 - Math.floor(Math.log10(size))));
+  return value.toFixed(decimals).replace('-', '−');
+}
+
+/** "i_ref" -> i with ref as subscript. */
+function labelNode(label) {
+  const span = document.createElement('span');
+  const [main, sub] = label.split('_');
+  span.append(main);
+  if (sub) span.appendChild(document.createElement('sub')).textContent = sub;
+  return span;
+}
+
+const STRIP = 0.66;  // height of a logic one, of its strip
+
+/** Strips stand one below the other: the first on top. */
+function stripped(values, index, count) {
+  const base = count - 1 - index;
+  return Array.from(values, (v) => (v == null ? null : base + v * STRIP));
+}
+
+/** Largest round number (1, 2, 5 times a power of ten) that is not above the value. */
+function roundBelow(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return power * [5, 2, 1].find((m) => m * power <= value * 1.000001);
+}
+
+/** Lanes stand one below the other, each around its own zero; all have the same height and scale. */
+function inLanes(chart, raw) {
+  let size = 0;
+  for (const values of raw) for (const v of values) if (Math.abs(v) > size) size = Math.abs(v);
+  const tick = size > 0 ? roundBelow(size) : 1, height = 2.5 * (size || 1);
+  const zeros = raw.map((_, i) => (raw.length - 1 - i) * height);
+  chart.axis = {
+    range: [-height / 2, zeros[0] + height / 2],
+    splits: zeros.flatMap((zero) => [zero - tick, zero, zero + tick]).sort((a, b) => a - b),
+    labels: zeros.flatMap(() => [-tick, 0, tick]).map((v) => String(v).replace('-', '−')),
+  };
+  return raw.map((values, i) => Array.from(values, (v) => (v == null ? null : v + zeros[i])));
+}
+
+function curveOptions(curve, index, chart, count) {
+  const color = () => palette[curve.style];
+  const options = {label: curve.label, stroke: color, width: curve.style === 'main' ? 1.8 : 1.3, points: {show: false}};
+  if (curve.style === 'reference') Object.assign(options, {dash: [6, 4], width: 1.6});
+  if (chart.logic) {
+    const base = count - 1 - index;
+    Object.assign(options, {width: 1, fill: () => translucent(color(), 0.3), fillTo: () => base});
+  }
+  return options;
+}
+
+/** The left axis, and on the right the same in another unit where the chart has one. */
+function valueAxes(chart) {
+  const font = '12px system-ui, sans-serif';
+  const common = {scale: 'y', stroke: () => palette.quiet, font, ticks: {show: false}, grid: {stroke: () => palette.grid, width: 1}};
+  const written = (factor) => (u, splits) => {
+    const step = Math.abs((splits[1] - splits[0]) * factor) || 1;
+    const decimals = Math.max(0, Math.min(9, -Math.floor(Math.log10(step * 1.0001) + 1e-9)));
+    return splits.map((v) => (v * factor).toFixed(decimals).replace('-', '−'));
+  };
+  const left = {...common, size: GUTTER.left, gap: 6, space: 28, values: written(1)};
+  if (chart.logic) {
+    const count = chart.curves.length;
+    left.splits = () => chart.curves.map((_, i) => count - 1 - i + STRIP / 2);
+    left.values = () => chart.curves.map((c) => c.label);
+    left.grid = {show: false};
+  }
+  if (chart.lanes) {
+    left.splits = () => chart.axis.splits;
+    left.values = () => chart.axis.labels;
+  }
+  const right = {...common, side: 1, size: GUTTER.right, gap: 6, space: 28, grid: {show: false}};
+  if (chart.other) {
+    // Round numbers of the other unit, at their own places.
+    right.splits = (u, axis, min, max, incr) => {
+      const f = chart.other.factor, span = (max - min) * f, rough = span / Math.max(2, (max - min) / incr);
+      const power = 10 ** Math.floor(Math.log10(rough));
+      const step = power * [1, 2, 5, 10].find((m) => m * power >= rough * 0.999);
+      const splits = [];
+      for (let n = Math.ceil((min * f) / step); n * step <= max * f * (1 + 1e-12); ++n) splits.push((n * step) / f);
+      return splits;
+    };
+    right.values = written(chart.other.factor);
+  } else {
+    right.values = (u, splits) => splits.map(() => '');
+  }
+  return [left, right];
+}
+
+function chartOptions(chart, width, time, hooks) {
+  const count = chart.curves.length;
+  const x = {
+    stroke: () => palette.quiet, font: '12px system-ui, sans-serif', size: 26, gap: 4, space: 90, ticks: {show: false},
+    grid: {stroke: () => palette.grid, width: 1},
+    values: (u, splits, axis, space, incr) => splits.map((t) => time.text(t, incr) + '\u202f' + time.unit),
+  };
+  // A curve that never moves would otherwise fill the chart with rounding noise.
+  const range = (u, min, max) => {
+    if (min == null) return [0, 1];
+    const room = Math.max((max - min) * 0.07, Math.abs(max) * 1e-6, 1e-9);
+    return [min - room, max + room];
+  };
+  return {
+    width, height: chart.height, legend: {show: false}, padding: [6, 0, 0, 0],
+    scales: {x: {time: false}, y: chart.logic ? {range: () => [-0.12, count - 0.1]} : chart.lanes ? {range: () => chart.axis.range} : {range}},
+    axes: [x, ...valueAxes(chart)],
+    series: [{}, ...chart.curves.map((c, i) => curveOptions(c, i, chart, count))],
+    cursor: {
+      y: false, points: {show: !chart.logic, size: 6, width: 0, fill: (u, i) => palette[chart.curves[i - 1].style]},
+      drag: {x: true, y: false, dist: 4}, sync: {key: 'time', scales: ['x', null]},
+      bind: {dblclick: () => hooks.whole},
+    },
+    hooks: {
+      setScale: [(u, key) => key === 'x' && hooks.zoomed(u.scales.x.min, u.scales.x.max)],
+      setCursor: [(u) => hooks.cursor(u)],
+    },
+  };
+}
+
+/** The caption is legend, switch and read-out in one. */
+function captionOf(chart, onToggle) {
+  const caption = document.createElement('figcaption');
+  const add = (css, text) => Object.assign(caption.appendChild(document.createElement('span')), {className: css, textContent: text});
+  add('name', chart.title);
+  add('unit', chart.unit);
+  const values = chart.curves.map((curve, i) => {
+    const chip = caption.appendChild(document.createElement('button'));
+    chip.type = 'button';
+    chip.className = 'chip curve';
+    chip.title = curve.meaning;
+    chip.setAttribute('aria-pressed', 'true');
+    const swatch = chip.appendChild(document.createElement('span'));
+    swatch.className = curve.style === 'reference' ? 'swatch dashed' : 'swatch';
+    swatch.style.borderColor = `var(--${curve.style})`;
+    chip.append(labelNode(curve.label));
+    const value = chip.appendChild(document.createElement('span'));
+    value.className = 'value';
+    chip.addEventListener('click', () => {
+      const show = chip.getAttribute('aria-pressed') !== 'true';
+      chip.setAttribute('aria-pressed', String(show));
+      onToggle(i, show);
+    });
+    return value;
+  });
+  return {caption, values};
+}
+
+/** Builds one chart into the parent; returns what the page needs to steer it. */
+function buildChart(parent, chart, axis, time, hooks) {
+  const box = parent.appendChild(document.createElement('figure'));
+  box.className = chart.logic ? 'chart logic' : 'chart';
+  box.id = 'chart-' + chart.id;
+  const raw = chart.curves.map((c) => curveValues(c.data));
+  const drawn = chart.logic ? raw.map((v, i) => stripped(v, i, raw.length)) : chart.lanes ? inLanes(chart, raw) : raw;
+  const {caption, values} = captionOf(chart, (i, show) => plot.setSeries(i + 1, {show}));
+  box.append(caption);
+  const showValues = (u) => {
+    const at = u.cursor.idx;
+    values.forEach((node, i) => {
+      const v = at == null || u.cursor.left < 0 ? undefined : raw[i][at];
+      const text = v === undefined ? '' : chart.logic ? String(v ?? '–') : figure(v);
+      const other = text && chart.other ? ` · ${figure(v == null ? v : v * chart.other.factor)} ${chart.other.unit}` : '';
+      node.textContent = text + other;
+    });
+    hooks.cursor(u);
+  };
+  const plot = new uPlot(chartOptions(chart, box.clientWidth, time, {...hooks, cursor: showValues}), [axis, ...drawn], box);
+  plot.root.setAttribute('role', 'img');
+  plot.root.setAttribute('aria-label', `${chart.title} over time`);
+  return {plot, box};
+}

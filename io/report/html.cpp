@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/report/html.hpp"
+
+#include <bit>
+#include <cctype>
+#include <cstdint>
+
+namespace io::report {
+namespace {
+
+std::string base64_bytes(const std::string& bytes) {
+  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t n = 0; n < bytes.size(); n += 3) {
+    std::uint32_t triple = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      triple = triple << 8 | (n + k < bytes.size() ? static_cast<unsigned char>(bytes[n + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += n + k <= bytes.size() ? digits[triple >> (18 - 6 * k) & 63u] : '=';
+  }
+  return text;
+}
+
+template <class Bits, class Real>
+std::string little_endian(std::span<const Real> values) {
+  std::string bytes;
+  bytes.reserve(values.size() * sizeof(Real));
+  for (const Real value : values) {
+    const Bits bits = std::bit_cast<Bits>(value);
+    for (std::size_t k = 0; k < sizeof(Real); ++k) bytes += static_cast<char>(bits >> (8 * k) & 0xffu);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  out.reserve(text.size() + text.size() / 8);
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      case '\0':
+        out += "\xEF\xBF\xBD";
+        break;  // the parser would replace it anyway
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string with_subscripts(std::string_view text) {
+  const auto wordy = [](char c) { return c < 0 || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  std::string out;
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    if (text[n] != '_' || n == 0 || n + 1 == text.size() || !wordy(text[n - 1]) || !wordy(text[n + 1])) {
+      out += escaped(text.substr(n, 1));
+      continue;
+    }
+    std::size_t end = n + 1;
+    while (end < text.size() && wordy(text[end])) ++end;
+    out += "<sub>" + std::string(text.substr(n + 1, end - n - 1)) + "</sub>";
+    n = end - 1;
+  }
+  return out;
+}
+
+std::string script_safe(std::string json) {
+  // In JSON a '<' stands only inside strings, where \u003c means the same.
+  std::string out;
+  out.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<')
+      out += "\\u003c";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string base64(std::span<const float> values) {
+  return base64_bytes(little_endian<std::uint32_t>(values));
+}
+std::string base64(std::span<const double> values) {
+  return base64_bytes(little_endian<std::uint64_t>(values));
+}
+
+std::string filled(std::string_view page, std::initializer_list<Gap> gaps) {
+  std::string out;
+  while (true) {
+    const std::size_t open = page.find("{{");
+    const std::size_t close = open == page.npos ? page.npos : page.find("}}", open);
+    if (close == page.npos) return out.append(page);
+    out.append(page.substr(0, open));
+    const std::string_view name = page.substr(open + 2, close - open - 2);
+    for (const Gap& gap : gaps)
+      if (gap.first == name) out.append(gap.second);
+    page.remove_prefix(close + 2);
+  }
+}
+
+}  // namespace io::report

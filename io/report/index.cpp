@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <report_assets.hpp>
+
+#include "io/report/html.hpp"
+#include "io/report/report.hpp"
+#include "io/report/verdicts.hpp"
+
+namespace io::report {
+namespace {
+
+std::string table(const char* css, const char* head, const std::string& rows) {
+  if (rows.empty()) return "";
+  return fmt::format("<table class=\"{}\"><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table>\n", css, head,
+                     rows);
+}
+
+std::string experiment(const IndexEntry& entry) {
+  const Standing verdict = standing(*entry.outcome);
+  std::string html = fmt::format(
+      "<section class=\"experiment {0}\"><header><h2><a href=\"{1}\">{2}</a></h2><span class=\"chip "
+      "{0}\">{3}</span>"
+      "</header>\n",
+      verdict.css, escaped(entry.file), escaped(entry.title), verdict.word);
+  if (entry.outcome->fault)
+    html += fmt::format("<p class=\"alert\"><b>Fault.</b> {}</p>\n",
+                        escaped(sixstep::base::to_string(*entry.outcome->fault)));
+  html += table("verdicts",
+                "<th></th><th>Figure</th><th class=\"num\">Required</th><th class=\"num\">Measured</th>"
+                "<th>Within limits</th>",
+                requirement_rows(*entry.outcome));
+  html += table("comparisons",
+                "<th>Compared with</th><th class=\"num\">There</th><th class=\"num\">Here</th>"
+                "<th class=\"num\">Deviation</th><th>Source</th>",
+                comparison_rows(*entry.outcome));
+  return html + "</section>\n";
+}
+
+}  // namespace
+
+std::string render_index(const std::vector<IndexEntry>& entries, std::string_view command,
+                         std::string_view version) {
+  std::string sections;
+  for (const IndexEntry& entry : entries) sections += experiment(entry);
+  const auto passed = std::ranges::count_if(entries, [](const IndexEntry& e) { return e.outcome->passed(); });
+  const bool all = passed == static_cast<std::ptrdiff_t>(entries.size());
+  const std::string line = fmt::format("{} of {} experiments pass", passed, entries.size());
+  const std::string shown_command = escaped(command), shown_version = escaped(version);
+  return filled(assets::index_html, {{"css", assets::report_css},
+                                     {"standing_class", all ? "pass" : "fail"},
+                                     {"standing", all ? "PASS" : "FAIL"},
+                                     {"standing_line", line},
+                                     {"sections", sections},
+                                     {"command", shown_command},
+                                     {"version", shown_version}});
+}
+
+}  // namespace io::report

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/report/ledger.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/report/figures.hpp"
+#include "io/report/html.hpp"
+
+namespace io::report {
+namespace {
+
+struct Entry {
+  const char* name;
+  const char* law;
+  double joule;
+};
+
+/// Rounded away, zero has no sign.
+std::string fixed(double value, int decimals) {
+  const std::string text = fmt::format("{:.{}f}", std::abs(value), decimals);
+  const bool zero = text.find_first_not_of("0.") == text.npos;
+  return (value < 0.0 && !zero ? "−" : "") + text;
+}
+
+/// One equation as an account: the entries must add up to the total; what they miss is the residual.
+std::string account(const Entry& total, std::initializer_list<Entry> entries, double residual,
+                    double largest) {
+  const Scale scale = scale_for(largest, "J");
+  const int decimals =
+      largest > 0.0 ? std::clamp(4 - static_cast<int>(std::floor(std::log10(largest * scale.factor))), 0, 6)
+                    : 1;
+  const auto row = [&](const Entry& e, const char* css) {
+    const double share = largest > 0.0 ? 100.0 * std::abs(e.joule) / largest : 0.0;
+    const double joule = e.joule * scale.factor;
+    // All rows show the same decimals, so that the column adds up under the reader's eye.
+    return fmt::format(
+        "<tr class=\"{}\"><th scope=\"row\">{}<small>{}</small></th><td class=\"num\">{}</td>"
+        "<td class=\"share\"><i class=\"{}\" style=\"width:{:.1f}%\"></i></td></tr>\n",
+        css, e.name, e.law, fixed(joule, decimals), e.joule < 0.0 ? "negative" : "", share);
+  };
+  std::string html = fmt::format(
+      "<table class=\"ledger\"><thead><tr><th></th><th class=\"num\">{}</th><th></th></tr></thead><tbody>\n",
+      scale.unit);
+  html += row(total, "total");
+  for (const Entry& e : entries) html += row(e, "part");
+  html += fmt::format("</tbody></table><p class=\"closing\">closes to <b>{}</b> of the energy moved</p>\n",
+                      plain(std::abs(residual), 2, true));
+  return html;
+}
+
+}  // namespace
+
+std::string energy_section(const sixstep::study::EnergyBook& b) {
+  // One unit and one length of bar for both accounts: the air gap's energy stands in each.
+  double largest = 0.0;
+  for (const double joule :
+       {b.supplied, b.copper, b.devices, b.magnetic, b.air_gap, b.friction, b.load, b.kinetic})
+    largest = std::max(largest, std::abs(joule));
+  std::string html = "<div class=\"columns\"><div><h3>Electrical</h3>";
+  html += account({"Supplied by the bus", "∫ U<sub>s</sub> i dt", b.supplied},
+                  {{"Copper", "∫ R<sub>s</sub> Σi² dt", b.copper},
+                   {"Switches and diodes", "conduction", b.devices},
+                   {"Magnetic field", "Δ ½ L<sub>s</sub> Σi²", b.magnetic},
+                   {"Across the air gap", "∫ T<sub>e</sub> ω dt", b.air_gap}},
+                  b.electrical_residual, largest);
+  html += "</div><div><h3>Mechanical</h3>";
+  html += account({"Across the air gap", "∫ T<sub>e</sub> ω dt", b.air_gap},
+                  {{"Friction", "viscous and Coulomb", b.friction},
+                   {"Load", "∫ T<sub>load</sub> ω dt", b.load},
+                   {"Kinetic energy", "Δ ½ J ω²", b.kinetic}},
+                  b.mechanical_residual, largest);
+  return html + "</div></div>\n";
+}
+
+std::string event_section(const sixstep::study::Outcome& outcome) {
+  std::string html =
+      "<table class=\"events\"><thead><tr><th>Event</th><th class=\"num\">Count</th></tr></thead><tbody>\n";
+  for (const auto& e : outcome.events)
+    html += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td></tr>\n", escaped(e.event),
+                        grouped(e.count));
+  html += fmt::format(
+      "<tr class=\"total\"><th scope=\"row\">segments solved</th><td class=\"num\">{}</td></tr>\n",
+      grouped(outcome.segments));
+  return html + "</tbody></table>\n";
+}
+
+}  // namespace io::report

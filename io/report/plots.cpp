@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/report/plots.hpp"
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "io/report/groups.hpp"
+#include "io/report/html.hpp"
+#include "io/report/thinning.hpp"
+#include "io/report/windows.hpp"
+
+namespace io::report {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+template <class To>
+std::string packed(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
+  std::vector<To> chosen;
+  chosen.reserve(rows.size());
+  for (const std::size_t n : rows) chosen.push_back(static_cast<To>(values[n]));
+  return base64(std::span<const To>(chosen));
+}
+
+json windows_json(const Windows& windows, const sixstep::study::Scenario& scenario) {
+  json out = json::array();
+  const auto add = [&](const char* id, const char* label, const std::optional<Interval>& window) {
+    if (window) out.push_back({{"id", id}, {"label", label}, {"from", window->from}, {"to", window->to}});
+  };
+  const bool hysteresis = scenario.control.current.type == sixstep::study::CurrentLoopType::hysteresis &&
+                          scenario.control.mode >= sixstep::control::Mode::current;
+  add("periods", hysteresis ? "Switching" : "Three PWM periods", windows.periods);
+  add("commutation", "One commutation", windows.commutation);
+  return out;
+}
+
+json chart_json(const Group& group, std::size_t axis, const Thinned& rows, std::size_t recorded) {
+  json chart{
+      {"id", group.id},       {"title", group.title}, {"unit", group.unit}, {"height", group.height_px},
+      {"logic", group.logic}, {"lanes", group.lanes}, {"axis", axis},       {"complete", rows.complete},
+      {"recorded", recorded}};
+  if (!group.other_unit.empty())
+    chart["other"] = {{"unit", group.other_unit}, {"factor", group.other_factor}};
+  for (const Curve& curve : group.curves)
+    chart["curves"].push_back({{"label", curve.label},
+                               {"style", curve.style},
+                               {"meaning", curve.meaning},
+                               {"data", packed<float>(*curve.values, rows.rows)}});
+  return chart;
+}
+
+}  // namespace
+
+std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
+                      PlotSize size) {
+  json out{
+      {"run", json::array()}, {"windows", json::array()}, {"axes", json::array()}, {"charts", json::array()}};
+  const auto* time = find_column(trace, "t_s");
+  if (!time || time->size() < 2) return out.dump();
+  out["run"] = {time->front(), time->back()};
+  const Windows windows = choose_windows(trace, scenario);
+  out["windows"] = windows_json(windows, scenario);
+  std::vector<Interval> keep;
+  for (const auto& window : {windows.periods, windows.commutation})
+    if (window) keep.push_back(*window);
+  // Charts that keep the same rows share one time axis: it is the largest part of the file.
+  std::map<std::vector<std::size_t>, std::size_t> axes;
+  const Groups groups = chart_groups(trace, scenario);
+  for (const Group& group : groups.charts) {
+    Curves curves;
+    for (const Curve& curve : group.curves) curves.emplace_back(*curve.values);
+    const Thinned rows = thinned(*time, curves, keep, size.cap, size.full);
+    const auto [axis, fresh] = axes.try_emplace(rows.rows, axes.size());
+    if (fresh) out["axes"].push_back(packed<double>(*time, rows.rows));
+    out["charts"].push_back(chart_json(group, axis->second, rows, time->size()));
+  }
+  return out.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace io::report

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Trace -> the JSON that report.js draws from.
+#pragma once
+#include <cstddef>
+#include <string>
+
+#include "sixstep/study/outcome.hpp"
+#include "sixstep/study/scenario.hpp"
+
+namespace io::report {
+
+/// Rows per chart: above `full`, an envelope of at most `cap` rows plus the close-ups' every row.
+struct PlotSize {
+  std::size_t cap = 6000;
+  std::size_t full = 16000;
+};
+
+/// {"run":[t0,t1], "windows":[..], "axes":[base64 float64..], "charts":[{.., "curves":[{.., "data": base64
+/// float32}]}]}
+std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
+                      PlotSize size = {});
+
+}  // namespace io::report

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/report/report.hpp"
+
+#include <fmt/format.h>
+#include <report_assets.hpp>
+
+#include "io/report/figures.hpp"
+#include "io/report/html.hpp"
+#include "io/report/ledger.hpp"
+#include "io/report/parameters.hpp"
+#include "io/report/plots.hpp"
+#include "io/report/verdicts.hpp"
+
+namespace io::report {
+namespace {
+
+std::string subtitle(const ReportInput& in) {
+  const auto& sheet = in.scenario.sheet;
+  std::string name = sheet.name.empty() ? in.scenario.motor : sheet.name;
+  if (!sheet.maker.empty() && name.find(sheet.maker) == name.npos) name = sheet.maker + " " + name;
+  return escaped(name) + " · " + escaped(given(in.outcome.simulated_s, "s")) + " simulated";
+}
+
+/// What the reader must know before any number: a fault, or a run that ended early.
+std::string alerts(const ReportInput& in) {
+  std::string html;
+  if (in.outcome.fault)
+    html += fmt::format("<p class=\"alert\" role=\"alert\"><b>Fault.</b> {}</p>\n",
+                        escaped(sixstep::base::to_string(*in.outcome.fault)));
+  if (!in.outcome.fault && in.outcome.simulated_s < in.scenario.duration_s * (1.0 - 1e-9))
+    html +=
+        fmt::format("<p class=\"alert\" role=\"alert\"><b>Interrupted</b> at {} of {}.</p>\n",
+                    escaped(given(in.outcome.simulated_s, "s")), escaped(given(in.scenario.duration_s, "s")));
+  return html;
+}
+
+std::string requirements(const sixstep::study::Outcome& outcome) {
+  if (outcome.verdicts.empty()) return "";
+  return "<table class=\"verdicts\"><thead><tr><th></th><th>Figure</th><th class=\"num\">Required</th>"
+         "<th class=\"num\">Measured</th><th>Within limits</th></tr></thead><tbody>\n" +
+         requirement_rows(outcome) + "</tbody></table>\n";
+}
+
+std::string comparisons(const sixstep::study::Outcome& outcome) {
+  if (outcome.comparisons.empty()) return "";
+  return "<h2>Compared with</h2><table class=\"comparisons\"><thead><tr><th>Figure</th><th "
+         "class=\"num\">There</th>"
+         "<th class=\"num\">Here</th><th class=\"num\">Deviation</th><th>Source</th></tr></thead><tbody>\n" +
+         comparison_rows(outcome) + "</tbody></table>\n";
+}
+
+}  // namespace
+
+std::string render(const ReportInput& in) {
+  const Standing verdict = standing(in.outcome);
+  const std::string title = escaped(in.scenario.title.empty() ? in.scenario.motor : in.scenario.title);
+  const std::string notes =
+      in.scenario.notes.empty() ? "" : "<p class=\"notes\">" + escaped(in.scenario.notes) + "</p>\n";
+  return filled(assets::page_html, {{"title", title},
+                                    {"uplot_css", assets::uPlot_min_css},
+                                    {"css", assets::report_css},
+                                    {"subtitle", subtitle(in)},
+                                    {"standing_class", verdict.css},
+                                    {"standing", verdict.word},
+                                    {"standing_line", verdict.line},
+                                    {"notes", notes},
+                                    {"alerts", alerts(in)},
+                                    {"requirements", requirements(in.outcome)},
+                                    {"comparisons", comparisons(in.outcome)},
+                                    {"setup", setup_section(in.scenario)},
+                                    {"sheet", sheet_section(in.scenario.sheet)},
+                                    {"model", model_section(in.outcome.motor)},
+                                    {"gains", gains_section(in.outcome)},
+                                    {"energy", energy_section(in.outcome.energy)},
+                                    {"events", event_section(in.outcome)},
+                                    {"scenario", escaped(in.scenario_text)},
+                                    {"command", escaped(in.command)},
+                                    {"version", escaped(in.version)},
+                                    {"data", script_safe(plot_data(in.trace, in.scenario))},
+                                    {"uplot_license", assets::LICENSE},
+                                    {"uplot_js", assets::uPlot_iife_min_js},
+                                    {"chart_js", assets::chart_js},
+                                    {"report_js", assets::report_js}});
+}
+
+}  // namespace io::report

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run as one HTML file that opens anywhere, without a network: verdict, linked charts, parameters with
+// their sources, gains with their derivation, energy book.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sixstep/study/outcome.hpp"
+#include "sixstep/study/scenario.hpp"
+
+namespace io::report {
+
+struct ReportInput {
+  const sixstep::study::Scenario& scenario;
+  const sixstep::study::Outcome& outcome;
+  const sixstep::study::Trace&
+      trace;            ///< every event, both sides of jumps; absent or NaN columns are left out
+  std::string command;  ///< what makes this report again
+  std::string version;
+  std::string scenario_text;  ///< the file as written
+};
+
+/// The same input gives the same bytes: no date, no machine name.
+std::string render(const ReportInput& input);
+
+struct IndexEntry {
+  std::string title;
+  std::string file;  ///< of the report, relative to the index
+  const sixstep::study::Outcome* outcome;
+};
+
+/// The table of all verdicts of one command, with links to the reports.
+std::string render_index(const std::vector<IndexEntry>& entries, std::string_view command,
+                         std::string_view version);
+
+}  // namespace io::report

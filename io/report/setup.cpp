@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scenario's circumstances in words: what stands around the motor.
+#include <fmt/format.h>
+
+#include "io/report/figures.hpp"
+#include "io/report/html.hpp"
+#include "io/report/parameters.hpp"
+
+namespace io::report {
+namespace {
+
+using namespace sixstep;
+
+std::string supply(const study::Supply& s) {
+  const std::string volts = given(s.voltage_V, "V");
+  if (s.capacitance_F == 0.0) return volts + ", stiff";
+  return fmt::format("{} behind {} on {}{}", volts, given(s.resistance_ohm, "ohm"),
+                     given(s.capacitance_F, "F"), s.sinks ? "" : ", takes no current back");
+}
+
+std::string bridge(const study::Bridge& b) {
+  const bool ideal = b.on_resistance_ohm == 0.0 && b.diode_drop_V == 0.0 && b.diode_resistance_ohm == 0.0;
+  std::string text = ideal ? "ideal switches and diodes"
+                           : fmt::format("switches {}, diodes {} + {}", given(b.on_resistance_ohm, "ohm"),
+                                         given(b.diode_drop_V, "V"), given(b.diode_resistance_ohm, "ohm"));
+  if (b.dead_time_s > 0.0) text += ", dead time " + given(b.dead_time_s, "s");
+  return text;
+}
+
+std::string pwm(const study::Pwm& p) {
+  static constexpr const char* choppings[] = {"soft", "hard", "complementary"};
+  return fmt::format(
+      "{} ({}), {}-aligned, {} chopping", given(p.period_s, "s"), computed(1.0 / p.period_s, "Hz"),
+      p.alignment == study::Alignment::edge ? "edge" : "centre", choppings[static_cast<int>(p.chopping)]);
+}
+
+std::string current_loop(const study::CurrentLoop& c) {
+  if (c.type == study::CurrentLoopType::pi) return "current PI";
+  return fmt::format("current hysteresis ±{}, {} comparator", given(c.band_A, "A"),
+                     c.comparator == study::Comparator::event ? "event" : "sampled");
+}
+
+std::string control(const study::Scenario& s) {
+  std::string text;
+  switch (s.control.mode) {
+    case control::Mode::off:
+      return "off";
+    case control::Mode::duty:
+      text = "duty";
+      break;
+    case control::Mode::current:
+      text = current_loop(s.control.current);
+      break;
+    case control::Mode::speed:
+      text = "speed PI → " + current_loop(s.control.current);
+      break;
+    case control::Mode::position:
+      text = "position P → speed PI → " + current_loop(s.control.current);
+      break;
+  }
+  text += s.control.arithmetic == study::Arithmetic::float32 ? ", 32-bit float" : ", 64-bit float";
+  if (s.pwm.delay_periods > 0) text += fmt::format(", acts {} period(s) later", s.pwm.delay_periods);
+  return text;
+}
+
+std::string reference(const study::Scenario& s) {
+  static constexpr const char* units[] = {"", "", "A", "rad/s", "deg"};
+  const char* unit = units[static_cast<int>(s.control.mode)];
+  const study::Reference& r = s.reference;
+  switch (r.shape) {
+    case study::Shape::constant:
+      return given(r.value, unit);
+    case study::Shape::square:
+      return fmt::format("square, {} and {} at {}", given(r.high, unit), given(r.low, unit),
+                         given(1.0 / r.period_s, "Hz"));
+    case study::Shape::steps:
+      break;
+  }
+  std::string text;
+  for (std::size_t n = 0; n < r.values.size() && n < 8; ++n)
+    text += (n ? ", " : "steps ") + given(r.values[n], unit);
+  return r.values.size() > 8 ? text + fmt::format(" … ({} in all)", r.values.size()) : text;
+}
+
+std::string shaft(const study::Load& load) {
+  if (load.locked) return "locked";
+  std::string text = "free";
+  if (load.torque_Nm != 0.0) text += ", load " + given(load.torque_Nm, "Nm");
+  if (!load.torques_Nm.empty()) text += fmt::format(", {} load steps", load.torques_Nm.size());
+  if (load.inertia_kg_m2 != 0.0) text += ", load inertia " + given(load.inertia_kg_m2, "kg m2");
+  return text;
+}
+
+}  // namespace
+
+std::string setup_section(const study::Scenario& s) {
+  std::string html;
+  const auto add = [&](const char* name, const std::string& text) {
+    html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, escaped(text));
+  };
+  const bool at_edge = s.pwm.commutation == study::CommutationAt::hall_edge;
+  add("Supply", supply(s.supply));
+  add("Bridge", bridge(s.bridge));
+  add("PWM", pwm(s.pwm));
+  add("Control", control(s));
+  if (s.control.mode != control::Mode::off) add("Reference", reference(s));
+  add("Commutation", at_edge ? "at the Hall edge" : "at the next sample");
+  add("Shaft", shaft(s.load));
+  return html;
+}
+
+}  // namespace io::report

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The close-ups a report offers, chosen from the trace itself.
+#pragma once
+#include <optional>
+
+#include "io/report/thinning.hpp"
+#include "sixstep/study/outcome.hpp"
+#include "sixstep/study/scenario.hpp"
+
+namespace io::report {
+
+/// A column by name; null where the trace has none or it never holds a number.
+const std::vector<double>* find_column(const sixstep::study::Trace& trace, std::string_view name);
+
+struct Windows {
+  std::optional<Interval> periods;  ///< three PWM periods in which the bridge switches, as late as possible
+  std::optional<Interval>
+      commutation;  ///< around a Hall edge under considerable current, as late as possible
+};
+
+Windows choose_windows(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario);
+
+}  // namespace io::report

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report as its reader meets it: opened from a file, in Chromium, without a network.
+import assert from 'node:assert/strict';
+import {after, before, test} from 'node:test';
+import path from 'node:path';
+import {pathToFileURL} from 'node:url';
+import playwright from 'playwright-core';
+
+const pages = process.env.SIXSTEP_PAGES;
+const address = (name) => pathToFileURL(path.join(pages, name)).href;
+let browser;
+
+before(async () => {
+  browser = await playwright.chromium.launch({
+    executablePath: process.env.SIXSTEP_CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-background-networking', '--disable-component-update',
+      '--disable-sync', '--disable-dev-shm-usage', '--no-first-run'],
+  });
+});
+after(() => browser?.close());
+
+/** A page on which any complaint or attempt to reach a network fails the test. */
+async function opened(name, {theme = 'light', hash = ''} = {}) {
+  const page = await browser.newPage({viewport: {width: 1280, height: 900}, colorScheme: theme});
+  page.complaints = [];
+  page.on('console', (m) => ['error', 'warning'].includes(m.type()) && page.complaints.push(m.text()));
+  page.on('pageerror', (e) => page.complaints.push(e.message));
+  page.on('request', (r) => /^(file|data):/.test(r.url()) || page.complaints.push('asked for ' + r.url()));
+  await page.goto(address(name) + hash);
+  return page;
+}
+
+async function close(page) {
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+}
+
+const scales = (page) => page.evaluate(() => sixstep.charts.map((u) => [u.scales.x.min, u.scales.x.max]));
+const allEqual = (list) => list.every((x) => JSON.stringify(x) === JSON.stringify(list[0]));
+
+/** Cursor, theme and size reach the page with its next frames: asks again until the answer is right. */
+async function eventually(check) {
+  for (const begin = performance.now(); ; await new Promise((done) => setTimeout(done, 20))) {
+    try {
+      return await check();
+    } catch (error) {
+      if (performance.now() - begin > 5000) throw error;
+    }
+  }
+}
+
+async function plotArea(page, id) {
+  const over = page.locator(`#chart-${id} .u-over`);
+  await over.scrollIntoViewIfNeeded();
+  return over.boundingBox();
+}
+
+async function drag(page, id, from, to) {
+  const box = await plotArea(page, id);
+  await page.mouse.move(box.x + box.width * from, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * to, box.y + box.height / 2, {steps: 5});
+  await page.mouse.up();
+}
+
+test('opens quickly, with verdict and all charts', async () => {
+  const page = await opened('short.html');
+  // A loaded machine may delay any one opening, so the best of several counts, and the bound leaves room.
+  let best = Infinity;
+  for (let n = 0; n < 4; ++n) {
+    await page.reload();
+    best = Math.min(best, await page.evaluate(() => sixstep.ready_ms));
+  }
+  assert.ok(best < 2000, `${best} ms`);
+  assert.equal(await page.locator('.verdict .word').textContent(), 'PASS');
+  const ids = await page.locator('.chart').evaluateAll((all) => all.map((c) => c.id));
+  assert.deepEqual(ids, ['currents', 'logic', 'line-voltages', 'back-emf', 'speed', 'torque', 'duty'].map((n) => 'chart-' + n));
+  assert.ok(await page.evaluate(() => [...document.querySelectorAll('canvas')].every((c) => c.width > 500 && c.height > 50)));
+  assert.equal(await page.locator('script:text("alert")').count(), 0);
+  await close(page);
+});
+
+test('dragging zooms every chart, double-click shows the whole run again', async () => {
+  const page = await opened('short.html');
+  await drag(page, 'currents', 0.25, 0.5);
+  const zoomed = await eventually(async () => {
+    const shown = await scales(page);
+    assert.ok(allEqual(shown), JSON.stringify(shown));
+    assert.ok(Math.abs(shown[0][0] - 0.005) < 2e-4 && Math.abs(shown[0][1] - 0.01) < 2e-4, JSON.stringify(shown[0]));
+    return shown;
+  });
+  assert.match(page.url(), /#t=/);
+  const box = await plotArea(page, 'duty');
+  await page.mouse.dblclick(box.x + 200, box.y + 30);
+  await eventually(async () => assert.deepEqual(await scales(page), zoomed.map(() => [0, 0.02])));
+  await close(page);
+});
+
+test('the cursor is read out in every chart', async () => {
+  const page = await opened('short.html');
+  const box = await plotArea(page, 'currents');
+  await page.mouse.move(box.x + box.width / 8, box.y + 40);
+  const reads = (place, pattern) =>
+    eventually(async () => assert.match(await page.locator(place).first().textContent(), pattern, place));
+  await reads('#cursor', /t = 2\.5\d* ms/);
+  for (const id of ['currents', 'line-voltages', 'speed', 'torque']) await reads(`#chart-${id} .value`, /^−?\d/);
+  await reads('#chart-speed .value', /rpm/);
+  await reads('#chart-logic .value', /^[01]$/);
+  await close(page);
+});
+
+test('close-ups, keys and address choose what is shown', async () => {
+  const page = await opened('short.html');
+  await page.click('#view-periods');
+  let shown = await scales(page);
+  assert.ok(allEqual(shown));
+  assert.ok(Math.abs(shown[0][1] - shown[0][0] - 90e-6) < 1e-9);
+  assert.equal(await page.getAttribute('#view-periods', 'aria-pressed'), 'true');
+  await page.click('#view-commutation');
+  shown = await scales(page);
+  assert.ok(shown[0][1] - shown[0][0] < 2e-3);
+  await page.keyboard.press('0');
+  assert.deepEqual((await scales(page))[0], [0, 0.02]);
+  await page.keyboard.press('+');
+  assert.deepEqual((await scales(page))[0], [0.005, 0.015]);
+  await close(page);
+  const linked = await opened('short.html', {hash: '#t=0.004,0.006'});
+  assert.deepEqual((await scales(linked))[0], [0.004, 0.006]);
+  await close(linked);
+});
+
+test('labels switch curves off and on', async () => {
+  const page = await opened('short.html');
+  const label = page.locator('#chart-currents button').first();
+  const visible = () => page.evaluate(() => sixstep.charts[0].series[1].show);
+  assert.equal(await visible(), true);
+  await label.click();
+  assert.equal(await visible(), false);
+  assert.equal(await label.getAttribute('aria-pressed'), 'false');
+  await label.click();
+  assert.equal(await visible(), true);
+  await close(page);
+});
+
+test('follows the theme, and prints dark ink on white paper', async () => {
+  const page = await opened('short.html', {theme: 'dark'});
+  const brightness = () => page.evaluate(() =>
+    getComputedStyle(document.documentElement).backgroundColor.match(/\d+/g).slice(0, 3).reduce((a, b) => a + +b, 0));
+  const stroke = () => page.evaluate(() => sixstep.charts[0].series[4].stroke());
+  assert.ok(await brightness() < 150);
+  const inDark = await stroke();
+  await page.emulateMedia({colorScheme: 'light'});
+  assert.ok(await brightness() > 600);
+  await eventually(async () => assert.notEqual(await stroke(), inDark));
+  await page.emulateMedia({colorScheme: 'dark'});
+  await eventually(async () => assert.equal(await stroke(), inDark));
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  assert.notEqual(await stroke(), inDark);
+  await page.evaluate(() => dispatchEvent(new Event('afterprint')));
+  assert.equal(await stroke(), inDark);
+  await close(page);
+});
+
+test('a long run opens as an envelope and says so', async () => {
+  const page = await opened('long.html');
+  assert.equal(await page.locator('.verdict .word').textContent(), 'FAIL');
+  assert.match(await page.locator('#envelope').textContent(), /envelope/);
+  assert.equal(await page.locator('.chart').first().getAttribute('id'), 'chart-speed');
+  await close(page);
+});
+
+test('fits a narrow window without scrolling sideways', async () => {
+  const page = await opened('short.html');
+  await page.setViewportSize({width: 420, height: 800});
+  await page.waitForFunction(() => sixstep.charts.every((u) => u.width < 420));
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+  await close(page);
+});
+
+test('the index links to every report', async () => {
+  const page = await opened('index.html');
+  assert.equal(await page.locator('.verdict .line').textContent(), '1 of 2 experiments pass');
+  await page.click('text=A longer run');
+  await page.waitForURL(/long\.html/);
+  await close(page);
+});

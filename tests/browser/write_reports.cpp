@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// write_reports FOLDER: the pages that the browser tests open.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "io/report/report.hpp"
+#include "tests/io/synthetic_run.hpp"
+
+namespace {
+
+const char* scenario_text =
+    R"(title = "Current PI, square wave 5 A at 100 Hz"   # <script>alert("not run")</script>
+motor = "maxon-251601"
+duration_s = 0.02
+[control]
+mode = "current"
+)";
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+  std::cout << file.string() << ": " << text.size() / 1024 << " KiB\n";
+}
+
+std::string page(const sixstep_tests::SyntheticRun& run) {
+  return io::report::render({.scenario = run.scenario,
+                             .outcome = run.outcome,
+                             .trace = run.trace,
+                             .command = "sixstep run data/scenarios/thesis/7.3.1.toml --html pi.html",
+                             .version = "0.1.0",
+                             .scenario_text = scenario_text});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const std::filesystem::path folder = argv[1];
+  std::filesystem::create_directories(folder);
+  const auto good = sixstep_tests::synthetic_run(0.02);
+  write(folder / "short.html", page(good));
+  auto bad = sixstep_tests::synthetic_run(0.6);
+  bad.scenario.title = "A longer run that misses its goal";
+  bad.outcome.verdicts[0] = {"settling time of current", "s", 0.00131, std::nullopt, 1e-3, false};
+  bad.scenario.control.mode = sixstep::control::Mode::speed;
+  write(folder / "long.html", page(bad));
+  write(folder / "index.html", io::report::render_index({{good.scenario.title, "short.html", &good.outcome},
+                                                         {bad.scenario.title, "long.html", &bad.outcome}},
+                                                        "sixstep run a.toml b.toml --out out", "0.1.0"));
+}

@@ -1,0 +1,88 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# install.sh SECTION..: installs what tools/packages.txt lists in these sections and this machine lacks, then the
+# browser parts of package-lock.json. Says what it does; when all is there it is silent and takes milliseconds.
+set -eu
+cd "$(dirname "$0")/.."
+
+say() { printf 'install: %s\n' "$*"; }
+
+# The lines of one section as "package substitute"; the substitute is the command or file that makes it unnecessary.
+listed() {
+  awk -v wanted="[$1]" '
+    { sub(/#.*/, ""); gsub(/[ \t]+$/, "") }
+    /^\[/ { inside = ($0 == wanted); next }
+    inside && NF { substitute = ""; package = $1
+      if (match(package, /\(.*\)/)) {
+        substitute = substr(package, RSTART + 1, RLENGTH - 2); package = substr(package, 1, RSTART - 1) }
+      print package, substitute }' tools/packages.txt
+}
+
+# dpkg-query, not apt: it answers at once and needs no package lists.
+missing_packages() {
+  local section package substitute wanted=()
+  for section in "$@"; do
+    while read -r package substitute; do
+      case $substitute in
+        /*) if [ -s "$substitute" ]; then continue; fi ;;
+        ?*) if command -v "$substitute" >/dev/null; then continue; fi ;;
+      esac
+      wanted+=("$package")
+    done < <(listed "$section")
+  done
+  [ ${#wanted[@]} -gt 0 ] || return 0
+  local installed
+  installed=" $(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null |
+    awk '$1 == "installed" { print $2 }' | tr '\n' ' ') "
+  for package in "${wanted[@]}"; do
+    case "$installed" in *" $package "*) ;; *) echo "$package" ;; esac
+  done
+}
+
+as_root() {
+  if [ "$(id -u)" = 0 ]; then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    say "sudo $*"
+    sudo "$@"
+  else
+    say "these packages are missing and neither root nor sudo is at hand; please run as root:"
+    say "  $*"
+    exit 1
+  fi
+}
+
+install_packages() {
+  local wanted=("$@")
+  if ! command -v apt-get >/dev/null; then
+    say "no apt-get here; please install the counterparts of: ${wanted[*]}"
+    exit 1
+  fi
+  say "missing Debian packages: ${wanted[*]}"
+  # A machine that has never fetched its package lists, or whose lists are too old, needs an update first.
+  local get="env DEBIAN_FRONTEND=noninteractive apt-get -qq -y -o Dpkg::Use-Pty=0"
+  local log
+  log=$(mktemp)
+  if ! as_root $get install --no-install-recommends "${wanted[@]}" </dev/null >"$log" 2>&1; then
+    say "fetching Debian's package lists"
+    as_root $get update </dev/null >>"$log" 2>&1 || { tail -n 20 "$log"; exit 1; }
+    say "installing (minutes on a bare machine)"
+    as_root $get install --no-install-recommends "${wanted[@]}" </dev/null >>"$log" 2>&1 ||
+      { tail -n 20 "$log"; say "apt-get failed; its last lines are above"; exit 1; }
+  fi
+  rm -f "$log"
+  say "${#wanted[@]} packages installed"
+}
+
+# npm ci empties node_modules, so it runs only when the lock has changed since it last finished.
+install_browser_parts() {
+  local done_for=node_modules/.installed-lock
+  cmp -s package-lock.json "$done_for" && return 0
+  say "npm ci: the report's chart library"
+  npm ci --no-audit --no-fund --ignore-scripts --loglevel=error </dev/null
+  cp package-lock.json "$done_for"
+}
+
+mapfile -t wanted < <(missing_packages "${@:-run}")
+[ ${#wanted[@]} -eq 0 ] || install_packages "${wanted[@]}"
+install_browser_parts
