@@ -11,7 +11,7 @@ import tempfile
 import time
 import unittest
 
-PROGRAM, SOURCE = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1))
+PROGRAM, SOURCE = os.path.abspath(sys.argv.pop(1)), pathlib.Path(sys.argv.pop(1)).resolve()
 R1 = str(SOURCE / "data/scenarios/reference/R1.toml")
 
 # The rotor is held at full voltage; only the limit decides whether the requirement holds.
