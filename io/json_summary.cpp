@@ -42,7 +42,7 @@ Json gains(const study::Outcome& outcome) {
   return list;
 }
 
-Json energy(const study::EnergyBook& e) {
+Json energy(const sixstep::plant::EnergyBook& e) {
   return {{"supplied_J", e.supplied},
           {"copper_J", e.copper},
           {"devices_J", e.devices},
@@ -51,8 +51,15 @@ Json energy(const study::EnergyBook& e) {
           {"friction_J", e.friction},
           {"load_J", e.load},
           {"kinetic_J", e.kinetic},
+          {"moved_J", e.moved},
           {"electrical_residual", e.electrical_residual},
           {"mechanical_residual", e.mechanical_residual}};
+}
+
+Json laws(const sixstep::plant::Laws& l) {
+  return {{"current_sum_A", l.current_sum_A},
+          {"reverse_diode_A", l.reverse_diode_A},
+          {"floating_current_A", l.floating_current_A}};
 }
 
 Json events(const study::Outcome& outcome) {
@@ -76,6 +83,7 @@ std::string json_summary(const study::Scenario& scenario, const study::Outcome& 
   summary["compare"] = comparisons(outcome);
   summary["gains"] = gains(outcome);
   summary["energy"] = energy(outcome.energy);
+  summary["laws"] = laws(outcome.laws);
   summary["events"] = events(outcome);
   // A title may hold bytes that are no UTF-8: shown as such, never thrown over.
   return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

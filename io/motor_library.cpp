@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "io/key_advice.hpp"
+#include "io/motors.hpp"
 #include "io/text_file.hpp"
-#include <motors.hpp>
 
 namespace io {
 namespace {
@@ -32,10 +32,13 @@ std::vector<std::string> built_in_motors() {
 }
 
 base::Result<Document> find_motor(const MotorQuery& query) {
+  if (query.name.empty())
+    return base::Problem{.limit = "names no motor",
+                         .cure = "give a motor file's path or a built-in motor's name"};
   const std::vector<std::string> paths = candidates(query);
   for (const std::string& path : paths) {
     std::error_code ignored;
-    if (query.name.empty() || !fs::exists(path, ignored) || fs::is_directory(path, ignored)) continue;
+    if (!fs::exists(path, ignored) || fs::is_directory(path, ignored)) continue;
     base::Result<std::string> text = read_text(path);
     if (!text) return text.problems();
     return Document::parse(path, std::move(*text));

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
+#include "io/key_catalog.hpp"
 #include "io/motor_library.hpp"
 #include "io/table_reader.hpp"
 #include "io/text_file.hpp"
@@ -59,21 +61,10 @@ void drop_stale_constant(const Document& document, design::Sheet& sheet) {
   if (torque && !back_emf) sheet.back_emf_mV_s.reset();
 }
 
-void check_reference_unit(const Document& document, const study::Scenario& scenario, Complaints& complaints) {
-  const std::string_view wanted = study::reference_unit(scenario.control.mode);
-  const toml::node* node = document.find("reference.unit");
-  if (!node || !scenario.reference.unit || wanted.empty() || *scenario.reference.unit == wanted) return;
-  complaints.value(*node, "reference.unit",
-                   {.limit = fmt::format("is not the unit of mode \"{}\", which is \"{}\"",
-                                         base::word(study::mode_choices, scenario.control.mode), wanted),
-                    .cure = fmt::format("give the reference in \"{}\" or change control.mode", wanted)});
-}
-
-/// Whether a check's path speaks of the motor, and which key of its sheet.
-std::optional<std::string> sheet_key(const std::string& where) {
-  for (const std::string_view prefix : {"motor.", "sheet.", "motor_override."})
-    if (where.starts_with(prefix)) return where.substr(prefix.size());
-  return {};
+/// Whether a check speaks of the motor's sheet, whose keys it names without a table.
+bool is_sheet_key(const std::string& where) {
+  const std::vector<KeyEntry> keys = sheet_keys();
+  return std::any_of(keys.begin(), keys.end(), [&](const KeyEntry& key) { return key.path == where; });
 }
 
 /// What study::check found, each told where it stands: in the scenario, its overrides, or the motor's file.
@@ -82,13 +73,13 @@ void run_checks(const Document& document, const SheetSource& source, const study
   Complaints of_motor(source.document);
   base::Problems of_scenario;
   for (base::Problem& problem : study::check(scenario)) {
-    const std::optional<std::string> key = sheet_key(problem.where);
-    if (key && document.find("motor_override." + *key))
-      problem.where = "motor_override." + *key;
-    else if (key) {
-      problem.where = *key;
-      of_motor.later(std::move(problem));
-      continue;
+    if (is_sheet_key(problem.where)) {
+      const std::string overridden = fmt::format("motor_override.{}", problem.where);
+      if (!document.find(overridden)) {
+        of_motor.later(std::move(problem));
+        continue;
+      }
+      problem.where = overridden;
     }
     // What follows from a mistake told already would only hide it.
     if (!complaints.about_table_of(problem.where)) of_scenario.push_back(std::move(problem));
@@ -128,7 +119,6 @@ base::Result<study::Scenario> read_scenario(const std::string& path, const ReadO
   if (source) scenario.sheet = source->sheet;
   read_root(document, scenario, complaints);
   drop_stale_constant(document, scenario.sheet);
-  check_reference_unit(document, scenario, complaints);
   if (source) run_checks(document, *source, scenario, complaints, of_motor_file);
 
   base::Problems problems = complaints.in_order();

@@ -73,7 +73,8 @@ std::string required_text(const study::Verdict& v) {
 
 std::string deviation_text(const study::ComparisonResult& c) {
   if (c.value == 0.0) return fmt::format("{:+.3g}", c.measured);
-  return fmt::format("{:+.3g} %", 100.0 * (c.measured - c.value) / std::abs(c.value));
+  const double percent = 100.0 * (c.measured - c.value) / std::abs(c.value);
+  return std::abs(percent) < 1e-9 ? "equal" : fmt::format("{:+.3g} %", percent);
 }
 
 std::string verdict_table(std::span<const TableEntry> entries, bool colour) {

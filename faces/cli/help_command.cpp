@@ -9,6 +9,7 @@
 #include "faces/cli/terminal.hpp"
 #include "io/key_advice.hpp"
 #include "io/key_catalog.hpp"
+#include "sixstep/study/run.hpp"
 
 namespace cli {
 namespace {
@@ -42,6 +43,14 @@ std::string of_table(const std::vector<KeyEntry>& entries, const KeyEntry& table
   return text;
 }
 
+std::string of_key(const KeyEntry& entry) {
+  std::string text = io::help_text(entry);
+  if (entry.path != "record.columns") return text;
+  for (const study::Column& column : study::all_columns())
+    text += fmt::format("    {:<20}{}\n", column.name, column.meaning);
+  return text;
+}
+
 const KeyEntry* by_path(const std::vector<KeyEntry>& entries, const std::string& key) {
   const auto found =
       std::find_if(entries.begin(), entries.end(), [&](const KeyEntry& e) { return e.path == key; });
@@ -68,7 +77,7 @@ Exit help_command(const std::string& key) {
     return Exit::ok;
   }
   if (const KeyEntry* entry = by_path(scenario, key)) {
-    print(is_table(*entry) ? of_table(scenario, *entry) : io::help_text(*entry));
+    print(is_table(*entry) ? of_table(scenario, *entry) : of_key(*entry));
     return Exit::ok;
   }
   if (const KeyEntry* entry = by_path(sheet, key)) {
@@ -76,7 +85,7 @@ Exit help_command(const std::string& key) {
     return Exit::ok;
   }
   if (const KeyEntry* entry = by_name(scenario, key)) {
-    print(io::help_text(*entry));
+    print(of_key(*entry));
     return Exit::ok;
   }
   std::vector<std::string> known;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "sixstep/study/choices.hpp"
 #include "sixstep/study/columns.hpp"
 #include "sixstep/study/compile.hpp"
 #include "sixstep/study/run.hpp"
@@ -51,27 +52,14 @@ void check_steps(const std::vector<double>& times, const std::vector<double>& va
   }
 }
 
-const char* unit_of_mode(control::Mode mode) {
-  switch (mode) {
-    case control::Mode::off:
-      return "";
-    case control::Mode::duty:
-      return "1";
-    case control::Mode::current:
-      return "A";
-    case control::Mode::speed:
-      return "rad/s";
-    case control::Mode::position:
-      return "deg";
-  }
-  return "";
-}
-
 void check_reference(const Scenario& s, base::Problems& out) {
   const Reference& r = s.reference;
-  if (r.unit && *r.unit != unit_of_mode(s.control.mode))
-    out.push_back({"reference.unit", "\"" + *r.unit + "\"", "does not fit the control mode",
-                   "that mode's reference is in \"" + std::string(unit_of_mode(s.control.mode)) + "\""});
+  if (r.unit && s.control.mode != control::Mode::off && *r.unit != reference_unit(s.control.mode))
+    out.push_back(
+        {"reference.unit", "\"" + *r.unit + "\"",
+         "is not the unit of mode \"" + std::string(base::word(mode_choices, s.control.mode)) + "\"",
+         "give the reference in \"" + std::string(reference_unit(s.control.mode)) +
+             "\" or change control.mode"});
   if (r.shape == Shape::steps) {
     check_steps(r.times_s, r.values, "reference", "values", s.duration_s, out);
     if (r.times_s.empty())

@@ -11,6 +11,10 @@ using base::above;
 using base::between;
 using base::from;
 
+/// Time is counted in picoseconds of 63 bits, 106 days; and what repeats must be many of them long.
+inline constexpr double longest_s = 9e6;
+inline constexpr double shortest_period_s = 1e-9;
+
 template <class Visitor>
 void describe(Visitor& v, Supply& s) {
   v.value("voltage_V", s.voltage_V, {.meaning = "voltage of the source", .unit = "V", .range = above(0)});
@@ -44,7 +48,9 @@ void describe(Visitor& v, Bridge& s) {
 template <class Visitor>
 void describe(Visitor& v, Pwm& s) {
   v.value("period_s", s.period_s,
-          {.meaning = "PWM period, and the controller's sampling period", .unit = "s", .range = above(0)});
+          {.meaning = "PWM period, and the controller's sampling period",
+           .unit = "s",
+           .range = between(shortest_period_s, 1)});
   v.choice("alignment", s.alignment, alignment_choices, {.meaning = "where in the period the on-time lies"});
   v.choice("chopping", s.chopping, chopping_choices, {.meaning = "which switches are chopped"});
   v.choice("commutation", s.commutation, commutation_choices, {.meaning = "when the driven pair changes"});
@@ -126,7 +132,7 @@ void describe(Visitor& v, Reference& s) {
   v.value("high", s.high, {.meaning = "square: first half of each period, in the unit of control.mode"});
   v.value("low", s.low, {.meaning = "square: second half of each period, in the unit of control.mode"});
   v.value("period_s", s.period_s,
-          {.meaning = "square: length of one period", .unit = "s", .range = above(0)});
+          {.meaning = "square: length of one period", .unit = "s", .range = from(shortest_period_s)});
   v.value("unit", s.unit,
           {.meaning = "unit of the reference, to be checked: 1, A, rad/s or deg as control.mode asks"});
 }
@@ -167,9 +173,10 @@ void describe(Visitor& v, Initial& s) {
 
 template <class Visitor>
 void describe(Visitor& v, Record& s) {
-  v.value(
-      "grid_s", s.grid_s,
-      {.meaning = "spacing of the recorded rows; without it pwm.period_s", .unit = "s", .range = above(0)});
+  v.value("grid_s", s.grid_s,
+          {.meaning = "spacing of the recorded rows; without it pwm.period_s",
+           .unit = "s",
+           .range = from(shortest_period_s)});
   v.value("events", s.events,
           {.meaning = "whether every event is recorded too, with both sides of each jump"});
   v.value("columns", s.columns, {.meaning = "columns to record, t_s always first; without it all of them"});
@@ -219,7 +226,10 @@ void describe(Visitor& v, Scenario& s) {
            "motor file: a path, or a name looked up beside the scenario, in --data and in the built-in list",
        .required = true});
   v.value("duration_s", s.duration_s,
-          {.meaning = "simulated time", .unit = "s", .range = above(0), .required = true});
+          {.meaning = "simulated time",
+           .unit = "s",
+           .range = base::Range{0, longest_s, false, true},
+           .required = true});
   v.value("notes", s.notes, {.meaning = "what the run teaches, shown in the report"});
   v.table("motor_override", s.sheet,
           {.meaning = "single values that replace those of the motor file", .partial = true});

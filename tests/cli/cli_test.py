@@ -4,12 +4,14 @@
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
-PROGRAM, SOURCE = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1))
+PROGRAM, SOURCE = os.path.abspath(sys.argv.pop(1)), pathlib.Path(sys.argv.pop(1)).resolve()
 R1 = str(SOURCE / "data/scenarios/reference/R1.toml")
 
 # The rotor is held at full voltage; only the limit decides whether the requirement holds.
@@ -72,7 +74,7 @@ class CommandLine(unittest.TestCase):
         good = self.write("a.toml", 1000)
         (self.path / "bad.toml").write_text('motor = "maxon-251601"\nduration_s = 0\n')
         result = self.run_program("run", good, "bad.toml", "--out", "out", code=2)
-        self.assertEqual(result.stderr, "bad.toml:2:14: duration_s = 0 must be above 0; it means: simulated time, in s\n")
+        self.assertEqual(result.stderr, "bad.toml:2:14: duration_s = 0 must be above 0 and at most 9000000; it means: simulated time, in s\n")
         self.run_program("run", "absent.toml", code=2)
         self.run_program("run", code=2)
         self.run_program("nonsense", code=2)
@@ -115,9 +117,25 @@ class CommandLine(unittest.TestCase):
         summary = json.loads(self.run_program("run", good, "--json", "-", "--set", "duration_s=2e-4").stdout)
         self.assertEqual(summary["duration_s"], 2e-4)
 
+    def test_ctrl_c_leaves_what_is_finished_under_a_partial_name(self):
+        good = self.write("a.toml", 1000)
+        words = [PROGRAM, "run", good, "--csv", "a.csv", "--json", "a.json", "--set", "duration_s=1e4",
+                 "--set", "record.grid_s=1"]
+        with subprocess.Popen(words, cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as program:
+            deadline = time.monotonic() + 20
+            while len(self.names()) < 3 and time.monotonic() < deadline:  # both outputs are open before the run begins
+                time.sleep(0.01)
+            time.sleep(0.2)
+            program.send_signal(signal.SIGINT)
+            program.communicate(timeout=20)
+        self.assertEqual(program.returncode, 130)
+        self.assertEqual(self.names(), ["a.partial.csv", "a.toml"])
+        self.assertTrue((self.path / "a.partial.csv").read_text().startswith("t_s,"))
+
     def test_help_explains_keys_and_answers_near_misses(self):
         self.assertIn("supply.voltage_V", self.run_program("help", "supply").stdout)
         self.assertIn("default 24", self.run_program("help", "supply.voltage_V").stdout)
+        self.assertIn("i_a_A", self.run_program("help", "columns").stdout)
         self.assertIn("terminal|phase", self.run_program("help", "resistance_ohm").stdout)
         self.assertIn("did you mean supply.voltage_V?", self.run_program("help", "suply.voltage_V", code=2).stderr)
 

@@ -87,7 +87,7 @@ TEST_F(WrongInput, NotANumberAndInfinityAreRefused) {
 
 TEST_F(WrongInput, DurationZero) {
   EXPECT_THAT(complaints("motor = \"maxon-251601\"\nduration_s = 0\n"),
-              ElementsAre("x.toml:2:14: duration_s = 0 must be above 0; it means: simulated time, in s"));
+              ElementsAre("x.toml:2:14: duration_s = 0 must be above 0 and at most 9000000; it means: simulated time, in s"));
 }
 
 TEST_F(WrongInput, MissingRequiredKeysPointAtTheirTable) {
@@ -153,22 +153,18 @@ TEST_F(WrongInput, WordsAreAnsweredWithTheNearest) {
 }
 
 TEST_F(WrongInput, ReferenceInAnotherModesUnit) {
-  EXPECT_THAT(
-      complaints(head + "[control]\nmode = \"speed\"\n[reference]\nvalue = 955\nunit = \"rpm\"\n"),
-      ElementsAre(
-          "x.toml:7:8: reference.unit = \"rpm\" is not the unit of mode \"speed\", which is \"rad/s\"; "
-          "give the reference in \"rad/s\" or change control.mode"));
+  EXPECT_THAT(complaints(head + "[control]\nmode = \"speed\"\n[reference]\nvalue = 955\nunit = \"rpm\"\n"),
+              ElementsAre("x.toml:7:8: reference.unit = \"rpm\" is not the unit of mode \"speed\"; "
+                          "give the reference in \"rad/s\" or change control.mode"));
 }
 
 TEST_F(WrongInput, ContradictoryGainsAreToldOnceAndWhere) {
-  const std::vector<std::string> told =
-      complaints(head +
-                 "[control]\nmode = \"current\"\n[control.current]\nsettle_s = 1e-3\ndamping = 0.9\nd1 = "
-                 "4.5\nd0 = -4.04\n");
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_THAT(told[0], HasSubstr("x.toml:8:6: control.current.d1 = 4.5 "));
-  EXPECT_THAT(told[0], HasSubstr("settle_s"));
-  EXPECT_THAT(told[0], HasSubstr("; give "));
+  EXPECT_THAT(
+      complaints(head + "[control]\nmode = \"current\"\n[control.current]\nsettle_s = 1e-3\ndamping = 0.9\n"
+                        "d1 = 4.5\nd0 = -4.04\n"),
+      ElementsAre(
+          "x.toml:8:6: control.current.d1 = 4.5 contradicts settle_s, damping: gains are either given or "
+          "designed; keep one of: d1 and d0 | kp and ki | settle_s and damping"));
 }
 
 TEST_F(WrongInput, EverythingAtOnceInTheOrderOfTheLines) {
