@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The chip boundary: what a controller is given and what it answers. Plain structs, the same on the virtual board
-// and on a real one.
+// The chip boundary: what a controller is given and what it answers. Plain structs, the same on the virtual
+// board and on a real one.
 #pragma once
 #include <cstdint>
 
@@ -26,13 +26,14 @@ struct Pair {
 template <class Scalar>
 struct Measurement {
   Scalar i_a_A{}, i_b_A{}, i_c_A{};
-  Scalar speed_rad_s{};     ///< mechanical
-  Scalar position_deg{};    ///< mechanical, counted over turns
+  Scalar speed_rad_s{};   ///< mechanical
+  Scalar position_deg{};  ///< mechanical, counted over turns
   Scalar bus_V{};
-  std::uint8_t hall = 0;    ///< H1 H2 H3 as bits 2, 1, 0
+  std::uint8_t hall = 0;  ///< H1 H2 H3 as bits 2, 1, 0
 };
 
-/// What is wanted, in the unit of the mode: duty 1 (signed, -1..1), current A, speed rad/s, position deg (mechanical).
+/// What is wanted, in the unit of the mode: duty 1 (signed, -1..1), current A, speed rad/s, position deg
+/// (mechanical).
 template <class Scalar>
 struct Setpoint {
   Scalar value{};
@@ -42,19 +43,19 @@ struct Setpoint {
 enum class Watch : std::uint8_t {
   none,   ///< comparators not armed: the duty rules
   motor,  ///< one comparator on (i_source - i_sink)/2
-  phase   ///< one per driven phase: +i_source for the upper switch, -i_sink for the lower (hard chopping only)
+  phase  ///< one per driven phase: +i_source for the upper switch, -i_sink for the lower (hard chopping only)
 };
 
 template <class Scalar>
 struct BridgeCommand {
-  bool enabled = false;               ///< false: all six gates off
-  Pair pair{};                        ///< already swapped for a negative command
-  Scalar duty{};                      ///< 0..1, on-time over PWM period; ignored while comparators are armed
+  bool enabled = false;  ///< false: all six gates off
+  Pair pair{};           ///< already swapped for a negative command
+  Scalar duty{};         ///< 0..1, on-time over PWM period; ignored while comparators are armed
   Chopping chopping = Chopping::soft;
   Watch watch = Watch::none;
-  Scalar on_below_A{};                ///< a comparator switches on strictly below this
-  Scalar off_above_A{};               ///< and off strictly above this
-  bool fault = false;                 ///< an impossible Hall code was seen; the bridge is off
+  Scalar on_below_A{};   ///< a comparator switches on strictly below this
+  Scalar off_above_A{};  ///< and off strictly above this
+  bool fault = false;    ///< an impossible Hall code was seen; the bridge is off
 
   bool operator==(const BridgeCommand&) const = default;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PI by pole placement on the ZOH plant, exactly as THESIS.md's chapter 6 does it, with every intermediate as data.
+// PI by pole placement on the ZOH plant, exactly as THESIS.md's chapter 6 does it, with every intermediate as
+// data.
 #pragma once
 #include <string>
 #include <vector>
@@ -30,12 +31,12 @@ struct DerivationStep {
 
 struct PolePlacement {
   double settle_s = 0.0, damping = 0.0, period_s = 0.0;
-  double w0_rad_s = 0.0;                 // 4.6/(xi T_reg)
-  double s_re = 0.0, s_im = 0.0;         // -xi w0 +- j w0 sqrt(1 - xi^2)
-  double z_re = 0.0, z_im = 0.0;         // exp(s T_s)
+  double w0_rad_s = 0.0;          // 4.6/(xi T_reg)
+  double s_re = 0.0, s_im = 0.0;  // -xi w0 +- j w0 sqrt(1 - xi^2)
+  double z_re = 0.0, z_im = 0.0;  // exp(s T_s)
   ZohPlant plant;
   PiGains gains;
-  std::vector<DerivationStep> steps;     // the same, for a reader
+  std::vector<DerivationStep> steps;  // the same, for a reader
 };
 
 /// Current loop plant 1/(L s + R), terminal R and L: a0 = -exp(-R T/L), b0 = (1 - exp(-R T/L))/R.
@@ -44,8 +45,10 @@ ZohPlant current_plant(double R_ohm, double L_H, double period_s);
 /// Speed loop plant T_max/(J s + B): fraction of T_max in, rad/s out. B = 0 is the integrator T_max T/J.
 ZohPlant speed_plant(double torque_max_Nm, double J_kg_m2, double B_Nm_s, double period_s);
 
-/// Matches z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) with the pole pair. Problems: settle_s, damping or period_s out of
-/// range (damping above 1 has two real poles and is allowed up to 1 only: the thesis's rule places a pair).
-base::Result<PolePlacement> place_poles(const ZohPlant& plant, double settle_s, double damping, double period_s);
+/// Matches z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) with the pole pair. Problems: settle_s, damping or
+/// period_s out of range (damping above 1 has two real poles and is allowed up to 1 only: the thesis's rule
+/// places a pair).
+base::Result<PolePlacement> place_poles(const ZohPlant& plant, double settle_s, double damping,
+                                        double period_s);
 
 }  // namespace sixstep::design

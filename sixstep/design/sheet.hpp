@@ -20,12 +20,13 @@ struct Sheet {
   double flat_deg = 120.0;  // width of the trapezoid's flat top, electrical
 
   base::Quantity nominal_voltage_V;
-  base::Quantity resistance_ohm;          // frame terminal or phase
-  base::Quantity inductance_mH;           // frame terminal or phase
+  base::Quantity resistance_ohm;                        // frame terminal or phase
+  base::Quantity inductance_mH;                         // frame terminal or phase
   std::optional<base::Quantity> torque_constant_mNm_A;  // terminal: torque per ampere through the driven pair
-  std::optional<base::Quantity> back_emf_mV_s;          // frame phase: peak per mechanical rad/s, used as it is
+  std::optional<base::Quantity> back_emf_mV_s;  // frame phase: peak per mechanical rad/s, used as it is
   base::Quantity inertia_gcm2;
-  std::optional<base::Quantity> viscous_friction_Nm_s;  // default: all of the no-load loss, K_t I_0/w_0
+  std::optional<base::Quantity>
+      viscous_friction_Nm_s;  // default: what the no-load loss leaves, (K_t I_0 - T_c)/w_0
   std::optional<base::Quantity> coulomb_friction_mNm;
 
   std::optional<base::Quantity> no_load_speed_rpm, no_load_current_mA;

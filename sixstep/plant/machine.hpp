@@ -8,21 +8,21 @@ namespace sixstep::plant {
 enum class BackEmf : std::uint8_t { trapezoid, sine };
 
 struct Machine {
-  double R_ohm = 0.0;          ///< phase resistance R_s
-  double L_H = 0.0;            ///< phase inductance L_s = L - M
-  double K_e_V_s = 0.0;        ///< peak phase EMF per mechanical rad/s, also N m/A per phase
+  double R_ohm = 0.0;    ///< phase resistance R_s
+  double L_H = 0.0;      ///< phase inductance L_s = L - M
+  double K_e_V_s = 0.0;  ///< peak phase EMF per mechanical rad/s, also N m/A per phase
   int pole_pairs = 1;
   BackEmf back_emf = BackEmf::trapezoid;
-  double flat_deg = 120.0;     ///< flat width of the trapezoid, electrical degrees, in (0, 180)
+  double flat_deg = 120.0;  ///< flat width of the trapezoid, electrical degrees, in (0, 180)
 };
 
 /// What turns: J dw/dt = T_e - B w - T_c(w) - T_load (MODEL 1, eq. 4).
 struct Shaft {
   double J_kg_m2 = 0.0;
-  double B_Nm_s = 0.0;         ///< viscous friction
-  double coulomb_Nm = 0.0;     ///< T_c0 while turning
-  double static_Nm = 0.0;      ///< breakaway torque; counts where larger than coulomb_Nm
-  bool locked = false;         ///< the rotor is held
+  double B_Nm_s = 0.0;      ///< viscous friction
+  double coulomb_Nm = 0.0;  ///< T_c0 while turning
+  double static_Nm = 0.0;   ///< breakaway torque; counts where larger than coulomb_Nm
+  bool locked = false;      ///< the rotor is held
 };
 
 /// Switches and diodes (MODEL 2), MOSFET: the gated channel carries both directions alone.
@@ -37,7 +37,7 @@ struct Supply {
   double V_0_V = 0.0;
   double R_b_ohm = 0.0;
   double C_F = 0.0;
-  bool sinks = true;           ///< false: a rectifier, the source cannot take current back
+  bool sinks = true;  ///< false: a rectifier, the source cannot take current back
 };
 
 }  // namespace sixstep::plant

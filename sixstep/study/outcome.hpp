@@ -9,14 +9,15 @@
 #include "sixstep/base/problem.hpp"
 #include "sixstep/design/parameters.hpp"
 #include "sixstep/design/pole_placement.hpp"
+#include "sixstep/plant/audit.hpp"
 
 namespace sixstep::study {
 
 /// A trace column: name with unit suffix as in the CSV header, unit and frame in words.
 struct Column {
-  std::string name;     // "i_a_A"
-  std::string unit;     // "A"
-  std::string frame;    // "phase, into the motor"
+  std::string name;   // "i_a_A"
+  std::string unit;   // "A"
+  std::string frame;  // "phase, into the motor"
   std::string meaning;
 };
 
@@ -28,7 +29,7 @@ struct Trace {
 };
 
 struct Verdict {
-  std::string figure;              // "settling time of current"
+  std::string figure;  // "settling time of current"
   std::string unit;
   double measured = 0.0;
   std::optional<double> min, max;  // the requirement
@@ -39,22 +40,8 @@ struct ComparisonResult {
   std::string figure;
   std::string unit;
   double measured = 0.0;
-  double value = 0.0;              // what the source says
+  double value = 0.0;  // what the source says
   std::string source;
-};
-
-/// Energy over the whole run, J; the residuals are what does not close, relative to the energy moved.
-struct EnergyBook {
-  double supplied = 0.0;    // integral U_s i_dc dt
-  double copper = 0.0;
-  double devices = 0.0;
-  double magnetic = 0.0;    // change of (1/2) L_s sum i^2
-  double air_gap = 0.0;     // integral T_e w dt
-  double friction = 0.0;
-  double load = 0.0;
-  double kinetic = 0.0;     // change of (1/2) J w^2
-  double electrical_residual = 0.0;  // relative
-  double mechanical_residual = 0.0;  // relative
 };
 
 /// How often each kind of event happened.
@@ -65,16 +52,17 @@ struct EventCount {
 
 /// Gains a loop ran with and where they come from.
 struct LoopGains {
-  std::string loop;                                   // "current", "speed", "position"
-  double d1 = 0.0, d0 = 0.0;                          // position: d1 is the gain, d0 = 0
-  std::string origin;                                 // "given as d1, d0", "pole placement, settle_s = 0.001, damping = 0.9"
-  std::optional<design::PolePlacement> derivation;    // of the exact design for the same loop
+  std::string loop;           // "current", "speed", "position"
+  double d1 = 0.0, d0 = 0.0;  // position: d1 is the gain, d0 = 0
+  std::string origin;         // "given as d1, d0", "pole placement, settle_s = 0.001, damping = 0.9"
+  std::optional<design::PolePlacement> derivation;  // of the exact design for the same loop
 };
 
 struct Outcome {
   std::vector<Verdict> verdicts;
   std::vector<ComparisonResult> comparisons;
-  EnergyBook energy;
+  plant::EnergyBook energy;
+  plant::Laws laws;
   std::vector<EventCount> events;
   std::vector<LoopGains> gains;
   design::MotorModel motor;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenario in, outcome out: compiles the scenario to a timeline and a rig, runs it, takes the figures of merit.
+// Scenario in, outcome out: compiles the scenario to a timeline and a rig, runs it, takes the figures of
+// merit.
 #pragma once
 #include <functional>
 #include <span>
@@ -16,8 +17,8 @@ using Row = std::span<const double>;
 
 /// Who listens to a run. Each may be empty. None of them can change the run's result by a bit.
 struct Listeners {
-  std::function<void(Row)> on_record;          ///< the scenario's [record]: columns record_columns(scenario)
-  std::function<void(Row)> on_event;           ///< every event, both sides of each jump: columns all_columns()
+  std::function<void(Row)> on_record;  ///< the scenario's [record]: columns record_columns(scenario)
+  std::function<void(Row)> on_event;   ///< every event, both sides of each jump: columns all_columns()
   std::function<bool(double t_s)> keep_going;  ///< now and then; false ends the run early
 };
 
@@ -27,11 +28,13 @@ const std::vector<Column>& all_columns();
 /// Those the scenario's record.columns asks for, t_s always first; Problems name unknown ones.
 base::Result<std::vector<Column>> record_columns(const Scenario& scenario);
 
-/// What is wrong with the scenario beyond the range of single values: contradictory gains, a sheet that says nothing
-/// of a needed quantity, steps out of order, an RC bus without R. `where` is the key's path: "control.current.d1".
+/// What is wrong with the scenario beyond the range of single values: contradictory gains, a sheet that says
+/// nothing of a needed quantity, steps out of order, an RC bus without R. `where` is the key's path:
+/// "control.current.d1".
 base::Problems check(const Scenario& scenario);
 
-/// Runs it. A fault (shoot-through, impossible Hall code) is part of the outcome; Problems mean it could not start.
+/// Runs it. A fault (shoot-through, impossible Hall code) is part of the outcome; Problems mean it could not
+/// start.
 base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners = {});
 
 }  // namespace sixstep::study

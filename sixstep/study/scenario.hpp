@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario as typed data: everything one run needs, files already resolved to numbers. What each key means, its
-// unit, range and default stands in scenario_description.hpp and nowhere else.
+// A scenario as typed data: everything one run needs, files already resolved to numbers. What each key means,
+// its unit, range and default stands in scenario_description.hpp and nowhere else.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -14,7 +14,7 @@ namespace sixstep::study {
 
 struct Supply {
   double voltage_V = 24.0;
-  double resistance_ohm = 0.0;   // with capacitance_F > 0: source behind R feeding C; else a stiff bus
+  double resistance_ohm = 0.0;  // with capacitance_F > 0: source behind R feeding C; else a stiff bus
   double capacitance_F = 0.0;
   bool sinks = true;
 };
@@ -46,7 +46,8 @@ enum class CurrentLoopType : std::uint8_t { pi, hysteresis };
 enum class HysteresisOn : std::uint8_t { motor, phase };
 enum class Comparator : std::uint8_t { event, sampled };
 
-/// Gains of a discrete PI: given as d1, d0 or kp, ki (per sample), or left to the pole placement by settle_s, damping.
+/// Gains of a discrete PI: given as d1, d0 or kp, ki (per sample), or left to the pole placement by settle_s,
+/// damping.
 struct CurrentLoop {
   CurrentLoopType type = CurrentLoopType::pi;
   std::optional<double> settle_s, damping;
@@ -85,44 +86,63 @@ enum class Shape : std::uint8_t { constant, steps, square };
 /// What is wanted over time, in the mode's unit: duty 1, current A, speed rad/s, position deg.
 struct Reference {
   Shape shape = Shape::constant;
-  double value = 0.0;              // constant
-  std::vector<double> times_s;     // steps: values[n] holds from times_s[n] on
+  double value = 0.0;           // constant
+  std::vector<double> times_s;  // steps: values[n] holds from times_s[n] on
   std::vector<double> values;
-  double high = 0.0, low = 0.0;    // square: high first
+  double high = 0.0, low = 0.0;  // square: high first
   double period_s = 0.01;
-  std::optional<std::string> unit; // checked against the mode where given
+  std::optional<std::string> unit;  // checked against the mode where given
 };
 
 struct Load {
   double torque_Nm = 0.0;
-  std::vector<double> times_s;     // steps: torques_Nm[n] holds from times_s[n] on
+  std::vector<double> times_s;  // steps: torques_Nm[n] holds from times_s[n] on
   std::vector<double> torques_Nm;
-  double viscous_Nm_s = 0.0;       // added to the motor's own friction
+  double viscous_Nm_s = 0.0;  // added to the motor's own friction
   double coulomb_Nm = 0.0;
-  double static_Nm = 0.0;          // breakaway torque where larger than coulomb
+  double static_Nm = 0.0;  // breakaway torque where larger than coulomb
   double inertia_kg_m2 = 0.0;
   bool locked = false;
 };
 
 struct Initial {
   double speed_rad_s = 0.0;
-  double angle_rad = 0.0;          // mechanical
-  std::optional<double> bus_V;     // default: supply.voltage_V
+  double angle_rad = 0.0;       // mechanical
+  std::optional<double> bus_V;  // default: supply.voltage_V
 };
 
 struct Record {
-  std::optional<double> grid_s;    // default: pwm.period_s
+  std::optional<double> grid_s;  // default: pwm.period_s
   bool events = false;
   std::vector<std::string> columns;  // empty: all
 };
 
 /// A figure of merit over a signal, exact on the trajectory's polynomials (study/metrics.hpp).
 enum class MetricKind : std::uint8_t {
-  final_value, mean, rms, maximum, minimum, peak_to_peak, overshoot, reach_time, settling_time, band_excess,
-  band_deficit, switching_frequency
+  final_value,
+  mean,
+  rms,
+  maximum,
+  minimum,
+  peak_to_peak,
+  overshoot,
+  reach_time,
+  settling_time,
+  band_excess,
+  band_deficit,
+  switching_frequency
 };
 enum class Signal : std::uint8_t {
-  current, phase_a, phase_b, phase_c, current_magnitude, speed, position, torque, bus_voltage, bus_current
+  current,
+  phase_a,
+  phase_b,
+  phase_c,
+  current_magnitude,
+  speed,
+  position,
+  torque,
+  bus_voltage,
+  bus_current
 };
 
 struct Measure {
@@ -150,10 +170,10 @@ struct Comparison {
 
 struct Scenario {
   std::string title;
-  std::string motor;               // name or path as written
+  std::string motor;  // name or path as written
   double duration_s = 0.0;
-  std::string notes;               // what the run teaches, shown in the report
-  design::Sheet sheet;             // the motor's sheet with overrides applied (filled by io)
+  std::string notes;    // what the run teaches, shown in the report
+  design::Sheet sheet;  // the motor's sheet with overrides applied (filled by io)
   Supply supply;
   Bridge bridge;
   Pwm pwm;

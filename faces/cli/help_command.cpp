@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/help_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "faces/cli/terminal.hpp"
+#include "io/key_advice.hpp"
+#include "io/key_catalog.hpp"
+
+namespace cli {
+namespace {
+
+using io::KeyEntry;
+
+bool is_table(const KeyEntry& entry) {
+  return entry.type == io::KeyType::table || entry.type == io::KeyType::list;
+}
+
+bool inside(const KeyEntry& entry, const std::string& table) { return entry.path.starts_with(table + "."); }
+
+std::string line(const KeyEntry& entry) {
+  const std::string unit = entry.about.unit.empty() ? "" : fmt::format(" [{}]", entry.about.unit);
+  return fmt::format("  {:<38}{}{}\n", entry.path, entry.about.meaning, unit);
+}
+
+std::string overview(const std::vector<KeyEntry>& scenario, const std::vector<KeyEntry>& sheet) {
+  std::string text = "Keys of a scenario file (sixstep help TABLE or sixstep help KEY tells more):\n";
+  for (const KeyEntry& entry : scenario)
+    if (entry.path.find('.') == std::string::npos) text += line(entry);
+  text += "Keys of a motor file and of [motor_override]:\n";
+  for (const KeyEntry& entry : sheet) text += line(entry);
+  return text;
+}
+
+std::string of_table(const std::vector<KeyEntry>& entries, const KeyEntry& table) {
+  std::string text = io::help_text(table);
+  for (const KeyEntry& entry : entries)
+    if (inside(entry, table.path)) text += line(entry);
+  return text;
+}
+
+const KeyEntry* by_path(const std::vector<KeyEntry>& entries, const std::string& key) {
+  const auto found =
+      std::find_if(entries.begin(), entries.end(), [&](const KeyEntry& e) { return e.path == key; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+/// The key by its last word, where only one has it.
+const KeyEntry* by_name(const std::vector<KeyEntry>& entries, const std::string& key) {
+  const KeyEntry* found = nullptr;
+  for (const KeyEntry& entry : entries) {
+    if (!entry.path.ends_with("." + key) || inside(entry, "motor_override")) continue;
+    if (found) return nullptr;
+    found = &entry;
+  }
+  return found;
+}
+
+}  // namespace
+
+Exit help_command(const std::string& key) {
+  const std::vector<KeyEntry> scenario = io::scenario_keys(), sheet = io::sheet_keys();
+  if (key.empty()) {
+    print(overview(scenario, sheet));
+    return Exit::ok;
+  }
+  if (const KeyEntry* entry = by_path(scenario, key)) {
+    print(is_table(*entry) ? of_table(scenario, *entry) : io::help_text(*entry));
+    return Exit::ok;
+  }
+  if (const KeyEntry* entry = by_path(sheet, key)) {
+    print(io::help_text(*entry) + "  in a motor file or in [motor_override]\n");
+    return Exit::ok;
+  }
+  if (const KeyEntry* entry = by_name(scenario, key)) {
+    print(io::help_text(*entry));
+    return Exit::ok;
+  }
+  std::vector<std::string> known;
+  for (const std::vector<KeyEntry>* entries : {&scenario, &sheet})
+    for (const KeyEntry& entry : *entries) known.push_back(entry.path);
+  std::string near = io::nearest(key, known);
+  for (const std::string& path : known)  // "voltage_V" stands in a table; so may a misspelt one
+    if (near.empty() && io::edit_distance(path.substr(path.rfind('.') + 1), key) <= 1) near = path;
+  complain({{.where = key,
+             .limit = "is no key of a scenario or motor file",
+             .cure = near.empty() ? "sixstep help lists them" : fmt::format("did you mean {}?", near)}});
+  return Exit::bad_input;
+}
+
+}  // namespace cli

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// sixstep on the command line: reads arguments, calls one command, tells the shell how it went.
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <exception>
+#include <string>
+
+#include "faces/cli/help_command.hpp"
+#include "faces/cli/motor_command.hpp"
+#include "faces/cli/run_command.hpp"
+#include "faces/cli/terminal.hpp"
+
+namespace cli {
+namespace {
+
+/// The command line as a shell would take it again. The program is called by its name: its path says nothing.
+std::string retyped(int count, const char* const* words) {
+  std::string text = "sixstep";
+  for (int n = 1; n < count; ++n) {
+    const std::string word = words[n];
+    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+      return std::isalnum(c) != 0 ||
+             std::string_view("-_./=+,:@%").find(static_cast<char>(c)) != std::string_view::npos;
+    });
+    text += ' ';
+    if (plain) {
+      text += word;
+      continue;
+    }
+    text += '\'';
+    for (const char c : word) c == '\'' ? text += "'\\''" : text += c;
+    text += '\'';
+  }
+  return text;
+}
+
+void declare_run(CLI::App& run, RunArguments& a) {
+  run.add_option("FILE", a.files, "scenario files")->required();
+  run.add_option("--out", a.out, "folder for NAME.csv, NAME.json, NAME.html of each scenario and index.html");
+  run.add_option("--csv", a.paths.csv, "write the recorded trace");
+  run.add_option("--json", a.paths.json, "write verdicts and figures; - for standard output");
+  run.add_option("--html", a.paths.html, "write the report");
+  run.add_option("--set", a.sets, "key=value, stronger than the file: --set supply.voltage_V=12")
+      ->allow_extra_args(false);
+  run.add_option("--data", a.data_dir, "folder that holds motors/");
+  run.add_flag("--quiet", a.quiet, "no table, only errors and the exit code");
+  run.add_option("--jobs", a.jobs, "runs side by side; without it one per core");
+}
+
+Exit run_program(int count, const char* const* words) {
+  CLI::App app{"Brushless DC motor from data sheet to verified firmware", "sixstep"};
+  app.set_version_flag("--version", std::string("sixstep ") + SIXSTEP_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 all requirements hold, 1 a requirement failed, 2 bad input, 3 a fault stopped a run, "
+      "4 internal error\n");
+
+  RunArguments run_arguments;
+  CLI::App& run = *app.add_subcommand("run", "run scenarios and judge them");
+  declare_run(run, run_arguments);
+
+  std::string key;
+  CLI::App& help = *app.add_subcommand("help", "explain a key, a table, or all of them");
+  help.add_option("KEY", key, "as supply.voltage_V, pwm or resistance_ohm");
+
+  std::string motor_name, data_dir;
+  CLI::App& motor = *app.add_subcommand("motor", "look into motor files");
+  motor.require_subcommand(1);
+  CLI::App& list = *motor.add_subcommand("list", "names of the built-in motors");
+  CLI::App& show = *motor.add_subcommand("show", "the sheet with units, frames and sources");
+  show.add_option("NAME", motor_name, "name or path")->required();
+  show.add_option("--data", data_dir, "folder that holds motors/");
+
+  try {
+    app.parse(count, words);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? Exit::ok : Exit::bad_input;
+  }
+  run_arguments.command = retyped(count, words);
+  if (run) return run_command(run_arguments);
+  if (help) return help_command(key);
+  return list ? list_motors() : show_motor(motor_name, data_dir);
+}
+
+}  // namespace
+}  // namespace cli
+
+int main(int count, char** words) {
+  try {
+    return static_cast<int>(cli::run_program(count, words));
+  } catch (const std::exception& error) {
+    cli::print(std::string("internal error: ") + error.what() + "\n", stderr);
+  } catch (...) {
+    cli::print("internal error\n", stderr);
+  }
+  return static_cast<int>(cli::Exit::internal);
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one seam between the command line and the report.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "faces/cli/rooms.hpp"
+#include "sixstep/study/outcome.hpp"
+#include "sixstep/study/scenario.hpp"
+
+namespace cli {
+
+struct ReportSource {
+  const study::Scenario& scenario;
+  const study::Outcome& outcome;
+  const study::Trace& events;  ///< every event, both sides of each jump
+  const std::string& file;     ///< the scenario's
+  const std::string& command;  ///< what makes this report again
+};
+
+std::string report_page(const ReportSource& source);
+
+struct ReportLink {
+  std::string title;
+  std::string file;  ///< relative to the index
+  const study::Outcome* outcome;
+};
+
+std::string report_index(const std::vector<ReportLink>& links, const std::string& command);
+
+}  // namespace cli

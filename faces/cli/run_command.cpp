@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/run_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+
+#include "batch/for_each.hpp"
+#include "faces/cli/report_page.hpp"
+#include "faces/cli/terminal.hpp"
+#include "io/scenario_file.hpp"
+#include "io/verdict_table.hpp"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void append(base::Problems& to, const base::Problems& more) { to.insert(to.end(), more.begin(), more.end()); }
+
+std::string place(const std::string& file) { return fmt::format("{}:", file); }
+
+io::ReadOptions read_options(const RunArguments& arguments, base::Problems& problems) {
+  io::ReadOptions options{.data_dir = arguments.data_dir, .overrides = {}};
+  for (const std::string& set : arguments.sets) {
+    const std::size_t cut = set.find('=');
+    if (cut == std::string::npos || cut == 0)
+      problems.push_back({.where = fmt::format("--set {}", set),
+                          .limit = "does not name a key and a value",
+                          .cure = "write --set table.key=value, as in --set supply.voltage_V=12"});
+    else
+      options.overrides.push_back({set.substr(0, cut), set.substr(cut + 1)});
+  }
+  return options;
+}
+
+std::vector<Job> read_jobs(const RunArguments& arguments, base::Problems& problems) {
+  std::vector<Job> jobs;
+  const io::ReadOptions options = read_options(arguments, problems);
+  if (!problems.empty()) return jobs;
+  for (const std::string& file : arguments.files) {
+    base::Result<study::Scenario> scenario = io::read_scenario(file, options);
+    if (scenario)
+      jobs.emplace_back(file, std::move(*scenario), arguments.command);
+    else
+      append(problems, scenario.problems());
+  }
+  return jobs;
+}
+
+/// Contradictions of the arguments themselves.
+base::Problems check(const RunArguments& arguments) {
+  base::Problems problems;
+  const OutputPaths& p = arguments.paths;
+  const bool single = !p.csv.empty() || !p.json.empty() || !p.html.empty();
+  if (single && (arguments.files.size() > 1 || !arguments.out.empty()))
+    problems.push_back({.where = "--csv, --json, --html",
+                        .limit = "name the outputs of one scenario",
+                        .cure = "with several files or --out use --out DIR alone"});
+  std::map<std::string, std::string> stems;
+  for (const std::string& file : arguments.files) {
+    const auto [other, is_new] = stems.emplace(fs::path(file).stem().string(), file);
+    if (!arguments.out.empty() && !is_new)
+      problems.push_back({.where = place(file),
+                          .limit = fmt::format("would write the same outputs as {}", other->second),
+                          .cure = "rename one or run them apart"});
+  }
+  return problems;
+}
+
+OutputPaths paths_of(const RunArguments& arguments, const Job& job) {
+  if (arguments.out.empty()) return arguments.paths;
+  const std::string base = (fs::path(arguments.out) / job.name()).string();
+  return {base + ".csv", base + ".json", base + ".html"};
+}
+
+/// Opens all outputs before anything runs. The index is the last to be written and proves the folder now.
+base::Problems prepare(const RunArguments& arguments, std::vector<Job>& jobs,
+                       std::optional<io::AtomicFile>& index) {
+  base::Problems problems;
+  if (!arguments.out.empty()) {
+    std::error_code error;
+    fs::create_directories(arguments.out, error);
+    if (error)
+      return {{.where = place(arguments.out),
+               .limit = fmt::format("cannot be made a folder: {}", error.message()),
+               .cure = "choose another --out"}};
+    base::Result<io::AtomicFile> file =
+        io::AtomicFile::create((fs::path(arguments.out) / "index.html").string());
+    if (!file) return file.problems();
+    index.emplace(std::move(*file));
+  }
+  for (Job& job : jobs) append(problems, job.prepare(paths_of(arguments, job)));
+  return problems;
+}
+
+void run_all(std::vector<Job>& jobs, const RunArguments& arguments) {
+  const bool progress = !arguments.quiet && jobs.size() > 1 && ::isatty(STDERR_FILENO) != 0;
+  std::mutex guard;
+  std::size_t done = 0;
+  const auto tell = [&] {
+    if (progress) print(fmt::format("\r{} of {} done", done, jobs.size()), stderr);
+  };
+  tell();
+  batch::for_each(jobs.size(), arguments.jobs, [&](std::size_t n) {
+    if (!interrupted()) jobs[n].run();
+    const std::lock_guard lock(guard);
+    ++done;
+    tell();
+  });
+  if (progress) print("\r\x1b[K", stderr);
+}
+
+base::Problems write_index(const RunArguments& arguments, const std::vector<Job>& jobs,
+                           io::AtomicFile& index) {
+  std::vector<ReportLink> links;
+  for (const Job& job : jobs)
+    if (job.outcome()) links.push_back({job.scenario().title, job.name() + ".html", job.outcome()});
+  index.write(report_index(links, arguments.command));
+  return index.commit();
+}
+
+void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
+  std::vector<io::TableEntry> entries;
+  for (const Job& job : jobs)
+    if (job.outcome()) entries.push_back({job.name(), job.outcome()});
+  std::FILE* to = arguments.paths.json == "-" ? stderr : stdout;  // standard output is the JSON's alone
+  if (!entries.empty()) print(io::verdict_table(entries, may_colour(to)), to);
+}
+
+}  // namespace
+
+Exit run_command(const RunArguments& arguments) {
+  base::Problems problems = check(arguments);
+  std::vector<Job> jobs = problems.empty() ? read_jobs(arguments, problems) : std::vector<Job>();
+  std::optional<io::AtomicFile> index;
+  if (problems.empty()) problems = prepare(arguments, jobs, index);
+  if (!problems.empty()) {
+    complain(problems);
+    return Exit::bad_input;
+  }
+  catch_interrupts();
+  run_all(jobs, arguments);
+  Exit exit = interrupted() ? Exit::interrupted : Exit::ok;
+  for (const Job& job : jobs) {
+    if (!interrupted()) exit = graver(exit, job.exit_code());
+    complain(job.problems());
+  }
+  if (!arguments.quiet) print_table(jobs, arguments);
+  if (index && !interrupted()) {
+    const base::Problems unwritten = write_index(arguments, jobs, *index);
+    complain(unwritten);
+    if (!unwritten.empty()) exit = graver(exit, Exit::bad_input);
+  }
+  return exit;
+}
+
+}  // namespace cli

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <vector>
+
+#include "faces/cli/exit_code.hpp"
+#include "faces/cli/job.hpp"
+
+namespace cli {
+
+struct RunArguments {
+  std::vector<std::string> files;
+  std::string out;                ///< folder for the outputs of each scenario and index.html
+  OutputPaths paths;              ///< for one file only
+  std::vector<std::string> sets;  ///< "key=value"
+  std::string data_dir;
+  bool quiet = false;
+  unsigned jobs = 0;    ///< 0: one per core
+  std::string command;  ///< the command line as it may be typed again
+};
+
+Exit run_command(const RunArguments& arguments);
+
+}  // namespace cli

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/terminal.hpp"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <string>
+
+namespace cli {
+namespace {
+
+volatile std::sig_atomic_t asked_to_end = 0;
+
+extern "C" void on_interrupt(int signal) {
+  asked_to_end = 1;
+  std::signal(signal, SIG_DFL);  // a second time ends at once
+}
+
+}  // namespace
+
+void print(std::string_view text, std::FILE* to) {
+  std::fwrite(text.data(), 1, text.size(), to);
+  std::fflush(to);
+}
+
+void complain(const base::Problems& problems) {
+  std::string text;
+  for (const base::Problem& problem : problems) text += to_string(problem) + "\n";
+  print(text, stderr);
+}
+
+bool may_colour(std::FILE* stream) {
+  const char* forbidden = std::getenv("NO_COLOR");
+  return ::isatty(::fileno(stream)) != 0 && (forbidden == nullptr || *forbidden == '\0');
+}
+
+void catch_interrupts() { std::signal(SIGINT, on_interrupt); }
+bool interrupted() { return asked_to_end != 0; }
+
+}  // namespace cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The trace as text: one header line of column names, then rows of numbers that read back bit for bit.
+#pragma once
+#include <span>
+#include <string>
+
+#include "io/atomic_file.hpp"
+#include "sixstep/study/outcome.hpp"
+
+namespace io {
+
+class CsvWriter {
+ public:
+  static base::Result<CsvWriter> create(const std::string& path, std::span<const study::Column> columns);
+
+  void row(std::span<const double> numbers);
+  base::Problems commit();
+  base::Problems commit_partial();
+
+ private:
+  explicit CsvWriter(AtomicFile file) : file_(std::move(file)) {}
+  void flush();
+
+  AtomicFile file_;
+  std::string pending_;
+};
+
+/// Appends a number in 17 significant digits, which is enough for every double to come back as itself.
+void append_number(std::string& text, double x);
+
+}  // namespace io

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// A TOML file with its text, so that every complaint can quote it and say where it stands.
+#pragma once
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/rooms.hpp"
+#include "io/toml.hpp"
+#include "sixstep/base/result.hpp"
+
+namespace io {
+
+/// `--set path=text`: replaces or adds one value.
+struct Setting {
+  std::string path;
+  std::string text;
+};
+
+class Document {
+ public:
+  /// `name` is what messages call the file.
+  static base::Result<Document> parse(std::string name, std::string text);
+
+  /// Applies values given on the command line. A text that is no TOML value is taken as a word:
+  /// `chopping=hard`.
+  base::Problems set(std::span<const Setting> settings);
+
+  const toml::table& root() const { return root_; }
+  const std::string& name() const { return name_; }
+
+  /// The node at "control.current.d1" or "require[1].max"; null where there is none.
+  const toml::node* find(std::string_view path) const;
+
+  /// What stands there, as written; a table or anything longer than one line is not quoted.
+  std::string quote(const toml::node& node, std::string_view path) const;
+
+  /// "file:line:column" of a position, or "--set path" where that is where the value came from.
+  std::string place(toml::source_position at) const;
+  std::string place(const toml::node& node, std::string_view path) const;
+
+  /// As place(), of the node or of its nearest table that stands in the file.
+  std::string nearest_place(std::string_view path) const;
+
+ private:
+  Document(std::string name, std::string text, toml::table root)
+      : name_(std::move(name)), text_(std::move(text)), root_(std::move(root)) {}
+  const Setting* setting_of(std::string_view path) const;
+  std::string_view slice(const toml::source_region& region) const;
+
+  std::string name_, text_;
+  toml::table root_;
+  std::vector<Setting> settings_;
+};
+
+/// The words of a path: "require[1].max" is require, 1, max.
+std::vector<std::string> path_words(std::string_view path);
+
+}  // namespace io

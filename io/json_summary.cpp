@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/json_summary.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+
+namespace io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json or_null(const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); }
+
+Json verdicts(const study::Outcome& outcome) {
+  Json list = Json::array();
+  for (const study::Verdict& v : outcome.verdicts)
+    list.push_back({{"figure", v.figure},
+                    {"unit", v.unit},
+                    {"measured", v.measured},
+                    {"min", or_null(v.min)},
+                    {"max", or_null(v.max)},
+                    {"ok", v.ok}});
+  return list;
+}
+
+Json comparisons(const study::Outcome& outcome) {
+  Json list = Json::array();
+  for (const study::ComparisonResult& c : outcome.comparisons)
+    list.push_back({{"figure", c.figure},
+                    {"unit", c.unit},
+                    {"measured", c.measured},
+                    {"value", c.value},
+                    {"source", c.source}});
+  return list;
+}
+
+Json gains(const study::Outcome& outcome) {
+  Json list = Json::array();
+  for (const study::LoopGains& g : outcome.gains)
+    list.push_back({{"loop", g.loop}, {"d1", g.d1}, {"d0", g.d0}, {"origin", g.origin}});
+  return list;
+}
+
+Json energy(const study::EnergyBook& e) {
+  return {{"supplied_J", e.supplied},
+          {"copper_J", e.copper},
+          {"devices_J", e.devices},
+          {"magnetic_J", e.magnetic},
+          {"air_gap_J", e.air_gap},
+          {"friction_J", e.friction},
+          {"load_J", e.load},
+          {"kinetic_J", e.kinetic},
+          {"electrical_residual", e.electrical_residual},
+          {"mechanical_residual", e.mechanical_residual}};
+}
+
+Json events(const study::Outcome& outcome) {
+  Json counts = Json::object();
+  for (const study::EventCount& e : outcome.events) counts[e.event] = e.count;
+  return counts;
+}
+
+}  // namespace
+
+std::string json_summary(const study::Scenario& scenario, const study::Outcome& outcome) {
+  Json summary = {{"sixstep", SIXSTEP_VERSION},
+                  {"title", scenario.title},
+                  {"motor", scenario.sheet.name},
+                  {"passed", outcome.passed()},
+                  {"fault", outcome.fault ? Json(base::to_string(*outcome.fault)) : Json(nullptr)},
+                  {"duration_s", scenario.duration_s},
+                  {"simulated_s", outcome.simulated_s},
+                  {"segments", outcome.segments}};
+  summary["require"] = verdicts(outcome);
+  summary["compare"] = comparisons(outcome);
+  summary["gains"] = gains(outcome);
+  summary["energy"] = energy(outcome.energy);
+  summary["events"] = events(outcome);
+  // A title may hold bytes that are no UTF-8: shown as such, never thrown over.
+  return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace io

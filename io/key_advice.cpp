@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/key_advice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace io {
+namespace {
+
+// Every piece a unit suffix may be made of, right or wrong ones: what follows the last other piece is the
+// unit.
+constexpr std::array unit_pieces = {
+    "V",   "mV",   "kV",   "A",     "mA",   "uA",  "s",  "ms",  "us",      "ns",  "min", "h",
+    "ohm", "mohm", "kohm", "H",     "mH",   "uH",  "F",  "uF",  "nF",      "mF",  "Hz",  "kHz",
+    "MHz", "rad",  "deg",  "rpm",   "krpm", "rps", "Nm", "mNm", "Ncm",     "kg",  "g",   "m2",
+    "cm2", "gcm2", "kgm2", "kgcm2", "W",    "kW",  "J",  "Wb",  "percent", "per", "N",   "m"};
+
+bool is_unit_piece(std::string_view piece) {
+  return std::find(unit_pieces.begin(), unit_pieces.end(), piece) != unit_pieces.end();
+}
+
+std::string_view unit_suffix(std::string_view key) { return key.substr(without_unit(key).size()); }
+
+std::string join(std::span<const std::string> words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+}  // namespace
+
+int edit_distance(std::string_view a, std::string_view b) {
+  std::vector<int> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    next[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      next[j] = std::min({row[j] + 1, next[j - 1] + 1, row[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        next[j] = std::min(next[j], before[j - 2] + 1);
+    }
+    before = row;
+    row = next;
+  }
+  return row[b.size()];
+}
+
+std::string nearest(std::string_view word, std::span<const std::string> known) {
+  int best = static_cast<int>(std::max<std::size_t>(word.size() / 3, 1)) + 1;
+  std::string found;
+  for (const std::string& candidate : known) {
+    const int distance = edit_distance(word, candidate);
+    if (distance < best) {
+      best = distance;
+      found = candidate;
+    }
+  }
+  return found;
+}
+
+std::string_view without_unit(std::string_view key) {
+  while (true) {
+    const std::size_t cut = key.rfind('_');
+    if (cut == std::string_view::npos || cut == 0 || !is_unit_piece(key.substr(cut + 1))) return key;
+    key = key.substr(0, cut);
+  }
+}
+
+base::Problem unknown_key(std::string_view key, std::span<const std::string> known) {
+  for (const std::string& candidate : known) {
+    if (without_unit(candidate) != without_unit(key) || unit_suffix(candidate).empty()) continue;
+    return {.limit = unit_suffix(key).empty() ? "lacks its unit" : "carries the wrong unit",
+            .cure = fmt::format("write {} and give the value in that unit", candidate)};
+  }
+  const std::string near = nearest(key, known);
+  if (!near.empty()) return {.limit = "is not a key here", .cure = fmt::format("did you mean {}?", near)};
+  return {.limit = "is not a key here", .cure = "known are " + join(known)};
+}
+
+std::string limit_of(const base::Range& range) {
+  const bool low = range.low - range.low == 0.0, high = range.high - range.high == 0.0;
+  if (!low && !high) return "must be a finite number";
+  if (low && high && range.low_included && range.high_included)
+    return fmt::format("must lie in {} to {}", range.low, range.high);
+  if (low && high && !range.low_included && !range.high_included)
+    return fmt::format("must lie strictly between {} and {}", range.low, range.high);
+  std::string text = "must be";
+  if (low) text += fmt::format(" {} {}", range.low_included ? "at least" : "above", range.low);
+  if (high)
+    text += fmt::format("{} {} {}", low ? " and" : "", range.high_included ? "at most" : "below", range.high);
+  return text;
+}
+
+std::string shortest(double x) { return fmt::format("{}", x); }
+
+}  // namespace io

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the writer of an unknown key probably meant.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "io/rooms.hpp"
+#include "sixstep/base/describe.hpp"
+#include "sixstep/base/problem.hpp"
+
+namespace io {
+
+/// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other.
+int edit_distance(std::string_view a, std::string_view b);
+
+/// The nearest word where one is near enough to be meant (at most a third of it differs); else empty.
+std::string nearest(std::string_view word, std::span<const std::string> known);
+
+/// A key without its unit suffix: "no_load_speed" for "no_load_speed_rad_s".
+std::string_view without_unit(std::string_view key);
+
+/// Limit and cure for a key that is none of the known ones: `where` and `value` are left empty. A key that
+/// differs in its unit only is told as a wrong unit.
+base::Problem unknown_key(std::string_view key, std::span<const std::string> known);
+
+/// "must be above 0 and at most 1"; "must be a finite number" for a range open on both ends.
+std::string limit_of(const base::Range& range);
+
+/// Shortest text that reads back as the same number.
+std::string shortest(double x);
+
+}  // namespace io

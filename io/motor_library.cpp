@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/motor_library.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "io/key_advice.hpp"
+#include "io/text_file.hpp"
+#include "motors.hpp"
+
+namespace io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where the motor may lie, in the order of precedence.
+std::vector<std::string> candidates(const MotorQuery& query) {
+  const fs::path folder(query.folder);
+  std::vector<std::string> paths{(folder / query.name).string(), (folder / (query.name + ".toml")).string()};
+  if (!query.data_dir.empty())
+    paths.push_back((fs::path(query.data_dir) / "motors" / (query.name + ".toml")).string());
+  return paths;
+}
+
+}  // namespace
+
+std::vector<std::string> built_in_motors() {
+  std::vector<std::string> names;
+  for (const motors::File& file : motors::all) names.emplace_back(file.name);
+  return names;
+}
+
+base::Result<Document> find_motor(const MotorQuery& query) {
+  const std::vector<std::string> paths = candidates(query);
+  for (const std::string& path : paths) {
+    std::error_code ignored;
+    if (query.name.empty() || !fs::exists(path, ignored) || fs::is_directory(path, ignored)) continue;
+    base::Result<std::string> text = read_text(path);
+    if (!text) return text.problems();
+    return Document::parse(path, std::move(*text));
+  }
+  for (const motors::File& file : motors::all)
+    if (file.name == query.name)
+      return Document::parse(fmt::format("built-in {}", file.name), std::string(file.text));
+  const std::vector<std::string> names = built_in_motors();
+  const std::string near = nearest(query.name, names);
+  return base::Problem{.limit = fmt::format("is neither {} nor a built-in motor", fmt::join(paths, " nor ")),
+                       .cure = near.empty() ? fmt::format("built-in are {}", fmt::join(names, ", "))
+                                            : fmt::format("did you mean \"{}\"?", near)};
+}
+
+}  // namespace io

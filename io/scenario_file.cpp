@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/scenario_file.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "io/motor_library.hpp"
+#include "io/table_reader.hpp"
+#include "io/text_file.hpp"
+#include "sixstep/design/sheet_description.hpp"
+#include "sixstep/study/run.hpp"
+#include "sixstep/study/scenario_description.hpp"
+
+namespace io {
+namespace {
+
+struct SheetSource {
+  Document document;
+  design::Sheet sheet;
+};
+
+base::Result<SheetSource> sheet_of(Document document) {
+  Complaints complaints(document);
+  design::Sheet sheet;
+  read_root(document, sheet, complaints);
+  if (!complaints.empty()) return complaints.in_order();
+  return SheetSource{std::move(document), std::move(sheet)};
+}
+
+/// The sheet that the scenario's `motor` names. What is wrong in the motor's own file is told of that file,
+/// what is wrong with the name at the name.
+std::optional<SheetSource> named_sheet(const Document& scenario, const std::string& folder,
+                                       const ReadOptions& options, Complaints& complaints,
+                                       base::Problems& of_motor_file) {
+  const toml::node* name = scenario.find("motor");
+  if (!name || !name->is_string()) return {};  // told by the description
+  base::Result<Document> document = find_motor({name->as_string()->get(), folder, options.data_dir});
+  if (!document) {
+    for (const base::Problem& problem : document.problems())
+      problem.where.empty() ? complaints.value(*name, "motor", problem) : of_motor_file.push_back(problem);
+    return {};
+  }
+  base::Result<SheetSource> source = sheet_of(std::move(*document));
+  if (!source) {
+    of_motor_file.insert(of_motor_file.end(), source.problems().begin(), source.problems().end());
+    return {};
+  }
+  return std::move(*source);
+}
+
+/// Torque constant and back-EMF constant say the same thing: overriding one makes the other's printed value
+/// stale.
+void drop_stale_constant(const Document& document, design::Sheet& sheet) {
+  const bool torque = document.find("motor_override.torque_constant_mNm_A");
+  const bool back_emf = document.find("motor_override.back_emf_mV_s");
+  if (back_emf && !torque) sheet.torque_constant_mNm_A.reset();
+  if (torque && !back_emf) sheet.back_emf_mV_s.reset();
+}
+
+void check_reference_unit(const Document& document, const study::Scenario& scenario, Complaints& complaints) {
+  const std::string_view wanted = study::reference_unit(scenario.control.mode);
+  const toml::node* node = document.find("reference.unit");
+  if (!node || !scenario.reference.unit || wanted.empty() || *scenario.reference.unit == wanted) return;
+  complaints.value(*node, "reference.unit",
+                   {.limit = fmt::format("is not the unit of mode \"{}\", which is \"{}\"",
+                                         base::word(study::mode_choices, scenario.control.mode), wanted),
+                    .cure = fmt::format("give the reference in \"{}\" or change control.mode", wanted)});
+}
+
+/// Whether a check's path speaks of the motor, and which key of its sheet.
+std::optional<std::string> sheet_key(const std::string& where) {
+  for (const std::string_view prefix : {"motor.", "sheet.", "motor_override."})
+    if (where.starts_with(prefix)) return where.substr(prefix.size());
+  return {};
+}
+
+/// What study::check found, each told where it stands: in the scenario, its overrides, or the motor's file.
+void run_checks(const Document& document, const SheetSource& source, const study::Scenario& scenario,
+                Complaints& complaints, base::Problems& of_motor_file) {
+  Complaints of_motor(source.document);
+  base::Problems of_scenario;
+  for (base::Problem& problem : study::check(scenario)) {
+    const std::optional<std::string> key = sheet_key(problem.where);
+    if (key && document.find("motor_override." + *key))
+      problem.where = "motor_override." + *key;
+    else if (key) {
+      problem.where = *key;
+      of_motor.later(std::move(problem));
+      continue;
+    }
+    // What follows from a mistake told already would only hide it.
+    if (!complaints.about_table_of(problem.where)) of_scenario.push_back(std::move(problem));
+  }
+  for (base::Problem& problem : of_scenario) complaints.later(std::move(problem));
+  for (base::Problem& problem : of_motor.in_order()) of_motor_file.push_back(std::move(problem));
+}
+
+}  // namespace
+
+base::Result<design::Sheet> read_sheet(const std::string& name, const std::string& data_dir) {
+  base::Result<Document> document = find_motor({name, "", data_dir});
+  if (!document) {
+    base::Problems problems = document.problems();
+    for (base::Problem& problem : problems)
+      if (problem.where.empty()) problem.where = name;
+    return problems;
+  }
+  base::Result<SheetSource> source = sheet_of(std::move(*document));
+  if (!source) return source.problems();
+  return std::move(source->sheet);
+}
+
+base::Result<study::Scenario> read_scenario(const std::string& path, const ReadOptions& options) {
+  base::Result<std::string> text = read_text(path);
+  if (!text) return text.problems();
+  base::Result<Document> parsed = Document::parse(path, std::move(*text));
+  if (!parsed) return parsed.problems();
+  Document& document = *parsed;
+  if (base::Problems problems = document.set(options.overrides); !problems.empty()) return problems;
+
+  Complaints complaints(document);
+  base::Problems of_motor_file;
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  std::optional<SheetSource> source = named_sheet(document, folder, options, complaints, of_motor_file);
+  study::Scenario scenario;
+  if (source) scenario.sheet = source->sheet;
+  read_root(document, scenario, complaints);
+  drop_stale_constant(document, scenario.sheet);
+  check_reference_unit(document, scenario, complaints);
+  if (source) run_checks(document, *source, scenario, complaints, of_motor_file);
+
+  base::Problems problems = complaints.in_order();
+  problems.insert(problems.end(), of_motor_file.begin(), of_motor_file.end());
+  if (!problems.empty()) return problems;
+  if (scenario.title.empty()) scenario.title = std::filesystem::path(path).stem().string();
+  return scenario;
+}
+
+}  // namespace io

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// The visitor that fills a described struct from a TOML table and complains about whatever does not fit.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/complaints.hpp"
+#include "io/rooms.hpp"
+#include "sixstep/base/describe.hpp"
+
+namespace io {
+
+class TableReader {
+ public:
+  /// `path` is where the table stands; empty for the file itself. `partial`: no key is required.
+  TableReader(const toml::table& table, std::string path, Complaints& complaints, bool partial)
+      : table_(table), path_(std::move(path)), complaints_(complaints), partial_(partial) {}
+
+  void value(std::string_view key, double& member, const base::About& about);
+  void value(std::string_view key, int& member, const base::About& about);
+  void value(std::string_view key, std::int64_t& member, const base::About& about);
+  void value(std::string_view key, bool& member, const base::About& about);
+  void value(std::string_view key, std::string& member, const base::About& about);
+  void value(std::string_view key, std::vector<double>& member, const base::About& about);
+  void value(std::string_view key, std::vector<std::string>& member, const base::About& about);
+  void quantity(std::string_view key, base::Quantity& member, const base::About& about);
+
+  template <class T>
+  void value(std::string_view key, std::optional<T>& member, const base::About& about) {
+    T present{};
+    if (given(key)) {
+      value(key, present, about);
+      member = std::move(present);
+    } else {
+      find(key, about);
+    }
+  }
+
+  void quantity(std::string_view key, std::optional<base::Quantity>& member, const base::About& about) {
+    if (given(key)) {
+      if (!member) member.emplace();
+      quantity(key, *member, about);
+    } else {
+      find(key, about);
+    }
+  }
+
+  template <class Enum, class Choices>
+  void choice(std::string_view key, Enum& member, const Choices& choices, const base::About& about) {
+    const toml::node* node = find(key, about);
+    if (!node) return;
+    std::vector<std::string> words;
+    for (const auto& choice : choices) {
+      if (node->value<std::string>() == choice.word) {
+        member = choice.value;
+        return;
+      }
+      words.emplace_back(choice.word);
+    }
+    no_such_word(*node, key, words);
+  }
+
+  template <class Struct>
+  void table(std::string_view key, Struct& member, const base::About& about) {
+    const toml::table* inner = find_table(key, about);
+    if (!inner) return;
+    TableReader reader(*inner, at(key), complaints_, partial_ || about.partial);
+    describe(reader, member);
+    reader.refuse_unknown_keys();
+  }
+
+  template <class Struct>
+  void list(std::string_view key, std::vector<Struct>& member, const base::About& about) {
+    const toml::array* items = find_tables(key, about);
+    if (!items) return;
+    member.clear();
+    for (std::size_t n = 0; n < items->size(); ++n) {
+      TableReader reader(*items->get(n)->as_table(), at(key) + "[" + std::to_string(n) + "]", complaints_,
+                         partial_);
+      describe(reader, member.emplace_back());
+      reader.refuse_unknown_keys();
+    }
+  }
+
+  /// To be called last: every key that no description named.
+  void refuse_unknown_keys();
+
+ private:
+  std::string at(std::string_view key) const {
+    return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+  }
+  bool given(std::string_view key) const { return table_.contains(key); }
+  const toml::node* find(std::string_view key, const base::About& about);
+  const toml::table* find_table(std::string_view key, const base::About& about);
+  const toml::array* find_tables(std::string_view key, const base::About& about);
+  bool number(const toml::node& node, const std::string& path, const base::About& about, double& out);
+  bool word(const toml::node& node, const std::string& path, const base::About& about, std::string& out);
+  void frame(const toml::node& node, const std::string& path, const base::About& about,
+             base::Quantity& quantity);
+  void no_such_word(const toml::node& node, std::string_view key, const std::vector<std::string>& words);
+
+  const toml::table& table_;
+  std::string path_;
+  Complaints& complaints_;
+  bool partial_;
+  std::vector<std::string> known_;
+};
+
+/// Fills the struct from the whole file.
+template <class Struct>
+void read_root(const Document& document, Struct& into, Complaints& complaints) {
+  TableReader reader(document.root(), "", complaints, false);
+  describe(reader, into);
+  reader.refuse_unknown_keys();
+}
+
+}  // namespace io

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/text_file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+namespace io {
+namespace {
+
+base::Problem unreadable(const std::string& path, int reason) {
+  return {.where = path + ":",
+          .limit = std::string("cannot be read: ") + std::strerror(reason),
+          .cure = "check the path and the permission to read it"};
+}
+
+}  // namespace
+
+base::Result<std::string> read_text(const std::string& path) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) return unreadable(path, errno);
+  std::string text;
+  char block[1 << 14];
+  while (const std::size_t got = std::fread(block, 1, sizeof block, file.get())) text.append(block, got);
+  if (std::ferror(file.get())) return unreadable(path, errno);
+  return text;
+}
+
+}  // namespace io

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The commutation table: the only place where Hall codes, sectors and driven pairs meet (MODEL 3).
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/bridge_command.hpp"
+
+namespace sixstep::control {
+
+inline constexpr std::uint8_t no_sector = 0xff;
+
+/// Sector 0..5 (60 electrical degrees each) of a Hall code H1 H2 H3 (bits 2, 1, 0); no_sector for 000 and
+/// 111, which probes 120 degrees apart can never give: a broken wire or probe.
+constexpr std::uint8_t sector_of_hall(std::uint8_t code) {
+  switch (code) {
+    case 0b100:
+      return 0;
+    case 0b110:
+      return 1;
+    case 0b010:
+      return 2;
+    case 0b011:
+      return 3;
+    case 0b001:
+      return 4;
+    case 0b101:
+      return 5;
+    default:
+      return no_sector;
+  }
+}
+
+/// The pair that makes positive torque in a sector: T1 T4, T1 T6, T3 T6, T3 T2, T5 T2, T5 T4.
+constexpr Pair positive_pair(std::uint8_t sector) {
+  switch (sector) {
+    case 0:
+      return {Leg::a, Leg::b};
+    case 1:
+      return {Leg::a, Leg::c};
+    case 2:
+      return {Leg::b, Leg::c};
+    case 3:
+      return {Leg::b, Leg::a};
+    case 4:
+      return {Leg::c, Leg::a};
+    default:
+      return {Leg::c, Leg::b};
+  }
+}
+
+constexpr Pair swapped(Pair pair) { return {pair.sink, pair.source}; }
+
+template <class Scalar>
+constexpr Scalar phase_current(const Measurement<Scalar>& m, Leg leg) {
+  return leg == Leg::a ? m.i_a_A : leg == Leg::b ? m.i_b_A : m.i_c_A;
+}
+
+/// Motor current i_m = (i_p - i_n)/2 of the positive-torque pair, so that T_e = K_t i_m on flat tops (MODEL
+/// 3).
+template <class Scalar>
+constexpr Scalar motor_current(const Measurement<Scalar>& m, Pair positive) {
+  return (phase_current(m, positive.source) - phase_current(m, positive.sink)) * Scalar(0.5);
+}
+
+}  // namespace sixstep::control

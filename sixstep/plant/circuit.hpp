@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The circuit law of the three-leg bridge on a star winding (MODEL 2): what each leg is connected to, its
+// pole voltage against the negative rail, and the star point's voltage. Pure functions; who decides the
+// connections is elsewhere.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "sixstep/plant/machine.hpp"
+
+namespace sixstep::plant {
+
+/// What a phase's terminal hangs on. A leg has exactly one of these at any time.
+enum class Connection : std::uint8_t { floating, high_switch, low_switch, high_diode, low_diode };
+
+/// The connections of legs a, b, c.
+using Legs = std::array<Connection, 3>;
+
+/// Phase quantities by index, for loops over the legs.
+template <class Real>
+using PerLeg = std::array<Real, 3>;
+
+constexpr bool is_floating(Connection c) { return c == Connection::floating; }
+constexpr bool is_high(Connection c) { return c == Connection::high_switch || c == Connection::high_diode; }
+constexpr bool is_diode(Connection c) { return c == Connection::high_diode || c == Connection::low_diode; }
+
+/// |S|: how many legs are connected.
+constexpr int connected_count(const Legs& legs) {
+  return int{!is_floating(legs[0])} + int{!is_floating(legs[1])} + int{!is_floating(legs[2])};
+}
+
+/// MODEL 2's table for a MOSFET leg: the gated channel carries both directions alone; without a gate the
+/// current's sign names the diode, and no current leaves the leg floating (whether it stays so is a question
+/// of the voltages). Both gates on is shoot-through and has no connection.
+constexpr std::optional<Connection> connection_of(bool gate_high, bool gate_low, int current_sign) {
+  if (gate_high && gate_low) return std::nullopt;
+  if (gate_high) return Connection::high_switch;
+  if (gate_low) return Connection::low_switch;
+  if (current_sign > 0) return Connection::low_diode;
+  return current_sign < 0 ? Connection::high_diode : Connection::floating;
+}
+
+/// Pole voltage of a connected leg as an affine law: u_k = bus_share U_s + offset_V - r_ohm i_k.
+template <class Real>
+struct PoleTerms {
+  Real bus_share{};  ///< 1 on the positive rail, 0 on the negative one
+  Real offset_V{};
+  Real r_ohm{};
+};
+
+/// high by switch: U_s - R_on i; low by switch: -R_on i; low by diode: -V_f - r_d i; high by diode: U_s + V_f
+/// - r_d i (MODEL 2). A floating leg has no law of its own: all terms zero.
+template <class Real>
+constexpr PoleTerms<Real> pole_terms(Connection c, const Devices& devices) {
+  const Real R_on = Real(devices.R_on_ohm), V_f = Real(devices.V_f_V), r_d = Real(devices.r_d_ohm);
+  switch (c) {
+    case Connection::high_switch:
+      return {Real(1), Real(0), R_on};
+    case Connection::low_switch:
+      return {Real(0), Real(0), R_on};
+    case Connection::high_diode:
+      return {Real(1), V_f, r_d};
+    case Connection::low_diode:
+      return {Real(0), -V_f, r_d};
+    case Connection::floating:
+      break;
+  }
+  return {};
+}
+
+/// The pole voltage of a connected leg carrying i.
+template <class Real>
+constexpr Real pole_voltage(const PoleTerms<Real>& terms, Real U_s, Real i) {
+  return terms.bus_share * U_s + terms.offset_V - terms.r_ohm * i;
+}
+
+/// Star point's voltage against the negative rail (MODEL 2, eq. 5): u_n = (1/|S|) sum_{k in S} (u_k - e_k).
+/// With |S| = 0 it is free; it is then put where the highest and the lowest terminal keep the same distance
+/// from their rails, so that "a floating terminal beyond a rail" says max e - min e > U_s + 2 V_f there too.
+template <class Real>
+constexpr Real star_voltage(const Legs& legs, const Devices& devices, Real U_s, const PerLeg<Real>& i,
+                            const PerLeg<Real>& e) {
+  Real sum{};
+  int connected = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (is_floating(legs[k])) continue;
+    sum += pole_voltage(pole_terms<Real>(legs[k], devices), U_s, i[k]) - e[k];
+    ++connected;
+  }
+  if (connected > 0) return sum / Real(connected);
+  const Real highest = std::max({e[0], e[1], e[2]}), lowest = std::min({e[0], e[1], e[2]});
+  return (U_s - highest - lowest) / Real(2);
+}
+
+/// All three pole voltages: the connected legs by their devices, the floating ones at u_n + e_k (MODEL 2).
+template <class Real>
+constexpr PerLeg<Real> pole_voltages(const Legs& legs, const Devices& devices, Real U_s,
+                                     const PerLeg<Real>& i, const PerLeg<Real>& e) {
+  const Real u_n = star_voltage(legs, devices, U_s, i, e);
+  PerLeg<Real> u{};
+  for (std::size_t k = 0; k < 3; ++k)
+    u[k] = is_floating(legs[k]) ? u_n + e[k] : pole_voltage(pole_terms<Real>(legs[k], devices), U_s, i[k]);
+  return u;
+}
+
+/// Current out of the positive rail: the sum of i_k over the legs connected high, by switch or diode (MODEL
+/// 4b).
+template <class Real>
+constexpr Real bus_current(const Legs& legs, const PerLeg<Real>& i) {
+  Real sum{};
+  for (std::size_t k = 0; k < 3; ++k)
+    if (is_high(legs[k])) sum += i[k];
+  return sum;
+}
+
+}  // namespace sixstep::plant

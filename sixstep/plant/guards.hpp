@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// What must stay >= 0 for the present mode to hold. Each guard is a polynomial made of the same series as the
+// dynamics, with the rounding level below which its coefficients say nothing. In order of what wins a tie:
+// current zero, standstill, sector edge, then rails and the rest (MODEL 4b).
+#pragma once
+#include "sixstep/plant/expansion.hpp"
+
+namespace sixstep::plant {
+
+/// Guard identities; k is the leg. The rig numbers its own from `first_free`.
+namespace guard {
+inline constexpr int current_zero = 0;  // + k
+inline constexpr int standstill = 3;
+inline constexpr int edge_ahead = 4;
+inline constexpr int edge_behind = 5;
+inline constexpr int low_rail = 6;    // + k
+inline constexpr int high_rail = 9;   // + k
+inline constexpr int free_star = 12;  // + 3 j + k: e_j - e_k against the rails
+inline constexpr int breakaway_forward = 21;
+inline constexpr int breakaway_backward = 22;
+inline constexpr int source = 23;
+inline constexpr int first_free = 24;
+}  // namespace guard
+
+/// Noise = 64 eps x natural scale (ENGINE, pitfall 6), widened by `slack` where rounding left no mode
+/// consistent.
+template <class Real>
+constexpr Real noise_of(Real scale, Real slack) {
+  constexpr Real eps =
+      sizeof(Real) > 8 ? Real(1.08420217248550443400745280086994171e-19L) : Real(2.220446049250313e-16L);
+  return 64 * eps * scale * slack;
+}
+
+namespace detail {
+
+template <class Real>
+Real tail_of(const series::Coefficients<Real>& c, int degree) {
+  Real sum = 0;
+  for (int j = 1; j <= degree; ++j) sum += abs(c[j]);
+  return sum;
+}
+
+/// sign * c + constant, as coefficients.
+template <class Real>
+series::Coefficients<Real> affine(const series::Coefficients<Real>& c, int degree, Real sign, Real constant) {
+  series::Coefficients<Real> out;
+  for (int j = 0; j <= degree; ++j) out[j] = sign * c[j];
+  out[0] += constant;
+  return out;
+}
+
+template <class Real, class Visit>
+void rail_guards(const Constants<Real>& c, const Expansion<Real>& y, int k, Real noise, Visit&& visit) {
+  const Real V_f = Real(c.devices.V_f_V), tail = tail_of(y.pole[k], y.degree);
+  if (y.pole[k][0] + V_f <= tail + noise)
+    visit(guard::low_rail + k, affine(y.pole[k], y.degree, Real(1), V_f), y.degree, noise);
+  const Real bus_tail = c.inv_C > 0 ? tail_of(y.bus, y.degree) : Real(0);
+  if (y.bus[0] + V_f - y.pole[k][0] <= tail + bus_tail + noise) {
+    series::Coefficients<Real> g;
+    for (int j = 0; j <= y.degree; ++j) g[j] = y.bus[j] - y.pole[k][j];
+    g[0] += V_f;
+    visit(guard::high_rail + k, g, y.degree, noise);
+  }
+}
+
+/// |S| = 0: conduction starts when max e - min e > U_s + 2 V_f.
+template <class Real, class Visit>
+void free_star_guards(const Constants<Real>& c, const Expansion<Real>& y, Real noise, Visit&& visit) {
+  for (int j = 0; j < 3; ++j)
+    for (int k = 0; k < 3; ++k) {
+      if (j == k) continue;
+      series::Coefficients<Real> g;
+      for (int n = 0; n <= y.degree; ++n) g[n] = y.bus[n] - y.pole[j][n] + y.pole[k][n];  // here: e_j, e_k
+      g[0] += 2 * Real(c.devices.V_f_V);
+      visit(guard::free_star + 3 * j + k, g, y.degree, noise);
+    }
+}
+
+template <class Real, class Visit>
+void rotor_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real slack,
+                  Visit&& visit) {
+  const Real torque_noise = noise_of(c.torque_scale, slack);
+  if (mode.motion == Motion::forward)
+    visit(guard::standstill, y.w, y.degree, noise_of(c.speed_scale, slack));
+  else if (mode.motion == Motion::backward)
+    visit(guard::standstill, affine(y.w, y.degree, Real(-1), Real(0)), y.degree,
+          noise_of(c.speed_scale, slack));
+  else if (mode.motion == Motion::stuck) {
+    visit(guard::breakaway_forward, affine(y.torque, y.degree, Real(-1), c.breakaway + c.load), y.degree,
+          torque_noise);
+    visit(guard::breakaway_backward, affine(y.torque, y.degree, Real(1), c.breakaway - c.load), y.degree,
+          torque_noise);
+  }
+}
+
+}  // namespace detail
+
+/// Guards of the conduction, motion and supply modes: what settle() judges a mode by.
+template <class Real, class Visit>
+void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real slack,
+                 Visit&& visit) {
+  const Real amp_noise = noise_of(c.amp_scale, slack), volt_noise = noise_of(c.volt_scale, slack);
+  bool star_free = true;
+  for (int k = 0; k < 3; ++k) {
+    star_free = star_free && is_floating(mode.legs[k]);
+    if (mode.legs[k] == Connection::low_diode)
+      visit(guard::current_zero + k, y.i[k], y.degree, amp_noise);
+    else if (mode.legs[k] == Connection::high_diode)
+      visit(guard::current_zero + k, detail::affine(y.i[k], y.degree, Real(-1), Real(0)), y.degree,
+            amp_noise);
+  }
+  detail::rotor_guards(c, mode, y, slack, visit);
+  if (star_free) {
+    detail::free_star_guards(c, y, volt_noise, visit);
+  } else {
+    for (int k = 0; k < 3; ++k)
+      if (is_floating(mode.legs[k])) detail::rail_guards(c, y, k, volt_noise, visit);
+  }
+  if (!c.source_sinks)
+    visit(guard::source,
+          mode.source_feeds ? detail::affine(y.bus, y.degree, Real(-1), c.V_0)
+                            : detail::affine(y.bus, y.degree, Real(1), -c.V_0),
+          y.degree, volt_noise);
+}
+
+/// The rotor stays within the present piece of the back-EMF.
+template <class Real, class Visit>
+void edge_guards(const EmfPiece<Real>& piece, const Expansion<Real>& y, Visit&& visit) {
+  const Real noise = noise_of(Real(base::sector_rad), Real(1)), tail = detail::tail_of(y.x, y.degree);
+  if (piece.to - y.x[0] <= tail + noise)
+    visit(guard::edge_ahead, detail::affine(y.x, y.degree, Real(-1), piece.to), y.degree, noise);
+  if (y.x[0] - piece.from <= tail + noise)
+    visit(guard::edge_behind, detail::affine(y.x, y.degree, Real(1), -piece.from), y.degree, noise);
+}
+
+}  // namespace sixstep::plant

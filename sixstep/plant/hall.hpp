@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// What leaves the Hall probes, 120 electrical degrees apart: each is high over half a turn. The controller's
+// decoding is its own table, so that a wrong entry cannot cancel itself.
+#pragma once
+#include <cstdint>
+
+namespace sixstep::plant {
+
+/// H1 H2 H3 as bits 2, 1, 0 in sector 0..5 (MODEL 3): H1 over sectors 5, 0, 1; H2 over 1, 2, 3; H3 over 3,
+/// 4, 5.
+constexpr std::uint8_t hall_code(int sector) {
+  const bool h1 = sector == 5 || sector == 0 || sector == 1;
+  const bool h2 = sector >= 1 && sector <= 3;
+  const bool h3 = sector >= 3;
+  return static_cast<std::uint8_t>(h1 << 2 | h2 << 1 | static_cast<int>(h3));
+}
+
+}  // namespace sixstep::plant

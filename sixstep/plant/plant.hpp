@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+// Motor, bridge with diodes, shaft and supply as one system between events (MODEL 1, 2, 4b). The rig sets
+// gates and load; the run loop expands, advances and hands back located events.
+#pragma once
+#include <algorithm>
+
+#include "sixstep/plant/settle.hpp"
+
+namespace sixstep::plant {
+
+struct Start {
+  double speed_rad_s = 0.0;
+  double angle_rad = 0.0;  ///< mechanical
+  double bus_V = 0.0;
+};
+
+/// What one instant looks like; pole voltages of a fully floating star are centred between the rails.
+template <class Real>
+struct Snapshot {
+  PerLeg<Real> i{}, emf{}, pole{};
+  Real speed = 0, angle = 0, bus = 0, bus_current = 0, torque = 0;
+};
+
+template <class RealType>
+class Plant {
+ public:
+  using Real = RealType;
+
+  Plant(const Machine& machine, const Shaft& shaft, const Devices& devices, const Supply& supply,
+        const Start& start);
+
+  /// False: both switches of a leg on, a shoot-through; nothing is changed then.
+  bool set_gates(const Gates& gates) {
+    if (shoots_through(gates)) return false;
+    if (gates == gates_) return true;
+    gates_ = gates;
+    stale_ = true;
+    return true;
+  }
+  void set_load(double torque_Nm) {
+    constants_.load = static_cast<Real>(torque_Nm);
+    stale_ = true;
+  }
+
+  /// Settles the mode where it is stale and expands; returns the length covered, negative where no mode is
+  /// consistent.
+  double expand(double wanted);
+  template <class Visit>
+  void guards(Visit&& visit) const {
+    mode_guards(constants_, mode_, y_, slack_, visit);
+    edge_guards(constants_.emf[sector_in_turn(state_.sector)].piece[mode_.piece], y_, visit);
+  }
+  /// Takes the state to the fraction s of the expanded length.
+  void advance(Real s);
+  /// The located event `id`; true where the rotor passed into another sector.
+  bool apply(int id);
+
+  const State<Real>& state() const { return state_; }
+  const Mode& mode() const { return mode_; }
+  const Gates& gates() const { return gates_; }
+  const Constants<Real>& constants() const { return constants_; }
+  const Expansion<Real>& expansion() const { return y_; }
+  int sector() const { return sector_in_turn(state_.sector); }
+  Snapshot<Real> at(Real s) const;
+
+ private:
+  void snap();
+  bool resettle(Real wanted, bool& expanded);
+  bool pass_edge(bool ahead);
+  void zero_current(int k);
+
+  Constants<Real> constants_;
+  State<Real> state_;
+  Mode mode_;
+  Gates gates_;
+  Expansion<Real> y_;
+  Real slack_ = 1;
+  bool stale_ = true;
+  bool doubted_ = false;  ///< the last located event came without progress: settle by series only
+};
+
+template <class Real>
+Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices, const Supply& supply,
+                   const Start& start)
+    : constants_{}, y_{} {
+  Constants<Real>& c = constants_;
+  c.R = Real(m.R_ohm);
+  c.inv_L = 1 / Real(m.L_H);
+  c.K_e = Real(m.K_e_V_s);
+  c.inv_J = 1 / Real(shaft.J_kg_m2);
+  c.B = Real(shaft.B_Nm_s);
+  c.pole_pairs = Real(m.pole_pairs);
+  c.coulomb = Real(shaft.coulomb_Nm);
+  c.breakaway = std::max(c.coulomb, Real(shaft.static_Nm));
+  c.dry_friction = c.breakaway > 0 && !shaft.locked;
+  c.locked = shaft.locked;
+  c.V_0 = Real(supply.V_0_V);
+  const bool stiff = !(supply.C_F > 0);
+  c.inv_C = stiff ? Real(0) : 1 / Real(supply.C_F);
+  c.inv_R_b = stiff ? Real(0) : 1 / Real(supply.R_b_ohm);
+  c.source_sinks = stiff || supply.sinks;
+  c.devices = devices;
+  c.sine = m.back_emf == BackEmf::sine;
+  c.emf = c.sine ? sine_table<Real>() : trapezoid_table<Real>(m.flat_deg);
+  const Real emf = 2 * c.K_e * detail::abs(Real(start.speed_rad_s));
+  c.volt_scale = std::max(c.V_0, Real(start.bus_V)) + Real(devices.V_f_V) + emf;
+  c.amp_scale = c.volt_scale / c.R;
+  c.speed_scale = c.volt_scale / (2 * c.K_e);
+  c.torque_scale = 2 * c.K_e * c.amp_scale;
+  for (int k = 0; k < 5; ++k) c.pole_terms[k] = pole_terms<Real>(static_cast<Connection>(k), devices);
+  const Real winding = (c.R + std::max(Real(devices.R_on_ohm), Real(devices.r_d_ohm))) * c.inv_L;
+  const Real electromechanical = c.locked ? Real(0) : c.K_e * std::sqrt(c.inv_L * c.inv_J);
+  c.steady_rate = winding + electromechanical + c.inv_C * (c.inv_R_b + 1 / c.R);
+
+  state_.bus = stiff ? c.V_0 : Real(start.bus_V);
+  state_.w = shaft.locked ? Real(0) : Real(start.speed_rad_s);
+  const double electrical = start.angle_rad * m.pole_pairs;
+  const double sector = std::floor(electrical / base::sector_rad);
+  state_.sector = static_cast<std::int64_t>(sector);
+  state_.x = std::max(Real(0), Real(electrical) - Real(sector) * Real(base::sector_rad));
+  const EmfSector<Real>& pieces = c.emf[sector_in_turn(state_.sector)];
+  while (mode_.piece + 1 < pieces.count && state_.x >= pieces.piece[mode_.piece].to) ++mode_.piece;
+}
+
+/// Currents within rounding of zero in legs without gate, and speeds within rounding of rest where friction
+/// may hold the rotor, are zero: what is consistent there is decided by settle(), not by a rounding error.
+template <class Real>
+void Plant<Real>::snap() {
+  const Real amp_noise = noise_of(constants_.amp_scale, Real(1));
+  int alive = 0, last = 0;
+  for (int k = 0; k < 3; ++k) {
+    const bool gated = gates_.high[k] || gates_.low[k];
+    if (!gated && detail::abs(state_.i[k]) <= amp_noise) state_.i[k] = state_.i_low[k] = 0;
+    if (state_.i[k] != 0) {
+      ++alive;
+      last = k;
+    }
+  }
+  if (alive == 1) state_.i[last] = state_.i_low[last] = 0;
+  if (alive == 2) {
+    const int other = state_.i[(last + 1) % 3] != 0 ? (last + 1) % 3 : (last + 2) % 3;
+    state_.i[last] = -state_.i[other];
+    state_.i_low[last] = -state_.i_low[other];
+  }
+  if (constants_.dry_friction && detail::abs(state_.w) <= noise_of(constants_.speed_scale, Real(1)))
+    state_.w = state_.w_low = 0;
+}
+
+template <class Real>
+bool Plant<Real>::resettle(Real wanted, bool& expanded) {
+  snap();
+  for (slack_ = 1; slack_ < 1e5; slack_ *= 16) {
+    const Question<Real> question{constants_, state_, gates_, wanted, doubted_, slack_};
+    if (settle(question, mode_, y_, expanded)) {
+      stale_ = false;
+      return true;
+    }
+  }
+  return false;
+}
+
+template <class Real>
+double Plant<Real>::expand(double wanted) {
+  const Real length = std::min(static_cast<Real>(wanted), useful_length(constants_, state_));
+  bool expanded = false;
+  if (stale_ && !resettle(length, expanded)) return -1.0;
+  if (!expanded) plant::expand(constants_, state_, mode_, length, y_);
+  return static_cast<double>(y_.h);
+}
+
+template <class Real>
+void Plant<Real>::advance(Real s) {
+  using series::add_compensated, series::increment;
+  State<Real>& q = state_;
+  const int n = y_.degree;
+  int independent = 3, dependent = 3,
+      third = 3;  // of the connected legs, the last one follows from the others
+  for (int k = 0; k < 3; ++k) {
+    if (is_floating(mode_.legs[k])) continue;
+    third = independent;
+    independent = dependent;
+    dependent = k;
+  }
+  if (independent < 3) {
+    add_compensated(q.i[independent], q.i_low[independent], increment(y_.i[independent], n, s));
+    q.i[dependent] = -q.i[independent];
+    q.i_low[dependent] = -q.i_low[independent];
+  }
+  if (third < 3) {
+    add_compensated(q.i[third], q.i_low[third], increment(y_.i[third], n, s));
+    q.i[dependent] -= q.i[third];
+    q.i_low[dependent] -= q.i_low[third];
+  }
+  if (!constants_.locked && mode_.motion != Motion::stuck) {
+    add_compensated(q.w, q.w_low, increment(y_.w, n, s));
+    add_compensated(q.x, q.x_low, increment(y_.x, n, s));
+  }
+  if (constants_.inv_C > 0) add_compensated(q.bus, q.bus_low, increment(y_.bus, n, s));
+  doubted_ = s == 0;
+}
+
+/// Two legs share one current and reach zero together; of three, the other two then carry one current.
+template <class Real>
+void Plant<Real>::zero_current(int k) {
+  const int j = (k + 1) % 3, l = (k + 2) % 3;
+  state_.i[k] = state_.i_low[k] = 0;
+  if (connected_count(mode_.legs) == 2) {
+    state_.i = {};
+    state_.i_low = {};
+  } else {
+    state_.i[l] = -state_.i[j];
+    state_.i_low[l] = -state_.i_low[j];
+  }
+}
+
+template <class Real>
+bool Plant<Real>::pass_edge(bool ahead) {
+  const auto pieces = [this] { return constants_.emf[sector()].count; };
+  const bool leaves = ahead ? mode_.piece + 1 == pieces() : mode_.piece == 0;
+  if (leaves) {
+    state_.sector += ahead ? 1 : -1;
+    mode_.piece = static_cast<std::uint8_t>(ahead ? 0 : pieces() - 1);
+  } else {
+    mode_.piece = static_cast<std::uint8_t>(mode_.piece + (ahead ? 1 : -1));
+  }
+  const EmfPiece<Real>& piece = constants_.emf[sector()].piece[mode_.piece];
+  state_.x = ahead ? piece.from : piece.to;
+  state_.x_low = 0;
+  return leaves;
+}
+
+template <class Real>
+bool Plant<Real>::apply(int id) {
+  if (id == guard::edge_ahead || id == guard::edge_behind) return pass_edge(id == guard::edge_ahead);
+  if (id < guard::standstill) zero_current(id);
+  if (id == guard::standstill) state_.w = state_.w_low = 0;
+  stale_ = true;
+  return false;
+}
+
+template <class Real>
+Snapshot<Real> Plant<Real>::at(Real s) const {
+  Snapshot<Real> now;
+  const int n = y_.degree;
+  for (int k = 0; k < 3; ++k) now.i[k] = series::evaluate(y_.i[k], n, s);
+  now.speed = series::evaluate(y_.w, n, s);
+  State<Real> then = state_;
+  then.i = now.i;
+  then.w = now.speed;
+  then.x = series::evaluate(y_.x, n, s);
+  now.angle = (static_cast<Real>(state_.sector) * Real(base::sector_rad) + then.x) / constants_.pole_pairs;
+  now.bus = series::evaluate(y_.bus, n, s);
+  now.emf = detail::back_emf(constants_, then, mode_);
+  now.torque = detail::torque(constants_, then, mode_);
+  now.pole = pole_voltages(mode_.legs, constants_.devices, now.bus, now.i, now.emf);
+  now.bus_current = bus_current(mode_.legs, now.i);
+  return now;
+}
+
+}  // namespace sixstep::plant

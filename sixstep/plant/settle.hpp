@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which mode is consistent now? Switches and nonzero currents name most connections; legs without gate and
+// current, the rotor at rest and the bus at the source's voltage are enumerated: exactly one combination is
+// right, and where rounding makes several look right, the one with most legs off (MODEL 2, 4b). Plain values
+// first, series only for ties.
+#pragma once
+#include "sixstep/plant/guards.hpp"
+#include "sixstep/series/first_root.hpp"
+
+namespace sixstep::plant {
+
+namespace detail {
+
+enum class Judgement : std::uint8_t { holds, fails, tie };
+
+template <class Real>
+constexpr Judgement judge(Real margin, Real noise) {
+  return margin > noise ? Judgement::holds : margin < -noise ? Judgement::fails : Judgement::tie;
+}
+
+constexpr Judgement both(Judgement a, Judgement b) {
+  if (a == Judgement::fails || b == Judgement::fails) return Judgement::fails;
+  return a == Judgement::tie || b == Judgement::tie ? Judgement::tie : Judgement::holds;
+}
+
+template <class Real>
+PerLeg<Real> back_emf(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
+  const EmfPiece<Real>& p = c.emf[sector_in_turn(s.sector)].piece[m.piece];
+  Real phi0 = 1, phi1 = s.x;
+  if (c.sine) {
+    phi0 = static_cast<Real>(base::cos(static_cast<double>(s.x)));
+    phi1 = static_cast<Real>(base::sin(static_cast<double>(s.x)));
+  }
+  PerLeg<Real> e;
+  for (int k = 0; k < 3; ++k) e[k] = c.K_e * s.w * (p.alpha[k] * phi0 + p.beta[k] * phi1);
+  return e;
+}
+
+/// Electromagnetic torque at w's limit: K_e sum f_k i_k, exact also at standstill (MODEL 1, eq. 3).
+template <class Real>
+Real torque(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
+  State<Real> unit = s;
+  unit.w = 1;
+  const PerLeg<Real> f = back_emf(c, unit, m);
+  return f[0] * s.i[0] + f[1] * s.i[1] + f[2] * s.i[2];
+}
+
+/// Legs by plain values: floating ones within the rails, diodes that just switched on driven in their
+/// direction.
+template <class Real>
+Judgement judge_legs(const Constants<Real>& c, const State<Real>& s, const Mode& m, Real slack) {
+  const Real noise = noise_of(c.volt_scale, slack), V_f = Real(c.devices.V_f_V);
+  const PerLeg<Real> e = back_emf(c, s, m);
+  const PerLeg<Real> u = pole_voltages(m.legs, c.devices, s.bus, s.i, e);
+  const Real u_n = star_voltage(m.legs, c.devices, s.bus, s.i, e);
+  Judgement all = Judgement::holds;
+  for (int k = 0; k < 3; ++k) {
+    if (is_floating(m.legs[k])) {
+      all = both(all, both(judge(u[k] + V_f, noise), judge(s.bus + V_f - u[k], noise)));
+    } else if (is_diode(m.legs[k]) && s.i[k] == 0) {
+      const Real drive = u[k] - u_n - e[k];  // L di/dt
+      all = both(all, judge(m.legs[k] == Connection::low_diode ? drive : -drive, noise));
+    }
+  }
+  return all;
+}
+
+template <class Real>
+Judgement judge_motion(const Constants<Real>& c, const State<Real>& s, const Mode& m, Real slack) {
+  if (!c.dry_friction || s.w != 0 || m.motion == Motion::locked) return Judgement::holds;
+  const Real noise = noise_of(c.torque_scale, slack), excess = torque(c, s, m) - c.load;
+  if (m.motion == Motion::stuck) return judge(c.breakaway - abs(excess), noise);
+  // A breakaway torque above the sliding friction leaves a range in which only sticking is asked; slipping
+  // must overcome it.
+  const Real push = m.motion == Motion::forward ? excess : -excess;
+  return judge(push - c.breakaway, noise);
+}
+
+template <class Real>
+Judgement judge_source(const Constants<Real>& c, const State<Real>& s, const Mode& m, Real slack) {
+  if (c.source_sinks) return Judgement::holds;
+  const Real noise = noise_of(c.volt_scale, slack), above = s.bus - c.V_0;
+  return judge(m.source_feeds ? -above : above, noise);
+}
+
+/// Lexicographic: no guard of the mode may leave its start downwards.
+template <class Real>
+bool holds_in_series(const Constants<Real>& c, const Mode& m, const Expansion<Real>& y, Real slack) {
+  bool ok = true;
+  mode_guards(c, m, y, slack, [&](int, const series::Coefficients<Real>& g, int degree, Real noise) {
+    ok = ok && series::leading(g, degree, noise).sign >= 0;
+  });
+  return ok;
+}
+
+/// Base-3 digit k of a combination: what an undecided leg tries. Few legs on come first by the order of the
+/// loop.
+constexpr Connection tried(int digit) {
+  return digit == 0 ? Connection::floating : digit == 1 ? Connection::low_diode : Connection::high_diode;
+}
+
+}  // namespace detail
+
+/// What settle() is asked: gates, state, and whether plain values may decide alone.
+template <class Real>
+struct Question {
+  const Constants<Real>& constants;
+  const State<Real>& state;
+  const Gates& gates;
+  Real h;            ///< length over which series are judged
+  bool series_only;  ///< after an event without progress: plain values have been wrong once
+  Real slack = 1;
+};
+
+namespace detail {
+
+template <class Real>
+bool accepts(const Question<Real>& q, const Mode& mode, Expansion<Real>& scratch, bool& expanded) {
+  const Judgement plain = both(judge_legs(q.constants, q.state, mode, q.slack),
+                               both(judge_motion(q.constants, q.state, mode, q.slack),
+                                    judge_source(q.constants, q.state, mode, q.slack)));
+  expanded = false;
+  if (plain == Judgement::fails) return false;
+  if (plain == Judgement::holds && !q.series_only) return true;
+  expand(q.constants, q.state, mode, q.h, scratch);
+  expanded = true;
+  return holds_in_series(q.constants, mode, scratch, q.slack);
+}
+
+/// All combinations of the undecided legs, those with fewest legs on first.
+template <class Real>
+bool settle_legs(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, bool& expanded) {
+  std::array<int, 3> undecided{};
+  int count = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Real i = q.state.i[k];
+    mode.legs[k] = *connection_of(q.gates.high[k], q.gates.low[k], i > 0 ? 1 : i < 0 ? -1 : 0);
+    if (is_floating(mode.legs[k])) undecided[count++] = k;
+  }
+  const bool at_rest = q.constants.dry_friction && q.state.w == 0;
+  if (count == 0 && !q.series_only && q.constants.source_sinks && !at_rest) return true;
+  const int combinations = count == 0 ? 1 : count == 1 ? 3 : count == 2 ? 9 : 27;
+  for (int on = 0; on <= count; ++on)
+    for (int code = 0; code < combinations; ++code) {
+      int rest = code, legs_on = 0;
+      for (int u = 0; u < count; ++u, rest /= 3) {
+        mode.legs[undecided[u]] = tried(rest % 3);
+        legs_on += rest % 3 != 0;
+      }
+      if (legs_on != on || (legs_on == 1 && connected_count(mode.legs) == 1))
+        continue;  // one leg alone carries nothing
+      if (accepts(q, mode, scratch, expanded)) return true;
+    }
+  return false;
+}
+
+template <class Real>
+bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, bool& expanded) {
+  if (q.constants.source_sinks) {
+    mode.source_feeds = true;
+    return settle_legs(q, mode, scratch, expanded);
+  }
+  for (const bool feeds : {false, true}) {
+    mode.source_feeds = feeds;
+    if (settle_legs(q, mode, scratch, expanded)) return true;
+  }
+  return false;
+}
+
+}  // namespace detail
+
+/// Finds the consistent mode and writes it; `expanded` tells whether `scratch` already holds its expansion
+/// over q.h. False: none is consistent at this rounding level.
+template <class Real>
+bool settle(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, bool& expanded) {
+  using enum Motion;
+  expanded = false;
+  const Constants<Real>& c = q.constants;
+  if (c.locked || !c.dry_friction || q.state.w != 0) {
+    mode.motion = c.locked ? locked : !c.dry_friction ? free : q.state.w > 0 ? forward : backward;
+    return detail::settle_source(q, mode, scratch, expanded);
+  }
+  for (const Motion motion : {stuck, forward, backward}) {
+    mode.motion = motion;
+    if (detail::settle_source(q, mode, scratch, expanded)) return true;
+  }
+  return false;
+}
+
+}  // namespace sixstep::plant

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the plant remembers: continuous state with the rounding errors of its running sums, and the discrete
+// mode.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/plant/circuit.hpp"
+
+namespace sixstep::plant {
+
+/// Upper and lower gate of each leg, T1/T2 for a, T3/T4 for b, T5/T6 for c.
+struct Gates {
+  std::array<bool, 3> high{}, low{};
+  bool operator==(const Gates&) const = default;
+};
+
+constexpr bool shoots_through(const Gates& g) {
+  return (g.high[0] && g.low[0]) || (g.high[1] && g.low[1]) || (g.high[2] && g.low[2]);
+}
+
+/// How the rotor may move. `free`: no dry friction, w passes zero like any other value.
+enum class Motion : std::uint8_t { free, forward, backward, stuck, locked };
+
+template <class Real>
+struct State {
+  PerLeg<Real> i{}, i_low{};  ///< phase currents, A, and their rounding remainders
+  Real w = 0, w_low = 0;      ///< mechanical speed, rad/s
+  std::int64_t sector = 0;    ///< electrical sectors since theta_e = 0, over all turns
+  Real x = 0, x_low = 0;      ///< electrical angle since the sector's start, rad
+  Real bus = 0, bus_low = 0;  ///< U_s, V
+};
+
+struct Mode {
+  Legs legs{};
+  Motion motion = Motion::free;
+  bool source_feeds = true;  ///< a source that cannot sink: false while the bus is above it
+  std::uint8_t piece = 0;    ///< of the back-EMF within the sector
+  bool operator==(const Mode&) const = default;
+};
+
+/// Sector 0..5 within the electrical turn.
+constexpr int sector_in_turn(std::int64_t sector) {
+  const auto r = static_cast<int>(sector % 6);
+  return r < 0 ? r + 6 : r;
+}
+
+}  // namespace sixstep::plant

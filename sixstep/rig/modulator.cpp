@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/rig/modulator.hpp"
+
+#include <cmath>
+
+namespace sixstep::rig {
+
+using control::Chopping;
+using control::Watch;
+using sim::Instant;
+
+namespace {
+
+int index(control::Leg leg) { return static_cast<int>(leg); }
+
+}  // namespace
+
+Instant Modulator::edge_at(const Instant& t, double ticks) const {
+  if (config_.timer_ticks > 0) ticks = std::floor(ticks / config_.timer_ticks + 0.5) * config_.timer_ticks;
+  return t.plus_ticks(ticks);
+}
+
+void Modulator::take(const Instant& t, const BoardCommand& command) {
+  leg_changed_ = command_.enabled && command.enabled && !(command.pair.source == command_.pair.source);
+  const bool wakes = command.enabled && (!started_ || !command_.enabled);
+  command_ = command;
+  if (!wakes) {
+    // A hysteresis that changes direction keeps its state, but the new source leg was the sink a moment ago.
+    if (command.watch != Watch::none && leg_changed_ && source_on_) command_source(t, true, true);
+    return;
+  }
+  // The first turn-on waits for the dead time too: nobody knows what the leg did before.
+  started_ = true;
+  source_on_ = false;
+  sink_on_ = true;
+  if (config_.dead_ticks > 0 && command.chopping == Chopping::complementary) {
+    dead_ = true;
+    dead_end_ = edge_at(t, config_.dead_ticks);
+  }
+  if (command.watch != Watch::none) command_source(t, true, true);  // hysteresis starts on (MODEL 4)
+}
+
+void Modulator::start_period(const Instant& t, const BoardCommand& command) {
+  take(t, command);
+  on_edge_ = off_edge_ = Instant::never();
+  if (!command.enabled || command.watch != Watch::none) return;
+  const auto period = static_cast<double>(config_.period_ticks);
+  const double on_time = command.duty * period;
+  if (command.duty >= 1.0) {
+    command_source(t, true, leg_changed_);
+  } else if (!(command.duty > 0.0)) {
+    command_source(t, false, leg_changed_);
+  } else if (config_.centre_aligned) {
+    command_source(t, false, leg_changed_);
+    on_edge_ = edge_at(t, (period - on_time) / 2);
+    off_edge_ = edge_at(t, (period + on_time) / 2);
+  } else {
+    command_source(t, true, leg_changed_);
+    off_edge_ = edge_at(t, on_time);
+  }
+}
+
+/// Turn-on and turn-off of the source leg's upper switch. Dead time delays a turn-on after the other switch
+/// of the leg was told to turn off: in complementary chopping at each edge, else only where the leg was the
+/// sink a moment ago.
+void Modulator::command_source(const Instant& t, bool on, bool leg_changed) {
+  const bool waits = config_.dead_ticks > 0;
+  const bool complementary = command_.chopping == Chopping::complementary;
+  if (source_on_ == on && !(on && leg_changed && waits)) return;
+  if (on && !source_on_) ++turn_ons_;
+  source_on_ = on;
+  if (waits && (complementary || (on && leg_changed))) {
+    dead_ = true;
+    dead_end_ = edge_at(t, config_.dead_ticks);
+  }
+}
+
+void Modulator::commutate(const Instant& t, control::Pair pair) {
+  const plant::Gates before = gates();
+  command_.pair = pair;
+  if (!config_.dead_time_at_commutation || !(config_.dead_ticks > 0)) return;
+  const plant::Gates after = wanted_gates();
+  bool any = false;
+  for (int k = 0; k < 3; ++k) {
+    blanked_.high[k] = after.high[k] && !before.high[k];
+    blanked_.low[k] = after.low[k] && !before.low[k];
+    any = any || blanked_.high[k] || blanked_.low[k];
+  }
+  blank_end_ = any ? edge_at(t, config_.dead_ticks) : Instant::never();
+}
+
+Instant Modulator::next_edge() const {
+  Instant next = on_edge_ < off_edge_ ? on_edge_ : off_edge_;
+  if (dead_end_ < next) next = dead_end_;
+  return blank_end_ < next ? blank_end_ : next;
+}
+
+bool Modulator::act(const Instant& now) {
+  bool acted = false;
+  const auto due = [&](Instant& edge) {
+    if (now < edge) return false;
+    edge = Instant::never();
+    return acted = true;
+  };
+  if (due(dead_end_)) dead_ = false;
+  if (due(blank_end_)) blanked_ = {};
+  if (due(on_edge_)) command_source(now, true, false);
+  if (due(off_edge_)) command_source(now, false, false);
+  return acted;
+}
+
+ArmedComparator Modulator::comparator(int which) const {
+  const bool second = which == 1;
+  if (!command_.enabled || command_.watch == Watch::none) return {};
+  if (second && !(command_.watch == Watch::phase && command_.chopping == Chopping::hard)) return {};
+  const bool on = second ? sink_on_ : source_on_;
+  return {true, on, on ? command_.off_above_A : command_.on_below_A};
+}
+
+plant::PerLeg<double> Modulator::comparator_weights(int which) const {
+  plant::PerLeg<double> weight{};
+  const double share = command_.watch == Watch::motor ? 0.5 : 1.0;
+  if (command_.watch == Watch::motor || which == 0) weight[index(command_.pair.source)] = share;
+  if (command_.watch == Watch::motor || which == 1) weight[index(command_.pair.sink)] = -share;
+  return weight;
+}
+
+void Modulator::comparator_tripped(const Instant& now, int which) {
+  if (which == 1) {
+    sink_on_ = !sink_on_;
+    turn_ons_ += sink_on_;
+  } else {
+    command_source(now, !source_on_, false);
+  }
+}
+
+plant::Gates Modulator::wanted_gates() const {
+  plant::Gates gates{};
+  if (!command_.enabled) return gates;
+  const int source = index(command_.pair.source), sink = index(command_.pair.sink);
+  gates.high[source] = source_on_ && !dead_;
+  gates.low[source] = command_.chopping == Chopping::complementary && !source_on_ && !dead_;
+  const bool both_comparators = command_.watch == Watch::phase;
+  gates.low[sink] = gates.low[sink] || command_.chopping != Chopping::hard ||
+                    (both_comparators ? sink_on_ : source_on_ && !dead_);
+  return gates;
+}
+
+plant::Gates Modulator::gates() const {
+  plant::Gates gates = wanted_gates();
+  if (blank_end_ == Instant::never()) return gates;
+  for (int k = 0; k < 3; ++k) {
+    gates.high[k] = gates.high[k] && !blanked_.high[k];
+    gates.low[k] = gates.low[k] && !blanked_.low[k];
+  }
+  return gates;
+}
+
+}  // namespace sixstep::rig

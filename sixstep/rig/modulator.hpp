@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// The timer and comparators of the board: a bridge command becomes gates. Owns PWM edges, dead time and event
+// comparators (MODEL 3). The state belongs to the role (source leg, sink leg), not to a phase, so that a Hall
+// edge moves it as it is.
+#pragma once
+#include "sixstep/control/bridge_command.hpp"
+#include "sixstep/plant/state.hpp"
+#include "sixstep/rig/timeline.hpp"
+
+namespace sixstep::rig {
+
+struct ModulatorConfig {
+  std::int64_t period_ticks = 30'000'000;
+  bool centre_aligned = false;
+  double dead_ticks = 0.0;
+  bool dead_time_at_commutation = false;
+  double timer_ticks = 0.0;  ///< ps per count of the timer; 0: edges anywhere
+};
+
+/// A command as the board holds it: scalars widened to double.
+struct BoardCommand {
+  bool enabled = false;
+  control::Pair pair{};
+  double duty = 0.0;
+  control::Chopping chopping = control::Chopping::soft;
+  control::Watch watch = control::Watch::none;
+  double on_below_A = 0.0, off_above_A = 0.0;
+};
+
+/// A level that a comparator waits for: `current` of a role against a threshold.
+struct ArmedComparator {
+  bool armed = false;
+  bool switches_off = false;  ///< waits for the current to rise above, else to fall below
+  double level_A = 0.0;
+};
+
+class Modulator {
+ public:
+  explicit Modulator(const ModulatorConfig& config) : config_(config) {}
+
+  /// A PWM period begins at t with this command. |duty| = 1 has no off gap, 0 no on-time.
+  void start_period(const sim::Instant& t, const BoardCommand& command);
+  /// The pair changes at a Hall edge: PWM is not restarted, duty not resampled.
+  void commutate(const sim::Instant& t, control::Pair pair);
+  /// New thresholds between periods (the setpoint of an event hysteresis jumped).
+  void rearm(const sim::Instant& t, const BoardCommand& command) { take(t, command); }
+  void turn_off() { command_.enabled = false; }
+
+  sim::Instant next_edge() const;
+  /// Does the edges due at `now`; false where none was.
+  bool act(const sim::Instant& now);
+  /// Switches where a comparator's current is beyond its level; false where none did.
+  template <class Real>
+  bool compare(const sim::Instant& now, const plant::PerLeg<Real>& i);
+  /// A comparator reached its level (0: motor or source leg, 1: sink leg).
+  void comparator_tripped(const sim::Instant& now, int which);
+
+  /// What comparator `which` waits for now.
+  ArmedComparator comparator(int which) const;
+  /// Its current as a combination of the phase currents.
+  plant::PerLeg<double> comparator_weights(int which) const;
+
+  plant::Gates gates() const;
+  const BoardCommand& command() const { return command_; }
+  bool source_on() const { return source_on_; }
+  /// No edge will come before the next command: duty 0 or 1, or off.
+  bool steady() const { return next_edge() == sim::Instant::never(); }
+  std::int64_t turn_ons() const { return turn_ons_; }
+
+ private:
+  void take(const sim::Instant& t, const BoardCommand& command);
+  void command_source(const sim::Instant& t, bool on, bool leg_changed);
+  sim::Instant edge_at(const sim::Instant& t, double ticks) const;
+  plant::Gates wanted_gates() const;
+
+  ModulatorConfig config_;
+  BoardCommand command_{};
+  bool source_on_ = false, sink_on_ = true;  ///< sink_on_: hard chopping's second comparator
+  bool started_ = false;
+  bool leg_changed_ = false;  ///< the roles were swapped by the last command
+  sim::Instant on_edge_ = sim::Instant::never(), off_edge_ = sim::Instant::never(),
+               dead_end_ = sim::Instant::never();
+  bool dead_ = false;       ///< the source leg waits with both switches off
+  plant::Gates blanked_{};  ///< turn-ons delayed at a commutation
+  sim::Instant blank_end_ = sim::Instant::never();
+  std::int64_t turn_ons_ = 0;
+};
+
+template <class Real>
+bool Modulator::compare(const sim::Instant& now, const plant::PerLeg<Real>& i) {
+  bool changed = false;
+  for (int which = 0; which < 2; ++which) {
+    const ArmedComparator c = comparator(which);
+    if (!c.armed) continue;
+    const plant::PerLeg<double> weight = comparator_weights(which);
+    const Real current = Real(weight[0]) * i[0] + Real(weight[1]) * i[1] + Real(weight[2]) * i[2];
+    if (c.switches_off ? current > Real(c.level_A) : current < Real(c.level_A)) {
+      comparator_tripped(now, which);
+      changed = true;
+    }
+  }
+  return changed;
+}
+
+}  // namespace sixstep::rig

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// The virtual board around the plant: samples, runs the controller, modulates, and plays the scenario's
+// timeline. It is the System that sim::run drives; the order of things at one instant is act()'s (MODEL 4b).
+#pragma once
+#include <array>
+
+#include "sixstep/control/drive.hpp"
+#include "sixstep/plant/hall.hpp"
+#include "sixstep/plant/plant.hpp"
+#include "sixstep/rig/modulator.hpp"
+
+namespace sixstep::rig {
+
+struct BoardConfig {
+  ModulatorConfig modulator;
+  bool commutate_at_sample = false;  ///< else at the Hall edge itself
+  bool delayed = false;              ///< a command takes effect one period after its sample
+};
+
+enum class Fault : std::uint8_t { none, shoot_through, impossible_hall };
+
+/// Kinds of events, for the run's statistics.
+enum class Happening : std::uint8_t {
+  sector_edge,
+  diode_off,
+  diode_on,
+  standstill,
+  breakaway,
+  comparator,
+  tick,
+  pwm_edge,
+  count
+};
+
+template <class RealType, class Scalar>
+class Rig {
+ public:
+  using Real = RealType;
+
+  Rig(const plant::Plant<Real>& plant, const control::DriveConfig<Scalar>& drive, const BoardConfig& board,
+      const Timeline& timeline)
+      : plant_(plant), drive_(drive), board_(board), modulator_(board.modulator), timeline_(timeline) {}
+
+  sim::Instant now() const { return now_; }
+  sim::Instant next_known() const;
+  bool act();
+  double expand(double wanted) { return plant_.expand(wanted); }
+  template <class Visit>
+  void guards(Visit&& visit) const;
+  void advance(Real s, const sim::Instant& to) {
+    plant_.advance(s);
+    now_ = to;
+  }
+  void apply(int id);
+
+  const plant::Plant<Real>& plant() const { return plant_; }
+  const Modulator& modulator() const { return modulator_; }
+  const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
+  double setpoint() const { return setpoint_; }
+  Fault fault() const { return fault_; }
+  std::int64_t happened(Happening what) const { return happened_[static_cast<std::size_t>(what)]; }
+  /// True between a control tick and the segment that follows it.
+  bool ticked() const { return ticked_; }
+
+ private:
+  bool do_timeline();
+  bool do_tick();
+  void control_step(bool starts_period);
+  void skip_idle_ticks();
+  void hall_edge();
+  control::Measurement<Scalar> measure() const;
+  BoardCommand widened(const control::BridgeCommand<Scalar>& c);
+  void count(Happening what) { ++happened_[static_cast<std::size_t>(what)]; }
+
+  plant::Plant<Real> plant_;
+  control::DriveConfig<Scalar> drive_;
+  BoardConfig board_;
+  Modulator modulator_;
+  const Timeline& timeline_;
+
+  control::DriveState<Scalar> drive_state_{};
+  control::Telemetry<Scalar> telemetry_{};
+  sim::Instant now_{}, next_tick_{};
+  std::size_t next_action_ = 0;
+  double setpoint_ = 0.0;
+  BoardCommand pending_{};
+  bool pending_reversed_ = false,
+       reversed_ = false;  ///< sign of the command that waits, and of the one in effect
+  bool ticked_ = false;
+  Fault fault_ = Fault::none;
+  std::array<std::int64_t, static_cast<std::size_t>(Happening::count)> happened_{};
+};
+
+template <class Real, class Scalar>
+sim::Instant Rig<Real, Scalar>::next_known() const {
+  sim::Instant next = modulator_.next_edge();
+  if (next_tick_ < next) next = next_tick_;
+  if (next_action_ < timeline_.size() && timeline_[next_action_].at < next) next = timeline_[next_action_].at;
+  return next;
+}
+
+/// All that is due now, decided by the clocks alone: scenario step, control tick, PWM edge, comparator,
+/// repeated until nothing is due. The gates follow at the end, so that a leg never sees an order of things at
+/// one instant.
+template <class Real, class Scalar>
+bool Rig<Real, Scalar>::act() {
+  ticked_ = false;
+  for (bool acted = true; acted && fault_ == Fault::none;) {
+    acted = do_timeline() || do_tick();
+    if (!acted && modulator_.act(now_)) {
+      count(Happening::pwm_edge);
+      acted = true;
+    }
+    if (!acted) acted = modulator_.compare(now_, plant_.state().i);
+  }
+  if (fault_ == Fault::none && !plant_.set_gates(modulator_.gates())) fault_ = Fault::shoot_through;
+  return fault_ == Fault::none;
+}
+
+template <class Real, class Scalar>
+bool Rig<Real, Scalar>::do_timeline() {
+  if (next_action_ >= timeline_.size() || now_ < timeline_[next_action_].at) return false;
+  const Action& action = timeline_[next_action_++];
+  if (action.kind == ActionKind::load_torque) {
+    plant_.set_load(action.value);
+    return true;
+  }
+  setpoint_ = action.value;
+  // An event hysteresis on the setpoint itself has no sample to wait for: its comparators follow at once
+  // (MODEL 4).
+  const bool continuous = drive_.mode == control::Mode::current &&
+                          drive_.current_control == control::CurrentControl::hysteresis &&
+                          drive_.hysteresis.watch != control::Watch::none;
+  if (continuous && !board_.delayed) control_step(false);
+  skip_idle_ticks();
+  return true;
+}
+
+template <class Real, class Scalar>
+bool Rig<Real, Scalar>::do_tick() {
+  if (now_ < next_tick_) return false;
+  next_tick_.ticks += board_.modulator.period_ticks;
+  control_step(true);
+  skip_idle_ticks();
+  count(Happening::tick);
+  return ticked_ = true;
+}
+
+template <class Real, class Scalar>
+void Rig<Real, Scalar>::control_step(bool starts_period) {
+  const control::BridgeCommand<Scalar> answer = control::step(
+      drive_, drive_state_, measure(), control::Setpoint<Scalar>{static_cast<Scalar>(setpoint_)}, telemetry_);
+  if (answer.fault) fault_ = Fault::impossible_hall;
+  BoardCommand command = widened(answer);
+  bool reversed = drive_state_.reversed;
+  if (board_.delayed) {
+    std::swap(command, pending_);
+    std::swap(reversed, pending_reversed_);
+  }
+  reversed_ = reversed;
+  if (starts_period)
+    modulator_.start_period(now_, command);
+  else
+    modulator_.rearm(now_, command);
+}
+
+/// Open loop with a steady bridge asks nothing of the coming ticks until the setpoint moves: they are not
+/// simulated.
+template <class Real, class Scalar>
+void Rig<Real, Scalar>::skip_idle_ticks() {
+  const bool open_loop = drive_.mode == control::Mode::off || drive_.mode == control::Mode::duty;
+  if (!open_loop || board_.delayed || board_.commutate_at_sample || !modulator_.steady()) return;
+  const std::int64_t period = board_.modulator.period_ticks;
+  std::size_t n = next_action_;
+  while (n < timeline_.size() && timeline_[n].kind != ActionKind::setpoint) ++n;
+  if (n == timeline_.size() && next_tick_ > now_) {
+    next_tick_ = sim::Instant::never();
+  } else if (n < timeline_.size() && timeline_[n].at > now_) {
+    const std::int64_t due = (timeline_[n].at.ticks + period - 1) / period * period;
+    if (next_tick_ > now_) next_tick_ = {due, 0.0};
+  }
+}
+
+template <class Real, class Scalar>
+void Rig<Real, Scalar>::hall_edge() {
+  count(Happening::sector_edge);
+  if (board_.commutate_at_sample) return;
+  const control::BridgeCommand<Scalar> answer =
+      control::on_hall(drive_, drive_state_, plant::hall_code(plant_.sector()));
+  if (answer.fault) fault_ = Fault::impossible_hall;
+  if (!answer.enabled) return modulator_.turn_off();
+  pending_.pair = answer.pair;
+  const bool same_sign = drive_state_.reversed == reversed_;
+  modulator_.commutate(now_, same_sign ? answer.pair : control::swapped(answer.pair));
+}
+
+template <class Real, class Scalar>
+control::Measurement<Scalar> Rig<Real, Scalar>::measure() const {
+  const plant::State<Real>& s = plant_.state();
+  const Real sector_deg = static_cast<Real>(s.sector) * 60 + s.x * Real(180) / Real(base::pi);
+  return {.i_a_A = static_cast<Scalar>(s.i[0]),
+          .i_b_A = static_cast<Scalar>(s.i[1]),
+          .i_c_A = static_cast<Scalar>(s.i[2]),
+          .speed_rad_s = static_cast<Scalar>(s.w),
+          .position_deg = static_cast<Scalar>(sector_deg / plant_.constants().pole_pairs),
+          .bus_V = static_cast<Scalar>(s.bus),
+          .hall = plant::hall_code(plant_.sector())};
+}
+
+template <class Real, class Scalar>
+BoardCommand Rig<Real, Scalar>::widened(const control::BridgeCommand<Scalar>& c) {
+  return {.enabled = c.enabled,
+          .pair = c.pair,
+          .duty = static_cast<double>(c.duty),
+          .chopping = c.chopping,
+          .watch = c.watch,
+          .on_below_A = static_cast<double>(c.on_below_A),
+          .off_above_A = static_cast<double>(c.off_above_A)};
+}
+
+template <class Real, class Scalar>
+template <class Visit>
+void Rig<Real, Scalar>::guards(Visit&& visit) const {
+  plant_.guards(visit);
+  for (int which = 0; which < 2; ++which) {
+    const ArmedComparator c = modulator_.comparator(which);
+    if (!c.armed) continue;
+    const plant::PerLeg<double> weight = modulator_.comparator_weights(which);
+    const plant::Expansion<Real>& y = plant_.expansion();
+    const Real sign = c.switches_off ? Real(-1) : Real(1);
+    series::Coefficients<Real> g;
+    for (int j = 0; j <= y.degree; ++j)
+      g[j] = sign * (Real(weight[0]) * y.i[0][j] + Real(weight[1]) * y.i[1][j] + Real(weight[2]) * y.i[2][j]);
+    g[0] -= sign * Real(c.level_A);
+    visit(plant::guard::first_free + which, g, y.degree,
+          plant::noise_of(plant_.constants().amp_scale, Real(1)));
+  }
+}
+
+template <class Real, class Scalar>
+void Rig<Real, Scalar>::apply(int id) {
+  using namespace plant;
+  if (id >= guard::first_free) {
+    count(Happening::comparator);
+    return modulator_.comparator_tripped(now_, id - guard::first_free);
+  }
+  if (id < guard::standstill) count(Happening::diode_off);
+  if (id == guard::standstill) count(Happening::standstill);
+  if (id == guard::breakaway_forward || id == guard::breakaway_backward) count(Happening::breakaway);
+  if (id >= guard::low_rail && id < guard::breakaway_forward) count(Happening::diode_on);
+  if (plant_.apply(id)) hall_edge();
+}
+
+}  // namespace sixstep::rig

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the scenario does to a run, as one sorted list of typed actions at known instants.
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "sixstep/sim/instant.hpp"
+
+namespace sixstep::rig {
+
+enum class ActionKind : std::uint8_t { setpoint, load_torque };
+
+struct Action {
+  sim::Instant at;
+  ActionKind kind = ActionKind::setpoint;
+  double value = 0.0;  ///< setpoint in the mode's unit, or N m
+};
+
+/// Sorted by time, stable where times are equal.
+using Timeline = std::vector<Action>;
+
+}  // namespace sixstep::rig

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where does a guard that should stay >= 0 first go below? Exact to rounding, and no root is missed: a cheap
+// bound first, Newton where the guard is strictly monotone, Bernstein subdivision for the rest.
+#pragma once
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "sixstep/series/polynomial.hpp"
+
+namespace sixstep::series {
+
+/// The sign with which a guard leaves its start: coefficients within `noise` count as zero, the first real
+/// one decides. `order` is its index (degree + 1 where every coefficient is noise: the guard rests on zero).
+struct Leading {
+  int order = 0;
+  int sign = 0;
+};
+
+template <class Real>
+inline Leading leading(const Coefficients<Real>& c, int degree, Real noise) {
+  for (int j = 0; j <= degree; ++j) {
+    if (c[j] > noise) return {j, 1};
+    if (c[j] < -noise) return {j, -1};
+  }
+  return {degree + 1, 0};
+}
+
+namespace detail {
+
+/// A root known to lie alone in (low, high], with c(low) > 0 >= c(high): Newton from `guess`, kept inside by
+/// bisection.
+template <class Real>
+Real bracketed_root(const Coefficients<Real>& c, int degree, Real low, Real high, Real guess) {
+  // Newton squares the error: a step this small leaves nothing above rounding for another one.
+  const Real last_step = Real(1e-10) * (high - low);
+  Real s = guess > low && guess < high ? guess : low + (high - low) / 2;
+  for (int round = 0; round < 200; ++round) {
+    Real value = c[degree], slope = 0;
+    for (int j = degree - 1; j >= 0; --j) {
+      slope = slope * s + value;
+      value = value * s + c[j];
+    }
+    (value > 0 ? low : high) = s;
+    Real next = slope < 0 ? s - value / slope : low;
+    const Real step = next > s ? next - s : s - next;
+    if (step <= last_step && next >= low && next <= high) return next;
+    if (!(next > low && next < high)) {
+      next = low + (high - low) / 2;
+      if (next <= low || next >= high) return next;
+    }
+    s = next;
+  }
+  return s;
+}
+
+template <class Real>
+Coefficients<Real> to_bernstein(const Coefficients<Real>& c, int degree, Real length) {
+  // b_i = sum_{j <= i} C(i, j)/C(degree, j) c_j length^j, by repeated differences: no binomials are stored.
+  Coefficients<Real> scaled{}, b{};
+  Real power = 1, choose = 1;
+  for (int j = 0; j <= degree; ++j) {
+    scaled[j] = c[j] * power / choose;
+    power *= length;
+    choose = choose * static_cast<Real>(degree - j) / static_cast<Real>(j + 1);
+  }
+  for (int i = 0; i <= degree; ++i) {
+    Real sum = 0, binomial = 1;
+    for (int j = 0; j <= i; ++j) {
+      sum += binomial * scaled[j];
+      binomial = binomial * static_cast<Real>(i - j) / static_cast<Real>(j + 1);
+    }
+    b[i] = sum;
+  }
+  return b;
+}
+
+template <class Real>
+int sign_changes(const Coefficients<Real>& b, int degree) {
+  int changes = 0;
+  bool positive = b[0] > 0;
+  for (int i = 1; i <= degree; ++i) {
+    const bool now = b[i] > 0;
+    changes += now != positive;
+    positive = now;
+  }
+  return changes;
+}
+
+/// Splits at the middle by de Casteljau: `b` becomes the left half, the right half is returned.
+template <class Real>
+Coefficients<Real> split_half(Coefficients<Real>& b, int degree) {
+  Coefficients<Real> right{};
+  for (int level = 0; level < degree; ++level) {
+    right[degree - level] = b[degree];
+    for (int i = degree; i > level; --i) b[i] = (b[i - 1] + b[i]) / 2;
+  }
+  right[0] = b[degree];
+  return right;
+}
+
+/// Left-first subdivision of [0, length]; a piece with one sign change holds one root, with none it holds
+/// none (Descartes). Pieces too narrow to split further touch zero to rounding: that counts as the root.
+template <class Real>
+std::optional<Real> subdivide(const Coefficients<Real>& c, int degree, Real length) {
+  constexpr int depth_limit = 50;
+  struct Piece {
+    Coefficients<Real> b;
+    Real low, high;
+    int depth;
+  };
+  std::array<Piece, depth_limit + 2> stack;
+  int top = 0;
+  stack[top++] = {to_bernstein(c, degree, length), Real(0), length, 0};
+  while (top > 0) {
+    Piece piece = stack[--top];
+    const int changes = sign_changes(piece.b, degree);
+    if (changes == 0) {
+      if (!(piece.b[0] > 0)) return piece.low;
+      continue;
+    }
+    if (changes == 1 && piece.b[0] > 0) return bracketed_root(c, degree, piece.low, piece.high, piece.low);
+    if (piece.depth >= depth_limit) return piece.low;
+    const Real middle = piece.low + (piece.high - piece.low) / 2;
+    const Coefficients<Real> right = split_half(piece.b, degree);
+    stack[top++] = {right, middle, piece.high, piece.depth + 1};
+    stack[top++] = {piece.b, piece.low, middle, piece.depth + 1};
+  }
+  return std::nullopt;
+}
+
+}  // namespace detail
+
+/// First s in [0, length] at which the polynomial goes below zero; 0 where it does so from the start.
+/// `noise` is the rounding level of the guard: leading coefficients within it are taken as zero and divided
+/// out, so a restart on the boundary neither repeats the event nor needs a dead time.
+template <class Real>
+std::optional<Real> first_root(const Coefficients<Real>& c, int degree, Real length, Real noise) {
+  // The commonest answer first: the value cannot be used up by all other terms together.
+  Real tail = 0;
+  for (int j = degree; j >= 1; --j) tail = (tail + std::fabs(c[j])) * length;
+  if (c[0] > tail && c[0] > noise) return std::nullopt;
+
+  const Leading start = leading(c, degree, noise);
+  if (start.sign == 0) return std::nullopt;
+  if (start.sign < 0) return Real(0);
+  Coefficients<Real> q{};
+  const int n = degree - start.order;
+  for (int j = 0; j <= n; ++j) q[j] = c[j + start.order];
+  if (n == 0) return std::nullopt;
+
+  Real slope_rest = 0, value_at_end = 0, power = length;  // sum_{j >= 2} j |q_j| length^(j-1)
+  tail = 0;
+  for (int j = n; j >= 0; --j) value_at_end = value_at_end * length + q[j];
+  for (int j = 2; j <= n; ++j, power *= length) slope_rest += static_cast<Real>(j) * std::fabs(q[j]) * power;
+  for (int j = n; j >= 1; --j) tail = (tail + std::fabs(q[j])) * length;
+  if (q[0] > tail) return std::nullopt;
+  if (q[1] > slope_rest) return std::nullopt;  // strictly rising
+  if (-q[1] > slope_rest) {                    // strictly falling: one root or none
+    if (value_at_end > 0) return std::nullopt;
+    return detail::bracketed_root(q, n, Real(0), length, -q[0] / q[1]);
+  }
+  return detail::subdivide(q, n, length);
+}
+
+}  // namespace sixstep::series

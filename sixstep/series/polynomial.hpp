@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Taylor coefficients of one segment, in the segment's own time: s in [0, 1] is the fraction of its length h,
+// so that coefficient j is (h^j/j!) d^j y/dt^j. All series of a segment share one degree.
+#pragma once
+#include <array>
+
+namespace sixstep::series {
+
+/// 16 reaches rounding level over about half a time constant; more costs time and gains no length (ENGINE).
+inline constexpr int max_degree = 16;
+
+template <class Real>
+using Coefficients = std::array<Real, max_degree + 1>;
+
+/// y(s) - y(0): the increment without the leading value, so that a compensated sum can add it.
+template <class Real>
+inline Real increment(const Coefficients<Real>& c, int degree, Real s) {
+  Real sum = 0;
+  for (int j = degree; j >= 1; --j) sum = (sum + c[j]) * s;
+  return sum;
+}
+
+template <class Real>
+inline Real evaluate(const Coefficients<Real>& c, int degree, Real s) {
+  return c[0] + increment(c, degree, s);
+}
+
+/// Coefficient n of the product of two series (Cauchy); n is known at compile time and the sum unrolled. The
+/// newest coefficients come last, so that in a recurrence all else is summed while they are still being
+/// computed.
+template <int n, class Real>
+inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& b) {
+  if constexpr (n == 0) {
+    return a[0] * b[0];
+  } else {
+    Real even = 0, odd = 0;
+#pragma GCC unroll 32
+    for (int j = 1; j < n; ++j) (j % 2 == 0 ? even : odd) += a[j] * b[n - j];
+    return (even + odd) + (a[0] * b[n] + a[n] * b[0]);
+  }
+}
+
+/// Integral of y over s from 0 to `to`, in units of h.
+template <class Real>
+inline Real integral(const Coefficients<Real>& c, int degree, Real to) {
+  Real sum = 0;
+  for (int j = degree; j >= 0; --j) sum = sum * to + c[j] / static_cast<Real>(j + 1);
+  return sum * to;
+}
+
+/// Integral of the product of two polynomials, exact up to rounding: all 2 degree + 1 terms are taken.
+template <class Real>
+inline Real product_integral(const Coefficients<Real>& a, const Coefficients<Real>& b, int degree, Real to) {
+  Real sum = 0;
+  for (int n = 2 * degree; n >= 0; --n) {
+    Real term = 0;
+    const int first = n > degree ? n - degree : 0;
+    const int last = n < degree ? n : degree;
+    for (int j = first; j <= last; ++j) term += a[j] * b[n - j];
+    sum = sum * to + term / static_cast<Real>(n + 1);
+  }
+  return sum * to;
+}
+
+/// The same polynomial seen over [from, to]: its own s runs from 0 to 1 again (Taylor shift, then scaling).
+template <class Real>
+inline Coefficients<Real> restricted(Coefficients<Real> c, int degree, Real from, Real to) {
+  if (from != 0)
+    for (int level = 0; level < degree; ++level)
+      for (int j = degree - 1; j >= level; --j) c[j] += from * c[j + 1];
+  Real power = 1;
+  for (int j = 0; j <= degree; ++j, power *= to - from) c[j] *= power;
+  return c;
+}
+
+/// The running sum y += dy with the rounding error kept in `low` (Kahan): a million segments lose nothing.
+template <class Real>
+inline void add_compensated(Real& y, Real& low, Real dy) {
+  const Real term = dy + low;
+  const Real sum = y + term;
+  low = term - (sum - y);
+  y = sum;
+}
+
+}  // namespace sixstep::series

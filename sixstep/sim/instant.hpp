@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Time is counted, not summed: an integer count of picoseconds (106 days in int64) plus an offset inside the
+// picosecond. Instants that a file names are whole ticks; duty edges and located events carry an offset.
+#pragma once
+#include <cmath>
+#include <compare>
+#include <cstdint>
+#include <limits>
+
+namespace sixstep::sim {
+
+inline constexpr double ticks_per_second = 1e12;
+
+struct Instant {
+  std::int64_t ticks = 0;
+  double offset = 0.0;  ///< fraction of a tick, in [0, 1)
+
+  static constexpr Instant never() { return {std::numeric_limits<std::int64_t>::max(), 0.0}; }
+
+  constexpr auto operator<=>(const Instant&) const = default;
+
+  /// Later by a number of ticks that need not be whole.
+  Instant plus_ticks(double count) const {
+    const double sum = offset + count;
+    const double whole = std::floor(sum);
+    Instant later{ticks + static_cast<std::int64_t>(whole), sum - whole};
+    if (later.offset >= 1.0) later = {later.ticks + 1, 0.0};  // sum - whole may round up to 1
+    return later;
+  }
+  Instant plus_seconds(double seconds) const { return plus_ticks(seconds * ticks_per_second); }
+
+  double seconds() const { return (static_cast<double>(ticks) + offset) / ticks_per_second; }
+};
+
+/// The tick nearest to a time in seconds, as files give it.
+inline Instant to_instant(double seconds) {
+  return {static_cast<std::int64_t>(std::floor(seconds * ticks_per_second + 0.5)), 0.0};
+}
+
+/// From one instant to a later one, in seconds; exact to rounding of the difference, not of the times.
+inline double seconds_between(const Instant& from, const Instant& to) {
+  return (static_cast<double>(to.ticks - from.ticks) + (to.offset - from.offset)) / ticks_per_second;
+}
+
+}  // namespace sixstep::sim

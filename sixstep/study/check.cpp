@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// What no range of a single value can say: keys that contradict each other or ask for what is not there.
+#include <cmath>
+#include <string>
+
+#include "sixstep/study/columns.hpp"
+#include "sixstep/study/compile.hpp"
+#include "sixstep/study/run.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+std::string number(double v) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", v);
+  return text;
+}
+
+void check_supply(const Scenario& s, base::Problems& out) {
+  const bool R = s.supply.resistance_ohm > 0, C = s.supply.capacitance_F > 0;
+  if (R && !C)
+    out.push_back({"supply.resistance_ohm", number(s.supply.resistance_ohm),
+                   "needs a bus capacitor behind it",
+                   "give supply.capacitance_F too, or leave both away for a stiff bus"});
+  if (C && !R)
+    out.push_back({"supply.capacitance_F", number(s.supply.capacitance_F), "needs the source's resistance",
+                   "give supply.resistance_ohm too, or leave both away for a stiff bus"});
+  if (!s.supply.sinks && !(R && C))
+    out.push_back({"supply.sinks", "false", "needs a bus whose voltage can rise",
+                   "give supply.resistance_ohm and supply.capacitance_F"});
+  if (s.initial.bus_V && !C)
+    out.push_back({"initial.bus_V", number(*s.initial.bus_V), "has no meaning on a stiff bus",
+                   "leave it away, or give supply.resistance_ohm and supply.capacitance_F"});
+}
+
+void check_steps(const std::vector<double>& times, const std::vector<double>& values,
+                 const std::string& table, const char* value_key, double duration_s, base::Problems& out) {
+  if (times.size() != values.size())
+    out.push_back({table + "." + value_key, std::to_string(values.size()) + " entries",
+                   "must be as many as times_s, which has " + std::to_string(times.size()),
+                   "give one value per time"});
+  for (std::size_t n = 0; n < times.size(); ++n) {
+    if (times[n] < 0 || (n > 0 && !(times[n] > times[n - 1])))
+      out.push_back({table + ".times_s", number(times[n]), "must rise from entry to entry, from 0 on",
+                     "sort the times"});
+    else if (!(times[n] < duration_s))
+      out.push_back({table + ".times_s", number(times[n]),
+                     "lies behind the end of the run (duration_s = " + number(duration_s) + ")",
+                     "lengthen duration_s or drop the entry"});
+  }
+}
+
+const char* unit_of_mode(control::Mode mode) {
+  switch (mode) {
+    case control::Mode::off:
+      return "";
+    case control::Mode::duty:
+      return "1";
+    case control::Mode::current:
+      return "A";
+    case control::Mode::speed:
+      return "rad/s";
+    case control::Mode::position:
+      return "deg";
+  }
+  return "";
+}
+
+void check_reference(const Scenario& s, base::Problems& out) {
+  const Reference& r = s.reference;
+  if (r.unit && *r.unit != unit_of_mode(s.control.mode))
+    out.push_back({"reference.unit", "\"" + *r.unit + "\"", "does not fit the control mode",
+                   "that mode's reference is in \"" + std::string(unit_of_mode(s.control.mode)) + "\""});
+  if (r.shape == Shape::steps) {
+    check_steps(r.times_s, r.values, "reference", "values", s.duration_s, out);
+    if (r.times_s.empty())
+      out.push_back({"reference.times_s", "", "is missing for shape = \"steps\"", "give times_s and values"});
+  }
+  if (s.control.mode == control::Mode::duty && r.times_s.size() == r.values.size())
+    for (const Level& level : reference_levels(r, s.duration_s))
+      if (std::fabs(level.value) > 1.0) {
+        out.push_back({r.shape == Shape::constant ? "reference.value"
+                       : r.shape == Shape::steps  ? "reference.values"
+                                                  : "reference.high",
+                       number(level.value), "must lie from -1 to 1 in duty mode",
+                       "a duty is the signed share of the period that the switch is on"});
+        break;
+      }
+}
+
+void check_control(const Scenario& s, base::Problems& out) {
+  const auto add = [&](const base::Problems& more) { out.insert(out.end(), more.begin(), more.end()); };
+  add(given_gains(s.control.current, "control.current").problems);
+  add(given_gains(s.control.speed, "control.speed").problems);
+  const CurrentLoop& c = s.control.current;
+  if (c.type == CurrentLoopType::hysteresis && c.comparator == Comparator::sampled &&
+      c.on == HysteresisOn::phase)
+    out.push_back({"control.current.on", "\"phase\"", "needs comparators on the board",
+                   "set comparator = \"event\", or on = \"motor\""});
+  if (c.type == CurrentLoopType::hysteresis && c.comparator == Comparator::event && s.pwm.delay_periods > 0)
+    out.push_back({"pwm.delay_periods", std::to_string(s.pwm.delay_periods),
+                   "has no meaning for event comparators",
+                   "set delay_periods = 0, or comparator = \"sampled\""});
+  if (c.type == CurrentLoopType::hysteresis && (c.d1 || c.d0 || c.kp || c.ki || c.settle_s || c.damping))
+    out.push_back({"control.current.type", "\"hysteresis\"", "has no PI gains",
+                   "remove d1, d0, kp, ki, settle_s and damping, or set type = \"pi\""});
+}
+
+void check_measure(const Measure& m, const std::string& where, const Scenario& s, base::Problems& out) {
+  const double from = m.from_s.value_or(0.0), to = m.to_s.value_or(s.duration_s);
+  if (!(from < to))
+    out.push_back({where + ".to_s", number(to), "must lie behind from_s = " + number(from),
+                   "give the window as from_s < to_s"});
+  if (to > s.duration_s)
+    out.push_back({where + ".to_s", number(to),
+                   "lies behind the end of the run (duration_s = " + number(s.duration_s) + ")",
+                   "shorten the window or lengthen duration_s"});
+}
+
+void check_measures(const Scenario& s, base::Problems& out) {
+  for (std::size_t n = 0; n < s.require.size(); ++n) {
+    const std::string where = "require[" + std::to_string(n) + "]";
+    check_measure(s.require[n].measure, where, s, out);
+    if (!s.require[n].min && !s.require[n].max)
+      out.push_back({where, "", "requires nothing", "give min, max or both"});
+    if (s.require[n].min && s.require[n].max && *s.require[n].min > *s.require[n].max)
+      out.push_back({where + ".min", number(*s.require[n].min),
+                     "lies above max = " + number(*s.require[n].max), "swap them"});
+  }
+  for (std::size_t n = 0; n < s.compare.size(); ++n)
+    check_measure(s.compare[n].measure, "compare[" + std::to_string(n) + "]", s, out);
+}
+
+}  // namespace
+
+base::Problems check(const Scenario& s) {
+  base::Problems out;
+  if (const auto motor = design::motor_model(s.sheet); !motor) out = motor.problems();
+  check_supply(s, out);
+  check_reference(s, out);
+  check_steps(s.load.times_s, s.load.torques_Nm, "load", "torques_Nm", s.duration_s, out);
+  check_control(s, out);
+  check_measures(s, out);
+  if (!(s.bridge.dead_time_s < s.pwm.period_s))
+    out.push_back({"bridge.dead_time_s", number(s.bridge.dead_time_s),
+                   "must be shorter than pwm.period_s = " + number(s.pwm.period_s),
+                   "a leg would never turn on"});
+  if (s.load.locked && s.initial.speed_rad_s != 0)
+    out.push_back({"initial.speed_rad_s", number(s.initial.speed_rad_s), "contradicts load.locked = true",
+                   "set it to 0 or unlock the rotor"});
+  if (s.pwm.delay_periods < 0 || s.pwm.delay_periods > 1)
+    out.push_back({"pwm.delay_periods", std::to_string(s.pwm.delay_periods), "must be 0 or 1",
+                   "0: at once, 1: one period later"});
+  if (const auto columns = record_indices(s); !columns)
+    out.insert(out.end(), columns.problems().begin(), columns.problems().end());
+  return out;
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// The words by which a scenario file names the enumerations, and what they mean.
+#pragma once
+#include "sixstep/base/describe.hpp"
+#include "sixstep/study/scenario.hpp"
+
+namespace sixstep::study {
+
+using base::Choice;
+
+inline constexpr Choice<Device> device_choices[] = {
+    {"mosfet", Device::mosfet, "a gated channel carries both directions, its diode takes no share"},
+};
+inline constexpr Choice<Alignment> alignment_choices[] = {
+    {"edge", Alignment::edge, "on-time starts with the period"},
+    {"centre", Alignment::centre, "on-time lies in the middle of the period"},
+};
+inline constexpr Choice<control::Chopping> chopping_choices[] = {
+    {"soft", control::Chopping::soft, "only the source phase's upper switch is chopped"},
+    {"hard", control::Chopping::hard, "both switches of the driven pair are chopped"},
+    {"complementary", control::Chopping::complementary,
+     "as soft, and the source phase's lower switch is on while its upper is off"},
+};
+inline constexpr Choice<CommutationAt> commutation_choices[] = {
+    {"hall-edge", CommutationAt::hall_edge, "the pair changes at the Hall edge itself"},
+    {"sample", CommutationAt::sample, "the pair changes at the next control sample"},
+};
+inline constexpr Choice<control::Mode> mode_choices[] = {
+    {"off", control::Mode::off, "all six gates off"},
+    {"duty", control::Mode::duty, "the reference is the signed duty, -1 to 1"},
+    {"current", control::Mode::current, "the reference is the motor current in A"},
+    {"speed", control::Mode::speed, "the reference is the speed in rad/s"},
+    {"position", control::Mode::position, "the reference is the position in deg, counted over turns"},
+};
+inline constexpr Choice<Arithmetic> arithmetic_choices[] = {
+    {"double", Arithmetic::float64, "the controller computes with 64-bit floating point"},
+    {"float", Arithmetic::float32, "the controller computes with 32-bit floating point, as on the chip"},
+};
+inline constexpr Choice<CurrentLoopType> current_loop_choices[] = {
+    {"pi", CurrentLoopType::pi, "discrete PI with clamped output, one step per control period"},
+    {"hysteresis", CurrentLoopType::hysteresis, "on below the band, off above it"},
+};
+inline constexpr Choice<HysteresisOn> hysteresis_choices[] = {
+    {"motor", HysteresisOn::motor, "one comparator on the motor current (i_p - i_n)/2"},
+    {"phase", HysteresisOn::phase, "comparators on the currents of the driven phases"},
+};
+inline constexpr Choice<Comparator> comparator_choices[] = {
+    {"event", Comparator::event, "acts the instant the band is left"},
+    {"sampled", Comparator::sampled, "looks once per control period"},
+};
+inline constexpr Choice<Shape> shape_choices[] = {
+    {"constant", Shape::constant, "value throughout"},
+    {"steps", Shape::steps, "values[n] holds from times_s[n] on"},
+    {"square", Shape::square, "high in the first half of each period, low in the second"},
+};
+inline constexpr Choice<MetricKind> metric_choices[] = {
+    {"final", MetricKind::final_value, "value at the end of the run"},
+    {"mean", MetricKind::mean, "mean over the window"},
+    {"rms", MetricKind::rms, "root of the mean square over the window"},
+    {"max", MetricKind::maximum, "largest value in the window"},
+    {"min", MetricKind::minimum, "smallest value in the window"},
+    {"peak_to_peak", MetricKind::peak_to_peak, "largest less smallest value in the window"},
+    {"overshoot", MetricKind::overshoot, "how far the signal goes beyond level, in the signal's unit"},
+    {"reach_time_s", MetricKind::reach_time,
+     "time until the signal first gets to start + fraction (level - start); without level: the slowest over "
+     "all "
+     "steps of the reference"},
+    {"settling_time_s", MetricKind::settling_time,
+     "time of the last exit from level +- band |level - start|, counted from from_s"},
+    {"band_excess_A", MetricKind::band_excess, "largest excess above the upper limit of the hysteresis band"},
+    {"band_deficit_A", MetricKind::band_deficit,
+     "largest shortfall below the lower limit, except from a sector edge or reference step until the current "
+     "is "
+     "back in the band"},
+    {"switching_frequency_Hz", MetricKind::switching_frequency, "turn-ons per second in the window"},
+};
+inline constexpr Choice<Signal> signal_choices[] = {
+    {"current", Signal::current, "motor current (i_p - i_n)/2 of the positive pair, A"},
+    {"i_a", Signal::phase_a, "current into phase a, A"},
+    {"i_b", Signal::phase_b, "current into phase b, A"},
+    {"i_c", Signal::phase_c, "current into phase c, A"},
+    {"current_magnitude", Signal::current_magnitude, "half the sum of the phase currents' magnitudes, A"},
+    {"speed", Signal::speed, "mechanical speed, rad/s"},
+    {"position", Signal::position, "mechanical angle counted over turns, deg"},
+    {"torque", Signal::torque, "electromagnetic torque, N m"},
+    {"bus_voltage", Signal::bus_voltage, "voltage of the bus, V"},
+    {"bus_current", Signal::bus_current, "current from the bus into the bridge, A"},
+};
+
+/// The unit a reference is meant in: it follows from the control mode alone. Empty where nothing is asked
+/// for.
+constexpr std::string_view reference_unit(control::Mode mode) {
+  switch (mode) {
+    case control::Mode::off:
+      return "";
+    case control::Mode::duty:
+      return "1";
+    case control::Mode::current:
+      return "A";
+    case control::Mode::speed:
+      return "rad/s";
+    case control::Mode::position:
+      return "deg";
+  }
+  return "";
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The trace's columns: one table says name, unit, frame and meaning, one function fills a row (DESIGN "Trace
+// columns").
+#pragma once
+#include <array>
+#include <limits>
+
+#include "sixstep/base/result.hpp"
+#include "sixstep/study/outcome.hpp"
+#include "sixstep/study/signals.hpp"
+
+namespace sixstep::study {
+
+enum class ColumnId : std::uint8_t {
+  t,
+  i_a,
+  i_b,
+  i_c,
+  u_a,
+  u_b,
+  u_c,
+  u_ab,
+  u_bc,
+  u_ca,
+  e_a,
+  e_b,
+  e_c,
+  speed,
+  angle,
+  torque,
+  bus_V,
+  bus_A,
+  duty,
+  i_m,
+  i_ref,
+  speed_ref,
+  position_ref,
+  load,
+  gate_T1,
+  gate_T2,
+  gate_T3,
+  gate_T4,
+  gate_T5,
+  gate_T6,
+  hall,
+  sector,
+  count
+};
+inline constexpr std::size_t column_count = static_cast<std::size_t>(ColumnId::count);
+using FullRow = std::array<double, column_count>;
+
+/// Whether a column means anything in a mode (a duty run has no current reference): others hold NaN.
+bool applies(ColumnId id, control::Mode mode);
+
+/// Everything there is to say of the rig at the fraction s of its segment, at time t.
+template <class Rig>
+FullRow full_row(const Rig& rig, double s, double t, control::Mode mode) {
+  FullRow row;
+  const auto set = [&](ColumnId id, double v) { row[static_cast<std::size_t>(id)] = v; };
+  const auto three = [&](ColumnId first, const plant::PerLeg<double>& v) {
+    for (std::size_t k = 0; k < 3; ++k) row[static_cast<std::size_t>(first) + k] = v[k];
+  };
+  const plant::Snapshot<double> now = rig.plant().at(s);
+  const auto& telemetry = rig.telemetry();
+  const rig::BoardCommand& command = rig.modulator().command();
+  set(ColumnId::t, t);
+  three(ColumnId::i_a, now.i);
+  three(ColumnId::u_a, now.pole);
+  three(ColumnId::u_ab, {now.pole[0] - now.pole[1], now.pole[1] - now.pole[2], now.pole[2] - now.pole[0]});
+  three(ColumnId::e_a, now.emf);
+  set(ColumnId::speed, now.speed);
+  set(ColumnId::angle, now.angle);
+  set(ColumnId::torque, now.torque);
+  set(ColumnId::bus_V, now.bus);
+  set(ColumnId::bus_A, now.bus_current);
+  const bool compares = command.watch != control::Watch::none;
+  const double duty = compares ? (rig.modulator().source_on() ? 1.0 : 0.0) : command.duty;
+  const control::Pair positive = control::positive_pair(static_cast<std::uint8_t>(rig.plant().sector()));
+  set(ColumnId::duty, command.enabled ? (command.pair.source == positive.source ? duty : -duty) : 0.0);
+  const plant::PerLeg<double> w = motor_current_weights(rig.plant().sector());
+  set(ColumnId::i_m, w[0] * now.i[0] + w[1] * now.i[1] + w[2] * now.i[2]);
+  set(ColumnId::i_ref, static_cast<double>(telemetry.current_reference_A));
+  set(ColumnId::speed_ref, static_cast<double>(telemetry.speed_reference_rad_s));
+  set(ColumnId::position_ref, rig.setpoint());
+  set(ColumnId::load, rig.plant().constants().load);
+  const plant::Gates& gates = rig.plant().gates();
+  for (std::size_t k = 0; k < 3; ++k) {
+    row[static_cast<std::size_t>(ColumnId::gate_T1) + 2 * k] = gates.high[k];
+    row[static_cast<std::size_t>(ColumnId::gate_T2) + 2 * k] = gates.low[k];
+  }
+  set(ColumnId::hall, plant::hall_code(rig.plant().sector()));
+  set(ColumnId::sector, rig.plant().sector());
+  for (std::size_t c = 0; c < column_count; ++c)
+    if (!applies(static_cast<ColumnId>(c), mode)) row[c] = std::numeric_limits<double>::quiet_NaN();
+  return row;
+}
+
+/// Indices into the full row of what the scenario records, t first; Problems name unknown columns.
+base::Result<std::vector<std::size_t>> record_indices(const Scenario& scenario);
+
+}  // namespace sixstep::study

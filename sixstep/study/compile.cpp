@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/compile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sixstep::study {
+
+namespace {
+
+// The thesis's design inputs (chapter 6), used where a scenario names none.
+constexpr double current_settle_s = 1e-3, speed_settle_s = 10e-3, usual_damping = 0.9;
+
+/// The loop's gains as given, else by pole placement; the exact design is derived beside given gains too.
+template <class Loop>
+base::Result<LoopGains> loop_gains(const Loop& loop, const std::string& name, const design::ZohPlant& plant,
+                                   double usual_settle_s, double period_s) {
+  LoopGains out;
+  out.loop = name;
+  const double settle = loop.settle_s.value_or(usual_settle_s),
+               damping = loop.damping.value_or(usual_damping);
+  base::Result<design::PolePlacement> placed = design::place_poles(plant, settle, damping, period_s);
+  const GivenGains given = given_gains(loop, "control." + name);
+  if (!given.problems.empty()) return given.problems;
+  if (!placed && !given.gains) return placed.problems();
+  if (placed) out.derivation = *placed;
+  out.d1 = given.gains ? given.gains->d1 : placed->gains.d1;
+  out.d0 = given.gains ? given.gains->d0 : placed->gains.d0;
+  out.origin = given.gains ? given.origin : "pole placement from settle_s and damping";
+  return out;
+}
+
+plant::Shaft shaft_of(const design::MotorModel& motor, const Load& load) {
+  plant::Shaft shaft = motor.shaft;
+  shaft.J_kg_m2 += load.inertia_kg_m2;
+  shaft.B_Nm_s += load.viscous_Nm_s;
+  shaft.coulomb_Nm += load.coulomb_Nm;
+  shaft.static_Nm = load.static_Nm;
+  shaft.locked = load.locked;
+  return shaft;
+}
+
+rig::BoardConfig board_of(const Scenario& s) {
+  rig::BoardConfig board;
+  board.modulator.period_ticks = sim::to_instant(s.pwm.period_s).ticks;
+  board.modulator.centre_aligned = s.pwm.alignment == Alignment::centre;
+  board.modulator.dead_ticks = static_cast<double>(sim::to_instant(s.bridge.dead_time_s).ticks);
+  board.modulator.dead_time_at_commutation = s.bridge.dead_time_at_commutation;
+  board.modulator.timer_ticks = s.pwm.timer_Hz > 0 ? sim::ticks_per_second / s.pwm.timer_Hz : 0.0;
+  board.commutate_at_sample = s.pwm.commutation == CommutationAt::sample;
+  board.delayed = s.pwm.delay_periods > 0;
+  return board;
+}
+
+rig::Timeline timeline_of(const Scenario& s) {
+  rig::Timeline timeline;
+  for (const Level& level : reference_levels(s.reference, s.duration_s))
+    timeline.push_back({sim::to_instant(level.at_s), rig::ActionKind::setpoint, level.value});
+  timeline.push_back({sim::Instant{}, rig::ActionKind::load_torque, s.load.torque_Nm});
+  for (std::size_t n = 0; n < s.load.times_s.size(); ++n)
+    timeline.push_back(
+        {sim::to_instant(s.load.times_s[n]), rig::ActionKind::load_torque, s.load.torques_Nm[n]});
+  std::stable_sort(timeline.begin(), timeline.end(),
+                   [](const rig::Action& a, const rig::Action& b) { return a.at < b.at; });
+  return timeline;
+}
+
+control::Watch watch_of(const CurrentLoop& loop) {
+  if (loop.comparator == Comparator::sampled) return control::Watch::none;
+  return loop.on == HysteresisOn::motor ? control::Watch::motor : control::Watch::phase;
+}
+
+base::Problems add_loops(const Scenario& s, Compiled& out) {
+  const control::Mode mode = s.control.mode;
+  if (mode == control::Mode::off || mode == control::Mode::duty) return {};
+  const double period_s = s.pwm.period_s;
+  if (s.control.current.type == CurrentLoopType::pi) {
+    const design::ZohPlant plant =
+        design::current_plant(2 * out.motor.machine.R_ohm, 2 * out.motor.machine.L_H, period_s);
+    base::Result<LoopGains> gains =
+        loop_gains(s.control.current, "current", plant, current_settle_s, period_s);
+    if (!gains) return gains.problems();
+    out.drive.current = {gains->d1, gains->d0, s.supply.voltage_V};
+    out.gains.push_back(*gains);
+  }
+  if (mode == control::Mode::current) return {};
+  const double torque_limit = s.control.speed.torque_limit_Nm.value_or(out.motor.stall_torque_Nm);
+  const design::ZohPlant plant =
+      design::speed_plant(torque_limit, out.shaft.J_kg_m2, out.shaft.B_Nm_s, period_s);
+  base::Result<LoopGains> gains = loop_gains(s.control.speed, "speed", plant, speed_settle_s, period_s);
+  if (!gains) return gains.problems();
+  out.drive.speed = {gains->d1, gains->d0, 1.0};
+  out.drive.current_at_full_torque_A = torque_limit / out.motor.K_t_Nm_A;
+  out.drive.current_limit_A = s.control.current.limit_A.value_or(out.drive.current_at_full_torque_A);
+  out.gains.push_back(*gains);
+  if (mode == control::Mode::speed) return {};
+  out.drive.position_gain = s.control.position.gain_rad_s_per_deg;
+  out.drive.speed_limit_rad_s =
+      s.control.position.speed_limit_rad_s.value_or(s.supply.voltage_V / out.motor.K_t_Nm_A);
+  out.gains.push_back(
+      {"position", out.drive.position_gain, 0.0, "given as gain_rad_s_per_deg", std::nullopt});
+  return {};
+}
+
+}  // namespace
+
+std::vector<Level> reference_levels(const Reference& r, double duration_s) {
+  switch (r.shape) {
+    case Shape::constant:
+      return {{0.0, r.value}};
+    case Shape::steps: {
+      std::vector<Level> levels;
+      if (r.times_s.empty() || r.times_s.front() > 0) levels.push_back({0.0, 0.0});
+      for (std::size_t n = 0; n < r.times_s.size(); ++n) levels.push_back({r.times_s[n], r.values[n]});
+      return levels;
+    }
+    case Shape::square: {
+      std::vector<Level> levels;
+      // Counted, not summed: half period n begins at n T/2, rounded once.
+      for (int n = 0; n * (r.period_s / 2) < duration_s; ++n)
+        levels.push_back({n * (r.period_s / 2), n % 2 == 0 ? r.high : r.low});
+      return levels;
+    }
+  }
+  return {};
+}
+
+template <class Loop>
+GivenGains given_gains(const Loop& loop, const std::string& where) {
+  GivenGains out;
+  const bool d = loop.d1 || loop.d0, k = loop.kp || loop.ki, rule = loop.settle_s || loop.damping;
+  const auto wrong = [&](const char* key, const char* limit, const char* cure) {
+    out.problems.push_back({where + "." + key, "", limit, cure});
+  };
+  if (d && (k || rule))
+    wrong(loop.d1 ? "d1" : "d0",
+          k ? "contradicts kp, ki: the same gains are given twice"
+            : "contradicts settle_s, damping: gains are either given or designed",
+          "keep one of: d1 and d0 | kp and ki | settle_s and damping");
+  else if (k && rule)
+    wrong(loop.kp ? "kp" : "ki", "contradicts settle_s, damping: gains are either given or designed",
+          "keep one of: d1 and d0 | kp and ki | settle_s and damping");
+  else if (d && !(loop.d1 && loop.d0))
+    wrong(loop.d1 ? "d1" : "d0", "is only half of the gains", loop.d1 ? "give d0 too" : "give d1 too");
+  else if (k && !(loop.kp && loop.ki))
+    wrong(loop.kp ? "kp" : "ki", "is only half of the gains", loop.kp ? "give ki too" : "give kp too");
+  else if (d)
+    out = {design::PiGains{*loop.d1, *loop.d0}, "given as d1, d0", {}};
+  else if (k)
+    out = {design::PiGains{*loop.kp, *loop.ki - *loop.kp}, "given as kp, ki", {}};
+  return out;
+}
+template GivenGains given_gains<CurrentLoop>(const CurrentLoop&, const std::string&);
+template GivenGains given_gains<SpeedLoop>(const SpeedLoop&, const std::string&);
+
+base::Result<Compiled> compile(const Scenario& s) {
+  base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
+  if (!motor) return motor.problems();
+  Compiled out;
+  out.motor = *motor;
+  out.shaft = shaft_of(out.motor, s.load);
+  out.devices = {s.bridge.on_resistance_ohm, s.bridge.diode_drop_V, s.bridge.diode_resistance_ohm};
+  out.supply = {s.supply.voltage_V, s.supply.resistance_ohm, s.supply.capacitance_F, s.supply.sinks};
+  out.start = {s.initial.speed_rad_s, s.initial.angle_rad, s.initial.bus_V.value_or(s.supply.voltage_V)};
+  out.board = board_of(s);
+  out.timeline = timeline_of(s);
+  out.end = sim::to_instant(s.duration_s);
+  out.drive.mode = s.control.mode;
+  out.drive.chopping = s.pwm.chopping;
+  out.drive.nominal_bus_V = s.supply.voltage_V;
+  out.drive.current_control = s.control.current.type == CurrentLoopType::pi
+                                  ? control::CurrentControl::pi
+                                  : control::CurrentControl::hysteresis;
+  out.drive.hysteresis = {s.control.current.band_A, watch_of(s.control.current)};
+  if (base::Problems problems = add_loops(s, out); !problems.empty()) return problems;
+  return out;
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// One figure of merit over one window, taken from the trajectory's polynomials as they pass: exact integrals,
+// extremes and crossings, no samples between which something could hide.
+#pragma once
+#include <limits>
+#include <optional>
+
+#include "sixstep/series/polynomial.hpp"
+#include "sixstep/study/scenario.hpp"
+
+namespace sixstep::study {
+
+using Series = series::Coefficients<double>;
+
+struct Window {
+  double from_s = 0.0;
+  double to_s = std::numeric_limits<double>::infinity();
+};
+
+class Gauge {
+ public:
+  /// `level` and `start` are what the step goes to and from (reach and settling times, overshoot); without
+  /// `start` the signal's value at the window's begin counts.
+  Gauge(const Measure& measure, Window window, double level, std::optional<double> start)
+      : measure_(measure), window_(window), level_(level), start_(start) {}
+
+  const Window& window() const { return window_; }
+  /// The signal over [t0, t0 + length], inside the window, as a polynomial of s in [0, 1].
+  void part(const Series& c, int degree, double t0, double length);
+  /// What the controller sampled (measures with `sampled`).
+  void sample(double t, double value);
+  /// Infinite where the level was never reached or the signal never settled; empty where the window saw
+  /// nothing.
+  std::optional<double> value() const;
+
+ private:
+  void settle_part(const Series& c, int degree, double t0, double length);
+  void reach_part(const Series& c, int degree, double t0, double length);
+  double step_height(double first);
+  double sign() const { return level_ < start_.value_or(0.0) ? -1.0 : 1.0; }
+
+  Measure measure_;
+  Window window_;
+  double level_;
+  std::optional<double> start_;
+  bool seen_ = false;
+  double integral_ = 0.0, seconds_ = 0.0, last_ = 0.0;
+  double highest_ = -std::numeric_limits<double>::infinity(),
+         lowest_ = std::numeric_limits<double>::infinity();
+  std::optional<double> reached_;
+  double outside_until_ = 0.0;  ///< last instant outside the band
+  bool outside_now_ = true;
+};
+
+}  // namespace sixstep::study

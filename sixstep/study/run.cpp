@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/run.hpp"
+
+#include <cmath>
+
+#include "sixstep/sim/run.hpp"
+#include "sixstep/study/compile.hpp"
+#include "sixstep/study/figures.hpp"
+#include "sixstep/study/recorder.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+/// Curves drawn from row to row need about this many points over a run.
+constexpr double drawn_points = 2000.0;
+
+/// All who watch a run, in one observer.
+struct Watchers {
+  plant::Audit<double> audit;
+  Figures figures;
+  std::optional<GridRecorder> grid;
+  std::optional<EventRecorder> events, report;
+
+  template <class Rig>
+  void segment(const Rig& rig, double s) {
+    audit.segment(rig.plant(), s);
+    figures.segment(rig, s);
+    if (grid) grid->segment(rig, s);
+    if (events) events->segment(rig, s);
+    if (report) report->segment(rig, s);
+  }
+};
+
+Watchers watchers(const Scenario& s, const Compiled& compiled, const Listeners& listeners,
+                  const std::vector<std::size_t>& indices) {
+  const control::Mode mode = s.control.mode;
+  const double gap_s = s.duration_s / drawn_points;
+  Watchers w{{}, Figures(s, reference_levels(s.reference, s.duration_s)), {}, {}, {}};
+  if (listeners.on_record && s.record.events)
+    w.events.emplace(gap_s, mode, indices, listeners.on_record);
+  else if (listeners.on_record)
+    w.grid.emplace(sim::to_instant(s.record.grid_s.value_or(s.pwm.period_s)).ticks, compiled.end, mode,
+                   indices, listeners.on_record);
+  std::vector<std::size_t> every(column_count);
+  for (std::size_t c = 0; c < column_count; ++c) every[c] = c;
+  if (listeners.on_event) w.report.emplace(gap_s, mode, every, listeners.on_event);
+  return w;
+}
+
+template <class Rig>
+void report_events(const Rig& rig, Outcome& out) {
+  using rig::Happening;
+  constexpr std::pair<Happening, const char*> names[] = {
+      {Happening::sector_edge, "sector edges"}, {Happening::diode_on, "diode starts to conduct"},
+      {Happening::diode_off, "diode stops"},    {Happening::comparator, "comparator switches"},
+      {Happening::standstill, "rotor stops"},   {Happening::breakaway, "rotor breaks away"},
+      {Happening::tick, "control ticks"},       {Happening::pwm_edge, "PWM edges"}};
+  for (const auto& [what, name] : names) out.events.push_back({name, rig.happened(what)});
+}
+
+base::Problem fault_problem(rig::Fault fault, double t_s) {
+  const std::string when = "t = " + std::to_string(t_s) + " s";
+  if (fault == rig::Fault::shoot_through)
+    return {when, "", "both switches of a leg were on: shoot-through",
+            "look at the command that names one leg twice"};
+  return {when, "", "the Hall code is impossible (000 or 111)", "look at the probes and their wires"};
+}
+
+/// Runs in slices of simulated time, so that a listener can end it; the slices change nothing, since time is
+/// counted.
+template <class Rig>
+base::Problems run_rig(Rig& rig, const Compiled& compiled, const Listeners& listeners, Watchers& w,
+                       Outcome& out) {
+  const std::int64_t slice = listeners.keep_going ? 10'000'000'000 : compiled.end.ticks;
+  for (sim::Instant until{}; rig.now() < compiled.end;) {
+    until.ticks = std::min(until.ticks + slice, compiled.end.ticks);
+    const sim::Run run = sim::run(rig, until, w);
+    out.segments += run.segments;
+    const double t_s = rig.now().seconds();
+    if (run.stop == sim::Stop::fault) out.fault = fault_problem(rig.fault(), t_s);
+    if (run.stop == sim::Stop::unsettled || run.stop == sim::Stop::no_progress)
+      return {{"t = " + std::to_string(t_s) + " s", "",
+               run.stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
+                                                : "events repeat without time going on",
+               "this is a defect of sixstep: please report it with the scenario file"}};
+    if (run.stop != sim::Stop::end) break;
+    if (listeners.keep_going && !listeners.keep_going(t_s)) break;
+  }
+  out.simulated_s = rig.now().seconds();
+  report_events(rig, out);
+  return {};
+}
+
+template <class Scalar>
+base::Problems run_in(const Compiled& compiled, const Listeners& listeners, Watchers& w, Outcome& out) {
+  const plant::Plant<double> plant(compiled.motor.machine, compiled.shaft, compiled.devices, compiled.supply,
+                                   compiled.start);
+  rig::Rig<double, Scalar> rig(plant, in_arithmetic<Scalar>(compiled.drive), compiled.board,
+                               compiled.timeline);
+  return run_rig(rig, compiled, listeners, w, out);
+}
+
+}  // namespace
+
+base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners) {
+  if (base::Problems problems = check(scenario); !problems.empty()) return problems;
+  const base::Result<Compiled> compiled = compile(scenario);
+  if (!compiled) return compiled.problems();
+  const base::Result<std::vector<std::size_t>> indices = record_indices(scenario);
+  if (!indices) return indices.problems();
+
+  Outcome out;
+  out.motor = compiled->motor;
+  out.gains = compiled->gains;
+  Watchers w = watchers(scenario, *compiled, listeners, *indices);
+  const base::Problems problems = scenario.control.arithmetic == Arithmetic::float32
+                                      ? run_in<float>(*compiled, listeners, w, out)
+                                      : run_in<double>(*compiled, listeners, w, out);
+  if (!problems.empty()) return problems;
+  out.energy = w.audit.energy();
+  out.laws = w.audit.laws();
+  w.figures.judge(scenario, out);
+  return out;
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The program as a user meets it: exit codes, messages, and files that are whole or absent."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, SOURCE = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1))
+R1 = str(SOURCE / "data/scenarios/reference/R1.toml")
+
+# The rotor is held at full voltage; only the limit decides whether the requirement holds.
+SHORT = """
+motor = "maxon-251601"
+duration_s = 1e-4
+[control]
+mode = "duty"
+[reference]
+value = 1
+[load]
+locked = true
+[[require]]
+metric = "final"
+signal = "current"
+label = "current"
+max = {limit}
+"""
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = pathlib.Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def run_program(self, *words, code=0):
+        result = subprocess.run([PROGRAM, *words], cwd=self.path, capture_output=True, text=True, timeout=60)
+        self.assertEqual(result.returncode, code, result.stderr + result.stdout)
+        return result
+
+    def write(self, name, limit):
+        (self.path / name).write_text(SHORT.format(limit=limit))
+        return name
+
+    def names(self, folder="."):
+        return sorted(os.listdir(self.path / folder))
+
+    def test_0_when_all_requirements_hold(self):
+        result = self.run_program("run", self.write("a.toml", 1000))
+        self.assertIn("ok", result.stdout)
+        self.assertNotIn("\x1b", result.stdout)  # no terminal, no colour
+        self.assertEqual(self.names(), ["a.toml"])
+
+    def test_1_when_a_requirement_fails(self):
+        self.assertIn("FAILED", self.run_program("run", self.write("a.toml", -1), code=1).stdout)
+
+    def test_quiet_says_nothing(self):
+        result = self.run_program("run", "--quiet", self.write("a.toml", 1000))
+        self.assertEqual(result.stdout + result.stderr, "")
+
+    def test_the_gravest_of_several_counts_and_the_order_is_that_given(self):
+        files = [self.write(f"{name}.toml", limit) for name, limit in [("z", 1000), ("a", -1), ("m", 1000)]]
+        table = self.run_program("run", *files, "--jobs", "3", code=1).stdout.splitlines()
+        self.assertEqual([line.split()[0] for line in table[1:]], ["z", "a", "m"])
+
+    def test_2_for_bad_input_and_nothing_is_written(self):
+        good = self.write("a.toml", 1000)
+        (self.path / "bad.toml").write_text('motor = "maxon-251601"\nduration_s = 0\n')
+        result = self.run_program("run", good, "bad.toml", "--out", "out", code=2)
+        self.assertEqual(result.stderr, "bad.toml:2:14: duration_s = 0 must be above 0; it means: simulated time, in s\n")
+        self.run_program("run", "absent.toml", code=2)
+        self.run_program("run", code=2)
+        self.run_program("nonsense", code=2)
+        self.run_program("run", good, "--set", "novalue", code=2)
+        self.run_program("run", good, "a.toml", "--csv", "x.csv", code=2)
+        self.assertEqual(self.names(), ["a.toml", "bad.toml"])
+
+    def test_2_for_an_unwritable_output_before_anything_is_written(self):
+        good = self.write("a.toml", 1000)
+        result = self.run_program("run", good, "--csv", "a.csv", "--json", "no/folder.json", code=2)
+        self.assertIn("no/folder.json: cannot be written: No such file or directory", result.stderr)
+        (self.path / "file").write_text("in the way")
+        self.run_program("run", good, "--out", "file/out", code=2)
+        self.assertEqual(self.names(), ["a.toml", "file"])
+
+    def test_2_when_two_files_would_write_the_same_outputs(self):
+        os.mkdir(self.path / "other")
+        files = [self.write("a.toml", 1000), self.write("other/a.toml", 1000)]
+        self.assertIn("same outputs", self.run_program("run", *files, "--out", "out", code=2).stderr)
+
+    def test_out_holds_everything_of_each_scenario(self):
+        self.run_program("run", self.write("a.toml", 1000), self.write("b.toml", 1000), "--out", "deep/out")
+        self.assertEqual(self.names("deep/out"),
+                         ["a.csv", "a.html", "a.json", "b.csv", "b.html", "b.json", "index.html"])
+        self.assertIn('href="a.html"', (self.path / "deep/out/index.html").read_text())
+
+    def test_json_on_standard_output_is_alone_there(self):
+        result = self.run_program("run", self.write("a.toml", 1000), "--json", "-")
+        summary = json.loads(result.stdout)
+        self.assertTrue(summary["passed"])
+        self.assertEqual(summary["require"][0]["max"], 1000)
+        self.assertIn("ok", result.stderr)
+
+    def test_csv_begins_with_its_columns(self):
+        self.run_program("run", R1, "--csv", "r1.csv", "--quiet")
+        self.assertTrue((self.path / "r1.csv").read_text().startswith("t_s,"))
+
+    def test_set_is_stronger_than_the_file(self):
+        good = self.write("a.toml", 1000)
+        summary = json.loads(self.run_program("run", good, "--json", "-", "--set", "duration_s=2e-4").stdout)
+        self.assertEqual(summary["duration_s"], 2e-4)
+
+    def test_help_explains_keys_and_answers_near_misses(self):
+        self.assertIn("supply.voltage_V", self.run_program("help", "supply").stdout)
+        self.assertIn("default 24", self.run_program("help", "supply.voltage_V").stdout)
+        self.assertIn("terminal|phase", self.run_program("help", "resistance_ohm").stdout)
+        self.assertIn("did you mean supply.voltage_V?", self.run_program("help", "suply.voltage_V", code=2).stderr)
+
+    def test_motors_and_version(self):
+        self.assertIn("maxon-251601", self.run_program("motor", "list").stdout)
+        self.assertIn("data sheet, line 12", self.run_program("motor", "show", "maxon-251601").stdout)
+        self.assertIn("did you mean", self.run_program("motor", "show", "maxon-25161", code=2).stderr)
+        self.assertTrue(self.run_program("--version").stdout.startswith("sixstep "))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a wrong file is told: place, value, limit and cure, word for word.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "io/scenario_file.hpp"
+
+namespace io {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class WrongInput : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(folder_);
+  }
+  std::string write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+  /// The complaints about a file, each without the folder in front.
+  std::vector<std::string> complaints(const std::string& text, const ReadOptions& options = {}) {
+    const base::Result<study::Scenario> result = read_scenario(write("x.toml", text), options);
+    if (result) return {};
+    std::vector<std::string> told;
+    for (const base::Problem& problem : result.problems()) {
+      std::string line = to_string(problem);
+      const std::string prefix = folder_.string() + "/";
+      for (std::size_t at = line.find(prefix); at != std::string::npos; at = line.find(prefix))
+        line.erase(at, prefix.size());
+      told.push_back(line);
+    }
+    return told;
+  }
+  std::filesystem::path folder_;
+};
+
+const std::string head = "motor = \"maxon-251601\"\nduration_s = 0.02\n";
+
+TEST_F(WrongInput, AGoodFileIsToldNothing) { EXPECT_THAT(complaints(head), ElementsAre()); }
+
+TEST_F(WrongInput, UnknownKeyIsAnsweredWithTheNearest) {
+  EXPECT_THAT(complaints(head + "[supply]\nvoltge_V = 24\n"),
+              ElementsAre("x.toml:4:1: supply.voltge_V is not a key here; did you mean voltage_V?"));
+  EXPECT_THAT(complaints(head + "[suply]\nvoltage_V = 24\n"),
+              ElementsAre("x.toml:3:2: suply is not a key here; did you mean supply?"));
+}
+
+TEST_F(WrongInput, WrongUnitIsToldAsSuch) {
+  EXPECT_THAT(
+      complaints(head + "[supply]\nvoltage_mV = 24000\n"),
+      ElementsAre("x.toml:4:1: supply.voltage_mV carries the wrong unit; write voltage_V and give the value "
+                  "in that unit"));
+  EXPECT_THAT(
+      complaints(head + "[supply]\nvoltage = 24\n"),
+      ElementsAre(
+          "x.toml:4:1: supply.voltage lacks its unit; write voltage_V and give the value in that unit"));
+}
+
+TEST_F(WrongInput, TextWhereANumberBelongs) {
+  EXPECT_THAT(
+      complaints("motor = \"maxon-251601\"\nduration_s = \"20 ms\"\n"),
+      ElementsAre("x.toml:2:14: duration_s = \"20 ms\" must be a number without quotes; the key carries its "
+                  "unit, s; write 0.02"));
+  EXPECT_THAT(
+      complaints(head + "[supply]\nvoltage_V = \"a lot\"\n"),
+      ElementsAre(
+          "x.toml:4:13: supply.voltage_V = \"a lot\" must be a number without quotes; the key carries "
+          "its unit, V; it means: voltage of the source, in V"));
+}
+
+TEST_F(WrongInput, NotANumberAndInfinityAreRefused) {
+  EXPECT_THAT(
+      complaints(head + "[initial]\nspeed_rad_s = nan\nangle_rad = inf\n"),
+      ElementsAre(
+          "x.toml:4:15: initial.speed_rad_s = nan must be a finite number; it means: mechanical speed "
+          "at the start, in rad/s",
+          "x.toml:5:13: initial.angle_rad = inf must be a finite number; it means: mechanical angle "
+          "at the start, in rad"));
+}
+
+TEST_F(WrongInput, DurationZero) {
+  EXPECT_THAT(complaints("motor = \"maxon-251601\"\nduration_s = 0\n"),
+              ElementsAre("x.toml:2:14: duration_s = 0 must be above 0; it means: simulated time, in s"));
+}
+
+TEST_F(WrongInput, MissingRequiredKeysPointAtTheirTable) {
+  EXPECT_THAT(
+      complaints("title = \"x\"\n[[require]]\nmax = 1\n"),
+      ElementsAre("x.toml:1:1: motor is missing; give: motor file: a path, or a name looked up beside the "
+                  "scenario, in --data and in the built-in list",
+                  "x.toml:1:1: duration_s is missing; give: simulated time, in s",
+                  "x.toml:2:1: require.metric is missing; give: figure that is taken of the signal"));
+}
+
+TEST_F(WrongInput, MissingMotor) {
+  EXPECT_THAT(
+      complaints("motor = \"maxon-25161\"\nduration_s = 0.02\n"),
+      ElementsAre("x.toml:1:9: motor = \"maxon-25161\" is neither maxon-25161 nor maxon-25161.toml nor a "
+                  "built-in motor; did you mean \"maxon-251601\"?"));
+}
+
+TEST_F(WrongInput, NegativeInductanceInTheMotorsOwnFile) {
+  write("m.toml", R"(name = "m"
+pole_pairs = 4
+nominal_voltage_V = 24
+resistance_ohm = { value = 1, frame = "terminal" }
+inductance_mH = { value = -0.5, frame = "phase" }
+inertia_gcm2 = 100
+)");
+  EXPECT_THAT(
+      complaints("motor = \"m\"\nduration_s = 0.02\n"),
+      ElementsAre("m.toml:5:27: inductance_mH.value = -0.5 must be above 0; it means: winding inductance, "
+                  "between two terminals or of one phase of the star (L - M), in mH"));
+}
+
+TEST_F(WrongInput, FrameMustBeSaidWhereThereAreTwo) {
+  write("m.toml",
+        "name = \"m\"\npole_pairs = 4\nnominal_voltage_V = 24\nresistance_ohm = 1\n"
+        "inductance_mH = { value = 1, frame = \"star\" }\ninertia_gcm2 = { value = 1, frame = \"phase\" }\n");
+  EXPECT_THAT(
+      complaints("motor = \"m\"\nduration_s = 0.02\n"),
+      ElementsAre(
+          "m.toml:4:18: resistance_ohm = 1 must say its frame; write { value = 1, frame = "
+          "\"terminal\" or \"phase\" }",
+          "m.toml:5:38: inductance_mH.frame = \"star\" must be \"terminal\" or \"phase\"; say between "
+          "which points the sheet measures",
+          "m.toml:6:37: inertia_gcm2.frame = \"phase\" is not needed; this value has one meaning "
+          "only: leave frame out"));
+}
+
+TEST_F(WrongInput, FlatWidthOfHalfATurn) {
+  EXPECT_THAT(
+      complaints(head + "[motor_override]\nflat_deg = 180\n"),
+      ElementsAre("x.toml:4:12: motor_override.flat_deg = 180 must lie strictly between 0 and 180; an ideal "
+                  "six-step motor has 120"));
+}
+
+TEST_F(WrongInput, WordsAreAnsweredWithTheNearest) {
+  EXPECT_THAT(
+      complaints(head + "[pwm]\nalignment = \"center\"\nchopping = 3\n"),
+      ElementsAre(
+          "x.toml:4:13: pwm.alignment = \"center\" must be \"edge\" or \"centre\"; did you mean "
+          "\"centre\"?",
+          "x.toml:5:12: pwm.chopping = 3 must be \"soft\", \"hard\" or \"complementary\"; see: sixstep "
+          "help pwm.chopping"));
+}
+
+TEST_F(WrongInput, ReferenceInAnotherModesUnit) {
+  EXPECT_THAT(
+      complaints(head + "[control]\nmode = \"speed\"\n[reference]\nvalue = 955\nunit = \"rpm\"\n"),
+      ElementsAre(
+          "x.toml:7:8: reference.unit = \"rpm\" is not the unit of mode \"speed\", which is \"rad/s\"; "
+          "give the reference in \"rad/s\" or change control.mode"));
+}
+
+TEST_F(WrongInput, ContradictoryGainsAreToldOnceAndWhere) {
+  const std::vector<std::string> told =
+      complaints(head +
+                 "[control]\nmode = \"current\"\n[control.current]\nsettle_s = 1e-3\ndamping = 0.9\nd1 = "
+                 "4.5\nd0 = -4.04\n");
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_THAT(told[0], HasSubstr("x.toml:8:6: control.current.d1 = 4.5 "));
+  EXPECT_THAT(told[0], HasSubstr("settle_s"));
+  EXPECT_THAT(told[0], HasSubstr("; give "));
+}
+
+TEST_F(WrongInput, EverythingAtOnceInTheOrderOfTheLines) {
+  EXPECT_THAT(complaints("motor = 3\nduration_s = -1\n[pwm]\nperiod_s = 0\n[load]\nlocked = 1\ntimes_s = "
+                         "3\n[bridge]\ndevice = \"igbt\"\n")
+                  .size(),
+              6U);
+}
+
+TEST_F(WrongInput, SyntaxIsToldWithItsPlace) {
+  EXPECT_THAT(
+      complaints("motor = \"maxon-251601\"\nduration_s = 20 ms\n"),
+      ElementsAre("x.toml:2:17: Error while parsing key-value pair: expected a comment or whitespace, saw "
+                  "'m'; mend the TOML syntax"));
+}
+
+TEST_F(WrongInput, ValuesOfTheCommandLineAreNamedAsSuch) {
+  EXPECT_THAT(
+      complaints(
+          head,
+          {.overrides = {{"supply.voltage_V", "-3"}, {"pwm.choping", "hard"}, {"pwm.chopping", "hard"}}}),
+      ElementsAre("--set supply.voltage_V = -3 must be above 0; it means: voltage of the source, in V",
+                  "--set pwm.choping is not a key here; did you mean chopping?"));
+  EXPECT_THAT(
+      complaints(head, {.overrides = {{"duration_s.x", "1"}}}),
+      ElementsAre("--set duration_s.x = 1 does not name a key; write --set table.key=value, as in --set "
+                  "supply.voltage_V=12"));
+}
+
+TEST_F(WrongInput, UnreadableFile) {
+  const base::Result<study::Scenario> result = read_scenario("no/such/file.toml");
+  ASSERT_FALSE(result);
+  EXPECT_EQ(to_string(result.problems().at(0)),
+            "no/such/file.toml: cannot be read: No such file or directory; check the path and the permission "
+            "to read it");
+}
+
+TEST_F(WrongInput, AFolderIsNoFile) {
+  const base::Result<study::Scenario> result = read_scenario(folder_.string());
+  ASSERT_FALSE(result);
+  EXPECT_THAT(to_string(result.problems().at(0)), HasSubstr("cannot be read: Is a directory"));
+}
+
+}  // namespace
+}  // namespace io

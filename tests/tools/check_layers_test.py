@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Plants one breach of each kind in a small tree and expects the layer check to name its file, line and cure."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+TOOL = REPOSITORY / "tools" / "check_layers.py"
+PICTURE = "# x\n\n```layers\nbase ->\ncontrol ->\nplant -> base\nstudy -> plant base\nio -> study base\ncli -> io\n```\n"
+
+
+class CheckLayers(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        self.write("docs/architecture.md", PICTURE)
+        self.write("sixstep/plant/motor.hpp", '#include <vector>\n#include "sixstep/base/angle.hpp"\n')
+
+    def write(self, path, text):
+        (self.root / path).parent.mkdir(parents=True, exist_ok=True)
+        (self.root / path).write_text(text)
+
+    def run_tool(self):
+        done = subprocess.run([sys.executable, TOOL, "--root", self.root], capture_output=True, text=True, check=False)
+        return done.returncode, done.stdout, done.stderr
+
+    def expect(self, path, text, *said):
+        self.write(path, text)
+        code, out, _ = self.run_tool()
+        self.assertEqual(code, 1, out)
+        self.assertEqual(len(out.splitlines()), 1, out)
+        for words in said:
+            self.assertIn(words, out)
+
+    def test_clean_tree_passes(self):
+        self.write("io/toml.cpp", '#include <toml++/toml.h>\n#include "sixstep/study/run.hpp"\n')
+        self.write("faces/cli/main.cpp", '#include <CLI/CLI.hpp>\n#include "io/toml.hpp"\n#include "faces/cli/x.hpp"\n')
+        self.assertEqual(self.run_tool(), (0, "", ""))
+
+    def test_upward_include(self):
+        self.expect("sixstep/base/angle.hpp", '#pragma once\n#include "sixstep/plant/motor.hpp"\n',
+                    "sixstep/base/angle.hpp:2:", "base may include nothing, not plant", "down a layer")
+
+    def test_layer_that_is_only_reachable_through_another(self):
+        self.expect("faces/cli/main.cpp", '#include "sixstep/plant/motor.hpp"\n', "cli may include io, not plant")
+
+    def test_third_party_in_the_library(self):
+        self.expect("sixstep/study/run.cpp", "#include <fmt/format.h>\n", "sixstep/study/run.cpp:1:", "third-party")
+
+    def test_files_and_clocks_in_the_library(self):
+        self.expect("sixstep/study/run.cpp", "\n#include <chrono>\n", "run.cpp:2:", "<chrono>")
+
+    def test_control_on_a_bare_chip(self):
+        self.expect("sixstep/control/pi.hpp", "#include <cstdint>\n#include <vector>\n", "pi.hpp:2:", "bare chip")
+
+    def test_control_depends_on_nothing(self):
+        self.expect("sixstep/control/pi.hpp", '#include "sixstep/base/angle.hpp"\n', "control may include nothing, not base")
+
+    def test_tests_are_no_layer(self):
+        self.expect("io/csv.cpp", '#include "tests/helper.hpp"\n', "in no layer")
+
+    def test_relative_include(self):
+        self.expect("sixstep/plant/bridge.cpp", '#include "motor.hpp"\n', "path from the repository root")
+
+    def test_library_call_that_differs_between_platforms(self):
+        self.expect("sixstep/plant/emf.cpp", "double f(double x) {\n  return std::sin(x);\n}\n", "emf.cpp:2:", "elementary.hpp")
+
+    def test_comments_and_strings_are_no_code(self):
+        self.write("sixstep/plant/emf.cpp", '// #include <chrono>, std::sin(x)\n/* \n#include "io/a.hpp"\n*/\n'
+                                            'const char* t = "// std::cos(1)";  // std::exp(2)\n')
+        self.assertEqual(self.run_tool()[0], 0)
+
+    def test_unknown_room(self):
+        self.expect("faces/radio/main.cpp", "int main() {}\n", "layer radio is not in the layers block")
+
+    def test_broken_picture(self):
+        for picture, said in (("no block", "no complete"), ("```layers\nbase -> plant\n```", "no row above names")):
+            self.write("docs/architecture.md", picture)
+            code, _, err = self.run_tool()
+            self.assertEqual(code, 2)
+            self.assertIn(said, err)
+
+
+if __name__ == "__main__":
+    unittest.main()

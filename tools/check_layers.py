@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Holds the code to the layer picture of docs/architecture.md.
+
+Reads the ```layers block there and checks every #include under sixstep/, batch/, io/ and faces/:
+  - a layer includes only itself and what stands behind its arrow;
+  - third-party headers appear only outside the library, and nothing includes tests/ or benchmarks/;
+  - control/ includes nothing that a bare chip lacks, the library nothing that knows files, clocks or threads;
+  - rooms that can influence a trajectory call no elementary function of the C library.
+Prints file:line, the breach and its cure; exits 1 on any, 2 if the picture itself is broken.
+"""
+import argparse
+import pathlib
+import re
+import sys
+
+SOURCE = {".hpp", ".cpp", ".h", ".cc", ".inl"}
+ROOTS = ("sixstep", "batch", "io", "faces")
+DETERMINISTIC = {"base", "series", "control", "plant", "sim", "rig", "design"}
+
+# What C++20 promises without an operating system (the freestanding headers, and three that need none).
+FREESTANDING = set("array bit cfloat climits compare concepts cstddef cstdint initializer_list limits type_traits "
+                   "utility version".split())
+# Of the standard library, what the library may use: no files, clocks, threads, platform-dependent random numbers,
+# or containers whose order differs between platforms.
+LIBRARY = FREESTANDING | set("algorithm cassert charconv cmath cstdlib cstring deque functional iterator list map "
+                             "memory memory_resource numbers numeric optional ranges set span string string_view tuple "
+                             "variant vector".split())
+ELEMENTARY = re.compile(r"(?<![\w:])(?:std)?::\s*(a?sinh?|a?cosh?|a?tanh?|atan2|exp2?|expm1|log(?:10|1p|2)?|pow|cbrt|hypot|fma|lerp|"
+                        r"[lt]gamma|erfc?)[fl]?\s*[(;]")
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+STRING = re.compile(r'"(?:\\.|[^"\\])*"')
+CPP_HEADER = re.compile(r"^[a-z_0-9]+$")  # <vector>: no dot, no slash
+
+
+class Broken(Exception):
+    """The picture itself cannot be used."""
+
+
+def read_layers(document: pathlib.Path) -> dict[str, set[str]]:
+    """{layer: layers it may include}, in the order of the block; each row stands on rows above it."""
+    if not document.is_file():
+        raise Broken(f"{document}: missing; it holds the layers block")
+    layers: dict[str, set[str]] = {}
+    inside = False
+    for number, line in enumerate(document.read_text().splitlines(), 1):
+        if line.strip() == "```layers":
+            inside = True
+        elif inside and line.strip() == "```":
+            return layers
+        elif inside and line.strip():
+            name, arrow, behind = line.partition("->")
+            name, allowed = name.strip(), set(behind.split())
+            if not arrow or name in layers:
+                raise Broken(f"{document}:{number}: write each layer once, as NAME -> NAMES")
+            unknown = allowed - layers.keys()
+            if unknown:
+                raise Broken(f"{document}:{number}: {name} stands on {', '.join(sorted(unknown))}, which no row above names")
+            layers[name] = allowed
+    raise Broken(f"{document}: no complete ```layers block")
+
+
+def layer_of(path: str) -> str | None:
+    """The layer a path from the repository root belongs to; None outside the layered rooms."""
+    parts = path.split("/")
+    if parts[0] in ("sixstep", "faces"):
+        return parts[1] if len(parts) > 2 else None
+    return parts[0] if parts[0] in ROOTS else None
+
+
+def without_comments(text: str) -> str:
+    """Comments and string contents blanked, line breaks kept."""
+    def blank(match: re.Match) -> str:
+        found = match.group(0)
+        return found if found[0] == '"' and "\n" not in found else re.sub(r"[^\n]", " ", found)
+    return re.sub(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', blank, text, flags=re.S)
+
+
+def check_include(layer: str, quoted: bool, target: str, layers: dict[str, set[str]], in_library: bool) -> str | None:
+    """The breach and its cure, or None."""
+    if quoted:
+        other = layer_of(target)
+        if other is None:
+            return f'includes "{target}", which is in no layer; write the path from the repository root, or <...> for a library'
+        if other not in layers:
+            return f'includes "{target}" of {other}, which the layers block does not name; add a row to it'
+        if other != layer and other not in layers[layer]:
+            allowed = " ".join(sorted(layers[layer])) or "nothing"
+            return f"{layer} may include {allowed}, not {other}; move what is needed down a layer or pass it in as data"
+        return None
+    if layer == "control" and target not in FREESTANDING:
+        return f"control/ runs on a bare chip and <{target}> needs more; use {' '.join(sorted(FREESTANDING))}"
+    if not in_library:
+        return None
+    if not CPP_HEADER.match(target):
+        return f"<{target}> is not the C++ standard library's; third-party code belongs to batch, io or faces"
+    if target not in LIBRARY:
+        return f"<{target}> knows files, clocks, threads or differs between platforms; do that in batch, io or faces"
+    return None
+
+
+def check_file(root: pathlib.Path, file: pathlib.Path, layers: dict[str, set[str]]) -> list[str]:
+    path = file.relative_to(root).as_posix()
+    layer = layer_of(path)
+    if layer is None:
+        return [f"{path}:1: lies in no layer; put it into one of the rooms"]
+    if layer not in layers:
+        return [f"{path}:1: layer {layer} is not in the layers block; add a row to docs/architecture.md"]
+    in_library = path.startswith("sixstep/")
+    breaches = []
+    for number, line in enumerate(without_comments(file.read_text()).splitlines(), 1):
+        include = INCLUDE.match(line)
+        if include:
+            breach = check_include(layer, include.group(1) == '"', include.group(2), layers, in_library)
+            if breach:
+                breaches.append(f"{path}:{number}: {breach}")
+        call = ELEMENTARY.search(STRING.sub('""', line)) if in_library and layer in DETERMINISTIC else None
+        if call:
+            breaches.append(f"{path}:{number}: calls the C library's {call.group(1)}, whose last digit differs between "
+                            "platforms; use sixstep/base/elementary.hpp")
+    return breaches
+
+
+def check(root: pathlib.Path) -> tuple[list[str], int]:
+    """All breaches under root and the number of files looked at."""
+    layers = read_layers(root / "docs" / "architecture.md")
+    files = sorted(f for top in ROOTS if (root / top).is_dir() for f in (root / top).rglob("*")
+                   if f.suffix in SOURCE and "node_modules" not in f.parts and f.is_file())
+    breaches = [breach for file in files for breach in check_file(root, file, layers)]
+    return breaches, len(files)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
+    try:
+        breaches, count = check(parser.parse_args().root.resolve())
+    except Broken as broken:
+        print(broken, file=sys.stderr)
+        return 2
+    for breach in breaches:
+        print(breach)
+    if breaches:
+        print(f"{len(breaches)} breach{'es' if len(breaches) > 1 else ''} of the layers in docs/architecture.md", file=sys.stderr)
+        return 1
+    return 0 if count else 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())
