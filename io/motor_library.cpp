@@ -7,7 +7,7 @@
 
 #include "io/key_advice.hpp"
 #include "io/text_file.hpp"
-#include "motors.hpp"
+#include <motors.hpp>
 
 namespace io {
 namespace {

@@ -3,11 +3,8 @@
 
 #include <utility>
 
-#include "io/text_file.hpp"
-
-// SEAM: until io/report lands, a bare page stands in; then the condition and its other branch go.
-#if __has_include("io/report/report.hpp")
 #include "io/report/report.hpp"
+#include "io/text_file.hpp"
 
 namespace cli {
 
@@ -28,19 +25,3 @@ std::string report_index(const std::vector<ReportLink>& links, const std::string
 }
 
 }  // namespace cli
-#else
-namespace cli {
-
-std::string report_page(const ReportSource& s) {
-  return "<!doctype html><meta charset=\"utf-8\"><title>sixstep</title>\n<p>" + s.scenario.title + "</p>\n";
-}
-
-std::string report_index(const std::vector<ReportLink>& links, const std::string&) {
-  std::string page = "<!doctype html><meta charset=\"utf-8\"><title>sixstep</title>\n";
-  for (const ReportLink& link : links)
-    page += "<p><a href=\"" + link.file + "\">" + link.title + "</a></p>\n";
-  return page;
-}
-
-}  // namespace cli
-#endif

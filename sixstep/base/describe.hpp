@@ -46,10 +46,7 @@ struct About {
   Range range = {};  ///< of the number as written
   bool required = false;
   std::string_view cure = "";  ///< what to write instead; empty: derived from range and unit
-<<<<<<< HEAD
-=======
   bool partial = false;  ///< a table that changes single values of what is filled already: none is required
->>>>>>> io
 };
 
 /// One word of an enumeration as written in files, and what it means.

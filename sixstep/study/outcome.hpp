@@ -44,6 +44,8 @@ struct ComparisonResult {
   std::string source;
 };
 
+using plant::EnergyBook;
+
 /// How often each kind of event happened.
 struct EventCount {
   std::string event;
