@@ -5,9 +5,9 @@
 
 #include <filesystem>
 
+#include <motors.hpp>
 #include "io/key_advice.hpp"
 #include "io/text_file.hpp"
-#include <motors.hpp>
 
 namespace io {
 namespace {
