@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include <motors.hpp>
 #include "io/key_advice.hpp"
 #include "io/motors.hpp"
 #include "io/text_file.hpp"

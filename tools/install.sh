@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 
 say() { printf 'install: %s\n' "$*"; }
 
-# The lines of one section as "package substitute"; the substitute is the command or file that makes it unnecessary.
+# The lines of one section as "package substitute"; the substitute is a command that makes it unnecessary.
 listed() {
   awk -v wanted="[$1]" '
     { sub(/#.*/, ""); gsub(/[ \t]+$/, "") }
@@ -23,10 +23,7 @@ missing_packages() {
   local section package substitute wanted=()
   for section in "$@"; do
     while read -r package substitute; do
-      case $substitute in
-        /*) if [ -s "$substitute" ]; then continue; fi ;;
-        ?*) if command -v "$substitute" >/dev/null; then continue; fi ;;
-      esac
+      if [ -n "$substitute" ] && command -v "$substitute" >/dev/null; then continue; fi
       wanted+=("$package")
     done < <(listed "$section")
   done

@@ -151,7 +151,8 @@ function chartOptions(chart, width, time, hooks) {
   // A curve that never moves would otherwise fill the chart with rounding noise.
   const range = (u, min, max) => {
     if (min == null) return [0, 1];
-    const room = Math.max((max - min) * 0.07, Math.abs(max) * 1e-6, 1e-9);
+    const size = Math.max(Math.abs(min), Math.abs(max));
+    const room = max - min > 1e-6 * size ? (max - min) * 0.07 : size > 0 ? size * 0.05 : 1;
     return [min - room, max + room];
   };
   return {

@@ -22,7 +22,8 @@ struct UnitForm {
   std::string_view written, printed;
   bool prefixed;
 };
-constexpr std::array<UnitForm, 18> unit_forms{{{"s", "s", true},
+constexpr std::array<UnitForm, 19> unit_forms{{{"N m", "Nm", true},
+                                               {"s", "s", true},
                                                {"A", "A", true},
                                                {"V", "V", true},
                                                {"W", "W", true},

@@ -47,8 +47,8 @@ std::string derivation(const sixstep::design::PolePlacement& design) {
     const Scale scale = scale_for(step.value, step.unit);
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"formula\">{}</td><td class=\"num\">{}{}{}</td></tr>\n",
-        with_subscripts(step.symbol), with_subscripts(step.formula),
-        plain(step.value * scale.factor, 6, true), scale.unit.empty() ? "" : "\u00a0", escaped(scale.unit));
+        typeset(step.symbol), typeset(step.formula), plain(step.value * scale.factor, 6, true),
+        scale.unit.empty() ? "" : "\u00a0", escaped(scale.unit));
   }
   return html + "</tbody></table>\n";
 }

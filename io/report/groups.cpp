@@ -124,6 +124,15 @@ Group bus(const Trace& trace) {
   return g;
 }
 
+/// Without a curve, or zero throughout as the speed of a held rotor is. Currents stay: that none flows says
+/// something.
+bool nothing_to_see(const Group& g) {
+  if (g.logic || g.id == "currents") return g.curves.empty();
+  return std::ranges::all_of(g.curves, [](const Curve& curve) {
+    return std::ranges::none_of(*curve.values, [](double v) { return std::abs(v) > 0.0; });
+  });
+}
+
 }  // namespace
 
 Groups chart_groups(const Trace& trace, const sixstep::study::Scenario& scenario) {
@@ -140,7 +149,7 @@ Groups chart_groups(const Trace& trace, const sixstep::study::Scenario& scenario
   charts.push_back(torque(trace));
   charts.push_back(duty(trace));
   charts.push_back(bus(trace));
-  std::erase_if(charts, [](const Group& g) { return g.curves.empty(); });
+  std::erase_if(charts, nothing_to_see);
   return out;
 }
 

@@ -81,6 +81,33 @@ std::string with_subscripts(std::string_view text) {
   return out;
 }
 
+std::string typeset(std::string_view formula) {
+  static constexpr std::pair<std::string_view, std::string_view> signs[] = {
+      {"+-", "±"}, {"^2", "²"}, {" - ", " − "}};
+  static constexpr std::pair<std::string_view, std::string_view> words[] = {
+      {"sqrt", "√"}, {"xi", "ξ"},   {"w0", "ω_0"}, {"a0", "a_0"}, {"b0", "b_0"},
+      {"c0", "c_0"}, {"c1", "c_1"}, {"d0", "d_0"}, {"d1", "d_1"}};
+  const auto wordy = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  std::string text;
+  while (!formula.empty()) {
+    std::size_t length = 0;
+    while (length < formula.size() && wordy(formula[length])) ++length;
+    const bool word = length > 0;
+    std::string_view piece = formula.substr(0, word ? length : 1), shown = piece;
+    if (word) {
+      for (const auto& [typed, printed] : words)
+        if (piece == typed) shown = printed;
+    } else {
+      for (const auto& [typed, printed] : signs)
+        if (formula.starts_with(typed)) piece = typed, shown = printed;
+      if (piece == "-" && (text.empty() || text.ends_with('('))) shown = "−";  // a sign, not a hyphen
+    }
+    text += shown;
+    formula.remove_prefix(piece.size());
+  }
+  return with_subscripts(text);
+}
+
 std::string script_safe(std::string json) {
   // In JSON a '<' stands only inside strings, where \u003c means the same.
   std::string out;

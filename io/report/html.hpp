@@ -16,6 +16,9 @@ std::string escaped(std::string_view text);
 /// sign.
 std::string with_subscripts(std::string_view text);
 
+/// A formula as typed, "w0 sqrt(1 - xi^2)", as printed: ω₀ √(1 − ξ²). Words are left alone.
+std::string typeset(std::string_view formula);
+
 /// JSON on its way into <script>: "</script>" and "<!--" must not be seen by the HTML parser.
 std::string script_safe(std::string json);
 

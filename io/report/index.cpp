@@ -38,6 +38,15 @@ std::string experiment(const IndexEntry& entry) {
   return html + "</section>\n";
 }
 
+/// Whoever opens the page after a failure wants to go there at once.
+std::string failed_list(const std::vector<IndexEntry>& entries) {
+  std::string items;
+  for (const IndexEntry& entry : entries)
+    if (!entry.outcome->passed())
+      items += fmt::format("<li><a href=\"{}\">{}</a></li>\n", escaped(entry.file), escaped(entry.title));
+  return items.empty() ? items : "<ul class=\"failed\">" + items + "</ul>\n";
+}
+
 }  // namespace
 
 std::string render_index(const std::vector<IndexEntry>& entries, std::string_view command,
@@ -52,6 +61,7 @@ std::string render_index(const std::vector<IndexEntry>& entries, std::string_vie
                                      {"standing_class", all ? "pass" : "fail"},
                                      {"standing", all ? "PASS" : "FAIL"},
                                      {"standing_line", line},
+                                     {"failed", failed_list(entries)},
                                      {"sections", sections},
                                      {"command", shown_command},
                                      {"version", shown_version}});

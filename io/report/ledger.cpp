@@ -25,21 +25,23 @@ std::string fixed(double value, int decimals) {
   return (value < 0.0 && !zero ? "−" : "") + text;
 }
 
+std::string bar(double joule, double largest) {
+  if (joule == 0.0 || largest == 0.0) return "";
+  return fmt::format("<i class=\"{}\" style=\"width:{:.1f}%\"></i>", joule < 0.0 ? "negative" : "",
+                     100.0 * std::abs(joule) / largest);
+}
+
 /// One equation as an account: the entries must add up to the total; what they miss is the residual.
 std::string account(const Entry& total, std::initializer_list<Entry> entries, double residual,
                     double largest) {
   const Scale scale = scale_for(largest, "J");
-  const int decimals =
-      largest > 0.0 ? std::clamp(4 - static_cast<int>(std::floor(std::log10(largest * scale.factor))), 0, 6)
-                    : 1;
+  constexpr int decimals = 4;  // the same in both accounts, so that they add up under the reader's eye
   const auto row = [&](const Entry& e, const char* css) {
-    const double share = largest > 0.0 ? 100.0 * std::abs(e.joule) / largest : 0.0;
     const double joule = e.joule * scale.factor;
-    // All rows show the same decimals, so that the column adds up under the reader's eye.
     return fmt::format(
         "<tr class=\"{}\"><th scope=\"row\">{}<small>{}</small></th><td class=\"num\">{}</td>"
-        "<td class=\"share\"><i class=\"{}\" style=\"width:{:.1f}%\"></i></td></tr>\n",
-        css, e.name, e.law, fixed(joule, decimals), e.joule < 0.0 ? "negative" : "", share);
+        "<td class=\"share\">{}</td></tr>\n",
+        css, e.name, e.law, fixed(joule, decimals), bar(e.joule, largest));
   };
   std::string html = fmt::format(
       "<table class=\"ledger\"><thead><tr><th></th><th class=\"num\">{}</th><th></th></tr></thead><tbody>\n",

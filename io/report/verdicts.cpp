@@ -62,7 +62,7 @@ std::string requirement_rows(const Outcome& outcome) {
     html += fmt::format(
         "<tr class=\"{}\"><td class=\"mark\">{}</td><th scope=\"row\">{}</th><td class=\"num\">{}</td>"
         "<td class=\"num strong\">{}</td><td>{}</td></tr>\n",
-        v.ok ? "ok" : "bad", v.ok ? "<span>✓</span> ok" : "<span>✗</span> not met", escaped(v.figure),
+        v.ok ? "ok" : "bad", v.ok ? "<span>✓</span> ok" : "<span>✗</span> not met", with_subscripts(v.figure),
         escaped(shown.required), with_aside(escaped(shown.measured), aside(v.measured, v.unit)), gauge(v));
   }
   return html;
@@ -79,9 +79,9 @@ std::string comparison_rows(const Outcome& outcome) {
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num strong\">{}</td>"
         "<td class=\"num\">{}</td><td class=\"source\">{}</td></tr>\n",
-        escaped(c.figure), with_aside(show(c.value, 7, true), aside(c.value, c.unit)),
+        with_subscripts(c.figure), with_aside(show(c.value, 7, true), aside(c.value, c.unit)),
         with_aside(show(c.measured, 4, false), aside(c.measured, c.unit)),
-        escaped(deviation(c.measured, c.value, c.unit)), escaped(c.source));
+        escaped(deviation(c.measured, c.value, c.unit)), with_subscripts(c.source));
   }
   return html;
 }

@@ -180,7 +180,7 @@ test('fits a narrow window without scrolling sideways', async () => {
 test('the index links to every report', async () => {
   const page = await opened('index.html');
   assert.equal(await page.locator('.verdict .line').textContent(), '1 of 2 experiments pass');
-  await page.click('text=A longer run');
+  await page.click('h2 >> text=A longer run');
   await page.waitForURL(/long\.html/);
   await close(page);
 });

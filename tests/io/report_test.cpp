@@ -233,6 +233,20 @@ TEST(Html, base64_is_the_standard_one_and_little_endian) {
   EXPECT_EQ((decoded<std::uint32_t, float>("AACAPw==")), std::vector<float>{1.0f});
 }
 
+TEST(Html, formulas_are_typeset_and_words_left_alone) {
+  EXPECT_EQ(typeset("w0 sqrt(1 - xi^2), the pair is Re s +- j Im s"),
+            "ω<sub>0</sub> √(1 − ξ²), the pair is Re s ± j Im s");
+  EXPECT_EQ(typeset("-xi w0"), "−ξ ω<sub>0</sub>");
+  EXPECT_EQ(typeset("plant with zero-order hold b0/(z + a0)"),
+            "plant with zero-order hold b<sub>0</sub>/(z + a<sub>0</sub>)");
+}
+
+TEST(Report, leaves_out_what_is_zero_throughout) {
+  SyntheticRun run = synthetic_run(0.001);
+  std::ranges::fill(run.trace.values[10], 0.0);
+  for (const auto& chart : data_of(page(run))["charts"]) EXPECT_NE(chart["id"], "speed");
+}
+
 TEST(Html, underscores_become_subscripts) {
   EXPECT_EQ(with_subscripts("exp(s T_s) < K_reg"), "exp(s T<sub>s</sub>) &lt; K<sub>reg</sub>");
   EXPECT_EQ(with_subscripts("_x a_ ω_0"), "_x a_ ω<sub>0</sub>");
