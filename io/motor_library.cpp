@@ -5,7 +5,6 @@
 
 #include <filesystem>
 
-#include <motors.hpp>
 #include "io/key_advice.hpp"
 #include "io/motors.hpp"
 #include "io/text_file.hpp"
