@@ -301,7 +301,7 @@ struct Convergence {
 
   explicit Convergence(const Constants<Real>& c) {
     // Well below the last bit of each state's natural scale, so that truncation never adds up.
-    constexpr Real per_scale = Real(1LL << 57) * (sizeof(Real) > 8 ? 2048 : 1);
+    constexpr Real per_scale = Real(1LL << 53) * (sizeof(Real) > 8 ? 2048 : 1);
     i_limit = per_scale / c.amp_scale;
     w_limit = per_scale / c.speed_scale;
     bus_limit = c.inv_C > 0 ? per_scale / c.volt_scale : Real(0);
@@ -356,8 +356,8 @@ void recurrence(const Constants<Real>& c, const Mode& mode, Currents&& currents,
 }
 
 template <bool sine, class Real>
-void expand_shape(const Constants<Real>& c, const State<Real>& state, const Mode& mode, Expansion<Real>& y) {
-  const EmfPiece<Real>& piece = c.emf[sector_in_turn(state.sector)].piece[mode.piece];
+void expand_shape(const Constants<Real>& c, const Mode& mode, Expansion<Real>& y) {
+  const EmfPiece<Real>& piece = c.emf[mode.sector].piece[mode.piece];
   const Split& split = split_of(mode.legs);
   if (split.connected == 3)
     recurrence(c, mode, TwoCurrents<sine, Real>(c, mode, split, piece, y), y);
@@ -385,9 +385,9 @@ void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode
     const base::SinCos shape = base::sin_cos(static_cast<double>(state.x));
     y.phi0[0] = static_cast<Real>(shape.cos);
     y.phi1[0] = static_cast<Real>(shape.sin);
-    detail::expand_shape<true>(c, state, mode, y);
+    detail::expand_shape<true>(c, mode, y);
   } else {
-    detail::expand_shape<false>(c, state, mode, y);
+    detail::expand_shape<false>(c, mode, y);
   }
 }
 

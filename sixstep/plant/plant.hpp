@@ -48,7 +48,7 @@ class Plant {
   template <class Visit>
   void guards(Visit&& visit) const {
     mode_guards(constants_, mode_, y_, slack_, visit);
-    edge_guards(constants_.emf[sector_in_turn(state_.sector)].piece[mode_.piece], y_, visit);
+    edge_guards(constants_.emf[mode_.sector].piece[mode_.piece], y_, visit);
   }
   /// Takes the state to the fraction s of the expanded length.
   void advance(Real s);
@@ -60,14 +60,16 @@ class Plant {
   const Gates& gates() const { return gates_; }
   const Constants<Real>& constants() const { return constants_; }
   const Expansion<Real>& expansion() const { return y_; }
-  int sector() const { return sector_in_turn(state_.sector); }
+  int sector() const { return mode_.sector; }
+  /// How often a floating leg began to conduct by a diode.
+  std::int64_t diodes_started() const { return diodes_started_; }
   Snapshot<Real> at(Real s) const;
 
  private:
   void snap();
   bool resettle(Real wanted, bool& expanded);
   bool pass_edge(bool ahead);
-  void zero_current(int k);
+  void balance();
 
   Constants<Real> constants_;
   State<Real> state_;
@@ -75,6 +77,7 @@ class Plant {
   Gates gates_;
   Expansion<Real> y_;
   Real slack_ = 1;
+  std::int64_t diodes_started_ = 0;
   bool stale_ = true;
   bool doubted_ = false;  ///< the last located event came without progress: settle by series only
 };
@@ -118,7 +121,8 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   const double sector = std::floor(electrical / base::sector_rad);
   state_.sector = static_cast<std::int64_t>(sector);
   state_.x = std::max(Real(0), Real(electrical) - Real(sector) * Real(base::sector_rad));
-  const EmfSector<Real>& pieces = c.emf[sector_in_turn(state_.sector)];
+  mode_.sector = static_cast<std::uint8_t>(sector_in_turn(state_.sector));
+  const EmfSector<Real>& pieces = c.emf[mode_.sector];
   while (mode_.piece + 1 < pieces.count && state_.x >= pieces.piece[mode_.piece].to) ++mode_.piece;
 }
 
@@ -127,33 +131,43 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
 template <class Real>
 void Plant<Real>::snap() {
   const Real amp_noise = noise_of(constants_.amp_scale, Real(1));
-  int alive = 0, last = 0;
+  bool snapped = false;
   for (int k = 0; k < 3; ++k) {
-    const bool gated = gates_.high[k] || gates_.low[k];
-    if (!gated && detail::abs(state_.i[k]) <= amp_noise) state_.i[k] = state_.i_low[k] = 0;
-    if (state_.i[k] != 0) {
-      ++alive;
-      last = k;
-    }
+    if (gates_.high[k] || gates_.low[k] || state_.i[k] == 0 || detail::abs(state_.i[k]) > amp_noise) continue;
+    state_.i[k] = state_.i_low[k] = 0;
+    snapped = true;
   }
-  if (alive == 1) state_.i[last] = state_.i_low[last] = 0;
-  if (alive == 2) {
-    const int other = state_.i[(last + 1) % 3] != 0 ? (last + 1) % 3 : (last + 2) % 3;
-    state_.i[last] = -state_.i[other];
-    state_.i_low[last] = -state_.i_low[other];
-  }
+  if (snapped) balance();
   if (constants_.dry_friction && detail::abs(state_.w) <= noise_of(constants_.speed_scale, Real(1)))
     state_.w = state_.w_low = 0;
+}
+
+/// After a current was set to zero: one left alone is zero too, two left are one current.
+template <class Real>
+void Plant<Real>::balance() {
+  PerLeg<Real>& i = state_.i;
+  const int zeros = int{i[0] == 0} + int{i[1] == 0} + int{i[2] == 0};
+  if (zeros == 2) {
+    i = {};
+    state_.i_low = {};
+  } else if (zeros == 1) {
+    const int zero = i[0] == 0 ? 0 : i[1] == 0 ? 1 : 2;
+    const int j = (zero + 1) % 3, k = (zero + 2) % 3;
+    i[k] = -i[j];
+    state_.i_low[k] = -state_.i_low[j];
+  }
 }
 
 template <class Real>
 bool Plant<Real>::resettle(Real wanted, bool& expanded) {
   snap();
+  const Legs before = mode_.legs;
   for (slack_ = 1; slack_ < 1e5; slack_ *= 16) {
     const Question<Real> question{
         constants_, state_, gates_, wanted, doubted_, slack_, detail::back_emf(constants_, state_, mode_)};
     if (settle(question, mode_, y_, expanded)) {
       stale_ = false;
+      for (int k = 0; k < 3; ++k) diodes_started_ += is_floating(before[k]) && is_diode(mode_.legs[k]);
       return true;
     }
   }
@@ -212,26 +226,13 @@ void Plant<Real>::advance(Real s) {
   doubted_ = s == 0;
 }
 
-/// Two legs share one current and reach zero together; of three, the other two then carry one current.
-template <class Real>
-void Plant<Real>::zero_current(int k) {
-  const int j = (k + 1) % 3, l = (k + 2) % 3;
-  state_.i[k] = state_.i_low[k] = 0;
-  if (connected_count(mode_.legs) == 2) {
-    state_.i = {};
-    state_.i_low = {};
-  } else {
-    state_.i[l] = -state_.i[j];
-    state_.i_low[l] = -state_.i_low[j];
-  }
-}
-
 template <class Real>
 bool Plant<Real>::pass_edge(bool ahead) {
   const auto pieces = [this] { return constants_.emf[sector()].count; };
   const bool leaves = ahead ? mode_.piece + 1 == pieces() : mode_.piece == 0;
   if (leaves) {
     state_.sector += ahead ? 1 : -1;
+    mode_.sector = static_cast<std::uint8_t>(sector_in_turn(state_.sector));
     mode_.piece = static_cast<std::uint8_t>(ahead ? 0 : pieces() - 1);
   } else {
     mode_.piece = static_cast<std::uint8_t>(mode_.piece + (ahead ? 1 : -1));
@@ -245,7 +246,12 @@ bool Plant<Real>::pass_edge(bool ahead) {
 template <class Real>
 bool Plant<Real>::apply(int id) {
   if (id == guard::edge_ahead || id == guard::edge_behind) return pass_edge(id == guard::edge_ahead);
-  if (id < guard::standstill) zero_current(id);
+  if (id < guard::standstill) {
+    // Two legs share one current and reach zero together; of three, the other two then carry one current.
+    state_.i[id] = state_.i_low[id] = 0;
+    if (connected_count(mode_.legs) == 2) state_.i = state_.i_low = {};
+    balance();
+  }
   if (id == guard::standstill) state_.w = state_.w_low = 0;
   stale_ = true;
   return false;

@@ -4,6 +4,8 @@
 // right, and where rounding makes several look right, the one with most legs off (MODEL 2, 4b). Plain values
 // first, series only for ties.
 #pragma once
+#include <span>
+
 #include "sixstep/plant/guards.hpp"
 #include "sixstep/series/first_root.hpp"
 
@@ -25,7 +27,7 @@ constexpr Judgement both(Judgement a, Judgement b) {
 
 template <class Real>
 PerLeg<Real> back_emf(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
-  const EmfPiece<Real>& p = c.emf[sector_in_turn(s.sector)].piece[m.piece];
+  const EmfPiece<Real>& p = c.emf[m.sector].piece[m.piece];
   Real phi0 = 1, phi1 = s.x;
   if (c.sine) {
     phi0 = static_cast<Real>(base::cos(static_cast<double>(s.x)));
@@ -103,10 +105,40 @@ bool holds_in_series(const Constants<Real>& c, const Mode& m, const Expansion<Re
   return ok;
 }
 
-/// Base-3 digit k of a combination: what an undecided leg tries. Few legs on come first by the order of the
-/// loop.
-constexpr Connection tried(int digit) {
-  return digit == 0 ? Connection::floating : digit == 1 ? Connection::low_diode : Connection::high_diode;
+/// All ways in which up to three undecided legs may float or conduct by a diode, those with fewest legs on
+/// first; one table per number of legs.
+struct Combination {
+  std::array<Connection, 3> leg{};
+  std::uint8_t on = 0;
+};
+inline constexpr std::array<Connection, 3> choices = {Connection::floating, Connection::low_diode,
+                                                      Connection::high_diode};
+
+template <int legs>
+constexpr auto combinations() {
+  constexpr std::size_t count = legs == 1 ? 3 : legs == 2 ? 9 : 27;
+  std::array<Combination, count> all{};
+  std::size_t n = 0;
+  for (std::uint8_t on = 0; on <= legs; ++on)
+    for (std::size_t code = 0; code < count; ++code) {
+      Combination c;
+      for (std::size_t k = 0, rest = code; k < legs; ++k, rest /= 3) {
+        c.leg[k] = choices[rest % 3];
+        c.on = static_cast<std::uint8_t>(c.on + (rest % 3 != 0));
+      }
+      if (c.on == on) all[n++] = c;
+    }
+  return all;
+}
+inline constexpr auto of_one = combinations<1>();
+inline constexpr auto of_two = combinations<2>();
+inline constexpr auto of_three = combinations<3>();
+
+constexpr std::span<const Combination> combinations_of(int legs) {
+  static_assert(of_three.back().on == 3);
+  if (legs == 1) return of_one;
+  if (legs == 2) return of_two;
+  return of_three;
 }
 
 }  // namespace detail
@@ -148,20 +180,16 @@ bool settle_legs(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, 
     mode.legs[k] = *connection_of(q.gates.high[k], q.gates.low[k], i > 0 ? 1 : i < 0 ? -1 : 0);
     if (is_floating(mode.legs[k])) undecided[count++] = k;
   }
-  const bool at_rest = q.constants.dry_friction && q.state.w == 0;
-  if (count == 0 && !q.series_only && q.constants.source_sinks && !at_rest) return true;
-  const int combinations = count == 0 ? 1 : count == 1 ? 3 : count == 2 ? 9 : 27;
-  for (int on = 0; on <= count; ++on)
-    for (int code = 0; code < combinations; ++code) {
-      int rest = code, legs_on = 0;
-      for (int u = 0; u < count; ++u, rest /= 3) {
-        mode.legs[undecided[u]] = tried(rest % 3);
-        legs_on += rest % 3 != 0;
-      }
-      if (legs_on != on || (legs_on == 1 && connected_count(mode.legs) == 1))
-        continue;  // one leg alone carries nothing
-      if (accepts(q, mode, scratch, expanded)) return true;
-    }
+  if (count == 0) {
+    const bool at_rest = q.constants.dry_friction && q.state.w == 0;
+    if (!q.series_only && q.constants.source_sinks && !at_rest) return true;
+    return accepts(q, mode, scratch, expanded);
+  }
+  for (const Combination& tried : combinations_of(count)) {
+    for (int u = 0; u < count; ++u) mode.legs[undecided[u]] = tried.leg[u];
+    if (tried.on == 1 && connected_count(mode.legs) == 1) continue;  // one leg alone carries nothing
+    if (accepts(q, mode, scratch, expanded)) return true;
+  }
   return false;
 }
 

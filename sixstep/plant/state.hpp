@@ -34,6 +34,7 @@ struct Mode {
   Legs legs{};
   Motion motion = Motion::free;
   bool source_feeds = true;  ///< a source that cannot sink: false while the bus is above it
+  std::uint8_t sector = 0;   ///< 0..5 within the electrical turn
   std::uint8_t piece = 0;    ///< of the back-EMF within the sector
   bool operator==(const Mode&) const = default;
 };

@@ -23,7 +23,6 @@ enum class Fault : std::uint8_t { none, shoot_through, impossible_hall };
 enum class Happening : std::uint8_t {
   sector_edge,
   diode_off,
-  diode_on,
   standstill,
   breakaway,
   comparator,
@@ -255,7 +254,6 @@ void Rig<Real, Scalar>::apply(int id) {
   if (id < guard::standstill) count(Happening::diode_off);
   if (id == guard::standstill) count(Happening::standstill);
   if (id == guard::breakaway_forward || id == guard::breakaway_backward) count(Happening::breakaway);
-  if (id >= guard::low_rail && id < guard::breakaway_forward) count(Happening::diode_on);
   if (!plant_.apply(id)) return;
   hall_edge();
   moved_ = true;

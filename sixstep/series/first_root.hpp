@@ -31,7 +31,7 @@ namespace detail {
 /// A root known to lie alone in (low, high], with c(low) > 0 >= c(high): Newton from `guess`, kept inside by
 /// bisection.
 template <class Real>
-Real bracketed_root(const Coefficients<Real>& c, int degree, Real low, Real high, Real guess) {
+Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) {
   // Newton squares the error: a step this small leaves nothing above rounding for another one.
   const Real last_step = Real(1e-10) * (high - low);
   Real s = guess > low && guess < high ? guess : low + (high - low) / 2;
@@ -55,7 +55,7 @@ Real bracketed_root(const Coefficients<Real>& c, int degree, Real low, Real high
 }
 
 template <class Real>
-Coefficients<Real> to_bernstein(const Coefficients<Real>& c, int degree, Real length) {
+Coefficients<Real> to_bernstein(const Real* c, int degree, Real length) {
   // b_i = sum_{j <= i} C(i, j)/C(degree, j) c_j length^j, by repeated differences: no binomials are stored.
   Coefficients<Real> scaled{}, b{};
   Real power = 1, choose = 1;
@@ -102,7 +102,7 @@ Coefficients<Real> split_half(Coefficients<Real>& b, int degree) {
 /// Left-first subdivision of [0, length]; a piece with one sign change holds one root, with none it holds
 /// none (Descartes). Pieces too narrow to split further touch zero to rounding: that counts as the root.
 template <class Real>
-std::optional<Real> subdivide(const Coefficients<Real>& c, int degree, Real length) {
+std::optional<Real> subdivide(const Real* c, int degree, Real length) {
   constexpr int depth_limit = 50;
   struct Piece {
     Coefficients<Real> b;
@@ -151,9 +151,8 @@ std::optional<Real> first_root(const Coefficients<Real>& c, int degree, Real len
   const Leading start = leading(c, degree, noise);
   if (start.sign == 0) return std::nullopt;
   if (start.sign < 0) return Real(0);
-  Coefficients<Real> q{};
+  const Real* q = c.data() + start.order;
   const int n = degree - start.order;
-  for (int j = 0; j <= n; ++j) q[j] = c[j + start.order];
   if (n == 0) return std::nullopt;
 
   Real slope_rest = 0, value_at_end = 0, tail = 0;  // slope_rest: sum_{j >= 2} j |q_j| length^(j-1)

@@ -51,12 +51,15 @@ Watchers watchers(const Scenario& s, const Compiled& compiled, const Listeners& 
 template <class Rig>
 void report_events(const Rig& rig, Outcome& out) {
   using rig::Happening;
-  constexpr std::pair<Happening, const char*> names[] = {
-      {Happening::sector_edge, "sector edges"}, {Happening::diode_on, "diode starts to conduct"},
-      {Happening::diode_off, "diode stops"},    {Happening::comparator, "comparator switches"},
-      {Happening::standstill, "rotor stops"},   {Happening::breakaway, "rotor breaks away"},
-      {Happening::tick, "control ticks"},       {Happening::pwm_edge, "PWM edges"}};
+  constexpr std::pair<Happening, const char*> names[] = {{Happening::sector_edge, "sector edges"},
+                                                         {Happening::diode_off, "diode stops"},
+                                                         {Happening::comparator, "comparator switches"},
+                                                         {Happening::standstill, "rotor stops"},
+                                                         {Happening::breakaway, "rotor breaks away"},
+                                                         {Happening::tick, "control ticks"},
+                                                         {Happening::pwm_edge, "PWM edges"}};
   for (const auto& [what, name] : names) out.events.push_back({name, rig.happened(what)});
+  out.events.push_back({"diode starts to conduct", rig.plant().diodes_started()});
 }
 
 base::Problem fault_problem(rig::Fault fault, double t_s) {
