@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a textbook simulator does with soft chopping: fixed-step RK4, diodes by the sign of the current, a leg
+// What a textbook simulator does with soft chopping: RK4, diodes by the sign of the current, a leg
 // without gate and current stays off. It leaves out that such a leg starts to conduct when its terminal would
 // pass a rail (MODEL 2).
 #pragma once
@@ -14,15 +14,26 @@ class NaiveSoftChopper {
  public:
   NaiveSoftChopper(const Drivetrain& d, double step_s) : d_(d), h_(step_s) {}
 
-  /// n steps with the source's upper switch on or off.
+  /// One step with the source's upper switch on or off; cut where a diode's current vanishes or a sector
+  /// ends, so that the step's size is no excuse.
   void step(bool on) {
-    const plant::Legs legs = connections(on);
-    const State k1 = rate(y_, legs), k2 = rate(moved(y_, k1, h_ / 2), legs),
-                k3 = rate(moved(y_, k2, h_ / 2), legs), k4 = rate(moved(y_, k3, h_), legs);
-    State next = y_;
-    for (int n = 0; n < 5; ++n) next[n] += h_ / 6 * (k1[n] + 2 * k2[n] + 2 * k3[n] + k4[n]);
-    stop_at_zero(next, legs);
-    y_ = next;
+    double left = h_;
+    for (int cuts = 0; left > 0 && cuts < 20; ++cuts) {
+      const plant::Legs legs = connections(on);
+      const State whole = rk4(legs, left);
+      double low = 0, high = left;
+      if (broken(whole, legs)) {
+        for (int n = 0; n < 60 && low < high; ++n) {
+          const double middle = low + (high - low) / 2;
+          (broken(rk4(legs, middle), legs) ? high : low) = middle;
+        }
+      }
+      const bool cut = high < left || broken(whole, legs);
+      State next = cut ? rk4(legs, high) : whole;
+      if (cut) stop_at_zero(next, legs);
+      y_ = next;
+      left -= high;
+    }
   }
   double i(int k) const { return y_[k]; }
   double speed() const { return y_[3]; }
@@ -40,7 +51,7 @@ class NaiveSoftChopper {
   }
   plant::Legs connections(bool on) const {
     static constexpr int pair[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};
-    const int sector = static_cast<int>(std::floor(y_[4] / base::sector_rad)) % 6;
+    const int sector = static_cast<int>(sector_of(y_)) % 6;
     plant::Legs legs;
     for (int k = 0; k < 3; ++k)
       legs[k] = *plant::connection_of(on && k == pair[sector][0], k == pair[sector][1],
@@ -67,11 +78,27 @@ class NaiveSoftChopper {
     r[4] = m.pole_pairs * y[3];
     return r;
   }
+  State rk4(const plant::Legs& legs, double h) const {
+    const State k1 = rate(y_, legs), k2 = rate(moved(y_, k1, h / 2), legs),
+                k3 = rate(moved(y_, k2, h / 2), legs), k4 = rate(moved(y_, k3, h), legs);
+    State next = y_;
+    for (int n = 0; n < 5; ++n) next[n] += h / 6 * (k1[n] + 2 * k2[n] + 2 * k3[n] + k4[n]);
+    return next;
+  }
+  static bool beyond_zero(const State& y, plant::Connection leg, int k) {
+    return (leg == plant::Connection::low_diode && y[k] <= 0) ||
+           (leg == plant::Connection::high_diode && y[k] >= 0);
+  }
+  static double sector_of(const State& y) { return std::floor(y[4] / base::sector_rad); }
+  bool broken(const State& next, const plant::Legs& legs) const {
+    if (sector_of(next) != sector_of(y_)) return true;
+    for (int k = 0; k < 3; ++k)
+      if (beyond_zero(next, legs[k], k)) return true;
+    return false;
+  }
   static void stop_at_zero(State& next, const plant::Legs& legs) {
     for (int k = 0; k < 3; ++k) {
-      const bool over = (legs[k] == plant::Connection::low_diode && next[k] <= 0) ||
-                        (legs[k] == plant::Connection::high_diode && next[k] >= 0);
-      if (!over) continue;
+      if (!beyond_zero(next, legs[k], k)) continue;
       next[k] = 0;
       if (plant::connected_count(legs) == 2)
         next[0] = next[1] = next[2] = 0;
