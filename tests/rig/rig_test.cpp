@@ -114,20 +114,35 @@ TEST(Rig, DISABLED_CountsEverySwitchingOfAComparator) {
   EXPECT_NEAR(static_cast<double>(rig.happened(Happening::comparator)), 2.0 * off, 1.0);
 }
 
+/// Times at which the comparator switched off.
+struct Offs {
+  bool on = false;
+  std::vector<double> at_s;
+  void segment(const rig::Rig<double, double>& r, double) {
+    if (on && !r.modulator().source_on()) at_s.push_back(r.now().seconds());
+    on = r.modulator().source_on();
+  }
+};
+
 TEST(Rig, HysteresisSwitchesAsOftenAsTheReference) {
   Board b = Board::hysteresis(5.0, 0.2, Chopping::soft);
   for (int n = 1; n < 4; ++n) b.setpoint(n * 5'000'000'000LL, n % 2 == 0 ? 5.0 : -5.0);
   auto rig = b.rig();
-  struct Offs {
-    bool on = false;
-    int count = 0;
-    void segment(const rig::Rig<double, double>& r, double) {
-      count += on && !r.modulator().source_on();
-      on = r.modulator().source_on();
-    }
-  } offs;
+  Offs offs;
   ASSERT_EQ(run_to(rig, 20e-3, offs), sim::Stop::end);
-  EXPECT_EQ(offs.count, 332);
+  EXPECT_EQ(offs.at_s.size(), 332u);
+  // R7s, as the mean distance of two switchings in each quarter: 19.65, 14.74, 19.70, 14.70 kHz.
+  const double reference[] = {19.65e3, 14.74e3, 19.70e3, 14.70e3};
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    double first = 0, last = 0;
+    int count = 0;
+    for (const double t : offs.at_s)
+      if (t >= quarter * 5e-3 && t < (quarter + 1) * 5e-3) {
+        if (count++ == 0) first = t;
+        last = t;
+      }
+    EXPECT_NEAR((count - 1) / (last - first), reference[quarter], 5.0) << quarter;
+  }
 }
 
 }  // namespace
