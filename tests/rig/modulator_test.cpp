@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "tests/support/maxon.hpp"
 #include "tests/support/modulating.hpp"
 
 namespace {
@@ -158,6 +159,14 @@ TEST(Modulator, ATimerRoundsEdgesAndDeadTimeToItsCounts) {
   EXPECT_EQ(do_next(m), at(1'000'000));
   EXPECT_EQ(do_next(m), at(15'100'000));
   EXPECT_EQ(do_next(m), at(16'100'000));
+}
+
+TEST(Modulator, APairOfOneLegIsAShootThroughThatThePlantRefuses) {
+  Modulator m{ModulatorConfig{}};
+  m.start_period(at(0), command(0.5, Chopping::soft, {Leg::a, Leg::a}));
+  EXPECT_TRUE(shoots_through(m.gates()));
+  plant::Plant<double> plant = Drivetrain{}.plant();
+  EXPECT_FALSE(plant.set_gates(m.gates()));
 }
 
 TEST(Modulator, TurningOffOpensEverything) {
