@@ -132,8 +132,10 @@ void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
 template <class Real>
 EnergyBook Audit<Real>::energy() const {
   const Real magnetic = magnetic_end_ - magnetic_start_, kinetic = kinetic_end_ - kinetic_start_;
-  // A coasting or resting motor moves no energy through the bridge; what it stored is then the yardstick.
-  const Real scale = std::max({moved_, magnetic_start_ + kinetic_start_, Real(1e-300)});
+  // A motor that coasts, or that its load drives, moves no energy through the bridge; what it stored or was
+  // given is then the yardstick.
+  const Real scale = std::max({moved_, magnetic_start_ + kinetic_start_, magnetic_end_ + kinetic_end_,
+                               detail::abs(load_), Real(1e-300)});
   const auto d = [](Real v) { return static_cast<double>(v); };
   return {.supplied = d(supplied_),
           .copper = d(copper_),

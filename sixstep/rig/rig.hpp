@@ -138,7 +138,6 @@ bool Rig<Real, Scalar>::do_timeline() {
                           drive_.current_control == control::CurrentControl::hysteresis &&
                           drive_.hysteresis.watch != control::Watch::none;
   if (continuous && !board_.delayed) control_step(false);
-  skip_idle_ticks();
   return true;
 }
 

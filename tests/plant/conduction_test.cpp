@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// When diodes begin: rails, the free star, and sector edges at which two things happen at once.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/laws.hpp"
+#include "tests/support/maxon.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using sim::Stop;
+
+/// When the first event with an id in [from, to) happened.
+double first_s(const Held<>& bench, int from, int to) {
+  for (const auto& e : bench.events)
+    if (e.id >= from && e.id < to) return e.at.seconds();
+  return -1.0;
+}
+
+/// Turning freely from 270 degrees with a's lower switch on: e_a is the lowest until 300 degrees, where b's
+/// bottom begins and a's ends.
+Drivetrain towards_300_deg() {
+  Drivetrain setup;
+  setup.shaft.B_Nm_s = 0.0;
+  setup.start.speed_rad_s = 400.0;
+  setup.start.angle_rad = at_electrical_deg(270.0);
+  return setup;
+}
+
+TEST(Rail, IdealDiodeConductsFromTheSectorEdgeOn) {
+  const Drivetrain setup = towards_300_deg();
+  Held<> bench(setup, gates({}, {true, false, false}));
+  LawChecker<> laws;
+  ASSERT_EQ(bench.run_to(0.3e-3, laws), Stop::end);
+  laws.expect_all();
+  // Two events at one instant: rounding may put either first.
+  const double edge_s = at_electrical_deg(30.0) / 400.0, bound = 16 * eps * at_electrical_deg(300.0) / 400.0;
+  EXPECT_NEAR(first_s(bench, plant::guard::edge_ahead, plant::guard::low_rail), edge_s, bound);
+  EXPECT_NEAR(first_s(bench, plant::guard::low_rail, plant::guard::breakaway_forward), edge_s, bound);
+  EXPECT_LT(bench.state().i[0], 0.0);
+  EXPECT_GT(bench.state().i[1], 0.0) << "b's lower diode carries the loop with a";
+}
+
+TEST(Rail, RealDiodeConductsWhereTheEmfReachesItsDrop) {
+  Drivetrain setup = towards_300_deg();
+  setup.devices.V_f_V = 0.7;
+  Held<> bench(setup, gates({}, {true, false, false}));
+  LawChecker<> laws;
+  ASSERT_EQ(bench.run_to(0.3e-3, laws), Stop::end);
+  laws.expect_all();
+  // e_a - e_b = K_e w (theta - 300)/30 on the ramp; equals V_f.
+  const double behind_edge = 30.0 * 0.7 / (setup.machine.K_e_V_s * 400.0);
+  const double exact = at_electrical_deg(30.0 + behind_edge) / 400.0;
+  // Angles of 270 degrees carry an error of eps each; the ramp's slope adds that of its own terms.
+  EXPECT_NEAR(first_s(bench, plant::guard::low_rail, plant::guard::breakaway_forward), exact,
+              32 * eps * at_electrical_deg(330.0) / 400.0);
+}
+
+TEST(FreeStar, ConductsOnlyAboveTheBus) {
+  // 2 K_e w against U_s + 2 V_f, a part in 1e9 below and above.
+  for (const double V_f : {0.0, 0.7}) {
+    for (const double side : {-1e-9, 1e-9}) {
+      Drivetrain setup;
+      setup.devices.V_f_V = V_f;
+      setup.shaft.B_Nm_s = 0.0;
+      setup.start.angle_rad = at_electrical_deg(25.0);
+      setup.start.speed_rad_s = (24.0 + 2 * V_f) / (2 * setup.machine.K_e_V_s) * (1 + side);
+      Held<> bench(setup, all_off());
+      LawChecker<> laws;
+      ASSERT_EQ(bench.run_to(5e-3, laws), Stop::end);
+      laws.expect_all();
+      if (side < 0)
+        EXPECT_EQ(laws.highest_current_A(), 0.0);
+      else
+        EXPECT_GT(laws.highest_current_A(), 0.0);
+    }
+  }
+}
+
+TEST(Rectifier, BrakesTheRotorToTheSpeedOfTheBusAndFeedsIt) {
+  Drivetrain setup;
+  setup.start.speed_rad_s = 900.0;
+  Held<> bench(setup, all_off());
+  LawChecker<> laws;
+  ASSERT_EQ(bench.run_to(0.3, laws), Stop::end);
+  laws.expect_all();
+  const double w_bus = 24.0 / (2 * setup.machine.K_e_V_s);
+  EXPECT_LT(bench.state().w, w_bus) << "friction takes the rest";
+  EXPECT_LT(laws.audit().energy().supplied, 0.0);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(bench.state().i[k], 0.0);
+}
+
+TEST(Rectifier, BackwardsItDoesTheSame) {
+  Drivetrain setup;
+  setup.start.speed_rad_s = 900.0;
+  setup.start.angle_rad = at_electrical_deg(17.0);
+  Held<> ahead(setup, all_off());
+  // theta -> 300 degrees - theta, w -> -w, b and c change places: the same circuit.
+  setup.start.speed_rad_s = -900.0;
+  setup.start.angle_rad = at_electrical_deg(283.0);
+  Held<> back(setup, all_off());
+  ASSERT_EQ(ahead.run_to(20e-3), Stop::end);
+  ASSERT_EQ(back.run_to(20e-3), Stop::end);
+  // Two trajectories that start eps apart in angle; the solver's own accuracy bounds what that becomes.
+  EXPECT_NEAR(back.state().w, -ahead.state().w, 1e-12 * 900.0);
+  EXPECT_NEAR(back.state().i[0], ahead.state().i[0], 1e-10 * 10.0);
+  EXPECT_NEAR(back.state().i[1], ahead.state().i[2], 1e-10 * 10.0);
+  EXPECT_NEAR(back.state().i[2], ahead.state().i[1], 1e-10 * 10.0);
+  EXPECT_EQ(back.events.size(), ahead.events.size());
+}
+
+TEST(Standstill, FreeLegOnTheRailDoesNotConduct) {
+  // Ideal devices, at rest: the third leg lies exactly on the star point's voltage, between the rails; with
+  // one leg low it lies exactly on the rail. Equality floats.
+  Drivetrain setup;
+  for (const plant::Gates& g :
+       {gates({}, {true, false, false}), gates({true, false, false}, {}), all_off()}) {
+    Held<> bench(setup, g);
+    ASSERT_EQ(bench.run_to(1e-3), Stop::end);
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(bench.state().i[k], 0.0);
+    EXPECT_EQ(bench.state().w, 0.0);
+    EXPECT_TRUE(bench.events.empty());
+  }
+}
+
+TEST(SectorEdge, RotorStartingOnItLeavesOnce) {
+  for (int sector = 0; sector < 6; ++sector) {
+    // Gates of the positive pair of the sector being entered: theta ~ t^3.
+    static constexpr int pair[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};
+    plant::Gates g;
+    g.high[pair[sector][0]] = g.low[pair[sector][1]] = true;
+    Drivetrain setup;
+    setup.start.angle_rad = sector * base::sector_rad / 8;
+    Held<> bench(setup, g);
+    ASSERT_EQ(bench.plant().sector(), sector) << "at rest on an edge the sector is the one being entered";
+    LawChecker<> laws;
+    ASSERT_EQ(bench.run_to(1e-3, laws), Stop::end);
+    laws.expect_all();
+    EXPECT_GT(bench.state().w, 0.0) << sector;
+    EXPECT_TRUE(bench.events.empty()) << sector;
+  }
+}
+
+TEST(SectorEdge, FirstMotionBackwardsFromZeroMakesItSectorFive) {
+  Held<> bench(Drivetrain{}, gates({false, true, false}, {true, false, false}));  // b to a: backwards
+  ASSERT_EQ(bench.run_to(1e-3), Stop::end);
+  EXPECT_LT(bench.state().w, 0.0);
+  EXPECT_EQ(bench.plant().sector(), 5);
+  ASSERT_EQ(bench.events.size(), 1u);
+  EXPECT_EQ(bench.events[0].id, plant::guard::edge_behind);
+  EXPECT_EQ(bench.events[0].at, sim::Instant{});
+}
+
+}  // namespace

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// The physics most often missed (ENGINE): under soft chopping the floating phase starts to conduct.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/board.hpp"
+#include "tests/support/laws.hpp"
+#include "tests/support/naive.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+
+constexpr double length_s = 0.1, grid_s = 0.25e-3;
+
+struct Differences {
+  double current = 0, speed = 0, peak_current = 0, top_speed = 0;
+};
+
+/// Half duty from rest, engine against the textbook simulator, on a grid.
+Differences against_naive(double step_s) {
+  const Board board = Board::duty(0.5);
+  auto engine = board.rig();
+  NaiveSoftChopper naive(board, step_s);
+  Differences d;
+  const int steps = static_cast<int>(std::lround(grid_s / step_s)),
+            period = static_cast<int>(std::lround(30e-6 / step_s));
+  std::int64_t n = 0;
+  for (int row = 1; row <= std::lround(length_s / grid_s); ++row) {
+    EXPECT_EQ(run_to(engine, row * grid_s), sim::Stop::end);
+    for (int k = 0; k < steps; ++k, ++n) naive.step(n % period < period / 2);
+    for (int k = 0; k < 3; ++k) {
+      d.current = std::max(d.current, std::fabs(naive.i(k) - engine.plant().state().i[k]));
+      d.peak_current = std::max(d.peak_current, std::fabs(engine.plant().state().i[k]));
+    }
+    d.speed = std::max(d.speed, std::fabs(naive.speed() - engine.plant().state().w));
+    d.top_speed = std::max(d.top_speed, engine.plant().state().w);
+  }
+  return d;
+}
+
+TEST(SoftChopping, FloatingPhaseStartsToConductAndLeavingItOutCostsTenPercentOfPeakCurrent) {
+  const Differences d = against_naive(1e-6);
+  // ENGINE: 10.6 % and 0.4 %, to the digits given.
+  EXPECT_NEAR(d.current / d.peak_current, 0.106, 0.011);
+  EXPECT_NEAR(d.speed / d.top_speed, 0.004, 0.0005);
+}
+
+TEST(SoftChopping, TheDifferenceIsNotTheNaiveSimulatorsStep) {
+  const Differences coarse = against_naive(1e-6), fine = against_naive(0.25e-6);
+  EXPECT_NEAR(coarse.current, fine.current, 1e-3 * fine.current);
+  EXPECT_NEAR(coarse.speed, fine.speed, 1e-3 * fine.speed);
+}
+
+/// Legs that had no current and now have a diode, counted from segment to segment.
+struct Starts {
+  plant::Legs before{};
+  int count = 0;
+  void segment(const rig::Rig<double, double>& rig, double s) {
+    if (!(s > 0)) return;
+    const plant::Legs& legs = rig.plant().mode().legs;
+    for (int k = 0; k < 3; ++k) count += plant::is_floating(before[k]) && plant::is_diode(legs[k]);
+    before = legs;
+  }
+};
+
+TEST(SoftChopping, FloatingPhaseConductsAsOftenAsInTheReference) {
+  const Board board = Board::duty(0.5);
+  auto rig = board.rig();
+  LawChecker<> laws;
+  ASSERT_EQ(run_to(rig, length_s, laws), sim::Stop::end);
+  laws.expect_all();
+  auto again = board.rig();
+  Starts starts;
+  ASSERT_EQ(run_to(again, length_s, starts), sim::Stop::end);
+  // Counts of the reference trajectory R3.
+  EXPECT_EQ(rig.happened(rig::Happening::sector_edge), 224);
+  EXPECT_EQ(rig.happened(rig::Happening::diode_off), 2034);
+  EXPECT_EQ(starts.count, 1600);
+}
+
+}  // namespace

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two things at one instant, one test per pair of: scenario step, control tick, PWM edge, comparator, sector
+// edge, current zero. Both must happen, once, with the effect of MODEL 4b's order (ENGINE, pitfall 1: a lost
+// tick passes every energy balance). Here: the pairs with a scenario step or a control tick.
+#include <gtest/gtest.h>
+
+#include "tests/support/coinciding.hpp"
+#include "tests/support/laws.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using control::Chopping;
+using rig::Happening;
+
+constexpr std::int64_t period = period_ticks;
+
+template <class Rig>
+int source_leg(const Rig& rig) {
+  return static_cast<int>(rig.modulator().command().pair.source);
+}
+template <class Rig>
+int sink_leg(const Rig& rig) {
+  return static_cast<int>(rig.modulator().command().pair.sink);
+}
+
+TEST(Coincidence, StepAndTickTheTickSeesTheStep) {
+  Board b = Board::duty(0.5);
+  b.setpoint(500 * period, -0.25);  // 15 ms
+  auto rig = b.rig();
+  ASSERT_EQ(run_to(rig, 15e-3), sim::Stop::end);
+  EXPECT_EQ(rig.setpoint(), -0.25);
+  EXPECT_EQ(rig.telemetry().duty, -0.25) << "a reference that steps at 15 ms is new at that sample";
+  EXPECT_EQ(rig.happened(Happening::tick), 501);
+}
+
+TEST(Coincidence, StepAndPwmEdge) {
+  Board b = locked(Board::duty(0.5));
+  b.setpoint(10 * period + period / 2, 0.75);
+  b.load(10 * period + period / 2, 0.1);
+  auto rig = b.rig();
+  ASSERT_EQ(run_to(rig, 10.5 * 30 * us), sim::Stop::end);
+  EXPECT_EQ(rig.setpoint(), 0.75);
+  EXPECT_EQ(static_cast<double>(rig.plant().constants().load), 0.1);
+  EXPECT_FALSE(rig.modulator().source_on()) << "the running period keeps its duty";
+  EXPECT_EQ(rig.happened(Happening::pwm_edge), 11);
+  ASSERT_EQ(run_to(rig, 11.5 * 30 * us), sim::Stop::end);
+  EXPECT_TRUE(rig.modulator().source_on());
+}
+
+TEST(Coincidence, StepAndComparator) {
+  Board b = locked(Board::hysteresis(10.0, 0.25, Chopping::soft));
+  b.setpoint(123'456'789, 1.0);  // the current lies between: the comparator trips at that very instant
+  auto rig = b.rig();
+  ASSERT_EQ(run_to(rig, 123.456788 * us), sim::Stop::end);
+  ASSERT_TRUE(rig.modulator().source_on());
+  ASSERT_GT(rig.plant().state().i[0], 1.25);
+  ASSERT_EQ(run_to(rig, 123.456789 * us), sim::Stop::end);
+  EXPECT_FALSE(rig.modulator().source_on());
+  EXPECT_FALSE(rig.plant().gates().high[0]);
+  ASSERT_EQ(run_to(rig, 130 * us), sim::Stop::end);
+  EXPECT_FALSE(rig.modulator().source_on()) << "and only once";
+  EXPECT_EQ(rig.modulator().turn_ons(), 1);
+}
+
+TEST(Coincidence, StepAndSectorEdge) {
+  Board b = turning(Board::duty(1.0), 20 * us);
+  b.setpoint(20'000'000, 0.5);
+  b.load(20'000'000, 0.125);
+  auto rig = b.rig();
+  LawChecker<> laws;
+  ASSERT_EQ(run_to(rig, 20 * us + ns, laws), sim::Stop::end);
+  EXPECT_EQ(rig.happened(Happening::sector_edge), 1);
+  EXPECT_EQ(sink_leg(rig), 2);
+  EXPECT_EQ(rig.setpoint(), 0.5);
+  EXPECT_EQ(static_cast<double>(rig.plant().constants().load), 0.125);
+  laws.expect_all();
+}
+
+TEST(Coincidence, StepAndCurrentZero) {
+  Board b = locked(Board::duty(0.0, Chopping::hard));
+  b.timeline.clear();
+  b.setpoint(0, on_time_for_zero(b, 0.0, 27 * us) / (30 * us));
+  b.setpoint(27'000'000, 0.75);
+  b.load(27'000'000, 0.125);
+  auto rig = b.rig();
+  ASSERT_EQ(run_to(rig, 27 * us + ns), sim::Stop::end);
+  EXPECT_EQ(rig.happened(Happening::diode_off), 1);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(rig.plant().state().i[k], 0.0);
+  EXPECT_EQ(static_cast<double>(rig.plant().constants().load), 0.125);
+  ASSERT_EQ(run_to(rig, 30 * us), sim::Stop::end);
+  EXPECT_EQ(rig.telemetry().duty, 0.75);
+  EXPECT_EQ(rig.happened(Happening::diode_off), 1);
+}
+
+TEST(Coincidence, TickAndPwmEdgeTheTickComesFirst) {
+  // Dead time of half a period: at each tick a dead time ends just when the new one begins.
+  Board b = locked(Board::duty(0.5, Chopping::complementary));
+  b.board.modulator.dead_ticks = 15e6;
+  auto rig = b.rig();
+  for (int n = 1; n < 20; ++n) {
+    ASSERT_EQ(run_to(rig, n * 15 * us), sim::Stop::end);
+    EXPECT_EQ(rig.happened(Happening::tick), n / 2 + 1);
+    EXPECT_FALSE(rig.plant().gates().high[0]);
+    EXPECT_FALSE(rig.plant().gates().low[0]);
+  }
+  EXPECT_EQ(rig.plant().state().i[0], 0.0);
+}
+
+TEST(Coincidence, TickAndAPwmEdgeThatTheTimerRoundsOntoItLeaveNoGap) {
+  Board b = locked(Board::duty(0.999));
+  b.board.modulator.timer_ticks = 1e6;  // 29.97 us -> 30 us
+  auto rig = b.rig();
+  LawChecker<> laws;
+  ASSERT_EQ(run_to(rig, 1e-3, laws), sim::Stop::end);
+  EXPECT_EQ(rig.happened(Happening::pwm_edge), 0);
+  const double exact = -24.0 / b.R_tt() * std::expm1(-1e-3 / b.tau());
+  EXPECT_NEAR(rig.plant().state().i[0], exact, 1e-13 * exact);
+}
+
+TEST(Coincidence, TickAndComparator) {
+  Board b = locked(Board::hysteresis(0.0, 0.25, Chopping::soft));
+  const double i_5 = -24.0 / b.R_tt() * std::expm1(-150e-6 / b.tau());  // at the fifth tick
+  b.timeline.clear();
+  b.setpoint(0, i_5 - 0.25);
+  auto rig = b.rig();
+  ASSERT_EQ(run_to(rig, 150 * us - ns), sim::Stop::end);
+  EXPECT_TRUE(rig.modulator().source_on());
+  ASSERT_EQ(run_to(rig, 150 * us + ns), sim::Stop::end);
+  EXPECT_FALSE(rig.modulator().source_on());
+  EXPECT_EQ(rig.happened(Happening::tick), 6);
+  EXPECT_EQ(rig.modulator().turn_ons(), 1);
+}
+
+TEST(Coincidence, TickAndSectorEdge) {
+  for (const bool at_sample : {false, true}) {
+    Board b = turning(Board::duty(0.5), 30 * us);
+    b.board.commutate_at_sample = at_sample;
+    b.setpoint(period, 0.25);
+    auto rig = b.rig();
+    ASSERT_EQ(run_to(rig, 30 * us + ns), sim::Stop::end);
+    EXPECT_EQ(rig.happened(Happening::sector_edge), 1);
+    EXPECT_EQ(rig.happened(Happening::tick), 2);
+    EXPECT_EQ(rig.telemetry().duty, 0.25);
+    EXPECT_EQ(rig.plant().sector(), 1);
+    // Commutation at the sample: rounding may put the edge just behind this one.
+    ASSERT_EQ(run_to(rig, at_sample ? 60 * us : 31 * us), sim::Stop::end);
+    EXPECT_EQ(source_leg(rig), 0);
+    EXPECT_EQ(sink_leg(rig), 2);
+  }
+}
+
+TEST(Coincidence, TickAndSectorEdgeAtTheStartBackwards) {
+  // Exactly: on the edge at t = 0 and turning back, the tick of t = 0 falls on the edge.
+  Board b = turning(Board::duty(0.5), 30 * us);
+  b.start.angle_rad = 0.0;
+  b.start.speed_rad_s = -100.0;
+  auto rig = b.rig();
+  ASSERT_EQ(run_to(rig, ns), sim::Stop::end);
+  EXPECT_EQ(rig.happened(Happening::sector_edge), 1);
+  EXPECT_EQ(rig.happened(Happening::tick), 1);
+  EXPECT_EQ(rig.plant().sector(), 5);
+  EXPECT_EQ(source_leg(rig), 2);
+  EXPECT_EQ(sink_leg(rig), 1);
+}
+
+TEST(Coincidence, TickAndCurrentZero) {
+  Board b = locked(Board::duty(0.0, Chopping::hard));
+  b.timeline.clear();
+  b.setpoint(0, on_time_for_zero(b, 0.0, 30 * us) / (30 * us));
+  auto rig = b.rig();
+  LawChecker<> laws;
+  ASSERT_EQ(run_to(rig, 30 * us + ns, laws), sim::Stop::end);
+  EXPECT_EQ(rig.happened(Happening::tick), 2);
+  EXPECT_TRUE(rig.plant().gates().high[0]);
+  // Within rounding the current was zero at the tick: the second period is the first again.
+  const double exact = 24.0 * ns / b.L_tt();
+  EXPECT_NEAR(rig.plant().state().i[0], exact, 1e-5 * exact);
+  ASSERT_EQ(run_to(rig, 60 * us + ns, laws), sim::Stop::end);
+  EXPECT_EQ(rig.happened(Happening::tick), 3);
+  EXPECT_NEAR(rig.plant().state().i[0], exact, 1e-5 * exact);
+  laws.expect_all();
+}
+
+}  // namespace

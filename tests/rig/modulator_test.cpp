@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+// Command in, gates out, edge by edge (MODEL 3). Ticks are picoseconds, the period is 30 us.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/support/maxon.hpp"
+#include "tests/support/modulating.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+
+TEST(Modulator, IsOffUntilItIsToldSomething) {
+  const Modulator m{ModulatorConfig{}};
+  EXPECT_EQ(on(m), "");
+  EXPECT_TRUE(m.steady());
+}
+
+TEST(Modulator, GatesOfEachChoppingInBothParts) {
+  const std::pair<Chopping, std::array<const char*, 2>> table[] = {
+      {Chopping::soft, {"a+b-", "b-"}},
+      {Chopping::hard, {"a+b-", ""}},
+      {Chopping::complementary, {"a+b-", "a-b-"}}};
+  for (const auto& [chopping, gates] : table) {
+    Modulator m{ModulatorConfig{}};
+    m.start_period(at(0), command(0.25, chopping));
+    EXPECT_EQ(on(m), gates[0]);
+    EXPECT_EQ(do_next(m), at(period / 4));
+    EXPECT_EQ(on(m), gates[1]);
+    EXPECT_TRUE(m.steady()) << "until the next period";
+  }
+}
+
+TEST(Modulator, ZeroHasNoOnTimeAndOneNoGap) {
+  Modulator m{ModulatorConfig{}};
+  for (int n = 0; n < 3; ++n) {
+    m.start_period(at(n * period), command(0.0));
+    EXPECT_EQ(on(m), "b-");
+    EXPECT_TRUE(m.steady());
+  }
+  EXPECT_EQ(m.turn_ons(), 0);
+  for (int n = 3; n < 6; ++n) {
+    m.start_period(at(n * period), command(1.0));
+    EXPECT_EQ(on(m), "a+b-");
+    EXPECT_TRUE(m.steady());
+  }
+  EXPECT_EQ(m.turn_ons(), 1);
+}
+
+TEST(Modulator, PicosecondPulsesAreNotDropped) {
+  for (const double ticks : {1.0, 0.25, 1e-6}) {
+    Modulator m{ModulatorConfig{}};
+    m.start_period(at(0), command(ticks / period));
+    EXPECT_EQ(on(m), "a+b-");
+    const Instant edge = do_next(m);
+    EXPECT_NEAR(static_cast<double>(edge.ticks) + edge.offset, ticks, 4 * 0x1p-52 * ticks);
+    EXPECT_EQ(on(m), "b-");
+  }
+}
+
+TEST(Modulator, CentreAlignedPulsesAreCentred) {
+  Modulator m{ModulatorConfig{.centre_aligned = true}};
+  m.start_period(at(period), command(0.25));
+  EXPECT_EQ(on(m), "b-");
+  EXPECT_EQ(do_next(m), at(period + 11'250'000));
+  EXPECT_EQ(on(m), "a+b-");
+  EXPECT_EQ(do_next(m), at(period + 18'750'000));
+  EXPECT_EQ(on(m), "b-");
+}
+
+TEST(Modulator, CentreAlignedAfterFullDutyTurnsOffAtThePeriodsStart) {
+  Modulator m{ModulatorConfig{.centre_aligned = true}};
+  m.start_period(at(0), command(1.0));
+  m.start_period(at(period), command(0.5));
+  EXPECT_EQ(on(m), "b-");
+}
+
+TEST(Modulator, DeadTimeDelaysEachTurnOnTheFirstToo) {
+  Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  m.start_period(at(0), command(0.5, Chopping::complementary));
+  EXPECT_EQ(on(m), "b-");
+  EXPECT_EQ(do_next(m), at(1'000'000));
+  EXPECT_EQ(on(m), "a+b-");
+  EXPECT_EQ(do_next(m), at(period / 2));
+  EXPECT_EQ(on(m), "b-");
+  EXPECT_EQ(do_next(m), at(period / 2 + 1'000'000));
+  EXPECT_EQ(on(m), "a-b-");
+  m.start_period(at(period), command(0.5, Chopping::complementary));
+  EXPECT_EQ(on(m), "b-");
+  EXPECT_EQ(do_next(m), at(period + 1'000'000));
+  EXPECT_EQ(on(m), "a+b-");
+}
+
+TEST(Modulator, APulseShorterThanTheDeadTimeNeverTurnsOn) {
+  Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  m.start_period(at(0), command(0.01, Chopping::complementary));  // 0.3 us
+  EXPECT_EQ(do_next(m), at(300'000));
+  EXPECT_EQ(on(m), "b-");
+  EXPECT_EQ(do_next(m), at(1'300'000)) << "the lower switch waits from the upper one's turn-off command";
+  EXPECT_EQ(on(m), "a-b-");
+}
+
+TEST(Modulator, SoftAndHardChoppingNeedNoDeadTime) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard}) {
+    Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+    m.start_period(at(0), command(0.5, chopping));
+    EXPECT_EQ(on(m), "a+b-");
+  }
+}
+
+TEST(Modulator, AReversalWaitsWhereTheSourceWasTheSink) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary}) {
+    Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+    m.start_period(at(0), command(1.0, chopping));
+    m.act(at(1'000'000));
+    m.start_period(at(period), command(1.0, chopping, {Leg::b, Leg::a}));
+    EXPECT_FALSE(m.gates().high[1]) << int(chopping);
+    EXPECT_EQ(do_next(m), at(period + 1'000'000));
+    EXPECT_EQ(on(m), "a-b+");
+  }
+}
+
+TEST(Modulator, AHallEdgeMovesTheStateAsItIs) {
+  Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  m.start_period(at(0), command(0.5, Chopping::complementary));
+  m.commutate(at(500'000), {Leg::a, Leg::c});  // dead
+  EXPECT_EQ(on(m), "c-");
+  EXPECT_EQ(do_next(m), at(1'000'000));
+  EXPECT_EQ(on(m), "a+c-");
+  m.commutate(at(2'000'000), {Leg::b, Leg::c});  // on
+  EXPECT_EQ(on(m), "b+c-") << "no dead time of its own";
+  EXPECT_EQ(do_next(m), at(period / 2)) << "PWM is not restarted";
+  do_next(m);
+  EXPECT_EQ(on(m), "b-c-");
+  m.commutate(at(20'000'000), {Leg::b, Leg::a});  // low
+  EXPECT_EQ(on(m), "a-b-");
+  EXPECT_EQ(m.turn_ons(), 1);
+}
+
+TEST(Modulator, DeadTimeAtCommutationDelaysTheNewTurnOnsOnly) {
+  Modulator m{ModulatorConfig{.dead_ticks = 1e6, .dead_time_at_commutation = true}};
+  m.start_period(at(0), command(0.5));
+  EXPECT_EQ(on(m), "a+b-");
+  m.commutate(at(5'000'000), {Leg::a, Leg::c});
+  EXPECT_EQ(on(m), "a+");
+  EXPECT_EQ(do_next(m), at(6'000'000));
+  EXPECT_EQ(on(m), "a+c-");
+  m.commutate(at(7'000'000), {Leg::b, Leg::c});
+  EXPECT_EQ(on(m), "c-");
+  EXPECT_EQ(do_next(m), at(8'000'000));
+  EXPECT_EQ(on(m), "b+c-");
+}
+
+TEST(Modulator, ATimerRoundsEdgesAndDeadTimeToItsCounts) {
+  Modulator m{ModulatorConfig{.dead_ticks = 1.04e6, .timer_ticks = 100'000}};  // 10 MHz
+  m.start_period(at(0), command(0.5017, Chopping::complementary));             // 15.051 us -> 15.1 us
+  EXPECT_EQ(do_next(m), at(1'000'000));
+  EXPECT_EQ(do_next(m), at(15'100'000));
+  EXPECT_EQ(do_next(m), at(16'100'000));
+}
+
+TEST(Modulator, APairOfOneLegIsAShootThroughThatThePlantRefuses) {
+  Modulator m{ModulatorConfig{}};
+  m.start_period(at(0), command(0.5, Chopping::soft, {Leg::a, Leg::a}));
+  EXPECT_TRUE(shoots_through(m.gates()));
+  plant::Plant<double> plant = Drivetrain{}.plant();
+  EXPECT_FALSE(plant.set_gates(m.gates()));
+}
+
+TEST(Modulator, TurningOffOpensEverything) {
+  Modulator m{ModulatorConfig{}};
+  m.start_period(at(0), command(1.0));
+  m.turn_off();
+  EXPECT_EQ(on(m), "");
+}
+
+BoardCommand drawn(std::mt19937_64& random, const ModulatorConfig&, Chopping chopping) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  const int source = static_cast<int>(random() % 3), sink = (source + 1 + static_cast<int>(random() % 2)) % 3;
+  const Pair pair{static_cast<Leg>(source), static_cast<Leg>(sink)};
+  if (random() % 4 == 0)
+    return compared(random() % 2 == 0 ? Watch::motor : Watch::phase, chopping, 3.0, pair);
+  BoardCommand c =
+      command(random() % 5 == 0 ? static_cast<double>(random() % 2) : unit(random), chopping, pair);
+  c.enabled = random() % 10 != 0;
+  return c;
+}
+
+TEST(Modulator, NeverHasBothGatesOfALegOn) {
+  constexpr std::uint32_t seed = 99;
+  std::mt19937_64 random{seed};
+  std::uniform_real_distribution<double> current(-6, 6);
+  for (int n = 0; n < 2000; ++n) {
+    SCOPED_TRACE(::testing::Message() << "seed " << seed << " board " << n);
+    const ModulatorConfig config{.centre_aligned = random() % 2 == 0,
+                                 .dead_ticks = random() % 2 == 0 ? 0.0 : 1e6,
+                                 .dead_time_at_commutation = random() % 2 == 0,
+                                 .timer_ticks = random() % 2 == 0 ? 0.0 : 13888.9};
+    const auto chopping = static_cast<Chopping>(random() % 3);
+    Modulator m{config};
+    for (int k = 0; k < 20; ++k) {
+      const Instant start = at(k * period);
+      m.start_period(start, drawn(random, config, chopping));
+      ASSERT_FALSE(shoots_through(m.gates()));
+      for (int edge = 0; edge < 6 && m.next_edge() < at((k + 1) * period); ++edge) {
+        const Instant now = do_next(m);
+        ASSERT_FALSE(shoots_through(m.gates()));
+        const double i = current(random);
+        m.compare(now, plant::PerLeg<double>{i, -i, 0.0});
+        ASSERT_FALSE(shoots_through(m.gates()));
+        if (random() % 4 == 0) m.commutate(now, drawn(random, config, chopping).pair);
+        ASSERT_FALSE(shoots_through(m.gates()));
+      }
+    }
+  }
+}
+
+/// Within the PWM leg, each turn-on comes at least the dead time after the other switch's turn-off.
+TEST(Modulator, DeadTimeHoldsOverAnyDuties) {
+  constexpr std::uint32_t seed = 12;
+  std::mt19937_64 random{seed};
+  std::uniform_real_distribution<double> unit(0, 1);
+  Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  Instant high_off{}, low_off{};
+  bool high = false, low = false;
+  const auto look = [&](const Instant& now) {
+    const bool h = m.gates().high[0], l = m.gates().low[0];
+    if (h && !high) {
+      EXPECT_GE(sim::seconds_between(low_off, now), 1e-6 * (1 - 0x1p-50));
+    }
+    if (l && !low) {
+      EXPECT_GE(sim::seconds_between(high_off, now), 1e-6 * (1 - 0x1p-50));
+    }
+    if (!h && high) high_off = now;
+    if (!l && low) low_off = now;
+    high = h;
+    low = l;
+  };
+  for (int k = 0; k < 5000; ++k) {
+    SCOPED_TRACE(::testing::Message() << "seed " << seed << " period " << k);
+    const int kind = static_cast<int>(random() % 6);
+    const double duty = kind == 0   ? 0.0
+                        : kind == 1 ? 1.0
+                        : kind == 2 ? 0.03 * unit(random)
+                        : kind == 3 ? 1 - 0.03 * unit(random)
+                                    : unit(random);
+    m.start_period(at(k * period), command(duty, Chopping::complementary));
+    look(at(k * period));
+    while (m.next_edge() < at((k + 1) * period)) look(do_next(m));
+  }
+}
+
+}  // namespace

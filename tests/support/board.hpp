@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reference motor on the virtual board: what the tests' runs have in common.
+#pragma once
+#include "sixstep/rig/rig.hpp"
+#include "tests/support/maxon.hpp"
+
+namespace sixstep::testing {
+
+/// Open loop or closed, as the configs say; the timeline lives here, the rig only looks at it.
+struct Board : Drivetrain {
+  control::DriveConfig<double> drive{.mode = control::Mode::duty, .nominal_bus_V = 24.0};
+  rig::BoardConfig board{};
+  rig::Timeline timeline{};
+
+  static Board duty(double d, control::Chopping chopping = control::Chopping::soft) {
+    Board s;
+    s.drive.chopping = chopping;
+    s.setpoint(0, d);
+    return s;
+  }
+  /// Event hysteresis on the motor current.
+  static Board hysteresis(double i_ref, double band, control::Chopping chopping) {
+    Board s;
+    s.drive.mode = control::Mode::current;
+    s.drive.current_control = control::CurrentControl::hysteresis;
+    s.drive.hysteresis = {band, control::Watch::motor};
+    s.drive.chopping = chopping;
+    s.setpoint(0, i_ref);
+    return s;
+  }
+  void setpoint(std::int64_t ticks, double value) {
+    timeline.push_back({{ticks, 0.0}, rig::ActionKind::setpoint, value});
+  }
+  void load(std::int64_t ticks, double torque) {
+    timeline.push_back({{ticks, 0.0}, rig::ActionKind::load_torque, torque});
+  }
+  template <class Real = double>
+  rig::Rig<Real, double> rig() const {
+    return rig::Rig<Real, double>(plant<Real>(), drive, board, timeline);
+  }
+};
+
+template <class Rig, class Observer>
+sim::Stop run_to(Rig& rig, double t_s, Observer& observer) {
+  return sim::run(rig, sim::to_instant(t_s), observer).stop;
+}
+template <class Rig>
+sim::Stop run_to(Rig& rig, double t_s) {
+  sim::NoObserver none;
+  return run_to(rig, t_s, none);
+}
+
+}  // namespace sixstep::testing

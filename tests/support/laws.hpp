@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// The laws that hold for every run (MODEL 5), as an observer for any system that has a plant. It looks inside
+// the segments too, not only at their ends.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/plant/audit.hpp"
+#include "sixstep/sim/instant.hpp"
+
+namespace sixstep::testing {
+
+template <class Real = double>
+class LawChecker {
+ public:
+  template <class System>
+  void segment(const System& system, Real s) {
+    audit_.segment(system.plant(), s);
+    const plant::Plant<Real>& p = system.plant();
+    if (system.now() < last_) time_went_back_ = true;
+    last_ = system.now();
+    amp_scale_ = static_cast<double>(p.constants().amp_scale);
+    volt_scale_ = static_cast<double>(p.constants().volt_scale);
+    for (const double part : {0.0, 0.23, 0.5, 0.81, 1.0}) look(p, s * static_cast<Real>(part));
+    ++segments_;
+  }
+
+  const plant::Audit<Real>& audit() const { return audit_; }
+  double highest_current_A() const { return highest_current_; }
+
+  /// Rounding: sums are kept exactly by construction, diodes and rails to the guards' noise of 64 eps of
+  /// scale (twice, for the evaluation); the energy balance to the model's 1e-11.
+  void expect_all(double energy_tolerance = 1e-11, double rail_tolerance_V = 0.0) const {
+    constexpr double noise = 128 * 0x1p-52;
+    const plant::EnergyBook book = audit_.energy();
+    EXPECT_GT(segments_, 0);
+    EXPECT_FALSE(time_went_back_);
+    EXPECT_LE(current_sum_, 8 * 0x1p-52 * amp_scale_);
+    EXPECT_EQ(floating_current_, 0.0);
+    EXPECT_LE(reverse_diode_, noise * amp_scale_);
+    EXPECT_LE(beyond_rail_, std::max(noise * volt_scale_, rail_tolerance_V));
+    EXPECT_LE(std::fabs(book.electrical_residual), energy_tolerance);
+    EXPECT_LE(std::fabs(book.mechanical_residual), energy_tolerance);
+  }
+
+ private:
+  void look(const plant::Plant<Real>& p, Real s) {
+    const plant::Snapshot<Real> now = p.at(s);
+    const auto d = [](Real v) { return static_cast<double>(v); };
+    const double V_f = p.constants().devices.V_f_V;
+    current_sum_ = std::max(current_sum_, std::fabs(d(now.i[0] + now.i[1] + now.i[2])));
+    for (int k = 0; k < 3; ++k) {
+      const plant::Connection leg = p.mode().legs[k];
+      highest_current_ = std::max(highest_current_, std::fabs(d(now.i[k])));
+      if (leg == plant::Connection::low_diode) reverse_diode_ = std::max(reverse_diode_, -d(now.i[k]));
+      if (leg == plant::Connection::high_diode) reverse_diode_ = std::max(reverse_diode_, d(now.i[k]));
+      if (!plant::is_floating(leg)) continue;
+      floating_current_ = std::max(floating_current_, std::fabs(d(now.i[k])));
+      beyond_rail_ = std::max({beyond_rail_, -V_f - d(now.pole[k]), d(now.pole[k] - now.bus) - V_f});
+    }
+  }
+
+  plant::Audit<Real> audit_;
+  sim::Instant last_{};
+  bool time_went_back_ = false;
+  std::int64_t segments_ = 0;
+  double amp_scale_ = 0, volt_scale_ = 0, current_sum_ = 0, floating_current_ = 0, reverse_diode_ = 0,
+         beyond_rail_ = 0, highest_current_ = 0;
+};
+
+}  // namespace sixstep::testing

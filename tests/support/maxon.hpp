@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reference motor of MODEL 6 and ways to put it on the bench: the plant alone with gates held, or on the
+// virtual board.
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "sixstep/plant/plant.hpp"
+#include "sixstep/sim/run.hpp"
+
+namespace sixstep::testing {
+
+inline constexpr double eps = 0x1p-52;
+
+/// maxon EC 45 flat 251601 on 24 V, no load, ideal devices, at rest at theta = 0.
+struct Drivetrain {
+  plant::Machine machine{.R_ohm = 0.515, .L_H = 0.572e-3 / 2, .K_e_V_s = 0.01675, .pole_pairs = 8};
+  plant::Shaft shaft{.J_kg_m2 = 1.35e-5, .B_Nm_s = 7.3e-6};
+  plant::Devices devices{};
+  plant::Supply supply{.V_0_V = 24.0};
+  plant::Start start{.bus_V = 24.0};
+
+  double R_tt() const { return 2 * machine.R_ohm; }
+  double L_tt() const { return 2 * machine.L_H; }
+  double tau() const { return machine.L_H / machine.R_ohm; }
+
+  template <class Real = double>
+  plant::Plant<Real> plant() const {
+    return plant::Plant<Real>(machine, shaft, devices, supply, start);
+  }
+};
+
+/// Mechanical angle of an electrical one in degrees, for the motor's eight pole pairs.
+inline double at_electrical_deg(double deg) { return deg * base::pi / 180.0 / 8; }
+
+inline plant::Gates gates(std::array<bool, 3> high, std::array<bool, 3> low) {
+  return {.high = high, .low = low};
+}
+inline plant::Gates all_off() { return {}; }
+inline plant::Gates a_to_b() { return gates({true, false, false}, {false, true, false}); }
+inline plant::Gates all_low() { return gates({}, {true, true, true}); }
+
+/// The plant with gates held, as a System for sim::run; notes every located event.
+template <class RealType = double>
+class Held {
+ public:
+  using Real = RealType;
+  struct Event {
+    int id;
+    sim::Instant at;
+  };
+
+  Held(const Drivetrain& setup, const plant::Gates& g) : plant_(setup.plant<Real>()) { plant_.set_gates(g); }
+
+  sim::Instant now() const { return now_; }
+  sim::Instant next_known() const { return sim::Instant::never(); }
+  bool act() { return true; }
+  double expand(double h) { return plant_.expand(h); }
+  template <class Visit>
+  void guards(Visit&& visit) const {
+    plant_.guards(visit);
+  }
+  void advance(Real s, const sim::Instant& to) {
+    plant_.advance(s);
+    now_ = to;
+  }
+  void apply(int id) {
+    events.push_back({id, now_});
+    plant_.apply(id);
+  }
+
+  plant::Plant<Real>& plant() { return plant_; }
+  const plant::Plant<Real>& plant() const { return plant_; }
+  const plant::State<Real>& state() const { return plant_.state(); }
+  Real angle() const {
+    return (static_cast<Real>(state().sector) * Real(base::sector_rad) + state().x) /
+           plant_.constants().pole_pairs;
+  }
+
+  template <class Observer>
+  sim::Stop run_to(double t_s, Observer& observer) {
+    return sim::run(*this, sim::to_instant(t_s), observer).stop;
+  }
+  sim::Stop run_to(double t_s) {
+    sim::NoObserver none;
+    return run_to(t_s, none);
+  }
+
+  std::vector<Event> events;
+
+ private:
+  plant::Plant<Real> plant_;
+  sim::Instant now_{};
+};
+
+}  // namespace sixstep::testing

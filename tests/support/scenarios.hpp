@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenarios of the reference motor, built in C++.
+#pragma once
+#include "sixstep/study/run.hpp"
+
+namespace sixstep::testing {
+
+inline design::Sheet maxon_sheet() {
+  design::Sheet s;
+  s.name = "maxon EC 45 flat 251601";
+  s.pole_pairs = 8;
+  s.nominal_voltage_V = {24.0, "", ""};
+  s.resistance_ohm = {1.03, "terminal", ""};
+  s.inductance_mH = {0.572, "terminal", ""};
+  s.torque_constant_mNm_A = base::Quantity{33.5, "terminal", ""};
+  s.inertia_gcm2 = {135.0, "", ""};
+  s.viscous_friction_Nm_s = base::Quantity{7.3e-6, "", ""};
+  s.stall_torque_mNm = base::Quantity{780.0, "", ""};
+  return s;
+}
+
+/// The motor, 24 V, ideal devices, soft chopping; 20 ms in the mode given.
+inline study::Scenario maxon_scenario(control::Mode mode, double reference) {
+  study::Scenario s;
+  s.sheet = maxon_sheet();
+  s.duration_s = 20e-3;
+  s.control.mode = mode;
+  s.reference.value = reference;
+  return s;
+}
+
+/// The thesis's current step: square of +-5 A, gains as printed.
+inline study::Scenario current_square() {
+  study::Scenario s = maxon_scenario(control::Mode::current, 0.0);
+  s.control.current.d1 = 4.5;
+  s.control.current.d0 = -4.04;
+  s.reference.shape = study::Shape::square;
+  s.reference.high = 5.0;
+  s.reference.low = -5.0;
+  s.reference.period_s = 10e-3;
+  return s;
+}
+
+inline study::Measure measure(study::MetricKind metric, study::Signal signal) {
+  study::Measure m;
+  m.metric = metric;
+  m.signal = signal;
+  return m;
+}
+inline void ask(study::Scenario& s, const study::Measure& m) { s.compare.push_back({m, 0.0, ""}); }
+
+}  // namespace sixstep::testing
