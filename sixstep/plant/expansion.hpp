@@ -153,6 +153,7 @@ inline void bus_step(const Constants<Real>& c, const Mode& mode, Expansion<Real>
 /// Fewer than two legs connected: no current; the rotor coasts and the floating terminals are watched.
 template <bool sine, class Real>
 struct NoCurrent {
+  static constexpr bool sine_shape = sine;
   NoCurrent(const Constants<Real>& c, const Mode& mode, const Split& split, const EmfPiece<Real>& p,
             Expansion<Real>& y) {
     for (int k = 0; k < 3; ++k) y.pole[k] = {.w0 = c.K_e * p.alpha[k], .w1 = c.K_e * p.beta[k]};
@@ -182,6 +183,7 @@ struct NoCurrent {
 /// both on their flat tops, where neither current nor torque needs a product.
 template <bool sine, bool flat, class Real>
 struct OneCurrent {
+  static constexpr bool sine_shape = sine;
   int j, k, floating;
   Real from_bus, from_offset, from_i, from_w0,
       from_w1;              // di/dt, from 2 L di/dt = u_j - u_k - 2 R i - (e_j - e_k)
@@ -233,6 +235,7 @@ struct OneCurrent {
 /// eliminated.
 template <bool sine, class Real>
 struct TwoCurrents {
+  static constexpr bool sine_shape = sine;
   struct Slope {
     Real bus, offset, i_a, i_b, w0, w1;
   };
@@ -298,19 +301,22 @@ template <class Real>
 struct Convergence {
   Real i_limit, w_limit, bus_limit;
   Real before = 0, last = 0;
+  /// Well below the last bit of each state's natural scale, so that truncation never adds up.
+  static constexpr Real per_scale = Real(1LL << 53) * (sizeof(Real) > 8 ? 2048 : 1);
 
   explicit Convergence(const Constants<Real>& c) {
-    // Well below the last bit of each state's natural scale, so that truncation never adds up.
-    constexpr Real per_scale = Real(1LL << 53) * (sizeof(Real) > 8 ? 2048 : 1);
     i_limit = per_scale / c.amp_scale;
     w_limit = per_scale / c.speed_scale;
     bus_limit = c.inv_C > 0 ? per_scale / c.volt_scale : Real(0);
   }
-  template <bool bus>
+  /// A sine's shape counts too: without current it alone decides how far a floating terminal's voltage is
+  /// known.
+  template <bool sine, bool bus>
   void look(const Expansion<Real>& y, int n, Real currents) {
     before = last;
     last = currents * i_limit + abs(y.w[n]) * w_limit;
     if constexpr (bus) last += abs(y.bus[n]) * bus_limit;
+    if constexpr (sine) last += (abs(y.phi0[n]) + abs(y.phi1[n])) * per_scale;
   }
   /// One small term may be a symmetry's zero; a small one after one not much larger is the end of the series.
   bool reached() const { return last < 1 && before < 4096; }
@@ -330,7 +336,7 @@ template <int n, bool bus, class Currents, class Real>
     y.bus[n + 1] = 0;
   y.degree = n + 1;
   if constexpr (n < 3) return false;  // no segment worth taking needs fewer
-  convergence.template look<bus>(y, n + 1, currents.size(y, n + 1));
+  convergence.template look<Currents::sine_shape, bus>(y, n + 1, currents.size(y, n + 1));
   return convergence.reached();
 }
 

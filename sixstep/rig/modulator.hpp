@@ -49,9 +49,9 @@ class Modulator {
   sim::Instant next_edge() const;
   /// Does the edges due at `now`; false where none was.
   bool act(const sim::Instant& now);
-  /// Switches where a comparator's current is beyond its level; false where none did.
+  /// Switches where a comparator's current is beyond its level; how many did.
   template <class Real>
-  bool compare(const sim::Instant& now, const plant::PerLeg<Real>& i);
+  int compare(const sim::Instant& now, const plant::PerLeg<Real>& i);
   /// A comparator reached its level (0: motor or source leg, 1: sink leg).
   void comparator_tripped(const sim::Instant& now, int which);
 
@@ -87,8 +87,8 @@ class Modulator {
 };
 
 template <class Real>
-bool Modulator::compare(const sim::Instant& now, const plant::PerLeg<Real>& i) {
-  bool changed = false;
+int Modulator::compare(const sim::Instant& now, const plant::PerLeg<Real>& i) {
+  int switched = 0;
   for (int which = 0; which < 2; ++which) {
     const ArmedComparator c = comparator(which);
     if (!c.armed) continue;
@@ -96,10 +96,10 @@ bool Modulator::compare(const sim::Instant& now, const plant::PerLeg<Real>& i) {
     const Real current = Real(weight[0]) * i[0] + Real(weight[1]) * i[1] + Real(weight[2]) * i[2];
     if (c.switches_off ? current > Real(c.level_A) : current < Real(c.level_A)) {
       comparator_tripped(now, which);
-      changed = true;
+      ++switched;
     }
   }
-  return changed;
+  return switched;
 }
 
 }  // namespace sixstep::rig

@@ -68,6 +68,7 @@ class Rig {
   void control_step(bool starts_period);
   void skip_idle_ticks();
   void hall_edge();
+  void trip(int which);
   control::Measurement<Scalar> measure() const;
   BoardCommand widened(const control::BridgeCommand<Scalar>& c);
   void count(Happening what) { ++happened_[static_cast<std::size_t>(what)]; }
@@ -115,7 +116,11 @@ bool Rig<Real, Scalar>::act() {
       count(Happening::pwm_edge);
       acted = true;
     }
-    if (!acted) acted = modulator_.compare(now_, plant_.state().i);
+    if (!acted) {
+      const int switched = modulator_.compare(now_, plant_.state().i);
+      happened_[static_cast<std::size_t>(Happening::comparator)] += switched;
+      acted = switched > 0;
+    }
   }
   moved_ = false;
   due_ = next_due();
@@ -199,6 +204,23 @@ void Rig<Real, Scalar>::hall_edge() {
   modulator_.commutate(now_, same_sign ? answer.pair : control::swapped(answer.pair));
 }
 
+/// With two legs conducting, both phases carry one current and two comparators reach their levels together:
+/// whether the second one switches too must not be left to a rounding error.
+template <class Real, class Scalar>
+void Rig<Real, Scalar>::trip(int which) {
+  const ArmedComparator other = modulator_.comparator(1 - which);
+  const bool same_level = other.armed && other.switches_off == modulator_.comparator(which).switches_off;
+  modulator_.comparator_tripped(now_, which);
+  if (!same_level || plant::connected_count(plant_.mode().legs) != 2) return;
+  const plant::PerLeg<double> weight = modulator_.comparator_weights(1 - which);
+  const plant::PerLeg<Real>& i = plant_.state().i;
+  const Real current = Real(weight[0]) * i[0] + Real(weight[1]) * i[1] + Real(weight[2]) * i[2];
+  if (std::fabs(current - Real(other.level_A)) > plant::noise_of(plant_.constants().amp_scale, Real(1)))
+    return;
+  count(Happening::comparator);
+  modulator_.comparator_tripped(now_, 1 - which);
+}
+
 template <class Real, class Scalar>
 control::Measurement<Scalar> Rig<Real, Scalar>::measure() const {
   const plant::State<Real>& s = plant_.state();
@@ -248,7 +270,7 @@ void Rig<Real, Scalar>::apply(int id) {
   if (id >= guard::first_free) {
     count(Happening::comparator);
     moved_ = true;
-    return modulator_.comparator_tripped(now_, id - guard::first_free);
+    return trip(id - guard::first_free);
   }
   if (id < guard::standstill) count(Happening::diode_off);
   if (id == guard::standstill) count(Happening::standstill);

@@ -42,10 +42,11 @@ Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) 
       value = value * s + c[j];
     }
     (value > 0 ? low : high) = s;
-    Real next = slope < 0 ? s - value / slope : low;
-    const Real step = next > s ? next - s : s - next;
-    if (step <= last_step && next >= low && next <= high) return next;
-    if (!(next > low && next < high)) {
+    const Real newton = s - value / slope;
+    const bool inside = slope < 0 && newton >= low && newton <= high;
+    if (inside && std::fabs(newton - s) <= last_step) return newton;
+    Real next = newton;
+    if (!inside || newton == low || newton == high) {
       next = low + (high - low) / 2;
       if (next <= low || next >= high) return next;
     }

@@ -18,7 +18,8 @@
 //                                          >= 0, those that snap a state first (they win a tie)
 //   void advance(Real s, Instant to)       takes the state to the fraction s of the expanded length
 //   void apply(id)                         the one located event
-// An Observer provides segment(system, s), called before the system advances over [0, s] of its expansion.
+// An Observer provides segment(system, s), called before the system advances over [0, s] of its expansion,
+// and may provide done(): true ends the run after the event at hand.
 #pragma once
 #include <cstdint>
 
@@ -29,6 +30,7 @@ namespace sixstep::sim {
 
 enum class Stop : std::uint8_t {
   end,         ///< the end was reached
+  observer,    ///< the observer was done
   fault,       ///< act() refused
   unsettled,   ///< no consistent discrete state: a defect of the model
   no_progress  ///< more than a hundred events without time going on
@@ -80,6 +82,8 @@ Run run(System& system, Instant end, Observer& observer) {
     system.advance(first, to);
     if (event >= 0) system.apply(event);
     ++result.segments;
+    if constexpr (requires { observer.done(); })
+      if (observer.done()) return {Stop::observer, result.segments};
     stalled = now < to ? 0 : stalled + 1;
     if (stalled > stalled_limit) return {Stop::no_progress, result.segments};
   }

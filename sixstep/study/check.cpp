@@ -95,8 +95,21 @@ void check_control(const Scenario& s, base::Problems& out) {
                    "remove d1, d0, kp, ki, settle_s and damping, or set type = \"pi\""});
 }
 
+/// The band is the event comparators': nothing else holds one.
+void check_band(const Measure& m, const std::string& where, const Scenario& s, base::Problems& out) {
+  const bool band = m.metric == MetricKind::band_excess || m.metric == MetricKind::band_deficit;
+  const CurrentLoop& loop = s.control.current;
+  const bool armed = (s.control.mode != control::Mode::off && s.control.mode != control::Mode::duty) &&
+                     loop.type == CurrentLoopType::hysteresis && loop.comparator == Comparator::event;
+  if (band && !armed)
+    out.push_back(
+        {where + ".metric", "", "needs a hysteresis with event comparators",
+         "set control.current.type = \"hysteresis\" and comparator = \"event\", or measure max and min"});
+}
+
 void check_measure(const Measure& m, const std::string& where, const Scenario& s, base::Problems& out) {
   const double from = m.from_s.value_or(0.0), to = m.to_s.value_or(s.duration_s);
+  check_band(m, where, s, out);
   if (!(from < to))
     out.push_back({where + ".to_s", number(to), "must lie behind from_s = " + number(from),
                    "give the window as from_s < to_s"});

@@ -3,14 +3,17 @@
 // outside of the recovery from a commutation or a new reference, and the switching frequency.
 #pragma once
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "sixstep/study/gauge.hpp"
 #include "sixstep/study/signals.hpp"
 
 namespace sixstep::study {
 
+/// NaN, which meets no requirement, where no comparator was ever armed.
 struct HysteresisFigures {
-  double excess_A = 0.0, deficit_A = 0.0;
+  double excess_A = std::numeric_limits<double>::quiet_NaN(), deficit_A = excess_A;
 };
 
 class HysteresisGauge {
@@ -21,6 +24,7 @@ class HysteresisGauge {
     for (int which = 0; which < 2; ++which) {
       const rig::ArmedComparator armed = rig.modulator().comparator(which);
       if (!armed.armed) continue;
+      if (std::isnan(figures_.excess_A)) figures_ = {0.0, 0.0};
       const auto& y = rig.plant().expansion();
       const plant::PerLeg<double> w = rig.modulator().comparator_weights(which);
       Series c{};

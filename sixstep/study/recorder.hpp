@@ -69,7 +69,8 @@ class EventRecorder {
     const int parts = 1 + static_cast<int>(std::fmin(h * s / gap_s_, 1000.0));
     for (int n = 0; n <= parts; ++n) {
       const double at = s * n / parts;
-      emit(full_row(rig, at, begin + at * h, mode_));
+      last_s_ = std::fmax(last_s_, begin + at * h);  // rounding may not turn time back
+      emit(full_row(rig, at, last_s_, mode_));
     }
   }
 
@@ -85,7 +86,7 @@ class EventRecorder {
     first_ = false;
   }
 
-  double gap_s_;
+  double gap_s_, last_s_ = 0.0;
   control::Mode mode_;
   std::vector<std::size_t> columns_;
   RowSink sink_;

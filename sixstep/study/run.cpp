@@ -21,6 +21,9 @@ struct Watchers {
   Figures figures;
   std::optional<GridRecorder> grid;
   std::optional<EventRecorder> events, report;
+  std::function<bool(double)> keep_going;
+  std::int64_t segments = 0;
+  bool stopped = false;
 
   template <class Rig>
   void segment(const Rig& rig, double s) {
@@ -29,14 +32,18 @@ struct Watchers {
     if (grid) grid->segment(rig, s);
     if (events) events->segment(rig, s);
     if (report) report->segment(rig, s);
+    // Often enough to answer a person at once, seldom enough to cost nothing.
+    if (keep_going && ++segments % 1024 == 0) stopped = !keep_going(rig.now().seconds());
   }
+  bool done() const { return stopped; }
 };
 
 Watchers watchers(const Scenario& s, const Compiled& compiled, const Listeners& listeners,
                   const std::vector<std::size_t>& indices) {
   const control::Mode mode = s.control.mode;
   const double gap_s = s.duration_s / drawn_points;
-  Watchers w{{}, Figures(s, reference_levels(s.reference, s.duration_s)), {}, {}, {}};
+  Watchers w{.figures = Figures(s, reference_levels(s.reference, s.duration_s)),
+             .keep_going = listeners.keep_going};
   if (listeners.on_record && s.record.events)
     w.events.emplace(gap_s, mode, indices, listeners.on_record);
   else if (listeners.on_record)
@@ -70,38 +77,29 @@ base::Problem fault_problem(rig::Fault fault, double t_s) {
   return {when, "", "the Hall code is impossible (000 or 111)", "look at the probes and their wires"};
 }
 
-/// Runs in slices of simulated time, so that a listener can end it; the slices change nothing, since time is
-/// counted.
 template <class Rig>
-base::Problems run_rig(Rig& rig, const Compiled& compiled, const Listeners& listeners, Watchers& w,
-                       Outcome& out) {
-  const std::int64_t slice = listeners.keep_going ? 10'000'000'000 : compiled.end.ticks;
-  for (sim::Instant until{}; rig.now() < compiled.end;) {
-    until.ticks = std::min(until.ticks + slice, compiled.end.ticks);
-    const sim::Run run = sim::run(rig, until, w);
-    out.segments += run.segments;
-    const double t_s = rig.now().seconds();
-    if (run.stop == sim::Stop::fault) out.fault = fault_problem(rig.fault(), t_s);
-    if (run.stop == sim::Stop::unsettled || run.stop == sim::Stop::no_progress)
-      return {{"t = " + std::to_string(t_s) + " s", "",
-               run.stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
-                                                : "events repeat without time going on",
-               "this is a defect of sixstep: please report it with the scenario file"}};
-    if (run.stop != sim::Stop::end) break;
-    if (listeners.keep_going && !listeners.keep_going(t_s)) break;
-  }
-  out.simulated_s = rig.now().seconds();
+base::Problems run_rig(Rig& rig, const Compiled& compiled, Watchers& w, Outcome& out) {
+  const sim::Run run = sim::run(rig, compiled.end, w);
+  const double t_s = rig.now().seconds();
+  if (run.stop == sim::Stop::fault) out.fault = fault_problem(rig.fault(), t_s);
+  if (run.stop == sim::Stop::unsettled || run.stop == sim::Stop::no_progress)
+    return {{"t = " + std::to_string(t_s) + " s", "",
+             run.stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
+                                              : "events repeat without time going on",
+             "this is a defect of sixstep: please report it with the scenario file"}};
+  out.segments = run.segments;
+  out.simulated_s = t_s;
   report_events(rig, out);
   return {};
 }
 
 template <class Scalar>
-base::Problems run_in(const Compiled& compiled, const Listeners& listeners, Watchers& w, Outcome& out) {
+base::Problems run_in(const Compiled& compiled, Watchers& w, Outcome& out) {
   const plant::Plant<double> plant(compiled.motor.machine, compiled.shaft, compiled.devices, compiled.supply,
                                    compiled.start);
   rig::Rig<double, Scalar> rig(plant, in_arithmetic<Scalar>(compiled.drive), compiled.board,
                                compiled.timeline);
-  return run_rig(rig, compiled, listeners, w, out);
+  return run_rig(rig, compiled, w, out);
 }
 
 }  // namespace
@@ -118,8 +116,8 @@ base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners) 
   out.gains = compiled->gains;
   Watchers w = watchers(scenario, *compiled, listeners, *indices);
   const base::Problems problems = scenario.control.arithmetic == Arithmetic::float32
-                                      ? run_in<float>(*compiled, listeners, w, out)
-                                      : run_in<double>(*compiled, listeners, w, out);
+                                      ? run_in<float>(*compiled, w, out)
+                                      : run_in<double>(*compiled, w, out);
   if (!problems.empty()) return problems;
   out.energy = w.audit.energy();
   out.laws = w.audit.laws();

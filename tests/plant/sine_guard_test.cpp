@@ -14,7 +14,7 @@ using namespace sixstep::testing;
 
 /// Turning freely with a's lower switch on, from 290 degrees: e_a - e_b = K_e w sqrt 3 sin(theta - 300 deg)
 /// reaches V_f in closed form. No current flows before, so w is constant without friction.
-TEST(SineGuards, DISABLED_DiodeConductsWhereTheEmfReachesItsDropWithoutCurrentToo) {
+TEST(SineGuards, DiodeConductsWhereTheEmfReachesItsDropWithoutCurrentToo) {
   for (const double V_f : {0.35, 0.7, 1.4, 2.8}) {
     Drivetrain d;
     d.machine.back_emf = plant::BackEmf::sine;

@@ -39,7 +39,7 @@ FirstStates watched(double reference) {
   return states;
 }
 
-TEST(PhaseComparators, DISABLED_BothSwitchWhereBothReachTheirLevel) {
+TEST(PhaseComparators, BothSwitchWhereBothReachTheirLevel) {
   for (const double reference : {3.0, 5.0, 5.1, 7.3, 9.9}) {
     const FirstStates states = watched(reference);
     EXPECT_GT(states.both_off, 10) << reference;

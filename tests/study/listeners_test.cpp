@@ -15,7 +15,7 @@ using control::Mode;
 
 double asked(const Outcome& out, std::size_t n = 0) { return out.comparisons.at(n).measured; }
 
-TEST(Listeners, DISABLED_KeepGoingDoesNotChangeABit) {
+TEST(Listeners, KeepGoingDoesNotChangeABit) {
   // The slices in which a listener is asked are restarts of the expansion wherever they fall between events.
   Scenario s = maxon_scenario(Mode::duty, 0.7);
   s.duration_s = 50e-3;
@@ -28,7 +28,7 @@ TEST(Listeners, DISABLED_KeepGoingDoesNotChangeABit) {
   for (std::size_t n = 0; n < 3; ++n) EXPECT_EQ(asked(*alone, n), asked(*watched, n));
 }
 
-TEST(Listeners, DISABLED_KeepGoingSwallowsNoSample) {
+TEST(Listeners, KeepGoingSwallowsNoSample) {
   Scenario s = current_square();
   s.duration_s = 40e-3;
   Measure m = measure(MetricKind::final_value, Signal::current);
@@ -62,7 +62,7 @@ TEST(Listeners, EventRowsHoldBothSidesOfAJump) {
   EXPECT_LE(rows.worst_back, 4 * 0x1p-52 * 20e-3);
 }
 
-TEST(Listeners, DISABLED_TimeOfEventRowsNeverDecreases) {
+TEST(Listeners, TimeOfEventRowsNeverDecreases) {
   Rows rows;
   ASSERT_TRUE(run(maxon_scenario(Mode::duty, 0.5), {.on_event = std::ref(rows)}));
   EXPECT_EQ(rows.worst_back, 0.0);
