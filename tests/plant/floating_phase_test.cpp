@@ -44,7 +44,7 @@ Differences against_naive(double step_s) {
 TEST(SoftChopping, FloatingPhaseStartsToConductAndLeavingItOutCostsTenPercentOfPeakCurrent) {
   const Differences d = against_naive(1e-6);
   // ENGINE: 10.6 % and 0.4 %, to the digits given.
-  EXPECT_NEAR(d.current / d.peak_current, 0.106, 0.011);
+  EXPECT_NEAR(d.current / d.peak_current, 0.106, 0.0005);
   EXPECT_NEAR(d.speed / d.top_speed, 0.004, 0.0005);
 }
 
