@@ -82,8 +82,8 @@ Run run(System& system, Instant end, Observer& observer) {
     system.advance(first, to);
     if (event >= 0) system.apply(event);
     ++result.segments;
-    if constexpr (requires { observer.done(); })
-      if (observer.done()) return {Stop::observer, result.segments};
+    if constexpr (requires { observer.done(system); })
+      if (observer.done(system)) return {Stop::observer, result.segments};
     stalled = now < to ? 0 : stalled + 1;
     if (stalled > stalled_limit) return {Stop::no_progress, result.segments};
   }

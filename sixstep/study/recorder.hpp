@@ -12,7 +12,7 @@ namespace sixstep::study {
 
 using RowSink = std::function<void(std::span<const double>)>;
 
-/// Rows at n * grid: right limits at a jump, the end of the run included.
+/// Rows at n * grid up to the end of the run, included where it lies on the grid: right limits at a jump.
 class GridRecorder {
  public:
   GridRecorder(std::int64_t grid_ticks, sim::Instant end, control::Mode mode,

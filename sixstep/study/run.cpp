@@ -23,7 +23,6 @@ struct Watchers {
   std::optional<EventRecorder> events, report;
   std::function<bool(double)> keep_going;
   std::int64_t segments = 0;
-  bool stopped = false;
 
   template <class Rig>
   void segment(const Rig& rig, double s) {
@@ -32,10 +31,13 @@ struct Watchers {
     if (grid) grid->segment(rig, s);
     if (events) events->segment(rig, s);
     if (report) report->segment(rig, s);
-    // Often enough to answer a person at once, seldom enough to cost nothing.
-    if (keep_going && ++segments % 1024 == 0) stopped = !keep_going(rig.now().seconds());
+    ++segments;
   }
-  bool done() const { return stopped; }
+  /// Asked often enough to answer a person at once, and seldom enough to cost nothing.
+  template <class Rig>
+  bool done(const Rig& rig) const {
+    return keep_going && segments % 256 == 0 && !keep_going(rig.now().seconds());
+  }
 };
 
 Watchers watchers(const Scenario& s, const Compiled& compiled, const Listeners& listeners,
