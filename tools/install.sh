@@ -76,6 +76,9 @@ install_browser_parts() {
   local done_for=node_modules/.installed-lock
   cmp -s package-lock.json "$done_for" && return 0
   say "npm ci: the report's chart library"
+  # Who names extra certificates for node means them for npm too; npm itself asks only its own setting, and installing
+  # Debian's npm renews the bundle that a company's machine may have put its own certificate into.
+  if [ -n "${NODE_EXTRA_CA_CERTS:-}" ]; then export npm_config_cafile=$NODE_EXTRA_CA_CERTS; fi
   npm ci --no-audit --no-fund --ignore-scripts --loglevel=error </dev/null
   cp package-lock.json "$done_for"
 }
