@@ -98,6 +98,8 @@ function curveOptions(curve, index, chart, count) {
   if (curve.style === 'reference') Object.assign(options, {dash: [6, 4], width: 1.6});
   if (chart.logic) {
     const base = count - 1 - index;
+    // Steps, so that a thinned strip does not slant between two kept rows.
+    Object.assign(options, {paths: uPlot.paths.stepped({align: 1})});
     Object.assign(options, {width: 1, fill: () => translucent(color(), 0.3), fillTo: () => base});
   }
   return options;

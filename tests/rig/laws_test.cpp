@@ -91,8 +91,7 @@ TEST(Laws, HoldOnEveryDrawnDrive) {
     LawChecker<> laws;
     ASSERT_EQ(run_to(rig, length_s, laws), sim::Stop::end)
         << "at " << rig.now().seconds() << " fault " << int(rig.fault());
-    // The rails of a sine machine: plant/sine_guard_test.cpp.
-    laws.expect_all(1e-11, 0.0);
+    laws.expect_all(1e-11);
   }
 }
 
