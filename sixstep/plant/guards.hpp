@@ -3,7 +3,7 @@
 // dynamics, with the rounding level below which its coefficients say nothing. In order of what wins a tie:
 // current zero, standstill, sector edge, then rails and the rest (MODEL 4b).
 #pragma once
-#include "sixstep/plant/expansion.hpp"
+#include "sixstep/plant/expand.hpp"
 #include "sixstep/series/first_root.hpp"
 
 namespace sixstep::plant {

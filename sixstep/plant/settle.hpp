@@ -119,7 +119,7 @@ constexpr auto combinations() {
   constexpr std::size_t count = legs == 1 ? 3 : legs == 2 ? 9 : 27;
   std::array<Combination, count> all{};
   std::size_t n = 0;
-  for (std::uint8_t on = 0; on <= legs; ++on)
+  for (int on = 0; on <= legs; ++on)
     for (std::size_t code = 0; code < count; ++code) {
       Combination c;
       for (std::size_t k = 0, rest = code; k < legs; ++k, rest /= 3) {

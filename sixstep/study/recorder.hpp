@@ -69,7 +69,8 @@ class EventRecorder {
     const int parts = 1 + static_cast<int>(std::fmin(h * s / gap_s_, 1000.0));
     for (int n = 0; n <= parts; ++n) {
       const double at = s * n / parts;
-      last_s_ = std::fmax(last_s_, rig.now().plus_seconds(at * h).seconds());  // rounding may not turn time back
+      last_s_ =
+          std::fmax(last_s_, rig.now().plus_seconds(at * h).seconds());  // rounding may not turn time back
       emit(full_row(rig, at, last_s_, mode_));
     }
   }
