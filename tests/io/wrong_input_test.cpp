@@ -86,8 +86,10 @@ TEST_F(WrongInput, NotANumberAndInfinityAreRefused) {
 }
 
 TEST_F(WrongInput, DurationZero) {
-  EXPECT_THAT(complaints("motor = \"maxon-251601\"\nduration_s = 0\n"),
-              ElementsAre("x.toml:2:14: duration_s = 0 must be above 0 and at most 9000000; it means: simulated time, in s"));
+  EXPECT_THAT(
+      complaints("motor = \"maxon-251601\"\nduration_s = 0\n"),
+      ElementsAre(
+          "x.toml:2:14: duration_s = 0 must be above 0 and at most 9000000; it means: simulated time, in s"));
 }
 
 TEST_F(WrongInput, MissingRequiredKeysPointAtTheirTable) {
