@@ -132,7 +132,7 @@ std::string verdict_summary(std::span<const TableEntry> entries, bool colour) {
   }
   std::string text = counted(entries.size(), "experiment") + ": ";
   if (misses > 0)
-    text += fmt::format("{} of {} FAILED", misses, counted(requirements, "requirement"));
+    text += fmt::format("{} of {} requirements FAILED", misses, requirements);
   else if (requirements == 0)
     text += "nothing required";
   else

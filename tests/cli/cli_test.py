@@ -79,6 +79,8 @@ class CommandLine(unittest.TestCase):
         self.run_program("run", "absent.toml", code=2)
         self.run_program("run", code=2)
         self.run_program("nonsense", code=2)
+        self.assertEqual(self.run_program("rum", code=2).stderr, "rum is no command of sixstep; did you mean run?\n")
+        self.assertIn("--jobs", self.run_program("run", good, "--jobs", "-1", code=2).stderr)
         self.run_program("run", good, "--set", "novalue", code=2)
         self.run_program("run", good, "a.toml", "--csv", "x.csv", code=2)
         self.assertEqual(self.names(), ["a.toml", "bad.toml"])
