@@ -44,14 +44,14 @@ def case_errors(program, scenario, folder):
 def main(words):
     program = pathlib.Path(words[0] if words else ROOT / "build/release/sixstep").resolve()
     cases = sorted((ROOT / "data/scenarios/reference").glob("R*.toml"), key=lambda p: int("".join(filter(str.isdigit, p.stem))))
-    print(f"{'case':<22}{'rows':>5}  {'currents':>9}  {'speed':>9}  {'angle':>9}  {'bus':>9}")
+    print(f"{'case':<28}{'rows':>5}  {'currents':>9}  {'speed':>9}  {'angle':>9}  {'bus':>9}")
     missed = []
     with tempfile.TemporaryDirectory() as folder:
         for scenario in cases:
             title = next(line for line in scenario.read_text().splitlines() if line.startswith("title")).split('"')[1]
             rows, errors = case_errors(program, scenario, folder)
             cells = [f"{errors[group]:.1e}" if errors.get(group) else "0" if group in errors else "" for group in GROUPS]
-            print((f"{title:<22}{rows:>5}" + "".join(f"  {cell:>9}" for cell in cells)).rstrip())
+            print((f"{title:<28}{rows:>5}" + "".join(f"  {cell:>9}" for cell in cells)).rstrip())
             missed += [f"{title}: {group} {e:.1e} > {LIMITS[group]:.0e}" for group, e in errors.items() if not e <= LIMITS[group]]
     if missed or not cases:
         raise SystemExit("compare_reference: " + ("; ".join(missed) or "no cases found"))
