@@ -50,9 +50,16 @@ std::string joined(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
 }
 
+/// A time that did not come, a figure of an empty window: words, for numbers they are not.
+std::string without_number(double x, const std::string& unit) {
+  if (std::isnan(x)) return "no value";
+  return unit == "s" && x > 0.0 ? "never" : joined(number(x, none, few_digits), unit_text(none, unit));
+}
+
 }  // namespace
 
 std::string quantity_text(double x, const std::string& unit, int digits) {
+  if (!std::isfinite(x)) return without_number(x, unit);
   const Prefix prefix = prefix_for(x, unit);
   return joined(number(x, prefix, digits), unit_text(prefix, unit));
 }
@@ -81,6 +88,7 @@ ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const
         told_apart = told_apart && (y == yardsticks[n] || text != texts.yardsticks[n]);
       texts.yardsticks.push_back(text);
     }
+    if (!std::isfinite(x)) texts.x = without_number(x, unit);
     if (told_apart) return texts;
   }
   // The prefix's product has swallowed the last bit: without prefix it shows.

@@ -23,7 +23,8 @@ TEST(QuantityText, HasEngineeringPrefixesAndFiveDigits) {
   EXPECT_EQ(quantity_text(702.6127923, "rad/s"), "702.61 rad/s");
   EXPECT_EQ(quantity_text(0.00123, "1"), "0.00123");
   EXPECT_EQ(quantity_text(-0.0, "A"), "0 A");
-  EXPECT_EQ(quantity_text(std::numeric_limits<double>::infinity(), "s"), "inf s");
+  EXPECT_EQ(quantity_text(std::numeric_limits<double>::infinity(), "s"), "never");
+  EXPECT_EQ(quantity_text(std::numeric_limits<double>::quiet_NaN(), "A"), "no value");
 }
 
 std::string table_of(study::Outcome outcome) {
@@ -55,6 +56,16 @@ TEST(VerdictTable, ShowsAsManyDigitsAsTellMeasuredFromLimit) {
   EXPECT_THAT(text, testing::HasSubstr("23.30095 .. 23.30099 A    23.30097 A "));
   EXPECT_THAT(text, testing::HasSubstr("<= 0.29999999999999999 V"));
   EXPECT_THAT(text, testing::HasSubstr("0.30000000000000004 V"));
+}
+
+TEST(VerdictTable, WhatNeverCameIsNoNumber) {
+  study::Outcome outcome;
+  outcome.verdicts = {
+      {"reach", "s", std::numeric_limits<double>::infinity(), std::nullopt, 1e-3, false},
+      {"mean of an empty window", "A", std::numeric_limits<double>::quiet_NaN(), 1, 2, false}};
+  const std::string text = table_of(outcome);
+  EXPECT_THAT(text, testing::HasSubstr("<= 1 ms   never     FAILED"));
+  EXPECT_THAT(text, testing::HasSubstr("1 .. 2 A  no value  FAILED"));
 }
 
 TEST(ComparedTexts, NeverGiveDifferentNumbersOneText) {
