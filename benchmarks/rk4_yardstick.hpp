@@ -22,6 +22,7 @@ struct YardstickParameters {
   double step_s = 1e-6;
   int steps_per_period = 30;
   YardstickMode mode = YardstickMode::duty;
+  bool floating_phase_conducts = true;              // false: leave it out, as most textbook programs do
   double current_d1 = 4.5, current_d0 = -4.04;      // A -> V
   double speed_d1 = 0.017225, speed_d0 = -0.01707;  // rad/s -> fraction of full torque
   double current_at_full_torque = 0.78 / 0.0335;
@@ -117,7 +118,7 @@ class Rk4Yardstick {
       }
     }
     count_connected();
-    if (inv_count_ > 0.34) start_diodes();
+    if (p_.floating_phase_conducts && inv_count_ > 0.34) start_diodes();
   }
 
   void count_connected() { inv_count_ = 1.0 / (connected_[0] + connected_[1] + connected_[2]); }

@@ -19,7 +19,9 @@ namespace fs = std::filesystem;
 base::Problem unwritable(const std::string& path, int reason) {
   return {.where = path + ":",
           .limit = std::string("cannot be written: ") + std::strerror(reason),
-          .cure = "check that the folder exists and may be written, and that the disk has room"};
+          .cure = reason == EISDIR
+                      ? "name a file in it"
+                      : "check that the folder exists and may be written, and that the disk has room"};
 }
 
 /// The name is safe on the disk only once its folder is.

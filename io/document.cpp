@@ -63,6 +63,18 @@ std::vector<std::string> path_words(std::string_view path) {
   return words;
 }
 
+namespace {
+
+/// The parser says what it met; what to do about the frequent ones is said here.
+std::string_view syntax_cure(std::string_view met) {
+  const auto has = [met](std::string_view part) { return met.find(part) != std::string_view::npos; };
+  if (has("parsing string")) return "close the quote on the same line";
+  if (has("cannot redefine")) return "give each key and table once";
+  return "mend the TOML syntax";
+}
+
+}  // namespace
+
 base::Result<Document> Document::parse(std::string name, std::string text) {
   toml::parse_result parsed = toml::parse(std::string_view(text), std::string_view(name));
   if (!parsed) {
@@ -70,7 +82,7 @@ base::Result<Document> Document::parse(std::string name, std::string text) {
     const toml::source_position at = error.source().begin;
     return base::Problem{.where = fmt::format("{}:{}:{}:", name, at.line, at.column),
                          .limit = std::string(error.description()),
-                         .cure = "mend the TOML syntax"};
+                         .cure = std::string(syntax_cure(error.description()))};
   }
   return Document(std::move(name), std::move(text), std::move(parsed).table());
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "io/key_advice.hpp"
@@ -131,7 +132,10 @@ std::string help_text(const KeyEntry& entry) {
   if (is_numeric(entry.type)) text += ", " + limit_of(about.range);
   if (about.required) text += "\n  required";
   if (!entry.default_value.empty()) text += "\n  default " + entry.default_value;
-  for (const auto& [word, meaning] : entry.choices) text += fmt::format("\n    {:<14}{}", word, meaning);
+  std::size_t width = 12;
+  for (const auto& [word, meaning] : entry.choices) width = std::max(width, word.size());
+  for (const auto& [word, meaning] : entry.choices)
+    text += fmt::format("\n    {:<{}}  {}", word, width, meaning);
   return text + "\n";
 }
 

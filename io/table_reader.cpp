@@ -69,8 +69,9 @@ const toml::node* TableReader::find(std::string_view key, const base::About& abo
   known_.emplace_back(key);
   const toml::node* node = table_.get(key);
   if (!node && about.required && !partial_)
-    complaints_.missing(
-        at(key), {.limit = "is missing", .cure = fmt::format("give: {}{}", about.meaning, in_unit(about))});
+    complaints_.missing(at(key),
+                        {.limit = "is missing",
+                         .cure = fmt::format("write {} = ..: {}{}", key, about.meaning, in_unit(about))});
   return node;
 }
 

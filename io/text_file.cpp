@@ -12,7 +12,7 @@ namespace {
 base::Problem unreadable(const std::string& path, int reason) {
   return {.where = path + ":",
           .limit = std::string("cannot be read: ") + std::strerror(reason),
-          .cure = "check the path and the permission to read it"};
+          .cure = reason == EISDIR ? "name a file in it" : "check the path and the permission to read it"};
 }
 
 }  // namespace

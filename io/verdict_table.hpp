@@ -13,14 +13,14 @@ struct TableEntry {
   const study::Outcome* outcome = nullptr;
 };
 
-/// One line per requirement: experiment, figure, required, measured, ok. Comparisons beneath, with their
-/// deviation.
+/// Each experiment's name, beneath it one line per requirement and per comparison: figure, required or
+/// expected value, measured value, ok or deviation, source.
 std::string verdict_table(std::span<const TableEntry> entries, bool colour);
 
-/// "<= 0.001 s", ">= 5 A", "4.9 .. 5.1 A".
-std::string required_text(const study::Verdict& verdict);
+/// "22 experiments: all 43 requirements hold", or which of them fail.
+std::string verdict_summary(std::span<const TableEntry> entries, bool colour);
 
-/// "-0.25 %"; where the source says zero the difference itself.
+/// "-0.25 %"; empty where the source says zero: the measured value is the difference.
 std::string deviation_text(const study::ComparisonResult& comparison);
 
 }  // namespace io

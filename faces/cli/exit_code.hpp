@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "faces/cli/rooms.hpp"
+#include "sixstep/study/outcome.hpp"
 
 namespace cli {
 
@@ -12,6 +14,12 @@ enum class Exit : int {
   internal = 4,       ///< a mistake of the program
   interrupted = 130,  ///< by the user, as shells count it
 };
+
+/// Of a run that came to its end or to a fault.
+inline Exit exit_of(const study::Outcome& outcome) {
+  if (outcome.fault) return Exit::fault;
+  return outcome.passed() ? Exit::ok : Exit::failed;
+}
 
 inline Exit graver(Exit a, Exit b) { return static_cast<int>(a) > static_cast<int>(b) ? a : b; }
 

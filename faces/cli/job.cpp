@@ -86,8 +86,7 @@ void Job::publish() {
 Exit Job::exit_code() const {
   if (interrupted_) return Exit::interrupted;
   if (!problems_.empty() || !outcome_) return Exit::bad_input;
-  if (outcome_->fault) return Exit::fault;
-  return outcome_->passed() ? Exit::ok : Exit::failed;
+  return exit_of(*outcome_);
 }
 
 }  // namespace cli

@@ -3,16 +3,19 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include "faces/cli/help_command.hpp"
 #include "faces/cli/motor_command.hpp"
 #include "faces/cli/run_command.hpp"
 #include "faces/cli/terminal.hpp"
+#include "io/key_advice.hpp"
 
 namespace cli {
 namespace {
@@ -48,7 +51,18 @@ void declare_run(CLI::App& run, RunArguments& a) {
       ->allow_extra_args(false);
   run.add_option("--data", a.data_dir, "folder that holds motors/");
   run.add_flag("--quiet", a.quiet, "no table, only errors and the exit code");
-  run.add_option("--jobs", a.jobs, "runs side by side; without it one per core");
+  run.add_option("--jobs", a.jobs, "runs side by side; without it one per core")->check(CLI::Range(1, 1024));
+}
+
+Exit unknown_command(const std::string& word) {
+  const std::vector<std::string> known = {"run", "help", "motor"};
+  const auto near = std::find_if(known.begin(), known.end(), [&](const std::string& command) {
+    return io::edit_distance(word, command) <= 2;
+  });
+  complain({{.where = word,
+             .limit = "is no command of sixstep",
+             .cure = near == known.end() ? "sixstep --help lists them" : "did you mean " + *near + "?"}});
+  return Exit::bad_input;
 }
 
 Exit run_program(int count, const char* const* words) {
@@ -78,6 +92,8 @@ Exit run_program(int count, const char* const* words) {
   try {
     app.parse(count, words);
   } catch (const CLI::ParseError& error) {
+    const std::string first = count > 1 ? words[1] : "-";
+    if (app.get_subcommands().empty() && first[0] != '-') return unknown_command(first);
     return app.exit(error) == 0 ? Exit::ok : Exit::bad_input;
   }
   run_arguments.command = retyped(count, words);

@@ -128,7 +128,11 @@ void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
   for (const Job& job : jobs)
     if (job.outcome()) entries.push_back({job.name(), job.outcome()});
   std::FILE* to = arguments.paths.json == "-" ? stderr : stdout;  // standard output is the JSON's alone
-  if (!entries.empty()) print(io::verdict_table(entries, may_colour(to)), to);
+  if (entries.empty()) return;
+  print(io::verdict_table(entries, may_colour(to)), to);
+  // Of runs that were cut short or never began no sum is drawn.
+  if (!interrupted() && entries.size() == jobs.size())
+    print(io::verdict_summary(entries, may_colour(to)), to);
 }
 
 }  // namespace

@@ -107,6 +107,13 @@ void check_band(const Measure& m, const std::string& where, const Scenario& s, b
          "set control.current.type = \"hysteresis\" and comparator = \"event\", or measure max and min"});
 }
 
+bool is_controlled(Signal signal, control::Mode mode) {
+  using control::Mode;
+  return (mode == Mode::current && signal == Signal::current) ||
+         (mode == Mode::speed && signal == Signal::speed) ||
+         (mode == Mode::position && signal == Signal::position);
+}
+
 void check_measure(const Measure& m, const std::string& where, const Scenario& s, base::Problems& out) {
   const double from = m.from_s.value_or(0.0), to = m.to_s.value_or(s.duration_s);
   check_band(m, where, s, out);
@@ -117,6 +124,11 @@ void check_measure(const Measure& m, const std::string& where, const Scenario& s
     out.push_back({where + ".to_s", number(to),
                    "lies behind the end of the run (duration_s = " + number(s.duration_s) + ")",
                    "shorten the window or lengthen duration_s"});
+  const bool of_a_step = m.metric == MetricKind::reach_time || m.metric == MetricKind::settling_time ||
+                         m.metric == MetricKind::overshoot;
+  if (of_a_step && !m.level && !is_controlled(m.signal, s.control.mode))
+    out.push_back({where + ".level", "", "is missing, and the reference is of another signal",
+                   "give the level that the signal is to reach, in its own unit"});
 }
 
 void check_measures(const Scenario& s, base::Problems& out) {

@@ -95,10 +95,12 @@ TEST_F(WrongInput, DurationZero) {
 TEST_F(WrongInput, MissingRequiredKeysPointAtTheirTable) {
   EXPECT_THAT(
       complaints("title = \"x\"\n[[require]]\nmax = 1\n"),
-      ElementsAre("x.toml:1:1: motor is missing; give: motor file: a path, or a name looked up beside the "
-                  "scenario, in --data and in the built-in list",
-                  "x.toml:1:1: duration_s is missing; give: simulated time, in s",
-                  "x.toml:2:1: require.metric is missing; give: figure that is taken of the signal"));
+      ElementsAre(
+          "x.toml:1:1: motor is missing; write motor = ..: motor file: a path, or a name looked up beside "
+          "the "
+          "scenario, in --data and in the built-in list",
+          "x.toml:1:1: duration_s is missing; write duration_s = ..: simulated time, in s",
+          "x.toml:2:1: require.metric is missing; write metric = ..: figure that is taken of the signal"));
 }
 
 TEST_F(WrongInput, MissingMotor) {
@@ -183,6 +185,22 @@ TEST_F(WrongInput, SyntaxIsToldWithItsPlace) {
                   "'m'; mend the TOML syntax"));
 }
 
+TEST_F(WrongInput, AStepOfASignalThatIsNotControlledNeedsItsLevel) {
+  // The reference is a duty here: taken as a level in ampere it would give a number without meaning.
+  EXPECT_THAT(
+      complaints(head + "[control]\nmode = \"duty\"\n[reference]\nvalue = 0.5\n[[require]]\nmetric = "
+                        "\"overshoot\"\nsignal = \"current\"\nmax = 1\n"),
+      ElementsAre("x.toml:7:1: require.level is missing, and the reference is of another signal; give the "
+                  "level that the signal is to reach, in its own unit"));
+}
+
+TEST_F(WrongInput, FrequentSlipsOfSyntaxHaveTheirCure) {
+  EXPECT_THAT(complaints("motor = \"maxon-251601\nduration_s = 1\n"),
+              ElementsAre(testing::EndsWith("; close the quote on the same line")));
+  EXPECT_THAT(complaints(head + "duration_s = 3\n"),
+              ElementsAre(testing::EndsWith("; give each key and table once")));
+}
+
 TEST_F(WrongInput, ValuesOfTheCommandLineAreNamedAsSuch) {
   EXPECT_THAT(
       complaints(
@@ -207,7 +225,8 @@ TEST_F(WrongInput, UnreadableFile) {
 TEST_F(WrongInput, AFolderIsNoFile) {
   const base::Result<study::Scenario> result = read_scenario(folder_.string());
   ASSERT_FALSE(result);
-  EXPECT_THAT(to_string(result.problems().at(0)), HasSubstr("cannot be read: Is a directory"));
+  EXPECT_THAT(to_string(result.problems().at(0)),
+              HasSubstr("cannot be read: Is a directory; name a file in it"));
 }
 
 }  // namespace

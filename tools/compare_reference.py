@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""compare_reference.py [PROGRAM]: runs the reference cases and holds them against float128 trajectories.
+
+The trajectories in tests/reference were computed by an independent brute-force solver in float128 arithmetic. Printed
+per case: the largest difference of a column over the column's largest value; columns that are zero count absolutely.
+Fails above 1e-10 for currents and bus voltage and above 1e-12 for speed and angle.
+"""
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+COLUMNS = {"i_a": "i_a_A", "i_b": "i_b_A", "i_c": "i_c_A", "w_m": "speed_rad_s", "theta_m": "angle_rad", "U_s": "bus_V"}
+LIMITS = {"currents": 1e-10, "speed": 1e-12, "angle": 1e-12, "bus": 1e-10}
+GROUPS = {"currents": ("i_a", "i_b", "i_c"), "speed": ("w_m",), "angle": ("theta_m",), "bus": ("U_s",)}
+
+
+def columns_of(file):
+    with open(file, newline="", encoding="ascii") as lines:
+        rows = list(csv.DictReader(lines))
+    return {name: [float(row[name]) for row in rows] for name in rows[0]}
+
+
+def error(ours, theirs):
+    if len(ours) != len(theirs):
+        raise SystemExit(f"compare_reference: {len(ours)} rows instead of {len(theirs)}; were the files changed?")
+    return max(abs(x - y) for x, y in zip(ours, theirs)) / (max(map(abs, theirs)) or 1.0)
+
+
+def case_errors(program, scenario, folder):
+    """Largest error per group of columns; a group that the trajectory lacks is left out."""
+    trace = pathlib.Path(folder) / (scenario.stem + ".csv")
+    subprocess.run([program, "run", scenario, "--csv", trace, "--quiet"], check=True)
+    ours, theirs = columns_of(trace), columns_of(ROOT / "tests" / "reference" / trace.name)
+    present = {group: [name for name in names if name in theirs] for group, names in GROUPS.items()}
+    errors = {group: max(error(ours[COLUMNS[name]], theirs[name]) for name in names)
+              for group, names in present.items() if names}
+    return len(theirs["t"]), errors
+
+
+def main(words):
+    program = pathlib.Path(words[0] if words else ROOT / "build/release/sixstep").resolve()
+    cases = sorted((ROOT / "data/scenarios/reference").glob("R*.toml"), key=lambda p: int("".join(filter(str.isdigit, p.stem))))
+    print(f"{'case':<28}{'rows':>5}  {'currents':>9}  {'speed':>9}  {'angle':>9}  {'bus':>9}")
+    missed = []
+    with tempfile.TemporaryDirectory() as folder:
+        for scenario in cases:
+            title = next(line for line in scenario.read_text().splitlines() if line.startswith("title")).split('"')[1]
+            rows, errors = case_errors(program, scenario, folder)
+            cells = [f"{errors[group]:.1e}" if errors.get(group) else "0" if group in errors else "" for group in GROUPS]
+            print((f"{title:<28}{rows:>5}" + "".join(f"  {cell:>9}" for cell in cells)).rstrip())
+            missed += [f"{title}: {group} {e:.1e} > {LIMITS[group]:.0e}" for group, e in errors.items() if not e <= LIMITS[group]]
+    if missed or not cases:
+        raise SystemExit("compare_reference: " + ("; ".join(missed) or "no cases found"))
+    print(f"{len(cases)} of {len(cases)} cases match")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

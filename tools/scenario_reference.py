@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""scenario_reference.py [--check] [PROGRAM]: writes docs/scenario.md, the page of all keys, from `sixstep help`.
+
+With --check nothing is written; it fails where the page is not what the program says.
+"""
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+PAGE = ROOT / "docs" / "scenario.md"
+OVERRIDE = "motor_override."
+LONG = 12  # more words than this do not go into a table's cell
+HEAD = """# Scenario and motor files
+
+Written by `tools/scenario_reference.py` from `sixstep help`; a test checks that it is up to date. In the terminal
+`sixstep help`, `sixstep help pwm` or `sixstep help pwm.period_s` say the same.
+
+Files are TOML. Every key carries its unit. A key that is not listed here is an error. What stands under "default" holds
+where the key is left out; without a default it may be left out, unless it is required.
+"""
+MOTOR = """
+# Motor files
+
+A scenario names its motor by a path or by a name that is looked up beside the scenario, in `--data` and in the built-in
+list (`sixstep motor list`). `[motor_override]` takes the same keys, none of them required, and replaces single values:
+`resistance_ohm = 1.1`. A value is a number or says where it comes from:
+`resistance_ohm = { value = 1.03, frame = "terminal", source = "data sheet, line 10" }`.
+
+"""
+
+
+class Entry:
+    def __init__(self, program, path):
+        lines = subprocess.run([program, "help", path], capture_output=True, text=True, check=True).stdout.splitlines()
+        self.path, self.meaning, self.type = lines[0], lines[1].strip(), lines[2].strip()
+        self.inner = [line.split()[0] for line in lines[3:] if line.startswith(f"  {path}.")]
+        self.required = "  required" in lines
+        self.default = next((line.removeprefix("  default ") for line in lines if line.startswith("  default ")), "")
+        self.words = [line.split(None, 1) for line in lines[3:] if line.startswith("    ")]
+        self.is_table = self.type == "table" or self.type.startswith("list of tables")
+
+    def word_list(self, separator):
+        return "".join(f"{separator}`{word}` {meaning}" for word, meaning in self.words)
+
+    def cells(self, prefix):
+        what, kind = self.meaning, self.type.replace("one word of those below", "").replace("terminal|phase", "terminal or phase")
+        if self.path.startswith("compare.") and self.words:
+            what += ", as in `[[require]]`"
+        elif len(self.words) > LONG:
+            what += "; listed below"
+        elif self.words:
+            what, kind = what + ":" + self.word_list("<br>"), ""
+        default = "**required**" if self.required else f"`{self.default}`" if self.default else ""
+        cells = [f"`{self.path.removeprefix(prefix)}`", what, kind, default]
+        return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+
+
+def table(entries, prefix):
+    rows = ["| key | meaning | value | default |", "|---|---|---|---|"]
+    text = "\n".join(rows + [entry.cells(prefix) for entry in entries]) + "\n"
+    for entry in entries:
+        if len(entry.words) > LONG:
+            text += f"\nWords of `{entry.path.removeprefix(prefix)}`:\n" + entry.word_list("\n- ") + "\n"
+    return text
+
+
+def section(program, entry):
+    """A table with its own keys, then the tables inside it."""
+    brackets = f"[[{entry.path}]]" if entry.type.startswith("list") else f"[{entry.path}]"
+    inner = [Entry(program, path) for path in entry.inner]
+    tables = [e for e in inner if e.is_table]
+    own = [e for e in inner if not e.is_table and not any(e.path.startswith(t.path + ".") for t in tables)]
+    text = f"\n## `{brackets}`\n\n{entry.meaning[0].upper()}{entry.meaning[1:]}.\n\n" + table(own, entry.path + ".")
+    return text + "".join(section(program, t) for t in tables)
+
+
+def page(program):
+    overview = subprocess.run([program, "help"], capture_output=True, text=True, check=True).stdout.splitlines()
+    cut = next(n for n, line in enumerate(overview) if n and not line.startswith(" "))
+    top, sheet = ([line.split()[0] for line in part if line.startswith("  ")]
+                  for part in (overview[:cut], overview[cut:]))
+    top = [Entry(program, path) for path in top]
+    sheet = [Entry(program, OVERRIDE + path) for path in sheet]  # "notes" alone would be the scenario's
+    for entry in sheet:
+        entry.type = entry.type.removeprefix("number, or { value, frame, source }, ")
+    tables = [e for e in top if e.is_table and e.path != "motor_override"]
+    text = HEAD + "\n## At the top of the file\n\n" + table([e for e in top if not e.is_table], "")
+    return text + "".join(section(program, e) for e in tables) + MOTOR + table(sheet, OVERRIDE)
+
+
+def main(words):
+    check = "--check" in words
+    words = [word for word in words if word != "--check"]
+    text = page(pathlib.Path(words[0] if words else ROOT / "build/release/sixstep").resolve())
+    if not check:
+        PAGE.write_text(text, encoding="utf-8")
+    elif PAGE.read_text(encoding="utf-8") != text:
+        raise SystemExit("docs/scenario.md is not what `sixstep help` says; tools/scenario_reference.py build/dev/sixstep renews it")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
