@@ -27,6 +27,7 @@ std::vector<std::string> candidates(const MotorQuery& query) {
 
 std::vector<std::string> built_in_motors() {
   std::vector<std::string> names;
+  names.reserve(motors::all.size());
   for (const motors::File& file : motors::all) names.emplace_back(file.name);
   return names;
 }

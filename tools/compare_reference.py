@@ -50,9 +50,9 @@ def main(words):
         for scenario in cases:
             title = next(line for line in scenario.read_text().splitlines() if line.startswith("title")).split('"')[1]
             rows, errors = case_errors(program, scenario, folder)
-            cells = [f"{errors[group]:.1e}" if errors.get(group) else "0" if group in errors else "" for group in GROUPS]
+            cells = [f"{errors[group]:.0e}" if errors.get(group) else "0" if group in errors else "" for group in GROUPS]
             print((f"{title:<28}{rows:>5}" + "".join(f"  {cell:>9}" for cell in cells)).rstrip())
-            missed += [f"{title}: {group} {e:.1e} > {LIMITS[group]:.0e}" for group, e in errors.items() if not e <= LIMITS[group]]
+            missed += [f"{title}: {group} {e:.0e} > {LIMITS[group]:.0e}" for group, e in errors.items() if not e <= LIMITS[group]]
     if missed or not cases:
         raise SystemExit("compare_reference: " + ("; ".join(missed) or "no cases found"))
     print(f"{len(cases)} of {len(cases)} cases match")

@@ -20,6 +20,7 @@ std::string report_page(const ReportSource& s) {
 
 std::string report_index(const std::vector<ReportLink>& links, const std::string& command) {
   std::vector<io::report::IndexEntry> entries;
+  entries.reserve(links.size());
   for (const ReportLink& link : links) entries.push_back({link.title, link.file, link.outcome});
   return io::report::render_index(entries, command, SIXSTEP_VERSION);
 }

@@ -108,7 +108,7 @@ std::string typeset(std::string_view formula) {
   return with_subscripts(text);
 }
 
-std::string script_safe(std::string json) {
+std::string script_safe(std::string_view json) {
   // In JSON a '<' stands only inside strings, where \u003c means the same.
   std::string out;
   out.reserve(json.size());

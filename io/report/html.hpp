@@ -20,7 +20,7 @@ std::string with_subscripts(std::string_view text);
 std::string typeset(std::string_view formula);
 
 /// JSON on its way into <script>: "</script>" and "<!--" must not be seen by the HTML parser.
-std::string script_safe(std::string json);
+std::string script_safe(std::string_view json);
 
 /// Little-endian, whatever this machine's order is.
 std::string base64(std::span<const float> values);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace io::report {
 namespace {
@@ -45,13 +46,14 @@ std::optional<Interval> switching_periods(const Trace& trace, const sixstep::stu
     const double from = instants[instants.size() - 5], to = instants.back();
     return Interval{from - 0.1 * (to - from), std::min(end, to + 0.1 * (to - from))};
   }
-  const double last = std::floor((end - start) / period * (1.0 + 1e-12));
-  for (double n = last - 3.0; n >= 0.0; n -= 3.0) {
-    const Interval window{start + n * period, start + (n + 3.0) * period};
-    const auto begin = std::ranges::lower_bound(instants, window.from);
-    if (std::ranges::upper_bound(instants, window.to) - begin >= 3) return window;
+  const auto last = static_cast<std::int64_t>(std::floor((end - start) / period * (1.0 + 1e-12)));
+  const auto at = [&](std::int64_t n) { return start + static_cast<double>(n) * period; };
+  for (std::int64_t n = last - 3; n >= 0; n -= 3) {
+    const Interval window{at(n), at(n + 3)};
+    const auto begin = std::lower_bound(instants.begin(), instants.end(), window.from);
+    if (std::upper_bound(instants.begin(), instants.end(), window.to) - begin >= 3) return window;
   }
-  return Interval{start + (last - 3.0) * period, start + last * period};
+  return Interval{at(last - 3), at(last)};
 }
 
 double largest_current(const Trace& trace, std::size_t row) {

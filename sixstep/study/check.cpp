@@ -150,6 +150,9 @@ void check_measures(const Scenario& s, base::Problems& out) {
 base::Problems check(const Scenario& s) {
   base::Problems out;
   if (const auto motor = design::motor_model(s.sheet); !motor) out = motor.problems();
+  if (s.duration_s > 0 && sim::to_instant(s.duration_s).ticks < 1)
+    out.push_back({"duration_s", number(s.duration_s), "is shorter than the engine's tick of 1e-12 s",
+                   "give a longer time"});
   check_supply(s, out);
   check_reference(s, out);
   check_steps(s.load.times_s, s.load.torques_Nm, "load", "torques_Nm", s.duration_s, out);
