@@ -35,8 +35,7 @@ void keep_extremes(const std::vector<std::size_t>& rows, std::size_t begin, std:
     chosen.push_back(high);
   }
   std::ranges::sort(chosen);
-  const auto repeated = std::ranges::unique(chosen);
-  kept.insert(kept.end(), chosen.begin(), repeated.begin());
+  kept.insert(kept.end(), chosen.begin(), std::unique(chosen.begin(), chosen.end()));
 }
 
 std::vector<std::size_t> envelope(std::span<const double> time, const std::vector<std::size_t>& rows,
