@@ -33,24 +33,16 @@ void shorten(Expansion<Real>& out, Real excess_last, Real excess_before) {
 /// How far the last two terms stand above the rounding level of their states, 1 = at it.
 template <class Real>
 struct Convergence {
-  Real i_limit, w_limit, bus_limit;
   Real before = 0, last = 0;
-  /// Well below the last bit of each state's natural scale, so that truncation never adds up.
-  static constexpr Real per_scale = Real(1LL << 53) * (sizeof(Real) > 8 ? 2048 : 1);
 
-  explicit Convergence(const Constants<Real>& c) {
-    i_limit = per_scale / c.amp_scale;
-    w_limit = per_scale / c.speed_scale;
-    bus_limit = c.inv_C > 0 ? per_scale / c.volt_scale : Real(0);
-  }
   /// A sine's shape counts too: without current it alone decides how far a floating terminal's voltage is
   /// known.
   template <bool sine, bool bus>
-  void look(const Expansion<Real>& y, int n, Real currents) {
+  void look(const Constants<Real>& c, const Expansion<Real>& y, int n, Real currents) {
     before = last;
-    last = currents * i_limit + abs(y.w[n]) * w_limit;
-    if constexpr (bus) last += abs(y.bus[n]) * bus_limit;
-    if constexpr (sine) last += (abs(y.phi0[n]) + abs(y.phi1[n])) * per_scale;
+    last = currents * c.amp_limit + abs(y.w[n]) * c.speed_limit;
+    if constexpr (bus) last += abs(y.bus[n]) * c.volt_limit;
+    if constexpr (sine) last += (abs(y.phi0[n]) + abs(y.phi1[n])) * terms_per_scale<Real>;
   }
   /// One small term may be a symmetry's zero; a small one after one not much larger is the end of the series.
   bool reached() const { return last < 1 && before < 4096; }
@@ -62,23 +54,22 @@ template <int n, bool bus, class Currents, class Real>
                                               const Rotor<Real>& rotor, Convergence<Real>& convergence,
                                               Expansion<Real>& y) {
   const Real f = y.h * Real(1.0L / (n + 1));
-  currents.template step<n, bus>(c, y, Order<n>{}, f);
-  rotor.step(c, y, Order<n>{}, f);
+  currents.template step<n, bus>(c, rotor, y, f);
   if constexpr (bus)
     bus_step<n>(c, mode, y, f);
   else
     y.bus[n + 1] = 0;
   y.degree = n + 1;
-  if constexpr (n < 3) return false;  // no segment worth taking needs fewer
-  convergence.template look<Currents::sine_shape, bus>(y, n + 1, currents.size(y, n + 1));
-  return convergence.reached();
+  if constexpr (n < 5) return false;  // no segment worth taking needs fewer, and each look costs
+  convergence.template look<Currents::sine_shape, bus>(c, y, n + 1, currents.size(y, n + 1));
+  return n >= 6 && convergence.reached();
 }
 
 /// Order by order until the last two terms are below rounding, or the degree is used up.
 template <bool bus, class Currents, class Real>
 void recurrence_with(const Constants<Real>& c, const Mode& mode, Currents& currents, Expansion<Real>& y) {
   const Rotor<Real> rotor(c, mode.motion);
-  Convergence<Real> convergence(c);
+  Convergence<Real> convergence;
   [&]<int... n>(std::integer_sequence<int, n...>) {
     static_cast<void>((take_order<n, bus>(c, mode, currents, rotor, convergence, y) || ...));
   }
@@ -103,9 +94,9 @@ void expand_shape(const Constants<Real>& c, const Mode& mode, Expansion<Real>& y
   if (split.connected < 2) return recurrence(c, mode, NoCurrent<sine, Real>(c, mode, split, piece, y), y);
   if constexpr (!sine) {
     const bool flat = piece.beta[split.leg[0]] == piece.beta[split.leg[1]];
-    if (flat) return recurrence(c, mode, OneCurrent<false, true, Real>(c, mode, split, piece, y), y);
+    if (flat) return recurrence(c, mode, FlatPair<Real>(c, mode, split, piece, y), y);
   }
-  recurrence(c, mode, OneCurrent<sine, false, Real>(c, mode, split, piece, y), y);
+  recurrence(c, mode, OneCurrent<sine, Real>(c, mode, split, piece, y), y);
 }
 
 }  // namespace detail

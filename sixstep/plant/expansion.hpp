@@ -21,8 +21,14 @@ struct Constants {
   EmfTable<Real> emf;
   bool sine = false, locked = false, dry_friction = false, source_sinks = true;
   Real volt_scale, amp_scale, speed_scale, torque_scale;
-  Real steady_rate;  // the part of the fastest rate that does not change, 1/s
+  Real steady_rate;                         // the part of the fastest rate that does not change, 1/s
+  Real amp_limit, speed_limit, volt_limit;  // 1 / rounding level of a term of the series
 };
+
+/// A term of a series is nothing once it is this many times smaller than its state's natural scale: well
+/// below the last bit, so that truncation never adds up.
+template <class Real>
+inline constexpr Real terms_per_scale = Real(1LL << 53) * (sizeof(Real) > 8 ? 2048 : 1);
 
 /// The voltage of a floating terminal, u_n + e_k, as a law over the other series; where no leg is connected,
 /// e_k alone. Only a few segments come near a rail, so its own series is made when asked for.

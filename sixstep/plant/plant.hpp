@@ -110,6 +110,9 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   c.amp_scale = c.volt_scale / c.R;
   c.speed_scale = c.volt_scale / (2 * c.K_e);
   c.torque_scale = 2 * c.K_e * c.amp_scale;
+  c.amp_limit = terms_per_scale<Real> / c.amp_scale;
+  c.speed_limit = terms_per_scale<Real> / c.speed_scale;
+  c.volt_limit = terms_per_scale<Real> / c.volt_scale;
   for (int k = 0; k < 5; ++k) c.pole_terms[k] = pole_terms<Real>(static_cast<Connection>(k), devices);
   const Real winding = (c.R + std::max(Real(devices.R_on_ohm), Real(devices.r_d_ohm))) * c.inv_L;
   const Real electromechanical = c.locked ? Real(0) : c.K_e * std::sqrt(c.inv_L * c.inv_J);

@@ -3,16 +3,13 @@
 // and the currents for each number of connected legs (MODEL 1 and 2).
 #pragma once
 #include <cstdint>
-#include <type_traits>
 
 #include "sixstep/plant/expansion.hpp"
 
 namespace sixstep::plant::detail {
 
-/// The order of a term as a type: the whole recurrence is unrolled, products of short series included
-/// (ENGINE: an unrolled kernel takes a quarter of the time of one with counted loops).
-template <int n>
-using Order = std::integral_constant<int, n>;
+// The order n of a term is a template argument: the whole recurrence is unrolled, products of short series
+// included (ENGINE: an unrolled kernel takes a quarter of the time of one with counted loops).
 
 /// The motion's share of the recurrence, the same for every conduction mode.
 template <class Real>
@@ -27,7 +24,7 @@ struct Rotor {
                                                     : Real(0))) {}
 
   template <int n>
-  void step(const Constants<Real>& c, Expansion<Real>& y, Order<n>, Real f) const {
+  void step(const Constants<Real>& c, Expansion<Real>& y, Real f) const {
     const Real losses = c.B * y.w[n] + (n == 0 ? drag : Real(0));
     y.w[n + 1] = turns ? (y.torque[n] - losses) * (f * c.inv_J) : Real(0);
     y.x[n + 1] = f * c.pole_pairs * y.w[n];
@@ -102,30 +99,29 @@ struct NoCurrent {
                    .w1 = c.K_e * (p.beta[k] - p.beta[s])};
   }
   template <int n, bool bus>
-  void step(const Constants<Real>& c, Expansion<Real>& y, Order<n>, Real f) {
+  void step(const Constants<Real>& c, const Rotor<Real>& rotor, Expansion<Real>& y, Real f) {
     if constexpr (sine) {
       Real w0, w1;
       shape_products<sine, n>(c, y, f, w0, w1);
     }
     for (int k = 0; k < 3; ++k) y.i[k][n + 1] = 0;
     y.torque[n] = 0;
+    rotor.template step<n>(c, y, f);
   }
   Real size(const Expansion<Real>&, int) const { return 0; }
 };
 
 /// Two legs share one current: one recurrence. Coefficients are multiplied out beforehand and the newest
-/// terms enter last: the orders follow from each other, so what counts is the length of that chain. `flat`:
-/// both on their flat tops, where neither current nor torque needs a product.
-template <bool sine, bool flat, class Real>
-struct OneCurrent {
-  static constexpr bool sine_shape = sine;
+/// terms enter last: the orders follow from each other, so what counts is the length of that chain.
+template <class Real>
+struct PairLaw {
   int j, k, floating;
   Real from_bus, from_offset, from_i, from_w0,
       from_w1;              // di/dt, from 2 L di/dt = u_j - u_k - 2 R i - (e_j - e_k)
   Real torque_0, torque_1;  // per phi0 i and phi1 i
 
-  OneCurrent(const Constants<Real>& c, const Mode& mode, const Split& split, const EmfPiece<Real>& p,
-             Expansion<Real>& y)
+  PairLaw(const Constants<Real>& c, const Mode& mode, const Split& split, const EmfPiece<Real>& p,
+          Expansion<Real>& y)
       : j(split.leg[0]), k(split.leg[1]), floating(split.leg[2]) {
     const PoleTerms<Real>& a = c.pole_terms[static_cast<std::size_t>(mode.legs[j])];
     const PoleTerms<Real>& b = c.pole_terms[static_cast<std::size_t>(mode.legs[k])];
@@ -144,26 +140,79 @@ struct OneCurrent {
                         .w1 = c.K_e * (p.beta[floating] - (p.beta[j] + p.beta[k]) / 2),
                         .leg = j};
   }
-  template <int n, bool bus>
-  void step(const Constants<Real>& c, Expansion<Real>& y, Order<n>, Real f) {
-    Real w0 = y.w[n], w1 = 0;
-    if constexpr (!flat) shape_products<sine, n>(c, y, f, w0, w1);
-    const Real i = y.i[j][n];
-    Real slope = -(from_i * i + from_w0 * w0);
-    if constexpr (n == 0 || bus) slope += from_bus * y.bus[n] + (n == 0 ? from_offset : Real(0));
-    if constexpr (!flat) slope -= from_w1 * w1;
-    y.i[j][n + 1] = f * slope;
-    y.i[k][n + 1] = -y.i[j][n + 1];
-    y.i[floating][n + 1] = 0;
-    if constexpr (sine)
-      y.torque[n] = torque_0 * series::product_term<n>(y.phi0, y.i[j]) +
-                    torque_1 * series::product_term<n>(y.phi1, y.i[j]);
-    else if constexpr (flat)
-      y.torque[n] = torque_0 * i;
-    else
-      y.torque[n] = torque_0 * i + torque_1 * series::product_term<n>(y.x, y.i[j]);
+  void write(Expansion<Real>& y, int n, Real i) const {
+    y.i[j][n] = i;
+    y.i[k][n] = -i;
+    y.i[floating][n] = 0;
   }
   Real size(const Expansion<Real>& y, int n) const { return 2 * abs(y.i[j][n]); }
+};
+
+template <bool sine, class Real>
+struct OneCurrent {
+  static constexpr bool sine_shape = sine;
+  PairLaw<Real> pair;
+
+  OneCurrent(const Constants<Real>& c, const Mode& mode, const Split& split, const EmfPiece<Real>& p,
+             Expansion<Real>& y)
+      : pair(c, mode, split, p, y) {}
+  Real size(const Expansion<Real>& y, int n) const { return pair.size(y, n); }
+
+  template <int n, bool bus>
+  void step(const Constants<Real>& c, const Rotor<Real>& rotor, Expansion<Real>& y, Real f) {
+    Real w0, w1;
+    shape_products<sine, n>(c, y, f, w0, w1);
+    const series::Coefficients<Real>& i = y.i[pair.j];
+    Real slope = -(pair.from_i * i[n] + pair.from_w0 * w0);
+    if constexpr (n == 0 || bus) slope += pair.from_bus * y.bus[n] + (n == 0 ? pair.from_offset : Real(0));
+    pair.write(y, n + 1, f * (slope - pair.from_w1 * w1));
+    if constexpr (sine)
+      y.torque[n] = pair.torque_0 * series::product_term<n>(y.phi0, i) +
+                    pair.torque_1 * series::product_term<n>(y.phi1, i);
+    else
+      y.torque[n] = pair.torque_0 * i[n] + pair.torque_1 * series::product_term<n>(y.x, i);
+    rotor.template step<n>(c, y, f);
+  }
+};
+
+/// Both connected phases on their flat tops: current and speed are a linear system of two, (i, w)' = M (i, w)
+/// + const, free of products. Its terms come two orders at a time from M^2, so that even and odd ones are two
+/// chains side by side. A bus that moves joins the chain of the plain form.
+template <class Real>
+struct FlatPair {
+  static constexpr bool sine_shape = false;
+  PairLaw<Real> pair;
+  Real m_ii, m_iw, m_wi, m_ww;  // M^2
+
+  FlatPair(const Constants<Real>& c, const Mode& mode, const Split& split, const EmfPiece<Real>& p,
+           Expansion<Real>& y)
+      : pair(c, mode, split, p, y) {
+    const bool turns = mode.motion != Motion::locked && mode.motion != Motion::stuck;
+    const Real a = -pair.from_i, b = -pair.from_w0;
+    const Real d = turns ? pair.torque_0 * c.inv_J : Real(0), e = turns ? -c.B * c.inv_J : Real(0);
+    m_ii = a * a + b * d;
+    m_iw = a * b + b * e;
+    m_wi = d * a + e * d;
+    m_ww = d * b + e * e;
+  }
+  Real size(const Expansion<Real>& y, int n) const { return pair.size(y, n); }
+  template <int n, bool bus>
+  void step(const Constants<Real>& c, const Rotor<Real>& rotor, Expansion<Real>& y, Real f) {
+    const series::Coefficients<Real>& i = y.i[pair.j];
+    y.torque[n] = pair.torque_0 * i[n];
+    if constexpr (n >= 2 && !bus) {
+      const Real g = y.h * y.h * Real(1.0L / (n * (n + 1)));
+      const Real next_w = g * (m_wi * i[n - 1] + m_ww * y.w[n - 1]);
+      pair.write(y, n + 1, g * (m_ii * i[n - 1] + m_iw * y.w[n - 1]));
+      y.x[n + 1] = f * c.pole_pairs * y.w[n];
+      y.w[n + 1] = next_w;
+    } else {
+      Real slope = -(pair.from_i * i[n] + pair.from_w0 * y.w[n]);
+      if constexpr (n == 0 || bus) slope += pair.from_bus * y.bus[n] + (n == 0 ? pair.from_offset : Real(0));
+      pair.write(y, n + 1, f * slope);
+      rotor.template step<n>(c, y, f);
+    }
+  }
 };
 
 /// All three legs: two recurrences, the third current follows. Coefficients multiplied out as above, i_c
@@ -212,7 +261,7 @@ struct TwoCurrents {
     return known - s.w1 * w1;
   }
   template <int n, bool bus>
-  void step(const Constants<Real>& c, Expansion<Real>& y, Order<n>, Real f) {
+  void step(const Constants<Real>& c, const Rotor<Real>& rotor, Expansion<Real>& y, Real f) {
     Real w0, w1;
     shape_products<sine, n>(c, y, f, w0, w1);
     const Real i_a = y.i[0][n], i_b = y.i[1][n];
@@ -225,6 +274,7 @@ struct TwoCurrents {
       y.torque[n] = series::product_term<n>(y.phi0, y0) + series::product_term<n>(y.phi1, y1);
     else
       y.torque[n] = y0[n] + series::product_term<n>(y.x, y1);
+    rotor.template step<n>(c, y, f);
   }
   Real size(const Expansion<Real>& y, int n) const {
     return abs(y.i[0][n]) + abs(y.i[1][n]) + abs(y.i[2][n]);

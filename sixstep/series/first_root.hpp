@@ -33,7 +33,7 @@ namespace detail {
 template <class Real>
 Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) {
   // Newton squares the error: a step this small leaves nothing above rounding for another one.
-  const Real last_step = Real(1e-10) * (high - low);
+  const Real last_step = Real(sizeof(Real) > 8 ? 1e-10L : 1e-8L) * (high - low);
   Real s = guess > low && guess < high ? guess : low + (high - low) / 2;
   for (int round = 0; round < 200; ++round) {
     Real value = c[degree], slope = 0;
