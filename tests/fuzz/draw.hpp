@@ -8,7 +8,8 @@
 
 namespace sixstep::testing {
 
-/// Own mappings onto intervals: the standard library's distributions differ between libraries, a seed must not.
+/// Own mappings onto intervals: the standard library's distributions differ between libraries, a seed must
+/// not.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : random_(seed) {}
@@ -29,7 +30,8 @@ inline std::uint64_t environment(const char* name, std::uint64_t otherwise) {
   return text && *text ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-/// Which seeds a test runs: SIXSTEP_FUZZ_SEED=n is exactly that one, SIXSTEP_FUZZ_COUNT how many from there on.
+/// Which seeds a test runs: SIXSTEP_FUZZ_SEED=n is exactly that one, SIXSTEP_FUZZ_COUNT how many from there
+/// on.
 struct Seeds {
   std::uint64_t first, count;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole drive drawn at random: machine, devices, supply, load, board, controller, start. Parameters are drawn
-// as ratios to the machine's own scales (stall current, no-load speed, PWM period), so that they span decades
-// without most drives being dull.
+// A whole drive drawn at random: machine, devices, supply, load, board, controller, start. Parameters are
+// drawn as ratios to the machine's own scales (stall current, no-load speed, PWM period), so that they span
+// decades without most drives being dull.
 #pragma once
 #include <algorithm>
 #include <sstream>
@@ -107,10 +107,10 @@ struct DrawnDrive : Board {
 
   void draw_start(Draw& draw) {
     if (!shaft.locked && draw.chance(0.6)) start.speed_rad_s = draw.between(-1.2, 1.2) * top_speed();
-    const double electrical =
-        draw.chance(0.4) ? 60.0 * (draw.one_of(14) - 7)                        // on an edge
-        : draw.chance(0.1) ? machine.flat_deg / 2 + 60.0 * (draw.one_of(6) - 3)  // on a kink
-                           : draw.between(-400.0, 400.0);
+    const double electrical = draw.chance(0.4) ? 60.0 * (draw.one_of(14) - 7)  // on an edge
+                              : draw.chance(0.1)
+                                  ? machine.flat_deg / 2 + 60.0 * (draw.one_of(6) - 3)  // on a kink
+                                  : draw.between(-400.0, 400.0);
     start.angle_rad = electrical * base::pi / 180.0 / machine.pole_pairs;
   }
 

@@ -29,6 +29,12 @@ class Watchdog {
   std::int64_t segments_ = 0;
 };
 
+/// Where rounding leaves no mode consistent, settle() widens its noise of 64 eps by 16 and tries again; the
+/// laws allow it two such steps. One drive in 20 000 needs them: a current of 1e-10 A just commutated.
+double rail_tolerance_V(const plant::Plant<double>& plant) {
+  return 16 * 16 * 64 * eps * plant.constants().volt_scale;
+}
+
 bool finite(const plant::State<double>& s) {
   return std::isfinite(s.i[0]) && std::isfinite(s.i[1]) && std::isfinite(s.i[2]) && std::isfinite(s.w) &&
          std::isfinite(s.x) && std::isfinite(s.bus);
@@ -42,11 +48,11 @@ void run_one(std::uint64_t seed) {
   EXPECT_EQ(run_to(rig, drive.length_s, watchdog), sim::Stop::end)
       << "at " << rig.now().seconds() << " fault " << int(rig.fault());
   EXPECT_TRUE(finite(rig.plant().state()));
-  watchdog.laws.expect_all(1e-11);
+  watchdog.laws.expect_all(1e-11, rail_tolerance_V(rig.plant()));
 }
 
 TEST(Fuzz, DrawnDrivesKeepTheLaws) {
-  const Seeds range = seeds(500);
+  const Seeds range = seeds(5000);
   for (std::uint64_t n = 0; n < range.count; ++n) run_one(range.first + n);
 }
 
