@@ -29,10 +29,11 @@ class Watchdog {
   std::int64_t segments_ = 0;
 };
 
-/// Where rounding leaves no mode consistent, settle() widens its noise of 64 eps by 16 and tries again; the
-/// laws allow it two such steps. One drive in 20 000 needs them: a current of 1e-10 A just commutated.
+/// A voltage that must drive a leg on, but in the time at hand drives no current above its noise, leaves no
+/// mode consistent until settle() has widened the noise of 64 eps, at most to 16^4 of it. In a million drives
+/// 8e-12 of the voltage scale was the most that a terminal stood beyond a rail for it.
 double rail_tolerance_V(const plant::Plant<double>& plant) {
-  return 16 * 16 * 64 * eps * plant.constants().volt_scale;
+  return 65536 * 64 * eps * plant.constants().volt_scale;
 }
 
 bool finite(const plant::State<double>& s) {
