@@ -14,13 +14,14 @@ namespace {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-constexpr double parameter_part = 1e-13, scale_part = 1e-11;
+constexpr double parameter_part = 1e-13, scale_part = 1e-11, angle_part = 4e-15;
 
 DrawnDrive nearly(DrawnDrive d) {
   d.machine.R_ohm *= 1 + parameter_part;
   d.machine.K_e_V_s *= 1 - parameter_part;
   d.machine.L_H *= 1 - parameter_part;
   d.shaft.J_kg_m2 *= 1 + parameter_part;
+  d.start.angle_rad += angle_part * std::max(std::fabs(d.start.angle_rad), 1.0 / d.machine.pole_pairs);
   return d;
 }
 
