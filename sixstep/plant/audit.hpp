@@ -16,7 +16,8 @@ struct EnergyBook {
   double friction = 0.0;
   double load = 0.0;
   double kinetic = 0.0;  ///< change of (1/2) J w^2
-  double moved = 0.0;    ///< integral |U_s i_dc| + |T_e w| over segments: what the residuals are relative to
+  double moved = 0.0;    ///< sum of |U_s i_dc|, |T_e w| and |T_load w|, integrated per segment: what the
+                         ///< residuals are relative to
   double electrical_residual = 0.0;
   double mechanical_residual = 0.0;
 };
@@ -123,8 +124,9 @@ void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
   add_compensated(devices_, devices_low_, y.h * devices);
   add_compensated(air_gap_, air_gap_low_, air_gap);
   add_compensated(friction_, friction_low_, y.h * c.B * product_integral(y.w, y.w, n, s) + slide * travel);
-  add_compensated(load_, load_low_, c.load * travel);
-  moved_ += detail::abs(supplied) + detail::abs(air_gap);
+  const Real load = c.load * travel;
+  add_compensated(load_, load_low_, load);
+  moved_ += detail::abs(supplied) + detail::abs(air_gap) + detail::abs(load);
   magnetic_end_ = magnetic_energy(plant, s);
   kinetic_end_ = kinetic_energy(plant, s);
 }
@@ -132,10 +134,9 @@ void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
 template <class Real>
 EnergyBook Audit<Real>::energy() const {
   const Real magnetic = magnetic_end_ - magnetic_start_, kinetic = kinetic_end_ - kinetic_start_;
-  // A motor that coasts, or that its load drives, moves no energy through the bridge; what it stored or was
-  // given is then the yardstick.
-  const Real scale = std::max({moved_, magnetic_start_ + kinetic_start_, magnetic_end_ + kinetic_end_,
-                               detail::abs(load_), Real(1e-300)});
+  // A motor that coasts moves no energy through bridge or load; what it stored is then the yardstick.
+  const Real scale =
+      std::max({moved_, magnetic_start_ + kinetic_start_, magnetic_end_ + kinetic_end_, Real(1e-300)});
   const auto d = [](Real v) { return static_cast<double>(v); };
   return {.supplied = d(supplied_),
           .copper = d(copper_),

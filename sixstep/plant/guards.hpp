@@ -34,6 +34,13 @@ constexpr Real noise_of(Real scale, Real slack) {
 
 namespace detail {
 
+/// What is not zero now has a sign: snap() left nothing within the plain noise. Only what is about to leave
+/// zero is doubted further; else a slow rotor would be neither moving nor at rest.
+template <class Real>
+Real doubt(const series::Coefficients<Real>& c, Real slack) {
+  return c[0] != 0 ? Real(1) : slack;
+}
+
 /// sign * c + constant, as coefficients.
 template <class Real>
 series::Coefficients<Real> affine(const series::Coefficients<Real>& c, int degree, Real sign, Real constant) {
@@ -97,11 +104,11 @@ template <class Real, class Visit>
 void rotor_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real slack,
                   Visit&& visit) {
   const Real torque_noise = noise_of(c.torque_scale, slack);
+  const Real speed_noise = noise_of(c.speed_scale, doubt(y.w, slack));
   if (mode.motion == Motion::forward)
-    visit(guard::standstill, y.w, y.degree, noise_of(c.speed_scale, slack));
+    visit(guard::standstill, y.w, y.degree, speed_noise);
   else if (mode.motion == Motion::backward)
-    visit(guard::standstill, affine(y.w, y.degree, Real(-1), Real(0)), y.degree,
-          noise_of(c.speed_scale, slack));
+    visit(guard::standstill, affine(y.w, y.degree, Real(-1), Real(0)), y.degree, speed_noise);
   else if (mode.motion == Motion::stuck) {
     visit(guard::breakaway_forward, affine(y.torque, y.degree, Real(-1), c.breakaway + c.load), y.degree,
           torque_noise);

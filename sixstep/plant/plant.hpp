@@ -121,9 +121,12 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   state_.bus = stiff ? c.V_0 : Real(start.bus_V);
   state_.w = shaft.locked ? Real(0) : Real(start.speed_rad_s);
   const double electrical = start.angle_rad * m.pole_pairs;
-  const double sector = std::floor(electrical / base::sector_rad);
+  // An edge named in degrees or radians of the shaft has been rounded up to four times on its way here.
+  const double edge = std::floor(electrical / base::sector_rad + 0.5);
+  const bool on_edge = std::fabs(electrical - edge * base::sector_rad) <= 0x1p-50 * std::fabs(electrical);
+  const double sector = on_edge ? edge : std::floor(electrical / base::sector_rad);
   state_.sector = static_cast<std::int64_t>(sector);
-  state_.x = std::max(Real(0), Real(electrical) - Real(sector) * Real(base::sector_rad));
+  state_.x = on_edge ? Real(0) : std::max(Real(0), Real(electrical) - Real(sector) * Real(base::sector_rad));
   mode_.sector = static_cast<std::uint8_t>(sector_in_turn(state_.sector));
   const EmfSector<Real>& pieces = c.emf[mode_.sector];
   while (mode_.piece + 1 < pieces.count && state_.x >= pieces.piece[mode_.piece].to) ++mode_.piece;

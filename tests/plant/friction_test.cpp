@@ -128,4 +128,22 @@ TEST(Friction, LockedRotorNeedsNone) {
   EXPECT_TRUE(bench.events.empty());
 }
 
+/// Found by the fuzzer: a rotor that a load pushed for a picosecond makes an EMF of a few rounding errors.
+/// Which leg conducts could then only be told with widened noise, in which the speed vanished too: it neither
+/// turned nor stood.
+TEST(Friction, ARotorThatHardlyTurnsStillTurns) {
+  for (int decade = -130; decade <= -60; ++decade)
+    for (const double sign : {1.0, -1.0})
+      for (const double deg : {0.0, 19.0, 60.0, 79.0}) {
+        Drivetrain setup = dry(0.02);
+        setup.start.speed_rad_s = sign * std::pow(10.0, decade / 10.0);
+        setup.start.angle_rad = at_electrical_deg(deg);
+        Held<> bench(setup, gates({}, {false, false, true}));
+        bench.plant().set_load(sign * 0.05);
+        LawChecker<> laws;
+        ASSERT_EQ(bench.run_to(1e-3, laws), Stop::end) << setup.start.speed_rad_s << " at " << deg;
+        EXPECT_LT(sign * bench.state().w, 0.0);
+      }
+}
+
 }  // namespace

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random numbers of one drawn case: a seed, and nothing else, decides all of it.
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <random>
+
+namespace sixstep::testing {
+
+/// Own mappings onto intervals: the standard library's distributions differ between libraries, a seed must
+/// not.
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : random_(seed) {}
+  double unit() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
+  double between(double low, double high) { return low + (high - low) * unit(); }
+  /// Every decade is as likely as the next.
+  double decades(double low, double high) { return low * std::pow(high / low, unit()); }
+  bool chance(double p) { return unit() < p; }
+  int one_of(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+  double sign() { return chance(0.5) ? 1.0 : -1.0; }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+inline std::uint64_t environment(const char* name, std::uint64_t otherwise) {
+  const char* text = std::getenv(name);
+  return text && *text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+/// Which seeds a test runs: SIXSTEP_FUZZ_SEED=n is exactly that one, SIXSTEP_FUZZ_COUNT how many from there
+/// on.
+struct Seeds {
+  std::uint64_t first, count;
+};
+inline Seeds seeds(std::uint64_t usual_count) {
+  const bool one = std::getenv("SIXSTEP_FUZZ_SEED") != nullptr;
+  return {environment("SIXSTEP_FUZZ_SEED", 1), environment("SIXSTEP_FUZZ_COUNT", one ? 1 : usual_count)};
+}
+
+}  // namespace sixstep::testing
