@@ -44,7 +44,7 @@ def main():
     if wrong or not printed:
         print(f"  {wrong} of {len(expected)} cases differ; {RENEW}")
         return 1
-    print(f"{len(printed)} of {len(expected)} cases: the same bits")
+    print(f"{len(printed)} of {len(expected)} cases have the same bits")
     return 0
 
 
