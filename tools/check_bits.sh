@@ -23,7 +23,12 @@ if [ "$task" = --renew ]; then
   g++ -O3 "${flags[@]}" "${sources[@]}" -o "$out/renew"
   "$out/renew" >"$out/renew.txt"
   python3 tests/digest/compare.py "$golden" "$out/renew.txt" | grep -v 'tools/check_bits' || true
-  mv "$out/renew.txt" "$golden"
+  {
+    echo "# SPDX-License-Identifier: Apache-2.0"
+    echo "# case, digest of its trajectory, of its figures, segments; written by tools/check_bits.sh --renew"
+    cat "$out/renew.txt"
+  } >"$out/renewed.txt"
+  mv "$out/renewed.txt" "$golden"
   echo "$golden is new: commit it with the change that moved the bits"
   exit 0
 fi

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """compare.py EXPECTED PRINTED | compare.py EXPECTED --of PROGRAM: which cases have other bits than the table's.
 
-Each line is NAME TRAJECTORY FIGURES SEGMENTS. Says per case what differs first: the way there, or only what was
+Each line is a # comment or NAME TRAJECTORY FIGURES SEGMENTS. Says per case what differs first: the way there, or only what was
 computed from it. Exits 1 on any difference."""
 import pathlib
 import subprocess
@@ -12,7 +12,7 @@ RENEW = "if this change is meant to change bits: tools/check_bits.sh --renew"
 
 
 def table(text):
-    return {words[0]: words[1:] for words in (line.split() for line in text.splitlines()) if words}
+    return {words[0]: words[1:] for words in (line.split() for line in text.splitlines()) if words and words[0] != "#"}
 
 
 def difference(expected, printed):

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 COMPARE = pathlib.Path(__file__).with_name("compare.py")
-TABLE = "one 11 22 3\ntwo 44 55 6\n"
+TABLE = "# a comment\none 11 22 3\ntwo 44 55 6\n"
 
 
 class Compare(unittest.TestCase):
@@ -27,7 +27,7 @@ class Compare(unittest.TestCase):
         for printed, words in ((TABLE.replace("44", "45"), "two: trajectory 44 -> 45"),
                                (TABLE.replace("55", "56"), "two: figures 55 -> 56"),
                                (TABLE.replace("44 55 6", "45 55 7"), "two: trajectory 44 -> 45, segments 6 -> 7"),
-                               ("one 11 22 3\n", "two: was not printed"),
+                               (TABLE.replace("two 44 55 6\n", ""), "two: was not printed"),
                                (TABLE + "three 7 8 9\n", "three: is not in the table"),
                                (TABLE.replace("55 6", "55 6 fault"), "two: 44 55 6 -> 44 55 6 fault")):
             code, text = self.compared(TABLE, printed)
