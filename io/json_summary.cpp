@@ -5,6 +5,8 @@
 
 #include <optional>
 
+#include "sixstep/base/written.hpp"
+
 namespace io {
 namespace {
 
@@ -78,7 +80,8 @@ std::string json_summary(const study::Scenario& scenario, const study::Outcome& 
                   {"fault", outcome.fault ? Json(base::to_string(*outcome.fault)) : Json(nullptr)},
                   {"duration_s", scenario.duration_s},
                   {"simulated_s", outcome.simulated_s},
-                  {"segments", outcome.segments}};
+                  {"segments", outcome.segments},
+                  {"digest", base::written_hex(outcome.digest)}};
   summary["require"] = verdicts(outcome);
   summary["compare"] = comparisons(outcome);
   summary["gains"] = gains(outcome);

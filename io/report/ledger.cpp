@@ -8,6 +8,7 @@
 
 #include "io/report/figures.hpp"
 #include "io/report/html.hpp"
+#include "sixstep/base/written.hpp"
 
 namespace io::report {
 namespace {
@@ -86,6 +87,10 @@ std::string event_section(const sixstep::study::Outcome& outcome) {
   html += fmt::format(
       "<tr class=\"total\"><th scope=\"row\">segments solved</th><td class=\"num\">{}</td></tr>\n",
       grouped(outcome.segments));
+  html += fmt::format(
+      "<tr><th scope=\"row\">digest of the trajectory<small>the same on every platform</small></th>"
+      "<td class=\"num\"><code>{}</code></td></tr>\n",
+      sixstep::base::written_hex(outcome.digest));
   return html + "</tbody></table>\n";
 }
 

@@ -2,6 +2,7 @@
 // Numbers as text, for messages.
 #pragma once
 #include <charconv>
+#include <cstdint>
 #include <string>
 
 namespace sixstep::base {
@@ -11,6 +12,13 @@ inline std::string written(double x) {
   char text[32];
   const std::to_chars_result end = std::to_chars(text, text + sizeof text, x);
   return {text, end.ptr};
+}
+
+/// Sixteen hexadecimal digits.
+inline std::string written_hex(std::uint64_t bits) {
+  std::string text(16, '0');
+  for (auto digit = text.rbegin(); bits != 0; ++digit, bits >>= 4) *digit = "0123456789abcdef"[bits & 15];
+  return text;
 }
 
 }  // namespace sixstep::base

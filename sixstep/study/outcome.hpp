@@ -71,6 +71,7 @@ struct Outcome {
   std::optional<base::Problem> fault;  // what stopped the run: shoot-through, impossible Hall code
   double simulated_s = 0.0;
   std::int64_t segments = 0;
+  std::uint64_t digest = 0;  // of every bit of the trajectory (study/digest.hpp)
 
   bool passed() const {
     for (const Verdict& v : verdicts)

@@ -5,6 +5,7 @@
 
 #include "sixstep/sim/run.hpp"
 #include "sixstep/study/compile.hpp"
+#include "sixstep/study/digest.hpp"
 #include "sixstep/study/figures.hpp"
 #include "sixstep/study/recorder.hpp"
 
@@ -18,6 +19,7 @@ constexpr double drawn_points = 2000.0;
 /// All who watch a run, in one observer.
 struct Watchers {
   plant::Audit<double> audit;
+  Digest digest;
   Figures figures;
   std::optional<GridRecorder> grid;
   std::optional<EventRecorder> events, report;
@@ -27,6 +29,7 @@ struct Watchers {
   template <class Rig>
   void segment(const Rig& rig, double s) {
     audit.segment(rig.plant(), s);
+    digest.segment(rig, s);
     figures.segment(rig, s);
     if (grid) grid->segment(rig, s);
     if (events) events->segment(rig, s);
@@ -91,6 +94,7 @@ base::Problems run_rig(Rig& rig, const Compiled& compiled, Watchers& w, Outcome&
              "this is a defect of sixstep: please report it with the scenario file"}};
   out.segments = run.segments;
   out.simulated_s = t_s;
+  out.digest = w.digest.after(rig);
   report_events(rig, out);
   return {};
 }

@@ -107,6 +107,7 @@ class CommandLine(unittest.TestCase):
     def test_json_on_standard_output_is_alone_there(self):
         result = self.run_program("run", self.write("a.toml", 1000), "--json", "-")
         summary = json.loads(result.stdout)
+        self.assertRegex(summary["digest"], "^[0-9a-f]{16}$")
         self.assertTrue(summary["passed"])
         self.assertEqual(summary["require"][0]["max"], 1000)
         self.assertIn("ok", result.stderr)

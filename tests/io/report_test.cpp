@@ -11,9 +11,11 @@
 
 #include "io/report/figures.hpp"
 #include "io/report/html.hpp"
+#include "io/report/ledger.hpp"
 #include "io/report/plots.hpp"
 #include "io/report/thinning.hpp"
 #include "io/report/windows.hpp"
+#include "sixstep/base/written.hpp"
 #include "tests/io/synthetic_run.hpp"
 
 namespace {
@@ -88,6 +90,15 @@ TEST(Report, same_input_gives_same_bytes) {
 TEST(Report, stays_small_enough_to_send) {
   EXPECT_LT(page(synthetic_run(0.02)).size(), 1u << 20);
   EXPECT_LT(page(synthetic_run(0.6)).size(), 2u << 20);
+}
+
+TEST(Report, shows_the_digest) {
+  EXPECT_EQ(sixstep::base::written_hex(0x0123456789abcdefu), "0123456789abcdef");
+  EXPECT_EQ(sixstep::base::written_hex(0xf00du), "000000000000f00d");
+  EXPECT_EQ(sixstep::base::written_hex(0), "0000000000000000");
+  sixstep::study::Outcome out;
+  out.digest = 0xabcu;
+  EXPECT_THAT(io::report::event_section(out), HasSubstr("0000000000000abc"));
 }
 
 TEST(Report, survives_a_run_without_a_trace) {

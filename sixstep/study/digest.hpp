@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// A whole trajectory in 64 bits: two runs with the same digest went through the same bits at every event.
+#pragma once
+#include <bit>
+#include <cstdint>
+
+#include "sixstep/plant/state.hpp"
+#include "sixstep/sim/instant.hpp"
+
+namespace sixstep::study {
+
+/// 64-bit words into one: xor, multiply by an odd constant, swap the halves. Each step is a bijection of what
+/// was there before, and the swap carries the high bits (sign, exponent) down, where a product alone would
+/// leave them. Like FNV-1a, but by words: a segment costs nine products instead of seventy. No cryptography.
+class Hash {
+ public:
+  constexpr void word(std::uint64_t bits) { value_ = std::rotl((value_ ^ bits) * 0x9e3779b97f4a7c15u, 32); }
+  /// The bits as they are, so -0 and 0 differ; a NaN is a NaN, whatever sign and payload a platform gives it.
+  constexpr void number(double x) {
+    word(x == x ? std::bit_cast<std::uint64_t>(x) : std::uint64_t{0x7ff8000000000000u});
+  }
+  constexpr std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+/// Observer of a run: time, currents, speed, angle and bus where each segment begins, which is where the one
+/// before ended, its event applied. A copy goes on from where the original stood, as a copy of the rig does.
+class Digest {
+ public:
+  template <class Rig, class Real>
+  void segment(const Rig& rig, Real) {
+    take(rig);
+  }
+
+  /// Of all segments seen and of the state the rig is in now, down to the remainders of its running sums.
+  template <class Rig>
+  std::uint64_t after(const Rig& rig) const {
+    Digest whole = *this;
+    whole.take(rig);
+    const auto& s = rig.plant().state();
+    for (const auto& low : s.i_low) whole.hash_.number(static_cast<double>(low));
+    for (const auto& low : {s.w_low, s.x_low, s.bus_low}) whole.hash_.number(static_cast<double>(low));
+    return whole.hash_.value();
+  }
+
+ private:
+  template <class Rig>
+  void take(const Rig& rig) {
+    const sim::Instant now = rig.now();
+    const auto& s = rig.plant().state();
+    hash_.word(static_cast<std::uint64_t>(now.ticks));
+    hash_.number(now.offset);
+    for (const auto& i : s.i) hash_.number(static_cast<double>(i));
+    hash_.number(static_cast<double>(s.w));
+    hash_.word(static_cast<std::uint64_t>(s.sector));
+    hash_.number(static_cast<double>(s.x));
+    hash_.number(static_cast<double>(s.bus));
+  }
+
+  Hash hash_;
+};
+
+}  // namespace sixstep::study

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/digest/cases.hpp"
+
+#include "tests/support/scenarios.hpp"
+
+namespace sixstep::testing {
+namespace {
+
+using namespace study;
+using control::Chopping;
+using control::Mode;
+
+constexpr double thesis_d1 = 0.017225, thesis_d0 = -0.01707;  // of the speed loop
+
+/// The figures that go through roots, integrals and square roots of the trajectory.
+Scenario judged(Scenario s) {
+  for (const MetricKind kind :
+       {MetricKind::final_value, MetricKind::mean, MetricKind::rms, MetricKind::maximum, MetricKind::minimum})
+    for (const Signal signal :
+         {Signal::phase_a, Signal::current, Signal::current_magnitude, Signal::speed, Signal::torque})
+      ask(s, measure(kind, signal));
+  ask(s, measure(MetricKind::final_value, Signal::position));
+  ask(s, measure(MetricKind::mean, Signal::bus_current));
+  return s;
+}
+
+Scenario duty(double value, double duration_s, Chopping chopping = Chopping::soft) {
+  Scenario s = maxon_scenario(Mode::duty, value);
+  s.duration_s = duration_s;
+  s.pwm.chopping = chopping;
+  return s;
+}
+
+Scenario stall() {
+  Scenario s = duty(1.0, 5e-3);
+  s.load.locked = true;
+  s.initial.angle_rad = 0.02;
+  return s;
+}
+
+Scenario real_devices() {
+  Scenario s = duty(0.5, 50e-3, Chopping::complementary);
+  s.bridge.on_resistance_ohm = s.bridge.diode_resistance_ohm = 0.01;
+  s.bridge.diode_drop_V = 0.7;
+  s.bridge.dead_time_s = 1e-6;
+  return s;
+}
+
+Scenario hysteresis(HysteresisOn on, Chopping chopping, Comparator comparator = Comparator::event) {
+  Scenario s = current_square();
+  s.control.current = {
+      .type = CurrentLoopType::hysteresis, .band_A = 0.2, .on = on, .comparator = comparator};
+  s.pwm.chopping = chopping;
+  return s;
+}
+
+/// Current PI by pole placement: exp, cos and sqrt decide the gains.
+Scenario designed_current(double settle_s, double damping) {
+  Scenario s = current_square();
+  s.control.current.d1 = s.control.current.d0 = std::nullopt;
+  s.control.current.settle_s = settle_s;
+  s.control.current.damping = damping;
+  return s;
+}
+
+Scenario speed_cascade(double reference_rad_s, double duration_s) {
+  Scenario s = maxon_scenario(Mode::speed, reference_rad_s);
+  s.duration_s = duration_s;
+  s.control.current.d1 = 4.5;
+  s.control.current.d0 = -4.04;
+  s.control.speed.d1 = thesis_d1;
+  s.control.speed.d0 = thesis_d0;
+  s.control.speed.torque_limit_Nm = 0.78;
+  return s;
+}
+
+Scenario designed_cascade() {
+  Scenario s = maxon_scenario(Mode::speed, 0.0);
+  s.duration_s = 0.2;
+  s.control.speed.settle_s = 10e-3;
+  s.control.speed.damping = 0.9;
+  s.reference.shape = Shape::steps;
+  s.reference.times_s = {0.0, 0.1};
+  s.reference.values = {100.0, -40.0};
+  return s;
+}
+
+Scenario hysteresis_cascade() {
+  Scenario s = speed_cascade(100.0, 50e-3);
+  s.control.current = {.type = CurrentLoopType::hysteresis, .band_A = 0.2};
+  return s;
+}
+
+Scenario position() {
+  Scenario s = speed_cascade(1000.0, 0.1);
+  s.control.mode = Mode::position;
+  s.control.position.gain_rad_s_per_deg = 2.4;
+  return s;
+}
+
+Scenario rectifier() {
+  Scenario s = maxon_scenario(Mode::off, 0.0);
+  s.initial.speed_rad_s = 900.0;
+  return s;
+}
+
+Scenario with_sine(Scenario s) {
+  s.sheet.back_emf = design::BackEmfShape::sine;
+  s.sheet.torque_constant_mNm_A = std::nullopt;  // it means another K_e where the shape is a sine
+  s.sheet.back_emf_mV_s = base::Quantity{16.75, "phase", ""};
+  return s;
+}
+
+Scenario rc_bus(Scenario s) {
+  s.supply.resistance_ohm = 0.1;
+  s.supply.capacitance_F = 1000e-6;
+  s.initial.bus_V = 24.0;
+  ask(s, measure(MetricKind::maximum, Signal::bus_voltage));
+  return s;
+}
+
+Scenario regeneration(bool sinks) {
+  Scenario s = rc_bus(duty(0.3, 20e-3, Chopping::complementary));
+  s.supply.sinks = sinks;
+  s.bridge.dead_time_s = 1e-6;
+  s.initial.speed_rad_s = 500.0;
+  return s;
+}
+
+Scenario friction_and_load() {
+  Scenario s = duty(0.5, 0.1);
+  s.load.coulomb_Nm = 0.005;
+  s.load.times_s = {0.0, 0.03, 0.06};
+  s.load.torques_Nm = {0.0, 0.05, 0.25};
+  return s;
+}
+
+/// As small chips do it: centred, edges on timer counts, commutation at the sample, one period late.
+Scenario small_chip(Scenario s) {
+  s.pwm.alignment = Alignment::centre;
+  s.pwm.timer_Hz = 16e6;
+  s.pwm.commutation = CommutationAt::sample;
+  s.pwm.delay_periods = 1;
+  return s;
+}
+
+Scenario in_float(Scenario s) {
+  s.control.arithmetic = Arithmetic::float32;
+  return s;
+}
+
+Scenario narrow_flat() {
+  Scenario s = duty(-0.7, 30e-3);
+  s.sheet.flat_deg = 100.0;
+  s.bridge.dead_time_s = 0.5e-6;
+  s.bridge.dead_time_at_commutation = true;
+  return s;
+}
+
+}  // namespace
+
+std::vector<Case> digest_cases() {
+  std::vector<Case> cases{
+      {"R1-stall", stall()},
+      {"R2-no-load", duty(1.0, 0.3)},
+      {"R3-soft", duty(0.5, 0.1)},
+      {"R4-hard", duty(0.5, 50e-3, Chopping::hard)},
+      {"R5-devices", real_devices()},
+      {"R6-current-pi", current_square()},
+      {"R7-hysteresis-phase", hysteresis(HysteresisOn::phase, Chopping::hard)},
+      {"R7s-hysteresis-motor", hysteresis(HysteresisOn::motor, Chopping::soft)},
+      {"R8-speed-cascade", speed_cascade(100.0, 0.1)},
+      {"R9-position", position()},
+      {"R10-rectifier", rectifier()},
+      {"R11-sine", with_sine(duty(0.5, 50e-3))},
+      {"R12-rc-bus", rc_bus(duty(0.5, 50e-3))},
+      {"R12b-regeneration", regeneration(true)},
+      {"R13-friction", friction_and_load()},
+      {"design-current", designed_current(1e-3, 0.9)},
+      {"design-current-weak", designed_current(2e-3, 0.4)},
+      {"design-current-stiff", designed_current(0.5e-3, 1.0)},
+      {"design-cascade", designed_cascade()},
+      {"sine-design-current", with_sine(designed_current(1e-3, 0.9))},
+      {"sine-design-cascade", with_sine(designed_cascade())},
+      {"sine-rc-bus", with_sine(regeneration(true))},
+      {"float-current-pi", in_float(current_square())},
+      {"float-design-cascade", in_float(designed_cascade())},
+      {"float-hysteresis", in_float(hysteresis(HysteresisOn::motor, Chopping::soft))},
+      {"hysteresis-sampled", hysteresis(HysteresisOn::motor, Chopping::soft, Comparator::sampled)},
+      {"hysteresis-phase-soft", hysteresis(HysteresisOn::phase, Chopping::soft)},
+      {"hysteresis-cascade", hysteresis_cascade()},
+      {"small-chip-current-pi", small_chip(current_square())},
+      {"small-chip-cascade", small_chip(designed_cascade())},
+      {"diode-source", regeneration(false)},
+      {"narrow-flat-reverse", narrow_flat()},
+  };
+  for (Case& c : cases) c.scenario = judged(std::move(c.scenario));
+  return cases;
+}
+
+}  // namespace sixstep::testing

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The runs whose bits are compared between platforms. A name stays with its run: whoever changes a run or
+// adds one renews the table (tools/check_bits.sh --renew).
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sixstep/study/scenario.hpp"
+
+namespace sixstep::testing {
+
+struct Case {
+  std::string name;  ///< no spaces
+  study::Scenario scenario;
+};
+
+std::vector<Case> digest_cases();
+
+}  // namespace sixstep::testing

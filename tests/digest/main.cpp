@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Prints name, digest of the trajectory, digest of the figures and number of segments of each case. Needs the
+// library and nothing else, so that any compiler and any target can be asked for its bits.
+#include <cstdio>
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/digest.hpp"
+#include "sixstep/study/run.hpp"
+#include "tests/digest/cases.hpp"
+
+namespace {
+
+using namespace sixstep;
+
+/// What is computed from the trajectory, and the gains it ran with.
+std::uint64_t figures(const study::Outcome& out) {
+  study::Hash hash;
+  for (const study::ComparisonResult& c : out.comparisons) hash.number(c.measured);
+  for (const study::LoopGains& g : out.gains) {
+    hash.number(g.d1);
+    hash.number(g.d0);
+  }
+  const plant::EnergyBook& e = out.energy;
+  for (const double joule : {e.supplied, e.copper, e.devices, e.magnetic, e.air_gap, e.friction, e.load,
+                             e.kinetic, e.moved, e.electrical_residual, e.mechanical_residual})
+    hash.number(joule);
+  for (const study::EventCount& c : out.events) hash.word(static_cast<std::uint64_t>(c.count));
+  return hash.value();
+}
+
+bool print(const testing::Case& c) {
+  const base::Result<study::Outcome> out = study::run(c.scenario);
+  if (!out) {
+    for (const base::Problem& p : out.problems())
+      std::fprintf(stderr, "%s: %s\n", c.name.c_str(), base::to_string(p).c_str());
+    return false;
+  }
+  std::printf("%-24s %s %s %8lld%s\n", c.name.c_str(), base::written_hex(out->digest).c_str(),
+              base::written_hex(figures(*out)).c_str(), static_cast<long long>(out->segments),
+              out->fault ? " fault" : "");
+  return true;
+}
+
+}  // namespace
+
+int main() {
+  bool ok = true;
+  for (const testing::Case& c : testing::digest_cases()) ok = print(c) && ok;
+  return ok ? 0 : 1;
+}

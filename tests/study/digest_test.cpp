@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// One trajectory, one digest: however often, by however many, watched or not, in one go or resumed.
+#include "sixstep/study/digest.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <thread>
+#include <type_traits>
+
+#include "sixstep/sim/run.hpp"
+#include "sixstep/study/compile.hpp"
+#include "tests/support/scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using namespace sixstep::study;
+using control::Mode;
+
+using Rig = rig::Rig<double, double>;
+static_assert(std::is_copy_constructible_v<Rig>, "a copy of the rig is its snapshot");
+
+/// Settling-time design, bus behind R and C, dead time: much that a snapshot could forget.
+Scenario rich() {
+  Scenario s = current_square();
+  s.control.current.d1 = s.control.current.d0 = std::nullopt;
+  s.control.current.settle_s = 1e-3;
+  s.control.current.damping = 0.9;
+  s.supply.resistance_ohm = 0.1;
+  s.supply.capacitance_F = 1e-3;
+  s.bridge.dead_time_s = 1e-6;
+  s.pwm.chopping = control::Chopping::complementary;
+  s.duration_s = 8e-3;
+  return s;
+}
+
+Scenario hysteresis() {
+  Scenario s = current_square();
+  s.control.current = {.type = CurrentLoopType::hysteresis, .band_A = 0.2};
+  s.duration_s = 8e-3;
+  return s;
+}
+
+Scenario late_chip() {
+  Scenario s = maxon_scenario(Mode::speed, 80.0);
+  s.pwm.delay_periods = 1;
+  s.pwm.commutation = CommutationAt::sample;
+  s.duration_s = 8e-3;
+  return s;
+}
+
+Rig rig_of(const Compiled& c) {
+  const plant::Plant<double> plant(c.motor.machine, c.shaft, c.devices, c.supply, c.start);
+  return {plant, in_arithmetic<double>(c.drive), c.board, c.timeline};
+}
+
+std::uint64_t digest_of(const Scenario& s, const Listeners& listeners = {}) {
+  return run(s, listeners).operator*().digest;
+}
+
+/// The end state alone, to compare runs with and without a digest.
+std::uint64_t end_state(const Rig& rig) { return Digest{}.after(rig); }
+
+/// Every place inside a snapshot's life: `each` is called at every control tick, after its event.
+template <class Each>
+struct AtTicks {
+  Digest digest;
+  Each each;
+  bool ticked = false;
+
+  void segment(const Rig& rig, double s) {
+    digest.segment(rig, s);
+    ticked = rig.ticked();
+  }
+  bool done(const Rig& rig) {
+    if (ticked) each(rig, digest);
+    return false;
+  }
+};
+template <class Each>
+AtTicks(Digest, Each) -> AtTicks<Each>;
+
+TEST(Digest, IsTheSameOnEveryRun) {
+  for (const Scenario& s : {rich(), hysteresis(), late_chip()}) EXPECT_EQ(digest_of(s), digest_of(s));
+}
+
+TEST(Digest, IsTheSameWhoeverListens) {
+  for (Scenario s : {rich(), hysteresis(), late_chip()}) {
+    const std::uint64_t alone = digest_of(s);
+    ask(s, measure(MetricKind::rms, Signal::current));
+    s.record.columns = {"i_a_A"};
+    EXPECT_EQ(digest_of(s, {.on_record = [](Row) {}}), alone);
+    EXPECT_EQ(digest_of(s, {.on_event = [](Row) {}, .keep_going = [](double) { return true; }}), alone);
+    s.record.events = true;
+    EXPECT_EQ(digest_of(s, {.on_record = [](Row) {}, .on_event = [](Row) {}}), alone);
+  }
+}
+
+TEST(Digest, DoesNotChangeTheEndState) {
+  for (const Scenario& s : {rich(), hysteresis(), late_chip()}) {
+    const auto compiled = compile(s);
+    ASSERT_TRUE(compiled);
+    Rig plain = rig_of(*compiled), watched = rig_of(*compiled);
+    sim::NoObserver nobody;
+    Digest digest;
+    EXPECT_EQ(sim::run(plain, compiled->end, nobody).segments,
+              sim::run(watched, compiled->end, digest).segments);
+    EXPECT_EQ(end_state(plain), end_state(watched));
+    EXPECT_EQ(digest.after(watched), digest_of(s));
+  }
+}
+
+TEST(Digest, IsTheSameOnManyThreadsAtOnce) {
+  const Scenario s = rich();
+  const std::uint64_t alone = digest_of(s);
+  std::array<std::uint64_t, 8> found{};
+  std::vector<std::thread> threads;
+  for (std::uint64_t& one : found) threads.emplace_back([&one, &s] { one = digest_of(s); });
+  for (std::thread& t : threads) t.join();
+  for (const std::uint64_t one : found) EXPECT_EQ(one, alone);
+}
+
+TEST(Digest, GoesOnFromASnapshotAtAnyTick) {
+  for (const Scenario& s : {rich(), hysteresis(), late_chip()}) {
+    const auto compiled = compile(s);
+    ASSERT_TRUE(compiled);
+    Rig whole = rig_of(*compiled);
+    std::vector<std::pair<Rig, Digest>> snapshots;
+    AtTicks watcher{Digest{}, [&](const Rig& r, const Digest& d) { snapshots.emplace_back(r, d); }};
+    sim::run(whole, compiled->end, watcher);
+    const std::uint64_t expected = watcher.digest.after(whole);
+    EXPECT_EQ(expected, digest_of(s));
+    EXPECT_GT(snapshots.size(), 200u);
+    for (auto& [rig, digest] : snapshots) {
+      const double from_s = rig.now().seconds();
+      sim::run(rig, compiled->end, digest);
+      ASSERT_EQ(digest.after(rig), expected) << "resumed at " << from_s;
+    }
+  }
+}
+
+TEST(Digest, SeesTheLastBitOfOneParameter) {
+  Scenario s = rich();
+  const std::uint64_t before = digest_of(s);
+  s.initial.speed_rad_s = 0x1p-60;
+  EXPECT_NE(digest_of(s), before);
+}
+
+TEST(Hash, SeesEveryBitOfEveryWord) {
+  const auto of = [](std::uint64_t a, std::uint64_t b) {
+    Hash h;
+    h.word(a);
+    h.word(b);
+    return h.value();
+  };
+  for (int bit = 0; bit < 64; ++bit) {
+    const std::uint64_t one = std::uint64_t{1} << bit;
+    EXPECT_NE(of(0, 0), of(one, 0));
+    EXPECT_NE(of(0, 0), of(0, one));
+    EXPECT_NE(of(0, 0), of(one, one));  // two signs turned at once: what a plain product would miss
+    EXPECT_NE(of(one, 0), of(0, one));
+  }
+}
+
+TEST(Hash, KnowsOneNaNOnly) {
+  const auto of = [](double x) {
+    Hash h;
+    h.number(x);
+    return h.value();
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(of(nan), of(-nan));
+  EXPECT_EQ(of(nan), of(std::bit_cast<double>(std::uint64_t{0x7ff8000000000123u})));
+  EXPECT_NE(of(0.0), of(-0.0));
+}
+
+}  // namespace
