@@ -106,7 +106,12 @@ base::Result<design::Sheet> read_sheet(const std::string& name, const std::strin
 base::Result<study::Scenario> read_scenario(const std::string& path, const ReadOptions& options) {
   base::Result<std::string> text = read_text(path);
   if (!text) return text.problems();
-  base::Result<Document> parsed = Document::parse(path, std::move(*text));
+  return read_scenario_text(path, std::move(*text), options);
+}
+
+base::Result<study::Scenario> read_scenario_text(const std::string& path, std::string text,
+                                                 const ReadOptions& options) {
+  base::Result<Document> parsed = Document::parse(path, std::move(text));
   if (!parsed) return parsed.problems();
   Document& document = *parsed;
   if (base::Problems problems = document.set(options.overrides); !problems.empty()) return problems;

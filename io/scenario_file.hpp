@@ -21,6 +21,10 @@ struct ReadOptions {
 /// with "file:line:column: " or "--set key", in the order of the lines.
 base::Result<study::Scenario> read_scenario(const std::string& path, const ReadOptions& options = {});
 
+/// The same from a text at hand; messages call it `path`, and motors are looked for beside that.
+base::Result<study::Scenario> read_scenario_text(const std::string& path, std::string text,
+                                                 const ReadOptions& options = {});
+
 /// A motor by path or name. `data_dir` as above.
 base::Result<design::Sheet> read_sheet(const std::string& name, const std::string& data_dir = {});
 

@@ -37,12 +37,12 @@ class Audit {
   const Laws& laws() const { return laws_; }
 
  private:
-  void begin(const Plant<Real>& plant);
   void check_laws(const Plant<Real>& plant, Real s);
   Real magnetic_energy(const Plant<Real>& plant, Real s) const;
   Real kinetic_energy(const Plant<Real>& plant, Real s) const;
 
   bool begun_ = false;
+  Real noise_ = 0;  ///< energy of a current and a speed at their noise: less than that cannot be balanced
   Real magnetic_start_ = 0, kinetic_start_ = 0, magnetic_end_ = 0, kinetic_end_ = 0;
   Real supplied_ = 0, copper_ = 0, devices_ = 0, air_gap_ = 0, friction_ = 0, load_ = 0, moved_ = 0;
   Real supplied_low_ = 0, copper_low_ = 0, devices_low_ = 0, air_gap_low_ = 0, friction_low_ = 0,
@@ -95,6 +95,8 @@ void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
     begun_ = true;
     magnetic_start_ = magnetic_energy(plant, Real(0));
     kinetic_start_ = kinetic_energy(plant, Real(0));
+    const Real amp = noise_of(c.amp_scale, Real(1)), speed = noise_of(c.speed_scale, Real(1));
+    noise_ = amp * amp / c.inv_L + speed * speed / c.inv_J;
   }
   check_laws(plant, s);
   const int n = y.degree;
@@ -135,8 +137,8 @@ template <class Real>
 EnergyBook Audit<Real>::energy() const {
   const Real magnetic = magnetic_end_ - magnetic_start_, kinetic = kinetic_end_ - kinetic_start_;
   // A motor that coasts moves no energy through bridge or load; what it stored is then the yardstick.
-  const Real scale =
-      std::max({moved_, magnetic_start_ + kinetic_start_, magnetic_end_ + kinetic_end_, Real(1e-300)});
+  const Real scale = std::max(
+      {moved_, magnetic_start_ + kinetic_start_, magnetic_end_ + kinetic_end_, noise_, Real(1e-300)});
   const auto d = [](Real v) { return static_cast<double>(v); };
   return {.supplied = d(supplied_),
           .copper = d(copper_),

@@ -2,7 +2,7 @@
 // Double against long double on drawn drives. How far rounding may grow is the drive's own matter (a
 // comparator that just misses its level, a rotor that just breaks away), so it is measured: a third run, in
 // long double with parameters off by 1e-13, shows what such a drive makes of so little. Double may differ by
-// that much, and by 1e-11 of the machine's scales.
+// four times that much (it is one direction of many), and by 1e-11 of the machine's scales.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,7 +14,7 @@ namespace {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-constexpr double parameter_part = 1e-13, scale_part = 1e-11, angle_part = 4e-15;
+constexpr double parameter_part = 1e-13, scale_part = 1e-11, angle_part = 4e-15, parted = 1e-7;
 
 DrawnDrive nearly(DrawnDrive d) {
   d.machine.R_ohm *= 1 + parameter_part;
@@ -46,9 +46,18 @@ struct Outcome {
   double worst = 0;  ///< of double, while tame
 };
 
-/// Once two runs have parted by more than the bound they may go where they like: looked at up to there.
+/// A current that is asked to be zero and is: the sign of its last bit decides whether soft chopping leaves
+/// it or brakes (MODEL 4b). Nothing can be compared there.
+bool asks_for_nothing(const DrawnDrive& d) {
+  return std::any_of(d.timeline.begin(), d.timeline.end(), [](const rig::Action& a) {
+    return a.kind == rig::ActionKind::setpoint && a.value == 0.0;
+  });
+}
+
+/// Looked at until the perturbed run has parted: from there on each may go where it likes.
 Outcome compare(std::uint64_t seed) {
   const DrawnDrive drive(seed), other = nearly(drive);
+  if (drive.drive.mode != control::Mode::duty && asks_for_nothing(drive)) return {.tame = false};
   SCOPED_TRACE(reproduce(seed, drive));
   auto twice = drive.rig<double>();
   auto wide = drive.rig<long double>(), moved = other.rig<long double>();
@@ -61,9 +70,10 @@ Outcome compare(std::uint64_t seed) {
     EXPECT_EQ(run_to(moved, t), sim::Stop::end);
     const Point exact = point(wide, drive);
     grown = std::max(grown, distance(point(moved, drive), exact));
+    if (grown > parted) return {.tame = false, .worst = outcome.worst};
     const double error = distance(point(twice, drive), exact);
-    EXPECT_LE(error, scale_part + grown) << "at " << t;
-    if (error > scale_part + grown) break;
+    EXPECT_LE(error, scale_part + 4 * grown) << "at " << t;
+    if (error > scale_part + 4 * grown) break;
     if (grown > scale_part) outcome.tame = false;
     if (outcome.tame) outcome.worst = std::max(outcome.worst, error);
   }

@@ -30,4 +30,16 @@ TEST(Audit, ALoadThatTakesBackWhatItGaveIsAYardstickStill) {
   laws.expect_all(1e-11);
 }
 
+/// Found by the fuzzer: pulses of 1e-22 s moved 1e-34 J, of which not one digit is known.
+TEST(Audit, LessEnergyThanANoiseCurrentHoldsIsNotBalanced) {
+  Drivetrain setup;
+  setup.start.angle_rad = 0.02;
+  Held<> bench(setup, a_to_b());
+  LawChecker<> laws;
+  ASSERT_EQ(sim::run(bench, sim::Instant{0, 1e-9}, laws).stop, sim::Stop::end);
+  EXPECT_GT(laws.audit().energy().moved, 0.0);
+  EXPECT_LT(laws.audit().energy().moved, 1e-30);
+  laws.expect_all(1e-11);
+}
+
 }  // namespace

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Time and angle over very many PWM periods: 10^5 by default, SIXSTEP_PWM_PERIODS of them where that is set
+// (the long tests: 10^7, five minutes of simulated time).
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/support/coinciding.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using rig::Happening;
+
+std::int64_t periods() {
+  const char* text = std::getenv("SIXSTEP_PWM_PERIODS");
+  return text && *text ? std::strtoll(text, nullptr, 10) : 100'000;
+}
+
+template <class Rig>
+void run_periods(Rig& rig, std::int64_t count) {
+  sim::NoObserver none;
+  ASSERT_EQ(sim::run(rig, sim::Instant{count * period_ticks, 0.0}, none).stop, sim::Stop::end);
+  EXPECT_EQ(rig.now(), (sim::Instant{count * period_ticks, 0.0}));
+  EXPECT_EQ(rig.happened(Happening::tick), count + 1);  // the end's own tick is due at it
+}
+
+TEST(LongRun, TimeDoesNotDriftWhileTheRotorIsLocked) {
+  // A duty whose off edge falls between the picoseconds, and what repeats from period to period repeats
+  // exactly.
+  Board b = locked(Board::duty(1.0 / 3.0));
+  auto rig = b.rig();
+  run_periods(rig, periods());
+  EXPECT_EQ(rig.happened(Happening::pwm_edge), periods());
+  EXPECT_EQ(rig.modulator().turn_ons(), periods() + 1);
+  // The ripple's foot in closed form: i(0) = i(T), on over T/3 towards U/R_tt, off by the diodes' loop
+  // towards 0.
+  const double T = 30e-6, on = std::exp(-T / 3 / b.tau()), off = std::exp(-2 * T / 3 / b.tau());
+  const double foot = 24.0 / b.R_tt() * (1 - on) * off / (1 - on * off);
+  // The compensated sums forget a rounding error after tau, some twenty periods: nothing adds up.
+  EXPECT_NEAR(rig.plant().state().i[0], foot, 64 * eps * 24.0 / b.R_tt());
+}
+
+TEST(LongRun, AngleDoesNotDriftAtASpeedThatNoTorqueChanges) {
+  Board b = Board::duty(0.5);
+  b.shaft.J_kg_m2 = 1e18;  // 1 N m for five minutes: 3e-16 rad/s
+  b.shaft.B_Nm_s = 0.0;
+  b.start.speed_rad_s = 300.0;
+  b.start.angle_rad = 0.0;
+  auto rig = b.rig();
+  run_periods(rig, periods());
+  const auto& s = rig.plant().state();
+  EXPECT_EQ(s.w, 300.0);
+  const long double turned = (static_cast<long double>(s.sector) * base::sector_rad + s.x) / 8;
+  const long double exact = 300.0L * 30e-6L * static_cast<long double>(periods());
+  // Each edge is set exactly, and is found to 64 eps of a sector at worst: errors of one sector do not enter
+  // the next one's angle, only its time. They add up at random or not at all; 1e-12 would be 4e5 of them in a
+  // row.
+  EXPECT_NEAR(static_cast<double>(turned / exact), 1.0, 1e-12);
+  const auto edges = static_cast<std::int64_t>(exact * 8 / base::sector_rad);
+  EXPECT_NEAR(static_cast<double>(rig.happened(Happening::sector_edge)), static_cast<double>(edges), 1.0);
+}
+
+}  // namespace
