@@ -229,5 +229,14 @@ TEST_F(WrongInput, AFolderIsNoFile) {
               HasSubstr("cannot be read: Is a directory; name a file in it"));
 }
 
+/// Found by the fuzzer: behind a key the parser took every letter from U+00A1 to U+0499 for unreachable.
+TEST_F(WrongInput, ALetterBesideAKeyIsASyntaxErrorOnly) {
+  for (const std::string letter : {"\u00d6", "\u00e9", "\u03b1", "\u3001", "\ufdf0"}) {
+    const std::vector<std::string> told = complaints(head + "title" + letter + " = 1\n");
+    ASSERT_EQ(told.size(), 1u) << letter;
+    EXPECT_THAT(told[0], HasSubstr("x.toml:3:")) << letter;
+  }
+}
+
 }  // namespace
 }  // namespace io

@@ -32,14 +32,15 @@ class LawChecker {
 
   /// Rounding: sums are kept exactly by construction, diodes and rails to the guards' noise of 64 eps of
   /// scale (twice, for the evaluation); the energy balance to the model's 1e-11.
-  void expect_all(double energy_tolerance = 1e-11, double rail_tolerance_V = 0.0) const {
+  void expect_all(double energy_tolerance = 1e-11, double rail_tolerance_V = 0.0,
+                  double diode_tolerance_A = 0.0) const {
     constexpr double noise = 128 * 0x1p-52;
     const plant::EnergyBook book = audit_.energy();
     EXPECT_GT(segments_, 0);
     EXPECT_FALSE(time_went_back_);
     EXPECT_LE(current_sum_, 8 * 0x1p-52 * amp_scale_);
     EXPECT_EQ(floating_current_, 0.0);
-    EXPECT_LE(reverse_diode_, noise * amp_scale_);
+    EXPECT_LE(reverse_diode_, std::max(noise * amp_scale_, diode_tolerance_A));
     EXPECT_LE(beyond_rail_, std::max(noise * volt_scale_, rail_tolerance_V));
     EXPECT_LE(std::fabs(book.electrical_residual), energy_tolerance);
     EXPECT_LE(std::fabs(book.mechanical_residual), energy_tolerance);
