@@ -40,7 +40,7 @@ bool finite(const plant::State<double>& s) {
          std::isfinite(s.x) && std::isfinite(s.bus);
 }
 
-void run_one(std::uint64_t seed) {
+void run_one(std::uint64_t seed, double slack = widest_noise) {
   const DrawnDrive drive(seed);
   SCOPED_TRACE(reproduce(seed, drive));
   auto rig = drive.rig();
@@ -49,12 +49,20 @@ void run_one(std::uint64_t seed) {
       << "at " << rig.now().seconds() << " fault " << int(rig.fault());
   EXPECT_TRUE(finite(rig.plant().state()));
   const auto& c = rig.plant().constants();
-  watchdog.laws.expect_all(1e-11, widest_noise * c.volt_scale, widest_noise * c.amp_scale);
+  watchdog.laws.expect_all(1e-11, slack * c.volt_scale, slack * c.amp_scale);
 }
 
 TEST(Fuzz, DrawnDrivesKeepTheLaws) {
   const Seeds range = seeds(5000);
   for (std::uint64_t n = 0; n < range.count; ++n) run_one(range.first + n);
+}
+
+/// Open: what settle() judges by plain values in volts and by series in amperes differs by the ratio of the
+/// winding's time constant to the segment's length; between the two it widens its noise, and these drives
+/// then miss the laws' own noise of 128 eps. A floor of volt noise times h/L for the first order of a diode's
+/// current would close the gap.
+TEST(Fuzz, DISABLED_NoDriveNeedsWidenedNoise) {
+  for (const std::uint64_t seed : {3794, 544635, 1088309, 3058719, 5097365}) run_one(seed, 0.0);
 }
 
 }  // namespace
