@@ -42,7 +42,8 @@ constexpr double widest_noise = 65536 * 64 * eps;
 /// case.
 double energy_tolerance(const Watchdog& w, const plant::Constants<double>& c) {
   const double snapped = 64 * eps * c.amp_scale * w.laws.highest_current_A() / c.inv_L;
-  const double all = static_cast<double>(w.segments()) * snapped / w.laws.audit().energy().moved;
+  const double all =
+      static_cast<double>(w.segments()) * snapped / std::max(w.laws.audit().energy().moved, 1e-300);
   return std::clamp(all, 1e-11, 1e-9);
 }
 
