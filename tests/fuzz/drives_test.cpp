@@ -44,6 +44,7 @@ double energy_tolerance(const Watchdog& w, const plant::Constants<double>& c) {
   const double snapped = 64 * eps * c.amp_scale * w.laws.highest_current_A() / c.inv_L;
   const double all =
       static_cast<double>(w.segments()) * snapped / std::max(w.laws.audit().energy().moved, 1e-300);
+  if (all > 1) return 1;  // nothing but rounding moved
   return std::clamp(all, 1e-11, 1e-9);
 }
 
