@@ -29,7 +29,7 @@ const EmfPiece<double>& piece_at(const Table& table, int sector, double x) {
   return table[sector].piece[n];
 }
 
-TEST(BackEmf, TrapezoidOfAnyWidthIsTheDefinition) {
+TEST(Pitfall11_OneFormForAllShapes, TrapezoidOfAnyWidthIsTheDefinition) {
   std::mt19937_64 random{seed};
   std::uniform_real_distribution<double> turn(0.0, 360.0);
   for (const double flat : {120.0, 100.0, 140.0, 60.0, 170.0, 20.0, 119.0, 0.5}) {
@@ -76,7 +76,7 @@ TEST(BackEmf, TheUsualTrapezoidHasOnePiecePerSector) {
   EXPECT_EQ(table[0].piece[0].alpha[1], -1.0);
 }
 
-TEST(BackEmf, SineIsTheDefinition) {
+TEST(Pitfall11_OneFormForAllShapes, SineIsTheDefinition) {
   std::mt19937_64 random{seed};
   std::uniform_real_distribution<double> turn(0.0, 6 * base::sector_rad);
   const auto table = plant::sine_table<double>();

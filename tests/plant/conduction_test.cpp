@@ -126,7 +126,7 @@ TEST(Standstill, FreeLegOnTheRailDoesNotConduct) {
   }
 }
 
-TEST(SectorEdge, RotorStartingOnItLeavesOnce) {
+TEST(Pitfall03_RestartOnABoundary, RotorStartingOnASectorEdgeLeavesOnce) {
   for (int sector = 0; sector < 6; ++sector) {
     // Gates of the positive pair of the sector being entered: theta ~ t^3.
     static constexpr int pair[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};

@@ -22,7 +22,7 @@ Drivetrain dry(double coulomb, double breakaway = 0.0) {
   return setup;
 }
 
-TEST(Friction, RotorStaysWhileTheLoadIsWithinIt) {
+TEST(Pitfall08_Sticking, HoldsWhileTheLoadIsWithinIt) {
   for (const double load : {0.0, 0.04, -0.04, 0.05, -0.05}) {
     Held<> bench(dry(0.05), all_off());
     bench.plant().set_load(load);
@@ -32,7 +32,7 @@ TEST(Friction, RotorStaysWhileTheLoadIsWithinIt) {
   }
 }
 
-TEST(Friction, BreaksAwayInTheDirectionOfTheExcess) {
+TEST(Pitfall08_Sticking, BreaksAwayInTheDirectionOfTheExcess) {
   for (const double load : {0.06, -0.06}) {
     const Drivetrain setup = dry(0.05);
     Held<> bench(setup, all_off());
@@ -46,7 +46,7 @@ TEST(Friction, BreaksAwayInTheDirectionOfTheExcess) {
   }
 }
 
-TEST(Friction, BreakawayInstantOfARisingCurrentIsInClosedForm) {
+TEST(Pitfall08_Sticking, BreakawayInstantIsInClosedForm) {
   for (const double breakaway : {0.0, 0.2}) {
     const Drivetrain setup = dry(0.1, breakaway);
     Held<> bench(setup, a_to_b());
@@ -131,7 +131,7 @@ TEST(Friction, LockedRotorNeedsNone) {
 /// Found by the fuzzer: a rotor that a load pushed for a picosecond makes an EMF of a few rounding errors.
 /// Which leg conducts could then only be told with widened noise, in which the speed vanished too: it neither
 /// turned nor stood.
-TEST(Friction, ARotorThatHardlyTurnsStillTurns) {
+TEST(Pitfall05_SnapFirst, ARotorThatHardlyTurnsStillTurns) {
   for (int decade = -130; decade <= -60; ++decade)
     for (const double sign : {1.0, -1.0})
       for (const double deg : {0.0, 19.0, 60.0, 79.0}) {

@@ -33,16 +33,18 @@ void compare(const Board& board, double length_s, double grid_s) {
   EXPECT_EQ(twice.happened(rig::Happening::diode_off), wide.happened(rig::Happening::diode_off));
 }
 
-TEST(Precision, DoubleFollowsLongDoubleUnderSoftChopping) { compare(Board::duty(0.5), 0.1, 0.25e-3); }
+TEST(Pitfall11_ScalarIsATemplate, DoubleFollowsLongDoubleUnderSoftChopping) {
+  compare(Board::duty(0.5), 0.1, 0.25e-3);
+}
 
-TEST(Precision, AndWithRealDevicesAndDeadTime) {
+TEST(Pitfall11_ScalarIsATemplate, AndWithRealDevicesAndDeadTime) {
   Board board = Board::duty(0.5, control::Chopping::complementary);
   board.devices = {.R_on_ohm = 0.01, .V_f_V = 0.7, .r_d_ohm = 0.01};
   board.board.modulator.dead_ticks = 1e6;
   compare(board, 0.05, 0.25e-3);
 }
 
-TEST(Precision, AndWithFriction) {
+TEST(Pitfall11_ScalarIsATemplate, AndWithFriction) {
   Board board = Board::duty(0.5);
   board.shaft.coulomb_Nm = 0.005;
   board.load(30'000'000'000, 0.05);

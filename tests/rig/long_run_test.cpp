@@ -26,7 +26,7 @@ void run_periods(Rig& rig, std::int64_t count) {
   EXPECT_EQ(rig.happened(Happening::tick), count + 1);  // the end's own tick is due at it
 }
 
-TEST(LongRun, TimeDoesNotDriftWhileTheRotorIsLocked) {
+TEST(Pitfall02_TimeAndAngleAreCounted, TimeDoesNotDriftWhileTheRotorIsLocked) {
   // A duty whose off edge falls between the picoseconds, and what repeats from period to period repeats
   // exactly.
   Board b = locked(Board::duty(1.0 / 3.0));
@@ -42,7 +42,7 @@ TEST(LongRun, TimeDoesNotDriftWhileTheRotorIsLocked) {
   EXPECT_NEAR(rig.plant().state().i[0], foot, 64 * eps * 24.0 / b.R_tt());
 }
 
-TEST(LongRun, AngleDoesNotDriftAtASpeedThatNoTorqueChanges) {
+TEST(Pitfall02_TimeAndAngleAreCounted, AngleDoesNotDriftAtASpeedThatNoTorqueChanges) {
   Board b = Board::duty(0.5);
   b.shaft.J_kg_m2 = 1e18;  // 1 N m for five minutes: 3e-16 rad/s
   b.shaft.B_Nm_s = 0.0;

@@ -97,7 +97,7 @@ Planted plant_pair(std::mt19937_64& random) {
   return p;
 }
 
-TEST(FirstRoot, FindsTheFirstOfEveryPlantedClosePair) {
+TEST(Pitfall09_FirstRootSafely, FindsTheFirstOfEveryPlantedClosePair) {
   std::mt19937_64 random{seed};
   int resolvable = 0;
   for (int n = 0; resolvable < 200000; ++n) {
@@ -165,7 +165,7 @@ TEST(FirstRoot, NegativeStartIsNow) {
   EXPECT_EQ(first_root<double>({5e-16, -1.0}, 1, 1.0, 1e-15), 0.0) << "noise at the start counts as zero";
 }
 
-TEST(FirstRoot, StartOnTheBoundaryIsNoEvent) {
+TEST(Pitfall03_RestartOnABoundary, IsNoEvent) {
   // s (1/2 - s): leaves upwards, comes back at 1/2.
   EXPECT_EQ(first_root<double>({0.0, 0.5, -1.0}, 2, 1.0, 1e-15), 0.5);
   // A leg starts to conduct with i = di/dt = 0: s^2 (1/4 - s).

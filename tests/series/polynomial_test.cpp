@@ -79,7 +79,7 @@ TEST(Polynomial, WholeSegmentIsRestrictedToItself) {
   EXPECT_EQ(restricted(c, 3, 0.0, 1.0), c);
 }
 
-TEST(CompensatedSum, LosesNothingInAMillionSteps) {
+TEST(Pitfall11_CompensatedSums, LoseNothingInAMillionSteps) {
   double y = 1000.0, low = 0.0, plain = 1000.0;
   const double step = 1.0 / 3.0 * 1e-9;
   for (int n = 0; n < 1000000; ++n) {

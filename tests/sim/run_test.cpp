@@ -126,7 +126,7 @@ TEST(Run, BallBouncesAtTheClosedFormTimes) {
   EXPECT_EQ(run.segments, static_cast<std::int64_t>(ball.bounces_s.size()) + 1);
 }
 
-TEST(Run, AccumulatingBouncesEndAsNoProgressNeverAsAHang) {
+TEST(Pitfall07_ZeroLengthSteps, EndAsNoProgressNeverAsAHang) {
   Ball ball;
   ball.restitution = 0.5;
   sim::NoObserver none;
@@ -139,7 +139,7 @@ TEST(Run, AccumulatingBouncesEndAsNoProgressNeverAsAHang) {
   EXPECT_LT(run.segments, 1000);
 }
 
-TEST(Run, ZeroLengthSegmentsAreLegal) {
+TEST(Pitfall07_ZeroLengthSteps, AreLegal) {
   Ball ball;  // on the ground and falling: the first event is now
   ball.y = 0.0;
   ball.v = -3.0;
@@ -246,7 +246,7 @@ struct TwoGuards : Ball {
   }
 };
 
-TEST(Run, ATieGoesToTheGuardNamedFirst) {
+TEST(Pitfall05_SnapFirst, ATieGoesToTheGuardNamedFirst) {
   TwoGuards two;
   two.v = 100.0;
   sim::NoObserver none;

@@ -86,7 +86,7 @@ TEST(Digest, IsTheSameOnEveryRun) {
   for (const Scenario& s : {rich(), hysteresis(), late_chip()}) EXPECT_EQ(digest_of(s), digest_of(s));
 }
 
-TEST(Digest, IsTheSameWhoeverListens) {
+TEST(Pitfall10_RecordersChangeNoBit, WhoeverListens) {
   for (Scenario s : {rich(), hysteresis(), late_chip()}) {
     const std::uint64_t alone = digest_of(s);
     ask(s, measure(MetricKind::rms, Signal::current));
@@ -98,7 +98,7 @@ TEST(Digest, IsTheSameWhoeverListens) {
   }
 }
 
-TEST(Digest, DoesNotChangeTheEndState) {
+TEST(Pitfall10_RecordersChangeNoBit, NorDoesTheDigest) {
   for (const Scenario& s : {rich(), hysteresis(), late_chip()}) {
     const auto compiled = compile(s);
     ASSERT_TRUE(compiled);
