@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program's peak memory does not grow with simulated time while rows stream to a file.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr long KiB_per_MiB = 1024;
+
+long own_peak_KiB() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+/// Peak resident memory of a run of R3 (soft chopping) with a row per PWM period.
+long peak_KiB(const std::string& duration_s, std::vector<std::string> more) {
+  std::vector<std::string> words = {SIXSTEP_PROGRAM,
+                                    "run",
+                                    SIXSTEP_SOURCE_DIR "/data/scenarios/reference/R3.toml",
+                                    "--quiet",
+                                    "--set",
+                                    "duration_s=" + duration_s,
+                                    "--set",
+                                    "record.grid_s=30e-6"};
+  words.insert(words.end(), more.begin(), more.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+  int status = -1;
+  rusage usage{};
+  EXPECT_EQ(wait4(child, &status, 0, &usage), child);
+  EXPECT_EQ(status, 0);
+  return usage.ru_maxrss;
+}
+
+class Memory : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (SIXSTEP_SANITIZED) GTEST_SKIP() << "a sanitizer keeps freed memory";
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// Ten times the time against once: KiB more at the peak.
+  long growth_KiB(const std::vector<std::string>& more) {
+    const long once = peak_KiB("0.4", more), tenfold = peak_KiB("4", more);
+    std::printf("peak %ld KiB for 0.4 s, %ld KiB for 4 s\n", once, tenfold);
+    // A child begins with its parent's peak: ours must not hide the program's.
+    EXPECT_GT(once, own_peak_KiB());
+    return tenfold - once;
+  }
+
+ private:
+  static std::filesystem::path made_folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "sixstep-memory-XXXXXX").string();
+    if (!mkdtemp(name.data())) ADD_FAILURE() << "no folder for the outputs";
+    return name;
+  }
+  std::filesystem::path folder_ = made_folder();
+};
+
+// The writer holds 64 KiB of text; the rest is the steps of an allocator. Kept in memory, 120'000 rows of
+// seven columns would be 6.5 MiB more, and all columns of each event far more.
+constexpr long bound_KiB = 2 * KiB_per_MiB;
+
+TEST_F(Memory, DoesNotGrowWhileRowsOnAGridStreamToAFile) {
+  EXPECT_LE(growth_KiB({"--csv", file("grid.csv"), "--json", file("grid.json")}), bound_KiB);
+  EXPECT_GT(std::filesystem::file_size(file("grid.csv")), 10'000'000u);
+}
+
+TEST_F(Memory, DoesNotGrowWhileEveryEventStreamsToAFile) {
+  EXPECT_LE(growth_KiB({"--csv", file("events.csv"), "--set", "record.events=true"}), bound_KiB);
+  EXPECT_GT(std::filesystem::file_size(file("events.csv")), 20'000'000u);
+}
+
+TEST_F(Memory, OfAReportGrowsSoTheMeasureSeesWhatIsKept) {
+  EXPECT_GT(growth_KiB({"--html", file("report.html")}), bound_KiB);
+}
+
+}  // namespace

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// A long time in open loop on an exact time base: one simulated second by default, SIXSTEP_SIMULATED_S of
+// them where that is set (the long tests: 3600, one hour).
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "sixstep/series/polynomial.hpp"
+#include "tests/support/coinciding.hpp"
+#include "tests/support/laws.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using rig::Happening;
+
+std::int64_t seconds() {
+  const char* text = std::getenv("SIXSTEP_SIMULATED_S");
+  return text && *text ? std::strtoll(text, nullptr, 10) : 1;
+}
+constexpr std::int64_t second_ticks = 1'000'000'000'000;
+
+/// The shaft's way once more, as the integral of its speed.
+class Way {
+ public:
+  template <class Rig>
+  void segment(const Rig& rig, double s) {
+    const auto& y = rig.plant().expansion();
+    series::add_compensated(rad_, low_, y.h * series::integral(y.w, y.degree, s));
+  }
+  double rad() const { return rad_; }
+
+ private:
+  double rad_ = 0.0, low_ = 0.0;
+};
+
+struct WayAndEnergy {
+  Way way;
+  plant::Audit<double> audit;
+  template <class Rig>
+  void segment(const Rig& rig, double s) {
+    way.segment(rig, s);
+    audit.segment(rig.plant(), s);
+  }
+};
+
+/// Angle by sector count against the integral. The count knows each edge, which is found to 64 eps of a
+/// sector, the guard's noise, at worst: all of them to the same side would be 64 eps of the way.
+template <class Rig>
+void expect_angle(const Rig& rig, double way_rad) {
+  const auto& s = rig.plant().state();
+  const long double angle = (static_cast<long double>(s.sector) * base::sector_rad + s.x) / 8;
+  EXPECT_NEAR(static_cast<double>(angle / way_rad), 1.0, 64 * eps);
+  EXPECT_EQ(rig.happened(Happening::sector_edge), s.sector) << "every edge is one sector forward";
+}
+
+TEST(OneHour, AtFullVoltageKeepsTimeAngleAndEnergy) {
+  const Board b = Board::duty(1.0);
+  auto rig = b.rig();
+  WayAndEnergy both;
+  const sim::Instant end{seconds() * second_ticks, 0.0};
+  ASSERT_EQ(sim::run(rig, end, both).stop, sim::Stop::end);
+  EXPECT_EQ(rig.now(), end);
+  EXPECT_EQ(rig.happened(Happening::tick), 1) << "a steady bridge in open loop asks nothing of later ticks";
+  expect_angle(rig, both.way.rad());
+  const plant::EnergyBook book = both.audit.energy();
+  EXPECT_LE(std::fabs(book.electrical_residual), 1e-11);
+  EXPECT_LE(std::fabs(book.mechanical_residual), 1e-11);
+  EXPECT_GT(book.supplied, 2.0 * static_cast<double>(seconds())) << "friction alone takes 3.6 W";
+}
+
+TEST(OneHour, OfChoppingCountsEveryPeriod) {
+  const Board b = Board::duty(0.5);
+  auto rig = b.rig();
+  Way way;
+  const sim::Instant end{seconds() * second_ticks, 0.0};
+  ASSERT_EQ(sim::run(rig, end, way).stop, sim::Stop::end);
+  EXPECT_EQ(rig.now(), end);
+  // What is due at the end is done: a tick on it, the off edge of a period that ends in its second half.
+  const std::int64_t whole = end.ticks / period_ticks, rest = end.ticks % period_ticks;
+  EXPECT_EQ(rig.happened(Happening::tick), whole + 1);
+  EXPECT_EQ(rig.happened(Happening::pwm_edge), whole + (rest >= period_ticks / 2));
+  EXPECT_EQ(rig.modulator().turn_ons(), whole + 1);
+  expect_angle(rig, way.rad());
+}
+
+}  // namespace
