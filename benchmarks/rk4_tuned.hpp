@@ -1,36 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the engine is measured against: the same star machine, bridge and cascade as a good textbook program
-// has them. Fixed-step fourth-order Runge-Kutta, ifs for the diodes, gates and diodes held over a step.
-// Written to be fast: no branch inside a stage, back-EMF from a table of straight lines, angle local to its
-// sector. It includes the physics most often left out, the floating phase that starts to conduct. Its error
-// is of first order in the step all the same, because switching instants fall between the steps.
+// The faster yardstick: the same star machine, bridge and cascade as in a textbook program. Fixed-step
+// fourth-order Runge-Kutta, ifs for the diodes, gates and diodes held over a step. Written to be fast: no
+// branch inside a stage, back-EMF from a table of straight lines, angle local to its sector. It includes the
+// physics most often left out, the floating phase that starts to conduct. Its error is of first order in the
+// step all the same, because switching instants fall between the steps.
 #pragma once
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "benchmarks/yardstick.hpp"
+
 namespace benchmarks {
 
-enum class YardstickMode : std::uint8_t { duty, current, speed };
-
-/// Defaults: maxon EC 45 flat 251601 at 24 V, ideal devices, soft chopping, 30 us period, the thesis's gains.
-struct YardstickParameters {
-  double R = 0.515, L = 0.286e-3, K_e = 0.01675, pole_pairs = 8.0;  // per phase
-  double J = 1.35e-5, B = 7.3e-6;
-  double U = 24.0, R_on = 0.0, V_f = 0.0, r_d = 0.0;
-  double T_load = 0.0;
-  double step_s = 1e-6;
-  int steps_per_period = 30;
-  YardstickMode mode = YardstickMode::duty;
-  bool floating_phase_conducts = true;              // false: leave it out, as most textbook programs do
-  double current_d1 = 4.5, current_d0 = -4.04;      // A -> V
-  double speed_d1 = 0.017225, speed_d0 = -0.01707;  // rad/s -> fraction of full torque
-  double current_at_full_torque = 0.78 / 0.0335;
-};
-
-class Rk4Yardstick {
+class Rk4Tuned {
  public:
-  explicit Rk4Yardstick(const YardstickParameters& parameters)
+  explicit Rk4Tuned(const YardstickParameters& parameters)
       : p_(parameters), inv_L_(1.0 / parameters.L), inv_J_(1.0 / parameters.J) {}
 
   /// Duty in [-1, 1], A or rad/s, by the mode; seen at the next control tick.
@@ -65,29 +50,9 @@ class Rk4Yardstick {
                                               {{-1, 1, -1}, {0, 0, ramp}},
                                               {{-1, 1, 1}, {0, -ramp, 0}},
                                               {{-1, -1, 1}, {ramp, 0, 0}}}};
-  static constexpr std::array<std::array<std::uint8_t, 2>, 6> pairs{
-      {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}}};
-
-  static double clamped(double x, double limit) { return x > limit ? limit : x < -limit ? -limit : x; }
-
-  struct Pi {
-    double u = 0.0, e = 0.0;
-    double operator()(double d1, double d0, double error, double limit) {
-      u = clamped(u + d1 * error + d0 * e, limit);
-      e = error;
-      return u;
-    }
-  };
-
   void control() {
-    const auto [source, sink] = pairs[sector_];
-    double d = reference_;
-    if (p_.mode != YardstickMode::duty) {
-      double i_ref = reference_;
-      if (p_.mode == YardstickMode::speed)
-        i_ref = p_.current_at_full_torque * speed_pi_(p_.speed_d1, p_.speed_d0, reference_ - y_[3], 1.0);
-      d = current_pi_(p_.current_d1, p_.current_d0, i_ref - 0.5 * (y_[source] - y_[sink]), p_.U) / p_.U;
-    }
+    const auto [source, sink] = yardstick_pairs[sector_];
+    const double d = control_.duty(p_, reference_, 0.5 * (y_[source] - y_[sink]), y_[3]);
     reversed_ = d < 0.0;
     on_steps_ = (reversed_ ? -d : d) * p_.steps_per_period;
   }
@@ -101,7 +66,8 @@ class Rk4Yardstick {
   /// Which rail each leg hangs on during this step: switches by the gates, diodes by the current's sign, and
   /// a floating leg whose terminal would leave the rails by the diode it runs into.
   void set_legs(bool on) {
-    const std::size_t source = pairs[sector_][reversed_ ? 1 : 0], sink = pairs[sector_][reversed_ ? 0 : 1];
+    const std::size_t source = yardstick_pairs[sector_][reversed_ ? 1 : 0],
+                      sink = yardstick_pairs[sector_][reversed_ ? 0 : 1];
     connected_ = {};
     diode_ = {};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -208,7 +174,7 @@ class Rk4Yardstick {
   int step_in_period_ = 0;
   double reference_ = 0.0, on_steps_ = 0.0;
   bool reversed_ = false;
-  Pi current_pi_, speed_pi_;
+  YardstickControl control_;
   std::array<double, 3> connected_{}, voltage_{}, resistance_{};
   std::array<int, 3> diode_{};
   double inv_count_ = 0.0;

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cases whose cost is measured, ready to run without a file system in the loop.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "benchmarks/yardstick.hpp"
+#include "io/scenario_file.hpp"
+#include "sixstep/sim/run.hpp"
+#include "sixstep/study/compile.hpp"
+
+namespace benchmarks {
+
+inline constexpr double period_s = 30e-6;
+
+struct Case {
+  const char* name;
+  const char* scenario;
+  const char* trajectory;  ///< of tests/reference; empty: none
+  YardstickMode mode;
+  double reference, reverse_s;  ///< of the yardsticks: sign turned at every reverse_s where > 0
+  double judged_s;              ///< accuracy up to here
+};
+
+/// R6 has a Hall edge 0.25 us behind the tick at 13.26 ms, which a fixed step puts before or behind it by
+/// chance.
+inline constexpr Case cases[] = {
+    {"R2 voltage run-up", "reference/R2.toml", "R2.csv", YardstickMode::duty, 1.0, 0.0, 1.0},
+    {"R3 soft chopping", "reference/R3.toml", "R3.csv", YardstickMode::duty, 0.5, 0.0, 1.0},
+    {"R6 current PI", "reference/R6.toml", "R6.csv", YardstickMode::current, 5.0, 5e-3, 13.2e-3},
+    {"7.4 speed cascade", "thesis/7.4-speed-thesis-gains.toml", "", YardstickMode::speed, 100.0, 0.0, 0.0},
+};
+
+inline std::string trajectory_file(const Case& c) {
+  return std::string(SIXSTEP_SOURCE_DIR "/tests/reference/") + c.trajectory;
+}
+
+/// A case for the engine. Copies of `rig()` start from rest; they look at this, which must live on.
+class Prepared {
+ public:
+  using Rig = sixstep::rig::Rig<double, double>;
+
+  /// Empty where the files cannot be read; a duration above zero replaces the scenario's.
+  static std::optional<Prepared> of(const Case& c, double duration_s = 0.0) {
+    auto scenario = io::read_scenario(std::string(SIXSTEP_SOURCE_DIR "/data/scenarios/") + c.scenario, {});
+    if (!scenario) return std::nullopt;
+    if (duration_s > 0) scenario->duration_s = duration_s;
+    auto compiled = sixstep::study::compile(*scenario);
+    if (!compiled) return std::nullopt;
+    return Prepared(std::move(*scenario), std::move(*compiled));
+  }
+
+  Rig rig() const {
+    const auto& c = compiled_;
+    return {{c.motor.machine, c.shaft, c.devices, c.supply, c.start}, c.drive, c.board, c.timeline};
+  }
+  sixstep::sim::Instant end() const { return compiled_.end; }
+  const sixstep::study::Scenario& scenario() const { return scenario_; }
+
+ private:
+  Prepared(sixstep::study::Scenario scenario, sixstep::study::Compiled compiled)
+      : scenario_(std::move(scenario)), compiled_(std::move(compiled)) {}
+
+  sixstep::study::Scenario scenario_;
+  sixstep::study::Compiled compiled_;
+};
+
+}  // namespace benchmarks

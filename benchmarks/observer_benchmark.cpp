@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// What each observer of a run costs, alone and all together as the program has them. tools/performance.py
+// makes the table of docs/performance.md of it.
+//
+//   build/dev/benchmarks/observer_benchmark
+#include <benchmark/benchmark.h>
+
+#include <filesystem>
+#include <numeric>
+#include <string>
+
+#include "benchmarks/cases.hpp"
+#include "io/csv_writer.hpp"
+#include "sixstep/plant/audit.hpp"
+#include "sixstep/study/digest.hpp"
+#include "sixstep/study/figures.hpp"
+#include "sixstep/study/recorder.hpp"
+#include "sixstep/study/run.hpp"
+
+namespace {
+
+using namespace benchmarks;
+namespace study = sixstep::study;
+using sixstep::control::Mode;
+
+/// Runs with a fresh observer each time, as `make(prepared)` gives it.
+template <class Make>
+void measure(benchmark::State& state, const Case& c, Make make) {
+  const auto prepared = Prepared::of(c);
+  if (!prepared) return state.SkipWithError("the scenario cannot be read");
+  for (auto _ : state) {
+    auto rig = prepared->rig();
+    auto observer = make(*prepared);
+    benchmark::DoNotOptimize(sixstep::sim::run(rig, prepared->end(), observer));
+    benchmark::DoNotOptimize(observer);
+  }
+  state.counters["per_period"] =
+      benchmark::Counter(prepared->end().seconds() / period_s * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+struct Audited {
+  sixstep::plant::Audit<double> audit;
+  template <class Rig>
+  void segment(const Rig& rig, double s) {
+    audit.segment(rig.plant(), s);
+  }
+};
+
+/// One figure over the whole run: the largest value of the signal, which looks into every segment.
+study::Figures figures(const Prepared& p, study::MetricKind metric, study::Signal signal) {
+  study::Scenario s = p.scenario();
+  s.require.clear();
+  s.compare.clear();
+  study::Measure m;
+  m.metric = metric;
+  m.signal = signal;
+  s.compare.push_back({m, 0.0, ""});
+  return study::Figures(s, study::reference_levels(s.reference, s.duration_s));
+}
+
+std::vector<std::size_t> first_columns(std::size_t count) {
+  std::vector<std::size_t> columns(count);
+  std::iota(columns.begin(), columns.end(), std::size_t{0});
+  return columns;
+}
+
+constexpr std::int64_t grid_ticks = 30'000'000;  // a row per PWM period
+constexpr double gap_s = 1e-3;
+void nowhere(std::span<const double> row) { benchmark::DoNotOptimize(row.data()); }
+
+/// A recorder whose rows go to a CSV file as the program writes it; the file is never put in place.
+void csv(benchmark::State& state, const Case& c) {
+  const std::string name =
+      (std::filesystem::temp_directory_path() / "sixstep-observer-benchmark.csv").string();
+  const auto columns = std::span(study::all_columns()).first(7);
+  std::optional<io::CsvWriter> file;
+  measure(state, c, [&](const Prepared& p) {
+    auto made = io::CsvWriter::create(name, columns);
+    file.reset();
+    if (made) file.emplace(std::move(*made));
+    return study::GridRecorder(grid_ticks, p.end(), p.scenario().control.mode, first_columns(7),
+                               [&file](std::span<const double> row) {
+                                 if (file) file->row(row);
+                               });
+  });
+}
+
+/// The study as the program runs it, without files: digest, audit and the scenario's own figures.
+void whole_study(benchmark::State& state, const Case& c) {
+  const auto prepared = Prepared::of(c);
+  if (!prepared) return state.SkipWithError("the scenario cannot be read");
+  for (auto _ : state) benchmark::DoNotOptimize(study::run(prepared->scenario()));
+  state.counters["per_period"] =
+      benchmark::Counter(prepared->end().seconds() / period_s * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+template <class Make>
+void add(const Case& c, const char* observer, Make make) {
+  benchmark::RegisterBenchmark((std::string(c.name) + "/" + observer).c_str(),
+                               [c, make](benchmark::State& state) { measure(state, c, make); });
+}
+
+void register_all(const Case& c) {
+  using study::MetricKind, study::Signal;
+  add(c, "none", [](const Prepared&) { return sixstep::sim::NoObserver{}; });
+  add(c, "digest", [](const Prepared&) { return study::Digest{}; });
+  add(c, "energy audit and laws", [](const Prepared&) { return Audited{}; });
+  add(c, "figure: mean of the current",
+      [](const Prepared& p) { return figures(p, MetricKind::mean, Signal::current); });
+  add(c, "figure: maximum of the current",
+      [](const Prepared& p) { return figures(p, MetricKind::maximum, Signal::current); });
+  add(c, "rows on a grid, one per PWM period", [](const Prepared& p) {
+    return study::GridRecorder(grid_ticks, p.end(), p.scenario().control.mode, first_columns(7), nowhere);
+  });
+  add(c, "rows at every event", [](const Prepared& p) {
+    return study::EventRecorder(gap_s, p.scenario().control.mode, first_columns(study::column_count),
+                                nowhere);
+  });
+  benchmark::RegisterBenchmark((std::string(c.name) + "/rows on a grid to a CSV file").c_str(),
+                               [c](benchmark::State& state) { csv(state, c); });
+  benchmark::RegisterBenchmark((std::string(c.name) + "/study: digest, audit, its figures").c_str(),
+                               [c](benchmark::State& state) { whole_study(state, c); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (const Case& c : {cases[1], cases[2]}) register_all(c);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
