@@ -1,0 +1,45 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The tables of tools/performance.py: right figures from a planted report, and a page of another shape is noticed."""
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+sys.dont_write_bytecode = True
+import performance  # noqa: E402
+
+ENGINE = {"R/engine": {"per_period": 200e-9, "error": 5e-14}, "R/textbook 1 us": {"per_period": 2e-6, "error": 0.0566},
+          "R/textbook 0.1 us": {"per_period": 20e-6, "error": 2.9e-3}, "R/tuned 1 us": {"per_period": 1.5e-6},
+          "R/tuned 0.1 us": {"per_period": 15e-6}, "R/1 s": {"per_period": 200e-9}, "R/10 s": {"per_period": 220e-9}}
+OBSERVERS = {"R/none": {"per_period": 200e-9}, "R/digest": {"per_period": 210e-9}}
+
+
+class Performance(unittest.TestCase):
+    def setUp(self):
+        self.tables = performance.tables_of(ENGINE, OBSERVERS)
+        self.pages = {"README.md": "", "docs/performance.md": ""}
+        for name, place in performance.PLACES.items():
+            self.pages[place] += f"<!-- performance: {name} -->\non this\n\n{performance.markdown(self.tables[name])}<!-- end -->\n"
+
+    def wrong(self, place, old, new):
+        self.assertIn(old, self.pages[place])
+        return performance.differences(self.tables, {**self.pages, place: self.pages[place].replace(old, new)}.get)
+
+    def test_figures(self):
+        self.assertEqual(self.tables["speed"][1], ["R", "200", "150", "5e-14", "10.0x, 5.7 %", "100.0x, 0.29 %", "7.5x", "75.0x"])
+        self.assertEqual(self.tables["growth"][1], ["R", "200", "220", "11.00x"])
+        self.assertEqual(self.tables["observers"][1:], [["none", "200", ""], ["digest", "210", "5 %"]])
+
+    def test_other_figures_are_no_difference(self):
+        self.assertEqual(self.wrong("README.md", "| 200 |", "| 199 |"), [])
+
+    def test_other_rows_columns_or_markers_are(self):
+        for place, old, new in [("README.md", "| R |", "| S |"), ("README.md", "simulated s per s", "speed"),
+                                ("docs/performance.md", "| digest | 210 | 5 % |\n", ""),
+                                ("docs/performance.md", "performance: growth", "performance: grown")]:
+            self.assertEqual(len(self.wrong(place, old, new)), 1, old)
+
+
+if __name__ == "__main__":
+    unittest.main()

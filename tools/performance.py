@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""performance.py: builds the benchmarks, runs them (half a minute), prints the tables of speed as Markdown.
+
+  --renew   also writes them between their markers in README.md and docs/performance.md
+  --check   runs nothing: are the tables there the ones that the benchmarks would fill, row by row and column by column?
+            Figures differ between machines and are not compared.
+  --programs FOLDER   where the benchmarks lie, already built
+
+CPU time; of five repetitions, shuffled among each other, the fastest counts: what else the machine does only adds.
+"""
+import argparse
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+BUILD = ROOT / "build/dev"
+YARDSTICKS = ("textbook 1 us", "textbook 0.1 us", "tuned 1 us", "tuned 0.1 us")
+LONG = ("1 s", "10 s")
+PLACES = {"speed": "README.md", "growth": "docs/performance.md", "observers": "docs/performance.md"}
+
+
+def said_by(*words, **more):
+    return subprocess.run([str(word) for word in words], check=True, text=True, stdout=subprocess.PIPE, **more).stdout
+
+
+def built():
+    if not (BUILD / "build.ninja").exists():
+        said_by("cmake", "--preset", "dev", cwd=ROOT)
+    said_by("cmake", "--build", BUILD, "--target", "engine_benchmark", "observer_benchmark")
+    return BUILD / "benchmarks"
+
+
+def names_of(program):
+    return dict.fromkeys(said_by(program, "--benchmark_list_tests").splitlines(), {})
+
+
+def measured(program):
+    """{name: {counter: value}} of the fastest repetition."""
+    report = json.loads(said_by(program, "--benchmark_format=json", "--benchmark_repetitions=5", "--benchmark_min_time=0.1",
+                                "--benchmark_enable_random_interleaving=true", stderr=subprocess.DEVNULL))
+    best = names_of(program)
+    for run in report["benchmarks"]:
+        if run.get("error_occurred"):
+            raise SystemExit(f"performance: {run['name']}: {run['error_message']}")
+        name = run["run_name"]
+        if run["run_type"] == "iteration" and run["per_period"] < best[name].get("per_period", float("inf")):
+            best[name] = run
+    return best
+
+
+def ns(run):
+    return 1e9 * run["per_period"] if run else 0.0
+
+
+def solvers_of(runs):
+    """{case: {solver or observer: run}}, in the order of the program."""
+    cases = {}
+    for name, run in runs.items():
+        case, _, solver = name.partition("/")
+        cases.setdefault(case, {})[solver] = run
+    return cases
+
+
+def share(error):
+    return "" if error is None else f"{100 * error:.2g} %" if error > 1e-6 else f"{error:.0e}"
+
+
+def speed_table(engine):
+    rows = [["case", "ns per 30 us", "simulated s per s", "error of the current", *(f"RK4 {y}" for y in YARDSTICKS)]]
+    for case, runs in solvers_of(engine).items():
+        own = runs["engine"]
+        cells = [case, f"{ns(own):.0f}", f"{30e3 / (ns(own) or 1):.0f}", share(own.get("error"))]
+        for yardstick in YARDSTICKS:
+            error = share(runs[yardstick].get("error"))
+            cells.append(f"{ns(runs[yardstick]) / (ns(own) or 1):.1f}x" + (f", {error}" if error else ""))
+        rows.append(cells)
+    return rows
+
+
+def growth_table(engine):
+    rows = [["case", *(f"ns per 30 us over {length}" for length in LONG), "cost of ten times the time"]]
+    for case, runs in solvers_of(engine).items():
+        if LONG[0] in runs:
+            short, long = (ns(runs[length]) for length in LONG)
+            rows.append([case, f"{short:.0f}", f"{long:.0f}", f"{10 * long / (short or 1):.2f}x"])
+    return rows
+
+
+def observer_table(observers):
+    cases = solvers_of(observers)
+    rows = [["observer"] + [f"{case}{what}" for case in cases for what in (", ns per 30 us", ", more")]]
+    for observer in next(iter(cases.values())):
+        cells = [observer]
+        for runs in cases.values():
+            none, with_it = ns(runs["none"]), ns(runs[observer])
+            cells += [f"{with_it:.0f}", "" if observer == "none" else f"{100 * (with_it / (none or 1) - 1):.0f} %"]
+        rows.append(cells)
+    return rows
+
+
+def tables_of(engine, observers):
+    return {"speed": speed_table(engine), "growth": growth_table(engine), "observers": observer_table(observers)}
+
+
+def markdown(rows):
+    head, *rest = rows
+    lines = [head, ["---"] + ["---:"] * (len(head) - 1), *rest]
+    return "".join("| " + " | ".join(cells) + " |\n" for cells in lines)
+
+
+def shape(rows):
+    """What must be the same on every machine: the first row and the first column."""
+    return [rows[0], [row[0] for row in rows]]
+
+
+def block(name):
+    return re.compile(rf"(<!-- performance: {name} -->\n)(.*?)(<!-- end -->)", re.S)
+
+
+def written_rows(text, name):
+    found = block(name).search(text)
+    lines = [line for line in found[2].splitlines() if line.startswith("|")] if found else []
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    return rows[:1] + rows[2:]
+
+
+def differences(tables, text_of):
+    return [f"{place}: the table \"{name}\" has other rows or columns than the benchmarks" for name, place in PLACES.items()
+            if not (written := written_rows(text_of(place), name)) or shape(written) != shape(tables[name])]
+
+
+def machine():
+    cpu = re.search(r"^model name\s*:\s*(.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.M)
+    compiler = re.search(r"^CMAKE_CXX_COMPILER:\w+=(.*)$", (BUILD / "CMakeCache.txt").read_text(), re.M)
+    version = said_by(compiler[1], "--version").splitlines()[0] if compiler else "unknown compiler"
+    return f"Measured on one core of: {cpu[1] if cpu else 'unknown processor'}; {version}.\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--renew", action="store_true")
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--programs", type=pathlib.Path)
+    words = parser.parse_args()
+    folder = words.programs or built()
+    look = names_of if words.check else measured
+    tables = tables_of(look(folder / "engine_benchmark"), look(folder / "observer_benchmark"))
+    if words.check:
+        wrong = differences(tables, lambda place: (ROOT / place).read_text(encoding="utf-8"))
+        print("\n".join(wrong + ["write them anew: tools/performance.py --renew"] if wrong else ["the tables are those of the benchmarks"]))
+        return 1 if wrong else 0
+    on = machine()
+    for name, rows in tables.items():
+        text = f"{on}\n{markdown(rows)}"
+        print(f"{name}\n\n{text}")
+        file = ROOT / PLACES[name]
+        if words.renew:
+            old = file.read_text(encoding="utf-8")
+            new, count = block(name).subn(lambda found: found[1] + text + found[3], old)
+            if count != 1:
+                raise SystemExit(f"performance: {PLACES[name]} has no markers <!-- performance: {name} --> .. <!-- end -->")
+            file.write_text(new, encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
