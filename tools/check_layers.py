@@ -23,9 +23,9 @@ FREESTANDING = set("array bit cfloat climits compare concepts cstddef cstdint in
                    "utility version".split())
 # Of the standard library, what the library may use: no files, clocks, threads, platform-dependent random numbers,
 # or containers whose order differs between platforms.
-LIBRARY = FREESTANDING | set("algorithm cassert charconv cmath cstdlib cstring deque functional iterator list map "
-                             "memory memory_resource numbers numeric optional ranges set span string string_view tuple "
-                             "variant vector".split())
+LIBRARY = FREESTANDING | set("algorithm bitset cassert charconv cmath cstdlib cstring deque functional iterator list "
+                             "map memory memory_resource numbers numeric optional ranges set span string string_view "
+                             "tuple variant vector".split())
 ELEMENTARY = re.compile(r"(?<![\w:])(?:std)?::\s*(a?sinh?|a?cosh?|a?tanh?|atan2|exp2?|expm1|log(?:10|1p|2)?|pow|cbrt|hypot|fma|lerp|"
                         r"[lt]gamma|erfc?)[fl]?\s*[(;]")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -33,53 +33,96 @@ void shorten(Expansion<Real>& out, Real excess_last, Real excess_before) {
 /// How far the last two terms stand above the rounding level of their states, 1 = at it.
 template <class Real>
 struct Convergence {
+  Real amp_limit, speed_limit, volt_limit;
   Real before = 0, last = 0;
+
+  explicit Convergence(const Constants<Real>& c)
+      : amp_limit(c.amp_limit), speed_limit(c.speed_limit), volt_limit(c.volt_limit) {}
 
   /// A sine's shape counts too: without current it alone decides how far a floating terminal's voltage is
   /// known.
   template <bool sine, bool bus>
-  void look(const Constants<Real>& c, const Expansion<Real>& y, int n, Real currents) {
+  void look(const Growing<Real>& y, int n, Real currents, Real speed) {
     before = last;
-    last = currents * c.amp_limit + abs(y.w[n]) * c.speed_limit;
-    if constexpr (bus) last += abs(y.bus[n]) * c.volt_limit;
+    last = currents * amp_limit + speed * speed_limit;
+    if constexpr (bus) last += abs(y.bus[n]) * volt_limit;
     if constexpr (sine) last += (abs(y.phi0[n]) + abs(y.phi1[n])) * terms_per_scale<Real>;
   }
   /// One small term may be a symmetry's zero; a small one after one not much larger is the end of the series.
   bool reached() const { return last < 1 && before < 4096; }
 };
 
-/// Terms n + 1 of all series from terms n; true where that was enough.
-template <int n, bool bus, class Currents, class Real>
-[[gnu::always_inline]] inline bool take_order(const Constants<Real>& c, const Mode& mode, Currents& currents,
-                                              const Rotor<Real>& rotor, Convergence<Real>& convergence,
-                                              Expansion<Real>& y) {
-  const Real f = y.h * Real(1.0L / (n + 1));
-  currents.template step<n, bus>(c, rotor, y, f);
-  if constexpr (bus)
-    bus_step<n>(c, mode, y, f);
-  else
-    y.bus[n + 1] = 0;
-  y.degree = n + 1;
-  if constexpr (n < 5) return false;  // no segment worth taking needs fewer, and each look costs
-  convergence.template look<Currents::sine_shape, bus>(c, y, n + 1, currents.size(y, n + 1));
-  return n >= 6 && convergence.reached();
-}
+/// What one segment's recurrence works with: all in registers or on the stack.
+template <bool bus, class Currents, class Real>
+struct Recurrence {
+  Currents currents;
+  Rotor<Real> rotor;
+  BusLaw<Real> bus_law;
+  Convergence<Real> convergence;
+  Growing<Real> y;
+
+  Recurrence(const Constants<Real>& c, const Mode& mode, const Currents& law, const Expansion<Real>& out)
+      : currents(law),
+        rotor(c, mode.motion),
+        bus_law(c, mode, c.legs[legs_index(mode.legs)]),
+        convergence(c) {
+    y.h = out.h;
+    y.w[0] = out.w[0];
+    y.x[0] = out.x[0];
+    y.bus[0] = out.bus[0];
+    if constexpr (Currents::sine_shape) {
+      y.phi0[0] = out.phi0[0];
+      y.phi1[0] = out.phi1[0];
+    }
+    currents.start(out, y);
+  }
+
+  /// Terms n + 1 of all series from terms n; true where that was enough.
+  template <int n>
+  [[gnu::always_inline]] inline bool take_order(Expansion<Real>& out) {
+    const Real f = y.h * Real(1.0L / (n + 1));
+    currents.template step<n, bus>(rotor, y, f);
+    if constexpr (bus) bus_law.template step<n>(y, f, y.i[n], y.i_2[n]);
+    write<n>(out);
+    const Real size = currents.reached(y, n + 1), size_w = abs(y.w[n + 1]);
+    y.reach_w += size_w;
+    if constexpr (n < 5) return false;  // no segment worth taking needs fewer, and each look costs
+    convergence.template look<Currents::sine_shape, bus>(y, n + 1, size, size_w);
+    return n >= 6 && convergence.reached();
+  }
+  template <int n>
+  [[gnu::always_inline]] inline void write(Expansion<Real>& out) const {
+    currents.write(out, n + 1, y);
+    out.w[n + 1] = y.w[n + 1];
+    out.x[n + 1] = y.x[n + 1];
+    out.torque[n] = y.torque[n];
+    if constexpr (bus) out.bus[n + 1] = y.bus[n + 1];  // of a stiff bus all but the first stay zero
+    if constexpr (Currents::sine_shape) {
+      out.phi0[n + 1] = y.phi0[n + 1];
+      out.phi1[n + 1] = y.phi1[n + 1];
+    }
+    out.degree = n + 1;
+  }
+};
 
 /// Order by order until the last two terms are below rounding, or the degree is used up.
 template <bool bus, class Currents, class Real>
-void recurrence_with(const Constants<Real>& c, const Mode& mode, Currents& currents, Expansion<Real>& y) {
-  const Rotor<Real> rotor(c, mode.motion);
-  Convergence<Real> convergence;
-  [&]<int... n>(std::integer_sequence<int, n...>) {
-    static_cast<void>((take_order<n, bus>(c, mode, currents, rotor, convergence, y) || ...));
+void recurrence_with(const Constants<Real>& c, const Mode& mode, const Currents& currents,
+                     Expansion<Real>& out) {
+  Recurrence<bus, Currents, Real> r(c, mode, currents, out);
+  [&]<int... n>(std::integer_sequence<int, n...>) __attribute__((always_inline)) {
+    static_cast<void>((r.template take_order<n>(out) || ...));
   }
   (std::make_integer_sequence<int, series::max_degree>{});
-  y.torque[y.degree] = 0;
-  if (!convergence.reached()) shorten(y, convergence.last, convergence.before);
+  out.torque[out.degree] = 0;
+  r.currents.reach(r.y, out.reach_i);
+  out.reach_w = r.y.reach_w;
+  out.reach_x = c.pole_pairs * out.h * (abs(out.w[0]) + r.y.reach_w);  // x' = p h w
+  if (!r.convergence.reached()) shorten(out, r.convergence.last, r.convergence.before);
 }
 
 template <class Currents, class Real>
-void recurrence(const Constants<Real>& c, const Mode& mode, Currents&& currents, Expansion<Real>& y) {
+void recurrence(const Constants<Real>& c, const Mode& mode, const Currents& currents, Expansion<Real>& y) {
   if (c.inv_C > 0)
     recurrence_with<true>(c, mode, currents, y);
   else
@@ -89,14 +132,15 @@ void recurrence(const Constants<Real>& c, const Mode& mode, Currents&& currents,
 template <bool sine, class Real>
 void expand_shape(const Constants<Real>& c, const Mode& mode, Expansion<Real>& y) {
   const EmfPiece<Real>& piece = c.emf[mode.sector].piece[mode.piece];
-  const Split& split = split_of(mode.legs);
-  if (split.connected == 3) return recurrence(c, mode, TwoCurrents<sine, Real>(c, mode, split, piece, y), y);
-  if (split.connected < 2) return recurrence(c, mode, NoCurrent<sine, Real>(c, mode, split, piece, y), y);
+  const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
+  const ShapeLine<sine, Real> shape(piece, y.x[0]);
+  if (law.connected == 3) return recurrence(c, mode, TwoCurrents<sine, Real>(c, mode, law, shape), y);
+  if (law.connected < 2) return recurrence(c, mode, NoCurrent<sine, Real>(c, mode, law, shape), y);
   if constexpr (!sine) {
-    const bool flat = piece.beta[split.leg[0]] == piece.beta[split.leg[1]];
-    if (flat) return recurrence(c, mode, FlatPair<Real>(c, mode, split, piece, y), y);
+    const bool flat = piece.beta[law.leg[0]] == piece.beta[law.leg[1]];
+    if (flat) return recurrence(c, mode, FlatPair<Real>(c, mode, law, shape), y);
   }
-  recurrence(c, mode, OneCurrent<sine, Real>(c, mode, split, piece, y), y);
+  recurrence(c, mode, OneCurrent<sine, Real>(c, mode, law, shape), y);
 }
 
 }  // namespace detail
@@ -106,7 +150,6 @@ template <class Real>
 void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode, Real wanted,
             Expansion<Real>& y) {
   y.h = wanted;
-  y.inv_ph = 1 / (c.pole_pairs * wanted);
   for (int k = 0; k < 3; ++k) y.i[k][0] = state.i[k];
   y.w[0] = mode.motion == Motion::locked || mode.motion == Motion::stuck ? Real(0) : state.w;
   y.x[0] = state.x;
@@ -121,25 +164,12 @@ void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode
   }
 }
 
-/// w phi0 and w phi1 over the whole degree, for a floating terminal that may reach a rail.
+/// `wanted`, or less where that would be too long for one series: about half of the fastest time constant
+/// present. A segment within it, as nearly all are, does not wait for the division.
 template <class Real>
-series::Coefficients<Real> pole_series(const Constants<Real>& c, const Expansion<Real>& y, int k) {
-  const PoleLaw<Real>& law = y.pole[k];
-  series::Coefficients<Real> u;
-  for (int n = 0; n <= y.degree; ++n) {
-    const Real w0 = c.sine ? series::product_term(y.w, y.phi0, n) : y.w[n];
-    const Real w1 = series::product_term(y.w, c.sine ? y.phi1 : y.x, n);
-    u[n] = law.bus * y.bus[n] + law.i * y.i[law.leg][n] + law.w0 * w0 + law.w1 * w1;
-  }
-  u[0] += law.offset;
-  return u;
-}
-
-/// A cap on the length, so that few expansions are thrown away: about half of the fastest time constant
-/// present.
-template <class Real>
-Real useful_length(const Constants<Real>& c, const State<Real>& state) {
-  return Real(0.5) / (c.steady_rate + c.pole_pairs * detail::abs(state.w));
+Real useful_length(const Constants<Real>& c, const State<Real>& state, Real wanted) {
+  const Real rate = c.steady_rate + c.pole_pairs * detail::abs(state.w);
+  return wanted * rate <= Real(0.5) ? wanted : Real(0.5) / rate;
 }
 
 }  // namespace sixstep::plant

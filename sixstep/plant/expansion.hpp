@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sixstep/plant/back_emf.hpp"
+#include "sixstep/plant/legs_law.hpp"
 #include "sixstep/plant/state.hpp"
 #include "sixstep/series/polynomial.hpp"
 
@@ -13,12 +14,13 @@ namespace sixstep::plant {
 /// Parameters as the recurrence wants them, and the scales that say what rounding noise is.
 template <class Real>
 struct Constants {
-  Real R, inv_L, K_e, inv_J, B, pole_pairs, coulomb, breakaway;
+  Real R, inv_L, inv_J, B, pole_pairs, inv_pole_pairs, coulomb, breakaway;
   Real V_0, inv_R_b, inv_C;  // inv_C = 0: stiff bus
   Real load = 0;             // T_load at present
   Devices devices;
   std::array<PoleTerms<Real>, 5> pole_terms;  // by Connection
-  EmfTable<Real> emf;
+  LegsLaws<Real> legs;
+  EmfTable<Real> emf;  // times K_e: V s, or N m/A
   bool sine = false, locked = false, dry_friction = false, source_sinks = true;
   Real volt_scale, amp_scale, speed_scale, torque_scale;
   Real steady_rate;                         // the part of the fastest rate that does not change, 1/s
@@ -30,24 +32,16 @@ struct Constants {
 template <class Real>
 inline constexpr Real terms_per_scale = Real(1LL << 53) * (sizeof(Real) > 8 ? 2048 : 1);
 
-/// The voltage of a floating terminal, u_n + e_k, as a law over the other series; where no leg is connected,
-/// e_k alone. Only a few segments come near a rail, so its own series is made when asked for.
-template <class Real>
-struct PoleLaw {
-  Real bus = 0, offset = 0, i = 0, w0 = 0, w1 = 0;  ///< per U_s, 1, i of `leg`, w phi0, w phi1
-  int leg = 0;
-};
-
 /// Series over one segment.
 template <class Real>
 struct Expansion {
   int degree = 0;
-  Real h = 0;                  ///< length in seconds
-  Real inv_ph = 0;             ///< 1/(p h): w from the slope of x
-  PerLeg<PoleLaw<Real>> pole;  ///< of floating legs
+  Real h = 0;  ///< length in seconds
   PerLeg<series::Coefficients<Real>> i;
   series::Coefficients<Real> w, x, bus, torque;
   series::Coefficients<Real> phi0, phi1;  ///< sine only: cos x, sin x
+  PerLeg<Real> reach_i;                   ///< no series moves further from its first value than this
+  Real reach_w = 0, reach_x = 0;
 };
 
 namespace detail {

@@ -4,6 +4,7 @@
 // current zero, standstill, sector edge, then rails and the rest (MODEL 4b).
 #pragma once
 #include "sixstep/plant/expand.hpp"
+#include "sixstep/plant/pole.hpp"
 #include "sixstep/series/first_root.hpp"
 
 namespace sixstep::plant {
@@ -50,33 +51,15 @@ series::Coefficients<Real> affine(const series::Coefficients<Real>& c, int degre
   return out;
 }
 
-/// How far a floating terminal can move from its first value: cheap, and mostly enough to see that no rail is
-/// near.
-template <class Real>
-Real pole_tail(const Constants<Real>& c, const Expansion<Real>& y, const PoleLaw<Real>& law) {
-  const Real w = series::tail_bound(y.w, y.degree), x = series::tail_bound(y.x, y.degree);
-  // |w phi - (w phi)(0)| by product rule; a sine's phi0 and phi1 turn by no more than x does.
-  const Real phi1 = c.sine ? Real(1) : abs(y.x[0]);
-  Real tail = abs(law.w0) * (c.sine ? w + (abs(y.w[0]) + w) * x : w) +
-              abs(law.w1) * (abs(y.w[0]) * x + phi1 * w + w * x);
-  if (law.i != 0) tail += abs(law.i) * series::tail_bound(y.i[law.leg], y.degree);
-  if (c.inv_C > 0) tail += (abs(law.bus) + 1) * series::tail_bound(y.bus, y.degree);
-  return tail;
-}
-
-template <class Real>
-Real pole_start(const Constants<Real>& c, const Expansion<Real>& y, const PoleLaw<Real>& law) {
-  const Real phi0 = c.sine ? y.phi0[0] : Real(1), phi1 = c.sine ? y.phi1[0] : y.x[0];
-  return law.bus * y.bus[0] + law.offset + law.i * y.i[law.leg][0] + y.w[0] * (law.w0 * phi0 + law.w1 * phi1);
-}
-
 template <class Real, class Visit>
-void rail_guards(const Constants<Real>& c, const Expansion<Real>& y, int k, Real noise, Visit&& visit) {
-  const Real V_f = Real(c.devices.V_f_V), start = pole_start(c, y, y.pole[k]);
-  const Real reach = pole_tail(c, y, y.pole[k]) + 2 * noise;
+void rail_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, int k, Real noise,
+                 Visit&& visit) {
+  const PoleLaw<Real> law = pole_law(c, mode, k);
+  const Real V_f = Real(c.devices.V_f_V), start = pole_start(c, y, law);
+  const Real reach = pole_tail(c, y, law) + 2 * noise;
   const bool low = start + V_f <= reach, high = y.bus[0] + V_f - start <= reach;
   if (!low && !high) return;
-  const series::Coefficients<Real> pole = pole_series(c, y, k);
+  const series::Coefficients<Real> pole = pole_series(c, y, law);
   if (low) visit(guard::low_rail + k, affine(pole, y.degree, Real(1), V_f), y.degree, noise);
   if (!high) return;
   series::Coefficients<Real> g;
@@ -87,9 +70,10 @@ void rail_guards(const Constants<Real>& c, const Expansion<Real>& y, int k, Real
 
 /// |S| = 0: conduction starts when max e - min e > U_s + 2 V_f.
 template <class Real, class Visit>
-void free_star_guards(const Constants<Real>& c, const Expansion<Real>& y, Real noise, Visit&& visit) {
+void free_star_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real noise,
+                      Visit&& visit) {
   PerLeg<series::Coefficients<Real>> e;
-  for (int k = 0; k < 3; ++k) e[k] = pole_series(c, y, k);
+  for (int k = 0; k < 3; ++k) e[k] = pole_series(c, y, pole_law(c, mode, k));
   for (int j = 0; j < 3; ++j)
     for (int k = 0; k < 3; ++k) {
       if (j == k) continue;
@@ -127,18 +111,22 @@ void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Rea
   bool star_free = true;
   for (int k = 0; k < 3; ++k) {
     star_free = star_free && is_floating(mode.legs[k]);
-    if (mode.legs[k] == Connection::low_diode)
+    if (!is_diode(mode.legs[k])) continue;
+    const bool low = mode.legs[k] == Connection::low_diode;
+    const Real start = low ? y.i[k][0] : -y.i[k][0];
+    if (start > y.reach_i[k] + amp_noise) continue;  // cannot be used up by all other terms together
+    if (low)
       visit(guard::current_zero + k, y.i[k], y.degree, amp_noise);
-    else if (mode.legs[k] == Connection::high_diode)
+    else
       visit(guard::current_zero + k, detail::affine(y.i[k], y.degree, Real(-1), Real(0)), y.degree,
             amp_noise);
   }
   detail::rotor_guards(c, mode, y, slack, visit);
   if (star_free) {
-    detail::free_star_guards(c, y, volt_noise, visit);
+    detail::free_star_guards(c, mode, y, volt_noise, visit);
   } else {
     for (int k = 0; k < 3; ++k)
-      if (is_floating(mode.legs[k])) detail::rail_guards(c, y, k, volt_noise, visit);
+      if (is_floating(mode.legs[k])) detail::rail_guards(c, mode, y, k, volt_noise, visit);
   }
   if (!c.source_sinks)
     visit(guard::source,
@@ -150,7 +138,7 @@ void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Rea
 /// The rotor stays within the present piece of the back-EMF.
 template <class Real, class Visit>
 void edge_guards(const EmfPiece<Real>& piece, const Expansion<Real>& y, Visit&& visit) {
-  const Real noise = noise_of(Real(base::sector_rad), Real(1)), tail = series::tail_bound(y.x, y.degree);
+  const Real noise = noise_of(Real(base::sector_rad), Real(1)), tail = y.reach_x;
   if (piece.to - y.x[0] <= tail + noise)
     visit(guard::edge_ahead, detail::affine(y.x, y.degree, Real(-1), piece.to), y.degree, noise);
   if (y.x[0] - piece.from <= tail + noise)

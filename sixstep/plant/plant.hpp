@@ -87,12 +87,11 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
                    const Start& start)
     : constants_{}, y_{} {
   Constants<Real>& c = constants_;
-  c.R = Real(m.R_ohm);
-  c.inv_L = 1 / Real(m.L_H);
-  c.K_e = Real(m.K_e_V_s);
+  const Real R = c.R = Real(m.R_ohm), inv_L = c.inv_L = 1 / Real(m.L_H), K_e = Real(m.K_e_V_s);
   c.inv_J = 1 / Real(shaft.J_kg_m2);
   c.B = Real(shaft.B_Nm_s);
   c.pole_pairs = Real(m.pole_pairs);
+  c.inv_pole_pairs = 1 / c.pole_pairs;
   c.coulomb = Real(shaft.coulomb_Nm);
   c.breakaway = std::max(c.coulomb, Real(shaft.static_Nm));
   c.dry_friction = c.breakaway > 0 && !shaft.locked;
@@ -105,18 +104,22 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   c.devices = devices;
   c.sine = m.back_emf == BackEmf::sine;
   c.emf = c.sine ? sine_table<Real>() : trapezoid_table<Real>(m.flat_deg);
-  const Real emf = 2 * c.K_e * detail::abs(Real(start.speed_rad_s));
+  for (EmfSector<Real>& sector : c.emf)
+    for (EmfPiece<Real>& piece : sector.piece)
+      for (int k = 0; k < 3; ++k) piece.alpha[k] *= K_e, piece.beta[k] *= K_e;
+  c.legs = legs_laws(devices, R, inv_L);
+  const Real emf = 2 * K_e * detail::abs(Real(start.speed_rad_s));
   c.volt_scale = std::max(c.V_0, Real(start.bus_V)) + Real(devices.V_f_V) + emf;
-  c.amp_scale = c.volt_scale / c.R;
-  c.speed_scale = c.volt_scale / (2 * c.K_e);
-  c.torque_scale = 2 * c.K_e * c.amp_scale;
+  c.amp_scale = c.volt_scale / R;
+  c.speed_scale = c.volt_scale / (2 * K_e);
+  c.torque_scale = 2 * K_e * c.amp_scale;
   c.amp_limit = terms_per_scale<Real> / c.amp_scale;
   c.speed_limit = terms_per_scale<Real> / c.speed_scale;
   c.volt_limit = terms_per_scale<Real> / c.volt_scale;
   for (int k = 0; k < 5; ++k) c.pole_terms[k] = pole_terms<Real>(static_cast<Connection>(k), devices);
-  const Real winding = (c.R + std::max(Real(devices.R_on_ohm), Real(devices.r_d_ohm))) * c.inv_L;
-  const Real electromechanical = c.locked ? Real(0) : c.K_e * std::sqrt(c.inv_L * c.inv_J);
-  c.steady_rate = winding + electromechanical + c.inv_C * (c.inv_R_b + 1 / c.R);
+  const Real winding = (R + std::max(Real(devices.R_on_ohm), Real(devices.r_d_ohm))) * inv_L;
+  const Real electromechanical = c.locked ? Real(0) : K_e * std::sqrt(inv_L * c.inv_J);
+  c.steady_rate = winding + electromechanical + c.inv_C * (c.inv_R_b + 1 / R);
 
   state_.bus = stiff ? c.V_0 : Real(start.bus_V);
   state_.w = shaft.locked ? Real(0) : Real(start.speed_rad_s);
@@ -137,13 +140,15 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
 template <class Real>
 void Plant<Real>::snap() {
   const Real amp_noise = noise_of(constants_.amp_scale, Real(1));
-  bool snapped = false;
-  for (int k = 0; k < 3; ++k) {
-    if (gates_.high[k] || gates_.low[k] || state_.i[k] == 0 || detail::abs(state_.i[k]) > amp_noise) continue;
-    state_.i[k] = state_.i_low[k] = 0;
-    snapped = true;
+  unsigned tiny = 0;  // counted without branches: hardly ever is there anything to snap
+  for (unsigned k = 0; k < 3; ++k)
+    tiny |= (unsigned{detail::abs(state_.i[k]) <= amp_noise} & unsigned{state_.i[k] != 0}) << k;
+  tiny &= ~static_cast<unsigned>((gates_.high | gates_.low).to_ulong());
+  if (tiny != 0) {
+    for (unsigned k = 0; k < 3; ++k)
+      if (tiny >> k & 1) state_.i[k] = state_.i_low[k] = 0;
+    balance();
   }
-  if (snapped) balance();
   if (constants_.dry_friction && detail::abs(state_.w) <= noise_of(constants_.speed_scale, Real(1)))
     state_.w = state_.w_low = 0;
 }
@@ -169,11 +174,11 @@ bool Plant<Real>::resettle(Real wanted, bool& expanded) {
   snap();
   const Legs before = mode_.legs;
   for (slack_ = 1; slack_ < 1e5; slack_ *= 16) {
-    const Question<Real> question{
-        constants_, state_, gates_, wanted, doubted_, slack_, detail::back_emf(constants_, state_, mode_)};
+    const Question<Real> question{constants_, state_, gates_, wanted, doubted_, slack_};
     if (settle(question, mode_, y_, expanded)) {
       stale_ = false;
-      for (int k = 0; k < 3; ++k) diodes_started_ += is_floating(before[k]) && is_diode(mode_.legs[k]);
+      for (int k = 0; k < 3; ++k)
+        diodes_started_ += int{is_floating(before[k])} & int{is_diode(mode_.legs[k])};
       return true;
     }
   }
@@ -182,7 +187,7 @@ bool Plant<Real>::resettle(Real wanted, bool& expanded) {
 
 template <class Real>
 double Plant<Real>::expand(double wanted) {
-  const Real length = std::min(static_cast<Real>(wanted), useful_length(constants_, state_));
+  const Real length = useful_length(constants_, state_, static_cast<Real>(wanted));
   bool expanded = false;
   if (stale_ && !resettle(length, expanded)) return -1.0;
   if (!expanded) plant::expand(constants_, state_, mode_, length, y_);
@@ -194,8 +199,8 @@ void Plant<Real>::advance(Real s) {
   using series::add_compensated;
   State<Real>& q = state_;
   const int n = y_.degree;
-  const detail::Split& split = detail::split_of(mode_.legs);
-  const int first = split.leg[0], second = split.leg[1], third = split.leg[2];
+  const LegsLaw<Real>& law = constants_.legs[legs_index(mode_.legs)];
+  const int first = law.leg[0], second = law.leg[1], third = law.leg[2];
   // One pass for the four series that always move; the last connected leg's current follows from the others.
   Real i_first = 0, i_second = 0, w = 0, x = 0;
   if (s == 1) {  // the commonest case, and the same bits
@@ -213,9 +218,9 @@ void Plant<Real>::advance(Real s) {
       x = (x + y_.x[j]) * s;
     }
   }
-  if (split.connected >= 2) {
+  if (law.connected >= 2) {
     add_compensated(q.i[first], q.i_low[first], i_first);
-    if (split.connected == 3) {
+    if (law.connected == 3) {
       add_compensated(q.i[second], q.i_low[second], i_second);
       q.i[third] = -(q.i[first] + q.i[second]);
       q.i_low[third] = -(q.i_low[first] + q.i_low[second]);

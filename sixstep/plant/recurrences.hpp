@@ -11,167 +11,179 @@ namespace sixstep::plant::detail {
 // The order n of a term is a template argument: the whole recurrence is unrolled, products of short series
 // included (ENGINE: an unrolled kernel takes a quarter of the time of one with counted loops).
 
+/// The series while they grow: a local of the recurrence, so that the newest terms stay in registers and no
+/// store has to be waited for. What a law does not use is never made.
+template <class Real>
+struct Growing {
+  Real h;
+  Real reach_w = 0, reach_i = 0, reach_i_2 = 0;  ///< sums of the terms' sizes
+  series::Coefficients<Real> w, x, torque, bus;
+  series::Coefficients<Real> i, i_2;      ///< of the first and, where three legs are connected, second leg
+  series::Coefficients<Real> phi0, phi1;  ///< sine only
+};
+
 /// The motion's share of the recurrence, the same for every conduction mode.
 template <class Real>
 struct Rotor {
-  bool turns;
+  Real inv_J;  ///< zero for a rotor at rest
+  Real B, pole_pairs;
   Real drag;  ///< load and dry friction
 
   Rotor(const Constants<Real>& c, Motion motion)
-      : turns(motion != Motion::locked && motion != Motion::stuck),
+      : inv_J(motion != Motion::locked && motion != Motion::stuck ? c.inv_J : Real(0)),
+        B(c.B),
+        pole_pairs(c.pole_pairs),
         drag(c.load + (motion == Motion::forward    ? c.coulomb
                        : motion == Motion::backward ? -c.coulomb
                                                     : Real(0))) {}
 
   template <int n>
-  void step(const Constants<Real>& c, Expansion<Real>& y, Real f) const {
-    const Real losses = c.B * y.w[n] + (n == 0 ? drag : Real(0));
-    y.w[n + 1] = turns ? (y.torque[n] - losses) * (f * c.inv_J) : Real(0);
-    y.x[n + 1] = f * c.pole_pairs * y.w[n];
+  void step(Growing<Real>& y, Real f) const {
+    Real losses = B * y.w[n];
+    if constexpr (n == 0) losses += drag;
+    y.w[n + 1] = (y.torque[n] - losses) * (f * inv_J);
+    y.x[n + 1] = f * pole_pairs * y.w[n];
   }
 };
 
-/// w phi0 and w phi1 at order n: all that the back-EMF needs. A sine's cos x and sin x grow along with them.
-template <bool sine, int n, class Real>
-inline void shape_products(const Constants<Real>& c, Expansion<Real>& y, Real f, Real& w0, Real& w1) {
-  if constexpr (sine) {
-    w0 = series::product_term<n>(y.w, y.phi0);
-    w1 = series::product_term<n>(y.w, y.phi1);
-    y.phi0[n + 1] = -f * c.pole_pairs * w1;  // (cos x)' = -p w sin x
-    y.phi1[n + 1] = f * c.pole_pairs * w0;
-  } else {
-    w0 = y.w[n];
-    // w x = (x^2)'/2 over p h, and a square has half the products; x is one order ahead: x' = p h w.
-    const Real next = f * c.pole_pairs * y.w[n];
-    y.x[n + 1] = next;
-    w1 = series::half_square_term<n + 1>(y.x) * (Real(n + 1) * y.inv_ph);
-  }
-}
-
-/// Which legs are connected, in order; the rest float.
-struct Split {
-  std::array<std::uint8_t, 3> leg{};
-  std::uint8_t connected = 0;
-};
-
-inline constexpr std::array<Split, 8> splits = [] {
-  std::array<Split, 8> all{};
-  for (unsigned mask = 0; mask < 8; ++mask) {
-    Split& s = all[mask];
-    std::uint8_t back = 3;
-    for (std::uint8_t k = 3; k-- > 0;)
-      if (!(mask >> k & 1)) s.leg[--back] = k;
-    for (std::uint8_t k = 0; k < 3; ++k)
-      if (mask >> k & 1) s.leg[s.connected++] = k;
-  }
-  return all;
-}();
-
-inline const Split& split_of(const Legs& legs) {
-  return splits[unsigned{!is_floating(legs[0])} | unsigned{!is_floating(legs[1])} << 1 |
-                unsigned{!is_floating(legs[2])} << 2];
-}
-
-/// U_s: C dU_s/dt = (V_0 - U_s)/R_b - i_dc while the source feeds.
+/// w phi0 and w phi1 of a sine at order n; cos x and sin x grow along with them.
 template <int n, class Real>
-inline void bus_step(const Constants<Real>& c, const Mode& mode, Expansion<Real>& y, Real f) {
-  Real dc = 0;
-  for (int k = 0; k < 3; ++k)
-    if (is_high(mode.legs[k])) dc += y.i[k][n];
-  const Real feed = mode.source_feeds ? c.inv_R_b * ((n == 0 ? c.V_0 : Real(0)) - y.bus[n]) : Real(0);
-  y.bus[n + 1] = f * c.inv_C * (feed - dc);
+inline void sine_products(const Rotor<Real>& rotor, Growing<Real>& y, Real f, Real& w0, Real& w1) {
+  w0 = series::product_term<n>(y.w, y.phi0);
+  w1 = series::product_term<n>(y.w, y.phi1);
+  y.phi0[n + 1] = -f * rotor.pole_pairs * w1;  // (cos x)' = -p w sin x
+  y.phi1[n + 1] = f * rotor.pole_pairs * w0;
 }
+
+/// The back-EMF of a leg over w: now + rise (x - x(0)) for a trapezoid, now cos x + rise sin x for a sine. A
+/// trapezoid taken from where it stands leaves the recurrence without its longest chain: the newest terms are
+/// multiplied by constants alone.
+template <bool sine, class Real>
+struct ShapeLine {
+  PerLeg<Real> now, rise;
+  ShapeLine(const EmfPiece<Real>& p, Real x) : now(p.alpha), rise(p.beta) {
+    if constexpr (!sine)
+      for (int k = 0; k < 3; ++k) now[k] += p.beta[k] * x;
+  }
+};
+
+/// U_s: C dU_s/dt = (V_0 - U_s)/R_b - i_dc while the source feeds; i_dc as shares of the growing currents.
+template <class Real>
+struct BusLaw {
+  Real inv_C, feed, V_0, dc_i, dc_i_2;
+
+  BusLaw(const Constants<Real>& c, const Mode& mode, const LegsLaw<Real>& law)
+      : inv_C(c.inv_C), feed(mode.source_feeds ? c.inv_R_b : Real(0)), V_0(c.V_0) {
+    const auto high = [&](unsigned n) {
+      return n < law.connected && is_high(mode.legs[law.leg[n]]) ? Real(1) : Real(0);
+    };
+    dc_i = law.connected == 3 ? high(0) - high(2) : high(0) - high(1);
+    dc_i_2 = law.connected == 3 ? high(1) - high(2) : Real(0);
+  }
+  template <int n>
+  void step(Growing<Real>& y, Real f, Real i, Real i_2) const {
+    y.bus[n + 1] = f * inv_C * (feed * ((n == 0 ? V_0 : Real(0)) - y.bus[n]) - (dc_i * i + dc_i_2 * i_2));
+  }
+};
 
 /// Fewer than two legs connected: no current; the rotor coasts and the floating terminals are watched.
 template <bool sine, class Real>
 struct NoCurrent {
   static constexpr bool sine_shape = sine;
-  NoCurrent(const Constants<Real>& c, const Mode& mode, const Split& split, const EmfPiece<Real>& p,
-            Expansion<Real>& y) {
-    for (int k = 0; k < 3; ++k) y.pole[k] = {.w0 = c.K_e * p.alpha[k], .w1 = c.K_e * p.beta[k]};
-    if (split.connected == 0) return;
-    const int s = split.leg[0];
-    const PoleTerms<Real>& terms = c.pole_terms[static_cast<std::size_t>(mode.legs[s])];
-    for (int k = 0; k < 3; ++k)
-      y.pole[k] = {.bus = terms.bus_share,
-                   .offset = terms.offset_V,
-                   .w0 = c.K_e * (p.alpha[k] - p.alpha[s]),
-                   .w1 = c.K_e * (p.beta[k] - p.beta[s])};
-  }
+  NoCurrent(const Constants<Real>&, const Mode&, const LegsLaw<Real>&, const ShapeLine<sine, Real>&) {}
+  void start(const Expansion<Real>&, Growing<Real>& y) const { y.i[0] = y.i_2[0] = 0; }
   template <int n, bool bus>
-  void step(const Constants<Real>& c, const Rotor<Real>& rotor, Expansion<Real>& y, Real f) {
+  void step(const Rotor<Real>& rotor, Growing<Real>& y, Real f) {
     if constexpr (sine) {
       Real w0, w1;
-      shape_products<sine, n>(c, y, f, w0, w1);
+      sine_products<n>(rotor, y, f, w0, w1);
     }
-    for (int k = 0; k < 3; ++k) y.i[k][n + 1] = 0;
-    y.torque[n] = 0;
-    rotor.template step<n>(c, y, f);
+    y.i[n + 1] = y.i_2[n + 1] = y.torque[n] = 0;
+    rotor.template step<n>(y, f);
   }
-  Real size(const Expansion<Real>&, int) const { return 0; }
+  void write(Expansion<Real>& out, int n, const Growing<Real>&) const {
+    out.i[0][n] = out.i[1][n] = out.i[2][n] = 0;
+  }
+  Real reached(Growing<Real>&, int) const { return 0; }
+  void reach(const Growing<Real>&, PerLeg<Real>& of) const { of = {}; }
 };
 
 /// Two legs share one current: one recurrence. Coefficients are multiplied out beforehand and the newest
 /// terms enter last: the orders follow from each other, so what counts is the length of that chain.
-template <class Real>
+template <bool sine, class Real>
 struct PairLaw {
   int j, k, floating;
-  Real from_bus, from_offset, from_i, from_w0,
-      from_w1;              // di/dt, from 2 L di/dt = u_j - u_k - 2 R i - (e_j - e_k)
+  typename LegsLaw<Real>::Terms slope;
+  Real from_w0, from_w1;    // di/dt per w phi0 and w phi1
   Real torque_0, torque_1;  // per phi0 i and phi1 i
 
-  PairLaw(const Constants<Real>& c, const Mode& mode, const Split& split, const EmfPiece<Real>& p,
-          Expansion<Real>& y)
-      : j(split.leg[0]), k(split.leg[1]), floating(split.leg[2]) {
-    const PoleTerms<Real>& a = c.pole_terms[static_cast<std::size_t>(mode.legs[j])];
-    const PoleTerms<Real>& b = c.pole_terms[static_cast<std::size_t>(mode.legs[k])];
-    const Real rate = c.inv_L / 2;
-    from_bus = rate * (a.bus_share - b.bus_share);
-    from_offset = rate * (a.offset_V - b.offset_V);
-    from_i = rate * (2 * c.R + a.r_ohm + b.r_ohm);
-    torque_0 = c.K_e * (p.alpha[j] - p.alpha[k]);
-    torque_1 = c.K_e * (p.beta[j] - p.beta[k]);
-    from_w0 = rate * torque_0;
-    from_w1 = rate * torque_1;
-    y.pole[floating] = {.bus = (a.bus_share + b.bus_share) / 2,
-                        .offset = (a.offset_V + b.offset_V) / 2,
-                        .i = (b.r_ohm - a.r_ohm) / 2,
-                        .w0 = c.K_e * (p.alpha[floating] - (p.alpha[j] + p.alpha[k]) / 2),
-                        .w1 = c.K_e * (p.beta[floating] - (p.beta[j] + p.beta[k]) / 2),
-                        .leg = j};
+  PairLaw(const LegsLaw<Real>& law, const ShapeLine<sine, Real>& f)
+      : j(law.leg[0]), k(law.leg[1]), floating(law.leg[2]), slope(law.slope) {
+    torque_0 = f.now[j] - f.now[k];
+    torque_1 = f.rise[j] - f.rise[k];
+    from_w0 = -law.emf_rate * torque_0;
+    from_w1 = -law.emf_rate * torque_1;
   }
-  void write(Expansion<Real>& y, int n, Real i) const {
-    y.i[j][n] = i;
-    y.i[k][n] = -i;
-    y.i[floating][n] = 0;
+  template <int n, bool bus>
+  Real known(const Growing<Real>& y, Real w0) const {
+    Real sum = slope.i * y.i[n] + from_w0 * w0;
+    if constexpr (n == 0 || bus) sum += slope.bus * y.bus[n];
+    if constexpr (n == 0) sum += slope.offset;
+    return sum;
   }
-  Real size(const Expansion<Real>& y, int n) const { return 2 * abs(y.i[j][n]); }
+  void start(const Expansion<Real>& out, Growing<Real>& y) const {
+    y.i[0] = out.i[j][0];
+    y.i_2[0] = 0;
+  }
+  void write(Expansion<Real>& out, int n, const Growing<Real>& y) const {
+    out.i[j][n] = y.i[n];
+    out.i[k][n] = -y.i[n];
+    out.i[floating][n] = 0;
+  }
+  /// Adds the term to the series' reach and tells its size over all legs.
+  Real reached(Growing<Real>& y, int n) const {
+    const Real size = abs(y.i[n]);
+    y.reach_i += size;
+    return 2 * size;
+  }
+  void reach(const Growing<Real>& y, PerLeg<Real>& of) const {
+    of[j] = of[k] = y.reach_i;
+    of[floating] = 0;
+  }
 };
 
 template <bool sine, class Real>
 struct OneCurrent {
   static constexpr bool sine_shape = sine;
-  PairLaw<Real> pair;
+  PairLaw<sine, Real> pair;
+  Real from_square;  // w (x - x(0)) = ((x - x(0))^2)'/2 over p h, and a square has half the products
 
-  OneCurrent(const Constants<Real>& c, const Mode& mode, const Split& split, const EmfPiece<Real>& p,
-             Expansion<Real>& y)
-      : pair(c, mode, split, p, y) {}
-  Real size(const Expansion<Real>& y, int n) const { return pair.size(y, n); }
+  OneCurrent(const Constants<Real>& c, const Mode&, const LegsLaw<Real>& law, const ShapeLine<sine, Real>& f)
+      : pair(law, f), from_square(pair.from_w1 * c.inv_pole_pairs) {}
+  void start(const Expansion<Real>& out, Growing<Real>& y) const { pair.start(out, y); }
+  void write(Expansion<Real>& out, int n, const Growing<Real>& y) const { pair.write(out, n, y); }
+  Real reached(Growing<Real>& y, int n) const { return pair.reached(y, n); }
+  void reach(const Growing<Real>& y, PerLeg<Real>& of) const { pair.reach(y, of); }
 
   template <int n, bool bus>
-  void step(const Constants<Real>& c, const Rotor<Real>& rotor, Expansion<Real>& y, Real f) {
-    Real w0, w1;
-    shape_products<sine, n>(c, y, f, w0, w1);
-    const series::Coefficients<Real>& i = y.i[pair.j];
-    Real slope = -(pair.from_i * i[n] + pair.from_w0 * w0);
-    if constexpr (n == 0 || bus) slope += pair.from_bus * y.bus[n] + (n == 0 ? pair.from_offset : Real(0));
-    pair.write(y, n + 1, f * (slope - pair.from_w1 * w1));
-    if constexpr (sine)
+  void step(const Rotor<Real>& rotor, Growing<Real>& y, Real f) {
+    const series::Coefficients<Real>& i = y.i;
+    y.i_2[n + 1] = 0;
+    if constexpr (sine) {
+      Real w0, w1;
+      sine_products<n>(rotor, y, f, w0, w1);
+      y.i[n + 1] = f * (pair.template known<n, bus>(y, w0) + pair.from_w1 * w1);
       y.torque[n] = pair.torque_0 * series::product_term<n>(y.phi0, i) +
                     pair.torque_1 * series::product_term<n>(y.phi1, i);
-    else
-      y.torque[n] = pair.torque_0 * i[n] + pair.torque_1 * series::product_term<n>(y.x, i);
-    rotor.template step<n>(c, y, f);
+    } else {
+      y.i[n + 1] = f * pair.template known<n, bus>(y, y.w[n]);
+      y.torque[n] = pair.torque_0 * i[n];
+      if constexpr (n > 0) {
+        y.i[n + 1] += from_square * series::half_increment_square_term<n + 1>(y.x);
+        y.torque[n] += pair.torque_1 * series::increment_product_term<n>(y.x, i);
+      }
+    }
+    rotor.template step<n>(y, f);
   }
 };
 
@@ -181,36 +193,38 @@ struct OneCurrent {
 template <class Real>
 struct FlatPair {
   static constexpr bool sine_shape = false;
-  PairLaw<Real> pair;
+  PairLaw<false, Real> pair;
   Real m_ii, m_iw, m_wi, m_ww;  // M^2
 
-  FlatPair(const Constants<Real>& c, const Mode& mode, const Split& split, const EmfPiece<Real>& p,
-           Expansion<Real>& y)
-      : pair(c, mode, split, p, y) {
+  FlatPair(const Constants<Real>& c, const Mode& mode, const LegsLaw<Real>& law,
+           const ShapeLine<false, Real>& f)
+      : pair(law, f) {
     const bool turns = mode.motion != Motion::locked && mode.motion != Motion::stuck;
-    const Real a = -pair.from_i, b = -pair.from_w0;
+    const Real a = pair.slope.i, b = pair.from_w0;
     const Real d = turns ? pair.torque_0 * c.inv_J : Real(0), e = turns ? -c.B * c.inv_J : Real(0);
     m_ii = a * a + b * d;
     m_iw = a * b + b * e;
     m_wi = d * a + e * d;
     m_ww = d * b + e * e;
   }
-  Real size(const Expansion<Real>& y, int n) const { return pair.size(y, n); }
+  void start(const Expansion<Real>& out, Growing<Real>& y) const { pair.start(out, y); }
+  void write(Expansion<Real>& out, int n, const Growing<Real>& y) const { pair.write(out, n, y); }
+  Real reached(Growing<Real>& y, int n) const { return pair.reached(y, n); }
+  void reach(const Growing<Real>& y, PerLeg<Real>& of) const { pair.reach(y, of); }
   template <int n, bool bus>
-  void step(const Constants<Real>& c, const Rotor<Real>& rotor, Expansion<Real>& y, Real f) {
-    const series::Coefficients<Real>& i = y.i[pair.j];
+  void step(const Rotor<Real>& rotor, Growing<Real>& y, Real f) {
+    const series::Coefficients<Real>& i = y.i;
+    y.i_2[n + 1] = 0;
     y.torque[n] = pair.torque_0 * i[n];
     if constexpr (n >= 2 && !bus) {
       const Real g = y.h * y.h * Real(1.0L / (n * (n + 1)));
       const Real next_w = g * (m_wi * i[n - 1] + m_ww * y.w[n - 1]);
-      pair.write(y, n + 1, g * (m_ii * i[n - 1] + m_iw * y.w[n - 1]));
-      y.x[n + 1] = f * c.pole_pairs * y.w[n];
+      y.i[n + 1] = g * (m_ii * i[n - 1] + m_iw * y.w[n - 1]);
+      y.x[n + 1] = f * rotor.pole_pairs * y.w[n];
       y.w[n + 1] = next_w;
     } else {
-      Real slope = -(pair.from_i * i[n] + pair.from_w0 * y.w[n]);
-      if constexpr (n == 0 || bus) slope += pair.from_bus * y.bus[n] + (n == 0 ? pair.from_offset : Real(0));
-      pair.write(y, n + 1, f * slope);
-      rotor.template step<n>(c, y, f);
+      y.i[n + 1] = f * pair.template known<n, bus>(y, y.w[n]);
+      rotor.template step<n>(y, f);
     }
   }
 };
@@ -221,63 +235,78 @@ template <bool sine, class Real>
 struct TwoCurrents {
   static constexpr bool sine_shape = sine;
   struct Slope {
-    Real bus, offset, i_a, i_b, w0, w1;
+    typename LegsLaw<Real>::Terms terms;
+    Real w0, w1;  // per w phi0 and w phi1
   };
-  Slope a, b;                                       // L di_k/dt = v_k - mean of v, v_k = u_k - R i_k - e_k
+  Slope a, b;
   Real torque_0a, torque_0b, torque_1a, torque_1b;  // per phi i_a, phi i_b
   series::Coefficients<Real> y0, y1;
 
-  TwoCurrents(const Constants<Real>& c, const Mode& mode, const Split&, const EmfPiece<Real>& p,
-              Expansion<Real>&) {
-    PerLeg<Real> share, offset, R;
-    for (int k = 0; k < 3; ++k) {
-      const PoleTerms<Real>& t = c.pole_terms[static_cast<std::size_t>(mode.legs[k])];
-      share[k] = t.bus_share;
-      offset[k] = t.offset_V;
-      R[k] = c.R + t.r_ohm;
+  TwoCurrents(const Constants<Real>& c, const Mode&, const LegsLaw<Real>& law,
+              const ShapeLine<sine, Real>& f) {
+    const Real mean_0 = (f.now[0] + f.now[1] + f.now[2]) * Real(1.0L / 3);
+    const Real mean_1 = (f.rise[0] + f.rise[1] + f.rise[2]) * Real(1.0L / 3);
+    // w (x - x(0)) = ((x - x(0))^2)'/2 over p h, and a square has half the products.
+    const Real rate_1 = sine ? law.emf_rate : law.emf_rate * c.inv_pole_pairs;
+    a = {law.slope, -law.emf_rate * (f.now[0] - mean_0), -rate_1 * (f.rise[0] - mean_1)};
+    b = {law.slope_2, -law.emf_rate * (f.now[1] - mean_0), -rate_1 * (f.rise[1] - mean_1)};
+    torque_0a = f.now[0] - f.now[2];
+    torque_0b = f.now[1] - f.now[2];
+    torque_1a = f.rise[0] - f.rise[2];
+    torque_1b = f.rise[1] - f.rise[2];
+  }
+  void start(const Expansion<Real>& out, Growing<Real>& y) const {
+    y.i[0] = out.i[0][0];
+    y.i_2[0] = out.i[1][0];
+  }
+  template <int n, bool bus>
+  static Real known(const Slope& s, const Growing<Real>& y, Real w0) {
+    Real sum = (s.terms.i * y.i[n] + s.terms.i_2 * y.i_2[n]) + s.w0 * w0;
+    if constexpr (n == 0 || bus) sum += s.terms.bus * y.bus[n];
+    if constexpr (n == 0) sum += s.terms.offset;
+    return sum;
+  }
+  template <int n, bool bus>
+  void step(const Rotor<Real>& rotor, Growing<Real>& y, Real f) {
+    const Real i_a = y.i[n], i_b = y.i_2[n];
+    if constexpr (sine) {
+      Real w0, w1;
+      sine_products<n>(rotor, y, f, w0, w1);
+      y.i[n + 1] = f * (known<n, bus>(a, y, w0) + a.w1 * w1);
+      y.i_2[n + 1] = f * (known<n, bus>(b, y, w0) + b.w1 * w1);
+    } else {
+      y.i[n + 1] = f * known<n, bus>(a, y, y.w[n]);
+      y.i_2[n + 1] = f * known<n, bus>(b, y, y.w[n]);
+      if constexpr (n > 0) {
+        const Real square = series::half_increment_square_term<n + 1>(y.x);
+        y.i[n + 1] += a.w1 * square;
+        y.i_2[n + 1] += b.w1 * square;
+      }
     }
-    const auto above_mean = [&](const PerLeg<Real>& v, int k) {
-      return c.inv_L * (v[k] - (v[0] + v[1] + v[2]) * Real(1.0L / 3));
-    };
-    const auto slope = [&](int k) {
-      const Real i_c = -c.inv_L * R[2] * Real(1.0L / 3);  // of the other two legs' share in the mean
-      const auto own = [&](int m) {
-        return c.inv_L * R[m] * ((m == k ? Real(1) : Real(0)) - Real(1.0L / 3));
-      };
-      return Slope{above_mean(share, k), above_mean(offset, k),          own(0) - i_c,
-                   own(1) - i_c,         c.K_e * above_mean(p.alpha, k), c.K_e * above_mean(p.beta, k)};
-    };
-    a = slope(0);
-    b = slope(1);
-    torque_0a = c.K_e * (p.alpha[0] - p.alpha[2]);
-    torque_0b = c.K_e * (p.alpha[1] - p.alpha[2]);
-    torque_1a = c.K_e * (p.beta[0] - p.beta[2]);
-    torque_1b = c.K_e * (p.beta[1] - p.beta[2]);
-  }
-  template <int n, bool bus>
-  static Real rate(const Slope& s, const Expansion<Real>& y, Real w0, Real w1) {
-    Real known = -((s.i_a * y.i[0][n] + s.i_b * y.i[1][n]) + s.w0 * w0);
-    if constexpr (n == 0 || bus) known += s.bus * y.bus[n] + (n == 0 ? s.offset : Real(0));
-    return known - s.w1 * w1;
-  }
-  template <int n, bool bus>
-  void step(const Constants<Real>& c, const Rotor<Real>& rotor, Expansion<Real>& y, Real f) {
-    Real w0, w1;
-    shape_products<sine, n>(c, y, f, w0, w1);
-    const Real i_a = y.i[0][n], i_b = y.i[1][n];
-    y.i[0][n + 1] = f * rate<n, bus>(a, y, w0, w1);
-    y.i[1][n + 1] = f * rate<n, bus>(b, y, w0, w1);
-    y.i[2][n + 1] = -(y.i[0][n + 1] + y.i[1][n + 1]);
     y1[n] = torque_1a * i_a + torque_1b * i_b;
-    y0[n] = torque_0a * i_a + torque_0b * i_b;
-    if constexpr (sine)
+    const Real now = torque_0a * i_a + torque_0b * i_b;
+    if constexpr (sine) {
+      y0[n] = now;
       y.torque[n] = series::product_term<n>(y.phi0, y0) + series::product_term<n>(y.phi1, y1);
-    else
-      y.torque[n] = y0[n] + series::product_term<n>(y.x, y1);
-    rotor.template step<n>(c, y, f);
+    } else {
+      y.torque[n] = now;
+      if constexpr (n > 0) y.torque[n] += series::increment_product_term<n>(y.x, y1);
+    }
+    rotor.template step<n>(y, f);
   }
-  Real size(const Expansion<Real>& y, int n) const {
-    return abs(y.i[0][n]) + abs(y.i[1][n]) + abs(y.i[2][n]);
+  void write(Expansion<Real>& out, int n, const Growing<Real>& y) const {
+    out.i[0][n] = y.i[n];
+    out.i[1][n] = y.i_2[n];
+    out.i[2][n] = -(y.i[n] + y.i_2[n]);
+  }
+  Real reached(Growing<Real>& y, int n) const {
+    const Real size = abs(y.i[n]), size_2 = abs(y.i_2[n]);
+    y.reach_i += size;
+    y.reach_i_2 += size_2;
+    return 2 * (size + size_2);
+  }
+  void reach(const Growing<Real>& y, PerLeg<Real>& of) const {
+    of = {y.reach_i, y.reach_i_2, y.reach_i + y.reach_i_2};
   }
 };
 

@@ -34,7 +34,7 @@ PerLeg<Real> back_emf(const Constants<Real>& c, const State<Real>& s, const Mode
     phi1 = static_cast<Real>(base::sin(static_cast<double>(s.x)));
   }
   PerLeg<Real> e;
-  for (int k = 0; k < 3; ++k) e[k] = c.K_e * s.w * (p.alpha[k] * phi0 + p.beta[k] * phi1);
+  for (int k = 0; k < 3; ++k) e[k] = s.w * (p.alpha[k] * phi0 + p.beta[k] * phi1);
   return e;
 }
 
@@ -152,14 +152,14 @@ struct Question {
   Real h;            ///< length over which series are judged
   bool series_only;  ///< after an event without progress: plain values have been wrong once
   Real slack = 1;
-  PerLeg<Real> emf{};  ///< e_k now
 };
 
 namespace detail {
 
 template <class Real>
-bool accepts(const Question<Real>& q, const Mode& mode, Expansion<Real>& scratch, bool& expanded) {
-  const Judgement plain = both(judge_legs(q.constants, q.state, q.emf, mode, q.slack),
+bool accepts(const Question<Real>& q, const PerLeg<Real>& emf, const Mode& mode, Expansion<Real>& scratch,
+             bool& expanded) {
+  const Judgement plain = both(judge_legs(q.constants, q.state, emf, mode, q.slack),
                                both(judge_motion(q.constants, q.state, mode, q.slack),
                                     judge_source(q.constants, q.state, mode, q.slack)));
   expanded = false;
@@ -170,25 +170,72 @@ bool accepts(const Question<Real>& q, const Mode& mode, Expansion<Real>& scratch
   return holds_in_series(q.constants, mode, scratch, q.slack);
 }
 
-/// All combinations of the undecided legs, those with fewest legs on first.
+/// The connections that gates and currents name; returns the legs that they leave open, as a mask. Written
+/// with branches: foreseen, they let the segment's series begin before the currents' signs are known.
+template <class Real>
+unsigned named_legs(const Question<Real>& q, Mode& mode) {
+  unsigned open = 0;
+  for (unsigned k = 0; k < 3; ++k) {
+    const Real i = q.state.i[k];
+    if (q.gates.high[k]) {
+      mode.legs[k] = Connection::high_switch;
+    } else if (q.gates.low[k]) {
+      mode.legs[k] = Connection::low_switch;
+    } else if (i > 0) {
+      mode.legs[k] = Connection::low_diode;
+    } else if (i < 0) {
+      mode.legs[k] = Connection::high_diode;
+    } else {
+      mode.legs[k] = Connection::floating;
+      open |= 1U << k;
+    }
+  }
+  return open;
+}
+
+/// The commonest question by itself: one open leg k beside two that conduct. It floats where u_n + e_k stands
+/// within the rails, and conducts by the diode of the rail it stands beyond: with the third leg on, L di_k/dt
+/// is two thirds of what it stands beyond. False: too close to a rail to say.
+template <class Real>
+bool settle_third_leg(const Question<Real>& q, const PerLeg<Real>& e, unsigned k, Mode& mode) {
+  const unsigned j = k == 0 ? 1 : 0, m = k == 2 ? 1 : 2;
+  const auto at_star = [&](unsigned leg) {
+    return pole_voltage(q.constants.pole_terms[static_cast<std::size_t>(mode.legs[leg])], q.state.bus,
+                        q.state.i[leg]) -
+           e[leg];
+  };
+  const Real free = (at_star(j) + at_star(m)) / 2 + e[k], V_f = Real(q.constants.devices.V_f_V);
+  const Real above_low = free + V_f, below_high = q.state.bus + V_f - free;
+  const Real noise = noise_of(q.constants.volt_scale, q.slack);
+  if ((above_low > noise) & (below_high > noise)) return true;
+  if (above_low < -2 * noise)
+    mode.legs[k] = Connection::low_diode;
+  else if (below_high < -2 * noise)
+    mode.legs[k] = Connection::high_diode;
+  else
+    return false;
+  return true;
+}
+
+/// All combinations of the open legs, those with fewest legs on first.
 template <class Real>
 bool settle_legs(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, bool& expanded) {
-  std::array<int, 3> undecided{};
+  const unsigned open = named_legs(q, mode);
+  const bool at_rest = q.constants.dry_friction && q.state.w == 0;
+  const bool only_legs = !q.series_only && q.constants.source_sinks && !at_rest;
+  if (open == 0 && only_legs) return true;
+  const PerLeg<Real> emf = back_emf(q.constants, q.state, mode);
+  if (only_legs && (open & (open - 1)) == 0 && settle_third_leg(q, emf, open >> 1, mode)) return true;
+  if (open == 0) return accepts(q, emf, mode, scratch, expanded);
+
+  std::array<unsigned, 3> undecided{};
   int count = 0;
-  for (int k = 0; k < 3; ++k) {
-    const Real i = q.state.i[k];
-    mode.legs[k] = *connection_of(q.gates.high[k], q.gates.low[k], i > 0 ? 1 : i < 0 ? -1 : 0);
-    if (is_floating(mode.legs[k])) undecided[count++] = k;
-  }
-  if (count == 0) {
-    const bool at_rest = q.constants.dry_friction && q.state.w == 0;
-    if (!q.series_only && q.constants.source_sinks && !at_rest) return true;
-    return accepts(q, mode, scratch, expanded);
-  }
+  for (unsigned k = 0; k < 3; ++k)
+    if (open >> k & 1) undecided[count++] = k;
   for (const Combination& tried : combinations_of(count)) {
     for (int u = 0; u < count; ++u) mode.legs[undecided[u]] = tried.leg[u];
     if (tried.on == 1 && connected_count(mode.legs) == 1) continue;  // one leg alone carries nothing
-    if (accepts(q, mode, scratch, expanded)) return true;
+    if (accepts(q, emf, mode, scratch, expanded)) return true;
   }
   return false;
 }

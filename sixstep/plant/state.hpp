@@ -2,6 +2,7 @@
 // What the plant remembers: continuous state with the rounding errors of its running sums, and the discrete
 // mode.
 #pragma once
+#include <bitset>
 #include <cstdint>
 
 #include "sixstep/plant/circuit.hpp"
@@ -10,13 +11,11 @@ namespace sixstep::plant {
 
 /// Upper and lower gate of each leg, T1/T2 for a, T3/T4 for b, T5/T6 for c.
 struct Gates {
-  std::array<bool, 3> high{}, low{};
+  std::bitset<3> high, low;
   bool operator==(const Gates&) const = default;
 };
 
-constexpr bool shoots_through(const Gates& g) {
-  return (g.high[0] && g.low[0]) || (g.high[1] && g.low[1]) || (g.high[2] && g.low[2]);
-}
+inline bool shoots_through(const Gates& g) { return (g.high & g.low).any(); }
 
 /// How the rotor may move. `free`: no dry friction, w passes zero like any other value.
 enum class Motion : std::uint8_t { free, forward, backward, stuck, locked };

@@ -80,19 +80,15 @@ void Modulator::commutate(const Instant& t, control::Pair pair) {
   command_.pair = pair;
   if (!config_.dead_time_at_commutation || !(config_.dead_ticks > 0)) return;
   const plant::Gates after = wanted_gates();
-  bool any = false;
-  for (int k = 0; k < 3; ++k) {
-    blanked_.high[k] = after.high[k] && !before.high[k];
-    blanked_.low[k] = after.low[k] && !before.low[k];
-    any = any || blanked_.high[k] || blanked_.low[k];
-  }
+  blanked_ = {after.high & ~before.high, after.low & ~before.low};
+  const bool any = blanked_.high.any() || blanked_.low.any();
   blank_end_ = any ? edge_at(t, config_.dead_ticks) : Instant::never();
 }
 
 Instant Modulator::next_edge() const {
-  Instant next = on_edge_ < off_edge_ ? on_edge_ : off_edge_;
-  if (dead_end_ < next) next = dead_end_;
-  return blank_end_ < next ? blank_end_ : next;
+  const Instant* next = on_edge_ < off_edge_ ? &on_edge_ : &off_edge_;
+  next = dead_end_ < *next ? &dead_end_ : next;
+  return blank_end_ < *next ? blank_end_ : *next;
 }
 
 bool Modulator::act(const Instant& now) {
@@ -149,10 +145,8 @@ plant::Gates Modulator::wanted_gates() const {
 plant::Gates Modulator::gates() const {
   plant::Gates gates = wanted_gates();
   if (blank_end_ == Instant::never()) return gates;
-  for (int k = 0; k < 3; ++k) {
-    gates.high[k] = gates.high[k] && !blanked_.high[k];
-    gates.low[k] = gates.low[k] && !blanked_.low[k];
-  }
+  gates.high &= ~blanked_.high;
+  gates.low &= ~blanked_.low;
   return gates;
 }
 

@@ -40,13 +40,34 @@ inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& 
   }
 }
 
-/// Half of coefficient n of a square: each pair of factors once.
+/// Coefficient n >= 1 of (a - a[0]) b: of b only what stands before its newest coefficient, so that in a
+/// recurrence nothing waits for this sum. It begins with a product: adding to a zero is one more term to wait
+/// for.
 template <int n, class Real>
-inline Real half_square_term(const Coefficients<Real>& a) {
-  Real sum = n % 2 == 0 ? a[n / 2] * a[n / 2] / 2 : Real(0);
+inline Real increment_product_term(const Coefficients<Real>& a, const Coefficients<Real>& b) {
+  if constexpr (n == 1) {
+    return a[1] * b[0];
+  } else if constexpr (n == 2) {
+    return a[1] * b[1] + a[2] * b[0];
+  } else {
+    Real even = a[2] * b[n - 2], odd = 0;
+    if constexpr (n > 3) odd = a[3] * b[n - 3];
 #pragma GCC unroll 32
-  for (int j = (n + 1) / 2 - 1; j >= 1; --j) sum += a[j] * a[n - j];
-  return sum + a[0] * a[n];
+    for (int j = 4; j < n; ++j) (j % 2 == 0 ? even : odd) += a[j] * b[n - j];
+    if constexpr (n > 3)
+      return (even + a[1] * b[n - 1]) + (odd + a[n] * b[0]);
+    else
+      return (even + a[1] * b[n - 1]) + a[n] * b[0];
+  }
+}
+
+/// Half of coefficient n >= 2 of (a - a[0])^2: each pair of factors once.
+template <int n, class Real>
+inline Real half_increment_square_term(const Coefficients<Real>& a) {
+  Real sum = n % 2 == 0 ? a[n / 2] * a[n / 2] * Real(0.5) : a[n / 2] * a[n / 2 + 1];
+#pragma GCC unroll 32
+  for (int j = (n - 1) / 2 - n % 2; j >= 1; --j) sum += a[j] * a[n - j];
+  return sum;
 }
 
 /// The same with n known only at run time.

@@ -34,7 +34,9 @@ struct Drivetrain {
 inline double at_electrical_deg(double deg) { return deg * base::pi / 180.0 / 8; }
 
 inline plant::Gates gates(std::array<bool, 3> high, std::array<bool, 3> low) {
-  return {.high = high, .low = low};
+  plant::Gates g;
+  for (std::size_t k = 0; k < 3; ++k) g.high[k] = high[k], g.low[k] = low[k];
+  return g;
 }
 inline plant::Gates all_off() { return {}; }
 inline plant::Gates a_to_b() { return gates({true, false, false}, {false, true, false}); }

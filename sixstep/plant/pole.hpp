@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The voltage of a floating terminal, u_n + e_k (MODEL 2), over a segment. Few segments bring one near a
+// rail: its series is made only where a cheap bound cannot exclude that.
+#pragma once
+#include "sixstep/plant/recurrences.hpp"
+#include "sixstep/series/first_root.hpp"
+
+namespace sixstep::plant {
+
+/// The voltage as a law over the other series. Where no leg is connected, e_k alone.
+template <class Real>
+struct PoleLaw {
+  Real bus = 0, offset = 0, i = 0, w0 = 0, w1 = 0;  ///< per U_s, 1, i of `leg`, w phi0, w phi1
+  int leg = 0;
+};
+
+/// u_n is the mean of u_s - e_s over the connected legs s: none, one, or two with one current.
+template <class Real>
+PoleLaw<Real> pole_law(const Constants<Real>& c, const Mode& mode, int k) {
+  const EmfPiece<Real>& p = c.emf[mode.sector].piece[mode.piece];
+  const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
+  if (law.connected == 0) return {.w0 = p.alpha[k], .w1 = p.beta[k]};
+  const int j = law.leg[0], m = law.connected == 1 ? j : law.leg[1];
+  return {.bus = law.star.bus,
+          .offset = law.star.offset,
+          .i = law.star.i,
+          .w0 = p.alpha[k] - (p.alpha[j] + p.alpha[m]) / 2,
+          .w1 = p.beta[k] - (p.beta[j] + p.beta[m]) / 2,
+          .leg = j};
+}
+
+template <class Real>
+Real pole_start(const Constants<Real>& c, const Expansion<Real>& y, const PoleLaw<Real>& law) {
+  const Real phi0 = c.sine ? y.phi0[0] : Real(1), phi1 = c.sine ? y.phi1[0] : y.x[0];
+  return law.bus * y.bus[0] + law.offset + law.i * y.i[law.leg][0] + y.w[0] * (law.w0 * phi0 + law.w1 * phi1);
+}
+
+/// How far the voltage, and the rail above it, can move from its first value.
+template <class Real>
+Real pole_tail(const Constants<Real>& c, const Expansion<Real>& y, const PoleLaw<Real>& law) {
+  using detail::abs;
+  const Real w = y.reach_w, x = y.reach_x;
+  // |w phi - (w phi)(0)| by product rule; a sine's phi0 and phi1 turn by no more than x does.
+  const Real phi1 = c.sine ? Real(1) : abs(y.x[0]);
+  Real tail = abs(law.w0) * (c.sine ? w + (abs(y.w[0]) + w) * x : w) +
+              abs(law.w1) * (abs(y.w[0]) * x + phi1 * w + w * x);
+  if (law.i != 0) tail += abs(law.i) * y.reach_i[law.leg];
+  if (c.inv_C > 0) tail += (abs(law.bus) + 1) * series::tail_bound(y.bus, y.degree);
+  return tail;
+}
+
+template <class Real>
+series::Coefficients<Real> pole_series(const Constants<Real>& c, const Expansion<Real>& y,
+                                       const PoleLaw<Real>& law) {
+  series::Coefficients<Real> u;
+  for (int n = 0; n <= y.degree; ++n) {
+    const Real w0 = c.sine ? series::product_term(y.w, y.phi0, n) : y.w[n];
+    const Real w1 = series::product_term(y.w, c.sine ? y.phi1 : y.x, n);
+    u[n] = law.bus * y.bus[n] + law.i * y.i[law.leg][n] + law.w0 * w0 + law.w1 * w1;
+  }
+  u[0] += law.offset;
+  return u;
+}
+
+}  // namespace sixstep::plant
