@@ -59,6 +59,7 @@ Series monte_carlo(const study::Scenario& scenario, const SeriesOptions& options
   Series series;
   run({.count = options.runs,
        .scenario = [&](std::size_t n) { return study::varied(scenario, options.seed, n); },
+       .listeners = [](std::size_t) { return study::Listeners{.keep_books = false}; },
        .take =
            [&](std::size_t n, RunResult&& result) {
              add(series, result);

@@ -50,7 +50,7 @@ struct SeriesOptions {
   unsigned jobs = 0;
   std::stop_token stop;
   std::function<void(std::size_t done)> progress;
-  /// Each run as it is counted, in order, before its outcome is dropped.
+  /// Each run as it is counted, in order, before its outcome is dropped. No books are kept of it.
   std::function<void(std::size_t n, const base::Result<study::Outcome>&)> each;
 };
 
