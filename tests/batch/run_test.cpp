@@ -144,7 +144,7 @@ TEST(Run, StopsAtOnceAndKeepsWhatIsWhole) {
     std::vector<std::size_t> taken;
     const auto scenario = [](std::size_t n) {
       study::Scenario s = drive(n);
-      if (n >= 10) s.duration_s = 1e5;  // hours, unless it is stopped
+      if (n >= 10) s.duration_s = s.reference.period_s = 1e5;  // hours, unless it is stopped
       return s;
     };
     const std::size_t count = run({.count = std::size_t{1} << 60,
