@@ -85,8 +85,8 @@ std::string json_summary(const study::Scenario& scenario, const study::Outcome& 
   summary["require"] = verdicts(outcome);
   summary["compare"] = comparisons(outcome);
   summary["gains"] = gains(outcome);
-  summary["energy"] = energy(outcome.energy);
-  summary["laws"] = laws(outcome.laws);
+  summary["energy"] = outcome.energy ? energy(*outcome.energy) : Json(nullptr);
+  summary["laws"] = outcome.laws ? laws(*outcome.laws) : Json(nullptr);
   summary["events"] = events(outcome);
   // A title may hold bytes that are no UTF-8: shown as such, never thrown over.
   return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -52,6 +52,11 @@ void declare_run(CLI::App& run, RunArguments& a) {
   run.add_option("--data", a.data_dir, "folder that holds motors/");
   run.add_flag("--quiet", a.quiet, "no table, only errors and the exit code");
   run.add_option("--jobs", a.jobs, "runs side by side; without it one per core")->check(CLI::Range(1, 1024));
+  CLI::Option* runs =
+      run.add_option("--runs", a.runs, "that many drives of the series that [[spread]] describes");
+  runs->check(CLI::Range(1, 1'000'000'000));
+  run.add_option("--seed", a.seed, "another series of drives; without it 1");
+  run.add_option("--drive", a.drive, "drive N of the series alone, with all its outputs")->excludes(runs);
 }
 
 Exit unknown_command(const std::string& word) {

@@ -10,9 +10,11 @@
 
 #include "batch/for_each.hpp"
 #include "faces/cli/report_page.hpp"
+#include "faces/cli/series_command.hpp"
 #include "faces/cli/terminal.hpp"
 #include "io/scenario_file.hpp"
 #include "io/verdict_table.hpp"
+#include "sixstep/study/spread.hpp"
 
 namespace cli {
 namespace {
@@ -43,6 +45,11 @@ std::vector<Job> read_jobs(const RunArguments& arguments, base::Problems& proble
   if (!problems.empty()) return jobs;
   for (const std::string& file : arguments.files) {
     base::Result<study::Scenario> scenario = io::read_scenario(file, options);
+    if (scenario && (arguments.runs > 0 || arguments.drive) && scenario->spread.empty())
+      problems.push_back({.where = place(file),
+                          .limit = "describes no series: all drives would be the same",
+                          .cure = "say in [[spread]] what differs; see: sixstep help spread"});
+    if (scenario && arguments.drive) *scenario = study::varied(*scenario, arguments.seed, *arguments.drive);
     if (scenario)
       jobs.emplace_back(file, std::move(*scenario), arguments.command);
     else
@@ -60,6 +67,10 @@ base::Problems check(const RunArguments& arguments) {
     problems.push_back({.where = "--csv, --json, --html",
                         .limit = "name the outputs of one scenario",
                         .cure = "with several files or --out use --out DIR alone"});
+  if (arguments.runs > 0 && (single || !arguments.out.empty()))
+    problems.push_back({.where = "--runs",
+                        .limit = "writes no files of single runs",
+                        .cure = "write those of one drive with --drive N instead of --runs"});
   std::map<std::string, std::string> stems;
   for (const std::string& file : arguments.files) {
     const auto [other, is_new] = stems.emplace(fs::path(file).stem().string(), file);
@@ -140,6 +151,7 @@ void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
 Exit run_command(const RunArguments& arguments) {
   base::Problems problems = check(arguments);
   std::vector<Job> jobs = problems.empty() ? read_jobs(arguments, problems) : std::vector<Job>();
+  if (problems.empty() && arguments.runs > 0) return series_command(arguments, jobs);
   std::optional<io::AtomicFile> index;
   if (problems.empty()) problems = prepare(arguments, jobs, index);
   if (!problems.empty()) {

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +18,11 @@ struct RunArguments {
   std::vector<std::string> sets;  ///< "key=value"
   std::string data_dir;
   bool quiet = false;
-  unsigned jobs = 0;    ///< 0: one per core
-  std::string command;  ///< the command line as it may be typed again
+  unsigned jobs = 0;     ///< 0: one per core
+  std::size_t runs = 0;  ///< of a series; 0: the nominal run alone
+  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> drive;  ///< the one of the series that is run alone
+  std::string command;                 ///< the command line as it may be typed again
 };
 
 Exit run_command(const RunArguments& arguments);

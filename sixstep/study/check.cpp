@@ -7,6 +7,7 @@
 #include "sixstep/study/columns.hpp"
 #include "sixstep/study/compile.hpp"
 #include "sixstep/study/run.hpp"
+#include "sixstep/study/spread.hpp"
 
 namespace sixstep::study {
 
@@ -168,6 +169,8 @@ base::Problems check(const Scenario& s) {
   if (s.pwm.delay_periods < 0 || s.pwm.delay_periods > 1)
     out.push_back({"pwm.delay_periods", std::to_string(s.pwm.delay_periods), "must be 0 or 1",
                    "0: at once, 1: one period later"});
+  if (const base::Problems spread = check_spread(s); !spread.empty())
+    out.insert(out.end(), spread.begin(), spread.end());
   if (const auto columns = record_indices(s); !columns)
     out.insert(out.end(), columns.problems().begin(), columns.problems().end());
   return out;

@@ -87,6 +87,11 @@ inline constexpr Choice<Signal> signal_choices[] = {
     {"bus_current", Signal::bus_current, "current from the bus into the bridge, A"},
 };
 
+inline constexpr Choice<Distribution> distribution_choices[] = {
+    {"uniform", Distribution::uniform, "all values within the half width are equally likely"},
+    {"normal", Distribution::normal, "bell curve, cut off at cut_sigma standard deviations"},
+};
+
 /// The unit a reference is meant in: it follows from the control mode alone. Empty where nothing is asked
 /// for.
 constexpr std::string_view reference_unit(control::Mode mode) {

@@ -70,33 +70,40 @@ control::Watch watch_of(const CurrentLoop& loop) {
   return loop.on == HysteresisOn::motor ? control::Watch::motor : control::Watch::phase;
 }
 
-base::Problems add_loops(const Scenario& s, Compiled& out) {
+/// What the controller is designed on: the motor at hand, or the nominal one of a series.
+struct Basis {
+  const design::MotorModel& motor;
+  plant::Shaft shaft;
+  double bus_V;
+};
+
+base::Problems add_loops(const Scenario& s, const Basis& basis, Compiled& out) {
   const control::Mode mode = s.control.mode;
   if (mode == control::Mode::off || mode == control::Mode::duty) return {};
   const double period_s = s.pwm.period_s;
   if (s.control.current.type == CurrentLoopType::pi) {
     const design::ZohPlant plant =
-        design::current_plant(2 * out.motor.machine.R_ohm, 2 * out.motor.machine.L_H, period_s);
+        design::current_plant(2 * basis.motor.machine.R_ohm, 2 * basis.motor.machine.L_H, period_s);
     base::Result<LoopGains> gains =
         loop_gains(s.control.current, "current", plant, current_settle_s, period_s);
     if (!gains) return gains.problems();
-    out.drive.current = {gains->d1, gains->d0, s.supply.voltage_V};
+    out.drive.current = {gains->d1, gains->d0, basis.bus_V};
     out.gains.push_back(*gains);
   }
   if (mode == control::Mode::current) return {};
-  const double torque_limit = s.control.speed.torque_limit_Nm.value_or(out.motor.stall_torque_Nm);
+  const double torque_limit = s.control.speed.torque_limit_Nm.value_or(basis.motor.stall_torque_Nm);
   const design::ZohPlant plant =
-      design::speed_plant(torque_limit, out.shaft.J_kg_m2, out.shaft.B_Nm_s, period_s);
+      design::speed_plant(torque_limit, basis.shaft.J_kg_m2, basis.shaft.B_Nm_s, period_s);
   base::Result<LoopGains> gains = loop_gains(s.control.speed, "speed", plant, speed_settle_s, period_s);
   if (!gains) return gains.problems();
   out.drive.speed = {gains->d1, gains->d0, 1.0};
-  out.drive.current_at_full_torque_A = torque_limit / out.motor.K_t_Nm_A;
+  out.drive.current_at_full_torque_A = torque_limit / basis.motor.K_t_Nm_A;
   out.drive.current_limit_A = s.control.current.limit_A.value_or(out.drive.current_at_full_torque_A);
   out.gains.push_back(*gains);
   if (mode == control::Mode::speed) return {};
   out.drive.position_gain = s.control.position.gain_rad_s_per_deg;
   out.drive.speed_limit_rad_s =
-      s.control.position.speed_limit_rad_s.value_or(s.supply.voltage_V / out.motor.K_t_Nm_A);
+      s.control.position.speed_limit_rad_s.value_or(basis.bus_V / basis.motor.K_t_Nm_A);
   out.gains.push_back(
       {"position", out.drive.position_gain, 0.0, "given as gain_rad_s_per_deg", std::nullopt});
   return {};
@@ -156,6 +163,11 @@ template GivenGains given_gains<SpeedLoop>(const SpeedLoop&, const std::string&)
 base::Result<Compiled> compile(const Scenario& s) {
   base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
   if (!motor) return motor.problems();
+  const Nominal* nominal = s.designed_for ? &*s.designed_for : nullptr;
+  const base::Result<design::MotorModel> designed = nominal ? design::motor_model(nominal->sheet) : motor;
+  if (!designed) return designed.problems();
+  const Basis basis{*designed, shaft_of(*designed, nominal ? nominal->load : s.load),
+                    nominal ? nominal->supply.voltage_V : s.supply.voltage_V};
   Compiled out;
   out.motor = *motor;
   out.shaft = shaft_of(out.motor, s.load);
@@ -167,12 +179,12 @@ base::Result<Compiled> compile(const Scenario& s) {
   out.end = sim::to_instant(s.duration_s);
   out.drive.mode = s.control.mode;
   out.drive.chopping = s.pwm.chopping;
-  out.drive.nominal_bus_V = s.supply.voltage_V;
+  out.drive.nominal_bus_V = basis.bus_V;
   out.drive.current_control = s.control.current.type == CurrentLoopType::pi
                                   ? control::CurrentControl::pi
                                   : control::CurrentControl::hysteresis;
   out.drive.hysteresis = {s.control.current.band_A, watch_of(s.control.current)};
-  if (base::Problems problems = add_loops(s, out); !problems.empty()) return problems;
+  if (base::Problems problems = add_loops(s, basis, out); !problems.empty()) return problems;
   return out;
 }
 

@@ -63,8 +63,8 @@ struct LoopGains {
 struct Outcome {
   std::vector<Verdict> verdicts;
   std::vector<ComparisonResult> comparisons;
-  plant::EnergyBook energy;
-  plant::Laws laws;
+  std::optional<plant::EnergyBook> energy;  // empty where nobody kept books (Listeners::keep_books)
+  std::optional<plant::Laws> laws;
   std::vector<EventCount> events;
   std::vector<LoopGains> gains;
   design::MotorModel motor;

@@ -18,7 +18,7 @@ constexpr double drawn_points = 2000.0;
 
 /// All who watch a run, in one observer.
 struct Watchers {
-  plant::Audit<double> audit;
+  std::optional<plant::Audit<double>> audit;
   Digest digest;
   Figures figures;
   std::optional<GridRecorder> grid;
@@ -28,7 +28,7 @@ struct Watchers {
 
   template <class Rig>
   void segment(const Rig& rig, double s) {
-    audit.segment(rig.plant(), s);
+    if (audit) audit->segment(rig.plant(), s);
     digest.segment(rig, s);
     figures.segment(rig, s);
     if (grid) grid->segment(rig, s);
@@ -49,6 +49,7 @@ Watchers watchers(const Scenario& s, const Compiled& compiled, const Listeners& 
   const double gap_s = s.duration_s / drawn_points;
   Watchers w{.figures = Figures(s, reference_levels(s.reference, s.duration_s)),
              .keep_going = listeners.keep_going};
+  if (listeners.keep_books) w.audit.emplace();
   if (listeners.on_record && s.record.events)
     w.events.emplace(gap_s, mode, indices, listeners.on_record);
   else if (listeners.on_record)
@@ -125,8 +126,10 @@ base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners) 
                                       ? run_in<float>(*compiled, w, out)
                                       : run_in<double>(*compiled, w, out);
   if (!problems.empty()) return problems;
-  out.energy = w.audit.energy();
-  out.laws = w.audit.laws();
+  if (w.audit) {
+    out.energy = w.audit->energy();
+    out.laws = w.audit->laws();
+  }
   w.figures.judge(scenario, out);
   return out;
 }

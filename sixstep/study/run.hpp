@@ -20,6 +20,7 @@ struct Listeners {
   std::function<void(Row)> on_record;  ///< the scenario's [record]: columns record_columns(scenario)
   std::function<void(Row)> on_event;   ///< every event, both sides of each jump: columns all_columns()
   std::function<bool(double t_s)> keep_going;  ///< now and then; false ends the run early
+  bool keep_books = true;  ///< energy and standing laws: about half the time of a run with a few figures
 };
 
 /// Every column there is: t_s i_a_A i_b_A i_c_A u_a_V .. hall (DESIGN "Trace columns").

@@ -168,6 +168,26 @@ struct Comparison {
   std::string source;
 };
 
+enum class Distribution : std::uint8_t { uniform, normal };
+
+/// How one number of motor, supply, bridge, load or start strays from one drive of a series to the next.
+struct Spread {
+  std::string key;  // as written in the scenario: "motor_override.resistance_ohm", "supply.voltage_V"
+  Distribution distribution = Distribution::uniform;
+  std::optional<double>
+      relative;  // half width (uniform) or standard deviation (normal), as part of the value
+  std::optional<double> absolute;  // the same in the key's unit, instead of relative
+  double cut_sigma = 3.0;          // normal: standard deviations beyond which no drive lies
+  std::string source;
+};
+
+/// What the designer of a controller goes by.
+struct Nominal {
+  design::Sheet sheet;
+  Supply supply;
+  Load load;
+};
+
 struct Scenario {
   std::string title;
   std::string motor;  // name or path as written
@@ -184,6 +204,8 @@ struct Scenario {
   Record record;
   std::vector<Requirement> require;
   std::vector<Comparison> compare;
+  std::vector<Spread> spread;           // over a batch of runs; a single run is the nominal one
+  std::optional<Nominal> designed_for;  // else for the motor, supply and load at hand (set by study::varied)
 };
 
 }  // namespace sixstep::study

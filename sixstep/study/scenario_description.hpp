@@ -218,6 +218,26 @@ void describe(Visitor& v, Comparison& s) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, Spread& s) {
+  v.value("key", s.key,
+          {.meaning =
+               "number that differs from run to run, as supply.voltage_V: of motor_override (resistance_ohm, "
+               "inductance_mH, torque_constant_mNm_A or back_emf_mV_s, inertia_gcm2, viscous_friction_Nm_s, "
+               "coulomb_friction_mNm, flat_deg), supply, bridge, load or initial",
+           .required = true});
+  v.choice("distribution", s.distribution, distribution_choices, {.meaning = "how likely each value is"});
+  v.value("relative", s.relative,
+          {.meaning = "half width (uniform) or standard deviation (normal), as a part of the key's value",
+           .range = above(0)});
+  v.value("absolute", s.absolute,
+          {.meaning = "half width or standard deviation in the key's unit, instead of relative",
+           .range = above(0)});
+  v.value("cut_sigma", s.cut_sigma,
+          {.meaning = "normal: standard deviations beyond which no value is drawn", .range = from(1)});
+  v.value("source", s.source, {.meaning = "where the width comes from"});
+}
+
+template <class Visitor>
 void describe(Visitor& v, Scenario& s) {
   v.value("title", s.title, {.meaning = "one line that names the run"});
   v.value(
@@ -243,6 +263,9 @@ void describe(Visitor& v, Scenario& s) {
   v.table("record", s.record, {.meaning = "what is written to the trace"});
   v.list("require", s.require, {.meaning = "figures that decide whether the run passes"});
   v.list("compare", s.compare, {.meaning = "figures shown beside those of a source; they decide nothing"});
+  v.list("spread", s.spread,
+         {.meaning = "how drives of a series differ, for sixstep run --runs; the controller stays designed "
+                     "for the values as written"});
 }
 
 }  // namespace sixstep::study

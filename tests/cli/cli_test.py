@@ -4,6 +4,7 @@
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -29,6 +30,14 @@ metric = "final"
 signal = "current"
 label = "current"
 max = {limit}
+"""
+
+
+# Copper that strays by a tenth: half of the drives hold 23.3 A.
+SPREAD = """
+[[spread]]
+key = "motor_override.resistance_ohm"
+relative = 0.1
 """
 
 
@@ -135,6 +144,54 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(program.returncode, 130)
         self.assertEqual(self.names(), ["a.partial.csv", "a.toml"])
         self.assertTrue((self.path / "a.partial.csv").read_text().startswith("t_s,"))
+
+    def write_series(self, limit, spread=SPREAD):
+        (self.path / "a.toml").write_text(SHORT.format(limit=limit).replace("1e-4", "20e-3") + spread)
+        return "a.toml"
+
+    def test_a_series_is_judged_together(self):
+        file = self.write_series(24 / 1.03)
+        table = self.run_program("run", file, "--runs", "40", "--jobs", "1", code=1).stdout
+        self.assertEqual(table, self.run_program("run", file, "--runs", "40", "--jobs", "3", code=1).stdout)
+        self.assertNotEqual(table, self.run_program("run", file, "--runs", "40", "--seed", "2", code=1).stdout)
+        held, missed = (int(n) for n in re.search(r"40 drives, seed 1: (\d+) hold every requirement, (\d+) do NOT", table).groups())
+        self.assertEqual(held + missed, 40)
+        self.assertIn(f"{held} of 40", table)
+        self.assertIn("all hold", self.run_program("run", self.write_series(1000), "--runs", "5").stdout)
+        self.assertEqual(self.names(), ["a.toml"])
+
+    def test_one_drive_of_a_series_is_run_alone_with_its_files(self):
+        file = self.write_series(24 / 1.03)
+        table = self.run_program("run", file, "--runs", "40", code=1).stdout
+        miss = re.search(r"first miss is drive (\d+)", table).group(1)
+        self.run_program("run", file, "--seed", "1", "--drive", miss, "--json", "miss.json", code=1)
+        alone = json.loads((self.path / "miss.json").read_text())["require"][0]
+        self.assertFalse(alone["ok"])
+        self.assertNotEqual(alone["measured"], json.loads(
+            self.run_program("run", file, "--json", "-").stdout)["require"][0]["measured"])
+
+    def test_2_for_a_series_that_is_none(self):
+        self.assertIn("describes no series", self.run_program("run", self.write("a.toml", 1000), "--runs", "3", code=2).stderr)
+        self.assertIn("describes no series", self.run_program("run", "a.toml", "--drive", "3", code=2).stderr)
+        file = self.write_series(1000)
+        self.assertIn("--drive", self.run_program("run", file, "--runs", "3", "--csv", "a.csv", code=2).stderr)
+        self.run_program("run", file, "--runs", "3", "--drive", "1", code=2)
+        self.write_series(1000, SPREAD.replace("resistance_ohm", "resistance"))
+        self.assertTrue(self.run_program("run", file, code=2).stderr.startswith(
+            'a.toml:17:7: spread.key = "motor_override.resistance" is no number'))
+        self.write_series(1000, SPREAD.replace("0.1", "1.5"))
+        self.assertTrue(self.run_program("run", file, code=2).stderr.startswith(
+            "a.toml:18:12: spread.relative = 1.5 lets motor_override.resistance_ohm reach -0.515"))
+        self.assertEqual(self.names(), ["a.toml"])
+
+    def test_ctrl_c_ends_a_series_and_tells_what_is_done(self):
+        words = [PROGRAM, "run", self.write_series(1000), "--runs", "1000000000"]
+        with subprocess.Popen(words, cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
+            time.sleep(0.5)
+            program.send_signal(signal.SIGINT)
+            told = program.communicate(timeout=20)[0]
+        self.assertEqual(program.returncode, 130)
+        self.assertRegex(told, r"[1-9]\d* drives, seed 1: all hold")
 
     def test_help_explains_keys_and_answers_near_misses(self):
         self.assertIn("supply.voltage_V", self.run_program("help", "supply").stdout)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/digest/cases.hpp"
 
+#include "sixstep/study/spread.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace sixstep::testing {
@@ -157,6 +158,19 @@ Scenario narrow_flat() {
   return s;
 }
 
+/// One of a series: its numbers come from the random generator's bits, log, cos and sqrt.
+Scenario series_drive() {
+  Scenario s = current_square();
+  for (const char* key : {"motor_override.resistance_ohm", "motor_override.inductance_mH"}) {
+    Spread spread;
+    spread.key = key;
+    spread.distribution = Distribution::normal;
+    spread.relative = 0.05;
+    s.spread.push_back(spread);
+  }
+  return varied(s, 1, 17);
+}
+
 }  // namespace
 
 std::vector<Case> digest_cases() {
@@ -193,6 +207,7 @@ std::vector<Case> digest_cases() {
       {"small-chip-cascade", small_chip(designed_cascade())},
       {"diode-source", regeneration(false)},
       {"narrow-flat-reverse", narrow_flat()},
+      {"series-drive", series_drive()},
   };
   for (Case& c : cases) c.scenario = judged(std::move(c.scenario));
   return cases;

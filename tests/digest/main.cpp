@@ -20,7 +20,7 @@ std::uint64_t figures(const study::Outcome& out) {
     hash.number(g.d1);
     hash.number(g.d0);
   }
-  const plant::EnergyBook& e = out.energy;
+  const plant::EnergyBook& e = *out.energy;
   for (const double joule : {e.supplied, e.copper, e.devices, e.magnetic, e.air_gap, e.friction, e.load,
                              e.kinetic, e.moved, e.electrical_residual, e.mechanical_residual})
     hash.number(joule);

@@ -154,7 +154,8 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
   // Counts, ratios and gains, and what is meant in the unit of a mode or figure that another key names.
   const std::set<std::string> without = {"pole_pairs", "delay_periods", "damping", "d1",   "d0",  "kp",
                                          "ki",         "value",         "values",  "high", "low", "level",
-                                         "start",      "fraction",      "band",    "min",  "max"};
+                                         "start",      "fraction",      "band",    "min",  "max", "relative",
+                                         "absolute",   "cut_sigma"};
   for (const KeyEntry& key : all_keys()) {
     const bool number = key.type == KeyType::number || key.type == KeyType::whole_number ||
                         key.type == KeyType::numbers || key.type == KeyType::quantity;

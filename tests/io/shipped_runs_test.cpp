@@ -39,13 +39,13 @@ TEST_P(EveryShippedRun, ObeysTheStandingLaws) {
   EXPECT_TRUE(time_holds) << "time went back";
   EXPECT_TRUE(complete) << "a current, speed, angle or bus voltage is no number";
   EXPECT_DOUBLE_EQ(last_s, scenario->duration_s);
-  EXPECT_LE(std::fabs(outcome->energy.electrical_residual), 1e-11);
-  EXPECT_LE(std::fabs(outcome->energy.mechanical_residual), 1e-11);
-  EXPECT_LE(outcome->laws.current_sum_A, 4 * 0x1p-52 * 24.0 / 0.515)
+  EXPECT_LE(std::fabs(outcome->energy->electrical_residual), 1e-11);
+  EXPECT_LE(std::fabs(outcome->energy->mechanical_residual), 1e-11);
+  EXPECT_LE(outcome->laws->current_sum_A, 4 * 0x1p-52 * 24.0 / 0.515)
       << "a few roundings of the stall current";
-  EXPECT_LE(outcome->laws.reverse_diode_A, 64 * 0x1p-52 * 24.0 / 0.515)
+  EXPECT_LE(outcome->laws->reverse_diode_A, 64 * 0x1p-52 * 24.0 / 0.515)
       << "the engine's noise level of a current";
-  EXPECT_EQ(outcome->laws.floating_current_A, 0.0);
+  EXPECT_EQ(outcome->laws->floating_current_A, 0.0);
   EXPECT_FALSE(outcome->fault);
   for (const study::Verdict& v : outcome->verdicts)
     EXPECT_TRUE(v.ok) << v.figure << ": " << v.measured << " " << v.unit;

@@ -213,16 +213,16 @@ inline sixstep::study::Outcome synthetic_outcome() {
   o.comparisons = {{"overshoot of current", "%", 8.33, 7.0, "discrete design, no ripple"},
                    {"rise time", "s", 0.000241, 0.00025, "thesis, figure 7.4"},
                    {"speed at the end", "rad/s", 71.2, 70.0, "hand calculation"}};
-  o.energy = {.supplied = 1.0312,
-              .copper = 0.5010,
-              .devices = 0.0,
-              .magnetic = 0.0071,
-              .air_gap = 0.5231,
-              .friction = 0.0101,
-              .load = 0.0,
-              .kinetic = 0.5130,
-              .electrical_residual = 3.1e-15,
-              .mechanical_residual = 8.8e-16};
+  o.energy = sixstep::study::EnergyBook{.supplied = 1.0312,
+                                        .copper = 0.5010,
+                                        .devices = 0.0,
+                                        .magnetic = 0.0071,
+                                        .air_gap = 0.5231,
+                                        .friction = 0.0101,
+                                        .load = 0.0,
+                                        .kinetic = 0.5130,
+                                        .electrical_residual = 3.1e-15,
+                                        .mechanical_residual = 8.8e-16};
   o.events = {{"PWM edge", 1334}, {"Hall edge", 21}, {"diode current zero", 42}, {"control tick", 667}};
   o.segments = 2087;
   o.motor = {.machine = {.R_ohm = 0.515, .L_H = 0.286e-3, .K_e_V_s = 0.01675, .pole_pairs = 8},

@@ -93,6 +93,7 @@ TEST(Pitfall10_RecordersChangeNoBit, WhoeverListens) {
     s.record.columns = {"i_a_A"};
     EXPECT_EQ(digest_of(s, {.on_record = [](Row) {}}), alone);
     EXPECT_EQ(digest_of(s, {.on_event = [](Row) {}, .keep_going = [](double) { return true; }}), alone);
+    EXPECT_EQ(digest_of(s, {.keep_books = false}), alone);
     s.record.events = true;
     EXPECT_EQ(digest_of(s, {.on_record = [](Row) {}, .on_event = [](Row) {}}), alone);
   }

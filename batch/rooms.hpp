@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// The library's rooms by their short names, for code in batch.
+#pragma once
+
+namespace sixstep {
+namespace base {}
+namespace study {}
+}  // namespace sixstep
+
+namespace batch {
+namespace base = sixstep::base;
+namespace study = sixstep::study;
+}  // namespace batch

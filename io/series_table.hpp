@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "batch/monte_carlo.hpp"
+#include "io/rooms.hpp"
+
+namespace io {
+
+/// A series for the terminal: each figure's spread and how many drives hold each requirement, what went
+/// wrong, and how to look at one drive alone.
+std::string series_table(const std::string& name, const batch::Series& series, std::uint64_t seed);
+
+}  // namespace io

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drives of a series: what strays, what stays, and what is refused.
+#include "sixstep/study/spread.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/study/compile.hpp"
+#include "tests/support/scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using namespace sixstep::study;
+using control::Mode;
+
+constexpr std::uint64_t seed = 7;
+// Product, sum and quotient of numbers near 1: each half a bit off.
+constexpr double rounding = 4 * 0x1p-52;
+
+Spread relative(const char* key, double part, Distribution distribution = Distribution::uniform) {
+  Spread s;
+  s.key = key;
+  s.relative = part;
+  s.distribution = distribution;
+  return s;
+}
+
+Scenario series() {
+  Scenario s = current_square();
+  s.spread = {relative("motor_override.resistance_ohm", 0.1),
+              relative("motor_override.inductance_mH", 0.2, Distribution::normal),
+              relative("motor_override.torque_constant_mNm_A", 0.08),
+              relative("motor_override.inertia_gcm2", 0.1), relative("supply.voltage_V", 0.05)};
+  return s;
+}
+
+TEST(Spread, ADriveIsAFunctionOfSeedAndNumber) {
+  const Scenario s = series();
+  const Scenario a = varied(s, seed, 41), b = varied(s, seed, 41), next = varied(s, seed, 42),
+                 other = varied(s, seed + 1, 41);
+  EXPECT_EQ(a.sheet.resistance_ohm.value, b.sheet.resistance_ohm.value);
+  EXPECT_NE(a.sheet.resistance_ohm.value, next.sheet.resistance_ohm.value);
+  EXPECT_NE(a.sheet.resistance_ohm.value, other.sheet.resistance_ohm.value);
+  EXPECT_TRUE(a.spread.empty());
+}
+
+TEST(Spread, AKeysDrawsDoNotDependOnTheOtherKeys) {
+  const Scenario s = series();
+  Scenario alone = s, reversed = s;
+  alone.spread = {s.spread[1]};
+  std::reverse(reversed.spread.begin(), reversed.spread.end());
+  for (std::uint64_t n = 0; n < 100; ++n) {
+    const double all = varied(s, seed, n).sheet.inductance_mH.value;
+    EXPECT_EQ(varied(alone, seed, n).sheet.inductance_mH.value, all);
+    EXPECT_EQ(varied(reversed, seed, n).sheet.inductance_mH.value, all);
+  }
+}
+
+TEST(Spread, StaysWithinItsWidthAndFillsIt) {
+  constexpr int count = 4000;
+  const Scenario s = series();
+  double low = 2.0, high = 0.0, sum = 0.0, far = 0.0;
+  for (std::uint64_t n = 0; n < count; ++n) {
+    const Scenario one = varied(s, seed, n);
+    const double R = one.sheet.resistance_ohm.value / 1.03;
+    low = std::min(low, R);
+    high = std::max(high, R);
+    sum += R;
+    far = std::max(far, std::fabs(one.sheet.inductance_mH.value / 0.572 - 1.0));
+  }
+  // All draws miss an outermost 0.5 % of the width with probability 0.9975^4000 = 4.5e-5.
+  EXPECT_GE(low, 0.9 - rounding);
+  EXPECT_LE(high, 1.1 + rounding);
+  EXPECT_LT(low, 0.901);
+  EXPECT_GT(high, 1.099);
+  EXPECT_NEAR(sum / count, 1.0, 5 * 0.1 / std::sqrt(3.0 * count)) << "five standard errors, seed " << seed;
+  EXPECT_LE(far, 3 * 0.2 + rounding) << "cut_sigma";
+  EXPECT_GT(far, 2.5 * 0.2) << "1.2 % of a normal lie beyond 2.5 sigma";
+}
+
+/// At sigma the cut normal is flat enough to see the cut, and its variance is known:
+/// 1 - 2 phi(1)/(2 Phi(1) - 1) = 1 - 0.4839414/0.6826895 = 0.2911251.
+TEST(Spread, ACutNormalHasItsVariance) {
+  constexpr int count = 20000;
+  Scenario s = current_square();
+  s.spread = {relative("motor_override.resistance_ohm", 0.1, Distribution::normal)};
+  s.spread[0].cut_sigma = 1.0;
+  double squares = 0.0;
+  for (std::uint64_t n = 0; n < count; ++n) {
+    const double x = (varied(s, seed, n).sheet.resistance_ohm.value / 1.03 - 1.0) / 0.1;
+    EXPECT_LE(std::fabs(x), 1.0 + rounding / 0.1);
+    squares += x * x;
+  }
+  // x^2 lies in [0, 1], so its standard deviation is at most 1/2.
+  EXPECT_NEAR(squares / count, 0.2911251, 5 * 0.5 / std::sqrt(double{count})) << "seed " << seed;
+}
+
+TEST(Spread, TheControllerStaysTheOneDesignedForTheNominalMotor) {
+  for (const Mode mode : {Mode::current, Mode::speed, Mode::position}) {
+    Scenario s = maxon_scenario(mode, 5.0);
+    s.sheet.stall_torque_mNm.reset();  // derived from K_t and R, both of which stray
+    s.spread = series().spread;
+    const auto nominal = compile(s);
+    const auto one = compile(varied(s, seed, 3));
+    ASSERT_TRUE(nominal && one);
+    const auto& a = nominal->drive;
+    const auto& b = one->drive;
+    EXPECT_EQ(a.nominal_bus_V, b.nominal_bus_V);
+    EXPECT_EQ(a.current.d1, b.current.d1);
+    EXPECT_EQ(a.current.d0, b.current.d0);
+    EXPECT_EQ(a.current.limit, b.current.limit);
+    EXPECT_EQ(a.speed.d1, b.speed.d1);
+    EXPECT_EQ(a.speed.d0, b.speed.d0);
+    EXPECT_EQ(a.current_at_full_torque_A, b.current_at_full_torque_A);
+    EXPECT_EQ(a.current_limit_A, b.current_limit_A);
+    EXPECT_EQ(a.speed_limit_rad_s, b.speed_limit_rad_s);
+    EXPECT_NE(nominal->motor.machine.R_ohm, one->motor.machine.R_ohm);
+    EXPECT_NE(nominal->motor.machine.L_H, one->motor.machine.L_H);
+    EXPECT_NE(nominal->motor.machine.K_e_V_s, one->motor.machine.K_e_V_s);
+    EXPECT_NE(nominal->shaft.J_kg_m2, one->shaft.J_kg_m2);
+    EXPECT_NE(nominal->supply.V_0_V, one->supply.V_0_V);
+  }
+}
+
+TEST(Spread, FrictionDoesNotFollowTheTorqueConstant) {
+  Scenario s = current_square();
+  s.sheet.viscous_friction_Nm_s.reset();
+  s.sheet.no_load_speed_rpm = base::Quantity{6710.0, "", ""};
+  s.sheet.no_load_current_mA = base::Quantity{185.0, "", ""};
+  s.spread = {relative("motor_override.torque_constant_mNm_A", 0.08)};
+  ASSERT_EQ(check(s), base::Problems{});
+  const auto nominal = compile(s), one = compile(varied(s, seed, 0));
+  ASSERT_TRUE(nominal && one);
+  EXPECT_GT(nominal->shaft.B_Nm_s, 0.0);
+  EXPECT_EQ(nominal->shaft.B_Nm_s, one->shaft.B_Nm_s);
+  // Derived friction is a number like any other: it may stray itself.
+  s.spread = {relative("motor_override.viscous_friction_Nm_s", 0.4)};
+  ASSERT_EQ(check(s), base::Problems{});
+  EXPECT_NE(compile(varied(s, seed, 0))->shaft.B_Nm_s, nominal->shaft.B_Nm_s);
+}
+
+TEST(Spread, TorqueConstantAndBackEmfStayOneFact) {
+  for (const char* key : {"motor_override.torque_constant_mNm_A", "motor_override.back_emf_mV_s"}) {
+    Scenario s = current_square();
+    s.sheet.back_emf_mV_s = base::Quantity{16.75, "phase", ""};
+    s.spread = {relative(key, 0.08)};
+    ASSERT_EQ(check(s), base::Problems{});
+    for (std::uint64_t n = 0; n < 20; ++n) {
+      const Scenario one = varied(s, seed, n);
+      EXPECT_EQ(check(one), base::Problems{});
+      EXPECT_NEAR(one.sheet.torque_constant_mNm_A->value / one.sheet.back_emf_mV_s->value, 2.0, 4 * 0x1p-52);
+    }
+  }
+}
+
+TEST(Spread, AnAbsoluteWidthMovesAZero) {
+  Scenario s = current_square();
+  s.spread = {relative("initial.angle_rad", 0.1)};
+  EXPECT_EQ(check_spread(s).at(0).where, "spread[0].relative");
+  s.spread[0].relative.reset();
+  s.spread[0].absolute = 0.1;
+  ASSERT_EQ(check(s), base::Problems{});
+  const double angle = varied(s, seed, 0).initial.angle_rad;
+  EXPECT_NE(angle, 0.0);
+  EXPECT_LE(std::fabs(angle), 0.1);
+}
+
+std::string refusal(const Spread& spread, Scenario s = current_square()) {
+  s.spread = {spread};
+  const base::Problems problems = check(s);
+  return problems.size() == 1 ? to_string(problems[0]) : std::to_string(problems.size()) + " problems";
+}
+
+TEST(Spread, RefusesWhatCannotStray) {
+  using ::testing::HasSubstr;
+  EXPECT_THAT(refusal(relative("motor_override.resistance", 0.1)), HasSubstr("is no number"));
+  EXPECT_THAT(refusal(relative("motor_override.stall_torque_mNm", 0.1)), HasSubstr("is no number"));
+  EXPECT_THAT(refusal(relative("control.current.d1", 0.1)), HasSubstr("is no number"));
+  EXPECT_THAT(refusal(relative("load.locked", 0.1)), HasSubstr("is no number"));
+  EXPECT_THAT(refusal(relative("initial.bus_V", 0.1)), HasSubstr("give initial.bus_V its nominal value"));
+  EXPECT_THAT(refusal(relative("motor_override.back_emf_mV_s", 0.1)),
+              HasSubstr("the sheet gives torque_constant_mNm_A: spread that"));
+  EXPECT_THAT(refusal(relative("motor_override.resistance_ohm", 1.5)),
+              HasSubstr("lets motor_override.resistance_ohm reach -0.515, outside of the key's range"));
+  EXPECT_THAT(refusal(relative("motor_override.resistance_ohm", 0.4, Distribution::normal)),
+              HasSubstr("lower it or cut_sigma"));
+  Spread none;
+  none.key = "supply.voltage_V";
+  EXPECT_THAT(refusal(none), HasSubstr("spread[0].relative is missing"));
+  none.relative = none.absolute = 0.1;
+  EXPECT_THAT(refusal(none), HasSubstr("the width is given twice"));
+}
+
+TEST(Spread, RefusesOneQuantityTwice) {
+  Scenario s = current_square();
+  s.sheet.back_emf_mV_s = base::Quantity{16.75, "phase", ""};
+  s.spread = {relative("motor_override.torque_constant_mNm_A", 0.1),
+              relative("motor_override.back_emf_mV_s", 0.1)};
+  ASSERT_EQ(check(s).size(), 1u);
+  EXPECT_EQ(check(s)[0].where, "spread[1].key");
+}
+
+}  // namespace
