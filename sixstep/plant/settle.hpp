@@ -219,15 +219,8 @@ bool settle_third_leg(const Question<Real>& q, const PerLeg<Real>& e, unsigned k
 
 /// All combinations of the open legs, those with fewest legs on first.
 template <class Real>
-bool settle_legs(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, bool& expanded) {
-  const unsigned open = named_legs(q, mode);
-  const bool at_rest = q.constants.dry_friction && q.state.w == 0;
-  const bool only_legs = !q.series_only && q.constants.source_sinks && !at_rest;
-  if (open == 0 && only_legs) return true;
-  const PerLeg<Real> emf = back_emf(q.constants, q.state, mode);
-  if (only_legs && (open & (open - 1)) == 0 && settle_third_leg(q, emf, open >> 1, mode)) return true;
-  if (open == 0) return accepts(q, emf, mode, scratch, expanded);
-
+bool settle_by_trial(const Question<Real>& q, const PerLeg<Real>& emf, unsigned open, Mode& mode,
+                     Expansion<Real>& scratch, bool& expanded) {
   std::array<unsigned, 3> undecided{};
   int count = 0;
   for (unsigned k = 0; k < 3; ++k)
@@ -238,6 +231,19 @@ bool settle_legs(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, 
     if (accepts(q, emf, mode, scratch, expanded)) return true;
   }
   return false;
+}
+
+template <class Real>
+bool settle_legs(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, bool& expanded) {
+  const unsigned open = named_legs(q, mode);
+  const bool at_rest = q.constants.dry_friction && q.state.w == 0;
+  const bool only_legs = !q.series_only && q.constants.source_sinks && !at_rest;
+  if (open == 0 && only_legs) return true;
+  const PerLeg<Real> emf = back_emf(q.constants, q.state, mode);
+  if (only_legs && (open & (open - 1)) == 0 && settle_third_leg(q, emf, open >> 1, mode)) return true;
+  if (open == 0) return accepts(q, emf, mode, scratch, expanded);
+
+  return settle_by_trial(q, emf, open, mode, scratch, expanded);
 }
 
 template <class Real>

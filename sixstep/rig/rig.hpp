@@ -249,6 +249,7 @@ template <class Real, class Scalar>
 template <class Visit>
 void Rig<Real, Scalar>::guards(Visit&& visit) const {
   plant_.guards(visit);
+  if (modulator_.command().watch == control::Watch::none) return;
   for (int which = 0; which < 2; ++which) {
     const ArmedComparator c = modulator_.comparator(which);
     if (!c.armed) continue;

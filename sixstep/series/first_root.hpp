@@ -55,6 +55,14 @@ Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) 
   return s;
 }
 
+/// The root of a falling polynomial that is nearly straight, to third order: one round of Newton less.
+template <class Real>
+Real near_root(const Real* c, int degree) {
+  const Real inverse = 1 / c[1], straight = -c[0] * inverse;
+  const Real bend = degree >= 2 ? c[2] * inverse : Real(0), twist = degree >= 3 ? c[3] * inverse : Real(0);
+  return straight * (1 - straight * (bend - straight * (2 * bend * bend - twist)));
+}
+
 template <class Real>
 Coefficients<Real> to_bernstein(const Real* c, int degree, Real length) {
   // b_i = sum_{j <= i} C(i, j)/C(degree, j) c_j length^j, by repeated differences: no binomials are stored.
@@ -167,7 +175,7 @@ std::optional<Real> first_root(const Coefficients<Real>& c, int degree, Real len
   if (q[1] > slope_rest) return std::nullopt;  // strictly rising
   if (-q[1] > slope_rest) {                    // strictly falling: one root or none
     if (value_at_end > 0) return std::nullopt;
-    return detail::bracketed_root(q, n, Real(0), length, -q[0] / q[1]);
+    return detail::bracketed_root(q, n, Real(0), length, detail::near_root(q, n));
   }
   return detail::subdivide(q, n, length);
 }
