@@ -44,8 +44,9 @@ struct ProtectedConfig {
   AdvanceConfig<Scalar> advance{};
   FaultConfig<Scalar> faults{};
   AlignConfig<Scalar> align{};
-  Scalar brake_current_A{};  ///< held against the turning until standing
-  Scalar standing_rad_s{};   ///< |w| at most: let go
+  Scalar brake_current_A{};    ///< held against the turning; 0: coasts
+  Scalar short_below_rad_s{};  ///< |w| from which on the windings are shorted: below brake_current_A R_tt/K_t
+  Scalar standing_rad_s{};     ///< |w| at most: let go
 };
 
 /// What the registers say.
@@ -185,6 +186,25 @@ constexpr Scalar limited_setpoint(Scalar x, Scalar limit) {
   return x >= -limit && x <= limit ? x : x > limit ? limit : x < -limit ? -limit : Scalar{};
 }
 
+/// Against the turning with a held current; slow, where Hall edges come too seldom to tell when it stands, by
+/// shorting the driven pair (both lower switches), whose torque vanishes with the speed and never reverses.
+template <class Scalar>
+constexpr BridgeCommand<Scalar> brake(const ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state,
+                                      const Measurement<Scalar>& m, Telemetry<Scalar>& telemetry) {
+  const Scalar slow = config.short_below_rad_s;
+  if (slow > Scalar{} && magnitude(m.speed_rad_s) <= slow) {
+    const BridgeCommand<Scalar> command =
+        step_in(Mode::duty, config.drive, state.drive, m, Setpoint<Scalar>{}, telemetry);
+    state.drive.command.duty = Scalar{};
+    if (command.enabled) state.drive.command.chopping = Chopping::complementary;
+    return state.drive.command;
+  }
+  if (!(config.brake_current_A > Scalar{})) return state.drive.command = bridge_off<Scalar>(false);
+  const bool forward = m.speed_rad_s > Scalar{};
+  const Scalar against = forward ? -config.brake_current_A : config.brake_current_A;
+  return step_in(Mode::current, config.drive, state.drive, m, Setpoint<Scalar>{against}, telemetry);
+}
+
 template <class Scalar>
 constexpr BridgeCommand<Scalar> act(const ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state,
                                     Activity activity, Measurement<Scalar>& m, Scalar setpoint,
@@ -194,12 +214,10 @@ constexpr BridgeCommand<Scalar> act(const ProtectedConfig<Scalar>& config, Prote
     case Activity::run:
       return step_in(drive.mode, drive, state.drive, m,
                      Setpoint<Scalar>{limited_setpoint(setpoint, config.setpoint_limit)}, telemetry);
-    case Activity::brake: {
-      const bool forward = m.speed_rad_s > Scalar{};
-      const Scalar against = forward ? -config.brake_current_A : config.brake_current_A;
-      return step_in(Mode::current, drive, state.drive, m, Setpoint<Scalar>{against}, telemetry);
-    }
+    case Activity::brake:
+      return brake(config, state, m, telemetry);
     case Activity::align:
+      if (config.align.ticks == 0) return bridge_off<Scalar>(false);
       m.hall = hall_of_sector(config.align.sector);
       return step_in(Mode::current, drive, state.drive, m, Setpoint<Scalar>{config.align.current_A},
                      telemetry);
