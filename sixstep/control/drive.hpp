@@ -173,6 +173,7 @@ constexpr BridgeCommand<Scalar> step_in(Mode mode, const DriveConfig<Scalar>& co
   const Pair positive = positive_pair(sector);
   const Scalar i_m = motor_current(measured, positive);
   state.command.enabled = true;
+  state.command.fault = false;
   state.command.chopping = config.chopping;
   telemetry.motor_current_A = i_m;
   Scalar value = setpoint.value;

@@ -29,7 +29,8 @@ struct Fixed {
 
   constexpr Fixed() = default;
   /// The nearest representable number; not a number becomes 0. Meant for constants and for the host: on a
-  /// chip without a floating-point unit a conversion at run time would pull in a library.
+  /// chip without a floating-point unit a conversion at run time would pull in a library. Where double has 32
+  /// bits (AVR) a 32-bit format gets 24 of them: give it constants by from_raw.
   explicit constexpr Fixed(double x)
       : raw(detail::nearest<Storage>(x * static_cast<double>(detail::two_to<std::int64_t>(FractionBits)))) {}
   static constexpr Fixed from_raw(Storage raw) {

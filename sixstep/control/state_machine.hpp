@@ -45,7 +45,6 @@ constexpr bool clear_requested(ActivityState& state, const Request& request) {
 constexpr Activity after(Activity activity, bool run, const ActivityInput& in) {
   switch (activity) {
     case Activity::off:
-      return !run ? Activity::off : in.calibrated ? Activity::align : Activity::calibrate;
     case Activity::calibrate:
       return !run ? Activity::off : in.calibrated ? Activity::align : Activity::calibrate;
     case Activity::align:

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "sixstep/control/drive.hpp"
 #include "tests/control/scalars.hpp"
@@ -144,6 +145,48 @@ TYPED_TEST(Extras, SmoothChoppingFollowsTheCurrentNotTheConfig) {
   EXPECT_EQ(b.tick(-0.01).chopping, Chopping::complementary);
   b.carry(-0.5);
   EXPECT_EQ(b.tick(-0.5).chopping, Chopping::soft);
+}
+
+/// The lean drive, any bits of a fixed-point measurement: no duty outside 0..1, no overflow (sanitizers
+/// tell).
+TYPED_TEST(Extras, AnyMeasurementGivesALawfulDuty) {
+  using S = TypeParam;
+  constexpr int seed = 1307;
+  std::mt19937_64 random{seed};
+  const auto any = [&random] {
+    if constexpr (is_fixed<S>)
+      return S::from_raw(static_cast<typename S::Storage>(random() >> 24));
+    else
+      return static_cast<S>(
+          std::ldexp(static_cast<double>(static_cast<std::int64_t>(random())), -63 + int(random() % 8)));
+  };
+  for (int run = 0; run < 2000; ++run) {
+    const std::uint64_t bits = random();
+    Bench<S> b(static_cast<Mode>(1 + bits % 4));
+    DriveExtras<S>& x = b.config.extras;
+    b.config.speed_control = static_cast<SpeedControl>(bits / 4 % 2);
+    b.config.position_gain = Gain<S>(3.0);
+    b.config.speed_limit_rad_s = S(1.0);
+    x.on = bits / 8 % 4 != 0;
+    x.limits_current = x.limits.limits_speed = x.limits.limits_regeneration = bits / 32 % 2;
+    x.limits = {S(0.5), x.limits.limits_speed, S(0.9), Gain<S>(8.0), x.limits.limits_regeneration,
+                S(0.9), Gain<S>(8.0)};
+    x.slews_setpoint = bits / 64 % 2;
+    x.slew.step = static_cast<Accumulator<S>>(0.01);
+    x.feed_forward.K_t_V_s = Gain<S>(0.7);
+    x.bus.lowest_bus_V = S(bits / 128 % 2 ? 0.1 : 0.0);
+    x.smooth_chopping = bits / 256 % 2;
+    for (int n = 0; n < 20; ++n) {
+      b.measured = {any(), any(), any(), any(), any(), any(), static_cast<std::uint8_t>(random() % 8)};
+      const BridgeCommand<S> c = step(b.config, b.state, b.measured, Setpoint<S>{any()}, b.telemetry);
+      ASSERT_TRUE(c.duty >= S{} && c.duty <= one<S>) << "seed " << seed << " run " << run;
+      ASSERT_NE(c.pair.source, c.pair.sink);
+      ASSERT_EQ(c.enabled, !c.fault);
+      if (b.config.mode >= Mode::speed && b.config.speed_control == SpeedControl::cascade) {
+        ASSERT_LE(magnitude(b.telemetry.current_reference_A), b.config.current_limit_A);
+      }
+    }
+  }
 }
 
 }  // namespace
