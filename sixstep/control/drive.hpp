@@ -100,10 +100,11 @@ template <class Scalar>
 constexpr Scalar speed_to_current(const DriveConfig<Scalar>& config, DriveState<Scalar>& state, Scalar error,
                                   const Measurement<Scalar>& measured) {
   const Scalar fraction =
-      config.extras.on ? speed_pi_within(config.speed, state.speed, error,
-                                         allowed_current(config.extras, measured, config.current_limit_A),
-                                         config.extras.torque_fraction_per_A)
-                       : pi_step(config.speed, state.speed, error);
+      config.extras.on && config.extras.limits_current
+          ? speed_pi_within(config.speed, state.speed, error,
+                            allowed_current(config.extras, measured, config.current_limit_A),
+                            config.extras.torque_fraction_per_A)
+          : pi_step(config.speed, state.speed, error);
   return clamped(ScalarTraits<Scalar>::product(fraction, config.current_at_full_torque_A),
                  config.current_limit_A);
 }

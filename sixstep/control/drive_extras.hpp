@@ -47,7 +47,6 @@ constexpr Scalar slewed_setpoint(const DriveExtras<Scalar>& extras, DriveExtrasS
 template <class Scalar>
 constexpr CurrentWindow<Scalar> allowed_current(const DriveExtras<Scalar>& extras,
                                                 const Measurement<Scalar>& m, Scalar limit) {
-  if (!extras.limits_current) return {-limit, limit};
   const CurrentWindow<Scalar> w = current_window(extras.limits, m.speed_rad_s, m.bus_V);
   return {between(w.low, -limit, limit), between(w.high, -limit, limit)};
 }

@@ -79,6 +79,7 @@ TYPED_TEST(Extras, SwitchedOffTheyChangeNothing) {
 
 TYPED_TEST(Extras, OnButUnsetTheyKeepTheLoopsAsTheyAre) {
   Bench<TypeParam> with(Mode::speed), without(Mode::speed);
+  with.config.extras.torque_fraction_per_A = {};
   without.config.extras = {};
   for (int n = 0; n < 20; ++n) {
     const double w = 0.3 - 0.02 * n;
