@@ -4,6 +4,8 @@
 #include <cstdint>
 
 #include "sixstep/control/bridge_command.hpp"
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
 
 namespace sixstep::control {
 
@@ -28,6 +30,12 @@ constexpr std::uint8_t sector_of_hall(std::uint8_t code) {
     default:
       return no_sector;
   }
+}
+
+/// The other way round: the code of probes 120 degrees apart; 000 where there is no sector.
+constexpr std::uint8_t hall_of_sector(std::uint8_t sector) {
+  constexpr std::uint8_t codes[6] = {0b100, 0b110, 0b010, 0b011, 0b001, 0b101};
+  return sector < 6 ? codes[sector] : std::uint8_t{0};
 }
 
 /// The pair that makes positive torque in a sector: T1 T4, T1 T6, T3 T6, T3 T2, T5 T2, T5 T4.
@@ -55,11 +63,12 @@ constexpr Scalar phase_current(const Measurement<Scalar>& m, Leg leg) {
   return leg == Leg::a ? m.i_a_A : leg == Leg::b ? m.i_b_A : m.i_c_A;
 }
 
-/// Motor current i_m = (i_p - i_n)/2 of the positive-torque pair, so that T_e = K_t i_m on flat tops (MODEL
-/// 3).
+/// Motor current i_m = (i_p - i_n)/2 of the positive-torque pair, so that T_e = K_t i_m on flat tops
+/// (MODEL 3).
 template <class Scalar>
 constexpr Scalar motor_current(const Measurement<Scalar>& m, Pair positive) {
-  return (phase_current(m, positive.source) - phase_current(m, positive.sink)) * Scalar(0.5);
+  return ScalarTraits<Scalar>::half_difference(phase_current(m, positive.source),
+                                               phase_current(m, positive.sink));
 }
 
 }  // namespace sixstep::control

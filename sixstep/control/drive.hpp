@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The composition that firmware calls: position P -> speed PI -> current loop -> six-step, as deep as the
-// mode asks. Two entries: step() once per control tick, on_hall() in the Hall interrupt.
+// mode asks, or speed PI -> duty (thesis 6.2.2). Two entries: step() once per control tick, on_hall() in the
+// Hall interrupt.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/commutation.hpp"
+#include "sixstep/control/drive_extras.hpp"
 #include "sixstep/control/hysteresis.hpp"
 #include "sixstep/control/pi.hpp"
 
 namespace sixstep::control {
 
 enum class CurrentControl : std::uint8_t { pi, hysteresis };
+
+/// What a speed loop sets: the current reference of a loop within, or the duty itself.
+enum class SpeedControl : std::uint8_t { cascade, duty };
 
 /// Every default leaves the bridge off.
 template <class Scalar>
@@ -19,12 +24,14 @@ struct DriveConfig {
   CurrentControl current_control = CurrentControl::pi;
   PiConfig<Scalar> current{};  ///< A -> V
   HysteresisConfig<Scalar> hysteresis{};
-  Scalar nominal_bus_V{};             ///< d = u / nominal_bus_V
-  PiConfig<Scalar> speed{};           ///< rad/s -> fraction of the torque limit
-  Scalar current_at_full_torque_A{};  ///< torque limit / K_t: i_ref = y * this
-  Scalar current_limit_A{};           ///< of the reference a speed loop gives
-  Scalar position_gain{};             ///< degrees -> rad/s
-  Scalar speed_limit_rad_s{};         ///< of the reference a position loop gives
+  Divisor<Scalar> nominal_bus_V{};  ///< d = u / nominal_bus_V
+  PiConfig<Scalar> speed{};         ///< rad/s -> fraction of the torque limit; SpeedControl::duty: -> duty
+  Gain<Scalar> current_at_full_torque_A{};  ///< torque limit / K_t: i_ref = y * this
+  Scalar current_limit_A{};                 ///< of the reference a speed loop gives
+  Gain<Scalar> position_gain{};             ///< degrees -> rad/s
+  Scalar speed_limit_rad_s{};               ///< of the reference a position loop gives
+  SpeedControl speed_control = SpeedControl::cascade;
+  DriveExtras<Scalar> extras{};
 };
 
 template <class Scalar>
@@ -33,6 +40,7 @@ struct DriveState {
   HysteresisState<Scalar> hysteresis{};
   bool reversed = false;            ///< sign of the last command
   BridgeCommand<Scalar> command{};  ///< the last answer; on_hall moves it to the new pair
+  DriveExtrasState<Scalar> extras{};
 };
 
 /// What the loops had in hand; nobody reads it back.
@@ -56,7 +64,7 @@ constexpr BridgeCommand<Scalar> bridge_off(bool fault) {
 /// d < 0 swaps source and sink; d = 0 counts as positive (MODEL 3).
 template <class Scalar>
 constexpr void set_duty(DriveState<Scalar>& state, Pair positive, Scalar d) {
-  state.reversed = d < Scalar(0);
+  state.reversed = d < Scalar{};
   state.command.pair = state.reversed ? swapped(positive) : positive;
   state.command.duty = state.reversed ? -d : d;
   state.command.watch = Watch::none;
@@ -65,7 +73,7 @@ constexpr void set_duty(DriveState<Scalar>& state, Pair positive, Scalar d) {
 template <class Scalar>
 constexpr void arm_hysteresis(const DriveConfig<Scalar>& config, DriveState<Scalar>& state, Pair positive,
                               Scalar motor_current, Scalar reference) {
-  const bool reversed = reference < Scalar(0);
+  const bool reversed = reference < Scalar{};
   const Scalar level = reversed ? -reference : reference;
   state.reversed = reversed;
   state.command.pair = reversed ? swapped(positive) : positive;
@@ -75,57 +83,118 @@ constexpr void arm_hysteresis(const DriveConfig<Scalar>& config, DriveState<Scal
   if (config.hysteresis.watch == Watch::none) {
     const Scalar current = reversed ? -motor_current : motor_current;
     state.command.duty =
-        hysteresis_step(config.hysteresis, state.hysteresis, current, level) ? Scalar(1) : Scalar(0);
+        hysteresis_step(config.hysteresis, state.hysteresis, current, level) ? one<Scalar> : Scalar{};
   }
 }
 
+/// The setpoint of a speed loop: the position loop's answer, or what was asked.
 template <class Scalar>
-constexpr Scalar speed_to_current(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
-                                  Scalar speed_reference, Scalar speed) {
-  const Scalar fraction = pi_step(config.speed, state.speed, speed_reference - speed);
-  return clamped(fraction * config.current_at_full_torque_A, config.current_limit_A);
+constexpr Scalar speed_reference(const DriveConfig<Scalar>& config, Mode mode, Scalar setpoint,
+                                 const Measurement<Scalar>& measured) {
+  if (mode != Mode::position) return setpoint;
+  return clamped(ScalarTraits<Scalar>::product(setpoint - measured.position_deg, config.position_gain),
+                 config.speed_limit_rad_s);
+}
+
+template <class Scalar>
+constexpr Scalar speed_to_current(const DriveConfig<Scalar>& config, DriveState<Scalar>& state, Scalar error,
+                                  const Measurement<Scalar>& measured) {
+  const Scalar fraction =
+      config.extras.on && config.extras.limits_current
+          ? speed_pi_within(config.speed, state.speed, error,
+                            allowed_current(config.extras, measured, config.current_limit_A),
+                            config.extras.torque_fraction_per_A)
+          : pi_step(config.speed, state.speed, error);
+  return clamped(ScalarTraits<Scalar>::product(fraction, config.current_at_full_torque_A),
+                 config.current_limit_A);
+}
+
+/// u/U_s; without a nominal bus voltage there is no duty.
+template <class Scalar>
+constexpr Scalar current_to_duty(const DriveConfig<Scalar>& config, DriveState<Scalar>& state, Scalar error,
+                                 const Measurement<Scalar>& measured) {
+  const DriveExtras<Scalar>& extras = config.extras;
+  const Scalar u = extras.on ? voltage_with_feed_forward(extras, config.current, state.current, error,
+                                                         measured.speed_rad_s)
+                             : pi_step(config.current, state.current, error);
+  if (extras.on && extras.bus.lowest_bus_V > Scalar{}) return compensated_duty(extras.bus, u, measured.bus_V);
+  if (!(config.nominal_bus_V > Divisor<Scalar>{})) return Scalar{};
+  return clamped(ScalarTraits<Scalar>::quotient(u, config.nominal_bus_V), one<Scalar>);
+}
+
+/// What a slewed setpoint starts from: the measurement in the unit of the mode.
+template <class Scalar>
+constexpr Scalar measured_value(Mode mode, const Measurement<Scalar>& measured, Scalar motor_current) {
+  return mode == Mode::current    ? motor_current
+         : mode == Mode::speed    ? measured.speed_rad_s
+         : mode == Mode::position ? measured.position_deg
+                                  : Scalar{};
+}
+
+/// The loops of one tick, as deep as the mode asks: sets pair and duty, or arms the comparators.
+template <class Scalar>
+constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
+                         const Measurement<Scalar>& measured, Pair positive, Scalar value, Scalar i_m,
+                         Telemetry<Scalar>& telemetry) {
+  if (mode == Mode::duty) return set_duty(state, positive, clamped(value, one<Scalar>));
+  Scalar i_ref = value;
+  if (mode != Mode::current) {
+    const Scalar w_ref = speed_reference(config, mode, value, measured);
+    const Scalar error = w_ref - measured.speed_rad_s;
+    telemetry.speed_reference_rad_s = w_ref;
+    if (config.speed_control == SpeedControl::duty)
+      return set_duty(state, positive, clamped(pi_step(config.speed, state.speed, error), one<Scalar>));
+    i_ref = speed_to_current(config, state, error, measured);
+  } else if (config.extras.on && config.extras.limits_current) {
+    const CurrentWindow<Scalar> window =
+        current_window(config.extras.limits, measured.speed_rad_s, measured.bus_V);
+    i_ref = between(i_ref, window.low, window.high);
+  }
+  telemetry.current_reference_A = i_ref;
+  if (config.current_control == CurrentControl::hysteresis)
+    arm_hysteresis(config, state, positive, i_m, i_ref);
+  else
+    set_duty(state, positive, current_to_duty(config, state, i_ref - i_m, measured));
 }
 
 }  // namespace detail
 
-/// One control tick. A cascade runs outer to inner from one sample (MODEL 4). An impossible Hall code turns
-/// the bridge off and reports a fault.
+/// One control tick in a mode that may differ from the configured one (braking, say). A cascade runs outer to
+/// inner from one sample (MODEL 4). An impossible Hall code turns the bridge off and reports a fault.
 template <class Scalar>
-constexpr BridgeCommand<Scalar> step(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
-                                     const Measurement<Scalar>& measured, const Setpoint<Scalar>& setpoint,
-                                     Telemetry<Scalar>& telemetry) {
+constexpr BridgeCommand<Scalar> step_in(Mode mode, const DriveConfig<Scalar>& config,
+                                        DriveState<Scalar>& state, const Measurement<Scalar>& measured,
+                                        const Setpoint<Scalar>& setpoint, Telemetry<Scalar>& telemetry) {
   const std::uint8_t sector = sector_of_hall(measured.hall);
-  if (config.mode == Mode::off || sector == no_sector) {
+  if (mode == Mode::off || sector == no_sector) {
     state.command = detail::bridge_off<Scalar>(sector == no_sector);
+    state.extras.slewing = Mode::off;
     return state.command;
   }
   const Pair positive = positive_pair(sector);
   const Scalar i_m = motor_current(measured, positive);
   state.command.enabled = true;
+  state.command.fault = false;
   state.command.chopping = config.chopping;
   telemetry.motor_current_A = i_m;
-  if (config.mode == Mode::duty) {
-    detail::set_duty(state, positive, clamped(setpoint.value, Scalar(1)));
-  } else {
-    Scalar i_ref = setpoint.value;
-    if (config.mode != Mode::current) {
-      Scalar w_ref = setpoint.value;
-      if (config.mode == Mode::position)
-        w_ref = clamped(config.position_gain * (setpoint.value - measured.position_deg),
-                        config.speed_limit_rad_s);
-      telemetry.speed_reference_rad_s = w_ref;
-      i_ref = detail::speed_to_current(config, state, w_ref, measured.speed_rad_s);
-    }
-    telemetry.current_reference_A = i_ref;
-    if (config.current_control == CurrentControl::hysteresis)
-      detail::arm_hysteresis(config, state, positive, i_m, i_ref);
-    else
-      detail::set_duty(
-          state, positive,
-          clamped(pi_step(config.current, state.current, i_ref - i_m) / config.nominal_bus_V, Scalar(1)));
-  }
+  Scalar value = setpoint.value;
+  if (config.extras.on)
+    value = detail::slewed_setpoint(config.extras, state.extras, mode, value,
+                                    detail::measured_value(mode, measured, i_m));
+  detail::run_loops(mode, config, state, measured, positive, value, i_m, telemetry);
+  if (config.extras.on && config.extras.smooth_chopping)
+    state.command.chopping =
+        smooth_chopping_step(config.extras.chopping, state.extras.chopping, state.reversed, i_m);
   telemetry.duty = state.reversed ? -state.command.duty : state.command.duty;
   return state.command;
+}
+
+/// One control tick: once per PWM period.
+template <class Scalar>
+constexpr BridgeCommand<Scalar> step(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
+                                     const Measurement<Scalar>& measured, const Setpoint<Scalar>& setpoint,
+                                     Telemetry<Scalar>& telemetry) {
+  return step_in(config.mode, config, state, measured, setpoint, telemetry);
 }
 
 /// The Hall interrupt: the present state moves to the new pair at once; duty and sign stay (MODEL 3).

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Discrete PI in the velocity form of the thesis (6.8): F_R(z) = (d1 z + d0)/(z - 1).
 #pragma once
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
 
 namespace sixstep::control {
-
-template <class Scalar>
-constexpr Scalar clamped(Scalar x, Scalar limit) {
-  return x > limit ? limit : x < -limit ? -limit : x;
-}
 
 /// Defaults give no output at all: a forgotten gain is safe.
 template <class Scalar>
 struct PiConfig {
-  Scalar d1{};     ///< output per input: the proportional gain K
-  Scalar d0{};     ///< K_i = d1 + d0 per sample
-  Scalar limit{};  ///< |u| never exceeds it
+  Gain<Scalar> d1{};  ///< output per input: the proportional gain K
+  Gain<Scalar> d0{};  ///< K_i = d1 + d0 per sample
+  Scalar limit{};     ///< |u| never exceeds it
 };
 
 template <class Scalar>
@@ -24,11 +21,53 @@ struct PiState {
 };
 
 /// u[n] = u[n-1] + d1 e[n] + d0 e[n-1], clamped; the clamped u is the state, so the integral cannot wind up.
+/// Here between any two ends, for what is added to u afterwards (feed-forward) and shares its limit.
 template <class Scalar>
-constexpr Scalar pi_step(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error) {
-  state.u = clamped(state.u + config.d1 * error + config.d0 * state.e, config.limit);
+constexpr Scalar pi_step(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error, Scalar low,
+                         Scalar high) {
+  state.u = between(state.u + config.d1 * error + config.d0 * state.e, low, high);
   state.e = error;
   return state.u;
+}
+
+/// Fixed point keeps K_i itself: d1 and d0 nearly cancel, and of their rounded difference little would be
+/// left. The same sum, written u[n] = u[n-1] + d1 (e[n] - e[n-1]) + K_i e[n-1].
+template <class Storage, int FractionBits>
+struct PiConfig<Fixed<Storage, FractionBits>> {
+  using Scalar = Fixed<Storage, FractionBits>;
+  Gain<Scalar> d1{};
+  Gain<Scalar> K_i{};
+  Scalar limit{};
+};
+
+/// The sum has guard bits: increments below a signal's last bit count. In Q15 an increment must reach 2^-13
+/// of that bit, so an error of 1 bit is integrated while K_i >= 2^-13 (2^-29 in 32 bits); design/scaling
+/// checks.
+template <class Storage, int FractionBits>
+struct PiState<Fixed<Storage, FractionBits>> {
+  using Scalar = Fixed<Storage, FractionBits>;
+  Accumulator<Scalar> u{};
+  Scalar e{};
+};
+
+/// An increment saturates at 16 times the signal's range, far beyond any limit it could be clamped to.
+template <class Storage, int FractionBits>
+constexpr Fixed<Storage, FractionBits> pi_step(const PiConfig<Fixed<Storage, FractionBits>>& config,
+                                               PiState<Fixed<Storage, FractionBits>>& state,
+                                               Fixed<Storage, FractionBits> error,
+                                               Fixed<Storage, FractionBits> low,
+                                               Fixed<Storage, FractionBits> high) {
+  using T = ScalarTraits<Fixed<Storage, FractionBits>>;
+  const auto jump = static_cast<typename T::Wide>(T::wide(error) - T::wide(state.e));
+  const auto increment = T::accumulated(jump, config.d1) + T::accumulated(state.e, config.K_i);
+  state.u = between(state.u + increment, T::accumulator(low), T::accumulator(high));
+  state.e = error;
+  return T::signal(state.u);
+}
+
+template <class Scalar>
+constexpr Scalar pi_step(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error) {
+  return pi_step(config, state, error, -config.limit, config.limit);
 }
 
 }  // namespace sixstep::control

@@ -78,6 +78,7 @@ TEST(Drive, AnImpossibleHallCodeTurnsOffAndIsReported) {
     EXPECT_FALSE(b.tick(0.5).enabled);
     b.measured.hall = 0b100;
     EXPECT_TRUE(b.tick(0.5).enabled) << "a good code again: a good command again";
+    EXPECT_FALSE(b.tick(0.5).fault);
   }
 }
 

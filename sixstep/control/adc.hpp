@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// ADC counts -> signal, with the offset measured while the bridge is off.
+//
+//   x = per_count (counts - offset),   offset = mean of 2^n counts, kept in eighths of a count
+//
+// A mean that lies too far from where the circuit puts it reveals a broken amplifier: calibration fails.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+/// The default reads 0. Up to 12 bits nothing saturates in 16-bit formats; more bits need 32-bit ones.
+template <class Scalar>
+struct AdcConfig {
+  Gain<Scalar> per_eighth{};           ///< signal per eighth of a count; negative for an inverting amplifier;
+                                       ///< fixed: raw units
+  std::uint16_t offset_counts = 0;     ///< where no current reads, by the circuit
+  std::uint16_t offset_tolerance = 0;  ///< counts that the measured offset may be off
+  std::uint8_t log2_samples = 6;       ///< of one calibration, at most 12
+};
+
+struct AdcState {
+  std::int32_t offset_eighths = -1;  ///< measured; below 0 not yet, then the circuit's own counts
+  std::uint32_t sum = 0;
+  std::uint16_t samples = 0;
+};
+
+enum class Calibration : std::uint8_t { running, done, failed };
+
+/// One sample with the bridge off and the current gone.
+template <class Scalar>
+constexpr Calibration adc_calibrate(const AdcConfig<Scalar>& config, AdcState& state, std::uint16_t counts) {
+  const std::uint8_t n = config.log2_samples > 12 ? std::uint8_t{12} : config.log2_samples;
+  state.sum += counts;
+  ++state.samples;
+  if (state.samples < static_cast<std::uint32_t>(std::uint32_t{1} << n)) return Calibration::running;
+  const std::uint32_t eighths =
+      static_cast<std::uint32_t>((state.sum * 8 + ((std::uint32_t{1} << n) >> 1)) >> n);
+  state.sum = 0;
+  state.samples = 0;
+  const std::int32_t off = static_cast<std::int32_t>(eighths) - std::int32_t{8} * config.offset_counts;
+  if (off > std::int32_t{8} * config.offset_tolerance || off < std::int32_t{-8} * config.offset_tolerance)
+    return Calibration::failed;
+  state.offset_eighths = static_cast<std::int32_t>(eighths);
+  return Calibration::done;
+}
+
+template <class Scalar>
+constexpr Scalar adc_value(const AdcConfig<Scalar>& config, const AdcState& state, std::uint16_t counts) {
+  const std::int32_t offset =
+      state.offset_eighths < 0 ? std::int32_t{8} * config.offset_counts : state.offset_eighths;
+  return ScalarTraits<Scalar>::counts(std::int32_t{8} * counts - offset, config.per_eighth);
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commutation ahead of the Hall edge: the pair changes when the rotor has come within the advance angle of
+// the next edge, judged by the interpolated angle. It makes up for the current's lag L/R and for filters at
+// speed.
+//
+//   advance = fixed + per_speed |w|, at most limit;    switch early where fraction >= 1 - advance
+//
+// Angles are in sectors (60 electrical degrees = 1), measured in the direction of turning.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+/// The default commutates at the edge. A limit of 1/2 keeps the pair within 30 degrees of the right one.
+template <class Scalar>
+struct AdvanceConfig {
+  Scalar fixed{};            ///< sectors
+  Gain<Scalar> per_speed{};  ///< sectors per rad/s, mechanical
+  Scalar limit{};            ///< sectors, below 1
+};
+
+template <class Scalar>
+constexpr Scalar advance_angle(const AdvanceConfig<Scalar>& config, Scalar speed_rad_s) {
+  const Scalar wanted =
+      config.fixed + ScalarTraits<Scalar>::product(magnitude(speed_rad_s), config.per_speed);
+  return between(wanted, Scalar{}, config.limit);
+}
+
+/// The sector to commutate for; `direction` is -1, 0 or 1, `fraction` the way since the last edge in it.
+template <class Scalar>
+constexpr std::uint8_t advanced_sector(const AdvanceConfig<Scalar>& config, std::uint8_t sector,
+                                       std::int8_t direction, Scalar fraction, Scalar speed_rad_s) {
+  if (sector > 5 || direction == 0) return sector;
+  const Scalar advance = advance_angle(config, speed_rad_s);
+  if (!(advance > Scalar{}) || fraction < one<Scalar> - advance) return sector;
+  return static_cast<std::uint8_t>((sector + (direction > 0 ? 1 : 5)) % 6);
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Filtered derivative, the D that a PI may be given: of the measurement, so that a step of the setpoint gives
+// no kick. Backward difference of K_d s/(T_f s + 1):
+//
+//   y[n] = y[n-1] + g (x[n] - x[n-1]) - b y[n-1],   g = K_d/(T_f + T_s),  b = T_s/(T_f + T_s)
+//
+// A ramp of r per second settles at K_d r. Subtract y from the output of the PI.
+#pragma once
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+/// The default differentiates nothing.
+template <class Scalar>
+struct DerivativeConfig {
+  Gain<Scalar> g{};  ///< output per input: K_d/(T_f + T_s)
+  Gain<Scalar> b{};  ///< T_s/(T_f + T_s), 1 without a filter
+};
+
+template <class Scalar>
+struct DerivativeState {
+  Accumulator<Scalar> y{};
+  Scalar x{};
+  bool started = false;  ///< the first sample has no predecessor to differ from
+};
+
+template <class Scalar>
+constexpr Scalar derivative_step(const DerivativeConfig<Scalar>& config, DerivativeState<Scalar>& state,
+                                 Scalar x) {
+  using T = ScalarTraits<Scalar>;
+  if (!state.started) state.x = x;
+  state.started = true;
+  const Wide<Scalar> change = T::wide(x) - T::wide(state.x);
+  state.y = state.y + T::accumulated(change, config.g) - T::accumulated(T::wide_of(state.y), config.b);
+  state.x = x;
+  return T::signal(state.y);
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a product adds inside the drive's loops: a slewed setpoint, a window for the current reference,
+// back-EMF feed-forward, the measured bus, chopping that is smooth through zero. All of it stands behind one
+// flag, so that a drive without extras pays one branch per tick.
+#pragma once
+#include "sixstep/control/bridge_command.hpp"
+#include "sixstep/control/feed_forward.hpp"
+#include "sixstep/control/limits.hpp"
+#include "sixstep/control/pi.hpp"
+#include "sixstep/control/slew.hpp"
+#include "sixstep/control/smooth_chopping.hpp"
+
+namespace sixstep::control {
+
+template <class Scalar>
+struct DriveExtras {
+  bool on = false;  ///< false: none of the below
+  bool slews_setpoint = false;
+  SlewConfig<Scalar> slew{};  ///< in the unit of the mode, per tick
+  bool limits_current = false;
+  LimitsConfig<Scalar> limits{};
+  Gain<Scalar> torque_fraction_per_A{};  ///< 1/current_at_full_torque_A: keeps the speed PI inside the window
+  FeedForwardConfig<Scalar> feed_forward{};
+  BusCompensationConfig<Scalar> bus{};
+  bool smooth_chopping = false;  ///< else DriveConfig::chopping
+  SmoothChoppingConfig<Scalar> chopping{};
+};
+
+template <class Scalar>
+struct DriveExtrasState {
+  SlewState<Scalar> slew{};
+  SmoothChoppingState<Scalar> chopping{};
+  Mode slewing = Mode::off;  ///< the mode whose setpoint slews: a new one starts at what is measured
+};
+
+namespace detail {
+
+template <class Scalar>
+constexpr Scalar slewed_setpoint(const DriveExtras<Scalar>& extras, DriveExtrasState<Scalar>& state,
+                                 Mode mode, Scalar setpoint, Scalar measured) {
+  if (!extras.slews_setpoint) return setpoint;
+  if (state.slewing != mode) state.slew.y = ScalarTraits<Scalar>::accumulator(measured);
+  state.slewing = mode;
+  return slew_step(extras.slew, state.slew, setpoint);
+}
+
+template <class Scalar>
+constexpr CurrentWindow<Scalar> allowed_current(const DriveExtras<Scalar>& extras,
+                                                const Measurement<Scalar>& m, Scalar limit) {
+  const CurrentWindow<Scalar> w = current_window(extras.limits, m.speed_rad_s, m.bus_V);
+  return {between(w.low, -limit, limit), between(w.high, -limit, limit)};
+}
+
+/// The speed PI within the window: it cannot wind up against a limit that it does not see.
+template <class Scalar>
+constexpr Scalar speed_pi_within(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error,
+                                 const CurrentWindow<Scalar>& window, Gain<Scalar> fraction_per_A) {
+  using T = ScalarTraits<Scalar>;
+  return pi_step(config, state, error,
+                 between(T::product(window.low, fraction_per_A), -config.limit, config.limit),
+                 between(T::product(window.high, fraction_per_A), -config.limit, config.limit));
+}
+
+/// u = u_PI + e, both together within the limit of the PI.
+template <class Scalar>
+constexpr Scalar voltage_with_feed_forward(const DriveExtras<Scalar>& extras, const PiConfig<Scalar>& config,
+                                           PiState<Scalar>& state, Scalar error, Scalar speed_rad_s) {
+  const Scalar e = clamped(back_emf_voltage(extras.feed_forward, speed_rad_s), config.limit);
+  return pi_step(config, state, error, -config.limit - e, config.limit - e) + e;
+}
+
+}  // namespace detail
+}  // namespace sixstep::control

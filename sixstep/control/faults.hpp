@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fault monitor: watches the measurements, latches what it saw with its reason, and lets go only on command
+// when the cause is gone. It answers within the tick; what must be faster is the comparator of the board.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/bridge_command.hpp"
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+/// Bits of a set of reasons.
+enum Fault : std::uint16_t {
+  fault_none = 0,
+  fault_over_current = 1,
+  fault_over_voltage = 2,
+  fault_under_voltage = 4,
+  fault_over_speed = 8,
+  fault_hall = 16,         ///< an impossible code or a jump
+  fault_stall = 32,        ///< current without movement for too long
+  fault_calibration = 64,  ///< the offset of a current amplifier is not where it must be
+  fault_align = 128        ///< the rotor did not come to the sector it was pulled to
+};
+
+/// Every default trips at once or never lets current flow: what is not set is not trusted.
+template <class Scalar>
+struct FaultConfig {
+  Scalar over_current_A{};         ///< |i| of a phase strictly above
+  Scalar over_voltage_V{};         ///< bus strictly above
+  Scalar under_voltage_V{};        ///< bus strictly below
+  Scalar over_speed_rad_s{};       ///< |w| strictly above
+  Scalar stall_current_A{};        ///< |i| of a phase strictly above, with no Hall edge, for
+  std::uint32_t stall_ticks = 0;   ///< so many ticks in a row
+  std::uint8_t voltage_ticks = 1;  ///< a voltage must be wrong so many ticks in a row; 0 counts as 1
+};
+
+struct FaultState {
+  std::uint16_t present = 0;  ///< causes seen in the last tick
+  std::uint16_t latched = 0;  ///< all causes since the last clearing
+  std::uint16_t first = 0;    ///< those of the tick that stopped the drive: the reason to tell
+  std::uint32_t still = 0;    ///< ticks with stall current and no edge
+  std::uint8_t over = 0, under = 0;
+  std::uint8_t hall_line = 0;  ///< 1..3: the Hall line to blame, where it can be told
+};
+
+struct FaultEvents {
+  bool hall = false;           ///< impossible code or jump, now
+  std::uint8_t hall_line = 0;  ///< of hall, 0 where it cannot be told
+  bool moved = false;          ///< a Hall edge since the last tick
+  std::uint16_t other = 0;     ///< what else is wrong: calibration, alignment
+};
+
+/// Returns the latched set: anything but 0 must turn the bridge off. A comparison with what is not a number
+/// fails, and each is written so that failing trips.
+template <class Scalar>
+constexpr std::uint16_t fault_step(const FaultConfig<Scalar>& config, FaultState& state,
+                                   const Measurement<Scalar>& m, const FaultEvents& events) {
+  const auto within = [](Scalar x, Scalar limit) { return x <= limit && x >= -limit; };
+  const auto all_within = [&](Scalar limit) {
+    return within(m.i_a_A, limit) && within(m.i_b_A, limit) && within(m.i_c_A, limit);
+  };
+  const auto lasting = [&](bool wrong, std::uint8_t& ticks) {
+    ticks = !wrong ? std::uint8_t{0} : ticks < 255 ? static_cast<std::uint8_t>(ticks + 1) : ticks;
+    return wrong && ticks >= config.voltage_ticks;
+  };
+  const bool still = !events.moved && !all_within(config.stall_current_A);
+  state.still = !still ? 0u : state.still < 0xffffffffu ? state.still + 1 : state.still;
+  unsigned now = events.other;
+  if (!all_within(config.over_current_A)) now |= fault_over_current;
+  if (lasting(!(m.bus_V <= config.over_voltage_V), state.over)) now |= fault_over_voltage;
+  if (lasting(!(m.bus_V >= config.under_voltage_V), state.under)) now |= fault_under_voltage;
+  if (!within(m.speed_rad_s, config.over_speed_rad_s)) now |= fault_over_speed;
+  if (events.hall) now |= fault_hall;
+  if (still && state.still >= config.stall_ticks) now |= fault_stall;
+  state.present = static_cast<std::uint16_t>(now);
+  if (state.latched == 0) state.first = state.present;
+  if (state.hall_line == 0) state.hall_line = events.hall_line;
+  state.latched = static_cast<std::uint16_t>(state.latched | now);
+  return state.latched;
+}
+
+/// The way out: works only while no cause is present. Says whether the drive is free.
+constexpr bool fault_clear(FaultState& state) {
+  if (state.present != 0) return false;
+  state = FaultState{};
+  return true;
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the current loop need not find out by itself: the back-EMF it works against and the bus it works with.
+//
+//   u = u_PI + K_t w          back-EMF between the driven terminals on flat tops (MODEL 1: e = K_t w)
+//   d = u/U_s                 measured bus in place of the nominal one (MODEL 4)
+#pragma once
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+/// The default adds nothing.
+template <class Scalar>
+struct FeedForwardConfig {
+  Gain<Scalar> K_t_V_s{};  ///< V per mechanical rad/s, terminal: the torque constant's number
+};
+
+template <class Scalar>
+constexpr Scalar back_emf_voltage(const FeedForwardConfig<Scalar>& config, Scalar speed_rad_s) {
+  return ScalarTraits<Scalar>::product(speed_rad_s, config.K_t_V_s);
+}
+
+/// The default does not compensate.
+template <class Scalar>
+struct BusCompensationConfig {
+  Scalar lowest_bus_V{};  ///< divides by this where the measurement is lower (a lost sensor); 0: off
+};
+
+/// Duty -1..1 for a voltage between the driven terminals.
+template <class Scalar>
+constexpr Scalar compensated_duty(const BusCompensationConfig<Scalar>& config, Scalar voltage_V,
+                                  Scalar bus_V) {
+  const Scalar bus = bus_V < config.lowest_bus_V ? config.lowest_bus_V : bus_V;
+  return clamped(voltage_V / bus, one<Scalar>);
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fixed-point numbers for chips without a floating-point unit: Fixed<std::int16_t, 15> is Q15, a raw whole
+// number n that means n/2^15. Storage of 16 or 32 bits, any number of fraction bits below its width.
+//
+// Rounding: every product, quotient and conversion is the exact result rounded to the nearest representable
+// number, ties away from zero, so that (-a) b = -(a b) and a motor turns the same both ways. Saturation: what
+// does not fit becomes the nearer end of the range; nothing wraps. x/0 saturates in the direction of x, 0/0
+// is 0. Sums and differences are exact unless they saturate. tests/control/fixed_test.cpp holds all pairs of
+// an 8-bit format, and drawn pairs of the wider ones, to exact arithmetic.
+//
+// Written for compilers whose int has 16 bits too: every operand is widened to an explicitly sized type
+// before it is used (`1 << 15` is negative there), and only unsigned numbers are shifted.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/fixed_arithmetic.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+template <class Storage_, int FractionBits>
+struct Fixed {
+  using Storage = Storage_;
+  using WideInt = typename detail::Widths<Storage>::Wide;
+  static constexpr int fraction_bits = FractionBits;
+  static_assert(FractionBits > 0 && FractionBits < detail::Widths<Storage>::bits);
+
+  Storage raw = 0;  ///< the number times 2^FractionBits
+
+  constexpr Fixed() = default;
+  /// The nearest representable number; not a number becomes 0. Meant for constants and for the host: on a
+  /// chip without a floating-point unit a conversion at run time would pull in a library. Where double has 32
+  /// bits (AVR) a 32-bit format gets 24 of them: give it constants by from_raw.
+  explicit constexpr Fixed(double x)
+      : raw(detail::nearest<Storage>(x * static_cast<double>(detail::two_to<std::int64_t>(FractionBits)))) {}
+  static constexpr Fixed from_raw(Storage raw) {
+    Fixed x;
+    x.raw = raw;
+    return x;
+  }
+  static constexpr Fixed max() { return from_raw(detail::greatest<Storage>); }
+  static constexpr Fixed min() { return from_raw(detail::least<Storage>); }
+  explicit constexpr operator double() const {
+    return static_cast<double>(raw) / static_cast<double>(detail::two_to<std::int64_t>(FractionBits));
+  }
+
+  friend constexpr Fixed operator+(Fixed a, Fixed b) { return fit(wide(a) + wide(b)); }
+  friend constexpr Fixed operator-(Fixed a, Fixed b) { return fit(wide(a) - wide(b)); }
+  friend constexpr Fixed operator-(Fixed a) { return fit(-wide(a)); }
+  friend constexpr Fixed operator*(Fixed a, Fixed b) {
+    return fit(detail::shifted_down(static_cast<WideInt>(wide(a) * wide(b)), FractionBits));
+  }
+  friend constexpr Fixed operator/(Fixed a, Fixed b) {
+    if (b.raw == 0) return a.raw > 0 ? max() : a.raw < 0 ? min() : Fixed{};
+    const WideInt scaled = static_cast<WideInt>(wide(a) * detail::two_to<WideInt>(FractionBits));
+    return fit(detail::divided(scaled, wide(b)));
+  }
+  friend constexpr bool operator==(Fixed a, Fixed b) { return a.raw == b.raw; }
+  friend constexpr bool operator<(Fixed a, Fixed b) { return a.raw < b.raw; }
+  friend constexpr bool operator>(Fixed a, Fixed b) { return a.raw > b.raw; }
+  friend constexpr bool operator<=(Fixed a, Fixed b) { return a.raw <= b.raw; }
+  friend constexpr bool operator>=(Fixed a, Fixed b) { return a.raw >= b.raw; }
+
+ private:
+  static constexpr WideInt wide(Fixed x) { return static_cast<WideInt>(x.raw); }
+  template <class Int>
+  static constexpr Fixed fit(Int x) {
+    return from_raw(detail::saturated<Storage>(x));
+  }
+};
+
+using Q15 = Fixed<std::int16_t, 15>;
+using Q31 = Fixed<std::int32_t, 31>;
+
+/// A factor between two signals of one format, from 2^-30 (16 bits) or 2^-62 (32) up to the storage's largest
+/// number: mantissa/2^right. The nearest such number: off by at most 2^-15 or 2^-31 of itself while right is
+/// below its limit.
+template <class Storage>
+struct FixedGain {
+  Storage mantissa = 0;
+  std::int8_t right = 0;
+  static constexpr int most_right = 2 * (detail::Widths<Storage>::bits - 1);
+
+  constexpr FixedGain() = default;
+  explicit constexpr FixedGain(double gain) {
+    constexpr double end = static_cast<double>(detail::greatest<Storage>);
+    double m = gain;
+    while (right < most_right && 2 * m <= end && 2 * m >= -end) {
+      m *= 2;
+      ++right;
+    }
+    mantissa = detail::nearest<Storage>(m < -end ? -end : m);
+  }
+  explicit constexpr operator double() const {
+    return static_cast<double>(mantissa) / static_cast<double>(detail::two_to<std::int64_t>(right));
+  }
+  constexpr bool operator==(const FixedGain&) const = default;
+};
+
+/// Division by a constant, as a multiplication with its reciprocal. The default divides to 0.
+template <class Storage>
+struct FixedDivisor {
+  FixedGain<Storage> reciprocal{};
+
+  constexpr FixedDivisor() = default;
+  explicit constexpr FixedDivisor(double divisor) : reciprocal(divisor == 0 ? 0.0 : 1 / divisor) {}
+  friend constexpr bool operator>(const FixedDivisor& d, const FixedDivisor& than) {
+    return d.reciprocal.mantissa > than.reciprocal.mantissa;  // used for "is it positive" alone
+  }
+};
+
+/// A running sum: 2^-12 (16 bits) or 2^-28 (32) of the signal's last bit, and 16 times its range.
+template <class Format>
+struct FixedSum {
+  using Raw = typename Format::WideInt;
+  static constexpr int guard_bits = detail::Widths<typename Format::Storage>::bits - 4;
+
+  Raw raw = 0;
+
+  constexpr FixedSum() = default;
+  explicit constexpr FixedSum(double x)
+      : raw(detail::nearest<Raw>(x *
+                                 static_cast<double>(detail::two_to<std::int64_t>(Format::fraction_bits)) *
+                                 static_cast<double>(detail::two_to<std::int64_t>(guard_bits)))) {}
+  static constexpr FixedSum from_raw(Raw raw) {
+    FixedSum x;
+    x.raw = raw;
+    return x;
+  }
+  friend constexpr FixedSum operator+(FixedSum a, FixedSum b) {
+    return from_raw(detail::sum_saturated(a.raw, b.raw));
+  }
+  friend constexpr FixedSum operator-(FixedSum a) {
+    return from_raw(a.raw == detail::least<Raw> ? detail::greatest<Raw> : static_cast<Raw>(-a.raw));
+  }
+  friend constexpr FixedSum operator-(FixedSum a, FixedSum b) { return a + -b; }
+  friend constexpr bool operator==(FixedSum a, FixedSum b) { return a.raw == b.raw; }
+  friend constexpr bool operator<(FixedSum a, FixedSum b) { return a.raw < b.raw; }
+  friend constexpr bool operator>(FixedSum a, FixedSum b) { return a.raw > b.raw; }
+};
+
+/// A signal times timer counts.
+template <class Format>
+struct FixedTickRatio {
+  typename Format::WideInt raw = 0;
+
+  constexpr FixedTickRatio() = default;
+  explicit constexpr FixedTickRatio(double signal_times_ticks)
+      : raw(detail::nearest<typename Format::WideInt>(
+            signal_times_ticks * static_cast<double>(detail::two_to<std::int64_t>(Format::fraction_bits)))) {}
+};
+
+template <class Storage, int FractionBits>
+struct ScalarTraits<Fixed<Storage, FractionBits>> {
+  using Scalar = Fixed<Storage, FractionBits>;
+  using Gain = FixedGain<Storage>;
+  using Divisor = FixedDivisor<Storage>;
+  using Accumulator = FixedSum<Scalar>;
+  using TickRatio = FixedTickRatio<Scalar>;
+  using Wide = typename Scalar::WideInt;
+
+  static constexpr Wide wide(Scalar x) { return static_cast<Wide>(x.raw); }
+  static constexpr Scalar narrow(Wide x) { return Scalar::from_raw(detail::saturated<Storage>(x)); }
+  static constexpr Scalar half_difference(Scalar a, Scalar b) {
+    return narrow(detail::shifted_down(static_cast<Wide>(wide(a) - wide(b)), 1));
+  }
+  static constexpr Scalar product(Scalar x, Gain gain) {
+    return narrow(
+        detail::shifted_down(static_cast<Wide>(wide(x) * static_cast<Wide>(gain.mantissa)), gain.right));
+  }
+  static constexpr Scalar quotient(Scalar x, Divisor divisor) { return product(x, divisor.reciprocal); }
+  /// `difference` may be a difference of two signals: one bit more than a signal, and it still fits, since a
+  /// mantissa never is the least number.
+  static constexpr Accumulator accumulated(Wide difference, Gain gain) {
+    const Wide p = static_cast<Wide>(difference * static_cast<Wide>(gain.mantissa));
+    const int down = gain.right - Accumulator::guard_bits;
+    return Accumulator::from_raw(down >= 0 ? detail::shifted_down(p, down) : detail::shifted_up(p, -down));
+  }
+  static constexpr Accumulator accumulated(Scalar x, Gain gain) { return accumulated(wide(x), gain); }
+  static constexpr Accumulator accumulator(Scalar x) {
+    return Accumulator::from_raw(static_cast<Wide>(wide(x) * detail::two_to<Wide>(Accumulator::guard_bits)));
+  }
+  static constexpr Scalar signal(Accumulator sum) {
+    return narrow(detail::shifted_down(sum.raw, Accumulator::guard_bits));
+  }
+  /// A sum as a difference of signals, at most twice the signal's range.
+  static constexpr Wide wide_of(Accumulator sum) {
+    const Wide end = static_cast<Wide>(detail::two_to<Wide>(detail::Widths<Storage>::bits) - 1);
+    return between(detail::shifted_down(sum.raw, Accumulator::guard_bits), static_cast<Wide>(-end), end);
+  }
+  static constexpr TickRatio times(TickRatio ratio, std::uint8_t n) {
+    TickRatio sum{};
+    for (std::uint8_t k = 0; k < n; ++k) sum.raw = detail::sum_saturated(sum.raw, ratio.raw);
+    return sum;
+  }
+  static constexpr Scalar per_ticks(TickRatio ratio, std::uint32_t ticks) {
+    if (ticks == 0) return ratio.raw > 0 ? Scalar::max() : ratio.raw < 0 ? Scalar::min() : Scalar{};
+    using Unsigned = typename detail::Widths<Storage>::UnsignedWide;
+    const Unsigned q = detail::divided_unsigned(detail::absolute(ratio.raw), static_cast<Unsigned>(ticks));
+    return narrow(detail::with_sign(q, ratio.raw < 0));
+  }
+  static constexpr Scalar fraction(std::uint32_t part, std::uint32_t whole) {
+    if (part >= whole) return one<Scalar>;
+    using Unsigned = typename detail::Widths<Storage>::UnsignedWide;
+    while ((static_cast<Unsigned>(part) >> (2 * detail::Widths<Storage>::bits - 1 - FractionBits)) != 0) {
+      part >>= 1;  // what falls off is below the format's last bit
+      whole >>= 1;
+    }
+    const Unsigned scaled = static_cast<Unsigned>(static_cast<Unsigned>(part) << FractionBits);
+    return narrow(static_cast<Wide>(detail::divided_unsigned(scaled, static_cast<Unsigned>(whole))));
+  }
+  static constexpr Scalar counts(std::int32_t n, Gain per_count) {
+    return product(Scalar::from_raw(detail::saturated<Storage>(n)), per_count);
+  }
+};
+
+}  // namespace sixstep::control

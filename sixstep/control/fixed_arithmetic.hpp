@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole-number arithmetic under fixed.hpp: saturation and rounding to nearest, ties away from zero. Signs are
+// taken off first and put back last, so only unsigned numbers are shifted and divided.
+#pragma once
+#include <cstdint>
+
+namespace sixstep::control::detail {
+
+/// What holds a product of two storages. int8_t is there for the exhaustive test.
+template <class Int>
+struct Widths;
+template <>
+struct Widths<std::int8_t> {
+  using Wide = std::int16_t;
+  using Unsigned = std::uint8_t;
+  using UnsignedWide = std::uint16_t;
+  static constexpr int bits = 8;
+};
+template <>
+struct Widths<std::int16_t> {
+  using Wide = std::int32_t;
+  using Unsigned = std::uint16_t;
+  using UnsignedWide = std::uint32_t;
+  static constexpr int bits = 16;
+};
+template <>
+struct Widths<std::int32_t> {
+  using Wide = std::int64_t;
+  using Unsigned = std::uint32_t;
+  using UnsignedWide = std::uint64_t;
+  static constexpr int bits = 32;
+};
+template <>
+struct Widths<std::int64_t> {
+  using Unsigned = std::uint64_t;
+  static constexpr int bits = 64;
+};
+template <class Int>
+using UnsignedOf = typename Widths<Int>::Unsigned;
+
+template <class Int>
+constexpr Int two_to(int n) {
+  return static_cast<Int>(static_cast<Int>(1) << n);  // n less than the width of Int without its sign
+}
+/// 2^(bits-1) - 1, made without passing 2^(bits-1).
+template <class Int>
+inline constexpr Int greatest = static_cast<Int>(two_to<Int>(Widths<Int>::bits - 2) - 1 +
+                                                 two_to<Int>(Widths<Int>::bits - 2));
+template <class Int>
+inline constexpr Int least = static_cast<Int>(-greatest<Int> - 1);
+
+template <class Int>
+constexpr UnsignedOf<Int> absolute(Int x) {
+  using Unsigned = UnsignedOf<Int>;
+  return x < 0 ? static_cast<Unsigned>(Unsigned{0} - static_cast<Unsigned>(x)) : static_cast<Unsigned>(x);
+}
+
+/// The signed number of a magnitude; a magnitude that does not fit saturates.
+template <class Unsigned>
+constexpr auto with_sign(Unsigned magnitude, bool negative) {
+  using Int = decltype([] {
+    if constexpr (sizeof(Unsigned) == 2)
+      return std::int16_t{};
+    else if constexpr (sizeof(Unsigned) == 4)
+      return std::int32_t{};
+    else
+      return std::int64_t{};
+  }());
+  if (magnitude > static_cast<Unsigned>(greatest<Int>)) return negative ? least<Int> : greatest<Int>;
+  return negative ? static_cast<Int>(-static_cast<Int>(magnitude)) : static_cast<Int>(magnitude);
+}
+
+/// The nearest number that Narrow holds.
+template <class Narrow, class Wide>
+constexpr Narrow saturated(Wide x) {
+  if constexpr (sizeof(Narrow) < sizeof(Wide)) {
+    if (x > static_cast<Wide>(greatest<Narrow>)) return greatest<Narrow>;
+    if (x < static_cast<Wide>(least<Narrow>)) return least<Narrow>;
+  }
+  return static_cast<Narrow>(x);
+}
+
+/// x/2^n, 0 <= n; at n = 2 bits - 2 of a product nothing but a rounded last digit is left.
+template <class Int>
+constexpr Int shifted_down(Int x, int n) {
+  using Unsigned = UnsignedOf<Int>;
+  if (n == 0) return x;
+  const Unsigned u = absolute(x);
+  const Unsigned half = static_cast<Unsigned>(u >> (n - 1));  // in units of half a digit: never overflows
+  return with_sign(static_cast<Unsigned>((half >> 1) + (half & 1u)), x < 0);
+}
+
+/// x 2^n, saturated.
+template <class Int>
+constexpr Int shifted_up(Int x, int n) {
+  using Unsigned = UnsignedOf<Int>;
+  const Unsigned u = absolute(x);
+  if (u > static_cast<Unsigned>(static_cast<Unsigned>(greatest<Int>) >> n))
+    return x < 0 ? least<Int> : greatest<Int>;
+  return with_sign(static_cast<Unsigned>(u << n), x < 0);
+}
+
+/// a/b to nearest, ties up; a at most 2^(width-1), b below that or a + b/2 does not fit.
+template <class Unsigned>
+constexpr Unsigned divided_unsigned(Unsigned a, Unsigned b) {
+  return static_cast<Unsigned>((a + static_cast<Unsigned>(b >> 1)) / b);
+}
+
+template <class Int>
+constexpr Int divided(Int a, Int b) {
+  return with_sign(divided_unsigned(absolute(a), absolute(b)), (a < 0) != (b < 0));
+}
+
+template <class Int>
+constexpr Int sum_saturated(Int a, Int b) {
+  if (b > 0 && a > static_cast<Int>(greatest<Int> - b)) return greatest<Int>;
+  if (b < 0 && a < static_cast<Int>(least<Int> - b)) return least<Int>;
+  return static_cast<Int>(a + b);
+}
+
+/// The nearest whole number to x, ties away from zero, saturated; 0 where x is not a number.
+template <class Int>
+constexpr Int nearest(double x) {
+  if (!(x == x)) return 0;
+  if (x >= static_cast<double>(greatest<Int>)) return greatest<Int>;
+  if (x <= static_cast<double>(least<Int>)) return least<Int>;
+  const std::int64_t whole = static_cast<std::int64_t>(x);
+  const double rest = x - static_cast<double>(whole);  // exact
+  return saturated<Int>(static_cast<std::int64_t>(whole + (rest >= 0.5 ? 1 : rest <= -0.5 ? -1 : 0)));
+}
+
+}  // namespace sixstep::control::detail

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// A bridge command as the six gates of one instant, for firmware that sets pins or the output modes of a
+// timer. Within the on-time of a PWM period both driven switches are on; in its off-time (MODEL 3)
+//   soft           the sink's lower switch stays on
+//   hard           none
+//   complementary  as soft, and the source's lower switch, after the dead time that the timer inserts
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/bridge_command.hpp"
+
+namespace sixstep::control {
+
+/// Bit of a switch: upper of a, b, c: 0, 2, 4 (T1 T3 T5); lower: 1, 3, 5 (T2 T4 T6).
+constexpr std::uint8_t upper_gate(Leg leg) {
+  return static_cast<std::uint8_t>(1u << (2u * static_cast<unsigned>(leg)));
+}
+constexpr std::uint8_t lower_gate(Leg leg) {
+  return static_cast<std::uint8_t>(2u << (2u * static_cast<unsigned>(leg)));
+}
+
+/// Never both switches of a leg: source and sink differ, or nothing is on.
+template <class Scalar>
+constexpr std::uint8_t gates(const BridgeCommand<Scalar>& command, bool on_time) {
+  if (!command.enabled || command.pair.source == command.pair.sink) return 0;
+  const std::uint8_t sink = lower_gate(command.pair.sink);
+  if (on_time) return static_cast<std::uint8_t>(upper_gate(command.pair.source) | sink);
+  if (command.chopping == Chopping::hard) return 0;
+  if (command.chopping == Chopping::soft) return sink;
+  return static_cast<std::uint8_t>(lower_gate(command.pair.source) | sink);
+}
+
+}  // namespace sixstep::control

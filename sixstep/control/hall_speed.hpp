@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Speed, angle within the sector and position from the times of Hall edges.
+//
+//   w = +-k (pi/3)/p timer_Hz/(ticks over the last k edges)
+//   |w| <= (pi/3)/p timer_Hz/(ticks since the last edge)     the next edge has not come yet
+//   fraction = ticks since the last edge/ticks of the mean sector, at most 1
+//
+// Times are readings of a free-running 32-bit counter that may wrap (widen a 16-bit capture register by its
+// overflow count). Faults of the probes' placement cancel over k = 6 edges, one electrical turn; k = 1 is the
+// fastest. The first edge, a reversal and a time-out start the history anew, with speed 0: one edge alone
+// says nothing about speed.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+/// The default measures no speed.
+template <class Scalar>
+struct HallSpeedConfig {
+  TickRatio<Scalar> sector_rad_s_ticks{};  ///< (pi/3)/p timer_Hz: speed times ticks of one sector
+  std::uint32_t timeout_ticks = 0;  ///< no edge for so long is standstill; below 2^32 less one control period
+  std::uint8_t edges = 1;           ///< k, 1..6
+};
+
+struct HallSpeedState {
+  std::uint32_t times[7]{};   ///< of the last edges, the latest first
+  std::uint8_t known = 0;     ///< how many of them belong to this turn in this direction
+  std::int8_t direction = 0;  ///< of the last edge
+};
+
+constexpr std::uint8_t hall_speed_edges(std::uint8_t wanted, std::uint8_t known) {
+  const std::uint8_t most = wanted < 1 ? 1 : wanted > 6 ? 6 : wanted;
+  const std::uint8_t intervals = known > 0 ? static_cast<std::uint8_t>(known - 1) : std::uint8_t{0};
+  return intervals < most ? intervals : most;
+}
+
+/// An edge in `direction` (+1, -1) at counter reading `now`.
+constexpr void hall_speed_edge(HallSpeedState& state, std::uint32_t now, std::int8_t direction) {
+  if (direction == 0) return;
+  if (direction != state.direction) state.known = 0;
+  state.direction = direction;
+  for (int n = 6; n > 0; --n) state.times[n] = state.times[n - 1];
+  state.times[0] = now;
+  if (state.known < 7) ++state.known;
+}
+
+/// Speed at counter reading `now`, mechanical rad/s. Call it at least once per time-out: it ends the history.
+template <class Scalar>
+constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedState& state, std::uint32_t now) {
+  using T = ScalarTraits<Scalar>;
+  if (state.known == 0) return Scalar{};
+  const std::uint32_t since = static_cast<std::uint32_t>(now - state.times[0]);
+  if (since > config.timeout_ticks) {
+    state.known = 0;
+    state.direction = 0;
+    return Scalar{};
+  }
+  const std::uint8_t k = hall_speed_edges(config.edges, state.known);
+  if (k == 0) return Scalar{};
+  const std::uint32_t ticks = static_cast<std::uint32_t>(state.times[0] - state.times[k]);
+  Scalar w = T::per_ticks(T::times(config.sector_rad_s_ticks, k), ticks == 0 ? 1 : ticks);
+  // Only past the mean sector's end: before it the bound is above the speed.
+  if (since > ticks / k) {
+    const Scalar bound = T::per_ticks(config.sector_rad_s_ticks, since);
+    if (bound < w) w = bound;
+  }
+  return state.direction < 0 ? -w : w;
+}
+
+/// No edge for half as long again as a sector takes: one was missed, or the rotor slows down.
+template <class Scalar>
+constexpr bool edge_overdue(const HallSpeedConfig<Scalar>& config, const HallSpeedState& state,
+                            std::uint32_t now) {
+  const std::uint8_t k = hall_speed_edges(config.edges, state.known);
+  if (k == 0) return false;
+  const std::uint32_t sector = static_cast<std::uint32_t>(state.times[0] - state.times[k]) / k;
+  return static_cast<std::uint32_t>(now - state.times[0]) / 3 > sector / 2;
+}
+
+/// Way since the last edge, 0..1 of a sector in the direction of turning; the middle where nothing is known.
+template <class Scalar>
+constexpr Scalar sector_fraction(const HallSpeedConfig<Scalar>& config, const HallSpeedState& state,
+                                 std::uint32_t now) {
+  using T = ScalarTraits<Scalar>;
+  const std::uint8_t k = hall_speed_edges(config.edges, state.known);
+  if (k == 0) return T::fraction(1, 2);
+  const std::uint32_t ticks = static_cast<std::uint32_t>(state.times[0] - state.times[k]);
+  return T::fraction(static_cast<std::uint32_t>(now - state.times[0]), ticks / k);
+}
+
+/// Position by counting edges. The default stands at 0.
+template <class Scalar>
+struct HallPositionConfig {
+  Gain<Scalar> per_sector{};    ///< position per sector counted: 60/p degrees mechanical; fixed: raw units
+  Gain<Scalar> per_fraction{};  ///< position per whole sector interpolated: the same; fixed: of 1
+};
+
+struct HallPositionState {
+  std::int32_t sectors = 0;  ///< edges forward less edges back
+};
+
+constexpr void hall_position_edge(HallPositionState& state, std::int8_t moved) { state.sectors += moved; }
+
+/// Degrees, mechanical. Forward the way since the edge is added to the lower edge of the sector, backward it
+/// is taken from the upper one.
+template <class Scalar>
+constexpr Scalar hall_position(const HallPositionConfig<Scalar>& config, const HallPositionState& state,
+                               std::int8_t direction, Scalar fraction) {
+  using T = ScalarTraits<Scalar>;
+  const Scalar part = T::product(fraction, config.per_fraction);
+  return direction < 0 ? T::counts(state.sectors + 1, config.per_sector) - part
+                       : T::counts(state.sectors, config.per_sector) + part;
+}
+
+}  // namespace sixstep::control

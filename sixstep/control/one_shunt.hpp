@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Motor current from one shunt in the DC link. What the shunt carries is the sum of the legs connected high
+// (MODEL 3): within the on-time the source phase's current, and zero or the returned current in the off-time.
+// So a sample counts only if it was taken in the on-time and the amplifier had time to settle.
+//
+// Around a commutation one phase keeps its current i_k, one comes in and one runs out through a diode:
+//   sink changes: the outgoing sink feeds the upper rail, the shunt sees i_k less that: the incoming current
+//   source changes: the outgoing source runs through a lower diode, the shunt sees the incoming source
+// Either way it shows the incoming phase, and i_m = (i_k + i_in)/2 with i_k near its last value. The block
+// uses that until the incoming current has reached the kept one, or for a stated number of samples.
+//
+// Where the on-time is too short nothing is visible: the last value fades by a stated factor per tick.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/bridge_command.hpp"
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+/// The default believes no sample: the current reads 0.
+template <class Scalar>
+struct OneShuntConfig {
+  Scalar least_duty = one<Scalar>;       ///< (delay of the sample + settling)/T_s; visible strictly above
+  std::uint8_t commutation_samples = 0;  ///< longest commutation that is corrected for
+  Scalar fade{};                         ///< of the kept value per hidden tick: exp(-T_s R/L), 1 holds it
+};
+
+template <class Scalar>
+struct OneShuntState {
+  Scalar driven_A{};             ///< estimate in the direction of the command
+  Scalar kept_A{};               ///< phase that keeps its current through the commutation
+  std::uint8_t commutating = 0;  ///< samples left
+  std::uint8_t hidden = 255;     ///< ticks since a sample counted, saturating
+  bool reversed = false;
+};
+
+/// The pair moved on in a Hall edge, command and sign staying: call it before the next sample.
+template <class Scalar>
+constexpr void one_shunt_commutation(const OneShuntConfig<Scalar>& config, OneShuntState<Scalar>& state) {
+  state.kept_A = state.driven_A;
+  state.commutating = config.commutation_samples;
+}
+
+/// One sample, taken under a command of |duty| and sign; returns i_m, positive in the positive direction.
+template <class Scalar>
+constexpr Scalar one_shunt_step(const OneShuntConfig<Scalar>& config, OneShuntState<Scalar>& state,
+                                bool reversed, Scalar duty, Scalar sample_A) {
+  using T = ScalarTraits<Scalar>;
+  if (reversed != state.reversed) {  // source and sink have changed places
+    state.driven_A = -state.driven_A;
+    state.commutating = 0;
+  }
+  state.reversed = reversed;
+  if (duty > config.least_duty) {
+    state.hidden = 0;
+    if (state.commutating > 0 && sample_A < state.kept_A) {
+      --state.commutating;
+      state.driven_A = T::half_difference(state.kept_A, -sample_A);
+    } else {
+      state.commutating = 0;
+      state.driven_A = sample_A;
+    }
+  } else {
+    state.driven_A = state.driven_A * config.fade;
+    if (state.hidden < 255) ++state.hidden;
+  }
+  return reversed ? -state.driven_A : state.driven_A;
+}
+
+/// Phase currents as a Measurement wants them: the pair carries i_m, the third phase nothing.
+template <class Scalar>
+constexpr void set_phase_currents(Measurement<Scalar>& measured, Pair positive, Scalar motor_current_A) {
+  const auto of = [&](Leg leg) {
+    return leg == positive.source ? motor_current_A : leg == positive.sink ? -motor_current_A : Scalar{};
+  };
+  measured.i_a_A = of(Leg::a);
+  measured.i_b_A = of(Leg::b);
+  measured.i_c_A = of(Leg::c);
+}
+
+}  // namespace sixstep::control

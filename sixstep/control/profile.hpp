@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Trapezoid profile: a position setpoint that keeps a speed and an acceleration limit and stands still
+// exactly on its target, in discrete time and without a root. Velocity v is travel per tick, acceleration a
+// its change per tick. Whoever moves on at v = (m + r) a, m whole, 0 <= r < 1, and slows by a each tick needs
+//
+//   v + (v - a) + .. + r a = (m + 1)(v - m a/2)
+//
+// until rest. So the fastest v that can still stop within R has the largest m with a m (m + 1)/2 <= R, and is
+// v = R/(m + 1) + m a/2 = (R + a m (m + 1)/2)/(m + 1). Each tick takes that v, within one a of the last and
+// within the limit: it accelerates, cruises, brakes and lands with its last step, at least as fast as the
+// continuous profile of the same limits. A target set nearer than the stopping distance is passed and
+// returned to.
+//
+// Fixed point: v and a are whole raw steps per tick, so give the profile enough bits (32), or a slower tick.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+/// The default never moves.
+template <class Scalar>
+struct ProfileConfig {
+  Scalar speed{};         ///< travel per tick, limit of |v|
+  Scalar acceleration{};  ///< change of v per tick
+};
+
+template <class Scalar>
+struct ProfileState {
+  Scalar position{};
+  Scalar velocity{};  ///< travel of the last tick
+};
+
+namespace detail {
+
+/// Largest m with a m (m + 1)/2 <= R; bisection up to the m that the speed limit needs, at most 31 rounds.
+/// In whole numbers m a <= fastest + a keeps the product within W.
+template <class W>
+constexpr std::int32_t braking_ticks(W R, W a, W fastest) {
+  constexpr std::int32_t most = std::int32_t{1} << 30;
+  std::int32_t low = 0;
+  std::int32_t high = static_cast<std::int32_t>(between(fastest / a, W{}, static_cast<W>(most - 1))) + 1;
+  const auto distance = [a](std::int32_t m) {
+    return static_cast<W>(static_cast<W>(m) * a * static_cast<W>(m + 1) / static_cast<W>(2));
+  };
+  while (high - low > 1) {
+    const std::int32_t middle = low + (high - low) / 2;
+    (distance(middle) <= R ? low : high) = middle;
+  }
+  return distance(high) <= R ? high : low;
+}
+
+}  // namespace detail
+
+template <class Scalar>
+constexpr Scalar profile_step(const ProfileConfig<Scalar>& config, ProfileState<Scalar>& state,
+                              Scalar target) {
+  using T = ScalarTraits<Scalar>;
+  using W = Wide<Scalar>;
+  const W a = T::wide(config.acceleration), limit = T::wide(config.speed);
+  if (!(a > W{}) || !(limit > W{})) return state.position;
+  const W way = T::wide(target) - T::wide(state.position);
+  const bool back = way < W{};
+  const W R = back ? -way : way;
+  const W last = back ? -T::wide(state.velocity) : T::wide(state.velocity);  // towards the target
+  const std::int32_t m = detail::braking_ticks(R, a, limit);
+  W v = (R + static_cast<W>(m) * a * static_cast<W>(m + 1) / static_cast<W>(2)) / static_cast<W>(m + 1);
+  if (v > R) v = R;
+  if (v > limit) v = limit;
+  if (v > last + a) v = last + a;
+  if (v < last - a) v = last - a;
+  state.velocity = T::narrow(back ? -v : v);
+  state.position = v == R ? target : T::narrow(T::wide(state.position) + (back ? -v : v));
+  return state.position;
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a block must know about the number it computes with. The blocks are templates over one Scalar; signals
+// are Scalars, and three things that a fixed-point number cannot be have types of their own here:
+//
+//   Gain         output per input, which may exceed the range of a signal
+//   Divisor      what a signal is divided by once per tick, where a chip would rather multiply
+//   Accumulator  a sum over many ticks, whose increments may be far below the signal's last bit
+//   TickRatio    a signal times timer counts, to be divided by timer counts
+//
+// For float and double all of them are the Scalar itself, and every function below is the plain expression:
+// the same bits as writing it. fixed.hpp says what they are for fixed point.
+#pragma once
+#include <cstdint>
+
+namespace sixstep::control {
+
+/// Specialised for fixed point in fixed.hpp; this is the one for floating point.
+template <class Scalar>
+struct ScalarTraits {
+  using Gain = Scalar;
+  using Divisor = Scalar;
+  using Accumulator = Scalar;
+  using TickRatio = Scalar;
+  using Wide = Scalar;  ///< holds a difference of two signals and a signal times a small whole number
+
+  static constexpr Scalar half_difference(Scalar a, Scalar b) { return (a - b) * Scalar(0.5); }
+  static constexpr Scalar product(Scalar x, Gain gain) { return x * gain; }
+  static constexpr Scalar quotient(Scalar x, Divisor divisor) { return x / divisor; }
+  static constexpr Accumulator accumulated(Scalar x, Gain gain) { return x * gain; }
+  static constexpr Accumulator accumulator(Scalar x) { return x; }
+  static constexpr Scalar signal(Accumulator sum) { return sum; }
+  static constexpr Wide wide_of(Accumulator sum) { return sum; }
+  static constexpr TickRatio times(TickRatio ratio, std::uint8_t n) { return ratio * static_cast<Scalar>(n); }
+  static constexpr Scalar per_ticks(TickRatio ratio, std::uint32_t ticks) {
+    return ratio / static_cast<Scalar>(ticks);
+  }
+  /// part/whole, at most 1; whole = 0 counts as 1.
+  static constexpr Scalar fraction(std::uint32_t part, std::uint32_t whole) {
+    return part >= whole ? Scalar(1) : static_cast<Scalar>(part) / static_cast<Scalar>(whole);
+  }
+  static constexpr Scalar counts(std::int32_t n, Gain per_count) {
+    return static_cast<Scalar>(n) * per_count;
+  }
+  static constexpr Wide wide(Scalar x) { return x; }
+  static constexpr Scalar narrow(Wide x) { return x; }
+};
+
+template <class Scalar>
+using Gain = typename ScalarTraits<Scalar>::Gain;
+template <class Scalar>
+using Divisor = typename ScalarTraits<Scalar>::Divisor;
+template <class Scalar>
+using Accumulator = typename ScalarTraits<Scalar>::Accumulator;
+template <class Scalar>
+using TickRatio = typename ScalarTraits<Scalar>::TickRatio;
+template <class Scalar>
+using Wide = typename ScalarTraits<Scalar>::Wide;
+
+/// The largest duty, fraction or flag: 1, or the last number below it where the format ends there (Q15, Q31).
+template <class Scalar>
+inline constexpr Scalar one = Scalar(1);
+
+template <class Scalar>
+constexpr Scalar clamped(Scalar x, Scalar limit) {
+  return x > limit ? limit : x < -limit ? -limit : x;
+}
+
+template <class Scalar>
+constexpr Scalar between(Scalar x, Scalar low, Scalar high) {
+  return x > high ? high : x < low ? low : x;
+}
+
+template <class Scalar>
+constexpr Scalar magnitude(Scalar x) {
+  return x < Scalar{} ? -x : x;
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Slew limiter: a setpoint that changes by at most so much per tick and stops exactly on its target.
+//
+//   y[n] = y[n-1] + clamp(x[n] - y[n-1], step)
+#pragma once
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+/// The default never moves.
+template <class Scalar>
+struct SlewConfig {
+  Accumulator<Scalar> step{};  ///< largest change per tick; fixed point: may be below the last bit
+};
+
+template <class Scalar>
+struct SlewState {
+  Accumulator<Scalar> y{};
+};
+
+template <class Scalar>
+constexpr Scalar slew_step(const SlewConfig<Scalar>& config, SlewState<Scalar>& state, Scalar target) {
+  const Accumulator<Scalar> x = ScalarTraits<Scalar>::accumulator(target);
+  if (x - state.y > config.step)
+    state.y = state.y + config.step;
+  else if (x - state.y < -config.step)
+    state.y = state.y - config.step;
+  else
+    state.y = x;  // not y + (x - y), which may round past it
+  return ScalarTraits<Scalar>::signal(state.y);
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a drive is doing: off, calibrate, align, run, brake, fault. Transitions only; what is done in each
+// state is the composition's (protected_drive.hpp).
+//
+//   off --start--> calibrate --offsets measured--> align --rotor in place--> run
+//   run --stop--> brake --standing--> off;  brake --start--> run;  calibrate, align --stop--> off
+//   any --fault--> fault --clear, causes gone--> off
+//
+// Offsets are measured once and again after a fault; alignment may be left out.
+#pragma once
+#include <cstdint>
+
+namespace sixstep::control {
+
+enum class Activity : std::uint8_t { off, calibrate, align, run, brake, fault };
+
+/// What the user asks for, as levels, except clear: it acts on the change from false to true, so that a held
+/// button does not start a faulty drive over and over.
+struct Request {
+  bool run = false;
+  bool clear = false;
+};
+
+struct ActivityInput {
+  Request request{};
+  bool calibrated = false;  ///< offsets are known
+  bool aligned = false;     ///< the rotor stands where it was pulled to, or alignment is not wanted
+  bool standing = false;    ///< slow enough to let go
+  bool faulty = false;      ///< anything is latched
+};
+
+struct ActivityState {
+  Activity activity = Activity::off;
+  bool clear_was = false;
+  bool run_released = true;  ///< after a fault the request to run must go away once before it counts
+};
+
+/// Is a fault to be cleared now? Ask before activity_step and pass on what is latched afterwards.
+constexpr bool clear_requested(ActivityState& state, const Request& request) {
+  const bool rising = request.clear && !state.clear_was;
+  state.clear_was = request.clear;
+  return rising && state.activity == Activity::fault;
+}
+
+constexpr Activity after(Activity activity, bool run, const ActivityInput& in) {
+  switch (activity) {
+    case Activity::off:
+    case Activity::calibrate:
+      return !run ? Activity::off : in.calibrated ? Activity::align : Activity::calibrate;
+    case Activity::align:
+      return !run ? Activity::off : in.aligned ? Activity::run : Activity::align;
+    case Activity::run:
+      return run ? Activity::run : Activity::brake;
+    case Activity::brake:
+      return run ? Activity::run : in.standing ? Activity::off : Activity::brake;
+    case Activity::fault:
+      return Activity::off;  // only reached with nothing latched
+  }
+  return Activity::off;
+}
+
+constexpr Activity activity_step(ActivityState& state, const ActivityInput& in) {
+  if (in.faulty) {
+    state.activity = Activity::fault;
+    state.run_released = false;
+    return state.activity;
+  }
+  if (!in.request.run) state.run_released = true;
+  state.activity = after(state.activity, in.request.run && state.run_released, in);
+  return state.activity;
+}
+
+}  // namespace sixstep::control

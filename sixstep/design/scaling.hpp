@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which A, V, rad/s and degrees a fixed-point 1.0 means, and the drive's configuration in those units, with a
+// proof by intervals that nothing on its way saturates that must not, over a stated range of inputs.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sixstep/base/result.hpp"
+#include "sixstep/control/drive.hpp"
+
+namespace sixstep::design {
+
+/// What may come in: magnitudes that measurements and setpoint never pass. Beyond them a sensor or a user is
+/// at fault and saturation is the wanted answer.
+struct OperatingRange {
+  double current_A = 0.0;     ///< of each phase, what the ADC spans
+  double speed_rad_s = 0.0;   ///< mechanical
+  double position_deg = 0.0;  ///< mechanical; only in position mode
+  double bus_V = 0.0;
+  double setpoint = 0.0;  ///< in the unit of the mode
+};
+
+/// What 1.0 stands for. Duties and fractions of torque have the base 1.
+struct Bases {
+  double current_A = 1.0;
+  double voltage_V = 1.0;
+  double speed_rad_s = 1.0;
+  double position_deg = 1.0;
+};
+
+/// One line of the proof: a quantity, the most it reaches, and where the format ends.
+struct Headroom {
+  std::string name;
+  double largest = 0.0;     ///< SI
+  double full_scale = 0.0;  ///< the same unit
+};
+
+template <class Scalar>
+struct Scaled {
+  control::DriveConfig<Scalar> config;
+  Bases bases;
+  std::vector<Headroom> proof;
+};
+
+/// The smallest bases with which every signal and every difference of signals fits the format.
+Bases bases_for(const control::DriveConfig<double>& drive, const OperatingRange& range, double full_scale);
+
+/// The drive in fixed point. Problems name the quantity that does not fit, or the gain that the format cannot
+/// hold to its last bits, with the value and the end of the range:
+///   - a signal, a limit or a difference of signals beyond full scale;
+///   - a gain above the mantissa, or so small that its mantissa loses bits;
+///   - an integral gain that does not see an error of one digit (pi.hpp);
+///   - an integral increment that could saturate its sum (14 of the 16 times the range it holds).
+/// What a limit follows at once (products before a clamp, the proportional kick) may saturate: the clamp
+/// hides it. Instantiated for Q15, Q31 and the formats with one and two bits before the point.
+template <class Scalar>
+base::Result<Scaled<Scalar>> scaled(const control::DriveConfig<double>& drive, const OperatingRange& range,
+                                    const Bases& bases);
+
+/// With the bases of bases_for.
+template <class Scalar>
+base::Result<Scaled<Scalar>> scaled(const control::DriveConfig<double>& drive, const OperatingRange& range);
+
+}  // namespace sixstep::design

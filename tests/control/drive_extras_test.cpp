@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a product adds inside the loops, and the speed loop that sets the duty (thesis 6.2.2).
+#include "sixstep/control/drive_extras.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "sixstep/control/drive.hpp"
+#include "tests/control/scalars.hpp"
+
+namespace {
+
+using namespace sixstep::control;
+
+static_assert(std::is_trivially_copyable_v<DriveState<Q15>> &&
+              std::is_trivially_copyable_v<DriveConfig<Q31>>);
+
+template <class S>
+PiConfig<S> pi(double d1, double K_i, double limit) {
+  if constexpr (is_fixed<S>)
+    return {Gain<S>(d1), Gain<S>(K_i), S(limit)};
+  else
+    return {static_cast<S>(d1), static_cast<S>(K_i - d1), static_cast<S>(limit)};
+}
+
+template <class S>
+struct Bench {
+  DriveConfig<S> config{};
+  DriveState<S> state{};
+  Measurement<S> measured{.bus_V = S(0.75), .hall = 0b100};
+  Telemetry<S> telemetry{};
+  BridgeCommand<S> tick(double setpoint) {
+    return step(config, state, measured, Setpoint<S>{static_cast<S>(setpoint)}, telemetry);
+  }
+  explicit Bench(Mode mode) {
+    config.mode = mode;
+    config.current = pi<S>(1.0, 0.0, 0.75);
+    config.nominal_bus_V = static_cast<Divisor<S>>(0.75);
+    config.speed = pi<S>(1.0, 0.25, 1.0);
+    config.current_at_full_torque_A = Gain<S>(1.0);
+    config.current_limit_A = S(0.75);
+    config.extras.on = true;
+    config.extras.torque_fraction_per_A = Gain<S>(1.0);
+  }
+  void carry(double i) {
+    measured.i_a_A = S(i);
+    measured.i_b_A = S(-i);
+  }
+};
+
+template <class Scalar>
+class Extras : public testing::Test {};
+TYPED_TEST_SUITE(Extras, Scalars);
+
+TYPED_TEST(Extras, SpeedSetsTheDutyWithoutACurrentLoop) {
+  Bench<TypeParam> b(Mode::speed);
+  b.config.extras.on = false;
+  b.config.speed_control = SpeedControl::duty;
+  b.carry(0.5);
+  b.measured.speed_rad_s = TypeParam(0.25);
+  EXPECT_EQ(b.tick(0.5).duty, TypeParam(0.25));
+  EXPECT_EQ(b.tick(0.5).duty, TypeParam(0.3125)) << "K_i times the error more";
+  EXPECT_EQ(b.telemetry.speed_reference_rad_s, TypeParam(0.5));
+  const BridgeCommand<TypeParam> back = b.tick(-1.5);
+  EXPECT_EQ(back.pair, swapped(positive_pair(0)));
+  EXPECT_EQ(back.duty, one<TypeParam>);
+}
+
+TYPED_TEST(Extras, SwitchedOffTheyChangeNothing) {
+  Bench<TypeParam> with(Mode::speed), without(Mode::speed);
+  with.config.extras.limits_current = with.config.extras.slews_setpoint = with.config.extras.smooth_chopping =
+      true;
+  with.config.extras.on = false;
+  without.config.extras = {};
+  for (int n = 0; n < 50; ++n) EXPECT_EQ(with.tick(0.3 - 0.02 * n), without.tick(0.3 - 0.02 * n));
+}
+
+TYPED_TEST(Extras, OnButUnsetTheyKeepTheLoopsAsTheyAre) {
+  Bench<TypeParam> with(Mode::speed), without(Mode::speed);
+  with.config.extras.torque_fraction_per_A = {};
+  without.config.extras = {};
+  for (int n = 0; n < 20; ++n) {
+    const double w = 0.3 - 0.02 * n;
+    EXPECT_EQ(with.tick(w).duty, without.tick(w).duty) << n;
+  }
+}
+
+TYPED_TEST(Extras, TheWindowLimitsTheReferenceAndTheSpeedPi) {
+  using S = TypeParam;
+  for (const Mode mode : {Mode::current, Mode::speed}) {
+    Bench<S> b(mode);
+    b.config.extras.limits_current = true;
+    b.config.extras.limits.current_A = S(0.25);
+    for (int n = 0; n < 200; ++n) b.tick(1.0);
+    EXPECT_EQ(b.telemetry.current_reference_A, S(0.25));
+    b.tick(-1.0);
+    EXPECT_EQ(b.telemetry.current_reference_A, S(-0.25)) << "not wound up: back with the first sample";
+  }
+}
+
+TYPED_TEST(Extras, BackEmfAndMeasuredBusEnterTheDuty) {
+  using S = TypeParam;
+  Bench<S> b(Mode::current);
+  b.config.extras.feed_forward.K_t_V_s = Gain<S>(0.5);
+  b.measured.speed_rad_s = S(0.75);
+  // u = 0.125 + 0.375 over the nominal 0.75, then over the measured one.
+  EXPECT_NEAR(static_cast<double>(b.tick(0.125).duty), 0.5 / 0.75, 3 * digit<S>());
+  b.config.extras.bus.lowest_bus_V = S(0.5);
+  b.measured.bus_V = S(1.0);
+  EXPECT_NEAR(static_cast<double>(b.tick(0.125).duty), 0.5, 3 * digit<S>());
+  // Both together within the PI's limit, and the PI does not wind up against it.
+  for (int n = 0; n < 10; ++n) EXPECT_LE(b.tick(1.5).duty, S(0.75));
+  EXPECT_EQ(b.tick(1.5).duty, S(0.75));
+  b.tick(1.25);
+  EXPECT_EQ(b.telemetry.duty, S(0.5)) << "leaves the limit by the kick of the first smaller error";
+}
+
+TYPED_TEST(Extras, TheSetpointSlewsFromWhatIsMeasured) {
+  using S = TypeParam;
+  Bench<S> b(Mode::speed);
+  b.config.extras.slews_setpoint = true;
+  b.config.extras.slew.step = static_cast<Accumulator<S>>(0.0625);
+  b.measured.speed_rad_s = S(0.5);
+  b.tick(1.0);
+  EXPECT_EQ(b.telemetry.speed_reference_rad_s, S(0.5625));
+  for (int n = 0; n < 20; ++n) b.tick(1.0);
+  EXPECT_EQ(b.telemetry.speed_reference_rad_s, S(1.0));
+  b.measured.hall = 0;  // off by a fault
+  b.tick(1.0);
+  b.measured.hall = 0b100;
+  b.tick(1.0);
+  EXPECT_EQ(b.telemetry.speed_reference_rad_s, S(0.5625)) << "and starts anew after the bridge was off";
+}
+
+TYPED_TEST(Extras, SmoothChoppingFollowsTheCurrentNotTheConfig) {
+  using S = TypeParam;
+  Bench<S> b(Mode::duty);
+  b.config.chopping = Chopping::hard;
+  b.config.extras.smooth_chopping = true;
+  b.config.extras.chopping = {S(0.2), S(0.1)};
+  EXPECT_EQ(b.tick(0.01).chopping, Chopping::complementary);
+  b.carry(0.5);
+  EXPECT_EQ(b.tick(0.5).chopping, Chopping::soft);
+  EXPECT_EQ(b.tick(-0.01).chopping, Chopping::complementary);
+  b.carry(-0.5);
+  EXPECT_EQ(b.tick(-0.5).chopping, Chopping::soft);
+}
+
+/// The lean drive, any bits of a fixed-point measurement: no duty outside 0..1, no overflow (sanitizers
+/// tell).
+TYPED_TEST(Extras, AnyMeasurementGivesALawfulDuty) {
+  using S = TypeParam;
+  constexpr int seed = 1307;
+  std::mt19937_64 random{seed};
+  const auto any = [&random] {
+    if constexpr (is_fixed<S>)
+      return S::from_raw(static_cast<typename S::Storage>(random() >> 24));
+    else
+      return static_cast<S>(
+          std::ldexp(static_cast<double>(static_cast<std::int64_t>(random())), -63 + int(random() % 8)));
+  };
+  for (int run = 0; run < 2000; ++run) {
+    const std::uint64_t bits = random();
+    Bench<S> b(static_cast<Mode>(1 + bits % 4));
+    DriveExtras<S>& x = b.config.extras;
+    b.config.speed_control = static_cast<SpeedControl>(bits / 4 % 2);
+    b.config.position_gain = Gain<S>(3.0);
+    b.config.speed_limit_rad_s = S(1.0);
+    x.on = bits / 8 % 4 != 0;
+    x.limits_current = x.limits.limits_speed = x.limits.limits_regeneration = bits / 32 % 2;
+    x.limits = {S(0.5), x.limits.limits_speed, S(0.9), Gain<S>(8.0), x.limits.limits_regeneration,
+                S(0.9), Gain<S>(8.0)};
+    x.slews_setpoint = bits / 64 % 2;
+    x.slew.step = static_cast<Accumulator<S>>(0.01);
+    x.feed_forward.K_t_V_s = Gain<S>(0.7);
+    x.bus.lowest_bus_V = S(bits / 128 % 2 ? 0.1 : 0.0);
+    x.smooth_chopping = bits / 256 % 2;
+    for (int n = 0; n < 20; ++n) {
+      b.measured = {any(), any(), any(), any(), any(), any(), static_cast<std::uint8_t>(random() % 8)};
+      const BridgeCommand<S> c = step(b.config, b.state, b.measured, Setpoint<S>{any()}, b.telemetry);
+      ASSERT_TRUE(c.duty >= S{} && c.duty <= one<S>) << "seed " << seed << " run " << run;
+      ASSERT_NE(c.pair.source, c.pair.sink);
+      ASSERT_EQ(c.enabled, !c.fault);
+      if (b.config.mode >= Mode::speed && b.config.speed_control == SpeedControl::cascade) {
+        ASSERT_LE(magnitude(b.telemetry.current_reference_A), b.config.current_limit_A);
+      }
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/control/hall.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <type_traits>
+
+#include "sixstep/control/advance.hpp"
+#include "sixstep/control/hall_speed.hpp"
+#include "sixstep/plant/hall.hpp"
+#include "tests/control/scalars.hpp"
+
+namespace {
+
+using namespace sixstep::control;
+
+static_assert(std::is_trivially_copyable_v<HallState> && std::is_trivially_copyable_v<HallSpeedState> &&
+              std::is_trivially_copyable_v<HallPositionState>);
+
+/// Three probes by their definition: each is high over half a turn, the next one lags by `apart` sectors.
+std::uint8_t pins(int sector, int apart) {
+  const auto high = [&](int lag) { return (sector - lag + 18 + 1) % 6 < 3; };  // H1 over sectors 5, 0, 1
+  return static_cast<std::uint8_t>(high(0) << 2 | high(apart) << 1 | int{high(2 * apart)});
+}
+
+constexpr HallConfig arrangement(int apart) {
+  return {apart == 2 ? HallArrangement::degrees_120 : HallArrangement::degrees_60, 1};
+}
+
+TEST(Hall, BothArrangementsAreDecodedByTheirDefinition) {
+  for (const int apart : {2, 1})
+    for (int s = 0; s < 6; ++s) {
+      EXPECT_TRUE(apart != 2 || pins(s, 2) == sixstep::plant::hall_code(s)) << "the model's definition";
+      HallState state;
+      EXPECT_EQ(hall_step(arrangement(apart), state, pins(s, apart)).sector, s) << apart;
+    }
+}
+
+TEST(Hall, EachArrangementHasTwoImpossibleCodes) {
+  for (const int apart : {2, 1})
+    for (int code = 0; code < 256; ++code) {
+      bool possible = false;
+      for (int s = 0; s < 6; ++s) possible = possible || pins(s, apart) == code;
+      HallState state;
+      const HallReading r = hall_step(arrangement(apart), state, static_cast<std::uint8_t>(code));
+      EXPECT_EQ(r.fault == HallFault::none, possible) << apart << ' ' << code;
+      EXPECT_EQ(r.sector == no_sector, !possible) << apart << ' ' << code;
+    }
+}
+
+TEST(Hall, EveryChangeIsAMoveOrAFault) {
+  for (int from = 0; from < 6; ++from)
+    for (int to = 0; to < 6; ++to) {
+      HallState state;
+      hall_step(HallConfig{}, state, pins(from, 2));
+      const HallReading r = hall_step(HallConfig{}, state, pins(to, 2));
+      const int passed = (to - from + 6) % 6;
+      EXPECT_EQ(r.moved, passed == 1 ? 1 : passed == 5 ? -1 : 0);
+      EXPECT_EQ(r.fault, passed >= 2 && passed <= 4 ? HallFault::jump : HallFault::none);
+      EXPECT_EQ(hall_step(HallConfig{}, state, pins(to, 2)).fault, HallFault::none) << "told once";
+    }
+}
+
+TEST(Hall, GlitchesShorterThanTheFilterDoNotCount) {
+  const HallConfig config{.stable_samples = 3};
+  HallState state;
+  for (int n = 0; n < 2; ++n)
+    EXPECT_EQ(hall_step(config, state, pins(0, 2)).sector, no_sector) << "not yet settled";
+  EXPECT_EQ(hall_step(config, state, pins(0, 2)).sector, 0);
+  for (const int level : {0b000, 0b111, 0b001, 0b110}) {
+    const auto glitch = static_cast<std::uint8_t>(level);
+    hall_step(config, state, glitch);
+    EXPECT_EQ(hall_step(config, state, glitch).sector, 0);
+    const HallReading back = hall_step(config, state, pins(0, 2));
+    EXPECT_EQ(back.sector, 0);
+    EXPECT_EQ(back.fault, HallFault::none);
+  }
+  for (int n = 0; n < 2; ++n) EXPECT_EQ(hall_step(config, state, pins(1, 2)).moved, 0);
+  EXPECT_EQ(hall_step(config, state, pins(1, 2)).moved, 1) << "third sample in a row";
+  EXPECT_EQ(hall_step(config, state, pins(1, 2)).moved, 0) << "counted once";
+}
+
+/// A line breaks somewhere within a sector while the rotor turns on steadily, read 20 times per sector: the
+/// impossible code must come within a turn, and name that line.
+TEST(Hall, ABrokenLineIsNamed) {
+  for (const int apart : {2, 1})
+    for (const int direction : {1, -1})
+      for (int line = 1; line <= 3; ++line)
+        for (const int level : {0, 1})
+          for (int breaks_at = 0; breaks_at < 120; ++breaks_at) {
+            const HallConfig config = arrangement(apart);
+            HallState state;
+            int last_edge = 0;
+            HallReading fault;
+            for (int t = 0; t < 600 && fault.fault == HallFault::none; ++t) {
+              const int place = direction > 0 ? t : 6000 - 1 - t;
+              std::uint8_t code = pins(place / 20 % 6, apart);
+              const unsigned bit = 0b1000u >> line;
+              if (t >= 240 + breaks_at)
+                code = static_cast<std::uint8_t>(level ? (code | bit) : (code & ~bit));
+              const HallReading r = hall_step(config, state, code, t - last_edge > 30);
+              if (r.moved != 0) last_edge = t;
+              fault = r;
+            }
+            ASSERT_NE(fault.fault, HallFault::none);
+            // Breaking together with another line's edge may look like a jump, which names no line.
+            if (breaks_at % 20 == 0 && fault.fault == HallFault::jump) continue;
+            ASSERT_EQ(fault.fault, HallFault::impossible_code);
+            ASSERT_EQ(fault.line, line) << apart << ' ' << direction << ' ' << level << ' ' << breaks_at;
+          }
+}
+
+template <class Scalar>
+class HallMotion : public testing::Test {};
+TYPED_TEST_SUITE(HallMotion, Scalars);
+
+/// Eight pole pairs, a 1 MHz timer, speeds in units of 1000 rad/s so that every scalar holds them.
+constexpr double sector_rad_s_ticks = 3.14159265358979323846 / 3 / 8 * 1e6 / 1000;
+
+template <class Scalar>
+HallSpeedConfig<Scalar> speed_config(std::uint8_t edges) {
+  return {TickRatio<Scalar>(sector_rad_s_ticks), 200000, edges};
+}
+
+TYPED_TEST(HallMotion, SteadySpeedIsOneOverTheSectorTimeThroughTheWrap) {
+  using S = TypeParam;
+  for (const std::uint8_t edges : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{6}})
+    for (const std::uint32_t ticks : {131u, 1000u, 54321u})
+      for (const std::int8_t direction : {std::int8_t{1}, std::int8_t{-1}}) {
+        HallSpeedState state;
+        std::uint32_t now = 0xffffffffu - 3 * ticks;  // wraps between the third and the fourth edge
+        const auto config = speed_config<S>(edges);
+        EXPECT_EQ(static_cast<double>(hall_speed(config, state, now)), 0.0);
+        hall_speed_edge(state, now, direction);
+        EXPECT_EQ(static_cast<double>(hall_speed(config, state, now)), 0.0) << "one edge says nothing";
+        for (int n = 0; n < 20; ++n) {
+          hall_speed_edge(state, now += ticks, direction);
+          const double w = static_cast<double>(hall_speed(config, state, now + ticks / 3));
+          // One rounding of the ratio and one of the quotient.
+          EXPECT_NEAR(w, direction * sector_rad_s_ticks / ticks,
+                      1.5 * digit<S>() * std::fmax(1, std::fabs(w)));
+        }
+      }
+}
+
+TYPED_TEST(HallMotion, MisplacedProbesCancelOverOneTurn) {
+  using S = TypeParam;
+  const std::uint32_t sector[6] = {900, 1100, 1010, 990, 1050, 950};  // 6000 in all
+  HallSpeedState six, one_edge;
+  std::uint32_t now = 77;
+  double worst = 0;
+  for (int n = 0; n < 60; ++n) {
+    now += sector[n % 6];
+    hall_speed_edge(six, now, 1);
+    hall_speed_edge(one_edge, now, 1);
+    if (n < 7) continue;
+    EXPECT_NEAR(static_cast<double>(hall_speed(speed_config<S>(6), six, now)), sector_rad_s_ticks / 1000,
+                1.5 * digit<S>());
+    const double w = static_cast<double>(hall_speed(speed_config<S>(1), one_edge, now));
+    worst = std::fmax(worst, std::fabs(w - sector_rad_s_ticks / 1000));
+  }
+  EXPECT_NEAR(worst, sector_rad_s_ticks * (1.0 / 900 - 1.0 / 1000), 2 * digit<S>())
+      << "and without the mean they do not";
+}
+
+TYPED_TEST(HallMotion, TheEstimateFallsWithTheSilenceAndEndsAtTheTimeOut) {
+  using S = TypeParam;
+  HallSpeedState state;
+  const auto config = speed_config<S>(1);
+  hall_speed_edge(state, 1000, 1);
+  hall_speed_edge(state, 2000, 1);
+  double last = 1;
+  for (std::uint32_t since = 0; since <= 200000; since += 100) {
+    const double w = static_cast<double>(hall_speed(config, state, 2000 + since));
+    EXPECT_LE(w, last);
+    const double bound = sector_rad_s_ticks / (since > 1000 ? since : 1000);
+    EXPECT_NEAR(w, bound, 1.5 * digit<S>());
+    last = w;
+  }
+  EXPECT_GT(static_cast<double>(hall_speed(config, state, 2000 + 200000)), 0.0);
+  EXPECT_EQ(static_cast<double>(hall_speed(config, state, 2000 + 200001)), 0.0);
+  hall_speed_edge(state, 2000 + 300000, 1);
+  EXPECT_EQ(static_cast<double>(hall_speed(config, state, 2000 + 300000)), 0.0)
+      << "the first edge after standstill has no predecessor";
+}
+
+TYPED_TEST(HallMotion, AReversalStartsAnew) {
+  using S = TypeParam;
+  HallSpeedState state;
+  const auto config = speed_config<S>(6);
+  for (std::uint32_t t = 0; t < 10000; t += 1000) hall_speed_edge(state, t, 1);
+  hall_speed_edge(state, 10000, -1);
+  EXPECT_EQ(static_cast<double>(hall_speed(config, state, 10000)), 0.0);
+  hall_speed_edge(state, 12000, -1);
+  EXPECT_NEAR(static_cast<double>(hall_speed(config, state, 12000)), -sector_rad_s_ticks / 2000,
+              1.5 * digit<S>());
+}
+
+TYPED_TEST(HallMotion, PositionRunsOnThroughSectorsAndBackToWhereItWas) {
+  using S = TypeParam;
+  const double sector = 7.5 / 1024;  // degrees, in units of 1024
+  HallSpeedState speed;
+  HallPositionState count;
+  const auto config = speed_config<S>(1);
+  const HallPositionConfig<S> position{per_count<S>(sector), Gain<S>(sector)};
+  std::uint32_t now = 5000;
+  const auto edge = [&](std::int8_t direction) {
+    hall_speed_edge(speed, now, direction);
+    hall_position_edge(count, direction);
+  };
+  const auto at = [&](std::uint32_t since) {
+    const S fraction = sector_fraction(config, speed, now + since);
+    return static_cast<double>(hall_position(position, count, speed.direction, fraction)) / sector;
+  };
+  // A gain is off by 2^-15 of itself in 16 bits, over 30 sectors; then the roundings of sum and fraction.
+  const double near = 3 * digit<S>() / sector + 30 * digit<S>();
+  EXPECT_NEAR(at(0), 0.5, near) << "nothing known: the middle of the sector";
+  for (int n = 1; n <= 30; ++n) {
+    now += 1000;
+    edge(1);
+    if (n == 1) continue;
+    EXPECT_NEAR(at(0), n, near);
+    EXPECT_NEAR(at(250), n + 0.25, near);
+    EXPECT_NEAR(at(5000), n + 1, near) << "waits at the next edge";
+  }
+  for (int n = 30; n > 0; --n) {
+    now += 1000;
+    edge(-1);
+    if (n == 30) continue;
+    EXPECT_NEAR(at(0), n, near) << "the same edge, from the other side";
+    EXPECT_NEAR(at(250), n - 0.25, near);
+  }
+  EXPECT_EQ(count.sectors, 0);
+}
+
+TYPED_TEST(HallMotion, AdvanceMovesTheEdgeForwardInTheDirectionOfTurning) {
+  using S = TypeParam;
+  const AdvanceConfig<S> config{S(0.1), Gain<S>(0.5), S(0.4)};
+  EXPECT_NEAR(static_cast<double>(advance_angle(config, S(-0.2))), 0.2, 2 * digit<S>());
+  EXPECT_EQ(advance_angle(config, S(1.5)), S(0.4)) << "limited";
+  for (std::uint8_t s = 0; s < 6; ++s) {
+    EXPECT_EQ(advanced_sector(config, s, std::int8_t{1}, S(0.79), S(0.2)), s);
+    EXPECT_EQ(advanced_sector(config, s, std::int8_t{1}, S(0.81), S(0.2)), (s + 1) % 6);
+    EXPECT_EQ(advanced_sector(config, s, std::int8_t{-1}, S(0.81), S(-0.2)), (s + 5) % 6);
+    EXPECT_EQ(advanced_sector(config, s, std::int8_t{0}, S(0.99), S(0.0)), s);
+    EXPECT_EQ(advanced_sector(AdvanceConfig<S>{}, s, std::int8_t{1}, one<S>, S(1.0)), s) << "default: none";
+  }
+  EXPECT_EQ(advanced_sector(config, no_sector, std::int8_t{1}, S(0.99), S(0.2)), no_sector);
+}
+
+}  // namespace

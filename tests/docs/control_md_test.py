@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""control_md_test.py COMPILER: the snippets of docs/control.md compile as they stand, and its table names every block."""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+PAGE = (REPOSITORY / "docs" / "control.md").read_text()
+COMPILER = "c++"
+WARNINGS = ["-std=c++20", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wno-sign-conversion", "-Wdouble-promotion",
+            "-Wno-missing-field-initializers", "-Werror"]
+
+
+def snippets(kind):
+    return re.findall(rf"<!-- test: {kind} -->\n```\w+\n(.*?)```", PAGE, re.S)
+
+
+class ControlPage(unittest.TestCase):
+    def compile(self, source, *flags):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "snippet.cpp"
+            file.write_text(source)
+            done = subprocess.run([COMPILER, *WARNINGS, *flags, f"-I{REPOSITORY}", "-c", "-O1", "-o", "/dev/null", file],
+                                  capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_the_chips_snippets_are_one_program_for_a_chip(self):
+        chip = snippets("chip")
+        self.assertGreaterEqual(len(chip), 6)
+        self.compile("\n".join(chip), "-ffreestanding", "-fno-exceptions", "-fno-rtti")
+
+    def test_the_hosts_snippets_compile(self):
+        self.compile("\n".join(snippets("host")))
+
+    def test_the_shell_lines_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for line in snippets("shell"):
+                subprocess.run(line.replace("tools/", f"{REPOSITORY}/tools/"), shell=True, cwd=folder, check=True)
+            self.assertTrue((pathlib.Path(folder) / "sixstep_control.hpp").is_file())
+
+    def test_every_snippet_is_tested_and_every_block_named(self):
+        self.assertEqual(PAGE.count("```") // 2, sum(len(snippets(kind)) for kind in ("chip", "host", "shell")))
+        table = PAGE.split("<!-- test: blocks -->")[1]
+        named = sorted(re.findall(r"`(\w+\.hpp)`", table))
+        self.assertEqual(named, sorted(p.name for p in (REPOSITORY / "sixstep/control").glob("*.hpp")))
+
+
+if __name__ == "__main__":
+    COMPILER = sys.argv.pop(1) if len(sys.argv) > 1 else COMPILER
+    unittest.main()

@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Writes sixstep_control.hpp: all of sixstep/control/ in one header, for projects that want a single file.
+
+    tools/single_header.py [--out FILE]
+
+Each part stands whole, in the order of its includes, without its licence line, guard and includes; the standard headers
+come first, once. tests/tools/single_header_test.py holds the result to its parts: both preprocess to the same tokens.
+"""
+import argparse
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FOLDER = "sixstep/control"
+LICENCE = "// SPDX-License-Identifier: Apache-2.0"
+OWN = re.compile(r'^#include "(sixstep/control/[a-z0-9_]+\.hpp)"\n', re.M)
+STANDARD = re.compile(r"^#include (<[a-z0-9_]+>)\n", re.M)
+
+
+def ordered(root: pathlib.Path) -> list[str]:
+    """All parts, each behind what it includes; where nothing decides, by name."""
+    order: list[str] = []
+
+    def visit(path: str) -> None:
+        if path in order:
+            return
+        for other in OWN.findall((root / path).read_text()):
+            visit(other)
+        order.append(path)
+
+    for part in sorted((root / FOLDER).glob("*.hpp")):
+        visit(part.relative_to(root).as_posix())
+    return order
+
+
+def body(text: str) -> str:
+    """A part without its licence line, guard and includes."""
+    text = text.replace(LICENCE + "\n", "", 1).replace("#pragma once\n", "", 1)
+    return STANDARD.sub("", OWN.sub("", text)).strip("\n")
+
+
+def single_header(root: pathlib.Path) -> str:
+    parts = ordered(root)
+    texts = {part: (root / part).read_text() for part in parts}
+    standard = sorted({name for text in texts.values() for name in STANDARD.findall(text)})
+    head = [LICENCE, "// sixstep control library in one file, made by tools/single_header.py from sixstep/control/. C++20, freestanding.",
+            "// Change the parts, not this file.", "#pragma once"]
+    head += [f"#include {name}" for name in standard]
+    return "\n".join(head) + "\n" + "".join(f"\n// ---- {part}\n{body(texts[part])}\n" for part in parts)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", type=pathlib.Path, help="the file to write; without it, to the terminal")
+    parser.add_argument("--root", type=pathlib.Path, default=ROOT, help="repository root")
+    args = parser.parse_args()
+    text = single_header(args.root)
+    if args.out:
+        args.out.write_text(text)
+    else:
+        sys.stdout.write(text)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
