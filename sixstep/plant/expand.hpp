@@ -117,7 +117,8 @@ void recurrence_with(const Constants<Real>& c, const Mode& mode, const Currents&
   out.torque[out.degree] = 0;
   r.currents.reach(r.y, out.reach_i);
   out.reach_w = r.y.reach_w;
-  out.reach_x = c.pole_pairs * out.h * (abs(out.w[0]) + r.y.reach_w);  // x' = p h w
+  out.later_x = c.pole_pairs * out.h * r.y.reach_w / 2;  // x_(n+1) = p h w_n/(n + 1)
+  out.reach_x = abs(out.x[1]) + out.later_x;
   if (!r.convergence.reached()) shorten(out, r.convergence.last, r.convergence.before);
 }
 

@@ -42,6 +42,7 @@ struct Expansion {
   series::Coefficients<Real> phi0, phi1;  ///< sine only: cos x, sin x
   PerLeg<Real> reach_i;                   ///< no series moves further from its first value than this
   Real reach_w = 0, reach_x = 0;
+  Real later_x = 0;  ///< the same of x without its first term
 };
 
 namespace detail {

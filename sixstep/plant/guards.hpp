@@ -55,9 +55,12 @@ template <class Real, class Visit>
 void rail_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, int k, Real noise,
                  Visit&& visit) {
   const PoleLaw<Real> law = pole_law(c, mode, k);
-  const Real V_f = Real(c.devices.V_f_V), start = pole_start(c, y, law);
-  const Real reach = pole_tail(c, y, law) + 2 * noise;
-  const bool low = start + V_f <= reach, high = y.bus[0] + V_f - start <= reach;
+  const Real V_f = Real(c.devices.V_f_V);
+  const Real bus_rest = c.inv_C > 0 ? series::tail_bound(y.bus, y.degree) - abs(y.bus[1]) : Real(0);
+  const PoleOutline<Real> is = pole_outline(c, y, law, bus_rest);
+  const bool low = !series::stays_above(is.start + V_f, is.slope, is.rest, noise);
+  const bool high =
+      !series::stays_above(y.bus[0] + V_f - is.start, y.bus[1] - is.slope, is.rest + bus_rest, noise);
   if (!low && !high) return;
   const series::Coefficients<Real> pole = pole_series(c, y, law);
   if (low) visit(guard::low_rail + k, affine(pole, y.degree, Real(1), V_f), y.degree, noise);
@@ -114,7 +117,8 @@ void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Rea
     if (!is_diode(mode.legs[k])) continue;
     const bool low = mode.legs[k] == Connection::low_diode;
     const Real start = low ? y.i[k][0] : -y.i[k][0];
-    if (start > y.reach_i[k] + amp_noise) continue;  // cannot be used up by all other terms together
+    const Real slope = low ? y.i[k][1] : -y.i[k][1];
+    if (series::stays_above(start, slope, y.reach_i[k] - detail::abs(slope), amp_noise)) continue;
     if (low)
       visit(guard::current_zero + k, y.i[k], y.degree, amp_noise);
     else
@@ -138,10 +142,10 @@ void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Rea
 /// The rotor stays within the present piece of the back-EMF.
 template <class Real, class Visit>
 void edge_guards(const EmfPiece<Real>& piece, const Expansion<Real>& y, Visit&& visit) {
-  const Real noise = noise_of(Real(base::sector_rad), Real(1)), tail = y.reach_x;
-  if (piece.to - y.x[0] <= tail + noise)
+  const Real noise = noise_of(Real(base::sector_rad), Real(1));
+  if (!series::stays_above(piece.to - y.x[0], -y.x[1], y.later_x, noise))
     visit(guard::edge_ahead, detail::affine(y.x, y.degree, Real(-1), piece.to), y.degree, noise);
-  if (y.x[0] - piece.from <= tail + noise)
+  if (!series::stays_above(y.x[0] - piece.from, y.x[1], y.later_x, noise))
     visit(guard::edge_behind, detail::affine(y.x, y.degree, Real(1), -piece.from), y.degree, noise);
 }
 

@@ -29,24 +29,37 @@ PoleLaw<Real> pole_law(const Constants<Real>& c, const Mode& mode, int k) {
           .leg = j};
 }
 
+/// What can be said of the voltage without its series: value and slope where the segment begins, and a bound
+/// of all later terms together; `bus_rest` is that bound of U_s.
 template <class Real>
-Real pole_start(const Constants<Real>& c, const Expansion<Real>& y, const PoleLaw<Real>& law) {
-  const Real phi0 = c.sine ? y.phi0[0] : Real(1), phi1 = c.sine ? y.phi1[0] : y.x[0];
-  return law.bus * y.bus[0] + law.offset + law.i * y.i[law.leg][0] + y.w[0] * (law.w0 * phi0 + law.w1 * phi1);
-}
+struct PoleOutline {
+  Real start = 0, slope = 0, rest = 0;
+};
 
-/// How far the voltage, and the rail above it, can move from its first value.
 template <class Real>
-Real pole_tail(const Constants<Real>& c, const Expansion<Real>& y, const PoleLaw<Real>& law) {
+PoleOutline<Real> pole_outline(const Constants<Real>& c, const Expansion<Real>& y, const PoleLaw<Real>& law,
+                               Real bus_rest) {
   using detail::abs;
-  const Real w = y.reach_w, x = y.reach_x;
-  // |w phi - (w phi)(0)| by product rule; a sine's phi0 and phi1 turn by no more than x does.
-  const Real phi1 = c.sine ? Real(1) : abs(y.x[0]);
-  Real tail = abs(law.w0) * (c.sine ? w + (abs(y.w[0]) + w) * x : w) +
-              abs(law.w1) * (abs(y.w[0]) * x + phi1 * w + w * x);
-  if (law.i != 0) tail += abs(law.i) * y.reach_i[law.leg];
-  if (c.inv_C > 0) tail += (abs(law.bus) + 1) * series::tail_bound(y.bus, y.degree);
-  return tail;
+  const Real w = y.w[0], x = y.x[0], reach_w = y.reach_w, reach_x = y.reach_x;
+  const Real phi0 = c.sine ? y.phi0[0] : Real(1), phi1 = c.sine ? y.phi1[0] : x;
+  PoleOutline<Real> out{.start = law.bus * y.bus[0] + law.offset + w * (law.w0 * phi0 + law.w1 * phi1)};
+  if (c.sine) {  // |w phi - (w phi)(0)| by product rule; phi0 and phi1 turn by no more than x does
+    out.rest = (abs(law.w0) + abs(law.w1)) * ((abs(w) + reach_w) * reach_x + reach_w);
+  } else {
+    const Real later_w = reach_w - abs(y.w[1]);
+    out.slope = law.w0 * y.w[1] + law.w1 * (y.w[1] * x + w * y.x[1]);
+    out.rest =
+        abs(law.w0) * later_w + abs(law.w1) * (abs(x) * later_w + abs(w) * y.later_x + reach_w * reach_x);
+  }
+  if (law.i != 0) {
+    const Real first = y.i[law.leg][1];
+    out.start += law.i * y.i[law.leg][0];
+    out.slope += law.i * first;
+    out.rest += abs(law.i) * (y.reach_i[law.leg] - abs(first));
+  }
+  out.slope += law.bus * y.bus[1];
+  out.rest += abs(law.bus) * bus_rest;
+  return out;
 }
 
 template <class Real>

@@ -149,6 +149,15 @@ inline Real tail_bound(const Coefficients<Real>& c, int degree) {
   return even + odd;
 }
 
+/// A guard that first_root() would clear, told by its first two terms and a bound of all others together:
+/// neither end of the straight line comes near zero, or it leaves zero upwards so steeply that nothing can
+/// turn it. False says nothing.
+template <class Real>
+inline bool stays_above(Real start, Real slope, Real rest, Real noise) {
+  const Real lowest = slope < 0 ? start + slope : start, margin = rest + 2 * noise;
+  return lowest > margin || (2 * start > -noise && slope > margin);
+}
+
 /// First s in [0, length], length <= 1, at which the polynomial goes below zero; 0 where it does so from the
 /// start. `noise` is the rounding level of the guard: leading coefficients within it are taken as zero and
 /// divided out, so a restart on the boundary neither repeats the event nor needs a dead time.

@@ -143,7 +143,7 @@ TEST(Pitfall06_GuardsShareThePolynomials, EachGuardIsTheQuantityItWatches) {
   SamePolynomials same;
   for (const Board& b : {chopping, rubbing}) {
     auto rig = b.rig();
-    ASSERT_EQ(run_to(rig, 20e-3, same), sim::Stop::end);
+    ASSERT_EQ(run_to(rig, 60e-3, same), sim::Stop::end);
   }
   Drivetrain spinning;
   spinning.start.speed_rad_s = 500.0;

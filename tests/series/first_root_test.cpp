@@ -129,6 +129,28 @@ TEST(FirstRoot, FindsNoneWherePositiveThroughout) {
   }
 }
 
+TEST(FirstRoot, ClearsWhateverTheOutlineClears) {
+  std::mt19937_64 random{seed};
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  int cleared = 0, cleared_on_zero = 0;
+  for (int n = 0; n < 50000; ++n) {
+    const int degree = 3 + n % 12;
+    Coefficients<double> c{};
+    const double noise = 1e-14;
+    double rest = 0.0;
+    for (int j = 2; j <= degree; ++j) rest += std::fabs(c[j] = any(random) * std::pow(0.3, j));
+    c[1] = any(random);
+    c[0] = n % 3 == 0 ? 0.4 * noise * any(random) : any(random);
+    if (!stays_above(c[0], c[1], rest, noise)) continue;
+    ++cleared;
+    cleared_on_zero += n % 3 == 0;
+    ASSERT_FALSE(first_root(c, degree, 1.0, noise)) << "seed " << seed << " polynomial " << n;
+    ASSERT_GT(leading(c, degree, noise).sign, 0) << "seed " << seed << " polynomial " << n;
+  }
+  EXPECT_GT(cleared, 1000);
+  EXPECT_GT(cleared_on_zero, 1000);
+}
+
 TEST(FirstRoot, AgreesWithANaiveGrid) {
   std::mt19937_64 random{seed};
   std::uniform_real_distribution<double> any(-1, 1);
