@@ -25,7 +25,7 @@ class CsvWriter {
   std::string pending_;
 };
 
-/// Appends a number in 17 significant digits, which is enough for every double to come back as itself.
+/// Appends a number in as few digits as let it come back as itself, at most 17.
 void append_number(std::string& text, double x);
 
 }  // namespace io

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Watches a run against the laws that hold for every one (MODEL 5): energy in = energy out, currents sum to
-// zero, no diode conducts backwards. Exact integrals of the segments' own polynomials.
+// zero, no diode conducts backwards. Integrals of the segments' own polynomials, to rounding.
 #pragma once
-#include "sixstep/plant/plant.hpp"
+#include "sixstep/plant/segment_energy.hpp"
 
 namespace sixstep::plant {
 
@@ -37,13 +37,23 @@ class Audit {
   const Laws& laws() const { return laws_; }
 
  private:
-  void check_laws(const Plant<Real>& plant, Real s);
-  Real magnetic_energy(const Plant<Real>& plant, Real s) const;
-  Real kinetic_energy(const Plant<Real>& plant, Real s) const;
+  /// What the balance needs of an instant: the stored energies are made of it once, at the end.
+  struct Point {
+    PerLeg<Real> i{};
+    Real w = 0;
+  };
+  static Point end_of(const Expansion<Real>& y, Real s);
+  void begin(const Plant<Real>& plant);
+  void check_laws(const Mode& mode, const PerLeg<Real>& i);
+  Real magnetic_energy(const Point& p) const {
+    return (p.i[0] * p.i[0] + p.i[1] * p.i[1] + p.i[2] * p.i[2]) / (2 * inv_L_);
+  }
+  Real kinetic_energy(const Point& p) const { return p.w * p.w / (2 * inv_J_); }
 
   bool begun_ = false;
+  Real inv_L_ = 1, inv_J_ = 1;
   Real noise_ = 0;  ///< energy of a current and a speed at their noise: less than that cannot be balanced
-  Real magnetic_start_ = 0, kinetic_start_ = 0, magnetic_end_ = 0, kinetic_end_ = 0;
+  Point start_, end_;
   Real supplied_ = 0, copper_ = 0, devices_ = 0, air_gap_ = 0, friction_ = 0, load_ = 0, moved_ = 0;
   Real supplied_low_ = 0, copper_low_ = 0, devices_low_ = 0, air_gap_low_ = 0, friction_low_ = 0,
        load_low_ = 0;
@@ -51,94 +61,73 @@ class Audit {
 };
 
 template <class Real>
-Real Audit<Real>::magnetic_energy(const Plant<Real>& p, Real s) const {
-  const Expansion<Real>& y = p.expansion();
-  Real sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const Real i = series::evaluate(y.i[k], y.degree, s);
-    sum += i * i;
-  }
-  return sum / (2 * p.constants().inv_L);
-}
-
-template <class Real>
-Real Audit<Real>::kinetic_energy(const Plant<Real>& p, Real s) const {
-  const Real w = series::evaluate(p.expansion().w, p.expansion().degree, s);
-  return w * w / (2 * p.constants().inv_J);
-}
-
-template <class Real>
-void Audit<Real>::check_laws(const Plant<Real>& plant, Real s) {
+void Audit<Real>::begin(const Plant<Real>& plant) {
+  const Constants<Real>& c = plant.constants();
   const Expansion<Real>& y = plant.expansion();
-  for (const Real at : {Real(0), s}) {
-    PerLeg<Real> i;
-    for (int k = 0; k < 3; ++k) i[k] = series::evaluate(y.i[k], y.degree, at);
-    laws_.current_sum_A = std::max(laws_.current_sum_A, static_cast<double>(detail::abs(i[0] + i[1] + i[2])));
-    for (int k = 0; k < 3; ++k) {
-      const Connection leg = plant.mode().legs[k];
-      const Real wrong = leg == Connection::low_diode    ? -i[k]
-                         : leg == Connection::high_diode ? i[k]
-                                                         : Real(0);
-      laws_.reverse_diode_A = std::max(laws_.reverse_diode_A, static_cast<double>(wrong));
-      if (is_floating(leg))
-        laws_.floating_current_A = std::max(laws_.floating_current_A, static_cast<double>(detail::abs(i[k])));
-    }
+  begun_ = true;
+  inv_L_ = c.inv_L;
+  inv_J_ = c.inv_J;
+  start_ = {{y.i[0][0], y.i[1][0], y.i[2][0]}, y.w[0]};
+  const Real amp = noise_of(c.amp_scale, Real(1)), speed = noise_of(c.speed_scale, Real(1));
+  noise_ = amp * amp / c.inv_L + speed * speed / c.inv_J;
+}
+
+/// All four series in one pass: their sums do not wait for each other.
+template <class Real>
+typename Audit<Real>::Point Audit<Real>::end_of(const Expansion<Real>& y, Real s) {
+  Real a = 0, b = 0, c = 0, w = 0;
+  for (int j = y.degree; j >= 1; --j) {
+    a = (a + y.i[0][j]) * s;
+    b = (b + y.i[1][j]) * s;
+    c = (c + y.i[2][j]) * s;
+    w = (w + y.w[j]) * s;
+  }
+  return {{y.i[0][0] + a, y.i[1][0] + b, y.i[2][0] + c}, y.w[0] + w};
+}
+
+template <class Real>
+void Audit<Real>::check_laws(const Mode& mode, const PerLeg<Real>& i) {
+  const auto raise = [](double& worst, Real v) { worst = std::max(worst, static_cast<double>(v)); };
+  raise(laws_.current_sum_A, detail::abs(i[0] + i[1] + i[2]));
+  for (int k = 0; k < 3; ++k) {
+    const Connection leg = mode.legs[k];
+    if (is_diode(leg)) raise(laws_.reverse_diode_A, leg == Connection::low_diode ? -i[k] : i[k]);
+    if (is_floating(leg)) raise(laws_.floating_current_A, detail::abs(i[k]));
   }
 }
 
 template <class Real>
 void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
-  using series::add_compensated, series::product_integral, series::integral;
+  using series::add_compensated;
   const Expansion<Real>& y = plant.expansion();
   const Constants<Real>& c = plant.constants();
-  if (!begun_) {
-    begun_ = true;
-    magnetic_start_ = magnetic_energy(plant, Real(0));
-    kinetic_start_ = kinetic_energy(plant, Real(0));
-    const Real amp = noise_of(c.amp_scale, Real(1)), speed = noise_of(c.speed_scale, Real(1));
-    noise_ = amp * amp / c.inv_L + speed * speed / c.inv_J;
-  }
-  check_laws(plant, s);
-  const int n = y.degree;
-  series::Coefficients<Real> dc{};
-  Real copper = 0, devices = 0;
-  for (int k = 0; k < 3; ++k) {
-    const Connection leg = plant.mode().legs[k];
-    if (is_floating(leg)) continue;
-    const Real square = product_integral(y.i[k], y.i[k], n, s);
-    copper += c.R * square;
-    devices += pole_terms<Real>(leg, c.devices).r_ohm * square;
-    if (is_diode(leg)) {
-      const Real charge = integral(y.i[k], n, s);
-      devices += Real(c.devices.V_f_V) * (leg == Connection::low_diode ? charge : -charge);
-    }
-    if (is_high(leg))
-      for (int j = 0; j <= n; ++j) dc[j] += y.i[k][j];
-  }
-  const Real supplied = y.h * product_integral(y.bus, dc, n, s);
-  const Real air_gap = y.h * product_integral(y.torque, y.w, n, s);
-  const Real travel = y.h * integral(y.w, n, s);
-  const Real slide = plant.mode().motion == Motion::forward    ? c.coulomb
-                     : plant.mode().motion == Motion::backward ? -c.coulomb
-                                                               : Real(0);
-  add_compensated(supplied_, supplied_low_, supplied);
-  add_compensated(copper_, copper_low_, y.h * copper);
-  add_compensated(devices_, devices_low_, y.h * devices);
-  add_compensated(air_gap_, air_gap_low_, air_gap);
-  add_compensated(friction_, friction_low_, y.h * c.B * product_integral(y.w, y.w, n, s) + slide * travel);
-  const Real load = c.load * travel;
+  if (!begun_) begin(plant);
+  end_ = end_of(y, s);
+  check_laws(plant.mode(), {y.i[0][0], y.i[1][0], y.i[2][0]});
+  check_laws(plant.mode(), end_.i);
+  const SegmentEnergy<Real> e = segment_energy(plant, s);
+  const Motion motion = plant.mode().motion;
+  const Real slide = motion == Motion::forward    ? c.coulomb
+                     : motion == Motion::backward ? -c.coulomb
+                                                  : Real(0);
+  const Real load = c.load * e.travel;
+  add_compensated(supplied_, supplied_low_, e.supplied);
+  add_compensated(copper_, copper_low_, e.copper);
+  add_compensated(devices_, devices_low_, e.devices);
+  add_compensated(air_gap_, air_gap_low_, e.air_gap);
+  add_compensated(friction_, friction_low_, e.viscous + slide * e.travel);
   add_compensated(load_, load_low_, load);
-  moved_ += detail::abs(supplied) + detail::abs(air_gap) + detail::abs(load);
-  magnetic_end_ = magnetic_energy(plant, s);
-  kinetic_end_ = kinetic_energy(plant, s);
+  moved_ += detail::abs(e.supplied) + detail::abs(e.air_gap) + detail::abs(load);
 }
 
 template <class Real>
 EnergyBook Audit<Real>::energy() const {
-  const Real magnetic = magnetic_end_ - magnetic_start_, kinetic = kinetic_end_ - kinetic_start_;
+  const Real magnetic_start = magnetic_energy(start_), magnetic_end = magnetic_energy(end_);
+  const Real kinetic_start = kinetic_energy(start_), kinetic_end = kinetic_energy(end_);
+  const Real magnetic = magnetic_end - magnetic_start, kinetic = kinetic_end - kinetic_start;
   // A motor that coasts moves no energy through bridge or load; what it stored is then the yardstick.
-  const Real scale = std::max(
-      {moved_, magnetic_start_ + kinetic_start_, magnetic_end_ + kinetic_end_, noise_, Real(1e-300)});
+  const Real scale =
+      std::max({moved_, magnetic_start + kinetic_start, magnetic_end + kinetic_end, noise_, Real(1e-300)});
   const auto d = [](Real v) { return static_cast<double>(v); };
   return {.supplied = d(supplied_),
           .copper = d(copper_),

@@ -270,18 +270,27 @@ bool Plant<Real>::apply(int id) {
 
 template <class Real>
 Snapshot<Real> Plant<Real>::at(Real s) const {
+  using series::evaluate;
   Snapshot<Real> now;
-  const int n = y_.degree;
-  for (int k = 0; k < 3; ++k) now.i[k] = series::evaluate(y_.i[k], n, s);
-  now.speed = series::evaluate(y_.w, n, s);
-  State<Real> then = state_;
-  then.i = now.i;
-  then.w = now.speed;
-  then.x = series::evaluate(y_.x, n, s);
-  now.angle = (static_cast<Real>(state_.sector) * Real(base::sector_rad) + then.x) / constants_.pole_pairs;
-  now.bus = series::evaluate(y_.bus, n, s);
-  now.emf = detail::back_emf(constants_, then, mode_);
-  now.torque = detail::torque(constants_, then, mode_);
+  // One pass for the five series that always move; at the segment's start there is nothing to sum.
+  Real a = 0, b = 0, c = 0, w = 0, x = 0;
+  for (int j = s != 0 ? y_.degree : 0; j >= 1; --j) {
+    a = (a + y_.i[0][j]) * s;
+    b = (b + y_.i[1][j]) * s;
+    c = (c + y_.i[2][j]) * s;
+    w = (w + y_.w[j]) * s;
+    x = (x + y_.x[j]) * s;
+  }
+  now.i = {y_.i[0][0] + a, y_.i[1][0] + b, y_.i[2][0] + c};
+  now.speed = y_.w[0] + w;
+  now.bus = constants_.inv_C > 0 ? evaluate(y_.bus, y_.degree, s) : y_.bus[0];
+  State<Real> unit;  // at speed 1 the back-EMF is its shape, and so is torque at current 1
+  unit.w = 1;
+  unit.x = y_.x[0] + x;
+  const PerLeg<Real> shape = detail::back_emf(constants_, unit, mode_);
+  for (int k = 0; k < 3; ++k) now.emf[k] = now.speed * shape[k];
+  now.torque = shape[0] * now.i[0] + shape[1] * now.i[1] + shape[2] * now.i[2];
+  now.angle = (static_cast<Real>(state_.sector) * Real(base::sector_rad) + unit.x) / constants_.pole_pairs;
   now.pole = pole_voltages(mode_.legs, constants_.devices, now.bus, now.i, now.emf);
   now.bus_current = bus_current(mode_.legs, now.i);
   return now;

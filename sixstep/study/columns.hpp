@@ -3,7 +3,6 @@
 // columns").
 #pragma once
 #include <array>
-#include <limits>
 
 #include "sixstep/base/result.hpp"
 #include "sixstep/study/outcome.hpp"
@@ -49,12 +48,13 @@ enum class ColumnId : std::uint8_t {
 inline constexpr std::size_t column_count = static_cast<std::size_t>(ColumnId::count);
 using FullRow = std::array<double, column_count>;
 
-/// Whether a column means anything in a mode (a duty run has no current reference): others hold NaN.
+/// Whether a column means anything in a mode (a duty run has no current reference): rows hold NaN in others.
 bool applies(ColumnId id, control::Mode mode);
 
-/// Everything there is to say of the rig at the fraction s of its segment, at time t.
+/// Everything there is to say of the rig at the fraction s of its segment, at time t, whether it applies or
+/// not.
 template <class Rig>
-FullRow full_row(const Rig& rig, double s, double t, control::Mode mode) {
+FullRow full_row(const Rig& rig, double s, double t) {
   FullRow row;
   const auto set = [&](ColumnId id, double v) { row[static_cast<std::size_t>(id)] = v; };
   const auto three = [&](ColumnId first, const plant::PerLeg<double>& v) {
@@ -90,8 +90,6 @@ FullRow full_row(const Rig& rig, double s, double t, control::Mode mode) {
   }
   set(ColumnId::hall, plant::hall_code(rig.plant().sector()));
   set(ColumnId::sector, rig.plant().sector());
-  for (std::size_t c = 0; c < column_count; ++c)
-    if (!applies(static_cast<ColumnId>(c), mode)) row[c] = std::numeric_limits<double>::quiet_NaN();
   return row;
 }
 

@@ -26,6 +26,10 @@ class Figures {
   template <class Rig>
   void feed(Figure& figure, const Rig& rig, double s);
   template <class Rig>
+  void feed_magnitude(Gauge& gauge, const Rig& rig, double from, double to);
+  template <class Rig>
+  void feed_part(Gauge& gauge, const Rig& rig, const Series& c, double from, double to);
+  template <class Rig>
   void count_switching(Figure& figure, const Rig& rig, double s);
   double value(const Figure& figure) const;
 
@@ -64,29 +68,46 @@ void Figures::count_switching(Figure& figure, const Rig& rig, double s) {
 
 template <class Rig>
 void Figures::feed(Figure& figure, const Rig& rig, double s) {
-  const auto& y = rig.plant().expansion();
-  const double t0 = rig.now().seconds(), h = y.h;
+  const double t0 = rig.now().seconds(), h = rig.plant().expansion().h;
+  if (figure.measure.sampled) {
+    if (!rig.ticked()) return;
+    const double value = signal_series(rig, figure.measure.signal, {1, 1, 1})[0];
+    for (Gauge& gauge : figure.gauges) gauge.sample(t0, value);
+    return;
+  }
   for (Gauge& gauge : figure.gauges) {
     const Window& window = gauge.window();
-    if (figure.measure.sampled) {
-      if (!rig.ticked()) continue;
-      const Series c = signal_series(rig, figure.measure.signal, {1, 1, 1});
-      gauge.sample(t0, c[0]);
-      continue;
-    }
-    const double from = std::fmax(0.0, (window.from_s - t0) / h), to = std::fmin(s, (window.to_s - t0) / h);
+    const double from = window.from_s > t0 ? (window.from_s - t0) / h : 0.0;
+    const double to = window.to_s - t0 < h ? std::fmin(s, (window.to_s - t0) / h) : s;
     if (!(from < to)) continue;
-    // Half the sum of magnitudes: split where a phase current changes sign.
-    std::vector<double> cuts = {from, to};
-    if (figure.measure.signal == Signal::current_magnitude) cuts = magnitude_cuts(y, from, to);
-    for (std::size_t n = 0; n + 1 < cuts.size(); ++n) {
-      plant::PerLeg<double> sign{};
-      const double middle = (cuts[n] + cuts[n + 1]) / 2;
-      for (int k = 0; k < 3; ++k) sign[k] = series::evaluate(y.i[k], y.degree, middle) < 0 ? -1.0 : 1.0;
-      const Series c = signal_series(rig, figure.measure.signal, sign);
-      gauge.part(series::restricted(c, y.degree, cuts[n], cuts[n + 1]), y.degree, t0 + cuts[n] * h,
-                 (cuts[n + 1] - cuts[n]) * h);
-    }
+    if (gauge.seeks_extremes() && gauge.holds(signal_bounds(rig, figure.measure.signal))) continue;
+    if (figure.measure.signal == Signal::current_magnitude)
+      feed_magnitude(gauge, rig, from, to);
+    else
+      feed_part(gauge, rig, signal_series(rig, figure.measure.signal, {}), from, to);
+  }
+}
+
+template <class Rig>
+void Figures::feed_part(Gauge& gauge, const Rig& rig, const Series& c, double from, double to) {
+  const auto& y = rig.plant().expansion();
+  const double t0 = rig.now().seconds();
+  if (from == 0.0 && to == 1.0)  // most segments
+    gauge.part(c, y.degree, t0, y.h);
+  else
+    gauge.part(series::restricted(c, y.degree, from, to), y.degree, t0 + from * y.h, (to - from) * y.h);
+}
+
+/// Half the sum of magnitudes: split where a phase current changes sign.
+template <class Rig>
+void Figures::feed_magnitude(Gauge& gauge, const Rig& rig, double from, double to) {
+  const auto& y = rig.plant().expansion();
+  const std::vector<double> cuts = magnitude_cuts(y, from, to);
+  for (std::size_t n = 0; n + 1 < cuts.size(); ++n) {
+    plant::PerLeg<double> sign{};
+    const double middle = (cuts[n] + cuts[n + 1]) / 2;
+    for (int k = 0; k < 3; ++k) sign[k] = series::evaluate(y.i[k], y.degree, middle) < 0 ? -1.0 : 1.0;
+    feed_part(gauge, rig, signal_series(rig, Signal::current_magnitude, sign), cuts[n], cuts[n + 1]);
   }
 }
 

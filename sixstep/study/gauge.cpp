@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sixstep/series/extremes.hpp"
+#include "sixstep/series/quadrature.hpp"
 
 namespace sixstep::study {
 
@@ -17,10 +17,12 @@ void Gauge::part(const Series& c, int degree, double t0, double length) {
   if (measure_.sampled) return;
   if (!seen_) step_height(c[0]);
   seen_ = true;
-  last_ = series::evaluate(c, degree, 1.0);
   switch (measure_.metric) {
+    case MetricKind::final_value:
+      last_ = series::evaluate(c, degree, 1.0);
+      return;
     case MetricKind::mean:
-      integral_ += length * series::integral(c, degree, 1.0);
+      integral_ += length * series::whole_integral(c, degree);
       seconds_ += length;
       return;
     case MetricKind::rms:
@@ -33,7 +35,7 @@ void Gauge::part(const Series& c, int degree, double t0, double length) {
     case MetricKind::overshoot: {
       // Most segments cannot move the extremes at all.
       const double reach = series::magnitude_of(c, degree) - std::fabs(c[0]);
-      if (c[0] + reach <= highest_ && c[0] - reach >= lowest_) return;
+      if (holds({c[0] - reach, c[0] + reach})) return;
       const series::Extremes<double> e = series::extremes(c, degree);
       highest_ = std::max(highest_, e.high);
       lowest_ = std::min(lowest_, e.low);

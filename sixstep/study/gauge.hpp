@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "sixstep/series/polynomial.hpp"
+#include "sixstep/series/extremes.hpp"
 #include "sixstep/study/scenario.hpp"
 
 namespace sixstep::study {
@@ -25,6 +25,28 @@ class Gauge {
       : measure_(measure), window_(window), level_(level), start_(start) {}
 
   const Window& window() const { return window_; }
+  /// Whether a signal that stays within these bounds cannot change the result: its part may then be left out.
+  bool holds(const series::Extremes<double>& bounds) const {
+    if (!seen_) return false;
+    const bool high = bounds.high <= highest_, low = bounds.low >= lowest_;
+    switch (measure_.metric) {
+      case MetricKind::maximum:
+        return high;
+      case MetricKind::minimum:
+        return low;
+      case MetricKind::peak_to_peak:
+        return high && low;
+      case MetricKind::overshoot:
+        return sign() > 0 ? high : low;
+      default:
+        return false;
+    }
+  }
+  bool seeks_extremes() const {
+    const MetricKind m = measure_.metric;
+    return m == MetricKind::maximum || m == MetricKind::minimum || m == MetricKind::peak_to_peak ||
+           m == MetricKind::overshoot;
+  }
   /// The signal over [t0, t0 + length], inside the window, as a polynomial of s in [0, 1].
   void part(const Series& c, int degree, double t0, double length);
   /// What the controller sampled (measures with `sampled`).

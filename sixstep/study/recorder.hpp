@@ -3,6 +3,7 @@
 // output and cannot change the run by a bit.
 #pragma once
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -12,86 +13,90 @@ namespace sixstep::study {
 
 using RowSink = std::function<void(std::span<const double>)>;
 
+/// The columns asked for out of the full row; NaN where a column means nothing in this mode.
+class Selection {
+ public:
+  Selection(const std::vector<std::size_t>& columns, control::Mode mode) : row_(columns.size(), nothing) {
+    for (std::size_t n = 0; n < columns.size(); ++n) {
+      if (!applies(static_cast<ColumnId>(columns[n]), mode)) continue;
+      chosen_.push_back({n, columns[n]});
+      row_[n] = 0.0;
+    }
+  }
+  /// True where a number differs from the row before.
+  bool take(const FullRow& full) {
+    bool differs = false;
+    for (const Choice& c : chosen_) {
+      const double v = full[c.column];
+      differs |= (v != row_[c.place]) & (v == v);
+      row_[c.place] = v;
+    }
+    return differs;
+  }
+  std::span<const double> row() const { return row_; }
+
+ private:
+  static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  struct Choice {
+    std::size_t place, column;
+  };
+  std::vector<Choice> chosen_;
+  std::vector<double> row_;
+};
+
 /// Rows at n * grid up to the end of the run, included where it lies on the grid: right limits at a jump.
 class GridRecorder {
  public:
   GridRecorder(std::int64_t grid_ticks, sim::Instant end, control::Mode mode,
-               std::vector<std::size_t> columns, RowSink sink)
-      : grid_(grid_ticks),
-        end_(end),
-        mode_(mode),
-        columns_(std::move(columns)),
-        sink_(std::move(sink)),
-        row_(columns_.size()) {}
+               const std::vector<std::size_t>& columns, RowSink sink)
+      : grid_(grid_ticks), end_(end), selection_(columns, mode), sink_(std::move(sink)) {}
 
   template <class Rig>
   void segment(const Rig& rig, double s) {
     const double length = rig.plant().expansion().h * s;
     const sim::Instant from = rig.now(), to = from.plus_seconds(length);
     for (;;) {
-      const double ahead = sim::seconds_between(from, next_);
       const bool last = next_ == end_ && sim::seconds_between(to, end_) <= 0.5e-12;
       if (!(next_ < to) && !last) return;
-      const double at = length > 0 ? ahead / rig.plant().expansion().h : 0.0;
-      emit(full_row(rig, at < s ? (at > 0 ? at : 0.0) : s, next_.seconds(), mode_));
+      const double at = length > 0 ? sim::seconds_between(from, next_) / rig.plant().expansion().h : 0.0;
+      selection_.take(full_row(rig, at < s ? (at > 0 ? at : 0.0) : s, next_.seconds()));
+      sink_(selection_.row());
       next_.ticks += grid_;
     }
   }
 
  private:
-  void emit(const FullRow& full) {
-    for (std::size_t c = 0; c < columns_.size(); ++c) row_[c] = full[columns_[c]];
-    sink_(row_);
-  }
-
   std::int64_t grid_;
   sim::Instant end_, next_{};
-  control::Mode mode_;
-  std::vector<std::size_t> columns_;
+  Selection selection_;
   RowSink sink_;
-  std::vector<double> row_;
 };
 
 /// Both ends of every segment, and points between where a segment is long against `gap_s`, so that lines
 /// drawn from row to row show the curve. A row equal to the one before is left out.
 class EventRecorder {
  public:
-  EventRecorder(double gap_s, control::Mode mode, std::vector<std::size_t> columns, RowSink sink)
-      : gap_s_(gap_s),
-        mode_(mode),
-        columns_(std::move(columns)),
-        sink_(std::move(sink)),
-        row_(columns_.size()) {}
+  EventRecorder(double gap_s, control::Mode mode, const std::vector<std::size_t>& columns, RowSink sink)
+      : gap_s_(gap_s), selection_(columns, mode), sink_(std::move(sink)) {}
 
   template <class Rig>
   void segment(const Rig& rig, double s) {
     const double h = rig.plant().expansion().h;
-    const int parts = 1 + static_cast<int>(std::fmin(h * s / gap_s_, 1000.0));
+    const double gaps = h * s / gap_s_;
+    const int parts = 1 + static_cast<int>(gaps < 1000.0 ? gaps : 1000.0);
     for (int n = 0; n <= parts; ++n) {
       const double at = s * n / parts;
-      last_s_ =
-          std::fmax(last_s_, rig.now().plus_seconds(at * h).seconds());  // rounding may not turn time back
-      emit(full_row(rig, at, last_s_, mode_));
+      const double t = rig.now().plus_seconds(at * h).seconds();
+      last_s_ = t > last_s_ ? t : last_s_;  // rounding may not turn time back
+      if (selection_.take(full_row(rig, at, last_s_)) || first_) sink_(selection_.row());
+      first_ = false;
     }
   }
 
  private:
-  void emit(const FullRow& full) {
-    bool differs = false;
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      const double v = full[columns_[c]];
-      differs = differs || (v != row_[c] && v == v);
-      row_[c] = v;
-    }
-    if (differs || first_) sink_(row_);
-    first_ = false;
-  }
-
   double gap_s_, last_s_ = 0.0;
-  control::Mode mode_;
-  std::vector<std::size_t> columns_;
+  Selection selection_;
   RowSink sink_;
-  std::vector<double> row_;
   bool first_ = true;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "sixstep/rig/rig.hpp"
@@ -51,6 +52,14 @@ std::vector<double> magnitude_cuts(const Expansion& y, double from, double to) {
   return cuts;
 }
 
+/// The bus current as weights of i_a, i_b, i_c.
+template <class Plant>
+plant::PerLeg<double> bus_current_weights(const Plant& plant) {
+  plant::PerLeg<double> w{};
+  for (int k = 0; k < 3; ++k) w[k] = plant::is_high(plant.mode().legs[k]) ? 1.0 : 0.0;
+  return w;
+}
+
 /// Half the sum of the current magnitudes has kinks where a phase changes sign; within a part of a segment in
 /// which none does, `sign` makes it a polynomial. All other signals ignore `sign`.
 template <class Rig>
@@ -78,11 +87,8 @@ Series signal_series(const Rig& rig, Signal signal, const plant::PerLeg<double>&
       return y.torque;
     case Signal::bus_voltage:
       return y.bus;
-    case Signal::bus_current: {
-      plant::PerLeg<double> w{};
-      for (int k = 0; k < 3; ++k) w[k] = plant::is_high(rig.plant().mode().legs[k]) ? 1.0 : 0.0;
-      return combined(w);
-    }
+    case Signal::bus_current:
+      return combined(bus_current_weights(rig.plant()));
     case Signal::position: {
       Series c = y.x;
       const double degrees = 180.0 / base::pi / rig.plant().constants().pole_pairs;
@@ -92,6 +98,42 @@ Series signal_series(const Rig& rig, Signal signal, const plant::PerLeg<double>&
     }
   }
   return {};
+}
+
+/// Where a signal stays over the whole segment, from the bounds that the expansion comes with: wider than the
+/// curve, and by more than rounding. Without limits where no bound is at hand.
+template <class Rig>
+series::Extremes<double> signal_bounds(const Rig& rig, Signal signal) {
+  const auto& y = rig.plant().expansion();
+  // Sums of up to 16 terms and of three series: rounding is below 32 * 2^-53 of their magnitudes.
+  const auto around = [](double middle, double reach) {
+    const double wide = reach + 0x1p-48 * (std::fabs(middle) + reach);
+    return series::Extremes<double>{middle - wide, middle + wide};
+  };
+  const auto combined = [&](const plant::PerLeg<double>& w) {
+    double middle = 0.0, reach = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      middle += w[k] * y.i[k][0];
+      reach += std::fabs(w[k]) * (y.reach_i[k] + 0x1p-48 * std::fabs(y.i[k][0]));
+    }
+    return around(middle, reach);
+  };
+  switch (signal) {
+    case Signal::current:
+      return combined(motor_current_weights(rig.plant().sector()));
+    case Signal::phase_a:
+      return combined({1.0, 0.0, 0.0});
+    case Signal::phase_b:
+      return combined({0.0, 1.0, 0.0});
+    case Signal::phase_c:
+      return combined({0.0, 0.0, 1.0});
+    case Signal::bus_current:
+      return combined(bus_current_weights(rig.plant()));
+    case Signal::speed:
+      return around(y.w[0], y.reach_w);
+    default:
+      return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  }
 }
 
 }  // namespace sixstep::study

@@ -42,4 +42,85 @@ TEST(Audit, LessEnergyThanANoiseCurrentHoldsIsNotBalanced) {
   laws.expect_all(1e-11);
 }
 
+/// Each segment's integrals beside those of the whole products, all terms of degree 2 n taken.
+struct BesideProducts {
+  struct Worst {
+    double supplied = 0, copper = 0, devices = 0, air_gap = 0, viscous = 0, travel = 0;
+  } worst;
+  std::array<int, 4> connected{};  ///< segments by how many legs were connected
+
+  template <class System>
+  void segment(const System& system, double s) {
+    const plant::Plant<double>& p = system.plant();
+    const plant::Constants<double>& c = p.constants();
+    const plant::Expansion<double>& y = p.expansion();
+    const plant::SegmentEnergy<double> e = plant::segment_energy(p, s), exact = by_products(p, s);
+    const double A = c.amp_scale, V = c.volt_scale, w = c.speed_scale, dt = y.h * s + 1e-300;
+    const auto look = [](double& most, double off) { most = std::max(most, std::fabs(off)); };
+    look(worst.supplied, (e.supplied - exact.supplied) / (V * A * dt));
+    look(worst.copper, (e.copper - exact.copper) / (V * A * dt));
+    look(worst.devices, (e.devices - exact.devices) / (V * A * dt));
+    look(worst.air_gap, (e.air_gap - exact.air_gap) / (c.torque_scale * w * dt));
+    look(worst.viscous, (e.viscous - exact.viscous) / (c.torque_scale * w * dt));
+    look(worst.travel, (e.travel - exact.travel) / (w * dt));
+    ++connected[static_cast<std::size_t>(plant::connected_count(p.mode().legs))];
+  }
+
+  static plant::SegmentEnergy<double> by_products(const plant::Plant<double>& p, double s) {
+    using series::product_integral, series::integral;
+    const plant::Constants<double>& c = p.constants();
+    const plant::Expansion<double>& y = p.expansion();
+    const int n = y.degree;
+    plant::SegmentEnergy<double> e;
+    series::Coefficients<double> dc{};
+    for (int k = 0; k < 3; ++k) {
+      const plant::Connection leg = p.mode().legs[k];
+      if (plant::is_floating(leg)) continue;
+      const double square = product_integral(y.i[k], y.i[k], n, s), charge = integral(y.i[k], n, s);
+      e.copper += y.h * c.R * square;
+      e.devices += y.h * plant::pole_terms<double>(leg, c.devices).r_ohm * square;
+      if (plant::is_diode(leg))
+        e.devices += y.h * c.devices.V_f_V * (leg == plant::Connection::low_diode ? charge : -charge);
+      if (plant::is_high(leg))
+        for (int j = 0; j <= n; ++j) dc[j] += y.i[k][j];
+    }
+    e.supplied = y.h * product_integral(y.bus, dc, n, s);
+    e.air_gap = y.h * product_integral(y.torque, y.w, n, s);
+    e.viscous = y.h * c.B * product_integral(y.w, y.w, n, s);
+    e.travel = y.h * integral(y.w, n, s);
+    return e;
+  }
+};
+
+/// Rounding of values, products and sums stays below 64 eps of scale on both sides. A trapezoid or a sine, a
+/// stiff bus or one behind R and C, real devices throughout.
+TEST(SegmentEnergy, IsThatOfTheWholeProducts) {
+  std::array<int, 4> connected{};
+  for (int n = 0; n < 8; ++n) {
+    SCOPED_TRACE(n);
+    Board b = Board::duty(n % 2 == 0 ? 0.4 : -0.9, n & 2 ? control::Chopping::hard : control::Chopping::soft);
+    b.devices = {.R_on_ohm = 0.02, .V_f_V = 0.7, .r_d_ohm = 0.01};
+    if (n & 4) b.machine.back_emf = plant::BackEmf::sine;
+    if (n % 4 >= 2) b.supply.C_F = 200e-6, b.supply.R_b_ohm = 0.1;
+    b.shaft.coulomb_Nm = n & 1 ? 0.002 : 0.0;
+    b.setpoint(10'000'000'000, 0.1);
+    b.load(5'000'000'000, 0.05);
+    std::stable_sort(b.timeline.begin(), b.timeline.end(),
+                     [](const rig::Action& x, const rig::Action& y) { return x.at < y.at; });
+    auto rig = b.rig();
+    BesideProducts beside;
+    ASSERT_EQ(run_to(rig, 20e-3, beside), sim::Stop::end);
+    constexpr double tolerance = 64 * 0x1p-52;
+    EXPECT_LE(beside.worst.supplied, tolerance);
+    EXPECT_LE(beside.worst.copper, tolerance);
+    EXPECT_LE(beside.worst.devices, tolerance);
+    EXPECT_LE(beside.worst.air_gap, tolerance);
+    EXPECT_LE(beside.worst.viscous, tolerance);
+    EXPECT_LE(beside.worst.travel, tolerance);
+    for (std::size_t k = 0; k < 4; ++k) connected[k] += beside.connected[k];
+  }
+  EXPECT_GT(connected[2], 1000);
+  EXPECT_GT(connected[3], 1000);
+}
+
 }  // namespace

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/series/quadrature.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace {
+
+using namespace sixstep::series;
+using Poly = Coefficients<double>;
+
+constexpr double eps = 0x1p-52;
+constexpr std::uint32_t seed = 11;
+
+/// Integral of s^power over [0, 1] by the formula.
+template <int points>
+long double power_integral(int power) {
+  long double sum = 0;
+  for (int k = 0; k < points; ++k)
+    sum += gauss<points>.weight[k] * std::pow(gauss<points>.node[k], static_cast<long double>(power));
+  return sum;
+}
+
+/// What the formula misses of s^(2 points): (points!)^4 / ((2 points + 1) ((2 points)!)^2).
+long double first_error(int points) {
+  long double root = 1;  // (points!)^2 / (2 points)!
+  for (int k = 1; k <= points; ++k) root *= static_cast<long double>(k) / (points + k);
+  return root * root / (2 * points + 1);
+}
+
+template <int points>
+void expect_gauss() {
+  // Literals of 21 digits are off by 5e-22 at most, a node of s^j j times that; sums of 8 terms, long double.
+  const long double tolerance = 64 * 0x1p-63L;
+  for (int j = 0; j < 2 * points; ++j)
+    EXPECT_NEAR(static_cast<double>(power_integral<points>(j) * (j + 1) - 1), 0.0,
+                static_cast<double>(tolerance * (j + 1)))
+        << points << " points, s^" << j;
+  const int beyond = 2 * points;
+  const long double missed = 1.0L / (beyond + 1) - power_integral<points>(beyond);
+  EXPECT_NEAR(static_cast<double>(missed / first_error(points)), 1.0,
+              static_cast<double>(tolerance / first_error(points)))
+      << "no more is promised: " << points;
+  EXPECT_LT(first_error(points), 1.5708L * std::pow(4.0L, -beyond)) << "points_for() counts on it";
+}
+
+TEST(Gauss, IsExactUpToItsDegreeAndMissesTheNextByWhatTheoryKnows) {
+  expect_gauss<3>();
+  expect_gauss<4>();
+  expect_gauss<5>();
+  expect_gauss<6>();
+  expect_gauss<7>();
+  expect_gauss<8>();
+}
+
+TEST(Gauss, LiteralsAreTheDoublesNearestToThem) {
+  // A long double of 64 or 113 bits on its way to a double must not decide a bit: they are not near a tie.
+  const auto far_from_tie = [](long double v) {
+    const double d = static_cast<double>(v);
+    const long double ulp = std::nextafter(d, 2.0) - d;
+    return std::fabs(std::fabs((v - d) / ulp) - 0.5L) > 0x1p-9L;
+  };
+  for (const int degree : {6, 8, 10, 12, 14, 16})
+    with_points_for(degree, [&]<int points>() {
+      EXPECT_EQ(points, degree / 2);
+      for (const long double v : gauss<points>.node) EXPECT_TRUE(far_from_tie(v)) << static_cast<double>(v);
+      for (const long double v : gauss<points>.weight) EXPECT_TRUE(far_from_tie(v)) << static_cast<double>(v);
+    });
+}
+
+/// Taylor series of a solution: c_j = a_j x^j/j!, |a_j| <= 1, the last at rounding level, as the engine ends
+/// it.
+Poly solution_series(std::mt19937_64& random, int degree) {
+  std::uniform_real_distribution<double> any(-1, 1);
+  double rate = 0x1p-53;
+  for (int j = 1; j <= degree; ++j) rate *= j;
+  rate = std::pow(rate, 1.0 / degree);
+  Poly c{};
+  double term = 1;
+  for (int j = 0; j <= degree; ++j, term *= rate / j) c[j] = any(random) * term;
+  return c;
+}
+
+TEST(Gauss, AFewPointsAreEnoughForProductsOfSolutions) {
+  std::mt19937_64 random{seed};
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int n = 0; n < 20000; ++n) {
+    const int degree = 7 + static_cast<int>(random() % 10);
+    const Poly a = solution_series(random, degree), b = solution_series(random, degree);
+    const double to = n % 2 == 0 ? 1.0 : unit(random);
+    const double sum = with_points_for(degree, [&]<int points>() {
+      const auto s = nodes_up_to<points>(to);
+      return to * weighted_sum<points>(values_at<points>(a, degree, s), values_at<points>(b, degree, s));
+    });
+    // Values to 4 eps each (terms fall quickly), products and sums as many again, against the scale 1.
+    EXPECT_NEAR(sum, product_integral(a, b, degree, to), 16 * eps) << "seed " << seed << " pair " << n;
+  }
+}
+
+TEST(Gauss, OnePointFewerWouldNotDo) {
+  // cosh-like series without alternating signs, at degree 8: 3 points leave what 4 do not.
+  Poly c{};
+  double rate = std::pow(0x1p-53 * 40320, 1.0 / 8), term = 1;
+  for (int j = 0; j <= 8; ++j, term *= rate / j) c[j] = term;
+  const auto error = [&]<int points>() {
+    const auto v = values_at<points>(c, 8, nodes_up_to<points>(1.0));
+    return std::fabs(weighted_sum<points>(v, v) - product_integral(c, c, 8, 1.0));
+  };
+  EXPECT_LT(error.operator()<4>(), 16 * eps);
+  EXPECT_GT(error.operator()<3>(), 64 * eps);
+}
+
+TEST(WholeIntegral, AgreesWithTheDivisions) {
+  std::mt19937_64 random{seed};
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int n = 0; n < 2000; ++n) {
+    const int degree = static_cast<int>(random() % (max_degree + 1));
+    Poly c{};
+    for (int j = 0; j <= degree; ++j) c[j] = any(random);
+    // Two roundings per term and one per sum, both ways, of at most 1 + 1/2 + .. + 1/17 < 3.5.
+    EXPECT_NEAR(whole_integral(c, degree), integral(c, degree, 1.0), (degree + 3) * 3.5 * eps)
+        << "seed " << seed << " polynomial " << n;
+  }
+  EXPECT_EQ(whole_integral<double>({1.0, -2.0, 3.0}, 2), 1.0);
+}
+
+}  // namespace
