@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/board.hpp"
 #include "tests/support/laws.hpp"
 
@@ -121,6 +123,29 @@ TEST(SegmentEnergy, IsThatOfTheWholeProducts) {
   }
   EXPECT_GT(connected[2], 1000);
   EXPECT_GT(connected[3], 1000);
+}
+
+/// Beyond the instant at which a diode's current ends its series goes on with the wrong sign. A watch that
+/// sees nothing there would see nothing anywhere.
+TEST(Audit, SeesADiodeThatConductsBackwards) {
+  for (const bool high : {true, false}) {
+    Drivetrain setup;
+    setup.shaft.locked = true;
+    setup.start.angle_rad = 0.02;
+    Held<> bench(setup, a_to_b());
+    ASSERT_EQ(bench.run_to(10e-6), sim::Stop::end);
+    // One diode beside a switch against the whole bus: into b's upper one, or out of a's lower one.
+    bench.plant().set_gates(high ? gates({}, {true, false, false}) : gates({false, true, false}, {}));
+    const double i_0 = bench.state().i[0], length = bench.plant().expand(30e-6);
+    const double exact =
+        i_0 * std::exp(-length / setup.tau()) + 24.0 / setup.R_tt() * std::expm1(-length / setup.tau());
+    ASSERT_LT(exact, -0.1);
+    plant::Audit<double> audit;
+    audit.segment(bench.plant(), 0.2);
+    EXPECT_EQ(audit.laws().reverse_diode_A, 0.0) << high;
+    audit.segment(bench.plant(), 1.0);
+    EXPECT_NEAR(audit.laws().reverse_diode_A, -exact, 32 * eps * i_0) << high;
+  }
 }
 
 }  // namespace

@@ -55,6 +55,28 @@ TEST(CoastDown, SpeedFallsExponentiallyWithViscousFriction) {
   EXPECT_EQ(laws.highest_current_A(), 0.0);
 }
 
+/// A snapshot within a segment, where the state still stands at its beginning.
+struct Between {
+  double worst = 0.0;
+  void segment(const Held<>& bench, double s) {
+    const auto& plant = bench.plant();
+    for (const double part : {0.0, 0.3, 1.0}) {
+      const double later_s = bench.now().seconds() + part * s * plant.expansion().h;
+      worst = std::fmax(worst, std::fabs(plant.at(part * s).angle - 400.0 * later_s));
+    }
+  }
+};
+
+TEST(CoastDown, SnapshotsTurnWithTheRotor) {
+  Drivetrain setup;
+  setup.shaft.B_Nm_s = 0.0;
+  setup.start.speed_rad_s = 400.0;
+  Held<> bench(setup, all_off());
+  Between between;
+  ASSERT_EQ(bench.run_to(10e-3, between), Stop::end);
+  EXPECT_LE(between.worst, 8 * eps * 4.0);
+}
+
 TEST(ShortCircuitBrake, TurnsMotionIntoHeatAndTakesNothingFromTheBus) {
   Drivetrain setup;
   setup.start.speed_rad_s = 600.0;

@@ -59,6 +59,43 @@ TEST(Rail, RealDiodeConductsWhereTheEmfReachesItsDrop) {
               32 * eps * at_electrical_deg(330.0) / 400.0);
 }
 
+/// a's lower switch holds a, whose EMF is the lowest, while b's top stands at 2 K_e w: b stays where it is
+/// and the rail comes down to it, U_s = V_0 + (U_s(0) - V_0) exp(-t/(R_b C)).
+TEST(Rail, AFallingRailMeetsTheTerminalAtTheClosedFormInstant) {
+  Drivetrain setup;
+  setup.shaft = {.J_kg_m2 = 1e9};
+  setup.devices.V_f_V = 0.7;
+  setup.supply = {.V_0_V = 24.0, .R_b_ohm = 0.05, .C_F = 1e-3};
+  setup.start = {.speed_rad_s = 30.0 / (2 * setup.machine.K_e_V_s),
+                 .angle_rad = at_electrical_deg(181.0),
+                 .bus_V = 48.0};
+  Held<> bench(setup, gates({}, {true, false, false}));
+  ASSERT_EQ(bench.run_to(0.1e-3), Stop::end);
+  const double RC = 0.05 * 1e-3, left_V = 30.0 - 0.7 - 24.0, exact = RC * std::log(24.0 / left_V);
+  const double noise_V = plant::noise_of(bench.plant().constants().volt_scale, 1.0);
+  EXPECT_NEAR(first_s(bench, plant::guard::high_rail, plant::guard::free_star), exact,
+              2 * noise_V * RC / left_V + 16 * eps * exact);
+}
+
+/// The third leg stands beyond the rail by half of the diode's drop: it floats from the first, and nothing
+/// has to be found out by an event.
+TEST(Rail, ATerminalWithinTheDropFloatsAtOnce) {
+  for (const bool high : {true, false}) {
+    Drivetrain setup;
+    setup.devices.V_f_V = 0.7;
+    // c on its top against the mean of a's bottom and b's zero (or mirrored): 1.5 K_e w beyond the rail.
+    setup.start = {.speed_rad_s = 0.35 / (1.5 * setup.machine.K_e_V_s),
+                   .angle_rad = at_electrical_deg(high ? 270.0 : 90.0),
+                   .bus_V = 24.0};
+    const std::array<bool, 3> both{true, true, false};
+    Held<> bench(setup, high ? gates(both, {}) : gates({}, both));
+    ASSERT_EQ(bench.run_to(10e-6), Stop::end);
+    EXPECT_TRUE(bench.events.empty()) << high;
+    EXPECT_EQ(bench.plant().diodes_started(), 0) << high;
+    EXPECT_EQ(bench.state().i[2], 0.0) << high;
+  }
+}
+
 TEST(FreeStar, ConductsOnlyAboveTheBus) {
   // 2 K_e w against U_s + 2 V_f, a part in 1e9 below and above.
   for (const double V_f : {0.0, 0.7}) {
@@ -91,6 +128,32 @@ TEST(Rectifier, BrakesTheRotorToTheSpeedOfTheBusAndFeedsIt) {
   EXPECT_LT(bench.state().w, w_bus) << "friction takes the rest";
   EXPECT_LT(laws.audit().energy().supplied, 0.0);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(bench.state().i[k], 0.0);
+}
+
+/// Legs that had no current and now have a diode, counted from segment to segment.
+struct Starts {
+  plant::Legs before{};
+  int low = 0, high = 0;
+  void segment(const Held<>& bench, double s) {
+    if (!(s > 0)) return;
+    const plant::Legs& legs = bench.plant().mode().legs;
+    for (int k = 0; k < 3; ++k) {
+      low += plant::is_floating(before[k]) && legs[k] == plant::Connection::low_diode;
+      high += plant::is_floating(before[k]) && legs[k] == plant::Connection::high_diode;
+    }
+    before = legs;
+  }
+};
+
+TEST(Rectifier, CountsTheStartsOfUpperAndLowerDiodes) {
+  Drivetrain setup;
+  setup.start.speed_rad_s = 900.0;
+  Held<> bench(setup, all_off());
+  Starts starts;
+  ASSERT_EQ(bench.run_to(20e-3, starts), Stop::end);
+  EXPECT_GT(starts.low, 0);
+  EXPECT_GT(starts.high, 0);
+  EXPECT_EQ(bench.plant().diodes_started(), starts.low + starts.high);
 }
 
 TEST(Rectifier, BackwardsItDoesTheSame) {

@@ -63,6 +63,18 @@ TEST(Pitfall08_Sticking, BreakawayInstantIsInClosedForm) {
   }
 }
 
+/// At rest with all legs on switches there is nothing to settle but the motion: a load beyond the friction
+/// moves the rotor at once, and no breakaway is left to be located.
+TEST(Pitfall08_Sticking, ALoadBeyondItIsNoEvent) {
+  for (const double load : {0.05, -0.05}) {
+    Held<> bench(dry(0.005), all_low());
+    bench.plant().set_load(load);
+    ASSERT_EQ(bench.run_to(1e-3), Stop::end);
+    EXPECT_LT(bench.state().w * load, 0.0);
+    EXPECT_TRUE(bench.events.empty()) << load;
+  }
+}
+
 TEST(Friction, StaticTorqueHoldsWhatSlidingFrictionWouldNot) {
   Held<> held(dry(0.05, 0.08), all_off()), slides(dry(0.05), all_off());
   for (Held<>* bench : {&held, &slides}) {

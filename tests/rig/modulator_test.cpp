@@ -122,6 +122,35 @@ TEST(Modulator, AReversalWaitsWhereTheSourceWasTheSink) {
   }
 }
 
+TEST(Modulator, AHardSinkWaitsWithItsSourceAtAReversal) {
+  Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  m.start_period(at(0), command(1.0, Chopping::hard));
+  m.act(at(1'000'000));
+  m.start_period(at(period), command(1.0, Chopping::hard, {Leg::b, Leg::a}));
+  EXPECT_EQ(on(m), "") << "both switches of the pair are one";
+}
+
+TEST(Modulator, TheFirstTurnOnOfTheLowerSwitchWaitsToo) {
+  for (const bool centred : {false, true}) {
+    Modulator m{ModulatorConfig{.centre_aligned = centred, .dead_ticks = 1e6}};
+    m.start_period(at(0), command(centred ? 0.5 : 0.0, Chopping::complementary));
+    EXPECT_EQ(on(m), "b-") << centred;
+    EXPECT_EQ(do_next(m), at(1'000'000)) << centred;
+    EXPECT_EQ(on(m), "a-b-") << centred;
+  }
+}
+
+TEST(Modulator, AHysteresisThatWasOffWakesOn) {
+  Modulator m{ModulatorConfig{}};
+  m.start_period(at(0), compared(Watch::motor, Chopping::soft, 5.0));
+  m.comparator_tripped(at(1'000), 0);
+  EXPECT_EQ(on(m), "b-");
+  m.start_period(at(period), {});
+  EXPECT_EQ(on(m), "");
+  m.start_period(at(2 * period), compared(Watch::motor, Chopping::soft, 5.0));
+  EXPECT_EQ(on(m), "a+b-");
+}
+
 TEST(Modulator, AHallEdgeMovesTheStateAsItIs) {
   Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(0.5, Chopping::complementary));

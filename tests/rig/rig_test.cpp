@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/board.hpp"
 
 namespace {
@@ -29,6 +31,36 @@ TEST(Rig, DelayedCommandTakesEffectOnePeriodAfterItsSample) {
   EXPECT_EQ(rig.modulator().command().duty, 0.5) << "not yet in effect";
   ASSERT_EQ(run_to(rig, 331 * us), sim::Stop::end);
   EXPECT_EQ(rig.modulator().command().duty, 0.25);
+}
+
+TEST(Rig, ADelayedHysteresisWaitsForItsSampleToo) {
+  // A step between two samples is seen at 60 us and takes effect at 90 us; only without delay is it followed
+  // at once.
+  for (const bool delayed : {true, false}) {
+    Board b = Board::hysteresis(5.0, 0.2, Chopping::soft);
+    b.board.delayed = delayed;
+    b.setpoint(45'000'000, 8.0);
+    auto rig = b.rig();
+    for (const double t_us : {46.0, 61.0, 89.0, 91.0}) {
+      ASSERT_EQ(run_to(rig, t_us * us), sim::Stop::end);
+      const double reference = delayed && t_us < 90.0 ? 5.0 : 8.0;
+      EXPECT_DOUBLE_EQ(rig.modulator().command().off_above_A, reference + 0.2) << t_us;
+    }
+  }
+}
+
+TEST(Rig, ThePositionCountsDegreesOfTheShaftOverTurns) {
+  Board b;
+  b.drive.mode = control::Mode::position;
+  b.drive.position_gain = 1.0;
+  b.drive.speed_limit_rad_s = 1e6;
+  b.shaft.locked = true;
+  for (const double deg : {5.0, 40.0, 400.0, -40.0}) {
+    b.start.angle_rad = at_electrical_deg(8 * deg);
+    auto rig = b.rig();
+    ASSERT_EQ(run_to(rig, 1 * us), sim::Stop::end);
+    EXPECT_NEAR(rig.telemetry().speed_reference_rad_s, -deg, 8 * eps * std::fabs(deg)) << deg;
+  }
 }
 
 /// Steady speed with the first edge at 40 us, between two ticks.

@@ -151,6 +151,34 @@ TEST(Pitfall07_ZeroLengthSteps, AreLegal) {
   EXPECT_EQ(run.segments, 2);
 }
 
+/// Its only guard is below zero from the start, until so many events have been applied.
+struct Stuttering {
+  using Real = double;
+  int left;
+  Instant at{};
+
+  Instant now() const { return at; }
+  Instant next_known() const { return Instant::never(); }
+  bool act() { return true; }
+  double expand(double h) { return h; }
+  template <class Visit>
+  void guards(Visit&& visit) const {
+    visit(0, series::Coefficients<double>{left > 0 ? -1.0 : 1.0}, 1, eps);
+  }
+  void advance(double, const Instant& to) { at = to; }
+  void apply(int) { --left; }
+};
+
+TEST(Pitfall07_ZeroLengthSteps, AHundredAreLegalOneMoreIsNot) {
+  sim::NoObserver none;
+  for (const int events : {sim::stalled_limit, sim::stalled_limit + 1}) {
+    Stuttering system{events};
+    const sim::Run run = sim::run(system, Instant{1000, 0.0}, none);
+    EXPECT_EQ(run.stop, events == 100 ? Stop::end : Stop::no_progress);
+    EXPECT_EQ(run.segments, 101);
+  }
+}
+
 TEST(Run, KnownSwitchingsGiveTheClosedForm) {
   Chopped circuit;
   sim::NoObserver none;

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Below the last bit: the remainders of the running sums, and states so small that they could be taken for
+// noise.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/maxon.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+
+Drivetrain rectifying() {
+  Drivetrain setup;
+  setup.start.speed_rad_s = 900.0;  // 2 K_e w = 30.15 V: two and three diodes by turns
+  return setup;
+}
+
+/// What the currents' remainders add up to, beside what one rounding of their sum explains.
+struct Sums {
+  double beyond_rounding = 0, largest = 0;
+  int with_three = 0;
+  template <class System>
+  void segment(const System& system, double) {
+    const auto& low = system.state().i_low;
+    const double size = std::fabs(low[0]) + std::fabs(low[1]) + std::fabs(low[2]);
+    beyond_rounding = std::fmax(beyond_rounding, std::fabs(low[0] + low[1] + low[2]) - eps * size);
+    largest = std::fmax(largest, size);
+    with_three += plant::connected_count(system.plant().mode().legs) == 3;
+  }
+};
+
+TEST(Remainders, OfTheCurrentsSumToZeroAsTheCurrentsDo) {
+  Held<> bench(rectifying(), all_off());
+  Sums sums;
+  ASSERT_EQ(bench.run_to(20e-3, sums), sim::Stop::end);
+  EXPECT_GT(sums.largest, 0.0);
+  EXPECT_GT(sums.with_three, 0);
+  EXPECT_LE(sums.beyond_rounding, 0.0);
+}
+
+/// The angle behind each edge that was passed.
+struct Edges {
+  int passed = 0;
+  std::size_t seen = 0;
+  template <class System>
+  void segment(const System& system, double) {
+    if (system.events.size() == seen) return;
+    seen = system.events.size();
+    if (system.events.back().id != plant::guard::edge_ahead) return;
+    ++passed;
+    EXPECT_EQ(system.state().x, 0.0);
+    EXPECT_EQ(system.state().x_low, 0.0);
+  }
+};
+
+TEST(Remainders, AnEdgeSetsTheAngleAndLeavesNone) {
+  Held<> bench(rectifying(), all_off());
+  Edges edges;
+  ASSERT_EQ(bench.run_to(5e-3, edges), sim::Stop::end);
+  EXPECT_GT(edges.passed, 10);
+}
+
+/// A current through switches may be as small as it likes: only where a diode could take it is less than the
+/// noise nothing.
+TEST(Remainders, ACurrentThroughSwitchesIsNeverTakenForNone) {
+  Drivetrain setup;
+  setup.start.angle_rad = 0.02;
+  Held<> bench(setup, a_to_b());
+  sim::NoObserver none;
+  for (int n = 1; n <= 3; ++n) {
+    ASSERT_EQ(sim::run(bench, sim::Instant{0, n * 0x1p-20}, none).stop, sim::Stop::end);
+    const double t = n * 0x1p-20 / sim::ticks_per_second;
+    const double exact = -24.0 / setup.R_tt() * std::expm1(-t / setup.tau());
+    ASSERT_LT(exact, plant::noise_of(bench.plant().constants().amp_scale, 1.0));
+    EXPECT_NEAR(bench.state().i[0], exact, 8 * eps * exact);
+    bench.plant().set_load(0.0);  // the mode is asked for again
+  }
+}
+
+}  // namespace

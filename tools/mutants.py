@@ -1,0 +1,207 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Do the tests notice when the engine is wrong? Each entry of the table breaks one line in the way a tired engineer
+would; a law or an analytic test must fail. By hand, not in CI; minutes:
+
+    tools/mutants.py              all of them; exits non-zero where one survives
+    tools/mutants.py 7 12         these only
+    tools/mutants.py --list       the table, with the lines it stands on
+
+All mutants are built at once into a copy under build/mutants, each behind a switch that the environment turns, so the
+tree stays as it is. Left out are the digests and the reference cases: a golden value notices everything and explains
+nothing. The tool fails where a text of the table is no longer found exactly once: then the entry has to follow the code.
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+root = Path(__file__).resolve().parent.parent
+work = root / "build" / "mutants"
+programs = ("series", "sim", "plant", "rig", "study", "fuzz")
+limit_s = 60  # the whole of a program takes seconds; a mutant may well run for ever
+
+# (file under sixstep/, text with the part to be replaced in « », what replaces it). The part is an expression, or
+# one statement with its semicolon; an empty replacement takes the statement away.
+# Not here, because another line gives the same result: the length that useful_length() proposes (the series' own end
+# decides), near_root() (a guess), the order in which settle() tries motions and sources (one alone is consistent), act()
+# looking at the comparators after every segment (a guard below zero is an event at once).
+table = [
+    ("plant/recurrences.hpp", "motion == Motion::backward ? «-c.coulomb»", "c.coulomb"),
+    ("plant/recurrences.hpp", "y.phi0[n + 1] = «-f * rotor.pole_pairs * w1»", "-f * w1"),
+    ("plant/recurrences.hpp", "law.connected == 3 ? «high(0) - high(2)» :", "high(0) - high(1)"),
+    ("plant/recurrences.hpp", "dc_i_2 = law.connected == 3 ? «high(1) - high(2)»", "high(1)"),
+    ("plant/recurrences.hpp", "from_square(«pair.from_w1 * c.inv_pole_pairs»)", "pair.from_w1"),
+    ("plant/recurrences.hpp", "m_iw = «a * b + b * e»", "a * b + b * a"),
+    ("plant/recurrences.hpp", "Real(«1.0L / (n * (n + 1))»)", "1.0L / ((n + 1) * (n + 2))"),
+    ("plant/recurrences.hpp", "const bool turns = «mode.motion != Motion::locked && mode.motion != Motion::stuck»",
+     "mode.motion != Motion::locked"),
+    ("plant/recurrences.hpp", "torque_1b = «f.rise[1] - f.rise[2]»", "f.rise[1] - f.rise[0]"),
+    ("plant/recurrences.hpp", "-rate_1 * («f.rise[1] - mean_1»)", "f.rise[1]"),
+    ("plant/recurrences.hpp", "of = {y.reach_i, y.reach_i_2, «y.reach_i + y.reach_i_2»}", "y.reach_i_2"),
+    ("plant/expand.hpp", "out.reach_x = «c.pole_pairs * out.h * (abs(out.w[0]) + r.y.reach_w)»",
+     "c.pole_pairs * out.h * abs(out.w[0])"),
+    ("plant/expand.hpp", "for (int j = 0; j < «n - 1»; ++j) b /= 2", "n"),
+    ("plant/expand.hpp", "const bool flat = «piece.beta[law.leg[0]] == piece.beta[law.leg[1]]»",
+     "piece.beta[law.leg[0]] == 0"),
+    ("plant/legs_law.hpp", ".i = «(b.r_ohm - a.r_ohm) / 2»", "(a.r_ohm - b.r_ohm) / 2"),
+    ("plant/legs_law.hpp", ".i_2 = «own(2) - own(1)»", "own(2) - own(0)"),
+    ("plant/legs_law.hpp", "(«2 * R + a.r_ohm + b.r_ohm»)", "2 * R + 2 * a.r_ohm"),
+    ("plant/pole.hpp", "m = «law.connected == 1 ? j : law.leg[1]»", "law.leg[1]"),
+    ("plant/pole.hpp", "(c.sine ? «w + (abs(y.w[0]) + w) * x» : w)", "w"),
+    ("plant/pole.hpp", "tail += «(abs(law.bus) + 1)»", "abs(law.bus)"),
+    ("plant/pole.hpp", "(«abs(y.w[0]) * x + phi1 * w + w * x»)", "phi1 * w + w * x"),
+    ("plant/guards.hpp", "Real(-1), «c.breakaway + c.load»", "c.breakaway - c.load"),
+    ("plant/guards.hpp", "g[0] += «2 * Real(c.devices.V_f_V)»", "Real(c.devices.V_f_V)"),
+    ("plant/guards.hpp", "if («y.x[0] - piece.from <= tail + noise»)", "y.x[0] <= tail + noise"),
+    ("plant/guards.hpp", "high = «y.bus[0] + V_f - start <= reach»", "y.bus[0] + 2 * V_f - start <= reach"),
+    ("plant/settle.hpp", "below_high = «q.state.bus + V_f - free»", "q.state.bus - free"),
+    ("plant/settle.hpp", "judge(«free + V_f», noise)", "free"),
+    ("plant/settle.hpp", "ok = ok && «series::leading(g, degree, noise).sign >= 0»",
+     "series::leading(g, degree, noise).sign > 0"),
+    ("plant/settle.hpp", "at_rest = «q.constants.dry_friction && q.state.w == 0»", "false"),
+    ("plant/settle.hpp", "Judgement::holds && «!q.series_only») return true", "true"),
+    ("plant/plant.hpp", "q.i_low[third] = «-(q.i_low[first] + q.i_low[second])»", "Real(0)"),
+    ("plant/plant.hpp", "«state_.x_low = 0;»", ""),
+    ("plant/plant.hpp", "doubted_ = «s == 0»", "false"),
+    ("plant/plant.hpp", "state_.i_low[k] = «-state_.i_low[j]»", "Real(0)"),
+    ("plant/plant.hpp", "«tiny &= ~static_cast<unsigned>((gates_.high | gates_.low).to_ulong());»", ""),
+    ("plant/plant.hpp", "state_.x = ahead ? «piece.from» : piece.to", "Real(0)"),
+    ("plant/plant.hpp", "Real(base::sector_rad) + «then.x»", "state_.x"),
+    ("plant/plant.hpp", "c.breakaway = «std::max(c.coulomb, Real(shaft.static_Nm))»", "c.coulomb"),
+    ("plant/plant.hpp", "int{is_floating(before[k])} & «int{is_diode(mode_.legs[k])}»",
+     "int{mode_.legs[k] == Connection::low_diode}"),
+    ("plant/back_emf.hpp", "«(bound[b] + bound[b + 1]) / 2»", "bound[b]"),
+    ("plant/back_emf.hpp", "distance >= «Real(180) - half»", "Real(180)"),
+    ("plant/circuit.hpp", "return «(U_s - highest - lowest) / Real(2)»", "(U_s + highest + lowest) / Real(2)"),
+    ("plant/audit.hpp", "motion == Motion::backward ? «-c.coulomb»", "c.coulomb"),
+    ("plant/audit.hpp", "leg == Connection::low_diode    ? «-i[k]»", "Real(0)"),
+    ("plant/audit.hpp", "(leg == Connection::low_diode ? charge : «-charge»)", "charge"),
+    ("series/polynomial.hpp", "for (int j = «(n - 1) / 2 - n % 2»;", "(n - 1) / 2"),
+    ("series/polynomial.hpp", "for (int n = «2 * degree»;", "2 * degree - 1"),
+    ("series/polynomial.hpp", "low = «term - (sum - y)»", "dy - (sum - y)"),
+    ("series/polynomial.hpp", "j = degree - 1; «j >= level»", "j > level"),
+    ("series/first_root.hpp", "for (int j = 2; «j <= degree»; j += 2)", "j < degree"),
+    ("series/first_root.hpp", "slope_rest + «static_cast<Real>(j)»", "static_cast<Real>(j - 1)"),
+    ("series/first_root.hpp", "1e-10L : «1e-8L»", "1e-4L"),
+    ("sim/run.hpp", "root && («*root < first || event < 0»)", "*root <= first"),
+    ("sim/run.hpp", "if («stalled > stalled_limit»)", "stalled >= stalled_limit"),
+    ("sim/run.hpp", "reached = «event < 0 && length == wanted»", "event < 0"),
+    ("sim/run.hpp", "observer.segment(system, «first»)", "Real(1)"),
+    ("sim/instant.hpp", "if («later.offset >= 1.0»)", "later.offset > 1.0"),
+    ("sim/instant.hpp", "& «(a.offset < b.offset)»", "(a.offset <= b.offset)"),
+    ("sim/instant.hpp", "static_cast<double>(to.ticks - from.ticks) + «(to.offset - from.offset)»", "0.0"),
+    ("sim/instant.hpp", "std::floor(«seconds * ticks_per_second + 0.5»)", "seconds * ticks_per_second"),
+    ("rig/rig.hpp", "acted = «do_timeline() || do_tick()»", "do_tick() || do_timeline()"),
+    ("rig/rig.hpp", "if («now_ < due_ && !moved_ && !watching»)", "now_ < due_ && !watching"),
+    ("rig/rig.hpp", "«std::swap(reversed, pending_reversed_);»", ""),
+    ("rig/rig.hpp", "«pending_.pair = answer.pair;»", ""),
+    ("rig/rig.hpp", "same_sign = «drive_state_.reversed == reversed_»", "true"),
+    ("rig/rig.hpp", "due = «(timeline_[n].at.ticks + period - 1) / period * period»",
+     "(timeline_[n].at.ticks + period) / period * period"),
+    ("rig/rig.hpp", "if (continuous && «!board_.delayed»)", "true"),
+    ("rig/rig.hpp", "* 60 + «s.x * Real(180) / Real(base::pi)»", "s.x"),
+    ("rig/modulator.cpp", "sink_on_ : «source_on_ && !dead_»", "source_on_"),
+    ("rig/modulator.cpp", "std::floor(«ticks / config_.timer_ticks + 0.5»)", "ticks / config_.timer_ticks"),
+    ("rig/modulator.cpp", "if («source_on_ == on && !(on && leg_changed && waits)»)", "source_on_ == on"),
+    ("rig/modulator.cpp", "«after.low & ~before.low»", "after.low"),
+    ("rig/modulator.cpp", "wakes = command.enabled && («!started_ || !command_.enabled»)", "!started_"),
+    ("rig/modulator.cpp", "if («config_.dead_ticks > 0» && command.chopping == Chopping::complementary)", "false"),
+    ("rig/modulator.cpp", "command.watch != Watch::none && leg_changed_ && «source_on_»", "true"),
+]
+
+switch = """#pragma once
+#include <cstdlib>
+#include <type_traits>
+inline const int sixstep_mutant = std::getenv("SIXSTEP_MUTANT") ? std::atoi(std::getenv("SIXSTEP_MUTANT")) : 0;
+constexpr bool mutant_is(int n) { return !std::is_constant_evaluated() && sixstep_mutant == n; }
+"""
+
+
+def place(name, marked):
+    """Where the marked part stands in the file: (begin, end, line)."""
+    before, old, after = re.split("[«»]", marked)
+    text = (root / "sixstep" / name).read_text()
+    if text.count(before + old + after) != 1:
+        sys.exit(f"sixstep/{name}: found {text.count(before + old + after)} times, not once: {before + old + after}")
+    begin = text.index(before + old + after) + len(before)
+    return begin, begin + len(old), text.count("\n", 0, begin) + 1
+
+
+def broken(name):
+    """The file's text with all its mutants behind switches. Several may share one place."""
+    text = (root / "sixstep" / name).read_text()
+    places = {}
+    for number, (file, marked, new) in enumerate(table, 1):
+        if file == name:
+            places.setdefault(place(file, marked)[:2], []).append((number, new))
+    for (begin, end), mutants in sorted(places.items(), reverse=True):
+        part = text[begin:end]
+        for number, new in mutants:
+            part = (f"if (mutant_is({number})) {{ {new} }} else {{ {part} }}" if part.endswith(";") else
+                    f"(mutant_is({number}) ? ({new}) : ({part}))")
+        text = text[:begin] + part + text[end:]
+    return text
+
+
+def build():
+    source = work / "source"
+    files = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=root, check=True, capture_output=True, text=True)
+    copied = {file: (root / file).read_bytes() for file in files.stdout.split() if (root / file).is_file()}
+    copied |= {f"sixstep/{name}": broken(name).encode() for name, _, _ in table} | {"switch.hpp": switch.encode()}
+    for file, text in copied.items():
+        copy = source / file
+        if not copy.exists() or copy.read_bytes() != text:  # else nothing to compile anew
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            copy.write_bytes(text)
+    for folder, _, names in os.walk(source):  # what the tree no longer has must not be built
+        for file in (Path(folder) / name for name in names):
+            if str(file.relative_to(source)) not in copied:
+                file.unlink()
+    if not (source / "node_modules").exists():  # the report's chart library, which the build asks for
+        (source / "node_modules").symlink_to(root / "node_modules")
+    subprocess.run(["cmake", "-S", source, "-B", work / "build", "-G", "Ninja", "-DSIXSTEP_BENCHMARKS=OFF", "-DCMAKE_BUILD_TYPE=None",
+                    f"-DCMAKE_CXX_FLAGS=-std=c++20 -O1 -w -include {source / 'switch.hpp'}"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["cmake", "--build", work / "build", "--target", *(f"{p}_tests" for p in programs)], check=True)
+
+
+def failing(number):
+    """The tests that fail with this mutant on; one that crashes or does not end counts."""
+    tests = []
+    for program in programs:
+        command = [work / "build" / "tests" / f"{program}_tests", "--gtest_color=no"]
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=limit_s,
+                                  env={**os.environ, "SIXSTEP_MUTANT": str(number)})
+            out, why = done.stdout, "" if done.returncode in (0, 1) else " (crashes)"
+        except subprocess.TimeoutExpired as stopped:
+            out, why = (stopped.stdout or b"").decode(errors="replace"), " (does not end)"
+        tests += [f"{program}.{name}" for name in dict.fromkeys(re.findall(r"^\[  FAILED  \] ([\w/]+\.[\w/]+)", out, re.M))]
+        if why:
+            begun = re.findall(r"^\[ RUN      \] ([\w/.]+)", out, re.M)
+            tests.append(f"{program}.{begun[-1] if begun else '?'}{why}")
+            break  # the other programs will hardly end either
+    return tests
+
+
+def main():
+    lines = [f"{n:3} {file}:{place(file, marked)[2]}  {marked}  ->  {new or '(gone)'}" for n, (file, marked, new) in enumerate(table, 1)]
+    if sys.argv[1:] == ["--list"]:
+        return print("\n".join(lines))
+    build()
+    if failing(0):
+        sys.exit(f"without any mutant these fail: {' '.join(failing(0))}")
+    chosen = [int(a) for a in sys.argv[1:]] or range(1, len(table) + 1)
+    survivors = 0
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        for number, tests in zip(chosen, pool.map(failing, chosen)):
+            survivors += not tests
+            told = f"{len(tests)} fail: {', '.join(tests[:6])}" if tests else "SURVIVES"
+            print(f"{lines[number - 1]}\n      {told}", flush=True)
+    sys.exit(f"{survivors} survive" if survivors else 0)
+
+
+main()
