@@ -8,6 +8,7 @@
 #include "sixstep/plant/hall.hpp"
 #include "sixstep/plant/plant.hpp"
 #include "sixstep/rig/modulator.hpp"
+#include "sixstep/rig/units.hpp"
 
 namespace sixstep::rig {
 
@@ -15,6 +16,7 @@ struct BoardConfig {
   ModulatorConfig modulator;
   bool commutate_at_sample = false;  ///< else at the Hall edge itself
   bool delayed = false;              ///< a command takes effect one period after its sample
+  Units units{};                     ///< of the controller's number
 };
 
 enum class Fault : std::uint8_t { none, shoot_through, impossible_hall };
@@ -55,6 +57,10 @@ class Rig {
   const plant::Plant<Real>& plant() const { return plant_; }
   const Modulator& modulator() const { return modulator_; }
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
+  double current_reference_A() const { return to_si(telemetry_.current_reference_A, board_.units.current_A); }
+  double speed_reference_rad_s() const {
+    return to_si(telemetry_.speed_reference_rad_s, board_.units.speed_rad_s);
+  }
   double setpoint() const { return setpoint_; }
   Fault fault() const { return fault_; }
   std::int64_t happened(Happening what) const { return happened_[static_cast<std::size_t>(what)]; }
@@ -70,7 +76,6 @@ class Rig {
   void hall_edge();
   void trip(int which);
   control::Measurement<Scalar> measure() const;
-  BoardCommand widened(const control::BridgeCommand<Scalar>& c);
   void count(Happening what) { ++happened_[static_cast<std::size_t>(what)]; }
 
   plant::Plant<Real> plant_;
@@ -158,10 +163,11 @@ bool Rig<Real, Scalar>::do_tick() {
 
 template <class Real, class Scalar>
 void Rig<Real, Scalar>::control_step(bool starts_period) {
-  const control::BridgeCommand<Scalar> answer = control::step(
-      drive_, drive_state_, measure(), control::Setpoint<Scalar>{static_cast<Scalar>(setpoint_)}, telemetry_);
+  const control::Setpoint<Scalar> setpoint{from_si<Scalar>(setpoint_, board_.units.setpoint)};
+  const control::BridgeCommand<Scalar> answer =
+      control::step(drive_, drive_state_, measure(), setpoint, telemetry_);
   if (answer.fault) fault_ = Fault::impossible_hall;
-  BoardCommand command = widened(answer);
+  BoardCommand command = widened(answer, board_.units);
   bool reversed = drive_state_.reversed;
   if (board_.delayed) {
     std::swap(command, pending_);
@@ -225,24 +231,14 @@ template <class Real, class Scalar>
 control::Measurement<Scalar> Rig<Real, Scalar>::measure() const {
   const plant::State<Real>& s = plant_.state();
   const Real sector_deg = static_cast<Real>(s.sector) * 60 + s.x * Real(180) / Real(base::pi);
-  return {.i_a_A = static_cast<Scalar>(s.i[0]),
-          .i_b_A = static_cast<Scalar>(s.i[1]),
-          .i_c_A = static_cast<Scalar>(s.i[2]),
-          .speed_rad_s = static_cast<Scalar>(s.w),
-          .position_deg = static_cast<Scalar>(sector_deg / plant_.constants().pole_pairs),
-          .bus_V = static_cast<Scalar>(s.bus),
+  const Units& u = board_.units;
+  return {.i_a_A = from_si<Scalar>(s.i[0], u.current_A),
+          .i_b_A = from_si<Scalar>(s.i[1], u.current_A),
+          .i_c_A = from_si<Scalar>(s.i[2], u.current_A),
+          .speed_rad_s = from_si<Scalar>(s.w, u.speed_rad_s),
+          .position_deg = from_si<Scalar>(sector_deg / plant_.constants().pole_pairs, u.position_deg),
+          .bus_V = from_si<Scalar>(s.bus, u.voltage_V),
           .hall = plant::hall_code(plant_.sector())};
-}
-
-template <class Real, class Scalar>
-BoardCommand Rig<Real, Scalar>::widened(const control::BridgeCommand<Scalar>& c) {
-  return {.enabled = c.enabled,
-          .pair = c.pair,
-          .duty = static_cast<double>(c.duty),
-          .chopping = c.chopping,
-          .watch = c.watch,
-          .on_below_A = static_cast<double>(c.on_below_A),
-          .off_above_A = static_cast<double>(c.off_above_A)};
 }
 
 template <class Real, class Scalar>

@@ -35,6 +35,10 @@ inline constexpr Choice<control::Mode> mode_choices[] = {
 inline constexpr Choice<Arithmetic> arithmetic_choices[] = {
     {"double", Arithmetic::float64, "the controller computes with 64-bit floating point"},
     {"float", Arithmetic::float32, "the controller computes with 32-bit floating point, as on the chip"},
+    {"q15", Arithmetic::q15, "16-bit fixed point, -1 to 1 - 2^-15: the largest duty is one digit below 1"},
+    {"q14", Arithmetic::q14, "16-bit fixed point, -2 to 2 - 2^-14: has the duty 1, and half the resolution"},
+    {"q31", Arithmetic::q31, "32-bit fixed point, -1 to 1 - 2^-31"},
+    {"q30", Arithmetic::q30, "32-bit fixed point, -2 to 2 - 2^-30: has the duty 1"},
 };
 inline constexpr Choice<CurrentLoopType> current_loop_choices[] = {
     {"pi", CurrentLoopType::pi, "discrete PI with clamped output, one step per control period"},

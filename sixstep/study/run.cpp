@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "sixstep/control/fixed.hpp"
 #include "sixstep/sim/run.hpp"
+#include "sixstep/study/arithmetic.hpp"
 #include "sixstep/study/compile.hpp"
 #include "sixstep/study/digest.hpp"
 #include "sixstep/study/figures.hpp"
@@ -101,12 +103,34 @@ base::Problems run_rig(Rig& rig, const Compiled& compiled, Watchers& w, Outcome&
 }
 
 template <class Scalar>
-base::Problems run_in(const Compiled& compiled, Watchers& w, Outcome& out) {
+base::Problems run_in(const Scenario& scenario, const Compiled& compiled, Watchers& w, Outcome& out) {
+  const base::Result<DriveIn<Scalar>> drive = drive_in<Scalar>(scenario, compiled);
+  if (!drive) return drive.problems();
   const plant::Plant<double> plant(compiled.motor.machine, compiled.shaft, compiled.devices, compiled.supply,
                                    compiled.start);
-  rig::Rig<double, Scalar> rig(plant, in_arithmetic<Scalar>(compiled.drive), compiled.board,
-                               compiled.timeline);
+  rig::BoardConfig board = compiled.board;
+  board.units = drive->units;
+  rig::Rig<double, Scalar> rig(plant, drive->drive, board, compiled.timeline);
   return run_rig(rig, compiled, w, out);
+}
+
+/// Each arithmetic is a program of its own; which one runs is decided here, once.
+base::Problems run_chosen(const Scenario& s, const Compiled& compiled, Watchers& w, Outcome& out) {
+  switch (s.control.arithmetic) {
+    case Arithmetic::float64:
+      return run_in<double>(s, compiled, w, out);
+    case Arithmetic::float32:
+      return run_in<float>(s, compiled, w, out);
+    case Arithmetic::q15:
+      return run_in<control::Q15>(s, compiled, w, out);
+    case Arithmetic::q14:
+      return run_in<control::Fixed<std::int16_t, 14>>(s, compiled, w, out);
+    case Arithmetic::q31:
+      return run_in<control::Q31>(s, compiled, w, out);
+    case Arithmetic::q30:
+      return run_in<control::Fixed<std::int32_t, 30>>(s, compiled, w, out);
+  }
+  return {};
 }
 
 }  // namespace
@@ -122,9 +146,7 @@ base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners) 
   out.motor = compiled->motor;
   out.gains = compiled->gains;
   Watchers w = watchers(scenario, *compiled, listeners, *indices);
-  const base::Problems problems = scenario.control.arithmetic == Arithmetic::float32
-                                      ? run_in<float>(*compiled, w, out)
-                                      : run_in<double>(*compiled, w, out);
+  const base::Problems problems = run_chosen(scenario, *compiled, w, out);
   if (!problems.empty()) return problems;
   if (w.audit) {
     out.energy = w.audit->energy();

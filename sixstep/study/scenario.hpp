@@ -71,11 +71,18 @@ struct PositionLoop {
   std::optional<double> speed_limit_rad_s;
 };
 
-enum class Arithmetic : std::uint8_t { float64, float32 };
+/// The number the controller computes in; the fixed ones are named by their fraction bits.
+enum class Arithmetic : std::uint8_t { float64, float32, q15, q14, q31, q30 };
+
+/// Fixed point: the largest value of each quantity; without one it follows from what the drive needs.
+struct FullScale {
+  std::optional<double> current_A, voltage_V, speed_rad_s, position_deg;
+};
 
 struct Control {
   control::Mode mode = control::Mode::off;
   Arithmetic arithmetic = Arithmetic::float64;
+  FullScale full_scale;
   CurrentLoop current;
   SpeedLoop speed;
   PositionLoop position;

@@ -113,10 +113,32 @@ void describe(Visitor& v, PositionLoop& s) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, FullScale& s) {
+  v.value("current_A", s.current_A,
+          {.meaning = "largest current and difference of currents that a number holds; without it three "
+                      "times the largest reference or limit, or what the bus can drive on top of one",
+           .unit = "A",
+           .range = above(0)});
+  v.value("voltage_V", s.voltage_V,
+          {.meaning = "largest voltage; without it supply.voltage_V", .unit = "V", .range = above(0)});
+  v.value(
+      "speed_rad_s", s.speed_rad_s,
+      {.meaning = "largest speed and difference of speeds; without it that of no load and no loss, and the "
+                  "largest reference",
+       .unit = "rad/s",
+       .range = above(0)});
+  v.value("position_deg", s.position_deg,
+          {.meaning = "largest position and difference of positions; without it twice the largest reference",
+           .unit = "deg",
+           .range = above(0)});
+}
+
+template <class Visitor>
 void describe(Visitor& v, Control& s) {
   v.choice("mode", s.mode, mode_choices, {.meaning = "what is controlled, and so what the reference means"});
   v.choice("arithmetic", s.arithmetic, arithmetic_choices,
            {.meaning = "number type the controller computes in"});
+  v.table("full_scale", s.full_scale, {.meaning = "fixed point: what the ends of the range stand for"});
   v.table("current", s.current, {.meaning = "the current controller"});
   v.table("speed", s.speed, {.meaning = "the speed controller around it"});
   v.table("position", s.position, {.meaning = "the position controller around both"});
