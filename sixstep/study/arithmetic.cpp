@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/written.hpp"
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/study/choices.hpp"
 
@@ -53,6 +55,21 @@ base::Problems under_the_key(const Scenario& s, const base::Problems& problems) 
   return out;
 }
 
+/// Speed from captured edges (hall_speed.hpp): (pi/3)/p f_timer k is a wide number of the format's digits.
+template <class Scalar>
+base::Problems unheld_speed(const Scenario& s, const Compiled& c, const design::Bases& b) {
+  if (s.sensors.rotor != RotorSensing::hall) return {};
+  using Wide = typename Scalar::WideInt;
+  const double ratio = base::pi / 3 / c.motor.machine.pole_pairs * s.sensors.capture_Hz;
+  const double digits =
+      ratio * s.sensors.speed_edges / b.speed_rad_s / static_cast<double>(Scalar::from_raw(1));
+  const double most = static_cast<double>(control::detail::greatest<Wide>);
+  if (digits <= most) return {};
+  return {{"sensors.capture_Hz", base::written(s.sensors.capture_Hz),
+           "times speed_edges is " + base::written(digits / most) + " times what the format's sum holds",
+           "take a slower timer, fewer edges, or a 32-bit format"}};
+}
+
 }  // namespace
 
 design::OperatingRange operating_range(const Scenario& s, const Compiled& c) {
@@ -82,6 +99,7 @@ base::Result<DriveIn<Scalar>> drive_in(const Scenario& s, const Compiled& c) {
         design::scaled<Scalar>(c.drive, range, chosen_bases<Scalar>(s.control.full_scale, needed));
     if (!scaled) return under_the_key(s, scaled.problems());
     const design::Bases& b = scaled->bases;
+    if (base::Problems problems = unheld_speed<Scalar>(s, c, b); !problems.empty()) return problems;
     return DriveIn<Scalar>{
         scaled->config,
         {b.current_A, b.voltage_V, b.speed_rad_s, b.position_deg, unit_of_setpoint(s.control.mode, b)}};

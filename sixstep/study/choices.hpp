@@ -25,6 +25,10 @@ inline constexpr Choice<CommutationAt> commutation_choices[] = {
     {"hall-edge", CommutationAt::hall_edge, "the pair changes at the Hall edge itself"},
     {"sample", CommutationAt::sample, "the pair changes at the next control sample"},
 };
+inline constexpr Choice<SampleAt> sample_choices[] = {
+    {"start", SampleAt::start, "at the start of the period, before the switching of that instant"},
+    {"middle", SampleAt::middle, "in the middle; the answer takes effect at the next start"},
+};
 inline constexpr Choice<control::Mode> mode_choices[] = {
     {"off", control::Mode::off, "all six gates off"},
     {"duty", control::Mode::duty, "the reference is the signed duty, -1 to 1"},

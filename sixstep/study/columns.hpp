@@ -87,7 +87,7 @@ FullRow full_row(const Rig& rig, double s, double t, control::Mode mode) {
     row[static_cast<std::size_t>(ColumnId::gate_T1) + 2 * k] = gates.high[k];
     row[static_cast<std::size_t>(ColumnId::gate_T2) + 2 * k] = gates.low[k];
   }
-  set(ColumnId::hall, plant::hall_code(rig.plant().sector()));
+  set(ColumnId::hall, rig.pins());
   set(ColumnId::sector, rig.plant().sector());
   for (std::size_t c = 0; c < column_count; ++c)
     if (!applies(static_cast<ColumnId>(c), mode)) row[c] = std::numeric_limits<double>::quiet_NaN();

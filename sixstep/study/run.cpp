@@ -77,19 +77,22 @@ void report_events(const Rig& rig, Outcome& out) {
   out.events.push_back({"diode starts to conduct", rig.plant().diodes_started()});
 }
 
-base::Problem fault_problem(rig::Fault fault, double t_s) {
+base::Problem fault_problem(rig::Fault fault, int line, double t_s) {
   const std::string when = "t = " + std::to_string(t_s) + " s";
   if (fault == rig::Fault::shoot_through)
     return {when, "", "both switches of a leg were on: shoot-through",
             "look at the command that names one leg twice"};
-  return {when, "", "the Hall code is impossible (000 or 111)", "look at the probes and their wires"};
+  const std::string text = "the Hall code is impossible (000 or 111)";
+  if (line == 0) return {when, "", text, "look at the probes and their wires"};
+  return {when, "", text + ": line H" + std::to_string(line) + " does not follow the rotor",
+          "look at its probe and its wire"};
 }
 
 template <class Rig>
 base::Problems run_rig(Rig& rig, const Compiled& compiled, Watchers& w, Outcome& out) {
   const sim::Run run = sim::run(rig, compiled.end, w);
   const double t_s = rig.now().seconds();
-  if (run.stop == sim::Stop::fault) out.fault = fault_problem(rig.fault(), t_s);
+  if (run.stop == sim::Stop::fault) out.fault = fault_problem(rig.fault(), rig.sensors().broken_line(), t_s);
   if (run.stop == sim::Stop::unsettled || run.stop == sim::Stop::no_progress)
     return {{"t = " + std::to_string(t_s) + " s", "",
              run.stop == sim::Stop::unsettled ? "no consistent conduction mode was found"

@@ -9,6 +9,7 @@
 
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/design/sheet.hpp"
+#include "sixstep/study/sensors.hpp"
 
 namespace sixstep::study {
 
@@ -32,12 +33,14 @@ struct Bridge {
 
 enum class Alignment : std::uint8_t { edge, centre };
 enum class CommutationAt : std::uint8_t { hall_edge, sample };
+enum class SampleAt : std::uint8_t { start, middle };
 
 struct Pwm {
   double period_s = 30e-6;
   Alignment alignment = Alignment::edge;
   control::Chopping chopping = control::Chopping::soft;
   CommutationAt commutation = CommutationAt::hall_edge;
+  SampleAt sample = SampleAt::start;
   int delay_periods = 0;
   double timer_Hz = 0.0;  // 0: edges are not quantised
 };
@@ -205,6 +208,7 @@ struct Scenario {
   Bridge bridge;
   Pwm pwm;
   Control control;
+  Sensors sensors;
   Reference reference;
   Load load;
   Initial initial;

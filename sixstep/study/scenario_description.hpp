@@ -4,6 +4,7 @@
 #pragma once
 #include "sixstep/design/sheet_description.hpp"
 #include "sixstep/study/choices.hpp"
+#include "sixstep/study/sensors_description.hpp"
 
 namespace sixstep::study {
 
@@ -54,6 +55,7 @@ void describe(Visitor& v, Pwm& s) {
   v.choice("alignment", s.alignment, alignment_choices, {.meaning = "where in the period the on-time lies"});
   v.choice("chopping", s.chopping, chopping_choices, {.meaning = "which switches are chopped"});
   v.choice("commutation", s.commutation, commutation_choices, {.meaning = "when the driven pair changes"});
+  v.choice("sample", s.sample, sample_choices, {.meaning = "when in the period the controller samples"});
   v.value("delay_periods", s.delay_periods,
           {.meaning = "periods from a sample until its result takes effect", .range = between(0, 1)});
   v.value("timer_Hz", s.timer_Hz,
@@ -279,6 +281,7 @@ void describe(Visitor& v, Scenario& s) {
   v.table("bridge", s.bridge, {.meaning = "six switches with antiparallel diodes"});
   v.table("pwm", s.pwm, {.meaning = "modulation, sampling and commutation"});
   v.table("control", s.control, {.meaning = "what is controlled and how"});
+  v.table("sensors", s.sensors, {.meaning = "what the controller measures with; ideal by default"});
   v.table("reference", s.reference, {.meaning = "what is wanted over time"});
   v.table("load", s.load, {.meaning = "what the shaft drives"});
   v.table("initial", s.initial, {.meaning = "state at the start"});
