@@ -40,6 +40,25 @@ std::string current_loop(const study::CurrentLoop& c) {
                      c.comparator == study::Comparator::event ? "event" : "sampled");
 }
 
+const char* arithmetic(study::Arithmetic a) {
+  using study::Arithmetic;
+  switch (a) {
+    case Arithmetic::float64:
+      return ", 64-bit float";
+    case Arithmetic::float32:
+      return ", 32-bit float";
+    case Arithmetic::q15:
+      return ", fixed point Q15";
+    case Arithmetic::q14:
+      return ", fixed point Q1.14";
+    case Arithmetic::q31:
+      return ", fixed point Q31";
+    case Arithmetic::q30:
+      return ", fixed point Q1.30";
+  }
+  return "";
+}
+
 std::string control(const study::Scenario& s) {
   std::string text;
   switch (s.control.mode) {
@@ -58,7 +77,7 @@ std::string control(const study::Scenario& s) {
       text = "position P → speed PI → " + current_loop(s.control.current);
       break;
   }
-  text += s.control.arithmetic == study::Arithmetic::float32 ? ", 32-bit float" : ", 64-bit float";
+  text += arithmetic(s.control.arithmetic);
   if (s.pwm.delay_periods > 0) text += fmt::format(", acts {} period(s) later", s.pwm.delay_periods);
   return text;
 }

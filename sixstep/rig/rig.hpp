@@ -8,6 +8,7 @@
 #include "sixstep/plant/hall.hpp"
 #include "sixstep/plant/plant.hpp"
 #include "sixstep/rig/modulator.hpp"
+#include "sixstep/rig/sensors.hpp"
 
 namespace sixstep::rig {
 
@@ -15,6 +16,9 @@ struct BoardConfig {
   ModulatorConfig modulator;
   bool commutate_at_sample = false;  ///< else at the Hall edge itself
   bool delayed = false;              ///< a command takes effect one period after its sample
+  bool sampled_in_middle = false;    ///< of the period; the answer takes effect at the next one's start
+  Units units{};                     ///< of the controller's number
+  SensorsConfig sensors{};
 };
 
 enum class Fault : std::uint8_t { none, shoot_through, impossible_hall };
@@ -38,7 +42,10 @@ class Rig {
 
   Rig(const plant::Plant<Real>& plant, const control::DriveConfig<Scalar>& drive, const BoardConfig& board,
       const Timeline& timeline)
-      : plant_(plant), drive_(drive), board_(board), modulator_(board.modulator), timeline_(timeline) {}
+      : plant_(plant), drive_(drive), board_(board), modulator_(board.modulator), timeline_(timeline) {
+    sensors_ = Sensors<Scalar>(board.sensors, board.units, static_cast<double>(plant_.constants().pole_pairs),
+                               plant_.state().sector, pins());
+  }
 
   sim::Instant now() const { return now_; }
   sim::Instant next_known() const { return due_; }
@@ -55,8 +62,17 @@ class Rig {
   const plant::Plant<Real>& plant() const { return plant_; }
   const Modulator& modulator() const { return modulator_; }
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
+  double current_reference_A() const { return to_si(telemetry_.current_reference_A, board_.units.current_A); }
+  double speed_reference_rad_s() const {
+    return to_si(telemetry_.speed_reference_rad_s, board_.units.speed_rad_s);
+  }
   double setpoint() const { return setpoint_; }
   Fault fault() const { return fault_; }
+  /// H1 H2 H3 as the board's pins have them: the probes', but for a line that is stuck.
+  std::uint8_t pins() const {
+    return static_cast<std::uint8_t>((plant::hall_code(plant_.sector()) & ~stuck_low_) | stuck_high_);
+  }
+  const Sensors<Scalar>& sensors() const { return sensors_; }
   std::int64_t happened(Happening what) const { return happened_[static_cast<std::size_t>(what)]; }
   /// True between a control tick and the segment that follows it.
   bool ticked() const { return ticked_; }
@@ -65,12 +81,14 @@ class Rig {
   sim::Instant next_due() const;
   bool do_timeline();
   bool do_tick();
+  bool do_half_tick();
+  void stick_hall(double line);
   void control_step(bool starts_period);
   void skip_idle_ticks();
+  void sector_edge();
   void hall_edge();
   void trip(int which);
-  control::Measurement<Scalar> measure() const;
-  BoardCommand widened(const control::BridgeCommand<Scalar>& c);
+  control::Measurement<Scalar> measure();
   void count(Happening what) { ++happened_[static_cast<std::size_t>(what)]; }
 
   plant::Plant<Real> plant_;
@@ -88,7 +106,11 @@ class Rig {
   double setpoint_ = 0.0;
   BoardCommand pending_{};
   bool pending_reversed_ = false,
-       reversed_ = false;  ///< sign of the command that waits, and of the one in effect
+       reversed_ = false;                        ///< sign of the command that waits, and of the one in effect
+  BoardCommand loaded_{};                        ///< sampled in the middle: what the timer takes up next
+  bool loaded_reversed_ = false, half_ = false;  ///< half_: the next tick is a middle
+  Sensors<Scalar> sensors_{};
+  std::uint8_t stuck_high_ = 0, stuck_low_ = 0;  ///< Hall lines, as bits of a code
   bool ticked_ = false;
   Fault fault_ = Fault::none;
   std::array<std::int64_t, static_cast<std::size_t>(Happening::count)> happened_{};
@@ -136,6 +158,10 @@ bool Rig<Real, Scalar>::do_timeline() {
     plant_.set_load(action.value);
     return true;
   }
+  if (action.kind == ActionKind::hall_stuck) {
+    stick_hall(action.value);
+    return true;
+  }
   setpoint_ = action.value;
   // An event hysteresis on the setpoint itself has no sample to wait for: its comparators follow at once
   // (MODEL 4).
@@ -149,6 +175,7 @@ bool Rig<Real, Scalar>::do_timeline() {
 template <class Real, class Scalar>
 bool Rig<Real, Scalar>::do_tick() {
   if (now_ < next_tick_) return false;
+  if (board_.sampled_in_middle) return do_half_tick();
   next_tick_.ticks += board_.modulator.period_ticks;
   control_step(true);
   skip_idle_ticks();
@@ -158,14 +185,20 @@ bool Rig<Real, Scalar>::do_tick() {
 
 template <class Real, class Scalar>
 void Rig<Real, Scalar>::control_step(bool starts_period) {
-  const control::BridgeCommand<Scalar> answer = control::step(
-      drive_, drive_state_, measure(), control::Setpoint<Scalar>{static_cast<Scalar>(setpoint_)}, telemetry_);
+  const control::Setpoint<Scalar> setpoint{from_si<Scalar>(setpoint_, board_.units.setpoint)};
+  const control::BridgeCommand<Scalar> answer =
+      control::step(drive_, drive_state_, measure(), setpoint, telemetry_);
   if (answer.fault) fault_ = Fault::impossible_hall;
-  BoardCommand command = widened(answer);
+  BoardCommand command = widened(answer, board_.units);
   bool reversed = drive_state_.reversed;
   if (board_.delayed) {
     std::swap(command, pending_);
     std::swap(reversed, pending_reversed_);
+  }
+  if (board_.sampled_in_middle) {
+    loaded_ = command;
+    loaded_reversed_ = reversed;
+    return;
   }
   reversed_ = reversed;
   if (starts_period)
@@ -193,13 +226,15 @@ void Rig<Real, Scalar>::skip_idle_ticks() {
 
 template <class Real, class Scalar>
 void Rig<Real, Scalar>::hall_edge() {
-  count(Happening::sector_edge);
+  if (sensors_.decodes_hall()) sensors_.hall_edge(pins(), now_);
   if (board_.commutate_at_sample) return;
-  const control::BridgeCommand<Scalar> answer =
-      control::on_hall(drive_, drive_state_, plant::hall_code(plant_.sector()));
+  const control::BridgeCommand<Scalar> answer = control::on_hall(drive_, drive_state_, pins());
   if (answer.fault) fault_ = Fault::impossible_hall;
   if (!answer.enabled) return modulator_.turn_off();
+  if (sensors_.on()) sensors_.commutated();
   pending_.pair = answer.pair;
+  if (board_.sampled_in_middle)
+    loaded_.pair = drive_state_.reversed == loaded_reversed_ ? answer.pair : control::swapped(answer.pair);
   const bool same_sign = drive_state_.reversed == reversed_;
   modulator_.commutate(now_, same_sign ? answer.pair : control::swapped(answer.pair));
 }
@@ -219,30 +254,6 @@ void Rig<Real, Scalar>::trip(int which) {
     return;
   count(Happening::comparator);
   modulator_.comparator_tripped(now_, 1 - which);
-}
-
-template <class Real, class Scalar>
-control::Measurement<Scalar> Rig<Real, Scalar>::measure() const {
-  const plant::State<Real>& s = plant_.state();
-  const Real sector_deg = static_cast<Real>(s.sector) * 60 + s.x * Real(180) / Real(base::pi);
-  return {.i_a_A = static_cast<Scalar>(s.i[0]),
-          .i_b_A = static_cast<Scalar>(s.i[1]),
-          .i_c_A = static_cast<Scalar>(s.i[2]),
-          .speed_rad_s = static_cast<Scalar>(s.w),
-          .position_deg = static_cast<Scalar>(sector_deg / plant_.constants().pole_pairs),
-          .bus_V = static_cast<Scalar>(s.bus),
-          .hall = plant::hall_code(plant_.sector())};
-}
-
-template <class Real, class Scalar>
-BoardCommand Rig<Real, Scalar>::widened(const control::BridgeCommand<Scalar>& c) {
-  return {.enabled = c.enabled,
-          .pair = c.pair,
-          .duty = static_cast<double>(c.duty),
-          .chopping = c.chopping,
-          .watch = c.watch,
-          .on_below_A = static_cast<double>(c.on_below_A),
-          .off_above_A = static_cast<double>(c.off_above_A)};
 }
 
 template <class Real, class Scalar>
@@ -277,8 +288,10 @@ void Rig<Real, Scalar>::apply(int id) {
   if (id == guard::standstill) count(Happening::standstill);
   if (id == guard::breakaway_forward || id == guard::breakaway_backward) count(Happening::breakaway);
   if (!plant_.apply(id)) return;
-  hall_edge();
+  sector_edge();
   moved_ = true;
 }
 
 }  // namespace sixstep::rig
+
+#include "sixstep/rig/rig_inputs.hpp"

@@ -8,12 +8,12 @@
 
 namespace sixstep::rig {
 
-enum class ActionKind : std::uint8_t { setpoint, load_torque };
+enum class ActionKind : std::uint8_t { setpoint, load_torque, hall_stuck };
 
 struct Action {
   sim::Instant at;
   ActionKind kind = ActionKind::setpoint;
-  double value = 0.0;  ///< setpoint in the mode's unit, or N m
+  double value = 0.0;  ///< setpoint in the mode's unit; N m; Hall line 1 to 3, stuck low where negative
 };
 
 /// Sorted by time, stable where times are equal.

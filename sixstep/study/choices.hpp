@@ -25,6 +25,10 @@ inline constexpr Choice<CommutationAt> commutation_choices[] = {
     {"hall-edge", CommutationAt::hall_edge, "the pair changes at the Hall edge itself"},
     {"sample", CommutationAt::sample, "the pair changes at the next control sample"},
 };
+inline constexpr Choice<SampleAt> sample_choices[] = {
+    {"start", SampleAt::start, "at the start of the period, before the switching of that instant"},
+    {"middle", SampleAt::middle, "in the middle; the answer takes effect at the next start"},
+};
 inline constexpr Choice<control::Mode> mode_choices[] = {
     {"off", control::Mode::off, "all six gates off"},
     {"duty", control::Mode::duty, "the reference is the signed duty, -1 to 1"},
@@ -35,6 +39,10 @@ inline constexpr Choice<control::Mode> mode_choices[] = {
 inline constexpr Choice<Arithmetic> arithmetic_choices[] = {
     {"double", Arithmetic::float64, "the controller computes with 64-bit floating point"},
     {"float", Arithmetic::float32, "the controller computes with 32-bit floating point, as on the chip"},
+    {"q15", Arithmetic::q15, "16-bit fixed point, -1 to 1 - 2^-15: the largest duty is one digit below 1"},
+    {"q14", Arithmetic::q14, "16-bit fixed point, -2 to 2 - 2^-14: has the duty 1, and half the resolution"},
+    {"q31", Arithmetic::q31, "32-bit fixed point, -1 to 1 - 2^-31"},
+    {"q30", Arithmetic::q30, "32-bit fixed point, -2 to 2 - 2^-30: has the duty 1"},
 };
 inline constexpr Choice<CurrentLoopType> current_loop_choices[] = {
     {"pi", CurrentLoopType::pi, "discrete PI with clamped output, one step per control period"},

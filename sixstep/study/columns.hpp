@@ -61,7 +61,6 @@ FullRow full_row(const Rig& rig, double s, double t) {
     for (std::size_t k = 0; k < 3; ++k) row[static_cast<std::size_t>(first) + k] = v[k];
   };
   const plant::Snapshot<double> now = rig.plant().at(s);
-  const auto& telemetry = rig.telemetry();
   const rig::BoardCommand& command = rig.modulator().command();
   set(ColumnId::t, t);
   three(ColumnId::i_a, now.i);
@@ -79,8 +78,8 @@ FullRow full_row(const Rig& rig, double s, double t) {
   set(ColumnId::duty, command.enabled ? (command.pair.source == positive.source ? duty : -duty) : 0.0);
   const plant::PerLeg<double> w = motor_current_weights(rig.plant().sector());
   set(ColumnId::i_m, w[0] * now.i[0] + w[1] * now.i[1] + w[2] * now.i[2]);
-  set(ColumnId::i_ref, static_cast<double>(telemetry.current_reference_A));
-  set(ColumnId::speed_ref, static_cast<double>(telemetry.speed_reference_rad_s));
+  set(ColumnId::i_ref, rig.current_reference_A());
+  set(ColumnId::speed_ref, rig.speed_reference_rad_s());
   set(ColumnId::position_ref, rig.setpoint());
   set(ColumnId::load, rig.plant().constants().load);
   const plant::Gates& gates = rig.plant().gates();
@@ -88,7 +87,7 @@ FullRow full_row(const Rig& rig, double s, double t) {
     row[static_cast<std::size_t>(ColumnId::gate_T1) + 2 * k] = gates.high[k];
     row[static_cast<std::size_t>(ColumnId::gate_T2) + 2 * k] = gates.low[k];
   }
-  set(ColumnId::hall, plant::hall_code(rig.plant().sector()));
+  set(ColumnId::hall, rig.pins());
   set(ColumnId::sector, rig.plant().sector());
   return row;
 }

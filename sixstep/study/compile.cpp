@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sixstep/base/elementary.hpp"
+
 namespace sixstep::study {
 
 namespace {
@@ -40,7 +42,39 @@ plant::Shaft shaft_of(const design::MotorModel& motor, const Load& load) {
   return shaft;
 }
 
-rig::BoardConfig board_of(const Scenario& s) {
+/// The duty above which the middle of the period lies in the on-time, and the amplifier has settled.
+double least_visible_duty(const Scenario& s) {
+  const double settle = s.sensors.shunt_settle_s / s.pwm.period_s;
+  const double duty = s.pwm.alignment == Alignment::centre ? 2 * settle : 0.5 + settle;
+  return std::min(duty, 1.0);
+}
+
+rig::SensorsConfig sensors_of(const Scenario& s, double L_over_R_s) {
+  const Sensors& from = s.sensors;
+  rig::SensorsConfig to;
+  to.currents = from.currents;
+  to.current = {from.adc_bits,
+                from.current_range_A.value_or(0.0),
+                true,
+                from.current_offset_A,
+                from.current_gain_error,
+                from.current_noise_A};
+  to.calibrated = from.calibrated;
+  to.least_duty = least_visible_duty(s);
+  to.commutation_samples = static_cast<std::uint8_t>(from.commutation_samples);
+  to.fade = base::exp(-s.pwm.period_s / L_over_R_s);
+  to.measures_bus = from.bus == BusSensing::adc;
+  to.bus = {from.adc_bits, from.bus_range_V.value_or(0.0), false, 0.0, 0.0, from.bus_noise_V};
+  to.rotor_from_hall = from.rotor == RotorSensing::hall;
+  to.decodes_hall = from.hall_break.at_s.has_value();
+  to.capture_Hz = from.capture_Hz;
+  to.timeout_s = from.timeout_s;
+  to.edges = static_cast<std::uint8_t>(from.speed_edges);
+  to.seed = static_cast<std::uint64_t>(from.seed);
+  return to;
+}
+
+rig::BoardConfig board_of(const Scenario& s, double L_over_R_s) {
   rig::BoardConfig board;
   board.modulator.period_ticks = sim::to_instant(s.pwm.period_s).ticks;
   board.modulator.centre_aligned = s.pwm.alignment == Alignment::centre;
@@ -49,6 +83,8 @@ rig::BoardConfig board_of(const Scenario& s) {
   board.modulator.timer_ticks = s.pwm.timer_Hz > 0 ? sim::ticks_per_second / s.pwm.timer_Hz : 0.0;
   board.commutate_at_sample = s.pwm.commutation == CommutationAt::sample;
   board.delayed = s.pwm.delay_periods > 0;
+  board.sampled_in_middle = s.pwm.sample == SampleAt::middle;
+  board.sensors = sensors_of(s, L_over_R_s);
   return board;
 }
 
@@ -60,6 +96,9 @@ rig::Timeline timeline_of(const Scenario& s) {
   for (std::size_t n = 0; n < s.load.times_s.size(); ++n)
     timeline.push_back(
         {sim::to_instant(s.load.times_s[n]), rig::ActionKind::load_torque, s.load.torques_Nm[n]});
+  if (const HallBreak& broken = s.sensors.hall_break; broken.at_s)
+    timeline.push_back({sim::to_instant(*broken.at_s), rig::ActionKind::hall_stuck,
+                        broken.level == Level01::high ? broken.line : -1.0 * broken.line});
   std::stable_sort(timeline.begin(), timeline.end(),
                    [](const rig::Action& a, const rig::Action& b) { return a.at < b.at; });
   return timeline;
@@ -174,7 +213,7 @@ base::Result<Compiled> compile(const Scenario& s) {
   out.devices = {s.bridge.on_resistance_ohm, s.bridge.diode_drop_V, s.bridge.diode_resistance_ohm};
   out.supply = {s.supply.voltage_V, s.supply.resistance_ohm, s.supply.capacitance_F, s.supply.sinks};
   out.start = {s.initial.speed_rad_s, s.initial.angle_rad, s.initial.bus_V.value_or(s.supply.voltage_V)};
-  out.board = board_of(s);
+  out.board = board_of(s, basis.motor.machine.L_H / basis.motor.machine.R_ohm);
   out.timeline = timeline_of(s);
   out.end = sim::to_instant(s.duration_s);
   out.drive.mode = s.control.mode;

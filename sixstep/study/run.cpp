@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "sixstep/control/fixed.hpp"
 #include "sixstep/sim/run.hpp"
+#include "sixstep/study/arithmetic.hpp"
 #include "sixstep/study/compile.hpp"
 #include "sixstep/study/digest.hpp"
 #include "sixstep/study/figures.hpp"
@@ -75,19 +77,22 @@ void report_events(const Rig& rig, Outcome& out) {
   out.events.push_back({"diode starts to conduct", rig.plant().diodes_started()});
 }
 
-base::Problem fault_problem(rig::Fault fault, double t_s) {
+base::Problem fault_problem(rig::Fault fault, int line, double t_s) {
   const std::string when = "t = " + std::to_string(t_s) + " s";
   if (fault == rig::Fault::shoot_through)
     return {when, "", "both switches of a leg were on: shoot-through",
             "look at the command that names one leg twice"};
-  return {when, "", "the Hall code is impossible (000 or 111)", "look at the probes and their wires"};
+  const std::string text = "the Hall code is impossible (000 or 111)";
+  if (line == 0) return {when, "", text, "look at the probes and their wires"};
+  return {when, "", text + ": line H" + std::to_string(line) + " does not follow the rotor",
+          "look at its probe and its wire"};
 }
 
 template <class Rig>
 base::Problems run_rig(Rig& rig, const Compiled& compiled, Watchers& w, Outcome& out) {
   const sim::Run run = sim::run(rig, compiled.end, w);
   const double t_s = rig.now().seconds();
-  if (run.stop == sim::Stop::fault) out.fault = fault_problem(rig.fault(), t_s);
+  if (run.stop == sim::Stop::fault) out.fault = fault_problem(rig.fault(), rig.sensors().broken_line(), t_s);
   if (run.stop == sim::Stop::unsettled || run.stop == sim::Stop::no_progress)
     return {{"t = " + std::to_string(t_s) + " s", "",
              run.stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
@@ -101,12 +106,34 @@ base::Problems run_rig(Rig& rig, const Compiled& compiled, Watchers& w, Outcome&
 }
 
 template <class Scalar>
-base::Problems run_in(const Compiled& compiled, Watchers& w, Outcome& out) {
+base::Problems run_in(const Scenario& scenario, const Compiled& compiled, Watchers& w, Outcome& out) {
+  const base::Result<DriveIn<Scalar>> drive = drive_in<Scalar>(scenario, compiled);
+  if (!drive) return drive.problems();
   const plant::Plant<double> plant(compiled.motor.machine, compiled.shaft, compiled.devices, compiled.supply,
                                    compiled.start);
-  rig::Rig<double, Scalar> rig(plant, in_arithmetic<Scalar>(compiled.drive), compiled.board,
-                               compiled.timeline);
+  rig::BoardConfig board = compiled.board;
+  board.units = drive->units;
+  rig::Rig<double, Scalar> rig(plant, drive->drive, board, compiled.timeline);
   return run_rig(rig, compiled, w, out);
+}
+
+/// Each arithmetic is a program of its own; which one runs is decided here, once.
+base::Problems run_chosen(const Scenario& s, const Compiled& compiled, Watchers& w, Outcome& out) {
+  switch (s.control.arithmetic) {
+    case Arithmetic::float64:
+      return run_in<double>(s, compiled, w, out);
+    case Arithmetic::float32:
+      return run_in<float>(s, compiled, w, out);
+    case Arithmetic::q15:
+      return run_in<control::Q15>(s, compiled, w, out);
+    case Arithmetic::q14:
+      return run_in<control::Fixed<std::int16_t, 14>>(s, compiled, w, out);
+    case Arithmetic::q31:
+      return run_in<control::Q31>(s, compiled, w, out);
+    case Arithmetic::q30:
+      return run_in<control::Fixed<std::int32_t, 30>>(s, compiled, w, out);
+  }
+  return {};
 }
 
 }  // namespace
@@ -122,9 +149,7 @@ base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners) 
   out.motor = compiled->motor;
   out.gains = compiled->gains;
   Watchers w = watchers(scenario, *compiled, listeners, *indices);
-  const base::Problems problems = scenario.control.arithmetic == Arithmetic::float32
-                                      ? run_in<float>(*compiled, w, out)
-                                      : run_in<double>(*compiled, w, out);
+  const base::Problems problems = run_chosen(scenario, *compiled, w, out);
   if (!problems.empty()) return problems;
   if (w.audit) {
     out.energy = w.audit->energy();

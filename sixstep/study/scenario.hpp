@@ -9,6 +9,7 @@
 
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/design/sheet.hpp"
+#include "sixstep/study/sensors.hpp"
 
 namespace sixstep::study {
 
@@ -32,12 +33,14 @@ struct Bridge {
 
 enum class Alignment : std::uint8_t { edge, centre };
 enum class CommutationAt : std::uint8_t { hall_edge, sample };
+enum class SampleAt : std::uint8_t { start, middle };
 
 struct Pwm {
   double period_s = 30e-6;
   Alignment alignment = Alignment::edge;
   control::Chopping chopping = control::Chopping::soft;
   CommutationAt commutation = CommutationAt::hall_edge;
+  SampleAt sample = SampleAt::start;
   int delay_periods = 0;
   double timer_Hz = 0.0;  // 0: edges are not quantised
 };
@@ -71,11 +74,18 @@ struct PositionLoop {
   std::optional<double> speed_limit_rad_s;
 };
 
-enum class Arithmetic : std::uint8_t { float64, float32 };
+/// The number the controller computes in; the fixed ones are named by their fraction bits.
+enum class Arithmetic : std::uint8_t { float64, float32, q15, q14, q31, q30 };
+
+/// Fixed point: the largest value of each quantity; without one it follows from what the drive needs.
+struct FullScale {
+  std::optional<double> current_A, voltage_V, speed_rad_s, position_deg;
+};
 
 struct Control {
   control::Mode mode = control::Mode::off;
   Arithmetic arithmetic = Arithmetic::float64;
+  FullScale full_scale;
   CurrentLoop current;
   SpeedLoop speed;
   PositionLoop position;
@@ -198,6 +208,7 @@ struct Scenario {
   Bridge bridge;
   Pwm pwm;
   Control control;
+  Sensors sensors;
   Reference reference;
   Load load;
   Initial initial;

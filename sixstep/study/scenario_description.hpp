@@ -4,6 +4,7 @@
 #pragma once
 #include "sixstep/design/sheet_description.hpp"
 #include "sixstep/study/choices.hpp"
+#include "sixstep/study/sensors_description.hpp"
 
 namespace sixstep::study {
 
@@ -54,6 +55,7 @@ void describe(Visitor& v, Pwm& s) {
   v.choice("alignment", s.alignment, alignment_choices, {.meaning = "where in the period the on-time lies"});
   v.choice("chopping", s.chopping, chopping_choices, {.meaning = "which switches are chopped"});
   v.choice("commutation", s.commutation, commutation_choices, {.meaning = "when the driven pair changes"});
+  v.choice("sample", s.sample, sample_choices, {.meaning = "when in the period the controller samples"});
   v.value("delay_periods", s.delay_periods,
           {.meaning = "periods from a sample until its result takes effect", .range = between(0, 1)});
   v.value("timer_Hz", s.timer_Hz,
@@ -113,10 +115,32 @@ void describe(Visitor& v, PositionLoop& s) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, FullScale& s) {
+  v.value("current_A", s.current_A,
+          {.meaning = "largest current and difference of currents that a number holds; without it three "
+                      "times the largest reference or limit, or what the bus can drive on top of one",
+           .unit = "A",
+           .range = above(0)});
+  v.value("voltage_V", s.voltage_V,
+          {.meaning = "largest voltage; without it supply.voltage_V", .unit = "V", .range = above(0)});
+  v.value(
+      "speed_rad_s", s.speed_rad_s,
+      {.meaning = "largest speed and difference of speeds; without it that of no load and no loss, and the "
+                  "largest reference",
+       .unit = "rad/s",
+       .range = above(0)});
+  v.value("position_deg", s.position_deg,
+          {.meaning = "largest position and difference of positions; without it twice the largest reference",
+           .unit = "deg",
+           .range = above(0)});
+}
+
+template <class Visitor>
 void describe(Visitor& v, Control& s) {
   v.choice("mode", s.mode, mode_choices, {.meaning = "what is controlled, and so what the reference means"});
   v.choice("arithmetic", s.arithmetic, arithmetic_choices,
            {.meaning = "number type the controller computes in"});
+  v.table("full_scale", s.full_scale, {.meaning = "fixed point: what the ends of the range stand for"});
   v.table("current", s.current, {.meaning = "the current controller"});
   v.table("speed", s.speed, {.meaning = "the speed controller around it"});
   v.table("position", s.position, {.meaning = "the position controller around both"});
@@ -257,6 +281,7 @@ void describe(Visitor& v, Scenario& s) {
   v.table("bridge", s.bridge, {.meaning = "six switches with antiparallel diodes"});
   v.table("pwm", s.pwm, {.meaning = "modulation, sampling and commutation"});
   v.table("control", s.control, {.meaning = "what is controlled and how"});
+  v.table("sensors", s.sensors, {.meaning = "what the controller measures with; ideal by default"});
   v.table("reference", s.reference, {.meaning = "what is wanted over time"});
   v.table("load", s.load, {.meaning = "what the shaft drives"});
   v.table("initial", s.initial, {.meaning = "state at the start"});

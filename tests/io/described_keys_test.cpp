@@ -25,7 +25,7 @@ class Dump {
     emit(key, fmt::format("{}", x));
   }
   void value(std::string_view key, int& x, const base::About& about) {
-    if (change_) x = static_cast<int>(about.range.high < 2 ? 1 : 7);
+    if (change_) x = about.range.holds(7) ? 7 : about.range.high < 2 ? 1 : 3;
     emit(key, fmt::format("{}", x));
   }
   void value(std::string_view key, bool& x, const base::About&) {
@@ -152,10 +152,32 @@ std::string letters(std::string_view text) {
 
 TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
   // Counts, ratios and gains, and what is meant in the unit of a mode or figure that another key names.
-  const std::set<std::string> without = {"pole_pairs", "delay_periods", "damping", "d1",   "d0",  "kp",
-                                         "ki",         "value",         "values",  "high", "low", "level",
-                                         "start",      "fraction",      "band",    "min",  "max", "relative",
-                                         "absolute",   "cut_sigma"};
+  const std::set<std::string> without = {"pole_pairs",
+                                         "delay_periods",
+                                         "damping",
+                                         "d1",
+                                         "d0",
+                                         "kp",
+                                         "ki",
+                                         "value",
+                                         "values",
+                                         "high",
+                                         "low",
+                                         "level",
+                                         "start",
+                                         "fraction",
+                                         "band",
+                                         "min",
+                                         "max",
+                                         "relative",
+                                         "absolute",
+                                         "cut_sigma",
+                                         "adc_bits",
+                                         "current_gain_error",
+                                         "commutation_samples",
+                                         "speed_edges",
+                                         "seed",
+                                         "line"};
   for (const KeyEntry& key : all_keys()) {
     const bool number = key.type == KeyType::number || key.type == KeyType::whole_number ||
                         key.type == KeyType::numbers || key.type == KeyType::quantity;

@@ -44,6 +44,39 @@ TEST(Check, EachContradictionIsFoundAndNamed) {
          s.load.locked = true;
          s.initial.speed_rad_s = 1.0;
        }},
+      {"sensors.current_range_A", [](Scenario& s) { s.sensors.currents = rig::CurrentSensing::phases; }},
+      {"sensors.current_offset_A",
+       [](Scenario& s) {
+         s.sensors.currents = rig::CurrentSensing::phases;
+         s.sensors.current_range_A = 10.0;
+         s.sensors.current_offset_A = -10.0;
+       }},
+      {"sensors.currents",
+       [](Scenario& s) {
+         s.sensors.currents = rig::CurrentSensing::dc_link;
+         s.sensors.current_range_A = 10.0;
+       }},
+      {"sensors.adc_bits",
+       [](Scenario& s) {
+         s.sensors.currents = rig::CurrentSensing::phases;
+         s.sensors.current_range_A = 10.0;
+         s.sensors.adc_bits = 13;
+         s.control.arithmetic = study::Arithmetic::q15;
+       }},
+      {"sensors.bus_range_V", [](Scenario& s) { s.sensors.bus = study::BusSensing::adc; }},
+      {"sensors.timeout_s",
+       [](Scenario& s) {
+         s.sensors.rotor = study::RotorSensing::hall;
+         s.sensors.timeout_s = 100.0;
+         s.sensors.capture_Hz = 1e8;
+       }},
+      {"sensors.hall_break.at_s", [](Scenario& s) { s.sensors.hall_break.at_s = 1.0; }},
+      {"pwm.sample",
+       [](Scenario& s) {
+         s.pwm.sample = study::SampleAt::middle;
+         s.control.mode = control::Mode::current;
+         s.control.current = {.type = CurrentLoopType::hysteresis};
+       }},
       {"reference.unit", [](Scenario& s) { s.reference.unit = "V"; }},
       {"reference.times_s", [](Scenario& s) { s.reference.shape = study::Shape::steps; }},
       {"reference.values",

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where SI meets the controller's number: floating point computes in SI, fixed point in parts of a base.
+#pragma once
+#include <type_traits>
+
+#include "sixstep/control/bridge_command.hpp"
+#include "sixstep/rig/modulator.hpp"
+
+namespace sixstep::rig {
+
+/// What the controller's 1.0 stands for (design::Bases). Floating point has 1 of each.
+struct Units {
+  double current_A = 1.0;
+  double voltage_V = 1.0;
+  double speed_rad_s = 1.0;
+  double position_deg = 1.0;
+  double setpoint = 1.0;  ///< that of the mode: one of the above, a duty's is 1
+};
+
+/// SI -> controller. Fixed point rounds to nearest and saturates (fixed.hpp).
+template <class Scalar, class Real>
+Scalar from_si(Real x, double unit) {
+  if constexpr (std::is_arithmetic_v<Scalar>)
+    return static_cast<Scalar>(x);
+  else
+    return Scalar(static_cast<double>(x) / unit);
+}
+
+/// Controller -> SI.
+template <class Scalar>
+double to_si(Scalar x, double unit) {
+  if constexpr (std::is_arithmetic_v<Scalar>)
+    return static_cast<double>(x);
+  else
+    return static_cast<double>(x) * unit;
+}
+
+/// A command as the board's timer and comparators take it.
+template <class Scalar>
+BoardCommand widened(const control::BridgeCommand<Scalar>& c, const Units& units) {
+  return {.enabled = c.enabled,
+          .pair = c.pair,
+          .duty = to_si(c.duty, 1.0),
+          .chopping = c.chopping,
+          .watch = c.watch,
+          .on_below_A = to_si(c.on_below_A, units.current_A),
+          .off_above_A = to_si(c.off_above_A, units.current_A)};
+}
+
+}  // namespace sixstep::rig

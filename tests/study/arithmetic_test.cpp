@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fixed point in a scenario: bases that hold what the drive needs, and an answer where they cannot.
+#include "sixstep/study/arithmetic.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/study/run.hpp"
+#include "tests/support/scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using study::Arithmetic;
+using study::Scenario;
+using ::testing::HasSubstr;
+
+template <class Scalar>
+rig::Units units(const Scenario& s) {
+  const auto compiled = study::compile(s);
+  const auto drive = study::drive_in<Scalar>(s, *compiled);
+  return drive ? drive->units : rig::Units{.current_A = -1};
+}
+
+TEST(Arithmetic, FloatingPointComputesInSI) {
+  const rig::Units u = units<float>(current_square());
+  for (const double unit : {u.current_A, u.voltage_V, u.speed_rad_s, u.position_deg, u.setpoint})
+    EXPECT_EQ(unit, 1.0);
+}
+
+TEST(Arithmetic, BasesHoldTwiceTheReferenceAgainstIt) {
+  // 10 A measured less a reference of -5 A; the end of Q31 is one digit below its base.
+  const rig::Units u = units<control::Q31>(current_square());
+  EXPECT_NEAR(u.current_A, 15.0, 15.0 * 0x1p-30);
+  EXPECT_NEAR(u.voltage_V, 24.0, 24.0 * 0x1p-30);
+  EXPECT_EQ(u.setpoint, u.current_A);
+  // Two bits before the point: the same ends from half the base.
+  EXPECT_NEAR((units<control::Fixed<std::int32_t, 30>>(current_square()).current_A), 7.5, 7.5 * 0x1p-30);
+}
+
+TEST(Arithmetic, SetpointHasTheUnitOfItsMode) {
+  Scenario s = maxon_scenario(control::Mode::speed, 100.0);
+  EXPECT_EQ(units<control::Q31>(s).setpoint, units<control::Q31>(s).speed_rad_s);
+  s = maxon_scenario(control::Mode::position, 1000.0);
+  EXPECT_EQ(units<control::Q31>(s).setpoint, units<control::Q31>(s).position_deg);
+  s = maxon_scenario(control::Mode::duty, 0.5);
+  EXPECT_EQ(units<control::Q31>(s).setpoint, 1.0);
+}
+
+TEST(Arithmetic, AGivenFullScaleIsWhatTheEndsStandFor) {
+  Scenario s = current_square();
+  s.control.full_scale.current_A = 32.0;
+  EXPECT_EQ(units<control::Q15>(s).current_A, 32.0);
+  EXPECT_EQ((units<control::Fixed<std::int16_t, 14>>(s).current_A), 16.0);
+}
+
+TEST(Arithmetic, WhatDoesNotFitIsAProblemBeforeTheRun) {
+  Scenario s = current_square();
+  s.control.arithmetic = Arithmetic::q15;
+  s.control.full_scale.current_A = 8.0;  // 10 A measured against -5 A do not fit
+  const auto run = study::run(s);
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.problems()[0].where, "control.arithmetic");
+  EXPECT_EQ(run.problems()[0].value, "\"q15\"");
+  EXPECT_THAT(run.problems()[0].limit, HasSubstr("above full scale"));
+  EXPECT_THAT(run.problems()[0].cure, HasSubstr("control.full_scale"));
+}
+
+TEST(Arithmetic, AnIntegralThatSeesNoDigitIsAProblem) {
+  Scenario s = current_square();
+  s.control.current = {};
+  s.control.current.kp = 4.5;
+  s.control.current.ki = 1e-5;  // per unit 6e-6, below 2^-13 of 16 bits
+  s.control.arithmetic = Arithmetic::q15;
+  const auto narrow = study::run(s);
+  ASSERT_FALSE(narrow);
+  EXPECT_THAT(narrow.problems()[0].limit, HasSubstr("current.K_i"));
+  s.control.arithmetic = Arithmetic::q31;
+  EXPECT_TRUE(study::run(s));
+}
+
+TEST(Arithmetic, EveryModeRunsInEveryFormat) {
+  for (const control::Mode mode : {control::Mode::off, control::Mode::duty, control::Mode::current,
+                                   control::Mode::speed, control::Mode::position})
+    for (const Arithmetic a : {Arithmetic::q15, Arithmetic::q14, Arithmetic::q31, Arithmetic::q30}) {
+      Scenario s = maxon_scenario(mode, mode == control::Mode::duty ? 1.0 : 20.0);
+      s.control.arithmetic = a;
+      s.duration_s = 2e-3;
+      ask(s, measure(study::MetricKind::final_value, study::Signal::speed));
+      const auto out = study::run(s);
+      ASSERT_TRUE(out) << to_string(out.problems()[0]);
+      EXPECT_FALSE(out->fault);
+      const double least = mode == control::Mode::off ? 0.0 : 1.0;
+      EXPECT_GE(out->comparisons[0].measured, least);
+    }
+}
+
+TEST(Arithmetic, FullDutyIsWholeWhereTheFormatHasIt) {
+  // Q1.14 has the 1: no off gap, so the very trajectory of double. Q15 ends one digit below: a gap per
+  // period.
+  Scenario s = maxon_scenario(control::Mode::duty, 1.0);
+  const auto wide = study::run(s);
+  s.control.arithmetic = Arithmetic::q14;
+  EXPECT_EQ(study::run(s)->digest, wide->digest);
+  s.control.arithmetic = Arithmetic::q15;
+  EXPECT_NE(study::run(s)->digest, wide->digest);
+}
+
+}  // namespace
