@@ -51,6 +51,7 @@ design::OperatingRange range_of(const ExportArguments& a, base::Problems& proble
                                                                 {"bus_V", &range.bus_V},
                                                                 {"setpoint", &range.setpoint}};
   std::vector<std::string> known;
+  known.reserve(members.size());
   for (const auto& member : members) known.push_back(member.first);
   for (const std::string& word : a.ranges) {
     const std::size_t cut = std::min(word.find('='), word.size());

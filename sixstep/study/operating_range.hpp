@@ -6,7 +6,9 @@
 //   resistance;
 //                                     or the speed it starts with
 //   current   (U + 2 K_e w)/R_tt      bus and back-EMF of two phases in one direction: full reversal at speed
-//   bus       U, or what it starts with
+//   bus       U, or what it starts with. What braking pumps into a bus that cannot sink is not in it: the
+//   engineer
+//             who allows that states the range.
 //   setpoint  the largest of the reference
 //   position  setpoint and starting angle, and the way to stop from the speed limit at full torque,
 //             J w^2/(2 T): no position loop overshoots further without a load that drives it

@@ -21,10 +21,9 @@ constexpr ProtectedConfig<Scalar> make_config() {
   c.drive = exported::drive;
   c.setpoint_limit = units.rad_per_s(600);
   c.sensing = CurrentSensing::one_shunt;
-  c.current_adc[0] = {// 5 V over 10 bits, 0.1 V/A, 0 A in the middle: 25 A both ways
-                      .per_eighth = units.amperes_per_count(5.0 / 1024 / 0.1),
-                      .offset_counts = 512,
-                      .offset_tolerance = 15};
+  // 5 V over 10 bits, 0.1 V/A, 0 A in the middle: 25 A both ways
+  c.current_adc[0] = {
+      .per_eighth = units.amperes_per_count(5.0 / 1024 / 0.1), .offset_counts = 512, .offset_tolerance = 15};
   c.bus_adc = {.per_eighth = units.volts_per_count(5.0 / 1024 * 11)};  // divider 10 to 1
   c.shunt = {.least_duty = units.plain(0.1), .commutation_samples = 4, .fade = units.plain(0.835)};
   c.speed = units.hall_speed(exported::pole_pairs, 2e6, 200'000, 6);

@@ -12,21 +12,20 @@ namespace firmware {
 using namespace sixstep::control;
 using exported::Scalar, exported::units;
 
-constexpr double clock_Hz = 72e6;
-constexpr auto pwm_counts =
-    static_cast<std::uint32_t>(static_cast<double>(exported::pwm_period_ps) * 1e-12 * clock_Hz + 0.5);
+constexpr std::uint32_t clock_MHz = 72;
+constexpr auto pwm_counts = static_cast<std::uint32_t>(exported::pwm_period_ps * clock_MHz / 1'000'000);
 
 constexpr ProtectedConfig<Scalar> make_config() {
   ProtectedConfig<Scalar> c;
   c.drive = exported::drive;
   c.setpoint_limit = units.rad_per_s(600);
-  for (AdcConfig<Scalar>& adc :
-       c.current_adc)  // 3.3 V over 12 bits, 0.05 V/A, 0 A in the middle: 33 A both ways
+  // 3.3 V over 12 bits, 0.05 V/A, 0 A in the middle: 33 A both ways
+  for (AdcConfig<Scalar>& adc : c.current_adc)
     adc = {.per_eighth = units.amperes_per_count(3.3 / 4096 / 0.05),
            .offset_counts = 2048,
            .offset_tolerance = 60};
   c.bus_adc = {.per_eighth = units.volts_per_count(3.3 / 4096 * 16)};  // divider 15 to 1
-  c.speed = units.hall_speed(exported::pole_pairs, clock_Hz, 7'200'000, 6);
+  c.speed = units.hall_speed(exported::pole_pairs, clock_MHz * 1e6, 7'200'000, 6);
   c.faults = {.over_current_A = units.amperes(30),
               .over_voltage_V = units.volts(30),
               .under_voltage_V = units.volts(10),
@@ -48,7 +47,7 @@ Setpoint<Scalar> setpoint;
 
 void apply(const BridgeCommand<Scalar>& command) {
   const Outputs out = outputs(command);
-  const auto compare = static_cast<std::uint32_t>(command.duty * static_cast<float>(pwm_counts) + 0.5f);
+  const auto compare = static_cast<std::uint32_t>(command.duty * static_cast<float>(pwm_counts));
   for (int n = 0; n < 3; ++n) tim1().CCR[n] = compare;
   tim1().CCMR1 = out.CCMR1;
   tim1().CCMR2 = out.CCMR2;
