@@ -1,57 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// Both entries of the drive on an ATmega2560 (16 MHz), in Q15. One shunt in the DC link on ADC0, the bus on
-// ADC1, upper gates on OC1A..OC1C (timer 1), lower gates on PA0..PA2, Hall pins on PK0..PK2, timer 3 counts 2
-// MHz for their edges.
+// Both entries of the lean drive on an ATmega2560 (16 MHz), a current loop in Q15. One shunt in the DC link
+// on ADC0, upper gates on OC1A..OC1C (timer 1), lower gates on PA0..PA2, Hall pins on PK0..PK2. The protected
+// drive takes four times as long here (README): what it would watch is the two lines that set `fault`.
 #include "faces/firmware/example/avr/bridge.hpp"
 #include "faces/firmware/example/avr/drive_config.hpp"
 #include "faces/firmware/example/avr/registers.hpp"
-#include "sixstep/control/protected_drive.hpp"
+#include "sixstep/control/adc.hpp"
+#include "sixstep/control/drive.hpp"
+#include "sixstep/control/one_shunt.hpp"
 
 namespace firmware {
 
 using namespace sixstep::control;
-using exported::Scalar, exported::units;
+using exported::drive, exported::Scalar, exported::units;
 
-static_assert(exported::drive.chopping == Chopping::soft, "these pins chop the upper gates alone");
-constexpr std::uint32_t pwm_counts =
-    static_cast<std::uint32_t>(exported::pwm_period_ps / 62'500);  // of 1/16 MHz
+static_assert(drive.mode == Mode::current && drive.chopping == Chopping::soft,
+              "what these pins and loops are for");
+constexpr auto pwm_counts = static_cast<std::uint32_t>(exported::pwm_period_ps / 62'500);  // of 1/16 MHz
 
-constexpr ProtectedConfig<Scalar> make_config() {
-  ProtectedConfig<Scalar> c;
-  c.drive = exported::drive;
-  c.setpoint_limit = units.rad_per_s(600);
-  c.sensing = CurrentSensing::one_shunt;
-  // 5 V over 10 bits, 0.1 V/A, 0 A in the middle: 25 A both ways
-  c.current_adc[0] = {
-      .per_eighth = units.amperes_per_count(5.0 / 1024 / 0.1), .offset_counts = 512, .offset_tolerance = 15};
-  c.bus_adc = {.per_eighth = units.volts_per_count(5.0 / 1024 * 11)};  // divider 10 to 1
-  c.shunt = {.least_duty = units.plain(0.1), .commutation_samples = 4, .fade = units.plain(0.835)};
-  c.speed = units.hall_speed(exported::pole_pairs, 2e6, 200'000, 6);
-  c.faults = {.over_current_A = units.amperes(24),
-              .over_voltage_V = units.volts(30),
-              .under_voltage_V = units.volts(10),
-              .over_speed_rad_s = units.rad_per_s(800),
-              .stall_current_A = units.amperes(15),
-              .stall_ticks = 3000,
-              .voltage_ticks = 3};
-  c.brake_current_A = units.amperes(5);
-  c.short_below_rad_s = units.rad_per_s(100);
-  c.standing_rad_s = units.rad_per_s(5);
-  return c;
-}
-constexpr ProtectedConfig<Scalar> config = make_config();
+// 5 V over 10 bits, 0.1 V/A, 0 A in the middle: 25 A both ways
+constexpr AdcConfig<Scalar> adc{
+    .per_eighth = units.amperes_per_count(5.0 / 1024 / 0.1), .offset_counts = 512, .offset_tolerance = 15};
+constexpr OneShuntConfig<Scalar> shunt{// sampled and settled 15 us into the period; fade = exp(-T R/L)
+                                       .least_duty = units.plain(0.05),
+                                       .commutation_samples = 2,
+                                       .fade = units.plain(0.583)};
+constexpr Scalar over_current = units.amperes(24);
 
-ProtectedState<Scalar> state;
-ProtectedTelemetry<Scalar> telemetry;  // for a display; the drive never reads it
-Request request;                       // from the main loop, with interrupts off
-Setpoint<Scalar> setpoint;
-BoardInput in;
-
-/// Timer 3 has 16 bits: widened at every look, of which there is one per PWM period.
-std::uint32_t now() {
-  in.now += static_cast<std::uint16_t>(TCNT3() - static_cast<std::uint16_t>(in.now));
-  return in.now;
-}
+DriveState<Scalar> state;
+AdcState adc_state;
+OneShuntState<Scalar> shunt_state;
+Telemetry<Scalar> telemetry;      // for a display; the drive never reads it
+std::uint8_t carried = 0;         // code whose pair carried the last sample
+bool run = false, fault = false;  // from and for the main loop, with interrupts off; a fault stays
+Setpoint<Scalar> setpoint;        // A
 
 std::uint8_t hall_pins() {  // PK0 is H1, the highest bit
   const std::uint8_t pins = PINK();
@@ -71,26 +53,43 @@ void apply(const BridgeCommand<Scalar>& command) {
   TCCR1A() = to.TCCR1A;
 }
 
+void turn_off() {
+  state = DriveState<Scalar>{};
+  apply(state.command);
+}
+
+/// The shunt's counts as phase currents of the pair that `code` drives.
+Measurement<Scalar> measured(std::uint8_t code, std::uint16_t counts) {
+  Measurement<Scalar> m{.hall = code};
+  const std::uint8_t sector = sector_of_hall(code);
+  if (sector == no_sector) return m;
+  if (code != carried) one_shunt_commutation(shunt, shunt_state);
+  carried = code;
+  const Scalar duty = state.command.enabled ? state.command.duty : Scalar{};
+  const Scalar now = adc_value(adc, adc_state, counts);
+  set_phase_currents(m, positive_pair(sector), one_shunt_step(shunt, shunt_state, state.reversed, duty, now));
+  return m;
+}
+
 }  // namespace firmware
 
-/// Timer 1's overflow starts the conversion of the shunt; the bus follows, then the control tick.
+/// Timer 1's overflow, the beginning of a PWM period, starts the conversion; its end calls here.
 extern "C" __attribute__((signal, used)) void INTERRUPT_ADC() {
   using namespace firmware;
-  if ((ADMUX() & 1) == 0) {
-    in.current_counts[0] = ADC();
-    ADMUX() = avcc | 1;
-    ADCSRA() = static_cast<std::uint8_t>(ADCSRA() | adc_start);
+  TIFR1() = timer1_overflow;  // the next overflow triggers again
+  const std::uint16_t counts = ADC();
+  if (adc_state.offset_eighths < 0) {  // the bridge is off since the reset: 0 A
+    if (adc_calibrate(adc, adc_state, counts) == Calibration::failed) fault = true;
     return;
   }
-  in.bus_counts = ADC();
-  ADMUX() = avcc;
-  TIFR1() = timer1_overflow;  // the next overflow triggers again
-  in.hall_pins = hall_pins();
-  now();
-  apply(protected_step(config, state, in, request, setpoint, telemetry));
+  const Measurement<Scalar> m = measured(hall_pins(), counts);
+  if (magnitude(shunt_state.driven_A) > over_current || sector_of_hall(m.hall) == no_sector) fault = true;
+  if (!run || fault) return turn_off();
+  apply(step(drive, state, m, setpoint, telemetry));
 }
 
 extern "C" __attribute__((signal, used)) void INTERRUPT_PCINT2() {
   using namespace firmware;
-  apply(protected_on_hall(config, state, hall_pins(), now()));
+  if (!run || fault || !state.command.enabled) return;
+  apply(on_hall(drive, state, hall_pins()));
 }

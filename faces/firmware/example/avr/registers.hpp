@@ -13,18 +13,13 @@ inline volatile Word& at(std::uint16_t address) {
 
 inline volatile std::uint8_t& PORTA() { return at<std::uint8_t>(0x22); }
 inline volatile std::uint16_t& ADC() { return at<std::uint16_t>(0x78); }
-inline volatile std::uint8_t& ADCSRA() { return at<std::uint8_t>(0x7A); }
-inline volatile std::uint8_t& ADMUX() { return at<std::uint8_t>(0x7C); }
 inline volatile std::uint8_t& TIFR1() { return at<std::uint8_t>(0x36); }
 inline volatile std::uint8_t& TCCR1A() { return at<std::uint8_t>(0x80); }
 inline volatile std::uint16_t& OCR1A() { return at<std::uint16_t>(0x88); }
 inline volatile std::uint16_t& OCR1B() { return at<std::uint16_t>(0x8A); }
 inline volatile std::uint16_t& OCR1C() { return at<std::uint16_t>(0x8C); }
-inline volatile std::uint16_t& TCNT3() { return at<std::uint16_t>(0x94); }
 inline volatile std::uint8_t& PINK() { return at<std::uint8_t>(0x106); }
 
-constexpr std::uint8_t adc_start = 1u << 6;        // ADCSRA: ADSC
-constexpr std::uint8_t avcc = 1u << 6;             // ADMUX: REFS0; below it the channel
 constexpr std::uint8_t timer1_overflow = 1u << 0;  // TIFR1: TOV1; cleared by writing 1
 
 }  // namespace firmware
