@@ -184,6 +184,12 @@ base::Result<std::string> config_header(const ConfigHeader& w) {
       return header<float>(w, *c, "float", study::in_arithmetic<float>(c->drive), {}, {});
     case HeaderArithmetic::q15:
       return fixed_header<control::Q15>(w, *c, "sixstep::control::Q15");
+    case HeaderArithmetic::q14:
+      return fixed_header<control::Fixed<std::int16_t, 14>>(w, *c,
+                                                            "sixstep::control::Fixed<std::int16_t, 14>");
+    case HeaderArithmetic::q30:
+      return fixed_header<control::Fixed<std::int32_t, 30>>(w, *c,
+                                                            "sixstep::control::Fixed<std::int32_t, 30>");
     case HeaderArithmetic::q31:
       return fixed_header<control::Q31>(w, *c, "sixstep::control::Q31");
   }

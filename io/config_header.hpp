@@ -13,13 +13,17 @@
 
 namespace io {
 
-enum class HeaderArithmetic : std::uint8_t { float64, float32, q15, q31 };
+enum class HeaderArithmetic : std::uint8_t { float64, float32, q15, q14, q31, q30 };
 
 inline constexpr base::Choice<HeaderArithmetic> header_arithmetic_choices[] = {
     {"double", HeaderArithmetic::float64, "64-bit floating point"},
     {"float", HeaderArithmetic::float32, "32-bit floating point"},
-    {"q15", HeaderArithmetic::q15, "fixed point, 16 bits, one before the point"},
-    {"q31", HeaderArithmetic::q31, "fixed point, 32 bits, one before the point"},
+    {"q15", HeaderArithmetic::q15,
+     "16-bit fixed point, -1 to 1 - 2^-15: the largest duty is one digit below 1"},
+    {"q14", HeaderArithmetic::q14,
+     "16-bit fixed point, -2 to 2 - 2^-14: has the duty 1, and half the resolution"},
+    {"q31", HeaderArithmetic::q31, "32-bit fixed point, -1 to 1 - 2^-31"},
+    {"q30", HeaderArithmetic::q30, "32-bit fixed point, -2 to 2 - 2^-30: has the duty 1"},
 };
 
 struct ConfigHeader {

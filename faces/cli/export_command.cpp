@@ -29,11 +29,12 @@ std::optional<io::HeaderArithmetic> arithmetic_of(const std::string& word, base:
     if (choice.word == word) return choice.value;
     known.emplace_back(choice.word);
   }
-  problems.push_back({"--arithmetic", word, "must be double, float, q15 or q31", meant(word, known)});
+  problems.push_back(
+      {"--arithmetic", word, fmt::format("must be one of {}", fmt::join(known, ", ")), meant(word, known)});
   return {};
 }
 
-bool is_fixed(const std::string& arithmetic) { return arithmetic == "q15" || arithmetic == "q31"; }
+bool is_fixed(const std::string& arithmetic) { return arithmetic.starts_with('q'); }
 
 /// A number above 0 that is all of the text; else 0.
 double positive(const std::string& text) {
@@ -69,7 +70,7 @@ design::OperatingRange range_of(const ExportArguments& a, base::Problems& proble
   if (!a.ranges.empty() && !is_fixed(a.arithmetic) && problems.empty())
     problems.push_back({"--range", "",
                         "says what fixed point must hold, and the drive is to be in floating point",
-                        "add --arithmetic q15 or q31, or leave the range out"});
+                        "add --arithmetic q15 or another fixed point, or leave the range out"});
   return range;
 }
 

@@ -63,7 +63,8 @@ void declare_run(CLI::App& run, RunArguments& a) {
 void declare_export(CLI::App& header, ExportArguments& a) {
   header.add_option("SCENARIO", a.file, "scenario file")->required();
   header.add_option("--out", a.out, "the file to write; without it standard output");
-  header.add_option("--arithmetic", a.arithmetic, "double, float, q15 or q31; without it control.arithmetic");
+  header.add_option("--arithmetic", a.arithmetic,
+                    "double, float, q15, q14, q31 or q30; without it control.arithmetic");
   header
       .add_option(
           "--range", a.ranges,

@@ -237,12 +237,12 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(off, f"{position}: control.mode = off leaves no drive to export; set it to duty, current, speed or position\n")
         self.assertIn("absent.toml", told("absent.toml"))
         self.assertEqual(told(position, "--arithmetic", "q51"),
-                         "--arithmetic = q51 must be double, float, q15 or q31; did you mean q15?\n")
+                         "--arithmetic = q51 must be one of double, float, q15, q14, q31, q30; did you mean q15?\n")
         self.assertEqual(told(position, "--range", "curent_A=3", "--arithmetic", "q15"),
                          "--range curent_A=3 names no quantity of the range; did you mean current_A?\n")
         self.assertIn("--range current_A = 3A must be a number above 0", told(position, "--range", "current_A=3A", "--arithmetic", "q15"))
         self.assertIn("--range current_A", told(position, "--range", "current_A", "--arithmetic", "q15"))
-        self.assertIn("add --arithmetic q15 or q31", told(position, "--range", "current_A=3"))
+        self.assertIn("add --arithmetic q15", told(position, "--range", "current_A=3"))
         self.assertIn("is no name of a C++ namespace", told(position, "--namespace", "7up"))
         self.assertIn("does not name a key and a value", told(position, "--set", "novalue"))
         small = told(position, "--arithmetic", "q15", "--set", "control.speed.d1=1e-9", "--set", "control.speed.d0=-0.9e-9")

@@ -119,6 +119,8 @@ TEST(ExportHeader, FixedPointIsWhatTheScalingProved) {
   expect_scaled(exported_speed_stated::drive, exported_speed_stated::units, "thesis/7.4-speed-thesis-gains",
                 stated);
   expect_scaled(exported_position_q15::drive, exported_position_q15::units, "thesis/7.5-position");
+  expect_scaled(exported_position_q14::drive, exported_position_q14::units, "thesis/7.5-position");
+  expect_scaled(exported_position_q30::drive, exported_position_q30::units, "thesis/7.5-position");
   expect_scaled(exported_position_q31::drive, exported_position_q31::units, "thesis/7.5-position");
 }
 
