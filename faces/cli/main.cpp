@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "faces/cli/export_command.hpp"
 #include "faces/cli/help_command.hpp"
 #include "faces/cli/motor_command.hpp"
 #include "faces/cli/run_command.hpp"
@@ -59,8 +60,26 @@ void declare_run(CLI::App& run, RunArguments& a) {
   run.add_option("--drive", a.drive, "drive N of the series alone, with all its outputs")->excludes(runs);
 }
 
+void declare_export(CLI::App& header, ExportArguments& a) {
+  header.add_option("SCENARIO", a.file, "scenario file")->required();
+  header.add_option("--out", a.out, "the file to write; without it standard output");
+  header.add_option("--arithmetic", a.arithmetic,
+                    "double, float, q15, q14, q31 or q30; without it control.arithmetic");
+  header
+      .add_option(
+          "--range", a.ranges,
+          "fixed point: the most that is measured or asked for, as --range current_A=20; also speed_rad_s, "
+          "position_deg, bus_V, setpoint; without it what the scenario's motor and bus can reach")
+      ->allow_extra_args(false);
+  header.add_option("--set", a.sets, "key=value, stronger than the file")->allow_extra_args(false);
+  header.add_option("--namespace", a.name_space, "C++ namespace of what the header declares")
+      ->capture_default_str();
+  header.add_flag("--single-header", a.single_header, "include sixstep_control.hpp, not sixstep/control/");
+  header.add_option("--data", a.data_dir, "folder that holds motors/");
+}
+
 Exit unknown_command(const std::string& word) {
-  const std::vector<std::string> known = {"run", "help", "motor"};
+  const std::vector<std::string> known = {"run", "export", "help", "motor"};
   const auto near = std::find_if(known.begin(), known.end(), [&](const std::string& command) {
     return io::edit_distance(word, command) <= 2;
   });
@@ -82,6 +101,12 @@ Exit run_program(int count, const char* const* words) {
   CLI::App& run = *app.add_subcommand("run", "run scenarios and judge them");
   declare_run(run, run_arguments);
 
+  ExportArguments export_arguments;
+  CLI::App& exports = *app.add_subcommand("export", "a scenario's drive for use elsewhere");
+  exports.require_subcommand(1);
+  declare_export(*exports.add_subcommand("header", "gains and scalings as constants for firmware, in C++20"),
+                 export_arguments);
+
   std::string key;
   CLI::App& help = *app.add_subcommand("help", "explain a key, a table, or all of them");
   help.add_option("KEY", key, "as supply.voltage_V, pwm or resistance_ohm");
@@ -102,7 +127,9 @@ Exit run_program(int count, const char* const* words) {
     return app.exit(error) == 0 ? Exit::ok : Exit::bad_input;
   }
   run_arguments.command = retyped(count, words);
+  export_arguments.command = run_arguments.command;
   if (run) return run_command(run_arguments);
+  if (exports) return export_header(export_arguments);
   if (help) return help_command(key);
   return list ? list_motors() : show_motor(motor_name, data_dir);
 }

@@ -11,6 +11,7 @@
 #include "batch/for_each.hpp"
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/series_command.hpp"
+#include "faces/cli/settings.hpp"
 #include "faces/cli/terminal.hpp"
 #include "io/scenario_file.hpp"
 #include "io/verdict_table.hpp"
@@ -25,23 +26,9 @@ void append(base::Problems& to, const base::Problems& more) { to.insert(to.end()
 
 std::string place(const std::string& file) { return fmt::format("{}:", file); }
 
-io::ReadOptions read_options(const RunArguments& arguments, base::Problems& problems) {
-  io::ReadOptions options{.data_dir = arguments.data_dir, .overrides = {}};
-  for (const std::string& set : arguments.sets) {
-    const std::size_t cut = set.find('=');
-    if (cut == std::string::npos || cut == 0)
-      problems.push_back({.where = fmt::format("--set {}", set),
-                          .limit = "does not name a key and a value",
-                          .cure = "write --set table.key=value, as in --set supply.voltage_V=12"});
-    else
-      options.overrides.push_back({set.substr(0, cut), set.substr(cut + 1)});
-  }
-  return options;
-}
-
 std::vector<Job> read_jobs(const RunArguments& arguments, base::Problems& problems) {
   std::vector<Job> jobs;
-  const io::ReadOptions options = read_options(arguments, problems);
+  const io::ReadOptions options = read_options(arguments.data_dir, arguments.sets, problems);
   if (!problems.empty()) return jobs;
   for (const std::string& file : arguments.files) {
     base::Result<study::Scenario> scenario = io::read_scenario(file, options);

@@ -85,11 +85,18 @@ struct FixedGain {
   explicit constexpr FixedGain(double gain) {
     constexpr double end = static_cast<double>(detail::greatest<Storage>);
     double m = gain;
-    while (right < most_right && 2 * m <= end && 2 * m >= -end) {
+    while (m != 0 && right < most_right && 2 * m <= end && 2 * m >= -end) {
       m *= 2;
       ++right;
     }
     mantissa = detail::nearest<Storage>(m < -end ? -end : m);
+  }
+  /// The same bits on every compiler, also where double has 32 of them: what an export writes.
+  static constexpr FixedGain from_raw(Storage mantissa, std::int8_t right) {
+    FixedGain gain;
+    gain.mantissa = mantissa;
+    gain.right = right;
+    return gain;
   }
   explicit constexpr operator double() const {
     return static_cast<double>(mantissa) / static_cast<double>(detail::two_to<std::int64_t>(right));
@@ -104,6 +111,11 @@ struct FixedDivisor {
 
   constexpr FixedDivisor() = default;
   explicit constexpr FixedDivisor(double divisor) : reciprocal(divisor == 0 ? 0.0 : 1 / divisor) {}
+  static constexpr FixedDivisor from_reciprocal(FixedGain<Storage> reciprocal) {
+    FixedDivisor divisor;
+    divisor.reciprocal = reciprocal;
+    return divisor;
+  }
   friend constexpr bool operator>(const FixedDivisor& d, const FixedDivisor& than) {
     return d.reciprocal.mantissa > than.reciprocal.mantissa;  // used for "is it positive" alone
   }

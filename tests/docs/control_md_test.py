@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""control_md_test.py COMPILER: the snippets of docs/control.md compile as they stand, and its table names every block."""
+"""control_md_test.py COMPILER [PROGRAM]: the snippets of docs/control.md compile as they stand, and its table names every block."""
 import pathlib
 import re
 import subprocess
@@ -10,7 +10,7 @@ import unittest
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 PAGE = (REPOSITORY / "docs" / "control.md").read_text()
-COMPILER = "c++"
+COMPILER, PROGRAM = "c++", REPOSITORY / "build/dev/sixstep"
 WARNINGS = ["-std=c++20", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wno-sign-conversion", "-Wdouble-promotion",
             "-Wno-missing-field-initializers", "-Werror"]
 
@@ -42,8 +42,15 @@ class ControlPage(unittest.TestCase):
                 subprocess.run(line.replace("tools/", f"{REPOSITORY}/tools/"), shell=True, cwd=folder, check=True)
             self.assertTrue((pathlib.Path(folder) / "sixstep_control.hpp").is_file())
 
+    def test_what_is_exported_goes_into_the_chips_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for line in snippets("export"):
+                line = line.replace("./run", f"'{PROGRAM}'").replace("--out ", f"--out {folder}/")
+                subprocess.run(line, shell=True, cwd=REPOSITORY, check=True)
+            self.compile("\n".join(snippets("exported")), "-ffreestanding", "-fno-exceptions", "-fno-rtti", f"-I{folder}")
+
     def test_every_snippet_is_tested_and_every_block_named(self):
-        self.assertEqual(PAGE.count("```") // 2, sum(len(snippets(kind)) for kind in ("chip", "host", "shell")))
+        self.assertEqual(PAGE.count("```") // 2, sum(len(snippets(kind)) for kind in ("chip", "host", "shell", "export", "exported")))
         table = PAGE.split("<!-- test: blocks -->")[1]
         named = sorted(re.findall(r"`(\w+\.hpp)`", table))
         self.assertEqual(named, sorted(p.name for p in (REPOSITORY / "sixstep/control").glob("*.hpp")))
@@ -51,4 +58,5 @@ class ControlPage(unittest.TestCase):
 
 if __name__ == "__main__":
     COMPILER = sys.argv.pop(1) if len(sys.argv) > 1 else COMPILER
+    PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else PROGRAM
     unittest.main()

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/export_command.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "faces/cli/settings.hpp"
+#include "faces/cli/terminal.hpp"
+#include "io/atomic_file.hpp"
+#include "io/config_header.hpp"
+#include "io/key_advice.hpp"
+#include "sixstep/study/choices.hpp"
+
+namespace cli {
+namespace {
+
+std::string meant(const std::string& word, const std::vector<std::string>& known) {
+  const std::string near = io::nearest(word, known);
+  return near.empty() ? fmt::format("take one of {}", fmt::join(known, ", "))
+                      : fmt::format("did you mean {}?", near);
+}
+
+std::optional<study::Arithmetic> arithmetic_of(const std::string& word, base::Problems& problems) {
+  if (word.empty()) return {};
+  std::vector<std::string> known;
+  for (const auto& choice : study::arithmetic_choices) {
+    if (choice.word == word) return choice.value;
+    known.emplace_back(choice.word);
+  }
+  problems.push_back(
+      {"--arithmetic", word, fmt::format("must be one of {}", fmt::join(known, ", ")), meant(word, known)});
+  return {};
+}
+
+/// A number above 0 that is all of the text; else 0.
+double positive(const std::string& text) {
+  double x = 0.0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), x);
+  const bool whole = end.ec == std::errc{} && end.ptr == text.data() + text.size();
+  return whole && std::isfinite(x) && x > 0 ? x : 0.0;
+}
+
+design::OperatingRange range_of(const ExportArguments& a, base::Problems& problems) {
+  design::OperatingRange range;
+  const std::vector<std::pair<std::string, double*>> members = {{"current_A", &range.current_A},
+                                                                {"speed_rad_s", &range.speed_rad_s},
+                                                                {"position_deg", &range.position_deg},
+                                                                {"bus_V", &range.bus_V},
+                                                                {"setpoint", &range.setpoint}};
+  std::vector<std::string> known;
+  known.reserve(members.size());
+  for (const auto& member : members) known.push_back(member.first);
+  for (const std::string& word : a.ranges) {
+    const std::size_t cut = std::min(word.find('='), word.size());
+    const std::string key = word.substr(0, cut), value = word.substr(std::min(cut + 1, word.size()));
+    double* to = nullptr;
+    for (const auto& member : members)
+      if (member.first == key) to = member.second;
+    if (!to)
+      problems.push_back(
+          {fmt::format("--range {}", word), "", "names no quantity of the range", meant(key, known)});
+    else if (*to = positive(value); *to == 0.0)
+      problems.push_back({fmt::format("--range {}", key), value, "must be a number above 0",
+                          "give the most that may be measured, as in --range current_A=20"});
+  }
+  return range;
+}
+
+Exit refused(const base::Problems& problems) {
+  complain(problems);
+  return Exit::bad_input;
+}
+
+}  // namespace
+
+Exit export_header(const ExportArguments& a) {
+  base::Problems problems;
+  const std::optional<study::Arithmetic> arithmetic = arithmetic_of(a.arithmetic, problems);
+  const design::OperatingRange range = range_of(a, problems);
+  const io::ReadOptions options = read_options(a.data_dir, a.sets, problems);
+  if (!problems.empty()) return refused(problems);
+  const base::Result<study::Scenario> scenario = io::read_scenario(a.file, options);
+  if (!scenario) return refused(scenario.problems());
+  const study::Arithmetic number = arithmetic.value_or(scenario->control.arithmetic);
+  if (!a.ranges.empty() && (number == study::Arithmetic::float64 || number == study::Arithmetic::float32))
+    return refused(
+        {{"--range", "", "says what fixed point must hold, and the drive is to be in floating point",
+          "add --arithmetic q15 or another fixed point, or leave the range out"}});
+  const base::Result<std::string> text = io::config_header({.scenario = *scenario,
+                                                            .arithmetic = arithmetic,
+                                                            .range = range,
+                                                            .name_space = a.name_space,
+                                                            .single_header = a.single_header,
+                                                            .command = a.command});
+  if (!text) {
+    problems = text.problems();
+    for (base::Problem& problem : problems)
+      if (!problem.where.starts_with("--")) problem.where = fmt::format("{}: {}", a.file, problem.where);
+    return refused(problems);
+  }
+  if (a.out.empty() || a.out == "-") {
+    print(*text);
+    return Exit::ok;
+  }
+  base::Result<io::AtomicFile> file = io::AtomicFile::create(a.out);
+  if (!file) return refused(file.problems());
+  file->write(*text);
+  if (problems = file->commit(); !problems.empty()) return refused(problems);
+  return Exit::ok;
+}
+
+}  // namespace cli

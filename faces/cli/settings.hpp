@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Words of the command line that are a key and a value.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "faces/cli/rooms.hpp"
+#include "io/scenario_file.hpp"
+
+namespace cli {
+
+/// "--set table.key=value" for each word; what is none is a Problem.
+io::ReadOptions read_options(const std::string& data_dir, const std::vector<std::string>& sets,
+                             base::Problems& problems);
+
+}  // namespace cli

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// What 1.0 of a signal means in A, V, rad/s and degrees, and constants of a board turned into that while
+// compiling: x in SI becomes x/base, rounded once. In floating point every base is 1. The same quotients as
+// design/product_scaling.hpp, so a converter or threshold written in firmware has the bits proved there.
+// (Where double has 32 bits, AVR, the last of 16 bits may round the other way; an exported drive is whole
+// numbers.)
+//
+// A chip never divides by a base: all functions are consteval, and what the format does not hold does not
+// compile ("does_not_fit").
+#pragma once
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/hall_speed.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+namespace detail {
+
+void does_not_fit();  // nowhere defined and not constexpr: a compiler that gets here stops
+
+template <class Scalar>
+struct FormatEnds {  // of floating point: none that an SI number reaches
+  static constexpr double digit = 1.0;
+  static constexpr bool holds(double) { return true; }
+  static constexpr bool holds_gain(double) { return true; }
+  static constexpr bool holds_ticks(double) { return true; }
+};
+
+template <class Storage, int FractionBits>
+struct FormatEnds<Fixed<Storage, FractionBits>> {
+  using Scalar = Fixed<Storage, FractionBits>;
+  static constexpr double digit = static_cast<double>(Scalar::from_raw(1));
+  /// A whole base counts as held where the format ends one digit below it (Q15, Q31).
+  static constexpr bool holds(double x) {
+    return x <= static_cast<double>(Scalar::max()) + digit && x >= static_cast<double>(Scalar::min());
+  }
+  static constexpr bool holds_gain(double x) {
+    constexpr double most = static_cast<double>(greatest<Storage>);
+    return x <= most && x >= -most;
+  }
+  static constexpr bool holds_ticks(double x) {
+    return x / digit <= static_cast<double>(greatest<typename Scalar::WideInt>);
+  }
+};
+
+}  // namespace detail
+
+template <class Scalar>
+struct Units {
+  double current_A = 1.0;
+  double voltage_V = 1.0;
+  double speed_rad_s = 1.0;
+  double position_deg = 1.0;
+
+  consteval Scalar amperes(double x) const { return signal(x / current_A); }
+  consteval Scalar volts(double x) const { return signal(x / voltage_V); }
+  consteval Scalar rad_per_s(double x) const { return signal(x / speed_rad_s); }
+  consteval Scalar degrees(double x) const { return signal(x / position_deg); }
+  /// A duty, a fraction, sectors: the base is 1 in every format.
+  consteval Scalar plain(double x) const { return signal(x); }
+
+  /// AdcConfig::per_eighth of a converter that reads so many A or V per count.
+  consteval Gain<Scalar> amperes_per_count(double x) const { return per_eighth(x, current_A); }
+  consteval Gain<Scalar> volts_per_count(double x) const { return per_eighth(x, voltage_V); }
+
+  /// Speed by Hall edges against a free-running timer (hall_speed.hpp); `edges` 1..6, 6 is an electrical
+  /// turn.
+  consteval HallSpeedConfig<Scalar> hall_speed(int pole_pairs, double timer_Hz, std::uint32_t timeout_ticks,
+                                               std::uint8_t edges) const {
+    constexpr double pi = 3.14159265358979323846;
+    const double ticks = pi / 3 / pole_pairs * timer_Hz / speed_rad_s;
+    if (!detail::FormatEnds<Scalar>::holds_ticks(ticks * edges)) detail::does_not_fit();
+    return {TickRatio<Scalar>(ticks), timeout_ticks, edges};
+  }
+
+  /// Position by Hall edges: 60/p mechanical degrees each.
+  consteval HallPositionConfig<Scalar> hall_position(int pole_pairs) const {
+    const double sector = 60.0 / pole_pairs / position_deg;
+    return {gain(sector / detail::FormatEnds<Scalar>::digit), gain(sector)};
+  }
+
+ private:
+  static consteval Scalar signal(double x) {
+    if (!detail::FormatEnds<Scalar>::holds(x)) detail::does_not_fit();
+    return static_cast<Scalar>(x);
+  }
+  static consteval Gain<Scalar> gain(double x) {
+    if (!detail::FormatEnds<Scalar>::holds_gain(x)) detail::does_not_fit();
+    return static_cast<Gain<Scalar>>(x);
+  }
+  static consteval Gain<Scalar> per_eighth(double per_count, double base) {
+    return gain(per_count / 8 / base / detail::FormatEnds<Scalar>::digit);
+  }
+};
+
+}  // namespace sixstep::control

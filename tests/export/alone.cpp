@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every exported header compiles for a chip, and its constants are known while compiling.
+#include "tests/export/headers.hpp"
+
+namespace {
+using sixstep::control::Mode;
+static_assert(exported_duty::drive.mode == Mode::duty && exported_current::drive.mode == Mode::current);
+static_assert(exported_speed_q15::drive.mode == Mode::speed &&
+              exported_position_q31::drive.mode == Mode::position);
+static_assert(exported_position::pwm_period_ps == 30'000'000 && exported_position::pole_pairs == 8);
+static_assert(exported_position_q15::units.amperes(1.0).raw > 0);
+}  // namespace

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// Firmware and simulation use the same bits: what the exported headers define against what a run computes
+// with.
+#include <gmock/gmock.h>
+
+#include <bit>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "io/config_header.hpp"
+#include "io/config_lines.hpp"
+#include "io/scenario_file.hpp"
+#include "sixstep/design/product_scaling.hpp"
+#include "sixstep/study/arithmetic.hpp"
+#include "sixstep/study/compile.hpp"
+#include "tests/export/extras_drive.hpp"
+#include "tests/export/headers.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::control;
+
+study::Scenario shipped(const std::string& name) {
+  const std::string path = std::string(SIXSTEP_SOURCE_DIR) + "/data/scenarios/" + name + ".toml";
+  const auto scenario = io::read_scenario(path);
+  if (!scenario) ADD_FAILURE() << to_string(scenario.problems()[0]);
+  return scenario ? *scenario : study::Scenario{};
+}
+
+study::Compiled compiled(const study::Scenario& scenario) { return *study::compile(scenario); }
+
+std::int64_t bits(double x) { return std::bit_cast<std::int64_t>(x); }
+std::int64_t bits(float x) { return std::bit_cast<std::int32_t>(x); }
+template <class Storage, int n>
+std::int64_t bits(Fixed<Storage, n> x) {
+  return x.raw;
+}
+template <class Storage>
+std::int64_t bits(FixedGain<Storage> x) {
+  return std::int64_t{x.mantissa} * 256 + x.right;
+}
+template <class Storage>
+std::int64_t bits(FixedDivisor<Storage> x) {
+  return bits(x.reciprocal);
+}
+template <class Format>
+std::int64_t bits(FixedSum<Format> x) {
+  return x.raw;
+}
+template <class Enum>
+requires std::is_enum_v<Enum> || std::is_same_v<Enum, bool> std::int64_t bits(Enum x) {
+  return static_cast<std::int64_t>(x);
+}
+
+// A new member must be written by io/config_lines.hpp and compared here.
+static_assert(sizeof(DriveConfig<double>) == 248 && sizeof(DriveExtras<double>) == 128);
+
+/// Every member, in its order.
+template <class S>
+std::vector<std::int64_t> bits_of(const DriveConfig<S>& c) {
+  const DriveExtras<S>& x = c.extras;
+  const LimitsConfig<S>& l = x.limits;
+  const auto second = [](const PiConfig<S>& pi) {
+    if constexpr (std::is_floating_point_v<S>)
+      return bits(pi.d0);
+    else
+      return bits(pi.K_i);
+  };
+  return {bits(c.mode), bits(c.chopping), bits(c.current_control), bits(c.current.d1), second(c.current),
+          bits(c.current.limit), bits(c.hysteresis.band_A), bits(c.hysteresis.watch), bits(c.nominal_bus_V),
+          bits(c.speed.d1), second(c.speed), bits(c.speed.limit), bits(c.current_at_full_torque_A),
+          bits(c.current_limit_A), bits(c.position_gain), bits(c.speed_limit_rad_s), bits(c.speed_control),
+          // extras
+          bits(x.on), bits(x.slews_setpoint), bits(x.slew.step), bits(x.limits_current), bits(l.current_A),
+          bits(l.limits_speed), bits(l.speed_rad_s), bits(l.A_per_rad_s), bits(l.limits_regeneration),
+          bits(l.bus_V), bits(l.A_per_V), bits(x.torque_fraction_per_A), bits(x.feed_forward.K_t_V_s),
+          bits(x.bus.lowest_bus_V), bits(x.smooth_chopping), bits(x.chopping.soft_above_A),
+          bits(x.chopping.complementary_below_A)};
+}
+
+TEST(ExportHeader, FloatingPointIsWhatTheRunComputesWith) {
+  EXPECT_EQ(bits_of(exported_current::drive),
+            bits_of(compiled(shipped("thesis/7.3.1-locked-exact-design")).drive));
+  EXPECT_EQ(bits_of(exported_hysteresis::drive), bits_of(compiled(shipped("thesis/7.3.2-motor-hard")).drive));
+  const auto speed = compiled(shipped("thesis/7.4-speed-thesis-gains")).drive;
+  EXPECT_EQ(bits_of(exported_speed::drive), bits_of(speed));
+  EXPECT_EQ(bits_of(exported_speed_float::drive), bits_of(study::in_arithmetic<float>(speed)));
+  const auto position = compiled(shipped("thesis/7.5-position")).drive;
+  EXPECT_EQ(bits_of(exported_position::drive), bits_of(position));
+  EXPECT_EQ(bits_of(exported_position_float::drive), bits_of(study::in_arithmetic<float>(position)));
+}
+
+/// Drive and bases as design::scaled gives them over the range that the header was asked for.
+template <class S>
+void expect_scaled(const DriveConfig<S>& drive, const Units<S>& units, const char* name,
+                   std::optional<design::OperatingRange> stated = {}) {
+  SCOPED_TRACE(name);
+  const study::Scenario scenario = shipped(name);
+  const study::Compiled c = compiled(scenario);
+  const auto scaled = design::scaled<S>(c.drive, stated.value_or(study::operating_range(scenario, c)));
+  ASSERT_TRUE(scaled) << to_string(scaled.problems()[0]);
+  EXPECT_EQ(bits_of(drive), bits_of(scaled->config));
+  EXPECT_EQ(units.current_A, scaled->bases.current_A);
+  EXPECT_EQ(units.voltage_V, scaled->bases.voltage_V);
+  EXPECT_EQ(units.speed_rad_s, scaled->bases.speed_rad_s);
+  EXPECT_EQ(units.position_deg, scaled->bases.position_deg);
+}
+
+constexpr design::OperatingRange stated{.current_A = 20.1, .speed_rad_s = 850, .bus_V = 40, .setpoint = 700};
+
+TEST(ExportHeader, FixedPointIsWhatTheScalingProved) {
+  expect_scaled(exported_duty::drive, exported_duty::units, "reference/R3");
+  expect_scaled(exported_current_q15::drive, exported_current_q15::units, "thesis/7.3.1-locked-exact-design");
+  expect_scaled(exported_hysteresis_q31::drive, exported_hysteresis_q31::units, "thesis/7.3.2-motor-hard");
+  expect_scaled(exported_speed_q15::drive, exported_speed_q15::units, "thesis/7.4-speed-thesis-gains");
+  expect_scaled(exported_speed_stated::drive, exported_speed_stated::units, "thesis/7.4-speed-thesis-gains",
+                stated);
+  expect_scaled(exported_position_q15::drive, exported_position_q15::units, "thesis/7.5-position");
+  expect_scaled(exported_position_q14::drive, exported_position_q14::units, "thesis/7.5-position");
+  expect_scaled(exported_position_q30::drive, exported_position_q30::units, "thesis/7.5-position");
+  expect_scaled(exported_position_q31::drive, exported_position_q31::units, "thesis/7.5-position");
+}
+
+constexpr DriveConfig<double> extras_double() {
+  using Scalar = double;
+  DriveConfig<Scalar> c;
+#include "extras_double.inc"
+  return c;
+}
+constexpr DriveConfig<Q31> extras_q31() {
+  using Scalar = Q31;
+  DriveConfig<Scalar> c;
+#include "extras_q31.inc"
+  return c;
+}
+
+TEST(ExportHeader, ExtrasComeAlong) {
+  EXPECT_EQ(bits_of(extras_double()), bits_of(extras::drive()));
+  EXPECT_EQ(bits_of(extras_q31()), bits_of(design::scaled<Q31>(extras::drive(), extras::range)->config));
+}
+
+// Constants of a board by the header's units are those that scaled_product proves.
+TEST(ExportHeader, UnitsGiveTheBitsOfTheProductsScaling) {
+  constexpr auto u = exported_speed_stated::units;
+  ProtectedConfig<double> product;
+  product.drive = compiled(shipped("thesis/7.4-speed-thesis-gains")).drive;
+  product.setpoint_limit = 700;
+  for (AdcConfig<double>& adc : product.current_adc) adc = {40.0 / 4096 / 8, 2048, 40, 6};
+  product.bus_adc = {40.0 / 4096 / 8, 0, 0, 6};
+  product.speed = {3.14159265358979323846 / 3 / 8 * 1e6, 100000, 6};
+  product.faults = {15, 30, 10, 800, 8, 3000, 3};
+  const auto scaled = design::scaled_product<Q15>(product, stated, 12);
+  ASSERT_TRUE(scaled) << to_string(scaled.problems()[0]);
+  const ProtectedConfig<Q15>& c = scaled->config;
+  EXPECT_EQ(bits(c.setpoint_limit), bits(u.rad_per_s(700)));
+  EXPECT_EQ(bits(c.current_adc[0].per_eighth), bits(u.amperes_per_count(40.0 / 4096)));
+  EXPECT_EQ(bits(c.bus_adc.per_eighth), bits(u.volts_per_count(40.0 / 4096)));
+  EXPECT_EQ(c.speed.sector_rad_s_ticks.raw, u.hall_speed(8, 1e6, 100000, 6).sector_rad_s_ticks.raw);
+  EXPECT_EQ(bits(c.faults.over_current_A), bits(u.amperes(15)));
+  EXPECT_EQ(bits(c.faults.over_voltage_V), bits(u.volts(30)));
+  EXPECT_EQ(bits(c.faults.over_speed_rad_s), bits(u.rad_per_s(800)));
+}
+
+TEST(ExportHeader, UnitsCountPositionAsTheProductsScaling) {
+  constexpr auto u = exported_position_q31::units;
+  const study::Scenario scenario = shipped("thesis/7.5-position");
+  const study::Compiled c = compiled(scenario);
+  ProtectedConfig<double> product;
+  product.drive = c.drive;
+  product.position = {60.0 / 8, 60.0 / 8};
+  const auto scaled = design::scaled_product<Q31>(product, study::operating_range(scenario, c), 12);
+  ASSERT_TRUE(scaled) << to_string(scaled.problems()[0]);
+  EXPECT_EQ(bits(scaled->config.position.per_sector), bits(u.hall_position(8).per_sector));
+  EXPECT_EQ(bits(scaled->config.position.per_fraction), bits(u.hall_position(8).per_fraction));
+  constexpr Units<float> si;  // floating point means what it says
+  EXPECT_EQ(si.hall_position(8).per_sector, 7.5f);
+  EXPECT_EQ(si.amperes(15.5), 15.5f);
+  EXPECT_EQ(si.amperes_per_count(0.25), 0.03125f);
+}
+
+base::Result<std::string> header_of(const study::Scenario& s, study::Arithmetic a, const char* name = "x",
+                                    design::OperatingRange range = {}) {
+  return io::config_header(
+      {.scenario = s, .arithmetic = a, .range = range, .name_space = name, .command = "c"});
+}
+
+TEST(ExportHeader, WhatDoesNotFitIsNamed) {
+  study::Scenario s = shipped("thesis/7.4-speed-thesis-gains");
+  s.control.speed.d1 = 1e-9;
+  s.control.speed.d0 = -0.9e-9;
+  const auto text = header_of(s, study::Arithmetic::q15);
+  ASSERT_FALSE(text);
+  const base::Problem& p = text.problems()[0];
+  EXPECT_EQ(p.where, "control.arithmetic");
+  EXPECT_NE(p.limit.find("speed.K_i"), std::string::npos);
+  EXPECT_NE(p.limit.find("one digit unseen"), std::string::npos);
+  EXPECT_FALSE(p.value.empty() || p.cure.empty());
+  EXPECT_TRUE(header_of(s, study::Arithmetic::float64));
+}
+
+TEST(ExportHeader, NamespacesAreNames) {
+  const study::Scenario s = shipped("thesis/7.5-position");
+  for (const char* good : {"a", "left::wheel_2", "_x"})
+    EXPECT_TRUE(header_of(s, study::Arithmetic::float64, good)) << good;
+  for (const char* bad : {"", "2a", "a::", "::a", "a:b", "a b", "a;", "a::2"})
+    EXPECT_FALSE(header_of(s, study::Arithmetic::float64, bad)) << bad;
+}
+
+// A title must not reach the compiler: no line ends within the comment, none continues, nothing is reordered.
+TEST(ExportHeader, TextsStayInTheirComment) {
+  study::Scenario s = shipped("thesis/7.5-position");
+  s.title = "a\nint b;\r*/ \u202e\u2066 gr\u00fcn \\";
+  const auto text = header_of(s, study::Arithmetic::float64);
+  ASSERT_TRUE(text);
+  EXPECT_NE(text->find("// scenario  a int b; */    gr\u00fcn\n"), std::string::npos) << text->substr(0, 400);
+}
+
+}  // namespace

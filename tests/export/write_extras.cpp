@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// write_extras double|q31 FILE: the exporter's lines for a drive with every extra.
+#include <fstream>
+#include <string>
+
+#include "io/config_lines.hpp"
+#include "tests/export/extras_drive.hpp"
+
+int main(int count, char** words) {
+  if (count != 3) return 2;
+  using sixstep::control::Q31;
+  std::ofstream out(words[2]);
+  if (std::string(words[1]) == "double") {
+    out << io::ConfigLines<double>::of(extras::drive(), extras::drive(), {});
+  } else {
+    const auto scaled = sixstep::design::scaled<Q31>(extras::drive(), extras::range);
+    if (!scaled) return 1;
+    out << io::ConfigLines<Q31>::of(extras::drive(), scaled->config, scaled->bases);
+  }
+  return out.flush() ? 0 : 1;
+}

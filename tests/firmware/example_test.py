@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""example_test.py configs PROGRAM | cortex_m CLANG NM | avr CLANG NM
+
+configs: each example's drive_config.hpp is what the command in its comment writes.
+a chip:  the example compiles for it with all warnings as errors, and asks the linker for nothing but what the chip's
+         compiler itself brings: no floating point on the AVR, nothing at all on the Cortex-M but memory functions.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+EXAMPLES = REPOSITORY / "faces" / "firmware" / "example"
+LICENCE = "// SPDX-License-Identifier: Apache-2.0\n"
+FLAGS = ["-std=c++20", "-ffreestanding", "-nostdinc++", "-fno-exceptions", "-fno-rtti", "-Wall", "-Wextra", "-Wpedantic",
+         "-Wshadow", "-Wconversion", "-Wno-sign-conversion", "-Wdouble-promotion", "-Wmissing-field-initializers", "-Werror",
+         "-Wno-missing-field-initializers", "-Os", f"-I{REPOSITORY}", f"-I{REPOSITORY}/tests/control/sixteen_bit"]
+TARGET = {"cortex_m": ["--target=thumbv7em-none-eabihf", "-mcpu=cortex-m4"],
+          "avr": ["--target=avr", "-mmcu=atmega2560"]}
+MEMORY = r"memcpy|memmove|memset|__aeabi_mem\w+"
+# Whole-number multiplication and division, and the marks by which avr-libc's start code clears and copies sections.
+MAY_NEED = {"cortex_m": MEMORY,
+            "avr": MEMORY + r"|__u?divmod[qhs]i4|__mul[qhs]i3|__mulsi3|__ashl\w+|__lshr\w+|__do_(clear_bss|copy_data)"}
+KIND, TOOLS = sys.argv.pop(1), []
+
+
+class Examples(unittest.TestCase):
+    def compiled(self, chip, source):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        out = pathlib.Path(folder.name) / "main.o"
+        done = subprocess.run([TOOLS[0], *TARGET[chip], *FLAGS, "-c", source, "-o", out], capture_output=True, text=True, check=False)
+        return done, out
+
+    @unittest.skipIf(KIND == "configs", "compiles")
+    def test_compiles_and_needs_no_library(self):
+        done, out = self.compiled(KIND, EXAMPLES / KIND / "main.cpp")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        symbols = subprocess.run([TOOLS[1], "-u", out], capture_output=True, text=True, check=True).stdout.split()
+        needed = [s for s in symbols if s != "U" and not re.fullmatch(MAY_NEED[KIND], s)]
+        self.assertEqual(needed, [])
+        defined = subprocess.run([TOOLS[1], "--defined-only", out], capture_output=True, text=True, check=True).stdout
+        for entry in {"cortex_m": ["ADC1_2_IRQHandler", "TIM2_IRQHandler"], "avr": ["__vector_29", "__vector_11"]}[KIND]:
+            self.assertIn(f"T {entry}\n", defined)
+
+    @unittest.skipUnless(KIND == "avr", "fixed point only")
+    def test_a_threshold_beyond_the_format_does_not_compile(self):
+        text = (EXAMPLES / "avr" / "main.cpp").read_text()
+        self.assertIn("units.amperes(24)", text)
+        with tempfile.TemporaryDirectory() as folder:
+            source = pathlib.Path(folder) / "main.cpp"
+            source.write_text(text.replace("units.amperes(24)", "units.amperes(100)"))
+            done, _ = self.compiled("avr", source)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("does_not_fit", done.stderr)
+
+    @unittest.skipUnless(KIND == "configs", "exports")
+    def test_configs_are_what_their_command_writes(self):
+        for chip in TARGET:
+            there = EXAMPLES / chip / "drive_config.hpp"
+            text = there.read_text()
+            command = re.search(r"^//   sixstep (.*) --out (\S+)$", text, re.M)
+            self.assertEqual(command.group(2), there.relative_to(REPOSITORY).as_posix())
+            made = subprocess.run([TOOLS[0], *command.group(1).split()], cwd=REPOSITORY, capture_output=True, text=True, check=True)
+            self.assertEqual(text, LICENCE + made.stdout.replace(command.group(1), f"{command.group(1)} --out {command.group(2)}", 1),
+                             "run the command again, and keep the licence line above it")
+
+
+if __name__ == "__main__":
+    TOOLS = [sys.argv.pop(1) for _ in sys.argv[1:]]
+    unittest.main()

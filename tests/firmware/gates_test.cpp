@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// The examples' output registers, read as the chips' manuals say, are the gates that the command means.
+#include <gtest/gtest.h>
+
+#include "faces/firmware/example/avr/bridge.hpp"
+#include "faces/firmware/example/cortex_m/bridge.hpp"
+
+namespace {
+
+using namespace sixstep::control;
+
+/// Every command that a bridge can get: all pairs, all ways of chopping, off.
+std::vector<BridgeCommand<float>> commands() {
+  std::vector<BridgeCommand<float>> all(1);
+  for (const Leg source : {Leg::a, Leg::b, Leg::c})
+    for (const Leg sink : {Leg::a, Leg::b, Leg::c})
+      for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
+        all.push_back({.enabled = true, .pair = {source, sink}, .duty = 0.5f, .chopping = chopping});
+  return all;
+}
+
+/// RM0316, output control bits of complementary channels with MOE = OSSR = 1: CCxE, CCxNE and the reference
+/// OCxREF, which PWM mode 1 (110) raises in the on-time and 100 holds low. Dead time left out.
+unsigned gates_of(const firmware::Outputs& out, bool on_time) {
+  unsigned gates = 0;
+  for (unsigned n = 0; n < 3; ++n) {
+    const std::uint32_t mode = (n == 0 ? out.CCMR1 >> 4 : n == 1 ? out.CCMR1 >> 12 : out.CCMR2 >> 4) & 7;
+    const bool upper = out.CCER >> (4 * n) & 1, lower = out.CCER >> (4 * n + 2) & 1;
+    const bool reference = mode == 6 && on_time;
+    EXPECT_TRUE(mode == 6 || mode == 4);
+    if (upper && reference) gates |= 1u << (2 * n);
+    if (lower && (upper ? !reference : reference)) gates |= 2u << (2 * n);
+  }
+  return gates;
+}
+
+TEST(CortexM, TheTimersOutputsAreTheGates) {
+  for (const BridgeCommand<float>& c : commands()) {
+    const firmware::Outputs out = firmware::outputs(c);
+    for (const bool on_time : {true, false}) EXPECT_EQ(gates_of(out, on_time), gates(c, on_time));
+  }
+}
+
+/// ATmega2560 datasheet, 17.11.1: COM1x1 clears the pin at the compare value in fast PWM; without it the pin
+/// is a port pin, low. Timer 1 with WGM11 alone in TCCR1A is mode 14 by TCCR1B's other bits.
+unsigned gates_of(const firmware::Pins& pins, bool on_time) {
+  unsigned gates = 0;
+  EXPECT_EQ(pins.TCCR1A & 0x57, 2);
+  for (unsigned n = 0; n < 3; ++n) {
+    if (on_time && (pins.TCCR1A >> (7 - 2 * n) & 1)) gates |= 1u << (2 * n);
+    if (pins.PORTA >> n & 1) gates |= 2u << (2 * n);
+  }
+  return gates;
+}
+
+TEST(Avr, ThePinsAreTheGates) {
+  for (const BridgeCommand<float>& c : commands()) {
+    // No on-time: what the off-time has, for a brake that shorts the windings too.
+    EXPECT_EQ(gates_of(firmware::pins(c, false), false), gates(c, false));
+    if (c.chopping != Chopping::soft) continue;  // the example refuses other drives while compiling
+    for (const bool on_time : {true, false})
+      EXPECT_EQ(gates_of(firmware::pins(c, true), on_time), gates(c, on_time));
+  }
+}
+
+TEST(Avr, NeverBothGatesOfALeg) {
+  for (const BridgeCommand<float>& c : commands())
+    for (const bool has_on_time : {true, false})
+      for (const bool on_time : {true, false}) {
+        const unsigned g = gates_of(firmware::pins(c, has_on_time), has_on_time && on_time);
+        EXPECT_EQ(g & g >> 1 & 0b010101u, 0u);
+      }
+}
+
+}  // namespace
