@@ -19,20 +19,20 @@ namespace sixstep::rig {
 enum class CurrentSensing : std::uint8_t { ideal, phases, dc_link };
 
 struct SensorsConfig {
-  CurrentSensing currents = CurrentSensing::ideal;
-  AdcPath current{};        ///< of each phase, or of the shunt
-  bool calibrated = true;   ///< offsets were measured, with their noise, before the run
-  double least_duty = 1.0;  ///< DC link: a sample counts above this duty (one_shunt.hpp)
-  std::uint8_t commutation_samples = 0;
-  double fade = 1.0;  ///< of a hidden current per period, exp(-R T_s/L)
-  bool measures_bus = false;
+  AdcPath current{};  ///< of each phase, or of the shunt
   AdcPath bus{};
+  double least_duty = 1.0;  ///< DC link: a sample counts above this duty (one_shunt.hpp)
+  double fade = 1.0;        ///< of a hidden current per period, exp(-R T_s/L)
+  double capture_Hz = 1e6;  ///< of the timer that captures the edges
+  double timeout_s = 0.05;  ///< no edge for so long is standstill
+  std::uint64_t seed = 0;   ///< of the noise
+  CurrentSensing currents = CurrentSensing::ideal;
+  bool calibrated = true;  ///< offsets were measured, with their noise, before the run
+  bool measures_bus = false;
   bool rotor_from_hall = false;  ///< speed and position from captured edges
   bool decodes_hall = false;     ///< follow the lines, to name a broken one
-  double capture_Hz = 1e6;       ///< of the timer that captures the edges
-  double timeout_s = 0.05;       ///< no edge for so long is standstill
-  std::uint8_t edges = 6;        ///< that a speed is taken over
-  std::uint64_t seed = 0;        ///< of the noise
+  std::uint8_t commutation_samples = 0;
+  std::uint8_t edges = 6;  ///< that a speed is taken over
 };
 
 /// One sample instant: the plant in SI and the command in effect.

@@ -126,8 +126,9 @@ double deviation(const Spread& spread, std::uint64_t seed, std::uint64_t number)
 }
 
 void set_number(Scenario& s, std::string_view key, double x) {
-  double& number = *find_number(s, key).number;
-  const double before = std::exchange(number, x);
+  double* const number = find_number(s, key).number;
+  if (number == nullptr) return;  // check_spread() has told so
+  const double before = std::exchange(*number, x);
   if (key != torque_key && key != back_emf_key) return;
   const NumberAt partner = find_number(s, key == torque_key ? back_emf_key : torque_key);
   if (partner.number) *partner.number *= x / before;
