@@ -193,11 +193,9 @@ base::Result<std::string> config_header(const ConfigHeader& w) {
     case study::Arithmetic::q15:
       return fixed_header<control::Q15>(w, *c, "sixstep::control::Q15");
     case study::Arithmetic::q14:
-      return fixed_header<control::Fixed<std::int16_t, 14>>(w, *c,
-                                                            "sixstep::control::Fixed<std::int16_t, 14>");
+      return fixed_header<control::Q14>(w, *c, "sixstep::control::Q14");
     case study::Arithmetic::q30:
-      return fixed_header<control::Fixed<std::int32_t, 30>>(w, *c,
-                                                            "sixstep::control::Fixed<std::int32_t, 30>");
+      return fixed_header<control::Q30>(w, *c, "sixstep::control::Q30");
     case study::Arithmetic::q31:
       return fixed_header<control::Q31>(w, *c, "sixstep::control::Q31");
   }

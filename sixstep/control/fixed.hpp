@@ -71,6 +71,9 @@ struct Fixed {
 
 using Q15 = Fixed<std::int16_t, 15>;
 using Q31 = Fixed<std::int32_t, 31>;
+/// The same with a 1 in them, which a full duty wants, and one digit less.
+using Q14 = Fixed<std::int16_t, 14>;
+using Q30 = Fixed<std::int32_t, 30>;
 
 /// A factor between two signals of one format, from 2^-30 (16 bits) or 2^-62 (32) up to the storage's largest
 /// number: mantissa/2^right. The nearest such number: off by at most 2^-15 or 2^-31 of itself while right is

@@ -108,10 +108,8 @@ using Product = ProtectedConfig<double>;
 using Range = OperatingRange;
 template base::Result<ScaledProduct<control::Q15>> scaled_product(const Product&, const Range&, int);
 template base::Result<ScaledProduct<control::Q31>> scaled_product(const Product&, const Range&, int);
-template base::Result<ScaledProduct<control::Fixed<std::int16_t, 14>>> scaled_product(const Product&,
-                                                                                      const Range&, int);
-template base::Result<ScaledProduct<control::Fixed<std::int32_t, 30>>> scaled_product(const Product&,
-                                                                                      const Range&, int);
+template base::Result<ScaledProduct<control::Q14>> scaled_product(const Product&, const Range&, int);
+template base::Result<ScaledProduct<control::Q30>> scaled_product(const Product&, const Range&, int);
 template base::Result<ScaledProduct<control::Fixed<std::int16_t, 13>>> scaled_product(const Product&,
                                                                                       const Range&, int);
 template base::Result<ScaledProduct<control::Fixed<std::int32_t, 29>>> scaled_product(const Product&,

@@ -170,18 +170,16 @@ using Drive = DriveConfig<double>;
 using Range = OperatingRange;
 template base::Result<Scaled<control::Q15>> scaled(const Drive&, const Range&, const Bases&);
 template base::Result<Scaled<control::Q31>> scaled(const Drive&, const Range&, const Bases&);
-template base::Result<Scaled<control::Fixed<std::int16_t, 14>>> scaled(const Drive&, const Range&,
-                                                                       const Bases&);
-template base::Result<Scaled<control::Fixed<std::int32_t, 30>>> scaled(const Drive&, const Range&,
-                                                                       const Bases&);
+template base::Result<Scaled<control::Q14>> scaled(const Drive&, const Range&, const Bases&);
+template base::Result<Scaled<control::Q30>> scaled(const Drive&, const Range&, const Bases&);
 template base::Result<Scaled<control::Fixed<std::int16_t, 13>>> scaled(const Drive&, const Range&,
                                                                        const Bases&);
 template base::Result<Scaled<control::Fixed<std::int32_t, 29>>> scaled(const Drive&, const Range&,
                                                                        const Bases&);
 template base::Result<Scaled<control::Q15>> scaled(const Drive&, const Range&);
 template base::Result<Scaled<control::Q31>> scaled(const Drive&, const Range&);
-template base::Result<Scaled<control::Fixed<std::int16_t, 14>>> scaled(const Drive&, const Range&);
-template base::Result<Scaled<control::Fixed<std::int32_t, 30>>> scaled(const Drive&, const Range&);
+template base::Result<Scaled<control::Q14>> scaled(const Drive&, const Range&);
+template base::Result<Scaled<control::Q30>> scaled(const Drive&, const Range&);
 template base::Result<Scaled<control::Fixed<std::int16_t, 13>>> scaled(const Drive&, const Range&);
 template base::Result<Scaled<control::Fixed<std::int32_t, 29>>> scaled(const Drive&, const Range&);
 

@@ -110,7 +110,7 @@ template base::Result<DriveIn<double>> drive_in(const Scenario&, const Compiled&
 template base::Result<DriveIn<float>> drive_in(const Scenario&, const Compiled&);
 template base::Result<DriveIn<control::Q15>> drive_in(const Scenario&, const Compiled&);
 template base::Result<DriveIn<control::Q31>> drive_in(const Scenario&, const Compiled&);
-template base::Result<DriveIn<control::Fixed<std::int16_t, 14>>> drive_in(const Scenario&, const Compiled&);
-template base::Result<DriveIn<control::Fixed<std::int32_t, 30>>> drive_in(const Scenario&, const Compiled&);
+template base::Result<DriveIn<control::Q14>> drive_in(const Scenario&, const Compiled&);
+template base::Result<DriveIn<control::Q30>> drive_in(const Scenario&, const Compiled&);
 
 }  // namespace sixstep::study

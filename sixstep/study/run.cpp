@@ -127,11 +127,11 @@ base::Problems run_chosen(const Scenario& s, const Compiled& compiled, Watchers&
     case Arithmetic::q15:
       return run_in<control::Q15>(s, compiled, w, out);
     case Arithmetic::q14:
-      return run_in<control::Fixed<std::int16_t, 14>>(s, compiled, w, out);
+      return run_in<control::Q14>(s, compiled, w, out);
     case Arithmetic::q31:
       return run_in<control::Q31>(s, compiled, w, out);
     case Arithmetic::q30:
-      return run_in<control::Fixed<std::int32_t, 30>>(s, compiled, w, out);
+      return run_in<control::Q30>(s, compiled, w, out);
   }
   return {};
 }

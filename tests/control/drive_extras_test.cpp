@@ -18,14 +18,6 @@ static_assert(std::is_trivially_copyable_v<DriveState<Q15>> &&
               std::is_trivially_copyable_v<DriveConfig<Q31>>);
 
 template <class S>
-PiConfig<S> pi(double d1, double K_i, double limit) {
-  if constexpr (is_fixed<S>)
-    return {Gain<S>(d1), Gain<S>(K_i), S(limit)};
-  else
-    return {static_cast<S>(d1), static_cast<S>(K_i - d1), static_cast<S>(limit)};
-}
-
-template <class S>
 struct Bench {
   DriveConfig<S> config{};
   DriveState<S> state{};

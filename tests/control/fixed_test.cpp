@@ -60,8 +60,8 @@ TEST(Fixed, AllPairsOfEightBitsAreExactlyRounded) {
 
 template <class F>
 class FixedFormats : public testing::Test {};
-using Formats = testing::Types<Q15, Q31, Fixed<std::int16_t, 12>, Fixed<std::int16_t, 14>,
-                               Fixed<std::int32_t, 16>, Fixed<std::int32_t, 27>>;
+using Formats =
+    testing::Types<Q15, Q31, Fixed<std::int16_t, 12>, Q14, Fixed<std::int32_t, 16>, Fixed<std::int32_t, 27>>;
 TYPED_TEST_SUITE(FixedFormats, Formats);
 
 /// Corners as often as anything else: that is where fixed point goes wrong.
@@ -173,6 +173,6 @@ static_assert(!std::is_convertible_v<double, Q15> && !std::is_convertible_v<Q15,
 static_assert(!std::is_convertible_v<Q15, Q31>, "no conversion between formats by accident");
 static_assert(Q15(0.5) * Q15(0.5) == Q15(0.25) && -Q15::min() == Q15::max());
 static_assert(Q15::min() * Q15::min() == Q15::max(), "(-1)(-1) is the one product that does not fit");
-static_assert(one<Q15> == Q15::max() && one<Fixed<std::int16_t, 14>>.raw == 16384);
+static_assert(one<Q15> == Q15::max() && one<Q14>.raw == 16384);
 
 }  // namespace

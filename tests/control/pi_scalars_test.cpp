@@ -20,14 +20,6 @@ template <class Scalar>
 class PiScalars : public testing::Test {};
 TYPED_TEST_SUITE(PiScalars, Scalars);
 
-template <class S>
-PiConfig<S> pi(double d1, double K_i, double limit) {
-  if constexpr (is_fixed<S>)
-    return {Gain<S>(d1), Gain<S>(K_i), S(limit)};
-  else
-    return {static_cast<S>(d1), static_cast<S>(K_i - d1), static_cast<S>(limit)};
-}
-
 /// The gain as the format holds it: what the comparison in double must use.
 template <class S>
 double held(double gain) {

@@ -6,13 +6,10 @@
 #include <limits>
 #include <type_traits>
 
-#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/pi.hpp"
 
 namespace sixstep::control {
 
-/// 16 bits with room for a 1, and 32.
-using Q14 = Fixed<std::int16_t, 14>;
-using Q30 = Fixed<std::int32_t, 30>;
 using Scalars = testing::Types<double, float, Q14, Q30>;
 
 template <class Scalar>
@@ -34,6 +31,15 @@ constexpr Gain<Scalar> per_count(double signal) {
     return Gain<Scalar>(signal / digit<Scalar>());
   else
     return static_cast<Gain<Scalar>>(signal);
+}
+
+/// A PI by d1 and K_i = d0 + d1 per sample: floating point keeps d0, fixed point K_i (pi.hpp).
+template <class Scalar>
+PiConfig<Scalar> pi(double d1, double K_i, double limit) {
+  if constexpr (is_fixed<Scalar>)
+    return {Gain<Scalar>(d1), Gain<Scalar>(K_i), Scalar(limit)};
+  else
+    return {static_cast<Scalar>(d1), static_cast<Scalar>(K_i - d1), static_cast<Scalar>(limit)};
 }
 
 }  // namespace sixstep::control

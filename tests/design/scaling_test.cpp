@@ -40,7 +40,7 @@ OperatingRange range(Mode mode) {
 
 template <class Scalar>
 class Scaling : public testing::Test {};
-using Formats = testing::Types<Q15, Q31, Fixed<std::int16_t, 14>, Fixed<std::int32_t, 29>>;
+using Formats = testing::Types<Q15, Q31, Q14, Fixed<std::int32_t, 29>>;
 TYPED_TEST_SUITE(Scaling, Formats);
 
 template <class S>

@@ -95,11 +95,11 @@ double unit_of(Signal signal, Arithmetic arithmetic, const Scenario& s) {
       case Arithmetic::q15:
         return study::drive_in<control::Q15>(s, *compiled)->units;
       case Arithmetic::q14:
-        return study::drive_in<control::Fixed<std::int16_t, 14>>(s, *compiled)->units;
+        return study::drive_in<control::Q14>(s, *compiled)->units;
       case Arithmetic::q31:
         return study::drive_in<control::Q31>(s, *compiled)->units;
       default:
-        return study::drive_in<control::Fixed<std::int32_t, 30>>(s, *compiled)->units;
+        return study::drive_in<control::Q30>(s, *compiled)->units;
     }
   }();
   return signal == Signal::current ? units.current_A

@@ -37,7 +37,7 @@ TEST(Arithmetic, BasesHoldTwiceTheReferenceAgainstIt) {
   EXPECT_NEAR(u.voltage_V, 24.0, 24.0 * 0x1p-30);
   EXPECT_EQ(u.setpoint, u.current_A);
   // Two bits before the point: the same ends from half the base.
-  EXPECT_NEAR((units<control::Fixed<std::int32_t, 30>>(current_square()).current_A), 7.5, 7.5 * 0x1p-30);
+  EXPECT_NEAR((units<control::Q30>(current_square()).current_A), 7.5, 7.5 * 0x1p-30);
 }
 
 TEST(Arithmetic, SetpointHasTheUnitOfItsMode) {
@@ -53,7 +53,7 @@ TEST(Arithmetic, AGivenFullScaleIsWhatTheEndsStandFor) {
   Scenario s = current_square();
   s.control.full_scale.current_A = 32.0;
   EXPECT_EQ(units<control::Q15>(s).current_A, 32.0);
-  EXPECT_EQ((units<control::Fixed<std::int16_t, 14>>(s).current_A), 16.0);
+  EXPECT_EQ((units<control::Q14>(s).current_A), 16.0);
 }
 
 TEST(Arithmetic, WhatDoesNotFitIsAProblemBeforeTheRun) {
