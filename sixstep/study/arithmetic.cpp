@@ -76,7 +76,7 @@ design::OperatingRange operating_range(const Scenario& s, const Compiled& c) {
   const double U = std::max(s.supply.voltage_V, c.start.bus_V), K_t = c.motor.K_t_Nm_A;
   const double asked = largest_reference(s);
   design::OperatingRange range;
-  range.bus_V = U;
+  range.bus_V = std::max(U, s.control.regeneration.limit_V.value_or(0.0));
   range.setpoint = asked;
   range.speed_rad_s = std::max(U / K_t, std::fabs(c.start.speed_rad_s));
   range.position_deg = std::max(asked, std::fabs(c.start.angle_rad) * 180.0 / base::pi);

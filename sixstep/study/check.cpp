@@ -79,7 +79,20 @@ void check_reference(const Scenario& s, base::Problems& out) {
       }
 }
 
+void check_regeneration(const Scenario& s, base::Problems& out) {
+  const Regeneration& r = s.control.regeneration;
+  if (!r.limit_V) return;
+  if (!(*r.limit_V > s.supply.voltage_V))
+    out.push_back({"control.regeneration.limit_V", number(*r.limit_V),
+                   "must be above supply.voltage_V = " + number(s.supply.voltage_V),
+                   "the drive could never brake"});
+  if (!r.gain_A_per_V && !(s.supply.capacitance_F > 0))
+    out.push_back({"control.regeneration.gain_A_per_V", "", "is missing, and no capacitance to take it from",
+                   "give it, or supply.capacitance_F"});
+}
+
 void check_control(const Scenario& s, base::Problems& out) {
+  check_regeneration(s, out);
   const auto add = [&](const base::Problems& more) { out.insert(out.end(), more.begin(), more.end()); };
   add(given_gains(s.control.current, "control.current").problems);
   add(given_gains(s.control.speed, "control.speed").problems);

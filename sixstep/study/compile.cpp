@@ -116,6 +116,26 @@ struct Basis {
   double bus_V;
 };
 
+/// limits.hpp: the bus comes to rest below its limit as exp(-g t/C), which ten periods make slow against the
+/// sampling.
+void limit_regeneration(const Scenario& s, Compiled& out) {
+  if (!s.control.regeneration.limit_V) return;
+  control::DriveExtras<double>& extras = out.drive.extras;
+  const control::Mode mode = s.control.mode;
+  double most = out.drive.current_limit_A;
+  if (mode == control::Mode::current)
+    for (const Level& level : reference_levels(s.reference, s.duration_s))
+      most = std::max(most, std::fabs(level.value));
+  extras.on = extras.limits_current = true;
+  extras.limits = {.current_A = most,
+                   .limits_regeneration = true,
+                   .bus_V = *s.control.regeneration.limit_V,
+                   .A_per_V = s.control.regeneration.gain_A_per_V.value_or(s.supply.capacitance_F /
+                                                                           (10 * s.pwm.period_s))};
+  if (out.drive.current_at_full_torque_A > 0)
+    extras.torque_fraction_per_A = 1 / out.drive.current_at_full_torque_A;
+}
+
 base::Problems add_loops(const Scenario& s, const Basis& basis, Compiled& out) {
   const control::Mode mode = s.control.mode;
   if (mode == control::Mode::off || mode == control::Mode::duty) return {};
@@ -224,6 +244,7 @@ base::Result<Compiled> compile(const Scenario& s) {
                                   : control::CurrentControl::hysteresis;
   out.drive.hysteresis = {s.control.current.band_A, watch_of(s.control.current)};
   if (base::Problems problems = add_loops(s, basis, out); !problems.empty()) return problems;
+  limit_regeneration(s, out);
   return out;
 }
 

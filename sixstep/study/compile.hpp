@@ -46,6 +46,7 @@ GivenGains given_gains(const Loop& loop, const std::string& where);
 template <class Scalar>
 control::DriveConfig<Scalar> in_arithmetic(const control::DriveConfig<double>& c) {
   const auto s = [](double v) { return static_cast<Scalar>(v); };
+  const control::LimitsConfig<double>& l = c.extras.limits;  // what compile() sets of the extras
   return {.mode = c.mode,
           .chopping = c.chopping,
           .current_control = c.current_control,
@@ -56,7 +57,14 @@ control::DriveConfig<Scalar> in_arithmetic(const control::DriveConfig<double>& c
           .current_at_full_torque_A = s(c.current_at_full_torque_A),
           .current_limit_A = s(c.current_limit_A),
           .position_gain = s(c.position_gain),
-          .speed_limit_rad_s = s(c.speed_limit_rad_s)};
+          .speed_limit_rad_s = s(c.speed_limit_rad_s),
+          .extras = {.on = c.extras.on,
+                     .limits_current = c.extras.limits_current,
+                     .limits = {.current_A = s(l.current_A),
+                                .limits_regeneration = l.limits_regeneration,
+                                .bus_V = s(l.bus_V),
+                                .A_per_V = s(l.A_per_V)},
+                     .torque_fraction_per_A = s(c.extras.torque_fraction_per_A)}};
 }
 
 }  // namespace sixstep::study

@@ -82,6 +82,12 @@ struct FullScale {
   std::optional<double> current_A, voltage_V, speed_rad_s, position_deg;
 };
 
+/// Keeps the bus of a supply that cannot take current back below a limit: the drive brakes less.
+struct Regeneration {
+  std::optional<double> limit_V;
+  std::optional<double> gain_A_per_V;
+};
+
 struct Control {
   control::Mode mode = control::Mode::off;
   Arithmetic arithmetic = Arithmetic::float64;
@@ -89,6 +95,7 @@ struct Control {
   CurrentLoop current;
   SpeedLoop speed;
   PositionLoop position;
+  Regeneration regeneration;
 };
 
 enum class Shape : std::uint8_t { constant, steps, square };

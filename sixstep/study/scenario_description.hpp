@@ -136,6 +136,18 @@ void describe(Visitor& v, FullScale& s) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, Regeneration& s) {
+  v.value("limit_V", s.limit_V,
+          {.meaning = "bus voltage at which the drive no longer brakes", .unit = "V", .range = above(0)});
+  v.value(
+      "gain_A_per_V", s.gain_A_per_V,
+      {.meaning = "braking current per volt below limit_V; without it a tenth of supply.capacitance_F over "
+                  "pwm.period_s",
+       .unit = "A/V",
+       .range = above(0)});
+}
+
+template <class Visitor>
 void describe(Visitor& v, Control& s) {
   v.choice("mode", s.mode, mode_choices, {.meaning = "what is controlled, and so what the reference means"});
   v.choice("arithmetic", s.arithmetic, arithmetic_choices,
@@ -144,6 +156,8 @@ void describe(Visitor& v, Control& s) {
   v.table("current", s.current, {.meaning = "the current controller"});
   v.table("speed", s.speed, {.meaning = "the speed controller around it"});
   v.table("position", s.position, {.meaning = "the position controller around both"});
+  v.table("regeneration", s.regeneration,
+          {.meaning = "limit of the current that braking returns to the bus"});
 }
 
 template <class Visitor>

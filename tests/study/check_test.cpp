@@ -63,6 +63,11 @@ TEST(Check, EachContradictionIsFoundAndNamed) {
          s.sensors.adc_bits = 13;
          s.control.arithmetic = study::Arithmetic::q15;
        }},
+      {"control.regeneration.limit_V",
+       [](Scenario& s) {
+         s.control.regeneration = {24.0, 1.0};
+       }},
+      {"control.regeneration.gain_A_per_V", [](Scenario& s) { s.control.regeneration.limit_V = 30.0; }},
       {"sensors.bus_range_V", [](Scenario& s) { s.sensors.bus = study::BusSensing::adc; }},
       {"sensors.timeout_s",
        [](Scenario& s) {

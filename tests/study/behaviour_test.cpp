@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the drive behaves at its limits, in full switching simulation.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/study/compile.hpp"
+#include "sixstep/study/run.hpp"
+#include "tests/support/scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using control::Mode;
+using study::MetricKind;
+using study::Scenario;
+using study::Signal;
+
+/// A flywheel that takes some 60 ms at full torque to 100 rad/s.
+Scenario flywheel() {
+  Scenario s = maxon_scenario(Mode::speed, 100.0);
+  s.duration_s = 0.15;
+  s.control.speed.torque_limit_Nm = 0.5;  // 14.9 A: the bus can drive it up to 100 rad/s
+  s.load.inertia_kg_m2 = 3e-4;
+  return s;
+}
+
+/// The speed loop alone, its current as commanded: dw = T_s T/J, the plant of its design. Without limits, or
+/// with a limit of the output that the integral does not know.
+double overshoot_of_the_design(const Scenario& s, bool winds_up) {
+  const auto compiled = study::compile(s);
+  const control::PiConfig<double>& pi = compiled->drive.speed;
+  const double per_tick = s.pwm.period_s * *s.control.speed.torque_limit_Nm / compiled->shaft.J_kg_m2;
+  const double height = s.reference.value;
+  double w = 0, u = 0, e = 0, most = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const double error = height - w;
+    u += pi.d1 * error + pi.d0 * e;
+    e = error;
+    w += per_tick * (winds_up ? std::clamp(u, -1.0, 1.0) : u);
+    most = std::max(most, w - height);
+  }
+  return most;
+}
+
+TEST(Behaviour, FiftyMillisecondsAtTheLimitWindNothingUp) {
+  Scenario s = flywheel();
+  study::Measure over = measure(MetricKind::overshoot, Signal::speed);
+  over.level = 100.0;
+  over.start = 0.0;
+  ask(s, over);
+  study::Measure reach = measure(MetricKind::reach_time, Signal::speed);
+  reach.level = 100.0;
+  reach.start = 0.0;
+  ask(s, reach);
+  const auto out = study::run(s);
+  ASSERT_TRUE(out);
+  const double designed = overshoot_of_the_design(s, false), wound_up = overshoot_of_the_design(s, true);
+  std::printf("overshoot %.3g rad/s, designed %.3g, wound up %.3g, reach %.3g s\n",
+              out->comparisons[0].measured, designed, wound_up, out->comparisons[1].measured);
+  EXPECT_GT(out->comparisons[1].measured, 50e-3) << "it was at the limit for so long";
+  EXPECT_LE(out->comparisons[0].measured, designed);
+  EXPECT_GT(wound_up, 2 * designed) << "or the test would show nothing";
+}
+
+TEST(Behaviour, ReversalAtSpeedKeepsTheCurrentLimit) {
+  Scenario s = maxon_scenario(Mode::speed, 0.0);
+  s.duration_s = 0.2;
+  s.control.current.limit_A = 10.0;
+  s.reference = {.shape = study::Shape::steps, .times_s = {0.0, 0.1}, .values = {200.0, -200.0}};
+  for (const MetricKind metric : {MetricKind::maximum, MetricKind::minimum})
+    ask(s, measure(metric, Signal::current));
+  study::Measure final = measure(MetricKind::mean, Signal::speed);
+  final.from_s = 0.18;
+  ask(s, final);
+  const auto out = study::run(s);
+  ASSERT_TRUE(out);
+  EXPECT_FALSE(out->fault);
+  // Beyond the limit: the PI's overshoot of the largest step there is, 20 A, in the share its design has of 5
+  // A (0.375 A, thesis 7.3.1), and what bus and back-EMF add in the period until the next sample.
+  const double e_V = 0.0335 * 200.0, ripple = (24.0 + e_V) / 0.572e-3 * s.pwm.period_s;
+  const double most = 10.0 + 20.0 * 0.375 / 5.0 + ripple;
+  std::printf("current %.4g .. %.4g A, bound %.4g\n", out->comparisons[1].measured,
+              out->comparisons[0].measured, most);
+  EXPECT_LE(out->comparisons[0].measured, most);
+  EXPECT_GE(out->comparisons[1].measured, -most);
+  EXPECT_NEAR(out->comparisons[2].measured, -200.0, 0.2) << "0.1 %, as in 7.4";
+}
+
+/// Braking a flywheel from 600 rad/s against a source that takes nothing back. 5 A leave most of the 20 V of
+/// back-EMF to the bus; with 20 A all would go into the windings.
+Scenario braking() {
+  Scenario s = maxon_scenario(Mode::speed, 0.0);
+  s.duration_s = 0.1;
+  s.initial.speed_rad_s = 600.0;
+  s.load.inertia_kg_m2 = 1e-4;
+  s.control.current.limit_A = 5.0;
+  s.pwm.chopping = control::Chopping::complementary;
+  s.supply = {.voltage_V = 24.0, .resistance_ohm = 0.1, .capacitance_F = 10e-3, .sinks = false};
+  ask(s, measure(MetricKind::maximum, Signal::bus_voltage));
+  return s;
+}
+
+TEST(Behaviour, RegenerationLimitKeepsTheBusBelowItsThreshold) {
+  Scenario s = braking();
+  const auto free = study::run(s);
+  ASSERT_TRUE(free);
+  std::printf("bus without the limit %.4g V\n", free->comparisons[0].measured);
+  EXPECT_GT(free->comparisons[0].measured, 30.0) << "or there were nothing to limit";
+  s.control.regeneration.limit_V = 30.0;
+  for (const study::Arithmetic a : {study::Arithmetic::float64, study::Arithmetic::q15}) {
+    s.control.arithmetic = a;
+    const auto limited = study::run(s);
+    ASSERT_TRUE(limited) << to_string(limited.problems()[0]);
+    std::printf("with it %.6g V\n", limited->comparisons[0].measured);
+    EXPECT_LT(limited->comparisons[0].measured, 30.0);
+    EXPECT_GT(limited->comparisons[0].measured, 24.0);
+  }
+}
+
+TEST(Behaviour, OneShuntTurnsTheRotorAsPhaseCurrentsDo) {
+  // 5 A at speed: commutations, and duties from nothing on.
+  Scenario s = maxon_scenario(Mode::current, 5.0);
+  s.pwm.alignment = study::Alignment::centre;
+  s.pwm.sample = study::SampleAt::middle;
+  s.load.inertia_kg_m2 = 1e-4;
+  study::Measure mean = measure(MetricKind::mean, Signal::current);
+  mean.from_s = 2e-3;
+  ask(s, mean);
+  const auto ideal = study::run(s);
+  s.sensors.currents = rig::CurrentSensing::dc_link;
+  s.sensors.current_range_A = 20.48;
+  const auto shunt = study::run(s);
+  ASSERT_TRUE(ideal && shunt);
+  std::printf("mean current %.5g A ideal, %.5g A by one shunt\n", ideal->comparisons[0].measured,
+              shunt->comparisons[0].measured);
+  // One count of 12 bits over 20.48 A is 10 mA; measured: 1.2 mA apart.
+  EXPECT_NEAR(shunt->comparisons[0].measured, ideal->comparisons[0].measured, 10e-3);
+}
+
+}  // namespace
