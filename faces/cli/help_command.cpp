@@ -24,7 +24,7 @@ bool inside(const KeyEntry& entry, const std::string& table) { return entry.path
 
 std::string line(const KeyEntry& entry) {
   const std::string unit = entry.about.unit.empty() ? "" : fmt::format(" [{}]", entry.about.unit);
-  return fmt::format("  {:<38}{}{}\n", entry.path, entry.about.meaning, unit);
+  return fmt::format("  {:<38} {}{}\n", entry.path, entry.about.meaning, unit);
 }
 
 std::string overview(const std::vector<KeyEntry>& scenario, const std::vector<KeyEntry>& sheet) {

@@ -36,7 +36,7 @@ class SheetText {
  private:
   void add(std::string_view key, std::string_view value, std::string_view unit, std::string_view frame,
            std::string_view source) {
-    std::string row = fmt::format("{:<24}{:>10} {:<7}{:<10}{}", key, value, unit, frame, source);
+    std::string row = fmt::format("{:<24} {:>10} {:<7}{:<10}{}", key, value, unit, frame, source);
     row.erase(row.find_last_not_of(' ') + 1);
     text_ += row + "\n";
   }

@@ -34,6 +34,11 @@ struct Sheet {
   std::optional<base::Quantity> stall_torque_mNm, stall_current_A;
   std::optional<base::Quantity> speed_constant_rpm_V;
   std::optional<base::Quantity> max_speed_rpm;
+
+  std::optional<base::Quantity> thermal_resistance_winding_housing_K_W;
+  std::optional<base::Quantity> thermal_resistance_housing_ambient_K_W;
+  std::optional<base::Quantity> thermal_time_constant_winding_s, thermal_time_constant_motor_s;
+  std::optional<base::Quantity> max_winding_temperature_degC;
 };
 
 }  // namespace sixstep::design

@@ -45,6 +45,24 @@ void describe_no_load_and_ratings(Visitor& v, Sheet& s) {
 }
 
 template <class Visitor>
+void describe_thermal(Visitor& v, Sheet& s) {
+  v.quantity("thermal_resistance_winding_housing_K_W", s.thermal_resistance_winding_housing_K_W,
+             {.meaning = "temperature of the winding above the housing, per watt of its loss",
+              .unit = "K/W",
+              .range = base::above(0)});
+  v.quantity("thermal_resistance_housing_ambient_K_W", s.thermal_resistance_housing_ambient_K_W,
+             {.meaning = "temperature of the housing above the air, per watt of loss",
+              .unit = "K/W",
+              .range = base::above(0)});
+  v.quantity("thermal_time_constant_winding_s", s.thermal_time_constant_winding_s,
+             {.meaning = "of the winding against the housing", .unit = "s", .range = base::above(0)});
+  v.quantity("thermal_time_constant_motor_s", s.thermal_time_constant_motor_s,
+             {.meaning = "of the housing against the air", .unit = "s", .range = base::above(0)});
+  v.quantity("max_winding_temperature_degC", s.max_winding_temperature_degC,
+             {.meaning = "greatest temperature of the winding", .unit = "degC", .range = base::above(0)});
+}
+
+template <class Visitor>
 void describe(Visitor& v, Sheet& s) {
   v.value("name", s.name, {.meaning = "what the motor is called", .required = true});
   v.value("maker", s.maker, {.meaning = "who makes it"});
@@ -99,6 +117,7 @@ void describe(Visitor& v, Sheet& s) {
       "coulomb_friction_mNm", s.coulomb_friction_mNm,
       {.meaning = "friction torque that does not depend on speed", .unit = "mNm", .range = base::from(0)});
   describe_no_load_and_ratings(v, s);
+  describe_thermal(v, s);
 }
 
 }  // namespace sixstep::design
