@@ -35,9 +35,15 @@ template <class Real>
 struct Convergence {
   Real amp_limit, speed_limit, volt_limit;
   Real before = 0, last = 0;
+  /// From rest and without current, torque and current in turn may leave the terms 1, 4, 7, 10 alone: no zero
+  /// says anything then, and all orders are taken.
+  bool from_nothing;
 
-  explicit Convergence(const Constants<Real>& c)
-      : amp_limit(c.amp_limit), speed_limit(c.speed_limit), volt_limit(c.volt_limit) {}
+  Convergence(const Constants<Real>& c, const Expansion<Real>& y)
+      : amp_limit(c.amp_limit),
+        speed_limit(c.speed_limit),
+        volt_limit(c.volt_limit),
+        from_nothing(y.w[0] == 0 && y.i[0][0] == 0 && y.i[1][0] == 0) {}
 
   /// A sine's shape counts too: without current it alone decides how far a floating terminal's voltage is
   /// known.
@@ -48,8 +54,10 @@ struct Convergence {
     if constexpr (bus) last += abs(y.bus[n]) * volt_limit;
     if constexpr (sine) last += (abs(y.phi0[n]) + abs(y.phi1[n])) * terms_per_scale<Real>;
   }
-  /// One small term may be a symmetry's zero; a small one after one not much larger is the end of the series.
-  bool reached() const { return last < 1 && before < 4096; }
+  /// Of a linear system y' = A y term n + 1 is at most h |A|/(n + 1) of term n, and useful_length() keeps
+  /// h |A| <= 1/2: behind a term of 8 levels all others together are below one. One small term may be a
+  /// symmetry's zero; a small one after one not much larger is the end of the series.
+  bool reached() const { return last < 8 && before < 4096 && !from_nothing; }
 };
 
 /// What one segment's recurrence works with: all in registers or on the stack.
@@ -65,7 +73,7 @@ struct Recurrence {
       : currents(law),
         rotor(c, mode.motion),
         bus_law(c, mode, c.legs[legs_index(mode.legs)]),
-        convergence(c) {
+        convergence(c, out) {
     y.h = out.h;
     y.w[0] = out.w[0];
     y.x[0] = out.x[0];
@@ -86,9 +94,9 @@ struct Recurrence {
     write<n>(out);
     const Real size = currents.reached(y, n + 1), size_w = abs(y.w[n + 1]);
     y.reach_w += size_w;
-    if constexpr (n < 5) return false;  // no segment worth taking needs fewer, and each look costs
+    if constexpr (n < 4) return false;  // no segment worth taking needs fewer, and each look costs
     convergence.template look<Currents::sine_shape, bus>(y, n + 1, size, size_w);
-    return n >= 6 && convergence.reached();
+    return n >= 5 && convergence.reached();
   }
   template <int n>
   [[gnu::always_inline]] inline void write(Expansion<Real>& out) const {

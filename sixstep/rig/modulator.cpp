@@ -22,7 +22,7 @@ Instant Modulator::edge_at(const Instant& t, double ticks) const {
 
 void Modulator::take(const Instant& t, const BoardCommand& command) {
   leg_changed_ = command_.enabled && command.enabled && !(command.pair.source == command_.pair.source);
-  const bool wakes = command.enabled && (!started_ || !command_.enabled);
+  const bool wakes = command.enabled && !command_.enabled;
   command_ = command;
   if (!wakes) {
     // A hysteresis that changes direction keeps its state, but the new source leg was the sink a moment ago.
@@ -30,13 +30,9 @@ void Modulator::take(const Instant& t, const BoardCommand& command) {
     return;
   }
   // The first turn-on waits for the dead time too: nobody knows what the leg did before.
-  started_ = true;
   source_on_ = false;
   sink_on_ = true;
-  if (config_.dead_ticks > 0 && command.chopping == Chopping::complementary) {
-    dead_ = true;
-    dead_end_ = edge_at(t, config_.dead_ticks);
-  }
+  if (config_.dead_ticks > 0 && command.chopping == Chopping::complementary) wait_dead_time(t);
   if (command.watch != Watch::none) command_source(t, true, true);  // hysteresis starts on (MODEL 4)
 }
 
@@ -52,6 +48,8 @@ void Modulator::start_period(const Instant& t, const BoardCommand& command) {
     command_source(t, false, leg_changed_);
   } else if (config_.centre_aligned) {
     command_source(t, false, leg_changed_);
+    // The new source leg was the sink until now: an edge that comes within the dead time waits for its end.
+    if (leg_changed_ && config_.dead_ticks > 0) wait_dead_time(t);
     on_edge_ = edge_at(t, (period - on_time) / 2);
     off_edge_ = edge_at(t, (period + on_time) / 2);
   } else {
@@ -69,10 +67,12 @@ void Modulator::command_source(const Instant& t, bool on, bool leg_changed) {
   if (source_on_ == on && !(on && leg_changed && waits)) return;
   if (on && !source_on_) ++turn_ons_;
   source_on_ = on;
-  if (waits && (complementary || (on && leg_changed))) {
-    dead_ = true;
-    dead_end_ = edge_at(t, config_.dead_ticks);
-  }
+  if (waits && (complementary || (on && leg_changed))) wait_dead_time(t);
+}
+
+void Modulator::wait_dead_time(const Instant& t) {
+  dead_ = true;
+  dead_end_ = edge_at(t, config_.dead_ticks);
 }
 
 void Modulator::commutate(const Instant& t, control::Pair pair) {

@@ -70,14 +70,14 @@ class Modulator {
  private:
   void take(const sim::Instant& t, const BoardCommand& command);
   void command_source(const sim::Instant& t, bool on, bool leg_changed);
+  void wait_dead_time(const sim::Instant& t);
   sim::Instant edge_at(const sim::Instant& t, double ticks) const;
   plant::Gates wanted_gates() const;
 
   ModulatorConfig config_;
   BoardCommand command_{};
   bool source_on_ = false, sink_on_ = true;  ///< sink_on_: hard chopping's second comparator
-  bool started_ = false;
-  bool leg_changed_ = false;  ///< the roles were swapped by the last command
+  bool leg_changed_ = false;                 ///< the roles were swapped by the last command
   sim::Instant on_edge_ = sim::Instant::never(), off_edge_ = sim::Instant::never(),
                dead_end_ = sim::Instant::never();
   bool dead_ = false;       ///< the source leg waits with both switches off

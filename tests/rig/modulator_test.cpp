@@ -122,6 +122,19 @@ TEST(Modulator, AReversalWaitsWhereTheSourceWasTheSink) {
   }
 }
 
+/// On-time of 98 % around the middle begins 0.3 us into the period, within the dead time of 1 us.
+TEST(Modulator, ACentredOnTimeWaitsAtAReversalToo) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard}) {
+    Modulator m{ModulatorConfig{.centre_aligned = true, .dead_ticks = 1e6}};
+    m.start_period(at(0), command(1.0, chopping));
+    m.start_period(at(period), command(0.98, chopping, {Leg::b, Leg::a}));
+    EXPECT_EQ(do_next(m), at(period + 300'000)) << int(chopping);
+    EXPECT_FALSE(m.gates().high[1]) << int(chopping);
+    EXPECT_EQ(do_next(m), at(period + 1'000'000)) << int(chopping);
+    EXPECT_EQ(on(m), "a-b+") << int(chopping);
+  }
+}
+
 TEST(Modulator, AHardSinkWaitsWithItsSourceAtAReversal) {
   Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(1.0, Chopping::hard));
