@@ -44,6 +44,7 @@ table = [
     ("plant/recurrences.hpp", "of = {y.reach_i, y.reach_i_2, «y.reach_i + y.reach_i_2»}", "y.reach_i_2"),
     ("plant/expand.hpp", "out.later_x = «c.pole_pairs * out.h * r.y.reach_w / 2»", "Real(0)"),
     ("plant/expand.hpp", "for (int j = 0; j < «n - 1»; ++j) b /= 2", "n"),
+    ("plant/expand.hpp", "before < 4096 && «!from_nothing»", "true"),
     ("plant/expand.hpp", "const bool flat = «piece.beta[law.leg[0]] == piece.beta[law.leg[1]]»",
      "piece.beta[law.leg[0]] == 0"),
     ("plant/legs_law.hpp", ".i = «(b.r_ohm - a.r_ohm) / 2»", "(a.r_ohm - b.r_ohm) / 2"),
@@ -108,8 +109,9 @@ table = [
     ("rig/modulator.cpp", "std::floor(«ticks / config_.timer_ticks + 0.5»)", "ticks / config_.timer_ticks"),
     ("rig/modulator.cpp", "if («source_on_ == on && !(on && leg_changed && waits)»)", "source_on_ == on"),
     ("rig/modulator.cpp", "«after.low & ~before.low»", "after.low"),
-    ("rig/modulator.cpp", "wakes = command.enabled && («!started_ || !command_.enabled»)", "!started_"),
+    ("rig/modulator.cpp", "wakes = «command.enabled && !command_.enabled»", "command.enabled"),
     ("rig/modulator.cpp", "if («config_.dead_ticks > 0» && command.chopping == Chopping::complementary)", "false"),
+    ("rig/modulator.cpp", "if («leg_changed_ && config_.dead_ticks > 0») wait_dead_time(t)", "false"),
     ("rig/modulator.cpp", "command.watch != Watch::none && leg_changed_ && «source_on_»", "true"),
 ]
 
