@@ -40,7 +40,7 @@ class TableReader {
   }
 
   void quantity(std::string_view key, std::optional<base::Quantity>& member, const base::About& about) {
-    if (given(key)) {
+    if (spelling_in_file(key, about)) {
       if (!member) member.emplace();
       quantity(key, *member, about);
     } else {
@@ -94,6 +94,13 @@ class TableReader {
   }
   bool given(std::string_view key) const { return table_.contains(key); }
   const toml::node* find(std::string_view key, const base::About& about);
+  /// Which of a quantity's keys the table holds; all of them are known from then on, and two are a complaint.
+  std::optional<base::Spelling> spelling_in_file(std::string_view key, const base::About& about);
+  void parts(const toml::table& table, const std::string& path, const base::About& about,
+             const base::Spelling& spelling, base::Quantity& out);
+  void interval(const toml::node& node, const std::string& path, const base::About& about, int ten,
+                base::Quantity& out);
+  std::optional<double> last_digit(const toml::node& node, const std::string& path, int ten) const;
   const toml::table* find_table(std::string_view key, const base::About& about);
   const toml::array* find_tables(std::string_view key, const base::About& about);
   bool number(const toml::node& node, const std::string& path, const base::About& about, double& out);
