@@ -71,11 +71,14 @@ std::string_view without_unit(std::string_view key) {
 }
 
 base::Problem unknown_key(std::string_view key, std::span<const std::string> known) {
-  for (const std::string& candidate : known) {
-    if (without_unit(candidate) != without_unit(key) || unit_suffix(candidate).empty()) continue;
+  const std::string* same = nullptr;  // but for the unit; of several the most alike
+  for (const std::string& candidate : known)
+    if (without_unit(candidate) == without_unit(key) && !unit_suffix(candidate).empty() &&
+        (same == nullptr || edit_distance(candidate, key) < edit_distance(*same, key)))
+      same = &candidate;
+  if (same != nullptr)
     return {.limit = unit_suffix(key).empty() ? "lacks its unit" : "carries the wrong unit",
-            .cure = fmt::format("write {} and give the value in that unit", candidate)};
-  }
+            .cure = fmt::format("write {} and give the value in that unit", *same)};
   const std::string near = nearest(key, known);
   if (!near.empty()) return {.limit = "is not a key here", .cure = fmt::format("did you mean {}?", near)};
   return {.limit = "is not a key here", .cure = "known are " + join(known)};

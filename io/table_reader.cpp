@@ -244,6 +244,10 @@ void TableReader::interval(const toml::node& node, const std::string& path, cons
     return;
   if (low > high)
     return complaints_.value(node, path, {.limit = "runs downwards", .cure = "write range = [low, high]"});
+  if (!(low <= out.value && out.value <= high))
+    return complaints_.value(node, path,
+                             {.limit = fmt::format("does not hold the value, {}", shortest(out.value)),
+                              .cure = "it reaches over what all sources say, the value included"});
   out.range = base::Interval{base::times_ten_to(low, ten), base::times_ten_to(high, ten)};
 }
 

@@ -22,7 +22,7 @@ void read_printed_points(SheetReader& reader, MotorModel& m) {
 
 base::Problem not_simulatable(const Sheet& sheet) {
   return {
-      "simulatable", "false", "says why: " + sheet.not_simulatable_because,
+      "simulatable", "false", "because " + sheet.not_simulatable_because,
       "choose another motor, or give what is missing in [motor_override] together with simulatable = true "
       "and not_simulatable_because = \"\""};
 }

@@ -12,7 +12,7 @@ struct ShapeFactors {
   double sector_mean =
       0.0;  ///< of f_p - f_n over a sector: K_t/K_e; 2 for 120 degrees flat, 1.65399 for a sine
   double line_peak = 0.0;  ///< largest f_a - f_b; 2, sqrt 3
-  double line_rms = 0.0;   ///< of f_a - f_b; 1.63299, 1.22474
+  double line_rms = 0.0;   ///< of f_a - f_b; 1.49071, 1.22474
   double phase_rms = 0.0;  ///< 0.88192, 0.70711
   double fundamental =
       0.0;  ///< amplitude of the first harmonic, what a field-oriented drive sees; 1.21585, 1

@@ -5,33 +5,12 @@
 #include <array>
 #include <cmath>
 
-#include "sixstep/design/sheet_description.hpp"
 #include "sixstep/design/sheet_reader.hpp"
 
 namespace sixstep::design {
 namespace {
 
 using base::Quantity;
-
-/// Visits every quantity that a sheet gives: a range must hold the value it belongs to.
-class RangeCheck {
- public:
-  explicit RangeCheck(SheetReader& reader) : reader_(reader) {}
-  void quantity(std::string_view key, std::optional<Quantity>& q, const base::About&) {
-    if (q && q->range && !(q->range->low <= q->value && q->value <= q->range->high))
-      reader_.problem(
-          SheetReader::key_of(key, *q), base::written(q->value),
-          "lies outside of its range [" + rounded(q->range->low) + ", " + rounded(q->range->high) + "]",
-          "the range holds what all sources say, the value included");
-  }
-  template <class T>
-  void value(std::string_view, T&, const base::About&) {}
-  template <class Enum, class Choices>
-  void choice(std::string_view, Enum&, const Choices&, const base::About&) {}
-
- private:
-  SheetReader& reader_;
-};
 
 /// Star equivalent of a winding's value: half of what is measured between two terminals.
 double per_phase(double value, std::string_view frame) { return frame == "phase" ? value : value / 2.0; }
@@ -166,15 +145,17 @@ void read_trust(SheetReader& reader) {
 }  // namespace
 
 double relative_doubt(const Quantity& q) {
-  return q.value > 0.0 ? 0.5 * q.last_digit.value_or(base::last_digit_of(q.value)) / q.value : 0.0;
+  if (!(q.value > 0.0)) return 0.0;
+  double digit = q.last_digit.value_or(base::last_digit_of(q.value));
+  // 1690 may be a number of three digits: its zero is a place holder. 780 has three without it.
+  const auto whole = [&](double unit) { return std::floor(q.value / unit) * unit == q.value; };
+  while (digit >= 1.0 && digit * 1e3 <= q.value && whole(digit * 10.0)) digit *= 10.0;
+  return 0.5 * digit / q.value;
 }
 
 SheetConstants sheet_constants(const Sheet& sheet) {
   SheetConstants out;
   SheetReader reader{sheet, out};
-  Sheet copy = sheet;
-  RangeCheck ranges(reader);
-  describe(ranges, copy);
   read_trust(reader);
   const bool flat = base::strictly_between(0.0, 180.0).holds(sheet.flat_deg);
   if (!flat)

@@ -145,7 +145,11 @@ class Relations {
     if (torque && current && K_t_) {
       // Some sheets take the friction off, K_t (I_N - I_0), others do not: no torque lies above K_t I_N.
       const bool rms = s_.nominal_current_A->frame == "rms", known = idle_ && idle_->value < current->value;
-      const double friction = known && !rms ? idle_->value / (current->value - idle_->value) : 0.0;
+      double friction = 0.0;
+      if (known && !rms) {
+        const Term share = *current / (*current - *idle_);
+        friction = share.value * (1.0 + share.doubt) - 1.0;
+      }
       const Term K = rms ? Term{torque_per_rms_A(c_.K_e_V_s->value, c_.shape), K_t_->doubt} : *K_t_;
       Relation& r = add("nominal torque", rms ? "K_rms I_N" : "k_M I_N", "nominal torque", K * *current * 1e3,
                         *torque, "mNm", 0.0, friction);
@@ -154,10 +158,14 @@ class Relations {
     }
     if (const std::optional<Term> printed = term(s_.max_efficiency_percent);
         printed && idle_ && stall_ && idle_->value < stall_->value) {
-      // (1 - x)^2 with x = sqrt(I_0/I_stall): a doubt d of the ratio is x d/(1 - x) of the result.
+      // With x = sqrt(I_0/I_stall): (1 - x)^2 if friction is the same at every speed, (1 - x)/(1 + x) if it
+      // grows with speed; both at the current sqrt(I_0 I_stall). A doubt d of the ratio is x d/(1 - x) of the
+      // result.
       const double x = std::sqrt(idle_->value / stall_->value);
       const Term computed = {100.0 * (1.0 - x) * (1.0 - x), (idle_->doubt + stall_->doubt) * x / (1.0 - x)};
-      add("max. efficiency", "(1 - sqrt(I_0 / I_stall))^2", "max. efficiency", computed, *printed, "percent");
+      const double viscous = 100.0 * (1.0 - x) / (1.0 + x);
+      add("max. efficiency", "(1 - sqrt(I_0 / I_stall))^2", "max. efficiency", computed, *printed, "percent",
+          1.0 - computed.value / viscous);
     }
   }
 
