@@ -33,6 +33,13 @@ std::string join(std::span<const std::string> words) {
 
 }  // namespace
 
+std::string quoted_alternatives(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t n = 0; n < words.size(); ++n)
+    text += (n == 0 ? "" : n + 1 == words.size() ? " or " : ", ") + fmt::format("\"{}\"", words[n]);
+  return text;
+}
+
 int edit_distance(std::string_view a, std::string_view b) {
   std::vector<int> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);

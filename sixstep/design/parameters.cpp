@@ -49,6 +49,7 @@ base::Result<MotorModel> motor_model(const Sheet& sheet) {
   m.shaft.J_kg_m2 = c.J_kg_m2->value;
   m.shaft.B_Nm_s = c.friction.B_Nm_s;
   m.shaft.coulomb_Nm = c.friction.coulomb_Nm;
+  m.from = {c.R_ohm->from, c.L_H->from, c.K_e_V_s->from, c.K_t_Nm_A->from, c.J_kg_m2->from, c.friction.from};
   SheetReader reader{sheet, c};
   read_printed_points(reader, m);
   if (!c.problems.empty()) return c.problems;

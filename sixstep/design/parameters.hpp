@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Data sheet -> model parameters: frames and units end here.
 #pragma once
+#include <string>
+
 #include "sixstep/base/result.hpp"
 #include "sixstep/design/sheet.hpp"
 #include "sixstep/plant/machine.hpp"
 
 namespace sixstep::design {
+
+/// Which line of the sheet each constant was read from, in words.
+struct Origins {
+  std::string R, L, K_e, K_t, J, friction;
+};
 
 struct MotorModel {
   plant::Machine machine;
@@ -16,6 +23,7 @@ struct MotorModel {
   double no_load_speed_rad_s = 0.0;  ///< as printed; 0 where the sheet is silent
   double no_load_current_A = 0.0;
   double stall_torque_Nm = 0.0;  ///< as printed, else K_t U/R_tt; 0 where the sheet has no voltage either
+  Origins from;
 };
 
 /// The constants of sheet_constants.hpp as a model: R_s = R_tt/2, L_s = L_tt/2, K_e from K_t by the shape's

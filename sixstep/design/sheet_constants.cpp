@@ -27,6 +27,10 @@ void read_resistance(SheetReader& reader) {
                           "between two terminals with a milliohm meter");
   const std::optional<double> R = reader.positive("resistance_ohm", *q);
   if (!R) return;
+  if (q->frame == "terminal" || q->frame == "phase") {
+    reader.out.R_ohm = Constant{per_phase(*R, q->frame), from_frame("resistance_ohm", *q)};
+    return reader.use("resistance_ohm");
+  }
   const auto means = [&](double R_s) {
     std::string text = "R_s = " + rounded(R_s) + " ohm";
     if (const std::optional<double> U = reader.out.nominal_voltage_V)
@@ -41,9 +45,7 @@ void read_resistance(SheetReader& reader) {
            (terminal ? "terminal" : "phase") + "\"";
   }
   const std::array<FrameMeaning, 2> candidates = {{{"terminal", means(*R / 2.0)}, {"phase", means(*R)}}};
-  if (!frame_is_known(reader, "resistance_ohm", *q, candidates, hint)) return;
-  reader.out.R_ohm = Constant{per_phase(*R, q->frame), from_frame("resistance_ohm", *q)};
-  reader.use("resistance_ohm");
+  unknown_frame(reader, "resistance_ohm", *q, candidates, hint);
 }
 
 /// The model knows no saliency: L_d and L_q must be one number.
@@ -85,6 +87,10 @@ void read_inductance(SheetReader& reader) {
         "between two terminals with an LCR meter at 1 kHz");
   const std::optional<double> L = reader.positive("inductance_mH", *q, -3);
   if (!L) return;
+  if (q->frame == "terminal" || q->frame == "phase") {
+    reader.out.L_H = Constant{per_phase(*L, q->frame), from_frame("inductance_mH", *q)};
+    return reader.use("inductance_mH");
+  }
   const auto means = [&](double L_s) {
     std::string text = "L_s = " + rounded(L_s * 1e3) + " mH";
     if (reader.out.R_ohm)
@@ -92,9 +98,7 @@ void read_inductance(SheetReader& reader) {
     return text;
   };
   const std::array<FrameMeaning, 2> candidates = {{{"terminal", means(*L / 2.0)}, {"phase", means(*L)}}};
-  if (!frame_is_known(reader, "inductance_mH", *q, candidates)) return;
-  reader.out.L_H = Constant{per_phase(*L, q->frame), from_frame("inductance_mH", *q)};
-  reader.use("inductance_mH");
+  unknown_frame(reader, "inductance_mH", *q, candidates);
 }
 
 void read_inertia(SheetReader& reader) {
@@ -122,14 +126,14 @@ void read_inertia(SheetReader& reader) {
 void read_nominal_current(SheetReader& reader) {
   const std::optional<Quantity>& q = reader.sheet.nominal_current_A;
   const SheetConstants& c = reader.out;
-  if (!q || !reader.positive("nominal_current_A", *q)) return;
+  if (!q || !reader.positive("nominal_current_A", *q) || q->frame == "terminal" || q->frame == "rms") return;
   const auto means = [&](double K) {
     return c.K_e_V_s ? "a nominal torque of " + rounded(K * q->value * 1e3) + " mNm" : std::string("its own");
   };
   const std::array<FrameMeaning, 2> candidates = {
       {{"terminal", means(c.K_t_Nm_A ? c.K_t_Nm_A->value : 0.0)},
        {"rms", means(c.K_e_V_s ? torque_per_rms_A(c.K_e_V_s->value, c.shape) : 0.0)}}};
-  frame_is_known(reader, "nominal_current_A", *q, candidates);
+  unknown_frame(reader, "nominal_current_A", *q, candidates);
 }
 
 void read_trust(SheetReader& reader) {

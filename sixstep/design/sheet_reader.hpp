@@ -60,9 +60,9 @@ struct FrameMeaning {
   std::string means;
 };
 
-/// Whether the frame is one of those; where not, a Problem with what each would mean.
-bool frame_is_known(SheetReader& reader, std::string_view key, const base::Quantity& q,
-                    std::span<const FrameMeaning> candidates, const std::string& hint = "");
+/// The Problem of a frame that is missing or unknown, with what each candidate would mean.
+void unknown_frame(SheetReader& reader, std::string_view key, const base::Quantity& q,
+                   std::span<const FrameMeaning> candidates, const std::string& hint = "");
 
 std::optional<int> read_pole_pairs(SheetReader& reader);
 void read_torque_constant(SheetReader& reader);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The torque constant and its other faces: what each way of printing it says about the peak phase EMF K_e.
 // For a sine these are MODEL 1's table of constants; for a trapezoid the factors are those of its own shape.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -90,14 +91,16 @@ std::optional<std::string_view> frame_of(SheetReader& reader, const Way& way, co
                    "convert the value and write frame = \"" + std::string(way.frames[0]) + "\"");
     return {};
   }
+  if (!q.frame.empty() && std::find(way.frames.begin(), way.frames.end(), q.frame) != way.frames.end())
+    return q.frame;
   std::vector<FrameMeaning> candidates;
   for (const std::string_view frame : way.frames)
     if (!frame.empty()) {
       const Constants c = way.read(q.value, frame, reader.out.shape, pole_pairs);
       candidates.push_back({frame, "a terminal torque constant of " + rounded(c.K_t_Nm_A * 1e3) + " mNm/A"});
     }
-  if (!frame_is_known(reader, way.key, q, candidates)) return {};
-  return q.frame;
+  unknown_frame(reader, way.key, q, candidates);
+  return {};
 }
 
 struct Read {
