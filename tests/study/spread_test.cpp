@@ -157,6 +157,24 @@ TEST(Spread, TorqueConstantAndBackEmfStayOneFact) {
   }
 }
 
+TEST(Spread, StandardKeysStrayWhateverTheSheetPrints) {
+  // The torque constant as a flux linkage, the inductance as L_d = L_q.
+  Scenario s = current_square();
+  s.sheet.torque_constant_mNm_A.reset();
+  s.sheet.flux_linkage_mWb = base::Quantity{2.1, "", ""};
+  s.sheet.inductance_mH.reset();
+  s.sheet.d_axis_inductance_mH = s.sheet.q_axis_inductance_mH = base::Quantity{0.286, "", ""};
+  s.spread = {relative("motor_override.torque_constant_mNm_A", 0.08),
+              relative("motor_override.inductance_mH", 0.2)};
+  ASSERT_EQ(check(s), base::Problems{});
+  const auto nominal = design::motor_model(s.sheet), one = design::motor_model(varied(s, seed, 0).sheet);
+  ASSERT_TRUE(nominal && one);
+  EXPECT_NE(one->K_t_Nm_A, nominal->K_t_Nm_A);
+  EXPECT_NE(one->machine.L_H, nominal->machine.L_H);
+  EXPECT_NEAR(one->K_t_Nm_A / nominal->K_t_Nm_A, 1.0, 0.08);
+  EXPECT_NEAR(one->machine.L_H / nominal->machine.L_H, 1.0, 0.2);
+}
+
 TEST(Spread, AnAbsoluteWidthMovesAZero) {
   Scenario s = current_square();
   s.spread = {relative("initial.angle_rad", 0.1)};
