@@ -27,6 +27,7 @@ class Complaints {
   /// Whether something in the table that `path` lies in has been complained about already.
   bool about_table_of(std::string_view path) const;
 
+  const Document& document() const { return document_; }
   bool empty() const { return found_.empty(); }
   base::Problems in_order() const;
 

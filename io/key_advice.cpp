@@ -13,10 +13,11 @@ namespace {
 // Every piece a unit suffix may be made of, right or wrong ones: what follows the last other piece is the
 // unit.
 constexpr std::array unit_pieces = {
-    "V",     "mV",   "kV",   "A",   "mA", "uA",      "s",   "ms", "us", "ns", "min", "h",    "ohm",
-    "mohm",  "kohm", "H",    "mH",  "uH", "F",       "uF",  "nF", "mF", "Hz", "kHz", "MHz",  "rad",
-    "deg",   "rpm",  "krpm", "rps", "Nm", "mNm",     "Ncm", "kg", "g",  "m2", "cm2", "gcm2", "kgm2",
-    "kgcm2", "W",    "kW",   "J",   "Wb", "percent", "per", "N",  "m",  "K",  "degC"};
+    "V",    "mV",   "kV",   "A",     "mA",   "uA",  "s",   "ms",      "us",  "ns", "min", "h",
+    "ohm",  "mohm", "kohm", "H",     "mH",   "uH",  "F",   "uF",      "nF",  "mF", "Hz",  "kHz",
+    "MHz",  "rad",  "deg",  "rpm",   "krpm", "rps", "Nm",  "mNm",     "Ncm", "kg", "g",   "m2",
+    "cm2",  "gcm2", "kgm2", "kgcm2", "W",    "kW",  "J",   "percent", "per", "N",  "m",   "K",
+    "degC", "T",    "mm",   "cm",    "Wb",   "mWb", "uWb", "Arms",    "Vrms"};
 
 bool is_unit_piece(std::string_view piece) {
   return std::find(unit_pieces.begin(), unit_pieces.end(), piece) != unit_pieces.end();
@@ -31,6 +32,13 @@ std::string join(std::span<const std::string> words) {
 }
 
 }  // namespace
+
+std::string quoted_alternatives(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t n = 0; n < words.size(); ++n)
+    text += (n == 0 ? "" : n + 1 == words.size() ? " or " : ", ") + fmt::format("\"{}\"", words[n]);
+  return text;
+}
 
 int edit_distance(std::string_view a, std::string_view b) {
   std::vector<int> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
@@ -70,11 +78,14 @@ std::string_view without_unit(std::string_view key) {
 }
 
 base::Problem unknown_key(std::string_view key, std::span<const std::string> known) {
-  for (const std::string& candidate : known) {
-    if (without_unit(candidate) != without_unit(key) || unit_suffix(candidate).empty()) continue;
+  const std::string* same = nullptr;  // but for the unit; of several the most alike
+  for (const std::string& candidate : known)
+    if (without_unit(candidate) == without_unit(key) && !unit_suffix(candidate).empty() &&
+        (same == nullptr || edit_distance(candidate, key) < edit_distance(*same, key)))
+      same = &candidate;
+  if (same != nullptr)
     return {.limit = unit_suffix(key).empty() ? "lacks its unit" : "carries the wrong unit",
-            .cure = fmt::format("write {} and give the value in that unit", candidate)};
-  }
+            .cure = fmt::format("write {} and give the value in that unit", *same)};
   const std::string near = nearest(key, known);
   if (!near.empty()) return {.limit = "is not a key here", .cure = fmt::format("did you mean {}?", near)};
   return {.limit = "is not a key here", .cure = "known are " + join(known)};

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/rooms.hpp"
 #include "sixstep/base/describe.hpp"
@@ -23,6 +24,9 @@ std::string_view without_unit(std::string_view key);
 /// Limit and cure for a key that is none of the known ones: `where` and `value` are left empty. A key that
 /// differs in its unit only is told as a wrong unit.
 base::Problem unknown_key(std::string_view key, std::span<const std::string> known);
+
+/// "a", "b" or "c", each in quotes.
+std::string quoted_alternatives(const std::vector<std::string>& words);
 
 /// "must be above 0 and at most 1"; "must be a finite number" for a range open on both ends.
 std::string limit_of(const base::Range& range);

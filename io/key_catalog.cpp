@@ -124,6 +124,14 @@ std::vector<KeyEntry> sheet_keys() {
   return catalog.take();
 }
 
+const KeyEntry* find_key(const std::vector<KeyEntry>& keys, std::string_view path) {
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const KeyEntry& key) {
+    return key.path == path || std::any_of(key.about.also.begin(), key.about.also.end(),
+                                           [&](const base::Spelling& s) { return s.key == path; });
+  });
+  return found == keys.end() ? nullptr : &*found;
+}
+
 std::string help_text(const KeyEntry& entry) {
   const base::About& about = entry.about;
   std::string text = fmt::format("{}\n  {}\n  {}", entry.path, about.meaning, type_text(entry));
@@ -136,6 +144,7 @@ std::string help_text(const KeyEntry& entry) {
   for (const auto& [word, meaning] : entry.choices) width = std::max(width, word.size());
   for (const auto& [word, meaning] : entry.choices)
     text += fmt::format("\n    {:<{}}  {}", word, width, meaning);
+  for (const base::Spelling& spelling : about.also) text += fmt::format("\n  or as {}", spelling.key);
   return text + "\n";
 }
 

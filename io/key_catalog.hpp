@@ -25,6 +25,9 @@ struct KeyEntry {
 std::vector<KeyEntry> scenario_keys();
 std::vector<KeyEntry> sheet_keys();
 
+/// The entry of a key or of one of its other spellings; null where there is none.
+const KeyEntry* find_key(const std::vector<KeyEntry>& keys, std::string_view path);
+
 /// What a user wants to know of one key, in a few lines.
 std::string help_text(const KeyEntry& entry);
 

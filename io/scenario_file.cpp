@@ -4,13 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "io/key_catalog.hpp"
 #include "io/motor_library.hpp"
 #include "io/table_reader.hpp"
 #include "io/text_file.hpp"
+#include "sixstep/design/sheet_constants.hpp"
 #include "sixstep/design/sheet_description.hpp"
 #include "sixstep/study/run.hpp"
 #include "sixstep/study/scenario_description.hpp"
@@ -52,19 +55,70 @@ std::optional<SheetSource> named_sheet(const Document& scenario, const std::stri
   return std::move(*source);
 }
 
-/// Torque constant and back-EMF constant say the same thing: overriding one makes the other's printed value
-/// stale.
-void drop_stale_constant(const Document& document, design::Sheet& sheet) {
-  const bool torque = document.find("motor_override.torque_constant_mNm_A");
-  const bool back_emf = document.find("motor_override.back_emf_mV_s");
-  if (back_emf && !torque) sheet.torque_constant_mNm_A.reset();
-  if (torque && !back_emf) sheet.back_emf_mV_s.reset();
+/// Lines that say the same thing: overriding one makes what the sheet prints in the others stale.
+constexpr std::array torque_keys = {"torque_constant_mNm_A",    "back_emf_mV_s",    "torque_constant_Nm_A",
+                                    "back_emf_constant_V_krpm", "flux_linkage_mWb", "speed_constant_rpm_V"};
+constexpr std::array inductance_keys = {"inductance_mH", "d_axis_inductance_mH", "q_axis_inductance_mH"};
+constexpr std::array geometry_keys = {"flux_density_T", "active_length_mm", "air_gap_radius_mm",
+                                      "turns_in_series"};
+constexpr std::array pole_keys = {"pole_pairs", "poles", "winding"};
+
+bool overridden(const Document& document, std::string_view key) {
+  if (document.find(fmt::format("motor_override.{}", key))) return true;
+  const std::vector<KeyEntry> keys = sheet_keys();
+  const KeyEntry* entry = find_key(keys, key);
+  return entry && std::any_of(entry->about.also.begin(), entry->about.also.end(), [&](const auto& spelling) {
+           return document.find(fmt::format("motor_override.{}", spelling.key)) != nullptr;
+         });
+}
+
+/// Visits a sheet and clears those of the keys that the override leaves alone.
+class Forget {
+ public:
+  Forget(const Document& document, std::span<const char* const> keys) : document_(document), keys_(keys) {}
+  template <class T>
+  void quantity(std::string_view key, std::optional<T>& member, const base::About&) {
+    if (stale(key)) member.reset();
+  }
+  void value(std::string_view key, std::optional<int>& member, const base::About&) {
+    if (stale(key)) member.reset();
+  }
+  void value(std::string_view key, std::string& member, const base::About&) {
+    if (stale(key)) member.clear();
+  }
+  template <class T>
+  void value(std::string_view, T&, const base::About&) {}
+  template <class Enum, class Choices>
+  void choice(std::string_view, Enum&, const Choices&, const base::About&) {}
+
+ private:
+  bool stale(std::string_view key) const {
+    return std::find(keys_.begin(), keys_.end(), key) != keys_.end() && !overridden(document_, key);
+  }
+  const Document& document_;
+  std::span<const char* const> keys_;
+};
+
+void drop_stale(const Document& document, design::Sheet& sheet) {
+  using Keys = std::span<const char* const>;
+  const auto any = [&](Keys keys) {
+    return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return overridden(document, key); });
+  };
+  const auto forget = [&](Keys keys) {
+    Forget stale(document, keys);
+    describe(stale, sheet);
+  };
+  const bool geometry = any(geometry_keys);
+  if (geometry || any(torque_keys)) forget(torque_keys);
+  if (!geometry && any(torque_keys)) forget(geometry_keys);
+  if (any(inductance_keys)) forget(inductance_keys);
+  if (any(pole_keys)) forget(pole_keys);
 }
 
 /// Whether a check speaks of the motor's sheet, whose keys it names without a table.
 bool is_sheet_key(const std::string& where) {
   const std::vector<KeyEntry> keys = sheet_keys();
-  return std::any_of(keys.begin(), keys.end(), [&](const KeyEntry& key) { return key.path == where; });
+  return find_key(keys, where) != nullptr;
 }
 
 /// What study::check found, each told where it stands: in the scenario, its overrides, or the motor's file.
@@ -74,12 +128,12 @@ void run_checks(const Document& document, const SheetSource& source, const study
   base::Problems of_scenario;
   for (base::Problem& problem : study::check(scenario)) {
     if (is_sheet_key(problem.where)) {
-      const std::string overridden = fmt::format("motor_override.{}", problem.where);
-      if (!document.find(overridden)) {
+      const std::string in_override = fmt::format("motor_override.{}", problem.where);
+      if (!document.find(in_override)) {
         of_motor.later(std::move(problem));
         continue;
       }
-      problem.where = overridden;
+      problem.where = in_override;
     }
     // What follows from a mistake told already would only hide it.
     if (!complaints.about_table_of(problem.where)) of_scenario.push_back(std::move(problem));
@@ -100,6 +154,10 @@ base::Result<design::Sheet> read_sheet(const std::string& name, const std::strin
   }
   base::Result<SheetSource> source = sheet_of(std::move(*document));
   if (!source) return source.problems();
+  Complaints complaints(source->document);
+  for (base::Problem& problem : design::sheet_constants(source->sheet).problems)
+    complaints.later(std::move(problem));
+  if (!complaints.empty()) return complaints.in_order();
   return std::move(source->sheet);
 }
 
@@ -123,7 +181,7 @@ base::Result<study::Scenario> read_scenario_text(const std::string& path, std::s
   study::Scenario scenario;
   if (source) scenario.sheet = source->sheet;
   read_root(document, scenario, complaints);
-  drop_stale_constant(document, scenario.sheet);
+  drop_stale(document, scenario.sheet);
   if (source) run_checks(document, *source, scenario, complaints, of_motor_file);
 
   base::Problems problems = complaints.in_order();

@@ -46,23 +46,6 @@ std::optional<double> in_wanted_unit(const std::string& text, std::string_view u
   }
 }
 
-std::vector<std::string> split(std::string_view text, char separator) {
-  std::vector<std::string> parts;
-  while (!text.empty()) {
-    const std::size_t cut = std::min(text.find(separator), text.size());
-    parts.emplace_back(text.substr(0, cut));
-    text.remove_prefix(std::min(cut + 1, text.size()));
-  }
-  return parts;
-}
-
-std::string quoted_alternatives(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t n = 0; n < words.size(); ++n)
-    text += (n == 0 ? "" : n + 1 == words.size() ? " or " : ", ") + fmt::format("\"{}\"", words[n]);
-  return text;
-}
-
 }  // namespace
 
 const toml::node* TableReader::find(std::string_view key, const base::About& about) {
@@ -196,50 +179,6 @@ void TableReader::value(std::string_view key, std::vector<std::string>& member, 
   member.clear();
   for (std::size_t n = 0; n < items->size(); ++n)
     word(*items->get(n), fmt::format("{}[{}]", at(key), n), about, member.emplace_back());
-}
-
-void TableReader::quantity(std::string_view key, base::Quantity& member, const base::About& about) {
-  const toml::node* node = find(key, about);
-  if (!node) return;
-  const toml::table* parts = node->as_table();
-  if (!parts) {
-    if (number(*node, at(key), about, member.value)) frame(*node, at(key), about, member);
-    if (partial_) member.source = "motor_override";
-    return;
-  }
-  if (partial_) member.source = "motor_override";
-  TableReader reader(*parts, at(key), complaints_, false);
-  base::About number_about = about;
-  number_about.required = true;
-  reader.value("value", member.value, number_about);
-  if (const toml::node* written = reader.find("frame", {}))
-    reader.word(*written, at(key) + ".frame", {.meaning = "frame"}, member.frame);
-  if (const toml::node* written = reader.find("source", {}))
-    reader.word(*written, at(key) + ".source", {.meaning = "source"}, member.source);
-  frame(parts->contains("frame") ? *parts->get("frame") : *node, at(key), about, member);
-  reader.refuse_unknown_keys();
-}
-
-void TableReader::frame(const toml::node& node, const std::string& path, const base::About& about,
-                        base::Quantity& quantity) {
-  const std::vector<std::string> frames = split(about.frame, '|');
-  if (frames.size() == 1 && quantity.frame.empty()) quantity.frame = frames[0];
-  if (frames.empty() ? quantity.frame.empty()
-                     : std::find(frames.begin(), frames.end(), quantity.frame) != frames.end())
-    return;
-  const std::string alternatives = quoted_alternatives(frames);
-  if (frames.empty())
-    complaints_.value(node, path + ".frame",
-                      {.limit = "is not needed", .cure = "this value has one meaning only: leave frame out"});
-  else if (quantity.frame.empty())
-    complaints_.value(
-        node, path,
-        {.limit = "must say its frame",
-         .cure = fmt::format("write {{ value = {}, frame = {} }}", shortest(quantity.value), alternatives)});
-  else
-    complaints_.value(node, path + ".frame",
-                      {.limit = fmt::format("must be {}", alternatives),
-                       .cure = "say between which points the sheet measures"});
 }
 
 void TableReader::no_such_word(const toml::node& node, std::string_view key,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The visitor that fills a described struct from a TOML table and complains about whatever does not fit.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -40,12 +41,13 @@ class TableReader {
   }
 
   void quantity(std::string_view key, std::optional<base::Quantity>& member, const base::About& about) {
-    if (given(key)) {
-      if (!member) member.emplace();
-      quantity(key, *member, about);
-    } else {
+    if (!any_spelling_in_file(key, about)) {
       find(key, about);
+      for (const base::Spelling& spelling : about.also) known_.emplace_back(spelling.key);
+      return;
     }
+    if (!member) member.emplace();
+    quantity(key, *member, about);
   }
 
   template <class Enum, class Choices>
@@ -94,6 +96,17 @@ class TableReader {
   }
   bool given(std::string_view key) const { return table_.contains(key); }
   const toml::node* find(std::string_view key, const base::About& about);
+  bool any_spelling_in_file(std::string_view key, const base::About& about) const {
+    return given(key) || std::any_of(about.also.begin(), about.also.end(),
+                                     [&](const base::Spelling& spelling) { return given(spelling.key); });
+  }
+  /// Which of a quantity's keys the table holds; all of them are known from then on, and two are a complaint.
+  std::optional<base::Spelling> spelling_in_file(std::string_view key, const base::About& about);
+  void parts(const toml::table& table, const std::string& path, const base::About& about,
+             const base::Spelling& spelling, base::Quantity& out);
+  void interval(const toml::node& node, const std::string& path, const base::About& about, int ten,
+                base::Quantity& out);
+  std::optional<double> last_digit(const toml::node& node, const std::string& path, int ten) const;
   const toml::table* find_table(std::string_view key, const base::About& about);
   const toml::array* find_tables(std::string_view key, const base::About& about);
   bool number(const toml::node& node, const std::string& path, const base::About& about, double& out);

@@ -26,7 +26,9 @@ MOTOR = """
 A scenario names its motor by a path or by a name that is looked up beside the scenario, in `--data` and in the built-in
 list (`sixstep motor list`). `[motor_override]` takes the same keys, none of them required, and replaces single values:
 `resistance_ohm = 1.1`. A value is a number or says where it comes from:
-`resistance_ohm = { value = 1.03, frame = "terminal", source = "data sheet, line 10" }`.
+`resistance_ohm = { value = 1.03, frame = "terminal", source = "data sheet, line 10" }`, where it helps with
+`kind = "sheet"`, `"measured"` or `"derived"`, and with `range = [0.978, 1.03]` where sources differ. Where a key has several
+frames, one must be written. [Motors](motors.md) explains the numbers, and `sixstep motor new` writes a file to fill in.
 
 """
 
@@ -38,6 +40,7 @@ class Entry:
         self.inner = [line.split()[0] for line in lines[3:] if line.startswith(f"  {path}.")]
         self.required = "  required" in lines
         self.default = next((line.removeprefix("  default ") for line in lines if line.startswith("  default ")), "")
+        self.also = [line.removeprefix("  or as ") for line in lines if line.startswith("  or as ")]
         self.words = [line.split(None, 1) for line in lines[3:] if line.startswith("    ")]
         self.is_table = self.type == "table" or self.type.startswith("list of tables")
 
@@ -45,13 +48,14 @@ class Entry:
         return "".join(f"{separator}`{word}` {meaning}" for word, meaning in self.words)
 
     def cells(self, prefix):
-        what, kind = self.meaning, self.type.replace("one word of those below", "").replace("terminal|phase", "terminal or phase")
+        what, kind = self.meaning, self.type.replace("one word of those below", "").replace("|", " or ")
         if self.path.startswith("compare.") and self.words:
             what += ", as in `[[require]]`"
         elif len(self.words) > LONG:
             what += "; listed below"
         elif self.words:
             what, kind = what + ":" + self.word_list("<br>"), ""
+        what += "; also as " * bool(self.also) + ", ".join(f"`{spelling}`" for spelling in self.also)
         default = "**required**" if self.required else f"`{self.default}`" if self.default else ""
         cells = [f"`{self.path.removeprefix(prefix)}`", what, kind, default]
         return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"

@@ -80,7 +80,7 @@ Exit help_command(const std::string& key) {
     print(is_table(*entry) ? of_table(scenario, *entry) : of_key(*entry));
     return Exit::ok;
   }
-  if (const KeyEntry* entry = by_path(sheet, key)) {
+  if (const KeyEntry* entry = io::find_key(sheet, key)) {
     print(io::help_text(*entry) + "  in a motor file or in [motor_override]\n");
     return Exit::ok;
   }

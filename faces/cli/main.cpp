@@ -78,6 +78,33 @@ void declare_export(CLI::App& header, ExportArguments& a) {
   header.add_option("--data", a.data_dir, "folder that holds motors/");
 }
 
+struct MotorVerbs {
+  CLI::App &list, &show, &check, &fresh;
+
+  Exit run(const MotorArguments& a) const {
+    if (list) return list_motors();
+    if (show) return show_motor(a);
+    return check ? check_motor(a) : new_motor(a);
+  }
+};
+
+MotorVerbs declare_motor(CLI::App& motor, MotorArguments& a) {
+  motor.require_subcommand(1);
+  const MotorVerbs verbs = {*motor.add_subcommand("list", "the built-in motors, one a line"),
+                            *motor.add_subcommand("show", "the sheet as printed and the model that it makes"),
+                            *motor.add_subcommand("check", "hold the sheet against itself"),
+                            *motor.add_subcommand("new", "an empty motor file, to be filled in")};
+  for (CLI::App* const verb : {&verbs.show, &verbs.check}) {
+    verb->add_option("NAME", a.name, "name or path")->required();
+    verb->add_option("--data", a.data_dir, "folder that holds motors/");
+    verb->add_flag("--json", a.json, "for programs");
+  }
+  verbs.fresh.add_option("NAME", a.name, "the file to write, NAME.toml; without it standard output");
+  verbs.fresh.add_option("--style", a.style, "whose sheet it is: maxon, drone, servo or firmware")
+      ->capture_default_str();
+  return verbs;
+}
+
 Exit unknown_command(const std::string& word) {
   const std::vector<std::string> known = {"run", "export", "help", "motor"};
   const auto near = std::find_if(known.begin(), known.end(), [&](const std::string& command) {
@@ -111,13 +138,9 @@ Exit run_program(int count, const char* const* words) {
   CLI::App& help = *app.add_subcommand("help", "explain a key, a table, or all of them");
   help.add_option("KEY", key, "as supply.voltage_V, pwm or resistance_ohm");
 
-  std::string motor_name, data_dir;
-  CLI::App& motor = *app.add_subcommand("motor", "look into motor files");
-  motor.require_subcommand(1);
-  CLI::App& list = *motor.add_subcommand("list", "names of the built-in motors");
-  CLI::App& show = *motor.add_subcommand("show", "the sheet with units, frames and sources");
-  show.add_option("NAME", motor_name, "name or path")->required();
-  show.add_option("--data", data_dir, "folder that holds motors/");
+  MotorArguments motor_arguments;
+  const MotorVerbs motor =
+      declare_motor(*app.add_subcommand("motor", "look into motor files"), motor_arguments);
 
   try {
     app.parse(count, words);
@@ -131,7 +154,7 @@ Exit run_program(int count, const char* const* words) {
   if (run) return run_command(run_arguments);
   if (exports) return export_header(export_arguments);
   if (help) return help_command(key);
-  return list ? list_motors() : show_motor(motor_name, data_dir);
+  return motor.run(motor_arguments);
 }
 
 }  // namespace

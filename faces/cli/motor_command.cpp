@@ -1,64 +1,103 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/cli/motor_command.hpp"
 
-#include <fmt/format.h>
-
+#include <algorithm>
+#include <filesystem>
 #include <optional>
 
 #include "faces/cli/terminal.hpp"
+#include "io/atomic_file.hpp"
 #include "io/motor_library.hpp"
+#include "io/motor_template.hpp"
+#include "io/motor_text.hpp"
 #include "io/scenario_file.hpp"
-#include "sixstep/design/sheet_description.hpp"
 
 namespace cli {
 namespace {
 
-/// Visits a sheet and writes one line per value that it gives.
-class SheetText {
- public:
-  template <class T>
-  void value(std::string_view key, const T& member, const base::About& about) {
-    const std::string text = fmt::format("{}", member);
-    if (!text.empty()) add(key, text, about.unit, "", "");
-  }
-  template <class Enum, class Choices>
-  void choice(std::string_view key, const Enum& member, const Choices& choices, const base::About&) {
-    add(key, base::word(choices, member), "", "", "");
-  }
-  void quantity(std::string_view key, const base::Quantity& q, const base::About& about) {
-    add(key, fmt::format("{}", q.value), about.unit, q.frame, q.source);
-  }
-  void quantity(std::string_view key, const std::optional<base::Quantity>& q, const base::About& about) {
-    if (q) quantity(key, *q, about);
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  void add(std::string_view key, std::string_view value, std::string_view unit, std::string_view frame,
-           std::string_view source) {
-    std::string row = fmt::format("{:<24} {:>10} {:<7}{:<10}{}", key, value, unit, frame, source);
-    row.erase(row.find_last_not_of(' ') + 1);
-    text_ += row + "\n";
-  }
-  std::string text_;
+struct Checked {
+  design::Sheet sheet;
+  design::SheetCheck check;
 };
+
+/// Nothing where the sheet cannot be read or judged, which has been told.
+std::optional<Checked> checked(const MotorArguments& a) {
+  base::Result<design::Sheet> sheet = io::read_sheet(a.name, a.data_dir);
+  if (!sheet) {
+    complain(sheet.problems());
+    return {};
+  }
+  base::Result<design::SheetCheck> check = design::check_sheet(*sheet);
+  if (!check) {
+    complain(check.problems());
+    return {};
+  }
+  return Checked{std::move(*sheet), std::move(*check)};
+}
 
 }  // namespace
 
 Exit list_motors() {
-  for (const std::string& name : io::built_in_motors()) print(name + "\n");
+  std::size_t width = 0;
+  const std::vector<std::string> names = io::built_in_motors();
+  for (const std::string& name : names) width = std::max(width, name.size());
+  print(io::motor_line_heading(width));
+  for (const std::string& name : names) {
+    const base::Result<design::Sheet> sheet = io::read_sheet(name);
+    if (!sheet) {
+      complain(sheet.problems());
+      return Exit::internal;
+    }
+    print(io::motor_line(name, *sheet, width));
+  }
   return Exit::ok;
 }
 
-Exit show_motor(const std::string& name, const std::string& data_dir) {
-  base::Result<design::Sheet> sheet = io::read_sheet(name, data_dir);
-  if (!sheet) {
-    complain(sheet.problems());
+Exit show_motor(const MotorArguments& a) {
+  const std::optional<Checked> motor = checked(a);
+  if (!motor) return Exit::bad_input;
+  if (a.json)
+    print(io::motor_json(motor->sheet, motor->check));
+  else
+    print(io::sheet_table(motor->sheet) + "\n" + io::model_table(motor->sheet, motor->check));
+  return Exit::ok;
+}
+
+Exit check_motor(const MotorArguments& a) {
+  const std::optional<Checked> motor = checked(a);
+  if (!motor) return Exit::bad_input;
+  print(a.json ? io::motor_json(motor->sheet, motor->check) : io::check_report(motor->sheet, motor->check));
+  return motor->check.consistent ? Exit::ok : Exit::failed;
+}
+
+Exit new_motor(const MotorArguments& a) {
+  const std::string stem = std::filesystem::path(a.name).stem().string();
+  const base::Result<std::string> text = io::motor_template(a.style, stem.empty() ? "my motor" : stem);
+  if (!text) {
+    complain(text.problems());
     return Exit::bad_input;
   }
-  SheetText text;
-  describe(text, *sheet);
-  print(text.text());
+  if (a.name.empty()) {
+    print(*text);
+    return Exit::ok;
+  }
+  const std::string path = a.name.ends_with(".toml") ? a.name : a.name + ".toml";
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) {
+    complain({{.where = path, .limit = "is there already", .cure = "choose another name, or move it away"}});
+    return Exit::bad_input;
+  }
+  base::Result<io::AtomicFile> file = io::AtomicFile::create(path);
+  base::Problems problems = file ? base::Problems{} : file.problems();
+  if (file) {
+    file->write(*text);
+    problems = file->commit();
+  }
+  if (!problems.empty()) {
+    complain(problems);
+    return Exit::bad_input;
+  }
+  print("wrote " + path + "; fill it in, then: sixstep motor check " + path + "\n");
   return Exit::ok;
 }
 

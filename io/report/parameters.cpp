@@ -44,9 +44,15 @@ std::string sheet_section(const sixstep::design::Sheet& s) {
   html += row("Nominal voltage U<sub>N</sub>", s.nominal_voltage_V, "V");
   html += row("Resistance R", s.resistance_ohm, "Ω");
   html += row("Inductance L", s.inductance_mH, "mH");
+  html += row("Inductance L<sub>d</sub>", s.d_axis_inductance_mH, "mH");
+  html += row("Inductance L<sub>q</sub>", s.q_axis_inductance_mH, "mH");
   html += row("Torque constant K<sub>t</sub>", s.torque_constant_mNm_A, "mNm/A", "terminal");
+  html += row("Torque constant K<sub>t</sub>", s.torque_constant_Nm_A, "Nm/A");
+  html += row("Back-EMF constant", s.back_emf_constant_V_krpm, "V/krpm");
+  html += row("Flux linkage ψ<sub>f</sub>", s.flux_linkage_mWb, "mWb", "phase");
   html += row("Back-EMF constant", s.back_emf_mV_s, "mV s", "phase, mechanical");
   html += row("Rotor inertia J", s.inertia_gcm2, "g cm²");
+  html += row("Inertia with brake", s.inertia_with_brake_gcm2, "g cm²");
   html += row("Viscous friction B", s.viscous_friction_Nm_s, "Nm s", "mechanical");
   html += row("Coulomb friction", s.coulomb_friction_mNm, "mNm");
   html += row("No-load speed", s.no_load_speed_rpm, "rpm", "mechanical");
@@ -64,17 +70,17 @@ std::string sheet_section(const sixstep::design::Sheet& s) {
 std::string model_section(const sixstep::design::MotorModel& m) {
   const bool sine = m.machine.back_emf == sixstep::plant::BackEmf::sine;
   std::string html = model_head;
-  html += row("R<sub>s</sub>", given(m.machine.R_ohm, "ohm"), "phase", "R / 2");
-  html += row("L<sub>s</sub> = L − M", given(m.machine.L_H, "H"), "phase", "L / 2");
-  html +=
-      row("K<sub>e</sub>", given(m.machine.K_e_V_s, "V s"), "phase, peak", "K_t and the shape's sector mean");
-  html += row("K<sub>t</sub>", given(m.K_t_Nm_A, "Nm/A"), "terminal", "sector mean");
+  html += row("R<sub>s</sub>", given(m.machine.R_ohm, "ohm"), "phase", m.from.R);
+  html += row("L<sub>s</sub> = L − M", given(m.machine.L_H, "H"), "phase", m.from.L);
+  html += row("K<sub>e</sub>", given(m.machine.K_e_V_s, "V s"), "phase, peak", m.from.K_e);
+  html += row("K<sub>t</sub>", given(m.K_t_Nm_A, "Nm/A"), "terminal", m.from.K_t);
   html += row("Pole pairs p", std::to_string(m.machine.pole_pairs), "", "");
   html += row("Back-EMF shape",
               sine ? "sine" : fmt::format("trapezoid, {}° flat", plain(m.machine.flat_deg, 4, true)),
               "electrical", "");
-  html += row("J", given(m.shaft.J_kg_m2, "kg m2"), "mechanical", "rotor and load");
-  html += row("B", given(m.shaft.B_Nm_s, "Nm s"), "mechanical", "");
+  html += row("J", given(m.shaft.J_kg_m2, "kg m2"), "mechanical",
+              m.from.J.empty() ? "rotor and load" : m.from.J + ", and load");
+  html += row("B", given(m.shaft.B_Nm_s, "Nm s"), "mechanical", m.from.friction);
   if (m.shaft.coulomb_Nm != 0.0)
     html += row("T<sub>c0</sub>", given(m.shaft.coulomb_Nm, "Nm"), "mechanical", "");
   if (m.shaft.static_Nm != 0.0)

@@ -14,7 +14,10 @@
 //   v.list(key, member, about)             std::vector of a described struct, TOML's [[key]]
 // The default of a member is what a default-constructed S holds.
 #pragma once
+#include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -37,6 +40,15 @@ constexpr Range from(double low) { return {.low = low}; }
 constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
 constexpr Range strictly_between(double low, double high) { return {low, high, false, false}; }
 
+/// Another key for the same value, as another sheet prints it: in another unit, or under a line's number.
+struct Spelling {
+  std::string_view key;
+  int ten = 0;                   ///< the key's own unit is the value written times 10 to this power
+  std::string_view unit = "";    ///< of the value written; empty: the key's own
+  std::string_view frame = "";   ///< the only frame it can have; empty: as the key
+  std::string_view source = "";  ///< what the spelling itself says of the source: "data sheet, line 10"
+};
+
 /// What a face must know of one key.
 struct About {
   std::string_view meaning;    ///< one plain sentence, no full stop
@@ -47,6 +59,7 @@ struct About {
   bool required = false;
   std::string_view cure = "";  ///< what to write instead; empty: derived from range and unit
   bool partial = false;  ///< a table that changes single values of what is filled already: none is required
+  std::span<const Spelling> also = {};  ///< other keys for the same quantity; a file uses one of them
 };
 
 /// One word of an enumeration as written in files, and what it means.
@@ -65,13 +78,39 @@ constexpr std::string_view word(const Choices& choices, Enum value) {
   return {};
 }
 
+/// How far a number can be trusted.
+enum class Trust : std::uint8_t {
+  unstated,
+  sheet,     ///< the maker's print
+  measured,  ///< by somebody else, on one motor
+  derived,   ///< computed from other values
+};
+
+inline constexpr Choice<Trust> trust_choices[] = {
+    {"sheet", Trust::sheet, "the maker's print"},
+    {"measured", Trust::measured, "by somebody else, on one motor"},
+    {"derived", Trust::derived, "computed from other values"},
+};
+
+struct Interval {
+  double low = 0.0;
+  double high = 0.0;
+  bool operator==(const Interval&) const = default;
+};
+
 /// A number as printed, with the frame it is meant in and where it comes from.
-/// In TOML: `key = 1.03` or `key = { value = 1.03, frame = "terminal", source = "data sheet, line 10" }`.
-/// Where About::frame names several candidates the frame must be written (io checks it).
+/// In TOML: `key = 1.03` or `key = { value = 1.03, frame = "terminal", source = "data sheet, line 10" }`,
+/// and where it helps `kind = "measured"`, and `range = [0.978, 1.03]` where sources differ.
+/// Where About::frame names several candidates the frame must be written; the struct's own check demands it,
+/// for it can say what each candidate would mean.
 struct Quantity {
   double value = 0.0;
   std::string frame;
   std::string source;
+  Trust kind = Trust::unstated;
+  std::optional<Interval> range = {};     ///< what other sources say, this value included
+  std::string key = {};                   ///< the spelling in the file; empty: the key's own
+  std::optional<double> last_digit = {};  ///< weight of the last digit as written in the file: 0.1 for 36.0
 };
 
 }  // namespace sixstep::base

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor's data sheet, as printed: the sheet's own units and frames, each value with its source.
+// A motor's data sheet, as printed: the sheet's own units and frames, each value with its source. Sheets of
+// different trades print one constant in different ways; a sheet gives each constant in one of them, or in
+// several that then are held against each other (sheet_constants.hpp, sheet_check.hpp).
 #pragma once
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sixstep/base/describe.hpp"
 
@@ -15,24 +18,45 @@ struct Sheet {
   std::string name;
   std::string maker;
   std::string notes;
-  int pole_pairs = 0;
+  bool simulatable = true;
+  std::string not_simulatable_because;
+  std::vector<std::string> known_deviation;  // names of the check's relations that this sheet breaks
+
+  std::optional<int> pole_pairs;  // or poles, or the winding's code
+  std::optional<int> poles;
+  std::string winding;  // "12N14P": 12 teeth, 14 poles
   BackEmfShape back_emf = BackEmfShape::trapezoid;
   double flat_deg = 120.0;  // width of the trapezoid's flat top, electrical
 
-  base::Quantity nominal_voltage_V;
-  base::Quantity resistance_ohm;                        // frame terminal or phase
-  base::Quantity inductance_mH;                         // frame terminal or phase
+  std::optional<base::Quantity> nominal_voltage_V;
+  std::optional<base::Quantity> resistance_ohm;                              // frame terminal or phase
+  std::optional<base::Quantity> inductance_mH;                               // frame terminal or phase
+  std::optional<base::Quantity> d_axis_inductance_mH, q_axis_inductance_mH;  // phase; instead of the above
+
+  // The torque constant and its other faces. The first given is used, in this order.
   std::optional<base::Quantity> torque_constant_mNm_A;  // terminal: torque per ampere through the driven pair
   std::optional<base::Quantity> back_emf_mV_s;  // frame phase: peak per mechanical rad/s, used as it is
-  base::Quantity inertia_gcm2;
-  std::optional<base::Quantity>
-      viscous_friction_Nm_s;  // default: what the no-load loss leaves, (K_t I_0 - T_c)/w_0
+  std::optional<base::Quantity> torque_constant_Nm_A;      // frame terminal, peak or rms
+  std::optional<base::Quantity> back_emf_constant_V_krpm;  // frame line-peak, line-rms, phase-peak, phase-rms
+  std::optional<base::Quantity> flux_linkage_mWb;          // phase, peak of the fundamental
+  std::optional<base::Quantity> speed_constant_rpm_V;      // frame six-step or line-peak: "KV"
+  std::optional<base::Quantity> flux_density_T, active_length_mm, air_gap_radius_mm;  // K_t = 2 B l r N
+  std::optional<int> turns_in_series;                                                 // between two terminals
+
+  std::optional<base::Quantity> inertia_gcm2;
+  std::optional<base::Quantity> inertia_with_brake_gcm2;
+  bool with_brake = false;
+  std::optional<base::Quantity> viscous_friction_Nm_s;
   std::optional<base::Quantity> coulomb_friction_mNm;
 
+  std::optional<base::Quantity> no_load_voltage_V;  // of the no-load point; without it the nominal voltage
   std::optional<base::Quantity> no_load_speed_rpm, no_load_current_mA;
+  std::optional<base::Quantity> second_no_load_voltage_V, second_no_load_speed_rpm, second_no_load_current_mA;
   std::optional<base::Quantity> nominal_speed_rpm, nominal_torque_mNm, nominal_current_A;
   std::optional<base::Quantity> stall_torque_mNm, stall_current_A;
-  std::optional<base::Quantity> speed_constant_rpm_V;
+  std::optional<base::Quantity> max_efficiency_percent;
+  std::optional<base::Quantity> speed_torque_gradient_rpm_mNm;
+  std::optional<base::Quantity> mechanical_time_constant_ms;
   std::optional<base::Quantity> max_speed_rpm;
 
   std::optional<base::Quantity> thermal_resistance_winding_housing_K_W;

@@ -160,11 +160,23 @@ void check_measures(const Scenario& s, base::Problems& out) {
     check_measure(s.compare[n].measure, "compare[" + std::to_string(n) + "]", s, out);
 }
 
+/// The speed controller's full output is a torque; a sheet without voltage and stall point has none to offer.
+void check_torque_limit(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
+  const bool speed = s.control.mode == control::Mode::speed || s.control.mode == control::Mode::position;
+  if (speed && !s.control.speed.torque_limit_Nm && !(motor.stall_torque_Nm > 0))
+    out.push_back({"control.speed.torque_limit_Nm", "",
+                   "is missing, and the motor's sheet has no stall torque and no nominal voltage",
+                   "give the torque that the drive may ask for"});
+}
+
 }  // namespace
 
 base::Problems check(const Scenario& s) {
   base::Problems out;
-  if (const auto motor = design::motor_model(s.sheet); !motor) out = motor.problems();
+  if (const auto motor = design::motor_model(s.sheet))
+    check_torque_limit(s, *motor, out);
+  else
+    out = motor.problems();
   if (s.duration_s > 0 && sim::to_instant(s.duration_s).ticks < 1)
     out.push_back({"duration_s", number(s.duration_s), "is shorter than the engine's tick of 1e-12 s",
                    "give a longer time"});

@@ -9,7 +9,7 @@
 
 #include "sixstep/base/random.hpp"
 #include "sixstep/base/written.hpp"
-#include "sixstep/design/parameters.hpp"
+#include "sixstep/design/sheet_constants.hpp"
 #include "sixstep/study/digest.hpp"
 #include "sixstep/study/scenario_description.hpp"
 
@@ -93,12 +93,11 @@ NumberAt find_number(Scenario& scenario, std::string_view key) {
   return finder;
 }
 
-/// The scenario with everything written out that would otherwise be derived from a value that strays.
+/// The scenario with everything written out that would otherwise be derived from a value that strays, and
+/// every constant in its standard key, whatever way the sheet prints it.
 Scenario written_out(const Scenario& scenario) {
   Scenario s = scenario;
-  if (s.sheet.viscous_friction_Nm_s) return s;
-  if (const base::Result<design::MotorModel> motor = design::motor_model(s.sheet))
-    s.sheet.viscous_friction_Nm_s = base::Quantity{motor->shaft.B_Nm_s, "", "from the no-load point"};
+  s.sheet = design::in_standard_keys(scenario.sheet);
   return s;
 }
 

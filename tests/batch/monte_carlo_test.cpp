@@ -48,7 +48,7 @@ TEST(MonteCarlo, GivesTheSpreadThatTheCircuitsLawGives) {
   Statistics expected;
   for (std::size_t n = 0; n < count; ++n) {
     const study::Scenario one = study::varied(s, 11, n);
-    const double R = one.sheet.resistance_ohm.value, tau_s = 0.572e-3 / R;
+    const double R = one.sheet.resistance_ohm->value, tau_s = 0.572e-3 / R;
     expected.add(24.0 / R * (1.0 - std::exp(-s.duration_s / tau_s)));
     holds += R >= 1.03;
   }
@@ -90,7 +90,7 @@ TEST(MonteCarlo, DoesNotDependOnTheNumberOfThreadsOrOfRuns) {
 TEST(MonteCarlo, CountsWhatCouldNotStartAndGoesOn) {
   Series series;
   study::Scenario good = stall(100.0), bad = good;
-  bad.sheet.resistance_ohm.value = 0.0;
+  bad.sheet.resistance_ohm->value = 0.0;
   for (const study::Scenario* s : {&bad, &good, &bad, &good}) add(series, study::run(*s));
   EXPECT_EQ(series.runs, 4u);
   EXPECT_EQ(series.passed, 2u);

@@ -80,7 +80,7 @@ TEST(Run, IsEachRunAloneToTheBitOnAnyNumberOfThreads) {
 TEST(Run, AProblemIsAResultToo) {
   const auto scenario = [](std::size_t n) {
     study::Scenario s = drive(n);
-    if (n == 1) s.sheet.resistance_ohm.value = -1.0;
+    if (n == 1) s.sheet.resistance_ohm->value = -1.0;
     return s;
   };
   std::vector<bool> ran;

@@ -58,9 +58,13 @@ class Dump {
     if (change_) {
       q = {inside(about.range, q.value), std::string(about.frame.substr(about.frame.rfind('|') + 1)),
            "a source"};
+      q.kind = base::Trust::measured;
+      q.range = base::Interval{0.125, 8.5};
     }
     const std::string frame = q.frame.empty() ? "" : fmt::format("frame = \"{}\", ", q.frame);
-    emit(key, fmt::format("{{ value = {}, {}source = \"{}\" }}", q.value, frame, q.source));
+    const std::string kind = q.kind == base::Trust::unstated ? "" : ", kind = \"measured\"";
+    const std::string range = q.range ? fmt::format(", range = [{}, {}]", q.range->low, q.range->high) : "";
+    emit(key, fmt::format("{{ value = {}, {}source = \"{}\"{}{} }}", q.value, frame, q.source, kind, range));
   }
   void quantity(std::string_view key, std::optional<base::Quantity>& q, const base::About& about) {
     if (change_) q.emplace();
@@ -177,7 +181,9 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                                          "commutation_samples",
                                          "speed_edges",
                                          "seed",
-                                         "line"};
+                                         "line",
+                                         "poles",
+                                         "turns_in_series"};
   for (const KeyEntry& key : all_keys()) {
     const bool number = key.type == KeyType::number || key.type == KeyType::whole_number ||
                         key.type == KeyType::numbers || key.type == KeyType::quantity;

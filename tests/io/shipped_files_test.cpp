@@ -53,12 +53,12 @@ TEST(ShippedFiles, TheReferenceMotorSaysValueFrameAndSource) {
   const base::Result<design::Sheet> sheet = read_sheet((data / "motors" / "maxon-251601.toml").string());
   ASSERT_TRUE(sheet);
   EXPECT_EQ(sheet->pole_pairs, 8);
-  EXPECT_EQ(sheet->resistance_ohm.value, 1.03);
-  EXPECT_EQ(sheet->resistance_ohm.frame, "terminal");
-  EXPECT_EQ(sheet->inductance_mH.value, 0.572);
+  EXPECT_EQ(sheet->resistance_ohm->value, 1.03);
+  EXPECT_EQ(sheet->resistance_ohm->frame, "terminal");
+  EXPECT_EQ(sheet->inductance_mH->value, 0.572);
   EXPECT_EQ(sheet->torque_constant_mNm_A->value, 33.5);
   EXPECT_EQ(sheet->torque_constant_mNm_A->frame, "terminal");
-  EXPECT_EQ(sheet->inertia_gcm2.value, 135.0);
+  EXPECT_EQ(sheet->inertia_gcm2->value, 135.0);
   EXPECT_EQ(sheet->viscous_friction_Nm_s->value, 7.3e-6);
   EXPECT_EQ(sheet->viscous_friction_Nm_s->source, "thesis");
 }
@@ -75,7 +75,7 @@ TEST(ShippedFiles, AnOverriddenConstantDropsTheOneItContradicts) {
   EXPECT_EQ(sine.sheet.back_emf_mV_s->value, 16.75);
   EXPECT_EQ(sine.sheet.back_emf_mV_s->frame, "phase");
   EXPECT_EQ(sine.sheet.back_emf, design::BackEmfShape::sine);
-  EXPECT_EQ(sine.sheet.resistance_ohm.frame, "terminal");
+  EXPECT_EQ(sine.sheet.resistance_ohm->frame, "terminal");
 }
 
 TEST(ShippedFiles, AnOverrideKeepsTheFrameOfTheValueItReplaces) {
@@ -84,9 +84,9 @@ TEST(ShippedFiles, AnOverrideKeepsTheFrameOfTheValueItReplaces) {
   const base::Result<study::Scenario> scenario =
       read_scenario((data / "scenarios" / "reference" / "R1.toml").string(), options);
   ASSERT_TRUE(scenario);
-  EXPECT_EQ(scenario->sheet.resistance_ohm.value, 1.2);
-  EXPECT_EQ(scenario->sheet.resistance_ohm.frame, "terminal");
-  EXPECT_EQ(scenario->sheet.resistance_ohm.source, "motor_override");
+  EXPECT_EQ(scenario->sheet.resistance_ohm->value, 1.2);
+  EXPECT_EQ(scenario->sheet.resistance_ohm->frame, "terminal");
+  EXPECT_EQ(scenario->sheet.resistance_ohm->source, "motor_override");
   EXPECT_EQ(scenario->pwm.chopping, sixstep::control::Chopping::hard);
 }
 

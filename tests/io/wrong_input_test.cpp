@@ -124,18 +124,16 @@ inertia_gcm2 = 100
                   "between two terminals or of one phase of the star (L - M), in mH"));
 }
 
-TEST_F(WrongInput, FrameMustBeSaidWhereThereAreTwo) {
+TEST_F(WrongInput, FrameMustBeOneOfTheKeysOwn) {
   write("m.toml",
-        "name = \"m\"\npole_pairs = 4\nnominal_voltage_V = 24\nresistance_ohm = 1\n"
+        "name = \"m\"\npole_pairs = 4\nresistance_ohm = { value = 1, frame = \"phase\" }\n"
         "inductance_mH = { value = 1, frame = \"star\" }\ninertia_gcm2 = { value = 1, frame = \"phase\" }\n");
   EXPECT_THAT(
       complaints("motor = \"m\"\nduration_s = 0.02\n"),
       ElementsAre(
-          "m.toml:4:18: resistance_ohm = 1 must say its frame; write { value = 1, frame = "
-          "\"terminal\" or \"phase\" }",
-          "m.toml:5:38: inductance_mH.frame = \"star\" must be \"terminal\" or \"phase\"; say between "
+          "m.toml:4:38: inductance_mH.frame = \"star\" must be \"terminal\" or \"phase\"; say between "
           "which points the sheet measures",
-          "m.toml:6:37: inertia_gcm2.frame = \"phase\" is not needed; this value has one meaning "
+          "m.toml:5:37: inertia_gcm2.frame = \"phase\" is not needed; this value has one meaning "
           "only: leave frame out"));
 }
 

@@ -141,6 +141,19 @@ TEST(Check, EachContradictionIsFoundAndNamed) {
   }
 }
 
+TEST(Check, ASheetWithoutVoltageAndStallPointNeedsTheTorqueLimit) {
+  Scenario s = maxon_scenario(control::Mode::speed, 200.0);
+  s.sheet.nominal_voltage_V.reset();
+  EXPECT_THAT(places(s), ::testing::IsEmpty());
+  s.sheet.stall_torque_mNm.reset();
+  EXPECT_THAT(places(s), ::testing::ElementsAre("control.speed.torque_limit_Nm"));
+  s.control.speed.torque_limit_Nm = 0.5;
+  EXPECT_THAT(places(s), ::testing::IsEmpty());
+  s.control.speed.torque_limit_Nm.reset();
+  s.control.mode = control::Mode::current;
+  EXPECT_THAT(places(s), ::testing::IsEmpty());
+}
+
 TEST(Check, DutyBeyondOneIsNamedByTheKeyThatHoldsIt) {
   Scenario s = maxon_scenario(control::Mode::duty, 1.5);
   EXPECT_THAT(places(s), ::testing::ElementsAre("reference.value"));

@@ -42,9 +42,9 @@ TEST(Spread, ADriveIsAFunctionOfSeedAndNumber) {
   const Scenario s = series();
   const Scenario a = varied(s, seed, 41), b = varied(s, seed, 41), next = varied(s, seed, 42),
                  other = varied(s, seed + 1, 41);
-  EXPECT_EQ(a.sheet.resistance_ohm.value, b.sheet.resistance_ohm.value);
-  EXPECT_NE(a.sheet.resistance_ohm.value, next.sheet.resistance_ohm.value);
-  EXPECT_NE(a.sheet.resistance_ohm.value, other.sheet.resistance_ohm.value);
+  EXPECT_EQ(a.sheet.resistance_ohm->value, b.sheet.resistance_ohm->value);
+  EXPECT_NE(a.sheet.resistance_ohm->value, next.sheet.resistance_ohm->value);
+  EXPECT_NE(a.sheet.resistance_ohm->value, other.sheet.resistance_ohm->value);
   EXPECT_TRUE(a.spread.empty());
 }
 
@@ -54,9 +54,9 @@ TEST(Spread, AKeysDrawsDoNotDependOnTheOtherKeys) {
   alone.spread = {s.spread[1]};
   std::reverse(reversed.spread.begin(), reversed.spread.end());
   for (std::uint64_t n = 0; n < 100; ++n) {
-    const double all = varied(s, seed, n).sheet.inductance_mH.value;
-    EXPECT_EQ(varied(alone, seed, n).sheet.inductance_mH.value, all);
-    EXPECT_EQ(varied(reversed, seed, n).sheet.inductance_mH.value, all);
+    const double all = varied(s, seed, n).sheet.inductance_mH->value;
+    EXPECT_EQ(varied(alone, seed, n).sheet.inductance_mH->value, all);
+    EXPECT_EQ(varied(reversed, seed, n).sheet.inductance_mH->value, all);
   }
 }
 
@@ -66,11 +66,11 @@ TEST(Spread, StaysWithinItsWidthAndFillsIt) {
   double low = 2.0, high = 0.0, sum = 0.0, far = 0.0;
   for (std::uint64_t n = 0; n < count; ++n) {
     const Scenario one = varied(s, seed, n);
-    const double R = one.sheet.resistance_ohm.value / 1.03;
+    const double R = one.sheet.resistance_ohm->value / 1.03;
     low = std::min(low, R);
     high = std::max(high, R);
     sum += R;
-    far = std::max(far, std::fabs(one.sheet.inductance_mH.value / 0.572 - 1.0));
+    far = std::max(far, std::fabs(one.sheet.inductance_mH->value / 0.572 - 1.0));
   }
   // All draws miss an outermost 0.5 % of the width with probability 0.9975^4000 = 4.5e-5.
   EXPECT_GE(low, 0.9 - rounding);
@@ -91,7 +91,7 @@ TEST(Spread, ACutNormalHasItsVariance) {
   s.spread[0].cut_sigma = 1.0;
   double squares = 0.0;
   for (std::uint64_t n = 0; n < count; ++n) {
-    const double x = (varied(s, seed, n).sheet.resistance_ohm.value / 1.03 - 1.0) / 0.1;
+    const double x = (varied(s, seed, n).sheet.resistance_ohm->value / 1.03 - 1.0) / 0.1;
     EXPECT_LE(std::fabs(x), 1.0 + rounding / 0.1);
     squares += x * x;
   }
@@ -155,6 +155,24 @@ TEST(Spread, TorqueConstantAndBackEmfStayOneFact) {
       EXPECT_NEAR(one.sheet.torque_constant_mNm_A->value / one.sheet.back_emf_mV_s->value, 2.0, 4 * 0x1p-52);
     }
   }
+}
+
+TEST(Spread, StandardKeysStrayWhateverTheSheetPrints) {
+  // The torque constant as a flux linkage, the inductance as L_d = L_q.
+  Scenario s = current_square();
+  s.sheet.torque_constant_mNm_A.reset();
+  s.sheet.flux_linkage_mWb = base::Quantity{2.1, "", ""};
+  s.sheet.inductance_mH.reset();
+  s.sheet.d_axis_inductance_mH = s.sheet.q_axis_inductance_mH = base::Quantity{0.286, "", ""};
+  s.spread = {relative("motor_override.torque_constant_mNm_A", 0.08),
+              relative("motor_override.inductance_mH", 0.2)};
+  ASSERT_EQ(check(s), base::Problems{});
+  const auto nominal = design::motor_model(s.sheet), one = design::motor_model(varied(s, seed, 0).sheet);
+  ASSERT_TRUE(nominal && one);
+  EXPECT_NE(one->K_t_Nm_A, nominal->K_t_Nm_A);
+  EXPECT_NE(one->machine.L_H, nominal->machine.L_H);
+  EXPECT_NEAR(one->K_t_Nm_A / nominal->K_t_Nm_A, 1.0, 0.08);
+  EXPECT_NEAR(one->machine.L_H / nominal->machine.L_H, 1.0, 0.2);
 }
 
 TEST(Spread, AnAbsoluteWidthMovesAZero) {

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Printed decimals in another unit, rounded once.
+#pragma once
+#include <cmath>
+
+namespace sixstep::base {
+
+/// A printed number times a power of ten, as the double nearest to the decimal product: 0.572 mH becomes
+/// 0.000572 and 135 g cm^2 1.35e-5, to the bit, as if they had been written so. The digits as an integer
+/// times or over one exact power of ten are rounded once; dividing 0.572 itself would round twice. `ten` lies
+/// in -22..22, the powers that are doubles.
+inline double times_ten_to(double printed, int ten) {
+  const auto scaled = [](double x, int power) {
+    double exact = 1.0;
+    for (int n = 0; n < (power < 0 ? -power : power); ++n) exact *= 10.0;
+    return power < 0 ? x / exact : x * exact;
+  };
+  double scale = 1.0;
+  for (int decimals = 0; decimals <= 22; ++decimals, scale *= 10.0) {
+    const double digits = std::floor(printed * scale + 0.5), power = ten - decimals;
+    if (!(digits < 0x1p53 && digits > -0x1p53)) break;
+    if (digits / scale == printed && power >= -22.0) return scaled(digits, ten - decimals);
+  }
+  return scaled(printed, ten);
+}
+
+/// Weight of the last digit of the shortest decimal that reads back as the same double: 0.01 for 1.03, 1 for
+/// 24. Zeros that a sheet prints behind the last other digit are not in a double.
+inline double last_digit_of(double printed) {
+  double scale = 1.0;
+  for (int decimals = 0; decimals <= 22; ++decimals, scale *= 10.0)
+    if (std::floor(printed * scale + 0.5) / scale == printed) return 1.0 / scale;
+  return 0.0;
+}
+
+}  // namespace sixstep::base

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// The other keys of a motor file: the numbered lines of maxon's sheets, and the same value in another unit.
+#pragma once
+#include "sixstep/base/describe.hpp"
+
+namespace sixstep::design::spellings {
+
+using base::Spelling;
+
+/// A line of maxon's sheets, whose numbers and frames have stayed the same over the years.
+constexpr Spelling line(std::string_view key, std::string_view source, std::string_view frame = "") {
+  return {.key = key, .frame = frame, .source = source};
+}
+
+inline constexpr Spelling nominal_voltage[] = {line("line_1_nominal_voltage_V", "data sheet, line 1")};
+inline constexpr Spelling no_load_speed[] = {line("line_2_no_load_speed_rpm", "data sheet, line 2")};
+inline constexpr Spelling no_load_current[] = {
+    line("line_3_no_load_current_mA", "data sheet, line 3"),
+    {.key = "idle_current_A", .ten = 3, .unit = "A"},
+};
+inline constexpr Spelling no_load_voltage[] = {{.key = "idle_voltage_V"}};
+inline constexpr Spelling nominal_speed[] = {line("line_4_nominal_speed_rpm", "data sheet, line 4")};
+inline constexpr Spelling nominal_torque[] = {
+    line("line_5_nominal_torque_mNm", "data sheet, line 5"),
+    {.key = "nominal_torque_Nm", .ten = 3, .unit = "Nm"},
+};
+inline constexpr Spelling nominal_current[] = {
+    line("line_6_nominal_current_A", "data sheet, line 6", "terminal")};
+inline constexpr Spelling stall_torque[] = {
+    line("line_7_stall_torque_mNm", "data sheet, line 7"),
+    {.key = "stall_torque_Nm", .ten = 3, .unit = "Nm"},
+};
+inline constexpr Spelling stall_current[] = {line("line_8_stall_current_A", "data sheet, line 8")};
+inline constexpr Spelling max_efficiency[] = {line("line_9_max_efficiency_percent", "data sheet, line 9")};
+inline constexpr Spelling resistance[] = {
+    line("line_10_terminal_resistance_ohm", "data sheet, line 10", "terminal"),
+    {.key = "resistance_mohm", .ten = -3, .unit = "mohm"},
+};
+inline constexpr Spelling inductance[] = {
+    line("line_11_terminal_inductance_mH", "data sheet, line 11", "terminal"),
+    {.key = "inductance_uH", .ten = -3, .unit = "uH"},
+};
+inline constexpr Spelling d_axis_inductance[] = {{.key = "d_axis_inductance_uH", .ten = -3, .unit = "uH"}};
+inline constexpr Spelling q_axis_inductance[] = {{.key = "q_axis_inductance_uH", .ten = -3, .unit = "uH"}};
+inline constexpr Spelling torque_constant[] = {
+    line("line_12_torque_constant_mNm_A", "data sheet, line 12", "terminal")};
+inline constexpr Spelling speed_constant[] = {
+    line("line_13_speed_constant_rpm_V", "data sheet, line 13", "six-step")};
+inline constexpr Spelling speed_torque_gradient[] = {
+    line("line_14_speed_torque_gradient_rpm_mNm", "data sheet, line 14")};
+inline constexpr Spelling mechanical_time_constant[] = {
+    line("line_15_mechanical_time_constant_ms", "data sheet, line 15")};
+inline constexpr Spelling inertia[] = {
+    line("line_16_rotor_inertia_gcm2", "data sheet, line 16"),
+    {.key = "inertia_kgcm2", .ten = 3, .unit = "kg cm2"},
+    {.key = "inertia_kgm2", .ten = 7, .unit = "kg m2"},
+};
+inline constexpr Spelling inertia_with_brake[] = {
+    {.key = "inertia_with_brake_kgcm2", .ten = 3, .unit = "kg cm2"},
+    {.key = "inertia_with_brake_kgm2", .ten = 7, .unit = "kg m2"},
+};
+inline constexpr Spelling flux_linkage[] = {{.key = "flux_linkage_Wb", .ten = 3, .unit = "Wb"}};
+inline constexpr Spelling housing_ambient[] = {
+    line("line_17_thermal_resistance_housing_ambient_K_W", "data sheet, line 17")};
+inline constexpr Spelling winding_housing[] = {
+    line("line_18_thermal_resistance_winding_housing_K_W", "data sheet, line 18")};
+inline constexpr Spelling winding_time[] = {
+    line("line_19_thermal_time_constant_winding_s", "data sheet, line 19")};
+inline constexpr Spelling motor_time[] = {
+    line("line_20_thermal_time_constant_motor_s", "data sheet, line 20")};
+inline constexpr Spelling winding_temperature[] = {
+    line("line_22_max_winding_temperature_degC", "data sheet, line 22")};
+inline constexpr Spelling max_speed[] = {line("line_23_max_speed_rpm", "data sheet, line 23")};
+
+}  // namespace sixstep::design::spellings

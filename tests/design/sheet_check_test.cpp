@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// The relations of a sheet: the 251601's by the numbers, every slip noticed, no honest rounding called one.
+#include "sixstep/design/sheet_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/base/angle.hpp"
+#include "tests/design/sheets.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::design;
+using namespace sixstep::testing;
+using base::Quantity;
+
+SheetCheck checked(const Sheet& sheet) {
+  const auto check = check_sheet(sheet);
+  if (check) return *check;
+  for (const base::Problem& p : check.problems()) ADD_FAILURE() << to_string(p);
+  return {};
+}
+
+Relation relation(const SheetCheck& check, const std::string& name) {
+  for (const Relation& r : check.relations)
+    if (r.name == name) return r;
+  ADD_FAILURE() << "no relation " << name;
+  return {};
+}
+
+TEST(SheetCheck, TheReferenceMotorsRelationsByTheNumbers) {
+  const SheetCheck check = checked(printed_251601());
+  const struct {
+    const char* name;
+    double left, right;
+    bool holds;
+  } expected[] = {{"stall current", 23.30, 23.3, true},
+                  {"stall torque", 780.55, 780, true},
+                  {"speed constant", 9547.5, 9549.3, true},
+                  {"no-load speed", 6785.7, 6710, true},
+                  {"nominal torque", 78.055, 83.4, false},
+                  {"max. efficiency", 82.973, 83, true},
+                  {"mechanical time constant", 12.39, 12.4, true},
+                  {"speed/torque gradient", 8.764, 8.76, true}};
+  EXPECT_EQ(check.relations.size(), std::size(expected));
+  for (const auto& e : expected) {
+    const Relation r = relation(check, e.name);
+    EXPECT_NEAR(r.left, e.left, 6e-5 * e.left) << e.name;  // the digits above
+    EXPECT_NEAR(r.right, e.right, 1e-5 * e.right) << e.name;
+    EXPECT_EQ(r.verdict == RelationVerdict::holds, e.holds) << e.name << " " << r.deviation;
+  }
+  EXPECT_FALSE(check.consistent);
+  EXPECT_NEAR(relation(check, "no-load speed").deviation, 0.0113, 5e-5);
+  EXPECT_NEAR(relation(check, "nominal torque").deviation, -0.0641, 5e-5);
+  EXPECT_NEAR(*check.electrical_time_constant_s, 0.286e-3 / 0.515, 1e-18);
+}
+
+TEST(SheetCheck, ToleranceIsTheRoundingOfWhatIsPrinted) {
+  // 1.03 is 1.025 to 1.035 and 23.3 is 23.25 to 23.35; the voltage is exact.
+  const Relation r = relation(checked(printed_251601()), "stall current");
+  EXPECT_NEAR(r.highest, 0.005 / 1.03 + 0.05 / 23.3, 1e-15);
+  EXPECT_EQ(r.lowest, -r.highest);
+  Sheet s = printed_251601();
+  s.stall_current_A->last_digit = 0.001;  // as if the file said 23.300
+  EXPECT_NEAR(relation(checked(s), "stall current").highest, 0.005 / 1.03 + 0.0005 / 23.3, 1e-15);
+}
+
+TEST(SheetCheck, ASheetRoundedToThreeDigitsIsNeverCalledInconsistent) {
+  // True values of a whole grid of motors, each printed to three digits as sheets are.
+  const auto three = [](double x) {
+    const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
+    return Quantity{std::strtod(std::to_string(std::round(x / unit) * unit).c_str(), nullptr), "", ""};
+  };
+  for (double R = 0.21; R < 30; R *= 1.37)
+    for (double K = 11.3; K < 200; K *= 1.53)
+      for (double I_0 = 0.0123; I_0 < 0.3 * 24 / R && I_0 < 2; I_0 *= 2.1) {
+        Sheet s = printed_251601();
+        const double stall = 24 / R, n = 30e3 / base::pi / K, x = std::sqrt(I_0 / stall);
+        s.resistance_ohm = three(R);
+        s.resistance_ohm->frame = "terminal";
+        s.torque_constant_mNm_A = three(K);
+        s.speed_constant_rpm_V = three(n);
+        s.speed_constant_rpm_V->frame = "six-step";
+        s.no_load_current_mA = three(I_0 * 1e3);
+        s.no_load_speed_rpm = three(n * (24 - R * I_0));
+        s.stall_current_A = three(stall);
+        s.stall_torque_mNm = three(stall * K);
+        s.nominal_current_A = three(0.3 * stall + I_0);
+        s.nominal_current_A->frame = "terminal";
+        s.nominal_torque_mNm = three(0.3 * stall * K);
+        s.max_efficiency_percent = three(100 * (1 - x) * (1 - x));
+        s.speed_torque_gradient_rpm_mNm = three(R / (K * K) * 30e3 / base::pi);
+        s.mechanical_time_constant_ms = three(R * 135e-7 / (K * K) * 1e9);
+        for (const Relation& r : checked(s).relations)
+          EXPECT_EQ(r.verdict, RelationVerdict::holds) << r.name << " " << r.deviation << " of " << r.lowest
+                                                       << " R " << R << " K " << K << " I_0 " << I_0;
+      }
+}
+
+TEST(SheetCheck, EverySlipOfALineThatIsPrintedTwiceIsNoticed) {
+  using Member = std::optional<Quantity> Sheet::*;
+  for (const Member line :
+       {&Sheet::resistance_ohm, &Sheet::torque_constant_mNm_A, &Sheet::speed_constant_rpm_V,
+        &Sheet::inertia_gcm2, &Sheet::no_load_speed_rpm, &Sheet::stall_torque_mNm, &Sheet::stall_current_A,
+        &Sheet::max_efficiency_percent, &Sheet::speed_torque_gradient_rpm_mNm,
+        &Sheet::mechanical_time_constant_ms, &Sheet::nominal_voltage_V})
+    for (const double slip : {0.5, 0.9, 1.1, 2.0}) {
+      Sheet s = printed_251601();
+      s.nominal_torque_mNm.reset();  // broken in print
+      (s.*line)->value *= slip;
+      if (s.max_efficiency_percent->value >= 100) continue;
+      EXPECT_FALSE(checked(s).consistent) << (s.*line)->value;
+    }
+}
+
+TEST(SheetCheck, AWellKnownFactorIsNamed) {
+  Sheet s = printed_251601();
+  s.resistance_ohm->value *= 2;
+  EXPECT_EQ(relation(checked(s), "stall current").remark,
+            "a factor 2: terminal against phase, or poles against pole pairs?");
+  s = printed_251601();
+  s.stall_torque_mNm->value /= 10;
+  EXPECT_EQ(relation(checked(s), "stall torque").remark, "a factor 10: the point, or the unit?");
+  s = printed_251601();
+  s.back_emf = BackEmfShape::sine;
+  s.torque_constant_mNm_A.reset();
+  s.torque_constant_Nm_A = Quantity{0.45, "rms", ""};
+  s.back_emf_constant_V_krpm =
+      Quantity{0.45 / 1.5 / std::sqrt(2.0) * 104.72 * std::sqrt(1.5), "phase-rms", ""};
+  EXPECT_EQ(relation(checked(s), "K_e by back_emf_constant_V_krpm").remark,
+            "a factor sqrt 3: line against phase?");
+  s.back_emf_constant_V_krpm->frame = "line-rms";
+  EXPECT_EQ(relation(checked(s), "K_e by back_emf_constant_V_krpm").verdict, RelationVerdict::holds);
+}
+
+TEST(SheetCheck, EfficiencyLiesBetweenAllCoulombAndAllViscous) {
+  // Against the motor itself: eta = w (i - I_f(w))/(U i) K_t with w = (U - R i)/K_t, greatest over i.
+  const double U = 24, R = 1.03, K = 0.0335, I_0 = 0.185, stall = U / R, w_0 = (U - R * I_0) / K;
+  double coulomb = 0.0, viscous = 0.0;
+  for (double i = I_0; i < stall; i += 1e-4) {
+    const double w = (U - R * i) / K;
+    coulomb = std::max(coulomb, w * K * (i - I_0) / (U * i));
+    viscous = std::max(viscous, w * K * (i - I_0 * w / w_0) / (U * i));
+  }
+  const double x = std::sqrt(I_0 / stall);
+  EXPECT_NEAR(coulomb, (1 - x) * (1 - x), 1e-8);  // a maximum: flat to second order in the step
+  EXPECT_NEAR(viscous, (1 - x) / (1 + x), 1e-8);
+  Sheet s = printed_251601();
+  s.max_efficiency_percent->last_digit = 1e-3;
+  for (const auto& [percent, holds] : {std::pair{100 * viscous, true},
+                                       {100 * coulomb, true},
+                                       {100 * viscous + 0.3, false},
+                                       {100 * coulomb - 0.3, false}}) {
+    s.max_efficiency_percent->value = percent;
+    EXPECT_EQ(relation(checked(s), "max. efficiency").verdict == RelationVerdict::holds, holds) << percent;
+  }
+}
+
+TEST(SheetCheck, AKnownDeviationMustBeOneAndIsOne) {
+  Sheet s = printed_251601();
+  s.known_deviation = {"nominal torque"};
+  EXPECT_TRUE(checked(s).consistent);
+  EXPECT_EQ(relation(checked(s), "nominal torque").verdict, RelationVerdict::known);
+  s.known_deviation = {"stall torque"};
+  EXPECT_EQ(to_string(check_sheet(s).problems().at(0)),
+            "known_deviation = \"stall torque\" names a relation that holds; remove it");
+  s.known_deviation = {"stall"};
+  EXPECT_EQ(to_string(check_sheet(s).problems().at(0)).substr(0, 72),
+            "known_deviation = \"stall\" names no relation of this sheet; it has: stall");
+}
+
+TEST(SheetCheck, EveryLineIsUsedOrSaysWhyNot) {
+  Sheet s = printed_251601();
+  s.viscous_friction_Nm_s = Quantity{7.3e-6, "", ""};
+  const SheetCheck check = checked(s);
+  std::vector<std::string> used;
+  for (const LineUse& line : check.lines) {
+    EXPECT_EQ(line.used, line.why.empty()) << line.key;
+    if (line.used) used.push_back(line.key);
+  }
+  std::sort(used.begin(), used.end());
+  EXPECT_EQ(used, (std::vector<std::string>{"inductance_mH", "inertia_gcm2", "resistance_ohm",
+                                            "torque_constant_mNm_A", "viscous_friction_Nm_s"}));
+}
+
+}  // namespace
