@@ -3,6 +3,7 @@
 // For any ratio of polynomials, so that inner loops, delay and hold can be counted in; margins.hpp is the
 // closed form for a loop taken alone.
 #pragma once
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -35,10 +36,11 @@ std::vector<BodePoint> bode(const Transfer& loop, double period_s, double from_r
 
 /// A unit step of the reference of the closed loop, at the samples.
 struct StepResponse {
-  std::vector<double> samples;    ///< from the instant of the step on
-  double settling_s = 0.0;        ///< last exit from +-band; infinite where `seconds` do not suffice
-  double overshoot = 0.0;         ///< part of the step
-  std::optional<double> reach_s;  ///< first sample at 98 %
+  std::vector<double> samples;                                  ///< from the instant of the step on
+  double settling_s = std::numeric_limits<double>::infinity();  ///< last exit from +-band; infinite where
+                                                                ///< `seconds` do not suffice
+  double overshoot = 0.0;                                       ///< part of the step
+  std::optional<double> reach_s;                                ///< first sample at 98 %
 };
 /// Settled from the first sample on after which each lies inside the band, as study's gauge counts.
 StepResponse step_response(const Transfer& closed_loop, double period_s, double seconds, double band = 0.02);

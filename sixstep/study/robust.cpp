@@ -134,14 +134,16 @@ std::vector<double> measured(const Scenario& scenario) {
 
 }  // namespace
 
-std::vector<Tolerance> sheet_tolerances() {
-  return {
+std::vector<Tolerance> sheet_tolerances(control::Mode mode) {
+  std::vector<Tolerance> out{
       {Strays::resistance,
        {{"R -10 %", 0.9}, {"R +10 %", 1.1}, {"R at 120 degC", 1.0 + 0.00393 * (120 - 25)}}},
       {Strays::inductance, {{"L -20 %", 0.8}, {"L +20 %", 1.2}}},
-      {Strays::torque_constant, {{"K_t -8 %", 0.92}, {"K_t +8 %", 1.08}}},
-      {Strays::inertia, {{"J doubled", 2.0}}},
   };
+  if (mode == control::Mode::current) return out;
+  out.push_back({Strays::torque_constant, {{"K_t -8 %", 0.92}, {"K_t +8 %", 1.08}}});
+  out.push_back({Strays::inertia, {{"J doubled", 2.0}}});
+  return out;
 }
 
 std::vector<Variation> variations(const std::vector<Tolerance>& tolerances) {

@@ -26,8 +26,9 @@ struct Tolerance {
 };
 
 /// R +-10 % and copper at 120 degC (1 + 0.00393 (120 - 25) = 1.373), L +-20 %, K_t +-8 %: the tolerances that
-/// makers print or admit. J doubled: a load that nobody told of.
-std::vector<Tolerance> sheet_tolerances();
+/// makers print or admit. J doubled: a load that nobody told of. With the rotor held, in current mode, only
+/// R and L matter.
+std::vector<Tolerance> sheet_tolerances(control::Mode mode);
 
 /// A motor out of tolerance.
 struct Variation {

@@ -8,6 +8,7 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/study/design_scenario.hpp"
+#include "sixstep/study/design_study.hpp"
 #include "sixstep/study/position_gain.hpp"
 #include "sixstep/study/robust.hpp"
 #include "sixstep/study/run.hpp"
@@ -146,7 +147,7 @@ TEST(PositionGain, IsTheThesissForItsMove) {
 }
 
 TEST(Variations, AreTheNominalMotorEachLevelAloneAndTheCorners) {
-  const std::vector<Variation> all = variations(sheet_tolerances());
+  const std::vector<Variation> all = variations(sheet_tolerances(Mode::speed));
   EXPECT_EQ(all.size(), 1u + 8u + 16u);
   EXPECT_EQ(all[0].words, "");
   EXPECT_EQ(all[3].words, "R at 120 degC");
@@ -157,7 +158,7 @@ TEST(Variations, AreTheNominalMotorEachLevelAloneAndTheCorners) {
 TEST(Variations, ChangeTheMotorAndNotTheController) {
   const DriveDesign d = designed({.mode = Mode::speed});
   const Scenario nominal = design_scenario(d, subject);
-  const std::vector<Tolerance> tolerances = sheet_tolerances();
+  const std::vector<Tolerance> tolerances = sheet_tolerances(Mode::speed);
   const std::vector<Variation> all = variations(tolerances);
   const Outcome o = ran(varied_scenario(nominal, d.motor, tolerances, all.back()));
   EXPECT_NEAR(o.motor.machine.R_ohm, 0.515 * 1.37335, 1e-12);
@@ -227,6 +228,55 @@ TEST(DesignScenario, TakesAStepThatWasAskedFor) {
   EXPECT_EQ(s.reference.value, 5.0);
   // THESIS: the held rotor's step to 5 A with the exact design settles in about 0.99 ms.
   EXPECT_NEAR(measured(ran(s), "settling time"), 0.99e-3, 1.001 * period_s);
+}
+
+bool warns(const DesignStudy& s, const std::string& of) {
+  for (const design::Warning& w : s.warnings)
+    if (w.what.find(of) != std::string::npos) return true;
+  return false;
+}
+
+TEST(DesignStudy, RunsWithTheVeryGainsThatWereDesigned) {
+  for (const Mode mode : {Mode::current, Mode::speed, Mode::position}) {
+    for (const auto method : {design::GainMethod::pole_placement, design::GainMethod::cancellation}) {
+      const auto s = study_design({.subject = subject, .wish = {.mode = mode, .method = method}});
+      ASSERT_TRUE(s);
+      EXPECT_TRUE(s->usable());
+      EXPECT_EQ(s->position.has_value(), mode == Mode::position);
+      EXPECT_FALSE(s->robustness);
+      ASSERT_EQ(s->outcome.gains.size(), s->design.loops.size());
+      for (std::size_t n = 0; n < s->design.loops.size(); ++n) {
+        EXPECT_EQ(s->outcome.gains[n].d1, s->design.loops[n].gains.d1);  // to the bit
+        EXPECT_EQ(s->outcome.gains[n].d0, s->design.loops[n].gains.d0);
+      }
+    }
+  }
+}
+
+TEST(DesignStudy, SaysWhatOnlyTheRunCouldShow) {
+  const auto oscillates = study_design(
+      {.subject = subject, .wish = {.mode = Mode::current, .settle_s = 0.5e-3, .delay_periods = 1}});
+  ASSERT_TRUE(oscillates);
+  EXPECT_FALSE(oscillates->usable());
+  EXPECT_TRUE(warns(*oscillates, "never settles"));
+  const auto drowned = study_design(
+      {.subject = subject, .wish = {.mode = Mode::speed, .method = design::GainMethod::symmetrical_optimum}});
+  ASSERT_TRUE(drowned);
+  EXPECT_TRUE(warns(*drowned, "ripple in speed"));
+  const auto moved = study_design(
+      {.subject = subject, .wish = {.mode = Mode::position}, .tolerances = sheet_tolerances(Mode::position)});
+  ASSERT_TRUE(moved && moved->robustness);
+  EXPECT_TRUE(warns(*moved, "out of tolerance it overshoots"));
+  const RobustFigure& overshoot = moved->robustness->figures[1];
+  EXPECT_EQ(overshoot.figure, "overshoot");
+  EXPECT_EQ(overshoot.culprit, "J doubled");
+}
+
+TEST(DesignStudy, PassesProblemsOn) {
+  DesignSubject broken = subject;
+  broken.sheet.resistance_ohm.value = -1;
+  EXPECT_FALSE(study_design({.subject = broken, .wish = {}}));
+  EXPECT_FALSE(study_design({.subject = subject, .wish = {.settle_s = -1.0}}));
 }
 
 }  // namespace
