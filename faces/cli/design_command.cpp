@@ -64,6 +64,7 @@ design::DesignWish wish_of(const DesignArguments& a, base::Problems& found) {
   w.period_s = a.period_s.value_or(w.period_s);
   w.voltage_V = a.voltage_V;
   w.torque_limit_Nm = a.torque_limit_Nm;
+  w.load_inertia_kg_m2 = a.load_inertia_kg_m2.value_or(0.0);
   w.delay_periods = a.delay_periods;
   return w;
 }

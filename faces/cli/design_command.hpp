@@ -11,7 +11,7 @@ struct DesignArguments {
   std::string motor;
   std::string mode = "current", method = "pole-placement", chopping = "soft";
   std::optional<double> settle_s, current_settle_s, damping, bandwidth_rad_s, period_s, voltage_V,
-      torque_limit_Nm, step;
+      torque_limit_Nm, load_inertia_kg_m2, step;
   int delay_periods = 0;
   bool quick = false;  ///< without the tolerances
   bool quiet = false;

@@ -66,8 +66,9 @@ void declare_design(CLI::App& design, DesignArguments& a) {
   design.add_option("--mode", a.mode, "current, speed or position")->capture_default_str();
   design.add_option("--settle", a.settle_s, "settling time of the mode's PI loop in s; 1e-3, speed 10e-3");
   design.add_option("--damping", a.damping, "of the placed poles, above 0 to 1; 0.9");
-  design.add_option("--current-settle", a.current_settle_s,
-                    "speed, position: settling time of the current loop in s; a tenth of the speed loop's");
+  design.add_option(
+      "--current-settle", a.current_settle_s,
+      "speed, position: settling time of the current loop in s; 1e-3, or a tenth of the speed loop's");
   design.add_option("--method", a.method, "pole-placement, cancellation or symmetrical-optimum")
       ->capture_default_str();
   design.add_option("--bandwidth", a.bandwidth_rad_s,
@@ -75,6 +76,7 @@ void declare_design(CLI::App& design, DesignArguments& a) {
   design.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");
   design.add_option("--voltage", a.voltage_V, "of the bus in V; the sheet's nominal voltage");
   design.add_option("--torque-limit", a.torque_limit_Nm, "speed, position: in N m; the sheet's stall torque");
+  design.add_option("--load-inertia", a.load_inertia_kg_m2, "on the shaft, beside the rotor's, in kg m2; 0");
   design.add_option("--delay", a.delay_periods, "periods until a command counts, 0 or 1")
       ->capture_default_str();
   design.add_option("--chopping", a.chopping, "soft, hard or complementary")->capture_default_str();

@@ -20,7 +20,8 @@ constexpr double current_settle = 1e-3, speed_settle = 10e-3, inner_faster = 10.
 
 double settle_of_current(const DesignWish& w) {
   if (w.mode == Mode::current) return w.settle_s.value_or(current_settle);
-  return w.current_settle_s.value_or(w.settle_s.value_or(speed_settle) / inner_faster);
+  return w.current_settle_s.value_or(
+      std::fmin(current_settle, w.settle_s.value_or(speed_settle) / inner_faster));
 }
 
 base::Problems check(const MotorModel& motor, const DesignWish& w) {
@@ -43,6 +44,8 @@ base::Problems check(const MotorModel& motor, const DesignWish& w) {
     add("--bandwidth", base::written(*w.bandwidth_rad_s), "must be above 0", "give it in rad/s");
   if (w.voltage_V && !(*w.voltage_V > 0.0))
     add("--voltage", base::written(*w.voltage_V), "must be above 0", "give the bus voltage in volts");
+  if (!(w.load_inertia_kg_m2 >= 0.0))
+    add("--load-inertia", base::written(w.load_inertia_kg_m2), "must not be negative", "give it in kg m2");
   if (!(motor.stall_torque_Nm > 0.0) && !w.torque_limit_Nm && w.mode != Mode::current)
     add("--torque-limit", "", "is missing, and the sheet has no stall torque", "give it in N m");
   return found;
@@ -224,6 +227,7 @@ base::Result<DriveDesign> design_drive(const MotorModel& motor, double nominal_c
   DriveDesign d;
   d.wish = wish;
   d.motor = motor;
+  d.motor.shaft.J_kg_m2 += wish.load_inertia_kg_m2;
   d.bus_V = wish.voltage_V.value_or(motor.nominal_voltage_V);
   d.torque_limit_Nm = wish.torque_limit_Nm.value_or(motor.stall_torque_Nm);
   d.current_at_full_torque_A = d.torque_limit_Nm / motor.K_t_Nm_A;

@@ -23,13 +23,15 @@ enum class GainMethod : std::uint8_t { pole_placement, cancellation, symmetrical
 struct DesignWish {
   control::Mode mode = control::Mode::current;  ///< current, speed or position
   GainMethod method = GainMethod::pole_placement;
-  std::optional<double> settle_s;          ///< of the PI of the mode; 1 ms for current, 10 ms for speed
-  std::optional<double> current_settle_s;  ///< of the inner loop; a tenth of the speed loop's
+  std::optional<double> settle_s;  ///< of the PI of the mode; 1 ms for current, 10 ms for speed
+  std::optional<double>
+      current_settle_s;  ///< of the inner loop; 1 ms, or a tenth of the speed loop's if shorter
   double damping = 0.9;
   std::optional<double> bandwidth_rad_s;  ///< of the loop the method is for; else 4.6/settle_s
   double period_s = 30e-6;
   std::optional<double> voltage_V;        ///< of the bus; else the sheet's
   std::optional<double> torque_limit_Nm;  ///< full output of the speed loop; else the stall torque
+  double load_inertia_kg_m2 = 0.0;        ///< on the shaft, beside the rotor's
   int delay_periods = 0;                  ///< from a sample until its result takes effect, 0 or 1
   control::Chopping chopping = control::Chopping::soft;
 };
@@ -54,7 +56,7 @@ struct Warning {
 
 struct DriveDesign {
   DesignWish wish;
-  MotorModel motor;
+  MotorModel motor;  ///< with the load's inertia on its shaft
   double bus_V = 0.0;
   double torque_limit_Nm = 0.0;
   double current_at_full_torque_A = 0.0;

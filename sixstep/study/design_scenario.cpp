@@ -71,6 +71,7 @@ Scenario common(const DriveDesign& d, const DesignSubject& subject) {
   s.pwm.period_s = d.wish.period_s;
   s.pwm.chopping = d.wish.chopping;
   s.pwm.delay_periods = d.wish.delay_periods;
+  s.load.inertia_kg_m2 = d.wish.load_inertia_kg_m2;
   s.control.mode = d.wish.mode;
   set_gains(d.loop("current"), s.control.current);
   if (d.loops.size() > 1) {
@@ -126,10 +127,11 @@ void add_speed(const DriveDesign& d, const DesignSubject& subject, Scenario& s) 
   const LoopDesign &speed = d.loop("speed"), &current = d.loop("current");
   const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
   const double load_A = d.nominal_current_A / 2, first = plain_number(0.15 * d.bus_V / K);
-  // The first command of a step is d1 (speed) times the current at full torque times d1 (current), in volts.
+  // The current that a step asks for at first is d1 (speed) times the current at full torque. In volts that
+  // is d1 (current) at once, and R when it flows.
   const double volts = part_of_bus * (d.bus_V - K * first - R * load_A);
-  const double step = subject.step.value_or(plain_number(
-      std::min(first / 2, volts / (speed.gains.d1 * d.current_at_full_torque_A * current.gains.d1))));
+  const double step = subject.step.value_or(plain_number(std::min(
+      first / 2, volts / (speed.gains.d1 * d.current_at_full_torque_A * std::max(current.gains.d1, R)))));
   const double settle = settling_of(speed, 1000 * d.wish.period_s), load_Nm = K * load_A;
   const double begin = plain_time(5 * settle + 2 * start_time(d, first, load_Nm)),
                end = plain_time(begin + 5 * settle), calm = end - settle;

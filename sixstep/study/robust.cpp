@@ -163,7 +163,9 @@ Scenario varied_scenario(const Scenario& nominal, const design::MotorModel& moto
                          const std::vector<Tolerance>& tolerances, const Variation& variation) {
   Scenario s = nominal;
   s.designed_for = Nominal{nominal.sheet, nominal.supply, nominal.load};
-  s.sheet = sheet_of(nominal.sheet, varied_motor(motor, tolerances, variation));
+  design::MotorModel varied = varied_motor(motor, tolerances, variation);
+  varied.shaft.J_kg_m2 -= nominal.load.inertia_kg_m2;  // the load stays beside the rotor
+  s.sheet = sheet_of(nominal.sheet, varied);
   return s;
 }
 

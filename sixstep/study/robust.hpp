@@ -40,7 +40,8 @@ struct Variation {
 /// only, that and the nominal).
 std::vector<Variation> variations(const std::vector<Tolerance>& tolerances);
 
-/// The motor strays, the controller stays what was designed for the sheet.
+/// The motor strays, the controller stays what was designed for the sheet. `motor` is DriveDesign's: with the
+/// load's inertia, which strays with the rotor's.
 Scenario varied_scenario(const Scenario& nominal, const design::MotorModel& motor,
                          const std::vector<Tolerance>& tolerances, const Variation& variation);
 

@@ -257,6 +257,72 @@ class CommandLine(unittest.TestCase):
         self.assertIn("cannot be written", self.run_program("export", "header", position, "--out", "no/d.hpp", code=2).stderr)
         self.assertEqual(self.names(), [])
 
+    def test_design_prints_verdict_first_then_every_step(self):
+        text = self.run_program("design", "maxon-251601").stdout
+        self.assertRegex(text.splitlines()[0], r"^usable, 1 warning: the current loop settles in 990 us \(1 ms asked for\)")
+        self.assertRegex(text, r"  d1 +4\.09559 +.* thesis 4\.5\n")
+        self.assertRegex(text, r"  Re z +0\.869154 +.* thesis 0\.8588\n")
+        self.assertIn("phase margin, one period late         59.8 deg", text)
+        self.assertIn("held up to 71.6 rad/s, (i/K_t) R", text)
+        self.assertEqual(self.names(), [])
+
+    def test_design_writes_a_scenario_that_runs_and_a_header_of_the_same_gains(self):
+        for mode, figures in (("current", 3), ("speed", 7), ("position", 4)):
+            self.run_program("design", "maxon-251601", "--mode", mode, "--quick", "--quiet", "--toml", "d.toml",
+                             "--header", "d.hpp", "--json", "d.json")
+            designed = json.loads((self.path / "d.json").read_text())
+            self.assertTrue(designed["usable"])
+            self.assertNotIn("tolerances", designed)
+            ran = json.loads(self.run_program("run", "d.toml", "--json", "-").stdout)
+            self.assertEqual(ran["digest"], designed["digest"])
+            self.assertEqual([c["measured"] for c in ran["compare"]], [c["simulated"] for c in designed["simulated"]])
+            self.assertEqual(len(ran["compare"]), figures)
+            for gains, loop in zip(ran["gains"], designed["loops"]):
+                self.assertEqual(gains["loop"], loop["name"])
+                self.assertEqual(gains["d1"], loop["gain_rad_s_per_deg"] if mode == "position" and gains["loop"] == mode
+                                 else loop["gains"]["d1"])
+            d1 = float(designed["loops"][0]["gains"]["d1"]).hex()
+            mantissa, exponent = d1.split("p")
+            self.assertIn(f"{mantissa.rstrip('0')}p{exponent}", (self.path / "d.hpp").read_text())
+
+    def test_design_of_a_motor_file_names_it_as_the_scenario_sees_it(self):
+        (self.path / "mine.toml").write_text((SOURCE / "data/motors/maxon-251601.toml").read_text())
+        (self.path / "out").mkdir()
+        self.run_program("design", "mine.toml", "--quick", "--quiet", "--toml", "out/d.toml")
+        self.assertIn('motor = "../mine.toml"', (self.path / "out/d.toml").read_text())
+        self.run_program("run", "out/d.toml", "--quiet")
+
+    def test_design_json_has_bode_step_margins_and_worst_corners(self):
+        result = self.run_program("design", "maxon-251601", "--mode", "speed", "--json", "-", "--quiet")
+        d = json.loads(result.stdout)
+        self.assertEqual([loop["name"] for loop in d["loops"]], ["current", "speed"])
+        self.assertEqual(d["tolerances"]["motors"], 25)
+        for loop in d["loops"]:
+            self.assertTrue(loop["margins"]["one_period_late"]["stable"])
+            w, gain, crossover = loop["bode"]["w_rad_s"], loop["bode"]["gain"], loop["margins"]["at_once"]["crossover_rad_s"]
+            self.assertLess(max(x for x, g in zip(w, gain) if g > 1), crossover)
+            self.assertGreater(min(x for x, g in zip(w, gain) if g < 1), crossover)
+            self.assertAlmostEqual(loop["step"]["value"][-1], 1, 2)
+        steps = {s["symbol"]: s for s in d["loops"][1]["steps"]}
+        self.assertAlmostEqual(steps["d1"]["value"], 0.0158299, 7)
+        self.assertEqual(steps["d1"]["thesis"], 0.017225)
+
+    def test_design_refuses_properly_and_tells_a_bad_design(self):
+        def told(*words, code=2):
+            result = self.run_program("design", *words, "--toml", "d.toml", code=code)
+            self.assertEqual(self.names(), ["d.toml"] if code < 2 else [])
+            return result.stdout + result.stderr
+        self.assertEqual(told("maxon-251601", "--mode", "spede"),
+                         "--mode = spede must be one of current, speed, position; did you mean speed?\n")
+        self.assertIn("--settle = -1 must be above 0", told("maxon-251601", "--settle", "-1"))
+        self.assertIn("is no input of pole placement", told("maxon-251601", "--bandwidth", "100"))
+        self.assertIn('did you mean "maxon-251601"?', told("maxon-25160"))
+        self.assertIn("cannot be written", self.run_program("design", "maxon-251601", "--json", "no/d.json", code=2).stderr)
+        # A fast loop with a delay, chopped softly: only the simulation knows that it oscillates.
+        text = told("maxon-251601", "--settle", "0.5e-3", "--delay", "1", code=1)
+        self.assertRegex(text.splitlines()[0], "^NOT USABLE: in the simulation it never settles$")
+        self.assertIn("try --chopping complementary", text)
+
     def test_motors_and_version(self):
         self.assertIn("maxon-251601", self.run_program("motor", "list").stdout)
         self.assertIn("data sheet, line 12", self.run_program("motor", "show", "maxon-251601").stdout)

@@ -253,6 +253,20 @@ TEST(DesignStudy, RunsWithTheVeryGainsThatWereDesigned) {
   }
 }
 
+TEST(DesignStudy, CountsTheLoadsInertiaIn) {
+  const auto s = study_design({.subject = subject,
+                               .wish = {.mode = Mode::speed, .settle_s = 20e-3, .load_inertia_kg_m2 = 2e-5},
+                               .tolerances = {{Strays::inertia, {{"J +50 %", 1.5}}}}});
+  ASSERT_TRUE(s && s->usable());
+  EXPECT_EQ(s->outcome.gains[1].d1, s->design.loop("speed").gains.d1);
+  // Integrator: the same poles on 3.35/1.35 of the inertia need gains in that ratio, but for friction.
+  const DriveDesign bare = designed({.mode = Mode::speed, .settle_s = 20e-3});
+  EXPECT_NEAR(s->design.loop("speed").gains.d1 / bare.loop("speed").gains.d1, 3.35 / 1.35, 0.01);
+  const Scenario heavy =
+      varied_scenario(s->scenario, s->design.motor, {{Strays::inertia, {}}}, {"", {1.5}, true});
+  EXPECT_NEAR(1e-7 * heavy.sheet.inertia_gcm2.value + heavy.load.inertia_kg_m2, 1.5 * 3.35e-5, 1e-18);
+}
+
 TEST(DesignStudy, SaysWhatOnlyTheRunCouldShow) {
   const auto oscillates = study_design(
       {.subject = subject, .wish = {.mode = Mode::current, .settle_s = 0.5e-3, .delay_periods = 1}});
