@@ -14,6 +14,7 @@
 #include "io/design_json.hpp"
 #include "io/design_text.hpp"
 #include "io/key_advice.hpp"
+#include "io/model_export.hpp"
 #include "io/scenario_file.hpp"
 #include "io/scenario_text.hpp"
 #include "sixstep/study/choices.hpp"
@@ -71,10 +72,13 @@ design::DesignWish wish_of(const DesignArguments& a, base::Problems& found) {
 
 /// The files that were asked for, open before anything runs.
 struct Outputs {
-  std::optional<io::AtomicFile> json, toml, header;
+  std::optional<io::AtomicFile> json, toml, header, models;
 
   base::Problems open(const DesignArguments& a) {
     base::Problems found;
+    const std::string kind = fs::path(a.models).extension().string();
+    if (!a.models.empty() && kind != ".json" && kind != ".mat")
+      return {{"--models", a.models, "must end in .json or .mat", "name the file so"}};
     const auto one = [&](std::optional<io::AtomicFile>& into, const std::string& path) {
       if (path.empty() || path == "-") return;
       base::Result<io::AtomicFile> file = io::AtomicFile::create(path);
@@ -86,6 +90,7 @@ struct Outputs {
     one(json, a.json);
     one(toml, a.toml);
     one(header, a.header);
+    one(models, a.models);
     return found;
   }
 };
@@ -114,6 +119,12 @@ base::Problems write(const study::DesignStudy& s, const DesignArguments& a, Outp
     std::vector<std::string> comments{"Made by: " + a.command};
     for (const std::string& line : io::design_lines(s)) comments.push_back(line);
     add(put(out.toml, io::scenario_text(scenario, comments)));
+  }
+  if (out.models) {
+    const io::ModelPoint point{s.design.motor, a.angle_deg};
+    const base::Result<std::string> bytes =
+        fs::path(a.models).extension() == ".mat" ? io::models_mat(point) : io::models_json(point);
+    add(bytes ? put(out.models, *bytes) : bytes.problems());
   }
   if (out.header) {
     const base::Result<std::string> text = io::config_header({.scenario = s.scenario,

@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -39,6 +40,32 @@ SPREAD = """
 key = "motor_override.resistance_ohm"
 relative = 0.1
 """
+
+
+def mat_variables(data):
+    """A MAT file of level 5, uncompressed, read by its specification alone: {name: rows of numbers, or text}."""
+    def elements(at, end):
+        while at < end:
+            kind, size = struct.unpack_from("<II", data, at)
+            if kind >> 16:  # small element: size and data in eight bytes
+                yield kind & 0xffff, data[at + 4:at + 4 + (kind >> 16)], at
+                at += 8
+            else:
+                yield kind, data[at + 8:at + 8 + size], at
+                at += 8 + (size + 7) // 8 * 8
+    assert data[124:128] == b"\x00\x01IM", data[124:128]
+    found = {}
+    for kind, body, at in elements(128, len(data)):
+        assert kind == 14
+        (_, flags, _), (_, dims, _), (_, name, _), (part, values, _) = elements(at + 8, at + 8 + len(body))
+        rows, columns = struct.unpack("<ii", dims)
+        if flags[0] == 4:
+            found[name.decode()] = values.decode("utf-16-le" if part == 4 or part == 17 else "utf-8")
+        else:
+            assert (flags[0], part) == (6, 9)
+            column = struct.unpack(f"<{rows * columns}d", values)
+            found[name.decode()] = [[column[c * rows + r] for c in range(columns)] for r in range(rows)]
+    return found
 
 
 class CommandLine(unittest.TestCase):
@@ -306,6 +333,35 @@ class CommandLine(unittest.TestCase):
         steps = {s["symbol"]: s for s in d["loops"][1]["steps"]}
         self.assertAlmostEqual(steps["d1"]["value"], 0.0158299, 7)
         self.assertEqual(steps["d1"]["thesis"], 0.017225)
+
+    def test_design_exports_both_models_to_json_and_mat_alike(self):
+        for angle in ("30", "105"):
+            for kind in ("json", "mat"):
+                self.run_program("design", "maxon-251601", "--quick", "--quiet", "--angle", angle, "--models", f"m.{kind}")
+            models, mat = json.loads((self.path / "m.json").read_text()), mat_variables((self.path / "m.mat").read_bytes())
+            for name in ("phase", "terminal"):
+                for matrix in "AB":
+                    self.assertEqual(mat[f"{name}_{matrix}"], models[f"{name}_voltage"][matrix])
+                self.assertEqual(mat[f"{name}_states"].split(), models[f"{name}_voltage"]["states"])
+                self.assertEqual(mat[f"{name}_inputs"].split(), models[f"{name}_voltage"]["inputs"])
+            for name, value in models["parameters"].items():
+                self.assertEqual(mat[name], [[value]])
+            self.assertEqual(mat["theta_e_deg"], [[float(angle)]])
+            # MODEL 1 on the sheet: R/L per phase, K_e f/L, 1/L.
+            A, L, K_e = mat["phase_A"], 0.286e-3, 0.01675
+            self.assertAlmostEqual(A[0][0], -1.03 / 0.572e-3, 9)
+            # Flat tops of 120 degrees, ramps of 60 between: c falls through 0 at 30, b rises through 0 at 90.
+            f = {"30": (1, -1, 0), "105": (1, 0.5, -1)}[angle]
+            for phase in range(3):
+                self.assertAlmostEqual(A[phase][3], -K_e * f[phase] / L, 9)
+            self.assertAlmostEqual(mat["phase_B"][1][1], 1 / L, 9)
+            self.assertEqual(mat["terminal_A"][3], [0, 0, 1, 0])
+        first = (self.path / "m.mat").read_bytes()
+        self.run_program("design", "maxon-251601", "--quick", "--quiet", "--angle", "105", "--models", "m.mat")
+        self.assertEqual((self.path / "m.mat").read_bytes(), first)
+        self.assertIn("must end in .json or .mat",
+                      self.run_program("design", "maxon-251601", "--models", "m.csv", code=2).stderr)
+        self.assertEqual(self.names(), ["m.json", "m.mat"])
 
     def test_design_refuses_properly_and_tells_a_bad_design(self):
         def told(*words, code=2):
