@@ -15,6 +15,7 @@
 #include "io/design_text.hpp"
 #include "io/key_advice.hpp"
 #include "io/model_export.hpp"
+#include "io/report/design_page.hpp"
 #include "io/scenario_file.hpp"
 #include "io/scenario_text.hpp"
 #include "sixstep/study/choices.hpp"
@@ -72,7 +73,7 @@ design::DesignWish wish_of(const DesignArguments& a, base::Problems& found) {
 
 /// The files that were asked for, open before anything runs.
 struct Outputs {
-  std::optional<io::AtomicFile> json, toml, header, models;
+  std::optional<io::AtomicFile> json, toml, header, models, html;
 
   base::Problems open(const DesignArguments& a) {
     base::Problems found;
@@ -91,6 +92,7 @@ struct Outputs {
     one(toml, a.toml);
     one(header, a.header);
     one(models, a.models);
+    one(html, a.html);
     return found;
   }
 };
@@ -113,13 +115,18 @@ std::string motor_beside(const std::string& motor, const std::string& toml) {
 base::Problems write(const study::DesignStudy& s, const DesignArguments& a, Outputs& out) {
   base::Problems found = put(out.json, io::design_json(s));
   const auto add = [&](const base::Problems& more) { found.insert(found.end(), more.begin(), more.end()); };
-  if (out.toml) {
-    study::Scenario scenario = s.scenario;
-    scenario.motor = motor_beside(a.motor, a.toml);
-    std::vector<std::string> comments{"Made by: " + a.command};
-    for (const std::string& line : io::design_lines(s)) comments.push_back(line);
-    add(put(out.toml, io::scenario_text(scenario, comments)));
-  }
+  study::Scenario scenario = s.scenario;
+  scenario.motor = motor_beside(a.motor, a.toml);
+  std::vector<std::string> comments{"Made by: " + a.command};
+  for (const std::string& line : io::design_lines(s)) comments.push_back(line);
+  const std::string text = io::scenario_text(scenario, comments);
+  add(put(out.toml, text));
+  if (out.html)
+    add(put(out.html, io::report::render_design({.study = s,
+                                                 .verdict = io::design_verdict(s),
+                                                 .scenario = text,
+                                                 .command = a.command,
+                                                 .version = SIXSTEP_VERSION})));
   if (out.models) {
     const io::ModelPoint point{s.design.motor, a.angle_deg};
     const base::Result<std::string> bytes =
@@ -127,13 +134,13 @@ base::Problems write(const study::DesignStudy& s, const DesignArguments& a, Outp
     add(bytes ? put(out.models, *bytes) : bytes.problems());
   }
   if (out.header) {
-    const base::Result<std::string> text = io::config_header({.scenario = s.scenario,
-                                                              .arithmetic = {},
-                                                              .range = {},
-                                                              .name_space = "designed",
-                                                              .single_header = false,
-                                                              .command = a.command});
-    add(text ? put(out.header, *text) : text.problems());
+    const base::Result<std::string> header = io::config_header({.scenario = s.scenario,
+                                                                .arithmetic = {},
+                                                                .range = {},
+                                                                .name_space = "designed",
+                                                                .single_header = false,
+                                                                .command = a.command});
+    add(header ? put(out.header, *header) : header.problems());
   }
   return found;
 }

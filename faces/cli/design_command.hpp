@@ -16,8 +16,8 @@ struct DesignArguments {
   bool quick = false;  ///< without the tolerances
   bool quiet = false;
   unsigned jobs = 0;
-  std::string json, toml, header, models;  ///< files; json "-": standard output
-  double angle_deg = 30.0;                 ///< of the models, electrical
+  std::string json, toml, header, models, html;  ///< files; json "-": standard output
+  double angle_deg = 30.0;                       ///< of the models, electrical
   std::string data_dir;
   std::string command;  ///< the command line as it may be typed again
 };

@@ -84,6 +84,7 @@ void declare_design(CLI::App& design, DesignArguments& a) {
   design.add_option("--json", a.json, "write everything as numbers; - for standard output");
   design.add_option("--toml", a.toml, "write the scenario that was simulated, for sixstep run");
   design.add_option("--header", a.header, "write the gains as constants for firmware, in C++20");
+  design.add_option("--html", a.html, "write the design as a page");
   design.add_option("--models", a.models, "write the motor's two state spaces, as .json or .mat");
   design.add_option("--angle", a.angle_deg, "of the rotor for --models, in electrical degrees")
       ->capture_default_str();

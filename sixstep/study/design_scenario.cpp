@@ -202,6 +202,12 @@ Scenario design_scenario(const DriveDesign& design, const DesignSubject& subject
   if (design.wish.mode == Mode::current) add_current(design, subject, s);
   if (design.wish.mode == Mode::speed) add_speed(design, subject, s);
   if (design.wish.mode == Mode::position) add_position(design, subject, s);
+  s.record.columns = {"i_m_A"};
+  if (design.wish.mode != Mode::current) s.record.columns.push_back("speed_rad_s");
+  if (design.wish.mode == Mode::position) s.record.columns.push_back("angle_rad");
+  // Some 2000 rows, on the samples.
+  const double periods = std::ceil(s.duration_s / 2000 / s.pwm.period_s);
+  if (periods > 1) s.record.grid_s = periods * s.pwm.period_s;
   // Of an unstable loop the design foretells nothing.
   std::erase_if(s.compare, [](const Comparison& c) { return !std::isfinite(c.value); });
   return s;

@@ -114,7 +114,14 @@ base::Result<DesignStudy> study_design(const DesignOrder& order) {
   }
   s.scenario = design_scenario(s.design, order.subject);
   if (base::Problems found = check(s.scenario); !found.empty()) return found;
-  base::Result<Outcome> outcome = run(s.scenario);
+  base::Result<std::vector<Column>> columns = record_columns(s.scenario);
+  if (!columns) return columns.problems();
+  s.trace = {*columns, std::vector<std::vector<double>>(columns->size()), false};
+  const auto record = [&](Row row) {
+    for (std::size_t n = 0; n < row.size(); ++n) s.trace.values[n].push_back(row[n]);
+  };
+  base::Result<Outcome> outcome =
+      run(s.scenario, {.on_record = record, .on_event = {}, .keep_going = {}, .keep_books = true});
   if (!outcome) return outcome.problems();
   s.outcome = std::move(*outcome);
   if (!order.tolerances.empty())

@@ -18,6 +18,7 @@ struct DesignStudy {
   std::optional<PositionGain> position;  ///< position mode: how its gain was found
   Scenario scenario;                     ///< that the design was run as
   Outcome outcome;
+  Trace trace;  ///< of that run, as its [record] asks
   std::optional<Robustness> robustness;
   std::vector<design::Warning> warnings;  ///< the design's, and what only the runs could show
 
