@@ -117,6 +117,14 @@ std::string figures_text(const DriveDesign& d) {
   const auto factor = +[](double x) { return fmt::format("{:.2f}", x); };
   const auto seconds = +[](double s) { return quantity_text(s, "s", 3); };
   line("crossover", [&](const LoopDesign& l) { return or_none(l.figures.crossover_rad_s, hertz); });
+  if (d.loops.size() > 1) {
+    std::vector<std::string> cells{"times the loop around it"};
+    for (std::size_t n = 0; n + 1 < d.loops.size(); ++n) {
+      const auto &inner = d.loops[n].figures.crossover_rad_s, &outer = d.loops[n + 1].figures.crossover_rad_s;
+      cells.push_back(inner && outer ? fmt::format("{:.1f}", *inner / *outer) : "-");
+    }
+    rows.add(std::move(cells));
+  }
   line("bandwidth, -3 dB", [&](const LoopDesign& l) { return or_none(l.figures.bandwidth_rad_s, hertz); });
   line("phase margin, command at once",
        [&](const LoopDesign& l) { return or_none(at_once(l).phase_rad, degrees); });
@@ -158,8 +166,9 @@ std::string simulated_text(const study::DesignStudy& s) {
   Rows rows;
   rows.add({"figure", "expected", "simulated", "", ""});
   for (const auto& c : s.outcome.comparisons)
-    rows.add({c.figure, quantity_text(c.value, c.unit), quantity_text(c.measured, c.unit), deviation_text(c),
-              c.source});
+    rows.add({c.figure, quantity_text(c.value, c.unit),
+              quantity_text(sixstep::study::as_read(c, s.scenario), c.unit),
+              std::isfinite(c.measured) ? deviation_text(c) : "", c.source});
   const study::Scenario& n = s.scenario;
   std::string how;
   if (n.control.mode == Mode::current)
@@ -212,13 +221,15 @@ std::string design_verdict(const study::DesignStudy& s) {
     for (const auto& w : s.warnings)
       if (w.grave) return text + ": " + w.what;
   const auto *settling = find(s, "settling time"), *overshoot = find(s, "overshoot");
-  if (settling) {
+  if (settling && !std::isfinite(settling->measured)) {
+    text += fmt::format(": the {} loop's settling cannot be told", mode);
+  } else if (settling) {
     text += fmt::format(": the {} loop settles in {}", mode, quantity_text(settling->measured, "s", 4));
     const auto& placed = s.design.loops.back().placed;
     if (placed) text += fmt::format(" ({} asked for)", quantity_text(placed->settle_s, "s", 4));
   }
   if (overshoot)
-    text += overshoot->measured <= 1e-9 * std::abs(s.scenario.reference.value)
+    text += sixstep::study::as_read(*overshoot, s.scenario) == 0.0
                 ? ", no overshoot"
                 : ", overshoot " + quantity_text(overshoot->measured, overshoot->unit, 3);
   return text;

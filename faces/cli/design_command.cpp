@@ -173,11 +173,14 @@ Exit design_command(const DesignArguments& a) {
   Outputs outputs;
   if (found.empty()) found = outputs.open(a);
   if (!found.empty()) return refused(found);
+  catch_interrupts();
   const base::Result<study::DesignStudy> s = study::study_design(
       {.subject = {a.motor, *sheet, a.step},
        .wish = wish,
        .tolerances = a.quick ? std::vector<study::Tolerance>() : study::sheet_tolerances(wish.mode),
-       .for_each = side_by_side(a)});
+       .for_each = side_by_side(a),
+       .keep_going = [] { return !interrupted(); }});
+  if (interrupted()) return Exit::interrupted;
   if (!s) return refused(s.problems());
   if (const base::Problems unwritten = write(*s, a, outputs); !unwritten.empty()) return refused(unwritten);
   if (a.json == "-") print(io::design_json(*s));

@@ -48,8 +48,11 @@ std::string simulated(const DesignStudy& s) {
       "<table>" + head({"Figure", "#Expected", "#Simulated", "#Deviation", "Expected is"}) + "<tbody>\n";
   for (const auto& c : s.outcome.comparisons)
     out += fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}<td class=\"source\">{}</td></tr>\n",
-                       escaped(c.figure), cell(shown(c.value, c.unit)), cell(shown(c.measured, c.unit)),
-                       cell(std::isfinite(c.measured) ? escaped(deviation(c.measured, c.value, c.unit)) : ""),
+                       escaped(c.figure), cell(shown(c.value, c.unit)),
+                       cell(shown(sixstep::study::as_read(c, s.scenario), c.unit)),
+                       cell(std::isfinite(c.measured)
+                                ? escaped(deviation(sixstep::study::as_read(c, s.scenario), c.value, c.unit))
+                                : ""),
                        escaped(c.source));
   return out + "</tbody></table>\n";
 }

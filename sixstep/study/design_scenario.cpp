@@ -123,48 +123,66 @@ double start_time(const DriveDesign& d, double to_rad_s, double load_Nm) {
   return torque > 0.0 ? d.motor.shaft.J_kg_m2 * to_rad_s / torque : 0.0;
 }
 
-void add_speed(const DriveDesign& d, const DesignSubject& subject, Scenario& s) {
+/// Start from rest, then a small step.
+struct SpeedTest {
+  double load_A = 0.0, first = 0.0, step = 0.0;  // A, rad/s
+  double begin = 0.0, end = 0.0, calm = 0.0;     // s: the step, the end, and where it must have settled
+};
+
+SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   const LoopDesign &speed = d.loop("speed"), &current = d.loop("current");
   const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
-  const double load_A = d.nominal_current_A / 2, first = plain_number(0.15 * d.bus_V / K);
+  SpeedTest t{.load_A = d.nominal_current_A / 2, .first = plain_number(0.15 * d.bus_V / K)};
   // The current that a step asks for at first is d1 (speed) times the current at full torque. In volts that
   // is d1 (current) at once, and R when it flows.
-  const double volts = part_of_bus * (d.bus_V - K * first - R * load_A);
-  const double step = subject.step.value_or(plain_number(std::min(
-      first / 2, volts / (speed.gains.d1 * d.current_at_full_torque_A * std::max(current.gains.d1, R)))));
-  const double settle = settling_of(speed, 1000 * d.wish.period_s), load_Nm = K * load_A;
-  const double begin = plain_time(5 * settle + 2 * start_time(d, first, load_Nm)),
-               end = plain_time(begin + 5 * settle), calm = end - settle;
-  s.title = "Speed cascade as designed, against half the nominal torque";
-  s.duration_s = end;
-  s.load.torque_Nm = load_Nm;
-  s.reference.shape = Shape::steps;
-  s.reference.times_s = {0, begin};
-  s.reference.values = {first, first + step};
-  s.reference.unit.emplace("rad/s");
+  const double volts = part_of_bus * (d.bus_V - K * t.first - R * t.load_A);
+  t.step = subject.step.value_or(plain_number(std::min(
+      t.first / 2, volts / (speed.gains.d1 * d.current_at_full_torque_A * std::max(current.gains.d1, R)))));
+  const double settle = settling_of(speed, 1000 * d.wish.period_s);
+  t.begin = plain_time(5 * settle + 2 * start_time(d, t.first, K * t.load_A));
+  t.end = plain_time(t.begin + 5 * settle);
+  t.calm = t.end - settle;
+  return t;
+}
+
+void add_speed_figures(const DriveDesign& d, const SpeedTest& t, Scenario& s) {
+  const design::StepResponse& linear = d.loop("speed").step;
+  const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm, last = t.first + t.step;
   const auto of = [&](MetricKind kind, bool small, const char* label) {
-    return small ? step_measure(kind, Signal::speed, begin, end, first, first + step, label)
-                 : step_measure(kind, Signal::speed, 0, begin, 0, first, label);
+    return small ? step_measure(kind, Signal::speed, t.begin, t.end, t.first, last, label)
+                 : step_measure(kind, Signal::speed, 0, t.begin, 0, t.first, label);
   };
-  const double duty = (K * (first + step) + R * load_A) / d.bus_V;
+  const double duty = (K * last + R * t.load_A) / d.bus_V;
   s.compare = {
-      {of(MetricKind::settling_time, true, "settling time"), speed.step.settling_s, "designed, 2 %"},
-      {of(MetricKind::overshoot, true, "overshoot"), speed.step.overshoot * step, "designed"},
-      {window_measure(MetricKind::peak_to_peak, Signal::speed, calm, end, "speed ripple"), 0.0,
+      {of(MetricKind::settling_time, true, "settling time"), linear.settling_s, "designed, 2 %"},
+      {of(MetricKind::overshoot, true, "overshoot"), linear.overshoot * t.step, "designed"},
+      {window_measure(MetricKind::peak_to_peak, Signal::speed, t.calm, t.end, "speed ripple"), 0.0,
        "none wanted"},
-      {window_measure(MetricKind::peak_to_peak, Signal::current, calm, end, "current ripple"),
+      {window_measure(MetricKind::peak_to_peak, Signal::current, t.calm, t.end, "current ripple"),
        design::current_ripple_A(d.motor, d.bus_V, d.wish.period_s, d.wish.chopping, duty),
        "PWM alone, without commutation"},
-      {of(MetricKind::settling_time, false, "settling of the start"), speed.step.settling_s,
+      {of(MetricKind::settling_time, false, "settling of the start"), linear.settling_s,
        "designed, were there no limits"},
-      {of(MetricKind::overshoot, false, "overshoot of the start"), speed.step.overshoot * first,
+      {of(MetricKind::overshoot, false, "overshoot of the start"), linear.overshoot * t.first,
        "designed, were there no limits"},
-      {window_measure(MetricKind::maximum, Signal::current, 0, begin, "peak current of the start"),
+      {window_measure(MetricKind::maximum, Signal::current, 0, t.begin, "peak current of the start"),
        d.current_at_full_torque_A, "at full torque"},
   };
-  const double band = 0.02 * step;  // the band of settling
-  s.require = {{window_measure(MetricKind::mean, Signal::speed, calm, end, "mean speed at the end"),
-                first + step - band, first + step + band}};
+  const double band = 0.02 * t.step;  // the band of settling
+  s.require = {{window_measure(MetricKind::mean, Signal::speed, t.calm, t.end, "mean speed at the end"),
+                last - band, last + band}};
+}
+
+void add_speed(const DriveDesign& d, const DesignSubject& subject, Scenario& s) {
+  const SpeedTest t = speed_test(d, subject);
+  s.title = "Speed cascade as designed, against half the nominal torque";
+  s.duration_s = t.end;
+  s.load.torque_Nm = d.motor.K_t_Nm_A * t.load_A;
+  s.reference.shape = Shape::steps;
+  s.reference.times_s = {0, t.begin};
+  s.reference.values = {t.first, t.first + t.step};
+  s.reference.unit.emplace("rad/s");
+  add_speed_figures(d, t, s);
 }
 
 void add_position(const DriveDesign& d, const DesignSubject& subject, Scenario& s) {
@@ -211,6 +229,11 @@ Scenario design_scenario(const DriveDesign& design, const DesignSubject& subject
   // Of an unstable loop the design foretells nothing.
   std::erase_if(s.compare, [](const Comparison& c) { return !std::isfinite(c.value); });
   return s;
+}
+
+double as_read(const ComparisonResult& c, const Scenario& scenario) {
+  const bool rounding = c.value == 0.0 && std::fabs(c.measured) <= 1e-9 * std::fabs(scenario.reference.value);
+  return rounding ? 0.0 : c.measured;
 }
 
 }  // namespace sixstep::study

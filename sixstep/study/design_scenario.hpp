@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sixstep/design/drive_design.hpp"
+#include "sixstep/study/outcome.hpp"
 #include "sixstep/study/scenario.hpp"
 
 namespace sixstep::study {
@@ -25,5 +26,8 @@ struct DesignSubject {
 /// - position: one move; without a load, since a P controller leaves an error behind one.
 /// Each comparison's value is what the design says, its source in words how.
 Scenario design_scenario(const design::DriveDesign& design, const DesignSubject& subject);
+
+/// What a reader is shown of a figure: 0 where the design expects 0 and rounding alone is left of the step.
+double as_read(const ComparisonResult& figure, const Scenario& scenario);
 
 }  // namespace sixstep::study

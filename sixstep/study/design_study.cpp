@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "sixstep/study/keep_going.hpp"
 #include "sixstep/study/run.hpp"
 
 namespace sixstep::study {
@@ -107,7 +108,7 @@ base::Result<DesignStudy> study_design(const DesignOrder& order) {
   DesignStudy s;
   s.design = std::move(*design);
   if (order.wish.mode == control::Mode::position) {
-    base::Result<PositionGain> gain = largest_position_gain(s.design, order.subject);
+    base::Result<PositionGain> gain = largest_position_gain(s.design, order.subject, order.keep_going);
     if (!gain) return gain.problems();
     s.position = *gain;
     s.design = design::with_position_gain(s.design, gain->gain_rad_s_per_deg);
@@ -120,12 +121,13 @@ base::Result<DesignStudy> study_design(const DesignOrder& order) {
   const auto record = [&](Row row) {
     for (std::size_t n = 0; n < row.size(); ++n) s.trace.values[n].push_back(row[n]);
   };
-  base::Result<Outcome> outcome =
-      run(s.scenario, {.on_record = record, .on_event = {}, .keep_going = {}, .keep_books = true});
+  base::Result<Outcome> outcome = run(
+      s.scenario,
+      {.on_record = record, .on_event = {}, .keep_going = listening(order.keep_going), .keep_books = true});
   if (!outcome) return outcome.problems();
   s.outcome = std::move(*outcome);
   if (!order.tolerances.empty())
-    s.robustness = robustness(s.design, s.scenario, order.tolerances, order.for_each);
+    s.robustness = robustness(s.design, s.scenario, order.tolerances, order.for_each, order.keep_going);
   s.warnings = s.design.warnings;
   look_at_run(s);
   look_at_tolerances(s);

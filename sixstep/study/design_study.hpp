@@ -2,6 +2,7 @@
 // The whole road from a sheet and a wish to gains that are known to hold: designed in closed form, run with
 // all switching, put through the sheet's tolerances.
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct DesignOrder {
   design::DesignWish wish;
   std::vector<Tolerance> tolerances;  ///< empty: not looked at
   ForEach for_each = one_after_the_other;
+  std::function<bool()> keep_going;  ///< false ends it early: what comes out then means nothing
 };
 
 /// Problems are those of sheet, wish and scenario.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/study/keep_going.hpp"
 #include "sixstep/study/run.hpp"
 
 namespace sixstep::study {
@@ -15,8 +16,9 @@ constexpr double precision = 1e-3;
 /// Runs the move with a gain; only the overshoot is looked at.
 class Trial {
  public:
-  Trial(const design::DriveDesign& design, const DesignSubject& subject)
-      : design_(design), subject_(subject) {}
+  Trial(const design::DriveDesign& design, const DesignSubject& subject,
+        const std::function<bool()>& keep_going)
+      : design_(design), subject_(subject), keep_going_(keep_going) {}
 
   bool overshoots(double gain) {
     ++runs;
@@ -25,7 +27,7 @@ class Trial {
     Scenario s = design_scenario(d, subject_);
     s.compare.clear();
     const base::Result<Outcome> outcome =
-        run(s, {.on_record = {}, .on_event = {}, .keep_going = {}, .keep_books = false});
+        run(s, {.on_record = {}, .on_event = {}, .keep_going = listening(keep_going_), .keep_books = false});
     if (!outcome) {
       problems = outcome.problems();
       return true;
@@ -39,17 +41,19 @@ class Trial {
  private:
   const design::DriveDesign& design_;
   const DesignSubject& subject_;
+  const std::function<bool()>& keep_going_;
 };
 
 }  // namespace
 
 base::Result<PositionGain> largest_position_gain(const design::DriveDesign& design,
-                                                 const DesignSubject& subject) {
+                                                 const DesignSubject& subject,
+                                                 const std::function<bool()>& keep_going) {
   PositionGain found;
   found.linear = design.loop("position").gains.d1;
   found.estimate = design.torque_limit_Nm / design.motor.shaft.J_kg_m2 /
                    (design.bus_V / design.motor.K_t_Nm_A) * base::pi / 180;
-  Trial trial(design, subject);
+  Trial trial(design, subject, keep_going);
   double low = std::min(found.estimate, found.linear), high = found.linear;
   for (int n = 0; n < 20 && trial.overshoots(low) && trial.problems.empty(); ++n) {
     high = found.overshoots = low;

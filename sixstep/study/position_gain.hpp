@@ -2,6 +2,8 @@
 // The largest gain of a position controller with which the drive, its torque, bus and speed limits acting,
 // does not overshoot.
 #pragma once
+#include <functional>
+
 #include "sixstep/base/result.hpp"
 #include "sixstep/study/design_scenario.hpp"
 
@@ -20,6 +22,7 @@ struct PositionGain {
 /// grows with the gain, and halving with full simulations finds where it begins, to a part in 1000. Problems
 /// are those of a run.
 base::Result<PositionGain> largest_position_gain(const design::DriveDesign& design,
-                                                 const DesignSubject& subject);
+                                                 const DesignSubject& subject,
+                                                 const std::function<bool()>& keep_going = {});
 
 }  // namespace sixstep::study

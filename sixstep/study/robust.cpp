@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/study/design_scenario.hpp"
 #include "sixstep/study/figures.hpp"
+#include "sixstep/study/keep_going.hpp"
 #include "sixstep/study/run.hpp"
 
 namespace sixstep::study {
@@ -120,13 +122,13 @@ std::vector<RobustFigure> phases_of(const design::DriveDesign& design,
 }
 
 /// What the run says of each comparison; never where it could not.
-std::vector<double> measured(const Scenario& scenario) {
+std::vector<double> measured(const Scenario& scenario, const std::function<bool()>& keep_going) {
   std::vector<double> values(scenario.compare.size(), never);
-  const base::Result<Outcome> outcome =
-      run(scenario, {.on_record = {}, .on_event = {}, .keep_going = {}, .keep_books = false});
+  const base::Result<Outcome> outcome = run(
+      scenario, {.on_record = {}, .on_event = {}, .keep_going = listening(keep_going), .keep_books = false});
   if (!outcome || outcome->fault) return values;
   for (std::size_t n = 0; n < values.size(); ++n) {
-    const double x = outcome->comparisons[n].measured;
+    const double x = as_read(outcome->comparisons[n], scenario);
     if (x == x) values[n] = x;
   }
   return values;
@@ -174,12 +176,13 @@ void one_after_the_other(std::size_t count, const std::function<void(std::size_t
 }
 
 Robustness robustness(const design::DriveDesign& design, const Scenario& scenario,
-                      const std::vector<Tolerance>& tolerances, const ForEach& for_each) {
+                      const std::vector<Tolerance>& tolerances, const ForEach& for_each,
+                      const std::function<bool()>& keep_going) {
   const std::vector<Variation> all = variations(tolerances);
   std::vector<std::vector<double>> by_variation(all.size());
   for_each(all.size(), [&](std::size_t n) {
     by_variation[n] =
-        measured(n == 0 ? scenario : varied_scenario(scenario, design.motor, tolerances, all[n]));
+        measured(n == 0 ? scenario : varied_scenario(scenario, design.motor, tolerances, all[n]), keep_going);
   });
   Robustness out;
   out.runs = all.size();

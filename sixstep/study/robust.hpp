@@ -65,7 +65,7 @@ using ForEach = std::function<void(std::size_t count, const std::function<void(s
 void one_after_the_other(std::size_t count, const std::function<void(std::size_t)>& work);
 
 Robustness robustness(const design::DriveDesign& design, const Scenario& scenario,
-                      const std::vector<Tolerance>& tolerances,
-                      const ForEach& for_each = one_after_the_other);
+                      const std::vector<Tolerance>& tolerances, const ForEach& for_each = one_after_the_other,
+                      const std::function<bool()>& keep_going = {});
 
 }  // namespace sixstep::study

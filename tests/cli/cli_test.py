@@ -334,6 +334,26 @@ class CommandLine(unittest.TestCase):
         self.assertAlmostEqual(steps["d1"]["value"], 0.0158299, 7)
         self.assertEqual(steps["d1"]["thesis"], 0.017225)
 
+    def test_design_writes_a_page_that_needs_nothing(self):
+        self.run_program("design", "maxon-251601", "--mode", "speed", "--quiet", "--html", "d.html")
+        page = (self.path / "d.html").read_text()
+        self.assertTrue(page.startswith("<!doctype html>") and page.endswith("</html>\n"))
+        self.assertIn("sixstep design maxon-251601 --mode speed --quiet --html d.html", page)
+        self.assertNotRegex(page, r'(src|href)="(?!data:)')
+        self.assertEqual(self.names(), ["d.html"])
+
+    def test_an_interrupted_design_leaves_nothing_behind(self):
+        # A loop so slow that a minute of the drive is simulated for each motor.
+        design = subprocess.Popen([PROGRAM, "design", "maxon-251601", "--mode", "speed", "--settle", "5", "--toml", "d.toml"],
+                                  cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        while not self.names():  # the outputs are open: it is on its way
+            time.sleep(0.01)
+        time.sleep(0.3)
+        design.send_signal(signal.SIGINT)
+        self.assertEqual(design.wait(timeout=30), 130)
+        design.communicate()
+        self.assertEqual(self.names(), [])
+
     def test_design_exports_both_models_to_json_and_mat_alike(self):
         for angle in ("30", "105"):
             for kind in ("json", "mat"):
