@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "faces/cli/design_command.hpp"
 #include "faces/cli/export_command.hpp"
 #include "faces/cli/help_command.hpp"
 #include "faces/cli/motor_command.hpp"
@@ -60,6 +61,40 @@ void declare_run(CLI::App& run, RunArguments& a) {
   run.add_option("--drive", a.drive, "drive N of the series alone, with all its outputs")->excludes(runs);
 }
 
+void declare_design(CLI::App& design, DesignArguments& a) {
+  design.add_option("MOTOR", a.motor, "motor's name or file")->required();
+  design.add_option("--mode", a.mode, "current, speed or position")->capture_default_str();
+  design.add_option("--settle", a.settle_s, "settling time of the mode's PI loop in s; 1e-3, speed 10e-3");
+  design.add_option("--damping", a.damping, "of the placed poles, above 0 to 1; 0.9");
+  design.add_option(
+      "--current-settle", a.current_settle_s,
+      "speed, position: settling time of the current loop in s; 1e-3, or a tenth of the speed loop's");
+  design.add_option("--method", a.method, "pole-placement, cancellation or symmetrical-optimum")
+      ->capture_default_str();
+  design.add_option("--bandwidth", a.bandwidth_rad_s,
+                    "cancellation, symmetrical-optimum: of the loop, in rad/s");
+  design.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");
+  design.add_option("--voltage", a.voltage_V, "of the bus in V; the sheet's nominal voltage");
+  design.add_option("--torque-limit", a.torque_limit_Nm, "speed, position: in N m; the sheet's stall torque");
+  design.add_option("--load-inertia", a.load_inertia_kg_m2, "on the shaft, beside the rotor's, in kg m2; 0");
+  design.add_option("--delay", a.delay_periods, "periods until a command counts, 0 or 1")
+      ->capture_default_str();
+  design.add_option("--chopping", a.chopping, "soft, hard or complementary")->capture_default_str();
+  design.add_option("--step", a.step, "what is simulated: a step in A, rad/s or deg as the mode asks");
+  design.add_option("--json", a.json, "write everything as numbers; - for standard output");
+  design.add_option("--toml", a.toml, "write the scenario that was simulated, for sixstep run");
+  design.add_option("--header", a.header, "write the gains as constants for firmware, in C++20");
+  design.add_option("--html", a.html, "write the design as a page");
+  design.add_option("--models", a.models, "write the motor's two state spaces, as .json or .mat");
+  design.add_option("--angle", a.angle_deg, "of the rotor for --models, in electrical degrees")
+      ->capture_default_str();
+  design.add_flag("--quick", a.quick, "leave out the tolerances");
+  design.add_flag("--quiet", a.quiet, "no text, only errors and the exit code");
+  design.add_option("--jobs", a.jobs, "runs side by side; without it one per core")
+      ->check(CLI::Range(1, 1024));
+  design.add_option("--data", a.data_dir, "folder that holds motors/");
+}
+
 void declare_export(CLI::App& header, ExportArguments& a) {
   header.add_option("SCENARIO", a.file, "scenario file")->required();
   header.add_option("--out", a.out, "the file to write; without it standard output");
@@ -106,7 +141,7 @@ MotorVerbs declare_motor(CLI::App& motor, MotorArguments& a) {
 }
 
 Exit unknown_command(const std::string& word) {
-  const std::vector<std::string> known = {"run", "export", "help", "motor"};
+  const std::vector<std::string> known = {"run", "design", "export", "help", "motor"};
   const auto near = std::find_if(known.begin(), known.end(), [&](const std::string& command) {
     return io::edit_distance(word, command) <= 2;
   });
@@ -127,6 +162,11 @@ Exit run_program(int count, const char* const* words) {
   RunArguments run_arguments;
   CLI::App& run = *app.add_subcommand("run", "run scenarios and judge them");
   declare_run(run, run_arguments);
+
+  DesignArguments design_arguments;
+  CLI::App& design =
+      *app.add_subcommand("design", "gains from a motor's sheet, simulated and put through tolerances");
+  declare_design(design, design_arguments);
 
   ExportArguments export_arguments;
   CLI::App& exports = *app.add_subcommand("export", "a scenario's drive for use elsewhere");
@@ -150,8 +190,9 @@ Exit run_program(int count, const char* const* words) {
     return app.exit(error) == 0 ? Exit::ok : Exit::bad_input;
   }
   run_arguments.command = retyped(count, words);
-  export_arguments.command = run_arguments.command;
+  export_arguments.command = design_arguments.command = run_arguments.command;
   if (run) return run_command(run_arguments);
+  if (design) return design_command(design_arguments);
   if (exports) return export_header(export_arguments);
   if (help) return help_command(key);
   return motor.run(motor_arguments);

@@ -76,6 +76,11 @@ ZohPlant speed_plant(double torque_max_Nm, double J_kg_m2, double B_Nm_s, double
   return {-base::exp(-x), torque_max_Nm * one_minus_exp(x) / B_Nm_s};
 }
 
+PiGains gains_for_poles(const ZohPlant& plant, double z_re, double z_im) {
+  const double c1 = -2.0 * z_re, c0 = z_re * z_re + z_im * z_im;
+  return {(c1 - plant.a0 + 1.0) / plant.b0, (c0 + plant.a0) / plant.b0};
+}
+
 base::Result<PolePlacement> place_poles(const ZohPlant& plant, double settle_s, double damping,
                                         double period_s) {
   if (Problems found = check(plant, settle_s, damping, period_s); !found.empty()) return found;
@@ -90,8 +95,7 @@ base::Result<PolePlacement> place_poles(const ZohPlant& plant, double settle_s, 
   p.z_im = radius * turn.sin;
   // (z - z1)(z - z2) = z^2 + c1 z + c0 against z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0).
   const double c1 = -2.0 * p.z_re, c0 = p.z_re * p.z_re + p.z_im * p.z_im;
-  p.gains.d1 = (c1 - plant.a0 + 1.0) / plant.b0;
-  p.gains.d0 = (c0 + plant.a0) / plant.b0;
+  p.gains = gains_for_poles(plant, p.z_re, p.z_im);
   p.steps = derivation(p, c1, c0);
   return p;
 }

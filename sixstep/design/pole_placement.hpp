@@ -45,6 +45,10 @@ ZohPlant current_plant(double R_ohm, double L_H, double period_s);
 /// Speed loop plant T_max/(J s + B): fraction of T_max in, rad/s out. B = 0 is the integrator T_max T/J.
 ZohPlant speed_plant(double torque_max_Nm, double J_kg_m2, double B_Nm_s, double period_s);
 
+/// The gains that give the closed loop the pair z_re +- j z_im: z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) =
+/// z^2 - 2 z_re z + z_re^2 + z_im^2.
+PiGains gains_for_poles(const ZohPlant& plant, double z_re, double z_im);
+
 /// Matches z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) with the pole pair. Problems: settle_s, damping or
 /// period_s out of range (damping above 1 has two real poles and is allowed up to 1 only: the thesis's rule
 /// places a pair).

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/design_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+
+#include "batch/for_each.hpp"
+#include "faces/cli/terminal.hpp"
+#include "io/atomic_file.hpp"
+#include "io/config_header.hpp"
+#include "io/design_json.hpp"
+#include "io/design_text.hpp"
+#include "io/key_advice.hpp"
+#include "io/model_export.hpp"
+#include "io/report/design_page.hpp"
+#include "io/scenario_file.hpp"
+#include "io/scenario_text.hpp"
+#include "sixstep/study/choices.hpp"
+#include "sixstep/study/design_study.hpp"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+using design::GainMethod;
+
+constexpr base::Choice<GainMethod> method_choices[] = {
+    {"pole-placement", GainMethod::pole_placement, "a pair of poles from settling time and damping"},
+    {"cancellation", GainMethod::cancellation, "the PI's zero on the plant's pole, bandwidth free"},
+    {"symmetrical-optimum", GainMethod::symmetrical_optimum,
+     "speed: the most phase for the lag of the current loop"},
+};
+
+template <class Choices, class Enum>
+void choose(const char* option, const std::string& word, const Choices& choices, Enum& into,
+            base::Problems& found) {
+  std::vector<std::string> known;
+  for (const auto& choice : choices) {
+    if (choice.word == word) {
+      into = choice.value;
+      return;
+    }
+    known.emplace_back(choice.word);
+  }
+  const std::string near = io::nearest(word, known);
+  found.push_back(
+      {option, word, fmt::format("must be one of {}", fmt::join(known, ", ")),
+       near.empty() ? fmt::format("take {}", known.front()) : fmt::format("did you mean {}?", near)});
+}
+
+design::DesignWish wish_of(const DesignArguments& a, base::Problems& found) {
+  design::DesignWish w;
+  // Only what a design is for: off and duty need none.
+  constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[2], study::mode_choices[3],
+                                                            study::mode_choices[4]};
+  choose("--mode", a.mode, modes, w.mode, found);
+  choose("--method", a.method, method_choices, w.method, found);
+  choose("--chopping", a.chopping, study::chopping_choices, w.chopping, found);
+  w.settle_s = a.settle_s;
+  w.current_settle_s = a.current_settle_s;
+  w.damping = a.damping.value_or(w.damping);
+  w.bandwidth_rad_s = a.bandwidth_rad_s;
+  w.period_s = a.period_s.value_or(w.period_s);
+  w.voltage_V = a.voltage_V;
+  w.torque_limit_Nm = a.torque_limit_Nm;
+  w.load_inertia_kg_m2 = a.load_inertia_kg_m2.value_or(0.0);
+  w.delay_periods = a.delay_periods;
+  return w;
+}
+
+/// The files that were asked for, open before anything runs.
+struct Outputs {
+  std::optional<io::AtomicFile> json, toml, header, models, html;
+
+  base::Problems open(const DesignArguments& a) {
+    base::Problems found;
+    const std::string kind = fs::path(a.models).extension().string();
+    if (!a.models.empty() && kind != ".json" && kind != ".mat")
+      return {{"--models", a.models, "must end in .json or .mat", "name the file so"}};
+    const auto one = [&](std::optional<io::AtomicFile>& into, const std::string& path) {
+      if (path.empty() || path == "-") return;
+      base::Result<io::AtomicFile> file = io::AtomicFile::create(path);
+      if (file)
+        into.emplace(std::move(*file));
+      else
+        found.insert(found.end(), file.problems().begin(), file.problems().end());
+    };
+    one(json, a.json);
+    one(toml, a.toml);
+    one(header, a.header);
+    one(models, a.models);
+    one(html, a.html);
+    return found;
+  }
+};
+
+base::Problems put(std::optional<io::AtomicFile>& file, const std::string& text) {
+  if (!file) return {};
+  file->write(text);
+  return file->commit();
+}
+
+/// A motor by path as the scenario's folder sees it.
+std::string motor_beside(const std::string& motor, const std::string& toml) {
+  std::error_code error;
+  if (toml.empty() || !fs::is_regular_file(motor, error)) return motor;
+  const fs::path folder = fs::absolute(toml, error).parent_path();
+  const fs::path relative = fs::relative(motor, folder, error);
+  return relative.empty() ? motor : relative.generic_string();
+}
+
+base::Problems write(const study::DesignStudy& s, const DesignArguments& a, Outputs& out) {
+  base::Problems found = put(out.json, io::design_json(s));
+  const auto add = [&](const base::Problems& more) { found.insert(found.end(), more.begin(), more.end()); };
+  study::Scenario scenario = s.scenario;
+  scenario.motor = motor_beside(a.motor, a.toml);
+  std::vector<std::string> comments{"Made by: " + a.command};
+  for (const std::string& line : io::design_lines(s)) comments.push_back(line);
+  const std::string text = io::scenario_text(scenario, comments);
+  add(put(out.toml, text));
+  if (out.html)
+    add(put(out.html, io::report::render_design({.study = s,
+                                                 .verdict = io::design_verdict(s),
+                                                 .scenario = text,
+                                                 .command = a.command,
+                                                 .version = SIXSTEP_VERSION})));
+  if (out.models) {
+    const io::ModelPoint point{s.design.motor, a.angle_deg};
+    const base::Result<std::string> bytes =
+        fs::path(a.models).extension() == ".mat" ? io::models_mat(point) : io::models_json(point);
+    add(bytes ? put(out.models, *bytes) : bytes.problems());
+  }
+  if (out.header) {
+    const base::Result<std::string> header = io::config_header({.scenario = s.scenario,
+                                                                .arithmetic = {},
+                                                                .range = {},
+                                                                .name_space = "designed",
+                                                                .single_header = false,
+                                                                .command = a.command});
+    add(header ? put(out.header, *header) : header.problems());
+  }
+  return found;
+}
+
+/// The runs of the tolerances side by side, with a count for who watches.
+study::ForEach side_by_side(const DesignArguments& a) {
+  const bool progress = !a.quiet && ::isatty(STDERR_FILENO) != 0;
+  return [jobs = a.jobs, progress](std::size_t count, const std::function<void(std::size_t)>& work) {
+    std::atomic<std::size_t> done{0};
+    batch::for_each(count, jobs, [&](std::size_t n) {
+      work(n);
+      if (progress) print(fmt::format("\r{} of {} motors", ++done, count), stderr);
+    });
+    if (progress) print("\r\x1b[K", stderr);
+  };
+}
+
+Exit refused(const base::Problems& problems) {
+  complain(problems);
+  return Exit::bad_input;
+}
+
+}  // namespace
+
+Exit design_command(const DesignArguments& a) {
+  base::Problems found;
+  const design::DesignWish wish = wish_of(a, found);
+  const base::Result<design::Sheet> sheet = io::read_sheet(a.motor, a.data_dir);
+  if (!sheet) found.insert(found.end(), sheet.problems().begin(), sheet.problems().end());
+  Outputs outputs;
+  if (found.empty()) found = outputs.open(a);
+  if (!found.empty()) return refused(found);
+  catch_interrupts();
+  const base::Result<study::DesignStudy> s = study::study_design(
+      {.subject = {a.motor, *sheet, a.step},
+       .wish = wish,
+       .tolerances = a.quick ? std::vector<study::Tolerance>() : study::sheet_tolerances(wish.mode),
+       .for_each = side_by_side(a),
+       .keep_going = [] { return !interrupted(); }});
+  if (interrupted()) return Exit::interrupted;
+  if (!s) return refused(s.problems());
+  if (const base::Problems unwritten = write(*s, a, outputs); !unwritten.empty()) return refused(unwritten);
+  if (a.json == "-") print(io::design_json(*s));
+  std::FILE* to = a.json == "-" ? stderr : stdout;  // standard output is the JSON's alone
+  if (!a.quiet) print(io::design_text(*s, may_colour(to)), to);
+  return s->usable() ? Exit::ok : Exit::failed;
+}
+
+}  // namespace cli

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/scenario_text.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/scenario_description.hpp"
+
+namespace io {
+namespace {
+
+std::string toml(double x) { return sixstep::base::written(x); }
+std::string toml(bool x) { return x ? "true" : "false"; }
+std::string toml(int x) { return std::to_string(x); }
+std::string toml(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      out += c;
+  }
+  return out + "\"";
+}
+template <class T>
+std::string toml(const std::vector<T>& list) {
+  std::string out = "[";
+  for (std::size_t n = 0; n < list.size(); ++n) out += (n ? ", " : "") + toml(list[n]);
+  return out + "]";
+}
+
+/// One table's keys as they would be written, tables within it and lists behind them.
+class TableText {
+ public:
+  template <class T>
+  void value(std::string_view key, const T& member, const sixstep::base::About& about) {
+    rows_.push_back({std::string(key), toml(member), about.required});
+  }
+  template <class T>
+  void value(std::string_view key, const std::optional<T>& member, const sixstep::base::About& about) {
+    if (member) value(key, *member, about);
+  }
+  template <class Enum, class Choices>
+  void choice(std::string_view key, const Enum& member, const Choices& choices,
+              const sixstep::base::About& about) {
+    value(key, std::string(sixstep::base::word(choices, member)), about);
+  }
+  template <class Quantity>
+  void quantity(std::string_view, const Quantity&, const sixstep::base::About&) {}
+  template <class Struct>
+  void table(std::string_view key, Struct& member, const sixstep::base::About& about) {
+    if (about.partial) return;  // the motor's sheet
+    TableText inner;
+    describe(inner, member);
+    tables_.emplace_back(key, std::move(inner));
+  }
+  template <class Item>
+  void list(std::string_view key, std::vector<Item>& items, const sixstep::base::About&) {
+    Item usual;
+    TableText plain;
+    describe(plain, usual);
+    for (Item& item : items) {
+      TableText inner;
+      describe(inner, item);
+      lists_.emplace_back(key, inner.text(plain, "", true));
+    }
+  }
+
+  /// The rows that differ from `usual`; a table under its path where it has any.
+  std::string text(const TableText& usual, const std::string& path, bool no_header = false) const {
+    std::map<std::string, std::string> other;
+    for (const Row& row : usual.rows_) other.emplace(row.key, row.value);
+    std::string out;
+    for (const Row& row : rows_) {
+      const auto same = other.find(row.key);
+      if (row.required || same == other.end() || same->second != row.value)
+        out += fmt::format("{} = {}\n", row.key, row.value);
+    }
+    if (!out.empty() && !path.empty() && !no_header) out = fmt::format("\n[{}]\n", path) + out;
+    for (std::size_t n = 0; n < tables_.size(); ++n)
+      out += tables_[n].second.text(usual.tables_[n].second,
+                                    path.empty() ? tables_[n].first : path + "." + tables_[n].first);
+    for (const auto& [key, rows] : lists_) out += fmt::format("\n[[{}]]\n{}", key, rows);
+    return out;
+  }
+
+ private:
+  struct Row {
+    std::string key, value;
+    bool required;
+  };
+  std::vector<Row> rows_;
+  std::vector<std::pair<std::string, std::string>> lists_;
+  std::vector<std::pair<std::string, TableText>> tables_;
+};
+
+/// What ends a line would end the comment.
+std::string comment(const std::string& text) {
+  std::string out = "# ";
+  for (const char c : text) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+  return out + "\n";
+}
+
+}  // namespace
+
+std::string scenario_text(const study::Scenario& scenario, const std::vector<std::string>& comments) {
+  study::Scenario copy = scenario, usual;
+  TableText text, defaults;
+  describe(text, copy);
+  describe(defaults, usual);
+  std::string out;
+  for (const std::string& line : comments) out += comment(line);
+  return out + text.text(defaults, "");
+}
+
+}  // namespace io

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Linear sampled systems as ratios of polynomials: built from a state space with zero-order hold, put in
+// series, closed, judged for stability, evaluated on the unit circle. What PWM and ADC see of the drive while
+// no limit acts. The variable is delta = z - 1, not z: a loop that settles in a second has its poles 1e-4
+// from z = 1, and a polynomial in z keeps nothing of them where several are there (Middleton, Goodwin).
+#pragma once
+#include <array>
+#include <vector>
+
+namespace sixstep::design {
+
+/// A point of the complex plane. (std::complex asks the C library for magnitude and angle.)
+struct Complex {
+  double re = 0.0, im = 0.0;
+
+  friend Complex operator+(Complex a, Complex b) { return {a.re + b.re, a.im + b.im}; }
+  friend Complex operator*(Complex a, Complex b) {
+    return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+  }
+  friend Complex operator/(Complex a, Complex b) {
+    const double n = b.square();
+    return {(a.re * b.re + a.im * b.im) / n, (a.im * b.re - a.re * b.im) / n};
+  }
+  double square() const { return re * re + im * im; }
+  double size() const;
+  double angle_rad() const;  ///< in [-pi, pi]
+};
+
+/// Coefficients of a polynomial in delta = z - 1, the constant first.
+using Polynomial = std::vector<double>;
+
+Polynomial product(const Polynomial& a, const Polynomial& b);
+Polynomial sum(const Polynomial& a, const Polynomial& b);
+
+/// num(z - 1)/den(z - 1); den has a leading coefficient that is not 0, num no higher degree.
+struct Transfer {
+  Polynomial num{1.0}, den{1.0};
+
+  /// At z = exp(j turn), turn = w T_s.
+  Complex at(double turn) const;
+};
+
+/// One after the other.
+Transfer series(const Transfer& a, const Transfer& b);
+/// Periods of pure delay: z^-periods.
+Transfer delay(int periods);
+/// L/(1 + L)
+Transfer closed(const Transfer& loop);
+
+/// Whether all roots have |z| < 1: z = (1 + w)/(1 - w) and Routh's scheme; no root is searched. For
+/// the degrees of a drive: beyond some twenty the scheme is rounding alone.
+bool is_stable(const Polynomial& denominator);
+/// 1 - |z| of the largest root, by halving with is_stable: the part of a disturbance that each period takes
+/// away. Negative for an unstable system.
+double slowest_decay(const Polynomial& denominator);
+
+/// x' = A x + B u with at most four states, sampled with zero-order hold: transfer from u to state `output`.
+struct Linear {
+  int states = 0;
+  std::array<std::array<double, 4>, 4> A{};
+  std::array<double, 4> B{};
+};
+Transfer sampled(const Linear& system, int output, double period_s);
+
+}  // namespace sixstep::design

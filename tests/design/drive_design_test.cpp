@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole drives: the loops with what lies within against a simulation written out, the poles that were placed,
+// the warnings that must and must not come.
+#include "sixstep/design/drive_design.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+#include "sixstep/design/drive_loops.hpp"
+#include "sixstep/design/margins.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::design;
+using control::Mode;
+
+MotorModel thesis_motor() {
+  MotorModel m;
+  m.machine = {.R_ohm = 0.515, .L_H = 0.286e-3, .K_e_V_s = 0.01675, .pole_pairs = 8};
+  m.shaft = {.J_kg_m2 = 1.35e-5, .B_Nm_s = 7.3e-6};
+  m.K_t_Nm_A = 0.0335;
+  m.nominal_voltage_V = 24.0;
+  m.no_load_speed_rad_s = 702.67;
+  m.stall_torque_Nm = 0.78;
+  return m;
+}
+
+DriveDesign designed(const DesignWish& wish) {
+  const auto d = design_drive(thesis_motor(), 2.33, wish);
+  EXPECT_TRUE(d);
+  return *d;
+}
+
+TEST(DriveDesign, PlacesTheThesissPoles) {
+  const DriveDesign d = designed({.mode = Mode::speed});
+  ASSERT_EQ(d.loops.size(), 2u);
+  EXPECT_NEAR(d.loop("current").gains.d1, 4.0956, 0.5e-4);
+  EXPECT_NEAR(d.loop("speed").gains.d1, 0.0158299, 0.5e-7);
+  for (const LoopDesign& loop : d.loops) {
+    ASSERT_TRUE(loop.placed);
+    // (z - 1)(z + a0) + b0 (d1 z + d0) at the placed pole
+    using C = std::complex<double>;
+    const C z{loop.placed->z_re, loop.placed->z_im};
+    const C value =
+        (z - 1.0) * (z + loop.placed->plant.a0) + loop.placed->plant.b0 * (loop.gains.d1 * z + loop.gains.d0);
+    EXPECT_LE(std::abs(value), 1e-12);
+  }
+  // The current loop is what was placed, so its closed denominator is the wanted polynomial.
+  const Polynomial den = closed(d.loop("current").loop).den;
+  const PolePlacement& p = *d.loop("current").placed;
+  EXPECT_NEAR(den[1], 2 - 2 * p.z_re, 1e-12);  // (z - z1)(z - z2) in powers of z - 1
+  EXPECT_NEAR(den[0], (1 - p.z_re) * (1 - p.z_re) + p.z_im * p.z_im, 1e-12);
+}
+
+/// The cascade as a program: current and speed of the motor in small steps of the exact solution would need
+/// an exponential; here Runge and Kutta with 50 steps a period, whose error is far below what is asked.
+std::vector<double> simulated(const DriveDesign& d, double position_gain, std::size_t count) {
+  const double R = 1.03, L = 0.572e-3, K = 0.0335, J = 1.35e-5, B = 7.3e-6, T = d.wish.period_s;
+  double i = 0, w = 0, theta = 0, u = 0, e1 = 0, y = 0, e2 = 0, next_u = 0;
+  std::vector<double> out;
+  for (std::size_t k = 0; k < count; ++k) {
+    out.push_back(position_gain > 0 ? theta * 180 / 3.14159265358979324 : w);
+    const double w_ref = position_gain > 0 ? position_gain * (1 - theta * 180 / 3.14159265358979324) : 1.0;
+    const double speed_error = w_ref - w;
+    y += d.loop("speed").gains.d1 * speed_error + d.loop("speed").gains.d0 * e1;
+    e1 = speed_error;
+    const double current_error = y * d.current_at_full_torque_A - i;
+    const double fresh = (d.wish.delay_periods == 1 ? next_u : u) +
+                         d.loop("current").gains.d1 * current_error + d.loop("current").gains.d0 * e2;
+    e2 = current_error;
+    u = d.wish.delay_periods == 1 ? next_u : fresh;
+    next_u = fresh;
+    constexpr int steps = 50;
+    for (int n = 0; n < steps; ++n) {
+      const double h = T / steps;
+      const auto di = [&](double ii, double ww) { return (u - R * ii - K * ww) / L; };
+      const auto dw = [&](double ii, double ww) { return (K * ii - B * ww) / J; };
+      const double i1 = di(i, w), w1 = dw(i, w), i2 = di(i + h / 2 * i1, w + h / 2 * w1),
+                   w2 = dw(i + h / 2 * i1, w + h / 2 * w1), i3 = di(i + h / 2 * i2, w + h / 2 * w2),
+                   w3 = dw(i + h / 2 * i2, w + h / 2 * w2), i4 = di(i + h * i3, w + h * w3),
+                   w4 = dw(i + h * i3, w + h * w3);
+      theta += h * (w + h / 6 * (w1 + w2 + w3));
+      i += h / 6 * (i1 + 2 * i2 + 2 * i3 + i4);
+      w += h / 6 * (w1 + 2 * w2 + 2 * w3 + w4);
+    }
+  }
+  return out;
+}
+
+TEST(DriveDesign, TheClosedLoopsAreTheCascadeWrittenOut) {
+  for (const int late : {0, 1}) {
+    const DriveDesign d = designed({.mode = Mode::position, .delay_periods = late});
+    const double gain = d.loop("position").gains.d1;
+    const std::vector<double> speed = simulated(d, 0.0, 300), position = simulated(d, gain, 300);
+    const StepResponse w = step_response(closed(d.loop("speed").loop), d.wish.period_s,
+                                         300 * d.wish.period_s),
+                       theta = step_response(closed(d.loop("position").loop), d.wish.period_s,
+                                             300 * d.wish.period_s);
+    // The K of Runge's and Kutta's error is (h R/L)^4, 1e-12 a period; 300 periods and a sum of angles.
+    for (std::size_t k = 0; k < 300; ++k) {
+      ASSERT_NEAR(w.samples[k], speed[k], 1e-9) << k;
+      ASSERT_NEAR(theta.samples[k], position[k], 1e-9) << k;
+    }
+  }
+}
+
+TEST(DriveDesign, TheInnerLoopCostsPhase) {
+  const DriveDesign d = designed({.mode = Mode::speed});
+  const PolePlacement& p = *d.loop("speed").placed;
+  const auto alone = margins(p.plant, p.gains, p.period_s, false);
+  ASSERT_TRUE(alone && d.loop("speed").figures.phase_rad);
+  EXPECT_LT(*d.loop("speed").figures.phase_rad, alone->phase_rad);
+  EXPECT_GT(*d.loop("speed").figures.phase_rad, alone->phase_rad - 0.3);
+}
+
+TEST(DriveDesign, TheLinearPositionGainIsTheLargestWithoutOvershoot) {
+  const DriveDesign d = designed({.mode = Mode::position});
+  EXPECT_LE(d.loop("position").step.overshoot, 1e-9);
+  EXPECT_GT(with_position_gain(d, 1.02 * d.loop("position").gains.d1).loop("position").step.overshoot, 1e-9);
+}
+
+TEST(DriveDesign, TheLongestPeriodKeepsFortyFiveDegrees) {
+  const DriveDesign d = designed({.mode = Mode::current});
+  const DriveDesign at =
+      designed({.mode = Mode::current, .period_s = d.longest_period_s, .delay_periods = 1});
+  EXPECT_NEAR(*at.loop("current").figures.phase_rad * 180 / 3.14159265358979, 45.0, 1e-6);
+}
+
+TEST(DriveDesign, EachMethodGivesAStableDrive) {
+  for (const GainMethod method :
+       {GainMethod::pole_placement, GainMethod::cancellation, GainMethod::symmetrical_optimum}) {
+    const DriveDesign d = designed({.mode = Mode::speed, .method = method});
+    for (const LoopDesign& loop : d.loops) {
+      EXPECT_TRUE(loop.figures.stable) << loop.method;
+      EXPECT_TRUE(std::isfinite(loop.step.settling_s)) << loop.method;
+    }
+  }
+  const DriveDesign d = designed({.mode = Mode::current, .method = GainMethod::cancellation});
+  EXPECT_LE(d.loop("current").step.overshoot, 1e-12);  // one pole
+}
+
+bool warns(const DriveDesign& d, const std::string& of) {
+  for (const Warning& w : d.warnings)
+    if (w.what.find(of) != std::string::npos) return true;
+  return false;
+}
+
+TEST(DriveDesign, WarnsOfWhatIsOffAndOfNothingElse) {
+  const DriveDesign good = designed({.mode = Mode::current, .chopping = control::Chopping::complementary});
+  for (const Warning& w : good.warnings) EXPECT_EQ(w.what, "");
+  EXPECT_TRUE(warns(designed({.mode = Mode::current}), "soft chopping cannot hold a braking current"));
+  EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.3e-3}), "degrees of phase"));
+  EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.1e-3}), "unstable where"));
+  EXPECT_TRUE(warns(designed({.mode = Mode::speed, .settle_s = 10e-3, .current_settle_s = 8e-3}),
+                    "times the frequency"));
+  EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.25e-3}), "asks for"));
+  EXPECT_TRUE(warns(designed({.mode = Mode::current, .period_s = 60e-6}), "ripple"));
+  EXPECT_TRUE(warns(designed({.mode = Mode::speed}), "times the nominal current"));
+}
+
+TEST(DriveDesign, NamesOptionsThatContradict) {
+  const auto refused = [](const DesignWish& wish) {
+    const auto d = design_drive(thesis_motor(), 2.33, wish);
+    return d ? std::string() : to_string(d.problems()[0]);
+  };
+  EXPECT_EQ(
+      refused({.method = GainMethod::symmetrical_optimum}),
+      "--method = symmetrical-optimum is a rule for speed loops; add --mode speed, or take pole-placement "
+      "or cancellation");
+  EXPECT_EQ(refused({.settle_s = -1.0}), "--settle = -1 must be above 0; give the settling time in seconds");
+  EXPECT_NE(refused({.bandwidth_rad_s = 100.0}), "");
+  EXPECT_NE(refused({.damping = 1.5}), "");
+}
+
+}  // namespace

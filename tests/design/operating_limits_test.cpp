@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// (The ripple beside the exact simulation: tests/study/design_study_test.cpp.)
+#include "sixstep/design/operating_limits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::design;
+
+constexpr double eps = 0x1p-52;
+
+MotorModel thesis_motor() {
+  MotorModel m;
+  m.machine = {.R_ohm = 0.515, .L_H = 0.286e-3, .K_e_V_s = 0.01675, .pole_pairs = 8};
+  m.K_t_Nm_A = 0.0335;
+  return m;
+}
+
+TEST(Ripple, IsTheSteadyStateOfTwoExponentials) {
+  const MotorModel m = thesis_motor();
+  const double R = 1.03, L = 0.572e-3, T = 30e-6;
+  for (const double d : {0.01, 0.215, 0.5, 0.9}) {
+    for (const double e : {0.0, 3.0}) {  // the EMF cancels
+      const double on = std::exp(-R * d * T / L), off = std::exp(-R * (1 - d) * T / L);
+      // i goes to (U - e)/R while on and to -e/R while off: lowest = off highest - (1 - off) e/R
+      const double highest = ((1 - on) * (24 - e) / R - on * (1 - off) * e / R) / (1 - on * off);
+      const double lowest = off * highest - (1 - off) * e / R;
+      EXPECT_NEAR(current_ripple_A(m, 24.0, T, control::Chopping::soft, d), highest - lowest, 1e-12);
+    }
+  }
+  // THESIS: 0.21 A at 5 A, which needs d = 5 R/24 with the rotor held.
+  EXPECT_NEAR(current_ripple_A(m, 24.0, T, control::Chopping::soft, 5 * R / 24), 0.21, 0.005);
+}
+
+TEST(Ripple, IsWorstAtHalfDutyAndTwiceAsLargeInHardChopping) {
+  const MotorModel m = thesis_motor();
+  const Ripple worst = worst_ripple(m, 24.0, 30e-6, control::Chopping::soft);
+  for (double d = 0.0; d <= 1.0; d += 1.0 / 64)
+    EXPECT_LE(current_ripple_A(m, 24.0, 30e-6, control::Chopping::soft, d), worst.worst_A * (1 + 8 * eps));
+  EXPECT_NEAR(worst_ripple(m, 24.0, 30e-6, control::Chopping::hard).worst_A, 2 * worst.worst_A, 4 * eps);
+  EXPECT_NEAR(worst.worst_A, 24 / 1.03 * std::tanh(30e-6 * 1.03 / 0.572e-3 / 4), 1e-14);
+  EXPECT_NEAR(period_for_ripple_s(m, 24.0, control::Chopping::soft, worst.worst_A), 30e-6, 1e-18);
+  EXPECT_TRUE(std::isinf(period_for_ripple_s(m, 24.0, control::Chopping::soft, 24.0)));
+}
+
+TEST(Headroom, EndsWhereTheBusIsUsedUp) {
+  const MotorModel m = thesis_motor();
+  const double end = speed_for_current_rad_s(m, 24.0, 2.33);
+  EXPECT_NEAR(headroom_V(m, 24.0, 2.33, end), 0.0, 24 * 4 * eps);
+  EXPECT_NEAR(end, (24 - 1.03 * 2.33) / 0.0335, 1e-9);
+  EXPECT_NEAR(soft_braking_limit_rad_s(m, 2.33), 2.33 / 0.0335 * 1.03, 1e-12);
+}
+
+}  // namespace

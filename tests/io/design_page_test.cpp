@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page of a design: whole, harmless, the same bytes for the same input, with every part of the design.
+#include "io/report/design_page.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "io/report/svg_chart.hpp"
+#include "io/scenario_file.hpp"
+
+namespace io::report {
+namespace {
+
+namespace study = sixstep::study;
+using sixstep::control::Mode;
+using testing::HasSubstr;
+using testing::Not;
+
+study::DesignStudy studied(Mode mode, const std::string& name = "") {
+  const auto file = std::filesystem::path(SIXSTEP_SOURCE_DIR) / "data/motors/maxon-251601.toml";
+  auto sheet = io::read_sheet(file.string());
+  if (!name.empty()) sheet->name = name;
+  const auto s = study::study_design({.subject = {"maxon-251601", *sheet, {}},
+                                      .wish = {.mode = mode},
+                                      .tolerances = study::sheet_tolerances(mode)});
+  EXPECT_TRUE(s);
+  return *s;
+}
+
+std::string page_of(const study::DesignStudy& s) {
+  return render_design({s, "usable, 1 warning: a line", "motor = \"<x>\"", "sixstep design", "0"});
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+TEST(DesignPage, HasEveryPartOfTheDesign) {
+  const study::DesignStudy s = studied(Mode::speed);
+  const std::string page = page_of(s);
+  EXPECT_EQ(page, page_of(s));
+  EXPECT_THAT(page, Not(HasSubstr("{{")));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("nan")));
+  EXPECT_THAT(page, Not(HasSubstr(">inf")));
+  EXPECT_EQ(count(page, "<svg"), 6u);  // step, current, gain, phase, headroom, ripple
+  EXPECT_EQ(count(page, "</svg>"), 6u);
+  EXPECT_EQ(count(page, "<table"), count(page, "</table>"));
+  for (const char* part : {"0.0158299", "0.017225", "4.09559", "Speed cascade as designed", "J doubled",
+                           "Tolerances", "motor = &quot;&lt;x&gt;&quot;", ">usable, 1 warning<", "slew.hpp"})
+    EXPECT_THAT(page, HasSubstr(part));
+}
+
+TEST(DesignPage, ShowsAMoveAndAHeldRotor) {
+  EXPECT_EQ(count(page_of(studied(Mode::position)), "<svg"), 6u);
+  const std::string held = page_of(studied(Mode::current, "<b>evil</b>"));
+  EXPECT_EQ(count(held, "<svg"), 5u);
+  EXPECT_THAT(held, Not(HasSubstr("<b>evil")));
+}
+
+TEST(SvgCharts, DrawWhatIsFiniteAndBreakWhereItIsNot) {
+  SvgChart chart{.title = "t", .x_label = "x"};
+  EXPECT_EQ(svg_chart(chart), "");
+  chart.curves = {{"c", "a", {0, 1, 2, 3}, {0, NAN, 2, 3}}};
+  const std::string drawn = svg_chart(chart);
+  EXPECT_EQ(count(drawn, "<path"), 1u);
+  const std::string path = drawn.substr(drawn.find(" d=\"") + 4);
+  EXPECT_EQ(count(path.substr(0, path.find('"')), "M"), 2u);
+  EXPECT_EQ(count(path.substr(0, path.find('"')), "L"), 1u);
+  chart.log_x = true;  // 0 is on no logarithmic axis
+  chart.curves[0].y = {1, 2, 3, 4};
+  EXPECT_THAT(svg_chart(chart), Not(HasSubstr("inf")));
+}
+
+}  // namespace
+}  // namespace io::report
