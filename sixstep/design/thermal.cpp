@@ -71,7 +71,7 @@ base::Result<ThermalModel> thermal_model(const Sheet& s) {
   take(s.thermal_time_constant_motor_s, "thermal_time_constant_motor_s", m.motor_s);
   take(s.max_winding_temperature_degC, "max_winding_temperature_degC", m.max_winding_degC);
   if (!missing.empty())
-    return base::Problem{missing, "", "is not on the sheet: no continuous and short-time region",
+    return base::Problem{missing, "", "must be known for a continuous and short-time region",
                          "add the sheet's thermal lines to the motor file"};
   for (const double* value : {&m.winding_housing_K_W, &m.housing_ambient_K_W, &m.winding_s, &m.motor_s})
     if (!base::above(0).holds(*value))

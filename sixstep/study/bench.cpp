@@ -11,7 +11,7 @@ base::Problems check(const Bench& b) {
   const auto expect = [&](bool holds, const char* where, double value, const char* limit, const char* cure) {
     if (!holds) problems.push_back({where, base::written(value), limit, cure});
   };
-  expect(base::above(0).holds(b.voltage_V), "voltage", b.voltage_V, "must be above 0",
+  expect(base::above(0).holds(b.voltage_V), "voltage_V", b.voltage_V, "must be above 0",
          "give the bus voltage in volts");
   expect(base::between(-1, 1).holds(b.duty) && b.duty != 0, "duty", b.duty, "must be in (0, 1]",
          "1 is the full voltage; without any the motor only brakes");

@@ -34,14 +34,20 @@ inline double mean_voltage_V(const Bench& b) {
   return b.duty > 0 ? (2 * b.duty - 1) * b.voltage_V : (2 * b.duty + 1) * b.voltage_V;
 }
 
-/// The straight line of an ideal six-step motor, T = K_t (u - K_t w)/R_tt with that voltage, N m: no
-/// inductance, no friction, ideal devices.
+/// The straight line of an ideal six-step motor, T = K_t (u - K_t w)/R_tt with that voltage, N m: smooth
+/// current, no commutation time, no friction, ideal devices. Soft and hard chopping cannot drive the current
+/// backwards: there the line ends at zero.
 inline double ideal_torque_Nm(const Bench& b, double speed_rad_s) {
-  const double K_t = b.motor.K_t_Nm_A;
-  return K_t * (mean_voltage_V(b) - K_t * speed_rad_s) / (2 * b.motor.machine.R_ohm);
+  const double K_t = b.motor.K_t_Nm_A, R_tt = 2 * b.motor.machine.R_ohm;
+  const double line = K_t * (mean_voltage_V(b) - K_t * speed_rad_s) / R_tt;
+  const bool one_way = b.duty > -1 && b.duty < 1 && b.chopping != control::Chopping::complementary;
+  return one_way && line * b.duty < 0 ? 0.0 : line;
 }
 
-/// Where that line meets the axis, rad/s.
-inline double ideal_no_load_rad_s(const Bench& b) { return mean_voltage_V(b) / b.motor.K_t_Nm_A; }
+/// Where that line meets the axis, rad/s; 0 where it never leaves it.
+inline double ideal_no_load_rad_s(const Bench& b) {
+  const double reached = mean_voltage_V(b) / b.motor.K_t_Nm_A;
+  return reached * b.duty > 0 ? reached : 0.0;
+}
 
 }  // namespace sixstep::study

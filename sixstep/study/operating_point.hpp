@@ -55,7 +55,7 @@ struct OperatingPoint {
 /// `doublings` times.
 inline constexpr double confidence_level = 0.99;
 inline constexpr int batches = 20, doublings = 8;
-inline constexpr double half_width_goal = 1e-4;
+inline constexpr double half_width_goal = 2e-5;
 
 /// Problems: those of check(bench), a speed that is not finite, or a run that could not go on (a defect).
 base::Result<OperatingPoint> operating_point(const Bench& bench, double speed_rad_s);

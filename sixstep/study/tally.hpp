@@ -24,9 +24,9 @@ struct Sums {
   double motor_low = torque_low, motor_high = -torque_low;
 
   void add(const Sums& more) {
-    for (double Sums::*sum :
-         {&Sums::seconds, &Sums::supplied, &Sums::copper, &Sums::devices, &Sums::air_gap, &Sums::magnetic,
-          &Sums::torque, &Sums::torque_square, &Sums::motor, &Sums::motor_size, &Sums::motor_square})
+    for (double Sums::*sum : {&Sums::seconds, &Sums::supplied, &Sums::copper, &Sums::devices, &Sums::air_gap,
+                              &Sums::magnetic, &Sums::torque, &Sums::torque_square, &Sums::motor,
+                              &Sums::motor_size, &Sums::motor_square, &Sums::winding})
       this->*sum += more.*sum;
     current_peak = std::max(current_peak, more.current_peak);
     torque_low = std::min(torque_low, more.torque_low);

@@ -239,6 +239,7 @@ TEST(OperatingPoint, ChoppedIntervalCoversARunTenTimesAsLong) {
     EXPECT_EQ(p.orbit, Orbit::quasi_periodic);
     EXPECT_TRUE(p.precise);
     EXPECT_LE(std::fabs(p.energy_residual), 1e-11);
+    EXPECT_GE(p.winding_current_A, p.motor_current_A);
     study::OpenLoop run(b, study::plant_of(b, study::imposed_speed(), speed));
     study::Tally tally;
     ASSERT_EQ(run.run_for(0.02), sim::Stop::end);
@@ -284,7 +285,7 @@ TEST(OperatingPoint, RefusesWhatIsNoOperatingPoint) {
   };
   refused([](Bench& b) { b.duty = 0; }, "duty = 0 must be in (0, 1]");
   refused([](Bench& b) { b.duty = 1.2; }, "duty = 1.2");
-  refused([](Bench& b) { b.voltage_V = -24; }, "voltage = -24 must be above 0");
+  refused([](Bench& b) { b.voltage_V = -24; }, "voltage_V = -24 must be above 0");
   refused([](Bench& b) { b.pwm_period_s = 0; }, "pwm_period_s = 0");
   refused([](Bench& b) { b.devices.V_f_V = -0.7; }, "diode_drop_V = -0.7");
   refused([](Bench&) {}, "must be a finite number", std::nan(""));

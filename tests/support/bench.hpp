@@ -24,6 +24,21 @@ inline study::Bench shaped(design::BackEmfShape shape, double flat_deg) {
   return b;
 }
 
+/// With nominal point and the thermal lines of the sister winding 339286.
+inline design::Sheet curve_sheet() {
+  design::Sheet s = maxon_sheet();
+  const auto given = [](double value) { return base::Quantity{value, "", ""}; };
+  s.nominal_speed_rpm = given(5240);
+  s.nominal_torque_mNm = given(83.4);
+  s.nominal_current_A = given(2.33);
+  s.thermal_resistance_winding_housing_K_W = given(4.5);
+  s.thermal_resistance_housing_ambient_K_W = given(4.25);
+  s.thermal_time_constant_winding_s = given(16.6);
+  s.thermal_time_constant_motor_s = given(212);
+  s.max_winding_temperature_degC = given(125);
+  return s;
+}
+
 inline const char* name_of(control::Chopping c) {
   return c == control::Chopping::soft ? "soft" : c == control::Chopping::hard ? "hard" : "complementary";
 }
