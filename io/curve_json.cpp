@@ -39,6 +39,8 @@ Json no_load(const study::CurveRequest& r, const study::Curve& curve) {
   out["free_winding_current_A"] = curve.no_load.free_winding_current_A;
   out["free_bus_current_A"] = curve.no_load.free_bus_current_A;
   out["free_s"] = curve.no_load.free_s;
+  out["free_settled"] = curve.no_load.settled;
+  out["time_constant_s"] = curve.no_load.time_constant_s;
   return out;
 }
 

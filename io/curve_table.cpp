@@ -15,7 +15,17 @@ namespace io {
 namespace {
 
 constexpr std::size_t shown_points = 11;
-constexpr double rpm_per_rad_s = 30 / base::pi, milli = 1e3, per_cent = 100;
+constexpr double rpm_per_rad_s = 30 / base::pi, per_cent = 100;
+
+/// Small motors are read in mNm, from 10 Nm of stall torque on in Nm.
+struct TorqueUnit {
+  double factor;
+  const char* name;
+};
+TorqueUnit torque_unit(const study::Curve& curve) {
+  constexpr double large_Nm = 10.0;
+  return curve.points.front().shaft_torque_Nm < large_Nm ? TorqueUnit{1e3, "mNm"} : TorqueUnit{1.0, "Nm"};
+}
 
 using Row = std::vector<std::string>;
 
@@ -49,27 +59,29 @@ Row head(bool thermal, bool devices) {
   return row;
 }
 
-Row units(bool thermal, bool devices) {
-  Row row = {"", "rpm", "mNm", "mNm", "mNm", "A", "A", "A", "A", "W", "W"};
+Row units(bool thermal, bool devices, const char* torque) {
+  Row row = {"", "rpm", torque, torque, torque, "A", "A", "A", "A", "W", "W"};
   if (devices) row.emplace_back("W");
   row.insert(row.end(), {"W", "W", "%"});
-  if (thermal) row.insert(row.end(), {"mNm", "winding"});
+  if (thermal) row.insert(row.end(), {torque, "winding"});
   return row;
 }
 
 class Table {
  public:
-  Table(const study::CurveRequest& request, const study::Curve& curve) : request_(request), curve_(curve) {
+  Table(const study::CurveRequest& request, const study::Curve& curve)
+      : request_(request), curve_(curve), unit_(torque_unit(curve)) {
     for (const study::OperatingPoint& p : curve.points) devices_ = devices_ || p.devices_W != 0;
-    rows_ = {head(curve.thermal.has_value(), devices_), units(curve.thermal.has_value(), devices_)};
+    rows_ = {head(curve.thermal.has_value(), devices_),
+             units(curve.thermal.has_value(), devices_, unit_.name)};
   }
 
   void add(const std::string& name, const study::OperatingPoint& p) {
     Row row = {name,
                rpm(p.speed_rad_s),
-               significant(p.shaft_torque_Nm * milli, 4),
-               significant(study::ideal_torque_Nm(request_.bench, p.speed_rad_s) * milli, 4),
-               significant(p.ripple_Nm * milli, 3),
+               significant(p.shaft_torque_Nm * unit_.factor, 4),
+               significant(study::ideal_torque_Nm(request_.bench, p.speed_rad_s) * unit_.factor, 4),
+               significant(p.ripple_Nm * unit_.factor, 3),
                significant(p.winding_current_A, 4),
                significant(p.phase_rms_A, 4),
                significant(p.phase_peak_A, 4),
@@ -82,7 +94,7 @@ class Table {
     row.push_back(p.efficiency ? fixed(*p.efficiency * per_cent, 1) : "-");
     if (curve_.thermal) {
       row.push_back(significant(
-          study::thermal_limits(*curve_.thermal, request_, p.speed_rad_s).continuous_Nm * milli, 4));
+          study::thermal_limits(*curve_.thermal, request_, p.speed_rad_s).continuous_Nm * unit_.factor, 4));
       row.push_back(warming(study::warming(*curve_.thermal, request_, p)));
     }
     rows_.push_back(std::move(row));
@@ -105,6 +117,7 @@ class Table {
  private:
   const study::CurveRequest& request_;
   const study::Curve& curve_;
+  TorqueUnit unit_;
   bool devices_ = false;
   std::vector<Row> rows_;
 };
@@ -129,17 +142,18 @@ std::string no_load(const study::NoLoad& n) {
       n.half_width_rad_s > 0 ? fmt::format(" +- {}", significant(n.half_width_rad_s * rpm_per_rad_s, 2)) : "";
   return fmt::format(
       "No load: {}{} rpm ({} rad/s) with {} A through the winding, {} A from the supply; a rotor let free "
-      "ran "
-      "at {} rpm ({} s simulated).\n",
+      "ran at {} rpm ({} s simulated{}).\n",
       significant(n.point.speed_rad_s * rpm_per_rad_s), unsure, significant(n.point.speed_rad_s, 6),
       significant(n.point.winding_current_A, 4), significant(n.point.bus_current_A, 4),
-      significant(n.free_speed_rad_s * rpm_per_rad_s), significant(n.free_s, 2));
+      significant(n.free_speed_rad_s * rpm_per_rad_s), significant(n.free_s, 2),
+      n.settled ? ""
+                : fmt::format(", short of 20 time constants of {} s", significant(n.time_constant_s, 2)));
 }
 
-std::string ideal(const study::Bench& b) {
+std::string ideal(const study::Bench& b, TorqueUnit unit) {
   return fmt::format(
-      "Ideal line, without commutation time and friction: {} mNm at standstill, {} rpm without load.\n",
-      significant(study::ideal_torque_Nm(b, 0.0) * milli),
+      "Ideal line, without commutation time and friction: {} {} at standstill, {} rpm without load.\n",
+      significant(study::ideal_torque_Nm(b, 0.0) * unit.factor), unit.name,
       significant(study::ideal_no_load_rad_s(b) * rpm_per_rad_s));
 }
 
@@ -149,32 +163,32 @@ std::string against(double here, double sheet) {
 }
 
 /// Compared only where the curve is of the voltage that the sheet's point belongs to.
-std::string nominal(const study::CurveRequest& r, const study::NominalPoint& n) {
+std::string nominal(const study::CurveRequest& r, const study::NominalPoint& n, TorqueUnit unit) {
   const study::OperatingPoint& p = n.on_curve;
   std::string text = fmt::format("Nominal point of the sheet: {} rpm", rpm(n.speed_rad_s));
-  if (n.torque_Nm) text += fmt::format(", {} mNm", significant(*n.torque_Nm * milli, 4));
+  if (n.torque_Nm) text += fmt::format(", {} {}", significant(*n.torque_Nm * unit.factor, 4), unit.name);
   if (n.current_A) text += fmt::format(", {} A", significant(*n.current_A, 4));
   const double sheet_V = r.bench.motor.nominal_voltage_V;
   if (r.bench.duty != 1 || r.bench.voltage_V != sheet_V)
     return text + fmt::format(", at full duty and {:g} V.\n", sheet_V);
-  text += fmt::format("; the curve has {} mNm", significant(p.shaft_torque_Nm * milli, 4));
+  text += fmt::format("; the curve has {} {}", significant(p.shaft_torque_Nm * unit.factor, 4), unit.name);
   if (n.torque_Nm) text += fmt::format(" ({})", against(p.shaft_torque_Nm, *n.torque_Nm));
   text += fmt::format(" and {} A", significant(p.winding_current_A, 4));
   if (n.current_A) text += fmt::format(" ({})", against(p.winding_current_A, *n.current_A));
   return text + " there.\n";
 }
 
-std::string thermal(const study::CurveRequest& r, const study::Curve& curve) {
+std::string thermal(const study::CurveRequest& r, const study::Curve& curve, TorqueUnit unit) {
   if (!curve.thermal) return fmt::format("No thermal limits: {}.\n", to_string(curve.thermal_missing[0]));
   const study::ThermalLimits still = study::thermal_limits(*curve.thermal, r, 0.0);
   std::string text = fmt::format(
-      "At {:g} degC ambient the winding stays below {:g} degC with {} A ({} mNm at standstill) for ever, {} "
+      "At {:g} degC ambient the winding stays below {:g} degC with {} A ({} {} at standstill) for ever, {} "
       "A "
       "for "
       "{} s, {} A for {} s.\n",
       r.ambient_degC, curve.thermal->max_winding_degC, significant(still.continuous_A, 3),
-      significant(still.continuous_Nm * milli, 4), significant(still.short_A[1], 3), study::short_times_s[1],
-      significant(still.short_A[0], 3), study::short_times_s[0]);
+      significant(still.continuous_Nm * unit.factor, 4), unit.name, significant(still.short_A[1], 3),
+      study::short_times_s[1], significant(still.short_A[0], 3), study::short_times_s[0]);
   const auto first = std::find_if(curve.warming.begin(), curve.warming.end(),
                                   [](const study::Warming& w) { return !w.permissible_s; });
   if (first == curve.warming.end()) return text + "No point of the curve can be held for ever.\n";
@@ -183,7 +197,7 @@ std::string thermal(const study::CurveRequest& r, const study::Curve& curve) {
                             rpm(curve.points[n].speed_rad_s));
 }
 
-std::string certainty(const study::Curve& curve) {
+std::string certainty(const study::Curve& curve, TorqueUnit unit) {
   double bound = 0.0, residual = 0.0, width = 0.0;
   bool precise = true;
   for (const study::OperatingPoint& p : curve.points) {
@@ -193,7 +207,8 @@ std::string certainty(const study::Curve& curve) {
     precise = precise && p.precise;
   }
   std::string text = curve.no_load.point.orbit == study::Orbit::quasi_periodic
-                         ? fmt::format("Mean torque within +- {:.1g} mNm at {} % ({} batches)", width * milli,
+                         ? fmt::format("Mean torque within +- {} {} at {} % ({} batches)",
+                                       significant(width * unit.factor, 2), unit.name,
                                        per_cent * study::confidence_level, study::batches)
                          : fmt::format("Steady currents within {:.1g} A", bound);
   if (!precise) text += ", at some points less narrow than wanted";
@@ -209,9 +224,10 @@ std::string curve_table(const study::CurveRequest& r, const study::Curve& curve)
     text += fmt::format(", duty {:g}, {} chopping, PWM period {:g} us", b.duty,
                         base::word(study::chopping_choices, b.chopping), b.pwm_period_s * 1e6);
   text += "\n";
-  text += points(r, curve) + ideal(b) + no_load(curve.no_load);
-  if (curve.nominal) text += nominal(r, *curve.nominal);
-  return text + thermal(r, curve) + certainty(curve);
+  const TorqueUnit unit = torque_unit(curve);
+  text += points(r, curve) + ideal(b, unit) + no_load(curve.no_load);
+  if (curve.nominal) text += nominal(r, *curve.nominal, unit);
+  return text + thermal(r, curve, unit) + certainty(curve, unit);
 }
 
 }  // namespace io

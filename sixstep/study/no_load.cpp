@@ -137,9 +137,12 @@ base::Result<NoLoad> no_load(const Bench& b) {
   if (!narrow(search, low, high, found, slope)) return search.problems;
   NoLoad out;
   out.point = found.point;
+  if (out.point.supplied_W > 0) out.point.efficiency = 0.0;  // what is left of the shaft's power is rounding
   out.slope_Nm_s = slope;
   out.half_width_rad_s = found.point.half_width_Nm / std::fabs(slope);
-  const double time_constant = std::min(b.motor.shaft.J_kg_m2 / std::fabs(slope), 20.0 / 22);
+  out.time_constant_s = b.motor.shaft.J_kg_m2 / std::fabs(slope);
+  const double time_constant = std::min(out.time_constant_s, longest_free_s / 22);
+  out.settled = time_constant == out.time_constant_s;
   const plant::Plant<double> plant = plant_of(b, b.motor.shaft, found.point.speed_rad_s);
   if (found.point.orbit == Orbit::periodic) {
     FullOn system(b, b.motor.shaft, found.point.speed_rad_s);

@@ -13,11 +13,15 @@ struct NoLoad {
   double free_speed_rad_s = 0.0;  ///< mean of a free rotor
   double free_winding_current_A = 0.0;
   double free_bus_current_A = 0.0;  ///< likewise
+  double time_constant_s = 0.0;     ///< J/|slope|
   double free_s = 0.0;              ///< simulated with the rotor free
+  bool settled = true;              ///< false: longest_free_s were too short for that time constant
 };
 
+inline constexpr double longest_free_s = 20.0;
+
 /// The free rotor starts at the found speed, runs for 20 time constants J/|slope| and is averaged over two
-/// more; 20 s at most. A Problem where friction holds the rotor, or nothing slows it down.
+/// more, within longest_free_s. A Problem where friction holds the rotor, or nothing slows it down.
 base::Result<NoLoad> no_load(const Bench& bench);
 
 }  // namespace sixstep::study

@@ -35,6 +35,17 @@ TEST(NoLoad, OfThe251601IsThatOfTheIndependentSolver) {
   EXPECT_NEAR(n.point.speed_rad_s, 702.6128, 5e-5);
   EXPECT_NEAR(n.point.winding_current_A, 0.15310, 3e-5);
   EXPECT_NEAR(n.point.shaft_torque_Nm, 0.0, 1e-12);
+  EXPECT_EQ(*n.point.efficiency, 0.0);
+  EXPECT_TRUE(n.settled);
+}
+
+TEST(NoLoad, SaysWhereAFreeRotorHadTooLittleTime) {
+  Bench b = maxon_bench();
+  b.motor.shaft.J_kg_m2 *= 100;  // 3.5 s
+  const NoLoad n = found(b);
+  EXPECT_FALSE(n.settled);
+  EXPECT_NEAR(n.time_constant_s, 3.5, 0.1);
+  EXPECT_NEAR(n.free_s, study::longest_free_s, 0.1);
 }
 
 TEST(NoLoad, AFreeRotorAgrees) {
