@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// node tools/picture.mjs [PROGRAM]: runs the README's scenario and photographs the top of its report, as a reader sees
-// it, into docs/images/report.png. Needs what tools/install.sh test installs (playwright-core and Chromium).
+// node tools/picture.mjs [PROGRAM]: photographs the top of the pages that the documents show, as a reader sees them, into
+// docs/images: report.png, of the README's scenario, and curve.png, the torque-speed curve. Needs what
+// tools/install.sh test installs (playwright-core and Chromium).
 import {execFileSync} from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
@@ -11,19 +12,26 @@ import playwright from 'playwright-core';
 const root = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
 const program = path.resolve(process.argv[2] ?? path.join(root, 'build/release/sixstep'));
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'sixstep-picture-'));
-const report = path.join(folder, 'report.html');
-execFileSync(program, ['run', 'data/scenarios/current-square.toml', '--html', report, '--quiet'], {cwd: root});
-
 const browser = await playwright.chromium.launch({
   executablePath: process.env.SIXSTEP_CHROMIUM ?? '/usr/bin/chromium',
   args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-background-networking', '--disable-dev-shm-usage'],
 });
-const page = await browser.newPage({viewport: {width: 1200, height: 1400}, colorScheme: 'light', deviceScaleFactor: 1.25});
-await page.goto(pathToFileURL(report).href);
-await page.waitForFunction(() => globalThis.sixstep?.charts?.length > 0);
-await page.waitForTimeout(300); // the charts are drawn with the next frames
-const last = await page.locator('#chart-logic').boundingBox(); // what stands below is cut off
-await page.screenshot({path: path.join(root, 'docs/images/report.png'),
-  clip: {x: 0, y: 0, width: 1200, height: Math.ceil(last.y + last.height + 16)}});
+
+/** What `words` makes with --html, down to the chart `last`; what stands below is cut off. */
+async function photograph(name, last, words) {
+  const file = path.join(folder, `${name}.html`);
+  execFileSync(program, [...words, '--html', file, '--quiet'], {cwd: root});
+  const page = await browser.newPage({viewport: {width: 1200, height: 1400}, colorScheme: 'light', deviceScaleFactor: 1.25});
+  await page.goto(pathToFileURL(file).href);
+  await page.waitForFunction(() => globalThis.sixstep?.charts?.length > 0);
+  await page.waitForTimeout(300); // the charts are drawn with the next frames
+  const box = await page.locator(`#chart-${last}`).boundingBox();
+  await page.screenshot({path: path.join(root, `docs/images/${name}.png`),
+    clip: {x: 0, y: 0, width: 1200, height: Math.ceil(box.y + box.height + 16)}});
+  await page.close();
+}
+
+await photograph('report', 'logic', ['run', 'data/scenarios/current-square.toml']);
+await photograph('curve', 'efficiency', ['curve', 'maxon-251601']);
 await browser.close();
 fs.rmSync(folder, {recursive: true});

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "faces/cli/curve_command.hpp"
 #include "faces/cli/design_command.hpp"
 #include "faces/cli/export_command.hpp"
 #include "faces/cli/help_command.hpp"
@@ -95,6 +96,25 @@ void declare_design(CLI::App& design, DesignArguments& a) {
   design.add_option("--data", a.data_dir, "folder that holds motors/");
 }
 
+void declare_curve(CLI::App& curve, CurveArguments& a) {
+  curve.add_option("MOTOR", a.motor, "name or path of a motor file")->required();
+  curve.add_option("--voltage", a.voltage_V, "bus voltage, V; without it the sheet's nominal voltage");
+  curve.add_option("--duty", a.duty, "in (0, 1]; without it 1, full voltage");
+  curve.add_option("--chopping", a.chopping, "soft, hard or complementary, where the duty is below 1");
+  curve.add_option("--pwm-period", a.pwm_period_s, "s; without it 30e-6");
+  curve.add_option("--on-resistance", a.on_resistance_ohm, "of a switch, ohm; without it 0");
+  curve.add_option("--diode-drop", a.diode_drop_V, "V; without it 0");
+  curve.add_option("--points", a.points, "from standstill to no load; without it 41");
+  curve.add_option("--ambient", a.ambient_degC, "air around the motor, degC; without it 25");
+  curve.add_option("--csv", a.csv, "write all points with all columns");
+  curve.add_option("--json", a.json, "write everything; - for standard output instead of the table");
+  curve.add_option("--html", a.html, "write a page with charts");
+  curve.add_option("--data", a.data_dir, "folder that holds motors/");
+  curve.add_option("--jobs", a.jobs, "points side by side; without it one per core")
+      ->check(CLI::Range(1, 1024));
+  curve.add_flag("--quiet", a.quiet, "no table, only files and errors");
+}
+
 void declare_export(CLI::App& header, ExportArguments& a) {
   header.add_option("SCENARIO", a.file, "scenario file")->required();
   header.add_option("--out", a.out, "the file to write; without it standard output");
@@ -141,7 +161,7 @@ MotorVerbs declare_motor(CLI::App& motor, MotorArguments& a) {
 }
 
 Exit unknown_command(const std::string& word) {
-  const std::vector<std::string> known = {"run", "design", "export", "help", "motor"};
+  const std::vector<std::string> known = {"run", "design", "curve", "export", "help", "motor"};
   const auto near = std::find_if(known.begin(), known.end(), [&](const std::string& command) {
     return io::edit_distance(word, command) <= 2;
   });
@@ -168,6 +188,10 @@ Exit run_program(int count, const char* const* words) {
       *app.add_subcommand("design", "gains from a motor's sheet, simulated and put through tolerances");
   declare_design(design, design_arguments);
 
+  CurveArguments curve_arguments;
+  CLI::App& curve = *app.add_subcommand("curve", "torque-speed curve of a motor");
+  declare_curve(curve, curve_arguments);
+
   ExportArguments export_arguments;
   CLI::App& exports = *app.add_subcommand("export", "a scenario's drive for use elsewhere");
   exports.require_subcommand(1);
@@ -190,9 +214,10 @@ Exit run_program(int count, const char* const* words) {
     return app.exit(error) == 0 ? Exit::ok : Exit::bad_input;
   }
   run_arguments.command = retyped(count, words);
-  export_arguments.command = design_arguments.command = run_arguments.command;
+  export_arguments.command = design_arguments.command = curve_arguments.command = run_arguments.command;
   if (run) return run_command(run_arguments);
   if (design) return design_command(design_arguments);
+  if (curve) return curve_command(curve_arguments);
   if (exports) return export_header(export_arguments);
   if (help) return help_command(key);
   return motor.run(motor_arguments);

@@ -96,6 +96,8 @@ function curveOptions(curve, index, chart, count) {
   const color = () => palette[curve.style];
   const options = {label: curve.label, stroke: color, width: curve.style === 'main' ? 1.8 : 1.3, points: {show: false}};
   if (curve.style === 'reference') Object.assign(options, {dash: [6, 4], width: 1.6});
+  // Single points: nothing is drawn between them.
+  if (curve.points) Object.assign(options, {paths: () => null, points: {show: true, size: 11, width: 2, stroke: color, fill: () => palette.paper}});
   if (chart.logic) {
     const base = count - 1 - index;
     // Steps, so that a thinned strip does not slant between two kept rows.
@@ -187,7 +189,7 @@ function captionOf(chart, onToggle) {
     chip.title = curve.meaning;
     chip.setAttribute('aria-pressed', 'true');
     const swatch = chip.appendChild(document.createElement('span'));
-    swatch.className = curve.style === 'reference' ? 'swatch dashed' : 'swatch';
+    swatch.className = curve.points ? 'swatch point' : curve.style === 'reference' ? 'swatch dashed' : 'swatch';
     swatch.style.borderColor = `var(--${curve.style})`;
     chip.append(labelNode(curve.label));
     const value = chip.appendChild(document.createElement('span'));
@@ -223,6 +225,6 @@ function buildChart(parent, chart, axis, time, hooks) {
   };
   const plot = new uPlot(chartOptions(chart, box.clientWidth, time, {...hooks, cursor: showValues}), [axis, ...drawn], box);
   plot.root.setAttribute('role', 'img');
-  plot.root.setAttribute('aria-label', `${chart.title} over time`);
+  plot.root.setAttribute('aria-label', `${chart.title} over ${time.name ?? 'time'}`);
   return {plot, box};
 }

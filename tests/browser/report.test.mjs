@@ -184,3 +184,24 @@ test('the index links to every report', async () => {
   await page.waitForURL(/long\.html/);
   await close(page);
 });
+
+test('a torque-speed curve opens with its charts, the nominal point and one zoom', async () => {
+  const page = await opened('curve.html');
+  const ids = await page.locator('.chart').evaluateAll((all) => all.map((c) => c.id));
+  assert.deepEqual(ids, ['torque', 'current', 'efficiency', 'power', 'ripple'].map((n) => 'chart-' + n));
+  assert.equal(await page.locator('#chart-torque .chip').count(), 6);
+  const nominal = await page.evaluate(() => {
+    const u = sixstep.charts[0], values = u.data[u.data.length - 1];
+    return Array.from(u.data[0]).flatMap((rpm, n) => (values[n] == null ? [] : [[Math.round(rpm), Math.round(10 * values[n])]]));
+  });
+  assert.deepEqual(nominal, [[5240, 834]]);
+  const before = await scales(page);
+  assert.ok(allEqual(before));
+  await drag(page, 'current', 0.5, 0.75);
+  await eventually(async () => {
+    const after = await scales(page);
+    assert.ok(allEqual(after));
+    assert.ok(after[0][1] - after[0][0] < 0.3 * (before[0][1] - before[0][0]));
+  });
+  await close(page);
+});

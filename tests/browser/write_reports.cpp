@@ -4,8 +4,10 @@
 #include <fstream>
 #include <iostream>
 
+#include "io/report/curve_page.hpp"
 #include "io/report/report.hpp"
 #include "tests/io/synthetic_run.hpp"
+#include "tests/support/bench.hpp"
 
 namespace {
 
@@ -31,6 +33,17 @@ std::string page(const sixstep_tests::SyntheticRun& run) {
                              .scenario_text = scenario_text});
 }
 
+std::string curve() {
+  using namespace sixstep;
+  const study::CurveRequest request{
+      .sheet = testing::curve_sheet(), .bench = testing::maxon_bench(), .points = 21};
+  const study::CurvePlan plan = *study::plan_curve(request);
+  std::vector<study::OperatingPoint> found;
+  for (const double speed : plan.speeds_rad_s) found.push_back(*study::operating_point(request.bench, speed));
+  return io::report::render_curve({request, study::curve_of(request, plan, found),
+                                   "sixstep curve maxon-251601 --html curve.html", "0.1.0"});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -44,6 +57,7 @@ int main(int argc, char** argv) {
   bad.outcome.verdicts[0] = {"settling time of current", "s", 0.00131, std::nullopt, 1e-3, false};
   bad.scenario.control.mode = sixstep::control::Mode::speed;
   write(folder / "long.html", page(bad));
+  write(folder / "curve.html", curve());
   write(folder / "index.html", io::report::render_index({{good.scenario.title, "short.html", &good.outcome},
                                                          {bad.scenario.title, "long.html", &bad.outcome}},
                                                         "sixstep run a.toml b.toml --out out", "0.1.0"));

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/curve_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "batch/curve.hpp"
+#include "faces/cli/terminal.hpp"
+#include "io/csv_writer.hpp"
+#include "io/curve_columns.hpp"
+#include "io/curve_json.hpp"
+#include "io/curve_table.hpp"
+#include "io/key_advice.hpp"
+#include "io/report/curve_page.hpp"
+#include "io/scenario_file.hpp"
+#include "sixstep/study/choices.hpp"
+
+namespace cli {
+namespace {
+
+/// Files are made before the work begins: one that cannot be written is told at once.
+struct Outputs {
+  std::optional<io::CsvWriter> csv;
+  std::optional<io::AtomicFile> json, html;
+};
+
+template <class File>
+void keep(std::optional<File>& into, base::Result<File> file, base::Problems& problems) {
+  if (file)
+    into.emplace(std::move(*file));
+  else
+    problems.insert(problems.end(), file.problems().begin(), file.problems().end());
+}
+
+Outputs outputs(const CurveArguments& a, base::Problems& problems) {
+  Outputs out;
+  if (!a.csv.empty()) {
+    std::vector<study::Column> columns;
+    for (const io::CurveColumn& c : io::curve_columns()) columns.push_back(c.column);
+    keep(out.csv, io::CsvWriter::create(a.csv, columns), problems);
+  }
+  if (!a.json.empty() && a.json != "-") keep(out.json, io::AtomicFile::create(a.json), problems);
+  if (!a.html.empty()) keep(out.html, io::AtomicFile::create(a.html), problems);
+  return out;
+}
+
+void write(const CurveArguments& a, const study::CurveRequest& request, const study::Curve& curve,
+           Outputs& out, base::Problems& problems) {
+  const auto commit = [&](auto& file) {
+    const base::Problems failed = file.commit();
+    problems.insert(problems.end(), failed.begin(), failed.end());
+  };
+  if (out.csv) {
+    std::vector<double> numbers;
+    for (const io::CurveRow& row : io::curve_rows(request, curve)) {
+      numbers.clear();
+      for (const io::CurveColumn& c : io::curve_columns()) numbers.push_back(c.value(row));
+      out.csv->row(numbers);
+    }
+    commit(*out.csv);
+  }
+  if (out.json) {
+    out.json->write(io::curve_json(request, curve));
+    commit(*out.json);
+  }
+  if (out.html) {
+    out.html->write(io::report::render_curve({request, curve, a.command, SIXSTEP_VERSION}));
+    commit(*out.html);
+  }
+  if (a.json == "-")
+    print(io::curve_json(request, curve));
+  else if (!a.quiet)
+    print(io::curve_table(request, curve));
+}
+
+void read_chopping(const std::string& word, study::Bench& bench, base::Problems& problems) {
+  if (word.empty()) return;
+  std::vector<std::string> known;
+  for (const auto& choice : study::chopping_choices) {
+    if (choice.word == word) bench.chopping = choice.value;
+    if (choice.word == word) return;
+    known.emplace_back(choice.word);
+  }
+  const std::string near = io::nearest(word, known);
+  problems.push_back({"chopping", word, fmt::format("must be one of {}", fmt::join(known, ", ")),
+                      near.empty() ? "soft is the default" : fmt::format("did you mean {}?", near)});
+}
+
+/// "--pwm-period" of pwm_period_s: options are told by their names, without the unit's suffix.
+std::string option_of(std::string member) {
+  member.erase(std::min(member.rfind('_'), member.size()));
+  std::replace(member.begin(), member.end(), '_', '-');
+  return "--" + member;
+}
+
+base::Result<study::CurveRequest> request_of(const CurveArguments& a) {
+  const base::Result<design::Sheet> sheet = io::read_sheet(a.motor, a.data_dir);
+  if (!sheet) return sheet.problems();
+  base::Result<design::MotorModel> motor = design::motor_model(*sheet);
+  if (!motor) {
+    base::Problems problems = motor.problems();
+    for (base::Problem& p : problems) p.where = fmt::format("{}: {}", a.motor, p.where);
+    return problems;
+  }
+  study::CurveRequest r{.sheet = *sheet, .bench = {.motor = *motor}};
+  study::Bench& b = r.bench;
+  b.voltage_V = a.voltage_V.value_or(motor->nominal_voltage_V);
+  b.duty = a.duty.value_or(b.duty);
+  b.pwm_period_s = a.pwm_period_s.value_or(b.pwm_period_s);
+  b.devices.R_on_ohm = a.on_resistance_ohm.value_or(0.0);
+  b.devices.V_f_V = a.diode_drop_V.value_or(0.0);
+  r.ambient_degC = a.ambient_degC.value_or(r.ambient_degC);
+  r.points = a.points.value_or(r.points);
+  base::Problems problems = study::check(r);
+  read_chopping(a.chopping, b, problems);
+  for (base::Problem& p : problems) p.where = option_of(p.where);
+  if (!problems.empty()) return problems;
+  return r;
+}
+
+}  // namespace
+
+Exit curve_command(const CurveArguments& a) {
+  const base::Result<study::CurveRequest> request = request_of(a);
+  if (!request) {
+    complain(request.problems());
+    return Exit::bad_input;
+  }
+  base::Problems problems;
+  Outputs out = outputs(a, problems);
+  if (!problems.empty()) {
+    complain(problems);
+    return Exit::bad_input;
+  }
+  catch_interrupts();
+  const base::Result<study::Curve> curve =
+      batch::torque_speed_curve(*request, a.jobs, [] { return !interrupted(); });
+  if (!curve) {
+    if (interrupted()) return Exit::interrupted;
+    complain(curve.problems());
+    return Exit::bad_input;
+  }
+  write(a, *request, *curve, out, problems);
+  complain(problems);
+  return problems.empty() ? Exit::ok : Exit::bad_input;
+}
+
+}  // namespace cli

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The curve's charts over one speed axis: one zoom, one cursor, the theme, the printer.
+
+const data = JSON.parse(document.getElementById('data').textContent);
+const axis = unpack(data.axis, Float64Array);
+const speed = {
+  name: 'speed', unit: 'rpm',
+  text(n, step) { return n.toFixed(Math.max(0, -Math.floor(Math.log10(step * 1.0001)))).replace('-', '−'); },
+};
+const whole = [axis[0], axis[axis.length - 1]];
+const charts = [];
+let linking = true;  // while true, a chart's change of scale is our own doing
+
+function show(from, to) {
+  linking = true;
+  for (const {plot} of charts) plot.batch(() => plot.setScale('x', {min: Math.max(from, whole[0]), max: Math.min(to, whole[1])}));
+  linking = false;
+}
+
+function describeCursor(u) {
+  const inside = u.cursor.left >= 0 && u.cursor.idx != null;
+  document.getElementById('cursor').textContent = inside ? `${speed.text(axis[u.cursor.idx], 1)} rpm` : '';
+}
+
+function repaint() {
+  readPalette();
+  for (const {plot} of charts) plot.redraw();
+}
+
+function resize() {
+  for (const {plot, box} of charts) if (box.clientWidth) plot.setSize({width: box.clientWidth, height: plot.height});
+}
+
+function start() {
+  document.getElementById('plots').hidden = false;
+  readPalette();
+  const hooks = {
+    zoomed: (from, to) => { if (!linking) show(from, to); },
+    cursor: describeCursor,
+    whole: () => { show(...whole); return null; },
+  };
+  for (const chart of data.charts) charts.push(buildChart(document.getElementById('charts'), chart, axis, speed, hooks));
+  show(...whole);
+  new ResizeObserver(resize).observe(document.getElementById('charts'));
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', repaint);
+  addEventListener('beforeprint', () => {
+    document.documentElement.classList.add('printing');
+    readPalette();
+    for (const {plot} of charts) plot.setSize({width: 680, height: plot.height});
+    repaint();
+  });
+  addEventListener('afterprint', () => {
+    document.documentElement.classList.remove('printing');
+    repaint();
+    resize();
+  });
+  globalThis.sixstep = {charts: charts.map((c) => c.plot), show};  // for scripts and tests
+}
+
+start();

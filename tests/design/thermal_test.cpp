@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two-body thermal model against its differential equations, integrated otherwise, and against the
+// textbook's two exponentials.
+#include "sixstep/design/thermal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "tests/support/scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using design::Heating;
+using design::Temperatures;
+using design::ThermalModel;
+
+constexpr ThermalModel flat{4.5, 4.25, 16.6, 212.0, 125.0};
+
+/// Runge and Kutta's fourth order on the equations as the header prints them.
+Temperatures integrated(const ThermalModel& m, const Heating& h, Temperatures at, double seconds, int steps) {
+  const double C_w = m.winding_s / m.winding_housing_K_W, C_h = m.motor_s / m.housing_ambient_K_W;
+  using Pair = std::array<double, 2>;
+  const auto slope = [&](const Pair& T) {
+    const double across = (T[0] - T[1]) / m.winding_housing_K_W;
+    return Pair{(h.copper_W * (1 + 0.00393 * (T[0] - 25)) - across) / C_w,
+                (across - (T[1] - h.ambient_degC) / m.housing_ambient_K_W + h.housing_W) / C_h};
+  };
+  const auto ahead = [](const Pair& T, const Pair& k, double dt) {
+    return Pair{T[0] + dt * k[0], T[1] + dt * k[1]};
+  };
+  Pair T{at.winding_degC, at.housing_degC};
+  const double dt = seconds / steps;
+  for (int n = 0; n < steps; ++n) {
+    const Pair k1 = slope(T), k2 = slope(ahead(T, k1, dt / 2)), k3 = slope(ahead(T, k2, dt / 2)),
+               k4 = slope(ahead(T, k3, dt));
+    for (std::size_t j = 0; j < 2; ++j) T[j] += dt / 6 * (k1[j] + 2 * k2[j] + 2 * k3[j] + k4[j]);
+  }
+  return {T[0], T[1]};
+}
+
+TEST(Thermal, ClosedFormIsTheEquationsSolution) {
+  for (const double copper_W : {0.0, 3.0, 11.0, 40.0, 400.0})  // the last one runs away
+    for (const double seconds : {0.1, 5.0, 60.0, 900.0}) {
+      if (copper_W == 400.0 && seconds > 60) continue;  // 1e40 degrees
+      const Heating h{copper_W, 1.5, 30.0};
+      const Temperatures start{55.0, 40.0};
+      const Temperatures exact = design::temperatures_after(flat, h, start, seconds);
+      // Fourth order with steps of at most 1/40 of the fastest time constant: (1/40)^4/120 of the change.
+      const int steps = 200 + static_cast<int>(seconds * 40 * (1 + copper_W / 100) / 8.0);
+      const Temperatures rk4 = integrated(flat, h, start, seconds, steps);
+      const double change = std::fabs(exact.winding_degC - 55) + std::fabs(exact.housing_degC - 40) + 1;
+      EXPECT_NEAR(exact.winding_degC, rk4.winding_degC, 1e-6 * change) << copper_W << " W " << seconds;
+      EXPECT_NEAR(exact.housing_degC, rk4.housing_degC, 1e-6 * change) << copper_W << " W " << seconds;
+    }
+}
+
+TEST(Thermal, CoolingIsTheTextbooksTwoExponentials) {
+  // Without loss: s^2 + s (1/T_w + 1/T_h + C_w/C_h/T_w) + 1/(T_w T_h) = 0 for the two rates.
+  const long double T_w = 16.6L, T_h = 212.0L, ratio = (16.6L / 4.5L) / (212.0L / 4.25L);
+  const long double sum = 1 / T_w + 1 / T_h + ratio / T_w, product = 1 / (T_w * T_h);
+  const long double fast = sum / 2 + std::sqrt(sum * sum / 4 - product), slow = product / fast;
+  // x_w(0) = 80, x_h(0) = 20, dx_w/dt(0) = -(80 - 20)/T_w.
+  const long double slope = -60 / T_w, part = (slope + 80 * slow) / (slow - fast);
+  for (const double t : {0.0, 1.0, 17.0, 100.0, 1000.0}) {
+    const long double x = part * std::exp(-fast * t) + (80 - part) * std::exp(-slow * t);
+    const Temperatures T = design::temperatures_after(flat, {0.0, 0.0, 20.0}, {100.0, 40.0}, t);
+    EXPECT_NEAR(T.winding_degC, static_cast<double>(20 + x), 1e-12) << t;
+  }
+}
+
+TEST(Thermal, RestIsWhereNothingChanges) {
+  const Heating h{8.0, 2.0, 25.0};
+  const Temperatures rest = *design::steady_temperatures(flat, h);
+  const Temperatures later = design::temperatures_after(flat, h, rest, 100.0);
+  EXPECT_NEAR(later.winding_degC, rest.winding_degC, 1e-11);
+  EXPECT_NEAR(later.housing_degC, rest.housing_degC, 1e-11);
+  // All heat leaves through the housing: (P hot + P_f) R_ha.
+  const double hot = 8.0 * (1 + 0.00393 * (rest.winding_degC - 25));
+  EXPECT_NEAR(rest.housing_degC, 25 + (hot + 2) * 4.25, 1e-11);
+  EXPECT_NEAR(rest.winding_degC, rest.housing_degC + hot * 4.5, 1e-11);
+}
+
+TEST(Thermal, GrowingResistanceRunsAwayAboveOneOverAR) {
+  const double edge = 1 / (0.00393 * (4.5 + 4.25));
+  EXPECT_TRUE(design::steady_temperatures(flat, {edge * 0.999}));
+  EXPECT_FALSE(design::steady_temperatures(flat, {edge * 1.001}));
+}
+
+TEST(Thermal, ContinuousLossTakesTheWindingToItsLimit) {
+  for (const double ambient : {-20.0, 25.0, 80.0}) {
+    const double copper = design::continuous_copper_W(flat, 1.0, ambient);
+    EXPECT_NEAR(design::steady_temperatures(flat, {copper, 1.0, ambient})->winding_degC, 125.0, 1e-11);
+  }
+  // maxon's own formula: I^2 R (1 + a (T_max - 25)) (R_wh + R_ha) = T_max - T_a.
+  EXPECT_NEAR(design::continuous_copper_W(flat, 0.0, 25.0), 100 / (4.5 + 4.25) / (1 + 0.393), 1e-13);
+  EXPECT_EQ(design::continuous_copper_W(flat, 0.0, 125.0), 0.0);
+  EXPECT_EQ(design::continuous_copper_W(flat, 50.0, 25.0), 0.0) << "50 W of friction alone are too much";
+}
+
+TEST(Thermal, ShortTimeLossReachesTheLimitJustThen) {
+  double before = 1e9;
+  for (const double seconds : {1.0, 10.0, 60.0, 1000.0}) {
+    const double copper = design::short_time_copper_W(flat, 1.0, 40.0, seconds);
+    EXPECT_NEAR(*design::permissible_seconds(flat, {copper, 1.0, 40.0}), seconds, 1e-9 * seconds);
+    EXPECT_LT(copper, before);
+    EXPECT_GT(copper, design::continuous_copper_W(flat, 1.0, 40.0));
+    before = copper;
+  }
+  // In no time at all only the winding's own heat capacity counts: P t/C_w, copper warming on the way:
+  // ln(1 + a dT)/a instead of dT.
+  const double C_w = 16.6 / 4.5, t = 1e-3;
+  EXPECT_NEAR(design::short_time_copper_W(flat, 0.0, 25.0, t) * t / C_w, std::log1p(0.00393 * 100) / 0.00393,
+              0.01);
+}
+
+TEST(Thermal, PermissibleTime) {
+  EXPECT_FALSE(design::permissible_seconds(flat, {1.0, 0.0, 25.0})) << "for ever";
+  EXPECT_EQ(design::permissible_seconds(flat, {1.0, 0.0, 125.0}), 0.0);
+  EXPECT_LT(*design::permissible_seconds(flat, {560.0, 0.0, 25.0}), 1.0) << "stall of the 251601";
+}
+
+TEST(Thermal, ASheetWithoutItsThermalLinesSaysWhichAreMissing) {
+  design::Sheet sheet = sixstep::testing::maxon_sheet();
+  base::Result<ThermalModel> none = design::thermal_model(sheet);
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.problems()[0].where.find("thermal_resistance_winding_housing_K_W"), std::string::npos);
+  const auto given = [](double value) { return base::Quantity{value, "", ""}; };
+  sheet.thermal_resistance_winding_housing_K_W = given(4.5);
+  sheet.thermal_resistance_housing_ambient_K_W = given(4.25);
+  sheet.thermal_time_constant_winding_s = given(16.6);
+  sheet.max_winding_temperature_degC = given(125);
+  none = design::thermal_model(sheet);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.problems()[0].where, "thermal_time_constant_motor_s");
+  sheet.thermal_time_constant_motor_s = given(212);
+  ASSERT_TRUE(design::thermal_model(sheet));
+  EXPECT_EQ(design::thermal_model(sheet)->motor_s, 212.0);
+  sheet.thermal_time_constant_motor_s = given(0);
+  EXPECT_FALSE(design::thermal_model(sheet));
+}
+
+}  // namespace

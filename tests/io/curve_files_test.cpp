@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// The curve as text: table, columns, JSON and page say the same numbers.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "batch/curve.hpp"
+#include "io/curve_columns.hpp"
+#include "io/curve_json.hpp"
+#include "io/curve_table.hpp"
+#include "io/report/curve_page.hpp"
+#include "tests/support/bench.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+
+struct Made {
+  study::CurveRequest request;
+  study::Curve curve;
+};
+
+Made made(bool thermal, double duty = 1.0) {
+  study::CurveRequest r{
+      .sheet = thermal ? curve_sheet() : maxon_sheet(), .bench = maxon_bench(), .points = 5};
+  r.bench.duty = duty;
+  base::Result<study::Curve> curve = batch::torque_speed_curve(r, 1);
+  EXPECT_TRUE(curve);
+  return {r, std::move(*curve)};
+}
+
+TEST(CurveColumns, AreNamedOnceAndWithUnits) {
+  std::set<std::string> names;
+  for (const io::CurveColumn& c : io::curve_columns()) {
+    EXPECT_TRUE(names.insert(c.column.name).second) << c.column.name;
+    EXPECT_FALSE(c.column.meaning.empty());
+    EXPECT_TRUE(c.column.unit == "1" || c.column.name.find('_') != std::string::npos) << c.column.name;
+  }
+  EXPECT_EQ(io::curve_columns()[0].column.name, "speed_rad_s");
+}
+
+TEST(CurveColumns, HoldThePointsNumbers) {
+  const Made m = made(true);
+  const auto rows = io::curve_rows(m.request, m.curve);
+  ASSERT_EQ(rows.size(), 5u);
+  const auto value = [&](std::size_t n, std::string_view name) {
+    for (const io::CurveColumn& c : io::curve_columns())
+      if (c.column.name == name) return c.value(rows[n]);
+    ADD_FAILURE() << name;
+    return 0.0;
+  };
+  for (std::size_t n = 0; n < 5; ++n) {
+    const study::OperatingPoint& p = m.curve.points[n];
+    EXPECT_EQ(value(n, "torque_Nm"), p.shaft_torque_Nm);
+    EXPECT_EQ(value(n, "air_gap_torque_Nm"), p.torque_Nm);
+    EXPECT_EQ(value(n, "copper_W"), p.copper_W);
+    EXPECT_EQ(value(n, "torque_10s_Nm"), m.curve.limits[n].short_Nm[0]);
+    EXPECT_EQ(value(n, "torque_60s_Nm"), m.curve.limits[n].short_Nm[1]);
+  }
+  EXPECT_TRUE(std::isnan(value(0, "efficiency")));
+  EXPECT_TRUE(std::isnan(value(0, "winding_degC"))) << "stall runs away";
+  EXPECT_TRUE(std::isinf(value(4, "permissible_s")));
+}
+
+TEST(CurveJson, HasEveryColumnOfEveryPoint) {
+  for (const bool thermal : {true, false}) {
+    const Made m = made(thermal);
+    const auto json = nlohmann::json::parse(io::curve_json(m.request, m.curve));
+    ASSERT_EQ(json["points"].size(), 5u);
+    const auto rows = io::curve_rows(m.request, m.curve);
+    for (std::size_t n = 0; n < 5; ++n)
+      for (const io::CurveColumn& c : io::curve_columns()) {
+        const double x = c.value(rows[n]);
+        const auto& there = json["points"][n].at(c.column.name);
+        EXPECT_EQ(there.is_null(), !std::isfinite(x)) << c.column.name;
+        EXPECT_EQ(there.is_number() ? there.get<double>() : 0.0, std::isfinite(x) ? x : 0.0) << c.column.name;
+      }
+    EXPECT_EQ(json["bench"]["chopping"], "soft");
+    EXPECT_EQ(json["no_load"]["speed_rad_s"].get<double>(), m.curve.no_load.point.speed_rad_s);
+    EXPECT_EQ(json["nominal"].is_null(), !thermal);
+    EXPECT_EQ(json["thermal"].is_null(), !thermal);
+    EXPECT_EQ(json["thermal_missing"].is_null(), thermal);
+  }
+}
+
+TEST(CurveTable, ShowsAnEngineersUnits) {
+  const Made m = made(true);
+  const std::string text = io::curve_table(m.request, m.curve);
+  for (const char* line :
+       {"maxon EC 45 flat 251601 at 24 V\n", "standstill", "no load", "nominal speed",
+        "780.58 mNm at standstill, 6841.3 rpm", "No load: 6709.5 rpm (702.613 rad/s) with 0.1531 A",
+        "83.40 mNm, 2.330 A; the curve has 73.37 mNm (-12.0 %)",
+        "At 25 degC ambient the winding stays below 125 degC with 2.82 A", "for 60 s", "for ever"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
+  const std::string without = io::curve_table(made(false).request, made(false).curve);
+  EXPECT_NE(without.find("No thermal limits: thermal_resistance_winding_housing_K_W"), std::string::npos);
+  EXPECT_NE(without.find("add the sheet's thermal lines to the motor file"), std::string::npos);
+}
+
+TEST(CurveTable, SaysHowSureAChoppedMeanIs) {
+  const Made m = made(false, 0.6);
+  const std::string text = io::curve_table(m.request, m.curve);
+  EXPECT_NE(text.find("duty 0.6, soft chopping, PWM period 30 us"), std::string::npos);
+  EXPECT_NE(text.find("at 99 % (20 batches)"), std::string::npos);
+}
+
+TEST(CurvePage, IsWholeAndHarmless) {
+  Made m = made(true);
+  m.request.sheet.name = "<script>alert(1)</script>";
+  const std::string page = io::report::render_curve({m.request, m.curve, "sixstep curve x", "0.1.0"});
+  EXPECT_EQ(page.find("{{"), std::string::npos);
+  EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+  EXPECT_NE(page.find("Torque-speed curve of &lt;script&gt;"), std::string::npos);
+  EXPECT_NE(page.find("nominal point"), std::string::npos);
+  EXPECT_EQ(page, io::report::render_curve({m.request, m.curve, "sixstep curve x", "0.1.0"}));
+}
+
+}  // namespace
