@@ -19,7 +19,7 @@ design::OperatingRange operating_range(const Scenario& scenario, const Compiled&
 
 template <class Scalar>
 struct DriveIn {
-  control::DriveConfig<Scalar> drive;
+  control::DriveConfig<Scalar> config;
   rig::Units units;
 };
 

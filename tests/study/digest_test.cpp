@@ -19,7 +19,7 @@ using namespace sixstep::testing;
 using namespace sixstep::study;
 using control::Mode;
 
-using Rig = rig::Rig<double, double>;
+using Rig = rig::LeanRig<double>;
 static_assert(std::is_copy_constructible_v<Rig>, "a copy of the rig is its snapshot");
 
 /// Settling-time design, bus behind R and C, dead time: much that a snapshot could forget.
