@@ -177,9 +177,9 @@ bool Rig<Real, Firmware>::do_tick() {
 
 template <class Real, class Firmware>
 void Rig<Real, Firmware>::control_step(bool starts_period) {
-  const Sight<Real> sight{
-      plant_,    modulator_.command(), now_, static_cast<std::uint64_t>(happened(Happening::tick)), pins(),
-      reversed_};
+  const Sight<Real> sight{plant_, modulator_.command(),
+                          now_,   static_cast<std::uint64_t>(happened(Happening::tick)),
+                          pins(), reversed_};
   const auto answer = firmware_.tick(sight, setpoint_);
   if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
   if (!answer.enabled) let_go();

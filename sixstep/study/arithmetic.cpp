@@ -178,8 +178,7 @@ base::Result<ProductIn<Scalar>> product_in(const Scenario& s, const Compiled& c)
   if constexpr (std::is_arithmetic_v<Scalar>) {
     return ProductIn<Scalar>{product_in_float<Scalar>(*c.product), {}};
   } else {
-    const auto scaled =
-        design::scaled_product<Scalar>(*c.product, product_range(s, c), s.sensors.adc_bits);
+    const auto scaled = design::scaled_product<Scalar>(*c.product, product_range(s, c), s.sensors.adc_bits);
     if (!scaled) return under_the_key(s, scaled.problems());
     return ProductIn<Scalar>{scaled->config, units_of(s.control.mode, scaled->bases)};
   }

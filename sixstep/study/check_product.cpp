@@ -15,7 +15,8 @@ using control::Mode;
 
 /// Registers are all that it is given.
 void check_registers(const Scenario& s, base::Problems& out) {
-  const std::string asks = "is nothing that a register shows, and control.drive = \"product\" reads registers";
+  const std::string asks =
+      "is nothing that a register shows, and control.drive = \"product\" reads registers";
   if (s.sensors.currents == rig::CurrentSensing::ideal)
     out.push_back({"sensors.currents", "\"ideal\"", asks,
                    "set currents = \"phases\" (or \"dc-link\") and current_range_A"});
@@ -38,9 +39,10 @@ void check_threshold(const char* key, const std::optional<double>& threshold, co
     out.push_back({where, "", "is missing: without it the product drive trusts nothing and never starts",
                    range_key[0] != '\0' ? "give one below " + std::string(range_key) : "give one"});
   else if (range && !(*threshold < *range))
-    out.push_back({where, written(*threshold),
-                   "is never passed: the converter ends at " + std::string(range_key) + " = " + written(*range),
-                   "lower it or widen the range"});
+    out.push_back(
+        {where, written(*threshold),
+         "is never passed: the converter ends at " + std::string(range_key) + " = " + written(*range),
+         "lower it or widen the range"});
 }
 
 void check_thresholds(const Scenario& s, base::Problems& out) {
@@ -98,8 +100,8 @@ void check_product(const Scenario& s, base::Problems& out) {
 void check_extras(const Scenario& s, base::Problems& out) {
   const CurrentLoop& loop = s.control.current;
   if (loop.type == CurrentLoopType::hysteresis && loop.back_emf_feed_forward)
-    out.push_back({"control.current.back_emf_feed_forward", "true", "has no voltage to be added to in a hysteresis",
-                   "remove it, or set type = \"pi\""});
+    out.push_back({"control.current.back_emf_feed_forward", "true",
+                   "has no voltage to be added to in a hysteresis", "remove it, or set type = \"pi\""});
   if (loop.type == CurrentLoopType::hysteresis && loop.measured_bus_from_V)
     out.push_back({"control.current.measured_bus_from_V", written(*loop.measured_bus_from_V),
                    "has no duty to correct in a hysteresis", "remove it, or set type = \"pi\""});

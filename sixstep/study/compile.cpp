@@ -232,8 +232,7 @@ base::Result<Compiled> compile(const Scenario& s) {
   out.drive.hysteresis = {s.control.current.band_A, watch_of(s.control.current)};
   if (base::Problems problems = add_loops(s, basis, out); !problems.empty()) return problems;
   add_extras(s, basis, out.drive);
-  if (s.control.drive == Drive::product)
-    out.product = product_around(s, basis, out.drive, out.board.sensors);
+  if (s.control.drive == Drive::product) out.product = product_around(s, basis, out.drive, out.board.sensors);
   return out;
 }
 

@@ -105,8 +105,9 @@ template <class Visitor>
 void describe(Visitor& v, Limits& s) {
   v.value("current_A", s.current_A,
           {.meaning = "bound on the current reference in every mode", .unit = "A", .range = above(0)});
-  v.value("torque_Nm", s.torque_Nm,
-          {.meaning = "the same as a torque, over K_t; the lower one counts", .unit = "N m", .range = above(0)});
+  v.value(
+      "torque_Nm", s.torque_Nm,
+      {.meaning = "the same as a torque, over K_t; the lower one counts", .unit = "N m", .range = above(0)});
   v.value("speed_rad_s", s.speed_rad_s,
           {.meaning = "speed that the drive's own torque does not pass", .unit = "rad/s", .range = above(0)});
   v.value("gain_A_s_per_rad", s.gain_A_s_per_rad,

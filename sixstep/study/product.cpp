@@ -17,9 +17,10 @@ std::uint32_t periods(double seconds, double period_s) {
 }
 
 control::AdcConfig<double> decoded(const rig::AdcPath& path, double tolerance) {
-  return {.per_eighth = path.lsb() / 8,
-          .offset_counts = path.zero(),
-          .offset_tolerance = static_cast<std::uint16_t>(std::min(std::ceil(tolerance / path.lsb()), 65535.0))};
+  return {
+      .per_eighth = path.lsb() / 8,
+      .offset_counts = path.zero(),
+      .offset_tolerance = static_cast<std::uint16_t>(std::min(std::ceil(tolerance / path.lsb()), 65535.0))};
 }
 
 control::FaultConfig<double> faults_of(const Scenario& s) {
@@ -30,8 +31,8 @@ control::FaultConfig<double> faults_of(const Scenario& s) {
           .under_voltage_V = p.under_voltage_V.value_or(0.0),
           .over_speed_rad_s = p.over_speed_rad_s.value_or(0.0),
           .stall_current_A = watches_stall ? *p.stall_current_A : p.over_current_A.value_or(0.0),
-          .stall_ticks = watches_stall ? periods(*p.stall_s, s.pwm.period_s)
-                                       : std::numeric_limits<std::uint32_t>::max(),
+          .stall_ticks =
+              watches_stall ? periods(*p.stall_s, s.pwm.period_s) : std::numeric_limits<std::uint32_t>::max(),
           .voltage_ticks = static_cast<std::uint8_t>(p.voltage_samples)};
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the product drive watches and how it starts and stops (control/protected_drive.hpp), as a scenario says
-// it. What each key means stands in protection_description.hpp.
+// What the product drive watches and how it starts and stops (control/protected_drive.hpp), as a scenario
+// says it. What each key means stands in protection_description.hpp.
 #pragma once
 #include <optional>
 

@@ -43,8 +43,7 @@ void describe_thresholds(Visitor& v, Protection& s) {
                       "stalling is not watched",
            .unit = "A",
            .range = above(0)});
-  v.value("stall_s", s.stall_s,
-          {.meaning = "how long that may last", .unit = "s", .range = above(0)});
+  v.value("stall_s", s.stall_s, {.meaning = "how long that may last", .unit = "s", .range = above(0)});
   v.value("offset_tolerance_A", s.offset_tolerance_A,
           {.meaning = "offset of a current amplifier beyond which it counts as broken; without it 2 % of "
                       "sensors.current_range_A",
