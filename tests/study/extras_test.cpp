@@ -42,8 +42,8 @@ double K_i(const Scenario& s) {
 TEST(Extras, MeasuredBusTakesTheFallOfTheBusFromTheLoop) {
   // 5 A into the held rotor, u = R i = 5.15 V, on a bus that falls from 36 V to what 24 V keep behind 1 ohm:
   // tau = 20 ms. With the nominal bus the loop must ask for u 24 V/U, which rises by u 24 V |U'|/U^2, and the
-  // integral follows a ramp with a lasting error of its slope T/K_i. At 5 ms, with 0.86 A drawn: U = 23.14 V +
-  // 12.86 V exp(-1/4).
+  // integral follows a ramp with a lasting error of its slope T/K_i. At 5 ms, with 0.86 A drawn: U = 23.14 V
+  // + 12.86 V exp(-1/4).
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.load.locked = true;
   s.initial.angle_rad = 0.02;
@@ -58,7 +58,8 @@ TEST(Extras, MeasuredBusTakesTheFallOfTheBusFromTheLoop) {
   s.control.current.measured_bus_from_V = 10.0;
   const double with = 5.0 - first_figure(s);
   std::printf("short of 5 A by %.3g A, expected %.3g, compensated %.3g\n", without, lasting, with);
-  EXPECT_NEAR(without, lasting, 0.05 * lasting) << "the mean, which R sees, is half a ripple above the sample";
+  EXPECT_NEAR(without, lasting, 0.05 * lasting)
+      << "the mean, which R sees, is half a ripple above the sample";
   EXPECT_LT(std::fabs(with), 0.05 * lasting);
 }
 
