@@ -124,11 +124,11 @@ TEST(Report, shows_what_is_not_ideal_and_who_stopped_the_drive) {
   run.scenario.protection.over_current_A = 15.0;
   run.outcome.fault = sixstep::base::Problem{"t = 0.305 s", "", "the drive tripped", "look"};
   run.outcome.trip = sixstep::study::Trip{.at_s = 0.305, .reasons = {"a Hall fault"}, .hall_line = 2};
-  const std::string html = page(run);
-  EXPECT_THAT(html, HasSubstr("phase currents through 12 bits over ±20.48 A"));
-  EXPECT_THAT(html, HasSubstr("line H2 breaks at 300 ms"));
-  EXPECT_THAT(html, HasSubstr("trips above 15 A"));
-  EXPECT_THAT(html, HasSubstr("a fault stopped the drive at 305 ms"));
+  const std::string html = page(run);  // where numbers and units stick together
+  EXPECT_THAT(html, HasSubstr("phase currents through 12 bits over ±20.48\u00a0A"));
+  EXPECT_THAT(html, HasSubstr("line H2 breaks at 300\u00a0ms"));
+  EXPECT_THAT(html, HasSubstr("trips above 15\u00a0A"));
+  EXPECT_THAT(html, HasSubstr("a fault stopped the drive at 305\u00a0ms"));
   const auto summary = nlohmann::json::parse(io::json_summary(run.scenario, run.outcome));
   EXPECT_EQ(summary["trip"]["hall_line"], 2);
   EXPECT_EQ(summary["trip"]["at_s"], 0.305);
