@@ -38,7 +38,7 @@ inline std::string trajectory_file(const Case& c) {
 /// A case for the engine. Copies of `rig()` start from rest; they look at this, which must live on.
 class Prepared {
  public:
-  using Rig = sixstep::rig::Rig<double, double>;
+  using Rig = sixstep::rig::LeanRig<double>;
 
   /// Empty where the files cannot be read; a duration above zero replaces the scenario's.
   static std::optional<Prepared> of(const Case& c, double duration_s = 0.0) {

@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The virtual board around the plant: samples, runs the controller, modulates, and plays the scenario's
 // timeline. It is the System that sim::run drives; the order of things at one instant is act()'s (MODEL 4b).
+// What its chip runs is a template parameter (firmware.hpp).
 #pragma once
 #include <array>
 
-#include "sixstep/control/drive.hpp"
 #include "sixstep/plant/hall.hpp"
 #include "sixstep/plant/plant.hpp"
+#include "sixstep/rig/firmware.hpp"
 #include "sixstep/rig/modulator.hpp"
-#include "sixstep/rig/sensors.hpp"
 
 namespace sixstep::rig {
-
-struct BoardConfig {
-  ModulatorConfig modulator;
-  bool commutate_at_sample = false;  ///< else at the Hall edge itself
-  bool delayed = false;              ///< a command takes effect one period after its sample
-  bool sampled_in_middle = false;    ///< of the period; the answer takes effect at the next one's start
-  Units units{};                     ///< of the controller's number
-  SensorsConfig sensors{};
-};
 
 enum class Fault : std::uint8_t { none, shoot_through, impossible_hall };
 
@@ -35,17 +26,20 @@ enum class Happening : std::uint8_t {
   count
 };
 
-template <class RealType, class Scalar>
+template <class RealType, class Firmware>
 class Rig {
  public:
   using Real = RealType;
 
-  Rig(const plant::Plant<Real>& plant, const control::DriveConfig<Scalar>& drive, const BoardConfig& board,
+  Rig(const plant::Plant<Real>& plant, const typename Firmware::Config& chip, const BoardConfig& board,
       const Timeline& timeline)
-      : plant_(plant), drive_(drive), board_(board), modulator_(board.modulator), timeline_(timeline) {
-    sensors_ = Sensors<Scalar>(board.sensors, board.units, static_cast<double>(plant_.constants().pole_pairs),
-                               plant_.state().sector, pins());
-  }
+      : plant_(plant),
+        firmware_(chip, board,
+                  {static_cast<double>(plant_.constants().pole_pairs), plant_.state().sector,
+                   plant::hall_code(plant_.sector())}),
+        board_(board),
+        modulator_(board.modulator),
+        timeline_(timeline) {}
 
   sim::Instant now() const { return now_; }
   sim::Instant next_known() const { return due_; }
@@ -61,10 +55,13 @@ class Rig {
 
   const plant::Plant<Real>& plant() const { return plant_; }
   const Modulator& modulator() const { return modulator_; }
-  const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
-  double current_reference_A() const { return to_si(telemetry_.current_reference_A, board_.units.current_A); }
+  const Firmware& firmware() const { return firmware_; }
+  const auto& telemetry() const { return firmware_.telemetry(); }
+  double current_reference_A() const {
+    return to_si(telemetry().current_reference_A, board_.units.current_A);
+  }
   double speed_reference_rad_s() const {
-    return to_si(telemetry_.speed_reference_rad_s, board_.units.speed_rad_s);
+    return to_si(telemetry().speed_reference_rad_s, board_.units.speed_rad_s);
   }
   double setpoint() const { return setpoint_; }
   Fault fault() const { return fault_; }
@@ -72,7 +69,6 @@ class Rig {
   std::uint8_t pins() const {
     return static_cast<std::uint8_t>((plant::hall_code(plant_.sector()) & ~stuck_low_) | stuck_high_);
   }
-  const Sensors<Scalar>& sensors() const { return sensors_; }
   std::int64_t happened(Happening what) const { return happened_[static_cast<std::size_t>(what)]; }
   /// True between a control tick and the segment that follows it.
   bool ticked() const { return ticked_; }
@@ -88,17 +84,15 @@ class Rig {
   void sector_edge();
   void hall_edge();
   void trip(int which);
-  control::Measurement<Scalar> measure();
+  void let_go();
   void count(Happening what) { ++happened_[static_cast<std::size_t>(what)]; }
 
   plant::Plant<Real> plant_;
-  control::DriveConfig<Scalar> drive_;
+  Firmware firmware_;
   BoardConfig board_;
   Modulator modulator_;
   const Timeline& timeline_;
 
-  control::DriveState<Scalar> drive_state_{};
-  control::Telemetry<Scalar> telemetry_{};
   sim::Instant now_{}, next_tick_{};
   sim::Instant due_{};  ///< the earliest of all clocks
   bool moved_ = true;   ///< a located event changed what the board drives
@@ -109,15 +103,14 @@ class Rig {
        reversed_ = false;                        ///< sign of the command that waits, and of the one in effect
   BoardCommand loaded_{};                        ///< sampled in the middle: what the timer takes up next
   bool loaded_reversed_ = false, half_ = false;  ///< half_: the next tick is a middle
-  Sensors<Scalar> sensors_{};
   std::uint8_t stuck_high_ = 0, stuck_low_ = 0;  ///< Hall lines, as bits of a code
   bool ticked_ = false;
   Fault fault_ = Fault::none;
   std::array<std::int64_t, static_cast<std::size_t>(Happening::count)> happened_{};
 };
 
-template <class Real, class Scalar>
-sim::Instant Rig<Real, Scalar>::next_due() const {
+template <class Real, class Firmware>
+sim::Instant Rig<Real, Firmware>::next_due() const {
   sim::Instant next = modulator_.next_edge();
   if (next_tick_ < next) next = next_tick_;
   if (next_action_ < timeline_.size() && timeline_[next_action_].at < next) next = timeline_[next_action_].at;
@@ -127,8 +120,8 @@ sim::Instant Rig<Real, Scalar>::next_due() const {
 /// All that is due now, decided by the clocks alone: scenario step, control tick, PWM edge, comparator,
 /// repeated until nothing is due. The gates follow at the end, so that a leg never sees an order of things at
 /// one instant.
-template <class Real, class Scalar>
-bool Rig<Real, Scalar>::act() {
+template <class Real, class Firmware>
+bool Rig<Real, Firmware>::act() {
   ticked_ = false;
   const bool watching = modulator_.command().watch != control::Watch::none;
   if (now_ < due_ && !moved_ && !watching) return true;
@@ -150,8 +143,8 @@ bool Rig<Real, Scalar>::act() {
   return fault_ == Fault::none;
 }
 
-template <class Real, class Scalar>
-bool Rig<Real, Scalar>::do_timeline() {
+template <class Real, class Firmware>
+bool Rig<Real, Firmware>::do_timeline() {
   if (next_action_ >= timeline_.size() || now_ < timeline_[next_action_].at) return false;
   const Action& action = timeline_[next_action_++];
   if (action.kind == ActionKind::load_torque) {
@@ -162,18 +155,17 @@ bool Rig<Real, Scalar>::do_timeline() {
     stick_hall(action.value);
     return true;
   }
+  if (action.kind == ActionKind::run_request) {
+    firmware_.request_run(action.value != 0);
+    return true;
+  }
   setpoint_ = action.value;
-  // An event hysteresis on the setpoint itself has no sample to wait for: its comparators follow at once
-  // (MODEL 4).
-  const bool continuous = drive_.mode == control::Mode::current &&
-                          drive_.current_control == control::CurrentControl::hysteresis &&
-                          drive_.hysteresis.watch != control::Watch::none;
-  if (continuous && !board_.delayed) control_step(false);
+  if (firmware_.follows_setpoint_at_once() && !board_.delayed) control_step(false);
   return true;
 }
 
-template <class Real, class Scalar>
-bool Rig<Real, Scalar>::do_tick() {
+template <class Real, class Firmware>
+bool Rig<Real, Firmware>::do_tick() {
   if (now_ < next_tick_) return false;
   if (board_.sampled_in_middle) return do_half_tick();
   next_tick_.ticks += board_.modulator.period_ticks;
@@ -183,14 +175,16 @@ bool Rig<Real, Scalar>::do_tick() {
   return ticked_ = true;
 }
 
-template <class Real, class Scalar>
-void Rig<Real, Scalar>::control_step(bool starts_period) {
-  const control::Setpoint<Scalar> setpoint{from_si<Scalar>(setpoint_, board_.units.setpoint)};
-  const control::BridgeCommand<Scalar> answer =
-      control::step(drive_, drive_state_, measure(), setpoint, telemetry_);
-  if (answer.fault) fault_ = Fault::impossible_hall;
+template <class Real, class Firmware>
+void Rig<Real, Firmware>::control_step(bool starts_period) {
+  const Sight<Real> sight{plant_, modulator_.command(),
+                          now_,   static_cast<std::uint64_t>(happened(Happening::tick)),
+                          pins(), reversed_};
+  const auto answer = firmware_.tick(sight, setpoint_);
+  if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
+  if (!answer.enabled) let_go();
   BoardCommand command = widened(answer, board_.units);
-  bool reversed = drive_state_.reversed;
+  bool reversed = firmware_.reversed();
   if (board_.delayed) {
     std::swap(command, pending_);
     std::swap(reversed, pending_reversed_);
@@ -207,12 +201,18 @@ void Rig<Real, Scalar>::control_step(bool starts_period) {
     modulator_.rearm(now_, command);
 }
 
+/// Turning off waits for no register: neither for a delayed command nor for one that the timer has loaded.
+template <class Real, class Firmware>
+void Rig<Real, Firmware>::let_go() {
+  modulator_.turn_off();
+  pending_.enabled = loaded_.enabled = false;
+}
+
 /// Open loop with a steady bridge asks nothing of the coming ticks until the setpoint moves: they are not
 /// simulated.
-template <class Real, class Scalar>
-void Rig<Real, Scalar>::skip_idle_ticks() {
-  const bool open_loop = drive_.mode == control::Mode::off || drive_.mode == control::Mode::duty;
-  if (!open_loop || board_.delayed || board_.commutate_at_sample || !modulator_.steady()) return;
+template <class Real, class Firmware>
+void Rig<Real, Firmware>::skip_idle_ticks() {
+  if (!firmware_.open_loop() || board_.delayed || board_.commutate_at_sample || !modulator_.steady()) return;
   const std::int64_t period = board_.modulator.period_ticks;
   std::size_t n = next_action_;
   while (n < timeline_.size() && timeline_[n].kind != ActionKind::setpoint) ++n;
@@ -224,25 +224,24 @@ void Rig<Real, Scalar>::skip_idle_ticks() {
   }
 }
 
-template <class Real, class Scalar>
-void Rig<Real, Scalar>::hall_edge() {
-  if (sensors_.decodes_hall()) sensors_.hall_edge(pins(), now_);
+template <class Real, class Firmware>
+void Rig<Real, Firmware>::hall_edge() {
+  firmware_.captured(pins(), now_);
   if (board_.commutate_at_sample) return;
-  const control::BridgeCommand<Scalar> answer = control::on_hall(drive_, drive_state_, pins());
-  if (answer.fault) fault_ = Fault::impossible_hall;
-  if (!answer.enabled) return modulator_.turn_off();
-  if (sensors_.on()) sensors_.commutated();
+  const auto answer = firmware_.hall_interrupt(pins(), now_);
+  if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
+  if (!answer.enabled) return let_go();
   pending_.pair = answer.pair;
   if (board_.sampled_in_middle)
-    loaded_.pair = drive_state_.reversed == loaded_reversed_ ? answer.pair : control::swapped(answer.pair);
-  const bool same_sign = drive_state_.reversed == reversed_;
+    loaded_.pair = firmware_.reversed() == loaded_reversed_ ? answer.pair : control::swapped(answer.pair);
+  const bool same_sign = firmware_.reversed() == reversed_;
   modulator_.commutate(now_, same_sign ? answer.pair : control::swapped(answer.pair));
 }
 
 /// With two legs conducting, both phases carry one current and two comparators reach their levels together:
 /// whether the second one switches too must not be left to a rounding error.
-template <class Real, class Scalar>
-void Rig<Real, Scalar>::trip(int which) {
+template <class Real, class Firmware>
+void Rig<Real, Firmware>::trip(int which) {
   const ArmedComparator other = modulator_.comparator(1 - which);
   const bool same_level = other.armed && other.switches_off == modulator_.comparator(which).switches_off;
   modulator_.comparator_tripped(now_, which);
@@ -256,9 +255,9 @@ void Rig<Real, Scalar>::trip(int which) {
   modulator_.comparator_tripped(now_, 1 - which);
 }
 
-template <class Real, class Scalar>
+template <class Real, class Firmware>
 template <class Visit>
-void Rig<Real, Scalar>::guards(Visit&& visit) const {
+void Rig<Real, Firmware>::guards(Visit&& visit) const {
   plant_.guards(visit);
   if (modulator_.command().watch == control::Watch::none) return;
   for (int which = 0; which < 2; ++which) {
@@ -276,8 +275,8 @@ void Rig<Real, Scalar>::guards(Visit&& visit) const {
   }
 }
 
-template <class Real, class Scalar>
-void Rig<Real, Scalar>::apply(int id) {
+template <class Real, class Firmware>
+void Rig<Real, Firmware>::apply(int id) {
   using namespace plant;
   if (id >= guard::first_free) {
     count(Happening::comparator);
@@ -291,6 +290,10 @@ void Rig<Real, Scalar>::apply(int id) {
   sector_edge();
   moved_ = true;
 }
+
+/// The rig of the thesis's experiments: ideal measurement, the loops alone.
+template <class Real, class Scalar = Real>
+using LeanRig = Rig<Real, LeanDrive<Scalar>>;
 
 }  // namespace sixstep::rig
 

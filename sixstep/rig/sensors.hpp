@@ -1,61 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a board's sensors and peripherals make of the plant, and what the firmware's own blocks make of that:
-// counts of an ADC, phase currents or one shunt in the DC link, captured times of Hall edges. Every input is
-// ideal until its part is switched on.
+// What the controller's own blocks make of the registers, before the lean drive: phase currents or one shunt
+// in the DC link, the bus, speed and position by captured Hall edges. Every input is ideal until its part is
+// switched on.
 #pragma once
-#include <cmath>
-
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/adc.hpp"
 #include "sixstep/control/hall.hpp"
 #include "sixstep/control/hall_speed.hpp"
 #include "sixstep/control/one_shunt.hpp"
-#include "sixstep/rig/adc.hpp"
+#include "sixstep/rig/registers.hpp"
 #include "sixstep/rig/units.hpp"
-#include "sixstep/sim/instant.hpp"
 
 namespace sixstep::rig {
-
-enum class CurrentSensing : std::uint8_t { ideal, phases, dc_link };
-
-struct SensorsConfig {
-  AdcPath current{};  ///< of each phase, or of the shunt
-  AdcPath bus{};
-  double least_duty = 1.0;  ///< DC link: a sample counts above this duty (one_shunt.hpp)
-  double fade = 1.0;        ///< of a hidden current per period, exp(-R T_s/L)
-  double capture_Hz = 1e6;  ///< of the timer that captures the edges
-  double timeout_s = 0.05;  ///< no edge for so long is standstill
-  std::uint64_t seed = 0;   ///< of the noise
-  CurrentSensing currents = CurrentSensing::ideal;
-  bool calibrated = true;  ///< offsets were measured, with their noise, before the run
-  bool measures_bus = false;
-  bool rotor_from_hall = false;  ///< speed and position from captured edges
-  bool decodes_hall = false;     ///< follow the lines, to name a broken one
-  std::uint8_t commutation_samples = 0;
-  std::uint8_t edges = 6;  ///< that a speed is taken over
-};
-
-/// One sample instant: the plant in SI and the command in effect.
-struct Sample {
-  double i_A[3]{};
-  double dc_link_A = 0.0;  ///< sum of the legs connected high: what a shunt carries
-  double bus_V = 0.0;
-  sim::Instant at{};
-  std::uint64_t number = 0;
-  double duty = 0.0;
-  bool reversed = false;
-};
 
 template <class Scalar>
 class Sensors {
  public:
-  Sensors() = default;
   Sensors(const SensorsConfig& config, const Units& units, double pole_pairs, std::int64_t sector,
           std::uint8_t pins);
 
-  /// Whether anything here is not ideal.
-  bool on() const { return on_; }
-  bool decodes_hall() const { return on_ && (config_.decodes_hall || config_.rotor_from_hall); }
   /// A Hall line changed.
   void hall_edge(std::uint8_t pins, const sim::Instant& at);
   /// The driven pair moved on.
@@ -68,23 +31,17 @@ class Sensors {
   std::uint8_t broken_line() const { return broken_line_; }
 
  private:
-  // Which input a random number belongs to; far from the streams of a series' spread.
-  static constexpr std::uint64_t stream = std::uint64_t{0x5e5} << 32, calibration = 8;
   static constexpr std::size_t bus_input = 3;
 
-  std::uint32_t count_at(const sim::Instant& t) const {
-    return static_cast<std::uint32_t>(
-        static_cast<std::uint64_t>(std::floor(t.seconds() * config_.capture_Hz)));
-  }
-  Scalar read(const AdcPath& path, const control::AdcConfig<Scalar>& adc, std::size_t input, double x,
-              std::uint64_t number) const {
-    return control::adc_value(adc, adc_[input], converted(path, x, {config_.seed, stream + input, number}));
+  bool decodes_hall() const { return config_.decodes_hall || config_.rotor_from_hall; }
+  Scalar current(std::size_t input, double i_A, const Sample& s) const {
+    return control::adc_value(current_adc_, adc_[input], registers_.current_counts(input, i_A, s.number));
   }
   control::AdcConfig<Scalar> decoding(const AdcPath& path, double unit) const;
   void calibrate();
 
-  SensorsConfig config_{};
-  bool on_ = false;
+  SensorsConfig config_;
+  Registers registers_;
   control::AdcConfig<Scalar> current_adc_{}, bus_adc_{};
   control::AdcState adc_[4]{};
   control::OneShuntConfig<Scalar> shunt_config_{};
@@ -110,10 +67,7 @@ double raw_unit() {
 template <class Scalar>
 Sensors<Scalar>::Sensors(const SensorsConfig& config, const Units& units, double pole_pairs,
                          std::int64_t sector, std::uint8_t pins)
-    : config_(config),
-      on_(config.currents != CurrentSensing::ideal || config.measures_bus || config.rotor_from_hall ||
-          config.decodes_hall) {
-  if (!on_) return;
+    : config_(config), registers_(config) {
   const double sector_rad = base::pi / 3 / pole_pairs, sector_deg = 60.0 / pole_pairs;
   current_adc_ = decoding(config.current, units.current_A);
   bus_adc_ = decoding(config.bus, units.voltage_V);
@@ -143,15 +97,15 @@ void Sensors<Scalar>::calibrate() {
   if (config_.currents == CurrentSensing::ideal) return;
   for (std::size_t input = 0; input < 3; ++input)
     for (std::uint64_t n = 0;; ++n) {
-      const base::RandomPlace place{config_.seed, stream + calibration + input, n};
-      const std::uint16_t counts = converted(config_.current, 0.0, place);
+      const std::uint16_t counts = registers_.calibration_counts(input, n);
       if (control::adc_calibrate(current_adc_, adc_[input], counts) != control::Calibration::running) break;
     }
 }
 
 template <class Scalar>
 void Sensors<Scalar>::hall_edge(std::uint8_t pins, const sim::Instant& at) {
-  const std::uint32_t now = count_at(at);
+  if (!decodes_hall()) return;
+  const std::uint32_t now = registers_.counter(at);
   const bool overdue = control::edge_overdue(speed_config_, speed_, now);
   const control::HallReading reading = control::hall_step(hall_config_, hall_, pins, overdue);
   if (reading.line != 0) broken_line_ = reading.line;
@@ -162,18 +116,18 @@ void Sensors<Scalar>::hall_edge(std::uint8_t pins, const sim::Instant& at) {
 template <class Scalar>
 void Sensors<Scalar>::sense(control::Measurement<Scalar>& m, const Sample& s) {
   if (config_.currents == CurrentSensing::phases) {
-    m.i_a_A = read(config_.current, current_adc_, 0, s.i_A[0], s.number);
-    m.i_b_A = read(config_.current, current_adc_, 1, s.i_A[1], s.number);
-    m.i_c_A = read(config_.current, current_adc_, 2, s.i_A[2], s.number);
+    m.i_a_A = current(0, s.i_A[0], s);
+    m.i_b_A = current(1, s.i_A[1], s);
+    m.i_c_A = current(2, s.i_A[2], s);
   } else if (config_.currents == CurrentSensing::dc_link) {
-    const Scalar shunt_A = read(config_.current, current_adc_, 0, s.dc_link_A, s.number);
+    const Scalar shunt_A = current(0, s.dc_link_A, s);
     const Scalar i_m =
         control::one_shunt_step(shunt_config_, shunt_, s.reversed, from_si<Scalar>(s.duty, 1.0), shunt_A);
     control::set_phase_currents(m, control::positive_pair(control::sector_of_hall(m.hall)), i_m);
   }
-  if (config_.measures_bus) m.bus_V = read(config_.bus, bus_adc_, bus_input, s.bus_V, s.number);
+  if (config_.measures_bus) m.bus_V = control::adc_value(bus_adc_, adc_[bus_input], registers_.bus_counts(s));
   if (!config_.rotor_from_hall) return;
-  const std::uint32_t now = count_at(s.at);
+  const std::uint32_t now = registers_.counter(s.at);
   m.speed_rad_s = control::hall_speed(speed_config_, speed_, now);
   m.position_deg = control::hall_position(position_config_, position_, speed_.direction,
                                           control::sector_fraction(speed_config_, speed_, now));

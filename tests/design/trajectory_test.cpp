@@ -38,7 +38,7 @@ class Beside {
     five_[3] = four_[2] = board.start.speed_rad_s;
   }
 
-  void segment(const rig::Rig<double, double>& rig, double s) {
+  void segment(const rig::LeanRig<double>& rig, double s) {
     const auto& p = rig.plant();
     const double length = p.expansion().h * s;
     if (!(length > 0)) return;
@@ -121,7 +121,7 @@ TEST(ThesisModels, TorqueIsTheEnginesTorque) {
   struct Torque {
     const Board& board;
     double worst = 0;
-    void segment(const rig::Rig<double, double>& r, double s) {
+    void segment(const rig::LeanRig<double>& r, double s) {
       for (const double part : {0.0, 0.4, 1.0}) {
         const auto now = r.plant().at(s * part);
         const auto f = design::back_emf_shape(board.machine, {now.angle * board.machine.pole_pairs});

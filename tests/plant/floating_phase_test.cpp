@@ -58,7 +58,7 @@ TEST(SoftChopping, TheDifferenceIsNotTheNaiveSimulatorsStep) {
 struct Starts {
   plant::Legs before{};
   int count = 0;
-  void segment(const rig::Rig<double, double>& rig, double s) {
+  void segment(const rig::LeanRig<double>& rig, double s) {
     if (!(s > 0)) return;
     const plant::Legs& legs = rig.plant().mode().legs;
     for (int k = 0; k < 3; ++k) count += plant::is_floating(before[k]) && plant::is_diode(legs[k]);

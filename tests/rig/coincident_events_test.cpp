@@ -195,7 +195,7 @@ TEST(Pitfall01_CoincidentInstants, SectorEdgeAndCurrentZero) {
 /// level.
 struct NeverBeyond {
   int beyond = 0, segments_of_edges = 0, last_sector = 0;
-  void segment(const rig::Rig<double, double>& rig, double s) {
+  void segment(const rig::LeanRig<double>& rig, double s) {
     if (!(s > 0)) return;
     const rig::ArmedComparator c = rig.modulator().comparator(0);
     const auto w = rig.modulator().comparator_weights(0);

@@ -150,7 +150,7 @@ TEST(Rig, CountsEverySwitchingOfAComparator) {
 struct Offs {
   bool on = false;
   std::vector<double> at_s;
-  void segment(const rig::Rig<double, double>& r, double) {
+  void segment(const rig::LeanRig<double>& r, double) {
     if (on && !r.modulator().source_on()) at_s.push_back(r.now().seconds());
     on = r.modulator().source_on();
   }

@@ -22,7 +22,7 @@ using namespace sixstep::study;
 struct Rows {
   GridRecorder grid;
   std::vector<std::vector<double>>& rows;
-  void segment(const rig::Rig<double, double>& rig, double s) { grid.segment(rig, s); }
+  void segment(const rig::LeanRig<double>& rig, double s) { grid.segment(rig, s); }
 };
 
 /// The thesis's speed cascade from rest to 100 rad/s (reference case R8) by a motor whose K_e alone is
@@ -40,8 +40,8 @@ std::vector<std::vector<double>> cascade(double K_e_factor) {
   if (!c) return rows;
   plant::Machine machine = c->motor.machine;
   machine.K_e_V_s *= K_e_factor;
-  rig::Rig<double, double> rig({machine, c->shaft, c->devices, c->supply, c->start}, c->drive, c->board,
-                               c->timeline);
+  rig::LeanRig<double> rig({machine, c->shaft, c->devices, c->supply, c->start}, c->drive, c->board,
+                           c->timeline);
   Rows rows_of{{100'000'000,
                 c->end,
                 s.control.mode,

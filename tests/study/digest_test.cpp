@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "sixstep/sim/run.hpp"
+#include "sixstep/study/arithmetic.hpp"
 #include "sixstep/study/compile.hpp"
 #include "tests/support/scenarios.hpp"
 
@@ -19,7 +20,7 @@ using namespace sixstep::testing;
 using namespace sixstep::study;
 using control::Mode;
 
-using Rig = rig::Rig<double, double>;
+using Rig = rig::LeanRig<double>;
 static_assert(std::is_copy_constructible_v<Rig>, "a copy of the rig is its snapshot");
 
 /// Settling-time design, bus behind R and C, dead time: much that a snapshot could forget.

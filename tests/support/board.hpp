@@ -35,8 +35,8 @@ struct Board : Drivetrain {
     timeline.push_back({{ticks, 0.0}, rig::ActionKind::load_torque, torque});
   }
   template <class Real = double>
-  rig::Rig<Real, double> rig() const {
-    return rig::Rig<Real, double>(plant<Real>(), drive, board, timeline);
+  rig::LeanRig<Real, double> rig() const {
+    return rig::LeanRig<Real, double>(plant<Real>(), drive, board, timeline);
   }
 };
 

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Three firmwares for the virtual board, as a template parameter of the rig: what differs between them stands
+// here, and a run pays for its own one only.
+//
+//                 a tick is given                    a Hall edge           a fault              it tells
+//   LeanDrive     what is, in the controller's unit  on_hall               ends the run         -
+//   SensedDrive   the same through [sensors]         captured, on_hall     ends the run         broken line
+//   ProductDrive  registers: counts, pins, counter   protected_on_hall     bridge off, goes on  reason, line,
+//                                                                                               when
+//
+// LeanDrive and SensedDrive run drive.hpp; ProductDrive runs protected_drive.hpp, offset calibration, Hall
+// decoding, fault monitor and state machine included.
+#pragma once
+#include "sixstep/base/angle.hpp"
+#include "sixstep/control/protected_drive.hpp"
+#include "sixstep/plant/plant.hpp"
+#include "sixstep/rig/board_config.hpp"
+#include "sixstep/rig/sensors.hpp"
+
+namespace sixstep::rig {
+
+/// The instant that a firmware's tick looks at.
+template <class Real>
+struct Sight {
+  const plant::Plant<Real>& plant;
+  const BoardCommand& in_effect;
+  sim::Instant at{};
+  std::uint64_t number = 0;  ///< of the sample
+  std::uint8_t pins = 0;
+  bool reversed = false;  ///< sign of the command in effect
+};
+
+/// What a firmware has found out about a fault.
+struct Diagnosis {
+  std::uint16_t faults = 0;    ///< bits of control::Fault that stopped the drive
+  std::uint8_t hall_line = 0;  ///< 1..3: the line that made an impossible code; 0: none, or it cannot be told
+  sim::Instant at{};           ///< the tick that latched them
+};
+
+/// Everything as it is.
+template <class Scalar, class Real>
+control::Measurement<Scalar> ideal_measurement(const Sight<Real>& sight, const Units& u) {
+  const plant::State<Real>& s = sight.plant.state();
+  const Real sector_deg = static_cast<Real>(s.sector) * 60 + s.x * Real(180) / Real(base::pi);
+  return {.i_a_A = from_si<Scalar>(s.i[0], u.current_A),
+          .i_b_A = from_si<Scalar>(s.i[1], u.current_A),
+          .i_c_A = from_si<Scalar>(s.i[2], u.current_A),
+          .speed_rad_s = from_si<Scalar>(s.w, u.speed_rad_s),
+          .position_deg = from_si<Scalar>(sector_deg / sight.plant.constants().pole_pairs, u.position_deg),
+          .bus_V = from_si<Scalar>(s.bus, u.voltage_V),
+          .hall = sight.pins};
+}
+
+/// What converters and shunt are exposed to.
+template <class Real>
+Sample sample_of(const Sight<Real>& sight) {
+  const plant::State<Real>& s = sight.plant.state();
+  Sample sample{.bus_V = static_cast<double>(s.bus),
+                .at = sight.at,
+                .number = sight.number,
+                .duty = sight.in_effect.duty,
+                .reversed = sight.reversed};
+  for (std::size_t k = 0; k < 3; ++k) {
+    sample.i_A[k] = static_cast<double>(s.i[k]);
+    if (plant::is_high(sight.plant.mode().legs[k])) sample.dc_link_A += sample.i_A[k];
+  }
+  return sample;
+}
+
+/// The loops alone, told what is.
+template <class Scalar>
+class LeanDrive {
+ public:
+  using Number = Scalar;
+  using Config = control::DriveConfig<Scalar>;
+  static constexpr bool fault_ends_run = true;
+
+  LeanDrive(const Config& config, const BoardConfig& board, const Waking&)
+      : config_(config), units_(board.units) {}
+
+  template <class Real>
+  control::BridgeCommand<Scalar> tick(const Sight<Real>& sight, double setpoint) {
+    return step(ideal_measurement<Scalar>(sight, units_), setpoint);
+  }
+  control::BridgeCommand<Scalar> step(const control::Measurement<Scalar>& measured, double setpoint) {
+    return control::step(config_, state_, measured, {from_si<Scalar>(setpoint, units_.setpoint)}, telemetry_);
+  }
+  void captured(std::uint8_t, const sim::Instant&) {}
+  control::BridgeCommand<Scalar> hall_interrupt(std::uint8_t pins, const sim::Instant&) {
+    return control::on_hall(config_, state_, pins);
+  }
+  void request_run(bool) {}
+
+  /// Sign of the last command.
+  bool reversed() const { return state_.reversed; }
+  /// Asks nothing of a tick but the setpoint.
+  bool open_loop() const { return config_.mode == control::Mode::off || config_.mode == control::Mode::duty; }
+  /// An event hysteresis on the setpoint itself has no sample to wait for (MODEL 4).
+  bool follows_setpoint_at_once() const {
+    return config_.mode == control::Mode::current &&
+           config_.current_control == control::CurrentControl::hysteresis &&
+           config_.hysteresis.watch != control::Watch::none;
+  }
+  const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
+  Diagnosis diagnosis() const { return {}; }
+
+ private:
+  Config config_;
+  Units units_;
+  control::DriveState<Scalar> state_{};
+  control::Telemetry<Scalar> telemetry_{};
+};
+
+/// The loops alone, told what a board's sensors say.
+template <class Scalar>
+class SensedDrive {
+ public:
+  using Number = Scalar;
+  using Config = control::DriveConfig<Scalar>;
+  static constexpr bool fault_ends_run = true;
+
+  SensedDrive(const Config& config, const BoardConfig& board, const Waking& waking)
+      : drive_(config, board, waking),
+        sensors_(board.sensors, board.units, waking.pole_pairs, waking.sector, waking.pins),
+        units_(board.units) {}
+
+  template <class Real>
+  control::BridgeCommand<Scalar> tick(const Sight<Real>& sight, double setpoint) {
+    control::Measurement<Scalar> measured = ideal_measurement<Scalar>(sight, units_);
+    sensors_.sense(measured, sample_of(sight));
+    return drive_.step(measured, setpoint);
+  }
+  void captured(std::uint8_t pins, const sim::Instant& at) { sensors_.hall_edge(pins, at); }
+  control::BridgeCommand<Scalar> hall_interrupt(std::uint8_t pins, const sim::Instant& at) {
+    const control::BridgeCommand<Scalar> answer = drive_.hall_interrupt(pins, at);
+    if (answer.enabled) sensors_.commutated();
+    return answer;
+  }
+  void request_run(bool) {}
+
+  bool reversed() const { return drive_.reversed(); }
+  bool open_loop() const { return drive_.open_loop(); }
+  bool follows_setpoint_at_once() const { return drive_.follows_setpoint_at_once(); }
+  const control::Telemetry<Scalar>& telemetry() const { return drive_.telemetry(); }
+  Diagnosis diagnosis() const { return {.hall_line = sensors_.broken_line()}; }
+
+ private:
+  LeanDrive<Scalar> drive_;
+  Sensors<Scalar> sensors_;
+  Units units_;
+};
+
+/// What is flashed: registers in, command out. The request to run is a level that the timeline sets.
+template <class Scalar>
+class ProductDrive {
+ public:
+  using Number = Scalar;
+  using Config = control::ProtectedConfig<Scalar>;
+  static constexpr bool fault_ends_run = false;
+
+  /// It knows its turn: position counts on from where the rotor stands.
+  ProductDrive(const Config& config, const BoardConfig& board, const Waking& waking)
+      : config_(config), registers_(board.sensors), units_(board.units) {
+    state_.position.sectors = static_cast<std::int32_t>(waking.sector);
+  }
+
+  template <class Real>
+  control::BridgeCommand<Scalar> tick(const Sight<Real>& sight, double setpoint);
+  void captured(std::uint8_t, const sim::Instant&) {}
+  control::BridgeCommand<Scalar> hall_interrupt(std::uint8_t pins, const sim::Instant& at) {
+    return control::protected_on_hall(config_, state_, pins, registers_.counter(at));
+  }
+  void request_run(bool run) { request_.run = run; }
+
+  bool reversed() const { return state_.drive.reversed; }
+  bool open_loop() const { return false; }
+  bool follows_setpoint_at_once() const { return false; }
+  const control::Telemetry<Scalar>& telemetry() const { return telemetry_.drive; }
+  control::Activity activity() const { return telemetry_.activity; }
+  const Diagnosis& diagnosis() const { return diagnosis_; }
+
+ private:
+  Config config_;
+  Registers registers_;
+  Units units_;
+  control::Request request_{};
+  control::ProtectedState<Scalar> state_{};
+  control::ProtectedTelemetry<Scalar> telemetry_{};
+  Diagnosis diagnosis_{};
+};
+
+template <class Scalar>
+template <class Real>
+control::BridgeCommand<Scalar> ProductDrive<Scalar>::tick(const Sight<Real>& sight, double setpoint) {
+  const Sample s = sample_of(sight);
+  const bool one_shunt = config_.sensing == control::CurrentSensing::one_shunt;
+  control::BoardInput in{
+      .bus_counts = registers_.bus_counts(s), .hall_pins = sight.pins, .now = registers_.counter(s.at)};
+  for (std::size_t k = 0; k < (one_shunt ? 1u : 3u); ++k)
+    in.current_counts[k] = registers_.current_counts(k, one_shunt ? s.dc_link_A : s.i_A[k], s.number);
+  const control::Setpoint<Scalar> wanted{from_si<Scalar>(setpoint, units_.setpoint)};
+  const control::BridgeCommand<Scalar> answer =
+      control::protected_step(config_, state_, in, request_, wanted, telemetry_);
+  if (!answer.enabled) telemetry_.drive = {};  // no loop ran: nothing of theirs is in hand
+  if (telemetry_.first_fault != 0 && diagnosis_.faults == 0)
+    diagnosis_ = {
+        telemetry_.first_fault,
+        (telemetry_.first_fault & control::fault_hall) != 0 ? telemetry_.hall_line : std::uint8_t{0},
+        sight.at};
+  return answer;
+}
+
+}  // namespace sixstep::rig

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a board's converters and its capture timer make of the plant, and when: the counts that a firmware
+// finds in the registers of its chip.
+#pragma once
+#include <cmath>
+
+#include "sixstep/rig/adc.hpp"
+#include "sixstep/sim/instant.hpp"
+
+namespace sixstep::rig {
+
+enum class CurrentSensing : std::uint8_t { ideal, phases, dc_link };
+
+struct SensorsConfig {
+  AdcPath current{};  ///< of each phase, or of the shunt
+  AdcPath bus{};
+  double least_duty = 1.0;  ///< DC link: a sample counts above this duty (one_shunt.hpp)
+  double fade = 1.0;        ///< of a hidden current per period, exp(-R T_s/L)
+  double capture_Hz = 1e6;  ///< of the timer that captures the edges
+  double timeout_s = 0.05;  ///< no edge for so long is standstill
+  std::uint64_t seed = 0;   ///< of the noise
+  CurrentSensing currents = CurrentSensing::ideal;
+  bool calibrated = true;  ///< offsets were measured, with their noise, before the run
+  bool measures_bus = false;
+  bool rotor_from_hall = false;  ///< speed and position from captured edges
+  bool decodes_hall = false;     ///< follow the lines, to name a broken one
+  std::uint8_t commutation_samples = 0;
+  std::uint8_t edges = 6;  ///< that a speed is taken over
+
+  /// The controller is told what is.
+  bool ideal() const {
+    return currents == CurrentSensing::ideal && !measures_bus && !rotor_from_hall && !decodes_hall;
+  }
+};
+
+/// One sample instant: the plant in SI and the command in effect.
+struct Sample {
+  double i_A[3]{};
+  double dc_link_A = 0.0;  ///< sum of the legs connected high: what a shunt carries
+  double bus_V = 0.0;
+  sim::Instant at{};
+  std::uint64_t number = 0;
+  double duty = 0.0;
+  bool reversed = false;
+};
+
+class Registers {
+ public:
+  Registers() = default;
+  explicit Registers(const SensorsConfig& config)
+      : current_(config.current), bus_(config.bus), capture_Hz_(config.capture_Hz), seed_(config.seed) {}
+
+  /// Of input 0 to 2: a phase current each, or the shunt as input 0.
+  std::uint16_t current_counts(std::size_t input, double i_A, std::uint64_t sample) const {
+    return converted(current_, i_A, {seed_, stream + input, sample});
+  }
+  std::uint16_t bus_counts(const Sample& s) const {
+    return converted(bus_, s.bus_V, {seed_, stream + bus_input, s.number});
+  }
+  /// A sample before the run, with the bridge off and no current.
+  std::uint16_t calibration_counts(std::size_t input, std::uint64_t sample) const {
+    return converted(current_, 0.0, {seed_, stream + calibration + input, sample});
+  }
+  /// The free-running counter.
+  std::uint32_t counter(const sim::Instant& t) const {
+    return static_cast<std::uint32_t>(static_cast<std::uint64_t>(std::floor(t.seconds() * capture_Hz_)));
+  }
+
+ private:
+  // Which input a random number belongs to; far from the streams of a series' spread.
+  static constexpr std::uint64_t stream = std::uint64_t{0x5e5} << 32, calibration = 8;
+  static constexpr std::size_t bus_input = 3;
+
+  AdcPath current_{}, bus_{};
+  double capture_Hz_ = 1e6;
+  std::uint64_t seed_ = 0;
+};
+
+}  // namespace sixstep::rig
