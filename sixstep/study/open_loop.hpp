@@ -41,7 +41,7 @@ class OpenLoop {
   }
 
   rig::Timeline timeline_;
-  rig::Rig<double, double> rig_;
+  rig::LeanRig<double> rig_;
 };
 
 }  // namespace sixstep::study
