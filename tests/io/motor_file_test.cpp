@@ -129,6 +129,7 @@ TEST_F(MotorFile, EverySpellingIsTheKeyInItsUnit) {
   for (const KeyEntry& key : sheet_keys())
     for (const base::Spelling& spelling : key.about.also) {
       SCOPED_TRACE(spelling.key);
+      if (key.type != KeyType::quantity) continue;  // a count: read by the template's test
       base::Result<Document> document =
           Document::parse("m.toml", fmt::format("name = \"m\"\n{} = 2.50\n", spelling.key));
       ASSERT_TRUE(document);
@@ -194,7 +195,7 @@ TEST_F(MotorFile, TheTemplatesFilledInAreTheReferenceMotor) {
   const double K_e = 0.01675;
   const std::map<std::string, std::map<std::string, std::string>> sheets = {
       {"maxon",
-       {{"pole_pairs", "8"},
+       {{"line_29_number_of_pole_pairs", "8"},
         {"line_1_nominal_voltage_V", "24"},
         {"line_10_terminal_resistance_ohm", "1.03"},
         {"line_11_terminal_inductance_mH", "0.572"},
