@@ -24,7 +24,7 @@ const std::vector<Style>& styles() {
       {"maxon",
        "numbered lines, values between two terminals",
        "trapezoid",
-       {"pole_pairs", "line_1_nominal_voltage_V", "line_10_terminal_resistance_ohm",
+       {"line_29_number_of_pole_pairs", "line_1_nominal_voltage_V", "line_10_terminal_resistance_ohm",
         "line_11_terminal_inductance_mH", "line_12_torque_constant_mNm_A", "line_16_rotor_inertia_gcm2"},
        {"line_2_no_load_speed_rpm", "line_3_no_load_current_mA", "line_4_nominal_speed_rpm",
         "line_5_nominal_torque_mNm", "line_6_nominal_current_A", "line_7_stall_torque_mNm",

@@ -121,6 +121,22 @@ bool is_sheet_key(const std::string& where) {
   return find_key(keys, where) != nullptr;
 }
 
+/// A sheet's check speaks in the standard key's unit: what stands in another spelling is quoted from the
+/// file.
+base::Problem as_written(const Document& document, const std::string& table, base::Problem problem) {
+  const std::vector<KeyEntry> keys = sheet_keys();
+  const KeyEntry* entry = find_key(keys, problem.where);
+  if (!entry || entry->path == problem.where) return problem;
+  for (const char* part : {".value", ""}) {
+    const std::string path = table + problem.where + part;
+    const toml::node* node = document.find(path);
+    if (!node) continue;
+    problem.value = document.quote(*node, path);
+    break;
+  }
+  return problem;
+}
+
 /// What study::check found, each told where it stands: in the scenario, its overrides, or the motor's file.
 void run_checks(const Document& document, const SheetSource& source, const study::Scenario& scenario,
                 Complaints& complaints, base::Problems& of_motor_file) {
@@ -130,9 +146,10 @@ void run_checks(const Document& document, const SheetSource& source, const study
     if (is_sheet_key(problem.where)) {
       const std::string in_override = fmt::format("motor_override.{}", problem.where);
       if (!document.find(in_override)) {
-        of_motor.later(std::move(problem));
+        of_motor.later(as_written(source.document, "", std::move(problem)));
         continue;
       }
+      problem = as_written(document, "motor_override.", std::move(problem));
       problem.where = in_override;
     }
     // What follows from a mistake told already would only hide it.
@@ -156,7 +173,7 @@ base::Result<design::Sheet> read_sheet(const std::string& name, const std::strin
   if (!source) return source.problems();
   Complaints complaints(source->document);
   for (base::Problem& problem : design::sheet_constants(source->sheet).problems)
-    complaints.later(std::move(problem));
+    complaints.later(as_written(source->document, "", std::move(problem)));
   if (!complaints.empty()) return complaints.in_order();
   return std::move(source->sheet);
 }

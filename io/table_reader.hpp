@@ -31,21 +31,14 @@ class TableReader {
 
   template <class T>
   void value(std::string_view key, std::optional<T>& member, const base::About& about) {
+    if (!any_spelling_in_file(key, about)) return absent(key, about);
     T present{};
-    if (given(key)) {
-      value(key, present, about);
-      member = std::move(present);
-    } else {
-      find(key, about);
-    }
+    value(spelling_in_file(key, about)->key, present, about);
+    member = std::move(present);
   }
 
   void quantity(std::string_view key, std::optional<base::Quantity>& member, const base::About& about) {
-    if (!any_spelling_in_file(key, about)) {
-      find(key, about);
-      for (const base::Spelling& spelling : about.also) known_.emplace_back(spelling.key);
-      return;
-    }
+    if (!any_spelling_in_file(key, about)) return absent(key, about);
     if (!member) member.emplace();
     quantity(key, *member, about);
   }
@@ -96,6 +89,10 @@ class TableReader {
   }
   bool given(std::string_view key) const { return table_.contains(key); }
   const toml::node* find(std::string_view key, const base::About& about);
+  void absent(std::string_view key, const base::About& about) {
+    find(key, about);
+    for (const base::Spelling& spelling : about.also) known_.emplace_back(spelling.key);
+  }
   bool any_spelling_in_file(std::string_view key, const base::About& about) const {
     return given(key) || std::any_of(about.also.begin(), about.also.end(),
                                      [&](const base::Spelling& spelling) { return given(spelling.key); });

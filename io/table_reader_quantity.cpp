@@ -51,7 +51,9 @@ std::optional<double> TableReader::last_digit(const toml::node& node, const std:
   if (digits.empty() || digits.find_first_not_of("+-_.0123456789") != std::string_view::npos) return {};
   int power = ten;
   if (exponent != std::string::npos) power += std::atoi(text.c_str() + exponent + 1);
-  if (point != std::string::npos) power -= static_cast<int>(digits.size() - point - 1);
+  if (point != std::string::npos)
+    power -= static_cast<int>(std::count_if(digits.begin() + static_cast<std::ptrdiff_t>(point), digits.end(),
+                                            [](char c) { return c >= '0' && c <= '9'; }));
   if (power < -22 || power > 22) return {};
   return base::times_ten_to(1.0, power);
 }

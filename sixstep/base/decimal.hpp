@@ -5,6 +5,9 @@
 
 namespace sixstep::base {
 
+/// No sheet prints more than ten digits: longer numbers are products of arithmetic, and rounded as such.
+inline constexpr double more_than_printed = 1e10;
+
 /// A printed number times a power of ten, as the double nearest to the decimal product: 0.572 mH becomes
 /// 0.000572 and 135 g cm^2 1.35e-5, to the bit, as if they had been written so. The digits as an integer
 /// times or over one exact power of ten are rounded once; dividing 0.572 itself would round twice. `ten` lies
@@ -18,18 +21,21 @@ inline double times_ten_to(double printed, int ten) {
   double scale = 1.0;
   for (int decimals = 0; decimals <= 22; ++decimals, scale *= 10.0) {
     const double digits = std::floor(printed * scale + 0.5), power = ten - decimals;
-    if (!(digits < 0x1p53 && digits > -0x1p53)) break;
+    if (!(digits < more_than_printed && digits > -more_than_printed)) break;
     if (digits / scale == printed && power >= -22.0) return scaled(digits, ten - decimals);
   }
   return scaled(printed, ten);
 }
 
 /// Weight of the last digit of the shortest decimal that reads back as the same double: 0.01 for 1.03, 1 for
-/// 24. Zeros that a sheet prints behind the last other digit are not in a double.
+/// 24, 0 for a number that no sheet prints. Zeros behind the last other digit are not in a double.
 inline double last_digit_of(double printed) {
   double scale = 1.0;
-  for (int decimals = 0; decimals <= 22; ++decimals, scale *= 10.0)
-    if (std::floor(printed * scale + 0.5) / scale == printed) return 1.0 / scale;
+  for (int decimals = 0; decimals <= 22; ++decimals, scale *= 10.0) {
+    const double digits = std::floor(printed * scale + 0.5);
+    if (digits / scale == printed) return 1.0 / scale;
+    if (digits > more_than_printed) break;
+  }
   return 0.0;
 }
 

@@ -159,6 +159,7 @@ double relative_doubt(const Quantity& q) {
 
 SheetConstants sheet_constants(const Sheet& sheet) {
   SheetConstants out;
+  out.used.reserve(12);
   SheetReader reader{sheet, out};
   read_trust(reader);
   const bool flat = base::strictly_between(0.0, 180.0).holds(sheet.flat_deg);
@@ -181,9 +182,11 @@ SheetConstants sheet_constants(const Sheet& sheet) {
   return out;
 }
 
-Sheet in_standard_keys(const Sheet& sheet) {
-  Sheet s = sheet;
-  const SheetConstants c = sheet_constants(sheet);
+Sheet in_standard_keys(Sheet s) {
+  const bool all_there = s.inductance_mH && (s.torque_constant_mNm_A || s.back_emf_mV_s) &&
+                         s.viscous_friction_Nm_s && !s.with_brake;
+  if (all_there) return s;
+  const SheetConstants c = sheet_constants(s);
   const auto fill = [](std::optional<Quantity>& key, const std::optional<Constant>& constant, double value,
                        const char* frame) {
     if (key || !constant) return;

@@ -4,6 +4,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sixstep/base/problem.hpp"
@@ -49,9 +50,9 @@ struct SheetConstants {
   double K_e_relative_doubt = 0.0;
   std::vector<OtherWay> other_ways;
   Friction friction;
-  std::vector<std::string> used;  ///< keys that the model is made of
-  base::Problems problems;        ///< what is wrong with what is written
-  base::Problems missing;         ///< what a model needs beyond it
+  std::vector<std::string_view> used;  ///< keys that the model is made of
+  base::Problems problems;             ///< what is wrong with what is written
+  base::Problems missing;              ///< what a model needs beyond it
 };
 
 /// Pure. Two ways for one print are a Problem; two prints of one constant are kept apart as other_ways.
@@ -66,6 +67,6 @@ double relative_doubt(const base::Quantity& q);
 /// inductance_mH, torque_constant_mNm_A, inertia_gcm2, viscous_friction_Nm_s, coulomb_friction_mNm), whatever
 /// way it was printed. What stands in a standard key already keeps its bits. For those that change single
 /// values.
-Sheet in_standard_keys(const Sheet& sheet);
+Sheet in_standard_keys(Sheet sheet);
 
 }  // namespace sixstep::design

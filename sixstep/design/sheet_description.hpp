@@ -29,7 +29,8 @@ template <class Visitor>
 void describe_winding(Visitor& v, Sheet& s) {
   v.value("pole_pairs", s.pole_pairs,
           {.meaning = "electrical turns per turn of the shaft: half the number of magnet poles",
-           .range = base::from(1)});
+           .range = base::from(1),
+           .also = spellings::pole_pairs});
   v.value("poles", s.poles,
           {.meaning = "number of magnet poles, instead of pole_pairs", .range = base::from(2)});
   v.value("winding", s.winding, {.meaning = "teeth and magnet poles as 12N14P, instead of pole_pairs"});

@@ -30,7 +30,8 @@ struct SheetReader {
   void missing(std::string_view where, std::string_view cure) {
     out.missing.push_back({std::string(where), "", "is missing", std::string(cure)});
   }
-  void use(std::string_view key) { out.used.emplace_back(key); }
+  /// Of a key that lives as long as the program.
+  void use(std::string_view key) { out.used.push_back(key); }
 
   /// The key as the file writes it.
   static std::string key_of(std::string_view key, const base::Quantity& q) {

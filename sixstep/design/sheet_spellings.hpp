@@ -72,4 +72,6 @@ inline constexpr Spelling winding_temperature[] = {
     line("line_22_max_winding_temperature_degC", "data sheet, line 22")};
 inline constexpr Spelling max_speed[] = {line("line_23_max_speed_rpm", "data sheet, line 23")};
 
+inline constexpr Spelling pole_pairs[] = {line("line_29_number_of_pole_pairs", "data sheet, line 29")};
+
 }  // namespace sixstep::design::spellings

@@ -53,49 +53,52 @@ std::optional<int> of_winding(SheetReader& reader) {
   return winding->poles / 2;
 }
 
+std::optional<int> of_poles(SheetReader& reader) {
+  const int poles = *reader.sheet.poles;
+  if (poles >= 2 && poles % 2 == 0) return poles / 2;
+  reader.problem(
+      "poles", std::to_string(poles), "must be an even number from 2 on",
+      "magnet poles come in pairs of north and south; if the sheet counts pairs, write pole_pairs");
+  return {};
+}
+
+/// Pole pairs as written against what another line counts.
+void compare(SheetReader& reader, int pole_pairs, int other, const std::string& other_line) {
+  if (pole_pairs == other) return;
+  const std::string pairs = std::to_string(other);
+  if (pole_pairs == 2 * other)
+    reader.problem("pole_pairs", std::to_string(pole_pairs), "is the number of poles of " + other_line,
+                   "write pole_pairs = " + pairs);
+  else
+    reader.problem("pole_pairs", std::to_string(pole_pairs),
+                   "contradicts " + other_line + ", which has " + pairs + " pole pairs",
+                   "keep the one that is right");
+}
+
 }  // namespace
 
 std::optional<int> read_pole_pairs(SheetReader& reader) {
   const Sheet& s = reader.sheet;
-  std::optional<int> by_winding = s.winding.empty() ? std::nullopt : of_winding(reader), by_poles;
-  if (s.poles) {
-    if (*s.poles < 2 || *s.poles % 2 != 0)
-      reader.problem(
-          "poles", std::to_string(*s.poles), "must be an even number from 2 on",
-          "magnet poles come in pairs of north and south; if the sheet counts pairs, write pole_pairs");
-    else
-      by_poles = *s.poles / 2;
-  }
   if (s.pole_pairs && *s.pole_pairs < 1) {
     reader.problem("pole_pairs", std::to_string(*s.pole_pairs), "must be at least 1",
                    "give the number of pole pairs (half the number of magnets' poles)");
     return {};
   }
-  const bool from_code = by_winding && (!by_poles || by_winding == by_poles);
-  if (by_winding && by_poles && !from_code)
+  std::optional<int> by_winding, by_poles;
+  if (!s.winding.empty()) by_winding = of_winding(reader);
+  if (s.poles) by_poles = of_poles(reader);
+  const std::string winding = "winding = " + quoted(s.winding);
+  if (by_winding && by_poles && *by_winding != *by_poles)
     reader.problem("poles", std::to_string(*s.poles),
-                   "contradicts winding = " + quoted(s.winding) + ", which has " +
-                       std::to_string(2 * *by_winding) + " poles",
+                   "contradicts " + winding + ", which has " + std::to_string(2 * *by_winding) + " poles",
                    "keep the one that is right");
   const std::optional<int> other = by_winding ? by_winding : by_poles;
-  const std::string other_text =
-      by_winding ? "winding = " + quoted(s.winding) : "poles = " + std::to_string(s.poles.value_or(0));
-  if (s.pole_pairs && other && *s.pole_pairs != *other) {
-    const std::string pairs = std::to_string(*other);
-    if (*s.pole_pairs == 2 * *other)
-      reader.problem("pole_pairs", std::to_string(*s.pole_pairs), "is the number of poles of " + other_text,
-                     "write pole_pairs = " + pairs);
-    else
-      reader.problem("pole_pairs", std::to_string(*s.pole_pairs),
-                     "contradicts " + other_text + ", which has " + pairs + " pole pairs",
-                     "keep the one that is right");
-  }
+  if (s.pole_pairs && other)
+    compare(reader, *s.pole_pairs, *other, by_winding ? winding : "poles = " + std::to_string(*s.poles));
   if (s.pole_pairs)
     reader.use("pole_pairs");
-  else if (by_winding)
-    reader.use("winding");
-  else if (by_poles)
-    reader.use("poles");
+  else if (other)
+    reader.use(by_winding ? "winding" : "poles");
   return s.pole_pairs ? s.pole_pairs : other;
 }
 

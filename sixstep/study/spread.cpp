@@ -97,7 +97,7 @@ NumberAt find_number(Scenario& scenario, std::string_view key) {
 /// every constant in its standard key, whatever way the sheet prints it.
 Scenario written_out(const Scenario& scenario) {
   Scenario s = scenario;
-  s.sheet = design::in_standard_keys(scenario.sheet);
+  s.sheet = design::in_standard_keys(std::move(s.sheet));
   return s;
 }
 

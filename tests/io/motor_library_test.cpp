@@ -32,6 +32,9 @@ struct EachQuantity {
   void choice(std::string_view, Enum&, const Choices&, const base::About&) {}
 };
 
+template <class Call>
+EachQuantity(Call) -> EachQuantity<Call>;
+
 class MotorLibrary : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
