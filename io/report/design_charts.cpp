@@ -90,7 +90,8 @@ std::string loop_charts(const DesignStudy& s) {
   std::size_t n = 0;
   for (const auto& loop : s.design.loops) {
     const double from = loop.figures.crossover_rad_s.value_or(0.1 / s.design.wish.period_s) / 30;
-    SvgCurve g{loop.name, styles[n % 3], {}, {}}, p = g;
+    SvgCurve& g = gain.curves.emplace_back(SvgCurve{loop.name, styles[n % 3], {}, {}});
+    SvgCurve& p = phase.curves.emplace_back(SvgCurve{loop.name, styles[n % 3], {}, {}});
     for (const auto& point : sixstep::design::bode(loop.loop, s.design.wish.period_s, from, 240)) {
       const double deg = point.phase_rad * degrees;
       // Beyond that neither tells anything.
@@ -100,8 +101,6 @@ std::string loop_charts(const DesignStudy& s) {
       p.y.push_back(shown ? deg : NAN);
     }
     p.x = g.x;
-    gain.curves.push_back(std::move(g));
-    phase.curves.push_back(std::move(p));
     ++n;
   }
   return svg_chart(gain) + svg_chart(phase);

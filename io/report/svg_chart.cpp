@@ -41,15 +41,18 @@ class Axis {
   std::vector<double> ticks() const {
     std::vector<double> out;
     if (logarithmic_) {
-      for (double v = std::pow(10.0, std::ceil(std::log10(low_) - 1e-9)); v <= high_ * 1.000001; v *= 10)
-        out.push_back(v);
+      const int last = static_cast<int>(std::floor(std::log10(high_) + 1e-9));
+      for (int n = static_cast<int>(std::ceil(std::log10(low_) - 1e-9)); n <= last; ++n)
+        out.push_back(std::pow(10.0, n));
       return out;
     }
     const double rough = (high_ - low_) / 5, power = std::pow(10.0, std::floor(std::log10(rough)));
     double step = power * 10;
     for (const double m : {5.0, 2.0, 1.0})
       if (power * m >= rough) step = power * m;
-    for (double n = std::ceil(low_ / step); n * step <= high_; ++n) out.push_back(n == 0 ? 0.0 : n * step);
+    const auto last = static_cast<long>(std::floor(high_ / step));
+    for (auto n = static_cast<long>(std::ceil(low_ / step)); n <= last; ++n)
+      out.push_back(static_cast<double>(n) * step);
     return out;
   }
 

@@ -61,6 +61,14 @@ void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& 
             cure);
 }
 
+void look_at_sign(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
+  if (loop.gains.d1 <= 0.0 && loop.name == "current")
+    out.add("the current loop is asked to be slower than the motor's own L/R, " +
+                milliseconds(d.motor.machine.L_H / d.motor.machine.R_ohm) +
+                ": its proportional gain is negative",
+            "ask for a shorter --settle, or take --method cancellation");
+}
+
 void look_at_overshoot(const LoopDesign& loop, Collector& out) {
   if (loop.name != "position" && loop.figures.stable && loop.step.overshoot > 0.1)
     out.add("the " + loop.name + " loop overshoots a step by " + rounded(100.0 * loop.step.overshoot) +
@@ -133,6 +141,7 @@ std::vector<Warning> warnings_of(const DriveDesign& d) {
   for (const LoopDesign& loop : d.loops) {
     look_at_stability(d, loop, out);
     look_at_settling(d, loop, out);
+    look_at_sign(d, loop, out);
     look_at_overshoot(loop, out);
   }
   // A position gain is bounded by the overshoot itself.

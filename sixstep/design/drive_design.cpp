@@ -29,6 +29,7 @@ base::Problems check(const MotorModel& motor, const DesignWish& w) {
   const auto add = [&](const char* where, const std::string& value, const char* limit, const char* cure) {
     found.push_back({where, value, limit, cure});
   };
+  const auto above_0 = [](double x) { return x > 0.0 && x - x == 0.0; };
   if (w.mode != Mode::current && w.mode != Mode::speed && w.mode != Mode::position)
     add("--mode", "", "must be current, speed or position", "choose what is to be controlled");
   if (w.method == GainMethod::symmetrical_optimum && w.mode == Mode::current)
@@ -40,11 +41,15 @@ base::Problems check(const MotorModel& motor, const DesignWish& w) {
   if (w.bandwidth_rad_s && w.method == GainMethod::pole_placement)
     add("--bandwidth", base::written(*w.bandwidth_rad_s), "is no input of pole placement",
         "give --settle, or take --method cancellation");
-  if (w.bandwidth_rad_s && !(*w.bandwidth_rad_s > 0.0))
+  if (w.bandwidth_rad_s && !above_0(*w.bandwidth_rad_s))
     add("--bandwidth", base::written(*w.bandwidth_rad_s), "must be above 0", "give it in rad/s");
-  if (w.voltage_V && !(*w.voltage_V > 0.0))
+  if (w.voltage_V && !above_0(*w.voltage_V))
     add("--voltage", base::written(*w.voltage_V), "must be above 0", "give the bus voltage in volts");
-  if (!(w.load_inertia_kg_m2 >= 0.0))
+  if (!above_0(w.period_s))
+    add("--period", base::written(w.period_s), "must be above 0", "give the control period in seconds");
+  if (w.torque_limit_Nm && !above_0(*w.torque_limit_Nm))
+    add("--torque-limit", base::written(*w.torque_limit_Nm), "must be above 0", "give it in N m");
+  if (!(w.load_inertia_kg_m2 >= 0.0 && w.load_inertia_kg_m2 - w.load_inertia_kg_m2 == 0.0))
     add("--load-inertia", base::written(w.load_inertia_kg_m2), "must not be negative", "give it in kg m2");
   if (!(motor.stall_torque_Nm > 0.0) && !w.torque_limit_Nm && w.mode != Mode::current)
     add("--torque-limit", "", "is missing, and the sheet has no stall torque", "give it in N m");
@@ -131,6 +136,11 @@ base::Result<LoopDesign> speed_loop(const DriveDesign& d) {
     const ZohPlant plant = current_plant(2.0 * d.motor.machine.R_ohm, 2.0 * d.motor.machine.L_H, w.period_s);
     const double lag = lag_of_loop_s(plant, d.loops[0].gains, w.period_s);
     const double a = w.bandwidth_rad_s ? 1.0 / (*w.bandwidth_rad_s * lag) : 1.0 + 2.0 * w.damping;
+    if (w.bandwidth_rad_s && !(a > 1.0))
+      return base::Problem{
+          "--bandwidth", base::written(*w.bandwidth_rad_s),
+          "must be below what the current loop's lag allows, " + base::written(1.0 / lag) + " rad/s",
+          "lower it; a third of that has the most phase to spare"};
     return by_rule("speed", "symmetrical optimum",
                    symmetrical_optimum(shaft.J_kg_m2, d.torque_limit_Nm, lag, a, w.period_s));
   }

@@ -89,7 +89,7 @@ double settling_of(const LoopDesign& loop, double otherwise) {
 void add_current(const DriveDesign& d, const DesignSubject& subject, Scenario& s) {
   const LoopDesign& loop = d.loop("current");
   const double step = subject.step.value_or(
-      plain_number(std::min(d.nominal_current_A, part_of_bus * d.bus_V / loop.gains.d1)));
+      plain_number(std::min(d.nominal_current_A, part_of_bus * d.bus_V / std::fabs(loop.gains.d1))));
   const double settle = settling_of(loop, 100 * d.wish.period_s), end = plain_time(5 * settle);
   const double last = end - 10 * d.wish.period_s, R = 2 * d.motor.machine.R_ohm;
   s.title = "Current loop as designed, rotor held";
@@ -104,12 +104,13 @@ void add_current(const DriveDesign& d, const DesignSubject& subject, Scenario& s
   settling.sampled = overshoot.sampled = true;
   s.compare = {
       {settling, loop.step.settling_s, "designed, at the samples, 2 %"},
-      {overshoot, loop.step.overshoot * step, "designed, at the samples"},
+      {overshoot, loop.step.overshoot * std::fabs(step), "designed, at the samples"},
       {window_measure(MetricKind::peak_to_peak, Signal::current, last, end, "current ripple"),
-       design::current_ripple_A(d.motor, d.bus_V, d.wish.period_s, d.wish.chopping, step * R / d.bus_V),
+       design::current_ripple_A(d.motor, d.bus_V, d.wish.period_s, d.wish.chopping,
+                                std::fabs(step) * R / d.bus_V),
        "PWM at this duty"},
   };
-  const double band = 0.02 * step;  // the band of settling
+  const double band = 0.02 * std::fabs(step);  // the band of settling
   Measure mean = window_measure(MetricKind::mean, Signal::current, last, end, "mean of the last ten samples");
   mean.sampled = true;  // the controller samples the lowest point of the ripple and holds that
   s.require = {{mean, step - band, step + band}};
@@ -155,7 +156,7 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, Scenario& s) {
   const double duty = (K * last + R * t.load_A) / d.bus_V;
   s.compare = {
       {of(MetricKind::settling_time, true, "settling time"), linear.settling_s, "designed, 2 %"},
-      {of(MetricKind::overshoot, true, "overshoot"), linear.overshoot * t.step, "designed"},
+      {of(MetricKind::overshoot, true, "overshoot"), linear.overshoot * std::fabs(t.step), "designed"},
       {window_measure(MetricKind::peak_to_peak, Signal::speed, t.calm, t.end, "speed ripple"), 0.0,
        "none wanted"},
       {window_measure(MetricKind::peak_to_peak, Signal::current, t.calm, t.end, "current ripple"),
@@ -168,7 +169,7 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, Scenario& s) {
       {window_measure(MetricKind::maximum, Signal::current, 0, t.begin, "peak current of the start"),
        d.current_at_full_torque_A, "at full torque"},
   };
-  const double band = 0.02 * t.step;  // the band of settling
+  const double band = 0.02 * std::fabs(t.step);  // the band of settling
   s.require = {{window_measure(MetricKind::mean, Signal::speed, t.calm, t.end, "mean speed at the end"),
                 last - band, last + band}};
 }

@@ -35,7 +35,8 @@ std::string cure_of_settling(const design::DriveDesign& d) {
 bool drowned(const DesignStudy& s) {
   const ComparisonResult* ripple = find(s.outcome, "speed ripple");
   if (!ripple || s.scenario.reference.values.size() < 2) return false;
-  return ripple->measured > 2 * 0.02 * (s.scenario.reference.values[1] - s.scenario.reference.values[0]);
+  const std::vector<double>& levels = s.scenario.reference.values;
+  return ripple->measured > 2 * 0.02 * std::fabs(levels[1] - levels[0]);
 }
 
 /// A loop at whose limits the run was not to come must settle as designed; a quarter more is told.
@@ -89,6 +90,30 @@ void look_at_tolerances(DesignStudy& s) {
                             "design slower (--settle)", false});
 }
 
+/// Some seconds of computing for a run; a slower drive is to be looked at by hand.
+constexpr double most_periods = 2e6;
+
+base::Problems too_long(const Scenario& s) {
+  if (s.duration_s / s.pwm.period_s <= most_periods) return {};
+  return {{"the test", rounded(s.duration_s) + " s",
+           "is longer than two million control periods, so slow is the drive beside them",
+           "give a shorter --settle, a smaller --step or more --torque-limit, or a longer --period"}};
+}
+
+/// Position: the gain, and the design that has it.
+base::Problems find_gain(const DesignOrder& order, DesignStudy& s) {
+  if (!(s.design.loop("position").gains.d1 > 0.0))
+    return {{"--mode", "position", "finds no gain that does not overshoot: the speed loop within is unstable",
+             "design the speed loop slower (--settle) or the current loop faster (--current-settle, "
+             "--bandwidth)"}};
+  if (base::Problems found = too_long(design_scenario(s.design, order.subject)); !found.empty()) return found;
+  base::Result<PositionGain> gain = largest_position_gain(s.design, order.subject, order.keep_going);
+  if (!gain) return gain.problems();
+  s.position = *gain;
+  s.design = design::with_position_gain(s.design, gain->gain_rad_s_per_deg);
+  return {};
+}
+
 }  // namespace
 
 bool DesignStudy::usable() const {
@@ -100,6 +125,10 @@ double nominal_current_A(const design::Sheet& sheet) {
 }
 
 base::Result<DesignStudy> study_design(const DesignOrder& order) {
+  const std::optional<double>& step = order.subject.step;
+  if (step && !(std::isfinite(*step) && *step != 0.0))
+    return base::Problem{"--step", rounded(*step), "must be a number other than 0",
+                         "give it in A, rad/s or deg as the mode asks"};
   const base::Result<design::MotorModel> motor = design::motor_model(order.subject.sheet);
   if (!motor) return motor.problems();
   base::Result<design::DriveDesign> design =
@@ -107,13 +136,10 @@ base::Result<DesignStudy> study_design(const DesignOrder& order) {
   if (!design) return design.problems();
   DesignStudy s;
   s.design = std::move(*design);
-  if (order.wish.mode == control::Mode::position) {
-    base::Result<PositionGain> gain = largest_position_gain(s.design, order.subject, order.keep_going);
-    if (!gain) return gain.problems();
-    s.position = *gain;
-    s.design = design::with_position_gain(s.design, gain->gain_rad_s_per_deg);
-  }
+  if (order.wish.mode == control::Mode::position)
+    if (base::Problems found = find_gain(order, s); !found.empty()) return found;
   s.scenario = design_scenario(s.design, order.subject);
+  if (base::Problems found = too_long(s.scenario); !found.empty()) return found;
   if (base::Problems found = check(s.scenario); !found.empty()) return found;
   base::Result<std::vector<Column>> columns = record_columns(s.scenario);
   if (!columns) return columns.problems();

@@ -290,7 +290,23 @@ TEST(DesignStudy, PassesProblemsOn) {
   DesignSubject broken = subject;
   broken.sheet.resistance_ohm.value = -1;
   EXPECT_FALSE(study_design({.subject = broken, .wish = {}}));
-  EXPECT_FALSE(study_design({.subject = subject, .wish = {.settle_s = -1.0}}));
+  const auto refused = [](const DesignWish& wish, std::optional<double> step = {}) {
+    DesignSubject with_step = subject;
+    with_step.step = step;
+    const auto s = study_design({.subject = with_step, .wish = wish});
+    return s ? std::string() : s.problems()[0].where;
+  };
+  EXPECT_EQ(refused({.settle_s = -1.0}), "--settle");
+  EXPECT_EQ(refused({}, 0.0), "--step");
+  EXPECT_EQ(refused({.mode = Mode::position, .load_inertia_kg_m2 = 1.0}), "the test");
+  EXPECT_EQ(
+      refused({.mode = Mode::position, .method = design::GainMethod::cancellation, .bandwidth_rad_s = 50.0}),
+      "--mode");
+  EXPECT_EQ(
+      refused(
+          {.mode = Mode::speed, .method = design::GainMethod::symmetrical_optimum, .bandwidth_rad_s = 1e5}),
+      "--bandwidth");
+  EXPECT_EQ(refused({.mode = Mode::speed}, -20.0), "");  // downwards is a step too
 }
 
 }  // namespace
