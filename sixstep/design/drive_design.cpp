@@ -231,8 +231,7 @@ const LoopDesign& DriveDesign::loop(std::string_view name) const {
   return loops.back();
 }
 
-base::Result<DriveDesign> design_drive(const MotorModel& motor, double nominal_current_A,
-                                       const DesignWish& wish) {
+base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignWish& wish) {
   if (base::Problems found = check(motor, wish); !found.empty()) return found;
   DriveDesign d;
   d.wish = wish;
@@ -242,7 +241,7 @@ base::Result<DriveDesign> design_drive(const MotorModel& motor, double nominal_c
   d.torque_limit_Nm = wish.torque_limit_Nm.value_or(motor.stall_torque_Nm);
   d.current_at_full_torque_A = d.torque_limit_Nm / motor.K_t_Nm_A;
   const double stall_A = d.bus_V / (2.0 * motor.machine.R_ohm);
-  d.nominal_current_A = nominal_current_A > 0.0 ? nominal_current_A : stall_A / 10.0;
+  d.nominal_current_A = motor.nominal_current_A > 0.0 ? motor.nominal_current_A : stall_A / 10.0;
   base::Result<LoopDesign> current = current_loop(d);
   if (!current) return current.problems();
   d.loops.push_back(*current);

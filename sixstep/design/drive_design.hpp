@@ -73,8 +73,7 @@ struct DriveDesign {
 
 /// Gains for the wish. In position mode the gain is the largest with which the linear loop does not
 /// overshoot; what limits allow is study's to find, with with_position_gain(). Problems name the option.
-base::Result<DriveDesign> design_drive(const MotorModel& motor, double nominal_current_A,
-                                       const DesignWish& wish);
+base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignWish& wish);
 
 /// The same with another position gain, figures and warnings anew.
 DriveDesign with_position_gain(const DriveDesign& design, double gain_rad_s_per_deg);

@@ -15,6 +15,11 @@ void read_printed_points(SheetReader& reader, MotorModel& m) {
   if (sheet.no_load_current_mA)
     m.no_load_current_A =
         reader.not_negative("no_load_current_mA", *sheet.no_load_current_mA, -3).value_or(0.0);
+  if (const std::optional<base::Quantity>& printed = sheet.nominal_current_A) {
+    const bool rms = printed->frame == "rms";
+    const double per_A = rms ? torque_per_rms_A(m.machine.K_e_V_s, reader.out.shape) / m.K_t_Nm_A : 1.0;
+    m.nominal_current_A = per_A * printed->value;
+  }
   m.stall_torque_Nm = m.K_t_Nm_A * m.nominal_voltage_V / (2.0 * m.machine.R_ohm);
   if (sheet.stall_torque_mNm)
     m.stall_torque_Nm = reader.positive("stall_torque_mNm", *sheet.stall_torque_mNm, -3).value_or(0.0);

@@ -71,12 +71,17 @@ Warming warming(const design::ThermalModel& model, const CurveRequest& r, const 
   return out;
 }
 
+std::optional<double> printed_current(const design::MotorModel& motor) {
+  if (motor.nominal_current_A > 0) return motor.nominal_current_A;
+  return std::nullopt;
+}
+
 Curve curve_of(const CurveRequest& r, const CurvePlan& plan, const std::vector<OperatingPoint>& found) {
   Curve out{.points = found, .no_load = plan.no_load};
   if (plan.nominal) {
     const double sign = r.bench.duty < 0 ? -1 : 1;
     out.nominal = NominalPoint{plan.speeds_rad_s.back(), scaled(r.sheet.nominal_torque_mNm, sign * 1e-3),
-                               scaled(r.sheet.nominal_current_A, 1), found.back()};
+                               printed_current(r.bench.motor), found.back()};
     out.points.pop_back();
   }
   out.points.push_back(plan.no_load.point);

@@ -120,10 +120,6 @@ bool DesignStudy::usable() const {
   return std::none_of(warnings.begin(), warnings.end(), [](const design::Warning& w) { return w.grave; });
 }
 
-double nominal_current_A(const design::Sheet& sheet) {
-  return sheet.nominal_current_A ? sheet.nominal_current_A->value : 0.0;
-}
-
 base::Result<DesignStudy> study_design(const DesignOrder& order) {
   const std::optional<double>& step = order.subject.step;
   if (step && !(std::isfinite(*step) && *step != 0.0))
@@ -132,7 +128,7 @@ base::Result<DesignStudy> study_design(const DesignOrder& order) {
   const base::Result<design::MotorModel> motor = design::motor_model(order.subject.sheet);
   if (!motor) return motor.problems();
   base::Result<design::DriveDesign> design =
-      design::design_drive(*motor, nominal_current_A(order.subject.sheet), order.wish);
+      design::design_drive(*motor, order.wish);
   if (!design) return design.problems();
   DesignStudy s;
   s.design = std::move(*design);

@@ -37,7 +37,4 @@ struct DesignOrder {
 /// Problems are those of sheet, wish and scenario.
 base::Result<DesignStudy> study_design(const DesignOrder& order);
 
-/// The sheet's continuous current; without one 0.
-double nominal_current_A(const design::Sheet& sheet);
-
 }  // namespace sixstep::study

@@ -43,7 +43,7 @@ design::Sheet sheet_of(const design::Sheet& from, const design::MotorModel& m) {
   s.pole_pairs = m.machine.pole_pairs;
   s.back_emf = from.back_emf;
   s.flat_deg = from.flat_deg;
-  s.nominal_voltage_V = {m.nominal_voltage_V, "", ""};
+  if (m.nominal_voltage_V > 0) s.nominal_voltage_V = {m.nominal_voltage_V, "", ""};
   s.resistance_ohm = {2 * m.machine.R_ohm, "terminal", ""};
   s.inductance_mH = {2e3 * m.machine.L_H, "terminal", ""};
   s.torque_constant_mNm_A = base::Quantity{1e3 * m.K_t_Nm_A, "", ""};

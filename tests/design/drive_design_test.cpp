@@ -29,7 +29,7 @@ MotorModel thesis_motor() {
 }
 
 DriveDesign designed(const DesignWish& wish) {
-  const auto d = design_drive(thesis_motor(), 2.33, wish);
+  const auto d = design_drive(thesis_motor(), wish);
   EXPECT_TRUE(d);
   return *d;
 }
@@ -163,7 +163,7 @@ TEST(DriveDesign, WarnsOfWhatIsOffAndOfNothingElse) {
 
 TEST(DriveDesign, NamesOptionsThatContradict) {
   const auto refused = [](const DesignWish& wish) {
-    const auto d = design_drive(thesis_motor(), 2.33, wish);
+    const auto d = design_drive(thesis_motor(), wish);
     return d ? std::string() : to_string(d.problems()[0]);
   };
   EXPECT_EQ(

@@ -41,7 +41,7 @@ design::Sheet thesis_sheet() {
 const DesignSubject subject{"maxon-251601", thesis_sheet(), {}};
 
 DriveDesign designed(const DesignWish& wish) {
-  const auto d = design::design_drive(*design::motor_model(subject.sheet), 2.33, wish);
+  const auto d = design::design_drive(*design::motor_model(subject.sheet), wish);
   EXPECT_TRUE(d);
   return *d;
 }
@@ -264,7 +264,7 @@ TEST(DesignStudy, CountsTheLoadsInertiaIn) {
   EXPECT_NEAR(s->design.loop("speed").gains.d1 / bare.loop("speed").gains.d1, 3.35 / 1.35, 0.01);
   const Scenario heavy =
       varied_scenario(s->scenario, s->design.motor, {{Strays::inertia, {}}}, {"", {1.5}, true});
-  EXPECT_NEAR(1e-7 * heavy.sheet.inertia_gcm2.value + heavy.load.inertia_kg_m2, 1.5 * 3.35e-5, 1e-18);
+  EXPECT_NEAR(1e-7 * heavy.sheet.inertia_gcm2->value + heavy.load.inertia_kg_m2, 1.5 * 3.35e-5, 1e-18);
 }
 
 TEST(DesignStudy, SaysWhatOnlyTheRunCouldShow) {
@@ -288,7 +288,7 @@ TEST(DesignStudy, SaysWhatOnlyTheRunCouldShow) {
 
 TEST(DesignStudy, PassesProblemsOn) {
   DesignSubject broken = subject;
-  broken.sheet.resistance_ohm.value = -1;
+  broken.sheet.resistance_ohm->value = -1;
   EXPECT_FALSE(study_design({.subject = broken, .wish = {}}));
   const auto refused = [](const DesignWish& wish, std::optional<double> step = {}) {
     DesignSubject with_step = subject;
