@@ -94,9 +94,7 @@ class LeanDrive {
   /// Sign of the last command.
   bool reversed() const { return state_.reversed; }
   /// Asks nothing of a tick but the setpoint.
-  bool open_loop() const {
-    return config_.mode == control::Mode::off || config_.mode == control::Mode::duty;
-  }
+  bool open_loop() const { return config_.mode == control::Mode::off || config_.mode == control::Mode::duty; }
   /// An event hysteresis on the setpoint itself has no sample to wait for (MODEL 4).
   bool follows_setpoint_at_once() const {
     return config_.mode == control::Mode::current &&
@@ -196,9 +194,8 @@ template <class Real>
 control::BridgeCommand<Scalar> ProductDrive<Scalar>::tick(const Sight<Real>& sight, double setpoint) {
   const Sample s = sample_of(sight);
   const bool one_shunt = config_.sensing == control::CurrentSensing::one_shunt;
-  control::BoardInput in{.bus_counts = registers_.bus_counts(s),
-                         .hall_pins = sight.pins,
-                         .now = registers_.counter(s.at)};
+  control::BoardInput in{
+      .bus_counts = registers_.bus_counts(s), .hall_pins = sight.pins, .now = registers_.counter(s.at)};
   for (std::size_t k = 0; k < (one_shunt ? 1u : 3u); ++k)
     in.current_counts[k] = registers_.current_counts(k, one_shunt ? s.dc_link_A : s.i_A[k], s.number);
   const control::Setpoint<Scalar> wanted{from_si<Scalar>(setpoint, units_.setpoint)};
@@ -206,9 +203,10 @@ control::BridgeCommand<Scalar> ProductDrive<Scalar>::tick(const Sight<Real>& sig
       control::protected_step(config_, state_, in, request_, wanted, telemetry_);
   if (!answer.enabled) telemetry_.drive = {};  // no loop ran: nothing of theirs is in hand
   if (telemetry_.first_fault != 0 && diagnosis_.faults == 0)
-    diagnosis_ = {telemetry_.first_fault,
-                  (telemetry_.first_fault & control::fault_hall) != 0 ? telemetry_.hall_line : std::uint8_t{0},
-                  sight.at};
+    diagnosis_ = {
+        telemetry_.first_fault,
+        (telemetry_.first_fault & control::fault_hall) != 0 ? telemetry_.hall_line : std::uint8_t{0},
+        sight.at};
   return answer;
 }
 

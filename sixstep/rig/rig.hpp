@@ -35,7 +35,8 @@ class Rig {
       const Timeline& timeline)
       : plant_(plant),
         firmware_(chip, board,
-                  {static_cast<double>(plant_.constants().pole_pairs), plant_.state().sector, pins()}),
+                  {static_cast<double>(plant_.constants().pole_pairs), plant_.state().sector,
+                   plant::hall_code(plant_.sector())}),
         board_(board),
         modulator_(board.modulator),
         timeline_(timeline) {}
@@ -86,7 +87,6 @@ class Rig {
   void let_go();
   void count(Happening what) { ++happened_[static_cast<std::size_t>(what)]; }
 
-  std::uint8_t stuck_high_ = 0, stuck_low_ = 0;  ///< Hall lines, as bits of a code
   plant::Plant<Real> plant_;
   Firmware firmware_;
   BoardConfig board_;
@@ -103,6 +103,7 @@ class Rig {
        reversed_ = false;                        ///< sign of the command that waits, and of the one in effect
   BoardCommand loaded_{};                        ///< sampled in the middle: what the timer takes up next
   bool loaded_reversed_ = false, half_ = false;  ///< half_: the next tick is a middle
+  std::uint8_t stuck_high_ = 0, stuck_low_ = 0;  ///< Hall lines, as bits of a code
   bool ticked_ = false;
   Fault fault_ = Fault::none;
   std::array<std::int64_t, static_cast<std::size_t>(Happening::count)> happened_{};
@@ -176,9 +177,9 @@ bool Rig<Real, Firmware>::do_tick() {
 
 template <class Real, class Firmware>
 void Rig<Real, Firmware>::control_step(bool starts_period) {
-  const Sight<Real> sight{
-      plant_,    modulator_.command(), now_, static_cast<std::uint64_t>(happened(Happening::tick)), pins(),
-      reversed_};
+  const Sight<Real> sight{plant_, modulator_.command(),
+                          now_,   static_cast<std::uint64_t>(happened(Happening::tick)),
+                          pins(), reversed_};
   const auto answer = firmware_.tick(sight, setpoint_);
   if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
   if (!answer.enabled) let_go();

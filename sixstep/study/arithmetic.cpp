@@ -7,6 +7,7 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/control/fixed.hpp"
+#include "sixstep/study/basis.hpp"
 #include "sixstep/study/choices.hpp"
 
 namespace sixstep::study {
@@ -14,13 +15,6 @@ namespace sixstep::study {
 namespace {
 
 using control::Mode;
-
-double largest_reference(const Scenario& s) {
-  double largest = 0.0;
-  for (const Level& level : reference_levels(s.reference, s.duration_s))
-    largest = std::max(largest, std::fabs(level.value));
-  return largest;
-}
 
 double unit_of_setpoint(Mode mode, const design::Bases& b) {
   return mode == Mode::current    ? b.current_A
@@ -70,7 +64,82 @@ base::Problems unheld_speed(const Scenario& s, const Compiled& c, const design::
            "take a slower timer, fewer edges, or a 32-bit format"}};
 }
 
+rig::Units units_of(Mode mode, const design::Bases& b) {
+  return {b.current_A, b.voltage_V, b.speed_rad_s, b.position_deg, unit_of_setpoint(mode, b)};
+}
+
+/// What converters span and thresholds must be able to pass.
+design::OperatingRange product_range(const Scenario& s, const Compiled& c) {
+  design::OperatingRange range = operating_range(s, c);
+  range.current_A = std::max(c.board.sensors.current.range, s.protection.align.current_A.value_or(0.0));
+  range.bus_V = c.board.sensors.bus.range;
+  range.speed_rad_s = std::max(range.speed_rad_s, c.product->faults.over_speed_rad_s);
+  return range;
+}
+
+template <class Scalar>
+control::DriveExtras<Scalar> extras_in(const control::DriveExtras<double>& x) {
+  const auto s = [](double v) { return static_cast<Scalar>(v); };
+  const control::LimitsConfig<double>& l = x.limits;
+  return {.on = x.on,
+          .slews_setpoint = x.slews_setpoint,
+          .slew = {s(x.slew.step)},
+          .limits_current = x.limits_current,
+          .limits = {s(l.current_A), l.limits_speed, s(l.speed_rad_s), s(l.A_per_rad_s),
+                     l.limits_regeneration, s(l.bus_V), s(l.A_per_V)},
+          .torque_fraction_per_A = s(x.torque_fraction_per_A),
+          .feed_forward = {s(x.feed_forward.K_t_V_s)},
+          .bus = {s(x.bus.lowest_bus_V)},
+          .smooth_chopping = x.smooth_chopping,
+          .chopping = {s(x.chopping.soft_above_A), s(x.chopping.complementary_below_A)}};
+}
+
+template <class Scalar>
+control::ProtectedConfig<Scalar> product_in_float(const control::ProtectedConfig<double>& c) {
+  const auto s = [](double v) { return static_cast<Scalar>(v); };
+  const auto adc = [&](const control::AdcConfig<double>& a) {
+    return control::AdcConfig<Scalar>{s(a.per_eighth), a.offset_counts, a.offset_tolerance, a.log2_samples};
+  };
+  const control::FaultConfig<double>& f = c.faults;
+  return {.drive = in_arithmetic<Scalar>(c.drive),
+          .setpoint_limit = s(c.setpoint_limit),
+          .sensing = c.sensing,
+          .current_adc = {adc(c.current_adc[0]), adc(c.current_adc[1]), adc(c.current_adc[2])},
+          .bus_adc = adc(c.bus_adc),
+          .shunt = {s(c.shunt.least_duty), c.shunt.commutation_samples, s(c.shunt.fade)},
+          .hall = c.hall,
+          .speed = {s(c.speed.sector_rad_s_ticks), c.speed.timeout_ticks, c.speed.edges},
+          .position = {s(c.position.per_sector), s(c.position.per_fraction)},
+          .advance = {s(c.advance.fixed), s(c.advance.per_speed), s(c.advance.limit)},
+          .faults = {s(f.over_current_A), s(f.over_voltage_V), s(f.under_voltage_V), s(f.over_speed_rad_s),
+                     s(f.stall_current_A), f.stall_ticks, f.voltage_ticks},
+          .align = {s(c.align.current_A), c.align.ticks, c.align.settled_ticks, c.align.sector},
+          .brake_current_A = s(c.brake_current_A),
+          .short_below_rad_s = s(c.short_below_rad_s),
+          .standing_rad_s = s(c.standing_rad_s)};
+}
+
 }  // namespace
+
+template <class Scalar>
+control::DriveConfig<Scalar> in_arithmetic(const control::DriveConfig<double>& c) {
+  const auto s = [](double v) { return static_cast<Scalar>(v); };
+  return {.mode = c.mode,
+          .chopping = c.chopping,
+          .current_control = c.current_control,
+          .current = {s(c.current.d1), s(c.current.d0), s(c.current.limit)},
+          .hysteresis = {s(c.hysteresis.band_A), c.hysteresis.watch},
+          .nominal_bus_V = s(c.nominal_bus_V),
+          .speed = {s(c.speed.d1), s(c.speed.d0), s(c.speed.limit)},
+          .current_at_full_torque_A = s(c.current_at_full_torque_A),
+          .current_limit_A = s(c.current_limit_A),
+          .position_gain = s(c.position_gain),
+          .speed_limit_rad_s = s(c.speed_limit_rad_s),
+          .speed_control = c.speed_control,
+          .extras = extras_in<Scalar>(c.extras)};
+}
+template control::DriveConfig<float> in_arithmetic(const control::DriveConfig<double>&);
+template control::DriveConfig<double> in_arithmetic(const control::DriveConfig<double>&);
 
 design::OperatingRange operating_range(const Scenario& s, const Compiled& c) {
   const double U = std::max(s.supply.voltage_V, c.start.bus_V), K_t = c.motor.K_t_Nm_A;
@@ -100,12 +169,27 @@ base::Result<DriveIn<Scalar>> drive_in(const Scenario& s, const Compiled& c) {
     if (!scaled) return under_the_key(s, scaled.problems());
     const design::Bases& b = scaled->bases;
     if (base::Problems problems = unheld_speed<Scalar>(s, c, b); !problems.empty()) return problems;
-    return DriveIn<Scalar>{
-        scaled->config,
-        {b.current_A, b.voltage_V, b.speed_rad_s, b.position_deg, unit_of_setpoint(s.control.mode, b)}};
+    return DriveIn<Scalar>{scaled->config, units_of(s.control.mode, b)};
   }
 }
 
+template <class Scalar>
+base::Result<ProductIn<Scalar>> product_in(const Scenario& s, const Compiled& c) {
+  if constexpr (std::is_arithmetic_v<Scalar>) {
+    return ProductIn<Scalar>{product_in_float<Scalar>(*c.product), {}};
+  } else {
+    const auto scaled = design::scaled_product<Scalar>(*c.product, product_range(s, c), s.sensors.adc_bits);
+    if (!scaled) return under_the_key(s, scaled.problems());
+    return ProductIn<Scalar>{scaled->config, units_of(s.control.mode, scaled->bases)};
+  }
+}
+
+template base::Result<ProductIn<double>> product_in(const Scenario&, const Compiled&);
+template base::Result<ProductIn<float>> product_in(const Scenario&, const Compiled&);
+template base::Result<ProductIn<control::Q15>> product_in(const Scenario&, const Compiled&);
+template base::Result<ProductIn<control::Q31>> product_in(const Scenario&, const Compiled&);
+template base::Result<ProductIn<control::Q14>> product_in(const Scenario&, const Compiled&);
+template base::Result<ProductIn<control::Q30>> product_in(const Scenario&, const Compiled&);
 template base::Result<DriveIn<double>> drive_in(const Scenario&, const Compiled&);
 template base::Result<DriveIn<float>> drive_in(const Scenario&, const Compiled&);
 template base::Result<DriveIn<control::Q15>> drive_in(const Scenario&, const Compiled&);

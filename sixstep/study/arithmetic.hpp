@@ -2,7 +2,7 @@
 // The drive that was designed in double, in the number its chip computes in: the same figures as float, or
 // scaled to fixed point with a proof that they fit.
 #pragma once
-#include "sixstep/design/scaling.hpp"
+#include "sixstep/design/product_scaling.hpp"
 #include "sixstep/rig/units.hpp"
 #include "sixstep/study/compile.hpp"
 
@@ -17,6 +17,10 @@ namespace sixstep::study {
 ///   bus       the source, and the bus of the start
 design::OperatingRange operating_range(const Scenario& scenario, const Compiled& compiled);
 
+/// The same controller in float or double.
+template <class Scalar>
+control::DriveConfig<Scalar> in_arithmetic(const control::DriveConfig<double>& c);
+
 template <class Scalar>
 struct DriveIn {
   control::DriveConfig<Scalar> config;
@@ -27,5 +31,14 @@ struct DriveIn {
 /// Instantiated for float, double, Q15, Q31 and the formats with one bit before the point.
 template <class Scalar>
 base::Result<DriveIn<Scalar>> drive_in(const Scenario& scenario, const Compiled& compiled);
+
+/// The product drive alike, of a scenario whose chip runs it.
+template <class Scalar>
+struct ProductIn {
+  control::ProtectedConfig<Scalar> config;
+  rig::Units units;
+};
+template <class Scalar>
+base::Result<ProductIn<Scalar>> product_in(const Scenario& scenario, const Compiled& compiled);
 
 }  // namespace sixstep::study

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "sixstep/study/check_product.hpp"
 #include "sixstep/study/check_sensors.hpp"
 #include "sixstep/study/choices.hpp"
 #include "sixstep/study/columns.hpp"
@@ -173,6 +174,8 @@ base::Problems check(const Scenario& s) {
   check_steps(s.load.times_s, s.load.torques_Nm, "load", "torques_Nm", s.duration_s, out);
   check_control(s, out);
   check_sensors(s, out);
+  check_product(s, out);
+  check_extras(s, out);
   check_measures(s, out);
   if (!(s.bridge.dead_time_s < s.pwm.period_s))
     out.push_back({"bridge.dead_time_s", number(s.bridge.dead_time_s),

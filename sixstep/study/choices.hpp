@@ -29,6 +29,12 @@ inline constexpr Choice<SampleAt> sample_choices[] = {
     {"start", SampleAt::start, "at the start of the period, before the switching of that instant"},
     {"middle", SampleAt::middle, "in the middle; the answer takes effect at the next start"},
 };
+inline constexpr Choice<Drive> drive_choices[] = {
+    {"lean", Drive::lean, "the loops alone; what they measure is ideal, or as [sensors] says"},
+    {"product", Drive::product,
+     "what is flashed: offset calibration, Hall decoding, fault monitor and state machine around the loops; "
+     "needs converters in [sensors] and thresholds in [protection]"},
+};
 inline constexpr Choice<control::Mode> mode_choices[] = {
     {"off", control::Mode::off, "all six gates off"},
     {"duty", control::Mode::duty, "the reference is the signed duty, -1 to 1"},

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sixstep/base/elementary.hpp"
+#include "sixstep/study/basis.hpp"
 
 namespace sixstep::study {
 
@@ -96,6 +97,10 @@ rig::Timeline timeline_of(const Scenario& s) {
   for (std::size_t n = 0; n < s.load.times_s.size(); ++n)
     timeline.push_back(
         {sim::to_instant(s.load.times_s[n]), rig::ActionKind::load_torque, s.load.torques_Nm[n]});
+  if (s.control.drive == Drive::product)
+    timeline.push_back({sim::Instant{}, rig::ActionKind::run_request, 1.0});
+  if (const auto& off_at_s = s.protection.off_at_s)
+    timeline.push_back({sim::to_instant(*off_at_s), rig::ActionKind::run_request, 0.0});
   if (const HallBreak& broken = s.sensors.hall_break; broken.at_s)
     timeline.push_back({sim::to_instant(*broken.at_s), rig::ActionKind::hall_stuck,
                         broken.level == Level01::high ? broken.line : -1.0 * broken.line});
@@ -107,33 +112,6 @@ rig::Timeline timeline_of(const Scenario& s) {
 control::Watch watch_of(const CurrentLoop& loop) {
   if (loop.comparator == Comparator::sampled) return control::Watch::none;
   return loop.on == HysteresisOn::motor ? control::Watch::motor : control::Watch::phase;
-}
-
-/// What the controller is designed on: the motor at hand, or the nominal one of a series.
-struct Basis {
-  const design::MotorModel& motor;
-  plant::Shaft shaft;
-  double bus_V;
-};
-
-/// limits.hpp: the bus comes to rest below its limit as exp(-g t/C), which ten periods make slow against the
-/// sampling.
-void limit_regeneration(const Scenario& s, Compiled& out) {
-  if (!s.control.regeneration.limit_V) return;
-  control::DriveExtras<double>& extras = out.drive.extras;
-  const control::Mode mode = s.control.mode;
-  double most = out.drive.current_limit_A;
-  if (mode == control::Mode::current)
-    for (const Level& level : reference_levels(s.reference, s.duration_s))
-      most = std::max(most, std::fabs(level.value));
-  extras.on = extras.limits_current = true;
-  extras.limits = {.current_A = most,
-                   .limits_regeneration = true,
-                   .bus_V = *s.control.regeneration.limit_V,
-                   .A_per_V = s.control.regeneration.gain_A_per_V.value_or(s.supply.capacitance_F /
-                                                                           (10 * s.pwm.period_s))};
-  if (out.drive.current_at_full_torque_A > 0)
-    extras.torque_fraction_per_A = 1 / out.drive.current_at_full_torque_A;
 }
 
 base::Problems add_loops(const Scenario& s, const Basis& basis, Compiled& out) {
@@ -169,6 +147,15 @@ base::Problems add_loops(const Scenario& s, const Basis& basis, Compiled& out) {
 }
 
 }  // namespace
+
+double largest_reference(const Scenario& s) {
+  double largest = 0.0;
+  for (const Level& level : reference_levels(s.reference, s.duration_s))
+    largest = std::max(largest, std::fabs(level.value));
+  return largest;
+}
+
+double current_settling_s(const Scenario& s) { return s.control.current.settle_s.value_or(current_settle_s); }
 
 std::vector<Level> reference_levels(const Reference& r, double duration_s) {
   switch (r.shape) {
@@ -244,7 +231,8 @@ base::Result<Compiled> compile(const Scenario& s) {
                                   : control::CurrentControl::hysteresis;
   out.drive.hysteresis = {s.control.current.band_A, watch_of(s.control.current)};
   if (base::Problems problems = add_loops(s, basis, out); !problems.empty()) return problems;
-  limit_regeneration(s, out);
+  add_extras(s, basis, out.drive);
+  if (s.control.drive == Drive::product) out.product = product_around(s, basis, out.drive, out.board.sensors);
   return out;
 }
 

@@ -30,6 +30,7 @@ Watchers watchers(const Scenario& s, const Compiled& compiled, const Listeners& 
 
 /// A run pays for what its firmware does, and for nothing else.
 base::Problems run_on_board(const Scenario& s, const Compiled& compiled, Watchers& w, Outcome& out) {
+  if (s.control.drive == Drive::product) return run_product(s, compiled, w, out);
   return compiled.board.sensors.ideal() ? run_lean(s, compiled, w, out) : run_sensed(s, compiled, w, out);
 }
 

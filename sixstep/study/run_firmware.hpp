@@ -12,5 +12,6 @@ namespace sixstep::study {
 /// Problems: the arithmetic cannot hold the drive, or a defect of the engine. A fault is part of the outcome.
 base::Problems run_lean(const Scenario& scenario, const Compiled& compiled, Watchers& w, Outcome& out);
 base::Problems run_sensed(const Scenario& scenario, const Compiled& compiled, Watchers& w, Outcome& out);
+base::Problems run_product(const Scenario& scenario, const Compiled& compiled, Watchers& w, Outcome& out);
 
 }  // namespace sixstep::study

@@ -2,6 +2,8 @@
 // From a firmware's type to a run: builds the rig, runs it, reads out what it has counted. Included by the
 // files of run_firmware.hpp only.
 #pragma once
+#include <type_traits>
+
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/sim/run.hpp"
 #include "sixstep/study/arithmetic.hpp"
@@ -44,9 +46,18 @@ base::Problems run_rig(Rig& rig, const Compiled& compiled, Watchers& w, Outcome&
   return {};
 }
 
+template <class Scalar>
+auto chip_for(std::type_identity<rig::ProductDrive<Scalar>>, const Scenario& s, const Compiled& c) {
+  return product_in<Scalar>(s, c);
+}
+template <class Firmware>
+auto chip_for(std::type_identity<Firmware>, const Scenario& s, const Compiled& c) {
+  return drive_in<typename Firmware::Number>(s, c);
+}
+
 template <class Firmware>
 base::Problems run_in(const Scenario& scenario, const Compiled& compiled, Watchers& w, Outcome& out) {
-  const auto chip = drive_in<typename Firmware::Number>(scenario, compiled);
+  const auto chip = chip_for(std::type_identity<Firmware>{}, scenario, compiled);
   if (!chip) return chip.problems();
   const plant::Plant<double> plant(compiled.motor.machine, compiled.shaft, compiled.devices, compiled.supply,
                                    compiled.start);

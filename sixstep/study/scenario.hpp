@@ -9,6 +9,8 @@
 
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/design/sheet.hpp"
+#include "sixstep/study/control.hpp"
+#include "sixstep/study/protection.hpp"
 #include "sixstep/study/sensors.hpp"
 
 namespace sixstep::study {
@@ -43,59 +45,6 @@ struct Pwm {
   SampleAt sample = SampleAt::start;
   int delay_periods = 0;
   double timer_Hz = 0.0;  // 0: edges are not quantised
-};
-
-enum class CurrentLoopType : std::uint8_t { pi, hysteresis };
-enum class HysteresisOn : std::uint8_t { motor, phase };
-enum class Comparator : std::uint8_t { event, sampled };
-
-/// Gains of a discrete PI: given as d1, d0 or kp, ki (per sample), or left to the pole placement by settle_s,
-/// damping.
-struct CurrentLoop {
-  CurrentLoopType type = CurrentLoopType::pi;
-  std::optional<double> settle_s, damping;
-  std::optional<double> d1, d0;
-  std::optional<double> kp, ki;
-  double band_A = 0.2;
-  HysteresisOn on = HysteresisOn::motor;
-  Comparator comparator = Comparator::event;
-  std::optional<double> limit_A;  // of the current reference, in cascades
-};
-
-struct SpeedLoop {
-  std::optional<double> settle_s, damping;
-  std::optional<double> d1, d0;
-  std::optional<double> kp, ki;
-  std::optional<double> torque_limit_Nm;
-};
-
-struct PositionLoop {
-  double gain_rad_s_per_deg = 1.0;
-  std::optional<double> speed_limit_rad_s;
-};
-
-/// The number the controller computes in; the fixed ones are named by their fraction bits.
-enum class Arithmetic : std::uint8_t { float64, float32, q15, q14, q31, q30 };
-
-/// Fixed point: the largest value of each quantity; without one it follows from what the drive needs.
-struct FullScale {
-  std::optional<double> current_A, voltage_V, speed_rad_s, position_deg;
-};
-
-/// Keeps the bus of a supply that cannot take current back below a limit: the drive brakes less.
-struct Regeneration {
-  std::optional<double> limit_V;
-  std::optional<double> gain_A_per_V;
-};
-
-struct Control {
-  control::Mode mode = control::Mode::off;
-  Arithmetic arithmetic = Arithmetic::float64;
-  FullScale full_scale;
-  CurrentLoop current;
-  SpeedLoop speed;
-  PositionLoop position;
-  Regeneration regeneration;
 };
 
 enum class Shape : std::uint8_t { constant, steps, square };
@@ -216,6 +165,7 @@ struct Scenario {
   Pwm pwm;
   Control control;
   Sensors sensors;
+  Protection protection;
   Reference reference;
   Load load;
   Initial initial;

@@ -4,6 +4,9 @@
 #pragma once
 #include "sixstep/design/sheet_description.hpp"
 #include "sixstep/study/choices.hpp"
+#include "sixstep/study/control_description.hpp"
+#include "sixstep/study/measure_description.hpp"
+#include "sixstep/study/protection_description.hpp"
 #include "sixstep/study/sensors_description.hpp"
 
 namespace sixstep::study {
@@ -62,102 +65,6 @@ void describe(Visitor& v, Pwm& s) {
           {.meaning = "clock of the PWM timer, which rounds on-times and dead time; 0: not rounded",
            .unit = "Hz",
            .range = from(0)});
-}
-
-/// The three ways to say a PI's gains, the same in every loop.
-template <class Visitor, class Loop>
-void describe_gains(Visitor& v, Loop& s) {
-  v.value(
-      "settle_s", s.settle_s,
-      {.meaning = "settling time the poles are placed for, with damping", .unit = "s", .range = above(0)});
-  v.value(
-      "damping", s.damping,
-      {.meaning = "damping of the placed pole pair, with settle_s", .range = base::Range{0, 1, false, true}});
-  v.value("d1", s.d1, {.meaning = "gain on the present error of (d1 z + d0)/(z - 1), with d0"});
-  v.value("d0", s.d0, {.meaning = "gain on the previous error of (d1 z + d0)/(z - 1), with d1"});
-  v.value("kp", s.kp, {.meaning = "proportional gain, with ki: kp = d1"});
-  v.value("ki", s.ki, {.meaning = "integral gain per sample, with kp: ki = d1 + d0"});
-}
-
-template <class Visitor>
-void describe(Visitor& v, CurrentLoop& s) {
-  v.choice("type", s.type, current_loop_choices, {.meaning = "kind of the current controller"});
-  describe_gains(v, s);
-  v.value(
-      "band_A", s.band_A,
-      {.meaning = "hysteresis: half width of the band around the reference", .unit = "A", .range = above(0)});
-  v.choice("on", s.on, hysteresis_choices, {.meaning = "hysteresis: which current is watched"});
-  v.choice("comparator", s.comparator, comparator_choices,
-           {.meaning = "hysteresis: when the band is looked at"});
-  v.value("limit_A", s.limit_A,
-          {.meaning = "bound on the current reference that an outer loop asks for",
-           .unit = "A",
-           .range = above(0)});
-}
-
-template <class Visitor>
-void describe(Visitor& v, SpeedLoop& s) {
-  describe_gains(v, s);
-  v.value("torque_limit_Nm", s.torque_limit_Nm,
-          {.meaning = "torque at the speed controller's full output; without it the sheet's stall torque",
-           .unit = "N m",
-           .range = above(0)});
-}
-
-template <class Visitor>
-void describe(Visitor& v, PositionLoop& s) {
-  v.value(
-      "gain_rad_s_per_deg", s.gain_rad_s_per_deg,
-      {.meaning = "speed asked for per degree of position error", .unit = "rad/s/deg", .range = above(0)});
-  v.value(
-      "speed_limit_rad_s", s.speed_limit_rad_s,
-      {.meaning = "bound on the speed that the position loop asks for", .unit = "rad/s", .range = above(0)});
-}
-
-template <class Visitor>
-void describe(Visitor& v, FullScale& s) {
-  v.value("current_A", s.current_A,
-          {.meaning = "largest current and difference of currents that a number holds; without it three "
-                      "times the largest reference or limit, or what the bus can drive on top of one",
-           .unit = "A",
-           .range = above(0)});
-  v.value("voltage_V", s.voltage_V,
-          {.meaning = "largest voltage; without it supply.voltage_V", .unit = "V", .range = above(0)});
-  v.value(
-      "speed_rad_s", s.speed_rad_s,
-      {.meaning = "largest speed and difference of speeds; without it that of no load and no loss, and the "
-                  "largest reference",
-       .unit = "rad/s",
-       .range = above(0)});
-  v.value("position_deg", s.position_deg,
-          {.meaning = "largest position and difference of positions; without it twice the largest reference",
-           .unit = "deg",
-           .range = above(0)});
-}
-
-template <class Visitor>
-void describe(Visitor& v, Regeneration& s) {
-  v.value("limit_V", s.limit_V,
-          {.meaning = "bus voltage at which the drive no longer brakes", .unit = "V", .range = above(0)});
-  v.value(
-      "gain_A_per_V", s.gain_A_per_V,
-      {.meaning = "braking current per volt below limit_V; without it a tenth of supply.capacitance_F over "
-                  "pwm.period_s",
-       .unit = "A/V",
-       .range = above(0)});
-}
-
-template <class Visitor>
-void describe(Visitor& v, Control& s) {
-  v.choice("mode", s.mode, mode_choices, {.meaning = "what is controlled, and so what the reference means"});
-  v.choice("arithmetic", s.arithmetic, arithmetic_choices,
-           {.meaning = "number type the controller computes in"});
-  v.table("full_scale", s.full_scale, {.meaning = "fixed point: what the ends of the range stand for"});
-  v.table("current", s.current, {.meaning = "the current controller"});
-  v.table("speed", s.speed, {.meaning = "the speed controller around it"});
-  v.table("position", s.position, {.meaning = "the position controller around both"});
-  v.table("regeneration", s.regeneration,
-          {.meaning = "limit of the current that braking returns to the bus"});
 }
 
 template <class Visitor>
@@ -221,41 +128,6 @@ void describe(Visitor& v, Record& s) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, Measure& s) {
-  v.choice("metric", s.metric, metric_choices,
-           {.meaning = "figure that is taken of the signal", .required = true});
-  v.choice("signal", s.signal, signal_choices, {.meaning = "signal that the figure is taken of"});
-  v.value("from_s", s.from_s,
-          {.meaning = "start of the window; without it the start of the run", .unit = "s", .range = from(0)});
-  v.value("to_s", s.to_s,
-          {.meaning = "end of the window; without it the end of the run", .unit = "s", .range = above(0)});
-  v.value("level", s.level, {.meaning = "value to be reached, in the signal's unit"});
-  v.value("start", s.start,
-          {.meaning = "value the step starts from, in the signal's unit; without it the value at from_s"});
-  v.value("fraction", s.fraction,
-          {.meaning = "reach_time_s: part of the way from start to level",
-           .range = base::Range{0, 1, false, true}});
-  v.value("band", s.band,
-          {.meaning = "settling_time_s: half width of the band as part of the step", .range = above(0)});
-  v.value("sampled", s.sampled, {.meaning = "whether only the controller's samples are looked at"});
-  v.value("label", s.label, {.meaning = "name of the figure, instead of metric and signal"});
-}
-
-template <class Visitor>
-void describe(Visitor& v, Requirement& s) {
-  describe(v, s.measure);
-  v.value("min", s.min, {.meaning = "the figure must be at least this, in the figure's unit"});
-  v.value("max", s.max, {.meaning = "the figure must be at most this, in the figure's unit"});
-}
-
-template <class Visitor>
-void describe(Visitor& v, Comparison& s) {
-  describe(v, s.measure);
-  v.value("value", s.value, {.meaning = "what the source says, in the figure's unit", .required = true});
-  v.value("source", s.source, {.meaning = "where the value comes from", .required = true});
-}
-
-template <class Visitor>
 void describe(Visitor& v, Spread& s) {
   v.value("key", s.key,
           {.meaning =
@@ -296,6 +168,9 @@ void describe(Visitor& v, Scenario& s) {
   v.table("pwm", s.pwm, {.meaning = "modulation, sampling and commutation"});
   v.table("control", s.control, {.meaning = "what is controlled and how"});
   v.table("sensors", s.sensors, {.meaning = "what the controller measures with; ideal by default"});
+  v.table("protection", s.protection,
+          {.meaning = "what the product drive watches, how it starts and stops; with control.drive = "
+                      "\"product\""});
   v.table("reference", s.reference, {.meaning = "what is wanted over time"});
   v.table("load", s.load, {.meaning = "what the shaft drives"});
   v.table("initial", s.initial, {.meaning = "state at the start"});

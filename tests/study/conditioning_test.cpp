@@ -41,7 +41,7 @@ std::vector<std::vector<double>> cascade(double K_e_factor) {
   plant::Machine machine = c->motor.machine;
   machine.K_e_V_s *= K_e_factor;
   rig::LeanRig<double> rig({machine, c->shaft, c->devices, c->supply, c->start}, c->drive, c->board,
-                               c->timeline);
+                           c->timeline);
   Rows rows_of{{100'000'000,
                 c->end,
                 s.control.mode,

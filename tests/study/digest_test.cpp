@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "sixstep/sim/run.hpp"
+#include "sixstep/study/arithmetic.hpp"
 #include "sixstep/study/compile.hpp"
 #include "tests/support/scenarios.hpp"
 

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is controlled and how, as a scenario says it. What each key means stands in control_description.hpp.
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include "sixstep/control/bridge_command.hpp"
+
+namespace sixstep::study {
+
+enum class CurrentLoopType : std::uint8_t { pi, hysteresis };
+enum class HysteresisOn : std::uint8_t { motor, phase };
+enum class Comparator : std::uint8_t { event, sampled };
+
+/// Gains of a discrete PI: given as d1, d0 or kp, ki (per sample), or left to the pole placement by settle_s,
+/// damping.
+struct CurrentLoop {
+  CurrentLoopType type = CurrentLoopType::pi;
+  std::optional<double> settle_s, damping;
+  std::optional<double> d1, d0;
+  std::optional<double> kp, ki;
+  double band_A = 0.2;
+  HysteresisOn on = HysteresisOn::motor;
+  Comparator comparator = Comparator::event;
+  std::optional<double> limit_A;  // of the current reference, in cascades
+  bool back_emf_feed_forward = false;
+  std::optional<double> measured_bus_from_V;  // duty = u/measured bus from this voltage on, else u/nominal
+};
+
+struct SpeedLoop {
+  std::optional<double> settle_s, damping;
+  std::optional<double> d1, d0;
+  std::optional<double> kp, ki;
+  std::optional<double> torque_limit_Nm;
+};
+
+struct PositionLoop {
+  double gain_rad_s_per_deg = 1.0;
+  std::optional<double> speed_limit_rad_s;
+};
+
+/// The number the controller computes in; the fixed ones are named by their fraction bits.
+enum class Arithmetic : std::uint8_t { float64, float32, q15, q14, q31, q30 };
+
+/// Fixed point: the largest value of each quantity; without one it follows from what the drive needs.
+struct FullScale {
+  std::optional<double> current_A, voltage_V, speed_rad_s, position_deg;
+};
+
+/// Keeps the bus of a supply that cannot take current back below a limit: the drive brakes less.
+struct Regeneration {
+  std::optional<double> limit_V;
+  std::optional<double> gain_A_per_V;
+};
+
+/// A window for the current reference (control/limits.hpp); what is not given does not narrow it.
+struct Limits {
+  std::optional<double> current_A;
+  std::optional<double> torque_Nm;
+  std::optional<double> speed_rad_s;
+  std::optional<double> gain_A_s_per_rad;
+};
+
+/// Chopping by the current that flows (control/smooth_chopping.hpp), instead of pwm.chopping.
+struct SmoothChopping {
+  bool on = false;
+  std::optional<double> soft_above_A;
+  std::optional<double> complementary_below_A;
+};
+
+/// What the chip runs (rig/firmware.hpp).
+enum class Drive : std::uint8_t { lean, product };
+
+struct Control {
+  Drive drive = Drive::lean;
+  control::Mode mode = control::Mode::off;
+  Arithmetic arithmetic = Arithmetic::float64;
+  FullScale full_scale;
+  CurrentLoop current;
+  SpeedLoop speed;
+  PositionLoop position;
+  std::optional<double> slew_per_s;  // of the setpoint, in the mode's unit
+  Limits limits;
+  Regeneration regeneration;
+  SmoothChopping smooth_chopping;
+};
+
+}  // namespace sixstep::study

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenarios of the product drive, and a witness of what its bridge did.
+#pragma once
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/support/scenarios.hpp"
+
+namespace sixstep::testing {
+
+/// Currents of +-20.48 A in 12 bits, 10 mA a count; 40.96 V; Hall edges against 1 MHz.
+inline study::Sensors board_sensors(int bits = 12) {
+  study::Sensors s;
+  s.currents = rig::CurrentSensing::phases;
+  s.adc_bits = bits;
+  s.current_range_A = 20.48;
+  s.bus = study::BusSensing::adc;
+  s.bus_range_V = 40.96;
+  s.rotor = study::RotorSensing::hall;
+  s.speed_edges = 1;
+  return s;
+}
+
+/// The product drive on the reference motor, limits where none is reached in plain running. Its speed loop is
+/// soft: edges tell the speed a sector late.
+inline study::Scenario product_scenario(control::Mode mode, double reference) {
+  study::Scenario s = maxon_scenario(mode, reference);
+  s.control.drive = study::Drive::product;
+  s.control.speed.settle_s = 0.1;
+  s.control.speed.damping = 0.9;
+  s.control.current.limit_A = 10.0;
+  s.load.coulomb_Nm = 0.02;
+  s.sensors = board_sensors();
+  s.protection.over_current_A = 15.0;
+  s.protection.over_voltage_V = 35.0;
+  s.protection.under_voltage_V = 10.0;
+  s.protection.over_speed_rad_s = 500.0;
+  return s;
+}
+
+inline std::size_t column(const std::string& name) {
+  std::size_t n = 0;
+  while (study::all_columns()[n].name != name) ++n;
+  return n;
+}
+
+/// Reads every event of a run: both sides of each jump.
+struct Witness {
+  struct Instant {
+    double t = 0.0, speed = 0.0;
+    bool any_gate = false, hall_possible = true;
+  };
+  std::vector<Instant> seen;
+  bool both_of_a_leg = false;
+  double most_A = 0.0, last_speed = 0.0;
+
+  void operator()(study::Row row) {
+    static const std::size_t gates = column("gate_T1"), hall = column("hall"), speed = column("speed_rad_s"),
+                             i = column("i_a_A");
+    Instant now{row[0], row[speed], false, row[hall] != 0 && row[hall] != 7};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool high = row[gates + 2 * k] != 0, low = row[gates + 2 * k + 1] != 0;
+      both_of_a_leg = both_of_a_leg || (high && low);
+      now.any_gate = now.any_gate || high || low;
+      most_A = std::max(most_A, std::fabs(row[i + k]));
+    }
+    last_speed = row[speed];
+    seen.push_back(now);
+  }
+  /// First instant with a gate on; negative: none.
+  double first_on() const {
+    for (const Instant& n : seen)
+      if (n.any_gate) return n.t;
+    return -1;
+  }
+  /// First instant from which no gate is on any more.
+  double off_for_good() const {
+    double t = seen.back().any_gate ? -1 : seen.back().t;
+    for (auto n = seen.rbegin(); n != seen.rend() && !n->any_gate; ++n) t = n->t;
+    return t;
+  }
+  double first_impossible() const {
+    for (const Instant& n : seen)
+      if (!n.hall_possible) return n.t;
+    return -1;
+  }
+};
+
+}  // namespace sixstep::testing
