@@ -64,6 +64,12 @@ Json laws(const sixstep::plant::Laws& l) {
           {"floating_current_A", l.floating_current_A}};
 }
 
+Json trip(const study::Trip& t) {
+  return {{"at_s", t.at_s},
+          {"reasons", t.reasons},
+          {"hall_line", t.hall_line > 0 ? Json(t.hall_line) : Json(nullptr)}};
+}
+
 Json events(const study::Outcome& outcome) {
   Json counts = Json::object();
   for (const study::EventCount& e : outcome.events) counts[e.event] = e.count;
@@ -78,6 +84,7 @@ std::string json_summary(const study::Scenario& scenario, const study::Outcome& 
                   {"motor", scenario.sheet.name},
                   {"passed", outcome.passed()},
                   {"fault", outcome.fault ? Json(base::to_string(*outcome.fault)) : Json(nullptr)},
+                  {"trip", outcome.trip ? trip(*outcome.trip) : Json(nullptr)},
                   {"duration_s", scenario.duration_s},
                   {"simulated_s", outcome.simulated_s},
                   {"segments", outcome.segments},

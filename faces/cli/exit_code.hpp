@@ -10,7 +10,7 @@ enum class Exit : int {
   ok = 0,             ///< all requirements hold
   failed = 1,         ///< a requirement failed
   bad_input = 2,      ///< also a file that cannot be read or written
-  fault = 3,          ///< a fault stopped a run
+  fault = 3,          ///< a fault stopped a run, or the drive in it
   internal = 4,       ///< a mistake of the program
   interrupted = 130,  ///< by the user, as shells count it
 };

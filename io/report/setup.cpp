@@ -82,6 +82,44 @@ std::string control(const study::Scenario& s) {
   return text;
 }
 
+std::string sensors(const study::Sensors& s) {
+  using sixstep::rig::CurrentSensing;
+  std::string text = s.currents == CurrentSensing::ideal    ? "ideal currents"
+                     : s.currents == CurrentSensing::phases ? "phase currents"
+                                                            : "one shunt in the DC link";
+  if (s.currents != CurrentSensing::ideal)
+    text += fmt::format(" through {} bits over ±{}", s.adc_bits, given(s.current_range_A.value_or(0.0), "A"));
+  if (s.currents != CurrentSensing::ideal && s.current_noise_A > 0.0)
+    text += ", noise " + given(s.current_noise_A, "A");
+  if (s.bus == study::BusSensing::adc)
+    text +=
+        fmt::format("; bus through {} bits up to {}", s.adc_bits, given(s.bus_range_V.value_or(0.0), "V"));
+  if (s.rotor == study::RotorSensing::hall)
+    text += fmt::format("; speed from Hall edges against {}, over {}", given(s.capture_Hz, "Hz"),
+                        s.speed_edges == 1 ? "one sector" : fmt::format("{} sectors", s.speed_edges));
+  if (s.hall_break.at_s)
+    text += fmt::format("; line H{} breaks at {}", s.hall_break.line, given(*s.hall_break.at_s, "s"));
+  return text;
+}
+
+bool all_ideal(const study::Sensors& s) {
+  return s.currents == sixstep::rig::CurrentSensing::ideal && s.bus == study::BusSensing::ideal &&
+         s.rotor == study::RotorSensing::ideal && !s.hall_break.at_s;
+}
+
+std::string protection(const study::Protection& p) {
+  std::string text = fmt::format(
+      "trips above {}, above {} and below {}, above {}", given(p.over_current_A.value_or(0.0), "A"),
+      given(p.over_voltage_V.value_or(0.0), "V"), given(p.under_voltage_V.value_or(0.0), "V"),
+      given(p.over_speed_rad_s.value_or(0.0), "rad/s"));
+  if (p.stall_s && p.stall_current_A)
+    text +=
+        fmt::format(", after {} of stall above {}", given(*p.stall_s, "s"), given(*p.stall_current_A, "A"));
+  if (p.align.current_A) text += ", aligned by " + given(*p.align.current_A, "A");
+  if (p.off_at_s) text += ", let go at " + given(*p.off_at_s, "s");
+  return text;
+}
+
 std::string reference(const study::Scenario& s) {
   static constexpr const char* units[] = {"", "", "A", "rad/s", "deg"};
   const char* unit = units[static_cast<int>(s.control.mode)];
@@ -122,6 +160,8 @@ std::string setup_section(const study::Scenario& s) {
   add("Bridge", bridge(s.bridge));
   add("PWM", pwm(s.pwm));
   add("Control", control(s));
+  if (!all_ideal(s.sensors)) add("Sensors", sensors(s.sensors));
+  if (s.control.drive == study::Drive::product) add("Product drive", protection(s.protection));
   if (s.control.mode != control::Mode::off) add("Reference", reference(s));
   add("Commutation", at_edge ? "at the Hall edge" : "at the next sample");
   add("Shaft", shaft(s.load));

@@ -47,7 +47,9 @@ Standing standing(const Outcome& outcome) {
   const auto count = outcome.verdicts.size();
   const auto held = std::ranges::count_if(outcome.verdicts, [](const Verdict& v) { return v.ok; });
   if (outcome.fault)
-    return {"fail", "FAIL", fmt::format("a fault stopped the run at {}", given(outcome.simulated_s, "s"))};
+    return {"fail", "FAIL",
+            outcome.trip ? fmt::format("a fault stopped the drive at {}", given(outcome.trip->at_s, "s"))
+                         : fmt::format("a fault stopped the run at {}", given(outcome.simulated_s, "s"))};
   if (count == 0) return {"none", "NO REQUIREMENT", "the run ended as planned; nothing was required of it"};
   const std::string line = count == 1
                                ? (held == 1 ? "the requirement holds" : "the requirement does not hold")

@@ -68,15 +68,6 @@ rig::Units units_of(Mode mode, const design::Bases& b) {
   return {b.current_A, b.voltage_V, b.speed_rad_s, b.position_deg, unit_of_setpoint(mode, b)};
 }
 
-/// What converters span and thresholds must be able to pass.
-design::OperatingRange product_range(const Scenario& s, const Compiled& c) {
-  design::OperatingRange range = operating_range(s, c);
-  range.current_A = std::max(c.board.sensors.current.range, s.protection.align.current_A.value_or(0.0));
-  range.bus_V = c.board.sensors.bus.range;
-  range.speed_rad_s = std::max(range.speed_rad_s, c.product->faults.over_speed_rad_s);
-  return range;
-}
-
 template <class Scalar>
 control::DriveExtras<Scalar> extras_in(const control::DriveExtras<double>& x) {
   const auto s = [](double v) { return static_cast<Scalar>(v); };
@@ -154,6 +145,10 @@ design::OperatingRange operating_range(const Scenario& s, const Compiled& c) {
   const bool has_reference = mode == Mode::current || mode == Mode::speed || mode == Mode::position;
   const double reference = mode == Mode::current ? asked : c.drive.current_limit_A;
   range.current_A = has_reference && reference > 0 ? std::min(2 * reference, drivable) : drivable;
+  if (!c.product) return range;
+  range.current_A = c.board.sensors.current.range;
+  range.bus_V = c.board.sensors.bus.range;
+  range.speed_rad_s = std::max(range.speed_rad_s, c.product->faults.over_speed_rad_s);
   return range;
 }
 
@@ -178,7 +173,7 @@ base::Result<ProductIn<Scalar>> product_in(const Scenario& s, const Compiled& c)
   if constexpr (std::is_arithmetic_v<Scalar>) {
     return ProductIn<Scalar>{product_in_float<Scalar>(*c.product), {}};
   } else {
-    const auto scaled = design::scaled_product<Scalar>(*c.product, product_range(s, c), s.sensors.adc_bits);
+    const auto scaled = design::scaled_product<Scalar>(*c.product, operating_range(s, c), s.sensors.adc_bits);
     if (!scaled) return under_the_key(s, scaled.problems());
     return ProductIn<Scalar>{scaled->config, units_of(s.control.mode, scaled->bases)};
   }

@@ -15,6 +15,7 @@ namespace sixstep::study {
 ///   speed     what the bus reaches without load and loss, U/K_t, and the speed of the start
 ///   position  the largest reference and the start
 ///   bus       the source, and the bus of the start
+/// The product drive meets what its converters span, and a speed that its threshold can pass.
 design::OperatingRange operating_range(const Scenario& scenario, const Compiled& compiled);
 
 /// The same controller in float or double.

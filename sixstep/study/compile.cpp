@@ -65,7 +65,8 @@ rig::SensorsConfig sensors_of(const Scenario& s, double L_over_R_s) {
   to.commutation_samples = static_cast<std::uint8_t>(from.commutation_samples);
   to.fade = base::exp(-s.pwm.period_s / L_over_R_s);
   to.measures_bus = from.bus == BusSensing::adc;
-  to.bus = {from.adc_bits, from.bus_range_V.value_or(0.0), false, 0.0, 0.0, from.bus_noise_V};
+  to.bus = {from.adc_bits,   from.bus_range_V.value_or(0.0), false, from.bus_offset_V, from.bus_gain_error,
+            from.bus_noise_V};
   to.rotor_from_hall = from.rotor == RotorSensing::hall;
   to.decodes_hall = from.hall_break.at_s.has_value();
   to.capture_Hz = from.capture_Hz;

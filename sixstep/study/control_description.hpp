@@ -143,7 +143,7 @@ void describe(Visitor& v, Control& s) {
   v.table("current", s.current, {.meaning = "the current controller"});
   v.table("speed", s.speed, {.meaning = "the speed controller around it"});
   v.table("position", s.position, {.meaning = "the position controller around both"});
-  v.value("slew_per_s", s.slew_per_s,
+  v.value("slew", s.slew,
           {.meaning = "fastest change of the setpoint, in the mode's unit per second; without it it steps",
            .range = above(0)});
   v.table("limits", s.limits, {.meaning = "limits of the current reference"});

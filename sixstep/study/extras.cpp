@@ -60,9 +60,9 @@ void add_extras(const Scenario& s, const Basis& basis, control::DriveConfig<doub
   control::DriveExtras<double>& extras = drive.extras;
   add_limits(s, basis, drive);
   add_smooth_chopping(s, basis, extras);
-  if (s.control.slew_per_s) {
+  if (s.control.slew) {
     extras.on = extras.slews_setpoint = true;
-    extras.slew.step = *s.control.slew_per_s * s.pwm.period_s;
+    extras.slew.step = *s.control.slew * s.pwm.period_s;
   }
   if (s.control.current.back_emf_feed_forward) {
     extras.on = true;

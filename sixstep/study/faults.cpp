@@ -2,6 +2,7 @@
 #include "sixstep/study/faults.hpp"
 
 #include <string>
+#include <utility>
 
 namespace sixstep::study {
 
@@ -22,7 +23,7 @@ base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t
   return {at(t_s), "", text + ": " + line_to_blame(found.hall_line), "look at its probe and its wire"};
 }
 
-std::optional<base::Problem> tripped_by(const rig::Diagnosis& found) {
+void note_trip(const rig::Diagnosis& found, Outcome& out) {
   struct Reason {
     control::Fault bit;
     const char* text;
@@ -30,30 +31,32 @@ std::optional<base::Problem> tripped_by(const rig::Diagnosis& found) {
   };
   static constexpr Reason reasons[] = {
       {control::fault_over_current, "over-current", "look at the current loop and protection.over_current_A"},
-      {control::fault_over_voltage, "over-voltage of the bus",
+      {control::fault_over_voltage, "over-voltage",
        "brake less, let the supply take current back, or set control.regeneration.limit_V"},
-      {control::fault_under_voltage, "under-voltage of the bus",
-       "look at the supply and protection.under_voltage_V"},
+      {control::fault_under_voltage, "under-voltage", "look at the supply and protection.under_voltage_V"},
       {control::fault_over_speed, "over-speed", "look at the load and protection.over_speed_rad_s"},
-      {control::fault_hall, "impossible Hall code or jump", "look at the probes and their wires"},
-      {control::fault_stall, "stall: current, and no Hall edge", "look at the load and protection.stall_s"},
-      {control::fault_calibration, "offset of a current amplifier out of tolerance",
+      {control::fault_hall, "an impossible Hall code or jump", "look at the probes and their wires"},
+      {control::fault_stall, "stall", "look at the load and protection.stall_s"},
+      {control::fault_calibration, "the offset of a current amplifier",
        "look at sensors.current_offset_A and protection.offset_tolerance_A"},
-      {control::fault_align, "the rotor did not come to where it was pulled",
+      {control::fault_align, "a rotor that did not come to where it was pulled",
        "look at the load and protection.align"}};
-  if (found.faults == 0) return std::nullopt;
+  if (found.faults == 0) return;
+  Trip trip{.at_s = found.at.seconds(), .reasons = {}, .hall_line = found.hall_line};
   std::string text, cure;
   for (const Reason& reason : reasons) {
     if ((found.faults & reason.bit) == 0) continue;
-    text += (text.empty() ? "" : "; ") + std::string(reason.text);
+    trip.reasons.emplace_back(reason.text);
+    text += (text.empty() ? "" : "; ") + trip.reasons.back();
     if (cure.empty()) cure = reason.cure;
   }
   if (found.hall_line != 0) {
     text += ": " + line_to_blame(found.hall_line);
     cure = "look at its probe and its wire";
   }
-  return base::Problem{at(found.at.seconds()), "", "the drive tripped and let the motor coast, " + text,
-                       cure};
+  out.fault = base::Problem{at(trip.at_s), "",
+                            "the drive tripped by " + text + "; from there the motor coasts", cure};
+  out.trip = std::move(trip);
 }
 
 }  // namespace sixstep::study

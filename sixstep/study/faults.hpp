@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What stopped a run, or a drive within a run, in words.
 #pragma once
-#include <optional>
-
-#include "sixstep/base/problem.hpp"
 #include "sixstep/rig/rig.hpp"
+#include "sixstep/study/outcome.hpp"
 
 namespace sixstep::study {
 
@@ -12,7 +10,7 @@ namespace sixstep::study {
 /// rotor.
 base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t_s);
 
-/// The product drive turned the bridge off and latched why; the motor coasted on. Empty: it did not.
-std::optional<base::Problem> tripped_by(const rig::Diagnosis& found);
+/// Notes in the outcome what the product drive has latched, if it has.
+void note_trip(const rig::Diagnosis& found, Outcome& out);
 
 }  // namespace sixstep::study

@@ -60,6 +60,13 @@ struct LoopGains {
   std::optional<design::PolePlacement> derivation;  // of the exact design for the same loop
 };
 
+/// The product drive turned the bridge off and latched why; the motor coasted on to the end of the run.
+struct Trip {
+  double at_s = 0.0;                 // the tick that latched it
+  std::vector<std::string> reasons;  // "over-current", all that were seen in that tick
+  int hall_line = 0;                 // 1..3: the line to blame; 0: none, or it cannot be told
+};
+
 struct Outcome {
   std::vector<Verdict> verdicts;
   std::vector<ComparisonResult> comparisons;
@@ -68,7 +75,9 @@ struct Outcome {
   std::vector<EventCount> events;
   std::vector<LoopGains> gains;
   design::MotorModel motor;
-  std::optional<base::Problem> fault;  // what stopped the run: shoot-through, impossible Hall code
+  std::optional<base::Problem>
+      fault;                 // what stopped the run (shoot-through, impossible Hall code) or the drive
+  std::optional<Trip> trip;  // the same in parts, where it was the drive that stopped
   double simulated_s = 0.0;
   std::int64_t segments = 0;
   std::uint64_t digest = 0;  // of every bit of the trajectory (study/digest.hpp)

@@ -34,8 +34,8 @@ base::Result<std::vector<Column>> record_columns(const Scenario& scenario);
 /// "control.current.d1".
 base::Problems check(const Scenario& scenario);
 
-/// Runs it. A fault (shoot-through, impossible Hall code) is part of the outcome; Problems mean it could not
-/// start.
+/// Runs it. A fault (shoot-through, impossible Hall code, a trip of the product drive) is part of the
+/// outcome; Problems mean it could not start.
 base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners = {});
 
 }  // namespace sixstep::study

@@ -38,7 +38,7 @@ base::Problems run_rig(Rig& rig, const Compiled& compiled, Watchers& w, Outcome&
   if (run.stop == sim::Stop::fault)
     out.fault = stopped_by(rig.fault(), rig.firmware().diagnosis(), t_s);
   else
-    out.fault = tripped_by(rig.firmware().diagnosis());
+    note_trip(rig.firmware().diagnosis(), out);
   out.segments = run.segments;
   out.simulated_s = t_s;
   out.digest = w.digest.after(rig);

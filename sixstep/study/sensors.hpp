@@ -32,6 +32,8 @@ struct Sensors {
   int commutation_samples = 4;
   BusSensing bus = BusSensing::ideal;
   std::optional<double> bus_range_V;
+  double bus_offset_V = 0.0;
+  double bus_gain_error = 0.0;
   double bus_noise_V = 0.0;
   RotorSensing rotor = RotorSensing::ideal;
   double capture_Hz = 1e6;

@@ -66,6 +66,11 @@ void describe(Visitor& v, Sensors& s) {
   v.choice("bus", s.bus, bus_sensing_choices, {.meaning = "how the controller gets the bus voltage"});
   v.value("bus_range_V", s.bus_range_V,
           {.meaning = "voltage at the converter's upper end", .unit = "V", .range = base::above(0)});
+  v.value("bus_offset_V", s.bus_offset_V,
+          {.meaning = "what the converter shows at no voltage, beyond 0", .unit = "V"});
+  v.value("bus_gain_error", s.bus_gain_error,
+          {.meaning = "how much too large the voltage reads, as a part of it",
+           .range = base::Range{-1, 1, false, true}});
   v.value("bus_noise_V", s.bus_noise_V,
           {.meaning = "root mean square of the noise of a sample", .unit = "V", .range = base::from(0)});
   v.choice("rotor", s.rotor, rotor_sensing_choices,

@@ -125,6 +125,12 @@ double deviation(const Spread& spread, std::uint64_t seed, std::uint64_t number)
   return 0.0;
 }
 
+/// No two drives share their noise. Where nothing is noisy the seed says nothing.
+int noise_seed(const Scenario& scenario, std::uint64_t seed, std::uint64_t number) {
+  const std::uint64_t stream = stream_of("sensors.seed") + static_cast<std::uint64_t>(scenario.sensors.seed);
+  return static_cast<int>(base::random_bits({seed, stream, number})[0] >> 33);
+}
+
 void set_number(Scenario& s, std::string_view key, double x) {
   double* const number = find_number(s, key).number;
   if (number == nullptr) return;  // check_spread() has told so
@@ -189,6 +195,7 @@ Scenario varied(const Scenario& scenario, std::uint64_t seed, std::uint64_t numb
     const double nominal = *find_number(s, spread.key).number;
     set_number(s, spread.key, nominal + width(spread, nominal) * deviation(spread, seed, number));
   }
+  s.sensors.seed = noise_seed(scenario, seed, number);
   s.spread.clear();
   return s;
 }

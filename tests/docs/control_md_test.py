@@ -49,8 +49,15 @@ class ControlPage(unittest.TestCase):
                 subprocess.run(line, shell=True, cwd=REPOSITORY, check=True)
             self.compile("\n".join(snippets("exported")), "-ffreestanding", "-fno-exceptions", "-fno-rtti", f"-I{folder}")
 
+    def test_what_trips_is_told(self):
+        for line in snippets("trips"):
+            done = subprocess.run(line.replace("./run", f"'{PROGRAM}'"), shell=True, cwd=REPOSITORY, capture_output=True,
+                                  text=True, check=False)
+            self.assertEqual(done.returncode, 3)
+            self.assertIn("line H2 does not follow the rotor", done.stdout)
+
     def test_every_snippet_is_tested_and_every_block_named(self):
-        self.assertEqual(PAGE.count("```") // 2, sum(len(snippets(kind)) for kind in ("chip", "host", "shell", "export", "exported")))
+        self.assertEqual(PAGE.count("```") // 2, sum(len(snippets(kind)) for kind in ("chip", "host", "shell", "export", "exported", "trips")))
         table = PAGE.split("<!-- test: blocks -->")[1]
         named = sorted(re.findall(r"`(\w+\.hpp)`", table))
         self.assertEqual(named, sorted(p.name for p in (REPOSITORY / "sixstep/control").glob("*.hpp")))

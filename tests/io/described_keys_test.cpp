@@ -161,6 +161,7 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                                          "ki",
                                          "value",
                                          "values",
+                                         "slew",
                                          "high",
                                          "low",
                                          "level",
@@ -174,9 +175,12 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                                          "cut_sigma",
                                          "adc_bits",
                                          "current_gain_error",
+                                         "bus_gain_error",
+                                         "voltage_samples",
                                          "commutation_samples",
                                          "speed_edges",
                                          "seed",
+                                         "sector",
                                          "line"};
   for (const KeyEntry& key : all_keys()) {
     const bool number = key.type == KeyType::number || key.type == KeyType::whole_number ||

@@ -9,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "io/json_summary.hpp"
 #include "io/report/figures.hpp"
 #include "io/report/html.hpp"
 #include "io/report/ledger.hpp"
@@ -110,6 +111,27 @@ TEST(Report, survives_a_run_without_a_trace) {
   EXPECT_THAT(html, HasSubstr("FAIL"));
   EXPECT_THAT(html, HasSubstr("hall = 000 is no valid code; check the wires"));
   EXPECT_TRUE(data_of(html)["charts"].empty());
+}
+
+TEST(Report, shows_what_is_not_ideal_and_who_stopped_the_drive) {
+  SyntheticRun run = synthetic_run(0.001);
+  const std::string plain = page(run);
+  for (const char* row : {"<dt>Sensors", "<dt>Product drive"}) EXPECT_THAT(plain, Not(HasSubstr(row)));
+  run.scenario.control.drive = sixstep::study::Drive::product;
+  run.scenario.sensors.currents = sixstep::rig::CurrentSensing::phases;
+  run.scenario.sensors.current_range_A = 20.48;
+  run.scenario.sensors.hall_break = {.at_s = 0.3, .line = 2};
+  run.scenario.protection.over_current_A = 15.0;
+  run.outcome.fault = sixstep::base::Problem{"t = 0.305 s", "", "the drive tripped", "look"};
+  run.outcome.trip = sixstep::study::Trip{.at_s = 0.305, .reasons = {"a Hall fault"}, .hall_line = 2};
+  const std::string html = page(run);  // where numbers and units stick together
+  EXPECT_THAT(html, HasSubstr("phase currents through 12 bits over ±20.48\u00a0A"));
+  EXPECT_THAT(html, HasSubstr("line H2 breaks at 300\u00a0ms"));
+  EXPECT_THAT(html, HasSubstr("trips above 15\u00a0A"));
+  EXPECT_THAT(html, HasSubstr("a fault stopped the drive at 305\u00a0ms"));
+  const auto summary = nlohmann::json::parse(io::json_summary(run.scenario, run.outcome));
+  EXPECT_EQ(summary["trip"]["hall_line"], 2);
+  EXPECT_EQ(summary["trip"]["at_s"], 0.305);
 }
 
 TEST(Report, curves_without_a_number_are_left_out) {

@@ -46,7 +46,10 @@ TEST_P(EveryShippedRun, ObeysTheStandingLaws) {
   EXPECT_LE(outcome->laws->reverse_diode_A, 64 * 0x1p-52 * 24.0 / 0.515)
       << "the engine's noise level of a current";
   EXPECT_EQ(outcome->laws->floating_current_A, 0.0);
-  EXPECT_FALSE(outcome->fault);
+  // A line that breaks must be told, and named.
+  const sixstep::study::HallBreak& broken = scenario->sensors.hall_break;
+  EXPECT_EQ(outcome->fault.has_value(), broken.at_s.has_value());
+  EXPECT_EQ(outcome->trip ? outcome->trip->hall_line : 0, broken.at_s ? broken.line : 0);
   for (const study::Verdict& v : outcome->verdicts)
     EXPECT_TRUE(v.ok) << v.figure << ": " << v.measured << " " << v.unit;
 }

@@ -7,7 +7,7 @@
 
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/study/run.hpp"
-#include "tests/support/scenarios.hpp"
+#include "tests/support/product_scenarios.hpp"
 
 namespace {
 
@@ -28,6 +28,21 @@ TEST(Arithmetic, FloatingPointComputesInSI) {
   const rig::Units u = units<float>(current_square());
   for (const double unit : {u.current_A, u.voltage_V, u.speed_rad_s, u.position_deg, u.setpoint})
     EXPECT_EQ(unit, 1.0);
+}
+
+TEST(Arithmetic, TheProductsDriveIsTheOneThatIsExported) {
+  // drive_in() is what `sixstep export header` writes: in the bases of the product around it, which follow
+  // from its converters.
+  const Scenario s = product_scenario(control::Mode::speed, 100.0);
+  const auto compiled = study::compile(s);
+  const auto drive = study::drive_in<control::Q15>(s, *compiled);
+  const auto product = study::product_in<control::Q15>(s, *compiled);
+  ASSERT_TRUE(drive && product);
+  EXPECT_EQ(drive->units.current_A, product->units.current_A);
+  EXPECT_EQ(drive->units.setpoint, product->units.setpoint);
+  EXPECT_EQ(drive->config.current.d1.mantissa, product->config.drive.current.d1.mantissa);
+  EXPECT_EQ(drive->config.speed.K_i.right, product->config.drive.speed.K_i.right);
+  EXPECT_GE(product->units.current_A, 20.48) << "the converter's end";
 }
 
 TEST(Arithmetic, BasesHoldTwiceTheReferenceAgainstIt) {

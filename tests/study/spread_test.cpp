@@ -48,6 +48,24 @@ TEST(Spread, ADriveIsAFunctionOfSeedAndNumber) {
   EXPECT_TRUE(a.spread.empty());
 }
 
+TEST(Spread, EachDriveHasItsOwnNoise) {
+  Scenario s = series();
+  s.duration_s = 2e-3;
+  s.spread.clear();
+  s.sensors.currents = rig::CurrentSensing::phases;
+  s.sensors.current_range_A = 20.48;
+  s.sensors.current_noise_A = 0.05;
+  const auto digest = [&s](std::uint64_t of_seed, std::uint64_t number) {
+    return run(varied(s, of_seed, number))->digest;
+  };
+  const std::uint64_t first = digest(seed, 0);
+  EXPECT_EQ(digest(seed, 0), first);
+  EXPECT_NE(digest(seed, 1), first);
+  EXPECT_NE(digest(seed + 1, 0), first);
+  s.sensors.seed = 1;
+  EXPECT_NE(digest(seed, 0), first);
+}
+
 TEST(Spread, AKeysDrawsDoNotDependOnTheOtherKeys) {
   const Scenario s = series();
   Scenario alone = s, reversed = s;
