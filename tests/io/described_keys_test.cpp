@@ -186,6 +186,7 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                                          "seed",
                                          "line",
                                          "poles",
+                                         "sector",
                                          "turns_in_series"};
   for (const KeyEntry& key : all_keys()) {
     const bool number = key.type == KeyType::number || key.type == KeyType::whole_number ||
