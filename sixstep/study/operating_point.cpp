@@ -101,7 +101,7 @@ class SectorMap {
 /// Time constants after which a chopped run is looked at: exp(-20) = 2e-9 of the start is left.
 constexpr double forgotten = 20.0;
 
-/// Beyond this many sectors the map is not applied: L/R of 1e5 sectors is no motor's.
+/// More are not tried: 37 L/R would be as long, and no motor's L/R is fifty thousand sectors.
 constexpr std::int64_t most_sectors = 2'000'000;
 
 base::Result<OperatingPoint> full_on(const Bench& b, double speed) {
@@ -113,6 +113,7 @@ base::Result<OperatingPoint> full_on(const Bench& b, double speed) {
   double moved = 0.0;
   do moved = map.apply(stop);
   while (stop == sim::Stop::observer && moved > noise && map.system().edges() < most_sectors);
+  const bool repeats = moved <= noise;
   Tally tally;
   if (stop == sim::Stop::observer) moved = map.apply(stop, &tally);
   if (stop != sim::Stop::observer) return defect(speed, stop);
@@ -120,6 +121,7 @@ base::Result<OperatingPoint> full_on(const Bench& b, double speed) {
   p.orbit = Orbit::periodic;
   p.sectors = map.system().edges();
   p.residual_A = moved;
+  p.precise = repeats;
   p.error_bound_A = (q * moved + noise) / (1 - q);  // rounding counts as one more step of its size
   take_to_shaft(b, p);
   return p;

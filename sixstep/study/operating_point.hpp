@@ -46,7 +46,9 @@ struct OperatingPoint {
   double half_width_Nm = 0.0;  ///< quasi-periodic: of the mean torque's interval (confidence_level)
   double half_width_A = 0.0;   ///< quasi-periodic: of the mean bus current's
   double simulated_s = 0.0;    ///< what the mean values are taken over
-  bool precise = true;  ///< quasi-periodic: the interval came below half_width_goal of the stall torque
+  /// Quasi-periodic: the interval came below half_width_goal of the stall torque. Periodic: the currents
+  /// repeat to rounding.
+  bool precise = true;
 };
 
 /// Batch means: `batches` runs that differ in how far a PWM period has come when the rotor passes one angle,

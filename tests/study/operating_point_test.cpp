@@ -53,6 +53,7 @@ TEST(OperatingPoint, ComesWithABoundFarBelowANanoampere) {
   for (const double speed : speeds) {
     const OperatingPoint p = at(maxon_bench(), speed);
     EXPECT_EQ(p.orbit, Orbit::periodic);
+    EXPECT_TRUE(p.precise);
     EXPECT_LE(p.residual_A, 1e-9) << speed;
     EXPECT_LE(p.error_bound_A, 1e-9) << speed;
     EXPECT_GE(p.error_bound_A, p.residual_A * 0.5);
