@@ -13,10 +13,11 @@ namespace sixstep::study {
 /// left to whoever asks for the shaft's torque; it cannot act on the currents at a given speed.
 inline plant::Shaft imposed_speed() { return {.J_kg_m2 = std::numeric_limits<double>::infinity()}; }
 
-/// Starts without current in the middle of a sector, so that neither direction starts on an edge.
-inline plant::Plant<double> plant_of(const Bench& b, const plant::Shaft& shaft, double speed_rad_s) {
-  const double middle = base::sector_rad / 2 / b.motor.machine.pole_pairs;
-  return {b.motor.machine, shaft, b.devices, {.V_0_V = b.voltage_V}, {speed_rad_s, middle, b.voltage_V}};
+/// Starts without current, by default in the middle of a sector, so that neither direction starts on an edge.
+inline plant::Plant<double> plant_of(const Bench& b, const plant::Shaft& shaft, double speed_rad_s,
+                                     double sectors = 0.5) {
+  const double angle = sectors * base::sector_rad / b.motor.machine.pole_pairs;
+  return {b.motor.machine, shaft, b.devices, {.V_0_V = b.voltage_V}, {speed_rad_s, angle, b.voltage_V}};
 }
 
 class FullOn {

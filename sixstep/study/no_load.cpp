@@ -40,7 +40,7 @@ class Search {
   double direction_;
 };
 
-/// Speeds below and above the crossing: from standstill up to eight times what full voltage would reach.
+/// Speeds below and above the crossing: from standstill up to seven times what full voltage would reach.
 bool bracket(Search& search, const Bench& b, Sample& low, Sample& high) {
   if (!search.take(0.0, low)) return false;
   if (!(low.torque > 0)) {
@@ -49,9 +49,10 @@ bool bracket(Search& search, const Bench& b, Sample& low, Sample& high) {
                         "raise the duty or the voltage"}};
     return false;
   }
-  const double reach = b.voltage_V / b.motor.K_t_Nm_A;
-  for (double factor = 1.0; factor <= 8.0; factor *= 1.25) {
-    if (!search.take(factor * reach, high)) return false;
+  constexpr int steps = 10;
+  double speed = b.voltage_V / b.motor.K_t_Nm_A;
+  for (int n = 0; n < steps; ++n, speed *= 1.25) {
+    if (!search.take(speed, high)) return false;
     if (high.torque <= 0) return true;
     low = high;
   }

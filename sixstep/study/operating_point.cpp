@@ -2,6 +2,8 @@
 #include "sixstep/study/operating_point.hpp"
 
 #include <array>
+#include <cmath>
+#include <deque>
 #include <vector>
 
 #include "sixstep/base/elementary.hpp"
@@ -96,7 +98,10 @@ class SectorMap {
   bool forward_;
 };
 
-/// Beyond this many sectors the map is not applied: L/R of 1e5 sectors is no motor's.
+/// Time constants after which a chopped run is looked at: exp(-20) = 2e-9 of the start is left.
+constexpr double forgotten = 20.0;
+
+/// More are not tried: 37 L/R would be as long, and no motor's L/R is fifty thousand sectors.
 constexpr std::int64_t most_sectors = 2'000'000;
 
 base::Result<OperatingPoint> full_on(const Bench& b, double speed) {
@@ -104,9 +109,11 @@ base::Result<OperatingPoint> full_on(const Bench& b, double speed) {
   const double q = base::exp(-forgetting_rate(b) * sector_seconds(b, speed));
   const double noise = plant::noise_of(map.system().plant().constants().amp_scale, 1.0);
   sim::Stop stop = sim::Stop::observer;
-  double moved = map.apply(stop);  // to the first edge
+  map.apply(stop);  // to the first edge
+  double moved = 0.0;
   do moved = map.apply(stop);
   while (stop == sim::Stop::observer && moved > noise && map.system().edges() < most_sectors);
+  const bool repeats = moved <= noise;
   Tally tally;
   if (stop == sim::Stop::observer) moved = map.apply(stop, &tally);
   if (stop != sim::Stop::observer) return defect(speed, stop);
@@ -114,6 +121,7 @@ base::Result<OperatingPoint> full_on(const Bench& b, double speed) {
   p.orbit = Orbit::periodic;
   p.sectors = map.system().edges();
   p.residual_A = moved;
+  p.precise = repeats;
   p.error_bound_A = (q * moved + noise) / (1 - q);  // rounding counts as one more step of its size
   take_to_shaft(b, p);
   return p;
@@ -133,15 +141,6 @@ Interval interval(const std::vector<Sums>& parts, Of&& of) {
   const double mean = of(parts[0]) + sum / n;
   for (const Sums& part : parts) squares += (of(part) - mean) * (of(part) - mean);
   return {mean, student_19 * std::sqrt(squares / (n - 1) / n)};
-}
-
-void join_neighbours(std::vector<Sums>& parts) {
-  for (std::size_t n = 0; 2 * n < parts.size(); ++n) {
-    Sums pair = parts[2 * n];
-    pair.add(parts[2 * n + 1]);
-    parts[n] = pair;
-  }
-  parts.resize(parts.size() / 2);
 }
 
 plant::Shaft held() { return {.J_kg_m2 = 1.0, .locked = true}; }
@@ -166,24 +165,45 @@ double goal_Nm(const Bench& b) {
   return half_width_goal * std::fabs(b.duty) * b.motor.K_t_Nm_A * b.voltage_V / (2 * b.motor.machine.R_ohm);
 }
 
+/// When batch n begins: the start is forgotten, and a PWM period is under way by a part that the golden ratio
+/// spreads evenly, however many batches there are.
+double begin_of(const Bench& b, int n) {
+  constexpr double golden = 0.6180339887498949;
+  const double phase = n * golden - std::floor(n * golden);
+  return (std::ceil(forgotten / forgetting_rate(b) / b.pwm_period_s) + phase) * b.pwm_period_s;
+}
+
+/// Where the rotor then has to start, in sectors, to stand in the middle of one at that instant: batches
+/// begin at one angle and last whole sectors, so that nothing but the PWM's phase tells them apart.
+double start_of(const Bench& b, double speed, double begin_s) {
+  const double turned = speed != 0 ? begin_s / sector_seconds(b, speed) : 0.0;
+  const double start = speed > 0 ? 0.5 - turned : 0.5 + turned;
+  return start - 6 * std::floor(start / 6);
+}
+
 Gathered gather(const Bench& b, double speed) {
-  OpenLoop run(b, plant_of(b, speed != 0 ? imposed_speed() : held(), speed));
   Gathered out;
-  // exp(-37) = 2^-53: nothing is left of the start.
-  out.stop = run.run_for(37 / forgetting_rate(b));
+  std::deque<OpenLoop> runs;  // each stays where it is: its rig looks at it
+  for (int n = 0; n < batches && out.stop == sim::Stop::end; ++n) {
+    const double begin_s = begin_of(b, n);
+    const plant::Shaft shaft = speed != 0 ? imposed_speed() : held();
+    runs.emplace_back(b, plant_of(b, shaft, speed, start_of(b, speed, begin_s)));
+    out.stop = runs.back().run_for(begin_s);
+  }
+  out.parts.resize(batches);
   double length = batch_seconds(b, speed);
-  for (int doubled = 0; out.stop == sim::Stop::end; ++doubled, length *= 2) {
-    while (out.parts.size() < batches && out.stop == sim::Stop::end) {
+  for (int doubled = 0; out.stop == sim::Stop::end; ++doubled) {
+    for (std::size_t n = 0; n < batches && out.stop == sim::Stop::end; ++n) {
       Tally tally;
-      out.stop = run.run_for(length, tally);
-      out.parts.push_back(tally.sums());
+      out.stop = runs[n].run_for(length, tally);
+      out.parts[n].add(tally.sums());
     }
     const Interval torque = interval(out.parts, [](const Sums& s) { return s.torque / s.seconds; });
     out.precise = torque.half_width <= goal_Nm(b);
     if (out.precise || doubled == doublings) break;
-    join_neighbours(out.parts);
+    if (doubled > 0) length *= 2;
   }
-  out.sectors = run.sectors();
+  for (const OpenLoop& run : runs) out.sectors += run.sectors();
   return out;
 }
 

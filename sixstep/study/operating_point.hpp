@@ -7,8 +7,8 @@
 //   duty 1     it repeats every sector, phases exchanged: the fixed point of the map from one sector start to
 //              the next. Applying the map shrinks the distance by q; after a step of size r what is left is
 //              at most q/(1 - q) r (Banach), which the point carries as its error bound.
-//   chopped    PWM and rotor are out of step, the orbit never quite repeats: mean values over batches of many
-//              sectors, with a confidence interval from the batches' scatter.
+//   chopped    PWM and rotor are out of step, the orbit never quite repeats: mean values over batches that
+//              start in different phases, with a confidence interval from their scatter.
 //   standstill the limit of slow rotation: without back-EMF the current does not depend on the angle, so that
 //              the mean over all angles is closed form.
 #pragma once
@@ -46,16 +46,22 @@ struct OperatingPoint {
   double half_width_Nm = 0.0;  ///< quasi-periodic: of the mean torque's interval (confidence_level)
   double half_width_A = 0.0;   ///< quasi-periodic: of the mean bus current's
   double simulated_s = 0.0;    ///< what the mean values are taken over
-  bool precise = true;  ///< quasi-periodic: the interval came below half_width_goal of the stall torque
+  /// Quasi-periodic: the interval came below half_width_goal of the stall torque. Periodic: the currents
+  /// repeat to rounding.
+  bool precise = true;
 };
 
-/// Batch means: `batches` stretches of equal length, each a whole number of sectors and longer than the
-/// currents' memory; their scatter gives Student's interval at this level. As long as the torque's half width
-/// is above half_width_goal K_t |d| U/R_tt neighbours are joined and as many new ones are added, at most
-/// `doublings` times.
+/// Batch means: `batches` runs that differ in how far a PWM period has come when the rotor passes one angle,
+/// phases spread evenly; each, once its start is forgotten, from that angle on over the same whole number of
+/// sectors. Their scatter gives
+/// Student's interval at this level for the mean over all phases. One long run instead would go through the
+/// phases by itself, but arbitrarily slowly where PWM and sectors are nearly in step, and its own batches
+/// would not tell. As long as the torque's half width is above half_width_goal K_t |d| U/R_tt all run on for
+/// as long again, at most `doublings` times; that PWM and sectors are in step shows as an interval that stays
+/// wide.
 inline constexpr double confidence_level = 0.99;
 inline constexpr int batches = 20, doublings = 8;
-inline constexpr double half_width_goal = 2e-5;
+inline constexpr double half_width_goal = 5e-5;
 
 /// Problems: those of check(bench), a speed that is not finite, or a run that could not go on (a defect).
 base::Result<OperatingPoint> operating_point(const Bench& bench, double speed_rad_s);

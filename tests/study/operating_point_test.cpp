@@ -53,6 +53,7 @@ TEST(OperatingPoint, ComesWithABoundFarBelowANanoampere) {
   for (const double speed : speeds) {
     const OperatingPoint p = at(maxon_bench(), speed);
     EXPECT_EQ(p.orbit, Orbit::periodic);
+    EXPECT_TRUE(p.precise);
     EXPECT_LE(p.residual_A, 1e-9) << speed;
     EXPECT_LE(p.error_bound_A, 1e-9) << speed;
     EXPECT_GE(p.error_bound_A, p.residual_A * 0.5);
@@ -225,7 +226,7 @@ TEST(OperatingPoint, SlowRotationLeadsToStandstill) {
 
 TEST(OperatingPoint, ChoppedIntervalCoversARunTenTimesAsLong) {
   constexpr std::uint64_t seed = 20260611;
-  constexpr int drawn = 12;
+  constexpr int drawn = 8;
   int missed = 0;
   for (std::uint64_t n = 0; n < drawn; ++n) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed << ", draw " << n);
@@ -248,8 +249,8 @@ TEST(OperatingPoint, ChoppedIntervalCoversARunTenTimesAsLong) {
     missed += std::fabs(p.torque_Nm - s.torque / s.seconds) > p.half_width_Nm;
     missed += std::fabs(p.bus_current_A - s.supplied / s.seconds / 24) > p.half_width_A;
   }
-  // Of 24 intervals at 99 % more than two miss once in 700 times.
-  EXPECT_LE(missed, 2) << "seed " << seed;
+  // Of 16 intervals at 99 % more than one miss once in 90 times, were the phases drawn; they are spread.
+  EXPECT_LE(missed, 1) << "seed " << seed;
 }
 
 TEST(OperatingPoint, ChoppedAtNearlyFullDutyComesToFullDuty) {
@@ -269,7 +270,9 @@ TEST(OperatingPoint, HeldRotorUnderChoppingIsTheMeanVoltageOverTheResistance) {
     b.duty = 0.8;
     b.chopping = chopping;
     const OperatingPoint p = at(b, 0.0);
-    EXPECT_NEAR(p.torque_Nm, 0.0335 * study::mean_voltage_V(b) / 1.03, 1e-12) << name_of(chopping);
+    // Twenty time constants leave exp(-20) of the start from rest.
+    EXPECT_NEAR(p.torque_Nm, 0.0335 * study::mean_voltage_V(b) / 1.03, std::exp(-20.0) * p.torque_Nm)
+        << name_of(chopping);
     EXPECT_NEAR(p.energy_residual, 0.0, balance);
   }
 }
