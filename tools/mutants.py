@@ -107,12 +107,12 @@ table = [
     ("rig/rig_inputs.hpp", "* 60 + «s.x * Real(180) / Real(base::pi)»", "s.x"),
     ("rig/modulator.cpp", "sink_on_ : «source_on_ && !dead_»", "source_on_"),
     ("rig/modulator.cpp", "std::floor(«ticks / config_.timer_ticks + 0.5»)", "ticks / config_.timer_ticks"),
-    ("rig/modulator.cpp", "if («source_on_ == on && !(on && leg_changed && waits)»)", "source_on_ == on"),
+    ("rig/modulator.cpp", "if («source_on_ == on && !(on && low_was_on && waits)»)", "source_on_ == on"),
     ("rig/modulator.cpp", "«after.low & ~before.low»", "after.low"),
     ("rig/modulator.cpp", "wakes = «command.enabled && !command_.enabled»", "command.enabled"),
     ("rig/modulator.cpp", "if («config_.dead_ticks > 0» && command.chopping == Chopping::complementary)", "false"),
-    ("rig/modulator.cpp", "if («leg_changed_ && config_.dead_ticks > 0») wait_dead_time(t)", "false"),
-    ("rig/modulator.cpp", "command.watch != Watch::none && leg_changed_ && «source_on_»", "true"),
+    ("rig/modulator.cpp", "if («low_was_on_ && config_.dead_ticks > 0») wait_dead_time(t)", "false"),
+    ("rig/modulator.cpp", "command.watch != Watch::none && leg_changed && «source_on_»", "true"),
 ]
 
 switch = """#pragma once

@@ -23,7 +23,7 @@ struct MotorModel {
   double no_load_speed_rad_s = 0.0;  ///< as printed; 0 where the sheet is silent
   double no_load_current_A = 0.0;
   double nominal_current_A = 0.0;  ///< through the driven pair, as printed or of equal torque; 0: silent
-  double stall_torque_Nm = 0.0;  ///< as printed, else K_t U/R_tt; 0 where the sheet has no voltage either
+  double stall_torque_Nm = 0.0;    ///< as printed, else K_t U/R_tt; 0 where the sheet has no voltage either
   Origins from;
 };
 

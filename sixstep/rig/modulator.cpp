@@ -21,12 +21,19 @@ Instant Modulator::edge_at(const Instant& t, double ticks) const {
 }
 
 void Modulator::take(const Instant& t, const BoardCommand& command) {
-  leg_changed_ = command_.enabled && command.enabled && !(command.pair.source == command_.pair.source);
+  const bool goes_on = command_.enabled && command.enabled;
+  const bool leg_changed = goes_on && !(command.pair.source == command_.pair.source);
+  const bool was_low = command_.chopping == Chopping::complementary && !source_on_;
+  const bool goes_low = command.chopping == Chopping::complementary && !source_on_;
+  low_was_on_ = leg_changed || (goes_on && was_low && !goes_low);
+  // Soft or hard chopping may have turned the upper switch off a moment ago: the lower one waits.
+  if (goes_on && !leg_changed && goes_low && !was_low && t < edge_at(upper_off_, config_.dead_ticks))
+    wait_dead_time(upper_off_);
   const bool wakes = command.enabled && !command_.enabled;
   command_ = command;
   if (!wakes) {
     // A hysteresis that changes direction keeps its state, but the new source leg was the sink a moment ago.
-    if (command.watch != Watch::none && leg_changed_ && source_on_) command_source(t, true, true);
+    if (command.watch != Watch::none && leg_changed && source_on_) command_source(t, true, true);
     return;
   }
   // The first turn-on waits for the dead time too: nobody knows what the leg did before.
@@ -43,31 +50,32 @@ void Modulator::start_period(const Instant& t, const BoardCommand& command) {
   const auto period = static_cast<double>(config_.period_ticks);
   const double on_time = command.duty * period;
   if (command.duty >= 1.0) {
-    command_source(t, true, leg_changed_);
+    command_source(t, true, low_was_on_);
   } else if (!(command.duty > 0.0)) {
-    command_source(t, false, leg_changed_);
+    command_source(t, false, low_was_on_);
   } else if (config_.centre_aligned) {
-    command_source(t, false, leg_changed_);
-    // The new source leg was the sink until now: an edge that comes within the dead time waits for its end.
-    if (leg_changed_ && config_.dead_ticks > 0) wait_dead_time(t);
+    command_source(t, false, low_was_on_);
+    // An on-edge that comes within the dead time waits for its end.
+    if (low_was_on_ && config_.dead_ticks > 0) wait_dead_time(t);
     on_edge_ = edge_at(t, (period - on_time) / 2);
     off_edge_ = edge_at(t, (period + on_time) / 2);
   } else {
-    command_source(t, true, leg_changed_);
+    command_source(t, true, low_was_on_);
     off_edge_ = edge_at(t, on_time);
   }
 }
 
 /// Turn-on and turn-off of the source leg's upper switch. Dead time delays a turn-on after the other switch
 /// of the leg was told to turn off: in complementary chopping at each edge, else only where the leg was the
-/// sink a moment ago.
-void Modulator::command_source(const Instant& t, bool on, bool leg_changed) {
+/// sink a moment ago or chopped complementarily.
+void Modulator::command_source(const Instant& t, bool on, bool low_was_on) {
   const bool waits = config_.dead_ticks > 0;
   const bool complementary = command_.chopping == Chopping::complementary;
-  if (source_on_ == on && !(on && leg_changed && waits)) return;
+  if (source_on_ == on && !(on && low_was_on && waits)) return;
   if (on && !source_on_) ++turn_ons_;
   source_on_ = on;
-  if (waits && (complementary || (on && leg_changed))) wait_dead_time(t);
+  if (!on) upper_off_ = t;
+  if (waits && (complementary || (on && low_was_on))) wait_dead_time(t);
 }
 
 void Modulator::wait_dead_time(const Instant& t) {

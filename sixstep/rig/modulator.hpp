@@ -69,7 +69,7 @@ class Modulator {
 
  private:
   void take(const sim::Instant& t, const BoardCommand& command);
-  void command_source(const sim::Instant& t, bool on, bool leg_changed);
+  void command_source(const sim::Instant& t, bool on, bool low_was_on);
   void wait_dead_time(const sim::Instant& t);
   sim::Instant edge_at(const sim::Instant& t, double ticks) const;
   plant::Gates wanted_gates() const;
@@ -77,11 +77,12 @@ class Modulator {
   ModulatorConfig config_;
   BoardCommand command_{};
   bool source_on_ = false, sink_on_ = true;  ///< sink_on_: hard chopping's second comparator
-  bool leg_changed_ = false;                 ///< the roles were swapped by the last command
+  bool low_was_on_ = false;  ///< the source leg had its lower switch on before the last command
   sim::Instant on_edge_ = sim::Instant::never(), off_edge_ = sim::Instant::never(),
                dead_end_ = sim::Instant::never();
-  bool dead_ = false;       ///< the source leg waits with both switches off
-  plant::Gates blanked_{};  ///< turn-ons delayed at a commutation
+  sim::Instant upper_off_{};  ///< when the source leg's upper switch was last told to turn off
+  bool dead_ = false;         ///< the source leg waits with both switches off
+  plant::Gates blanked_{};    ///< turn-ons delayed at a commutation
   sim::Instant blank_end_ = sim::Instant::never();
   std::int64_t turn_ons_ = 0;
 };

@@ -127,8 +127,7 @@ base::Result<DesignStudy> study_design(const DesignOrder& order) {
                          "give it in A, rad/s or deg as the mode asks"};
   const base::Result<design::MotorModel> motor = design::motor_model(order.subject.sheet);
   if (!motor) return motor.problems();
-  base::Result<design::DriveDesign> design =
-      design::design_drive(*motor, order.wish);
+  base::Result<design::DriveDesign> design = design::design_drive(*motor, order.wish);
   if (!design) return design.problems();
   DesignStudy s;
   s.design = std::move(*design);

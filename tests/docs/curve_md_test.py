@@ -17,20 +17,9 @@ PROGRAM = REPOSITORY / "build/dev/sixstep"
 BLOCK = re.compile(r"(<!-- test: run -->\n```sh\n\./run (.*?)\n```\n\n<!-- test: output -->\n```text\n)(.*?)(```)", re.S)
 
 
-# Sister windings' lines, for as long as the library's sheet has none: what the page shows is a sheet with them.
-THERMAL = """
-thermal_resistance_housing_ambient_K_W = 4.25
-thermal_resistance_winding_housing_K_W = 4.5
-thermal_time_constant_winding_s = 17.7
-thermal_time_constant_motor_s = 212
-max_winding_temperature_degC = 125
-"""
-
-
 def run(command):
     with tempfile.TemporaryDirectory() as folder:
         sheet = (REPOSITORY / "data/motors/maxon-251601.toml").read_text()
-        sheet += "" if "thermal_time_constant_motor_s" in sheet else THERMAL
         (pathlib.Path(folder) / "maxon-251601.toml").write_text(sheet)
         done = subprocess.run([PROGRAM, *command.split()], cwd=folder, capture_output=True, text=True, check=False, timeout=120)
         assert done.returncode == 0, done.stderr

@@ -135,6 +135,22 @@ TEST(Modulator, ACentredOnTimeWaitsAtAReversalToo) {
   }
 }
 
+/// The lower switch of complementary chopping turns off with the command; the upper one of soft chopping
+/// waits.
+TEST(Modulator, AnotherChoppingWaitsForTheLowerSwitch) {
+  for (const bool centred : {false, true}) {
+    Modulator m{ModulatorConfig{.centre_aligned = centred, .dead_ticks = 1e6}};
+    m.start_period(at(0), command(0.5, Chopping::complementary));
+    while (m.next_edge() < at(period)) do_next(m);
+    EXPECT_EQ(on(m), "a-b-") << centred;
+    m.start_period(at(period), command(0.98, Chopping::soft));
+    EXPECT_EQ(on(m), "b-") << centred;
+    while (!m.gates().high[0] && m.next_edge() < at(2 * period)) m.act(m.next_edge());
+    EXPECT_EQ(m.next_edge(), centred ? at(period + 29'700'000) : at(period + 29'400'000)) << centred;
+    EXPECT_EQ(on(m), "a+b-") << centred;
+  }
+}
+
 TEST(Modulator, AHardSinkWaitsWithItsSourceAtAReversal) {
   Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(1.0, Chopping::hard));
@@ -260,37 +276,49 @@ TEST(Modulator, NeverHasBothGatesOfALegOn) {
 }
 
 /// Within the PWM leg, each turn-on comes at least the dead time after the other switch's turn-off.
-TEST(Modulator, DeadTimeHoldsOverAnyDuties) {
+/// When a leg's switches turned off last.
+class DeadTimeWatch {
+ public:
+  void look(const Modulator& m, const Instant& now) {
+    const bool high = m.gates().high[0], low = m.gates().low[0];
+    constexpr double dead_s = 1e-6 * (1 - 0x1p-50);
+    if (high && !high_) {
+      EXPECT_GE(sim::seconds_between(low_off_, now), dead_s);
+    }
+    if (low && !low_) {
+      EXPECT_GE(sim::seconds_between(high_off_, now), dead_s);
+    }
+    if (!high && high_) high_off_ = now;
+    if (!low && low_) low_off_ = now;
+    high_ = high;
+    low_ = low;
+  }
+
+ private:
+  Instant high_off_{-2'000'000}, low_off_{-2'000'000};
+  bool high_ = false, low_ = false;
+};
+
+TEST(Modulator, DeadTimeHoldsOverAnyDutiesAndChoppings) {
   constexpr std::uint32_t seed = 12;
   std::mt19937_64 random{seed};
   std::uniform_real_distribution<double> unit(0, 1);
-  Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
-  Instant high_off{}, low_off{};
-  bool high = false, low = false;
-  const auto look = [&](const Instant& now) {
-    const bool h = m.gates().high[0], l = m.gates().low[0];
-    if (h && !high) {
-      EXPECT_GE(sim::seconds_between(low_off, now), 1e-6 * (1 - 0x1p-50));
+  for (const bool centred : {false, true}) {
+    Modulator m{ModulatorConfig{.centre_aligned = centred, .dead_ticks = 1e6}};
+    DeadTimeWatch watch;
+    for (int k = 0; k < 5000; ++k) {
+      SCOPED_TRACE(::testing::Message() << "seed " << seed << " centred " << centred << " period " << k);
+      const int kind = static_cast<int>(random() % 6);
+      const double duty = kind == 0   ? 0.0
+                          : kind == 1 ? 1.0
+                          : kind == 2 ? 0.03 * unit(random)
+                          : kind == 3 ? 1 - 0.03 * unit(random)
+                                      : unit(random);
+      constexpr Chopping choppings[] = {Chopping::soft, Chopping::hard, Chopping::complementary};
+      m.start_period(at(k * period), command(duty, choppings[random() % 3]));
+      watch.look(m, at(k * period));
+      while (m.next_edge() < at((k + 1) * period)) watch.look(m, do_next(m));
     }
-    if (l && !low) {
-      EXPECT_GE(sim::seconds_between(high_off, now), 1e-6 * (1 - 0x1p-50));
-    }
-    if (!h && high) high_off = now;
-    if (!l && low) low_off = now;
-    high = h;
-    low = l;
-  };
-  for (int k = 0; k < 5000; ++k) {
-    SCOPED_TRACE(::testing::Message() << "seed " << seed << " period " << k);
-    const int kind = static_cast<int>(random() % 6);
-    const double duty = kind == 0   ? 0.0
-                        : kind == 1 ? 1.0
-                        : kind == 2 ? 0.03 * unit(random)
-                        : kind == 3 ? 1 - 0.03 * unit(random)
-                                    : unit(random);
-    m.start_period(at(k * period), command(duty, Chopping::complementary));
-    look(at(k * period));
-    while (m.next_edge() < at((k + 1) * period)) look(do_next(m));
   }
 }
 

@@ -10,6 +10,7 @@ namespace sixstep::testing {
 inline study::Bench maxon_bench() {
   study::Bench b;
   b.motor = *design::motor_model(maxon_sheet());
+  b.motor.nominal_current_A = 2.33;
   b.voltage_V = 24.0;
   return b;
 }
