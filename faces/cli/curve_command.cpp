@@ -104,6 +104,9 @@ base::Result<study::CurveRequest> request_of(const CurveArguments& a) {
     for (base::Problem& p : problems) p.where = fmt::format("{}: {}", a.motor, p.where);
     return problems;
   }
+  if (!a.voltage_V && !(motor->nominal_voltage_V > 0))
+    return base::Problem{"--voltage", "", "is missing, and the sheet prints no nominal voltage",
+                         "give the bus voltage in volts"};
   study::CurveRequest r{.sheet = *sheet, .bench = {.motor = *motor}};
   study::Bench& b = r.bench;
   b.voltage_V = a.voltage_V.value_or(motor->nominal_voltage_V);

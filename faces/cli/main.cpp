@@ -76,7 +76,7 @@ void declare_design(CLI::App& design, DesignArguments& a) {
                     "cancellation, symmetrical-optimum: of the loop, in rad/s");
   design.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");
   design.add_option("--voltage", a.voltage_V, "of the bus in V; the sheet's nominal voltage");
-  design.add_option("--torque-limit", a.torque_limit_Nm, "speed, position: in N m; the sheet's stall torque");
+  design.add_option("--torque-limit", a.torque_limit_Nm, "speed, position: in N m; the stall torque");
   design.add_option("--load-inertia", a.load_inertia_kg_m2, "on the shaft, beside the rotor's, in kg m2; 0");
   design.add_option("--delay", a.delay_periods, "periods until a command counts, 0 or 1")
       ->capture_default_str();
@@ -160,14 +160,15 @@ MotorVerbs declare_motor(CLI::App& motor, MotorArguments& a) {
   return verbs;
 }
 
-Exit unknown_command(const std::string& word) {
-  const std::vector<std::string> known = {"run", "design", "curve", "export", "help", "motor"};
-  const auto near = std::find_if(known.begin(), known.end(), [&](const std::string& command) {
-    return io::edit_distance(word, command) <= 2;
+Exit unknown_command(const CLI::App& app, const std::string& word) {
+  const std::vector<const CLI::App*> known = app.get_subcommands([](const CLI::App*) { return true; });
+  const auto near = std::find_if(known.begin(), known.end(), [&](const CLI::App* command) {
+    return io::edit_distance(word, command->get_name()) <= 2;
   });
   complain({{.where = word,
              .limit = "is no command of sixstep",
-             .cure = near == known.end() ? "sixstep --help lists them" : "did you mean " + *near + "?"}});
+             .cure = near == known.end() ? "sixstep --help lists them"
+                                         : "did you mean " + (*near)->get_name() + "?"}});
   return Exit::bad_input;
 }
 
@@ -210,7 +211,7 @@ Exit run_program(int count, const char* const* words) {
     app.parse(count, words);
   } catch (const CLI::ParseError& error) {
     const std::string first = count > 1 ? words[1] : "-";
-    if (app.get_subcommands().empty() && first[0] != '-') return unknown_command(first);
+    if (app.get_subcommands().empty() && first[0] != '-') return unknown_command(app, first);
     return app.exit(error) == 0 ? Exit::ok : Exit::bad_input;
   }
   run_arguments.command = retyped(count, words);

@@ -45,14 +45,15 @@ base::Problems check(const MotorModel& motor, const DesignWish& w) {
     add("--bandwidth", base::written(*w.bandwidth_rad_s), "must be above 0", "give it in rad/s");
   if (w.voltage_V && !above_0(*w.voltage_V))
     add("--voltage", base::written(*w.voltage_V), "must be above 0", "give the bus voltage in volts");
+  if (!w.voltage_V && !above_0(motor.nominal_voltage_V))
+    add("--voltage", "", "is missing, and the sheet prints no nominal voltage",
+        "give the bus voltage in volts");
   if (!above_0(w.period_s))
     add("--period", base::written(w.period_s), "must be above 0", "give the control period in seconds");
   if (w.torque_limit_Nm && !above_0(*w.torque_limit_Nm))
     add("--torque-limit", base::written(*w.torque_limit_Nm), "must be above 0", "give it in N m");
   if (!(w.load_inertia_kg_m2 >= 0.0 && w.load_inertia_kg_m2 - w.load_inertia_kg_m2 == 0.0))
     add("--load-inertia", base::written(w.load_inertia_kg_m2), "must not be negative", "give it in kg m2");
-  if (!(motor.stall_torque_Nm > 0.0) && !w.torque_limit_Nm && w.mode != Mode::current)
-    add("--torque-limit", "", "is missing, and the sheet has no stall torque", "give it in N m");
   return found;
 }
 
@@ -238,9 +239,10 @@ base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignWish
   d.motor = motor;
   d.motor.shaft.J_kg_m2 += wish.load_inertia_kg_m2;
   d.bus_V = wish.voltage_V.value_or(motor.nominal_voltage_V);
-  d.torque_limit_Nm = wish.torque_limit_Nm.value_or(motor.stall_torque_Nm);
-  d.current_at_full_torque_A = d.torque_limit_Nm / motor.K_t_Nm_A;
   const double stall_A = d.bus_V / (2.0 * motor.machine.R_ohm);
+  const double stall_Nm = motor.stall_torque_Nm > 0.0 ? motor.stall_torque_Nm : motor.K_t_Nm_A * stall_A;
+  d.torque_limit_Nm = wish.torque_limit_Nm.value_or(stall_Nm);
+  d.current_at_full_torque_A = d.torque_limit_Nm / motor.K_t_Nm_A;
   d.nominal_current_A = motor.nominal_current_A > 0.0 ? motor.nominal_current_A : stall_A / 10.0;
   base::Result<LoopDesign> current = current_loop(d);
   if (!current) return current.problems();

@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""sixstep curve: table, files, refusals."""
+import json
+import re
+import unittest
+
+from program import SOURCE, ProgramTest
+
+class Curve(ProgramTest):
+    def test_curve_prints_a_table_and_writes_whole_files(self):
+        shown = self.run_program("curve", "maxon-251601", "--csv", "a.csv", "--json", "a.json", "--html", "a.html").stdout
+        self.assertIn("No load: 6709.5 rpm (702.613 rad/s) with 0.1531 A through the winding", shown)
+        self.assertEqual(self.names(), ["a.csv", "a.html", "a.json"])
+        rows = (self.path / "a.csv").read_text().splitlines()
+        self.assertEqual(len(rows), 42)
+        self.assertTrue(rows[0].startswith("speed_rad_s,torque_Nm,air_gap_torque_Nm,ideal_torque_Nm,"))
+        curve = json.loads((self.path / "a.json").read_text())
+        last = dict(zip(rows[0].split(","), map(float, rows[-1].split(","))))
+        self.assertEqual(last["speed_rad_s"], curve["points"][-1]["speed_rad_s"])
+        self.assertTrue("--html a.html" in (self.path / "a.html").read_text(), "the page names the command that made it")
+        self.assertEqual(self.run_program("curve", "maxon-251601", "--quiet").stdout, "")
+        self.assertEqual(json.loads(self.run_program("curve", "maxon-251601", "--json", "-").stdout), curve)
+
+    def test_curve_is_the_same_on_any_number_of_threads(self):
+        words = ["curve", "maxon-251601", "--duty", "0.6", "--chopping", "hard", "--points", "7", "--json", "-"]
+        self.assertEqual(self.run_program(*words, "--jobs", "1").stdout, self.run_program(*words, "--jobs", "3").stdout)
+
+    def test_curve_refuses_properly(self):
+        def told(*words):
+            result = self.run_program("curve", *words, "--csv", "a.csv", code=2)
+            self.assertEqual(result.stdout, "")
+            return result.stderr
+        self.assertTrue(told("maxon-251601", "--duty", "0").startswith("--duty = 0 must be in (0, 1]"))
+        self.assertTrue(told("maxon-251601", "--duty", "-0.5").startswith("--duty = -0.5 must be in (0, 1]"))
+        self.assertTrue(told("maxon-251601", "--voltage", "-24").startswith("--voltage = -24 must be above 0"))
+        self.assertTrue(told("maxon-251601", "--points", "1").startswith("--points = 1 must be at least 2"))
+        self.assertIn("did you mean soft?", told("maxon-251601", "--chopping", "sof"))
+        self.assertTrue(told("maxon-251601", "--ambient", "1e5").startswith("--ambient = 1e+05"))
+        self.assertIn("did you mean", told("maxon-25160"))
+        self.assertEqual(told("mjbots-mj5208"), "--voltage is missing, and the sheet prints no nominal voltage; give the bus voltage in volts\n")
+        both = told("maxon-251601", "--pwm-period", "0", "--diode-drop", "-1", "--on-resistance", "-1")
+        self.assertEqual([line.split(" = ")[0] for line in both.splitlines()],
+                         ["--pwm-period", "--on-resistance", "--diode-drop"])
+        self.run_program("curve", "maxon-251601", "--duty", "half", code=2)
+        self.run_program("curve", code=2)
+        self.assertIn("cannot be written", self.run_program("curve", "maxon-251601", "--html", "no/a.html", code=2).stderr)
+        sheet = (SOURCE / "data/motors/maxon-251601.toml").read_text()
+        (self.path / "no-inertia.toml").write_text(re.sub(r"inertia_gcm2.*", "", sheet))
+        self.assertIn("inertia_gcm2", told("no-inertia"))
+        (self.path / "rusty.toml").write_text(sheet + "\ncoulomb_friction_mNm = 900\n")
+        self.assertIn("gives no torque beyond the motor's own friction", told("rusty"))
+        (self.path / "bare.toml").write_text("\n".join(x for x in sheet.splitlines() if not re.match("thermal|max_winding", x)))
+        bare = self.run_program("curve", "bare").stdout
+        self.assertIn("No thermal limits: thermal_resistance_winding_housing_K_W, ", bare)
+        self.assertEqual(self.names(), ["bare.toml", "no-inertia.toml", "rusty.toml"])
+
+
+if __name__ == "__main__":
+    unittest.main()

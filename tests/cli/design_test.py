@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""sixstep design: text, files, refusals."""
+import json
+import signal
+import struct
+import subprocess
+import time
+import unittest
+
+from program import PROGRAM, SOURCE, ProgramTest
+
+def mat_variables(data):
+    """A MAT file of level 5, uncompressed, read by its specification alone: {name: rows of numbers, or text}."""
+    def elements(at, end):
+        while at < end:
+            kind, size = struct.unpack_from("<II", data, at)
+            if kind >> 16:  # small element: size and data in eight bytes
+                yield kind & 0xffff, data[at + 4:at + 4 + (kind >> 16)], at
+                at += 8
+            else:
+                yield kind, data[at + 8:at + 8 + size], at
+                at += 8 + (size + 7) // 8 * 8
+    assert data[124:128] == b"\x00\x01IM", data[124:128]
+    found = {}
+    for kind, body, at in elements(128, len(data)):
+        assert kind == 14
+        (_, flags, _), (_, dims, _), (_, name, _), (part, values, _) = elements(at + 8, at + 8 + len(body))
+        rows, columns = struct.unpack("<ii", dims)
+        if flags[0] == 4:
+            found[name.decode()] = values.decode("utf-16-le" if part == 4 or part == 17 else "utf-8")
+        else:
+            assert (flags[0], part) == (6, 9)
+            column = struct.unpack(f"<{rows * columns}d", values)
+            found[name.decode()] = [[column[c * rows + r] for c in range(columns)] for r in range(rows)]
+    return found
+
+
+class Design(ProgramTest):
+    def test_design_prints_verdict_first_then_every_step(self):
+        text = self.run_program("design", "maxon-251601").stdout
+        self.assertRegex(text.splitlines()[0], r"^usable, 1 warning: the current loop settles in 990 us \(1 ms asked for\)")
+        self.assertRegex(text, r"  d1 +4\.09559 +.* thesis 4\.5\n")
+        self.assertRegex(text, r"  Re z +0\.869154 +.* thesis 0\.8588\n")
+        self.assertIn("phase margin, one period late         59.8 deg", text)
+        self.assertIn("held up to 71.6 rad/s, (i/K_t) R", text)
+        self.assertEqual(self.names(), [])
+
+    def test_design_writes_a_scenario_that_runs_and_a_header_of_the_same_gains(self):
+        for mode, figures in (("current", 3), ("speed", 7), ("position", 4)):
+            self.run_program("design", "maxon-251601", "--mode", mode, "--quick", "--quiet", "--toml", "d.toml",
+                             "--header", "d.hpp", "--json", "d.json")
+            designed = json.loads((self.path / "d.json").read_text())
+            self.assertTrue(designed["usable"])
+            self.assertNotIn("tolerances", designed)
+            ran = json.loads(self.run_program("run", "d.toml", "--json", "-").stdout)
+            self.assertEqual(ran["digest"], designed["digest"])
+            self.assertEqual([c["measured"] for c in ran["compare"]], [c["simulated"] for c in designed["simulated"]])
+            self.assertEqual(len(ran["compare"]), figures)
+            for gains, loop in zip(ran["gains"], designed["loops"]):
+                self.assertEqual(gains["loop"], loop["name"])
+                self.assertEqual(gains["d1"], loop["gain_rad_s_per_deg"] if mode == "position" and gains["loop"] == mode
+                                 else loop["gains"]["d1"])
+            d1 = float(designed["loops"][0]["gains"]["d1"]).hex()
+            mantissa, exponent = d1.split("p")
+            self.assertIn(f"{mantissa.rstrip('0')}p{exponent}", (self.path / "d.hpp").read_text())
+
+    def test_design_of_a_motor_file_names_it_as_the_scenario_sees_it(self):
+        (self.path / "mine.toml").write_text((SOURCE / "data/motors/maxon-251601.toml").read_text())
+        (self.path / "out").mkdir()
+        self.run_program("design", "mine.toml", "--quick", "--quiet", "--toml", "out/d.toml")
+        self.assertIn('motor = "../mine.toml"', (self.path / "out/d.toml").read_text())
+        self.run_program("run", "out/d.toml", "--quiet")
+
+    def test_design_json_has_bode_step_margins_and_worst_corners(self):
+        result = self.run_program("design", "maxon-251601", "--mode", "speed", "--json", "-", "--quiet")
+        d = json.loads(result.stdout)
+        self.assertEqual([loop["name"] for loop in d["loops"]], ["current", "speed"])
+        self.assertEqual(d["tolerances"]["motors"], 25)
+        for loop in d["loops"]:
+            self.assertTrue(loop["margins"]["one_period_late"]["stable"])
+            w, gain, crossover = loop["bode"]["w_rad_s"], loop["bode"]["gain"], loop["margins"]["at_once"]["crossover_rad_s"]
+            self.assertLess(max(x for x, g in zip(w, gain) if g > 1), crossover)
+            self.assertGreater(min(x for x, g in zip(w, gain) if g < 1), crossover)
+            self.assertAlmostEqual(loop["step"]["value"][-1], 1, 2)
+        steps = {s["symbol"]: s for s in d["loops"][1]["steps"]}
+        self.assertAlmostEqual(steps["d1"]["value"], 0.0158299, 7)
+        self.assertEqual(steps["d1"]["thesis"], 0.017225)
+
+    def test_design_writes_a_page_that_needs_nothing(self):
+        self.run_program("design", "maxon-251601", "--mode", "speed", "--quiet", "--html", "d.html")
+        page = (self.path / "d.html").read_text()
+        self.assertTrue(page.startswith("<!doctype html>") and page.endswith("</html>\n"))
+        self.assertIn("sixstep design maxon-251601 --mode speed --quiet --html d.html", page)
+        self.assertNotRegex(page, r'(src|href)="(?!data:)')
+        self.assertEqual(self.names(), ["d.html"])
+
+    def test_an_interrupted_design_leaves_nothing_behind(self):
+        # A loop so slow that a minute of the drive is simulated for each motor.
+        design = subprocess.Popen([PROGRAM, "design", "maxon-251601", "--mode", "speed", "--settle", "5", "--toml", "d.toml"],
+                                  cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        while not self.names():  # the outputs are open: it is on its way
+            time.sleep(0.01)
+        time.sleep(0.3)
+        design.send_signal(signal.SIGINT)
+        self.assertEqual(design.wait(timeout=30), 130)
+        design.communicate()
+        self.assertEqual(self.names(), [])
+
+    def test_design_exports_both_models_to_json_and_mat_alike(self):
+        for angle in ("30", "105"):
+            for kind in ("json", "mat"):
+                self.run_program("design", "maxon-251601", "--quick", "--quiet", "--angle", angle, "--models", f"m.{kind}")
+            models, mat = json.loads((self.path / "m.json").read_text()), mat_variables((self.path / "m.mat").read_bytes())
+            for name in ("phase", "terminal"):
+                for matrix in "AB":
+                    self.assertEqual(mat[f"{name}_{matrix}"], models[f"{name}_voltage"][matrix])
+                self.assertEqual(mat[f"{name}_states"].split(), models[f"{name}_voltage"]["states"])
+                self.assertEqual(mat[f"{name}_inputs"].split(), models[f"{name}_voltage"]["inputs"])
+            for name, value in models["parameters"].items():
+                self.assertEqual(mat[name], [[value]])
+            self.assertEqual(mat["theta_e_deg"], [[float(angle)]])
+            # MODEL 1 on the sheet: R/L per phase, K_e f/L, 1/L.
+            A, L, K_e = mat["phase_A"], 0.286e-3, 0.01675
+            self.assertAlmostEqual(A[0][0], -1.03 / 0.572e-3, 9)
+            # Flat tops of 120 degrees, ramps of 60 between: c falls through 0 at 30, b rises through 0 at 90.
+            f = {"30": (1, -1, 0), "105": (1, 0.5, -1)}[angle]
+            for phase in range(3):
+                self.assertAlmostEqual(A[phase][3], -K_e * f[phase] / L, 9)
+            self.assertAlmostEqual(mat["phase_B"][1][1], 1 / L, 9)
+            self.assertEqual(mat["terminal_A"][3], [0, 0, 1, 0])
+        first = (self.path / "m.mat").read_bytes()
+        self.run_program("design", "maxon-251601", "--quick", "--quiet", "--angle", "105", "--models", "m.mat")
+        self.assertEqual((self.path / "m.mat").read_bytes(), first)
+        self.assertIn("must end in .json or .mat",
+                      self.run_program("design", "maxon-251601", "--models", "m.csv", code=2).stderr)
+        self.assertEqual(self.names(), ["m.json", "m.mat"])
+
+    def test_design_refuses_properly_and_tells_a_bad_design(self):
+        def told(*words, code=2):
+            result = self.run_program("design", *words, "--toml", "d.toml", code=code)
+            self.assertEqual(self.names(), ["d.toml"] if code < 2 else [])
+            return result.stdout + result.stderr
+        self.assertEqual(told("maxon-251601", "--mode", "spede"),
+                         "--mode = spede must be one of current, speed, position; did you mean speed?\n")
+        self.assertIn("--settle = -1 must be above 0", told("maxon-251601", "--settle", "-1"))
+        self.assertIn("is no input of pole placement", told("maxon-251601", "--bandwidth", "100"))
+        self.assertIn('did you mean "maxon-251601"?', told("maxon-25160"))
+        self.assertIn("--voltage is missing, and the sheet prints no nominal voltage", told("mjbots-mj5208"))
+        self.assertIn("cannot be written", self.run_program("design", "maxon-251601", "--json", "no/d.json", code=2).stderr)
+        # A fast loop with a delay, chopped softly: only the simulation knows that it oscillates.
+        text = told("maxon-251601", "--settle", "0.5e-3", "--delay", "1", code=1)
+        self.assertRegex(text.splitlines()[0], "^NOT USABLE: in the simulation it never settles$")
+        self.assertIn("try --chopping complementary", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The program in a folder of its own, for the tests of its verbs: each is called as TEST.py PROGRAM SOURCE."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, SOURCE = os.path.abspath(sys.argv.pop(1)), pathlib.Path(sys.argv.pop(1)).resolve()
+
+# The rotor is held at full voltage; only the limit decides whether the requirement holds.
+SHORT = """
+motor = "maxon-251601"
+duration_s = 1e-4
+[control]
+mode = "duty"
+[reference]
+value = 1
+[load]
+locked = true
+[[require]]
+metric = "final"
+signal = "current"
+label = "current"
+max = {limit}
+"""
+
+
+class ProgramTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = pathlib.Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def run_program(self, *words, code=0):
+        result = subprocess.run([PROGRAM, *words], cwd=self.path, capture_output=True, text=True, timeout=60)
+        self.assertEqual(result.returncode, code, result.stderr + result.stdout)
+        return result
+
+    def write(self, name, limit):
+        (self.path / name).write_text(SHORT.format(limit=limit))
+        return name
+
+    def names(self, folder="."):
+        return sorted(os.listdir(self.path / folder))
