@@ -2,7 +2,7 @@
 #include "tests/digest/cases.hpp"
 
 #include "sixstep/study/spread.hpp"
-#include "tests/support/scenarios.hpp"
+#include "tests/support/product_scenarios.hpp"
 
 namespace sixstep::testing {
 namespace {
@@ -171,6 +171,40 @@ Scenario series_drive() {
   return varied(s, 1, 17);
 }
 
+/// Counts, their noise, and currents from one shunt, in 16 bits.
+Scenario one_shunt_q15() {
+  Scenario s = designed_current(1e-3, 0.9);
+  s.control.arithmetic = Arithmetic::q15;
+  s.sensors = board_sensors();
+  s.sensors.currents = rig::CurrentSensing::dc_link;
+  s.sensors.current_noise_A = 0.02;
+  s.sensors.seed = 5;
+  s.pwm.alignment = Alignment::centre;
+  s.pwm.sample = SampleAt::middle;
+  return s;
+}
+
+/// What is flashed: calibration, alignment, speed from Hall edges, and a line that breaks.
+Scenario product(Arithmetic arithmetic) {
+  Scenario s = product_scenario(Mode::speed, 100.0);
+  s.duration_s = 0.3;
+  s.control.arithmetic = arithmetic;
+  s.sensors.current_noise_A = 0.01;
+  s.protection.align = {.current_A = 3.0, .longest_s = 0.1, .settled_s = 5e-3};
+  s.sensors.hall_break = {.at_s = 0.25, .line = 2, .level = Level01::high};
+  return s;
+}
+
+Scenario with_extras(Scenario s) {
+  s.control.slew = 2000.0;
+  s.control.limits.current_A = 8.0;
+  s.control.current.back_emf_feed_forward = true;
+  s.control.current.measured_bus_from_V = 12.0;
+  s.control.smooth_chopping.on = true;
+  s.bridge.dead_time_s = 1e-6;
+  return s;
+}
+
 }  // namespace
 
 std::vector<Case> digest_cases() {
@@ -208,6 +242,10 @@ std::vector<Case> digest_cases() {
       {"diode-source", regeneration(false)},
       {"narrow-flat-reverse", narrow_flat()},
       {"series-drive", series_drive()},
+      {"one-shunt-q15", one_shunt_q15()},
+      {"product", product(Arithmetic::float64)},
+      {"product-q31", product(Arithmetic::q31)},
+      {"extras-cascade", with_extras(designed_cascade())},
   };
   for (Case& c : cases) c.scenario = judged(std::move(c.scenario));
   return cases;
