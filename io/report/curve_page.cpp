@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <report_assets.hpp>
 
 #include "io/report/curve_charts.hpp"
@@ -84,7 +85,8 @@ std::string facts(const study::CurveRequest& r, const study::Curve& curve) {
 }
 
 std::string cell(double x, int digits = 4) {
-  return fmt::format("<td class=\"num\">{}</td>", plain(x, digits));
+  const bool nothing = std::fabs(x) < 1e-9;  // a no-load point's rounding
+  return fmt::format("<td class=\"num\">{}</td>", nothing ? "0" : plain(x, digits));
 }
 
 std::string row(const study::CurveRequest& r, const study::OperatingPoint& p) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/report/html.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <bit>
 #include <cctype>
 #include <cstdint>
@@ -65,18 +68,30 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
+namespace {
+
+/// K_t, I_stall, tau_m: one underscore behind a short name. resistance_ohm is a key and stays as it is typed.
+std::string word_with_subscript(std::string_view word) {
+  constexpr std::size_t longest_name = 3;
+  const std::size_t cut = word.find('_');
+  const bool symbol = cut != std::string_view::npos && cut > 0 && cut <= longest_name &&
+                      cut + 1 < word.size() && word.find('_', cut + 1) == std::string_view::npos;
+  if (!symbol) return std::string(word);
+  return fmt::format("{}<sub>{}</sub>", word.substr(0, cut), word.substr(cut + 1));
+}
+
+}  // namespace
+
 std::string with_subscripts(std::string_view text) {
-  const auto wordy = [](char c) { return c < 0 || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  const auto in_word = [](char c) {
+    return c < 0 || c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0;
+  };
   std::string out;
-  for (std::size_t n = 0; n < text.size(); ++n) {
-    if (text[n] != '_' || n == 0 || n + 1 == text.size() || !wordy(text[n - 1]) || !wordy(text[n + 1])) {
-      out += escaped(text.substr(n, 1));
-      continue;
-    }
-    std::size_t end = n + 1;
-    while (end < text.size() && wordy(text[end])) ++end;
-    out += "<sub>" + std::string(text.substr(n + 1, end - n - 1)) + "</sub>";
-    n = end - 1;
+  while (!text.empty()) {
+    const std::size_t size =
+        static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), in_word) - text.begin());
+    out += size > 0 ? word_with_subscript(text.substr(0, size)) : escaped(text.substr(0, 1));
+    text.remove_prefix(size > 0 ? size : 1);
   }
   return out;
 }

@@ -285,6 +285,8 @@ TEST(Report, leaves_out_what_is_zero_throughout) {
 TEST(Html, underscores_become_subscripts) {
   EXPECT_EQ(with_subscripts("exp(s T_s) < K_reg"), "exp(s T<sub>s</sub>) &lt; K<sub>reg</sub>");
   EXPECT_EQ(with_subscripts("_x a_ ω_0"), "_x a_ ω<sub>0</sub>");
+  EXPECT_EQ(with_subscripts("torque_constant_mNm_A, x_ohm_m"), "torque_constant_mNm_A, x_ohm_m") << "keys";
+  EXPECT_EQ(with_subscripts("resistance_ohm"), "resistance_ohm");
 }
 
 }  // namespace
