@@ -92,8 +92,26 @@ void check_regeneration(const Scenario& s, base::Problems& out) {
                    "give it, or supply.capacitance_F"});
 }
 
+/// Without a current loop there is nothing that could hold a current, or a torque, within bounds.
+void check_speed_output(const Scenario& s, base::Problems& out) {
+  const Control& c = s.control;
+  if (c.speed.output != SpeedOutput::duty) return;
+  const auto refuse = [&out](const char* key) {
+    out.push_back({key, "", "needs a current loop, and control.speed.output = \"duty\" has none",
+                   "remove it, or set control.speed.output = \"current\""});
+  };
+  if (c.current.type == CurrentLoopType::hysteresis) refuse("control.current.type");
+  if (c.current.limit_A) refuse("control.current.limit_A");
+  if (c.speed.torque_limit_Nm) refuse("control.speed.torque_limit_Nm");
+  if (c.limits.current_A) refuse("control.limits.current_A");
+  if (c.limits.torque_Nm) refuse("control.limits.torque_Nm");
+  if (c.limits.speed_rad_s) refuse("control.limits.speed_rad_s");
+  if (c.regeneration.limit_V) refuse("control.regeneration.limit_V");
+}
+
 void check_control(const Scenario& s, base::Problems& out) {
   check_regeneration(s, out);
+  check_speed_output(s, out);
   const auto add = [&](const base::Problems& more) { out.insert(out.end(), more.begin(), more.end()); };
   add(given_gains(s.control.current, "control.current").problems);
   add(given_gains(s.control.speed, "control.speed").problems);
@@ -164,7 +182,8 @@ void check_measures(const Scenario& s, base::Problems& out) {
 /// The speed controller's full output is a torque; a sheet without voltage and stall point has none to offer.
 void check_torque_limit(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
   const bool speed = s.control.mode == control::Mode::speed || s.control.mode == control::Mode::position;
-  if (speed && !s.control.speed.torque_limit_Nm && !(motor.stall_torque_Nm > 0))
+  const bool asks_torque = speed && s.control.speed.output == SpeedOutput::current;
+  if (asks_torque && !s.control.speed.torque_limit_Nm && !(motor.stall_torque_Nm > 0))
     out.push_back({"control.speed.torque_limit_Nm", "",
                    "is missing, and the motor's sheet has no stall torque and no nominal voltage",
                    "give the torque that the drive may ask for"});

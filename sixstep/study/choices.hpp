@@ -54,6 +54,10 @@ inline constexpr Choice<CurrentLoopType> current_loop_choices[] = {
     {"pi", CurrentLoopType::pi, "discrete PI with clamped output, one step per control period"},
     {"hysteresis", CurrentLoopType::hysteresis, "on below the band, off above it"},
 };
+inline constexpr Choice<SpeedOutput> speed_output_choices[] = {
+    {"current", SpeedOutput::current, "a part of the full torque, for the current loop within"},
+    {"duty", SpeedOutput::duty, "the duty itself: no current is measured, none is limited (thesis 6.2.2)"},
+};
 inline constexpr Choice<HysteresisOn> hysteresis_choices[] = {
     {"motor", HysteresisOn::motor, "one comparator on the motor current (i_p - i_n)/2"},
     {"phase", HysteresisOn::phase, "comparators on the currents of the driven phases"},

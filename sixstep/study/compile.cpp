@@ -115,29 +115,53 @@ control::Watch watch_of(const CurrentLoop& loop) {
   return loop.on == HysteresisOn::motor ? control::Watch::motor : control::Watch::phase;
 }
 
+base::Problems add_current_loop(const Scenario& s, const Basis& basis, Compiled& out) {
+  if (s.control.current.type != CurrentLoopType::pi) return {};
+  const design::ZohPlant plant =
+      design::current_plant(2 * basis.motor.machine.R_ohm, 2 * basis.motor.machine.L_H, s.pwm.period_s);
+  base::Result<LoopGains> gains =
+      loop_gains(s.control.current, "current", plant, current_settle_s, s.pwm.period_s);
+  if (!gains) return gains.problems();
+  out.drive.current = {gains->d1, gains->d0, basis.bus_V};
+  out.gains.push_back(*gains);
+  return {};
+}
+
+/// What the speed controller's output does to the speed: torque at once, or the bus through the winding,
+/// whose inductance is too fast to count (thesis 6.2.2): J dw/dt = K_t (d U - K_t w)/R - B w.
+design::ZohPlant speed_plant_of(const Scenario& s, const Basis& basis, double torque_limit_Nm) {
+  const plant::Shaft& shaft = basis.shaft;
+  if (s.control.speed.output == SpeedOutput::current)
+    return design::speed_plant(torque_limit_Nm, shaft.J_kg_m2, shaft.B_Nm_s, s.pwm.period_s);
+  const double K_t = basis.motor.K_t_Nm_A, per_V = K_t / (2 * basis.motor.machine.R_ohm);
+  return design::speed_plant(per_V * basis.bus_V, shaft.J_kg_m2, shaft.B_Nm_s + per_V * K_t, s.pwm.period_s);
+}
+
+base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Compiled& out) {
+  const double torque_limit = s.control.speed.torque_limit_Nm.value_or(basis.motor.stall_torque_Nm);
+  base::Result<LoopGains> gains = loop_gains(s.control.speed, "speed", speed_plant_of(s, basis, torque_limit),
+                                             speed_settle_s, s.pwm.period_s);
+  if (!gains) return gains.problems();
+  out.drive.speed = {gains->d1, gains->d0, 1.0};
+  out.gains.push_back(*gains);
+  if (s.control.speed.output == SpeedOutput::duty) {
+    out.drive.speed_control = control::SpeedControl::duty;
+    return {};
+  }
+  out.drive.current_at_full_torque_A = torque_limit / basis.motor.K_t_Nm_A;
+  out.drive.current_limit_A = s.control.current.limit_A.value_or(out.drive.current_at_full_torque_A);
+  return {};
+}
+
 base::Problems add_loops(const Scenario& s, const Basis& basis, Compiled& out) {
   const control::Mode mode = s.control.mode;
   if (mode == control::Mode::off || mode == control::Mode::duty) return {};
-  const double period_s = s.pwm.period_s;
-  if (s.control.current.type == CurrentLoopType::pi) {
-    const design::ZohPlant plant =
-        design::current_plant(2 * basis.motor.machine.R_ohm, 2 * basis.motor.machine.L_H, period_s);
-    base::Result<LoopGains> gains =
-        loop_gains(s.control.current, "current", plant, current_settle_s, period_s);
-    if (!gains) return gains.problems();
-    out.drive.current = {gains->d1, gains->d0, basis.bus_V};
-    out.gains.push_back(*gains);
-  }
+  const bool has_current_loop =
+      mode == control::Mode::current || s.control.speed.output == SpeedOutput::current;
+  if (has_current_loop)
+    if (base::Problems problems = add_current_loop(s, basis, out); !problems.empty()) return problems;
   if (mode == control::Mode::current) return {};
-  const double torque_limit = s.control.speed.torque_limit_Nm.value_or(basis.motor.stall_torque_Nm);
-  const design::ZohPlant plant =
-      design::speed_plant(torque_limit, basis.shaft.J_kg_m2, basis.shaft.B_Nm_s, period_s);
-  base::Result<LoopGains> gains = loop_gains(s.control.speed, "speed", plant, speed_settle_s, period_s);
-  if (!gains) return gains.problems();
-  out.drive.speed = {gains->d1, gains->d0, 1.0};
-  out.drive.current_at_full_torque_A = torque_limit / basis.motor.K_t_Nm_A;
-  out.drive.current_limit_A = s.control.current.limit_A.value_or(out.drive.current_at_full_torque_A);
-  out.gains.push_back(*gains);
+  if (base::Problems problems = add_speed_loop(s, basis, out); !problems.empty()) return problems;
   if (mode == control::Mode::speed) return {};
   out.drive.position_gain = s.control.position.gain_rad_s_per_deg;
   out.drive.speed_limit_rad_s =

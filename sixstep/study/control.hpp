@@ -27,7 +27,10 @@ struct CurrentLoop {
   std::optional<double> measured_bus_from_V;  // duty = u/measured bus from this voltage on, else u/nominal
 };
 
+enum class SpeedOutput : std::uint8_t { current, duty };
+
 struct SpeedLoop {
+  SpeedOutput output = SpeedOutput::current;
   std::optional<double> settle_s, damping;
   std::optional<double> d1, d0;
   std::optional<double> kp, ki;

@@ -51,6 +51,7 @@ void describe(Visitor& v, CurrentLoop& s) {
 
 template <class Visitor>
 void describe(Visitor& v, SpeedLoop& s) {
+  v.choice("output", s.output, speed_output_choices, {.meaning = "what the speed controller sets"});
   describe_gains(v, s);
   v.value("torque_limit_Nm", s.torque_limit_Nm,
           {.meaning = "torque at the speed controller's full output; without it the sheet's stall torque",
