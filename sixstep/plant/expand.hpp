@@ -152,6 +152,10 @@ void expand_shape(const Constants<Real>& c, const Mode& mode, Expansion<Real>& y
   recurrence(c, mode, OneCurrent<sine, Real>(c, mode, law, shape), y);
 }
 
+// Unrolled, this is most of what a plant costs to compile: for double it is compiled once, in expand.cpp.
+extern template void expand_shape<false, double>(const Constants<double>&, const Mode&, Expansion<double>&);
+extern template void expand_shape<true, double>(const Constants<double>&, const Mode&, Expansion<double>&);
+
 }  // namespace detail
 
 /// Expands the state in the given mode over `wanted` seconds, or over as much of it as full accuracy allows.
