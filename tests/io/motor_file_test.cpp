@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
 
 #include "io/key_catalog.hpp"
 #include "io/motor_template.hpp"
@@ -184,14 +186,20 @@ TEST_F(MotorFile, AnOverrideInAnotherSpellingOrWayReplacesTheSheets) {
   EXPECT_NEAR(flux, 8 * 2e-3, 1e-17);
 }
 
-/// The template with its open lines filled in by key.
-std::string filled(std::string text, const std::map<std::string, std::string>& values) {
-  for (const auto& [key, value] : values) {
-    const std::regex line("(^|\n)(# )?" + key + " = [^\n]*");
-    EXPECT_TRUE(std::regex_search(text, line)) << key;
-    text = std::regex_replace(text, line, "$1" + key + " = " + value);
+/// The template with its open lines (`key = ` or `# key = `) filled in by key.
+std::string filled(const std::string& text, const std::map<std::string, std::string>& values) {
+  std::set<std::string> seen;
+  std::string result;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line); result += line + "\n") {
+    const std::size_t start = line.starts_with("# ") ? 2 : 0;
+    const auto open = values.find(line.substr(start, line.find(" = ", start) - start));
+    if (open == values.end()) continue;
+    line = open->first + " = " + open->second;
+    seen.insert(open->first);
   }
-  return text;
+  for (const auto& [key, value] : values) EXPECT_TRUE(seen.contains(key)) << key;
+  return result;
 }
 
 TEST_F(MotorFile, AFreshTemplateAsksForEachNumber) {
