@@ -2,7 +2,7 @@
 // Motor and bridge at duty 1: the gates follow the sector, nothing is chopped. A System for sim::run.
 #pragma once
 #include "sixstep/control/commutation.hpp"
-#include "sixstep/plant/plant.hpp"
+#include "sixstep/rig/bare_plant.hpp"
 #include "sixstep/sim/run.hpp"
 #include "sixstep/study/bench.hpp"
 #include "sixstep/study/tally.hpp"
@@ -20,27 +20,13 @@ inline plant::Plant<double> plant_of(const Bench& b, const plant::Shaft& shaft, 
   return {b.motor.machine, shaft, b.devices, {.V_0_V = b.voltage_V}, {speed_rad_s, angle, b.voltage_V}};
 }
 
-class FullOn {
+class FullOn : public rig::BarePlant<double> {
  public:
-  using Real = double;
-
   FullOn(const Bench& bench, const plant::Shaft& shaft, double speed_rad_s)
-      : plant_(plant_of(bench, shaft, speed_rad_s)), reversed_(bench.duty < 0) {
+      : BarePlant(plant_of(bench, shaft, speed_rad_s)), reversed_(bench.duty < 0) {
     commutate();
   }
 
-  sim::Instant now() const { return now_; }
-  sim::Instant next_known() const { return sim::Instant::never(); }
-  bool act() { return true; }
-  double expand(double h) { return plant_.expand(h); }
-  template <class Visit>
-  void guards(Visit&& visit) const {
-    plant_.guards(visit);
-  }
-  void advance(double s, const sim::Instant& to) {
-    plant_.advance(s);
-    now_ = to;
-  }
   void apply(int id) {
     if (!plant_.apply(id)) return;
     ++edges_;
@@ -63,7 +49,6 @@ class FullOn {
     return sim::run(*this, sim::Instant::never(), until).stop;
   }
 
-  const plant::Plant<double>& plant() const { return plant_; }
   std::int64_t edges() const { return edges_; }  ///< sector edges passed
 
  private:
@@ -84,8 +69,6 @@ class FullOn {
     plant_.set_gates(gates);  // two different legs: no shoot-through
   }
 
-  plant::Plant<double> plant_;
-  sim::Instant now_{};
   std::int64_t edges_ = 0;
   bool reversed_;
 };

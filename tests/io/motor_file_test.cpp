@@ -66,51 +66,44 @@ std::string sheet_with(const std::string& changed) {
 
 TEST_F(MotorFile, EachSlipIsOneClearErrorWithItsCure) {
   EXPECT_THAT(told(sheet_with("")), ElementsAre());
-  EXPECT_THAT(
-      told(sheet_with("resistance_ohm = 1.03")),
-      ElementsAre("m.toml:7:18: resistance_ohm = 1.03 must say its frame: \"terminal\" means R_s = 0.515 "
-                  "ohm, stall current 23.3 A; \"phase\" means R_s = 1.03 ohm, stall current 11.7 A; "
-                  "write frame = \"terminal\" or \"phase\""));
-  EXPECT_THAT(
-      told(sheet_with("resistance_ohm = -1.03")),
-      ElementsAre("m.toml:7:18: resistance_ohm = -1.03 must be above 0; it means: winding resistance, "
-                  "between two terminals or of one phase of the star, in ohm"));
-  EXPECT_THAT(told(sheet_with("inertia_gcm2 = 0")),
-              ElementsAre("m.toml:7:16: inertia_gcm2 = 0 must be above 0; it means: moment of inertia of the "
-                          "rotor, in g cm2"));
-  EXPECT_THAT(
-      told(sheet_with("resistance_kohm = 1.03")),
-      ElementsAre("m.toml:8:1: resistance_kohm carries the wrong unit; write resistance_ohm and give the "
-                  "value in that unit"));
-  EXPECT_THAT(told(sheet_with("torque_constant_Nm_Arms = 0.4")),
-              ElementsAre("m.toml:8:1: torque_constant_Nm_Arms carries the wrong unit; write "
-                          "torque_constant_Nm_A and give the value in that unit"));
-  EXPECT_THAT(
-      told(sheet_with("poles = 15")),
-      ElementsAre("m.toml:8:9: poles = 15 must be an even number from 2 on; magnet poles come in pairs "
-                  "of north and south; if the sheet counts pairs, write pole_pairs"));
   EXPECT_THAT(told(sheet_with("winding = \"12N16P\"\npole_pairs = 16")).size(), 1u);
-  EXPECT_THAT(
-      told("winding = \"12N14P\"\n" + sheet_with("pole_pairs = 14")),
-      ElementsAre("m.toml:8:14: pole_pairs = 14 is the number of poles of winding = \"12N14P\"; write "
-                  "pole_pairs = 7"));
-  EXPECT_THAT(told(sheet_with("line_10_terminal_resistance_ohm = 1.03")),
-              ElementsAre("m.toml:8:35: line_10_terminal_resistance_ohm = 1.03 is given already, as "
-                          "resistance_ohm; they are the same value: keep one of the two lines"));
-  EXPECT_THAT(
-      told(sheet_with("back_emf_mV_s = 16")),
-      ElementsAre("m.toml:8:17: back_emf_mV_s = 16 contradicts torque_constant_mNm_A, which means 16.75; "
-                  "give only one of the two"));
-  EXPECT_THAT(
-      told(sheet_with("stall_current_A = { value = 23.3, range = [24, 25] }")),
-      ElementsAre("m.toml:8:43: stall_current_A.range = [24, 25] does not hold the value, 23.3; it reaches "
-                  "over what all sources say, the value included"));
-  EXPECT_THAT(
-      told(sheet_with("stall_current_A = { value = 23.3, range = [25, 24] }")),
-      ElementsAre("m.toml:8:43: stall_current_A.range = [25, 24] runs downwards; write range = [low, high]"));
-  EXPECT_THAT(told(sheet_with("inertia_gcm2 = { value = 135, kind = \"measurd\" }")),
-              ElementsAre("m.toml:7:38: inertia_gcm2.kind = \"measurd\" must be \"sheet\", \"measured\" or "
-                          "\"derived\"; did you mean \"measured\"?"));
+  const std::pair<std::string, const char*> slips[] = {
+      {sheet_with("resistance_ohm = 1.03"),
+       "m.toml:7:18: resistance_ohm = 1.03 must say its frame: \"terminal\" means R_s = 0.515 ohm, stall "
+       "current 23.3 A; \"phase\" means R_s = 1.03 ohm, stall current 11.7 A; write frame = \"terminal\" or "
+       "\"phase\""},
+      {sheet_with("resistance_ohm = -1.03"),
+       "m.toml:7:18: resistance_ohm = -1.03 must be above 0; it means: winding resistance, between two "
+       "terminals or of one phase of the star, in ohm"},
+      {sheet_with("inertia_gcm2 = 0"),
+       "m.toml:7:16: inertia_gcm2 = 0 must be above 0; it means: moment of inertia of the rotor, in g cm2"},
+      {sheet_with("resistance_kohm = 1.03"),
+       "m.toml:8:1: resistance_kohm carries the wrong unit; write resistance_ohm and give the value in that "
+       "unit"},
+      {sheet_with("torque_constant_Nm_Arms = 0.4"),
+       "m.toml:8:1: torque_constant_Nm_Arms carries the wrong unit; write torque_constant_Nm_A and give the "
+       "value in that unit"},
+      {sheet_with("poles = 15"),
+       "m.toml:8:9: poles = 15 must be an even number from 2 on; magnet poles come in pairs of north and "
+       "south; if the sheet counts pairs, write pole_pairs"},
+      {"winding = \"12N14P\"\n" + sheet_with("pole_pairs = 14"),
+       "m.toml:8:14: pole_pairs = 14 is the number of poles of winding = \"12N14P\"; write pole_pairs = 7"},
+      {sheet_with("line_10_terminal_resistance_ohm = 1.03"),
+       "m.toml:8:35: line_10_terminal_resistance_ohm = 1.03 is given already, as resistance_ohm; they are "
+       "the same value: keep one of the two lines"},
+      {sheet_with("back_emf_mV_s = 16"),
+       "m.toml:8:17: back_emf_mV_s = 16 contradicts torque_constant_mNm_A, which means 16.75; give only one "
+       "of the two"},
+      {sheet_with("stall_current_A = { value = 23.3, range = [24, 25] }"),
+       "m.toml:8:43: stall_current_A.range = [24, 25] does not hold the value, 23.3; it reaches over what "
+       "all sources say, the value included"},
+      {sheet_with("stall_current_A = { value = 23.3, range = [25, 24] }"),
+       "m.toml:8:43: stall_current_A.range = [25, 24] runs downwards; write range = [low, high]"},
+      {sheet_with("inertia_gcm2 = { value = 135, kind = \"measurd\" }"),
+       "m.toml:7:38: inertia_gcm2.kind = \"measurd\" must be \"sheet\", \"measured\" or \"derived\"; did you "
+       "mean \"measured\"?"},
+  };
+  for (const auto& [text, message] : slips) EXPECT_THAT(told(text), ElementsAre(message));
 }
 
 TEST_F(MotorFile, AValueInAnotherSpellingIsToldAsItStands) {

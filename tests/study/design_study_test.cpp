@@ -12,6 +12,7 @@
 #include "sixstep/study/position_gain.hpp"
 #include "sixstep/study/robust.hpp"
 #include "sixstep/study/run.hpp"
+#include "tests/support/scenarios.hpp"
 
 namespace {
 
@@ -24,21 +25,7 @@ using design::DriveDesign;
 
 constexpr double period_s = 30e-6;
 
-design::Sheet thesis_sheet() {
-  design::Sheet s;
-  s.name = "maxon EC 45 flat 251601";
-  s.pole_pairs = 8;
-  s.nominal_voltage_V = {24.0, "", ""};
-  s.resistance_ohm = {1.03, "terminal", ""};
-  s.inductance_mH = {0.572, "terminal", ""};
-  s.torque_constant_mNm_A = base::Quantity{33.5, "", ""};
-  s.inertia_gcm2 = {135, "", ""};
-  s.viscous_friction_Nm_s = base::Quantity{7.3e-6, "", ""};
-  s.stall_torque_mNm = base::Quantity{780, "", ""};
-  return s;
-}
-
-const DesignSubject subject{"maxon-251601", thesis_sheet(), {}};
+const DesignSubject subject{"maxon-251601", sixstep::testing::maxon_sheet(), {}};
 
 DriveDesign designed(const DesignWish& wish) {
   const auto d = design::design_drive(*design::motor_model(subject.sheet), wish);

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "sixstep/plant/plant.hpp"
+#include "sixstep/rig/bare_plant.hpp"
 #include "sixstep/sim/run.hpp"
 
 namespace sixstep::testing {
@@ -44,35 +44,28 @@ inline plant::Gates all_low() { return gates({}, {true, true, true}); }
 
 /// The plant with gates held, as a System for sim::run; notes every located event.
 template <class RealType = double>
-class Held {
+class Held : public rig::BarePlant<RealType> {
+  using rig::BarePlant<RealType>::plant_;
+  using rig::BarePlant<RealType>::now_;
+
  public:
   using Real = RealType;
+  using rig::BarePlant<RealType>::plant;
   struct Event {
     int id;
     sim::Instant at;
   };
 
-  Held(const Drivetrain& setup, const plant::Gates& g) : plant_(setup.plant<Real>()) { plant_.set_gates(g); }
+  Held(const Drivetrain& setup, const plant::Gates& g) : rig::BarePlant<Real>(setup.plant<Real>()) {
+    plant_.set_gates(g);
+  }
 
-  sim::Instant now() const { return now_; }
-  sim::Instant next_known() const { return sim::Instant::never(); }
-  bool act() { return true; }
-  double expand(double h) { return plant_.expand(h); }
-  template <class Visit>
-  void guards(Visit&& visit) const {
-    plant_.guards(visit);
-  }
-  void advance(Real s, const sim::Instant& to) {
-    plant_.advance(s);
-    now_ = to;
-  }
   void apply(int id) {
     events.push_back({id, now_});
     plant_.apply(id);
   }
 
   plant::Plant<Real>& plant() { return plant_; }
-  const plant::Plant<Real>& plant() const { return plant_; }
   const plant::State<Real>& state() const { return plant_.state(); }
   Real angle() const {
     return (static_cast<Real>(state().sector) * Real(base::sector_rad) + state().x) /
@@ -89,10 +82,6 @@ class Held {
   }
 
   std::vector<Event> events;
-
- private:
-  plant::Plant<Real> plant_;
-  sim::Instant now_{};
 };
 
 }  // namespace sixstep::testing

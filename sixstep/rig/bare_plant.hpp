@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plant without a board, the part of a System for sim::run that needs no decision: nothing is scheduled.
+// Who derives from it adds apply(id), what happens at a located event.
+#pragma once
+#include "sixstep/plant/plant.hpp"
+#include "sixstep/sim/instant.hpp"
+
+namespace sixstep::rig {
+
+template <class RealType>
+class BarePlant {
+ public:
+  using Real = RealType;
+
+  explicit BarePlant(const plant::Plant<Real>& plant) : plant_(plant) {}
+
+  sim::Instant now() const { return now_; }
+  sim::Instant next_known() const { return sim::Instant::never(); }
+  bool act() { return true; }
+  double expand(double h) { return plant_.expand(h); }
+  template <class Visit>
+  void guards(Visit&& visit) const {
+    plant_.guards(visit);
+  }
+  void advance(Real s, const sim::Instant& to) {
+    plant_.advance(s);
+    now_ = to;
+  }
+
+  const plant::Plant<Real>& plant() const { return plant_; }
+
+ protected:
+  plant::Plant<Real> plant_;
+  sim::Instant now_{};
+};
+
+}  // namespace sixstep::rig
