@@ -84,6 +84,7 @@ A, B_OFF = halves(0.75)
 FLOATING = 2 / 3 * K_E * 100 * 0.75 * T / L_S  # largest pulse of the floating phase
 SECTOR = pi / 3 / PAIRS / 100
 BURST = (K_T * 1.25 - 0.02) * 0.02 / J
+BRAKE = (K_T * 100 - 2 * R) / U  # duty that holds 2 A of braking current at 100 rad/s
 IN_BAND = 1e-9 / 0.4
 DIP = 3 * L / (U - 2 * K_T * 200) / (pi / 3 / PAIRS / 200)  # part of a sector that a commutation takes at 200 rad/s
 
@@ -95,6 +96,8 @@ LAWS = {
     "floating-phase-soft": [(0, 0), (FLOATING * (1 - 4 * T / SECTOR) * (1 - 0.75 * T * R / L), FLOATING)],
     "floating-phase-hard": [(0, 0)],
     "dead-time": [(0, 0), near((0.1 - 1e-6 / T) * STALL)],
+    "braking-soft": [((U - K_T * 100) / R * (1 - exp(-T / TAU)), None)],
+    "braking-complementary": [(None, U * BRAKE * (1 - BRAKE) * T / L + 0.077)],
     "braking-no-sink": [(28, sqrt(U**2 + J / 2e-3 * 300**2))],
     "braking-limited": [(None, 27 + 2 * T / 2e-3)],
     "bus-sag": [near(U * R / (R + 0.2)), near(U / (R + 0.2))],
