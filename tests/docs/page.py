@@ -112,15 +112,44 @@ def walk(page, desk):
         yield block, now
 
 
-class PageTest(unittest.TestCase):
-    NAME = None   # of the page, from the repository's root
-    FEWEST = 1    # blocks
+def anchors(file):
+    """The headings of a page, as links name them."""
+    text = BLOCK.sub("", file.read_text(encoding="utf-8"))
+    return [re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in re.findall(r"^#+ (.*)", text, re.M)]
+
+
+class LinkTest(unittest.TestCase):
+    NAME = None  # of the page, from the repository's root
     PROGRAM = REPOSITORY / "build/dev/sixstep"
     maxDiff = None
 
     @classmethod
     def setUpClass(cls):
-        cls.page, cls.desk = Page(cls.NAME), Desk(cls.PROGRAM)
+        if cls.NAME is None:
+            raise unittest.SkipTest("no page")
+        cls.page = Page(cls.NAME)
+
+    def test_what_is_linked_named_or_pictured_is_there(self):
+        links = re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", self.page.prose)
+        named = re.findall(r"`((?:tools|tests|data|docs|sixstep)/[\w./-]+)`", self.page.prose)
+        for path in [self.page.file.parent / link for link in links if "://" not in link] + [REPOSITORY / n for n in named]:
+            self.assertTrue(path.exists(), path)
+        for words, picture in re.findall(r"!\[(.*?)\]\((.*?)\)", self.page.prose, re.S):
+            self.assertGreater(len(words), 10, f"{picture}: somebody who does not see it wants to know what it shows")
+            self.assertLess((self.page.file.parent / picture).stat().st_size, 300_000)
+
+    def test_every_anchor_is_a_heading(self):
+        for path, anchor in re.findall(r"\]\(([^)#:]*)#([^)]+)\)", self.page.prose):
+            self.assertIn(anchor, anchors(self.page.file.parent / path if path else self.page.file), path)
+
+
+class PageTest(LinkTest):
+    FEWEST = 1  # blocks
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.desk = Desk(cls.PROGRAM)
         cls.addClassCleanup(cls.desk.close)
 
     def shell(self, command, code=0):
@@ -150,15 +179,6 @@ class PageTest(unittest.TestCase):
         else:
             self.assertIn(block.word, ("run", "write", "measured"), "the block does not say how it is tested")
 
-    def test_what_is_linked_named_or_pictured_is_there(self):
-        links = re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", self.page.prose)
-        named = re.findall(r"`((?:tools|tests|data|docs|sixstep)/[\w./-]+)`", self.page.prose)
-        for path in [self.page.file.parent / link for link in links if "://" not in link] + [REPOSITORY / n for n in named]:
-            self.assertTrue(path.exists(), path)
-        for words, picture in re.findall(r"!\[(.*?)\]\((.*?)\)", self.page.prose, re.S):
-            self.assertGreater(len(words), 10, f"{picture}: somebody who does not see it wants to know what it shows")
-            self.assertLess((self.page.file.parent / picture).stat().st_size, 300_000)
-
 
 def renew(name, program):
     page, desk, text, at = Page(name), Desk(program), [], 0
@@ -170,11 +190,12 @@ def renew(name, program):
     desk.close()
 
 
-def main(test):
-    """The arguments of every page's test: PROGRAM [--renew]."""
+def main(*tests):
+    """The arguments of the test of one or more pages: PROGRAM [--renew]."""
     if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
-        test.PROGRAM = pathlib.Path(os.path.abspath(sys.argv.pop(1)))
+        LinkTest.PROGRAM = pathlib.Path(os.path.abspath(sys.argv.pop(1)))
     if "--renew" in sys.argv:
-        renew(test.NAME, test.PROGRAM)
+        for test in tests:
+            renew(test.NAME, test.PROGRAM)
     else:
         unittest.main(module="__main__")
