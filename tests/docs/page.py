@@ -136,7 +136,7 @@ class LinkTest(unittest.TestCase):
             self.assertTrue(path.exists(), path)
         for words, picture in re.findall(r"!\[(.*?)\]\((.*?)\)", self.page.prose, re.S):
             self.assertGreater(len(words), 10, f"{picture}: somebody who does not see it wants to know what it shows")
-            self.assertLess((self.page.file.parent / picture).stat().st_size, 300_000)
+            self.assertLess((self.page.file.parent / picture).stat().st_size, 100_000)
 
     def test_every_anchor_is_a_heading(self):
         for path, anchor in re.findall(r"\]\(([^)#:]*)#([^)]+)\)", self.page.prose):
@@ -182,10 +182,13 @@ class PageTest(LinkTest):
 
 def renew(name, program):
     page, desk, text, at = Page(name), Desk(program), [], 0
-    for block, now in walk(page, desk):
-        if now is not None:
-            text += [page.text[at:block.span[0]], now]
-            at = block.span[1]
+    try:
+        for block, now in walk(page, desk):
+            if now is not None:
+                text += [page.text[at:block.span[0]], now]
+                at = block.span[1]
+    except AssertionError as failure:  # as where a program is not built
+        print(f"{name}: the rest is left as it is, after {failure}", file=sys.stderr)
     page.file.write_text("".join(text) + page.text[at:], encoding="utf-8")
     desk.close()
 

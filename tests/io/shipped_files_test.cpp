@@ -47,7 +47,8 @@ TEST(ShippedFiles, TheGallerySaysWhatItTeaches) {
   for (const fs::directory_entry& entry : fs::directory_iterator(data / "scenarios" / "gallery")) {
     const study::Scenario scenario = shipped("gallery/" + entry.path().stem().string());
     EXPECT_GE(scenario.notes.size(), 100u) << entry.path();
-    EXPECT_NE(scenario.title.find(':'), std::string::npos) << entry.path() << ": what it is, then what it shows";
+    EXPECT_NE(scenario.title.find(':'), std::string::npos)
+        << entry.path() << ": what it is, then what it shows";
     ++count;
   }
   EXPECT_GE(count, 12);
