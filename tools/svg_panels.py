@@ -32,12 +32,10 @@ def thinned(points):
 
 
 def path(curve, at, colour, dashed):
-    words, last = [], None
-    for x, y in thinned([at(x, y) for x, y in curve]):
-        place = f"{x:.1f} {y:.1f}"
-        if place != last:
-            words.append(place)
-        last = place
+    places = [(f"{x:.1f}", f"{y:.1f}") for x, y in thinned([at(x, y) for x, y in curve])]
+    corners = [here for n, here in enumerate(places)  # what lies on a level line, or is there twice, says nothing
+               if not 0 < n < len(places) - 1 or not here[1] == places[n - 1][1] == places[n + 1][1]]
+    words = [f"{x} {y}" for n, (x, y) in enumerate(corners) if n == 0 or (x, y) != corners[n - 1]]
     dash = ' stroke-dasharray="5 4"' if dashed else ""
     return f'<path fill="none" stroke="{colour}" stroke-width="1.4" stroke-linejoin="round"{dash} d="M{"L".join(words)}"/>'
 
