@@ -26,8 +26,9 @@ async function photograph(name, last, words) {
   await page.waitForFunction(() => globalThis.sixstep?.charts?.length > 0);
   await page.waitForTimeout(300); // the charts are drawn with the next frames
   const box = await page.locator(`#chart-${last}`).boundingBox();
-  await page.screenshot({path: path.join(root, `docs/images/${name}.png`),
-    clip: {x: 0, y: 0, width: 1200, height: Math.ceil(box.y + box.height + 16)}});
+  const picture = path.join(root, `docs/images/${name}.png`);
+  await page.screenshot({path: picture, clip: {x: 0, y: 0, width: 1200, height: Math.ceil(box.y + box.height + 16)}});
+  execFileSync('pngquant', ['--strip', '--force', '--output', picture, picture]); // a palette: a third of the size
   await page.close();
 }
 

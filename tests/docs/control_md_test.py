@@ -8,15 +8,12 @@ import sys
 import tempfile
 import unittest
 
-REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
-PAGE = (REPOSITORY / "docs" / "control.md").read_text()
+from page import REPOSITORY, Page
+
+PAGE = Page("docs/control.md")
 COMPILER, PROGRAM = "c++", REPOSITORY / "build/dev/sixstep"
 WARNINGS = ["-std=c++20", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wno-sign-conversion", "-Wdouble-promotion",
             "-Wno-missing-field-initializers", "-Werror"]
-
-
-def snippets(kind):
-    return re.findall(rf"<!-- test: {kind} -->\n```\w+\n(.*?)```", PAGE, re.S)
 
 
 class ControlPage(unittest.TestCase):
@@ -29,36 +26,36 @@ class ControlPage(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_the_chips_snippets_are_one_program_for_a_chip(self):
-        chip = snippets("chip")
+        chip = PAGE.texts("chip")
         self.assertGreaterEqual(len(chip), 6)
         self.compile("\n".join(chip), "-ffreestanding", "-fno-exceptions", "-fno-rtti")
 
     def test_the_hosts_snippets_compile(self):
-        self.compile("\n".join(snippets("host")))
+        self.compile("\n".join(PAGE.texts("host")))
 
     def test_the_shell_lines_run(self):
         with tempfile.TemporaryDirectory() as folder:
-            for line in snippets("shell"):
+            for line in PAGE.texts("shell"):
                 subprocess.run(line.replace("tools/", f"{REPOSITORY}/tools/"), shell=True, cwd=folder, check=True)
             self.assertTrue((pathlib.Path(folder) / "sixstep_control.hpp").is_file())
 
     def test_what_is_exported_goes_into_the_chips_program(self):
         with tempfile.TemporaryDirectory() as folder:
-            for line in snippets("export"):
+            for line in PAGE.texts("export"):
                 line = line.replace("./run", f"'{PROGRAM}'").replace("--out ", f"--out {folder}/")
                 subprocess.run(line, shell=True, cwd=REPOSITORY, check=True)
-            self.compile("\n".join(snippets("exported")), "-ffreestanding", "-fno-exceptions", "-fno-rtti", f"-I{folder}")
+            self.compile("\n".join(PAGE.texts("exported")), "-ffreestanding", "-fno-exceptions", "-fno-rtti", f"-I{folder}")
 
     def test_what_trips_is_told(self):
-        for line in snippets("trips"):
+        for line in PAGE.texts("trips"):
             done = subprocess.run(line.replace("./run", f"'{PROGRAM}'"), shell=True, cwd=REPOSITORY, capture_output=True,
                                   text=True, check=False)
             self.assertEqual(done.returncode, 3)
             self.assertIn("line H2 does not follow the rotor", done.stdout)
 
     def test_every_snippet_is_tested_and_every_block_named(self):
-        self.assertEqual(PAGE.count("```") // 2, sum(len(snippets(kind)) for kind in ("chip", "host", "shell", "export", "exported", "trips")))
-        table = PAGE.split("<!-- test: blocks -->")[1]
+        self.assertLessEqual({b.word for b in PAGE.blocks}, {"chip", "host", "shell", "export", "exported", "trips"})
+        table = PAGE.text.split("<!-- test: blocks -->")[1]
         named = sorted(re.findall(r"`(\w+\.hpp)`", table))
         self.assertEqual(named, sorted(p.name for p in (REPOSITORY / "sixstep/control").glob("*.hpp")))
 

@@ -39,7 +39,19 @@ TEST(ShippedFiles, EveryScenarioReads) {
     }
     ++count;
   }
-  EXPECT_GE(count, 30);
+  EXPECT_GE(count, 50);
+}
+
+TEST(ShippedFiles, TheGallerySaysWhatItTeaches) {
+  int count = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(data / "scenarios" / "gallery")) {
+    const study::Scenario scenario = shipped("gallery/" + entry.path().stem().string());
+    EXPECT_GE(scenario.notes.size(), 100u) << entry.path();
+    EXPECT_NE(scenario.title.find(':'), std::string::npos)
+        << entry.path() << ": what it is, then what it shows";
+    ++count;
+  }
+  EXPECT_GE(count, 12);
 }
 
 TEST(ShippedFiles, ReferenceCasesHaveTheirTrajectory) {

@@ -1,0 +1,28 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""manual_md_test.py PROGRAM [--renew]: what the pages in docs/manual say is so. The gallery has its own script."""
+import page
+
+
+class Contents(page.PageTest):
+    NAME, FEWEST = "docs/manual/README.md", 0
+
+    def test_every_page_is_in_the_contents(self):
+        for file in self.page.file.parent.glob("*.md"):
+            self.assertTrue(file.name == "README.md" or f"({file.name})" in self.page.text, file)
+
+
+class Tour(page.PageTest):
+    NAME, FEWEST = "docs/manual/tour.md", 12
+
+
+class Questions(page.PageTest):
+    NAME, FEWEST = "docs/manual/faq.md", 12
+
+
+class Gallery(page.LinkTest):
+    NAME = "docs/manual/gallery.md"
+
+
+if __name__ == "__main__":
+    page.main(Contents, Tour, Questions)

@@ -1,0 +1,24 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""readme_md_test.py PROGRAM [--renew]: what README.md says is so."""
+import re
+
+import page
+
+
+class Readme(page.PageTest):
+    NAME, FEWEST = "README.md", 10
+
+    def test_two_runs_give_the_same_bits(self):
+        scenario = "data/scenarios/thesis/7.4-speed-thesis-gains.toml"
+        for name in ("one", "two"):
+            self.shell(f"./run run {scenario} --csv {name}.csv --quiet")
+        self.assertEqual(*((self.desk.folder / f"{name}.csv").read_bytes() for name in ("one", "two")))
+
+    def test_the_number_of_experiments_is_right(self):
+        count = len(list((page.REPOSITORY / "data/scenarios/thesis").glob("*.toml")))
+        self.assertEqual({int(n) for n in re.findall(r"(\d+) experiments", self.page.text)}, {count})
+
+
+if __name__ == "__main__":
+    page.main(Readme)

@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""gallery.py PROGRAM [--check]: writes docs/manual/gallery.md and its pictures from the scenarios in data/scenarios.
+
+Titles and notes are those of the files, results those of the program, pictures are drawn from its traces at every event.
+docs/manual/gallery.toml says which scenarios stand together and what a picture shows. With --check nothing is written; it
+fails where page or pictures are not what they would be.
+"""
+import csv
+import io
+import pathlib
+import subprocess
+import sys
+import tempfile
+import textwrap
+import tomllib
+
+from svg_panels import drawing
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+MANUAL, SCENARIOS = ROOT / "docs/manual", ROOT / "data/scenarios"
+UNITS = {"ms": 1e3, "us": 1e6, "s": 1.0}
+
+
+def run(program, words):
+    return subprocess.run([program, "run", *words], cwd=ROOT, text=True, check=False, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, timeout=60)
+
+
+def trace(program, name, columns, extra):
+    """The columns of a run at every event: {column: [values]}."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "trace.csv"
+        words = ", ".join(f'"{column}"' for column in columns)
+        settings = [w for s in [f"record.columns=[{words}]", "record.events=true", *extra] for w in ("--set", s)]
+        done = run(program, [f"data/scenarios/{name}.toml", "--quiet", "--csv", file, *settings])
+        assert file.is_file(), done.stdout
+        lines = [line for line in file.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    rows = list(csv.DictReader(io.StringIO("\n".join(lines))))
+    return {column: [float(row[column]) for row in rows] for column in ["t_s", *columns]}
+
+
+def picture(program, section):
+    unit, names = section["time"], [scenario["file"] for scenario in section["scenario"]]
+    scale, span = UNITS[unit], section["span"]
+    asked = sorted({(names[curve.get("of", 0)], curve["column"]) for p in section["panel"] for curve in p["curve"]})
+    traces = {name: trace(program, name, [c for n, c in asked if n == name], section.get("set", []))
+              for name in sorted({n for n, _ in asked})}
+    panels = []
+    for p in section["panel"]:
+        curves = []
+        for curve in p["curve"]:
+            columns = traces[names[curve.get("of", 0)]]
+            points = [(t * scale, value * p.get("factor", 1)) for t, value in zip(columns["t_s"], columns[curve["column"]])
+                      if span[0] <= t * scale <= span[1]]
+            curves.append((curve["label"], points, curve.get("dashed", False)))
+        panels.append({"title": p["title"], "curves": curves})
+    return drawing(section["alt"], panels, span, f"time in {unit}")
+
+
+def section_text(program, section):
+    out = [f"## {section['title']}", ""]
+    if "text" in section:
+        out += [section["text"].strip(), ""]
+    if "panel" in section:
+        out += [f"![{section['alt']}](pictures/{section['picture']}.svg)", ""]
+    for scenario in section["scenario"]:
+        file = f"data/scenarios/{scenario['file']}.toml"
+        words = tomllib.loads((ROOT / file).read_text(encoding="utf-8"))
+        command = " ".join(["./run run", file, *scenario.get("options", [])])
+        done = run(program, [file, *scenario.get("options", [])])
+        assert done.returncode == scenario.get("exit", 0), done.stdout
+        out += [f"**[{words['title']}](../../{file})**", "", *textwrap.wrap(words["notes"], 118, break_on_hyphens=False), "",
+                "```console", f"$ {command}", done.stdout.rstrip("\n"), "```", ""]
+    return out
+
+
+def pages(program):
+    """What the manual's gallery consists of: {path: text}."""
+    plan = tomllib.loads((MANUAL / "gallery.toml").read_text(encoding="utf-8"))
+    text, files = plan["head"].strip().splitlines() + [""], {}
+    for section in plan["section"]:
+        text += section_text(program, section)
+        if "panel" in section:
+            files[MANUAL / "pictures" / f"{section['picture']}.svg"] = picture(program, section)
+    shown = {scenario["file"] for section in plan["section"] for scenario in section["scenario"]}
+    for file in sorted((SCENARIOS / "gallery").glob("*.toml")):
+        assert f"gallery/{file.stem}" in shown, f"docs/manual/gallery.toml does not show {file.stem}"
+    return {MANUAL / "gallery.md": "\n".join(text).rstrip("\n") + "\n"} | files
+
+
+def main(words):
+    check = "--check" in words
+    program = pathlib.Path(next((w for w in words if w != "--check"), ROOT / "build/release/sixstep")).resolve()
+    made, stale = pages(program), []
+    extra = set((MANUAL / "pictures").glob("*.svg")) - set(made)
+    for path, text in made.items():
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            stale.append(path)
+            if not check:
+                path.parent.mkdir(exist_ok=True)
+                path.write_text(text, encoding="utf-8")
+    if not check:
+        for path in extra:
+            path.unlink()
+    elif stale or extra:
+        names = ", ".join(str(path.relative_to(ROOT)) for path in [*stale, *sorted(extra)])
+        raise SystemExit(f"not what the program says: {names}; tools/gallery.py PROGRAM writes them anew")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

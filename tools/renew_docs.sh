@@ -1,0 +1,20 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# tools/renew_docs.sh [PROGRAM] [--screenshots]   writes anew what the documents show of the program: the page of all keys,
+# the gallery with its pictures, and the printed blocks of every page. With --screenshots also the photographed pages, which
+# need Chromium (tools/install.sh test). Look at `git diff` afterwards: what changed must be what was meant to change.
+set -eu
+cd "$(dirname "$0")/.."
+program=build/release/sixstep
+if [ $# -gt 0 ] && [ "$1" != --screenshots ]; then
+  program=$1
+  shift
+fi
+tools/scenario_reference.py "$program"
+tools/gallery.py "$program"
+for page in readme motors curve manual; do
+  "tests/docs/${page}_md_test.py" "$program" --renew
+done
+if [ "${1:-}" = --screenshots ]; then
+  node tools/picture.mjs "$program"
+fi
