@@ -69,6 +69,12 @@ std::string nearest(std::string_view word, std::span<const std::string> known) {
   return found;
 }
 
+std::string nearest_word(std::string_view word, std::span<const std::string> known) {
+  for (const std::string& candidate : known)
+    if (candidate != word && without_unit(candidate) == without_unit(word)) return candidate;
+  return nearest(word, known);
+}
+
 std::string_view without_unit(std::string_view key) {
   while (true) {
     const std::size_t cut = key.rfind('_');
