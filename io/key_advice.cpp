@@ -70,9 +70,16 @@ std::string nearest(std::string_view word, std::span<const std::string> known) {
 }
 
 std::string nearest_word(std::string_view word, std::span<const std::string> known) {
-  for (const std::string& candidate : known)
-    if (candidate != word && without_unit(candidate) == without_unit(word)) return candidate;
-  return nearest(word, known);
+  const auto meant = [&](std::string_view bare) {
+    return std::find_if(known.begin(), known.end(),
+                        [&](const std::string& candidate) { return without_unit(candidate) == bare; });
+  };
+  if (const auto same = meant(without_unit(word)); same != known.end()) return *same;
+  if (std::string near = nearest(word, known); !near.empty()) return near;
+  std::vector<std::string> bare;
+  for (const std::string& candidate : known) bare.emplace_back(without_unit(candidate));
+  const std::string near = nearest(without_unit(word), bare);
+  return near.empty() ? near : *meant(near);
 }
 
 std::string_view without_unit(std::string_view key) {

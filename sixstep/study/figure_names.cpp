@@ -37,7 +37,7 @@ const char* metric_words(MetricKind kind) {
     case MetricKind::thd:
       return "THD of";
     case MetricKind::energy:
-      return "energy,";
+      return "energy of";
     case MetricKind::efficiency:
       return "efficiency";
     case MetricKind::band_excess:
@@ -57,6 +57,9 @@ std::string figure_name(const Measure& m) {
   if (m.metric == MetricKind::efficiency) return metric_words(m.metric);
   const std::string words = metric_words(m.metric), phrase(fact_of(m.signal).phrase);
   if (m.metric == MetricKind::switching_frequency) return is_gate(m.signal) ? words + " of " + phrase : words;
+  constexpr std::string_view power = "power ";  // "power from the bus" is "energy from the bus" over time
+  if (m.metric == MetricKind::energy && phrase.starts_with(power))
+    return "energy " + phrase.substr(power.size());
   return words + " " + phrase;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/harmonic_gauge.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sixstep/base/elementary.hpp"
@@ -12,11 +13,11 @@ namespace {
 
 constexpr double whole_turn = 6 * base::sector_rad;
 
-/// The engine's segments turn by no more than this, and so may a part of one for a frequency of its own:
-/// eight points then integrate squares of the series as series/quadrature.hpp derives.
+/// A part of a segment turns by no more than this for a frequency of its own: eight points then integrate
+/// products of a series with its cos and sin to rounding, as for the engine's own rates
+/// (series/quadrature.hpp).
 constexpr double largest_turn = 0.5;
-
-constexpr int points = 8;
+constexpr int most_points = 8;
 
 }  // namespace
 
@@ -94,19 +95,24 @@ void HarmonicGauge::turn(const Glance& g, const Piece& y, double from, double to
   if (*root < 1.0) turn_part(g, share(*root, 1.0), full, to);
 }
 
+/// The electrical angle turns no faster than the series of a segment change, so that their degree says how
+/// many points do. Products have three factors here, the speed being the weight: series/quadrature.hpp's
+/// bound is then (pi/2) (3/4)^n e^(3 x) u M^3 for degree n, below u M^3/5 where n is 8 or more.
 void HarmonicGauge::turn_part(const Glance& g, const Piece& y, double from, double to) {
   const plant::Expansion<double>& e = g.plant.expansion();
   const double per_s = direction_ * g.plant.constants().pole_pairs * e.h * (to - from);
   const double sector = static_cast<double>(g.plant.sector()) * base::sector_rad;
-  for (int k = 0; k < points; ++k) {
-    const double s = static_cast<double>(series::gauss<points>.node[k]), at = from + s * (to - from);
-    const double angle = per_s * series::evaluate(e.w, e.degree, at);  // of this part, per unit of weight
-    if (angle < 0.0) turned_back_ = true;
-    if (!(angle > 0.0)) continue;
-    const double weight = std::sqrt(static_cast<double>(series::gauss<points>.weight[k]) * angle);
-    const base::SinCos phase = base::sin_cos(sector + series::evaluate(e.x, e.degree, at));
-    fit_.add({weight, weight * phase.cos, weight * phase.sin, weight * series::evaluate(y.c, y.degree, s)});
-  }
+  series::with_points_for(std::max(e.degree, 8), [&]<int points>() {
+    for (int k = 0; k < points; ++k) {
+      const double s = static_cast<double>(series::gauss<points>.node[k]), at = from + s * (to - from);
+      const double angle = per_s * series::evaluate(e.w, e.degree, at);  // of this part, per unit of weight
+      if (angle < 0.0) turned_back_ = true;
+      if (!(angle > 0.0)) continue;
+      const double weight = std::sqrt(static_cast<double>(series::gauss<points>.weight[k]) * angle);
+      const base::SinCos phase = base::sin_cos(sector + series::evaluate(e.x, e.degree, at));
+      fit_.add({weight, weight * phase.cos, weight * phase.sin, weight * series::evaluate(y.c, y.degree, s)});
+    }
+  });
   swept_ = direction_ * swept(g, to);
 }
 
@@ -117,9 +123,11 @@ void HarmonicGauge::time_part(const Glance& g, const Piece& y, double from, doub
   const double parts = static_cast<double>(count);
   const double begin_s = g.t_s + h * from - window_.from_s;
   for (std::int64_t n = 0; n < count; ++n)
-    for (int k = 0; k < points; ++k) {
-      const double s = (static_cast<double>(n) + static_cast<double>(series::gauss<points>.node[k])) / parts;
-      const double weight = std::sqrt(static_cast<double>(series::gauss<points>.weight[k]) * length / parts);
+    for (int k = 0; k < most_points; ++k) {
+      const double s =
+          (static_cast<double>(n) + static_cast<double>(series::gauss<most_points>.node[k])) / parts;
+      const double weight =
+          std::sqrt(static_cast<double>(series::gauss<most_points>.weight[k]) * length / parts);
       const base::SinCos phase = base::sin_cos(rate * (begin_s + s * length));
       fit_.add({weight, weight * phase.cos, weight * phase.sin, weight * series::evaluate(y.c, y.degree, s)});
     }

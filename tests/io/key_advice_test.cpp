@@ -25,11 +25,12 @@ TEST(Nearest, AnswersOnlyWhatMayBeMeant) {
 }
 
 TEST(NearestWord, AUnitMayBeLeftOutOrWrong) {
-  const std::vector<std::string> known{"current", "u_ab_V", "i_m_A", "energy_J"};
+  const std::vector<std::string> known{"current", "u_ab_V", "i_m_A", "energy_J", "rise_time_s"};
   EXPECT_EQ(nearest_word("u_ab", known), "u_ab_V");
   EXPECT_EQ(nearest_word("i_m", known), "i_m_A");
   EXPECT_EQ(nearest_word("energy_mJ", known), "energy_J");
   EXPECT_EQ(nearest_word("curent", known), "current");
+  EXPECT_EQ(nearest_word("risetime", known), "rise_time_s");
   EXPECT_EQ(nearest_word("colour", known), "");
 }
 

@@ -395,6 +395,8 @@ TEST(Measures, EachHasANameAndAUnit) {
   }
   EXPECT_EQ(figure_name(measure(MetricKind::thd, Signal::line_ab)), "THD of line voltage a to b");
   EXPECT_EQ(figure_name(measure(MetricKind::efficiency, Signal::current)), "efficiency");
+  EXPECT_EQ(figure_name(measure(MetricKind::energy, Signal::supply_power)), "energy from the bus");
+  EXPECT_EQ(figure_name(measure(MetricKind::energy, Signal::copper_loss)), "energy of copper loss");
   EXPECT_EQ(figure_name(measure(MetricKind::switching_frequency, Signal::gate_T3)),
             "switching frequency of gate T3");
 }
