@@ -266,8 +266,18 @@ TEST(Measures, SwitchingIsCountedPerSwitch) {
   EXPECT_EQ(figures[7], 0.5);
 }
 
+TEST(Measures, DutyHasTheSignOfThePair) {
+  for (const double duty : {0.5, -0.25}) {
+    Scenario s = locked(duty);
+    ask(s, measure(MetricKind::mean, Signal::duty));
+    EXPECT_NEAR(figures_of(s)[0], duty, 1e3 * eps) << "a mean of a thousand segments";
+  }
+}
+
 TEST(Measures, ErrorsLookAtTheEndOfEachLevelOrAtTheWindow) {
   Scenario s = current_square();  // levels of 5 ms, the last tenth is 0.5 ms
+  s.reference.high = 2.0;
+  s.reference.low = -10.0;  // the EMF keeps it from being reached: the worst error is the negative one
   ask(s, measure(MetricKind::steady_error, Signal::current));
   ask(s, measure(MetricKind::largest_error, Signal::current));
   Measure m = measure(MetricKind::steady_error, Signal::current);
@@ -284,7 +294,7 @@ TEST(Measures, ErrorsLookAtTheEndOfEachLevelOrAtTheWindow) {
   const std::vector<double> figures = figures_of(s);
   double error[2] = {0.0, 0.0}, largest = 0.0;
   for (std::size_t n = 0; n < 4; ++n) {
-    const double level = n % 2 == 0 ? 5.0 : -5.0;
+    const double level = n % 2 == 0 ? 2.0 : -10.0;
     for (std::size_t t = 0; t < 2; ++t) {
       const double here = level - figures[4 + 6 * n + 3 * t];
       if (std::fabs(here) > std::fabs(error[t])) error[t] = here;
@@ -295,8 +305,9 @@ TEST(Measures, ErrorsLookAtTheEndOfEachLevelOrAtTheWindow) {
   EXPECT_NEAR(figures[0], error[0], 1e-11);
   EXPECT_NEAR(figures[1], largest, 1e-11);
   EXPECT_NEAR(figures[2], error[1], 1e-11);
-  EXPECT_EQ(figures[3], 5.0 - figures[28]);
-  EXPECT_NEAR(figures[3], figures[29], 64 * eps * 5.0) << "the reference is 5 A all through the window";
+  EXPECT_EQ(figures[3], 2.0 - figures[28]);
+  EXPECT_LT(figures[0], -0.5);
+  EXPECT_NEAR(figures[3], figures[29], 64 * eps * 10.0) << "the reference is 2 A all through the window";
 }
 
 TEST(Measures, BandFiguresKeepToTheirWindow) {
