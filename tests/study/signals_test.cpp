@@ -85,23 +85,31 @@ struct AgainstTheTrace {
   template <class Rig>
   void at_one(const Rig& rig, const SignalFact& fact, double value, double s) {
     const FullRow row = full_row(rig, s, 0.0);
-    const auto column = [&](ColumnId id) { return row[static_cast<std::size_t>(id)]; };
     const std::vector<Column>& columns = all_columns();
     const auto& c = rig.plant().constants();
-    const double amps = c.amp_scale, volts = c.volt_scale, watts = amps * volts;
     std::string_view name = fact.word;
     for (const auto& [word, signal, meaning] : column_words)
       if (signal == fact.signal) name = word;
     for (std::size_t n = 0; n < columns.size(); ++n)
       if (columns[n].name == name) {
-        const double size = fact.unit == "A"       ? amps
-                            : fact.unit == "V"     ? volts
+        const double size = fact.unit == "A"       ? c.amp_scale
+                            : fact.unit == "V"     ? c.volt_scale
                             : fact.unit == "rad/s" ? c.speed_scale
                             : fact.unit == "N m"   ? c.torque_scale
                                                    : 1.0;
         return compare(value, row[n], size, name);
       }
+    derived(rig, fact, value, s);
+  }
+  /// What is no column.
+  template <class Rig>
+  void derived(const Rig& rig, const SignalFact& fact, double value, double s) {
+    const auto& c = rig.plant().constants();
+    const double amps = c.amp_scale, watts = amps * c.volt_scale;
+    const std::string_view name = fact.word;
     const plant::Snapshot<double> now = rig.plant().at(s);
+    const FullRow row = full_row(rig, s, 0.0);
+    const auto column = [&](ColumnId id) { return row[static_cast<std::size_t>(id)]; };
     double copper = 0.0, motor = 0.0, magnitude = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
       copper += c.R * now.i[k] * now.i[k];
