@@ -28,8 +28,8 @@ class FundamentalFit {
 class HarmonicGauge {
  public:
   /// Without a frequency the fundamental follows the electrical angle, and periods are its whole turns from
-  /// the window's begin on: the speed's ripple is no distortion, and no frequency need be known. Integrals
-  /// are then over the angle. With a frequency they are over time and whole periods of it.
+  /// the window's begin on: a frequency that ripples is no distortion, and none need be known. Integrals are
+  /// then over the angle. With a frequency they are over time and whole periods of it.
   HarmonicGauge(const Window& window, Signal signal, std::optional<double> frequency_Hz);
 
   void segment(const Glance& g, double s);
