@@ -69,6 +69,19 @@ std::string nearest(std::string_view word, std::span<const std::string> known) {
   return found;
 }
 
+std::string nearest_word(std::string_view word, std::span<const std::string> known) {
+  const auto meant = [&](std::string_view bare) {
+    return std::find_if(known.begin(), known.end(),
+                        [&](const std::string& candidate) { return without_unit(candidate) == bare; });
+  };
+  if (const auto same = meant(without_unit(word)); same != known.end()) return *same;
+  if (std::string near = nearest(word, known); !near.empty()) return near;
+  std::vector<std::string> bare;
+  for (const std::string& candidate : known) bare.emplace_back(without_unit(candidate));
+  const std::string near = nearest(without_unit(word), bare);
+  return near.empty() ? near : *meant(near);
+}
+
 std::string_view without_unit(std::string_view key) {
   while (true) {
     const std::size_t cut = key.rfind('_');

@@ -18,6 +18,9 @@ int edit_distance(std::string_view a, std::string_view b);
 /// The nearest word where one is near enough to be meant (at most a third of it differs); else empty.
 std::string nearest(std::string_view word, std::span<const std::string> known);
 
+/// The same among words that may end in a unit: "u_ab" means "u_ab_V", and "energy_mJ" means "energy_J".
+std::string nearest_word(std::string_view word, std::span<const std::string> known);
+
 /// A key without its unit suffix: "no_load_speed" for "no_load_speed_rad_s".
 std::string_view without_unit(std::string_view key);
 

@@ -183,10 +183,13 @@ void TableReader::value(std::string_view key, std::vector<std::string>& member, 
 
 void TableReader::no_such_word(const toml::node& node, std::string_view key,
                                const std::vector<std::string>& words) {
+  constexpr std::size_t read_at_a_glance = 12;
   const std::optional<std::string> written = node.value<std::string>();
-  const std::string near = written ? nearest(*written, words) : std::string();
+  const std::string near = written ? nearest_word(*written, words) : std::string();
   complaints_.value(node, at(key),
-                    {.limit = "must be " + quoted_alternatives(words),
+                    {.limit = words.size() > read_at_a_glance
+                                  ? fmt::format("is none of the {} words that it may be", words.size())
+                                  : "must be " + quoted_alternatives(words),
                      .cure = near.empty() ? fmt::format("see: sixstep help {}", shown(at(key)))
                                           : fmt::format("did you mean \"{}\"?", near)});
 }

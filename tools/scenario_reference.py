@@ -19,6 +19,7 @@ Written by `tools/scenario_reference.py` from `sixstep help`; a test checks that
 
 Files are TOML. Every key carries its unit. A key that is not listed here is an error. What stands under "default" holds
 where the key is left out; without a default it may be left out, unless it is required.
+[Figures of merit](figures.md) defines what `[[require]]` and `[[compare]]` can ask for.
 """
 MOTOR = """
 # Motor files

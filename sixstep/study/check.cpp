@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "sixstep/study/check_measures.hpp"
 #include "sixstep/study/check_product.hpp"
 #include "sixstep/study/check_sensors.hpp"
 #include "sixstep/study/choices.hpp"
@@ -127,56 +128,6 @@ void check_control(const Scenario& s, base::Problems& out) {
   if (c.type == CurrentLoopType::hysteresis && (c.d1 || c.d0 || c.kp || c.ki || c.settle_s || c.damping))
     out.push_back({"control.current.type", "\"hysteresis\"", "has no PI gains",
                    "remove d1, d0, kp, ki, settle_s and damping, or set type = \"pi\""});
-}
-
-/// The band is the event comparators': nothing else holds one.
-void check_band(const Measure& m, const std::string& where, const Scenario& s, base::Problems& out) {
-  const bool band = m.metric == MetricKind::band_excess || m.metric == MetricKind::band_deficit;
-  const CurrentLoop& loop = s.control.current;
-  const bool armed = (s.control.mode != control::Mode::off && s.control.mode != control::Mode::duty) &&
-                     loop.type == CurrentLoopType::hysteresis && loop.comparator == Comparator::event;
-  if (band && !armed)
-    out.push_back(
-        {where + ".metric", "", "needs a hysteresis with event comparators",
-         "set control.current.type = \"hysteresis\" and comparator = \"event\", or measure max and min"});
-}
-
-bool is_controlled(Signal signal, control::Mode mode) {
-  using control::Mode;
-  return (mode == Mode::current && signal == Signal::current) ||
-         (mode == Mode::speed && signal == Signal::speed) ||
-         (mode == Mode::position && signal == Signal::position);
-}
-
-void check_measure(const Measure& m, const std::string& where, const Scenario& s, base::Problems& out) {
-  const double from = m.from_s.value_or(0.0), to = m.to_s.value_or(s.duration_s);
-  check_band(m, where, s, out);
-  if (!(from < to))
-    out.push_back({where + ".to_s", number(to), "must lie behind from_s = " + number(from),
-                   "give the window as from_s < to_s"});
-  if (to > s.duration_s)
-    out.push_back({where + ".to_s", number(to),
-                   "lies behind the end of the run (duration_s = " + number(s.duration_s) + ")",
-                   "shorten the window or lengthen duration_s"});
-  const bool of_a_step = m.metric == MetricKind::reach_time || m.metric == MetricKind::settling_time ||
-                         m.metric == MetricKind::overshoot;
-  if (of_a_step && !m.level && !is_controlled(m.signal, s.control.mode))
-    out.push_back({where + ".level", "", "is missing, and the reference is of another signal",
-                   "give the level that the signal is to reach, in its own unit"});
-}
-
-void check_measures(const Scenario& s, base::Problems& out) {
-  for (std::size_t n = 0; n < s.require.size(); ++n) {
-    const std::string where = "require[" + std::to_string(n) + "]";
-    check_measure(s.require[n].measure, where, s, out);
-    if (!s.require[n].min && !s.require[n].max)
-      out.push_back({where, "", "requires nothing", "give min, max or both"});
-    if (s.require[n].min && s.require[n].max && *s.require[n].min > *s.require[n].max)
-      out.push_back({where + ".min", number(*s.require[n].min),
-                     "lies above max = " + number(*s.require[n].max), "swap them"});
-  }
-  for (std::size_t n = 0; n < s.compare.size(); ++n)
-    check_measure(s.compare[n].measure, "compare[" + std::to_string(n) + "]", s, out);
 }
 
 /// The speed controller's full output is a torque; a sheet without voltage and stall point has none to offer.

@@ -71,40 +71,6 @@ inline constexpr Choice<Shape> shape_choices[] = {
     {"steps", Shape::steps, "values[n] holds from times_s[n] on"},
     {"square", Shape::square, "high in the first half of each period, low in the second"},
 };
-inline constexpr Choice<MetricKind> metric_choices[] = {
-    {"final", MetricKind::final_value, "value at the end of the run"},
-    {"mean", MetricKind::mean, "mean over the window"},
-    {"rms", MetricKind::rms, "root of the mean square over the window"},
-    {"max", MetricKind::maximum, "largest value in the window"},
-    {"min", MetricKind::minimum, "smallest value in the window"},
-    {"peak_to_peak", MetricKind::peak_to_peak, "largest less smallest value in the window"},
-    {"overshoot", MetricKind::overshoot, "how far the signal goes beyond level, in the signal's unit"},
-    {"reach_time_s", MetricKind::reach_time,
-     "time until the signal first gets to start + fraction (level - start); without level: the slowest over "
-     "all "
-     "steps of the reference"},
-    {"settling_time_s", MetricKind::settling_time,
-     "time of the last exit from level +- band |level - start|, counted from from_s"},
-    {"band_excess_A", MetricKind::band_excess, "largest excess above the upper limit of the hysteresis band"},
-    {"band_deficit_A", MetricKind::band_deficit,
-     "largest shortfall below the lower limit, except from a sector edge or reference step until the current "
-     "is "
-     "back in the band"},
-    {"switching_frequency_Hz", MetricKind::switching_frequency, "turn-ons per second in the window"},
-};
-inline constexpr Choice<Signal> signal_choices[] = {
-    {"current", Signal::current, "motor current (i_p - i_n)/2 of the positive pair, A"},
-    {"i_a", Signal::phase_a, "current into phase a, A"},
-    {"i_b", Signal::phase_b, "current into phase b, A"},
-    {"i_c", Signal::phase_c, "current into phase c, A"},
-    {"current_magnitude", Signal::current_magnitude, "half the sum of the phase currents' magnitudes, A"},
-    {"speed", Signal::speed, "mechanical speed, rad/s"},
-    {"position", Signal::position, "mechanical angle counted over turns, deg"},
-    {"torque", Signal::torque, "electromagnetic torque, N m"},
-    {"bus_voltage", Signal::bus_voltage, "voltage of the bus, V"},
-    {"bus_current", Signal::bus_current, "current from the bus into the bridge, A"},
-};
-
 inline constexpr Choice<Distribution> distribution_choices[] = {
     {"uniform", Distribution::uniform, "all values within the half width are equally likely"},
     {"normal", Distribution::normal, "bell curve, cut off at cut_sigma standard deviations"},

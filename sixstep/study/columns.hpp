@@ -6,6 +6,7 @@
 
 #include "sixstep/base/result.hpp"
 #include "sixstep/study/outcome.hpp"
+#include "sixstep/study/scenario.hpp"
 #include "sixstep/study/signals.hpp"
 
 namespace sixstep::study {
@@ -61,7 +62,6 @@ FullRow full_row(const Rig& rig, double s, double t) {
     for (std::size_t k = 0; k < 3; ++k) row[static_cast<std::size_t>(first) + k] = v[k];
   };
   const plant::Snapshot<double> now = rig.plant().at(s);
-  const rig::BoardCommand& command = rig.modulator().command();
   set(ColumnId::t, t);
   three(ColumnId::i_a, now.i);
   three(ColumnId::u_a, now.pole);
@@ -72,10 +72,7 @@ FullRow full_row(const Rig& rig, double s, double t) {
   set(ColumnId::torque, now.torque);
   set(ColumnId::bus_V, now.bus);
   set(ColumnId::bus_A, now.bus_current);
-  const bool compares = command.watch != control::Watch::none;
-  const double duty = compares ? (rig.modulator().source_on() ? 1.0 : 0.0) : command.duty;
-  const control::Pair positive = control::positive_pair(static_cast<std::uint8_t>(rig.plant().sector()));
-  set(ColumnId::duty, command.enabled ? (command.pair.source == positive.source ? duty : -duty) : 0.0);
+  set(ColumnId::duty, signed_duty(rig.modulator(), rig.plant().sector()));
   const plant::PerLeg<double> w = motor_current_weights(rig.plant().sector());
   set(ColumnId::i_m, w[0] * now.i[0] + w[1] * now.i[1] + w[2] * now.i[2]);
   set(ColumnId::i_ref, rig.current_reference_A());

@@ -7,16 +7,11 @@ namespace sixstep::study {
 
 namespace {
 
-bool concerns_step(MetricKind kind) {
-  return kind == MetricKind::reach_time || kind == MetricKind::settling_time || kind == MetricKind::overshoot;
-}
-
 /// A window per reference step inside the measure's own window; the step goes from the level before to the
 /// new one. For reaching a square's level the whole level counts, not the part of the reversal: the stricter
 /// reading of "98 %".
-std::vector<Gauge> step_gauges(const Measure& m, const std::vector<Level>& levels, Window window,
-                               bool square) {
-  std::vector<Gauge> gauges;
+Gauges step_gauges(const Measure& m, const std::vector<Level>& levels, Window window, bool square) {
+  Gauges gauges;
   for (std::size_t n = 0; n < levels.size(); ++n) {
     const double from = levels[n].at_s, to = n + 1 < levels.size() ? levels[n + 1].at_s : window.to_s;
     const double before = n == 0 ? 0.0 : levels[n - 1].value;
@@ -28,129 +23,111 @@ std::vector<Gauge> step_gauges(const Measure& m, const std::vector<Level>& level
   return gauges;
 }
 
-const char* metric_word(MetricKind kind) {
-  switch (kind) {
-    case MetricKind::final_value:
-      return "final";
-    case MetricKind::mean:
-      return "mean";
-    case MetricKind::rms:
-      return "rms";
-    case MetricKind::maximum:
-      return "maximum of";
-    case MetricKind::minimum:
-      return "minimum of";
-    case MetricKind::peak_to_peak:
-      return "peak-to-peak";
-    case MetricKind::overshoot:
-      return "overshoot of";
-    case MetricKind::reach_time:
-      return "time to reach,";
-    case MetricKind::settling_time:
-      return "settling time of";
-    case MetricKind::band_excess:
-      return "excess above the band of";
-    case MetricKind::band_deficit:
-      return "shortfall below the band of";
-    case MetricKind::switching_frequency:
-      return "switching frequency";
+/// A window per level of the reference that the measure's own window meets: its tail, or, where the window's
+/// begin was chosen, all of it.
+Gauges level_gauges(const Measure& m, const std::vector<Level>& levels, Window window) {
+  const double tail = m.tail.value_or(m.from_s ? 1.0 : default_tail);
+  Gauges gauges;
+  for (std::size_t n = 0; n < levels.size(); ++n) {
+    const double from = std::max(levels[n].at_s, window.from_s);
+    const double to = n + 1 < levels.size() ? std::min(levels[n + 1].at_s, window.to_s) : window.to_s;
+    if (from < to) gauges.emplace_back(m, Window{to - tail * (to - from), to}, levels[n].value, std::nullopt);
   }
-  return "";
+  return gauges;
 }
 
-const char* signal_word(Signal signal) {
-  switch (signal) {
-    case Signal::current:
-      return "motor current";
-    case Signal::phase_a:
-      return "current of phase a";
-    case Signal::phase_b:
-      return "current of phase b";
-    case Signal::phase_c:
-      return "current of phase c";
-    case Signal::current_magnitude:
-      return "half the sum of current magnitudes";
-    case Signal::speed:
-      return "speed";
-    case Signal::position:
-      return "position";
-    case Signal::torque:
-      return "torque";
-    case Signal::bus_voltage:
-      return "bus voltage";
-    case Signal::bus_current:
-      return "bus current";
-  }
-  return "";
+Gauges gauges_for(const Measure& m, const Scenario& scenario, const std::vector<Level>& levels) {
+  const Window window{m.from_s.value_or(0.0), m.to_s.value_or(scenario.duration_s)};
+  const bool square = scenario.reference.shape == Shape::square;
+  if (is_of_a_step(m.metric) && !m.level) return step_gauges(m, levels, window, square);
+  if (is_error(m.metric) && !m.level) return level_gauges(m, levels, window);
+  return {Gauge(m, window, m.level.value_or(0.0), m.start)};
 }
+
+void watch_with(Gauge& gauge, Signal signal, const Glance& g, double s) {
+  const double h = g.plant.expansion().h;
+  const Clip seen = clipped(gauge.window(), g.t_s, h, s);
+  if (seen.empty()) return;
+  if (gauge.seeks_extremes() && gauge.holds(signal_bounds(g, signal))) return;
+  for_each_piece(g, signal, seen.from, seen.to, [&](const Piece& y, double from, double to) {
+    gauge.part(y.c, y.degree, g.t_s + from * h, (to - from) * h);
+  });
+}
+
+void watch_with(Gauges& gauges, const Measure& m, const Glance& g, double s) {
+  if (!m.sampled) {
+    for (Gauge& gauge : gauges) watch_with(gauge, m.signal, g, s);
+  } else if (g.ticked) {
+    const double value = signal_now(g, m.signal);
+    for (Gauge& gauge : gauges) gauge.sample(g.t_s, value);
+  }
+}
+
+void watch_with(auto& gauge, const Measure&, const Glance& g, double s) { gauge.segment(g, s); }
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// The worst over the steps, of a signed error the one of the greatest size; NaN, which meets no requirement,
+/// where the run ended before the window.
+double value_of(const Gauges& gauges, const Measure& m) {
+  const auto size = [&](double v) { return m.metric == MetricKind::steady_error ? std::fabs(v) : v; };
+  double worst = nothing;
+  for (const Gauge& gauge : gauges) {
+    const std::optional<double> v = gauge.value();
+    if (!v) return nothing;
+    if (&gauge == &gauges.front() || size(*v) > size(worst)) worst = *v;
+  }
+  return worst;
+}
+double value_of(const HysteresisGauge& gauge, const Measure& m) {
+  return m.metric == MetricKind::band_excess ? gauge.figures().excess_A : gauge.figures().deficit_A;
+}
+double value_of(const SwitchingGauge& gauge, const Measure&) { return gauge.value(); }
+double value_of(const EnergyGauge& gauge, const Measure& m) {
+  return (m.metric == MetricKind::efficiency ? gauge.efficiency() : gauge.energy(m.signal)).value_or(nothing);
+}
+double value_of(const HarmonicGauge& gauge, const Measure&) { return gauge.thd().value_or(nothing); }
 
 }  // namespace
 
-std::string figure_name(const Measure& m) {
-  if (!m.label.empty()) return m.label;
-  if (m.metric == MetricKind::switching_frequency) return metric_word(m.metric);
-  return std::string(metric_word(m.metric)) + " " + signal_word(m.signal);
-}
-
-std::string figure_unit(const Measure& m) {
-  switch (m.metric) {
-    case MetricKind::reach_time:
-    case MetricKind::settling_time:
-      return "s";
-    case MetricKind::switching_frequency:
-      return "Hz";
-    case MetricKind::band_excess:
-    case MetricKind::band_deficit:
-      return "A";
-    default:
-      return unit_of(m.signal);
-  }
-}
-
 Figures::Figures(const Scenario& scenario, const std::vector<Level>& levels) {
   const auto add = [&](const Measure& m) {
-    Figure figure{.measure = m, .gauges = {}};
-    const Window window{m.from_s.value_or(0.0), m.to_s.value_or(scenario.duration_s)};
-    const bool square = scenario.reference.shape == Shape::square;
-    if (concerns_step(m.metric) && !m.level)
-      figure.gauges = step_gauges(m, levels, window, square);
+    const Window all{m.from_s.value_or(0.0), m.to_s.value_or(std::numeric_limits<double>::infinity())};
+    const Window window{all.from_s, std::min(all.to_s, scenario.duration_s)};
+    if (is_band(m.metric))
+      figures_.push_back({m, HysteresisGauge(all)});
+    else if (m.metric == MetricKind::switching_frequency)
+      figures_.push_back({m, SwitchingGauge(all, m.signal)});
+    else if (m.metric == MetricKind::energy || m.metric == MetricKind::efficiency)
+      figures_.push_back({m, EnergyGauge(all, {scenario.load.viscous_Nm_s, scenario.load.coulomb_Nm})});
+    else if (m.metric == MetricKind::thd)
+      figures_.push_back({m, HarmonicGauge(window, m.signal, m.frequency_Hz)});
     else
-      figure.gauges.emplace_back(m, window, m.level.value_or(0.0), m.start);
-    watches_hysteresis_ =
-        watches_hysteresis_ || m.metric == MetricKind::band_excess || m.metric == MetricKind::band_deficit;
-    figures_.push_back(std::move(figure));
+      figures_.push_back({m, gauges_for(m, scenario, levels)});
   };
   for (const Requirement& r : scenario.require) add(r.measure);
   for (const Comparison& c : scenario.compare) add(c.measure);
 }
 
-/// The worst over the steps; NaN, which meets no requirement, where the run ended before the window.
-double Figures::value(const Figure& figure) const {
-  const Measure& m = figure.measure;
-  if (m.metric == MetricKind::band_excess) return hysteresis_.figures().excess_A;
-  if (m.metric == MetricKind::band_deficit) return hysteresis_.figures().deficit_A;
-  if (m.metric == MetricKind::switching_frequency)
-    return static_cast<double>(figure.turn_ons_after - figure.turn_ons_before) /
-           (figure.last_s - m.from_s.value_or(0.0));
-  double worst = -std::numeric_limits<double>::infinity();
-  for (const Gauge& gauge : figure.gauges) {
-    const std::optional<double> v = gauge.value();
-    if (!v) return std::numeric_limits<double>::quiet_NaN();
-    worst = std::max(worst, *v);
-  }
-  return figure.gauges.empty() ? std::numeric_limits<double>::quiet_NaN() : worst;
+void Figures::watch(const Glance& g, double s) {
+  for (Figure& figure : figures_)
+    std::visit([&](auto& gauge) { watch_with(gauge, figure.measure, g, s); }, figure.taken_by);
 }
 
 void Figures::judge(const Scenario& scenario, Outcome& outcome) const {
   std::size_t n = 0;
+  const auto next = [&] {
+    const Figure& figure = figures_[n++];
+    return std::visit([&](const auto& gauge) { return value_of(gauge, figure.measure); }, figure.taken_by);
+  };
   for (const Requirement& r : scenario.require) {
-    const double v = value(figures_[n++]);
+    const double v = next();
     const bool ok = v == v && (!r.min || v >= *r.min) && (!r.max || v <= *r.max);
     outcome.verdicts.push_back({figure_name(r.measure), figure_unit(r.measure), v, r.min, r.max, ok});
   }
   for (const Comparison& c : scenario.compare)
     outcome.comparisons.push_back(
-        {figure_name(c.measure), figure_unit(c.measure), value(figures_[n++]), c.value, c.source});
+        {figure_name(c.measure), figure_unit(c.measure), next(), c.value, c.source});
 }
 
 }  // namespace sixstep::study

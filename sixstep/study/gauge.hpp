@@ -5,22 +5,15 @@
 #include <limits>
 #include <optional>
 
-#include "sixstep/series/extremes.hpp"
-#include "sixstep/study/scenario.hpp"
+#include "sixstep/study/signals.hpp"
+#include "sixstep/study/window.hpp"
 
 namespace sixstep::study {
 
-using Series = series::Coefficients<double>;
-
-struct Window {
-  double from_s = 0.0;
-  double to_s = std::numeric_limits<double>::infinity();
-};
-
 class Gauge {
  public:
-  /// `level` and `start` are what the step goes to and from (reach and settling times, overshoot); without
-  /// `start` the signal's value at the window's begin counts.
+  /// `level` and `start` are what the step goes to and from (reach, rise and settling times, overshoot), and
+  /// `level` what an error is counted from; without `start` the signal's value at the window's begin counts.
   Gauge(const Measure& measure, Window window, double level, std::optional<double> start)
       : measure_(measure), window_(window), level_(level), start_(start) {}
 
@@ -35,6 +28,7 @@ class Gauge {
       case MetricKind::minimum:
         return low;
       case MetricKind::peak_to_peak:
+      case MetricKind::largest_error:
         return high && low;
       case MetricKind::overshoot:
         return sign() > 0 ? high : low;
@@ -45,7 +39,7 @@ class Gauge {
   bool seeks_extremes() const {
     const MetricKind m = measure_.metric;
     return m == MetricKind::maximum || m == MetricKind::minimum || m == MetricKind::peak_to_peak ||
-           m == MetricKind::overshoot;
+           m == MetricKind::overshoot || m == MetricKind::largest_error;
   }
   /// The signal over [t0, t0 + length], inside the window, as a polynomial of s in [0, 1].
   void part(const Series& c, int degree, double t0, double length);
@@ -56,8 +50,13 @@ class Gauge {
   std::optional<double> value() const;
 
  private:
+  void integrate_part(const Series& c, int degree, double length);
+  void widen_part(const Series& c, int degree);
   void settle_part(const Series& c, int degree, double t0, double length);
   void reach_part(const Series& c, int degree, double t0, double length);
+  std::optional<double> crossing(double fraction, const Series& c, int degree, double t0,
+                                 double length) const;
+  void merge(double mean, double squares, double length);
   double step_height(double first);
   double sign() const { return level_ < start_.value_or(0.0) ? -1.0 : 1.0; }
 
@@ -69,9 +68,13 @@ class Gauge {
   double integral_ = 0.0, seconds_ = 0.0, last_ = 0.0;
   double highest_ = -std::numeric_limits<double>::infinity(),
          lowest_ = std::numeric_limits<double>::infinity();
-  std::optional<double> reached_;
-  double outside_until_ = 0.0;  ///< last instant outside the band
+  double mean_ = 0.0, squares_ = 0.0;      ///< ripple: mean so far, and integral of the square about it
+  std::optional<double> begun_, reached_;  ///< rise time: at 10 %; all of the way
+  double outside_until_ = 0.0;             ///< last instant outside the band
   bool outside_now_ = true;
 };
+
+/// Rise times are taken between these parts of the way, as control textbooks do.
+inline constexpr double rise_from = 0.1, rise_to = 0.9;
 
 }  // namespace sixstep::study

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "sixstep/study/gauge.hpp"
 #include "sixstep/study/signals.hpp"
+#include "sixstep/study/window.hpp"
 
 namespace sixstep::study {
 
@@ -18,24 +18,11 @@ struct HysteresisFigures {
 
 class HysteresisGauge {
  public:
-  /// One segment, up to its fraction s, by every armed comparator.
-  template <class Rig>
-  void segment(const Rig& rig, double s) {
-    for (int which = 0; which < 2; ++which) {
-      const rig::ArmedComparator armed = rig.modulator().comparator(which);
-      if (!armed.armed) continue;
-      if (std::isnan(figures_.excess_A)) figures_ = {0.0, 0.0};
-      const auto& y = rig.plant().expansion();
-      const plant::PerLeg<double> w = rig.modulator().comparator_weights(which);
-      Series c{};
-      for (int j = 0; j <= y.degree; ++j) c[j] = w[0] * y.i[0][j] + w[1] * y.i[1][j] + w[2] * y.i[2][j];
-      const rig::BoardCommand& command = rig.modulator().command();
-      // The sign of the reference is part of what is watched: a reversal changes which current is compared.
-      const double upper = rig.setpoint() < 0.0 ? -command.off_above_A : command.off_above_A;
-      part(watched_[which], series::restricted(c, y.degree, 0.0, s), y.degree, rig.plant().sector(), upper,
-           command.on_below_A, command.off_above_A);
-    }
-  }
+  explicit HysteresisGauge(const Window& window = {}) : window_(window) {}
+
+  /// One segment, up to its fraction s, by every armed comparator. Outside of the window it is followed too:
+  /// what is excused at the window's begin hangs on what was before.
+  void segment(const Glance& g, double s);
   const HysteresisFigures& figures() const { return figures_; }
 
  private:
@@ -46,9 +33,12 @@ class HysteresisGauge {
     double key = 0.0;  ///< upper limit with the sign of the reference
     bool excused_above = true, excused_below = true;
   };
-  void part(Watched& watched, const Series& c, int degree, int sector, double key, double lower,
-            double upper);
+  struct Limits {
+    double lower, upper, key;
+  };
+  void part(Watched& watched, const Glance& g, const Series& c, const Limits& limits, double s);
 
+  Window window_;
   HysteresisFigures figures_;
   Watched watched_[2]{};
 };

@@ -2,7 +2,7 @@
 // The keys of [[require]] and [[compare]]: names, units, ranges and meanings.
 #pragma once
 #include "sixstep/base/describe.hpp"
-#include "sixstep/study/choices.hpp"
+#include "sixstep/study/measure_choices.hpp"
 #include "sixstep/study/scenario.hpp"
 
 namespace sixstep::study {
@@ -28,6 +28,14 @@ void describe(Visitor& v, Measure& s) {
            .range = base::Range{0, 1, false, true}});
   v.value("band", s.band,
           {.meaning = "settling_time_s: half width of the band as part of the step", .range = above(0)});
+  v.value("tail", s.tail,
+          {.meaning = "steady_error, largest_error: part of each level of the reference, at its end, that is "
+                      "looked at; without it 0.1, and the whole window where from_s is given",
+           .range = base::Range{0, 1, false, true}});
+  v.value("frequency_Hz", s.frequency_Hz,
+          {.meaning = "thd: the fundamental; without it the electrical frequency, followed by the angle",
+           .unit = "Hz",
+           .range = base::Range{0, 1e7, false, true}});
   v.value("sampled", s.sampled, {.meaning = "whether only the controller's samples are looked at"});
   v.value("label", s.label, {.meaning = "name of the figure, instead of metric and signal"});
 }

@@ -10,6 +10,7 @@
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/design/sheet.hpp"
 #include "sixstep/study/control.hpp"
+#include "sixstep/study/measure.hpp"
 #include "sixstep/study/protection.hpp"
 #include "sixstep/study/sensors.hpp"
 
@@ -81,46 +82,6 @@ struct Record {
   std::optional<double> grid_s;  // default: pwm.period_s
   bool events = false;
   std::vector<std::string> columns;  // empty: all
-};
-
-/// A figure of merit over a signal, exact on the trajectory's polynomials (study/metrics.hpp).
-enum class MetricKind : std::uint8_t {
-  final_value,
-  mean,
-  rms,
-  maximum,
-  minimum,
-  peak_to_peak,
-  overshoot,
-  reach_time,
-  settling_time,
-  band_excess,
-  band_deficit,
-  switching_frequency
-};
-enum class Signal : std::uint8_t {
-  current,
-  phase_a,
-  phase_b,
-  phase_c,
-  current_magnitude,
-  speed,
-  position,
-  torque,
-  bus_voltage,
-  bus_current
-};
-
-struct Measure {
-  MetricKind metric = MetricKind::final_value;
-  Signal signal = Signal::current;
-  std::optional<double> from_s, to_s;  // window; default: whole run
-  std::optional<double> level;         // reach_time, settling_time, overshoot: what is to be reached
-  std::optional<double> start;         // value the step starts from; default: value at from_s
-  double fraction = 0.98;              // reach_time: of the way from start to level
-  double band = 0.02;                  // settling_time: of the step's height
-  bool sampled = false;                // look at the controller's samples only
-  std::string label;                   // shown instead of metric and signal
 };
 
 struct Requirement {

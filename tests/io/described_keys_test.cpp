@@ -172,6 +172,7 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                                          "start",
                                          "fraction",
                                          "band",
+                                         "tail",
                                          "min",
                                          "max",
                                          "relative",

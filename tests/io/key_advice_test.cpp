@@ -24,6 +24,16 @@ TEST(Nearest, AnswersOnlyWhatMayBeMeant) {
   EXPECT_EQ(nearest("colour", known), "");
 }
 
+TEST(NearestWord, AUnitMayBeLeftOutOrWrong) {
+  const std::vector<std::string> known{"current", "u_ab_V", "i_m_A", "energy_J", "rise_time_s"};
+  EXPECT_EQ(nearest_word("u_ab", known), "u_ab_V");
+  EXPECT_EQ(nearest_word("i_m", known), "i_m_A");
+  EXPECT_EQ(nearest_word("energy_mJ", known), "energy_J");
+  EXPECT_EQ(nearest_word("curent", known), "current");
+  EXPECT_EQ(nearest_word("risetime", known), "rise_time_s");
+  EXPECT_EQ(nearest_word("colour", known), "");
+}
+
 TEST(WithoutUnit, DropsTheUnitOnly) {
   EXPECT_EQ(without_unit("no_load_speed_rad_s"), "no_load_speed");
   EXPECT_EQ(without_unit("gain_rad_s_per_deg"), "gain");

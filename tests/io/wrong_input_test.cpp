@@ -154,6 +154,19 @@ TEST_F(WrongInput, WordsAreAnsweredWithTheNearest) {
           "help pwm.chopping"));
 }
 
+TEST_F(WrongInput, OfManyWordsOnlyTheNearestIsTold) {
+  EXPECT_THAT(
+      complaints(head + "[[require]]\nmetric = \"settling_time\"\nsignal = \"u_ab\"\nmax = 1\n" +
+                 "[[require]]\nmetric = \"maen\"\nsignal = \"colour\"\nmax = 1\n"),
+      ElementsAre(
+          ::testing::AllOf(
+              ::testing::StartsWith("x.toml:4:10: require.metric = \"settling_time\" is none of the "),
+              ::testing::EndsWith(" words that it may be; did you mean \"settling_time_s\"?")),
+          ::testing::HasSubstr("; did you mean \"u_ab_V\"?"),
+          ::testing::HasSubstr("; did you mean \"mean\"?"),
+          ::testing::HasSubstr("; see: sixstep help require.signal")));
+}
+
 TEST_F(WrongInput, ReferenceInAnotherModesUnit) {
   EXPECT_THAT(complaints(head + "[control]\nmode = \"speed\"\n[reference]\nvalue = 955\nunit = \"rpm\"\n"),
               ElementsAre("x.toml:7:8: reference.unit = \"rpm\" is not the unit of mode \"speed\"; "

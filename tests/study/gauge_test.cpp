@@ -85,6 +85,35 @@ TEST(Gauge, SettlingAndReachTimeOfAnExponential) {
   EXPECT_NEAR(gauged(MetricKind::settling_time, rise, 6.0, 1.0, 0.0, half), std::log(2.0), 64 * eps);
 }
 
+TEST(Gauge, RiseTimeOfAnExponentialIsLnNine) {
+  // From -ln 0.9 to -ln 0.1; the slope at 90 % is 0.1.
+  EXPECT_NEAR(gauged(MetricKind::rise_time, rise, 6.0, 1.0, 0.0), std::log(9.0), 64 * eps / 0.1);
+  const Curve fall{.offset = -1.0, .amplitude = 1.0, .rate = -1.0};  // 0 -> -1
+  EXPECT_NEAR(gauged(MetricKind::rise_time, fall, 6.0, -1.0, 0.0), std::log(9.0), 64 * eps / 0.1);
+  EXPECT_EQ(gauged(MetricKind::rise_time, rise, 1.0, 1.0, 0.0), std::numeric_limits<double>::infinity())
+      << "1 - 1/e is less than 90 %";
+}
+
+TEST(Gauge, RippleIsTheRmsAboutTheMeanHoweverLargeThatIs) {
+  // cos over whole periods: 1/sqrt(2). The curve's own rounding is eps/2 of the offset, per coefficient.
+  constexpr double offset = 1e6, to = 8 * 3.14159265358979323846;
+  const Curve ripple{.offset = offset, .rate = 0.0, .frequency = 1.0};
+  const double exact = std::sqrt(0.5), bound = 4 * eps * offset;
+  EXPECT_NEAR(gauged(MetricKind::ripple_rms, ripple, to), exact, bound);
+  const double rms = gauged(MetricKind::rms, ripple, to), mean = gauged(MetricKind::mean, ripple, to);
+  EXPECT_GT(std::fabs(std::sqrt(std::fabs(rms * rms - mean * mean)) - exact), 100 * bound)
+      << "a difference of squares would not do";
+}
+
+TEST(Gauge, ErrorsAreCountedFromTheLevel) {
+  constexpr double T = 5.0;
+  EXPECT_NEAR(gauged(MetricKind::steady_error, rise, T, 1.0), -std::expm1(-T) / T, 64 * eps);
+  EXPECT_NEAR(gauged(MetricKind::largest_error, rise, T, 0.75), 0.75, 64 * eps) << "at the begin";
+  EXPECT_NEAR(gauged(MetricKind::largest_error, rise, T, 0.25), 0.75 - std::exp(-T), 64 * eps)
+      << "at the end";
+  EXPECT_NEAR(gauged(MetricKind::largest_error, rise, T, -2.0), 3 - std::exp(-T), 64 * eps) << "all above";
+}
+
 TEST(Gauge, DownwardsStepsAreJudgedTheSame) {
   const Curve fall{.offset = -1.0, .amplitude = 1.0, .rate = -1.0};  // 0 -> -1
   EXPECT_NEAR(gauged(MetricKind::settling_time, fall, 6.0, -1.0, 0.0), std::log(50.0), 64 * eps / 0.02);
@@ -129,6 +158,14 @@ TEST(Gauge, SamplesAreAllThatASampledMeasureSees) {
   EXPECT_FALSE(gauge.value()) << "curves are ignored";
   for (int n = 0; n < 100; ++n) gauge.sample(0.1 * n, rise(0.1 * n));
   EXPECT_EQ(*gauge.value(), 0.1 * 40) << "the first sample after ln 50 = 3.912";
+  m.metric = MetricKind::rise_time;
+  Gauge steps(m, {0.0, 10.0}, 1.0, 0.0);
+  for (int n = 0; n < 100; ++n) steps.sample(0.25 * n, rise(0.25 * n));
+  EXPECT_EQ(*steps.value(), 2.5 - 0.25) << "the first samples after 0.105 and 2.303";
+  m.metric = MetricKind::ripple_rms;
+  Gauge ripple(m, {0.0, 10.0}, 0.0, {});
+  for (int n = 0; n < 100; ++n) ripple.sample(0.1 * n, 1e6 + (n % 2 == 0 ? 1 : -1));
+  EXPECT_NEAR(*ripple.value(), 1.0, 4 * eps * 1e6) << "as many above as below";
   m.metric = MetricKind::mean;
   Gauge mean(m, {0.0, 0.35}, 0.0, {});
   for (int n = 0; n < 100; ++n) mean.sample(0.1 * n, n);

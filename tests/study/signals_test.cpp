@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "sixstep/study/columns.hpp"
 #include "sixstep/study/gauge.hpp"
+#include "sixstep/study/run.hpp"
 #include "tests/support/board.hpp"
 
 namespace {
@@ -23,8 +25,8 @@ struct WithinBounds {
   void segment(const Rig& rig, double) {
     const int degree = rig.plant().expansion().degree;
     for (const Signal signal : bounded) {
-      const Series c = signal_series(rig, signal, {});
-      const series::Extremes<double> e = series::extremes(c, degree), b = signal_bounds(rig, signal);
+      const Series c = piece_of(glance(rig), signal, 0.0, 1.0).c;
+      const series::Extremes<double> e = series::extremes(c, degree), b = signal_bounds(glance(rig), signal);
       ++segments;
       breaches += !(b.low <= e.low && e.high <= b.high);
       // A straight line is bounded by itself and, on the other side, by its mirror image: twice as wide.
@@ -51,8 +53,157 @@ TEST(SignalBounds, HoldTheWholeCurve) {
 
 TEST(SignalBounds, NoneForWhatHasNoneAtHand) {
   auto rig = Board::duty(0.3).rig();
-  EXPECT_EQ(signal_bounds(rig, Signal::current_magnitude).high, std::numeric_limits<double>::infinity());
-  EXPECT_EQ(signal_bounds(rig, Signal::torque).low, -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(signal_bounds(glance(rig), Signal::current_magnitude).high,
+            std::numeric_limits<double>::infinity());
+  EXPECT_EQ(signal_bounds(glance(rig), Signal::torque).low, -std::numeric_limits<double>::infinity());
+}
+
+/// Every signal against what the snapshot of the same instant says, column by column and power by power.
+struct AgainstTheTrace {
+  double worst = 0.0;  ///< difference over the signal's natural size
+  std::string where;
+  std::int64_t compared = 0, free_stars = 0, high_degrees = 0;
+
+  void compare(double is, double should, double size, std::string_view what) {
+    ++compared;
+    if (const double apart = std::fabs(is - should) / size; !(apart <= worst)) {
+      worst = apart;
+      where = what;
+    }
+  }
+  template <class Rig>
+  void segment(const Rig& rig, double s) {
+    const Glance g = glance(rig);
+    free_stars += plant::connected_count(g.plant.mode().legs) == 0;
+    high_degrees += 2 * g.plant.expansion().degree > series::max_degree;
+    for (const SignalFact& fact : signal_facts)
+      for_each_piece(g, fact.signal, 0.1 * s, s, [&](const Piece& y, double from, double to) {
+        for (const double at : {0.0, 0.37, 1.0})
+          at_one(rig, fact, series::evaluate(y.c, y.degree, at), from + at * (to - from));
+      });
+  }
+  template <class Rig>
+  void at_one(const Rig& rig, const SignalFact& fact, double value, double s) {
+    const FullRow row = full_row(rig, s, 0.0);
+    const std::vector<Column>& columns = all_columns();
+    const auto& c = rig.plant().constants();
+    std::string_view name = fact.word;
+    for (const auto& [word, signal, meaning] : column_words)
+      if (signal == fact.signal) name = word;
+    for (std::size_t n = 0; n < columns.size(); ++n)
+      if (columns[n].name == name) {
+        const double size = fact.unit == "A"       ? c.amp_scale
+                            : fact.unit == "V"     ? c.volt_scale
+                            : fact.unit == "rad/s" ? c.speed_scale
+                            : fact.unit == "N m"   ? c.torque_scale
+                                                   : 1.0;
+        return compare(value, row[n], size, name);
+      }
+    derived(rig, fact, value, s);
+  }
+  /// What is no column.
+  template <class Rig>
+  void derived(const Rig& rig, const SignalFact& fact, double value, double s) {
+    const auto& c = rig.plant().constants();
+    const double amps = c.amp_scale, watts = amps * c.volt_scale;
+    const std::string_view name = fact.word;
+    const plant::Snapshot<double> now = rig.plant().at(s);
+    const FullRow row = full_row(rig, s, 0.0);
+    const auto column = [&](ColumnId id) { return row[static_cast<std::size_t>(id)]; };
+    double copper = 0.0, motor = 0.0, magnitude = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      copper += c.R * now.i[k] * now.i[k];
+      motor += now.pole[k] * now.i[k];
+      magnitude += std::fabs(now.i[k]) / 2;
+    }
+    const plant::Motion motion = rig.plant().mode().motion;
+    const double slide = motion == plant::Motion::forward    ? c.coulomb
+                         : motion == plant::Motion::backward ? -c.coulomb
+                                                             : 0.0;
+    const double degrees = now.angle * 180 / base::pi,
+                 friction = c.B * now.speed * now.speed + slide * now.speed;
+    switch (fact.signal) {
+      case Signal::current_magnitude:
+        return compare(value, magnitude, amps, name);
+      case Signal::position:
+        return compare(value, degrees, 360, name);
+      case Signal::current_error:
+        return compare(value, column(ColumnId::i_ref) - column(ColumnId::i_m), amps, name);
+      case Signal::speed_error:
+        return compare(value, column(ColumnId::speed_ref) - now.speed, c.speed_scale, name);
+      case Signal::position_error:
+        return compare(value, rig.setpoint() - degrees, 360, name);
+      case Signal::supply_power:
+        return compare(value, now.bus * now.bus_current, watts, name);
+      case Signal::motor_power:
+        return compare(value, motor, watts, name);
+      case Signal::mechanical_power:
+        return compare(value, now.torque * now.speed, watts, name);
+      case Signal::load_power:
+        return compare(value, c.load * now.speed, watts, name);
+      case Signal::copper_loss:
+        return compare(value, copper, watts, name);
+      case Signal::device_loss:
+        return compare(value, now.bus * now.bus_current - motor, watts, name);
+      case Signal::friction_loss:
+        return compare(value, friction, watts, name);
+      default:
+        ADD_FAILURE() << name << " is neither a column nor derived here";
+    }
+  }
+};
+
+TEST(Signals, AreWhatTheTraceShows) {
+  // Some 50 roundings of the signal's size on either way, and products left out below 2^-53.
+  constexpr double bound = 256 * 0x1p-53;
+  const auto watched = [&](Board b, double to_s) {
+    b.devices = {.R_on_ohm = 0.02, .V_f_V = 0.7, .r_d_ohm = 0.01};
+    b.shaft.coulomb_Nm = 1e-3;
+    b.load(0, 0.01);
+    auto rig = b.rig();
+    AgainstTheTrace against;
+    EXPECT_EQ(run_to(rig, to_s, against), sim::Stop::end);
+    EXPECT_LE(against.worst, bound) << against.where;
+    EXPECT_GT(against.compared, 1000);
+    return against;
+  };
+  std::int64_t high_degrees = 0;
+  for (const double flat_deg : {0.0, 120.0, 100.0, 140.0}) {  // 0: a sine
+    Board b = Board::duty(0.6, flat_deg == 100.0 ? control::Chopping::hard : control::Chopping::soft);
+    if (flat_deg > 0.0)
+      b.machine.flat_deg = flat_deg;
+    else
+      b.machine.back_emf = plant::BackEmf::sine;
+    if (flat_deg == 140.0) b.supply = {.V_0_V = 24.0, .R_b_ohm = 0.1, .C_F = 1e-3};
+    high_degrees += watched(b, 4e-3).high_degrees;
+    b.drive.mode = control::Mode::off;
+    for (const double speed : {500.0, -500.0, 900.0}) {  // at 900 the EMF exceeds the bus: diodes conduct
+      b.start.speed_rad_s = speed;
+      const std::int64_t free_stars = watched(b, 6e-3).free_stars;
+      if (speed < 900.0) {
+        EXPECT_GT(free_stars, 5) << flat_deg;
+      }
+    }
+  }
+  EXPECT_GT(high_degrees, 10) << "segments whose products take two pieces";
+}
+
+TEST(Signals, EveryColumnThatIsACurveHasOne) {
+  for (const Column& column : all_columns()) {
+    if (column.name == "t_s" || column.name == "hall" || column.name == "sector") continue;
+    bool found = false;
+    for (const auto& [word, signal, meaning] : signal_choices)
+      if (word == column.name) {
+        found = true;
+        EXPECT_EQ(unit_of(signal), column.unit) << word;
+      }
+    EXPECT_TRUE(found) << column.name;
+  }
+}
+
+TEST(Signals, WordsAreUnique) {
+  for (const auto& a : signal_choices)
+    for (const auto& b : signal_choices) EXPECT_TRUE(&a == &b || a.word != b.word) << a.word;
 }
 
 Gauge seen(MetricKind kind, double level = 0.0) {

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// What may be asked of a run: a figure of merit, taken of a signal over a window. docs/figures.md defines
+// each by its formula.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace sixstep::study {
+
+/// Exact on the trajectory's polynomials (gauge.hpp and its like).
+enum class MetricKind : std::uint8_t {
+  final_value,
+  mean,
+  rms,
+  maximum,
+  minimum,
+  peak_to_peak,
+  ripple_rms,
+  overshoot,
+  reach_time,
+  rise_time,
+  settling_time,
+  steady_error,
+  largest_error,
+  thd,
+  energy,
+  efficiency,
+  band_excess,
+  band_deficit,
+  switching_frequency
+};
+
+/// What a figure is taken of; signal_facts (measure_choices.hpp) has word, unit and meaning of each.
+enum class Signal : std::uint8_t {
+  current,
+  phase_a,
+  phase_b,
+  phase_c,
+  current_magnitude,
+  speed,
+  position,
+  torque,
+  bus_voltage,
+  bus_current,
+  pole_a,
+  pole_b,
+  pole_c,
+  line_ab,
+  line_bc,
+  line_ca,
+  emf_a,
+  emf_b,
+  emf_c,
+  angle,
+  duty,
+  current_reference,
+  speed_reference,
+  position_reference,
+  current_error,
+  speed_error,
+  position_error,
+  load_torque,
+  gate_T1,
+  gate_T2,
+  gate_T3,
+  gate_T4,
+  gate_T5,
+  gate_T6,
+  supply_power,
+  motor_power,
+  mechanical_power,
+  load_power,
+  copper_loss,
+  device_loss,
+  friction_loss
+};
+
+struct Measure {
+  MetricKind metric = MetricKind::final_value;
+  Signal signal = Signal::current;
+  std::optional<double> from_s, to_s;  // window; default: whole run
+  std::optional<double> level;         // metrics of a step: what is to be reached
+  std::optional<double> start;         // value the step starts from; default: value at from_s
+  double fraction = 0.98;              // reach_time: of the way from start to level
+  double band = 0.02;                  // settling_time: of the step's height
+  std::optional<double> tail;          // steady_error, largest_error: part of each level that is looked at
+  std::optional<double> frequency_Hz;  // thd: of the fundamental; default: the electrical frequency
+  bool sampled = false;                // look at the controller's samples only
+  std::string label;                   // shown instead of metric and signal
+};
+
+/// The tail where none is given: its last tenth.
+inline constexpr double default_tail = 0.1;
+
+}  // namespace sixstep::study
