@@ -152,7 +152,7 @@ Exit curve_command(const CurveArguments& a) {
   const base::Result<study::Curve> curve =
       batch::torque_speed_curve(*request, a.jobs, [] { return !interrupted(); });
   if (!curve) {
-    if (interrupted()) return Exit::interrupted;
+    if (interrupted()) return exit_of_interrupt();
     complain(curve.problems());
     return Exit::bad_input;
   }

@@ -194,7 +194,7 @@ Exit design_command(const DesignArguments& a) {
        .tolerances = a.quick ? std::vector<study::Tolerance>() : study::sheet_tolerances(wish.mode),
        .for_each = side_by_side(a),
        .keep_going = [] { return !interrupted(); }});
-  if (interrupted()) return Exit::interrupted;
+  if (interrupted()) return exit_of_interrupt();
   if (!s) return refused(s.problems());
   if (const base::Problems unwritten = write(*s, a, outputs); !unwritten.empty()) return refused(unwritten);
   if (a.json == "-") print(io::design_json(*s));

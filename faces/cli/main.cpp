@@ -82,6 +82,7 @@ Exit run_program(int count, const char* const* words) {
 }  // namespace cli
 
 int main(int count, char** words) {
+  cli::take_write_errors();
   try {
     return static_cast<int>(cli::run_program(count, words));
   } catch (const std::exception& error) {

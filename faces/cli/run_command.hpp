@@ -18,6 +18,7 @@ struct RunArguments {
   std::vector<std::string> sets;  ///< "key=value"
   std::string data_dir;
   bool quiet = false;
+  bool watch = false;
   unsigned jobs = 0;     ///< 0: one per core
   std::size_t runs = 0;  ///< of a series; 0: the nominal run alone
   std::uint64_t seed = 1;

@@ -99,7 +99,8 @@ TEST_F(Files, AFullDiskIsToldByCommit) {
 
 TEST_F(Files, CsvStartsWithItsColumnsAndNumbersComeBackBitForBit) {
   const std::vector<study::Column> columns{{"t_s", "s", "", ""}, {"x", "", "", ""}};
-  base::Result<CsvWriter> csv = CsvWriter::create(at("a.csv"), columns);
+  base::Result<CsvWriter> csv =
+      CsvWriter::create(at("a.csv"), columns, std::vector<std::string>{"from here"});
   ASSERT_TRUE(csv);
   constexpr unsigned seed = 20260;
   std::mt19937_64 random(seed);
@@ -112,6 +113,8 @@ TEST_F(Files, CsvStartsWithItsColumnsAndNumbersComeBackBitForBit) {
   ASSERT_TRUE(csv->commit().empty());
   std::istringstream text(*read_text(at("a.csv")));
   std::string line;
+  std::getline(text, line);
+  EXPECT_EQ(line, "# from here");
   std::getline(text, line);
   EXPECT_EQ(line, "t_s,x");
   for (std::size_t n = 0; n < numbers.size(); n += 2) {
