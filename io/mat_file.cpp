@@ -72,6 +72,7 @@ void MatFile::text(const std::string& name, const std::string& words) {
 
 void MatFile::texts(const std::string& name, const std::vector<std::pair<std::string, std::string>>& fields) {
   std::vector<const char*> names;
+  names.reserve(fields.size());
   for (const auto& field : fields) names.push_back(field.first.c_str());
   std::size_t size[] = {1, 1};
   matvar_t* structure =

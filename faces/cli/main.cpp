@@ -61,7 +61,7 @@ Exit run_program(int count, const char* const* words) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 all requirements hold, 1 a requirement failed, 2 bad input, 3 a fault stopped a run, "
-      "4 internal error\n");
+      "4 internal error, 130 Ctrl-C, 143 SIGTERM\n");
 
   const Verb verbs[] = {declare_run(app),    declare_design(app), declare_curve(app),
                         declare_export(app), declare_help(app),   declare_motor(app)};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/cli/outputs.hpp"
 
+#include <filesystem>
 #include <utility>
 
 #include "faces/cli/report_page.hpp"
@@ -82,7 +83,9 @@ void Outputs::put(std::optional<File>& file, const std::string& path, bool whole
   if (!file) return;
   const base::Problems problems = whole ? file->commit(facts...) : file->commit_partial(facts...);
   problems_.insert(problems_.end(), problems.begin(), problems.end());
-  if (!whole && problems.empty()) partial_files_.push_back(io::partial_name(path));
+  // What is no regular file has no such name.
+  const std::string partial = io::partial_name(path);
+  if (!whole && problems.empty() && std::filesystem::exists(partial)) partial_files_.push_back(partial);
   file.reset();
 }
 

@@ -141,8 +141,8 @@ void declare_options(CLI::App& run, RunArguments& a) {
   run.add_option("FILE", a.files, "scenario files")->required();
   run.add_option("--out", a.out, "folder for NAME.csv, NAME.json, NAME.html of each scenario and index.html");
   run.add_option("--csv", a.paths.csv, "write the recorded trace");
-  run.add_option("--mat", a.paths.mat, "write it for MATLAB, Octave and scipy (MAT 5)");
-  run.add_option("--mat73", a.paths.mat73, "write it as MAT 7.3, which is HDF5");
+  run.add_option("--mat", a.paths.mat, "write the trace for MATLAB, Octave and scipy: MAT 5");
+  run.add_option("--mat73", a.paths.mat73, "write the trace as MAT 7.3, which is HDF5");
   run.add_option("--vcd", a.paths.vcd, "write gates, Hall lines, timer and faults for a waveform viewer");
   run.add_option("--json", a.paths.json, "write verdicts and figures; - for standard output");
   run.add_option("--html", a.paths.html, "write the report");

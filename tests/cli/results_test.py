@@ -5,6 +5,7 @@ reader of value change dumps, and a validator of JSON Schema."""
 import collections
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import unittest
@@ -180,6 +181,52 @@ class Waveforms(ProgramTest):
         self.assertEqual(dump.changes["board.faults.hall"], [(0, 0), (round(s["trip"]["at_s"] * PS), 1)])
         self.assertEqual(dump.at("board.timer.enabled", numpy.array([dump.end])), [0])
         self.assertTrue(all(dump.at(f"board.gates.T{n}", numpy.array([dump.end])) == [0] for n in range(1, 7)))
+
+
+    def test_a_fault_that_ends_the_run_stands_at_its_end(self):
+        turning = 'motor = "maxon-251601"\nduration_s = 0.2\ncontrol.mode = "duty"\nreference.value = 1\n'
+        (self.path / "a.toml").write_text(turning + "sensors.hall_break = {at_s = 0.05, line = 2}\n")
+        self.run_program("run", "a.toml", "--vcd", "w.vcd", "--quiet", code=3)
+        dump = Dump(self.path / "w.vcd")
+        self.assertEqual(dump.changes["board.faults.impossible_hall"], [(0, 0), (dump.end, 1)])
+        lines = [dump.at(f"board.hall.H{n}", numpy.array([dump.end]))[0] for n in (1, 2, 3)]
+        self.assertIn(lines, ([0, 0, 0], [1, 1, 1]))
+
+
+class Page(ProgramTest):
+    """What docs/results.md says is what happens."""
+    PAGE = (SOURCE / "docs/results.md").read_text()
+
+    def test_its_lines_of_python_read_the_files(self):
+        self.run_program("run", scenario("reference/R1"), "--quiet", "--csv", "my.csv", "--mat", "my.mat", "--mat73", "my73.mat")
+        lines = [line for block in re.findall(r"```python\n(.*?)```", self.PAGE, re.S) for line in block.splitlines()]
+        self.assertEqual(len(lines), 3)
+        currents = []
+        for line in lines:
+            names = {"numpy": numpy, "scipy": scipy, "h5py": h5py}
+            exec(line.replace('"my.', f'"{self.path}/my.').replace('"my73', f'"{self.path}/my73'), names)
+            currents.append(numpy.ravel(names["trace"]["i_a_A"][()]))
+        self.assertGreater(len(currents[0]), 10)
+        numpy.testing.assert_array_equal(currents[0], currents[1])
+        numpy.testing.assert_array_equal(currents[0], currents[2])
+
+    def test_its_csv_is_the_one_that_is_written(self):
+        self.write("my.toml", 1000)
+        self.run_program("run", "my.toml", "--csv", "my.csv")
+        block = re.search(r"```\n(# sixstep.*?)```", self.PAGE, re.S).group(1).splitlines()
+        digest = lambda line: re.sub("[0-9a-f]{16}", "-", line)
+        lines = (self.path / "my.csv").read_text().splitlines()
+        self.assertEqual([digest(line) for line in block[:3]], [digest(line) for line in lines[:3]])
+        self.assertTrue(lines[3].startswith(block[3].removesuffix("...")))
+
+    def test_its_options_and_signals_are_those_of_the_program(self):
+        options = set(re.findall(r"^\| `(--\w+) F`", self.PAGE, re.M))
+        told = self.run_program("run", "--help").stdout
+        self.assertEqual(options, set(re.findall(r"^  (--\w+) .*write", told, re.M)))
+        self.run_program("run", self.write("a.toml", 1000), "--vcd", "w.vcd", "--quiet")
+        for name in Dump(self.path / "w.vcd").kinds:
+            _, group, signal = name.split(".")
+            self.assertIn(f"`{group}`", self.PAGE)
 
 
 class Summary(ProgramTest):
