@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variables in a MAT file, written by libmatio: version 5 for Octave, scipy and MATLAB, version 7.3 (HDF5)
-// where columns grow without bound.
+// Variables in a MAT file, written by libmatio.
 #pragma once
 #include <matio.h>
 
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "io/rooms.hpp"
+#include "io/mat_version.hpp"
 
 namespace io {
-
-enum class MatVersion : std::uint8_t { v5, v7_3 };
 
 /// Writes one variable after the other; remembers whether all went well.
 class MatFile {

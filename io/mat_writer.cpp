@@ -6,6 +6,7 @@
 #include <array>
 #include <cerrno>
 
+#include "io/mat_file.hpp"
 #include "io/text_file.hpp"
 #include "sixstep/base/written.hpp"
 
@@ -17,9 +18,6 @@ namespace {
 enum : std::uint32_t { mi_int8 = 1, mi_int32 = 5, mi_uint32 = 6, mi_double = 9, mi_matrix = 14 };
 constexpr std::uint32_t class_double = 6;
 constexpr std::size_t header_bytes = 128;
-
-/// A variable of version 5 is below 2 GiB in all: the sizes in its tags are read as signed by many.
-constexpr std::size_t v5_most_rows = ((std::size_t{1} << 31U) - 1024) / sizeof(double);
 
 /// What stands before the numbers of one column, in this machine's order of bytes, as the file's header says.
 std::string column_head(const std::string& name, std::size_t rows) {
@@ -47,22 +45,24 @@ std::string_view bytes_of(std::span<const double> numbers) {
 }  // namespace
 
 base::Result<MatWriter> MatWriter::create(const std::string& path, std::span<const study::Column> columns,
-                                          MatVersion version, TraceOrigin origin) {
+                                          MatVersion version, TraceOrigin origin,
+                                          std::size_t most_rows_of_v5) {
   base::Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return file.problems();
   if (version == MatVersion::v7_3 && file->temporary().empty())
     return base::Problem{.where = path + ":",
                          .limit = "is no regular file, and HDF5 writes to and fro",
                          .cure = "name a file, or take --mat, which writes straight on"};
-  return MatWriter(std::move(*file), columns, version, std::move(origin));
+  return MatWriter(std::move(*file), columns, version, std::move(origin), most_rows_of_v5);
 }
 
 MatWriter::MatWriter(AtomicFile file, std::span<const study::Column> columns, MatVersion version,
-                     TraceOrigin origin)
+                     TraceOrigin origin, std::size_t most_rows_of_v5)
     : file_(std::move(file)),
       columns_(columns.begin(), columns.end()),
       version_(version),
       origin_(std::move(origin)),
+      most_rows_(most_rows_of_v5),
       spool_(file_.temporary(), columns.size()) {}
 
 void MatWriter::row(std::span<const double> numbers) {
@@ -77,9 +77,8 @@ void MatWriter::row(std::span<const double> numbers) {
 void MatWriter::reserve() {
   constexpr std::size_t per_column = 4096;  // heads, units and meanings; in HDF5 also its tables
   const std::size_t rows = spool_.rows() + ColumnSpool::block_rows;
-  if (version_ == MatVersion::v5 && rows > v5_most_rows)
-    error_ = EFBIG;
-  else
+  too_long_ = version_ == MatVersion::v5 && rows > most_rows_;
+  if (!too_long_)
     error_ = file_.reserve(header_bytes + columns_.size() * (per_column + rows * sizeof(double)));
 }
 
@@ -150,7 +149,14 @@ base::Problems MatWriter::commit_partial(std::uint64_t digest) {
 
 base::Problems MatWriter::save_what_fits(std::uint64_t digest) {
   base::Problem problem = unwritable(file_.path(), error_ != 0 ? error_ : spool_.error());
-  if (assemble(digest) && file_.commit_partial().empty()) problem.cure = saved_instead(file_.path());
+  if (too_long_) {
+    problem.limit = fmt::format("has {} rows, and a column of MAT 5 ends at 2 GiB", spool_.rows());
+    problem.cure = "take --mat73, or record less";
+  }
+  if (!assemble(digest) || !file_.commit_partial().empty()) return {problem};
+  problem.cure = too_long_
+                     ? fmt::format("{}; what was finished is in {}", problem.cure, partial_name(file_.path()))
+                     : saved_instead(file_.path());
   return {problem};
 }
 

@@ -9,27 +9,34 @@
 
 #include "io/atomic_file.hpp"
 #include "io/column_spool.hpp"
-#include "io/mat_file.hpp"
+#include "io/mat_version.hpp"
 #include "io/trace_origin.hpp"
 #include "sixstep/study/outcome.hpp"
 
 namespace io {
 
+class MatFile;
+
 class MatWriter {
  public:
+  /// A variable of version 5 stays below 2 GiB in all: many read the sizes in its tags as signed.
+  static constexpr std::size_t v5_most_rows = ((std::size_t{1} << 31U) - 1024) / sizeof(double);
+
   /// Version 7.3 needs a file that can be written to and fro: a pipe is refused.
   static base::Result<MatWriter> create(const std::string& path, std::span<const study::Column> columns,
-                                        MatVersion version, TraceOrigin origin);
+                                        MatVersion version, TraceOrigin origin,
+                                        std::size_t most_rows_of_v5 = v5_most_rows);
 
   void row(std::span<const double> numbers);
-  bool failed() const { return error_ != 0 || spool_.failed() || file_.failed(); }
+  bool failed() const { return too_long_ || error_ != 0 || spool_.failed() || file_.failed(); }
 
   /// `digest`: of the run, which only its end knows.
   base::Problems commit(std::uint64_t digest);
   base::Problems commit_partial(std::uint64_t digest);
 
  private:
-  MatWriter(AtomicFile file, std::span<const study::Column> columns, MatVersion version, TraceOrigin origin);
+  MatWriter(AtomicFile file, std::span<const study::Column> columns, MatVersion version, TraceOrigin origin,
+            std::size_t most_rows_of_v5);
   void reserve();
   void describe_trace(MatFile& mat, std::uint64_t digest) const;
   bool assemble(std::uint64_t digest);
@@ -41,7 +48,9 @@ class MatWriter {
   std::vector<study::Column> columns_;
   MatVersion version_;
   TraceOrigin origin_;
+  std::size_t most_rows_;
   ColumnSpool spool_;
+  bool too_long_ = false;
   int error_ = 0;  // what errno said when room was asked for
 };
 

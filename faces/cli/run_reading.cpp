@@ -59,8 +59,12 @@ base::Problems same_outputs(const RunArguments& arguments) {
                           .cure = "rename one or run them apart"});
   }
   for (const auto& [option, path] : arguments.paths.files()) {
+    std::error_code ignored;
+    const bool device =
+        std::filesystem::is_other(path, ignored) || std::filesystem::is_character_file(path, ignored);
+    if (device) continue;  // /dev/null takes them all
     const auto [other, is_new] = outputs.emplace(path, option);
-    if (!is_new && std::filesystem::path(path).has_extension())
+    if (!is_new)
       problems.push_back({.where = option,
                           .value = path,
                           .limit = fmt::format("is what {} writes", other->second),
