@@ -2,13 +2,13 @@
 #include "faces/cli/design_command.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <CLI/App.hpp>
 
 #include <atomic>
 #include <filesystem>
 
 #include "batch/for_each.hpp"
+#include "faces/cli/progress.hpp"
 #include "faces/cli/terminal.hpp"
 #include "io/atomic_file.hpp"
 #include "io/config_header.hpp"
@@ -163,14 +163,13 @@ base::Problems write(const study::DesignStudy& s, const DesignArguments& a, Outp
 
 /// The runs of the tolerances side by side, with a count for who watches.
 study::ForEach side_by_side(const DesignArguments& a) {
-  const bool progress = !a.quiet && ::isatty(STDERR_FILENO) != 0;
-  return [jobs = a.jobs, progress](std::size_t count, const std::function<void(std::size_t)>& work) {
+  return [jobs = a.jobs, quiet = a.quiet](std::size_t count, const std::function<void(std::size_t)>& work) {
     std::atomic<std::size_t> done{0};
+    Progress progress({.seconds = {}, .pieces = count, .of = "motors"}, quiet);
     batch::for_each(count, jobs, [&](std::size_t n) {
       work(n);
-      if (progress) print(fmt::format("\r{} of {} motors", ++done, count), stderr);
+      progress.pieces_done(++done);
     });
-    if (progress) print("\r\x1b[K", stderr);
   };
 }
 

@@ -63,11 +63,11 @@ std::string Progress::line(std::size_t width) const {
   const double elapsed = duration<double>(std::chrono::steady_clock::now() - start_).count();
   double done = 0.0, total = 0.0;
   std::string what;
-  if (work_.drives > 0) {
-    const std::size_t drives = drives_.load(std::memory_order_relaxed);
-    done = static_cast<double>(drives);
-    total = static_cast<double>(work_.drives);
-    what = fmt::format("{} of {} drives", drives, work_.drives);
+  if (work_.pieces > 0) {
+    const std::size_t pieces = pieces_.load(std::memory_order_relaxed);
+    done = static_cast<double>(pieces);
+    total = static_cast<double>(work_.pieces);
+    what = fmt::format("{} of {} {}", pieces, work_.pieces, work_.of);
   } else {
     for (const std::atomic<double>& t : at_s_) done += t.load(std::memory_order_relaxed);
     total = std::accumulate(work_.seconds.begin(), work_.seconds.end(), 0.0);

@@ -10,10 +10,11 @@
 
 namespace cli {
 
-/// What there is to do: runs with their simulated time, or a series of drives.
+/// What there is to do: runs with their simulated time, or pieces that are all alike.
 struct Work {
   std::vector<double> seconds;
-  std::size_t drives = 0;
+  std::size_t pieces = 0;
+  const char* of = "drives";  ///< what the pieces are
 };
 
 /// Shows itself on a terminal alone, and not before half a second has gone; it leaves nothing behind.
@@ -27,14 +28,14 @@ class Progress {
   // From any thread.
   void reached(std::size_t run, double t_s) { at_s_[run].store(t_s, std::memory_order_relaxed); }
   void finished(std::size_t run);
-  void drives_done(std::size_t count) { drives_.store(count, std::memory_order_relaxed); }
+  void pieces_done(std::size_t count) { pieces_.store(count, std::memory_order_relaxed); }
 
  private:
   std::string line(std::size_t width) const;
 
   Work work_;
   std::vector<std::atomic<double>> at_s_;
-  std::atomic<std::size_t> runs_{0}, drives_{0};
+  std::atomic<std::size_t> runs_{0}, pieces_{0};
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::jthread drawer_;
 };

@@ -44,13 +44,13 @@ Exit series_command(const RunArguments& arguments, const std::vector<Job>& jobs)
   Exit exit = Exit::ok;
   for (const Job& job : jobs) {
     std::optional<Progress> progress;
-    progress.emplace(Work{.seconds = {}, .drives = arguments.runs}, arguments.quiet);
+    progress.emplace(Work{.seconds = {}, .pieces = arguments.runs}, arguments.quiet);
     const batch::Series series = batch::monte_carlo(
         job.scenario(), {.runs = arguments.runs,
                          .seed = arguments.seed,
                          .jobs = arguments.jobs,
                          .stop = interrupter.token(),
-                         .progress = [&](std::size_t done) { progress->drives_done(done); }});
+                         .progress = [&](std::size_t done) { progress->pieces_done(done); }});
     progress.reset();
     if (!arguments.quiet) print(io::series_table(job.name(), series, arguments.seed));
     exit = graver(exit, interrupted() ? exit_of_interrupt() : exit_of(series));
