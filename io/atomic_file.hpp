@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A file that appears whole or not at all.
 #pragma once
-#include <cstdio>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -18,32 +18,55 @@ class AtomicFile {
  public:
   static base::Result<AtomicFile> create(const std::string& path);
 
-  /// A failed write is remembered and told by commit().
+  /// All of the text or nothing of it. Where the disk is full or the like, nothing more is written from there
+  /// on, and commit() tells.
   void write(std::string_view text);
 
-  /// Empty when the file stands under its name, safely on the disk.
+  /// Room on the disk for that many bytes in all, so that writing them cannot fail for want of it; 0, or what
+  /// errno says.
+  int reserve(std::uint64_t bytes);
+
+  /// A write failed: there is no sense in going on.
+  bool failed() const { return error_ != 0; }
+
+  /// Empty when the file stands under its name, safely on the disk. Where a write failed, what was whole
+  /// before stands under NAME.partial.EXT, and the Problem says so.
   base::Problems commit() { return commit_as(path_); }
 
   /// What an interrupted work leaves: NAME.partial.EXT.
   base::Problems commit_partial();
 
   const std::string& path() const { return path_; }
+  /// Where it is written to; for those who can only write to a path. Empty where there is no such name.
+  std::string temporary() const { return temporary_ ? *temporary_ : std::string(); }
+  /// It was written under temporary() by someone else.
+  void written_elsewhere() { elsewhere_ = true; }
 
  private:
   struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
+    void operator()(int* descriptor) const;
   };
   struct Remove {
     void operator()(std::string* name) const;
   };
   AtomicFile() = default;
   base::Problems commit_as(const std::string& path);
+  base::Problems save_what_is_whole();
+  int put_in_place(const std::string& path);
 
   std::string path_;
   std::unique_ptr<std::string, Remove> temporary_;  // null where the file is written as it is
-  std::unique_ptr<std::FILE, Close> file_;          // closed before the name goes
+  std::unique_ptr<int, Close> descriptor_;          // closed before the name goes
+  std::uint64_t size_ = 0;                          // of what was written whole
+  bool elsewhere_ = false;
   int error_ = 0;
 };
+
+/// That the path cannot be written, for what errno says.
+base::Problem unwritable(const std::string& path, int reason);
+
+/// The cure where an unfinished file stands under its partial name.
+std::string saved_instead(const std::string& path);
 
 /// "trace.partial.csv" of "trace.csv".
 std::string partial_name(const std::string& path);

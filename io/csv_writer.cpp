@@ -17,12 +17,14 @@ void append_number(std::string& text, double x) {
   text.append(digits, fmt::format_to(digits, FMT_COMPILE("{}"), x));
 }
 
-base::Result<CsvWriter> CsvWriter::create(const std::string& path, std::span<const study::Column> columns) {
+base::Result<CsvWriter> CsvWriter::create(const std::string& path, std::span<const study::Column> columns,
+                                          std::span<const std::string> comments) {
   base::Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return file.problems();
   CsvWriter writer(std::move(*file));
+  for (const std::string& comment : comments) writer.pending_ += "# " + comment + "\n";
   for (const study::Column& column : columns) writer.pending_ += column.name + ',';
-  if (!writer.pending_.empty()) writer.pending_.back() = '\n';
+  if (!columns.empty()) writer.pending_.back() = '\n';
   return writer;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trace as text: one header line of column names, then rows of numbers that read back bit for bit.
+// The trace as text: lines of comment behind #, one header line of column names, then rows of numbers that
+// read back bit for bit.
 #pragma once
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/atomic_file.hpp"
 #include "sixstep/study/outcome.hpp"
@@ -11,9 +13,12 @@ namespace io {
 
 class CsvWriter {
  public:
-  static base::Result<CsvWriter> create(const std::string& path, std::span<const study::Column> columns);
+  /// Each comment is one line.
+  static base::Result<CsvWriter> create(const std::string& path, std::span<const study::Column> columns,
+                                        std::span<const std::string> comments = {});
 
   void row(std::span<const double> numbers);
+  bool failed() const { return file_.failed(); }
   base::Problems commit();
   base::Problems commit_partial();
 

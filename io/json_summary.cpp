@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/run.hpp"
 
 namespace io {
 namespace {
@@ -86,6 +87,7 @@ std::string json_summary(const study::Scenario& scenario, const study::Outcome& 
                   {"fault", outcome.fault ? Json(base::to_string(*outcome.fault)) : Json(nullptr)},
                   {"trip", outcome.trip ? trip(*outcome.trip) : Json(nullptr)},
                   {"duration_s", scenario.duration_s},
+                  {"complete", !study::cut_short(scenario, outcome)},
                   {"simulated_s", outcome.simulated_s},
                   {"segments", outcome.segments},
                   {"digest", base::written_hex(outcome.digest)}};

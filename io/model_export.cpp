@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/model_export.hpp"
 
-#include <matio.h>
-#include <unistd.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
+#include "io/mat_file.hpp"
 #include "io/text_file.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/thesis_models.hpp"
@@ -55,61 +50,13 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// Writes one variable after the other; remembers whether all went well.
-class MatFile {
- public:
-  explicit MatFile(const std::string& path)
-      : file_(Mat_CreateVer(path.c_str(), "MATLAB 5.0 MAT-file, sixstep " SIXSTEP_VERSION, MAT_FT_MAT5),
-              &Mat_Close) {}
-
-  /// Columns one after the other, as MATLAB has them.
-  template <std::size_t Rows, std::size_t Columns>
-  void matrix(const char* name, const sixstep::design::Matrix<Rows, Columns>& m) {
-    std::vector<double> values;
-    for (std::size_t c = 0; c < Columns; ++c)
-      for (std::size_t r = 0; r < Rows; ++r) values.push_back(m[r][c]);
-    numbers(name, values, Rows, Columns);
-  }
-  void numbers(const char* name, std::vector<double> values, std::size_t rows, std::size_t columns) {
-    std::size_t size[] = {rows, columns};
-    put(Mat_VarCreate(name, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size, values.data(), 0));
-  }
-  void text(const char* name, std::string words) {
-    std::size_t size[] = {1, words.size()};
-    put(Mat_VarCreate(name, MAT_C_CHAR, MAT_T_UTF8, 2, size, words.data(), 0));
-  }
-  bool good() const { return good_; }
-
- private:
-  void put(matvar_t* variable) {
-    good_ = good_ && file_ && variable && Mat_VarWrite(file_.get(), variable, MAT_COMPRESSION_NONE) == 0;
-    if (variable) Mat_VarFree(variable);
-  }
-  std::unique_ptr<mat_t, int (*)(mat_t*)> file_;
-  bool good_ = true;
-};
-
-/// The library writes to a path alone: a file of our own among the temporary ones, gone at the end.
-class Scratch {
- public:
-  Scratch() : path_((std::filesystem::temp_directory_path() / "sixstep-XXXXXX").string()) {
-    const int file = ::mkstemp(path_.data());
-    made_ = file >= 0;
-    if (made_) ::close(file);
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    if (made_) std::filesystem::remove(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  bool made() const { return made_; }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-  bool made_ = false;
-};
+template <std::size_t Rows, std::size_t Columns>
+void put(MatFile& file, const char* name, const sixstep::design::Matrix<Rows, Columns>& m) {
+  std::vector<double> values;
+  for (std::size_t c = 0; c < Columns; ++c)
+    for (std::size_t r = 0; r < Rows; ++r) values.push_back(m[r][c]);
+  file.numbers(name, std::move(values), Rows, Columns);
+}
 
 }  // namespace
 
@@ -130,20 +77,20 @@ base::Result<std::string> models_mat(const ModelPoint& p) {
   const Scratch scratch;
   if (!scratch.made()) return no_room;
   {
-    MatFile file(scratch.path());
+    MatFile file(scratch.path(), MatVersion::v5);
     const auto phase = sixstep::design::phase_voltage_model(p.motor.machine, p.motor.shaft, angle_of(p));
     const auto terminal =
         sixstep::design::terminal_voltage_model(p.motor.machine, p.motor.shaft, angle_of(p));
-    file.matrix("phase_A", phase.A);
-    file.matrix("phase_B", phase.B);
+    put(file, "phase_A", phase.A);
+    put(file, "phase_B", phase.B);
     file.text("phase_states", joined(phase_states));
     file.text("phase_inputs", joined(phase_inputs));
-    file.matrix("terminal_A", terminal.A);
-    file.matrix("terminal_B", terminal.B);
+    put(file, "terminal_A", terminal.A);
+    put(file, "terminal_B", terminal.B);
     file.text("terminal_states", joined(terminal_states));
     file.text("terminal_inputs", joined(terminal_inputs));
-    for (const auto& [name, value] : parameters(p)) file.numbers(name.c_str(), {value}, 1, 1);
-    if (!file.good()) return no_room;
+    for (const auto& [name, value] : parameters(p)) file.numbers(name, {value}, 1, 1);
+    if (!file.close()) return no_room;
   }
   return read_text(scratch.path());
 }

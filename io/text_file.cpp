@@ -6,6 +6,8 @@
 #include <cstring>
 #include <memory>
 
+#include "sixstep/study/digest.hpp"
+
 namespace io {
 namespace {
 
@@ -15,15 +17,41 @@ base::Problem unreadable(const std::string& path, int reason) {
           .cure = reason == EISDIR ? "name a file in it" : "check the path and the permission to read it"};
 }
 
+thread_local ReadLog* log_in_use = nullptr;
+
 }  // namespace
+
+ReadLog::ReadLog() : digest_(study::Hash().value()), outer_(log_in_use) { log_in_use = this; }
+ReadLog::~ReadLog() { log_in_use = outer_; }
+
+void ReadLog::note(const std::string& path, const std::string& text) {
+  paths_.push_back(path);
+  digest_ = text_digest(text, digest_);
+}
+
+std::uint64_t text_digest(const std::string& text, std::uint64_t before) {
+  study::Hash hash;
+  hash.word(before);
+  hash.word(text.size());  // so that two texts in a row are not their sum
+  for (std::size_t at = 0; at < text.size(); at += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    for (std::size_t n = at; n < text.size() && n < at + sizeof word; ++n)
+      word |= std::uint64_t{static_cast<unsigned char>(text[n])} << 8 * (n - at);
+    hash.word(word);
+  }
+  return hash.value();
+}
 
 base::Result<std::string> read_text(const std::string& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) return unreadable(path, errno);
+  const int reason = errno;
+  if (!file && log_in_use) log_in_use->note(path, {});
+  if (!file) return unreadable(path, reason);
   std::string text;
   char block[1 << 14];
   while (const std::size_t got = std::fread(block, 1, sizeof block, file.get())) text.append(block, got);
   if (std::ferror(file.get())) return unreadable(path, errno);
+  if (log_in_use) log_in_use->note(path, text);
   return text;
 }
 

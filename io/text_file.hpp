@@ -1,13 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "io/rooms.hpp"
 #include "sixstep/base/result.hpp"
 
 namespace io {
 
-/// The whole file. Folders, missing and unreadable files are Problems that give the system's reason.
+/// The whole file, byte for byte.
 base::Result<std::string> read_text(const std::string& path);
+
+/// Notes every file that read_text() reads in this thread while it lives: a scenario's own, its motor's, and
+/// whatever they name.
+class ReadLog {
+ public:
+  ReadLog();
+  ~ReadLog();
+  ReadLog(const ReadLog&) = delete;
+  ReadLog& operator=(const ReadLog&) = delete;
+
+  /// In the order of reading; those that could not be read too.
+  const std::vector<std::string>& paths() const { return paths_; }
+  /// Of the contents alone, in the order of reading: where the files lie does not matter.
+  std::uint64_t digest() const { return digest_; }
+
+  void note(const std::string& path, const std::string& text);
+
+ private:
+  std::vector<std::string> paths_;
+  std::uint64_t digest_;
+  ReadLog* outer_;
+};
+
+/// 64 bits of a text, continued from those of what stands before it. No cryptography.
+std::uint64_t text_digest(const std::string& text, std::uint64_t before = 0);
 
 }  // namespace io

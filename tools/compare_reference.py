@@ -19,8 +19,8 @@ GROUPS = {"currents": ("i_a", "i_b", "i_c"), "speed": ("w_m",), "angle": ("theta
 
 
 def columns_of(file):
-    with open(file, newline="", encoding="ascii") as lines:
-        rows = list(csv.DictReader(lines))
+    with open(file, newline="", encoding="utf-8") as lines:
+        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
     return {name: [float(row[name]) for row in rows] for name in rows[0]}
 
 

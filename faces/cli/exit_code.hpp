@@ -13,6 +13,8 @@ enum class Exit : int {
   fault = 3,          ///< a fault stopped a run, or the drive in it
   internal = 4,       ///< a mistake of the program
   interrupted = 130,  ///< by the user, as shells count it
+  reader_gone = 141,  ///< of a pipe that was written to, as shells count it
+  terminated = 143    ///< by SIGTERM
 };
 
 /// Of a run that came to its end or to a fault.

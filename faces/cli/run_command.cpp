@@ -2,20 +2,19 @@
 #include "faces/cli/run_command.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
 
 #include <filesystem>
-#include <map>
-#include <mutex>
 
 #include "batch/for_each.hpp"
+#include "faces/cli/progress.hpp"
 #include "faces/cli/report_page.hpp"
+#include "faces/cli/run_reading.hpp"
 #include "faces/cli/series_command.hpp"
-#include "faces/cli/settings.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/scenario_file.hpp"
+#include "faces/cli/watch.hpp"
 #include "io/verdict_table.hpp"
-#include "sixstep/study/spread.hpp"
 
 namespace cli {
 namespace {
@@ -24,55 +23,15 @@ namespace fs = std::filesystem;
 
 void append(base::Problems& to, const base::Problems& more) { to.insert(to.end(), more.begin(), more.end()); }
 
-std::string place(const std::string& file) { return fmt::format("{}:", file); }
-
-std::vector<Job> read_jobs(const RunArguments& arguments, base::Problems& problems) {
-  std::vector<Job> jobs;
-  const io::ReadOptions options = read_options(arguments.data_dir, arguments.sets, problems);
-  if (!problems.empty()) return jobs;
-  for (const std::string& file : arguments.files) {
-    base::Result<study::Scenario> scenario = io::read_scenario(file, options);
-    if (scenario && (arguments.runs > 0 || arguments.drive) && scenario->spread.empty())
-      problems.push_back({.where = place(file),
-                          .limit = "describes no series: all drives would be the same",
-                          .cure = "say in [[spread]] what differs; see: sixstep help spread"});
-    if (scenario && arguments.drive) *scenario = study::varied(*scenario, arguments.seed, *arguments.drive);
-    if (scenario)
-      jobs.emplace_back(file, std::move(*scenario), arguments.command);
-    else
-      append(problems, scenario.problems());
-  }
-  return jobs;
-}
-
-/// Contradictions of the arguments themselves.
-base::Problems check(const RunArguments& arguments) {
-  base::Problems problems;
-  const OutputPaths& p = arguments.paths;
-  const bool single = !p.csv.empty() || !p.json.empty() || !p.html.empty();
-  if (single && (arguments.files.size() > 1 || !arguments.out.empty()))
-    problems.push_back({.where = "--csv, --json, --html",
-                        .limit = "name the outputs of one scenario",
-                        .cure = "with several files or --out use --out DIR alone"});
-  if (arguments.runs > 0 && (single || !arguments.out.empty()))
-    problems.push_back({.where = "--runs",
-                        .limit = "writes no files of single runs",
-                        .cure = "write those of one drive with --drive N instead of --runs"});
-  std::map<std::string, std::string> stems;
-  for (const std::string& file : arguments.files) {
-    const auto [other, is_new] = stems.emplace(fs::path(file).stem().string(), file);
-    if (!arguments.out.empty() && !is_new)
-      problems.push_back({.where = place(file),
-                          .limit = fmt::format("would write the same outputs as {}", other->second),
-                          .cure = "rename one or run them apart"});
-  }
-  return problems;
-}
-
 OutputPaths paths_of(const RunArguments& arguments, const Job& job) {
   if (arguments.out.empty()) return arguments.paths;
   const std::string base = (fs::path(arguments.out) / job.name()).string();
-  return {base + ".csv", base + ".json", base + ".html"};
+  return {.csv = base + ".csv",
+          .mat = {},
+          .mat73 = {},
+          .vcd = {},
+          .json = base + ".json",
+          .html = base + ".html"};
 }
 
 /// Opens all outputs before anything runs. The index is the last to be written and proves the folder now.
@@ -83,7 +42,7 @@ base::Problems prepare(const RunArguments& arguments, std::vector<Job>& jobs,
     std::error_code error;
     fs::create_directories(arguments.out, error);
     if (error)
-      return {{.where = place(arguments.out),
+      return {{.where = arguments.out + ":",
                .limit = fmt::format("cannot be made a folder: {}", error.message()),
                .cure = "choose another --out"}};
     base::Result<io::AtomicFile> file =
@@ -96,20 +55,13 @@ base::Problems prepare(const RunArguments& arguments, std::vector<Job>& jobs,
 }
 
 void run_all(std::vector<Job>& jobs, const RunArguments& arguments) {
-  const bool progress = !arguments.quiet && jobs.size() > 1 && ::isatty(STDERR_FILENO) != 0;
-  std::mutex guard;
-  std::size_t done = 0;
-  const auto tell = [&] {
-    if (progress) print(fmt::format("\r{} of {} done", done, jobs.size()), stderr);
-  };
-  tell();
+  Work work;
+  for (const Job& job : jobs) work.seconds.push_back(job.scenario().duration_s);
+  Progress progress(std::move(work), arguments.quiet);
   batch::for_each(jobs.size(), arguments.jobs, [&](std::size_t n) {
-    if (!interrupted()) jobs[n].run();
-    const std::lock_guard lock(guard);
-    ++done;
-    tell();
+    if (!interrupted()) jobs[n].run([&progress, n](double t_s) { progress.reached(n, t_s); });
+    progress.finished(n);
   });
-  if (progress) print("\r\x1b[K", stderr);
 }
 
 base::Problems write_index(const RunArguments& arguments, const std::vector<Job>& jobs,
@@ -133,24 +85,13 @@ void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
     print(io::verdict_summary(entries, may_colour(to)), to);
 }
 
-}  // namespace
-
-Exit run_command(const RunArguments& arguments) {
-  base::Problems problems = check(arguments);
-  std::vector<Job> jobs = problems.empty() ? read_jobs(arguments, problems) : std::vector<Job>();
-  if (problems.empty() && arguments.runs > 0) return series_command(arguments, jobs);
-  std::optional<io::AtomicFile> index;
-  if (problems.empty()) problems = prepare(arguments, jobs, index);
-  if (!problems.empty()) {
-    complain(problems);
-    return Exit::bad_input;
-  }
-  catch_interrupts();
-  run_all(jobs, arguments);
-  Exit exit = interrupted() ? Exit::interrupted : Exit::ok;
+/// What went wrong, what was cut short, the table, the index.
+Exit tell(const std::vector<Job>& jobs, const RunArguments& arguments, std::optional<io::AtomicFile>& index) {
+  Exit exit = interrupted() ? exit_of_interrupt() : Exit::ok;
   for (const Job& job : jobs) {
     if (!interrupted()) exit = graver(exit, job.exit_code());
     complain(job.problems());
+    print(job.cut_short(), stderr);
   }
   if (!arguments.quiet) print_table(jobs, arguments);
   if (index && !interrupted()) {
@@ -159,6 +100,71 @@ Exit run_command(const RunArguments& arguments) {
     if (!unwritten.empty()) exit = graver(exit, Exit::bad_input);
   }
   return exit;
+}
+
+Exit run_jobs(const RunArguments& arguments, JobsRead& read) {
+  std::optional<io::AtomicFile> index;
+  base::Problems problems = std::move(read.problems);
+  if (problems.empty() && arguments.runs > 0) return series_command(arguments, read.jobs);
+  if (problems.empty()) problems = prepare(arguments, read.jobs, index);
+  if (!problems.empty()) {
+    complain(problems);
+    return Exit::bad_input;
+  }
+  run_all(read.jobs, arguments);
+  return tell(read.jobs, arguments, index);
+}
+
+Exit run_again_on_save(const RunArguments& arguments) {
+  for (;;) {
+    JobsRead read = read_jobs(arguments);
+    const Watch watch(read.files);
+    const Exit exit = run_jobs(arguments, read);
+    if (interrupted()) return exit;
+    if (!arguments.quiet) print("-- runs again when a file is saved; Ctrl-C ends\n", stderr);
+    if (!watch.wait_for_a_change()) return exit;
+  }
+}
+
+Exit run_command(const RunArguments& arguments) {
+  if (const base::Problems problems = contradictions(arguments); !problems.empty()) {
+    complain(problems);
+    return Exit::bad_input;
+  }
+  catch_interrupts();
+  if (arguments.watch) return run_again_on_save(arguments);
+  JobsRead read = read_jobs(arguments);
+  return run_jobs(arguments, read);
+}
+
+void declare_options(CLI::App& run, RunArguments& a) {
+  run.add_option("FILE", a.files, "scenario files")->required();
+  run.add_option("--out", a.out, "folder for NAME.csv, NAME.json, NAME.html of each scenario and index.html");
+  run.add_option("--csv", a.paths.csv, "write the recorded trace");
+  run.add_option("--mat", a.paths.mat, "write the trace for MATLAB, Octave and scipy: MAT 5");
+  run.add_option("--mat73", a.paths.mat73, "write the trace as MAT 7.3, which is HDF5");
+  run.add_option("--vcd", a.paths.vcd, "write gates, Hall lines, timer and faults for a waveform viewer");
+  run.add_option("--json", a.paths.json, "write verdicts and figures; - for standard output");
+  run.add_option("--html", a.paths.html, "write the report");
+  take_sets(run, a.sets);
+  take_data(run, a.data_dir);
+  run.add_flag("--quiet", a.quiet, "no table, only errors and the exit code");
+  take_jobs(run, a.jobs);
+  CLI::Option* watch = run.add_flag("--watch", a.watch, "run again whenever a file that was read is saved");
+  CLI::Option* runs =
+      run.add_option("--runs", a.runs, "that many drives of the series that [[spread]] describes");
+  runs->excludes(watch)->check(CLI::Range(1, 1'000'000'000));
+  run.add_option("--seed", a.seed, "another series of drives; without it 1");
+  run.add_option("--drive", a.drive, "drive N of the series alone, with all its outputs")->excludes(runs);
+}
+
+}  // namespace
+
+Verb declare_run(CLI::App& app) {
+  CLI::App& run = *app.add_subcommand("run", "run scenarios and judge them");
+  const auto a = std::make_shared<RunArguments>();
+  declare_options(run, *a);
+  return {&run, calling(run_command, a)};
 }
 
 }  // namespace cli

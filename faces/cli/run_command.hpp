@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "faces/cli/exit_code.hpp"
 #include "faces/cli/job.hpp"
+#include "faces/cli/verb.hpp"
 
 namespace cli {
 
@@ -18,6 +18,7 @@ struct RunArguments {
   std::vector<std::string> sets;  ///< "key=value"
   std::string data_dir;
   bool quiet = false;
+  bool watch = false;
   unsigned jobs = 0;     ///< 0: one per core
   std::size_t runs = 0;  ///< of a series; 0: the nominal run alone
   std::uint64_t seed = 1;
@@ -25,6 +26,7 @@ struct RunArguments {
   std::string command;                 ///< the command line as it may be typed again
 };
 
-Exit run_command(const RunArguments& arguments);
+/// `sixstep run FILE ..`: runs scenarios, judges them, writes what is asked for.
+Verb declare_run(CLI::App& app);
 
 }  // namespace cli

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/cli/series_command.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <chrono>
+#include <optional>
 #include <stop_token>
 #include <thread>
 
 #include "batch/monte_carlo.hpp"
+#include "faces/cli/progress.hpp"
 #include "faces/cli/terminal.hpp"
 #include "io/series_table.hpp"
 
@@ -42,22 +41,19 @@ Exit exit_of(const batch::Series& series) {
 Exit series_command(const RunArguments& arguments, const std::vector<Job>& jobs) {
   catch_interrupts();
   const Interrupter interrupter;
-  const bool shows = !arguments.quiet && ::isatty(STDERR_FILENO) != 0;
-  const std::size_t step = arguments.runs / 1000 + 1;  // a terminal is slower than a run
-  const auto tell = [&](std::size_t done) {
-    if (shows && (done % step == 0 || done == arguments.runs))
-      print(fmt::format("\r{} of {} done", done, arguments.runs), stderr);
-  };
   Exit exit = Exit::ok;
   for (const Job& job : jobs) {
-    const batch::Series series = batch::monte_carlo(job.scenario(), {.runs = arguments.runs,
-                                                                     .seed = arguments.seed,
-                                                                     .jobs = arguments.jobs,
-                                                                     .stop = interrupter.token(),
-                                                                     .progress = tell});
-    if (shows) print("\r\x1b[K", stderr);
+    std::optional<Progress> progress;
+    progress.emplace(Work{.seconds = {}, .pieces = arguments.runs}, arguments.quiet);
+    const batch::Series series = batch::monte_carlo(
+        job.scenario(), {.runs = arguments.runs,
+                         .seed = arguments.seed,
+                         .jobs = arguments.jobs,
+                         .stop = interrupter.token(),
+                         .progress = [&](std::size_t done) { progress->pieces_done(done); }});
+    progress.reset();
     if (!arguments.quiet) print(io::series_table(job.name(), series, arguments.seed));
-    exit = graver(exit, interrupted() ? Exit::interrupted : exit_of(series));
+    exit = graver(exit, interrupted() ? exit_of_interrupt() : exit_of(series));
     if (interrupted()) break;
   }
   return exit;

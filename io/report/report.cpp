@@ -10,6 +10,7 @@
 #include "io/report/parameters.hpp"
 #include "io/report/plots.hpp"
 #include "io/report/verdicts.hpp"
+#include "sixstep/study/run.hpp"
 
 namespace io::report {
 namespace {
@@ -27,7 +28,7 @@ std::string alerts(const ReportInput& in) {
   if (in.outcome.fault)
     html += fmt::format("<p class=\"alert\" role=\"alert\"><b>Fault.</b> {}</p>\n",
                         escaped(sixstep::base::to_string(*in.outcome.fault)));
-  if (!in.outcome.fault && in.outcome.simulated_s < in.scenario.duration_s * (1.0 - 1e-9))
+  if (sixstep::study::cut_short(in.scenario, in.outcome))
     html +=
         fmt::format("<p class=\"alert\" role=\"alert\"><b>Interrupted</b> at {} of {}.</p>\n",
                     escaped(given(in.outcome.simulated_s, "s")), escaped(given(in.scenario.duration_s, "s")));

@@ -25,6 +25,7 @@ Watchers watchers(const Scenario& s, const Compiled& compiled, const Listeners& 
   std::vector<std::size_t> every(column_count);
   for (std::size_t c = 0; c < column_count; ++c) every[c] = c;
   if (listeners.on_event) w.report.emplace(gap_s, mode, every, listeners.on_event);
+  if (listeners.on_logic) w.logic.emplace(listeners.on_logic);
   return w;
 }
 
@@ -55,6 +56,12 @@ base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners) 
   }
   w.figures.judge(scenario, out);
   return out;
+}
+
+/// A run that reaches its end stands there to rounding of the instant in seconds.
+bool cut_short(const Scenario& scenario, const Outcome& outcome) {
+  const bool stopped = outcome.fault && !outcome.trip;  // a drive that trips coasts on
+  return !stopped && outcome.simulated_s < scenario.duration_s * (1.0 - 1e-9);
 }
 
 }  // namespace sixstep::study

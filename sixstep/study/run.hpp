@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sixstep/base/result.hpp"
+#include "sixstep/study/logic.hpp"
 #include "sixstep/study/outcome.hpp"
 #include "sixstep/study/scenario.hpp"
 
@@ -19,6 +20,7 @@ using Row = std::span<const double>;
 struct Listeners {
   std::function<void(Row)> on_record;  ///< the scenario's [record]: columns record_columns(scenario)
   std::function<void(Row)> on_event;   ///< every event, both sides of each jump: columns all_columns()
+  LogicSink on_logic;  ///< gates, Hall lines, timer and the like, as logic_signals() names them
   std::function<bool(double t_s)> keep_going;  ///< now and then; false ends the run early
   bool keep_books = true;  ///< energy and standing laws: about half the time of a run with a few figures
 };
@@ -37,5 +39,8 @@ base::Problems check(const Scenario& scenario);
 /// Runs it. A fault (shoot-through, impossible Hall code, a trip of the product drive) is part of the
 /// outcome; Problems mean it could not start.
 base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners = {});
+
+/// Someone ended the run before its time (Listeners::keep_going); a run that a fault stopped is whole.
+bool cut_short(const Scenario& scenario, const Outcome& outcome);
 
 }  // namespace sixstep::study

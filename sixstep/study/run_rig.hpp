@@ -42,6 +42,7 @@ base::Problems run_rig(Rig& rig, const Compiled& compiled, Watchers& w, Outcome&
   out.segments = run.segments;
   out.simulated_s = t_s;
   out.digest = w.digest.after(rig);
+  if (w.logic) w.logic->end(rig);
   count_events(rig, out);
   return {};
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// All who watch a run, in one observer: books, digest, figures of merit, recorders.
+// All who watch a run, in one observer: books, digest, figures of merit, recorders of rows and of logic.
 #pragma once
 #include <functional>
 #include <optional>
 
 #include "sixstep/study/digest.hpp"
 #include "sixstep/study/figures.hpp"
+#include "sixstep/study/logic_recorder.hpp"
 #include "sixstep/study/recorder.hpp"
 
 namespace sixstep::study {
@@ -16,6 +17,7 @@ struct Watchers {
   Figures figures;
   std::optional<GridRecorder> grid;
   std::optional<EventRecorder> events, report;
+  std::optional<LogicRecorder> logic;
   std::function<bool(double)> keep_going;
   std::int64_t segments = 0;
 
@@ -27,6 +29,7 @@ struct Watchers {
     if (grid) grid->segment(rig, s);
     if (events) events->segment(rig, s);
     if (report) report->segment(rig, s);
+    if (logic) logic->segment(rig, s);
     ++segments;
   }
   /// Asked often enough to answer a person at once, and seldom enough to cost nothing.

@@ -82,29 +82,10 @@ class CommandLine(ProgramTest):
         self.assertEqual(summary["require"][0]["max"], 1000)
         self.assertIn("ok", result.stderr)
 
-    def test_csv_begins_with_its_columns(self):
-        self.run_program("run", R1, "--csv", "r1.csv", "--quiet")
-        self.assertTrue((self.path / "r1.csv").read_text().startswith("t_s,"))
-
     def test_set_is_stronger_than_the_file(self):
         good = self.write("a.toml", 1000)
         summary = json.loads(self.run_program("run", good, "--json", "-", "--set", "duration_s=2e-4").stdout)
         self.assertEqual(summary["duration_s"], 2e-4)
-
-    def test_ctrl_c_leaves_what_is_finished_under_a_partial_name(self):
-        good = self.write("a.toml", 1000)
-        words = [PROGRAM, "run", good, "--csv", "a.csv", "--json", "a.json", "--set", "duration_s=1e4",
-                 "--set", "record.grid_s=1"]
-        with subprocess.Popen(words, cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as program:
-            deadline = time.monotonic() + 20
-            while len(self.names()) < 3 and time.monotonic() < deadline:  # both outputs are open before the run begins
-                time.sleep(0.01)
-            time.sleep(0.2)
-            program.send_signal(signal.SIGINT)
-            program.communicate(timeout=20)
-        self.assertEqual(program.returncode, 130)
-        self.assertEqual(self.names(), ["a.partial.csv", "a.toml"])
-        self.assertTrue((self.path / "a.partial.csv").read_text().startswith("t_s,"))
 
     def write_series(self, limit, spread=SPREAD):
         (self.path / "a.toml").write_text(SHORT.format(limit=limit).replace("1e-4", "20e-3") + spread)

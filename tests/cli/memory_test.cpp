@@ -86,6 +86,19 @@ TEST_F(Memory, DoesNotGrowWhileEveryEventStreamsToAFile) {
   EXPECT_GT(std::filesystem::file_size(file("events.csv")), 20'000'000u);
 }
 
+// The columns wait on the disk in blocks of 2048 rows; libmatio's and HDF5's own buffers have their size from
+// the first block on.
+TEST_F(Memory, DoesNotGrowWhileColumnsWaitForTheirMatFiles) {
+  EXPECT_LE(growth_KiB({"--mat", file("a.mat"), "--mat73", file("h.mat"), "--set", "record.grid_s=10e-6"}),
+            bound_KiB);
+  EXPECT_GT(std::filesystem::file_size(file("a.mat")), 3u * 1024u * bound_KiB);
+}
+
+TEST_F(Memory, DoesNotGrowWhileLogicSignalsStreamToAFile) {
+  EXPECT_LE(growth_KiB({"--vcd", file("a.vcd")}), bound_KiB);
+  EXPECT_GT(std::filesystem::file_size(file("a.vcd")), 3u * 1024u * bound_KiB);
+}
+
 TEST_F(Memory, OfAReportGrowsSoTheMeasureSeesWhatIsKept) {
   EXPECT_GT(growth_KiB({"--html", file("report.html")}), bound_KiB);
 }

@@ -12,6 +12,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/csv_writer.hpp"
+#include "io/mat_writer.hpp"
 #include "io/text_file.hpp"
 
 namespace io {
@@ -99,7 +100,8 @@ TEST_F(Files, AFullDiskIsToldByCommit) {
 
 TEST_F(Files, CsvStartsWithItsColumnsAndNumbersComeBackBitForBit) {
   const std::vector<study::Column> columns{{"t_s", "s", "", ""}, {"x", "", "", ""}};
-  base::Result<CsvWriter> csv = CsvWriter::create(at("a.csv"), columns);
+  base::Result<CsvWriter> csv =
+      CsvWriter::create(at("a.csv"), columns, std::vector<std::string>{"from here"});
   ASSERT_TRUE(csv);
   constexpr unsigned seed = 20260;
   std::mt19937_64 random(seed);
@@ -113,6 +115,8 @@ TEST_F(Files, CsvStartsWithItsColumnsAndNumbersComeBackBitForBit) {
   std::istringstream text(*read_text(at("a.csv")));
   std::string line;
   std::getline(text, line);
+  EXPECT_EQ(line, "# from here");
+  std::getline(text, line);
   EXPECT_EQ(line, "t_s,x");
   for (std::size_t n = 0; n < numbers.size(); n += 2) {
     ASSERT_TRUE(std::getline(text, line));
@@ -124,6 +128,23 @@ TEST_F(Files, CsvStartsWithItsColumnsAndNumbersComeBackBitForBit) {
         << seed << " " << n;
   }
   EXPECT_FALSE(std::getline(text, line));
+}
+
+TEST_F(Files, AColumnTooLongForMat5EndsTheTraceAndNamesTheCure) {
+  const std::vector<study::Column> columns{{"t_s", "s", "", ""}, {"x", "", "", ""}};
+  constexpr std::size_t most = 2 * ColumnSpool::block_rows + 1;  // a third block would be beyond it
+  base::Result<MatWriter> mat = MatWriter::create(at("a.mat"), columns, MatVersion::v5, {}, most);
+  ASSERT_TRUE(mat);
+  std::size_t rows = 0;
+  for (; !mat->failed(); ++rows) mat->row(std::vector<double>{double(rows), 1.0});
+  EXPECT_EQ(rows, 2 * ColumnSpool::block_rows + 1) << "the row that is refused tells it";
+  EXPECT_EQ(to_string(mat->commit(0).at(0)),
+            at("a.mat") +
+                ": has 4096 rows, and a column of MAT 5 ends at 2 GiB; take --mat73, or record less; what "
+                "was finished is in " +
+                at("a.partial.mat"));
+  EXPECT_GT(fs::file_size(at("a.partial.mat")), 2 * 4096 * sizeof(double));
+  EXPECT_EQ(entries(), 1U);
 }
 
 TEST(AppendNumber, WritesNoDigitThatIsNotNeeded) {

@@ -97,6 +97,7 @@ TEST(Pitfall10_RecordersChangeNoBit, WhoeverListens) {
     EXPECT_EQ(digest_of(s, {.keep_books = false}), alone);
     s.record.events = true;
     EXPECT_EQ(digest_of(s, {.on_record = [](Row) {}, .on_event = [](Row) {}}), alone);
+    EXPECT_EQ(digest_of(s, {.on_logic = [](std::int64_t, std::span<const std::uint32_t>) {}}), alone);
   }
 }
 

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/outputs.hpp"
+
+#include <filesystem>
+#include <utility>
+
+#include "faces/cli/report_page.hpp"
+#include "faces/cli/terminal.hpp"
+#include "io/json_summary.hpp"
+
+namespace cli {
+namespace {
+
+template <class File>
+void keep(std::optional<File>& into, base::Result<File> file, base::Problems& problems) {
+  if (file)
+    into.emplace(std::move(*file));
+  else
+    problems.insert(problems.end(), file.problems().begin(), file.problems().end());
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> OutputPaths::files() const {
+  std::vector<std::pair<std::string, std::string>> wanted;
+  for (const auto& [option, path] : {std::pair{"--csv", &csv},
+                                     {"--mat", &mat},
+                                     {"--mat73", &mat73},
+                                     {"--vcd", &vcd},
+                                     {"--json", &json},
+                                     {"--html", &html}})
+    if (!path->empty() && *path != "-") wanted.emplace_back(option, *path);
+  return wanted;
+}
+
+base::Problems Outputs::open(const OutputPaths& paths, const study::Scenario& scenario,
+                             const io::TraceOrigin& origin) {
+  paths_ = paths;
+  base::Problems problems;
+  base::Result<std::vector<study::Column>> columns = study::record_columns(scenario);
+  if (!columns) return columns.problems();
+  if (!paths.csv.empty())
+    keep(csv_, io::CsvWriter::create(paths.csv, *columns, io::origin_lines(origin)), problems);
+  if (!paths.mat.empty())
+    keep(mat_, io::MatWriter::create(paths.mat, *columns, io::MatVersion::v5, origin), problems);
+  if (!paths.mat73.empty())
+    keep(mat73_, io::MatWriter::create(paths.mat73, *columns, io::MatVersion::v7_3, origin), problems);
+  if (!paths.vcd.empty())
+    keep(vcd_, io::VcdWriter::create(paths.vcd, study::logic_signals(), origin), problems);
+  if (!paths.json.empty() && paths.json != "-") keep(json_, io::AtomicFile::create(paths.json), problems);
+  if (!paths.html.empty()) keep(html_, io::AtomicFile::create(paths.html), problems);
+  return problems;
+}
+
+void Outputs::listen(study::Listeners& listeners) {
+  if (csv_ || mat_ || mat73_)
+    listeners.on_record = [this](study::Row row) {
+      if (csv_) csv_->row(row);
+      if (mat_) mat_->row(row);
+      if (mat73_) mat73_->row(row);
+    };
+  if (vcd_)
+    listeners.on_logic = [this](std::int64_t ps, std::span<const std::uint32_t> row) {
+      vcd_->change(ps, row);
+    };
+  if (!html_) return;
+  events_.columns = study::all_columns();
+  events_.values.resize(events_.columns.size());
+  events_.every_event = true;
+  listeners.on_event = [this](study::Row row) {
+    for (std::size_t n = 0; n < row.size(); ++n) events_.values[n].push_back(row[n]);
+  };
+}
+
+bool Outputs::failed() const {
+  return (csv_ && csv_->failed()) || (mat_ && mat_->failed()) || (mat73_ && mat73_->failed()) ||
+         (vcd_ && vcd_->failed());
+}
+
+/// Put in place and closed. A file that was not put in place takes its temporary name with it.
+template <class File, class... Facts>
+void Outputs::put(std::optional<File>& file, const std::string& path, bool whole, Facts... facts) {
+  if (!file) return;
+  const base::Problems problems = whole ? file->commit(facts...) : file->commit_partial(facts...);
+  problems_.insert(problems_.end(), problems.begin(), problems.end());
+  // What is no regular file has no such name.
+  const std::string partial = io::partial_name(path);
+  if (!whole && problems.empty() && std::filesystem::exists(partial)) partial_files_.push_back(partial);
+  file.reset();
+}
+
+base::Problems Outputs::publish(const RunStory& s, bool whole) {
+  put(csv_, paths_.csv, whole);
+  put(mat_, paths_.mat, whole, s.outcome.digest);
+  put(mat73_, paths_.mat73, whole, s.outcome.digest);
+  put(vcd_, paths_.vcd, whole);
+  if (json_) json_->write(io::json_summary(s.scenario, s.outcome));
+  put(json_, paths_.json, whole);
+  if (html_) html_->write(report_page({s.scenario, s.outcome, events_, s.origin.scenario, s.origin.command}));
+  put(html_, paths_.html, whole);
+  if (paths_.json == "-" && whole) print(io::json_summary(s.scenario, s.outcome));
+  events_ = {};
+  return std::exchange(problems_, {});
+}
+
+}  // namespace cli

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files of one run: opened before it begins, filled while it goes on, put in place at its end.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "faces/cli/rooms.hpp"
+#include "io/csv_writer.hpp"
+#include "io/mat_writer.hpp"
+#include "io/vcd_writer.hpp"
+#include "sixstep/study/run.hpp"
+
+namespace cli {
+
+struct OutputPaths {
+  std::string csv, mat, mat73, vcd, json, html;  ///< empty: not wanted; json "-": standard output
+
+  /// Each that is wanted with its option, standard output left out.
+  std::vector<std::pair<std::string, std::string>> files() const;
+};
+
+/// A run and what it came to, as the summary and the report tell it.
+struct RunStory {
+  const study::Scenario& scenario;
+  const study::Outcome& outcome;
+  const io::TraceOrigin& origin;
+};
+
+class Outputs {
+ public:
+  /// Problems mean that nothing was written and nothing must run.
+  base::Problems open(const OutputPaths& paths, const study::Scenario& scenario,
+                      const io::TraceOrigin& origin);
+
+  void listen(study::Listeners& listeners);
+
+  /// One of them can be written no longer: a disk is full, or the reader of a pipe has gone.
+  bool failed() const;
+
+  /// A run that was cut short leaves NAME.partial.EXT of each, and nothing on standard output.
+  base::Problems publish(const RunStory& story, bool whole);
+
+  /// The names under which a cut run's files stand.
+  const std::vector<std::string>& partial_files() const { return partial_files_; }
+
+ private:
+  template <class File, class... Facts>
+  void put(std::optional<File>& file, const std::string& path, bool whole, Facts... facts);
+
+  OutputPaths paths_;
+  std::optional<io::CsvWriter> csv_;
+  std::optional<io::MatWriter> mat_, mat73_;
+  std::optional<io::VcdWriter> vcd_;
+  std::optional<io::AtomicFile> json_, html_;
+  study::Trace events_;  // for the report only
+  base::Problems problems_;
+  std::vector<std::string> partial_files_;
+};
+
+}  // namespace cli

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/run_reading.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "faces/cli/settings.hpp"
+#include "io/scenario_file.hpp"
+#include "io/text_file.hpp"
+#include "sixstep/study/spread.hpp"
+
+namespace cli {
+namespace {
+
+void append(base::Problems& to, const base::Problems& more) { to.insert(to.end(), more.begin(), more.end()); }
+
+std::string place(const std::string& file) { return fmt::format("{}:", file); }
+
+/// Of what is read for a scenario and of what the command line sets in it.
+std::uint64_t inputs_digest(const io::ReadLog& log, const RunArguments& a) {
+  std::uint64_t digest = log.digest();
+  for (const std::string& set : a.sets) digest = io::text_digest(set, digest);
+  return a.drive ? io::text_digest(fmt::format("seed {} drive {}", a.seed, *a.drive), digest) : digest;
+}
+
+std::optional<Job> read_job(const std::string& file, const RunArguments& arguments,
+                            const io::ReadOptions& options, JobsRead& into) {
+  const io::ReadLog log;
+  base::Result<study::Scenario> scenario = io::read_scenario(file, options);
+  into.files.insert(into.files.end(), log.paths().begin(), log.paths().end());
+  if (!scenario) {
+    append(into.problems, scenario.problems());
+    return {};
+  }
+  if ((arguments.runs > 0 || arguments.drive) && scenario->spread.empty())
+    into.problems.push_back({.where = place(file),
+                             .limit = "describes no series: all drives would be the same",
+                             .cure = "say in [[spread]] what differs; see: sixstep help spread"});
+  if (arguments.drive) *scenario = study::varied(*scenario, arguments.seed, *arguments.drive);
+  io::TraceOrigin origin{.scenario = file,
+                         .digest = inputs_digest(log, arguments),
+                         .title = scenario->title,
+                         .motor = scenario->sheet.name,
+                         .command = arguments.command};
+  return Job(std::move(*scenario), std::move(origin));
+}
+
+base::Problems same_outputs(const RunArguments& arguments) {
+  base::Problems problems;
+  std::map<std::string, std::string> stems, outputs;
+  for (const std::string& file : arguments.files) {
+    const auto [other, is_new] = stems.emplace(std::filesystem::path(file).stem().string(), file);
+    if (!arguments.out.empty() && !is_new)
+      problems.push_back({.where = place(file),
+                          .limit = fmt::format("would write the same outputs as {}", other->second),
+                          .cure = "rename one or run them apart"});
+  }
+  for (const auto& [option, path] : arguments.paths.files()) {
+    std::error_code ignored;
+    const bool device =
+        std::filesystem::is_other(path, ignored) || std::filesystem::is_character_file(path, ignored);
+    if (device) continue;  // /dev/null takes them all
+    const auto [other, is_new] = outputs.emplace(path, option);
+    if (!is_new)
+      problems.push_back({.where = option,
+                          .value = path,
+                          .limit = fmt::format("is what {} writes", other->second),
+                          .cure = "give each its own file"});
+  }
+  return problems;
+}
+
+}  // namespace
+
+base::Problems contradictions(const RunArguments& arguments) {
+  base::Problems problems;
+  const bool single = !arguments.paths.files().empty() || !arguments.paths.json.empty();
+  if (single && (arguments.files.size() > 1 || !arguments.out.empty()))
+    problems.push_back({.where = "--csv, --mat, --mat73, --vcd, --json, --html",
+                        .limit = "name the outputs of one scenario",
+                        .cure = "with several files or --out use --out DIR alone"});
+  if (arguments.runs > 0 && (single || !arguments.out.empty()))
+    problems.push_back({.where = "--runs",
+                        .limit = "writes no files of single runs",
+                        .cure = "write those of one drive with --drive N instead of --runs"});
+  append(problems, same_outputs(arguments));
+  return problems;
+}
+
+JobsRead read_jobs(const RunArguments& arguments) {
+  JobsRead read;
+  const io::ReadOptions options = read_options(arguments.data_dir, arguments.sets, read.problems);
+  if (!read.problems.empty()) return read;
+  for (const std::string& file : arguments.files)
+    if (std::optional<Job> job = read_job(file, arguments, options, read))
+      read.jobs.push_back(std::move(*job));
+  return read;
+}
+
+}  // namespace cli

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a trace comes from, in the words that every trace file begins with.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/rooms.hpp"
+
+namespace io {
+
+struct TraceOrigin {
+  std::string scenario;      ///< the file's name
+  std::uint64_t digest = 0;  ///< of everything that was read for it, and of what the command line set
+  std::string title, motor;
+  std::string command;  ///< makes the trace again
+};
+
+/// Three lines without a line break in them: program and version, scenario with digest, command.
+std::vector<std::string> origin_lines(const TraceOrigin& origin);
+
+}  // namespace io

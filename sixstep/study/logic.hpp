@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a logic analyser on the board would show: gates, Hall lines, timer, comparators, faults, at the rig's
+// own integer picoseconds.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sixstep::study {
+
+enum class LogicKind : std::uint8_t {
+  level,  ///< a number of `bits` bits, or logic_unknown
+  event   ///< happens where its number, a count, goes up
+};
+
+struct LogicSignal {
+  std::string group, name;
+  int bits = 1;
+  LogicKind kind = LogicKind::level;
+  std::string meaning;
+};
+
+enum class LogicId : std::uint8_t {
+  T1,
+  T2,
+  T3,
+  T4,
+  T5,
+  T6,
+  H1,
+  H2,
+  H3,
+  sector,
+  tick,
+  periods,
+  pwm,
+  enabled,
+  comparator_1,
+  comparator_2,
+  shoot_through,
+  impossible_hall,
+  over_current,  ///< from here in the order of control::Fault's bits
+  over_voltage,
+  under_voltage,
+  over_speed,
+  hall,
+  stall,
+  calibration,
+  align,
+  count
+};
+inline constexpr std::size_t logic_count = static_cast<std::size_t>(LogicId::count);
+using LogicRow = std::array<std::uint32_t, logic_count>;
+
+/// A comparator that nobody armed tells nothing.
+inline constexpr std::uint32_t logic_unknown = 0xffff'ffffu;
+
+/// In the order of LogicId.
+const std::vector<LogicSignal>& logic_signals();
+
+/// An instant in ps and every signal from there on. Instants rise, and each row differs from the one before;
+/// but the last, which tells the end of the run.
+using LogicSink = std::function<void(std::int64_t ps, std::span<const std::uint32_t>)>;
+
+}  // namespace sixstep::study

@@ -1,0 +1,249 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What a run writes, read back by those whom it is written for: numpy, scipy, h5py, Octave where it is installed, a
+reader of value change dumps, and a validator of JSON Schema."""
+import collections
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import unittest
+
+import h5py
+import jsonschema
+import numpy
+import scipy.io
+
+from program import SOURCE, ProgramTest
+
+PS = 1e12
+
+
+def scenario(name):
+    return str(SOURCE / f"data/scenarios/{name}.toml")
+
+
+def read_csv(path):
+    """As docs/results.md says: three lines of comment, the names, the numbers."""
+    return numpy.genfromtxt(path, delimiter=",", names=True, skip_header=3)
+
+
+class Dump:
+    """A value change dump: for each signal its (ps, value) in order; value is an int, or None for x."""
+
+    def __init__(self, path):
+        self.changes, self.kinds, self.end = collections.defaultdict(list), {}, 0
+        names, scopes = {}, []
+        head, body = pathlib.Path(path).read_text().split("$enddefinitions $end\n")
+        for words in map(str.split, head.splitlines()):
+            if words[0] == "$timescale":
+                self.timescale = " ".join(words[1:-1])
+            elif words[0] == "$scope":
+                scopes.append(words[2])
+            elif words[0] == "$upscope":
+                scopes.pop()
+            elif words[0] == "$var":
+                names[words[3]] = ".".join([*scopes, words[4]])
+                self.kinds[names[words[3]]] = words[1]
+        assert not scopes, "every scope is closed"
+        now = None
+        for line in body.splitlines():
+            if line.startswith("#"):
+                then, now = now, int(line[1:])
+                assert then is None or now > then, f"time goes back at {line}"
+            elif line.startswith("b"):
+                bits, code = line[1:].split()
+                self.changes[names[code]].append((now, int(bits, 2)))
+            elif not line.startswith("$"):
+                self.changes[names[line[1:]]].append((now, {"0": 0, "1": 1, "x": None}[line[0]]))
+        self.end = now
+
+    def times(self, name):
+        return numpy.array([ps for ps, _ in self.changes[name]])
+
+    def at(self, name, ps):
+        """The values in force at rising instants."""
+        values = numpy.array([-1 if v is None else v for _, v in self.changes[name]])
+        return values[numpy.searchsorted(self.times(name), ps, side="right") - 1]
+
+
+class Tables(ProgramTest):
+    def written(self, *words, code=0):
+        self.run_program("run", *words, "--quiet", "--json", "s.json", code=code)
+        return json.loads((self.path / "s.json").read_text())
+
+    def test_csv_mat_5_and_mat_7_3_hold_the_same_numbers(self):
+        title = "title=\"Müller \U0001f980\""
+        s = self.written(scenario("thesis/7.3.2-motor-soft"), "--csv", "a.csv", "--mat", "a.mat", "--mat73", "h.mat",
+                         "--set", "record.events=true", "--set", title)
+        text = read_csv(self.path / "a.csv")
+        five = scipy.io.loadmat(self.path / "a.mat", simplify_cells=True)
+        names = text.dtype.names
+        self.assertGreater(len(text), 2 * 2048, "more than two blocks of rows")
+        self.assertEqual(names[:2], ("t_s", "i_a_A"))
+        with h5py.File(self.path / "h.mat") as seven:
+            chars = lambda group, key: seven[group][key][()].tobytes().decode("utf-16-le").strip("\0")
+            for name in names:
+                numpy.testing.assert_array_equal(five[name], text[name], err_msg=name)
+                numpy.testing.assert_array_equal(seven[name][()].ravel(), text[name], err_msg=name)
+                self.assertEqual(chars("units", name), five["units"][name])
+            self.assertEqual(chars("sixstep", "title"), "Müller \ufffd")
+            self.assertEqual(chars("sixstep", "digest"), s["digest"])
+        self.assertEqual(five["units"]["speed_rad_s"], "rad/s")
+        self.assertEqual(five["units"]["hall"], "1")
+        self.assertEqual(five["meanings"]["i_a_A"], "current of phase a; phase, into the motor")
+        self.assertEqual(five["sixstep"]["title"], "Müller \ufffd")  # beyond U+FFFF sizes are in doubt
+        self.assertEqual(five["sixstep"]["digest"], s["digest"])
+        self.assertIn("--mat a.mat", five["sixstep"]["command"])
+        self.assertEqual(self.names(), ["a.csv", "a.mat", "h.mat", "s.json"])
+
+    @unittest.skipUnless(shutil.which("octave-cli"), "Octave is not installed")
+    def test_octave_reads_all_three(self):
+        self.written(scenario("reference/R1"), "--csv", "a.csv", "--mat", "a.mat", "--mat73", "h.mat")
+        script = """a = load("a.mat"); h = load("h.mat"); c = dlmread("a.csv", ",", 4, 0);
+          assert(a.i_a_A, h.i_a_A); assert(a.t_s, c(:, 1)); assert(a.i_a_A, c(:, 2)); assert(size(a.t_s, 2), 1);
+          assert(a.units.i_a_A, "A"); assert(char(h.sixstep.digest(:)'), a.sixstep.digest); disp("read")"""
+        told = subprocess.run(["octave-cli", "--norc", "--eval", script], cwd=self.path, capture_output=True, text=True)
+        self.assertEqual(told.stdout.strip(), "read", told.stderr)
+
+    def test_a_trace_says_where_it_comes_from(self):
+        def block(*words):
+            self.run_program("run", *words, "--csv", "a.csv", "--quiet")
+            return (self.path / "a.csv").read_text().splitlines()[:4]
+        lines = block(self.write("a.toml", 1000))
+        version = self.run_program("--version").stdout.strip()
+        self.assertEqual(lines[0], f"# {version}")
+        self.assertRegex(lines[1], "^# scenario: a.toml, digest [0-9a-f]{16}$")
+        self.assertEqual(lines[2], "# command: sixstep run a.toml --csv a.csv --quiet")
+        self.assertTrue(lines[3].startswith("t_s,"))
+        digest = lambda lines: lines[1][-16:]
+        self.assertEqual(digest(block(self.write("b.toml", 1000))), digest(lines), "contents count, not names")
+        self.assertNotEqual(digest(block(self.write("a.toml", 1001))), digest(lines))
+        self.assertNotEqual(digest(block("b.toml", "--set", "supply.voltage_V=12")), digest(lines))
+        # A motor's file is part of it.
+        motor = self.run_program("motor", "new").stdout
+        shipped = (SOURCE / "data/motors/maxon-251601.toml").read_text()
+        self.assertTrue(motor)
+        (self.path / "own.toml").write_text(shipped)
+        text = (self.path / "b.toml").read_text().replace('"maxon-251601"', '"own.toml"')
+        (self.path / "b.toml").write_text(text)
+        before = digest(block("b.toml"))
+        (self.path / "own.toml").write_text("# looked at again\n" + shipped)
+        self.assertNotEqual(digest(block("b.toml")), before)
+        # What ends a line would end the comment.
+        self.assertEqual(block("b.toml", "--set", 'title="two\\nlines"', "--set", "notes='a\nb'")[3], lines[3])
+
+    def test_a_pipe_takes_csv_and_mat_5_but_not_hdf5(self):
+        self.assertIn("HDF5 writes to and fro", self.run_program(
+            "run", self.write("a.toml", 1000), "--mat73", "/dev/stdout", code=2).stderr)
+        words = ["run", "a.toml", "--quiet", "--mat"]
+        self.run_program(*words, "a.mat")
+        self.run_program(*words, "/dev/null")
+        self.assertIn("is what --csv writes", self.run_program("run", "a.toml", "--csv", "x.mat", "--mat", "x.mat", code=2).stderr)
+
+
+class Waveforms(ProgramTest):
+    def dumped(self, name, *words, code=0):
+        self.run_program("run", scenario(name), "--vcd", "w.vcd", "--json", "s.json", "--quiet", *words, code=code)
+        return Dump(self.path / "w.vcd"), json.loads((self.path / "s.json").read_text())
+
+    def test_what_the_run_counted_is_in_the_dump(self):
+        dump, s = self.dumped("thesis/7.3.2-motor-soft")
+        self.assertEqual(dump.timescale, "1 ps")
+        self.assertEqual(dump.end, round(s["simulated_s"] * PS))
+        ticks = dump.times("board.timer.tick")
+        self.assertEqual(len(ticks), s["events"]["control ticks"])
+        numpy.testing.assert_array_equal(ticks, 30_000_000 * numpy.arange(len(ticks)))  # 30 us, to the picosecond
+        self.assertEqual(dump.changes["board.timer.periods"][-1][1], len(ticks))
+        self.assertEqual(len(dump.times("board.hall.sector")) - 1, s["events"]["sector edges"])
+        armed = [v for _, v in dump.changes["board.comparators.comparator_1"] if v is not None]
+        self.assertEqual(sum(a != b for a, b in zip(armed, armed[1:])), s["events"]["comparator switches"])
+        self.assertEqual(dump.changes["board.comparators.comparator_2"], [(0, None)])  # nobody watches the sink leg
+        self.assertTrue(all(dump.changes[f"board.faults.{n}"] == [(0, 0)] for n in ("shoot_through", "over_current")))
+
+    def test_gates_hall_lines_and_sector_are_those_of_the_recorded_events(self):
+        dump, _ = self.dumped("reference/R3", "--csv", "a.csv", "--set", "record.events=true", "--set",
+                              'record.columns=["gate_T1","gate_T2","gate_T3","gate_T4","gate_T5","gate_T6","hall","sector"]')
+        rows = read_csv(self.path / "a.csv")
+        # Between two rows nothing changes; where they are 2 ps apart, a time in seconds still tells before from after.
+        long = numpy.nonzero(numpy.diff(rows["t_s"]) > 2 / PS)[0] + 1
+        middle = (rows["t_s"][long - 1] + rows["t_s"][long]) / 2 * PS
+        for name in ("T1", "T2", "T3", "T4", "T5", "T6"):
+            numpy.testing.assert_array_equal(dump.at(f"board.gates.{name}", middle), rows[f"gate_{name}"][long], name)
+        hall = sum(dump.at(f"board.hall.H{n}", middle) << 3 - n for n in (1, 2, 3))
+        numpy.testing.assert_array_equal(hall, rows["hall"][long])
+        numpy.testing.assert_array_equal(dump.at("board.hall.sector", middle), rows["sector"][long])
+        self.assertGreater(len(long), 500)
+
+    def test_a_trip_rises_where_the_drive_latched_it(self):
+        dump, s = self.dumped("product-broken-hall-line", code=3)
+        self.assertEqual(dump.changes["board.faults.hall"], [(0, 0), (round(s["trip"]["at_s"] * PS), 1)])
+        self.assertEqual(dump.at("board.timer.enabled", numpy.array([dump.end])), [0])
+        self.assertTrue(all(dump.at(f"board.gates.T{n}", numpy.array([dump.end])) == [0] for n in range(1, 7)))
+
+
+    def test_a_fault_that_ends_the_run_stands_at_its_end(self):
+        turning = 'motor = "maxon-251601"\nduration_s = 0.2\ncontrol.mode = "duty"\nreference.value = 1\n'
+        (self.path / "a.toml").write_text(turning + "sensors.hall_break = {at_s = 0.05, line = 2}\n")
+        self.run_program("run", "a.toml", "--vcd", "w.vcd", "--quiet", code=3)
+        dump = Dump(self.path / "w.vcd")
+        self.assertEqual(dump.changes["board.faults.impossible_hall"], [(0, 0), (dump.end, 1)])
+        lines = [dump.at(f"board.hall.H{n}", numpy.array([dump.end]))[0] for n in (1, 2, 3)]
+        self.assertIn(lines, ([0, 0, 0], [1, 1, 1]))
+
+
+class Page(ProgramTest):
+    """What docs/results.md says is what happens."""
+    PAGE = (SOURCE / "docs/results.md").read_text()
+
+    def test_its_lines_of_python_read_the_files(self):
+        self.run_program("run", scenario("reference/R1"), "--quiet", "--csv", "my.csv", "--mat", "my.mat", "--mat73", "my73.mat")
+        lines = [line for block in re.findall(r"```python\n(.*?)```", self.PAGE, re.S) for line in block.splitlines()]
+        self.assertEqual(len(lines), 3)
+        currents = []
+        for line in lines:
+            names = {"numpy": numpy, "scipy": scipy, "h5py": h5py}
+            exec(line.replace('"my.', f'"{self.path}/my.').replace('"my73', f'"{self.path}/my73'), names)
+            currents.append(numpy.ravel(names["trace"]["i_a_A"][()]))
+        self.assertGreater(len(currents[0]), 10)
+        numpy.testing.assert_array_equal(currents[0], currents[1])
+        numpy.testing.assert_array_equal(currents[0], currents[2])
+
+    def test_its_csv_is_the_one_that_is_written(self):
+        self.write("my.toml", 1000)
+        self.run_program("run", "my.toml", "--csv", "my.csv")
+        block = re.search(r"```\n(# sixstep.*?)```", self.PAGE, re.S).group(1).splitlines()
+        digest = lambda line: re.sub("[0-9a-f]{16}", "-", line)
+        lines = (self.path / "my.csv").read_text().splitlines()
+        self.assertEqual([digest(line) for line in block[:3]], [digest(line) for line in lines[:3]])
+        self.assertTrue(lines[3].startswith(block[3].removesuffix("...")))
+
+    def test_its_options_and_signals_are_those_of_the_program(self):
+        options = set(re.findall(r"^\| `(--\w+) F`", self.PAGE, re.M))
+        told = self.run_program("run", "--help").stdout
+        self.assertEqual(options, set(re.findall(r"^  (--\w+) .*write", told, re.M)))
+        self.run_program("run", self.write("a.toml", 1000), "--vcd", "w.vcd", "--quiet")
+        for name in Dump(self.path / "w.vcd").kinds:
+            _, group, signal = name.split(".")
+            self.assertIn(f"`{group}`", self.PAGE)
+
+
+class Summary(ProgramTest):
+    SCHEMA = json.loads((SOURCE / "docs/summary.schema.json").read_text())
+
+    def test_every_kind_of_run_keeps_to_the_schema(self):
+        jsonschema.Draft202012Validator.check_schema(self.SCHEMA)
+        check = jsonschema.Draft202012Validator(self.SCHEMA)
+        kinds = {"thesis/7.5-position": 0, "thesis/8a-exact-design": 0, "product-broken-hall-line": 3, "reference/R1": 0}
+        for name, code in kinds.items():
+            summary = json.loads(self.run_program("run", scenario(name), "--json", "-", code=code).stdout)
+            check.validate(summary)
+            self.assertTrue(summary["complete"])
+        self.assertEqual([e.message for e in check.iter_errors({**summary, "more": 1})],
+                         ["Additional properties are not allowed ('more' was unexpected)"])
+        self.assertTrue(list(check.iter_errors({**summary, "passed": "yes"})))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,228 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The program while it works: interrupted, on a full disk, into a pipe, on a terminal, watching its files."""
+import contextlib
+import fcntl
+import json
+import os
+import pty
+import re
+import resource
+import select
+import signal
+import struct
+import subprocess
+import termios
+import time
+import unittest
+
+from program import PROGRAM, SHORT, SOURCE, ProgramTest
+
+R3 = str(SOURCE / "data/scenarios/reference/R3.toml")
+ALL = {"--csv": "a.csv", "--mat": "a.mat", "--mat73": "h.mat", "--vcd": "a.vcd", "--json": "a.json", "--html": "a.html"}
+PARTIAL = ["a.partial.csv", "a.partial.html", "a.partial.json", "a.partial.mat", "a.partial.vcd", "h.partial.mat"]
+LONG = ["--set", "duration_s=1e4", "--set", "record.grid_s=1e-3"]
+
+
+class Session(ProgramTest):
+    @contextlib.contextmanager
+    def started(self, *words, **how):
+        how = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | how
+        with subprocess.Popen([PROGRAM, *words], cwd=self.path, **how) as program:
+            try:
+                yield program
+            finally:
+                program.kill()
+
+    def wait_until(self, holds, seconds=20):
+        deadline = time.monotonic() + seconds
+        while not holds():
+            self.assertLess(time.monotonic(), deadline, "it never came")
+            time.sleep(0.01)
+
+
+class Interruption(Session):
+    def interrupted(self, sent, *words):
+        with self.started("run", self.write("a.toml", 1000), *words, *LONG) as program:
+            outputs = sum(word in ALL for word in words)
+            self.wait_until(lambda: len(self.names()) >= 1 + outputs)  # all are open before the run begins
+            time.sleep(0.2)
+            program.send_signal(sent)
+            told = program.communicate(timeout=20)[1]
+        return program.returncode, told
+
+    def test_each_format_leaves_what_is_finished(self):
+        code, told = self.interrupted(signal.SIGINT, *[word for pair in ALL.items() for word in pair])
+        self.assertEqual(code, 130)
+        self.assertEqual(self.names(), sorted(PARTIAL + ["a.toml"]))
+        summary = json.loads((self.path / "a.partial.json").read_text())
+        self.assertFalse(summary["complete"])
+        at = summary["simulated_s"]
+        self.assertRegex(told, rf"a: interrupted at {at:.6g} s of 10000 s; what was finished is in a\.partial\.csv, a\.partial\.mat, "
+                               r"h\.partial\.mat, a\.partial\.vcd, a\.partial\.json, a\.partial\.html\n")
+        lines = (self.path / "a.partial.csv").read_text().splitlines()
+        self.assertEqual(len(lines[-1].split(",")), len(lines[3].split(",")), "the last row is whole")
+        self.assertAlmostEqual(float(lines[-1].split(",")[0]), at, delta=1e-3)  # rows stand 1 ms apart
+        end = (self.path / "a.partial.vcd").read_text().splitlines()[-1]
+        self.assertAlmostEqual(int(end[1:]), at * 1e12, delta=1)  # whole picoseconds
+        self.assertIn("<b>Interrupted</b> at", (self.path / "a.partial.html").read_text())
+        for name in ("a.partial.mat", "h.partial.mat"):
+            self.assertGreater((self.path / name).stat().st_size, 8 * (len(lines) - 4))
+
+    def test_sigterm_does_the_same_by_its_own_code(self):
+        self.assertEqual(self.interrupted(signal.SIGTERM, "--csv", "a.csv")[0], 143)
+        self.assertEqual(self.names(), ["a.partial.csv", "a.toml"])
+
+    def test_a_second_ctrl_c_ends_at_once(self):
+        # A pipe that nobody reads holds the program up: it cannot answer the first.
+        with self.started("run", self.write("a.toml", 1000), *LONG, "--csv", "/dev/stdout") as program:
+            self.wait_until(lambda: select.select([program.stdout], [], [], 0)[0])
+            time.sleep(0.2)
+            program.send_signal(signal.SIGINT)
+            time.sleep(0.2)
+            self.assertIsNone(program.poll())
+            program.send_signal(signal.SIGINT)
+            self.assertEqual(program.wait(timeout=20), -signal.SIGINT)
+
+    def test_files_of_finished_runs_stay_whole(self):
+        (self.path / "quick.toml").write_text(SHORT.format(limit=1000))
+        (self.path / "slow.toml").write_text(SHORT.format(limit=1000).replace("1e-4", "1e4") + "[record]\ngrid_s = 1e-3\n")
+        with self.started("run", "quick.toml", "slow.toml", "--jobs", "1", "--out", "out") as program:
+            self.wait_until(lambda: (self.path / "out/quick.html").exists())
+            time.sleep(0.1)
+            program.send_signal(signal.SIGINT)
+            told = program.communicate(timeout=20)[1]
+        self.assertEqual(program.returncode, 130)
+        self.assertIn("slow: interrupted at", told)
+        self.assertEqual(self.names("out"), ["quick.csv", "quick.html", "quick.json", "slow.partial.csv",
+                                             "slow.partial.html", "slow.partial.json"])
+
+
+class FullDisk(Session):
+    def test_a_file_that_can_grow_no_more_leaves_its_whole_rows(self):
+        """A limit on a file's size stands for a full disk: the same call fails at the same place."""
+        limit = 1_000_000
+        words = ["run", R3, "--quiet", "--set", "duration_s=10", "--set", "record.grid_s=1e-5"]
+        for option, name in list(ALL.items())[:4]:
+            with self.subTest(option):
+                shrink = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+                with self.started(*words, option, name, preexec_fn=shrink) as program:
+                    told = program.communicate(timeout=20)[1]
+                self.assertEqual(program.returncode, 2)
+                partial = name.replace(".", ".partial.")
+                self.assertTrue(told.startswith(
+                    f"{name}: cannot be written: File too large; what was finished is in {partial}; make room and run it again\n"), told)
+                self.assertRegex(told, r"R3: stopped at [\d.]+ s of 10 s\n$")
+                self.assertEqual(self.names(), [partial])
+                written = self.path / partial
+                self.assertGreater(written.stat().st_size, limit / 2)
+                if option in ("--csv", "--vcd"):
+                    self.assertTrue(written.read_text().endswith("\n"))
+                written.unlink()
+
+    def test_what_is_told_of_a_device_that_is_full(self):
+        told = self.run_program("run", self.write("a.toml", 1000), "--quiet", "--csv", "/dev/full", code=2).stderr
+        self.assertIn("/dev/full: cannot be written: No space left on device", told)
+
+
+class Pipes(Session):
+    def test_a_reader_that_has_seen_enough_ends_it_quietly(self):
+        self.write("a.toml", 1000)
+        for words, code in (("run a.toml --json -", 0), ("help", 0),
+                            (f"run {R3} --quiet --set duration_s=1e4 --csv /dev/stdout", 141)):
+            result = subprocess.run(["bash", "-c", f"{PROGRAM} {words} 2>told | head -n 1; echo ${{PIPESTATUS[0]}}"],
+                                    cwd=self.path, capture_output=True, text=True, timeout=20)
+            self.assertEqual(result.stdout.splitlines()[-1], str(code), words)
+            self.assertNotIn("ipe", (self.path / "told").read_text())
+
+    def test_nothing_but_words_reaches_a_pipe(self):
+        with self.started("run", self.write("a.toml", 1000), "--set", "duration_s=1e4") as program:
+            time.sleep(0.7)  # a terminal would have seen a bar by now
+            program.send_signal(signal.SIGINT)
+            out, told = program.communicate(timeout=20)
+        self.assertNotRegex(out + told, r"[\r\x1b]|real time")
+
+
+class Terminal(Session):
+    def read(self, terminal):
+        try:
+            return os.read(terminal, 1 << 16) if select.select([terminal], [], [], 0.05)[0] else b""
+        except OSError:  # its other end is closed
+            return b""
+
+    def screen(self, *words, columns=100, seconds=20, until="left", **environment):
+        """What a terminal gets to see, with Ctrl-C once `until` is there or the time is over."""
+        ours, theirs = pty.openpty()
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("4H", 25, columns, 0, 0))
+        seen = b""
+        with self.started(*words, stdout=subprocess.DEVNULL, stderr=theirs, text=False,
+                          env={**os.environ, "TERM": "xterm", **environment}) as program:
+            os.close(theirs)
+            end = time.monotonic() + seconds
+            while until not in seen.decode() and time.monotonic() < end and program.poll() is None:
+                seen += self.read(ours)
+            program.send_signal(signal.SIGINT)
+            program.wait(timeout=20)
+            while more := self.read(ours):
+                seen += more
+        os.close(ours)
+        return seen.decode()
+
+    def bar(self, runs, total):
+        return rf"\r\[[#-]+\] +\d+ %  [\d:]+ left  {runs}[\d.e+-]+ of {total} s simulated  [\d.e+-]+ x real time\x1b\[K"
+
+    def test_one_long_run_shows_how_far_it_is(self):
+        a = self.write("a.toml", 1000)
+        seen = self.screen("run", a, *LONG, "--csv", "a.csv")
+        self.assertRegex(seen, self.bar("", r"1e\+04"))
+        self.assertRegex(seen, r"\r\x1b\[K[^\r]*a: interrupted at", "the bar is gone before a word is said")
+        for line in self.screen("run", a, *LONG, columns=40, until="left").split("\r"):
+            self.assertLess(len(line.replace("\x1b[K", "")), 100 if "interrupted" in line else 40)
+        self.assertEqual(self.screen("run", a, *LONG, "--quiet", seconds=0.8).count("\r\x1b"), 0)
+        self.assertNotIn("real time", self.screen("run", a, *LONG, seconds=0.8, TERM="dumb"))
+
+    def test_many_files_share_one_line(self):
+        for name in ("a", "b", "c"):
+            (self.path / f"{name}.toml").write_text(SHORT.format(limit=1000).replace("1e-4", "1e4") + "[record]\ngrid_s = 1e-3\n")
+        self.assertRegex(self.screen("run", "a.toml", "b.toml", "c.toml", "--jobs", "1"),
+                         self.bar("0 of 3 runs  ", r"3e\+04"))
+
+    def test_a_series_counts_its_drives(self):
+        spread = '[[spread]]\nkey = "motor_override.resistance_ohm"\nrelative = 0.1\n'
+        (self.path / "a.toml").write_text(SHORT.format(limit=1000).replace("1e-4", "20e-3") + spread)
+        self.assertRegex(self.screen("run", "a.toml", "--runs", "1000000000"), r"[\d:]+ left  \d+ of 1000000000 drives")
+
+
+class Watching(Session):
+    def test_each_save_shows_the_verdict_again_until_ctrl_c(self):
+        shipped = (SOURCE / "data/motors/maxon-251601.toml").read_text()
+        (self.path / "own.toml").write_text(shipped)
+        text = SHORT.replace('"maxon-251601"', '"own.toml"')
+        scenario = self.path / "a.toml"
+        scenario.write_text(text.format(limit=1000))
+        out = (self.path / "out.txt").open("w+")
+        said = lambda: (self.path / "out.txt").read_text()
+        with self.started("run", "a.toml", "--watch", stdout=out, stderr=subprocess.STDOUT) as program:
+            pauses = lambda: said().count("-- runs again when a file is saved; Ctrl-C ends\n")
+            self.wait_until(lambda: pauses() == 1)
+            self.assertIn("1 experiment: the requirement holds", said())
+            scenario.write_text(text.format(limit=-1))  # saved in place
+            self.wait_until(lambda: pauses() == 2)
+            self.assertIn("FAILED", said().split("-- runs")[1])
+            scenario.write_text("motor = ")  # a slip on the way
+            self.wait_until(lambda: pauses() == 3)
+            self.assertIn("a.toml:1:", said().split("-- runs")[2])
+            (self.path / "new").write_text(text.format(limit=1000))  # as vim and many others save
+            os.replace(self.path / "new", scenario)
+            self.wait_until(lambda: pauses() == 4)
+            (self.path / "own.toml").write_text(shipped + "\n# changed\n")  # the motor's file counts too
+            self.wait_until(lambda: pauses() == 5)
+            time.sleep(0.5)
+            self.assertEqual(pauses(), 5, "nothing saved, nothing run")
+            program.send_signal(signal.SIGINT)
+            self.assertEqual(program.wait(timeout=20), 0, "that of the last verdict")
+        out.close()
+
+
+if __name__ == "__main__":
+    unittest.main()
