@@ -2,6 +2,7 @@
 #include "faces/cli/curve_command.hpp"
 
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -19,6 +20,18 @@
 
 namespace cli {
 namespace {
+
+struct CurveArguments {
+  std::string motor, data_dir;
+  std::optional<double> voltage_V;  ///< without it the sheet's nominal voltage
+  std::optional<double> duty, pwm_period_s, on_resistance_ohm, diode_drop_V, ambient_degC;
+  std::optional<int> points;
+  std::string chopping;
+  std::string csv, json, html;
+  bool quiet = false;
+  unsigned jobs = 0;
+  std::string command;  ///< what makes the page again
+};
 
 /// Files are made before the work begins: one that cannot be written is told at once.
 struct Outputs {
@@ -123,8 +136,6 @@ base::Result<study::CurveRequest> request_of(const CurveArguments& a) {
   return r;
 }
 
-}  // namespace
-
 Exit curve_command(const CurveArguments& a) {
   const base::Result<study::CurveRequest> request = request_of(a);
   if (!request) {
@@ -148,6 +159,33 @@ Exit curve_command(const CurveArguments& a) {
   write(a, *request, *curve, out, problems);
   complain(problems);
   return problems.empty() ? Exit::ok : Exit::bad_input;
+}
+
+void declare_options(CLI::App& curve, CurveArguments& a) {
+  curve.add_option("MOTOR", a.motor, "name or path of a motor file")->required();
+  curve.add_option("--voltage", a.voltage_V, "bus voltage, V; without it the sheet's nominal voltage");
+  curve.add_option("--duty", a.duty, "in (0, 1]; without it 1, full voltage");
+  curve.add_option("--chopping", a.chopping, "soft, hard or complementary, where the duty is below 1");
+  curve.add_option("--pwm-period", a.pwm_period_s, "s; without it 30e-6");
+  curve.add_option("--on-resistance", a.on_resistance_ohm, "of a switch, ohm; without it 0");
+  curve.add_option("--diode-drop", a.diode_drop_V, "V; without it 0");
+  curve.add_option("--points", a.points, "from standstill to no load; without it 41");
+  curve.add_option("--ambient", a.ambient_degC, "air around the motor, degC; without it 25");
+  curve.add_option("--csv", a.csv, "write all points with all columns");
+  curve.add_option("--json", a.json, "write everything; - for standard output instead of the table");
+  curve.add_option("--html", a.html, "write a page with charts");
+  take_data(curve, a.data_dir);
+  take_jobs(curve, a.jobs, "points");
+  curve.add_flag("--quiet", a.quiet, "no table, only files and errors");
+}
+
+}  // namespace
+
+Verb declare_curve(CLI::App& app) {
+  CLI::App& curve = *app.add_subcommand("curve", "torque-speed curve of a motor");
+  const auto a = std::make_shared<CurveArguments>();
+  declare_options(curve, *a);
+  return {&curve, calling(curve_command, a)};
 }
 
 }  // namespace cli

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include <CLI/App.hpp>
 
 #include <atomic>
 #include <filesystem>
@@ -23,6 +24,21 @@
 
 namespace cli {
 namespace {
+
+struct DesignArguments {
+  std::string motor;
+  std::string mode = "current", method = "pole-placement", chopping = "soft";
+  std::optional<double> settle_s, current_settle_s, damping, bandwidth_rad_s, period_s, voltage_V,
+      torque_limit_Nm, load_inertia_kg_m2, step;
+  int delay_periods = 0;
+  bool quick = false;  ///< without the tolerances
+  bool quiet = false;
+  unsigned jobs = 0;
+  std::string json, toml, header, models, html;  ///< files; json "-": standard output
+  double angle_deg = 30.0;                       ///< of the models, electrical
+  std::string data_dir;
+  std::string command;  ///< the command line as it may be typed again
+};
 
 namespace fs = std::filesystem;
 using design::GainMethod;
@@ -163,8 +179,6 @@ Exit refused(const base::Problems& problems) {
   return Exit::bad_input;
 }
 
-}  // namespace
-
 Exit design_command(const DesignArguments& a) {
   base::Problems found;
   const design::DesignWish wish = wish_of(a, found);
@@ -187,6 +201,49 @@ Exit design_command(const DesignArguments& a) {
   std::FILE* to = a.json == "-" ? stderr : stdout;  // standard output is the JSON's alone
   if (!a.quiet) print(io::design_text(*s, may_colour(to)), to);
   return s->usable() ? Exit::ok : Exit::failed;
+}
+
+void declare_options(CLI::App& design, DesignArguments& a) {
+  design.add_option("MOTOR", a.motor, "motor's name or file")->required();
+  design.add_option("--mode", a.mode, "current, speed or position")->capture_default_str();
+  design.add_option("--settle", a.settle_s, "settling time of the mode's PI loop in s; 1e-3, speed 10e-3");
+  design.add_option("--damping", a.damping, "of the placed poles, above 0 to 1; 0.9");
+  design.add_option(
+      "--current-settle", a.current_settle_s,
+      "speed, position: settling time of the current loop in s; 1e-3, or a tenth of the speed loop's");
+  design.add_option("--method", a.method, "pole-placement, cancellation or symmetrical-optimum")
+      ->capture_default_str();
+  design.add_option("--bandwidth", a.bandwidth_rad_s,
+                    "cancellation, symmetrical-optimum: of the loop, in rad/s");
+  design.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");
+  design.add_option("--voltage", a.voltage_V, "of the bus in V; the sheet's nominal voltage");
+  design.add_option("--torque-limit", a.torque_limit_Nm, "speed, position: in N m; the stall torque");
+  design.add_option("--load-inertia", a.load_inertia_kg_m2, "on the shaft, beside the rotor's, in kg m2; 0");
+  design.add_option("--delay", a.delay_periods, "periods until a command counts, 0 or 1")
+      ->capture_default_str();
+  design.add_option("--chopping", a.chopping, "soft, hard or complementary")->capture_default_str();
+  design.add_option("--step", a.step, "what is simulated: a step in A, rad/s or deg as the mode asks");
+  design.add_option("--json", a.json, "write everything as numbers; - for standard output");
+  design.add_option("--toml", a.toml, "write the scenario that was simulated, for sixstep run");
+  design.add_option("--header", a.header, "write the gains as constants for firmware, in C++20");
+  design.add_option("--html", a.html, "write the design as a page");
+  design.add_option("--models", a.models, "write the motor's two state spaces, as .json or .mat");
+  design.add_option("--angle", a.angle_deg, "of the rotor for --models, in electrical degrees")
+      ->capture_default_str();
+  design.add_flag("--quick", a.quick, "leave out the tolerances");
+  design.add_flag("--quiet", a.quiet, "no text, only errors and the exit code");
+  take_jobs(design, a.jobs);
+  take_data(design, a.data_dir);
+}
+
+}  // namespace
+
+Verb declare_design(CLI::App& app) {
+  CLI::App& design =
+      *app.add_subcommand("design", "gains from a motor's sheet, simulated and put through tolerances");
+  const auto a = std::make_shared<DesignArguments>();
+  declare_options(design, *a);
+  return {&design, calling(design_command, a)};
 }
 
 }  // namespace cli

@@ -2,6 +2,7 @@
 #include "faces/cli/export_command.hpp"
 
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <charconv>
 #include <cmath>
@@ -16,6 +17,18 @@
 
 namespace cli {
 namespace {
+
+struct ExportArguments {
+  std::string file;                 ///< the scenario
+  std::string out;                  ///< empty: standard output
+  std::string arithmetic;           ///< empty: the scenario's
+  std::vector<std::string> ranges;  ///< "current_A=20"
+  std::vector<std::string> sets;    ///< "key=value"
+  std::string name_space = "exported";
+  std::string data_dir;
+  bool single_header = false;
+  std::string command;  ///< the command line as it may be typed again
+};
 
 std::string meant(const std::string& word, const std::vector<std::string>& known) {
   const std::string near = io::nearest(word, known);
@@ -74,8 +87,6 @@ Exit refused(const base::Problems& problems) {
   return Exit::bad_input;
 }
 
-}  // namespace
-
 Exit export_header(const ExportArguments& a) {
   base::Problems problems;
   const std::optional<study::Arithmetic> arithmetic = arithmetic_of(a.arithmetic, problems);
@@ -110,6 +121,35 @@ Exit export_header(const ExportArguments& a) {
   file->write(*text);
   if (problems = file->commit(); !problems.empty()) return refused(problems);
   return Exit::ok;
+}
+
+void declare_options(CLI::App& header, ExportArguments& a) {
+  header.add_option("SCENARIO", a.file, "scenario file")->required();
+  header.add_option("--out", a.out, "the file to write; without it standard output");
+  header.add_option("--arithmetic", a.arithmetic,
+                    "double, float, q15, q14, q31 or q30; without it control.arithmetic");
+  header
+      .add_option(
+          "--range", a.ranges,
+          "fixed point: the most that is measured or asked for, as --range current_A=20; also speed_rad_s, "
+          "position_deg, bus_V, setpoint; without it what the scenario's motor and bus can reach")
+      ->allow_extra_args(false);
+  take_sets(header, a.sets);
+  header.add_option("--namespace", a.name_space, "C++ namespace of what the header declares")
+      ->capture_default_str();
+  header.add_flag("--single-header", a.single_header, "include sixstep_control.hpp, not sixstep/control/");
+  take_data(header, a.data_dir);
+}
+
+}  // namespace
+
+Verb declare_export(CLI::App& app) {
+  CLI::App& exports = *app.add_subcommand("export", "a scenario's drive for use elsewhere");
+  exports.require_subcommand(1);
+  const auto a = std::make_shared<ExportArguments>();
+  declare_options(*exports.add_subcommand("header", "gains and scalings as constants for firmware, in C++20"),
+                  *a);
+  return {&exports, calling(export_header, a)};
 }
 
 }  // namespace cli

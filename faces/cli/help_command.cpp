@@ -2,6 +2,7 @@
 #include "faces/cli/help_command.hpp"
 
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -68,8 +69,6 @@ const KeyEntry* by_name(const std::vector<KeyEntry>& entries, const std::string&
   return found;
 }
 
-}  // namespace
-
 Exit help_command(const std::string& key) {
   const std::vector<KeyEntry> scenario = io::scenario_keys(), sheet = io::sheet_keys();
   if (key.empty()) {
@@ -98,6 +97,15 @@ Exit help_command(const std::string& key) {
              .limit = "is no key of a scenario or motor file",
              .cure = near.empty() ? "sixstep help lists them" : fmt::format("did you mean {}?", near)}});
   return Exit::bad_input;
+}
+
+}  // namespace
+
+Verb declare_help(CLI::App& app) {
+  CLI::App& help = *app.add_subcommand("help", "explain a key, a table, or all of them");
+  const auto key = std::make_shared<std::string>();
+  help.add_option("KEY", *key, "as supply.voltage_V, pwm or resistance_ohm");
+  return {&help, [key](const std::string&) { return help_command(*key); }};
 }
 
 }  // namespace cli

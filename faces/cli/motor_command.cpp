@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/cli/motor_command.hpp"
 
+#include <CLI/App.hpp>
+
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -14,6 +16,13 @@
 
 namespace cli {
 namespace {
+
+struct MotorArguments {
+  std::string name;      ///< a path or a built-in name
+  std::string data_dir;  ///< holds motors/
+  std::string style = "maxon";
+  bool json = false;
+};
 
 struct Checked {
   design::Sheet sheet;
@@ -35,8 +44,7 @@ std::optional<Checked> checked(const MotorArguments& a) {
   return Checked{std::move(*sheet), std::move(*check)};
 }
 
-}  // namespace
-
+/// One line per motor compiled in.
 Exit list_motors() {
   std::size_t width = 0;
   const std::vector<std::string> names = io::built_in_motors();
@@ -99,6 +107,31 @@ Exit new_motor(const MotorArguments& a) {
   }
   print("wrote " + path + "; fill it in, then: sixstep motor check " + path + "\n");
   return Exit::ok;
+}
+
+}  // namespace
+
+Verb declare_motor(CLI::App& app) {
+  CLI::App& motor = *app.add_subcommand("motor", "look into motor files");
+  motor.require_subcommand(1);
+  const auto a = std::make_shared<MotorArguments>();
+  const CLI::App& list = *motor.add_subcommand("list", "the built-in motors, one a line");
+  CLI::App& show = *motor.add_subcommand("show", "the sheet as printed and the model that it makes");
+  CLI::App& check = *motor.add_subcommand("check", "hold the sheet against itself");
+  for (CLI::App* const verb : {&show, &check}) {
+    verb->add_option("NAME", a->name, "name or path")->required();
+    take_data(*verb, a->data_dir);
+    verb->add_flag("--json", a->json, "for programs");
+  }
+  CLI::App& fresh = *motor.add_subcommand("new", "an empty motor file, to be filled in");
+  fresh.add_option("NAME", a->name, "the file to write, NAME.toml; without it standard output");
+  fresh.add_option("--style", a->style, "whose sheet it is: maxon, drone, servo or firmware")
+      ->capture_default_str();
+  return {&motor, [a, &list, &show, &check](const std::string&) {
+            if (list) return list_motors();
+            if (show) return show_motor(*a);
+            return check ? check_motor(*a) : new_motor(*a);
+          }};
 }
 
 }  // namespace cli

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
 
 #include <filesystem>
 #include <map>
@@ -133,8 +135,6 @@ void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
     print(io::verdict_summary(entries, may_colour(to)), to);
 }
 
-}  // namespace
-
 Exit run_command(const RunArguments& arguments) {
   base::Problems problems = check(arguments);
   std::vector<Job> jobs = problems.empty() ? read_jobs(arguments, problems) : std::vector<Job>();
@@ -159,6 +159,32 @@ Exit run_command(const RunArguments& arguments) {
     if (!unwritten.empty()) exit = graver(exit, Exit::bad_input);
   }
   return exit;
+}
+
+void declare_options(CLI::App& run, RunArguments& a) {
+  run.add_option("FILE", a.files, "scenario files")->required();
+  run.add_option("--out", a.out, "folder for NAME.csv, NAME.json, NAME.html of each scenario and index.html");
+  run.add_option("--csv", a.paths.csv, "write the recorded trace");
+  run.add_option("--json", a.paths.json, "write verdicts and figures; - for standard output");
+  run.add_option("--html", a.paths.html, "write the report");
+  take_sets(run, a.sets);
+  take_data(run, a.data_dir);
+  run.add_flag("--quiet", a.quiet, "no table, only errors and the exit code");
+  take_jobs(run, a.jobs);
+  CLI::Option* runs =
+      run.add_option("--runs", a.runs, "that many drives of the series that [[spread]] describes");
+  runs->check(CLI::Range(1, 1'000'000'000));
+  run.add_option("--seed", a.seed, "another series of drives; without it 1");
+  run.add_option("--drive", a.drive, "drive N of the series alone, with all its outputs")->excludes(runs);
+}
+
+}  // namespace
+
+Verb declare_run(CLI::App& app) {
+  CLI::App& run = *app.add_subcommand("run", "run scenarios and judge them");
+  const auto a = std::make_shared<RunArguments>();
+  declare_options(run, *a);
+  return {&run, calling(run_command, a)};
 }
 
 }  // namespace cli

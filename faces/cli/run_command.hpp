@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "faces/cli/exit_code.hpp"
 #include "faces/cli/job.hpp"
+#include "faces/cli/verb.hpp"
 
 namespace cli {
 
@@ -25,6 +25,7 @@ struct RunArguments {
   std::string command;                 ///< the command line as it may be typed again
 };
 
-Exit run_command(const RunArguments& arguments);
+/// `sixstep run FILE ..`: runs scenarios, judges them, writes what is asked for.
+Verb declare_run(CLI::App& app);
 
 }  // namespace cli

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/verb.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+
+namespace cli {
+
+void take_data(CLI::App& verb, std::string& folder) {
+  verb.add_option("--data", folder, "folder that holds motors/");
+}
+
+void take_sets(CLI::App& verb, std::vector<std::string>& sets) {
+  verb.add_option("--set", sets, "key=value, stronger than the file: --set supply.voltage_V=12")
+      ->allow_extra_args(false);
+}
+
+void take_jobs(CLI::App& verb, unsigned& jobs, const std::string& what) {
+  verb.add_option("--jobs", jobs, what + " side by side; without it one per core")
+      ->check(CLI::Range(1, 1024));
+}
+
+}  // namespace cli
