@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <map>
+#include <algorithm>
 
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/scenario_description.hpp"
@@ -66,19 +66,15 @@ class TableText {
       TableText inner;
       describe(inner, item);
       lists_.emplace_back(key, inner.text(plain, "", true));
+      inner.values(plain, fmt::format("{}[{}].", key, &item - items.data()), listed_);
     }
   }
 
   /// The rows that differ from `usual`; a table under its path where it has any.
   std::string text(const TableText& usual, const std::string& path, bool no_header = false) const {
-    std::map<std::string, std::string> other;
-    for (const Row& row : usual.rows_) other.emplace(row.key, row.value);
     std::string out;
-    for (const Row& row : rows_) {
-      const auto same = other.find(row.key);
-      if (row.required || same == other.end() || same->second != row.value)
-        out += fmt::format("{} = {}\n", row.key, row.value);
-    }
+    for (const Row& row : rows_)
+      if (row.required || !usual.holds(row)) out += fmt::format("{} = {}\n", row.key, row.value);
     if (!out.empty() && !path.empty() && !no_header) out = fmt::format("\n[{}]\n", path) + out;
     for (std::size_t n = 0; n < tables_.size(); ++n)
       out += tables_[n].second.text(usual.tables_[n].second,
@@ -87,14 +83,28 @@ class TableText {
     return out;
   }
 
+  /// All rows, each under `path`; then those of the tables and lists within.
+  void values(const TableText& usual, const std::string& path, std::vector<WrittenValue>& out) const {
+    for (const Row& row : rows_)
+      out.push_back({path + row.key, row.value, !row.required && usual.holds(row)});
+    for (std::size_t n = 0; n < tables_.size(); ++n)
+      tables_[n].second.values(usual.tables_[n].second, path + tables_[n].first + ".", out);
+    for (const WrittenValue& value : listed_) out.push_back({path + value.path, value.text, value.usual});
+  }
+
  private:
   struct Row {
     std::string key, value;
     bool required;
   };
+  bool holds(const Row& row) const {
+    return std::any_of(rows_.begin(), rows_.end(),
+                       [&](const Row& own) { return own.key == row.key && own.value == row.value; });
+  }
   std::vector<Row> rows_;
   std::vector<std::pair<std::string, std::string>> lists_;
   std::vector<std::pair<std::string, TableText>> tables_;
+  std::vector<WrittenValue> listed_;
 };
 
 /// What ends a line would end the comment.
@@ -114,6 +124,16 @@ std::string scenario_text(const study::Scenario& scenario, const std::vector<std
   std::string out;
   for (const std::string& line : comments) out += comment(line);
   return out + text.text(defaults, "");
+}
+
+std::vector<WrittenValue> scenario_values(const study::Scenario& scenario) {
+  study::Scenario copy = scenario, usual;
+  TableText text, defaults;
+  describe(text, copy);
+  describe(defaults, usual);
+  std::vector<WrittenValue> values;
+  text.values(defaults, "", values);
+  return values;
 }
 
 }  // namespace io

@@ -15,7 +15,9 @@
 #include "faces/cli/export_command.hpp"
 #include "faces/cli/help_command.hpp"
 #include "faces/cli/motor_command.hpp"
+#include "faces/cli/new_command.hpp"
 #include "faces/cli/run_command.hpp"
+#include "faces/cli/schema_command.hpp"
 #include "faces/cli/terminal.hpp"
 #include "io/key_advice.hpp"
 
@@ -63,8 +65,8 @@ Exit run_program(int count, const char* const* words) {
       "Exit codes: 0 all requirements hold, 1 a requirement failed, 2 bad input, 3 a fault stopped a run, "
       "4 internal error\n");
 
-  const Verb verbs[] = {declare_run(app),    declare_design(app), declare_curve(app),
-                        declare_export(app), declare_help(app),   declare_motor(app)};
+  const Verb verbs[] = {declare_new(app),    declare_run(app),  declare_design(app), declare_curve(app),
+                        declare_export(app), declare_help(app), declare_motor(app),  declare_schema(app)};
 
   try {
     app.parse(count, words);

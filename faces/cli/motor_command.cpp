@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "faces/cli/new_file.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/atomic_file.hpp"
 #include "io/motor_library.hpp"
 #include "io/motor_template.hpp"
 #include "io/motor_text.hpp"
@@ -89,18 +89,8 @@ Exit new_motor(const MotorArguments& a) {
     print(*text);
     return Exit::ok;
   }
-  const std::string path = a.name.ends_with(".toml") ? a.name : a.name + ".toml";
-  std::error_code ignored;
-  if (std::filesystem::exists(path, ignored)) {
-    complain({{.where = path, .limit = "is there already", .cure = "choose another name, or move it away"}});
-    return Exit::bad_input;
-  }
-  base::Result<io::AtomicFile> file = io::AtomicFile::create(path);
-  base::Problems problems = file ? base::Problems{} : file.problems();
-  if (file) {
-    file->write(*text);
-    problems = file->commit();
-  }
+  const std::string path = toml_path(a.name);
+  const base::Problems problems = write_new(path, *text);
   if (!problems.empty()) {
     complain(problems);
     return Exit::bad_input;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "faces/cli/exit_code.hpp"
 #include "faces/cli/rooms.hpp"
 #include "sixstep/base/problem.hpp"
 
@@ -13,6 +14,8 @@ void print(std::string_view text, std::FILE* to = stdout);
 
 /// One complaint a line, on the error stream.
 void complain(const base::Problems& problems);
+/// Bad input, told.
+Exit refused(const base::Problems& problems);
 
 /// A terminal, and NO_COLOR not set (no-color.org).
 bool may_colour(std::FILE* stream);
