@@ -43,14 +43,6 @@ struct DesignArguments {
 };
 
 namespace fs = std::filesystem;
-using design::GainMethod;
-
-constexpr base::Choice<GainMethod> method_choices[] = {
-    {"pole-placement", GainMethod::pole_placement, "a pair of poles from settling time and damping"},
-    {"cancellation", GainMethod::cancellation, "the PI's zero on the plant's pole, bandwidth free"},
-    {"symmetrical-optimum", GainMethod::symmetrical_optimum,
-     "speed: the most phase for the lag of the current loop"},
-};
 
 design::DesignWish wish_of(const DesignArguments& a, base::Problems& found) {
   design::DesignWish w;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <string_view>
+
 #include "faces/cli/rooms.hpp"
 #include "sixstep/study/outcome.hpp"
 
@@ -13,6 +15,18 @@ enum class Exit : int {
   fault = 3,          ///< a fault stopped a run, or the drive in it
   internal = 4,       ///< a mistake of the program
   interrupted = 130,  ///< by the user, as shells count it
+};
+
+struct ExitMeaning {
+  Exit code;
+  std::string_view meaning;
+};
+
+/// For help and manual.
+inline constexpr ExitMeaning exit_meanings[] = {
+    {Exit::ok, "all requirements hold"}, {Exit::failed, "a requirement failed"},
+    {Exit::bad_input, "bad input"},      {Exit::fault, "a fault stopped a run"},
+    {Exit::internal, "internal error"},  {Exit::interrupted, "interrupted by the user"},
 };
 
 /// Of a run that came to its end or to a fault.
