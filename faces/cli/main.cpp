@@ -21,7 +21,7 @@
 #include "faces/cli/run_command.hpp"
 #include "faces/cli/schema_command.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/key_advice.hpp"
+#include "faces/cli/unknown_word.hpp"
 
 namespace cli {
 namespace {
@@ -45,18 +45,6 @@ std::string retyped(int count, const char* const* words) {
     text += '\'';
   }
   return text;
-}
-
-Exit unknown_command(const CLI::App& app, const std::string& word) {
-  const std::vector<const CLI::App*> known = app.get_subcommands([](const CLI::App*) { return true; });
-  const auto near = std::find_if(known.begin(), known.end(), [&](const CLI::App* command) {
-    return io::edit_distance(word, command->get_name()) <= 2;
-  });
-  complain({{.where = word,
-             .limit = "is no command of sixstep",
-             .cure = near == known.end() ? "sixstep --help lists them"
-                                         : "did you mean " + (*near)->get_name() + "?"}});
-  return Exit::bad_input;
 }
 
 std::string exit_codes() {
@@ -84,6 +72,7 @@ Exit run_program(int count, const char* const* words) {
   } catch (const CLI::ParseError& error) {
     const std::string first = count > 1 ? words[1] : "-";
     if (app.get_subcommands().empty() && first[0] != '-') return unknown_command(app, first);
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) return unknown_argument(app);
     return app.exit(error) == 0 ? Exit::ok : Exit::bad_input;
   }
   const auto chosen =

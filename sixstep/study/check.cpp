@@ -55,14 +55,30 @@ void check_steps(const std::vector<double>& times, const std::vector<double>& va
   }
 }
 
+/// Who gave a unit knows what the reference is: the mode that has it was probably meant.
+std::string cure_of_unit(const std::string& unit, control::Mode mode) {
+  const std::string in_mode = "give the reference in \"" + std::string(reference_unit(mode)) + "\"";
+  for (const auto& choice : mode_choices)
+    if (reference_unit(choice.value) == unit && !unit.empty())
+      return "set control.mode = \"" + std::string(choice.word) + "\", or " + in_mode;
+  return in_mode + " or change control.mode";
+}
+
+/// A duty is a share of the period; who writes 50 means percent.
+std::string cure_of_duty(double value) {
+  const std::string what = "a duty is the signed share of the period that the switch is on";
+  return std::fabs(value) <= 100.0
+             ? "write " + number(value / 100.0) + " for " + number(value) + " %: " + what
+             : what;
+}
+
 void check_reference(const Scenario& s, base::Problems& out) {
   const Reference& r = s.reference;
   if (r.unit && s.control.mode != control::Mode::off && *r.unit != reference_unit(s.control.mode))
     out.push_back(
         {"reference.unit", "\"" + *r.unit + "\"",
          "is not the unit of mode \"" + std::string(base::word(mode_choices, s.control.mode)) + "\"",
-         "give the reference in \"" + std::string(reference_unit(s.control.mode)) +
-             "\" or change control.mode"});
+         cure_of_unit(*r.unit, s.control.mode)});
   if (r.shape == Shape::steps) {
     check_steps(r.times_s, r.values, "reference", "values", s.duration_s, out);
     if (r.times_s.empty())
@@ -74,8 +90,7 @@ void check_reference(const Scenario& s, base::Problems& out) {
         out.push_back({r.shape == Shape::constant ? "reference.value"
                        : r.shape == Shape::steps  ? "reference.values"
                                                   : "reference.high",
-                       number(level.value), "must lie from -1 to 1 in duty mode",
-                       "a duty is the signed share of the period that the switch is on"});
+                       number(level.value), "must lie from -1 to 1 in duty mode", cure_of_duty(level.value)});
         break;
       }
 }
@@ -109,7 +124,20 @@ void check_speed_output(const Scenario& s, base::Problems& out) {
   if (c.regeneration.limit_V) refuse("control.regeneration.limit_V");
 }
 
+/// A loop of second order takes two samples at least until it stands: dead beat.
+void check_settling(const std::optional<double>& settle_s, const char* key, const Scenario& s,
+                    base::Problems& out) {
+  const double least = 2 * s.pwm.period_s;
+  if (settle_s && *settle_s < least)
+    out.push_back({key, number(*settle_s),
+                   "is shorter than two control periods, the least that any loop takes",
+                   "write at least " + number(least) + ", better 10 periods, " + number(5 * least) +
+                       "; or shorten pwm.period_s"});
+}
+
 void check_control(const Scenario& s, base::Problems& out) {
+  check_settling(s.control.current.settle_s, "control.current.settle_s", s, out);
+  check_settling(s.control.speed.settle_s, "control.speed.settle_s", s, out);
   check_regeneration(s, out);
   check_speed_output(s, out);
   const auto add = [&](const base::Problems& more) { out.insert(out.end(), more.begin(), more.end()); };

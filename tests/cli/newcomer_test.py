@@ -3,9 +3,10 @@
 """sixstep new, and the road of somebody who has only its file and the messages."""
 import json
 import re
+import subprocess
 import unittest
 
-from program import SOURCE, ProgramTest
+from program import PROGRAM, SOURCE, ProgramTest
 
 MODES = ("speed", "current", "position", "duty")
 # Of several trades: a flat motor, a drone, two servos of which one runs at 200 V.
@@ -94,6 +95,194 @@ class Starter(ProgramTest):
             self.assertIn("give the bus voltage in", self.run_program("new", "--motor", "mjbots-mj5208", "--mode", mode, code=2).stderr)
         self.run_program("new", "--motor", "mjbots-mj5208", "--voltage", "24", "a")
         self.run_program("run", "--quiet", "a.toml")
+
+
+# What the newcomer is after, whatever he writes at first: all that he knows besides the messages.
+WANTED = {"duration_s": "0.106", "motor": '"maxon-251601"', "metric": '"mean"', "shape": "steps"}
+
+
+class Follower:
+    """Does what a message says and nothing else: finds the place, reads the cure, edits the file."""
+
+    def __init__(self, test):
+        self.test = test
+
+    def follow(self, message):
+        place = re.match(r"(\S+?):(\d+):(\d+): (.*)$", message)
+        self.test.assertTrue(place, f"no place in: {message}")
+        self.file = self.test.path / place[1]
+        self.lines = self.file.read_text().split("\n")
+        self.row, self.column, said = int(place[2]) - 1, int(place[3]) - 1, place[4]
+        self.cure = said.rpartition("; ")[2] if "; see" in said else said[said.index("; ") + 2:]
+        for pattern, edit in self.edits():
+            if found := re.search(pattern, self.cure):
+                edit(*found.groups())
+                self.file.write_text("\n".join(self.lines))
+                return
+        self.test.fail(f"no edit follows from: {message}")
+
+    def edits(self):
+        """From the most to the least particular."""
+        yield r"^did you mean \"?([\w.-]+)\"?\?$", self.replace_word
+        yield r"^write (\w+) and give the value in that unit: 1 \S+ = (\S+) ", self.rename_and_scale
+        yield r"^write (\w+) and give the value in that unit$", self.replace_word
+        yield r"^write (?:at least )?(-?[\d.e-]+)(?=[ ,;])", self.replace_value
+        yield r"^write (\w+) = \.\.", self.insert_wanted
+        yield r"write frame = .* fits (\"\w+\")", lambda frame: self.replace_at("{ ", f"{{ frame = {frame}, ")
+        yield r"^set (\w+\.\w+) = (\"\w+\")", self.set_key
+        yield r"^write (\[\[\w+\]\])$", self.replace_line
+        yield r"^see: sixstep (help \S+)$", self.look_up
+        yield r"^it means: ", self.mind_the_sign
+        yield r"^close the quote", lambda: self.put(len(self.lines[self.row]), '"')
+        yield r"^put words in quotes", lambda: self.replace_word('"' + self.word() + '"')
+        yield r"^write a decimal point", lambda: self.replace_at(",", ".")
+        yield r"^write KEY = VALUE", lambda: self.put(self.column, "= ")
+        yield r"^end the line behind the value", lambda: self.replace_line(self.lines[self.row][:self.column])
+        yield r"^give each key and table once", lambda: self.lines.pop(self.row)
+        yield r"^write true or false, in small letters", lambda: self.replace_word(self.word().lower())
+        yield r"^close the header", lambda: self.put(len(self.lines[self.row]), "]")
+
+    def word(self):
+        return re.match(r"\"[^\"]*\"|[^\s=#,\[\]]+", self.lines[self.row][self.column:]).group()
+
+    def put(self, column, text):
+        line = self.lines[self.row]
+        self.lines[self.row] = line[:column] + text + line[column:]
+
+    def replace_at(self, old, new):
+        line = self.lines[self.row]
+        self.test.assertTrue(line[self.column:].startswith(old), f"{old} does not stand at the place of {line}")
+        self.lines[self.row] = line[:self.column] + new + line[self.column + len(old):]
+
+    def replace_word(self, new):
+        old = self.word()
+        self.replace_at(old, f'"{new}"' if old.startswith('"') and not new.startswith('"') else new)
+
+    replace_value = replace_word
+
+    def replace_line(self, text):
+        self.lines[self.row] = text
+
+    def rename_and_scale(self, key, factor):
+        self.replace_word(key)
+        value = re.search(r"= (\S+)", self.lines[self.row])
+        self.lines[self.row] = self.lines[self.row].replace(value[0], f"= {float(value[1]) * float(factor)!r}", 1)
+
+    def insert_wanted(self, key):
+        # A missing key is told where its table begins; the file itself begins at its first line.
+        self.lines.insert(self.row + self.lines[self.row].startswith("["), f"{key} = {WANTED[key]}")
+
+    def set_key(self, path, value):
+        table, key = path.split(".")
+        at = self.lines.index(f"[{table}]")
+        at = next(n for n in range(at, len(self.lines)) if re.match(rf"{key} = ", self.lines[n]))
+        self.lines[at] = f"{key} = {value}"
+
+    def look_up(self, command):
+        told = self.test.run_program(*command.split()).stdout
+        word = WANTED[command.rpartition(".")[2]]
+        self.test.assertRegex(told, rf"(?m)^    {word} ")
+        self.replace_word(word)
+
+    def mind_the_sign(self):
+        """Where only the meaning is told, the limit is that a size has no sign."""
+        self.replace_word(self.word().lstrip("-"))
+
+
+# (what went wrong, mode of the starter, what the newcomer writes instead of what)
+MISTAKES = [
+    ("a typo in a key", "speed", r"^settle_s\b", "setle_s"),
+    ("a typo in a table", "speed", r"^\[reference\]", "[refrence]"),
+    ("a unit that the key does not have", "speed", r"^voltage_V = 24", "voltage_mV = 24000"),
+    ("revolutions per minute", "speed", r"^# speed_rad_s = 0", "speed_rpm = 955"),
+    ("a key without its unit", "speed", r"^duration_s\b", "duration"),
+    ("a motor that is not there", "speed", r"^motor = .*$", 'motor = "maxon-25161"'),
+    ("a motor that nobody makes", "speed", r"^motor = .*$", 'motor = "maxon_251601"'),
+    ("a loop faster than its samples", "current", r"^settle_s = \S+", "settle_s = 20e-6"),
+    ("percent for a duty", "duty", r"^value = 0.5", "value = 50"),
+    ("a shape that is nearly right", "speed", r'^shape = "steps"', 'shape = "step"'),
+    ("a shape that does not exist", "speed", r'^shape = "steps"', 'shape = "staircase"'),
+    ("no duration", "speed", r"^duration_s.*$", ""),
+    ("no motor", "speed", r"^motor = .*$", ""),
+    ("a requirement of nothing", "speed", r"^metric = .*$", ""),
+    ("a mode whose reference has another unit", "speed", r'^mode = "speed"', 'mode = "current"'),
+    ("a negative inertia", "speed", r"^# inertia_kg_m2 = 0", "inertia_kg_m2 = -1e-9"),
+    ("a quote that is not closed", "speed", r"^motor = .*$", 'motor = "maxon-251601'),
+    ("a word without quotes", "speed", r'^mode = "speed"', "mode = speed"),
+    ("a decimal comma", "speed", r"^duration_s = 0.106", "duration_s = 0,106"),
+    ("a unit behind the number", "speed", r"^duration_s = \S+ .*$", "duration_s = 0.106 s"),
+    ("no equals sign", "speed", r"^duration_s = ", "duration_s "),
+    ("a key given twice", "speed", r"^(damping = .*)$", r"\1\n\1"),
+    ("a flag in capitals", "speed", r"^# events = false", "events = False"),
+    ("a header that is not closed", "speed", r"^\[reference\]", "[reference"),
+    ("a list's item as a table", "speed", r"^\[\[require\]\]", "[require]"),
+]
+
+
+class Newcomer(ProgramTest):
+    def start(self, mode):
+        self.run_program("new", "first", "--mode", mode)
+        self.follower = Follower(self)
+
+    def change(self, old, new, file="first.toml"):
+        text = (self.path / file).read_text()
+        changed, count = re.subn("(?m)" + old, new, text, count=1)
+        self.assertEqual(count, 1, old)
+        (self.path / file).write_text(changed)
+
+    def go_on(self, most=2):
+        """Runs and follows what is told, at most so often; then the scenario passes."""
+        for _ in range(most):
+            result = self.run_program("run", "first.toml", code=2)
+            told = result.stderr.splitlines()
+            self.assertTrue(told)
+            # From the last place to the first: an edit does not move those before it.
+            for message in reversed(told):
+                self.follower.follow(message)
+            if self.passes():
+                return
+        self.run_program("run", "first.toml")
+
+    def passes(self):
+        return subprocess.run([PROGRAM, "run", "first.toml"], cwd=self.path, capture_output=True, timeout=60).returncode == 0
+
+    def test_each_message_leads_to_the_edit_that_mends_it(self):
+        self.assertGreaterEqual(len(MISTAKES), 10)
+        for what, mode, old, new in MISTAKES:
+            with self.subTest(what):
+                for name in self.names():
+                    (self.path / name).unlink()
+                self.start(mode)
+                self.change(old, new)
+                self.go_on()
+
+    def test_many_at_once_are_told_at_once(self):
+        self.start("speed")
+        for old, new in ((r"^settle_s\b", "setle_s"), (r"^voltage_V = 24", "voltage_mV = 24000"), (r"^motor = .*$", 'motor = "maxon-25161"'),
+                         (r'^shape = "steps"', 'shape = "step"'), (r"^# inertia_kg_m2 = 0", "inertia_kg_m2 = -1e-9"), (r"^\[\[require\]\]", "[require]")):
+            self.change(old, new)
+        self.assertEqual(len(self.run_program("run", "first.toml", code=2).stderr.splitlines()), 6)
+        self.go_on()
+
+    def test_a_sheet_that_does_not_say_between_which_points(self):
+        sheet = (SOURCE / "data/motors/maxon-251601.toml").read_text()
+        (self.path / "own.toml").write_text(sheet)
+        self.run_program("new", "first", "--motor", "own.toml")
+        self.follower = Follower(self)
+        (self.path / "own.toml").write_text(re.sub(r'(resistance_ohm .*?)frame = "terminal", ', r"\1", sheet, count=1))
+        self.go_on()
+
+    def test_words_of_the_command_line(self):
+        self.start("speed")
+        for words, better in ((["run", "frist.toml"], ["run", "first.toml"]), (["run", "first"], ["run", "first.toml"]),
+                              (["first.toml"], ["run", "first.toml"]), (["rum", "first.toml"], ["run", "first.toml"]),
+                              (["run", "first.toml", "--jsn", "-"], ["run", "first.toml", "--json", "-"])):
+            told = self.run_program(*words, code=2).stderr
+            meant = re.search(r"did you mean (?:sixstep )?(.*)\?\n$", told).group(1)
+            wrong = re.match(r"([\w.-]+)", told).group(1)
+            followed = " ".join(words).replace(wrong, meant, 1).split()
+            self.assertEqual(followed, better)
+            self.run_program(*followed)
 
 
 if __name__ == "__main__":

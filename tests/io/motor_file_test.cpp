@@ -81,7 +81,7 @@ TEST_F(MotorFile, EachSlipIsOneClearErrorWithItsCure) {
   EXPECT_THAT(
       told(sheet_with("resistance_kohm = 1.03")),
       ElementsAre("m.toml:8:1: resistance_kohm carries the wrong unit; write resistance_ohm and give the "
-                  "value in that unit"));
+                  "value in that unit: 1 kohm = 1000 ohm"));
   EXPECT_THAT(told(sheet_with("torque_constant_Nm_Arms = 0.4")),
               ElementsAre("m.toml:8:1: torque_constant_Nm_Arms carries the wrong unit; write "
                           "torque_constant_Nm_A and give the value in that unit"));
