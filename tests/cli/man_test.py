@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """sixstep man: well-formed roff that says what the program declares, no more and no less."""
+import os
 import re
 import shutil
 import subprocess
 import unittest
 
-from program import ProgramTest
+from program import PROGRAM, SOURCE, ProgramTest
 
 
 class Manual(ProgramTest):
@@ -51,6 +52,19 @@ class Manual(ProgramTest):
         for command in examples:
             self.run_program(*command.split()[1:])
         self.assertIn("first.html", self.names())
+
+    def test_the_page_of_the_command_line(self):
+        """Every line of docs/command-line.md does what it says, in a home of its own."""
+        text = (SOURCE / "docs/command-line.md").read_text(encoding="utf-8")
+        script = "set -eu\n" + "".join(re.findall(r"(?ms)^```sh\n(.*?)^```$", text))
+        (self.path / "bin").mkdir()
+        (self.path / "bin/sixstep").symlink_to(PROGRAM)
+        environment = dict(os.environ, HOME=str(self.path), PATH=f"{self.path / 'bin'}:{os.environ['PATH']}")
+        done = subprocess.run(["bash", "-c", script], cwd=self.path, env=environment, capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        for name in ("first.toml", "first.html", "push.toml", "all.toml", "sixstep-motor.schema.json", ".bashrc", ".config/fish/completions/sixstep.fish"):
+            self.assertTrue((self.path / name).stat().st_size, name)
+        self.run_program("run", "--quiet", "first.toml", "push.toml", "all.toml")
 
     def test_formatters_have_nothing_to_say(self):
         (self.path / "sixstep.1").write_text(self.page)
