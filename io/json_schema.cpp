@@ -150,7 +150,14 @@ std::string document(const std::vector<KeyEntry>& keys, const char* title) {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                  {"title", title},
                  {"$comment", "written by sixstep schema, version " SIXSTEP_VERSION}};
-  schema.update(table("", {keys}));
+  Json root = table("", {keys});
+  // What a file leaves to the one that it extends is not required of it.
+  if (root["properties"].contains("extends") && root.contains("required")) {
+    root["if"] = {{"required", Json::array({"extends"})}};
+    root["else"] = {{"required", root["required"]}};
+    root.erase("required");
+  }
+  schema.update(root);
   return schema.dump(1) + "\n";
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/scenario_description.hpp"
@@ -66,15 +67,20 @@ class TableText {
       TableText inner;
       describe(inner, item);
       lists_.emplace_back(key, inner.text(plain, "", true));
-      inner.values(plain, fmt::format("{}[{}].", key, &item - items.data()), listed_);
+      inner.add_values(plain, fmt::format("{}[{}].", key, &item - items.data()), listed_);
     }
   }
 
   /// The rows that differ from `usual`; a table under its path where it has any.
   std::string text(const TableText& usual, const std::string& path, bool no_header = false) const {
+    std::map<std::string, std::string> other;
+    for (const Row& row : usual.rows_) other.emplace(row.key, row.value);
     std::string out;
-    for (const Row& row : rows_)
-      if (row.required || !usual.holds(row)) out += fmt::format("{} = {}\n", row.key, row.value);
+    for (const Row& row : rows_) {
+      const auto same = other.find(row.key);
+      if (row.required || same == other.end() || same->second != row.value)
+        out += fmt::format("{} = {}\n", row.key, row.value);
+    }
     if (!out.empty() && !path.empty() && !no_header) out = fmt::format("\n[{}]\n", path) + out;
     for (std::size_t n = 0; n < tables_.size(); ++n)
       out += tables_[n].second.text(usual.tables_[n].second,
@@ -84,11 +90,15 @@ class TableText {
   }
 
   /// All rows, each under `path`; then those of the tables and lists within.
-  void values(const TableText& usual, const std::string& path, std::vector<WrittenValue>& out) const {
-    for (const Row& row : rows_)
-      out.push_back({path + row.key, row.value, !row.required && usual.holds(row)});
+  void add_values(const TableText& usual, const std::string& path, std::vector<WrittenValue>& out) const {
+    for (const Row& row : rows_) {
+      const bool same = std::any_of(usual.rows_.begin(), usual.rows_.end(), [&](const Row& other) {
+        return other.key == row.key && other.value == row.value;
+      });
+      out.push_back({path + row.key, row.value, same && !row.required});
+    }
     for (std::size_t n = 0; n < tables_.size(); ++n)
-      tables_[n].second.values(usual.tables_[n].second, path + tables_[n].first + ".", out);
+      tables_[n].second.add_values(usual.tables_[n].second, path + tables_[n].first + ".", out);
     for (const WrittenValue& value : listed_) out.push_back({path + value.path, value.text, value.usual});
   }
 
@@ -97,14 +107,10 @@ class TableText {
     std::string key, value;
     bool required;
   };
-  bool holds(const Row& row) const {
-    return std::any_of(rows_.begin(), rows_.end(),
-                       [&](const Row& own) { return own.key == row.key && own.value == row.value; });
-  }
   std::vector<Row> rows_;
   std::vector<std::pair<std::string, std::string>> lists_;
   std::vector<std::pair<std::string, TableText>> tables_;
-  std::vector<WrittenValue> listed_;
+  std::vector<WrittenValue> listed_;  ///< of the lists' items
 };
 
 /// What ends a line would end the comment.
@@ -132,7 +138,7 @@ std::vector<WrittenValue> scenario_values(const study::Scenario& scenario) {
   describe(text, copy);
   describe(defaults, usual);
   std::vector<WrittenValue> values;
-  text.values(defaults, "", values);
+  text.add_values(defaults, "", values);
   return values;
 }
 

@@ -102,30 +102,38 @@ class Starter {
       if (entry->type == KeyType::list)
         inner += list(*entry);
       else if (entry->type == KeyType::table)
-        inner +=
-            entry->about.partial ? override_table(*entry) : headed(*entry, table(entry->path, entry->path));
+        inner += entry->about.partial ? override_table(*entry) : inner_table(*entry, at);
       else
         own += line(*entry, at);
     }
     return own + inner;
   }
 
-  /// A table's header stands open, so that taking one # away suffices.
-  static std::string headed(const KeyEntry& table, const std::string& lines) {
-    if (lines.empty()) return "";
-    const std::string head = wrapped_comment(table.about.meaning);
+  /// Whether the scenario says anything of the table that stands there.
+  bool says(const std::string& at) const {
+    return std::any_of(values_.begin(), values_.end(),
+                       [&](const WrittenValue& value) { return value.path.starts_with(at + "."); });
+  }
+
+  std::string inner_table(const KeyEntry& entry, const std::string& outer) {
+    const std::string at =
+        outer.empty() ? std::string(name_of(entry)) : fmt::format("{}.{}", outer, name_of(entry));
+    return headed(entry, table(entry.path, at), says(at));
+  }
+
+  /// The header of a table that is there stands open, so that taking one # away suffices.
+  static std::string headed(const KeyEntry& table, const std::string& lines, bool open) {
     // Tables within need no header of their own above them: TOML makes it.
-    if (lines.front() == '\n') return lines;
-    return fmt::format("\n{}[{}]\n{}", head, table.path, lines);
+    if (lines.empty() || lines.front() == '\n') return lines;
+    return fmt::format("\n{}{}[{}]\n{}", wrapped_comment(table.about.meaning), open ? "" : "# ", table.path,
+                       lines);
   }
 
   std::string list(const KeyEntry& entry) {
     std::string text;
     for (std::size_t n = 0; true; ++n) {
       const std::string at = fmt::format("{}[{}]", entry.path, n);
-      const bool there = std::any_of(values_.begin(), values_.end(), [&](const WrittenValue& value) {
-        return value.path.starts_with(at + ".");
-      });
+      const bool there = says(at);
       if (!there && (n > 0 || !full_)) return text;
       text += fmt::format("\n{}{}[[{}]]\n{}", n == 0 ? wrapped_comment(entry.about.meaning) : "",
                           there ? "" : "# ", entry.path, table(entry.path, at));
@@ -139,7 +147,7 @@ class Starter {
     for (const KeyEntry* key : keys_in(keys_, entry.path))
       if (key->type == KeyType::quantity)
         text += template_line(*key, {.key = name_of(*key), .value = "nan", .open = false});
-    return headed(entry, text);
+    return headed(entry, text, true);
   }
 
   std::string line(const KeyEntry& entry, const std::string& at) {

@@ -8,6 +8,7 @@
 #include "sixstep/study/choices.hpp"
 #include "sixstep/study/columns.hpp"
 #include "sixstep/study/compile.hpp"
+#include "sixstep/study/reference_cures.hpp"
 #include "sixstep/study/run.hpp"
 #include "sixstep/study/spread.hpp"
 
@@ -53,23 +54,6 @@ void check_steps(const std::vector<double>& times, const std::vector<double>& va
                      "lies behind the end of the run (duration_s = " + number(duration_s) + ")",
                      "lengthen duration_s or drop the entry"});
   }
-}
-
-/// Who gave a unit knows what the reference is: the mode that has it was probably meant.
-std::string cure_of_unit(const std::string& unit, control::Mode mode) {
-  const std::string in_mode = "give the reference in \"" + std::string(reference_unit(mode)) + "\"";
-  for (const auto& choice : mode_choices)
-    if (reference_unit(choice.value) == unit && !unit.empty())
-      return "set control.mode = \"" + std::string(choice.word) + "\", or " + in_mode;
-  return in_mode + " or change control.mode";
-}
-
-/// A duty is a share of the period; who writes 50 means percent.
-std::string cure_of_duty(double value) {
-  const std::string what = "a duty is the signed share of the period that the switch is on";
-  return std::fabs(value) <= 100.0
-             ? "write " + number(value / 100.0) + " for " + number(value) + " %: " + what
-             : what;
 }
 
 void check_reference(const Scenario& s, base::Problems& out) {
