@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "io/syntax_cure.hpp"
+
 namespace io {
 namespace {
 
@@ -62,18 +64,6 @@ std::vector<std::string> path_words(std::string_view path) {
   if (!word.empty()) words.push_back(std::move(word));
   return words;
 }
-
-namespace {
-
-/// The parser says what it met; what to do about the frequent ones is said here.
-std::string_view syntax_cure(std::string_view met) {
-  const auto has = [met](std::string_view part) { return met.find(part) != std::string_view::npos; };
-  if (has("parsing string")) return "close the quote on the same line";
-  if (has("cannot redefine")) return "give each key and table once";
-  return "mend the TOML syntax";
-}
-
-}  // namespace
 
 base::Result<Document> Document::parse(std::string name, std::string text) {
   toml::parse_result parsed = toml::parse(std::string_view(text), std::string_view(name));

@@ -109,4 +109,25 @@ std::string motor_json(const design::Sheet& sheet, const design::SheetCheck& che
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string motor_list_json(const std::vector<NamedSheet>& motors) {
+  Json list = Json::array();
+  for (const NamedSheet& motor : motors) {
+    const design::SheetConstants c = design::sheet_constants(motor.sheet);
+    const auto value = [](const auto& constant, double times) {
+      return constant ? Json(constant->value * times) : Json();
+    };
+    list.push_back({{"name", motor.name},
+                    {"title", motor.sheet.name},
+                    {"maker", motor.sheet.maker},
+                    {"pole_pairs", c.pole_pairs ? Json(*c.pole_pairs) : Json()},
+                    {"nominal_voltage_V", c.nominal_voltage_V ? Json(*c.nominal_voltage_V) : Json()},
+                    {"terminal_resistance_ohm", value(c.R_ohm, 2.0)},
+                    {"torque_constant_Nm_A", value(c.K_t_Nm_A, 1.0)},
+                    {"inertia_kg_m2", value(c.J_kg_m2, 1.0)},
+                    {"simulatable", motor.sheet.simulatable},
+                    {"not_simulatable_because", motor.sheet.not_simulatable_because}});
+  }
+  return list.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace io

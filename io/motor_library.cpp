@@ -17,9 +17,10 @@ namespace fs = std::filesystem;
 /// Where the motor may lie, in the order of precedence.
 std::vector<std::string> candidates(const MotorQuery& query) {
   const fs::path folder(query.folder);
-  std::vector<std::string> paths{(folder / query.name).string(), (folder / (query.name + ".toml")).string()};
-  if (!query.data_dir.empty())
-    paths.push_back((fs::path(query.data_dir) / "motors" / (query.name + ".toml")).string());
+  const std::string file = query.name.ends_with(".toml") ? query.name : query.name + ".toml";
+  std::vector<std::string> paths{(folder / query.name).string()};
+  if (file != query.name) paths.push_back((folder / file).string());
+  if (!query.data_dir.empty()) paths.push_back((fs::path(query.data_dir) / "motors" / file).string());
   return paths;
 }
 
@@ -50,7 +51,8 @@ base::Result<Document> find_motor(const MotorQuery& query) {
   const std::vector<std::string> names = built_in_motors();
   const std::string near = nearest(query.name, names);
   return base::Problem{.limit = fmt::format("is neither {} nor a built-in motor", fmt::join(paths, " nor ")),
-                       .cure = near.empty() ? fmt::format("built-in are {}", fmt::join(names, ", "))
+                       .cure = near.empty() ? "sixstep motor list shows the built-in ones, sixstep motor new "
+                                              "writes the file of another"
                                             : fmt::format("did you mean \"{}\"?", near)};
 }
 

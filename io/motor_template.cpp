@@ -7,6 +7,8 @@
 
 #include "io/key_advice.hpp"
 #include "io/key_catalog.hpp"
+#include "io/key_tree.hpp"
+#include "io/template_line.hpp"
 
 namespace io {
 namespace {
@@ -55,32 +57,28 @@ const std::vector<Style>& styles() {
   return all;
 }
 
-const base::Spelling* spelling_of(const KeyEntry& entry, std::string_view key) {
+KeyEntry as_spelled(const KeyEntry& entry, std::string_view key) {
   for (const base::Spelling& spelling : entry.about.also)
-    if (spelling.key == key) return &spelling;
-  return nullptr;
+    if (spelling.key == key) return spelled(entry, spelling);
+  return entry;
 }
 
 /// "frame = "terminal|phase"" stands until the reader strikes out one of the two: no frame has that name.
-std::string line(const KeyEntry& entry, std::string_view key, bool needed) {
-  const base::Spelling* spelling = spelling_of(entry, key);
-  const std::string_view unit = spelling && !spelling->unit.empty() ? spelling->unit : entry.about.unit;
-  const std::string_view frame = spelling && !spelling->frame.empty() ? spelling->frame : entry.about.frame;
-  const bool choice = frame.find('|') != std::string_view::npos;
-  std::string text = fmt::format("# {}", entry.about.meaning);
-  if (!unit.empty()) text += fmt::format(", in {}", unit);
-  if (choice) text += fmt::format("; frame: keep the one that the sheet means");
-  text += fmt::format("\n{}{} = ", needed ? "" : "# ", key);
-  if (entry.type == KeyType::quantity)
-    text += choice ? fmt::format("{{ value = nan, frame = \"{}\", source = \"data sheet\" }}", frame)
-                   : std::string("{ value = nan, source = \"data sheet\" }");
-  else if (entry.type == KeyType::text)
-    text += "\"\"";
-  else if (entry.type == KeyType::flag)
-    text += "true";
-  else
-    text += "0";
-  return text + "\n";
+std::string empty_value(const KeyEntry& entry) {
+  if (entry.type == KeyType::text) return "\"\"";
+  if (entry.type == KeyType::flag) return "true";
+  if (entry.type != KeyType::quantity) return "0";
+  if (frames_of(entry.about.frame).size() < 2) return "{ value = nan, source = \"data sheet\" }";
+  return fmt::format("{{ value = nan, frame = \"{}\", source = \"data sheet\" }}", entry.about.frame);
+}
+
+std::string line(const KeyEntry& given, std::string_view key, bool needed) {
+  const KeyEntry entry = as_spelled(given, key);
+  const bool choice = frames_of(entry.about.frame).size() > 1;
+  return template_line(entry, {.key = key,
+                               .value = empty_value(entry),
+                               .open = needed,
+                               .more = choice ? "frame: keep the one that the sheet means" : ""});
 }
 
 }  // namespace

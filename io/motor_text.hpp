@@ -2,6 +2,7 @@
 // A motor's sheet, its model and its check as text and as JSON.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "io/rooms.hpp"
 #include "sixstep/design/sheet_check.hpp"
@@ -21,6 +22,14 @@ std::string check_report(const design::Sheet& sheet, const design::SheetCheck& c
 /// whose first column is `width` wide.
 std::string motor_line(const std::string& name, const design::Sheet& sheet, std::size_t width);
 std::string motor_line_heading(std::size_t width);
+
+struct NamedSheet {
+  std::string name;  ///< as a scenario says it
+  design::Sheet sheet;
+};
+
+/// `motor list` for programs: an array of the same columns in SI, null where a sheet is silent.
+std::string motor_list_json(const std::vector<NamedSheet>& motors);
 
 /// All of it for programs; numbers in SI, lines of the sheet in their own unit.
 std::string motor_json(const design::Sheet& sheet, const design::SheetCheck& check);

@@ -199,6 +199,8 @@ base::Result<study::Scenario> read_scenario_text(const std::string& path, std::s
   if (source) scenario.sheet = source->sheet;
   read_root(document, scenario, complaints);
   drop_stale(document, scenario.sheet);
+  // A duration that is wrong has been told: nothing shall lie behind its end besides.
+  if (!(scenario.duration_s > 0.0)) scenario.duration_s = study::longest_s;
   if (source) run_checks(document, *source, scenario, complaints, of_motor_file);
 
   base::Problems problems = complaints.in_order();

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "sixstep/base/written.hpp"
@@ -66,6 +67,7 @@ class TableText {
       TableText inner;
       describe(inner, item);
       lists_.emplace_back(key, inner.text(plain, "", true));
+      inner.add_values(plain, fmt::format("{}[{}].", key, &item - items.data()), listed_);
     }
   }
 
@@ -87,6 +89,19 @@ class TableText {
     return out;
   }
 
+  /// All rows, each under `path`; then those of the tables and lists within.
+  void add_values(const TableText& usual, const std::string& path, std::vector<WrittenValue>& out) const {
+    for (const Row& row : rows_) {
+      const bool same = std::any_of(usual.rows_.begin(), usual.rows_.end(), [&](const Row& other) {
+        return other.key == row.key && other.value == row.value;
+      });
+      out.push_back({path + row.key, row.value, same && !row.required});
+    }
+    for (std::size_t n = 0; n < tables_.size(); ++n)
+      tables_[n].second.add_values(usual.tables_[n].second, path + tables_[n].first + ".", out);
+    for (const WrittenValue& value : listed_) out.push_back({path + value.path, value.text, value.usual});
+  }
+
  private:
   struct Row {
     std::string key, value;
@@ -95,6 +110,7 @@ class TableText {
   std::vector<Row> rows_;
   std::vector<std::pair<std::string, std::string>> lists_;
   std::vector<std::pair<std::string, TableText>> tables_;
+  std::vector<WrittenValue> listed_;  ///< of the lists' items
 };
 
 /// What ends a line would end the comment.
@@ -114,6 +130,16 @@ std::string scenario_text(const study::Scenario& scenario, const std::vector<std
   std::string out;
   for (const std::string& line : comments) out += comment(line);
   return out + text.text(defaults, "");
+}
+
+std::vector<WrittenValue> scenario_values(const study::Scenario& scenario) {
+  study::Scenario copy = scenario, usual;
+  TableText text, defaults;
+  describe(text, copy);
+  describe(defaults, usual);
+  std::vector<WrittenValue> values;
+  text.add_values(defaults, "", values);
+  return values;
 }
 
 }  // namespace io

@@ -14,4 +14,14 @@ namespace io {
 /// `comments` becomes a line of its own above it.
 std::string scenario_text(const study::Scenario& scenario, const std::vector<std::string>& comments = {});
 
+/// One key as the file would say it.
+struct WrittenValue {
+  std::string path;  ///< "pwm.period_s"; in lists "require[0].metric"
+  std::string text;  ///< as TOML
+  bool usual;        ///< what holds too where the key is left out
+};
+
+/// Every key that has a value, those of the motor's sheet left out.
+std::vector<WrittenValue> scenario_values(const study::Scenario& scenario);
+
 }  // namespace io

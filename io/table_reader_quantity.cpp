@@ -6,23 +6,11 @@
 #include <cstdlib>
 
 #include "io/key_advice.hpp"
+#include "io/key_tree.hpp"
 #include "io/table_reader.hpp"
 #include "sixstep/base/decimal.hpp"
 
 namespace io {
-namespace {
-
-std::vector<std::string> split(std::string_view text, char separator) {
-  std::vector<std::string> parts;
-  while (!text.empty()) {
-    const std::size_t cut = std::min(text.find(separator), text.size());
-    parts.emplace_back(text.substr(0, cut));
-    text.remove_prefix(std::min(cut + 1, text.size()));
-  }
-  return parts;
-}
-
-}  // namespace
 
 std::optional<base::Spelling> TableReader::spelling_in_file(std::string_view key, const base::About& about) {
   std::optional<base::Spelling> used;
@@ -130,7 +118,7 @@ void TableReader::quantity(std::string_view key, base::Quantity& member, const b
 /// A frame that is missing is told by the struct's own check, which can say what each candidate would mean.
 void TableReader::frame(const toml::node& node, const std::string& path, const base::About& about,
                         base::Quantity& quantity) {
-  const std::vector<std::string> frames = split(about.frame, '|');
+  const std::vector<std::string> frames = frames_of(about.frame);
   if (frames.size() == 1 && quantity.frame.empty()) quantity.frame = frames[0];
   if (quantity.frame.empty() || std::find(frames.begin(), frames.end(), quantity.frame) != frames.end())
     return;

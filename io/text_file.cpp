@@ -1,20 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/text_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
+#include <vector>
+
+#include "io/key_advice.hpp"
 
 #include "sixstep/study/digest.hpp"
 
 namespace io {
 namespace {
 
+/// Of the files beside it the one whose name is meant: misspelt, or without its .toml.
+std::string meant(const std::string& path) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(path).parent_path();
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, error))
+    if (entry.is_regular_file(error)) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  const std::string name = fs::path(path).filename().string();
+  if (std::find(names.begin(), names.end(), name + ".toml") != names.end()) return path + ".toml";
+  const std::string near = nearest(name, names);
+  return near.empty() ? "" : (folder / near).string();
+}
+
 base::Problem unreadable(const std::string& path, int reason) {
+  const std::string near = reason == ENOENT ? meant(path) : "";
   return {.where = path + ":",
           .limit = std::string("cannot be read: ") + std::strerror(reason),
-          .cure = reason == EISDIR ? "name a file in it" : "check the path and the permission to read it"};
+          .cure = reason == EISDIR ? "name a file in it"
+                  : near.empty()   ? "check the path and the permission to read it"
+                                   : "did you mean " + near + "?"};
 }
 
 thread_local ReadLog* log_in_use = nullptr;

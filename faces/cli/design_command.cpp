@@ -8,6 +8,8 @@
 #include <filesystem>
 
 #include "batch/for_each.hpp"
+#include "faces/cli/choose.hpp"
+#include "faces/cli/new_file.hpp"
 #include "faces/cli/progress.hpp"
 #include "faces/cli/terminal.hpp"
 #include "io/atomic_file.hpp"
@@ -41,31 +43,6 @@ struct DesignArguments {
 };
 
 namespace fs = std::filesystem;
-using design::GainMethod;
-
-constexpr base::Choice<GainMethod> method_choices[] = {
-    {"pole-placement", GainMethod::pole_placement, "a pair of poles from settling time and damping"},
-    {"cancellation", GainMethod::cancellation, "the PI's zero on the plant's pole, bandwidth free"},
-    {"symmetrical-optimum", GainMethod::symmetrical_optimum,
-     "speed: the most phase for the lag of the current loop"},
-};
-
-template <class Choices, class Enum>
-void choose(const char* option, const std::string& word, const Choices& choices, Enum& into,
-            base::Problems& found) {
-  std::vector<std::string> known;
-  for (const auto& choice : choices) {
-    if (choice.word == word) {
-      into = choice.value;
-      return;
-    }
-    known.emplace_back(choice.word);
-  }
-  const std::string near = io::nearest(word, known);
-  found.push_back(
-      {option, word, fmt::format("must be one of {}", fmt::join(known, ", ")),
-       near.empty() ? fmt::format("take {}", known.front()) : fmt::format("did you mean {}?", near)});
-}
 
 design::DesignWish wish_of(const DesignArguments& a, base::Problems& found) {
   design::DesignWish w;
@@ -171,11 +148,6 @@ study::ForEach side_by_side(const DesignArguments& a) {
       progress.pieces_done(++done);
     });
   };
-}
-
-Exit refused(const base::Problems& problems) {
-  complain(problems);
-  return Exit::bad_input;
 }
 
 Exit design_command(const DesignArguments& a) {

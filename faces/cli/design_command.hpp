@@ -1,8 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "faces/cli/rooms.hpp"
 #include "faces/cli/verb.hpp"
+#include "sixstep/base/describe.hpp"
+#include "sixstep/design/drive_design.hpp"
 
 namespace cli {
+
+/// The words of --method.
+inline constexpr base::Choice<design::GainMethod> method_choices[] = {
+    {"pole-placement", design::GainMethod::pole_placement, "a pair of poles from settling time and damping"},
+    {"cancellation", design::GainMethod::cancellation, "the PI's zero on the plant's pole, bandwidth free"},
+    {"symmetrical-optimum", design::GainMethod::symmetrical_optimum,
+     "speed: the most phase for the lag of the current loop"},
+};
 
 /// `sixstep design MOTOR`: from the sheet to gains that are known to hold.
 Verb declare_design(CLI::App& app);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <string_view>
+
 #include "faces/cli/rooms.hpp"
 #include "sixstep/study/outcome.hpp"
 
@@ -15,6 +17,23 @@ enum class Exit : int {
   interrupted = 130,  ///< by the user, as shells count it
   reader_gone = 141,  ///< of a pipe that was written to, as shells count it
   terminated = 143    ///< by SIGTERM
+};
+
+struct ExitMeaning {
+  Exit code;
+  std::string_view meaning;
+};
+
+/// For help and manual.
+inline constexpr ExitMeaning exit_meanings[] = {
+    {Exit::ok, "all requirements hold"},
+    {Exit::failed, "a requirement failed"},
+    {Exit::bad_input, "bad input"},
+    {Exit::fault, "a fault stopped a run"},
+    {Exit::internal, "internal error"},
+    {Exit::interrupted, "interrupted by Ctrl-C"},
+    {Exit::reader_gone, "nobody reads the pipe"},
+    {Exit::terminated, "ended by SIGTERM"},
 };
 
 /// Of a run that came to its end or to a fault.

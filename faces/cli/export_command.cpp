@@ -82,11 +82,6 @@ design::OperatingRange range_of(const ExportArguments& a, base::Problems& proble
   return range;
 }
 
-Exit refused(const base::Problems& problems) {
-  complain(problems);
-  return Exit::bad_input;
-}
-
 Exit export_header(const ExportArguments& a) {
   base::Problems problems;
   const std::optional<study::Arithmetic> arithmetic = arithmetic_of(a.arithmetic, problems);

@@ -10,16 +10,13 @@
 #include "faces/cli/terminal.hpp"
 #include "io/key_advice.hpp"
 #include "io/key_catalog.hpp"
+#include "io/key_tree.hpp"
 #include "sixstep/study/run.hpp"
 
 namespace cli {
 namespace {
 
 using io::KeyEntry;
-
-bool is_table(const KeyEntry& entry) {
-  return entry.type == io::KeyType::table || entry.type == io::KeyType::list;
-}
 
 bool inside(const KeyEntry& entry, const std::string& table) { return entry.path.starts_with(table + "."); }
 

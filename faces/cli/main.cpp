@@ -10,14 +10,18 @@
 #include <string>
 #include <vector>
 
+#include "faces/cli/completion_command.hpp"
 #include "faces/cli/curve_command.hpp"
 #include "faces/cli/design_command.hpp"
 #include "faces/cli/export_command.hpp"
 #include "faces/cli/help_command.hpp"
+#include "faces/cli/man_command.hpp"
 #include "faces/cli/motor_command.hpp"
+#include "faces/cli/new_command.hpp"
 #include "faces/cli/run_command.hpp"
+#include "faces/cli/schema_command.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/key_advice.hpp"
+#include "faces/cli/unknown_word.hpp"
 
 namespace cli {
 namespace {
@@ -43,34 +47,32 @@ std::string retyped(int count, const char* const* words) {
   return text;
 }
 
-Exit unknown_command(const CLI::App& app, const std::string& word) {
-  const std::vector<const CLI::App*> known = app.get_subcommands([](const CLI::App*) { return true; });
-  const auto near = std::find_if(known.begin(), known.end(), [&](const CLI::App* command) {
-    return io::edit_distance(word, command->get_name()) <= 2;
-  });
-  complain({{.where = word,
-             .limit = "is no command of sixstep",
-             .cure = near == known.end() ? "sixstep --help lists them"
-                                         : "did you mean " + (*near)->get_name() + "?"}});
-  return Exit::bad_input;
+std::string exit_codes() {
+  std::string text = "Exit codes:";
+  for (const ExitMeaning& exit : exit_meanings)
+    text += (text.back() == ':' ? " " : ", ") + std::to_string(static_cast<int>(exit.code)) + " " +
+            std::string(exit.meaning);
+  return text + "\n";
 }
 
 Exit run_program(int count, const char* const* words) {
   CLI::App app{"Brushless DC motor from data sheet to verified firmware", "sixstep"};
   app.set_version_flag("--version", std::string("sixstep ") + SIXSTEP_VERSION);
   app.require_subcommand(1);
-  app.footer(
-      "Exit codes: 0 all requirements hold, 1 a requirement failed, 2 bad input, 3 a fault stopped a run, "
-      "4 internal error, 130 Ctrl-C, 143 SIGTERM\n");
+  app.footer(exit_codes());
 
-  const Verb verbs[] = {declare_run(app),    declare_design(app), declare_curve(app),
-                        declare_export(app), declare_help(app),   declare_motor(app)};
+  const Verb verbs[] = {declare_new(app),        declare_run(app),  declare_design(app), declare_curve(app),
+                        declare_export(app),     declare_help(app), declare_motor(app),  declare_schema(app),
+                        declare_completion(app), declare_man(app)};
+  if (count > 1 && words[1] == std::string_view(complete_word))
+    return answer_shell(app, std::vector<std::string>(words + 2, words + count));
 
   try {
     app.parse(count, words);
   } catch (const CLI::ParseError& error) {
     const std::string first = count > 1 ? words[1] : "-";
     if (app.get_subcommands().empty() && first[0] != '-') return unknown_command(app, first);
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) return unknown_argument(app);
     return app.exit(error) == 0 ? Exit::ok : Exit::bad_input;
   }
   const auto chosen =

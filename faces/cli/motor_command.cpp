@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "faces/cli/new_file.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/atomic_file.hpp"
 #include "io/motor_library.hpp"
 #include "io/motor_template.hpp"
 #include "io/motor_text.hpp"
@@ -45,19 +45,25 @@ std::optional<Checked> checked(const MotorArguments& a) {
 }
 
 /// One line per motor compiled in.
-Exit list_motors() {
+Exit list_motors(const MotorArguments& a) {
   std::size_t width = 0;
-  const std::vector<std::string> names = io::built_in_motors();
-  for (const std::string& name : names) width = std::max(width, name.size());
-  print(io::motor_line_heading(width));
-  for (const std::string& name : names) {
+  std::vector<io::NamedSheet> motors;
+  for (const std::string& name : io::built_in_motors()) {
     const base::Result<design::Sheet> sheet = io::read_sheet(name);
     if (!sheet) {
       complain(sheet.problems());
       return Exit::internal;
     }
-    print(io::motor_line(name, *sheet, width));
+    width = std::max(width, name.size());
+    motors.push_back({name, *sheet});
   }
+  if (a.json) {
+    print(io::motor_list_json(motors));
+    return Exit::ok;
+  }
+  std::string text = io::motor_line_heading(width);
+  for (const io::NamedSheet& motor : motors) text += io::motor_line(motor.name, motor.sheet, width);
+  print(text);
   return Exit::ok;
 }
 
@@ -89,18 +95,8 @@ Exit new_motor(const MotorArguments& a) {
     print(*text);
     return Exit::ok;
   }
-  const std::string path = a.name.ends_with(".toml") ? a.name : a.name + ".toml";
-  std::error_code ignored;
-  if (std::filesystem::exists(path, ignored)) {
-    complain({{.where = path, .limit = "is there already", .cure = "choose another name, or move it away"}});
-    return Exit::bad_input;
-  }
-  base::Result<io::AtomicFile> file = io::AtomicFile::create(path);
-  base::Problems problems = file ? base::Problems{} : file.problems();
-  if (file) {
-    file->write(*text);
-    problems = file->commit();
-  }
+  const std::string path = toml_path(a.name);
+  const base::Problems problems = write_new(path, *text);
   if (!problems.empty()) {
     complain(problems);
     return Exit::bad_input;
@@ -115,20 +111,20 @@ Verb declare_motor(CLI::App& app) {
   CLI::App& motor = *app.add_subcommand("motor", "look into motor files");
   motor.require_subcommand(1);
   const auto a = std::make_shared<MotorArguments>();
-  const CLI::App& list = *motor.add_subcommand("list", "the built-in motors, one a line");
+  CLI::App& list = *motor.add_subcommand("list", "the built-in motors, one a line");
   CLI::App& show = *motor.add_subcommand("show", "the sheet as printed and the model that it makes");
   CLI::App& check = *motor.add_subcommand("check", "hold the sheet against itself");
   for (CLI::App* const verb : {&show, &check}) {
     verb->add_option("NAME", a->name, "name or path")->required();
     take_data(*verb, a->data_dir);
-    verb->add_flag("--json", a->json, "for programs");
   }
+  for (CLI::App* const verb : {&list, &show, &check}) verb->add_flag("--json", a->json, "for programs");
   CLI::App& fresh = *motor.add_subcommand("new", "an empty motor file, to be filled in");
   fresh.add_option("NAME", a->name, "the file to write, NAME.toml; without it standard output");
   fresh.add_option("--style", a->style, "whose sheet it is: maxon, drone, servo or firmware")
       ->capture_default_str();
   return {&motor, [a, &list, &show, &check](const std::string&) {
-            if (list) return list_motors();
+            if (list) return list_motors(*a);
             if (show) return show_motor(*a);
             return check ? check_motor(*a) : new_motor(*a);
           }};

@@ -31,6 +31,11 @@ void complain(const base::Problems& problems) {
   print(text, stderr);
 }
 
+Exit refused(const base::Problems& problems) {
+  complain(problems);
+  return Exit::bad_input;
+}
+
 bool may_colour(std::FILE* stream) {
   const char* forbidden = std::getenv("NO_COLOR");
   return ::isatty(::fileno(stream)) != 0 && (forbidden == nullptr || *forbidden == '\0');

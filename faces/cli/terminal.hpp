@@ -14,6 +14,8 @@ void print(std::string_view text, std::FILE* to = stdout);
 
 /// One complaint a line, on the error stream.
 void complain(const base::Problems& problems);
+/// Bad input, told.
+Exit refused(const base::Problems& problems);
 
 /// A terminal, and NO_COLOR not set (no-color.org).
 bool may_colour(std::FILE* stream);

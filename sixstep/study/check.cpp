@@ -9,6 +9,7 @@
 #include "sixstep/study/choices.hpp"
 #include "sixstep/study/columns.hpp"
 #include "sixstep/study/compile.hpp"
+#include "sixstep/study/reference_cures.hpp"
 #include "sixstep/study/run.hpp"
 #include "sixstep/study/spread.hpp"
 
@@ -62,8 +63,7 @@ void check_reference(const Scenario& s, base::Problems& out) {
     out.push_back(
         {"reference.unit", "\"" + *r.unit + "\"",
          "is not the unit of mode \"" + std::string(base::word(mode_choices, s.control.mode)) + "\"",
-         "give the reference in \"" + std::string(reference_unit(s.control.mode)) +
-             "\" or change control.mode"});
+         cure_of_unit(*r.unit, s.control.mode)});
   if (r.shape == Shape::steps) {
     check_steps(r.times_s, r.values, "reference", "values", s.duration_s, out);
     if (r.times_s.empty())
@@ -75,8 +75,7 @@ void check_reference(const Scenario& s, base::Problems& out) {
         out.push_back({r.shape == Shape::constant ? "reference.value"
                        : r.shape == Shape::steps  ? "reference.values"
                                                   : "reference.high",
-                       number(level.value), "must lie from -1 to 1 in duty mode",
-                       "a duty is the signed share of the period that the switch is on"});
+                       number(level.value), "must lie from -1 to 1 in duty mode", cure_of_duty(level.value)});
         break;
       }
 }
@@ -110,7 +109,20 @@ void check_speed_output(const Scenario& s, base::Problems& out) {
   if (c.regeneration.limit_V) refuse("control.regeneration.limit_V");
 }
 
+/// A loop of second order takes two samples at least until it stands: dead beat.
+void check_settling(const std::optional<double>& settle_s, const char* key, const Scenario& s,
+                    base::Problems& out) {
+  const double least = 2 * s.pwm.period_s;
+  if (settle_s && *settle_s < least)
+    out.push_back({key, number(*settle_s),
+                   "is shorter than two control periods, the least that any loop takes",
+                   "write at least " + number(least) + ", better 10 periods, " + number(5 * least) +
+                       "; or shorten pwm.period_s"});
+}
+
 void check_control(const Scenario& s, base::Problems& out) {
+  check_settling(s.control.current.settle_s, "control.current.settle_s", s, out);
+  check_settling(s.control.speed.settle_s, "control.speed.settle_s", s, out);
   check_regeneration(s, out);
   check_speed_output(s, out);
   const auto add = [&](const base::Problems& more) { out.insert(out.end(), more.begin(), more.end()); };

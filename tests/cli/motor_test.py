@@ -52,6 +52,10 @@ class Motor(ProgramTest):
 
     def test_every_built_in_motor_is_one_line_and_shows_as_json(self):
         lines = self.run_program("motor", "list").stdout.splitlines()[1:]
+        listed = json.loads(self.run_program("motor", "list", "--json").stdout)
+        self.assertEqual([motor["name"] for motor in listed], [line.split()[0] for line in lines])
+        thesis = next(motor for motor in listed if motor["name"] == "maxon-251601")
+        self.assertEqual((thesis["pole_pairs"], thesis["terminal_resistance_ohm"], thesis["torque_constant_Nm_A"]), (8, 1.03, 0.0335))
         self.assertGreaterEqual(len(lines), 30)
         for line in lines:
             shown = json.loads(self.run_program("motor", "show", "--json", line.split()[0]).stdout)

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "io/scenario_file.hpp"
+#include "io/starter_scenario.hpp"
 
 namespace io {
 namespace {
@@ -32,6 +33,8 @@ TEST(ScenarioText, EveryShippedScenarioComesBackToTheBit) {
     ASSERT_TRUE(scenario);
     const std::string text = scenario_text(*scenario);
     EXPECT_EQ(scenario_text(read_back(text)), text);
+    for (const bool full : {false, true})  // explained line by line it is the same scenario
+      EXPECT_EQ(scenario_text(read_back(starter_text(*scenario, {.file = "x.toml", .full = full}))), text);
     ++count;
   }
   EXPECT_GE(count, 30);

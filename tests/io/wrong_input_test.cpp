@@ -56,7 +56,7 @@ TEST_F(WrongInput, WrongUnitIsToldAsSuch) {
   EXPECT_THAT(
       complaints(head + "[supply]\nvoltage_mV = 24000\n"),
       ElementsAre("x.toml:4:1: supply.voltage_mV carries the wrong unit; write voltage_V and give the value "
-                  "in that unit"));
+                  "in that unit: 1 mV = 0.001 V"));
   EXPECT_THAT(
       complaints(head + "[supply]\nvoltage = 24\n"),
       ElementsAre(
@@ -171,6 +171,9 @@ TEST_F(WrongInput, ReferenceInAnotherModesUnit) {
   EXPECT_THAT(complaints(head + "[control]\nmode = \"speed\"\n[reference]\nvalue = 955\nunit = \"rpm\"\n"),
               ElementsAre("x.toml:7:8: reference.unit = \"rpm\" is not the unit of mode \"speed\"; "
                           "give the reference in \"rad/s\" or change control.mode"));
+  EXPECT_THAT(complaints(head + "[control]\nmode = \"current\"\n[reference]\nvalue = 9\nunit = \"rad/s\"\n"),
+              ElementsAre("x.toml:7:8: reference.unit = \"rad/s\" is not the unit of mode \"current\"; "
+                          "set control.mode = \"speed\", or give the reference in \"A\""));
 }
 
 TEST_F(WrongInput, ContradictoryGainsAreToldOnceAndWhere) {
@@ -193,7 +196,52 @@ TEST_F(WrongInput, SyntaxIsToldWithItsPlace) {
   EXPECT_THAT(
       complaints("motor = \"maxon-251601\"\nduration_s = 20 ms\n"),
       ElementsAre("x.toml:2:17: Error while parsing key-value pair: expected a comment or whitespace, saw "
-                  "'m'; mend the TOML syntax"));
+                  "'m'; end the line behind the value: its unit is in the key"));
+}
+
+TEST_F(WrongInput, AWrongDurationIsToldAlone) {
+  EXPECT_THAT(
+      complaints("motor = \"maxon-251601\"\nduration_s = \"long\"\n[reference]\nshape = \"steps\"\n"
+                 "times_s = [0, 1]\nvalues = [1, 2]\n[[require]]\nmetric = \"mean\"\nto_s = 1\nmax = 1\n")
+          .size(),
+      1U);
+}
+
+TEST_F(WrongInput, PercentIsNoDuty) {
+  EXPECT_THAT(
+      complaints(head + "[control]\nmode = \"duty\"\n[reference]\nvalue = 50\n"),
+      ElementsAre("x.toml:6:9: reference.value = 50 must lie from -1 to 1 in duty mode; write 0.5 for 50 "
+                  "%: a duty is the signed share of the period that the switch is on"));
+}
+
+TEST_F(WrongInput, NoLoopSettlesWithinTwoSamples) {
+  const std::string loop =
+      head + "[control]\nmode = \"current\"\n[control.current]\ndamping = 0.9\nsettle_s = ";
+  EXPECT_THAT(
+      complaints(loop + "59e-6\n"),
+      ElementsAre("x.toml:7:12: control.current.settle_s = 5.9e-05 is shorter than two control periods, "
+                  "the least that any loop takes; write at least 6e-05, better 10 periods, 0.0003; or "
+                  "shorten pwm.period_s"));
+  EXPECT_THAT(complaints(loop + "60e-6\n"), ElementsAre());
+}
+
+TEST_F(WrongInput, SyntaxIsAnsweredWithWhatWasProbablyMeant) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"duration_s = 0,02\n", "write a decimal point"},
+      {"duration_s 0.02\n", "write KEY = VALUE"},
+      {"motor = maxon\n", "put words in quotes"},
+      {"motor = \"maxon\n", "close the quote"},
+      {"[supply\nvoltage_V = 24\n", "close the header"},
+      {"[load]\ntimes_s = [0, 1\nlocked = true\n", "close the list with ]"},
+      {"[load]\nlocked = True\n", "in small letters"},
+      {"[control]\ncurrent = { d1 = 1\n", "close the table with }"},
+      {"duration_s = 1\nduration_s = 1\n", "once"},
+  };
+  for (const auto& [text, cure] : cases) {
+    const std::vector<std::string> told = complaints(text);
+    ASSERT_EQ(told.size(), 1U) << text;
+    EXPECT_THAT(told[0], HasSubstr(cure));
+  }
 }
 
 TEST_F(WrongInput, AStepOfASignalThatIsNotControlledNeedsItsLevel) {
@@ -231,6 +279,13 @@ TEST_F(WrongInput, UnreadableFile) {
   EXPECT_EQ(to_string(result.problems().at(0)),
             "no/such/file.toml: cannot be read: No such file or directory; check the path and the permission "
             "to read it");
+  for (const char* name : {"hill.tml", "hill"}) {
+    const std::string near = write("hill.toml", head), path = (folder_ / name).string();
+    const base::Result<study::Scenario> misspelt = read_scenario(path);
+    ASSERT_FALSE(misspelt);
+    EXPECT_EQ(to_string(misspelt.problems().at(0)),
+              path + ": cannot be read: No such file or directory; did you mean " + near + "?");
+  }
 }
 
 TEST_F(WrongInput, AFolderIsNoFile) {

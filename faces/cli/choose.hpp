@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// An option whose value is one of a few words.
+#pragma once
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "faces/cli/rooms.hpp"
+#include "io/key_advice.hpp"
+#include "sixstep/base/problem.hpp"
+
+namespace cli {
+
+/// Adds a Problem where the word is none of the choices.
+template <class Choices, class Enum>
+void choose(const char* option, const std::string& word, const Choices& choices, Enum& into,
+            base::Problems& found) {
+  std::vector<std::string> known;
+  for (const auto& choice : choices) {
+    if (choice.word == word) {
+      into = choice.value;
+      return;
+    }
+    known.emplace_back(choice.word);
+  }
+  const std::string near = io::nearest(word, known);
+  found.push_back(
+      {option, word, fmt::format("must be one of {}", fmt::join(known, ", ")),
+       near.empty() ? fmt::format("take {}", known.front()) : fmt::format("did you mean {}?", near)});
+}
+
+}  // namespace cli

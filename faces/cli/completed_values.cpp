@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/completed_values.hpp"
+
+#include <CLI/App.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+
+#include "faces/cli/choose.hpp"
+#include "faces/cli/design_command.hpp"
+#include "io/key_catalog.hpp"
+#include "io/key_tree.hpp"
+#include "io/motor_library.hpp"
+#include "io/motor_template.hpp"
+#include "sixstep/study/choices.hpp"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Candidates = std::vector<Candidate>;
+
+/// Folders, and files of one kind ("" for any), that begin as typed; hidden ones only where a dot was typed.
+Candidates files(const std::string& current, std::string_view extension, bool folders_only = false) {
+  const std::size_t cut = current.rfind('/');
+  const std::string folder = cut == std::string::npos ? "" : current.substr(0, cut + 1);
+  const std::string start = current.substr(folder.size());
+  Candidates found;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(start) || (name.front() == '.' && start.empty())) continue;
+    if (entry.is_directory(error))
+      found.push_back({folder + name + "/", ""});
+    else if (!folders_only && name.ends_with(extension))
+      found.push_back({folder + name, ""});
+  }
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.word < b.word; });
+  return found;
+}
+
+Candidates motors(const std::string& current) {
+  Candidates found;
+  for (const std::string& name : io::built_in_motors()) found.push_back({name, "built-in"});
+  const Candidates own = files(current, ".toml");
+  found.insert(found.end(), own.begin(), own.end());
+  return found;
+}
+
+template <class Choices>
+Candidates words(const Choices& choices) {
+  Candidates found;
+  for (const auto& choice : choices) found.push_back({std::string(choice.word), std::string(choice.meaning)});
+  return found;
+}
+
+Candidates keys(std::string_view behind, bool tables) {
+  Candidates found;
+  for (const io::KeyEntry& key : io::scenario_keys())
+    if (tables || !io::is_table(key))
+      found.push_back({key.path + std::string(behind), std::string(key.about.meaning)});
+  return found;
+}
+
+/// "key=" and, behind the =, what a key of words or a flag can be.
+Candidates settings(const std::string& current) {
+  const std::size_t equals = current.find('=');
+  if (equals == std::string::npos) return keys("=", false);
+  const std::vector<io::KeyEntry> all = io::scenario_keys();
+  const io::KeyEntry* key = io::find_key(all, current.substr(0, equals));
+  Candidates found;
+  if (!key) return found;
+  const std::string start = current.substr(0, equals + 1);
+  for (const auto& [word, meaning] : key->choices) found.push_back({start + word, meaning});
+  if (key->type == io::KeyType::flag) found = {{start + "true", ""}, {start + "false", ""}};
+  if (key->path == "motor")
+    for (const std::string& name : io::built_in_motors()) found.push_back({start + name, "built-in"});
+  return found;
+}
+
+Candidates styles() {
+  Candidates found;
+  for (const std::string& style : io::template_styles()) found.push_back({style, ""});
+  return found;
+}
+
+/// A verb that drives or designs has nothing to do with all gates off; and a duty needs no design.
+Candidates modes(const CLI::App& verb) {
+  Candidates found = words(study::mode_choices);
+  std::erase_if(found, [&](const Candidate& c) {
+    return c.word == "off" || (c.word == "duty" && verb.get_name() == "design");
+  });
+  return found;
+}
+
+Candidates known_words(const CLI::App& verb, const std::string& name) {
+  if (name == "--mode") return modes(verb);
+  if (name == "--chopping") return words(study::chopping_choices);
+  if (name == "--arithmetic") return words(study::arithmetic_choices);
+  if (name == "--method") return words(method_choices);
+  if (name == "--style") return styles();
+  if (name == "KIND") return {{"scenario", "of a scenario file"}, {"motor", "of a motor file"}};
+  if (name == "SHELL") return {{"bash", ""}, {"zsh", ""}, {"fish", ""}};
+  if (name == "KEY") return keys("", true);
+  return {};
+}
+
+}  // namespace
+
+Candidates values_of(const CLI::App& verb, const CLI::Option& option, const std::string& current) {
+  const std::string name = option.get_positional() ? option.get_name(true) : option.get_name();
+  if (Candidates found = known_words(verb, name); !found.empty()) return found;
+  if (name == "--set") return settings(current);
+  if (name == "FILE" || name == "SCENARIO") return files(current, ".toml");
+  if (name == "MOTOR" || name == "--motor") return motors(current);
+  if (name == "NAME") return verb.get_name() == "new" ? Candidates{} : motors(current);
+  if (name == "--data") return files(current, "", true);
+  // CLI11 names the type of a number; the rest is a file to be written.
+  return option.get_type_name() == "TEXT" ? files(current, "") : Candidates{};
+}
+
+}  // namespace cli

@@ -1,0 +1,19 @@
+#compdef sixstep
+# SPDX-License-Identifier: Apache-2.0
+# Completion of sixstep for zsh. In ~/.zshrc, below compinit:  source <(sixstep completion zsh)
+_sixstep() {
+  local line word meaning
+  local -a lines done shown open
+  lines=("${(@f)$("${(Q)words[1]/#\~/$HOME}" __complete "${(@Q)words[2,CURRENT]}" 2>/dev/null)}")
+  for line in $lines; do
+    word=${line%%$'\t'*} meaning=${line#*$'\t'}
+    if [[ $word == *[=/] ]]; then
+      open+=("$word")  # behind a folder or a key's = more is to come
+    else
+      done+=("$word") shown+=("$word${meaning:+  -- $meaning}")
+    fi
+  done
+  compadd -S '' -a open
+  compadd -l -d shown -a done
+}
+compdef _sixstep sixstep

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/new_command.hpp"
+
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+
+#include <filesystem>
+#include <optional>
+
+#include "faces/cli/choose.hpp"
+#include "faces/cli/new_file.hpp"
+#include "faces/cli/terminal.hpp"
+#include "io/json_schema.hpp"
+#include "io/scenario_file.hpp"
+#include "io/starter_scenario.hpp"
+#include "sixstep/study/choices.hpp"
+#include "sixstep/study/first_scenario.hpp"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewArguments {
+  std::string name, mode = "speed", motor = "maxon-251601", data_dir;
+  std::optional<double> voltage_V;
+  bool full = false;
+  std::string command;
+};
+
+base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::string& path) {
+  base::Problems found;
+  study::FirstWish wish;
+  // Something is to be driven: off is none of them.
+  constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[3], study::mode_choices[2],
+                                                            study::mode_choices[4], study::mode_choices[1]};
+  choose("--mode", a.mode, modes, wish.mode, found);
+  const base::Result<design::Sheet> sheet = io::read_sheet(a.motor, a.data_dir);
+  if (!sheet) found.insert(found.end(), sheet.problems().begin(), sheet.problems().end());
+  if (!found.empty()) return found;
+  wish.motor = motor_beside(a.motor, path);
+  wish.sheet = *sheet;
+  wish.voltage_V = a.voltage_V;
+  return study::first_scenario(wish);
+}
+
+/// The schema lies beside the scenario, where its first line looks for it; one that is there already stays.
+base::Problems write_schema(const std::string& path) {
+  return taken(path).empty() ? write_new(path, io::scenario_schema()) : base::Problems{};
+}
+
+Exit new_command(const NewArguments& a) {
+  const std::string path = a.name.empty() ? "" : toml_path(a.name);
+  if (const base::Problems found = taken(path); !found.empty()) return refused(found);
+  const base::Result<study::Scenario> scenario = scenario_of(a, path);
+  if (!scenario) return refused(scenario.problems());
+  const std::string file = path.empty() ? "FILE.toml" : path;
+  const std::string text = io::starter_text(*scenario, {.file = file, .full = a.full});
+  if (path.empty()) {
+    print(text);
+    return Exit::ok;
+  }
+  const std::string schema = (fs::path(path).parent_path() / io::scenario_schema_file).string();
+  base::Problems problems = write_new(path, text);
+  if (problems.empty()) problems = write_schema(schema);
+  if (!problems.empty()) return refused(problems);
+  print(
+      fmt::format("wrote {}, and {}, with which editors complete and check it\n"
+                  "next: sixstep run {} --html {}\n",
+                  path, schema, path, fs::path(path).replace_extension(".html").string()));
+  return Exit::ok;
+}
+
+}  // namespace
+
+Verb declare_new(CLI::App& app) {
+  CLI::App& fresh = *app.add_subcommand("new", "write a scenario to start from, each line explained");
+  const auto a = std::make_shared<NewArguments>();
+  fresh.add_option("NAME", a->name, "the file to write, NAME.toml; without it standard output");
+  fresh.add_option("--mode", a->mode, "what is controlled: speed, current, position or duty")
+      ->capture_default_str();
+  fresh.add_option("--motor", a->motor, "motor's name or file")->capture_default_str();
+  fresh.add_option("--voltage", a->voltage_V, "of the bus in V; without it the sheet's nominal voltage");
+  fresh.add_flag("--full", a->full, "every key there is, not only those for a start");
+  take_data(fresh, a->data_dir);
+  return {&fresh, calling(new_command, a)};
+}
+
+}  // namespace cli

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "faces/cli/verb.hpp"
+
+namespace cli {
+
+/// `sixstep new [NAME]`: a scenario to start from, which runs and passes as it is.
+Verb declare_new(CLI::App& app);
+
+}  // namespace cli
