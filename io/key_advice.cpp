@@ -77,7 +77,7 @@ std::string_view without_unit(std::string_view key) {
   }
 }
 
-base::Problem unknown_key(std::string_view key, std::span<const std::string> known) {
+base::Problem unknown_key(std::string_view key, std::span<const std::string> known, std::string_view advice) {
   const std::string* same = nullptr;  // but for the unit; of several the most alike
   for (const std::string& candidate : known)
     if (without_unit(candidate) == without_unit(key) && !unit_suffix(candidate).empty() &&
@@ -88,7 +88,8 @@ base::Problem unknown_key(std::string_view key, std::span<const std::string> kno
             .cure = fmt::format("write {} and give the value in that unit", *same)};
   const std::string near = nearest(key, known);
   if (!near.empty()) return {.limit = "is not a key here", .cure = fmt::format("did you mean {}?", near)};
-  return {.limit = "is not a key here", .cure = "known are " + join(known)};
+  return {.limit = "is not a key here",
+          .cure = advice.empty() ? "known are " + join(known) : std::string(advice)};
 }
 
 std::string limit_of(const base::Range& range) {
