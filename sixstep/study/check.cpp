@@ -4,11 +4,11 @@
 #include <string>
 
 #include "sixstep/study/check_product.hpp"
+#include "sixstep/study/check_reference.hpp"
 #include "sixstep/study/check_sensors.hpp"
 #include "sixstep/study/choices.hpp"
 #include "sixstep/study/columns.hpp"
 #include "sixstep/study/compile.hpp"
-#include "sixstep/study/reference_cures.hpp"
 #include "sixstep/study/run.hpp"
 #include "sixstep/study/spread.hpp"
 
@@ -37,46 +37,6 @@ void check_supply(const Scenario& s, base::Problems& out) {
   if (s.initial.bus_V && !C)
     out.push_back({"initial.bus_V", number(*s.initial.bus_V), "has no meaning on a stiff bus",
                    "leave it away, or give supply.resistance_ohm and supply.capacitance_F"});
-}
-
-void check_steps(const std::vector<double>& times, const std::vector<double>& values,
-                 const std::string& table, const char* value_key, double duration_s, base::Problems& out) {
-  if (times.size() != values.size())
-    out.push_back({table + "." + value_key, std::to_string(values.size()) + " entries",
-                   "must be as many as times_s, which has " + std::to_string(times.size()),
-                   "give one value per time"});
-  for (std::size_t n = 0; n < times.size(); ++n) {
-    if (times[n] < 0 || (n > 0 && !(times[n] > times[n - 1])))
-      out.push_back({table + ".times_s", number(times[n]), "must rise from entry to entry, from 0 on",
-                     "sort the times"});
-    else if (!(times[n] < duration_s))
-      out.push_back({table + ".times_s", number(times[n]),
-                     "lies behind the end of the run (duration_s = " + number(duration_s) + ")",
-                     "lengthen duration_s or drop the entry"});
-  }
-}
-
-void check_reference(const Scenario& s, base::Problems& out) {
-  const Reference& r = s.reference;
-  if (r.unit && s.control.mode != control::Mode::off && *r.unit != reference_unit(s.control.mode))
-    out.push_back(
-        {"reference.unit", "\"" + *r.unit + "\"",
-         "is not the unit of mode \"" + std::string(base::word(mode_choices, s.control.mode)) + "\"",
-         cure_of_unit(*r.unit, s.control.mode)});
-  if (r.shape == Shape::steps) {
-    check_steps(r.times_s, r.values, "reference", "values", s.duration_s, out);
-    if (r.times_s.empty())
-      out.push_back({"reference.times_s", "", "is missing for shape = \"steps\"", "give times_s and values"});
-  }
-  if (s.control.mode == control::Mode::duty && r.times_s.size() == r.values.size())
-    for (const Level& level : reference_levels(r, s.duration_s))
-      if (std::fabs(level.value) > 1.0) {
-        out.push_back({r.shape == Shape::constant ? "reference.value"
-                       : r.shape == Shape::steps  ? "reference.values"
-                                                  : "reference.high",
-                       number(level.value), "must lie from -1 to 1 in duty mode", cure_of_duty(level.value)});
-        break;
-      }
 }
 
 void check_regeneration(const Scenario& s, base::Problems& out) {
@@ -177,10 +137,25 @@ void check_measure(const Measure& m, const std::string& where, const Scenario& s
                    "give the level that the signal is to reach, in its own unit"});
 }
 
-void check_measures(const Scenario& s, base::Problems& out) {
+/// Steps are told apart by the reference's levels: while it moves it has none.
+void check_steps_of_reference(const Measure& m, const std::string& where, const Scenario& s,
+                              base::Problems& out) {
+  const bool takes_steps = m.metric == MetricKind::reach_time || m.metric == MetricKind::settling_time ||
+                           m.metric == MetricKind::overshoot;
+  const double from = m.from_s.value_or(0.0), to = m.to_s.value_or(s.duration_s);
+  if (takes_steps && !m.level && is_controlled(m.signal, s.control.mode) && reference_moves(s, from, to))
+    out.push_back({where + ".metric", "", "is taken of steps, and the reference moves in this window",
+                   "give level, start and from_s, or set from_s and to_s to where the reference stands"});
+}
+
+void check_measures(const Scenario& s, bool sound_reference, base::Problems& out) {
+  const auto check_one = [&](const Measure& m, const std::string& where) {
+    check_measure(m, where, s, out);
+    if (sound_reference) check_steps_of_reference(m, where, s, out);
+  };
   for (std::size_t n = 0; n < s.require.size(); ++n) {
     const std::string where = "require[" + std::to_string(n) + "]";
-    check_measure(s.require[n].measure, where, s, out);
+    check_one(s.require[n].measure, where);
     if (!s.require[n].min && !s.require[n].max)
       out.push_back({where, "", "requires nothing", "give min, max or both"});
     if (s.require[n].min && s.require[n].max && *s.require[n].min > *s.require[n].max)
@@ -188,7 +163,7 @@ void check_measures(const Scenario& s, base::Problems& out) {
                      "lies above max = " + number(*s.require[n].max), "swap them"});
   }
   for (std::size_t n = 0; n < s.compare.size(); ++n)
-    check_measure(s.compare[n].measure, "compare[" + std::to_string(n) + "]", s, out);
+    check_one(s.compare[n].measure, "compare[" + std::to_string(n) + "]");
 }
 
 /// The speed controller's full output is a torque; a sheet without voltage and stall point has none to offer.
@@ -213,13 +188,16 @@ base::Problems check(const Scenario& s) {
     out.push_back({"duration_s", number(s.duration_s), "is shorter than the engine's tick of 1e-12 s",
                    "give a longer time"});
   check_supply(s, out);
-  check_reference(s, out);
+  const std::size_t before = out.size();
+  check_references(s, out);
+  check_events(s, out);
+  const bool sound_reference = out.size() == before;
   check_steps(s.load.times_s, s.load.torques_Nm, "load", "torques_Nm", s.duration_s, out);
   check_control(s, out);
   check_sensors(s, out);
   check_product(s, out);
   check_extras(s, out);
-  check_measures(s, out);
+  check_measures(s, sound_reference, out);
   if (!(s.bridge.dead_time_s < s.pwm.period_s))
     out.push_back({"bridge.dead_time_s", number(s.bridge.dead_time_s),
                    "must be shorter than pwm.period_s = " + number(s.pwm.period_s),
