@@ -118,7 +118,8 @@ class Starter {
   std::string inner_table(const KeyEntry& entry, const std::string& outer) {
     const std::string at =
         outer.empty() ? std::string(name_of(entry)) : fmt::format("{}.{}", outer, name_of(entry));
-    return headed(entry, table(entry.path, at), says(at));
+    const bool in_list = outer.find('[') != std::string::npos;  // there it may be left out, header and all
+    return headed(entry, table(entry.path, at), !in_list || says(at));
   }
 
   /// The header of a table that is there stands open, so that taking one # away suffices.

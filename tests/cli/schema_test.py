@@ -44,7 +44,7 @@ MUTANTS = [
     ("\"duty\"", "1", "mode"),
     ("times_s = [0]", "times_s = [-1]", "times_s"),
     ("times_s = [0]", "times_s = 0", "times_s"),
-    ("[reference]", "[reference]\nslope = 1", "slope"),
+    ("[reference]", "[reference]\nsteepness = 1", "steepness"),
     ("[reference]", "[[reference]]", "reference"),
     ("[[require]]", "[require]", "require"),
     ("metric = \"final\"", "", "metric"),
