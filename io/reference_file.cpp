@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <charconv>
 #include <string_view>
+#include <utility>
 
 #include "io/key_advice.hpp"
+#include "io/units.hpp"
 
 namespace io {
 namespace {
@@ -49,10 +51,24 @@ std::optional<double> number_of(std::string cell, char separator) {
   return x;
 }
 
+/// "ms" of "time [ms]", "time (ms)" and "t_ms"; "rad/s" of "speed_rad_s". Empty where there is none.
+std::string unit_in(std::string_view heading) {
+  const std::size_t open = heading.find_last_of("[(");
+  std::string unit;
+  if (open != std::string_view::npos && (heading.back() == ']' || heading.back() == ')')) {
+    unit = heading.substr(open + 1, heading.size() - open - 2);
+  } else {
+    unit = heading.substr(without_unit(heading).size());
+    if (!unit.empty()) unit.erase(0, 1);
+    std::replace(unit.begin(), unit.end(), '_', '/');
+  }
+  return unit_of(unit) ? unit : std::string();
+}
+
 class RowsReader {
  public:
-  RowsReader(const std::string& name, const std::optional<std::string>& column)
-      : name_(name), column_(column) {}
+  RowsReader(const std::string& name, const std::optional<std::string>& column, const std::string& unit)
+      : name_(name), column_(column), value_{unit, {}} {}
 
   void line(std::string_view text) {
     ++number_;
@@ -81,12 +97,31 @@ class RowsReader {
   }
 
  private:
+  /// What a column is wanted in, and what its heading says; empty: nothing, which is taken for the same.
+  struct Column {
+    std::string wanted, written;
+  };
+
+  void units(const std::vector<std::string>& names) {
+    const auto take = [&](std::size_t at, Column& column) {
+      if (at >= names.size()) return;
+      column.written = unit_in(names[at]);
+      if (column.written.empty() || column.written == column.wanted) return column.written.clear();
+      if (same_kind(*unit_of(column.written), *unit_of(column.wanted))) return;
+      say(fmt::format("heads a column in {}, where {} belongs", std::exchange(column.written, ""),
+                      column.wanted.empty() ? "a plain number" : column.wanted),
+          column.wanted.empty() ? "name another column" : "units that fit: " + units_that_fit(column.wanted));
+    };
+    take(0, time_);
+    take(value_at_, value_);
+  }
+
   void headings(const std::vector<std::string>& names) {
-    if (!column_) return;
+    if (!column_) return units(names);
     const auto found = std::find(names.begin(), names.end(), *column_);
     if (found != names.end()) {
       value_at_ = static_cast<std::size_t>(found - names.begin());
-      return;
+      return units(names);
     }
     const std::string near = nearest(*column_, names);
     say(fmt::format("has no column \"{}\"", *column_), near.empty()
@@ -94,11 +129,19 @@ class RowsReader {
                                                            : fmt::format("did you mean \"{}\"?", near));
   }
 
+  std::optional<double> value_of(const std::string& cell, const Column& column) const {
+    const std::optional<double> x = number_of(cell, separator_);
+    if (!x || column.written.empty()) return x;
+    std::string decimal = cell;
+    if (separator_ == ';') std::replace(decimal.begin(), decimal.end(), ',', '.');
+    const base::Result<double> converted = in_unit(decimal + " " + column.written, column.wanted);
+    return converted ? std::optional(*converted) : std::nullopt;
+  }
+
   void row(const std::vector<std::string>& cells) {
     if (cells.size() <= value_at_)
       return say(fmt::format("has {} cells", cells.size()), "each row is a time in s and a value");
-    const std::optional<double> t = number_of(cells[0], separator_),
-                                y = number_of(cells[value_at_], separator_);
+    const std::optional<double> t = value_of(cells[0], time_), y = value_of(cells[value_at_], value_);
     if (!t || !y)
       return say(fmt::format("\"{}\" is no number", cells[t ? value_at_ : 0]),
                  "write numbers as 0.5 or 5e-1");
@@ -119,6 +162,7 @@ class RowsReader {
 
   const std::string& name_;
   const std::optional<std::string>& column_;
+  Column time_{"s", {}}, value_;
   char separator_ = 0;
   bool begun_ = false;
   std::size_t number_ = 0, value_at_ = 1, skipped_ = 0;
@@ -129,8 +173,9 @@ class RowsReader {
 }  // namespace
 
 base::Result<ReferenceRows> reference_rows(const std::string& name, const std::string& text,
-                                           const std::optional<std::string>& column) {
-  RowsReader reader(name, column);
+                                           const std::optional<std::string>& column,
+                                           const std::string& unit) {
+  RowsReader reader(name, column, unit);
   std::string_view rest = text;
   if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);  // some editors begin a file with it
   while (!rest.empty()) {

@@ -167,8 +167,8 @@ void run_checks(const Document& document, const SheetSource& source, const study
 }
 
 /// The rows of a csv reference, from the file that it names.
-void read_rows(const Document& document, const std::string& path, study::Reference& r, Complaints& complaints,
-               base::Problems& of_other_files) {
+void read_rows(const Document& document, const std::string& path, const std::string& unit,
+               study::Reference& r, Complaints& complaints, base::Problems& of_other_files) {
   if (r.file.empty() || r.shape != study::Shape::csv) return;
   const std::string key = path + ".file";
   const auto complain = [&](base::Problem problem) {
@@ -185,7 +185,7 @@ void read_rows(const Document& document, const std::string& path, study::Referen
   if (!text)
     return complain({.limit = fmt::format("names {}, which {}", name, text.problems().at(0).limit),
                      .cure = text.problems().at(0).cure});
-  base::Result<ReferenceRows> rows = reference_rows(name, *text, r.column);
+  base::Result<ReferenceRows> rows = reference_rows(name, *text, r.column, unit);
   if (!rows) {
     of_other_files.insert(of_other_files.end(), rows.problems().begin(), rows.problems().end());
     return complaints.told_elsewhere(key);
@@ -196,10 +196,13 @@ void read_rows(const Document& document, const std::string& path, study::Referen
 
 void read_all_rows(const Document& document, study::Scenario& scenario, Complaints& complaints,
                    base::Problems& of_other_files) {
-  read_rows(document, "reference", scenario.reference, complaints, of_other_files);
+  // A duty is a plain number.
+  const std::string_view of_mode = study::reference_unit(scenario.control.mode);
+  const std::string unit(of_mode == "1" ? "" : of_mode);
+  read_rows(document, "reference", unit, scenario.reference, complaints, of_other_files);
   for (std::size_t n = 0; n < scenario.at.size(); ++n)
     if (scenario.at[n].reference)
-      read_rows(document, fmt::format("at[{}].reference", n), *scenario.at[n].reference, complaints,
+      read_rows(document, fmt::format("at[{}].reference", n), unit, *scenario.at[n].reference, complaints,
                 of_other_files);
 }
 

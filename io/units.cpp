@@ -199,17 +199,28 @@ std::string plain_number(std::string_view wanted) {
   return wanted.empty() ? "a plain number" : fmt::format("in {}", wanted);
 }
 
-/// "MS" was meant as ms, "rmp" as rpm.
-std::string usual_like(const std::string& unit) {
+/// Usual units of the same kind, the key's own first.
+std::vector<std::string> fitting(std::string_view wanted) {
+  const std::optional<Unit> unit = unit_of(wanted);
+  std::vector<std::string> fit = {std::string(wanted)};
+  for (const std::string_view candidate : usual)
+    if (const auto u = unit_of(candidate);
+        unit && u && u->dimension == unit->dimension && plain_spelling(wanted) != candidate)
+      fit.emplace_back(candidate);
+  return fit;
+}
+
+/// Of those that fit: "MS" was meant as ms, "rmp" as rpm.
+std::string fitting_like(const std::string& unit, std::string_view wanted) {
   const auto small = [](std::string_view text) {
     std::string out(text);
     for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     return out;
   };
-  for (const std::string_view word : usual)
-    if (small(word) == small(unit)) return std::string(word);
-  const std::vector<std::string> words(std::begin(usual), std::end(usual));
-  return nearest(unit, words);
+  const std::vector<std::string> fit = fitting(wanted);
+  for (const std::string& word : fit)
+    if (small(word) == small(unit)) return word;
+  return nearest(unit, fit);
 }
 
 base::Problem wrong_unit(const Written& w, std::string_view wanted) {
@@ -224,7 +235,7 @@ base::Problem wrong_unit(const Written& w, std::string_view wanted) {
   if (known)
     return {.limit = fmt::format("carries the unit {}, which is not of the kind of {}", w.unit, wanted),
             .cure = "units that fit: " + fit};
-  const std::string near = usual_like(w.unit);
+  const std::string near = fitting_like(w.unit, wanted);
   return {.limit = fmt::format("carries an unknown unit, {}", w.unit),
           .cure = near.empty() ? "units that fit: " + fit
                                : fmt::format("did you mean {}? Units that fit: {}", near, fit)};
@@ -280,12 +291,7 @@ base::Result<double> in_unit(std::string_view written, std::string_view wanted) 
 
 std::string units_that_fit(std::string_view wanted) {
   if (wanted.empty()) return {};
-  const std::optional<Unit> unit = unit_of(wanted);
-  std::vector<std::string> fit = {std::string(wanted)};
-  for (const std::string_view candidate : usual)
-    if (const auto u = unit_of(candidate);
-        unit && u && u->dimension == unit->dimension && plain_spelling(wanted) != candidate)
-      fit.emplace_back(candidate);
+  const std::vector<std::string> fit = fitting(wanted);
   std::string text;
   for (std::size_t n = 0; n < fit.size(); ++n)
     text += (n == 0 ? "" : n + 1 == fit.size() ? " or " : ", ") + fit[n];

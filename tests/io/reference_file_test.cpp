@@ -16,7 +16,7 @@ namespace {
 using testing::ElementsAre;
 
 std::vector<std::string> told(const std::string& text, const std::optional<std::string>& column = {}) {
-  const base::Result<ReferenceRows> rows = reference_rows("r.csv", text, column);
+  const base::Result<ReferenceRows> rows = reference_rows("r.csv", text, column, "A");
   std::vector<std::string> lines;
   if (!rows)
     for (const base::Problem& problem : rows.problems()) lines.push_back(to_string(problem));
@@ -27,14 +27,31 @@ TEST(ReferenceFile, IsReadWhateverPartsItsCells) {
   for (const char* text :
        {"0,1\n0.5,-2.5e1\n", "\xef\xbb\xbft;i\r\n0;1\r\n0,5;-25\r\n", "# remark\n0\t1\n\n0.5\t-25",
         " 0  1\n 0.5   -25 \n", "\"t_s\",\"i_A\"\n0,1,9\n0.5,-25,9\n"}) {
-    const base::Result<ReferenceRows> rows = reference_rows("r.csv", text, {});
+    const base::Result<ReferenceRows> rows = reference_rows("r.csv", text, {}, "A");
     ASSERT_TRUE(rows) << text;
     EXPECT_THAT(rows->times_s, ElementsAre(0.0, 0.5)) << text;
     EXPECT_THAT(rows->values, ElementsAre(1.0, -25.0)) << text;
   }
-  const base::Result<ReferenceRows> named = reference_rows("r.csv", "t_s,a,b\n0,1,2\n1,3,4\n", "b");
+  const base::Result<ReferenceRows> named = reference_rows("r.csv", "t_s,a,b\n0,1,2\n1,3,4\n", "b", "A");
   ASSERT_TRUE(named);
   EXPECT_THAT(named->values, ElementsAre(2.0, 4.0));
+}
+
+TEST(ReferenceFile, AHeadingMayBringAUnit) {
+  const auto read = [](const char* text, const char* unit) {
+    const base::Result<ReferenceRows> rows = reference_rows("r.csv", text, {}, unit);
+    EXPECT_TRUE(rows) << text << to_string(rows.problems()[0]);
+    return rows ? *rows : ReferenceRows{};
+  };
+  EXPECT_THAT(read("time [ms];i (mA)\n0;0\n0,3;500\n", "A").times_s, ElementsAre(0.0, 0.0003));
+  EXPECT_THAT(read("time [ms];i (mA)\n0;0\n0,3;500\n", "A").values, ElementsAre(0.0, 0.5));
+  EXPECT_THAT(read("t_us,speed_rpm\n0,30\n5,60\n", "rad/s").times_s, ElementsAre(0.0, 5e-6));
+  EXPECT_DOUBLE_EQ(read("t_us,speed_rpm\n0,30\n5,60\n", "rad/s").values.at(0), M_PI);
+  EXPECT_THAT(read("t_s,speed_rad_s\n0,30\n", "rad/s").values, ElementsAre(30.0));
+  EXPECT_THAT(read("t,duty_percent\n0,30\n", "").values, ElementsAre(0.3));
+  EXPECT_THAT(read("t,what I saw\n0,30\n", "A").values, ElementsAre(30.0)) << "no unit: as wanted";
+  EXPECT_THAT(told("t_s,u_V\n0,1\n"),
+              ElementsAre("r.csv:1: heads a column in V, where A belongs; units that fit: A or mA"));
 }
 
 TEST(ReferenceFile, EachSlipIsToldWithItsLine) {

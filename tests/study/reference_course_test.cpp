@@ -138,13 +138,22 @@ TEST(ReferenceCourse, AnEventTakesOverWhereTheReferenceStood) {
   EXPECT_EQ(largest_reference(s), 4.0);
 }
 
-std::vector<double> recorded(Scenario s, const char* column) {
-  s.record.grid_s = s.pwm.period_s;
+/// Every how many-th part of a PWM period.
+std::vector<double> recorded(Scenario s, const char* column, int parts = 1) {
+  s.record.grid_s = s.pwm.period_s / parts;
   s.record.columns = {column};
   std::vector<double> seen;
   const auto out = study::run(s, {.on_record = [&](study::Row row) { seen.push_back(row[1]); }});
   EXPECT_TRUE(out) << to_string(out.problems().at(0));
   return seen;
+}
+
+/// What holds in the middle of each period: that of its tick.
+std::vector<double> held(const Scenario& s, const char* column) {
+  const std::vector<double> rows = recorded(s, column, 2);
+  std::vector<double> middles;
+  for (std::size_t n = 1; n < rows.size(); n += 2) middles.push_back(rows[n]);
+  return middles;
 }
 
 TEST(ReferenceCourse, TheControllerSeesTheClosedFormAtItsTicks) {
@@ -154,11 +163,11 @@ TEST(ReferenceCourse, TheControllerSeesTheClosedFormAtItsTicks) {
       {.time_s = 7e-3,
        .reference = Reference{.shape = Shape::trapezoid, .end = -2.0, .slope = 900.0, .acceleration = 6e5}});
   const std::vector<Stretch> course = reference_course(s);
-  const std::vector<double> wide = recorded(s, "i_ref_A");
+  const std::vector<double> wide = held(s, "i_ref_A");
   s.control.arithmetic = study::Arithmetic::float32;
-  const std::vector<double> narrow = recorded(s, "i_ref_A");
+  const std::vector<double> narrow = held(s, "i_ref_A");
   s.control.arithmetic = study::Arithmetic::q31;
-  const std::vector<double> fixed = recorded(s, "i_ref_A");
+  const std::vector<double> fixed = held(s, "i_ref_A");
   ASSERT_EQ(wide.size(), 667u);
   for (std::size_t n = 0; n < wide.size(); ++n) {
     const double expected = at(course, static_cast<double>(n) * 30'000'000 / 1e12);
@@ -166,6 +175,29 @@ TEST(ReferenceCourse, TheControllerSeesTheClosedFormAtItsTicks) {
     EXPECT_NEAR(wide[n], expected, 2 * 3.0 * 2 * M_PI * 333.0 * 1e-12) << n;
     EXPECT_EQ(narrow[n], static_cast<double>(static_cast<float>(wide[n]))) << n;
     EXPECT_NEAR(fixed[n], wide[n], 8.0 * 0x1p-31) << n << ": one digit of at most 8 A full scale";
+  }
+}
+
+TEST(ReferenceCourse, EventComparatorsFollowItFromTickToTick) {
+  Scenario s = current_square();
+  s.control.current = {.type = study::CurrentLoopType::hysteresis};
+  s.reference = {.shape = Shape::ramp, .begin_s = 1e-3 + 1e-6, .start = 2.0, .end = 5.0, .end_s = 12e-3};
+  const std::vector<Stretch> course = reference_course(s);
+  const std::vector<double> seen = held(s, "i_ref_A");
+  // The step into the ramp, between two ticks, is taken at once; the ramp itself at each tick, for which the
+  // engine has the time since then to the picosecond.
+  for (std::size_t n = 0; n < seen.size(); ++n)
+    EXPECT_NEAR(seen[n], at(course, static_cast<double>(n) * 30'000'000 / 1e12), 2 * 3.0 / 11e-3 * 1e-12)
+        << n;
+}
+
+TEST(ReferenceCourse, ARampOutOfAFullDutyIsSeenThoughItsTicksWereSkipped) {
+  Scenario s = maxon_scenario(Mode::duty, 0.0);
+  s.reference = {.shape = Shape::ramp, .begin_s = 9.005e-3, .start = 1.0, .end = 0.0, .end_s = 19.005e-3};
+  const std::vector<double> duty = held(s, "duty");
+  for (std::size_t n = 0; n + 40 < duty.size(); ++n) {
+    const double t = static_cast<double>(n) * 30e-6;
+    EXPECT_NEAR(duty[n], t < 9.005e-3 ? 1.0 : 1.0 - (t - 9.005e-3) / 10e-3, 2 * 100 * 1e-12) << n;
   }
 }
 
