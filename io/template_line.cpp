@@ -71,7 +71,7 @@ std::string template_line(const KeyEntry& entry, const TemplateLine& line) {
   const std::string text = fmt::format("{}{} = {}", line.open ? "" : "# ", line.key, line.value);
   if (!line.explained) return text + "\n";
   const std::string meaning = meaning_of(entry, line.more);
-  const std::string beside = fmt::format("{:<{}}  # {}\n", text, comment_column, meaning);
+  std::string beside = fmt::format("{:<{}}  # {}\n", text, comment_column, meaning);
   if (entry.choices.size() < 2 && beside.size() <= template_width + 1) return beside;
   return wrapped_comment(meaning) + words_comment(entry) + text + "\n";
 }

@@ -21,7 +21,7 @@ inline std::string cure_of_unit(std::string_view unit, control::Mode mode) {
 
 /// A duty is a share of the period; who writes 50 means percent.
 inline std::string cure_of_duty(double value) {
-  const std::string what = "a duty is the signed share of the period that the switch is on";
+  std::string what = "a duty is the signed share of the period that the switch is on";
   if (!(std::fabs(value) <= 100.0)) return what;
   return "write " + base::written(value / 100.0) + " for " + base::written(value) + " %: " + what;
 }
