@@ -56,7 +56,7 @@ study::Figures figures(const Prepared& p, study::MetricKind metric, study::Signa
   m.metric = metric;
   m.signal = signal;
   s.compare.push_back({m, 0.0, ""});
-  return study::Figures(s, study::reference_levels(s.reference, s.duration_s));
+  return study::Figures(s, study::reference_levels(s));
 }
 
 std::vector<std::size_t> first_columns(std::size_t count) {

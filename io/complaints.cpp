@@ -2,6 +2,7 @@
 #include "io/complaints.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace io {
@@ -25,31 +26,31 @@ std::string shown(std::string_view path) {
   return text;
 }
 
-void Complaints::add(toml::source_position at, std::string place, std::string_view path,
+void Complaints::add(const toml::source_region& at, std::string place, std::string_view path,
                      base::Problem problem) {
   // "--set a.b" already names the key.
   if (place == "--set " + std::string(path))
     problem.where = std::move(place);
   else
     problem.where = std::move(place) + ": " + shown(path);
-  tables_.insert(table_of(path));
-  found_.push_back({at, std::move(problem)});
+  told(path);
+  found_.push_back({document_.order_of(at), at.begin, std::move(problem)});
 }
 
 void Complaints::value(const toml::node& node, std::string_view path, base::Problem problem) {
   if (problem.value.empty()) problem.value = document_.quote(node, path);
-  add(node.source().begin, document_.place(node, path), path, std::move(problem));
+  add(node.source(), document_.place(node, path), path, std::move(problem));
 }
 
 void Complaints::key(const toml::key& key, const toml::node& node, std::string_view path,
                      base::Problem problem) {
-  const toml::source_position at = key.source().begin;
-  add(at, at ? document_.place(at) : document_.place(node, path), path, std::move(problem));
+  const toml::source_region& at = key.source();
+  add(at, at.begin ? document_.place(at) : document_.place(node, path), path, std::move(problem));
 }
 
 void Complaints::missing(std::string_view path, base::Problem problem) {
   const toml::node* table = document_.find(table_of(path));
-  add(table ? table->source().begin : toml::source_position{}, document_.nearest_place(path), path,
+  add(table ? table->source() : toml::source_region{}, document_.nearest_place(path), path,
       std::move(problem));
 }
 
@@ -61,12 +62,21 @@ void Complaints::later(base::Problem problem) {
     missing(path, std::move(problem));
 }
 
+void Complaints::told(std::string_view path) {
+  std::string table = table_of(path);
+  tables_.insert(table);
+  for (table = table_of(table); table.find('[') != std::string::npos; table = table_of(table))
+    tables_.insert(table);
+}
+
+void Complaints::told_elsewhere(std::string_view path) { told(path); }
+
 bool Complaints::about_table_of(std::string_view path) const { return tables_.contains(table_of(path)); }
 
 base::Problems Complaints::in_order() const {
   std::vector<Found> sorted = found_;
   std::stable_sort(sorted.begin(), sorted.end(), [](const Found& x, const Found& y) {
-    return std::pair(x.at.line, x.at.column) < std::pair(y.at.line, y.at.column);
+    return std::tuple(x.file, x.at.line, x.at.column) < std::tuple(y.file, y.at.line, y.at.column);
   });
   base::Problems problems;
   for (Found& found : sorted) problems.push_back(std::move(found.problem));

@@ -24,6 +24,9 @@ class Complaints {
   /// About a path that a later check names; it stands at the value, else at the nearest table.
   void later(base::Problem problem);
 
+  /// The table that `path` lies in is told of elsewhere, in a file that it names.
+  void told_elsewhere(std::string_view path);
+
   /// Whether something in the table that `path` lies in has been complained about already.
   bool about_table_of(std::string_view path) const;
 
@@ -33,10 +36,13 @@ class Complaints {
 
  private:
   struct Found {
+    std::size_t file;  ///< as Document::order_of
     toml::source_position at;
     base::Problem problem;
   };
-  void add(toml::source_position at, std::string place, std::string_view path, base::Problem problem);
+  /// Of the table, and of the item of a list that it lies in.
+  void told(std::string_view path);
+  void add(const toml::source_region& at, std::string place, std::string_view path, base::Problem problem);
 
   const Document& document_;
   std::vector<Found> found_;

@@ -48,7 +48,38 @@ void put(toml::array& array, std::size_t index, toml::node& value) {
   value.visit([&](auto& node) { array.replace(array.cbegin() + static_cast<std::ptrdiff_t>(index), node); });
 }
 
+/// What `over` leaves open is moved there from `base`, and keeps its place in its file.
+void fill(toml::table& over, toml::table& base) {
+  for (auto&& [key, node] : base) {
+    toml::node* mine = over.get(key.str());
+    toml::table *a = mine ? mine->as_table() : nullptr, *b = node.as_table();
+    if (!mine)
+      node.visit([&, &key = key](auto& value) { over.insert(key, std::move(value)); });
+    else if (a && b && !a->is_inline() && !b->is_inline())
+      fill(*a, *b);
+    else if (mine->is_array_of_tables() && node.is_array_of_tables())
+      for (std::size_t n = 0; n < node.as_array()->size(); ++n)
+        mine->as_array()->insert(mine->as_array()->cbegin() + static_cast<std::ptrdiff_t>(n),
+                                 std::move(*node.as_array()->get_as<toml::table>(n)));
+  }
+}
+
 }  // namespace
+
+void Document::lay_over(Document base) {
+  fill(root_, base.root_);
+  for (File& file : base.files_) files_.push_back(std::move(file));
+}
+
+std::size_t Document::order_of(const toml::source_region& region) const {
+  for (std::size_t n = 0; region.path && n < files_.size(); ++n)
+    if (files_[n].name == *region.path) return n;
+  return 0;
+}
+
+const std::string& Document::file_of(const toml::node& node, std::string_view path) const {
+  return files_[setting_of(path) ? 0 : order_of(node.source())].name;
+}
 
 std::vector<std::string> path_words(std::string_view path) {
   std::vector<std::string> words;
@@ -128,8 +159,9 @@ const Setting* Document::setting_of(std::string_view path) const {
 }
 
 std::string_view Document::slice(const toml::source_region& region) const {
-  const std::size_t begin = offset_of(text_, region.begin), end = offset_of(text_, region.end);
-  return begin < end ? std::string_view(text_).substr(begin, end - begin) : std::string_view();
+  const std::string_view text = files_[order_of(region)].text;
+  const std::size_t begin = offset_of(text, region.begin), end = offset_of(text, region.end);
+  return begin < end ? text.substr(begin, end - begin) : std::string_view();
 }
 
 std::string Document::quote(const toml::node& node, std::string_view path) const {
@@ -142,13 +174,13 @@ std::string Document::quote(const toml::node& node, std::string_view path) const
   return std::string(text);
 }
 
-std::string Document::place(toml::source_position at) const {
-  return fmt::format("{}:{}:{}", name_, at.line, at.column);
+std::string Document::place(const toml::source_region& region) const {
+  return fmt::format("{}:{}:{}", files_[order_of(region)].name, region.begin.line, region.begin.column);
 }
 
 std::string Document::place(const toml::node& node, std::string_view path) const {
   if (const Setting* setting = setting_of(path)) return fmt::format("--set {}", setting->path);
-  if (node.source().begin) return place(node.source().begin);
+  if (node.source().begin) return place(node.source());
   return nearest_place(path);
 }
 
@@ -158,10 +190,10 @@ std::string Document::nearest_place(std::string_view path) const {
     const std::string joined = fmt::format("{}", fmt::join(words, "."));
     if (const Setting* setting = setting_of(joined)) return fmt::format("--set {}", setting->path);
     const toml::node* node = find(joined);
-    if (node && node->source().begin) return place(node->source().begin);
+    if (node && node->source().begin) return place(node->source());
     words.pop_back();
   }
-  return place(toml::source_position{1, 1});
+  return fmt::format("{}:1:1", name());
 }
 
 }  // namespace io

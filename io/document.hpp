@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A TOML file with its text, so that every complaint can quote it and say where it stands.
+// A TOML file with its text, so that every complaint can quote it and say where it stands; laid over others,
+// each value still knows its own file.
 #pragma once
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,12 +24,18 @@ class Document {
   /// `name` is what messages call the file.
   static base::Result<Document> parse(std::string name, std::string text);
 
+  /// Lays this file over another: what stands in this one wins. Tables under [headings] are joined key by
+  /// key; lists of tables are joined, the other's first, unless this one's is empty; whatever stands in
+  /// brackets or braces is one value.
+  void lay_over(Document base);
+
   /// Applies values given on the command line. A text that is no TOML value is taken as a word:
   /// `chopping=hard`.
   base::Problems set(std::span<const Setting> settings);
 
   const toml::table& root() const { return root_; }
-  const std::string& name() const { return name_; }
+  toml::table& root() { return root_; }
+  const std::string& name() const { return files_[0].name; }
 
   /// The node at "control.current.d1" or "require[1].max"; null where there is none.
   const toml::node* find(std::string_view path) const;
@@ -37,20 +43,29 @@ class Document {
   /// What stands there, as written; a table or anything longer than one line is not quoted.
   std::string quote(const toml::node& node, std::string_view path) const;
 
-  /// "file:line:column" of a position, or "--set path" where that is where the value came from.
-  std::string place(toml::source_position at) const;
+  /// "file:line:column" of a region, or "--set path" where that is where the value came from.
+  std::string place(const toml::source_region& region) const;
   std::string place(const toml::node& node, std::string_view path) const;
+
+  /// The file that a value stands in; this one for what stands in none.
+  const std::string& file_of(const toml::node& node, std::string_view path) const;
+
+  /// 0 for a region of this file, then those it was laid over, the nearest first.
+  std::size_t order_of(const toml::source_region& region) const;
 
   /// As place(), of the node or of its nearest table that stands in the file.
   std::string nearest_place(std::string_view path) const;
 
  private:
+  struct File {
+    std::string name, text;
+  };
   Document(std::string name, std::string text, toml::table root)
-      : name_(std::move(name)), text_(std::move(text)), root_(std::move(root)) {}
+      : files_{{std::move(name), std::move(text)}}, root_(std::move(root)) {}
   const Setting* setting_of(std::string_view path) const;
   std::string_view slice(const toml::source_region& region) const;
 
-  std::string name_, text_;
+  std::vector<File> files_;  ///< this one first
   toml::table root_;
   std::vector<Setting> settings_;
 };

@@ -24,17 +24,23 @@ struct Place {
 
 bool finite(double x) { return x - x == 0.0; }
 
-/// Every number of a file: the one place that says how a number may be written.
-Json number(const base::Range& range) {
+Json plain_number(const base::Range& range) {
   Json schema = {{"type", "number"}};
   if (finite(range.low)) schema[range.low_included ? "minimum" : "exclusiveMinimum"] = range.low;
   if (finite(range.high)) schema[range.high_included ? "maximum" : "exclusiveMaximum"] = range.high;
   return schema;
 }
 
+/// Every number of a file: in the key's unit, or as text with its own, "20 ms", whose kind and range reading
+/// checks.
+Json number(const base::Range& range) {
+  const Json with_unit = {{"type", "string"}, {"pattern", "^\\s*[-+]?[.0-9]"}};
+  return {{"anyOf", {plain_number(range), with_unit}}};
+}
+
 /// An int: what the reader of files takes.
 Json whole_number(const base::Range& range) {
-  Json schema = number(range);
+  Json schema = plain_number(range);
   schema["type"] = "integer";
   const auto bound = [&](const char* key, const char* excluding, double limit) {
     if (!schema.contains(key) && !schema.contains(excluding)) schema[key] = static_cast<int>(limit);
@@ -77,6 +83,9 @@ Json quantity(const KeyEntry& entry, const Place& place) {
 
 Json list_of(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
 
+/// A list of words, or the word alone where it has only one.
+Json words_or_one(const Json& word) { return {{"anyOf", {list_of(word), word}}}; }
+
 Json column_names() {
   std::vector<std::pair<std::string, std::string>> names;
   for (const study::Column& column : study::all_columns()) names.emplace_back(column.name, column.meaning);
@@ -103,7 +112,7 @@ Json value_of(const KeyEntry& entry, const Place& place) {
     case KeyType::numbers:
       return list_of(number(entry.about.range));
     case KeyType::texts:
-      return list_of(entry.path == "record.columns" ? column_names() : Json{{"type", "string"}});
+      return words_or_one(entry.path == "record.columns" ? column_names() : Json{{"type", "string"}});
     case KeyType::word:
       return one_of(entry.choices);
     case KeyType::quantity:

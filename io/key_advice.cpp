@@ -7,6 +7,8 @@
 #include <array>
 #include <vector>
 
+#include "io/units.hpp"
+
 namespace io {
 namespace {
 
@@ -23,65 +25,24 @@ bool is_unit_piece(std::string_view piece) {
   return std::find(unit_pieces.begin(), unit_pieces.end(), piece) != unit_pieces.end();
 }
 
-struct Unit {
-  std::string_view suffix;
-  std::string_view shown;
-  std::string_view of;  ///< the SI unit that it is a multiple of
-  double times;
-};
-constexpr double rad_s_per_rpm = 0.10471975511965977;  // 2 pi/60
-constexpr std::array units = {
-    Unit{"V", "V", "V", 1},
-    Unit{"mV", "mV", "V", 1e-3},
-    Unit{"kV", "kV", "V", 1e3},
-    Unit{"A", "A", "A", 1},
-    Unit{"mA", "mA", "A", 1e-3},
-    Unit{"uA", "uA", "A", 1e-6},
-    Unit{"s", "s", "s", 1},
-    Unit{"ms", "ms", "s", 1e-3},
-    Unit{"us", "us", "s", 1e-6},
-    Unit{"ns", "ns", "s", 1e-9},
-    Unit{"min", "min", "s", 60},
-    Unit{"ohm", "ohm", "ohm", 1},
-    Unit{"mohm", "mohm", "ohm", 1e-3},
-    Unit{"kohm", "kohm", "ohm", 1e3},
-    Unit{"H", "H", "H", 1},
-    Unit{"mH", "mH", "H", 1e-3},
-    Unit{"uH", "uH", "H", 1e-6},
-    Unit{"F", "F", "F", 1},
-    Unit{"mF", "mF", "F", 1e-3},
-    Unit{"uF", "uF", "F", 1e-6},
-    Unit{"nF", "nF", "F", 1e-9},
-    Unit{"Hz", "Hz", "Hz", 1},
-    Unit{"kHz", "kHz", "Hz", 1e3},
-    Unit{"MHz", "MHz", "Hz", 1e6},
-    Unit{"rad_s", "rad/s", "rad/s", 1},
-    Unit{"rpm", "rpm", "rad/s", rad_s_per_rpm},
-    Unit{"krpm", "krpm", "rad/s", 1e3 * rad_s_per_rpm},
-    Unit{"rps", "rps", "rad/s", 60 * rad_s_per_rpm},
-    Unit{"rad", "rad", "rad", 1},
-    Unit{"deg", "deg", "rad", rad_s_per_rpm / 6},
-    Unit{"Nm", "N m", "N m", 1},
-    Unit{"mNm", "mN m", "N m", 1e-3},
-    Unit{"Ncm", "N cm", "N m", 1e-2},
-    Unit{"kg_m2", "kg m2", "kg m2", 1},
-    Unit{"kgm2", "kg m2", "kg m2", 1},
-    Unit{"gcm2", "g cm2", "kg m2", 1e-7},
-    Unit{"kgcm2", "kg cm2", "kg m2", 1e-4},
-};
-
-const Unit* unit_of(std::string_view suffix) {
+/// "_rad_s" is rad/s and "_kg_m2" is kg m2: a key does not tell them apart.
+std::array<std::string, 2> readings(std::string_view suffix) {
+  std::array<std::string, 2> units;
   if (suffix.starts_with('_')) suffix.remove_prefix(1);
-  const auto found =
-      std::find_if(units.begin(), units.end(), [&](const Unit& unit) { return unit.suffix == suffix; });
-  return found == units.end() ? nullptr : &*found;
+  for (const char c : suffix) {
+    units[0] += c == '_' ? '/' : c;
+    units[1] += c == '_' ? ' ' : c;
+  }
+  return units;
 }
 
 /// ": 1 mV = 0.001 V", where both are units of the same thing.
 std::string conversion(std::string_view from_suffix, std::string_view to_suffix) {
-  const Unit *from = unit_of(from_suffix), *to = unit_of(to_suffix);
-  if (!from || !to || from->of != to->of || from->shown == to->shown) return "";
-  return fmt::format(": 1 {} = {:.6g} {}", from->shown, from->times / to->times, to->shown);
+  for (const std::string& from : readings(from_suffix))
+    for (const std::string& to : readings(to_suffix))
+      if (const base::Result<double> one = in_unit("1 " + from, to); !from.empty() && one)
+        return fmt::format(": 1 {} = {:.6g} {}", from, *one, to);
+  return "";
 }
 
 std::string_view unit_suffix(std::string_view key) { return key.substr(without_unit(key).size()); }
@@ -151,7 +112,7 @@ std::string_view without_unit(std::string_view key) {
   }
 }
 
-base::Problem unknown_key(std::string_view key, std::span<const std::string> known) {
+base::Problem unknown_key(std::string_view key, std::span<const std::string> known, std::string_view advice) {
   const std::string* same = nullptr;  // but for the unit; of several the most alike
   for (const std::string& candidate : known)
     if (without_unit(candidate) == without_unit(key) && !unit_suffix(candidate).empty() &&
@@ -163,7 +124,8 @@ base::Problem unknown_key(std::string_view key, std::span<const std::string> kno
                                 conversion(unit_suffix(key), unit_suffix(*same)))};
   const std::string near = nearest(key, known);
   if (!near.empty()) return {.limit = "is not a key here", .cure = fmt::format("did you mean {}?", near)};
-  return {.limit = "is not a key here", .cure = "known are " + join(known)};
+  return {.limit = "is not a key here",
+          .cure = advice.empty() ? "known are " + join(known) : std::string(advice)};
 }
 
 std::string limit_of(const base::Range& range) {

@@ -25,8 +25,10 @@ std::string nearest_word(std::string_view word, std::span<const std::string> kno
 std::string_view without_unit(std::string_view key);
 
 /// Limit and cure for a key that is none of the known ones: `where` and `value` are left empty. A key that
-/// differs in its unit only is told as a wrong unit.
-base::Problem unknown_key(std::string_view key, std::span<const std::string> known);
+/// differs in its unit only is told as a wrong unit; one that is like none of them is told `advice`, where
+/// there is one, instead of them all.
+base::Problem unknown_key(std::string_view key, std::span<const std::string> known,
+                          std::string_view advice = {});
 
 /// "a", "b" or "c", each in quotes.
 std::string quoted_alternatives(const std::vector<std::string>& words);

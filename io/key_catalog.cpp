@@ -60,6 +60,11 @@ class Catalog {
     prefix_ = outer;
   }
   template <class Struct>
+  void table(std::string_view key, std::optional<Struct>&, const base::About& about) {
+    Struct inner;
+    table(key, inner, about);
+  }
+  template <class Struct>
   void list(std::string_view key, std::vector<Struct>&, const base::About& about) {
     Struct item;
     table(key, item, about);

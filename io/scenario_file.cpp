@@ -11,6 +11,8 @@
 
 #include "io/key_catalog.hpp"
 #include "io/motor_library.hpp"
+#include "io/reference_file.hpp"
+#include "io/scenario_family.hpp"
 #include "io/table_reader.hpp"
 #include "io/text_file.hpp"
 #include "sixstep/design/sheet_constants.hpp"
@@ -34,22 +36,27 @@ base::Result<SheetSource> sheet_of(Document document) {
   return SheetSource{std::move(document), std::move(sheet)};
 }
 
+/// A file that a value names is looked for beside the file in which the value stands.
+std::string folder_of(const Document& document, const toml::node& node, std::string_view path) {
+  return std::filesystem::path(document.file_of(node, path)).parent_path().string();
+}
+
 /// The sheet that the scenario's `motor` names. What is wrong in the motor's own file is told of that file,
 /// what is wrong with the name at the name.
-std::optional<SheetSource> named_sheet(const Document& scenario, const std::string& folder,
-                                       const ReadOptions& options, Complaints& complaints,
-                                       base::Problems& of_motor_file) {
+std::optional<SheetSource> named_sheet(const Document& scenario, const ReadOptions& options,
+                                       Complaints& complaints, base::Problems& of_other_files) {
   const toml::node* name = scenario.find("motor");
   if (!name || !name->is_string()) return {};  // told by the description
-  base::Result<Document> document = find_motor({name->as_string()->get(), folder, options.data_dir});
+  base::Result<Document> document =
+      find_motor({name->as_string()->get(), folder_of(scenario, *name, "motor"), options.data_dir});
   if (!document) {
     for (const base::Problem& problem : document.problems())
-      problem.where.empty() ? complaints.value(*name, "motor", problem) : of_motor_file.push_back(problem);
+      problem.where.empty() ? complaints.value(*name, "motor", problem) : of_other_files.push_back(problem);
     return {};
   }
   base::Result<SheetSource> source = sheet_of(std::move(*document));
   if (!source) {
-    of_motor_file.insert(of_motor_file.end(), source.problems().begin(), source.problems().end());
+    of_other_files.insert(of_other_files.end(), source.problems().begin(), source.problems().end());
     return {};
   }
   return std::move(*source);
@@ -139,7 +146,7 @@ base::Problem as_written(const Document& document, const std::string& table, bas
 
 /// What study::check found, each told where it stands: in the scenario, its overrides, or the motor's file.
 void run_checks(const Document& document, const SheetSource& source, const study::Scenario& scenario,
-                Complaints& complaints, base::Problems& of_motor_file) {
+                Complaints& complaints, base::Problems& of_other_files) {
   Complaints of_motor(source.document);
   base::Problems of_scenario;
   for (base::Problem& problem : study::check(scenario)) {
@@ -156,7 +163,57 @@ void run_checks(const Document& document, const SheetSource& source, const study
     if (!complaints.about_table_of(problem.where)) of_scenario.push_back(std::move(problem));
   }
   for (base::Problem& problem : of_scenario) complaints.later(std::move(problem));
-  for (base::Problem& problem : of_motor.in_order()) of_motor_file.push_back(std::move(problem));
+  for (base::Problem& problem : of_motor.in_order()) of_other_files.push_back(std::move(problem));
+}
+
+/// The rows of a csv reference, from the file that it names.
+void read_rows(const Document& document, const std::string& path, const std::string& unit,
+               study::Reference& r, Complaints& complaints, base::Problems& of_other_files) {
+  if (r.file.empty() || r.shape != study::Shape::csv) return;
+  const std::string key = path + ".file";
+  const auto complain = [&](base::Problem problem) {
+    problem.where = key;
+    complaints.later(std::move(problem));
+  };
+  if (!r.times_s.empty() || !r.values.empty())
+    return complain(
+        {.limit = "contradicts times_s and values: the rows are given twice", .cure = "keep one of the two"});
+  const toml::node* node = document.find(key);
+  if (!node) return;
+  const std::string name = (std::filesystem::path(folder_of(document, *node, key)) / r.file).string();
+  const base::Result<std::string> text = read_regular_text(name);
+  if (!text)
+    return complain({.limit = fmt::format("names {}, which {}", name, text.problems().at(0).limit),
+                     .cure = text.problems().at(0).cure});
+  base::Result<ReferenceRows> rows = reference_rows(name, *text, r.column, unit);
+  if (!rows) {
+    of_other_files.insert(of_other_files.end(), rows.problems().begin(), rows.problems().end());
+    return complaints.told_elsewhere(key);
+  }
+  r.times_s = std::move(rows->times_s);
+  r.values = std::move(rows->values);
+}
+
+void read_all_rows(const Document& document, study::Scenario& scenario, Complaints& complaints,
+                   base::Problems& of_other_files) {
+  // A duty is a plain number.
+  const std::string_view of_mode = study::reference_unit(scenario.control.mode);
+  const std::string unit(of_mode == "1" ? "" : of_mode);
+  read_rows(document, "reference", unit, scenario.reference, complaints, of_other_files);
+  for (std::size_t n = 0; n < scenario.at.size(); ++n)
+    if (scenario.at[n].reference)
+      read_rows(document, fmt::format("at[{}].reference", n), unit, *scenario.at[n].reference, complaints,
+                of_other_files);
+}
+
+base::Problems apply_overrides(Document& document, const std::vector<Setting>& overrides) {
+  for (const Setting& setting : overrides)
+    if (path_words(setting.path) == std::vector<std::string>{"extends"})
+      return {{.where = "--set extends",
+               .value = setting.text,
+               .limit = "comes too late: the files are joined already",
+               .cure = "write extends in the scenario"}};
+  return document.set(overrides);
 }
 
 }  // namespace
@@ -186,25 +243,26 @@ base::Result<study::Scenario> read_scenario(const std::string& path, const ReadO
 
 base::Result<study::Scenario> read_scenario_text(const std::string& path, std::string text,
                                                  const ReadOptions& options) {
-  base::Result<Document> parsed = Document::parse(path, std::move(text));
+  base::Result<Document> parsed = read_family(path, std::move(text));
   if (!parsed) return parsed.problems();
   Document& document = *parsed;
-  if (base::Problems problems = document.set(options.overrides); !problems.empty()) return problems;
+  if (base::Problems problems = apply_overrides(document, options.overrides); !problems.empty())
+    return problems;
 
   Complaints complaints(document);
-  base::Problems of_motor_file;
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  std::optional<SheetSource> source = named_sheet(document, folder, options, complaints, of_motor_file);
+  base::Problems of_other_files;
+  std::optional<SheetSource> source = named_sheet(document, options, complaints, of_other_files);
   study::Scenario scenario;
   if (source) scenario.sheet = source->sheet;
   read_root(document, scenario, complaints);
   drop_stale(document, scenario.sheet);
   // A duration that is wrong has been told: nothing shall lie behind its end besides.
   if (!(scenario.duration_s > 0.0)) scenario.duration_s = study::longest_s;
-  if (source) run_checks(document, *source, scenario, complaints, of_motor_file);
+  read_all_rows(document, scenario, complaints, of_other_files);
+  if (source) run_checks(document, *source, scenario, complaints, of_other_files);
 
   base::Problems problems = complaints.in_order();
-  problems.insert(problems.end(), of_motor_file.begin(), of_motor_file.end());
+  problems.insert(problems.end(), of_other_files.begin(), of_other_files.end());
   if (!problems.empty()) return problems;
   if (scenario.title.empty()) scenario.title = std::filesystem::path(path).stem().string();
   return scenario;

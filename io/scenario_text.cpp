@@ -54,9 +54,13 @@ class TableText {
   template <class Struct>
   void table(std::string_view key, Struct& member, const sixstep::base::About& about) {
     if (about.partial) return;  // the motor's sheet
-    TableText inner;
-    describe(inner, member);
-    tables_.emplace_back(key, std::move(inner));
+    add(key, member, Shown::where_it_differs);
+  }
+  /// One that may be left out is told by its heading, even where every row is the default.
+  template <class Struct>
+  void table(std::string_view key, std::optional<Struct>& member, const sixstep::base::About&) {
+    Struct usual;
+    add(key, member ? *member : usual, member ? Shown::always : Shown::never);
   }
   template <class Item>
   void list(std::string_view key, std::vector<Item>& items, const sixstep::base::About&) {
@@ -66,13 +70,15 @@ class TableText {
     for (Item& item : items) {
       TableText inner;
       describe(inner, item);
-      lists_.emplace_back(key, inner.text(plain, "", true));
+      lists_.emplace_back(key, inner.text(plain, std::string(key), Heading::none));
       inner.add_values(plain, fmt::format("{}[{}].", key, &item - items.data()), listed_);
     }
   }
 
-  /// The rows that differ from `usual`; a table under its path where it has any.
-  std::string text(const TableText& usual, const std::string& path, bool no_header = false) const {
+  enum class Heading { with_rows, always, none };
+
+  /// The rows that differ from `usual`, under the table's path; then the tables within.
+  std::string text(const TableText& usual, const std::string& path, Heading heading) const {
     std::map<std::string, std::string> other;
     for (const Row& row : usual.rows_) other.emplace(row.key, row.value);
     std::string out;
@@ -81,10 +87,14 @@ class TableText {
       if (row.required || same == other.end() || same->second != row.value)
         out += fmt::format("{} = {}\n", row.key, row.value);
     }
-    if (!out.empty() && !path.empty() && !no_header) out = fmt::format("\n[{}]\n", path) + out;
-    for (std::size_t n = 0; n < tables_.size(); ++n)
-      out += tables_[n].second.text(usual.tables_[n].second,
-                                    path.empty() ? tables_[n].first : path + "." + tables_[n].first);
+    if (heading == Heading::always || (heading == Heading::with_rows && !out.empty()))
+      out = fmt::format("\n[{}]\n", path) + out;
+    for (std::size_t n = 0; n < tables_.size(); ++n) {
+      const TableText& inner = tables_[n];
+      if (inner.shown_ == Shown::never) continue;
+      out += inner.text(usual.tables_[n], path.empty() ? inner.key_ : path + "." + inner.key_,
+                        inner.shown_ == Shown::always ? Heading::always : Heading::with_rows);
+    }
     for (const auto& [key, rows] : lists_) out += fmt::format("\n[[{}]]\n{}", key, rows);
     return out;
   }
@@ -98,18 +108,32 @@ class TableText {
       out.push_back({path + row.key, row.value, same && !row.required});
     }
     for (std::size_t n = 0; n < tables_.size(); ++n)
-      tables_[n].second.add_values(usual.tables_[n].second, path + tables_[n].first + ".", out);
+      if (tables_[n].shown_ != Shown::never)
+        tables_[n].add_values(usual.tables_[n], path + tables_[n].key_ + ".", out);
     for (const WrittenValue& value : listed_) out.push_back({path + value.path, value.text, value.usual});
   }
 
  private:
+  enum class Shown { where_it_differs, always, never };
   struct Row {
     std::string key, value;
     bool required;
   };
+
+  template <class Struct>
+  void add(std::string_view key, Struct& member, Shown shown) {
+    TableText inner;
+    describe(inner, member);
+    inner.key_ = std::string(key);
+    inner.shown_ = shown;
+    tables_.push_back(std::move(inner));
+  }
+
+  std::string key_;
+  Shown shown_ = Shown::where_it_differs;
   std::vector<Row> rows_;
   std::vector<std::pair<std::string, std::string>> lists_;
-  std::vector<std::pair<std::string, TableText>> tables_;
+  std::vector<TableText> tables_;
   std::vector<WrittenValue> listed_;  ///< of the lists' items
 };
 
@@ -124,12 +148,21 @@ std::string comment(const std::string& text) {
 
 std::string scenario_text(const study::Scenario& scenario, const std::vector<std::string>& comments) {
   study::Scenario copy = scenario, usual;
+  // What was read from other files is written out: the text stands for itself, wherever it is kept.
+  copy.extends.clear();
+  const auto detach = [](study::Reference& r) {
+    r.file.clear();
+    r.column.reset();
+  };
+  detach(copy.reference);
+  for (study::At& at : copy.at)
+    if (at.reference) detach(*at.reference);
   TableText text, defaults;
   describe(text, copy);
   describe(defaults, usual);
   std::string out;
   for (const std::string& line : comments) out += comment(line);
-  return out + text.text(defaults, "");
+  return out + text.text(defaults, "", TableText::Heading::none);
 }
 
 std::vector<WrittenValue> scenario_values(const study::Scenario& scenario) {

@@ -4,46 +4,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "io/key_advice.hpp"
+#include "io/units.hpp"
+#include "sixstep/study/choices.hpp"
 
 namespace io {
 namespace {
 
-std::string in_unit(const base::About& about) {
+std::string in_unit_words(const base::About& about) {
   return about.unit.empty() ? std::string() : fmt::format(", in {}", about.unit);
 }
 
 std::string cure_of(const base::About& about) {
   if (!about.cure.empty()) return std::string(about.cure);
-  return fmt::format("it means: {}{}", about.meaning, in_unit(about));
+  return fmt::format("it means: {}{}", about.meaning, in_unit_words(about));
 }
 
-/// "20 ms" where seconds belong is 0.02; nothing where the text is no number or its unit no multiple of the
-/// wanted.
-std::optional<double> in_wanted_unit(const std::string& text, std::string_view unit) {
-  char* end = nullptr;
-  const double number = std::strtod(text.c_str(), &end);
-  if (end == text.c_str()) return {};
-  std::string_view rest(end);
-  while (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
-  if (rest.empty() || rest == unit) return number;
-  if (rest.substr(1) != unit) return {};
-  switch (rest.front()) {
-    case 'n':
-      return number / 1e9;
-    case 'u':
-      return number / 1e6;
-    case 'm':
-      return number / 1e3;
-    case 'k':
-      return number * 1e3;
-    case 'M':
-      return number * 1e6;
-    default:
-      return {};
-  }
+/// The unit that the reference has in the file's control mode; empty where the mode has none or is not known.
+std::string mode_unit(const Document& document) {
+  const toml::node* mode = document.find("control.mode");
+  const std::optional<std::string> word = mode ? mode->value<std::string>() : std::nullopt;
+  for (const auto& choice : study::mode_choices)
+    if (word == choice.word) return std::string(study::reference_unit(choice.value));
+  return {};
 }
 
 }  // namespace
@@ -52,9 +36,9 @@ const toml::node* TableReader::find(std::string_view key, const base::About& abo
   known_.emplace_back(key);
   const toml::node* node = table_.get(key);
   if (!node && about.required && !partial_)
-    complaints_.missing(at(key),
-                        {.limit = "is missing",
-                         .cure = fmt::format("write {} = ..: {}{}", key, about.meaning, in_unit(about))});
+    complaints_.missing(
+        at(key), {.limit = "is missing",
+                  .cure = fmt::format("write {} = ..: {}{}", key, about.meaning, in_unit_words(about))});
   return node;
 }
 
@@ -75,34 +59,43 @@ const toml::array* TableReader::find_tables(std::string_view key, const base::Ab
   return nullptr;
 }
 
+/// Empty for a plain number; nothing where it follows from a control mode that has no unit.
+std::optional<std::string> TableReader::unit_of_key(const base::About& about) const {
+  if (about.mode_unit.empty()) return std::string(about.unit);
+  const std::string unit = mode_unit(complaints_.document());
+  if (unit.empty()) return {};
+  // "1" stands for a duty.
+  const std::string whole = unit + std::string(about.mode_unit.substr(1));
+  return whole == "1" ? std::string() : whole;
+}
+
+base::Result<double> TableReader::number_of(const toml::node& node, const base::About& about) const {
+  if (const toml::value<std::string>* text = node.as_string()) {
+    const std::optional<std::string> unit = unit_of_key(about);
+    if (unit) return in_unit(text->get(), *unit);
+    return base::Problem{.limit = "is in the unit of control.mode, and this mode has none",
+                         .cure = "set control.mode, or write a number without quotes"};
+  }
+  if (node.is_integer()) return static_cast<double>(node.as_integer()->get());
+  if (node.is_floating_point()) return node.as_floating_point()->get();
+  return base::Problem{.limit = "must be a number"};
+}
+
 bool TableReader::number(const toml::node& node, const std::string& path, const base::About& about,
                          double& out) {
-  if (const toml::value<std::string>* text = node.as_string()) {
-    const std::optional<double> meant = in_wanted_unit(text->get(), about.unit);
-    const std::string write = meant ? fmt::format("write {}", shortest(*meant)) : cure_of(about);
-    complaints_.value(
-        node, path,
-        {.limit =
-             about.unit.empty()
-                 ? "must be a number without quotes"
-                 : fmt::format("must be a number without quotes; the key carries its unit, {}", about.unit),
-         .cure = write});
+  const base::Result<double> x = number_of(node, about);
+  const auto refuse = [&](base::Problem problem) {
+    if (problem.cure.empty()) problem.cure = cure_of(about);
+    complaints_.value(node, path, std::move(problem));
     return false;
+  };
+  if (!x) return refuse(x.problems().at(0));
+  if (!about.range.holds(*x)) {
+    const bool finite = *x - *x == 0.0;
+    const std::string in = node.is_string() && !about.unit.empty() ? in_unit_words(about) : "";
+    return refuse({.limit = finite ? limit_of(about.range) + in : "must be a finite number"});
   }
-  if (!node.is_number()) {
-    complaints_.value(node, path, {.limit = "must be a number", .cure = cure_of(about)});
-    return false;
-  }
-  const double x =
-      node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
-  if (!about.range.holds(x)) {
-    const bool finite = x - x == 0.0;
-    complaints_.value(
-        node, path,
-        {.limit = finite ? limit_of(about.range) : "must be a finite number", .cure = cure_of(about)});
-    return false;
-  }
-  out = x;
+  out = *x;
   return true;
 }
 
@@ -171,6 +164,11 @@ void TableReader::value(std::string_view key, std::vector<std::string>& member, 
   const toml::node* node = find(key, about);
   if (!node) return;
   const toml::array* items = node->as_array();
+  if (node->is_string()) {  // a list of one
+    member.clear();
+    word(*node, at(key), about, member.emplace_back());
+    return;
+  }
   if (!items) {
     complaints_.value(*node, at(key),
                       {.limit = "must be a list of words", .cure = "write it in brackets: [\"a\", \"b\"]"});
@@ -197,8 +195,7 @@ void TableReader::no_such_word(const toml::node& node, std::string_view key,
 void TableReader::refuse_unknown_keys() {
   for (const auto& [key, node] : table_) {
     if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
-    base::Problem problem = unknown_key(key.str(), known_);
-
+    base::Problem problem = unknown_key(key.str(), known_, advice_);
     complaints_.key(key, node, at(key.str()), std::move(problem));
   }
 }

@@ -11,14 +11,17 @@
 #include "io/complaints.hpp"
 #include "io/rooms.hpp"
 #include "sixstep/base/describe.hpp"
+#include "sixstep/base/result.hpp"
 
 namespace io {
 
 class TableReader {
  public:
   /// `path` is where the table stands; empty for the file itself. `partial`: no key is required.
-  TableReader(const toml::table& table, std::string path, Complaints& complaints, bool partial)
-      : table_(table), path_(std::move(path)), complaints_(complaints), partial_(partial) {}
+  /// `advice` is told of keys that are nothing like those of the table; empty: they are listed.
+  TableReader(const toml::table& table, std::string path, Complaints& complaints, bool partial,
+              std::string_view advice = {})
+      : table_(table), path_(std::move(path)), complaints_(complaints), partial_(partial), advice_(advice) {}
 
   void value(std::string_view key, double& member, const base::About& about);
   void value(std::string_view key, int& member, const base::About& about);
@@ -62,9 +65,15 @@ class TableReader {
   void table(std::string_view key, Struct& member, const base::About& about) {
     const toml::table* inner = find_table(key, about);
     if (!inner) return;
-    TableReader reader(*inner, at(key), complaints_, partial_ || about.partial);
+    TableReader reader(*inner, at(key), complaints_, partial_ || about.partial, about.cure);
     describe(reader, member);
     reader.refuse_unknown_keys();
+  }
+
+  template <class Struct>
+  void table(std::string_view key, std::optional<Struct>& member, const base::About& about) {
+    if (!given(key)) return absent(key, about);
+    table(key, member.emplace(), about);
   }
 
   template <class Struct>
@@ -74,7 +83,7 @@ class TableReader {
     member.clear();
     for (std::size_t n = 0; n < items->size(); ++n) {
       TableReader reader(*items->get(n)->as_table(), at(key) + "[" + std::to_string(n) + "]", complaints_,
-                         partial_);
+                         partial_, about.cure);
       describe(reader, member.emplace_back());
       reader.refuse_unknown_keys();
     }
@@ -103,9 +112,12 @@ class TableReader {
              const base::Spelling& spelling, base::Quantity& out);
   void interval(const toml::node& node, const std::string& path, const base::About& about, int ten,
                 base::Quantity& out);
-  std::optional<double> last_digit(const toml::node& node, const std::string& path, int ten) const;
+  std::optional<double> last_digit(const toml::node& node, const std::string& path, const base::About& about,
+                                   int ten) const;
   const toml::table* find_table(std::string_view key, const base::About& about);
   const toml::array* find_tables(std::string_view key, const base::About& about);
+  std::optional<std::string> unit_of_key(const base::About& about) const;
+  base::Result<double> number_of(const toml::node& node, const base::About& about) const;
   bool number(const toml::node& node, const std::string& path, const base::About& about, double& out);
   bool word(const toml::node& node, const std::string& path, const base::About& about, std::string& out);
   void frame(const toml::node& node, const std::string& path, const base::About& about,
@@ -116,6 +128,7 @@ class TableReader {
   std::string path_;
   Complaints& complaints_;
   bool partial_;
+  std::string_view advice_;
   std::vector<std::string> known_;
 };
 

@@ -8,6 +8,7 @@
 #include "io/key_advice.hpp"
 #include "io/key_tree.hpp"
 #include "io/table_reader.hpp"
+#include "io/units.hpp"
 #include "sixstep/base/decimal.hpp"
 
 namespace io {
@@ -30,10 +31,20 @@ std::optional<base::Spelling> TableReader::spelling_in_file(std::string_view key
   return used;
 }
 
-/// What the last digit of the number is worth, from the text of the file: 0.1 for 36.0, 1 for 36.
+/// What the last digit of the number is worth, from the text of the file: 0.1 for 36.0, 1 for 36, and 0.001
+/// for "36.0 mH" where H belong.
 std::optional<double> TableReader::last_digit(const toml::node& node, const std::string& path,
-                                              int ten) const {
-  const std::string text = complaints_.document().quote(node, path);
+                                              const base::About& about, int ten) const {
+  std::string text = complaints_.document().quote(node, path);
+  double factor = 1.0;
+  if (const toml::value<std::string>* quoted = node.as_string()) {
+    const std::optional<Written> written = split_number(quoted->get());
+    const std::optional<Unit> from = unit_of(written ? written->unit : ""), to = unit_of(about.unit);
+    if (!written || !from || !to) return {};
+    text = written->number;
+    ten += from->ten - to->ten;
+    factor = from->factor / to->factor;
+  }
   const std::size_t exponent = text.find_first_of("eE"), point = text.find('.');
   const std::string_view digits = std::string_view(text).substr(0, exponent);
   if (digits.empty() || digits.find_first_not_of("+-_.0123456789") != std::string_view::npos) return {};
@@ -43,7 +54,7 @@ std::optional<double> TableReader::last_digit(const toml::node& node, const std:
     power -= static_cast<int>(std::count_if(digits.begin() + static_cast<std::ptrdiff_t>(point), digits.end(),
                                             [](char c) { return c >= '0' && c <= '9'; }));
   if (power < -22 || power > 22) return {};
-  return base::times_ten_to(1.0, power);
+  return factor * base::times_ten_to(1.0, power);
 }
 
 void TableReader::interval(const toml::node& node, const std::string& path, const base::About& about, int ten,
@@ -74,7 +85,7 @@ void TableReader::parts(const toml::table& table, const std::string& path, const
   number_about.also = {};
   reader.value("value", out.value, number_about);
   if (const toml::node* value = table.get("value"))
-    out.last_digit = last_digit(*value, path + ".value", spelling.ten);
+    out.last_digit = last_digit(*value, path + ".value", about, spelling.ten);
   if (const toml::node* written = reader.find("frame", {}))
     reader.word(*written, path + ".frame", {.meaning = "frame"}, out.frame);
   if (const toml::node* written = reader.find("source", {}))
@@ -109,7 +120,7 @@ void TableReader::quantity(std::string_view key, base::Quantity& member, const b
     parts(*table, path, spelled, *spelling, read);
   } else if (number(node, path, spelled, read.value)) {
     frame(node, path, spelled, read);
-    read.last_digit = last_digit(node, path, spelling->ten);
+    read.last_digit = last_digit(node, path, spelled, spelling->ten);
   }
   read.value = base::times_ten_to(read.value, spelling->ten);
   member = std::move(read);

@@ -78,4 +78,14 @@ base::Result<std::string> read_text(const std::string& path) {
   return text;
 }
 
+base::Result<std::string> read_regular_text(const std::string& path) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+      !std::filesystem::is_directory(status))
+    return base::Problem{
+        .where = path + ":", .limit = "cannot be read: it is no regular file", .cure = "name a file"};
+  return read_text(path);
+}
+
 }  // namespace io

@@ -36,5 +36,7 @@ class ReadLog {
 
 /// 64 bits of a text, continued from those of what stands before it. No cryptography.
 std::uint64_t text_digest(const std::string& text, std::uint64_t before = 0);
+/// The same of a file that another file names: it must be one, for a device or a pipe need not end.
+base::Result<std::string> read_regular_text(const std::string& path);
 
 }  // namespace io

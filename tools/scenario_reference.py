@@ -20,6 +20,23 @@ Written by `tools/scenario_reference.py` from `sixstep help`; a test checks that
 Files are TOML. Every key carries its unit. A key that is not listed here is an error. What stands under "default" holds
 where the key is left out; without a default it may be left out, unless it is required.
 [Figures of merit](figures.md) defines what `[[require]]` and `[[compare]]` can ask for.
+
+A number may bring a unit of its own, in quotes: `duration_s = "20 ms"`, `times_s = [0, "5 ms"]`, `inertia_kg_m2 =
+"135 gcm2"`, `damping = "90 %"`, and for a reference whatever suits the control mode, `value = "6710 rpm"`. The unit must be
+of the key's kind. Powers of ten cost no rounding: "0.572 mH" is the same number as 0.000572.
+
+`extends = "base.toml"`, or a list of files, takes what stands in other scenarios, each name relative to the file that names
+it. What is nearer wins: this file over its bases, a later base over an earlier one, `--set` over all. Tables under headings are
+joined key by key. Lists of tables, as `[[require]]`, are joined too, the bases' first, unless this file's is empty: `require = []`.
+Whatever stands in brackets or braces is one value and replaces the other.
+
+`[[at]]` changes something at an instant of the run: the reference, the source's voltage, the load, a Hall line, the request to
+the product drive. A reference that moves is looked at by each control tick, and held until the next. Figures that are taken of
+the reference's steps need one that stands still in their window, or their own `level`.
+
+The file of `shape = "csv"` has the time first and the reference in another column, parted by commas, semicolons (then with
+decimal commas, if you like), tabs or blanks. One line of headings may come first; a heading may bring a unit, `t_ms` or
+`speed [rpm]`. Lines that begin with # are remarks, so that a trace written by `sixstep run --csv` can be followed.
 """
 MOTOR = """
 # Motor files
@@ -71,14 +88,23 @@ def table(entries, prefix):
     return text
 
 
-def section(program, entry):
+def repeats(entry, top):
+    """The table at the top of the file that has the same keys: they are told there."""
+    inner = [path.removeprefix(entry.path) for path in entry.inner]
+    return next((t for t in top if t.is_table and t.path != entry.path and inner == [path.removeprefix(t.path) for path in t.inner]), None)
+
+
+def section(program, entry, top):
     """A table with its own keys, then the tables inside it."""
     brackets = f"[[{entry.path}]]" if entry.type.startswith("list") else f"[{entry.path}]"
+    if "." in entry.path and (same := repeats(entry, top)):
+        return f"\n## `{brackets}`\n\n{entry.meaning[0].upper()}{entry.meaning[1:]}. The keys are those of `[{same.path}]`.\n"
     inner = [Entry(program, path) for path in entry.inner]
     tables = [e for e in inner if e.is_table]
+    within = [t for t in tables if not any(t.path.startswith(o.path + ".") for o in tables)]
     own = [e for e in inner if not e.is_table and not any(e.path.startswith(t.path + ".") for t in tables)]
     text = f"\n## `{brackets}`\n\n{entry.meaning[0].upper()}{entry.meaning[1:]}.\n\n" + table(own, entry.path + ".")
-    return text + "".join(section(program, t) for t in tables)
+    return text + "".join(section(program, t, top) for t in within)
 
 
 def page(program):
@@ -92,7 +118,7 @@ def page(program):
         entry.type = entry.type.removeprefix("number, or { value, frame, source }, ")
     tables = [e for e in top if e.is_table and e.path != "motor_override"]
     text = HEAD + "\n## At the top of the file\n\n" + table([e for e in top if not e.is_table], "")
-    return text + "".join(section(program, e) for e in tables) + MOTOR + table(sheet, OVERRIDE)
+    return text + "".join(section(program, e, top) for e in tables) + MOTOR + table(sheet, OVERRIDE)
 
 
 def main(words):

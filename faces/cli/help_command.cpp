@@ -59,7 +59,7 @@ const KeyEntry* by_path(const std::vector<KeyEntry>& entries, const std::string&
 const KeyEntry* by_name(const std::vector<KeyEntry>& entries, const std::string& key) {
   const KeyEntry* found = nullptr;
   for (const KeyEntry& entry : entries) {
-    if (!entry.path.ends_with("." + key) || inside(entry, "motor_override")) continue;
+    if (!entry.path.ends_with("." + key) || inside(entry, "motor_override") || inside(entry, "at")) continue;
     if (found) return nullptr;
     found = &entry;
   }

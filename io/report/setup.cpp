@@ -120,23 +120,71 @@ std::string protection(const study::Protection& p) {
   return text;
 }
 
-std::string reference(const study::Scenario& s) {
-  static constexpr const char* units[] = {"", "", "A", "rad/s", "deg"};
-  const char* unit = units[static_cast<int>(s.control.mode)];
-  const study::Reference& r = s.reference;
+std::string move(const study::Reference& r, const char* unit) {
+  const std::string way =
+      fmt::format("{}to {}", r.start ? "from " + given(*r.start, unit) + " " : "", given(r.end, unit));
+  const std::string rate = fmt::format("{}/s", unit);
+  if (r.shape == study::Shape::trapezoid)
+    return fmt::format("trapezoid {}, at most {}, {}", way, given(r.slope.value_or(0.0), rate),
+                       given(r.acceleration.value_or(0.0), rate + "2"));
+  return r.end_s ? fmt::format("ramp {} until {}", way, given(*r.end_s, "s"))
+                 : fmt::format("ramp {} at {}", way, given(r.slope.value_or(0.0), rate));
+}
+
+std::string listed(const std::vector<double>& values, const char* unit) {
+  std::string text;
+  for (std::size_t n = 0; n < values.size() && n < 8; ++n)
+    text += (n ? ", " : "steps ") + given(values[n], unit);
+  return values.size() > 8 ? text + fmt::format(" … ({} in all)", values.size()) : text;
+}
+
+std::string reference(const study::Reference& r, const char* unit) {
   switch (r.shape) {
     case study::Shape::constant:
       return given(r.value, unit);
     case study::Shape::square:
       return fmt::format("square, {} and {} at {}", given(r.high, unit), given(r.low, unit),
                          given(1.0 / r.period_s, "Hz"));
+    case study::Shape::ramp:
+    case study::Shape::trapezoid:
+      return move(r, unit);
+    case study::Shape::sine:
+      return fmt::format("sine, {} ± {} at {}", given(r.offset, unit), given(r.amplitude, unit),
+                         given(r.frequency_Hz, "Hz"));
+    case study::Shape::csv:
+      return fmt::format("{} rows of {}", r.values.size(), r.file.empty() ? "the scenario" : r.file);
     case study::Shape::steps:
       break;
   }
+  return listed(r.values, unit);
+}
+
+std::string reference(const study::Scenario& s) {
+  static constexpr const char* units[] = {"", "", "A", "rad/s", "deg"};
+  const char* unit = units[static_cast<int>(s.control.mode)];
+  std::string text = reference(s.reference, unit);
+  for (const study::At& at : s.at)
+    if (at.reference)
+      text += fmt::format("; from {} on {}", given(at.time_s, "s"), reference(*at.reference, unit));
+  return text;
+}
+
+std::string events(const std::vector<study::At>& events) {
   std::string text;
-  for (std::size_t n = 0; n < r.values.size() && n < 8; ++n)
-    text += (n ? ", " : "steps ") + given(r.values[n], unit);
-  return r.values.size() > 8 ? text + fmt::format(" … ({} in all)", r.values.size()) : text;
+  for (const study::At& at : events) {
+    std::string what;
+    const auto add = [&what](const std::string& words) { what += (what.empty() ? "" : ", ") + words; };
+    if (at.supply.voltage_V) add("supply " + given(*at.supply.voltage_V, "V"));
+    if (at.supply.sinks) add(*at.supply.sinks ? "supply takes current back" : "supply takes none back");
+    if (at.load.torque_Nm) add("load " + given(*at.load.torque_Nm, "Nm"));
+    if (at.load.locked) add(*at.load.locked ? "rotor clamped" : "rotor let go");
+    if (at.sensors.hall_break) add(fmt::format("line H{} breaks", at.sensors.hall_break->line));
+    if (at.request == study::DriveRequest::on) add("asked to run");
+    if (at.request == study::DriveRequest::off) add("let go");
+    if (at.request == study::DriveRequest::clear) add("fault cleared");
+    if (!what.empty()) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", given(at.time_s, "s"), what);
+  }
+  return text;
 }
 
 std::string shaft(const study::Load& load) {
@@ -165,6 +213,7 @@ std::string setup_section(const study::Scenario& s) {
   if (s.control.mode != control::Mode::off) add("Reference", reference(s));
   add("Commutation", at_edge ? "at the Hall edge" : "at the next sample");
   add("Shaft", shaft(s.load));
+  if (const std::string text = events(s.at); !text.empty()) add("During the run", text);
   return html;
 }
 

@@ -10,7 +10,7 @@
 //                                          std::vector<double>, std::vector<std::string>
 //   v.choice(key, member, choices, about)  an enum, by its words: choices is an array of Choice
 //   v.quantity(key, member, about)         Quantity: a number with frame and source
-//   v.table(key, member, about)            a described struct
+//   v.table(key, member, about)            a described struct, or a std::optional of one
 //   v.list(key, member, about)             std::vector of a described struct, TOML's [[key]]
 // The default of a member is what a default-constructed S holds.
 #pragma once
@@ -60,6 +60,8 @@ struct About {
   std::string_view cure = "";  ///< what to write instead; empty: derived from range and unit
   bool partial = false;  ///< a table that changes single values of what is filled already: none is required
   std::span<const Spelling> also = {};  ///< other keys for the same quantity; a file uses one of them
+  std::string_view mode_unit = "";      ///< the unit follows from control.mode: "*" is that of its reference,
+                                        ///< "*/s" that per second
 };
 
 /// One word of an enumeration as written in files, and what it means.

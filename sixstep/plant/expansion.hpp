@@ -25,6 +25,7 @@ struct Constants {
   Real volt_scale, amp_scale, speed_scale, torque_scale;
   Real steady_rate;                         // the part of the fastest rate that does not change, 1/s
   Real amp_limit, speed_limit, volt_limit;  // 1 / rounding level of a term of the series
+  Real K_e;
 };
 
 /// A term of a series is nothing once it is this many times smaller than its state's natural scale: well

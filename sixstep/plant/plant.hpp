@@ -41,6 +41,10 @@ class Plant {
     constants_.load = static_cast<Real>(torque_Nm);
     stale_ = true;
   }
+  // What a scenario may change besides (plant_changes.hpp).
+  void set_locked(bool locked);
+  void set_source_voltage(double V_0_V);
+  void set_source_sinks(bool sinks);
 
   /// Settles the mode where it is stale and expands; returns the length covered, negative where no mode is
   /// consistent.
@@ -70,6 +74,8 @@ class Plant {
   bool resettle(Real wanted, bool& expanded);
   bool pass_edge(bool ahead);
   void balance();
+  void set_scales(Real volt_scale);
+  void set_steady_rate();
 
   Constants<Real> constants_;
   State<Real> state_;
@@ -109,17 +115,10 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
       for (int k = 0; k < 3; ++k) piece.alpha[k] *= K_e, piece.beta[k] *= K_e;
   c.legs = legs_laws(devices, R, inv_L);
   const Real emf = 2 * K_e * detail::abs(Real(start.speed_rad_s));
-  c.volt_scale = std::max(c.V_0, Real(start.bus_V)) + Real(devices.V_f_V) + emf;
-  c.amp_scale = c.volt_scale / R;
-  c.speed_scale = c.volt_scale / (2 * K_e);
-  c.torque_scale = 2 * K_e * c.amp_scale;
-  c.amp_limit = terms_per_scale<Real> / c.amp_scale;
-  c.speed_limit = terms_per_scale<Real> / c.speed_scale;
-  c.volt_limit = terms_per_scale<Real> / c.volt_scale;
+  c.K_e = K_e;
+  set_scales(std::max(c.V_0, Real(start.bus_V)) + Real(devices.V_f_V) + emf);
   for (int k = 0; k < 5; ++k) c.pole_terms[k] = pole_terms<Real>(static_cast<Connection>(k), devices);
-  const Real winding = (R + std::max(Real(devices.R_on_ohm), Real(devices.r_d_ohm))) * inv_L;
-  const Real electromechanical = c.locked ? Real(0) : K_e * std::sqrt(inv_L * c.inv_J);
-  c.steady_rate = winding + electromechanical + c.inv_C * (c.inv_R_b + 1 / R);
+  set_steady_rate();
 
   state_.bus = stiff ? c.V_0 : Real(start.bus_V);
   state_.w = shaft.locked ? Real(0) : Real(start.speed_rad_s);
@@ -297,3 +296,5 @@ Snapshot<Real> Plant<Real>::at(Real s) const {
 }
 
 }  // namespace sixstep::plant
+
+#include "sixstep/plant/plant_changes.hpp"

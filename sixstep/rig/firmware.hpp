@@ -90,6 +90,7 @@ class LeanDrive {
     return control::on_hall(config_, state_, pins);
   }
   void request_run(bool) {}
+  void request_clear() {}
 
   /// Sign of the last command.
   bool reversed() const { return state_.reversed; }
@@ -137,6 +138,7 @@ class SensedDrive {
     return answer;
   }
   void request_run(bool) {}
+  void request_clear() {}
 
   bool reversed() const { return drive_.reversed(); }
   bool open_loop() const { return drive_.open_loop(); }
@@ -171,6 +173,8 @@ class ProductDrive {
     return control::protected_on_hall(config_, state_, pins, registers_.counter(at));
   }
   void request_run(bool run) { request_.run = run; }
+  /// Seen by the next tick alone: clearing acts on the rise.
+  void request_clear() { request_.clear = true; }
 
   bool reversed() const { return state_.drive.reversed; }
   bool open_loop() const { return false; }
@@ -201,6 +205,7 @@ control::BridgeCommand<Scalar> ProductDrive<Scalar>::tick(const Sight<Real>& sig
   const control::Setpoint<Scalar> wanted{from_si<Scalar>(setpoint, units_.setpoint)};
   const control::BridgeCommand<Scalar> answer =
       control::protected_step(config_, state_, in, request_, wanted, telemetry_);
+  request_.clear = false;
   if (!answer.enabled) telemetry_.drive = {};  // no loop ran: nothing of theirs is in hand
   if (telemetry_.first_fault != 0 && diagnosis_.faults == 0)
     diagnosis_ = {

@@ -76,10 +76,12 @@ class Rig {
  private:
   sim::Instant next_due() const;
   bool do_timeline();
+  void do_action(const Action& action);
   bool do_tick();
   bool do_half_tick();
   void stick_hall(double line);
   void control_step(bool starts_period);
+  void follow_course();
   void skip_idle_ticks();
   void sector_edge();
   void hall_edge();
@@ -98,6 +100,8 @@ class Rig {
   bool moved_ = true;   ///< a located event changed what the board drives
   std::size_t next_action_ = 0;
   double setpoint_ = 0.0;
+  std::size_t course_ = 0;  ///< the action whose course the setpoint follows, where moving_
+  bool moving_ = false;
   BoardCommand pending_{};
   bool pending_reversed_ = false,
        reversed_ = false;                        ///< sign of the command that waits, and of the one in effect
@@ -144,27 +148,6 @@ bool Rig<Real, Firmware>::act() {
 }
 
 template <class Real, class Firmware>
-bool Rig<Real, Firmware>::do_timeline() {
-  if (next_action_ >= timeline_.size() || now_ < timeline_[next_action_].at) return false;
-  const Action& action = timeline_[next_action_++];
-  if (action.kind == ActionKind::load_torque) {
-    plant_.set_load(action.value);
-    return true;
-  }
-  if (action.kind == ActionKind::hall_stuck) {
-    stick_hall(action.value);
-    return true;
-  }
-  if (action.kind == ActionKind::run_request) {
-    firmware_.request_run(action.value != 0);
-    return true;
-  }
-  setpoint_ = action.value;
-  if (firmware_.follows_setpoint_at_once() && !board_.delayed) control_step(false);
-  return true;
-}
-
-template <class Real, class Firmware>
 bool Rig<Real, Firmware>::do_tick() {
   if (now_ < next_tick_) return false;
   if (board_.sampled_in_middle) return do_half_tick();
@@ -177,6 +160,7 @@ bool Rig<Real, Firmware>::do_tick() {
 
 template <class Real, class Firmware>
 void Rig<Real, Firmware>::control_step(bool starts_period) {
+  if (moving_) follow_course();
   const Sight<Real> sight{plant_, modulator_.command(),
                           now_,   static_cast<std::uint64_t>(happened(Happening::tick)),
                           pins(), reversed_};
@@ -212,7 +196,9 @@ void Rig<Real, Firmware>::let_go() {
 /// simulated.
 template <class Real, class Firmware>
 void Rig<Real, Firmware>::skip_idle_ticks() {
-  if (!firmware_.open_loop() || board_.delayed || board_.commutate_at_sample || !modulator_.steady()) return;
+  if (!firmware_.open_loop() || moving_ || board_.delayed || board_.commutate_at_sample ||
+      !modulator_.steady())
+    return;
   const std::int64_t period = board_.modulator.period_ticks;
   std::size_t n = next_action_;
   while (n < timeline_.size() && timeline_[n].kind != ActionKind::setpoint) ++n;

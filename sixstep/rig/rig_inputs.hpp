@@ -1,9 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rig's inputs: the Hall lines and the sample in the middle of a period. Part of rig.hpp.
+// The rig's inputs: the scenario's timeline, the Hall lines and the sample in the middle of a period. Part of
+// rig.hpp.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
 namespace sixstep::rig {
+
+template <class Real, class Firmware>
+bool Rig<Real, Firmware>::do_timeline() {
+  if (next_action_ >= timeline_.size() || now_ < timeline_[next_action_].at) return false;
+  do_action(timeline_[next_action_++]);
+  return true;
+}
+
+template <class Real, class Firmware>
+void Rig<Real, Firmware>::do_action(const Action& action) {
+  switch (action.kind) {
+    case ActionKind::load_torque:
+      return plant_.set_load(action.value);
+    case ActionKind::shaft_locked:
+      return plant_.set_locked(action.value != 0);
+    case ActionKind::source_voltage:
+      return plant_.set_source_voltage(action.value);
+    case ActionKind::source_sinks:
+      return plant_.set_source_sinks(action.value != 0);
+    case ActionKind::hall_stuck:
+      return stick_hall(action.value);
+    case ActionKind::run_request:
+      return firmware_.request_run(action.value != 0);
+    case ActionKind::clear_request:
+      return firmware_.request_clear();
+    case ActionKind::setpoint:
+      break;
+  }
+  setpoint_ = action.value;
+  moving_ = action.course.moves();
+  course_ = next_action_ - 1;
+  if (firmware_.follows_setpoint_at_once() && !board_.delayed) control_step(false);
+}
+
+/// Where the setpoint stands at this tick.
+template <class Real, class Firmware>
+void Rig<Real, Firmware>::follow_course() {
+  const Action& from = timeline_[course_];
+  setpoint_ = from.course.after(from.value, sim::seconds_between(from.at, now_));
+}
 
 template <class Real, class Firmware>
 void Rig<Real, Firmware>::sector_edge() {
@@ -20,6 +61,7 @@ template <class Real, class Firmware>
 void Rig<Real, Firmware>::stick_hall(double line) {
   const std::uint8_t before = pins(), bit = static_cast<std::uint8_t>(8 >> static_cast<int>(std::fabs(line)));
   (line > 0 ? stuck_high_ : stuck_low_) |= bit;
+  (line > 0 ? stuck_low_ : stuck_high_) &= static_cast<std::uint8_t>(~bit);
   if (pins() != before) hall_edge();
 }
 

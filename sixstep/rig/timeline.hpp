@@ -1,20 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the scenario does to a run, as one sorted list of typed actions at known instants.
 #pragma once
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/elementary.hpp"
 #include "sixstep/sim/instant.hpp"
 
 namespace sixstep::rig {
 
-enum class ActionKind : std::uint8_t { setpoint, load_torque, hall_stuck, run_request };
+enum class ActionKind : std::uint8_t {
+  setpoint,
+  load_torque,
+  hall_stuck,
+  run_request,
+  clear_request,
+  shaft_locked,
+  source_voltage,
+  source_sinks
+};
+
+/// How a setpoint moves from its action on: t seconds later it stands at
+///   value + rate t + curvature t^2/2 + amplitude sin(2 pi (frequency_Hz t + phase_turns)).
+/// A control tick looks at it; between two ticks the chip holds what it saw.
+struct Course {
+  double rate = 0.0;       ///< per s
+  double curvature = 0.0;  ///< per s^2
+  double amplitude = 0.0;
+  double frequency_Hz = 0.0;
+  double phase_turns = 0.0;
+
+  bool moves() const { return rate != 0.0 || curvature != 0.0 || amplitude != 0.0; }
+  /// Turns are counted, not summed: only their fraction goes into the sine.
+  double after(double value, double t_s) const {
+    const double straight = value + (rate + curvature / 2 * t_s) * t_s;
+    if (amplitude == 0.0) return straight;
+    const double turns = frequency_Hz * t_s + phase_turns;
+    return straight + amplitude * base::sin(2 * base::pi * (turns - std::floor(turns)));
+  }
+};
 
 struct Action {
   sim::Instant at;
   ActionKind kind = ActionKind::setpoint;
   double value = 0.0;  ///< setpoint in the mode's unit; N m; Hall line 1 to 3, stuck low where negative;
-                       ///< a request to run is raised (1) or let go (0)
+                       ///< V; a request to run, a clamp on the shaft, a sinking source: 1 or 0
+  Course course{};     ///< of a setpoint
 };
 
 /// Sorted by time, stable where times are equal.

@@ -9,6 +9,7 @@
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/study/basis.hpp"
 #include "sixstep/study/choices.hpp"
+#include "sixstep/study/timeline.hpp"
 
 namespace sixstep::study {
 
@@ -133,7 +134,7 @@ template control::DriveConfig<float> in_arithmetic(const control::DriveConfig<do
 template control::DriveConfig<double> in_arithmetic(const control::DriveConfig<double>&);
 
 design::OperatingRange operating_range(const Scenario& s, const Compiled& c) {
-  const double U = std::max(s.supply.voltage_V, c.start.bus_V), K_t = c.motor.K_t_Nm_A;
+  const double U = std::max(highest_supply_V(s), c.start.bus_V), K_t = c.motor.K_t_Nm_A;
   const double asked = largest_reference(s);
   design::OperatingRange range;
   range.bus_V = std::max(U, s.control.regeneration.limit_V.value_or(0.0));

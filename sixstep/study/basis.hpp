@@ -12,9 +12,6 @@ struct Basis {
   double bus_V;
 };
 
-/// The largest magnitude of the reference.
-double largest_reference(const Scenario& scenario);
-
 /// Settling time of the current loop, as designed: the thesis's (chapter 6) where the scenario names none.
 double current_settling_s(const Scenario& scenario);
 

@@ -5,11 +5,11 @@
 
 #include "sixstep/study/check_measures.hpp"
 #include "sixstep/study/check_product.hpp"
+#include "sixstep/study/check_reference.hpp"
 #include "sixstep/study/check_sensors.hpp"
 #include "sixstep/study/choices.hpp"
 #include "sixstep/study/columns.hpp"
 #include "sixstep/study/compile.hpp"
-#include "sixstep/study/reference_cures.hpp"
 #include "sixstep/study/run.hpp"
 #include "sixstep/study/spread.hpp"
 
@@ -38,46 +38,6 @@ void check_supply(const Scenario& s, base::Problems& out) {
   if (s.initial.bus_V && !C)
     out.push_back({"initial.bus_V", number(*s.initial.bus_V), "has no meaning on a stiff bus",
                    "leave it away, or give supply.resistance_ohm and supply.capacitance_F"});
-}
-
-void check_steps(const std::vector<double>& times, const std::vector<double>& values,
-                 const std::string& table, const char* value_key, double duration_s, base::Problems& out) {
-  if (times.size() != values.size())
-    out.push_back({table + "." + value_key, std::to_string(values.size()) + " entries",
-                   "must be as many as times_s, which has " + std::to_string(times.size()),
-                   "give one value per time"});
-  for (std::size_t n = 0; n < times.size(); ++n) {
-    if (times[n] < 0 || (n > 0 && !(times[n] > times[n - 1])))
-      out.push_back({table + ".times_s", number(times[n]), "must rise from entry to entry, from 0 on",
-                     "sort the times"});
-    else if (!(times[n] < duration_s))
-      out.push_back({table + ".times_s", number(times[n]),
-                     "lies behind the end of the run (duration_s = " + number(duration_s) + ")",
-                     "lengthen duration_s or drop the entry"});
-  }
-}
-
-void check_reference(const Scenario& s, base::Problems& out) {
-  const Reference& r = s.reference;
-  if (r.unit && s.control.mode != control::Mode::off && *r.unit != reference_unit(s.control.mode))
-    out.push_back(
-        {"reference.unit", "\"" + *r.unit + "\"",
-         "is not the unit of mode \"" + std::string(base::word(mode_choices, s.control.mode)) + "\"",
-         cure_of_unit(*r.unit, s.control.mode)});
-  if (r.shape == Shape::steps) {
-    check_steps(r.times_s, r.values, "reference", "values", s.duration_s, out);
-    if (r.times_s.empty())
-      out.push_back({"reference.times_s", "", "is missing for shape = \"steps\"", "give times_s and values"});
-  }
-  if (s.control.mode == control::Mode::duty && r.times_s.size() == r.values.size())
-    for (const Level& level : reference_levels(r, s.duration_s))
-      if (std::fabs(level.value) > 1.0) {
-        out.push_back({r.shape == Shape::constant ? "reference.value"
-                       : r.shape == Shape::steps  ? "reference.values"
-                                                  : "reference.high",
-                       number(level.value), "must lie from -1 to 1 in duty mode", cure_of_duty(level.value)});
-        break;
-      }
 }
 
 void check_regeneration(const Scenario& s, base::Problems& out) {
@@ -164,13 +124,16 @@ base::Problems check(const Scenario& s) {
     out.push_back({"duration_s", number(s.duration_s), "is shorter than the engine's tick of 1e-12 s",
                    "give a longer time"});
   check_supply(s, out);
-  check_reference(s, out);
+  const std::size_t before = out.size();
+  check_references(s, out);
+  check_events(s, out);
+  const bool sound_reference = out.size() == before;
   check_steps(s.load.times_s, s.load.torques_Nm, "load", "torques_Nm", s.duration_s, out);
   check_control(s, out);
   check_sensors(s, out);
   check_product(s, out);
   check_extras(s, out);
-  check_measures(s, out);
+  check_measures(s, sound_reference, out);
   if (!(s.bridge.dead_time_s < s.pwm.period_s))
     out.push_back({"bridge.dead_time_s", number(s.bridge.dead_time_s),
                    "must be shorter than pwm.period_s = " + number(s.pwm.period_s),

@@ -5,6 +5,7 @@
 #include "sixstep/study/choices.hpp"
 #include "sixstep/study/harmonic_gauge.hpp"
 #include "sixstep/study/measure_choices.hpp"
+#include "sixstep/study/reference_course.hpp"
 
 namespace sixstep::study {
 
@@ -106,6 +107,17 @@ void check_level(const Asked& a) {
              "remove it and set from_s and to_s");
 }
 
+/// Steps are told apart by the reference's levels: while it moves it has none.
+void check_levels_of_reference(const Asked& a) {
+  const bool takes_levels = is_of_a_step(a.m.metric) || is_error(a.m.metric);
+  if (takes_levels && !a.m.level && is_controlled(a.m.signal, a.s.control.mode) &&
+      reference_moves(a.s, a.from_s(), a.to_s()))
+    a.refuse("metric", quoted(a.m.metric),
+             "is taken of the reference's levels, and the reference moves in this window",
+             "give level, start and from_s, or set from_s and to_s to where the reference stands, or take max "
+             "and min of the error, as signal = \"speed_error_rad_s\"");
+}
+
 void check_sampled(const Asked& a) {
   if (!a.m.sampled) return;
   const bool counted = is_band(a.m.metric) || a.m.metric == MetricKind::switching_frequency;
@@ -141,23 +153,25 @@ void check_fundamental(const Asked& a) {
              "give the fundamental, or set load.locked = false");
 }
 
-void check_measure(const Measure& m, const std::string& where, const Scenario& s, base::Problems& out) {
+void check_measure(const Measure& m, const std::string& where, const Scenario& s, bool sound_references,
+                   base::Problems& out) {
   const Asked asked{m, where, s, out};
   check_band(asked);
   check_window(asked);
   check_signal(asked);
   check_mode(asked);
   check_level(asked);
+  if (sound_references) check_levels_of_reference(asked);
   check_sampled(asked);
   check_fundamental(asked);
 }
 
 }  // namespace
 
-void check_measures(const Scenario& s, base::Problems& out) {
+void check_measures(const Scenario& s, bool sound_references, base::Problems& out) {
   for (std::size_t n = 0; n < s.require.size(); ++n) {
     const std::string where = "require[" + std::to_string(n) + "]";
-    check_measure(s.require[n].measure, where, s, out);
+    check_measure(s.require[n].measure, where, s, sound_references, out);
     if (!s.require[n].min && !s.require[n].max)
       out.push_back({where, "", "requires nothing", "give min, max or both"});
     if (s.require[n].min && s.require[n].max && *s.require[n].min > *s.require[n].max)
@@ -165,7 +179,7 @@ void check_measures(const Scenario& s, base::Problems& out) {
                      "lies above max = " + base::written(*s.require[n].max), "swap them"});
   }
   for (std::size_t n = 0; n < s.compare.size(); ++n)
-    check_measure(s.compare[n].measure, "compare[" + std::to_string(n) + "]", s, out);
+    check_measure(s.compare[n].measure, "compare[" + std::to_string(n) + "]", s, sound_references, out);
 }
 
 }  // namespace sixstep::study

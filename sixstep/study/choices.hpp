@@ -70,6 +70,22 @@ inline constexpr Choice<Shape> shape_choices[] = {
     {"constant", Shape::constant, "value throughout"},
     {"steps", Shape::steps, "values[n] holds from times_s[n] on"},
     {"square", Shape::square, "high in the first half of each period, low in the second"},
+    {"ramp", Shape::ramp, "from start to end in a straight line, from begin_s until end_s or at slope"},
+    {"sine", Shape::sine, "offset + amplitude sin(360 deg frequency_Hz t + phase_deg)"},
+    {"trapezoid", Shape::trapezoid,
+     "from start to end at a rate that rises with acceleration, stays at slope and falls again: the usual "
+     "profile of a move"},
+    {"csv", Shape::csv, "through the rows of a file, or through times_s and values"},
+};
+inline constexpr Choice<Interpolation> interpolation_choices[] = {
+    {"linear", Interpolation::linear, "goes on in a straight line"},
+    {"hold", Interpolation::hold, "holds until the next row"},
+};
+inline constexpr Choice<DriveRequest> request_choices[] = {
+    {"none", DriveRequest::none, "nothing new"},
+    {"off", DriveRequest::off, "lets go of the request to run: it brakes, then turns off"},
+    {"on", DriveRequest::on, "raises the request to run"},
+    {"clear", DriveRequest::clear, "clears a fault whose causes are gone"},
 };
 inline constexpr Choice<Distribution> distribution_choices[] = {
     {"uniform", Distribution::uniform, "all values within the half width are equally likely"},

@@ -2,10 +2,10 @@
 #include "sixstep/study/compile.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sixstep/base/elementary.hpp"
 #include "sixstep/study/basis.hpp"
+#include "sixstep/study/timeline.hpp"
 
 namespace sixstep::study {
 
@@ -68,7 +68,7 @@ rig::SensorsConfig sensors_of(const Scenario& s, double L_over_R_s) {
   to.bus = {from.adc_bits,   from.bus_range_V.value_or(0.0), false, from.bus_offset_V, from.bus_gain_error,
             from.bus_noise_V};
   to.rotor_from_hall = from.rotor == RotorSensing::hall;
-  to.decodes_hall = from.hall_break.at_s.has_value();
+  to.decodes_hall = breaks_a_hall_line(s);
   to.capture_Hz = from.capture_Hz;
   to.timeout_s = from.timeout_s;
   to.edges = static_cast<std::uint8_t>(from.speed_edges);
@@ -88,26 +88,6 @@ rig::BoardConfig board_of(const Scenario& s, double L_over_R_s) {
   board.sampled_in_middle = s.pwm.sample == SampleAt::middle;
   board.sensors = sensors_of(s, L_over_R_s);
   return board;
-}
-
-rig::Timeline timeline_of(const Scenario& s) {
-  rig::Timeline timeline;
-  for (const Level& level : reference_levels(s.reference, s.duration_s))
-    timeline.push_back({sim::to_instant(level.at_s), rig::ActionKind::setpoint, level.value});
-  timeline.push_back({sim::Instant{}, rig::ActionKind::load_torque, s.load.torque_Nm});
-  for (std::size_t n = 0; n < s.load.times_s.size(); ++n)
-    timeline.push_back(
-        {sim::to_instant(s.load.times_s[n]), rig::ActionKind::load_torque, s.load.torques_Nm[n]});
-  if (s.control.drive == Drive::product)
-    timeline.push_back({sim::Instant{}, rig::ActionKind::run_request, 1.0});
-  if (const auto& off_at_s = s.protection.off_at_s)
-    timeline.push_back({sim::to_instant(*off_at_s), rig::ActionKind::run_request, 0.0});
-  if (const HallBreak& broken = s.sensors.hall_break; broken.at_s)
-    timeline.push_back({sim::to_instant(*broken.at_s), rig::ActionKind::hall_stuck,
-                        broken.level == Level01::high ? broken.line : -1.0 * broken.line});
-  std::stable_sort(timeline.begin(), timeline.end(),
-                   [](const rig::Action& a, const rig::Action& b) { return a.at < b.at; });
-  return timeline;
 }
 
 control::Watch watch_of(const CurrentLoop& loop) {
@@ -173,35 +153,7 @@ base::Problems add_loops(const Scenario& s, const Basis& basis, Compiled& out) {
 
 }  // namespace
 
-double largest_reference(const Scenario& s) {
-  double largest = 0.0;
-  for (const Level& level : reference_levels(s.reference, s.duration_s))
-    largest = std::max(largest, std::fabs(level.value));
-  return largest;
-}
-
 double current_settling_s(const Scenario& s) { return s.control.current.settle_s.value_or(current_settle_s); }
-
-std::vector<Level> reference_levels(const Reference& r, double duration_s) {
-  switch (r.shape) {
-    case Shape::constant:
-      return {{0.0, r.value}};
-    case Shape::steps: {
-      std::vector<Level> levels;
-      if (r.times_s.empty() || r.times_s.front() > 0) levels.push_back({0.0, 0.0});
-      for (std::size_t n = 0; n < r.times_s.size(); ++n) levels.push_back({r.times_s[n], r.values[n]});
-      return levels;
-    }
-    case Shape::square: {
-      std::vector<Level> levels;
-      // Counted, not summed: half period n begins at n T/2, rounded once.
-      for (int n = 0; n * (r.period_s / 2) < duration_s; ++n)
-        levels.push_back({n * (r.period_s / 2), n % 2 == 0 ? r.high : r.low});
-      return levels;
-    }
-  }
-  return {};
-}
 
 template <class Loop>
 GivenGains given_gains(const Loop& loop, const std::string& where) {

@@ -6,6 +6,7 @@
 #include "sixstep/control/protected_drive.hpp"
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/study/outcome.hpp"
+#include "sixstep/study/reference_course.hpp"
 #include "sixstep/study/scenario.hpp"
 
 namespace sixstep::study {
@@ -26,13 +27,6 @@ struct Compiled {
 
 /// Assumes that check() found nothing.
 base::Result<Compiled> compile(const Scenario& scenario);
-
-/// The reference's values over time: {instant, value}, first at 0.
-struct Level {
-  double at_s = 0.0;
-  double value = 0.0;
-};
-std::vector<Level> reference_levels(const Reference& reference, double duration_s);
 
 /// Gains given in more than one way, or half: Problems; else whether any were given at all.
 struct GivenGains {

@@ -146,7 +146,8 @@ void describe(Visitor& v, Control& s) {
   v.table("position", s.position, {.meaning = "the position controller around both"});
   v.value("slew", s.slew,
           {.meaning = "fastest change of the setpoint, in the mode's unit per second; without it it steps",
-           .range = above(0)});
+           .range = above(0),
+           .mode_unit = "*/s"});
   v.table("limits", s.limits, {.meaning = "limits of the current reference"});
   v.table("regeneration", s.regeneration,
           {.meaning = "limit of the current that braking returns to the bus"});

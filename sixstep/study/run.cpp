@@ -14,8 +14,7 @@ Watchers watchers(const Scenario& s, const Compiled& compiled, const Listeners& 
                   const std::vector<std::size_t>& indices) {
   const control::Mode mode = s.control.mode;
   const double gap_s = s.duration_s / drawn_points;
-  Watchers w{.figures = Figures(s, reference_levels(s.reference, s.duration_s)),
-             .keep_going = listeners.keep_going};
+  Watchers w{.figures = Figures(s, reference_levels(s)), .keep_going = listeners.keep_going};
   if (listeners.keep_books) w.audit.emplace();
   if (listeners.on_record && s.record.events)
     w.events.emplace(gap_s, mode, indices, listeners.on_record);

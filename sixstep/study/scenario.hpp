@@ -9,6 +9,7 @@
 
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/design/sheet.hpp"
+#include "sixstep/study/at.hpp"
 #include "sixstep/study/control.hpp"
 #include "sixstep/study/measure.hpp"
 #include "sixstep/study/protection.hpp"
@@ -46,19 +47,6 @@ struct Pwm {
   SampleAt sample = SampleAt::start;
   int delay_periods = 0;
   double timer_Hz = 0.0;  // 0: edges are not quantised
-};
-
-enum class Shape : std::uint8_t { constant, steps, square };
-
-/// What is wanted over time, in the mode's unit: duty 1, current A, speed rad/s, position deg.
-struct Reference {
-  Shape shape = Shape::constant;
-  double value = 0.0;           // constant
-  std::vector<double> times_s;  // steps: values[n] holds from times_s[n] on
-  std::vector<double> values;
-  double high = 0.0, low = 0.0;  // square: high first
-  double period_s = 0.01;
-  std::optional<std::string> unit;  // checked against the mode where given
 };
 
 struct Load {
@@ -117,7 +105,8 @@ struct Nominal {
 
 struct Scenario {
   std::string title;
-  std::string motor;  // name or path as written
+  std::vector<std::string> extends;  // files it is laid over, as written; their keys are in it (filled by io)
+  std::string motor;                 // name or path as written
   double duration_s = 0.0;
   std::string notes;    // what the run teaches, shown in the report
   design::Sheet sheet;  // the motor's sheet with overrides applied (filled by io)
@@ -129,6 +118,7 @@ struct Scenario {
   Protection protection;
   Reference reference;
   Load load;
+  std::vector<At> at;
   Initial initial;
   Record record;
   std::vector<Requirement> require;

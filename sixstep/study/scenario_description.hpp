@@ -3,6 +3,7 @@
 // structs'.
 #pragma once
 #include "sixstep/design/sheet_description.hpp"
+#include "sixstep/study/at_description.hpp"
 #include "sixstep/study/choices.hpp"
 #include "sixstep/study/control_description.hpp"
 #include "sixstep/study/measure_description.hpp"
@@ -14,10 +15,6 @@ namespace sixstep::study {
 using base::above;
 using base::between;
 using base::from;
-
-/// Time is counted in picoseconds of 63 bits, 106 days; and what repeats must be many of them long.
-inline constexpr double longest_s = 9e6;
-inline constexpr double shortest_period_s = 1e-9;
 
 template <class Visitor>
 void describe(Visitor& v, Supply& s) {
@@ -65,21 +62,6 @@ void describe(Visitor& v, Pwm& s) {
           {.meaning = "clock of the PWM timer, which rounds on-times and dead time; 0: not rounded",
            .unit = "Hz",
            .range = from(0)});
-}
-
-template <class Visitor>
-void describe(Visitor& v, Reference& s) {
-  v.choice("shape", s.shape, shape_choices, {.meaning = "how the reference runs over time"});
-  v.value("value", s.value, {.meaning = "constant: the reference, in the unit of control.mode"});
-  v.value("times_s", s.times_s,
-          {.meaning = "steps: when each of values begins, rising", .unit = "s", .range = from(0)});
-  v.value("values", s.values, {.meaning = "steps: the references, in the unit of control.mode"});
-  v.value("high", s.high, {.meaning = "square: first half of each period, in the unit of control.mode"});
-  v.value("low", s.low, {.meaning = "square: second half of each period, in the unit of control.mode"});
-  v.value("period_s", s.period_s,
-          {.meaning = "square: length of one period", .unit = "s", .range = from(shortest_period_s)});
-  v.value("unit", s.unit,
-          {.meaning = "unit of the reference, to be checked: 1, A, rad/s or deg as control.mode asks"});
 }
 
 template <class Visitor>
@@ -151,6 +133,10 @@ template <class Visitor>
 void describe(Visitor& v, Scenario& s) {
   v.value("title", s.title, {.meaning = "one line that names the run"});
   v.value(
+      "extends", s.extends,
+      {.meaning = "a scenario beside this one whose keys hold where this one is silent, or a list of them, "
+                  "the later the stronger; lists of tables add to theirs, an empty list drops them"});
+  v.value(
       "motor", s.motor,
       {.meaning =
            "motor file: a path, or a name looked up beside the scenario, in --data and in the built-in list",
@@ -173,6 +159,7 @@ void describe(Visitor& v, Scenario& s) {
                       "\"product\""});
   v.table("reference", s.reference, {.meaning = "what is wanted over time"});
   v.table("load", s.load, {.meaning = "what the shaft drives"});
+  v.list("at", s.at, {.meaning = "what changes during the run", .cure = what_may_change});
   v.table("initial", s.initial, {.meaning = "state at the start"});
   v.table("record", s.record, {.meaning = "what is written to the trace"});
   v.list("require", s.require, {.meaning = "figures that decide whether the run passes"});

@@ -69,6 +69,8 @@ class NumberAt {
   template <class Item>
   void list(std::string_view, std::vector<Item>&, const base::About&) {}
   template <class Struct>
+  void table(std::string_view, std::optional<Struct>&, const base::About&) {}
+  template <class Struct>
   void table(std::string_view key, Struct& member, const base::About&) {
     if (!path_.starts_with(key) || path_.substr(key.size(), 1) != ".") return;
     const std::string_view whole = path_;

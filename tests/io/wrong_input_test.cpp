@@ -65,14 +65,14 @@ TEST_F(WrongInput, WrongUnitIsToldAsSuch) {
 
 TEST_F(WrongInput, TextWhereANumberBelongs) {
   EXPECT_THAT(
-      complaints("motor = \"maxon-251601\"\nduration_s = \"20 ms\"\n"),
-      ElementsAre("x.toml:2:14: duration_s = \"20 ms\" must be a number without quotes; the key carries its "
-                  "unit, s; write 0.02"));
+      complaints("motor = \"maxon-251601\"\nduration_s = \"20 mm\"\n"),
+      ElementsAre(
+          "x.toml:2:14: duration_s = \"20 mm\" carries the unit mm, which is not of the kind of s; units "
+          "that fit: s, ms, us or min"));
   EXPECT_THAT(
       complaints(head + "[supply]\nvoltage_V = \"a lot\"\n"),
-      ElementsAre(
-          "x.toml:4:13: supply.voltage_V = \"a lot\" must be a number without quotes; the key carries "
-          "its unit, V; it means: voltage of the source, in V"));
+      ElementsAre("x.toml:4:13: supply.voltage_V = \"a lot\" must be a number, in V, or one with its unit in "
+                  "quotes; it means: voltage of the source, in V"));
 }
 
 TEST_F(WrongInput, NotANumberAndInfinityAreRefused) {

@@ -12,6 +12,7 @@ namespace {
 using namespace sixstep;
 using namespace sixstep::testing;
 using study::Scenario;
+using study::Shape;
 
 std::vector<std::string> places(const Scenario& s) {
   std::vector<std::string> out;
@@ -141,6 +142,77 @@ TEST(Check, EachContradictionIsFoundAndNamed) {
   }
 }
 
+study::Reference shaped(Shape shape, study::Reference r) {
+  r.shape = shape;
+  return r;
+}
+
+TEST(Check, EachSlipOfAMovingReferenceIsFoundAndNamed) {
+  const std::pair<const char*, study::Reference> table[] = {
+      {"reference.end_s", shaped(Shape::ramp, {.end = 5.0})},
+      {"reference.slope", shaped(Shape::ramp, {.end = 5.0, .end_s = 0.01, .slope = 1.0})},
+      {"reference.end_s", shaped(Shape::ramp, {.begin_s = 0.01, .end = 5.0, .end_s = 0.01})},
+      {"reference.slope", shaped(Shape::trapezoid, {.end = 5.0, .acceleration = 1.0})},
+      {"reference.acceleration", shaped(Shape::trapezoid, {.end = 5.0, .slope = 1.0})},
+      {"reference.end_s", shaped(Shape::trapezoid, {.end_s = 1.0, .slope = 1.0, .acceleration = 1.0})},
+      {"reference.frequency_Hz", shaped(Shape::sine, {.amplitude = 5.0})},
+      {"reference.frequency_Hz", shaped(Shape::sine, {.amplitude = 5.0, .frequency_Hz = 16667.0})},
+      {"reference.amplitude", shaped(Shape::constant, {.amplitude = 5.0})},
+      {"reference.start", shaped(Shape::steps, {.times_s = {0.0}, .values = {1.0}, .start = 1.0})},
+      {"reference.file", shaped(Shape::csv, {})},
+      {"reference.values", shaped(Shape::csv, {.times_s = {0.0, 1.0}, .values = {1.0}})},
+      {"reference.times_s", shaped(Shape::csv, {.times_s = {1.0, 1.0}, .values = {1.0, 2.0}})},
+      {"reference.column", shaped(Shape::constant, {.column = "x"})},
+      {"reference.period_s", shaped(Shape::square, {.high = 1.0, .period_s = 1e-9})},
+  };
+  for (const auto& [where, reference] : table) {
+    Scenario s = current_square();
+    s.reference = reference;
+    EXPECT_THAT(places(s), ::testing::ElementsAre(where));
+    s.reference = {};
+    s.at.push_back({.time_s = 1e-3, .reference = reference});
+    EXPECT_THAT(places(s), ::testing::ElementsAre("at[0]." + std::string(where)));
+  }
+}
+
+TEST(Check, EachSlipOfAnEventIsFoundAndNamed) {
+  const std::pair<const char*, study::At> table[] = {
+      {"at[0].time_s", {.time_s = 1e-3}},
+      {"at[0].time_s", {.time_s = 1.0, .load = {.torque_Nm = 0.1}}},
+      {"at[0].supply.sinks", {.time_s = 1e-3, .supply = {.sinks = false}}},
+      {"at[0].supply.voltage_V", {.time_s = 1e-3, .supply = {.voltage_V = 31.0}}},
+      {"at[0].request", {.time_s = 1e-3, .request = study::DriveRequest::clear}},
+      {"at[0].reference.unit", {.time_s = 1e-3, .reference = study::Reference{.unit = "V"}}},
+      {"at[0].reference.times_s",
+       {.time_s = 15e-3,
+        .reference = study::Reference{.shape = Shape::steps, .times_s = {10e-3}, .values = {1.0}}}},
+  };
+  for (const auto& [where, event] : table) {
+    Scenario s = current_square();
+    s.control.regeneration = {30.0, 1.0};
+    s.at.push_back(event);
+    EXPECT_THAT(places(s), ::testing::ElementsAre(where));
+  }
+  Scenario off = maxon_scenario(control::Mode::off, 0.0);
+  off.at.push_back({.time_s = 1e-3, .reference = study::Reference{}});
+  EXPECT_THAT(places(off), ::testing::ElementsAre("at[0].reference"));
+}
+
+TEST(Check, AMovingReferenceHasNoStepsToTakeFiguresOf) {
+  for (const study::MetricKind metric :
+       {study::MetricKind::reach_time, study::MetricKind::settling_time, study::MetricKind::overshoot}) {
+    Scenario s = current_square();
+    s.reference = {.shape = Shape::ramp, .end = 5.0, .end_s = 10e-3};
+    ask(s, measure(metric, study::Signal::current));
+    EXPECT_THAT(places(s), ::testing::ElementsAre("compare[0].metric"));
+    s.compare[0].measure.from_s = 10e-3;  // there it stands
+    EXPECT_THAT(places(s), ::testing::IsEmpty());
+    s.compare[0].measure.from_s.reset();
+    s.compare[0].measure.level = 5.0;  // or the scenario says what is to be reached
+    EXPECT_THAT(places(s), ::testing::IsEmpty());
+  }
+}
+
 TEST(Check, ASheetWithoutVoltageAndStallPointNeedsTheTorqueLimit) {
   Scenario s = maxon_scenario(control::Mode::speed, 200.0);
   s.sheet.nominal_voltage_V.reset();
@@ -163,6 +235,12 @@ TEST(Check, DutyBeyondOneIsNamedByTheKeyThatHoldsIt) {
   s.reference.high = 0.5;
   s.reference.low = -2.0;
   EXPECT_THAT(places(s), ::testing::Not(::testing::IsEmpty()));
+  s.reference = {.shape = Shape::sine, .offset = 0.5, .amplitude = 0.6, .frequency_Hz = 100.0};
+  EXPECT_THAT(places(s), ::testing::ElementsAre("reference.amplitude"));
+  s.reference = {.shape = Shape::ramp, .end = 2.0, .end_s = 40e-3};  // at the end of the run it is at 1
+  EXPECT_THAT(places(s), ::testing::IsEmpty());
+  s.at.push_back({.time_s = 1e-3, .reference = study::Reference{.value = -1.1}});
+  EXPECT_THAT(places(s), ::testing::ElementsAre("at[0].reference.value"));
 }
 
 TEST(Check, AllProblemsComeAtOnceAndEachHasACure) {

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// What may change while a plant runs: the clamp on its shaft and its source; and the scales that follow from
+// them. Part of plant.hpp.
+#pragma once
+#include "sixstep/plant/plant.hpp"
+
+namespace sixstep::plant {
+
+/// The scales by which rounding noise is told from a signal.
+template <class Real>
+void Plant<Real>::set_scales(Real volt_scale) {
+  Constants<Real>& c = constants_;
+  c.volt_scale = volt_scale;
+  c.amp_scale = c.volt_scale / c.R;
+  c.speed_scale = c.volt_scale / (2 * c.K_e);
+  c.torque_scale = 2 * c.K_e * c.amp_scale;
+  c.amp_limit = terms_per_scale<Real> / c.amp_scale;
+  c.speed_limit = terms_per_scale<Real> / c.speed_scale;
+  c.volt_limit = terms_per_scale<Real> / c.volt_scale;
+}
+
+template <class Real>
+void Plant<Real>::set_steady_rate() {
+  Constants<Real>& c = constants_;
+  const Real winding = (c.R + std::max(Real(c.devices.R_on_ohm), Real(c.devices.r_d_ohm))) * c.inv_L;
+  const Real electromechanical = c.locked ? Real(0) : c.K_e * std::sqrt(c.inv_L * c.inv_J);
+  c.steady_rate = winding + electromechanical + c.inv_C * (c.inv_R_b + 1 / c.R);
+}
+
+/// A clamp stops the shaft at once and takes its kinetic energy; let go, it starts from rest.
+template <class Real>
+void Plant<Real>::set_locked(bool locked) {
+  constants_.locked = locked;
+  constants_.dry_friction = constants_.breakaway > 0 && !locked;
+  if (locked) state_.w = state_.w_low = 0;
+  set_steady_rate();
+  stale_ = true;
+}
+
+/// The source's voltage; a stiff bus follows at once. The noise level may only rise: what was rounded at a
+/// higher voltage stays so.
+template <class Real>
+void Plant<Real>::set_source_voltage(double V_0_V) {
+  Constants<Real>& c = constants_;
+  c.V_0 = Real(V_0_V);
+  if (!(c.inv_C > 0)) {
+    state_.bus = c.V_0;
+    state_.bus_low = 0;
+  }
+  set_scales(std::max(c.volt_scale, c.V_0 + Real(c.devices.V_f_V)));
+  stale_ = true;
+}
+
+template <class Real>
+void Plant<Real>::set_source_sinks(bool sinks) {
+  constants_.source_sinks = sinks || !(constants_.inv_C > 0);
+  stale_ = true;
+}
+
+}  // namespace sixstep::plant
