@@ -198,30 +198,14 @@ template <class Real>
 void Plant<Real>::advance(Real s) {
   using series::add_compensated;
   State<Real>& q = state_;
-  const int n = y_.degree;
   const LegsLaw<Real>& law = constants_.legs[legs_index(mode_.legs)];
   const int first = law.leg[0], second = law.leg[1], third = law.leg[2];
-  // One pass for the four series that always move; the last connected leg's current follows from the others.
-  Real i_first = 0, i_second = 0, w = 0, x = 0;
-  if (s == 1) {  // the commonest case, and the same bits
-    for (int j = n; j >= 1; --j) {
-      i_first += y_.i[first][j];
-      i_second += y_.i[second][j];
-      w += y_.w[j];
-      x += y_.x[j];
-    }
-  } else {
-    for (int j = n; j >= 1; --j) {
-      i_first = (i_first + y_.i[first][j]) * s;
-      i_second = (i_second + y_.i[second][j]) * s;
-      w = (w + y_.w[j]) * s;
-      x = (x + y_.x[j]) * s;
-    }
-  }
+  Increments<Real> by = y_.end;
+  if (s != 1) by = detail::increments(y_, law, s);
   if (law.connected >= 2) {
-    add_compensated(q.i[first], q.i_low[first], i_first);
+    add_compensated(q.i[first], q.i_low[first], by.i);
     if (law.connected == 3) {
-      add_compensated(q.i[second], q.i_low[second], i_second);
+      add_compensated(q.i[second], q.i_low[second], by.i_2);
       q.i[third] = -(q.i[first] + q.i[second]);
       q.i_low[third] = -(q.i_low[first] + q.i_low[second]);
     } else {
@@ -230,10 +214,10 @@ void Plant<Real>::advance(Real s) {
     }
   }
   if (mode_.motion != Motion::locked && mode_.motion != Motion::stuck) {
-    add_compensated(q.w, q.w_low, w);
-    add_compensated(q.x, q.x_low, x);
+    add_compensated(q.w, q.w_low, by.w);
+    add_compensated(q.x, q.x_low, by.x);
   }
-  if (constants_.inv_C > 0) add_compensated(q.bus, q.bus_low, series::increment(y_.bus, n, s));
+  if (constants_.inv_C > 0) add_compensated(q.bus, q.bus_low, series::increment(y_.bus, y_.degree, s));
   doubted_ = s == 0;
 }
 
