@@ -75,6 +75,8 @@ class Rig {
 
  private:
   sim::Instant next_due() const;
+  bool watching() const { return modulator_.command().watch != control::Watch::none; }
+  bool compare();
   bool do_timeline();
   bool do_tick();
   bool do_half_tick();
@@ -123,24 +125,26 @@ sim::Instant Rig<Real, Firmware>::next_due() const {
 template <class Real, class Firmware>
 bool Rig<Real, Firmware>::act() {
   ticked_ = false;
-  const bool watching = modulator_.command().watch != control::Watch::none;
-  if (now_ < due_ && !moved_ && !watching) return true;
-  for (bool acted = true; acted && fault_ == Fault::none;) {
-    acted = do_timeline() || do_tick();
-    if (!acted && modulator_.act(now_)) {
-      count(Happening::pwm_edge);
-      acted = true;
-    }
-    if (!acted) {
-      const int switched = modulator_.compare(now_, plant_.state().i);
-      happened_[static_cast<std::size_t>(Happening::comparator)] += switched;
-      acted = switched > 0;
-    }
-  }
+  if (now_ < due_ && !moved_ && !watching()) return true;
+  if (moved_) due_ = next_due();
   moved_ = false;
-  due_ = next_due();
+  do {
+    while (fault_ == Fault::none && !(now_ < due_)) {
+      if (!do_timeline() && !do_tick() && modulator_.act(now_)) count(Happening::pwm_edge);
+      due_ = next_due();
+    }
+  } while (fault_ == Fault::none && watching() && compare());
   if (fault_ == Fault::none && !plant_.set_gates(modulator_.gates())) fault_ = Fault::shoot_through;
   return fault_ == Fault::none;
+}
+
+/// Comparators beyond their level; true where one switched.
+template <class Real, class Firmware>
+bool Rig<Real, Firmware>::compare() {
+  const int switched = modulator_.compare(now_, plant_.state().i);
+  happened_[static_cast<std::size_t>(Happening::comparator)] += switched;
+  due_ = next_due();
+  return switched > 0;
 }
 
 template <class Real, class Firmware>
@@ -259,7 +263,7 @@ template <class Real, class Firmware>
 template <class Visit>
 void Rig<Real, Firmware>::guards(Visit&& visit) const {
   plant_.guards(visit);
-  if (modulator_.command().watch == control::Watch::none) return;
+  if (!watching()) return;
   for (int which = 0; which < 2; ++which) {
     const ArmedComparator c = modulator_.comparator(which);
     if (!c.armed) continue;
