@@ -30,18 +30,27 @@ void shorten(Expansion<Real>& out, Real excess_last, Real excess_before) {
   out.h *= half;
 }
 
-/// One pass for the four series that always move.
+/// One pass for the four series that always move; in even and odd powers, so that the sums wait less for each
+/// other.
 template <class Real>
 Increments<Real> increments(const Expansion<Real>& y, const LegsLaw<Real>& law, Real s) {
-  const int first = law.leg[0], second = law.leg[1];
-  Increments<Real> by;
-  for (int j = y.degree; j >= 1; --j) {
-    by.i = (by.i + y.i[first][j]) * s;
-    by.i_2 = (by.i_2 + y.i[second][j]) * s;
-    by.w = (by.w + y.w[j]) * s;
-    by.x = (by.x + y.x[j]) * s;
+  const std::array<const Real*, 4> c{y.i[law.leg[0]].data(), y.i[law.leg[1]].data(), y.w.data(), y.x.data()};
+  std::array<Real, 4> near, far;  // near: the powers that the loop ends beside
+  const int n = y.degree;
+  for (int k = 0; k < 4; ++k) far[k] = c[k][n], near[k] = c[k][n - 1];
+  for (int j = n - 2; j >= 2; j -= 2)
+    for (int k = 0; k < 4; ++k) {
+      far[k] = far[k] * (s * s) + c[k][j];
+      near[k] = near[k] * (s * s) + c[k][j - 1];
+    }
+  std::array<Real, 4> sum;
+  for (int k = 0; k < 4; ++k) {
+    if (n % 2 == 0)
+      sum[k] = (far[k] * s + near[k]) * s;
+    else
+      sum[k] = ((far[k] * s + near[k]) * s + c[k][1]) * s;
   }
-  return by;
+  return {sum[0], sum[1], sum[2], sum[3]};
 }
 
 /// How far the last two terms stand above the rounding level of their states, 1 = at it.

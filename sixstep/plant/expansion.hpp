@@ -47,7 +47,7 @@ struct Expansion {
   series::Coefficients<Real> w, x, bus, torque;
   series::Coefficients<Real> phi0, phi1;  ///< sine only: cos x, sin x
   Increments<Real> end;
-  PerLeg<Real> reach_i;                   ///< no series moves further from its first value than this
+  PerLeg<Real> reach_i;  ///< no series moves further from its first value than this
   Real reach_w = 0, reach_x = 0;
   Real later_x = 0;  ///< the same of x without its first term
 };

@@ -52,9 +52,8 @@ series::Coefficients<Real> affine(const series::Coefficients<Real>& c, int degre
 }
 
 template <class Real, class Visit>
-void rail_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, int k, Real noise,
-                 Visit&& visit) {
-  const PoleLaw<Real> law = pole_law(c, mode, k);
+void rail_guards(const Constants<Real>& c, const PoleLaw<Real>& law, const Expansion<Real>& y, int k,
+                 Real noise, Visit&& visit) {
   const Real V_f = Real(c.devices.V_f_V);
   const Real bus_rest = c.inv_C > 0 ? series::tail_bound(y.bus, y.degree) - abs(y.bus[1]) : Real(0);
   const PoleOutline<Real> is = pole_outline(c, y, law, bus_rest);
@@ -73,10 +72,10 @@ void rail_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Rea
 
 /// |S| = 0: conduction starts when max e - min e > U_s + 2 V_f.
 template <class Real, class Visit>
-void free_star_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real noise,
-                      Visit&& visit) {
+void free_star_guards(const Constants<Real>& c, const EmfPiece<Real>& piece, const LegsLaw<Real>& law,
+                      const Expansion<Real>& y, Real noise, Visit&& visit) {
   PerLeg<series::Coefficients<Real>> e;
-  for (int k = 0; k < 3; ++k) e[k] = pole_series(c, y, pole_law(c, mode, k));
+  for (unsigned k = 0; k < 3; ++k) e[k] = pole_series(c, y, pole_law(piece, law, k));
   for (int j = 0; j < 3; ++j)
     for (int k = 0; k < 3; ++k) {
       if (j == k) continue;
@@ -104,33 +103,42 @@ void rotor_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Re
   }
 }
 
+/// Of a current that names a diode: it goes on in its direction.
+template <class Real, class Visit>
+void diode_guard(bool low, const Expansion<Real>& y, int k, Real noise, Visit&& visit) {
+  const series::Coefficients<Real>& i = y.i[k];
+  const Real start = low ? i[0] : -i[0], slope = low ? i[1] : -i[1];
+  if (series::stays_above(start, slope, y.reach_i[k] - abs(slope), noise)) return;
+  if (low)
+    visit(guard::current_zero + k, i, y.degree, noise);
+  else
+    visit(guard::current_zero + k, affine(i, y.degree, Real(-1), Real(0)), y.degree, noise);
+}
+
 }  // namespace detail
 
 /// Guards of the conduction, motion and supply modes: what settle() judges a mode by.
 template <class Real, class Visit>
 void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real slack,
                  Visit&& visit) {
-  const Real amp_noise = noise_of(c.amp_scale, slack), volt_noise = noise_of(c.volt_scale, slack);
-  bool star_free = true;
-  for (int k = 0; k < 3; ++k) {
-    star_free = star_free && is_floating(mode.legs[k]);
-    if (!is_diode(mode.legs[k])) continue;
-    const bool low = mode.legs[k] == Connection::low_diode;
-    const Real start = low ? y.i[k][0] : -y.i[k][0];
-    const Real slope = low ? y.i[k][1] : -y.i[k][1];
-    if (series::stays_above(start, slope, y.reach_i[k] - detail::abs(slope), amp_noise)) continue;
-    if (low)
-      visit(guard::current_zero + k, y.i[k], y.degree, amp_noise);
-    else
-      visit(guard::current_zero + k, detail::affine(y.i[k], y.degree, Real(-1), Real(0)), y.degree,
-            amp_noise);
-  }
-  detail::rotor_guards(c, mode, y, slack, visit);
-  if (star_free) {
-    detail::free_star_guards(c, mode, y, volt_noise, visit);
-  } else {
+  const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
+  const Real volt_noise = noise_of(c.volt_scale, slack);
+  if (law.diodes != 0) {
+    const Real amp_noise = noise_of(c.amp_scale, slack);
     for (int k = 0; k < 3; ++k)
-      if (is_floating(mode.legs[k])) detail::rail_guards(c, mode, y, k, volt_noise, visit);
+      if (law.diodes >> k & 1)
+        detail::diode_guard(mode.legs[k] == Connection::low_diode, y, k, amp_noise, visit);
+  }
+  if (c.dry_friction) detail::rotor_guards(c, mode, y, slack, visit);
+  if (law.floating != 0) {
+    const EmfPiece<Real>& piece = c.emf[mode.sector].piece[mode.piece];
+    if (law.connected == 0) {
+      detail::free_star_guards(c, piece, law, y, volt_noise, visit);
+    } else {
+      for (unsigned k = 0; k < 3; ++k)
+        if (law.floating >> k & 1)
+          detail::rail_guards(c, pole_law(piece, law, k), y, static_cast<int>(k), volt_noise, visit);
+    }
   }
   if (!c.source_sinks)
     visit(guard::source,

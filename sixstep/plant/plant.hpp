@@ -68,6 +68,7 @@ class Plant {
  private:
   void snap();
   bool resettle(Real wanted, bool& expanded);
+  bool settle_fully(Real wanted, bool& expanded);
   bool pass_edge(bool ahead);
   void balance();
 
@@ -140,15 +141,14 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
 template <class Real>
 void Plant<Real>::snap() {
   const Real amp_noise = noise_of(constants_.amp_scale, Real(1));
-  unsigned tiny = 0;  // counted without branches: hardly ever is there anything to snap
-  for (unsigned k = 0; k < 3; ++k)
-    tiny |= (unsigned{detail::abs(state_.i[k]) <= amp_noise} & unsigned{state_.i[k] != 0}) << k;
-  tiny &= ~static_cast<unsigned>((gates_.high | gates_.low).to_ulong());
-  if (tiny != 0) {
-    for (unsigned k = 0; k < 3; ++k)
-      if (tiny >> k & 1) state_.i[k] = state_.i_low[k] = 0;
-    balance();
+  bool snapped = false;
+  for (unsigned k = 0; k < 3; ++k) {
+    Real& i = state_.i[k];
+    if (gates_.high[k] || gates_.low[k] || i == 0 || detail::abs(i) > amp_noise) continue;
+    i = state_.i_low[k] = 0;
+    snapped = true;
   }
+  if (snapped) balance();
   if (constants_.dry_friction && detail::abs(state_.w) <= noise_of(constants_.speed_scale, Real(1)))
     state_.w = state_.w_low = 0;
 }
@@ -171,16 +171,24 @@ void Plant<Real>::balance() {
 
 template <class Real>
 bool Plant<Real>::resettle(Real wanted, bool& expanded) {
+  const unsigned floated = constants_.legs[legs_index(mode_.legs)].floating;
+  slack_ = 1;
+  if ((doubted_ || !settle_plainly(constants_, state_, gates_, mode_)) && !settle_fully(wanted, expanded))
+    return false;
+  stale_ = false;
+  for (unsigned started = floated & constants_.legs[legs_index(mode_.legs)].diodes; started != 0;
+       started &= started - 1)
+    ++diodes_started_;
+  return true;
+}
+
+/// With snapped state, by enumeration, and with noise widened as far as rounding makes that necessary.
+template <class Real>
+bool Plant<Real>::settle_fully(Real wanted, bool& expanded) {
   snap();
-  const Legs before = mode_.legs;
-  for (slack_ = 1; slack_ < 1e5; slack_ *= 16) {
+  for (; slack_ < 1e5; slack_ *= 16) {
     const Question<Real> question{constants_, state_, gates_, wanted, doubted_, slack_};
-    if (settle(question, mode_, y_, expanded)) {
-      stale_ = false;
-      for (int k = 0; k < 3; ++k)
-        diodes_started_ += int{is_floating(before[k])} & int{is_diode(mode_.legs[k])};
-      return true;
-    }
+    if (settle(question, mode_, y_, expanded)) return true;
   }
   return false;
 }

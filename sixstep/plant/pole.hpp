@@ -16,9 +16,7 @@ struct PoleLaw {
 
 /// u_n is the mean of u_s - e_s over the connected legs s: none, one, or two with one current.
 template <class Real>
-PoleLaw<Real> pole_law(const Constants<Real>& c, const Mode& mode, int k) {
-  const EmfPiece<Real>& p = c.emf[mode.sector].piece[mode.piece];
-  const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
+PoleLaw<Real> pole_law(const EmfPiece<Real>& p, const LegsLaw<Real>& law, unsigned k) {
   if (law.connected == 0) return {.w0 = p.alpha[k], .w1 = p.beta[k]};
   const int j = law.leg[0], m = law.connected == 1 ? j : law.leg[1];
   return {.bus = law.star.bus,

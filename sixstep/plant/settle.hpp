@@ -25,14 +25,22 @@ constexpr Judgement both(Judgement a, Judgement b) {
   return a == Judgement::tie || b == Judgement::tie ? Judgement::tie : Judgement::holds;
 }
 
+/// The back-EMF's shape where the rotor stands (back_emf.hpp).
 template <class Real>
-PerLeg<Real> back_emf(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
-  const EmfPiece<Real>& p = c.emf[m.sector].piece[m.piece];
-  Real phi0 = 1, phi1 = s.x;
+void shape_at(const Constants<Real>& c, const State<Real>& s, Real& phi0, Real& phi1) {
+  phi0 = 1;
+  phi1 = s.x;
   if (c.sine) {
     phi0 = static_cast<Real>(base::cos(static_cast<double>(s.x)));
     phi1 = static_cast<Real>(base::sin(static_cast<double>(s.x)));
   }
+}
+
+template <class Real>
+PerLeg<Real> back_emf(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
+  const EmfPiece<Real>& p = c.emf[m.sector].piece[m.piece];
+  Real phi0, phi1;
+  shape_at(c, s, phi0, phi1);
   PerLeg<Real> e;
   for (int k = 0; k < 3; ++k) e[k] = s.w * (p.alpha[k] * phi0 + p.beta[k] * phi1);
   return e;
@@ -143,7 +151,8 @@ constexpr std::span<const Combination> combinations_of(int legs) {
 
 }  // namespace detail
 
-/// What settle() is asked: gates, state, and whether plain values may decide alone.
+/// What settle() is asked: gates, state without what snap() takes for zero, and whether plain values may
+/// decide alone.
 template <class Real>
 struct Question {
   const Constants<Real>& constants;
@@ -173,45 +182,43 @@ bool accepts(const Question<Real>& q, const PerLeg<Real>& emf, const Mode& mode,
 /// The connections that gates and currents name; returns the legs that they leave open, as a mask. Written
 /// with branches: foreseen, they let the segment's series begin before the currents' signs are known.
 template <class Real>
-unsigned named_legs(const Question<Real>& q, Mode& mode) {
+unsigned named_legs(const State<Real>& s, const Gates& gates, Real noise, Legs& legs) {
   unsigned open = 0;
   for (unsigned k = 0; k < 3; ++k) {
-    const Real i = q.state.i[k];
-    if (q.gates.high[k]) {
-      mode.legs[k] = Connection::high_switch;
-    } else if (q.gates.low[k]) {
-      mode.legs[k] = Connection::low_switch;
-    } else if (i > 0) {
-      mode.legs[k] = Connection::low_diode;
-    } else if (i < 0) {
-      mode.legs[k] = Connection::high_diode;
+    if (gates.high[k]) {
+      legs[k] = Connection::high_switch;
+    } else if (gates.low[k]) {
+      legs[k] = Connection::low_switch;
+    } else if (s.i[k] > noise) {
+      legs[k] = Connection::low_diode;
+    } else if (s.i[k] < -noise) {
+      legs[k] = Connection::high_diode;
     } else {
-      mode.legs[k] = Connection::floating;
+      legs[k] = Connection::floating;
       open |= 1U << k;
     }
   }
   return open;
 }
 
-/// The commonest question by itself: one open leg k beside two that conduct. It floats where u_n + e_k stands
-/// within the rails, and conducts by the diode of the rail it stands beyond: with the third leg on, L di_k/dt
-/// is two thirds of what it stands beyond. False: too close to a rail to say.
+/// One open leg k beside two that conduct: it floats where u_n + e_k stands within the rails, and conducts by
+/// the diode of the rail it stands beyond: with the third leg on, L di_k/dt is two thirds of what it stands
+/// beyond. False: too close to a rail to say.
 template <class Real>
-bool settle_third_leg(const Question<Real>& q, const PerLeg<Real>& e, unsigned k, Mode& mode) {
-  const unsigned j = k == 0 ? 1 : 0, m = k == 2 ? 1 : 2;
-  const auto at_star = [&](unsigned leg) {
-    return pole_voltage(q.constants.pole_terms[static_cast<std::size_t>(mode.legs[leg])], q.state.bus,
-                        q.state.i[leg]) -
-           e[leg];
-  };
-  const Real free = (at_star(j) + at_star(m)) / 2 + e[k], V_f = Real(q.constants.devices.V_f_V);
-  const Real above_low = free + V_f, below_high = q.state.bus + V_f - free;
-  const Real noise = noise_of(q.constants.volt_scale, q.slack);
+bool settle_third_leg(const Constants<Real>& c, const State<Real>& s, const EmfPiece<Real>& piece, unsigned k,
+                      Legs& legs) {
+  const PoleLaw<Real> law = pole_law(piece, c.legs[legs_index(legs)], k);
+  Real phi0, phi1;
+  shape_at(c, s, phi0, phi1);
+  const Real free =
+      (law.bus * s.bus + law.offset) + (law.i * s.i[law.leg] + s.w * (law.w0 * phi0 + law.w1 * phi1));
+  const Real V_f = Real(c.devices.V_f_V), noise = noise_of(c.volt_scale, Real(1));
+  const Real above_low = free + V_f, below_high = s.bus + V_f - free;
   if ((above_low > noise) & (below_high > noise)) return true;
   if (above_low < -2 * noise)
-    mode.legs[k] = Connection::low_diode;
+    legs[k] = Connection::low_diode;
   else if (below_high < -2 * noise)
-    mode.legs[k] = Connection::high_diode;
+    legs[k] = Connection::high_diode;
   else
     return false;
   return true;
@@ -235,14 +242,9 @@ bool settle_by_trial(const Question<Real>& q, const PerLeg<Real>& emf, unsigned 
 
 template <class Real>
 bool settle_legs(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, bool& expanded) {
-  const unsigned open = named_legs(q, mode);
-  const bool at_rest = q.constants.dry_friction && q.state.w == 0;
-  const bool only_legs = !q.series_only && q.constants.source_sinks && !at_rest;
-  if (open == 0 && only_legs) return true;
+  const unsigned open = named_legs(q.state, q.gates, Real(0), mode.legs);
   const PerLeg<Real> emf = back_emf(q.constants, q.state, mode);
-  if (only_legs && (open & (open - 1)) == 0 && settle_third_leg(q, emf, open >> 1, mode)) return true;
   if (open == 0) return accepts(q, emf, mode, scratch, expanded);
-
   return settle_by_trial(q, emf, open, mode, scratch, expanded);
 }
 
@@ -260,6 +262,30 @@ bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch
 }
 
 }  // namespace detail
+
+/// The commonest questions, without enumeration: gates and currents name all connections but at most that of
+/// one leg beside two that conduct. False, and nothing is written: something is too close to zero or to a
+/// rail to say, or more is open.
+template <class Real>
+bool settle_plainly(const Constants<Real>& c, const State<Real>& s, const Gates& gates, Mode& mode) {
+  Motion motion = c.locked ? Motion::locked : Motion::free;
+  if (c.dry_friction) {
+    if (detail::abs(s.w) <= noise_of(c.speed_scale, Real(1))) return false;
+    motion = s.w > 0 ? Motion::forward : Motion::backward;
+  }
+  Legs legs;
+  const unsigned open = detail::named_legs(s, gates, noise_of(c.amp_scale, Real(1)), legs);
+  if (open != 0) {
+    const unsigned k = open >> 1;  // of one leg, its number
+    if ((open & (open - 1)) != 0 || s.i[k] != 0) return false;
+    if (!detail::settle_third_leg(c, s, c.emf[mode.sector].piece[mode.piece], k, legs)) return false;
+  }
+  if (!c.source_sinks) return false;
+  mode.legs = legs;
+  mode.motion = motion;
+  mode.source_feeds = true;
+  return true;
+}
 
 /// Finds the consistent mode and writes it; `expanded` tells whether `scratch` already holds its expansion
 /// over q.h. False: none is consistent at this rounding level.
