@@ -51,16 +51,11 @@ series::Coefficients<Real> affine(const series::Coefficients<Real>& c, int degre
   return out;
 }
 
+/// Few segments bring a terminal near a rail: what they need stands by itself, so that the others stay short.
 template <class Real, class Visit>
-void rail_guards(const Constants<Real>& c, const PoleLaw<Real>& law, const Expansion<Real>& y, int k,
-                 Real noise, Visit&& visit) {
+[[gnu::noinline]] void near_rail(const Constants<Real>& c, const PoleLaw<Real>& law, const Expansion<Real>& y,
+                                 int k, bool low, bool high, Real noise, Visit&& visit) {
   const Real V_f = Real(c.devices.V_f_V);
-  const Real bus_rest = c.inv_C > 0 ? series::tail_bound(y.bus, y.degree) - abs(y.bus[1]) : Real(0);
-  const PoleOutline<Real> is = pole_outline(c, y, law, bus_rest);
-  const bool low = !series::stays_above(is.start + V_f, is.slope, is.rest, noise);
-  const bool high =
-      !series::stays_above(y.bus[0] + V_f - is.start, y.bus[1] - is.slope, is.rest + bus_rest, noise);
-  if (!low && !high) return;
   const series::Coefficients<Real> pole = pole_series(c, y, law);
   if (low) visit(guard::low_rail + k, affine(pole, y.degree, Real(1), V_f), y.degree, noise);
   if (!high) return;
@@ -68,6 +63,18 @@ void rail_guards(const Constants<Real>& c, const PoleLaw<Real>& law, const Expan
   for (int j = 0; j <= y.degree; ++j) g[j] = y.bus[j] - pole[j];
   g[0] += V_f;
   visit(guard::high_rail + k, g, y.degree, noise);
+}
+
+template <class Real, class Visit>
+[[gnu::always_inline]] inline void rail_guards(const Constants<Real>& c, const PoleLaw<Real>& law,
+                                               const Expansion<Real>& y, int k, Real noise, Visit&& visit) {
+  const Real V_f = Real(c.devices.V_f_V);
+  const Real bus_rest = c.inv_C > 0 ? series::tail_bound(y.bus, y.degree) - abs(y.bus[1]) : Real(0);
+  const PoleOutline<Real> is = pole_outline(c, y, law, bus_rest);
+  const bool low = !series::stays_above(is.start + V_f, is.slope, is.rest, noise);
+  const bool high =
+      !series::stays_above(y.bus[0] + V_f - is.start, y.bus[1] - is.slope, is.rest + bus_rest, noise);
+  if (low || high) near_rail(c, law, y, k, low, high, noise, visit);
 }
 
 /// |S| = 0: conduction starts when max e - min e > U_s + 2 V_f.
@@ -105,7 +112,8 @@ void rotor_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Re
 
 /// Of a current that names a diode: it goes on in its direction.
 template <class Real, class Visit>
-void diode_guard(bool low, const Expansion<Real>& y, int k, Real noise, Visit&& visit) {
+[[gnu::always_inline]] inline void diode_guard(bool low, const Expansion<Real>& y, int k, Real noise,
+                                               Visit&& visit) {
   const series::Coefficients<Real>& i = y.i[k];
   const Real start = low ? i[0] : -i[0], slope = low ? i[1] : -i[1];
   if (series::stays_above(start, slope, y.reach_i[k] - abs(slope), noise)) return;

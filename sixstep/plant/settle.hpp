@@ -273,7 +273,9 @@ bool settle_plainly(const Constants<Real>& c, const State<Real>& s, const Gates&
     if (detail::abs(s.w) <= noise_of(c.speed_scale, Real(1))) return false;
     motion = s.w > 0 ? Motion::forward : Motion::backward;
   }
-  Legs legs;
+  // Straight to where they are read: a copy would wait until the bytes that it is made of have left for
+  // memory.
+  Legs& legs = mode.legs;
   const unsigned open = detail::named_legs(s, gates, noise_of(c.amp_scale, Real(1)), legs);
   if (open != 0) {
     const unsigned k = open >> 1;  // of one leg, its number
@@ -281,7 +283,6 @@ bool settle_plainly(const Constants<Real>& c, const State<Real>& s, const Gates&
     if (!detail::settle_third_leg(c, s, c.emf[mode.sector].piece[mode.piece], k, legs)) return false;
   }
   if (!c.source_sinks) return false;
-  mode.legs = legs;
   mode.motion = motion;
   mode.source_feeds = true;
   return true;

@@ -184,7 +184,7 @@ void Rig<Real, Firmware>::control_step(bool starts_period) {
   const Sight<Real> sight{plant_, modulator_.command(),
                           now_,   static_cast<std::uint64_t>(happened(Happening::tick)),
                           pins(), reversed_};
-  const auto answer = firmware_.tick(sight, setpoint_);
+  const auto& answer = firmware_.tick(sight, setpoint_);
   if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
   if (!answer.enabled) let_go();
   BoardCommand command = widened(answer, board_.units);
