@@ -46,8 +46,8 @@ Real doubt(const series::Coefficients<Real>& c, Real slack) {
 template <class Real>
 series::Coefficients<Real> affine(const series::Coefficients<Real>& c, int degree, Real sign, Real constant) {
   series::Coefficients<Real> out;
-  for (int j = 0; j <= degree; ++j) out[j] = sign * c[j];
-  out[0] += constant;
+  out[0] = sign * c[0] + constant;
+  for (int j = 1; j <= degree; ++j) out[j] = sign * c[j];
   return out;
 }
 
@@ -60,8 +60,8 @@ template <class Real, class Visit>
   if (low) visit(guard::low_rail + k, affine(pole, y.degree, Real(1), V_f), y.degree, noise);
   if (!high) return;
   series::Coefficients<Real> g;
-  for (int j = 0; j <= y.degree; ++j) g[j] = y.bus[j] - pole[j];
-  g[0] += V_f;
+  g[0] = y.bus[0] - pole[0] + V_f;
+  for (int j = 1; j <= y.degree; ++j) g[j] = y.bus[j] - pole[j];
   visit(guard::high_rail + k, g, y.degree, noise);
 }
 
@@ -81,15 +81,22 @@ template <class Real, class Visit>
 template <class Real, class Visit>
 void free_star_guards(const Constants<Real>& c, const EmfPiece<Real>& piece, const LegsLaw<Real>& law,
                       const Expansion<Real>& y, Real noise, Visit&& visit) {
-  PerLeg<series::Coefficients<Real>> e;
-  for (unsigned k = 0; k < 3; ++k) e[k] = pole_series(c, y, pole_law(piece, law, k));
-  for (int j = 0; j < 3; ++j)
-    for (int k = 0; k < 3; ++k) {
-      if (j == k) continue;
+  const Real bus_rest = c.inv_C > 0 ? series::tail_bound(y.bus, y.degree) - abs(y.bus[1]) : Real(0);
+  PerLeg<PoleOutline<Real>> is;
+  for (unsigned k = 0; k < 3; ++k) is[k] = pole_outline(c, y, pole_law(piece, law, k), bus_rest);
+  const Real room = y.bus[0] + 2 * Real(c.devices.V_f_V);
+  for (unsigned j = 0; j < 3; ++j)
+    for (unsigned k = 0; k < 3; ++k) {
+      if (j == k ||
+          series::stays_above(room - is[j].start + is[k].start, y.bus[1] - is[j].slope + is[k].slope,
+                              is[j].rest + is[k].rest + bus_rest, noise))
+        continue;
+      const series::Coefficients<Real> high = pole_series(c, y, pole_law(piece, law, j)),
+                                       low = pole_series(c, y, pole_law(piece, law, k));
       series::Coefficients<Real> g;
-      for (int n = 0; n <= y.degree; ++n) g[n] = y.bus[n] - e[j][n] + e[k][n];
-      g[0] += 2 * Real(c.devices.V_f_V);
-      visit(guard::free_star + 3 * j + k, g, y.degree, noise);
+      g[0] = y.bus[0] - high[0] + low[0] + 2 * Real(c.devices.V_f_V);
+      for (int n = 1; n <= y.degree; ++n) g[n] = y.bus[n] - high[n] + low[n];
+      visit(guard::free_star + 3 * static_cast<int>(j) + static_cast<int>(k), g, y.degree, noise);
     }
 }
 

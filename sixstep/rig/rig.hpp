@@ -270,10 +270,12 @@ void Rig<Real, Firmware>::guards(Visit&& visit) const {
     const plant::PerLeg<double> weight = modulator_.comparator_weights(which);
     const plant::Expansion<Real>& y = plant_.expansion();
     const Real sign = c.switches_off ? Real(-1) : Real(1);
+    const auto current = [&](int j) {
+      return sign * (Real(weight[0]) * y.i[0][j] + Real(weight[1]) * y.i[1][j] + Real(weight[2]) * y.i[2][j]);
+    };
     series::Coefficients<Real> g;
-    for (int j = 0; j <= y.degree; ++j)
-      g[j] = sign * (Real(weight[0]) * y.i[0][j] + Real(weight[1]) * y.i[1][j] + Real(weight[2]) * y.i[2][j]);
-    g[0] -= sign * Real(c.level_A);
+    g[0] = current(0) - sign * Real(c.level_A);
+    for (int j = 1; j <= y.degree; ++j) g[j] = current(j);
     visit(plant::guard::first_free + which, g, y.degree,
           plant::noise_of(plant_.constants().amp_scale, Real(1)));
   }

@@ -35,20 +35,30 @@ struct Outline {
   Real slope_rest = 0;        ///< sum_{j >= 2} j |q_j| length^(j-1)
 };
 
-/// `whole`: the length is 1, and nothing waits for products with it.
-template <bool whole, class Real>
+/// Over the whole of [0, 1], without products.
+template <class Real>
+Outline<Real> outline(const Real* q, int n) {
+  Outline<Real> of;
+  for (int j = n; j >= 2; --j) {
+    of.tail += std::fabs(q[j]);
+    of.at_end += q[j];
+    of.slope_rest += of.tail;
+  }
+  of.slope_rest += of.tail;  // with this, term j has been counted j times
+  of.tail += std::fabs(q[1]);
+  of.at_end = q[0] + (q[1] + of.at_end);
+  return of;
+}
+
+template <class Real>
 Outline<Real> outline(const Real* q, int n, Real length) {
+  if (length == 1) return outline(q, n);
   Outline<Real> of;
   for (int j = n; j >= 1; --j) {
     const Real size = std::fabs(q[j]);
-    of.tail += size;
-    of.at_end += q[j];
-    if (j >= 2) of.slope_rest += static_cast<Real>(j) * size;
-    if constexpr (!whole) {
-      of.tail *= length;
-      of.at_end *= length;
-      if (j >= 2) of.slope_rest *= length;
-    }
+    of.tail = (of.tail + size) * length;
+    of.at_end = (of.at_end + q[j]) * length;
+    if (j >= 2) of.slope_rest = (of.slope_rest + static_cast<Real>(j) * size) * length;
   }
   of.at_end += q[0];
   return of;
@@ -205,8 +215,7 @@ std::optional<Real> first_root(const Coefficients<Real>& c, int degree, Real len
   const int n = degree - start.order;
   if (n == 0) return std::nullopt;
 
-  const auto [at_end, tail, slope_rest] =
-      length == 1 ? detail::outline<true>(q, n, length) : detail::outline<false>(q, n, length);
+  const auto [at_end, tail, slope_rest] = detail::outline(q, n, length);
   if (q[0] > tail) return std::nullopt;
   if (q[1] > slope_rest) return std::nullopt;  // strictly rising
   if (-q[1] > slope_rest) {                    // strictly falling: one root or none

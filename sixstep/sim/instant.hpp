@@ -16,14 +16,6 @@ struct Instant {
 
   static constexpr Instant never() { return {std::numeric_limits<std::int64_t>::max(), 0.0}; }
 
-  constexpr Instant() = default;
-  constexpr Instant(std::int64_t ticks, double offset) : ticks(ticks), offset(offset) {}
-  constexpr Instant(const Instant& o) = default;
-  constexpr Instant& operator=(const Instant& o) {
-    ticks = o.ticks;
-    offset = o.offset;
-    return *this;
-  }
   constexpr bool operator==(const Instant&) const = default;
   friend constexpr bool operator<(const Instant& a, const Instant& b) {
     // Equal ticks are rare: a branch that is foreseen saves looking at the offsets.
