@@ -30,6 +30,29 @@ void shorten(Expansion<Real>& out, Real excess_last, Real excess_before) {
   out.h *= half;
 }
 
+/// One pass for the four series that always move; in even and odd powers, so that the sums wait less for each
+/// other.
+template <class Real>
+Increments<Real> increments(const Expansion<Real>& y, const LegsLaw<Real>& law, Real s) {
+  const std::array<const Real*, 4> c{y.i[law.leg[0]].data(), y.i[law.leg[1]].data(), y.w.data(), y.x.data()};
+  std::array<Real, 4> near, far;  // near: the powers that the loop ends beside
+  const int n = y.degree;
+  for (int k = 0; k < 4; ++k) far[k] = c[k][n], near[k] = c[k][n - 1];
+  for (int j = n - 2; j >= 2; j -= 2)
+    for (int k = 0; k < 4; ++k) {
+      far[k] = far[k] * (s * s) + c[k][j];
+      near[k] = near[k] * (s * s) + c[k][j - 1];
+    }
+  std::array<Real, 4> sum;
+  for (int k = 0; k < 4; ++k) {
+    if (n % 2 == 0)
+      sum[k] = (far[k] * s + near[k]) * s;
+    else
+      sum[k] = ((far[k] * s + near[k]) * s + c[k][1]) * s;
+  }
+  return {sum[0], sum[1], sum[2], sum[3]};
+}
+
 /// How far the last two terms stand above the rounding level of their states, 1 = at it.
 template <class Real>
 struct Convergence {
@@ -69,11 +92,10 @@ struct Recurrence {
   Convergence<Real> convergence;
   Growing<Real> y;
 
-  Recurrence(const Constants<Real>& c, const Mode& mode, const Currents& law, const Expansion<Real>& out)
-      : currents(law),
-        rotor(c, mode.motion),
-        bus_law(c, mode, c.legs[legs_index(mode.legs)]),
-        convergence(c, out) {
+  template <class Shape>
+  Recurrence(const Constants<Real>& c, const Mode& mode, const LegsLaw<Real>& law, const Shape& shape,
+             const Expansion<Real>& out)
+      : currents(c, mode, law, shape), rotor(c, mode.motion), bus_law(c, mode, law), convergence(c, out) {
     y.h = out.h;
     y.w[0] = out.w[0];
     y.x[0] = out.x[0];
@@ -85,6 +107,10 @@ struct Recurrence {
     currents.start(out, y);
   }
 
+  /// The increments over the whole length: the first terms last, which are the largest.
+  void add_up(Expansion<Real>& out) const {
+    out.end = {y.i[1] + y.later_i, y.i_2[1] + y.later_i_2, y.w[1] + y.later_w, y.x[1] + y.later_x};
+  }
   /// Terms n + 1 of all series from terms n; true where that was enough.
   template <int n>
   [[gnu::always_inline]] inline bool take_order(Expansion<Real>& out) {
@@ -94,9 +120,15 @@ struct Recurrence {
     write<n>(out);
     const Real size = currents.reached(y, n + 1), size_w = abs(y.w[n + 1]);
     y.reach_w += size_w;
+    if constexpr (n > 0) {
+      y.later_w += y.w[n + 1];
+      y.later_x += y.x[n + 1];
+    }
     if constexpr (n < 4) return false;  // no segment worth taking needs fewer, and each look costs
     convergence.template look<Currents::sine_shape, bus>(y, n + 1, size, size_w);
-    return n >= 5 && convergence.reached();
+    if (n < 5 || !convergence.reached()) return false;
+    out.degree = n + 1;
+    return true;
   }
   template <int n>
   [[gnu::always_inline]] inline void write(Expansion<Real>& out) const {
@@ -109,15 +141,15 @@ struct Recurrence {
       out.phi0[n + 1] = y.phi0[n + 1];
       out.phi1[n + 1] = y.phi1[n + 1];
     }
-    out.degree = n + 1;
   }
 };
 
 /// Order by order until the last two terms are below rounding, or the degree is used up.
-template <bool bus, class Currents, class Real>
-void recurrence_with(const Constants<Real>& c, const Mode& mode, const Currents& currents,
+template <bool bus, class Currents, class Shape, class Real>
+void recurrence_with(const Constants<Real>& c, const Mode& mode, const LegsLaw<Real>& law, const Shape& shape,
                      Expansion<Real>& out) {
-  Recurrence<bus, Currents, Real> r(c, mode, currents, out);
+  Recurrence<bus, Currents, Real> r(c, mode, law, shape, out);
+  out.degree = series::max_degree;
   [&]<int... n>(std::integer_sequence<int, n...>) __attribute__((always_inline)) {
     static_cast<void>((r.template take_order<n>(out) || ...));
   }
@@ -125,17 +157,21 @@ void recurrence_with(const Constants<Real>& c, const Mode& mode, const Currents&
   out.torque[out.degree] = 0;
   r.currents.reach(r.y, out.reach_i);
   out.reach_w = r.y.reach_w;
+  r.add_up(out);
   out.later_x = c.pole_pairs * out.h * r.y.reach_w / 2;  // x_(n+1) = p h w_n/(n + 1)
   out.reach_x = abs(out.x[1]) + out.later_x;
-  if (!r.convergence.reached()) shorten(out, r.convergence.last, r.convergence.before);
+  if (r.convergence.reached()) return;
+  shorten(out, r.convergence.last, r.convergence.before);
+  out.end = increments(out, law, Real(1));
 }
 
-template <class Currents, class Real>
-void recurrence(const Constants<Real>& c, const Mode& mode, const Currents& currents, Expansion<Real>& y) {
+template <class Currents, class Shape, class Real>
+void recurrence(const Constants<Real>& c, const Mode& mode, const LegsLaw<Real>& law, const Shape& shape,
+                Expansion<Real>& y) {
   if (c.inv_C > 0)
-    recurrence_with<true>(c, mode, currents, y);
+    recurrence_with<true, Currents>(c, mode, law, shape, y);
   else
-    recurrence_with<false>(c, mode, currents, y);
+    recurrence_with<false, Currents>(c, mode, law, shape, y);
 }
 
 template <bool sine, class Real>
@@ -143,13 +179,13 @@ void expand_shape(const Constants<Real>& c, const Mode& mode, Expansion<Real>& y
   const EmfPiece<Real>& piece = c.emf[mode.sector].piece[mode.piece];
   const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
   const ShapeLine<sine, Real> shape(piece, y.x[0]);
-  if (law.connected == 3) return recurrence(c, mode, TwoCurrents<sine, Real>(c, mode, law, shape), y);
-  if (law.connected < 2) return recurrence(c, mode, NoCurrent<sine, Real>(c, mode, law, shape), y);
+  if (law.connected == 3) return recurrence<TwoCurrents<sine, Real>>(c, mode, law, shape, y);
+  if (law.connected < 2) return recurrence<NoCurrent<sine, Real>>(c, mode, law, shape, y);
   if constexpr (!sine) {
     const bool flat = piece.beta[law.leg[0]] == piece.beta[law.leg[1]];
-    if (flat) return recurrence(c, mode, FlatPair<Real>(c, mode, law, shape), y);
+    if (flat) return recurrence<FlatPair<Real>>(c, mode, law, shape, y);
   }
-  recurrence(c, mode, OneCurrent<sine, Real>(c, mode, law, shape), y);
+  recurrence<OneCurrent<sine, Real>>(c, mode, law, shape, y);
 }
 
 // Unrolled, this is most of what a plant costs to compile: for double it is compiled once, in expand.cpp.

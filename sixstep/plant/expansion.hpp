@@ -33,6 +33,12 @@ struct Constants {
 template <class Real>
 inline constexpr Real terms_per_scale = Real(1LL << 53) * (sizeof(Real) > 8 ? 2048 : 1);
 
+/// Increments over a segment's whole length; currents of the first and second connected leg.
+template <class Real>
+struct Increments {
+  Real i = 0, i_2 = 0, w = 0, x = 0;
+};
+
 /// Series over one segment.
 template <class Real>
 struct Expansion {
@@ -41,7 +47,8 @@ struct Expansion {
   PerLeg<series::Coefficients<Real>> i;
   series::Coefficients<Real> w, x, bus, torque;
   series::Coefficients<Real> phi0, phi1;  ///< sine only: cos x, sin x
-  PerLeg<Real> reach_i;                   ///< no series moves further from its first value than this
+  Increments<Real> end;
+  PerLeg<Real> reach_i;  ///< no series moves further from its first value than this
   Real reach_w = 0, reach_x = 0;
   Real later_x = 0;  ///< the same of x without its first term
 };

@@ -46,44 +46,57 @@ Real doubt(const series::Coefficients<Real>& c, Real slack) {
 template <class Real>
 series::Coefficients<Real> affine(const series::Coefficients<Real>& c, int degree, Real sign, Real constant) {
   series::Coefficients<Real> out;
-  for (int j = 0; j <= degree; ++j) out[j] = sign * c[j];
-  out[0] += constant;
+  out[0] = sign * c[0] + constant;
+  for (int j = 1; j <= degree; ++j) out[j] = sign * c[j];
   return out;
 }
 
+/// Few segments bring a terminal near a rail: what they need stands by itself, so that the others stay short.
 template <class Real, class Visit>
-void rail_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, int k, Real noise,
-                 Visit&& visit) {
-  const PoleLaw<Real> law = pole_law(c, mode, k);
+[[gnu::noinline]] void near_rail(const Constants<Real>& c, const PoleLaw<Real>& law, const Expansion<Real>& y,
+                                 int k, bool low, bool high, Real noise, Visit&& visit) {
+  const Real V_f = Real(c.devices.V_f_V);
+  const series::Coefficients<Real> pole = pole_series(c, y, law);
+  if (low) visit(guard::low_rail + k, affine(pole, y.degree, Real(1), V_f), y.degree, noise);
+  if (!high) return;
+  series::Coefficients<Real> g;
+  g[0] = y.bus[0] - pole[0] + V_f;
+  for (int j = 1; j <= y.degree; ++j) g[j] = y.bus[j] - pole[j];
+  visit(guard::high_rail + k, g, y.degree, noise);
+}
+
+template <class Real, class Visit>
+[[gnu::always_inline]] inline void rail_guards(const Constants<Real>& c, const PoleLaw<Real>& law,
+                                               const Expansion<Real>& y, int k, Real noise, Visit&& visit) {
   const Real V_f = Real(c.devices.V_f_V);
   const Real bus_rest = c.inv_C > 0 ? series::tail_bound(y.bus, y.degree) - abs(y.bus[1]) : Real(0);
   const PoleOutline<Real> is = pole_outline(c, y, law, bus_rest);
   const bool low = !series::stays_above(is.start + V_f, is.slope, is.rest, noise);
   const bool high =
       !series::stays_above(y.bus[0] + V_f - is.start, y.bus[1] - is.slope, is.rest + bus_rest, noise);
-  if (!low && !high) return;
-  const series::Coefficients<Real> pole = pole_series(c, y, law);
-  if (low) visit(guard::low_rail + k, affine(pole, y.degree, Real(1), V_f), y.degree, noise);
-  if (!high) return;
-  series::Coefficients<Real> g;
-  for (int j = 0; j <= y.degree; ++j) g[j] = y.bus[j] - pole[j];
-  g[0] += V_f;
-  visit(guard::high_rail + k, g, y.degree, noise);
+  if (low || high) near_rail(c, law, y, k, low, high, noise, visit);
 }
 
 /// |S| = 0: conduction starts when max e - min e > U_s + 2 V_f.
 template <class Real, class Visit>
-void free_star_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real noise,
-                      Visit&& visit) {
-  PerLeg<series::Coefficients<Real>> e;
-  for (int k = 0; k < 3; ++k) e[k] = pole_series(c, y, pole_law(c, mode, k));
-  for (int j = 0; j < 3; ++j)
-    for (int k = 0; k < 3; ++k) {
-      if (j == k) continue;
+void free_star_guards(const Constants<Real>& c, const EmfPiece<Real>& piece, const LegsLaw<Real>& law,
+                      const Expansion<Real>& y, Real noise, Visit&& visit) {
+  const Real bus_rest = c.inv_C > 0 ? series::tail_bound(y.bus, y.degree) - abs(y.bus[1]) : Real(0);
+  PerLeg<PoleOutline<Real>> is;
+  for (unsigned k = 0; k < 3; ++k) is[k] = pole_outline(c, y, pole_law(piece, law, k), bus_rest);
+  const Real room = y.bus[0] + 2 * Real(c.devices.V_f_V);
+  for (unsigned j = 0; j < 3; ++j)
+    for (unsigned k = 0; k < 3; ++k) {
+      if (j == k ||
+          series::stays_above(room - is[j].start + is[k].start, y.bus[1] - is[j].slope + is[k].slope,
+                              is[j].rest + is[k].rest + bus_rest, noise))
+        continue;
+      const series::Coefficients<Real> high = pole_series(c, y, pole_law(piece, law, j)),
+                                       low = pole_series(c, y, pole_law(piece, law, k));
       series::Coefficients<Real> g;
-      for (int n = 0; n <= y.degree; ++n) g[n] = y.bus[n] - e[j][n] + e[k][n];
-      g[0] += 2 * Real(c.devices.V_f_V);
-      visit(guard::free_star + 3 * j + k, g, y.degree, noise);
+      g[0] = y.bus[0] - high[0] + low[0] + 2 * Real(c.devices.V_f_V);
+      for (int n = 1; n <= y.degree; ++n) g[n] = y.bus[n] - high[n] + low[n];
+      visit(guard::free_star + 3 * static_cast<int>(j) + static_cast<int>(k), g, y.degree, noise);
     }
 }
 
@@ -104,33 +117,43 @@ void rotor_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Re
   }
 }
 
+/// Of a current that names a diode: it goes on in its direction.
+template <class Real, class Visit>
+[[gnu::always_inline]] inline void diode_guard(bool low, const Expansion<Real>& y, int k, Real noise,
+                                               Visit&& visit) {
+  const series::Coefficients<Real>& i = y.i[k];
+  const Real start = low ? i[0] : -i[0], slope = low ? i[1] : -i[1];
+  if (series::stays_above(start, slope, y.reach_i[k] - abs(slope), noise)) return;
+  if (low)
+    visit(guard::current_zero + k, i, y.degree, noise);
+  else
+    visit(guard::current_zero + k, affine(i, y.degree, Real(-1), Real(0)), y.degree, noise);
+}
+
 }  // namespace detail
 
 /// Guards of the conduction, motion and supply modes: what settle() judges a mode by.
 template <class Real, class Visit>
 void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real slack,
                  Visit&& visit) {
-  const Real amp_noise = noise_of(c.amp_scale, slack), volt_noise = noise_of(c.volt_scale, slack);
-  bool star_free = true;
-  for (int k = 0; k < 3; ++k) {
-    star_free = star_free && is_floating(mode.legs[k]);
-    if (!is_diode(mode.legs[k])) continue;
-    const bool low = mode.legs[k] == Connection::low_diode;
-    const Real start = low ? y.i[k][0] : -y.i[k][0];
-    const Real slope = low ? y.i[k][1] : -y.i[k][1];
-    if (series::stays_above(start, slope, y.reach_i[k] - detail::abs(slope), amp_noise)) continue;
-    if (low)
-      visit(guard::current_zero + k, y.i[k], y.degree, amp_noise);
-    else
-      visit(guard::current_zero + k, detail::affine(y.i[k], y.degree, Real(-1), Real(0)), y.degree,
-            amp_noise);
-  }
-  detail::rotor_guards(c, mode, y, slack, visit);
-  if (star_free) {
-    detail::free_star_guards(c, mode, y, volt_noise, visit);
-  } else {
+  const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
+  const Real volt_noise = noise_of(c.volt_scale, slack);
+  if (law.diodes != 0) {
+    const Real amp_noise = noise_of(c.amp_scale, slack);
     for (int k = 0; k < 3; ++k)
-      if (is_floating(mode.legs[k])) detail::rail_guards(c, mode, y, k, volt_noise, visit);
+      if (law.diodes >> k & 1)
+        detail::diode_guard(mode.legs[k] == Connection::low_diode, y, k, amp_noise, visit);
+  }
+  if (c.dry_friction) detail::rotor_guards(c, mode, y, slack, visit);
+  if (law.floating != 0) {
+    const EmfPiece<Real>& piece = c.emf[mode.sector].piece[mode.piece];
+    if (law.connected == 0) {
+      detail::free_star_guards(c, piece, law, y, volt_noise, visit);
+    } else {
+      for (unsigned k = 0; k < 3; ++k)
+        if (law.floating >> k & 1)
+          detail::rail_guards(c, pole_law(piece, law, k), y, static_cast<int>(k), volt_noise, visit);
+    }
   }
   if (!c.source_sinks)
     visit(guard::source,

@@ -14,6 +14,7 @@ struct LegsLaw {
   };
   std::array<std::uint8_t, 3> leg{0, 1, 2};  ///< the connected legs in order, then the floating ones
   std::uint8_t connected = 0;
+  std::uint8_t floating = 0, diodes = 0;  ///< as masks: bit k is leg k
   Terms slope, slope_2;  ///< di/dt of the first current and, where three legs are connected, of the second
   Terms star;            ///< u_n + mean of e over the connected legs; one or two of them
   Real emf_rate = 0;     ///< a back-EMF e in a leg's way: di/dt = -emf_rate (e_leg - e_other or - mean)
@@ -71,8 +72,12 @@ LegsLaw<Real> legs_law(const Legs& legs, const Devices& devices, Real R, Real in
   std::uint8_t back = 3;
   for (std::uint8_t k = 3; k-- > 0;)
     if (is_floating(legs[k])) law.leg[--back] = k;
-  for (std::uint8_t k = 0; k < 3; ++k)
+  for (std::uint8_t k = 0; k < 3; ++k) {
+    const auto bit = static_cast<std::uint8_t>(1U << k);
     if (!is_floating(legs[k])) law.leg[law.connected++] = k;
+    if (is_floating(legs[k])) law.floating |= bit;
+    if (is_diode(legs[k])) law.diodes |= bit;
+  }
   PerLeg<PoleTerms<Real>> terms;
   for (std::size_t n = 0; n < 3; ++n) terms[n] = pole_terms<Real>(legs[law.leg[n]], devices);
   if (law.connected == 1) law.star = {.bus = terms[0].bus_share, .offset = terms[0].offset_V};

@@ -72,6 +72,7 @@ class Plant {
  private:
   void snap();
   bool resettle(Real wanted, bool& expanded);
+  bool settle_fully(Real wanted, bool& expanded);
   bool pass_edge(bool ahead);
   void balance();
   void set_scales(Real volt_scale);
@@ -139,15 +140,14 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
 template <class Real>
 void Plant<Real>::snap() {
   const Real amp_noise = noise_of(constants_.amp_scale, Real(1));
-  unsigned tiny = 0;  // counted without branches: hardly ever is there anything to snap
-  for (unsigned k = 0; k < 3; ++k)
-    tiny |= (unsigned{detail::abs(state_.i[k]) <= amp_noise} & unsigned{state_.i[k] != 0}) << k;
-  tiny &= ~static_cast<unsigned>((gates_.high | gates_.low).to_ulong());
-  if (tiny != 0) {
-    for (unsigned k = 0; k < 3; ++k)
-      if (tiny >> k & 1) state_.i[k] = state_.i_low[k] = 0;
-    balance();
+  bool snapped = false;
+  for (unsigned k = 0; k < 3; ++k) {
+    Real& i = state_.i[k];
+    if (gates_.high[k] || gates_.low[k] || i == 0 || detail::abs(i) > amp_noise) continue;
+    i = state_.i_low[k] = 0;
+    snapped = true;
   }
+  if (snapped) balance();
   if (constants_.dry_friction && detail::abs(state_.w) <= noise_of(constants_.speed_scale, Real(1)))
     state_.w = state_.w_low = 0;
 }
@@ -170,16 +170,24 @@ void Plant<Real>::balance() {
 
 template <class Real>
 bool Plant<Real>::resettle(Real wanted, bool& expanded) {
+  const unsigned floated = constants_.legs[legs_index(mode_.legs)].floating;
+  slack_ = 1;
+  if ((doubted_ || !settle_plainly(constants_, state_, gates_, mode_)) && !settle_fully(wanted, expanded))
+    return false;
+  stale_ = false;
+  for (unsigned started = floated & constants_.legs[legs_index(mode_.legs)].diodes; started != 0;
+       started &= started - 1)
+    ++diodes_started_;
+  return true;
+}
+
+/// With snapped state, by enumeration, and with noise widened as far as rounding makes that necessary.
+template <class Real>
+bool Plant<Real>::settle_fully(Real wanted, bool& expanded) {
   snap();
-  const Legs before = mode_.legs;
-  for (slack_ = 1; slack_ < 1e5; slack_ *= 16) {
+  for (; slack_ < 1e5; slack_ *= 16) {
     const Question<Real> question{constants_, state_, gates_, wanted, doubted_, slack_};
-    if (settle(question, mode_, y_, expanded)) {
-      stale_ = false;
-      for (int k = 0; k < 3; ++k)
-        diodes_started_ += int{is_floating(before[k])} & int{is_diode(mode_.legs[k])};
-      return true;
-    }
+    if (settle(question, mode_, y_, expanded)) return true;
   }
   return false;
 }
@@ -197,30 +205,14 @@ template <class Real>
 void Plant<Real>::advance(Real s) {
   using series::add_compensated;
   State<Real>& q = state_;
-  const int n = y_.degree;
   const LegsLaw<Real>& law = constants_.legs[legs_index(mode_.legs)];
   const int first = law.leg[0], second = law.leg[1], third = law.leg[2];
-  // One pass for the four series that always move; the last connected leg's current follows from the others.
-  Real i_first = 0, i_second = 0, w = 0, x = 0;
-  if (s == 1) {  // the commonest case, and the same bits
-    for (int j = n; j >= 1; --j) {
-      i_first += y_.i[first][j];
-      i_second += y_.i[second][j];
-      w += y_.w[j];
-      x += y_.x[j];
-    }
-  } else {
-    for (int j = n; j >= 1; --j) {
-      i_first = (i_first + y_.i[first][j]) * s;
-      i_second = (i_second + y_.i[second][j]) * s;
-      w = (w + y_.w[j]) * s;
-      x = (x + y_.x[j]) * s;
-    }
-  }
+  Increments<Real> by = y_.end;
+  if (s != 1) by = detail::increments(y_, law, s);
   if (law.connected >= 2) {
-    add_compensated(q.i[first], q.i_low[first], i_first);
+    add_compensated(q.i[first], q.i_low[first], by.i);
     if (law.connected == 3) {
-      add_compensated(q.i[second], q.i_low[second], i_second);
+      add_compensated(q.i[second], q.i_low[second], by.i_2);
       q.i[third] = -(q.i[first] + q.i[second]);
       q.i_low[third] = -(q.i_low[first] + q.i_low[second]);
     } else {
@@ -229,10 +221,10 @@ void Plant<Real>::advance(Real s) {
     }
   }
   if (mode_.motion != Motion::locked && mode_.motion != Motion::stuck) {
-    add_compensated(q.w, q.w_low, w);
-    add_compensated(q.x, q.x_low, x);
+    add_compensated(q.w, q.w_low, by.w);
+    add_compensated(q.x, q.x_low, by.x);
   }
-  if (constants_.inv_C > 0) add_compensated(q.bus, q.bus_low, series::increment(y_.bus, n, s));
+  if (constants_.inv_C > 0) add_compensated(q.bus, q.bus_low, series::increment(y_.bus, y_.degree, s));
   doubted_ = s == 0;
 }
 

@@ -16,9 +16,8 @@ struct PoleLaw {
 
 /// u_n is the mean of u_s - e_s over the connected legs s: none, one, or two with one current.
 template <class Real>
-PoleLaw<Real> pole_law(const Constants<Real>& c, const Mode& mode, int k) {
-  const EmfPiece<Real>& p = c.emf[mode.sector].piece[mode.piece];
-  const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
+[[gnu::always_inline]] inline PoleLaw<Real> pole_law(const EmfPiece<Real>& p, const LegsLaw<Real>& law,
+                                                     unsigned k) {
   if (law.connected == 0) return {.w0 = p.alpha[k], .w1 = p.beta[k]};
   const int j = law.leg[0], m = law.connected == 1 ? j : law.leg[1];
   return {.bus = law.star.bus,
@@ -37,8 +36,9 @@ struct PoleOutline {
 };
 
 template <class Real>
-PoleOutline<Real> pole_outline(const Constants<Real>& c, const Expansion<Real>& y, const PoleLaw<Real>& law,
-                               Real bus_rest) {
+[[gnu::always_inline]] inline PoleOutline<Real> pole_outline(const Constants<Real>& c,
+                                                             const Expansion<Real>& y,
+                                                             const PoleLaw<Real>& law, Real bus_rest) {
   using detail::abs;
   const Real w = y.w[0], x = y.x[0], reach_w = y.reach_w, reach_x = y.reach_x;
   const Real phi0 = c.sine ? y.phi0[0] : Real(1), phi1 = c.sine ? y.phi1[0] : x;

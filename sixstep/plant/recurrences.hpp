@@ -16,7 +16,8 @@ namespace sixstep::plant::detail {
 template <class Real>
 struct Growing {
   Real h;
-  Real reach_w = 0, reach_i = 0, reach_i_2 = 0;  ///< sums of the terms' sizes
+  Real reach_w = 0, reach_i = 0, reach_i_2 = 0;               ///< sums of the terms' sizes
+  Real later_w = 0, later_x = 0, later_i = 0, later_i_2 = 0;  ///< sums of the terms behind the first
   series::Coefficients<Real> w, x, torque, bus;
   series::Coefficients<Real> i, i_2;      ///< of the first and, where three legs are connected, second leg
   series::Coefficients<Real> phi0, phi1;  ///< sine only
@@ -140,10 +141,11 @@ struct PairLaw {
     out.i[k][n] = -y.i[n];
     out.i[floating][n] = 0;
   }
-  /// Adds the term to the series' reach and tells its size over all legs.
+  /// Adds the term to the series' reach and sum, and tells its size over all legs.
   Real reached(Growing<Real>& y, int n) const {
     const Real size = abs(y.i[n]);
     y.reach_i += size;
+    if (n > 1) y.later_i += y.i[n];
     return 2 * size;
   }
   void reach(const Growing<Real>& y, PerLeg<Real>& of) const {
@@ -303,6 +305,10 @@ struct TwoCurrents {
     const Real size = abs(y.i[n]), size_2 = abs(y.i_2[n]);
     y.reach_i += size;
     y.reach_i_2 += size_2;
+    if (n > 1) {
+      y.later_i += y.i[n];
+      y.later_i_2 += y.i_2[n];
+    }
     return 2 * (size + size_2);
   }
   void reach(const Growing<Real>& y, PerLeg<Real>& of) const {

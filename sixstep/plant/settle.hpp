@@ -6,7 +6,7 @@
 #pragma once
 #include <span>
 
-#include "sixstep/plant/guards.hpp"
+#include "sixstep/plant/settle_plainly.hpp"
 #include "sixstep/series/first_root.hpp"
 
 namespace sixstep::plant {
@@ -28,11 +28,8 @@ constexpr Judgement both(Judgement a, Judgement b) {
 template <class Real>
 PerLeg<Real> back_emf(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
   const EmfPiece<Real>& p = c.emf[m.sector].piece[m.piece];
-  Real phi0 = 1, phi1 = s.x;
-  if (c.sine) {
-    phi0 = static_cast<Real>(base::cos(static_cast<double>(s.x)));
-    phi1 = static_cast<Real>(base::sin(static_cast<double>(s.x)));
-  }
+  Real phi0, phi1;
+  shape_at(c, s, phi0, phi1);
   PerLeg<Real> e;
   for (int k = 0; k < 3; ++k) e[k] = s.w * (p.alpha[k] * phi0 + p.beta[k] * phi1);
   return e;
@@ -143,7 +140,8 @@ constexpr std::span<const Combination> combinations_of(int legs) {
 
 }  // namespace detail
 
-/// What settle() is asked: gates, state, and whether plain values may decide alone.
+/// What settle() is asked: gates, state without what snap() takes for zero, and whether plain values may
+/// decide alone.
 template <class Real>
 struct Question {
   const Constants<Real>& constants;
@@ -170,53 +168,6 @@ bool accepts(const Question<Real>& q, const PerLeg<Real>& emf, const Mode& mode,
   return holds_in_series(q.constants, mode, scratch, q.slack);
 }
 
-/// The connections that gates and currents name; returns the legs that they leave open, as a mask. Written
-/// with branches: foreseen, they let the segment's series begin before the currents' signs are known.
-template <class Real>
-unsigned named_legs(const Question<Real>& q, Mode& mode) {
-  unsigned open = 0;
-  for (unsigned k = 0; k < 3; ++k) {
-    const Real i = q.state.i[k];
-    if (q.gates.high[k]) {
-      mode.legs[k] = Connection::high_switch;
-    } else if (q.gates.low[k]) {
-      mode.legs[k] = Connection::low_switch;
-    } else if (i > 0) {
-      mode.legs[k] = Connection::low_diode;
-    } else if (i < 0) {
-      mode.legs[k] = Connection::high_diode;
-    } else {
-      mode.legs[k] = Connection::floating;
-      open |= 1U << k;
-    }
-  }
-  return open;
-}
-
-/// The commonest question by itself: one open leg k beside two that conduct. It floats where u_n + e_k stands
-/// within the rails, and conducts by the diode of the rail it stands beyond: with the third leg on, L di_k/dt
-/// is two thirds of what it stands beyond. False: too close to a rail to say.
-template <class Real>
-bool settle_third_leg(const Question<Real>& q, const PerLeg<Real>& e, unsigned k, Mode& mode) {
-  const unsigned j = k == 0 ? 1 : 0, m = k == 2 ? 1 : 2;
-  const auto at_star = [&](unsigned leg) {
-    return pole_voltage(q.constants.pole_terms[static_cast<std::size_t>(mode.legs[leg])], q.state.bus,
-                        q.state.i[leg]) -
-           e[leg];
-  };
-  const Real free = (at_star(j) + at_star(m)) / 2 + e[k], V_f = Real(q.constants.devices.V_f_V);
-  const Real above_low = free + V_f, below_high = q.state.bus + V_f - free;
-  const Real noise = noise_of(q.constants.volt_scale, q.slack);
-  if ((above_low > noise) & (below_high > noise)) return true;
-  if (above_low < -2 * noise)
-    mode.legs[k] = Connection::low_diode;
-  else if (below_high < -2 * noise)
-    mode.legs[k] = Connection::high_diode;
-  else
-    return false;
-  return true;
-}
-
 /// All combinations of the open legs, those with fewest legs on first.
 template <class Real>
 bool settle_by_trial(const Question<Real>& q, const PerLeg<Real>& emf, unsigned open, Mode& mode,
@@ -235,14 +186,9 @@ bool settle_by_trial(const Question<Real>& q, const PerLeg<Real>& emf, unsigned 
 
 template <class Real>
 bool settle_legs(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, bool& expanded) {
-  const unsigned open = named_legs(q, mode);
-  const bool at_rest = q.constants.dry_friction && q.state.w == 0;
-  const bool only_legs = !q.series_only && q.constants.source_sinks && !at_rest;
-  if (open == 0 && only_legs) return true;
+  const unsigned open = named_legs(q.state, q.gates, Real(0), mode.legs);
   const PerLeg<Real> emf = back_emf(q.constants, q.state, mode);
-  if (only_legs && (open & (open - 1)) == 0 && settle_third_leg(q, emf, open >> 1, mode)) return true;
   if (open == 0) return accepts(q, emf, mode, scratch, expanded);
-
   return settle_by_trial(q, emf, open, mode, scratch, expanded);
 }
 

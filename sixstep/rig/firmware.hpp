@@ -79,11 +79,13 @@ class LeanDrive {
       : config_(config), units_(board.units) {}
 
   template <class Real>
-  control::BridgeCommand<Scalar> tick(const Sight<Real>& sight, double setpoint) {
+  const control::BridgeCommand<Scalar>& tick(const Sight<Real>& sight, double setpoint) {
     return step(ideal_measurement<Scalar>(sight, units_), setpoint);
   }
-  control::BridgeCommand<Scalar> step(const control::Measurement<Scalar>& measured, double setpoint) {
-    return control::step(config_, state_, measured, {from_si<Scalar>(setpoint, units_.setpoint)}, telemetry_);
+  /// The command where it stands: a copy would have to wait for the fields that were just set.
+  const control::BridgeCommand<Scalar>& step(const control::Measurement<Scalar>& measured, double setpoint) {
+    control::step(config_, state_, measured, {from_si<Scalar>(setpoint, units_.setpoint)}, telemetry_);
+    return state_.command;
   }
   void captured(std::uint8_t, const sim::Instant&) {}
   control::BridgeCommand<Scalar> hall_interrupt(std::uint8_t pins, const sim::Instant&) {

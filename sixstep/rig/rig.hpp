@@ -75,6 +75,8 @@ class Rig {
 
  private:
   sim::Instant next_due() const;
+  bool watching() const { return modulator_.command().watch != control::Watch::none; }
+  bool compare();
   bool do_timeline();
   void do_action(const Action& action);
   bool do_tick();
@@ -127,24 +129,26 @@ sim::Instant Rig<Real, Firmware>::next_due() const {
 template <class Real, class Firmware>
 bool Rig<Real, Firmware>::act() {
   ticked_ = false;
-  const bool watching = modulator_.command().watch != control::Watch::none;
-  if (now_ < due_ && !moved_ && !watching) return true;
-  for (bool acted = true; acted && fault_ == Fault::none;) {
-    acted = do_timeline() || do_tick();
-    if (!acted && modulator_.act(now_)) {
-      count(Happening::pwm_edge);
-      acted = true;
-    }
-    if (!acted) {
-      const int switched = modulator_.compare(now_, plant_.state().i);
-      happened_[static_cast<std::size_t>(Happening::comparator)] += switched;
-      acted = switched > 0;
-    }
-  }
+  if (now_ < due_ && !moved_ && !watching()) return true;
+  if (moved_) due_ = next_due();
   moved_ = false;
-  due_ = next_due();
+  do {
+    while (fault_ == Fault::none && !(now_ < due_)) {
+      if (!do_timeline() && !do_tick() && modulator_.act(now_)) count(Happening::pwm_edge);
+      due_ = next_due();
+    }
+  } while (fault_ == Fault::none && watching() && compare());
   if (fault_ == Fault::none && !plant_.set_gates(modulator_.gates())) fault_ = Fault::shoot_through;
   return fault_ == Fault::none;
+}
+
+/// Comparators beyond their level; true where one switched.
+template <class Real, class Firmware>
+bool Rig<Real, Firmware>::compare() {
+  const int switched = modulator_.compare(now_, plant_.state().i);
+  happened_[static_cast<std::size_t>(Happening::comparator)] += switched;
+  due_ = next_due();
+  return switched > 0;
 }
 
 template <class Real, class Firmware>
@@ -164,7 +168,7 @@ void Rig<Real, Firmware>::control_step(bool starts_period) {
   const Sight<Real> sight{plant_, modulator_.command(),
                           now_,   static_cast<std::uint64_t>(happened(Happening::tick)),
                           pins(), reversed_};
-  const auto answer = firmware_.tick(sight, setpoint_);
+  const auto& answer = firmware_.tick(sight, setpoint_);
   if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
   if (!answer.enabled) let_go();
   BoardCommand command = widened(answer, board_.units);
@@ -245,17 +249,19 @@ template <class Real, class Firmware>
 template <class Visit>
 void Rig<Real, Firmware>::guards(Visit&& visit) const {
   plant_.guards(visit);
-  if (modulator_.command().watch == control::Watch::none) return;
+  if (!watching()) return;
   for (int which = 0; which < 2; ++which) {
     const ArmedComparator c = modulator_.comparator(which);
     if (!c.armed) continue;
     const plant::PerLeg<double> weight = modulator_.comparator_weights(which);
     const plant::Expansion<Real>& y = plant_.expansion();
     const Real sign = c.switches_off ? Real(-1) : Real(1);
+    const auto current = [&](int j) {
+      return sign * (Real(weight[0]) * y.i[0][j] + Real(weight[1]) * y.i[1][j] + Real(weight[2]) * y.i[2][j]);
+    };
     series::Coefficients<Real> g;
-    for (int j = 0; j <= y.degree; ++j)
-      g[j] = sign * (Real(weight[0]) * y.i[0][j] + Real(weight[1]) * y.i[1][j] + Real(weight[2]) * y.i[2][j]);
-    g[0] -= sign * Real(c.level_A);
+    g[0] = current(0) - sign * Real(c.level_A);
+    for (int j = 1; j <= y.degree; ++j) g[j] = current(j);
     visit(plant::guard::first_free + which, g, y.degree,
           plant::noise_of(plant_.constants().amp_scale, Real(1)));
   }

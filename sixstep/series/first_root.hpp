@@ -28,23 +28,63 @@ inline Leading leading(const Coefficients<Real>& c, int degree, Real noise) {
 
 namespace detail {
 
+/// What says whether a polynomial falls, rises or stays away from zero over [0, length].
+template <class Real>
+struct Outline {
+  Real at_end = 0, tail = 0;  ///< value there; sum of |q_j| length^j without the first
+  Real slope_rest = 0;        ///< sum_{j >= 2} j |q_j| length^(j-1)
+};
+
+/// Over the whole of [0, 1], without products.
+template <class Real>
+Outline<Real> outline(const Real* q, int n) {
+  Outline<Real> of;
+  for (int j = n; j >= 2; --j) {
+    of.tail += std::fabs(q[j]);
+    of.at_end += q[j];
+    of.slope_rest += of.tail;
+  }
+  of.slope_rest += of.tail;  // with this, term j has been counted j times
+  of.tail += std::fabs(q[1]);
+  of.at_end = q[0] + (q[1] + of.at_end);
+  return of;
+}
+
+template <class Real>
+Outline<Real> outline(const Real* q, int n, Real length) {
+  if (length == 1) return outline(q, n);
+  Outline<Real> of;
+  for (int j = n; j >= 1; --j) {
+    const Real size = std::fabs(q[j]);
+    of.tail = (of.tail + size) * length;
+    of.at_end = (of.at_end + q[j]) * length;
+    if (j >= 2) of.slope_rest = (of.slope_rest + static_cast<Real>(j) * size) * length;
+  }
+  of.at_end += q[0];
+  return of;
+}
+
 /// A root known to lie alone in (low, high], with c(low) > 0 >= c(high): Newton from `guess`, kept inside by
-/// bisection.
+/// bisection. The last step takes the curvature along: it leaves about 2 (bend/slope step)^2 of itself.
 template <class Real>
 Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) {
-  // Newton squares the error: a step this small leaves nothing above rounding for another one.
-  const Real last_step = Real(sizeof(Real) > 8 ? 1e-10L : 1e-8L) * (high - low);
+  // A step this small, and turned by the curvature this little, leaves nothing above rounding for another
+  // one.
+  constexpr Real small = Real(sizeof(Real) > 8 ? 3e-7L : 4e-6L);
+  const Real last_step = small * (high - low);
   Real s = guess > low && guess < high ? guess : low + (high - low) / 2;
   for (int round = 0; round < 200; ++round) {
-    Real value = c[degree], slope = 0;
+    Real value = c[degree], slope = 0, bend = 0;  // bend: half the second derivative
     for (int j = degree - 1; j >= 0; --j) {
+      bend = bend * s + slope;
       slope = slope * s + value;
       value = value * s + c[j];
     }
     (value > 0 ? low : high) = s;
-    const Real newton = s - value / slope;
+    const Real inverse = 1 / slope, step = -value * inverse, newton = s + step;
     const bool inside = slope < 0 && newton >= low && newton <= high;
-    if (inside && std::fabs(newton - s) <= last_step) return newton;
+    const Real turn = bend * inverse * step;
+    if (inside && std::fabs(step) <= last_step && std::fabs(turn) <= small) return newton - turn * step;
     Real next = newton;
     if (!inside || newton == low || newton == high) {
       next = low + (high - low) / 2;
@@ -55,12 +95,14 @@ Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) 
   return s;
 }
 
-/// The root of a falling polynomial that is nearly straight, to third order: one round of Newton less.
+/// The root of a falling polynomial that is nearly straight, to fourth order: with it one round of Newton is
+/// enough. Reversion of a series: Abramowitz and Stegun 3.6.25.
 template <class Real>
 Real near_root(const Real* c, int degree) {
   const Real inverse = 1 / c[1], straight = -c[0] * inverse;
-  const Real bend = degree >= 2 ? c[2] * inverse : Real(0), twist = degree >= 3 ? c[3] * inverse : Real(0);
-  return straight * (1 - straight * (bend - straight * (2 * bend * bend - twist)));
+  if (degree < 4) return straight;
+  const Real p = c[2] * inverse, q = c[3] * inverse, r = c[4] * inverse, pp = p * p;
+  return straight * (1 - straight * (p - straight * ((2 * pp - q) - straight * (5 * p * (pp - q) + r))));
 }
 
 template <class Real>
@@ -173,17 +215,11 @@ std::optional<Real> first_root(const Coefficients<Real>& c, int degree, Real len
   const int n = degree - start.order;
   if (n == 0) return std::nullopt;
 
-  Real slope_rest = 0, value_at_end = 0, tail = 0;  // slope_rest: sum_{j >= 2} j |q_j| length^(j-1)
-  for (int j = n; j >= 1; --j) {
-    tail = (tail + std::fabs(q[j])) * length;
-    value_at_end = (value_at_end + q[j]) * length;
-    if (j >= 2) slope_rest = (slope_rest + static_cast<Real>(j) * std::fabs(q[j])) * length;
-  }
-  value_at_end += q[0];
+  const auto [at_end, tail, slope_rest] = detail::outline(q, n, length);
   if (q[0] > tail) return std::nullopt;
   if (q[1] > slope_rest) return std::nullopt;  // strictly rising
   if (-q[1] > slope_rest) {                    // strictly falling: one root or none
-    if (value_at_end > 0) return std::nullopt;
+    if (at_end > 0) return std::nullopt;
     return detail::bracketed_root(q, n, Real(0), length, detail::near_root(q, n));
   }
   return detail::subdivide(q, n, length);

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mode where nothing has to be tried (MODEL 2): gates and currents name the connections, and what they
+// leave open stands clear of the rails. Nearly every event is of this kind; settle.hpp answers the rest.
+#pragma once
+#include "sixstep/plant/guards.hpp"
+
+namespace sixstep::plant {
+
+namespace detail {
+
+/// The back-EMF's shape where the rotor stands (back_emf.hpp).
+template <class Real>
+void shape_at(const Constants<Real>& c, const State<Real>& s, Real& phi0, Real& phi1) {
+  phi0 = 1;
+  phi1 = s.x;
+  if (c.sine) {
+    phi0 = static_cast<Real>(base::cos(static_cast<double>(s.x)));
+    phi1 = static_cast<Real>(base::sin(static_cast<double>(s.x)));
+  }
+}
+
+/// The connections that gates and currents name; returns the legs that they leave open, as a mask. Written
+/// with branches: foreseen, they let the segment's series begin before the currents' signs are known.
+template <class Real>
+unsigned named_legs(const State<Real>& s, const Gates& gates, Real noise, Legs& legs) {
+  unsigned open = 0;
+  for (unsigned k = 0; k < 3; ++k) {
+    if (gates.high[k]) {
+      legs[k] = Connection::high_switch;
+    } else if (gates.low[k]) {
+      legs[k] = Connection::low_switch;
+    } else if (s.i[k] > noise) {
+      legs[k] = Connection::low_diode;
+    } else if (s.i[k] < -noise) {
+      legs[k] = Connection::high_diode;
+    } else {
+      legs[k] = Connection::floating;
+      open |= 1U << k;
+    }
+  }
+  return open;
+}
+
+/// One open leg k beside two that conduct: it floats where u_n + e_k stands within the rails, and conducts by
+/// the diode of the rail it stands beyond: with the third leg on, L di_k/dt is two thirds of what it stands
+/// beyond. False: too close to a rail to say.
+template <class Real>
+bool settle_third_leg(const Constants<Real>& c, const State<Real>& s, const EmfPiece<Real>& piece, unsigned k,
+                      Legs& legs) {
+  const PoleLaw<Real> law = pole_law(piece, c.legs[legs_index(legs)], k);
+  Real phi0, phi1;
+  shape_at(c, s, phi0, phi1);
+  const Real free =
+      (law.bus * s.bus + law.offset) + (law.i * s.i[law.leg] + s.w * (law.w0 * phi0 + law.w1 * phi1));
+  const Real V_f = Real(c.devices.V_f_V), noise = noise_of(c.volt_scale, Real(1));
+  const Real above_low = free + V_f, below_high = s.bus + V_f - free;
+  if ((above_low > noise) & (below_high > noise)) return true;
+  if (above_low < -2 * noise)
+    legs[k] = Connection::low_diode;
+  else if (below_high < -2 * noise)
+    legs[k] = Connection::high_diode;
+  else
+    return false;
+  return true;
+}
+
+/// Two open legs beside one switch: both float where both stand clear within the rails. One beyond may take
+/// the other along: not for here.
+template <class Real>
+[[gnu::noinline]] bool two_legs_float(const Constants<Real>& c, const State<Real>& s, const Mode& m,
+                                      unsigned open) {
+  const EmfPiece<Real>& piece = c.emf[m.sector].piece[m.piece];
+  Real phi0, phi1;
+  shape_at(c, s, phi0, phi1);
+  const Real V_f = Real(c.devices.V_f_V), noise = noise_of(c.volt_scale, Real(1));
+  bool clear = true;
+  for (unsigned k = 0; k < 3; ++k) {
+    if ((open >> k & 1) == 0) continue;
+    const PoleLaw<Real> law = pole_law(piece, c.legs[legs_index(m.legs)], k);
+    const Real free = (law.bus * s.bus + law.offset) + s.w * (law.w0 * phi0 + law.w1 * phi1);
+    clear = clear && s.i[k] == 0 && free + V_f > noise && s.bus + V_f - free > noise;
+  }
+  return clear;
+}
+
+}  // namespace detail
+
+/// The commonest questions, without enumeration: gates and currents name all connections but at most that of
+/// one leg beside two that conduct. False, and nothing is written: something is too close to zero or to a
+/// rail to say, or more is open.
+template <class Real>
+bool settle_plainly(const Constants<Real>& c, const State<Real>& s, const Gates& gates, Mode& mode) {
+  Motion motion = c.locked ? Motion::locked : Motion::free;
+  if (c.dry_friction) {
+    if (detail::abs(s.w) <= noise_of(c.speed_scale, Real(1))) return false;
+    motion = s.w > 0 ? Motion::forward : Motion::backward;
+  }
+  // Straight to where they are read: a copy would wait until the bytes that it is made of have left for
+  // memory.
+  Legs& legs = mode.legs;
+  const unsigned open = detail::named_legs(s, gates, noise_of(c.amp_scale, Real(1)), legs);
+  if ((open & (open - 1)) != 0) {
+    if (open == 7 || !detail::two_legs_float(c, s, mode, open)) return false;
+  } else if (open != 0) {
+    const unsigned k = open >> 1;  // of one leg, its number
+    if (s.i[k] != 0) return false;
+    if (!detail::settle_third_leg(c, s, c.emf[mode.sector].piece[mode.piece], k, legs)) return false;
+  }
+  if (!c.source_sinks) return false;
+  mode.motion = motion;
+  mode.source_feeds = true;
+  return true;
+}
+
+}  // namespace sixstep::plant
