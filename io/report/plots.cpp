@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/report/plots.hpp"
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -22,6 +23,11 @@ std::string packed(const std::vector<double>& values, const std::vector<std::siz
   return base64(std::span<const To>(chosen));
 }
 
+std::size_t rows_in(const std::vector<double>& time, const Interval& window) {
+  return static_cast<std::size_t>(std::ranges::upper_bound(time, window.to) -
+                                  std::ranges::lower_bound(time, window.from));
+}
+
 json windows_json(const Windows& windows, const sixstep::study::Scenario& scenario) {
   json out = json::array();
   const auto add = [&](const char* id, const char* label, const std::optional<Interval>& window) {
@@ -29,6 +35,7 @@ json windows_json(const Windows& windows, const sixstep::study::Scenario& scenar
   };
   const bool hysteresis = scenario.control.current.type == sixstep::study::CurrentLoopType::hysteresis &&
                           scenario.control.mode >= sixstep::control::Mode::current;
+  add("step", "Largest step", windows.step);
   add("periods", hysteresis ? "Switching" : "Three PWM periods", windows.periods);
   add("commutation", "One commutation", windows.commutation);
   return out;
@@ -61,8 +68,8 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
   const Windows windows = choose_windows(trace, scenario);
   out["windows"] = windows_json(windows, scenario);
   std::vector<Interval> keep;
-  for (const auto& window : {windows.periods, windows.commutation})
-    if (window) keep.push_back(*window);
+  for (const auto& window : {windows.periods, windows.commutation, windows.step})
+    if (window && rows_in(*time, *window) <= size.full) keep.push_back(*window);
   // Charts that keep the same rows share one time axis: it is the largest part of the file.
   std::map<std::vector<std::size_t>, std::size_t> axes;
   const Groups groups = chart_groups(trace, scenario);

@@ -73,10 +73,20 @@ test('opens quickly, with verdict and all charts', async () => {
   }
   assert.ok(best < 2000, `${best} ms`);
   assert.equal(await page.locator('.verdict .word').textContent(), 'PASS');
-  const ids = await page.locator('.chart').evaluateAll((all) => all.map((c) => c.id));
+  const ids = await page.locator('#charts .chart').evaluateAll((all) => all.map((c) => c.id));
   assert.deepEqual(ids, ['currents', 'logic', 'line-voltages', 'back-emf', 'speed', 'torque', 'duty'].map((n) => 'chart-' + n));
   assert.ok(await page.evaluate(() => [...document.querySelectorAll('canvas')].every((c) => c.width > 500 && c.height > 50)));
   assert.equal(await page.locator('script:text("alert")').count(), 0);
+  await close(page);
+});
+
+test('the first screen answers, and is one screen', async () => {
+  const page = await opened('short.html');
+  for (const question of ['What limits it', 'Gains', 'Current in the step', 'What it cost']) {
+    const box = await page.locator('.glance h2', {hasText: question}).boundingBox();
+    assert.ok(box.y + box.height < 900, question);
+  }
+  assert.ok((await page.locator('.glance').boundingBox()).y < 300);
   await close(page);
 });
 
@@ -165,7 +175,7 @@ test('a long run opens as an envelope and says so', async () => {
   const page = await opened('long.html');
   assert.equal(await page.locator('.verdict .word').textContent(), 'FAIL');
   assert.match(await page.locator('#envelope').textContent(), /envelope/);
-  assert.equal(await page.locator('.chart').first().getAttribute('id'), 'chart-speed');
+  assert.equal(await page.locator('#charts .chart').first().getAttribute('id'), 'chart-speed');
   await close(page);
 });
 
@@ -187,7 +197,7 @@ test('the index links to every report', async () => {
 
 test('a torque-speed curve opens with its charts, the nominal point and one zoom', async () => {
   const page = await opened('curve.html');
-  const ids = await page.locator('.chart').evaluateAll((all) => all.map((c) => c.id));
+  const ids = await page.locator('#charts .chart').evaluateAll((all) => all.map((c) => c.id));
   assert.deepEqual(ids, ['torque', 'current', 'efficiency', 'power', 'ripple'].map((n) => 'chart-' + n));
   assert.equal(await page.locator('#chart-torque .chip').count(), 6);
   const nominal = await page.evaluate(() => {
