@@ -19,7 +19,7 @@ function curveValues(text) {
 let palette = {};
 function readPalette() {
   const style = getComputedStyle(document.documentElement);
-  const names = ['ink', 'quiet', 'grid', 'line', 'paper', 'a', 'b', 'c', 'a-soft', 'b-soft', 'c-soft', 'main', 'reference'];
+  const names = ['ink', 'quiet', 'grid', 'line', 'paper', 'a', 'b', 'c', 'a-soft', 'b-soft', 'c-soft', 'main', 'reference', 'accent'];
   // A canvas does not know color-mix(): let the browser compute it.
   const probe = document.body.appendChild(document.createElement('i'));
   palette = Object.fromEntries(names.map((name) => {
@@ -94,7 +94,7 @@ function inLanes(chart, raw) {
 
 function curveOptions(curve, index, chart, count) {
   const color = () => palette[curve.style];
-  const options = {label: curve.label, stroke: color, width: curve.style === 'main' ? 1.8 : 1.3, points: {show: false}};
+  const options = {label: curve.label, stroke: color, width: curve.style === 'main' ? 1.8 : 1.3, points: {show: false}, spanGaps: chart.joined};
   if (curve.style === 'reference') Object.assign(options, {dash: [6, 4], width: 1.6});
   // Single points: nothing is drawn between them.
   if (curve.points) Object.assign(options, {paths: () => null, points: {show: true, size: 11, width: 2, stroke: color, fill: () => palette.paper}});
@@ -112,11 +112,12 @@ function valueAxes(chart) {
   const font = '12px system-ui, sans-serif';
   const common = {scale: 'y', stroke: () => palette.quiet, font, ticks: {show: false}, grid: {stroke: () => palette.grid, width: 1}};
   const written = (factor) => (u, splits) => {
-    const step = Math.abs((splits[1] - splits[0]) * factor) || 1;
+    const f = factor();
+    const step = Math.abs((splits[1] - splits[0]) * f) || 1;
     const decimals = Math.max(0, Math.min(9, -Math.floor(Math.log10(step * 1.0001) + 1e-9)));
-    return splits.map((v) => (v * factor).toFixed(decimals).replace('-', '−'));
+    return splits.map((v) => (v * f).toFixed(decimals).replace('-', '−'));
   };
-  const left = {...common, size: GUTTER.left, gap: 6, space: 28, values: written(1)};
+  const left = {...common, size: GUTTER.left, gap: 6, space: 28, values: written(() => 1)};
   if (chart.logic) {
     const count = chart.curves.length;
     left.splits = () => chart.curves.map((_, i) => count - 1 - i + STRIP / 2);
@@ -138,7 +139,7 @@ function valueAxes(chart) {
       for (let n = Math.ceil((min * f) / step); n * step <= max * f * (1 + 1e-12); ++n) splits.push((n * step) / f);
       return splits;
     };
-    right.values = written(chart.other.factor);
+    right.values = written(() => chart.other.factor);
   } else {
     right.values = (u, splits) => splits.map(() => '');
   }
@@ -165,13 +166,13 @@ function chartOptions(chart, width, time, hooks) {
     axes: [x, ...valueAxes(chart)],
     series: [{}, ...chart.curves.map((c, i) => curveOptions(c, i, chart, count))],
     cursor: {
-      y: false, points: {show: !chart.logic, size: 6, width: 0, fill: (u, i) => palette[chart.curves[i - 1].style]},
-      drag: {x: true, y: false, dist: 4}, sync: {key: 'time', scales: ['x', null]},
+      y: false, points: {show: !chart.logic && !chart.joined, size: 6, width: 0, fill: (u, i) => palette[chart.curves[i - 1].style]},
+      drag: {x: true, y: false, dist: 4}, sync: {key: hooks.sync, scales: ['x', null]},
       bind: {dblclick: () => hooks.whole},
     },
     hooks: {
       setScale: [(u, key) => key === 'x' && hooks.zoomed(u.scales.x.min, u.scales.x.max)],
-      setCursor: [(u) => hooks.cursor(u)],
+      draw: [(u) => hooks.drawn?.(u)],
     },
   };
 }
@@ -181,7 +182,7 @@ function captionOf(chart, onToggle) {
   const caption = document.createElement('figcaption');
   const add = (css, text) => Object.assign(caption.appendChild(document.createElement('span')), {className: css, textContent: text});
   add('name', chart.title);
-  add('unit', chart.unit);
+  const unit = add('unit', chart.unit);
   const values = chart.curves.map((curve, i) => {
     const chip = caption.appendChild(document.createElement('button'));
     chip.type = 'button';
@@ -201,30 +202,94 @@ function captionOf(chart, onToggle) {
     });
     return value;
   });
-  return {caption, values};
+  return {caption, values, unit};
 }
 
-/** Builds one chart into the parent; returns what the page needs to steer it. */
-function buildChart(parent, chart, axis, time, hooks) {
+/** The axis of all curves together, and each curve on it: null where it has no row of its own. */
+function joined(curves) {
+  const rows = curves.flatMap(({axis}, c) => Array.from(axis, (t, n) => [t, c, n])).sort((a, b) => a[0] - b[0]);
+  const columns = curves.map(() => new Array(rows.length).fill(null));
+  rows.forEach(([, c, n], row) => { columns[c][row] = curves[c].raw[n]; });
+  return [Float64Array.from(rows, (r) => r[0]), columns];
+}
+
+/** The row at or before t, from the right of a jump; -1 before the first. */
+function rowAt(axis, t) {
+  let low = 0, high = axis.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (axis[middle] <= t) low = middle + 1;
+    else high = middle;
+  }
+  return low - 1;
+}
+
+/** A curve at an instant: on the line between its rows, as drawn; a logic level is held. */
+function valueAt({axis, raw, held}, t) {
+  const n = rowAt(axis, t);
+  if (n < 0) return null;
+  const before = raw[n], after = raw[n + 1];
+  if (held || n + 1 >= axis.length || before == null || after == null) return n + 1 >= axis.length && t > axis[n] ? null : before;
+  return before + ((after - before) * (t - axis[n])) / (axis[n + 1] - axis[n]);
+}
+
+/** Lowest, highest and last value of each curve in words, for whoever cannot see it. */
+function summaryOf(chart, curves, x) {
+  const told = curves.map(({raw}, i) => {
+    let low = Infinity, high = -Infinity, last = null;
+    for (const v of raw) if (v != null) low = Math.min(low, v), high = Math.max(high, v), last = v;
+    const of = (v) => `${figure(v * chart.factor)}${chart.unit ? ' ' + chart.unit : ''}`;
+    return last == null ? '' : `${chart.curves[i].label.replace('_', ' ')} from ${of(low)} to ${of(high)}, at the end ${of(last)}`;
+  });
+  const strips = `${chart.curves.length} logic levels: ${chart.curves.map((c) => c.label).join(', ')}`;
+  return `${chart.title} over ${x.name ?? 'time'}. ${chart.logic ? strips : told.filter(Boolean).join('; ')}.`;
+}
+
+/** Curves on their way to uPlot, in the chart's unit. */
+function drawnData(chart, curves) {
+  const same = curves.every((c) => c.axis === curves[0].axis);
+  chart.joined = !same;
+  const [axis, columns] = same ? [curves[0].axis, curves.map((c) => c.raw)] : joined(curves);
+  const scaled = chart.factor === 1 ? columns
+    : columns.map((values) => Array.from(values, (v) => (v == null ? null : v * chart.factor)));
+  if (chart.logic) return [axis, ...scaled.map((v, i) => stripped(v, i, scaled.length))];
+  return [axis, ...(chart.lanes ? inLanes(chart, scaled) : scaled)];
+}
+
+/** Builds one chart into the parent; returns what the page needs to steer it. `axisOf(curve)` is its own x axis. */
+function buildChart(parent, chart, axisOf, x, hooks) {
   const box = parent.appendChild(document.createElement('figure'));
   box.className = chart.logic ? 'chart logic' : 'chart';
   box.id = 'chart-' + chart.id;
-  const raw = chart.curves.map((c) => curveValues(c.data));
-  const drawn = chart.logic ? raw.map((v, i) => stripped(v, i, raw.length)) : chart.lanes ? inLanes(chart, raw) : raw;
-  const {caption, values} = captionOf(chart, (i, show) => plot.setSeries(i + 1, {show}));
+  chart.factor ??= 1;
+  const curves = chart.curves.map((c) => ({axis: axisOf(c), raw: curveValues(c.data), held: chart.logic, shown: true}));
+  const {caption, values, unit} = captionOf(chart, (i, show) => {
+    curves[i].shown = show;
+    plot.setSeries(i + 1, {show});
+  });
   box.append(caption);
-  const showValues = (u) => {
-    const at = u.cursor.idx;
-    values.forEach((node, i) => {
-      const v = at == null || u.cursor.left < 0 ? undefined : raw[i][at];
-      const text = v === undefined ? '' : chart.logic ? String(v ?? '–') : figure(v);
-      const other = text && chart.other ? ` · ${figure(v == null ? v : v * chart.other.factor)} ${chart.other.unit}` : '';
-      node.textContent = text + other;
-    });
-    hooks.cursor(u);
-  };
-  const plot = new uPlot(chartOptions(chart, box.clientWidth, time, {...hooks, cursor: showValues}), [axis, ...drawn], box);
+  const show = (t) => values.forEach((node, i) => {
+    const v = t == null ? undefined : valueAt(curves[i], t);
+    const shown = v == null ? v : v * chart.factor;
+    const text = v === undefined ? '' : chart.logic ? String(v ?? '–') : figure(shown);
+    node.textContent = text && chart.other ? `${text} · ${figure(v == null ? v : shown * chart.other.factor)} ${chart.other.unit}` : text;
+  });
+  const data = drawnData(chart, curves);
+  const plot = new uPlot(chartOptions(chart, box.clientWidth, x, hooks), data, box);
   plot.root.setAttribute('role', 'img');
-  plot.root.setAttribute('aria-label', `${chart.title} over ${time.name ?? 'time'}`);
-  return {plot, box};
+  const describe = () => {
+    unit.textContent = chart.unit;
+    plot.root.setAttribute('aria-label', summaryOf(chart, curves, x));
+  };
+  describe();
+  const over = plot.over;
+  over.addEventListener('mousemove', (e) => hooks.pointed(plot.posToVal(e.clientX - over.getBoundingClientRect().left, 'x')));
+  over.addEventListener('mouseleave', () => hooks.pointed(null));
+  const rescale = () => {
+    const {min, max} = plot.scales.x;
+    plot.setData(drawnData(chart, curves), false);
+    plot.setScale('x', {min, max});
+    describe();
+  };
+  return {plot, box, chart, curves, show, rescale};
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "io/report/conduction.hpp"
 #include "io/report/groups.hpp"
 #include "io/report/html.hpp"
 #include "io/report/thinning.hpp"
@@ -42,24 +43,53 @@ json windows_json(const Windows& windows, const sixstep::study::Scenario& scenar
 }
 
 json chart_json(const Group& group, std::size_t axis, const Thinned& rows, std::size_t recorded) {
-  json chart{
-      {"id", group.id},       {"title", group.title}, {"unit", group.unit}, {"height", group.height_px},
-      {"logic", group.logic}, {"lanes", group.lanes}, {"axis", axis},       {"complete", rows.complete},
-      {"recorded", recorded}};
-  if (!group.other_unit.empty())
-    chart["other"] = {{"unit", group.other_unit}, {"factor", group.other_factor}};
+  json chart{{"id", group.id},
+             {"title", group.title},
+             {"unit", group.unit},
+             {"height", group.height_px},
+             {"logic", group.logic},
+             {"lanes", group.lanes},
+             {"complete", rows.complete},
+             {"recorded", recorded}};
+  if (!group.quantity.empty()) chart["quantity"] = group.quantity;
   for (const Curve& curve : group.curves)
     chart["curves"].push_back({{"label", curve.label},
                                {"style", curve.style},
                                {"meaning", curve.meaning},
+                               {"axis", axis},
                                {"data", packed<float>(*curve.values, rows.rows)}});
   return chart;
 }
 
+/// All changes where they are few enough to carry; a page must stay small enough to send.
+json conduction_json(const Conduction& c) {
+  constexpr std::size_t most = 400000;
+  if (c.code.empty() || c.code.size() > most) return nullptr;
+  return {{"time", base64(std::span<const double>(c.time_s))},
+          {"code", base64(std::span<const std::uint8_t>(c.code))},
+          {"end", c.end_s}};
+}
+
+/// Time axes of the page: charts that keep the same rows share one, for it is the largest part of the file.
+class Axes {
+ public:
+  Axes(json& page, const std::vector<double>& time) : page_(page), time_(time) {}
+  std::size_t of(const std::vector<std::size_t>& rows) {
+    const auto [axis, fresh] = places_.try_emplace(rows, places_.size());
+    if (fresh) page_["axes"].push_back(packed<double>(time_, rows));
+    return axis->second;
+  }
+
+ private:
+  json& page_;
+  const std::vector<double>& time_;
+  std::map<std::vector<std::size_t>, std::size_t> places_;
+};
+
 }  // namespace
 
 std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
-                      PlotSize size) {
+                      int pole_pairs, PlotSize size) {
   json out{
       {"run", json::array()}, {"windows", json::array()}, {"axes", json::array()}, {"charts", json::array()}};
   const auto* time = find_column(trace, "t_s");
@@ -70,17 +100,21 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
   std::vector<Interval> keep;
   for (const auto& window : {windows.periods, windows.commutation, windows.step})
     if (window && rows_in(*time, *window) <= size.full) keep.push_back(*window);
-  // Charts that keep the same rows share one time axis: it is the largest part of the file.
-  std::map<std::vector<std::size_t>, std::size_t> axes;
+  Axes axes(out, *time);
   const Groups groups = chart_groups(trace, scenario);
   for (const Group& group : groups.charts) {
     Curves curves;
     for (const Curve& curve : group.curves) curves.emplace_back(*curve.values);
     const Thinned rows = thinned(*time, curves, keep, size.cap, size.full);
-    const auto [axis, fresh] = axes.try_emplace(rows.rows, axes.size());
-    if (fresh) out["axes"].push_back(packed<double>(*time, rows.rows));
-    out["charts"].push_back(chart_json(group, axis->second, rows, time->size()));
+    out["charts"].push_back(chart_json(group, axes.of(rows.rows), rows, time->size()));
   }
+  if (!groups.angle_deg.empty()) {
+    // It turns smoothly: between 2000 rows a straight line is as good as the drawing.
+    const Thinned rows = thinned(*time, {groups.angle_deg}, {}, 2000, 2000);
+    out["angle"] = {{"axis", axes.of(rows.rows)}, {"data", packed<float>(groups.angle_deg, rows.rows)}};
+  }
+  out["conduction"] = conduction_json(conduction(trace));
+  out["pole_pairs"] = pole_pairs;
   return out.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 

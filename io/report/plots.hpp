@@ -18,6 +18,6 @@ struct PlotSize {
 /// {"run":[t0,t1], "windows":[..], "axes":[base64 float64..], "charts":[{.., "curves":[{.., "data": base64
 /// float32}]}]}
 std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
-                      PlotSize size = {});
+                      int pole_pairs, PlotSize size = {});
 
 }  // namespace io::report

@@ -79,7 +79,9 @@ std::string render(const ReportInput& in) {
                           {"scenario", escaped(in.scenario_text)}});
   return in_shell(
       {.title = verdict.word + " · " + title, .body = body, .command = in.command, .version = in.version},
-      plot_data(in.trace, in.scenario), {assets::chart_js, assets::report_js});
+      plot_data(in.trace, in.scenario, in.outcome.motor.machine.pole_pairs),
+      {assets::units_js, assets::chart_js, assets::page_js, assets::instant_js, assets::bridge_js,
+       assets::plane_js, assets::instruments_js, assets::report_js});
 }
 
 }  // namespace io::report

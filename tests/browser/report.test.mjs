@@ -75,7 +75,7 @@ test('opens quickly, with verdict and all charts', async () => {
   assert.equal(await page.locator('.verdict .word').textContent(), 'PASS');
   const ids = await page.locator('#charts .chart').evaluateAll((all) => all.map((c) => c.id));
   assert.deepEqual(ids, ['currents', 'logic', 'line-voltages', 'back-emf', 'speed', 'torque', 'duty'].map((n) => 'chart-' + n));
-  assert.ok(await page.evaluate(() => [...document.querySelectorAll('canvas')].every((c) => c.width > 500 && c.height > 50)));
+  assert.ok(await page.evaluate(() => [...document.querySelectorAll('#charts canvas')].every((c) => c.width > 500 && c.height > 50)));
   assert.equal(await page.locator('script:text("alert")').count(), 0);
   await close(page);
 });
@@ -112,10 +112,122 @@ test('the cursor is read out in every chart', async () => {
   await page.mouse.move(box.x + box.width / 8, box.y + 40);
   const reads = (place, pattern) =>
     eventually(async () => assert.match(await page.locator(place).first().textContent(), pattern, place));
-  await reads('#cursor', /t = 2\.5\d* ms/);
+  await reads('#cursor', /t = 2\.(4[6-9]|5[0-3])\d* ms/);  // a pixel is some 0.03 ms
   for (const id of ['currents', 'line-voltages', 'speed', 'torque']) await reads(`#chart-${id} .value`, /^−?\d/);
   await reads('#chart-speed .value', /rpm/);
   await reads('#chart-logic .value', /^[01]$/);
+  await close(page);
+});
+
+test('the table reads every curve at the cursor and at two marks, with the difference and its frequency', async () => {
+  const page = await opened('short.html', {hash: '#t=0.004,0.006'});
+  await page.evaluate(() => sixstep.pointAt(0.0045));
+  await page.locator('#plots').press('a');
+  await page.evaluate(() => sixstep.pointAt(0.005));
+  await page.click('#mark-B');
+  await eventually(async () => assert.match(await page.locator('#between').textContent(), /Δt = 0\.5\d* ms, 1\/Δt = 2\.000\skHz/u));
+  const rows = await page.locator('#readout tbody tr').evaluateAll((all) => all.map((r) => [...r.cells].map((c) => c.textContent)));
+  assert.ok(rows.length >= 15, String(rows.length));
+  const number = (text) => Number(text.replace('−', '-'));
+  for (const [name, cursor, a, b, difference] of rows) {
+    if (!difference) continue;
+    assert.equal(cursor, b, name);
+    // Each is rounded to four digits or more: three roundings of half a unit of the last digit.
+    const unit = 10 ** -Math.min(...[a, b, difference].map((v) => v.split('.')[1]?.length ?? 0));
+    assert.ok(Math.abs(number(b) - number(a) - number(difference)) <= 1.5 * unit || name.startsWith('rotor'), [name, a, b, difference].join(' '));
+  }
+  assert.match(page.url(), /A=0\.0045.*B=0\.005/);
+  const again = await opened('short.html', {hash: new URL(page.url()).hash});
+  assert.equal(await again.evaluate(() => sixstep.instants.A), 0.0045);
+  await page.locator('#plots').press('Escape');
+  assert.equal(await page.evaluate(() => sixstep.instants.A ?? sixstep.instants.cursor), null);
+  await close(again);
+  await close(page);
+});
+
+test('a curve is read on its line between two rows', async () => {
+  const page = await opened('short.html');
+  const worst = await page.evaluate(() => {
+    const u = sixstep.charts[0], [t, i] = u.data;
+    let error = 0;
+    for (let n = 1; n < 200; ++n) {
+      if (!(t[n - 1] < t[n])) continue;
+      const read = sixstep.valueAt({axis: t, raw: i}, (t[n - 1] + t[n]) / 2);
+      error = Math.max(error, Math.abs(read - (i[n - 1] + i[n]) / 2));
+    }
+    return error;
+  });
+  assert.ok(worst <= 8 * Number.EPSILON * 6, String(worst));  // a few roundings of some 6 A
+  await close(page);
+});
+
+test('units are chosen once for charts, table and address', async () => {
+  const page = await opened('short.html');
+  const speed = () => page.evaluate(() => sixstep.charts.find((u) => u.series[1].label === 'ω').data[1].at(-1));
+  const before = await speed();
+  await page.selectOption('#unit-speed', 'rpm');
+  assert.ok(Math.abs((await speed()) / before - 30 / Math.PI) < 1e-6);
+  assert.equal(await page.locator('#chart-speed .unit').textContent(), 'rpm');
+  await page.selectOption('#unit-torque', 'Nm');
+  assert.match(page.url(), /speed=rpm&torque=Nm/);
+  const again = await opened('short.html', {hash: '#speed=rpm'});
+  assert.equal(await again.locator('#chart-speed .unit').textContent(), 'rpm');
+  await close(again);
+  await close(page);
+});
+
+test('the bridge lights what conducts at the cursor, and the keys step through the rows', async () => {
+  const page = await opened('short.html', {hash: '#t=0.004,0.0042'});
+  await page.locator('#plots').focus();
+  const seen = new Set();
+  let last = await page.evaluate(() => { sixstep.pointAt(0.004); return sixstep.instants.cursor; });
+  for (let n = 0; n < 12; ++n) {
+    await page.keyboard.press(']');
+    const at = await page.evaluate(() => sixstep.instants.cursor);
+    assert.ok(at > last, `${at} after ${last}`);
+    last = at;
+    const state = await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done({
+      lit: [...document.querySelectorAll('#bridge .switch.lit text')].map((t) => t.textContent),
+      diodes: document.querySelectorAll('#bridge .diode.lit').length,
+      gates: ['T1', 'T2', 'T3', 'T4', 'T5', 'T6'].filter((name) => [...document.querySelectorAll('#chart-logic .chip')]
+        .some((chip) => chip.textContent.startsWith(name) && chip.querySelector('.value').textContent === '1')),
+      words: document.getElementById('conducts').textContent})))));
+    assert.deepEqual(state.lit, state.gates);
+    assert.ok(state.lit.length + state.diodes <= 3);
+    seen.add(state.lit.join());
+    assert.match(state.words, /^a .*, b .*, c /);
+  }
+  assert.ok(seen.size >= 2, [...seen].join(' | '));  // it chops
+  await close(page);
+});
+
+test('every chart says in words what it shows, and colours can be told from their ground', async () => {
+  const page = await opened('short.html');
+  const told = await page.locator('#charts .uplot').evaluateAll((all) => all.map((n) => n.getAttribute('aria-label')));
+  assert.match(told[0], /^Currents over time\. i a from −\d.* A to \d.* A, at the end/);
+  assert.match(told[1], /9 logic levels: T1/);
+  for (const theme of ['light', 'dark']) {
+    await page.emulateMedia({colorScheme: theme});
+    const ratios = await page.evaluate(() => {
+      const probe = document.body.appendChild(document.createElement('i'));
+      const rgb = (name) => {  // through a canvas: it knows every notation
+        probe.style.color = `var(--${name})`;
+        const ctx = document.createElement('canvas').getContext('2d');
+        ctx.fillStyle = getComputedStyle(probe).color;
+        ctx.fillRect(0, 0, 1, 1);
+        return [...ctx.getImageData(0, 0, 1, 1).data].slice(0, 3);
+      };
+      // WCAG 2: relative luminance, (L1 + 0.05)/(L2 + 0.05)
+      const luminance = (name) => rgb(name).map((v) => v / 255).map((v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4))
+        .reduce((sum, v, n) => sum + v * [0.2126, 0.7152, 0.0722][n], 0);
+      const ratio = (a, b) => (Math.max(luminance(a), luminance(b)) + 0.05) / (Math.min(luminance(a), luminance(b)) + 0.05);
+      const text = [['ink', 'paper'], ['ink', 'page'], ['quiet', 'paper'], ['quiet', 'page'], ['accent', 'paper'], ['pass', 'pass-soft'], ['fail', 'fail-soft']];
+      const lines = ['a', 'b', 'c', 'main', 'reference'].map((name) => [name, 'paper']);
+      return {text: text.map((pair) => [pair.join(' on '), ratio(...pair)]), lines: lines.map((pair) => [pair.join(' on '), ratio(...pair)])};
+    });
+    for (const [pair, ratio] of ratios.text) assert.ok(ratio >= 4.5, `${theme}: ${pair} ${ratio}`);
+    for (const [pair, ratio] of ratios.lines) assert.ok(ratio >= 3, `${theme}: ${pair} ${ratio}`);
+  }
   await close(page);
 });
 

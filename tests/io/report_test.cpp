@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/json_summary.hpp"
+#include "io/report/conduction.hpp"
 #include "io/report/course.hpp"
 #include "io/report/figures.hpp"
 #include "io/report/html.hpp"
@@ -149,11 +150,11 @@ TEST(Report, long_run_keeps_every_extreme_and_the_close_ups_whole) {
   const SyntheticRun run = synthetic_run(0.3);
   const auto& time = run.trace.values[0];
   const auto& current = run.trace.values[1];
-  const auto data = nlohmann::json::parse(plot_data(run.trace, run.scenario, {.cap = 3000, .full = 3000}));
+  const auto data = nlohmann::json::parse(plot_data(run.trace, run.scenario, 8, {.cap = 3000, .full = 3000}));
   const auto& chart = data["charts"][0];
   ASSERT_EQ(chart["id"], "currents");
   ASSERT_FALSE(chart["complete"]);
-  const auto t = decoded<std::uint64_t, double>(data["axes"][chart["axis"].get<std::size_t>()]);
+  const auto t = decoded<std::uint64_t, double>(data["axes"][chart["curves"][0]["axis"].get<std::size_t>()]);
   const auto i = decoded<std::uint32_t, float>(chart["curves"][0]["data"]);
   ASSERT_EQ(t.size(), i.size());
   EXPECT_TRUE(std::ranges::is_sorted(t));
@@ -222,6 +223,23 @@ TEST(Course, what_held_the_run_back_is_timed) {
   EXPECT_DOUBLE_EQ(*held->limit_A, 10.0);  // 0.335 Nm / 0.0335 Nm/A
   EXPECT_EQ(held->limit_s, 2.0);
   EXPECT_EQ((*turn_on_counts(run.trace))[0], 2);
+}
+
+TEST(Conduction, a_leg_without_a_gate_carries_by_the_diode_its_current_opens) {
+  sixstep::study::Trace trace;
+  for (const char* name :
+       {"t_s", "i_a_A", "i_b_A", "i_c_A", "gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"})
+    trace.columns.push_back({name, "", "", ""});
+  // T1 and T4 drive a to b; T1 goes off and a's lower diode takes over until nothing flows; c's upper diode
+  // last.
+  trace.values = {{0, 1, 1, 2, 2, 3, 3, 4},  {0, 2, 2, 0, 0, 0, 0, 0}, {0, -2, -2, 0, 0, 0, 0, 1},
+                  {0, 0, 0, 0, 0, 0, 0, -1}, {1, 1, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
+                  {0, 0, 0, 0, 0, 0, 1, 1},  {1, 1, 1, 1, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
+                  {0, 0, 0, 0, 0, 0, 0, 0}};
+  const Conduction found = conduction(trace);
+  EXPECT_THAT(found.time_s, testing::ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(found.code, testing::ElementsAre(1 + 5 * 2, 4 + 5 * 2, 0, 5 * 1 + 25 * 3));
+  EXPECT_EQ(found.end_s, 4.0);
 }
 
 TEST(Glance, answers_what_a_reader_asks_first) {
