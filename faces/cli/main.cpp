@@ -49,7 +49,7 @@ void declare_run(CLI::App& run, RunArguments& a) {
   run.add_option("--out", a.out, "folder for NAME.csv, NAME.json, NAME.html of each scenario and index.html");
   run.add_option("--csv", a.paths.csv, "write the recorded trace");
   run.add_option("--json", a.paths.json, "write verdicts and figures; - for standard output");
-  run.add_option("--html", a.paths.html, "write the report");
+  run.add_option("--html", a.paths.html, "write the report; of several files, one that compares them");
   run.add_option("--set", a.sets, "key=value, stronger than the file: --set supply.voltage_V=12")
       ->allow_extra_args(false);
   run.add_option("--data", a.data_dir, "folder that holds motors/");

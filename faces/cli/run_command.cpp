@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "batch/for_each.hpp"
+#include "faces/cli/compare_command.hpp"
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/series_command.hpp"
 #include "faces/cli/settings.hpp"
@@ -45,15 +46,24 @@ std::vector<Job> read_jobs(const RunArguments& arguments, base::Problems& proble
   return jobs;
 }
 
+/// Several files and one page: they are laid over each other.
+bool compares(const RunArguments& a) {
+  const OutputPaths& p = a.paths;
+  return a.files.size() > 1 && !p.html.empty() && p.csv.empty() && p.json.empty() && a.out.empty();
+}
+
 /// Contradictions of the arguments themselves.
 base::Problems check(const RunArguments& arguments) {
   base::Problems problems;
   const OutputPaths& p = arguments.paths;
   const bool single = !p.csv.empty() || !p.json.empty() || !p.html.empty();
-  if (single && (arguments.files.size() > 1 || !arguments.out.empty()))
-    problems.push_back({.where = "--csv, --json, --html",
-                        .limit = "name the outputs of one scenario",
-                        .cure = "with several files or --out use --out DIR alone"});
+  if (compares(arguments))
+    append(problems, check_comparison(arguments));
+  else if (single && (arguments.files.size() > 1 || !arguments.out.empty()))
+    problems.push_back(
+        {.where = "--csv, --json, --html",
+         .limit = "name the outputs of one scenario",
+         .cure = "with several files or --out use --out DIR alone; --html alone compares the files"});
   if (arguments.runs > 0 && (single || !arguments.out.empty()))
     problems.push_back({.where = "--runs",
                         .limit = "writes no files of single runs",
@@ -139,6 +149,7 @@ Exit run_command(const RunArguments& arguments) {
   base::Problems problems = check(arguments);
   std::vector<Job> jobs = problems.empty() ? read_jobs(arguments, problems) : std::vector<Job>();
   if (problems.empty() && arguments.runs > 0) return series_command(arguments, jobs);
+  if (problems.empty() && compares(arguments)) return compare_command(arguments, jobs);
   std::optional<io::AtomicFile> index;
   if (problems.empty()) problems = prepare(arguments, jobs, index);
   if (!problems.empty()) {

@@ -34,14 +34,22 @@ function frequencyText(dt) {
   return `${figure(f * factor)}\u00a0${unit}`;
 }
 
-/** A table of all curves: at the cursor, at A, at B, and B − A. Builds the rows once and returns what fills them. */
-function readout(table, entries) {
+/** A table of all curves: at the cursor, at A, at B, and B − A. Builds the rows once and returns what fills them. With
+ *  `named`, each chart's name stands above its curves, which are called alike in all of them. */
+function readout(table, entries, named) {
   const cell = (row, tag, text = '') => Object.assign(row.appendChild(document.createElement(tag)), {textContent: text});
   const body = table.tBodies[0];
+  const title = (entry) => {
+    const name = cell(body.insertRow(), 'th', entry.chart.title);
+    name.colSpan = 5;
+    name.className = 'group';
+  };
   const rows = entries.flatMap((entry) => entry.curves.map((curve, i) => {
+    if (named && i === 0) title(entry);
     const row = body.insertRow(), name = cell(row, 'th');
     name.scope = 'row';
     name.append(labelNode(entry.chart.curves[i].label));
+    name.title = entry.chart.curves[i].meaning ?? '';
     const unit = name.appendChild(document.createElement('small'));
     return {entry, curve, unit, cells: [0, 1, 2, 3].map(() => cell(row, 'td'))};
   }));

@@ -26,7 +26,7 @@ function makeInstruments(axisOf) {
   const rotor = rotorEntry(axisOf);
   if (rotor) wearRotorUnit(rotor);
   const logic = charts.filter((c) => c.chart.logic), others = charts.filter((c) => !c.chart.logic);
-  const fill = readout(element('readout'), [...others, ...(rotor ? [rotor] : []), ...logic]);
+  const fill = readout(element('readout'), [...others, ...(rotor ? [rotor] : []), ...logic], data.compared);
   const drawBridge = data.conduction && phases ? bridgeDrawing(element('bridge'), element('conducts')) : null;
   const conduction = drawBridge && {time: unpack(data.conduction.time, Float64Array), code: unpack(data.conduction.code, Uint8Array), end: data.conduction.end};
   const drawPlane = phases ? currentPlane(element('plane'), phases) : null;

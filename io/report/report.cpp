@@ -10,6 +10,7 @@
 #include "io/report/ledger.hpp"
 #include "io/report/parameters.hpp"
 #include "io/report/plots.hpp"
+#include "io/report/scripts.hpp"
 #include "io/report/shell.hpp"
 #include "io/report/verdicts.hpp"
 
@@ -76,12 +77,11 @@ std::string render(const ReportInput& in) {
                           {"energy", in.outcome.energy ? energy_section(*in.outcome.energy)
                                                        : "<p class=\"quiet\">No books were kept.</p>\n"},
                           {"events", event_section(in.outcome)},
+                          {"plots", assets::plots_html},
                           {"scenario", escaped(in.scenario_text)}});
   return in_shell(
       {.title = verdict.word + " · " + title, .body = body, .command = in.command, .version = in.version},
-      plot_data(in.trace, in.scenario, in.outcome.motor.machine.pole_pairs),
-      {assets::units_js, assets::chart_js, assets::page_js, assets::instant_js, assets::bridge_js,
-       assets::plane_js, assets::instruments_js, assets::report_js});
+      plot_data(in.trace, in.scenario, in.outcome.motor.machine.pole_pairs), run_scripts);
 }
 
 }  // namespace io::report

@@ -299,6 +299,28 @@ test('fits a narrow window without scrolling sideways', async () => {
   await close(page);
 });
 
+test('compared runs lie over each other, each on its own rows, with their difference below', async () => {
+  const page = await opened('compare.html');
+  const ids = await page.locator('#charts .chart').evaluateAll((all) => all.map((c) => c.id));
+  assert.deepEqual(ids.slice(0, 2), ['chart-speed', 'chart-speed-difference']);
+  await page.evaluate(() => sixstep.pointAt(0.0101));
+  const read = async (id) => (await page.locator(`#${id} .value`).allTextContents()).map((v) => Number(v.split(' ')[0].replace('−', '-')));
+  await eventually(async () => {
+    const [one, two] = await read('chart-speed'), [less] = await read('chart-speed-difference');
+    assert.ok(two < one, `${two} ${one}`);
+    // The synthetic grid holds a row for 30 us, in which 5 A · 33.5 mNm/A on 135 gcm2 move either speed by 0.37 rad/s.
+    assert.ok(Math.abs(two - one - less) < 0.4, `${two} - ${one} against ${less}`);
+  });
+  assert.equal(await page.locator('#bridge').isVisible(), false);
+  assert.ok(await page.locator('#readout .group').count() >= 6);
+  await drag(page, 'speed', 0.25, 0.5);
+  await eventually(async () => {
+    const shown = await scales(page);
+    assert.ok(allEqual(shown) && shown[0][1] - shown[0][0] < 0.006);
+  });
+  await close(page);
+});
+
 test('the index links to every report', async () => {
   const page = await opened('index.html');
   assert.equal(await page.locator('.verdict .line').textContent(), '1 of 2 experiments pass');

@@ -10,8 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "io/json_summary.hpp"
-#include "io/report/conduction.hpp"
-#include "io/report/course.hpp"
 #include "io/report/figures.hpp"
 #include "io/report/html.hpp"
 #include "io/report/ledger.hpp"
@@ -168,89 +166,6 @@ TEST(Report, long_run_keeps_every_extreme_and_the_close_ups_whole) {
     };
     EXPECT_EQ(count(t), count(time)) << window["id"];
   }
-}
-
-/// Rows at times that need no rounding: a speed step, a current that rises, stays and falls.
-SyntheticRun stepped_run() {
-  SyntheticRun run = synthetic_run(0.001);
-  run.scenario.control.mode = sixstep::control::Mode::speed;
-  run.scenario.control.speed.torque_limit_Nm = 0.335;
-  run.scenario.pwm.period_s = 1.0 / 1024;
-  run.trace.columns = {{"t_s", "s", "", ""},
-                       {"i_m_A", "A", "", ""},
-                       {"i_ref_A", "A", "", ""},
-                       {"speed_ref_rad_s", "rad/s", "", ""},
-                       {"speed_rad_s", "rad/s", "", ""},
-                       {"duty", "1", "", ""},
-                       {"gate_T1", "1", "", ""}};
-  run.trace.values = {{0, 1, 1, 2, 3, 3, 8, 9},      {0, 0, 0, 6, 6, 6, 0, 0},
-                      {0, 0, 10, 10, 10, 0, 0, 0},   {0, 0, 50, 50, 50, 50, 50, 60},
-                      {0, 0, 0, 25, 50, 50, 50, 50}, {0, 0, 1, 1, 1, -0.5, -0.5, 0},
-                      {0, 0, 1, 1, 0, 1, 1, 0}};
-  return run;
-}
-
-TEST(Course, the_largest_step_is_found_with_its_current) {
-  const SyntheticRun run = stepped_run();
-  const auto step = largest_step(run.trace, run.scenario);
-  ASSERT_TRUE(step);
-  EXPECT_EQ(step->of, "speed");
-  EXPECT_EQ(step->at_s, 1.0);
-  EXPECT_EQ(step->from, 0.0);
-  EXPECT_EQ(step->to, 50.0);
-  EXPECT_EQ(step->next_s, 9.0);
-  EXPECT_EQ(step->window.to, 2.5);  // the last row away from the goal is 1 s behind the step
-  EXPECT_TRUE(step->done);
-  const auto current = step_current(run.trace, *step);
-  ASSERT_TRUE(current);
-  EXPECT_EQ(current->peak_A, 6.0);
-  EXPECT_EQ(current->peak_after_s, 1.0);
-  EXPECT_EQ(current->asked_A, 10.0);
-  // 0 to 6 A in a second, 6 A for the half second to the window's end: integral of i^2 = 12 + 18.
-  EXPECT_DOUBLE_EQ(current->rms_A, std::sqrt(30.0 / 1.5));
-  // Half a second of 6 A, then 6 A to 0 in five seconds, then nothing: 18 As in 6.5 s.
-  EXPECT_DOUBLE_EQ(*current->then_mean_A, 18.0 / 6.5);
-  EXPECT_EQ(*current->then_span_A, 6.0);
-}
-
-TEST(Course, what_held_the_run_back_is_timed) {
-  const SyntheticRun run = stepped_run();
-  const auto held = held_back(run.trace, run.scenario, run.outcome);
-  ASSERT_TRUE(held);
-  EXPECT_EQ(held->bus_s, 2.0);
-  EXPECT_EQ(held->largest_duty, 1.0);
-  ASSERT_TRUE(held->limit_A);
-  EXPECT_DOUBLE_EQ(*held->limit_A, 10.0);  // 0.335 Nm / 0.0335 Nm/A
-  EXPECT_EQ(held->limit_s, 2.0);
-  EXPECT_EQ((*turn_on_counts(run.trace))[0], 2);
-}
-
-TEST(Conduction, a_leg_without_a_gate_carries_by_the_diode_its_current_opens) {
-  sixstep::study::Trace trace;
-  for (const char* name :
-       {"t_s", "i_a_A", "i_b_A", "i_c_A", "gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"})
-    trace.columns.push_back({name, "", "", ""});
-  // T1 and T4 drive a to b; T1 goes off and a's lower diode takes over until nothing flows; c's upper diode
-  // last.
-  trace.values = {{0, 1, 1, 2, 2, 3, 3, 4},  {0, 2, 2, 0, 0, 0, 0, 0}, {0, -2, -2, 0, 0, 0, 0, 1},
-                  {0, 0, 0, 0, 0, 0, 0, -1}, {1, 1, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
-                  {0, 0, 0, 0, 0, 0, 1, 1},  {1, 1, 1, 1, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
-                  {0, 0, 0, 0, 0, 0, 0, 0}};
-  const Conduction found = conduction(trace);
-  EXPECT_THAT(found.time_s, testing::ElementsAre(0, 1, 2, 3));
-  EXPECT_THAT(found.code, testing::ElementsAre(1 + 5 * 2, 4 + 5 * 2, 0, 5 * 1 + 25 * 3));
-  EXPECT_EQ(found.end_s, 4.0);
-}
-
-TEST(Glance, answers_what_a_reader_asks_first) {
-  SyntheticRun run = synthetic_run(0.02);
-  std::string html = page(run);
-  EXPECT_THAT(html, HasSubstr("Closest requirement</dt><dd>largest current: 1.5\u00a0% of its room is left"));
-  EXPECT_THAT(html, HasSubstr("Current in the step of current from 5\u00a0A to −5\u00a0A"));
-  EXPECT_THAT(html, HasSubstr("given as d1, d0; pole placement says 4.0956, −3.694"));
-  EXPECT_THAT(html, HasSubstr("<h2>What it cost</h2>"));
-  run.outcome.verdicts[2].ok = false;
-  EXPECT_THAT(page(run), HasSubstr("Not met</dt><dd>mean current from 2 ms to 5 ms"));
 }
 
 TEST(Thinning, every_bucket_keeps_its_extremes) {
