@@ -5,7 +5,8 @@ const GUTTER = {left: 62, right: 56};  // the same for all, so that one instant 
 
 /** Little-endian numbers; every machine with a browser keeps them that way. */
 function unpack(text, Type) {
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const letters = atob(text), bytes = new Uint8Array(letters.length);
+  for (let n = 0; n < letters.length; ++n) bytes[n] = letters.charCodeAt(n);
   return new Type(bytes.buffer);
 }
 
@@ -107,6 +108,24 @@ function curveOptions(curve, index, chart, count) {
   return options;
 }
 
+/** 1, 2 .. 9 times the powers of ten between two frequencies. */
+function decades(min, max) {
+  const splits = [];
+  for (let power = 10 ** Math.floor(Math.log10(min)); power <= max; power *= 10)
+    for (let n = 1; n < 10; ++n) if (n * power >= min && n * power <= max) splits.push(n * power);
+  return splits;
+}
+
+/** A logarithmic axis names its powers of ten only, and writes them as such. */
+function powerText(v, unit) {
+  if (v == null) return '';
+  const power = Math.round(Math.log10(v));
+  if (Math.abs(Math.log10(v) - power) > 1e-9) return '';
+  const name = power >= -2 && power <= 2 ? String(Number((10 ** power).toPrecision(1)))
+    : '10' + String(power).replace(/./g, (c) => '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'['-0123456789'.indexOf(c)]);
+  return unit ? `${name}\u202f${unit}` : name;
+}
+
 /** The left axis, and on the right the same in another unit where the chart has one. */
 function valueAxes(chart) {
   const font = '12px system-ui, sans-serif';
@@ -118,6 +137,7 @@ function valueAxes(chart) {
     return splits.map((v) => (v * f).toFixed(decimals).replace('-', '−'));
   };
   const left = {...common, size: GUTTER.left, gap: 6, space: 28, values: written(() => 1)};
+  if (chart.log) left.values = (u, splits) => splits.map((v) => powerText(v));
   if (chart.logic) {
     const count = chart.curves.length;
     left.splits = () => chart.curves.map((_, i) => count - 1 - i + STRIP / 2);
@@ -151,18 +171,20 @@ function chartOptions(chart, width, time, hooks) {
   const x = {
     stroke: () => palette.quiet, font: '12px system-ui, sans-serif', size: 26, gap: 4, space: 90, ticks: {show: false},
     grid: {stroke: () => palette.grid, width: 1},
-    values: (u, splits, axis, space, incr) => splits.map((t) => time.text(t, incr) + '\u202f' + time.unit),
+    values: (u, splits, axis, space, incr) => splits.map((t) => (chart.log ? powerText(t, time.unit) : time.text(t, incr) + '\u202f' + time.unit)),
   };
+  if (chart.log) Object.assign(x, {splits: (u, axis, min, max) => decades(min, max), filter: (u, splits) => splits});
   // A curve that never moves would otherwise fill the chart with rounding noise.
   const range = (u, min, max) => {
     if (min == null) return [0, 1];
+    if (chart.log) return [10 ** Math.floor(Math.log10(max) - 4), 10 ** Math.ceil(Math.log10(max))];
     const size = Math.max(Math.abs(min), Math.abs(max));
     const room = max - min > 1e-6 * size ? (max - min) * 0.07 : size > 0 ? size * 0.05 : 1;
     return [min - room, max + room];
   };
   return {
     width, height: chart.height, legend: {show: false}, padding: [6, 0, 0, 0],
-    scales: {x: {time: false}, y: chart.logic ? {range: () => [-0.12, count - 0.1]} : chart.lanes ? {range: () => chart.axis.range} : {range}},
+    scales: {x: chart.log ? {time: false, distr: 3, range: (u, min, max) => [min, max]} : {time: false}, y: chart.logic ? {range: () => [-0.12, count - 0.1]} : chart.lanes ? {range: () => chart.axis.range} : {range, distr: chart.log ? 3 : 1}},
     axes: [x, ...valueAxes(chart)],
     series: [{}, ...chart.curves.map((c, i) => curveOptions(c, i, chart, count))],
     cursor: {

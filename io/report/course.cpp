@@ -61,6 +61,15 @@ Step from_start(const Values& time) {
 
 }  // namespace
 
+std::optional<double> last_setpoint_s(const Trace& trace, const Scenario& scenario) {
+  const auto* time = find_column(trace, "t_s");
+  const Loop* loop = loop_of(scenario.control.mode);
+  const Values* reference = loop ? find_column(trace, loop->reference) : nullptr;
+  if (!time || !reference) return std::nullopt;
+  const std::vector<Change> changes = changes_of(*reference, 0.0);
+  return changes.empty() ? time->front() : (*time)[changes.back().row];
+}
+
 std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
   const auto* time = find_column(trace, "t_s");
   if (!time || time->size() < 2) return std::nullopt;

@@ -25,6 +25,10 @@ struct Step {
 std::optional<Step> largest_step(const sixstep::study::Trace& trace,
                                  const sixstep::study::Scenario& scenario);
 
+/// When what is asked for changed for the last time; empty where nothing is asked for.
+std::optional<double> last_setpoint_s(const sixstep::study::Trace& trace,
+                                      const sixstep::study::Scenario& scenario);
+
 /// The motor current i_m during a step.
 struct StepCurrent {
   double peak_A = 0.0, peak_after_s = 0.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Charts follow the page: its width, the theme, the printer.
 
-function watchPage(charts, changed) {
+function watchPage(charts, changed, parent = document.getElementById('charts')) {
   const repaint = () => {
     readPalette();
     for (const {plot} of charts) plot.redraw();
@@ -11,7 +11,7 @@ function watchPage(charts, changed) {
     for (const {plot, box} of charts) if (box.clientWidth) plot.setSize({width: box.clientWidth, height: plot.height});
     changed();
   };
-  new ResizeObserver(resize).observe(document.getElementById('charts'));
+  new ResizeObserver(resize).observe(parent);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', repaint);
   // Paper is white whatever the screen's theme, and narrower than most screens.
   addEventListener('beforeprint', () => {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/report/plots.hpp"
 
+#include <numeric>
+
 #include "io/report/chart_json.hpp"
 #include "io/report/conduction.hpp"
 
@@ -16,10 +18,27 @@ json conduction_json(const Conduction& c) {
           {"end", c.end_s}};
 }
 
+json spectra_json(const Spectra& spectra, json& page) {
+  json charts = json::array();
+  for (const DrawnSpectrum& s : spectra.all) {
+    const Drawn lines = drawn_lines(s.lines);
+    const Group group{.id = s.id, .title = s.title, .unit = s.unit, .height_px = 220, .quantity = s.quantity};
+    std::vector<std::size_t> rows(lines.amplitude.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    json chart = chart_json(group, true, rows.size());
+    chart["log"] = true;
+    const Curve curve{s.label, s.style, "amplitude", &lines.amplitude};
+    chart["curves"].push_back(curve_json(curve, page["axes"].size(), rows));
+    page["axes"].push_back(packed<double>(lines.frequency_Hz, rows));
+    charts.push_back(std::move(chart));
+  }
+  return charts;
+}
+
 }  // namespace
 
 std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
-                      int pole_pairs, PlotSize size) {
+                      int pole_pairs, PlotSize size, const std::optional<Spectra>& found) {
   json out{
       {"run", json::array()}, {"windows", json::array()}, {"axes", json::array()}, {"charts", json::array()}};
   const auto* time = find_column(trace, "t_s");
@@ -46,6 +65,7 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
                     {"data", packed<float>(groups.angle_deg, rows.rows)}};
   }
   out["conduction"] = conduction_json(conduction(trace));
+  if (found) out["spectra"] = spectra_json(*found, out);  // behind the axes over time
   out["pole_pairs"] = pole_pairs;
   return dumped(out);
 }

@@ -2,8 +2,10 @@
 // Trace -> the JSON that report.js draws from.
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <string>
 
+#include "io/report/spectra.hpp"
 #include "sixstep/study/outcome.hpp"
 #include "sixstep/study/scenario.hpp"
 
@@ -18,6 +20,7 @@ struct PlotSize {
 /// {"run":[t0,t1], "windows":[..], "axes":[base64 float64..], "charts":[{.., "curves":[{.., "data": base64
 /// float32}]}]}
 std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
-                      int pole_pairs, PlotSize size = {});
+                      int pole_pairs, PlotSize size = {},
+                      const std::optional<Spectra>& spectra = std::nullopt);
 
 }  // namespace io::report

@@ -12,6 +12,7 @@
 #include "io/report/plots.hpp"
 #include "io/report/scripts.hpp"
 #include "io/report/shell.hpp"
+#include "io/report/spectra.hpp"
 #include "io/report/verdicts.hpp"
 
 namespace io::report {
@@ -59,6 +60,8 @@ std::string render(const ReportInput& in) {
   const std::string title = escaped(in.scenario.title.empty() ? in.scenario.motor : in.scenario.title);
   const std::string notes =
       in.scenario.notes.empty() ? "" : "<p class=\"notes\">" + escaped(in.scenario.notes) + "</p>\n";
+  const int pole_pairs = in.outcome.motor.machine.pole_pairs;
+  const std::optional<Spectra> found = spectra(in.trace, in.scenario, pole_pairs);
   const std::string body = filled(
       assets::page_html, {{"title", title},
                           {"subtitle", subtitle(in)},
@@ -78,10 +81,11 @@ std::string render(const ReportInput& in) {
                                                        : "<p class=\"quiet\">No books were kept.</p>\n"},
                           {"events", event_section(in.outcome)},
                           {"plots", assets::plots_html},
+                          {"spectra", spectra_section(found)},
                           {"scenario", escaped(in.scenario_text)}});
   return in_shell(
       {.title = verdict.word + " · " + title, .body = body, .command = in.command, .version = in.version},
-      plot_data(in.trace, in.scenario, in.outcome.motor.machine.pole_pairs), run_scripts);
+      plot_data(in.trace, in.scenario, pole_pairs, {}, found), run_scripts);
 }
 
 }  // namespace io::report

@@ -8,6 +8,7 @@ const address = new URLSearchParams(location.hash.slice(1));
 const usualUnits = {speed: 'rad_s', angle: data.charts.some((c) => c.id === 'position') ? 'deg' : 'deg_el', torque: 'mNm', current: 'A'};
 const units = unitChoices(address, usualUnits);
 const charts = [];    // over time, as buildChart returns them
+const spectra = [];   // over frequency
 const instants = {cursor: null, A: null, B: null};
 let instruments = {view() {}, instant() {}};
 let view = [runStart, runEnd];
@@ -141,9 +142,8 @@ function onKey(event) {
 }
 
 function changeUnits() {
-  for (const chart of charts) {
+  for (const chart of [...charts, ...spectra]) {
     wearUnit(chart.chart, units, data.pole_pairs);
-    if (!chart.plot) continue;
     linking = true;
     chart.rescale();
     linking = false;
@@ -180,12 +180,13 @@ function start() {
     charts.push(buildChart(element('charts'), chart, axisOf, time, hooks));
   }
   instruments = makeInstruments(axisOf);
+  spectra.push(...buildSpectra(axisOf));
   noteEnvelope();
   show(...wanted);
   for (const name of ['A', 'B']) if (address.has(name)) mark(name, Number(address.get(name)));
   element('plots').addEventListener('keydown', onKey);
   watchPage(charts, () => instruments.view());
-  globalThis.sixstep = {charts: charts.map((c) => c.plot), show, pointAt, valueAt, instants, ready_ms: performance.now()};  // for scripts and tests
+  globalThis.sixstep = {charts: charts.map((c) => c.plot), spectra: spectra.map((c) => c.plot), show, pointAt, valueAt, instants, ready_ms: performance.now()};  // for scripts and tests
 }
 
 start();

@@ -321,6 +321,19 @@ test('compared runs lie over each other, each on its own rows, with their differ
   await close(page);
 });
 
+test('spectra stand over their own axis, with units as chosen', async () => {
+  const page = await opened('short.html');
+  const ids = await page.locator('#spectra .chart').evaluateAll((all) => all.map((c) => c.id));
+  assert.deepEqual(ids, ['chart-current-spectrum', 'chart-torque-spectrum']);
+  const [from, to] = await page.evaluate(() => [sixstep.spectra[0].scales.x.min, sixstep.spectra[0].scales.x.max]);
+  assert.ok(from > 0 && to > 1 / 30e-6, `${from} ${to}`);
+  const highest = () => page.evaluate(() => Math.max(...sixstep.spectra[1].data[1]));
+  const before = await highest();
+  await page.selectOption('#unit-torque', 'Nm');
+  assert.ok(Math.abs((await highest()) / before - 1e-3) < 1e-9);
+  await close(page);
+});
+
 test('the index links to every report', async () => {
   const page = await opened('index.html');
   assert.equal(await page.locator('.verdict .line').textContent(), '1 of 2 experiments pass');

@@ -13,6 +13,8 @@
 #include "io/report/glance.hpp"
 #include "io/report/html.hpp"
 #include "io/report/scenario_differences.hpp"
+#include "io/report/spectra.hpp"
+#include "io/report/spectrum.hpp"
 #include "tests/io/synthetic_run.hpp"
 
 namespace {
@@ -185,6 +187,85 @@ TEST(Comparison, foreign_text_stays_text_and_figures_stand_side_by_side) {
       HasSubstr(
           "<td class=\"num bad\">10.83\u00a0A <b>✗ not met</b><small class=\"aside\">+100\u00a0%</small>"));
   EXPECT_THAT(html, HasSubstr("Nothing that changes a run."));
+}
+
+/// A saw of `turns` teeth from -1 to 1 in one second, its rows at the jumps alone.
+struct Saw {
+  std::vector<double> time, values;
+};
+Saw saw(int turns) {
+  Saw out;
+  for (int n = 0; n < turns; ++n)
+    for (const int side : {0, 1}) {
+      out.time.push_back((n + side) / static_cast<double>(turns));
+      out.values.push_back(side ? 1.0 : -1.0);
+    }
+  return out;
+}
+
+TEST(Spectrum, of_a_saw_is_the_fourier_series) {
+  // 37 teeth: no power of two, so that no tooth and no jump keeps to the cells. Harmonic n has the amplitude
+  // 2/(pi n).
+  constexpr int turns = 37, cells = 4096;
+  const Saw s = saw(turns);
+  const Lines lines = lines_of(s.time, s.values, {0, 1}, 1.0 / cells);
+  EXPECT_EQ(lines.cell_s, 1.0 / cells);
+  EXPECT_EQ(lines.spacing_Hz, 1.0);
+  ASSERT_EQ(lines.amplitude.size(), cells / 8 + 1u);
+  for (int n = 1; n * turns + 1 < cells / 8; ++n) {
+    const auto k = static_cast<std::size_t>(n * turns);
+    // What the cells fold onto a line is the harmonics at m cells -+ k, m = 1, 2 ..; a cell's mean leaves
+    // k/(m cells -+ k) of each, and the correction divides by the same for k. Their amplitude is at most 2/pi
+    // turns/(m cells - k), so their sum is below 2/pi turns k/cells^2 times twice the sum of 1/(m - 1/8)^2,
+    // which is less than 4.
+    const double folded = 4 * 2 / M_PI * turns * (n * turns) / (static_cast<double>(cells) * cells);
+    EXPECT_NEAR(lines.amplitude[k], 2 / (M_PI * n), folded + 1e-12) << n;
+    EXPECT_NEAR(lines.amplitude[k + 1], 1 / (M_PI * n), folded + 1e-12) << "Hann: half of it beside the line";
+  }
+  for (const std::size_t k : {5u, 20u, 55u}) EXPECT_LT(lines.amplitude[k], 1e-2) << "between the harmonics";
+  EXPECT_THAT(strongest(lines, 3), testing::ElementsAre(37u, 74u, 111u));
+}
+
+TEST(Spectrum, is_taken_over_whole_electrical_turns_of_the_last_setpoint) {
+  SyntheticRun run = stepped_run();
+  run.trace.columns.push_back({"angle_rad", "rad", "", ""});
+  run.trace.values.push_back({0, 0, 0, 0, 0, 0, 0, 0});
+  auto& time = run.trace.values[0];
+  auto& angle = run.trace.values.back();
+  auto& reference = run.trace.values[3];
+  for (std::size_t n = 0; n < time.size(); ++n) {
+    angle[n] = time[n] * 0.6 * M_PI;  // two pole pairs: 0.6 electrical turns a second
+    reference[n] = time[n] < 1 ? 0 : 50;
+  }
+  const auto found = steady_stretch(run.trace, run.scenario, 2);
+  ASSERT_TRUE(found);  // 1 s (the second row of it) to 9 s: the later half has 2.4 turns
+  EXPECT_EQ(found->turns, 2);
+  EXPECT_NEAR(found->time.from, 9 - 2 / 0.6, 8 * 9 * 2.3e-16);  // a few roundings of numbers up to 9
+  EXPECT_EQ(found->time.to, 9.0);
+  run.scenario.pwm.period_s = 0.1;  // 40 periods tell nothing
+  EXPECT_FALSE(steady_stretch(run.trace, run.scenario, 2));
+}
+
+TEST(Spectrum, lines_are_called_by_what_they_come_from) {
+  // 10 turns and 1000 PWM periods in the stretch.
+  EXPECT_EQ(origin_of(60, 10, 1000), "6 × electrical");
+  EXPECT_EQ(origin_of(1000, 10, 1000), "PWM");
+  EXPECT_EQ(origin_of(2000, 0, 1000), "2 × PWM");
+  EXPECT_EQ(origin_of(980, 10, 1000), "PWM − 2 × electrical");
+  EXPECT_EQ(origin_of(1004, 10, 1000), "beside PWM");
+  EXPECT_EQ(origin_of(65, 10, 1000), "");
+  EXPECT_EQ(origin_of(65, 0, 0), "");
+}
+
+TEST(Spectrum, a_drawn_chart_keeps_the_highest_line_of_each_step) {
+  Lines lines{.spacing_Hz = 2, .amplitude = std::vector<double>(30001, 1e-3)};
+  lines.amplitude[29000] = 5;
+  const Drawn drawn = drawn_lines(lines);
+  EXPECT_LE(drawn.amplitude.size(), 1501u);
+  EXPECT_EQ(drawn.frequency_Hz.front(), 2.0);
+  EXPECT_TRUE(std::ranges::is_sorted(drawn.frequency_Hz));
+  const auto peak = std::ranges::max_element(drawn.amplitude) - drawn.amplitude.begin();
+  EXPECT_EQ(drawn.frequency_Hz[static_cast<std::size_t>(peak)], 58000.0);
 }
 
 }  // namespace
