@@ -291,7 +291,7 @@ function buildChart(parent, chart, axisOf, x, hooks) {
   });
   box.append(caption);
   const show = (t) => values.forEach((node, i) => {
-    const v = t == null ? undefined : valueAt(curves[i], t);
+    const v = t == null ? undefined : valueAt(curves[i].full ?? curves[i], t);
     const shown = v == null ? v : v * chart.factor;
     const text = v === undefined ? '' : chart.logic ? String(v ?? '–') : figure(shown);
     node.textContent = text && chart.other ? `${text} · ${figure(v == null ? v : shown * chart.other.factor)} ${chart.other.unit}` : text;
@@ -307,11 +307,18 @@ function buildChart(parent, chart, axisOf, x, hooks) {
   const over = plot.over;
   over.addEventListener('mousemove', (e) => hooks.pointed(plot.posToVal(e.clientX - over.getBoundingClientRect().left, 'x')));
   over.addEventListener('mouseleave', () => hooks.pointed(null));
+  let close = null;  // the rows drawn instead of the envelope
+  const frame = (min, max) => plot.batch(() => {
+    const rows = curvesInView(curves, min, max);
+    if (rows || close) plot.setData(drawnData(chart, rows ?? curves), false);
+    close = rows;
+    plot.setScale('x', {min, max});
+  });
   const rescale = () => {
     const {min, max} = plot.scales.x;
-    plot.setData(drawnData(chart, curves), false);
+    plot.setData(drawnData(chart, close ?? curves), false);
     plot.setScale('x', {min, max});
     describe();
   };
-  return {plot, box, chart, curves, show, rescale};
+  return {plot, box, chart, curves, show, frame, rescale, rowsDrawn: () => close?.[0].axis.length ?? 0};
 }

@@ -131,7 +131,8 @@ std::string render_curve(const CurvePageInput& in) {
                                                        {"model", model_section(in.request.bench.motor)}});
   return in_shell(
       {.title = "Torque-speed curve · " + title, .body = body, .command = in.command, .version = in.version},
-      curve_charts(in.request, in.curve), {assets::chart_js, assets::page_js, assets::curve_js});
+      curve_charts(in.request, in.curve),
+      {assets::chart_js, assets::rows_js, assets::page_js, assets::curve_js});
 }
 
 }  // namespace io::report

@@ -60,7 +60,7 @@ function readout(table, entries, named) {
   };
   return (instants) => {
     for (const {entry, curve, unit, cells} of rows) {
-      const values = instants.map((t) => (t == null ? null : valueAt(curve, t)));
+      const values = instants.map((t) => (t == null ? null : valueAt(curve.full ?? curve, t)));
       values.forEach((v, n) => { cells[n].textContent = text(entry, v); });
       const [, a, b] = values;
       cells[3].textContent = a == null || b == null || entry.chart.logic ? '' : figure((b - a) * (entry.chart.factor ?? 1));

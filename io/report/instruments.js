@@ -38,7 +38,7 @@ function makeInstruments(axisOf) {
     const t = instants.cursor;
     fill([t, instants.A, instants.B]);
     const factor = phases?.chart.factor ?? 1;
-    const now = t == null || !phases ? null : phases.curves.slice(0, 3).map((c) => (valueAt(c, t) ?? 0) * factor);
+    const now = t == null || !phases ? null : phases.curves.slice(0, 3).map((c) => (valueAt(c.full ?? c, t) ?? 0) * factor);
     if (drawBridge) drawBridge(t == null ? null : conductionAt(conduction, t), now, phases.chart.unit);
     if (drawPlane) drawPlane(...view, t);
     describeMarks();

@@ -5,9 +5,11 @@ const clarke = (a, b, c) => [(2 * a - b - c) / 3, (b - c) / Math.sqrt(3)];
 
 /** Takes the chart of the phase currents; returns the function that draws view and instant. */
 function currentPlane(canvas, entry) {
-  const [a, b, c] = entry.curves, axis = a.axis;
-  const points = Array.from(axis, (_, n) => clarke(a.raw[n], b.raw[n], c.raw[n]));
-  const reach = points.reduce((most, [x, y]) => Math.max(most, Math.hypot(x, y)), 0) || 1;
+  const phases = entry.curves.slice(0, 3);
+  const point = ([a, b, c], n) => clarke(a.raw[n], b.raw[n], c.raw[n]);
+  let reach = 0;
+  for (let n = 0; n < phases[0].axis.length; ++n) reach = Math.max(reach, Math.hypot(...point(phases, n)));
+  reach ||= 1;
   return (from, to, t) => {
     const ratio = devicePixelRatio, width = canvas.clientWidth, height = canvas.clientHeight, ctx = canvas.getContext('2d');
     Object.assign(canvas, {width: width * ratio, height: height * ratio});
@@ -18,11 +20,12 @@ function currentPlane(canvas, entry) {
     ctx.lineWidth = 1;
     ctx.globalAlpha = 0.75;
     ctx.beginPath();
-    for (let n = Math.max(0, rowAt(axis, from)); n < axis.length && axis[n] <= to; ++n) ctx.lineTo(...place(points[n]));
+    const shown = curvesInView(phases, from, to) ?? phases, {axis} = shown[0];
+    for (let n = Math.max(0, rowAt(axis, from)); n < axis.length && axis[n] <= to; ++n) ctx.lineTo(...place(point(shown, n)));
     ctx.stroke();
     ctx.globalAlpha = 1;
     if (t == null) return;
-    const now = [a, b, c].map((curve) => valueAt(curve, t));
+    const now = phases.map((curve) => valueAt(curve.full ?? curve, t));
     if (now.includes(null)) return;
     ctx.fillStyle = palette.accent;
     ctx.beginPath();

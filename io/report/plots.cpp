@@ -5,6 +5,7 @@
 
 #include "io/report/chart_json.hpp"
 #include "io/report/conduction.hpp"
+#include "io/report/packed_rows.hpp"
 
 namespace io::report {
 namespace {
@@ -16,6 +17,25 @@ json conduction_json(const Conduction& c) {
   return {{"time", base64(std::span<const double>(c.time_s))},
           {"code", base64(std::span<const std::uint8_t>(c.code))},
           {"end", c.end_s}};
+}
+
+std::optional<PackedRows> every_row(const std::vector<double>& time, const Groups& groups,
+                                    std::size_t most_bytes) {
+  std::vector<const std::vector<double>*> columns;
+  for (const Group& group : groups.charts)
+    for (const Curve& curve : group.curves) columns.push_back(curve.values);
+  return packed_rows(time, columns, most_bytes);
+}
+
+json rows_json(const PackedRows& rows) {
+  json columns = json::array();
+  for (const PackedRows::Column& c : rows.columns) columns.push_back({{"low", c.low}, {"step", c.step}});
+  return {{"rows", rows.rows},
+          {"start", rows.start_s},
+          {"tick", rows.tick_s},
+          {"columns", std::move(columns)},
+          {"data",
+           base64(std::span(reinterpret_cast<const std::uint8_t*>(rows.bytes.data()), rows.bytes.size()))}};
 }
 
 json spectra_json(const Spectra& spectra, json& page) {
@@ -46,9 +66,12 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
   out["run"] = {time->front(), time->back()};
   const Windows windows = choose_windows(trace, scenario);
   out["windows"] = windows_json(windows, scenario);
-  const std::vector<Interval> keep = kept(windows, *time, size.full);
   Axes axes(out);
   const Groups groups = chart_groups(trace, scenario);
+  const auto every = time->size() > size.full ? every_row(*time, groups, size.packed_bytes) : std::nullopt;
+  // Where every row is at hand, an envelope needs no close-ups.
+  const std::vector<Interval> keep = every ? std::vector<Interval>() : kept(windows, *time, size.full);
+  if (every) out["rows"] = rows_json(*every);
   for (const Group& group : groups.charts) {
     Curves curves;
     for (const Curve& curve : group.curves) curves.emplace_back(*curve.values);

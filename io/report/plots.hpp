@@ -11,10 +11,12 @@
 
 namespace io::report {
 
-/// Rows per chart: above `full`, an envelope of at most `cap` rows plus the close-ups' every row.
+/// Rows per chart: above `full`, an envelope of at most `cap` rows, and beside it every row, packed; where
+/// that is too much to send, every row of the close-ups.
 struct PlotSize {
   std::size_t cap = 6000;
   std::size_t full = 16000;
+  std::size_t packed_bytes = 5'000'000;  ///< of every row, where they are more; text makes it a third more
 };
 
 /// {"run":[t0,t1], "windows":[..], "axes":[base64 float64..], "charts":[{.., "curves":[{.., "data": base64

@@ -25,7 +25,7 @@ function show(from, to) {
   const start = Math.min(Math.max(from, runStart), runEnd - span);
   view = [start, start + span];
   linking = true;
-  for (const {plot} of charts) plot.batch(() => plot.setScale('x', {min: view[0], max: view[1]}));
+  for (const chart of charts) chart.frame(...view);
   linking = false;
   describeView();
   instruments.view();
@@ -108,7 +108,7 @@ function addViews() {
 /** The next row of the trace from t on, in the direction asked for. */
 function nextRow(t, direction) {
   let best = null;
-  for (const {axis} of charts.map((c) => c.curves[0])) {
+  for (const {axis} of charts.map((c) => c.curves[0].full ?? c.curves[0])) {
     let n = rowAt(axis, t);
     if (direction > 0) n += 1;
     else while (n >= 0 && axis[n] >= t) --n;
@@ -158,7 +158,14 @@ function noteEnvelope() {
   if (!thin.length) return;
   element('envelope').textContent =
     `The run has ${thin[0].recorded.toLocaleString('en').replace(/,/g, '\u202f')} recorded rows: here an envelope stands ` +
-    'for them that keeps every peak; the close-ups hold every row.';
+    `for them that keeps every peak; ${data.rows ? `where less than ${ROWS_IN_VIEW} are in view, all are drawn.` : 'the close-ups hold every row.'}`;
+}
+
+/** The envelope stands first; every row follows when the page can be read already. */
+async function addRows() {
+  if (data.rows) await unpackRows(data.rows, charts);
+  if (data.rows) show(...view);
+  globalThis.sixstep.complete_ms = performance.now();
 }
 
 function viewFromAddress() {
@@ -186,7 +193,9 @@ function start() {
   for (const name of ['A', 'B']) if (address.has(name)) mark(name, Number(address.get(name)));
   element('plots').addEventListener('keydown', onKey);
   watchPage(charts, () => instruments.view());
-  globalThis.sixstep = {charts: charts.map((c) => c.plot), spectra: spectra.map((c) => c.plot), show, pointAt, valueAt, instants, ready_ms: performance.now()};  // for scripts and tests
+  globalThis.sixstep = {charts: charts.map((c) => c.plot), spectra: spectra.map((c) => c.plot), drawnRows: () => charts.map((c) => c.rowsDrawn()), show, pointAt, valueAt, instants, entries: charts,
+    columnOf: (curve) => data.rows.columns[charts.flatMap((c) => c.curves).indexOf(curve)], ready_ms: performance.now()};  // for scripts and tests
+  addRows();
 }
 
 start();

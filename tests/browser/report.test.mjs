@@ -283,6 +283,33 @@ test('follows the theme, and prints dark ink on white paper', async () => {
   await close(page);
 });
 
+test('close looks into a long run draw every row, as exact as the envelope', async () => {
+  const page = await opened('long.html');
+  await page.waitForFunction(() => sixstep.complete_ms > 0);
+  assert.ok((await page.evaluate(() => sixstep.drawnRows())).every((n) => n === 0));
+  const worst = await page.evaluate(() => {
+    const {curves} = sixstep.entries.find((e) => e.chart.id === 'currents'), {low, step} = sixstep.columnOf(curves[0]);
+    const {axis, raw, full} = curves[0];
+    let error = 0, compared = 0, zeros = 0;
+    for (let n = 1; n + 1 < axis.length; ++n) {
+      if (axis[n - 1] === axis[n] || axis[n] === axis[n + 1] || raw[n] == null) continue;  // a jump: two rows at one time
+      error = Math.max(error, Math.abs(sixstep.valueAt(full, axis[n]) - raw[n]) / step);
+      zeros += full.raw.includes(0);
+      if (++compared > 500) break;
+    }
+    return {error, compared, zeros, high: Math.max(...raw) - Math.max(...full.raw), low, step};
+  });
+  assert.ok(worst.compared > 100);
+  // Half a step; and a few per cent of one from the envelope's 32 bits and times in picoseconds.
+  assert.ok(worst.error <= 0.55, JSON.stringify(worst));
+  assert.ok(Math.abs(worst.high) <= 0.55 * worst.step, JSON.stringify(worst));
+  assert.ok(worst.zeros > 0, 'a current that has gone out is zero');
+  await page.evaluate(() => sixstep.show(0.3, 0.301));
+  const rows = await page.evaluate(() => sixstep.drawnRows());
+  assert.ok(rows.every((n) => n > 33 && n === rows[0]), String(rows));  // at least one a PWM period
+  await close(page);
+});
+
 test('a long run opens as an envelope and says so', async () => {
   const page = await opened('long.html');
   assert.equal(await page.locator('.verdict .word').textContent(), 'FAIL');

@@ -12,6 +12,7 @@
 #include "io/report/course.hpp"
 #include "io/report/glance.hpp"
 #include "io/report/html.hpp"
+#include "io/report/packed_rows.hpp"
 #include "io/report/scenario_differences.hpp"
 #include "io/report/spectra.hpp"
 #include "io/report/spectrum.hpp"
@@ -187,6 +188,20 @@ TEST(Comparison, foreign_text_stays_text_and_figures_stand_side_by_side) {
       HasSubstr(
           "<td class=\"num bad\">10.83\u00a0A <b>✗ not met</b><small class=\"aside\">+100\u00a0%</small>"));
   EXPECT_THAT(html, HasSubstr("Nothing that changes a run."));
+}
+
+TEST(PackedRows, keep_the_range_in_65533_steps_with_zero_on_one_and_refuse_what_is_too_much) {
+  const std::vector<double> time{0, 1e-6, 1e-6, 5}, held{2, 2, 2, 2}, moving{-1, 0, 2, NAN};
+  const auto packed = packed_rows(time, {&held, &moving}, 1000);
+  ASSERT_TRUE(packed);
+  EXPECT_EQ(packed->rows, 4u);
+  EXPECT_GE(packed->tick_s * 4294967295.0, 5.0) << "the longest gap fits into 32 bits";
+  EXPECT_EQ(packed->columns[0].low, 2.0);
+  EXPECT_EQ(packed->columns[0].step, 0.0);
+  EXPECT_EQ(packed->columns[1].step, 3.0 / 65533);
+  const double zero = -packed->columns[1].low / packed->columns[1].step;
+  EXPECT_EQ(zero, std::round(zero));
+  EXPECT_FALSE(packed_rows(time, {&held, &moving}, 10));
 }
 
 /// A saw of `turns` teeth from -1 to 1 in one second, its rows at the jumps alone.
