@@ -35,6 +35,21 @@ json curve_json(const Curve& curve, std::size_t axis, const std::vector<std::siz
           {"data", packed<float>(*curve.values, rows)}};
 }
 
+json rows_json(const PackedRows& rows, const std::vector<CurvePlace>& places) {
+  json columns = json::array();
+  for (std::size_t n = 0; n < rows.columns.size(); ++n)
+    columns.push_back({{"low", rows.columns[n].low},
+                       {"step", rows.columns[n].step},
+                       {"chart", places[n].chart},
+                       {"curve", places[n].curve}});
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(rows.bytes.data());
+  return {{"rows", rows.rows},
+          {"start", rows.start_s},
+          {"tick", rows.tick_s},
+          {"columns", std::move(columns)},
+          {"data", base64(std::span(bytes, rows.bytes.size()))}};
+}
+
 json windows_json(const Windows& windows, const sixstep::study::Scenario& scenario) {
   json out = json::array();
   const auto add = [&](const char* id, const char* label, const std::optional<Interval>& window) {

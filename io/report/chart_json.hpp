@@ -11,6 +11,7 @@
 
 #include "io/report/groups.hpp"
 #include "io/report/html.hpp"
+#include "io/report/packed_rows.hpp"
 #include "io/report/thinning.hpp"
 #include "io/report/windows.hpp"
 
@@ -41,6 +42,12 @@ class Axes {
 /// A chart without its curves. `complete`: no envelope stands for any of the `recorded` rows.
 json chart_json(const Group& group, bool complete, std::size_t recorded);
 json curve_json(const Curve& curve, std::size_t axis, const std::vector<std::size_t>& rows);
+
+/// Which curve of which chart a packed column belongs to.
+struct CurvePlace {
+  std::size_t chart = 0, curve = 0;
+};
+json rows_json(const PackedRows& rows, const std::vector<CurvePlace>& places);
 
 json windows_json(const Windows& windows, const sixstep::study::Scenario& scenario);
 /// Those whose every row the page can carry.

@@ -97,6 +97,25 @@ json difference(const Compared& what, const std::vector<ComparedRun>& runs, Axes
   return chart;
 }
 
+/// Every row of the runs that are long enough for an envelope. The overlays are every second chart.
+json every_row(const std::vector<ComparedRun>& runs, const std::deque<std::vector<Values>>& drawn) {
+  const PlotSize size;
+  json out = json::array();
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const auto& time = *find_column(runs[k].events, "t_s");
+    if (time.size() <= size.full) continue;
+    std::vector<const Values*> columns;
+    std::vector<CurvePlace> places;
+    for (std::size_t n = 0; n < drawn.size(); ++n) {
+      columns.push_back(&drawn[n][k]);
+      places.push_back({2 * n, k});
+    }
+    if (const auto packed = packed_rows(time, columns, size.packed_bytes / runs.size()))
+      out.push_back(rows_json(*packed, places));
+  }
+  return out;
+}
+
 }  // namespace
 
 const char* run_style(std::size_t place) {
@@ -130,13 +149,16 @@ std::string comparison_data(const std::vector<ComparedRun>& runs) {
   out["windows"] = windows_json(choose_windows(runs[0].events, runs[0].scenario), runs[0].scenario);
   out["pole_pairs"] = runs[0].outcome.motor.machine.pole_pairs;
   Axes axes(out);
+  std::deque<std::vector<Values>> drawn;  // by overlay, by run
   for (const Compared& what : compared) {
     std::vector<Values> columns;
     for (const ComparedRun& run : runs) columns.push_back(column_of(run.events, what));
     if (!worth_a_chart(what, columns, runs)) continue;
     out["charts"].push_back(overlay(what, runs, columns, keep, axes));
     out["charts"].push_back(difference(what, runs, axes));
+    drawn.push_back(std::move(columns));
   }
+  out["rows"] = every_row(runs, drawn);
   return dumped(out);
 }
 

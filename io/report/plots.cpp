@@ -5,7 +5,6 @@
 
 #include "io/report/chart_json.hpp"
 #include "io/report/conduction.hpp"
-#include "io/report/packed_rows.hpp"
 
 namespace io::report {
 namespace {
@@ -19,23 +18,17 @@ json conduction_json(const Conduction& c) {
           {"end", c.end_s}};
 }
 
-std::optional<PackedRows> every_row(const std::vector<double>& time, const Groups& groups,
-                                    std::size_t most_bytes) {
+/// Every row of every curve; null where that is too much to send.
+json every_row(const std::vector<double>& time, const Groups& groups, std::size_t most_bytes) {
   std::vector<const std::vector<double>*> columns;
-  for (const Group& group : groups.charts)
-    for (const Curve& curve : group.curves) columns.push_back(curve.values);
-  return packed_rows(time, columns, most_bytes);
-}
-
-json rows_json(const PackedRows& rows) {
-  json columns = json::array();
-  for (const PackedRows::Column& c : rows.columns) columns.push_back({{"low", c.low}, {"step", c.step}});
-  return {{"rows", rows.rows},
-          {"start", rows.start_s},
-          {"tick", rows.tick_s},
-          {"columns", std::move(columns)},
-          {"data",
-           base64(std::span(reinterpret_cast<const std::uint8_t*>(rows.bytes.data()), rows.bytes.size()))}};
+  std::vector<CurvePlace> places;
+  for (std::size_t chart = 0; chart < groups.charts.size(); ++chart)
+    for (std::size_t curve = 0; curve < groups.charts[chart].curves.size(); ++curve) {
+      columns.push_back(groups.charts[chart].curves[curve].values);
+      places.push_back({chart, curve});
+    }
+  const auto packed = packed_rows(time, columns, most_bytes);
+  return packed ? rows_json(*packed, places) : json();
 }
 
 json spectra_json(const Spectra& spectra, json& page) {
@@ -68,10 +61,11 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
   out["windows"] = windows_json(windows, scenario);
   Axes axes(out);
   const Groups groups = chart_groups(trace, scenario);
-  const auto every = time->size() > size.full ? every_row(*time, groups, size.packed_bytes) : std::nullopt;
+  const json every = time->size() > size.full ? every_row(*time, groups, size.packed_bytes) : json();
   // Where every row is at hand, an envelope needs no close-ups.
-  const std::vector<Interval> keep = every ? std::vector<Interval>() : kept(windows, *time, size.full);
-  if (every) out["rows"] = rows_json(*every);
+  const std::vector<Interval> keep =
+      every.is_null() ? kept(windows, *time, size.full) : std::vector<Interval>();
+  if (!every.is_null()) out["rows"] = json::array({every});
   for (const Group& group : groups.charts) {
     Curves curves;
     for (const Curve& curve : group.curves) curves.emplace_back(*curve.values);

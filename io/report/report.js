@@ -158,13 +158,13 @@ function noteEnvelope() {
   if (!thin.length) return;
   element('envelope').textContent =
     `The run has ${thin[0].recorded.toLocaleString('en').replace(/,/g, '\u202f')} recorded rows: here an envelope stands ` +
-    `for them that keeps every peak; ${data.rows ? `where less than ${ROWS_IN_VIEW} are in view, all are drawn.` : 'the close-ups hold every row.'}`;
+    `for them that keeps every peak; ${data.rows?.length ? `where less than ${ROWS_IN_VIEW} are in view, all are drawn.` : 'the close-ups hold every row.'}`;
 }
 
 /** The envelope stands first; every row follows when the page can be read already. */
 async function addRows() {
-  if (data.rows) await unpackRows(data.rows, charts);
-  if (data.rows) show(...view);
+  for (const block of data.rows ?? []) await unpackRows(block, charts);
+  if (data.rows?.length) show(...view);
   globalThis.sixstep.complete_ms = performance.now();
 }
 
@@ -193,8 +193,10 @@ function start() {
   for (const name of ['A', 'B']) if (address.has(name)) mark(name, Number(address.get(name)));
   element('plots').addEventListener('keydown', onKey);
   watchPage(charts, () => instruments.view());
-  globalThis.sixstep = {charts: charts.map((c) => c.plot), spectra: spectra.map((c) => c.plot), drawnRows: () => charts.map((c) => c.rowsDrawn()), show, pointAt, valueAt, instants, entries: charts,
-    columnOf: (curve) => data.rows.columns[charts.flatMap((c) => c.curves).indexOf(curve)], ready_ms: performance.now()};  // for scripts and tests
+  globalThis.sixstep = {  // for scripts and tests
+    charts: charts.map((c) => c.plot), spectra: spectra.map((c) => c.plot), entries: charts, packed: data.rows,
+    drawnRows: () => charts.map((c) => c.rowsDrawn()), show, pointAt, valueAt, instants, ready_ms: performance.now(),
+  };
   addRows();
 }
 

@@ -19,34 +19,37 @@ function counted(bytes, offset, rows, planes, row) {
   }
 }
 
-/** Gives each curve of the charts all its rows as `full`. */
+/** Gives each curve that a block holds all its rows as `full`. */
 async function unpackRows(packed, charts) {
   const bytes = await inflated(packed.data), {rows} = packed, axis = new Float64Array(rows);
   counted(bytes, 0, rows, 4, (n, difference, count) => {
     axis[n] = packed.start + packed.tick * (count + difference);
     return count + difference;  // times only grow: not modulo
   });
-  let offset = 4 * rows, column = 0;
-  for (const {curves} of charts) {
-    for (const curve of curves) {
-      const {low, step} = packed.columns[column++], raw = new Array(rows);
-      counted(bytes, offset, rows, 2, (n, difference, count, modulus) => {
-        const now = (count + difference) % modulus;
-        raw[n] = now === 65535 ? null : curve.held ? Math.round(low + step * now) : low + step * now;
-        return now;
-      });
-      curve.full = {axis, raw, held: curve.held};
-      offset += 2 * rows;
-    }
-  }
+  packed.columns.forEach(({low, step, chart, curve: place}, column) => {
+    const curve = charts[chart].curves[place], raw = new Array(rows);
+    counted(bytes, (4 + 2 * column) * rows, rows, 2, (n, difference, count, modulus) => {
+      const now = (count + difference) % modulus;
+      raw[n] = now === 65535 ? null : curve.held ? Math.round(low + step * now) : low + step * now;
+      return now;
+    });
+    curve.full = {axis, raw, held: curve.held};
+  });
 }
 
-/** The curves of a chart as they are drawn over [from, to]: all rows where few enough are in view, else as embedded. */
+/** The curves of a chart as they are drawn over [from, to]: all rows where few enough are in view, else null. A curve
+ *  without `full` has all its rows anyway. */
 function curvesInView(curves, from, to) {
-  const full = curves[0].full;
-  if (!full) return null;
-  const first = Math.max(0, rowAt(full.axis, from) - 1), last = Math.min(full.axis.length, rowAt(full.axis, to) + 2);
-  if (last - first > ROWS_IN_VIEW) return null;
-  const axis = full.axis.subarray(first, last);
-  return curves.map((c) => ({axis, raw: c.full.raw.slice(first, last), held: c.held}));
+  if (!curves.some((c) => c.full)) return null;
+  const parts = new Map();  // curves on one axis stay on one
+  for (const {axis} of curves.map((c) => c.full ?? c)) {
+    if (parts.has(axis)) continue;
+    const first = Math.max(0, rowAt(axis, from) - 1), last = Math.min(axis.length, rowAt(axis, to) + 2);
+    if (last - first > ROWS_IN_VIEW) return null;
+    parts.set(axis, {first, last, axis: axis.subarray(first, last)});
+  }
+  return curves.map((c) => {
+    const {raw, axis} = c.full ?? c, part = parts.get(axis);
+    return {axis: part.axis, raw: raw.slice(part.first, part.last), held: c.held};
+  });
 }

@@ -288,7 +288,8 @@ test('close looks into a long run draw every row, as exact as the envelope', asy
   await page.waitForFunction(() => sixstep.complete_ms > 0);
   assert.ok((await page.evaluate(() => sixstep.drawnRows())).every((n) => n === 0));
   const worst = await page.evaluate(() => {
-    const {curves} = sixstep.entries.find((e) => e.chart.id === 'currents'), {low, step} = sixstep.columnOf(curves[0]);
+    const place = sixstep.entries.findIndex((e) => e.chart.id === 'currents'), {curves} = sixstep.entries[place];
+    const {low, step} = sixstep.packed[0].columns.find((c) => c.chart === place && c.curve === 0);
     const {axis, raw, full} = curves[0];
     let error = 0, compared = 0, zeros = 0;
     for (let n = 1; n + 1 < axis.length; ++n) {
