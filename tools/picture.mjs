@@ -25,6 +25,8 @@ async function photograph(name, last, words) {
   await page.goto(pathToFileURL(file).href);
   await page.waitForFunction(() => globalThis.sixstep?.charts?.length > 0);
   await page.waitForTimeout(300); // the charts are drawn with the next frames
+  await page.evaluate(() => globalThis.sixstep.pointAt?.(0.0031));
+  await page.waitForTimeout(200);
   const box = await page.locator(`#chart-${last}`).boundingBox();
   await page.screenshot({path: path.join(root, `docs/images/${name}.png`),
     clip: {x: 0, y: 0, width: 1200, height: Math.ceil(box.y + box.height + 16)}});

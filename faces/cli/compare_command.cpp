@@ -51,6 +51,8 @@ struct Compared {
 std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
   std::vector<const study::Scenario*> scenarios;
   std::vector<Compared> runs;
+  scenarios.reserve(jobs.size());
+  runs.reserve(jobs.size());
   for (const Job& job : jobs) scenarios.push_back(&job.scenario());
   for (const Job& job : jobs) {
     Compared& run = runs.emplace_back(Compared{.scenario = job.scenario()});

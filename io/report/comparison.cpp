@@ -112,13 +112,15 @@ std::string named_figures(const std::vector<ComparedRun>& runs) {
   }
   std::string rows;
   for (const auto& [figure, unit] : names)
-    rows += figure_row(figure, unit, runs, [&](const ComparedRun& run) -> std::optional<Measured> {
-      for (const auto& v : run.outcome.verdicts)
-        if (v.figure == figure && v.unit == unit) return Measured{v.measured, v.ok ? "ok" : "bad"};
-      for (const auto& c : run.outcome.comparisons)
-        if (c.figure == figure && c.unit == unit) return Measured{c.measured, ""};
-      return std::nullopt;
-    });
+    rows += figure_row(figure, unit, runs,
+                       [&, figure = figure, unit = unit](const ComparedRun& run) -> std::optional<Measured> {
+                         for (const auto& v : run.outcome.verdicts)
+                           if (v.figure == figure && v.unit == unit)
+                             return Measured{v.measured, v.ok ? "ok" : "bad"};
+                         for (const auto& c : run.outcome.comparisons)
+                           if (c.figure == figure && c.unit == unit) return Measured{c.measured, ""};
+                         return std::nullopt;
+                       });
   return rows;
 }
 

@@ -152,6 +152,7 @@ std::string comparison_data(const std::vector<ComparedRun>& runs) {
   std::deque<std::vector<Values>> drawn;  // by overlay, by run
   for (const Compared& what : compared) {
     std::vector<Values> columns;
+    columns.reserve(runs.size());
     for (const ComparedRun& run : runs) columns.push_back(column_of(run.events, what));
     if (!worth_a_chart(what, columns, runs)) continue;
     out["charts"].push_back(overlay(what, runs, columns, keep, axes));

@@ -132,7 +132,7 @@ std::string render_curve(const CurvePageInput& in) {
   return in_shell(
       {.title = "Torque-speed curve · " + title, .body = body, .command = in.command, .version = in.version},
       curve_charts(in.request, in.curve),
-      {assets::chart_js, assets::rows_js, assets::page_js, assets::curve_js});
+      {assets::curves_js, assets::chart_js, assets::rows_js, assets::page_js, assets::curve_js});
 }
 
 }  // namespace io::report

@@ -135,7 +135,9 @@ std::string step(const Scenario& scenario, const Trace& trace) {
     text += fmt::format("; then {} on average, {} peak to peak", computed(*current->then_mean_A, "A"),
                         computed(*current->then_span_A, "A"));
   const std::string title = asked
-                                ? fmt::format("Current in the step of {} from {} to {}", found->of,
+                                ? fmt::format("{} from {} to {}",
+                                              found->of == "current" ? "Current in its step"
+                                                                     : "Current in the step of " + found->of,
                                               given(found->from, found->unit), given(found->to, found->unit))
                                 : std::string("Current of the run");
   return card("step", title, "<p>" + text + "</p>" + step_chart(trace, *found));

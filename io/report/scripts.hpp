@@ -9,7 +9,8 @@ namespace io::report {
 
 /// Of pages whose charts run over time: one run, or several compared.
 inline constexpr std::initializer_list<std::string_view> run_scripts = {
-    assets::units_js,  assets::chart_js, assets::rows_js,        assets::page_js,    assets::instant_js,
-    assets::bridge_js, assets::plane_js, assets::instruments_js, assets::spectra_js, assets::report_js};
+    assets::units_js,       assets::curves_js,  assets::chart_js,  assets::rows_js,
+    assets::page_js,        assets::instant_js, assets::bridge_js, assets::plane_js,
+    assets::instruments_js, assets::spectra_js, assets::report_js};
 
 }  // namespace io::report

@@ -103,7 +103,7 @@ TEST(Glance, answers_what_a_reader_asks_first) {
   SyntheticRun run = synthetic_run(0.02);
   std::string html = page(run);
   EXPECT_THAT(html, HasSubstr("Closest requirement</dt><dd>largest current: 1.5\u00a0% of its room is left"));
-  EXPECT_THAT(html, HasSubstr("Current in the step of current from 5\u00a0A to −5\u00a0A"));
+  EXPECT_THAT(html, HasSubstr("Current in its step from 5\u00a0A to −5\u00a0A"));
   EXPECT_THAT(html, HasSubstr("given as d1, d0; pole placement says 4.0956, −3.694"));
   EXPECT_THAT(html, HasSubstr("<h2>What it cost</h2>"));
   run.outcome.verdicts[2].ok = false;
