@@ -20,8 +20,6 @@
 namespace io::report {
 namespace {
 
-using sixstep::study::Outcome;
-
 std::string number(std::size_t place) {
   return fmt::format("<span class=\"run\" style=\"border-color:var(--{})\">{}</span>", run_style(place),
                      place + 1);
@@ -52,6 +50,7 @@ std::string run_rows(const std::vector<ComparedRun>& runs) {
 
 std::string difference_table(const std::vector<ComparedRun>& runs) {
   std::vector<const sixstep::study::Scenario*> scenarios;
+  scenarios.reserve(runs.size());
   for (const ComparedRun& run : runs) scenarios.push_back(&run.scenario);
   std::string rows;
   for (const KeyDifference& d : differences(scenarios)) {
@@ -79,6 +78,7 @@ const char* mark(const std::string& css) {
 std::string figure_row(const std::string& name, const std::string& unit, const std::vector<ComparedRun>& runs,
                        const Ask& ask) {
   std::vector<std::optional<Measured>> found;
+  found.reserve(runs.size());
   for (const ComparedRun& run : runs) found.push_back(ask(run));
   // Neither what no run knows nor what is nothing in all of them.
   if (std::ranges::all_of(found, [](const auto& m) { return !m || (m->value == 0.0 && m->css.empty()); }))

@@ -7,10 +7,11 @@ const clarke = (a, b, c) => [(2 * a - b - c) / 3, (b - c) / Math.sqrt(3)];
 function currentPlane(canvas, entry) {
   const phases = entry.curves.slice(0, 3);
   const point = ([a, b, c], n) => clarke(a.raw[n], b.raw[n], c.raw[n]);
-  let reach = 0;
-  for (let n = 0; n < phases[0].axis.length; ++n) reach = Math.max(reach, Math.hypot(...point(phases, n)));
-  reach ||= 1;
   return (from, to, t) => {
+    const shown = curvesInView(phases, from, to) ?? phases, {axis} = shown[0], first = Math.max(0, rowAt(axis, from));
+    let reach = 0;  // the view's own, for both axes
+    for (let n = first; n < axis.length && axis[n] <= to; ++n) reach = Math.max(reach, Math.hypot(...point(shown, n)));
+    reach ||= 1;
     const ratio = devicePixelRatio, width = canvas.clientWidth, height = canvas.clientHeight, ctx = canvas.getContext('2d');
     Object.assign(canvas, {width: width * ratio, height: height * ratio});
     ctx.setTransform(ratio, 0, 0, ratio, width * ratio / 2, height * ratio / 2);
@@ -20,8 +21,7 @@ function currentPlane(canvas, entry) {
     ctx.lineWidth = 1;
     ctx.globalAlpha = 0.75;
     ctx.beginPath();
-    const shown = curvesInView(phases, from, to) ?? phases, {axis} = shown[0];
-    for (let n = Math.max(0, rowAt(axis, from)); n < axis.length && axis[n] <= to; ++n) ctx.lineTo(...place(point(shown, n)));
+    for (let n = first; n < axis.length && axis[n] <= to; ++n) ctx.lineTo(...place(point(shown, n)));
     ctx.stroke();
     ctx.globalAlpha = 1;
     if (t == null) return;
@@ -55,5 +55,5 @@ function drawPlaneGrid(ctx, width, height, round, scale, chart) {
   ctx.arc(0, 0, round * scale, 0, 7);
   ctx.stroke();
   ctx.fillStyle = palette.quiet;
-  ctx.fillText(`${figure(round * (chart.factor ?? 1)).replace(/\.0+$/, '')} ${chart.unit}`, 0, round * scale - 4);
+  ctx.fillText(`${Number((round * (chart.factor ?? 1)).toPrecision(2))} ${chart.unit}`, 0, round * scale - 4);
 }

@@ -153,12 +153,14 @@ function changeUnits() {
   instruments.units();
 }
 
+const grouped = (count) => count.toLocaleString('en').replace(/,/g, '\u202f');
+
 function noteEnvelope() {
   const thin = data.charts.filter((c) => !c.complete);
   if (!thin.length) return;
   element('envelope').textContent =
-    `The run has ${thin[0].recorded.toLocaleString('en').replace(/,/g, '\u202f')} recorded rows: here an envelope stands ` +
-    `for them that keeps every peak; ${data.rows?.length ? `where less than ${ROWS_IN_VIEW} are in view, all are drawn.` : 'the close-ups hold every row.'}`;
+    `The run has ${grouped(thin[0].recorded)} recorded rows: here an envelope stands ` +
+    `for them that keeps every peak; ${data.rows?.length ? `where fewer than ${grouped(ROWS_IN_VIEW)} are in view, all are drawn.` : 'the close-ups hold every row.'}`;
 }
 
 /** The envelope stands first; every row follows when the page can be read already. */

@@ -12,7 +12,7 @@ test('opens quickly, with verdict and all charts', async () => {
     await page.reload();
     best = Math.min(best, await page.evaluate(() => sixstep.ready_ms));
   }
-  assert.ok(best < 2000, `${best} ms`);
+  assert.ok(best < 1000, `${best} ms`);
   assert.equal(await page.locator('.verdict .word').textContent(), 'PASS');
   const ids = await page.locator('#charts .chart').evaluateAll((all) => all.map((c) => c.id));
   assert.deepEqual(ids, ['currents', 'logic', 'line-voltages', 'back-emf', 'speed', 'torque', 'duty'].map((n) => 'chart-' + n));
