@@ -80,13 +80,16 @@ std::string loop(const LoopGains& g) {
   return text;
 }
 
-std::string gains(const Outcome& outcome) {
+std::string gains(const Scenario& scenario, const Outcome& outcome) {
+  using sixstep::control::Mode;
+  const auto& inner = scenario.control.current;
   std::string text;
+  if (scenario.control.mode >= Mode::current && inner.type == sixstep::study::CurrentLoopType::hysteresis)
+    text += answer("Current loop", "<b>hysteresis, ±" + computed(inner.band_A, "A") + "</b>");
   for (const LoopGains& g : outcome.gains) text += answer(escaped(g.loop + " loop"), loop(g));
   if (text.empty())
-    text = answer("Controller", "none");
-  else
-    text += "<div class=\"more\"><a href=\"#gains\">Derivation</a></div>";
+    text = answer("Controller", scenario.control.mode == Mode::off ? "off" : "none: the duty is given");
+  if (!outcome.gains.empty()) text += "<div class=\"more\"><a href=\"#gains\">Derivation</a></div>";
   return card("tuned", "Gains", list(text));
 }
 
@@ -105,8 +108,10 @@ std::string step_chart(const Trace& trace, const Step& step) {
   Curves curves{part(*current)};
   if (reference) curves.push_back(part(*reference));
   const Scale in = scale_for(step.window.to - step.window.from, "s");
-  SvgChart chart{
-      .title = "Motor current", .x_label = in.unit + " after the step", .y_label = "A", .compact = true};
+  SvgChart chart{.title = "Motor current",
+                 .x_label = in.unit + (step.of == "start" ? " after the start" : " after the step"),
+                 .y_label = "A",
+                 .compact = true};
   const Thinned kept = thinned(part(*time), curves, {}, rows_drawn, rows_drawn);
   const auto drawn = [&](const char* label, const char* style, std::span<const double> values) {
     SvgCurve curve{.label = label, .style = style};
@@ -146,7 +151,8 @@ std::string step(const Scenario& scenario, const Trace& trace) {
 /// What became of the supplied energy; a part may be negative where the motor gave back.
 std::string energy(const EnergyBook& b) {
   const auto row = [&](const char* name, double joule) {
-    if (joule == 0.0) return std::string();
+    // What went in and came out again leaves a rounding.
+    if (std::abs(joule) <= 1e-12 * b.moved) return std::string();
     const double share = b.supplied > 0.0 ? joule / b.supplied : 0.0;
     return fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n", name,
@@ -166,10 +172,12 @@ std::string cost(const Outcome& outcome, const Trace& trace) {
       all += (*counts)[k];
       if ((*counts)[k] > (*counts)[busiest]) busiest = k;
     }
-    text += list(answer(
-        "Switching", fmt::format("<b>{}</b> turn-ons, {} on average; T{} most often, {} times", grouped(all),
-                                 computed(static_cast<double>(all) / outcome.simulated_s, "Hz"), busiest + 1,
-                                 grouped((*counts)[busiest]))));
+    const std::string told =
+        all == 0 ? std::string("none: no switch is turned on after the start")
+                 : fmt::format("<b>{}</b> turn-ons, {} on average; T{} most often, {} times", grouped(all),
+                               computed(static_cast<double>(all) / outcome.simulated_s, "Hz"), busiest + 1,
+                               grouped((*counts)[busiest]));
+    text += list(answer("Switching", told));
   }
   return text.empty() ? "" : card("cost", "What it cost", text);
 }
@@ -177,8 +185,8 @@ std::string cost(const Outcome& outcome, const Trace& trace) {
 }  // namespace
 
 std::string glance_section(const Scenario& scenario, const Outcome& outcome, const Trace& trace) {
-  return "<div class=\"glance\">\n<div>" + limits(scenario, outcome, trace) + gains(outcome) + "</div>\n" +
-         step(scenario, trace) + cost(outcome, trace) + "</div>\n";
+  return "<div class=\"glance\">\n<div>" + limits(scenario, outcome, trace) + gains(scenario, outcome) +
+         "</div>\n" + step(scenario, trace) + cost(outcome, trace) + "</div>\n";
 }
 
 }  // namespace io::report

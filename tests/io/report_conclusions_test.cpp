@@ -106,6 +106,11 @@ TEST(Glance, answers_what_a_reader_asks_first) {
   EXPECT_THAT(html, HasSubstr("Current in its step from 5\u00a0A to −5\u00a0A"));
   EXPECT_THAT(html, HasSubstr("given as d1, d0; pole placement says 4.0956, −3.694"));
   EXPECT_THAT(html, HasSubstr("<h2>What it cost</h2>"));
+  EXPECT_THAT(html, HasSubstr("turn-ons, "));
+  run.scenario.control.current.type = sixstep::study::CurrentLoopType::hysteresis;
+  run.scenario.control.current.band_A = 0.25;
+  run.outcome.gains.clear();
+  EXPECT_THAT(page(run), HasSubstr("hysteresis, ±250.0\u00a0mA"));
   run.outcome.verdicts[2].ok = false;
   EXPECT_THAT(page(run), HasSubstr("Not met</dt><dd>mean current from 2 ms to 5 ms"));
 }
