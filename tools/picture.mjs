@@ -21,10 +21,12 @@ const browser = await playwright.chromium.launch({
 async function photograph(name, last, words) {
   const file = path.join(folder, `${name}.html`);
   execFileSync(program, [...words, '--html', file, '--quiet'], {cwd: root});
-  const page = await browser.newPage({viewport: {width: 1200, height: 1400}, colorScheme: 'light', deviceScaleFactor: 1.25});
+  const page = await browser.newPage({viewport: {width: 1200, height: 1400}, colorScheme: 'light', deviceScaleFactor: 1.15});
   await page.goto(pathToFileURL(file).href);
   await page.waitForFunction(() => globalThis.sixstep?.charts?.length > 0);
   await page.waitForTimeout(300); // the charts are drawn with the next frames
+  await page.evaluate(() => globalThis.sixstep.pointAt?.(0.0031));
+  await page.waitForTimeout(200);
   const box = await page.locator(`#chart-${last}`).boundingBox();
   const picture = path.join(root, `docs/images/${name}.png`);
   await page.screenshot({path: picture, clip: {x: 0, y: 0, width: 1200, height: Math.ceil(box.y + box.height + 16)}});

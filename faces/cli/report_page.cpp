@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "io/report/comparison.hpp"
 #include "io/report/report.hpp"
 #include "io/text_file.hpp"
 
@@ -23,6 +24,13 @@ std::string report_index(const std::vector<ReportLink>& links, const std::string
   entries.reserve(links.size());
   for (const ReportLink& link : links) entries.push_back({link.title, link.file, link.outcome});
   return io::report::render_index(entries, command, SIXSTEP_VERSION);
+}
+
+std::string comparison_page(const std::vector<ComparedSource>& runs, const std::string& command) {
+  io::report::ComparisonInput input{.runs = {}, .command = command, .version = SIXSTEP_VERSION};
+  for (const ComparedSource& run : runs)
+    input.runs.push_back({run.name, run.scenario, run.outcome, run.events, run.grid});
+  return io::report::render_comparison(input);
 }
 
 }  // namespace cli

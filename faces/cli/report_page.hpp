@@ -28,4 +28,14 @@ struct ReportLink {
 
 std::string report_index(const std::vector<ReportLink>& links, const std::string& command);
 
+struct ComparedSource {
+  std::string name;
+  const study::Scenario& scenario;
+  const study::Outcome& outcome;
+  const study::Trace& events;
+  const study::Trace& grid;  ///< the same instants for all runs
+};
+
+std::string comparison_page(const std::vector<ComparedSource>& runs, const std::string& command);
+
 }  // namespace cli

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "batch/for_each.hpp"
+#include "faces/cli/compare_command.hpp"
 #include "faces/cli/progress.hpp"
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/run_reading.hpp"
@@ -106,11 +107,9 @@ Exit run_jobs(const RunArguments& arguments, JobsRead& read) {
   std::optional<io::AtomicFile> index;
   base::Problems problems = std::move(read.problems);
   if (problems.empty() && arguments.runs > 0) return series_command(arguments, read.jobs);
+  if (problems.empty() && compares(arguments)) return compare_command(arguments, read.jobs);
   if (problems.empty()) problems = prepare(arguments, read.jobs, index);
-  if (!problems.empty()) {
-    complain(problems);
-    return Exit::bad_input;
-  }
+  if (!problems.empty()) return refused(problems);
   run_all(read.jobs, arguments);
   return tell(read.jobs, arguments, index);
 }
@@ -127,10 +126,7 @@ Exit run_again_on_save(const RunArguments& arguments) {
 }
 
 Exit run_command(const RunArguments& arguments) {
-  if (const base::Problems problems = contradictions(arguments); !problems.empty()) {
-    complain(problems);
-    return Exit::bad_input;
-  }
+  if (const base::Problems problems = contradictions(arguments); !problems.empty()) return refused(problems);
   catch_interrupts();
   if (arguments.watch) return run_again_on_save(arguments);
   JobsRead read = read_jobs(arguments);
@@ -145,7 +141,7 @@ void declare_options(CLI::App& run, RunArguments& a) {
   run.add_option("--mat73", a.paths.mat73, "write the trace as MAT 7.3, which is HDF5");
   run.add_option("--vcd", a.paths.vcd, "write gates, Hall lines, timer and faults for a waveform viewer");
   run.add_option("--json", a.paths.json, "write verdicts and figures; - for standard output");
-  run.add_option("--html", a.paths.html, "write the report");
+  run.add_option("--html", a.paths.html, "write the report; of several files, one that compares them");
   take_sets(run, a.sets);
   take_data(run, a.data_dir);
   run.add_flag("--quiet", a.quiet, "no table, only errors and the exit code");

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "faces/cli/compare_command.hpp"
 #include "faces/cli/settings.hpp"
 #include "io/scenario_file.hpp"
 #include "io/text_file.hpp"
@@ -78,10 +79,13 @@ base::Problems same_outputs(const RunArguments& arguments) {
 base::Problems contradictions(const RunArguments& arguments) {
   base::Problems problems;
   const bool single = !arguments.paths.files().empty() || !arguments.paths.json.empty();
-  if (single && (arguments.files.size() > 1 || !arguments.out.empty()))
-    problems.push_back({.where = "--csv, --mat, --mat73, --vcd, --json, --html",
-                        .limit = "name the outputs of one scenario",
-                        .cure = "with several files or --out use --out DIR alone"});
+  if (compares(arguments))
+    append(problems, check_comparison(arguments));
+  else if (single && (arguments.files.size() > 1 || !arguments.out.empty()))
+    problems.push_back(
+        {.where = "--csv, --mat, --mat73, --vcd, --json, --html",
+         .limit = "name the outputs of one scenario",
+         .cure = "with several files or --out use --out DIR alone; --html alone compares the files"});
   if (arguments.runs > 0 && (single || !arguments.out.empty()))
     problems.push_back({.where = "--runs",
                         .limit = "writes no files of single runs",

@@ -3,23 +3,11 @@
 
 const GUTTER = {left: 62, right: 56};  // the same for all, so that one instant stands on one vertical line
 
-/** Little-endian numbers; every machine with a browser keeps them that way. */
-function unpack(text, Type) {
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-  return new Type(bytes.buffer);
-}
-
-/** uPlot takes null for "no value here". */
-function curveValues(text) {
-  const values = unpack(text, Float32Array);
-  return values.some(Number.isNaN) ? Array.from(values, (v) => (Number.isNaN(v) ? null : v)) : values;
-}
-
 // The colours live in the style sheet alone; they are read once per theme.
 let palette = {};
 function readPalette() {
   const style = getComputedStyle(document.documentElement);
-  const names = ['ink', 'quiet', 'grid', 'line', 'paper', 'a', 'b', 'c', 'a-soft', 'b-soft', 'c-soft', 'main', 'reference'];
+  const names = ['ink', 'quiet', 'grid', 'line', 'paper', 'a', 'b', 'c', 'a-soft', 'b-soft', 'c-soft', 'main', 'reference', 'accent'];
   // A canvas does not know color-mix(): let the browser compute it.
   const probe = document.body.appendChild(document.createElement('i'));
   palette = Object.fromEntries(names.map((name) => {
@@ -94,7 +82,7 @@ function inLanes(chart, raw) {
 
 function curveOptions(curve, index, chart, count) {
   const color = () => palette[curve.style];
-  const options = {label: curve.label, stroke: color, width: curve.style === 'main' ? 1.8 : 1.3, points: {show: false}};
+  const options = {label: curve.label, stroke: color, width: curve.style === 'main' ? 1.8 : 1.3, points: {show: false}, spanGaps: chart.joined};
   if (curve.style === 'reference') Object.assign(options, {dash: [6, 4], width: 1.6});
   // Single points: nothing is drawn between them.
   if (curve.points) Object.assign(options, {paths: () => null, points: {show: true, size: 11, width: 2, stroke: color, fill: () => palette.paper}});
@@ -107,16 +95,36 @@ function curveOptions(curve, index, chart, count) {
   return options;
 }
 
+/** 1, 2 .. 9 times the powers of ten between two frequencies. */
+function decades(min, max) {
+  const splits = [];
+  for (let power = 10 ** Math.floor(Math.log10(min)); power <= max; power *= 10)
+    for (let n = 1; n < 10; ++n) if (n * power >= min && n * power <= max) splits.push(n * power);
+  return splits;
+}
+
+/** A logarithmic axis names its powers of ten only, and writes them as such. */
+function powerText(v, unit) {
+  if (v == null) return '';
+  const power = Math.round(Math.log10(v));
+  if (Math.abs(Math.log10(v) - power) > 1e-9) return '';
+  const name = power >= -2 && power <= 2 ? String(Number((10 ** power).toPrecision(1)))
+    : '10' + String(power).replace(/./g, (c) => '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'['-0123456789'.indexOf(c)]);
+  return unit ? `${name}\u202f${unit}` : name;
+}
+
 /** The left axis, and on the right the same in another unit where the chart has one. */
 function valueAxes(chart) {
   const font = '12px system-ui, sans-serif';
   const common = {scale: 'y', stroke: () => palette.quiet, font, ticks: {show: false}, grid: {stroke: () => palette.grid, width: 1}};
   const written = (factor) => (u, splits) => {
-    const step = Math.abs((splits[1] - splits[0]) * factor) || 1;
+    const f = factor();
+    const step = Math.abs((splits[1] - splits[0]) * f) || 1;
     const decimals = Math.max(0, Math.min(9, -Math.floor(Math.log10(step * 1.0001) + 1e-9)));
-    return splits.map((v) => (v * factor).toFixed(decimals).replace('-', '−'));
+    return splits.map((v) => (v * f).toFixed(decimals).replace('-', '−'));
   };
-  const left = {...common, size: GUTTER.left, gap: 6, space: 28, values: written(1)};
+  const left = {...common, size: GUTTER.left, gap: 6, space: 28, values: written(() => 1)};
+  if (chart.log) left.values = (u, splits) => splits.map((v) => powerText(v));
   if (chart.logic) {
     const count = chart.curves.length;
     left.splits = () => chart.curves.map((_, i) => count - 1 - i + STRIP / 2);
@@ -138,7 +146,7 @@ function valueAxes(chart) {
       for (let n = Math.ceil((min * f) / step); n * step <= max * f * (1 + 1e-12); ++n) splits.push((n * step) / f);
       return splits;
     };
-    right.values = written(chart.other.factor);
+    right.values = written(() => chart.other.factor);
   } else {
     right.values = (u, splits) => splits.map(() => '');
   }
@@ -150,28 +158,30 @@ function chartOptions(chart, width, time, hooks) {
   const x = {
     stroke: () => palette.quiet, font: '12px system-ui, sans-serif', size: 26, gap: 4, space: 90, ticks: {show: false},
     grid: {stroke: () => palette.grid, width: 1},
-    values: (u, splits, axis, space, incr) => splits.map((t) => time.text(t, incr) + '\u202f' + time.unit),
+    values: (u, splits, axis, space, incr) => splits.map((t) => (chart.log ? powerText(t, time.unit) : time.text(t, incr) + '\u202f' + time.unit)),
   };
+  if (chart.log) Object.assign(x, {splits: (u, axis, min, max) => decades(min, max), filter: (u, splits) => splits});
   // A curve that never moves would otherwise fill the chart with rounding noise.
   const range = (u, min, max) => {
     if (min == null) return [0, 1];
+    if (chart.log) return [10 ** Math.floor(Math.log10(max) - 4), 10 ** Math.ceil(Math.log10(max))];
     const size = Math.max(Math.abs(min), Math.abs(max));
     const room = max - min > 1e-6 * size ? (max - min) * 0.07 : size > 0 ? size * 0.05 : 1;
     return [min - room, max + room];
   };
   return {
     width, height: chart.height, legend: {show: false}, padding: [6, 0, 0, 0],
-    scales: {x: {time: false}, y: chart.logic ? {range: () => [-0.12, count - 0.1]} : chart.lanes ? {range: () => chart.axis.range} : {range}},
+    scales: {x: chart.log ? {time: false, distr: 3, range: (u, min, max) => [min, max]} : {time: false}, y: chart.logic ? {range: () => [-0.12, count - 0.1]} : chart.lanes ? {range: () => chart.axis.range} : {range, distr: chart.log ? 3 : 1}},
     axes: [x, ...valueAxes(chart)],
     series: [{}, ...chart.curves.map((c, i) => curveOptions(c, i, chart, count))],
     cursor: {
-      y: false, points: {show: !chart.logic, size: 6, width: 0, fill: (u, i) => palette[chart.curves[i - 1].style]},
-      drag: {x: true, y: false, dist: 4}, sync: {key: 'time', scales: ['x', null]},
+      y: false, points: {show: !chart.logic && !chart.joined, size: 6, width: 0, fill: (u, i) => palette[chart.curves[i - 1].style]},
+      drag: {x: true, y: false, dist: 4}, sync: {key: hooks.sync, scales: ['x', null]},
       bind: {dblclick: () => hooks.whole},
     },
     hooks: {
       setScale: [(u, key) => key === 'x' && hooks.zoomed(u.scales.x.min, u.scales.x.max)],
-      setCursor: [(u) => hooks.cursor(u)],
+      draw: [(u) => hooks.drawn?.(u)],
     },
   };
 }
@@ -181,7 +191,7 @@ function captionOf(chart, onToggle) {
   const caption = document.createElement('figcaption');
   const add = (css, text) => Object.assign(caption.appendChild(document.createElement('span')), {className: css, textContent: text});
   add('name', chart.title);
-  add('unit', chart.unit);
+  const unit = add('unit', chart.unit);
   const values = chart.curves.map((curve, i) => {
     const chip = caption.appendChild(document.createElement('button'));
     chip.type = 'button';
@@ -201,30 +211,61 @@ function captionOf(chart, onToggle) {
     });
     return value;
   });
-  return {caption, values};
+  return {caption, values, unit};
 }
 
-/** Builds one chart into the parent; returns what the page needs to steer it. */
-function buildChart(parent, chart, axis, time, hooks) {
+/** Curves on their way to uPlot, in the chart's unit. */
+function drawnData(chart, curves) {
+  const same = curves.every((c) => c.axis === curves[0].axis);
+  chart.joined = !same;
+  const [axis, columns] = same ? [curves[0].axis, curves.map((c) => c.raw)] : joined(curves);
+  const scaled = chart.factor === 1 ? columns
+    : columns.map((values) => Array.from(values, (v) => (v == null ? null : v * chart.factor)));
+  if (chart.logic) return [axis, ...scaled.map((v, i) => stripped(v, i, scaled.length))];
+  return [axis, ...(chart.lanes ? inLanes(chart, scaled) : scaled)];
+}
+
+/** Builds one chart into the parent; returns what the page needs to steer it. `axisOf(curve)` is its own x axis. */
+function buildChart(parent, chart, axisOf, x, hooks) {
   const box = parent.appendChild(document.createElement('figure'));
   box.className = chart.logic ? 'chart logic' : 'chart';
   box.id = 'chart-' + chart.id;
-  const raw = chart.curves.map((c) => curveValues(c.data));
-  const drawn = chart.logic ? raw.map((v, i) => stripped(v, i, raw.length)) : chart.lanes ? inLanes(chart, raw) : raw;
-  const {caption, values} = captionOf(chart, (i, show) => plot.setSeries(i + 1, {show}));
+  chart.factor ??= 1;
+  const curves = chart.curves.map((c) => ({axis: axisOf(c), raw: curveValues(c.data), held: chart.logic, shown: true}));
+  const {caption, values, unit} = captionOf(chart, (i, show) => {
+    curves[i].shown = show;
+    plot.setSeries(i + 1, {show});
+  });
   box.append(caption);
-  const showValues = (u) => {
-    const at = u.cursor.idx;
-    values.forEach((node, i) => {
-      const v = at == null || u.cursor.left < 0 ? undefined : raw[i][at];
-      const text = v === undefined ? '' : chart.logic ? String(v ?? '–') : figure(v);
-      const other = text && chart.other ? ` · ${figure(v == null ? v : v * chart.other.factor)} ${chart.other.unit}` : '';
-      node.textContent = text + other;
-    });
-    hooks.cursor(u);
-  };
-  const plot = new uPlot(chartOptions(chart, box.clientWidth, time, {...hooks, cursor: showValues}), [axis, ...drawn], box);
+  const show = (t) => values.forEach((node, i) => {
+    const v = t == null ? undefined : valueAt(curves[i].full ?? curves[i], t);
+    const shown = v == null ? v : v * chart.factor;
+    const text = v === undefined ? '' : chart.logic ? String(v ?? '–') : figure(shown);
+    node.textContent = text && chart.other ? `${text} · ${figure(v == null ? v : shown * chart.other.factor)} ${chart.other.unit}` : text;
+  });
+  const data = drawnData(chart, curves);
+  const plot = new uPlot(chartOptions(chart, box.clientWidth, x, hooks), data, box);
   plot.root.setAttribute('role', 'img');
-  plot.root.setAttribute('aria-label', `${chart.title} over ${time.name ?? 'time'}`);
-  return {plot, box};
+  const describe = () => {
+    unit.textContent = chart.unit;
+    plot.root.setAttribute('aria-label', summaryOf(chart, curves, x));
+  };
+  describe();
+  const over = plot.over;
+  over.addEventListener('mousemove', (e) => hooks.pointed(plot.posToVal(e.clientX - over.getBoundingClientRect().left, 'x')));
+  over.addEventListener('mouseleave', () => hooks.pointed(null));
+  let close = null;  // the rows drawn instead of the envelope
+  const frame = (min, max) => plot.batch(() => {
+    const rows = curvesInView(curves, min, max);
+    if (rows || close) plot.setData(drawnData(chart, rows ?? curves), false);
+    close = rows;
+    plot.setScale('x', {min, max});
+  });
+  const rescale = () => {
+    const {min, max} = plot.scales.x;
+    plot.setData(drawnData(chart, close ?? curves), false);
+    plot.setScale('x', {min, max});
+    describe();
+  };
+  return {plot, box, chart, curves, show, frame, rescale, rowsDrawn: () => close?.[0].axis.length ?? 0};
 }

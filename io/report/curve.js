@@ -17,43 +17,21 @@ function show(from, to) {
   linking = false;
 }
 
-function describeCursor(u) {
-  const inside = u.cursor.left >= 0 && u.cursor.idx != null;
-  document.getElementById('cursor').textContent = inside ? `${speed.text(axis[u.cursor.idx], 1)} rpm` : '';
-}
-
-function repaint() {
-  readPalette();
-  for (const {plot} of charts) plot.redraw();
-}
-
-function resize() {
-  for (const {plot, box} of charts) if (box.clientWidth) plot.setSize({width: box.clientWidth, height: plot.height});
+function pointed(rpm) {
+  for (const chart of charts) chart.show(rpm);
+  document.getElementById('cursor').textContent = rpm == null ? '' : `${speed.text(rpm, 1)} rpm`;
 }
 
 function start() {
   document.getElementById('plots').hidden = false;
   readPalette();
   const hooks = {
-    zoomed: (from, to) => { if (!linking) show(from, to); },
-    cursor: describeCursor,
+    sync: 'speed', zoomed: (from, to) => { if (!linking) show(from, to); }, pointed,
     whole: () => { show(...whole); return null; },
   };
-  for (const chart of data.charts) charts.push(buildChart(document.getElementById('charts'), chart, axis, speed, hooks));
+  for (const chart of data.charts) charts.push(buildChart(document.getElementById('charts'), chart, () => axis, speed, hooks));
   show(...whole);
-  new ResizeObserver(resize).observe(document.getElementById('charts'));
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', repaint);
-  addEventListener('beforeprint', () => {
-    document.documentElement.classList.add('printing');
-    readPalette();
-    for (const {plot} of charts) plot.setSize({width: 680, height: plot.height});
-    repaint();
-  });
-  addEventListener('afterprint', () => {
-    document.documentElement.classList.remove('printing');
-    repaint();
-    resize();
-  });
+  watchPage(charts, () => {});
   globalThis.sixstep = {charts: charts.map((c) => c.plot), show};  // for scripts and tests
 }
 

@@ -11,6 +11,7 @@
 #include "io/report/figures.hpp"
 #include "io/report/html.hpp"
 #include "io/report/parameters.hpp"
+#include "io/report/shell.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/study/choices.hpp"
 
@@ -120,22 +121,18 @@ std::string alerts(const study::Curve& curve) {
 }  // namespace
 
 std::string render_curve(const CurvePageInput& in) {
-  return filled(assets::curve_html, {{"title", escaped(in.request.sheet.name)},
-                                     {"subtitle", escaped(subtitle(in.request))},
-                                     {"uplot_css", assets::uPlot_min_css},
-                                     {"css", assets::report_css},
-                                     {"facts", facts(in.request, in.curve)},
-                                     {"notes", alerts(in.curve)},
-                                     {"table", table(in.request, in.curve)},
-                                     {"sheet", sheet_section(in.request.sheet)},
-                                     {"model", model_section(in.request.bench.motor)},
-                                     {"command", escaped(in.command)},
-                                     {"version", escaped(in.version)},
-                                     {"data", script_safe(curve_charts(in.request, in.curve))},
-                                     {"uplot_license", assets::LICENSE},
-                                     {"uplot_js", assets::uPlot_iife_min_js},
-                                     {"chart_js", assets::chart_js},
-                                     {"curve_js", assets::curve_js}});
+  const std::string title = escaped(in.request.sheet.name);
+  const std::string body = filled(assets::curve_html, {{"title", title},
+                                                       {"subtitle", escaped(subtitle(in.request))},
+                                                       {"facts", facts(in.request, in.curve)},
+                                                       {"notes", alerts(in.curve)},
+                                                       {"table", table(in.request, in.curve)},
+                                                       {"sheet", sheet_section(in.request.sheet)},
+                                                       {"model", model_section(in.request.bench.motor)}});
+  return in_shell(
+      {.title = "Torque-speed curve · " + title, .body = body, .command = in.command, .version = in.version},
+      curve_charts(in.request, in.curve),
+      {assets::curves_js, assets::chart_js, assets::rows_js, assets::page_js, assets::curve_js});
 }
 
 }  // namespace io::report

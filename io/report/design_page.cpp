@@ -9,6 +9,7 @@
 #include "io/report/design_charts.hpp"
 #include "io/report/figures.hpp"
 #include "io/report/html.hpp"
+#include "io/report/shell.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/thesis_figures.hpp"
 
@@ -141,24 +142,26 @@ std::string render_design(const DesignPage& page) {
   const std::size_t colon = page.verdict.find(':');
   const std::string word = page.verdict.substr(0, colon),
                     line = colon == page.verdict.npos ? "" : page.verdict.substr(colon + 1);
-  return filled(assets::design_html,
-                {{"title", escaped(s.scenario.title)},
-                 {"css", assets::report_css},
-                 {"subtitle", escaped(s.scenario.sheet.name) + " · " + escaped(given(s.design.bus_V, "V"))},
-                 {"standing_class", s.usable() ? "pass" : "fail"},
-                 {"standing", escaped(word)},
-                 {"standing_line", escaped(line)},
-                 {"warnings", warnings(s)},
-                 {"simulated", simulated(s)},
-                 {"step_charts", step_charts(s)},
-                 {"gains", gains},
-                 {"margins", margins(s)},
-                 {"loop_charts", loop_charts(s)},
-                 {"limit_charts", limit_charts(s)},
-                 {"tolerances", tolerances(s)},
-                 {"scenario", escaped(page.scenario)},
-                 {"command", escaped(page.command)},
-                 {"version", escaped(page.version)}});
+  const std::string body =
+      filled(assets::design_html,
+             {{"title", escaped(s.scenario.title)},
+              {"subtitle", escaped(s.scenario.sheet.name) + " · " + escaped(given(s.design.bus_V, "V"))},
+              {"standing_class", s.usable() ? "pass" : "fail"},
+              {"standing", escaped(word)},
+              {"standing_line", escaped(line)},
+              {"warnings", warnings(s)},
+              {"simulated", simulated(s)},
+              {"step_charts", step_charts(s)},
+              {"gains", gains},
+              {"margins", margins(s)},
+              {"loop_charts", loop_charts(s)},
+              {"limit_charts", limit_charts(s)},
+              {"tolerances", tolerances(s)},
+              {"scenario", escaped(page.scenario)}});
+  return in_shell({.title = escaped(word + " · " + s.scenario.title),
+                   .body = body,
+                   .command = page.command,
+                   .version = page.version});
 }
 
 }  // namespace io::report

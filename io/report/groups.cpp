@@ -13,7 +13,6 @@ using sixstep::control::Mode;
 using sixstep::study::Trace;
 
 constexpr const char* hall_labels[] = {"H1", "H2", "H3"};
-constexpr double rpm_per_rad_s = 30.0 / 3.14159265358979323846;
 
 /// What a reader sees when hovering over a label: the column's own words.
 std::string meaning_of(const Trace& trace, std::string_view name) {
@@ -28,8 +27,13 @@ void add(Group& group, const Trace& trace, std::string_view name, std::string la
     group.curves.push_back({std::move(label), std::move(style), meaning_of(trace, name), values});
 }
 
+std::vector<double> in_degrees(std::vector<double> angles) {
+  for (double& value : angles) value *= 180.0 / 3.14159265358979323846;
+  return angles;
+}
+
 Group currents(const Trace& trace) {
-  Group g{.id = "currents", .title = "Currents", .unit = "A", .height_px = 270};
+  Group g{.id = "currents", .title = "Currents", .unit = "A", .height_px = 270, .quantity = "current"};
   add(g, trace, "i_a_A", "i_a", "a");
   add(g, trace, "i_b_A", "i_b", "b");
   add(g, trace, "i_c_A", "i_c", "c");
@@ -76,16 +80,14 @@ Group back_emf(const Trace& trace) {
 }
 
 Group speed(const Trace& trace) {
-  Group g{.id = "speed", .title = "Speed", .unit = "rad/s", .height_px = 190};
-  g.other_unit = "rpm";
-  g.other_factor = rpm_per_rad_s;
+  Group g{.id = "speed", .title = "Speed", .unit = "rad/s", .height_px = 190, .quantity = "speed"};
   add(g, trace, "speed_rad_s", "ω", "main");
   add(g, trace, "speed_ref_rad_s", "ω_ref", "reference");
   return g;
 }
 
 Group torque(const Trace& trace) {
-  Group g{.id = "torque", .title = "Torque", .unit = "Nm", .height_px = 150};
+  Group g{.id = "torque", .title = "Torque", .unit = "Nm", .height_px = 150, .quantity = "torque"};
   add(g, trace, "torque_Nm", "T_e", "main");
   const auto* load = find_column(trace, "load_Nm");
   if (load && std::ranges::any_of(*load, [](double t) { return t != 0.0; }))
@@ -101,13 +103,9 @@ Group duty(const Trace& trace) {
 
 /// The shaft's angle is of interest where it is controlled; elsewhere it only grows.
 Group position(const Trace& trace, std::deque<std::vector<double>>& derived) {
-  Group g{.id = "position", .title = "Position", .unit = "°", .height_px = 220};
-  g.other_unit = "turns";
-  g.other_factor = 1.0 / 360.0;
+  Group g{.id = "position", .title = "Position", .unit = "°", .height_px = 220, .quantity = "angle"};
   if (const auto* angle = find_column(trace, "angle_rad")) {
-    std::vector<double> degrees(*angle);
-    for (double& value : degrees) value *= 180.0 / 3.14159265358979323846;
-    derived.push_back(std::move(degrees));
+    derived.push_back(in_degrees(*angle));
     g.curves.push_back({"θ", "main", meaning_of(trace, "angle_rad"), &derived.back()});
   }
   add(g, trace, "position_ref_deg", "θ_ref", "reference");
@@ -150,6 +148,7 @@ Groups chart_groups(const Trace& trace, const sixstep::study::Scenario& scenario
   charts.push_back(duty(trace));
   charts.push_back(bus(trace));
   std::erase_if(charts, nothing_to_see);
+  if (const auto* angle = find_column(trace, "angle_rad")) out.angle_deg = in_degrees(*angle);
   return out;
 }
 

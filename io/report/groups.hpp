@@ -20,15 +20,15 @@ struct Curve {
 struct Group {
   std::string id, title, unit;
   int height_px = 180;
-  bool logic = false;  ///< strips of zeros and ones, one below the other
-  bool lanes = false;  ///< one curve above the other, each around its own zero: what would hide each other
-  std::string other_unit;   ///< right-hand axis
-  double other_factor = 1;  ///< right = left * factor
+  bool logic = false;    ///< strips of zeros and ones, one below the other
+  bool lanes = false;    ///< one curve above the other, each around its own zero: what would hide each other
+  std::string quantity;  ///< "speed", "angle", "torque", "current": what the reader may choose the unit of
   std::vector<Curve> curves;
 };
 
 struct Groups {
   std::vector<Group> charts;
+  std::vector<double> angle_deg;            ///< of the shaft, counted over turns; empty where not recorded
   std::deque<std::vector<double>> derived;  ///< columns made here (Hall bits); a deque keeps their addresses
 };
 

@@ -136,6 +136,9 @@ std::string script_safe(std::string_view json) {
   return out;
 }
 
+std::string base64(std::span<const std::uint8_t> bytes) {
+  return base64_bytes(std::string(bytes.begin(), bytes.end()));
+}
 std::string base64(std::span<const float> values) {
   return base64_bytes(little_endian<std::uint32_t>(values));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Text on its way into a page: what makes it harmless there, and how a page's gaps are filled.
 #pragma once
+#include <cstdint>
 #include <initializer_list>
 #include <span>
 #include <string>
@@ -22,6 +23,7 @@ std::string typeset(std::string_view formula);
 /// JSON on its way into <script>: "</script>" and "<!--" must not be seen by the HTML parser.
 std::string script_safe(std::string_view json);
 
+std::string base64(std::span<const std::uint8_t> bytes);
 /// Little-endian, whatever this machine's order is.
 std::string base64(std::span<const float> values);
 std::string base64(std::span<const double> values);

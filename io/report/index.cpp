@@ -6,6 +6,7 @@
 
 #include "io/report/html.hpp"
 #include "io/report/report.hpp"
+#include "io/report/shell.hpp"
 #include "io/report/verdicts.hpp"
 
 namespace io::report {
@@ -56,15 +57,17 @@ std::string render_index(const std::vector<IndexEntry>& entries, std::string_vie
   const auto passed = std::ranges::count_if(entries, [](const IndexEntry& e) { return e.outcome->passed(); });
   const bool all = passed == static_cast<std::ptrdiff_t>(entries.size());
   const std::string line = fmt::format("{} of {} experiments pass", passed, entries.size());
-  const std::string shown_command = escaped(command), shown_version = escaped(version);
-  return filled(assets::index_html, {{"css", assets::report_css},
-                                     {"standing_class", all ? "pass" : "fail"},
-                                     {"standing", all ? "PASS" : "FAIL"},
-                                     {"standing_line", line},
-                                     {"failed", failed_list(entries)},
-                                     {"sections", sections},
-                                     {"command", shown_command},
-                                     {"version", shown_version}});
+  const char* word = all ? "PASS" : "FAIL";
+  const std::string body = filled(assets::index_html, {{"standing_class", all ? "pass" : "fail"},
+                                                       {"standing", word},
+                                                       {"standing_line", line},
+                                                       {"failed", failed_list(entries)},
+                                                       {"sections", sections}});
+  return in_shell({.title = fmt::format("{} · {}", word, line),
+                   .body = body,
+                   .command = command,
+                   .version = version,
+                   .main_class = "index"});
 }
 
 }  // namespace io::report

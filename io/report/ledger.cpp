@@ -48,7 +48,15 @@ std::string account(const Entry& total, std::initializer_list<Entry> entries, do
       "<table class=\"ledger\"><thead><tr><th></th><th class=\"num\">{}</th><th></th></tr></thead><tbody>\n",
       scale.unit);
   html += row(total, "total");
-  for (const Entry& e : entries) html += row(e, "part");
+  double missing = total.joule;
+  for (const Entry& e : entries) {
+    html += row(e, "part");
+    missing -= e.joule;
+  }
+  html += fmt::format(
+      "<tr class=\"residual\"><th scope=\"row\">Residual<small>what does not add up</small></th><td "
+      "class=\"num\">{}</td><td class=\"share\"></td></tr>\n",
+      computed(missing, "J"));
   html += fmt::format("</tbody></table><p class=\"closing\">closes to <b>{}</b> of the energy moved</p>\n",
                       plain(std::abs(residual), 2, true));
   return html;

@@ -1,58 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/report/plots.hpp"
 
-#include <map>
-#include <nlohmann/json.hpp>
+#include <numeric>
 
-#include "io/report/groups.hpp"
-#include "io/report/html.hpp"
-#include "io/report/thinning.hpp"
-#include "io/report/windows.hpp"
+#include "io/report/chart_json.hpp"
+#include "io/report/conduction.hpp"
 
 namespace io::report {
 namespace {
 
-using json = nlohmann::ordered_json;
-
-template <class To>
-std::string packed(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
-  std::vector<To> chosen;
-  chosen.reserve(rows.size());
-  for (const std::size_t n : rows) chosen.push_back(static_cast<To>(values[n]));
-  return base64(std::span<const To>(chosen));
+/// All changes where they are few enough to carry; a page must stay small enough to send.
+json conduction_json(const Conduction& c) {
+  constexpr std::size_t most = 400000;
+  if (c.code.empty() || c.code.size() > most) return nullptr;
+  return {{"time", base64(std::span<const double>(c.time_s))},
+          {"code", base64(std::span<const std::uint8_t>(c.code))},
+          {"end", c.end_s}};
 }
 
-json windows_json(const Windows& windows, const sixstep::study::Scenario& scenario) {
-  json out = json::array();
-  const auto add = [&](const char* id, const char* label, const std::optional<Interval>& window) {
-    if (window) out.push_back({{"id", id}, {"label", label}, {"from", window->from}, {"to", window->to}});
-  };
-  const bool hysteresis = scenario.control.current.type == sixstep::study::CurrentLoopType::hysteresis &&
-                          scenario.control.mode >= sixstep::control::Mode::current;
-  add("periods", hysteresis ? "Switching" : "Three PWM periods", windows.periods);
-  add("commutation", "One commutation", windows.commutation);
-  return out;
+/// Every row of every curve; null where that is too much to send.
+json every_row(const std::vector<double>& time, const Groups& groups, std::size_t most_bytes) {
+  std::vector<const std::vector<double>*> columns;
+  std::vector<CurvePlace> places;
+  for (std::size_t chart = 0; chart < groups.charts.size(); ++chart)
+    for (std::size_t curve = 0; curve < groups.charts[chart].curves.size(); ++curve) {
+      columns.push_back(groups.charts[chart].curves[curve].values);
+      places.push_back({chart, curve});
+    }
+  const auto packed = packed_rows(time, columns, most_bytes);
+  return packed ? rows_json(*packed, places) : json();
 }
 
-json chart_json(const Group& group, std::size_t axis, const Thinned& rows, std::size_t recorded) {
-  json chart{
-      {"id", group.id},       {"title", group.title}, {"unit", group.unit}, {"height", group.height_px},
-      {"logic", group.logic}, {"lanes", group.lanes}, {"axis", axis},       {"complete", rows.complete},
-      {"recorded", recorded}};
-  if (!group.other_unit.empty())
-    chart["other"] = {{"unit", group.other_unit}, {"factor", group.other_factor}};
-  for (const Curve& curve : group.curves)
-    chart["curves"].push_back({{"label", curve.label},
-                               {"style", curve.style},
-                               {"meaning", curve.meaning},
-                               {"data", packed<float>(*curve.values, rows.rows)}});
-  return chart;
+json spectra_json(const Spectra& spectra, json& page) {
+  json charts = json::array();
+  for (const DrawnSpectrum& s : spectra.all) {
+    const Drawn lines = drawn_lines(s.lines);
+    const Group group{.id = s.id, .title = s.title, .unit = s.unit, .height_px = 220, .quantity = s.quantity};
+    std::vector<std::size_t> rows(lines.amplitude.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    json chart = chart_json(group, true, rows.size());
+    chart["log"] = true;
+    const Curve curve{s.label, s.style, "amplitude", &lines.amplitude};
+    chart["curves"].push_back(curve_json(curve, page["axes"].size(), rows));
+    page["axes"].push_back(packed<double>(lines.frequency_Hz, rows));
+    charts.push_back(std::move(chart));
+  }
+  return charts;
 }
 
 }  // namespace
 
 std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
-                      PlotSize size) {
+                      int pole_pairs, PlotSize size, const std::optional<Spectra>& found) {
   json out{
       {"run", json::array()}, {"windows", json::array()}, {"axes", json::array()}, {"charts", json::array()}};
   const auto* time = find_column(trace, "t_s");
@@ -60,21 +59,32 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
   out["run"] = {time->front(), time->back()};
   const Windows windows = choose_windows(trace, scenario);
   out["windows"] = windows_json(windows, scenario);
-  std::vector<Interval> keep;
-  for (const auto& window : {windows.periods, windows.commutation})
-    if (window) keep.push_back(*window);
-  // Charts that keep the same rows share one time axis: it is the largest part of the file.
-  std::map<std::vector<std::size_t>, std::size_t> axes;
+  Axes axes(out);
   const Groups groups = chart_groups(trace, scenario);
+  const json every = time->size() > size.full ? every_row(*time, groups, size.packed_bytes) : json();
+  // Where every row is at hand, an envelope needs no close-ups.
+  const std::vector<Interval> keep =
+      every.is_null() ? kept(windows, *time, size.full) : std::vector<Interval>();
+  if (!every.is_null()) out["rows"] = json::array({every});
   for (const Group& group : groups.charts) {
     Curves curves;
     for (const Curve& curve : group.curves) curves.emplace_back(*curve.values);
     const Thinned rows = thinned(*time, curves, keep, size.cap, size.full);
-    const auto [axis, fresh] = axes.try_emplace(rows.rows, axes.size());
-    if (fresh) out["axes"].push_back(packed<double>(*time, rows.rows));
-    out["charts"].push_back(chart_json(group, axis->second, rows, time->size()));
+    json chart = chart_json(group, rows.complete, time->size());
+    for (const Curve& curve : group.curves)
+      chart["curves"].push_back(curve_json(curve, axes.of(*time, rows.rows), rows.rows));
+    out["charts"].push_back(std::move(chart));
   }
-  return out.dump(-1, ' ', false, json::error_handler_t::replace);
+  if (!groups.angle_deg.empty()) {
+    // It turns smoothly: between 2000 rows a straight line is as good as the drawing.
+    const Thinned rows = thinned(*time, {groups.angle_deg}, {}, 2000, 2000);
+    out["angle"] = {{"axis", axes.of(*time, rows.rows)},
+                    {"data", packed<float>(groups.angle_deg, rows.rows)}};
+  }
+  out["conduction"] = conduction_json(conduction(trace));
+  if (found) out["spectra"] = spectra_json(*found, out);  // behind the axes over time
+  out["pole_pairs"] = pole_pairs;
+  return dumped(out);
 }
 
 }  // namespace io::report

@@ -2,22 +2,27 @@
 // Trace -> the JSON that report.js draws from.
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <string>
 
+#include "io/report/spectra.hpp"
 #include "sixstep/study/outcome.hpp"
 #include "sixstep/study/scenario.hpp"
 
 namespace io::report {
 
-/// Rows per chart: above `full`, an envelope of at most `cap` rows plus the close-ups' every row.
+/// Rows per chart: above `full`, an envelope of at most `cap` rows, and beside it every row, packed; where
+/// that is too much to send, every row of the close-ups.
 struct PlotSize {
   std::size_t cap = 6000;
   std::size_t full = 16000;
+  std::size_t packed_bytes = 5'000'000;  ///< of every row, where they are more; text makes it a third more
 };
 
 /// {"run":[t0,t1], "windows":[..], "axes":[base64 float64..], "charts":[{.., "curves":[{.., "data": base64
 /// float32}]}]}
 std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
-                      PlotSize size = {});
+                      int pole_pairs, PlotSize size = {},
+                      const std::optional<Spectra>& spectra = std::nullopt);
 
 }  // namespace io::report

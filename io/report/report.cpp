@@ -5,10 +5,14 @@
 #include <report_assets.hpp>
 
 #include "io/report/figures.hpp"
+#include "io/report/glance.hpp"
 #include "io/report/html.hpp"
 #include "io/report/ledger.hpp"
 #include "io/report/parameters.hpp"
 #include "io/report/plots.hpp"
+#include "io/report/scripts.hpp"
+#include "io/report/shell.hpp"
+#include "io/report/spectra.hpp"
 #include "io/report/verdicts.hpp"
 #include "sixstep/study/run.hpp"
 
@@ -57,33 +61,32 @@ std::string render(const ReportInput& in) {
   const std::string title = escaped(in.scenario.title.empty() ? in.scenario.motor : in.scenario.title);
   const std::string notes =
       in.scenario.notes.empty() ? "" : "<p class=\"notes\">" + escaped(in.scenario.notes) + "</p>\n";
-  return filled(assets::page_html,
-                {{"title", title},
-                 {"uplot_css", assets::uPlot_min_css},
-                 {"css", assets::report_css},
-                 {"subtitle", subtitle(in)},
-                 {"standing_class", verdict.css},
-                 {"standing", verdict.word},
-                 {"standing_line", verdict.line},
-                 {"notes", notes},
-                 {"alerts", alerts(in)},
-                 {"requirements", requirements(in.outcome)},
-                 {"comparisons", comparisons(in.outcome)},
-                 {"setup", setup_section(in.scenario)},
-                 {"sheet", sheet_section(in.scenario.sheet)},
-                 {"model", model_section(in.outcome.motor)},
-                 {"gains", gains_section(in.outcome)},
-                 {"energy", in.outcome.energy ? energy_section(*in.outcome.energy)
-                                              : "<p class=\"quiet\">No books were kept.</p>\n"},
-                 {"events", event_section(in.outcome)},
-                 {"scenario", escaped(in.scenario_text)},
-                 {"command", escaped(in.command)},
-                 {"version", escaped(in.version)},
-                 {"data", script_safe(plot_data(in.trace, in.scenario))},
-                 {"uplot_license", assets::LICENSE},
-                 {"uplot_js", assets::uPlot_iife_min_js},
-                 {"chart_js", assets::chart_js},
-                 {"report_js", assets::report_js}});
+  const int pole_pairs = in.outcome.motor.machine.pole_pairs;
+  const std::optional<Spectra> found = spectra(in.trace, in.scenario, pole_pairs);
+  const std::string body = filled(
+      assets::page_html, {{"title", title},
+                          {"subtitle", subtitle(in)},
+                          {"standing_class", verdict.css},
+                          {"standing", verdict.word},
+                          {"standing_line", verdict.line},
+                          {"notes", notes},
+                          {"alerts", alerts(in)},
+                          {"glance", glance_section(in.scenario, in.outcome, in.trace)},
+                          {"requirements", requirements(in.outcome)},
+                          {"comparisons", comparisons(in.outcome)},
+                          {"setup", setup_section(in.scenario)},
+                          {"sheet", sheet_section(in.scenario.sheet)},
+                          {"model", model_section(in.outcome.motor)},
+                          {"gains", gains_section(in.outcome)},
+                          {"energy", in.outcome.energy ? energy_section(*in.outcome.energy)
+                                                       : "<p class=\"quiet\">No books were kept.</p>\n"},
+                          {"events", event_section(in.outcome)},
+                          {"plots", assets::plots_html},
+                          {"spectra", spectra_section(found)},
+                          {"scenario", escaped(in.scenario_text)}});
+  return in_shell(
+      {.title = verdict.word + " · " + title, .body = body, .command = in.command, .version = in.version},
+      plot_data(in.trace, in.scenario, pole_pairs, {}, found), run_scripts);
 }
 
 }  // namespace io::report

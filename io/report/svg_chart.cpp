@@ -12,7 +12,11 @@
 namespace io::report {
 namespace {
 
-constexpr double width = 640, height = 280, left = 62, right = 12, top = 10, bottom = 40;
+constexpr double left = 62, right = 12, top = 10, bottom = 40;
+struct Size {
+  double width, height;
+};
+Size size_of(const SvgChart& chart) { return chart.compact ? Size{400, 210} : Size{640, 280}; }
 
 /// From numbers to places on the drawing.
 class Axis {
@@ -65,6 +69,7 @@ class Axis {
 std::string label(double v) { return fmt::format("{:.6g}", v); }
 
 std::string grid(const Axis& x, const Axis& y, const SvgChart& chart) {
+  const auto [width, height] = size_of(chart);
   std::string out;
   for (const double v : x.ticks())
     out += fmt::format(
@@ -102,14 +107,15 @@ std::string caption(const SvgChart& chart) {
   for (const SvgCurve& c : chart.curves)
     out += fmt::format(
         "<span class=\"chip curve\"><span class=\"swatch{}\" "
-        "style=\"border-color:var(--{})\"></span>{}</span>",
-        c.style == "reference" ? " dashed" : "", c.style, escaped(c.label));
+        "style=\"border-color:var(--{})\"></span><span>{}</span></span>",
+        c.style == "reference" ? " dashed" : "", c.style, with_subscripts(c.label));
   return out + "</figcaption>\n";
 }
 
 }  // namespace
 
 std::string svg_chart(const SvgChart& chart) {
+  const auto [width, height] = size_of(chart);
   Axis x(chart.log_x, left, width - right), y(chart.log_y, height - bottom, top);
   for (const SvgCurve& c : chart.curves)
     for (std::size_t n = 0; n < std::min(c.x.size(), c.y.size()); ++n)

@@ -57,6 +57,18 @@ Standing standing(const Outcome& outcome) {
   return outcome.passed() ? Standing{"pass", "PASS", line} : Standing{"fail", "FAIL", line};
 }
 
+std::optional<double> room(const Verdict& v) {
+  if (!std::isfinite(v.measured)) return std::nullopt;
+  if (v.min && v.max) {
+    const double half = (*v.max - *v.min) / 2;
+    if (!(half > 0.0)) return std::nullopt;
+    return std::min(*v.max - v.measured, v.measured - *v.min) / half;
+  }
+  const double limit = v.max ? *v.max : v.min.value_or(0.0);
+  if (limit == 0.0) return std::nullopt;
+  return (v.max ? limit - v.measured : v.measured - limit) / std::abs(limit);
+}
+
 std::string requirement_rows(const Outcome& outcome) {
   std::string html;
   for (const Verdict& v : outcome.verdicts) {

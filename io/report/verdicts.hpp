@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What was required, what was measured, and how that compares with what others say.
 #pragma once
+#include <optional>
 #include <string>
 
 #include "sixstep/study/outcome.hpp"
@@ -14,6 +15,10 @@ struct Standing {
   std::string line;  ///< "3 of 3 requirements hold"
 };
 Standing standing(const sixstep::study::Outcome& outcome);
+
+/// How much of the way from the middle of the limits to the nearer one is left, or from nothing to a single
+/// limit; below zero where it is not met. Empty where that says nothing.
+std::optional<double> room(const sixstep::study::Verdict& verdict);
 
 /// Rows of the requirement table: mark, figure, required, measured, place within the limits.
 std::string requirement_rows(const sixstep::study::Outcome& outcome);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "io/report/course.hpp"
+
 namespace io::report {
 namespace {
 
@@ -102,7 +104,13 @@ const std::vector<double>* find_column(const Trace& trace, std::string_view name
 Windows choose_windows(const Trace& trace, const sixstep::study::Scenario& scenario) {
   const auto* time = find_column(trace, "t_s");
   if (!time || time->size() < 2) return {};
-  return {switching_periods(trace, scenario, *time), one_commutation(trace, scenario.pwm.period_s, *time)};
+  Windows out{switching_periods(trace, scenario, *time),
+              one_commutation(trace, scenario.pwm.period_s, *time)};
+  // A step that takes the whole run needs no close-up.
+  const auto step = largest_step(trace, scenario);
+  if (step && step->window.to - step->window.from < 0.8 * (time->back() - time->front()))
+    out.step = step->window;
+  return out;
 }
 
 }  // namespace io::report

@@ -15,7 +15,8 @@ const std::vector<double>* find_column(const sixstep::study::Trace& trace, std::
 struct Windows {
   std::optional<Interval> periods;  ///< three PWM periods in which the bridge switches, as late as possible
   std::optional<Interval>
-      commutation;  ///< around a Hall edge under considerable current, as late as possible
+      commutation;               ///< around a Hall edge under considerable current, as late as possible
+  std::optional<Interval> step;  ///< the largest change of what is asked for
 };
 
 Windows choose_windows(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario);

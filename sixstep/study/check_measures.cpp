@@ -112,10 +112,11 @@ void check_levels_of_reference(const Asked& a) {
   const bool takes_levels = is_of_a_step(a.m.metric) || is_error(a.m.metric);
   if (takes_levels && !a.m.level && is_controlled(a.m.signal, a.s.control.mode) &&
       reference_moves(a.s, a.from_s(), a.to_s()))
-    a.refuse("metric", quoted(a.m.metric),
-             "is taken of the reference's levels, and the reference moves in this window",
-             "give level, start and from_s, or set from_s and to_s to where the reference stands, or take max "
-             "and min of the error, as signal = \"speed_error_rad_s\"");
+    a.refuse(
+        "metric", quoted(a.m.metric),
+        "is taken of the reference's levels, and the reference moves in this window",
+        "give level, start and from_s, or set from_s and to_s to where the reference stands, or take max "
+        "and min of the error, as signal = \"speed_error_rad_s\"");
 }
 
 void check_sampled(const Asked& a) {

@@ -6,8 +6,8 @@
 
 namespace sixstep::study {
 
-/// All contradictions in [[require]] and [[compare]]. What a figure asks of the reference is judged only where
-/// the references are sound in themselves.
+/// All contradictions in [[require]] and [[compare]]. What a figure asks of the reference is judged only
+/// where the references are sound in themselves.
 void check_measures(const Scenario& scenario, bool sound_references, base::Problems& out);
 
 }  // namespace sixstep::study

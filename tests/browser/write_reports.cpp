@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "io/report/comparison.hpp"
 #include "io/report/curve_page.hpp"
 #include "io/report/report.hpp"
 #include "tests/io/synthetic_run.hpp"
@@ -33,6 +34,20 @@ std::string page(const sixstep_tests::SyntheticRun& run) {
                              .scenario_text = scenario_text});
 }
 
+/// The synthetic run has no polynomials: the row at or before each instant of the grid.
+sixstep::study::Trace sampled(const sixstep::study::Trace& trace) {
+  sixstep::study::Trace grid{.columns = trace.columns, .values = {}, .every_event = false};
+  grid.values.resize(trace.values.size());
+  std::size_t row = 0;
+  for (int n = 0; n <= 666; ++n) {
+    const double t = n * 30e-6;
+    while (row + 1 < trace.values[0].size() && trace.values[0][row + 1] <= t) ++row;
+    for (std::size_t c = 0; c < grid.values.size(); ++c)
+      grid.values[c].push_back(c == 0 ? t : trace.values[c][row]);
+  }
+  return grid;
+}
+
 std::string curve() {
   using namespace sixstep;
   const study::CurveRequest request{
@@ -58,6 +73,13 @@ int main(int argc, char** argv) {
   bad.scenario.control.mode = sixstep::control::Mode::speed;
   write(folder / "long.html", page(bad));
   write(folder / "curve.html", curve());
+  const auto other = sixstep_tests::synthetic_run(0.02, 40.0);
+  write(folder / "compare.html",
+        io::report::render_comparison(
+            {.runs = {{"as-is", good.scenario, good.outcome, good.trace, sampled(good.trace)},
+                      {"slower-start", other.scenario, other.outcome, other.trace, sampled(other.trace)}},
+             .command = "sixstep run as-is.toml slower-start.toml --html compare.html",
+             .version = "0.1.0"}));
   write(folder / "index.html", io::report::render_index({{good.scenario.title, "short.html", &good.outcome},
                                                          {bad.scenario.title, "long.html", &bad.outcome}},
                                                         "sixstep run a.toml b.toml --out out", "0.1.0"));

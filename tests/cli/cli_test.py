@@ -41,6 +41,19 @@ class CommandLine(ProgramTest):
         self.assertEqual([line for line in table if line in ("z", "a", "m")], ["z", "a", "m"])
         self.assertEqual(table[-2:], ["3 experiments: 1 of 3 requirements FAILED", "  a: current"])
 
+    def test_several_files_and_one_page_are_compared_and_equal_runs_do_not_differ(self):
+        files = [self.write(f"{name}.toml", 1000) for name in ("a", "b")]
+        self.run_program("run", *files, "--html", "both.html")
+        page = (self.path / "both.html").read_text()
+        self.assertIn("Nothing that changes a run.", page)
+        data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.S).group(1))
+        differences = [curve for chart in data["charts"] if chart["id"].endswith("-difference") for curve in chart["curves"]]
+        self.assertTrue(differences)
+        for curve in differences:  # zero, every bit of it
+            self.assertRegex(curve["data"], r"^A+=*$")
+        self.run_program("run", *files, "--html", "both.html", "--csv", "a.csv", code=2)
+        self.assertIn("more than the 5", self.run_program("run", *[files[0]] * 6, "--html", "x.html", code=2).stderr)
+
     def test_2_for_bad_input_and_nothing_is_written(self):
         good = self.write("a.toml", 1000)
         (self.path / "bad.toml").write_text('motor = "maxon-251601"\nduration_s = 0\n')

@@ -23,7 +23,8 @@ struct SyntheticRun {
 /// State and law of the little drive; rows go to the trace whenever a gate, a diode or a Hall bit changes.
 class SyntheticDrive {
  public:
-  SyntheticDrive(sixstep::study::Trace& trace, double duration_s) : trace_(trace), duration_(duration_s) {
+  SyntheticDrive(sixstep::study::Trace& trace, double duration_s, double speed_rad_s)
+      : trace_(trace), duration_(duration_s), speed_(speed_rad_s) {
     static constexpr std::array<std::array<const char*, 3>, 28> names{
         {{"t_s", "s", ""},
          {"i_a_A", "A", "phase"},
@@ -194,9 +195,9 @@ class SyntheticDrive {
   }
 
   sixstep::study::Trace& trace_;
-  double duration_, t_ = 0.0, phase_ = 0.0;
+  double duration_, speed_, t_ = 0.0, phase_ = 0.0;
   std::array<double, 3> i_{}, e_{}, volts_{};
-  double star_ = 0.0, speed_ = 60.0, theta_ = 0.0, torque_ = 0.0;
+  double star_ = 0.0, theta_ = 0.0, torque_ = 0.0;
   double i_ref_ = 5.0, u_ = 0.0, last_error_ = 0.0, duty_ = 0.0;
   std::array<int, 6> gates_{};
   std::array<int, 3> leg_{};
@@ -269,12 +270,12 @@ inline sixstep::study::Scenario synthetic_scenario(double duration_s) {
   return s;
 }
 
-inline SyntheticRun synthetic_run(double duration_s) {
+inline SyntheticRun synthetic_run(double duration_s, double speed_rad_s = 60.0) {
   SyntheticRun run;
   run.scenario = synthetic_scenario(duration_s);
   run.outcome = synthetic_outcome();
   run.outcome.simulated_s = duration_s;
-  SyntheticDrive(run.trace, duration_s).run();
+  SyntheticDrive(run.trace, duration_s, speed_rad_s).run();
   return run;
 }
 

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/compare_command.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <utility>
+
+#include "batch/for_each.hpp"
+#include "faces/cli/progress.hpp"
+#include "faces/cli/report_page.hpp"
+#include "faces/cli/run_command.hpp"
+#include "faces/cli/terminal.hpp"
+#include "io/atomic_file.hpp"
+#include "io/report/comparison.hpp"
+#include "io/verdict_table.hpp"
+#include "sixstep/study/run.hpp"
+
+namespace cli {
+namespace {
+
+study::Trace all_columns(bool every_event) {
+  study::Trace trace{.columns = study::all_columns(), .values = {}, .every_event = every_event};
+  trace.values.resize(trace.columns.size());
+  return trace;
+}
+
+void add(study::Trace& trace, study::Row row) {
+  for (std::size_t n = 0; n < row.size(); ++n) trace.values[n].push_back(row[n]);
+}
+
+/// A run that keeps what is drawn and what is subtracted.
+struct Compared {
+  study::Scenario scenario;
+  study::Trace events = all_columns(true), grid = all_columns(false);
+  std::optional<study::Outcome> outcome;
+  base::Problems problems;
+
+  void run(const std::function<void(double t_s)>& reached) {
+    study::Listeners listeners;
+    listeners.on_event = [this](study::Row row) { add(events, row); };
+    listeners.on_record = [this](study::Row row) { add(grid, row); };
+    listeners.keep_going = [&reached](double t_s) {
+      reached(t_s);
+      return !interrupted();
+    };
+    base::Result<study::Outcome> result = study::run(scenario, listeners);
+    if (result)
+      outcome = std::move(*result);
+    else
+      problems = result.problems();
+  }
+};
+
+/// The same instants for all, every column: what a scenario records for itself is of no use here.
+std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
+  std::vector<const study::Scenario*> scenarios;
+  std::vector<Compared> runs;
+  scenarios.reserve(jobs.size());
+  runs.reserve(jobs.size());
+  for (const Job& job : jobs) scenarios.push_back(&job.scenario());
+  for (const Job& job : jobs) {
+    Compared& run = runs.emplace_back(Compared{.scenario = job.scenario()});
+    run.scenario.record = {.grid_s = io::report::common_grid_s(scenarios)};
+    // A column that a mode has no use for is asked for all the same, so that all runs have the same ones.
+    for (const study::Column& column : study::all_columns())
+      run.scenario.record.columns.push_back(column.name);
+  }
+  return runs;
+}
+
+void print_table(const std::vector<Job>& jobs, const std::vector<Compared>& runs) {
+  std::vector<io::TableEntry> entries;
+  for (std::size_t n = 0; n < runs.size(); ++n) entries.push_back({jobs[n].name(), &*runs[n].outcome});
+  print(io::verdict_table(entries, may_colour(stdout)));
+  print(io::verdict_summary(entries, may_colour(stdout)));
+}
+
+}  // namespace
+
+bool compares(const RunArguments& a) {
+  return a.files.size() > 1 && !a.paths.html.empty() && a.paths.files().size() == 1 && a.paths.json.empty() &&
+         a.out.empty();
+}
+
+base::Problems check_comparison(const RunArguments& arguments) {
+  if (arguments.files.size() <= io::report::most_compared) return {};
+  return {
+      {.where = "--html",
+       .value = fmt::format("{} files", arguments.files.size()),
+       .limit = fmt::format("is more than the {} that one page can tell apart", io::report::most_compared),
+       .cure = "compare fewer, or write one report each with --out DIR"}};
+}
+
+Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs) {
+  base::Result<io::AtomicFile> file = io::AtomicFile::create(arguments.paths.html);
+  if (!file) return refused(file.problems());
+  std::vector<Compared> runs = on_one_grid(jobs);
+  {
+    Work work;
+    for (const Compared& run : runs) work.seconds.push_back(run.scenario.duration_s);
+    Progress progress(std::move(work), arguments.quiet);
+    batch::for_each(runs.size(), arguments.jobs, [&](std::size_t n) {
+      runs[n].run([&progress, n](double t_s) { progress.reached(n, t_s); });
+      progress.finished(n);
+    });
+  }
+  if (interrupted()) return exit_of_interrupt();
+  Exit exit = Exit::ok;
+  std::vector<ComparedSource> sources;
+  for (std::size_t n = 0; n < runs.size(); ++n) {
+    complain(runs[n].problems);
+    exit = graver(exit, runs[n].outcome ? exit_of(*runs[n].outcome) : Exit::bad_input);
+    if (runs[n].outcome)
+      sources.push_back({jobs[n].name(), runs[n].scenario, *runs[n].outcome, runs[n].events, runs[n].grid});
+  }
+  if (sources.size() < runs.size()) return exit;
+  file->write(comparison_page(sources, arguments.command));
+  const base::Problems unwritten = file->commit();
+  complain(unwritten);
+  if (!arguments.quiet) print_table(jobs, runs);
+  return unwritten.empty() ? exit : graver(exit, Exit::bad_input);
+}
+
+}  // namespace cli

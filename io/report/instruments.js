@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stands beside the charts of a run: the bridge, the phase-plane, the table of all curves, the units.
+
+/** The rotor's angle, which grows with every turn: shown within one. Not a chart, but read out like one. */
+function rotorEntry(axisOf) {
+  if (!data.angle) return null;
+  const chart = {quantity: 'angle', curves: [{label: 'rotor'}], rotor: true};
+  return {chart, curves: [{axis: axisOf(data.angle), raw: curveValues(data.angle.data)}]};
+}
+
+function wearRotorUnit(entry) {
+  const unit = unitOf('angle', units.angle, data.pole_pairs);
+  Object.assign(entry.chart, {unit: unit.unit, factor: unit.factor, turn: unit.turn});
+}
+
+/** What is between the marks: their distance and the frequency of that period. */
+function describeMarks() {
+  const {A, B} = instants, dt = B - A, step = (view[1] - view[0]) / 1000;
+  element('between').textContent = A == null || B == null ? 'Marks A and B: keys a, b.'
+    : `Δt = ${time.text(dt, Math.min(step, Math.abs(dt) / 1000 || step))} ${time.unit}, 1/Δt = ${frequencyText(dt)}`;
+}
+
+function makeInstruments(axisOf) {
+  const currents = charts.find((c) => c.chart.id === 'currents');
+  const phases = currents && ['i_a', 'i_b', 'i_c'].every((label, n) => currents.chart.curves[n]?.label === label) ? currents : null;
+  const rotor = rotorEntry(axisOf);
+  if (rotor) wearRotorUnit(rotor);
+  const logic = charts.filter((c) => c.chart.logic), others = charts.filter((c) => !c.chart.logic);
+  const fill = readout(element('readout'), [...others, ...(rotor ? [rotor] : []), ...logic], data.compared);
+  const drawBridge = data.conduction && phases ? bridgeDrawing(element('bridge'), element('conducts')) : null;
+  const conduction = drawBridge && {time: unpack(data.conduction.time, Float64Array), code: unpack(data.conduction.code, Uint8Array), end: data.conduction.end};
+  const drawPlane = phases ? currentPlane(element('plane'), phases) : null;
+  element('bridge').closest('figure').hidden = !drawBridge;
+  element('plane').closest('figure').hidden = !drawPlane;
+  const used = new Set([...charts.map((c) => c.chart.quantity), rotor && 'angle']);
+  unitSelects(element('units'), Object.keys(UNITS).filter((q) => used.has(q)), units, changeUnits);
+  const instant = () => {
+    const t = instants.cursor;
+    fill([t, instants.A, instants.B]);
+    const factor = phases?.chart.factor ?? 1;
+    const now = t == null || !phases ? null : phases.curves.slice(0, 3).map((c) => (valueAt(c.full ?? c, t) ?? 0) * factor);
+    if (drawBridge) drawBridge(t == null ? null : conductionAt(conduction, t), now, phases.chart.unit);
+    if (drawPlane) drawPlane(...view, t);
+    describeMarks();
+  };
+  return {instant, view: showInstant, units: () => { if (rotor) wearRotorUnit(rotor); }};
+}

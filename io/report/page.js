@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Charts follow the page: its width, the theme, the printer.
+
+function watchPage(charts, changed, parent = document.getElementById('charts')) {
+  const repaint = () => {
+    readPalette();
+    for (const {plot} of charts) plot.redraw();
+    changed();
+  };
+  const resize = () => {
+    for (const {plot, box} of charts) if (box.clientWidth) plot.setSize({width: box.clientWidth, height: plot.height});
+    changed();
+  };
+  new ResizeObserver(resize).observe(parent);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', repaint);
+  // Paper is white whatever the screen's theme, and narrower than most screens.
+  addEventListener('beforeprint', () => {
+    document.documentElement.classList.add('printing');
+    readPalette();
+    for (const {plot} of charts) plot.setSize({width: 680, height: plot.height});
+    repaint();
+  });
+  addEventListener('afterprint', () => {
+    document.documentElement.classList.remove('printing');
+    repaint();
+    resize();
+  });
+}

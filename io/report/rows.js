@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every row of the run, for close looks: unpacked after the page stands, drawn where few enough are in view.
+
+const ROWS_IN_VIEW = 12000;
+
+async function inflated(text) {
+  const stream = new Blob([unpack(text, Uint8Array)]).stream().pipeThrough(new DecompressionStream('deflate'));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+/** Differences, byte by byte of equal weight, summed up again: what each row counts, modulo 2^(8 planes). */
+function counted(bytes, offset, rows, planes, row) {
+  const modulus = 256 ** planes;
+  let count = 0;
+  for (let n = 0; n < rows; ++n) {
+    let difference = 0;
+    for (let p = planes - 1; p >= 0; --p) difference = difference * 256 + bytes[offset + p * rows + n];
+    count = row(n, difference, count, modulus);
+  }
+}
+
+/** Gives each curve that a block holds all its rows as `full`. */
+async function unpackRows(packed, charts) {
+  const bytes = await inflated(packed.data), {rows} = packed, axis = new Float64Array(rows);
+  counted(bytes, 0, rows, 4, (n, difference, count) => {
+    axis[n] = packed.start + packed.tick * (count + difference);
+    return count + difference;  // times only grow: not modulo
+  });
+  packed.columns.forEach(({low, step, chart, curve: place}, column) => {
+    const curve = charts[chart].curves[place], raw = new Array(rows);
+    counted(bytes, (4 + 2 * column) * rows, rows, 2, (n, difference, count, modulus) => {
+      const now = (count + difference) % modulus;
+      raw[n] = now === 65535 ? null : curve.held ? Math.round(low + step * now) : low + step * now;
+      return now;
+    });
+    curve.full = {axis, raw, held: curve.held};
+  });
+}
+
+/** The curves of a chart as they are drawn over [from, to]: all rows where few enough are in view, else null. A curve
+ *  without `full` has all its rows anyway. */
+function curvesInView(curves, from, to) {
+  if (!curves.some((c) => c.full)) return null;
+  const parts = new Map();  // curves on one axis stay on one
+  for (const {axis} of curves.map((c) => c.full ?? c)) {
+    if (parts.has(axis)) continue;
+    const first = Math.max(0, rowAt(axis, from) - 1), last = Math.min(axis.length, rowAt(axis, to) + 2);
+    if (last - first > ROWS_IN_VIEW) return null;
+    parts.set(axis, {first, last, axis: axis.subarray(first, last)});
+  }
+  return curves.map((c) => {
+    const {raw, axis} = c.full ?? c, part = parts.get(axis);
+    return {axis: part.axis, raw: raw.slice(part.first, part.last), held: c.held};
+  });
+}
