@@ -101,7 +101,9 @@ Series pole_series(const Stretch& part, int k) {
     u[0] += terms.offset_V;
     return u;
   }
-  const plant::PoleLaw<double> law = plant::pole_law(plant.constants(), mode, k);
+  const plant::Constants<double>& c = plant.constants();
+  const plant::PoleLaw<double> law = plant::pole_law(c.emf[mode.sector].piece[mode.piece],
+                                                     c.legs[legs_index(mode.legs)], static_cast<unsigned>(k));
   const SpeedShapes shapes = speed_shapes(part);
   add(u, law.w0, shapes.w0);
   add(u, law.w1, shapes.w1);
