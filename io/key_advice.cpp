@@ -100,8 +100,13 @@ std::string nearest_word(std::string_view word, std::span<const std::string> kno
   if (std::string near = nearest(word, known); !near.empty()) return near;
   std::vector<std::string> bare;
   for (const std::string& candidate : known) bare.emplace_back(without_unit(candidate));
-  const std::string near = nearest(without_unit(word), bare);
-  return near.empty() ? near : *meant(near);
+  if (const std::string near = nearest(without_unit(word), bare); !near.empty()) return *meant(near);
+  // "maximum" for max, "eff" for efficiency
+  const auto begun = std::find_if(bare.begin(), bare.end(), [&](std::string_view candidate) {
+    return std::min(word.size(), candidate.size()) >= 3 &&
+           (word.starts_with(candidate) || candidate.starts_with(word));
+  });
+  return begun == bare.end() ? "" : *meant(*begun);
 }
 
 std::string_view without_unit(std::string_view key) {

@@ -152,7 +152,7 @@ TEST_F(ReferenceInAFile, WhatCannotChangeDuringARunIsToldWhatCan) {
               ElementsAre("x.toml:11:1: at.pwm is not a key here; " + what,
                           "x.toml:12:8: at.supply.resistance_ohm is not a key here; " + what,
                           "x.toml:13:6: at.load.torque_mNm carries the wrong unit; write torque_Nm and give "
-                          "the value in that unit"));
+                          "the value in that unit: 1 mNm = 0.001 Nm"));
 }
 
 }  // namespace
