@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/config_header.hpp"
 
+#include <cmath>
+
 #include "io/config_lines.hpp"
 #include "sixstep/study/arithmetic.hpp"
 #include "sixstep/study/compile.hpp"
@@ -36,6 +38,14 @@ std::string comment(std::string_view label, std::string_view text) {
 
 std::string number(double x) { return fmt::format("{:.6g}", x); }
 
+/// Where the gains put the closed loop's poles: z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) = 0.
+std::string closed_loop_poles(const study::LoopGains& g, const design::ZohPlant& plant) {
+  const double half = (plant.b0 * g.d1 + plant.a0 - 1) / 2, product = plant.b0 * g.d0 - plant.a0;
+  const double square = half * half - product, root = std::sqrt(std::fabs(square));
+  return square < 0 ? fmt::format("z = {} +- {}j", number(-half), number(root))
+                    : fmt::format("z = {} and {}", number(-half + root), number(-half - root));
+}
+
 /// One line: the gains and where they come from.
 std::string derivation(const study::LoopGains& g) {
   if (g.loop == "position") return fmt::format("{} rad/s per deg; {}", base::written(g.d1), g.origin);
@@ -44,11 +54,12 @@ std::string derivation(const study::LoopGains& g) {
       fmt::format("d1 = {} {}, d0 = {} {}; {}", number(g.d1), unit, number(g.d0), unit, g.origin);
   if (!g.derivation) return text;
   const design::PolePlacement& p = *g.derivation;
-  text += fmt::format("; poles z = {} +- {}j (settle_s = {}, damping = {}) on {}/(z {:+.6g})", number(p.z_re),
-                      number(p.z_im), base::written(p.settle_s), base::written(p.damping), number(p.plant.b0),
+  text += fmt::format("; poles {} on {}/(z {:+.6g})", closed_loop_poles(g, p.plant), number(p.plant.b0),
                       p.plant.a0);
-  if (p.gains.d1 == g.d1 && p.gains.d0 == g.d0) return text;
-  return text + fmt::format(" give d1 = {}, d0 = {}", number(p.gains.d1), number(p.gains.d0));
+  const std::string rule =
+      fmt::format("settle_s = {}, damping = {}", base::written(p.settle_s), base::written(p.damping));
+  if (p.gains.d1 == g.d1 && p.gains.d0 == g.d0) return text + fmt::format(" ({})", rule);
+  return text + fmt::format("; {} would give d1 = {}, d0 = {}", rule, number(p.gains.d1), number(p.gains.d0));
 }
 
 std::string head(const ConfigHeader& w, const study::Compiled& c) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Firmware and simulation use the same bits: what the exported headers define against what a run computes
 // with.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <bit>
@@ -12,6 +13,7 @@
 #include "io/config_header.hpp"
 #include "io/config_lines.hpp"
 #include "io/scenario_file.hpp"
+#include "sixstep/design/pole_placement.hpp"
 #include "sixstep/design/product_scaling.hpp"
 #include "sixstep/study/arithmetic.hpp"
 #include "sixstep/study/compile.hpp"
@@ -199,6 +201,18 @@ TEST(ExportHeader, WhatDoesNotFitIsNamed) {
   EXPECT_NE(p.limit.find("one digit unseen"), std::string::npos);
   EXPECT_FALSE(p.value.empty() || p.cure.empty());
   EXPECT_TRUE(header_of(s, study::Arithmetic::float64));
+}
+
+// A PI whose zero cancels the plant's pole leaves that pole, -a0, and one at 1 - b0 d1.
+TEST(ExportHeader, GivenGainsAreToldWithTheirOwnPoles) {
+  study::Scenario s = shipped("current-square");
+  const design::ZohPlant plant = design::current_plant(1.03, 0.572e-3, s.pwm.period_s);
+  s.control.current = {.d1 = 5.0, .d0 = 5.0 * plant.a0};
+  const auto text = header_of(s, study::Arithmetic::float64);
+  ASSERT_TRUE(text);
+  const std::string poles = fmt::format("poles z = {:.6g} and {:.6g} on", -plant.a0, 1 - 5 * plant.b0);
+  EXPECT_NE(text->find(poles), std::string::npos) << poles << "\n" << text->substr(0, 900);
+  EXPECT_NE(text->find("settle_s = 0.001, damping = 0.9 would give d1 = 4.09559"), std::string::npos);
 }
 
 TEST(ExportHeader, NamespacesAreNames) {
