@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "batch/curve.hpp"
+#include "faces/cli/keep.hpp"
 #include "faces/cli/terminal.hpp"
 #include "io/csv_writer.hpp"
 #include "io/curve_columns.hpp"
@@ -38,14 +39,6 @@ struct Outputs {
   std::optional<io::CsvWriter> csv;
   std::optional<io::AtomicFile> json, html;
 };
-
-template <class File>
-void keep(std::optional<File>& into, base::Result<File> file, base::Problems& problems) {
-  if (file)
-    into.emplace(std::move(*file));
-  else
-    problems.insert(problems.end(), file.problems().begin(), file.problems().end());
-}
 
 Outputs outputs(const CurveArguments& a, base::Problems& problems) {
   Outputs out;

@@ -96,15 +96,6 @@ base::Problems put(std::optional<io::AtomicFile>& file, const std::string& text)
   return file->commit();
 }
 
-/// A motor by path as the scenario's folder sees it.
-std::string motor_beside(const std::string& motor, const std::string& toml) {
-  std::error_code error;
-  if (toml.empty() || !fs::is_regular_file(motor, error)) return motor;
-  const fs::path folder = fs::absolute(toml, error).parent_path();
-  const fs::path relative = fs::relative(motor, folder, error);
-  return relative.empty() ? motor : relative.generic_string();
-}
-
 base::Problems write(const study::DesignStudy& s, const DesignArguments& a, Outputs& out) {
   base::Problems found = put(out.json, io::design_json(s));
   const auto add = [&](const base::Problems& more) { found.insert(found.end(), more.begin(), more.end()); };

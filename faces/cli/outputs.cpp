@@ -4,22 +4,13 @@
 #include <filesystem>
 #include <utility>
 
+#include "faces/cli/keep.hpp"
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/terminal.hpp"
 #include "io/json_summary.hpp"
 
 namespace cli {
-namespace {
-
-template <class File>
-void keep(std::optional<File>& into, base::Result<File> file, base::Problems& problems) {
-  if (file)
-    into.emplace(std::move(*file));
-  else
-    problems.insert(problems.end(), file.problems().begin(), file.problems().end());
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<std::pair<std::string, std::string>> OutputPaths::files() const {
   std::vector<std::pair<std::string, std::string>> wanted;

@@ -61,8 +61,30 @@ class Flat {
     describe(*this, member);
     path_ = outer;
   }
+  template <class Struct>
+  void table(std::string_view key, std::optional<Struct>& member, const About& about) {
+    if (member) table(key, *member, about);
+  }
+  /// Of the lists only [[at]] changes a run. What an event leaves alone is not told.
   template <class Item>
-  void list(std::string_view, std::vector<Item>&, const About&) {}
+  void list(std::string_view key, std::vector<Item>& items, const About&) {
+    if (key != "at") return;
+    Item usual;
+    Flat plain;
+    describe(plain, usual);
+    for (std::size_t n = 0; n < items.size(); ++n) {
+      Flat event;
+      describe(event, items[n]);
+      for (auto& row : event.rows)
+        if (row.first == "time_s" || std::ranges::find(plain.rows, row) == plain.rows.end())
+          rows.emplace_back("at[" + std::to_string(n) + "]." + row.first, std::move(row.second));
+    }
+  }
+
+  std::string text_of(const std::string& key) const {
+    const auto found = std::ranges::find(rows, key, &std::pair<std::string, std::string>::first);
+    return found == rows.end() ? absent : found->second;
+  }
 
  private:
   void add(std::string_view key, std::string text) {
@@ -71,8 +93,18 @@ class Flat {
   std::string path_;
 };
 
+/// What a base said has become the scenario's own.
 bool changes_no_run(const std::string& key) {
-  return key == "title" || key == "notes" || key.starts_with("record.");
+  return key == "title" || key == "notes" || key == "extends" || key.starts_with("record.");
+}
+
+/// In the order of the descriptions; what only a later scenario has stands behind.
+std::vector<std::string> keys_of(const std::vector<Flat>& all) {
+  std::vector<std::string> keys;
+  for (const Flat& flat : all)
+    for (const auto& row : flat.rows)
+      if (std::ranges::find(keys, row.first) == keys.end()) keys.push_back(row.first);
+  return keys;
 }
 
 }  // namespace
@@ -84,12 +116,12 @@ std::vector<KeyDifference> differences(const std::vector<const sixstep::study::S
     describe(all[k], copy);
   }
   std::vector<KeyDifference> out;
-  for (std::size_t n = 0; !all.empty() && n < all[0].rows.size(); ++n) {
-    KeyDifference row{all[0].rows[n].first, {}};
-    for (const Flat& flat : all) row.values.push_back(flat.rows[n].second);
+  for (const std::string& key : keys_of(all)) {
+    KeyDifference row{key, {}};
+    for (const Flat& flat : all) row.values.push_back(flat.text_of(key));
     const bool same =
         std::ranges::all_of(row.values, [&](const std::string& v) { return v == row.values[0]; });
-    if (!same && !changes_no_run(row.key)) out.push_back(std::move(row));
+    if (!same && !changes_no_run(key)) out.push_back(std::move(row));
   }
   return out;
 }

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/scenario_file.hpp"
 #include "io/scenario_text.hpp"
+#include "tests/io/scenario_folder.hpp"
 
 namespace io {
 namespace {
@@ -72,33 +72,17 @@ TEST(ReferenceFile, EachSlipIsToldWithItsLine) {
   EXPECT_EQ(told(broken).back(), "r.csv: is wrong in 95 more lines; each row is a time in s and a value");
 }
 
-class ReferenceInAFile : public testing::Test {
+class ReferenceInAFile : public ScenarioFolder {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(folder_);
+  static std::string with(const std::string& keys) {
+    return "motor = \"maxon-251601\"\nduration_s = 0.02\n[control]\nmode = \"current\"\n"
+           "[reference]\nshape = \"csv\"\n" +
+           keys;
   }
-  base::Result<study::Scenario> read(const std::string& keys) {
-    return read_scenario_text((folder_ / "x.toml").string(),
-                              "motor = \"maxon-251601\"\nduration_s = 0.02\n[control]\nmode = \"current\"\n"
-                              "[reference]\nshape = \"csv\"\n" +
-                                  keys);
-  }
+  base::Result<study::Scenario> read(const std::string& keys) { return ScenarioFolder::read(with(keys)); }
   std::vector<std::string> complaints(const std::string& keys) {
-    const base::Result<study::Scenario> s = read(keys);
-    std::vector<std::string> lines;
-    if (s) return lines;
-    for (const base::Problem& problem : s.problems()) {
-      lines.push_back(to_string(problem));
-      std::string& line = lines.back();
-      const std::string prefix = folder_.string() + "/";
-      for (std::size_t at = line.find(prefix); at != std::string::npos; at = line.find(prefix))
-        line.erase(at, prefix.size());
-    }
-    return lines;
+    return ScenarioFolder::complaints(with(keys));
   }
-  std::filesystem::path folder_;
 };
 
 TEST_F(ReferenceInAFile, EntersTheScenarioAsNumbersThatStandForThemselves) {

@@ -177,6 +177,19 @@ TEST(Comparison, names_the_keys_that_differ_and_no_others) {
   EXPECT_THAT(found[2].values, testing::ElementsAre("–", "0.002\u00a0s"));
 }
 
+TEST(Comparison, names_what_an_event_changes) {
+  auto one = synthetic_run(0.001).scenario, two = one;
+  two.extends = {"one.toml"};
+  two.at.resize(1);
+  two.at[0].time_s = 5e-4;
+  two.at[0].supply.voltage_V = 12.0;
+  const auto found = differences({&one, &two});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].key, "at[0].time_s");
+  EXPECT_EQ(found[1].key, "at[0].supply.voltage_V");
+  EXPECT_THAT(found[1].values, testing::ElementsAre("–", "12 V"));
+}
+
 TEST(Comparison, foreign_text_stays_text_and_figures_stand_side_by_side) {
   SyntheticRun one = synthetic_run(0.002), two = synthetic_run(0.002);
   two.scenario.title = "<b>bold</b>";

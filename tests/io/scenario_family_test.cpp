@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <filesystem>
-#include <fstream>
-
-#include "io/scenario_file.hpp"
 #include "io/scenario_text.hpp"
+#include "tests/io/scenario_folder.hpp"
 
 namespace io {
 namespace {
@@ -16,32 +13,7 @@ using testing::ElementsAre;
 
 const std::string head = "motor = \"maxon-251601\"\nduration_s = 0.02\n";
 
-class Family : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(folder_ / "bases");
-  }
-  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
-  base::Result<study::Scenario> read(const std::string& text, const ReadOptions& options = {}) {
-    return read_scenario_text((folder_ / "x.toml").string(), text, options);
-  }
-  std::vector<std::string> complaints(const std::string& text, const ReadOptions& options = {}) {
-    const base::Result<study::Scenario> s = read(text, options);
-    std::vector<std::string> lines;
-    if (s) return lines;
-    for (const base::Problem& problem : s.problems()) {
-      lines.push_back(to_string(problem));
-      std::string& line = lines.back();
-      const std::string prefix = folder_.string() + "/";
-      for (std::size_t at = line.find(prefix); at != std::string::npos; at = line.find(prefix))
-        line.erase(at, prefix.size());
-    }
-    return lines;
-  }
-  std::filesystem::path folder_;
-};
+class Family : public ScenarioFolder {};
 
 TEST_F(Family, WhatThisFileSaysWinsAndTheRestIsTheBases) {
   write("base.toml",

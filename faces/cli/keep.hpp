@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files are made before the work begins: one that cannot be written is told at once.
+#pragma once
+#include <optional>
+#include <utility>
+
+#include "faces/cli/rooms.hpp"
+#include "sixstep/base/result.hpp"
+
+namespace cli {
+
+/// The file, or what is wrong with it.
+template <class File>
+void keep(std::optional<File>& into, base::Result<File> file, base::Problems& problems) {
+  if (file)
+    into.emplace(std::move(*file));
+  else
+    problems.insert(problems.end(), file.problems().begin(), file.problems().end());
+}
+
+}  // namespace cli
