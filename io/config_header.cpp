@@ -54,11 +54,12 @@ std::string derivation(const study::LoopGains& g) {
       fmt::format("d1 = {} {}, d0 = {} {}; {}", number(g.d1), unit, number(g.d0), unit, g.origin);
   if (!g.derivation) return text;
   const design::PolePlacement& p = *g.derivation;
-  text += fmt::format("; poles {} on {}/(z {:+.6g})", closed_loop_poles(g, p.plant), number(p.plant.b0),
-                      p.plant.a0);
+  const bool designed = p.gains.d1 == g.d1 && p.gains.d0 == g.d0;
   const std::string rule =
       fmt::format("settle_s = {}, damping = {}", base::written(p.settle_s), base::written(p.damping));
-  if (p.gains.d1 == g.d1 && p.gains.d0 == g.d0) return text + fmt::format(" ({})", rule);
+  text += fmt::format("; poles {}{} on {}/(z {:+.6g})", closed_loop_poles(g, p.plant),
+                      designed ? fmt::format(" ({})", rule) : "", number(p.plant.b0), p.plant.a0);
+  if (designed) return text;
   return text + fmt::format("; {} would give d1 = {}, d0 = {}", rule, number(p.gains.d1), number(p.gains.d0));
 }
 
