@@ -68,7 +68,7 @@ void Audit<Real>::begin(const Plant<Real>& plant) {
   inv_L_ = c.inv_L;
   inv_J_ = c.inv_J;
   start_ = {{y.i[0][0], y.i[1][0], y.i[2][0]}, y.w[0]};
-  const Real amp = noise_of(c.amp_scale, Real(1)), speed = noise_of(c.speed_scale, Real(1));
+  const Real amp = c.amp_noise, speed = c.speed_noise;
   noise_ = amp * amp / c.inv_L + speed * speed / c.inv_J;
 }
 

@@ -16,7 +16,19 @@ template <class Real>
 struct EmfPiece {
   Real from = 0, to = 0;  ///< x within the sector
   PerLeg<Real> alpha{}, beta{};
+  PerLeg<Real> alpha_above{}, beta_above{};  ///< the same above the mean of the other two legs
 };
+
+/// From a shape to a machine's back-EMF.
+template <class Real>
+constexpr void scale(EmfPiece<Real>& piece, Real K_e) {
+  for (int k = 0; k < 3; ++k) piece.alpha[k] *= K_e, piece.beta[k] *= K_e;
+  for (int k = 0; k < 3; ++k) {
+    const int j = (k + 1) % 3, m = (k + 2) % 3;
+    piece.alpha_above[k] = piece.alpha[k] - (piece.alpha[j] + piece.alpha[m]) / 2;
+    piece.beta_above[k] = piece.beta[k] - (piece.beta[j] + piece.beta[m]) / 2;
+  }
+}
 
 /// The pieces of one sector in order of x; unused ones stand behind `count`.
 template <class Real>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Taylor kernel: all coefficients of a segment, order by order, until rounding level is reached.
 #pragma once
+#include <type_traits>
 #include <utility>
 
 #include "sixstep/base/elementary.hpp"
@@ -146,8 +147,9 @@ struct Recurrence {
 
 /// Order by order until the last two terms are below rounding, or the degree is used up.
 template <bool bus, class Currents, class Shape, class Real>
-void recurrence_with(const Constants<Real>& c, const Mode& mode, const LegsLaw<Real>& law, const Shape& shape,
-                     Expansion<Real>& out) {
+[[gnu::always_inline]] inline void recurrence_with(const Constants<Real>& c, const Mode& mode,
+                                                   const LegsLaw<Real>& law, const Shape& shape,
+                                                   Expansion<Real>& out) {
   Recurrence<bus, Currents, Real> r(c, mode, law, shape, out);
   out.degree = series::max_degree;
   [&]<int... n>(std::integer_sequence<int, n...>) __attribute__((always_inline)) {
@@ -165,32 +167,75 @@ void recurrence_with(const Constants<Real>& c, const Mode& mode, const LegsLaw<R
   out.end = increments(out, law, Real(1));
 }
 
-template <class Currents, class Shape, class Real>
+/// For which processors a recurrence is compiled: for all of its kind, or for those x86-64 with AVX, whose
+/// instructions name three operands and move a fifth less about. The same operations in the same order, hence
+/// the same bits.
+enum class Build : std::uint8_t { any, avx };
+
+template <Build build, bool bus, class Currents, class Shape, class Real>
+struct Compiled {
+  static void recurrence(const Constants<Real>& c, const Mode& mode, const LegsLaw<Real>& law,
+                         const Shape& shape, Expansion<Real>& y) {
+    recurrence_with<bus, Currents>(c, mode, law, shape, y);
+  }
+};
+#ifdef __x86_64__
+template <bool bus, class Currents, class Shape, class Real>
+struct Compiled<Build::avx, bus, Currents, Shape, Real> {
+  [[gnu::target("avx")]] static void recurrence(const Constants<Real>& c, const Mode& mode,
+                                                const LegsLaw<Real>& law, const Shape& shape,
+                                                Expansion<Real>& y) {
+    recurrence_with<bus, Currents>(c, mode, law, shape, y);
+  }
+};
+#endif
+
+template <Build build, class Currents, class Shape, class Real>
 void recurrence(const Constants<Real>& c, const Mode& mode, const LegsLaw<Real>& law, const Shape& shape,
                 Expansion<Real>& y) {
   if (c.inv_C > 0)
-    recurrence_with<true, Currents>(c, mode, law, shape, y);
+    Compiled<build, true, Currents, Shape, Real>::recurrence(c, mode, law, shape, y);
   else
-    recurrence_with<false, Currents>(c, mode, law, shape, y);
+    Compiled<build, false, Currents, Shape, Real>::recurrence(c, mode, law, shape, y);
 }
 
-template <bool sine, class Real>
+template <bool sine, Build build, class Real>
 void expand_shape(const Constants<Real>& c, const Mode& mode, Expansion<Real>& y) {
   const EmfPiece<Real>& piece = c.emf[mode.sector].piece[mode.piece];
   const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
   const ShapeLine<sine, Real> shape(piece, y.x[0]);
-  if (law.connected == 3) return recurrence<TwoCurrents<sine, Real>>(c, mode, law, shape, y);
-  if (law.connected < 2) return recurrence<NoCurrent<sine, Real>>(c, mode, law, shape, y);
+  if (law.connected == 3) return recurrence<build, TwoCurrents<sine, Real>>(c, mode, law, shape, y);
+  if (law.connected < 2) return recurrence<build, NoCurrent<sine, Real>>(c, mode, law, shape, y);
   if constexpr (!sine) {
     const bool flat = piece.beta[law.leg[0]] == piece.beta[law.leg[1]];
-    if (flat) return recurrence<FlatPair<Real>>(c, mode, law, shape, y);
+    if (flat) return recurrence<build, FlatPair<Real>>(c, mode, law, shape, y);
   }
-  recurrence<OneCurrent<sine, Real>>(c, mode, law, shape, y);
+  recurrence<build, OneCurrent<sine, Real>>(c, mode, law, shape, y);
 }
 
-// Unrolled, this is most of what a plant costs to compile: for double it is compiled once, in expand.cpp.
-extern template void expand_shape<false, double>(const Constants<double>&, const Mode&, Expansion<double>&);
-extern template void expand_shape<true, double>(const Constants<double>&, const Mode&, Expansion<double>&);
+template <class Real>
+void expand_trapezoid(const Constants<Real>& c, const Mode& mode, Expansion<Real>& y) {
+  expand_shape<false, Build::any>(c, mode, y);
+}
+template <class Real>
+void expand_sine(const Constants<Real>& c, const Mode& mode, Expansion<Real>& y) {
+  expand_shape<true, Build::any>(c, mode, y);
+}
+
+// Unrolled, this is most of what a plant costs to compile: for double it is compiled once, in expand.cpp,
+// which also chooses the build.
+void expand_trapezoid(const Constants<double>& c, const Mode& mode, Expansion<double>& y);
+void expand_sine(const Constants<double>& c, const Mode& mode, Expansion<double>& y);
+extern template void expand_shape<false, Build::any>(const Constants<double>&, const Mode&,
+                                                     Expansion<double>&);
+extern template void expand_shape<true, Build::any>(const Constants<double>&, const Mode&,
+                                                    Expansion<double>&);
+#ifdef __x86_64__
+extern template void expand_shape<false, Build::avx>(const Constants<double>&, const Mode&,
+                                                     Expansion<double>&);
+extern template void expand_shape<true, Build::avx>(const Constants<double>&, const Mode&,
+                                                    Expansion<double>&);
+#endif
 
 }  // namespace detail
 
@@ -207,9 +252,9 @@ void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode
     const base::SinCos shape = base::sin_cos(static_cast<double>(state.x));
     y.phi0[0] = static_cast<Real>(shape.cos);
     y.phi1[0] = static_cast<Real>(shape.sin);
-    detail::expand_shape<true>(c, mode, y);
+    detail::expand_sine(c, mode, y);
   } else {
-    detail::expand_shape<false>(c, mode, y);
+    detail::expand_trapezoid(c, mode, y);
   }
 }
 

@@ -23,6 +23,7 @@ struct Constants {
   EmfTable<Real> emf;  // times K_e: V s, or N m/A
   bool sine = false, locked = false, dry_friction = false, source_sinks = true;
   Real volt_scale, amp_scale, speed_scale, torque_scale;
+  Real volt_noise, amp_noise, speed_noise, torque_noise;  // noise_of() these scales
   Real steady_rate;                         // the part of the fastest rate that does not change, 1/s
   Real amp_limit, speed_limit, volt_limit;  // 1 / rounding level of a term of the series
   Real K_e;

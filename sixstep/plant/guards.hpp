@@ -103,8 +103,8 @@ void free_star_guards(const Constants<Real>& c, const EmfPiece<Real>& piece, con
 template <class Real, class Visit>
 void rotor_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real slack,
                   Visit&& visit) {
-  const Real torque_noise = noise_of(c.torque_scale, slack);
-  const Real speed_noise = noise_of(c.speed_scale, doubt(y.w, slack));
+  const Real torque_noise = c.torque_noise * slack;
+  const Real speed_noise = c.speed_noise * doubt(y.w, slack);
   if (mode.motion == Motion::forward)
     visit(guard::standstill, y.w, y.degree, speed_noise);
   else if (mode.motion == Motion::backward)
@@ -137,9 +137,9 @@ template <class Real, class Visit>
 void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real slack,
                  Visit&& visit) {
   const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
-  const Real volt_noise = noise_of(c.volt_scale, slack);
+  const Real volt_noise = c.volt_noise * slack;
   if (law.diodes != 0) {
-    const Real amp_noise = noise_of(c.amp_scale, slack);
+    const Real amp_noise = c.amp_noise * slack;
     for (int k = 0; k < 3; ++k)
       if (law.diodes >> k & 1)
         detail::diode_guard(mode.legs[k] == Connection::low_diode, y, k, amp_noise, visit);

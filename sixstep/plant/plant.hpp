@@ -78,11 +78,11 @@ class Plant {
   void set_scales(Real volt_scale);
   void set_steady_rate();
 
-  Constants<Real> constants_;
-  State<Real> state_;
+  alignas(64) Constants<Real> constants_;
+  alignas(64) State<Real> state_;
   Mode mode_;
   Gates gates_;
-  Expansion<Real> y_;
+  alignas(64) Expansion<Real> y_;
   Real slack_ = 1;
   std::int64_t diodes_started_ = 0;
   bool stale_ = true;
@@ -112,8 +112,7 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   c.sine = m.back_emf == BackEmf::sine;
   c.emf = c.sine ? sine_table<Real>() : trapezoid_table<Real>(m.flat_deg);
   for (EmfSector<Real>& sector : c.emf)
-    for (EmfPiece<Real>& piece : sector.piece)
-      for (int k = 0; k < 3; ++k) piece.alpha[k] *= K_e, piece.beta[k] *= K_e;
+    for (EmfPiece<Real>& piece : sector.piece) scale(piece, K_e);
   c.legs = legs_laws(devices, R, inv_L);
   const Real emf = 2 * K_e * detail::abs(Real(start.speed_rad_s));
   c.K_e = K_e;
@@ -139,7 +138,7 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
 /// may hold the rotor, are zero: what is consistent there is decided by settle(), not by a rounding error.
 template <class Real>
 void Plant<Real>::snap() {
-  const Real amp_noise = noise_of(constants_.amp_scale, Real(1));
+  const Real amp_noise = constants_.amp_noise;
   bool snapped = false;
   for (unsigned k = 0; k < 3; ++k) {
     Real& i = state_.i[k];
@@ -148,8 +147,7 @@ void Plant<Real>::snap() {
     snapped = true;
   }
   if (snapped) balance();
-  if (constants_.dry_friction && detail::abs(state_.w) <= noise_of(constants_.speed_scale, Real(1)))
-    state_.w = state_.w_low = 0;
+  if (constants_.dry_friction && detail::abs(state_.w) <= constants_.speed_noise) state_.w = state_.w_low = 0;
 }
 
 /// After a current was set to zero: one left alone is zero too, two left are one current.

@@ -19,12 +19,13 @@ template <class Real>
 [[gnu::always_inline]] inline PoleLaw<Real> pole_law(const EmfPiece<Real>& p, const LegsLaw<Real>& law,
                                                      unsigned k) {
   if (law.connected == 0) return {.w0 = p.alpha[k], .w1 = p.beta[k]};
-  const int j = law.leg[0], m = law.connected == 1 ? j : law.leg[1];
+  const int j = law.leg[0];
+  const bool pair = law.connected == 2;
   return {.bus = law.star.bus,
           .offset = law.star.offset,
           .i = law.star.i,
-          .w0 = p.alpha[k] - (p.alpha[j] + p.alpha[m]) / 2,
-          .w1 = p.beta[k] - (p.beta[j] + p.beta[m]) / 2,
+          .w0 = pair ? p.alpha_above[k] : p.alpha[k] - p.alpha[j],
+          .w1 = pair ? p.beta_above[k] : p.beta[k] - p.beta[j],
           .leg = j};
 }
 

@@ -49,7 +49,7 @@ Real torque(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
 template <class Real>
 Judgement judge_legs(const Constants<Real>& c, const State<Real>& s, const PerLeg<Real>& e, const Mode& m,
                      Real slack) {
-  const Real noise = noise_of(c.volt_scale, slack), V_f = Real(c.devices.V_f_V);
+  const Real noise = c.volt_noise * slack, V_f = Real(c.devices.V_f_V);
   PerLeg<Real> u{};
   Real sum = 0;
   int connected = 0;
@@ -77,7 +77,7 @@ Judgement judge_legs(const Constants<Real>& c, const State<Real>& s, const PerLe
 template <class Real>
 Judgement judge_motion(const Constants<Real>& c, const State<Real>& s, const Mode& m, Real slack) {
   if (!c.dry_friction || s.w != 0 || m.motion == Motion::locked) return Judgement::holds;
-  const Real noise = noise_of(c.torque_scale, slack), excess = torque(c, s, m) - c.load;
+  const Real noise = c.torque_noise * slack, excess = torque(c, s, m) - c.load;
   if (m.motion == Motion::stuck) return judge(c.breakaway - abs(excess), noise);
   // A breakaway torque above the sliding friction leaves a range in which only sticking is asked; slipping
   // must overcome it.
@@ -88,7 +88,7 @@ Judgement judge_motion(const Constants<Real>& c, const State<Real>& s, const Mod
 template <class Real>
 Judgement judge_source(const Constants<Real>& c, const State<Real>& s, const Mode& m, Real slack) {
   if (c.source_sinks) return Judgement::holds;
-  const Real noise = noise_of(c.volt_scale, slack), above = s.bus - c.V_0;
+  const Real noise = c.volt_noise * slack, above = s.bus - c.V_0;
   return judge(m.source_feeds ? -above : above, noise);
 }
 

@@ -52,7 +52,7 @@ bool settle_third_leg(const Constants<Real>& c, const State<Real>& s, const EmfP
   shape_at(c, s, phi0, phi1);
   const Real free =
       (law.bus * s.bus + law.offset) + (law.i * s.i[law.leg] + s.w * (law.w0 * phi0 + law.w1 * phi1));
-  const Real V_f = Real(c.devices.V_f_V), noise = noise_of(c.volt_scale, Real(1));
+  const Real V_f = Real(c.devices.V_f_V), noise = c.volt_noise;
   const Real above_low = free + V_f, below_high = s.bus + V_f - free;
   if ((above_low > noise) & (below_high > noise)) return true;
   if (above_low < -2 * noise)
@@ -72,7 +72,7 @@ template <class Real>
   const EmfPiece<Real>& piece = c.emf[m.sector].piece[m.piece];
   Real phi0, phi1;
   shape_at(c, s, phi0, phi1);
-  const Real V_f = Real(c.devices.V_f_V), noise = noise_of(c.volt_scale, Real(1));
+  const Real V_f = Real(c.devices.V_f_V), noise = c.volt_noise;
   bool clear = true;
   for (unsigned k = 0; k < 3; ++k) {
     if ((open >> k & 1) == 0) continue;
@@ -92,13 +92,13 @@ template <class Real>
 bool settle_plainly(const Constants<Real>& c, const State<Real>& s, const Gates& gates, Mode& mode) {
   Motion motion = c.locked ? Motion::locked : Motion::free;
   if (c.dry_friction) {
-    if (detail::abs(s.w) <= noise_of(c.speed_scale, Real(1))) return false;
+    if (detail::abs(s.w) <= c.speed_noise) return false;
     motion = s.w > 0 ? Motion::forward : Motion::backward;
   }
   // Straight to where they are read: a copy would wait until the bytes that it is made of have left for
   // memory.
   Legs& legs = mode.legs;
-  const unsigned open = detail::named_legs(s, gates, noise_of(c.amp_scale, Real(1)), legs);
+  const unsigned open = detail::named_legs(s, gates, c.amp_noise, legs);
   if ((open & (open - 1)) != 0) {
     if (open == 7 || !detail::two_legs_float(c, s, mode, open)) return false;
   } else if (open != 0) {

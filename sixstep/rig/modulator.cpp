@@ -30,7 +30,15 @@ void Modulator::take(const Instant& t, const BoardCommand& command) {
   if (goes_on && !leg_changed && goes_low && !was_low && t < edge_at(upper_off_, config_.dead_ticks))
     wait_dead_time(upper_off_);
   const bool wakes = command.enabled && !command_.enabled;
-  command_ = command;
+  // Field by field, as it was written: a copy in wider pieces would wait until the fields have left for
+  // memory.
+  command_.enabled = command.enabled;
+  command_.pair = command.pair;
+  command_.duty = command.duty;
+  command_.chopping = command.chopping;
+  command_.watch = command.watch;
+  command_.on_below_A = command.on_below_A;
+  command_.off_above_A = command.off_above_A;
   if (!wakes) {
     // A hysteresis that changes direction keeps its state, but the new source leg was the sink a moment ago.
     if (command.watch != Watch::none && leg_changed && source_on_) command_source(t, true, true);
@@ -45,7 +53,8 @@ void Modulator::take(const Instant& t, const BoardCommand& command) {
 
 void Modulator::start_period(const Instant& t, const BoardCommand& command) {
   take(t, command);
-  on_edge_ = off_edge_ = Instant::never();
+  on_edge_ = Instant::never();
+  off_edge_ = Instant::never();
   if (!command.enabled || command.watch != Watch::none) return;
   const auto period = static_cast<double>(config_.period_ticks);
   const double on_time = command.duty * period;

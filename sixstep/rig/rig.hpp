@@ -239,8 +239,7 @@ void Rig<Real, Firmware>::trip(int which) {
   const plant::PerLeg<double> weight = modulator_.comparator_weights(1 - which);
   const plant::PerLeg<Real>& i = plant_.state().i;
   const Real current = Real(weight[0]) * i[0] + Real(weight[1]) * i[1] + Real(weight[2]) * i[2];
-  if (std::fabs(current - Real(other.level_A)) > plant::noise_of(plant_.constants().amp_scale, Real(1)))
-    return;
+  if (std::fabs(current - Real(other.level_A)) > plant_.constants().amp_noise) return;
   count(Happening::comparator);
   modulator_.comparator_tripped(now_, 1 - which);
 }
@@ -262,8 +261,7 @@ void Rig<Real, Firmware>::guards(Visit&& visit) const {
     series::Coefficients<Real> g;
     g[0] = current(0) - sign * Real(c.level_A);
     for (int j = 1; j <= y.degree; ++j) g[j] = current(j);
-    visit(plant::guard::first_free + which, g, y.degree,
-          plant::noise_of(plant_.constants().amp_scale, Real(1)));
+    visit(plant::guard::first_free + which, g, y.degree, plant_.constants().amp_noise);
   }
 }
 

@@ -27,9 +27,9 @@ void for_each_sign_change(const Coefficients<Real>& c, int degree, Real scale, V
     if (lead.sign == 0) return;
     if (lead.sign < 0)
       for (Real& v : q) v = -v;
-    const auto root = first_root(q, degree, Real(1), noise);
-    if (!root) return;
-    const Real at = begin + *root * (1 - begin);
+    const Real root = first_root(q, degree, Real(1), noise);
+    if (root > 1) return;
+    const Real at = begin + root * (1 - begin);
     if (at > 0 && at < 1) visit(at);
     begin = std::max(at, std::nextafter(begin, Real(2)));
   }

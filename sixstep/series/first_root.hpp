@@ -4,11 +4,14 @@
 #pragma once
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "sixstep/series/polynomial.hpp"
 
 namespace sixstep::series {
+
+/// Behind every segment's end: the guard holds. A number, since an optional one costs the run loop 2 %.
+template <class Real>
+inline constexpr Real no_root = 2;
 
 /// The sign with which a guard leaves its start: coefficients within `noise` count as zero, the first real
 /// one decides. `order` is its index (degree + 1 where every coefficient is noise: the guard rests on zero).
@@ -64,6 +67,36 @@ Outline<Real> outline(const Real* q, int n, Real length) {
   return of;
 }
 
+/// A polynomial at one place, to second order.
+template <class Real>
+struct Local {
+  Real value = 0, slope = 0, bend = 0;  ///< bend: half the second derivative
+};
+
+/// In even and odd powers, y = e(s^2) + s o(s^2): two chains side by side, half as long.
+template <class Real>
+inline Local<Real> local(const Real* c, int degree, Real s) {
+  const Real t = s * s;
+  Local<Real> e, o;
+  const auto append = [t](Local<Real>& of, Real next) {
+    of.bend = of.bend * t + of.slope;
+    of.slope = of.slope * t + of.value;
+    of.value = of.value * t + next;
+  };
+  int j = degree;
+  if (j % 2 == 0) e.value = c[j--];
+  if (j > 0) {
+    o.value = c[j];
+    for (j -= 2; j > 0; j -= 2) {
+      append(e, c[j + 1]);
+      append(o, c[j]);
+    }
+    append(e, c[0]);
+  }
+  return {e.value + s * o.value, o.value + 2 * (s * e.slope + t * o.slope),
+          e.slope + 4 * (t * e.bend) + s * (3 * o.slope + 4 * (t * o.bend))};
+}
+
 /// A root known to lie alone in (low, high], with c(low) > 0 >= c(high): Newton from `guess`, kept inside by
 /// bisection. The last step takes the curvature along: it leaves about 2 (bend/slope step)^2 of itself.
 template <class Real>
@@ -74,12 +107,7 @@ Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) 
   const Real last_step = small * (high - low);
   Real s = guess > low && guess < high ? guess : low + (high - low) / 2;
   for (int round = 0; round < 200; ++round) {
-    Real value = c[degree], slope = 0, bend = 0;  // bend: half the second derivative
-    for (int j = degree - 1; j >= 0; --j) {
-      bend = bend * s + slope;
-      slope = slope * s + value;
-      value = value * s + c[j];
-    }
+    const auto [value, slope, bend] = local(c, degree, s);
     (value > 0 ? low : high) = s;
     const Real inverse = 1 / slope, step = -value * inverse, newton = s + step;
     const bool inside = slope < 0 && newton >= low && newton <= high;
@@ -102,7 +130,8 @@ Real near_root(const Real* c, int degree) {
   const Real inverse = 1 / c[1], straight = -c[0] * inverse;
   if (degree < 4) return straight;
   const Real p = c[2] * inverse, q = c[3] * inverse, r = c[4] * inverse, pp = p * p;
-  return straight * (1 - straight * (p - straight * ((2 * pp - q) - straight * (5 * p * (pp - q) + r))));
+  const Real near = 1 - straight * p, far = (2 * pp - q) - straight * (5 * p * (pp - q) + r);
+  return straight * (near + straight * straight * far);
 }
 
 template <class Real>
@@ -153,7 +182,7 @@ Coefficients<Real> split_half(Coefficients<Real>& b, int degree) {
 /// Left-first subdivision of [0, length]; a piece with one sign change holds one root, with none it holds
 /// none (Descartes). Pieces too narrow to split further touch zero to rounding: that counts as the root.
 template <class Real>
-std::optional<Real> subdivide(const Real* c, int degree, Real length) {
+Real subdivide(const Real* c, int degree, Real length) {
   constexpr int depth_limit = 50;
   struct Piece {
     Coefficients<Real> b;
@@ -177,7 +206,7 @@ std::optional<Real> subdivide(const Real* c, int degree, Real length) {
     stack[top++] = {right, middle, piece.high, piece.depth + 1};
     stack[top++] = {piece.b, piece.low, middle, piece.depth + 1};
   }
-  return std::nullopt;
+  return no_root<Real>;
 }
 
 }  // namespace detail
@@ -201,25 +230,26 @@ inline bool stays_above(Real start, Real slope, Real rest, Real noise) {
 }
 
 /// First s in [0, length], length <= 1, at which the polynomial goes below zero; 0 where it does so from the
-/// start. `noise` is the rounding level of the guard: leading coefficients within it are taken as zero and
-/// divided out, so a restart on the boundary neither repeats the event nor needs a dead time.
+/// start, no_root where it never does. `noise` is the rounding level of the guard: leading coefficients
+/// within it are taken as zero and divided out, so a restart on the boundary neither repeats the event nor
+/// needs a dead time.
 template <class Real>
-std::optional<Real> first_root(const Coefficients<Real>& c, int degree, Real length, Real noise) {
+Real first_root(const Coefficients<Real>& c, int degree, Real length, Real noise) {
   // The commonest answer first: the value cannot be used up by all other terms together.
-  if (c[0] > noise && c[0] > tail_bound(c, degree)) return std::nullopt;
+  if (c[0] > noise && c[0] > tail_bound(c, degree)) return no_root<Real>;
 
   const Leading start = leading(c, degree, noise);
-  if (start.sign == 0) return std::nullopt;
+  if (start.sign == 0) return no_root<Real>;
   if (start.sign < 0) return Real(0);
   const Real* q = c.data() + start.order;
   const int n = degree - start.order;
-  if (n == 0) return std::nullopt;
+  if (n == 0) return no_root<Real>;
 
   const auto [at_end, tail, slope_rest] = detail::outline(q, n, length);
-  if (q[0] > tail) return std::nullopt;
-  if (q[1] > slope_rest) return std::nullopt;  // strictly rising
-  if (-q[1] > slope_rest) {                    // strictly falling: one root or none
-    if (at_end > 0) return std::nullopt;
+  if (q[0] > tail) return no_root<Real>;
+  if (q[1] > slope_rest) return no_root<Real>;  // strictly rising
+  if (-q[1] > slope_rest) {                     // strictly falling: one root or none
+    if (at_end > 0) return no_root<Real>;
     return detail::bracketed_root(q, n, Real(0), length, detail::near_root(q, n));
   }
   return detail::subdivide(q, n, length);

@@ -68,9 +68,9 @@ Run run(System& system, Instant end, Observer& observer) {
     Real first = 1;
     int event = -1;
     system.guards([&](int id, const series::Coefficients<Real>& c, int degree, Real noise) {
-      if (const auto root = series::first_root(c, degree, first, noise);
-          root && (*root < first || event < 0)) {
-        first = *root;
+      if (const Real root = series::first_root(c, degree, first, noise);
+          root < first || (event < 0 && root == first)) {
+        first = root;
         event = id;
       }
     });

@@ -82,8 +82,8 @@ std::optional<double> Gauge::crossing(double fraction, const Series& c, int degr
   for (double& v : missing) v *= -sign();
   missing[0] += sign() * target;
   if (missing[0] <= 0.0) return t0;
-  const auto root = series::first_root(missing, degree, 1.0, 0.0);
-  return root ? std::optional(t0 + *root * length) : std::nullopt;
+  const double root = series::first_root(missing, degree, 1.0, 0.0);
+  return root <= 1.0 ? std::optional(t0 + root * length) : std::nullopt;
 }
 
 void Gauge::reach_part(const Series& c, int degree, double t0, double length) {

@@ -83,16 +83,16 @@ void HarmonicGauge::turn(const Glance& g, const Piece& y, double from, double to
   Series missing = series::restricted(e.x, e.degree, from, to);  // positive until the turn is full
   for (double& v : missing) v *= -direction_;
   missing[0] = static_cast<double>(turns_ + 1) * whole_turn - direction_ * swept(g, from);
-  const auto root = missing[0] <= 0.0 ? std::optional(0.0) : series::first_root(missing, e.degree, 1.0, 0.0);
-  if (!root) return turn_part(g, y, from, to);
-  const double full = from + *root * (to - from);
+  const double root = missing[0] <= 0.0 ? 0.0 : series::first_root(missing, e.degree, 1.0, 0.0);
+  if (root > 1.0) return turn_part(g, y, from, to);
+  const double full = from + root * (to - from);
   const auto share = [&](double begin, double end) {
     return Piece{series::restricted(y.c, y.degree, begin, end), y.degree};
   };
-  if (*root > 0.0) turn_part(g, share(0.0, *root), from, full);
+  if (root > 0.0) turn_part(g, share(0.0, root), from, full);
   ++turns_;
   whole_ = fit_;
-  if (*root < 1.0) turn_part(g, share(*root, 1.0), full, to);
+  if (root < 1.0) turn_part(g, share(root, 1.0), full, to);
 }
 
 /// The electrical angle turns no faster than the series of a segment change, so that their degree says how

@@ -107,7 +107,7 @@ constexpr std::int64_t most_sectors = 2'000'000;
 base::Result<OperatingPoint> full_on(const Bench& b, double speed) {
   SectorMap map(b, speed);
   const double q = base::exp(-forgetting_rate(b) * sector_seconds(b, speed));
-  const double noise = plant::noise_of(map.system().plant().constants().amp_scale, 1.0);
+  const double noise = map.system().plant().constants().amp_noise;
   sim::Stop stop = sim::Stop::observer;
   map.apply(stop);  // to the first edge
   double moved = 0.0;

@@ -37,11 +37,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // adds at most 4 (degree + 1) eps of the sum.
   const double error = (degree + 1) * (noise + 4 * eps * sum);
   const auto root = first_root(c, degree, length, noise);
-  if (root && !(*root >= 0 && *root <= length)) std::abort();
-  const double end = root.value_or(length);
-  if (root && *root > 0 && std::fabs(static_cast<double>(value_of(c, degree, end))) > error) std::abort();
-  if (root && *root == 0 && value_of(c, degree, 0) > error) std::abort();
-  if (root && *root == 0) return 0;
+  const bool found = root != sixstep::series::no_root<double>;
+  if (found && !(root >= 0 && root <= length)) std::abort();
+  const double end = found ? root : length;
+  if (found && root > 0 && std::fabs(static_cast<double>(value_of(c, degree, end))) > error) std::abort();
+  if (root == 0 && value_of(c, degree, 0) > error) std::abort();
+  if (root == 0) return 0;
   for (int k = 0; k <= 64; ++k)
     if (static_cast<double>(value_of(c, degree, end * k / 64.0L)) < -error) std::abort();
   return 0;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// The series of one segment while they grow, and what every conduction mode has in common: the rotor, the bus
+// and the shape of the back-EMF (MODEL 1).
+#pragma once
+#include "sixstep/plant/expansion.hpp"
+
+namespace sixstep::plant::detail {
+
+// The order n of a term is a template argument: the whole recurrence is unrolled, products of short series
+// included (ENGINE: an unrolled kernel takes a quarter of the time of one with counted loops).
+
+/// The series while they grow: a local of the recurrence, so that the newest terms stay in registers and no
+/// store has to be waited for. What a law does not use is never made.
+template <class Real>
+struct Growing {
+  Real h;
+  Real reach_w = 0, reach_i = 0, reach_i_2 = 0;               ///< sums of the terms' sizes
+  Real later_w = 0, later_x = 0, later_i = 0, later_i_2 = 0;  ///< sums of the terms behind the first
+  series::Coefficients<Real> w, x, torque, bus;
+  series::Coefficients<Real> i, i_2;      ///< of the first and, where three legs are connected, second leg
+  series::Coefficients<Real> phi0, phi1;  ///< sine only
+};
+
+/// The motion's share of the recurrence, the same for every conduction mode.
+template <class Real>
+struct Rotor {
+  Real inv_J;  ///< zero for a rotor at rest
+  Real B, pole_pairs;
+  Real drag;  ///< load and dry friction
+
+  Rotor(const Constants<Real>& c, Motion motion)
+      : inv_J(motion != Motion::locked && motion != Motion::stuck ? c.inv_J : Real(0)),
+        B(c.B),
+        pole_pairs(c.pole_pairs),
+        drag(c.load + (motion == Motion::forward    ? c.coulomb
+                       : motion == Motion::backward ? -c.coulomb
+                                                    : Real(0))) {}
+
+  template <int n>
+  void step(Growing<Real>& y, Real f) const {
+    Real losses = B * y.w[n];
+    if constexpr (n == 0) losses += drag;
+    y.w[n + 1] = (y.torque[n] - losses) * (f * inv_J);
+    y.x[n + 1] = f * pole_pairs * y.w[n];
+  }
+};
+
+/// w phi0 and w phi1 of a sine at order n; cos x and sin x grow along with them.
+template <int n, class Real>
+inline void sine_products(const Rotor<Real>& rotor, Growing<Real>& y, Real f, Real& w0, Real& w1) {
+  w0 = series::product_term<n>(y.w, y.phi0);
+  w1 = series::product_term<n>(y.w, y.phi1);
+  y.phi0[n + 1] = -f * rotor.pole_pairs * w1;  // (cos x)' = -p w sin x
+  y.phi1[n + 1] = f * rotor.pole_pairs * w0;
+}
+
+/// The back-EMF of a leg over w: now + rise (x - x(0)) for a trapezoid, now cos x + rise sin x for a sine. A
+/// trapezoid taken from where it stands leaves the recurrence without its longest chain: the newest terms are
+/// multiplied by constants alone.
+template <bool sine, class Real>
+struct ShapeLine {
+  PerLeg<Real> now, rise;
+  ShapeLine(const EmfPiece<Real>& p, Real x) : now(p.alpha), rise(p.beta) {
+    if constexpr (!sine)
+      for (int k = 0; k < 3; ++k) now[k] += p.beta[k] * x;
+  }
+};
+
+/// U_s: C dU_s/dt = (V_0 - U_s)/R_b - i_dc while the source feeds; i_dc as shares of the growing currents.
+template <class Real>
+struct BusLaw {
+  Real inv_C, feed, V_0, dc_i, dc_i_2;
+
+  BusLaw(const Constants<Real>& c, const Mode& mode, const LegsLaw<Real>& law)
+      : inv_C(c.inv_C), feed(mode.source_feeds ? c.inv_R_b : Real(0)), V_0(c.V_0) {
+    const auto high = [&](unsigned n) {
+      return n < law.connected && is_high(mode.legs[law.leg[n]]) ? Real(1) : Real(0);
+    };
+    dc_i = law.connected == 3 ? high(0) - high(2) : high(0) - high(1);
+    dc_i_2 = law.connected == 3 ? high(1) - high(2) : Real(0);
+  }
+  template <int n>
+  void step(Growing<Real>& y, Real f, Real i, Real i_2) const {
+    y.bus[n + 1] = f * inv_C * (feed * ((n == 0 ? V_0 : Real(0)) - y.bus[n]) - (dc_i * i + dc_i_2 * i_2));
+  }
+};
+
+}  // namespace sixstep::plant::detail
