@@ -9,6 +9,7 @@
 
 #include "batch/curve.hpp"
 #include "faces/cli/keep.hpp"
+#include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
 #include "io/csv_writer.hpp"
 #include "io/curve_columns.hpp"
@@ -142,8 +143,8 @@ Exit curve_command(const CurveArguments& a) {
     return Exit::bad_input;
   }
   catch_interrupts();
-  const base::Result<study::Curve> curve =
-      batch::torque_speed_curve(*request, a.jobs, [] { return !interrupted(); });
+  const base::Result<study::Curve> curve = batch::torque_speed_curve(
+      *request, side_by_side(a.jobs, a.quiet, "points"), [] { return !interrupted(); });
   if (!curve) {
     if (interrupted()) return exit_of_interrupt();
     complain(curve.problems());

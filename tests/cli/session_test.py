@@ -192,6 +192,17 @@ class Terminal(Session):
         (self.path / "a.toml").write_text(SHORT.format(limit=1000).replace("1e-4", "20e-3") + spread)
         self.assertRegex(self.screen("run", "a.toml", "--runs", "1000000000"), r"[\d:]+ left  \d+ of 1000000000 drives")
 
+    def test_a_curve_counts_its_points_and_a_design_its_motors(self):
+        many = ["curve", "maxon-251601", "--points", "200000"]
+        self.assertRegex(self.screen(*many), r"[\d:]+ left  \d+ of 200000 points")
+        self.assertEqual(self.screen(*many, "--quiet", seconds=0.8), "")
+        with self.started(*many) as program:
+            time.sleep(0.7)
+            program.send_signal(signal.SIGINT)
+            self.assertEqual(program.communicate(timeout=20), ("", ""), "nothing of it reaches a pipe")
+        slow = ["design", "maxon-251601", "--mode", "position", "--settle", "1", "--jobs", "1"]
+        self.assertRegex(self.screen(*slow, until="motors"), r"\d+ of \d+ motors")
+
 
 class Watching(Session):
     def test_each_save_shows_the_verdict_again_until_ctrl_c(self):
