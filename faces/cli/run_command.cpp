@@ -15,6 +15,7 @@
 #include "faces/cli/series_command.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/watch.hpp"
+#include "io/atomic_file.hpp"
 #include "io/verdict_table.hpp"
 
 namespace cli {
@@ -65,13 +66,24 @@ void run_all(std::vector<Job>& jobs, const RunArguments& arguments) {
   });
 }
 
+/// Of all, or under its partial name of what is finished, which is then told.
 base::Problems write_index(const RunArguments& arguments, const std::vector<Job>& jobs,
                            io::AtomicFile& index) {
-  std::vector<ReportLink> links;
-  for (const Job& job : jobs)
-    if (job.outcome()) links.push_back({job.scenario().title, job.name() + ".html", job.outcome()});
-  index.write(report_index(links, arguments.command));
-  return index.commit();
+  std::vector<io::report::IndexEntry> entries;
+  std::size_t finished = 0;
+  for (const Job& job : jobs) {
+    entries.push_back(
+        {job.scenario().title, fs::path(job.report()).filename().string(), job.outcome(), job.finished()});
+    finished += job.finished() ? 1 : 0;
+  }
+  index.write(report_index(entries, arguments.command));
+  if (finished == jobs.size()) return index.commit();
+  base::Problems unwritten = index.commit_partial();
+  if (unwritten.empty())
+    print(fmt::format("{} of {} experiments finished; {} lists them\n", finished, jobs.size(),
+                      io::partial_name(index.path())),
+          stderr);
+  return unwritten;
 }
 
 void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
@@ -95,7 +107,7 @@ Exit tell(const std::vector<Job>& jobs, const RunArguments& arguments, std::opti
     print(job.cut_short(), stderr);
   }
   if (!arguments.quiet) print_table(jobs, arguments);
-  if (index && !interrupted()) {
+  if (index) {
     const base::Problems unwritten = write_index(arguments, jobs, *index);
     complain(unwritten);
     if (!unwritten.empty()) exit = graver(exit, Exit::bad_input);

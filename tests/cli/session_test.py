@@ -41,6 +41,18 @@ class Session(ProgramTest):
             time.sleep(0.01)
 
 
+    def check_index(self, folder, *unfinished):
+        """That of a `quick` that was finished and passed, and of others that were not."""
+        page = (self.path / folder / "index.partial.html").read_text()
+        self.assertIn(f"1 of {1 + len(unfinished)} experiments are finished, 1 of these pass", page)
+        self.assertIn('<p class="word">INTERRUPTED</p>', page)
+        self.assertIn('<h2><a href="quick.html">quick</a></h2>', page)
+        for line in unfinished:
+            self.assertRegex(page, line)
+        for name in re.findall('<a href="([^"]*)"', page):
+            self.assertTrue((self.path / folder / name).exists(), name)
+
+
 class Interruption(Session):
     def interrupted(self, sent, *words):
         with self.started("run", self.write("a.toml", 1000), *words, *LONG) as program:
@@ -84,18 +96,23 @@ class Interruption(Session):
             program.send_signal(signal.SIGINT)
             self.assertEqual(program.wait(timeout=20), -signal.SIGINT)
 
-    def test_files_of_finished_runs_stay_whole(self):
+    def test_files_of_finished_runs_stay_whole_and_an_index_lists_them(self):
         (self.path / "quick.toml").write_text(SHORT.format(limit=1000))
-        (self.path / "slow.toml").write_text(SHORT.format(limit=1000).replace("1e-4", "1e4") + "[record]\ngrid_s = 1e-3\n")
-        with self.started("run", "quick.toml", "slow.toml", "--jobs", "1", "--out", "out") as program:
-            self.wait_until(lambda: (self.path / "out/quick.html").exists())
-            time.sleep(0.1)
-            program.send_signal(signal.SIGINT)
-            told = program.communicate(timeout=20)[1]
-        self.assertEqual(program.returncode, 130)
-        self.assertIn("slow: interrupted at", told)
-        self.assertEqual(self.names("out"), ["quick.csv", "quick.html", "quick.json", "slow.partial.csv",
-                                             "slow.partial.html", "slow.partial.json"])
+        slow = SHORT.format(limit=1000).replace("1e-4", "1e4") + "[record]\ngrid_s = 1e-3\n"
+        for name in ("slow", "waiting"):
+            (self.path / f"{name}.toml").write_text(slow)
+        for sent, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            with self.subTest(sent), self.started("run", "quick.toml", "slow.toml", "waiting.toml", "--jobs", "1", "--out", f"out{code}") as program:
+                self.wait_until(lambda: (self.path / f"out{code}/quick.html").exists())
+                time.sleep(0.1)
+                program.send_signal(sent)
+                told = program.communicate(timeout=20)[1]
+            self.assertEqual(program.returncode, code)
+            self.assertIn("slow: interrupted at", told)
+            self.assertEqual(told.splitlines()[-1], f"1 of 3 experiments finished; out{code}/index.partial.html lists them")
+            self.assertEqual(self.names(f"out{code}"), ["index.partial.html", "quick.csv", "quick.html", "quick.json",
+                                                        "slow.partial.csv", "slow.partial.html", "slow.partial.json"])
+            self.check_index(f"out{code}", r"slow.partial.html\">slow</a>: cut short at [\d.]+\s\w?s</li>", "<li>waiting: without a result</li>")
 
 
 class FullDisk(Session):
@@ -119,6 +136,16 @@ class FullDisk(Session):
                 if option in ("--csv", "--vcd"):
                     self.assertTrue(written.read_text().endswith("\n"))
                 written.unlink()
+
+    def test_an_index_lists_what_was_finished_before_the_disk_was_full(self):
+        (self.path / "quick.toml").write_text(SHORT.format(limit=1000))
+        (self.path / "slow.toml").write_text(SHORT.format(limit=1000).replace("1e-4", "10") + "[record]\ngrid_s = 1e-5\n")
+        shrink = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4_000_000, 4_000_000))
+        with self.started("run", "quick.toml", "slow.toml", "--quiet", "--out", "out", preexec_fn=shrink) as program:
+            told = program.communicate(timeout=20)[1]
+        self.assertEqual(program.returncode, 2)
+        self.assertEqual(told.splitlines()[-1], "1 of 2 experiments finished; out/index.partial.html lists them")
+        self.check_index("out", "slow.partial.html\">slow</a>: cut short at ")
 
     def test_what_is_told_of_a_device_that_is_full(self):
         told = self.run_program("run", self.write("a.toml", 1000), "--quiet", "--csv", "/dev/full", code=2).stderr
