@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <exception>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,15 @@ std::string exit_codes() {
   return text + "\n";
 }
 
+/// A page of help, the version, or what is wrong with the command line.
+Exit told(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream out, err;
+  const bool asked_for = app.exit(error, out, err) == 0;
+  print(out.str());
+  print(err.str(), stderr);
+  return asked_for ? Exit::ok : Exit::bad_input;
+}
+
 Exit run_program(int count, const char* const* words) {
   CLI::App app{"Brushless DC motor from data sheet to verified firmware", "sixstep"};
   app.set_version_flag("--version", std::string("sixstep ") + SIXSTEP_VERSION);
@@ -73,7 +83,7 @@ Exit run_program(int count, const char* const* words) {
     const std::string first = count > 1 ? words[1] : "-";
     if (app.get_subcommands().empty() && first[0] != '-') return unknown_command(app, first);
     if (dynamic_cast<const CLI::ExtrasError*>(&error)) return unknown_argument(app);
-    return app.exit(error) == 0 ? Exit::ok : Exit::bad_input;
+    return told(app, error);
   }
   const auto chosen =
       std::find_if(std::begin(verbs), std::end(verbs), [](const Verb& v) { return v.app->parsed(); });
@@ -86,7 +96,7 @@ Exit run_program(int count, const char* const* words) {
 int main(int count, char** words) {
   cli::take_write_errors();
   try {
-    return static_cast<int>(cli::run_program(count, words));
+    return static_cast<int>(cli::exit_after_printing(cli::run_program(count, words)));
   } catch (const std::exception& error) {
     cli::print(std::string("internal error: ") + error.what() + "\n", stderr);
   } catch (...) {

@@ -92,10 +92,10 @@ void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
     if (job.outcome()) entries.push_back({job.name(), job.outcome()});
   std::FILE* to = arguments.paths.json == "-" ? stderr : stdout;  // standard output is the JSON's alone
   if (entries.empty()) return;
-  print(io::verdict_table(entries, may_colour(to)), to);
+  std::string text = io::verdict_table(entries, may_colour(to));
   // Of runs that were cut short or never began no sum is drawn.
-  if (!interrupted() && entries.size() == jobs.size())
-    print(io::verdict_summary(entries, may_colour(to)), to);
+  if (!interrupted() && entries.size() == jobs.size()) text += io::verdict_summary(entries, may_colour(to));
+  print(text, to);
 }
 
 /// What went wrong, what was cut short, the table, the index.
@@ -131,7 +131,7 @@ Exit run_again_on_save(const RunArguments& arguments) {
     JobsRead read = read_jobs(arguments);
     const Watch watch(read.files);
     const Exit exit = run_jobs(arguments, read);
-    if (interrupted()) return exit;
+    if (interrupted() || unheard()) return exit;
     if (!arguments.quiet) print("-- runs again when a file is saved; Ctrl-C ends\n", stderr);
     if (!watch.wait_for_a_change()) return exit;
   }
