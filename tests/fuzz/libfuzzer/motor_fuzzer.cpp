@@ -8,7 +8,7 @@
 
 #include "io/motor_text.hpp"
 #include "io/scenario_file.hpp"
-#include "sixstep/study/first_scenario.hpp"
+#include "sixstep/design/drive_design.hpp"
 #include "tests/fuzz/libfuzzer/complaints.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -25,13 +25,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzzing::must_say_something(check.problems());
   else if (io::sheet_table(*sheet).empty() || io::model_table(*sheet, *check).empty())
     std::abort();
-  sixstep::study::FirstWish wish;
-  wish.motor = "fuzz";
-  wish.sheet = *sheet;
-  const auto first = sixstep::study::first_scenario(wish);
-  if (first)
-    fuzzing::must_compile(*first);
-  else
-    fuzzing::must_say_something(first.problems());
+  const auto model = sixstep::design::motor_model(*sheet);
+  if (!model) {
+    fuzzing::must_say_something(model.problems());
+    return 0;
+  }
+  using sixstep::control::Mode;
+  for (const Mode mode : {Mode::current, Mode::speed, Mode::position}) {
+    const auto design = sixstep::design::design_drive(*model, {.mode = mode});
+    if (!design) fuzzing::must_say_something(design.problems());
+  }
   return 0;
 }
