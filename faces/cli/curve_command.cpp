@@ -11,6 +11,7 @@
 #include "faces/cli/keep.hpp"
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
+#include "faces/cli/written_twice.hpp"
 #include "io/csv_writer.hpp"
 #include "io/curve_columns.hpp"
 #include "io/curve_json.hpp"
@@ -136,12 +137,10 @@ Exit curve_command(const CurveArguments& a) {
     complain(request.problems());
     return Exit::bad_input;
   }
-  base::Problems problems;
+  base::Problems problems = written_twice({{"--csv", a.csv}, {"--json", a.json}, {"--html", a.html}});
+  if (!problems.empty()) return refused(problems);
   Outputs out = outputs(a, problems);
-  if (!problems.empty()) {
-    complain(problems);
-    return Exit::bad_input;
-  }
+  if (!problems.empty()) return refused(problems);
   catch_interrupts();
   const base::Result<study::Curve> curve = batch::torque_speed_curve(
       *request, side_by_side(a.jobs, a.quiet, "points"), [] { return !interrupted(); });

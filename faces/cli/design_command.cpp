@@ -10,6 +10,7 @@
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
+#include "faces/cli/written_twice.hpp"
 #include "io/atomic_file.hpp"
 #include "io/config_header.hpp"
 #include "io/design_json.hpp"
@@ -67,7 +68,12 @@ struct Outputs {
   std::optional<io::AtomicFile> json, toml, header, models, html;
 
   base::Problems open(const DesignArguments& a) {
-    base::Problems found;
+    base::Problems found = written_twice({{"--json", a.json},
+                                          {"--toml", a.toml},
+                                          {"--header", a.header},
+                                          {"--models", a.models},
+                                          {"--html", a.html}});
+    if (!found.empty()) return found;
     const std::string kind = fs::path(a.models).extension().string();
     if (!a.models.empty() && kind != ".json" && kind != ".mat")
       return {{"--models", a.models, "must end in .json or .mat", "name the file so"}};

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <string>
-
 #include "faces/cli/exit_code.hpp"
 
 namespace CLI {
 class App;
-}
+class ParseError;
+}  // namespace CLI
 
 namespace cli {
 
-/// A first word that is no verb: the nearest verb, or `run` for a scenario file.
-Exit unknown_command(const CLI::App& app, const std::string& word);
-
-/// A word that nobody takes: the nearest option of the verb that was read.
-Exit unknown_argument(const CLI::App& app);
+/// A command line that calls no verb: help or the version that was asked for; else what is wrong with it, in
+/// the form of all other messages, with the nearest word for one that nobody takes.
+Exit not_called(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace cli

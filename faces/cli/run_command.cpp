@@ -6,6 +6,7 @@
 #include <CLI/Validators.hpp>
 
 #include <filesystem>
+#include <limits>
 
 #include "batch/for_each.hpp"
 #include "faces/cli/compare_command.hpp"
@@ -162,8 +163,12 @@ void declare_options(CLI::App& run, RunArguments& a) {
   CLI::Option* runs =
       run.add_option("--runs", a.runs, "that many drives of the series that [[spread]] describes");
   runs->excludes(watch)->check(CLI::Range(1, 1'000'000'000));
-  run.add_option("--seed", a.seed, "another series of drives; without it 1");
-  run.add_option("--drive", a.drive, "drive N of the series alone, with all its outputs")->excludes(runs);
+  // A minus would come round as a large number.
+  const CLI::Range whole(std::int64_t{0}, std::numeric_limits<std::int64_t>::max());
+  run.add_option("--seed", a.seed, "another series of drives; without it 1")->check(whole);
+  run.add_option("--drive", a.drive, "drive N of the series alone, with all its outputs")
+      ->excludes(runs)
+      ->check(whole);
 }
 
 }  // namespace
