@@ -77,7 +77,7 @@ std::string Outputs::put(std::optional<File>& file, const std::string& path, boo
   file.reset();
   if (!problems.empty()) return {};
   // What is no regular file has no such name.
-  const std::string partial = io::partial_name(path);
+  std::string partial = io::partial_name(path);
   if (whole || !std::filesystem::exists(partial)) return path;
   partial_files_.push_back(partial);
   return partial;

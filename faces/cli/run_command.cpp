@@ -89,8 +89,8 @@ base::Problems write_index(const RunArguments& arguments, const std::vector<Job>
 
 void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
   std::vector<io::TableEntry> entries;
-  for (const Job& job : jobs)
-    if (job.outcome()) entries.push_back({job.name(), job.outcome()});
+  for (const Job& job : jobs)  // what was cut short has met or missed nothing yet
+    if (job.finished()) entries.push_back({job.name(), job.outcome()});
   std::FILE* to = arguments.paths.json == "-" ? stderr : stdout;  // standard output is the JSON's alone
   if (entries.empty()) return;
   std::string text = io::verdict_table(entries, may_colour(to));

@@ -2,6 +2,7 @@
 #include "faces/cli/terminal.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -31,6 +32,9 @@ void print(std::string_view text, std::FILE* to) {
     const ssize_t taken = ::write(::fileno(to), text.data(), text.size());
     if (taken >= 0) {
       text.remove_prefix(static_cast<std::size_t>(taken));
+    } else if (errno == EAGAIN) {  // whoever reads has made the pipe so that it does not wait: we do
+      pollfd ready{::fileno(to), POLLOUT, 0};
+      ::poll(&ready, 1, -1);
     } else if (errno != EINTR) {
       if (to == stdout) unprinted = errno;
       return;

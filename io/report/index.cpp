@@ -72,7 +72,7 @@ Standing standing_of(const std::vector<IndexEntry>& entries) {
     return {css, passed == finished ? "PASS" : "FAIL",
             fmt::format("{} of {} experiments pass", passed, entries.size())};
   return {
-      passed < finished ? "fail" : "none", "INTERRUPTED",
+      passed < finished ? "fail" : "none", "INCOMPLETE",
       fmt::format("{} of {} experiments are finished, {} of these pass", finished, entries.size(), passed)};
 }
 

@@ -24,6 +24,18 @@ class Pipes(Started):
             self.assertEqual(result.stdout.splitlines()[-1], str(code), words)
             self.assertNotIn("ipe", (self.path / "told").read_text())
 
+    def test_a_pipe_that_does_not_wait_gets_all_of_it(self):
+        whole = self.run_program("schema").stdout
+        self.assertGreater(len(whole), 1 << 16, "more than a pipe holds")
+        ours, theirs = os.pipe()
+        os.set_blocking(theirs, False)
+        with self.started("schema", stdout=theirs) as program:
+            os.close(theirs)
+            time.sleep(0.2)
+            with open(ours, encoding="utf-8") as pipe:
+                self.assertEqual(pipe.read(), whole)
+            self.assertEqual((program.wait(timeout=20), program.stderr.read()), (0, ""))
+
     def test_nothing_but_words_reaches_a_pipe(self):
         with self.started("run", self.write("a.toml", 1000), "--set", "duration_s=1e4") as program:
             time.sleep(0.7)  # a terminal would have seen a bar by now

@@ -28,7 +28,7 @@ class Session(Started):
         """That of a `quick` that was finished and passed, and of others that were not."""
         page = (self.path / folder / "index.partial.html").read_text()
         self.assertIn(f"1 of {1 + len(unfinished)} experiments are finished, 1 of these pass", page)
-        self.assertIn('<p class="word">INTERRUPTED</p>', page)
+        self.assertIn('<p class="word">INCOMPLETE</p>', page)
         self.assertIn('<h2><a href="quick.html">quick</a></h2>', page)
         for line in unfinished:
             self.assertRegex(page, line)
