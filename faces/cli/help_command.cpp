@@ -26,14 +26,12 @@ std::string line(const KeyEntry& entry) {
 }
 
 std::string overview(const std::vector<KeyEntry>& scenario, const std::vector<KeyEntry>& sheet) {
-  std::string text =
-      "Commands: sixstep --help, and sixstep help COMMAND.\n"
-      "Keys of a scenario file (sixstep help TABLE or sixstep help KEY tells more):\n";
+  std::string text = "Keys of a scenario file (sixstep help TABLE or sixstep help KEY tells more):\n";
   for (const KeyEntry& entry : scenario)
     if (entry.path.find('.') == std::string::npos) text += line(entry);
   text += "Keys of a motor file and of [motor_override]:\n";
   for (const KeyEntry& entry : sheet) text += line(entry);
-  return text;
+  return text + "Commands: sixstep --help, and sixstep help COMMAND.\n";
 }
 
 std::string of_table(const std::vector<KeyEntry>& entries, const KeyEntry& table) {
