@@ -5,17 +5,16 @@
 #include <optional>
 #include <vector>
 
-#include "batch/for_each.hpp"
-
 namespace batch {
 
-base::Result<study::Curve> torque_speed_curve(const study::CurveRequest& request, unsigned jobs,
+base::Result<study::Curve> torque_speed_curve(const study::CurveRequest& request,
+                                              const study::ForEach& for_each,
                                               const std::function<bool()>& keep_going) {
   const base::Result<study::CurvePlan> plan = study::plan_curve(request);
   if (!plan) return plan.problems();
   std::vector<std::optional<base::Result<study::OperatingPoint>>> results(plan->speeds_rad_s.size());
   std::atomic<bool> ended = false;
-  for_each(results.size(), jobs, [&](std::size_t n) {
+  for_each(results.size(), [&](std::size_t n) {
     if (keep_going && !keep_going()) ended = true;
     if (!ended) results[n] = study::operating_point(request.bench, plan->speeds_rad_s[n]);
   });

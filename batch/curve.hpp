@@ -5,12 +5,15 @@
 
 #include "batch/rooms.hpp"
 #include "sixstep/study/curve.hpp"
+#include "sixstep/study/robust.hpp"
 
 namespace batch {
 
-/// On up to `jobs` threads (0: one per core); the curve has the same bits however many there are. Where
-/// `keep_going` says no, the points not begun are left out and there is no curve: a Problem "interrupted".
-base::Result<study::Curve> torque_speed_curve(const study::CurveRequest& request, unsigned jobs,
+/// The points as `for_each` takes them, on_threads() for one; the curve has the same bits in whatever order.
+/// Where `keep_going` says no, the points not begun are left out and there is no curve: a Problem
+/// "interrupted".
+base::Result<study::Curve> torque_speed_curve(const study::CurveRequest& request,
+                                              const study::ForEach& for_each,
                                               const std::function<bool()>& keep_going = {});
 
 }  // namespace batch

@@ -11,4 +11,11 @@ namespace batch {
 /// after all ended.
 void for_each(std::size_t count, unsigned jobs, const std::function<void(std::size_t)>& work);
 
+/// for_each with its threads settled: for those who leave that to others.
+inline auto on_threads(unsigned jobs) {
+  return [jobs](std::size_t count, const std::function<void(std::size_t)>& work) {
+    for_each(count, jobs, work);
+  };
+}
+
 }  // namespace batch

@@ -47,17 +47,36 @@ struct Audited {
   }
 };
 
-/// One figure over the whole run: the largest value of the signal, which looks into every segment.
-study::Figures figures(const Prepared& p, study::MetricKind metric, study::Signal signal) {
+/// One figure over the whole run.
+study::Figures figure(const Prepared& p, const study::Measure& measure) {
   study::Scenario s = p.scenario();
   s.require.clear();
   s.compare.clear();
-  study::Measure m;
-  m.metric = metric;
-  m.signal = signal;
-  s.compare.push_back({m, 0.0, ""});
+  s.compare.push_back({measure, 0.0, ""});
   return study::Figures(s, study::reference_levels(s));
 }
+
+/// One of each kind: an integral, an extreme, crossings of a band, harmonics, powers, edges. The fundamental
+/// is a given one: with the rotor's own, a case that turns it back would end the figure early.
+struct FigureRow {
+  const char* name;
+  study::Measure measure;
+};
+const FigureRow figure_rows[] = {
+    {"figure: mean of the current", {.metric = study::MetricKind::mean, .signal = study::Signal::current}},
+    {"figure: maximum of the current",
+     {.metric = study::MetricKind::maximum, .signal = study::Signal::current}},
+    {"figure: settling time of the current at 5 A",
+     {.metric = study::MetricKind::settling_time,
+      .signal = study::Signal::current,
+      .level = 5.0,
+      .start = 0.0}},
+    {"figure: distortion of a phase current",
+     {.metric = study::MetricKind::thd, .signal = study::Signal::phase_a, .frequency_Hz = 200.0}},
+    {"figure: efficiency", {.metric = study::MetricKind::efficiency}},
+    {"figure: switching frequency of a gate",
+     {.metric = study::MetricKind::switching_frequency, .signal = study::Signal::gate_T1}},
+};
 
 std::vector<std::size_t> first_columns(std::size_t count) {
   std::vector<std::size_t> columns(count);
@@ -103,14 +122,11 @@ void add(const Case& c, const char* observer, Make make) {
 }
 
 void register_all(const Case& c) {
-  using study::MetricKind, study::Signal;
   add(c, "none", [](const Prepared&) { return sixstep::sim::NoObserver{}; });
   add(c, "digest", [](const Prepared&) { return study::Digest{}; });
   add(c, "energy audit and laws", [](const Prepared&) { return Audited{}; });
-  add(c, "figure: mean of the current",
-      [](const Prepared& p) { return figures(p, MetricKind::mean, Signal::current); });
-  add(c, "figure: maximum of the current",
-      [](const Prepared& p) { return figures(p, MetricKind::maximum, Signal::current); });
+  for (const FigureRow& row : figure_rows)
+    add(c, row.name, [measure = row.measure](const Prepared& p) { return figure(p, measure); });
   add(c, "rows on a grid, one per PWM period", [](const Prepared& p) {
     return study::GridRecorder(grid_ticks, p.end(), p.scenario().control.mode, first_columns(7), nowhere);
   });

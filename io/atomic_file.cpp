@@ -13,6 +13,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "io/text_file.hpp"
+
 namespace io {
 namespace {
 
@@ -75,6 +77,10 @@ base::Result<AtomicFile> AtomicFile::create(const std::string& path) {
   struct stat status {};
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) return unwritable(path, EISDIR);
+  if (exists && S_ISREG(status.st_mode) && ReadLog::has(path))
+    return base::Problem{.where = path + ":",
+                         .limit = "is read here: what is written would take its place",
+                         .cure = "name another file"};
   int descriptor = -1;
   if (exists && !S_ISREG(status.st_mode)) {
     descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);

@@ -13,7 +13,8 @@ namespace io {
 
 /// Writes to a temporary name in the same folder; commit() puts it in place, going out of scope removes it.
 /// Creating it already proves that the folder can be written, so create all of them before the work begins.
-/// What is no regular file (a pipe, /dev/null) is written as it is.
+/// What is no regular file (a pipe, /dev/null) is written as it is. A file that a ReadLog has noted is
+/// refused: nobody means to lose a scenario to its own report.
 class AtomicFile {
  public:
   static base::Result<AtomicFile> create(const std::string& path);

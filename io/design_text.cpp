@@ -167,8 +167,7 @@ std::string simulated_text(const study::DesignStudy& s) {
   rows.add({"figure", "expected", "simulated", "", ""});
   for (const auto& c : s.outcome.comparisons)
     rows.add({c.figure, quantity_text(c.value, c.unit),
-              quantity_text(sixstep::study::as_read(c, s.scenario), c.unit),
-              std::isfinite(c.measured) ? deviation_text(c) : "", c.source});
+              quantity_text(sixstep::study::as_read(c, s.scenario), c.unit), deviation_text(c), c.source});
   const study::Scenario& n = s.scenario;
   std::string how;
   if (n.control.mode == Mode::current)

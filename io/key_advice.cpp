@@ -129,8 +129,10 @@ base::Problem unknown_key(std::string_view key, std::span<const std::string> kno
                                 conversion(unit_suffix(key), unit_suffix(*same)))};
   const std::string near = nearest(key, known);
   if (!near.empty()) return {.limit = "is not a key here", .cure = fmt::format("did you mean {}?", near)};
-  return {.limit = "is not a key here",
-          .cure = advice.empty() ? "known are " + join(known) : std::string(advice)};
+  constexpr std::size_t most_listed = 30;  // a motor file has some seventy
+  const std::string all =
+      known.size() > most_listed ? "sixstep help lists them all" : "known are " + join(known);
+  return {.limit = "is not a key here", .cure = advice.empty() ? all : std::string(advice)};
 }
 
 std::string limit_of(const base::Range& range) {

@@ -32,6 +32,8 @@ std::string meant(const std::string& path) {
 }
 
 base::Problem unreadable(const std::string& path, int reason) {
+  if (path == "-")
+    return {"-:", "", "is no file", "/dev/stdin is the one that holds what is piped into the program"};
   const std::string near = reason == ENOENT ? meant(path) : "";
   return {.where = path + ":",
           .limit = std::string("cannot be read: ") + std::strerror(reason),
@@ -40,12 +42,27 @@ base::Problem unreadable(const std::string& path, int reason) {
                                    : "did you mean " + near + "?"};
 }
 
+constexpr std::size_t most_bytes = std::size_t{128} << 20;  // /dev/zero never ends
+
 thread_local ReadLog* log_in_use = nullptr;
 
 }  // namespace
 
 ReadLog::ReadLog() : digest_(study::Hash().value()), outer_(log_in_use) { log_in_use = this; }
-ReadLog::~ReadLog() { log_in_use = outer_; }
+ReadLog::~ReadLog() {
+  log_in_use = outer_;
+  if (outer_) outer_->paths_.insert(outer_->paths_.end(), paths_.begin(), paths_.end());
+}
+
+bool ReadLog::has(const std::string& path) {
+  std::error_code none;
+  for (const ReadLog* log = log_in_use; log; log = log->outer_)
+    if (std::ranges::any_of(log->paths_, [&](const std::string& read) {
+          return std::filesystem::equivalent(read, path, none);
+        }))
+      return true;
+  return false;
+}
 
 void ReadLog::note(const std::string& path, const std::string& text) {
   paths_.push_back(path);
@@ -72,7 +89,13 @@ base::Result<std::string> read_text(const std::string& path) {
   if (!file) return unreadable(path, reason);
   std::string text;
   char block[1 << 14];
-  while (const std::size_t got = std::fread(block, 1, sizeof block, file.get())) text.append(block, got);
+  while (const std::size_t got = std::fread(block, 1, sizeof block, file.get())) {
+    text.append(block, got);
+    if (text.size() > most_bytes)
+      return base::Problem{.where = path + ":",
+                           .limit = "cannot be read: it goes on beyond 128 MiB",
+                           .cure = "name a file that ends"};
+  }
   if (std::ferror(file.get())) return unreadable(path, errno);
   if (log_in_use) log_in_use->note(path, text);
   return text;

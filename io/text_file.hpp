@@ -13,7 +13,7 @@ namespace io {
 base::Result<std::string> read_text(const std::string& path);
 
 /// Notes every file that read_text() reads in this thread while it lives: a scenario's own, its motor's, and
-/// whatever they name.
+/// whatever they name. One that ends inside another hands on its paths.
 class ReadLog {
  public:
   ReadLog();
@@ -27,6 +27,9 @@ class ReadLog {
   std::uint64_t digest() const { return digest_; }
 
   void note(const std::string& path, const std::string& text);
+
+  /// Whether a log of this thread, or one that ended inside it, has noted that file, under whatever name.
+  static bool has(const std::string& path);
 
  private:
   std::vector<std::string> paths_;

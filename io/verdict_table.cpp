@@ -88,6 +88,7 @@ std::string counted(std::size_t n, const char* what) {
 }  // namespace
 
 std::string deviation_text(const study::ComparisonResult& c) {
+  if (!std::isfinite(c.measured)) return "not comparable";
   if (c.value == 0.0) return "";
   const double percent = 100.0 * (c.measured - c.value) / std::abs(c.value);
   return std::abs(percent) < 1e-9 ? "0 %" : fmt::format("{:+.3g} %", percent);

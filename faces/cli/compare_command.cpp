@@ -72,8 +72,7 @@ std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
 void print_table(const std::vector<Job>& jobs, const std::vector<Compared>& runs) {
   std::vector<io::TableEntry> entries;
   for (std::size_t n = 0; n < runs.size(); ++n) entries.push_back({jobs[n].name(), &*runs[n].outcome});
-  print(io::verdict_table(entries, may_colour(stdout)));
-  print(io::verdict_summary(entries, may_colour(stdout)));
+  print(io::verdict_table(entries, may_colour(stdout)) + io::verdict_summary(entries, may_colour(stdout)));
 }
 
 }  // namespace

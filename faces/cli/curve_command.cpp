@@ -9,7 +9,9 @@
 
 #include "batch/curve.hpp"
 #include "faces/cli/keep.hpp"
+#include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
+#include "faces/cli/written_twice.hpp"
 #include "io/csv_writer.hpp"
 #include "io/curve_columns.hpp"
 #include "io/curve_json.hpp"
@@ -135,15 +137,13 @@ Exit curve_command(const CurveArguments& a) {
     complain(request.problems());
     return Exit::bad_input;
   }
-  base::Problems problems;
+  base::Problems problems = written_twice({{"--csv", a.csv}, {"--json", a.json}, {"--html", a.html}});
+  if (!problems.empty()) return refused(problems);
   Outputs out = outputs(a, problems);
-  if (!problems.empty()) {
-    complain(problems);
-    return Exit::bad_input;
-  }
+  if (!problems.empty()) return refused(problems);
   catch_interrupts();
-  const base::Result<study::Curve> curve =
-      batch::torque_speed_curve(*request, a.jobs, [] { return !interrupted(); });
+  const base::Result<study::Curve> curve = batch::torque_speed_curve(
+      *request, side_by_side(a.jobs, a.quiet, "points"), [] { return !interrupted(); });
   if (!curve) {
     if (interrupted()) return exit_of_interrupt();
     complain(curve.problems());

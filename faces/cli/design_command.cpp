@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 #include <CLI/App.hpp>
 
-#include <atomic>
 #include <filesystem>
 
-#include "batch/for_each.hpp"
 #include "faces/cli/choose.hpp"
 #include "faces/cli/new_file.hpp"
-#include "faces/cli/progress.hpp"
+#include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
+#include "faces/cli/written_twice.hpp"
 #include "io/atomic_file.hpp"
 #include "io/config_header.hpp"
 #include "io/design_json.hpp"
@@ -69,7 +68,12 @@ struct Outputs {
   std::optional<io::AtomicFile> json, toml, header, models, html;
 
   base::Problems open(const DesignArguments& a) {
-    base::Problems found;
+    base::Problems found = written_twice({{"--json", a.json},
+                                          {"--toml", a.toml},
+                                          {"--header", a.header},
+                                          {"--models", a.models},
+                                          {"--html", a.html}});
+    if (!found.empty()) return found;
     const std::string kind = fs::path(a.models).extension().string();
     if (!a.models.empty() && kind != ".json" && kind != ".mat")
       return {{"--models", a.models, "must end in .json or .mat", "name the file so"}};
@@ -129,18 +133,6 @@ base::Problems write(const study::DesignStudy& s, const DesignArguments& a, Outp
   return found;
 }
 
-/// The runs of the tolerances side by side, with a count for who watches.
-study::ForEach side_by_side(const DesignArguments& a) {
-  return [jobs = a.jobs, quiet = a.quiet](std::size_t count, const std::function<void(std::size_t)>& work) {
-    std::atomic<std::size_t> done{0};
-    Progress progress({.seconds = {}, .pieces = count, .of = "motors"}, quiet);
-    batch::for_each(count, jobs, [&](std::size_t n) {
-      work(n);
-      progress.pieces_done(++done);
-    });
-  };
-}
-
 Exit design_command(const DesignArguments& a) {
   base::Problems found;
   const design::DesignWish wish = wish_of(a, found);
@@ -154,7 +146,7 @@ Exit design_command(const DesignArguments& a) {
       {.subject = {a.motor, *sheet, a.step},
        .wish = wish,
        .tolerances = a.quick ? std::vector<study::Tolerance>() : study::sheet_tolerances(wish.mode),
-       .for_each = side_by_side(a),
+       .for_each = side_by_side(a.jobs, a.quiet, "motors"),
        .keep_going = [] { return !interrupted(); }});
   if (interrupted()) return exit_of_interrupt();
   if (!s) return refused(s.problems());

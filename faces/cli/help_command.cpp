@@ -31,7 +31,7 @@ std::string overview(const std::vector<KeyEntry>& scenario, const std::vector<Ke
     if (entry.path.find('.') == std::string::npos) text += line(entry);
   text += "Keys of a motor file and of [motor_override]:\n";
   for (const KeyEntry& entry : sheet) text += line(entry);
-  return text;
+  return text + "Commands: sixstep --help, and sixstep help COMMAND.\n";
 }
 
 std::string of_table(const std::vector<KeyEntry>& entries, const KeyEntry& table) {
@@ -66,7 +66,13 @@ const KeyEntry* by_name(const std::vector<KeyEntry>& entries, const std::string&
   return found;
 }
 
-Exit help_command(const std::string& key) {
+/// Who asks for a command's help here means `sixstep COMMAND --help`; a key of that name comes first.
+const CLI::App* command_of(const CLI::App& app, const std::string& name) {
+  const auto found = app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == name; });
+  return found.empty() ? nullptr : found.front();
+}
+
+Exit help_command(const CLI::App& app, const std::string& key) {
   const std::vector<KeyEntry> scenario = io::scenario_keys(), sheet = io::sheet_keys();
   if (key.empty()) {
     print(overview(scenario, sheet));
@@ -84,6 +90,10 @@ Exit help_command(const std::string& key) {
     print(of_key(*entry));
     return Exit::ok;
   }
+  if (const CLI::App* verb = command_of(app, key)) {
+    print(verb->help(app.get_name()));
+    return Exit::ok;
+  }
   std::vector<std::string> known;
   for (const std::vector<KeyEntry>* entries : {&scenario, &sheet})
     for (const KeyEntry& entry : *entries) known.push_back(entry.path);
@@ -99,10 +109,10 @@ Exit help_command(const std::string& key) {
 }  // namespace
 
 Verb declare_help(CLI::App& app) {
-  CLI::App& help = *app.add_subcommand("help", "explain a key, a table, or all of them");
+  CLI::App& help = *app.add_subcommand("help", "explain a key, a table, a command, or all keys");
   const auto key = std::make_shared<std::string>();
   help.add_option("KEY", *key, "as supply.voltage_V, pwm or resistance_ohm");
-  return {&help, [key](const std::string&) { return help_command(*key); }};
+  return {&help, [&app, key](const std::string&) { return help_command(app, *key); }};
 }
 
 }  // namespace cli

@@ -25,6 +25,10 @@ class Job {
   std::string name() const;  ///< the file's stem
   const study::Scenario& scenario() const { return scenario_; }
   const study::Outcome* outcome() const { return outcome_ ? &*outcome_ : nullptr; }
+  /// It ran to its end, or to a fault.
+  bool finished() const { return outcome_ && !interrupted_ && !broken_; }
+  /// The path of its report, or of what a run that was cut short left of one; empty where there is none.
+  const std::string& report() const { return outputs_.report(); }
   const base::Problems& problems() const { return problems_; }
   /// Of a run that was ended before its time: when, and what stands where. Empty else.
   std::string cut_short() const;

@@ -18,10 +18,11 @@
 #include "faces/cli/man_command.hpp"
 #include "faces/cli/motor_command.hpp"
 #include "faces/cli/new_command.hpp"
+#include "faces/cli/not_called.hpp"
 #include "faces/cli/run_command.hpp"
 #include "faces/cli/schema_command.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/unknown_word.hpp"
+#include "io/text_file.hpp"
 
 namespace cli {
 namespace {
@@ -59,7 +60,7 @@ Exit run_program(int count, const char* const* words) {
   CLI::App app{"Brushless DC motor from data sheet to verified firmware", "sixstep"};
   app.set_version_flag("--version", std::string("sixstep ") + SIXSTEP_VERSION);
   app.require_subcommand(1);
-  app.footer(exit_codes());
+  app.footer("To begin with: sixstep new first\n" + exit_codes());
 
   const Verb verbs[] = {declare_new(app),        declare_run(app),  declare_design(app), declare_curve(app),
                         declare_export(app),     declare_help(app), declare_motor(app),  declare_schema(app),
@@ -70,11 +71,9 @@ Exit run_program(int count, const char* const* words) {
   try {
     app.parse(count, words);
   } catch (const CLI::ParseError& error) {
-    const std::string first = count > 1 ? words[1] : "-";
-    if (app.get_subcommands().empty() && first[0] != '-') return unknown_command(app, first);
-    if (dynamic_cast<const CLI::ExtrasError*>(&error)) return unknown_argument(app);
-    return app.exit(error) == 0 ? Exit::ok : Exit::bad_input;
+    return not_called(app, error);
   }
+  const io::ReadLog inputs;  // no output takes the place of an input
   const auto chosen =
       std::find_if(std::begin(verbs), std::end(verbs), [](const Verb& v) { return v.app->parsed(); });
   return chosen->call(retyped(count, words));
@@ -86,7 +85,7 @@ Exit run_program(int count, const char* const* words) {
 int main(int count, char** words) {
   cli::take_write_errors();
   try {
-    return static_cast<int>(cli::run_program(count, words));
+    return static_cast<int>(cli::exit_after_printing(cli::run_program(count, words)));
   } catch (const std::exception& error) {
     cli::print(std::string("internal error: ") + error.what() + "\n", stderr);
   } catch (...) {

@@ -51,9 +51,10 @@ base::Problems write_schema(const std::string& path) {
 
 Exit new_command(const NewArguments& a) {
   const std::string path = a.name.empty() ? "" : toml_path(a.name);
-  if (const base::Problems found = taken(path); !found.empty()) return refused(found);
+  base::Problems found = taken(path);
   const base::Result<study::Scenario> scenario = scenario_of(a, path);
-  if (!scenario) return refused(scenario.problems());
+  if (!scenario) found.insert(found.end(), scenario.problems().begin(), scenario.problems().end());
+  if (!found.empty()) return refused(found);
   const std::string file = path.empty() ? "FILE.toml" : path;
   const std::string text = io::starter_text(*scenario, {.file = file, .full = a.full});
   if (path.empty()) {

@@ -10,7 +10,6 @@
 #include "io/json_summary.hpp"
 
 namespace cli {
-namespace {}  // namespace
 
 std::vector<std::pair<std::string, std::string>> OutputPaths::files() const {
   std::vector<std::pair<std::string, std::string>> wanted;
@@ -68,16 +67,20 @@ bool Outputs::failed() const {
          (vcd_ && vcd_->failed());
 }
 
-/// Put in place and closed. A file that was not put in place takes its temporary name with it.
+/// Put in place and closed: under which name, if so. A file that was not put in place takes its temporary
+/// name with it.
 template <class File, class... Facts>
-void Outputs::put(std::optional<File>& file, const std::string& path, bool whole, Facts... facts) {
-  if (!file) return;
+std::string Outputs::put(std::optional<File>& file, const std::string& path, bool whole, Facts... facts) {
+  if (!file) return {};
   const base::Problems problems = whole ? file->commit(facts...) : file->commit_partial(facts...);
   problems_.insert(problems_.end(), problems.begin(), problems.end());
-  // What is no regular file has no such name.
-  const std::string partial = io::partial_name(path);
-  if (!whole && problems.empty() && std::filesystem::exists(partial)) partial_files_.push_back(partial);
   file.reset();
+  if (!problems.empty()) return {};
+  // What is no regular file has no such name.
+  std::string partial = io::partial_name(path);
+  if (whole || !std::filesystem::exists(partial)) return path;
+  partial_files_.push_back(partial);
+  return partial;
 }
 
 base::Problems Outputs::publish(const RunStory& s, bool whole) {
@@ -88,7 +91,7 @@ base::Problems Outputs::publish(const RunStory& s, bool whole) {
   if (json_) json_->write(io::json_summary(s.scenario, s.outcome));
   put(json_, paths_.json, whole);
   if (html_) html_->write(report_page({s.scenario, s.outcome, events_, s.origin.scenario, s.origin.command}));
-  put(html_, paths_.html, whole);
+  report_ = put(html_, paths_.html, whole);
   if (paths_.json == "-" && whole) print(io::json_summary(s.scenario, s.outcome));
   events_ = {};
   return std::exchange(problems_, {});

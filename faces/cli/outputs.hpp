@@ -41,12 +41,15 @@ class Outputs {
   /// A run that was cut short leaves NAME.partial.EXT of each, and nothing on standard output.
   base::Problems publish(const RunStory& story, bool whole);
 
+  /// Where the report stands in the end; empty where there is none.
+  const std::string& report() const { return report_; }
+
   /// The names under which a cut run's files stand.
   const std::vector<std::string>& partial_files() const { return partial_files_; }
 
  private:
   template <class File, class... Facts>
-  void put(std::optional<File>& file, const std::string& path, bool whole, Facts... facts);
+  std::string put(std::optional<File>& file, const std::string& path, bool whole, Facts... facts);
 
   OutputPaths paths_;
   std::optional<io::CsvWriter> csv_;
@@ -55,6 +58,7 @@ class Outputs {
   std::optional<io::AtomicFile> json_, html_;
   study::Trace events_;  // for the report only
   base::Problems problems_;
+  std::string report_;
   std::vector<std::string> partial_files_;
 };
 

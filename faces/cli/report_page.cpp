@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "io/report/comparison.hpp"
-#include "io/report/report.hpp"
 #include "io/text_file.hpp"
 
 namespace cli {
@@ -19,10 +18,7 @@ std::string report_page(const ReportSource& s) {
                              .scenario_text = text ? std::move(*text) : std::string()});
 }
 
-std::string report_index(const std::vector<ReportLink>& links, const std::string& command) {
-  std::vector<io::report::IndexEntry> entries;
-  entries.reserve(links.size());
-  for (const ReportLink& link : links) entries.push_back({link.title, link.file, link.outcome});
+std::string report_index(const std::vector<io::report::IndexEntry>& entries, const std::string& command) {
   return io::report::render_index(entries, command, SIXSTEP_VERSION);
 }
 

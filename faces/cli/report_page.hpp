@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "faces/cli/rooms.hpp"
+#include "io/report/report.hpp"
 #include "sixstep/study/outcome.hpp"
 #include "sixstep/study/scenario.hpp"
 
@@ -20,13 +21,7 @@ struct ReportSource {
 
 std::string report_page(const ReportSource& source);
 
-struct ReportLink {
-  std::string title;
-  std::string file;  ///< relative to the index
-  const study::Outcome* outcome;
-};
-
-std::string report_index(const std::vector<ReportLink>& links, const std::string& command);
+std::string report_index(const std::vector<io::report::IndexEntry>& entries, const std::string& command);
 
 struct ComparedSource {
   std::string name;

@@ -6,6 +6,7 @@
 #include <CLI/Validators.hpp>
 
 #include <filesystem>
+#include <limits>
 
 #include "batch/for_each.hpp"
 #include "faces/cli/compare_command.hpp"
@@ -15,6 +16,7 @@
 #include "faces/cli/series_command.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/watch.hpp"
+#include "io/atomic_file.hpp"
 #include "io/verdict_table.hpp"
 
 namespace cli {
@@ -65,25 +67,36 @@ void run_all(std::vector<Job>& jobs, const RunArguments& arguments) {
   });
 }
 
+/// Of all, or under its partial name of what is finished, which is then told.
 base::Problems write_index(const RunArguments& arguments, const std::vector<Job>& jobs,
                            io::AtomicFile& index) {
-  std::vector<ReportLink> links;
-  for (const Job& job : jobs)
-    if (job.outcome()) links.push_back({job.scenario().title, job.name() + ".html", job.outcome()});
-  index.write(report_index(links, arguments.command));
-  return index.commit();
+  std::vector<io::report::IndexEntry> entries;
+  std::size_t finished = 0;
+  for (const Job& job : jobs) {
+    entries.push_back(
+        {job.scenario().title, fs::path(job.report()).filename().string(), job.outcome(), job.finished()});
+    finished += job.finished() ? 1 : 0;
+  }
+  index.write(report_index(entries, arguments.command));
+  if (finished == jobs.size()) return index.commit();
+  base::Problems unwritten = index.commit_partial();
+  if (unwritten.empty())
+    print(fmt::format("{} of {} experiments finished; {} lists them\n", finished, jobs.size(),
+                      io::partial_name(index.path())),
+          stderr);
+  return unwritten;
 }
 
 void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
   std::vector<io::TableEntry> entries;
-  for (const Job& job : jobs)
-    if (job.outcome()) entries.push_back({job.name(), job.outcome()});
+  for (const Job& job : jobs)  // what was cut short has met or missed nothing yet
+    if (job.finished()) entries.push_back({job.name(), job.outcome()});
   std::FILE* to = arguments.paths.json == "-" ? stderr : stdout;  // standard output is the JSON's alone
   if (entries.empty()) return;
-  print(io::verdict_table(entries, may_colour(to)), to);
+  std::string text = io::verdict_table(entries, may_colour(to));
   // Of runs that were cut short or never began no sum is drawn.
-  if (!interrupted() && entries.size() == jobs.size())
-    print(io::verdict_summary(entries, may_colour(to)), to);
+  if (!interrupted() && entries.size() == jobs.size()) text += io::verdict_summary(entries, may_colour(to));
+  print(text, to);
 }
 
 /// What went wrong, what was cut short, the table, the index.
@@ -95,7 +108,7 @@ Exit tell(const std::vector<Job>& jobs, const RunArguments& arguments, std::opti
     print(job.cut_short(), stderr);
   }
   if (!arguments.quiet) print_table(jobs, arguments);
-  if (index && !interrupted()) {
+  if (index) {
     const base::Problems unwritten = write_index(arguments, jobs, *index);
     complain(unwritten);
     if (!unwritten.empty()) exit = graver(exit, Exit::bad_input);
@@ -119,7 +132,7 @@ Exit run_again_on_save(const RunArguments& arguments) {
     JobsRead read = read_jobs(arguments);
     const Watch watch(read.files);
     const Exit exit = run_jobs(arguments, read);
-    if (interrupted()) return exit;
+    if (interrupted() || unheard()) return exit;
     if (!arguments.quiet) print("-- runs again when a file is saved; Ctrl-C ends\n", stderr);
     if (!watch.wait_for_a_change()) return exit;
   }
@@ -150,8 +163,12 @@ void declare_options(CLI::App& run, RunArguments& a) {
   CLI::Option* runs =
       run.add_option("--runs", a.runs, "that many drives of the series that [[spread]] describes");
   runs->excludes(watch)->check(CLI::Range(1, 1'000'000'000));
-  run.add_option("--seed", a.seed, "another series of drives; without it 1");
-  run.add_option("--drive", a.drive, "drive N of the series alone, with all its outputs")->excludes(runs);
+  // A minus would come round as a large number.
+  const CLI::Range whole(std::int64_t{0}, std::numeric_limits<std::int64_t>::max());
+  run.add_option("--seed", a.seed, "another series of drives; without it 1")->check(whole);
+  run.add_option("--drive", a.drive, "drive N of the series alone, with all its outputs")
+      ->excludes(runs)
+      ->check(whole);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "faces/cli/compare_command.hpp"
 #include "faces/cli/settings.hpp"
+#include "faces/cli/written_twice.hpp"
 #include "io/scenario_file.hpp"
 #include "io/text_file.hpp"
 #include "sixstep/study/spread.hpp"
@@ -51,26 +52,20 @@ std::optional<Job> read_job(const std::string& file, const RunArguments& argumen
 
 base::Problems same_outputs(const RunArguments& arguments) {
   base::Problems problems;
-  std::map<std::string, std::string> stems, outputs;
+  std::map<std::string, std::string> stems;
   for (const std::string& file : arguments.files) {
     const auto [other, is_new] = stems.emplace(std::filesystem::path(file).stem().string(), file);
-    if (!arguments.out.empty() && !is_new)
+    if (arguments.out.empty()) continue;
+    if (other->first == "index")
+      problems.push_back({.where = place(file),
+                          .limit = "would write index.html, which is to list all reports",
+                          .cure = "rename it, or run it without --out"});
+    if (!is_new)
       problems.push_back({.where = place(file),
                           .limit = fmt::format("would write the same outputs as {}", other->second),
                           .cure = "rename one or run them apart"});
   }
-  for (const auto& [option, path] : arguments.paths.files()) {
-    std::error_code ignored;
-    const bool device =
-        std::filesystem::is_other(path, ignored) || std::filesystem::is_character_file(path, ignored);
-    if (device) continue;  // /dev/null takes them all
-    const auto [other, is_new] = outputs.emplace(path, option);
-    if (!is_new)
-      problems.push_back({.where = option,
-                          .value = path,
-                          .limit = fmt::format("is what {} writes", other->second),
-                          .cure = "give each its own file"});
-  }
+  append(problems, written_twice(arguments.paths.files()));
   return problems;
 }
 

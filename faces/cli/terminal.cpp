@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/cli/terminal.hpp"
 
+#include <fcntl.h>
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 
 namespace cli {
 namespace {
 
 volatile std::sig_atomic_t asked_to_end = 0;
+int unprinted = 0;  // what errno said when standard output took no more
 
 extern "C" void on_interrupt(int signal) {
   asked_to_end = signal;
@@ -21,8 +26,31 @@ extern "C" void on_interrupt(int signal) {
 }  // namespace
 
 void print(std::string_view text, std::FILE* to) {
-  std::fwrite(text.data(), 1, text.size(), to);
-  std::fflush(to);
+  if (to == stdout && unheard()) return;
+  // In one call, as far as the kernel takes it: a reader of the first line alone closes no pipe in between.
+  while (!text.empty()) {
+    const ssize_t taken = ::write(::fileno(to), text.data(), text.size());
+    if (taken >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(taken));
+    } else if (errno == EAGAIN) {  // whoever reads has made the pipe so that it does not wait: we do
+      pollfd ready{::fileno(to), POLLOUT, 0};
+      ::poll(&ready, 1, -1);
+    } else if (errno != EINTR) {
+      if (to == stdout) unprinted = errno;
+      return;
+    }
+  }
+}
+
+bool unheard() { return unprinted != 0; }
+
+Exit exit_after_printing(Exit exit) {
+  if (!unheard()) return exit;
+  if (unprinted == EPIPE) return exit == Exit::ok ? Exit::reader_gone : exit;
+  complain({{.where = "standard output:",
+             .limit = std::string("cannot be written: ") + std::strerror(unprinted),
+             .cure = "send it to a file or a program that can take it"}});
+  return graver(exit, Exit::bad_input);
 }
 
 void complain(const base::Problems& problems) {
@@ -52,6 +80,10 @@ std::size_t terminal_width(std::FILE* stream) {
 void take_write_errors() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  // open() takes the lowest number that is free: without these a file of the run's would get to hear what is
+  // printed. Opened the wrong way round, they refuse what is written or read, as a closed stream does.
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
 void catch_interrupts() {

@@ -55,9 +55,9 @@ function bridgeDrawing(svg, say) {
 }
 
 /** The states of the legs at an instant: a code per leg in base five, held from row to row. */
-function conductionAt(conduction, t) {
-  const n = rowAt(conduction.time, t);
-  if (n < 0 || !(t <= conduction.end)) return null;
+function conductionAt(conduction, end, t) {
+  const n = conduction ? rowAt(conduction.time, t) : -1;
+  if (n < 0 || !(t <= end)) return null;
   const code = conduction.code[n];
   return [code % 5, Math.floor(code / 5) % 5, Math.floor(code / 25)];
 }

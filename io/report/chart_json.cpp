@@ -37,11 +37,14 @@ json curve_json(const Curve& curve, std::size_t axis, const std::vector<std::siz
 
 json rows_json(const PackedRows& rows, const std::vector<CurvePlace>& places) {
   json columns = json::array();
-  for (std::size_t n = 0; n < rows.columns.size(); ++n)
-    columns.push_back({{"low", rows.columns[n].low},
-                       {"step", rows.columns[n].step},
-                       {"chart", places[n].chart},
-                       {"curve", places[n].curve}});
+  for (std::size_t n = 0; n < rows.columns.size(); ++n) {
+    json column{{"low", rows.columns[n].low}, {"step", rows.columns[n].step}};
+    if (n < places.size()) {
+      column["chart"] = places[n].chart;
+      column["curve"] = places[n].curve;
+    }
+    columns.push_back(std::move(column));
+  }
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(rows.bytes.data());
   return {{"rows", rows.rows},
           {"start", rows.start_s},

@@ -47,6 +47,7 @@ json curve_json(const Curve& curve, std::size_t axis, const std::vector<std::siz
 struct CurvePlace {
   std::size_t chart = 0, curve = 0;
 };
+/// A column beyond the places is no curve: what conducts.
 json rows_json(const PackedRows& rows, const std::vector<CurvePlace>& places);
 
 json windows_json(const Windows& windows, const sixstep::study::Scenario& scenario);

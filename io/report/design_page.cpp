@@ -48,13 +48,10 @@ std::string simulated(const DesignStudy& s) {
   std::string out =
       "<table>" + head({"Figure", "#Expected", "#Simulated", "#Deviation", "Expected is"}) + "<tbody>\n";
   for (const auto& c : s.outcome.comparisons)
-    out += fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}<td class=\"source\">{}</td></tr>\n",
-                       escaped(c.figure), cell(shown(c.value, c.unit)),
-                       cell(shown(sixstep::study::as_read(c, s.scenario), c.unit)),
-                       cell(std::isfinite(c.measured)
-                                ? escaped(deviation(sixstep::study::as_read(c, s.scenario), c.value, c.unit))
-                                : ""),
-                       escaped(c.source));
+    out += fmt::format(
+        "<tr><th scope=\"row\">{}</th>{}{}{}<td class=\"source\">{}</td></tr>\n", escaped(c.figure),
+        cell(shown(c.value, c.unit)), cell(shown(sixstep::study::as_read(c, s.scenario), c.unit)),
+        cell(escaped(deviation(sixstep::study::as_read(c, s.scenario), c.value, c.unit))), escaped(c.source));
   return out + "</tbody></table>\n";
 }
 

@@ -105,13 +105,17 @@ std::string given(double value, std::string_view unit) {
   return with_unit(plain(value * scale.factor, 7, true), scale.unit);
 }
 
+bool never(double value, std::string_view unit) { return std::isinf(value) && unit == "s"; }
+
 std::string computed(double value, std::string_view unit) {
+  if (never(value, unit)) return "never";
   const Scale scale = scale_for(value, unit);
   return with_unit(plain(value * scale.factor, 4), scale.unit);
 }
 
 std::string deviation(double measured, double reference, std::string_view unit) {
   const double difference = measured - reference;
+  if (!std::isfinite(difference)) return "not comparable";
   if (reference == 0.0) return fmt::format("{}{}", difference > 0.0 ? "+" : "", computed(difference, unit));
   const double percent = 100.0 * difference / reference;
   const double size = std::abs(percent);
@@ -136,7 +140,7 @@ Judged judged(double measured, std::optional<double> min, std::optional<double> 
   };
   const auto show = [&](double value, bool trim) { return plain(value * scale.factor, digits(value), trim); };
   Judged out;
-  out.measured = with_unit(show(measured, false), scale.unit);
+  out.measured = never(measured, unit) ? "never" : with_unit(show(measured, false), scale.unit);
   if (min && max)
     out.required = with_unit(show(*min, true) + " … " + show(*max, true), scale.unit);
   else if (max)

@@ -24,10 +24,14 @@ std::string plain(double value, int digits, bool trim = false);
 /// "0.927 ms", "33.5 mNm/A", "7.3·10⁻⁶ Nm s": with trailing zeros cut, for given values.
 std::string given(double value, std::string_view unit);
 
+/// A time that did not come: a word stands for it.
+bool never(double value, std::string_view unit);
+
 /// With four digits, for computed values.
 std::string computed(double value, std::string_view unit);
 
-/// measured/reference - 1 as "+1.3 %", or "+0.02 A" against a reference of zero.
+/// measured/reference - 1 as "+1.3 %", or "+0.02 A" against a reference of zero; words where one is no
+/// number.
 std::string deviation(double measured, double reference, std::string_view unit);
 
 /// A figure beside its limits, all in one unit and with the digits that tell them apart.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <report_assets.hpp>
 
+#include "io/report/figures.hpp"
 #include "io/report/html.hpp"
 #include "io/report/report.hpp"
 #include "io/report/shell.hpp"
@@ -18,13 +19,16 @@ std::string table(const char* css, const char* head, const std::string& rows) {
                      rows);
 }
 
+std::string linked(const IndexEntry& entry) {
+  if (entry.file.empty()) return escaped(entry.title);
+  return fmt::format("<a href=\"{}\">{}</a>", escaped(entry.file), escaped(entry.title));
+}
+
 std::string experiment(const IndexEntry& entry) {
   const Standing verdict = standing(*entry.outcome);
   std::string html = fmt::format(
-      "<section class=\"experiment {0}\"><header><h2><a href=\"{1}\">{2}</a></h2><span class=\"chip "
-      "{0}\">{3}</span>"
-      "</header>\n",
-      verdict.css, escaped(entry.file), escaped(entry.title), verdict.word);
+      "<section class=\"experiment {0}\"><header><h2>{1}</h2><span class=\"chip {0}\">{2}</span></header>\n",
+      verdict.css, linked(entry), verdict.word);
   if (entry.outcome->fault)
     html += fmt::format("<p class=\"alert\"><b>Fault.</b> {}</p>\n",
                         escaped(sixstep::base::to_string(*entry.outcome->fault)));
@@ -43,9 +47,33 @@ std::string experiment(const IndexEntry& entry) {
 std::string failed_list(const std::vector<IndexEntry>& entries) {
   std::string items;
   for (const IndexEntry& entry : entries)
-    if (!entry.outcome->passed())
-      items += fmt::format("<li><a href=\"{}\">{}</a></li>\n", escaped(entry.file), escaped(entry.title));
+    if (entry.finished && !entry.outcome->passed()) items += "<li>" + linked(entry) + "</li>\n";
   return items.empty() ? items : "<ul class=\"failed\">" + items + "</ul>\n";
+}
+
+/// What was cut short, and what was never begun.
+std::string unfinished_section(const std::vector<IndexEntry>& entries) {
+  std::string items;
+  for (const IndexEntry& entry : entries)
+    if (!entry.finished)
+      items += fmt::format("<li>{}: {}</li>\n", linked(entry),
+                           entry.outcome ? "cut short at " + escaped(given(entry.outcome->simulated_s, "s"))
+                                         : std::string("without a result"));
+  return items.empty() ? items : "<h2>Not finished</h2>\n<ul class=\"unfinished\">" + items + "</ul>\n";
+}
+
+/// Of all, or of those that are finished.
+Standing standing_of(const std::vector<IndexEntry>& entries) {
+  const auto finished = std::ranges::count_if(entries, [](const IndexEntry& e) { return e.finished; });
+  const auto passed =
+      std::ranges::count_if(entries, [](const IndexEntry& e) { return e.finished && e.outcome->passed(); });
+  const char* css = passed < finished ? "fail" : "pass";
+  if (finished == std::ssize(entries))
+    return {css, passed == finished ? "PASS" : "FAIL",
+            fmt::format("{} of {} experiments pass", passed, entries.size())};
+  return {
+      passed < finished ? "fail" : "none", "INCOMPLETE",
+      fmt::format("{} of {} experiments are finished, {} of these pass", finished, entries.size(), passed)};
 }
 
 }  // namespace
@@ -53,17 +81,15 @@ std::string failed_list(const std::vector<IndexEntry>& entries) {
 std::string render_index(const std::vector<IndexEntry>& entries, std::string_view command,
                          std::string_view version) {
   std::string sections;
-  for (const IndexEntry& entry : entries) sections += experiment(entry);
-  const auto passed = std::ranges::count_if(entries, [](const IndexEntry& e) { return e.outcome->passed(); });
-  const bool all = passed == static_cast<std::ptrdiff_t>(entries.size());
-  const std::string line = fmt::format("{} of {} experiments pass", passed, entries.size());
-  const char* word = all ? "PASS" : "FAIL";
-  const std::string body = filled(assets::index_html, {{"standing_class", all ? "pass" : "fail"},
-                                                       {"standing", word},
-                                                       {"standing_line", line},
+  for (const IndexEntry& entry : entries)
+    if (entry.finished) sections += experiment(entry);
+  const Standing verdict = standing_of(entries);
+  const std::string body = filled(assets::index_html, {{"standing_class", verdict.css},
+                                                       {"standing", verdict.word},
+                                                       {"standing_line", verdict.line},
                                                        {"failed", failed_list(entries)},
-                                                       {"sections", sections}});
-  return in_shell({.title = fmt::format("{} · {}", word, line),
+                                                       {"sections", sections + unfinished_section(entries)}});
+  return in_shell({.title = fmt::format("{} · {}", verdict.word, verdict.line),
                    .body = body,
                    .command = command,
                    .version = version,

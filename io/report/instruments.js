@@ -28,7 +28,8 @@ function makeInstruments(axisOf) {
   const logic = charts.filter((c) => c.chart.logic), others = charts.filter((c) => !c.chart.logic);
   const fill = readout(element('readout'), [...others, ...(rotor ? [rotor] : []), ...logic], data.compared);
   const drawBridge = data.conduction && phases ? bridgeDrawing(element('bridge'), element('conducts')) : null;
-  const conduction = drawBridge && {time: unpack(data.conduction.time, Float64Array), code: unpack(data.conduction.code, Uint8Array), end: data.conduction.end};
+  // In a long run it comes with the rows.
+  let conduction = drawBridge && data.conduction.time ? {time: unpack(data.conduction.time, Float64Array), code: unpack(data.conduction.code, Uint8Array)} : null;
   const drawPlane = phases ? currentPlane(element('plane'), phases) : null;
   element('bridge').closest('figure').hidden = !drawBridge;
   element('plane').closest('figure').hidden = !drawPlane;
@@ -39,9 +40,10 @@ function makeInstruments(axisOf) {
     fill([t, instants.A, instants.B]);
     const factor = phases?.chart.factor ?? 1;
     const now = t == null || !phases ? null : phases.curves.slice(0, 3).map((c) => (valueAt(c.full ?? c, t) ?? 0) * factor);
-    if (drawBridge) drawBridge(t == null ? null : conductionAt(conduction, t), now, phases.chart.unit);
+    if (drawBridge) drawBridge(t == null ? null : conductionAt(conduction, data.conduction.end, t), now, phases.chart.unit);
     if (drawPlane) drawPlane(...view, t);
     describeMarks();
   };
-  return {instant, view: showInstant, units: () => { if (rotor) wearRotorUnit(rotor); }};
+  const conducts = (rows) => { conduction = rows; showInstant(); };
+  return {instant, view: showInstant, conducts, units: () => { if (rotor) wearRotorUnit(rotor); }};
 }

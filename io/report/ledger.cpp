@@ -8,6 +8,7 @@
 
 #include "io/report/figures.hpp"
 #include "io/report/html.hpp"
+#include "io/report/sankey.hpp"
 #include "sixstep/base/written.hpp"
 
 namespace io::report {
@@ -70,7 +71,7 @@ std::string energy_section(const sixstep::study::EnergyBook& b) {
   for (const double joule :
        {b.supplied, b.copper, b.devices, b.magnetic, b.air_gap, b.friction, b.load, b.kinetic})
     largest = std::max(largest, std::abs(joule));
-  std::string html = "<div class=\"columns\"><div><h3>Electrical</h3>";
+  std::string html = energy_sankey(b) + "<div class=\"columns\"><div><h3>Electrical</h3>";
   html += account({"Supplied by the bus", "∫ U<sub>s</sub> i dt", b.supplied},
                   {{"Copper", "∫ R<sub>s</sub> Σi² dt", b.copper},
                    {"Switches and diodes", "conduction", b.devices},

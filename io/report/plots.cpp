@@ -9,17 +9,34 @@
 namespace io::report {
 namespace {
 
-/// All changes where they are few enough to carry; a page must stay small enough to send.
-json conduction_json(const Conduction& c) {
+/// All changes where they are few enough to carry; a page must stay small enough to send. Where every row
+/// comes along, it says what conducts from there on.
+json conduction_json(const Conduction& c, bool with_rows) {
   constexpr std::size_t most = 400000;
-  if (c.code.empty() || c.code.size() > most) return nullptr;
+  if (c.code.empty()) return nullptr;
+  if (with_rows) return {{"end", c.end_s}};
+  if (c.code.size() > most) return nullptr;
   return {{"time", base64(std::span<const double>(c.time_s))},
           {"code", base64(std::span<const std::uint8_t>(c.code))},
           {"end", c.end_s}};
 }
 
-/// Every row of every curve; null where that is too much to send.
-json every_row(const std::vector<double>& time, const Groups& groups, std::size_t most_bytes) {
+/// What conducts from each row on: a column that costs next to nothing, as gates and currents tell when it
+/// changes.
+std::vector<double> by_row(const Conduction& c, const std::vector<double>& time) {
+  std::vector<double> codes;
+  codes.reserve(time.size());
+  std::size_t next = 0;
+  for (const double t : time) {
+    while (next < c.time_s.size() && c.time_s[next] <= t) ++next;
+    codes.push_back(next > 0 ? c.code[next - 1] : 0.0);
+  }
+  return codes;
+}
+
+/// Every row of every curve, and behind them of what conducts; null where that is too much to send.
+json every_row(const std::vector<double>& time, const Groups& groups, const Conduction& conducts,
+               std::size_t most_bytes) {
   std::vector<const std::vector<double>*> columns;
   std::vector<CurvePlace> places;
   for (std::size_t chart = 0; chart < groups.charts.size(); ++chart)
@@ -27,6 +44,8 @@ json every_row(const std::vector<double>& time, const Groups& groups, std::size_
       columns.push_back(groups.charts[chart].curves[curve].values);
       places.push_back({chart, curve});
     }
+  const std::vector<double> codes = by_row(conducts, time);
+  if (!conducts.code.empty()) columns.push_back(&codes);
   const auto packed = packed_rows(time, columns, most_bytes);
   return packed ? rows_json(*packed, places) : json();
 }
@@ -61,7 +80,9 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
   out["windows"] = windows_json(windows, scenario);
   Axes axes(out);
   const Groups groups = chart_groups(trace, scenario);
-  const json every = time->size() > size.full ? every_row(*time, groups, size.packed_bytes) : json();
+  const Conduction conducts = conduction(trace);
+  const json every =
+      time->size() > size.full ? every_row(*time, groups, conducts, size.packed_bytes) : json();
   // Where every row is at hand, an envelope needs no close-ups.
   const std::vector<Interval> keep =
       every.is_null() ? kept(windows, *time, size.full) : std::vector<Interval>();
@@ -81,7 +102,7 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
     out["angle"] = {{"axis", axes.of(*time, rows.rows)},
                     {"data", packed<float>(groups.angle_deg, rows.rows)}};
   }
-  out["conduction"] = conduction_json(conduction(trace));
+  out["conduction"] = conduction_json(conducts, !every.is_null());
   if (found) out["spectra"] = spectra_json(*found, out);  // behind the axes over time
   out["pole_pairs"] = pole_pairs;
   return dumped(out);

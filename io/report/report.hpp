@@ -26,11 +26,13 @@ std::string render(const ReportInput& input);
 
 struct IndexEntry {
   std::string title;
-  std::string file;  ///< of the report, relative to the index
-  const sixstep::study::Outcome* outcome;
+  std::string file;                        ///< of the report, relative to the index; empty: there is none
+  const sixstep::study::Outcome* outcome;  ///< null: it came to none
+  bool finished = true;                    ///< false: cut short, or never begun; nothing is judged then
 };
 
-/// The table of all verdicts of one command, with links to the reports.
+/// The table of all verdicts of one command, with links to the reports. Where not all experiments are
+/// finished it says so first, and draws no sum of them.
 std::string render_index(const std::vector<IndexEntry>& entries, std::string_view command,
                          std::string_view version);
 

@@ -165,7 +165,10 @@ function noteEnvelope() {
 
 /** The envelope stands first; every row follows when the page can be read already. */
 async function addRows() {
-  for (const block of data.rows ?? []) await unpackRows(block, charts);
+  for (const block of data.rows ?? []) {
+    const conduction = await unpackRows(block, charts);
+    if (conduction) instruments.conducts(conduction);
+  }
   if (data.rows?.length) show(...view);
   globalThis.sixstep.complete_ms = performance.now();
 }

@@ -19,22 +19,25 @@ function counted(bytes, offset, rows, planes, row) {
   }
 }
 
-/** Gives each curve that a block holds all its rows as `full`. */
+/** Gives each curve that a block holds all its rows as `full`; returns what conducts from each row on, where it is in. */
 async function unpackRows(packed, charts) {
   const bytes = await inflated(packed.data), {rows} = packed, axis = new Float64Array(rows);
   counted(bytes, 0, rows, 4, (n, difference, count) => {
     axis[n] = packed.start + packed.tick * (count + difference);
     return count + difference;  // times only grow: not modulo
   });
+  let conduction = null;
   packed.columns.forEach(({low, step, chart, curve: place}, column) => {
-    const curve = charts[chart].curves[place], raw = new Array(rows);
+    const curve = charts[chart]?.curves[place], raw = new Array(rows), whole = !curve || curve.held;
     counted(bytes, (4 + 2 * column) * rows, rows, 2, (n, difference, count, modulus) => {
       const now = (count + difference) % modulus;
-      raw[n] = now === 65535 ? null : curve.held ? Math.round(low + step * now) : low + step * now;
+      raw[n] = now === 65535 ? null : whole ? Math.round(low + step * now) : low + step * now;
       return now;
     });
-    curve.full = {axis, raw, held: curve.held};
+    if (curve) curve.full = {axis, raw, held: curve.held};
+    else conduction = {time: axis, code: raw};
   });
+  return conduction;
 }
 
 /** The curves of a chart as they are drawn over [from, to]: all rows where few enough are in view, else null. A curve

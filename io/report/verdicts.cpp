@@ -88,6 +88,7 @@ std::string comparison_rows(const Outcome& outcome) {
     const Scale scale = scale_for(c.value != 0.0 ? c.value : c.measured, c.unit);
     const std::string space = scale.unit.empty() || scale.unit == "°" ? "" : "\u00a0";
     const auto show = [&](double value, int digits, bool trim) {
+      if (never(value, c.unit)) return std::string("never");
       return escaped(plain(value * scale.factor, digits, trim) + space + scale.unit);
     };
     html += fmt::format(

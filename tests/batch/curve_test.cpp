@@ -6,6 +6,7 @@
 
 #include <atomic>
 
+#include "batch/for_each.hpp"
 #include "tests/support/bench.hpp"
 
 namespace {
@@ -21,8 +22,8 @@ study::CurveRequest request(double duty) {
 
 TEST(TorqueSpeedCurve, HasTheSameBitsOnAnyNumberOfThreads) {
   for (const double duty : {1.0, 0.7}) {
-    const auto one = batch::torque_speed_curve(request(duty), 1),
-               many = batch::torque_speed_curve(request(duty), 5);
+    const auto one = batch::torque_speed_curve(request(duty), batch::on_threads(1)),
+               many = batch::torque_speed_curve(request(duty), batch::on_threads(5));
     ASSERT_TRUE(one);
     ASSERT_TRUE(many);
     ASSERT_EQ(one->points.size(), 8u);
@@ -44,7 +45,8 @@ TEST(TorqueSpeedCurve, HasTheSameBitsOnAnyNumberOfThreads) {
 
 TEST(TorqueSpeedCurve, EndsWhenAskedTo) {
   std::atomic<int> asked = 0;
-  const auto curve = batch::torque_speed_curve(request(1.0), 2, [&] { return ++asked < 4; });
+  const auto curve =
+      batch::torque_speed_curve(request(1.0), batch::on_threads(2), [&] { return ++asked < 4; });
   ASSERT_FALSE(curve);
   EXPECT_EQ(curve.problems()[0].limit, "was interrupted");
   EXPECT_LE(asked, 9);
@@ -53,7 +55,7 @@ TEST(TorqueSpeedCurve, EndsWhenAskedTo) {
 TEST(TorqueSpeedCurve, HandsOnWhatIsWrong) {
   study::CurveRequest r = request(1.0);
   r.bench.voltage_V = -1;
-  EXPECT_FALSE(batch::torque_speed_curve(r, 1));
+  EXPECT_FALSE(batch::torque_speed_curve(r, batch::on_threads(1)));
 }
 
 }  // namespace

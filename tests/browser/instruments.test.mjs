@@ -111,6 +111,21 @@ test('close looks into a long run draw every row, as exact as the envelope', asy
   await page.evaluate(() => sixstep.show(0.3, 0.301));
   const rows = await page.evaluate(() => sixstep.drawnRows());
   assert.ok(rows.every((n) => n > 33 && n === rows[0]), String(rows));  // at least one a PWM period
+  // What conducts came with the rows: in the middle between two, what is lit is what is on.
+  const lit = await page.evaluate(async () => {
+    const {axis} = sixstep.entries.find((e) => e.chart.logic).curves[0].full, seen = [];
+    for (let n = axis.findIndex((t) => t >= 0.3); seen.length < 20; ++n) {
+      if (axis[n + 1] - axis[n] < 1e-9) continue;
+      sixstep.pointAt((axis[n] + axis[n + 1]) / 2);
+      await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+      seen.push({lit: [...document.querySelectorAll('#bridge .switch.lit text')].map((t) => t.textContent),
+        gates: ['T1', 'T2', 'T3', 'T4', 'T5', 'T6'].filter((name) => [...document.querySelectorAll('#chart-logic .chip')]
+          .some((chip) => chip.textContent.startsWith(name) && chip.querySelector('.value').textContent === '1'))});
+    }
+    return seen;
+  });
+  for (const {lit: on, gates} of lit) assert.deepEqual(on, gates);
+  assert.ok(new Set(lit.map(({lit: on}) => on.join())).size >= 2, JSON.stringify(lit));
   await close(page);
 });
 

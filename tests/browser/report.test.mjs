@@ -158,6 +158,30 @@ test('fits a narrow window without scrolling sideways', async () => {
   await close(page);
 });
 
+test('where the energy went is drawn so that it can be read, in light and dark, and heard', async () => {
+  const inks = [];
+  for (const theme of ['light', 'dark']) {
+    const page = await opened('short.html', {theme});
+    const drawing = page.locator('.sankey svg[role=img]');
+    assert.match(await drawing.getAttribute('aria-label'), /Comes from: Supplied by the bus [\d.]+ J\. Goes to: .*Copper/);
+    const {texts, overlaps, ink, paper} = await drawing.evaluate((svg) => {
+      const boxes = [...svg.querySelectorAll('text')].map((t) => t.getBoundingClientRect());
+      const whole = svg.getBoundingClientRect();
+      const outside = boxes.filter((b) => b.left < whole.left || b.right > whole.right || b.top < whole.top || b.bottom > whole.bottom);
+      const met = boxes.flatMap((a, n) => boxes.slice(n + 1).filter((b) => a.left < b.right && b.left < a.right && a.top + 2 < b.bottom && b.top + 2 < a.bottom));
+      const style = (e, name) => getComputedStyle(e)[name];
+      return {texts: boxes.length, overlaps: outside.length + met.length, ink: style(svg.querySelector('text'), 'fill'),
+        paper: style(svg.parentElement, 'backgroundColor')};
+    });
+    assert.ok(texts >= 8, `${texts}`);
+    assert.equal(overlaps, 0);
+    assert.notEqual(ink, paper);
+    inks.push(ink);
+    await close(page);
+  }
+  assert.notEqual(inks[0], inks[1]);
+});
+
 test('the index links to every report', async () => {
   const page = await opened('index.html');
   assert.equal(await page.locator('.verdict .line').textContent(), '1 of 2 experiments pass');

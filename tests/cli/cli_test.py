@@ -81,6 +81,36 @@ class CommandLine(ProgramTest):
         files = [self.write("a.toml", 1000), self.write("other/a.toml", 1000)]
         self.assertIn("same outputs", self.run_program("run", *files, "--out", "out", code=2).stderr)
 
+    def test_an_output_never_takes_the_place_of_an_input(self):
+        """sixstep run a.toml --html a.toml wrote the report over the scenario."""
+        text = (SOURCE / "data/scenarios/current-square.toml").read_text().replace('"maxon-251601"', '"own.toml"')
+        sheet = (SOURCE / "data/motors/maxon-251601.toml").read_text()
+        (self.path / "a.toml").write_text(text)
+        (self.path / "own.toml").write_text(sheet)
+        os.symlink("a.toml", self.path / "link.toml")
+        for words, name in (("run a.toml --html a.toml", "a.toml"), ("run a.toml --csv ./a.toml", "./a.toml"),
+                            ("run link.toml --json a.toml", "a.toml"), ("run a.toml --csv link.toml", "link.toml"),
+                            ("run a.toml --vcd own.toml", "own.toml"), ("run a.toml link.toml --html own.toml", "own.toml"),
+                            ("export header a.toml --out own.toml", "own.toml"), ("curve own.toml --html own.toml", "own.toml"),
+                            ("design own.toml --quick --toml own.toml", "own.toml")):
+            with self.subTest(words):
+                told = self.run_program(*words.split(), code=2).stderr
+                self.assertEqual(told, f"{name}: is read here: what is written would take its place; name another file\n")
+        self.assertEqual((self.path / "a.toml").read_text(), text)
+        self.assertEqual((self.path / "own.toml").read_text(), sheet)
+        self.assertEqual(self.names(), ["a.toml", "link.toml", "own.toml"])
+
+    def test_two_outputs_to_one_file_are_refused_in_whatever_spelling(self):
+        self.write("a.toml", 1000), self.write("index.toml", 1000)
+        for words, told in (("run a.toml --csv ./x --json x", "--json = x is what --csv writes; give each its own file\n"),
+                            ("curve maxon-251601 --csv x --html ./x", "--html = ./x is what --csv writes; give each its own file\n"),
+                            ("design maxon-251601 --toml x --header ./x", "--header = ./x is what --toml writes; give each its own file\n"),
+                            ("run a.toml index.toml --out out", "index.toml: would write index.html, which is to list all reports; "
+                                                                "rename it, or run it without --out\n")):
+            self.assertEqual(self.run_program(*words.split(), code=2).stderr, told)
+        self.assertEqual(self.names(), ["a.toml", "index.toml"])
+        self.run_program("run", "a.toml", "--csv", "/dev/null", "--vcd", "/dev/null", "--quiet")  # takes them all
+
     def test_out_holds_everything_of_each_scenario(self):
         self.run_program("run", self.write("a.toml", 1000), self.write("b.toml", 1000), "--out", "deep/out")
         self.assertEqual(self.names("deep/out"),
@@ -148,12 +178,43 @@ class CommandLine(ProgramTest):
         self.assertEqual(program.returncode, 130)
         self.assertRegex(told, r"[1-9]\d* drives, seed 1: all hold")
 
+    def test_what_the_command_line_lacks_or_has_too_much_of(self):
+        self.write("a.toml", 1000)
+        for words, told in (
+                ("run", "sixstep run needs FILE: scenario files; sixstep run --help tells more"),
+                ("motor", "sixstep motor needs a command: list, show, check, new; sixstep motor --help tells more"),
+                ("motor lst", "lst is no command of sixstep motor; did you mean list?"),
+                ("run a.toml --htlm x", "--htlm is no argument of sixstep run; did you mean --html?"),
+                ("run a.toml --duraton 3", "--duraton is no argument of sixstep run; did you mean --set duration_s=..?"),
+                ("run a.toml --supply-voltage=3", "--supply-voltage=3 is no argument of sixstep run; did you mean --set supply.voltage_V=..?"),
+                ("run a.toml --csv", "--csv needs a value behind it; it means: write the recorded trace"),
+                ("run a.toml --html x --html y", "--html is given more than once; keep one"),
+                ("run a.toml --runs 5 --watch", "--watch does not go together with --runs; leave one of them out"),
+                ("run a.toml --jobs 0", "--jobs = 0 must be a whole number in 1 to 1024; sixstep run --help tells more"),
+                ("run a.toml --seed -1", f"--seed = -1 must be a whole number in 0 to {2**63 - 1}; sixstep run --help tells more"),
+                ("curve maxon-251601 --points 1e9", "--points = 1e9 must be a whole number, in digits alone; it means: from standstill "
+                                                    "to no load; without it 41"),
+                ("curve maxon-251601 --voltage 24V", "--voltage = 24V must be a number, without its unit; it means: bus voltage, V; "
+                                                     "without it the sheet's nominal voltage"),
+                ("--verson", "--verson is no argument of sixstep; did you mean --version?"),
+                ("run -", "-: is no file; /dev/stdin is the one that holds what is piped into the program"),
+                ("run /dev/zero", "/dev/zero: cannot be read: it goes on beyond 128 MiB; name a file that ends")):
+            with self.subTest(words):
+                self.assertEqual(self.run_program(*words.split(), code=2).stderr, told + "\n")
+        alone = self.run_program(code=2)
+        self.assertEqual(alone.stdout, "")
+        self.assertIn("To begin with: sixstep new first\n", alone.stderr)
+        self.assertIn("a.toml:2:1: motor is not a key here; sixstep help lists them all\n",
+                      self.run_program("motor", "show", "a.toml", code=2).stderr)
+
     def test_help_explains_keys_and_answers_near_misses(self):
         self.assertIn("supply.voltage_V", self.run_program("help", "supply").stdout)
         self.assertIn("default 24", self.run_program("help", "supply.voltage_V").stdout)
         self.assertIn("i_a_A", self.run_program("help", "columns").stdout)
         self.assertIn("terminal|phase", self.run_program("help", "resistance_ohm").stdout)
         self.assertIn("did you mean supply.voltage_V?", self.run_program("help", "suply.voltage_V", code=2).stderr)
+        self.assertEqual(self.run_program("help", "run").stdout, self.run_program("run", "--help").stdout)
+        self.assertIn("looked up beside the scenario", self.run_program("help", "motor").stdout, "the key comes first")
 
     def scenario(self, name):
         return str(SOURCE / f"data/scenarios/{name}.toml")

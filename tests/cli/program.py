@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The program in a folder of its own, for the tests of its verbs: each is called as TEST.py PROGRAM SOURCE."""
+import contextlib
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 PROGRAM, SOURCE = os.path.abspath(sys.argv.pop(1)), pathlib.Path(sys.argv.pop(1)).resolve()
@@ -47,3 +49,22 @@ class ProgramTest(unittest.TestCase):
 
     def names(self, folder="."):
         return sorted(os.listdir(self.path / folder))
+
+
+class Started(ProgramTest):
+    """A program that works while the test does."""
+
+    @contextlib.contextmanager
+    def started(self, *words, **how):
+        how = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | how
+        with subprocess.Popen([PROGRAM, *words], cwd=self.path, **how) as program:
+            try:
+                yield program
+            finally:
+                program.kill()
+
+    def wait_until(self, holds, seconds=20):
+        deadline = time.monotonic() + seconds
+        while not holds():
+            self.assertLess(time.monotonic(), deadline, "it never came")
+            time.sleep(0.01)

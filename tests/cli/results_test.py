@@ -229,6 +229,14 @@ class Page(ProgramTest):
             self.assertIn(f"`{group}`", self.PAGE)
 
 
+class Report(ProgramTest):
+    def test_one_second_of_switching_stays_small_enough_to_send_and_whole(self):
+        self.run_program("run", scenario("reference/R3"), "--set", "duration_s=1", "--quiet", "--html", "a.html")
+        page = (self.path / "a.html").read_text()
+        self.assertLess(len(page), 5_000_000)
+        self.assertIn('"rows":[{"rows":', page, "every row is in it")
+
+
 class Summary(ProgramTest):
     SCHEMA = json.loads((SOURCE / "docs/summary.schema.json").read_text())
 

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The program while it works: interrupted, on a full disk, into a pipe, on a terminal, watching its files."""
-import contextlib
+"""The program while it works: interrupted, on a full disk, on a terminal, watching its files."""
 import fcntl
 import json
 import os
@@ -16,7 +15,7 @@ import termios
 import time
 import unittest
 
-from program import PROGRAM, SHORT, SOURCE, ProgramTest
+from program import SHORT, SOURCE, Started
 
 R3 = str(SOURCE / "data/scenarios/reference/R3.toml")
 ALL = {"--csv": "a.csv", "--mat": "a.mat", "--mat73": "h.mat", "--vcd": "a.vcd", "--json": "a.json", "--html": "a.html"}
@@ -24,21 +23,17 @@ PARTIAL = ["a.partial.csv", "a.partial.html", "a.partial.json", "a.partial.mat",
 LONG = ["--set", "duration_s=1e4", "--set", "record.grid_s=1e-3"]
 
 
-class Session(ProgramTest):
-    @contextlib.contextmanager
-    def started(self, *words, **how):
-        how = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | how
-        with subprocess.Popen([PROGRAM, *words], cwd=self.path, **how) as program:
-            try:
-                yield program
-            finally:
-                program.kill()
-
-    def wait_until(self, holds, seconds=20):
-        deadline = time.monotonic() + seconds
-        while not holds():
-            self.assertLess(time.monotonic(), deadline, "it never came")
-            time.sleep(0.01)
+class Session(Started):
+    def check_index(self, folder, *unfinished):
+        """That of a `quick` that was finished and passed, and of others that were not."""
+        page = (self.path / folder / "index.partial.html").read_text()
+        self.assertIn(f"1 of {1 + len(unfinished)} experiments are finished, 1 of these pass", page)
+        self.assertIn('<p class="word">INCOMPLETE</p>', page)
+        self.assertIn('<h2><a href="quick.html">quick</a></h2>', page)
+        for line in unfinished:
+            self.assertRegex(page, line)
+        for name in re.findall('<a href="([^"]*)"', page):
+            self.assertTrue((self.path / folder / name).exists(), name)
 
 
 class Interruption(Session):
@@ -84,18 +79,23 @@ class Interruption(Session):
             program.send_signal(signal.SIGINT)
             self.assertEqual(program.wait(timeout=20), -signal.SIGINT)
 
-    def test_files_of_finished_runs_stay_whole(self):
+    def test_files_of_finished_runs_stay_whole_and_an_index_lists_them(self):
         (self.path / "quick.toml").write_text(SHORT.format(limit=1000))
-        (self.path / "slow.toml").write_text(SHORT.format(limit=1000).replace("1e-4", "1e4") + "[record]\ngrid_s = 1e-3\n")
-        with self.started("run", "quick.toml", "slow.toml", "--jobs", "1", "--out", "out") as program:
-            self.wait_until(lambda: (self.path / "out/quick.html").exists())
-            time.sleep(0.1)
-            program.send_signal(signal.SIGINT)
-            told = program.communicate(timeout=20)[1]
-        self.assertEqual(program.returncode, 130)
-        self.assertIn("slow: interrupted at", told)
-        self.assertEqual(self.names("out"), ["quick.csv", "quick.html", "quick.json", "slow.partial.csv",
-                                             "slow.partial.html", "slow.partial.json"])
+        slow = SHORT.format(limit=1000).replace("1e-4", "1e4") + "[record]\ngrid_s = 1e-3\n"
+        for name in ("slow", "waiting"):
+            (self.path / f"{name}.toml").write_text(slow)
+        for sent, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            with self.subTest(sent), self.started("run", "quick.toml", "slow.toml", "waiting.toml", "--jobs", "1", "--out", f"out{code}") as program:
+                self.wait_until(lambda: (self.path / f"out{code}/quick.html").exists())
+                time.sleep(0.1)
+                program.send_signal(sent)
+                told = program.communicate(timeout=20)[1]
+            self.assertEqual(program.returncode, code)
+            self.assertIn("slow: interrupted at", told)
+            self.assertEqual(told.splitlines()[-1], f"1 of 3 experiments finished; out{code}/index.partial.html lists them")
+            self.assertEqual(self.names(f"out{code}"), ["index.partial.html", "quick.csv", "quick.html", "quick.json",
+                                                        "slow.partial.csv", "slow.partial.html", "slow.partial.json"])
+            self.check_index(f"out{code}", r"slow.partial.html\">slow</a>: cut short at [\d.]+\s\w?s</li>", "<li>waiting: without a result</li>")
 
 
 class FullDisk(Session):
@@ -120,27 +120,19 @@ class FullDisk(Session):
                     self.assertTrue(written.read_text().endswith("\n"))
                 written.unlink()
 
+    def test_an_index_lists_what_was_finished_before_the_disk_was_full(self):
+        (self.path / "quick.toml").write_text(SHORT.format(limit=1000))
+        (self.path / "slow.toml").write_text(SHORT.format(limit=1000).replace("1e-4", "10") + "[record]\ngrid_s = 1e-5\n")
+        shrink = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4_000_000, 4_000_000))
+        with self.started("run", "quick.toml", "slow.toml", "--quiet", "--out", "out", preexec_fn=shrink) as program:
+            told = program.communicate(timeout=20)[1]
+        self.assertEqual(program.returncode, 2)
+        self.assertEqual(told.splitlines()[-1], "1 of 2 experiments finished; out/index.partial.html lists them")
+        self.check_index("out", "slow.partial.html\">slow</a>: cut short at ")
+
     def test_what_is_told_of_a_device_that_is_full(self):
         told = self.run_program("run", self.write("a.toml", 1000), "--quiet", "--csv", "/dev/full", code=2).stderr
         self.assertIn("/dev/full: cannot be written: No space left on device", told)
-
-
-class Pipes(Session):
-    def test_a_reader_that_has_seen_enough_ends_it_quietly(self):
-        self.write("a.toml", 1000)
-        for words, code in (("run a.toml --json -", 0), ("help", 0),
-                            (f"run {R3} --quiet --set duration_s=1e4 --csv /dev/stdout", 141)):
-            result = subprocess.run(["bash", "-c", f"{PROGRAM} {words} 2>told | head -n 1; echo ${{PIPESTATUS[0]}}"],
-                                    cwd=self.path, capture_output=True, text=True, timeout=20)
-            self.assertEqual(result.stdout.splitlines()[-1], str(code), words)
-            self.assertNotIn("ipe", (self.path / "told").read_text())
-
-    def test_nothing_but_words_reaches_a_pipe(self):
-        with self.started("run", self.write("a.toml", 1000), "--set", "duration_s=1e4") as program:
-            time.sleep(0.7)  # a terminal would have seen a bar by now
-            program.send_signal(signal.SIGINT)
-            out, told = program.communicate(timeout=20)
-        self.assertNotRegex(out + told, r"[\r\x1b]|real time")
 
 
 class Terminal(Session):
@@ -191,6 +183,17 @@ class Terminal(Session):
         spread = '[[spread]]\nkey = "motor_override.resistance_ohm"\nrelative = 0.1\n'
         (self.path / "a.toml").write_text(SHORT.format(limit=1000).replace("1e-4", "20e-3") + spread)
         self.assertRegex(self.screen("run", "a.toml", "--runs", "1000000000"), r"[\d:]+ left  \d+ of 1000000000 drives")
+
+    def test_a_curve_counts_its_points_and_a_design_its_motors(self):
+        many = ["curve", "maxon-251601", "--points", "200000"]
+        self.assertRegex(self.screen(*many), r"[\d:]+ left  \d+ of 200000 points")
+        self.assertEqual(self.screen(*many, "--quiet", seconds=0.8), "")
+        with self.started(*many) as program:
+            time.sleep(0.7)
+            program.send_signal(signal.SIGINT)
+            self.assertEqual(program.communicate(timeout=20), ("", ""), "nothing of it reaches a pipe")
+        slow = ["design", "maxon-251601", "--mode", "position", "--settle", "1", "--jobs", "1"]
+        self.assertRegex(self.screen(*slow, until="motors"), r"\d+ of \d+ motors")
 
 
 class Watching(Session):

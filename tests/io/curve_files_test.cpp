@@ -7,6 +7,7 @@
 #include <set>
 
 #include "batch/curve.hpp"
+#include "batch/for_each.hpp"
 #include "io/curve_columns.hpp"
 #include "io/curve_json.hpp"
 #include "io/curve_table.hpp"
@@ -27,7 +28,7 @@ Made made(bool thermal, double duty = 1.0) {
   study::CurveRequest r{
       .sheet = thermal ? curve_sheet() : maxon_sheet(), .bench = maxon_bench(), .points = 5};
   r.bench.duty = duty;
-  base::Result<study::Curve> curve = batch::torque_speed_curve(r, 1);
+  base::Result<study::Curve> curve = batch::torque_speed_curve(r, batch::on_threads(1));
   EXPECT_TRUE(curve);
   return {r, std::move(*curve)};
 }

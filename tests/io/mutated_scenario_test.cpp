@@ -69,7 +69,7 @@ class Mutation {
 };
 
 TEST(MutatedScenario, IsReadOrToldWhatIsWrong) {
-  const auto text = read_text(SIXSTEP_SOURCE_DIR "/tests/fuzz/libfuzzer/seeds/language.toml");
+  const auto text = read_text(SIXSTEP_SOURCE_DIR "/tests/fuzz/libfuzzer/seeds/toml/language.toml");
   ASSERT_TRUE(text);
   const auto whole = read_scenario_text("whole.toml", *text);
   ASSERT_TRUE(whole) << to_string(whole.problems()[0]);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "io/json_summary.hpp"
 #include "io/report/figures.hpp"
@@ -90,7 +91,13 @@ TEST(Report, same_input_gives_same_bytes) {
 
 TEST(Report, stays_small_enough_to_send) {
   EXPECT_LT(page(synthetic_run(0.02)).size(), 1u << 20);
-  EXPECT_LT(page(synthetic_run(0.6)).size(), 6u << 20);  // 10 MiB a simulated second, with every row
+  const std::string longer = page(synthetic_run(0.6));
+  EXPECT_LT(longer.size(), 6u << 20);  // 10 MiB a simulated second, with every row
+  const auto data = data_of(longer);
+  EXPECT_FALSE(data["conduction"].contains("time")) << "what conducts comes with the rows";
+  EXPECT_EQ(data["rows"][0]["columns"].size(),
+            1 + std::accumulate(data["charts"].begin(), data["charts"].end(), std::size_t{0},
+                                [](std::size_t n, const auto& chart) { return n + chart["curves"].size(); }));
 }
 
 TEST(Report, shows_the_digest) {
@@ -259,6 +266,15 @@ TEST(Figures, deviation_is_signed_and_absolute_where_the_reference_is_zero) {
   EXPECT_EQ(deviation(1.02, 1.0, "A"), "+2.00\u00a0%");
   EXPECT_EQ(deviation(0.98, 1.0, "A"), "−2.00\u00a0%");
   EXPECT_EQ(deviation(0.02, 0.0, "A"), "+20.00\u00a0mA");
+}
+
+TEST(Figures, a_time_that_never_came_is_a_word) {
+  const double ever = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(judged(ever, std::nullopt, 5e-3, "s").measured, "never");
+  EXPECT_EQ(computed(ever, "s"), "never");
+  EXPECT_EQ(computed(ever, "A"), "∞\u00a0A");
+  EXPECT_EQ(deviation(ever, 5e-3, "s"), "not comparable");
+  EXPECT_EQ(deviation(std::numeric_limits<double>::quiet_NaN(), 0.0, "A"), "not comparable");
 }
 
 TEST(Html, base64_is_the_standard_one_and_little_endian) {

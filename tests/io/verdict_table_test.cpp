@@ -66,6 +66,10 @@ TEST(VerdictTable, WhatNeverCameIsNoNumber) {
   const std::string text = table_of(outcome);
   EXPECT_THAT(text, testing::HasSubstr("<= 1 ms   never     FAILED"));
   EXPECT_THAT(text, testing::HasSubstr("1 .. 2 A  no value  FAILED"));
+  outcome.comparisons = {{"reach", "s", std::numeric_limits<double>::infinity(), 5e-3, "hand"},
+                         {"THD", "1", std::numeric_limits<double>::quiet_NaN(), 0.3, "hand"}};
+  EXPECT_THAT(table_of(outcome), testing::HasSubstr("5 ms      never     not comparable  hand"));
+  EXPECT_THAT(table_of(outcome), testing::HasSubstr("0.3       no value  not comparable  hand"));
 }
 
 TEST(ComparedTexts, NeverGiveDifferentNumbersOneText) {

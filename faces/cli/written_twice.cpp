@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/written_twice.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+
+namespace cli {
+
+base::Problems written_twice(const std::vector<std::pair<std::string, std::string>>& outputs) {
+  namespace fs = std::filesystem;
+  base::Problems problems;
+  std::map<std::string, std::string> seen;
+  for (const auto& [option, path] : outputs) {
+    std::error_code none;
+    if (path.empty() || path == "-" || fs::is_other(path, none) || fs::is_character_file(path, none))
+      continue;  // /dev/null takes them all
+    const fs::path whole = fs::weakly_canonical(fs::absolute(path, none), none);
+    const auto [other, is_new] = seen.emplace(none ? path : whole.string(), option);
+    if (!is_new)
+      problems.push_back({.where = option,
+                          .value = path,
+                          .limit = fmt::format("is what {} writes", other->second),
+                          .cure = "give each its own file"});
+  }
+  return problems;
+}
+
+}  // namespace cli

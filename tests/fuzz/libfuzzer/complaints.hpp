@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the readers' fuzzers ask of every answer.
+#pragma once
+#include <cstdlib>
+
+#include "sixstep/study/compile.hpp"
+#include "sixstep/study/spread.hpp"
+
+namespace fuzzing {
+
+/// Nothing is refused without words.
+inline void must_say_something(const sixstep::base::Problems& problems) {
+  if (problems.empty()) std::abort();
+  for (const sixstep::base::Problem& problem : problems)
+    if (problem.where.empty() || problem.limit.empty()) std::abort();
+}
+
+/// What was accepted compiles, or says why not; and so do the drives of the series that it describes.
+inline void must_compile(const sixstep::study::Scenario& scenario) {
+  const auto compiled = sixstep::study::compile(scenario);
+  if (!compiled && compiled.problems().empty()) std::abort();
+  if (scenario.spread.empty()) return;
+  for (const std::uint64_t drive : {0, 1, 2}) {
+    const auto strayed = sixstep::study::compile(sixstep::study::varied(scenario, 1, drive));
+    if (!strayed && strayed.problems().empty()) std::abort();
+  }
+}
+
+}  // namespace fuzzing

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bytes into the motor file's reader: a sheet, or problems that say something. A sheet that is accepted is
+// held against itself, shown, made a model and, where that works, a first scenario.
+#include <unistd.h>
+
+#include <cstdint>
+#include <fstream>
+
+#include "io/motor_text.hpp"
+#include "io/scenario_file.hpp"
+#include "sixstep/design/drive_design.hpp"
+#include "tests/fuzz/libfuzzer/complaints.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const std::string file = "/dev/shm/motor." + std::to_string(::getpid()) + ".toml";
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  const auto sheet = io::read_sheet(file);
+  if (!sheet) {
+    fuzzing::must_say_something(sheet.problems());
+    return 0;
+  }
+  const auto check = sixstep::design::check_sheet(*sheet);
+  if (!check)
+    fuzzing::must_say_something(check.problems());
+  else if (io::sheet_table(*sheet).empty() || io::model_table(*sheet, *check).empty())
+    std::abort();
+  const auto model = sixstep::design::motor_model(*sheet);
+  if (!model) {
+    fuzzing::must_say_something(model.problems());
+    return 0;
+  }
+  using sixstep::control::Mode;
+  for (const Mode mode : {Mode::current, Mode::speed, Mode::position}) {
+    const auto design = sixstep::design::design_drive(*model, {.mode = mode});
+    if (!design) fuzzing::must_say_something(design.problems());
+  }
+  return 0;
+}
