@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "sixstep/base/angle.hpp"
 #include "sixstep/study/check_measures.hpp"
 #include "sixstep/study/check_product.hpp"
 #include "sixstep/study/check_reference.hpp"
@@ -116,10 +117,13 @@ void check_torque_limit(const Scenario& s, const design::MotorModel& motor, base
 
 base::Problems check(const Scenario& s) {
   base::Problems out;
-  if (const auto motor = design::motor_model(s.sheet))
+  std::optional<double> sector_rad;
+  if (const auto motor = design::motor_model(s.sheet)) {
     check_torque_limit(s, *motor, out);
-  else
+    sector_rad = base::pi / 3 / motor->machine.pole_pairs;
+  } else {
     out = motor.problems();
+  }
   if (s.duration_s > 0 && sim::to_instant(s.duration_s).ticks < 1)
     out.push_back({"duration_s", number(s.duration_s), "is shorter than the engine's tick of 1e-12 s",
                    "give a longer time"});
@@ -131,7 +135,7 @@ base::Problems check(const Scenario& s) {
   check_steps(s.load.times_s, s.load.torques_Nm, "load", "torques_Nm", s.duration_s, out);
   check_control(s, out);
   check_sensors(s, out);
-  check_product(s, out);
+  check_product(s, sector_rad, out);
   check_extras(s, out);
   check_measures(s, sound_reference, out);
   if (!(s.bridge.dead_time_s < s.pwm.period_s))

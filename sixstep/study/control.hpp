@@ -71,6 +71,14 @@ struct SmoothChopping {
   std::optional<double> complementary_below_A;
 };
 
+/// Commutation ahead of the Hall edge (control/advance.hpp), in electrical degrees.
+struct Advance {
+  double angle_deg = 0.0;
+  double gain_deg_s_per_rad = 0.0;
+  double limit_deg = 30.0;
+};
+constexpr bool advances(const Advance& a) { return a.angle_deg > 0 || a.gain_deg_s_per_rad > 0; }
+
 /// What the chip runs (rig/firmware.hpp).
 enum class Drive : std::uint8_t { lean, product };
 
@@ -86,6 +94,7 @@ struct Control {
   Limits limits;
   Regeneration regeneration;
   SmoothChopping smooth_chopping;
+  Advance advance;
 };
 
 }  // namespace sixstep::study

@@ -135,6 +135,23 @@ void describe(Visitor& v, SmoothChopping& s) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, Advance& s) {
+  v.value("angle_deg", s.angle_deg,
+          {.meaning = "electrical angle before the Hall edge at which the pair changes, at every speed",
+           .unit = "deg",
+           .range = base::Range{0, 60, true, false}});
+  v.value("gain_deg_s_per_rad", s.gain_deg_s_per_rad,
+          {.meaning = "electrical angle more per rad/s of the shaft; pole pairs x 180/pi x L/R makes up for "
+                      "the current's lag",
+           .unit = "deg s/rad",
+           .range = from(0)});
+  v.value("limit_deg", s.limit_deg,
+          {.meaning = "electrical angle that both together do not pass",
+           .unit = "deg",
+           .range = base::strictly_between(0, 60)});
+}
+
+template <class Visitor>
 void describe(Visitor& v, Control& s) {
   v.choice("drive", s.drive, drive_choices, {.meaning = "what the chip runs"});
   v.choice("mode", s.mode, mode_choices, {.meaning = "what is controlled, and so what the reference means"});
@@ -152,6 +169,9 @@ void describe(Visitor& v, Control& s) {
   v.table("regeneration", s.regeneration,
           {.meaning = "limit of the current that braking returns to the bus"});
   v.table("smooth_chopping", s.smooth_chopping, {.meaning = "chopping without a jump through duty 0"});
+  v.table("advance", s.advance,
+          {.meaning =
+               "product drive: commutation ahead of the Hall edge, at the control tick; 0 is at the edge"});
 }
 
 }  // namespace sixstep::study

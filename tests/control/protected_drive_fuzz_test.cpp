@@ -70,7 +70,8 @@ void configure(ProtectedConfig<S>& c, std::uint64_t bits) {
   c.shunt = {static_cast<S>(0.05), 20, static_cast<S>(0.9)};
   c.hall.stable_samples = static_cast<std::uint8_t>(bits / 65536 % 3);
   c.hall.arrangement = static_cast<HallArrangement>(bits / 262144 % 2);
-  c.advance = {static_cast<S>(0.05), static_cast<Gain<S>>(0.2), static_cast<S>(0.4)};
+  c.advance = {static_cast<S>(0.25 * static_cast<double>(bits / 2097152 % 4)), static_cast<Gain<S>>(0.2),
+               static_cast<S>(0.125 * static_cast<double>(1 + bits / 8388608 % 7))};
   c.align.ticks = bits / 524288 % 2 ? 20 : 0;
   c.align.current_A = static_cast<S>(0.1);
   if (bits / 1048576 % 2) {  // let nearly everything through, to reach deeper states
