@@ -85,7 +85,10 @@ control::DriveExtras<Scalar> extras_in(const control::DriveExtras<double>& x) {
           .feed_forward = {s(x.feed_forward.K_t_V_s)},
           .bus = {s(x.bus.lowest_bus_V)},
           .smooth_chopping = x.smooth_chopping,
-          .chopping = {s(x.chopping.soft_above_A), s(x.chopping.complementary_below_A)}};
+          .chopping = {s(x.chopping.soft_above_A), s(x.chopping.complementary_below_A)},
+          .positional_speed = x.positional_speed,
+          .speed = {s(x.speed.K), s(x.speed.K_i), s(x.speed.K_b), s(x.speed.limit)},
+          .speed_derivative = {s(x.speed_derivative.g), s(x.speed_derivative.b)}};
 }
 
 template <class Scalar>

@@ -29,12 +29,18 @@ struct CurrentLoop {
 
 enum class SpeedOutput : std::uint8_t { current, duty };
 
+/// pi.hpp, or pi_positional.hpp with derivative.hpp.
+enum class SpeedForm : std::uint8_t { incremental, positional };
+
 struct SpeedLoop {
   SpeedOutput output = SpeedOutput::current;
+  SpeedForm form = SpeedForm::incremental;
   std::optional<double> settle_s, damping;
   std::optional<double> d1, d0;
   std::optional<double> kp, ki;
   std::optional<double> torque_limit_Nm;
+  std::optional<double> anti_windup;
+  std::optional<double> derivative_s, derivative_filter_s;
 };
 
 struct PositionLoop {

@@ -52,11 +52,28 @@ void describe(Visitor& v, CurrentLoop& s) {
 template <class Visitor>
 void describe(Visitor& v, SpeedLoop& s) {
   v.choice("output", s.output, speed_output_choices, {.meaning = "what the speed controller sets"});
+  v.choice("form", s.form, speed_form_choices,
+           {.meaning = "how its PI is computed; short of the limit both forms are one controller"});
   describe_gains(v, s);
   v.value("torque_limit_Nm", s.torque_limit_Nm,
           {.meaning = "torque at the speed controller's full output; without it the sheet's stall torque",
            .unit = "N m",
            .range = above(0)});
+  v.value(
+      "anti_windup", s.anti_windup,
+      {.meaning = "positional: part of what the limit cuts off that each sample takes off the integral; 0 "
+                  "lets it wind up; without it ki/kp",
+       .range = between(0, 1)});
+  v.value(
+      "derivative_s", s.derivative_s,
+      {.meaning = "positional: derivative time; kp times it, times the measured acceleration, is taken off "
+                  "the output",
+       .unit = "s",
+       .range = above(0)});
+  v.value("derivative_filter_s", s.derivative_filter_s,
+          {.meaning = "time constant that smooths the derivative; without it a tenth of derivative_s",
+           .unit = "s",
+           .range = from(0)});
 }
 
 template <class Visitor>

@@ -58,7 +58,7 @@ requires std::is_enum_v<Enum> || std::is_same_v<Enum, bool> std::int64_t bits(En
 }
 
 // A new member must be written by io/config_lines.hpp and compared here.
-static_assert(sizeof(DriveConfig<double>) == 248 && sizeof(DriveExtras<double>) == 128);
+static_assert(sizeof(DriveConfig<double>) == 304 && sizeof(DriveExtras<double>) == 184);
 
 /// Every member, in its order.
 template <class S>
@@ -80,7 +80,9 @@ std::vector<std::int64_t> bits_of(const DriveConfig<S>& c) {
           bits(l.limits_speed), bits(l.speed_rad_s), bits(l.A_per_rad_s), bits(l.limits_regeneration),
           bits(l.bus_V), bits(l.A_per_V), bits(x.torque_fraction_per_A), bits(x.feed_forward.K_t_V_s),
           bits(x.bus.lowest_bus_V), bits(x.smooth_chopping), bits(x.chopping.soft_above_A),
-          bits(x.chopping.complementary_below_A)};
+          bits(x.chopping.complementary_below_A), bits(x.positional_speed), bits(x.speed.K),
+          bits(x.speed.K_i), bits(x.speed.K_b), bits(x.speed.limit), bits(x.speed_derivative.g),
+          bits(x.speed_derivative.b)};
 }
 
 TEST(ExportHeader, FloatingPointIsWhatTheRunComputesWith) {
@@ -127,7 +129,7 @@ TEST(ExportHeader, FixedPointIsWhatTheScalingProved) {
 }
 
 // As above, of io/product_lines.hpp.
-static_assert(sizeof(ProtectedConfig<double>) == 512);
+static_assert(sizeof(ProtectedConfig<double>) == 568);
 
 template <class Format>
 std::int64_t bits(FixedTickRatio<Format> x) {

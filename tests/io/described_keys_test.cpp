@@ -171,6 +171,7 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                                          "delay_periods",
                                          "hall_stable_samples",
                                          "damping",
+                                         "anti_windup",
                                          "d1",
                                          "d0",
                                          "kp",
