@@ -27,9 +27,9 @@ struct DriveConfig {
   Divisor<Scalar> nominal_bus_V{};  ///< d = u / nominal_bus_V
   PiConfig<Scalar> speed{};         ///< rad/s -> fraction of the torque limit; SpeedControl::duty: -> duty
   Gain<Scalar> current_at_full_torque_A{};  ///< torque limit / K_t: i_ref = y * this
-  Scalar current_limit_A{};                 ///< of the reference a speed loop gives
-  Gain<Scalar> position_gain{};             ///< degrees -> rad/s
-  Scalar speed_limit_rad_s{};               ///< of the reference a position loop gives
+  Scalar current_limit_A{};      ///< of the reference a speed loop gives; give speed.limit the same
+  Gain<Scalar> position_gain{};  ///< degrees -> rad/s
+  Scalar speed_limit_rad_s{};    ///< of the reference a position loop gives
   SpeedControl speed_control = SpeedControl::cascade;
   DriveExtras<Scalar> extras{};
 };

@@ -37,7 +37,7 @@ void describe(Visitor& v, CurrentLoop& s) {
   v.choice("comparator", s.comparator, comparator_choices,
            {.meaning = "hysteresis: when the band is looked at"});
   v.value("limit_A", s.limit_A,
-          {.meaning = "bound on the current reference that an outer loop asks for",
+          {.meaning = "bound on the current reference that an outer loop asks for; its integral knows of it",
            .unit = "A",
            .range = above(0)});
   v.value("back_emf_feed_forward", s.back_emf_feed_forward,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The speed controller's two forms and its derivative, in full switching simulation.
+// The speed controller's two forms, its derivative, and the limit it knows of, in full switching simulation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ using study::Signal;
 using study::SpeedForm;
 using ::testing::HasSubstr;
 
-constexpr double T = 30e-6, J = 1.35e-5, B = 7.3e-6;
+constexpr double T = 30e-6, K_t = 0.0335, J = 1.35e-5, B = 7.3e-6;
 
 /// Speed at every tick: what two controllers do differently shows in it for good.
 std::vector<double> course(Scenario s) {
@@ -124,6 +124,18 @@ TEST(SpeedForm, DerivativeTimeAddsToTheTimeConstantOfAP) {
   std::printf("time constant %.5g s, with derivative %.5g s\n", without, with);
   EXPECT_NEAR(without, 20e-3 * share, 1e-3);
   EXPECT_NEAR(with, 40e-3 * share, 1e-3);
+}
+
+TEST(SpeedForm, ALimitOfTheCurrentIsTheSpeedControllersOwn) {
+  // 0.1 N m as the torque at full output, or 0.1 N m/K_t as a limit below the stall torque's current: the
+  // design scales the gains by the torque, and both are one controller.
+  Scenario by_torque = out_of_reach(), by_current = by_torque;
+  by_current.control.speed.torque_limit_Nm = std::nullopt;
+  by_current.control.current.limit_A = 0.1 / K_t;
+  EXPECT_LT(difference(by_torque, by_current), rounding);
+  EXPECT_DOUBLE_EQ(study::compile(by_current)->drive.speed.limit, 0.1 / 0.78);
+  by_current.control.current.limit_A = 30.0;  // above the 23.3 A of full torque
+  EXPECT_EQ(study::compile(by_current)->drive.speed.limit, 1.0);
 }
 
 TEST(SpeedForm, SaysWhatOnlyThePositionalFormHas) {
