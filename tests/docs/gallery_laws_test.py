@@ -106,6 +106,7 @@ LAWS = {
     "stiction": [(0, 0), (0, BURST), (0, 0)],
     "wind-up-none": [(None, T + 1e-3), near(300, 1e-3)],
     "wind-up": [made_up(0.02, 0.9, 0.1, [(0, 900), (0.25, 300)], 0.8), near(300, 1e-3)],
+    "hall-glitch": [near(100, T / SECTOR + 0.004)],
     "one-shunt": [(5 - 0.005 - 0.22 * T / TAU / 24, 5 + 0.005 + 0.22 * T / TAU / 24), (None, 2e-6 / T * STALL)],
     "wrong-gains": [near(overshoot(4.1, 4.0, 2.0))],
     "sampled-too-slowly": [(0.02 - 2 * 500e-6, None)],
