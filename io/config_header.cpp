@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "io/config_lines.hpp"
+#include "io/product_lines.hpp"
+#include "sixstep/base/written.hpp"
 #include "sixstep/study/arithmetic.hpp"
 #include "sixstep/study/compile.hpp"
 
@@ -111,16 +113,30 @@ std::string timing(const study::Compiled& c) {
                   "a command counts from the next period on");
 }
 
+/// A function that makes a constant, and the constant.
+std::string made(std::string_view type, std::string_view name, const std::string& lines) {
+  return fmt::format(
+      "constexpr sixstep::control::{0}<Scalar> make_{1}() {{\n  using namespace sixstep::control;\n"
+      "  {0}<Scalar> c;\n{2}  return c;\n}}\n"
+      "inline constexpr sixstep::control::{0}<Scalar> {1} = make_{1}();\n\n",
+      type, name, lines);
+}
+
+std::string includes(const ConfigHeader& w, bool product) {
+  if (w.single_header) return "#include \"sixstep_control.hpp\"\n";
+  return fmt::format("#include \"sixstep/control/{}.hpp\"\n#include \"sixstep/control/units.hpp\"\n",
+                     product ? "protected_drive" : "drive");
+}
+
+/// `kept`: the drive in the target's arithmetic, and the product around it where the scenario has one.
 template <class Scalar>
 std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_view type,
-                   const control::DriveConfig<Scalar>& kept, const design::Bases& b,
+                   const control::ProtectedConfig<Scalar>& kept, const design::Bases& b,
                    const std::vector<design::Headroom>& rows) {
   std::string text = head(w, c);
   if (!rows.empty()) text += proof(rows);
   text += "#pragma once\n#include <cstdint>\n\n";
-  text += w.single_header
-              ? "#include \"sixstep_control.hpp\"\n"
-              : "#include \"sixstep/control/drive.hpp\"\n#include \"sixstep/control/units.hpp\"\n";
+  text += includes(w, c.product.has_value());
   text += fmt::format("\nnamespace {} {{\n\nusing Scalar = {};\n\n", w.name_space, type);
   const auto base = [](const char* member, double x, const char* unit) {
     return fmt::format("{:<72}  // {} {}\n", fmt::format("  .{} = {},", member, hex_float(x)), number(x),
@@ -130,12 +146,10 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   text += "inline constexpr sixstep::control::Units<Scalar> units{\n" + base("current_A", b.current_A, "A") +
           base("voltage_V", b.voltage_V, "V") + base("speed_rad_s", b.speed_rad_s, "rad/s") +
           base("position_deg", b.position_deg, "deg") + "};\n\n";
-  text += timing(c);
-  text +=
-      "\nconstexpr sixstep::control::DriveConfig<Scalar> make_drive() {\n  using namespace "
-      "sixstep::control;\n";
-  text += "  DriveConfig<Scalar> c;\n" + ConfigLines<Scalar>::of(c.drive, kept, b) + "  return c;\n}\n";
-  text += "inline constexpr sixstep::control::DriveConfig<Scalar> drive = make_drive();\n\n";
+  text += timing(c) + "\n" + made("DriveConfig", "drive", drive_lines<Scalar>(c.drive, kept.drive, b));
+  if (c.product)
+    text += made("ProtectedConfig", "product",
+                 "  c.drive = drive;\n" + product_lines<Scalar>(*c.product, kept, b));
   return text + fmt::format("}}  // namespace {}\n", w.name_space);
 }
 
@@ -153,6 +167,15 @@ bool states_range(const design::OperatingRange& r) {
 }
 
 template <class Scalar>
+base::Result<std::string> floating_header(const ConfigHeader& w, const study::Compiled& c,
+                                          std::string_view type) {
+  control::ProtectedConfig<Scalar> kept;
+  kept.drive = study::in_arithmetic<Scalar>(c.drive);
+  if (c.product) kept = study::product_in<Scalar>(w.scenario, c)->config;
+  return header<Scalar>(w, c, type, kept, {}, {});
+}
+
+template <class Scalar>
 base::Result<std::string> fixed_header(const ConfigHeader& w, const study::Compiled& c,
                                        std::string_view type) {
   const design::OperatingRange range = range_of(w, c);
@@ -164,9 +187,17 @@ base::Result<std::string> fixed_header(const ConfigHeader& w, const study::Compi
     if (!own) return own.problems();
     bases = {own->units.current_A, own->units.voltage_V, own->units.speed_rad_s, own->units.position_deg};
   }
+  if (c.product) {
+    const auto product =
+        design::scaled_product<Scalar>(*c.product, range, bases, w.scenario.sensors.adc_bits);
+    if (!product) return product.problems();
+    return header<Scalar>(w, c, type, product->config, product->bases, product->proof);
+  }
   const base::Result<design::Scaled<Scalar>> scaled = design::scaled<Scalar>(c.drive, range, bases);
   if (!scaled) return scaled.problems();
-  return header<Scalar>(w, c, type, scaled->config, scaled->bases, scaled->proof);
+  control::ProtectedConfig<Scalar> kept;
+  kept.drive = scaled->config;
+  return header<Scalar>(w, c, type, kept, scaled->bases, scaled->proof);
 }
 
 bool is_name_space(std::string_view text) {
@@ -199,9 +230,9 @@ base::Result<std::string> config_header(const ConfigHeader& w) {
   if (!c) return c.problems();
   switch (w.arithmetic.value_or(w.scenario.control.arithmetic)) {
     case study::Arithmetic::float64:
-      return header<double>(w, *c, "double", c->drive, {}, {});
+      return floating_header<double>(w, *c, "double");
     case study::Arithmetic::float32:
-      return header<float>(w, *c, "float", study::in_arithmetic<float>(c->drive), {}, {});
+      return floating_header<float>(w, *c, "float");
     case study::Arithmetic::q15:
       return fixed_header<control::Q15>(w, *c, "sixstep::control::Q15");
     case study::Arithmetic::q14:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario's drive as a C++ header for firmware: the bits that the simulation computes with, as constants.
+// A scenario's drive as a C++ header for firmware: the bits that the simulation computes with, as constants;
+// where the chip runs the product drive, all that stands around the loops too.
 #pragma once
 #include <optional>
 #include <string>

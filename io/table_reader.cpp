@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "io/key_advice.hpp"
+#include "io/key_catalog.hpp"
 #include "io/units.hpp"
 #include "sixstep/study/choices.hpp"
 
@@ -27,6 +28,14 @@ std::string mode_unit(const Document& document) {
   const std::optional<std::string> word = mode ? mode->value<std::string>() : std::nullopt;
   for (const auto& choice : study::mode_choices)
     if (word == choice.word) return std::string(study::reference_unit(choice.value));
+  return {};
+}
+
+/// The unit of the number at a scenario's key.
+std::optional<std::string> unit_at(std::string_view path) {
+  for (const KeyEntry& entry : scenario_keys())
+    if (entry.path == path && (entry.type == KeyType::number || entry.type == KeyType::quantity))
+      return std::string(entry.about.unit);
   return {};
 }
 
@@ -61,6 +70,9 @@ const toml::array* TableReader::find_tables(std::string_view key, const base::Ab
 
 /// Empty for a plain number; nothing where it follows from a control mode that has no unit.
 std::optional<std::string> TableReader::unit_of_key(const base::About& about) const {
+  if (about.unit_here == "1") return std::string();
+  if (!about.unit_here.empty()) return std::string(about.unit_here);
+  if (!about.unit_of.empty()) return unit_at(about.unit_of);
   if (about.mode_unit.empty()) return std::string(about.unit);
   const std::string unit = mode_unit(complaints_.document());
   if (unit.empty()) return {};
@@ -73,6 +85,10 @@ base::Result<double> TableReader::number_of(const toml::node& node, const base::
   if (const toml::value<std::string>* text = node.as_string()) {
     const std::optional<std::string> unit = unit_of_key(about);
     if (unit) return in_unit(text->get(), *unit);
+    if (!about.unit_of.empty())
+      return base::Problem{
+          .limit = fmt::format("is in the unit of {}, which is no number here", about.unit_of),
+          .cure = "name a number of the scenario, as supply.voltage_V"};
     return base::Problem{.limit = "is in the unit of control.mode, and this mode has none",
                          .cure = "set control.mode, or write a number without quotes"};
   }
@@ -85,6 +101,7 @@ bool TableReader::number(const toml::node& node, const std::string& path, const 
                          double& out) {
   const base::Result<double> x = number_of(node, about);
   const auto refuse = [&](base::Problem problem) {
+    if (lost_word_ && !about.unit_here.empty() && node.is_string()) return false;
     if (problem.cure.empty()) problem.cure = cure_of(about);
     complaints_.value(node, path, std::move(problem));
     return false;

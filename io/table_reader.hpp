@@ -49,6 +49,7 @@ class TableReader {
   template <class Enum, class Choices>
   void choice(std::string_view key, Enum& member, const Choices& choices, const base::About& about) {
     const toml::node* node = find(key, about);
+    lost_word_ = lost_word_ || (!node && about.required);
     if (!node) return;
     std::vector<std::string> words;
     for (const auto& choice : choices) {
@@ -58,6 +59,7 @@ class TableReader {
       }
       words.emplace_back(choice.word);
     }
+    lost_word_ = true;
     no_such_word(*node, key, words);
   }
 
@@ -130,6 +132,7 @@ class TableReader {
   bool partial_;
   std::string_view advice_;
   std::vector<std::string> known_;
+  bool lost_word_ = false;  ///< a choice could not be read: what unit it decides is not known
 };
 
 /// Fills the struct from the whole file.

@@ -22,8 +22,8 @@ where the key is left out; without a default it may be left out, unless it is re
 [Figures of merit](figures.md) defines what `[[require]]` and `[[compare]]` can ask for.
 
 A number may bring a unit of its own, in quotes: `duration_s = "20 ms"`, `times_s = [0, "5 ms"]`, `inertia_kg_m2 =
-"135 gcm2"`, `damping = "90 %"`, and for a reference whatever suits the control mode, `value = "6710 rpm"`. The unit must be
-of the key's kind. Powers of ten cost no rounding: "0.572 mH" is the same number as 0.000572.
+"135 gcm2"`, `damping = "90 %"`, and for a reference whatever suits the control mode, `value = "6710 rpm"`; a limit takes
+what its metric and signal ask for, `max = "150 mA"`. The unit must be of the key's kind. Powers of ten cost no rounding: "0.572 mH" is the same number as 0.000572.
 
 `extends = "base.toml"`, or a list of files, takes what stands in other scenarios, each name relative to the file that names
 it. What is nearer wins: this file over its bases, a later base over an earlier one, `--set` over all. Tables under headings are

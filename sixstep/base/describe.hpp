@@ -62,6 +62,9 @@ struct About {
   std::span<const Spelling> also = {};  ///< other keys for the same quantity; a file uses one of them
   std::string_view mode_unit = "";      ///< the unit follows from control.mode: "*" is that of its reference,
                                         ///< "*/s" that per second
+  std::string_view unit_here =
+      "";                         ///< the unit as what was read before decides: that of a figure or a signal
+  std::string_view unit_of = "";  ///< path of the key whose unit it has
 };
 
 /// One word of an enumeration as written in files, and what it means.

@@ -27,9 +27,9 @@ struct DriveConfig {
   Divisor<Scalar> nominal_bus_V{};  ///< d = u / nominal_bus_V
   PiConfig<Scalar> speed{};         ///< rad/s -> fraction of the torque limit; SpeedControl::duty: -> duty
   Gain<Scalar> current_at_full_torque_A{};  ///< torque limit / K_t: i_ref = y * this
-  Scalar current_limit_A{};                 ///< of the reference a speed loop gives
-  Gain<Scalar> position_gain{};             ///< degrees -> rad/s
-  Scalar speed_limit_rad_s{};               ///< of the reference a position loop gives
+  Scalar current_limit_A{};      ///< of the reference a speed loop gives; give speed.limit the same
+  Gain<Scalar> position_gain{};  ///< degrees -> rad/s
+  Scalar speed_limit_rad_s{};    ///< of the reference a position loop gives
   SpeedControl speed_control = SpeedControl::cascade;
   DriveExtras<Scalar> extras{};
 };
@@ -96,17 +96,17 @@ constexpr Scalar speed_reference(const DriveConfig<Scalar>& config, Mode mode, S
                  config.speed_limit_rad_s);
 }
 
+/// The speed controller's output: a fraction of the torque limit, or the duty.
 template <class Scalar>
-constexpr Scalar speed_to_current(const DriveConfig<Scalar>& config, DriveState<Scalar>& state, Scalar error,
-                                  const Measurement<Scalar>& measured) {
-  const Scalar fraction =
-      config.extras.on && config.extras.limits_current
-          ? speed_pi_within(config.speed, state.speed, error,
-                            allowed_current(config.extras, measured, config.current_limit_A),
-                            config.extras.torque_fraction_per_A)
-          : pi_step(config.speed, state.speed, error);
-  return clamped(ScalarTraits<Scalar>::product(fraction, config.current_at_full_torque_A),
-                 config.current_limit_A);
+constexpr Scalar speed_output(const DriveConfig<Scalar>& config, DriveState<Scalar>& state, Scalar error,
+                              const Measurement<Scalar>& measured) {
+  const DriveExtras<Scalar>& extras = config.extras;
+  if (!extras.on) return pi_step(config.speed, state.speed, error);
+  CurrentWindow<Scalar> window{};
+  const bool bounded = extras.limits_current && config.speed_control == SpeedControl::cascade;
+  if (bounded) window = allowed_current(extras, measured, config.current_limit_A);
+  return speed_with_extras(extras, state.extras, config.speed, state.speed, error, measured.speed_rad_s,
+                           bounded ? &window : nullptr);
 }
 
 /// u/U_s; without a nominal bus voltage there is no duty.
@@ -143,8 +143,10 @@ constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveStat
     const Scalar error = w_ref - measured.speed_rad_s;
     telemetry.speed_reference_rad_s = w_ref;
     if (config.speed_control == SpeedControl::duty)
-      return set_duty(state, positive, clamped(pi_step(config.speed, state.speed, error), one<Scalar>));
-    i_ref = speed_to_current(config, state, error, measured);
+      return set_duty(state, positive, clamped(speed_output(config, state, error, measured), one<Scalar>));
+    i_ref = clamped(ScalarTraits<Scalar>::product(speed_output(config, state, error, measured),
+                                                  config.current_at_full_torque_A),
+                    config.current_limit_A);
   } else if (config.extras.on && config.extras.limits_current) {
     const CurrentWindow<Scalar> window =
         current_window(config.extras.limits, measured.speed_rad_s, measured.bus_V);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a product adds inside the drive's loops: a slewed setpoint, a window for the current reference,
-// back-EMF feed-forward, the measured bus, chopping that is smooth through zero. All of it stands behind one
-// flag, so that a drive without extras pays one branch per tick.
+// back-EMF feed-forward, the measured bus, chopping that is smooth through zero, a speed loop in positional
+// form with a derivative. All of it stands behind one flag, so that a drive without extras pays one branch
+// per tick.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
+#include "sixstep/control/derivative.hpp"
 #include "sixstep/control/feed_forward.hpp"
 #include "sixstep/control/limits.hpp"
 #include "sixstep/control/pi.hpp"
+#include "sixstep/control/pi_positional.hpp"
 #include "sixstep/control/slew.hpp"
 #include "sixstep/control/smooth_chopping.hpp"
 
@@ -24,12 +27,17 @@ struct DriveExtras {
   BusCompensationConfig<Scalar> bus{};
   bool smooth_chopping = false;  ///< else DriveConfig::chopping
   SmoothChoppingConfig<Scalar> chopping{};
+  bool positional_speed = false;  ///< the speed loop by the next two, else by DriveConfig::speed
+  PiPositionalConfig<Scalar> speed{};
+  DerivativeConfig<Scalar> speed_derivative{};  ///< of the measured speed, taken off the output
 };
 
 template <class Scalar>
 struct DriveExtrasState {
   SlewState<Scalar> slew{};
   SmoothChoppingState<Scalar> chopping{};
+  PiPositionalState<Scalar> speed{};
+  DerivativeState<Scalar> speed_derivative{};
   Mode slewing = Mode::off;  ///< the mode whose setpoint slews: a new one starts at what is measured
 };
 
@@ -51,14 +59,21 @@ constexpr CurrentWindow<Scalar> allowed_current(const DriveExtras<Scalar>& extra
   return {between(w.low, -limit, limit), between(w.high, -limit, limit)};
 }
 
-/// The speed PI within the window: it cannot wind up against a limit that it does not see.
+/// The speed PI, in a cascade within the window: it cannot wind up against a limit that it does not see.
 template <class Scalar>
-constexpr Scalar speed_pi_within(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error,
-                                 const CurrentWindow<Scalar>& window, Gain<Scalar> fraction_per_A) {
+constexpr Scalar speed_with_extras(const DriveExtras<Scalar>& extras, DriveExtrasState<Scalar>& state,
+                                   const PiConfig<Scalar>& config, PiState<Scalar>& pi, Scalar error,
+                                   Scalar speed_rad_s, const CurrentWindow<Scalar>* window) {
   using T = ScalarTraits<Scalar>;
-  return pi_step(config, state, error,
-                 between(T::product(window.low, fraction_per_A), -config.limit, config.limit),
-                 between(T::product(window.high, fraction_per_A), -config.limit, config.limit));
+  const Scalar limit = extras.positional_speed ? extras.speed.limit : config.limit;
+  Scalar low = -limit, high = limit;
+  if (window != nullptr) {
+    low = between(T::product(window->low, extras.torque_fraction_per_A), -limit, limit);
+    high = between(T::product(window->high, extras.torque_fraction_per_A), -limit, limit);
+  }
+  if (!extras.positional_speed) return pi_step(config, pi, error, low, high);
+  const Scalar braked = derivative_step(extras.speed_derivative, state.speed_derivative, speed_rad_s);
+  return pi_positional_step(extras.speed, state.speed, error, -braked, low, high);
 }
 
 /// u = u_PI + e, both together within the limit of the PI.

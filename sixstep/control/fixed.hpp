@@ -160,6 +160,11 @@ struct FixedTickRatio {
   typename Format::WideInt raw = 0;
 
   constexpr FixedTickRatio() = default;
+  static constexpr FixedTickRatio from_raw(typename Format::WideInt raw) {
+    FixedTickRatio ratio;
+    ratio.raw = raw;
+    return ratio;
+  }
   explicit constexpr FixedTickRatio(double signal_times_ticks)
       : raw(detail::nearest<typename Format::WideInt>(
             signal_times_ticks * static_cast<double>(detail::two_to<std::int64_t>(Format::fraction_bits)))) {}

@@ -27,18 +27,25 @@ struct PiPositionalState {
   Accumulator<Scalar> integral{};
 };
 
+/// Between any two ends instead of the limit's: for a bound that moves.
+template <class Scalar>
+constexpr Scalar pi_positional_step(const PiPositionalConfig<Scalar>& config,
+                                    PiPositionalState<Scalar>& state, Scalar error, Scalar feed_forward,
+                                    Scalar low, Scalar high) {
+  using T = ScalarTraits<Scalar>;
+  const Accumulator<Scalar> v =
+      T::accumulated(error, config.K) + state.integral + T::accumulator(feed_forward);
+  const Accumulator<Scalar> u = between(v, T::accumulator(low), T::accumulator(high));
+  state.integral =
+      state.integral + T::accumulated(error, config.K_i) + T::accumulated(T::wide_of(u - v), config.K_b);
+  return T::signal(u);
+}
+
 template <class Scalar>
 constexpr Scalar pi_positional_step(const PiPositionalConfig<Scalar>& config,
                                     PiPositionalState<Scalar>& state, Scalar error,
                                     Scalar feed_forward = Scalar{}) {
-  using T = ScalarTraits<Scalar>;
-  const Accumulator<Scalar> v =
-      T::accumulated(error, config.K) + state.integral + T::accumulator(feed_forward);
-  const Accumulator<Scalar> limit = T::accumulator(config.limit);
-  const Accumulator<Scalar> u = clamped(v, limit);
-  state.integral =
-      state.integral + T::accumulated(error, config.K_i) + T::accumulated(T::wide_of(u - v), config.K_b);
-  return T::signal(u);
+  return pi_positional_step(config, state, error, feed_forward, -config.limit, config.limit);
 }
 
 }  // namespace sixstep::control

@@ -75,8 +75,9 @@ double setpoint_base(control::Mode mode, const Bases& b) {
 
 template <class Scalar>
 base::Result<ScaledProduct<Scalar>> scaled_product(const ProtectedConfig<double>& p,
-                                                   const OperatingRange& range, int adc_bits) {
-  const base::Result<Scaled<Scalar>> drive = scaled<Scalar>(p.drive, range);
+                                                   const OperatingRange& range, const Bases& bases,
+                                                   int adc_bits) {
+  const base::Result<Scaled<Scalar>> drive = scaled<Scalar>(p.drive, range, bases);
   if (!drive) return drive.problems();
   const Bases& b = drive->bases;
   Proof<Scalar> proof;
@@ -104,15 +105,35 @@ base::Result<ScaledProduct<Scalar>> scaled_product(const ProtectedConfig<double>
   return ScaledProduct<Scalar>{c, b, std::move(proof.rows)};
 }
 
+template <class Scalar>
+base::Result<ScaledProduct<Scalar>> scaled_product(const ProtectedConfig<double>& p,
+                                                   const OperatingRange& range, int adc_bits) {
+  return scaled_product<Scalar>(p, range, bases_for(p.drive, range, detail::full_scale<Scalar>), adc_bits);
+}
+
 using Product = ProtectedConfig<double>;
 using Range = OperatingRange;
 template base::Result<ScaledProduct<control::Q15>> scaled_product(const Product&, const Range&, int);
+template base::Result<ScaledProduct<control::Q15>> scaled_product(const Product&, const Range&, const Bases&,
+                                                                  int);
 template base::Result<ScaledProduct<control::Q31>> scaled_product(const Product&, const Range&, int);
+template base::Result<ScaledProduct<control::Q31>> scaled_product(const Product&, const Range&, const Bases&,
+                                                                  int);
 template base::Result<ScaledProduct<control::Q14>> scaled_product(const Product&, const Range&, int);
+template base::Result<ScaledProduct<control::Q14>> scaled_product(const Product&, const Range&, const Bases&,
+                                                                  int);
 template base::Result<ScaledProduct<control::Q30>> scaled_product(const Product&, const Range&, int);
+template base::Result<ScaledProduct<control::Q30>> scaled_product(const Product&, const Range&, const Bases&,
+                                                                  int);
 template base::Result<ScaledProduct<control::Fixed<std::int16_t, 13>>> scaled_product(const Product&,
                                                                                       const Range&, int);
+template base::Result<ScaledProduct<control::Fixed<std::int16_t, 13>>> scaled_product(const Product&,
+                                                                                      const Range&,
+                                                                                      const Bases&, int);
 template base::Result<ScaledProduct<control::Fixed<std::int32_t, 29>>> scaled_product(const Product&,
                                                                                       const Range&, int);
+template base::Result<ScaledProduct<control::Fixed<std::int32_t, 29>>> scaled_product(const Product&,
+                                                                                      const Range&,
+                                                                                      const Bases&, int);
 
 }  // namespace sixstep::design

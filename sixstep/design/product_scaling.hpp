@@ -22,6 +22,12 @@ struct ScaledProduct {
 /// Position is measured in position mode only: elsewhere it has no base. Instantiated as scaled().
 template <class Scalar>
 base::Result<ScaledProduct<Scalar>> scaled_product(const control::ProtectedConfig<double>& product,
+                                                   const OperatingRange& range, const Bases& bases,
+                                                   int adc_bits);
+
+/// With the bases of bases_for.
+template <class Scalar>
+base::Result<ScaledProduct<Scalar>> scaled_product(const control::ProtectedConfig<double>& product,
                                                    const OperatingRange& range, int adc_bits);
 
 }  // namespace sixstep::design

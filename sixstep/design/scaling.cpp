@@ -93,6 +93,14 @@ control::DriveExtras<Scalar> scaled_extras(const DriveConfig<double>& d, const B
   out.feed_forward.K_t_V_s =
       proof.gain("feed_forward.K_t_V_s", x.feed_forward.K_t_V_s * b.speed_rad_s / b.voltage_V);
   out.bus.lowest_bus_V = Scalar(x.bus.lowest_bus_V / b.voltage_V);
+  if (x.positional_speed) {  // its K_i and increments are those that DriveConfig::speed was proved with
+    out.positional_speed = true;
+    out.speed = {proof.gain("speed.K", x.speed.K * b.speed_rad_s),
+                 proof.gain("speed.K_i", x.speed.K_i * b.speed_rad_s), proof.gain("speed.K_b", x.speed.K_b),
+                 Scalar(x.speed.limit)};
+    out.speed_derivative = {proof.gain("speed_derivative.g", x.speed_derivative.g * b.speed_rad_s),
+                            proof.gain("speed_derivative.b", x.speed_derivative.b)};
+  }
   out.smooth_chopping = x.smooth_chopping;
   out.chopping = {Scalar(x.chopping.soft_above_A / b.current_A),
                   Scalar(x.chopping.complementary_below_A / b.current_A)};

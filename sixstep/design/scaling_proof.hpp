@@ -29,9 +29,9 @@ struct Proof {
                           "take a larger base or a format with more bits before the point"});
   }
 
-  /// A threshold must lie below full scale, or no signal can ever pass it.
+  /// A threshold must lie below full scale, or no signal can ever pass it. None of 0 is beyond any.
   Scalar threshold(const char* name, double value, double base) {
-    fits(name, std::fabs(value) + 2 * base * static_cast<double>(Scalar::from_raw(1)), base);
+    if (value != 0) fits(name, std::fabs(value) + 2 * base * static_cast<double>(Scalar::from_raw(1)), base);
     return Scalar(value / base);
   }
 

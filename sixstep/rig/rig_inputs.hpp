@@ -26,6 +26,14 @@ void Rig<Real, Firmware>::do_action(const Action& action) {
       return plant_.set_source_sinks(action.value != 0);
     case ActionKind::hall_stuck:
       return stick_hall(action.value);
+    case ActionKind::hall_whole: {
+      const std::uint8_t before = pins(),
+                         others = static_cast<std::uint8_t>(~(8 >> static_cast<int>(action.value)));
+      stuck_high_ &= others;
+      stuck_low_ &= others;
+      if (pins() != before) hall_edge();
+      return;
+    }
     case ActionKind::run_request:
       return firmware_.request_run(action.value != 0);
     case ActionKind::clear_request:

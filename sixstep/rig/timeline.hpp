@@ -19,7 +19,8 @@ enum class ActionKind : std::uint8_t {
   clear_request,
   shaft_locked,
   source_voltage,
-  source_sinks
+  source_sinks,
+  hall_whole
 };
 
 /// How a setpoint moves from its action on: t seconds later it stands at

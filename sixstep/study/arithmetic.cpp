@@ -24,12 +24,14 @@ double unit_of_setpoint(Mode mode, const design::Bases& b) {
                                   : 1.0;
 }
 
-/// A full scale that a file names, as the base of a format: what 1.0 means.
+/// What the drive needs; where a file names a full scale, the base that this makes of 1.0.
 template <class Scalar>
-design::Bases chosen_bases(const FullScale& chosen, design::Bases bases) {
+design::Bases bases_of(const Scenario& s, const Compiled& c, const design::OperatingRange& range) {
   constexpr int before_the_point =
       control::detail::Widths<typename Scalar::Storage>::bits - 1 - Scalar::fraction_bits;
-  const auto take = [&](double& base, const std::optional<double>& full_scale) {
+  design::Bases bases = design::bases_for(c.drive, range, static_cast<double>(Scalar::max()));
+  const FullScale& chosen = s.control.full_scale;
+  const auto take = [](double& base, const std::optional<double>& full_scale) {
     if (full_scale) base = std::ldexp(*full_scale, -before_the_point);
   };
   take(bases.current_A, chosen.current_A);
@@ -83,7 +85,10 @@ control::DriveExtras<Scalar> extras_in(const control::DriveExtras<double>& x) {
           .feed_forward = {s(x.feed_forward.K_t_V_s)},
           .bus = {s(x.bus.lowest_bus_V)},
           .smooth_chopping = x.smooth_chopping,
-          .chopping = {s(x.chopping.soft_above_A), s(x.chopping.complementary_below_A)}};
+          .chopping = {s(x.chopping.soft_above_A), s(x.chopping.complementary_below_A)},
+          .positional_speed = x.positional_speed,
+          .speed = {s(x.speed.K), s(x.speed.K_i), s(x.speed.K_b), s(x.speed.limit)},
+          .speed_derivative = {s(x.speed_derivative.g), s(x.speed_derivative.b)}};
 }
 
 template <class Scalar>
@@ -159,9 +164,7 @@ base::Result<DriveIn<Scalar>> drive_in(const Scenario& s, const Compiled& c) {
     return DriveIn<Scalar>{in_arithmetic<Scalar>(c.drive), {}};
   } else {
     const design::OperatingRange range = operating_range(s, c);
-    const design::Bases needed = design::bases_for(c.drive, range, static_cast<double>(Scalar::max()));
-    const auto scaled =
-        design::scaled<Scalar>(c.drive, range, chosen_bases<Scalar>(s.control.full_scale, needed));
+    const auto scaled = design::scaled<Scalar>(c.drive, range, bases_of<Scalar>(s, c, range));
     if (!scaled) return under_the_key(s, scaled.problems());
     const design::Bases& b = scaled->bases;
     if (base::Problems problems = unheld_speed<Scalar>(s, c, b); !problems.empty()) return problems;
@@ -174,7 +177,9 @@ base::Result<ProductIn<Scalar>> product_in(const Scenario& s, const Compiled& c)
   if constexpr (std::is_arithmetic_v<Scalar>) {
     return ProductIn<Scalar>{product_in_float<Scalar>(*c.product), {}};
   } else {
-    const auto scaled = design::scaled_product<Scalar>(*c.product, operating_range(s, c), s.sensors.adc_bits);
+    const design::OperatingRange range = operating_range(s, c);
+    const auto scaled =
+        design::scaled_product<Scalar>(*c.product, range, bases_of<Scalar>(s, c, range), s.sensors.adc_bits);
     if (!scaled) return under_the_key(s, scaled.problems());
     return ProductIn<Scalar>{scaled->config, units_of(s.control.mode, scaled->bases)};
   }

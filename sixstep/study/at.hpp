@@ -17,9 +17,12 @@ struct AtLoad {
   std::optional<bool> locked;
 };
 
+/// What a line's pin reads: a level it sticks at, or what its probe says.
+enum class PinLevel : std::uint8_t { low, high, probe };
+
 struct AtHallBreak {
   int line = 1;
-  Level01 level = Level01::low;
+  PinLevel level = PinLevel::low;
 };
 
 struct AtSensors {

@@ -28,15 +28,21 @@ void describe(Visitor& v, AtLoad& s) {
           {.meaning = "true: a clamp stops the rotor at once and holds it; false: it is let go"});
 }
 
+inline constexpr base::Choice<PinLevel> pin_level_choices[] = {
+    {"low", PinLevel::low, "0, as a line that is shorted to ground"},
+    {"high", PinLevel::high, "1, as a line that is cut before its pull-up"},
+    {"probe", PinLevel::probe, "what its probe says: the break is over, and was a glitch"},
+};
+
 template <class Visitor>
 void describe(Visitor& v, AtHallBreak& s) {
   v.value("line", s.line, {.meaning = "which of H1, H2, H3", .range = base::between(1, 3)});
-  v.choice("level", s.level, level_choices, {.meaning = "what the pin reads from then on"});
+  v.choice("level", s.level, pin_level_choices, {.meaning = "what the pin reads from then on"});
 }
 
 template <class Visitor>
 void describe(Visitor& v, AtSensors& s) {
-  v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks then"});
+  v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks then, or is whole again"});
 }
 
 template <class Visitor>

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "sixstep/base/angle.hpp"
 #include "sixstep/study/check_measures.hpp"
 #include "sixstep/study/check_product.hpp"
 #include "sixstep/study/check_reference.hpp"
@@ -69,6 +70,22 @@ void check_speed_output(const Scenario& s, base::Problems& out) {
   if (c.regeneration.limit_V) refuse("control.regeneration.limit_V");
 }
 
+/// What only the positional form has.
+void check_speed_form(const Scenario& s, base::Problems& out) {
+  const SpeedLoop& loop = s.control.speed;
+  const auto refuse = [&](const char* key, const std::optional<double>& value) {
+    if (value && loop.form != SpeedForm::positional)
+      out.push_back({std::string("control.speed.") + key, number(*value), "is of the positional form only",
+                     "set control.speed.form = \"positional\", or remove it"});
+  };
+  refuse("anti_windup", loop.anti_windup);
+  refuse("derivative_s", loop.derivative_s);
+  refuse("derivative_filter_s", loop.derivative_filter_s);
+  if (loop.derivative_filter_s && !loop.derivative_s && loop.form == SpeedForm::positional)
+    out.push_back({"control.speed.derivative_filter_s", number(*loop.derivative_filter_s),
+                   "has no derivative to smooth", "give control.speed.derivative_s too"});
+}
+
 /// A loop of second order takes two samples at least until it stands: dead beat.
 void check_settling(const std::optional<double>& settle_s, const char* key, const Scenario& s,
                     base::Problems& out) {
@@ -85,6 +102,7 @@ void check_control(const Scenario& s, base::Problems& out) {
   check_settling(s.control.speed.settle_s, "control.speed.settle_s", s, out);
   check_regeneration(s, out);
   check_speed_output(s, out);
+  check_speed_form(s, out);
   const auto add = [&](const base::Problems& more) { out.insert(out.end(), more.begin(), more.end()); };
   add(given_gains(s.control.current, "control.current").problems);
   add(given_gains(s.control.speed, "control.speed").problems);
@@ -116,10 +134,13 @@ void check_torque_limit(const Scenario& s, const design::MotorModel& motor, base
 
 base::Problems check(const Scenario& s) {
   base::Problems out;
-  if (const auto motor = design::motor_model(s.sheet))
+  std::optional<double> sector_rad;
+  if (const auto motor = design::motor_model(s.sheet)) {
     check_torque_limit(s, *motor, out);
-  else
+    sector_rad = base::pi / 3 / motor->machine.pole_pairs;
+  } else {
     out = motor.problems();
+  }
   if (s.duration_s > 0 && sim::to_instant(s.duration_s).ticks < 1)
     out.push_back({"duration_s", number(s.duration_s), "is shorter than the engine's tick of 1e-12 s",
                    "give a longer time"});
@@ -131,7 +152,7 @@ base::Problems check(const Scenario& s) {
   check_steps(s.load.times_s, s.load.torques_Nm, "load", "torques_Nm", s.duration_s, out);
   check_control(s, out);
   check_sensors(s, out);
-  check_product(s, out);
+  check_product(s, sector_rad, out);
   check_extras(s, out);
   check_measures(s, sound_reference, out);
   if (!(s.bridge.dead_time_s < s.pwm.period_s))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/check_product.hpp"
 
-#include <optional>
+#include <cmath>
 #include <string>
 
 #include "sixstep/base/written.hpp"
@@ -73,28 +73,55 @@ void check_activities(const Scenario& s, base::Problems& out) {
                    "lengthen duration_s or let go earlier"});
 }
 
-void check_full_scale(const Scenario& s, base::Problems& out) {
-  const FullScale& f = s.control.full_scale;
-  if (f.current_A || f.voltage_V || f.speed_rad_s || f.position_deg)
-    out.push_back({"control.full_scale", "",
-                   "is not for the product drive: its full scale follows from what the converters span",
-                   "leave it away"});
+void check_advance(const Scenario& s, base::Problems& out) {
+  const Advance& a = s.control.advance;
+  if (a.angle_deg > a.limit_deg)
+    out.push_back({"control.advance.angle_deg", written(a.angle_deg),
+                   "is above limit_deg = " + written(a.limit_deg) + ", and never reached",
+                   "lower it or raise the limit"});
+}
+
+/// A sector passes unseen, and the next code is a jump, where it does not hold as many samples.
+void check_hall_filter(const Scenario& s, const std::optional<double>& sector_rad, base::Problems& out) {
+  const std::optional<double>& fastest = s.protection.over_speed_rad_s;
+  const double stands_s = s.sensors.hall_stable_samples * s.pwm.period_s;
+  if (s.sensors.hall_stable_samples < 2 || !sector_rad || !fastest || stands_s * *fastest <= *sector_rad)
+    return;
+  const double most = std::floor(*sector_rad / (*fastest * s.pwm.period_s));
+  const std::string sector = written(*sector_rad / *fastest);
+  out.push_back(
+      {"sensors.hall_stable_samples", std::to_string(s.sensors.hall_stable_samples),
+       "last longer than a sector, " + sector + " s at protection.over_speed_rad_s = " + written(*fastest),
+       most >= 2 ? "lower it to " + written(most) + " at most, or lower over_speed_rad_s"
+                 : "set it to 1, shorten pwm.period_s, or lower over_speed_rad_s"});
+}
+
+/// Of the lean drive, which is told sector and edges as they are.
+void check_lean(const Scenario& s, base::Problems& out) {
+  const Protection& p = s.protection;
+  const auto refuse = [&out](const char* key, const std::string& value, const char* limit,
+                             const char* otherwise) {
+    out.push_back({key, value, limit, "set control.drive = \"product\", or " + std::string(otherwise)});
+  };
+  if (p.over_current_A || p.over_voltage_V || p.under_voltage_V || p.over_speed_rad_s || p.stall_current_A ||
+      p.stall_s || p.off_at_s || p.align.current_A || p.brake_current_A > 0)
+    refuse("protection", "", "is watched by the product drive only", "leave [protection] away");
+  if (advances(s.control.advance))
+    refuse("control.advance", "", "is what the product drive does only", "leave it away");
+  if (s.sensors.hall_stable_samples > 1)
+    refuse("sensors.hall_stable_samples", std::to_string(s.sensors.hall_stable_samples),
+           "filters the pins that the product drive reads only", "leave it away");
 }
 
 }  // namespace
 
-void check_product(const Scenario& s, base::Problems& out) {
-  const Protection& p = s.protection;
-  if (s.control.drive == Drive::product) {
-    check_registers(s, out);
-    check_thresholds(s, out);
-    check_activities(s, out);
-    check_full_scale(s, out);
-  } else if (p.over_current_A || p.over_voltage_V || p.under_voltage_V || p.over_speed_rad_s ||
-             p.stall_current_A || p.stall_s || p.off_at_s || p.align.current_A || p.brake_current_A > 0) {
-    out.push_back({"protection", "", "is watched by the product drive only",
-                   "set control.drive = \"product\", or leave [protection] away"});
-  }
+void check_product(const Scenario& s, const std::optional<double>& sector_rad, base::Problems& out) {
+  if (s.control.drive != Drive::product) return check_lean(s, out);
+  check_registers(s, out);
+  check_thresholds(s, out);
+  check_activities(s, out);
+  check_advance(s, out);
+  check_hall_filter(s, sector_rad, out);
 }
 
 void check_extras(const Scenario& s, base::Problems& out) {

@@ -58,6 +58,12 @@ inline constexpr Choice<SpeedOutput> speed_output_choices[] = {
     {"current", SpeedOutput::current, "a part of the full torque, for the current loop within"},
     {"duty", SpeedOutput::duty, "the duty itself: no current is measured, none is limited (thesis 6.2.2)"},
 };
+inline constexpr Choice<SpeedForm> speed_form_choices[] = {
+    {"incremental", SpeedForm::incremental,
+     "each sample adds to the last output, which is kept within its limit: nothing can wind up"},
+    {"positional", SpeedForm::positional,
+     "kp error + integral, less a derivative; anti_windup sets how the integral follows the limit"},
+};
 inline constexpr Choice<HysteresisOn> hysteresis_choices[] = {
     {"motor", HysteresisOn::motor, "one comparator on the motor current (i_p - i_n)/2"},
     {"phase", HysteresisOn::phase, "comparators on the currents of the driven phases"},

@@ -130,6 +130,9 @@ base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Compiled& o
   }
   out.drive.current_at_full_torque_A = torque_limit / basis.motor.K_t_Nm_A;
   out.drive.current_limit_A = s.control.current.limit_A.value_or(out.drive.current_at_full_torque_A);
+  // A bound behind the PI that the PI does not know of would let its integral wind up.
+  if (out.drive.current_limit_A < out.drive.current_at_full_torque_A)
+    out.drive.speed.limit = out.drive.current_limit_A / out.drive.current_at_full_torque_A;
   return {};
 }
 

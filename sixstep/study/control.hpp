@@ -29,12 +29,18 @@ struct CurrentLoop {
 
 enum class SpeedOutput : std::uint8_t { current, duty };
 
+/// pi.hpp, or pi_positional.hpp with derivative.hpp.
+enum class SpeedForm : std::uint8_t { incremental, positional };
+
 struct SpeedLoop {
   SpeedOutput output = SpeedOutput::current;
+  SpeedForm form = SpeedForm::incremental;
   std::optional<double> settle_s, damping;
   std::optional<double> d1, d0;
   std::optional<double> kp, ki;
   std::optional<double> torque_limit_Nm;
+  std::optional<double> anti_windup;
+  std::optional<double> derivative_s, derivative_filter_s;
 };
 
 struct PositionLoop {
@@ -71,6 +77,14 @@ struct SmoothChopping {
   std::optional<double> complementary_below_A;
 };
 
+/// Commutation ahead of the Hall edge (control/advance.hpp), in electrical degrees.
+struct Advance {
+  double angle_deg = 0.0;
+  double gain_deg_s_per_rad = 0.0;
+  double limit_deg = 30.0;
+};
+constexpr bool advances(const Advance& a) { return a.angle_deg > 0 || a.gain_deg_s_per_rad > 0; }
+
 /// What the chip runs (rig/firmware.hpp).
 enum class Drive : std::uint8_t { lean, product };
 
@@ -86,6 +100,7 @@ struct Control {
   Limits limits;
   Regeneration regeneration;
   SmoothChopping smooth_chopping;
+  Advance advance;
 };
 
 }  // namespace sixstep::study

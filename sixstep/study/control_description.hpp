@@ -37,7 +37,7 @@ void describe(Visitor& v, CurrentLoop& s) {
   v.choice("comparator", s.comparator, comparator_choices,
            {.meaning = "hysteresis: when the band is looked at"});
   v.value("limit_A", s.limit_A,
-          {.meaning = "bound on the current reference that an outer loop asks for",
+          {.meaning = "bound on the current reference that an outer loop asks for; its integral knows of it",
            .unit = "A",
            .range = above(0)});
   v.value("back_emf_feed_forward", s.back_emf_feed_forward,
@@ -52,11 +52,28 @@ void describe(Visitor& v, CurrentLoop& s) {
 template <class Visitor>
 void describe(Visitor& v, SpeedLoop& s) {
   v.choice("output", s.output, speed_output_choices, {.meaning = "what the speed controller sets"});
+  v.choice("form", s.form, speed_form_choices,
+           {.meaning = "how its PI is computed; short of the limit both forms are one controller"});
   describe_gains(v, s);
   v.value("torque_limit_Nm", s.torque_limit_Nm,
           {.meaning = "torque at the speed controller's full output; without it the sheet's stall torque",
            .unit = "N m",
            .range = above(0)});
+  v.value(
+      "anti_windup", s.anti_windup,
+      {.meaning = "positional: part of what the limit cuts off that each sample takes off the integral; 0 "
+                  "lets it wind up; without it ki/kp",
+       .range = between(0, 1)});
+  v.value(
+      "derivative_s", s.derivative_s,
+      {.meaning = "positional: derivative time; kp times it, times the measured acceleration, is taken off "
+                  "the output",
+       .unit = "s",
+       .range = above(0)});
+  v.value("derivative_filter_s", s.derivative_filter_s,
+          {.meaning = "time constant that smooths the derivative; without it a tenth of derivative_s",
+           .unit = "s",
+           .range = from(0)});
 }
 
 template <class Visitor>
@@ -135,6 +152,23 @@ void describe(Visitor& v, SmoothChopping& s) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, Advance& s) {
+  v.value("angle_deg", s.angle_deg,
+          {.meaning = "electrical angle before the Hall edge at which the pair changes, at every speed",
+           .unit = "deg",
+           .range = base::Range{0, 60, true, false}});
+  v.value("gain_deg_s_per_rad", s.gain_deg_s_per_rad,
+          {.meaning = "electrical angle more per rad/s of the shaft; pole pairs x 180/pi x L/R makes up for "
+                      "the current's lag",
+           .unit = "deg s/rad",
+           .range = from(0)});
+  v.value("limit_deg", s.limit_deg,
+          {.meaning = "electrical angle that both together do not pass",
+           .unit = "deg",
+           .range = base::strictly_between(0, 60)});
+}
+
+template <class Visitor>
 void describe(Visitor& v, Control& s) {
   v.choice("drive", s.drive, drive_choices, {.meaning = "what the chip runs"});
   v.choice("mode", s.mode, mode_choices, {.meaning = "what is controlled, and so what the reference means"});
@@ -152,6 +186,9 @@ void describe(Visitor& v, Control& s) {
   v.table("regeneration", s.regeneration,
           {.meaning = "limit of the current that braking returns to the bus"});
   v.table("smooth_chopping", s.smooth_chopping, {.meaning = "chopping without a jump through duty 0"});
+  v.table("advance", s.advance,
+          {.meaning =
+               "product drive: commutation ahead of the Hall edge, at the control tick; 0 is at the edge"});
 }
 
 }  // namespace sixstep::study

@@ -54,12 +54,29 @@ void add_smooth_chopping(const Scenario& s, const Basis& basis, control::DriveEx
                      .complementary_below_A = below};
 }
 
+/// The gains of drive.speed in positional form, and D = K T_d s/(T_f s + 1) of the measured speed.
+void add_speed_form(const Scenario& s, control::DriveConfig<double>& drive) {
+  const SpeedLoop& loop = s.control.speed;
+  const bool runs_speed = s.control.mode == Mode::speed || s.control.mode == Mode::position;
+  if (loop.form != SpeedForm::positional || !runs_speed) return;
+  control::DriveExtras<double>& extras = drive.extras;
+  extras.on = extras.positional_speed = true;
+  const double K = drive.speed.d1, K_i = drive.speed.d1 + drive.speed.d0;
+  const double usual = K > 0 ? std::clamp(K_i / K, 0.0, 1.0) : 1.0;
+  extras.speed = {K, K_i, loop.anti_windup.value_or(usual), drive.speed.limit};
+  if (!loop.derivative_s) return;
+  const double T_d = *loop.derivative_s, T_f = loop.derivative_filter_s.value_or(T_d / 10),
+               T = s.pwm.period_s;
+  extras.speed_derivative = {K * T_d / (T_f + T), T / (T_f + T)};
+}
+
 }  // namespace
 
 void add_extras(const Scenario& s, const Basis& basis, control::DriveConfig<double>& drive) {
   control::DriveExtras<double>& extras = drive.extras;
   add_limits(s, basis, drive);
   add_smooth_chopping(s, basis, extras);
+  add_speed_form(s, drive);
   if (s.control.slew) {
     extras.on = extras.slews_setpoint = true;
     extras.slew.step = *s.control.slew * s.pwm.period_s;

@@ -63,25 +63,4 @@ std::string figure_name(const Measure& m) {
   return words + " " + phrase;
 }
 
-std::string figure_unit(const Measure& m) {
-  switch (m.metric) {
-    case MetricKind::reach_time:
-    case MetricKind::rise_time:
-    case MetricKind::settling_time:
-      return "s";
-    case MetricKind::switching_frequency:
-      return "Hz";
-    case MetricKind::band_excess:
-    case MetricKind::band_deficit:
-      return "A";
-    case MetricKind::energy:
-      return "J";
-    case MetricKind::thd:
-    case MetricKind::efficiency:
-      return "1";
-    default:
-      return std::string(unit_of(m.signal));
-  }
-}
-
 }  // namespace sixstep::study

@@ -123,11 +123,12 @@ void Figures::judge(const Scenario& scenario, Outcome& outcome) const {
   for (const Requirement& r : scenario.require) {
     const double v = next();
     const bool ok = v == v && (!r.min || v >= *r.min) && (!r.max || v <= *r.max);
-    outcome.verdicts.push_back({figure_name(r.measure), figure_unit(r.measure), v, r.min, r.max, ok});
+    outcome.verdicts.push_back(
+        {figure_name(r.measure), std::string(figure_unit(r.measure)), v, r.min, r.max, ok});
   }
   for (const Comparison& c : scenario.compare)
     outcome.comparisons.push_back(
-        {figure_name(c.measure), figure_unit(c.measure), next(), c.value, c.source});
+        {figure_name(c.measure), std::string(figure_unit(c.measure)), next(), c.value, c.source});
 }
 
 }  // namespace sixstep::study

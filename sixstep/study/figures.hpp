@@ -10,6 +10,7 @@
 #include "sixstep/study/gauge.hpp"
 #include "sixstep/study/harmonic_gauge.hpp"
 #include "sixstep/study/hysteresis_gauge.hpp"
+#include "sixstep/study/measure_choices.hpp"
 #include "sixstep/study/switching_gauge.hpp"
 
 namespace sixstep::study {
@@ -41,6 +42,5 @@ class Figures {
 
 /// Shown for a measure without a label: "settling time of motor current".
 std::string figure_name(const Measure& measure);
-std::string figure_unit(const Measure& measure);
 
 }  // namespace sixstep::study

@@ -144,6 +144,28 @@ static_assert([] {
 /// Unit of a signal, as shown behind a figure.
 constexpr std::string_view unit_of(Signal signal) { return fact_of(signal).unit; }
 
+/// Unit of a figure: its own, or that of the signal it is taken of.
+constexpr std::string_view figure_unit(const Measure& m) {
+  switch (m.metric) {
+    case MetricKind::reach_time:
+    case MetricKind::rise_time:
+    case MetricKind::settling_time:
+      return "s";
+    case MetricKind::switching_frequency:
+      return "Hz";
+    case MetricKind::band_excess:
+    case MetricKind::band_deficit:
+      return "A";
+    case MetricKind::energy:
+      return "J";
+    case MetricKind::thd:
+    case MetricKind::efficiency:
+      return "1";
+    default:
+      return unit_of(m.signal);
+  }
+}
+
 constexpr bool is_gate(Signal signal) { return signal >= Signal::gate_T1 && signal <= Signal::gate_T6; }
 constexpr bool is_power(Signal signal) {
   return signal >= Signal::supply_power && signal <= Signal::friction_loss;

@@ -20,9 +20,11 @@ void describe(Visitor& v, Measure& s) {
           {.meaning = "start of the window; without it the start of the run", .unit = "s", .range = from(0)});
   v.value("to_s", s.to_s,
           {.meaning = "end of the window; without it the end of the run", .unit = "s", .range = above(0)});
-  v.value("level", s.level, {.meaning = "value to be reached, in the signal's unit"});
+  v.value("level", s.level,
+          {.meaning = "value to be reached, in the signal's unit", .unit_here = unit_of(s.signal)});
   v.value("start", s.start,
-          {.meaning = "value the step starts from, in the signal's unit; without it the value at from_s"});
+          {.meaning = "value the step starts from, in the signal's unit; without it the value at from_s",
+           .unit_here = unit_of(s.signal)});
   v.value("fraction", s.fraction,
           {.meaning = "reach_time_s: part of the way from start to level",
            .range = base::Range{0, 1, false, true}});
@@ -43,14 +45,20 @@ void describe(Visitor& v, Measure& s) {
 template <class Visitor>
 void describe(Visitor& v, Requirement& s) {
   describe(v, s.measure);
-  v.value("min", s.min, {.meaning = "the figure must be at least this, in the figure's unit"});
-  v.value("max", s.max, {.meaning = "the figure must be at most this, in the figure's unit"});
+  const std::string_view unit = figure_unit(s.measure);
+  v.value("min", s.min,
+          {.meaning = "the figure must be at least this, in the figure's unit", .unit_here = unit});
+  v.value("max", s.max,
+          {.meaning = "the figure must be at most this, in the figure's unit", .unit_here = unit});
 }
 
 template <class Visitor>
 void describe(Visitor& v, Comparison& s) {
   describe(v, s.measure);
-  v.value("value", s.value, {.meaning = "what the source says, in the figure's unit", .required = true});
+  v.value("value", s.value,
+          {.meaning = "what the source says, in the figure's unit",
+           .required = true,
+           .unit_here = figure_unit(s.measure)});
   v.value("source", s.source, {.meaning = "where the value comes from", .required = true});
 }
 

@@ -36,6 +36,12 @@ control::FaultConfig<double> faults_of(const Scenario& s) {
           .voltage_ticks = static_cast<std::uint8_t>(p.voltage_samples)};
 }
 
+/// 60 electrical degrees are a sector.
+control::AdvanceConfig<double> advance_of(const Advance& a) {
+  if (!advances(a)) return {};
+  return {a.angle_deg / 60, a.gain_deg_s_per_rad / 60, a.limit_deg / 60};
+}
+
 }  // namespace
 
 control::ProtectedConfig<double> product_around(const Scenario& s, const Basis& basis,
@@ -56,6 +62,8 @@ control::ProtectedConfig<double> product_around(const Scenario& s, const Basis& 
   c.speed = {base::pi / 3 / pole_pairs * sensors.capture_Hz,
              static_cast<std::uint32_t>(sensors.timeout_s * sensors.capture_Hz), sensors.edges};
   c.position = {sector_deg, sector_deg};
+  c.hall.stable_samples = static_cast<std::uint8_t>(s.sensors.hall_stable_samples);
+  c.advance = advance_of(s.control.advance);
   c.faults = faults_of(s);
   if (p.align.current_A)
     c.align = {.current_A = *p.align.current_A,

@@ -188,7 +188,7 @@ Robustness robustness(const design::DriveDesign& design, const Scenario& scenari
   out.runs = all.size();
   for (std::size_t k = 0; k < scenario.compare.size(); ++k) {
     RobustFigure figure{.figure = figure_name(scenario.compare[k].measure),
-                        .unit = figure_unit(scenario.compare[k].measure)};
+                        .unit = std::string(figure_unit(scenario.compare[k].measure))};
     std::vector<double> values;
     values.reserve(all.size());
     for (const std::vector<double>& v : by_variation) values.push_back(v[k]);

@@ -123,7 +123,8 @@ void describe(Visitor& v, Spread& s) {
            .range = above(0)});
   v.value("absolute", s.absolute,
           {.meaning = "half width or standard deviation in the key's unit, instead of relative",
-           .range = above(0)});
+           .range = above(0),
+           .unit_of = s.key});
   v.value("cut_sigma", s.cut_sigma,
           {.meaning = "normal: standard deviations beyond which no value is drawn", .range = from(1)});
   v.value("source", s.source, {.meaning = "where the width comes from"});

@@ -39,6 +39,7 @@ struct Sensors {
   double capture_Hz = 1e6;
   int speed_edges = 6;
   double timeout_s = 0.05;
+  int hall_stable_samples = 1;
   int seed = 0;
   HallBreak hall_break;
 };

@@ -86,6 +86,11 @@ void describe(Visitor& v, Sensors& s) {
           {.meaning = "time without a Hall edge that counts as standstill",
            .unit = "s",
            .range = base::above(0)});
+  v.value("hall_stable_samples", s.hall_stable_samples,
+          {.meaning = "product drive: samples in a row that a Hall code must stand before it counts, against "
+                      "glitches; above 1 an edge counts at a control tick, that many samples less one late, "
+                      "and not in the interrupt",
+           .range = base::between(1, 255)});
   v.value("seed", s.seed, {.meaning = "of the noise: the same seed, the same run", .range = base::from(0)});
   v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks during the run"});
 }

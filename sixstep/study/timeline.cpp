@@ -11,7 +11,7 @@ namespace {
 
 using rig::ActionKind;
 
-double hall_line(int line, Level01 level) { return level == Level01::high ? line : -1.0 * line; }
+double hall_line(int line, bool high) { return high ? line : -1.0 * line; }
 
 void add_event(const At& at, rig::Timeline& timeline) {
   const auto add = [&](ActionKind kind, double value) {
@@ -21,8 +21,12 @@ void add_event(const At& at, rig::Timeline& timeline) {
   if (at.supply.sinks) add(ActionKind::source_sinks, *at.supply.sinks ? 1.0 : 0.0);
   if (at.load.torque_Nm) add(ActionKind::load_torque, *at.load.torque_Nm);
   if (at.load.locked) add(ActionKind::shaft_locked, *at.load.locked ? 1.0 : 0.0);
-  if (const auto& broken = at.sensors.hall_break)
-    add(ActionKind::hall_stuck, hall_line(broken->line, broken->level));
+  if (const auto& broken = at.sensors.hall_break) {
+    if (broken->level == PinLevel::probe)
+      add(ActionKind::hall_whole, broken->line);
+    else
+      add(ActionKind::hall_stuck, hall_line(broken->line, broken->level == PinLevel::high));
+  }
   if (at.request == DriveRequest::on) add(ActionKind::run_request, 1.0);
   if (at.request == DriveRequest::off) add(ActionKind::run_request, 0.0);
   if (at.request == DriveRequest::clear) add(ActionKind::clear_request, 1.0);
@@ -41,8 +45,8 @@ rig::Timeline timeline_of(const Scenario& s) {
   if (const auto& off_at_s = s.protection.off_at_s)
     timeline.push_back({sim::to_instant(*off_at_s), ActionKind::run_request, 0.0});
   if (const HallBreak& broken = s.sensors.hall_break; broken.at_s)
-    timeline.push_back(
-        {sim::to_instant(*broken.at_s), ActionKind::hall_stuck, hall_line(broken.line, broken.level)});
+    timeline.push_back({sim::to_instant(*broken.at_s), ActionKind::hall_stuck,
+                        hall_line(broken.line, broken.level == Level01::high)});
   for (const At& at : s.at) add_event(at, timeline);
   std::stable_sort(timeline.begin(), timeline.end(),
                    [](const rig::Action& a, const rig::Action& b) { return a.at < b.at; });

@@ -182,4 +182,50 @@ TYPED_TEST(Extras, AnyMeasurementGivesALawfulDuty) {
   }
 }
 
+/// The bench's gains in positional form: K = 1, K_i = 1/4.
+template <class S>
+Bench<S> positional(double K_b) {
+  Bench<S> b(Mode::speed);
+  b.config.extras.positional_speed = true;
+  b.config.extras.speed = {Gain<S>(1.0), Gain<S>(0.25), Gain<S>(K_b), one<S>};
+  return b;
+}
+
+TYPED_TEST(Extras, PositionalSpeedIsTheSamePiShortOfItsLimit) {
+  Bench<TypeParam> incremental(Mode::speed), b = positional<TypeParam>(0.0);
+  for (int n = 0; n < 8; ++n) {  // multiples of 2^-6: no form rounds
+    for (Bench<TypeParam>* bench : {&incremental, &b}) bench->tick(n % 3 == 0 ? -0.125 : 0.125);
+    EXPECT_EQ(b.telemetry.current_reference_A, incremental.telemetry.current_reference_A) << n;
+  }
+}
+
+TYPED_TEST(Extras, PositionalSpeedThatFollowsItsWindowAtOnceIsTheIncrementalForm) {
+  Bench<TypeParam> incremental(Mode::speed), b = positional<TypeParam>(1.0),
+                                             free = positional<TypeParam>(0.0);
+  std::mt19937 random{20260301};
+  bool winds_up = false;
+  for (Bench<TypeParam>* bench : {&incremental, &b, &free}) {
+    bench->config.extras.limits_current = true;
+    bench->config.extras.limits.current_A = TypeParam(0.25);
+  }
+  for (int n = 0; n < 300; ++n) {
+    const double setpoint = (static_cast<double>(random() % 17) - 8) / 16;
+    for (Bench<TypeParam>* bench : {&incremental, &b, &free}) bench->tick(setpoint);
+    EXPECT_EQ(b.telemetry.current_reference_A, incremental.telemetry.current_reference_A) << n;
+    EXPECT_LE(magnitude(free.telemetry.current_reference_A), TypeParam(0.25));
+    winds_up = winds_up || free.telemetry.current_reference_A != b.telemetry.current_reference_A;
+  }
+  EXPECT_TRUE(winds_up);
+}
+
+TYPED_TEST(Extras, TheDerivativeIsOfTheMeasuredSpeed) {
+  Bench<TypeParam> b = positional<TypeParam>(0.0), without = positional<TypeParam>(0.0);
+  b.config.extras.speed_derivative = {Gain<TypeParam>(0.5), Gain<TypeParam>(1.0)};
+  b.tick(0.25), without.tick(0.25);
+  EXPECT_EQ(b.telemetry.current_reference_A, TypeParam(0.25)) << "a step of the setpoint gives no kick";
+  for (Bench<TypeParam>* bench : {&b, &without}) bench->measured.speed_rad_s = TypeParam(0.125);
+  b.tick(0.25), without.tick(0.25);
+  EXPECT_EQ(without.telemetry.current_reference_A - b.telemetry.current_reference_A, TypeParam(0.0625));
+}
+
 }  // namespace

@@ -66,11 +66,17 @@ void configure(ProtectedConfig<S>& c, std::uint64_t bits) {
   c.drive.extras.feed_forward = {static_cast<Gain<S>>(K_t * base_rad_s / base_V)};
   c.drive.extras.bus = {static_cast<S>(bits / 8192 % 2 ? 0.25 : 0.0)};
   c.drive.extras.smooth_chopping = bits / 16384 % 2;
+  c.drive.extras.positional_speed = bits / 67108864 % 2;
+  c.drive.extras.speed = {static_cast<Gain<S>>(0.0158299 * base_rad_s),
+                          static_cast<Gain<S>>(0.00013378 * base_rad_s),
+                          static_cast<Gain<S>>(0.25 * static_cast<double>(bits / 134217728 % 5)), one<S>};
+  c.drive.extras.speed_derivative = {static_cast<Gain<S>>(2.0), static_cast<Gain<S>>(0.1)};
   c.sensing = static_cast<CurrentSensing>(bits / 32768 % 2);
   c.shunt = {static_cast<S>(0.05), 20, static_cast<S>(0.9)};
   c.hall.stable_samples = static_cast<std::uint8_t>(bits / 65536 % 3);
   c.hall.arrangement = static_cast<HallArrangement>(bits / 262144 % 2);
-  c.advance = {static_cast<S>(0.05), static_cast<Gain<S>>(0.2), static_cast<S>(0.4)};
+  c.advance = {static_cast<S>(0.25 * static_cast<double>(bits / 2097152 % 4)), static_cast<Gain<S>>(0.2),
+               static_cast<S>(0.125 * static_cast<double>(1 + bits / 8388608 % 7))};
   c.align.ticks = bits / 524288 % 2 ? 20 : 0;
   c.align.current_A = static_cast<S>(0.1);
   if (bits / 1048576 % 2) {  // let nearly everything through, to reach deeper states

@@ -8,5 +8,7 @@ static_assert(exported_duty::drive.mode == Mode::duty && exported_current::drive
 static_assert(exported_speed_q15::drive.mode == Mode::speed &&
               exported_position_q31::drive.mode == Mode::position);
 static_assert(exported_position::pwm_period_ps == 30'000'000 && exported_position::pole_pairs == 8);
+static_assert(exported_product::product.hall.stable_samples == 3 &&
+              exported_product_q15::product.advance.fixed > exported_product_q15::Scalar{});
 static_assert(exported_position_q15::units.amperes(1.0).raw > 0);
 }  // namespace

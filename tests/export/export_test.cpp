@@ -58,7 +58,7 @@ requires std::is_enum_v<Enum> || std::is_same_v<Enum, bool> std::int64_t bits(En
 }
 
 // A new member must be written by io/config_lines.hpp and compared here.
-static_assert(sizeof(DriveConfig<double>) == 248 && sizeof(DriveExtras<double>) == 128);
+static_assert(sizeof(DriveConfig<double>) == 304 && sizeof(DriveExtras<double>) == 184);
 
 /// Every member, in its order.
 template <class S>
@@ -80,7 +80,9 @@ std::vector<std::int64_t> bits_of(const DriveConfig<S>& c) {
           bits(l.limits_speed), bits(l.speed_rad_s), bits(l.A_per_rad_s), bits(l.limits_regeneration),
           bits(l.bus_V), bits(l.A_per_V), bits(x.torque_fraction_per_A), bits(x.feed_forward.K_t_V_s),
           bits(x.bus.lowest_bus_V), bits(x.smooth_chopping), bits(x.chopping.soft_above_A),
-          bits(x.chopping.complementary_below_A)};
+          bits(x.chopping.complementary_below_A), bits(x.positional_speed), bits(x.speed.K),
+          bits(x.speed.K_i), bits(x.speed.K_b), bits(x.speed.limit), bits(x.speed_derivative.g),
+          bits(x.speed_derivative.b)};
 }
 
 TEST(ExportHeader, FloatingPointIsWhatTheRunComputesWith) {
@@ -124,6 +126,59 @@ TEST(ExportHeader, FixedPointIsWhatTheScalingProved) {
   expect_scaled(exported_position_q14::drive, exported_position_q14::units, "thesis/7.5-position");
   expect_scaled(exported_position_q30::drive, exported_position_q30::units, "thesis/7.5-position");
   expect_scaled(exported_position_q31::drive, exported_position_q31::units, "thesis/7.5-position");
+}
+
+// As above, of io/product_lines.hpp.
+static_assert(sizeof(ProtectedConfig<double>) == 568);
+
+template <class Format>
+std::int64_t bits(FixedTickRatio<Format> x) {
+  return x.raw;
+}
+
+/// Every member, in its order.
+template <class S>
+std::vector<std::int64_t> bits_of(const ProtectedConfig<S>& c) {
+  std::vector<std::int64_t> all = bits_of(c.drive);
+  const auto add = [&all](std::initializer_list<std::int64_t> more) { all.insert(all.end(), more); };
+  const auto add_adc = [&](const AdcConfig<S>& a) {
+    add({bits(a.per_eighth), a.offset_counts, a.offset_tolerance, a.log2_samples});
+  };
+  add({bits(c.setpoint_limit), bits(c.sensing)});
+  for (const AdcConfig<S>& adc : c.current_adc) add_adc(adc);
+  add_adc(c.bus_adc);
+  add({bits(c.shunt.least_duty), c.shunt.commutation_samples, bits(c.shunt.fade), bits(c.hall.arrangement),
+       c.hall.stable_samples, bits(c.speed.sector_rad_s_ticks), c.speed.timeout_ticks, c.speed.edges,
+       bits(c.position.per_sector), bits(c.position.per_fraction), bits(c.advance.fixed),
+       bits(c.advance.per_speed), bits(c.advance.limit)});
+  const FaultConfig<S>& f = c.faults;
+  add({bits(f.over_current_A), bits(f.over_voltage_V), bits(f.under_voltage_V), bits(f.over_speed_rad_s),
+       bits(f.stall_current_A), f.stall_ticks, f.voltage_ticks});
+  add({bits(c.align.current_A), c.align.ticks, c.align.settled_ticks, c.align.sector, bits(c.brake_current_A),
+       bits(c.short_below_rad_s), bits(c.standing_rad_s)});
+  return all;
+}
+
+template <class S>
+void expect_product(const ProtectedConfig<S>& product, const Units<S>& units,
+                    std::optional<double> full_scale_A = {}) {
+  study::Scenario s = shipped("product-broken-hall-line");
+  s.control.advance = {6.0, 0.02, 30.0};
+  s.sensors.hall_stable_samples = 3;
+  s.protection.brake_current_A = 4.0;
+  s.control.full_scale.current_A = full_scale_A;
+  const auto run = study::product_in<S>(s, compiled(s));
+  ASSERT_TRUE(run) << to_string(run.problems()[0]);
+  EXPECT_EQ(bits_of(product), bits_of(run->config));
+  EXPECT_EQ(units.current_A, run->units.current_A);
+  EXPECT_EQ(units.speed_rad_s, run->units.speed_rad_s);
+}
+
+TEST(ExportHeader, TheProductIsWhatTheRunComputesWith) {
+  expect_product(exported_product::product, exported_product::units);
+  expect_product(exported_product_float::product, exported_product_float::units);
+  expect_product(exported_product_q15::product, exported_product_q15::units);
+  expect_product(exported_product_q31::product, exported_product_q31::units, 40.0);
 }
 
 constexpr DriveConfig<double> extras_double() {

@@ -24,7 +24,10 @@ inline sixstep::control::DriveConfig<double> drive() {
               .feed_forward = {0.0335},
               .bus = {11.0},
               .smooth_chopping = true,
-              .chopping = {0.75, 0.5}};
+              .chopping = {0.75, 0.5},
+              .positional_speed = true,
+              .speed = {0.0158, 0.00013, 0.0085, 0.96},
+              .speed_derivative = {0.0021, 0.031}};
   return d;
 }
 

@@ -11,11 +11,11 @@ int main(int count, char** words) {
   using sixstep::control::Q31;
   std::ofstream out(words[2]);
   if (std::string(words[1]) == "double") {
-    out << io::ConfigLines<double>::of(extras::drive(), extras::drive(), {});
+    out << io::drive_lines<double>(extras::drive(), extras::drive(), {});
   } else {
     const auto scaled = sixstep::design::scaled<Q31>(extras::drive(), extras::range);
     if (!scaled) return 1;
-    out << io::ConfigLines<Q31>::of(extras::drive(), scaled->config, scaled->bases);
+    out << io::drive_lines<Q31>(extras::drive(), scaled->config, scaled->bases);
   }
   return out.flush() ? 0 : 1;
 }

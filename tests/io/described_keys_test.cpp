@@ -169,7 +169,9 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
   // Counts, ratios and gains, and what is meant in the unit of a mode or figure that another key names.
   const std::set<std::string> without = {"pole_pairs",
                                          "delay_periods",
+                                         "hall_stable_samples",
                                          "damping",
+                                         "anti_windup",
                                          "d1",
                                          "d0",
                                          "kp",

@@ -6,6 +6,7 @@
 
 #include "io/key_catalog.hpp"
 #include "io/scenario_file.hpp"
+#include "sixstep/base/angle.hpp"
 
 namespace io {
 namespace {
@@ -152,6 +153,66 @@ TEST(Units, OfAReferenceFollowTheMode) {
       told("duration_s = \"-20 ms\"\n"),
       "x.toml:2:14: duration_s = \"-20 ms\" must be above 0 and at most 9000000, in s; it means: simulated "
       "time, in s");
+}
+
+TEST(Units, OfALimitFollowMetricAndSignal) {
+  const auto s = with(
+      "duration_s = 0.1\n[control]\nmode = \"speed\"\n"
+      "[[require]]\nmetric = \"reach_time_s\"\nsignal = \"speed\"\nlevel = \"6000 rpm\"\nstart = \"1 "
+      "rev/s\"\n"
+      "max = \"20 ms\"\n"
+      "[[require]]\nmetric = \"max\"\nmin = \"150 mA\"\nmax = 3\n"
+      "[[require]]\nmetric = \"mean\"\nsignal = \"speed\"\nmin = \"6710 rpm\"\n"
+      "[[require]]\nmetric = \"switching_frequency_Hz\"\nmax = \"16.6 kHz\"\n"
+      "[[require]]\nmetric = \"efficiency\"\nmin = \"80 %\"\n"
+      "[[require]]\nmetric = \"energy_J\"\nsignal = \"copper_loss_W\"\nmax = \"20 mJ\"\n"
+      "[[require]]\nmetric = \"max\"\nsignal = \"torque\"\nmax = \"780 mNm\"\n"
+      "[[compare]]\nmetric = \"final\"\nsignal = \"bus_voltage\"\nvalue = \"24000 mV\"\nsource = \"x\"\n"
+      "[[spread]]\nkey = \"supply.voltage_V\"\nabsolute = \"500 mV\"\n"
+      "[[spread]]\nkey = \"motor_override.inertia_gcm2\"\nabsolute = \"1e-6 kgm2\"\n[motor_override]\n"
+      "inertia_gcm2 = 135\n");
+  ASSERT_TRUE(s) << to_string(s.problems()[0]);
+  EXPECT_EQ(s->require[0].max, 0.02);
+  EXPECT_DOUBLE_EQ(*s->require[0].measure.level, 200 * sixstep::base::pi);
+  EXPECT_DOUBLE_EQ(*s->require[0].measure.start, 2 * sixstep::base::pi);
+  EXPECT_EQ(s->require[1].min, 0.15);
+  EXPECT_EQ(s->require[1].max, 3.0);
+  EXPECT_DOUBLE_EQ(*s->require[2].min, 6710 * sixstep::base::pi / 30);
+  EXPECT_EQ(s->require[3].max, 16600.0);
+  EXPECT_EQ(s->require[4].min, 0.8);
+  EXPECT_EQ(s->require[5].max, 0.02);
+  EXPECT_EQ(s->require[6].max, 0.78);
+  EXPECT_EQ(s->compare[0].value, 24.0);
+  EXPECT_EQ(s->spread[0].absolute, 0.5);
+  EXPECT_EQ(s->spread[1].absolute, 10.0);
+}
+
+TEST(Units, OfALimitAreRefusedByMetricAndSignal) {
+  const auto told = [](const std::string& keys) {
+    std::string all;
+    if (const auto s = with("duration_s = 0.1\n[[require]]\n" + keys); !s)
+      for (const base::Problem& p : s.problems()) all += to_string(p) + "\n";
+    return all;
+  };
+  EXPECT_EQ(
+      told("metric = \"max\"\nmax = \"20 ms\"\n"),
+      "x.toml:5:7: require.max = \"20 ms\" carries the unit ms, which is not of the kind of A; units that "
+      "fit: A or mA\n");
+  EXPECT_EQ(told("metric = \"settling_time_s\"\nlevel = \"2 A\"\nmax = \"2 A\"\n"),
+            "x.toml:6:7: require.max = \"2 A\" carries the unit A, which is not of the kind of s; units that "
+            "fit: s, "
+            "ms, us or min\n");
+  EXPECT_EQ(told("metric = \"efficiency\"\nmin = \"8 W\"\n"),
+            "x.toml:5:7: require.min = \"8 W\" carries the unit W, and this key is a plain number; write the "
+            "number alone, or in %\n");
+  EXPECT_EQ(told("metric = \"max\"\nmax = \"2\"\n"),
+            "x.toml:5:7: require.max = \"2\" lacks its unit; write 2, which is in A, or \"2 A\"\n");
+  // What the unit should be is not known here: only the word is told.
+  EXPECT_EQ(told("metric = \"maxi\"\nmax = \"20 ms\"\n").find("require.max"), std::string::npos);
+  const std::string word =
+      told("metric = \"max\"\nsignal = \"spede\"\nlevel = \"3 rpm\"\nmax = \"20 rpm\"\n");
+  EXPECT_THAT(word, testing::StartsWith("x.toml:5:10: require.signal = \"spede\""));
+  EXPECT_EQ(word.find('\n'), word.size() - 1) << word;
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST(Events, WhatHasAKeyOfItsOwnIsTheSameEventToTheBit) {
   by_keys.sensors.hall_break = {.at_s = 0.14, .line = 2, .level = study::Level01::high};
   by_keys.protection.off_at_s = 0.08;
   by_events.at = {{.time_s = 0.08, .request = study::DriveRequest::off},
-                  {.time_s = 0.14, .sensors = {.hall_break = study::AtHallBreak{2, study::Level01::high}}},
+                  {.time_s = 0.14, .sensors = {.hall_break = study::AtHallBreak{2, study::PinLevel::high}}},
                   {.time_s = 0.05, .reference = study::Reference{.value = 110.0}},
                   {.time_s = 0.06, .load = {.torque_Nm = 0.01}}};
   const std::uint64_t digest = outcome(by_keys).digest;

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// When the product drive changes the pair: ahead of the Hall edge, at it, or as late as its filter asks; and
+// what its filter keeps out. In full switching simulation.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/study/arithmetic.hpp"
+#include "tests/support/product_scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using control::Mode;
+using study::Arithmetic;
+using study::Scenario;
+using ::testing::HasSubstr;
+
+constexpr double T = 30e-6, w = 500.0;
+constexpr double edge_s = base::pi / 24 / w;  // 8 pole pairs: a sector of the shaft
+constexpr double tick = T / edge_s;           // the way of a control period, in sectors
+constexpr double count = 1e-6 / edge_s;       // and of the capturing timer's
+
+/// Full duty at a speed that a flywheel holds: gates change where the pair does, and nowhere else.
+Scenario flywheel() {
+  Scenario s = product_scenario(Mode::duty, 1.0);
+  s.initial.speed_rad_s = w;
+  s.load.inertia_kg_m2 = 1.0;
+  s.protection.over_speed_rad_s = 700.0;
+  return s;
+}
+
+/// Where the pair changed, in sectors after the Hall edge; ahead of it below 0. Without the first turn, which
+/// knows no direction yet.
+std::vector<double> changes(const Scenario& s) {
+  static const std::size_t gates = column("gate_T1"), angle = column("angle_rad");
+  std::vector<double> after;
+  int before = 0;
+  const auto out = study::run(s, {.on_event = [&](study::Row row) {
+                                int now = 0;
+                                for (std::size_t k = 0; k < 6; ++k) now |= (row[gates + k] != 0) << k;
+                                if (now != before && now != 0 && before != 0)
+                                  after.push_back(std::remainder(row[angle] * 24 / base::pi, 1.0));
+                                if (now != 0) before = now;
+                              }});
+  if (!out) ADD_FAILURE() << to_string(out.problems()[0]);
+  EXPECT_TRUE(out && !out->fault);
+  after.erase(after.begin(), after.begin() + 6);
+  return after;
+}
+
+TEST(ProductCommutation, WithoutAdvanceThePairChangesAtTheEdge) {
+  const std::vector<double> after = changes(flywheel());
+  EXPECT_GT(after.size(), 50u);
+  for (const double x : after) EXPECT_NEAR(x, 0.0, 1e-9);
+}
+
+TEST(ProductCommutation, AdvanceIsTheAngleBeforeTheEdge) {
+  // 15 electrical degrees at every speed, 0.01 more per rad/s, at most 18: the first tick from there on. The
+  // way since the last edge is a ratio of counts, each of them a difference of two that were rounded down;
+  // 16-bit fixed point rounds it and the advance to a digit of 2^-14 each, and has the duty 1.
+  struct Case {
+    double angle_deg, gain, limit_deg, expected_deg;
+  };
+  for (const Arithmetic a : {Arithmetic::float64, Arithmetic::float32, Arithmetic::q14, Arithmetic::q30})
+    for (const Case c :
+         {Case{15, 0, 30, 15}, Case{0, 0.02, 30, 10}, Case{10, 0.01, 30, 15}, Case{15, 0.01, 18, 18}}) {
+      Scenario s = flywheel();
+      s.control.arithmetic = a;
+      s.control.advance = {c.angle_deg, c.gain, c.limit_deg};
+      // The gain is of the speed that was measured, w to a count in a sector.
+      const double wanted = c.expected_deg / 60, of_speed = c.gain * w / 60 * count;
+      const double error = 2 * count + of_speed + 0x1p-13;
+      const std::vector<double> after = changes(s);
+      EXPECT_GT(after.size(), 50u);
+      for (const double x : after) {
+        EXPECT_GE(-x, wanted - tick - error) << c.angle_deg << " " << c.gain;
+        EXPECT_LE(-x, wanted + error) << c.angle_deg << " " << c.gain;
+      }
+    }
+}
+
+TEST(ProductCommutation, TheHallFilterDelaysAnEdgeByItsSamplesLessOne) {
+  for (const int samples : {2, 3}) {
+    Scenario s = flywheel();
+    s.sensors.hall_stable_samples = samples;
+    const std::vector<double> after = changes(s);
+    EXPECT_GT(after.size(), 50u);
+    for (const double x : after) {  // the first sample behind the edge comes within a period
+      EXPECT_GE(x, (samples - 1) * tick - 1e-9);
+      EXPECT_LE(x, samples * tick + 1e-9);
+    }
+  }
+}
+
+/// 100 rad/s, and 50 us in which H1 reads high in sector 3: 111, which no sector gives.
+Scenario glitch(bool there, int samples) {
+  Scenario s = product_scenario(Mode::speed, 100.0);
+  s.duration_s = 0.2;
+  static const double sector_3_s = [] {
+    static const std::size_t angle = column("angle_rad");
+    double at = 0.0;
+    Scenario plain = product_scenario(Mode::speed, 100.0);
+    plain.duration_s = 0.2;
+    int before = 0;
+    const auto out = study::run(plain, {.on_event = [&](study::Row row) {
+                                  const int sector =
+                                      static_cast<int>(std::floor(row[angle] * 24 / base::pi)) % 6;
+                                  if (sector == 3 && before == 2 && row[0] < 0.19) at = row[0];
+                                  before = sector;
+                                }});
+    EXPECT_TRUE(out);
+    return at;
+  }();
+  s.duration_s = sector_3_s + 20e-3;  // ten edges and more of each line
+  s.sensors.hall_stable_samples = samples;
+  const auto line = [&](double at_s, study::PinLevel level) {
+    study::At at;
+    at.time_s = at_s;
+    at.sensors.hall_break = study::AtHallBreak{1, level};
+    s.at.push_back(at);
+  };
+  if (there) line(sector_3_s + 400e-6, study::PinLevel::high);
+  if (there) line(sector_3_s + 450e-6, study::PinLevel::probe);
+  return s;
+}
+
+TEST(ProductCommutation, AGlitchShorterThanTheFilterIsNoEdge) {
+  // 50 us hold two samples at most.
+  const auto taken = study::run(glitch(true, 1));
+  ASSERT_TRUE(taken && taken->fault);
+  EXPECT_THAT(taken->fault->limit, HasSubstr("Hall"));
+  std::vector<std::vector<double>> with, without;
+  const auto keep = [](std::vector<std::vector<double>>& rows) {
+    return [&rows](study::Row row) { rows.emplace_back(row.begin(), row.end()); };
+  };
+  Scenario filtered = glitch(true, 3), whole = glitch(false, 3);
+  for (Scenario* s : {&filtered, &whole}) s->record.columns = {"i_a_A", "i_b_A", "i_c_A", "speed_rad_s"};
+  ASSERT_FALSE(study::run(filtered, {.on_record = keep(with)})->fault);
+  ASSERT_FALSE(study::run(whole, {.on_record = keep(without)})->fault);
+  ASSERT_EQ(with.size(), without.size());
+  // The same but for rounding: the glitch's two edges end segments that else go on. 2e-13 of the largest
+  // value is what the reference cases keep to; a fault or a wrong pair makes amperes.
+  for (std::size_t c = 0; c < 5; ++c) {
+    double largest = 0.0;
+    for (const std::vector<double>& row : without) largest = std::max(largest, std::fabs(row[c]));
+    for (std::size_t n = 0; n < with.size(); ++n)
+      ASSERT_NEAR(with[n][c], without[n][c], 2e-13 * largest) << c << " at " << with[n][0];
+  }
+}
+
+TEST(ProductCommutation, SaysWhatCannotBe) {
+  Scenario s = flywheel();
+  s.sensors.hall_stable_samples = 7;  // 210 us; a sector at 700 rad/s lasts 187
+  s.control.advance = {25.0, 0.0, 20.0};
+  std::string all;
+  for (const base::Problem& p : study::check(s)) all += to_string(p) + "\n";
+  EXPECT_THAT(all, HasSubstr("sensors.hall_stable_samples = 7 last longer than a sector"));
+  EXPECT_THAT(all, HasSubstr("lower it to 6 at most"));
+  EXPECT_THAT(all, HasSubstr("control.advance.angle_deg = 25 is above limit_deg = 20"));
+  s = flywheel();
+  s.sensors.hall_stable_samples = 6;
+  s.control.advance = {20.0, 0.0, 20.0};
+  EXPECT_TRUE(study::check(s).empty());
+  s.control.drive = study::Drive::lean;
+  s.protection = {};
+  all.clear();
+  for (const base::Problem& p : study::check(s)) all += to_string(p) + "\n";
+  EXPECT_THAT(all, HasSubstr("control.advance is what the product drive does only"));
+  EXPECT_THAT(all, HasSubstr("sensors.hall_stable_samples = 6 filters the pins"));
+}
+
+TEST(ProductCommutation, FullScaleMayBeChosenForTheProductToo) {
+  Scenario s = flywheel();
+  s.control.arithmetic = Arithmetic::q31;
+  s.control.full_scale.current_A = 64.0;
+  const auto product = study::product_in<control::Q31>(s, *study::compile(s));
+  ASSERT_TRUE(product);
+  EXPECT_EQ(product->units.current_A, 64.0);
+  EXPECT_TRUE(study::run(s));
+  s.control.full_scale.current_A = 16.0;  // converters span 20.48 A
+  const auto refused = study::run(s);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(to_string(refused.problems()[0]), HasSubstr("current"));
+  EXPECT_THAT(to_string(refused.problems()[0]), HasSubstr("control.full_scale"));
+}
+
+}  // namespace
