@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/design/parameters.hpp"
 
+#include <cmath>
+
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/sheet_reader.hpp"
 
@@ -23,6 +25,35 @@ void read_printed_points(SheetReader& reader, MotorModel& m) {
   m.stall_torque_Nm = m.K_t_Nm_A * m.nominal_voltage_V / (2.0 * m.machine.R_ohm);
   if (sheet.stall_torque_mNm)
     m.stall_torque_Nm = reader.positive("stall_torque_mNm", *sheet.stall_torque_mNm, -3).value_or(0.0);
+}
+
+/// Of the motors in data/motors none passes 1e4 rad/s. Ten times that and more is a slip of a unit, and would
+/// be simulated in steps of nanoseconds.
+constexpr double fastest_winding_rad_s = 1e6, fastest_swing_rad_s = 1e5;
+
+/// R/L and K_t/sqrt(L J), terminal to terminal: how fast the winding and the shaft on it answer.
+void check_pace(SheetReader& reader, const MotorModel& m) {
+  const Sheet& sheet = reader.sheet;
+  const double L = 2.0 * m.machine.L_H, winding = 2.0 * m.machine.R_ohm / L;
+  const double swing = m.K_t_Nm_A / std::sqrt(L * m.shaft.J_kg_m2);
+  const auto written = [](const std::optional<base::Quantity>& q) {
+    return q ? base::written(q->value) : "";
+  };
+  if (winding > fastest_winding_rad_s) {
+    const std::optional<base::Quantity>& q =
+        sheet.inductance_mH ? sheet.inductance_mH : sheet.d_axis_inductance_mH;
+    reader.problem(q ? SheetReader::key_of("inductance_mH", *q) : "inductance_mH", written(q),
+                   "makes the winding's time constant L/R " + rounded(1e9 / winding, 3) +
+                       " ns, and no motor is below 1000 ns",
+                   "look at the unit of inductance and resistance");
+  } else if (swing > fastest_swing_rad_s) {
+    const std::optional<base::Quantity>& q =
+        sheet.with_brake ? sheet.inertia_with_brake_gcm2 : sheet.inertia_gcm2;
+    reader.problem(m.from.J, written(q),
+                   "makes rotor and winding swing at K_t/sqrt(L J) = " + rounded(swing, 3) +
+                       " rad/s, and no motor is above 1e5",
+                   "look at the unit of the inertia, then at those of inductance and torque constant");
+  }
 }
 
 base::Problem not_simulatable(const Sheet& sheet) {
@@ -57,6 +88,7 @@ base::Result<MotorModel> motor_model(const Sheet& sheet) {
   m.from = {c.R_ohm->from, c.L_H->from, c.K_e_V_s->from, c.K_t_Nm_A->from, c.J_kg_m2->from, c.friction.from};
   SheetReader reader{sheet, c};
   read_printed_points(reader, m);
+  check_pace(reader, m);
   if (!c.problems.empty()) return c.problems;
   return m;
 }

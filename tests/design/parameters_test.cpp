@@ -140,6 +140,22 @@ TEST(MotorModel, BothConstantsMustBeOneFact) {
             "the two\n");
 }
 
+/// Numbers in SI under keys that want mH and gcm2: a run of such a motor would not end.
+TEST(MotorModel, AMotorTooFastToBeOneHasASlipInAUnit) {
+  Sheet henry = maxon();
+  henry.inductance_mH->value = 0.572e-3;
+  EXPECT_EQ(
+      problems_of(henry),
+      "inductance_mH = 0.000572 makes the winding's time constant L/R 555 ns, and no motor is below 1000 ns; "
+      "look at the unit of inductance and resistance\n");
+  Sheet kilograms = maxon();
+  kilograms.inertia_gcm2->value = 1.35e-5;
+  EXPECT_EQ(problems_of(kilograms),
+            "inertia_gcm2 = 1.35e-05 makes rotor and winding swing at K_t/sqrt(L J) = 1.21e+06 rad/s, and no "
+            "motor is "
+            "above 1e5; look at the unit of the inertia, then at those of inductance and torque constant\n");
+}
+
 TEST(MotorModel, EveryProblemIsReportedAtOnce) {
   Sheet empty;
   const std::string text = problems_of(empty);

@@ -35,14 +35,15 @@ Drawn draw(std::uint64_t n) {
   MotorModel& m = d.model;
   d.shape = base::uniform({seed(), 0, n}) < 0.5 ? BackEmfShape::sine : BackEmfShape::trapezoid;
   m.machine.R_ohm = between(1e-3, 20.0, 1, n);
-  m.machine.L_H = between(1e-6, 1e-2, 2, n);
+  m.machine.L_H = m.machine.R_ohm / between(10.0, 9e5, 2, n);
   m.machine.K_e_V_s = between(1e-3, 1.0, 3, n);
   m.machine.pole_pairs = 1 + static_cast<int>(25.0 * base::uniform({seed(), 4, n}));
   m.machine.flat_deg = 10.0 + 160.0 * base::uniform({seed(), 5, n});
-  m.shaft.J_kg_m2 = between(1e-7, 1e-2, 6, n);
   m.shaft.B_Nm_s = between(1e-7, 1e-4, 7, n);
   m.nominal_voltage_V = between(5.0, 400.0, 8, n);
   m.K_t_Nm_A = m.machine.K_e_V_s * shape_factors(d.shape, m.machine.flat_deg).sector_mean;
+  const double swing_rad_s = between(1.0, 9e4, 6, n);  // K_t/sqrt(L J), below what no motor reaches
+  m.shaft.J_kg_m2 = std::pow(m.K_t_Nm_A / swing_rad_s, 2) / (2 * m.machine.L_H);
   return d;
 }
 
