@@ -57,7 +57,8 @@ class GridRecorder {
     const sim::Instant from = rig.now(), to = from.plus_seconds(length);
     for (;;) {
       const bool last = next_ == end_ && sim::seconds_between(to, end_) <= 0.5e-12;
-      if (!(next_ < to) && !last) return;
+      // An end between picoseconds is rounded: a row on it belongs to what follows.
+      if (!(sim::seconds_between(next_, to) > 0x1p-50 * length) && !last) return;
       const double at = length > 0 ? sim::seconds_between(from, next_) / rig.plant().expansion().h : 0.0;
       selection_.take(full_row(rig, at < s ? (at > 0 ? at : 0.0) : s, next_.seconds()));
       sink_(selection_.row());

@@ -125,6 +125,22 @@ TEST(Run, GridRowsAreRightLimits) {
   EXPECT_EQ(gate[3], 1.0);
 }
 
+TEST(Run, AGridRowOnATickIsBehindItWhereverTheLastEdgeWas) {
+  // Edges fall between picoseconds, so that the way from them to the tick is rounded. The row at the tick
+  // shows its answer: each period begins with the upper switch on.
+  Scenario s = current_square();
+  s.record.grid_s = s.pwm.period_s;
+  s.record.columns = {"duty", "gate_T1", "gate_T3", "gate_T5"};
+  int on = 0, rows = 0;
+  ASSERT_TRUE(run(s, {.on_record = [&](Row row) {
+                    if (row[1] == 0.0 || row[0] >= s.duration_s) return;
+                    ++rows;
+                    on += row[2] + row[3] + row[4] == 1.0;
+                  }}));
+  EXPECT_GT(rows, 600);
+  EXPECT_EQ(on, rows);
+}
+
 TEST(Run, SinglePrecisionControlFollowsDouble) {
   Scenario s = with_finals(current_square());
   const auto wide = run(s);
