@@ -94,7 +94,7 @@ table = [
     ("series/first_root.hpp", "for (int j = 2; «j <= degree»; j += 2)", "j < degree"),
     ("series/first_root.hpp", "slope_rest + «static_cast<Real>(j)»", "static_cast<Real>(j - 1)"),
     ("series/first_root.hpp", "«of.slope_rest += of.tail;»  // with this", ""),
-    ("series/first_root.hpp", "3e-7L : «4e-6L»", "1e-2L"),
+    ("series/first_root.hpp", "inside && «std::fabs(step) <= last_step && std::fabs(turn) <= small»", "std::fabs(step) <= 1e-2"),
     ("series/first_root.hpp", "newton - «turn * step»", "Real(0)"),
     ("series/first_root.hpp", "s * (3 * o.slope + «4 * (t * o.bend)»)", "Real(0)"),
     ("series/first_root.hpp", "«2 * (s * e.slope + t * o.slope)»", "2 * s * e.slope"),

@@ -34,12 +34,12 @@ class Rig {
   Rig(const plant::Plant<Real>& plant, const typename Firmware::Config& chip, const BoardConfig& board,
       const Timeline& timeline)
       : plant_(plant),
-        firmware_(chip, board,
-                  {static_cast<double>(plant_.constants().pole_pairs), plant_.state().sector,
-                   plant::hall_code(plant_.sector())}),
+        timeline_(timeline),
         board_(board),
         modulator_(board.modulator),
-        timeline_(timeline) {}
+        firmware_(chip, board,
+                  {static_cast<double>(plant_.constants().pole_pairs), plant_.state().sector,
+                   plant::hall_code(plant_.sector())}) {}
 
   sim::Instant now() const { return now_; }
   sim::Instant next_known() const { return due_; }
@@ -91,28 +91,29 @@ class Rig {
   void let_go();
   void count(Happening what) { ++happened_[static_cast<std::size_t>(what)]; }
 
+  // Small fields last: the plant begins on a cache line, and each gap might cost a whole one.
   plant::Plant<Real> plant_;
-  Firmware firmware_;
+  const Timeline& timeline_;
   BoardConfig board_;
   Modulator modulator_;
-  const Timeline& timeline_;
 
   sim::Instant now_{}, next_tick_{};
   sim::Instant due_{};  ///< the earliest of all clocks
-  bool moved_ = true;   ///< a located event changed what the board drives
   std::size_t next_action_ = 0;
   double setpoint_ = 0.0;
   std::size_t course_ = 0;  ///< the action whose course the setpoint follows, where moving_
+  BoardCommand pending_{};  ///< waits for its period
+  BoardCommand loaded_{};   ///< sampled in the middle: what the timer takes up next
+  std::array<std::int64_t, static_cast<std::size_t>(Happening::count)> happened_{};
+  Firmware firmware_;
+  bool moved_ = true;  ///< a located event changed what the board drives
   bool moving_ = false;
-  BoardCommand pending_{};
   bool pending_reversed_ = false,
        reversed_ = false;                        ///< sign of the command that waits, and of the one in effect
-  BoardCommand loaded_{};                        ///< sampled in the middle: what the timer takes up next
   bool loaded_reversed_ = false, half_ = false;  ///< half_: the next tick is a middle
-  std::uint8_t stuck_high_ = 0, stuck_low_ = 0;  ///< Hall lines, as bits of a code
   bool ticked_ = false;
   Fault fault_ = Fault::none;
-  std::array<std::int64_t, static_cast<std::size_t>(Happening::count)> happened_{};
+  std::uint8_t stuck_high_ = 0, stuck_low_ = 0;  ///< Hall lines, as bits of a code
 };
 
 template <class Real, class Firmware>
