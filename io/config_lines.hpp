@@ -45,7 +45,7 @@ void extras_lines(ConfigText<Scalar>& t, sixstep::control::Mode mode,
   if constexpr (ConfigText<Scalar>::fixed)
     step = std::ldexp(static_cast<double>(k.slew.step.raw),
                       -Scalar::fraction_bits - decltype(k.slew.step)::guard_bits) *
-           base_of(mode, b);
+           sixstep::design::setpoint_base(mode, b);
   if (literal(k.slew.step) != literal(sixstep::control::Accumulator<Scalar>{}))
     t.number("extras.slew.step", literal(k.slew.step), d.slew.step, step,
              sixstep::study::reference_unit(mode), "per tick");

@@ -48,15 +48,6 @@ std::string literal(sixstep::control::FixedSum<Format> s) {
   return fmt::format("Accumulator<Scalar>::from_raw({})", s.raw);
 }
 
-/// What 1.0 of a setpoint means.
-inline double base_of(sixstep::control::Mode mode, const sixstep::design::Bases& b) {
-  using sixstep::control::Mode;
-  return mode == Mode::current    ? b.current_A
-         : mode == Mode::speed    ? b.speed_rad_s
-         : mode == Mode::position ? b.position_deg
-                                  : 1.0;
-}
-
 template <class Scalar>
 class ConfigText {
  public:

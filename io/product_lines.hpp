@@ -101,7 +101,7 @@ std::string product_lines(const sixstep::control::ProtectedConfig<double>& d,
                           const sixstep::design::Bases& b) {
   ConfigText<Scalar> t(b);
   const sixstep::control::Mode mode = d.drive.mode;
-  t.signal("setpoint_limit", k.setpoint_limit, d.setpoint_limit, base_of(mode, b),
+  t.signal("setpoint_limit", k.setpoint_limit, d.setpoint_limit, sixstep::design::setpoint_base(mode, b),
            sixstep::study::reference_unit(mode));
   detail::sensing_lines(t, d, k);
   detail::hall_lines(t, d, k);

@@ -42,7 +42,8 @@ void check_pace(SheetReader& reader, const MotorModel& m) {
   if (winding > fastest_winding_rad_s) {
     const std::optional<base::Quantity>& q =
         sheet.inductance_mH ? sheet.inductance_mH : sheet.d_axis_inductance_mH;
-    reader.problem(q ? SheetReader::key_of("inductance_mH", *q) : "inductance_mH", written(q),
+    const char* key = sheet.inductance_mH ? "inductance_mH" : "d_axis_inductance_mH";
+    reader.problem(q ? SheetReader::key_of(key, *q) : key, written(q),
                    "makes the winding's time constant L/R " + rounded(1e9 / winding, 3) +
                        " ns, and no motor is below 1000 ns",
                    "look at the unit of inductance and resistance");

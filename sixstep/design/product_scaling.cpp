@@ -64,13 +64,6 @@ control::FaultConfig<Scalar> scaled_faults(const control::FaultConfig<double>& f
           f.voltage_ticks};
 }
 
-double setpoint_base(control::Mode mode, const Bases& b) {
-  return mode == control::Mode::current    ? b.current_A
-         : mode == control::Mode::speed    ? b.speed_rad_s
-         : mode == control::Mode::position ? b.position_deg
-                                           : 1.0;
-}
-
 }  // namespace
 
 template <class Scalar>

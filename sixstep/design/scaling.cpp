@@ -61,15 +61,11 @@ template <class Scalar>
 control::DriveExtras<Scalar> scaled_extras(const DriveConfig<double>& d, const Bases& b, double largest_speed,
                                            Proof<Scalar>& proof) {
   const control::DriveExtras<double>& x = d.extras;
-  const double mode_base = d.mode == Mode::current    ? b.current_A
-                           : d.mode == Mode::speed    ? b.speed_rad_s
-                           : d.mode == Mode::position ? b.position_deg
-                                                      : 1.0;
   control::DriveExtras<Scalar> out;
   out.on = x.on;
   if (!x.on) return out;
   out.slews_setpoint = x.slews_setpoint;
-  out.slew.step = control::Accumulator<Scalar>(x.slew.step / mode_base);
+  out.slew.step = control::Accumulator<Scalar>(x.slew.step / setpoint_base(d.mode, b));
   if (x.slews_setpoint && x.slew.step != 0 && out.slew.step.raw == 0)
     proof.problems.push_back({"slew.step", base::written(x.slew.step),
                               "is below the last bit of the setpoint's sum",

@@ -28,6 +28,14 @@ struct Bases {
   double position_deg = 1.0;
 };
 
+/// That of a setpoint.
+constexpr double setpoint_base(control::Mode mode, const Bases& b) {
+  return mode == control::Mode::current    ? b.current_A
+         : mode == control::Mode::speed    ? b.speed_rad_s
+         : mode == control::Mode::position ? b.position_deg
+                                           : 1.0;
+}
+
 /// One line of the proof: a quantity, the most it reaches, and where the format ends.
 struct Headroom {
   std::string name;

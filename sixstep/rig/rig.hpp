@@ -81,7 +81,7 @@ class Rig {
   void do_action(const Action& action);
   bool do_tick();
   bool do_half_tick();
-  void stick_hall(double line);
+  void set_hall_line(double line, bool stuck_high, bool stuck_low);
   void control_step(bool starts_period);
   void follow_course();
   void skip_idle_ticks();

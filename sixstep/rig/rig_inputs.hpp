@@ -25,15 +25,9 @@ void Rig<Real, Firmware>::do_action(const Action& action) {
     case ActionKind::source_sinks:
       return plant_.set_source_sinks(action.value != 0);
     case ActionKind::hall_stuck:
-      return stick_hall(action.value);
-    case ActionKind::hall_whole: {
-      const std::uint8_t before = pins(),
-                         others = static_cast<std::uint8_t>(~(8 >> static_cast<int>(action.value)));
-      stuck_high_ &= others;
-      stuck_low_ &= others;
-      if (pins() != before) hall_edge();
-      return;
-    }
+      return set_hall_line(std::fabs(action.value), action.value > 0, !(action.value > 0));
+    case ActionKind::hall_whole:
+      return set_hall_line(action.value, false, false);
     case ActionKind::run_request:
       return firmware_.request_run(action.value != 0);
     case ActionKind::clear_request:
@@ -64,12 +58,15 @@ void Rig<Real, Firmware>::sector_edge() {
   hall_edge();
 }
 
-/// A line breaks: where it stood the other way, that is an edge on the pins.
+/// A line breaks or is whole again: where it stood the other way, that is an edge on the pins.
 template <class Real, class Firmware>
-void Rig<Real, Firmware>::stick_hall(double line) {
-  const std::uint8_t before = pins(), bit = static_cast<std::uint8_t>(8 >> static_cast<int>(std::fabs(line)));
-  (line > 0 ? stuck_high_ : stuck_low_) |= bit;
-  (line > 0 ? stuck_low_ : stuck_high_) &= static_cast<std::uint8_t>(~bit);
+void Rig<Real, Firmware>::set_hall_line(double line, bool stuck_high, bool stuck_low) {
+  const std::uint8_t before = pins(), bit = static_cast<std::uint8_t>(8 >> static_cast<int>(line));
+  const auto set = [bit](std::uint8_t& lines, bool on) {
+    lines = static_cast<std::uint8_t>(on ? lines | bit : lines & ~bit);
+  };
+  set(stuck_high_, stuck_high);
+  set(stuck_low_, stuck_low);
   if (pins() != before) hall_edge();
 }
 

@@ -17,13 +17,6 @@ namespace {
 
 using control::Mode;
 
-double unit_of_setpoint(Mode mode, const design::Bases& b) {
-  return mode == Mode::current    ? b.current_A
-         : mode == Mode::speed    ? b.speed_rad_s
-         : mode == Mode::position ? b.position_deg
-                                  : 1.0;
-}
-
 /// What the drive needs; where a file names a full scale, the base that this makes of 1.0.
 template <class Scalar>
 design::Bases bases_of(const Scenario& s, const Compiled& c, const design::OperatingRange& range) {
@@ -68,7 +61,7 @@ base::Problems unheld_speed(const Scenario& s, const Compiled& c, const design::
 }
 
 rig::Units units_of(Mode mode, const design::Bases& b) {
-  return {b.current_A, b.voltage_V, b.speed_rad_s, b.position_deg, unit_of_setpoint(mode, b)};
+  return {b.current_A, b.voltage_V, b.speed_rad_s, b.position_deg, design::setpoint_base(mode, b)};
 }
 
 template <class Scalar>
