@@ -65,6 +65,7 @@ table = [
     ("plant/settle.hpp", "ok = ok && «series::leading(g, degree, noise).sign >= 0»",
      "series::leading(g, degree, noise).sign > 0"),
     ("plant/settle_plainly.hpp", "if («detail::abs(s.w) <= c.speed_noise») return false", "false"),
+    ("plant/plant.hpp", "Real amp_noise = «constants_.amp_noise»", "1000 * constants_.amp_noise"),
     ("plant/settle.hpp", "Judgement::holds && «!q.series_only») return true", "true"),
     ("plant/plant.hpp", "q.i_low[third] = «-(q.i_low[first] + q.i_low[second])»", "Real(0)"),
     ("plant/plant.hpp", "«state_.x_low = 0;»", ""),

@@ -16,8 +16,8 @@ struct EnergyBook {
   double friction = 0.0;
   double load = 0.0;
   double kinetic = 0.0;  ///< change of (1/2) J w^2
-  double moved = 0.0;    ///< sum of |U_s i_dc|, |T_e w| and |T_load w|, integrated per segment: what the
-                         ///< residuals are relative to
+  double moved = 0.0;    ///< sum of |U_s i_dc|, |T_e w| and |T_load w|, integrated per segment
+  double scale = 0.0;    ///< what moved, or what was stored where that is more: the residuals' unit
   double electrical_residual = 0.0;
   double mechanical_residual = 0.0;
 };
@@ -140,6 +140,7 @@ EnergyBook Audit<Real>::energy() const {
           .load = d(load_),
           .kinetic = d(kinetic),
           .moved = d(moved_),
+          .scale = d(scale),
           .electrical_residual = d((supplied_ - copper_ - devices_ - air_gap_ - magnetic) / scale),
           .mechanical_residual = d((air_gap_ - friction_ - load_ - kinetic) / scale)};
 }

@@ -44,6 +44,20 @@ TEST(Audit, LessEnergyThanANoiseCurrentHoldsIsNotBalanced) {
   laws.expect_all(1e-11);
 }
 
+/// Found by the fuzzer: a diode that took up less than the noise since its switch opened is let go with it.
+/// That is 1e-12 A, but beside a light current, in a motor that stalls at a thousand times as much, every
+/// period.
+TEST(Audit, WhatACurrentBelowTheNoiseTookAlongIsKnown) {
+  Board b = Board::duty(0.008, control::Chopping::complementary);
+  b.board.modulator.dead_ticks = 90'000;
+  b.start.angle_rad = at_electrical_deg(30.0);
+  auto rig = b.rig();
+  LawChecker<> laws;
+  ASSERT_EQ(run_to(rig, 3e-4, laws), sim::Stop::end);
+  EXPECT_GT(std::fabs(laws.audit().energy().electrical_residual), 1e-11);
+  laws.expect_all(1e-13);
+}
+
 /// Each segment's integrals beside those of the whole products, all terms of degree 2 n taken.
 struct BesideProducts {
   struct Worst {
