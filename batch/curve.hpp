@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "batch/rooms.hpp"
-#include "sixstep/study/curve.hpp"
-#include "sixstep/study/robust.hpp"
+#include "sixstep/study/curve/curve.hpp"
+#include "sixstep/study/verify/robust.hpp"
 
 namespace batch {
 

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "batch/run.hpp"
-#include "sixstep/study/digest.hpp"
-#include "sixstep/study/spread.hpp"
+#include "sixstep/base/hash.hpp"
+#include "sixstep/study/scenario/spread.hpp"
 
 namespace batch {
 namespace {
@@ -48,7 +48,7 @@ void add(Series& series, const base::Result<study::Outcome>& result) {
       figure.statistics.add(std::numeric_limits<double>::quiet_NaN());
     series.refused.push_back({series.runs, result.problems().front()});
   }
-  study::Hash hash;
+  base::Hash hash;
   hash.word(series.digest);
   hash.word(result ? result->digest : 0);
   series.digest = hash.value();

@@ -12,8 +12,8 @@
 #include "batch/rooms.hpp"
 #include "batch/statistics.hpp"
 #include "sixstep/base/problem.hpp"
-#include "sixstep/study/outcome.hpp"
-#include "sixstep/study/scenario.hpp"
+#include "sixstep/study/measure/outcome.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
 
 namespace batch {
 

@@ -8,7 +8,7 @@
 
 #include "batch/rooms.hpp"
 #include "sixstep/base/result.hpp"
-#include "sixstep/study/run.hpp"
+#include "sixstep/study/run/run.hpp"
 
 namespace batch {
 

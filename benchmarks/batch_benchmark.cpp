@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "batch/monte_carlo.hpp"
-#include "io/scenario_file.hpp"
+#include "io/scenario/scenario_file.hpp"
 
 namespace {
 

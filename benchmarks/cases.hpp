@@ -5,9 +5,9 @@
 #include <string>
 
 #include "benchmarks/yardstick.hpp"
-#include "io/scenario_file.hpp"
+#include "io/scenario/scenario_file.hpp"
 #include "sixstep/sim/run.hpp"
-#include "sixstep/study/compile.hpp"
+#include "sixstep/study/compile/compile.hpp"
 
 namespace benchmarks {
 

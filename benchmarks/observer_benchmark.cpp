@@ -10,12 +10,13 @@
 #include <string>
 
 #include "benchmarks/cases.hpp"
-#include "io/csv_writer.hpp"
+#include "io/trace/csv_writer.hpp"
 #include "sixstep/plant/audit.hpp"
-#include "sixstep/study/digest.hpp"
-#include "sixstep/study/figures.hpp"
-#include "sixstep/study/recorder.hpp"
-#include "sixstep/study/run.hpp"
+#include "sixstep/study/measure/columns.hpp"
+#include "sixstep/study/measure/digest.hpp"
+#include "sixstep/study/measure/figures.hpp"
+#include "sixstep/study/measure/recorder.hpp"
+#include "sixstep/study/run/run.hpp"
 
 namespace {
 

@@ -3,7 +3,8 @@
 """Holds the code to the layer picture of docs/architecture.md.
 
 Reads the ```layers block there and checks every #include under sixstep/, batch/, io/ and faces/:
-  - a layer includes only itself and what stands behind its arrow;
+  - a layer includes only itself and what stands behind its arrow; where the block names corners of a room
+    (study/run), so does each corner within its room;
   - third-party headers appear only outside the library, and nothing includes tests/ or benchmarks/;
   - control/ includes nothing that a bare chip lacks, the library nothing that knows files, clocks or threads;
   - rooms that can influence a trajectory call no elementary function of the C library.
@@ -68,6 +69,27 @@ def layer_of(path: str) -> str | None:
     return parts[0] if parts[0] in ROOTS else None
 
 
+def corner_of(path: str) -> str:
+    """ROOM/FOLDER of a path below its room's folder; the room itself for what lies there at once."""
+    room, parts = layer_of(path), path.split("/")
+    below = parts[parts.index(room) + 1:-1]
+    return "/".join([room, *below[:1]])
+
+
+def check_corner(path: str, target: str, layers: dict[str, set[str]]) -> str | None:
+    """Within a room that has corners: the breach and its cure, or None. What lies in no corner is for all of them."""
+    room, here, there = layer_of(path), corner_of(path), corner_of(target)
+    if there in (here, room) or not any(name.startswith(room + "/") for name in layers):
+        return None
+    for corner in (here, there):
+        if corner not in layers:
+            return f"{corner} is no corner that the layers block names; add a row"
+    if here == room or there not in layers[here]:
+        allowed = "" if here == room else " ".join(sorted(layers[here]))
+        return f"{here} may include {allowed or 'no other corner'}, not {there}; move what is needed to a corner below"
+    return None
+
+
 def without_comments(text: str) -> str:
     """Comments and string contents blanked, line breaks kept."""
     def blank(match: re.Match) -> str:
@@ -111,7 +133,10 @@ def check_file(root: pathlib.Path, file: pathlib.Path, layers: dict[str, set[str
     for number, line in enumerate(without_comments(file.read_text()).splitlines(), 1):
         include = INCLUDE.match(line)
         if include:
-            breach = check_include(layer, include.group(1) == '"', include.group(2), layers, in_library)
+            quoted, target = include.group(1) == '"', include.group(2)
+            breach = check_include(layer, quoted, target, layers, in_library)
+            if not breach and quoted and layer_of(target) == layer:
+                breach = check_corner(path, target, layers)
             if breach:
                 breaches.append(f"{path}:{number}: {breach}")
         call = ELEMENTARY.search(STRING.sub('""', line)) if in_library and layer in DETERMINISTIC else None

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "faces/cli/rooms.hpp"
-#include "io/key_advice.hpp"
+#include "io/keys/key_advice.hpp"
 #include "sixstep/base/problem.hpp"
 
 namespace cli {

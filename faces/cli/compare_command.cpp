@@ -11,10 +11,12 @@
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/run_command.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
 #include "io/report/comparison.hpp"
-#include "io/verdict_table.hpp"
-#include "sixstep/study/run.hpp"
+#include "io/results/verdict_table.hpp"
+#include "sixstep/study/measure/columns.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/run/run.hpp"
 
 namespace cli {
 namespace {

@@ -9,11 +9,11 @@
 
 #include "faces/cli/choose.hpp"
 #include "faces/cli/design_command.hpp"
-#include "io/key_catalog.hpp"
-#include "io/key_tree.hpp"
-#include "io/motor_library.hpp"
-#include "io/motor_template.hpp"
-#include "sixstep/study/choices.hpp"
+#include "io/keys/key_catalog.hpp"
+#include "io/keys/key_tree.hpp"
+#include "io/motor/motor_library.hpp"
+#include "io/motor/motor_template.hpp"
+#include "sixstep/study/scenario/choices.hpp"
 
 namespace cli {
 namespace {

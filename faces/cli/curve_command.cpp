@@ -12,14 +12,16 @@
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
-#include "io/csv_writer.hpp"
-#include "io/curve_columns.hpp"
-#include "io/curve_json.hpp"
-#include "io/curve_table.hpp"
-#include "io/key_advice.hpp"
+#include "io/keys/key_advice.hpp"
 #include "io/report/curve_page.hpp"
-#include "io/scenario_file.hpp"
-#include "sixstep/study/choices.hpp"
+#include "io/results/curve_columns.hpp"
+#include "io/results/curve_json.hpp"
+#include "io/results/curve_table.hpp"
+#include "io/scenario/scenario_file.hpp"
+#include "io/trace/csv_writer.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/scenario/choices.hpp"
 
 namespace cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "faces/cli/rooms.hpp"
-#include "sixstep/study/outcome.hpp"
+#include "sixstep/study/measure/outcome.hpp"
 
 namespace cli {
 

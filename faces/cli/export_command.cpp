@@ -10,10 +10,10 @@
 
 #include "faces/cli/settings.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/atomic_file.hpp"
-#include "io/config_header.hpp"
-#include "io/key_advice.hpp"
-#include "sixstep/study/choices.hpp"
+#include "io/export/config_header.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/keys/key_advice.hpp"
+#include "sixstep/study/scenario/choices.hpp"
 
 namespace cli {
 namespace {

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "faces/cli/terminal.hpp"
-#include "io/key_advice.hpp"
-#include "io/key_catalog.hpp"
-#include "io/key_tree.hpp"
-#include "sixstep/study/run.hpp"
+#include "io/keys/key_advice.hpp"
+#include "io/keys/key_catalog.hpp"
+#include "io/keys/key_tree.hpp"
+#include "sixstep/study/measure/columns.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/run/run.hpp"
 
 namespace cli {
 namespace {

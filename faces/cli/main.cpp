@@ -22,7 +22,7 @@
 #include "faces/cli/run_command.hpp"
 #include "faces/cli/schema_command.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/text_file.hpp"
+#include "io/files/text_file.hpp"
 
 namespace cli {
 namespace {

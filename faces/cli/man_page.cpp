@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "faces/cli/exit_code.hpp"
-#include "io/key_catalog.hpp"
-#include "io/key_tree.hpp"
+#include "io/keys/key_catalog.hpp"
+#include "io/keys/key_tree.hpp"
 
 namespace cli {
 namespace {

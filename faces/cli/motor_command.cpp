@@ -9,10 +9,10 @@
 
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/motor_library.hpp"
-#include "io/motor_template.hpp"
-#include "io/motor_text.hpp"
-#include "io/scenario_file.hpp"
+#include "io/motor/motor_library.hpp"
+#include "io/motor/motor_template.hpp"
+#include "io/motor/motor_text.hpp"
+#include "io/scenario/scenario_file.hpp"
 
 namespace cli {
 namespace {

@@ -10,11 +10,11 @@
 #include "faces/cli/choose.hpp"
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/json_schema.hpp"
-#include "io/scenario_file.hpp"
-#include "io/starter_scenario.hpp"
-#include "sixstep/study/choices.hpp"
-#include "sixstep/study/first_scenario.hpp"
+#include "io/scenario/json_schema.hpp"
+#include "io/scenario/scenario_file.hpp"
+#include "io/scenario/starter_scenario.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+#include "sixstep/study/verify/first_scenario.hpp"
 
 namespace cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
 
 namespace cli {
 

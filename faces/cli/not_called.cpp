@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "faces/cli/terminal.hpp"
-#include "io/key_advice.hpp"
-#include "io/key_catalog.hpp"
-#include "io/key_tree.hpp"
+#include "io/keys/key_advice.hpp"
+#include "io/keys/key_catalog.hpp"
+#include "io/keys/key_tree.hpp"
 
 namespace cli {
 namespace {

@@ -7,7 +7,9 @@
 #include "faces/cli/keep.hpp"
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/json_summary.hpp"
+#include "io/results/json_summary.hpp"
+#include "sixstep/study/measure/columns.hpp"
+#include "sixstep/study/measure/trace.hpp"
 
 namespace cli {
 

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "faces/cli/rooms.hpp"
-#include "io/csv_writer.hpp"
-#include "io/mat_writer.hpp"
-#include "io/vcd_writer.hpp"
-#include "sixstep/study/run.hpp"
+#include "io/trace/csv_writer.hpp"
+#include "io/trace/mat_writer.hpp"
+#include "io/trace/vcd_writer.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/run/run.hpp"
 
 namespace cli {
 

@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include "io/files/text_file.hpp"
 #include "io/report/comparison.hpp"
-#include "io/text_file.hpp"
 
 namespace cli {
 

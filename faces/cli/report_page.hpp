@@ -6,8 +6,9 @@
 
 #include "faces/cli/rooms.hpp"
 #include "io/report/report.hpp"
-#include "sixstep/study/outcome.hpp"
-#include "sixstep/study/scenario.hpp"
+#include "sixstep/study/measure/outcome.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
 
 namespace cli {
 

@@ -16,8 +16,8 @@
 #include "faces/cli/series_command.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/watch.hpp"
-#include "io/atomic_file.hpp"
-#include "io/verdict_table.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/results/verdict_table.hpp"
 
 namespace cli {
 namespace {

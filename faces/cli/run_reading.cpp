@@ -10,9 +10,9 @@
 #include "faces/cli/compare_command.hpp"
 #include "faces/cli/settings.hpp"
 #include "faces/cli/written_twice.hpp"
-#include "io/scenario_file.hpp"
-#include "io/text_file.hpp"
-#include "sixstep/study/spread.hpp"
+#include "io/files/text_file.hpp"
+#include "io/scenario/scenario_file.hpp"
+#include "sixstep/study/scenario/spread.hpp"
 
 namespace cli {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "faces/cli/choose.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/json_schema.hpp"
+#include "io/scenario/json_schema.hpp"
 
 namespace cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "batch/monte_carlo.hpp"
 #include "faces/cli/progress.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/series_table.hpp"
+#include "io/results/series_table.hpp"
 
 namespace cli {
 namespace {

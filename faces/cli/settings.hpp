@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "faces/cli/rooms.hpp"
-#include "io/scenario_file.hpp"
+#include "io/scenario/scenario_file.hpp"
 
 namespace cli {
 

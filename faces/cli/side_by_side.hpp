@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "faces/cli/rooms.hpp"
-#include "sixstep/study/robust.hpp"
+#include "sixstep/study/verify/robust.hpp"
 
 namespace cli {
 

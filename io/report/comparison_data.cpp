@@ -9,6 +9,7 @@
 
 #include "io/report/chart_json.hpp"
 #include "io/report/plots.hpp"
+#include "sixstep/study/measure/trace.hpp"
 
 namespace io::report {
 namespace {

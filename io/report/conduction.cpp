@@ -4,6 +4,7 @@
 #include <array>
 
 #include "io/report/windows.hpp"
+#include "sixstep/study/measure/trace.hpp"
 
 namespace io::report {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sixstep/study/outcome.hpp"
+#include "sixstep/study/measure/trace.hpp"
 
 namespace io::report {
 

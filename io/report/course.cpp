@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/report/windows.hpp"
+#include "sixstep/study/measure/trace.hpp"
 
 namespace io::report {
 namespace {

@@ -7,8 +7,9 @@
 #include <string>
 
 #include "io/report/thinning.hpp"
-#include "sixstep/study/outcome.hpp"
-#include "sixstep/study/scenario.hpp"
+#include "sixstep/study/measure/outcome.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
 
 namespace io::report {
 

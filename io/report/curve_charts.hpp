@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "sixstep/study/curve.hpp"
+#include "sixstep/study/curve/curve.hpp"
 
 namespace io::report {
 

@@ -13,7 +13,7 @@
 #include "io/report/parameters.hpp"
 #include "io/report/shell.hpp"
 #include "sixstep/base/angle.hpp"
-#include "sixstep/study/choices.hpp"
+#include "sixstep/study/scenario/choices.hpp"
 
 namespace io::report {
 namespace {

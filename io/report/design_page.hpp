@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "sixstep/study/design_study.hpp"
+#include "sixstep/study/verify/design_study.hpp"
 
 namespace io::report {
 

@@ -12,6 +12,7 @@
 #include "io/report/svg_chart.hpp"
 #include "io/report/verdicts.hpp"
 #include "io/report/windows.hpp"
+#include "sixstep/study/measure/trace.hpp"
 
 namespace io::report {
 namespace {

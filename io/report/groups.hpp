@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sixstep/study/outcome.hpp"
-#include "sixstep/study/scenario.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
 
 namespace io::report {
 

@@ -3,8 +3,8 @@
 #pragma once
 #include <string>
 
-#include "sixstep/study/outcome.hpp"
-#include "sixstep/study/scenario.hpp"
+#include "sixstep/study/measure/outcome.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
 
 namespace io::report {
 

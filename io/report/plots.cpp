@@ -5,6 +5,7 @@
 
 #include "io/report/chart_json.hpp"
 #include "io/report/conduction.hpp"
+#include "sixstep/study/measure/trace.hpp"
 
 namespace io::report {
 namespace {

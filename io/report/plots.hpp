@@ -6,8 +6,8 @@
 #include <string>
 
 #include "io/report/spectra.hpp"
-#include "sixstep/study/outcome.hpp"
-#include "sixstep/study/scenario.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
 
 namespace io::report {
 

@@ -14,7 +14,7 @@
 #include "io/report/shell.hpp"
 #include "io/report/spectra.hpp"
 #include "io/report/verdicts.hpp"
-#include "sixstep/study/run.hpp"
+#include "sixstep/study/run/run.hpp"
 
 namespace io::report {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "sixstep/study/outcome.hpp"
+#include "sixstep/study/measure/outcome.hpp"
 
 namespace io::report {
 

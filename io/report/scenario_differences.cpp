@@ -7,7 +7,7 @@
 
 #include "io/report/figures.hpp"
 #include "sixstep/base/written.hpp"
-#include "sixstep/study/scenario_description.hpp"
+#include "sixstep/study/scenario/scenario_description.hpp"
 
 namespace io::report {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sixstep/study/scenario.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
 
 namespace io::report {
 

@@ -9,6 +9,7 @@
 #include "io/report/figures.hpp"
 #include "io/report/html.hpp"
 #include "io/report/windows.hpp"
+#include "sixstep/study/measure/trace.hpp"
 
 namespace io::report {
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/report/spectrum.hpp"
+#include "sixstep/study/measure/trace.hpp"
 
 namespace io::report {
 

@@ -9,6 +9,7 @@
 
 #include "io/report/course.hpp"
 #include "io/report/windows.hpp"
+#include "sixstep/study/measure/trace.hpp"
 
 namespace io::report {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "sixstep/study/outcome.hpp"
+#include "sixstep/study/measure/outcome.hpp"
 
 namespace io::report {
 

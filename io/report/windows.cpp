@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "io/report/course.hpp"
+#include "sixstep/study/measure/trace.hpp"
 
 namespace io::report {
 namespace {

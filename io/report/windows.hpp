@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "io/report/thinning.hpp"
-#include "sixstep/study/outcome.hpp"
-#include "sixstep/study/scenario.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
 
 namespace io::report {
 

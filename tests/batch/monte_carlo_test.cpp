@@ -6,8 +6,9 @@
 
 #include <cmath>
 
-#include "sixstep/study/run.hpp"
-#include "sixstep/study/spread.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/run/run.hpp"
+#include "sixstep/study/scenario/spread.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace batch {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "sixstep/study/spread.hpp"
+#include "sixstep/study/scenario/spread.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace batch {

@@ -7,6 +7,7 @@
 #include "io/report/comparison.hpp"
 #include "io/report/curve_page.hpp"
 #include "io/report/report.hpp"
+#include "sixstep/study/measure/trace.hpp"
 #include "tests/io/synthetic_run.hpp"
 #include "tests/support/bench.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/digest/cases.hpp"
 
-#include "sixstep/study/spread.hpp"
+#include "sixstep/study/scenario/spread.hpp"
 #include "tests/support/product_scenarios.hpp"
 
 namespace sixstep::testing {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sixstep/study/scenario.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
 
 namespace sixstep::testing {
 

@@ -3,9 +3,10 @@
 // library and nothing else, so that any compiler and any target can be asked for its bits.
 #include <cstdio>
 
+#include "sixstep/base/hash.hpp"
 #include "sixstep/base/written.hpp"
-#include "sixstep/study/digest.hpp"
-#include "sixstep/study/run.hpp"
+#include "sixstep/study/measure/digest.hpp"
+#include "sixstep/study/run/run.hpp"
 #include "tests/digest/cases.hpp"
 
 namespace {
@@ -14,7 +15,7 @@ using namespace sixstep;
 
 /// What is computed from the trajectory, and the gains it ran with.
 std::uint64_t figures(const study::Outcome& out) {
-  study::Hash hash;
+  base::Hash hash;
   for (const study::ComparisonResult& c : out.comparisons) hash.number(c.measured);
   for (const study::LoopGains& g : out.gains) {
     hash.number(g.d1);

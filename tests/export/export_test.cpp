@@ -10,13 +10,13 @@
 #include <type_traits>
 #include <vector>
 
-#include "io/config_header.hpp"
-#include "io/config_lines.hpp"
-#include "io/scenario_file.hpp"
+#include "io/export/config_header.hpp"
+#include "io/export/config_lines.hpp"
+#include "io/scenario/scenario_file.hpp"
 #include "sixstep/design/pole_placement.hpp"
 #include "sixstep/design/product_scaling.hpp"
-#include "sixstep/study/arithmetic.hpp"
-#include "sixstep/study/compile.hpp"
+#include "sixstep/study/compile/arithmetic.hpp"
+#include "sixstep/study/compile/compile.hpp"
 #include "tests/export/extras_drive.hpp"
 #include "tests/export/headers.hpp"
 
@@ -57,7 +57,7 @@ requires std::is_enum_v<Enum> || std::is_same_v<Enum, bool> std::int64_t bits(En
   return static_cast<std::int64_t>(x);
 }
 
-// A new member must be written by io/config_lines.hpp and compared here.
+// A new member must be written by io/export/config_lines.hpp and compared here.
 static_assert(sizeof(DriveConfig<double>) == 304 && sizeof(DriveExtras<double>) == 184);
 
 /// Every member, in its order.
@@ -128,7 +128,7 @@ TEST(ExportHeader, FixedPointIsWhatTheScalingProved) {
   expect_scaled(exported_position_q31::drive, exported_position_q31::units, "thesis/7.5-position");
 }
 
-// As above, of io/product_lines.hpp.
+// As above, of io/export/product_lines.hpp.
 static_assert(sizeof(ProtectedConfig<double>) == 568);
 
 template <class Format>

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <string>
 
-#include "io/config_lines.hpp"
+#include "io/export/config_lines.hpp"
 #include "tests/export/extras_drive.hpp"
 
 int main(int count, char** words) {

@@ -8,10 +8,10 @@
 
 #include "batch/curve.hpp"
 #include "batch/for_each.hpp"
-#include "io/curve_columns.hpp"
-#include "io/curve_json.hpp"
-#include "io/curve_table.hpp"
 #include "io/report/curve_page.hpp"
+#include "io/results/curve_columns.hpp"
+#include "io/results/curve_json.hpp"
+#include "io/results/curve_table.hpp"
 #include "tests/support/bench.hpp"
 
 namespace {

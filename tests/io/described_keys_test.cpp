@@ -7,10 +7,10 @@
 #include <set>
 #include <utility>
 
-#include "io/key_advice.hpp"
-#include "io/key_catalog.hpp"
-#include "io/table_reader.hpp"
-#include "sixstep/study/scenario_description.hpp"
+#include "io/keys/key_advice.hpp"
+#include "io/keys/key_catalog.hpp"
+#include "io/toml/table_reader.hpp"
+#include "sixstep/study/scenario/scenario_description.hpp"
 
 namespace io {
 namespace {

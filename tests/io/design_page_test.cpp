@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "io/report/svg_chart.hpp"
-#include "io/scenario_file.hpp"
+#include "io/scenario/scenario_file.hpp"
 
 namespace io::report {
 namespace {

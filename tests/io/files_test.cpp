@@ -10,10 +10,11 @@
 #include <random>
 #include <sstream>
 
-#include "io/atomic_file.hpp"
-#include "io/csv_writer.hpp"
-#include "io/mat_writer.hpp"
-#include "io/text_file.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/files/text_file.hpp"
+#include "io/trace/csv_writer.hpp"
+#include "io/trace/mat_writer.hpp"
+#include "sixstep/study/measure/trace.hpp"
 
 namespace io {
 namespace {

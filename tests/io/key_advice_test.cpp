@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/key_advice.hpp"
+#include "io/keys/key_advice.hpp"
 
 #include <gmock/gmock.h>
 

@@ -10,10 +10,10 @@
 #include <sstream>
 #include <string>
 
-#include "io/key_catalog.hpp"
-#include "io/motor_template.hpp"
-#include "io/scenario_file.hpp"
-#include "io/table_reader.hpp"
+#include "io/keys/key_catalog.hpp"
+#include "io/motor/motor_template.hpp"
+#include "io/scenario/scenario_file.hpp"
+#include "io/toml/table_reader.hpp"
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/design/parameters.hpp"
 #include "sixstep/design/sheet_check.hpp"

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The motors that come with the program: each reads, agrees with itself or says where not, and simulates or
 // says why not.
-#include "io/motor_library.hpp"
+#include "io/motor/motor_library.hpp"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
 #include <set>
 
-#include "io/scenario_file.hpp"
+#include "io/scenario/scenario_file.hpp"
 #include "sixstep/design/parameters.hpp"
 #include "sixstep/design/sheet_check.hpp"
 #include "sixstep/design/sheet_description.hpp"
-#include "sixstep/study/run.hpp"
+#include "sixstep/study/run/run.hpp"
 
 namespace io {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <vector>
 
-#include "io/scenario_file.hpp"
-#include "io/text_file.hpp"
+#include "io/files/text_file.hpp"
+#include "io/scenario/scenario_file.hpp"
 #include "sixstep/base/random.hpp"
-#include "sixstep/study/compile.hpp"
+#include "sixstep/study/compile/compile.hpp"
 
 namespace io {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A reference from a file: what is read as a table, and what is told of one that is not.
-#include "io/reference_file.hpp"
+#include "io/scenario/reference_file.hpp"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "io/scenario_text.hpp"
+#include "io/scenario/scenario_text.hpp"
 #include "tests/io/scenario_folder.hpp"
 
 namespace io {

@@ -16,6 +16,7 @@
 #include "io/report/scenario_differences.hpp"
 #include "io/report/spectra.hpp"
 #include "io/report/spectrum.hpp"
+#include "sixstep/study/measure/trace.hpp"
 #include "tests/io/synthetic_run.hpp"
 
 namespace {

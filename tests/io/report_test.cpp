@@ -10,13 +10,13 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "io/json_summary.hpp"
 #include "io/report/figures.hpp"
 #include "io/report/html.hpp"
 #include "io/report/ledger.hpp"
 #include "io/report/plots.hpp"
 #include "io/report/thinning.hpp"
 #include "io/report/windows.hpp"
+#include "io/results/json_summary.hpp"
 #include "sixstep/base/written.hpp"
 #include "tests/io/synthetic_run.hpp"
 

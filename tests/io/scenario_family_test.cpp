@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "io/scenario_text.hpp"
+#include "io/scenario/scenario_text.hpp"
 #include "tests/io/scenario_folder.hpp"
 
 namespace io {

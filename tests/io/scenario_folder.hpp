@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/scenario_file.hpp"
+#include "io/scenario/scenario_file.hpp"
 
 namespace io {
 

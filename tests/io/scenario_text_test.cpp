@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is written reads back as the same scenario: every shipped one, and strings that TOML must escape.
-#include "io/scenario_text.hpp"
+#include "io/scenario/scenario_text.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "io/scenario_file.hpp"
-#include "io/starter_scenario.hpp"
+#include "io/scenario/scenario_file.hpp"
+#include "io/scenario/starter_scenario.hpp"
 
 namespace io {
 namespace {

@@ -20,10 +20,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "io/scenario_file.hpp"
+#include "io/scenario/scenario_file.hpp"
 #include "sixstep/control/fixed.hpp"
-#include "sixstep/study/arithmetic.hpp"
-#include "sixstep/study/run.hpp"
+#include "sixstep/study/compile/arithmetic.hpp"
+#include "sixstep/study/run/run.hpp"
 
 namespace io {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "io/motor_library.hpp"
-#include "io/scenario_file.hpp"
+#include "io/motor/motor_library.hpp"
+#include "io/scenario/scenario_file.hpp"
 
 namespace io {
 namespace {

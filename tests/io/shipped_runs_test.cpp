@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/scenario_file.hpp"
-#include "sixstep/study/run.hpp"
+#include "io/scenario/scenario_file.hpp"
+#include "sixstep/study/run/run.hpp"
 
 namespace io {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers in quotes with a unit of their own: the same double as the decimal in the key's unit.
-#include "io/units.hpp"
+#include "io/keys/units.hpp"
 
 #include <gmock/gmock.h>
 
-#include "io/key_catalog.hpp"
-#include "io/scenario_file.hpp"
+#include "io/keys/key_catalog.hpp"
+#include "io/scenario/scenario_file.hpp"
 #include "sixstep/base/angle.hpp"
 
 namespace io {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the terminal says of a run: short numbers, but never a miss that looks like a hit.
-#include "io/verdict_table.hpp"
+#include "io/results/verdict_table.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "io/quantity_text.hpp"
+#include "io/results/quantity_text.hpp"
 
 namespace io {
 namespace {

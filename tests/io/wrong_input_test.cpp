@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/scenario_file.hpp"
+#include "io/scenario/scenario_file.hpp"
 
 namespace io {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fixed point in a scenario: bases that hold what the drive needs, and an answer where they cannot.
-#include "sixstep/study/arithmetic.hpp"
+#include "sixstep/study/compile/arithmetic.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sixstep/control/fixed.hpp"
-#include "sixstep/study/run.hpp"
+#include "sixstep/study/run/run.hpp"
 #include "tests/support/product_scenarios.hpp"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sixstep/study/compile.hpp"
-#include "sixstep/study/run.hpp"
+#include "sixstep/study/compile/compile.hpp"
+#include "sixstep/study/run/run.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace {

@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "sixstep/study/check/check.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "sixstep/sim/run.hpp"
-#include "sixstep/study/compile.hpp"
-#include "sixstep/study/recorder.hpp"
+#include "sixstep/study/compile/compile.hpp"
+#include "sixstep/study/measure/recorder.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the curve's points lie, what belongs to them, and what the winding stands.
-#include "sixstep/study/curve.hpp"
+#include "sixstep/study/curve/curve.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,11 +7,12 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
-#include "sixstep/study/design_scenario.hpp"
-#include "sixstep/study/design_study.hpp"
-#include "sixstep/study/position_gain.hpp"
-#include "sixstep/study/robust.hpp"
-#include "sixstep/study/run.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/run/run.hpp"
+#include "sixstep/study/verify/design_scenario.hpp"
+#include "sixstep/study/verify/design_study.hpp"
+#include "sixstep/study/verify/position_gain.hpp"
+#include "sixstep/study/verify/robust.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One trajectory, one digest: however often, by however many, watched or not, in one go or resumed.
-#include "sixstep/study/digest.hpp"
+#include "sixstep/study/measure/digest.hpp"
+#include "sixstep/base/hash.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +10,8 @@
 #include <type_traits>
 
 #include "sixstep/sim/run.hpp"
-#include "sixstep/study/arithmetic.hpp"
-#include "sixstep/study/compile.hpp"
+#include "sixstep/study/compile/arithmetic.hpp"
+#include "sixstep/study/compile/compile.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace {
@@ -153,7 +154,7 @@ TEST(Digest, SeesTheLastBitOfOneParameter) {
 
 TEST(Hash, SeesEveryBitOfEveryWord) {
   const auto of = [](std::uint64_t a, std::uint64_t b) {
-    Hash h;
+    base::Hash h;
     h.word(a);
     h.word(b);
     return h.value();
@@ -169,7 +170,7 @@ TEST(Hash, SeesEveryBitOfEveryWord) {
 
 TEST(Hash, KnowsOneNaNOnly) {
   const auto of = [](double x) {
-    Hash h;
+    base::Hash h;
     h.number(x);
     return h.value();
   };

@@ -5,7 +5,8 @@
 
 #include <cmath>
 
-#include "sixstep/study/compile.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/compile/compile.hpp"
 #include "tests/support/product_scenarios.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Figures of merit against closed forms: the gauge is fed Taylor polynomials of known curves.
-#include "sixstep/study/gauge.hpp"
+#include "sixstep/study/measure/gauge.hpp"
 
 #include <gtest/gtest.h>
 

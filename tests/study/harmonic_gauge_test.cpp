@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Distortion against Fourier series in closed form.
-#include "sixstep/study/harmonic_gauge.hpp"
+#include "sixstep/study/measure/harmonic_gauge.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <functional>
 
-#include "sixstep/study/figures.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/measure/figures.hpp"
 #include "tests/support/figures.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The no-load point: where the held curve needs no torque, and where a free rotor ends up.
-#include "sixstep/study/no_load.hpp"
+#include "sixstep/study/curve/no_load.hpp"
 
 #include <gtest/gtest.h>
 

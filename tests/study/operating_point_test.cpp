@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The steady state at a held speed against the laws that it must keep and against runs that know nothing of
 // it.
-#include "sixstep/study/operating_point.hpp"
+#include "sixstep/study/curve/operating_point.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "sixstep/base/random.hpp"
-#include "sixstep/study/full_on.hpp"
-#include "sixstep/study/open_loop.hpp"
-#include "sixstep/study/tally.hpp"
+#include "sixstep/study/curve/full_on.hpp"
+#include "sixstep/study/curve/open_loop.hpp"
+#include "sixstep/study/measure/tally.hpp"
 #include "tests/support/bench.hpp"
 
 namespace {

@@ -7,7 +7,8 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
-#include "sixstep/study/arithmetic.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/compile/arithmetic.hpp"
 #include "tests/support/product_scenarios.hpp"
 
 namespace {

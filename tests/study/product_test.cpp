@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "sixstep/study/check/check.hpp"
 #include "tests/support/product_scenarios.hpp"
 
 namespace {

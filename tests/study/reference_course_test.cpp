@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // References that move: what the controller sees at its ticks is the closed form, to the bit.
-#include "sixstep/study/reference_course.hpp"
+#include "sixstep/study/scenario/reference_course.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenarios built in C++, from end to end.
-#include "sixstep/study/run.hpp"
+#include "sixstep/study/run/run.hpp"
 
 #include <gtest/gtest.h>
 

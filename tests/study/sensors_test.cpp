@@ -5,7 +5,8 @@
 
 #include <cmath>
 
-#include "sixstep/study/run.hpp"
+#include "sixstep/study/measure/columns.hpp"
+#include "sixstep/study/run/run.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace {

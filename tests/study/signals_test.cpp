@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cheap bounds of a signal: what lets most segments go without a search for extremes.
-#include "sixstep/study/signals.hpp"
+#include "sixstep/study/measure/signals.hpp"
 
 #include <gtest/gtest.h>
 
-#include "sixstep/study/columns.hpp"
-#include "sixstep/study/gauge.hpp"
-#include "sixstep/study/run.hpp"
+#include "sixstep/study/measure/full_row.hpp"
+#include "sixstep/study/measure/gauge.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/run/run.hpp"
 #include "tests/support/board.hpp"
 
 namespace {

@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
-#include "sixstep/study/compile.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/compile/compile.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace {

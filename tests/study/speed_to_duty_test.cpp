@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sixstep/study/run.hpp"
+#include "sixstep/study/run/run.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drives of a series: what strays, what stays, and what is refused.
-#include "sixstep/study/spread.hpp"
+#include "sixstep/study/scenario/spread.hpp"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "sixstep/study/compile.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/compile/compile.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace {

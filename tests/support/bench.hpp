@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The reference motor on the bench that holds its speed.
 #pragma once
-#include "sixstep/study/bench.hpp"
+#include "sixstep/study/curve/bench.hpp"
 #include "tests/support/maxon.hpp"
 #include "tests/support/scenarios.hpp"
 

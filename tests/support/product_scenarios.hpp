@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sixstep/study/measure/columns.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace sixstep::testing {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenarios of the reference motor, built in C++.
 #pragma once
-#include "sixstep/study/run.hpp"
+#include "sixstep/study/run/run.hpp"
 
 namespace sixstep::testing {
 

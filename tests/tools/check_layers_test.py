@@ -37,8 +37,8 @@ class CheckLayers(unittest.TestCase):
             self.assertIn(words, out)
 
     def test_clean_tree_passes(self):
-        self.write("io/toml.cpp", '#include <toml++/toml.h>\n#include "sixstep/study/run.hpp"\n')
-        self.write("faces/cli/main.cpp", '#include <CLI/CLI.hpp>\n#include "io/toml.hpp"\n#include "faces/cli/x.hpp"\n')
+        self.write("io/toml/toml.cpp", '#include <toml++/toml.h>\n#include "sixstep/study/run/run.hpp"\n')
+        self.write("faces/cli/main.cpp", '#include <CLI/CLI.hpp>\n#include "io/toml/toml.hpp"\n#include "faces/cli/x.hpp"\n')
         self.assertEqual(self.run_tool(), (0, "", ""))
 
     def test_upward_include(self):
@@ -48,11 +48,30 @@ class CheckLayers(unittest.TestCase):
     def test_layer_that_is_only_reachable_through_another(self):
         self.expect("faces/cli/main.cpp", '#include "sixstep/plant/motor.hpp"\n', "cli may include io, not plant")
 
+    def test_corners_of_a_room(self):
+        picture = PICTURE.replace("io ->", "study/ask ->\nstudy/run -> study/ask\nio ->")
+        self.write("docs/architecture.md", picture)
+        self.write("sixstep/study/run/run.cpp", '#include "sixstep/study/ask/ask.hpp"\n#include "sixstep/base/angle.hpp"\n')
+        self.write("io/toml/toml.cpp", '#include "sixstep/study/run/run.hpp"\n')
+        self.assertEqual(self.run_tool(), (0, "", ""))
+        self.expect("sixstep/study/ask/ask.cpp", '\n#include "sixstep/study/run/run.hpp"\n',
+                    "ask.cpp:2:", "study/ask may include no other corner, not study/run", "corner below")
+
+    def test_what_lies_in_no_corner_is_for_all_of_them(self):
+        self.write("docs/architecture.md", PICTURE.replace("io ->", "study/ask ->\nio ->"))
+        self.write("sixstep/study/ask/ask.cpp", '#include "sixstep/study/names.hpp"\n')
+        self.assertEqual(self.run_tool(), (0, "", ""))
+        self.expect("sixstep/study/names.hpp", '#include "sixstep/study/ask/ask.hpp"\n', "study may include no other corner")
+
+    def test_unknown_corner(self):
+        self.write("docs/architecture.md", PICTURE.replace("io ->", "study/ask ->\nio ->"))
+        self.expect("sixstep/study/run/run.cpp", '#include "sixstep/study/ask/ask.hpp"\n', "study/run is no corner", "add a row")
+
     def test_third_party_in_the_library(self):
-        self.expect("sixstep/study/run.cpp", "#include <fmt/format.h>\n", "sixstep/study/run.cpp:1:", "third-party")
+        self.expect("sixstep/study/run/run.cpp", "#include <fmt/format.h>\n", "sixstep/study/run/run.cpp:1:", "third-party")
 
     def test_files_and_clocks_in_the_library(self):
-        self.expect("sixstep/study/run.cpp", "\n#include <chrono>\n", "run.cpp:2:", "<chrono>")
+        self.expect("sixstep/study/run/run.cpp", "\n#include <chrono>\n", "run.cpp:2:", "<chrono>")
 
     def test_control_on_a_bare_chip(self):
         self.expect("sixstep/control/pi.hpp", "#include <cstdint>\n#include <vector>\n", "pi.hpp:2:", "bare chip")

@@ -3,8 +3,8 @@
 #pragma once
 #include <cstdlib>
 
-#include "sixstep/study/compile.hpp"
-#include "sixstep/study/spread.hpp"
+#include "sixstep/study/compile/compile.hpp"
+#include "sixstep/study/scenario/spread.hpp"
 
 namespace fuzzing {
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <map>
 
-#include "io/scenario_file.hpp"
+#include "io/scenario/scenario_file.hpp"
 #include "tests/fuzz/libfuzzer/complaints.hpp"
 
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <fstream>
 
-#include "io/motor_text.hpp"
-#include "io/scenario_file.hpp"
+#include "io/motor/motor_text.hpp"
+#include "io/scenario/scenario_file.hpp"
 #include "sixstep/design/drive_design.hpp"
 #include "tests/fuzz/libfuzzer/complaints.hpp"
 

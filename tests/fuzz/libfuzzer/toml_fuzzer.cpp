@@ -3,7 +3,7 @@
 // a crash. What it accepts must also compile, or say why not.
 #include <cstdint>
 
-#include "io/scenario_file.hpp"
+#include "io/scenario/scenario_file.hpp"
 #include "tests/fuzz/libfuzzer/complaints.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/motor/motor_library.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "io/files/text_file.hpp"
+#include "io/keys/key_advice.hpp"
+#include "io/motors.hpp"
+
+namespace io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where the motor may lie, in the order of precedence.
+std::vector<std::string> candidates(const MotorQuery& query) {
+  const fs::path folder(query.folder);
+  const std::string file = query.name.ends_with(".toml") ? query.name : query.name + ".toml";
+  std::vector<std::string> paths{(folder / query.name).string()};
+  if (file != query.name) paths.push_back((folder / file).string());
+  if (!query.data_dir.empty()) paths.push_back((fs::path(query.data_dir) / "motors" / file).string());
+  return paths;
+}
+
+}  // namespace
+
+std::vector<std::string> built_in_motors() {
+  std::vector<std::string> names;
+  names.reserve(motors::all.size());
+  for (const motors::File& file : motors::all) names.emplace_back(file.name);
+  return names;
+}
+
+base::Result<Document> find_motor(const MotorQuery& query) {
+  if (query.name.empty())
+    return base::Problem{.limit = "names no motor",
+                         .cure = "give a motor file's path or a built-in motor's name"};
+  const std::vector<std::string> paths = candidates(query);
+  for (const std::string& path : paths) {
+    std::error_code ignored;
+    if (!fs::exists(path, ignored) || fs::is_directory(path, ignored)) continue;
+    base::Result<std::string> text = read_text(path);
+    if (!text) return text.problems();
+    return Document::parse(path, std::move(*text));
+  }
+  for (const motors::File& file : motors::all)
+    if (file.name == query.name)
+      return Document::parse(fmt::format("built-in {}", file.name), std::string(file.text));
+  const std::vector<std::string> names = built_in_motors();
+  const std::string near = nearest(query.name, names);
+  return base::Problem{.limit = fmt::format("is neither {} nor a built-in motor", fmt::join(paths, " nor ")),
+                       .cure = near.empty() ? "sixstep motor list shows the built-in ones, sixstep motor new "
+                                              "writes the file of another"
+                                            : fmt::format("did you mean \"{}\"?", near)};
+}
+
+}  // namespace io

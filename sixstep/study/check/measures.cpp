@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/check/measures.hpp"
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/measure/harmonic_gauge.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+#include "sixstep/study/scenario/measure_choices.hpp"
+#include "sixstep/study/scenario/reference_course.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+using control::Mode;
+
+std::string quoted(std::string_view word) {
+  std::string text(1, '"');
+  text += word;
+  text += '"';
+  return text;
+}
+std::string quoted(MetricKind kind) { return quoted(base::word(metric_choices, kind)); }
+std::string quoted(Signal signal) { return quoted(fact_of(signal).word); }
+
+/// One measure, where it stands, and where its problems go.
+struct Asked {
+  const Measure& m;
+  const std::string& where;
+  const Scenario& s;
+  base::Problems& out;
+
+  double from_s() const { return m.from_s.value_or(0.0); }
+  double to_s() const { return m.to_s.value_or(s.duration_s); }
+  void refuse(const char* key, std::string value, std::string limit, std::string cure) const {
+    out.push_back({where + "." + key, std::move(value), std::move(limit), std::move(cure)});
+  }
+};
+
+void check_window(const Asked& a) {
+  if (!(a.from_s() < a.to_s()))
+    a.refuse("to_s", base::written(a.to_s()), "must lie behind from_s = " + base::written(a.from_s()),
+             "give the window as from_s < to_s");
+  if (a.to_s() > a.s.duration_s)
+    a.refuse("to_s", base::written(a.to_s()),
+             "lies behind the end of the run (duration_s = " + base::written(a.s.duration_s) + ")",
+             "shorten the window or lengthen duration_s");
+}
+
+/// The band is the event comparators': nothing else holds one.
+void check_band(const Asked& a) {
+  const CurrentLoop& loop = a.s.control.current;
+  const bool closed = a.s.control.mode != Mode::off && a.s.control.mode != Mode::duty;
+  const bool armed =
+      closed && loop.type == CurrentLoopType::hysteresis && loop.comparator == Comparator::event;
+  if (is_band(a.m.metric) && !armed)
+    a.refuse("metric", quoted(a.m.metric), "needs a hysteresis with event comparators",
+             "set control.current.type = \"hysteresis\" and comparator = \"event\", or measure max and min");
+}
+
+/// Which signal a metric goes with. Without a word of the file's the signal is the motor current.
+void check_signal(const Asked& a) {
+  const Signal signal = a.m.signal;
+  const bool given = signal != Signal::current;
+  if ((is_band(a.m.metric) || a.m.metric == MetricKind::efficiency) && given)
+    a.refuse("signal", quoted(signal), "is nothing that " + quoted(a.m.metric) + " is taken of",
+             "remove signal");
+  if (a.m.metric == MetricKind::switching_frequency && given && !is_gate(signal))
+    a.refuse("signal", quoted(signal), "does not switch",
+             "name a switch, \"gate_T1\" to \"gate_T6\", or remove signal to count what is chopped");
+  if (a.m.metric == MetricKind::energy && !is_power(signal))
+    a.refuse("signal", quoted(signal), "is no power, and has no energy",
+             "name a power or a loss, as signal = \"supply_power_W\" or \"copper_loss_W\"");
+}
+
+/// A reference that the mode does not have, and the error against it.
+void check_mode(const Asked& a) {
+  const Mode mode = a.s.control.mode;
+  const bool position = mode == Mode::position, speed = position || mode == Mode::speed;
+  const bool current = speed || mode == Mode::current;
+  const Signal signal = a.m.signal;
+  const bool missing =
+      ((signal == Signal::current_reference || signal == Signal::current_error) && !current) ||
+      ((signal == Signal::speed_reference || signal == Signal::speed_error) && !speed) ||
+      ((signal == Signal::position_reference || signal == Signal::position_error) && !position);
+  if (missing)
+    a.refuse("signal", quoted(signal),
+             "does not exist in control.mode = " + quoted(base::word(mode_choices, mode)),
+             "name a signal of this mode, or change control.mode");
+}
+
+bool is_controlled(Signal signal, Mode mode) {
+  return (mode == Mode::current && signal == Signal::current) ||
+         (mode == Mode::speed && signal == Signal::speed) ||
+         (mode == Mode::position && signal == Signal::position);
+}
+
+void check_level(const Asked& a) {
+  const bool wanted = is_of_a_step(a.m.metric) || is_error(a.m.metric);
+  if (wanted && !a.m.level && !is_controlled(a.m.signal, a.s.control.mode))
+    a.refuse("level", "", "is missing, and the reference is of another signal",
+             "give the level that the signal is to reach, in its own unit");
+  if (a.m.tail && !is_error(a.m.metric))
+    a.refuse("tail", base::written(*a.m.tail), "is nothing that " + quoted(a.m.metric) + " looks at",
+             "remove it, or set from_s and to_s");
+  if (a.m.tail && is_error(a.m.metric) && a.m.level)
+    a.refuse("tail", base::written(*a.m.tail), "is a part of the reference's levels, and level is given",
+             "remove it and set from_s and to_s");
+}
+
+/// Steps are told apart by the reference's levels: while it moves it has none.
+void check_levels_of_reference(const Asked& a) {
+  const bool takes_levels = is_of_a_step(a.m.metric) || is_error(a.m.metric);
+  if (takes_levels && !a.m.level && is_controlled(a.m.signal, a.s.control.mode) &&
+      reference_moves(a.s, a.from_s(), a.to_s()))
+    a.refuse(
+        "metric", quoted(a.m.metric),
+        "is taken of the reference's levels, and the reference moves in this window",
+        "give level, start and from_s, or set from_s and to_s to where the reference stands, or take max "
+        "and min of the error, as signal = \"speed_error_rad_s\"");
+}
+
+void check_sampled(const Asked& a) {
+  if (!a.m.sampled) return;
+  const bool counted = is_band(a.m.metric) || a.m.metric == MetricKind::switching_frequency;
+  const bool integrated = a.m.metric == MetricKind::thd || a.m.metric == MetricKind::energy ||
+                          a.m.metric == MetricKind::efficiency;
+  if (counted || integrated)
+    a.refuse("sampled", "true", "would miss what " + quoted(a.m.metric) + " is about",
+             "remove it: the whole curve is looked at");
+  else if (!is_known_at_samples(a.m.signal))
+    a.refuse("sampled", "true",
+             "says little of " + quoted(a.m.signal) + ", which jumps where the samples are taken",
+             "remove it: the whole curve is looked at");
+}
+
+void check_fundamental(const Asked& a) {
+  const std::optional<double>& frequency_Hz = a.m.frequency_Hz;
+  if (a.m.metric != MetricKind::thd) {
+    if (frequency_Hz)
+      a.refuse("frequency_Hz", base::written(*frequency_Hz),
+               "is nothing that " + quoted(a.m.metric) + " looks at", "remove it");
+    return;
+  }
+  if (frequency_Hz && whole_periods({a.from_s(), a.to_s()}, *frequency_Hz) < 1.0)
+    a.refuse("frequency_Hz", base::written(*frequency_Hz),
+             "has no whole period in the window of " + base::written(a.to_s() - a.from_s()) + " s",
+             "lengthen the window or give a higher frequency");
+  if (!frequency_Hz && !alternates(a.m.signal))
+    a.refuse("frequency_Hz", "",
+             "is missing: " + quoted(a.m.signal) + " does not alternate with the rotor's turning",
+             "give the fundamental, or the signal of a phase: \"i_a\", \"u_ab_V\", \"e_a_V\"");
+  else if (!frequency_Hz && a.s.load.locked)
+    a.refuse("frequency_Hz", "", "is missing: a locked rotor has no electrical frequency",
+             "give the fundamental, or set load.locked = false");
+}
+
+void check_measure(const Measure& m, const std::string& where, const Scenario& s, bool sound_references,
+                   base::Problems& out) {
+  const Asked asked{m, where, s, out};
+  check_band(asked);
+  check_window(asked);
+  check_signal(asked);
+  check_mode(asked);
+  check_level(asked);
+  if (sound_references) check_levels_of_reference(asked);
+  check_sampled(asked);
+  check_fundamental(asked);
+}
+
+}  // namespace
+
+void check_measures(const Scenario& s, bool sound_references, base::Problems& out) {
+  for (std::size_t n = 0; n < s.require.size(); ++n) {
+    const std::string where = "require[" + std::to_string(n) + "]";
+    check_measure(s.require[n].measure, where, s, sound_references, out);
+    if (!s.require[n].min && !s.require[n].max)
+      out.push_back({where, "", "requires nothing", "give min, max or both"});
+    if (s.require[n].min && s.require[n].max && *s.require[n].min > *s.require[n].max)
+      out.push_back({where + ".min", base::written(*s.require[n].min),
+                     "lies above max = " + base::written(*s.require[n].max), "swap them"});
+  }
+  for (std::size_t n = 0; n < s.compare.size(); ++n)
+    check_measure(s.compare[n].measure, "compare[" + std::to_string(n) + "]", s, sound_references, out);
+}
+
+}  // namespace sixstep::study

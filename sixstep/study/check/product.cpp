@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/check/product.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "sixstep/base/written.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+using base::written;
+using control::Mode;
+
+/// Registers are all that it is given.
+void check_registers(const Scenario& s, base::Problems& out) {
+  const std::string asks =
+      "is nothing that a register shows, and control.drive = \"product\" reads registers";
+  if (s.sensors.currents == rig::CurrentSensing::ideal)
+    out.push_back({"sensors.currents", "\"ideal\"", asks,
+                   "set currents = \"phases\" (or \"dc-link\") and current_range_A"});
+  if (s.sensors.bus == BusSensing::ideal)
+    out.push_back({"sensors.bus", "\"ideal\"", asks, "set bus = \"adc\" and bus_range_V"});
+  if (s.sensors.rotor == RotorSensing::ideal)
+    out.push_back({"sensors.rotor", "\"ideal\"", asks, "set rotor = \"hall\""});
+  if (s.sensors.currents == rig::CurrentSensing::dc_link && s.pwm.delay_periods > 0)
+    out.push_back({"pwm.delay_periods", std::to_string(s.pwm.delay_periods),
+                   "leaves the product drive with the duty of another period than its shunt's sample",
+                   "set delay_periods = 0: with pwm.sample = \"middle\" the answer waits for the next start "
+                   "anyway"});
+}
+
+/// A threshold that is missing, or that the converter's end hides.
+void check_threshold(const char* key, const std::optional<double>& threshold, const char* range_key,
+                     const std::optional<double>& range, base::Problems& out) {
+  const std::string where = std::string("protection.") + key;
+  if (!threshold)
+    out.push_back({where, "", "is missing: without it the product drive trusts nothing and never starts",
+                   range_key[0] != '\0' ? "give one below " + std::string(range_key) : "give one"});
+  else if (range && !(*threshold < *range))
+    out.push_back(
+        {where, written(*threshold),
+         "is never passed: the converter ends at " + std::string(range_key) + " = " + written(*range),
+         "lower it or widen the range"});
+}
+
+void check_thresholds(const Scenario& s, base::Problems& out) {
+  const Protection& p = s.protection;
+  check_threshold("over_current_A", p.over_current_A, "sensors.current_range_A", s.sensors.current_range_A,
+                  out);
+  check_threshold("over_voltage_V", p.over_voltage_V, "sensors.bus_range_V", s.sensors.bus_range_V, out);
+  check_threshold("under_voltage_V", p.under_voltage_V, "protection.over_voltage_V", p.over_voltage_V, out);
+  check_threshold("over_speed_rad_s", p.over_speed_rad_s, "", std::nullopt, out);
+  if (p.stall_current_A.has_value() != p.stall_s.has_value())
+    out.push_back({p.stall_s ? "protection.stall_current_A" : "protection.stall_s", "",
+                   "is missing, and stalling is watched by both", "give both or none"});
+}
+
+void check_activities(const Scenario& s, base::Problems& out) {
+  const Protection& p = s.protection;
+  const bool has_current_loop = s.control.mode != Mode::off && s.control.mode != Mode::duty;
+  const std::string needs = "needs a current loop, and control.mode has none";
+  if (p.align.current_A && !has_current_loop)
+    out.push_back({"protection.align.current_A", written(*p.align.current_A), needs,
+                   "leave it away, or control current, speed or position"});
+  if (p.brake_current_A > 0 && !has_current_loop)
+    out.push_back({"protection.brake_current_A", written(p.brake_current_A), needs,
+                   "leave it away, or control current, speed or position"});
+  if (p.off_at_s && !(*p.off_at_s < s.duration_s))
+    out.push_back({"protection.off_at_s", written(*p.off_at_s),
+                   "lies behind the end of the run (duration_s = " + written(s.duration_s) + ")",
+                   "lengthen duration_s or let go earlier"});
+}
+
+void check_advance(const Scenario& s, base::Problems& out) {
+  const Advance& a = s.control.advance;
+  if (a.angle_deg > a.limit_deg)
+    out.push_back({"control.advance.angle_deg", written(a.angle_deg),
+                   "is above limit_deg = " + written(a.limit_deg) + ", and never reached",
+                   "lower it or raise the limit"});
+}
+
+/// A sector passes unseen, and the next code is a jump, where it does not hold as many samples.
+void check_hall_filter(const Scenario& s, const std::optional<double>& sector_rad, base::Problems& out) {
+  const std::optional<double>& fastest = s.protection.over_speed_rad_s;
+  const double stands_s = s.sensors.hall_stable_samples * s.pwm.period_s;
+  if (s.sensors.hall_stable_samples < 2 || !sector_rad || !fastest || stands_s * *fastest <= *sector_rad)
+    return;
+  const double most = std::floor(*sector_rad / (*fastest * s.pwm.period_s));
+  const std::string sector = written(*sector_rad / *fastest);
+  out.push_back(
+      {"sensors.hall_stable_samples", std::to_string(s.sensors.hall_stable_samples),
+       "last longer than a sector, " + sector + " s at protection.over_speed_rad_s = " + written(*fastest),
+       most >= 2 ? "lower it to " + written(most) + " at most, or lower over_speed_rad_s"
+                 : "set it to 1, shorten pwm.period_s, or lower over_speed_rad_s"});
+}
+
+/// Of the lean drive, which is told sector and edges as they are.
+void check_lean(const Scenario& s, base::Problems& out) {
+  const Protection& p = s.protection;
+  const auto refuse = [&out](const char* key, const std::string& value, const char* limit,
+                             const char* otherwise) {
+    out.push_back({key, value, limit, "set control.drive = \"product\", or " + std::string(otherwise)});
+  };
+  if (p.over_current_A || p.over_voltage_V || p.under_voltage_V || p.over_speed_rad_s || p.stall_current_A ||
+      p.stall_s || p.off_at_s || p.align.current_A || p.brake_current_A > 0)
+    refuse("protection", "", "is watched by the product drive only", "leave [protection] away");
+  if (advances(s.control.advance))
+    refuse("control.advance", "", "is what the product drive does only", "leave it away");
+  if (s.sensors.hall_stable_samples > 1)
+    refuse("sensors.hall_stable_samples", std::to_string(s.sensors.hall_stable_samples),
+           "filters the pins that the product drive reads only", "leave it away");
+}
+
+}  // namespace
+
+void check_product(const Scenario& s, const std::optional<double>& sector_rad, base::Problems& out) {
+  if (s.control.drive != Drive::product) return check_lean(s, out);
+  check_registers(s, out);
+  check_thresholds(s, out);
+  check_activities(s, out);
+  check_advance(s, out);
+  check_hall_filter(s, sector_rad, out);
+}
+
+void check_extras(const Scenario& s, base::Problems& out) {
+  const CurrentLoop& loop = s.control.current;
+  if (loop.type == CurrentLoopType::hysteresis && loop.back_emf_feed_forward)
+    out.push_back({"control.current.back_emf_feed_forward", "true",
+                   "has no voltage to be added to in a hysteresis", "remove it, or set type = \"pi\""});
+  if (loop.type == CurrentLoopType::hysteresis && loop.measured_bus_from_V)
+    out.push_back({"control.current.measured_bus_from_V", written(*loop.measured_bus_from_V),
+                   "has no duty to correct in a hysteresis", "remove it, or set type = \"pi\""});
+  if (s.control.limits.gain_A_s_per_rad && !s.control.limits.speed_rad_s)
+    out.push_back({"control.limits.gain_A_s_per_rad", written(*s.control.limits.gain_A_s_per_rad),
+                   "has no limit to lead up to", "give control.limits.speed_rad_s too"});
+  const SmoothChopping& smooth = s.control.smooth_chopping;
+  if (smooth.soft_above_A && smooth.complementary_below_A &&
+      !(*smooth.soft_above_A > *smooth.complementary_below_A))
+    out.push_back({"control.smooth_chopping.soft_above_A", written(*smooth.soft_above_A),
+                   "must lie above complementary_below_A = " + written(*smooth.complementary_below_A),
+                   "raise it"});
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/check/reference.hpp"
+
+#include <cmath>
+#include <string_view>
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/check/reference_cures.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+#include "sixstep/study/scenario/reference_course.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+using base::written;
+
+/// More levels than anybody looks at, and what a run can hold in memory: 144 MB.
+constexpr double most_half_periods = 2e6;
+
+/// One reference: where it stands in the file, and how long it holds.
+struct Place {
+  const Reference& r;
+  std::string table;  ///< "reference", "at[0].reference"
+  double left_s;
+  const Scenario& s;
+  base::Problems& out;
+
+  void say(const char* key, std::string value, std::string limit, std::string cure) const {
+    out.push_back({table + "." + key, std::move(value), std::move(limit), std::move(cure)});
+  }
+  std::string shape() const { return "shape = \"" + std::string(base::word(shape_choices, r.shape)) + "\""; }
+  void missing(const char* key, const char* cure) const { say(key, "", "is missing for " + shape(), cure); }
+};
+
+void check_unit(const Place& p) {
+  const control::Mode mode = p.s.control.mode;
+  if (p.r.unit && mode != control::Mode::off && *p.r.unit != reference_unit(mode))
+    p.say("unit", "\"" + *p.r.unit + "\"",
+          "is not the unit of mode \"" + std::string(base::word(mode_choices, mode)) + "\"",
+          cure_of_unit(*p.r.unit, mode));
+}
+
+/// A key that only another shape reads was meant to do something.
+void check_strays(const Place& p) {
+  const Reference& r = p.r;
+  const bool move = r.shape == Shape::ramp || r.shape == Shape::trapezoid;
+  const auto stray = [&p](const char* key, bool given, bool read, const char* shapes) {
+    if (given && !read)
+      p.say(key, "", "means nothing for " + p.shape(),
+            std::string("set shape = ") + shapes + ", or remove it");
+  };
+  stray("begin_s", r.begin_s != 0, move, "\"ramp\" or \"trapezoid\"");
+  stray("start", r.start.has_value(), move, "\"ramp\" or \"trapezoid\"");
+  stray("end", r.end != 0, move, "\"ramp\" or \"trapezoid\"");
+  stray("end_s", r.end_s.has_value(), r.shape == Shape::ramp, "\"ramp\"");
+  stray("slope", r.slope.has_value(), move, "\"ramp\" or \"trapezoid\"");
+  stray("acceleration", r.acceleration.has_value(), r.shape == Shape::trapezoid, "\"trapezoid\"");
+  stray("offset", r.offset != 0, r.shape == Shape::sine, "\"sine\"");
+  stray("amplitude", r.amplitude != 0, r.shape == Shape::sine, "\"sine\"");
+  stray("frequency_Hz", r.frequency_Hz != 0, r.shape == Shape::sine, "\"sine\"");
+  stray("phase_deg", r.phase_deg != 0, r.shape == Shape::sine, "\"sine\"");
+  stray("file", !r.file.empty(), r.shape == Shape::csv, "\"csv\"");
+  stray("column", r.column.has_value(), r.shape == Shape::csv, "\"csv\"");
+}
+
+void check_ramp(const Place& p) {
+  const Reference& r = p.r;
+  if (!r.end_s && !r.slope) p.missing("end_s", "give end_s, when it gets there, or slope, its rate");
+  if (r.end_s && r.slope)
+    p.say("slope", written(*r.slope), "contradicts end_s: the rate is given twice", "keep one of the two");
+  if (r.end_s && !(*r.end_s > r.begin_s))
+    p.say("end_s", written(*r.end_s), "must lie behind begin_s = " + written(r.begin_s),
+          "a jump is shape = \"steps\"");
+}
+
+/// Seen less often than twice a turn, a sine looks like another one.
+void check_sine(const Place& p) {
+  const double most_Hz = 0.5 / p.s.pwm.period_s;
+  if (!(p.r.frequency_Hz > 0))
+    p.missing("frequency_Hz", "give its frequency");
+  else if (!(p.r.frequency_Hz < most_Hz))
+    p.say("frequency_Hz", written(p.r.frequency_Hz),
+          "must be below half the controller's sampling rate, " + written(most_Hz) + " Hz",
+          "lower it, or shorten pwm.period_s");
+}
+
+void check_trapezoid(const Place& p) {
+  if (!p.r.slope) p.missing("slope", "give the largest rate, in the unit of control.mode per s");
+  if (!p.r.acceleration) p.missing("acceleration", "give how fast the rate may change, in that unit per s2");
+}
+
+void check_square(const Place& p) {
+  if (p.left_s / (p.r.period_s / 2) > most_half_periods)
+    p.say("period_s", written(p.r.period_s), "is more than a million periods in the run",
+          "lengthen it or shorten duration_s");
+}
+
+void check_rows(const Place& p) {
+  const Reference& r = p.r;
+  if (r.times_s.empty() && r.values.empty())
+    return p.missing("file", "give file = \"NAME.csv\", or times_s and values");
+  // Rows behind the end of the run are allowed: a measurement is as long as it is.
+  const double endless = std::numeric_limits<double>::infinity();
+  check_steps(r.times_s, r.values, p.table, "values", endless, p.out);
+}
+
+void check_steps_of(const Place& p) {
+  check_steps(p.r.times_s, p.r.values, p.table, "values", p.left_s, p.out);
+  if (p.r.times_s.empty()) p.missing("times_s", "give times_s and values");
+}
+
+void check_shape(const Place& p) {
+  switch (p.r.shape) {
+    case Shape::constant:
+      return;
+    case Shape::steps:
+      return check_steps_of(p);
+    case Shape::square:
+      return check_square(p);
+    case Shape::ramp:
+      return check_ramp(p);
+    case Shape::sine:
+      return check_sine(p);
+    case Shape::trapezoid:
+      return check_trapezoid(p);
+    case Shape::csv:
+      return check_rows(p);
+  }
+}
+
+/// The key that holds the largest value.
+const char* value_key(const Reference& r) {
+  switch (r.shape) {
+    case Shape::constant:
+      return "value";
+    case Shape::steps:
+      return "values";
+    case Shape::square:
+      return "high";
+    case Shape::ramp:
+    case Shape::trapezoid:
+      return r.start && std::fabs(*r.start) > std::fabs(r.end) ? "start" : "end";
+    case Shape::sine:
+      return "amplitude";
+    case Shape::csv:
+      return r.file.empty() ? "values" : "file";
+  }
+  return "value";
+}
+
+/// Each reference alone, so that a duty out of range is told of the one that holds it.
+void check_duty(const Place& p) {
+  if (p.s.control.mode != control::Mode::duty) return;
+  Scenario alone;
+  alone.duration_s = p.left_s;
+  alone.reference = p.r;
+  if (const double largest = largest_reference(alone); largest > 1.0)
+    p.say(value_key(p.r), written(largest), "must lie from -1 to 1 in duty mode", cure_of_duty(largest));
+}
+
+void check_one(const Place& p) {
+  const std::size_t before = p.out.size();
+  check_unit(p);
+  check_strays(p);
+  check_shape(p);
+  if (p.out.size() == before) check_duty(p);
+}
+
+}  // namespace
+
+void check_steps(const std::vector<double>& times, const std::vector<double>& values,
+                 const std::string& table, const char* value_key, double duration_s, base::Problems& out) {
+  if (times.size() != values.size())
+    out.push_back({table + "." + value_key, std::to_string(values.size()) + " entries",
+                   "must be as many as times_s, which has " + std::to_string(times.size()),
+                   "give one value per time"});
+  for (std::size_t n = 0; n < times.size(); ++n) {
+    if (times[n] < 0 || (n > 0 && !(times[n] > times[n - 1])))
+      out.push_back({table + ".times_s", written(times[n]), "must rise from entry to entry, from 0 on",
+                     "sort the times"});
+    else if (!(times[n] < duration_s))
+      out.push_back({table + ".times_s", written(times[n]),
+                     "lies behind the end of the run (duration_s = " + written(duration_s) + ")",
+                     "lengthen duration_s or drop the entry"});
+  }
+}
+
+void check_references(const Scenario& s, base::Problems& out) {
+  check_one({s.reference, "reference", s.duration_s, s, out});
+  for (std::size_t n = 0; n < s.at.size(); ++n)
+    if (s.at[n].reference)
+      check_one({*s.at[n].reference, "at[" + std::to_string(n) + "].reference", s.duration_s - s.at[n].time_s,
+                 s, out});
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is wrong with a scenario's references beyond the range of single values.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sixstep/base/problem.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+/// Times and values of steps: as many of both, rising, within the run. `what` is where they end, in words.
+void check_steps(const std::vector<double>& times, const std::vector<double>& values,
+                 const std::string& table, const char* value_key, double duration_s, base::Problems& out);
+
+/// [reference] and those of [[at]].
+void check_references(const Scenario& scenario, base::Problems& out);
+
+/// What else [[at]] asks for.
+void check_events(const Scenario& scenario, base::Problems& out);
+
+}  // namespace sixstep::study

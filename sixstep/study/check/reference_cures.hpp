@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What to write instead of a reference that its mode cannot have.
+#pragma once
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+
+namespace sixstep::study {
+
+/// Who gave a unit knows what the reference is: the mode that has it was probably meant.
+inline std::string cure_of_unit(std::string_view unit, control::Mode mode) {
+  const std::string in_mode = "give the reference in \"" + std::string(reference_unit(mode)) + "\"";
+  for (const auto& choice : mode_choices)
+    if (!unit.empty() && reference_unit(choice.value) == unit)
+      return "set control.mode = \"" + std::string(choice.word) + "\", or " + in_mode;
+  return in_mode + " or change control.mode";
+}
+
+/// A duty is a share of the period; who writes 50 means percent.
+inline std::string cure_of_duty(double value) {
+  std::string what = "a duty is the signed share of the period that the switch is on";
+  if (!(std::fabs(value) <= 100.0)) return what;
+  return "write " + base::written(value / 100.0) + " for " + base::written(value) + " %: " + what;
+}
+
+}  // namespace sixstep::study

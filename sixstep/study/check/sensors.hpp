@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is wrong with the scenario's sensors beyond the range of single values.
+#pragma once
+#include "sixstep/base/problem.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+void check_sensors(const Scenario& scenario, base::Problems& out);
+
+}  // namespace sixstep::study

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/compile/arithmetic.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/study/compile/basis.hpp"
+#include "sixstep/study/compile/timeline.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+using control::Mode;
+
+/// What the drive needs; where a file names a full scale, the base that this makes of 1.0.
+template <class Scalar>
+design::Bases bases_of(const Scenario& s, const Compiled& c, const design::OperatingRange& range) {
+  constexpr int before_the_point =
+      control::detail::Widths<typename Scalar::Storage>::bits - 1 - Scalar::fraction_bits;
+  design::Bases bases = design::bases_for(c.drive, range, static_cast<double>(Scalar::max()));
+  const FullScale& chosen = s.control.full_scale;
+  const auto take = [](double& base, const std::optional<double>& full_scale) {
+    if (full_scale) base = std::ldexp(*full_scale, -before_the_point);
+  };
+  take(bases.current_A, chosen.current_A);
+  take(bases.voltage_V, chosen.voltage_V);
+  take(bases.speed_rad_s, chosen.speed_rad_s);
+  take(bases.position_deg, chosen.position_deg);
+  return bases;
+}
+
+/// The proof speaks of the drive's quantities; a reader knows the scenario's keys.
+base::Problems under_the_key(const Scenario& s, const base::Problems& problems) {
+  const std::string word(base::word(arithmetic_choices, s.control.arithmetic));
+  base::Problems out;
+  for (const base::Problem& p : problems)
+    out.push_back({"control.arithmetic", "\"" + word + "\"",
+                   "cannot hold this drive: " + p.where + " = " + p.value + " " + p.limit,
+                   p.cure + " (bases: control.full_scale)"});
+  return out;
+}
+
+/// Speed from captured edges (hall_speed.hpp): (pi/3)/p f_timer k is a wide number of the format's digits.
+template <class Scalar>
+base::Problems unheld_speed(const Scenario& s, const Compiled& c, const design::Bases& b) {
+  if (s.sensors.rotor != RotorSensing::hall) return {};
+  using Wide = typename Scalar::WideInt;
+  const double ratio = base::pi / 3 / c.motor.machine.pole_pairs * s.sensors.capture_Hz;
+  const double digits =
+      ratio * s.sensors.speed_edges / b.speed_rad_s / static_cast<double>(Scalar::from_raw(1));
+  const double most = static_cast<double>(control::detail::greatest<Wide>);
+  if (digits <= most) return {};
+  return {{"sensors.capture_Hz", base::written(s.sensors.capture_Hz),
+           "times speed_edges is " + base::written(digits / most) + " times what the format's sum holds",
+           "take a slower timer, fewer edges, or a 32-bit format"}};
+}
+
+rig::Units units_of(Mode mode, const design::Bases& b) {
+  return {b.current_A, b.voltage_V, b.speed_rad_s, b.position_deg, design::setpoint_base(mode, b)};
+}
+
+template <class Scalar>
+control::DriveExtras<Scalar> extras_in(const control::DriveExtras<double>& x) {
+  const auto s = [](double v) { return static_cast<Scalar>(v); };
+  const control::LimitsConfig<double>& l = x.limits;
+  return {.on = x.on,
+          .slews_setpoint = x.slews_setpoint,
+          .slew = {s(x.slew.step)},
+          .limits_current = x.limits_current,
+          .limits = {s(l.current_A), l.limits_speed, s(l.speed_rad_s), s(l.A_per_rad_s),
+                     l.limits_regeneration, s(l.bus_V), s(l.A_per_V)},
+          .torque_fraction_per_A = s(x.torque_fraction_per_A),
+          .feed_forward = {s(x.feed_forward.K_t_V_s)},
+          .bus = {s(x.bus.lowest_bus_V)},
+          .smooth_chopping = x.smooth_chopping,
+          .chopping = {s(x.chopping.soft_above_A), s(x.chopping.complementary_below_A)},
+          .positional_speed = x.positional_speed,
+          .speed = {s(x.speed.K), s(x.speed.K_i), s(x.speed.K_b), s(x.speed.limit)},
+          .speed_derivative = {s(x.speed_derivative.g), s(x.speed_derivative.b)}};
+}
+
+template <class Scalar>
+control::ProtectedConfig<Scalar> product_in_float(const control::ProtectedConfig<double>& c) {
+  const auto s = [](double v) { return static_cast<Scalar>(v); };
+  const auto adc = [&](const control::AdcConfig<double>& a) {
+    return control::AdcConfig<Scalar>{s(a.per_eighth), a.offset_counts, a.offset_tolerance, a.log2_samples};
+  };
+  const control::FaultConfig<double>& f = c.faults;
+  return {.drive = in_arithmetic<Scalar>(c.drive),
+          .setpoint_limit = s(c.setpoint_limit),
+          .sensing = c.sensing,
+          .current_adc = {adc(c.current_adc[0]), adc(c.current_adc[1]), adc(c.current_adc[2])},
+          .bus_adc = adc(c.bus_adc),
+          .shunt = {s(c.shunt.least_duty), c.shunt.commutation_samples, s(c.shunt.fade)},
+          .hall = c.hall,
+          .speed = {s(c.speed.sector_rad_s_ticks), c.speed.timeout_ticks, c.speed.edges},
+          .position = {s(c.position.per_sector), s(c.position.per_fraction)},
+          .advance = {s(c.advance.fixed), s(c.advance.per_speed), s(c.advance.limit)},
+          .faults = {s(f.over_current_A), s(f.over_voltage_V), s(f.under_voltage_V), s(f.over_speed_rad_s),
+                     s(f.stall_current_A), f.stall_ticks, f.voltage_ticks},
+          .align = {s(c.align.current_A), c.align.ticks, c.align.settled_ticks, c.align.sector},
+          .brake_current_A = s(c.brake_current_A),
+          .short_below_rad_s = s(c.short_below_rad_s),
+          .standing_rad_s = s(c.standing_rad_s)};
+}
+
+}  // namespace
+
+template <class Scalar>
+control::DriveConfig<Scalar> in_arithmetic(const control::DriveConfig<double>& c) {
+  const auto s = [](double v) { return static_cast<Scalar>(v); };
+  return {.mode = c.mode,
+          .chopping = c.chopping,
+          .current_control = c.current_control,
+          .current = {s(c.current.d1), s(c.current.d0), s(c.current.limit)},
+          .hysteresis = {s(c.hysteresis.band_A), c.hysteresis.watch},
+          .nominal_bus_V = s(c.nominal_bus_V),
+          .speed = {s(c.speed.d1), s(c.speed.d0), s(c.speed.limit)},
+          .current_at_full_torque_A = s(c.current_at_full_torque_A),
+          .current_limit_A = s(c.current_limit_A),
+          .position_gain = s(c.position_gain),
+          .speed_limit_rad_s = s(c.speed_limit_rad_s),
+          .speed_control = c.speed_control,
+          .extras = extras_in<Scalar>(c.extras)};
+}
+template control::DriveConfig<float> in_arithmetic(const control::DriveConfig<double>&);
+template control::DriveConfig<double> in_arithmetic(const control::DriveConfig<double>&);
+
+design::OperatingRange operating_range(const Scenario& s, const Compiled& c) {
+  const double U = std::max(highest_supply_V(s), c.start.bus_V), K_t = c.motor.K_t_Nm_A;
+  const double asked = largest_reference(s);
+  design::OperatingRange range;
+  range.bus_V = std::max(U, s.control.regeneration.limit_V.value_or(0.0));
+  range.setpoint = asked;
+  range.speed_rad_s = std::max(U / K_t, std::fabs(c.start.speed_rad_s));
+  range.position_deg = std::max(asked, std::fabs(c.start.angle_rad) * 180.0 / base::pi);
+  const double drivable = (U + K_t * range.speed_rad_s) / (2 * c.motor.machine.R_ohm);
+  const Mode mode = s.control.mode;
+  const bool has_reference = mode == Mode::current || mode == Mode::speed || mode == Mode::position;
+  const double reference = mode == Mode::current ? asked : c.drive.current_limit_A;
+  range.current_A = has_reference && reference > 0 ? std::min(2 * reference, drivable) : drivable;
+  if (!c.product) return range;
+  range.current_A = c.board.sensors.current.range;
+  range.bus_V = c.board.sensors.bus.range;
+  range.speed_rad_s = std::max(range.speed_rad_s, c.product->faults.over_speed_rad_s);
+  return range;
+}
+
+template <class Scalar>
+base::Result<DriveIn<Scalar>> drive_in(const Scenario& s, const Compiled& c) {
+  if constexpr (std::is_arithmetic_v<Scalar>) {
+    return DriveIn<Scalar>{in_arithmetic<Scalar>(c.drive), {}};
+  } else {
+    const design::OperatingRange range = operating_range(s, c);
+    const auto scaled = design::scaled<Scalar>(c.drive, range, bases_of<Scalar>(s, c, range));
+    if (!scaled) return under_the_key(s, scaled.problems());
+    const design::Bases& b = scaled->bases;
+    if (base::Problems problems = unheld_speed<Scalar>(s, c, b); !problems.empty()) return problems;
+    return DriveIn<Scalar>{scaled->config, units_of(s.control.mode, b)};
+  }
+}
+
+template <class Scalar>
+base::Result<ProductIn<Scalar>> product_in(const Scenario& s, const Compiled& c) {
+  if constexpr (std::is_arithmetic_v<Scalar>) {
+    return ProductIn<Scalar>{product_in_float<Scalar>(*c.product), {}};
+  } else {
+    const design::OperatingRange range = operating_range(s, c);
+    const auto scaled =
+        design::scaled_product<Scalar>(*c.product, range, bases_of<Scalar>(s, c, range), s.sensors.adc_bits);
+    if (!scaled) return under_the_key(s, scaled.problems());
+    return ProductIn<Scalar>{scaled->config, units_of(s.control.mode, scaled->bases)};
+  }
+}
+
+template base::Result<ProductIn<double>> product_in(const Scenario&, const Compiled&);
+template base::Result<ProductIn<float>> product_in(const Scenario&, const Compiled&);
+template base::Result<ProductIn<control::Q15>> product_in(const Scenario&, const Compiled&);
+template base::Result<ProductIn<control::Q31>> product_in(const Scenario&, const Compiled&);
+template base::Result<ProductIn<control::Q14>> product_in(const Scenario&, const Compiled&);
+template base::Result<ProductIn<control::Q30>> product_in(const Scenario&, const Compiled&);
+template base::Result<DriveIn<double>> drive_in(const Scenario&, const Compiled&);
+template base::Result<DriveIn<float>> drive_in(const Scenario&, const Compiled&);
+template base::Result<DriveIn<control::Q15>> drive_in(const Scenario&, const Compiled&);
+template base::Result<DriveIn<control::Q31>> drive_in(const Scenario&, const Compiled&);
+template base::Result<DriveIn<control::Q14>> drive_in(const Scenario&, const Compiled&);
+template base::Result<DriveIn<control::Q30>> drive_in(const Scenario&, const Compiled&);
+
+}  // namespace sixstep::study

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The drive that was designed in double, in the number its chip computes in: the same figures as float, or
+// scaled to fixed point with a proof that they fit.
+#pragma once
+#include "sixstep/design/product_scaling.hpp"
+#include "sixstep/rig/units.hpp"
+#include "sixstep/study/compile/compile.hpp"
+
+namespace sixstep::study {
+
+/// What the loops may meet in this scenario, in magnitude:
+///   current   twice the largest reference or limit, which leaves room for the overshoot of a reversal whose
+///             error would saturate (7.3.1 turning shows it), at most the bus and a back-EMF against it over
+///             R
+///   speed     what the bus reaches without load and loss, U/K_t, and the speed of the start
+///   position  the largest reference and the start
+///   bus       the source, and the bus of the start
+/// The product drive meets what its converters span, and a speed that its threshold can pass.
+design::OperatingRange operating_range(const Scenario& scenario, const Compiled& compiled);
+
+/// The same controller in float or double.
+template <class Scalar>
+control::DriveConfig<Scalar> in_arithmetic(const control::DriveConfig<double>& c);
+
+template <class Scalar>
+struct DriveIn {
+  control::DriveConfig<Scalar> config;
+  rig::Units units;
+};
+
+/// Problems name the quantity that the format cannot hold, under the key control.arithmetic.
+/// Instantiated for float, double, Q15, Q31 and the formats with one bit before the point.
+template <class Scalar>
+base::Result<DriveIn<Scalar>> drive_in(const Scenario& scenario, const Compiled& compiled);
+
+/// The product drive alike, of a scenario whose chip runs it.
+template <class Scalar>
+struct ProductIn {
+  control::ProtectedConfig<Scalar> config;
+  rig::Units units;
+};
+template <class Scalar>
+base::Result<ProductIn<Scalar>> product_in(const Scenario& scenario, const Compiled& compiled);
+
+}  // namespace sixstep::study

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a compiled scenario's parts are designed on, and the parts that have a file of their own.
+#pragma once
+#include "sixstep/study/compile/compile.hpp"
+
+namespace sixstep::study {
+
+/// What the controller is designed on: the motor at hand, or the nominal one of a series.
+struct Basis {
+  const design::MotorModel& motor;
+  plant::Shaft shaft;
+  double bus_V;
+};
+
+/// Settling time of the current loop, as designed: the thesis's (chapter 6) where the scenario names none.
+double current_settling_s(const Scenario& scenario);
+
+/// Sets drive.extras (drive_extras.hpp) where the scenario asks for any; `drive` has its loops already.
+void add_extras(const Scenario& scenario, const Basis& basis, control::DriveConfig<double>& drive);
+
+/// The product drive around `drive`, in SI (protected_drive.hpp).
+control::ProtectedConfig<double> product_around(const Scenario& scenario, const Basis& basis,
+                                                const control::DriveConfig<double>& drive,
+                                                const rig::SensorsConfig& sensors);
+
+}  // namespace sixstep::study

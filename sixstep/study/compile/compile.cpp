@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/compile/compile.hpp"
+
+#include <algorithm>
+
+#include "sixstep/base/elementary.hpp"
+#include "sixstep/study/compile/basis.hpp"
+#include "sixstep/study/compile/timeline.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+// The thesis's design inputs (chapter 6), used where a scenario names none.
+constexpr double current_settle_s = 1e-3, speed_settle_s = 10e-3, usual_damping = 0.9;
+
+/// The loop's gains as given, else by pole placement; the exact design is derived beside given gains too.
+template <class Loop>
+base::Result<LoopGains> loop_gains(const Loop& loop, const std::string& name, const design::ZohPlant& plant,
+                                   double usual_settle_s, double period_s) {
+  LoopGains out;
+  out.loop = name;
+  const double settle = loop.settle_s.value_or(usual_settle_s),
+               damping = loop.damping.value_or(usual_damping);
+  base::Result<design::PolePlacement> placed = design::place_poles(plant, settle, damping, period_s);
+  const GivenGains given = given_gains(loop, "control." + name);
+  if (!given.problems.empty()) return given.problems;
+  if (!placed && !given.gains) return placed.problems();
+  if (placed) out.derivation = *placed;
+  out.d1 = given.gains ? given.gains->d1 : placed->gains.d1;
+  out.d0 = given.gains ? given.gains->d0 : placed->gains.d0;
+  out.origin = given.gains ? given.origin : "pole placement from settle_s and damping";
+  return out;
+}
+
+plant::Shaft shaft_of(const design::MotorModel& motor, const Load& load) {
+  plant::Shaft shaft = motor.shaft;
+  shaft.J_kg_m2 += load.inertia_kg_m2;
+  shaft.B_Nm_s += load.viscous_Nm_s;
+  shaft.coulomb_Nm += load.coulomb_Nm;
+  shaft.static_Nm = load.static_Nm;
+  shaft.locked = load.locked;
+  return shaft;
+}
+
+/// The duty above which the middle of the period lies in the on-time, and the amplifier has settled.
+double least_visible_duty(const Scenario& s) {
+  const double settle = s.sensors.shunt_settle_s / s.pwm.period_s;
+  const double duty = s.pwm.alignment == Alignment::centre ? 2 * settle : 0.5 + settle;
+  return std::min(duty, 1.0);
+}
+
+rig::SensorsConfig sensors_of(const Scenario& s, double L_over_R_s) {
+  const Sensors& from = s.sensors;
+  rig::SensorsConfig to;
+  to.currents = from.currents;
+  to.current = {from.adc_bits,
+                from.current_range_A.value_or(0.0),
+                true,
+                from.current_offset_A,
+                from.current_gain_error,
+                from.current_noise_A};
+  to.calibrated = from.calibrated;
+  to.least_duty = least_visible_duty(s);
+  to.commutation_samples = static_cast<std::uint8_t>(from.commutation_samples);
+  to.fade = base::exp(-s.pwm.period_s / L_over_R_s);
+  to.measures_bus = from.bus == BusSensing::adc;
+  to.bus = {from.adc_bits,   from.bus_range_V.value_or(0.0), false, from.bus_offset_V, from.bus_gain_error,
+            from.bus_noise_V};
+  to.rotor_from_hall = from.rotor == RotorSensing::hall;
+  to.decodes_hall = breaks_a_hall_line(s);
+  to.capture_Hz = from.capture_Hz;
+  to.timeout_s = from.timeout_s;
+  to.edges = static_cast<std::uint8_t>(from.speed_edges);
+  to.seed = static_cast<std::uint64_t>(from.seed);
+  return to;
+}
+
+rig::BoardConfig board_of(const Scenario& s, double L_over_R_s) {
+  rig::BoardConfig board;
+  board.modulator.period_ticks = sim::to_instant(s.pwm.period_s).ticks;
+  board.modulator.centre_aligned = s.pwm.alignment == Alignment::centre;
+  board.modulator.dead_ticks = static_cast<double>(sim::to_instant(s.bridge.dead_time_s).ticks);
+  board.modulator.dead_time_at_commutation = s.bridge.dead_time_at_commutation;
+  board.modulator.timer_ticks = s.pwm.timer_Hz > 0 ? sim::ticks_per_second / s.pwm.timer_Hz : 0.0;
+  board.commutate_at_sample = s.pwm.commutation == CommutationAt::sample;
+  board.delayed = s.pwm.delay_periods > 0;
+  board.sampled_in_middle = s.pwm.sample == SampleAt::middle;
+  board.sensors = sensors_of(s, L_over_R_s);
+  return board;
+}
+
+control::Watch watch_of(const CurrentLoop& loop) {
+  if (loop.comparator == Comparator::sampled) return control::Watch::none;
+  return loop.on == HysteresisOn::motor ? control::Watch::motor : control::Watch::phase;
+}
+
+base::Problems add_current_loop(const Scenario& s, const Basis& basis, Compiled& out) {
+  if (s.control.current.type != CurrentLoopType::pi) return {};
+  const design::ZohPlant plant =
+      design::current_plant(2 * basis.motor.machine.R_ohm, 2 * basis.motor.machine.L_H, s.pwm.period_s);
+  base::Result<LoopGains> gains =
+      loop_gains(s.control.current, "current", plant, current_settle_s, s.pwm.period_s);
+  if (!gains) return gains.problems();
+  out.drive.current = {gains->d1, gains->d0, basis.bus_V};
+  out.gains.push_back(*gains);
+  return {};
+}
+
+/// What the speed controller's output does to the speed: torque at once, or the bus through the winding,
+/// whose inductance is too fast to count (thesis 6.2.2): J dw/dt = K_t (d U - K_t w)/R - B w.
+design::ZohPlant speed_plant_of(const Scenario& s, const Basis& basis, double torque_limit_Nm) {
+  const plant::Shaft& shaft = basis.shaft;
+  if (s.control.speed.output == SpeedOutput::current)
+    return design::speed_plant(torque_limit_Nm, shaft.J_kg_m2, shaft.B_Nm_s, s.pwm.period_s);
+  const double K_t = basis.motor.K_t_Nm_A, per_V = K_t / (2 * basis.motor.machine.R_ohm);
+  return design::speed_plant(per_V * basis.bus_V, shaft.J_kg_m2, shaft.B_Nm_s + per_V * K_t, s.pwm.period_s);
+}
+
+base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Compiled& out) {
+  const double torque_limit = s.control.speed.torque_limit_Nm.value_or(basis.motor.stall_torque_Nm);
+  base::Result<LoopGains> gains = loop_gains(s.control.speed, "speed", speed_plant_of(s, basis, torque_limit),
+                                             speed_settle_s, s.pwm.period_s);
+  if (!gains) return gains.problems();
+  out.drive.speed = {gains->d1, gains->d0, 1.0};
+  out.gains.push_back(*gains);
+  if (s.control.speed.output == SpeedOutput::duty) {
+    out.drive.speed_control = control::SpeedControl::duty;
+    return {};
+  }
+  out.drive.current_at_full_torque_A = torque_limit / basis.motor.K_t_Nm_A;
+  out.drive.current_limit_A = s.control.current.limit_A.value_or(out.drive.current_at_full_torque_A);
+  // A bound behind the PI that the PI does not know of would let its integral wind up.
+  if (out.drive.current_limit_A < out.drive.current_at_full_torque_A)
+    out.drive.speed.limit = out.drive.current_limit_A / out.drive.current_at_full_torque_A;
+  return {};
+}
+
+base::Problems add_loops(const Scenario& s, const Basis& basis, Compiled& out) {
+  const control::Mode mode = s.control.mode;
+  if (mode == control::Mode::off || mode == control::Mode::duty) return {};
+  const bool has_current_loop =
+      mode == control::Mode::current || s.control.speed.output == SpeedOutput::current;
+  if (has_current_loop)
+    if (base::Problems problems = add_current_loop(s, basis, out); !problems.empty()) return problems;
+  if (mode == control::Mode::current) return {};
+  if (base::Problems problems = add_speed_loop(s, basis, out); !problems.empty()) return problems;
+  if (mode == control::Mode::speed) return {};
+  out.drive.position_gain = s.control.position.gain_rad_s_per_deg;
+  out.drive.speed_limit_rad_s =
+      s.control.position.speed_limit_rad_s.value_or(basis.bus_V / basis.motor.K_t_Nm_A);
+  out.gains.push_back(
+      {"position", out.drive.position_gain, 0.0, "given as gain_rad_s_per_deg", std::nullopt});
+  return {};
+}
+
+}  // namespace
+
+double current_settling_s(const Scenario& s) { return s.control.current.settle_s.value_or(current_settle_s); }
+
+template <class Loop>
+GivenGains given_gains(const Loop& loop, const std::string& where) {
+  GivenGains out;
+  const bool d = loop.d1 || loop.d0, k = loop.kp || loop.ki, rule = loop.settle_s || loop.damping;
+  const auto wrong = [&](const char* key, const char* limit, const char* cure) {
+    out.problems.push_back({where + "." + key, "", limit, cure});
+  };
+  if (d && (k || rule))
+    wrong(loop.d1 ? "d1" : "d0",
+          k ? "contradicts kp, ki: the same gains are given twice"
+            : "contradicts settle_s, damping: gains are either given or designed",
+          "keep one of: d1 and d0 | kp and ki | settle_s and damping");
+  else if (k && rule)
+    wrong(loop.kp ? "kp" : "ki", "contradicts settle_s, damping: gains are either given or designed",
+          "keep one of: d1 and d0 | kp and ki | settle_s and damping");
+  else if (d && !(loop.d1 && loop.d0))
+    wrong(loop.d1 ? "d1" : "d0", "is only half of the gains", loop.d1 ? "give d0 too" : "give d1 too");
+  else if (k && !(loop.kp && loop.ki))
+    wrong(loop.kp ? "kp" : "ki", "is only half of the gains", loop.kp ? "give ki too" : "give kp too");
+  else if (d)
+    out = {design::PiGains{*loop.d1, *loop.d0}, "given as d1, d0", {}};
+  else if (k)
+    out = {design::PiGains{*loop.kp, *loop.ki - *loop.kp}, "given as kp, ki", {}};
+  return out;
+}
+template GivenGains given_gains<CurrentLoop>(const CurrentLoop&, const std::string&);
+template GivenGains given_gains<SpeedLoop>(const SpeedLoop&, const std::string&);
+
+base::Result<Compiled> compile(const Scenario& s) {
+  base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
+  if (!motor) return motor.problems();
+  const Nominal* nominal = s.designed_for ? &*s.designed_for : nullptr;
+  const base::Result<design::MotorModel> designed = nominal ? design::motor_model(nominal->sheet) : motor;
+  if (!designed) return designed.problems();
+  const Basis basis{*designed, shaft_of(*designed, nominal ? nominal->load : s.load),
+                    nominal ? nominal->supply.voltage_V : s.supply.voltage_V};
+  Compiled out;
+  out.motor = *motor;
+  out.shaft = shaft_of(out.motor, s.load);
+  out.devices = {s.bridge.on_resistance_ohm, s.bridge.diode_drop_V, s.bridge.diode_resistance_ohm};
+  out.supply = {s.supply.voltage_V, s.supply.resistance_ohm, s.supply.capacitance_F, s.supply.sinks};
+  out.start = {s.initial.speed_rad_s, s.initial.angle_rad, s.initial.bus_V.value_or(s.supply.voltage_V)};
+  out.board = board_of(s, basis.motor.machine.L_H / basis.motor.machine.R_ohm);
+  out.timeline = timeline_of(s);
+  out.end = sim::to_instant(s.duration_s);
+  out.drive.mode = s.control.mode;
+  out.drive.chopping = s.pwm.chopping;
+  out.drive.nominal_bus_V = basis.bus_V;
+  out.drive.current_control = s.control.current.type == CurrentLoopType::pi
+                                  ? control::CurrentControl::pi
+                                  : control::CurrentControl::hysteresis;
+  out.drive.hysteresis = {s.control.current.band_A, watch_of(s.control.current)};
+  if (base::Problems problems = add_loops(s, basis, out); !problems.empty()) return problems;
+  add_extras(s, basis, out.drive);
+  if (s.control.drive == Drive::product) out.product = product_around(s, basis, out.drive, out.board.sensors);
+  return out;
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenario -> what a run is made of: plant parameters, controller configuration, board, timeline, gains with
+// their origin.
+#pragma once
+#include "sixstep/base/result.hpp"
+#include "sixstep/control/protected_drive.hpp"
+#include "sixstep/rig/rig.hpp"
+#include "sixstep/study/measure/outcome.hpp"
+#include "sixstep/study/scenario/reference_course.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+struct Compiled {
+  design::MotorModel motor;
+  plant::Shaft shaft;  ///< the motor's with the load's share added
+  plant::Devices devices;
+  plant::Supply supply;
+  plant::Start start;
+  rig::BoardConfig board;
+  rig::Timeline timeline;
+  control::DriveConfig<double> drive;
+  std::optional<control::ProtectedConfig<double>> product;  ///< around the drive, where the chip runs it
+  std::vector<LoopGains> gains;
+  sim::Instant end;
+};
+
+/// Assumes that check() found nothing.
+base::Result<Compiled> compile(const Scenario& scenario);
+
+/// Gains given in more than one way, or half: Problems; else whether any were given at all.
+struct GivenGains {
+  std::optional<design::PiGains> gains;
+  std::string origin;
+  base::Problems problems;
+};
+template <class Loop>
+GivenGains given_gains(const Loop& loop, const std::string& where);
+
+}  // namespace sixstep::study

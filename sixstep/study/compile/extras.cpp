@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scenario adds inside the drive's loops.
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/study/compile/basis.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+using control::Mode;
+
+/// The most current that the reference may ask for without a limit: the window's start.
+double unlimited_current(const Scenario& s, const control::DriveConfig<double>& drive) {
+  return s.control.mode == Mode::current ? std::max(drive.current_limit_A, largest_reference(s))
+                                         : drive.current_limit_A;
+}
+
+/// limits.hpp. Without gains of their own, the bus comes to rest below its limit as exp(-g t/C), which ten
+/// periods make slow against the sampling; and the speed below its limit with J/(K_t K), which the settling
+/// time of the current loop makes slow against that loop.
+void add_limits(const Scenario& s, const Basis& basis, control::DriveConfig<double>& drive) {
+  const Limits& wanted = s.control.limits;
+  const Regeneration& regeneration = s.control.regeneration;
+  if (!wanted.current_A && !wanted.torque_Nm && !wanted.speed_rad_s && !regeneration.limit_V) return;
+  const double K_t = basis.motor.K_t_Nm_A, J = basis.shaft.J_kg_m2;
+  control::DriveExtras<double>& extras = drive.extras;
+  extras.on = extras.limits_current = true;
+  control::LimitsConfig<double>& l = extras.limits;
+  l.current_A = unlimited_current(s, drive);
+  if (wanted.current_A) l.current_A = std::min(l.current_A, *wanted.current_A);
+  if (wanted.torque_Nm) l.current_A = std::min(l.current_A, *wanted.torque_Nm / K_t);
+  if (wanted.speed_rad_s) {
+    l.limits_speed = true;
+    l.speed_rad_s = *wanted.speed_rad_s;
+    l.A_per_rad_s = wanted.gain_A_s_per_rad.value_or(J / (K_t * current_settling_s(s)));
+  }
+  if (regeneration.limit_V) {
+    l.limits_regeneration = true;
+    l.bus_V = *regeneration.limit_V;
+    l.A_per_V = regeneration.gain_A_per_V.value_or(s.supply.capacitance_F / (10 * s.pwm.period_s));
+  }
+  if (drive.current_at_full_torque_A > 0) extras.torque_fraction_per_A = 1 / drive.current_at_full_torque_A;
+}
+
+/// smooth_chopping.hpp: the lower level above half of the largest ripple, U T/(4 L_tt)/2.
+void add_smooth_chopping(const Scenario& s, const Basis& basis, control::DriveExtras<double>& extras) {
+  if (!s.control.smooth_chopping.on) return;
+  const double half_ripple_A = basis.bus_V * s.pwm.period_s / (8 * 2 * basis.motor.machine.L_H);
+  const double below = s.control.smooth_chopping.complementary_below_A.value_or(half_ripple_A);
+  extras.on = extras.smooth_chopping = true;
+  extras.chopping = {.soft_above_A = s.control.smooth_chopping.soft_above_A.value_or(2 * below),
+                     .complementary_below_A = below};
+}
+
+/// The gains of drive.speed in positional form, and D = K T_d s/(T_f s + 1) of the measured speed.
+void add_speed_form(const Scenario& s, control::DriveConfig<double>& drive) {
+  const SpeedLoop& loop = s.control.speed;
+  const bool runs_speed = s.control.mode == Mode::speed || s.control.mode == Mode::position;
+  if (loop.form != SpeedForm::positional || !runs_speed) return;
+  control::DriveExtras<double>& extras = drive.extras;
+  extras.on = extras.positional_speed = true;
+  const double K = drive.speed.d1, K_i = drive.speed.d1 + drive.speed.d0;
+  const double usual = K > 0 ? std::clamp(K_i / K, 0.0, 1.0) : 1.0;
+  extras.speed = {K, K_i, loop.anti_windup.value_or(usual), drive.speed.limit};
+  if (!loop.derivative_s) return;
+  const double T_d = *loop.derivative_s, T_f = loop.derivative_filter_s.value_or(T_d / 10),
+               T = s.pwm.period_s;
+  extras.speed_derivative = {K * T_d / (T_f + T), T / (T_f + T)};
+}
+
+}  // namespace
+
+void add_extras(const Scenario& s, const Basis& basis, control::DriveConfig<double>& drive) {
+  control::DriveExtras<double>& extras = drive.extras;
+  add_limits(s, basis, drive);
+  add_smooth_chopping(s, basis, extras);
+  add_speed_form(s, drive);
+  if (s.control.slew) {
+    extras.on = extras.slews_setpoint = true;
+    extras.slew.step = *s.control.slew * s.pwm.period_s;
+  }
+  if (s.control.current.back_emf_feed_forward) {
+    extras.on = true;
+    extras.feed_forward.K_t_V_s = basis.motor.K_t_Nm_A;
+  }
+  if (s.control.current.measured_bus_from_V) {
+    extras.on = true;
+    extras.bus.lowest_bus_V = *s.control.current.measured_bus_from_V;
+  }
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reference, load steps, broken lines, requests and [[at]] events as the one sorted timeline of a run.
+#pragma once
+#include "sixstep/rig/timeline.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+/// Assumes that check() found nothing.
+rig::Timeline timeline_of(const Scenario& scenario);
+
+/// Whether a Hall line breaks anywhere in the run.
+bool breaks_a_hall_line(const Scenario& scenario);
+
+/// The highest voltage of the source during the run.
+double highest_supply_V(const Scenario& scenario);
+
+}  // namespace sixstep::study

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// The torque-speed curve of a motor: from standstill to no load, with what the sheet says beside it and what
+// the winding stands for ever or for a while.
+#pragma once
+#include <array>
+
+#include <optional>
+#include <vector>
+
+#include "sixstep/design/thermal.hpp"
+#include "sixstep/study/curve/no_load.hpp"
+
+namespace sixstep::study {
+
+struct CurveRequest {
+  design::Sheet sheet;
+  Bench bench;
+  int points = 41;  ///< from standstill to no load, both included
+  double ambient_degC = design::sheet_degC;
+};
+
+/// The point that the sheet calls nominal, and the curve at its speed.
+struct NominalPoint {
+  double speed_rad_s = 0.0;
+  std::optional<double> torque_Nm, current_A;  ///< as printed
+  OperatingPoint on_curve;
+};
+
+/// Times for which short-time limits are given, s.
+inline constexpr std::array<double, 2> short_times_s = {10.0, 60.0};
+
+/// What the winding stands at one speed, as shaft torque of a drive that holds the current constant: block
+/// current through two phases, P = I^2 R_tt, and K_t I less friction. Friction warms the housing.
+struct ThermalLimits {
+  double continuous_A = 0.0, continuous_Nm = 0.0;
+  std::array<double, short_times_s.size()> short_A{}, short_Nm{};  ///< from ambient temperature
+};
+
+/// A point of the curve held for good: the winding's temperature in the end, or how long it may last from
+/// ambient temperature. The current is taken as held while the copper warms.
+struct Warming {
+  std::optional<double> winding_degC;   ///< empty where it never comes to rest
+  std::optional<double> permissible_s;  ///< empty: for ever
+};
+
+struct Curve {
+  std::vector<OperatingPoint> points;
+  NoLoad no_load;
+  std::optional<NominalPoint> nominal;
+  std::optional<design::ThermalModel> thermal;
+  std::vector<ThermalLimits> limits;  ///< one per point; empty without thermal lines
+  std::vector<Warming> warming;       ///< likewise
+  base::Problems thermal_missing;     ///< why there are none
+};
+
+/// What comes first: the no-load point, and the speeds that are then independent of each other. The last one
+/// is the sheet's nominal speed, where it has one.
+struct CurvePlan {
+  NoLoad no_load;
+  std::vector<double> speeds_rad_s;
+  bool nominal = false;
+};
+
+base::Problems check(const CurveRequest& request);
+base::Result<CurvePlan> plan_curve(const CurveRequest& request);
+/// `found` are the points at the plan's speeds, in order.
+Curve curve_of(const CurveRequest& request, const CurvePlan& plan, const std::vector<OperatingPoint>& found);
+
+ThermalLimits thermal_limits(const design::ThermalModel& model, const CurveRequest& request,
+                             double speed_rad_s);
+Warming warming(const design::ThermalModel& model, const CurveRequest& request, const OperatingPoint& point);
+
+}  // namespace sixstep::study

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Motor and bridge at duty 1: the gates follow the sector, nothing is chopped. A System for sim::run.
+#pragma once
+#include "sixstep/control/commutation.hpp"
+#include "sixstep/rig/bare_plant.hpp"
+#include "sixstep/sim/run.hpp"
+#include "sixstep/study/curve/bench.hpp"
+#include "sixstep/study/measure/tally.hpp"
+
+namespace sixstep::study {
+
+/// A shaft whose speed nothing changes: 1/J = 0 makes dw/dt zero to the bit, whatever the torque. Friction is
+/// left to whoever asks for the shaft's torque; it cannot act on the currents at a given speed.
+inline plant::Shaft imposed_speed() { return {.J_kg_m2 = std::numeric_limits<double>::infinity()}; }
+
+/// Starts without current, by default in the middle of a sector, so that neither direction starts on an edge.
+inline plant::Plant<double> plant_of(const Bench& b, const plant::Shaft& shaft, double speed_rad_s,
+                                     double sectors = 0.5) {
+  const double angle = sectors * base::sector_rad / b.motor.machine.pole_pairs;
+  return {b.motor.machine, shaft, b.devices, {.V_0_V = b.voltage_V}, {speed_rad_s, angle, b.voltage_V}};
+}
+
+class FullOn : public rig::BarePlant<double> {
+ public:
+  FullOn(const Bench& bench, const plant::Shaft& shaft, double speed_rad_s)
+      : BarePlant(plant_of(bench, shaft, speed_rad_s)), reversed_(bench.duty < 0) {
+    commutate();
+  }
+
+  void apply(int id) {
+    if (!plant_.apply(id)) return;
+    ++edges_;
+    commutate();
+  }
+
+  /// As OpenLoop's, for what does not care which of the two it watches.
+  template <class Observer>
+  sim::Stop run_for(double seconds, Observer& observer) {
+    return sim::run(*this, now_.plus_seconds(seconds), observer).stop;
+  }
+  sim::Stop run_for(double seconds) {
+    sim::NoObserver none;
+    return run_for(seconds, none);
+  }
+
+  /// Until that many edges are passed, with or without a tally; anything but Stop::observer is a defect.
+  sim::Stop run_to_edge(std::int64_t target, Tally* tally = nullptr) {
+    UntilEdge until{target, tally};
+    return sim::run(*this, sim::Instant::never(), until).stop;
+  }
+
+  std::int64_t edges() const { return edges_; }  ///< sector edges passed
+
+ private:
+  struct UntilEdge {
+    std::int64_t target;
+    Tally* tally;
+    void segment(const FullOn& system, double s) {
+      if (tally) tally->segment(system, s);
+    }
+    bool done(const FullOn& system) const { return system.edges() >= target; }
+  };
+  void commutate() {
+    const control::Pair positive = control::positive_pair(static_cast<std::uint8_t>(plant_.sector()));
+    const control::Pair pair = reversed_ ? control::swapped(positive) : positive;
+    plant::Gates gates;
+    gates.high[static_cast<std::size_t>(pair.source)] = true;
+    gates.low[static_cast<std::size_t>(pair.sink)] = true;
+    plant_.set_gates(gates);  // two different legs: no shoot-through
+  }
+
+  std::int64_t edges_ = 0;
+  bool reversed_;
+};
+
+}  // namespace sixstep::study

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The trace's columns: one table says name, unit, frame and meaning (DESIGN "Trace columns").
+#pragma once
+#include <array>
+#include <vector>
+
+#include "sixstep/base/result.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+enum class ColumnId : std::uint8_t {
+  t,
+  i_a,
+  i_b,
+  i_c,
+  u_a,
+  u_b,
+  u_c,
+  u_ab,
+  u_bc,
+  u_ca,
+  e_a,
+  e_b,
+  e_c,
+  speed,
+  angle,
+  torque,
+  bus_V,
+  bus_A,
+  duty,
+  i_m,
+  i_ref,
+  speed_ref,
+  position_ref,
+  load,
+  gate_T1,
+  gate_T2,
+  gate_T3,
+  gate_T4,
+  gate_T5,
+  gate_T6,
+  hall,
+  sector,
+  count
+};
+inline constexpr std::size_t column_count = static_cast<std::size_t>(ColumnId::count);
+using FullRow = std::array<double, column_count>;
+
+/// Whether a column means anything in a mode (a duty run has no current reference): rows hold NaN in others.
+bool applies(ColumnId id, control::Mode mode);
+
+/// Every column there is: t_s i_a_A i_b_A i_c_A u_a_V .. hall.
+const std::vector<Column>& all_columns();
+
+/// Those the scenario's record.columns asks for, t_s always first; Problems name unknown ones.
+base::Result<std::vector<Column>> record_columns(const Scenario& scenario);
+
+/// Indices into the full row of what the scenario records, t first; Problems name unknown columns.
+base::Result<std::vector<std::size_t>> record_indices(const Scenario& scenario);
+
+}  // namespace sixstep::study

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A whole trajectory in 64 bits: two runs with the same digest went through the same bits at every event.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/base/hash.hpp"
+#include "sixstep/plant/state.hpp"
+#include "sixstep/sim/instant.hpp"
+
+namespace sixstep::study {
+
+/// Observer of a run: time, currents, speed, angle and bus where each segment begins, which is where the one
+/// before ended, its event applied. A copy goes on from where the original stood, as a copy of the rig does.
+class Digest {
+ public:
+  template <class Rig, class Real>
+  void segment(const Rig& rig, Real) {
+    take(rig);
+  }
+
+  /// Of all segments seen and of the state the rig is in now, down to the remainders of its running sums.
+  template <class Rig>
+  std::uint64_t after(const Rig& rig) const {
+    Digest whole = *this;
+    whole.take(rig);
+    const auto& s = rig.plant().state();
+    for (const auto& low : s.i_low) whole.hash_.number(static_cast<double>(low));
+    for (const auto& low : {s.w_low, s.x_low, s.bus_low}) whole.hash_.number(static_cast<double>(low));
+    return whole.hash_.value();
+  }
+
+ private:
+  template <class Rig>
+  void take(const Rig& rig) {
+    const sim::Instant now = rig.now();
+    const auto& s = rig.plant().state();
+    hash_.word(static_cast<std::uint64_t>(now.ticks));
+    hash_.number(now.offset);
+    for (const auto& i : s.i) hash_.number(static_cast<double>(i));
+    hash_.number(static_cast<double>(s.w));
+    hash_.word(static_cast<std::uint64_t>(s.sector));
+    hash_.number(static_cast<double>(s.x));
+    hash_.number(static_cast<double>(s.bus));
+  }
+
+  base::Hash hash_;
+};
+
+}  // namespace sixstep::study

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Energies over a window and the efficiency they make: integrals of the same series as the energy book's
+// (plant/segment_energy.hpp).
+#pragma once
+#include <optional>
+
+#include "sixstep/study/measure/signals.hpp"
+#include "sixstep/study/measure/window.hpp"
+
+namespace sixstep::study {
+
+/// The part of the shaft's friction that belongs to the load: what it takes is delivered, not lost.
+struct LoadFriction {
+  double viscous_Nm_s = 0.0, coulomb_Nm = 0.0;
+};
+
+class EnergyGauge {
+ public:
+  EnergyGauge(const Window& window, const LoadFriction& load) : window_(window), load_(load) {}
+
+  void segment(const Glance& g, double s);
+  /// J, of a signal that is a power; empty where the window saw nothing.
+  std::optional<double> energy(Signal signal) const;
+  /// Out over in, 0 to 1. As a motor: energy given to load and inertias over energy from the bus. Braking,
+  /// both flow back: energy into the bus over energy taken from the shaft. 0 where shaft and bus both feed
+  /// the losses. Empty where nothing came in, or the window saw nothing.
+  std::optional<double> efficiency() const;
+
+ private:
+  /// A running sum that keeps what it rounds away.
+  struct Sum {
+    double value = 0.0, low = 0.0;
+    void add(double x) { series::add_compensated(value, low, x); }
+  };
+  void add_up_to(const Glance& g, double s, double sign);
+
+  Window window_;
+  LoadFriction load_;
+  bool seen_ = false;
+  Sum supplied_, copper_, devices_, air_gap_, friction_, load_work_, load_friction_;
+};
+
+}  // namespace sixstep::study

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/measure/figures.hpp"
+
+#include <algorithm>
+
+namespace sixstep::study {
+
+namespace {
+
+/// A window per reference step inside the measure's own window; the step goes from the level before to the
+/// new one. For reaching a square's level the whole level counts, not the part of the reversal: the stricter
+/// reading of "98 %".
+Gauges step_gauges(const Measure& m, const std::vector<Level>& levels, Window window, bool square) {
+  Gauges gauges;
+  for (std::size_t n = 0; n < levels.size(); ++n) {
+    const double from = levels[n].at_s, to = n + 1 < levels.size() ? levels[n + 1].at_s : window.to_s;
+    const double before = n == 0 ? 0.0 : levels[n - 1].value;
+    if (from < window.from_s || !(from < window.to_s) || levels[n].value == before) continue;
+    const bool whole = square && m.metric == MetricKind::reach_time;
+    gauges.emplace_back(m, Window{from, std::min(to, window.to_s)}, levels[n].value,
+                        whole ? 0.0 : m.start.value_or(before));
+  }
+  return gauges;
+}
+
+/// A window per level of the reference that the measure's own window meets: its tail, or, where the window's
+/// begin was chosen, all of it.
+Gauges level_gauges(const Measure& m, const std::vector<Level>& levels, Window window) {
+  const double tail = m.tail.value_or(m.from_s ? 1.0 : default_tail);
+  Gauges gauges;
+  for (std::size_t n = 0; n < levels.size(); ++n) {
+    const double from = std::max(levels[n].at_s, window.from_s);
+    const double to = n + 1 < levels.size() ? std::min(levels[n + 1].at_s, window.to_s) : window.to_s;
+    if (from < to) gauges.emplace_back(m, Window{to - tail * (to - from), to}, levels[n].value, std::nullopt);
+  }
+  return gauges;
+}
+
+Gauges gauges_for(const Measure& m, const Scenario& scenario, const std::vector<Level>& levels) {
+  const Window window{m.from_s.value_or(0.0), m.to_s.value_or(scenario.duration_s)};
+  const bool square = scenario.reference.shape == Shape::square;
+  if (is_of_a_step(m.metric) && !m.level) return step_gauges(m, levels, window, square);
+  if (is_error(m.metric) && !m.level) return level_gauges(m, levels, window);
+  return {Gauge(m, window, m.level.value_or(0.0), m.start)};
+}
+
+void watch_with(Gauge& gauge, Signal signal, const Glance& g, double s) {
+  const double h = g.plant.expansion().h;
+  const Clip seen = clipped(gauge.window(), g.t_s, h, s);
+  if (seen.empty()) return;
+  if (gauge.seeks_extremes() && gauge.holds(signal_bounds(g, signal))) return;
+  for_each_piece(g, signal, seen.from, seen.to, [&](const Piece& y, double from, double to) {
+    gauge.part(y.c, y.degree, g.t_s + from * h, (to - from) * h);
+  });
+}
+
+void watch_with(Gauges& gauges, const Measure& m, const Glance& g, double s) {
+  if (!m.sampled) {
+    for (Gauge& gauge : gauges) watch_with(gauge, m.signal, g, s);
+  } else if (g.ticked) {
+    const double value = signal_now(g, m.signal);
+    for (Gauge& gauge : gauges) gauge.sample(g.t_s, value);
+  }
+}
+
+void watch_with(auto& gauge, const Measure&, const Glance& g, double s) { gauge.segment(g, s); }
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// The worst over the steps, of a signed error the one of the greatest size; NaN, which meets no requirement,
+/// where the run ended before the window.
+double value_of(const Gauges& gauges, const Measure& m) {
+  const auto size = [&](double v) { return m.metric == MetricKind::steady_error ? std::fabs(v) : v; };
+  double worst = nothing;
+  for (const Gauge& gauge : gauges) {
+    const std::optional<double> v = gauge.value();
+    if (!v) return nothing;
+    if (&gauge == &gauges.front() || size(*v) > size(worst)) worst = *v;
+  }
+  return worst;
+}
+double value_of(const HysteresisGauge& gauge, const Measure& m) {
+  return m.metric == MetricKind::band_excess ? gauge.figures().excess_A : gauge.figures().deficit_A;
+}
+double value_of(const SwitchingGauge& gauge, const Measure&) { return gauge.value(); }
+double value_of(const EnergyGauge& gauge, const Measure& m) {
+  return (m.metric == MetricKind::efficiency ? gauge.efficiency() : gauge.energy(m.signal)).value_or(nothing);
+}
+double value_of(const HarmonicGauge& gauge, const Measure&) { return gauge.thd().value_or(nothing); }
+
+}  // namespace
+
+Figures::Figures(const Scenario& scenario, const std::vector<Level>& levels) {
+  const auto add = [&](const Measure& m) {
+    const Window all{m.from_s.value_or(0.0), m.to_s.value_or(std::numeric_limits<double>::infinity())};
+    const Window window{all.from_s, std::min(all.to_s, scenario.duration_s)};
+    if (is_band(m.metric))
+      figures_.push_back({m, HysteresisGauge(all)});
+    else if (m.metric == MetricKind::switching_frequency)
+      figures_.push_back({m, SwitchingGauge(all, m.signal)});
+    else if (m.metric == MetricKind::energy || m.metric == MetricKind::efficiency)
+      figures_.push_back({m, EnergyGauge(all, {scenario.load.viscous_Nm_s, scenario.load.coulomb_Nm})});
+    else if (m.metric == MetricKind::thd)
+      figures_.push_back({m, HarmonicGauge(window, m.signal, m.frequency_Hz)});
+    else
+      figures_.push_back({m, gauges_for(m, scenario, levels)});
+  };
+  for (const Requirement& r : scenario.require) add(r.measure);
+  for (const Comparison& c : scenario.compare) add(c.measure);
+}
+
+void Figures::watch(const Glance& g, double s) {
+  for (Figure& figure : figures_)
+    std::visit([&](auto& gauge) { watch_with(gauge, figure.measure, g, s); }, figure.taken_by);
+}
+
+void Figures::judge(const Scenario& scenario, Outcome& outcome) const {
+  std::size_t n = 0;
+  const auto next = [&] {
+    const Figure& figure = figures_[n++];
+    return std::visit([&](const auto& gauge) { return value_of(gauge, figure.measure); }, figure.taken_by);
+  };
+  for (const Requirement& r : scenario.require) {
+    const double v = next();
+    const bool ok = v == v && (!r.min || v >= *r.min) && (!r.max || v <= *r.max);
+    outcome.verdicts.push_back(
+        {figure_name(r.measure), std::string(figure_unit(r.measure)), v, r.min, r.max, ok});
+  }
+  for (const Comparison& c : scenario.compare)
+    outcome.comparisons.push_back(
+        {figure_name(c.measure), std::string(figure_unit(c.measure)), next(), c.value, c.source});
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// All figures of merit of a run: what takes each, fed segment by segment; then verdicts.
+#pragma once
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sixstep/study/measure/energy_gauge.hpp"
+#include "sixstep/study/measure/gauge.hpp"
+#include "sixstep/study/measure/harmonic_gauge.hpp"
+#include "sixstep/study/measure/hysteresis_gauge.hpp"
+#include "sixstep/study/measure/outcome.hpp"
+#include "sixstep/study/measure/switching_gauge.hpp"
+#include "sixstep/study/scenario/measure_choices.hpp"
+#include "sixstep/study/scenario/reference_course.hpp"
+
+namespace sixstep::study {
+
+/// Several: one per step or level of the reference; the worst counts.
+using Gauges = std::vector<Gauge>;
+
+class Figures {
+ public:
+  Figures(const Scenario& scenario, const std::vector<Level>& levels);
+
+  /// A run that is asked nothing pays nothing.
+  template <class Rig>
+  void segment(const Rig& rig, double s) {
+    if (!figures_.empty()) watch(glance(rig), s);
+  }
+
+  void judge(const Scenario& scenario, Outcome& outcome) const;
+
+ private:
+  struct Figure {
+    Measure measure;
+    std::variant<Gauges, HysteresisGauge, SwitchingGauge, EnergyGauge, HarmonicGauge> taken_by;
+  };
+  void watch(const Glance& g, double s);
+
+  std::vector<Figure> figures_;  ///< requirements first, then comparisons
+};
+
+/// Shown for a measure without a label: "settling time of motor current".
+std::string figure_name(const Measure& measure);
+
+}  // namespace sixstep::study

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/measure/harmonic_gauge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/base/elementary.hpp"
+#include "sixstep/series/quadrature.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+constexpr double whole_turn = 6 * base::sector_rad;
+
+/// A part of a segment turns by no more than this for a frequency of its own: eight points then integrate
+/// products of a series with its cos and sin to rounding, as for the engine's own rates
+/// (series/quadrature.hpp).
+constexpr double largest_turn = 0.5;
+constexpr int most_points = 8;
+
+}  // namespace
+
+/// Rotates the row into R from the left, until nothing is left of it.
+void FundamentalFit::add(std::array<double, 4> row) {
+  for (std::size_t j = 0; j < 4; ++j) {
+    if (row[j] == 0.0) continue;
+    const double length = std::sqrt(r_[j][j] * r_[j][j] + row[j] * row[j]);
+    if (length == 0.0) continue;
+    const double c = r_[j][j] / length, s = row[j] / length;
+    for (std::size_t k = j; k < 4; ++k) {
+      const double kept = c * r_[j][k] + s * row[k];
+      row[k] = c * row[k] - s * r_[j][k];
+      r_[j][k] = kept;
+    }
+  }
+}
+
+double FundamentalFit::distortion() const {
+  const double fundamental = r_[1][3] * r_[1][3] + r_[2][3] * r_[2][3];
+  return std::sqrt(r_[3][3] * r_[3][3] / fundamental);
+}
+
+double whole_periods(const Window& window, double frequency_Hz) {
+  return std::floor((window.to_s - window.from_s) * frequency_Hz + whole_enough);
+}
+
+HarmonicGauge::HarmonicGauge(const Window& window, Signal signal, std::optional<double> frequency_Hz)
+    : window_(window), signal_(signal), frequency_Hz_(frequency_Hz) {
+  if (frequency_Hz) window_.to_s = window.from_s + whole_periods(window, *frequency_Hz) / *frequency_Hz;
+}
+
+void HarmonicGauge::segment(const Glance& g, double s) {
+  const Clip seen = clipped(window_, g.t_s, g.plant.expansion().h, s);
+  if (seen.empty() || turned_back_) return;
+  if (!begun_) {
+    begun_ = true;
+    first_sector_ = g.plant.state().sector;
+    first_x_ = series::evaluate(g.plant.expansion().x, g.plant.expansion().degree, seen.from);
+  }
+  for_each_piece(g, signal_, seen.from, seen.to, [&](const Piece& y, double from, double to) {
+    frequency_Hz_ ? time_part(g, y, from, to) : turn(g, y, from, to);
+  });
+}
+
+/// Electrical rad since the window's begin.
+double HarmonicGauge::swept(const Glance& g, double s) const {
+  const plant::Expansion<double>& y = g.plant.expansion();
+  return static_cast<double>(g.plant.state().sector - first_sector_) * base::sector_rad +
+         (series::evaluate(y.x, y.degree, s) - first_x_);
+}
+
+/// Where a turn is completed within the part, all up to there is put aside.
+void HarmonicGauge::turn(const Glance& g, const Piece& y, double from, double to) {
+  const plant::Expansion<double>& e = g.plant.expansion();
+  const double moved = swept(g, to) - swept(g, from);
+  if (moved == 0.0) return;
+  if (direction_ == 0.0) direction_ = moved < 0.0 ? -1.0 : 1.0;
+  if (direction_ * moved < 0.0) {
+    turned_back_ = true;
+    return;
+  }
+  Series missing = series::restricted(e.x, e.degree, from, to);  // positive until the turn is full
+  for (double& v : missing) v *= -direction_;
+  missing[0] = static_cast<double>(turns_ + 1) * whole_turn - direction_ * swept(g, from);
+  const double root = missing[0] <= 0.0 ? 0.0 : series::first_root(missing, e.degree, 1.0, 0.0);
+  if (root > 1.0) return turn_part(g, y, from, to);
+  const double full = from + root * (to - from);
+  const auto share = [&](double begin, double end) {
+    return Piece{series::restricted(y.c, y.degree, begin, end), y.degree};
+  };
+  if (root > 0.0) turn_part(g, share(0.0, root), from, full);
+  ++turns_;
+  whole_ = fit_;
+  if (root < 1.0) turn_part(g, share(root, 1.0), full, to);
+}
+
+/// The electrical angle turns no faster than the series of a segment change, so that their degree says how
+/// many points do. Products have three factors here, the speed being the weight: series/quadrature.hpp's
+/// bound is then (pi/2) (3/4)^n e^(3 x) u M^3 for degree n, below u M^3/5 where n is 8 or more.
+void HarmonicGauge::turn_part(const Glance& g, const Piece& y, double from, double to) {
+  const plant::Expansion<double>& e = g.plant.expansion();
+  const double per_s = direction_ * g.plant.constants().pole_pairs * e.h * (to - from);
+  const double sector = static_cast<double>(g.plant.sector()) * base::sector_rad;
+  series::with_points_for(std::max(e.degree, 8), [&]<int points>() {
+    for (int k = 0; k < points; ++k) {
+      const double s = static_cast<double>(series::gauss<points>.node[k]), at = from + s * (to - from);
+      const double angle = per_s * series::evaluate(e.w, e.degree, at);  // of this part, per unit of weight
+      if (angle < 0.0) turned_back_ = true;
+      if (!(angle > 0.0)) continue;
+      const double weight = std::sqrt(static_cast<double>(series::gauss<points>.weight[k]) * angle);
+      const base::SinCos phase = base::sin_cos(sector + series::evaluate(e.x, e.degree, at));
+      fit_.add({weight, weight * phase.cos, weight * phase.sin, weight * series::evaluate(y.c, y.degree, s)});
+    }
+  });
+  swept_ = direction_ * swept(g, to);
+}
+
+void HarmonicGauge::time_part(const Glance& g, const Piece& y, double from, double to) {
+  const double h = g.plant.expansion().h, length = h * (to - from);
+  const double rate = 2 * base::pi * *frequency_Hz_;
+  const std::int64_t count = 1 + static_cast<std::int64_t>(rate * length / largest_turn);
+  const double parts = static_cast<double>(count);
+  const double begin_s = g.t_s + h * from - window_.from_s;
+  for (std::int64_t n = 0; n < count; ++n)
+    for (int k = 0; k < most_points; ++k) {
+      const double s =
+          (static_cast<double>(n) + static_cast<double>(series::gauss<most_points>.node[k])) / parts;
+      const double weight =
+          std::sqrt(static_cast<double>(series::gauss<most_points>.weight[k]) * length / parts);
+      const base::SinCos phase = base::sin_cos(rate * (begin_s + s * length));
+      fit_.add({weight, weight * phase.cos, weight * phase.sin, weight * series::evaluate(y.c, y.degree, s)});
+    }
+  seconds_ += length;
+}
+
+std::optional<double> HarmonicGauge::thd() const {
+  if (frequency_Hz_) {
+    const double periods = whole_periods(window_, *frequency_Hz_);
+    const bool all = seconds_ * *frequency_Hz_ >= periods - 2 * whole_enough;  // else the run ended early
+    return periods >= 1.0 && all ? std::optional(fit_.distortion()) : std::nullopt;
+  }
+  if (turned_back_) return std::nullopt;
+  const double lacking = static_cast<double>(turns_ + 1) * whole_turn - swept_;
+  if (lacking <= whole_enough * whole_turn) return fit_.distortion();
+  return turns_ > 0 ? std::optional(whole_.distortion()) : std::nullopt;
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fundamental and distortion of a signal over whole periods: a least-squares fit of 1, cos and sin, whose
+// residual is all that is neither mean nor fundamental. Whole periods make the three orthogonal, and the fit
+// the Fourier coefficients. No harmonic is left out, and none is a difference of large squares: the fit is a
+// QR decomposition by plane rotations (Golub, Van Loan 5.1.8), row by row as the run passes, so that a pure
+// sine shows a distortion of rounding's size and not of its root.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "sixstep/study/measure/signals.hpp"
+#include "sixstep/study/measure/window.hpp"
+
+namespace sixstep::study {
+
+/// R of the decomposition, columns 1, cos, sin, signal.
+class FundamentalFit {
+ public:
+  void add(std::array<double, 4> row);
+  /// rms of the distortion over rms of the fundamental; NaN where the signal is zero.
+  double distortion() const;
+
+ private:
+  std::array<std::array<double, 4>, 4> r_{};
+};
+
+class HarmonicGauge {
+ public:
+  /// Without a frequency the fundamental follows the electrical angle, and periods are its whole turns from
+  /// the window's begin on: a frequency that ripples is no distortion, and none need be known. Integrals are
+  /// then over the angle. With a frequency they are over time and whole periods of it.
+  HarmonicGauge(const Window& window, Signal signal, std::optional<double> frequency_Hz);
+
+  void segment(const Glance& g, double s);
+  /// Empty where the window holds no whole period, or the rotor turned back within it.
+  std::optional<double> thd() const;
+
+ private:
+  void turn(const Glance& g, const Piece& y, double from, double to);
+  void turn_part(const Glance& g, const Piece& y, double from, double to);
+  void time_part(const Glance& g, const Piece& y, double from, double to);
+  double swept(const Glance& g, double s) const;
+
+  Window window_;
+  Signal signal_;
+  std::optional<double> frequency_Hz_;
+  FundamentalFit fit_, whole_;  ///< all so far; up to the last whole turn
+  bool begun_ = false, turned_back_ = false;
+  std::int64_t first_sector_ = 0;  ///< where the window begins: sectors passed and angle within
+  double first_x_ = 0.0;
+  double direction_ = 0.0;
+  std::int64_t turns_ = 0;
+  double swept_ = 0.0;  ///< electrical rad since the window's begin, positive in the direction of travel
+  double seconds_ = 0.0;
+};
+
+/// Periods that fit into a window: one that lacks less than a billionth of itself counts, for a window's ends
+/// are decimal numbers.
+inline constexpr double whole_enough = 1e-9;
+double whole_periods(const Window& window, double frequency_Hz);
+
+}  // namespace sixstep::study

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run leaves behind: numbers and verdicts.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sixstep/base/problem.hpp"
+#include "sixstep/design/parameters.hpp"
+#include "sixstep/design/pole_placement.hpp"
+#include "sixstep/plant/audit.hpp"
+
+namespace sixstep::study {
+
+struct Verdict {
+  std::string figure;  // "settling time of current"
+  std::string unit;
+  double measured = 0.0;
+  std::optional<double> min, max;  // the requirement
+  bool ok = false;
+};
+
+struct ComparisonResult {
+  std::string figure;
+  std::string unit;
+  double measured = 0.0;
+  double value = 0.0;  // what the source says
+  std::string source;
+};
+
+using plant::EnergyBook;
+
+/// How often each kind of event happened.
+struct EventCount {
+  std::string event;
+  std::int64_t count = 0;
+};
+
+/// Gains a loop ran with and where they come from.
+struct LoopGains {
+  std::string loop;           // "current", "speed", "position"
+  double d1 = 0.0, d0 = 0.0;  // position: d1 is the gain, d0 = 0
+  std::string origin;         // "given as d1, d0", "pole placement, settle_s = 0.001, damping = 0.9"
+  std::optional<design::PolePlacement> derivation;  // of the exact design for the same loop
+};
+
+/// The product drive turned the bridge off and latched why; the motor coasted on to the end of the run.
+struct Trip {
+  double at_s = 0.0;                 // the tick that latched it
+  std::vector<std::string> reasons;  // "over-current", all that were seen in that tick
+  int hall_line = 0;                 // 1..3: the line to blame; 0: none, or it cannot be told
+};
+
+struct Outcome {
+  std::vector<Verdict> verdicts;
+  std::vector<ComparisonResult> comparisons;
+  std::optional<plant::EnergyBook> energy;  // empty where nobody kept books (Listeners::keep_books)
+  std::optional<plant::Laws> laws;
+  std::vector<EventCount> events;
+  std::vector<LoopGains> gains;
+  design::MotorModel motor;
+  std::optional<base::Problem>
+      fault;                 // what stopped the run (shoot-through, impossible Hall code) or the drive
+  std::optional<Trip> trip;  // the same in parts, where it was the drive that stopped
+  double simulated_s = 0.0;
+  std::int64_t segments = 0;
+  std::uint64_t digest = 0;  // of every bit of the trajectory (study/measure/digest.hpp)
+
+  bool passed() const {
+    for (const Verdict& v : verdicts)
+      if (!v.ok) return false;
+    return !fault;
+  }
+};
+
+}  // namespace sixstep::study

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Observers that write rows: on a grid, or at every event with both sides of each jump. They read the dense
+// output and cannot change the run by a bit.
+#pragma once
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "sixstep/study/measure/full_row.hpp"
+
+namespace sixstep::study {
+
+using RowSink = std::function<void(std::span<const double>)>;
+
+/// The columns asked for out of the full row; NaN where a column means nothing in this mode.
+class Selection {
+ public:
+  Selection(const std::vector<std::size_t>& columns, control::Mode mode) : row_(columns.size(), nothing) {
+    for (std::size_t n = 0; n < columns.size(); ++n) {
+      if (!applies(static_cast<ColumnId>(columns[n]), mode)) continue;
+      chosen_.push_back({n, columns[n]});
+      row_[n] = 0.0;
+    }
+  }
+  /// True where a number differs from the row before.
+  bool take(const FullRow& full) {
+    bool differs = false;
+    for (const Choice& c : chosen_) {
+      const double v = full[c.column];
+      differs |= (v != row_[c.place]) & (v == v);
+      row_[c.place] = v;
+    }
+    return differs;
+  }
+  std::span<const double> row() const { return row_; }
+
+ private:
+  static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  struct Choice {
+    std::size_t place, column;
+  };
+  std::vector<Choice> chosen_;
+  std::vector<double> row_;
+};
+
+/// Rows at n * grid up to the end of the run, included where it lies on the grid: right limits at a jump.
+class GridRecorder {
+ public:
+  GridRecorder(std::int64_t grid_ticks, sim::Instant end, control::Mode mode,
+               const std::vector<std::size_t>& columns, RowSink sink)
+      : grid_(grid_ticks), end_(end), selection_(columns, mode), sink_(std::move(sink)) {}
+
+  template <class Rig>
+  void segment(const Rig& rig, double s) {
+    const double length = rig.plant().expansion().h * s;
+    const sim::Instant from = rig.now(), to = from.plus_seconds(length);
+    for (;;) {
+      const bool last = next_ == end_ && sim::seconds_between(to, end_) <= 0.5e-12;
+      // An end between picoseconds is rounded: a row on it belongs to what follows.
+      if (!(sim::seconds_between(next_, to) > 0x1p-50 * length) && !last) return;
+      const double at = length > 0 ? sim::seconds_between(from, next_) / rig.plant().expansion().h : 0.0;
+      selection_.take(full_row(rig, at < s ? (at > 0 ? at : 0.0) : s, next_.seconds()));
+      sink_(selection_.row());
+      next_.ticks += grid_;
+    }
+  }
+
+ private:
+  std::int64_t grid_;
+  sim::Instant end_, next_{};
+  Selection selection_;
+  RowSink sink_;
+};
+
+/// Both ends of every segment, and points between where a segment is long against `gap_s`, so that lines
+/// drawn from row to row show the curve. A row equal to the one before is left out.
+class EventRecorder {
+ public:
+  EventRecorder(double gap_s, control::Mode mode, const std::vector<std::size_t>& columns, RowSink sink)
+      : gap_s_(gap_s), selection_(columns, mode), sink_(std::move(sink)) {}
+
+  template <class Rig>
+  void segment(const Rig& rig, double s) {
+    const double h = rig.plant().expansion().h;
+    const double gaps = h * s / gap_s_;
+    const int parts = 1 + static_cast<int>(gaps < 1000.0 ? gaps : 1000.0);
+    for (int n = 0; n <= parts; ++n) {
+      const double at = s * n / parts;
+      const double t = rig.now().plus_seconds(at * h).seconds();
+      last_s_ = t > last_s_ ? t : last_s_;  // rounding may not turn time back
+      if (selection_.take(full_row(rig, at, last_s_)) || first_) sink_(selection_.row());
+      first_ = false;
+    }
+  }
+
+ private:
+  double gap_s_, last_s_ = 0.0;
+  Selection selection_;
+  RowSink sink_;
+  bool first_ = true;
+};
+
+}  // namespace sixstep::study

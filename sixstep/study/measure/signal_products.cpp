@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/measure/signal_products.hpp"
+
+#include <algorithm>
+
+namespace sixstep::study {
+
+using plant::PerLeg;
+
+Series weighted_current(const PerLeg<double>& w, const plant::Expansion<double>& y) {
+  Series c{};
+  for (int j = 0; j <= y.degree; ++j) c[j] = w[0] * y.i[0][j] + w[1] * y.i[1][j] + w[2] * y.i[2][j];
+  return c;
+}
+
+PerLeg<double> bus_current_weights(const plant::Plant<double>& plant) {
+  PerLeg<double> w{};
+  for (int k = 0; k < 3; ++k) w[k] = plant::is_high(plant.mode().legs[k]) ? 1.0 : 0.0;
+  return w;
+}
+
+namespace {
+
+/// The segment's own series seen over [from, to], with zeros behind their degree.
+struct Stretch {
+  const Glance& g;
+  double from, to;
+
+  Series of(const Series& c) const {
+    const int degree = g.plant.expansion().degree;
+    Series out{};
+    std::copy_n(c.begin(), degree + 1, out.begin());
+    return from == 0.0 && to == 1.0 ? out : series::restricted(out, degree, from, to);
+  }
+  int degree() const { return std::min(2 * g.plant.expansion().degree, series::max_degree); }
+  Series product(const Series& a, const Series& b) const {
+    Series out{};
+    for (int n = 0; n <= degree(); ++n) out[n] = series::product_term(a, b, n);
+    return out;
+  }
+};
+
+void add(Series& sum, double weight, const Series& c) {
+  for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += weight * c[j];
+}
+
+/// w phi0 and w phi1: every back-EMF is a sum of the two (plant/back_emf.hpp).
+struct SpeedShapes {
+  Series w0, w1;
+};
+SpeedShapes speed_shapes(const Stretch& part) {
+  const auto& y = part.g.plant.expansion();
+  const Series w = part.of(y.w);
+  if (part.g.plant.constants().sine)
+    return {part.product(w, part.of(y.phi0)), part.product(w, part.of(y.phi1))};
+  return {w, part.product(w, part.of(y.x))};
+}
+
+const plant::EmfPiece<double>& emf_piece(const plant::Plant<double>& plant) {
+  return plant.constants().emf[static_cast<std::size_t>(plant.mode().sector)].piece[plant.mode().piece];
+}
+
+Series emf_series(const Stretch& part, int k) {
+  const SpeedShapes shapes = speed_shapes(part);
+  const plant::EmfPiece<double>& p = emf_piece(part.g.plant);
+  Series e{};
+  add(e, p.alpha[k], shapes.w0);
+  add(e, p.beta[k], shapes.w1);
+  return e;
+}
+
+/// Nothing connected: the star point is put midway, u_n = (U_s - e_high - e_low)/2 (plant/circuit.hpp). Which
+/// legs are highest and lowest changes at edges of sectors and pieces only: the shapes are even about their
+/// tops and cross there. Where the rotor turns backwards the two change places, which changes no sum.
+void add_free_star(const Stretch& part, const SpeedShapes& shapes, Series& u) {
+  const plant::Plant<double>& plant = part.g.plant;
+  const plant::EmfPiece<double>& p = emf_piece(plant);
+  const double x = (p.from + p.to) / 2;
+  const base::SinCos turn = plant.constants().sine ? base::sin_cos(x) : base::SinCos{x, 1.0};
+  const auto shape = [&](int k) { return p.alpha[k] * turn.cos + p.beta[k] * turn.sin; };
+  int high = 0, low = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (shape(k) > shape(high)) high = k;
+    if (shape(k) < shape(low)) low = k;
+  }
+  add(u, 0.5, part.of(plant.expansion().bus));
+  add(u, -(p.alpha[high] + p.alpha[low]) / 2, shapes.w0);
+  add(u, -(p.beta[high] + p.beta[low]) / 2, shapes.w1);
+}
+
+/// u_k by the leg's device, or u_n + e_k of a floating one (MODEL 2).
+Series pole_series(const Stretch& part, int k) {
+  const plant::Plant<double>& plant = part.g.plant;
+  const auto& y = plant.expansion();
+  const plant::Mode& mode = plant.mode();
+  Series u{};
+  if (!plant::is_floating(mode.legs[k])) {
+    const auto& terms = plant.constants().pole_terms[static_cast<std::size_t>(mode.legs[k])];
+    add(u, terms.bus_share, part.of(y.bus));
+    add(u, -terms.r_ohm, part.of(y.i[k]));
+    u[0] += terms.offset_V;
+    return u;
+  }
+  const plant::Constants<double>& c = plant.constants();
+  const plant::PoleLaw<double> law = plant::pole_law(c.emf[mode.sector].piece[mode.piece],
+                                                     c.legs[legs_index(mode.legs)], static_cast<unsigned>(k));
+  const SpeedShapes shapes = speed_shapes(part);
+  add(u, law.w0, shapes.w0);
+  add(u, law.w1, shapes.w1);
+  if (law.bus != 0) add(u, law.bus, part.of(y.bus));
+  if (law.i != 0) add(u, law.i, part.of(y.i[law.leg]));
+  u[0] += law.offset;
+  if (plant::connected_count(mode.legs) == 0) add_free_star(part, shapes, u);
+  return u;
+}
+
+Series line_series(const Stretch& part, int from_leg, int to_leg) {
+  Series u = pole_series(part, from_leg);
+  add(u, -1.0, pole_series(part, to_leg));
+  return u;
+}
+
+/// sum_k r_k i_k^2 - offset_k i_k: what the devices keep of u_k i_k (plant/circuit.hpp).
+Series device_loss(const Stretch& part) {
+  const plant::Plant<double>& plant = part.g.plant;
+  Series loss{};
+  for (int k = 0; k < 3; ++k) {
+    const auto& terms = plant.constants().pole_terms[static_cast<std::size_t>(plant.mode().legs[k])];
+    const Series i = part.of(plant.expansion().i[k]);
+    if (terms.r_ohm != 0) add(loss, terms.r_ohm, part.product(i, i));
+    add(loss, -terms.offset_V, i);
+  }
+  return loss;
+}
+
+Series copper_loss(const Stretch& part) {
+  Series loss{};
+  for (const Series& current : part.g.plant.expansion().i) {
+    const Series i = part.of(current);
+    add(loss, part.g.plant.constants().R, part.product(i, i));
+  }
+  return loss;
+}
+
+/// B w^2 + T_c |w|.
+Series friction_loss(const Stretch& part) {
+  const plant::Plant<double>& plant = part.g.plant;
+  const Series w = part.of(plant.expansion().w);
+  const plant::Motion motion = plant.mode().motion;
+  Series loss{};
+  add(loss, plant.constants().B, part.product(w, w));
+  if (motion == plant::Motion::forward) add(loss, plant.constants().coulomb, w);
+  if (motion == plant::Motion::backward) add(loss, -plant.constants().coulomb, w);
+  return loss;
+}
+
+Series supply_power(const Stretch& part) {
+  const auto& y = part.g.plant.expansion();
+  return part.product(part.of(y.bus), part.of(weighted_current(bus_current_weights(part.g.plant), y)));
+}
+
+Series product_series(const Stretch& part, Signal signal) {
+  const auto leg = [signal](Signal first) { return static_cast<int>(signal) - static_cast<int>(first); };
+  switch (signal) {
+    case Signal::pole_a:
+    case Signal::pole_b:
+    case Signal::pole_c:
+      return pole_series(part, leg(Signal::pole_a));
+    case Signal::line_ab:
+    case Signal::line_bc:
+    case Signal::line_ca:
+      return line_series(part, leg(Signal::line_ab), (leg(Signal::line_ab) + 1) % 3);
+    case Signal::emf_a:
+    case Signal::emf_b:
+    case Signal::emf_c:
+      return emf_series(part, leg(Signal::emf_a));
+    case Signal::supply_power:
+      return supply_power(part);
+    case Signal::motor_power: {  // what the bridge takes less what its devices keep
+      Series p = supply_power(part);
+      add(p, -1.0, device_loss(part));
+      return p;
+    }
+    case Signal::mechanical_power:
+      return part.product(part.of(part.g.plant.expansion().torque), part.of(part.g.plant.expansion().w));
+    case Signal::copper_loss:
+      return copper_loss(part);
+    case Signal::device_loss:
+      return device_loss(part);
+    case Signal::friction_loss:
+      return friction_loss(part);
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+Piece product_piece(const Glance& g, Signal signal, double from, double to) {
+  const Stretch part{g, from, to};
+  return {product_series(part, signal), part.degree()};
+}
+
+}  // namespace sixstep::study

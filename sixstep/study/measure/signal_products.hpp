@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Signals that are products of the segment's series: back-EMFs, terminal voltages, powers and losses.
+#pragma once
+#include "sixstep/study/measure/signals.hpp"
+
+namespace sixstep::study {
+
+/// Products of two series of the engine are exact below degree 8; above, over half a segment, what is left
+/// out is below 2^-53 of the factors' sizes: as in series/quadrature.hpp, term j is at most M^2 (2 x)^j/j!
+/// with 2 x <= 1/2 there, and (1/2)^17/17! < 2^-65.
+constexpr bool needs_halves(int degree) { return 2 * degree > series::max_degree; }
+
+/// Over [from, to] of the segment; of a signal with is_product().
+Piece product_piece(const Glance& g, Signal signal, double from, double to);
+
+/// w_a i_a + w_b i_b + w_c i_c.
+Series weighted_current(const plant::PerLeg<double>& w, const plant::Expansion<double>& y);
+
+/// The bus current as weights of i_a, i_b, i_c.
+plant::PerLeg<double> bus_current_weights(const plant::Plant<double>& plant);
+
+}  // namespace sixstep::study

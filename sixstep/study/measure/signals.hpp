@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// A signal over one segment as a polynomial: what the figures of merit integrate and search.
+#pragma once
+#include <vector>
+
+#include "sixstep/rig/rig.hpp"
+#include "sixstep/series/extremes.hpp"
+#include "sixstep/study/scenario/measure_choices.hpp"
+
+namespace sixstep::study {
+
+using Series = series::Coefficients<double>;
+
+/// What figures see of a segment: all that they need is the same for every firmware, and compiled once.
+struct Glance {
+  const plant::Plant<double>& plant;
+  const rig::Modulator& modulator;
+  double t_s = 0.0;  ///< where the segment begins
+  double current_reference_A = 0.0, speed_reference_rad_s = 0.0, setpoint = 0.0;
+  bool ticked = false;  ///< a control sample was taken where the segment begins
+};
+template <class Rig>
+Glance glance(const Rig& rig) {
+  return {.plant = rig.plant(),
+          .modulator = rig.modulator(),
+          .t_s = rig.now().seconds(),
+          .current_reference_A = rig.current_reference_A(),
+          .speed_reference_rad_s = rig.speed_reference_rad_s(),
+          .setpoint = rig.setpoint(),
+          .ticked = rig.ticked()};
+}
+
+/// Motor current i_m = (i_p - i_n)/2 of the positive pair of a sector (MODEL 3), as weights of i_a, i_b, i_c.
+inline plant::PerLeg<double> motor_current_weights(int sector) {
+  const control::Pair pair = control::positive_pair(static_cast<std::uint8_t>(sector));
+  plant::PerLeg<double> w{};
+  w[static_cast<std::size_t>(pair.source)] = 0.5;
+  w[static_cast<std::size_t>(pair.sink)] = -0.5;
+  return w;
+}
+
+/// The duty in effect, negative where the source is not that of the sector's positive pair; with armed
+/// comparators whether the upper switch is on.
+double signed_duty(const rig::Modulator& modulator, int sector);
+
+/// Whether a signal is no polynomial over the whole segment, or would need more than max_degree of one; and
+/// where: the cuts of [from, to], both ends included.
+bool is_cut(const Glance& g, Signal signal);
+std::vector<double> cuts_of(const Glance& g, Signal signal, double from, double to);
+
+/// Over [from, to] of the segment, which no cut divides, as a polynomial of its own s in [0, 1].
+struct Piece {
+  Series c{};
+  int degree = 0;
+};
+Piece piece_of(const Glance& g, Signal signal, double from, double to);
+
+/// Calls visit(piece, from, to) for the parts of [from, to] in order. Most signals are one part, and nothing
+/// is allocated.
+template <class Visit>
+void for_each_piece(const Glance& g, Signal signal, double from, double to, Visit&& visit) {
+  if (!is_cut(g, signal)) return visit(piece_of(g, signal, from, to), from, to);
+  const std::vector<double> cuts = cuts_of(g, signal, from, to);
+  for (std::size_t n = 0; n + 1 < cuts.size(); ++n)
+    visit(piece_of(g, signal, cuts[n], cuts[n + 1]), cuts[n], cuts[n + 1]);
+}
+
+/// At the segment's begin.
+double signal_now(const Glance& g, Signal signal);
+
+/// Where a signal stays over the whole segment, from the bounds that the expansion comes with: wider than the
+/// curve, and by more than rounding. Without limits where no bound is at hand.
+series::Extremes<double> signal_bounds(const Glance& g, Signal signal);
+
+}  // namespace sixstep::study

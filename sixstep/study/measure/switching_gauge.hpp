@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turn-ons per second: of what the modulator chops, or of one switch's gate.
+#pragma once
+#include <cstdint>
+#include <limits>
+
+#include "sixstep/study/measure/signals.hpp"
+#include "sixstep/study/measure/window.hpp"
+
+namespace sixstep::study {
+
+class SwitchingGauge {
+ public:
+  /// `signal`: a gate, else whatever is chopped.
+  SwitchingGauge(const Window& window, Signal signal) : window_(window), signal_(signal) {}
+
+  void segment(const Glance& g, double s);
+  /// Hz; NaN where the run ended before the window.
+  double value() const {
+    if (!(last_s_ > window_.from_s)) return std::numeric_limits<double>::quiet_NaN();
+    return static_cast<double>(after_ - before_) / (last_s_ - window_.from_s);
+  }
+
+ private:
+  std::int64_t count(const Glance& g);
+
+  Window window_;
+  Signal signal_;
+  bool on_ = false;  ///< the gate, before the run off
+  std::int64_t gate_turn_ons_ = 0;
+  std::int64_t before_ = 0, after_ = 0;
+  double last_s_ = 0.0;
+};
+
+inline std::int64_t SwitchingGauge::count(const Glance& g) {
+  if (!is_gate(signal_)) return g.modulator.turn_ons();
+  const bool on = signal_now(g, signal_) > 0.5;
+  gate_turn_ons_ += int{on && !on_};
+  on_ = on;
+  return gate_turn_ons_;
+}
+
+inline void SwitchingGauge::segment(const Glance& g, double s) {
+  const std::int64_t turn_ons = count(g);
+  if (g.t_s < window_.from_s) before_ = turn_ons;
+  if (g.t_s < window_.to_s) {
+    after_ = turn_ons;
+    last_s_ = std::fmin(g.t_s + g.plant.expansion().h * s, window_.to_s);
+  }
+}
+
+}  // namespace sixstep::study

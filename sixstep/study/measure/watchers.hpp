@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// All who watch a run, in one observer: books, digest, figures of merit, recorders of rows and of logic.
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "sixstep/study/measure/digest.hpp"
+#include "sixstep/study/measure/figures.hpp"
+#include "sixstep/study/measure/logic_recorder.hpp"
+#include "sixstep/study/measure/recorder.hpp"
+
+namespace sixstep::study {
+
+struct Watchers {
+  std::optional<plant::Audit<double>> audit;
+  Digest digest;
+  Figures figures;
+  std::optional<GridRecorder> grid;
+  std::optional<EventRecorder> events, report;
+  std::optional<LogicRecorder> logic;
+  std::function<bool(double)> keep_going;
+  std::int64_t segments = 0;
+
+  template <class Rig>
+  void segment(const Rig& rig, double s) {
+    if (audit) audit->segment(rig.plant(), s);
+    digest.segment(rig, s);
+    figures.segment(rig, s);
+    if (grid) grid->segment(rig, s);
+    if (events) events->segment(rig, s);
+    if (report) report->segment(rig, s);
+    if (logic) logic->segment(rig, s);
+    ++segments;
+  }
+  /// Asked often enough to answer a person at once, and seldom enough to cost nothing.
+  template <class Rig>
+  bool done(const Rig& rig) const {
+    return keep_going && segments % 256 == 0 && !keep_going(rig.now().seconds());
+  }
+};
+
+}  // namespace sixstep::study

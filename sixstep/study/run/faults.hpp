@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stopped a run, or a drive within a run, in words.
+#pragma once
+#include "sixstep/rig/rig.hpp"
+#include "sixstep/study/measure/outcome.hpp"
+
+namespace sixstep::study {
+
+/// The run ended at t_s: nothing sensible comes behind a shoot-through, or behind a lean drive that lost its
+/// rotor.
+base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t_s);
+
+/// Notes in the outcome what the product drive has latched, if it has.
+void note_trip(const rig::Diagnosis& found, Outcome& out);
+
+}  // namespace sixstep::study

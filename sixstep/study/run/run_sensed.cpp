@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/run/run_rig.hpp"
+
+namespace sixstep::study {
+
+base::Problems run_sensed(const Scenario& scenario, const Compiled& compiled, Watchers& w, Outcome& out) {
+  return detail::run_chosen<rig::SensedDrive>(scenario, compiled, w, out);
+}
+
+}  // namespace sixstep::study

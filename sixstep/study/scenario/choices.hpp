@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The words by which a scenario file names the enumerations, and what they mean.
+#pragma once
+#include "sixstep/base/describe.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+using base::Choice;
+
+inline constexpr Choice<Device> device_choices[] = {
+    {"mosfet", Device::mosfet, "a gated channel carries both directions, its diode takes no share"},
+};
+inline constexpr Choice<Alignment> alignment_choices[] = {
+    {"edge", Alignment::edge, "on-time starts with the period"},
+    {"centre", Alignment::centre, "on-time lies in the middle of the period"},
+};
+inline constexpr Choice<control::Chopping> chopping_choices[] = {
+    {"soft", control::Chopping::soft, "only the source phase's upper switch is chopped"},
+    {"hard", control::Chopping::hard, "both switches of the driven pair are chopped"},
+    {"complementary", control::Chopping::complementary,
+     "as soft, and the source phase's lower switch is on while its upper is off"},
+};
+inline constexpr Choice<CommutationAt> commutation_choices[] = {
+    {"hall-edge", CommutationAt::hall_edge, "the pair changes at the Hall edge itself"},
+    {"sample", CommutationAt::sample, "the pair changes at the next control sample"},
+};
+inline constexpr Choice<SampleAt> sample_choices[] = {
+    {"start", SampleAt::start, "at the start of the period, before the switching of that instant"},
+    {"middle", SampleAt::middle, "in the middle; the answer takes effect at the next start"},
+};
+inline constexpr Choice<Drive> drive_choices[] = {
+    {"lean", Drive::lean, "the loops alone; what they measure is ideal, or as [sensors] says"},
+    {"product", Drive::product,
+     "what is flashed: offset calibration, Hall decoding, fault monitor and state machine around the loops; "
+     "needs converters in [sensors] and thresholds in [protection]"},
+};
+inline constexpr Choice<control::Mode> mode_choices[] = {
+    {"off", control::Mode::off, "all six gates off"},
+    {"duty", control::Mode::duty, "the reference is the signed duty, -1 to 1"},
+    {"current", control::Mode::current, "the reference is the motor current in A"},
+    {"speed", control::Mode::speed, "the reference is the speed in rad/s"},
+    {"position", control::Mode::position, "the reference is the position in deg, counted over turns"},
+};
+inline constexpr Choice<Arithmetic> arithmetic_choices[] = {
+    {"double", Arithmetic::float64, "the controller computes with 64-bit floating point"},
+    {"float", Arithmetic::float32, "the controller computes with 32-bit floating point, as on the chip"},
+    {"q15", Arithmetic::q15, "16-bit fixed point, -1 to 1 - 2^-15: the largest duty is one digit below 1"},
+    {"q14", Arithmetic::q14, "16-bit fixed point, -2 to 2 - 2^-14: has the duty 1, and half the resolution"},
+    {"q31", Arithmetic::q31, "32-bit fixed point, -1 to 1 - 2^-31"},
+    {"q30", Arithmetic::q30, "32-bit fixed point, -2 to 2 - 2^-30: has the duty 1"},
+};
+inline constexpr Choice<CurrentLoopType> current_loop_choices[] = {
+    {"pi", CurrentLoopType::pi, "discrete PI with clamped output, one step per control period"},
+    {"hysteresis", CurrentLoopType::hysteresis, "on below the band, off above it"},
+};
+inline constexpr Choice<SpeedOutput> speed_output_choices[] = {
+    {"current", SpeedOutput::current, "a part of the full torque, for the current loop within"},
+    {"duty", SpeedOutput::duty, "the duty itself: no current is measured, none is limited (thesis 6.2.2)"},
+};
+inline constexpr Choice<SpeedForm> speed_form_choices[] = {
+    {"incremental", SpeedForm::incremental,
+     "each sample adds to the last output, which is kept within its limit: nothing can wind up"},
+    {"positional", SpeedForm::positional,
+     "kp error + integral, less a derivative; anti_windup sets how the integral follows the limit"},
+};
+inline constexpr Choice<HysteresisOn> hysteresis_choices[] = {
+    {"motor", HysteresisOn::motor, "one comparator on the motor current (i_p - i_n)/2"},
+    {"phase", HysteresisOn::phase, "comparators on the currents of the driven phases"},
+};
+inline constexpr Choice<Comparator> comparator_choices[] = {
+    {"event", Comparator::event, "acts the instant the band is left"},
+    {"sampled", Comparator::sampled, "looks once per control period"},
+};
+inline constexpr Choice<Shape> shape_choices[] = {
+    {"constant", Shape::constant, "value throughout"},
+    {"steps", Shape::steps, "values[n] holds from times_s[n] on"},
+    {"square", Shape::square, "high in the first half of each period, low in the second"},
+    {"ramp", Shape::ramp, "from start to end in a straight line, from begin_s until end_s or at slope"},
+    {"sine", Shape::sine, "offset + amplitude sin(360 deg frequency_Hz t + phase_deg)"},
+    {"trapezoid", Shape::trapezoid,
+     "from start to end at a rate that rises with acceleration, stays at slope and falls again: the usual "
+     "profile of a move"},
+    {"csv", Shape::csv, "through the rows of a file, or through times_s and values"},
+};
+inline constexpr Choice<Interpolation> interpolation_choices[] = {
+    {"linear", Interpolation::linear, "goes on in a straight line"},
+    {"hold", Interpolation::hold, "holds until the next row"},
+};
+inline constexpr Choice<DriveRequest> request_choices[] = {
+    {"none", DriveRequest::none, "nothing new"},
+    {"off", DriveRequest::off, "lets go of the request to run: it brakes, then turns off"},
+    {"on", DriveRequest::on, "raises the request to run"},
+    {"clear", DriveRequest::clear, "clears a fault whose causes are gone"},
+};
+inline constexpr Choice<Distribution> distribution_choices[] = {
+    {"uniform", Distribution::uniform, "all values within the half width are equally likely"},
+    {"normal", Distribution::normal, "bell curve, cut off at cut_sigma standard deviations"},
+};
+
+/// The unit a reference is meant in: it follows from the control mode alone. Empty where nothing is asked
+/// for.
+constexpr std::string_view reference_unit(control::Mode mode) {
+  switch (mode) {
+    case control::Mode::off:
+      return "";
+    case control::Mode::duty:
+      return "1";
+    case control::Mode::current:
+      return "A";
+    case control::Mode::speed:
+      return "rad/s";
+    case control::Mode::position:
+      return "deg";
+  }
+  return "";
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of [control]: names, units, ranges and meanings.
+#pragma once
+#include "sixstep/base/describe.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+#include "sixstep/study/scenario/control.hpp"
+
+namespace sixstep::study {
+
+using base::above;
+using base::between;
+using base::from;
+
+/// The three ways to say a PI's gains, the same in every loop.
+template <class Visitor, class Loop>
+void describe_gains(Visitor& v, Loop& s) {
+  v.value(
+      "settle_s", s.settle_s,
+      {.meaning = "settling time the poles are placed for, with damping", .unit = "s", .range = above(0)});
+  v.value(
+      "damping", s.damping,
+      {.meaning = "damping of the placed pole pair, with settle_s", .range = base::Range{0, 1, false, true}});
+  v.value("d1", s.d1, {.meaning = "gain on the present error of (d1 z + d0)/(z - 1), with d0"});
+  v.value("d0", s.d0, {.meaning = "gain on the previous error of (d1 z + d0)/(z - 1), with d1"});
+  v.value("kp", s.kp, {.meaning = "proportional gain, with ki: kp = d1"});
+  v.value("ki", s.ki, {.meaning = "integral gain per sample, with kp: ki = d1 + d0"});
+}
+
+template <class Visitor>
+void describe(Visitor& v, CurrentLoop& s) {
+  v.choice("type", s.type, current_loop_choices, {.meaning = "kind of the current controller"});
+  describe_gains(v, s);
+  v.value(
+      "band_A", s.band_A,
+      {.meaning = "hysteresis: half width of the band around the reference", .unit = "A", .range = above(0)});
+  v.choice("on", s.on, hysteresis_choices, {.meaning = "hysteresis: which current is watched"});
+  v.choice("comparator", s.comparator, comparator_choices,
+           {.meaning = "hysteresis: when the band is looked at"});
+  v.value("limit_A", s.limit_A,
+          {.meaning = "bound on the current reference that an outer loop asks for; its integral knows of it",
+           .unit = "A",
+           .range = above(0)});
+  v.value("back_emf_feed_forward", s.back_emf_feed_forward,
+          {.meaning = "pi: whether the back-EMF at the measured speed is added to the voltage"});
+  v.value("measured_bus_from_V", s.measured_bus_from_V,
+          {.meaning = "pi: lowest bus voltage for which the duty follows the measured bus; without it the "
+                      "duty goes by supply.voltage_V",
+           .unit = "V",
+           .range = above(0)});
+}
+
+template <class Visitor>
+void describe(Visitor& v, SpeedLoop& s) {
+  v.choice("output", s.output, speed_output_choices, {.meaning = "what the speed controller sets"});
+  v.choice("form", s.form, speed_form_choices,
+           {.meaning = "how its PI is computed; short of the limit both forms are one controller"});
+  describe_gains(v, s);
+  v.value("torque_limit_Nm", s.torque_limit_Nm,
+          {.meaning = "torque at the speed controller's full output; without it the sheet's stall torque",
+           .unit = "N m",
+           .range = above(0)});
+  v.value(
+      "anti_windup", s.anti_windup,
+      {.meaning = "positional: part of what the limit cuts off that each sample takes off the integral; 0 "
+                  "lets it wind up; without it ki/kp",
+       .range = between(0, 1)});
+  v.value(
+      "derivative_s", s.derivative_s,
+      {.meaning = "positional: derivative time; kp times it, times the measured acceleration, is taken off "
+                  "the output",
+       .unit = "s",
+       .range = above(0)});
+  v.value("derivative_filter_s", s.derivative_filter_s,
+          {.meaning = "time constant that smooths the derivative; without it a tenth of derivative_s",
+           .unit = "s",
+           .range = from(0)});
+}
+
+template <class Visitor>
+void describe(Visitor& v, PositionLoop& s) {
+  v.value(
+      "gain_rad_s_per_deg", s.gain_rad_s_per_deg,
+      {.meaning = "speed asked for per degree of position error", .unit = "rad/s/deg", .range = above(0)});
+  v.value(
+      "speed_limit_rad_s", s.speed_limit_rad_s,
+      {.meaning = "bound on the speed that the position loop asks for", .unit = "rad/s", .range = above(0)});
+}
+
+template <class Visitor>
+void describe(Visitor& v, FullScale& s) {
+  v.value("current_A", s.current_A,
+          {.meaning = "largest current and difference of currents that a number holds; without it three "
+                      "times the largest reference or limit, or what the bus can drive on top of one",
+           .unit = "A",
+           .range = above(0)});
+  v.value("voltage_V", s.voltage_V,
+          {.meaning = "largest voltage; without it supply.voltage_V", .unit = "V", .range = above(0)});
+  v.value(
+      "speed_rad_s", s.speed_rad_s,
+      {.meaning = "largest speed and difference of speeds; without it that of no load and no loss, and the "
+                  "largest reference",
+       .unit = "rad/s",
+       .range = above(0)});
+  v.value("position_deg", s.position_deg,
+          {.meaning = "largest position and difference of positions; without it twice the largest reference",
+           .unit = "deg",
+           .range = above(0)});
+}
+
+template <class Visitor>
+void describe(Visitor& v, Regeneration& s) {
+  v.value("limit_V", s.limit_V,
+          {.meaning = "bus voltage at which the drive no longer brakes", .unit = "V", .range = above(0)});
+  v.value(
+      "gain_A_per_V", s.gain_A_per_V,
+      {.meaning = "braking current per volt below limit_V; without it a tenth of supply.capacitance_F over "
+                  "pwm.period_s",
+       .unit = "A/V",
+       .range = above(0)});
+}
+
+template <class Visitor>
+void describe(Visitor& v, Limits& s) {
+  v.value("current_A", s.current_A,
+          {.meaning = "bound on the current reference in every mode", .unit = "A", .range = above(0)});
+  v.value(
+      "torque_Nm", s.torque_Nm,
+      {.meaning = "the same as a torque, over K_t; the lower one counts", .unit = "N m", .range = above(0)});
+  v.value("speed_rad_s", s.speed_rad_s,
+          {.meaning = "speed that the drive's own torque does not pass", .unit = "rad/s", .range = above(0)});
+  v.value("gain_A_s_per_rad", s.gain_A_s_per_rad,
+          {.meaning = "current per rad/s below limits.speed_rad_s; without it J/(K_t settling time of the "
+                      "current loop)",
+           .unit = "A s/rad",
+           .range = above(0)});
+}
+
+template <class Visitor>
+void describe(Visitor& v, SmoothChopping& s) {
+  v.value("on", s.on,
+          {.meaning = "whether chopping goes by the current, soft above and complementary below, instead of "
+                      "by pwm.chopping: no jump at duty 0"});
+  v.value("soft_above_A", s.soft_above_A,
+          {.meaning = "driven current above which it is soft; without it twice complementary_below_A",
+           .unit = "A",
+           .range = from(0)});
+  v.value("complementary_below_A", s.complementary_below_A,
+          {.meaning = "driven current below which it is complementary; without it half the largest ripple, "
+                      "U T/(8 L) at the terminals",
+           .unit = "A",
+           .range = from(0)});
+}
+
+template <class Visitor>
+void describe(Visitor& v, Advance& s) {
+  v.value("angle_deg", s.angle_deg,
+          {.meaning = "electrical angle before the Hall edge at which the pair changes, at every speed",
+           .unit = "deg",
+           .range = base::Range{0, 60, true, false}});
+  v.value("gain_deg_s_per_rad", s.gain_deg_s_per_rad,
+          {.meaning = "electrical angle more per rad/s of the shaft; pole pairs x 180/pi x L/R makes up for "
+                      "the current's lag",
+           .unit = "deg s/rad",
+           .range = from(0)});
+  v.value("limit_deg", s.limit_deg,
+          {.meaning = "electrical angle that both together do not pass",
+           .unit = "deg",
+           .range = base::strictly_between(0, 60)});
+}
+
+template <class Visitor>
+void describe(Visitor& v, Control& s) {
+  v.choice("drive", s.drive, drive_choices, {.meaning = "what the chip runs"});
+  v.choice("mode", s.mode, mode_choices, {.meaning = "what is controlled, and so what the reference means"});
+  v.choice("arithmetic", s.arithmetic, arithmetic_choices,
+           {.meaning = "number type the controller computes in"});
+  v.table("full_scale", s.full_scale, {.meaning = "fixed point: what the ends of the range stand for"});
+  v.table("current", s.current, {.meaning = "the current controller"});
+  v.table("speed", s.speed, {.meaning = "the speed controller around it"});
+  v.table("position", s.position, {.meaning = "the position controller around both"});
+  v.value("slew", s.slew,
+          {.meaning = "fastest change of the setpoint, in the mode's unit per second; without it it steps",
+           .range = above(0),
+           .mode_unit = "*/s"});
+  v.table("limits", s.limits, {.meaning = "limits of the current reference"});
+  v.table("regeneration", s.regeneration,
+          {.meaning = "limit of the current that braking returns to the bus"});
+  v.table("smooth_chopping", s.smooth_chopping, {.meaning = "chopping without a jump through duty 0"});
+  v.table("advance", s.advance,
+          {.meaning =
+               "product drive: commutation ahead of the Hall edge, at the control tick; 0 is at the edge"});
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of [[require]] and [[compare]]: names, units, ranges and meanings.
+#pragma once
+#include "sixstep/base/describe.hpp"
+#include "sixstep/study/scenario/measure_choices.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+using base::above;
+using base::between;
+using base::from;
+
+template <class Visitor>
+void describe(Visitor& v, Measure& s) {
+  v.choice("metric", s.metric, metric_choices,
+           {.meaning = "figure that is taken of the signal", .required = true});
+  v.choice("signal", s.signal, signal_choices, {.meaning = "signal that the figure is taken of"});
+  v.value("from_s", s.from_s,
+          {.meaning = "start of the window; without it the start of the run", .unit = "s", .range = from(0)});
+  v.value("to_s", s.to_s,
+          {.meaning = "end of the window; without it the end of the run", .unit = "s", .range = above(0)});
+  v.value("level", s.level,
+          {.meaning = "value to be reached, in the signal's unit", .unit_here = unit_of(s.signal)});
+  v.value("start", s.start,
+          {.meaning = "value the step starts from, in the signal's unit; without it the value at from_s",
+           .unit_here = unit_of(s.signal)});
+  v.value("fraction", s.fraction,
+          {.meaning = "reach_time_s: part of the way from start to level",
+           .range = base::Range{0, 1, false, true}});
+  v.value("band", s.band,
+          {.meaning = "settling_time_s: half width of the band as part of the step", .range = above(0)});
+  v.value("tail", s.tail,
+          {.meaning = "steady_error, largest_error: part of each level of the reference, at its end, that is "
+                      "looked at; without it 0.1, and the whole window where from_s is given",
+           .range = base::Range{0, 1, false, true}});
+  v.value("frequency_Hz", s.frequency_Hz,
+          {.meaning = "thd: the fundamental; without it the electrical frequency, followed by the angle",
+           .unit = "Hz",
+           .range = base::Range{0, 1e7, false, true}});
+  v.value("sampled", s.sampled, {.meaning = "whether only the controller's samples are looked at"});
+  v.value("label", s.label, {.meaning = "name of the figure, instead of metric and signal"});
+}
+
+template <class Visitor>
+void describe(Visitor& v, Requirement& s) {
+  describe(v, s.measure);
+  const std::string_view unit = figure_unit(s.measure);
+  v.value("min", s.min,
+          {.meaning = "the figure must be at least this, in the figure's unit", .unit_here = unit});
+  v.value("max", s.max,
+          {.meaning = "the figure must be at most this, in the figure's unit", .unit_here = unit});
+}
+
+template <class Visitor>
+void describe(Visitor& v, Comparison& s) {
+  describe(v, s.measure);
+  v.value("value", s.value,
+          {.meaning = "what the source says, in the figure's unit",
+           .required = true,
+           .unit_here = figure_unit(s.measure)});
+  v.value("source", s.source, {.meaning = "where the value comes from", .required = true});
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of [protection]: names, units, ranges and meanings.
+#pragma once
+#include "sixstep/base/describe.hpp"
+#include "sixstep/study/scenario/protection.hpp"
+
+namespace sixstep::study {
+
+template <class Visitor>
+void describe(Visitor& v, Align& s) {
+  v.value("current_A", s.current_A,
+          {.meaning = "current that pulls the rotor into place before it runs; without it there is no "
+                      "alignment",
+           .unit = "A",
+           .range = base::above(0)});
+  v.value("longest_s", s.longest_s,
+          {.meaning = "time after which a rotor that is not in place is a fault",
+           .unit = "s",
+           .range = base::above(0)});
+  v.value("settled_s", s.settled_s,
+          {.meaning = "time that it must stay in place", .unit = "s", .range = base::from(0)});
+  v.value("sector", s.sector,
+          {.meaning = "sector whose pair pulls: the rotor goes to the edge between the next two",
+           .range = base::between(0, 5)});
+}
+
+template <class Visitor>
+void describe_thresholds(Visitor& v, Protection& s) {
+  using base::above;
+  using base::from;
+  v.value("over_current_A", s.over_current_A,
+          {.meaning = "a phase current above it is a fault", .unit = "A", .range = above(0)});
+  v.value("over_voltage_V", s.over_voltage_V,
+          {.meaning = "a bus voltage above it is a fault", .unit = "V", .range = above(0)});
+  v.value("under_voltage_V", s.under_voltage_V,
+          {.meaning = "a bus voltage below it is a fault", .unit = "V", .range = from(0)});
+  v.value("over_speed_rad_s", s.over_speed_rad_s,
+          {.meaning = "a speed above it is a fault", .unit = "rad/s", .range = above(0)});
+  v.value("voltage_samples", s.voltage_samples,
+          {.meaning = "samples in a row that a voltage must be wrong", .range = base::between(1, 255)});
+  v.value("stall_current_A", s.stall_current_A,
+          {.meaning = "a phase current above it without a Hall edge for stall_s is a fault; without both, "
+                      "stalling is not watched",
+           .unit = "A",
+           .range = above(0)});
+  v.value("stall_s", s.stall_s, {.meaning = "how long that may last", .unit = "s", .range = above(0)});
+  v.value("offset_tolerance_A", s.offset_tolerance_A,
+          {.meaning = "offset of a current amplifier beyond which it counts as broken; without it 2 % of "
+                      "sensors.current_range_A",
+           .unit = "A",
+           .range = above(0)});
+}
+
+template <class Visitor>
+void describe(Visitor& v, Protection& s) {
+  using base::from;
+  describe_thresholds(v, s);
+  v.table("align", s.align, {.meaning = "pulling the rotor into place before it runs"});
+  v.value("brake_current_A", s.brake_current_A,
+          {.meaning = "current held against the turning once the request to run is let go; 0: it coasts",
+           .unit = "A",
+           .range = from(0)});
+  v.value("short_below_rad_s", s.short_below_rad_s,
+          {.meaning = "speed below which braking shorts the driven windings; without it the one at which "
+                      "the short circuit carries brake_current_A",
+           .unit = "rad/s",
+           .range = from(0)});
+  v.value("standing_rad_s", s.standing_rad_s,
+          {.meaning = "speed at which braking ends and the bridge is let go; 0: no Hall edge for "
+                      "sensors.timeout_s",
+           .unit = "rad/s",
+           .range = from(0)});
+  v.value("off_at_s", s.off_at_s,
+          {.meaning = "when the request to run is let go; without it never. It is raised at 0",
+           .unit = "s",
+           .range = from(0)});
+}
+
+}  // namespace sixstep::study

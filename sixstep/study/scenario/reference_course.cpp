@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/scenario/reference_course.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sixstep::study {
+
+namespace {
+
+/// Adds a reference's stretches, its times counted from from_s; `before` is where the reference stood.
+class StretchWriter {
+ public:
+  StretchWriter(const Reference& r, double from_s, double until_s, double before, std::vector<Stretch>& out)
+      : r_(r), from_s_(from_s), until_s_(until_s), before_(before), out_(out) {}
+
+  void add() {
+    switch (r_.shape) {
+      case Shape::constant:
+        return put(0.0, r_.value);
+      case Shape::steps:
+        return steps();
+      case Shape::square:
+        return square();
+      case Shape::ramp:
+        return ramp();
+      case Shape::sine:
+        return put(0.0, r_.offset,
+                   {.amplitude = r_.amplitude,
+                    .frequency_Hz = r_.frequency_Hz,
+                    .phase_turns = r_.phase_deg / 360.0});
+      case Shape::trapezoid:
+        return trapezoid();
+      case Shape::csv:
+        return rows();
+    }
+  }
+
+ private:
+  void put(double at_s, double value, const rig::Course& course = {}) {
+    if (at_s == 0.0 || from_s_ + at_s < until_s_) out_.push_back({from_s_ + at_s, value, course});
+  }
+  void stand_until(double at_s, double value) {
+    if (at_s > 0.0) put(0.0, value);
+  }
+
+  void steps() {
+    if (r_.times_s.empty() || r_.times_s.front() > 0) put(0.0, before_);
+    for (std::size_t n = 0; n < r_.times_s.size(); ++n) put(r_.times_s[n], r_.values[n]);
+  }
+
+  /// Counted, not summed: half period n begins at n T/2, rounded once.
+  void square() {
+    const double half_s = r_.period_s / 2;
+    for (int n = 0; n == 0 || from_s_ + n * half_s < until_s_; ++n)
+      put(n * half_s, n % 2 == 0 ? r_.high : r_.low);
+  }
+
+  void ramp() {
+    const double start = r_.start.value_or(before_), way = r_.end - start;
+    const double length_s = r_.end_s ? *r_.end_s - r_.begin_s : std::fabs(way) / r_.slope.value_or(1.0);
+    stand_until(r_.begin_s, start);
+    if (length_s > 0.0) put(r_.begin_s, start, {.rate = way / length_s});
+    put(r_.begin_s + length_s, r_.end);
+  }
+
+  /// Way s from rest to rest within the rate v and its change a: for t_a = v/a the rate rises, for s/v - t_a
+  /// it stays, for t_a it falls. A way shorter than v^2/a never gets to v: t_a = sqrt(s/a).
+  void trapezoid() {
+    const double start = r_.start.value_or(before_), way = r_.end - start, size = std::fabs(way);
+    const double v = r_.slope.value_or(1.0), a = r_.acceleration.value_or(1.0), sign = way < 0 ? -1.0 : 1.0;
+    const bool cruises = size * a > v * v;
+    const double rise_s = cruises ? v / a : std::sqrt(size / a);
+    const double cruise_s = cruises ? size / v - rise_s : 0.0;
+    const double rate = sign * a * rise_s, first = rate * rise_s / 2, begin_s = r_.begin_s;
+    stand_until(begin_s, start);
+    if (rise_s > 0.0) put(begin_s, start, {.curvature = sign * a});
+    if (cruises) put(begin_s + rise_s, start + first, {.rate = rate});
+    if (rise_s > 0.0)
+      put(begin_s + rise_s + cruise_s, r_.end - first, {.rate = rate, .curvature = -sign * a});
+    put(begin_s + 2 * rise_s + cruise_s, r_.end);
+  }
+
+  /// Held before the first row and behind the last.
+  void rows() {
+    const std::vector<double>&t = r_.times_s, &y = r_.values;
+    if (t.empty()) return put(0.0, before_);
+    stand_until(t.front(), y.front());
+    for (std::size_t n = 0; n < t.size(); ++n) {
+      const bool goes_on = r_.interpolation == Interpolation::linear && n + 1 < t.size();
+      put(t[n], y[n], {.rate = goes_on ? (y[n + 1] - y[n]) / (t[n + 1] - t[n]) : 0.0});
+    }
+  }
+
+  const Reference& r_;
+  double from_s_, until_s_, before_;
+  std::vector<Stretch>& out_;
+};
+
+/// Where stretch n ends.
+double end_of(const std::vector<Stretch>& course, std::size_t n, double duration_s) {
+  return n + 1 < course.size() ? course[n + 1].at_s : duration_s;
+}
+
+}  // namespace
+
+std::vector<Stretch> reference_course(const Scenario& s) {
+  std::vector<const At*> changes;
+  for (const At& at : s.at)
+    if (at.reference) changes.push_back(&at);
+  std::stable_sort(changes.begin(), changes.end(),
+                   [](const At* a, const At* b) { return a->time_s < b->time_s; });
+  const auto until = [&](std::size_t n) { return n < changes.size() ? changes[n]->time_s : s.duration_s; };
+  std::vector<Stretch> course;
+  StretchWriter(s.reference, 0.0, until(0), 0.0, course).add();
+  for (std::size_t n = 0; n < changes.size(); ++n) {
+    const double from_s = changes[n]->time_s;
+    StretchWriter(*changes[n]->reference, from_s, until(n + 1), course.back().at(from_s), course).add();
+  }
+  return course;
+}
+
+std::vector<Level> reference_levels(const Scenario& s) {
+  const std::vector<Stretch> course = reference_course(s);
+  std::vector<Level> levels;
+  for (std::size_t n = 0; n < course.size(); ++n) {
+    const Stretch& stretch = course[n];
+    levels.push_back(
+        {stretch.at_s, stretch.course.moves() ? stretch.at(end_of(course, n, s.duration_s)) : stretch.value});
+  }
+  return levels;
+}
+
+double largest_reference(const Scenario& s) {
+  const std::vector<Stretch> course = reference_course(s);
+  double largest = 0.0;
+  // No stretch turns back on its way, so that its ends bound it.
+  for (std::size_t n = 0; n < course.size(); ++n) {
+    const Stretch& stretch = course[n];
+    const double swing = std::fabs(stretch.course.amplitude);
+    largest = std::max(largest, std::fabs(stretch.value) + swing);
+    if (stretch.course.moves() && swing == 0.0)
+      largest = std::max(largest, std::fabs(stretch.at(end_of(course, n, s.duration_s))));
+  }
+  return largest;
+}
+
+bool reference_moves(const Scenario& s, double from_s, double to_s) {
+  const std::vector<Stretch> course = reference_course(s);
+  for (std::size_t n = 0; n < course.size(); ++n)
+    if (course[n].course.moves() && course[n].at_s < to_s && end_of(course, n, s.duration_s) > from_s)
+      return true;
+  return false;
+}
+
+}  // namespace sixstep::study

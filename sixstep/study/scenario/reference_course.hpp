@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reference over a whole run, in closed form: stretches that stand or move, [[at]] events included.
+#pragma once
+#include <vector>
+
+#include "sixstep/rig/timeline.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+/// From at_s on, until the next stretch begins.
+struct Stretch {
+  double at_s = 0.0;
+  double value = 0.0;  ///< at at_s
+  rig::Course course{};
+
+  double at(double t_s) const { return course.after(value, t_s - at_s); }
+};
+
+/// Rising in time, the first at 0. Assumes that check_reference() found nothing.
+std::vector<Stretch> reference_course(const Scenario& scenario);
+
+/// The reference's values over time: {instant, value}, first at 0. A stretch that moves counts as its end's
+/// value, for what comes after it is no step.
+struct Level {
+  double at_s = 0.0;
+  double value = 0.0;
+};
+std::vector<Level> reference_levels(const Scenario& scenario);
+
+/// The largest magnitude of the reference during the run; of a sine a bound.
+double largest_reference(const Scenario& scenario);
+
+/// Whether the reference moves anywhere in [from_s, to_s).
+bool reference_moves(const Scenario& scenario, double from_s, double to_s);
+
+}  // namespace sixstep::study

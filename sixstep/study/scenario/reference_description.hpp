@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of a reference: their names, units, ranges and meanings.
+#pragma once
+#include "sixstep/base/describe.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+
+namespace sixstep::study {
+
+/// Time is counted in picoseconds of 63 bits, 106 days; and what repeats must be many of them long.
+inline constexpr double longest_s = 9e6;
+inline constexpr double shortest_period_s = 1e-9;
+
+template <class Visitor>
+void describe_moving(Visitor& v, Reference& s) {
+  v.value(
+      "begin_s", s.begin_s,
+      {.meaning = "ramp, trapezoid: when it sets off", .unit = "s", .range = base::between(0, longest_s)});
+  v.value("start", s.start,
+          {.meaning = "ramp, trapezoid: where it sets off, in the unit of control.mode; without it where the "
+                      "reference stood, 0 at first",
+           .mode_unit = "*"});
+  v.value("end", s.end,
+          {.meaning = "ramp, trapezoid: where it goes to, in the unit of control.mode", .mode_unit = "*"});
+  v.value("end_s", s.end_s,
+          {.meaning = "ramp: when it gets there", .unit = "s", .range = base::between(0, longest_s)});
+  v.value("slope", s.slope,
+          {.meaning = "ramp, instead of end_s: its rate, in the unit of control.mode per s, without sign; "
+                      "trapezoid: its largest rate",
+           .range = base::above(0),
+           .mode_unit = "*/s"});
+  v.value("acceleration", s.acceleration,
+          {.meaning = "trapezoid: how fast the rate itself changes at both ends, in the unit of control.mode "
+                      "per s2",
+           .range = base::above(0),
+           .mode_unit = "*/s2"});
+  v.value("offset", s.offset, {.meaning = "sine: its mean, in the unit of control.mode", .mode_unit = "*"});
+  v.value("amplitude", s.amplitude,
+          {.meaning = "sine: its peak above the mean, in the unit of control.mode", .mode_unit = "*"});
+  v.value("frequency_Hz", s.frequency_Hz,
+          {.meaning = "sine: its frequency", .unit = "Hz", .range = base::from(0)});
+  v.value("phase_deg", s.phase_deg,
+          {.meaning = "sine: its phase at the start, 0 where it rises through its mean", .unit = "deg"});
+}
+
+template <class Visitor>
+void describe(Visitor& v, Reference& s) {
+  v.choice("shape", s.shape, shape_choices, {.meaning = "how the reference runs over time"});
+  v.value("value", s.value,
+          {.meaning = "constant: the reference, in the unit of control.mode", .mode_unit = "*"});
+  v.value("times_s", s.times_s,
+          {.meaning = "steps, csv: when each of values holds, rising", .unit = "s", .range = base::from(0)});
+  v.value("values", s.values,
+          {.meaning = "steps, csv: the references, in the unit of control.mode", .mode_unit = "*"});
+  v.value("high", s.high,
+          {.meaning = "square: first half of each period, in the unit of control.mode", .mode_unit = "*"});
+  v.value("low", s.low,
+          {.meaning = "square: second half of each period, in the unit of control.mode", .mode_unit = "*"});
+  v.value("period_s", s.period_s,
+          {.meaning = "square: length of one period", .unit = "s", .range = base::from(shortest_period_s)});
+  describe_moving(v, s);
+  v.value("file", s.file,
+          {.meaning = "csv: a file beside this one, time in s first, then the reference; instead of times_s "
+                      "and values"});
+  v.value("column", s.column,
+          {.meaning = "csv: heading of the column that holds the reference; without it the second one"});
+  v.choice("interpolation", s.interpolation, interpolation_choices,
+           {.meaning = "csv: what the reference does from row to row"});
+  v.value("unit", s.unit,
+          {.meaning = "unit of the reference, to be checked: 1, A, rad/s or deg as control.mode asks"});
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/scenario/spread.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "sixstep/base/hash.hpp"
+#include "sixstep/base/random.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet_constants.hpp"
+#include "sixstep/study/scenario/scenario_description.hpp"
+
+namespace sixstep::study {
+namespace {
+
+constexpr std::string_view torque_key = "motor_override.torque_constant_mNm_A",
+                           back_emf_key = "motor_override.back_emf_mV_s";
+
+/// What drives differ in. The rest of the sheet is print: it describes no part of the motor.
+constexpr std::string_view motor_keys[] = {"motor_override.resistance_ohm",
+                                           "motor_override.inductance_mH",
+                                           torque_key,
+                                           back_emf_key,
+                                           "motor_override.inertia_gcm2",
+                                           "motor_override.viscous_friction_Nm_s",
+                                           "motor_override.coulomb_friction_mNm",
+                                           "motor_override.flat_deg"};
+constexpr std::string_view tables[] = {"supply.", "bridge.", "load.", "initial."};
+
+bool may_stray(std::string_view key) {
+  return std::find(std::begin(motor_keys), std::end(motor_keys), key) != std::end(motor_keys) ||
+         std::any_of(std::begin(tables), std::end(tables),
+                     [&](std::string_view table) { return key.starts_with(table); });
+}
+
+/// Six digits say what a message needs, without the rounding of 1.03 - 1.5 * 1.03.
+std::string rounded(double x) {
+  char text[32];
+  const std::to_chars_result end = std::to_chars(text, text + sizeof text, x, std::chars_format::general, 6);
+  return {text, end.ptr};
+}
+
+/// The visitor that looks for the number at a key's path.
+class NumberAt {
+ public:
+  explicit NumberAt(std::string_view path) : path_(path) {}
+
+  double* number = nullptr;  ///< null: no such number
+  base::Range range;
+  bool left_out = false;  ///< the key is there, its value is not
+
+  void value(std::string_view key, double& x, const base::About& about) { take(key, &x, about); }
+  void value(std::string_view key, std::optional<double>& x, const base::About& about) {
+    take(key, x ? &*x : nullptr, about);
+  }
+  void quantity(std::string_view key, base::Quantity& q, const base::About& about) {
+    take(key, &q.value, about);
+  }
+  void quantity(std::string_view key, std::optional<base::Quantity>& q, const base::About& about) {
+    take(key, q ? &q->value : nullptr, about);
+  }
+  template <class Other>
+  void value(std::string_view, Other&, const base::About&) {}
+  template <class Enum, class Choices>
+  void choice(std::string_view, Enum&, const Choices&, const base::About&) {}
+  template <class Item>
+  void list(std::string_view, std::vector<Item>&, const base::About&) {}
+  template <class Struct>
+  void table(std::string_view, std::optional<Struct>&, const base::About&) {}
+  template <class Struct>
+  void table(std::string_view key, Struct& member, const base::About&) {
+    if (!path_.starts_with(key) || path_.substr(key.size(), 1) != ".") return;
+    const std::string_view whole = path_;
+    path_.remove_prefix(key.size() + 1);
+    describe(*this, member);
+    path_ = whole;
+  }
+
+ private:
+  void take(std::string_view key, double* x, const base::About& about) {
+    if (key != path_) return;
+    number = x;
+    range = about.range;
+    left_out = !x;
+  }
+  std::string_view path_;
+};
+
+NumberAt find_number(Scenario& scenario, std::string_view key) {
+  NumberAt finder(key);
+  describe(finder, scenario);
+  return finder;
+}
+
+/// The scenario with everything written out that would otherwise be derived from a value that strays, and
+/// every constant in its standard key, whatever way the sheet prints it.
+Scenario written_out(const Scenario& scenario) {
+  Scenario s = scenario;
+  s.sheet = design::in_standard_keys(std::move(s.sheet));
+  return s;
+}
+
+/// Half width or standard deviation in the key's unit.
+double width(const Spread& spread, double nominal) {
+  return spread.absolute ? *spread.absolute : *spread.relative * std::fabs(nominal);
+}
+
+std::uint64_t stream_of(std::string_view key) {
+  base::Hash hash;
+  for (const char c : key) hash.word(static_cast<unsigned char>(c));
+  return hash.value();
+}
+
+/// In units of the width. What lies beyond the cut is drawn again: with cut_sigma >= 1 at least 68 % are
+/// inside, so that 64 draws all miss once in 10^31 drives; that one is nominal.
+double deviation(const Spread& spread, std::uint64_t seed, std::uint64_t number) {
+  const std::uint64_t stream = stream_of(spread.key);
+  if (spread.distribution == Distribution::uniform) return 2.0 * base::uniform({seed, stream, number}) - 1.0;
+  for (std::uint64_t attempt = 0; attempt < 64; ++attempt) {
+    const double x = base::normal({seed, stream, number | attempt << 48});
+    if (std::fabs(x) <= spread.cut_sigma) return x;
+  }
+  return 0.0;
+}
+
+/// No two drives share their noise. Where nothing is noisy the seed says nothing.
+int noise_seed(const Scenario& scenario, std::uint64_t seed, std::uint64_t number) {
+  const std::uint64_t stream = stream_of("sensors.seed") + static_cast<std::uint64_t>(scenario.sensors.seed);
+  return static_cast<int>(base::random_bits({seed, stream, number})[0] >> 33);
+}
+
+void set_number(Scenario& s, std::string_view key, double x) {
+  double* const number = find_number(s, key).number;
+  if (number == nullptr) return;  // check_spread() has told so
+  const double before = std::exchange(*number, x);
+  if (key != torque_key && key != back_emf_key) return;
+  const NumberAt partner = find_number(s, key == torque_key ? back_emf_key : torque_key);
+  if (partner.number) *partner.number *= x / before;
+}
+
+struct Checker {
+  Scenario scenario;  // written out
+  base::Problems problems;
+
+  void check(const Spread& spread, const std::string& where) {
+    const NumberAt at = find_number(scenario, spread.key);
+    if (!may_stray(spread.key) || (!at.number && !at.left_out))
+      return add(
+          where + ".key", "\"" + spread.key + "\"",
+          "is no number of motor_override, supply, bridge, load or initial that differs from drive to "
+          "drive",
+          "write it as table.key, as in \"supply.voltage_V\"; sixstep help spread.key lists the motor's");
+    if (!at.number)
+      return add(where + ".key", "\"" + spread.key + "\"", "has no value that could differ",
+                 spread.key == torque_key     ? "the sheet gives back_emf_mV_s: spread that"
+                 : spread.key == back_emf_key ? "the sheet gives torque_constant_mNm_A: spread that"
+                                              : "give " + spread.key + " its nominal value first");
+    if (!spread.relative == !spread.absolute)
+      return add(where + (spread.relative ? ".absolute" : ".relative"), "",
+                 spread.relative ? "contradicts relative: the width is given twice" : "is missing",
+                 "give relative (as a part of the value) or absolute (in the key's unit)");
+    if (spread.relative && *at.number == 0.0)
+      return add(where + ".relative", base::written(*spread.relative),
+                 "is a part of " + spread.key + " = 0, which is nothing", "give absolute instead");
+    check_reach(spread, at, where);
+  }
+
+  void check_reach(const Spread& spread, const NumberAt& at, const std::string& where) {
+    const double reach =
+        width(spread, *at.number) * (spread.distribution == Distribution::uniform ? 1.0 : spread.cut_sigma);
+    for (const double end : {*at.number - reach, *at.number + reach})
+      if (!at.range.holds(end))
+        return add(where + (spread.relative ? ".relative" : ".absolute"),
+                   base::written(spread.relative ? *spread.relative : *spread.absolute),
+                   "lets " + spread.key + " reach " + rounded(end) + ", outside of the key's range",
+                   spread.distribution == Distribution::uniform ? "lower it" : "lower it or cut_sigma");
+  }
+
+  void add(std::string where, std::string value, std::string limit, std::string cure) {
+    problems.push_back({std::move(where), std::move(value), std::move(limit), std::move(cure)});
+  }
+};
+
+/// The key whose spread is the same thing: of the two constants each means the other.
+std::string_view fact_of(std::string_view key) { return key == back_emf_key ? torque_key : key; }
+
+}  // namespace
+
+Scenario varied(const Scenario& scenario, std::uint64_t seed, std::uint64_t number) {
+  Scenario s = written_out(scenario);
+  if (!s.designed_for) s.designed_for = Nominal{scenario.sheet, scenario.supply, scenario.load};
+  for (const Spread& spread : scenario.spread) {
+    const double nominal = *find_number(s, spread.key).number;
+    set_number(s, spread.key, nominal + width(spread, nominal) * deviation(spread, seed, number));
+  }
+  s.sensors.seed = noise_seed(scenario, seed, number);
+  s.spread.clear();
+  return s;
+}
+
+base::Problems check_spread(const Scenario& scenario) {
+  if (scenario.spread.empty()) return {};
+  Checker checker{written_out(scenario), {}};
+  for (std::size_t n = 0; n < scenario.spread.size(); ++n) {
+    const std::string where = "spread[" + std::to_string(n) + "]";
+    const auto same = [&](const Spread& other) {
+      return fact_of(other.key) == fact_of(scenario.spread[n].key);
+    };
+    const auto end = scenario.spread.begin() + static_cast<std::ptrdiff_t>(n);
+    if (std::any_of(scenario.spread.begin(), end, same))
+      checker.add(where + ".key", "\"" + scenario.spread[n].key + "\"", "is spread already",
+                  "keep one entry per quantity");
+    else
+      checker.check(scenario.spread[n], where);
+  }
+  return checker.problems;
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// One drive out of a series: motor, supply and load as they stray, the controller as it was designed.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/base/result.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+/// Drive `number` of the series that scenario.spread describes: a pure function of its arguments. Each value
+/// depends on the seed, the number and its own key, not on what else is spread or in which order.
+///
+/// - The controller stays the one designed for the values as written (Scenario::designed_for): its gains,
+///   torque and current limits, the bus voltage it divides by. Gains placed anew on each motor would hide
+///   what a spread costs.
+/// - What the sheet leaves to be derived is derived once, from the values as written: friction does not
+///   change because the torque constant does.
+/// - Torque constant and back-EMF constant are one fact: where the sheet gives both, both change.
+///
+/// Assumes that check() found nothing. Below 2^48 each number is another drive.
+Scenario varied(const Scenario& scenario, std::uint64_t seed, std::uint64_t number);
+
+/// What is wrong with scenario.spread: keys that are none or cannot stray, a width given twice or not at all,
+/// a value that could leave its key's range. `where` is the key's path: "spread[0].relative".
+base::Problems check_spread(const Scenario& scenario);
+
+}  // namespace sixstep::study

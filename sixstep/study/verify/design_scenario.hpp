@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// A design put to the test: the scenario that runs it with all switching, and whose comparisons set what was
+// designed beside what comes out.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "sixstep/design/drive_design.hpp"
+#include "sixstep/study/measure/outcome.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+struct DesignSubject {
+  std::string motor;    ///< name or path, as a scenario is to have it
+  design::Sheet sheet;  ///< of that motor
+  /// Height of the step in the unit of the mode; else one at which no limit acts (current, speed), or the
+  /// thesis's 1000 degrees.
+  std::optional<double> step;
+};
+
+/// - current: rotor held in the middle of a sector, a step of the setpoint; settling and overshoot at the
+///   controller's samples, ripple of the last ten periods.
+/// - speed: against half the nominal torque, so that the current flows without gaps: a start from rest, where
+///   torque and bus limit, then a step so small that nothing does, which the linear design must foretell.
+/// - position: one move; without a load, since a P controller leaves an error behind one.
+/// Each comparison's value is what the design says, its source in words how.
+Scenario design_scenario(const design::DriveDesign& design, const DesignSubject& subject);
+
+/// What a reader is shown of a figure: 0 where the design expects 0 and rounding alone is left of the step.
+double as_read(const ComparisonResult& figure, const Scenario& scenario);
+
+}  // namespace sixstep::study

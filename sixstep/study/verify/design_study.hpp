@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole road from a sheet and a wish to gains that are known to hold: designed in closed form, run with
+// all switching, put through the sheet's tolerances.
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sixstep/study/measure/outcome.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/verify/design_scenario.hpp"
+#include "sixstep/study/verify/position_gain.hpp"
+#include "sixstep/study/verify/robust.hpp"
+
+namespace sixstep::study {
+
+struct DesignStudy {
+  design::DriveDesign design;
+  std::optional<PositionGain> position;  ///< position mode: how its gain was found
+  Scenario scenario;                     ///< that the design was run as
+  Outcome outcome;
+  Trace trace;  ///< of that run, as its [record] asks
+  std::optional<Robustness> robustness;
+  std::vector<design::Warning> warnings;  ///< the design's, and what only the runs could show
+
+  bool usable() const;  ///< no warning is grave
+};
+
+struct DesignOrder {
+  DesignSubject subject;
+  design::DesignWish wish;
+  std::vector<Tolerance> tolerances;  ///< empty: not looked at
+  ForEach for_each = one_after_the_other;
+  std::function<bool()> keep_going;  ///< false ends it early: what comes out then means nothing
+};
+
+/// Problems are those of sheet, wish and scenario.
+base::Result<DesignStudy> study_design(const DesignOrder& order);
+
+}  // namespace sixstep::study

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/verify/first_scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/base/decimal.hpp"
+#include "sixstep/study/run/run.hpp"
+#include "sixstep/study/verify/design_study.hpp"
+
+namespace sixstep::study {
+namespace {
+
+using control::Mode;
+
+/// What the straight line leaves out is commutation time and PWM ripple: some percent. Who starts with
+/// another duty sees the requirement fail.
+constexpr double line_tolerance = 0.05;
+
+Measure measure(MetricKind metric, Signal signal, double from_s, const char* label) {
+  Measure m;
+  m.metric = metric;
+  m.signal = signal;
+  m.from_s = from_s;
+  m.label = label;
+  return m;
+}
+
+base::Result<Scenario> run_up(const FirstWish& wish, const design::MotorModel& motor) {
+  const double U = wish.voltage_V.value_or(motor.nominal_voltage_V);
+  if (!(U > 0.0))
+    return base::Problem{"--voltage", "", "is missing, and the motor's sheet has no nominal voltage",
+                         "give the bus voltage in V"};
+  const double K = motor.K_t_Nm_A, R = 2 * motor.machine.R_ohm, d = 0.5;
+  const double slope = K * K / R + motor.shaft.B_Nm_s;
+  const double speed = (K * d * U / R - motor.shaft.coulomb_Nm) / slope;
+  if (!(speed > 0.0))
+    return base::Problem{"--voltage", "", "does not turn the rotor: friction holds it at half the voltage",
+                         "give a higher bus voltage in V"};
+  Scenario s;
+  s.motor = wish.motor;
+  s.sheet = wish.sheet;
+  s.title = "Run-up at half the voltage";
+  s.supply.voltage_V = U;
+  s.pwm.chopping = control::Chopping::complementary;
+  s.control.mode = Mode::duty;
+  s.reference.value = d;
+  s.reference.unit.emplace("1");
+  const double tau = motor.shaft.J_kg_m2 / slope;
+  s.duration_s = std::ceil(10 * tau * 1e3) / 1e3;  // exp(-9) of the way is left where the window begins
+  const double calm = 0.9 * s.duration_s;
+  const Measure mean = measure(MetricKind::mean, Signal::speed, calm, "speed at the end");
+  s.require = {{mean, (1 - line_tolerance) * speed, (1 + line_tolerance) * speed}};
+  s.compare = {{mean, speed, "straight line of the sheet, with its friction"},
+               {measure(MetricKind::maximum, Signal::current, 0, "peak current of the start"), d * U / R,
+                "half the voltage over the winding's resistance"}};
+  return s;
+}
+
+/// The thesis's settling times, then slower ones.
+base::Result<DesignStudy> usable_design(const FirstWish& wish) {
+  const double usual_s = wish.mode == Mode::current ? 1e-3 : 10e-3;
+  base::Problems told;
+  for (const double times : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
+    DesignOrder order{.subject = {wish.motor, wish.sheet, std::nullopt}, .wish = {}, .tolerances = {}};
+    order.wish.mode = wish.mode;
+    order.wish.voltage_V = wish.voltage_V;
+    order.wish.settle_s = times * usual_s;
+    base::Result<DesignStudy> study = study_design(order);
+    if (!study) {
+      if (told.empty()) told = study.problems();
+    } else if (study->usable() && study->outcome.passed()) {
+      return study;
+    }
+  }
+  if (told.empty())
+    told.push_back({"the motor", wish.motor, "has no usable design with the usual settling times",
+                    "sixstep design MOTOR tells why; or start with --mode duty"});
+  return told;
+}
+
+/// To so many digits, upwards or downwards: a number that one likes to read and to change.
+double shortened(double x, int digits, bool up) {
+  if (x == 0.0 || !std::isfinite(x)) return x;
+  int power = 0;
+  while (std::fabs(base::times_ten_to(x, power)) < base::times_ten_to(1.0, digits - 1)) ++power;
+  while (std::fabs(base::times_ten_to(x, power)) >= base::times_ten_to(1.0, digits)) --power;
+  const double scaled = base::times_ten_to(x, power);
+  return base::times_ten_to(up ? std::ceil(scaled) : std::floor(scaled), -power);
+}
+
+/// Times move on together: their order stays, and so do windows that meet. What a window holds anyhow is left
+/// out.
+void shorten(Measure& m, double duration_s) {
+  for (std::optional<double>* time : {&m.from_s, &m.to_s})
+    if (*time) *time = shortened(**time, 3, true);
+  if (m.from_s == 0.0) m.from_s.reset();
+  if (m.to_s == duration_s) m.to_s.reset();
+}
+
+void shorten(Scenario& s) {
+  s.duration_s = shortened(s.duration_s, 3, true);
+  for (double& time : s.reference.times_s) time = shortened(time, 3, true);
+  for (Requirement& r : s.require) {
+    shorten(r.measure, s.duration_s);
+    if (r.min) r.min = shortened(*r.min, 4, false);
+    if (r.max) r.max = shortened(*r.max, 4, true);
+  }
+  for (Comparison& c : s.compare) {
+    shorten(c.measure, s.duration_s);
+    c.value = shortened(c.value, 4, false);
+  }
+  s.load.torque_Nm = shortened(s.load.torque_Nm, 2, false);
+  s.initial.angle_rad = shortened(s.initial.angle_rad, 4, false);
+  double& gain = s.control.position.gain_rad_s_per_deg;
+  gain = shortened(gain, 2, false);  // a lower one overshoots less
+}
+
+/// The design's test as a scenario of one's own.
+base::Result<Scenario> designed(const FirstWish& wish) {
+  const base::Result<DesignStudy> study = usable_design(wish);
+  if (!study) return study.problems();
+  Scenario s = study->scenario;
+  s.record = {};  // a reader wants to see everything
+  s.compare.resize(std::min<std::size_t>(s.compare.size(), 2));
+  if (wish.mode == Mode::position) s.require.front().max = 1e-3 * std::fabs(s.reference.value);
+  return s;
+}
+
+}  // namespace
+
+base::Result<Scenario> first_scenario(const FirstWish& wish) {
+  const base::Result<design::MotorModel> motor = design::motor_model(wish.sheet);
+  if (!motor) return motor.problems();
+  base::Result<Scenario> s = wish.mode == Mode::duty ? run_up(wish, *motor) : designed(wish);
+  if (!s) return s.problems();
+  shorten(*s);
+  const base::Result<Outcome> outcome = run(*s);
+  if (!outcome) return outcome.problems();
+  if (!outcome->passed() || outcome->fault)
+    return base::Problem{"the motor", wish.motor, "does not do what its sheet foretells",
+                         "see sixstep motor check; or start with another --mode"};
+  return s;
+}
+
+}  // namespace sixstep::study

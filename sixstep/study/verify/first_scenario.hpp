@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scenario to start from: one that suits the motor, runs, and passes.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "sixstep/base/result.hpp"
+#include "sixstep/design/sheet.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+struct FirstWish {
+  control::Mode mode = control::Mode::speed;  ///< duty, current, speed or position
+  std::string motor;                          ///< name or path, as the scenario is to have it
+  design::Sheet sheet;                        ///< of that motor
+  std::optional<double> voltage_V;            ///< of the bus; else the sheet's
+};
+
+/// - current, speed, position: the design's own test (design_scenario.hpp) with the thesis's settling times;
+///   where the motor does not keep up with them, the shortest of 2, 5, 10 .. times as long that is usable.
+/// - duty: a run-up from rest at half the voltage, complementary chopping, so that the current flows without
+///   gaps and the sheet's straight line foretells the speed: 0 = K_t (d U - K_t w)/R_tt - B w - T_c.
+/// Problems are those of the sheet, or that no design suits.
+base::Result<Scenario> first_scenario(const FirstWish& wish);
+
+}  // namespace sixstep::study
