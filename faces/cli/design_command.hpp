@@ -3,7 +3,7 @@
 #include "faces/cli/rooms.hpp"
 #include "faces/cli/verb.hpp"
 #include "sixstep/base/describe.hpp"
-#include "sixstep/design/drive_design.hpp"
+#include "sixstep/design/loops/drive_design.hpp"
 
 namespace cli {
 

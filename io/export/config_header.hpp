@@ -7,7 +7,7 @@
 
 #include "io/rooms.hpp"
 #include "sixstep/base/result.hpp"
-#include "sixstep/design/scaling.hpp"
+#include "sixstep/design/scaling/scaling.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
 namespace io {

@@ -13,7 +13,7 @@
 #include "sixstep/base/describe.hpp"
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/pi.hpp"
-#include "sixstep/design/scaling.hpp"
+#include "sixstep/design/scaling/scaling.hpp"
 
 namespace io {
 

@@ -8,7 +8,7 @@
 #include "io/files/text_file.hpp"
 #include "io/trace/mat_file.hpp"
 #include "sixstep/base/angle.hpp"
-#include "sixstep/design/thesis_models.hpp"
+#include "sixstep/design/thesis/thesis_models.hpp"
 
 namespace io {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "io/rooms.hpp"
 #include "sixstep/base/result.hpp"
-#include "sixstep/design/parameters.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
 
 namespace io {
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "io/keys/key_advice.hpp"
-#include "sixstep/design/sheet_description.hpp"
+#include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
 
 namespace io {

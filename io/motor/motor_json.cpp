@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/motor/motor_text.hpp"
-#include "sixstep/design/sheet_description.hpp"
+#include "sixstep/design/sheet/sheet_description.hpp"
 
 namespace io {
 namespace {

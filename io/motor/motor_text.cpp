@@ -7,7 +7,7 @@
 
 #include "io/keys/key_advice.hpp"
 #include "sixstep/base/decimal.hpp"
-#include "sixstep/design/sheet_description.hpp"
+#include "sixstep/design/sheet/sheet_description.hpp"
 
 namespace io {
 namespace {

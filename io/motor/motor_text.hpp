@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/rooms.hpp"
-#include "sixstep/design/sheet_check.hpp"
+#include "sixstep/design/sheet/sheet_check.hpp"
 
 namespace io {
 

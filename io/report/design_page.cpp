@@ -11,7 +11,7 @@
 #include "io/report/html.hpp"
 #include "io/report/shell.hpp"
 #include "sixstep/base/angle.hpp"
-#include "sixstep/design/thesis_figures.hpp"
+#include "sixstep/design/thesis/thesis_figures.hpp"
 
 namespace io::report {
 namespace {

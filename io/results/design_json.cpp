@@ -8,7 +8,7 @@
 #include "io/results/design_text.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
-#include "sixstep/design/thesis_figures.hpp"
+#include "sixstep/design/thesis/thesis_figures.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
 namespace io {

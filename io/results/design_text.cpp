@@ -9,7 +9,7 @@
 #include "io/results/quantity_text.hpp"
 #include "io/results/verdict_table.hpp"
 #include "sixstep/base/angle.hpp"
-#include "sixstep/design/thesis_figures.hpp"
+#include "sixstep/design/thesis/thesis_figures.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
 namespace io {

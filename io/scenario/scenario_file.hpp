@@ -7,7 +7,7 @@
 #include "io/rooms.hpp"
 #include "io/toml/document.hpp"
 #include "sixstep/base/result.hpp"
-#include "sixstep/design/sheet.hpp"
+#include "sixstep/design/sheet/sheet.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
 namespace io {

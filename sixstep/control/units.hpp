@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What 1.0 of a signal means in A, V, rad/s and degrees, and constants of a board turned into that while
 // compiling: x in SI becomes x/base, rounded once. In floating point every base is 1. The same quotients as
-// design/product_scaling.hpp, so a converter or threshold written in firmware has the bits proved there.
-// (Where double has 32 bits, AVR, the last of 16 bits may round the other way; an exported drive is whole
-// numbers.)
+// design/scaling/product_scaling.hpp, so a converter or threshold written in firmware has the bits proved
+// there. (Where double has 32 bits, AVR, the last of 16 bits may round the other way; an exported drive is
+// whole numbers.)
 //
 // A chip never divides by a base: all functions are consteval, and what the format does not hold does not
 // compile ("does_not_fit").

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole drives: the loops with what lies within against a simulation written out, the poles that were placed,
 // the warnings that must and must not come.
-#include "sixstep/design/drive_design.hpp"
+#include "sixstep/design/loops/drive_design.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 
-#include "sixstep/design/drive_loops.hpp"
-#include "sixstep/design/margins.hpp"
+#include "sixstep/design/loops/drive_loops.hpp"
+#include "sixstep/design/loops/margins.hpp"
 
 namespace {
 

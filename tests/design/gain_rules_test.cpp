@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sixstep/design/gain_rules.hpp"
+#include "sixstep/design/loops/gain_rules.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sixstep/design/loop_figures.hpp"
+#include "sixstep/design/loops/loop_figures.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scanned figures against the closed form of margins.hpp, against brute force on the definitions, and
 // against what a margin means: used up, the closed loop stands on the edge of stability.
-#include "sixstep/design/loop_figures.hpp"
+#include "sixstep/design/loops/loop_figures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "sixstep/control/pi.hpp"
-#include "sixstep/design/margins.hpp"
+#include "sixstep/design/loops/margins.hpp"
 
 namespace {
 

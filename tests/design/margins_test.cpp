@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Margins against their definitions: |L| = 1 at the crossover, the closed loop on the unit circle when a
 // margin is used up, and a brute-force Nyquist scan.
-#include "sixstep/design/margins.hpp"
+#include "sixstep/design/loops/margins.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // (The ripple beside the exact simulation: tests/study/design_study_test.cpp.)
-#include "sixstep/design/operating_limits.hpp"
+#include "sixstep/design/loops/operating_limits.hpp"
 
 #include <gtest/gtest.h>
 

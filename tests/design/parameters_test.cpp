@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Data sheet to model: the reference motor's numbers to the bit, the shapes' sector means, and what is
 // refused.
-#include "sixstep/design/parameters.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 
 #include "sixstep/base/angle.hpp"
-#include "sixstep/design/thesis_models.hpp"
+#include "sixstep/design/thesis/thesis_models.hpp"
 
 namespace {
 

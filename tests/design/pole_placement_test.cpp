@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The thesis's numbers (THESIS "The design numbers", exact column) and the property that defines them: the
 // closed loop's polynomial has the wanted poles as its roots.
-#include "sixstep/design/pole_placement.hpp"
+#include "sixstep/design/loops/pole_placement.hpp"
 
 #include <gtest/gtest.h>
 

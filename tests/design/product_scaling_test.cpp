@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sixstep/design/product_scaling.hpp"
+#include "sixstep/design/scaling/product_scaling.hpp"
 
 #include <gtest/gtest.h>
 

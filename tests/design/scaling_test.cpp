@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sixstep/design/scaling.hpp"
+#include "sixstep/design/scaling/scaling.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The factors of a back-EMF against the shape itself, as the plant draws it.
-#include "sixstep/design/shape_factors.hpp"
+#include "sixstep/design/sheet/shape_factors.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/elementary.hpp"
-#include "sixstep/design/thesis_models.hpp"
+#include "sixstep/design/thesis/thesis_models.hpp"
 
 namespace {
 

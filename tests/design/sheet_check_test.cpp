@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The relations of a sheet: the 251601's by the numbers, every slip noticed, no honest rounding called one.
-#include "sixstep/design/sheet_check.hpp"
+#include "sixstep/design/sheet/sheet_check.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every way of printing a constant means the same machine, and a bad sheet is told one thing with its cure.
-#include "sixstep/design/sheet_constants.hpp"
+#include "sixstep/design/sheet/sheet_constants.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #pragma once
 #include <string>
 
-#include "sixstep/design/parameters.hpp"
-#include "sixstep/design/sheet_check.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
+#include "sixstep/design/sheet/sheet_check.hpp"
 
 namespace sixstep::testing {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The two-body thermal model against its differential equations, integrated otherwise, and against the
 // textbook's two exponentials.
-#include "sixstep/design/thermal.hpp"
+#include "sixstep/design/sheet/thermal.hpp"
 
 #include <gtest/gtest.h>
 

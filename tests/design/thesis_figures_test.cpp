@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The thesis's chapter 6 with its own rounding, number by number, and beside it the same rule evaluated
 // exactly.
-#include "sixstep/design/thesis_figures.hpp"
+#include "sixstep/design/thesis/thesis_figures.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The thesis's matrices against MODEL 1 written out, against each other, and against the energy they must
 // balance; the signs as printed (THESIS "Errata") break that balance.
-#include "sixstep/design/thesis_models.hpp"
+#include "sixstep/design/thesis/thesis_models.hpp"
 
 #include <gtest/gtest.h>
 

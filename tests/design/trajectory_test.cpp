@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "sixstep/design/thesis_models.hpp"
+#include "sixstep/design/thesis/thesis_models.hpp"
 #include "tests/support/board.hpp"
 
 namespace {

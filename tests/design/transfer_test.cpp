@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sampled systems against closed forms of first and second order, stability against roots that are known.
-#include "sixstep/design/transfer.hpp"
+#include "sixstep/design/loops/transfer.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "sixstep/design/loop_figures.hpp"
-#include "sixstep/design/pole_placement.hpp"
+#include "sixstep/design/loops/loop_figures.hpp"
+#include "sixstep/design/loops/pole_placement.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "sixstep/design/scaling.hpp"
+#include "sixstep/design/scaling/scaling.hpp"
 
 namespace extras {
 

@@ -15,9 +15,9 @@
 #include "io/scenario/scenario_file.hpp"
 #include "io/toml/table_reader.hpp"
 #include "sixstep/base/decimal.hpp"
-#include "sixstep/design/parameters.hpp"
-#include "sixstep/design/sheet_check.hpp"
-#include "sixstep/design/sheet_description.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
+#include "sixstep/design/sheet/sheet_check.hpp"
+#include "sixstep/design/sheet/sheet_description.hpp"
 
 namespace io {
 namespace {

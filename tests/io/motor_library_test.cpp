@@ -9,9 +9,9 @@
 #include <set>
 
 #include "io/scenario/scenario_file.hpp"
-#include "sixstep/design/parameters.hpp"
-#include "sixstep/design/sheet_check.hpp"
-#include "sixstep/design/sheet_description.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
+#include "sixstep/design/sheet/sheet_check.hpp"
+#include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/study/run/run.hpp"
 
 namespace io {

@@ -2,7 +2,7 @@
 // The drive that was designed in double, in the number its chip computes in: the same figures as float, or
 // scaled to fixed point with a proof that they fit.
 #pragma once
-#include "sixstep/design/product_scaling.hpp"
+#include "sixstep/design/scaling/product_scaling.hpp"
 #include "sixstep/rig/units.hpp"
 #include "sixstep/study/compile/compile.hpp"
 

@@ -3,7 +3,7 @@
 #pragma once
 #include "sixstep/base/problem.hpp"
 #include "sixstep/control/bridge_command.hpp"
-#include "sixstep/design/parameters.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/plant/machine.hpp"
 
 namespace sixstep::study {

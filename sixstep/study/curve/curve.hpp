@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "sixstep/design/thermal.hpp"
+#include "sixstep/design/sheet/thermal.hpp"
 #include "sixstep/study/curve/no_load.hpp"
 
 namespace sixstep::study {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "sixstep/base/problem.hpp"
-#include "sixstep/design/parameters.hpp"
-#include "sixstep/design/pole_placement.hpp"
+#include "sixstep/design/loops/pole_placement.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/plant/audit.hpp"
 
 namespace sixstep::study {

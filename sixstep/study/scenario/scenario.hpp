@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sixstep/control/bridge_command.hpp"
-#include "sixstep/design/sheet.hpp"
+#include "sixstep/design/sheet/sheet.hpp"
 #include "sixstep/study/scenario/at.hpp"
 #include "sixstep/study/scenario/control.hpp"
 #include "sixstep/study/scenario/measure.hpp"

@@ -2,7 +2,7 @@
 // The keys of a scenario file: the only place of their names, units, ranges and meanings. Defaults are the
 // structs'.
 #pragma once
-#include "sixstep/design/sheet_description.hpp"
+#include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/study/scenario/at_description.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/control_description.hpp"

@@ -10,7 +10,7 @@
 #include "sixstep/base/hash.hpp"
 #include "sixstep/base/random.hpp"
 #include "sixstep/base/written.hpp"
-#include "sixstep/design/sheet_constants.hpp"
+#include "sixstep/design/sheet/sheet_constants.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
 
 namespace sixstep::study {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "sixstep/design/drive_design.hpp"
+#include "sixstep/design/loops/drive_design.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "sixstep/base/result.hpp"
-#include "sixstep/design/sheet.hpp"
+#include "sixstep/design/sheet/sheet.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
 namespace sixstep::study {

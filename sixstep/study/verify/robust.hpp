@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sixstep/design/drive_design.hpp"
+#include "sixstep/design/loops/drive_design.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
 namespace sixstep::study {

@@ -8,7 +8,7 @@
 
 #include "io/motor/motor_text.hpp"
 #include "io/scenario/scenario_file.hpp"
-#include "sixstep/design/drive_design.hpp"
+#include "sixstep/design/loops/drive_design.hpp"
 #include "tests/fuzz/libfuzzer/complaints.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/loops/design_warnings.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "sixstep/base/angle.hpp"
+
+namespace sixstep::design {
+namespace {
+
+/// Three digits say what a warning needs.
+std::string rounded(double x) {
+  char text[32];
+  const std::to_chars_result end = std::to_chars(text, text + sizeof text, x, std::chars_format::general, 3);
+  return {text, end.ptr};
+}
+std::string milliseconds(double s) { return rounded(s * 1e3) + " ms"; }
+std::string microseconds(double s) { return rounded(s * 1e6) + " us"; }
+
+struct Collector {
+  std::vector<Warning> found;
+  void add(std::string what, std::string cure, bool grave = false) {
+    found.push_back({std::move(what), std::move(cure), grave});
+  }
+};
+
+/// The figures with a delay of one period, whichever of the two that is.
+const LoopFigures& delayed(const DriveDesign& d, const LoopDesign& loop) {
+  return d.wish.delay_periods == 1 ? loop.figures : loop.other;
+}
+
+std::string slower(const DriveDesign& d, const LoopDesign& loop) {
+  if (loop.name == "position") return "lower the position gain";
+  std::string text = loop.name == "current" && d.wish.mode != control::Mode::current ? "--current-settle"
+                     : d.wish.bandwidth_rad_s                                        ? "--bandwidth"
+                                                                                     : "--settle";
+  return "design the " + loop.name + " loop slower (" + text + ")";
+}
+
+void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
+  if (!loop.figures.stable)
+    return out.add("the " + loop.name + " loop is unstable", slower(d, loop) + " or shorten --period", true);
+  const LoopFigures& late = delayed(d, loop);
+  if (!late.stable)
+    return out.add("the " + loop.name + " loop is unstable where its command counts one period late",
+                   slower(d, loop) + ", or keep --period below " + microseconds(d.longest_period_s));
+  const double phase_deg = late.phase_rad.value_or(base::pi) * 180.0 / base::pi;
+  const std::string cure = loop.name == "current" ? slower(d, loop) + ", or keep --period below " +
+                                                        microseconds(d.longest_period_s)
+                                                  : slower(d, loop);
+  if (phase_deg < least_phase_deg)
+    out.add("with one period of delay the " + loop.name + " loop keeps " + rounded(phase_deg) +
+                " degrees of phase, less than " + rounded(least_phase_deg),
+            cure);
+  else if (late.sensitivity_peak > greatest_sensitivity)
+    out.add("with one period of delay the " + loop.name + " loop amplifies disturbances up to " +
+                rounded(late.sensitivity_peak) + " times",
+            cure);
+}
+
+void look_at_sign(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
+  if (loop.gains.d1 <= 0.0 && loop.name == "current")
+    out.add("the current loop is asked to be slower than the motor's own L/R, " +
+                milliseconds(d.motor.machine.L_H / d.motor.machine.R_ohm) +
+                ": its proportional gain is negative",
+            "ask for a shorter --settle, or take --method cancellation");
+}
+
+void look_at_overshoot(const LoopDesign& loop, Collector& out) {
+  if (loop.name != "position" && loop.figures.stable && loop.step.overshoot > 0.1)
+    out.add("the " + loop.name + " loop overshoots a step by " + rounded(100.0 * loop.step.overshoot) +
+                " %, for the PI's zero",
+            loop.name == "current" ? "give --method cancellation, or limit how fast the setpoint rises"
+                                   : "limit how fast the setpoint rises (control/slew.hpp)");
+}
+
+void look_at_separation(const LoopDesign& inner, const LoopDesign& outer, Collector& out) {
+  if (!inner.figures.crossover_rad_s || !outer.figures.crossover_rad_s) return;
+  const double ratio = *inner.figures.crossover_rad_s / *outer.figures.crossover_rad_s;
+  if (ratio < least_separation)
+    out.add("the " + inner.name + " loop crosses over at only " + rounded(ratio) +
+                " times the frequency of the " + outer.name + " loop",
+            "make the " + outer.name + " loop slower or the " + inner.name + " loop faster until it is " +
+                rounded(least_separation) + " times");
+}
+
+void look_at_ripple(const DriveDesign& d, Collector& out) {
+  if (d.ripple.worst_A > greatest_ripple * d.nominal_current_A) {
+    const double period_s =
+        period_for_ripple_s(d.motor, d.bus_V, d.wish.chopping, greatest_ripple * d.nominal_current_A);
+    out.add("the PWM ripple reaches " + rounded(d.ripple.worst_A) + " A, " +
+                rounded(100.0 * d.ripple.worst_A / d.nominal_current_A) + " % of the nominal current",
+            "keep --period below " + microseconds(period_s) +
+                (d.wish.chopping == control::Chopping::hard ? ", or chop softly" : ", or add inductance"));
+  }
+}
+
+void look_at_braking(const DriveDesign& d, Collector& out) {
+  const double top =
+      d.motor.no_load_speed_rad_s > 0.0 ? d.motor.no_load_speed_rad_s : d.bus_V / d.motor.K_t_Nm_A;
+  if (d.wish.chopping == control::Chopping::soft && d.braking_limit_rad_s < top)
+    out.add("soft chopping cannot hold a braking current of " + rounded(d.nominal_current_A) + " A above " +
+                rounded(d.braking_limit_rad_s) +
+                " rad/s, (i/K_t) R: the motor brakes through the lower switches",
+            "brake with --chopping complementary or hard, or smooth_chopping.hpp on the chip");
+}
+
+/// The first command of a step of the nominal current is d1 i.
+void look_at_voltage(const DriveDesign& d, Collector& out) {
+  const double first_V = d.loops[0].gains.d1 * d.nominal_current_A;
+  if (first_V > d.bus_V)
+    out.add("a step of the nominal current asks for " + rounded(first_V) + " V at once, the bus has " +
+                rounded(d.bus_V) + " V: it settles later than designed",
+            slower(d, d.loops[0]) + " or raise --voltage");
+  if (d.headroom_end_rad_s <= 0.0)
+    out.add("the bus cannot drive the nominal current even through the held rotor", "raise --voltage", true);
+}
+
+void look_at_settling(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
+  if (!loop.placed || !loop.figures.stable) return;
+  if (loop.placed->settle_s < 10.0 * d.wish.period_s)
+    out.add("the " + loop.name + " loop is to settle within " + milliseconds(loop.placed->settle_s) + ", " +
+                rounded(loop.placed->settle_s / d.wish.period_s) + " control periods",
+            slower(d, loop) + " or shorten --period to a tenth");
+}
+
+void look_at_heat(const DriveDesign& d, Collector& out) {
+  if (d.wish.mode != control::Mode::current && d.current_at_full_torque_A > 3.0 * d.nominal_current_A)
+    out.add("the speed loop may ask for " + rounded(d.current_at_full_torque_A) + " A, " +
+                rounded(d.current_at_full_torque_A / d.nominal_current_A) + " times the nominal current",
+            "give --torque-limit what bridge, winding and load bear");
+}
+
+}  // namespace
+
+std::vector<Warning> warnings_of(const DriveDesign& d) {
+  Collector out;
+  for (const LoopDesign& loop : d.loops) {
+    look_at_stability(d, loop, out);
+    look_at_settling(d, loop, out);
+    look_at_sign(d, loop, out);
+    look_at_overshoot(loop, out);
+  }
+  // A position gain is bounded by the overshoot itself.
+  if (d.loops.size() > 1) look_at_separation(d.loops[0], d.loops[1], out);
+  look_at_voltage(d, out);
+  look_at_ripple(d, out);
+  look_at_braking(d, out);
+  look_at_heat(d, out);
+  return out.found;
+}
+
+}  // namespace sixstep::design

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a designer should be told of a drive, in words, each with its cure.
+#pragma once
+#include <vector>
+
+#include "sixstep/design/loops/drive_design.hpp"
+
+namespace sixstep::design {
+
+/// Rules of the trade that decide: 45 degrees of phase and a peak of sensitivity of 2 with the delay of a
+/// real chip (Astrom, Hagglund: 1.2 to 2), crossovers of nested loops apart by 4, ripple below a fifth of the
+/// nominal current.
+inline constexpr double least_phase_deg = 45.0, greatest_sensitivity = 2.0, least_separation = 4.0,
+                        greatest_ripple = 0.2;
+
+std::vector<Warning> warnings_of(const DriveDesign& design);
+
+}  // namespace sixstep::design

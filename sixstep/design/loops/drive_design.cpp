@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/loops/drive_design.hpp"
+
+#include <cmath>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/design_warnings.hpp"
+#include "sixstep/design/loops/drive_loops.hpp"
+#include "sixstep/design/loops/gain_rules.hpp"
+#include "sixstep/design/loops/margins.hpp"
+
+namespace sixstep::design {
+namespace {
+
+using control::Mode;
+
+// The thesis's choices (chapter 6), and the ratio of its two loops.
+constexpr double current_settle = 1e-3, speed_settle = 10e-3, inner_faster = 10.0;
+
+double settle_of_current(const DesignWish& w) {
+  if (w.mode == Mode::current) return w.settle_s.value_or(current_settle);
+  return w.current_settle_s.value_or(
+      std::fmin(current_settle, w.settle_s.value_or(speed_settle) / inner_faster));
+}
+
+base::Problems check(const MotorModel& motor, const DesignWish& w) {
+  base::Problems found;
+  const auto add = [&](const char* where, const std::string& value, const char* limit, const char* cure) {
+    found.push_back({where, value, limit, cure});
+  };
+  const auto above_0 = [](double x) { return x > 0.0 && x - x == 0.0; };
+  if (w.mode != Mode::current && w.mode != Mode::speed && w.mode != Mode::position)
+    add("--mode", "", "must be current, speed or position", "choose what is to be controlled");
+  if (w.method == GainMethod::symmetrical_optimum && w.mode == Mode::current)
+    add("--method", "symmetrical-optimum", "is a rule for speed loops",
+        "add --mode speed, or take pole-placement or cancellation");
+  if (w.delay_periods < 0 || w.delay_periods > 1)
+    add("--delay", std::to_string(w.delay_periods), "must be 0 or 1",
+        "0: a command counts at once, 1: from the next period on");
+  if (w.bandwidth_rad_s && w.method == GainMethod::pole_placement)
+    add("--bandwidth", base::written(*w.bandwidth_rad_s), "is no input of pole placement",
+        "give --settle, or take --method cancellation");
+  if (w.bandwidth_rad_s && !above_0(*w.bandwidth_rad_s))
+    add("--bandwidth", base::written(*w.bandwidth_rad_s), "must be above 0", "give it in rad/s");
+  if (w.voltage_V && !above_0(*w.voltage_V))
+    add("--voltage", base::written(*w.voltage_V), "must be above 0", "give the bus voltage in volts");
+  if (!w.voltage_V && !above_0(motor.nominal_voltage_V))
+    add("--voltage", "", "is missing, and the sheet prints no nominal voltage",
+        "give the bus voltage in volts");
+  if (!above_0(w.period_s))
+    add("--period", base::written(w.period_s), "must be above 0", "give the control period in seconds");
+  if (w.torque_limit_Nm && !above_0(*w.torque_limit_Nm))
+    add("--torque-limit", base::written(*w.torque_limit_Nm), "must be above 0", "give it in N m");
+  if (!(w.load_inertia_kg_m2 >= 0.0 && w.load_inertia_kg_m2 - w.load_inertia_kg_m2 == 0.0))
+    add("--load-inertia", base::written(w.load_inertia_kg_m2), "must not be negative", "give it in kg m2");
+  return found;
+}
+
+DriveLoops loops_of(const DriveDesign& d, const MotorModel& motor, int delay_periods) {
+  DriveLoops to{.motor = motor, .period_s = d.wish.period_s, .delay_periods = delay_periods};
+  for (const LoopDesign& loop : d.loops) {
+    if (loop.name == "current") to.current = loop.gains;
+    if (loop.name == "speed") to.speed = loop.gains;
+    if (loop.name == "position") to.position_gain_rad_s_per_deg = loop.gains.d1;
+  }
+  to.current_at_full_torque_A = d.current_at_full_torque_A;
+  return to;
+}
+
+/// Long enough for the slowest root to fade to a hundredth of the band.
+double watched_s(const Transfer& whole, double period_s) {
+  const double decay = slowest_decay(whole.den);
+  const double periods = decay > 0.0 ? 8.5 / decay : 2000.0;
+  return std::fmin(periods, 200000.0) * period_s;
+}
+
+void judge(DriveDesign& d, LoopDesign& loop, std::size_t index) {
+  const int delay_periods = d.wish.delay_periods;
+  loop.loop = open_loops(d, d.motor, delay_periods)[index];
+  loop.figures = loop_figures(loop.loop, d.wish.period_s);
+  loop.other = loop_figures(open_loops(d, d.motor, 1 - delay_periods)[index], d.wish.period_s);
+  const Transfer whole = closed(loop.loop);
+  if (loop.figures.stable)
+    loop.step = step_response(whole, d.wish.period_s, watched_s(whole, d.wish.period_s));
+}
+
+base::Result<LoopDesign> by_placement(const char* name, const ZohPlant& plant, double settle_s,
+                                      double damping, double period_s) {
+  base::Result<PolePlacement> placed = place_poles(plant, settle_s, damping, period_s);
+  if (!placed) {
+    base::Problems found = placed.problems();
+    for (base::Problem& p : found)
+      p.where = p.where == "settle_s"   ? "--settle"
+                : p.where == "damping"  ? "--damping"
+                : p.where == "period_s" ? "--period"
+                                        : p.where;
+    return found;
+  }
+  return LoopDesign{.name = name,
+                    .method = "pole placement",
+                    .gains = placed->gains,
+                    .steps = placed->steps,
+                    .placed = *placed,
+                    .loop = {},
+                    .figures = {},
+                    .other = {},
+                    .step = {}};
+}
+
+base::Result<LoopDesign> by_rule(const char* name, const char* method, const base::Result<RuleGains>& rule) {
+  if (!rule) return rule.problems();
+  return LoopDesign{.name = name,
+                    .method = method,
+                    .gains = rule->gains,
+                    .steps = rule->steps,
+                    .placed = {},
+                    .loop = {},
+                    .figures = {},
+                    .other = {},
+                    .step = {}};
+}
+
+base::Result<LoopDesign> current_loop(const DriveDesign& d) {
+  const DesignWish& w = d.wish;
+  const double R = 2.0 * d.motor.machine.R_ohm, L = 2.0 * d.motor.machine.L_H, settle = settle_of_current(w);
+  if (w.method == GainMethod::cancellation)
+    return by_rule("current", "pole-zero cancellation",
+                   cancel_pole(R, L, w.bandwidth_rad_s.value_or(4.6 / settle), w.period_s));
+  return by_placement("current", current_plant(R, L, w.period_s), settle, w.damping, w.period_s);
+}
+
+base::Result<LoopDesign> speed_loop(const DriveDesign& d) {
+  const DesignWish& w = d.wish;
+  const plant::Shaft& shaft = d.motor.shaft;
+  if (w.method == GainMethod::symmetrical_optimum) {
+    const ZohPlant plant = current_plant(2.0 * d.motor.machine.R_ohm, 2.0 * d.motor.machine.L_H, w.period_s);
+    const double lag = lag_of_loop_s(plant, d.loops[0].gains, w.period_s);
+    const double a = w.bandwidth_rad_s ? 1.0 / (*w.bandwidth_rad_s * lag) : 1.0 + 2.0 * w.damping;
+    if (w.bandwidth_rad_s && !(a > 1.0))
+      return base::Problem{
+          "--bandwidth", base::written(*w.bandwidth_rad_s),
+          "must be below what the current loop's lag allows, " + base::written(1.0 / lag) + " rad/s",
+          "lower it; a third of that has the most phase to spare"};
+    return by_rule("speed", "symmetrical optimum",
+                   symmetrical_optimum(shaft.J_kg_m2, d.torque_limit_Nm, lag, a, w.period_s));
+  }
+  return by_placement("speed", speed_plant(d.torque_limit_Nm, shaft.J_kg_m2, shaft.B_Nm_s, w.period_s),
+                      w.settle_s.value_or(speed_settle), w.damping, w.period_s);
+}
+
+bool overshoots(const Transfer& open, double gain, double period_s) {
+  Transfer loop = open;
+  for (double& x : loop.num) x *= gain;
+  const Transfer whole = closed(loop);
+  if (!is_stable(whole.den)) return true;
+  // What rounding leaves of a step that creeps up on 1 from below.
+  return step_response(whole, period_s, watched_s(whole, period_s)).overshoot > 1e-9;
+}
+
+/// The largest gain with which the linear loop does not overshoot: an overshoot grows with the gain.
+double largest_position_gain(const DriveDesign& d) {
+  DriveLoops loops = loops_of(d, d.motor, d.wish.delay_periods);
+  loops.position_gain_rad_s_per_deg = 1.0;
+  const Transfer open = open_position_loop(loops);
+  double low = 0.0, high = 1e-3;
+  while (!overshoots(open, high, d.wish.period_s) && high < 1e6) {
+    low = high;
+    high *= 2.0;
+  }
+  for (int n = 0; n < 24; ++n) {
+    const double middle = low + (high - low) / 2.0;
+    (overshoots(open, middle, d.wish.period_s) ? high : low) = middle;
+  }
+  return low;
+}
+
+LoopDesign position_loop(double gain, const char* method) {
+  return {.name = "position",
+          .method = method,
+          .gains = {gain, 0.0},
+          .steps = {{"K_p", "largest gain without overshoot", gain, "rad/s/deg"},
+                    {"K_p", "the same in radians", gain * 180.0 / base::pi, "1/s"}},
+          .placed = {},
+          .loop = {},
+          .figures = {},
+          .other = {},
+          .step = {}};
+}
+
+/// The longest period at which the same rule keeps 45 degrees with one period of delay: the phase falls with
+/// the period.
+double longest_period(const DriveDesign& d) {
+  const auto holds = [&](double period_s) {
+    DriveDesign at = d;
+    at.wish.period_s = period_s;
+    const base::Result<LoopDesign> loop = current_loop(at);
+    if (!loop) return false;
+    const ZohPlant plant = current_plant(2.0 * d.motor.machine.R_ohm, 2.0 * d.motor.machine.L_H, period_s);
+    const std::optional<Margins> m = margins(plant, loop->gains, period_s, true);
+    return m && m->phase_rad >= base::pi / 4.0;
+  };
+  double low = 1e-9, high = 2e-9;
+  while (holds(high) && high < 1.0) {
+    low = high;
+    high *= 2.0;
+  }
+  for (int n = 0; n < 40; ++n) {
+    const double middle = low + (high - low) / 2.0;
+    (holds(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+void add_limits(DriveDesign& d) {
+  d.ripple = worst_ripple(d.motor, d.bus_V, d.wish.period_s, d.wish.chopping);
+  d.headroom_end_rad_s = speed_for_current_rad_s(d.motor, d.bus_V, d.nominal_current_A);
+  d.braking_limit_rad_s = soft_braking_limit_rad_s(d.motor, d.nominal_current_A);
+  d.longest_period_s = longest_period(d);
+}
+
+void finish(DriveDesign& d) {
+  for (std::size_t n = 0; n < d.loops.size(); ++n) judge(d, d.loops[n], n);
+  d.warnings = warnings_of(d);
+}
+
+}  // namespace
+
+const LoopDesign& DriveDesign::loop(std::string_view name) const {
+  for (const LoopDesign& l : loops)
+    if (l.name == name) return l;
+  return loops.back();
+}
+
+base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignWish& wish) {
+  if (base::Problems found = check(motor, wish); !found.empty()) return found;
+  DriveDesign d;
+  d.wish = wish;
+  d.motor = motor;
+  d.motor.shaft.J_kg_m2 += wish.load_inertia_kg_m2;
+  d.bus_V = wish.voltage_V.value_or(motor.nominal_voltage_V);
+  const double stall_A = d.bus_V / (2.0 * motor.machine.R_ohm);
+  const double stall_Nm = motor.stall_torque_Nm > 0.0 ? motor.stall_torque_Nm : motor.K_t_Nm_A * stall_A;
+  d.torque_limit_Nm = wish.torque_limit_Nm.value_or(stall_Nm);
+  d.current_at_full_torque_A = d.torque_limit_Nm / motor.K_t_Nm_A;
+  d.nominal_current_A = motor.nominal_current_A > 0.0 ? motor.nominal_current_A : stall_A / 10.0;
+  base::Result<LoopDesign> current = current_loop(d);
+  if (!current) return current.problems();
+  d.loops.push_back(*current);
+  if (wish.mode != Mode::current) {
+    base::Result<LoopDesign> speed = speed_loop(d);
+    if (!speed) return speed.problems();
+    d.loops.push_back(*speed);
+  }
+  add_limits(d);
+  if (wish.mode == Mode::position)
+    d.loops.push_back(position_loop(largest_position_gain(d), "largest linear gain without overshoot"));
+  finish(d);
+  return d;
+}
+
+DriveDesign with_position_gain(const DriveDesign& design, double gain_rad_s_per_deg) {
+  DriveDesign d = design;
+  d.loops.back() = position_loop(gain_rad_s_per_deg, "largest gain without overshoot under the limits");
+  finish(d);
+  return d;
+}
+
+std::vector<Transfer> open_loops(const DriveDesign& design, const MotorModel& motor, int delay_periods) {
+  const DriveLoops loops = loops_of(design, motor, delay_periods);
+  std::vector<Transfer> out{open_current_loop(loops)};
+  if (design.loops.size() > 1) out.push_back(open_speed_loop(loops));
+  if (design.loops.size() > 2) out.push_back(open_position_loop(loops));
+  return out;
+}
+
+}  // namespace sixstep::design

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a motor and a wish to the gains of a whole drive, loop by loop from the inside out, with the figures
+// by which a designer judges each loop and a warning where one is off. Closed form: nothing is simulated
+// here.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sixstep/base/result.hpp"
+#include "sixstep/control/bridge_command.hpp"
+#include "sixstep/design/loops/loop_figures.hpp"
+#include "sixstep/design/loops/operating_limits.hpp"
+#include "sixstep/design/loops/pole_placement.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
+
+namespace sixstep::design {
+
+enum class GainMethod : std::uint8_t { pole_placement, cancellation, symmetrical_optimum };
+
+/// What is wanted. What is left out is the thesis's choice, carried over to this motor.
+struct DesignWish {
+  control::Mode mode = control::Mode::current;  ///< current, speed or position
+  GainMethod method = GainMethod::pole_placement;
+  std::optional<double> settle_s;  ///< of the PI of the mode; 1 ms for current, 10 ms for speed
+  std::optional<double>
+      current_settle_s;  ///< of the inner loop; 1 ms, or a tenth of the speed loop's if shorter
+  double damping = 0.9;
+  std::optional<double> bandwidth_rad_s;  ///< of the loop the method is for; else 4.6/settle_s
+  double period_s = 30e-6;
+  std::optional<double> voltage_V;        ///< of the bus; else the sheet's
+  std::optional<double> torque_limit_Nm;  ///< full output of the speed loop; else the stall torque
+  double load_inertia_kg_m2 = 0.0;        ///< on the shaft, beside the rotor's
+  int delay_periods = 0;                  ///< from a sample until its result takes effect, 0 or 1
+  control::Chopping chopping = control::Chopping::soft;
+};
+
+struct LoopDesign {
+  std::string name;    ///< "current", "speed", "position"
+  std::string method;  ///< in words
+  PiGains gains;       ///< position: d1 is the gain in rad/s per degree, d0 = 0
+  std::vector<DerivationStep> steps;
+  std::optional<PolePlacement> placed;
+  Transfer loop;        ///< open, with the wished delay, the inner loops counted in
+  LoopFigures figures;  ///< of `loop`
+  LoopFigures other;    ///< with the other delay: 1 where the wish is 0, and 0 where it is 1
+  StepResponse step;    ///< of the closed loop
+};
+
+struct Warning {
+  std::string what;  ///< one sentence
+  std::string cure;
+  bool grave = false;  ///< not to be put on a motor
+};
+
+struct DriveDesign {
+  DesignWish wish;
+  MotorModel motor;  ///< with the load's inertia on its shaft
+  double bus_V = 0.0;
+  double torque_limit_Nm = 0.0;
+  double current_at_full_torque_A = 0.0;
+  double nominal_current_A = 0.0;  ///< the sheet's; where it is silent a tenth of the stall current
+  std::vector<LoopDesign> loops;   ///< from the inside out
+  Ripple ripple;
+  double longest_period_s = 0.0;  ///< up to which the current loop keeps 45 degrees with one period of delay
+  double headroom_end_rad_s = 0.0;   ///< up to which the nominal current can be driven
+  double braking_limit_rad_s = 0.0;  ///< up to which soft chopping holds the nominal current while braking
+  std::vector<Warning> warnings;
+
+  const LoopDesign& loop(std::string_view name) const;
+};
+
+/// Gains for the wish. In position mode the gain is the largest with which the linear loop does not
+/// overshoot; what limits allow is study's to find, with with_position_gain(). Problems name the option.
+base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignWish& wish);
+
+/// The same with another position gain, figures and warnings anew.
+DriveDesign with_position_gain(const DriveDesign& design, double gain_rad_s_per_deg);
+
+/// The loops of the same controller on another motor: what a tolerance does to the margins. From the inside
+/// out, open.
+std::vector<Transfer> open_loops(const DriveDesign& design, const MotorModel& motor, int delay_periods);
+
+}  // namespace sixstep::design

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/loops/drive_loops.hpp"
+
+#include "sixstep/base/angle.hpp"
+
+namespace sixstep::design {
+namespace {
+
+const Polynomial difference{0.0, 1.0};  // z - 1
+
+/// d1 z + d0 = d1 (z - 1) + K_i
+Polynomial of(const PiGains& g) { return {g.d1 + g.d0, g.d1}; }
+Polynomial scaled(Polynomial p, double factor) {
+  for (double& x : p) x *= factor;
+  return p;
+}
+
+/// Motor sampled with held voltage: u -> i = i/den, u -> w = w/den, u -> theta = theta/(den (z - 1)).
+struct Plant {
+  Polynomial den, i, w, theta;
+};
+
+Plant plant_of(const DriveLoops& d) {
+  const double R = 2.0 * d.motor.machine.R_ohm, L = 2.0 * d.motor.machine.L_H, K = d.motor.K_t_Nm_A;
+  const double J = d.motor.shaft.J_kg_m2, B = d.motor.shaft.B_Nm_s;
+  Linear motor{.states = 2, .A = {}, .B = {}};
+  motor.A[0] = {-R / L, -K / L, 0.0, 0.0};
+  motor.A[1] = {K / J, -B / J, 0.0, 0.0};
+  motor.A[2] = {0.0, 1.0, 0.0, 0.0};
+  motor.B[0] = 1.0 / L;
+  const Transfer i = sampled(motor, 0, d.period_s), w = sampled(motor, 1, d.period_s);
+  motor.states = 3;
+  return {i.den, i.num, w.num, sampled(motor, 2, d.period_s).num};
+}
+
+/// (z - 1)^2 den z^m + (z - 1) c_i i + c_w K c_i w: the poles of the speed loop closed around the current
+/// loop, and the controllers in series.
+struct Cascade {
+  Polynomial controllers, current_closed, speed_closed;
+};
+
+Cascade cascade_of(const DriveLoops& d, const Plant& p) {
+  Cascade c;
+  c.controllers = scaled(product(of(d.speed), of(d.current)), d.current_at_full_torque_A);
+  const Polynomial held = product(p.den, delay(d.delay_periods).den);
+  c.current_closed = sum(product(difference, held), product(of(d.current), p.i));
+  c.speed_closed = sum(product(difference, c.current_closed), product(c.controllers, p.w));
+  return c;
+}
+
+}  // namespace
+
+Transfer open_current_loop(const DriveLoops& d) {
+  const ZohPlant plant = current_plant(2.0 * d.motor.machine.R_ohm, 2.0 * d.motor.machine.L_H, d.period_s);
+  const Transfer pi{of(d.current), difference}, held{{plant.b0}, {1.0 + plant.a0, 1.0}};
+  return series(series(pi, held), delay(d.delay_periods));
+}
+
+Transfer open_speed_loop(const DriveLoops& d) {
+  const Plant p = plant_of(d);
+  const Cascade c = cascade_of(d, p);
+  return {product(c.controllers, p.w), product(difference, c.current_closed)};
+}
+
+Transfer open_position_loop(const DriveLoops& d) {
+  const Plant p = plant_of(d);
+  const Cascade c = cascade_of(d, p);
+  const double gain = d.position_gain_rad_s_per_deg * 180.0 / base::pi;
+  return {scaled(product(c.controllers, p.theta), gain), product(difference, c.speed_closed)};
+}
+
+}  // namespace sixstep::design

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The drive's loops as open loops in z: motor with back-EMF, held voltage, delay, and the loops within.
+#pragma once
+#include "sixstep/design/loops/pole_placement.hpp"
+#include "sixstep/design/loops/transfer.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
+
+namespace sixstep::design {
+
+/// Driven pair and shaft: L di/dt = u - R i - K_t w, J dw/dt = K_t i - B w, d theta/dt = w (terminal values).
+struct DriveLoops {
+  MotorModel motor;
+  double period_s = 0.0;
+  int delay_periods = 0;
+  PiGains current;
+  PiGains speed;
+  double current_at_full_torque_A = 0.0;
+  double position_gain_rad_s_per_deg = 0.0;
+};
+
+/// Rotor held, as it is designed.
+Transfer open_current_loop(const DriveLoops& drive);
+/// From speed error to speed, the current loop closed within.
+Transfer open_speed_loop(const DriveLoops& drive);
+/// From position error to position, both loops closed within.
+Transfer open_position_loop(const DriveLoops& drive);
+
+}  // namespace sixstep::design

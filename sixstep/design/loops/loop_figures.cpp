@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/loops/loop_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/elementary.hpp"
+
+namespace sixstep::design {
+namespace {
+
+/// Where f changes its sign between low and high, to rounding.
+template <class F>
+double root(double low, double high, F f) {
+  const bool rising = f(low) < 0.0;
+  for (int n = 0; n < 200; ++n) {
+    const double middle = low + (high - low) / 2.0;
+    if (middle <= low || middle >= high) break;
+    ((f(middle) < 0.0) == rising ? low : high) = middle;
+  }
+  return low + (high - low) / 2.0;
+}
+
+/// Turns w T_s from low to pi, evenly spaced in their logarithm.
+std::vector<double> grid(double low, int points) {
+  std::vector<double> turns(static_cast<std::size_t>(points));
+  const double ratio = base::exp(base::log(base::pi / low) / (points - 1));
+  double turn = low;
+  for (double& t : turns) {
+    t = turn;
+    turn *= ratio;
+  }
+  turns.back() = base::pi;
+  return turns;
+}
+
+/// A hundredth of the slowest pole's frequency: below it L only rises.
+double lowest_turn(const Transfer& loop) {
+  const double decay = slowest_decay(closed(loop).den);
+  return std::clamp(decay > 0.0 ? 0.01 * decay : 1e-5, 1e-12, 0.1);
+}
+
+double size_over_one(const Transfer& t, double turn) { return t.at(turn).size() - 1.0; }
+
+/// As margins.hpp has it: pi + arg L with arg L in (-2 pi, 0], negative where the loop is past -180 degrees.
+double phase_left(Complex L) {
+  const double angle = L.angle_rad();
+  return base::pi + (angle > 0.0 ? angle - 2.0 * base::pi : angle);
+}
+
+void look_at_crossing(LoopFigures& f, const Transfer& loop, double turn, double period_s, bool falls) {
+  const double w = turn / period_s, left = phase_left(loop.at(turn));
+  if (falls) f.crossover_rad_s = w;
+  if (!f.phase_rad || left < *f.phase_rad) f.phase_rad = left;
+  const double delay_s = left > 0.0 ? left / w : 0.0;
+  if (!f.delay_s || delay_s < *f.delay_s) f.delay_s = delay_s;
+}
+
+/// Im L = 0 with L < 0: the gain there may grow to 1.
+void look_at_axis(LoopFigures& f, Complex L) {
+  const double size = L.size();
+  if (L.re >= 0.0 || size >= 1.0 || size <= 0.0) return;
+  if (!f.gain || 1.0 / size < *f.gain) f.gain = 1.0 / size;
+}
+
+}  // namespace
+
+LoopFigures loop_figures(const Transfer& loop, double period_s, int points) {
+  LoopFigures f;
+  const Transfer whole = closed(loop);
+  f.stable = is_stable(whole.den);
+  const std::vector<double> turns = grid(lowest_turn(loop), points);
+  Complex last = loop.at(turns[0]);
+  double last_closed = whole.at(turns[0]).size();
+  constexpr double half_power = 0.70710678118654752440;
+  for (std::size_t n = 0; n < turns.size(); ++n) {
+    const double turn = turns[n];
+    const Complex L = loop.at(turn);
+    const double sensitivity = 1.0 / (L + Complex{1.0, 0.0}).size(), through = whole.at(turn).size();
+    if (sensitivity > f.sensitivity_peak) {
+      f.sensitivity_peak = sensitivity;
+      f.sensitivity_peak_rad_s = turn / period_s;
+    }
+    if (n > 0) {
+      const double before = turns[n - 1];
+      if ((L.size() < 1.0) != (last.size() < 1.0))
+        look_at_crossing(f, loop, root(before, turn, [&](double x) { return size_over_one(loop, x); }),
+                         period_s, L.size() < 1.0);
+      const bool end = n + 1 == turns.size();  // at half the sampling rate L is real
+      if (!end && (L.im < 0.0) != (last.im < 0.0) && L.re < 0.0)
+        look_at_axis(f, loop.at(root(before, turn, [&](double x) { return loop.at(x).im; })));
+      if (end) look_at_axis(f, {L.re, 0.0});
+      if (!f.bandwidth_rad_s && last_closed >= half_power && through < half_power)
+        f.bandwidth_rad_s =
+            root(before, turn, [&](double x) { return whole.at(x).size() - half_power; }) / period_s;
+    }
+    last = L;
+    last_closed = through;
+  }
+  return f;
+}
+
+std::vector<BodePoint> bode(const Transfer& loop, double period_s, double from_rad_s, int points) {
+  std::vector<BodePoint> out;
+  double phase = 0.0;
+  bool first = true;
+  for (const double turn : grid(from_rad_s * period_s, points)) {
+    const Complex L = loop.at(turn);
+    double angle = L.angle_rad();
+    if (first && angle > 0.0) angle -= 2.0 * base::pi;
+    while (!first && angle - phase > base::pi) angle -= 2.0 * base::pi;
+    while (!first && angle - phase < -base::pi) angle += 2.0 * base::pi;
+    first = false;
+    phase = angle;
+    out.push_back({turn / period_s, L.size(), phase, (L / (L + Complex{1.0, 0.0})).size()});
+  }
+  return out;
+}
+
+namespace {
+
+/// num/den in its first canonical form: x_1' = x_2, .., x_n' = u - sum den_k x_(k+1), where ' is the
+/// difference to the next sample; keeps its digits however slow the system is.
+class Recursion {
+ public:
+  explicit Recursion(const Transfer& t) : num_(t.num), den_(t.den), x_(t.den.size() - 1) {
+    const double lead = den_.back();
+    for (double& d : den_) d /= lead;
+    for (double& n : num_) n /= lead;
+    num_.resize(den_.size());
+  }
+  /// The output for this input; then on to the next sample.
+  double next(double u) {
+    double top = u, y = 0.0;
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      top -= den_[k] * x_[k];
+      y += num_[k] * x_[k];
+    }
+    y += num_.back() * top;
+    for (std::size_t k = 0; k < x_.size(); ++k) x_[k] += k + 1 < x_.size() ? x_[k + 1] : top;
+    return y;
+  }
+
+ private:
+  Polynomial num_, den_;
+  std::vector<double> x_;
+};
+
+}  // namespace
+
+StepResponse step_response(const Transfer& closed_loop, double period_s, double seconds, double band) {
+  StepResponse r;
+  const std::size_t count = static_cast<std::size_t>(seconds / period_s) + 2;
+  Recursion recursion(closed_loop);
+  double highest = 0.0;
+  std::size_t inside_from = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double y = recursion.next(1.0);
+    r.samples.push_back(y);
+    highest = std::max(highest, y);
+    if (!r.reach_s && y >= 0.98) r.reach_s = static_cast<double>(k) * period_s;
+    if (!(std::fabs(y - 1.0) <= band)) inside_from = k + 1;
+  }
+  r.overshoot = highest > 1.0 ? highest - 1.0 : 0.0;
+  r.settling_s = inside_from < count ? static_cast<double>(inside_from) * period_s
+                                     : std::numeric_limits<double>::infinity();
+  return r;
+}
+
+}  // namespace sixstep::design

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/loops/operating_limits.hpp"
+
+#include <limits>
+
+#include "sixstep/base/elementary.hpp"
+#include "sixstep/design/loops/pole_placement.hpp"
+
+namespace sixstep::design {
+namespace {
+
+double swing_V(double bus_V, control::Chopping chopping) {
+  return chopping == control::Chopping::hard ? 2.0 * bus_V : bus_V;
+}
+
+}  // namespace
+
+double current_ripple_A(const MotorModel& motor, double bus_V, double period_s, control::Chopping chopping,
+                        double duty) {
+  const double R = 2.0 * motor.machine.R_ohm, x = period_s * motor.machine.R_ohm / motor.machine.L_H;
+  // R b0 = 1 - exp(-R T/L), without cancellation: pole_placement's plant of resistance 1.
+  const auto rise = [](double t) { return t > 0.0 ? current_plant(1.0, 1.0, t).b0 : 0.0; };
+  return swing_V(bus_V, chopping) / R * rise(duty * x) * rise((1.0 - duty) * x) / rise(x);
+}
+
+Ripple worst_ripple(const MotorModel& motor, double bus_V, double period_s, control::Chopping chopping) {
+  Ripple r;
+  r.worst_A = current_ripple_A(motor, bus_V, period_s, chopping, r.worst_duty);
+  r.continuous_above_A = r.worst_A / 2.0;
+  return r;
+}
+
+// At d = 1/2 the ripple is (dU/R) tanh(x/4): x = 2 ln((1 + y)/(1 - y)), y = ripple R/dU.
+double period_for_ripple_s(const MotorModel& motor, double bus_V, control::Chopping chopping,
+                           double ripple_A) {
+  const double y = ripple_A * 2.0 * motor.machine.R_ohm / swing_V(bus_V, chopping);
+  if (!(y < 1.0)) return std::numeric_limits<double>::infinity();
+  return 2.0 * base::log((1.0 + y) / (1.0 - y)) * motor.machine.L_H / motor.machine.R_ohm;
+}
+
+double headroom_V(const MotorModel& motor, double bus_V, double current_A, double speed_rad_s) {
+  return bus_V - 2.0 * motor.machine.R_ohm * current_A - motor.K_t_Nm_A * speed_rad_s;
+}
+
+double speed_for_current_rad_s(const MotorModel& motor, double bus_V, double current_A) {
+  return (bus_V - 2.0 * motor.machine.R_ohm * current_A) / motor.K_t_Nm_A;
+}
+
+double soft_braking_limit_rad_s(const MotorModel& motor, double current_A) {
+  return current_A / motor.K_t_Nm_A * 2.0 * motor.machine.R_ohm;
+}
+
+}  // namespace sixstep::design

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What bus, modulation and motor allow whatever the gains are: ripple, headroom over speed, braking.
+#pragma once
+#include "sixstep/control/bridge_command.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
+
+namespace sixstep::design {
+
+/// Peak to peak of the driven pair's current in steady chopping at a duty, conduction continuous, ideal
+/// switches: the pair sees U_on for d T and U_off for (1 - d) T,
+///   (U_on - U_off)/R (1 - exp(-d x)) (1 - exp(-(1 - d) x))/(1 - exp(-x)),   x = R T/L,
+/// whatever the EMF. U_on - U_off = U_s in soft and complementary chopping, 2 U_s in hard.
+double current_ripple_A(const MotorModel& motor, double bus_V, double period_s, control::Chopping chopping,
+                        double duty);
+
+struct Ripple {
+  double worst_A = 0.0;  ///< peak to peak, at worst_duty = 0.5
+  double worst_duty = 0.5;
+  double continuous_above_A =
+      0.0;  ///< half the worst: below this mean current a soft-chopped current has gaps
+};
+Ripple worst_ripple(const MotorModel& motor, double bus_V, double period_s, control::Chopping chopping);
+
+/// The period at which the worst ripple is `ripple_A`; infinite where none is too long.
+double period_for_ripple_s(const MotorModel& motor, double bus_V, control::Chopping chopping,
+                           double ripple_A);
+
+/// What is left of the bus for changing the current i at speed w: U_s - R_tt i - K_t w. Negative: i cannot
+/// flow.
+double headroom_V(const MotorModel& motor, double bus_V, double current_A, double speed_rad_s);
+/// Where the headroom for that current ends.
+double speed_for_current_rad_s(const MotorModel& motor, double bus_V, double current_A);
+
+/// Soft chopping brakes through the lower switches: at speed w the current cannot be less than the short
+/// circuit's K_t w/R_tt. The speed above which a braking current i can no longer be held: (i/K_t) R_tt.
+double soft_braking_limit_rad_s(const MotorModel& motor, double current_A);
+
+}  // namespace sixstep::design

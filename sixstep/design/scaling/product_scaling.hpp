@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole product's configuration in fixed point: the drive by scaling.hpp, and around it ADC gains, speed
+// from edges, thresholds of faults, each with its line of the proof.
+#pragma once
+#include "sixstep/control/protected_drive.hpp"
+#include "sixstep/design/scaling/scaling.hpp"
+
+namespace sixstep::design {
+
+template <class Scalar>
+struct ScaledProduct {
+  control::ProtectedConfig<Scalar> config;
+  Bases bases;
+  std::vector<Headroom> proof;
+};
+
+/// In `product` gains of ADCs are A and V per eighth of a count, speeds rad/s, positions degrees: the
+/// configuration of double. Beside scaling.hpp's, Problems are
+///   - a converter's span beyond full scale, or more counts than the format counts in eighths;
+///   - a threshold that no signal can pass, since the format ends before it;
+///   - a ratio of ticks that does not fit its sum.
+/// Position is measured in position mode only: elsewhere it has no base. Instantiated as scaled().
+template <class Scalar>
+base::Result<ScaledProduct<Scalar>> scaled_product(const control::ProtectedConfig<double>& product,
+                                                   const OperatingRange& range, const Bases& bases,
+                                                   int adc_bits);
+
+/// With the bases of bases_for.
+template <class Scalar>
+base::Result<ScaledProduct<Scalar>> scaled_product(const control::ProtectedConfig<double>& product,
+                                                   const OperatingRange& range, int adc_bits);
+
+}  // namespace sixstep::design

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/sheet/parameters.hpp"
+
+#include <cmath>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/design/sheet/sheet_reader.hpp"
+
+namespace sixstep::design {
+namespace {
+
+void read_printed_points(SheetReader& reader, MotorModel& m) {
+  const Sheet& sheet = reader.sheet;
+  if (sheet.no_load_speed_rpm)
+    m.no_load_speed_rad_s =
+        reader.positive("no_load_speed_rpm", *sheet.no_load_speed_rpm).value_or(0.0) * base::pi / 30.0;
+  if (sheet.no_load_current_mA)
+    m.no_load_current_A =
+        reader.not_negative("no_load_current_mA", *sheet.no_load_current_mA, -3).value_or(0.0);
+  if (const std::optional<base::Quantity>& printed = sheet.nominal_current_A) {
+    const bool rms = printed->frame == "rms";
+    const double per_A = rms ? torque_per_rms_A(m.machine.K_e_V_s, reader.out.shape) / m.K_t_Nm_A : 1.0;
+    m.nominal_current_A = per_A * printed->value;
+  }
+  m.stall_torque_Nm = m.K_t_Nm_A * m.nominal_voltage_V / (2.0 * m.machine.R_ohm);
+  if (sheet.stall_torque_mNm)
+    m.stall_torque_Nm = reader.positive("stall_torque_mNm", *sheet.stall_torque_mNm, -3).value_or(0.0);
+}
+
+/// Of the motors in data/motors none passes 1e4 rad/s. Ten times that and more is a slip of a unit, and would
+/// be simulated in steps of nanoseconds.
+constexpr double fastest_winding_rad_s = 1e6, fastest_swing_rad_s = 1e5;
+
+/// R/L and K_t/sqrt(L J), terminal to terminal: how fast the winding and the shaft on it answer.
+void check_pace(SheetReader& reader, const MotorModel& m) {
+  const Sheet& sheet = reader.sheet;
+  const double L = 2.0 * m.machine.L_H, winding = 2.0 * m.machine.R_ohm / L;
+  const double swing = m.K_t_Nm_A / std::sqrt(L * m.shaft.J_kg_m2);
+  const auto written = [](const std::optional<base::Quantity>& q) {
+    return q ? base::written(q->value) : "";
+  };
+  if (winding > fastest_winding_rad_s) {
+    const std::optional<base::Quantity>& q =
+        sheet.inductance_mH ? sheet.inductance_mH : sheet.d_axis_inductance_mH;
+    const char* key = sheet.inductance_mH ? "inductance_mH" : "d_axis_inductance_mH";
+    reader.problem(q ? SheetReader::key_of(key, *q) : key, written(q),
+                   "makes the winding's time constant L/R " + rounded(1e9 / winding, 3) +
+                       " ns, and no motor is below 1000 ns",
+                   "look at the unit of inductance and resistance");
+  } else if (swing > fastest_swing_rad_s) {
+    const std::optional<base::Quantity>& q =
+        sheet.with_brake ? sheet.inertia_with_brake_gcm2 : sheet.inertia_gcm2;
+    reader.problem(m.from.J, written(q),
+                   "makes rotor and winding swing at K_t/sqrt(L J) = " + rounded(swing, 3) +
+                       " rad/s, and no motor is above 1e5",
+                   "look at the unit of the inertia, then at those of inductance and torque constant");
+  }
+}
+
+base::Problem not_simulatable(const Sheet& sheet) {
+  return {
+      "simulatable", "false", "because " + sheet.not_simulatable_because,
+      "choose another motor, or give what is missing in [motor_override] together with simulatable = true "
+      "and not_simulatable_because = \"\""};
+}
+
+}  // namespace
+
+base::Result<MotorModel> motor_model(const Sheet& sheet) {
+  SheetConstants c = sheet_constants(sheet);
+  if (!sheet.simulatable && c.problems.empty()) return not_simulatable(sheet);
+  base::Problems problems = c.problems;
+  problems.insert(problems.end(), c.missing.begin(), c.missing.end());
+  if (!problems.empty()) return problems;
+
+  MotorModel m;
+  m.machine.pole_pairs = *c.pole_pairs;
+  m.machine.back_emf =
+      sheet.back_emf == BackEmfShape::sine ? plant::BackEmf::sine : plant::BackEmf::trapezoid;
+  m.machine.flat_deg = sheet.flat_deg;
+  m.machine.R_ohm = c.R_ohm->value;
+  m.machine.L_H = c.L_H->value;
+  m.machine.K_e_V_s = c.K_e_V_s->value;
+  m.K_t_Nm_A = c.K_t_Nm_A->value;
+  m.nominal_voltage_V = c.nominal_voltage_V.value_or(0.0);
+  m.shaft.J_kg_m2 = c.J_kg_m2->value;
+  m.shaft.B_Nm_s = c.friction.B_Nm_s;
+  m.shaft.coulomb_Nm = c.friction.coulomb_Nm;
+  m.from = {c.R_ohm->from, c.L_H->from, c.K_e_V_s->from, c.K_t_Nm_A->from, c.J_kg_m2->from, c.friction.from};
+  SheetReader reader{sheet, c};
+  read_printed_points(reader, m);
+  check_pace(reader, m);
+  if (!c.problems.empty()) return c.problems;
+  return m;
+}
+
+}  // namespace sixstep::design

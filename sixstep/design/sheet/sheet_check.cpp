@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/sheet/sheet_check.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "sixstep/design/sheet/sheet_description.hpp"
+#include "sixstep/design/sheet/sheet_reader.hpp"
+#include "sixstep/design/sheet/sheet_relations.hpp"
+
+namespace sixstep::design {
+namespace {
+
+using base::Quantity;
+
+/// Why the model leaves a line alone. Keys that are not here are another print of what is used.
+struct Reason {
+  std::string_view key;
+  std::string_view why;
+};
+constexpr Reason reasons[] = {
+    {"nominal_voltage_V", "the scenario's supply decides; the sheet's other values belong to it"},
+    {"no_load_voltage_V", "the voltage of the no-load point"},
+    {"no_load_speed_rpm", "friction is given by other lines"},
+    {"no_load_current_mA", "friction is given by other lines"},
+    {"second_no_load_voltage_V", "the voltage of the second no-load point"},
+    {"second_no_load_speed_rpm", "friction is given by other lines"},
+    {"second_no_load_current_mA", "friction is given by other lines"},
+    {"nominal_speed_rpm", "a rating, of a winding as warm as the maker chose"},
+    {"nominal_torque_mNm",
+     "a rating; makers disagree whether friction is taken off, so K_t is not read from it"},
+    {"nominal_current_A", "a rating"},
+    {"stall_torque_mNm", "no part of the motor; a speed loop's torque limit where the scenario gives none"},
+    {"stall_current_A", "follows from U / R"},
+    {"max_efficiency_percent", "follows from the other lines"},
+    {"speed_torque_gradient_rpm_mNm", "follows from R and K_t"},
+    {"mechanical_time_constant_ms", "follows from R, J and K_t"},
+    {"max_speed_rpm", "a limit of the mechanics"},
+    {"inertia_gcm2", "the motor carries its brake: inertia_with_brake_gcm2 counts"},
+    {"inertia_with_brake_gcm2", "the motor carries no brake: inertia_gcm2 counts"},
+    {"thermal_resistance_winding_housing_K_W", "the windings of the model stay at the sheet's temperature"},
+    {"thermal_resistance_housing_ambient_K_W", "the windings of the model stay at the sheet's temperature"},
+    {"thermal_time_constant_winding_s", "the windings of the model stay at the sheet's temperature"},
+    {"thermal_time_constant_motor_s", "the windings of the model stay at the sheet's temperature"},
+    {"max_winding_temperature_degC", "a limit"},
+};
+
+/// Visits a sheet and says of each quantity given whether the model is made of it.
+class Lines {
+ public:
+  explicit Lines(const SheetConstants& constants) : constants_(constants) {}
+  void quantity(std::string_view key, std::optional<Quantity>& q, const base::About& about) {
+    if (!q) return;
+    const bool geometry = key == "active_length_mm" || key == "air_gap_radius_mm";
+    const std::string_view judged = geometry ? std::string_view("flux_density_T") : key;
+    const auto& used = constants_.used;
+    LineUse line{SheetReader::key_of(key, *q), q->value, std::string(about.unit), false, ""};
+    line.used = std::find(used.begin(), used.end(), judged) != used.end();
+    if (!line.used) line.why = why_not(key);
+    lines.push_back(std::move(line));
+  }
+  template <class T>
+  void value(std::string_view, T&, const base::About&) {}
+  template <class Enum, class Choices>
+  void choice(std::string_view, Enum&, const Choices&, const base::About&) {}
+
+  std::vector<LineUse> lines;
+
+ private:
+  std::string why_not(std::string_view key) const {
+    for (const Reason& reason : reasons)
+      if (reason.key == key) return std::string(reason.why);
+    if (constants_.K_e_V_s)
+      return "another print of the torque constant, which is read from " + constants_.K_e_V_s->from;
+    return "not enough to go with it";
+  }
+  const SheetConstants& constants_;
+};
+
+void judge_known(const Sheet& sheet, SheetCheck& check, base::Problems& problems) {
+  for (const std::string& name : sheet.known_deviation) {
+    const auto relation = std::find_if(check.relations.begin(), check.relations.end(),
+                                       [&](const Relation& r) { return r.name == name; });
+    if (relation == check.relations.end()) {
+      std::string known;
+      for (const Relation& r : check.relations) known += (known.empty() ? "" : ", ") + r.name;
+      problems.push_back({"known_deviation", "\"" + name + "\"", "names no relation of this sheet",
+                          known.empty() ? "remove it: the sheet prints nothing twice" : "it has: " + known});
+    } else if (relation->verdict == RelationVerdict::holds) {
+      problems.push_back({"known_deviation", "\"" + name + "\"", "names a relation that holds", "remove it"});
+    } else {
+      relation->verdict = RelationVerdict::known;
+    }
+  }
+}
+
+}  // namespace
+
+base::Result<SheetCheck> check_sheet(const Sheet& sheet) {
+  SheetCheck check;
+  check.constants = sheet_constants(sheet);
+  const SheetConstants& c = check.constants;
+  if (!c.problems.empty()) return c.problems;
+  check.relations = relations_of(sheet, c);
+  base::Problems problems;
+  judge_known(sheet, check, problems);
+  if (!problems.empty()) return problems;
+  for (const Relation& r : check.relations)
+    check.consistent = check.consistent && r.verdict != RelationVerdict::broken;
+  Lines lines(c);
+  Sheet copy = sheet;
+  describe(lines, copy);
+  check.lines = std::move(lines.lines);
+  if (c.R_ohm && c.L_H) check.electrical_time_constant_s = c.L_H->value / c.R_ohm->value;
+  if (c.R_ohm && c.J_kg_m2 && c.K_t_Nm_A)
+    check.mechanical_time_constant_s =
+        2.0 * c.R_ohm->value * c.J_kg_m2->value / (c.K_t_Nm_A->value * c.K_t_Nm_A->value);
+  if (c.R_ohm && c.nominal_voltage_V) check.stall_current_A = *c.nominal_voltage_V / (2.0 * c.R_ohm->value);
+  return check;
+}
+
+}  // namespace sixstep::design

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/sheet/sheet_constants.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sixstep/design/sheet/sheet_reader.hpp"
+
+namespace sixstep::design {
+namespace {
+
+using base::Quantity;
+
+/// Star equivalent of a winding's value: half of what is measured between two terminals.
+double per_phase(double value, std::string_view frame) { return frame == "phase" ? value : value / 2.0; }
+
+std::string from_frame(std::string_view key, const Quantity& q) {
+  return SheetReader::key_of(key, q) + (q.frame == "phase" ? ", phase: as it is" : ", terminal: halved");
+}
+
+void read_resistance(SheetReader& reader) {
+  const std::optional<Quantity>& q = reader.sheet.resistance_ohm;
+  if (!q)
+    return reader.missing("resistance_ohm",
+                          "give the winding's resistance with its frame, or measure it "
+                          "between two terminals with a milliohm meter");
+  const std::optional<double> R = reader.positive("resistance_ohm", *q);
+  if (!R) return;
+  if (q->frame == "terminal" || q->frame == "phase") {
+    reader.out.R_ohm = Constant{per_phase(*R, q->frame), from_frame("resistance_ohm", *q)};
+    return reader.use("resistance_ohm");
+  }
+  const auto means = [&](double R_s) {
+    std::string text = "R_s = " + rounded(R_s) + " ohm";
+    if (const std::optional<double> U = reader.out.nominal_voltage_V)
+      text += ", stall current " + rounded(*U / (2.0 * R_s), 3) + " A";
+    return text;
+  };
+  std::string hint;
+  if (reader.sheet.stall_current_A && reader.out.nominal_voltage_V) {
+    const double ratio = *reader.out.nominal_voltage_V / *R / reader.sheet.stall_current_A->value;
+    const bool terminal = std::abs(ratio - 1.0) < std::abs(ratio / 2.0 - 1.0);
+    hint = "; the printed stall current, " + rounded(reader.sheet.stall_current_A->value) + " A, fits \"" +
+           (terminal ? "terminal" : "phase") + "\"";
+  }
+  const std::array<FrameMeaning, 2> candidates = {{{"terminal", means(*R / 2.0)}, {"phase", means(*R)}}};
+  unknown_frame(reader, "resistance_ohm", *q, candidates, hint);
+}
+
+/// The model knows no saliency: L_d and L_q must be one number.
+void read_axes(SheetReader& reader) {
+  const std::optional<Quantity>&d = reader.sheet.d_axis_inductance_mH, &q = reader.sheet.q_axis_inductance_mH;
+  if (!d || !q)
+    return reader.problem(d ? "d_axis_inductance_mH" : "q_axis_inductance_mH",
+                          base::written(d ? d->value : q->value),
+                          std::string("needs ") + (d ? "q" : "d") + "_axis_inductance_mH beside it",
+                          "give both, or inductance_mH alone");
+  const std::optional<double> L_d = reader.positive("d_axis_inductance_mH", *d, -3),
+                              L_q = reader.positive("q_axis_inductance_mH", *q, -3);
+  if (!L_d || !L_q) return;
+  if (*L_d != *L_q) {
+    const std::string mean = rounded((d->value + q->value) / 2.0);
+    reader.out.missing.push_back(
+        {"q_axis_inductance_mH", base::written(q->value),
+         "differs from d_axis_inductance_mH = " + base::written(d->value) +
+             ": the rotor is salient, which the model is not",
+         "to go without saliency give inductance_mH = { value = " + mean + ", frame = \"phase\" } instead"});
+    return;
+  }
+  reader.out.L_H = Constant{*L_d, "L_d = L_q, phase: as it is"};
+  reader.use("d_axis_inductance_mH");
+  reader.use("q_axis_inductance_mH");
+}
+
+void read_inductance(SheetReader& reader) {
+  const Sheet& s = reader.sheet;
+  const std::optional<Quantity>& q = s.inductance_mH;
+  if (q && (s.d_axis_inductance_mH || s.q_axis_inductance_mH))
+    return reader.problem(SheetReader::key_of("inductance_mH", *q), base::written(q->value),
+                          "is given twice: L_d and L_q are there too", "keep one of the two ways");
+  if (s.d_axis_inductance_mH || s.q_axis_inductance_mH) return read_axes(reader);
+  if (!q)
+    return reader.missing(
+        "inductance_mH",
+        "give the winding's inductance with its frame; where the sheet has none, measure it "
+        "between two terminals with an LCR meter at 1 kHz");
+  const std::optional<double> L = reader.positive("inductance_mH", *q, -3);
+  if (!L) return;
+  if (q->frame == "terminal" || q->frame == "phase") {
+    reader.out.L_H = Constant{per_phase(*L, q->frame), from_frame("inductance_mH", *q)};
+    return reader.use("inductance_mH");
+  }
+  const auto means = [&](double L_s) {
+    std::string text = "L_s = " + rounded(L_s * 1e3) + " mH";
+    if (reader.out.R_ohm)
+      text += ", time constant L/R = " + rounded(L_s / reader.out.R_ohm->value * 1e3, 3) + " ms";
+    return text;
+  };
+  const std::array<FrameMeaning, 2> candidates = {{{"terminal", means(*L / 2.0)}, {"phase", means(*L)}}};
+  unknown_frame(reader, "inductance_mH", *q, candidates);
+}
+
+void read_inertia(SheetReader& reader) {
+  const Sheet& s = reader.sheet;
+  const std::optional<Quantity>&rotor = s.inertia_gcm2, &braked = s.inertia_with_brake_gcm2;
+  std::optional<double> J, J_b;
+  if (rotor) J = reader.positive("inertia_gcm2", *rotor, -7);
+  if (braked) J_b = reader.positive("inertia_with_brake_gcm2", *braked, -7);
+  if (J && J_b && *J_b < *J)
+    reader.problem(SheetReader::key_of("inertia_with_brake_gcm2", *braked), base::written(braked->value),
+                   "is less than the rotor's own, inertia_gcm2 = " + base::written(rotor->value),
+                   "the brake only adds: swap the two");
+  const std::string_view key = s.with_brake ? "inertia_with_brake_gcm2" : "inertia_gcm2";
+  if (s.with_brake ? !braked : !rotor)
+    return reader.missing(key, s.with_brake || !braked
+                                   ? "give the rotor's moment of inertia"
+                                   : "the sheet gives it with brake only: write with_brake = true");
+  const Quantity& printed = s.with_brake ? *braked : *rotor;
+  if (s.with_brake ? !J_b : !J) return;
+  reader.out.J_kg_m2 = Constant{base::times_ten_to(printed.value, -7), SheetReader::key_of(key, printed)};
+  reader.use(key);
+}
+
+/// Not part of the model, but its frame must be known before it is compared with the nominal torque.
+void read_nominal_current(SheetReader& reader) {
+  const std::optional<Quantity>& q = reader.sheet.nominal_current_A;
+  const SheetConstants& c = reader.out;
+  if (!q || !reader.positive("nominal_current_A", *q) || q->frame == "terminal" || q->frame == "rms") return;
+  const auto means = [&](double K) {
+    return c.K_e_V_s ? "a nominal torque of " + rounded(K * q->value * 1e3) + " mNm" : std::string("its own");
+  };
+  const std::array<FrameMeaning, 2> candidates = {
+      {{"terminal", means(c.K_t_Nm_A ? c.K_t_Nm_A->value : 0.0)},
+       {"rms", means(c.K_e_V_s ? torque_per_rms_A(c.K_e_V_s->value, c.shape) : 0.0)}}};
+  unknown_frame(reader, "nominal_current_A", *q, candidates);
+}
+
+void read_trust(SheetReader& reader) {
+  const Sheet& s = reader.sheet;
+  if (!s.simulatable && s.not_simulatable_because.empty())
+    reader.problem("simulatable", "false", "gives no reason",
+                   "say in not_simulatable_because what is missing");
+  if (s.simulatable && !s.not_simulatable_because.empty())
+    reader.problem("not_simulatable_because", "\"" + s.not_simulatable_because + "\"",
+                   "contradicts simulatable = true", "write simulatable = false, or leave the reason out");
+}
+
+}  // namespace
+
+double relative_doubt(const Quantity& q) {
+  if (!(q.value > 0.0)) return 0.0;
+  double digit = q.last_digit.value_or(base::last_digit_of(q.value));
+  // 1690 may be a number of three digits: its zero is a place holder. 780 has three without it.
+  const auto whole = [&](double unit) { return std::floor(q.value / unit) * unit == q.value; };
+  while (digit >= 1.0 && digit * 1e3 <= q.value && whole(digit * 10.0)) digit *= 10.0;
+  return 0.5 * digit / q.value;
+}
+
+SheetConstants sheet_constants(const Sheet& sheet) {
+  SheetConstants out;
+  out.used.reserve(12);
+  SheetReader reader{sheet, out};
+  read_trust(reader);
+  const bool flat = base::strictly_between(0.0, 180.0).holds(sheet.flat_deg);
+  if (!flat)
+    reader.problem("flat_deg", base::written(sheet.flat_deg), "must lie between 0 and 180",
+                   "give the flat top's width in electrical degrees, usually 120");
+  out.shape = shape_factors(sheet.back_emf, flat ? sheet.flat_deg : 120.0);
+  const std::size_t told = out.problems.size();
+  out.pole_pairs = read_pole_pairs(reader);
+  if (!out.pole_pairs && out.problems.size() == told)
+    reader.missing("pole_pairs", "give it, or poles, or the winding's code as \"12N14P\"");
+  if (sheet.nominal_voltage_V)
+    out.nominal_voltage_V = reader.positive("nominal_voltage_V", *sheet.nominal_voltage_V);
+  read_resistance(reader);
+  read_inductance(reader);
+  read_torque_constant(reader);
+  read_inertia(reader);
+  read_friction(reader);
+  read_nominal_current(reader);
+  return out;
+}
+
+Sheet in_standard_keys(Sheet s) {
+  const bool all_there = s.inductance_mH && (s.torque_constant_mNm_A || s.back_emf_mV_s) &&
+                         s.viscous_friction_Nm_s && !s.with_brake;
+  if (all_there) return s;
+  const SheetConstants c = sheet_constants(s);
+  const auto fill = [](std::optional<Quantity>& key, const std::optional<Constant>& constant, double value,
+                       const char* frame) {
+    if (key || !constant) return;
+    key.emplace();
+    key->value = value;
+    key->frame = frame;
+    key->source = "from " + constant->from;
+    key->kind = base::Trust::derived;
+  };
+  if (c.L_H) fill(s.inductance_mH, c.L_H, c.L_H->value * 1e3, "phase");
+  if (c.L_H) s.d_axis_inductance_mH = s.q_axis_inductance_mH = std::nullopt;
+  if (c.K_t_Nm_A && !s.back_emf_mV_s)
+    fill(s.torque_constant_mNm_A, c.K_t_Nm_A, c.K_t_Nm_A->value * 1e3, "terminal");
+  if (c.J_kg_m2 && s.with_brake && s.inertia_with_brake_gcm2) {
+    s.inertia_gcm2 = s.inertia_with_brake_gcm2;
+    s.inertia_gcm2->key.clear();
+    s.inertia_with_brake_gcm2.reset();
+    s.with_brake = false;
+  }
+  if (!s.viscous_friction_Nm_s) {
+    const Constant B{c.friction.B_Nm_s, c.friction.from};
+    fill(s.viscous_friction_Nm_s, B, B.value, "");
+    if (c.friction.coulomb_Nm > 0.0 && !s.coulomb_friction_mNm)
+      fill(s.coulomb_friction_mNm, B, c.friction.coulomb_Nm * 1e3, "");
+  }
+  return s;
+}
+
+}  // namespace sixstep::design

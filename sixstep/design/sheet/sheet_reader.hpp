@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads numbers off a sheet and notes whatever is wrong with them. Shared by the sources of sheet_constants.
+#pragma once
+#include <charconv>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "sixstep/base/decimal.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/sheet_constants.hpp"
+
+namespace sixstep::design {
+
+/// Four digits say what a message needs.
+inline std::string rounded(double x, int digits = 4) {
+  char text[32];
+  const std::to_chars_result end =
+      std::to_chars(text, text + sizeof text, x, std::chars_format::general, digits);
+  return {text, end.ptr};
+}
+
+struct SheetReader {
+  const Sheet& sheet;
+  SheetConstants& out;
+
+  void problem(std::string_view where, std::string value, std::string limit, std::string cure) {
+    out.problems.push_back({std::string(where), std::move(value), std::move(limit), std::move(cure)});
+  }
+  void missing(std::string_view where, std::string_view cure) {
+    out.missing.push_back({std::string(where), "", "is missing", std::string(cure)});
+  }
+  /// Of a key that lives as long as the program.
+  void use(std::string_view key) { out.used.push_back(key); }
+
+  /// The key as the file writes it.
+  static std::string key_of(std::string_view key, const base::Quantity& q) {
+    return q.key.empty() ? std::string(key) : q.key;
+  }
+  /// Nothing where the number breaks its rule, which is noted; else the value times 10^ten.
+  std::optional<double> positive(std::string_view key, const base::Quantity& q, int ten = 0) {
+    return in_range(key, q, base::above(0.0), "must be above 0", ten);
+  }
+  std::optional<double> not_negative(std::string_view key, const base::Quantity& q, int ten = 0) {
+    return in_range(key, q, base::from(0.0), "must not be negative", ten);
+  }
+
+ private:
+  std::optional<double> in_range(std::string_view key, const base::Quantity& q, const base::Range& range,
+                                 std::string_view limit, int ten) {
+    if (range.holds(q.value)) return base::times_ten_to(q.value, ten);
+    problem(key_of(key, q), base::written(q.value), std::string(limit),
+            "give the value as the sheet prints it, or leave the key out");
+    return {};
+  }
+};
+
+/// What a frame would make of a value, in words: for the message about a missing one.
+struct FrameMeaning {
+  std::string_view frame;
+  std::string means;
+};
+
+/// The Problem of a frame that is missing or unknown, with what each candidate would mean.
+void unknown_frame(SheetReader& reader, std::string_view key, const base::Quantity& q,
+                   std::span<const FrameMeaning> candidates, const std::string& hint = "");
+
+std::optional<int> read_pole_pairs(SheetReader& reader);
+void read_torque_constant(SheetReader& reader);
+void read_friction(SheetReader& reader);
+
+}  // namespace sixstep::design

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/sheet/sheet_relations.hpp"
+
+#include <cmath>
+#include <string_view>
+
+#include "sixstep/base/angle.hpp"
+
+namespace sixstep::design {
+namespace {
+
+using base::Quantity;
+
+constexpr double rpm_per_rad_s = 30.0 / base::pi;
+
+/// A number with the relative doubt of its print. Products add doubts, powers multiply them.
+struct Term {
+  double value = 0.0;
+  double doubt = 0.0;
+};
+Term operator*(Term a, Term b) { return {a.value * b.value, a.doubt + b.doubt}; }
+Term operator/(Term a, Term b) { return {a.value / b.value, a.doubt + b.doubt}; }
+Term operator*(Term a, double exact) { return {a.value * exact, a.doubt}; }
+Term operator-(Term a, Term b) {
+  const double value = a.value - b.value;
+  return {value, (a.value * a.doubt + b.value * b.doubt) / value};
+}
+
+/// A voltage that a sheet's values belong to is exact by definition, whatever its digits.
+Term exact(double value) { return {value, 0.0}; }
+
+struct Factor {
+  double ratio;
+  std::string_view words;
+};
+constexpr Factor factors[] = {
+    {2.0, "a factor 2: terminal against phase, or poles against pole pairs?"},
+    {1.7320508075688772, "a factor sqrt 3: line against phase?"},
+    {1.4142135623730951, "a factor sqrt 2: peak against rms?"},
+    {2.449489742783178, "a factor sqrt 6: line peak against phase rms?"},
+    {1.5, "a factor 3/2: torque of the q axis against one phase's EMF?"},
+    {10.0, "a factor 10: the point, or the unit?"},
+    {1000.0, "a factor 1000: the unit?"},
+};
+
+class Relations {
+ public:
+  Relations(const Sheet& sheet, const SheetConstants& constants) : s_(sheet), c_(constants) {
+    if (c_.R_ohm && s_.resistance_ohm) R_ = Term{2.0 * c_.R_ohm->value, relative_doubt(*s_.resistance_ohm)};
+    if (c_.K_t_Nm_A) K_t_ = Term{c_.K_t_Nm_A->value, c_.K_e_relative_doubt};
+    if (c_.nominal_voltage_V) U_ = exact(*c_.nominal_voltage_V);
+    if (c_.J_kg_m2)
+      J_ = Term{c_.J_kg_m2->value,
+                relative_doubt(s_.with_brake ? *s_.inertia_with_brake_gcm2 : *s_.inertia_gcm2)};
+    stall_ = term(s_.stall_current_A);
+    if (!stall_ && U_ && R_) stall_ = *U_ / *R_;
+    idle_ = term(s_.no_load_current_mA, 1e-3);
+  }
+
+  std::vector<Relation> all() {
+    stall();
+    constants();
+    no_load();
+    nominal();
+    dynamics();
+    winding();
+    return std::move(found_);
+  }
+
+ private:
+  static std::optional<Term> term(const std::optional<Quantity>& q, double unit = 1.0) {
+    if (!q || !(q->value > 0.0)) return {};
+    return Term{q->value * unit, relative_doubt(*q)};
+  }
+
+  /// `below` and `above` widen what rounding allows.
+  Relation& add(std::string name, std::string left_words, std::string right_words, Term left, Term right,
+                std::string unit, double below = 0.0, double above = 0.0) {
+    Relation r;
+    r.name = std::move(name);
+    r.left_words = std::move(left_words);
+    r.right_words = std::move(right_words);
+    r.left = left.value;
+    r.right = right.value;
+    r.unit = std::move(unit);
+    r.deviation = left.value / right.value - 1.0;
+    const double rounding = left.doubt + right.doubt;
+    r.lowest = -(rounding + below);
+    r.highest = rounding + above;
+    // A hair for the arithmetic itself: an exact pair whose doubts are 0 must hold.
+    constexpr double arithmetic = 1e-12;
+    const bool holds = r.deviation >= r.lowest - arithmetic && r.deviation <= r.highest + arithmetic;
+    r.verdict = holds ? RelationVerdict::holds : RelationVerdict::broken;
+    if (!holds) r.remark = looks_like(left.value / right.value, rounding);
+    return found_.emplace_back(std::move(r));
+  }
+
+  /// A ratio that is one of the well-known factors within the rounding, at least half a percent: the nearest
+  /// two of them lie 6 % apart.
+  static std::string looks_like(double ratio, double rounding) {
+    const double size = ratio < 1.0 ? 1.0 / ratio : ratio, reach = rounding > 0.005 ? rounding : 0.005;
+    for (const Factor& factor : factors)
+      if (std::abs(size / factor.ratio - 1.0) <= reach) return std::string(factor.words);
+    return "";
+  }
+
+  void stall() {
+    if (U_ && R_ && s_.stall_current_A)
+      add("stall current", "U / R", "stall current", *U_ / *R_, *stall_, "A");
+    if (const std::optional<Term> torque = term(s_.stall_torque_mNm); torque && K_t_ && stall_)
+      add("stall torque", s_.stall_current_A ? "k_M I_stall" : "k_M U / R", "stall torque",
+          *K_t_ * *stall_ * 1e3, *torque, "mNm");
+  }
+
+  /// The constants printed beside the one that is used.
+  void constants() {
+    for (const OtherWay& other : c_.other_ways) {
+      const std::optional<Quantity>& k_n = s_.speed_constant_rpm_V;
+      if (other.key == "speed_constant_rpm_V" && k_n->frame == "six-step" && K_t_)
+        add("speed constant", "k_M k_n", "30000 / pi", *K_t_ * 1e3 * Term{k_n->value, other.relative_doubt},
+            exact(1000.0 * rpm_per_rad_s), "rpm/V mNm/A");
+      else
+        add("K_e by " + other.key, "K_e used", "K_e by " + other.key,
+            Term{c_.K_e_V_s->value * 1e3, c_.K_e_relative_doubt},
+            Term{other.K_e_V_s * 1e3, other.relative_doubt}, "mV s");
+    }
+  }
+
+  /// n_0 = k_n (U - R I_0), with the printed k_n or the torque constant's.
+  void no_load() {
+    const std::optional<Term> speed = term(s_.no_load_speed_rpm);
+    const std::optional<Term> U = s_.no_load_voltage_V ? exact(s_.no_load_voltage_V->value) : U_;
+    if (!speed || !U || !R_ || !idle_ || !K_t_) return;
+    const Term drop = *R_ * *idle_;
+    if (!(drop.value < U->value)) return;
+    const std::optional<Quantity>& k_n = s_.speed_constant_rpm_V;
+    const bool printed = k_n && k_n->frame == "six-step" && k_n->value > 0.0;
+    const Term rpm_V = printed ? Term{k_n->value, relative_doubt(*k_n)} : exact(rpm_per_rad_s) / *K_t_;
+    add("no-load speed", printed ? "k_n (U - R I_0)" : "(U - R I_0) / k_M", "no-load speed",
+        rpm_V * (*U - drop), *speed, "rpm", no_load_margin, no_load_margin);
+  }
+
+  void nominal() {
+    const std::optional<Term> torque = term(s_.nominal_torque_mNm), current = term(s_.nominal_current_A);
+    if (torque && current && K_t_) {
+      // Some sheets take the friction off, K_t (I_N - I_0), others do not: no torque lies above K_t I_N.
+      const bool rms = s_.nominal_current_A->frame == "rms", known = idle_ && idle_->value < current->value;
+      double friction = 0.0;
+      if (known && !rms) {
+        const Term share = *current / (*current - *idle_);
+        friction = share.value * (1.0 + share.doubt) - 1.0;
+      }
+      const Term K = rms ? Term{torque_per_rms_A(c_.K_e_V_s->value, c_.shape), K_t_->doubt} : *K_t_;
+      Relation& r = add("nominal torque", rms ? "K_rms I_N" : "k_M I_N", "nominal torque", K * *current * 1e3,
+                        *torque, "mNm", 0.0, friction);
+      if (r.verdict == RelationVerdict::broken && r.deviation < 0.0 && r.remark.empty())
+        r.remark = "the rating is above what its own current makes: the model does not use it";
+    }
+    if (const std::optional<Term> printed = term(s_.max_efficiency_percent);
+        printed && idle_ && stall_ && idle_->value < stall_->value) {
+      // With x = sqrt(I_0/I_stall): (1 - x)^2 if friction is the same at every speed, (1 - x)/(1 + x) if it
+      // grows with speed; both at the current sqrt(I_0 I_stall). A doubt d of the ratio is x d/(1 - x) of the
+      // result.
+      const double x = std::sqrt(idle_->value / stall_->value);
+      const Term computed = {100.0 * (1.0 - x) * (1.0 - x), (idle_->doubt + stall_->doubt) * x / (1.0 - x)};
+      const double viscous = 100.0 * (1.0 - x) / (1.0 + x);
+      add("max. efficiency", "(1 - sqrt(I_0 / I_stall))^2", "max. efficiency", computed, *printed, "percent",
+          1.0 - computed.value / viscous);
+    }
+  }
+
+  void dynamics() {
+    if (!R_ || !K_t_) return;
+    const Term steepness = *R_ / (*K_t_ * *K_t_);  // rad/s per N m
+    if (const std::optional<Term> printed = term(s_.mechanical_time_constant_ms); printed && J_)
+      add("mechanical time constant", "R J / k_M^2", "mechanical time constant", steepness * *J_ * 1e3,
+          *printed, "ms");
+    if (const std::optional<Term> printed = term(s_.speed_torque_gradient_rpm_mNm))
+      add("speed/torque gradient", "R / k_M^2", "speed/torque gradient", steepness * (rpm_per_rad_s * 1e-3),
+          *printed, "rpm/mNm");
+  }
+
+  /// A contradiction is a Problem long before; that both agree is worth a line.
+  void winding() {
+    if (!s_.pole_pairs || (s_.winding.empty() && !s_.poles) || !c_.pole_pairs) return;
+    const double pairs = *c_.pole_pairs;
+    add("pole pairs", s_.winding.empty() ? "poles / 2" : "poles of " + s_.winding + " / 2", "pole pairs",
+        exact(pairs), exact(pairs), "");
+  }
+
+  const Sheet& s_;
+  const SheetConstants& c_;
+  std::optional<Term> U_, R_, K_t_, J_, stall_, idle_;
+  std::vector<Relation> found_;
+};
+
+}  // namespace
+
+std::vector<Relation> relations_of(const Sheet& sheet, const SheetConstants& constants) {
+  return Relations(sheet, constants).all();
+}
+
+}  // namespace sixstep::design

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <vector>
+
+#include "sixstep/design/sheet/sheet_check.hpp"
+
+namespace sixstep::design {
+
+/// Every relation whose two sides the sheet gives, not yet judged against known_deviation.
+std::vector<Relation> relations_of(const Sheet& sheet, const SheetConstants& constants);
+
+}  // namespace sixstep::design

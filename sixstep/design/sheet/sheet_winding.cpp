@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pole pairs, from whatever a sheet counts: pairs, poles, or the winding's code.
+#include <charconv>
+
+#include "sixstep/design/sheet/sheet_reader.hpp"
+
+namespace sixstep::design {
+namespace {
+
+struct Winding {
+  int teeth = 0;
+  int poles = 0;
+};
+
+/// "12N14P", in either case, spaces allowed between the two halves.
+std::optional<Winding> parsed(std::string_view text) {
+  const auto number = [&](char letter) -> std::optional<int> {
+    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+    int count = 0;
+    const std::from_chars_result end = std::from_chars(text.data(), text.data() + text.size(), count);
+    if (end.ec != std::errc{} || end.ptr == text.data() + text.size()) return {};
+    if ((*end.ptr | 0x20) != (letter | 0x20)) return {};
+    text.remove_prefix(static_cast<std::size_t>(end.ptr - text.data()) + 1);
+    return count;
+  };
+  const std::optional<int> teeth = number('N'), poles = teeth ? number('P') : std::nullopt;
+  if (!poles || !text.empty() || *teeth < 1 || *poles < 1) return {};
+  return Winding{*teeth, *poles};
+}
+
+std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+
+std::optional<int> of_winding(SheetReader& reader) {
+  const std::string& code = reader.sheet.winding;
+  const std::optional<Winding> winding = parsed(code);
+  if (!winding) {
+    reader.problem("winding", quoted(code), "is no winding code",
+                   "write teeth and magnet poles as \"12N14P\"");
+    return {};
+  }
+  if (winding->poles % 2 != 0) {
+    reader.problem("winding", quoted(code),
+                   "names " + std::to_string(winding->poles) + " poles, an odd number",
+                   "count the magnets again: north and south come in pairs");
+    return {};
+  }
+  if (winding->teeth % 3 != 0) {
+    reader.problem("winding", quoted(code),
+                   "names " + std::to_string(winding->teeth) + " teeth, which three phases cannot share",
+                   "the code is teeth first, then poles: 12N14P");
+    return {};
+  }
+  return winding->poles / 2;
+}
+
+std::optional<int> of_poles(SheetReader& reader) {
+  const int poles = *reader.sheet.poles;
+  if (poles >= 2 && poles % 2 == 0) return poles / 2;
+  reader.problem(
+      "poles", std::to_string(poles), "must be an even number from 2 on",
+      "magnet poles come in pairs of north and south; if the sheet counts pairs, write pole_pairs");
+  return {};
+}
+
+/// Pole pairs as written against what another line counts.
+void compare(SheetReader& reader, int pole_pairs, int other, const std::string& other_line) {
+  if (pole_pairs == other) return;
+  const std::string pairs = std::to_string(other);
+  if (pole_pairs == 2 * other)
+    reader.problem("pole_pairs", std::to_string(pole_pairs), "is the number of poles of " + other_line,
+                   "write pole_pairs = " + pairs);
+  else
+    reader.problem("pole_pairs", std::to_string(pole_pairs),
+                   "contradicts " + other_line + ", which has " + pairs + " pole pairs",
+                   "keep the one that is right");
+}
+
+}  // namespace
+
+std::optional<int> read_pole_pairs(SheetReader& reader) {
+  const Sheet& s = reader.sheet;
+  if (s.pole_pairs && *s.pole_pairs < 1) {
+    reader.problem("pole_pairs", std::to_string(*s.pole_pairs), "must be at least 1",
+                   "give the number of pole pairs (half the number of magnets' poles)");
+    return {};
+  }
+  std::optional<int> by_winding, by_poles;
+  if (!s.winding.empty()) by_winding = of_winding(reader);
+  if (s.poles) by_poles = of_poles(reader);
+  const std::string winding = "winding = " + quoted(s.winding);
+  if (by_winding && by_poles && *by_winding != *by_poles)
+    reader.problem("poles", std::to_string(*s.poles),
+                   "contradicts " + winding + ", which has " + std::to_string(2 * *by_winding) + " poles",
+                   "keep the one that is right");
+  const std::optional<int> other = by_winding ? by_winding : by_poles;
+  if (s.pole_pairs && other)
+    compare(reader, *s.pole_pairs, *other, by_winding ? winding : "poles = " + std::to_string(*s.poles));
+  if (s.pole_pairs)
+    reader.use("pole_pairs");
+  else if (other)
+    reader.use(by_winding ? "winding" : "poles");
+  return s.pole_pairs ? s.pole_pairs : other;
+}
+
+}  // namespace sixstep::design

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/sheet/thermal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "sixstep/base/elementary.hpp"
+
+namespace sixstep::design {
+namespace {
+
+/// x' = A x + b for the temperatures above ambient, x = (winding, housing).
+struct Network {
+  double a_ww, a_wh, a_hw, a_hh;  ///< 1/s; a_wh and a_hw are positive
+  double b_w, b_h;                ///< K/s
+
+  double determinant() const { return a_ww * a_hh - a_wh * a_hw; }
+};
+
+Network network(const ThermalModel& m, const Heating& h) {
+  const double per_C_w = m.winding_housing_K_W / m.winding_s, per_C_h = m.housing_ambient_K_W / m.motor_s;
+  const double across = 1 / m.winding_housing_K_W, out = 1 / m.housing_ambient_K_W;
+  const double cold = h.copper_W * (1 + copper_per_K * (h.ambient_degC - sheet_degC));
+  return {(h.copper_W * copper_per_K - across) * per_C_w,
+          across * per_C_w,
+          across * per_C_h,
+          -(across + out) * per_C_h,
+          cold * per_C_w,
+          h.housing_W * per_C_h};
+}
+
+/// (exp(x) - 1)/x; below 2^-7 by its series, whose seventh term is below 2^-53 there.
+double grown(double x) {
+  if (std::fabs(x) >= 0x1p-7) return (base::exp(x) - 1) / x;
+  return 1 + x / 2 * (1 + x / 3 * (1 + x / 4 * (1 + x / 5 * (1 + x / 6 * (1 + x / 7)))));
+}
+
+double winding_after(const ThermalModel& m, const Heating& h, double seconds) {
+  const Temperatures ambient{h.ambient_degC, h.ambient_degC};
+  return temperatures_after(m, h, ambient, seconds).winding_degC;
+}
+
+/// The root of a rising condition, `reached(x)` false at low and true at high: halved until nothing lies
+/// between.
+template <class Reached>
+double threshold(double low, double high, Reached&& reached) {
+  for (;;) {
+    const double middle = low + (high - low) / 2;
+    if (!(low < middle && middle < high)) return high;
+    (reached(middle) ? high : low) = middle;
+  }
+}
+
+}  // namespace
+
+base::Result<ThermalModel> thermal_model(const Sheet& s) {
+  ThermalModel m;
+  std::string missing;
+  const auto take = [&](const std::optional<base::Quantity>& from, const char* key, double& to) {
+    if (from)
+      to = from->value;
+    else
+      missing += (missing.empty() ? "" : ", ") + std::string(key);
+  };
+  take(s.thermal_resistance_winding_housing_K_W, "thermal_resistance_winding_housing_K_W",
+       m.winding_housing_K_W);
+  take(s.thermal_resistance_housing_ambient_K_W, "thermal_resistance_housing_ambient_K_W",
+       m.housing_ambient_K_W);
+  take(s.thermal_time_constant_winding_s, "thermal_time_constant_winding_s", m.winding_s);
+  take(s.thermal_time_constant_motor_s, "thermal_time_constant_motor_s", m.motor_s);
+  take(s.max_winding_temperature_degC, "max_winding_temperature_degC", m.max_winding_degC);
+  if (!missing.empty())
+    return base::Problem{missing, "", "must be known for a continuous and short-time region",
+                         "add the sheet's thermal lines to the motor file"};
+  for (const double* value : {&m.winding_housing_K_W, &m.housing_ambient_K_W, &m.winding_s, &m.motor_s})
+    if (!base::above(0).holds(*value))
+      return base::Problem{"thermal resistances and time constants", "", "must be above 0",
+                           "look at the sheet's thermal lines"};
+  return m;
+}
+
+std::optional<Temperatures> steady_temperatures(const ThermalModel& m, const Heating& h) {
+  const Network n = network(m, h);
+  // Both eigenvalues are real (a_wh a_hw > 0) and negative just where the determinant is positive and the
+  // trace is not: otherwise heat grows faster with temperature than it leaves.
+  if (!(n.determinant() > 0 && n.a_ww + n.a_hh < 0)) return {};
+  const double winding = (n.a_wh * n.b_h - n.a_hh * n.b_w) / n.determinant();
+  const double housing = (n.a_hw * n.b_w - n.a_ww * n.b_h) / n.determinant();
+  return Temperatures{h.ambient_degC + winding, h.ambient_degC + housing};
+}
+
+/// x(t) = x_0 + (integral of exp(A s) over 0..t) (A x_0 + b): the initial slope split into the eigenvectors
+/// (a_wh, lambda - a_ww), each grown by (exp(lambda t) - 1)/lambda. Holds for every sign of lambda.
+Temperatures temperatures_after(const ThermalModel& m, const Heating& h, const Temperatures& start,
+                                double t) {
+  const Network n = network(m, h);
+  const double w = start.winding_degC - h.ambient_degC, v = start.housing_degC - h.ambient_degC;
+  const double slope_w = n.a_ww * w + n.a_wh * v + n.b_w, slope_h = n.a_hw * w + n.a_hh * v + n.b_h;
+  const double half = (n.a_ww - n.a_hh) / 2, root = std::sqrt(half * half + n.a_wh * n.a_hw);
+  const double mean = (n.a_ww + n.a_hh) / 2;
+  // lambda - a_ww = -half +- root; of the two the one without cancellation gives the other by their product.
+  const double steep = half > 0 ? -half - root : -half + root, other = -n.a_wh * n.a_hw / steep;
+  const double up = half > 0 ? other : steep, down = half > 0 ? steep : other;
+  const double part_up = (slope_h - slope_w / n.a_wh * down) / (up - down);
+  const double part_down = slope_w / n.a_wh - part_up;
+  const double grown_up = t * grown((mean + root) * t), grown_down = t * grown((mean - root) * t);
+  return {start.winding_degC + n.a_wh * (part_up * grown_up + part_down * grown_down),
+          start.housing_degC + up * part_up * grown_up + down * part_down * grown_down};
+}
+
+std::optional<double> permissible_seconds(const ThermalModel& m, const Heating& h) {
+  if (h.ambient_degC >= m.max_winding_degC) return 0.0;
+  const std::optional<Temperatures> rest = steady_temperatures(m, h);
+  if (rest && rest->winding_degC <= m.max_winding_degC) return {};
+  // From ambient temperature everything only gets warmer: the slope starts positive and the network's
+  // couplings are positive.
+  double late = m.winding_s;
+  while (winding_after(m, h, late) < m.max_winding_degC) late *= 2;
+  return threshold(0.0, late, [&](double t) { return winding_after(m, h, t) >= m.max_winding_degC; });
+}
+
+double continuous_copper_W(const ThermalModel& m, double housing_W, double ambient_degC) {
+  const double above = m.max_winding_degC - ambient_degC;
+  const double across = 1 / m.winding_housing_K_W, out = 1 / m.housing_ambient_K_W;
+  const double housing = (above * across + housing_W) / (across + out);
+  const double hot = (above - housing) * across;
+  return hot > 0 ? hot / (1 + copper_per_K * (m.max_winding_degC - sheet_degC)) : 0.0;
+}
+
+double short_time_copper_W(const ThermalModel& m, double housing_W, double ambient_degC, double seconds) {
+  const auto reaches = [&](double copper_W) {
+    return winding_after(m, {copper_W, housing_W, ambient_degC}, seconds) >= m.max_winding_degC;
+  };
+  if (ambient_degC >= m.max_winding_degC || reaches(0.0)) return 0.0;
+  double high = std::max(continuous_copper_W(m, housing_W, ambient_degC), 1.0);
+  while (!reaches(high)) high *= 2;
+  return threshold(0.0, high, reaches);
+}
+
+}  // namespace sixstep::design

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// How warm a motor gets, in closed form: two bodies, winding and housing, as a data sheet describes them.
+//
+//   C_w dT_w/dt = P (1 + a (T_w - 25)) - (T_w - T_h)/R_wh          P copper loss at 25 degC, a = 0.393 %/K
+//   C_h dT_h/dt = (T_w - T_h)/R_wh - (T_h - T_a)/R_ha + P_f        P_f what warms the housing: friction
+//   C_w = tau_w/R_wh, C_h = tau_m/R_ha
+//
+// A given current heats more the warmer its copper is; the equations stay linear all the same, so that the
+// balance needs no iteration and the answer is two exponentials, also where the current is so high that it
+// never comes to rest. Left out: magnets weaken with temperature, iron losses, and a stator that is cooled by
+// its mounting plate better than the sheet's R_ha says.
+#pragma once
+#include <optional>
+
+#include "sixstep/base/result.hpp"
+#include "sixstep/design/sheet/sheet.hpp"
+
+namespace sixstep::design {
+
+/// Temperature coefficient of copper, 1/K, and the temperature the sheet's resistance is taken to belong to.
+inline constexpr double copper_per_K = 0.00393, sheet_degC = 25.0;
+
+struct ThermalModel {
+  double winding_housing_K_W = 0.0, housing_ambient_K_W = 0.0;
+  double winding_s = 0.0, motor_s = 0.0;  ///< time constants of winding and housing
+  double max_winding_degC = 0.0;
+};
+
+/// All five lines of the sheet; one Problem names those that are missing.
+base::Result<ThermalModel> thermal_model(const Sheet& sheet);
+
+struct Temperatures {
+  double winding_degC = 0.0, housing_degC = 0.0;
+};
+
+/// What heats, constant over time, and the air around.
+struct Heating {
+  double copper_W = 0.0;   ///< loss of the winding if it were at sheet_degC
+  double housing_W = 0.0;  ///< warms the housing directly
+  double ambient_degC = sheet_degC;
+};
+
+/// Where the temperatures come to rest; empty where they never do: the copper's growing resistance runs away.
+std::optional<Temperatures> steady_temperatures(const ThermalModel& model, const Heating& heating);
+
+/// After `seconds` from `start`.
+Temperatures temperatures_after(const ThermalModel& model, const Heating& heating, const Temperatures& start,
+                                double seconds);
+
+/// How long a motor at ambient temperature may be heated so until its winding reaches the limit, s: empty for
+/// ever, 0 where the air is that warm already.
+std::optional<double> permissible_seconds(const ThermalModel& model, const Heating& heating);
+
+/// The copper loss at sheet_degC, W, that takes the winding to its limit: for ever, or from ambient
+/// temperature just after `seconds`. 0 where the housing's heat alone does.
+double continuous_copper_W(const ThermalModel& model, double housing_W, double ambient_degC);
+double short_time_copper_W(const ThermalModel& model, double housing_W, double ambient_degC, double seconds);
+
+}  // namespace sixstep::design

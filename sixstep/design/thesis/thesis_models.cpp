@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/thesis/thesis_models.hpp"
+
+#include <cmath>
+
+#include "sixstep/base/elementary.hpp"
+
+namespace sixstep::design {
+namespace {
+
+constexpr double turn_rad = 2.0 * base::pi;
+
+}  // namespace
+
+double trapezoid(base::ElectricalAngle theta_e, double flat_deg) {
+  const double turns = theta_e.rad / turn_rad;
+  const double deg = (turns - std::floor(turns)) * 360.0;
+  // Even about the middle of the positive top, odd about 90 degrees from it.
+  double from_top = std::abs(deg - 60.0);
+  if (from_top > 180.0) from_top = 360.0 - from_top;
+  const double ramp = 90.0 - flat_deg / 2.0;
+  const double height = (90.0 - from_top) / ramp;
+  return height > 1.0 ? 1.0 : (height < -1.0 ? -1.0 : height);
+}
+
+base::Abc<double> back_emf_shape(const plant::Machine& m, base::ElectricalAngle theta_e) {
+  const double third = turn_rad / 3.0;
+  if (m.back_emf == plant::BackEmf::sine) {
+    const double top = turn_rad / 6.0;  // cos(theta - 60 degrees), b and c later by 120 and 240
+    return {base::cos(theta_e.rad - top), base::cos(theta_e.rad - top - third),
+            base::cos(theta_e.rad - top - 2.0 * third)};
+  }
+  return {trapezoid(theta_e, m.flat_deg), trapezoid({theta_e.rad - third}, m.flat_deg),
+          trapezoid({theta_e.rad - 2.0 * third}, m.flat_deg)};
+}
+
+double electromagnetic_torque(const plant::Machine& m, const base::Abc<double>& f,
+                              const base::Abc<double>& i) {
+  return m.K_e_V_s * (f.a * i.a + f.b * i.b + f.c * i.c);
+}
+
+// Thesis 3.11, corrected: the EMF enters the current rows with a minus and K_t/2 (it opposes the current),
+// the torque enters the speed row over J, -1/J stands in the speed row, each phase has its 1/(L - M). The
+// thesis's last state is theta_e with p under w; here it is theta_m with 1.
+//   L i_k' = u_kn - R i_k - K_e f_k w      J w' = K_e sum f_k i_k - B w - T_load      theta_m' = w
+StateSpace<5, 4> phase_voltage_model(const plant::Machine& m, const plant::Shaft& s,
+                                     base::MechanicalAngle theta_m) {
+  const double R = m.R_ohm, L = m.L_H, K_e = m.K_e_V_s, J = s.J_kg_m2, B = s.B_Nm_s;
+  const base::Abc<double> shape = back_emf_shape(m, base::PolePairs{m.pole_pairs}.electrical(theta_m));
+  const std::array<double, 3> f{shape.a, shape.b, shape.c};
+  StateSpace<5, 4> model;
+  for (std::size_t k = 0; k < 3; ++k) {
+    model.A[k][k] = -R / L;
+    model.A[k][3] = -K_e * f[k] / L;
+    model.A[3][k] = K_e * f[k] / J;
+    model.B[k][k] = 1.0 / L;
+  }
+  model.A[3][3] = -B / J;
+  model.A[4][3] = 1.0;
+  model.B[3][3] = -1.0 / J;
+  return model;
+}
+
+// Thesis 3.15 and 3.16, corrected: u_bc - e_bc = R (2 i_b + i_a) + L (2 i_b' + i_a') since i_c = -i_a - i_b;
+// solved,
+//   i_a' = -R/L i_a + (2 (u_ab - e_ab) + (u_bc - e_bc))/(3 L)
+//   i_b' = -R/L i_b + ((u_bc - e_bc) - (u_ab - e_ab))/(3 L)
+// with e_ab = K_e (f_a - f_b) w, e_bc = K_e (f_b - f_c) w, and T_e = K_e ((f_a - f_c) i_a + (f_b - f_c) i_b).
+StateSpace<4, 3> terminal_voltage_model(const plant::Machine& m, const plant::Shaft& s,
+                                        base::MechanicalAngle theta_m) {
+  const double R = m.R_ohm, L = m.L_H, K_e = m.K_e_V_s, J = s.J_kg_m2, B = s.B_Nm_s;
+  const base::Abc<double> f = back_emf_shape(m, base::PolePairs{m.pole_pairs}.electrical(theta_m));
+  const double K_ab = K_e * (f.a - f.b), K_bc = K_e * (f.b - f.c), K_ca = K_e * (f.c - f.a);
+  StateSpace<4, 3> model;
+  model.A = {{{-R / L, 0.0, -(2.0 * K_ab + K_bc) / (3.0 * L), 0.0},
+              {0.0, -R / L, -(K_bc - K_ab) / (3.0 * L), 0.0},
+              {-K_ca / J, K_bc / J, -B / J, 0.0},
+              {0.0, 0.0, 1.0, 0.0}}};
+  model.B = {{{2.0 / (3.0 * L), 1.0 / (3.0 * L), 0.0},
+              {-1.0 / (3.0 * L), 1.0 / (3.0 * L), 0.0},
+              {0.0, 0.0, -1.0 / J},
+              {0.0, 0.0, 0.0}}};
+  return model;
+}
+
+}  // namespace sixstep::design
