@@ -14,6 +14,7 @@
 #include "io/motor/motor_library.hpp"
 #include "io/scenario/reference_file.hpp"
 #include "io/scenario/scenario_family.hpp"
+#include "io/toml/file_kind.hpp"
 #include "io/toml/table_reader.hpp"
 #include "sixstep/design/sheet/sheet_constants.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
@@ -30,6 +31,7 @@ struct SheetSource {
 };
 
 base::Result<SheetSource> sheet_of(Document document) {
+  if (std::optional<base::Problem> problem = taken_for(FileKind::motor, document)) return *problem;
   Complaints complaints(document);
   design::Sheet sheet;
   read_root(document, sheet, complaints);
@@ -247,6 +249,7 @@ base::Result<study::Scenario> read_scenario_text(const std::string& path, std::s
   base::Result<Document> parsed = read_family(path, std::move(text));
   if (!parsed) return parsed.problems();
   Document& document = *parsed;
+  if (std::optional<base::Problem> problem = taken_for(FileKind::scenario, document)) return *problem;
   if (base::Problems problems = apply_overrides(document, options.overrides); !problems.empty())
     return problems;
 

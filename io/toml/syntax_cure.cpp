@@ -12,7 +12,8 @@ struct Cure {
 };
 
 /// The first that fits counts.
-constexpr std::array<Cure, 10> cures = {{
+constexpr std::array<Cure, 11> cures = {{
+    {"invalid utf-8", "save the file as text in UTF-8"},
     {"parsing string", "close the quote on the same line"},
     {"cannot redefine", "give each key and table once"},
     {"could not determine value type",

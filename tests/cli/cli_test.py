@@ -204,8 +204,8 @@ class CommandLine(ProgramTest):
         alone = self.run_program(code=2)
         self.assertEqual(alone.stdout, "")
         self.assertIn("To begin with: sixstep new first\n", alone.stderr)
-        self.assertIn("a.toml:2:1: motor is not a key here; sixstep help lists them all\n",
-                      self.run_program("motor", "show", "a.toml", code=2).stderr)
+        self.assertEqual(self.run_program("motor", "show", "a.toml", code=2).stderr,
+                         "a.toml:1:1: is a scenario, not a motor's file; its motor is maxon-251601: name that\n")
 
     def test_help_explains_keys_and_answers_near_misses(self):
         self.assertIn("supply.voltage_V", self.run_program("help", "supply").stdout)

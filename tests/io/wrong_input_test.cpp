@@ -45,6 +45,30 @@ const std::string head = "motor = \"maxon-251601\"\nduration_s = 0.02\n";
 
 TEST_F(WrongInput, AGoodFileIsToldNothing) { EXPECT_THAT(complaints(head), ElementsAre()); }
 
+TEST_F(WrongInput, AMotorTakenForAScenarioIsToldInOneSentence) {
+  EXPECT_THAT(
+      complaints("name = \"mine\"\npole_pairs = 4\nresistance_ohm = 0.5\n"),
+      ElementsAre("x.toml:1:1: is a motor's file, not a scenario; sixstep new first --motor x.toml writes a "
+                  "scenario that runs it"));
+  EXPECT_THAT(complaints("pole_pairs = 4\n" + head),  // a scenario with a motor's key in the wrong place
+              ElementsAre(HasSubstr("x.toml:1:1: pole_pairs is not a key here")));
+}
+
+TEST_F(WrongInput, AScenarioTakenForAMotorIsToldInOneSentence) {
+  write("y.toml", head);
+  EXPECT_THAT(
+      complaints("motor = \"y.toml\"\nduration_s = 0.02\n"),
+      ElementsAre("y.toml:1:1: is a scenario, not a motor's file; its motor is maxon-251601: name that"));
+  write("z.toml", "duration_s = 0.02\n");
+  EXPECT_THAT(complaints("motor = \"z.toml\"\nduration_s = 0.02\n"),
+              ElementsAre(HasSubstr("is a scenario, not a motor's file; name the file of a motor")));
+}
+
+TEST_F(WrongInput, WhatIsNoUtf8IsTold) {
+  EXPECT_THAT(complaints("title = \"\xe9t\xe9\"\n" + head),
+              ElementsAre(HasSubstr("save the file as text in UTF-8")));
+}
+
 TEST_F(WrongInput, UnknownKeyIsAnsweredWithTheNearest) {
   EXPECT_THAT(complaints(head + "[supply]\nvoltge_V = 24\n"),
               ElementsAre("x.toml:4:1: supply.voltge_V is not a key here; did you mean voltage_V?"));
