@@ -49,7 +49,7 @@ void run_one(std::uint64_t seed) {
       << "at " << rig.now().seconds() << " fault " << int(rig.fault());
   EXPECT_TRUE(finite(rig.plant().state()));
   const auto& c = rig.plant().constants();
-  // A tenth of what the model asks: in 100 000 drives none missed 1e-13.
+  // A tenth of what is asked of every run: of 100 000 drives none missed 1e-13.
   watchdog.laws.expect_all(1e-12, widest_noise * c.volt_scale, widest_noise * c.amp_scale);
 }
 

@@ -35,7 +35,7 @@ class LawChecker {
 
   /// Rounding: sums are kept exactly by construction, diodes and rails to the guards' noise of 64 eps of
   /// scale (twice, for the evaluation), and so are the currents and the speed from one segment to the next.
-  /// The energy balance to the model's 1e-11 of what moved, and what those steps took along: beside a current
+  /// The energy balance to 1e-11 of what moved, and what those steps took along: beside a current
   /// i one of d takes L i d, which is much beside what so far has moved where i is far below the scale.
   void expect_all(double energy_tolerance = 1e-11, double rail_tolerance_V = 0.0,
                   double diode_tolerance_A = 0.0) const {
