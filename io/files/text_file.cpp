@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "io/keys/key_advice.hpp"
-
 #include "sixstep/base/hash.hpp"
 
 namespace io {

@@ -31,12 +31,12 @@ struct SheetSource {
 };
 
 base::Result<SheetSource> sheet_of(Document document) {
-  if (std::optional<base::Problem> problem = taken_for(FileKind::motor, document)) return *problem;
   Complaints complaints(document);
   design::Sheet sheet;
   read_root(document, sheet, complaints);
-  if (!complaints.empty()) return complaints.in_order();
-  return SheetSource{std::move(document), std::move(sheet)};
+  if (complaints.empty()) return SheetSource{std::move(document), std::move(sheet)};
+  if (std::optional<base::Problem> problem = taken_for(FileKind::motor, document)) return *problem;
+  return complaints.in_order();
 }
 
 /// A file that a value names is looked for beside the file in which the value stands.
@@ -249,7 +249,6 @@ base::Result<study::Scenario> read_scenario_text(const std::string& path, std::s
   base::Result<Document> parsed = read_family(path, std::move(text));
   if (!parsed) return parsed.problems();
   Document& document = *parsed;
-  if (std::optional<base::Problem> problem = taken_for(FileKind::scenario, document)) return *problem;
   if (base::Problems problems = apply_overrides(document, options.overrides); !problems.empty())
     return problems;
 
@@ -267,7 +266,10 @@ base::Result<study::Scenario> read_scenario_text(const std::string& path, std::s
 
   base::Problems problems = complaints.in_order();
   problems.insert(problems.end(), of_other_files.begin(), of_other_files.end());
-  if (!problems.empty()) return problems;
+  if (!problems.empty()) {
+    if (std::optional<base::Problem> problem = taken_for(FileKind::scenario, document)) return *problem;
+    return problems;
+  }
   if (scenario.title.empty()) scenario.title = std::filesystem::path(path).stem().string();
   return scenario;
 }

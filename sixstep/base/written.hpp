@@ -14,6 +14,14 @@ inline std::string written(double x) {
   return {text, end.ptr};
 }
 
+/// To so many significant digits.
+inline std::string rounded(double x, int digits) {
+  char text[32];
+  const std::to_chars_result end =
+      std::to_chars(text, text + sizeof text, x, std::chars_format::general, digits);
+  return {text, end.ptr};
+}
+
 /// Sixteen hexadecimal digits.
 inline std::string written_hex(std::uint64_t bits) {
   std::string text(16, '0');

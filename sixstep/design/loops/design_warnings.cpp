@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/design/loops/design_warnings.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/written.hpp"
 
 namespace sixstep::design {
 namespace {
 
 /// Three digits say what a warning needs.
-std::string rounded(double x) {
-  char text[32];
-  const std::to_chars_result end = std::to_chars(text, text + sizeof text, x, std::chars_format::general, 3);
-  return {text, end.ptr};
-}
+std::string rounded(double x) { return base::rounded(x, 3); }
 std::string milliseconds(double s) { return rounded(s * 1e3) + " ms"; }
 std::string microseconds(double s) { return rounded(s * 1e6) + " us"; }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads numbers off a sheet and notes whatever is wrong with them. Shared by the sources of sheet_constants.
 #pragma once
-#include <charconv>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,12 +12,7 @@
 namespace sixstep::design {
 
 /// Four digits say what a message needs.
-inline std::string rounded(double x, int digits = 4) {
-  char text[32];
-  const std::to_chars_result end =
-      std::to_chars(text, text + sizeof text, x, std::chars_format::general, digits);
-  return {text, end.ptr};
-}
+inline std::string rounded(double x, int digits = 4) { return base::rounded(x, digits); }
 
 struct SheetReader {
   const Sheet& sheet;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/written.hpp"
 #include "sixstep/study/check/measures.hpp"
 #include "sixstep/study/check/product.hpp"
 #include "sixstep/study/check/reference.hpp"
@@ -19,11 +20,7 @@ namespace sixstep::study {
 
 namespace {
 
-std::string number(double v) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", v);
-  return text;
-}
+std::string number(double v) { return base::rounded(v, 6); }
 
 void check_supply(const Scenario& s, base::Problems& out) {
   const bool R = s.supply.resistance_ohm > 0, C = s.supply.capacitance_F > 0;

@@ -2,7 +2,6 @@
 #include "sixstep/study/scenario/spread.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -37,11 +36,7 @@ bool may_stray(std::string_view key) {
 }
 
 /// Six digits say what a message needs, without the rounding of 1.03 - 1.5 * 1.03.
-std::string rounded(double x) {
-  char text[32];
-  const std::to_chars_result end = std::to_chars(text, text + sizeof text, x, std::chars_format::general, 6);
-  return {text, end.ptr};
-}
+std::string rounded(double x) { return base::rounded(x, 6); }
 
 /// The visitor that looks for the number at a key's path.
 class NumberAt {

@@ -28,19 +28,6 @@ double plain_number(double x) {
 /// Whole microseconds, upwards: short to write, and a few more do no harm.
 double plain_time(double s) { return std::ceil(s * 1e6) / 1e6; }
 
-Measure step_measure(MetricKind metric, Signal signal, double from_s, double to_s, double start, double level,
-                     const char* label) {
-  Measure m;
-  m.metric = metric;
-  m.signal = signal;
-  m.from_s = from_s;
-  m.to_s = to_s;
-  m.start = start;
-  m.level = level;
-  m.label = label;
-  return m;
-}
-
 Measure window_measure(MetricKind metric, Signal signal, double from_s, double to_s, const char* label) {
   Measure m;
   m.metric = metric;
@@ -48,6 +35,14 @@ Measure window_measure(MetricKind metric, Signal signal, double from_s, double t
   m.from_s = from_s;
   m.to_s = to_s;
   m.label = label;
+  return m;
+}
+
+Measure step_measure(MetricKind metric, Signal signal, double from_s, double to_s, double start, double level,
+                     const char* label) {
+  Measure m = window_measure(metric, signal, from_s, to_s, label);
+  m.start = start;
+  m.level = level;
   return m;
 }
 

@@ -2,9 +2,9 @@
 #include "sixstep/study/verify/design_study.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "sixstep/base/written.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/trace.hpp"
@@ -14,11 +14,7 @@
 namespace sixstep::study {
 namespace {
 
-std::string rounded(double x) {
-  char text[32];
-  const std::to_chars_result end = std::to_chars(text, text + sizeof text, x, std::chars_format::general, 3);
-  return {text, end.ptr};
-}
+std::string rounded(double x) { return base::rounded(x, 3); }
 
 const ComparisonResult* find(const Outcome& outcome, const std::string& figure) {
   for (const ComparisonResult& c : outcome.comparisons)
