@@ -52,7 +52,7 @@ base::Problems unheld_speed(const Scenario& s, const Compiled& c, const design::
   using Wide = typename Scalar::WideInt;
   const double ratio = base::pi / 3 / c.motor.machine.pole_pairs * s.sensors.capture_Hz;
   const double digits =
-      ratio * s.sensors.speed_edges / b.speed_rad_s / static_cast<double>(Scalar::from_raw(1));
+      ratio * c.board.sensors.edges / b.speed_rad_s / static_cast<double>(Scalar::from_raw(1));
   const double most = static_cast<double>(control::detail::greatest<Wide>);
   if (digits <= most) return {};
   return {{"sensors.capture_Hz", base::written(s.sensors.capture_Hz),
@@ -98,7 +98,8 @@ control::ProtectedConfig<Scalar> product_in_float(const control::ProtectedConfig
           .bus_adc = adc(c.bus_adc),
           .shunt = {s(c.shunt.least_duty), c.shunt.commutation_samples, s(c.shunt.fade)},
           .hall = c.hall,
-          .speed = {s(c.speed.sector_rad_s_ticks), c.speed.timeout_ticks, c.speed.edges},
+          .speed = {s(c.speed.sector_rad_s_ticks), c.speed.timeout_ticks, c.speed.edges,
+                    c.speed.window_ticks},
           .position = {s(c.position.per_sector), s(c.position.per_fraction)},
           .advance = {s(c.advance.fixed), s(c.advance.per_speed), s(c.advance.limit)},
           .faults = {s(f.over_current_A), s(f.over_voltage_V), s(f.under_voltage_V), s(f.over_speed_rad_s),
