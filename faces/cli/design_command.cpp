@@ -156,7 +156,8 @@ std::optional<study::Scenario> board_of(const DesignArguments& a, base::Problems
 }
 
 /// The motor that was named, else the scenario's.
-base::Result<study::DesignSubject> subject_of(const DesignArguments& a, const std::optional<study::Scenario>& board,
+base::Result<study::DesignSubject> subject_of(const DesignArguments& a,
+                                              const std::optional<study::Scenario>& board,
                                               base::Problems& found) {
   study::DesignSubject subject{.motor = a.motor, .sheet = {}, .board = board, .currents = {}, .step = a.step};
   if (a.currents) {
@@ -222,9 +223,11 @@ void declare_options(CLI::App& design, DesignArguments& a) {
                     "cancellation, symmetrical-optimum: of the loop, in rad/s");
   design.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");
   design.add_option("--voltage", a.voltage_V, "of the bus in V; the sheet's nominal voltage");
-  design.add_option("--torque-limit", a.torque_limit_Nm, "speed, position: in N m; that of 2.5 times the nominal current");
+  design.add_option("--torque-limit", a.torque_limit_Nm,
+                    "speed, position: in N m; that of 2.5 times the nominal current");
   design.add_option("--rotor", a.rotor, "hall, or ideal: as an encoder of very many lines; hall");
-  design.add_option("--edges", a.edges, "Hall edges that a speed is taken over, 1 to 6; else 6 or 1, adaptive");
+  design.add_option("--edges", a.edges,
+                    "Hall edges that a speed is taken over, 1 to 6; else 6 or 1, adaptive");
   design.add_option("--lowest-speed", a.lowest_speed_rad_s,
                     "that is to be held, in rad/s; a tenth of what the bus reaches");
   design.add_option("--currents", a.currents, "phases, dc-link or ideal; phases");

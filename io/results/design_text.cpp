@@ -143,7 +143,8 @@ std::string figures_text(const DriveDesign& d) {
     return delayed(l).stable ? factor(delayed(l).sensitivity_peak) : "unstable";
   });
   if (d.lag.delay_s() > 0)
-    line("phase margin with the speed's sensor", [&](const LoopDesign& l) { return or_none(l.built.phase_rad, degrees); });
+    line("phase margin with the speed's sensor",
+         [&](const LoopDesign& l) { return or_none(l.built.phase_rad, degrees); });
   line(d.lag.delay_s() > 0 ? "step: settling" : "step: settling to 2 %",
        [&](const LoopDesign& l) { return quantity_text(l.step.settling_s, "s", 4); });
   line("step: overshoot",
@@ -235,7 +236,8 @@ std::string position_text(const study::PositionGain& p) {
       "  found by {} simulations between {} (full torque stops it from top speed) and {} (no limit acts)\n",
       p.runs, number(p.estimate), number(p.linear));
   if (p.gain_rad_s_per_deg < p.nominal)
-    text += fmt::format("  the sheet's motor alone would stand {} rad/s/deg; the tolerances do not\n", number(p.nominal));
+    text += fmt::format("  the sheet's motor alone would stand {} rad/s/deg; the tolerances do not\n",
+                        number(p.nominal));
   return text;
 }
 
@@ -255,12 +257,14 @@ std::string at_worst(const study::DesignStudy& s, const char* figure, double nom
 /// What the verdict holds for.
 std::string conditions(const study::DesignStudy& s) {
   const DriveDesign& d = s.design;
-  std::string text = !d.wish.rotor.hall       ? "with an ideal rotor sensor"
-                     : d.loops.size() < 2     ? "with Hall probes"
-                     : d.wish.mode == Mode::speed
-                         ? fmt::format("with Hall probes, down to {}", quantity_text(d.lowest_speed_rad_s, "rad/s", 3))
-                         : "with Hall probes";
-  return text + (s.robustness ? fmt::format(", over {} motors", s.robustness->runs) : ", tolerances not looked at");
+  std::string text =
+      !d.wish.rotor.hall   ? "with an ideal rotor sensor"
+      : d.loops.size() < 2 ? "with Hall probes"
+      : d.wish.mode == Mode::speed
+          ? fmt::format("with Hall probes, down to {}", quantity_text(d.lowest_speed_rad_s, "rad/s", 3))
+          : "with Hall probes";
+  return text +
+         (s.robustness ? fmt::format(", over {} motors", s.robustness->runs) : ", tolerances not looked at");
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 // alone says nothing about speed.
 //
 // A speed over k edges is k/2 sectors old, and up to one more until the next edge: (k + 1)/2 sectors in the
-// mean, (k + 1)/2 (pi/3)/(p w). Faults of the probes' placement cancel over k = 6, one electrical turn, but at
-// low speed a speed loop cannot stand so old a speed. With a window the speed is taken over `edges` where
+// mean, (k + 1)/2 (pi/3)/(p w). Faults of the probes' placement cancel over k = 6, one electrical turn, but
+// at low speed a speed loop cannot stand so old a speed. With a window the speed is taken over `edges` where
 // these came within it, and over one edge where the rotor is too slow for that.
 #pragma once
 #include <cstdint>

@@ -62,8 +62,8 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
   if (d.loops.size() < 2 || !(d.lag.delay_s() > 0.0)) return;
   const LoopDesign& speed = d.loops[1];
   if (!speed.figures.stable) return;  // told already
-  const std::string at = " at " + rounded(d.lowest_speed_rad_s) + " rad/s, where a speed from Hall edges is " +
-                         milliseconds(d.lag.delay_s()) + " old";
+  const std::string at = " at " + rounded(d.lowest_speed_rad_s) +
+                         " rad/s, where a speed from Hall edges is " + milliseconds(d.lag.delay_s()) + " old";
   std::string cure = "design the speed loop slower (--settle";
   for (const SettlingLimit& limit : d.limits)
     if (limit.sensing.edges == d.wish.rotor.edges && limit.lowest_speed_rad_s == d.lowest_speed_rad_s &&
@@ -85,8 +85,9 @@ void look_at_steps(const DriveDesign& d, Collector& out) {
   const double blind_s = 1.0 / (d.loops[2].gains.d1 * 180.0 / base::pi);
   const double step_deg = 60.0 / d.motor.machine.pole_pairs;
   if (const std::optional<double> stands = d.loops[1].figures.delay_s; stands && blind_s > *stands)
-    out.add("within a Hall step of " + rounded(step_deg) + " degrees of its target the drive learns its speed every " +
-                milliseconds(blind_s) + " (1/K_p), and the speed loop stands " + milliseconds(*stands) +
+    out.add("within a Hall step of " + rounded(step_deg) +
+                " degrees of its target the drive learns its speed every " + milliseconds(blind_s) +
+                " (1/K_p), and the speed loop stands " + milliseconds(*stands) +
                 ": it comes to within a few steps and never rests",
             "take an encoder where the shaft is to rest; or turn the drive off once it is there");
 }

@@ -81,7 +81,7 @@ struct DriveDesign {
   SpeedLag lag;                         ///< of the speed at the lowest speed
   std::vector<DerivationStep> sensing;  ///< how that lag comes about
   std::vector<SettlingLimit> limits;    ///< what each way of sensing allows; speed and position
-  std::vector<LoopDesign> loops;   ///< from the inside out
+  std::vector<LoopDesign> loops;        ///< from the inside out
   Ripple ripple;
   double longest_period_s = 0.0;  ///< up to which the current loop keeps 45 degrees with one period of delay
   double headroom_end_rad_s = 0.0;   ///< up to which the nominal current can be driven
@@ -91,8 +91,8 @@ struct DriveDesign {
   const LoopDesign& loop(std::string_view name) const;
 };
 
-/// Part of a step of the speed within which it counts as settled: 2 %, on Hall probes 10 %, the twentieth of the
-/// lowest speed that a step of half of it is judged by.
+/// Part of a step of the speed within which it counts as settled: 2 %, on Hall probes 10 %, the twentieth of
+/// the lowest speed that a step of half of it is judged by.
 double settling_band(const DriveDesign& design);
 
 /// Gains for the wish. In position mode the gain is the largest with which the linear loop does not

@@ -119,7 +119,9 @@ LoopFigures sensed_figures(const SensedLoop& s, double period_s, int points) {
   const Complex one{1.0, 0.0};
   const auto H = [&](double turn) { return s.lag.at(turn / period_s); };
   // The lag's own phase is linear; counted apart it does not wrap, however long the lag is.
-  const auto left = [&](double turn) { return phase_left(s.loop.at(turn)) - turn / period_s * s.lag.delay_s(); };
+  const auto left = [&](double turn) {
+    return phase_left(s.loop.at(turn)) - turn / period_s * s.lag.delay_s();
+  };
   LoopFigures f;
   if (!s.around) {
     f = scanned([&](double turn) { return s.loop.at(turn) * H(turn); }, left, lowest_turn(s.loop), period_s,

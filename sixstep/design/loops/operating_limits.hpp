@@ -33,8 +33,8 @@ struct NominalCurrent {
 };
 NominalCurrent nominal_current(const MotorModel& motor, double bus_V);
 
-/// Torque that a drive asks for where nobody said: of 2.5 times the nominal current, which a winding stands for
-/// seconds (2 to 3 is usual), and no more than the bus drives through the held rotor.
+/// Torque that a drive asks for where nobody said: of 2.5 times the nominal current, which a winding stands
+/// for seconds (2 to 3 is usual), and no more than the bus drives through the held rotor.
 inline constexpr double usual_overload = 2.5;
 double usual_torque_limit_Nm(const MotorModel& motor, double bus_V);
 

@@ -57,8 +57,8 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
   else
     steps.push_back({"k", "edges that a speed is taken over", static_cast<double>(sensing.edges), ""});
   steps.push_back({"delay", "(k + 1)/2 sectors, the most from w_low up", lag.delay_s(), "s"});
-  steps.push_back({"phase", "w_c times it, what the sensor costs", crossover_rad_s * lag.delay_s() * 180 / base::pi,
-                   "deg"});
+  steps.push_back({"phase", "w_c times it, what the sensor costs",
+                   crossover_rad_s * lag.delay_s() * 180 / base::pi, "deg"});
   return steps;
 }
 

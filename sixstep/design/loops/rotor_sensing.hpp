@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a loop loses to the sensor of its speed. A speed from Hall edges (control/hall_speed.hpp) is the mean
-// over the last k sectors, held until the next edge. Turning at w a sector takes T = (pi/3)/(p w), so the loop
-// sees w through
+// over the last k sectors, held until the next edge. Turning at w a sector takes T = (pi/3)/(p w), so the
+// loop sees w through
 //
 //   H(jv) = sinc(v k T/2) exp(-j v k T/2) . sinc(v T/2) exp(-j v T/2),        sinc x = sin x / x,
 //

@@ -142,7 +142,8 @@ void settle_edges(const Scenario& s, const Basis& basis, Compiled& out) {
   rig::SensorsConfig& sensors = out.board.sensors;
   if (sensors.edges != 0) return;
   const bool cascade = s.control.speed.output == SpeedOutput::current;
-  const double full_A = cascade ? out.drive.current_at_full_torque_A : basis.bus_V / (2 * basis.motor.machine.R_ohm);
+  const double full_A =
+      cascade ? out.drive.current_at_full_torque_A : basis.bus_V / (2 * basis.motor.machine.R_ohm);
   const double full_rad_s2 = full_A * basis.motor.K_t_Nm_A / basis.shaft.J_kg_m2;
   // Without a speed loop its gain is 0, and so is the window.
   sensors.window_s = design::hall_window_s(design::speed_crossover_rad_s(out.drive.speed.d1, full_rad_s2));

@@ -150,8 +150,10 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   // The current that a step asks for at first is d1 (speed) times the current at full torque. In volts that
   // is d1 (current) at once, and R when it flows.
   const double volts = part_of_bus * (d.bus_V - K * t.first - R * t.load_A);
-  t.step = subject.step.value_or(lags ? -d.lowest_speed_rad_s / 2 : plain_number(std::min(
-      t.first / 2, volts / (speed.gains.d1 * d.current_at_full_torque_A * std::max(current.gains.d1, R)))));
+  t.step = subject.step.value_or(
+      lags ? -d.lowest_speed_rad_s / 2
+           : plain_number(std::min(t.first / 2, volts / (speed.gains.d1 * d.current_at_full_torque_A *
+                                                         std::max(current.gains.d1, R)))));
   const double settle = std::max(settling_of(speed, 1000 * d.wish.period_s), 8 * d.lag.delay_s());
   t.begin = plain_time(5 * settle + 2 * start_time(d, t.first, K * t.load_A));
   t.end = plain_time(t.begin + 5 * settle);
@@ -224,16 +226,16 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, Scenario& 
   const Measure overshoot =
       step_measure(MetricKind::overshoot, Signal::position, 0, end, 0, step, "overshoot");
   s.compare = {
-      {settling, fastest, counts ? "full torque forth and back; to three Hall steps"
-                                 : "full torque forth and back; to 0.05 %"},
+      {settling, fastest,
+       counts ? "full torque forth and back; to three Hall steps" : "full torque forth and back; to 0.05 %"},
       {overshoot, 0.0, "none wanted"},
       {window_measure(MetricKind::maximum, Signal::speed, 0, end, "peak speed"), top, "bus/K_t"},
       {window_measure(MetricKind::maximum, Signal::current, 0, end, "peak current"),
        d.current_at_full_torque_A, "at full torque"},
   };
   if (counts)
-    s.compare.push_back({window_measure(MetricKind::peak_to_peak, Signal::position, end - 0.2 * (end - travel), end,
-                                        "swing around the target"),
+    s.compare.push_back({window_measure(MetricKind::peak_to_peak, Signal::position,
+                                        end - 0.2 * (end - travel), end, "swing around the target"),
                          0.0, "none wanted"});
   s.require = {{overshoot, std::nullopt, counts ? steps : 1e-9 * std::fabs(step)}};
 }

@@ -73,7 +73,8 @@ void look_at_swing(DesignStudy& s) {
   const ComparisonResult* swing = find(s.outcome, "speed ripple");
   if (!allowed || !swing || swing->measured <= *allowed) return;
   s.warnings.push_back({"in the simulation the speed swings by " + rounded(swing->measured) +
-                            " rad/s without end; with ideal sensors by " + rounded(*s.ideal_swing_rad_s) + " rad/s",
+                            " rad/s without end; with ideal sensors by " + rounded(*s.ideal_swing_rad_s) +
+                            " rad/s",
                         cure_of_settling(s.design), true});
 }
 
@@ -94,17 +95,18 @@ void look_at_tolerances(DesignStudy& s) {
   const std::optional<double> swing = allowed_swing(s);
   for (const RobustFigure& f : s.robustness->figures) {
     if (f.figure == "speed ripple" && swing && f.nominal <= *swing && f.worst > *swing)
-      s.warnings.push_back({"out of tolerance the speed swings by " + rounded(f.worst) + " rad/s without end: " + f.at,
-                            chiefly(f, "design slower (--settle)"), true});
+      s.warnings.push_back(
+          {"out of tolerance the speed swings by " + rounded(f.worst) + " rad/s without end: " + f.at,
+           chiefly(f, "design slower (--settle)"), true});
     if (f.figure == "settling time" && !drowned(s) && std::isfinite(f.nominal) && !std::isfinite(f.worst))
       s.warnings.push_back(
           {"out of tolerance it never settles: " + f.at, chiefly(f, "design slower (--settle)"), true});
     const bool position = s.design.wish.mode == control::Mode::position;
     if (position && f.figure == "overshoot" &&
         f.worst > allowed_overshoot_deg(s.design, s.scenario.reference.value))
-      s.warnings.push_back(
-          {"out of tolerance it overshoots by " + rounded(f.worst) + " deg: " + f.at,
-           chiefly(f, "lower the gain, or --torque-limit so that braking keeps a reserve"), true});
+      s.warnings.push_back({"out of tolerance it overshoots by " + rounded(f.worst) + " deg: " + f.at,
+                            chiefly(f, "lower the gain, or --torque-limit so that braking keeps a reserve"),
+                            true});
   }
   for (const RobustFigure& f : s.robustness->phases)
     if (f.worst < 30.0 && f.nominal >= 30.0)

@@ -68,8 +68,9 @@ class Field {
     nominal.require.front().max = allowed_overshoot_deg(d, nominal.reference.value);
     std::vector<base::Result<Outcome>> outcomes(all_.size(), base::Problem{});
     for_each_(all_.size(), [&](std::size_t n) {
-      outcomes[n] = run(n == 0 ? nominal : varied_scenario(nominal, d.motor, tolerances_, all_[n]),
-                        {.on_record = {}, .on_event = {}, .keep_going = listening(keep_going_), .keep_books = false});
+      outcomes[n] =
+          run(n == 0 ? nominal : varied_scenario(nominal, d.motor, tolerances_, all_[n]),
+              {.on_record = {}, .on_event = {}, .keep_going = listening(keep_going_), .keep_books = false});
     });
     for (const base::Result<Outcome>& outcome : outcomes) {
       if (!outcome) problems = outcome.problems();

@@ -15,7 +15,8 @@ struct PositionGain {
   double estimate = 0.0;    ///< a closed form below it: what braking from full speed allows
   double linear = 0.0;      ///< above it: the linear loop's own
   double overshoots = 0.0;  ///< the smallest gain tried that overshoots; 0 where none did
-  double nominal = 0.0;     ///< what the motor of the sheet stands; the gain is lower where tolerances ask for it
+  double nominal =
+      0.0;  ///< what the motor of the sheet stands; the gain is lower where tolerances ask for it
   int runs = 0;
 };
 
@@ -27,8 +28,8 @@ base::Result<PositionGain> largest_position_gain(const design::DriveDesign& desi
                                                  const DesignSubject& subject,
                                                  const std::function<bool()>& keep_going = {});
 
-/// The gain lowered until no motor of the tolerances overshoots by more than allowed_overshoot_deg (board.hpp),
-/// to a part in 50; the nominal one where a sixteenth of it does not do either.
+/// The gain lowered until no motor of the tolerances overshoots by more than allowed_overshoot_deg
+/// (board.hpp), to a part in 50; the nominal one where a sixteenth of it does not do either.
 base::Result<PositionGain> lowered_for_tolerances(const design::DriveDesign& design,
                                                   const DesignSubject& subject, const PositionGain& nominal,
                                                   const std::vector<Tolerance>& tolerances,
