@@ -26,14 +26,6 @@ double settle_of_current(const DesignWish& w) {
       std::fmin(current_settle, w.settle_s.value_or(speed_settle) / inner_faster));
 }
 
-/// Two digits, upwards: a time that one likes to read and loses nothing by.
-double round_time(double s) {
-  int power = 0;
-  while (base::times_ten_to(s, power) < 10.0) ++power;
-  while (base::times_ten_to(s, power) >= 100.0) --power;
-  return base::times_ten_to(std::ceil(base::times_ten_to(s, power)), -power);
-}
-
 DriveLoops loops_of(const DriveDesign& d, const MotorModel& motor, int delay_periods) {
   DriveLoops to{.motor = motor, .period_s = d.wish.period_s, .delay_periods = delay_periods};
   for (const LoopDesign& loop : d.loops) {
@@ -216,7 +208,7 @@ void choose_settling(DriveDesign& d) {
   if (!d.wish.rotor.hall) return;
   const std::optional<double> least =
       fastest_settling_s(settling_question(d), d.wish.rotor, d.lowest_speed_rad_s);
-  if (least && *least > speed_settle) d.wish.settle_s = round_time(*least);
+  if (least && *least > speed_settle) d.wish.settle_s = base::shortened(*least, 2, base::Towards::up);
 }
 
 void add_sensing(DriveDesign& d) {
@@ -261,7 +253,8 @@ base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignWish
   const NominalCurrent nominal = nominal_current(motor, d.bus_V);
   d.nominal_current_A = nominal.A;
   d.nominal_printed = nominal.printed;
-  d.lowest_speed_rad_s = wish.lowest_speed_rad_s.value_or(0.1 * d.bus_V / motor.K_t_Nm_A);
+  d.lowest_speed_rad_s = wish.lowest_speed_rad_s.value_or(
+      base::shortened(0.1 * d.bus_V / motor.K_t_Nm_A, 2, base::Towards::down));
   base::Result<LoopDesign> current = current_loop(d);
   if (!current) return current.problems();
   d.loops.push_back(*current);

@@ -10,13 +10,7 @@
 namespace sixstep::study {
 namespace {
 
-/// Two digits, upwards.
-double range_from(double least) {
-  int power = 0;
-  while (base::times_ten_to(least, power) < 10.0) ++power;
-  while (base::times_ten_to(least, power) >= 100.0) --power;
-  return base::times_ten_to(std::ceil(base::times_ten_to(least, power)), -power);
-}
+double range_from(double least) { return base::shortened(least, 2, base::Towards::up); }
 
 constexpr double sectors_until_standstill = 20.0;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/decimal.hpp"
 #include "sixstep/study/verify/board.hpp"
 
 namespace sixstep::study {
@@ -18,13 +19,7 @@ using design::LoopDesign;
 constexpr double part_of_bus = 0.8;
 
 /// One digit, rounded down: 10.9 -> 10.
-double plain_number(double x) {
-  if (!(x > 0.0)) return x;
-  double power = 1.0;
-  while (power > x) power /= 10.0;
-  while (power * 10.0 <= x) power *= 10.0;
-  return std::floor(x / power) * power;
-}
+double plain_number(double x) { return base::shortened(x, 1, base::Towards::down); }
 
 /// Whole microseconds, upwards: short to write, and a few more do no harm.
 double plain_time(double s) { return std::ceil(s * 1e6) / 1e6; }

@@ -38,12 +38,6 @@ bool drowned(const DesignStudy& s) {
   return *s.ideal_swing_rad_s > 2 * design::settling_band(s.design) * std::fabs(levels[1] - levels[0]);
 }
 
-/// Peak to peak above which the speed loop oscillates; empty where no speed was looked at.
-std::optional<double> allowed_swing(const DesignStudy& s) {
-  if (!s.ideal_swing_rad_s || s.scenario.reference.values.size() < 2) return std::nullopt;
-  return allowed_swing_rad_s(*s.ideal_swing_rad_s, s.scenario.reference.values[1]);
-}
-
 /// Out of tolerance where to look and what to do.
 std::string chiefly(const RobustFigure& f, const char* cure) {
   return (f.culprit.empty() ? "" : "chiefly for " + f.culprit + "; ") + cure;
@@ -69,7 +63,7 @@ void look_at_settling(DesignStudy& s) {
 
 /// A limit cycle swings further than the commutations do.
 void look_at_swing(DesignStudy& s) {
-  const std::optional<double> allowed = allowed_swing(s);
+  const std::optional<double> allowed = s.allowed_swing_rad_s;
   const ComparisonResult* swing = find(s.outcome, "speed ripple");
   if (!allowed || !swing || swing->measured <= *allowed) return;
   s.warnings.push_back({"in the simulation the speed swings by " + rounded(swing->measured) +
@@ -92,7 +86,7 @@ void look_at_run(DesignStudy& s) {
 
 void look_at_tolerances(DesignStudy& s) {
   if (!s.robustness) return;
-  const std::optional<double> swing = allowed_swing(s);
+  const std::optional<double> swing = s.allowed_swing_rad_s;
   for (const RobustFigure& f : s.robustness->figures) {
     if (f.figure == "speed ripple" && swing && f.nominal <= *swing && f.worst > *swing)
       s.warnings.push_back(
@@ -192,6 +186,8 @@ base::Result<DesignStudy> study_design(const DesignOrder& order) {
   if (!order.tolerances.empty())
     s.robustness = robustness(s.design, s.scenario, order.tolerances, order.for_each, order.keep_going);
   s.ideal_swing_rad_s = ideal_swing(s, order.keep_going);
+  if (s.ideal_swing_rad_s && s.scenario.reference.values.size() > 1)
+    s.allowed_swing_rad_s = allowed_swing_rad_s(*s.ideal_swing_rad_s, s.scenario.reference.values[1]);
   s.warnings = s.design.warnings;
   look_at_run(s);
   look_at_tolerances(s);
