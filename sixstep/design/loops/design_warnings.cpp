@@ -103,7 +103,8 @@ void look_at_sign(const DriveDesign& d, const LoopDesign& loop, Collector& out) 
 void look_at_overshoot(const LoopDesign& loop, Collector& out) {
   if (loop.name != "position" && loop.figures.stable && loop.step.overshoot > 0.1)
     out.add("the " + loop.name + " loop overshoots a step by " + rounded(100.0 * loop.step.overshoot) +
-                " %, for the PI's zero",
+                " %, for the PI's zero" +
+                (loop.built.phase_rad != loop.figures.phase_rad ? " and the delay of its sensor" : ""),
             loop.name == "current" ? "give --method cancellation, or limit how fast the setpoint rises"
                                    : "limit how fast the setpoint rises (control/slew.hpp)");
 }
