@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/report/windows.hpp"
+#include "sixstep/design/loops/operating_limits.hpp"
 #include "sixstep/study/measure/trace.hpp"
 
 namespace io::report {
@@ -167,7 +168,8 @@ std::optional<double> current_limit_A(const Scenario& s, const sixstep::design::
   const bool cascade = s.control.mode == Mode::speed || s.control.mode == Mode::position;
   if (!cascade || s.control.speed.output == sixstep::study::SpeedOutput::duty) return std::nullopt;
   if (s.control.current.limit_A) return s.control.current.limit_A;
-  const double torque = s.control.speed.torque_limit_Nm.value_or(motor.stall_torque_Nm);
+  const double torque = s.control.speed.torque_limit_Nm.value_or(
+      sixstep::design::usual_torque_limit_Nm(motor, s.supply.voltage_V));
   if (!(motor.K_t_Nm_A > 0.0) || !(torque > 0.0)) return std::nullopt;
   return torque / motor.K_t_Nm_A;
 }

@@ -129,7 +129,7 @@ TEST(ExportHeader, FixedPointIsWhatTheScalingProved) {
 }
 
 // As above, of io/export/product_lines.hpp.
-static_assert(sizeof(ProtectedConfig<double>) == 568);
+static_assert(sizeof(ProtectedConfig<double>) == 576);
 
 template <class Format>
 std::int64_t bits(FixedTickRatio<Format> x) {
@@ -149,8 +149,8 @@ std::vector<std::int64_t> bits_of(const ProtectedConfig<S>& c) {
   add_adc(c.bus_adc);
   add({bits(c.shunt.least_duty), c.shunt.commutation_samples, bits(c.shunt.fade), bits(c.hall.arrangement),
        c.hall.stable_samples, bits(c.speed.sector_rad_s_ticks), c.speed.timeout_ticks, c.speed.edges,
-       bits(c.position.per_sector), bits(c.position.per_fraction), bits(c.advance.fixed),
-       bits(c.advance.per_speed), bits(c.advance.limit)});
+       c.speed.window_ticks, bits(c.position.per_sector), bits(c.position.per_fraction),
+       bits(c.advance.fixed), bits(c.advance.per_speed), bits(c.advance.limit)});
   const FaultConfig<S>& f = c.faults;
   add({bits(f.over_current_A), bits(f.over_voltage_V), bits(f.under_voltage_V), bits(f.over_speed_rad_s),
        bits(f.stall_current_A), f.stall_ticks, f.voltage_ticks});

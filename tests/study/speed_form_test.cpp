@@ -131,7 +131,7 @@ TEST(SpeedForm, ALimitOfTheCurrentIsTheSpeedControllersOwn) {
   // 0.1 N m as the torque at full output, or 0.1 N m/K_t as a limit below the stall torque's current: the
   // design scales the gains by the torque, and both are one controller.
   Scenario by_torque = out_of_reach(), by_current = by_torque;
-  by_current.control.speed.torque_limit_Nm = std::nullopt;
+  by_current.control.speed.torque_limit_Nm = 0.78;
   by_current.control.current.limit_A = 0.1 / K_t;
   EXPECT_LT(difference(by_torque, by_current), rounding);
   EXPECT_DOUBLE_EQ(study::compile(by_current)->drive.speed.limit, 0.1 / 0.78);

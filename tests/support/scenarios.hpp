@@ -25,6 +25,7 @@ inline study::Scenario maxon_scenario(control::Mode mode, double reference) {
   s.sheet = maxon_sheet();
   s.duration_s = 20e-3;
   s.control.mode = mode;
+  s.control.speed.torque_limit_Nm = 0.78;  // stall torque, as the thesis designs
   s.reference.value = reference;
   return s;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sixstep/base/elementary.hpp"
+#include "sixstep/design/loops/operating_limits.hpp"
 #include "sixstep/design/loops/rotor_sensing.hpp"
 #include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/compile/timeline.hpp"
@@ -119,7 +120,8 @@ design::ZohPlant speed_plant_of(const Scenario& s, const Basis& basis, double to
 }
 
 base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Compiled& out) {
-  const double torque_limit = s.control.speed.torque_limit_Nm.value_or(basis.motor.stall_torque_Nm);
+  const double torque_limit =
+      s.control.speed.torque_limit_Nm.value_or(design::usual_torque_limit_Nm(basis.motor, basis.bus_V));
   base::Result<LoopGains> gains = loop_gains(s.control.speed, "speed", speed_plant_of(s, basis, torque_limit),
                                              speed_settle_s, s.pwm.period_s);
   if (!gains) return gains.problems();
