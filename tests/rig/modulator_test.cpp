@@ -5,6 +5,7 @@
 #include <random>
 
 #include "sixstep/control/commutation.hpp"
+#include "tests/support/dead_time_watch.hpp"
 #include "tests/support/maxon.hpp"
 #include "tests/support/modulating.hpp"
 
@@ -390,34 +391,6 @@ TEST(Modulator, NeverHasBothGatesOfALegOn) {
   }
 }
 
-/// Within a leg, each turn-on comes at least the dead time after the other switch's turn-off.
-class DeadTimeWatch {
- public:
-  void look(const Modulator& m, const Instant& now) {
-    for (unsigned k = 0; k < 3; ++k) legs_[k].look(m.gates().high[k], m.gates().low[k], now);
-  }
-
- private:
-  struct Leg {
-    void look(bool high, bool low, const Instant& now) {
-      constexpr double dead_s = 1e-6 * (1 - 0x1p-50);
-      if (high && !was_high) {
-        EXPECT_GE(sim::seconds_between(low_off, now), dead_s);
-      }
-      if (low && !was_low) {
-        EXPECT_GE(sim::seconds_between(high_off, now), dead_s);
-      }
-      if (!high && was_high) high_off = now;
-      if (!low && was_low) low_off = now;
-      was_high = high;
-      was_low = low;
-    }
-    Instant high_off{-2'000'000}, low_off{-2'000'000};
-    bool was_high = false, was_low = false;
-  };
-  std::array<Leg, 3> legs_{};
-};
-
 double drawn_duty(std::mt19937_64& random) {
   std::uniform_real_distribution<double> unit(0, 1);
   const int kind = static_cast<int>(random() % 6);
@@ -438,7 +411,7 @@ TEST(Modulator, DeadTimeHoldsInEveryLegOverAnyDutiesChoppingsSignsAndCommutation
     for (const bool at_commutation : {false, true}) {
       Modulator m{ModulatorConfig{
           .centre_aligned = centred, .dead_ticks = 1e6, .dead_time_at_commutation = at_commutation}};
-      DeadTimeWatch watch;
+      DeadTimeWatch watch{1e-6};
       unsigned sector = 0;
       bool reversed = false;
       const auto turn = [&] { sector += random() % 2 == 0 ? 1 : 5; };
@@ -449,7 +422,7 @@ TEST(Modulator, DeadTimeHoldsInEveryLegOverAnyDutiesChoppingsSignsAndCommutation
         if (random() % 4 == 0) turn();  // seen at the sample
         m.start_period(at(k * period),
                        command(drawn_duty(random), choppings[random() % 3], pair_of(sector, reversed)));
-        watch.look(m, at(k * period));
+        watch.look(m.gates(), at(k * period));
         const Instant hall = at(k * period + 2'000'000 + static_cast<std::int64_t>(random() % 20'000'000));
         bool turned = random() % 2 == 0;
         while (m.next_edge() < at((k + 1) * period)) {
@@ -457,9 +430,9 @@ TEST(Modulator, DeadTimeHoldsInEveryLegOverAnyDutiesChoppingsSignsAndCommutation
             turned = true;
             turn();
             m.commutate(hall, pair_of(sector, reversed));
-            watch.look(m, hall);
+            watch.look(m.gates(), hall);
           } else {
-            watch.look(m, do_next(m));
+            watch.look(m.gates(), do_next(m));
           }
         }
       }
