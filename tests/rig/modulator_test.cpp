@@ -269,10 +269,12 @@ TEST(Modulator, AHallEdgeMovesTheStateAsItIs) {
   m.commutate(at(2'000'000), {Leg::b, Leg::c});  // on
   EXPECT_EQ(on(m), "b+c-") << "no dead time of its own";
   EXPECT_EQ(do_next(m), at(period / 2)) << "PWM is not restarted";
-  do_next(m);
+  m.commutate(at(15'500'000), {Leg::a, Leg::c});  // dead
+  EXPECT_EQ(on(m), "c-");
+  EXPECT_EQ(do_next(m), at(16'000'000)) << "nor is the dead time";
+  EXPECT_EQ(on(m), "a-c-");
+  m.commutate(at(20'000'000), {Leg::b, Leg::c});  // low
   EXPECT_EQ(on(m), "b-c-");
-  m.commutate(at(20'000'000), {Leg::b, Leg::a});  // low
-  EXPECT_EQ(on(m), "a-b-");
   EXPECT_EQ(m.turn_ons(), 1);
 }
 
