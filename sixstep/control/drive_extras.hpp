@@ -76,12 +76,15 @@ constexpr Scalar speed_with_extras(const DriveExtras<Scalar>& extras, DriveExtra
   return pi_positional_step(extras.speed, state.speed, error, -braked, low, high);
 }
 
-/// u = u_PI + e, both together within the limit of the PI.
+/// u = u_PI + e, both together within the limit of the PI. At an end of it u is that end itself: (limit - e)
+/// + e may round to one digit less, and a duty just below 1 chops.
 template <class Scalar>
 constexpr Scalar voltage_with_feed_forward(const DriveExtras<Scalar>& extras, const PiConfig<Scalar>& config,
                                            PiState<Scalar>& state, Scalar error, Scalar speed_rad_s) {
   const Scalar e = clamped(back_emf_voltage(extras.feed_forward, speed_rad_s), config.limit);
-  return pi_step(config, state, error, -config.limit - e, config.limit - e) + e;
+  const Scalar low = -config.limit - e, high = config.limit - e;
+  const Scalar u = pi_step(config, state, error, low, high);
+  return u == high ? config.limit : u == low ? -config.limit : u + e;
 }
 
 }  // namespace detail

@@ -132,6 +132,8 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   mode_.sector = static_cast<std::uint8_t>(sector_in_turn(state_.sector));
   const EmfSector<Real>& pieces = c.emf[mode_.sector];
   while (mode_.piece + 1 < pieces.count && state_.x >= pieces.piece[mode_.piece].to) ++mode_.piece;
+  // Turning backwards it has just passed that edge: the located event comes before the first tick (MODEL 4b).
+  if (on_edge && state_.w < 0) pass_edge(false);
 }
 
 /// Currents within rounding of zero in legs without gate, and speeds within rounding of rest where friction

@@ -98,11 +98,13 @@ class LeanDrive {
   bool reversed() const { return state_.reversed; }
   /// Asks nothing of a tick but the setpoint.
   bool open_loop() const { return config_.mode == control::Mode::off || config_.mode == control::Mode::duty; }
-  /// An event hysteresis on the setpoint itself has no sample to wait for (MODEL 4).
+  /// An event hysteresis on the setpoint itself has no sample to wait for (MODEL 4). One that slews has: it
+  /// moves once a tick.
   bool follows_setpoint_at_once() const {
     return config_.mode == control::Mode::current &&
            config_.current_control == control::CurrentControl::hysteresis &&
-           config_.hysteresis.watch != control::Watch::none;
+           config_.hysteresis.watch != control::Watch::none &&
+           !(config_.extras.on && config_.extras.slews_setpoint);
   }
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
   Diagnosis diagnosis() const { return {}; }

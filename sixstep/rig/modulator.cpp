@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/rig/modulator.hpp"
 
+#include <bit>
 #include <cmath>
 
 namespace sixstep::rig {
@@ -11,25 +12,33 @@ using sim::Instant;
 
 namespace {
 
-int index(control::Leg leg) { return static_cast<int>(leg); }
+unsigned index(control::Leg leg) { return static_cast<unsigned>(leg); }
 
 }  // namespace
 
-Instant Modulator::edge_at(const Instant& t, double ticks) const {
-  if (config_.timer_ticks > 0) ticks = std::floor(ticks / config_.timer_ticks + 0.5) * config_.timer_ticks;
-  return t.plus_ticks(ticks);
+double Modulator::in_counts(double ticks) const {
+  if (!(config_.timer_ticks > 0)) return ticks;
+  return std::floor(ticks / config_.timer_ticks + 0.5) * config_.timer_ticks;
 }
 
-void Modulator::take(const Instant& t, const BoardCommand& command) {
-  const bool goes_on = command_.enabled && command.enabled;
-  const bool leg_changed = goes_on && !(command.pair.source == command_.pair.source);
-  const bool was_low = command_.chopping == Chopping::complementary && !source_on_;
-  const bool goes_low = command.chopping == Chopping::complementary && !source_on_;
-  low_was_on_ = leg_changed || (goes_on && was_low && !goes_low);
-  // Soft or hard chopping may have turned the upper switch off a moment ago: the lower one waits.
-  if (goes_on && !leg_changed && goes_low && !was_low && t < edge_at(upper_off_, config_.dead_ticks))
-    wait_dead_time(upper_off_);
+/// Where the pair moves on, the PWM state moves from leg to leg as it is (MODEL 3): the leg that leaves the
+/// pair gives its channel, waits and all, to the one that enters. A change of sign moves nothing, each leg
+/// keeps its own.
+Modulator::Entered Modulator::hand_over(control::Pair to) {
+  const auto legs_of = [](control::Pair pair) { return 1u << index(pair.source) | 1u << index(pair.sink); };
+  const unsigned before = legs_of(command_.pair), after = legs_of(to);
+  const unsigned entering = after & ~before, leaving = before & ~after;
+  if (entering == 0 || leaving == 0) return nullptr;
+  LegChannel& left = legs_[static_cast<unsigned>(std::countr_zero(leaving))];
+  LegChannel& entered = legs_[static_cast<unsigned>(std::countr_zero(entering))];
+  entered = left;
+  left = {};
+  return &entered;
+}
+
+Modulator::Entered Modulator::take(const Instant& t, const BoardCommand& command) {
   const bool wakes = command.enabled && !command_.enabled;
+  const Entered entered = hand_over(command.pair);
   // Field by field, as it was written: a copy in wider pieces would wait until the fields have left for
   // memory.
   command_.enabled = command.enabled;
@@ -39,73 +48,79 @@ void Modulator::take(const Instant& t, const BoardCommand& command) {
   command_.watch = command.watch;
   command_.on_below_A = command.on_below_A;
   command_.off_above_A = command.off_above_A;
-  if (!wakes) {
-    // A hysteresis that changes direction keeps its state, but the new source leg was the sink a moment ago.
-    if (command.watch != Watch::none && leg_changed && source_on_) command_source(t, true, true);
-    return;
-  }
-  // The first turn-on waits for the dead time too: nobody knows what the leg did before.
+  if (!wakes) return entered;
+  // The first command is a change of every leg: nobody knows what it did before.
+  for (LegChannel& leg : legs_) leg.hold(t, dead_ticks_);
   source_on_ = false;
   sink_on_ = true;
-  if (config_.dead_ticks > 0 && command.chopping == Chopping::complementary) wait_dead_time(t);
-  if (command.watch != Watch::none) command_source(t, true, true);  // hysteresis starts on (MODEL 4)
+  if (command.watch != Watch::none) switch_source(true);  // hysteresis starts on (MODEL 4)
+  return entered;
 }
 
 void Modulator::start_period(const Instant& t, const BoardCommand& command) {
-  take(t, command);
+  const Entered entered = take(t, command);
   on_edge_ = Instant::never();
   off_edge_ = Instant::never();
-  if (!command.enabled || command.watch != Watch::none) return;
-  const auto period = static_cast<double>(config_.period_ticks);
-  const double on_time = command.duty * period;
-  if (command.duty >= 1.0) {
-    command_source(t, true, low_was_on_);
-  } else if (!(command.duty > 0.0)) {
-    command_source(t, false, low_was_on_);
-  } else if (config_.centre_aligned) {
-    command_source(t, false, low_was_on_);
-    // An on-edge that comes within the dead time waits for its end.
-    if (low_was_on_ && config_.dead_ticks > 0) wait_dead_time(t);
-    on_edge_ = edge_at(t, (period - on_time) / 2);
-    off_edge_ = edge_at(t, (period + on_time) / 2);
-  } else {
-    command_source(t, true, low_was_on_);
-    off_edge_ = edge_at(t, on_time);
+  if (command.enabled && command.watch == Watch::none) {
+    const auto period = static_cast<double>(config_.period_ticks);
+    const double on_time = command.duty * period;
+    const bool whole = command.duty >= 1.0, chops = !whole && command.duty > 0.0;
+    switch_source(whole || (chops && !config_.centre_aligned));
+    if (chops && config_.centre_aligned) on_edge_ = t.plus_ticks(in_counts((period - on_time) / 2));
+    if (chops) off_edge_ = t.plus_ticks(in_counts(config_.centre_aligned ? (period + on_time) / 2 : on_time));
   }
-}
-
-/// Turn-on and turn-off of the source leg's upper switch. Dead time delays a turn-on after the other switch
-/// of the leg was told to turn off: in complementary chopping at each edge, else only where the leg was the
-/// sink a moment ago or chopped complementarily.
-void Modulator::command_source(const Instant& t, bool on, bool low_was_on) {
-  const bool waits = config_.dead_ticks > 0;
-  const bool complementary = command_.chopping == Chopping::complementary;
-  if (source_on_ == on && !(on && low_was_on && waits)) return;
-  if (on && !source_on_) ++turn_ons_;
-  source_on_ = on;
-  if (!on) upper_off_ = t;
-  if (waits && (complementary || (on && low_was_on))) wait_dead_time(t);
-}
-
-void Modulator::wait_dead_time(const Instant& t) {
-  dead_ = true;
-  dead_end_ = edge_at(t, config_.dead_ticks);
+  tell_legs(t, entered);
 }
 
 void Modulator::commutate(const Instant& t, control::Pair pair) {
-  const plant::Gates before = gates();
+  const Entered entered = hand_over(pair);
   command_.pair = pair;
-  if (!config_.dead_time_at_commutation || !(config_.dead_ticks > 0)) return;
-  const plant::Gates after = wanted_gates();
-  blanked_ = {after.high & ~before.high, after.low & ~before.low};
-  const bool any = blanked_.high.any() || blanked_.low.any();
-  blank_end_ = any ? edge_at(t, config_.dead_ticks) : Instant::never();
+  tell_legs(t, entered);
+}
+
+void Modulator::turn_off(const Instant& t) {
+  command_.enabled = false;
+  tell_legs(t, nullptr);
+}
+
+void Modulator::switch_source(bool on) {
+  turn_ons_ += on && !source_on_;
+  source_on_ = on;
+}
+
+/// Six-step's three leg commands (MODEL 3). What a leg that has just entered the pair would turn on at this
+/// instant waits too where dead time at commutation is asked for.
+void Modulator::tell_legs(const Instant& t, Entered entered) {
+  std::array<LegSide, 3> sides{};
+  if (command_.enabled) {
+    const bool hard = command_.chopping == Chopping::hard;
+    const bool returns = !hard || (command_.watch == Watch::phase ? sink_on_ : source_on_);
+    const LegSide off = command_.chopping == Chopping::complementary ? LegSide::low : LegSide::none;
+    sides[index(command_.pair.source)] = source_on_ ? LegSide::high : off;
+    sides[index(command_.pair.sink)] = returns ? LegSide::low : LegSide::none;
+  }
+  for (unsigned k = 0; k < 3; ++k) legs_[k].tell(t, sides[k], dead_ticks_);
+  if (entered != nullptr && config_.dead_time_at_commutation) entered->delay(t, dead_ticks_);
+  look_at_legs();
+}
+
+void Modulator::look_at_legs() {
+  unsigned high = 0, low = 0;
+  wait_end_ = Instant::never();
+  for (unsigned k = 0; k < 3; ++k) {
+    const LegChannel& leg = legs_[k];
+    high |= unsigned{leg.is_on(LegSide::high)} << k;
+    low |= unsigned{leg.is_on(LegSide::low)} << k;
+    if (leg.waits() && leg.from() < wait_end_) wait_end_ = leg.from();
+  }
+  // A pair of one leg asks for both its switches: what no channel does, the plant is to refuse.
+  if (command_.enabled && command_.pair.source == command_.pair.sink) high |= low;
+  gates_ = {high, low};
 }
 
 Instant Modulator::next_edge() const {
-  const Instant* next = on_edge_ < off_edge_ ? &on_edge_ : &off_edge_;
-  next = dead_end_ < *next ? &dead_end_ : next;
-  return blank_end_ < *next ? blank_end_ : *next;
+  const Instant& edge = on_edge_ < off_edge_ ? on_edge_ : off_edge_;
+  return wait_end_ < edge ? wait_end_ : edge;
 }
 
 bool Modulator::act(const Instant& now) {
@@ -115,10 +130,11 @@ bool Modulator::act(const Instant& now) {
     edge = Instant::never();
     return acted = true;
   };
-  if (due(dead_end_)) dead_ = false;
-  if (due(blank_end_)) blanked_ = {};
-  if (due(on_edge_)) command_source(now, true, false);
-  if (due(off_edge_)) command_source(now, false, false);
+  if (due(wait_end_))
+    for (LegChannel& leg : legs_) leg.look(now);
+  if (due(on_edge_)) switch_source(true);
+  if (due(off_edge_)) switch_source(false);
+  if (acted) tell_legs(now, nullptr);
   return acted;
 }
 
@@ -143,28 +159,9 @@ void Modulator::comparator_tripped(const Instant& now, int which) {
     sink_on_ = !sink_on_;
     turn_ons_ += sink_on_;
   } else {
-    command_source(now, !source_on_, false);
+    switch_source(!source_on_);
   }
-}
-
-plant::Gates Modulator::wanted_gates() const {
-  plant::Gates gates{};
-  if (!command_.enabled) return gates;
-  const int source = index(command_.pair.source), sink = index(command_.pair.sink);
-  gates.high[source] = source_on_ && !dead_;
-  gates.low[source] = command_.chopping == Chopping::complementary && !source_on_ && !dead_;
-  const bool both_comparators = command_.watch == Watch::phase;
-  gates.low[sink] = gates.low[sink] || command_.chopping != Chopping::hard ||
-                    (both_comparators ? sink_on_ : source_on_ && !dead_);
-  return gates;
-}
-
-plant::Gates Modulator::gates() const {
-  plant::Gates gates = wanted_gates();
-  if (blank_end_ == Instant::never()) return gates;
-  gates.high &= ~blanked_.high;
-  gates.low &= ~blanked_.low;
-  return gates;
+  tell_legs(now, nullptr);
 }
 
 }  // namespace sixstep::rig

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The timer and comparators of the board: a bridge command becomes gates. Owns PWM edges, dead time and event
-// comparators (MODEL 3). The state belongs to the role (source leg, sink leg), not to a phase, so that a Hall
-// edge moves it as it is.
+// The timer and comparators of the board: a bridge command becomes gates. Owns PWM edges, event comparators
+// and one channel per leg, which keeps the dead time (MODEL 3, MODEL2 11). Six-step fills three leg commands
+// from a pair and one duty; where the pair moves on, the leg that leaves it hands its channel to the one that
+// enters.
 #pragma once
+#include <array>
+
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/plant/state.hpp"
+#include "sixstep/rig/leg_channel.hpp"
 #include "sixstep/rig/timeline.hpp"
 
 namespace sixstep::rig {
@@ -36,15 +40,16 @@ struct ArmedComparator {
 
 class Modulator {
  public:
-  explicit Modulator(const ModulatorConfig& config) : config_(config) {}
+  explicit Modulator(const ModulatorConfig& config)
+      : config_(config), dead_ticks_(in_counts(config.dead_ticks)) {}
 
   /// A PWM period begins at t with this command. |duty| = 1 has no off gap, 0 no on-time.
   void start_period(const sim::Instant& t, const BoardCommand& command);
   /// The pair changes at a Hall edge: PWM is not restarted, duty not resampled.
   void commutate(const sim::Instant& t, control::Pair pair);
   /// New thresholds between periods (the setpoint of an event hysteresis jumped).
-  void rearm(const sim::Instant& t, const BoardCommand& command) { take(t, command); }
-  void turn_off() { command_.enabled = false; }
+  void rearm(const sim::Instant& t, const BoardCommand& command) { tell_legs(t, take(t, command)); }
+  void turn_off(const sim::Instant& t);
 
   sim::Instant next_edge() const;
   /// Does the edges due at `now`; false where none was.
@@ -60,7 +65,7 @@ class Modulator {
   /// Its current as a combination of the phase currents.
   plant::PerLeg<double> comparator_weights(int which) const;
 
-  plant::Gates gates() const;
+  const plant::Gates& gates() const { return gates_; }
   const BoardCommand& command() const { return command_; }
   bool source_on() const { return source_on_; }
   /// No edge will come before the next command: duty 0 or 1, or off.
@@ -68,22 +73,23 @@ class Modulator {
   std::int64_t turn_ons() const { return turn_ons_; }
 
  private:
-  void take(const sim::Instant& t, const BoardCommand& command);
-  void command_source(const sim::Instant& t, bool on, bool low_was_on);
-  void wait_dead_time(const sim::Instant& t);
-  sim::Instant edge_at(const sim::Instant& t, double ticks) const;
-  plant::Gates wanted_gates() const;
+  /// The leg that a new pair brought in.
+  using Entered = LegChannel*;
+  Entered take(const sim::Instant& t, const BoardCommand& command);
+  Entered hand_over(control::Pair to);
+  void tell_legs(const sim::Instant& t, Entered entered);
+  void switch_source(bool on);
+  void look_at_legs();
+  double in_counts(double ticks) const;
 
   ModulatorConfig config_;
+  double dead_ticks_ = 0.0;  ///< as the timer has it
   BoardCommand command_{};
   bool source_on_ = false, sink_on_ = true;  ///< sink_on_: hard chopping's second comparator
-  bool low_was_on_ = false;  ///< the source leg had its lower switch on before the last command
   sim::Instant on_edge_ = sim::Instant::never(), off_edge_ = sim::Instant::never(),
-               dead_end_ = sim::Instant::never();
-  sim::Instant upper_off_{};  ///< when the source leg's upper switch was last told to turn off
-  bool dead_ = false;         ///< the source leg waits with both switches off
-  plant::Gates blanked_{};    ///< turn-ons delayed at a commutation
-  sim::Instant blank_end_ = sim::Instant::never();
+               wait_end_ = sim::Instant::never();  ///< wait_end_: the next one of a leg
+  std::array<LegChannel, 3> legs_{};
+  plant::Gates gates_{};  ///< what the channels say
   std::int64_t turn_ons_ = 0;
 };
 

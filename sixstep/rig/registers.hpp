@@ -2,9 +2,8 @@
 // What a board's converters and its capture timer make of the plant, and when: the counts that a firmware
 // finds in the registers of its chip.
 #pragma once
-#include <cmath>
-
 #include "sixstep/rig/adc.hpp"
+#include "sixstep/rig/capture_clock.hpp"
 #include "sixstep/sim/instant.hpp"
 
 namespace sixstep::rig {
@@ -56,7 +55,7 @@ class Registers {
  public:
   Registers() = default;
   explicit Registers(const SensorsConfig& config)
-      : current_(config.current), bus_(config.bus), capture_Hz_(config.capture_Hz), seed_(config.seed) {}
+      : current_(config.current), bus_(config.bus), capture_(config.capture_Hz), seed_(config.seed) {}
 
   /// Of input 0 to 2: a phase current each, or the shunt as input 0.
   std::uint16_t current_counts(std::size_t input, double i_A, std::uint64_t sample) const {
@@ -70,9 +69,7 @@ class Registers {
     return converted(current_, 0.0, {seed_, stream + calibration + input, sample});
   }
   /// The free-running counter.
-  std::uint32_t counter(const sim::Instant& t) const {
-    return static_cast<std::uint32_t>(static_cast<std::uint64_t>(std::floor(t.seconds() * capture_Hz_)));
-  }
+  std::uint32_t counter(const sim::Instant& t) const { return capture_.counts(t); }
 
  private:
   // Which input a random number belongs to; far from the streams of a series' spread.
@@ -80,7 +77,7 @@ class Registers {
   static constexpr std::size_t bus_input = 3;
 
   AdcPath current_{}, bus_{};
-  double capture_Hz_ = 1e6;
+  CaptureClock capture_{1e6};
   std::uint64_t seed_ = 0;
 };
 

@@ -193,7 +193,7 @@ void Rig<Real, Firmware>::control_step(bool starts_period) {
 /// Turning off waits for no register: neither for a delayed command nor for one that the timer has loaded.
 template <class Real, class Firmware>
 void Rig<Real, Firmware>::let_go() {
-  modulator_.turn_off();
+  modulator_.turn_off(now_);
   pending_.enabled = loaded_.enabled = false;
 }
 

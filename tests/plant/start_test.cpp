@@ -24,6 +24,23 @@ TEST(Start, AnAngleOnASectorEdgeIsOnIt) {
     }
 }
 
+/// The edge is behind it, forwards and backwards; at rest the sector is the one ahead (MODEL 4b).
+TEST(Start, OnASectorEdgeTheRotorIsInTheSectorItTurnsInto) {
+  for (const double flat_deg : {120.0, 100.0})  // one piece of back-EMF per sector, and three
+    for (int edge = -7; edge <= 7; ++edge)
+      for (const double speed : {-300.0, 0.0, 300.0}) {
+        Drivetrain setup;
+        setup.machine.flat_deg = flat_deg;
+        setup.start.angle_rad = at_electrical_deg(60.0 * edge);
+        setup.start.speed_rad_s = speed;
+        const auto plant = setup.plant();
+        EXPECT_EQ(plant.state().sector, speed < 0 ? edge - 1 : edge);
+        EXPECT_EQ(plant.state().x, speed < 0 ? base::sector_rad : 0.0);
+        const int pieces = plant.constants().emf[plant.sector()].count;
+        EXPECT_EQ(plant.mode().piece, speed < 0 ? pieces - 1 : 0);
+      }
+}
+
 TEST(Start, AnAngleBesideAnEdgeIsBesideIt) {
   Drivetrain setup;
   setup.start.angle_rad = at_electrical_deg(60.0) * (1 - 1e-14);

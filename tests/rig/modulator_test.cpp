@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "sixstep/control/commutation.hpp"
+#include "tests/support/dead_time_watch.hpp"
 #include "tests/support/maxon.hpp"
 #include "tests/support/modulating.hpp"
 
@@ -80,7 +82,7 @@ TEST(Modulator, CentreAlignedAfterFullDutyTurnsOffAtThePeriodsStart) {
 TEST(Modulator, DeadTimeDelaysEachTurnOnTheFirstToo) {
   Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(0.5, Chopping::complementary));
-  EXPECT_EQ(on(m), "b-");
+  EXPECT_EQ(on(m), "");
   EXPECT_EQ(do_next(m), at(1'000'000));
   EXPECT_EQ(on(m), "a+b-");
   EXPECT_EQ(do_next(m), at(period / 2));
@@ -97,17 +99,65 @@ TEST(Modulator, APulseShorterThanTheDeadTimeNeverTurnsOn) {
   Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(0.01, Chopping::complementary));  // 0.3 us
   EXPECT_EQ(do_next(m), at(300'000));
+  EXPECT_EQ(do_next(m), at(1'000'000));
   EXPECT_EQ(on(m), "b-");
   EXPECT_EQ(do_next(m), at(1'300'000)) << "the lower switch waits from the upper one's turn-off command";
   EXPECT_EQ(on(m), "a-b-");
 }
 
-TEST(Modulator, SoftAndHardChoppingNeedNoDeadTime) {
+/// MODEL2 11: the first command of a run is a change, of every leg, whatever gave it.
+TEST(Modulator, TheFirstTurnOnOfARunWaitsInEveryChoppingForDutyAndHysteresis) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
+    for (const double duty : {0.5, 1.0})
+      for (const Watch watch : {Watch::none, Watch::motor, Watch::phase}) {
+        SCOPED_TRACE(::testing::Message() << int(chopping) << " " << duty << " " << int(watch));
+        Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+        m.start_period(at(0),
+                       watch == Watch::none ? command(duty, chopping) : compared(watch, chopping, 5.0));
+        EXPECT_EQ(on(m), "");
+        EXPECT_EQ(do_next(m), at(1'000'000));
+        EXPECT_EQ(on(m), "a+b-");
+      }
+}
+
+/// Nothing within the leg was told to turn off.
+TEST(Modulator, LaterTurnOnsOfSoftAndHardChoppingNeedNoDeadTime) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard}) {
     Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
     m.start_period(at(0), command(0.5, chopping));
+    while (m.next_edge() < at(period)) do_next(m);
+    m.start_period(at(period), command(0.5, chopping));
     EXPECT_EQ(on(m), "a+b-");
   }
+}
+
+TEST(Modulator, WithoutAChangeOfTheLegsCommandThereIsNoDeadTime) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
+    for (const double duty : {0.0, 1.0}) {
+      Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+      m.start_period(at(0), command(duty, chopping));
+      m.act(at(1'000'000));
+      const std::string before = on(m);
+      for (int n = 1; n < 4; ++n) {
+        m.start_period(at(n * period), command(duty, chopping));
+        EXPECT_EQ(on(m), before) << int(chopping) << " " << duty;
+        EXPECT_TRUE(m.steady());
+      }
+    }
+}
+
+/// 0.3 us of gap: the lower switch, told to turn on and off again, never came on; its turn-off counts all the
+/// same.
+TEST(Modulator, AGapShorterThanTheDeadTimeKeepsTheUpperSwitchWaitingForAllOfIt) {
+  Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  m.start_period(at(0), command(0.99, Chopping::complementary));
+  EXPECT_EQ(do_next(m), at(1'000'000));
+  EXPECT_EQ(do_next(m), at(29'700'000));
+  EXPECT_EQ(on(m), "b-");
+  m.start_period(at(period), command(1.0, Chopping::complementary));
+  EXPECT_EQ(on(m), "b-");
+  EXPECT_EQ(do_next(m), at(period + 1'000'000));
+  EXPECT_EQ(on(m), "a+b-");
 }
 
 TEST(Modulator, AReversalWaitsWhereTheSourceWasTheSink) {
@@ -151,6 +201,35 @@ TEST(Modulator, AnotherChoppingWaitsForTheLowerSwitch) {
   }
 }
 
+/// The current of a passes from its upper to its lower switch: that is a change of a's command too.
+TEST(Modulator, AReversalWaitsWhereTheSinkWasTheSource) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
+    for (const double duty : {0.98, 1.0}) {
+      SCOPED_TRACE(::testing::Message() << int(chopping) << " " << duty);
+      Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+      m.start_period(at(0), command(duty, chopping));
+      while (m.next_edge() < at(period)) do_next(m);
+      m.start_period(at(period), command(1.0, chopping, {Leg::b, Leg::a}));
+      EXPECT_FALSE(m.gates().low[0]);
+      const std::int64_t off =
+          duty < 1.0 ? 29'400'000 : period;  // when a's upper switch was told to turn off
+      Instant now{};
+      while (!m.gates().low[0]) now = do_next(m);
+      EXPECT_EQ(now, at(off + 1'000'000));
+    }
+}
+
+/// Both switches of the pair have been off since the middle of the period.
+TEST(Modulator, AHardSignFlipDoesNotWaitWhereTheOtherSwitchIsLongOff) {
+  Modulator m{ModulatorConfig{.dead_ticks = 2e6}};
+  m.start_period(at(0), command(0.5, Chopping::hard));
+  while (m.next_edge() < at(period)) do_next(m);
+  EXPECT_EQ(on(m), "");
+  m.start_period(at(period), command(0.5, Chopping::hard, {Leg::b, Leg::a}));
+  EXPECT_EQ(on(m), "a-b+");
+  EXPECT_EQ(do_next(m), at(period + period / 2)) << "and nothing ends at 32 us";
+}
+
 TEST(Modulator, AHardSinkWaitsWithItsSourceAtAReversal) {
   Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(1.0, Chopping::hard));
@@ -163,7 +242,7 @@ TEST(Modulator, TheFirstTurnOnOfTheLowerSwitchWaitsToo) {
   for (const bool centred : {false, true}) {
     Modulator m{ModulatorConfig{.centre_aligned = centred, .dead_ticks = 1e6}};
     m.start_period(at(0), command(centred ? 0.5 : 0.0, Chopping::complementary));
-    EXPECT_EQ(on(m), "b-") << centred;
+    EXPECT_EQ(on(m), "") << centred;
     EXPECT_EQ(do_next(m), at(1'000'000)) << centred;
     EXPECT_EQ(on(m), "a-b-") << centred;
   }
@@ -184,22 +263,25 @@ TEST(Modulator, AHallEdgeMovesTheStateAsItIs) {
   Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(0.5, Chopping::complementary));
   m.commutate(at(500'000), {Leg::a, Leg::c});  // dead
-  EXPECT_EQ(on(m), "c-");
+  EXPECT_EQ(on(m), "");
   EXPECT_EQ(do_next(m), at(1'000'000));
   EXPECT_EQ(on(m), "a+c-");
   m.commutate(at(2'000'000), {Leg::b, Leg::c});  // on
   EXPECT_EQ(on(m), "b+c-") << "no dead time of its own";
   EXPECT_EQ(do_next(m), at(period / 2)) << "PWM is not restarted";
-  do_next(m);
+  m.commutate(at(15'500'000), {Leg::a, Leg::c});  // dead
+  EXPECT_EQ(on(m), "c-");
+  EXPECT_EQ(do_next(m), at(16'000'000)) << "nor is the dead time";
+  EXPECT_EQ(on(m), "a-c-");
+  m.commutate(at(20'000'000), {Leg::b, Leg::c});  // low
   EXPECT_EQ(on(m), "b-c-");
-  m.commutate(at(20'000'000), {Leg::b, Leg::a});  // low
-  EXPECT_EQ(on(m), "a-b-");
   EXPECT_EQ(m.turn_ons(), 1);
 }
 
 TEST(Modulator, DeadTimeAtCommutationDelaysTheNewTurnOnsOnly) {
   Modulator m{ModulatorConfig{.dead_ticks = 1e6, .dead_time_at_commutation = true}};
   m.start_period(at(0), command(0.5));
+  EXPECT_EQ(do_next(m), at(1'000'000));
   EXPECT_EQ(on(m), "a+b-");
   m.commutate(at(5'000'000), {Leg::a, Leg::c});
   EXPECT_EQ(on(m), "a+");
@@ -209,6 +291,42 @@ TEST(Modulator, DeadTimeAtCommutationDelaysTheNewTurnOnsOnly) {
   EXPECT_EQ(on(m), "c-");
   EXPECT_EQ(do_next(m), at(8'000'000));
   EXPECT_EQ(on(m), "b+c-");
+}
+
+/// commutation = "sample": the pair moves on with a period's command. Leg a hands its state to b, c goes on.
+TEST(Modulator, ACommutationAtTheSampleMovesTheStateAsItIs) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
+    for (const double duty : {0.5, 1.0}) {
+      SCOPED_TRACE(::testing::Message() << int(chopping) << " " << duty);
+      Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+      m.start_period(at(0), command(duty, chopping, {Leg::a, Leg::c}));
+      while (m.next_edge() < at(period)) do_next(m);
+      m.start_period(at(period), command(duty, chopping, {Leg::b, Leg::c}));
+      // Low until now, as in any period of complementary chopping: that is a change within the leg.
+      const bool waits = chopping == Chopping::complementary && duty < 1.0;
+      EXPECT_EQ(on(m), waits ? "c-" : "b+c-");
+      if (waits) {
+        EXPECT_EQ(do_next(m), at(period + 1'000'000));
+      }
+      EXPECT_EQ(on(m), "b+c-");
+    }
+}
+
+TEST(Modulator, DeadTimeAtCommutationDelaysSourceAndSinkAtTheSampleToo) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary}) {
+    SCOPED_TRACE(int(chopping));
+    Modulator m{ModulatorConfig{.dead_ticks = 1e6, .dead_time_at_commutation = true}};
+    m.start_period(at(0), command(1.0, chopping));
+    m.act(at(1'000'000));
+    m.start_period(at(period), command(1.0, chopping, {Leg::a, Leg::c}));
+    EXPECT_EQ(on(m), "a+") << "the sink";
+    EXPECT_EQ(do_next(m), at(period + 1'000'000));
+    EXPECT_EQ(on(m), "a+c-");
+    m.start_period(at(2 * period), command(1.0, chopping, {Leg::b, Leg::c}));
+    EXPECT_EQ(on(m), "c-") << "the source";
+    EXPECT_EQ(do_next(m), at(2 * period + 1'000'000));
+    EXPECT_EQ(on(m), "b+c-");
+  }
 }
 
 TEST(Modulator, ATimerRoundsEdgesAndDeadTimeToItsCounts) {
@@ -230,7 +348,7 @@ TEST(Modulator, APairOfOneLegIsAShootThroughThatThePlantRefuses) {
 TEST(Modulator, TurningOffOpensEverything) {
   Modulator m{ModulatorConfig{}};
   m.start_period(at(0), command(1.0));
-  m.turn_off();
+  m.turn_off(at(5));
   EXPECT_EQ(on(m), "");
 }
 
@@ -275,51 +393,52 @@ TEST(Modulator, NeverHasBothGatesOfALegOn) {
   }
 }
 
-/// Within the PWM leg, each turn-on comes at least the dead time after the other switch's turn-off.
-/// When a leg's switches turned off last.
-class DeadTimeWatch {
- public:
-  void look(const Modulator& m, const Instant& now) {
-    const bool high = m.gates().high[0], low = m.gates().low[0];
-    constexpr double dead_s = 1e-6 * (1 - 0x1p-50);
-    if (high && !high_) {
-      EXPECT_GE(sim::seconds_between(low_off_, now), dead_s);
-    }
-    if (low && !low_) {
-      EXPECT_GE(sim::seconds_between(high_off_, now), dead_s);
-    }
-    if (!high && high_) high_off_ = now;
-    if (!low && low_) low_off_ = now;
-    high_ = high;
-    low_ = low;
-  }
+double drawn_duty(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  const int kind = static_cast<int>(random() % 6);
+  if (kind < 2) return static_cast<double>(kind);
+  return kind == 2 ? 0.03 * unit(random) : kind == 3 ? 1 - 0.03 * unit(random) : unit(random);
+}
 
- private:
-  Instant high_off_{-2'000'000}, low_off_{-2'000'000};
-  bool high_ = false, low_ = false;
-};
+/// The pair of a sector, or the swapped one.
+Pair pair_of(unsigned sector, bool reversed) {
+  const Pair pair = control::positive_pair(static_cast<std::uint8_t>(sector % 6));
+  return reversed ? control::swapped(pair) : pair;
+}
 
-TEST(Modulator, DeadTimeHoldsOverAnyDutiesAndChoppings) {
+TEST(Modulator, DeadTimeHoldsInEveryLegOverAnyDutiesChoppingsSignsAndCommutations) {
   constexpr std::uint32_t seed = 12;
   std::mt19937_64 random{seed};
-  std::uniform_real_distribution<double> unit(0, 1);
-  for (const bool centred : {false, true}) {
-    Modulator m{ModulatorConfig{.centre_aligned = centred, .dead_ticks = 1e6}};
-    DeadTimeWatch watch;
-    for (int k = 0; k < 5000; ++k) {
-      SCOPED_TRACE(::testing::Message() << "seed " << seed << " centred " << centred << " period " << k);
-      const int kind = static_cast<int>(random() % 6);
-      const double duty = kind == 0   ? 0.0
-                          : kind == 1 ? 1.0
-                          : kind == 2 ? 0.03 * unit(random)
-                          : kind == 3 ? 1 - 0.03 * unit(random)
-                                      : unit(random);
-      constexpr Chopping choppings[] = {Chopping::soft, Chopping::hard, Chopping::complementary};
-      m.start_period(at(k * period), command(duty, choppings[random() % 3]));
-      watch.look(m, at(k * period));
-      while (m.next_edge() < at((k + 1) * period)) watch.look(m, do_next(m));
+  for (const bool centred : {false, true})
+    for (const bool at_commutation : {false, true}) {
+      Modulator m{ModulatorConfig{
+          .centre_aligned = centred, .dead_ticks = 1e6, .dead_time_at_commutation = at_commutation}};
+      DeadTimeWatch watch{1e-6};
+      unsigned sector = 0;
+      bool reversed = false;
+      const auto turn = [&] { sector += random() % 2 == 0 ? 1 : 5; };
+      for (int k = 0; k < 5000; ++k) {
+        SCOPED_TRACE(::testing::Message() << "seed " << seed << " centred " << centred << " period " << k);
+        constexpr Chopping choppings[] = {Chopping::soft, Chopping::hard, Chopping::complementary};
+        if (random() % 4 == 0) reversed = !reversed;
+        if (random() % 4 == 0) turn();  // seen at the sample
+        m.start_period(at(k * period),
+                       command(drawn_duty(random), choppings[random() % 3], pair_of(sector, reversed)));
+        watch.look(m.gates(), at(k * period));
+        const Instant hall = at(k * period + 2'000'000 + static_cast<std::int64_t>(random() % 20'000'000));
+        bool turned = random() % 2 == 0;
+        while (m.next_edge() < at((k + 1) * period)) {
+          if (!turned && hall < m.next_edge()) {
+            turned = true;
+            turn();
+            m.commutate(hall, pair_of(sector, reversed));
+            watch.look(m.gates(), hall);
+          } else {
+            watch.look(m.gates(), do_next(m));
+          }
+        }
+      }
     }
-  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sixstep/base/elementary.hpp"
+#include "sixstep/base/written.hpp"
 #include "sixstep/design/loops/operating_limits.hpp"
 #include "sixstep/design/loops/rotor_sensing.hpp"
 #include "sixstep/study/compile/basis.hpp"
@@ -163,10 +164,13 @@ base::Problems add_loops(const Scenario& s, const Basis& basis, Compiled& out) {
   if (base::Problems problems = add_speed_loop(s, basis, out); !problems.empty()) return problems;
   if (mode == control::Mode::speed) return {};
   out.drive.position_gain = s.control.position.gain_rad_s_per_deg;
-  out.drive.speed_limit_rad_s =
-      s.control.position.speed_limit_rad_s.value_or(basis.bus_V / basis.motor.K_t_Nm_A);
-  out.gains.push_back(
-      {"position", out.drive.position_gain, 0.0, "given as gain_rad_s_per_deg", std::nullopt});
+  const std::optional<double>& limit = s.control.position.speed_limit_rad_s;
+  out.drive.speed_limit_rad_s = limit.value_or(basis.bus_V / basis.motor.K_t_Nm_A);
+  out.gains.push_back({"position", out.drive.position_gain, 0.0,
+                       "given as gain_rad_s_per_deg, for at most " +
+                           base::rounded(out.drive.speed_limit_rad_s, 4) + " rad/s, " +
+                           (limit ? "as given" : "the bus over K_t"),
+                       std::nullopt});
   return {};
 }
 

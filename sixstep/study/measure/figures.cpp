@@ -7,9 +7,9 @@ namespace sixstep::study {
 
 namespace {
 
-/// A window per reference step inside the measure's own window; the step goes from the level before to the
-/// new one. For reaching a square's level the whole level counts, not the part of the reversal: the stricter
-/// reading of "98 %".
+/// A window per reference step inside the measure's own window; without `start` the step goes from the level
+/// before to the new one. For reaching a square's level the whole level counts, not the part of the reversal:
+/// the stricter reading of "98 %".
 Gauges step_gauges(const Measure& m, const std::vector<Level>& levels, Window window, bool square) {
   Gauges gauges;
   for (std::size_t n = 0; n < levels.size(); ++n) {
@@ -18,7 +18,7 @@ Gauges step_gauges(const Measure& m, const std::vector<Level>& levels, Window wi
     if (from < window.from_s || !(from < window.to_s) || levels[n].value == before) continue;
     const bool whole = square && m.metric == MetricKind::reach_time;
     gauges.emplace_back(m, Window{from, std::min(to, window.to_s)}, levels[n].value,
-                        whole ? 0.0 : m.start.value_or(before));
+                        m.start.value_or(whole ? 0.0 : before));
   }
   return gauges;
 }

@@ -84,9 +84,11 @@ void describe(Visitor& v, PositionLoop& s) {
   v.value(
       "gain_rad_s_per_deg", s.gain_rad_s_per_deg,
       {.meaning = "speed asked for per degree of position error", .unit = "rad/s/deg", .range = above(0)});
-  v.value(
-      "speed_limit_rad_s", s.speed_limit_rad_s,
-      {.meaning = "bound on the speed that the position loop asks for", .unit = "rad/s", .range = above(0)});
+  v.value("speed_limit_rad_s", s.speed_limit_rad_s,
+          {.meaning = "bound on the speed that the position loop asks for; without it supply.voltage_V over "
+                      "K_t, which the motor could not pass",
+           .unit = "rad/s",
+           .range = above(0)});
 }
 
 template <class Visitor>

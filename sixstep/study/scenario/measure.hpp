@@ -81,10 +81,10 @@ struct Measure {
   Signal signal = Signal::current;
   std::optional<double> from_s, to_s;  // window; default: whole run
   std::optional<double> level;         // metrics of a step: what is to be reached
-  std::optional<double> start;         // value the step starts from; default: value at from_s
-  double fraction = 0.98;              // reach_time: of the way from start to level
-  double band = 0.02;                  // settling_time: of the step's height
-  std::optional<double> tail;          // steady_error, largest_error: part of each level that is looked at
+  std::optional<double> start;  // value the step starts from; default: the signal's, or the level before
+  double fraction = 0.98;       // reach_time: of the way from start to level
+  double band = 0.02;           // settling_time: of the step's height
+  std::optional<double> tail;   // steady_error, largest_error: part of each level that is looked at
   std::optional<double> frequency_Hz;  // thd: of the fundamental; default: the electrical frequency
   bool sampled = false;                // look at the controller's samples only
   std::string label;                   // shown instead of metric and signal

@@ -27,7 +27,9 @@ inline constexpr base::Choice<MetricKind> metric_choices[] = {
      "the "
      "reference"},
     {"settling_time_s", MetricKind::settling_time,
-     "time of the last exit from level +- band |level - start|, counted from from_s"},
+     "time of the last exit from level +- band |level - start|, counted from from_s; of samples: of the "
+     "first "
+     "one from which on all lie inside"},
     {"steady_error", MetricKind::steady_error,
      "mean of level - signal; without level: of reference - signal at the end of each of the reference's "
      "levels, the largest by size"},

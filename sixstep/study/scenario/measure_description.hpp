@@ -22,9 +22,12 @@ void describe(Visitor& v, Measure& s) {
           {.meaning = "end of the window; without it the end of the run", .unit = "s", .range = above(0)});
   v.value("level", s.level,
           {.meaning = "value to be reached, in the signal's unit", .unit_here = unit_of(s.signal)});
-  v.value("start", s.start,
-          {.meaning = "value the step starts from, in the signal's unit; without it the value at from_s",
-           .unit_here = unit_of(s.signal)});
+  v.value(
+      "start", s.start,
+      {.meaning = "value the step starts from, in the signal's unit; without it the signal's at from_s, and "
+                  "of the reference's own steps the level before, 0 before the first (reach_time_s of a "
+                  "square: always 0)",
+       .unit_here = unit_of(s.signal)});
   v.value("fraction", s.fraction,
           {.meaning = "reach_time_s: part of the way from start to level",
            .range = base::Range{0, 1, false, true}});

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The free-running counter that captures Hall edges: counts(t) = floor(t f), in whole numbers. In floating
+// point t f falls short of counts that are reached exactly: at 48 MHz of a twelfth of them.
+#pragma once
+#include <cmath>
+#include <cstdint>
+
+#include "sixstep/sim/instant.hpp"
+
+namespace sixstep::rig {
+
+class CaptureClock {
+ public:
+  /// Of 1 Hz to 1 GHz, whole or not: f = numerator/2^n exactly, as any double is.
+  explicit CaptureClock(double Hz) {
+    while (Hz != std::floor(Hz)) {
+      Hz *= 2;
+      per_count_ *= 2;
+    }
+    numerator_ = static_cast<std::uint64_t>(Hz);
+  }
+
+  /// ticks x numerator has 63 + 53 bits at most.
+  std::uint32_t counts(const sim::Instant& t) const {
+    const Wide passed = static_cast<Wide>(t.ticks) * numerator_;
+    const Wide whole = passed / per_count_, missing = per_count_ - passed % per_count_;
+    const bool one_more = t.offset * static_cast<double>(numerator_) >= static_cast<double>(missing);
+    return static_cast<std::uint32_t>(whole) + std::uint32_t{one_more};
+  }
+
+ private:
+  __extension__ typedef unsigned __int128 Wide;  // g++ and clang have it on every host
+
+  std::uint64_t numerator_ = 0;
+  Wide per_count_ = static_cast<Wide>(sim::ticks_per_second);  ///< ticks x numerator in one count
+};
+
+}  // namespace sixstep::rig

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// One leg's channel of the timer, with its dead time (MODEL2 11): at each change of the leg's command the
+// switch that was on is off at once, and the other one comes on no earlier than the dead time after that
+// command. A new change before that cancels it. No change, no dead time.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/sim/instant.hpp"
+
+namespace sixstep::rig {
+
+/// The switch that a leg is told to have on.
+enum class LegSide : std::uint8_t { none, low, high };
+
+class LegChannel {
+ public:
+  /// The turn-off command counts, not whether that switch had come on: after a gap shorter than the dead time
+  /// the upper switch waits for the whole of it.
+  void tell(const sim::Instant& t, LegSide side, double dead_ticks) {
+    if (side == side_) return;
+    if (side_ != LegSide::none) (side_ == LegSide::high ? low_from_ : high_from_) = t.plus_ticks(dead_ticks);
+    side_ = side;
+    waits_ = side != LegSide::none && t < from();
+  }
+  /// Nobody knows what the leg did before: whatever turns on waits.
+  void hold(const sim::Instant& t, double dead_ticks) { low_from_ = high_from_ = t.plus_ticks(dead_ticks); }
+  /// The switch that is on comes on later, as if it were told only now.
+  void delay(const sim::Instant& t, double dead_ticks) {
+    if (side_ == LegSide::none || waits_) return;
+    hold(t, dead_ticks);
+    waits_ = t < from();
+  }
+  /// The wait may be over.
+  void look(const sim::Instant& t) { waits_ = waits_ && t < from(); }
+
+  bool waits() const { return waits_; }
+  /// When the wait is over.
+  const sim::Instant& from() const { return side_ == LegSide::high ? high_from_ : low_from_; }
+  bool is_on(LegSide side) const { return side_ == side && !waits_; }
+
+ private:
+  sim::Instant low_from_{}, high_from_{};  ///< no earlier than this may the switch come on
+  LegSide side_ = LegSide::none;
+  bool waits_ = false;
+};
+
+}  // namespace sixstep::rig
