@@ -33,7 +33,7 @@ struct DesignArguments {
       torque_limit_Nm, load_inertia_kg_m2, step;
   int delay_periods = 0;
   bool quick = false;  ///< without the tolerances
-  bool quiet = false;
+  bool quiet = false, force = false;
   unsigned jobs = 0;
   std::string json, toml, header, models, html;  ///< files; json "-": standard output
   double angle_deg = 30.0;                       ///< of the models, electrical
@@ -79,7 +79,7 @@ struct Outputs {
       return {{"--models", a.models, "must end in .json or .mat", "name the file so"}};
     const auto one = [&](std::optional<io::AtomicFile>& into, const std::string& path) {
       if (path.empty() || path == "-") return;
-      base::Result<io::AtomicFile> file = io::AtomicFile::create(path);
+      base::Result<io::AtomicFile> file = io::AtomicFile::create({path, a.force});
       if (file)
         into.emplace(std::move(*file));
       else
@@ -105,7 +105,7 @@ base::Problems write(const study::DesignStudy& s, const DesignArguments& a, Outp
   const auto add = [&](const base::Problems& more) { found.insert(found.end(), more.begin(), more.end()); };
   study::Scenario scenario = s.scenario;
   scenario.motor = motor_beside(a.motor, a.toml);
-  std::vector<std::string> comments{"Made by: " + a.command};
+  std::vector<std::string> comments{"Made by sixstep " SIXSTEP_VERSION ": " + a.command};
   for (const std::string& line : io::design_lines(s)) comments.push_back(line);
   const std::string text = io::scenario_text(scenario, comments);
   add(put(out.toml, text));
@@ -184,6 +184,7 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("--models", a.models, "write the motor's two state spaces, as .json or .mat");
   design.add_option("--angle", a.angle_deg, "of the rotor for --models, in electrical degrees")
       ->capture_default_str();
+  take_force(design, a.force);
   design.add_flag("--quick", a.quick, "leave out the tolerances");
   design.add_flag("--quiet", a.quiet, "no text, only errors and the exit code");
   take_jobs(design, a.jobs);
