@@ -19,7 +19,7 @@ OUTPUTS = {"run --csv": "run slow.toml --csv {}", "run --mat": "run slow.toml --
            "design --models as JSON": "design maxon-251601 --models {}.json", "design --models as MAT": "design maxon-251601 --models {}.mat",
            "curve --csv": "curve maxon-251601 --csv {}", "curve --json": "curve maxon-251601 --json {}", "curve --html": "curve maxon-251601 --html {}",
            "export header": "export header slow.toml --out {}"}
-QUICK = {"run": ["--set", "duration_s=1e-4"], "export": [], "design": ["--quick"], "curve": ["--points", "2"]}
+QUICK = {"run": ["--set", "duration_s=1e-4", "--quiet"], "export": [], "design": ["--quick", "--quiet"], "curve": ["--points", "2", "--quiet"]}
 
 
 class Overwriting(Started):
@@ -41,7 +41,7 @@ class Overwriting(Started):
     def test_with_force_it_is_replaced_and_our_own_need_none(self):
         for what, command in OUTPUTS.items():
             words = command.format("out").split()
-            words += QUICK[words[0]] + [] if words[0] == "export" else QUICK[words[0]] + ["--quiet"]
+            words += QUICK[words[0]]
             name = command.format("out").split()[-1]
             (self.path / name).write_text(LETTER)
             with self.subTest(what):
