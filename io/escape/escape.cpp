@@ -16,11 +16,11 @@ bool is_ascii_word(unsigned char c) {
   return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-/// Controls (C0, DEL, C1), ends of lines, the controls of bidirectional text, and what has no width, so that one
-/// name looks like another. The two joiners are letters' business.
+/// Controls (C0, DEL, C1), ends of lines, the controls of bidirectional text, and what has no width, so that
+/// one name looks like another. The two joiners are letters' business.
 bool acts(char32_t c) {
-  return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x061C || c == 0x180E || c == 0x200B || c == 0x200E || c == 0x200F ||
-         (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF ||
+  return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x061C || c == 0x180E || c == 0x200B || c == 0x200E ||
+         c == 0x200F || (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF ||
          (c >= 0xFFF9 && c <= 0xFFFB);
 }
 
@@ -32,9 +32,7 @@ bool keeps_lines(std::string_view text, std::size_t at) {
 }  // namespace
 
 char32_t next_character(std::string_view text, std::size_t& at) {
-  const auto byte = [&](std::size_t n) {
-    return n < text.size() ? static_cast<unsigned char>(text[n]) : 0U;
-  };
+  const auto byte = [&](std::size_t n) { return n < text.size() ? static_cast<unsigned char>(text[n]) : 0U; };
   const unsigned first = byte(at++);
   if (first < 0x80) return first;
   if (first < 0xC2 || first > 0xF4) return replacement;
@@ -57,6 +55,11 @@ std::string visible(std::string_view text, Lines lines) {
   out.reserve(text.size());
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t begin = at;
+    while (at < text.size() && text[at] >= ' ' && text[at] < 0x7F) ++at;
+    if (at > begin) {  // nearly all of a page's data
+      out += text.substr(begin, at - begin);
+      continue;
+    }
     const char32_t c = next_character(text, at);
     if (c == replacement)
       out += replacement_bytes;
@@ -109,7 +112,8 @@ std::string comment_text(std::string_view text) {
   for (;;) {
     if (out.ends_with(' ') || out.ends_with('\\'))
       out.pop_back();
-    else if (out.ends_with("?" "?/"))
+    else if (out.ends_with("?"
+                           "?/"))
       out.resize(out.size() - 3);
     else
       return out;

@@ -64,7 +64,8 @@ std::string random_name() {
   return fmt::format(".sixstep-{:08x}{:08x}.tmp", random(), random());
 }
 
-/// Why no file may be put there, though the folder could be written. `partial`: what an interrupted run leaves.
+/// Why no file may be put there, though the folder could be written. `partial`: what an interrupted run
+/// leaves.
 base::Problems refused(const Destination& to, const std::string& partial) {
   if (ReadLog::has(to.path))
     return {{.where = to.path + ":",
@@ -96,9 +97,8 @@ base::Problem unwritable(const std::string& path, int reason) {
   if (reason == EISDIR) cure = "name a file in it";
   if (reason == ENAMETOOLONG) cure = "take a shorter name: a run that is cut short puts .partial into it";
   if (reason == ELOOP) cure = "name the file itself, not a link that leads to itself";
-  return {.where = path + ":",
-          .limit = std::string("cannot be written: ") + std::strerror(reason),
-          .cure = cure};
+  return {
+      .where = path + ":", .limit = std::string("cannot be written: ") + std::strerror(reason), .cure = cure};
 }
 
 std::string saved_instead(const std::string& path) {
@@ -156,8 +156,7 @@ base::Result<AtomicFile> AtomicFile::create(const Destination& to) {
   if (!exists && errno != ENOENT) return unwritable(to.path, errno);
   if (exists && S_ISDIR(there.st_mode)) return unwritable(to.path, EISDIR);
   if (exists && S_ISBLK(there.st_mode))
-    return base::Problem{
-        .where = to.path + ":", .limit = "is a whole disk", .cure = "name a file on it"};
+    return base::Problem{.where = to.path + ":", .limit = "is a whole disk", .cure = "name a file on it"};
   int descriptor = -1;
   if (exists && !S_ISREG(there.st_mode)) {
     descriptor = file.open_device();
@@ -216,8 +215,7 @@ int AtomicFile::put_in_place(const std::string& path) {
   const int descriptor = *descriptor_;
   // Beyond what was written whole there may be a piece that failed, or room that was only reserved.
   if (!elsewhere_)
-    if (const int failed =
-            persistently([&] { return ::ftruncate(descriptor, static_cast<off_t>(size_)); }))
+    if (const int failed = persistently([&] { return ::ftruncate(descriptor, static_cast<off_t>(size_)); }))
       return failed;
   if (const int failed = persistently([&] { return ::fsync(descriptor); })) return failed;
   return std::rename(temporary_->c_str(), path.c_str()) == 0 ? 0 : errno;

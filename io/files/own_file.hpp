@@ -7,8 +7,8 @@
 
 namespace io {
 
-/// A regular file with something in it that does not begin as one of sixstep's outputs does: "sixstep" and its
-/// version in the words of the format. One that cannot be read counts too.
+/// A regular file with something in it that does not begin as one of sixstep's outputs does: "sixstep" and
+/// its version in the words of the format. One that cannot be read counts too.
 bool is_foreign(const std::string& path);
 
 }  // namespace io

@@ -39,8 +39,7 @@ std::string header(std::span<const study::LogicSignal> signals, const TraceOrigi
 
 }  // namespace
 
-base::Result<VcdWriter> VcdWriter::create(const Destination& to,
-                                          std::span<const study::LogicSignal> signals,
+base::Result<VcdWriter> VcdWriter::create(const Destination& to, std::span<const study::LogicSignal> signals,
                                           const TraceOrigin& origin) {
   base::Result<AtomicFile> file = AtomicFile::create(to);
   if (!file) return file.problems();

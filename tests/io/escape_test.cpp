@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every hostile name through every function that makes one harmless, each held against who reads its target: bash,
-// the parsers of TOML and JSON, and what is read back from a URL.
+// Every hostile name through every function that makes one harmless, each held against who reads its target:
+// bash, the parsers of TOML and JSON, and what is read back from a URL.
 #include "io/escape/escape.hpp"
 
 #include <gmock/gmock.h>
@@ -55,8 +55,8 @@ std::string as_utf8(const std::string& text) {
 std::vector<std::string> read_by_bash(const std::string& words) {
   const std::string script = testing::TempDir() + "sixstep-words.sh";
   std::ofstream(script) << "printf '%s\\0' " << words << "\n";
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen(("bash " + shell_word(script)).c_str(), "r"),
-                                                             &::pclose);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(
+      ::popen(("bash " + shell_word(script)).c_str(), "r"), &::pclose);
   std::vector<std::string> read(1);
   for (int c = std::fgetc(pipe.get()); c != EOF; c = std::fgetc(pipe.get()))
     if (c == 0)
@@ -72,7 +72,8 @@ TEST(Escape, TheListHoldsWhatItIsFor) {
   EXPECT_GT(names.size(), 40U);
   EXPECT_THAT(names, testing::Contains("a$(touch X)"));
   EXPECT_THAT(names, testing::Contains("a\nall 3 requirements hold"));
-  EXPECT_THAT(names, testing::Contains("a\xff" "b"));
+  EXPECT_THAT(names, testing::Contains("a\xff"
+                                       "b"));
   EXPECT_GT(std::ranges::count_if(names, acts), 10);
 }
 
@@ -86,7 +87,8 @@ TEST(Escape, WhatIsVisibleMovesNoCursorAndEndsNoLine) {
   }
   EXPECT_EQ(visible("a\x1b[31m\xc2\x9b\u202e\x7f"), "a\\u001b[31m\\u009b\\u202e\\u007f");
   EXPECT_EQ(visible("a\nb\tc\r\nd\re", Lines::kept), "a\nb\tc\r\nd\\u000de");
-  EXPECT_EQ(visible("é 漢 🚀 ‌‍"), "é 漢 🚀 ‌‍") << "letters of all scripts, with the joiners that they need";
+  EXPECT_EQ(visible("é 漢 🚀 ‌‍"), "é 漢 🚀 ‌‍")
+      << "letters of all scripts, with the joiners that they need";
 }
 
 TEST(Escape, AShellTakesAWordForWhatItWas) {
@@ -98,7 +100,9 @@ TEST(Escape, AShellTakesAWordForWhatItWas) {
   EXPECT_EQ(read_by_bash(words), hostile_names());
   EXPECT_EQ(shell_word("data/a-1.toml"), "data/a-1.toml");
   EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
-  EXPECT_EQ(shell_word("a\x1b" "1"), "$'a\\0331'");
+  EXPECT_EQ(shell_word("a\x1b"
+                       "1"),
+            "$'a\\0331'");
   EXPECT_EQ(shell_word(""), "''");
 }
 
@@ -126,7 +130,11 @@ TEST(Escape, ALineOfCommentEndsWhereItEnds) {
   for (const std::string& name : hostile_names()) {
     const std::string line = comment_text(name);
     EXPECT_FALSE(acts(line)) << line;
-    EXPECT_FALSE(line.ends_with('\\') || line.ends_with("?" "?/") || line.ends_with("\\ ")) << line;
+    EXPECT_FALSE(line.ends_with('\\') ||
+                 line.ends_with("?"
+                                "?/") ||
+                 line.ends_with("\\ "))
+        << line;
     EXPECT_EQ(vcd_text(name).find("$end"), std::string::npos);
     EXPECT_FALSE(acts(vcd_text(name)));
   }

@@ -57,12 +57,15 @@ class ReplacedFiles : public testing::Test {
 };
 
 TEST_F(ReplacedFiles, WhatSixstepHasNotWrittenIsRefusedUnlessForced) {
-  for (const char* foreign : {"x", "#include \"sixstep/control/drive.hpp\"\n", "# sixstep notes\n", "{\"sixstep\": 1}",
-                              "# Made by hand\n", "#:schema sixstep-scenario.schema.json\n", "<!doctype html>\n<p>"}) {
+  for (const char* foreign :
+       {"x", "#include \"sixstep/control/drive.hpp\"\n", "# sixstep notes\n", "{\"sixstep\": 1}",
+        "# Made by hand\n", "#:schema sixstep-scenario.schema.json\n", "<!doctype html>\n<p>"}) {
     const std::string path = with("a.csv", foreign);
-    EXPECT_EQ(told_writing(path, "new"),
-              path + ": is there already, and sixstep has not written it; name another file, or add --force to lose "
-                     "that one");
+    EXPECT_EQ(
+        told_writing(path, "new"),
+        path +
+            ": is there already, and sixstep has not written it; name another file, or add --force to lose "
+            "that one");
     EXPECT_EQ(*read_text(path), foreign);
     EXPECT_EQ(entries(), 1U);
     EXPECT_EQ(told_writing({path, true}, "new"), "");
@@ -104,12 +107,14 @@ TEST_F(ReplacedFiles, PermissionsStayAsTheyWere) {
 
 TEST_F(ReplacedFiles, WhatAKilledProgramLeftIsInNobodysWay) {
   {
-    base::Result<AtomicFile> first = AtomicFile::create(at("a.csv")), second = AtomicFile::create(at("a.csv"));
+    base::Result<AtomicFile> first = AtomicFile::create(at("a.csv")),
+                             second = AtomicFile::create(at("a.csv"));
     ASSERT_TRUE(first && second);
     EXPECT_NE(first->temporary(), second->temporary()) << "nor do two at once share a name";
   }
   // In a container every program has the same number, and what one left that was killed met the next one.
-  for (int count = 0; count < 64; ++count) with(".a.csv.tmp" + std::to_string(::getpid()) + "-" + std::to_string(count), "");
+  for (int count = 0; count < 64; ++count)
+    with(".a.csv.tmp" + std::to_string(::getpid()) + "-" + std::to_string(count), "");
   EXPECT_EQ(told_writing(at("a.csv"), ours), "");
   const ::pid_t child = ::fork();
   if (child == 0) {
@@ -130,10 +135,12 @@ TEST_F(ReplacedFiles, ALinkThatLeadsNowhereMakesTheFileItNames) {
   EXPECT_TRUE(fs::is_symlink(at("link.csv")));
   EXPECT_EQ(*read_text(at("deep/real.csv")), "new");
   fs::create_symlink("absent/real.csv", at("astray.csv"));
-  EXPECT_THAT(told_writing(at("astray.csv"), "new"), HasSubstr("astray.csv: cannot be written: No such file"));
+  EXPECT_THAT(told_writing(at("astray.csv"), "new"),
+              HasSubstr("astray.csv: cannot be written: No such file"));
   EXPECT_TRUE(fs::is_symlink(at("astray.csv")));
   fs::create_symlink("round.csv", at("round.csv"));
-  EXPECT_THAT(told_writing(at("round.csv"), "new"), HasSubstr("name the file itself, not a link that leads to itself"));
+  EXPECT_THAT(told_writing(at("round.csv"), "new"),
+              HasSubstr("name the file itself, not a link that leads to itself"));
 }
 
 TEST_F(ReplacedFiles, OtherNamesOfAFileKeepTheOldOne) {
@@ -147,22 +154,26 @@ TEST_F(ReplacedFiles, OtherNamesOfAFileKeepTheOldOne) {
 TEST_F(ReplacedFiles, ANameMayBeAsLongAsLeavesRoomForItsPartial) {
   constexpr std::size_t longest = 255, partial = 8;
   const std::string extension = ".csv";
-  const auto named = [&](std::size_t size) { return at(std::string(size - extension.size(), 'n') + extension); };
+  const auto named = [&](std::size_t size) {
+    return at(std::string(size - extension.size(), 'n') + extension);
+  };
   EXPECT_EQ(told_writing(named(longest - partial), "new"), "");
   base::Result<AtomicFile> cut_short = AtomicFile::create({named(longest - partial), true});
   ASSERT_TRUE(cut_short);
   EXPECT_TRUE(cut_short->commit_partial().empty());
   for (const std::size_t size : {longest - partial + 1, longest, longest + 1})
-    EXPECT_THAT(told_writing(named(size), "new"),
-                HasSubstr("cannot be written: File name too long; take a shorter name: a run that is cut short puts "
-                          ".partial into it"));
+    EXPECT_THAT(
+        told_writing(named(size), "new"),
+        HasSubstr("cannot be written: File name too long; take a shorter name: a run that is cut short puts "
+                  ".partial into it"));
   EXPECT_EQ(entries(), 2U);
 }
 
 extern "C" void take_note(int) {}
 
 TEST_F(ReplacedFiles, WhoWaitsForAPipesOtherEndHearsASignal) {
-  struct sigaction ask {}, before {};
+  struct sigaction ask {
+  }, before{};
   ask.sa_handler = take_note;  // without SA_RESTART, as the program has it
   ::sigaction(SIGUSR1, &ask, &before);
   const std::string pipe = at("pipe");
@@ -177,8 +188,11 @@ TEST_F(ReplacedFiles, WhoWaitsForAPipesOtherEndHearsASignal) {
     });
     work();
   };
-  signalled([&] { EXPECT_THAT(told_writing(pipe, "x"), HasSubstr("Interrupted system call")) << "no reader"; });
-  signalled([&] { EXPECT_THAT(to_string(read_text(pipe).problems().at(0)), HasSubstr("Interrupted")) << "no writer"; });
+  signalled(
+      [&] { EXPECT_THAT(told_writing(pipe, "x"), HasSubstr("Interrupted system call")) << "no reader"; });
+  signalled([&] {
+    EXPECT_THAT(to_string(read_text(pipe).problems().at(0)), HasSubstr("Interrupted")) << "no writer";
+  });
   const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
   base::Result<AtomicFile> file = AtomicFile::create(pipe);
   ASSERT_TRUE(file);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one list of names that act where they are not escaped, for every place that shows or writes one. The tests of
-// the program read the same file.
+// The one list of names that act where they are not escaped, for every place that shows or writes one. The
+// tests of the program read the same file.
 #pragma once
 #include <fstream>
 #include <string>
@@ -42,4 +42,4 @@ inline std::vector<std::string> hostile_names() {
   return names;
 }
 
-}  // namespace sixstep::tests
+}  // namespace sixstep::testing
