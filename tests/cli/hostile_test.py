@@ -6,6 +6,7 @@ import json
 import os
 import re
 import subprocess
+import tempfile
 import tomllib
 import unittest
 import urllib.parse
@@ -13,6 +14,8 @@ import urllib.parse
 from hostile import FILES, TEXTS, is_visible
 from program import PROGRAM, SHORT, SOURCE, ProgramTest
 
+if os.path.isdir("/dev/shm"):  # hundreds of files, each made safe on its disk
+    tempfile.tempdir = "/dev/shm"
 UTF8 = [text.decode() for text in TEXTS if text == text.decode(errors="ignore").encode()]
 quoted = lambda text: json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")  # a string of TOML
 REQUIRE = '[[require]]\nmetric = "final"\nsignal = "current"\nlabel = {}\nmax = {}\n'
