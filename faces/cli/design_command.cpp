@@ -14,6 +14,7 @@
 #include "io/export/config_header.hpp"
 #include "io/export/model_export.hpp"
 #include "io/files/atomic_file.hpp"
+#include "io/files/own_file.hpp"
 #include "io/keys/key_advice.hpp"
 #include "io/report/design_page.hpp"
 #include "io/results/design_json.hpp"
@@ -105,9 +106,7 @@ base::Problems write(const study::DesignStudy& s, const DesignArguments& a, Outp
   const auto add = [&](const base::Problems& more) { found.insert(found.end(), more.begin(), more.end()); };
   study::Scenario scenario = s.scenario;
   scenario.motor = motor_beside(a.motor, a.toml);
-  std::vector<std::string> comments{"Made by sixstep " SIXSTEP_VERSION ": " + a.command};
-  for (const std::string& line : io::design_lines(s)) comments.push_back(line);
-  const std::string text = io::scenario_text(scenario, comments);
+  const std::string text = io::with_own_mark(a.command, io::scenario_text(scenario, io::design_lines(s)));
   add(put(out.toml, text));
   if (out.html)
     add(put(out.html, io::report::render_design({.study = s,

@@ -124,8 +124,7 @@ Exit run_jobs(const RunArguments& arguments, JobsRead& read) {
   if (problems.empty() && arguments.runs > 0) return series_command(arguments, read.jobs);
   if (problems.empty() && compares(arguments)) return compare_command(arguments, read.jobs);
   if (problems.empty()) problems = prepare(arguments, read.jobs, index);
-  // Who waits for a pipe's other end is not to blame for being told to end.
-  if (!problems.empty()) return interrupted() ? exit_of_interrupt() : refused(problems);
+  if (!problems.empty()) return refused(problems);
   run_all(read.jobs, arguments);
   return tell(read.jobs, arguments, index);
 }

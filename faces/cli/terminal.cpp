@@ -62,6 +62,7 @@ void complain(const base::Problems& problems) {
 }
 
 Exit refused(const base::Problems& problems) {
+  if (interrupted()) return exit_of_interrupt();
   complain(problems);
   return Exit::bad_input;
 }

@@ -74,7 +74,7 @@ base::Problems refused(const Destination& to, const std::string& partial) {
   for (const std::string& path : {to.path, partial})
     if (!to.force && is_foreign(path))
       return {{.where = path + ":",
-               .limit = "is there already, and sixstep has not written it",
+               .limit = "holds what sixstep has not written",
                .cure = "name another file, or add --force to lose that one"}};
   struct stat unused {};
   if (::lstat(partial.c_str(), &unused) != 0 && errno == ENAMETOOLONG)

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/files/own_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <string_view>
+#include <iterator>
+
+#include "io/escape/escape.hpp"
+#include "io/files/text_file.hpp"
+#include "sixstep/base/written.hpp"
 
 namespace io {
 namespace {
@@ -14,7 +20,6 @@ struct Mark {
   std::string_view begin, name;
 };
 constexpr Mark marks[] = {{"", "# sixstep "},  // CSV
-                          {"", "# Made by sixstep "},
                           {"// ", "// Made by sixstep "},
                           {"", "$version sixstep "},
                           {"", "MATLAB 5.0 MAT-file, sixstep "},
@@ -30,7 +35,24 @@ bool begins_as(const Mark& mark, std::string_view text) {
   return !version.empty() && version.front() >= '0' && version.front() <= '9';
 }
 
+constexpr Mark text_mark{"", "# Made by sixstep "};
+
+std::string digest_words(std::string_view text) {
+  return fmt::format(", digest {}: ", base::written_hex(text_digest(std::string(text))));
+}
+
+/// Below its first line the text has the digest that stands there.
+bool is_unchanged(std::string_view text) {
+  const std::size_t end = std::min(text.find('\n'), text.size() - 1);
+  return text.substr(0, end).find(digest_words(text.substr(end + 1))) != text.npos;
+}
+
 }  // namespace
+
+std::string with_own_mark(std::string_view command, const std::string& text) {
+  return fmt::format("{}" SIXSTEP_VERSION "{}{}\n{}", text_mark.name, digest_words(text), visible(command),
+                     text);
+}
 
 bool is_foreign(const std::string& path) {
   namespace fs = std::filesystem;
@@ -41,6 +63,11 @@ bool is_foreign(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   file.read(bytes, looked_at);
   const std::string_view text(bytes, static_cast<std::size_t>(file.gcount()));
+  if (begins_as(text_mark, text)) {
+    std::string whole(text);
+    whole.append(std::istreambuf_iterator<char>(file.rdbuf()), {});
+    return !is_unchanged(whole);
+  }
   return std::ranges::none_of(marks, [&](const Mark& mark) { return begins_as(mark, text); });
 }
 

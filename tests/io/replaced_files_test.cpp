@@ -61,11 +61,10 @@ TEST_F(ReplacedFiles, WhatSixstepHasNotWrittenIsRefusedUnlessForced) {
        {"x", "#include \"sixstep/control/drive.hpp\"\n", "# sixstep notes\n", "{\"sixstep\": 1}",
         "# Made by hand\n", "#:schema sixstep-scenario.schema.json\n", "<!doctype html>\n<p>"}) {
     const std::string path = with("a.csv", foreign);
-    EXPECT_EQ(
-        told_writing(path, "new"),
-        path +
-            ": is there already, and sixstep has not written it; name another file, or add --force to lose "
-            "that one");
+    EXPECT_EQ(told_writing(path, "new"),
+              path +
+                  ": holds what sixstep has not written; name another file, or add --force to lose "
+                  "that one");
     EXPECT_EQ(*read_text(path), foreign);
     EXPECT_EQ(entries(), 1U);
     EXPECT_EQ(told_writing({path, true}, "new"), "");
@@ -81,9 +80,19 @@ TEST_F(ReplacedFiles, OursAndEmptyOnesAreReplaced) {
   }
 }
 
+TEST_F(ReplacedFiles, ATextThatTheUserWentOnWithIsTheUsers) {
+  const std::string text = with_own_mark("sixstep design x", "duration_s = 1\n");
+  EXPECT_THAT(text, testing::MatchesRegex(
+                        "# Made by sixstep [0-9.]+, digest [0-9a-f]+: sixstep design x\nduration_s = 1\n"));
+  EXPECT_FALSE(is_foreign(with("a.toml", text)));
+  EXPECT_TRUE(is_foreign(with("a.toml", text + "# mine\n")));
+  EXPECT_TRUE(is_foreign(with("a.toml", text.substr(0, text.size() - 3) + "2\n")));
+  EXPECT_TRUE(is_foreign(with("a.toml", "# Made by sixstep 0.1.0")));
+}
+
 TEST_F(ReplacedFiles, TheNameOfAPartialFileIsGuardedToo) {
   with("a.partial.csv", "precious");
-  EXPECT_THAT(told_writing(at("a.csv"), "new"), HasSubstr("a.partial.csv: is there already"));
+  EXPECT_THAT(told_writing(at("a.csv"), "new"), HasSubstr("a.partial.csv: holds what sixstep"));
 }
 
 TEST_F(ReplacedFiles, PermissionsStayAsTheyWere) {
