@@ -28,8 +28,7 @@ def said_by(*words, **more):
 
 
 def built():
-    if not (BUILD / "build.ninja").exists():
-        said_by("cmake", "--preset", "dev", cwd=ROOT)
+    said_by(ROOT / "tools/configure.sh", "dev")
     said_by("cmake", "--build", BUILD, "--target", "engine_benchmark", "observer_benchmark")
     return BUILD / "benchmarks"
 

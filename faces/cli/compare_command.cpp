@@ -94,7 +94,7 @@ base::Problems check_comparison(const RunArguments& arguments) {
 }
 
 Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs) {
-  base::Result<io::AtomicFile> file = io::AtomicFile::create(arguments.paths.html);
+  base::Result<io::AtomicFile> file = io::AtomicFile::create({arguments.paths.html, arguments.paths.force});
   if (!file) return refused(file.problems());
   std::vector<Compared> runs = on_one_grid(jobs);
   {

@@ -9,6 +9,7 @@
 
 #include "faces/cli/choose.hpp"
 #include "faces/cli/design_command.hpp"
+#include "io/escape/escape.hpp"
 #include "io/keys/key_catalog.hpp"
 #include "io/keys/key_tree.hpp"
 #include "io/motor/motor_library.hpp"
@@ -31,10 +32,13 @@ Candidates files(const std::string& current, std::string_view extension, bool fo
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(start) || (name.front() == '.' && start.empty())) continue;
+    if (io::visible(name) != name) continue;  // shells show candidates as they are, one a line
+    // What begins as an option does would be read as one.
+    const std::string path = (name.front() == '-' && folder.empty() ? "./" : folder) + name;
     if (entry.is_directory(error))
-      found.push_back({folder + name + "/", ""});
+      found.push_back({path + "/", ""});
     else if (!folders_only && name.ends_with(extension))
-      found.push_back({folder + name, ""});
+      found.push_back({path, ""});
   }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.word < b.word; });
   return found;

@@ -12,6 +12,7 @@
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
+#include "io/escape/escape.hpp"
 #include "io/keys/key_advice.hpp"
 #include "io/report/curve_page.hpp"
 #include "io/results/curve_columns.hpp"
@@ -33,7 +34,7 @@ struct CurveArguments {
   std::optional<int> points;
   std::string chopping;
   std::string csv, json, html;
-  bool quiet = false;
+  bool quiet = false, force = false;
   unsigned jobs = 0;
   std::string command;  ///< what makes the page again
 };
@@ -49,10 +50,12 @@ Outputs outputs(const CurveArguments& a, base::Problems& problems) {
   if (!a.csv.empty()) {
     std::vector<study::Column> columns;
     for (const io::CurveColumn& c : io::curve_columns()) columns.push_back(c.column);
-    keep(out.csv, io::CsvWriter::create(a.csv, columns), problems);
+    const std::string origin[] = {"sixstep " SIXSTEP_VERSION, "motor: " + io::visible(a.motor),
+                                  "command: " + a.command};
+    keep(out.csv, io::CsvWriter::create({a.csv, a.force}, columns, origin), problems);
   }
-  if (!a.json.empty() && a.json != "-") keep(out.json, io::AtomicFile::create(a.json), problems);
-  if (!a.html.empty()) keep(out.html, io::AtomicFile::create(a.html), problems);
+  if (!a.json.empty() && a.json != "-") keep(out.json, io::AtomicFile::create({a.json, a.force}), problems);
+  if (!a.html.empty()) keep(out.html, io::AtomicFile::create({a.html, a.force}), problems);
   return out;
 }
 
@@ -169,6 +172,7 @@ void declare_options(CLI::App& curve, CurveArguments& a) {
   curve.add_option("--csv", a.csv, "write all points with all columns");
   curve.add_option("--json", a.json, "write everything; - for standard output instead of the table");
   curve.add_option("--html", a.html, "write a page with charts");
+  take_force(curve, a.force);
   take_data(curve, a.data_dir);
   take_jobs(curve, a.jobs, "points");
   curve.add_flag("--quiet", a.quiet, "no table, only files and errors");

@@ -14,6 +14,7 @@
 #include "io/export/config_header.hpp"
 #include "io/export/model_export.hpp"
 #include "io/files/atomic_file.hpp"
+#include "io/files/own_file.hpp"
 #include "io/keys/key_advice.hpp"
 #include "io/report/design_page.hpp"
 #include "io/results/design_json.hpp"
@@ -37,7 +38,7 @@ struct DesignArguments {
       torque_limit_Nm, load_inertia_kg_m2, lowest_speed_rad_s, step;
   std::optional<int> delay_periods, edges;
   bool quick = false;  ///< without the tolerances
-  bool quiet = false;
+  bool quiet = false, force = false;
   unsigned jobs = 0;
   std::string json, toml, header, models, html;  ///< files; json "-": standard output
   double angle_deg = 30.0;                       ///< of the models, electrical
@@ -92,7 +93,7 @@ struct Outputs {
       return {{"--models", a.models, "must end in .json or .mat", "name the file so"}};
     const auto one = [&](std::optional<io::AtomicFile>& into, const std::string& path) {
       if (path.empty() || path == "-") return;
-      base::Result<io::AtomicFile> file = io::AtomicFile::create(path);
+      base::Result<io::AtomicFile> file = io::AtomicFile::create({path, a.force});
       if (file)
         into.emplace(std::move(*file));
       else
@@ -118,9 +119,7 @@ base::Problems write(const study::DesignStudy& s, const DesignArguments& a, Outp
   const auto add = [&](const base::Problems& more) { found.insert(found.end(), more.begin(), more.end()); };
   study::Scenario scenario = s.scenario;
   scenario.motor = motor_beside(scenario.motor, a.toml);
-  std::vector<std::string> comments{"Made by: " + a.command};
-  for (const std::string& line : io::design_lines(s)) comments.push_back(line);
-  const std::string text = io::scenario_text(scenario, comments);
+  const std::string text = io::with_own_mark(a.command, io::scenario_text(scenario, io::design_lines(s)));
   add(put(out.toml, text));
   if (out.html)
     add(put(out.html, io::report::render_design({.study = s,
@@ -242,6 +241,7 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("--models", a.models, "write the motor's two state spaces, as .json or .mat");
   design.add_option("--angle", a.angle_deg, "of the rotor for --models, in electrical degrees")
       ->capture_default_str();
+  take_force(design, a.force);
   design.add_flag("--quick", a.quick, "leave out the tolerances");
   design.add_flag("--quiet", a.quiet, "no text, only errors and the exit code");
   take_jobs(design, a.jobs);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "faces/cli/keep.hpp"
 #include "faces/cli/settings.hpp"
 #include "faces/cli/terminal.hpp"
 #include "io/export/config_header.hpp"
@@ -26,7 +27,7 @@ struct ExportArguments {
   std::vector<std::string> sets;    ///< "key=value"
   std::string name_space = "exported";
   std::string data_dir;
-  bool single_header = false;
+  bool single_header = false, force = false;
   std::string command;  ///< the command line as it may be typed again
 };
 
@@ -90,6 +91,9 @@ Exit export_header(const ExportArguments& a) {
   if (!problems.empty()) return refused(problems);
   const base::Result<study::Scenario> scenario = io::read_scenario(a.file, options);
   if (!scenario) return refused(scenario.problems());
+  std::optional<io::AtomicFile> file;  // before the work begins
+  if (!a.out.empty() && a.out != "-") keep(file, io::AtomicFile::create({a.out, a.force}), problems);
+  if (!problems.empty()) return refused(problems);
   const study::Arithmetic number = arithmetic.value_or(scenario->control.arithmetic);
   if (!a.ranges.empty() && (number == study::Arithmetic::float64 || number == study::Arithmetic::float32))
     return refused(
@@ -107,12 +111,10 @@ Exit export_header(const ExportArguments& a) {
       if (!problem.where.starts_with("--")) problem.where = fmt::format("{}: {}", a.file, problem.where);
     return refused(problems);
   }
-  if (a.out.empty() || a.out == "-") {
+  if (!file) {
     print(*text);
     return Exit::ok;
   }
-  base::Result<io::AtomicFile> file = io::AtomicFile::create(a.out);
-  if (!file) return refused(file.problems());
   file->write(*text);
   if (problems = file->commit(); !problems.empty()) return refused(problems);
   return Exit::ok;
@@ -121,6 +123,7 @@ Exit export_header(const ExportArguments& a) {
 void declare_options(CLI::App& header, ExportArguments& a) {
   header.add_option("SCENARIO", a.file, "scenario file")->required();
   header.add_option("--out", a.out, "the file to write; without it standard output");
+  take_force(header, a.force);
   header.add_option("--arithmetic", a.arithmetic,
                     "double, float, q15, q14, q31 or q30; without it control.arithmetic");
   header

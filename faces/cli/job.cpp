@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "faces/cli/terminal.hpp"
+#include "io/escape/escape.hpp"
 
 namespace cli {
 
@@ -39,7 +40,7 @@ std::string Job::cut_short() const {
                   outcome_->simulated_s, scenario_.duration_s);
   if (!outputs_.partial_files().empty())
     text += fmt::format("; what was finished is in {}", fmt::join(outputs_.partial_files(), ", "));
-  return text + "\n";
+  return io::visible(text) + "\n";
 }
 
 Exit Job::exit_code() const {

@@ -5,7 +5,6 @@
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <exception>
 #include <string>
 #include <vector>
@@ -22,6 +21,7 @@
 #include "faces/cli/run_command.hpp"
 #include "faces/cli/schema_command.hpp"
 #include "faces/cli/terminal.hpp"
+#include "io/escape/escape.hpp"
 #include "io/files/text_file.hpp"
 
 namespace cli {
@@ -30,21 +30,7 @@ namespace {
 /// The command line as a shell would take it again. The program is called by its name: its path says nothing.
 std::string retyped(int count, const char* const* words) {
   std::string text = "sixstep";
-  for (int n = 1; n < count; ++n) {
-    const std::string word = words[n];
-    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
-      return std::isalnum(c) != 0 ||
-             std::string_view("-_./=+,:@%").find(static_cast<char>(c)) != std::string_view::npos;
-    });
-    text += ' ';
-    if (plain) {
-      text += word;
-      continue;
-    }
-    text += '\'';
-    for (const char c : word) c == '\'' ? text += "'\\''" : text += c;
-    text += '\'';
-  }
+  for (int n = 1; n < count; ++n) text += " " + io::shell_word(words[n]);
   return text;
 }
 
@@ -87,7 +73,7 @@ int main(int count, char** words) {
   try {
     return static_cast<int>(cli::exit_after_printing(cli::run_program(count, words)));
   } catch (const std::exception& error) {
-    cli::print(std::string("internal error: ") + error.what() + "\n", stderr);
+    cli::print("internal error: " + io::visible(error.what()) + "\n", stderr);
   } catch (...) {
     cli::print("internal error\n", stderr);
   }

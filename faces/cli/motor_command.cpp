@@ -9,6 +9,7 @@
 
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/terminal.hpp"
+#include "io/escape/escape.hpp"
 #include "io/motor/motor_library.hpp"
 #include "io/motor/motor_template.hpp"
 #include "io/motor/motor_text.hpp"
@@ -101,7 +102,8 @@ Exit new_motor(const MotorArguments& a) {
     complain(problems);
     return Exit::bad_input;
   }
-  print("wrote " + path + "; fill it in, then: sixstep motor check " + path + "\n");
+  print("wrote " + io::visible(path) + "; fill it in, then: sixstep motor check " + io::shell_word(path) +
+        "\n");
   return Exit::ok;
 }
 

@@ -11,6 +11,7 @@
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
+#include "io/escape/escape.hpp"
 #include "io/scenario/json_schema.hpp"
 #include "io/scenario/scenario_file.hpp"
 #include "io/scenario/starter_scenario.hpp"
@@ -70,7 +71,8 @@ Exit new_command(const NewArguments& a) {
   print(
       fmt::format("wrote {}, and {}, with which editors complete and check it\n"
                   "next: sixstep run {} --html {}\n",
-                  path, schema, path, fs::path(path).replace_extension(".html").string()));
+                  io::visible(path), io::visible(schema), io::shell_word(path),
+                  io::shell_word(fs::path(path).replace_extension(".html").string())));
   return Exit::ok;
 }
 

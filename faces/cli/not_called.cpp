@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "faces/cli/terminal.hpp"
+#include "io/escape/escape.hpp"
 #include "io/keys/key_advice.hpp"
 #include "io/keys/key_catalog.hpp"
 #include "io/keys/key_tree.hpp"
@@ -72,7 +73,8 @@ Problem unknown_word(const Called& called, const std::string& word) {
   const std::vector<std::string> verbs = verbs_of(*called.verb);
   const bool is_option = word.starts_with("-");
   if (!is_option && !verbs.empty() && word.ends_with(".toml"))
-    return {word, "", "is no command of " + called.path, fmt::format("did you mean sixstep run {}?", word)};
+    return {word, "", "is no command of " + called.path,
+            fmt::format("did you mean sixstep run {}?", io::shell_word(word))};
   std::string near = is_option ? io::nearest(word, options_of(*called.verb)) : nearest_verb(word, verbs);
   if (is_option && near.empty()) near = setting_meant(*called.verb, word);
   const char* kind = is_option || verbs.empty() ? "argument" : "command";

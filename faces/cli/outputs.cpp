@@ -28,19 +28,20 @@ std::vector<std::pair<std::string, std::string>> OutputPaths::files() const {
 base::Problems Outputs::open(const OutputPaths& paths, const study::Scenario& scenario,
                              const io::TraceOrigin& origin) {
   paths_ = paths;
+  const auto to = [&](const std::string& path) { return io::Destination(path, paths.force); };
   base::Problems problems;
   base::Result<std::vector<study::Column>> columns = study::record_columns(scenario);
   if (!columns) return columns.problems();
   if (!paths.csv.empty())
-    keep(csv_, io::CsvWriter::create(paths.csv, *columns, io::origin_lines(origin)), problems);
+    keep(csv_, io::CsvWriter::create(to(paths.csv), *columns, io::origin_lines(origin)), problems);
   if (!paths.mat.empty())
-    keep(mat_, io::MatWriter::create(paths.mat, *columns, io::MatVersion::v5, origin), problems);
+    keep(mat_, io::MatWriter::create(to(paths.mat), *columns, io::MatVersion::v5, origin), problems);
   if (!paths.mat73.empty())
-    keep(mat73_, io::MatWriter::create(paths.mat73, *columns, io::MatVersion::v7_3, origin), problems);
+    keep(mat73_, io::MatWriter::create(to(paths.mat73), *columns, io::MatVersion::v7_3, origin), problems);
   if (!paths.vcd.empty())
-    keep(vcd_, io::VcdWriter::create(paths.vcd, study::logic_signals(), origin), problems);
-  if (!paths.json.empty() && paths.json != "-") keep(json_, io::AtomicFile::create(paths.json), problems);
-  if (!paths.html.empty()) keep(html_, io::AtomicFile::create(paths.html), problems);
+    keep(vcd_, io::VcdWriter::create(to(paths.vcd), study::logic_signals(), origin), problems);
+  if (!paths.json.empty() && paths.json != "-") keep(json_, io::AtomicFile::create(to(paths.json)), problems);
+  if (!paths.html.empty()) keep(html_, io::AtomicFile::create(to(paths.html)), problems);
   return problems;
 }
 
@@ -92,7 +93,7 @@ base::Problems Outputs::publish(const RunStory& s, bool whole) {
   put(vcd_, paths_.vcd, whole);
   if (json_) json_->write(io::json_summary(s.scenario, s.outcome));
   put(json_, paths_.json, whole);
-  if (html_) html_->write(report_page({s.scenario, s.outcome, events_, s.origin.scenario, s.origin.command}));
+  if (html_) html_->write(report_page({s.scenario, s.outcome, events_, s.origin.text, s.origin.command}));
   report_ = put(html_, paths_.html, whole);
   if (paths_.json == "-" && whole) print(io::json_summary(s.scenario, s.outcome));
   events_ = {};

@@ -16,6 +16,7 @@ namespace cli {
 
 struct OutputPaths {
   std::string csv, mat, mat73, vcd, json, html;  ///< empty: not wanted; json "-": standard output
+  bool force = false;                            ///< over whatever is there
 
   /// Each that is wanted with its option, standard output left out.
   std::vector<std::pair<std::string, std::string>> files() const;

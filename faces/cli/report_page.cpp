@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/cli/report_page.hpp"
 
-#include <utility>
-
-#include "io/files/text_file.hpp"
 #include "io/report/comparison.hpp"
 
 namespace cli {
 
 std::string report_page(const ReportSource& s) {
-  base::Result<std::string> text = io::read_text(s.file);
   return io::report::render({.scenario = s.scenario,
                              .outcome = s.outcome,
                              .trace = s.events,
                              .command = s.command,
                              .version = SIXSTEP_VERSION,
-                             .scenario_text = text ? std::move(*text) : std::string()});
+                             .scenario_text = s.text});
 }
 
 std::string report_index(const std::vector<io::report::IndexEntry>& entries, const std::string& command) {

@@ -16,7 +16,7 @@ struct ReportSource {
   const study::Scenario& scenario;
   const study::Outcome& outcome;
   const study::Trace& events;  ///< every event, both sides of each jump
-  const std::string& file;     ///< the scenario's
+  const std::string& text;     ///< of the scenario's file
   const std::string& command;  ///< what makes this report again
 };
 

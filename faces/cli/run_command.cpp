@@ -16,6 +16,7 @@
 #include "faces/cli/series_command.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/watch.hpp"
+#include "io/escape/escape.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/results/verdict_table.hpp"
 
@@ -34,7 +35,8 @@ OutputPaths paths_of(const RunArguments& arguments, const Job& job) {
           .mat73 = {},
           .vcd = {},
           .json = base + ".json",
-          .html = base + ".html"};
+          .html = base + ".html",
+          .force = arguments.paths.force};
 }
 
 /// Opens all outputs before anything runs. The index is the last to be written and proves the folder now.
@@ -49,7 +51,7 @@ base::Problems prepare(const RunArguments& arguments, std::vector<Job>& jobs,
                .limit = fmt::format("cannot be made a folder: {}", error.message()),
                .cure = "choose another --out"}};
     base::Result<io::AtomicFile> file =
-        io::AtomicFile::create((fs::path(arguments.out) / "index.html").string());
+        io::AtomicFile::create({(fs::path(arguments.out) / "index.html").string(), arguments.paths.force});
     if (!file) return file.problems();
     index.emplace(std::move(*file));
   }
@@ -82,7 +84,7 @@ base::Problems write_index(const RunArguments& arguments, const std::vector<Job>
   base::Problems unwritten = index.commit_partial();
   if (unwritten.empty())
     print(fmt::format("{} of {} experiments finished; {} lists them\n", finished, jobs.size(),
-                      io::partial_name(index.path())),
+                      io::visible(io::partial_name(index.path()))),
           stderr);
   return unwritten;
 }
@@ -155,6 +157,7 @@ void declare_options(CLI::App& run, RunArguments& a) {
   run.add_option("--vcd", a.paths.vcd, "write gates, Hall lines, timer and faults for a waveform viewer");
   run.add_option("--json", a.paths.json, "write verdicts and figures; - for standard output");
   run.add_option("--html", a.paths.html, "write the report; of several files, one that compares them");
+  take_force(run, a.paths.force);
   take_sets(run, a.sets);
   take_data(run, a.data_dir);
   run.add_flag("--quiet", a.quiet, "no table, only errors and the exit code");

@@ -46,7 +46,8 @@ std::optional<Job> read_job(const std::string& file, const RunArguments& argumen
                          .digest = inputs_digest(log, arguments),
                          .title = scenario->title,
                          .motor = scenario->sheet.name,
-                         .command = arguments.command};
+                         .command = arguments.command,
+                         .text = log.first_text()};
   return Job(std::move(*scenario), std::move(origin));
 }
 

@@ -12,6 +12,8 @@
 #include <cstring>
 #include <string>
 
+#include "io/escape/escape.hpp"
+
 namespace cli {
 namespace {
 
@@ -55,11 +57,12 @@ Exit exit_after_printing(Exit exit) {
 
 void complain(const base::Problems& problems) {
   std::string text;
-  for (const base::Problem& problem : problems) text += to_string(problem) + "\n";
+  for (const base::Problem& problem : problems) text += io::visible(to_string(problem)) + "\n";
   print(text, stderr);
 }
 
 Exit refused(const base::Problems& problems) {
+  if (interrupted()) return exit_of_interrupt();
   complain(problems);
   return Exit::bad_input;
 }
@@ -87,8 +90,10 @@ void take_write_errors() {
 }
 
 void catch_interrupts() {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  struct sigaction ask {};
+  ask.sa_handler = on_interrupt;
+  // Not SA_RESTART: who waits for the other end of a pipe is to hear of it.
+  for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &ask, nullptr);
 }
 bool interrupted() { return asked_to_end != 0; }
 Exit exit_of_interrupt() { return asked_to_end == SIGTERM ? Exit::terminated : Exit::interrupted; }

@@ -20,7 +20,8 @@ Exit exit_after_printing(Exit exit);
 
 /// One complaint a line, on the error stream.
 void complain(const base::Problems& problems);
-/// Bad input, told.
+/// Bad input, told; but who was told to end while waiting for the other end of a pipe has nothing to complain
+/// of.
 Exit refused(const base::Problems& problems);
 
 /// A terminal, and NO_COLOR not set (no-color.org).

@@ -15,6 +15,10 @@ void take_sets(CLI::App& verb, std::vector<std::string>& sets) {
       ->allow_extra_args(false);
 }
 
+void take_force(CLI::App& verb, bool& force) {
+  verb.add_flag("--force", force, "replace files that sixstep has not made, too");
+}
+
 void take_jobs(CLI::App& verb, unsigned& jobs, const std::string& what) {
   verb.add_option("--jobs", jobs, what + " side by side; without it one per core")
       ->check(CLI::Range(1, 1024));

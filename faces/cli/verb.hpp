@@ -35,6 +35,7 @@ std::function<Exit(const std::string&)> calling(Exit (*verb)(const Arguments&),
 // Options that several verbs have.
 void take_data(CLI::App& verb, std::string& folder);             ///< --data
 void take_sets(CLI::App& verb, std::vector<std::string>& sets);  ///< --set
+void take_force(CLI::App& verb, bool& force);                    ///< --force
 void take_jobs(CLI::App& verb, unsigned& jobs, const std::string& what = "runs");
 
 }  // namespace cli

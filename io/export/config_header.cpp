@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "io/escape/escape.hpp"
 #include "io/export/config_lines.hpp"
 #include "io/export/product_lines.hpp"
 #include "sixstep/base/written.hpp"
@@ -13,26 +14,6 @@ namespace io {
 namespace {
 
 namespace control = sixstep::control;
-
-/// Text from a file in a line of comment: nothing in it may end the line, continue it (a last backslash), or
-/// reorder what is shown (the controls of bidirectional text, U+200E, U+200F, U+202A-202E, U+2066-2069).
-std::string comment_text(std::string_view text) {
-  std::string out;
-  for (std::size_t n = 0; n < text.size(); ++n) {
-    const auto byte = [&](std::size_t k) {
-      return n + k < text.size() ? static_cast<unsigned char>(text[n + k]) : 0u;
-    };
-    const unsigned last = byte(2);
-    const bool reorders =
-        byte(0) == 0xe2 &&
-        ((byte(1) == 0x80 && (last == 0x8e || last == 0x8f || (last >= 0xaa && last <= 0xae))) ||
-         (byte(1) == 0x81 && last >= 0xa6 && last <= 0xa9));
-    if (reorders) n += 2;
-    out += reorders || byte(0) < 0x20 || byte(0) == 0x7f ? ' ' : text[n];
-  }
-  while (!out.empty() && (out.back() == ' ' || out.back() == '\\')) out.pop_back();
-  return out;
-}
 
 std::string comment(std::string_view label, std::string_view text) {
   return fmt::format("// {:<10}{}\n", label, comment_text(text));

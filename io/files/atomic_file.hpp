@@ -5,19 +5,33 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "io/rooms.hpp"
 #include "sixstep/base/result.hpp"
 
+struct stat;
+
 namespace io {
+
+/// Where an output goes.
+struct Destination {
+  std::string path;
+  bool force = false;  ///< over whatever is there; else only over what sixstep has written
+
+  Destination(std::string to, bool over_all = false) : path(std::move(to)), force(over_all) {}
+  Destination(const char* to) : path(to) {}
+};
 
 /// Writes to a temporary name in the same folder; commit() puts it in place, going out of scope removes it.
 /// Creating it already proves that the folder can be written, so create all of them before the work begins.
 /// What is no regular file (a pipe, /dev/null) is written as it is. A file that a ReadLog has noted is
-/// refused: nobody means to lose a scenario to its own report.
+/// refused: nobody means to lose a scenario to its own report; and so is a file that is_foreign().
+/// What takes another file's place has its permissions. A link keeps its place, and what it names is made or
+/// replaced; other names of the file itself (hard links) keep the old one.
 class AtomicFile {
  public:
-  static base::Result<AtomicFile> create(const std::string& path);
+  static base::Result<AtomicFile> create(const Destination& to);
 
   /// All of the text or nothing of it. Where the disk is full or the like, nothing more is written from there
   /// on, and commit() tells.
@@ -51,6 +65,8 @@ class AtomicFile {
     void operator()(std::string* name) const;
   };
   AtomicFile() = default;
+  int open_device();
+  int open_beside(const struct stat* old);
   base::Problems commit_as(const std::string& path);
   base::Problems save_what_is_whole();
   int put_in_place(const std::string& path);
@@ -60,6 +76,7 @@ class AtomicFile {
   std::unique_ptr<int, Close> descriptor_;          // closed before the name goes
   std::uint64_t size_ = 0;                          // of what was written whole
   bool elsewhere_ = false;
+  bool waits_ = false;  // a device or a pipe, whose reader may be slow
   int error_ = 0;
 };
 

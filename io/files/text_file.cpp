@@ -64,6 +64,7 @@ bool ReadLog::has(const std::string& path) {
 }
 
 void ReadLog::note(const std::string& path, const std::string& text) {
+  if (paths_.empty()) first_text_ = text;
   paths_.push_back(path);
   digest_ = text_digest(text, digest_);
 }

@@ -25,6 +25,8 @@ class ReadLog {
   const std::vector<std::string>& paths() const { return paths_; }
   /// Of the contents alone, in the order of reading: where the files lie does not matter.
   std::uint64_t digest() const { return digest_; }
+  /// The first file's. A pipe can be read only once.
+  const std::string& first_text() const { return first_text_; }
 
   void note(const std::string& path, const std::string& text);
 
@@ -33,6 +35,7 @@ class ReadLog {
 
  private:
   std::vector<std::string> paths_;
+  std::string first_text_;
   std::uint64_t digest_;
   ReadLog* outer_;
 };

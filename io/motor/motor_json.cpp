@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
+#include "io/escape/escape.hpp"
 #include "io/motor/motor_text.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 
@@ -106,7 +107,7 @@ std::string motor_json(const design::Sheet& sheet, const design::SheetCheck& che
                     {"consistent", check.consistent},    {"relations", relations(check)},
                     {"model", model(sheet, check)},      {"lines", lines(check)},
                     {"sheet", std::move(printed.object)}};
-  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return visible(all.dump(2, ' ', false, Json::error_handler_t::replace), Lines::kept) + "\n";
 }
 
 std::string motor_list_json(const std::vector<NamedSheet>& motors) {
@@ -127,7 +128,7 @@ std::string motor_list_json(const std::vector<NamedSheet>& motors) {
                     {"simulatable", motor.sheet.simulatable},
                     {"not_simulatable_because", motor.sheet.not_simulatable_because}});
   }
-  return list.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return visible(list.dump(2, ' ', false, Json::error_handler_t::replace), Lines::kept) + "\n";
 }
 
 }  // namespace io

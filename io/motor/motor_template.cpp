@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "io/escape/escape.hpp"
 #include "io/keys/key_advice.hpp"
 #include "io/keys/key_catalog.hpp"
 #include "io/keys/key_tree.hpp"
@@ -103,10 +104,10 @@ base::Result<std::string> motor_template(std::string_view style_name, const std:
       "# Each nan wants a number; take the # away from other lines that the sheet has. sixstep help KEY says "
       "more\n"
       "# of each, and sixstep motor check FILE holds the sheet against itself.\n"
-      "name = \"{}\"\nmaker = \"\"\n\n"
+      "name = {}\nmaker = \"\"\n\n"
       "# shape of the back-EMF over the electrical angle, trapezoid or sine: sheets rarely say it\n"
       "back_emf = \"{}\"\n\n",
-      style->what, name, style->shape);
+      style->what, toml_text(name), style->shape);
   for (const std::string_view key : style->needed)
     if (const KeyEntry* entry = find_key(keys, key)) text += line(*entry, key, true);
   text += "\n";

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "io/escape/escape.hpp"
 #include "io/keys/key_advice.hpp"
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
@@ -20,9 +21,10 @@ using design::SheetConstants;
 
 std::string short_number(double x) { return fmt::format("{:.4g}", x); }
 
+/// A line, whatever the sheet's own words hold.
 std::string trimmed(std::string row) {
   row.erase(row.find_last_not_of(' ') + 1);
-  return row + "\n";
+  return visible(row) + "\n";
 }
 
 /// Visits a sheet and writes one row per value that it gives.
@@ -118,7 +120,7 @@ std::string relation_rows(const Relation& r) {
       trimmed(fmt::format("  {:<7}{:<25} {:<27} {:>9} {:>9} {:<13} {:>+7.2f} % {:>+7.2f} {:>+6.2f} %",
                           word(r.verdict), r.name, r.left_words, short_number(r.left), short_number(r.right),
                           r.unit, 100.0 * r.deviation, 100.0 * r.lowest, 100.0 * r.highest));
-  if (!r.remark.empty()) text += fmt::format("         {}\n", r.remark);
+  if (!r.remark.empty()) text += trimmed("         " + r.remark);
   return text;
 }
 
@@ -147,8 +149,8 @@ std::string sheet_table(const design::Sheet& sheet) {
 std::string model_table(const design::Sheet& sheet, const SheetCheck& check) {
   const SheetConstants& c = check.constants;
   std::string text = "Model, per phase of the star\n";
-  if (!sheet.simulatable) text += fmt::format("  not simulatable: {}\n", sheet.not_simulatable_because);
-  for (const base::Problem& p : c.missing) text += fmt::format("  {}\n", base::to_string(p));
+  if (!sheet.simulatable) text += trimmed("  not simulatable: " + sheet.not_simulatable_because);
+  for (const base::Problem& p : c.missing) text += trimmed("  " + base::to_string(p));
   text += model_row("p", c.pole_pairs ? fmt::format("{}", *c.pole_pairs) : "not given", "pole pairs");
   text += model_row("R_s", c.R_ohm, 1.0, "ohm");
   text += model_row("L_s", c.L_H, 1e3, "mH");
@@ -166,7 +168,7 @@ std::string model_table(const design::Sheet& sheet, const SheetCheck& check) {
 }
 
 std::string check_report(const design::Sheet& sheet, const SheetCheck& check) {
-  std::string text = sheet.name + "\n";
+  std::string text = trimmed(sheet.name);
   if (!check.relations.empty())
     text += fmt::format("\n  {:<32} {:<27} {:>9} {:>9} {:<13} {:>9} {:>16}\n", "Relation", "computed", "",
                         "printed", "", "deviation", "tolerated");
@@ -174,7 +176,7 @@ std::string check_report(const design::Sheet& sheet, const SheetCheck& check) {
   text.append("\n").append(model_table(sheet, check));
   std::string unused;
   for (const design::LineUse& line : check.lines)
-    if (!line.used) unused += fmt::format("  {}: {}\n", line.key, line.why);
+    if (!line.used) unused += trimmed(fmt::format("  {}: {}", line.key, line.why));
   if (!unused.empty()) text += "\nLines that the model is not made of\n" + unused;
   return text + "\n" + verdict_line(check);
 }

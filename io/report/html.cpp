@@ -8,6 +8,8 @@
 #include <cctype>
 #include <cstdint>
 
+#include "io/escape/escape.hpp"
+
 namespace io::report {
 namespace {
 
@@ -41,7 +43,7 @@ std::string little_endian(std::span<const Real> values) {
 std::string escaped(std::string_view text) {
   std::string out;
   out.reserve(text.size() + text.size() / 8);
-  for (const char c : text) {
+  for (const char c : visible(text, Lines::kept)) {
     switch (c) {
       case '&':
         out += "&amp;";
@@ -58,9 +60,6 @@ std::string escaped(std::string_view text) {
       case '\'':
         out += "&#39;";
         break;
-      case '\0':
-        out += "\xEF\xBF\xBD";
-        break;  // the parser would replace it anyway
       default:
         out += c;
     }
@@ -82,7 +81,9 @@ std::string word_with_subscript(std::string_view word) {
 
 }  // namespace
 
-std::string with_subscripts(std::string_view text) {
+std::string with_subscripts(std::string_view words) {
+  const std::string shown = visible(words);
+  std::string_view text = shown;
   const auto in_word = [](char c) {
     return c < 0 || c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0;
   };
@@ -127,7 +128,7 @@ std::string script_safe(std::string_view json) {
   // In JSON a '<' stands only inside strings, where \u003c means the same.
   std::string out;
   out.reserve(json.size());
-  for (const char c : json) {
+  for (const char c : visible(json, Lines::kept)) {
     if (c == '<')
       out += "\\u003c";
     else

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <report_assets.hpp>
 
+#include "io/escape/escape.hpp"
 #include "io/report/figures.hpp"
 #include "io/report/html.hpp"
 #include "io/report/report.hpp"
@@ -21,7 +22,7 @@ std::string table(const char* css, const char* head, const std::string& rows) {
 
 std::string linked(const IndexEntry& entry) {
   if (entry.file.empty()) return escaped(entry.title);
-  return fmt::format("<a href=\"{}\">{}</a>", escaped(entry.file), escaped(entry.title));
+  return fmt::format("<a href=\"{}\">{}</a>", url_of_name(entry.file), escaped(entry.title));
 }
 
 std::string experiment(const IndexEntry& entry) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "io/escape/escape.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
 namespace io {
@@ -78,7 +79,7 @@ std::string curve_json(const study::CurveRequest& r, const study::Curve& curve) 
   out["thermal_missing"] = curve.thermal ? Json(nullptr) : Json(to_string(curve.thermal_missing[0]));
   out["points"] = Json::array();
   for (const CurveRow& row : curve_rows(r, curve)) out["points"].push_back(point(row));
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return visible(out.dump(2, ' ', false, Json::error_handler_t::replace), Lines::kept) + "\n";
 }
 
 }  // namespace io

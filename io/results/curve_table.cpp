@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "io/escape/escape.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
@@ -219,7 +220,7 @@ std::string certainty(const study::Curve& curve, TorqueUnit unit) {
 
 std::string curve_table(const study::CurveRequest& r, const study::Curve& curve) {
   const study::Bench& b = r.bench;
-  std::string text = fmt::format("{} at {:g} V", r.sheet.name, b.voltage_V);
+  std::string text = fmt::format("{} at {:g} V", visible(r.sheet.name), b.voltage_V);
   if (std::fabs(b.duty) != 1)
     text += fmt::format(", duty {:g}, {} chopping, PWM period {:g} us", b.duty,
                         base::word(study::chopping_choices, b.chopping), b.pwm_period_s * 1e6);

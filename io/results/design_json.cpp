@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "io/escape/escape.hpp"
 #include "io/results/design_text.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
@@ -182,7 +183,7 @@ std::string design_json(const study::DesignStudy& s) {
   out["warnings"] = Json::array();
   for (const auto& w : s.warnings)
     out["warnings"].push_back({{"what", w.what}, {"cure", w.cure}, {"grave", w.grave}});
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return visible(out.dump(2, ' ', false, Json::error_handler_t::replace), Lines::kept) + "\n";
 }
 
 }  // namespace io

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/escape/escape.hpp"
 #include "io/results/quantity_text.hpp"
 #include "io/results/verdict_table.hpp"
 #include "sixstep/base/angle.hpp"
@@ -63,7 +64,7 @@ std::string motor_line(const DriveDesign& d, const study::Scenario& s) {
   return fmt::format(
       "{} on {} V: terminal R = {} ohm, L = {} mH, K_t = {} mNm/A, J = {} g cm2, B = {} N m s\n"
       "control and PWM period {}, {} chopping, a command counts {}\n",
-      s.sheet.name.empty() ? s.motor : s.sheet.name, number(d.bus_V), number(2 * m.machine.R_ohm),
+      visible(s.sheet.name.empty() ? s.motor : s.sheet.name), number(d.bus_V), number(2 * m.machine.R_ohm),
       number(2e3 * m.machine.L_H), number(1e3 * m.K_t_Nm_A), number(1e7 * m.shaft.J_kg_m2),
       number(m.shaft.B_Nm_s), quantity_text(d.wish.period_s, "s"), chopping,
       d.wish.delay_periods == 1 ? "one period late" : "at once");
@@ -307,7 +308,7 @@ std::string design_text(const study::DesignStudy& s, bool colour) {
   if (s.robustness) text += robust_text(*s.robustness);
   if (!s.warnings.empty()) text += "\nWarnings\n";
   for (const auto& w : s.warnings)
-    text += fmt::format("  - {}{}\n    {}\n", w.grave ? "GRAVE: " : "", w.what, w.cure);
+    text += fmt::format("  - {}{}\n    {}\n", w.grave ? "GRAVE: " : "", visible(w.what), visible(w.cure));
   return text;
 }
 

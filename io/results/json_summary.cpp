@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "io/escape/escape.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/run/run.hpp"
 
@@ -98,7 +99,7 @@ std::string json_summary(const study::Scenario& scenario, const study::Outcome& 
   summary["laws"] = outcome.laws ? laws(*outcome.laws) : Json(nullptr);
   summary["events"] = events(outcome);
   // A title may hold bytes that are no UTF-8: shown as such, never thrown over.
-  return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return visible(summary.dump(2, ' ', false, Json::error_handler_t::replace), Lines::kept) + "\n";
 }
 
 }  // namespace io

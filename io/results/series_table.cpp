@@ -7,6 +7,7 @@
 #include <array>
 #include <vector>
 
+#include "io/escape/escape.hpp"
 #include "io/results/quantity_text.hpp"
 
 namespace io {
@@ -40,7 +41,9 @@ Row row_of(const batch::SpreadFigure& f, std::size_t runs) {
           f.required ? fmt::format("{} of {}", f.holds, runs) : ""};
 }
 
-std::string aligned(const std::vector<Row>& rows) {
+std::string aligned(std::vector<Row> rows) {
+  for (Row& row : rows)
+    for (std::string& cell : row) cell = visible(cell);
   std::array<std::size_t, columns> widths{};
   for (const Row& row : rows)
     for (std::size_t c = 0; c < columns; ++c) widths[c] = std::max(widths[c], row[c].size());
@@ -58,7 +61,7 @@ std::string aligned(const std::vector<Row>& rows) {
 std::string casualties(const std::vector<batch::Casualty>& which, const char* what) {
   if (which.empty()) return "";
   return fmt::format("  {} {}, the first of them drive {}: {}\n", which.size(), what, which[0].number,
-                     to_string(which[0].problem));
+                     visible(to_string(which[0].problem)));
 }
 
 }  // namespace
@@ -67,12 +70,12 @@ std::string series_table(const std::string& name, const batch::Series& series, s
   std::vector<Row> rows = {
       {name, "required", "min", "5 %", "median", "95 %", "max", "mean", "deviation", "holds"}};
   for (const batch::SpreadFigure& figure : series.figures) rows.push_back(row_of(figure, series.runs));
-  std::string text = aligned(rows);
+  std::string text = aligned(std::move(rows));
   text += casualties(series.faults, "stopped by a fault");
   text += casualties(series.refused, "could not run");
   for (const batch::SpreadFigure& f : series.figures)
     if (f.first_miss)
-      text += fmt::format("  {}: the first miss is drive {} (--seed {} --drive {})\n", f.figure,
+      text += fmt::format("  {}: the first miss is drive {} (--seed {} --drive {})\n", visible(f.figure),
                           *f.first_miss, seed, *f.first_miss);
   const bool asks = std::any_of(series.figures.begin(), series.figures.end(),
                                 [](const batch::SpreadFigure& f) { return f.required; });

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "io/escape/escape.hpp"
 #include "io/results/quantity_text.hpp"
 
 namespace io {
@@ -100,6 +101,8 @@ std::string verdict_table(std::span<const TableEntry> entries, bool colour) {
   const bool has_source = std::any_of(entries.begin(), entries.end(),
                                       [](const TableEntry& e) { return !e.outcome->comparisons.empty(); });
   if (!has_source) lines[0].cells[4].clear();
+  for (Line& line : lines)
+    for (std::string& cell : line.cells) cell = visible(cell);
   std::array<std::size_t, 5> widths{};
   for (const Line& line : lines)
     for (std::size_t n = 0; n < widths.size() && !is_free(line.kind); ++n)
@@ -119,7 +122,7 @@ std::string verdict_table(std::span<const TableEntry> entries, bool colour) {
 std::string verdict_summary(std::span<const TableEntry> entries, bool colour) {
   std::size_t requirements = 0, misses = 0, stopped = 0;
   std::string which;
-  const auto tell = [&which](const std::string& line) { which += "\n  " + line; };
+  const auto tell = [&which](const std::string& line) { which += "\n  " + visible(line); };
   for (const TableEntry& entry : entries) {
     requirements += entry.outcome->verdicts.size();
     for (const study::Verdict& v : entry.outcome->verdicts) {

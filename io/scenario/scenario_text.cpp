@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "io/escape/escape.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
 
@@ -15,17 +16,7 @@ namespace {
 std::string toml(double x) { return sixstep::base::written(x); }
 std::string toml(bool x) { return x ? "true" : "false"; }
 std::string toml(int x) { return std::to_string(x); }
-std::string toml(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else
-      out += c;
-  }
-  return out + "\"";
-}
+std::string toml(const std::string& text) { return toml_text(text); }
 template <class T>
 std::string toml(const std::vector<T>& list) {
   std::string out = "[";
@@ -137,13 +128,6 @@ class TableText {
   std::vector<WrittenValue> listed_;  ///< of the lists' items
 };
 
-/// What ends a line would end the comment.
-std::string comment(const std::string& text) {
-  std::string out = "# ";
-  for (const char c : text) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-  return out + "\n";
-}
-
 }  // namespace
 
 std::string scenario_text(const study::Scenario& scenario, const std::vector<std::string>& comments) {
@@ -161,7 +145,7 @@ std::string scenario_text(const study::Scenario& scenario, const std::vector<std
   describe(text, copy);
   describe(defaults, usual);
   std::string out;
-  for (const std::string& line : comments) out += comment(line);
+  for (const std::string& line : comments) out += "# " + visible(line) + "\n";
   return out + text.text(defaults, "", TableText::Heading::none);
 }
 

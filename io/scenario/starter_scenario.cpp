@@ -8,6 +8,7 @@
 #include <set>
 #include <string_view>
 
+#include "io/escape/escape.hpp"
 #include "io/keys/key_catalog.hpp"
 #include "io/keys/key_tree.hpp"
 #include "io/keys/template_line.hpp"
@@ -178,14 +179,13 @@ class Starter {
 }  // namespace
 
 std::string starter_text(const study::Scenario& scenario, const StarterOptions& options) {
-  const std::string& file = options.file;
   return fmt::format("#:schema {}\n", scenario_schema_file) +
          wrapped_comment(
              fmt::format("sixstep run {} runs this and judges it; with --html the report is "
                          "written too. Lines behind a # say what holds without them: take the # "
                          "away to change it; where one says nan, nothing holds, and a number goes "
                          "there. sixstep help TABLE and sixstep help KEY tell more.",
-                         file)) +
+                         shell_word(options.file))) +
          Starter(scenario, options.full).text();
 }
 

@@ -18,9 +18,9 @@ void append_number(std::string& text, double x) {
   text.append(digits, fmt::format_to(digits, FMT_COMPILE("{}"), x));
 }
 
-base::Result<CsvWriter> CsvWriter::create(const std::string& path, std::span<const study::Column> columns,
+base::Result<CsvWriter> CsvWriter::create(const Destination& to, std::span<const study::Column> columns,
                                           std::span<const std::string> comments) {
-  base::Result<AtomicFile> file = AtomicFile::create(path);
+  base::Result<AtomicFile> file = AtomicFile::create(to);
   if (!file) return file.problems();
   CsvWriter writer(std::move(*file));
   for (const std::string& comment : comments) writer.pending_ += "# " + comment + "\n";

@@ -14,7 +14,7 @@ namespace io {
 class CsvWriter {
  public:
   /// Each comment is one line.
-  static base::Result<CsvWriter> create(const std::string& path, std::span<const study::Column> columns,
+  static base::Result<CsvWriter> create(const Destination& to, std::span<const study::Column> columns,
                                         std::span<const std::string> comments = {});
 
   void row(std::span<const double> numbers);

@@ -6,27 +6,12 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "io/escape/escape.hpp"
+
 namespace io {
 namespace {
 
 constexpr char32_t replacement = 0xFFFD;
-
-/// The character at `at`, which moves behind it; bytes that are no UTF-8 count one by one.
-char32_t next_character(const std::string& text, std::size_t& at) {
-  const auto byte = [&text](std::size_t n) {
-    return n < text.size() ? static_cast<unsigned char>(text[n]) : 0U;
-  };
-  const unsigned first = byte(at++);
-  if (first < 0x80) return first;
-  const std::size_t more = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : 1;
-  char32_t character = first & (0x3FU >> more);
-  for (std::size_t n = 0; n < more; ++n) {
-    if (first < 0xC2 || first > 0xF4 || (byte(at + n) & 0xC0U) != 0x80U) return replacement;
-    character = character << 6U | (byte(at + n) & 0x3FU);
-  }
-  at += more;
-  return character;
-}
 
 /// MATLAB counts 16-bit units, others count characters: where these differ, beyond U+FFFF, no reader is sure
 /// of the sizes, and the replacement stands.

@@ -45,13 +45,13 @@ std::string_view bytes_of(std::span<const double> numbers) {
 
 }  // namespace
 
-base::Result<MatWriter> MatWriter::create(const std::string& path, std::span<const study::Column> columns,
+base::Result<MatWriter> MatWriter::create(const Destination& to, std::span<const study::Column> columns,
                                           MatVersion version, TraceOrigin origin,
                                           std::size_t most_rows_of_v5) {
-  base::Result<AtomicFile> file = AtomicFile::create(path);
+  base::Result<AtomicFile> file = AtomicFile::create(to);
   if (!file) return file.problems();
   if (version == MatVersion::v7_3 && file->temporary().empty())
-    return base::Problem{.where = path + ":",
+    return base::Problem{.where = to.path + ":",
                          .limit = "is no regular file, and HDF5 writes to and fro",
                          .cure = "name a file, or take --mat, which writes straight on"};
   return MatWriter(std::move(*file), columns, version, std::move(origin), most_rows_of_v5);

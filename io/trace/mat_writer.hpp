@@ -23,7 +23,7 @@ class MatWriter {
   static constexpr std::size_t v5_most_rows = ((std::size_t{1} << 31U) - 1024) / sizeof(double);
 
   /// Version 7.3 needs a file that can be written to and fro: a pipe is refused.
-  static base::Result<MatWriter> create(const std::string& path, std::span<const study::Column> columns,
+  static base::Result<MatWriter> create(const Destination& to, std::span<const study::Column> columns,
                                         MatVersion version, TraceOrigin origin,
                                         std::size_t most_rows_of_v5 = v5_most_rows);
 

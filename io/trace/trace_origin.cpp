@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
+#include "io/escape/escape.hpp"
 #include "sixstep/base/written.hpp"
 
 namespace io {
@@ -14,10 +13,7 @@ std::vector<std::string> origin_lines(const TraceOrigin& o) {
       "sixstep " SIXSTEP_VERSION,
       fmt::format("scenario: {}, digest {}", o.scenario, base::written_hex(o.digest)),
       fmt::format("command: {}", o.command)};
-  // A name may hold anything; what ends a line would end the comment.
-  for (std::string& line : lines)
-    std::replace_if(
-        line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  for (std::string& line : lines) line = visible(line);
   return lines;
 }
 

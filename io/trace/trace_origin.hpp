@@ -14,6 +14,7 @@ struct TraceOrigin {
   std::uint64_t digest = 0;  ///< of everything that was read for it, and of what the command line set
   std::string title, motor;
   std::string command;  ///< makes the trace again
+  std::string text;     ///< the scenario file's, as it was read
 };
 
 /// Three lines without a line break in them: program and version, scenario with digest, command.

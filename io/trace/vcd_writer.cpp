@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "io/escape/escape.hpp"
+
 namespace io {
 namespace {
 
@@ -11,12 +13,6 @@ constexpr std::size_t block = 1 << 16;
 /// An identifier is one printable character from '!' on: 94 signals have one.
 char identifier(std::size_t signal) { return static_cast<char>('!' + signal); }
 
-/// A dollar would end a comment that says "$end".
-std::string commented(std::string line) {
-  for (std::size_t at = 0; (at = line.find("$end", at)) != std::string::npos;) line[at] = '?';
-  return line;
-}
-
 const char* type_of(const study::LogicSignal& s) {
   if (s.kind == study::LogicKind::event) return "event";
   return s.bits == 1 ? "wire" : "integer";
@@ -24,8 +20,8 @@ const char* type_of(const study::LogicSignal& s) {
 
 std::string header(std::span<const study::LogicSignal> signals, const TraceOrigin& origin) {
   const std::vector<std::string> lines = origin_lines(origin);
-  std::string text = fmt::format("$version {} $end\n", commented(lines[0]));
-  text += fmt::format("$comment\n  {}\n  {}\n$end\n", commented(lines[1]), commented(lines[2]));
+  std::string text = fmt::format("$version {} $end\n", vcd_text(lines[0]));
+  text += fmt::format("$comment\n  {}\n  {}\n$end\n", vcd_text(lines[1]), vcd_text(lines[2]));
   text += "$timescale 1 ps $end\n$scope module board $end\n";
   const std::string* group = nullptr;
   for (std::size_t n = 0; n < signals.size(); ++n) {
@@ -43,10 +39,9 @@ std::string header(std::span<const study::LogicSignal> signals, const TraceOrigi
 
 }  // namespace
 
-base::Result<VcdWriter> VcdWriter::create(const std::string& path,
-                                          std::span<const study::LogicSignal> signals,
+base::Result<VcdWriter> VcdWriter::create(const Destination& to, std::span<const study::LogicSignal> signals,
                                           const TraceOrigin& origin) {
-  base::Result<AtomicFile> file = AtomicFile::create(path);
+  base::Result<AtomicFile> file = AtomicFile::create(to);
   if (!file) return file.problems();
   VcdWriter writer(std::move(*file), signals);
   writer.pending_ = header(signals, origin);

@@ -16,7 +16,7 @@ namespace io {
 
 class VcdWriter {
  public:
-  static base::Result<VcdWriter> create(const std::string& path, std::span<const study::LogicSignal> signals,
+  static base::Result<VcdWriter> create(const Destination& to, std::span<const study::LogicSignal> signals,
                                         const TraceOrigin& origin);
 
   /// One row at an instant; instants must not fall.

@@ -13,6 +13,8 @@ class Curve(ProgramTest):
         self.assertIn("No load: 6709.5 rpm (702.613 rad/s) with 0.1531 A through the winding", shown)
         self.assertEqual(self.names(), ["a.csv", "a.html", "a.json"])
         rows = (self.path / "a.csv").read_text().splitlines()
+        self.assertEqual(rows[1:3], ["# motor: maxon-251601", "# command: sixstep curve maxon-251601 --csv a.csv --json a.json --html a.html"])
+        rows = [row for row in rows if not row.startswith("#")]
         self.assertEqual(len(rows), 42)
         self.assertTrue(rows[0].startswith("speed_rad_s,torque_Nm,air_gap_torque_Nm,ideal_torque_Nm,"))
         curve = json.loads((self.path / "a.json").read_text())

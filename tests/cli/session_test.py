@@ -15,7 +15,7 @@ import termios
 import time
 import unittest
 
-from program import SHORT, SOURCE, Started
+from program import PROGRAM, SHORT, SOURCE, Started
 
 R3 = str(SOURCE / "data/scenarios/reference/R3.toml")
 ALL = {"--csv": "a.csv", "--mat": "a.mat", "--mat73": "h.mat", "--vcd": "a.vcd", "--json": "a.json", "--html": "a.html"}
@@ -69,15 +69,48 @@ class Interruption(Session):
         self.assertEqual(self.names(), ["a.partial.csv", "a.toml"])
 
     def test_a_second_ctrl_c_ends_at_once(self):
-        # A pipe that nobody reads holds the program up: it cannot answer the first.
-        with self.started("run", self.write("a.toml", 1000), *LONG, "--csv", "/dev/stdout") as program:
-            self.wait_until(lambda: select.select([program.stdout], [], [], 0)[0])
+        # Standard output that takes nothing holds the program up at its last word: it cannot answer the first.
+        ours, full = os.pipe()
+        os.write(full, bytes(fcntl.fcntl(full, fcntl.F_SETPIPE_SZ, 4096)))
+        with self.started("run", self.write("a.toml", 1000), "--csv", "a.csv", stdout=full) as program:
+            self.wait_until(lambda: (self.path / "a.csv").exists())
             time.sleep(0.2)
             program.send_signal(signal.SIGINT)
             time.sleep(0.2)
             self.assertIsNone(program.poll())
             program.send_signal(signal.SIGINT)
             self.assertEqual(program.wait(timeout=20), -signal.SIGINT)
+        os.close(ours), os.close(full)
+
+    def test_ctrl_c_ends_the_waiting_for_the_other_end_of_a_pipe(self):
+        """A scenario that nobody writes, an output that nobody opens, one that nobody takes: each swallowed it."""
+        os.mkfifo(self.path / "pipe")
+        self.write("a.toml", 1000)
+        reader = None
+        for words in (["pipe"], ["a.toml", "--csv", "pipe"], ["a.toml", *LONG, "--csv", "pipe"]):
+            if "--set" in words:
+                reader = os.open(self.path / "pipe", os.O_RDONLY | os.O_NONBLOCK)
+            with self.subTest(words), self.started("run", *words) as program:
+                time.sleep(0.5)
+                self.assertIsNone(program.poll(), "it waits")
+                program.send_signal(signal.SIGINT)
+                told = program.communicate(timeout=20)[1]
+                self.assertEqual(program.returncode, 130)
+                self.assertNotIn("cannot be", told)
+        os.close(reader)
+        self.assertEqual(self.names(), ["a.toml", "pipe"])
+
+    def test_a_scenario_through_a_pipe_is_read_once(self):
+        """The report, which shows its text, waited for somebody to write it again."""
+        os.mkfifo(self.path / "pipe")
+        text = SHORT.format(limit=1000)
+        with self.started("run", "pipe", "--html", "a.html") as program:
+            (self.path / "pipe").write_text(text)
+            self.assertEqual(program.wait(timeout=20), 0)
+        self.assertIn("max = 1000", (self.path / "a.html").read_text())
+        again = subprocess.run(["bash", "-c", f"{PROGRAM} run <(cat) --html b.html"], cwd=self.path, input=text, text=True, capture_output=True, timeout=20)
+        self.assertEqual((again.returncode, again.stderr), (0, ""))
+        self.assertIn("max = 1000", (self.path / "b.html").read_text())
 
     def test_files_of_finished_runs_stay_whole_and_an_index_lists_them(self):
         (self.path / "quick.toml").write_text(SHORT.format(limit=1000))

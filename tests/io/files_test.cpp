@@ -21,6 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// As a file begins that may be written over.
+constexpr const char* ours = "# sixstep 0.1.0\n";
+
 class Files : public testing::Test {
  protected:
   void SetUp() override {
@@ -47,13 +50,13 @@ TEST_F(Files, NothingUnderTheNameBeforeCommit) {
 }
 
 TEST_F(Files, WithoutCommitNothingIsLeftAndTheOldFileStays) {
-  std::ofstream(at("a.txt")) << "old";
+  std::ofstream(at("a.txt")) << ours;
   {
     base::Result<AtomicFile> file = AtomicFile::create(at("a.txt"));
     ASSERT_TRUE(file);
     file->write("half");
   }
-  EXPECT_EQ(*read_text(at("a.txt")), "old");
+  EXPECT_EQ(*read_text(at("a.txt")), ours);
   EXPECT_EQ(entries(), 1U);
 }
 
@@ -67,7 +70,7 @@ TEST_F(Files, AnInterruptedWorkLeavesAPartialFile) {
 }
 
 TEST_F(Files, ALinkKeepsItsPlace) {
-  std::ofstream(at("real.txt")) << "old";
+  std::ofstream(at("real.txt")) << ours;
   fs::create_symlink("real.txt", at("link.txt"));
   base::Result<AtomicFile> file = AtomicFile::create(at("link.txt"));
   ASSERT_TRUE(file);

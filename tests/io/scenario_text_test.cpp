@@ -49,7 +49,7 @@ TEST(ScenarioText, WritesWhatDiffersFromTheDefaultsAlone) {
   r.max = 3.0;
   s.require.push_back(r);
   EXPECT_EQ(scenario_text(s, {"one line\nonly"}),
-            "# one line only\n"
+            "# one line\\u000aonly\n"
             "motor = \"maxon-251601\"\n"
             "duration_s = 0.1\n"
             "\n[control.current]\n"

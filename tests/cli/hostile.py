@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The list of names that act where they are not escaped, as tests/support/hostile_names.hpp reads it: bytes."""
+import re
+
+from program import SOURCE
+
+BYTES = {b"n": b"\n", b"r": b"\r", b"t": b"\t", b"\\": b"\\"}
+LINES = (SOURCE / "tests/support/hostile_names.txt").read_bytes().splitlines()
+TEXTS = [re.sub(rb"\\(x(..)|.)", lambda m: bytes.fromhex(m[2].decode()) if m[2] else BYTES[m[1]], line, flags=re.S) for line in LINES]
+FILES = [name for name in TEXTS if b"/" not in name]
+
+
+def is_visible(name):
+    """Of a name's bytes: text without controls, line ends, reordering and what has no width."""
+    try:
+        return not re.search("[\x00-\x1f\x7f-\x9f\u061c\u180e\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f\ufeff]", name.decode())
+    except UnicodeDecodeError:
+        return False

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one list of names that act where they are not escaped, for every place that shows or writes one. The
+// tests of the program read the same file.
+#pragma once
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace sixstep::testing {
+
+/// One a line; \xHH is a byte, \n, \r and \t are themselves, and so is \\.
+inline std::vector<std::string> hostile_names() {
+  std::ifstream file(SIXSTEP_SOURCE_DIR "/tests/support/hostile_names.txt", std::ios::binary);
+  std::vector<std::string> names;
+  for (std::string line; std::getline(file, line);) {
+    std::string name;
+    for (std::size_t n = 0; n < line.size(); ++n) {
+      if (line[n] != '\\') {
+        name += line[n];
+        continue;
+      }
+      switch (line.at(++n)) {
+        case 'x':
+          name += static_cast<char>(std::stoi(line.substr(n + 1, 2), nullptr, 16));
+          n += 2;
+          break;
+        case 'n':
+          name += '\n';
+          break;
+        case 'r':
+          name += '\r';
+          break;
+        case 't':
+          name += '\t';
+          break;
+        default:
+          name += line[n];
+      }
+    }
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+}  // namespace sixstep::testing

@@ -1,0 +1,17 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# configure.sh PRESET: configures build/PRESET where that is still to be done. In a copy of a checkout the folder
+# that came along would go on building the original's sources: it is made anew, which is said.
+set -eu
+cd "$(dirname "$0")/.."
+build=build/$1 log=build/$1.log
+mkdir -p build
+home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$build/CMakeCache.txt" 2>/dev/null || true)
+if [ -n "$home" ] && ! [ "$home" -ef . ]; then
+  echo "$build was made for $home, not for this copy of it: making it anew"
+  rm -rf "$build"
+fi
+if [ ! -f "$build/build.ninja" ]; then
+  echo "configuring ($build)"
+  cmake --preset "$1" >"$log" 2>&1 || { cat "$log"; exit 1; }
+fi
