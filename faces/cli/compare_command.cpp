@@ -106,7 +106,7 @@ Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs
       progress.finished(n);
     });
   }
-  if (interrupted()) return exit_of_interrupt();
+  if (interrupted()) return told_interrupted("the comparison");
   Exit exit = Exit::ok;
   std::vector<ComparedSource> sources;
   for (std::size_t n = 0; n < runs.size(); ++n) {

@@ -1,12 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // clang-format off
 // Made by sixstep 0.1.0. Change the scenario, not this file:
-//   sixstep export header data/scenarios/thesis/7.3.1-turning-exact-design.toml --set pwm.period_s=300e-6 --arithmetic q15 --range current_A=25 --range setpoint=20 --out faces/firmware/example/avr/drive_config.hpp
+//   sixstep export header data/scenarios/thesis/7.3.1-turning-exact-design.toml --set pwm.period_s=300e-6 --arithmetic q15 --range current_A=25 --range setpoint=20 --despite 'an example, for no board' --out faces/firmware/example/avr/drive_config.hpp
 //
 // scenario  7.3.1 Current PI, rotor turning, the same rule evaluated exactly
 // motor     maxon EC 45 flat 251601: 8 pole pairs, terminal R = 1.03 ohm, L = 0.000572 H, K_t = 0.0335 N m/A; J = 1.35e-05 kg m2
 // current   d1 = 2.93109 V/A, d0 = -1.28162 V/A; pole placement from settle_s and damping; poles z = 0.197448 +- 0.155904j (settle_s = 0.001, damping = 0.9) on 0.405217/(z -0.582626)
 // Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the motor.
+//
+// NOT CLEARED FOR A BRIDGE. Written all the same, for this reason:
+//   an example, for no board
+// What was overridden:
+//   sensors.currents = "ideal" tells the drive currents that no amplifier and converter have been through; set currents = "phases" or "dc-link", and current_range_A
+//   pwm.delay_periods = 0 answers a sample at the instant it is taken, and a chip has to convert and compute first; set delay_periods = 1, or sample = "middle"
+// Its run: 0.02 s simulated in q15, digest 727c6363537f67e4
+//   slowest reach of 98 %: <= 0.001 s required, 0.000438941 s measured
+// That run took for granted:
+//   supply    24 V, stiff, takes current back
+//   bridge    switches of 0 ohm, diodes of 0 V and 0 ohm, dead time 0 s
+//   timing    sampled at a period's start, answered at once; edges on no counter's steps
+//   currents  as they are
+//   bus       as it is
+//   rotor     as it is
+//   load      0 N m, 0 kg m2 beside the rotor's
+//   scale     the scenario's own; that of --range below was proved, not run
 //
 // Fixed point: what each quantity may reach and where the format ends, in SI
 //   current                               25 of 45
