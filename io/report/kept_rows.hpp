@@ -15,7 +15,7 @@
 namespace io::report {
 
 /// What the rows of a report take at most. With all that is made of them the program stays below 256 MiB.
-inline constexpr std::size_t most_row_bytes = std::size_t{160} << 20;
+inline constexpr std::size_t most_row_bytes = 160'000'000;
 
 class KeptRows {
  public:

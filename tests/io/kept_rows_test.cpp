@@ -137,7 +137,7 @@ TEST(KeptRows, AreForetoldWhereTheirNumberCanBe) {
   s.duration_s = 0.1;
   EXPECT_EQ(rows_foretold(s), "");
   s.duration_s = 1000;
-  EXPECT_THAT(rows_foretold(s), HasSubstr("a report keeps 168 MB"));
+  EXPECT_THAT(rows_foretold(s), HasSubstr("a report keeps 160 MB"));
 }
 
 }  // namespace
