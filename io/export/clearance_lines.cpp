@@ -74,8 +74,11 @@ std::string bus(const study::Sensors& s) {
 
 std::string rotor(const study::Sensors& s) {
   if (s.rotor == study::RotorSensing::ideal) return "as it is";
-  return fmt::format("Hall edges exactly at the sectors' ends, captured at {:.6g} Hz, speed over {}",
-                     s.capture_Hz, s.speed_edges);
+  const std::string over = s.speed_edges > 0
+                               ? fmt::format("speed over {} edges", s.speed_edges)
+                               : "speed over six edges where the loop stands their delay, else one";
+  return fmt::format("Hall edges exactly at the sectors' ends, captured at {:.6g} Hz, {}", s.capture_Hz,
+                     over);
 }
 
 std::string load(const study::Load& l) {

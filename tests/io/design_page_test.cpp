@@ -23,7 +23,7 @@ study::DesignStudy studied(Mode mode, const std::string& name = "") {
   auto sheet = io::read_sheet(file.string());
   if (!name.empty()) sheet->name = name;
   const auto s = study::study_design({.subject = {"maxon-251601", *sheet, {}},
-                                      .wish = {.mode = mode},
+                                      .wish = {.mode = mode, .torque_limit_Nm = 0.78},
                                       .tolerances = study::sheet_tolerances(mode)});
   EXPECT_TRUE(s);
   return *s;
