@@ -10,8 +10,7 @@
 namespace batch {
 
 /// The points as `for_each` takes them, on_threads() for one; the curve has the same bits in whatever order.
-/// Where `keep_going` says no, the points not begun are left out and there is no curve: a Problem
-/// "interrupted".
+/// Where `keep_going` says no, the points under way end and there is no curve: a Problem "was interrupted".
 base::Result<study::Curve> torque_speed_curve(const study::CurveRequest& request,
                                               const study::ForEach& for_each,
                                               const std::function<bool()>& keep_going = {});

@@ -13,6 +13,7 @@
 #include "faces/cli/terminal.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/report/comparison.hpp"
+#include "io/report/kept_rows.hpp"
 #include "io/results/verdict_table.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/trace.hpp"
@@ -21,8 +22,8 @@
 namespace cli {
 namespace {
 
-study::Trace all_columns(bool every_event) {
-  study::Trace trace{.columns = study::all_columns(), .values = {}, .every_event = every_event};
+study::Trace all_columns() {
+  study::Trace trace{.columns = study::all_columns(), .values = {}};
   trace.values.resize(trace.columns.size());
   return trace;
 }
@@ -34,13 +35,16 @@ void add(study::Trace& trace, study::Row row) {
 /// A run that keeps what is drawn and what is subtracted.
 struct Compared {
   study::Scenario scenario;
-  study::Trace events = all_columns(true), grid = all_columns(false);
+  std::size_t most_bytes = io::report::most_row_bytes;  ///< of events
+  study::Trace grid = all_columns();
+  std::optional<io::report::KeptRows> events;
   std::optional<study::Outcome> outcome;
   base::Problems problems;
 
   void run(const std::function<void(double t_s)>& reached) {
     study::Listeners listeners;
-    listeners.on_event = [this](study::Row row) { add(events, row); };
+    events.emplace(scenario, most_bytes);
+    listeners.on_event = [this](study::Row row) { events->add(row); };
     listeners.on_record = [this](study::Row row) { add(grid, row); };
     listeners.keep_going = [&reached](double t_s) {
       reached(t_s);
@@ -62,7 +66,8 @@ std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
   runs.reserve(jobs.size());
   for (const Job& job : jobs) scenarios.push_back(&job.scenario());
   for (const Job& job : jobs) {
-    Compared& run = runs.emplace_back(Compared{.scenario = job.scenario()});
+    Compared& run = runs.emplace_back(
+        Compared{.scenario = job.scenario(), .most_bytes = io::report::most_row_bytes / jobs.size()});
     run.scenario.record = {.grid_s = io::report::common_grid_s(scenarios)};
     // A column that a mode has no use for is asked for all the same, so that all runs have the same ones.
     for (const study::Column& column : study::all_columns())
@@ -106,16 +111,20 @@ Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs
       progress.finished(n);
     });
   }
-  if (interrupted()) return exit_of_interrupt();
+  if (interrupted()) return told_interrupted("the comparison");
   Exit exit = Exit::ok;
   std::vector<ComparedSource> sources;
   for (std::size_t n = 0; n < runs.size(); ++n) {
     complain(runs[n].problems);
     exit = graver(exit, runs[n].outcome ? exit_of(*runs[n].outcome) : Exit::bad_input);
     if (runs[n].outcome)
-      sources.push_back({jobs[n].name(), runs[n].scenario, *runs[n].outcome, runs[n].events, runs[n].grid});
+      sources.push_back(
+          {jobs[n].name(), runs[n].scenario, *runs[n].outcome, runs[n].events->trace(), runs[n].grid});
   }
   if (sources.size() < runs.size()) return exit;
+  for (const ComparedSource& source : sources)
+    if (const std::string told = io::report::rows_told(source.events); !told.empty() && !arguments.quiet)
+      print(fmt::format("{}: {}\n", source.name, told), stderr);
   file->write(comparison_page(sources, arguments.command));
   const base::Problems unwritten = file->commit();
   complain(unwritten);

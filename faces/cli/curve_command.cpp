@@ -150,7 +150,7 @@ Exit curve_command(const CurveArguments& a) {
   const base::Result<study::Curve> curve = batch::torque_speed_curve(
       *request, side_by_side(a.jobs, a.quiet, "points"), [] { return !interrupted(); });
   if (!curve) {
-    if (interrupted()) return exit_of_interrupt();
+    if (interrupted()) return told_interrupted("curve " + a.motor);
     complain(curve.problems());
     return Exit::bad_input;
   }

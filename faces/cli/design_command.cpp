@@ -11,7 +11,6 @@
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
-#include "io/export/config_header.hpp"
 #include "io/export/model_export.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/own_file.hpp"
@@ -40,8 +39,8 @@ struct DesignArguments {
   bool quick = false;  ///< without the tolerances
   bool quiet = false, force = false;
   unsigned jobs = 0;
-  std::string json, toml, header, models, html;  ///< files; json "-": standard output
-  double angle_deg = 30.0;                       ///< of the models, electrical
+  std::string json, toml, models, html;  ///< files; json "-": standard output
+  double angle_deg = 30.0;               ///< of the models, electrical
   std::string data_dir;
   std::string command;  ///< the command line as it may be typed again
 };
@@ -79,14 +78,11 @@ design::DesignWish wish_of(const DesignArguments& a, const study::Scenario* scen
 
 /// The files that were asked for, open before anything runs.
 struct Outputs {
-  std::optional<io::AtomicFile> json, toml, header, models, html;
+  std::optional<io::AtomicFile> json, toml, models, html;
 
   base::Problems open(const DesignArguments& a) {
-    base::Problems found = written_twice({{"--json", a.json},
-                                          {"--toml", a.toml},
-                                          {"--header", a.header},
-                                          {"--models", a.models},
-                                          {"--html", a.html}});
+    base::Problems found =
+        written_twice({{"--json", a.json}, {"--toml", a.toml}, {"--models", a.models}, {"--html", a.html}});
     if (!found.empty()) return found;
     const std::string kind = fs::path(a.models).extension().string();
     if (!a.models.empty() && kind != ".json" && kind != ".mat")
@@ -101,7 +97,6 @@ struct Outputs {
     };
     one(json, a.json);
     one(toml, a.toml);
-    one(header, a.header);
     one(models, a.models);
     one(html, a.html);
     return found;
@@ -132,15 +127,6 @@ base::Problems write(const study::DesignStudy& s, const DesignArguments& a, Outp
     const base::Result<std::string> bytes =
         fs::path(a.models).extension() == ".mat" ? io::models_mat(point) : io::models_json(point);
     add(bytes ? put(out.models, *bytes) : bytes.problems());
-  }
-  if (out.header) {
-    const base::Result<std::string> header = io::config_header({.scenario = s.scenario,
-                                                                .arithmetic = {},
-                                                                .range = {},
-                                                                .name_space = "designed",
-                                                                .single_header = false,
-                                                                .command = a.command});
-    add(header ? put(out.header, *header) : header.problems());
   }
   return found;
 }
@@ -197,7 +183,7 @@ Exit design_command(const DesignArguments& a) {
        .tolerances = a.quick ? std::vector<study::Tolerance>() : study::sheet_tolerances(wish.mode),
        .for_each = side_by_side(a.jobs, a.quiet, "motors"),
        .keep_going = [] { return !interrupted(); }});
-  if (interrupted()) return exit_of_interrupt();
+  if (interrupted()) return told_interrupted("design " + a.motor);
   if (!s) return refused(s.problems());
   if (const base::Problems unwritten = write(*s, a, outputs); !unwritten.empty()) return refused(unwritten);
   if (a.json == "-") print(io::design_json(*s));
@@ -236,7 +222,6 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("--step", a.step, "what is simulated: a step in A, rad/s or deg as the mode asks");
   design.add_option("--json", a.json, "write everything as numbers; - for standard output");
   design.add_option("--toml", a.toml, "write the scenario that was simulated, for sixstep run");
-  design.add_option("--header", a.header, "write the gains as constants for firmware, in C++20");
   design.add_option("--html", a.html, "write the design as a page");
   design.add_option("--models", a.models, "write the motor's two state spaces, as .json or .mat");
   design.add_option("--angle", a.angle_deg, "of the rotor for --models, in electrical degrees")

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "faces/cli/keep.hpp"
+#include "faces/cli/progress.hpp"
 #include "faces/cli/settings.hpp"
 #include "faces/cli/terminal.hpp"
 #include "io/export/config_header.hpp"
@@ -28,7 +29,8 @@ struct ExportArguments {
   std::string name_space = "exported";
   std::string data_dir;
   bool single_header = false, force = false;
-  std::string command;  ///< the command line as it may be typed again
+  std::optional<std::string> despite;  ///< why it is written although it is not clear
+  std::string command;                 ///< the command line as it may be typed again
 };
 
 std::string meant(const std::string& word, const std::vector<std::string>& known) {
@@ -83,34 +85,81 @@ design::OperatingRange range_of(const ExportArguments& a, base::Problems& proble
   return range;
 }
 
-Exit export_header(const ExportArguments& a) {
+/// The drive as it is to be on the chip, or what is wrong with the words.
+base::Result<study::Scenario> scenario_of(const ExportArguments& a) {
   base::Problems problems;
   const std::optional<study::Arithmetic> arithmetic = arithmetic_of(a.arithmetic, problems);
-  const design::OperatingRange range = range_of(a, problems);
   const io::ReadOptions options = read_options(a.data_dir, a.sets, problems);
+  if (a.despite && a.despite->find_first_not_of(" \t\r\n") == std::string::npos)
+    problems.push_back({"--despite", "", "gives no reason",
+                        "say why the header is written all the same: whoever flashes it reads that"});
+  if (!problems.empty()) return problems;
+  base::Result<study::Scenario> scenario = io::read_scenario(a.file, options);
+  if (!scenario) return scenario;
+  if (arithmetic) scenario->control.arithmetic = *arithmetic;
+  const study::Arithmetic number = scenario->control.arithmetic;
+  if (!a.ranges.empty() && (number == study::Arithmetic::float64 || number == study::Arithmetic::float32))
+    return base::Problem{"--range", "",
+                         "says what fixed point must hold, and the drive is to be in floating point",
+                         "add --arithmetic q15 or another fixed point, or leave the range out"};
+  return scenario;
+}
+
+base::Problems within(const std::string& file, base::Problems problems) {
+  for (base::Problem& problem : problems)
+    if (!problem.where.starts_with("--")) problem.where = fmt::format("{}: {}", file, problem.where);
+  return problems;
+}
+
+/// The run that is to clear it, watched.
+base::Result<study::Clearance> cleared(const study::Scenario& scenario) {
+  Progress progress({.seconds = {scenario.duration_s}}, false);
+  const auto keep_going = [&progress](double t_s) {
+    progress.reached(0, t_s);
+    return !interrupted();
+  };
+  return study::clear_for_export(
+      scenario,
+      {.on_record = {}, .on_event = {}, .on_logic = {}, .keep_going = keep_going, .keep_books = false});
+}
+
+/// All that stands against it, at once.
+Exit not_cleared(const ExportArguments& a, const study::Clearance& c) {
+  complain(within(a.file, c.unmeasured));
+  complain(within(a.file, c.unheld));
+  print("no header was written; --despite REASON writes one that says all of this\n", stderr);
+  return graver(exit_of(c.outcome), c.unmeasured.empty() ? Exit::ok : Exit::bad_input);
+}
+
+Exit export_header(const ExportArguments& a) {
+  base::Problems problems;
+  const design::OperatingRange range = range_of(a, problems);
+  const base::Result<study::Scenario> scenario = scenario_of(a);
+  if (!scenario) problems.insert(problems.end(), scenario.problems().begin(), scenario.problems().end());
   if (!problems.empty()) return refused(problems);
-  const base::Result<study::Scenario> scenario = io::read_scenario(a.file, options);
-  if (!scenario) return refused(scenario.problems());
-  std::optional<io::AtomicFile> file;  // before the work begins
+  io::ConfigHeader wanted{.scenario = *scenario,
+                          .arithmetic = {},
+                          .range = range,
+                          .name_space = a.name_space,
+                          .single_header = a.single_header,
+                          .command = a.command,
+                          .clearance = nullptr,
+                          .despite = a.despite.value_or("")};
+  // What the format does not hold, or a file that cannot be written, is told before anything runs.
+  if (const auto unrun = io::config_header(wanted); !unrun) return refused(within(a.file, unrun.problems()));
+  std::optional<io::AtomicFile> file;
   if (!a.out.empty() && a.out != "-") keep(file, io::AtomicFile::create({a.out, a.force}), problems);
   if (!problems.empty()) return refused(problems);
-  const study::Arithmetic number = arithmetic.value_or(scenario->control.arithmetic);
-  if (!a.ranges.empty() && (number == study::Arithmetic::float64 || number == study::Arithmetic::float32))
-    return refused(
-        {{"--range", "", "says what fixed point must hold, and the drive is to be in floating point",
-          "add --arithmetic q15 or another fixed point, or leave the range out"}});
-  const base::Result<std::string> text = io::config_header({.scenario = *scenario,
-                                                            .arithmetic = arithmetic,
-                                                            .range = range,
-                                                            .name_space = a.name_space,
-                                                            .single_header = a.single_header,
-                                                            .command = a.command});
-  if (!text) {
-    problems = text.problems();
-    for (base::Problem& problem : problems)
-      if (!problem.where.starts_with("--")) problem.where = fmt::format("{}: {}", a.file, problem.where);
-    return refused(problems);
-  }
+  catch_interrupts();
+  const base::Result<study::Clearance> clearance = cleared(*scenario);
+  if (interrupted()) return told_interrupted("export " + a.file);
+  if (!clearance) return refused(within(a.file, clearance.problems()));
+  if (!clearance->clear() && !a.despite) return not_cleared(a, *clearance);
+  if (a.despite && clearance->clear())
+    print("--despite was not needed: the run holds, and the header says so\n", stderr);
+  wanted.clearance = &*clearance;
+  const base::Result<std::string> text = io::config_header(wanted);
+  if (!text) return refused(within(a.file, text.problems()));
   if (!file) {
     print(*text);
     return Exit::ok;
@@ -135,6 +184,10 @@ void declare_options(CLI::App& header, ExportArguments& a) {
   take_sets(header, a.sets);
   header.add_option("--namespace", a.name_space, "C++ namespace of what the header declares")
       ->capture_default_str();
+  header.add_option(
+      "--despite", a.despite,
+      "write it although its run fails, or leaves unmeasured what a board has; the header states "
+      "this reason and all that was overridden");
   header.add_flag("--single-header", a.single_header, "include sixstep_control.hpp, not sixstep/control/");
   take_data(header, a.data_dir);
 }
@@ -145,7 +198,8 @@ Verb declare_export(CLI::App& app) {
   CLI::App& exports = *app.add_subcommand("export", "a scenario's drive for use elsewhere");
   exports.require_subcommand(1);
   const auto a = std::make_shared<ExportArguments>();
-  declare_options(*exports.add_subcommand("header", "gains and scalings as constants for firmware, in C++20"),
+  declare_options(*exports.add_subcommand(
+                      "header", "gains and scalings as constants for firmware, in C++20, once the run holds"),
                   *a);
   return {&exports, calling(export_header, a)};
 }

@@ -15,7 +15,7 @@ std::string Job::name() const { return std::filesystem::path(origin_.scenario).s
 
 void Job::run(const std::function<void(double t_s)>& reached) {
   study::Listeners listeners;
-  outputs_.listen(listeners);
+  outputs_.listen(scenario_, listeners);
   listeners.keep_going = [&](double t_s) {
     reached(t_s);
     interrupted_ = interrupted_ || cli::interrupted();
@@ -31,6 +31,15 @@ void Job::run(const std::function<void(double t_s)>& reached) {
   outcome_ = std::move(*result);
   problems_ = outputs_.publish({scenario_, *outcome_, origin_}, !interrupted_ && !broken_);
   reader_gone_ = broken_ && !interrupted_ && problems_.empty();
+}
+
+std::string Job::report_told() const {
+  return outputs_.rows_told().empty() ? "" : fmt::format("{}: {}\n", name(), outputs_.rows_told());
+}
+
+std::string Job::report_foretold() const {
+  const std::string told = reports_ ? io::report::rows_foretold(scenario_) : std::string();
+  return told.empty() ? "" : fmt::format("{}: {}\n", name(), told);
 }
 
 std::string Job::cut_short() const {

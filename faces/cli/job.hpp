@@ -16,7 +16,10 @@ class Job {
       : scenario_(std::move(scenario)), origin_(std::move(origin)) {}
 
   /// Opens every output; Problems mean that nothing was written and nothing must run.
-  base::Problems prepare(const OutputPaths& paths) { return outputs_.open(paths, scenario_, origin_); }
+  base::Problems prepare(const OutputPaths& paths) {
+    reports_ = !paths.html.empty();
+    return outputs_.open(paths, scenario_, origin_);
+  }
 
   /// Runs and puts the outputs in place. `reached` hears the simulated time now and then.
   void run(const std::function<void(double t_s)>& reached);
@@ -30,6 +33,9 @@ class Job {
   /// The path of its report, or of what a run that was cut short left of one; empty where there is none.
   const std::string& report() const { return outputs_.report(); }
   const base::Problems& problems() const { return problems_; }
+  /// Where its events are more than its report keeps: said before it runs, about, and after it. Empty else.
+  std::string report_foretold() const;
+  std::string report_told() const;
   /// Of a run that was ended before its time: when, and what stands where. Empty else.
   std::string cut_short() const;
 
@@ -39,6 +45,7 @@ class Job {
   Outputs outputs_;
   std::optional<study::Outcome> outcome_;
   base::Problems problems_;
+  bool reports_ = false;
   bool interrupted_ = false;
   bool broken_ = false;       // an output could be written no longer
   bool reader_gone_ = false;  // a pipe was closed at its other end

@@ -126,9 +126,9 @@ constexpr std::string_view examples =
     "sixstep run first.toml \\-\\-html first.html\n"
     "sixstep run first.toml \\-\\-set supply.voltage_V=20\n"
     ".RE\n.fi\n.PP\n"
-    "Gains of a speed cascade, put through the sheet's tolerances, as constants\nfor "
-    "firmware:\n.PP\n.nf\n.RS\n"
-    "sixstep design maxon\\-251601 \\-\\-mode speed \\-\\-header gains.hpp\n"
+    "Gains of a speed cascade, put through the sheet's tolerances, as a\nscenario "
+    "that runs:\n.PP\n.nf\n.RS\n"
+    "sixstep design maxon\\-251601 \\-\\-mode speed \\-\\-toml drive.toml\n"
     ".RE\n.fi\n";
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include "faces/cli/terminal.hpp"
 #include "io/results/json_summary.hpp"
 #include "sixstep/study/measure/columns.hpp"
-#include "sixstep/study/measure/trace.hpp"
 
 namespace cli {
 
@@ -45,7 +44,7 @@ base::Problems Outputs::open(const OutputPaths& paths, const study::Scenario& sc
   return problems;
 }
 
-void Outputs::listen(study::Listeners& listeners) {
+void Outputs::listen(const study::Scenario& scenario, study::Listeners& listeners) {
   if (csv_ || mat_ || mat73_)
     listeners.on_record = [this](study::Row row) {
       if (csv_) csv_->row(row);
@@ -57,12 +56,8 @@ void Outputs::listen(study::Listeners& listeners) {
       vcd_->change(ps, row);
     };
   if (!html_) return;
-  events_.columns = study::all_columns();
-  events_.values.resize(events_.columns.size());
-  events_.every_event = true;
-  listeners.on_event = [this](study::Row row) {
-    for (std::size_t n = 0; n < row.size(); ++n) events_.values[n].push_back(row[n]);
-  };
+  events_.emplace(scenario);
+  listeners.on_event = [this](study::Row row) { events_->add(row); };
 }
 
 bool Outputs::failed() const {
@@ -93,10 +88,12 @@ base::Problems Outputs::publish(const RunStory& s, bool whole) {
   put(vcd_, paths_.vcd, whole);
   if (json_) json_->write(io::json_summary(s.scenario, s.outcome));
   put(json_, paths_.json, whole);
-  if (html_) html_->write(report_page({s.scenario, s.outcome, events_, s.origin.text, s.origin.command}));
+  if (html_) rows_told_ = io::report::rows_told(events_->trace());
+  if (html_)
+    html_->write(report_page({s.scenario, s.outcome, events_->trace(), s.origin.text, s.origin.command}));
   report_ = put(html_, paths_.html, whole);
   if (paths_.json == "-" && whole) print(io::json_summary(s.scenario, s.outcome));
-  events_ = {};
+  events_.reset();
   return std::exchange(problems_, {});
 }
 

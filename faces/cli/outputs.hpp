@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "faces/cli/rooms.hpp"
+#include "io/report/kept_rows.hpp"
 #include "io/trace/csv_writer.hpp"
 #include "io/trace/mat_writer.hpp"
 #include "io/trace/vcd_writer.hpp"
-#include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/run/run.hpp"
 
 namespace cli {
@@ -35,7 +35,11 @@ class Outputs {
   base::Problems open(const OutputPaths& paths, const study::Scenario& scenario,
                       const io::TraceOrigin& origin);
 
-  void listen(study::Listeners& listeners);
+  /// The scenario must live as long as the run.
+  void listen(const study::Scenario& scenario, study::Listeners& listeners);
+
+  /// What the report has of the run, where it has not all; known once it is published.
+  const std::string& rows_told() const { return rows_told_; }
 
   /// One of them can be written no longer: a disk is full, or the reader of a pipe has gone.
   bool failed() const;
@@ -58,9 +62,9 @@ class Outputs {
   std::optional<io::MatWriter> mat_, mat73_;
   std::optional<io::VcdWriter> vcd_;
   std::optional<io::AtomicFile> json_, html_;
-  study::Trace events_;  // for the report only
+  std::optional<io::report::KeptRows> events_;  // for the report only
   base::Problems problems_;
-  std::string report_;
+  std::string report_, rows_told_;
   std::vector<std::string> partial_files_;
 };
 

@@ -60,6 +60,8 @@ base::Problems prepare(const RunArguments& arguments, std::vector<Job>& jobs,
 }
 
 void run_all(std::vector<Job>& jobs, const RunArguments& arguments) {
+  for (const Job& job : jobs)
+    if (!arguments.quiet) print(job.report_foretold(), stderr);
   Work work;
   for (const Job& job : jobs) work.seconds.push_back(job.scenario().duration_s);
   Progress progress(std::move(work), arguments.quiet);
@@ -108,6 +110,7 @@ Exit tell(const std::vector<Job>& jobs, const RunArguments& arguments, std::opti
     if (!interrupted()) exit = graver(exit, job.exit_code());
     complain(job.problems());
     print(job.cut_short(), stderr);
+    if (!arguments.quiet) print(job.report_told(), stderr);
   }
   if (!arguments.quiet) print_table(jobs, arguments);
   if (index) {

@@ -98,4 +98,9 @@ void catch_interrupts() {
 bool interrupted() { return asked_to_end != 0; }
 Exit exit_of_interrupt() { return asked_to_end == SIGTERM ? Exit::terminated : Exit::interrupted; }
 
+Exit told_interrupted(const std::string& what) {
+  print(what + ": interrupted; nothing was written\n", stderr);
+  return exit_of_interrupt();
+}
+
 }  // namespace cli

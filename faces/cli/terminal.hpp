@@ -2,6 +2,7 @@
 // What the program says, and what the terminal may be asked.
 #pragma once
 #include <cstdio>
+#include <string>
 #include <string_view>
 
 #include "faces/cli/exit_code.hpp"
@@ -40,5 +41,7 @@ void catch_interrupts();
 bool interrupted();
 /// 130 after Ctrl-C, 143 after SIGTERM.
 Exit exit_of_interrupt();
+/// Of work that leaves nothing behind where it is cut short, which is told.
+Exit told_interrupted(const std::string& what);
 
 }  // namespace cli

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/escape/escape.hpp"
+#include "io/export/clearance_lines.hpp"
 #include "io/export/config_lines.hpp"
 #include "io/export/product_lines.hpp"
 #include "sixstep/base/written.hpp"
@@ -46,6 +47,10 @@ std::string derivation(const study::LoopGains& g) {
   return text + fmt::format("; {} would give d1 = {}, d0 = {}", rule, number(p.gains.d1), number(p.gains.d0));
 }
 
+bool states_range(const design::OperatingRange& r) {
+  return r.current_A > 0 || r.speed_rad_s > 0 || r.position_deg > 0 || r.bus_V > 0 || r.setpoint > 0;
+}
+
 std::string head(const ConfigHeader& w, const study::Compiled& c) {
   const sixstep::plant::Machine& m = c.motor.machine;
   std::string text = "// clang-format off\n";
@@ -57,9 +62,10 @@ std::string head(const ConfigHeader& w, const study::Compiled& c) {
                            w.scenario.sheet.name, m.pole_pairs, number(2 * m.R_ohm), number(2 * m.L_H),
                            number(c.motor.K_t_Nm_A), number(c.shaft.J_kg_m2)));
   for (const study::LoopGains& g : c.gains) text += comment(g.loop, derivation(g));
-  return text +
-         "// Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the "
-         "motor.\n";
+  text +=
+      "// Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the "
+      "motor.\n//\n";
+  return text + clearance_lines({w.scenario, w.clearance, w.despite, states_range(w.range)});
 }
 
 std::string proof(const std::vector<design::Headroom>& rows) {
@@ -141,10 +147,6 @@ design::OperatingRange range_of(const ConfigHeader& w, const study::Compiled& c)
   return {stated(w.range.current_A, own.current_A), stated(w.range.speed_rad_s, own.speed_rad_s),
           stated(w.range.position_deg, own.position_deg), stated(w.range.bus_V, own.bus_V),
           stated(w.range.setpoint, own.setpoint)};
-}
-
-bool states_range(const design::OperatingRange& r) {
-  return r.current_A > 0 || r.speed_rad_s > 0 || r.position_deg > 0 || r.bus_V > 0 || r.setpoint > 0;
 }
 
 template <class Scalar>

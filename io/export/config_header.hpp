@@ -9,6 +9,7 @@
 #include "sixstep/base/result.hpp"
 #include "sixstep/design/scaling/scaling.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
+#include "sixstep/study/verify/export_gate.hpp"
 
 namespace io {
 
@@ -21,6 +22,9 @@ struct ConfigHeader {
   std::string name_space;      ///< what the header declares is in it; a C++ name
   bool single_header = false;  ///< includes sixstep_control.hpp, not sixstep/control/
   std::string command;         ///< what makes this header again
+  /// What its run has shown, which the header states; without one it says that nothing has.
+  const study::Clearance* clearance = nullptr;
+  std::string despite;  ///< why it is written although it is not clear
 };
 
 /// The header's text. Problems: a scenario without a drive (mode off), and what does not fit the fixed-point

@@ -153,12 +153,13 @@ std::string usual_figures(const std::vector<ComparedRun>& runs) {
   });
   rows += figure_row("all of the bus in use for", "s", runs, [](const ComparedRun& run) {
     const auto held = held_back(run.events, run.scenario, run.outcome);
-    return held ? std::optional(Measured{held->bus_s, ""}) : std::nullopt;
+    return held && run.events.whole.empty() ? std::optional(Measured{held->bus_s, ""}) : std::nullopt;
   });
   rows += figure_row("mean switching frequency", "Hz", runs,
                      [](const ComparedRun& run) -> std::optional<Measured> {
                        const auto counts = turn_on_counts(run.events);
-                       if (!counts || !(run.outcome.simulated_s > 0.0)) return std::nullopt;
+                       if (!counts || !run.events.whole.empty() || !(run.outcome.simulated_s > 0.0))
+                         return std::nullopt;
                        double all = 0.0;
                        for (const long long n : *counts) all += static_cast<double>(n);
                        return Measured{all / run.outcome.simulated_s, ""};

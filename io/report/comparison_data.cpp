@@ -65,8 +65,8 @@ json overlay(const Compared& what, const std::vector<ComparedRun>& runs, const s
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto& time = *find_column(runs[k].events, "t_s");
     const Thinned rows = thinned(time, {columns[k]}, keep[k], size.cap, size.full);
-    complete = complete && rows.complete;
-    recorded = std::max(recorded, time.size());
+    complete = complete && rows.complete && runs[k].events.whole.empty();
+    recorded = std::max(recorded, time.size() + runs[k].events.left_out);
     const Curve curve{std::to_string(k + 1), run_style(k), runs[k].name, &columns[k]};
     curves.push_back(curve_json(curve, axes.of(time, rows.rows), rows.rows));
   }
@@ -104,7 +104,7 @@ json every_row(const std::vector<ComparedRun>& runs, const std::deque<std::vecto
   json out = json::array();
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto& time = *find_column(runs[k].events, "t_s");
-    if (time.size() <= size.full) continue;
+    if (time.size() <= size.full || !runs[k].events.whole.empty()) continue;
     std::vector<const Values*> columns;
     std::vector<CurvePlace> places;
     for (std::size_t n = 0; n < drawn.size(); ++n) {

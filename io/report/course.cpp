@@ -138,12 +138,12 @@ std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
   const auto* current = find_column(trace, "i_m_A");
   if (!time || !current) return std::nullopt;
   const double shown = step.window.to - step.window.from, rest = step.next_s - step.window.to;
-  if (!(shown > 0.0)) return std::nullopt;
+  if (!(shown > 0.0) || !is_whole(trace, step.window)) return std::nullopt;
   const std::size_t peak = peak_row(*time, *current, step.window);
   StepCurrent out{.peak_A = (*current)[peak],
                   .peak_after_s = (*time)[peak] - step.at_s,
                   .rms_A = std::sqrt(line_over(*time, *current, step.window).square / shown)};
-  if (step.done && rest > 0.0) {
+  if (step.done && rest > 0.0 && is_whole(trace, {step.window.to, step.next_s})) {
     const Line then = line_over(*time, *current, {step.window.to, step.next_s});
     out.then_mean_A = then.integral / rest;
     out.then_span_A = then.high - then.low;
@@ -156,10 +156,11 @@ std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
 namespace {
 
 /// Of a value that is held from one row to the next: how long it was at the bound or beyond.
-double seconds_at(const Values& time, const Values& held, double bound) {
+double seconds_at(const Values& time, const Values& held, double bound, double from_s) {
   double sum = 0.0;
   for (std::size_t n = 1; n < time.size(); ++n)
-    if (std::abs(held[n - 1]) >= bound && std::abs(held[n]) >= bound) sum += time[n] - time[n - 1];
+    if (time[n - 1] >= from_s && std::abs(held[n - 1]) >= bound && std::abs(held[n]) >= bound)
+      sum += time[n] - time[n - 1];
   return sum;
 }
 
@@ -183,24 +184,32 @@ std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
   const bool compares = scenario.control.current.type == sixstep::study::CurrentLoopType::hysteresis &&
                         scenario.control.mode >= Mode::current;
   if (!time || !duty || compares || scenario.control.mode == Mode::off) return std::nullopt;
-  Held out{.bus_s = seconds_at(*time, *duty, 1.0), .limit_A = current_limit_A(scenario, outcome.motor)};
+  const double from_s = whole_from_s(trace);
+  Held out{.seen_s = time->back() - from_s,
+           .bus_s = seconds_at(*time, *duty, 1.0, from_s),
+           .limit_A = current_limit_A(scenario, outcome.motor)};
   for (const double d : *duty) out.largest_duty = std::max(out.largest_duty, std::abs(d));
   const auto* reference = find_column(trace, "i_ref_A");
   // The controller's number may be a float or a fixed one: as near as its coarsest step, 2^-14 of full scale.
   if (reference && out.limit_A)
-    out.limit_s = seconds_at(*time, *reference, *out.limit_A * (1.0 - 1.0 / 8192));
+    out.limit_s = seconds_at(*time, *reference, *out.limit_A * (1.0 - 1.0 / 8192), from_s);
   return out;
 }
 
 std::optional<std::array<long long, 6>> turn_on_counts(const Trace& trace) {
   static constexpr const char* names[] = {"gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"};
   std::array<long long, 6> counts{};
+  const auto* time = find_column(trace, "t_s");
+  if (!time) return std::nullopt;
+  const auto first =
+      static_cast<std::size_t>(std::ranges::lower_bound(*time, whole_from_s(trace)) - time->begin());
   bool any = false;
   for (std::size_t k = 0; k < 6; ++k) {
     const auto* gate = find_column(trace, names[k]);
     if (!gate) continue;
     any = true;
-    for (std::size_t n = 1; n < gate->size(); ++n) counts[k] += (*gate)[n] > 0.5 && (*gate)[n - 1] < 0.5;
+    for (std::size_t n = first + 1; n < gate->size(); ++n)
+      counts[k] += (*gate)[n] > 0.5 && (*gate)[n - 1] < 0.5;
   }
   return any ? std::optional(counts) : std::nullopt;
 }

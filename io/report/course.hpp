@@ -30,7 +30,7 @@ std::optional<Step> largest_step(const sixstep::study::Trace& trace,
 std::optional<double> last_setpoint_s(const sixstep::study::Trace& trace,
                                       const sixstep::study::Scenario& scenario);
 
-/// The motor current i_m during a step.
+/// The motor current i_m during a step; empty where an envelope stands for it.
 struct StepCurrent {
   double peak_A = 0.0, peak_after_s = 0.0;
   std::optional<double> asked_A;                   ///< largest reference, where there is a current loop
@@ -41,6 +41,8 @@ std::optional<StepCurrent> step_current(const sixstep::study::Trace& trace, cons
 
 /// How long what held the run back, s.
 struct Held {
+  double seen_s =
+      0.0;  ///< of the run's last part, where an envelope stands for the rows before; else all of it
   double bus_s = 0.0;  ///< the driven pair fully on: no more voltage to be had
   double largest_duty = 0.0;
   std::optional<double> limit_A;  ///< of the current reference, in cascades
@@ -50,7 +52,7 @@ struct Held {
 std::optional<Held> held_back(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
                               const sixstep::study::Outcome& outcome);
 
-/// Turn-ons of T1 to T6.
+/// Turn-ons of T1 to T6, from whole_from_s() on.
 std::optional<std::array<long long, 6>> turn_on_counts(const sixstep::study::Trace& trace);
 
 }  // namespace io::report

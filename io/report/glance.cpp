@@ -52,8 +52,9 @@ std::string limits(const Scenario& scenario, const Outcome& outcome, const Trace
   std::string text = closest(outcome);
   if (const auto held = held_back(trace, scenario, outcome)) {
     const auto lasted = [&](double seconds) {
-      return fmt::format("<b>{}</b>, {} of the run", computed(seconds, "s"),
-                         percent(seconds / outcome.simulated_s));
+      const std::string seen = trace.whole.empty() ? "the run" : "its last " + computed(held->seen_s, "s");
+      return fmt::format("<b>{}</b>, {} of {}", computed(seconds, "s"),
+                         percent(seconds / (trace.whole.empty() ? outcome.simulated_s : held->seen_s)), seen);
     };
     text += answer("Bus voltage", held->bus_s > 0.0 ? "all of it in use for " + lasted(held->bus_s)
                                                     : fmt::format("never all in use: duty {} at most",
@@ -166,7 +167,8 @@ std::string energy(const EnergyBook& b) {
 
 std::string cost(const Outcome& outcome, const Trace& trace) {
   std::string text = outcome.energy ? energy(*outcome.energy) : "";
-  if (const auto counts = turn_on_counts(trace); counts && outcome.simulated_s > 0.0) {
+  const double seen_s = trace.whole.empty() ? outcome.simulated_s : outcome.simulated_s - whole_from_s(trace);
+  if (const auto counts = turn_on_counts(trace); counts && seen_s > 0.0) {
     long long all = 0;
     std::size_t busiest = 0;
     for (std::size_t k = 0; k < 6; ++k) {
@@ -176,9 +178,10 @@ std::string cost(const Outcome& outcome, const Trace& trace) {
     const std::string told =
         all == 0 ? std::string("none: no switch is turned on after the start")
                  : fmt::format("<b>{}</b> turn-ons, {} on average; T{} most often, {} times", grouped(all),
-                               computed(static_cast<double>(all) / outcome.simulated_s, "Hz"), busiest + 1,
+                               computed(static_cast<double>(all) / seen_s, "Hz"), busiest + 1,
                                grouped((*counts)[busiest]));
-    text += list(answer("Switching", told));
+    const std::string when = trace.whole.empty() ? "" : " in the last " + computed(seen_s, "s");
+    text += list(answer("Switching" + when, told));
   }
   return text.empty() ? "" : card("cost", "What it cost", text);
 }

@@ -81,9 +81,10 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
   out["windows"] = windows_json(windows, scenario);
   Axes axes(out);
   const Groups groups = chart_groups(trace, scenario);
-  const Conduction conducts = conduction(trace);
-  const json every =
-      time->size() > size.full ? every_row(*time, groups, conducts, size.packed_bytes) : json();
+  const Conduction conducts = trace.whole.empty() ? conduction(trace) : Conduction();
+  const json every = time->size() > size.full && trace.whole.empty()
+                         ? every_row(*time, groups, conducts, size.packed_bytes)
+                         : json();
   // Where every row is at hand, an envelope needs no close-ups.
   const std::vector<Interval> keep =
       every.is_null() ? kept(windows, *time, size.full) : std::vector<Interval>();
@@ -92,7 +93,7 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
     Curves curves;
     for (const Curve& curve : group.curves) curves.emplace_back(*curve.values);
     const Thinned rows = thinned(*time, curves, keep, size.cap, size.full);
-    json chart = chart_json(group, rows.complete, time->size());
+    json chart = chart_json(group, rows.complete && trace.whole.empty(), time->size() + trace.left_out);
     for (const Curve& curve : group.curves)
       chart["curves"].push_back(curve_json(curve, axes.of(*time, rows.rows), rows.rows));
     out["charts"].push_back(std::move(chart));

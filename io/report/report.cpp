@@ -7,6 +7,7 @@
 #include "io/report/figures.hpp"
 #include "io/report/glance.hpp"
 #include "io/report/html.hpp"
+#include "io/report/kept_rows.hpp"
 #include "io/report/ledger.hpp"
 #include "io/report/parameters.hpp"
 #include "io/report/plots.hpp"
@@ -36,6 +37,8 @@ std::string alerts(const ReportInput& in) {
     html +=
         fmt::format("<p class=\"alert\" role=\"alert\"><b>Interrupted</b> at {} of {}.</p>\n",
                     escaped(given(in.outcome.simulated_s, "s")), escaped(given(in.scenario.duration_s, "s")));
+  if (const std::string told = rows_told(in.trace); !told.empty())
+    html += fmt::format("<p class=\"quiet\">Of this run {}.</p>\n", escaped(told));
   return html;
 }
 
@@ -52,6 +55,13 @@ std::string comparisons(const sixstep::study::Outcome& outcome) {
          "class=\"num\">There</th>"
          "<th class=\"num\">Here</th><th class=\"num\">Deviation</th><th>Source</th></tr></thead><tbody>\n" +
          comparison_rows(outcome) + "</tbody></table>\n";
+}
+
+/// Who interrupts a run waits for its report: packing every row would take longest.
+PlotSize size_of(const ReportInput& in) {
+  PlotSize size;
+  if (sixstep::study::cut_short(in.scenario, in.outcome)) size.packed_bytes = 0;
+  return size;
 }
 
 }  // namespace
@@ -86,7 +96,7 @@ std::string render(const ReportInput& in) {
                           {"scenario", escaped(in.scenario_text)}});
   return in_shell(
       {.title = verdict.word + " · " + title, .body = body, .command = in.command, .version = in.version},
-      plot_data(in.trace, in.scenario, pole_pairs, {}, found), run_scripts);
+      plot_data(in.trace, in.scenario, pole_pairs, size_of(in), found), run_scripts);
 }
 
 }  // namespace io::report

@@ -15,9 +15,8 @@ namespace io::report {
 struct ReportInput {
   const sixstep::study::Scenario& scenario;
   const sixstep::study::Outcome& outcome;
-  const sixstep::study::Trace&
-      trace;            ///< every event, both sides of jumps; absent or NaN columns are left out
-  std::string command;  ///< what makes this report again
+  const sixstep::study::Trace& trace;  ///< of every event, as KeptRows has it; NaN columns are left out
+  std::string command;                 ///< what makes this report again
   std::string version;
   std::string scenario_text;  ///< the file as written
 };

@@ -71,7 +71,7 @@ std::optional<Stretch> steady_stretch(const sixstep::study::Trace& trace,
   if (!time || time->size() < 2) return std::nullopt;
   const double end = time->back(), begin = last_setpoint_s(trace, scenario).value_or(time->front());
   const double longest = most_periods * scenario.pwm.period_s;
-  Stretch out{{std::max((begin + end) / 2, end - longest), end}, 0};
+  Stretch out{{std::max({(begin + end) / 2, end - longest, whole_from_s(trace)}), end}, 0};
   const auto* angle = find_column(trace, "angle_rad");
   if (angle && pole_pairs > 0) {
     const double turned = (angle->back() - value_at(*time, *angle, out.time.from)) * pole_pairs / (2 * pi);

@@ -38,6 +38,8 @@ void keep_extremes(const std::vector<std::size_t>& rows, std::size_t begin, std:
   kept.insert(kept.end(), chosen.begin(), std::unique(chosen.begin(), chosen.end()));
 }
 
+}  // namespace
+
 std::vector<std::size_t> envelope(std::span<const double> time, const std::vector<std::size_t>& rows,
                                   const Curves& curves, std::size_t buckets) {
   const double start = time[rows.front()];
@@ -53,8 +55,6 @@ std::vector<std::size_t> envelope(std::span<const double> time, const std::vecto
   }
   return kept;
 }
-
-}  // namespace
 
 Thinned thinned(std::span<const double> time, const Curves& curves, std::span<const Interval> keep,
                 std::size_t cap, std::size_t full) {

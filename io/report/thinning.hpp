@@ -25,4 +25,9 @@ struct Thinned {
 Thinned thinned(std::span<const double> time, const Curves& curves, std::span<const Interval> keep,
                 std::size_t cap, std::size_t full);
 
+/// Of these rows the first, lowest, highest and last of each curve in each of `buckets` equal stretches of
+/// time, so 2 + 2 curves rows a stretch at most.
+std::vector<std::size_t> envelope(std::span<const double> time, const std::vector<std::size_t>& rows,
+                                  const Curves& curves, std::size_t buckets);
+
 }  // namespace io::report

@@ -54,6 +54,7 @@ std::optional<Interval> switching_periods(const Trace& trace, const sixstep::stu
   for (std::int64_t n = last - 3; n >= 0; n -= 3) {
     const Interval window{at(n), at(n + 3)};
     const auto begin = std::lower_bound(instants.begin(), instants.end(), window.from);
+    if (!is_whole(trace, window)) break;  // nor is any before it
     if (std::upper_bound(instants.begin(), instants.end(), window.to) - begin >= 3) return window;
   }
   return Interval{at(last - 3), at(last)};
@@ -85,7 +86,7 @@ std::optional<Interval> one_commutation(const Trace& trace, double period, const
     const double sector = k > 0 ? edge - time[edges[k - 1]] : 10.0 * period;
     const Interval window{edge - std::clamp(0.5 * sector, 3.0 * period, 8.0 * period),
                           edge + std::clamp(1.1 * sector, 6.0 * period, 14.0 * period)};
-    if (window.from >= time.front() && window.to <= time.back()) return window;
+    if (window.from >= time.front() && window.to <= time.back() && is_whole(trace, window)) return window;
   }
   return std::nullopt;
 }
@@ -102,6 +103,18 @@ const std::vector<double>* find_column(const Trace& trace, std::string_view name
   return nullptr;
 }
 
+bool is_whole(const Trace& trace, const Interval& interval) {
+  return trace.whole.empty() || std::ranges::any_of(trace.whole, [&](const sixstep::study::TimeSpan& s) {
+           return s.from_s <= interval.from && interval.to <= s.to_s;
+         });
+}
+
+double whole_from_s(const Trace& trace) {
+  if (!trace.whole.empty()) return trace.whole.back().from_s;
+  const auto* time = find_column(trace, "t_s");
+  return time && !time->empty() ? time->front() : 0.0;
+}
+
 Windows choose_windows(const Trace& trace, const sixstep::study::Scenario& scenario) {
   const auto* time = find_column(trace, "t_s");
   if (!time || time->size() < 2) return {};
@@ -109,7 +122,8 @@ Windows choose_windows(const Trace& trace, const sixstep::study::Scenario& scena
               one_commutation(trace, scenario.pwm.period_s, *time)};
   // A step that takes the whole run needs no close-up.
   const auto step = largest_step(trace, scenario);
-  if (step && step->window.to - step->window.from < 0.8 * (time->back() - time->front()))
+  if (step && step->window.to - step->window.from < 0.8 * (time->back() - time->front()) &&
+      is_whole(trace, step->window))
     out.step = step->window;
   return out;
 }

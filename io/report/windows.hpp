@@ -12,6 +12,11 @@ namespace io::report {
 /// A column by name; null where the trace has none or it never holds a number.
 const std::vector<double>* find_column(const sixstep::study::Trace& trace, std::string_view name);
 
+/// Whether every row of the interval stands in the trace.
+bool is_whole(const sixstep::study::Trace& trace, const Interval& interval);
+/// From when on every row stands; the first row's time where all do.
+double whole_from_s(const sixstep::study::Trace& trace);
+
 struct Windows {
   std::optional<Interval> periods;  ///< three PWM periods in which the bridge switches, as late as possible
   std::optional<Interval>

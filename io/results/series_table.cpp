@@ -64,9 +64,27 @@ std::string casualties(const std::vector<batch::Casualty>& which, const char* wh
                      visible(to_string(which[0].problem)));
 }
 
+/// Of those that were run; what an interrupted series would have come to, nobody knows.
+std::string sum(const batch::Series& series, std::uint64_t seed, std::size_t wanted) {
+  if (series.runs == 0) return fmt::format("interrupted before the first of {} drives ended\n", wanted);
+  const bool all = series.runs == wanted;
+  const std::string begin =
+      all ? fmt::format("{} drives, seed {}: ", series.runs, seed)
+          : fmt::format("interrupted after {} of {} drives, seed {}: ", series.runs, wanted, seed);
+  const std::string of_these = all ? "" : "of these ";
+  if (series.passed < series.runs)
+    return begin + of_these +
+           fmt::format("{} hold every requirement, {} do NOT\n", series.passed, series.runs - series.passed);
+  const bool asks = std::any_of(series.figures.begin(), series.figures.end(),
+                                [](const batch::SpreadFigure& f) { return f.required; });
+  return begin + (asks ? of_these + "all hold every requirement\n" : "nothing required\n");
+}
+
 }  // namespace
 
-std::string series_table(const std::string& name, const batch::Series& series, std::uint64_t seed) {
+std::string series_table(const std::string& name, const batch::Series& series, std::uint64_t seed,
+                         std::size_t wanted) {
+  if (series.runs == 0) return sum(series, seed, wanted);
   std::vector<Row> rows = {
       {name, "required", "min", "5 %", "median", "95 %", "max", "mean", "deviation", "holds"}};
   for (const batch::SpreadFigure& figure : series.figures) rows.push_back(row_of(figure, series.runs));
@@ -77,13 +95,7 @@ std::string series_table(const std::string& name, const batch::Series& series, s
     if (f.first_miss)
       text += fmt::format("  {}: the first miss is drive {} (--seed {} --drive {})\n", visible(f.figure),
                           *f.first_miss, seed, *f.first_miss);
-  const bool asks = std::any_of(series.figures.begin(), series.figures.end(),
-                                [](const batch::SpreadFigure& f) { return f.required; });
-  text += fmt::format("{} drives, seed {}: ", series.runs, seed);
-  if (!asks && series.passed == series.runs) return text + "nothing required\n";
-  return text + (series.passed == series.runs ? "all hold every requirement\n"
-                                              : fmt::format("{} hold every requirement, {} do NOT\n",
-                                                            series.passed, series.runs - series.passed));
+  return text + sum(series, seed, wanted);
 }
 
 }  // namespace io

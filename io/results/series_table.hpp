@@ -9,7 +9,8 @@
 namespace io {
 
 /// A series for the terminal: each figure's spread and how many drives hold each requirement, what went
-/// wrong, and how to look at one drive alone.
-std::string series_table(const std::string& name, const batch::Series& series, std::uint64_t seed);
+/// wrong, and how to look at one drive alone. Of a series that was interrupted, `wanted` says of how many.
+std::string series_table(const std::string& name, const batch::Series& series, std::uint64_t seed,
+                         std::size_t wanted);
 
 }  // namespace io

@@ -85,11 +85,17 @@ std::string with_plain_exponent(const std::string& text) {
   return fmt::format("{}e{}", digits, power);
 }
 
+/// Written out it stands for itself: what it extends is in it already, and would be laid under it once more.
+study::Scenario alone(study::Scenario scenario) {
+  scenario.extends.clear();
+  return scenario;
+}
+
 class Starter {
  public:
   Starter(const study::Scenario& scenario, bool full)
       : keys_(scenario_keys()),
-        values_(scenario_values(scenario)),
+        values_(scenario_values(alone(scenario))),
         wanted_(wanted_keys(scenario.control.mode)),
         full_(full) {}
 

@@ -46,10 +46,10 @@ class Design(ProgramTest):
         self.assertIn("held up to 71.6 rad/s, (i/K_t) R", text)
         self.assertEqual(self.names(), [])
 
-    def test_design_writes_a_scenario_that_runs_and_a_header_of_the_same_gains(self):
+    def test_design_writes_a_scenario_that_runs_and_is_exported_with_the_same_gains(self):
         for mode, figures in (("current", 3), ("speed", 7), ("position", 4)):
             self.run_program("design", "maxon-251601", "--mode", mode, "--quick", "--quiet", "--toml", "d.toml",
-                             "--header", "d.hpp", "--json", "d.json")
+                             "--json", "d.json")
             designed = json.loads((self.path / "d.json").read_text())
             self.assertTrue(designed["usable"])
             self.assertNotIn("tolerances", designed)
@@ -61,9 +61,11 @@ class Design(ProgramTest):
                 self.assertEqual(gains["loop"], loop["name"])
                 self.assertEqual(gains["d1"], loop["gain_rad_s_per_deg"] if mode == "position" and gains["loop"] == mode
                                  else loop["gains"]["d1"])
+            self.run_program("export", "header", "d.toml", "--out", "d.hpp")  # its test is a board's
             d1 = float(designed["loops"][0]["gains"]["d1"]).hex()
             mantissa, exponent = d1.split("p")
             self.assertIn(f"{mantissa.rstrip('0')}p{exponent}", (self.path / "d.hpp").read_text())
+            (self.path / "d.hpp").unlink()
 
     def test_design_of_a_motor_file_names_it_as_the_scenario_sees_it(self):
         (self.path / "mine.toml").write_text((SOURCE / "data/motors/maxon-251601.toml").read_text())

@@ -141,8 +141,7 @@ class Hostile(ProgramTest):
             plain = self.run_bytes("motor", "show", "maxon-251601").stdout.count(b"\n")
             self.assertEqual(self.run_bytes("motor", "show", "own").stdout.count(b"\n"), plain)
         for words in (["curve", "own", "--points", "2"], ["curve", "own", "--points", "2", "--json", "-"], ["curve", "own", "--points", "2", "--csv", "/dev/stdout"],
-                      ["design", "own", "--quick"], ["design", "own", "--quick", "--toml", "/dev/stdout", "--quiet"],
-                      ["design", "own", "--quick", "--header", "/dev/stdout", "--quiet"]):
+                      ["design", "own", "--quick"], ["design", "own", "--quick", "--toml", "/dev/stdout", "--quiet"]):
             shown = self.run_bytes(*words)
             self.check_shown(shown.stdout + shown.stderr)
 
@@ -151,7 +150,7 @@ class Hostile(ProgramTest):
         comments = b""
         for text in UTF8:
             (self.path / "a.toml").write_text(re.sub("(?m)^title = .*", lambda m: f"title = {quoted(text)}", base))
-            header = self.run_bytes("export", "header", "a.toml", b"--set=notes=" + quoted(text).encode()).stdout
+            header = self.run_bytes("export", "header", "a.toml", b"--despite=" + text.encode(), b"--set=notes=" + quoted(text).encode()).stdout
             self.check_shown(header)
             comments += header.split(b"#pragma")[0]
         lines = comments.splitlines()

@@ -73,13 +73,13 @@ class Motor(ProgramTest):
         self.assertRegex(self.run_program("motor", "check", "mine.toml").stdout, r"\nconsistent: (\d+) of \1 relations hold\n$")
         no_load = json.loads(self.run_program("curve", "mine.toml", "--json", "-").stdout)["no_load"]["speed_rad_s"]
         self.assertAlmostEqual(no_load * 30 / 3.141592653589793 / 5160, 1, 2)
-        told = self.run_program("design", "mine.toml", "--mode", "speed", "--toml", "drive.toml", "--header", "gains.hpp").stdout
+        told = self.run_program("design", "mine.toml", "--mode", "speed", "--toml", "drive.toml").stdout
         self.assertRegex(told, r"^usable.*: the speed loop settles in ")
         self.assertEqual(self.run_program("run", "drive.toml", "--json", "verdict.json").returncode, 0)
         gains = json.loads((self.path / "verdict.json").read_text())["gains"]
         self.assertEqual([g["loop"] for g in gains], ["current", "speed"])
         self.assertIn(f"{gains[1]['d1']:.3g}"[:4], told)
-        self.assertEqual(self.names(), ["drive.toml", "gains.hpp", "mine.toml", "verdict.json"])
+        self.assertEqual(self.names(), ["drive.toml", "mine.toml", "verdict.json"])
 
 
 if __name__ == "__main__":

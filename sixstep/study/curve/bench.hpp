@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A motor on a test bench that holds its speed: what the torque-speed curve is taken of.
 #pragma once
+#include <cstdint>
+#include <functional>
+
 #include "sixstep/base/problem.hpp"
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
@@ -16,6 +19,23 @@ struct Bench {
   double duty = 1.0;  ///< in [-1, 1], not 0; a negative one drives backwards
   control::Chopping chopping = control::Chopping::soft;
   double pwm_period_s = 30e-6;
+  /// Asked now and then, on any thread; false ends what is under way, which is a Problem then. May be empty.
+  std::function<bool()> keep_going{};
+};
+
+/// What keep_going has ended.
+inline bool told_to_stop(const Bench& b) { return b.keep_going && !b.keep_going(); }
+inline base::Problem interrupted_work() { return {"curve", "", "was interrupted", "start it again"}; }
+
+/// Watches a run with `observer`, which never ends one itself, and asks now and then whether to go on.
+template <class Observer>
+struct Asking {
+  const std::function<bool()>& keep_going;
+  Observer& observer;
+  std::uint32_t segments = 0;
+
+  void segment(const auto& system, double s) { observer.segment(system, s); }
+  bool done(const auto&) { return keep_going && ++segments % 256 == 0 && !keep_going(); }
 };
 
 /// What no curve can be taken of; `where` is the member's name.

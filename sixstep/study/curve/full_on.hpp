@@ -23,7 +23,9 @@ inline plant::Plant<double> plant_of(const Bench& b, const plant::Shaft& shaft, 
 class FullOn : public rig::BarePlant<double> {
  public:
   FullOn(const Bench& bench, const plant::Shaft& shaft, double speed_rad_s)
-      : BarePlant(plant_of(bench, shaft, speed_rad_s)), reversed_(bench.duty < 0) {
+      : BarePlant(plant_of(bench, shaft, speed_rad_s)),
+        keep_going_(bench.keep_going),
+        reversed_(bench.duty < 0) {
     commutate();
   }
 
@@ -36,17 +38,20 @@ class FullOn : public rig::BarePlant<double> {
   /// As OpenLoop's, for what does not care which of the two it watches.
   template <class Observer>
   sim::Stop run_for(double seconds, Observer& observer) {
-    return sim::run(*this, now_.plus_seconds(seconds), observer).stop;
+    Asking<Observer> asking{keep_going_, observer};
+    return sim::run(*this, now_.plus_seconds(seconds), asking).stop;
   }
   sim::Stop run_for(double seconds) {
     sim::NoObserver none;
     return run_for(seconds, none);
   }
 
-  /// Until that many edges are passed, with or without a tally; anything but Stop::observer is a defect.
+  /// Until that many edges are passed, with or without a tally: Stop::observer. Stop::end where it was told
+  /// to stop before; anything else is a defect.
   sim::Stop run_to_edge(std::int64_t target, Tally* tally = nullptr) {
-    UntilEdge until{target, tally};
-    return sim::run(*this, sim::Instant::never(), until).stop;
+    UntilEdge until{target, tally, keep_going_, asked_};
+    const sim::Stop stop = sim::run(*this, sim::Instant::never(), until).stop;
+    return stop == sim::Stop::observer && edges_ < target ? sim::Stop::end : stop;
   }
 
   std::int64_t edges() const { return edges_; }  ///< sector edges passed
@@ -55,10 +60,14 @@ class FullOn : public rig::BarePlant<double> {
   struct UntilEdge {
     std::int64_t target;
     Tally* tally;
+    const std::function<bool()>& keep_going;
+    std::uint32_t& asked;  // from one call to the next: a sector has a few segments
     void segment(const FullOn& system, double s) {
       if (tally) tally->segment(system, s);
     }
-    bool done(const FullOn& system) const { return system.edges() >= target; }
+    bool done(const FullOn& system) {
+      return system.edges() >= target || (keep_going && ++asked % 256 == 0 && !keep_going());
+    }
   };
   void commutate() {
     const control::Pair positive = control::positive_pair(static_cast<std::uint8_t>(plant_.sector()));
@@ -69,7 +78,9 @@ class FullOn : public rig::BarePlant<double> {
     plant_.set_gates(gates);  // two different legs: no shoot-through
   }
 
+  std::function<bool()> keep_going_;
   std::int64_t edges_ = 0;
+  std::uint32_t asked_ = 0;
   bool reversed_;
 };
 

@@ -152,6 +152,7 @@ base::Result<NoLoad> no_load(const Bench& b) {
     OpenLoop system(b, plant);
     run_free(b, system, 20 * time_constant, 2 * time_constant, out);
   }
+  if (told_to_stop(b)) return interrupted_work();
   return out;
 }
 

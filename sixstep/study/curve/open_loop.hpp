@@ -11,13 +11,16 @@ class OpenLoop {
  public:
   OpenLoop(const Bench& b, const plant::Plant<double>& plant)
       : timeline_{{sim::Instant{}, rig::ActionKind::setpoint, b.duty}},
+        keep_going_(b.keep_going),
         rig_(plant, drive_of(b), board_of(b), timeline_) {}
   OpenLoop(const OpenLoop&) = delete;  // the rig looks at this timeline
   OpenLoop& operator=(const OpenLoop&) = delete;
 
+  /// Stop::observer: told to stop (Bench::keep_going).
   template <class Observer>
   sim::Stop run_for(double seconds, Observer& observer) {
-    return sim::run(rig_, rig_.now().plus_seconds(seconds), observer).stop;
+    Asking<Observer> asking{keep_going_, observer};
+    return sim::run(rig_, rig_.now().plus_seconds(seconds), asking).stop;
   }
   sim::Stop run_for(double seconds) {
     sim::NoObserver none;
@@ -41,6 +44,7 @@ class OpenLoop {
   }
 
   rig::Timeline timeline_;
+  std::function<bool()> keep_going_;
   rig::LeanRig<double> rig_;
 };
 

@@ -25,7 +25,9 @@ double sector_seconds(const Bench& b, double speed) {
   return base::sector_rad / (b.motor.machine.pole_pairs * std::fabs(speed));
 }
 
-base::Problem defect(double speed, sim::Stop stop) {
+/// Why a run came neither to its end nor to its edge.
+base::Problem ended_early(double speed, sim::Stop stop) {
+  if (stop == sim::Stop::end || stop == sim::Stop::observer) return interrupted_work();
   return {"speed " + base::written(speed) + " rad/s", "",
           stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
                                        : "events repeat without time going on",
@@ -116,7 +118,7 @@ base::Result<OperatingPoint> full_on(const Bench& b, double speed) {
   const bool repeats = moved <= noise;
   Tally tally;
   if (stop == sim::Stop::observer) moved = map.apply(stop, &tally);
-  if (stop != sim::Stop::observer) return defect(speed, stop);
+  if (stop != sim::Stop::observer) return ended_early(speed, stop);
   OperatingPoint p = point_of(b, speed, tally.sums());
   p.orbit = Orbit::periodic;
   p.sectors = map.system().edges();
@@ -209,7 +211,7 @@ Gathered gather(const Bench& b, double speed) {
 
 base::Result<OperatingPoint> chopped(const Bench& b, double speed) {
   const Gathered g = gather(b, speed);
-  if (g.stop != sim::Stop::end) return defect(speed, g.stop);
+  if (g.stop != sim::Stop::end) return ended_early(speed, g.stop);
   Sums all;
   for (const Sums& part : g.parts) all.add(part);
   OperatingPoint p = point_of(b, speed, all);
@@ -250,6 +252,7 @@ base::Result<OperatingPoint> operating_point(const Bench& b, double speed) {
   if (!(speed - speed == 0.0))
     problems.push_back({"speed", base::written(speed), "must be a finite number", "give it in rad/s"});
   if (!problems.empty()) return problems;
+  if (told_to_stop(b)) return interrupted_work();
   const bool full = b.duty == 1 || b.duty == -1;
   if (full && speed == 0) return stall(b);
   return full ? full_on(b, speed) : chopped(b, speed);

@@ -54,16 +54,20 @@ void watch_with(Gauge& gauge, Signal signal, const Glance& g, double s) {
   });
 }
 
-void watch_with(Gauges& gauges, const Measure& m, const Glance& g, double s) {
+/// A reference may step a million times: those whose window has passed, or has not begun, cost nothing.
+void watch_with(Gauges& gauges, const Measure& m, std::size_t& behind, const Glance& g, double s) {
+  while (behind < gauges.size() && gauges[behind].window().to_s < g.t_s) ++behind;
+  const double end_s = g.t_s + g.plant.expansion().h;
+  const auto begun = [&](std::size_t n) { return n < gauges.size() && gauges[n].window().from_s <= end_s; };
   if (!m.sampled) {
-    for (Gauge& gauge : gauges) watch_with(gauge, m.signal, g, s);
+    for (std::size_t n = behind; begun(n); ++n) watch_with(gauges[n], m.signal, g, s);
   } else if (g.ticked) {
     const double value = signal_now(g, m.signal);
-    for (Gauge& gauge : gauges) gauge.sample(g.t_s, value);
+    for (std::size_t n = behind; begun(n); ++n) gauges[n].sample(g.t_s, value);
   }
 }
 
-void watch_with(auto& gauge, const Measure&, const Glance& g, double s) { gauge.segment(g, s); }
+void watch_with(auto& gauge, const Measure&, std::size_t&, const Glance& g, double s) { gauge.segment(g, s); }
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
@@ -111,7 +115,7 @@ Figures::Figures(const Scenario& scenario, const std::vector<Level>& levels) {
 
 void Figures::watch(const Glance& g, double s) {
   for (Figure& figure : figures_)
-    std::visit([&](auto& gauge) { watch_with(gauge, figure.measure, g, s); }, figure.taken_by);
+    std::visit([&](auto& gauge) { watch_with(gauge, figure.measure, figure.behind, g, s); }, figure.taken_by);
 }
 
 void Figures::judge(const Scenario& scenario, Outcome& outcome) const {

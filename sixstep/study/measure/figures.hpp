@@ -16,7 +16,7 @@
 
 namespace sixstep::study {
 
-/// Several: one per step or level of the reference; the worst counts.
+/// Several: one per step or level of the reference, in the order of their windows; the worst counts.
 using Gauges = std::vector<Gauge>;
 
 class Figures {
@@ -35,6 +35,7 @@ class Figures {
   struct Figure {
     Measure measure;
     std::variant<Gauges, HysteresisGauge, SwitchingGauge, EnergyGauge, HarmonicGauge> taken_by;
+    std::size_t behind = 0;  ///< gauges whose window has passed
   };
   void watch(const Glance& g, double s);
 

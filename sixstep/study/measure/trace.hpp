@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a recorded run looks like.
 #pragma once
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,19 @@ struct Column {
   std::string meaning;
 };
 
+struct TimeSpan {
+  double from_s = 0.0, to_s = 0.0;
+};
+
 /// Column-major: values[c][row]. Rows are in time order; at a jump both sides stand, with equal times.
 struct Trace {
   std::vector<Column> columns;
   std::vector<std::vector<double>> values;
   bool every_event = false;  // else on a grid
+  /// Where every row stands, rising; empty: everywhere. Elsewhere an envelope stands for the rows: of each
+  /// short stretch those where a column is lowest or highest.
+  std::vector<TimeSpan> whole{};
+  std::size_t left_out = 0;  // rows that an envelope stands for
 };
 
 }  // namespace sixstep::study

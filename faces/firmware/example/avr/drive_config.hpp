@@ -8,6 +8,20 @@
 // current   d1 = 0.720057 V/A, d0 = -0.419524 V/A; given as d1, d0; poles z = 0.708221 and 0.582626 on 0.405217/(z -0.582626); settle_s = 0.001, damping = 0.9 would give d1 = 2.93109, d0 = -1.28162
 // Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the motor.
 //
+// Cleared by its run: 0.2 s simulated in q15, digest 0810c4bb58b88ae7
+//   mean current at 3 A: 2.7 .. 3.3 A required, 2.88645 A measured
+//   mean current at 5 A: 4.5 .. 5.5 A required, 4.6484 A measured
+//   greatest current: <= 10 A required, 7.66496 A measured
+// That run took for granted:
+//   supply    24 V, stiff, takes current back
+//   bridge    switches of 0.01 ohm, diodes of 0.7 V and 0 ohm, dead time 1e-06 s
+//   timing    sampled in the middle of a period, answered one period later; edges on no counter's steps
+//   currents  dc-link, 10 bits over +-25 A
+//   bus       as it is
+//   rotor     Hall edges exactly at the sectors' ends, captured at 1e+06 Hz, speed over six edges where the loop stands their delay, else one
+//   load      0 N m, 0.0001 kg m2 beside the rotor's; viscous friction 0.0004 N m s
+//   scale     the scenario's own; that of --range below was proved, not run
+//
 // Fixed point: what each quantity may reach and where the format ends, in SI
 //   current                               25 of 45
 //   current reference with band           20 of 45

@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""sixstep export: a gate in front of the chip. What its run does not hold, or did not measure, is not exported."""
+import pathlib
+import re
+import subprocess
+import unittest
+
+from program import PROGRAM, SOURCE, ProgramTest
+
+DESPITE = ["--despite", "the tests look at its text"]
+BOARD = "current-square-board"  # passes: converters, and a period to answer in
+
+
+class Export(ProgramTest):
+    def scenario(self, name):
+        return str(SOURCE / f"data/scenarios/{name}.toml")
+
+    def test_export_writes_a_header_or_prints_it(self):
+        position = self.scenario("thesis/7.5-position")
+        printed = self.run_program("export", "header", position, *DESPITE).stdout
+        self.assertIn("using Scalar = double;", printed)
+        self.assertIn("c.mode = Mode::position;", printed)
+        self.assertIn("= 0x1.2p+2;", printed)  # 4.5 V/A
+        self.assertIn("2.4 rad/s per deg; given as gain_rad_s_per_deg, for at most 716.4 rad/s, the bus over K_t", printed)
+        self.assertRegex(printed, r"// 24 V: duty 1\n")
+        self.assertEqual(self.run_program("export", "header", position, *DESPITE, "--out", "d.hpp").stdout, "")
+        written = (self.path / "d.hpp").read_text()
+        self.assertEqual(written.replace(" --out d.hpp", ""), printed)
+        self.assertEqual(self.names(), ["d.hpp"])
+        own = self.run_program("export", "header", position, *DESPITE, "--set", "control.arithmetic=float").stdout
+        self.assertIn("using Scalar = float;", own)
+        single = self.run_program("export", "header", position, *DESPITE, "--single-header", "--namespace", "left::wheel").stdout
+        self.assertIn('#include "sixstep_control.hpp"\n\nnamespace left::wheel {', single)
+
+    def test_an_exported_header_can_be_made_again_by_its_own_comment(self):
+        (self.path / "my drive.toml").write_text(pathlib.Path(self.scenario("thesis/7.5-position")).read_text())
+        first = self.run_program("export", "header", "my drive.toml", "--arithmetic", "q31", "--range", "current_A=60", *DESPITE).stdout
+        command = re.search(r"^//   sixstep (.*)$", first, re.M).group(1)
+        again = subprocess.run(f"{PROGRAM} {command}", shell=True, cwd=self.path, capture_output=True, text=True, check=True)
+        self.assertEqual(again.stdout, first)
+
+    def test_export_refuses_properly(self):
+        position = self.scenario("thesis/7.5-position")
+        def told(*words):
+            result = self.run_program("export", "header", *words, "--out", "d.hpp", code=2)
+            self.assertEqual(result.stdout, "")
+            return result.stderr
+        off = told(position, "--set", "control.mode=off")
+        self.assertEqual(off, f"{position}: control.mode = off leaves no drive to export; set it to duty, current, speed or position\n")
+        self.assertIn("absent.toml", told("absent.toml"))
+        self.assertEqual(told(position, "--arithmetic", "q51"),
+                         "--arithmetic = q51 must be one of double, float, q15, q14, q31, q30; did you mean q15?\n")
+        self.assertEqual(told(position, "--range", "curent_A=3", "--arithmetic", "q15"),
+                         "--range curent_A=3 names no quantity of the range; did you mean current_A?\n")
+        self.assertIn("--range current_A = 3A must be a number above 0", told(position, "--range", "current_A=3A", "--arithmetic", "q15"))
+        self.assertIn("--range current_A", told(position, "--range", "current_A", "--arithmetic", "q15"))
+        self.assertIn("add --arithmetic q15", told(position, "--range", "current_A=3"))
+        self.assertIn("is no name of a C++ namespace", told(position, "--namespace", "7up"))
+        self.assertIn("does not name a key and a value", told(position, "--set", "novalue"))
+        small = told(position, "--arithmetic", "q15", "--set", "control.speed.d1=1e-9", "--set", "control.speed.d0=-0.9e-9")
+        self.assertIn(f"{position}: control.arithmetic = \"q15\" cannot hold this drive: speed.K_i = ", small)
+        self.assertIn("take 32 bits", small)
+        # 16 bits cannot hold the ratio of such bases: told with the gain's name.
+        self.assertIn("position_gain = ", told(position, "--arithmetic", "q15", "--set", "control.position.gain_rad_s_per_deg=1e6"))
+        self.run_program("export", code=2)
+        self.run_program("export", "heder", position, code=2)
+        self.run_program("export", "header", code=2)
+        self.assertEqual(self.run_program("exprt", code=2).stderr, "exprt is no command of sixstep; did you mean export?\n")
+        self.assertIn("cannot be written", self.run_program("export", "header", position, "--out", "no/d.hpp", code=2).stderr)
+        self.assertEqual(self.names(), [])
+
+
+class Gate(ProgramTest):
+    def scenario(self, name):
+        return str(SOURCE / f"data/scenarios/{name}.toml")
+
+    def refused(self, code, name, *words):
+        """The lines told, none of which may come with a header."""
+        result = self.run_program("export", "header", self.scenario(name), *words, "--out", "d.hpp", code=code)
+        self.assertEqual((result.stdout, self.names()), ("", []))
+        *lines, last = result.stderr.splitlines()
+        self.assertEqual(last, "no header was written; --despite REASON writes one that says all of this")
+        return [line.removeprefix(self.scenario(name) + ": ") for line in lines]
+
+    def test_a_header_that_passed_says_what_it_passed(self):
+        text = self.run_program("export", "header", self.scenario(BOARD)).stdout
+        ran = self.run_program("run", self.scenario(BOARD), "--json", "-").stdout
+        digest = re.search(r'"digest": "(\w+)"', ran).group(1)
+        self.assertIn(f"// Cleared by its run: 0.02 s simulated in double, digest {digest}\n", text)
+        self.assertRegex(text, r"\n//   slowest reach of 98 %: <= 0\.001 s required, 0\.00053\d+ s measured\n")
+        self.assertIn("//   timing    sampled at a period's start, answered one period later;", text)
+        self.assertIn("//   currents  phases, 12 bits over +-20.48 A\n", text)
+        self.assertNotIn("NOT CLEARED", text)
+        again = self.run_program("export", "header", self.scenario(BOARD)).stdout
+        self.assertEqual(text, again, "no date")
+
+    def test_the_run_computes_as_the_chip_will(self):
+        text = self.run_program("export", "header", self.scenario(BOARD), "--arithmetic", "q15").stdout
+        ran = self.run_program("run", self.scenario(BOARD), "--set", "control.arithmetic=q15", "--json", "-").stdout
+        self.assertIn(f'in q15, digest {re.search(chr(34) + "digest" + chr(34) + ": .(.{16})", ran).group(1)}', text)
+
+    def test_a_requirement_that_fails_is_refused(self):
+        told = self.refused(1, BOARD, "--set", "supply.voltage_V=6")
+        self.assertEqual(len(told), 1)
+        self.assertRegex(told[0], r"^slowest reach of 98 % = 0\.0015\d+ s misses what is required, <= 0\.001 s; see it with sixstep run")
+
+    def test_what_was_never_measured_is_refused_all_at_once_beside_what_fails(self):
+        told = self.refused(2, "current-square", "--set", "supply.voltage_V=6", "--set", "pwm.chopping=complementary")
+        self.assertEqual([line.split(" ")[0] for line in told],
+                         ["sensors.currents", "pwm.delay_periods", "bridge.dead_time_s", "slowest"])
+
+    def test_a_fault_is_refused(self):
+        told = self.refused(3, "product-broken-hall-line")
+        self.assertRegex(told[-1], "the drive tripped by an impossible Hall code or jump: line H2")
+
+    def test_a_scenario_that_asks_for_nothing_is_refused(self):
+        text = pathlib.Path(self.scenario(BOARD)).read_text().replace('"current-square.toml"', '"plain.toml"')
+        plain = pathlib.Path(self.scenario("current-square")).read_text().split("[[require]]")[0]
+        (self.path / "plain.toml").write_text(plain), (self.path / "a.toml").write_text(text)
+        told = self.run_program("export", "header", "a.toml", code=2).stderr
+        self.assertTrue(told.startswith("a.toml: require is missing: where nothing is asked of a run, nothing has been shown; "), told)
+
+    def test_despite_writes_the_reason_and_what_was_overridden_as_comment_alone(self):
+        reason = "one bench\n#error two\r*/ \\ \u202e??/\\"
+        text = self.run_program("export", "header", self.scenario("current-square"), "--set", "supply.voltage_V=6",
+                                "--despite", reason).stdout
+        lines = text.splitlines()
+        at = lines.index("// NOT CLEARED FOR A BRIDGE. Written all the same, for this reason:")
+        self.assertEqual(lines[at + 1:at + 3], ["//   one bench #error two */", "// What was overridden:"])
+        self.assertEqual([line.split(" ")[3] for line in lines[at + 3:at + 6]], ["sensors.currents", "pwm.delay_periods", "slowest"])
+        self.assertRegex(lines[at + 6], r"^// Its run: 0\.02 s simulated in double, digest \w{16}$")
+        self.assertNotIn("\u202e", text)
+        for line in lines[:lines.index("#pragma once")]:
+            self.assertTrue(line.startswith("//") and not line.endswith(("\\", "??/")), line)
+
+    def test_despite_needs_a_reason_and_is_told_where_it_was_not_needed(self):
+        told = self.run_program("export", "header", self.scenario(BOARD), "--despite", " \n", code=2).stderr
+        self.assertEqual(told, "--despite gives no reason; say why the header is written all the same: whoever flashes it reads that\n")
+        clear = self.run_program("export", "header", self.scenario(BOARD), *DESPITE)
+        self.assertEqual(clear.stderr, "--despite was not needed: the run holds, and the header says so\n")
+        self.assertIn("Cleared by its run", clear.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Ctrl-C and SIGTERM end every verb, whatever it is at, and what was finished by then is told as unfinished.
+
+Each verb is given work for far longer than the test, and is stopped at random instants; the seed is printed, and
+SIXSTEP_SEED repeats it. `-v` shows how long each took to end."""
+import os
+import random
+import re
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from program import SOURCE, Started
+
+SEED = int(os.environ.get("SIXSTEP_SEED", random.randrange(1 << 30)))
+R3 = str(SOURCE / "data/scenarios/reference/R3.toml")
+SERIES = str(SOURCE / "data/scenarios/current-square-series.toml")
+LONG = ["--set", "duration_s=1e4", "--set", "record.grid_s=1e-3"]
+# A fifth of a second where the machine is ours: a computer that runs other tests beside these takes longer.
+BOUND_S = 5.0
+TOLD = {signal.SIGINT: 130, signal.SIGTERM: 143}
+
+# Nobody waits for the end of any of these. The rotor is held, so nothing but its length makes it long.
+ENDLESS = """
+motor = "maxon-251601"
+duration_s = 1e4
+[control]
+mode = "current"
+[reference]
+value = 2
+[load]
+locked = true
+[pwm]
+delay_periods = 1
+[sensors]
+currents = "phases"
+current_range_A = 20
+[record]
+grid_s = 1e-3
+[[require]]
+metric = "final"
+signal = "current"
+max = 3
+"""
+
+
+class Ends(Started):
+    """words, what is told of them on either stream, and what stays behind"""
+
+    def setUp(self):
+        super().setUp()
+        (self.path / "long.toml").write_text(ENDLESS)
+        self.random = random.Random(f"{SEED} {self.id()}")
+        self.slowest = 0.0
+
+    def tearDown(self):
+        if "-v" in sys.argv:
+            print(f"{self.id().split('.')[-1]}: {1e3 * self.slowest:.0f} ms at most, seed {SEED}", file=sys.stderr)
+        super().tearDown()
+
+    def stopped(self, *words, after=(0.02, 0.8), sent=None):
+        """Exit code's standing, and everything that was said."""
+        sent = sent or self.random.choice(list(TOLD))
+        wait = self.random.uniform(*after)
+        with self.started(*words) as program:
+            time.sleep(wait)
+            self.assertIsNone(program.poll(), "it is to be stopped at work")
+            begin = time.monotonic()
+            program.send_signal(sent)
+            try:
+                out, told = program.communicate(timeout=BOUND_S)
+            except subprocess.TimeoutExpired:
+                self.fail(f"{words} goes on after {sent.name} at {wait:.3f} s, seed {SEED}")
+            self.slowest = max(self.slowest, time.monotonic() - begin)
+        # Before it listens to signals, or where it has nothing to put in order, the signal itself ends it.
+        self.assertIn(program.returncode, (TOLD[sent], -sent), (words, wait, SEED, out + told))
+        return program.returncode > 0, out + told
+
+    def nothing_is_left(self, *words, told, rounds=4, **how):
+        listened = 0
+        before = self.names()
+        for _ in range(rounds):
+            heard, said = self.stopped(*words, **how)
+            self.assertEqual(said, told + "\n" if heard else "", SEED)
+            self.assertEqual(self.names(), before, "nothing half written, nothing hidden")
+            listened += heard
+        return listened
+
+    def test_run(self):
+        for _ in range(4):
+            heard, said = self.stopped("run", "long.toml")
+            if heard:
+                self.assertRegex(said, r"^long: interrupted at [\d.e-]+ s of 10000 s\n$")
+
+    def test_run_with_every_file(self):
+        for _ in range(2):
+            heard, said = self.stopped("run", "long.toml", "--csv", "a.csv", "--html", "a.html", "--json", "a.json", after=(0.3, 0.8))
+            self.assertEqual(heard, "a.partial.html" in self.names())
+            self.assertEqual([name for name in self.names() if "partial" not in name], ["long.toml"])
+            self.assertIn("what was finished is in a.partial.csv, a.partial.json, a.partial.html\n", said)
+
+    def test_a_comparison(self):
+        (self.path / "other.toml").write_text(ENDLESS)
+        self.nothing_is_left("run", "long.toml", "other.toml", "--html", "c.html", after=(0.2, 0.8),
+                             told="the comparison: interrupted; nothing was written")
+
+    def test_a_series_says_of_how_many_drives_it_speaks(self):
+        for _ in range(4):
+            heard, said = self.stopped("run", SERIES, "--runs", "1000000", after=(0.3, 0.8))
+            self.assertTrue(heard)
+            self.assertNotRegex(said, r"\d+ drives, seed 1: all hold")
+            ended = re.search(r"^interrupted after (\d+) of 1000000 drives, seed 1: of these all hold every requirement$", said, re.M)
+            self.assertTrue(ended or said == "interrupted before the first of 1000000 drives ended\n", said)
+            if ended:
+                self.assertGreaterEqual(said.count(f" {ended[1]} of {ended[1]}\n"), 2, said)
+
+    def test_curves(self):
+        for duty, latest in (("1", 0.1), ("0.5", 0.5)):
+            for jobs in ((), ("--jobs", "1")):
+                self.nothing_is_left("curve", "maxon-251601", "--duty", duty, "--points", "10000", "--csv", "k.csv", *jobs,
+                                     told="curve maxon-251601: interrupted; nothing was written", after=(0.05, latest), rounds=2)
+
+    def test_a_single_point_of_a_curve(self):
+        """Chopping far faster than the rotor: one point of this curve takes minutes."""
+        self.nothing_is_left("curve", "maxon-251601", "--duty", "0.5", "--points", "2", "--pwm-period", "1e-9",
+                             told="curve maxon-251601: interrupted; nothing was written", after=(0.1, 0.8))
+
+    def test_a_design(self):
+        slow = ["design", "maxon-251601", "--mode", "position", "--settle", "1", "--jobs", "1", "--toml", "d.toml"]
+        self.nothing_is_left(*slow, told="design maxon-251601: interrupted; nothing was written", after=(0.1, 0.5))
+
+    def test_an_export(self):
+        heard = self.nothing_is_left("export", "header", "long.toml", "--out", "d.hpp", after=(0.1, 0.8),
+                                     told="export long.toml: interrupted; nothing was written")
+        self.assertGreater(heard, 0)
+
+    def test_verbs_that_only_print(self):
+        """They are over in no time, and leave nothing to put in order: the signal ends them, or comes too late."""
+        for words in ("new --full", "new fresh", "motor list", "motor show maxon-251601", "motor check maxon-251601", "motor new",
+                      "schema", "man", "help"):
+            for sent in TOLD:
+                with self.subTest(words), self.started(*words.split()) as program:
+                    time.sleep(self.random.uniform(0, 0.02))
+                    program.send_signal(sent)
+                    program.communicate(timeout=BOUND_S)
+                    self.assertIn(program.returncode, (0, -sent) if words != "new fresh" else (0, 2, -sent))
+        self.assertEqual([name for name in self.names() if name.startswith(".")], [])
+
+
+if __name__ == "__main__":
+    print(f"seed {SEED}", file=sys.stderr)
+    unittest.main()

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// What may go onto a chip: each thing that a run leaves unmeasured is refused where the drive reads it, and
+// only there.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/verify/export_gate.hpp"
+#include "tests/support/product_scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using control::Mode;
+using study::Scenario;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+std::vector<std::string> wheres(const base::Problems& problems) {
+  std::vector<std::string> out;
+  for (const base::Problem& p : problems) {
+    EXPECT_FALSE(p.limit.empty() || p.cure.empty()) << p.where;
+    out.push_back(p.where);
+  }
+  return out;
+}
+
+/// A scenario that something is asked of, as a board would measure it.
+Scenario on_a_board(Mode mode) {
+  Scenario s = maxon_scenario(mode, mode == Mode::duty ? 0.5 : 3.0);
+  s.sensors = board_sensors();
+  s.pwm.delay_periods = 1;
+  s.require.push_back({measure(study::MetricKind::maximum, study::Signal::current), {}, 10.0});
+  return s;
+}
+
+std::vector<std::string> unmeasured(const Scenario& s) {
+  EXPECT_TRUE(study::check(s).empty()) << to_string(study::check(s)[0]);
+  return wheres(study::never_measured(s));
+}
+
+TEST(ExportGate, OnABoardNothingIsLeftUnmeasured) {
+  for (const Mode mode : {Mode::duty, Mode::current, Mode::speed, Mode::position})
+    EXPECT_THAT(unmeasured(on_a_board(mode)), IsEmpty()) << static_cast<int>(mode);
+}
+
+TEST(ExportGate, IdealSensorsAreRefusedWhereTheDriveReadsThem) {
+  Scenario s = on_a_board(Mode::speed);
+  s.sensors = {};
+  EXPECT_THAT(unmeasured(s), ElementsAre("sensors.rotor", "sensors.currents"));
+  s.control.current.measured_bus_from_V = 10.0;
+  EXPECT_THAT(unmeasured(s), ElementsAre("sensors.rotor", "sensors.currents", "sensors.bus"));
+  s = on_a_board(Mode::current);
+  s.sensors = {};
+  EXPECT_THAT(unmeasured(s), ElementsAre("sensors.currents")) << "Hall lines alone commutate";
+  s.control.current.back_emf_feed_forward = true;
+  EXPECT_THAT(unmeasured(s), ElementsAre("sensors.rotor", "sensors.currents"));
+  s = on_a_board(Mode::duty);
+  s.sensors = {};
+  s.pwm.delay_periods = 0;
+  EXPECT_THAT(unmeasured(s), IsEmpty()) << "nothing is read";
+}
+
+TEST(ExportGate, AnAnswerWithoutDelayIsRefused) {
+  Scenario s = on_a_board(Mode::current);
+  s.pwm.delay_periods = 0;
+  EXPECT_THAT(unmeasured(s), ElementsAre("pwm.delay_periods"));
+  s.pwm.sample = study::SampleAt::middle;
+  EXPECT_THAT(unmeasured(s), IsEmpty()) << "answered at the next start";
+}
+
+TEST(ExportGate, ComparatorsNeedNeitherConverterNorDelay) {
+  Scenario s = on_a_board(Mode::current);
+  s.sensors = {};
+  s.pwm.delay_periods = 0;
+  s.control.current = {.type = study::CurrentLoopType::hysteresis};
+  EXPECT_THAT(unmeasured(s), IsEmpty());
+  s.control.current.comparator = study::Comparator::sampled;
+  EXPECT_THAT(unmeasured(s), ElementsAre("sensors.currents", "pwm.delay_periods"));
+}
+
+TEST(ExportGate, ComplementarySwitchesWithoutDeadTimeAreRefused) {
+  Scenario s = on_a_board(Mode::duty);
+  s.pwm.chopping = control::Chopping::complementary;
+  EXPECT_THAT(unmeasured(s), ElementsAre("bridge.dead_time_s"));
+  s.bridge.dead_time_s = 500e-9;
+  EXPECT_THAT(unmeasured(s), IsEmpty());
+  s = on_a_board(Mode::current);
+  s.control.smooth_chopping.on = true;
+  EXPECT_THAT(unmeasured(s), ElementsAre("bridge.dead_time_s"));
+}
+
+TEST(ExportGate, ARunOfWhichNothingIsAskedHasShownNothing) {
+  Scenario s = on_a_board(Mode::current);
+  s.require.clear();
+  EXPECT_THAT(unmeasured(s), ElementsAre("require"));
+}
+
+TEST(ExportGate, WhatTheRunMissedStandsAgainstItInDigitsThatTellItFromTheLimit) {
+  Scenario s = on_a_board(Mode::current);
+  s.duration_s = 2e-3;
+  const auto held = study::clear_for_export(s);
+  ASSERT_TRUE(held);
+  EXPECT_TRUE(held->clear()) << to_string(held->unheld[0]);
+  const double most = held->outcome.verdicts[0].measured;
+  s.require[0].max = most * (1 - 1e-9);
+  const auto missed = study::clear_for_export(s);
+  ASSERT_TRUE(missed);
+  EXPECT_FALSE(missed->clear());
+  ASSERT_EQ(missed->unheld.size(), 1u);
+  EXPECT_NE(missed->unheld[0].limit.find("<= "), std::string::npos);
+  EXPECT_GE(missed->unheld[0].value.size(), 9u) << missed->unheld[0].value;
+  EXPECT_EQ(missed->outcome.digest, held->outcome.digest);
+}
+
+TEST(ExportGate, ATripStandsAgainstItToo) {
+  Scenario s = product_scenario(Mode::current, 3.0);
+  s.duration_s = 5e-3;
+  s.pwm.delay_periods = 1;
+  s.protection.over_current_A = 1.0;
+  const auto tripped = study::clear_for_export(s);
+  ASSERT_TRUE(tripped) << to_string(tripped.problems()[0]);
+  EXPECT_THAT(wheres(tripped->unmeasured), ElementsAre("require"));
+  ASSERT_EQ(tripped->unheld.size(), 1u);
+  EXPECT_NE(tripped->unheld[0].limit.find("over-current"), std::string::npos);
+}
+
+}  // namespace
