@@ -20,6 +20,7 @@
 #include "io/results/design_text.hpp"
 #include "io/scenario/scenario_file.hpp"
 #include "io/scenario/scenario_text.hpp"
+#include "sixstep/base/range_text.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/verify/design_study.hpp"
 
@@ -60,6 +61,9 @@ design::DesignWish wish_of(const DesignArguments& a, base::Problems& found) {
   w.torque_limit_Nm = a.torque_limit_Nm;
   w.load_inertia_kg_m2 = a.load_inertia_kg_m2.value_or(0.0);
   w.delay_periods = a.delay_periods;
+  const base::Problems angle =
+      base::out_of_range("--angle", a.angle_deg, {}, "deg", "give the rotor's electrical angle in degrees");
+  found.insert(found.end(), angle.begin(), angle.end());
   return w;
 }
 

@@ -12,6 +12,9 @@
 
 namespace sixstep::study {
 
+/// More than any screen or table has rows for.
+inline constexpr int most_points = 10'000;
+
 struct CurveRequest {
   design::Sheet sheet;
   Bench bench;
