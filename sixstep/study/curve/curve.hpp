@@ -12,8 +12,8 @@
 
 namespace sixstep::study {
 
-/// More than any screen or table has rows for.
-inline constexpr int most_points = 10'000;
+/// Some hundred megabytes of points, more than any screen or table has rows for.
+inline constexpr int most_points = 200'000;
 
 struct CurveRequest {
   design::Sheet sheet;
