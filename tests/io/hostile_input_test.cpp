@@ -143,6 +143,9 @@ TEST(HostileInput, OfAListOfWrongEntriesSomeAreTold) {
   EXPECT_THAT(told(head + list), SizeIs(6));
   const std::string words = "[record]\ncolumns = [" + repeated("1,", 100'000) + "]\n";
   EXPECT_THAT(told(head + words), SizeIs(6));
+  const std::string ones = "[" + repeated("1,", 100'000) + "]\n";
+  EXPECT_THAT(told(head + "[reference]\nshape = \"steps\"\ntimes_s = " + ones + "values = " + ones),
+              SizeIs(5));
 }
 
 TEST(HostileInput, OfAHundredThousandMistakesAHundredAreTold) {
