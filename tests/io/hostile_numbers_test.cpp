@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 
 #include "io/keys/key_catalog.hpp"
@@ -11,6 +12,8 @@
 #include "io/scenario/scenario_file.hpp"
 #include "sixstep/base/plausible.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/drive_design.hpp"
+#include "sixstep/design/sheet/sheet_check.hpp"
 #include "sixstep/plant/pace.hpp"
 #include "sixstep/study/run/run.hpp"
 
@@ -102,7 +105,7 @@ value = 10
 const std::string off = common + "[control]\nmode = \"off\"\n";
 
 /// Segments looked at; a run that needs more is cut there, and must have come along.
-constexpr std::int64_t most_segments = 100'000;
+constexpr std::int64_t most_segments = 20'000;
 
 /// Two segments in the shortest time constant, of which a few may stand side by side, some a PWM period and a
 /// tick, and some that any run begins with.
@@ -169,29 +172,32 @@ bool is_number(const KeyEntry& entry) {
          entry.type == KeyType::numbers || entry.type == KeyType::quantity;
 }
 
-/// Hostile ones, and the very ends of what the key is allowed.
-std::vector<std::string> numbers_for(const KeyEntry& entry) {
-  std::vector<std::string> all = {"nan",
-                                  "inf",
-                                  "-inf",
-                                  "1e308",
-                                  "-1e308",
-                                  "5e-324",
-                                  "-5e-324",
-                                  "0",
-                                  "-0.0",
-                                  "1e-300",
-                                  "1e15",
-                                  "-1e15",
-                                  "1e-15",
-                                  "9223372036854775807",
-                                  "-9223372036854775808"};
-  if (entry.type == KeyType::whole_number) all.insert(all.end(), {"2147483647", "-2147483648", "1000"});
+/// The very ends of what the key is allowed, as text.
+std::vector<std::string> ends_of(const KeyEntry& entry) {
   const base::Range range = base::allowed(entry.about);
+  std::vector<std::string> ends;
   for (const double end : {range.low, range.high, range.least, -range.least})
-    all.push_back(entry.type == KeyType::whole_number ? fmt::format("{:.0f}", end) : base::written(end));
-  return all;
+    ends.push_back(entry.type == KeyType::whole_number ? fmt::format("{:.0f}", end) : base::written(end));
+  return ends;
 }
+
+constexpr std::array hostile = {"nan",
+                                "inf",
+                                "-inf",
+                                "1e308",
+                                "-1e308",
+                                "5e-324",
+                                "-5e-324",
+                                "0",
+                                "-0.0",
+                                "1e-300",
+                                "1e15",
+                                "-1e15",
+                                "1e-15",
+                                "2147483647",
+                                "-2147483648",
+                                "9223372036854775807",
+                                "-9223372036854775808"};
 
 std::vector<KeyEntry> keys_of_scenarios_and_motors() {
   std::vector<KeyEntry> keys;
@@ -203,10 +209,15 @@ std::vector<KeyEntry> keys_of_scenarios_and_motors() {
 TEST(HostileNumbers, EveryKeyRefusesThemOrRunsToNumbers) {
   const std::vector<KeyEntry> keys = keys_of_scenarios_and_motors();
   ASSERT_GT(keys.size(), 150u);  // motor_override's are among them
-  for (const KeyEntry& key : keys)
-    for (const std::string& number : numbers_for(key))
-      for (const std::string* text : {&current_loop, &product, &speed_in_float, &position_in_q31})
-        expect_refused_or_sound(*text, {path_in_file(key), in_key(key, number)});
+  const auto expect = [](const std::string& text, const KeyEntry& key, const std::string& number) {
+    expect_refused_or_sound(text, {path_in_file(key), in_key(key, number)});
+  };
+  for (const KeyEntry& key : keys) {
+    for (const std::string* text : {&current_loop, &product})
+      for (const char* number : hostile) expect(*text, key, number);
+    for (const std::string* text : {&current_loop, &product, &speed_in_float, &position_in_q31})
+      for (const std::string& number : ends_of(key)) expect(*text, key, number);
+  }
 }
 
 TEST(HostileNumbers, EveryUnitThatAKeyHasIsInTheTable) {
@@ -224,6 +235,38 @@ TEST(HostileNumbers, NoKeyTakesWhatIsNoNumberOrOverflows) {
           "x.toml", current_loop, {.data_dir = {}, .overrides = {{path_in_file(key), in_key(key, number)}}});
       EXPECT_FALSE(scenario) << key.path << " = " << number;
     }
+}
+
+TEST(HostileNumbers, AMotorAtTheEndsOfItsKeysIsCheckedAndDesignedForInNumbers) {
+  std::size_t checked = 0;
+  for (const KeyEntry& key : sheet_keys()) {
+    if (!is_number(key)) continue;
+    for (const std::string& number : ends_of(key)) {
+      const std::string path = "motor_override." + key.path;
+      SCOPED_TRACE(path + " = " + number);
+      const auto scenario = read_scenario_text("x.toml", current_loop,
+                                               {.data_dir = {}, .overrides = {{path, in_key(key, number)}}});
+      if (!scenario) {
+        expect_told(scenario.problems());
+        continue;
+      }
+      ++checked;
+      const auto sheet = design::check_sheet(scenario->sheet);
+      for (const design::Relation& r : sheet ? sheet->relations : std::vector<design::Relation>())
+        EXPECT_TRUE(std::isfinite(r.left) && std::isfinite(r.right) && std::isfinite(r.deviation)) << r.name;
+      const auto motor = design::motor_model(scenario->sheet);
+      ASSERT_TRUE(motor);
+      const auto drive =
+          design::design_drive(*motor, {.mode = sixstep::control::Mode::speed, .voltage_V = 24});
+      if (!drive) {
+        expect_told(drive.problems());
+        continue;
+      }
+      for (const design::LoopDesign& loop : drive->loops)
+        EXPECT_TRUE(std::isfinite(loop.gains.d1) && std::isfinite(loop.gains.d0)) << loop.name;
+    }
+  }
+  EXPECT_GT(checked, 50u);
 }
 
 /// Two ends at once: what each may be alone can be absurd together.
