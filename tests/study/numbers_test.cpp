@@ -8,6 +8,7 @@
 #include "sixstep/design/loops/drive_design.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/curve/curve.hpp"
+#include "sixstep/study/measure/gauge.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "sixstep/study/scenario/spread.hpp"
 #include "sixstep/study/verify/design_study.hpp"
@@ -143,6 +144,34 @@ TEST(Numbers, OfAFirstScenarioAreHeldToTheTable) {
       EXPECT_EQ(first(s.problems()).rfind("--voltage = ", 0), 0u) << first(s.problems());
     }
   }
+}
+
+/// NaN loses every comparison, so that the extremes of what else was seen would stand for a figure.
+TEST(Numbers, AFigureOfWhichAPartIsNoNumberHasNoValue) {
+  for (const study::MetricKind metric :
+       {study::MetricKind::maximum, study::MetricKind::minimum, study::MetricKind::mean,
+        study::MetricKind::rms, study::MetricKind::final_value, study::MetricKind::settling_time,
+        study::MetricKind::reach_time})
+    for (const double bad : {std::nan(""), inf, -inf}) {
+      study::Measure m;
+      m.metric = metric;
+      study::Gauge whole(m, {0.0, 1.0}, 1.0, 0.0);
+      study::Series line{};
+      line[0] = 0.5;
+      whole.part(line, 2, 0.0, 0.1);
+      ASSERT_TRUE(whole.value());
+      line[0] = bad;
+      whole.part(line, 2, 0.1, 0.1);
+      line[0] = 0.5;
+      whole.part(line, 2, 0.2, 0.1);
+      EXPECT_FALSE(whole.value()) << bad;
+      m.sampled = true;
+      study::Gauge sampled(m, {0.0, 1.0}, 1.0, 0.0);
+      sampled.sample(0.1, 0.5);
+      sampled.sample(0.2, bad);
+      sampled.sample(0.3, 0.5);
+      EXPECT_FALSE(sampled.value()) << bad;
+    }
 }
 
 TEST(Numbers, OfASheetThatLiesAreRefused) {
