@@ -109,6 +109,15 @@ TEST(HostileInput, ARunThatRunsAwayEndsWithAFaultAndWritesNumbersOnly) {
   EXPECT_TRUE(numbers);
 }
 
+TEST(HostileInput, AColumnThatTheModeDoesNotHaveIsRefusedAndNotWrittenAsNoNumber) {
+  const std::string columns = "record.columns = [\"i_m_A\", \"i_ref_A\"]\n[control]\nmode = ";
+  EXPECT_THAT(
+      told(head + columns + "\"duty\"\n"),
+      ElementsAre("x.toml:3:18: record.columns = \"i_ref_A\" has no value in this control.mode; remove it, "
+                  "or control what it is the reference of"));
+  EXPECT_THAT(told(head + columns + "\"current\"\n"), SizeIs(0));
+}
+
 std::string repeated(const std::string& text, std::size_t times) {
   std::string all;
   all.reserve(text.size() * times);
