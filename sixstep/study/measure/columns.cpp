@@ -66,9 +66,6 @@ base::Result<std::vector<std::size_t>> record_indices(const Scenario& scenario) 
     if (found == columns.end())
       problems.push_back({"record.columns", "\"" + name + "\"", "is no column of the trace",
                           "`sixstep help columns` lists them"});
-    else if (!applies(static_cast<ColumnId>(found - columns.begin()), scenario.control.mode))
-      problems.push_back({"record.columns", "\"" + name + "\"", "has no value in this control.mode",
-                          "remove it, or control what it is the reference of"});
     else if (found != columns.begin())
       indices.push_back(static_cast<std::size_t>(found - columns.begin()));
   }
