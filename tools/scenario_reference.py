@@ -25,6 +25,11 @@ A number may bring a unit of its own, in quotes: `duration_s = "20 ms"`, `times_
 "135 gcm2"`, `damping = "90 %"`, and for a reference whatever suits the control mode, `value = "6710 rpm"`; a limit takes
 what its metric and signal ask for, `max = "150 mA"`. The unit must be of the key's kind. Powers of ten cost no rounding: "0.572 mH" is the same number as 0.000572.
 
+Every number is held to what its unit can be on a bench, as the tables below say; one that may be 0 is 0 or at least 1e-30 in
+size. Numbers that each may be and that together are no drive are refused too: a bus, a winding with its bridge or a friction with
+a time constant below 100 ns, a field above 1000000 electrical rad/s or a load torque that brings it there within 100 us, a
+hysteresis band that is crossed within 100 ns. In a table of rows what is smaller than 1e-30 counts as 0.
+
 `extends = "base.toml"`, or a list of files, takes what stands in other scenarios, each name relative to the file that names
 it. What is nearer wins: this file over its bases, a later base over an earlier one, `--set` over all. Tables under headings are
 joined key by key. Lists of tables, as `[[require]]`, are joined too, the bases' first, unless this file's is empty: `require = []`.

@@ -20,6 +20,7 @@
 #include "io/results/design_text.hpp"
 #include "io/scenario/scenario_file.hpp"
 #include "io/scenario/scenario_text.hpp"
+#include "sixstep/base/range_text.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 #include "sixstep/study/verify/design_study.hpp"
@@ -73,6 +74,9 @@ design::DesignWish wish_of(const DesignArguments& a, const study::Scenario* scen
   w.period_s = a.period_s.value_or(w.period_s);
   w.load_inertia_kg_m2 = a.load_inertia_kg_m2.value_or(w.load_inertia_kg_m2);
   w.delay_periods = a.delay_periods.value_or(w.delay_periods);
+  const base::Problems angle =
+      base::out_of_range("--angle", a.angle_deg, {}, "deg", "give the rotor's electrical angle in degrees");
+  found.insert(found.end(), angle.begin(), angle.end());
   return w;
 }
 

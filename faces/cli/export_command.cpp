@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <CLI/App.hpp>
 
+#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <optional>
 
 #include "faces/cli/keep.hpp"
@@ -15,6 +15,7 @@
 #include "io/export/config_header.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/keys/key_advice.hpp"
+#include "sixstep/base/plausible.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
 namespace cli {
@@ -51,36 +52,42 @@ std::optional<study::Arithmetic> arithmetic_of(const std::string& word, base::Pr
   return {};
 }
 
-/// A number above 0 that is all of the text; else 0.
-double positive(const std::string& text) {
+/// A number above 0, plausible in its unit, that is all of the text; else 0.
+double positive(const std::string& text, std::string_view unit) {
   double x = 0.0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), x);
   const bool whole = end.ec == std::errc{} && end.ptr == text.data() + text.size();
-  return whole && std::isfinite(x) && x > 0 ? x : 0.0;
+  return whole && base::allowed(base::above(0), unit).holds(x) ? x : 0.0;
 }
 
 design::OperatingRange range_of(const ExportArguments& a, base::Problems& problems) {
   design::OperatingRange range;
-  const std::vector<std::pair<std::string, double*>> members = {{"current_A", &range.current_A},
-                                                                {"speed_rad_s", &range.speed_rad_s},
-                                                                {"position_deg", &range.position_deg},
-                                                                {"bus_V", &range.bus_V},
-                                                                {"setpoint", &range.setpoint}};
+  struct Member {
+    std::string name;
+    std::string_view unit;
+    double* number;
+  };
+  const std::vector<Member> members = {{"current_A", "A", &range.current_A},
+                                       {"speed_rad_s", "rad/s", &range.speed_rad_s},
+                                       {"position_deg", "deg", &range.position_deg},
+                                       {"bus_V", "V", &range.bus_V},
+                                       {"setpoint", "", &range.setpoint}};
   std::vector<std::string> known;
   known.reserve(members.size());
-  for (const auto& member : members) known.push_back(member.first);
+  for (const Member& member : members) known.push_back(member.name);
   for (const std::string& word : a.ranges) {
     const std::size_t cut = std::min(word.find('='), word.size());
     const std::string key = word.substr(0, cut), value = word.substr(std::min(cut + 1, word.size()));
-    double* to = nullptr;
-    for (const auto& member : members)
-      if (member.first == key) to = member.second;
-    if (!to)
+    const auto to = std::find_if(members.begin(), members.end(),
+                                 [&key](const Member& member) { return member.name == key; });
+    if (to == members.end())
       problems.push_back(
           {fmt::format("--range {}", word), "", "names no quantity of the range", meant(key, known)});
-    else if (*to = positive(value); *to == 0.0)
-      problems.push_back({fmt::format("--range {}", key), value, "must be a number above 0",
-                          "give the most that may be measured, as in --range current_A=20"});
+    else if (*to->number = positive(value, to->unit); *to->number == 0.0)
+      problems.push_back(
+          {fmt::format("--range {}", key), value,
+           fmt::format("must be a number above 0 and at most {}", base::plausible(to->unit).most),
+           "give the most that may be measured, as in --range current_A=20"});
   }
   return range;
 }

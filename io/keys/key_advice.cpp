@@ -82,6 +82,9 @@ std::string nearest(std::string_view word, std::span<const std::string> known) {
   int best = static_cast<int>(std::max<std::size_t>(word.size() / 3, 1)) + 1;
   std::string found;
   for (const std::string& candidate : known) {
+    // The lengths alone lie that far apart: of ten million letters none is compared.
+    const std::size_t longer = std::max(word.size(), candidate.size());
+    if (longer - std::min(word.size(), candidate.size()) >= static_cast<std::size_t>(best)) continue;
     const int distance = edit_distance(word, candidate);
     if (distance < best) {
       best = distance;
@@ -133,20 +136,6 @@ base::Problem unknown_key(std::string_view key, std::span<const std::string> kno
   const std::string all =
       known.size() > most_listed ? "sixstep help lists them all" : "known are " + join(known);
   return {.limit = "is not a key here", .cure = advice.empty() ? all : std::string(advice)};
-}
-
-std::string limit_of(const base::Range& range) {
-  const bool low = range.low - range.low == 0.0, high = range.high - range.high == 0.0;
-  if (!low && !high) return "must be a finite number";
-  if (low && high && range.low_included && range.high_included)
-    return fmt::format("must lie in {} to {}", range.low, range.high);
-  if (low && high && !range.low_included && !range.high_included)
-    return fmt::format("must lie strictly between {} and {}", range.low, range.high);
-  std::string text = "must be";
-  if (low) text += fmt::format(" {} {}", range.low_included ? "at least" : "above", range.low);
-  if (high)
-    text += fmt::format("{} {} {}", low ? " and" : "", range.high_included ? "at most" : "below", range.high);
-  return text;
 }
 
 std::string shortest(double x) { return fmt::format("{}", x); }

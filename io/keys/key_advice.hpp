@@ -9,8 +9,11 @@
 #include "io/rooms.hpp"
 #include "sixstep/base/describe.hpp"
 #include "sixstep/base/problem.hpp"
+#include "sixstep/base/range_text.hpp"
 
 namespace io {
+
+using base::limit_of;
 
 /// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other.
 int edit_distance(std::string_view a, std::string_view b);
@@ -32,9 +35,6 @@ base::Problem unknown_key(std::string_view key, std::span<const std::string> kno
 
 /// "a", "b" or "c", each in quotes.
 std::string quoted_alternatives(const std::vector<std::string>& words);
-
-/// "must be above 0 and at most 1"; "must be a finite number" for a range open on both ends.
-std::string limit_of(const base::Range& range);
 
 /// Shortest text that reads back as the same number.
 std::string shortest(double x);

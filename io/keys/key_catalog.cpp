@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "io/keys/key_advice.hpp"
+#include "sixstep/base/plausible.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
 
@@ -142,7 +143,7 @@ std::string help_text(const KeyEntry& entry) {
   std::string text = fmt::format("{}\n  {}\n  {}", entry.path, about.meaning, type_text(entry));
   if (!about.unit.empty()) text += fmt::format(", in {}", about.unit);
   if (!about.frame.empty()) text += fmt::format(", frame {}", about.frame);
-  if (is_numeric(entry.type)) text += ", " + limit_of(about.range);
+  if (is_numeric(entry.type)) text += ", " + limit_of(base::allowed(about));
   if (about.required) text += "\n  required";
   if (!entry.default_value.empty()) text += "\n  default " + entry.default_value;
   std::size_t width = 12;

@@ -10,6 +10,7 @@
 #include "io/keys/key_catalog.hpp"
 #include "io/keys/key_tree.hpp"
 #include "io/motor/motor_library.hpp"
+#include "sixstep/base/plausible.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/run/run.hpp"
@@ -66,13 +67,13 @@ Json quantity(const KeyEntry& entry, const Place& place) {
   const std::vector<std::string> frames = frames_of(entry.about.frame);
   std::vector<std::string> trusts;
   for (const auto& trust : base::trust_choices) trusts.emplace_back(trust.word);
-  Json parts = {{"value", number(entry.about.range)}};
+  Json parts = {{"value", number(base::allowed(entry.about))}};
   if (!frames.empty()) parts["frame"] = words_of(frames);
   parts["source"] = {{"type", "string"}, {"description", "where the value comes from"}};
   parts["kind"] = {{"description", "how far the value can be trusted"}};
   parts["kind"].update(words_of(trusts));
   parts["range"] = {{"type", "array"},
-                    {"items", number(entry.about.range)},
+                    {"items", number(base::allowed(entry.about))},
                     {"minItems", 2},
                     {"maxItems", 2},
                     {"description", "[low, high], where sources differ"}};
@@ -80,7 +81,7 @@ Json quantity(const KeyEntry& entry, const Place& place) {
   Json table = {{"type", "object"}, {"properties", parts}, {"additionalProperties", false}};
   table["required"] = frame_needed ? Json::array({"value", "frame"}) : Json::array({"value"});
   if (frame_needed) return table;
-  return {{"anyOf", {number(entry.about.range), table}}};
+  return {{"anyOf", {number(base::allowed(entry.about)), table}}};
 }
 
 Json list_of(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
@@ -104,15 +105,15 @@ Json table(const std::string& path, const Place& place);
 Json value_of(const KeyEntry& entry, const Place& place) {
   switch (entry.type) {
     case KeyType::number:
-      return number(entry.about.range);
+      return number(base::allowed(entry.about));
     case KeyType::whole_number:
-      return whole_number(entry.about.range);
+      return whole_number(base::allowed(entry.about));
     case KeyType::flag:
       return {{"type", "boolean"}};
     case KeyType::text:
       return entry.path == "motor" ? motor_names() : Json{{"type", "string"}};
     case KeyType::numbers:
-      return list_of(number(entry.about.range));
+      return list_of(number(base::allowed(entry.about)));
     case KeyType::texts:
       return words_or_one(entry.path == "record.columns" ? column_names() : Json{{"type", "string"}});
     case KeyType::word:

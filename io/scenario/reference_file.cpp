@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
+#include "io/keys/bounded.hpp"
 #include "io/keys/key_advice.hpp"
 #include "io/keys/units.hpp"
+#include "sixstep/base/plausible.hpp"
 
 namespace io {
 namespace {
@@ -31,9 +34,12 @@ char separator_of(std::string_view line) {
   return ' ';
 }
 
-std::vector<std::string> cells_of(std::string_view line, char separator) {
-  std::vector<std::string> cells;
-  while (!line.empty()) {
+/// Of a line of more columns the rest is left alone.
+constexpr std::size_t most_columns = 10'000;
+
+std::vector<std::string_view> cells_of(std::string_view line, char separator) {
+  std::vector<std::string_view> cells;
+  while (!line.empty() && cells.size() < most_columns) {
     const std::size_t cut = std::min(line.find(separator), line.size());
     const std::string_view cell = trimmed(line.substr(0, cut));
     if (separator != ' ' || !cell.empty()) cells.emplace_back(cell);
@@ -42,7 +48,8 @@ std::vector<std::string> cells_of(std::string_view line, char separator) {
   return cells;
 }
 
-std::optional<double> number_of(std::string cell, char separator) {
+std::optional<double> number_of(std::string_view text, char separator) {
+  std::string cell(text);
   if (separator == ';') std::replace(cell.begin(), cell.end(), ',', '.');
   const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
   double x = 0.0;
@@ -75,11 +82,11 @@ class RowsReader {
     const std::string_view content = trimmed(text);
     if (content.empty() || content.front() == '#') return;
     if (separator_ == 0) separator_ = separator_of(content);
-    const std::vector<std::string> cells = cells_of(content, separator_);
+    const std::vector<std::string_view> cells = cells_of(content, separator_);
     const bool first = !begun_;
     begun_ = true;
     if (first && !number_of(cells.at(0), separator_))
-      headings(cells);
+      headings({cells.begin(), cells.end()});
     else if (first && column_)
       say("has no headings", fmt::format("the first line must name \"{}\"", *column_));
     else
@@ -129,33 +136,48 @@ class RowsReader {
                                                            : fmt::format("did you mean \"{}\"?", near));
   }
 
-  std::optional<double> value_of(const std::string& cell, const Column& column) const {
+  std::optional<double> value_of(std::string_view cell, const Column& column) const {
     const std::optional<double> x = number_of(cell, separator_);
     if (!x || column.written.empty()) return x;
-    std::string decimal = cell;
+    std::string decimal(cell);
     if (separator_ == ';') std::replace(decimal.begin(), decimal.end(), ',', '.');
     const base::Result<double> converted = in_unit(decimal + " " + column.written, column.wanted);
     return converted ? std::optional(*converted) : std::nullopt;
   }
 
-  void row(const std::vector<std::string>& cells) {
+  void row(const std::vector<std::string_view>& cells) {
     if (cells.size() <= value_at_)
       return say(fmt::format("has {} cells", cells.size()), "each row is a time in s and a value");
     const std::optional<double> t = value_of(cells[0], time_), y = value_of(cells[value_at_], value_);
     if (!t || !y)
       return say(fmt::format("\"{}\" is no number", cells[t ? value_at_ : 0]),
                  "write numbers as 0.5 or 5e-1");
-    const bool rises = rows_.times_s.empty() ? *t >= 0.0 : *t > rows_.times_s.back();
+    if (!allowed(*t, time_, cells[0]) || !allowed(*y, value_, cells[value_at_])) return;
+    const double at = not_nearly(*t);
+    const bool rises = rows_.times_s.empty() ? at >= 0.0 : at > rows_.times_s.back();
     if (!rises) return say(fmt::format("time {} does not rise", cells[0]), "sort the rows, from 0 s on");
-    rows_.times_s.push_back(*t);
-    rows_.values.push_back(*y);
+    rows_.times_s.push_back(at);
+    rows_.values.push_back(not_nearly(*y));
   }
+
+  bool allowed(double x, const Column& column, std::string_view cell) {
+    base::Range range = base::allowed(base::Range{}, column.wanted);
+    range.least = 0.0;
+    if (range.holds(x)) return true;
+    const std::string in = column.wanted.empty() ? "" : ", in " + column.wanted;
+    say(fmt::format("\"{}\" {}{}", cell, limit_of(range), in), "look at the unit of its column");
+    return false;
+  }
+
+  /// A trace that was recorded fades for ever: what is nearly nothing is 0.
+  static double not_nearly(double x) { return std::fabs(x) < base::nearly_nothing ? 0.0 : x; }
 
   void say(std::string limit, std::string cure) {
     if (told_.size() < most_told)
-      told_.push_back({.where = fmt::format("{}:{}:", name_, std::max<std::size_t>(number_, 1)),
-                       .limit = std::move(limit),
-                       .cure = std::move(cure)});
+      told_.push_back(bounded({.where = fmt::format("{}:{}:", name_, std::max<std::size_t>(number_, 1)),
+                               .value = {},
+                               .limit = std::move(limit),
+                               .cure = std::move(cure)}));
     else
       ++skipped_;
   }

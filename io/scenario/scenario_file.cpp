@@ -19,6 +19,7 @@
 #include "sixstep/design/sheet/sheet_constants.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/study/check/check.hpp"
+#include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
 
@@ -169,6 +170,18 @@ void run_checks(const Document& document, const SheetSource& source, const study
   for (base::Problem& problem : of_motor.in_order()) of_other_files.push_back(std::move(problem));
 }
 
+/// A file's column of what its mode does not have would be written as no number; reports draw it as a gap.
+void check_columns(const study::Scenario& scenario, Complaints& complaints) {
+  const std::vector<study::Column>& columns = study::all_columns();
+  for (std::size_t n = 0; n < columns.size(); ++n) {
+    const std::vector<std::string>& asked = scenario.record.columns;
+    if (std::find(asked.begin(), asked.end(), columns[n].name) == asked.end()) continue;
+    if (!study::applies(static_cast<study::ColumnId>(n), scenario.control.mode))
+      complaints.later({"record.columns", "\"" + columns[n].name + "\"", "has no value in this control.mode",
+                        "remove it, or control what it is the reference of"});
+  }
+}
+
 /// The rows of a csv reference, from the file that it names.
 void read_rows(const Document& document, const std::string& path, const std::string& unit,
                study::Reference& r, Complaints& complaints, base::Problems& of_other_files) {
@@ -262,6 +275,7 @@ base::Result<study::Scenario> read_scenario_text(const std::string& path, std::s
   // A duration that is wrong has been told: nothing shall lie behind its end besides.
   if (!(scenario.duration_s > 0.0)) scenario.duration_s = study::longest_s;
   read_all_rows(document, scenario, complaints, of_other_files);
+  check_columns(scenario, complaints);
   if (source) run_checks(document, *source, scenario, complaints, of_other_files);
 
   base::Problems problems = complaints.in_order();

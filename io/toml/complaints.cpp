@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "io/keys/bounded.hpp"
+
 namespace io {
 namespace {
 
@@ -37,18 +39,28 @@ void Complaints::add(const toml::source_region& at, std::string place, std::stri
   found_.push_back({document_.order_of(at), at.begin, std::move(problem)});
 }
 
+bool Complaints::left_out(std::string_view path) {
+  if (!full()) return false;
+  ++left_out_;
+  told(path);
+  return true;
+}
+
 void Complaints::value(const toml::node& node, std::string_view path, base::Problem problem) {
+  if (left_out(path)) return;
   if (problem.value.empty()) problem.value = document_.quote(node, path);
   add(node.source(), document_.place(node, path), path, std::move(problem));
 }
 
 void Complaints::key(const toml::key& key, const toml::node& node, std::string_view path,
                      base::Problem problem) {
+  if (left_out(path)) return;
   const toml::source_region& at = key.source();
   add(at, at.begin ? document_.place(at) : document_.place(node, path), path, std::move(problem));
 }
 
 void Complaints::missing(std::string_view path, base::Problem problem) {
+  if (left_out(path)) return;
   const toml::node* table = document_.find(table_of(path));
   add(table ? table->source() : toml::source_region{}, document_.nearest_place(path), path,
       std::move(problem));
@@ -79,7 +91,11 @@ base::Problems Complaints::in_order() const {
     return std::tuple(x.file, x.at.line, x.at.column) < std::tuple(y.file, y.at.line, y.at.column);
   });
   base::Problems problems;
-  for (Found& found : sorted) problems.push_back(std::move(found.problem));
+  for (Found& found : sorted) problems.push_back(bounded(std::move(found.problem)));
+  if (left_out_ > 0)
+    problems.push_back({.where = document_.name() + ":",
+                        .limit = "is wrong in " + std::to_string(left_out_) + " more places",
+                        .cure = "mend those above first"});
   return problems;
 }
 

@@ -32,6 +32,8 @@ class Complaints {
 
   const Document& document() const { return document_; }
   bool empty() const { return found_.empty(); }
+  /// So many mistakes have been told that nobody reads the next one: it is counted only.
+  bool full() const { return found_.size() >= most_told; }
   base::Problems in_order() const;
 
  private:
@@ -40,11 +42,15 @@ class Complaints {
     toml::source_position at;
     base::Problem problem;
   };
+  static constexpr std::size_t most_told = 100;
   /// Of the table, and of the item of a list that it lies in.
   void told(std::string_view path);
   void add(const toml::source_region& at, std::string place, std::string_view path, base::Problem problem);
+  /// True where there is no room for it any more.
+  bool left_out(std::string_view path);
 
   const Document& document_;
+  std::size_t left_out_ = 0;
   std::vector<Found> found_;
   std::set<std::string> tables_;
 };

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "io/keys/bounded.hpp"
+#include "io/toml/nesting.hpp"
 #include "io/toml/syntax_cure.hpp"
 
 namespace io {
@@ -25,14 +27,18 @@ Node* child(Node& node, const std::string& word) {
   return nullptr;
 }
 
+std::vector<std::size_t> line_starts(std::string_view text) {
+  std::vector<std::size_t> starts{0};
+  for (std::size_t n = 0; n < text.size(); ++n)
+    if (text[n] == '\n') starts.push_back(n + 1);
+  return starts;
+}
+
 /// The byte offset of a line and column, both counted from 1, columns in code points.
-std::size_t offset_of(std::string_view text, toml::source_position at) {
-  std::size_t offset = 0;
-  for (toml::source_index line = 1; line < at.line; ++line) {
-    const std::size_t end = text.find('\n', offset);
-    if (end == std::string_view::npos) return text.size();
-    offset = end + 1;
-  }
+std::size_t offset_of(std::string_view text, const std::vector<std::size_t>& lines,
+                      toml::source_position at) {
+  if (at.line == 0 || at.line > lines.size()) return text.size();
+  std::size_t offset = lines[at.line - 1];
   for (toml::source_index column = 1; column < at.column && offset < text.size(); ++column) {
     ++offset;
     while (offset < text.size() && (static_cast<unsigned char>(text[offset]) & 0xC0U) == 0x80U) ++offset;
@@ -48,6 +54,14 @@ void put(toml::array& array, std::size_t index, toml::node& value) {
   value.visit([&](auto& node) { array.replace(array.cbegin() + static_cast<std::ptrdiff_t>(index), node); });
 }
 
+/// The tables of `first` before those of the list.
+void put_first(toml::array& list, toml::array& first) {
+  toml::array own = std::move(list);
+  list.clear();
+  for (toml::array* from : {&first, &own})
+    for (toml::node& item : *from) list.push_back(std::move(*item.as_table()));
+}
+
 /// What `over` leaves open is moved there from `base`, and keeps its place in its file.
 void fill(toml::table& over, toml::table& base) {
   for (auto&& [key, node] : base) {
@@ -58,9 +72,7 @@ void fill(toml::table& over, toml::table& base) {
     else if (a && b && !a->is_inline() && !b->is_inline())
       fill(*a, *b);
     else if (mine->is_array_of_tables() && node.is_array_of_tables())
-      for (std::size_t n = 0; n < node.as_array()->size(); ++n)
-        mine->as_array()->insert(mine->as_array()->cbegin() + static_cast<std::ptrdiff_t>(n),
-                                 std::move(*node.as_array()->get_as<toml::table>(n)));
+      put_first(*mine->as_array(), *node.as_array());
   }
 }
 
@@ -96,14 +108,18 @@ std::vector<std::string> path_words(std::string_view path) {
   return words;
 }
 
+Document::Document(std::string name, std::string text, toml::table root)
+    : files_{{std::move(name), text, line_starts(text)}}, root_(std::move(root)) {}
+
 base::Result<Document> Document::parse(std::string name, std::string text) {
+  if (std::optional<base::Problem> deep = nests_too_deep(name, text)) return std::move(*deep);
   toml::parse_result parsed = toml::parse(std::string_view(text), std::string_view(name));
   if (!parsed) {
     const toml::parse_error& error = parsed.error();
     const toml::source_position at = error.source().begin;
-    return base::Problem{.where = fmt::format("{}:{}:{}:", name, at.line, at.column),
-                         .limit = std::string(error.description()),
-                         .cure = std::string(syntax_cure(error.description()))};
+    return bounded(base::Problem{.where = fmt::format("{}:{}:{}:", name, at.line, at.column),
+                                 .limit = std::string(error.description()),
+                                 .cure = std::string(syntax_cure(error.description()))});
   }
   return Document(std::move(name), std::move(text), std::move(parsed).table());
 }
@@ -112,7 +128,15 @@ base::Problems Document::set(std::span<const Setting> settings) {
   base::Problems problems;
   for (const Setting& setting : settings) {
     const std::vector<std::string> words = path_words(setting.path);
-    toml::parse_result parsed = toml::parse(fmt::format("x = {}", setting.text));
+    const std::string line = fmt::format("x = {}", setting.text);
+    if (words.size() > deepest || nests_too_deep("", line)) {
+      problems.push_back(bounded({.where = fmt::format("--set {}", setting.path),
+                                  .value = setting.text,
+                                  .limit = "nests too deep",
+                                  .cure = "write --set table.key=value, as in --set supply.voltage_V=12"}));
+      continue;
+    }
+    toml::parse_result parsed = toml::parse(line);
     toml::table holder;
     if (parsed && parsed.table().size() == 1)
       holder = std::move(parsed).table();
@@ -159,8 +183,10 @@ const Setting* Document::setting_of(std::string_view path) const {
 }
 
 std::string_view Document::slice(const toml::source_region& region) const {
-  const std::string_view text = files_[order_of(region)].text;
-  const std::size_t begin = offset_of(text, region.begin), end = offset_of(text, region.end);
+  const File& file = files_[order_of(region)];
+  const std::string_view text = file.text;
+  const std::size_t begin = offset_of(text, file.lines, region.begin),
+                    end = offset_of(text, file.lines, region.end);
   return begin < end ? text.substr(begin, end - begin) : std::string_view();
 }
 

@@ -59,9 +59,9 @@ class Document {
  private:
   struct File {
     std::string name, text;
+    std::vector<std::size_t> lines;  ///< where each begins
   };
-  Document(std::string name, std::string text, toml::table root)
-      : files_{{std::move(name), std::move(text)}}, root_(std::move(root)) {}
+  Document(std::string name, std::string text, toml::table root);
   const Setting* setting_of(std::string_view path) const;
   std::string_view slice(const toml::source_region& region) const;
 

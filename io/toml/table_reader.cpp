@@ -8,10 +8,17 @@
 #include "io/keys/key_advice.hpp"
 #include "io/keys/key_catalog.hpp"
 #include "io/keys/units.hpp"
+#include "sixstep/base/plausible.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
 namespace io {
 namespace {
+
+/// So many entries of one list are told of: of one with another kind of entry each would be.
+constexpr std::size_t most_told_of_a_list = 5;
+
+/// Of one [[key]].
+constexpr std::size_t most_tables = 10'000;
 
 std::string in_unit_words(const base::About& about) {
   return about.unit.empty() ? std::string() : fmt::format(", in {}", about.unit);
@@ -61,11 +68,26 @@ const toml::table* TableReader::find_table(std::string_view key, const base::Abo
 
 const toml::array* TableReader::find_tables(std::string_view key, const base::About& about) {
   const toml::node* node = find(key, about);
-  if (!node || node->is_array_of_tables()) return node ? node->as_array() : nullptr;
+  if (node && node->is_array_of_tables()) {
+    if (node->as_array()->size() <= most_tables) return node->as_array();
+    complaints_.value(
+        *node, at(key),
+        {.limit = fmt::format("has {} tables, more than {}", node->as_array()->size(), most_tables),
+         .cure = "write fewer; rows of a reference belong into a file, with shape = \"csv\""});
+    return nullptr;
+  }
+  if (!node) return nullptr;
   if (const toml::array* array = node->as_array(); array && array->empty()) return array;
   complaints_.value(*node, at(key),
                     {.limit = "must be a list of tables", .cure = fmt::format("write [[{}]]", at(key))});
   return nullptr;
+}
+
+double TableReader::within(const base::About& about) {
+  const base::Range range = base::allowed(about);
+  for (const double plain : {0.0, 1.0})
+    if (range.holds(plain)) return plain;
+  return range.high_included ? range.high : range.low;
 }
 
 /// Empty for a plain number; nothing where it follows from a control mode that has no unit.
@@ -101,16 +123,17 @@ bool TableReader::number(const toml::node& node, const std::string& path, const 
                          double& out) {
   const base::Result<double> x = number_of(node, about);
   const auto refuse = [&](base::Problem problem) {
+    refused_ = true;
     if (lost_word_ && !about.unit_here.empty() && node.is_string()) return false;
     if (problem.cure.empty()) problem.cure = cure_of(about);
     complaints_.value(node, path, std::move(problem));
     return false;
   };
   if (!x) return refuse(x.problems().at(0));
-  if (!about.range.holds(*x)) {
+  if (const base::Range range = base::allowed(about); !range.holds(*x)) {
     const bool finite = *x - *x == 0.0;
-    const std::string in = node.is_string() && !about.unit.empty() ? in_unit_words(about) : "";
-    return refuse({.limit = finite ? limit_of(about.range) + in : "must be a finite number"});
+    const std::string in = finite && node.is_string() ? in_unit_words(about) : "";
+    return refuse({.limit = limit_of(about.range, range, *x) + in});
   }
   out = *x;
   return true;
@@ -173,8 +196,11 @@ void TableReader::value(std::string_view key, std::vector<double>& member, const
     return;
   }
   member.clear();
-  for (std::size_t n = 0; n < items->size(); ++n)
-    number(*items->get(n), fmt::format("{}[{}]", at(key), n), about, member.emplace_back());
+  base::About item = about;
+  item.range = base::allowed(about);
+  std::size_t wrong = 0;
+  for (std::size_t n = 0; n < items->size() && wrong <= most_told_of_a_list; ++n)
+    wrong += !number(*items->get(n), fmt::format("{}[{}]", at(key), n), item, member.emplace_back());
 }
 
 void TableReader::value(std::string_view key, std::vector<std::string>& member, const base::About& about) {
@@ -192,8 +218,9 @@ void TableReader::value(std::string_view key, std::vector<std::string>& member, 
     return;
   }
   member.clear();
-  for (std::size_t n = 0; n < items->size(); ++n)
-    word(*items->get(n), fmt::format("{}[{}]", at(key), n), about, member.emplace_back());
+  std::size_t wrong = 0;
+  for (std::size_t n = 0; n < items->size() && wrong <= most_told_of_a_list; ++n)
+    wrong += !word(*items->get(n), fmt::format("{}[{}]", at(key), n), about, member.emplace_back());
 }
 
 void TableReader::no_such_word(const toml::node& node, std::string_view key,
@@ -212,7 +239,8 @@ void TableReader::no_such_word(const toml::node& node, std::string_view key,
 void TableReader::refuse_unknown_keys() {
   for (const auto& [key, node] : table_) {
     if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
-    base::Problem problem = unknown_key(key.str(), known_, advice_);
+    base::Problem problem;
+    if (!complaints_.full()) problem = unknown_key(key.str(), known_, advice_);
     complaints_.key(key, node, at(key.str()), std::move(problem));
   }
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "io/rooms.hpp"
@@ -36,7 +37,10 @@ class TableReader {
   void value(std::string_view key, std::optional<T>& member, const base::About& about) {
     if (!any_spelling_in_file(key, about)) return absent(key, about);
     T present{};
+    refused_ = false;
     value(spelling_in_file(key, about)->key, present, about);
+    if constexpr (std::is_arithmetic_v<T>)
+      if (refused_) present = static_cast<T>(within(about));  // it is told of; what follows sees it as given
     member = std::move(present);
   }
 
@@ -118,6 +122,8 @@ class TableReader {
                                    int ten) const;
   const toml::table* find_table(std::string_view key, const base::About& about);
   const toml::array* find_tables(std::string_view key, const base::About& about);
+  /// A number that the key may have.
+  static double within(const base::About& about);
   std::optional<std::string> unit_of_key(const base::About& about) const;
   base::Result<double> number_of(const toml::node& node, const base::About& about) const;
   bool number(const toml::node& node, const std::string& path, const base::About& about, double& out);
@@ -132,6 +138,7 @@ class TableReader {
   bool partial_;
   std::string_view advice_;
   std::vector<std::string> known_;
+  bool refused_ = false;    ///< a number was out of its range
   bool lost_word_ = false;  ///< a choice could not be read: what unit it decides is not known
 };
 

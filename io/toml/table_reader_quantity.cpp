@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <charconv>
 
 #include "io/keys/key_advice.hpp"
 #include "io/keys/key_tree.hpp"
@@ -48,8 +48,14 @@ std::optional<double> TableReader::last_digit(const toml::node& node, const std:
   const std::size_t exponent = text.find_first_of("eE"), point = text.find('.');
   const std::string_view digits = std::string_view(text).substr(0, exponent);
   if (digits.empty() || digits.find_first_not_of("+-_.0123456789") != std::string_view::npos) return {};
-  int power = ten;
-  if (exponent != std::string::npos) power += std::atoi(text.c_str() + exponent + 1);
+  int power = 0;
+  if (exponent != std::string::npos) {
+    const char* from = text.c_str() + exponent + 1;
+    from += *from == '+';
+    if (std::from_chars(from, text.c_str() + text.size(), power).ec != std::errc()) return {};
+    if (power < -400 || power > 400) return {};  // no double has it
+  }
+  power += ten;
   if (point != std::string::npos)
     power -= static_cast<int>(std::count_if(digits.begin() + static_cast<std::ptrdiff_t>(point), digits.end(),
                                             [](char c) { return c >= '0' && c <= '9'; }));

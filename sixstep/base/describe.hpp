@@ -29,10 +29,11 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();
   bool low_included = true;
   bool high_included = true;
+  double least = 0.0;  ///< size of the smallest number that is not 0
 
   constexpr bool holds(double x) const {  // NaN is in no range
     return (low_included ? x >= low : x > low) && (high_included ? x <= high : x < high) &&
-           x - x == 0.0;  // finite
+           (x == 0.0 || x >= least || x <= -least) && x - x == 0.0;  // finite
   }
 };
 constexpr Range above(double low) { return {.low = low, .low_included = false}; }

@@ -12,12 +12,16 @@ namespace sixstep::plant {
 
 namespace detail {
 
+/// Any finite excess is gone after fewer: the last two terms fall by 2^15 at least with each halving.
+inline constexpr int most_halvings = 2000;
+
 /// Halves the length until the last two terms are below rounding; exact, since only powers of two are used.
 template <class Real>
 void shorten(Expansion<Real>& out, Real excess_last, Real excess_before) {
   int halvings = 0;
   const int n = out.degree;
-  for (Real a = excess_last, b = excess_before; a > 1 || b > 1; ++halvings) {
+  // A term that is infinite stays so: the length then ends at nothing, and the run without progress.
+  for (Real a = excess_last, b = excess_before; (a > 1 || b > 1) && halvings < most_halvings; ++halvings) {
     for (int j = 0; j < n; ++j) a /= 2;
     for (int j = 0; j < n - 1; ++j) b /= 2;
   }

@@ -153,8 +153,9 @@ TEST(SheetConstants, ABadNumberIsOneClearError) {
   for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
     Sheet s = printed_251601();
     s.resistance_ohm->value = bad;
-    EXPECT_EQ(told(s), "resistance_ohm = " + base::written(bad) +
-                           " must be above 0; give the value as the sheet prints it, or leave the key out");
+    const std::string limit = std::isfinite(bad) ? " must be above 0" : " must be a finite number";
+    EXPECT_EQ(told(s), "resistance_ohm = " + base::written(bad) + limit +
+                           "; give the value as the sheet prints it, or leave the key out");
     s = printed_251601();
     s.torque_constant_mNm_A->value = bad;
     EXPECT_EQ(told(s).find('\n'), std::string::npos) << told(s);

@@ -223,7 +223,8 @@ TEST(DescribedKeys, HelpTellsUnitRangeDefaultAndWords) {
     return *std::find_if(keys.begin(), keys.end(), [&](const KeyEntry& k) { return k.path == path; });
   };
   EXPECT_EQ(help_text(find("supply.voltage_V")),
-            "supply.voltage_V\n  voltage of the source\n  number, in V, must be above 0\n  default 24\n");
+            "supply.voltage_V\n  voltage of the source\n  number, in V, must be above 0 and at most 100000\n "
+            " default 24\n");
   EXPECT_EQ(
       help_text(find("pwm.alignment")),
       "pwm.alignment\n  where in the period the on-time lies\n  one word of those below\n  default \"edge\"\n"

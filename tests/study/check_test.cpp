@@ -248,7 +248,7 @@ TEST(Check, AllProblemsComeAtOnceAndEachHasACure) {
   Scenario s = current_square();
   s.supply.sinks = false;
   s.control.current.kp = 1.0;
-  s.pwm.delay_periods = 7;
+  s.bridge.dead_time_s = 1.0;
   EXPECT_EQ(places(s).size(), 3u);
   for (const base::Problem& p : study::check(s)) {
     EXPECT_FALSE(p.limit.empty());

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/design/loops/wish_check.hpp"
 
+#include <optional>
 #include <string>
+#include <string_view>
 
+#include "sixstep/base/range_text.hpp"
 #include "sixstep/base/written.hpp"
 
 namespace sixstep::design {
@@ -14,7 +17,11 @@ base::Problems check_wish(const MotorModel& motor, const DesignWish& w) {
   const auto add = [&](const char* where, const std::string& value, const char* limit, const char* cure) {
     found.push_back({where, value, limit, cure});
   };
-  const auto above_0 = [](double x) { return x > 0.0 && x - x == 0.0; };
+  const auto hold = [&](const char* where, const std::optional<double>& x, const base::Range& own,
+                        std::string_view unit, const char* cure) {
+    const base::Problems out = x ? base::out_of_range(where, *x, own, unit, cure) : base::Problems{};
+    found.insert(found.end(), out.begin(), out.end());
+  };
   if (w.mode != Mode::current && w.mode != Mode::speed && w.mode != Mode::position)
     add("--mode", "", "must be current, speed or position", "choose what is to be controlled");
   if (w.method == GainMethod::symmetrical_optimum && w.mode == Mode::current)
@@ -26,23 +33,21 @@ base::Problems check_wish(const MotorModel& motor, const DesignWish& w) {
   if (w.bandwidth_rad_s && w.method == GainMethod::pole_placement)
     add("--bandwidth", base::written(*w.bandwidth_rad_s), "is no input of pole placement",
         "give --settle, or take --method cancellation");
-  if (w.bandwidth_rad_s && !above_0(*w.bandwidth_rad_s))
-    add("--bandwidth", base::written(*w.bandwidth_rad_s), "must be above 0", "give it in rad/s");
-  if (w.voltage_V && !above_0(*w.voltage_V))
-    add("--voltage", base::written(*w.voltage_V), "must be above 0", "give the bus voltage in volts");
-  if (!w.voltage_V && !above_0(motor.nominal_voltage_V))
+  if (!w.voltage_V && !(motor.nominal_voltage_V > 0.0))
     add("--voltage", "", "is missing, and the sheet prints no nominal voltage",
         "give the bus voltage in volts");
-  if (!above_0(w.period_s))
-    add("--period", base::written(w.period_s), "must be above 0", "give the control period in seconds");
-  if (w.torque_limit_Nm && !above_0(*w.torque_limit_Nm))
-    add("--torque-limit", base::written(*w.torque_limit_Nm), "must be above 0", "give it in N m");
-  if (w.lowest_speed_rad_s && !above_0(*w.lowest_speed_rad_s))
-    add("--lowest-speed", base::written(*w.lowest_speed_rad_s), "must be above 0", "give it in rad/s");
+  using base::above;
+  hold("--bandwidth", w.bandwidth_rad_s, above(0), "rad/s", "give it in rad/s");
+  hold("--voltage", w.voltage_V, above(0), "V", "give the bus voltage in volts");
+  hold("--period", w.period_s, {0, 1, false, true}, "s", "give the control period in seconds");
+  hold("--settle", w.settle_s, above(0), "s", "give the settling time in seconds");
+  hold("--current-settle", w.current_settle_s, above(0), "s", "give the settling time in seconds");
+  hold("--damping", w.damping, {0, 1, false, true}, "", "0.9 is the thesis's choice");
+  hold("--torque-limit", w.torque_limit_Nm, above(0), "N m", "give it in N m");
+  hold("--lowest-speed", w.lowest_speed_rad_s, above(0), "rad/s", "give it in rad/s");
   if (w.rotor.edges < 0 || w.rotor.edges > 6)
     add("--edges", std::to_string(w.rotor.edges), "must lie in 1 to 6", "leave it out to have them adaptive");
-  if (!(w.load_inertia_kg_m2 >= 0.0 && w.load_inertia_kg_m2 - w.load_inertia_kg_m2 == 0.0))
-    add("--load-inertia", base::written(w.load_inertia_kg_m2), "must not be negative", "give it in kg m2");
+  hold("--load-inertia", w.load_inertia_kg_m2, base::from(0), "kg m2", "give it in kg m2");
   return found;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/plausible.hpp"
+#include "sixstep/base/range_text.hpp"
 #include "sixstep/design/sheet/sheet_reader.hpp"
 
 namespace sixstep::design {
@@ -12,11 +14,9 @@ namespace {
 void read_printed_points(SheetReader& reader, MotorModel& m) {
   const Sheet& sheet = reader.sheet;
   if (sheet.no_load_speed_rpm)
-    m.no_load_speed_rad_s =
-        reader.positive("no_load_speed_rpm", *sheet.no_load_speed_rpm).value_or(0.0) * base::pi / 30.0;
+    m.no_load_speed_rad_s = SheetReader::positive(*sheet.no_load_speed_rpm).value_or(0.0) * base::pi / 30.0;
   if (sheet.no_load_current_mA)
-    m.no_load_current_A =
-        reader.not_negative("no_load_current_mA", *sheet.no_load_current_mA, -3).value_or(0.0);
+    m.no_load_current_A = SheetReader::not_negative(*sheet.no_load_current_mA, -3).value_or(0.0);
   if (const std::optional<base::Quantity>& printed = sheet.nominal_current_A) {
     const bool rms = printed->frame == "rms";
     const double per_A = rms ? torque_per_rms_A(m.machine.K_e_V_s, reader.out.shape) / m.K_t_Nm_A : 1.0;
@@ -24,12 +24,31 @@ void read_printed_points(SheetReader& reader, MotorModel& m) {
   }
   m.stall_torque_Nm = m.K_t_Nm_A * m.nominal_voltage_V / (2.0 * m.machine.R_ohm);
   if (sheet.stall_torque_mNm)
-    m.stall_torque_Nm = reader.positive("stall_torque_mNm", *sheet.stall_torque_mNm, -3).value_or(0.0);
+    m.stall_torque_Nm = SheetReader::positive(*sheet.stall_torque_mNm, -3).value_or(0.0);
+}
+
+/// What lines make together, as K_t = 2 B l r N, is held to the same table as what one line says.
+void check_constants(SheetReader& reader, const MotorModel& m) {
+  const auto hold = [&reader](const std::string& where, double value, const base::Range& own,
+                              std::string_view unit, const char* what) {
+    const base::Range allowed = base::allowed(own, unit);
+    if (!allowed.holds(value))
+      reader.problem(where, "",
+                     std::string("makes ") + what + " " + rounded(value) + " " + std::string(unit) +
+                         ", which " + limit_of(own, allowed, value),
+                     "look at the units of the lines that it is made of");
+  };
+  hold(m.from.K_t.substr(0, m.from.K_t.find(',')), m.K_t_Nm_A, base::above(0), "Nm/A", "the torque constant");
+  hold(reader.sheet.viscous_friction_Nm_s ? "viscous_friction_Nm_s" : "no_load_current_mA", m.shaft.B_Nm_s,
+       base::from(0), "N m s", "the viscous friction");
 }
 
 /// Of the motors in data/motors none passes 1e4 rad/s. Ten times that and more is a slip of a unit, and would
 /// be simulated in steps of nanoseconds.
 constexpr double fastest_winding_rad_s = 1e6, fastest_swing_rad_s = 1e5;
+
+/// No winding keeps its current for minutes: what is simulated until it is forgotten would have no end.
+constexpr double slowest_winding_rad_s = 0.01;
 
 /// R/L and K_t/sqrt(L J), terminal to terminal: how fast the winding and the shaft on it answer.
 void check_pace(SheetReader& reader, const MotorModel& m) {
@@ -39,13 +58,15 @@ void check_pace(SheetReader& reader, const MotorModel& m) {
   const auto written = [](const std::optional<base::Quantity>& q) {
     return q ? base::written(q->value) : "";
   };
-  if (winding > fastest_winding_rad_s) {
+  if (winding > fastest_winding_rad_s || winding < slowest_winding_rad_s) {
     const std::optional<base::Quantity>& q =
         sheet.inductance_mH ? sheet.inductance_mH : sheet.d_axis_inductance_mH;
     const char* key = sheet.inductance_mH ? "inductance_mH" : "d_axis_inductance_mH";
+    const std::string bound = winding > fastest_winding_rad_s
+                                  ? rounded(1e9 / winding, 3) + " ns, and no motor is below 1000 ns"
+                                  : rounded(1 / winding, 3) + " s, and no motor is above 100 s";
     reader.problem(q ? SheetReader::key_of(key, *q) : key, written(q),
-                   "makes the winding's time constant L/R " + rounded(1e9 / winding, 3) +
-                       " ns, and no motor is below 1000 ns",
+                   "makes the winding's time constant L/R " + bound,
                    "look at the unit of inductance and resistance");
   } else if (swing > fastest_swing_rad_s) {
     const std::optional<base::Quantity>& q =
@@ -89,6 +110,7 @@ base::Result<MotorModel> motor_model(const Sheet& sheet) {
   m.from = {c.R_ohm->from, c.L_H->from, c.K_e_V_s->from, c.K_t_Nm_A->from, c.J_kg_m2->from, c.friction.from};
   SheetReader reader{sheet, c};
   read_printed_points(reader, m);
+  check_constants(reader, m);
   check_pace(reader, m);
   if (!c.problems.empty()) return c.problems;
   return m;

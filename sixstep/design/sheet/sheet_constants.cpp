@@ -25,7 +25,7 @@ void read_resistance(SheetReader& reader) {
     return reader.missing("resistance_ohm",
                           "give the winding's resistance with its frame, or measure it "
                           "between two terminals with a milliohm meter");
-  const std::optional<double> R = reader.positive("resistance_ohm", *q);
+  const std::optional<double> R = SheetReader::positive(*q);
   if (!R) return;
   if (q->frame == "terminal" || q->frame == "phase") {
     reader.out.R_ohm = Constant{per_phase(*R, q->frame), from_frame("resistance_ohm", *q)};
@@ -56,8 +56,7 @@ void read_axes(SheetReader& reader) {
                           base::written(d ? d->value : q->value),
                           std::string("needs ") + (d ? "q" : "d") + "_axis_inductance_mH beside it",
                           "give both, or inductance_mH alone");
-  const std::optional<double> L_d = reader.positive("d_axis_inductance_mH", *d, -3),
-                              L_q = reader.positive("q_axis_inductance_mH", *q, -3);
+  const std::optional<double> L_d = SheetReader::positive(*d, -3), L_q = SheetReader::positive(*q, -3);
   if (!L_d || !L_q) return;
   if (*L_d != *L_q) {
     const std::string mean = rounded((d->value + q->value) / 2.0);
@@ -85,7 +84,7 @@ void read_inductance(SheetReader& reader) {
         "inductance_mH",
         "give the winding's inductance with its frame; where the sheet has none, measure it "
         "between two terminals with an LCR meter at 1 kHz");
-  const std::optional<double> L = reader.positive("inductance_mH", *q, -3);
+  const std::optional<double> L = SheetReader::positive(*q, -3);
   if (!L) return;
   if (q->frame == "terminal" || q->frame == "phase") {
     reader.out.L_H = Constant{per_phase(*L, q->frame), from_frame("inductance_mH", *q)};
@@ -105,8 +104,8 @@ void read_inertia(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   const std::optional<Quantity>&rotor = s.inertia_gcm2, &braked = s.inertia_with_brake_gcm2;
   std::optional<double> J, J_b;
-  if (rotor) J = reader.positive("inertia_gcm2", *rotor, -7);
-  if (braked) J_b = reader.positive("inertia_with_brake_gcm2", *braked, -7);
+  if (rotor) J = SheetReader::positive(*rotor, -7);
+  if (braked) J_b = SheetReader::positive(*braked, -7);
   if (J && J_b && *J_b < *J)
     reader.problem(SheetReader::key_of("inertia_with_brake_gcm2", *braked), base::written(braked->value),
                    "is less than the rotor's own, inertia_gcm2 = " + base::written(rotor->value),
@@ -126,7 +125,7 @@ void read_inertia(SheetReader& reader) {
 void read_nominal_current(SheetReader& reader) {
   const std::optional<Quantity>& q = reader.sheet.nominal_current_A;
   const SheetConstants& c = reader.out;
-  if (!q || !reader.positive("nominal_current_A", *q) || q->frame == "terminal" || q->frame == "rms") return;
+  if (!q || !SheetReader::positive(*q) || q->frame == "terminal" || q->frame == "rms") return;
   const auto means = [&](double K) {
     return c.K_e_V_s ? "a nominal torque of " + rounded(K * q->value * 1e3) + " mNm" : std::string("its own");
   };
@@ -162,6 +161,7 @@ SheetConstants sheet_constants(const Sheet& sheet) {
   out.used.reserve(12);
   SheetReader reader{sheet, out};
   read_trust(reader);
+  note_implausible(reader);
   const bool flat = base::strictly_between(0.0, 180.0).holds(sheet.flat_deg);
   if (!flat)
     reader.problem("flat_deg", base::written(sheet.flat_deg), "must lie between 0 and 180",
@@ -171,8 +171,7 @@ SheetConstants sheet_constants(const Sheet& sheet) {
   out.pole_pairs = read_pole_pairs(reader);
   if (!out.pole_pairs && out.problems.size() == told)
     reader.missing("pole_pairs", "give it, or poles, or the winding's code as \"12N14P\"");
-  if (sheet.nominal_voltage_V)
-    out.nominal_voltage_V = reader.positive("nominal_voltage_V", *sheet.nominal_voltage_V);
+  if (sheet.nominal_voltage_V) out.nominal_voltage_V = SheetReader::positive(*sheet.nominal_voltage_V);
   read_resistance(reader);
   read_inductance(reader);
   read_torque_constant(reader);

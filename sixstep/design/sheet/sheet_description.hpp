@@ -7,6 +7,9 @@
 
 namespace sixstep::design {
 
+/// The ring motors of telescopes have a hundred pole pairs.
+inline constexpr int most_pole_pairs = 500, most_turns = 100'000;
+
 inline constexpr base::Choice<BackEmfShape> back_emf_choices[] = {
     {"trapezoid", BackEmfShape::trapezoid, "flat top of width flat_deg, linear ramps between"},
     {"sine", BackEmfShape::sine, "one sine per electrical turn"},
@@ -29,10 +32,11 @@ template <class Visitor>
 void describe_winding(Visitor& v, Sheet& s) {
   v.value("pole_pairs", s.pole_pairs,
           {.meaning = "electrical turns per turn of the shaft: half the number of magnet poles",
-           .range = base::from(1),
+           .range = base::between(1, most_pole_pairs),
            .also = spellings::pole_pairs});
   v.value("poles", s.poles,
-          {.meaning = "number of magnet poles, instead of pole_pairs", .range = base::from(2)});
+          {.meaning = "number of magnet poles, instead of pole_pairs",
+           .range = base::between(2, 2 * most_pole_pairs)});
   v.value("winding", s.winding, {.meaning = "teeth and magnet poles as 12N14P, instead of pole_pairs"});
   v.choice("back_emf", s.back_emf, back_emf_choices,
            {.meaning = "shape of the back-EMF over the electrical angle"});
@@ -123,7 +127,7 @@ void describe_torque_constant(Visitor& v, Sheet& s) {
   v.quantity("air_gap_radius_mm", s.air_gap_radius_mm,
              {.meaning = "radius r of the conductors", .unit = "mm", .range = base::above(0)});
   v.value("turns_in_series", s.turns_in_series,
-          {.meaning = "turns N in series between two terminals", .range = base::from(1)});
+          {.meaning = "turns N in series between two terminals", .range = base::between(1, most_turns)});
 }
 
 template <class Visitor>

@@ -15,14 +15,12 @@ struct Point {
 };
 
 /// Speed as printed; without it that of the ideal line, w = (U - R_tt I)/K_t.
-std::optional<Point> no_load_point(SheetReader& reader, const std::optional<Quantity>& voltage,
+std::optional<Point> no_load_point(const SheetConstants& c, const std::optional<Quantity>& voltage,
                                    const std::optional<Quantity>& speed,
-                                   const std::optional<Quantity>& current, std::string_view speed_key,
-                                   std::string_view current_key) {
-  const SheetConstants& c = reader.out;
+                                   const std::optional<Quantity>& current) {
   std::optional<double> rpm, amperes;
-  if (speed) rpm = reader.positive(speed_key, *speed);
-  if (current) amperes = reader.not_negative(current_key, *current, -3);
+  if (speed) rpm = SheetReader::positive(*speed);
+  if (current) amperes = SheetReader::not_negative(*current, -3);
   if (!amperes || !c.K_t_Nm_A || (speed && !rpm)) return {};
   Point point;
   point.loss_Nm = c.K_t_Nm_A->value * *amperes;
@@ -39,9 +37,8 @@ std::optional<Point> no_load_point(SheetReader& reader, const std::optional<Quan
 
 void read_split(SheetReader& reader, const Point& first) {
   const Sheet& s = reader.sheet;
-  const std::optional<Point> second =
-      no_load_point(reader, s.second_no_load_voltage_V, s.second_no_load_speed_rpm,
-                    s.second_no_load_current_mA, "second_no_load_speed_rpm", "second_no_load_current_mA");
+  const std::optional<Point> second = no_load_point(reader.out, s.second_no_load_voltage_V,
+                                                    s.second_no_load_speed_rpm, s.second_no_load_current_mA);
   if (!second) return;
   Friction& f = reader.out.friction;
   if (second->speed_rad_s == first.speed_rad_s)
@@ -64,10 +61,10 @@ void choose(SheetReader& reader, const std::optional<Point>& point) {
   const Sheet& s = reader.sheet;
   Friction& f = reader.out.friction;
   if (s.coulomb_friction_mNm)
-    f.coulomb_Nm = reader.not_negative("coulomb_friction_mNm", *s.coulomb_friction_mNm, -3).value_or(0.0);
+    f.coulomb_Nm = SheetReader::not_negative(*s.coulomb_friction_mNm, -3).value_or(0.0);
   if (s.coulomb_friction_mNm) reader.use("coulomb_friction_mNm");
   if (s.viscous_friction_Nm_s) {
-    f.B_Nm_s = reader.not_negative("viscous_friction_Nm_s", *s.viscous_friction_Nm_s).value_or(0.0);
+    f.B_Nm_s = SheetReader::not_negative(*s.viscous_friction_Nm_s).value_or(0.0);
     f.from = "viscous_friction_Nm_s as written";
     return reader.use("viscous_friction_Nm_s");
   }
@@ -99,8 +96,8 @@ void choose(SheetReader& reader, const std::optional<Point>& point) {
 void read_friction(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   const std::optional<Point> point =
-      no_load_point(reader, s.no_load_voltage_V ? s.no_load_voltage_V : s.nominal_voltage_V,
-                    s.no_load_speed_rpm, s.no_load_current_mA, "no_load_speed_rpm", "no_load_current_mA");
+      no_load_point(reader.out, s.no_load_voltage_V ? s.no_load_voltage_V : s.nominal_voltage_V,
+                    s.no_load_speed_rpm, s.no_load_current_mA);
   if (point) {
     Friction& f = reader.out.friction;
     f.no_load_speed_rad_s = point->speed_rad_s;

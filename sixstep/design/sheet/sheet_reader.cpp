@@ -1,7 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/design/sheet/sheet_reader.hpp"
 
+#include "sixstep/base/plausible.hpp"
+#include "sixstep/base/range_text.hpp"
+#include "sixstep/design/sheet/sheet_description.hpp"
+
 namespace sixstep::design {
+
+namespace {
+
+/// The visitor that holds each number to what it may be.
+class Numbers {
+ public:
+  explicit Numbers(SheetReader& reader) : reader_(reader) {}
+
+  void quantity(std::string_view key, const std::optional<base::Quantity>& q, const base::About& about) {
+    if (!q) return;
+    const base::Range allowed = base::allowed(about);
+    if (allowed.holds(q->value)) return;
+    reader_.problem(SheetReader::key_of(key, *q), base::written(q->value),
+                    limit_of(about.range, allowed, q->value),
+                    "give the value as the sheet prints it, or leave the key out");
+  }
+  template <class Other>
+  void value(std::string_view, const Other&, const base::About&) {}
+  template <class Enum, class Choices>
+  void choice(std::string_view, const Enum&, const Choices&, const base::About&) {}
+
+ private:
+  SheetReader& reader_;
+};
+
+}  // namespace
+
+void note_implausible(SheetReader& reader) {
+  Sheet described = reader.sheet;  // descriptions are written for readers, which fill what they visit
+  Numbers numbers(reader);
+  describe(numbers, described);
+}
 
 void unknown_frame(SheetReader& reader, std::string_view key, const base::Quantity& q,
                    std::span<const FrameMeaning> candidates, const std::string& hint) {

@@ -31,23 +31,17 @@ struct SheetReader {
   static std::string key_of(std::string_view key, const base::Quantity& q) {
     return q.key.empty() ? std::string(key) : q.key;
   }
-  /// Nothing where the number breaks its rule, which is noted; else the value times 10^ten.
-  std::optional<double> positive(std::string_view key, const base::Quantity& q, int ten = 0) {
-    return in_range(key, q, base::above(0.0), "must be above 0", ten);
+  /// The value times 10^ten; nothing where it is out of its range, which note_implausible() has told.
+  static std::optional<double> positive(const base::Quantity& q, int ten = 0) {
+    return base::above(0.0).holds(q.value) ? std::optional(base::times_ten_to(q.value, ten)) : std::nullopt;
   }
-  std::optional<double> not_negative(std::string_view key, const base::Quantity& q, int ten = 0) {
-    return in_range(key, q, base::from(0.0), "must not be negative", ten);
-  }
-
- private:
-  std::optional<double> in_range(std::string_view key, const base::Quantity& q, const base::Range& range,
-                                 std::string_view limit, int ten) {
-    if (range.holds(q.value)) return base::times_ten_to(q.value, ten);
-    problem(key_of(key, q), base::written(q.value), std::string(limit),
-            "give the value as the sheet prints it, or leave the key out");
-    return {};
+  static std::optional<double> not_negative(const base::Quantity& q, int ten = 0) {
+    return base::from(0.0).holds(q.value) ? std::optional(base::times_ten_to(q.value, ten)) : std::nullopt;
   }
 };
+
+/// Every number of the sheet that is out of its key's range, or of what its unit can be.
+void note_implausible(SheetReader& reader);
 
 /// What a frame would make of a value, in words: for the message about a missing one.
 struct FrameMeaning {

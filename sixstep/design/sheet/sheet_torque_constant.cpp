@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/design/sheet/sheet_reader.hpp"
 
 namespace sixstep::design {
@@ -126,7 +127,7 @@ void read_geometry(SheetReader& reader, std::vector<Read>& reads) {
       continue;
     }
     ++given;
-    const std::optional<double> value = reader.positive(key, **q, key == "flux_density_T" ? 0 : milli);
+    const std::optional<double> value = SheetReader::positive(**q, key == "flux_density_T" ? 0 : milli);
     if (!value) return;
     product *= *value;
     doubt += relative_doubt(**q);
@@ -139,9 +140,11 @@ void read_geometry(SheetReader& reader, std::vector<Read>& reads) {
                                                : "air_gap_radius_mm",
                           "", "needs " + absent + " beside it",
                           "K_t = 2 B l r N takes all four, or give none");
-  if (*s.turns_in_series < 1)
-    return reader.problem("turns_in_series", std::to_string(*s.turns_in_series), "must be at least 1",
-                          "count the turns between two terminals");
+  if (*s.turns_in_series < 1 || *s.turns_in_series > most_turns)
+    return reader.problem(
+        "turns_in_series", std::to_string(*s.turns_in_series),
+        *s.turns_in_series < 1 ? "must be at least 1" : "must be at most " + std::to_string(most_turns),
+        "count the turns between two terminals");
   reads.push_back({"flux_density_T", by_K_t(product * *s.turns_in_series, reader.out.shape), doubt,
                    "K_t = 2 B l r N of the geometry"});
 }
@@ -150,7 +153,7 @@ std::vector<Read> read_all(SheetReader& reader) {
   std::vector<Read> reads;
   for (const Way& way : ways) {
     const std::optional<Quantity>& q = reader.sheet.*way.member;
-    if (!q || !reader.positive(way.key, *q)) continue;
+    if (!q || !SheetReader::positive(*q)) continue;
     const bool by_flux = way.key == "flux_linkage_mWb";
     if (by_flux && !reader.out.pole_pairs) continue;
     const int p = reader.out.pole_pairs.value_or(1);

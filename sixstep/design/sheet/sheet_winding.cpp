@@ -2,10 +2,14 @@
 // Pole pairs, from whatever a sheet counts: pairs, poles, or the winding's code.
 #include <charconv>
 
+#include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/design/sheet/sheet_reader.hpp"
 
 namespace sixstep::design {
 namespace {
+
+constexpr const char* too_many = "must be at most 500";
+static_assert(most_pole_pairs == 500);
 
 struct Winding {
   int teeth = 0;
@@ -79,8 +83,9 @@ void compare(SheetReader& reader, int pole_pairs, int other, const std::string& 
 
 std::optional<int> read_pole_pairs(SheetReader& reader) {
   const Sheet& s = reader.sheet;
-  if (s.pole_pairs && *s.pole_pairs < 1) {
-    reader.problem("pole_pairs", std::to_string(*s.pole_pairs), "must be at least 1",
+  if (s.pole_pairs && (*s.pole_pairs < 1 || *s.pole_pairs > most_pole_pairs)) {
+    reader.problem("pole_pairs", std::to_string(*s.pole_pairs),
+                   *s.pole_pairs < 1 ? "must be at least 1" : too_many,
                    "give the number of pole pairs (half the number of magnets' poles)");
     return {};
   }
@@ -93,6 +98,12 @@ std::optional<int> read_pole_pairs(SheetReader& reader) {
                    "contradicts " + winding + ", which has " + std::to_string(2 * *by_winding) + " poles",
                    "keep the one that is right");
   const std::optional<int> other = by_winding ? by_winding : by_poles;
+  if (other && *other > most_pole_pairs) {
+    reader.problem(
+        by_winding ? "winding" : "poles", by_winding ? quoted(s.winding) : std::to_string(*s.poles),
+        "has " + std::to_string(*other) + " pole pairs, which " + too_many, "count the magnets again");
+    return {};
+  }
   if (s.pole_pairs && other)
     compare(reader, *s.pole_pairs, *other, by_winding ? winding : "poles = " + std::to_string(*s.poles));
   if (s.pole_pairs)

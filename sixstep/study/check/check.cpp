@@ -8,6 +8,8 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/check/measures.hpp"
+#include "sixstep/study/check/numbers.hpp"
+#include "sixstep/study/check/pace.hpp"
 #include "sixstep/study/check/product.hpp"
 #include "sixstep/study/check/reference.hpp"
 #include "sixstep/study/check/sensors.hpp"
@@ -131,17 +133,17 @@ void check_torque_limit(const Scenario& s, const design::MotorModel& motor, base
 }  // namespace
 
 base::Problems check(const Scenario& s) {
+  // What follows computes with the numbers: an absurd one makes no sense of it.
+  if (base::Problems absurd = check_numbers(s); !absurd.empty()) return absurd;
   base::Problems out;
   std::optional<double> sector_rad;
   if (const auto motor = design::motor_model(s.sheet)) {
     check_torque_limit(s, *motor, out);
+    check_pace(s, *motor, out);
     sector_rad = base::pi / 3 / motor->machine.pole_pairs;
   } else {
     out = motor.problems();
   }
-  if (s.duration_s > 0 && sim::to_instant(s.duration_s).ticks < 1)
-    out.push_back({"duration_s", number(s.duration_s), "is shorter than the engine's tick of 1e-12 s",
-                   "give a longer time"});
   check_supply(s, out);
   const std::size_t before = out.size();
   check_references(s, out);
@@ -160,9 +162,6 @@ base::Problems check(const Scenario& s) {
   if (s.load.locked && s.initial.speed_rad_s != 0)
     out.push_back({"initial.speed_rad_s", number(s.initial.speed_rad_s), "contradicts load.locked = true",
                    "set it to 0 or unlock the rotor"});
-  if (s.pwm.delay_periods < 0 || s.pwm.delay_periods > 1)
-    out.push_back({"pwm.delay_periods", std::to_string(s.pwm.delay_periods), "must be 0 or 1",
-                   "0: at once, 1: one period later"});
   if (const base::Problems spread = check_spread(s); !spread.empty())
     out.insert(out.end(), spread.begin(), spread.end());
   if (const auto columns = record_indices(s); !columns)

@@ -175,7 +175,8 @@ void check_steps(const std::vector<double>& times, const std::vector<double>& va
     out.push_back({table + "." + value_key, std::to_string(values.size()) + " entries",
                    "must be as many as times_s, which has " + std::to_string(times.size()),
                    "give one value per time"});
-  for (std::size_t n = 0; n < times.size(); ++n) {
+  constexpr std::size_t most_told = 5;  // of a list that falls each entry would be
+  for (std::size_t n = 0, before = out.size(); n < times.size() && out.size() < before + most_told; ++n) {
     if (times[n] < 0 || (n > 0 && !(times[n] > times[n - 1])))
       out.push_back({table + ".times_s", written(times[n]), "must rise from entry to entry, from 0 on",
                      "sort the times"});

@@ -40,7 +40,7 @@ void check_bits(const Scenario& s, base::Problems& out) {
 void check_hall(const Scenario& s, base::Problems& out) {
   const Sensors& sensors = s.sensors;
   // Times are compared by their difference in 32 bits.
-  if (sensors.rotor == RotorSensing::hall && sensors.timeout_s * sensors.capture_Hz > 0x1p31)
+  if (sensors.timeout_s * sensors.capture_Hz > 0x1p31)
     out.push_back({"sensors.timeout_s", base::written(sensors.timeout_s),
                    "is more than 2^31 counts of capture_Hz", "lower one of them"});
   if (sensors.hall_break.at_s && !(*sensors.hall_break.at_s < s.duration_s))

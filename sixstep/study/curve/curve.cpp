@@ -25,6 +25,9 @@ base::Problems check(const CurveRequest& r) {
   if (r.points < 2)
     problems.push_back({"points", std::to_string(r.points), "must be at least 2",
                         "a curve has standstill and no load, and some points between"});
+  if (r.points > most_points)
+    problems.push_back({"points", std::to_string(r.points), "must be at most " + std::to_string(most_points),
+                        "a page shows some hundred; each is simulated and kept"});
   // -273.15 degC, and what no winding sees.
   if (!base::between(-273.15, 1000).holds(r.ambient_degC))
     problems.push_back({"ambient_degC", base::written(r.ambient_degC), "must be a temperature in degC",

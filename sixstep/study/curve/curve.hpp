@@ -12,6 +12,9 @@
 
 namespace sixstep::study {
 
+/// Some hundred megabytes of points, more than any screen or table has rows for.
+inline constexpr int most_points = 200'000;
+
 struct CurveRequest {
   design::Sheet sheet;
   Bench bench;

@@ -78,7 +78,7 @@ double value_of(const Gauges& gauges, const Measure& m) {
   double worst = nothing;
   for (const Gauge& gauge : gauges) {
     const std::optional<double> v = gauge.value();
-    if (!v) return nothing;
+    if (!v || *v != *v) return nothing;
     if (&gauge == &gauges.front() || size(*v) > size(worst)) worst = *v;
   }
   return worst;
@@ -122,7 +122,10 @@ void Figures::judge(const Scenario& scenario, Outcome& outcome) const {
   std::size_t n = 0;
   const auto next = [&] {
     const Figure& figure = figures_[n++];
-    return std::visit([&](const auto& gauge) { return value_of(gauge, figure.measure); }, figure.taken_by);
+    const double v =
+        std::visit([&](const auto& gauge) { return value_of(gauge, figure.measure); }, figure.taken_by);
+    // A time may never come; of anything else an infinite value is none.
+    return is_time(figure.measure.metric) || v - v == 0.0 ? v : nothing;
   };
   for (const Requirement& r : scenario.require) {
     const double v = next();

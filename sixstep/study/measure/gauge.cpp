@@ -15,6 +15,7 @@ double Gauge::step_height(double first) {
 
 void Gauge::part(const Series& c, int degree, double t0, double length) {
   if (measure_.sampled) return;
+  numbers_ = numbers_ && c[0] - c[0] == 0.0;
   if (!seen_) step_height(c[0]);
   seen_ = true;
   switch (measure_.metric) {
@@ -117,6 +118,7 @@ void Gauge::settle_part(const Series& c, int degree, double t0, double length) {
 void Gauge::sample(double t, double value) {
   if (!measure_.sampled || t < window_.from_s || !(t < window_.to_s)) return;
   const double height = step_height(value);
+  numbers_ = numbers_ && value - value == 0.0;
   seen_ = true;
   last_ = value;
   if (measure_.metric == MetricKind::ripple_rms) {
@@ -140,7 +142,7 @@ void Gauge::sample(double t, double value) {
 }
 
 std::optional<double> Gauge::value() const {
-  if (!seen_) return std::nullopt;
+  if (!seen_ || !numbers_) return std::nullopt;
   constexpr double never = std::numeric_limits<double>::infinity();
   switch (measure_.metric) {
     case MetricKind::final_value:

@@ -65,6 +65,7 @@ class Gauge {
   double level_;
   std::optional<double> start_;
   bool seen_ = false;
+  bool numbers_ = true;  ///< nothing that was seen was infinite or no number
   double integral_ = 0.0, seconds_ = 0.0, last_ = 0.0;
   double highest_ = -std::numeric_limits<double>::infinity(),
          lowest_ = std::numeric_limits<double>::infinity();

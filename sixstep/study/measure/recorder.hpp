@@ -26,13 +26,18 @@ class Selection {
   /// True where a number differs from the row before.
   bool take(const FullRow& full) {
     bool differs = false;
+    double all = 0.0;
     for (const Choice& c : chosen_) {
       const double v = full[c.column];
-      differs |= (v != row_[c.place]) & (v == v);
+      differs |= v != row_[c.place];
       row_[c.place] = v;
+      all += v - v;
     }
+    sound_ = all == 0.0;
     return differs;
   }
+  /// Every number of the row is one; a run away leaves rows of others before it is stopped.
+  bool sound() const { return sound_; }
   std::span<const double> row() const { return row_; }
 
  private:
@@ -42,6 +47,7 @@ class Selection {
   };
   std::vector<Choice> chosen_;
   std::vector<double> row_;
+  bool sound_ = true;
 };
 
 /// Rows at n * grid up to the end of the run, included where it lies on the grid: right limits at a jump.
@@ -61,7 +67,7 @@ class GridRecorder {
       if (!(sim::seconds_between(next_, to) > 0x1p-50 * length) && !last) return;
       const double at = length > 0 ? sim::seconds_between(from, next_) / rig.plant().expansion().h : 0.0;
       selection_.take(full_row(rig, at < s ? (at > 0 ? at : 0.0) : s, next_.seconds()));
-      sink_(selection_.row());
+      if (selection_.sound()) sink_(selection_.row());
       next_.ticks += grid_;
     }
   }
@@ -89,7 +95,8 @@ class EventRecorder {
       const double at = s * n / parts;
       const double t = rig.now().plus_seconds(at * h).seconds();
       last_s_ = t > last_s_ ? t : last_s_;  // rounding may not turn time back
-      if (selection_.take(full_row(rig, at, last_s_)) || first_) sink_(selection_.row());
+      const bool differs = selection_.take(full_row(rig, at, last_s_));
+      if ((differs || first_) && selection_.sound()) sink_(selection_.row());
       first_ = false;
     }
   }

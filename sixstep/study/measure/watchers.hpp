@@ -8,6 +8,7 @@
 #include "sixstep/study/measure/figures.hpp"
 #include "sixstep/study/measure/logic_recorder.hpp"
 #include "sixstep/study/measure/recorder.hpp"
+#include "sixstep/study/measure/run_away.hpp"
 
 namespace sixstep::study {
 
@@ -20,6 +21,8 @@ struct Watchers {
   std::optional<LogicRecorder> logic;
   std::function<bool(double)> keep_going;
   std::int64_t segments = 0;
+  sim::Instant looked{};  ///< when done() last looked
+  bool crowded = false;   ///< events crowd so closely that time hardly goes on
 
   template <class Rig>
   void segment(const Rig& rig, double s) {
@@ -32,10 +35,14 @@ struct Watchers {
     if (logic) logic->segment(rig, s);
     ++segments;
   }
-  /// Asked often enough to answer a person at once, and seldom enough to cost nothing.
+  /// Looks often enough to answer a person at once, and seldom enough to cost nothing.
   template <class Rig>
-  bool done(const Rig& rig) const {
-    return keep_going && segments % 256 == 0 && !keep_going(rig.now().seconds());
+  bool done(const Rig& rig) {
+    if (segments % 256 != 0) return false;
+    const sim::Instant now = rig.now();
+    crowded = now.ticks <= looked.ticks;
+    looked = now;
+    return crowded || has_run_away(rig.plant()) || (keep_going && !keep_going(now.seconds()));
   }
 };
 

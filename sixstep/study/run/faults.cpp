@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "sixstep/base/written.hpp"
+
 namespace sixstep::study {
 
 namespace {
@@ -21,6 +23,18 @@ base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t
   const std::string text = "the Hall code is impossible (000 or 111)";
   if (found.hall_line == 0) return {at(t_s), "", text, "look at the probes and their wires"};
   return {at(t_s), "", text + ": " + line_to_blame(found.hall_line), "look at its probe and its wire"};
+}
+
+base::Problem ran_away(const plant::Plant<double>& plant, double t_s) {
+  const plant::State<double>& s = plant.state();
+  const auto [name, value] = [&s]() -> std::pair<const char*, double> {
+    for (const double i : s.i)
+      if (!(i - i == 0.0)) return {"a current", i};
+    if (!(s.bus - s.bus == 0.0)) return {"the bus voltage", s.bus};
+    return {"the speed", s.w};
+  }();
+  return {at(t_s), "", std::string("the run has run away: ") + name + " is " + base::rounded(value, 3),
+          "look at the load, the friction and the moment of inertia, then at the supply"};
 }
 
 void note_trip(const rig::Diagnosis& found, Outcome& out) {

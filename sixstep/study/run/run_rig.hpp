@@ -30,12 +30,15 @@ template <class Rig>
 base::Problems run_rig(Rig& rig, const Compiled& compiled, Watchers& w, Outcome& out) {
   const sim::Run run = sim::run(rig, compiled.end, w);
   const double t_s = rig.now().seconds();
-  if (run.stop == sim::Stop::unsettled || run.stop == sim::Stop::no_progress)
+  const bool away = has_run_away(rig.plant());
+  if (!away && (run.stop == sim::Stop::unsettled || run.stop == sim::Stop::no_progress || w.crowded))
     return {{"t = " + std::to_string(t_s) + " s", "",
              run.stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
                                               : "events repeat without time going on",
              "this is a defect of sixstep: please report it with the scenario file"}};
-  if (run.stop == sim::Stop::fault)
+  if (away)
+    out.fault = ran_away(rig.plant(), t_s);
+  else if (run.stop == sim::Stop::fault)
     out.fault = stopped_by(rig.fault(), rig.firmware().diagnosis(), t_s);
   else
     note_trip(rig.firmware().diagnosis(), out);

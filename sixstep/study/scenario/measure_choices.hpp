@@ -192,6 +192,10 @@ constexpr bool is_of_a_step(MetricKind kind) {
   return kind == MetricKind::reach_time || kind == MetricKind::rise_time ||
          kind == MetricKind::settling_time || kind == MetricKind::overshoot;
 }
+/// Infinite where it never comes.
+constexpr bool is_time(MetricKind kind) {
+  return kind == MetricKind::reach_time || kind == MetricKind::rise_time || kind == MetricKind::settling_time;
+}
 constexpr bool is_error(MetricKind kind) {
   return kind == MetricKind::steady_error || kind == MetricKind::largest_error;
 }

@@ -93,7 +93,8 @@ void describe(Visitor& v, Sensors& s) {
                       "glitches; above 1 an edge counts at a control tick, that many samples less one late, "
                       "and not in the interrupt",
            .range = base::between(1, 255)});
-  v.value("seed", s.seed, {.meaning = "of the noise: the same seed, the same run", .range = base::from(0)});
+  v.value("seed", s.seed,
+          {.meaning = "of the noise: the same seed, the same run", .range = base::between(0, 2147483647)});
   v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks during the run"});
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sixstep/base/hash.hpp"
+#include "sixstep/base/plausible.hpp"
 #include "sixstep/base/random.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/sheet_constants.hpp"
@@ -78,7 +79,7 @@ class NumberAt {
   void take(std::string_view key, double* x, const base::About& about) {
     if (key != path_) return;
     number = x;
-    range = about.range;
+    range = base::allowed(about);
     left_out = !x;
   }
   std::string_view path_;

@@ -171,7 +171,11 @@ base::Result<DesignStudy> study_design(const DesignOrder& order) {
     if (base::Problems found = find_gain(order, s); !found.empty()) return found;
   s.scenario = design_scenario(s.design, order.subject);
   if (base::Problems found = too_long(s.scenario); !found.empty()) return found;
-  if (base::Problems found = check(s.scenario); !found.empty()) return found;
+  if (base::Problems found = check(s.scenario); !found.empty()) {
+    for (base::Problem& p : found)  // what was typed is an option, not a key
+      if (p.where == "supply.voltage_V") p.where = "--voltage";
+    return found;
+  }
   base::Result<std::vector<Column>> columns = record_columns(s.scenario);
   if (!columns) return columns.problems();
   s.trace = {*columns, std::vector<std::vector<double>>(columns->size()), false};

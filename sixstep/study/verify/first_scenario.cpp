@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "sixstep/base/decimal.hpp"
+#include "sixstep/base/range_text.hpp"
+#include "sixstep/base/written.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "sixstep/study/verify/design_study.hpp"
 
@@ -18,6 +20,8 @@ using control::Mode;
 constexpr double line_tolerance = 0.05;
 /// What gate drivers of small bridges ask for.
 constexpr double usual_dead_time_s = 0.5e-6;
+
+constexpr double longest_run_up_s = 600;
 
 Measure measure(MetricKind metric, Signal signal, double from_s, const char* label) {
   Measure m;
@@ -53,6 +57,10 @@ base::Result<Scenario> run_up(const FirstWish& wish, const design::MotorModel& m
   s.reference.value = d;
   s.reference.unit.emplace("1");
   const double tau = motor.shaft.J_kg_m2 / slope;
+  if (!(10 * tau < longest_run_up_s))
+    return base::Problem{"the motor", wish.motor,
+                         "takes " + base::rounded(10 * tau, 3) + " s to run up, and minutes to simulate it",
+                         "look at the inertia and the torque constant of its sheet"};
   s.duration_s = std::ceil(10 * tau * 1e3) / 1e3;  // exp(-9) of the way is left where the window begins
   const double calm = 0.9 * s.duration_s;
   const Measure mean = measure(MetricKind::mean, Signal::speed, calm, "speed at the end");
@@ -140,6 +148,11 @@ base::Result<Scenario> designed(const FirstWish& wish) {
 base::Result<Scenario> first_scenario(const FirstWish& wish) {
   const base::Result<design::MotorModel> motor = design::motor_model(wish.sheet);
   if (!motor) return motor.problems();
+  if (wish.voltage_V)
+    if (base::Problems out = base::out_of_range("--voltage", *wish.voltage_V, base::above(0), "V",
+                                                "give the bus voltage in volts");
+        !out.empty())
+      return out;
   base::Result<Scenario> s = wish.mode == Mode::duty ? run_up(wish, *motor) : designed(wish);
   if (!s) return s.problems();
   shorten(*s);

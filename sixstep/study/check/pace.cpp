@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/check/pace.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/plant/pace.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+using base::written;
+using plant::fastest_answer_1_s;
+using plant::fastest_field_rad_s;
+
+std::string rounded(double x) { return base::rounded(x, 3); }
+
+/// "3.2 ns, and no board's is below 100 ns"
+std::string too_short(double rate_1_s) {
+  return rounded(1e9 / rate_1_s) + " ns, and on no board it is below " + rounded(1e9 / fastest_answer_1_s) +
+         " ns";
+}
+
+void check_bridge(const Scenario& s, const plant::Machine& m, base::Problems& out) {
+  const Bridge& b = s.bridge;
+  const double rate = plant::winding_rate(m, {b.on_resistance_ohm, b.diode_drop_V, b.diode_resistance_ohm});
+  if (!(rate > fastest_answer_1_s)) return;
+  const bool diode = b.diode_resistance_ohm > b.on_resistance_ohm;
+  out.push_back({diode ? "bridge.diode_resistance_ohm" : "bridge.on_resistance_ohm",
+                 written(diode ? b.diode_resistance_ohm : b.on_resistance_ohm),
+                 "makes the time constant of winding and bridge " + too_short(rate),
+                 "look at its unit: a MOSFET has milliohms"});
+}
+
+void check_bus(const Scenario& s, const plant::Machine& m, base::Problems& out) {
+  const Supply& from = s.supply;
+  if (!(from.resistance_ohm > 0 && from.capacitance_F > 0)) return;  // check_supply tells
+  const double rate =
+      plant::bus_rate(m, {from.voltage_V, from.resistance_ohm, from.capacitance_F, from.sinks});
+  if (rate > fastest_answer_1_s)
+    out.push_back(
+        {"supply.capacitance_F", written(from.capacitance_F),
+         "makes the bus's time constant with supply.resistance_ohm = " + written(from.resistance_ohm) +
+             " and the winding " + too_short(rate),
+         "look at its unit: a bus has hundreds of microfarads; or leave both away for a stiff bus"});
+}
+
+void check_friction(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
+  plant::Shaft shaft = motor.shaft;
+  shaft.J_kg_m2 += s.load.inertia_kg_m2;
+  shaft.B_Nm_s += s.load.viscous_Nm_s;
+  const double rate = plant::friction_rate(shaft);
+  if (rate > fastest_answer_1_s)
+    out.push_back({"load.viscous_Nm_s", written(s.load.viscous_Nm_s),
+                   "stops the rotor within " + too_short(rate),
+                   "look at its unit, or set load.locked = true to hold the rotor"});
+}
+
+/// A torque that throws the rotor out of all bounds within a few PWM periods.
+void check_torque(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
+  if (s.load.locked) return;
+  const double J = motor.shaft.J_kg_m2 + s.load.inertia_kg_m2;
+  const double most_Nm = plant::fastest_field_rad_s2 / motor.machine.pole_pairs * J;
+  const auto look = [&](const std::string& key, double torque_Nm) {
+    if (std::fabs(torque_Nm) > most_Nm)
+      out.push_back({key, written(torque_Nm),
+                     "is no load for a moment of inertia of " + rounded(J) + " kg m2: at most " +
+                         rounded(most_Nm) + " N m are simulated",
+                     "look at its unit and at that of the inertia"});
+  };
+  look("load.torque_Nm", s.load.torque_Nm);
+  for (std::size_t n = 0; n < s.load.torques_Nm.size(); ++n)
+    if (std::fabs(s.load.torques_Nm[n]) > most_Nm) {
+      look("load.torques_Nm[" + std::to_string(n) + "]", s.load.torques_Nm[n]);
+      break;
+    }
+  for (std::size_t n = 0; n < s.at.size(); ++n)
+    if (const auto& torque_Nm = s.at[n].load.torque_Nm)
+      look("at[" + std::to_string(n) + "].load.torque_Nm", *torque_Nm);
+}
+
+void check_field(const Scenario& s, const plant::Machine& m, base::Problems& out) {
+  const auto look = [&](const std::string& key, double value, double field_rad_s, const char* cure) {
+    if (std::fabs(field_rad_s) > fastest_field_rad_s)
+      out.push_back({key, written(value),
+                     "lets the field turn at " + rounded(std::fabs(field_rad_s)) +
+                         " electrical rad/s, and no motor's is above " + rounded(fastest_field_rad_s),
+                     cure});
+  };
+  constexpr const char* too_high = "lower it, or look at the unit of the motor's torque constant";
+  look("supply.voltage_V", s.supply.voltage_V, plant::field_at(m, s.supply.voltage_V), too_high);
+  if (s.initial.bus_V)
+    look("initial.bus_V", *s.initial.bus_V, plant::field_at(m, *s.initial.bus_V), too_high);
+  for (std::size_t n = 0; n < s.at.size(); ++n)
+    if (const auto& voltage_V = s.at[n].supply.voltage_V)
+      look("at[" + std::to_string(n) + "].supply.voltage_V", *voltage_V, plant::field_at(m, *voltage_V),
+           too_high);
+  look("initial.speed_rad_s", s.initial.speed_rad_s, m.pole_pairs * s.initial.speed_rad_s,
+       "lower it: it is the speed of the shaft in rad/s");
+}
+
+/// The whole bus takes the current from one end of the band to the other.
+void check_band(const Scenario& s, const plant::Machine& m, base::Problems& out) {
+  const CurrentLoop& loop = s.control.current;
+  if (loop.type != CurrentLoopType::hysteresis || loop.comparator != Comparator::event) return;
+  const double per_s = s.supply.voltage_V / (2.0 * m.L_H), rate = per_s / (2.0 * loop.band_A);
+  if (rate > fastest_answer_1_s)
+    out.push_back({"control.current.band_A", written(loop.band_A), "is crossed within " + too_short(rate),
+                   "widen it to at least " + rounded(per_s / (2.0 * fastest_answer_1_s)) +
+                       " A, or set comparator = \"sampled\""});
+}
+
+void check_timer(const Scenario& s, base::Problems& out) {
+  if (s.pwm.timer_Hz > 0 && s.pwm.timer_Hz * s.pwm.period_s < 2.0)
+    out.push_back({"pwm.timer_Hz", written(s.pwm.timer_Hz),
+                   "counts less than twice in pwm.period_s = " + written(s.pwm.period_s),
+                   "give the timer's clock in Hz, 16e6 for 16 MHz; 0 rounds nothing"});
+}
+
+}  // namespace
+
+void check_pace(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
+  check_bridge(s, motor.machine, out);
+  check_bus(s, motor.machine, out);
+  check_friction(s, motor, out);
+  check_torque(s, motor, out);
+  check_field(s, motor.machine, out);
+  check_band(s, motor.machine, out);
+  check_timer(s, out);
+}
+
+}  // namespace sixstep::study

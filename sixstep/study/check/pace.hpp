@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers each of which may be, and which together are too fast to be a drive: its run would crawl.
+#pragma once
+#include "sixstep/base/problem.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+void check_pace(const Scenario& s, const design::MotorModel& motor, base::Problems& out);
+
+}  // namespace sixstep::study

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a run still is one of a motor. No single number of a scenario can do it, but a torque without
+// measure on a small rotor can: then there is nothing left to simulate.
+#pragma once
+#include <cmath>
+
+#include "sixstep/plant/pace.hpp"
+#include "sixstep/plant/plant.hpp"
+
+namespace sixstep::study {
+
+template <class Real>
+bool has_run_away(const plant::Plant<Real>& plant) {
+  const plant::State<Real>& s = plant.state();
+  const Real all = s.i[0] + s.i[1] + s.i[2] + s.w + s.x + s.bus;
+  const bool numbers = all - all == 0;  // of what is infinite or no number it is none
+  return !numbers || std::fabs(s.w) * plant.constants().pole_pairs > plant::fastest_field_rad_s;
+}
+
+}  // namespace sixstep::study
