@@ -2,6 +2,7 @@
 #include "tests/fuzz/campaign.hpp"
 
 #include <fmt/format.h>
+#include <pthread.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,21 +11,22 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <memory>
 #include <thread>
 
 namespace sixstep::testing {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-/// Nothing honest takes that long, on however busy a machine.
-constexpr std::int64_t hung_s = 300;
+/// Of a thread's own time: on a busy machine nothing honest takes that long either.
+constexpr double hung_s = 60.0;
 constexpr std::size_t most_broken = 200;
 
 struct Worker {
   std::atomic<std::uint64_t> seed{0};
-  std::atomic<std::int64_t> since_s{0};  ///< 0: done
+  std::atomic<double> since_s{0.0};  ///< of its own time
+  std::atomic<bool> done{false};
+  std::thread thread;
   Tally tally;
 };
 
@@ -60,29 +62,34 @@ void catch_crashes() {
 }
 #endif
 
-std::int64_t now_s() {
-  return std::chrono::duration_cast<std::chrono::seconds>(Clock::now().time_since_epoch()).count();
+double seconds(clockid_t clock) {
+  timespec t{};
+  clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 void work(const Campaign& c, std::atomic<std::uint64_t>& next, Worker& own) {
   catch_crashes();
   for (std::uint64_t n = next++; n < c.count; n = next++) {
     seed_at_hand = c.first_seed + n;
+    own.since_s = seconds(CLOCK_THREAD_CPUTIME_ID);
     own.seed = seed_at_hand;
-    own.since_s = now_s();
     own.tally.take(seed_at_hand, c.examine(seed_at_hand));
   }
-  own.since_s = 0;
+  own.done = true;
 }
 
-void watch(const Campaign& c, const std::vector<Worker>& workers) {
+/// The workers are joined by who calls: until then each has its clock.
+void watch(const Campaign& c, std::vector<Worker>& workers) {
   for (bool busy = true; busy;) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     busy = false;
-    for (const Worker& w : workers) {
-      const std::int64_t since = w.since_s;
-      busy = busy || since != 0;
-      if (since == 0 || now_s() - since < hung_s) continue;
+    for (Worker& w : workers) {
+      if (w.done) continue;
+      busy = true;
+      clockid_t clock{};
+      if (pthread_getcpuclockid(w.thread.native_handle(), &clock) != 0) continue;
+      if (w.seed == 0 || seconds(clock) - w.since_s < hung_s) continue;
       fmt::print(stderr, "{}: hangs at seed {}\n", c.name, w.seed.load());
       std::_Exit(1);
     }
@@ -121,13 +128,9 @@ Tally carry_out(const Campaign& c) {
   campaign_at_hand = c.name;
   std::vector<Worker> workers(std::max(1u, c.threads));
   std::atomic<std::uint64_t> next{0};
-  std::vector<std::thread> threads;
-  for (Worker& own : workers) {
-    own.since_s = now_s();
-    threads.emplace_back([&c, &next, &own] { work(c, next, own); });
-  }
+  for (Worker& own : workers) own.thread = std::thread([&c, &next, &own] { work(c, next, own); });
   watch(c, workers);
-  for (std::thread& thread : threads) thread.join();
+  for (Worker& own : workers) own.thread.join();
   Tally all;
   for (const Worker& worker : workers) all.add(worker.tally);
   std::sort(all.broken.begin(), all.broken.end(), [](const auto& a, const auto& b) { return a.seed < b.seed; });
