@@ -69,20 +69,9 @@ struct Evidence {
   double seconds = 0.0;
 };
 
-bool printable(const std::string& text) {
-  for (const char c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) return false;
-  return true;
-}
-
 bool told_well(const base::Problems& problems) {
   for (const base::Problem& p : problems)
     if (p.where.empty() || p.limit.empty() || p.cure.empty()) return false;
-  return true;
-}
-bool without_controls(const base::Problems& problems) {
-  for (const base::Problem& p : problems)
-    if (!printable(to_string(p))) return false;
   return true;
 }
 bool no_defect(const base::Problems& problems) {
@@ -114,8 +103,6 @@ constexpr Law always[] = {
     {"bounded time", [](const Evidence& e) { return e.seconds / longest_case_s; }},
     {"what is refused has a place, a rule and a cure",
      [](const Evidence& e) { return yes_no(e.outcome || (!e.problems.empty() && told_well(e.problems))); }},
-    {"what is said holds no control characters",
-     [](const Evidence& e) { return yes_no(without_controls(e.problems)); }},
     {"no defect is met", [](const Evidence& e) { return yes_no(no_defect(e.problems)); }},
     {"every row is finite", [](const Evidence& e) { return yes_no(!e.rows || e.rows->finite); }},
     {"time goes on", [](const Evidence& e) { return yes_no(!e.rows || e.rows->rising); }},
