@@ -133,19 +133,22 @@ Tally carry_out(const Campaign& c) {
   for (Worker& own : workers) own.thread.join();
   Tally all;
   for (const Worker& worker : workers) all.add(worker.tally);
-  std::sort(all.broken.begin(), all.broken.end(), [](const auto& a, const auto& b) { return a.seed < b.seed; });
+  std::sort(all.broken.begin(), all.broken.end(),
+            [](const auto& a, const auto& b) { return a.seed < b.seed; });
   return all;
 }
 
 std::string as_markdown(const Campaign& c, const Tally& t) {
-  std::string out = fmt::format("{} {} scenarios, seeds {} to {}: {} accepted, {} refused with words, {} laws broken.\n\n",
-                                c.count, c.name, c.first_seed, c.first_seed + c.count - 1, t.accepted, t.refused,
-                                t.broken.size());
+  std::string out = fmt::format(
+      "{} {} scenarios, seeds {} to {}: {} accepted, {} refused with words, {} laws broken.\n\n", c.count,
+      c.name, c.first_seed, c.first_seed + c.count - 1, t.accepted, t.refused, t.broken.size());
   out += "| what was drawn | accepted | refused |\n|---|---|---|\n";
-  for (const auto& [name, kind] : t.kinds) out += fmt::format("| {} | {} | {} |\n", name, kind.accepted, kind.refused);
+  for (const auto& [name, kind] : t.kinds)
+    out += fmt::format("| {} | {} | {} |\n", name, kind.accepted, kind.refused);
   out += "\n| law | most of what is allowed that was used | by seed |\n|---|---|---|\n";
   for (const auto& [name, worst] : t.laws)
-    out += fmt::format("| {} | {:.2g} | {} |\n", name, worst.part, worst.part > 0 ? std::to_string(worst.seed) : "");
+    out += fmt::format("| {} | {:.2g} | {} |\n", name, worst.part,
+                       worst.part > 0 ? std::to_string(worst.seed) : "");
   out += "\nAccepted runs ended:";
   for (const auto& [how, count] : t.ended) out += fmt::format(" {} {};", count, how);
   out.back() = '.';

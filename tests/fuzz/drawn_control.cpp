@@ -144,7 +144,8 @@ void draw_protection(Draw& draw, Scenario& s, const Scales& of) {
   p.over_current_A = draw.between(0.8, 0.98) * s.sensors.current_range_A.value_or(1.0);
   p.over_voltage_V = std::min(1.5 * of.U_V, 0.98 * s.sensors.bus_range_V.value_or(1.0));
   p.under_voltage_V = draw.between(0.1, 0.6) * of.U_V;
-  const bool floating = s.control.arithmetic == Arithmetic::float64 || s.control.arithmetic == Arithmetic::float32;
+  const bool floating =
+      s.control.arithmetic == Arithmetic::float64 || s.control.arithmetic == Arithmetic::float32;
   p.over_speed_rad_s = of.top_rad_s * (floating ? draw.between(1.2, 2.0) : draw.between(0.7, 0.95));
   p.voltage_samples = 1 + draw.one_of(10);
   if (draw.chance(0.4)) {

@@ -121,17 +121,20 @@ void draw_events(Draw& draw, Scenario& s, const Scales& of) {
   }
 }
 
-/// Figures of every kind; those that belong to another signal or mode are left to the check's words elsewhere.
+/// Figures of every kind; those that belong to another signal or mode are left to the check's words
+/// elsewhere.
 void draw_measures(Draw& draw, Scenario& s) {
   for (int n = draw.one_of(4); n > 0; --n) {
-    static constexpr MetricKind kinds[] = {MetricKind::final_value,  MetricKind::mean,    MetricKind::rms,
-                                           MetricKind::maximum,      MetricKind::minimum, MetricKind::peak_to_peak,
+    static constexpr MetricKind kinds[] = {MetricKind::final_value,  MetricKind::mean,
+                                           MetricKind::rms,          MetricKind::maximum,
+                                           MetricKind::minimum,      MetricKind::peak_to_peak,
                                            MetricKind::ripple_rms,   MetricKind::switching_frequency,
                                            MetricKind::efficiency,   MetricKind::reach_time,
                                            MetricKind::settling_time};
     Requirement r;
     r.measure.metric = kinds[draw.one_of(11)];
-    const bool bare = r.measure.metric == MetricKind::efficiency || r.measure.metric == MetricKind::switching_frequency;
+    const bool bare =
+        r.measure.metric == MetricKind::efficiency || r.measure.metric == MetricKind::switching_frequency;
     if (!bare) r.measure.signal = draw.chance(0.5) ? Signal::phase_a : Signal::speed;
     if (r.measure.metric == MetricKind::reach_time || r.measure.metric == MetricKind::settling_time)
       r.measure.level = draw.between(-10.0, 10.0);

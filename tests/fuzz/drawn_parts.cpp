@@ -87,8 +87,15 @@ void draw_parts(Draw& draw, Scenario& s) {
   if (!motor) return;  // and the check says why
   draw_supply(draw, s, *motor);
   const double U = s.supply.voltage_V, R = 2 * motor->machine.R_ohm, K_t = motor->K_t_Nm_A;
-  Scales of{U, R, 2 * motor->machine.L_H, K_t, U / R, U / K_t, K_t * U / R,
-            std::numbers::pi / 3 / motor->machine.pole_pairs, 0.0};
+  Scales of{U,
+            R,
+            2 * motor->machine.L_H,
+            K_t,
+            U / R,
+            U / K_t,
+            K_t * U / R,
+            std::numbers::pi / 3 / motor->machine.pole_pairs,
+            0.0};
   draw_pwm(draw, s, of);
   draw_bridge(draw, s, motor->machine.R_ohm);
   draw_control(draw, s, of);

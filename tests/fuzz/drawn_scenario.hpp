@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scenario drawn at random as an engineer might write one: any motor of the library or one that is drawn,
-// every mode, sensor, firmware, arithmetic and kind of event, each key with the sense that its check asks for.
+// every mode, sensor, firmware, arithmetic and kind of event, each key with the sense that its check asks
+// for.
 #pragma once
 #include <cstdint>
 #include <string>

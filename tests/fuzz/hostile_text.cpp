@@ -11,6 +11,7 @@
 #include "io/keys/key_catalog.hpp"
 #include "tests/fuzz/draw.hpp"
 #include "tests/fuzz/drawn_scenario.hpp"
+#include "tests/fuzz/hostile_literals.hpp"
 
 namespace sixstep::testing {
 namespace {
@@ -20,8 +21,10 @@ namespace fs = std::filesystem;
 /// What the mutations set out from: every shipped scenario, and the file that uses the whole language.
 const std::vector<std::string>& shipped() {
   static const std::vector<std::string> texts = [] {
-    std::vector<fs::path> files{fs::path(SIXSTEP_SOURCE_DIR) / "tests/fuzz/libfuzzer/seeds/toml/language.toml"};
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(SIXSTEP_SOURCE_DIR) / "data/scenarios"))
+    std::vector<fs::path> files{fs::path(SIXSTEP_SOURCE_DIR) /
+                                "tests/fuzz/libfuzzer/seeds/toml/language.toml"};
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(SIXSTEP_SOURCE_DIR) / "data/scenarios"))
       if (entry.path().extension() == ".toml") files.push_back(entry.path());
     std::sort(files.begin(), files.end());  // a folder has no order
     std::vector<std::string> all;
@@ -43,21 +46,6 @@ const std::vector<io::KeyEntry>& keys() {
   }();
   return all;
 }
-
-/// Numbers at the ends of what a double holds, and beyond; words that are none; values of every other type.
-constexpr const char* literals[] = {
-    "1e308", "-1e308", "1.7976931348623157e308", "5e-324", "-5e-324", "2.2250738585072014e-308", "1e-160",
-    "1e154", "nan", "-nan", "inf", "-inf", "0", "0.0", "-0.0", "-1", "1e400", "-1e400", "1e-400",
-    "9223372036854775807", "-9223372036854775808", "9223372036854775808", "0x7fffffff", "0b1", "0o17", "1_000",
-    "1__0", "01", "2147483648", "1e9", "1e-9", "1e-12", "1e-13", "9e6", "9.1e6", "true", "false", "\"\"",
-    "\"nan\"", "\"inf V\"", "\"20 mm\"", "\"1e308 kV\"", "\"1e308 rpm\"", "\"5e-324 us\"", "\"24 V\"", "\"24 kV\"",
-    "\"1 A\"", "\"-\"", "\"1 (A\"", "\"1 A V\"", "\"100 %\"", "\"\\u0000\"", "\"\\u001b[31m\"", "\"\\U0010ffff\"",
-    "\"\\ud800\"", "\"\u202e\"", "\"\xff\xfe\"", "''", "'''a\nb'''", "\"\"\"\n\"\"\"", "[]", "{}", "[[]]", "[{}]",
-    "[1, \"a\"]", "[0, 0]", "[nan, 1]", "[0, 1e308]", "[1, 0]", "{ value = 1 }", "{ value = nan, frame = \"phase\" }",
-    "{ value = 1, range = [2, 1] }", "{ a = { b = { c = 1 } } }", "1979-05-27", "07:32:00", "1979-05-27T07:32:00Z",
-    "\"/dev\"", "\"/dev/null\"", "\"..\"", "\".\"", "\"hostile.toml\"", "\"current-square\"",
-    "\"current-square.toml\"", "\"maxon-251601\"", "\"csv\"", "\"square\"", "\"product\"", "\"q15\"", "\"hysteresis\"",
-    "\"dc-link\"", "\"hall\"", "\"position\"", "\"complementary\"", "\"middle\"", "\"duty\""};
 
 class Breaker {
  public:
@@ -92,7 +80,7 @@ class Breaker {
 
   std::size_t at(std::size_t n) { return n == 0 ? 0 : static_cast<std::size_t>(draw_.unit() * double(n)); }
   std::size_t at(int n) { return at(static_cast<std::size_t>(n)); }
-  std::string literal() { return literals[at(std::size(literals))]; }
+  std::string literal() { return hostile_literals[at(std::size(hostile_literals))]; }
   const io::KeyEntry& key() { return keys()[at(keys().size())]; }
   static std::string repeated(std::string_view piece, std::size_t times) {
     std::string out;
@@ -121,7 +109,8 @@ class Breaker {
     std::size_t place = text_.find_first_of("0123456789", at(text_.size()));
     if (place == std::string::npos) return value_in_place();
     const std::size_t end = std::min(text_.find_first_not_of("0123456789.e-", place), text_.size());
-    static constexpr const char* ends[] = {"e3", "e-3", "e9", "e-9", "e18", "e-18", "e150", "e-150", "e300", "e-300", "0", ""};
+    static constexpr const char* ends[] = {"e3",   "e-3",   "e9",   "e-9",   "e18", "e-18",
+                                           "e150", "e-150", "e300", "e-300", "0",   ""};
     const std::string number = text_.substr(place, end - place);
     text_.replace(place, end - place, (draw_.chance(0.2) ? "-" : "") + number + ends[at(std::size(ends))]);
   }
@@ -144,13 +133,16 @@ class Breaker {
     text_.insert(0, k.path + " = " + text + "\n");
   }
   void bytes() {
-    for (int n = 1 + draw_.one_of(8); n > 0; --n) text_[at(text_.size())] = static_cast<char>(draw_.one_of(256));
+    for (int n = 1 + draw_.one_of(8); n > 0; --n)
+      text_[at(text_.size())] = static_cast<char>(draw_.one_of(256));
   }
   void binary() {
     std::string noise;
     for (std::size_t n = 1 + at(300); n > 0; --n) noise += static_cast<char>(draw_.one_of(256));
-    if (draw_.chance(0.3)) text_ = noise;
-    else text_.insert(at(text_.size()), noise);
+    if (draw_.chance(0.3))
+      text_ = noise;
+    else
+      text_.insert(at(text_.size()), noise);
   }
   void cut() { text_.resize(at(text_.size())); }
   void piece_moved() {
@@ -185,7 +177,9 @@ class Breaker {
     text_ = out;
   }
   /// Long names, long texts, long lists: seldom very long, for each costs its length.
-  std::size_t length() { return static_cast<std::size_t>(draw_.decades(10.0, draw_.chance(0.01) ? 2e5 : 2e3)); }
+  std::size_t length() {
+    return static_cast<std::size_t>(draw_.decades(10.0, draw_.chance(0.01) ? 2e5 : 2e3));
+  }
   void deep_keys() {
     const std::string path = repeated("a.", length()) + "a";
     text_.insert(0, draw_.chance(0.5) ? path + " = 1\n" : "[" + path + "]\n");
@@ -199,13 +193,18 @@ class Breaker {
   void long_key() { text_.insert(0, repeated(draw_.chance(0.5) ? "k" : "\xc3\xa4", length()) + " = 1\n"); }
   void long_text() { text_.insert(0, key().path + " = \"" + repeated("x ", length()) + "\"\n"); }
   void long_list() {
-    static constexpr const char* items[] = {"1", "\"a\"", "true", "{}", "[]", "1e308", "nan", "{ time_s = 1 }"};
+    static constexpr const char* items[] = {"1",  "\"a\"", "true", "{}",
+                                            "[]", "1e308", "nan",  "{ time_s = 1 }"};
     const std::string item = items[at(std::size(items))];
     text_.insert(0, key().path + " = [" + repeated(item + ", ", length()) + item + "]\n");
   }
   void many_tables() {
-    static constexpr const char* tables[] = {"[[at]]\ntime_s = 0.001\nload.torque_Nm = 0.01\n", "[[require]]\nmetric = \"max\"\n",
-                                             "[[at]]\n", "[[require]]\nmetric = 3\n", "[[compare]]\n", "[[spread]]\nkey = \"a\"\n"};
+    static constexpr const char* tables[] = {"[[at]]\ntime_s = 0.001\nload.torque_Nm = 0.01\n",
+                                             "[[require]]\nmetric = \"max\"\n",
+                                             "[[at]]\n",
+                                             "[[require]]\nmetric = 3\n",
+                                             "[[compare]]\n",
+                                             "[[spread]]\nkey = \"a\"\n"};
     text_ += "\n" + repeated(tables[at(std::size(tables))], 1 + length() / 20);
   }
 

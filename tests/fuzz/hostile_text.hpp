@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario's text, broken: by someone who mistypes, by a program that writes nonsense, by a full disk, or by
-// someone who means it.
+// A scenario's text, broken: by someone who mistypes, by a program that writes nonsense, by a full disk, or
+// by someone who means it.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// drawn_scenarios [--valid N] [--hostile N] [--seed S|new] [--threads T]   cases from seed S on; new: from the system's
+// drawn_scenarios [--valid N] [--hostile N] [--seed S|new] [--threads T]   cases from seed S on; new: from
+// the system's
 //                                                                          random numbers
 // drawn_scenarios --show valid|hostile S                                   the text of one
 // What it did, as Markdown; the exit code is 1 where a law was broken.
@@ -27,7 +28,9 @@ std::uint64_t new_seed() {
 }
 
 int usage() {
-  fmt::print(stderr, "usage: drawn_scenarios [--valid N] [--hostile N] [--seed S|new] [--threads T] | --show valid|hostile S\n");
+  fmt::print(stderr,
+             "usage: drawn_scenarios [--valid N] [--hostile N] [--seed S|new] [--threads T] | --show "
+             "valid|hostile S\n");
   return 2;
 }
 
@@ -43,9 +46,11 @@ bool holds(const Campaign& campaign) {
   const Tally tally = carry_out(campaign);
   fmt::print("### {}\n\n{}\n", campaign.name, as_markdown(campaign, tally));
   if (std::getenv("SIXSTEP_REFUSED"))
-    for (const auto& [where, count] : tally.refused_at) fmt::print(stderr, "{:>8} {}\n", count, where.substr(0, 100));
+    for (const auto& [where, count] : tally.refused_at)
+      fmt::print(stderr, "{:>8} {}\n", count, where.substr(0, 100));
   for (const Tally::Broken& b : tally.broken)
-    fmt::print(stderr, "BROKEN {} seed {}: {} ({:.3g})\n  {}\n", campaign.name, b.seed, b.law, b.part, b.words.substr(0, 600));
+    fmt::print(stderr, "BROKEN {} seed {}: {} ({:.3g})\n  {}\n", campaign.name, b.seed, b.law, b.part,
+               b.words.substr(0, 600));
   return tally.broken.empty();
 }
 

@@ -106,7 +106,8 @@ constexpr Law always[] = {
     {"no defect is met", [](const Evidence& e) { return yes_no(no_defect(e.problems)); }},
     {"every row is finite", [](const Evidence& e) { return yes_no(!e.rows || e.rows->finite); }},
     {"time goes on", [](const Evidence& e) { return yes_no(!e.rows || e.rows->rising); }},
-    {"what holds is a number", [](const Evidence& e) { return yes_no(!e.outcome || sound_figures(*e.outcome)); }},
+    {"what holds is a number",
+     [](const Evidence& e) { return yes_no(!e.outcome || sound_figures(*e.outcome)); }},
     {"no switch shorts the bus",
      [](const Evidence& e) { return yes_no(!e.outcome || !says(*e.outcome, "shoot-through")); }},
 };
@@ -122,7 +123,8 @@ constexpr Law of_a_run[] = {
      [](const Evidence& e) {
        return yes_no(e.outcome->digest == e.watched->digest && e.outcome->digest == e.walk->digest);
      }},
-    {"a snapshot goes on to the same end", [](const Evidence& e) { return double(e.walk->resumed_otherwise) * 2; }},
+    {"a snapshot goes on to the same end",
+     [](const Evidence& e) { return double(e.walk->resumed_otherwise) * 2; }},
     {"the state is finite", [](const Evidence& e) { return yes_no(e.walk->finite); }},
     {"no Hall line is blamed that is whole",
      [](const Evidence& e) { return yes_no(e.breaks_a_hall_line || !says(*e.outcome, "does not follow")); }},
@@ -144,8 +146,8 @@ void keep_words(const base::Problems& problems, Examined& out) {
 }
 
 std::string kind_of(const Scenario& s) {
-  const bool sensed = s.sensors.currents != rig::CurrentSensing::ideal || s.sensors.bus != BusSensing::ideal ||
-                      s.sensors.rotor != RotorSensing::ideal;
+  const bool sensed = s.sensors.currents != rig::CurrentSensing::ideal ||
+                      s.sensors.bus != BusSensing::ideal || s.sensors.rotor != RotorSensing::ideal;
   const std::string firmware = s.control.drive == Drive::product ? "product" : sensed ? "sensed" : "lean";
   return firmware + ", " + std::string(base::word(arithmetic_choices, s.control.arithmetic));
 }
@@ -169,7 +171,9 @@ void keep_strange_figures(const Outcome& outcome, Examined& out) {
     if (v.ok && !is_figure(v)) out.words += v.figure + " = " + written(v.measured) + "\n";
 }
 
-std::string end_of(const Outcome& o) { return o.trip ? "tripped" : o.fault ? "stopped by a fault" : "to its end"; }
+std::string end_of(const Outcome& o) {
+  return o.trip ? "tripped" : o.fault ? "stopped by a fault" : "to its end";
+}
 
 void refuse(const base::Problems& problems, double began_s, Examined& out) {
   out.refused_at = key_of(problems);
@@ -208,8 +212,8 @@ Examined examine_drawn(std::uint64_t seed) {
   out.ended = end_of(*outcome);
   Rows rows;
   const auto watched = run(*scenario, all_ears(rows, scenario->control.mode));
-  const Walk walked =
-      walk(*scenario, *compiled, {.snapshot_every = 1 + static_cast<std::int64_t>(seed % 60), .most_snapshots = 2});
+  const Walk walked = walk(*scenario, *compiled,
+                           {.snapshot_every = 1 + static_cast<std::int64_t>(seed % 60), .most_snapshots = 2});
   const base::Problems& problems = watched ? base::Problems{} : watched.problems();
   keep_words(problems, out);
   keep_strange_figures(*outcome, out);
@@ -250,7 +254,8 @@ Examined examine_hostile(std::uint64_t seed) {
   out.accepted = true;
   out.ended = cut_short(*scenario, *outcome) ? "cut" : end_of(*outcome);
   keep_strange_figures(*outcome, out);
-  ask({.examined = out, .problems = {}, .outcome = &*outcome, .rows = &rows, .seconds = cpu_s() - began_s}, out);
+  ask({.examined = out, .problems = {}, .outcome = &*outcome, .rows = &rows, .seconds = cpu_s() - began_s},
+      out);
   return out;
 }
 

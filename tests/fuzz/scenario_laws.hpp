@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds for every scenario, however it was drawn or broken: a list of laws, each of which says how much of
-// what it allows a case used. A new law is one line in scenario_laws.cpp.
+// What holds for every scenario, however it was drawn or broken: a list of laws, each of which says how much
+// of what it allows a case used. A new law is one line in scenario_laws.cpp.
 #pragma once
 #include <cstdint>
 #include <string>

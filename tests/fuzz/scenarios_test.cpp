@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gate's share of the drawn scenarios: the same seeds every time. New ones are drawn by ctest --preset long.
+// The gate's share of the drawn scenarios: the same seeds every time. New ones are drawn by ctest --preset
+// long.
 #include <gtest/gtest.h>
 
 #include "tests/fuzz/campaign.hpp"

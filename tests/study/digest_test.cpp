@@ -147,8 +147,8 @@ TEST(Digest, GoesOnFromASnapshotAtAnyTick) {
   }
 }
 
-/// What a sensed and a product firmware could forget beside the plant: noise, offsets, edges that were captured, the
-/// one-shunt's memory, filters, fault counters, a reference that moves and events that come.
+/// What a sensed and a product firmware could forget beside the plant: noise, offsets, edges that were
+/// captured, the one-shunt's memory, filters, fault counters, a reference that moves and events that come.
 Scenario one_shunt() {
   Scenario s = current_square();
   s.control.current = {.settle_s = 1e-3, .damping = 0.9};
@@ -182,7 +182,8 @@ TEST(Digest, GoesOnFromASnapshotInEveryFirmwareAndArithmetic) {
   for (Scenario s : {late_chip(), one_shunt(), flashed()})
     for (const auto& arithmetic : arithmetic_choices) {
       s.control.arithmetic = arithmetic.value;
-      SCOPED_TRACE(std::string(s.control.drive == Drive::product ? "product " : "") + std::string(arithmetic.word));
+      SCOPED_TRACE(std::string(s.control.drive == Drive::product ? "product " : "") +
+                   std::string(arithmetic.word));
       const auto compiled = compile(s);
       ASSERT_TRUE(compiled);
       const Walk walked = walk(s, *compiled, {.snapshot_every = 7});

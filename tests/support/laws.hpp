@@ -40,10 +40,10 @@ class LawChecker {
   };
 
   /// Rounding: sums are kept exactly by construction, diodes and rails to the guards' noise of 64 eps of
-  /// scale (twice, for the evaluation; and as often as the mode at hand had its noise widened), and so are the
-  /// currents and the speed from one segment to the next. The energy balance to 1e-11, once what those steps
-  /// took along is in the book: beside a current i one of d takes L i d, which is much beside what so far has
-  /// moved where i is far below the scale.
+  /// scale (twice, for the evaluation; and as often as the mode at hand had its noise widened), and so are
+  /// the currents and the speed from one segment to the next. The energy balance to 1e-11, once what those
+  /// steps took along is in the book: beside a current i one of d takes L i d, which is much beside what so
+  /// far has moved where i is far below the scale.
   std::array<Used, 9> used(double energy_tolerance = 1e-11) const {
     const plant::EnergyBook book = audit_.energy();
     return {{{"currents sum to zero", current_sum_ / (8 * 0x1p-52 * amp_scale_)},
@@ -78,8 +78,7 @@ class LawChecker {
       raise(current_step_, std::fabs(d(step)));
       stepped_ += d(step * (now.i[k] + end_.i[k]) / (2 * p.constants().inv_L));
     }
-    if (p.mode().motion != plant::Motion::locked)
-      raise(speed_step_, std::fabs(d(now.speed - end_.speed)));
+    if (p.mode().motion != plant::Motion::locked) raise(speed_step_, std::fabs(d(now.speed - end_.speed)));
   }
 
   void look(const plant::Plant<Real>& p, Real s) {
