@@ -66,6 +66,7 @@ struct Evidence {
   const Walk* walk = nullptr;
   bool read_back_equal = true;
   bool breaks_a_hall_line = false;
+  bool strayed_compiles = true;
   double seconds = 0.0;
 };
 
@@ -125,6 +126,7 @@ constexpr Law of_a_run[] = {
      }},
     {"a snapshot goes on to the same end",
      [](const Evidence& e) { return double(e.walk->resumed_otherwise) * 2; }},
+    {"a drive of its series compiles", [](const Evidence& e) { return yes_no(e.strayed_compiles); }},
     {"the state is finite", [](const Evidence& e) { return yes_no(e.walk->finite); }},
     {"no Hall line is blamed that is whole",
      [](const Evidence& e) { return yes_no(e.breaks_a_hall_line || !says(*e.outcome, "does not follow")); }},
@@ -158,6 +160,12 @@ std::string key_of(const base::Problems& problems) {
   const std::string& where = problems[0].where;
   const std::size_t colon = where.rfind(": ");
   return colon == std::string::npos ? where : where.substr(colon + 2);
+}
+
+bool strayed_compiles(const Scenario& s) {
+  for (const std::uint64_t drive : {0, 1, 2})
+    if (!s.spread.empty() && !compile(varied(s, 1, drive))) return false;
+  return true;
 }
 
 bool breaks_hall(const Scenario& s) {
@@ -226,6 +234,7 @@ Examined examine_drawn(std::uint64_t seed) {
        .read_back_equal = io::scenario_text(*scenario) == io::scenario_text(drawn.scenario) &&
                           scenario->sheet.resistance_ohm->value == drawn.scenario.sheet.resistance_ohm->value,
        .breaks_a_hall_line = breaks_hall(*scenario),
+       .strayed_compiles = strayed_compiles(*scenario),
        .seconds = cpu_s() - began_s},
       out);
   return out;
