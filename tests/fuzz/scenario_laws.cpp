@@ -3,6 +3,7 @@
 
 #include <time.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/scenario/scenario_file.hpp"
@@ -66,6 +67,7 @@ struct Evidence {
   const Walk* walk = nullptr;
   bool read_back_equal = true;
   bool breaks_a_hall_line = false;
+  bool clamps = false;
   bool strayed_compiles = true;
   double seconds = 0.0;
 };
@@ -126,6 +128,8 @@ constexpr Law of_a_run[] = {
      }},
     {"a snapshot goes on to the same end",
      [](const Evidence& e) { return double(e.walk->resumed_otherwise) * 2; }},
+    {"only a clamp stops a shaft at once",
+     [](const Evidence& e) { return yes_no(e.clamps || e.walk->laws.stops() == 0); }},
     {"a drive of its series compiles", [](const Evidence& e) { return yes_no(e.strayed_compiles); }},
     {"the state is finite", [](const Evidence& e) { return yes_no(e.walk->finite); }},
     {"no Hall line is blamed that is whole",
@@ -166,6 +170,10 @@ bool strayed_compiles(const Scenario& s) {
   for (const std::uint64_t drive : {0, 1, 2})
     if (!s.spread.empty() && !compile(varied(s, 1, drive))) return false;
   return true;
+}
+
+bool clamps(const Scenario& s) {
+  return std::any_of(s.at.begin(), s.at.end(), [](const At& at) { return at.load.locked.has_value(); });
 }
 
 bool breaks_hall(const Scenario& s) {
@@ -234,6 +242,7 @@ Examined examine_drawn(std::uint64_t seed) {
        .read_back_equal = io::scenario_text(*scenario) == io::scenario_text(drawn.scenario) &&
                           scenario->sheet.resistance_ohm->value == drawn.scenario.sheet.resistance_ohm->value,
        .breaks_a_hall_line = breaks_hall(*scenario),
+       .clamps = clamps(*scenario),
        .strayed_compiles = strayed_compiles(*scenario),
        .seconds = cpu_s() - began_s},
       out);

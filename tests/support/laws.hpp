@@ -32,6 +32,8 @@ class LawChecker {
 
   const plant::Audit<Real>& audit() const { return audit_; }
   double highest_current_A() const { return highest_current_; }
+  /// How often a free shaft stood still at once: a clamp gripped it and let it go at one instant.
+  int stops() const { return stops_; }
 
   /// A law, and how much of what rounding allows it the run used: 1 is all of it.
   struct Used {
@@ -59,6 +61,7 @@ class LawChecker {
   }
   void expect_all(double energy_tolerance = 1e-11) const {
     EXPECT_GT(segments_, 0);
+    EXPECT_EQ(stops_, 0);
     for (const Used& u : used(energy_tolerance)) EXPECT_LE(u.part, 1.0) << u.law;
   }
 
@@ -78,7 +81,12 @@ class LawChecker {
       raise(current_step_, std::fabs(d(step)));
       stepped_ += d(step * (now.i[k] + end_.i[k]) / (2 * p.constants().inv_L));
     }
-    if (p.mode().motion != plant::Motion::locked) raise(speed_step_, std::fabs(d(now.speed - end_.speed)));
+    const double speed_step = std::fabs(d(now.speed - end_.speed));
+    if (p.mode().motion == plant::Motion::locked) return;
+    if (now.speed == 0 && speed_step > noise * speed_scale_)
+      ++stops_;
+    else
+      raise(speed_step_, speed_step);
   }
 
   void look(const plant::Plant<Real>& p, Real s) {
@@ -107,6 +115,7 @@ class LawChecker {
   double current_step_ = 0, speed_step_ = 0, speed_scale_ = 0;
   double stepped_ = 0;  ///< magnetic energy that currents won between segments, J
   std::int64_t segments_ = 0;
+  int stops_ = 0;
   double amp_scale_ = 0, volt_scale_ = 0, current_sum_ = 0, floating_current_ = 0, highest_current_ = 0;
   double reverse_diode_ = 0, beyond_rail_ = 0;  ///< as parts of what is allowed
 };
