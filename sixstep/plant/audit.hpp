@@ -102,8 +102,10 @@ void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
   const Expansion<Real>& y = plant.expansion();
   const Constants<Real>& c = plant.constants();
   if (!begun_) begin(plant);
-  // A shaft that was clamped while it turned has left its kinetic energy in the clamp.
-  if (c.locked && end_.w != 0) add_compensated(friction_, friction_low_, kinetic_energy(end_));
+  // A shaft that was clamped while it turned has left its kinetic energy in the clamp, also where that let it
+  // go at the same instant. What standstill snaps to zero is noise.
+  const bool stopped = y.w[0] == 0 && (c.locked || detail::abs(end_.w) > c.speed_noise);
+  if (stopped && end_.w != 0) add_compensated(friction_, friction_low_, kinetic_energy(end_));
   end_ = end_of(y, s);
   check_laws(plant.mode(), {y.i[0][0], y.i[1][0], y.i[2][0]});
   check_laws(plant.mode(), end_.i);

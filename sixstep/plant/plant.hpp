@@ -64,6 +64,9 @@ class Plant {
   const Gates& gates() const { return gates_; }
   const Constants<Real>& constants() const { return constants_; }
   const Expansion<Real>& expansion() const { return y_; }
+  /// What rounding takes for zero in this mode, as a multiple of the constants' noises: 1 but where no mode
+  /// was consistent at that.
+  Real slack() const { return slack_; }
   int sector() const { return mode_.sector; }
   /// How often a floating leg began to conduct by a diode.
   std::int64_t diodes_started() const { return diodes_started_; }

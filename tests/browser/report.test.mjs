@@ -2,6 +2,7 @@
 // The report as its reader meets it: opened from a file, in Chromium, without a network.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
+import {inflateSync} from 'node:zlib';
 import {allEqual, close, drag, eventually, opened, plotArea, scales} from './page.mjs';
 
 test('opens quickly, with verdict and all charts', async () => {
@@ -123,7 +124,24 @@ test('labels switch curves off and on', async () => {
   await close(page);
 });
 
-test('follows the theme, and prints dark ink on white paper', async () => {
+/** What a PDF holds: its pages, and the colours that its areas and letters are filled with. */
+function inside(pdf) {
+  const text = pdf.toString('latin1');
+  const fills = new Map();
+  for (const stream of text.matchAll(/stream\r?\n([^]*?)endstream/g)) {
+    let drawn = '';
+    try {
+      drawn = inflateSync(Buffer.from(stream[1], 'latin1')).toString('latin1');
+    } catch { /* not packed */ }
+    for (const [, r, g, b] of drawn.matchAll(/([\d.]+) ([\d.]+) ([\d.]+) rg/g)) {
+      const colour = `rgb(${[r, g, b].map((x) => Math.round(255 * x)).join(', ')})`;
+      fills.set(colour, (fills.get(colour) ?? 0) + 1);
+    }
+  }
+  return {pages: text.match(/\/Type\s*\/Page\b/g)?.length ?? 0, fills};
+}
+
+test('follows the theme, and is printed with dark ink on white paper', async () => {
   const page = await opened('short.html', {theme: 'dark'});
   const brightness = () => page.evaluate(() =>
     getComputedStyle(document.documentElement).backgroundColor.match(/\d+/g).slice(0, 3).reduce((a, b) => a + +b, 0));
@@ -135,10 +153,21 @@ test('follows the theme, and prints dark ink on white paper', async () => {
   await eventually(async () => assert.notEqual(await stroke(), inDark));
   await page.emulateMedia({colorScheme: 'dark'});
   await eventually(async () => assert.equal(await stroke(), inDark));
-  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
-  assert.notEqual(await stroke(), inDark);
-  await page.evaluate(() => dispatchEvent(new Event('afterprint')));
-  assert.equal(await stroke(), inDark);
+  await page.evaluate(() => {
+    window.heard = [];
+    for (const event of ['beforeprint', 'afterprint'])
+      addEventListener(event, () => heard.push([event, sixstep.charts[0].series[4].stroke(), sixstep.charts[0].width]));
+  });
+  const colours = await page.evaluate(() =>
+    [getComputedStyle(document.documentElement).backgroundColor, getComputedStyle(document.body).color]);
+  const printed = inside(await page.pdf());
+  const [before, after] = await page.evaluate(() => heard);
+  assert.deepEqual([before[0], before[2]], ['beforeprint', 680], 'charts are as wide as paper');
+  assert.deepEqual(after.slice(0, 2), ['afterprint', inDark]);
+  assert.ok(printed.pages >= 3 && printed.pages <= 15, `${printed.pages} pages`);
+  assert.ok(printed.fills.get(before[1]) > 50, 'dark ink: ' + [...printed.fills.keys()].join(' '));
+  assert.ok(printed.fills.get('rgb(255, 255, 255)') > 0);
+  for (const dark of colours) assert.equal(printed.fills.get(dark), undefined, `${dark} is the screen's`);
   await close(page);
 });
 

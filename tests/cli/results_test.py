@@ -1,13 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What a run writes, read back by those whom it is written for: numpy, scipy, h5py, Octave where it is installed, a
-reader of value change dumps, and a validator of JSON Schema."""
+"""What a run writes, read back by those whom it is written for: numpy, scipy, h5py, a reader of value change
+dumps, and a validator of JSON Schema; Octave in octave_test.py."""
 import collections
 import json
 import pathlib
 import re
-import shutil
-import subprocess
 import unittest
 
 import h5py
@@ -97,15 +95,6 @@ class Tables(ProgramTest):
         self.assertEqual(five["sixstep"]["digest"], s["digest"])
         self.assertIn("--mat a.mat", five["sixstep"]["command"])
         self.assertEqual(self.names(), ["a.csv", "a.mat", "h.mat", "s.json"])
-
-    @unittest.skipUnless(shutil.which("octave-cli"), "Octave is not installed")
-    def test_octave_reads_all_three(self):
-        self.written(scenario("reference/R1"), "--csv", "a.csv", "--mat", "a.mat", "--mat73", "h.mat")
-        script = """a = load("a.mat"); h = load("h.mat"); c = dlmread("a.csv", ",", 4, 0);
-          assert(a.i_a_A, h.i_a_A); assert(a.t_s, c(:, 1)); assert(a.i_a_A, c(:, 2)); assert(size(a.t_s, 2), 1);
-          assert(a.units.i_a_A, "A"); assert(char(h.sixstep.digest(:)'), a.sixstep.digest); disp("read")"""
-        told = subprocess.run(["octave-cli", "--norc", "--eval", script], cwd=self.path, capture_output=True, text=True)
-        self.assertEqual(told.stdout.strip(), "read", told.stderr)
 
     def test_a_trace_says_where_it_comes_from(self):
         def block(*words):

@@ -19,6 +19,7 @@ class Draw {
   double decades(double low, double high) { return low * std::pow(high / low, unit()); }
   bool chance(double p) { return unit() < p; }
   int one_of(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+  std::uint64_t bits() { return random_(); }
   double sign() { return chance(0.5) ? 1.0 : -1.0; }
 
  private:

@@ -12,7 +12,9 @@
 #include "sixstep/sim/run.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
 #include "sixstep/study/compile/compile.hpp"
-#include "tests/support/scenarios.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+#include "tests/support/product_scenarios.hpp"
+#include "tests/support/scenario_walk.hpp"
 
 namespace {
 
@@ -143,6 +145,53 @@ TEST(Digest, GoesOnFromASnapshotAtAnyTick) {
       ASSERT_EQ(digest.after(rig), expected) << "resumed at " << from_s;
     }
   }
+}
+
+/// What a sensed and a product firmware could forget beside the plant: noise, offsets, edges that were
+/// captured, the one-shunt's memory, filters, fault counters, a reference that moves and events that come.
+Scenario one_shunt() {
+  Scenario s = current_square();
+  s.control.current = {.settle_s = 1e-3, .damping = 0.9};
+  s.sensors = board_sensors();
+  s.sensors.currents = rig::CurrentSensing::dc_link;
+  s.sensors.current_noise_A = 0.02;
+  s.sensors.bus_noise_V = 0.05;
+  s.pwm.alignment = Alignment::centre;
+  s.pwm.sample = SampleAt::middle;
+  s.initial.speed_rad_s = 60.0;
+  return s;
+}
+
+Scenario flashed() {
+  Scenario s = product_scenario(Mode::speed, 0.0);
+  s.reference = {.shape = Shape::trapezoid, .end = 150.0, .slope = 2e4, .acceleration = 4e6};
+  s.control.speed.form = SpeedForm::positional;
+  s.control.speed.derivative_s = 1e-3;
+  s.control.limits.speed_rad_s = 300.0;
+  s.control.slew = 5e4;
+  s.sensors.current_noise_A = 0.01;
+  s.sensors.hall_stable_samples = 2;
+  s.protection.align = {.current_A = 3.0, .longest_s = 4e-3, .settled_s = 1e-3};
+  s.protection.brake_current_A = 4.0;
+  s.protection.off_at_s = 17e-3;
+  s.initial.angle_rad = 0.1;
+  return s;
+}
+
+TEST(Digest, GoesOnFromASnapshotInEveryFirmwareAndArithmetic) {
+  for (Scenario s : {late_chip(), one_shunt(), flashed()})
+    for (const auto& arithmetic : arithmetic_choices) {
+      s.control.arithmetic = arithmetic.value;
+      SCOPED_TRACE(std::string(s.control.drive == Drive::product ? "product " : "") +
+                   std::string(arithmetic.word));
+      const auto compiled = compile(s);
+      ASSERT_TRUE(compiled);
+      const Walk walked = walk(s, *compiled, {.snapshot_every = 7});
+      ASSERT_TRUE(walked.problems.empty()) << to_string(walked.problems[0]);
+      EXPECT_EQ(walked.digest, digest_of(s));
+      EXPECT_GT(walked.resumed, 30);
+      EXPECT_EQ(walked.resumed_otherwise, 0);
+    }
 }
 
 TEST(Digest, SeesTheLastBitOfOneParameter) {

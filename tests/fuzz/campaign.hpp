@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many cases on many threads, and what came of them.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/fuzz/scenario_laws.hpp"
+
+namespace sixstep::testing {
+
+struct Campaign {
+  const char* name = "";
+  Examined (*examine)(std::uint64_t seed) = nullptr;
+  std::uint64_t first_seed = 1, count = 0;
+  unsigned threads = 1;
+};
+
+struct Tally {
+  struct Kind {
+    std::uint64_t accepted = 0, refused = 0;
+  };
+  struct Worst {
+    double part = 0.0;
+    std::uint64_t seed = 0;
+  };
+  struct Broken {
+    std::string law;
+    std::uint64_t seed = 0;
+    double part = 0.0;
+    std::string words;
+  };
+  std::uint64_t accepted = 0, refused = 0;
+  std::map<std::string, Kind> kinds;
+  std::map<std::string, std::uint64_t> ended, refused_at;
+  std::map<std::string, Worst> laws;
+  std::vector<Broken> broken;
+
+  void take(std::uint64_t seed, const Examined& examined);
+  void add(const Tally& other);
+};
+
+/// A case that lasts for minutes, or a crash, ends the program with its seed.
+Tally carry_out(const Campaign& campaign);
+
+/// As tables in Markdown: counts, kinds, and how much of each law was used.
+std::string as_markdown(const Campaign& campaign, const Tally& tally);
+
+}  // namespace sixstep::testing

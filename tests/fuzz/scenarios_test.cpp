@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gate's share of the drawn scenarios: the same seeds every time. New ones are drawn by ctest --preset
+// long.
+#include <gtest/gtest.h>
+
+#include "tests/fuzz/campaign.hpp"
+#include "tests/fuzz/draw.hpp"
+
+namespace {
+
+using namespace sixstep::testing;
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr std::uint64_t valid_count = 60, hostile_count = 600;
+#else
+constexpr std::uint64_t valid_count = 600, hostile_count = 6000;
+#endif
+
+Tally all_hold(const char* name, Examined (*examine)(std::uint64_t), std::uint64_t count) {
+  const Seeds range = seeds(count);
+  const Tally tally = carry_out({name, examine, range.first, range.count, 2});
+  for (const Tally::Broken& b : tally.broken)
+    ADD_FAILURE() << "SIXSTEP_FUZZ_SEED=" << b.seed << ": " << b.law << " (" << b.part << ")\n" << b.words;
+  return tally;
+}
+
+TEST(DrawnScenarios, KeepTheLawsInEveryFirmwareAndArithmetic) {
+  const Tally tally = all_hold("valid", examine_drawn, valid_count);
+  if (std::getenv("SIXSTEP_FUZZ_SEED")) return;
+  EXPECT_GT(tally.accepted, 8 * tally.refused) << "most of what is drawn must be worth a run";
+  EXPECT_EQ(tally.kinds.size(), 18u);
+}
+
+/// Both ways are walked, or the test would see one half of the reader only.
+TEST(HostileScenarios, AreRefusedWithWordsOrRunToNumbers) {
+  const Tally tally = all_hold("hostile", examine_hostile, hostile_count);
+  if (std::getenv("SIXSTEP_FUZZ_SEED")) return;
+  EXPECT_GT(tally.accepted, hostile_count / 20);
+  EXPECT_GT(tally.refused, hostile_count / 3);
+}
+
+}  // namespace

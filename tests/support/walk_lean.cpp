@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/walk_rig.hpp"
+
+namespace sixstep::testing {
+
+Walk walk(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan) {
+  if (s.control.drive == study::Drive::product) return walk_product(s, c, plan);
+  return c.board.sensors.ideal() ? walk_lean(s, c, plan) : walk_sensed(s, c, plan);
+}
+
+Walk walk_lean(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan) {
+  return detail::walk_chosen<rig::LeanDrive>(s, c, plan);
+}
+
+}  // namespace sixstep::testing

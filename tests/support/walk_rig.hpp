@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// walk() for one firmware in every arithmetic. Each is compiled in a file of its own, side by side.
+#pragma once
+#include <cmath>
+
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/study/compile/arithmetic.hpp"
+#include "sixstep/study/measure/digest.hpp"
+#include "tests/support/scenario_walk.hpp"
+
+namespace sixstep::testing {
+
+Walk walk_lean(const study::Scenario& scenario, const study::Compiled& compiled, const WalkPlan& plan);
+Walk walk_sensed(const study::Scenario& scenario, const study::Compiled& compiled, const WalkPlan& plan);
+Walk walk_product(const study::Scenario& scenario, const study::Compiled& compiled, const WalkPlan& plan);
+
+namespace detail {
+
+template <class Rig>
+struct Snapshot {
+  Rig rig;
+  study::Digest digest;
+};
+
+/// Watches the whole run; on a run that goes on from a snapshot it only takes the digest.
+template <class Rig>
+struct Walker {
+  study::Digest digest;
+  Walk* walk = nullptr;
+  const WalkPlan* plan = nullptr;
+  std::vector<Snapshot<Rig>>* snapshots = nullptr;
+  bool ticked = false;
+  std::int64_t segments = 0;
+
+  void segment(const Rig& rig, double s) {
+    digest.segment(rig, s);
+    ticked = rig.ticked();
+    ++segments;
+    if (!walk) return;
+    walk->laws.segment(rig, s);
+    const auto& y = rig.plant().state();
+    walk->finite = walk->finite && std::isfinite(y.i[0] + y.i[1] + y.i[2]) && std::isfinite(y.w) &&
+                   std::isfinite(y.x) && std::isfinite(y.bus);
+    walk->top_slack = std::max(walk->top_slack, rig.plant().slack());
+  }
+  bool done(const Rig& rig) {
+    if (walk && ticked && plan->snapshot_every > 0 && walk->ticks++ % plan->snapshot_every == 0 &&
+        static_cast<int>(snapshots->size()) < plan->most_snapshots)
+      snapshots->push_back({rig, digest});
+    return segments >= plan->most_segments;
+  }
+};
+
+template <class Rig>
+Walk walk_rig(Rig rig, sim::Instant end, const WalkPlan& plan) {
+  Walk out;
+  std::vector<Snapshot<Rig>> snapshots;
+  Walker<Rig> walker{.walk = &out, .plan = &plan, .snapshots = &snapshots};
+  const sim::Run run = sim::run(rig, end, walker);
+  out.stop = run.stop;
+  out.segments = run.segments;
+  out.digest = walker.digest.after(rig);
+  for (Snapshot<Rig>& snapshot : snapshots) {
+    Walker<Rig> again{.digest = snapshot.digest, .plan = &plan};
+    const sim::Run rest = sim::run(snapshot.rig, end, again);
+    ++out.resumed;
+    if (rest.stop != run.stop || again.digest.after(snapshot.rig) != out.digest) ++out.resumed_otherwise;
+  }
+  return out;
+}
+
+template <class Firmware>
+Walk walk_in(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan) {
+  using Number = typename Firmware::Number;
+  const auto chip = [&] {
+    if constexpr (std::is_same_v<Firmware, rig::ProductDrive<Number>>)
+      return study::product_in<Number>(s, c);
+    else
+      return study::drive_in<Number>(s, c);
+  }();
+  if (!chip) return {.problems = chip.problems()};
+  rig::BoardConfig board = c.board;
+  board.units = chip->units;
+  const plant::Plant<double> plant(c.motor.machine, c.shaft, c.devices, c.supply, c.start);
+  return walk_rig(rig::Rig<double, Firmware>(plant, chip->config, board, c.timeline), c.end, plan);
+}
+
+template <template <class> class Firmware>
+Walk walk_chosen(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan) {
+  using enum study::Arithmetic;
+  switch (s.control.arithmetic) {
+    case float64:
+      return walk_in<Firmware<double>>(s, c, plan);
+    case float32:
+      return walk_in<Firmware<float>>(s, c, plan);
+    case q15:
+      return walk_in<Firmware<control::Q15>>(s, c, plan);
+    case q14:
+      return walk_in<Firmware<control::Q14>>(s, c, plan);
+    case q31:
+      return walk_in<Firmware<control::Q31>>(s, c, plan);
+    case q30:
+      return walk_in<Firmware<control::Q30>>(s, c, plan);
+  }
+  return {};
+}
+
+}  // namespace detail
+}  // namespace sixstep::testing
