@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "sixstep/control/fixed.hpp"
+#include "sixstep/control/hall.hpp"
 #include "sixstep/control/scalar.hpp"
 
 namespace sixstep::control {
@@ -70,14 +71,28 @@ constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedStat
   return state.direction < 0 ? -w : w;
 }
 
-/// No edge for half as long again as a sector takes: one was missed, or the rotor slows down.
-template <class Scalar>
-constexpr bool edge_overdue(const HallSpeedConfig<Scalar>& config, const HallSpeedState& state,
-                            std::uint32_t now) {
-  const std::uint8_t k = hall_speed_edges(config.edges, state.known);
-  if (k == 0) return false;
-  const std::uint32_t sector = static_cast<std::uint32_t>(state.times[0] - state.times[k]) / k;
-  return static_cast<std::uint32_t>(now - state.times[0]) / 3 > sector / 2;
+/// How long the present sector lasts. A rotor that starts from rest at a constant torque, or that slows down by
+/// a quarter from one sector to the next, brings no edge that counts as `twice`, nor two sectors' time that
+/// counts as `within`.
+constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t now) {
+  if (state.known < 3) return SectorTime::unknown;
+  const std::uint32_t since = static_cast<std::uint32_t>(now - state.times[0]);
+  const std::uint32_t last = static_cast<std::uint32_t>(state.times[0] - state.times[1]);
+  const std::uint32_t before = static_cast<std::uint32_t>(state.times[1] - state.times[2]);
+  constexpr std::uint32_t most = 0x3fffffff;  // 2 1/2 of it fit
+  if (last > most || before > most || last > before + before / 4) return SectorTime::unknown;
+  if (since <= last + last / 4) return SectorTime::within;
+  const bool twice = since >= last + last / 2 + last / 4 && since <= 2 * last + last / 2;
+  return twice ? SectorTime::twice : SectorTime::unknown;
+}
+
+/// The last sector took less than 3/4 of the one before: from the third sector on no constant torque does
+/// that, not even from rest, where sectors take 1, 0.41, 0.32, 0.27, 0.24. Its edge is a broken line's.
+constexpr bool sector_too_short(const HallSpeedState& state) {
+  if (state.known < 4) return false;
+  const std::uint32_t last = static_cast<std::uint32_t>(state.times[0] - state.times[1]);
+  const std::uint32_t before = static_cast<std::uint32_t>(state.times[1] - state.times[2]);
+  return last < before - before / 4;
 }
 
 /// Way since the last edge, 0..1 of a sector in the direction of turning; the middle where nothing is known.

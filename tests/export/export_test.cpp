@@ -82,7 +82,7 @@ std::vector<std::int64_t> bits_of(const DriveConfig<S>& c) {
           bits(x.bus.lowest_bus_V), bits(x.smooth_chopping), bits(x.chopping.soft_above_A),
           bits(x.chopping.complementary_below_A), bits(x.positional_speed), bits(x.speed.K),
           bits(x.speed.K_i), bits(x.speed.K_b), bits(x.speed.limit), bits(x.speed_derivative.g),
-          bits(x.speed_derivative.b)};
+          bits(x.speed_derivative.b), bits(x.speed.K_c)};
 }
 
 TEST(ExportHeader, FloatingPointIsWhatTheRunComputesWith) {

@@ -212,6 +212,7 @@ base::Result<Compiled> compile(const Scenario& s) {
   out.drive.hysteresis = {s.control.current.band_A, watch_of(s.control.current)};
   if (base::Problems problems = add_loops(s, basis, out); !problems.empty()) return problems;
   add_extras(s, basis, out.drive);
+  if (base::Problems problems = check_limits(s, basis, out.drive); !problems.empty()) return problems;
   if (s.control.drive == Drive::product) out.product = product_around(s, basis, out.drive, out.board.sensors);
   return out;
 }
