@@ -18,7 +18,8 @@ enum class HallArrangement : std::uint8_t { degrees_120, degrees_60 };
 /// How long the present sector lasts, by the times of the edges before (hall_speed.hpp). It only helps to name
 /// a broken line.
 enum class SectorTime : std::uint8_t {
-  unknown,  ///< the rotor starts, slows down or turned back, or it is neither of the other two
+  unknown,  ///< the rotor starts, slows down or turned back, or it is none of the others
+  soon,     ///< less than 3/4 of a sector
   within,   ///< no longer than a sector
   twice     ///< as long as two: an edge was missed
 };
@@ -41,9 +42,8 @@ struct HallState {
   std::uint8_t seen = 0;              ///< samples it has stood
   std::uint8_t sector = no_sector;    ///< the last good one
   std::int8_t direction = 0;          ///< of the last edge: +1 forward, -1 backward, 0 before the first
-  std::uint8_t edge_line = 0;         ///< 1..3: the line of the last edge, as its number on the plug
-  bool turned = false;                ///< the last edge turned the direction,
-  bool turned_in_time = false;        ///< sooner than a rotor that ran on steadily can turn
+  std::uint8_t suspect = 0;           ///< 1..3: its edge came sooner than a steady rotor brings or turns it
+  std::uint8_t edges_since = 0;       ///< that edge: after a turn it is cleared of suspicion
   HallFault fault = HallFault::none;  ///< an impossible code stands
 };
 
@@ -80,8 +80,7 @@ constexpr std::uint8_t changed_line(std::uint8_t a, std::uint8_t b) {
 namespace detail {
 
 /// Which line makes an impossible code, in codes of probes 120 degrees apart; 0: it cannot be told. A line that
-/// breaks while its level is due to stay is the one that changes now, or it has faked a reversal at the edge
-/// before. One that misses its edge is silent for two sectors until its neighbour's edge makes the code
+/// breaks while its level is due to stay is the one that changes now, or its edge was a false one. One that misses its edge is silent for two sectors until its neighbour's edge makes the code
 /// impossible: the rotor then is two sectors on, and the line is the one that differs from the code due there.
 /// Only times tell these apart, and only those of a rotor that runs on steadily.
 constexpr std::uint8_t broken_line(const HallState& state, std::uint8_t code, SectorTime time) {
@@ -100,12 +99,17 @@ constexpr std::uint8_t line_of(HallArrangement arrangement, std::uint8_t line) {
   return arrangement == HallArrangement::degrees_60 && line > 1 ? static_cast<std::uint8_t>(5 - line) : line;
 }
 
-/// To the next sector or the one before, by one line's edge.
+/// To the next sector or the one before, by one line's edge. A rotor that runs on steadily brings no edge in
+/// less than 3/4 of a sector, and turns in none: the line broke.
 constexpr void take_edge(const HallConfig& config, HallState& state, std::uint8_t code, std::int8_t passed,
                          SectorTime time) {
-  state.turned = state.direction == -passed;
-  state.turned_in_time = state.turned && time == SectorTime::within;
-  state.edge_line = line_of(config.arrangement, changed_line(hall_of_sector(state.sector), code));
+  const bool turned = state.direction == -passed;
+  if (state.edges_since < 6) ++state.edges_since;
+  if (state.edges_since == 6 || turned) state.suspect = 0;
+  if (time == SectorTime::soon || (turned && time == SectorTime::within)) {
+    state.suspect = line_of(config.arrangement, changed_line(hall_of_sector(state.sector), code));
+    state.edges_since = 0;
+  }
   state.direction = passed;
 }
 
@@ -116,9 +120,8 @@ constexpr HallReading accept_hall(const HallConfig& config, HallState& state, st
   if (sector == no_sector) {
     reading.fault = HallFault::impossible_code;
     if (state.sector != no_sector)
-      reading.line = !state.turned          ? line_of(config.arrangement, broken_line(state, code, time))
-                     : state.turned_in_time ? state.edge_line
-                                            : std::uint8_t{0};
+      reading.line = state.suspect != 0 ? state.suspect
+                                        : line_of(config.arrangement, broken_line(state, code, time));
     state.direction = 0;
   } else if (state.sector != no_sector && sector != state.sector) {
     const std::int8_t passed = sectors_between(state.sector, sector);

@@ -71,28 +71,29 @@ constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedStat
   return state.direction < 0 ? -w : w;
 }
 
-/// How long the present sector lasts. A rotor that starts from rest at a constant torque, or that slows down by
-/// a quarter from one sector to the next, brings no edge that counts as `twice`, nor two sectors' time that
-/// counts as `within`.
+/// Whether two sectors took the same time to a quarter.
+constexpr bool alike(std::uint32_t later, std::uint32_t earlier) {
+  return later <= earlier + earlier / 4 && later >= earlier - earlier / 4;
+}
+
+/// How long the present sector lasts, from the fifth edge in one direction on, where each of the last sectors
+/// took as long as the one before to a quarter. A rotor that starts from rest at a constant torque (sectors of
+/// 1, 0.41, 0.32, 0.27, 0.24) brings no edge that is `soon` from then on; one that slows down so brings none
+/// that is `twice`, nor two sectors `within`.
 constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t now) {
-  if (state.known < 3) return SectorTime::unknown;
+  if (state.known < 5) return SectorTime::unknown;
   const std::uint32_t since = static_cast<std::uint32_t>(now - state.times[0]);
-  const std::uint32_t last = static_cast<std::uint32_t>(state.times[0] - state.times[1]);
-  const std::uint32_t before = static_cast<std::uint32_t>(state.times[1] - state.times[2]);
-  constexpr std::uint32_t most = 0x3fffffff;  // 2 1/2 of it fit
-  if (last > most || before > most || last > before + before / 4) return SectorTime::unknown;
+  std::uint32_t sector[3]{};
+  for (int n = 0; n < 3; ++n) {
+    sector[n] = static_cast<std::uint32_t>(state.times[n] - state.times[n + 1]);
+    if (sector[n] > 0x3fffffff) return SectorTime::unknown;  // 2 1/2 of it would not fit
+  }
+  const std::uint32_t last = sector[0];
+  if (!alike(last, sector[1]) || !alike(sector[1], sector[2])) return SectorTime::unknown;
+  if (since < last - last / 4) return SectorTime::soon;
   if (since <= last + last / 4) return SectorTime::within;
   const bool twice = since >= last + last / 2 + last / 4 && since <= 2 * last + last / 2;
   return twice ? SectorTime::twice : SectorTime::unknown;
-}
-
-/// The last sector took less than 3/4 of the one before: from the third sector on no constant torque does
-/// that, not even from rest, where sectors take 1, 0.41, 0.32, 0.27, 0.24. Its edge is a broken line's.
-constexpr bool sector_too_short(const HallSpeedState& state) {
-  if (state.known < 4) return false;
-  const std::uint32_t last = static_cast<std::uint32_t>(state.times[0] - state.times[1]);
-  const std::uint32_t before = static_cast<std::uint32_t>(state.times[1] - state.times[2]);
-  return last < before - before / 4;
 }
 
 /// Way since the last edge, 0..1 of a sector in the direction of turning; the middle where nothing is known.

@@ -165,7 +165,7 @@ constexpr Activity decide(const ProtectedConfig<Scalar>& config, ProtectedState<
   const Activity was = state.activity.activity;
   ActivityInput in{.request = request};
   in.aligned = was == Activity::align && aligned(config, state);
-  if (sector_too_short(state.speed)) state.events.false_edge = state.hall.edge_line;
+  state.events.false_edge = state.hall.suspect;
   fault_step(config.faults, state.faults, m, state.events);
   state.events = FaultEvents{};
   if (clear_requested(state.activity, request) && fault_clear(state.faults)) state.calibrated = false;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/motor/motor_library.hpp"
+#include "io/scenario/scenario_file.hpp"
 #include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "tests/fuzz/draw.hpp"
