@@ -45,11 +45,11 @@ struct FaultState {
 };
 
 struct FaultEvents {
-  bool hall = false;           ///< impossible code or jump, now
-  std::uint8_t hall_line = 0;  ///< of hall, 0 where it cannot be told
-  bool moved = false;          ///< a Hall edge since the last tick
+  bool hall = false;            ///< impossible code or jump, now
+  std::uint8_t hall_line = 0;   ///< of hall, 0 where it cannot be told
+  bool moved = false;           ///< a Hall edge since the last tick
   std::uint8_t false_edge = 0;  ///< 1..3: the line whose edge came sooner than a rotor brings it
-  std::uint16_t other = 0;     ///< what else is wrong: calibration, alignment
+  std::uint16_t other = 0;      ///< what else is wrong: calibration, alignment
 };
 
 /// Returns the latched set: anything but 0 must turn the bridge off. A comparison with what is not a number

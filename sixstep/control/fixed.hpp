@@ -209,8 +209,7 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
     constexpr Wide end = static_cast<Wide>(detail::two_to<Wide>(detail::Widths<Storage>::bits) - 1);
     const Wide digits = detail::shifted_down(sum.raw, Accumulator::guard_bits);
     if (digits <= end && digits >= -end) return accumulated(digits, part);
-    const Accumulator eighth =
-        accumulated(detail::shifted_down(sum.raw, Accumulator::guard_bits + 3), part);
+    const Accumulator eighth = accumulated(detail::shifted_down(sum.raw, Accumulator::guard_bits + 3), part);
     return Accumulator::from_raw(detail::shifted_up(eighth.raw, 3));
   }
   static constexpr TickRatio times(TickRatio ratio, std::uint8_t n) {
@@ -229,8 +228,10 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
     if (part >= whole) return one<Scalar>;
     UnsignedStorage q = 0;
     for (int n = 0; n < FractionBits; ++n) {
-      const bool one_more = part >= static_cast<std::uint32_t>(whole - part);  // 2 part >= whole, which may not fit
-      part = one_more ? static_cast<std::uint32_t>(part - (whole - part)) : static_cast<std::uint32_t>(part + part);
+      const bool one_more =
+          part >= static_cast<std::uint32_t>(whole - part);  // 2 part >= whole, which may not fit
+      part = one_more ? static_cast<std::uint32_t>(part - (whole - part))
+                      : static_cast<std::uint32_t>(part + part);
       q = static_cast<UnsignedStorage>(static_cast<UnsignedStorage>(q << 1) | (one_more ? 1u : 0u));
     }
     if (part >= static_cast<std::uint32_t>(whole - part)) ++q;

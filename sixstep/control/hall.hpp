@@ -15,8 +15,8 @@ namespace sixstep::control {
 
 enum class HallArrangement : std::uint8_t { degrees_120, degrees_60 };
 
-/// How long the present sector lasts, by the times of the edges before (hall_speed.hpp). It only helps to name
-/// a broken line.
+/// How long the present sector lasts, by the times of the edges before (hall_speed.hpp). It only helps to
+/// name a broken line.
 enum class SectorTime : std::uint8_t {
   unknown,  ///< the rotor starts, slows down or turned back, or it is none of the others
   soon,     ///< less than 3/4 of a sector
@@ -79,10 +79,11 @@ constexpr std::uint8_t changed_line(std::uint8_t a, std::uint8_t b) {
 
 namespace detail {
 
-/// Which line makes an impossible code, in codes of probes 120 degrees apart; 0: it cannot be told. A line that
-/// breaks while its level is due to stay is the one that changes now, or its edge was a false one. One that misses its edge is silent for two sectors until its neighbour's edge makes the code
-/// impossible: the rotor then is two sectors on, and the line is the one that differs from the code due there.
-/// Only times tell these apart, and only those of a rotor that runs on steadily.
+/// Which line makes an impossible code, in codes of probes 120 degrees apart; 0: it cannot be told. A line
+/// that breaks while its level is due to stay is the one that changes now, or its edge was a false one. One
+/// that misses its edge is silent for two sectors until its neighbour's edge makes the code impossible: the
+/// rotor then is two sectors on, and the line is the one that differs from the code due there. Only times
+/// tell these apart, and only those of a rotor that runs on steadily.
 constexpr std::uint8_t broken_line(const HallState& state, std::uint8_t code, SectorTime time) {
   const auto differs_from = [&](int sectors_on) {
     const int sector = (state.sector + 12 + sectors_on * state.direction) % 6;
@@ -120,8 +121,8 @@ constexpr HallReading accept_hall(const HallConfig& config, HallState& state, st
   if (sector == no_sector) {
     reading.fault = HallFault::impossible_code;
     if (state.sector != no_sector)
-      reading.line = state.suspect != 0 ? state.suspect
-                                        : line_of(config.arrangement, broken_line(state, code, time));
+      reading.line =
+          state.suspect != 0 ? state.suspect : line_of(config.arrangement, broken_line(state, code, time));
     state.direction = 0;
   } else if (state.sector != no_sector && sector != state.sector) {
     const std::int8_t passed = sectors_between(state.sector, sector);

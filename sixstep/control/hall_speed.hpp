@@ -77,9 +77,9 @@ constexpr bool alike(std::uint32_t later, std::uint32_t earlier) {
 }
 
 /// How long the present sector lasts, from the fifth edge in one direction on, where each of the last sectors
-/// took as long as the one before to a quarter. A rotor that starts from rest at a constant torque (sectors of
-/// 1, 0.41, 0.32, 0.27, 0.24) brings no edge that is `soon` from then on; one that slows down so brings none
-/// that is `twice`, nor two sectors `within`.
+/// took as long as the one before to a quarter. A rotor that starts from rest at a constant torque (sectors
+/// of 1, 0.41, 0.32, 0.27, 0.24) brings no edge that is `soon` from then on; one that slows down so brings
+/// none that is `twice`, nor two sectors `within`.
 constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t now) {
   if (state.known < 5) return SectorTime::unknown;
   const std::uint32_t since = static_cast<std::uint32_t>(now - state.times[0]);

@@ -13,8 +13,8 @@
 // exp(-g t/C), for a tick short against C/g.
 //
 // A reference of 0 is no limit yet: a loop that holds the sampled valley of a chopped current at 0 leaves its
-// mean above 0, and reversed pulses that begin and end between two samples are seen by none. So at a limit all
-// gates are off until the next sample, whatever chopping and loop would do:
+// mean above 0, and reversed pulses that begin and end between two samples are seen by none. So at a limit
+// all gates are off until the next sample, whatever chopping and loop would do:
 //
 //   current       a phase above 5/4 of the limit
 //   speed         |w| above the limit, and the reference does not brake
@@ -78,7 +78,8 @@ constexpr CurrentWindow<Scalar> current_window(const LimitsConfig<Scalar>& confi
   return window;
 }
 
-/// A sampled phase current that no reference within the limit explains, ripple and a loop's overshoot included.
+/// A sampled phase current that no reference within the limit explains, ripple and a loop's overshoot
+/// included.
 template <class Scalar>
 constexpr bool over_limit(const LimitsConfig<Scalar>& config, const Measurement<Scalar>& m) {
   constexpr Gain<Scalar> five_quarters(1.25);

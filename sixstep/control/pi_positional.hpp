@@ -42,8 +42,8 @@ struct PiPositionalState {
   Accumulator<Scalar> integral{};
 };
 
-/// Between any two ends instead of the limit's: for a bound that moves. What is fed forward may be larger than
-/// a signal.
+/// Between any two ends instead of the limit's: for a bound that moves. What is fed forward may be larger
+/// than a signal.
 template <class Scalar>
 constexpr Scalar pi_positional_step(const PiPositionalConfig<Scalar>& config,
                                     PiPositionalState<Scalar>& state, Scalar error,

@@ -125,8 +125,8 @@ TYPED_TEST(PiScalars, BackCalculationHoldsTheIntegralNearTheLimit) {
       << "without it the integral winds up";
 }
 
-/// K e far above 16 times what a signal holds, where every fixed sum ends: the integral stays at the limit, and
-/// the first small error finds it there.
+/// K e far above 16 times what a signal holds, where every fixed sum ends: the integral stays at the limit,
+/// and the first small error finds it there.
 TYPED_TEST(PiScalars, NothingWindsUpWhereTheProportionalPartSaturates) {
   using S = TypeParam;
   const double K = 200, K_i = 20, K_b = K_i / K;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A limit is a promise: whatever motor of the library, chopping, sample instant, delay, arithmetic, sensor and
-// drive, current, speed and bus stay within what design/loops/limit_bounds.hpp derives, or the scenario is
-// refused.
+// A limit is a promise: whatever motor of the library, chopping, sample instant, delay, arithmetic, sensor
+// and drive, current, speed and bus stay within what design/loops/limit_bounds.hpp derives, or the scenario
+// is refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,8 @@ const std::vector<design::Sheet>& motors() {
     std::vector<design::Sheet> out;
     for (const std::string& name : io::built_in_motors())
       if (const auto sheet = io::read_sheet(name))
-        if (const auto model = design::motor_model(*sheet); model && model->shaft.J_kg_m2 > 0) out.push_back(*sheet);
+        if (const auto model = design::motor_model(*sheet); model && model->shaft.J_kg_m2 > 0)
+          out.push_back(*sheet);
     return out;
   }();
   return all;
@@ -105,6 +106,9 @@ void DrawnLimits::draw_limits(Draw& draw) {
   s.control.regeneration.limit_V = bus_V + headroom_V;
   // About what the windings' energy asks for.
   s.supply.capacitance_F = draw.decades(0.7, 30) * L * std::pow(2 * current_A / headroom_V, 2);
+  // A rotor that has more to give than the headroom takes.
+  const double enough = 6 * s.supply.capacitance_F * bus_V * headroom_V / (top_rad_s * top_rad_s);
+  s.load.inertia_kg_m2 = std::max(s.load.inertia_kg_m2, enough);
 }
 
 void DrawnLimits::draw_sensors(Draw& draw) {
@@ -122,15 +126,15 @@ void DrawnLimits::draw_sensors(Draw& draw) {
   if (product || draw.chance(0.3)) {
     sensors.rotor = study::RotorSensing::hall;
     sensors.speed_edges = 1 + draw.one_of(6);
-  } else if (draw.chance(0.5)) {
-    s.initial.speed_rad_s = draw.between(-0.9, 0.9) * top_rad_s;
+  } else if (draw.chance(s.supply.sinks ? 0.5 : 1.0)) {
+    s.initial.speed_rad_s = draw.sign() * draw.between(0.3, 0.95) * top_rad_s;
   }
   if (!product) return;
   s.control.drive = study::Drive::product;
   s.protection = {.over_current_A = 0.98 * *sensors.current_range_A,
                   .over_voltage_V = 2.4 * highest_V,
                   .under_voltage_V = 0.1 * bus_V,
-                  .over_speed_rad_s = 3 * top_rad_s};
+                  .over_speed_rad_s = 1.5 * top_rad_s};
 }
 
 /// Largest magnitudes of a run.
@@ -162,7 +166,7 @@ double digits(const Scenario& s, double largest) {
   return largest * ((narrow ? 0x1p-12 : 0.0) + 0x1p-10 * (s.sensors.currents != rig::CurrentSensing::ideal));
 }
 
-/// How often a limit was worth its name, and the most that was used of what it may be passed by.
+/// How often a limit was reached, and the most that was used of what it may be passed by.
 struct Tally {
   int runs = 0, refused = 0, currents = 0, speeds = 0, buses = 0;
   double current = 0, speed = 0, bus = 0;
@@ -180,11 +184,12 @@ void judge(const DrawnLimits& drawn, const Reached& r, Tally& tally) {
   tally.current = std::max(tally.current, (r.current_A - drawn.current_A) / (most_A - drawn.current_A));
   const double started = std::fabs(s.initial.speed_rad_s);
   if (const auto limit = s.control.limits.speed_rad_s; limit && *limit > started) {
-    const double late =
-        s.sensors.rotor == study::RotorSensing::hall ? (s.sensors.speed_edges + 1) * M_PI / 3 / basis.motor.machine.pole_pairs : 0.0;
+    const double late = s.sensors.rotor == study::RotorSensing::hall
+                            ? (s.sensors.speed_edges + 1) * M_PI / 3 / basis.motor.machine.pole_pairs
+                            : 0.0;
     const double most = design::most_speed_rad_s(setting, *limit, late) + digits(s, 3 * setting.speed_rad_s);
     EXPECT_LE(r.speed_rad_s, most) << "limit " << *limit;
-    tally.speeds += r.speed_rad_s > *limit;
+    tally.speeds += r.speed_rad_s > 0.98 * *limit;
     tally.speed = std::max(tally.speed, (r.speed_rad_s - *limit) / (most - *limit));
   }
   if (const auto limit = s.control.regeneration.limit_V) {
@@ -192,7 +197,7 @@ void judge(const DrawnLimits& drawn, const Reached& r, Tally& tally) {
     at_most.bus_V = 2 * *limit - drawn.bus_V + 2 * s.bridge.diode_drop_V;
     const double most = design::most_bus_V(at_most, *limit, s.supply.capacitance_F) + digits(s, 3 * *limit);
     EXPECT_LE(r.bus_V, most) << "limit " << *limit;
-    tally.buses += r.bus_V > *limit;
+    tally.buses += r.bus_V > 0.9 * *limit + 0.1 * drawn.bus_V;
     tally.bus = std::max(tally.bus, (r.bus_V - *limit) / (most - *limit));
   }
 }
@@ -218,14 +223,16 @@ TEST(Fuzz, LimitsHoldOrAreRefused) {
   const Seeds range = seeds(600);
   Tally t;
   for (std::uint64_t n = 0; n < range.count; ++n) run_one(range.first + n, t);
-  std::printf("seeds %llu to %llu: %d runs, %d refused; limits passed, and most of what they may be passed by: "
-              "current %d, %.2f, speed %d, %.2f, bus %d, %.2f\n",
-              static_cast<unsigned long long>(range.first),
-              static_cast<unsigned long long>(range.first + range.count - 1), t.runs, t.refused, t.currents,
-              t.current, t.speeds, t.speed, t.buses, t.bus);
+  std::printf(
+      "seeds %llu to %llu: %d runs, %d refused; limits reached, and most of what they may be passed by: "
+      "current %d, %.2f, speed %d, %.2f, bus %d, %.2f\n",
+      static_cast<unsigned long long>(range.first),
+      static_cast<unsigned long long>(range.first + range.count - 1), t.runs, t.refused, t.currents,
+      t.current, t.speeds, t.speed, t.buses, t.bus);
   if (range.count < 100) return;
   EXPECT_LT(t.refused, t.runs / 2);
-  for (const int times : {t.currents, t.speeds, t.buses}) EXPECT_GT(times, t.runs / 50) << "or nothing was tried";
+  for (const int times : {t.currents, t.speeds, t.buses})
+    EXPECT_GT(times, t.runs / 50) << "or nothing was tried";
 }
 
 }  // namespace

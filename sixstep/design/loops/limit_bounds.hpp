@@ -25,7 +25,8 @@
 
 namespace sixstep::design {
 
-/// Largest N m per A, and V of the line-to-line peak per rad/s: the sine's peak is 4.7 % above its sector mean.
+/// Largest N m per A, and V of the line-to-line peak per rad/s: the sine's peak is 4.7 % above its sector
+/// mean.
 double torque_per_A(const plant::Machine& machine);
 
 /// What a control period can do to a drive.

@@ -84,9 +84,9 @@ control::LimitsConfig<Scalar> scaled_limits(const control::LimitsConfig<double>&
           proof.gain("limits.A_per_V", l.A_per_V * b.voltage_V / b.current_A)};
 }
 
-/// pi_positional.hpp and derivative.hpp: |y| <= g times the widest step of the speed, and g/b times its largest
-/// change per sample; |I| <= limit + |y| + |K_c| |e|/K_b. K e may saturate. K_i and its increments are those
-/// that DriveConfig::speed was proved with.
+/// pi_positional.hpp and derivative.hpp: |y| <= g times the widest step of the speed, and g/b times its
+/// largest change per sample; |I| <= limit + |y| + |K_c| |e|/K_b. K e may saturate. K_i and its increments
+/// are those that DriveConfig::speed was proved with.
 template <class Scalar>
 void scale_positional(const control::DriveExtras<double>& x, const Magnitudes& m, const Bases& b,
                       Proof<Scalar>& proof, control::DriveExtras<Scalar>& out) {
@@ -97,9 +97,17 @@ void scale_positional(const control::DriveExtras<double>& x, const Magnitudes& m
   const double integral =
       pi.K_b > 0 ? pi.limit + braked + std::fabs(pi.K_c) / pi.K_b * (m.speed + m.speed_ref) : 0.0;
   if (!(pi.K_b > 0) && pi.K_i != 0)
-    proof.problems.push_back({"speed.K_b", "0", "lets the integral grow without an end, which fixed point has",
+    proof.problems.push_back({"speed.K_b", "0",
+                              "lets the integral grow without an end, which fixed point has",
                               "take K_i/K, or floating point"});
-  proof.fits("speed derivative and integral", braked + integral, 14.0);
+  if (braked + integral > 14.0 * detail::full_scale<Scalar>)
+    proof.problems.push_back(
+        {"speed derivative and integral", base::written(braked + integral),
+         "of full output are above " + base::written(14.0 * detail::full_scale<Scalar>),
+         "take K_b nearer K_i/K, a longer filter of the derivative, or a format with more bits "
+         "before the point"});
+  proof.rows.push_back(
+      {"speed derivative and integral", braked + integral, 14.0 * detail::full_scale<Scalar>});
   out.positional_speed = true;
   out.speed = {proof.gain("speed.K", pi.K * b.speed_rad_s), proof.gain("speed.K_i", pi.K_i * b.speed_rad_s),
                proof.gain("speed.K_b", pi.K_b), Scalar(pi.limit),

@@ -18,7 +18,8 @@ struct OperatingRange {
   double position_deg = 0.0;  ///< mechanical; only in position mode
   double bus_V = 0.0;
   double setpoint = 0.0;  ///< in the unit of the mode
-  double speed_change_rad_s = 0.0;  ///< of the measured speed from one sample to the next; 0: any within speed
+  double speed_change_rad_s =
+      0.0;  ///< of the measured speed from one sample to the next; 0: any within speed
 };
 
 /// What 1.0 stands for. Duties and fractions of torque have the base 1.

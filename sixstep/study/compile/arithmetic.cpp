@@ -65,7 +65,8 @@ rig::Units units_of(Mode mode, const design::Bases& b) {
   return {b.current_A, b.voltage_V, b.speed_rad_s, b.position_deg, design::setpoint_base(mode, b)};
 }
 
-/// Per sample, by all torques there are at once. Hall edges tell of a speed as late and as suddenly as they come.
+/// Per sample, by all torques there are at once. Hall edges tell of a speed as late and as suddenly as they
+/// come.
 double fastest_change_of_speed(const Scenario& s, const Compiled& c, const design::OperatingRange& range) {
   if (s.sensors.rotor == RotorSensing::hall) return 0.0;
   double load = std::fabs(s.load.torque_Nm);
@@ -92,8 +93,7 @@ control::DriveExtras<Scalar> extras_in(const control::DriveExtras<double>& x) {
           .smooth_chopping = x.smooth_chopping,
           .chopping = {s(x.chopping.soft_above_A), s(x.chopping.complementary_below_A)},
           .positional_speed = x.positional_speed,
-          .speed = {s(x.speed.K), s(x.speed.K_i), s(x.speed.K_b), s(x.speed.limit),
-                    s(x.speed.K_c)},
+          .speed = {s(x.speed.K), s(x.speed.K_i), s(x.speed.K_b), s(x.speed.limit), s(x.speed.K_c)},
           .speed_derivative = {s(x.speed_derivative.g), s(x.speed_derivative.b)}};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A limit is a promise: what it cannot hold to (design/loops/limit_bounds.hpp) is refused, with what would help.
+// A limit is a promise: what it cannot hold to (design/loops/limit_bounds.hpp) is refused, with what would
+// help.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -29,7 +30,8 @@ void check_converter(const Scenario& s, const control::DriveConfig<double>& driv
   double asked = s.control.mode == Mode::current ? largest_reference(s) : drive.current_limit_A;
   if (limited) asked = 1.25 * std::min(asked, drive.extras.limits.current_A);
   const double range = *sensors.current_range_A;
-  const double read = range - 2 * range / std::ldexp(1.0, sensors.adc_bits) - std::fabs(sensors.current_offset_A);
+  const double read =
+      range - 2 * range / std::ldexp(1.0, sensors.adc_bits) - std::fabs(sensors.current_offset_A);
   if (asked < read) return;
   out.push_back({"sensors.current_range_A", number(range),
                  "lets the converter read up to " + number(read) + " A, and the drive " +
@@ -43,7 +45,8 @@ void check_shunt(const Scenario& s, base::Problems& out) {
   if (s.sensors.currents != rig::CurrentSensing::dc_link) return;
   const auto refuse = [&out](const char* key, const std::optional<double>& value) {
     if (value)
-      out.push_back({key, number(*value), "needs every phase's current, and a shunt in the DC link hides some",
+      out.push_back({key, number(*value),
+                     "needs every phase's current, and a shunt in the DC link hides some",
                      "set sensors.currents = \"phases\", or leave it away"});
   };
   refuse("control.limits.current_A", s.control.limits.current_A);
@@ -66,8 +69,8 @@ void check_current(const Scenario& s, const design::LimitSetting& setting, base:
                      " or raise the limit"});
 }
 
-/// Mechanical angle in which the drive does not learn of a speed: k sectors that it is the mean of and the one
-/// that has not ended, and what the filter holds edges back.
+/// Mechanical angle in which the drive does not learn of a speed: k sectors that it is the mean of and the
+/// one that has not ended, and what the filter holds edges back.
 double late_rad(const Scenario& s, const plant::Machine& machine, double speed_rad_s) {
   if (s.sensors.rotor != RotorSensing::hall) return 0.0;
   return (s.sensors.speed_edges + 1) * base::pi / 3 / machine.pole_pairs +
@@ -98,7 +101,8 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
   const double from = highest_start_V(s);
   if (!(*wanted > from)) {  // check.cpp says so of the supply at the start
     out.push_back({"control.regeneration.limit_V", number(*wanted),
-                   "must be above the highest supply, " + number(from) + " V", "the drive could never brake"});
+                   "must be above the highest supply, " + number(from) + " V",
+                   "the drive could never brake"});
     return;
   }
   // Beyond the limit at most as much again as the limit is above the supply.
@@ -115,7 +119,8 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
   const bool can_store = holds(*wanted, C_F);
   out.push_back({"control.regeneration.limit_V", number(*wanted),
                  "cannot be held: what the windings hold when the drive lets go, up to " +
-                     number(design::most_current_A(setting)) + " A, may lift the bus to " + number(reached) + " V",
+                     number(design::most_current_A(setting)) + " A, may lift the bus to " + number(reached) +
+                     " V",
                  "raise it to " + number(limit_V) +
                      (can_store ? " or supply.capacitance_F to " + number(C_F) : std::string()) +
                      ", or lower the current limit"});
@@ -139,7 +144,8 @@ design::LimitSetting limit_setting(const Scenario& s, const Basis& basis,
   return out;
 }
 
-base::Problems check_limits(const Scenario& s, const Basis& basis, const control::DriveConfig<double>& drive) {
+base::Problems check_limits(const Scenario& s, const Basis& basis,
+                            const control::DriveConfig<double>& drive) {
   base::Problems out;
   const bool has_current_loop = s.control.mode == Mode::current || drive.current_limit_A > 0;
   if (has_current_loop && s.control.current.type == CurrentLoopType::pi) check_converter(s, drive, out);
