@@ -101,7 +101,7 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
   const double from = highest_start_V(s);
   if (!(*wanted > from)) {  // check.cpp says so of the supply at the start
     out.push_back({"control.regeneration.limit_V", number(*wanted),
-                   "must be above the highest supply, " + number(from) + " V",
+                   "must be above the highest supply or start, " + number(from) + " V",
                    "the drive could never brake"});
     return;
   }
@@ -134,8 +134,9 @@ design::LimitSetting limit_setting(const Scenario& s, const Basis& basis,
   const std::optional<double>& limit_V = s.control.regeneration.limit_V;
   design::LimitSetting out{basis.motor.machine, J, s.pwm.period_s};
   out.current_A = drive.extras.limits.current_A;
-  double bus = std::max(highest_start_V(s), limit_V.value_or(0.0));
-  out.speed_rad_s = std::max(std::fabs(s.initial.speed_rad_s), bus / basis.motor.K_t_Nm_A);
+  const double from = highest_start_V(s);
+  double bus = std::max(from, limit_V.value_or(0.0));
+  out.speed_rad_s = std::max(std::fabs(s.initial.speed_rad_s), from / basis.motor.K_t_Nm_A);
   // What the source does not take back lifts the bus, at worst by all that the rotor has.
   if (C > 0 && s.supply.sinks) bus += 1.25 * out.current_A * s.supply.resistance_ohm;
   if (C > 0 && !s.supply.sinks && !limit_V)
