@@ -144,9 +144,9 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
 design::OperatingRange range_of(const ConfigHeader& w, const study::Compiled& c) {
   const design::OperatingRange own = study::operating_range(w.scenario, c);
   const auto stated = [](double x, double otherwise) { return x > 0 ? x : otherwise; };
-  return {stated(w.range.current_A, own.current_A), stated(w.range.speed_rad_s, own.speed_rad_s),
+  return {stated(w.range.current_A, own.current_A),       stated(w.range.speed_rad_s, own.speed_rad_s),
           stated(w.range.position_deg, own.position_deg), stated(w.range.bus_V, own.bus_V),
-          stated(w.range.setpoint, own.setpoint)};
+          stated(w.range.setpoint, own.setpoint),         own.speed_change_rad_s};
 }
 
 template <class Scalar>

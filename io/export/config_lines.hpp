@@ -66,6 +66,8 @@ void extras_lines(ConfigText<Scalar>& t, sixstep::control::Mode mode,
   t.gain("extras.speed.K_i", k.speed.K_i, d.speed.K_i, 1 / b.speed_rad_s, "per rad/s", "per sample");
   t.gain("extras.speed.K_b", k.speed.K_b, d.speed.K_b, 1.0, "", "of what the limit cuts off, per sample");
   t.signal("extras.speed.limit", k.speed.limit, d.speed.limit, 1.0, "of full torque");
+  t.gain("extras.speed.K_c", k.speed.K_c, d.speed.K_c, 1 / b.speed_rad_s, "per rad/s",
+         "at the limit, per sample");
   t.gain("extras.speed_derivative.g", k.speed_derivative.g, d.speed_derivative.g, 1 / b.speed_rad_s,
          "per rad/s");
   t.gain("extras.speed_derivative.b", k.speed_derivative.b, d.speed_derivative.b, 1.0, "", "per sample");

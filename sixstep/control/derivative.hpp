@@ -4,7 +4,9 @@
 //
 //   y[n] = y[n-1] + g (x[n] - x[n-1]) - b y[n-1],   g = K_d/(T_f + T_s),  b = T_s/(T_f + T_s)
 //
-// A ramp of r per second settles at K_d r. Subtract y from the output of the PI.
+// A ramp of r per second settles at K_d r. Subtract y from the output of the PI. y is a sum, not a signal: it
+// may exceed the output that it is taken off. |y| is at most g times the widest step of x, and g/b times the
+// largest change per sample; design/scaling proves that this fits.
 #pragma once
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/scalar.hpp"
@@ -26,15 +28,15 @@ struct DerivativeState {
 };
 
 template <class Scalar>
-constexpr Scalar derivative_step(const DerivativeConfig<Scalar>& config, DerivativeState<Scalar>& state,
-                                 Scalar x) {
+constexpr Accumulator<Scalar> derivative_step(const DerivativeConfig<Scalar>& config,
+                                              DerivativeState<Scalar>& state, Scalar x) {
   using T = ScalarTraits<Scalar>;
   if (!state.started) state.x = x;
   state.started = true;
   const Wide<Scalar> change = T::wide(x) - T::wide(state.x);
-  state.y = state.y + T::accumulated(change, config.g) - T::accumulated(T::wide_of(state.y), config.b);
+  state.y = state.y + T::accumulated(change, config.g) - T::share(state.y, config.b);
   state.x = x;
-  return T::signal(state.y);
+  return state.y;
 }
 
 }  // namespace sixstep::control

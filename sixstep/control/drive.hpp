@@ -131,12 +131,21 @@ constexpr Scalar measured_value(Mode mode, const Measurement<Scalar>& measured, 
                                   : Scalar{};
 }
 
+/// All gates off until the next tick; the loops keep what they have in hand.
+template <class Scalar>
+constexpr void coast(DriveState<Scalar>& state) {
+  state.command.enabled = false;
+  state.command.duty = Scalar{};
+  state.command.watch = Watch::none;
+}
+
 /// The loops of one tick, as deep as the mode asks: sets pair and duty, or arms the comparators.
 template <class Scalar>
 constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                          const Measurement<Scalar>& measured, Pair positive, Scalar value, Scalar i_m,
                          Telemetry<Scalar>& telemetry) {
   if (mode == Mode::duty) return set_duty(state, positive, clamped(value, one<Scalar>));
+  const bool limits = config.extras.on && config.extras.limits_current;
   Scalar i_ref = value;
   if (mode != Mode::current) {
     const Scalar w_ref = speed_reference(config, mode, value, measured);
@@ -147,16 +156,20 @@ constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveStat
     i_ref = clamped(ScalarTraits<Scalar>::product(speed_output(config, state, error, measured),
                                                   config.current_at_full_torque_A),
                     config.current_limit_A);
-  } else if (config.extras.on && config.extras.limits_current) {
+  } else if (limits) {
     const CurrentWindow<Scalar> window =
         current_window(config.extras.limits, measured.speed_rad_s, measured.bus_V);
     i_ref = between(i_ref, window.low, window.high);
   }
   telemetry.current_reference_A = i_ref;
+  // The current loop has nothing that it could act on, and would only gather what the sensor is off by.
+  if (limits && must_coast(config.extras.limits, i_ref, measured.speed_rad_s, measured.bus_V))
+    return coast(state);
   if (config.current_control == CurrentControl::hysteresis)
     arm_hysteresis(config, state, positive, i_m, i_ref);
   else
     set_duty(state, positive, current_to_duty(config, state, i_ref - i_m, measured));
+  if (limits && over_limit(config.extras.limits, measured)) coast(state);
 }
 
 }  // namespace detail

@@ -72,7 +72,8 @@ constexpr Scalar speed_with_extras(const DriveExtras<Scalar>& extras, DriveExtra
     high = between(T::product(window->high, extras.torque_fraction_per_A), -limit, limit);
   }
   if (!extras.positional_speed) return pi_step(config, pi, error, low, high);
-  const Scalar braked = derivative_step(extras.speed_derivative, state.speed_derivative, speed_rad_s);
+  const Accumulator<Scalar> braked =
+      derivative_step(extras.speed_derivative, state.speed_derivative, speed_rad_s);
   return pi_positional_step(extras.speed, state.speed, error, -braked, low, high);
 }
 

@@ -17,7 +17,7 @@ enum Fault : std::uint16_t {
   fault_over_voltage = 2,
   fault_under_voltage = 4,
   fault_over_speed = 8,
-  fault_hall = 16,         ///< an impossible code or a jump
+  fault_hall = 16,         ///< an impossible code, a jump, or an edge that makes the speed impossible
   fault_stall = 32,        ///< current without movement for too long
   fault_calibration = 64,  ///< the offset of a current amplifier is not where it must be
   fault_align = 128        ///< the rotor did not come to the sector it was pulled to
@@ -45,10 +45,11 @@ struct FaultState {
 };
 
 struct FaultEvents {
-  bool hall = false;           ///< impossible code or jump, now
-  std::uint8_t hall_line = 0;  ///< of hall, 0 where it cannot be told
-  bool moved = false;          ///< a Hall edge since the last tick
-  std::uint16_t other = 0;     ///< what else is wrong: calibration, alignment
+  bool hall = false;            ///< impossible code or jump, now
+  std::uint8_t hall_line = 0;   ///< of hall, 0 where it cannot be told
+  bool moved = false;           ///< a Hall edge since the last tick
+  std::uint8_t false_edge = 0;  ///< 1..3: the line whose edge came sooner than a rotor brings it
+  std::uint16_t other = 0;      ///< what else is wrong: calibration, alignment
 };
 
 /// Returns the latched set: anything but 0 must turn the bridge off. A comparison with what is not a number
@@ -70,12 +71,14 @@ constexpr std::uint16_t fault_step(const FaultConfig<Scalar>& config, FaultState
   if (!all_within(config.over_current_A)) now |= fault_over_current;
   if (lasting(!(m.bus_V <= config.over_voltage_V), state.over)) now |= fault_over_voltage;
   if (lasting(!(m.bus_V >= config.under_voltage_V), state.under)) now |= fault_under_voltage;
-  if (!within(m.speed_rad_s, config.over_speed_rad_s)) now |= fault_over_speed;
+  const bool too_fast = !within(m.speed_rad_s, config.over_speed_rad_s);
+  if (too_fast) now |= events.false_edge != 0 ? fault_hall : fault_over_speed;
   if (events.hall) now |= fault_hall;
   if (still && state.still >= config.stall_ticks) now |= fault_stall;
   state.present = static_cast<std::uint16_t>(now);
   if (state.latched == 0) state.first = state.present;
   if (state.hall_line == 0) state.hall_line = events.hall_line;
+  if (state.hall_line == 0 && too_fast) state.hall_line = events.false_edge;
   state.latched = static_cast<std::uint16_t>(state.latched | now);
   return state.latched;
 }

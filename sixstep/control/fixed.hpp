@@ -178,6 +178,7 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
   using Accumulator = FixedSum<Scalar>;
   using TickRatio = FixedTickRatio<Scalar>;
   using Wide = typename Scalar::WideInt;
+  using UnsignedStorage = detail::UnsignedOf<Storage>;
 
   static constexpr Wide wide(Scalar x) { return static_cast<Wide>(x.raw); }
   static constexpr Scalar narrow(Wide x) { return Scalar::from_raw(detail::saturated<Storage>(x)); }
@@ -203,10 +204,13 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
   static constexpr Scalar signal(Accumulator sum) {
     return narrow(detail::shifted_down(sum.raw, Accumulator::guard_bits));
   }
-  /// A sum as a difference of signals, at most twice the signal's range.
-  static constexpr Wide wide_of(Accumulator sum) {
-    const Wide end = static_cast<Wide>(detail::two_to<Wide>(detail::Widths<Storage>::bits) - 1);
-    return between(detail::shifted_down(sum.raw, Accumulator::guard_bits), static_cast<Wide>(-end), end);
+  /// A part, 0..1, of a sum: to a digit of the signal, to eight where the sum is above twice its range.
+  static constexpr Accumulator share(Accumulator sum, Gain part) {
+    constexpr Wide end = static_cast<Wide>(detail::two_to<Wide>(detail::Widths<Storage>::bits) - 1);
+    const Wide digits = detail::shifted_down(sum.raw, Accumulator::guard_bits);
+    if (digits <= end && digits >= -end) return accumulated(digits, part);
+    const Accumulator eighth = accumulated(detail::shifted_down(sum.raw, Accumulator::guard_bits + 3), part);
+    return Accumulator::from_raw(detail::shifted_up(eighth.raw, 3));
   }
   static constexpr TickRatio times(TickRatio ratio, std::uint8_t n) {
     TickRatio sum{};
@@ -219,15 +223,19 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
     const Unsigned q = detail::divided_unsigned(detail::absolute(ratio.raw), static_cast<Unsigned>(ticks));
     return narrow(detail::with_sign(q, ratio.raw < 0));
   }
+  /// Digit by digit, so that nothing of 32-bit counts is lost, and cheaper than dividing them.
   static constexpr Scalar fraction(std::uint32_t part, std::uint32_t whole) {
     if (part >= whole) return one<Scalar>;
-    using Unsigned = typename detail::Widths<Storage>::UnsignedWide;
-    while ((static_cast<Unsigned>(part) >> (2 * detail::Widths<Storage>::bits - 1 - FractionBits)) != 0) {
-      part >>= 1;  // what falls off is below the format's last bit
-      whole >>= 1;
+    UnsignedStorage q = 0;
+    for (int n = 0; n < FractionBits; ++n) {
+      const bool one_more =
+          part >= static_cast<std::uint32_t>(whole - part);  // 2 part >= whole, which may not fit
+      part = one_more ? static_cast<std::uint32_t>(part - (whole - part))
+                      : static_cast<std::uint32_t>(part + part);
+      q = static_cast<UnsignedStorage>(static_cast<UnsignedStorage>(q << 1) | (one_more ? 1u : 0u));
     }
-    const Unsigned scaled = static_cast<Unsigned>(static_cast<Unsigned>(part) << FractionBits);
-    return narrow(static_cast<Wide>(detail::divided_unsigned(scaled, static_cast<Unsigned>(whole))));
+    if (part >= static_cast<std::uint32_t>(whole - part)) ++q;
+    return narrow(static_cast<Wide>(q));
   }
   static constexpr Scalar counts(std::int32_t n, Gain per_count) {
     return product(Scalar::from_raw(detail::saturated<Storage>(n)), per_count);

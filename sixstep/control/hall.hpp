@@ -15,6 +15,15 @@ namespace sixstep::control {
 
 enum class HallArrangement : std::uint8_t { degrees_120, degrees_60 };
 
+/// How long the present sector lasts, by the times of the edges before (hall_speed.hpp). It only helps to
+/// name a broken line.
+enum class SectorTime : std::uint8_t {
+  unknown,  ///< the rotor starts, slows down or turned back, or it is none of the others
+  soon,     ///< less than 3/4 of a sector
+  within,   ///< no longer than a sector
+  twice     ///< as long as two: an edge was missed
+};
+
 enum class HallFault : std::uint8_t {
   none,
   impossible_code,  ///< a broken wire or probe
@@ -33,7 +42,8 @@ struct HallState {
   std::uint8_t seen = 0;              ///< samples it has stood
   std::uint8_t sector = no_sector;    ///< the last good one
   std::int8_t direction = 0;          ///< of the last edge: +1 forward, -1 backward, 0 before the first
-  std::uint8_t reversed_by = 0;       ///< the line of the last edge, where that edge turned the direction
+  std::uint8_t suspect = 0;           ///< 1..3: its edge came sooner than a steady rotor brings or turns it
+  std::uint8_t edges_since = 0;       ///< that edge: after a turn it is cleared of suspicion
   HallFault fault = HallFault::none;  ///< an impossible code stands
 };
 
@@ -69,17 +79,18 @@ constexpr std::uint8_t changed_line(std::uint8_t a, std::uint8_t b) {
 
 namespace detail {
 
-/// Which line makes an impossible code, in codes of probes 120 degrees apart. A line that breaks while its
-/// level is due to stay is the one that changes now, or it has faked a reversal at the edge before. One that
-/// misses its edge is silent for two sectors until its neighbour's edge makes the code impossible: the rotor
-/// then is two sectors on, and the line is the one that differs from the code due there.
-constexpr std::uint8_t broken_line(const HallState& state, std::uint8_t code, bool overdue) {
-  if (state.reversed_by != 0) return state.reversed_by;
+/// Which line makes an impossible code, in codes of probes 120 degrees apart; 0: it cannot be told. A line
+/// that breaks while its level is due to stay is the one that changes now, or its edge was a false one. One
+/// that misses its edge is silent for two sectors until its neighbour's edge makes the code impossible: the
+/// rotor then is two sectors on, and the line is the one that differs from the code due there. Only times
+/// tell these apart, and only those of a rotor that runs on steadily.
+constexpr std::uint8_t broken_line(const HallState& state, std::uint8_t code, SectorTime time) {
   const auto differs_from = [&](int sectors_on) {
     const int sector = (state.sector + 12 + sectors_on * state.direction) % 6;
     return changed_line(hall_of_sector(static_cast<std::uint8_t>(sector)), code);
   };
-  if (overdue && state.direction != 0) return differs_from(2);
+  if (time == SectorTime::unknown || state.direction == 0) return 0;
+  if (time == SectorTime::twice) return differs_from(2);
   const std::uint8_t line = differs_from(0);
   return line != 0 ? line : differs_from(1);  // it broke together with its neighbour's edge
 }
@@ -89,22 +100,35 @@ constexpr std::uint8_t line_of(HallArrangement arrangement, std::uint8_t line) {
   return arrangement == HallArrangement::degrees_60 && line > 1 ? static_cast<std::uint8_t>(5 - line) : line;
 }
 
+/// To the next sector or the one before, by one line's edge. A rotor that runs on steadily brings no edge in
+/// less than 3/4 of a sector, and turns in none: the line broke.
+constexpr void take_edge(const HallConfig& config, HallState& state, std::uint8_t code, std::int8_t passed,
+                         SectorTime time) {
+  const bool turned = state.direction == -passed;
+  if (state.edges_since < 6) ++state.edges_since;
+  if (state.edges_since == 6 || turned) state.suspect = 0;
+  if (time == SectorTime::soon || (turned && time == SectorTime::within)) {
+    state.suspect = line_of(config.arrangement, changed_line(hall_of_sector(state.sector), code));
+    state.edges_since = 0;
+  }
+  state.direction = passed;
+}
+
 constexpr HallReading accept_hall(const HallConfig& config, HallState& state, std::uint8_t code,
-                                  bool overdue) {
+                                  SectorTime time) {
   const std::uint8_t sector = sector_of_hall(code);
   HallReading reading{sector, 0, HallFault::none, 0};
   if (sector == no_sector) {
     reading.fault = HallFault::impossible_code;
     if (state.sector != no_sector)
-      reading.line = line_of(config.arrangement, broken_line(state, code, overdue));
+      reading.line =
+          state.suspect != 0 ? state.suspect : line_of(config.arrangement, broken_line(state, code, time));
     state.direction = 0;
   } else if (state.sector != no_sector && sector != state.sector) {
     const std::int8_t passed = sectors_between(state.sector, sector);
     if (passed == 1 || passed == -1) {
       reading.moved = passed;
-      state.reversed_by =
-          state.direction == -passed ? changed_line(hall_of_sector(state.sector), code) : std::uint8_t{0};
-      state.direction = passed;
+      take_edge(config, state, code, passed, time);
     } else {
       reading.fault = HallFault::jump;
     }
@@ -116,17 +140,16 @@ constexpr HallReading accept_hall(const HallConfig& config, HallState& state, st
 
 }  // namespace detail
 
-/// One reading of the three pins (H1 H2 H3 as bits 2, 1, 0). `overdue`: the present sector lasts half as long
-/// again as the ones before; it only helps to name the line.
+/// One reading of the three pins (H1 H2 H3 as bits 2, 1, 0).
 constexpr HallReading hall_step(const HallConfig& config, HallState& state, std::uint8_t pins,
-                                bool overdue = false) {
+                                SectorTime time = SectorTime::unknown) {
   if (pins != state.candidate) {
     state.candidate = pins;
     state.seen = 0;
   }
   if (state.seen < 255) ++state.seen;
   if (state.seen < config.stable_samples) return {state.sector, 0, state.fault, 0};
-  return detail::accept_hall(config, state, as_120_degrees(config.arrangement, pins), overdue);
+  return detail::accept_hall(config, state, as_120_degrees(config.arrangement, pins), time);
 }
 
 }  // namespace sixstep::control

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits of the current reference: a window that each limit narrows.
+// Limits of what is asked for, and what happens where asking for less does not help.
+//
+// A window for the current reference, which each limit narrows:
 //
 //   current       |i| <= limit
 //   torque        |i| <= T_limit/K_t                                (MODEL 1: T_e = K_t i_m)
@@ -8,9 +10,21 @@
 //
 // Regeneration: braking, i w < 0, the bridge returns current to the bus, and where the supply cannot take it,
 // the bus rises: C dU/dt <= |i|. With |i| <= g (U_limit - U) it comes to rest below U_limit, as
-// exp(-g t/C), for a tick short against C/g. At the limit the drive does not brake at all: it coasts.
-// A fault (faults.hpp) stands behind these: they shape a reference, the current follows by its loop.
+// exp(-g t/C), for a tick short against C/g.
+//
+// A reference of 0 is no limit yet: a loop that holds the sampled valley of a chopped current at 0 leaves its
+// mean above 0, and reversed pulses that begin and end between two samples are seen by none. So at a limit
+// all gates are off until the next sample, whatever chopping and loop would do:
+//
+//   current       a phase above 5/4 of the limit
+//   speed         |w| above the limit, and the reference does not brake
+//   regeneration  U_s above the limit, and the reference does not drive
+//
+// With all gates off a current only falls, as long as the bus is above the back-EMF. What flows, turns and
+// charges beyond a limit is therefore what one control period can add: design/loops/limit_bounds.hpp. Faults
+// (faults.hpp) stand behind these.
 #pragma once
+#include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/scalar.hpp"
 
@@ -19,9 +33,9 @@ namespace sixstep::control {
 /// Defaults allow no current; what is not wanted is switched off by its flag.
 template <class Scalar>
 struct LimitsConfig {
-  Scalar current_A{};  ///< torque limit/K_t and the thermal limit, whichever is less
+  Scalar current_A{};  ///< torque limit/K_t and the thermal limit, whichever is less; fixed: below 4/5 of 1.0
   bool limits_speed = false;
-  Scalar speed_rad_s{};        ///< never to be passed by own torque
+  Scalar speed_rad_s{};        ///< not to be passed by own torque
   Gain<Scalar> A_per_rad_s{};  ///< K: full current down to current_A/K below the limit
   bool limits_regeneration = false;
   Scalar bus_V{};          ///< U_limit
@@ -62,6 +76,24 @@ constexpr CurrentWindow<Scalar> current_window(const LimitsConfig<Scalar>& confi
     if (speed_rad_s < Scalar{} && window.high > braking) window.high = braking;
   }
   return window;
+}
+
+/// A sampled phase current that no reference within the limit explains, ripple and a loop's overshoot
+/// included.
+template <class Scalar>
+constexpr bool over_limit(const LimitsConfig<Scalar>& config, const Measurement<Scalar>& m) {
+  constexpr Gain<Scalar> five_quarters(1.25);
+  const Scalar most = ScalarTraits<Scalar>::product(config.current_A, five_quarters);
+  return magnitude(m.i_a_A) > most || magnitude(m.i_b_A) > most || magnitude(m.i_c_A) > most;
+}
+
+/// Whether a limit is passed that `reference_A` does not lead away from.
+template <class Scalar>
+constexpr bool must_coast(const LimitsConfig<Scalar>& config, Scalar reference_A, Scalar speed_rad_s,
+                          Scalar bus_V) {
+  const Scalar along = speed_rad_s < Scalar{} ? -reference_A : reference_A;
+  if (config.limits_speed && magnitude(speed_rad_s) > config.speed_rad_s && !(along < Scalar{})) return true;
+  return config.limits_regeneration && bus_V > config.bus_V && speed_rad_s != Scalar{} && !(along > Scalar{});
 }
 
 }  // namespace sixstep::control

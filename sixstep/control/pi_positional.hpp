@@ -4,6 +4,14 @@
 //   v[n] = K e[n] + I[n] + feed_forward,   u[n] = v[n] within the limit
 //   I[n+1] = I[n] + K_i e[n] + K_b (u[n] - v[n])
 //
+// Where the limit cuts, u - v is written out, since K e may be larger than any number here:
+//
+//   I[n+1] = I[n] + (K_i - K_b K) e[n] + K_b (u[n] - feed_forward - I[n])
+//
+// so that K e alone may saturate (16 times the signal's range): u is at its limit then, and the integral does
+// not know of it. It stays below limit + |feed_forward| + |K_i/K_b - K| |e|; design/scaling proves that this
+// fits.
+//
 // Beside the velocity form: after saturation it loses no proportional kick, and K_b sets how fast the
 // integral follows the limit: 0 not at all (it winds up), 1 at once. Free of saturation both forms have one
 // transfer function: d1 = K, d0 = K_i - K.
@@ -20,24 +28,34 @@ struct PiPositionalConfig {
   Gain<Scalar> K_i{};  ///< output per input and sample
   Gain<Scalar> K_b{};  ///< 0..1 per sample; K_i/K is usual
   Scalar limit{};      ///< |u| never exceeds it
+  Gain<Scalar> K_c{};  ///< K_i - K_b K: what the integral still sees of e where the limit cuts; 0 is usual
 };
+
+/// Of a rounded K_i/K next to nothing is left: nothing.
+constexpr double gain_beyond_limit(double K, double K_i, double K_b) {
+  const double K_c = K_i - K_b * K, least = 1e-9 * (K_i < 0 ? -K_i : K_i);
+  return K_c < least && K_c > -least ? 0.0 : K_c;
+}
 
 template <class Scalar>
 struct PiPositionalState {
   Accumulator<Scalar> integral{};
 };
 
-/// Between any two ends instead of the limit's: for a bound that moves.
+/// Between any two ends instead of the limit's: for a bound that moves. What is fed forward may be larger
+/// than a signal.
 template <class Scalar>
 constexpr Scalar pi_positional_step(const PiPositionalConfig<Scalar>& config,
-                                    PiPositionalState<Scalar>& state, Scalar error, Scalar feed_forward,
-                                    Scalar low, Scalar high) {
+                                    PiPositionalState<Scalar>& state, Scalar error,
+                                    Accumulator<Scalar> feed_forward, Scalar low, Scalar high) {
   using T = ScalarTraits<Scalar>;
-  const Accumulator<Scalar> v =
-      T::accumulated(error, config.K) + state.integral + T::accumulator(feed_forward);
+  const Accumulator<Scalar> v = T::accumulated(error, config.K) + (state.integral + feed_forward);
   const Accumulator<Scalar> u = between(v, T::accumulator(low), T::accumulator(high));
-  state.integral =
-      state.integral + T::accumulated(error, config.K_i) + T::accumulated(T::wide_of(u - v), config.K_b);
+  if (u == v)
+    state.integral = state.integral + T::accumulated(error, config.K_i);
+  else
+    state.integral = state.integral + T::accumulated(error, config.K_c) +
+                     T::share(u - feed_forward - state.integral, config.K_b);
   return T::signal(u);
 }
 
@@ -45,7 +63,8 @@ template <class Scalar>
 constexpr Scalar pi_positional_step(const PiPositionalConfig<Scalar>& config,
                                     PiPositionalState<Scalar>& state, Scalar error,
                                     Scalar feed_forward = Scalar{}) {
-  return pi_positional_step(config, state, error, feed_forward, -config.limit, config.limit);
+  return pi_positional_step(config, state, error, ScalarTraits<Scalar>::accumulator(feed_forward),
+                            -config.limit, config.limit);
 }
 
 }  // namespace sixstep::control

@@ -89,8 +89,7 @@ namespace detail {
 template <class Scalar>
 constexpr void take_hall(const ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state,
                          std::uint8_t pins, std::uint32_t when) {
-  const HallReading reading =
-      hall_step(config.hall, state.hall, pins, edge_overdue(config.speed, state.speed, when));
+  const HallReading reading = hall_step(config.hall, state.hall, pins, sector_time(state.speed, when));
   if (reading.fault != HallFault::none) state.events.hall = true;
   if (reading.line != 0) state.events.hall_line = reading.line;
   if (reading.moved == 0) return;
@@ -165,6 +164,7 @@ constexpr Activity decide(const ProtectedConfig<Scalar>& config, ProtectedState<
   const Activity was = state.activity.activity;
   ActivityInput in{.request = request};
   in.aligned = was == Activity::align && aligned(config, state);
+  state.events.false_edge = state.hall.suspect;
   fault_step(config.faults, state.faults, m, state.events);
   state.events = FaultEvents{};
   if (clear_requested(state.activity, request) && fault_clear(state.faults)) state.calibrated = false;
@@ -192,6 +192,7 @@ template <class Scalar>
 constexpr BridgeCommand<Scalar> brake(const ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state,
                                       const Measurement<Scalar>& m, Telemetry<Scalar>& telemetry) {
   const Scalar slow = config.short_below_rad_s;
+  telemetry = {};  // of the loops that ran before
   if (slow > Scalar{} && magnitude(m.speed_rad_s) <= slow) {
     const BridgeCommand<Scalar> command =
         step_in(Mode::duty, config.drive, state.drive, m, Setpoint<Scalar>{}, telemetry);
@@ -217,11 +218,13 @@ constexpr BridgeCommand<Scalar> act(const ProtectedConfig<Scalar>& config, Prote
     case Activity::brake:
       return brake(config, state, m, telemetry);
     case Activity::align:
+      telemetry = {};
       if (config.align.ticks == 0) return bridge_off<Scalar>(false);
       m.hall = hall_of_sector(config.align.sector);
       return step_in(Mode::current, drive, state.drive, m, Setpoint<Scalar>{config.align.current_A},
                      telemetry);
     default:
+      telemetry = {};
       state.drive = DriveState<Scalar>{};
       state.drive.command.fault = activity == Activity::fault;
       return state.drive.command;

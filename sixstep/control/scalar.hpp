@@ -29,7 +29,7 @@ struct ScalarTraits {
   static constexpr Accumulator accumulated(Scalar x, Gain gain) { return x * gain; }
   static constexpr Accumulator accumulator(Scalar x) { return x; }
   static constexpr Scalar signal(Accumulator sum) { return sum; }
-  static constexpr Wide wide_of(Accumulator sum) { return sum; }
+  static constexpr Accumulator share(Accumulator sum, Gain part) { return sum * part; }
   static constexpr TickRatio times(TickRatio ratio, std::uint8_t n) { return ratio * static_cast<Scalar>(n); }
   static constexpr Scalar per_ticks(TickRatio ratio, std::uint32_t ticks) {
     return ratio / static_cast<Scalar>(ticks);

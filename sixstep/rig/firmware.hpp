@@ -210,7 +210,6 @@ control::BridgeCommand<Scalar> ProductDrive<Scalar>::tick(const Sight<Real>& sig
   const control::BridgeCommand<Scalar> answer =
       control::protected_step(config_, state_, in, request_, wanted, telemetry_);
   request_.clear = false;
-  if (!answer.enabled) telemetry_.drive = {};  // no loop ran: nothing of theirs is in hand
   if (telemetry_.first_fault != 0 && diagnosis_.faults == 0)
     diagnosis_ = {
         telemetry_.first_fault,

@@ -92,6 +92,23 @@ TYPED_TEST(Extras, TheWindowLimitsTheReferenceAndTheSpeedPi) {
   }
 }
 
+/// Above the limit of speed all gates are off, and the loop goes on from where it was.
+TYPED_TEST(Extras, AtALimitTheLoopWaitsWithTheBridgeOff) {
+  using S = TypeParam;
+  Bench<S> b(Mode::current), free(Mode::current);
+  b.config.extras.limits_current = b.config.extras.limits.limits_speed = true;
+  b.config.extras.limits = {S(0.5), true, S(0.5), Gain<S>(4.0)};
+  for (Bench<S>* bench : {&b, &free}) bench->tick(0.25);
+  b.measured.speed_rad_s = S(0.6);
+  const BridgeCommand<S> off = b.tick(0.25);
+  EXPECT_FALSE(off.enabled || off.fault);
+  EXPECT_EQ(b.telemetry.duty, S{});
+  b.measured.speed_rad_s = S(0.25);
+  EXPECT_EQ(b.tick(0.25), free.tick(0.25));
+  b.carry(0.7);
+  EXPECT_FALSE(b.tick(0.25).enabled) << "0.7 is more than 5/4 of 0.5";
+}
+
 TYPED_TEST(Extras, BackEmfAndMeasuredBusEnterTheDuty) {
   using S = TypeParam;
   Bench<S> b(Mode::current);
@@ -174,7 +191,8 @@ TYPED_TEST(Extras, AnyMeasurementGivesALawfulDuty) {
       const BridgeCommand<S> c = step(b.config, b.state, b.measured, Setpoint<S>{any()}, b.telemetry);
       ASSERT_TRUE(c.duty >= S{} && c.duty <= one<S>) << "seed " << seed << " run " << run;
       ASSERT_NE(c.pair.source, c.pair.sink);
-      ASSERT_EQ(c.enabled, !c.fault);
+      const bool may_coast = x.on && x.limits_current;
+      ASSERT_TRUE(may_coast ? !(c.enabled && c.fault) : c.enabled != c.fault);
       if (b.config.mode >= Mode::speed && b.config.speed_control == SpeedControl::cascade) {
         ASSERT_LE(magnitude(b.telemetry.current_reference_A), b.config.current_limit_A);
       }
@@ -187,7 +205,8 @@ template <class S>
 Bench<S> positional(double K_b) {
   Bench<S> b(Mode::speed);
   b.config.extras.positional_speed = true;
-  b.config.extras.speed = {Gain<S>(1.0), Gain<S>(0.25), Gain<S>(K_b), one<S>};
+  b.config.extras.speed = {Gain<S>(1.0), Gain<S>(0.25), Gain<S>(K_b), one<S>,
+                           Gain<S>(gain_beyond_limit(1.0, 0.25, K_b))};
   return b;
 }
 

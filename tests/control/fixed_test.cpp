@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <type_traits>
@@ -158,14 +159,28 @@ TYPED_TEST(FixedFormats, TimesBecomeRatesAndFractions) {
   const double unit = std::ldexp(1.0, -F::fraction_bits);
   for (const std::uint32_t ticks : {1000u, 1001u, 5000u, 123457u, 0x7fffffffu, 0xffffffffu}) {
     EXPECT_NEAR(static_cast<double>(T::per_ticks(ratio, ticks)), 250.0 / ticks, unit) << ticks;
-    // Cutting both to the format's width costs 2^-16 (2^-32) of each, hence one digit more.
     EXPECT_NEAR(static_cast<double>(T::fraction(ticks / 3, ticks)), std::floor(ticks / 3.0) / ticks,
-                2 * unit);
+                0.5 * unit);
   }
   EXPECT_EQ(T::per_ticks(ratio, 0), F::max());
   EXPECT_EQ(T::fraction(7, 7), one<F>);
   EXPECT_EQ(T::fraction(0, 0), one<F>);
   EXPECT_EQ(T::counts(3, Gain<F>(5.0)).raw, 15) << "a count and a gain to raw digits";
+}
+
+/// The nearest digit, whatever the counts: in whole numbers, part 2^n + whole/2 over whole.
+TYPED_TEST(FixedFormats, AFractionIsTheNearestDigit) {
+  using F = TypeParam;
+  std::mt19937_64 random{48};
+  for (int n = 0; n < 20000; ++n) {
+    const auto whole = static_cast<std::uint32_t>(1 + (random() >> (32 + random() % 32)));
+    const auto part = static_cast<std::uint32_t>(random() % whole);
+    const std::uint64_t scaled = static_cast<std::uint64_t>(part) << F::fraction_bits;
+    const std::uint64_t nearest = (scaled + whole / 2) / whole;  // whole odd: no tie; even: ties up
+    const auto most = static_cast<std::uint64_t>(F::max().raw);
+    EXPECT_EQ(static_cast<std::uint64_t>(ScalarTraits<F>::fraction(part, whole).raw), std::min(nearest, most))
+        << part << '/' << whole;
+  }
 }
 
 static_assert(std::is_trivially_copyable_v<Q15> && sizeof(Q15) == 2 && sizeof(Q31) == 4);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <type_traits>
 
 #include "sixstep/control/advance.hpp"
@@ -84,6 +85,7 @@ TEST(Hall, GlitchesShorterThanTheFilterDoNotCount) {
 /// A line breaks somewhere within a sector while the rotor turns on steadily, read 20 times per sector: the
 /// impossible code must come within a turn, and name that line.
 TEST(Hall, ABrokenLineIsNamed) {
+  int named = 0, untold = 0;
   for (const int apart : {2, 1})
     for (const int direction : {1, -1})
       for (int line = 1; line <= 3; ++line)
@@ -91,7 +93,7 @@ TEST(Hall, ABrokenLineIsNamed) {
           for (int breaks_at = 0; breaks_at < 120; ++breaks_at) {
             const HallConfig config = arrangement(apart);
             HallState state;
-            int last_edge = 0;
+            HallSpeedState times;
             HallReading fault;
             for (int t = 0; t < 600 && fault.fault == HallFault::none; ++t) {
               const int place = direction > 0 ? t : 6000 - 1 - t;
@@ -99,16 +101,71 @@ TEST(Hall, ABrokenLineIsNamed) {
               const unsigned bit = 0b1000u >> line;
               if (t >= 240 + breaks_at)
                 code = static_cast<std::uint8_t>(level ? (code | bit) : (code & ~bit));
-              const HallReading r = hall_step(config, state, code, t - last_edge > 30);
-              if (r.moved != 0) last_edge = t;
-              fault = r;
+              const auto now = static_cast<std::uint32_t>(t);
+              fault = hall_step(config, state, code, sector_time(times, now));
+              hall_speed_edge(times, now, fault.moved);
             }
             ASSERT_NE(fault.fault, HallFault::none);
             // Breaking together with another line's edge may look like a jump, which names no line.
             if (breaks_at % 20 == 0 && fault.fault == HallFault::jump) continue;
             ASSERT_EQ(fault.fault, HallFault::impossible_code);
-            ASSERT_EQ(fault.line, line) << apart << ' ' << direction << ' ' << level << ' ' << breaks_at;
+            ++(fault.line == 0 ? untold : named);
+            ASSERT_TRUE(fault.line == line || fault.line == 0)
+                << apart << ' ' << direction << ' ' << line << ' ' << level << ' ' << breaks_at;
           }
+  // A false edge between 3/4 and 8/9 of a sector is as soon as a rotor's that strays by a quarter, and what
+  // comes after it is not alike: one in six breaks brings a false edge forward.
+  std::printf("named %d, not told %d\n", named, untold);
+  EXPECT_LE(untold, named / 30);
+}
+
+/// A rotor at constant acceleration `a` sectors/s^2 from `w` sectors/s, which turns back where it comes to
+/// rest; read 1000 times per second. A line breaks at `at_s`. What is named is the line, or nothing.
+std::uint8_t named(double w, double a, double at_s, int line, int level) {
+  HallState state;
+  HallSpeedState times;
+  for (int t = 0; t < 4000; ++t) {
+    const double s = t * 1e-3, place = 60.5 + w * s + a * s * s / 2;
+    std::uint8_t code = pins(static_cast<int>(std::floor(place)) % 6, 2);
+    const unsigned bit = 0b1000u >> line;
+    if (s >= at_s) code = static_cast<std::uint8_t>(level ? (code | bit) : (code & ~bit));
+    const auto now = static_cast<std::uint32_t>(t);
+    const HallReading r = hall_step(HallConfig{}, state, code, sector_time(times, now));
+    hall_speed_edge(times, now, r.moved);
+    if (r.fault == HallFault::impossible_code) return r.line;
+    if (place < 10) return 0;
+  }
+  return 0;
+}
+
+/// Where the rotor slows down, turns back or starts, times do not tell one line from another: then nothing is
+/// named, and never another line.
+TEST(Hall, NoOtherLineIsNamedWhereTheRotorTurnsBack) {
+  int right = 0, wrong = 0, untold = 0;
+  for (const double w : {0.0, 3.0, 8.0, 15.0, 30.0})
+    for (const double a : {-60.0, -20.0, -8.0, -3.0, 0.0, 3.0, 8.0, 20.0})
+      for (int line = 1; line <= 3; ++line)
+        for (const int level : {0, 1})
+          for (double at_s = 0.05; at_s < 2.5; at_s += 0.0137) {
+            const std::uint8_t found = named(w, a, at_s, line, level);
+            ++(found == 0 ? untold : found == line ? right : wrong);
+          }
+  std::printf("named %d, wrong %d, not told %d\n", right, wrong, untold);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(right, untold / 4) << "and it is told where it can be";
+}
+
+TEST(Hall, FromRestNoEdgeComesSoonerThanARotorBringsIt) {
+  HallSpeedState times;
+  std::uint32_t now = 0;
+  // sqrt(n + 1) - sqrt(n) at a constant torque.
+  for (const std::uint32_t after : {1000u, 414u, 318u, 268u, 236u, 213u, 196u}) {
+    EXPECT_NE(sector_time(times, now + after), SectorTime::soon) << after;
+    hall_speed_edge(times, now += after, 1);
+  }
+  EXPECT_EQ(sector_time(times, now + 140), SectorTime::soon);
+  EXPECT_EQ(sector_time(times, now + 182), SectorTime::within);
+  EXPECT_EQ(sector_time(times, now + 182 + 170), SectorTime::twice);
 }
 
 template <class Scalar>

@@ -80,6 +80,44 @@ TYPED_TEST(Limits, ABusThatCannotSinkStaysBelowItsLimit) {
   EXPECT_GT(bus, 0.87) << "and uses what room there is";
 }
 
+TYPED_TEST(Limits, AtALimitTheBridgeIsOffUnlessTheReferenceLeadsAway) {
+  using S = TypeParam;
+  LimitsConfig<S> config;
+  config.current_A = S(0.5);
+  config.limits_speed = config.limits_regeneration = true;
+  config.speed_rad_s = S(0.5);
+  config.bus_V = S(0.75);
+  const auto coasts = [&](double i_ref, double w, double bus) {
+    return must_coast(config, S(i_ref), S(w), S(bus));
+  };
+  for (const double sign : {1.0, -1.0}) {
+    EXPECT_FALSE(coasts(sign * 0.25, sign * 0.5, 0.75)) << "at both limits, beyond none";
+    EXPECT_TRUE(coasts(0.0, sign * 0.51, 0.5)) << "a reference of 0 may drive by its ripple";
+    EXPECT_TRUE(coasts(sign * 0.25, sign * 0.51, 0.5));
+    EXPECT_FALSE(coasts(sign * -0.25, sign * 0.51, 0.5)) << "braking leads back";
+    EXPECT_TRUE(coasts(sign * -0.25, sign * 0.3, 0.76)) << "braking feeds back";
+    EXPECT_TRUE(coasts(0.0, sign * 0.3, 0.76));
+    EXPECT_FALSE(coasts(sign * 0.25, sign * 0.3, 0.76)) << "driving takes from the bus";
+    EXPECT_TRUE(coasts(sign * -0.25, sign * 0.51, 0.76)) << "nothing leads away from both";
+  }
+  EXPECT_FALSE(coasts(0.25, 0.0, 0.76)) << "at rest nothing feeds back, and the drive must start";
+}
+
+TYPED_TEST(Limits, APhaseAFourthAboveTheLimitIsOverIt) {
+  using S = TypeParam;
+  LimitsConfig<S> config;
+  config.current_A = S(0.5);
+  for (const double sign : {1.0, -1.0})
+    for (int phase = 0; phase < 3; ++phase) {
+      Measurement<S> m;
+      S* const i[3] = {&m.i_a_A, &m.i_b_A, &m.i_c_A};
+      *i[phase] = S(sign * 0.625);
+      EXPECT_FALSE(over_limit(config, m));
+      *i[phase] = S(sign * 0.6254);
+      EXPECT_TRUE(over_limit(config, m));
+    }
+}
+
 TYPED_TEST(Limits, FeedForwardAndBusCompensationByHand) {
   using S = TypeParam;
   EXPECT_EQ(back_emf_voltage(FeedForwardConfig<S>{Gain<S>(1.5)}, S(-0.5)), S(-0.75));

@@ -110,7 +110,8 @@ TYPED_TEST(PiScalars, BackCalculationHoldsTheIntegralNearTheLimit) {
   using S = TypeParam;
   const double e = 0.25, K = 1.5, K_i = 0.125;
   for (const double K_b : {0.25, 0.5, 1.0}) {
-    const PiPositionalConfig<S> config{Gain<S>(K), Gain<S>(K_i), Gain<S>(K_b), S(0.5)};
+    const auto K_c = static_cast<Gain<S>>(gain_beyond_limit(K, K_i, K_b));
+    const PiPositionalConfig<S> config{Gain<S>(K), Gain<S>(K_i), Gain<S>(K_b), S(0.5), K_c};
     PiPositionalState<S> state;
     for (int n = 0; n < 500; ++n) pi_positional_step(config, state, S(e));
     EXPECT_EQ(pi_positional_step(config, state, S(e)), S(0.5));
@@ -118,10 +119,24 @@ TYPED_TEST(PiScalars, BackCalculationHoldsTheIntegralNearTheLimit) {
     EXPECT_NEAR(integral, 0.5 + K_i * e / K_b - K * e, 2 * digit<S>() / K_b) << K_b;
   }
   PiPositionalState<S> winding;
-  const PiPositionalConfig<S> open{Gain<S>(K), Gain<S>(K_i), Gain<S>(0.0), S(0.5)};
+  const PiPositionalConfig<S> open{Gain<S>(K), Gain<S>(K_i), Gain<S>(0.0), S(0.5), Gain<S>(K_i)};
   for (int n = 0; n < 40; ++n) pi_positional_step(open, winding, S(e));
   EXPECT_NEAR(static_cast<double>(ScalarTraits<S>::signal(winding.integral)), 40 * K_i * e, 1e-3)
       << "without it the integral winds up";
+}
+
+/// K e far above 16 times what a signal holds, where every fixed sum ends: the integral stays at the limit,
+/// and the first small error finds it there.
+TYPED_TEST(PiScalars, NothingWindsUpWhereTheProportionalPartSaturates) {
+  using S = TypeParam;
+  const double K = 200, K_i = 20, K_b = K_i / K;
+  const PiPositionalConfig<S> config{Gain<S>(K), Gain<S>(K_i), Gain<S>(K_b), S(0.5),
+                                     static_cast<Gain<S>>(gain_beyond_limit(K, K_i, K_b))};
+  PiPositionalState<S> state;
+  for (int n = 0; n < 5000; ++n) EXPECT_EQ(pi_positional_step(config, state, S(0.75)), S(0.5));
+  // Less than half a digit over K_b is not seen.
+  EXPECT_NEAR(static_cast<double>(ScalarTraits<S>::signal(state.integral)), 0.5, digit<S>() / (2 * K_b));
+  EXPECT_LT(static_cast<double>(pi_positional_step(config, state, S(-0.0015))), 0.25);
 }
 
 TYPED_TEST(PiScalars, FeedForwardSharesTheLimitOfThePositionalForm) {

@@ -107,12 +107,30 @@ TYPED_TEST(Sensing, DerivativeOfARampSettlesAtItsSlopeWithTheFilterTimeConstant)
   const DerivativeConfig<S> config{Gain<S>(4.0), Gain<S>(0.125)};
   DerivativeState<S> state;
   const double r = 1.0 / 128;
-  EXPECT_EQ(derivative_step(config, state, S(0.25)), S{}) << "the first sample is no step";
+  EXPECT_EQ(derivative_step(config, state, S(0.25)), Accumulator<S>{}) << "the first sample is no step";
   for (int n = 1; n <= 64; ++n) {
-    const double y = static_cast<double>(derivative_step(config, state, S(0.25 + r * n)));
+    const S seen = ScalarTraits<S>::signal(derivative_step(config, state, S(0.25 + r * n)));
+    const double y = static_cast<double>(seen);
     // y[n] = g r (1 - (1-b)^n)/b. Fixed point rounds the fed-back y to a digit: at most b/2/b of it stays.
     EXPECT_NEAR(y, 32 * r * (1 - std::pow(0.875, n)), 2 * digit<S>()) << n;
   }
+}
+
+TYPED_TEST(Sensing, ADerivativeMayExceedTheSignalItIsTakenOff) {
+  using S = TypeParam;
+  using T = ScalarTraits<S>;
+  // 0.4 per sample for four samples at g/b = 16: towards 6.4, three times and more what a signal holds.
+  const DerivativeConfig<S> config{Gain<S>(8.0), Gain<S>(0.5)};
+  DerivativeState<S> state;
+  double exact = 0;
+  derivative_step(config, state, S(-0.8));
+  for (int n = 1; n <= 4; ++n) {
+    exact = exact / 2 + 8 * 0.4;
+    const Accumulator<S> y = derivative_step(config, state, S(-0.8 + 0.4 * n));
+    // A quarter of it is a signal again. Each x is half a digit off, which g takes to four.
+    EXPECT_NEAR(4 * static_cast<double>(T::signal(T::share(y, Gain<S>(0.25)))), exact, 20 * digit<S>()) << n;
+  }
+  EXPECT_GT(exact, 5.9);
 }
 
 }  // namespace

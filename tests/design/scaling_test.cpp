@@ -164,4 +164,42 @@ TYPED_TEST(Scaling, GainsThatTheFormatCannotHoldAreNamed) {
   EXPECT_TRUE(names(saturating.problems(), "current integral increment"));
 }
 
+/// From full speed backwards the setpoint slews to what is wanted: the error is that of two full speeds,
+/// however little is wanted.
+TYPED_TEST(Scaling, ASlewedSetpointBeginsAtWhatIsMeasured) {
+  DriveConfig<double> d = cascade(Mode::speed);
+  OperatingRange r = range(Mode::speed);
+  r.setpoint = 100.0;
+  const auto error_of = [&] {
+    const auto scaled = design::scaled<TypeParam>(d, r);
+    EXPECT_TRUE(scaled);
+    for (const design::Headroom& row : scaled->proof)
+      if (row.name == "speed error") return row.largest;
+    return 0.0;
+  };
+  EXPECT_EQ(error_of(), 820.0);
+  d.extras.on = d.extras.slews_setpoint = true;
+  d.extras.slew.step = 0.5;
+  EXPECT_EQ(error_of(), 1440.0);
+}
+
+/// The derivative and the integral behind it are sums of 16 times the output; what they may reach follows
+/// from how fast the measured speed changes.
+TYPED_TEST(Scaling, AnIntegralBehindASteepDerivativeIsProved) {
+  DriveConfig<double> d = cascade(Mode::speed);
+  OperatingRange r = range(Mode::speed);
+  d.extras.on = d.extras.positional_speed = true;
+  d.extras.speed = {0.0158, 0.00013, 0.00013 / 0.0158, 0.97};
+  d.extras.speed_derivative = {0.05, 0.01};  // 72 times the output where the speed jumps from end to end
+  const auto jumping = design::scaled<TypeParam>(d, r);
+  ASSERT_FALSE(jumping);
+  EXPECT_TRUE(names(jumping.problems(), "speed derivative and integral"));
+  r.speed_change_rad_s = 0.5;  // 2.5 times
+  EXPECT_TRUE(design::scaled<TypeParam>(d, r));
+  d.extras.speed.K_b = 0.0;
+  const auto free = design::scaled<TypeParam>(d, r);
+  ASSERT_FALSE(free);
+  EXPECT_TRUE(names(free.problems(), "speed.K_b"));
+}
+
 }  // namespace

@@ -58,7 +58,7 @@ requires std::is_enum_v<Enum> || std::is_same_v<Enum, bool> std::int64_t bits(En
 }
 
 // A new member must be written by io/export/config_lines.hpp and compared here.
-static_assert(sizeof(DriveConfig<double>) == 304 && sizeof(DriveExtras<double>) == 184);
+static_assert(sizeof(DriveConfig<double>) == 312 && sizeof(DriveExtras<double>) == 192);
 
 /// Every member, in its order.
 template <class S>
@@ -82,7 +82,7 @@ std::vector<std::int64_t> bits_of(const DriveConfig<S>& c) {
           bits(x.bus.lowest_bus_V), bits(x.smooth_chopping), bits(x.chopping.soft_above_A),
           bits(x.chopping.complementary_below_A), bits(x.positional_speed), bits(x.speed.K),
           bits(x.speed.K_i), bits(x.speed.K_b), bits(x.speed.limit), bits(x.speed_derivative.g),
-          bits(x.speed_derivative.b)};
+          bits(x.speed_derivative.b), bits(x.speed.K_c)};
 }
 
 TEST(ExportHeader, FloatingPointIsWhatTheRunComputesWith) {

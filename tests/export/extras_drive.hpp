@@ -26,7 +26,7 @@ inline sixstep::control::DriveConfig<double> drive() {
               .smooth_chopping = true,
               .chopping = {0.75, 0.5},
               .positional_speed = true,
-              .speed = {0.0158, 0.00013, 0.0085, 0.96},
+              .speed = {0.0158, 0.00013, 0.0085, 0.96, 0.00013 - 0.0085 * 0.0158},
               .speed_derivative = {0.0021, 0.031}};
   return d;
 }

@@ -10,7 +10,8 @@
 //   at
 //            most h/2 T_r/2 to the integral over a window, in either run: h T_r/(2 window). Where the loops
 //            amplify a rounding to another ripple altogether (tests/study/conditioning_test.cpp) this is
-//            all that is left to say, for float too. PWM runs with the samples: its ripple has one phase.
+//            all that is left to say, for float too (the last test here shows by how much it is the problem's
+//            own). PWM runs with the samples: its ripple has one phase.
 //   samples  A PI holds its samples, and the mean between them is off by a share of the ripple that moves
 //   with
 //            the duty, which the digits bound: less than one digit.
@@ -154,6 +155,38 @@ INSTANTIATE_TEST_SUITE_P(
         if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
       return name;
     });
+
+/// 7.4's speed strays by thousands of digits of 32 bits, and not for its arithmetic: the cascade amplifies
+/// every change until one sample falls on the other side of an edge (tests/study/conditioning_test.cpp).
+/// `double` itself, with a rotor that is 1 to 12 such digits heavier, strays as far.
+TEST(Arithmetic, TheSpeedCascadeStraysAsFarByADigitOfItsInertia) {
+  const auto path =
+      std::filesystem::path(SIXSTEP_SOURCE_DIR) / "data/scenarios/thesis/7.4-speed-exact-design.toml";
+  auto s = read_scenario(path.string());
+  ASSERT_TRUE(s);
+  const Case c{"", Signal::speed, 0, levels};
+  const std::vector<double> wide = figures(*s, c, Arithmetic::float64).means;
+  const auto strays = [&](const Scenario& of, Arithmetic arithmetic) {
+    const std::vector<double> means = figures(of, c, arithmetic).means;
+    double most = 0.0;
+    for (std::size_t k = 0; k < wide.size(); ++k) most = std::fmax(most, std::fabs(means[k] - wide[k]));
+    return most;
+  };
+  const double q31 = strays(*s, Arithmetic::q31), q30 = strays(*s, Arithmetic::q30);
+  const double digit = digit_of<control::Q31> * unit_of(Signal::speed, Arithmetic::q31, *s);
+  double heavier = 0.0;
+  for (int digits = 1; digits <= 12; ++digits) {
+    Scenario other = *s;
+    other.sheet.inertia_gcm2->value *= 1 + digits * digit_of<control::Q31>;
+    heavier = std::fmax(heavier, strays(other, Arithmetic::float64));
+  }
+  std::printf(
+      "7.4: q31 strays by %.2g rad/s, q30 by %.2g, double with a heavier rotor by %.2g; a digit is %.2g\n",
+      q31, q30, heavier, digit);
+  EXPECT_GT(heavier, 1000 * digit);
+  EXPECT_LT(q31, 1.5 * heavier);
+  EXPECT_LT(q30, 1.5 * heavier);
+}
 
 }  // namespace
 }  // namespace io

@@ -18,6 +18,8 @@ struct OperatingRange {
   double position_deg = 0.0;  ///< mechanical; only in position mode
   double bus_V = 0.0;
   double setpoint = 0.0;  ///< in the unit of the mode
+  double speed_change_rad_s =
+      0.0;  ///< of the measured speed from one sample to the next; 0: any within speed
 };
 
 /// What 1.0 stands for. Duties and fractions of torque have the base 1.
@@ -58,7 +60,9 @@ Bases bases_for(const control::DriveConfig<double>& drive, const OperatingRange&
 ///   - a signal, a limit or a difference of signals beyond full scale;
 ///   - a gain above the mantissa, or so small that its mantissa loses bits;
 ///   - an integral gain that does not see an error of one digit (pi.hpp);
-///   - an integral increment that could saturate its sum (14 of the 16 times the range it holds).
+///   - an integral increment that could saturate its sum (14 of the 16 times the range it holds);
+///   - a derivative and the integral behind it, together beyond 14 times the range; an integral that nothing
+///     holds back.
 /// What a limit follows at once (products before a clamp, the proportional kick) may saturate: the clamp
 /// hides it. Instantiated for Q15, Q31 and the formats with one and two bits before the point.
 template <class Scalar>

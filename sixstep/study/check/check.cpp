@@ -70,6 +70,21 @@ void check_speed_output(const Scenario& s, base::Problems& out) {
   if (c.regeneration.limit_V) refuse("control.regeneration.limit_V");
 }
 
+/// A duty is set whatever flows.
+void check_limited_mode(const Scenario& s, base::Problems& out) {
+  const Control& c = s.control;
+  if (c.mode != control::Mode::off && c.mode != control::Mode::duty) return;
+  const auto refuse = [&out](const char* key, const std::optional<double>& value) {
+    if (value)
+      out.push_back({key, number(*value), "needs a current loop, and control.mode has none",
+                     "leave it away, or control current, speed or position"});
+  };
+  refuse("control.limits.current_A", c.limits.current_A);
+  refuse("control.limits.torque_Nm", c.limits.torque_Nm);
+  refuse("control.limits.speed_rad_s", c.limits.speed_rad_s);
+  refuse("control.regeneration.limit_V", c.regeneration.limit_V);
+}
+
 /// What only the positional form has.
 void check_speed_form(const Scenario& s, base::Problems& out) {
   const SpeedLoop& loop = s.control.speed;
@@ -102,6 +117,7 @@ void check_control(const Scenario& s, base::Problems& out) {
   check_settling(s.control.speed.settle_s, "control.speed.settle_s", s, out);
   check_regeneration(s, out);
   check_speed_output(s, out);
+  check_limited_mode(s, out);
   check_speed_form(s, out);
   const auto add = [&](const base::Problems& more) { out.insert(out.end(), more.begin(), more.end()); };
   add(given_gains(s.control.current, "control.current").problems);

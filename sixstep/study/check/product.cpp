@@ -31,27 +31,56 @@ void check_registers(const Scenario& s, base::Problems& out) {
                    "anyway"});
 }
 
-/// A threshold that is missing, or that the converter's end hides.
-void check_threshold(const char* key, const std::optional<double>& threshold, const char* range_key,
-                     const std::optional<double>& range, base::Problems& out) {
-  const std::string where = std::string("protection.") + key;
+/// The most that a converter reads, of either sign, in the unit of what it measures. A current's offset is
+/// taken off again, the bus's is not known.
+double current_end_A(const Sensors& s) {
+  const double range = s.current_range_A.value_or(0.0);
+  return range - 2 * range / std::ldexp(1.0, s.adc_bits) - std::fabs(s.current_offset_A);
+}
+double bus_end_V(const Sensors& s) {
+  const double range = s.bus_range_V.value_or(0.0);
+  return range - range / std::ldexp(1.0, s.adc_bits);
+}
+
+void check_missing(const char* key, const std::optional<double>& threshold, const char* cure,
+                   base::Problems& out) {
   if (!threshold)
-    out.push_back({where, "", "is missing: without it the product drive trusts nothing and never starts",
-                   range_key[0] != '\0' ? "give one below " + std::string(range_key) : "give one"});
-  else if (range && !(*threshold < *range))
-    out.push_back(
-        {where, written(*threshold),
-         "is never passed: the converter ends at " + std::string(range_key) + " = " + written(*range),
-         "lower it or widen the range"});
+    out.push_back({std::string("protection.") + key, "",
+                   "is missing: without it the product drive trusts nothing and never starts", cure});
+}
+
+/// A threshold that the converter's end hides.
+void check_threshold(const char* key, const std::optional<double>& threshold, double end,
+                     const std::string& range, base::Problems& out) {
+  if (threshold && !(*threshold < end))
+    out.push_back({std::string("protection.") + key, written(*threshold),
+                   "is never passed: the converter ends at " + base::rounded(end, 6) + ", by " + range,
+                   "lower it or widen the range"});
 }
 
 void check_thresholds(const Scenario& s, base::Problems& out) {
   const Protection& p = s.protection;
-  check_threshold("over_current_A", p.over_current_A, "sensors.current_range_A", s.sensors.current_range_A,
-                  out);
-  check_threshold("over_voltage_V", p.over_voltage_V, "sensors.bus_range_V", s.sensors.bus_range_V, out);
-  check_threshold("under_voltage_V", p.under_voltage_V, "protection.over_voltage_V", p.over_voltage_V, out);
-  check_threshold("over_speed_rad_s", p.over_speed_rad_s, "", std::nullopt, out);
+  check_missing("over_current_A", p.over_current_A, "give one below sensors.current_range_A", out);
+  check_missing("over_voltage_V", p.over_voltage_V, "give one below sensors.bus_range_V", out);
+  check_missing("under_voltage_V", p.under_voltage_V, "give one below protection.over_voltage_V", out);
+  check_missing("over_speed_rad_s", p.over_speed_rad_s, "give one", out);
+  if (s.sensors.current_range_A) {
+    const std::string range = "sensors.current_range_A = " + written(*s.sensors.current_range_A);
+    check_threshold("over_current_A", p.over_current_A, current_end_A(s.sensors), range, out);
+    check_threshold("stall_current_A", p.stall_current_A, current_end_A(s.sensors), range, out);
+  }
+  if (s.sensors.bus_range_V)
+    check_threshold("over_voltage_V", p.over_voltage_V, bus_end_V(s.sensors),
+                    "sensors.bus_range_V = " + written(*s.sensors.bus_range_V), out);
+  if (p.under_voltage_V && p.over_voltage_V && !(*p.under_voltage_V < *p.over_voltage_V))
+    out.push_back({"protection.under_voltage_V", written(*p.under_voltage_V),
+                   "leaves no voltage below protection.over_voltage_V = " + written(*p.over_voltage_V),
+                   "lower it"});
+  if (p.under_voltage_V && s.sensors.bus_offset_V >= *p.under_voltage_V)
+    out.push_back({"protection.under_voltage_V", written(*p.under_voltage_V),
+                   "is never passed: without a bus the converter reads sensors.bus_offset_V = " +
+                       written(s.sensors.bus_offset_V),
+                   "raise it"});
   if (p.stall_current_A.has_value() != p.stall_s.has_value())
     out.push_back({p.stall_s ? "protection.stall_current_A" : "protection.stall_s", "",
                    "is missing, and stalling is watched by both", "give both or none"});

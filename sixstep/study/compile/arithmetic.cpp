@@ -7,6 +7,7 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/control/fixed.hpp"
+#include "sixstep/design/loops/limit_bounds.hpp"
 #include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/compile/timeline.hpp"
 #include "sixstep/study/scenario/choices.hpp"
@@ -64,6 +65,18 @@ rig::Units units_of(Mode mode, const design::Bases& b) {
   return {b.current_A, b.voltage_V, b.speed_rad_s, b.position_deg, design::setpoint_base(mode, b)};
 }
 
+/// Per sample, by all torques there are at once. Hall edges tell of a speed as late and as suddenly as they
+/// come.
+double fastest_change_of_speed(const Scenario& s, const Compiled& c, const design::OperatingRange& range) {
+  if (s.sensors.rotor == RotorSensing::hall) return 0.0;
+  double load = std::fabs(s.load.torque_Nm);
+  for (const double torque : s.load.torques_Nm) load = std::max(load, std::fabs(torque));
+  for (const At& at : s.at) load = std::max(load, std::fabs(at.load.torque_Nm.value_or(0.0)));
+  const double friction = c.shaft.B_Nm_s * range.speed_rad_s + c.shaft.coulomb_Nm;
+  const double own = design::torque_per_A(c.motor.machine) * range.current_A;
+  return (own + load + friction) / c.shaft.J_kg_m2 * s.pwm.period_s;
+}
+
 template <class Scalar>
 control::DriveExtras<Scalar> extras_in(const control::DriveExtras<double>& x) {
   const auto s = [](double v) { return static_cast<Scalar>(v); };
@@ -80,7 +93,7 @@ control::DriveExtras<Scalar> extras_in(const control::DriveExtras<double>& x) {
           .smooth_chopping = x.smooth_chopping,
           .chopping = {s(x.chopping.soft_above_A), s(x.chopping.complementary_below_A)},
           .positional_speed = x.positional_speed,
-          .speed = {s(x.speed.K), s(x.speed.K_i), s(x.speed.K_b), s(x.speed.limit)},
+          .speed = {s(x.speed.K), s(x.speed.K_i), s(x.speed.K_b), s(x.speed.limit), s(x.speed.K_c)},
           .speed_derivative = {s(x.speed_derivative.g), s(x.speed_derivative.b)}};
 }
 
@@ -145,6 +158,7 @@ design::OperatingRange operating_range(const Scenario& s, const Compiled& c) {
   const bool has_reference = mode == Mode::current || mode == Mode::speed || mode == Mode::position;
   const double reference = mode == Mode::current ? asked : c.drive.current_limit_A;
   range.current_A = has_reference && reference > 0 ? std::min(2 * reference, drivable) : drivable;
+  range.speed_change_rad_s = fastest_change_of_speed(s, c, range);
   if (!c.product) return range;
   range.current_A = c.board.sensors.current.range;
   range.bus_V = c.board.sensors.bus.range;

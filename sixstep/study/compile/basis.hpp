@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a compiled scenario's parts are designed on, and the parts that have a file of their own.
 #pragma once
+#include "sixstep/design/loops/limit_bounds.hpp"
 #include "sixstep/study/compile/compile.hpp"
 
 namespace sixstep::study {
@@ -17,6 +18,13 @@ double current_settling_s(const Scenario& scenario);
 
 /// Sets drive.extras (drive_extras.hpp) where the scenario asks for any; `drive` has its loops already.
 void add_extras(const Scenario& scenario, const Basis& basis, control::DriveConfig<double>& drive);
+
+/// What control/limits.hpp has to hold against, at the worst that supply, start and limits allow.
+design::LimitSetting limit_setting(const Scenario& scenario, const Basis& basis,
+                                   const control::DriveConfig<double>& drive);
+/// Of limits that no drive can keep, and currents that its converter does not see.
+base::Problems check_limits(const Scenario& scenario, const Basis& basis,
+                            const control::DriveConfig<double>& drive);
 
 /// The product drive around `drive`, in SI (protected_drive.hpp).
 control::ProtectedConfig<double> product_around(const Scenario& scenario, const Basis& basis,

@@ -63,7 +63,8 @@ void add_speed_form(const Scenario& s, control::DriveConfig<double>& drive) {
   extras.on = extras.positional_speed = true;
   const double K = drive.speed.d1, K_i = drive.speed.d1 + drive.speed.d0;
   const double usual = K > 0 ? std::clamp(K_i / K, 0.0, 1.0) : 1.0;
-  extras.speed = {K, K_i, loop.anti_windup.value_or(usual), drive.speed.limit};
+  const double K_b = loop.anti_windup.value_or(usual);
+  extras.speed = {K, K_i, K_b, drive.speed.limit, control::gain_beyond_limit(K, K_i, K_b)};
   if (!loop.derivative_s) return;
   const double T_d = *loop.derivative_s, T_f = loop.derivative_filter_s.value_or(T_d / 10),
                T = s.pwm.period_s;

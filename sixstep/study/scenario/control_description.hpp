@@ -114,8 +114,11 @@ void describe(Visitor& v, FullScale& s) {
 
 template <class Visitor>
 void describe(Visitor& v, Regeneration& s) {
-  v.value("limit_V", s.limit_V,
-          {.meaning = "bus voltage at which the drive no longer brakes", .unit = "V", .range = above(0)});
+  v.value(
+      "limit_V", s.limit_V,
+      {.meaning = "bus voltage above which the drive feeds nothing back: all gates are off, unless it drives",
+       .unit = "V",
+       .range = above(0)});
   v.value(
       "gain_A_per_V", s.gain_A_per_V,
       {.meaning = "braking current per volt below limit_V; without it a tenth of supply.capacitance_F over "
@@ -127,12 +130,19 @@ void describe(Visitor& v, Regeneration& s) {
 template <class Visitor>
 void describe(Visitor& v, Limits& s) {
   v.value("current_A", s.current_A,
-          {.meaning = "bound on the current reference in every mode", .unit = "A", .range = above(0)});
+          {.meaning = "bound on the current reference in every mode; all gates are off until the next sample "
+                      "where a phase is a quarter above it",
+           .unit = "A",
+           .range = above(0)});
   v.value(
       "torque_Nm", s.torque_Nm,
       {.meaning = "the same as a torque, over K_t; the lower one counts", .unit = "N m", .range = above(0)});
-  v.value("speed_rad_s", s.speed_rad_s,
-          {.meaning = "speed that the drive's own torque does not pass", .unit = "rad/s", .range = above(0)});
+  v.value(
+      "speed_rad_s", s.speed_rad_s,
+      {.meaning = "speed that the drive's own torque does not pass: above it all gates are off, unless the "
+                  "drive brakes",
+       .unit = "rad/s",
+       .range = above(0)});
   v.value("gain_A_s_per_rad", s.gain_A_s_per_rad,
           {.meaning = "current per rad/s below limits.speed_rad_s; without it J/(K_t settling time of the "
                       "current loop)",

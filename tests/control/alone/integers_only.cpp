@@ -27,7 +27,8 @@ struct Entries {
                            Scalar error, Scalar feed_forward) {
     return pi_positional_step(config, state, error, feed_forward);
   }
-  static Scalar derivative(const DerivativeConfig<Scalar>& config, DerivativeState<Scalar>& state, Scalar x) {
+  static Accumulator<Scalar> derivative(const DerivativeConfig<Scalar>& config,
+                                        DerivativeState<Scalar>& state, Scalar x) {
     return derivative_step(config, state, x);
   }
   static Scalar profile(const ProfileConfig<Scalar>& config, ProfileState<Scalar>& state, Scalar target) {

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// A limit is a promise: what it cannot hold to (design/loops/limit_bounds.hpp) is refused, with what would
+// help.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/compile/basis.hpp"
+#include "sixstep/study/compile/timeline.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+using control::Mode;
+
+std::string number(double v) { return base::rounded(v, 3); }
+
+double highest_start_V(const Scenario& s) {
+  return std::max(highest_supply_V(s), s.initial.bus_V.value_or(0.0));
+}
+
+/// A loop that reads less than it was asked for drives without an end.
+void check_converter(const Scenario& s, const control::DriveConfig<double>& drive, base::Problems& out) {
+  const Sensors& sensors = s.sensors;
+  if (sensors.currents == rig::CurrentSensing::ideal || !sensors.current_range_A) return;
+  const bool limited = drive.extras.limits_current;
+  double asked = s.control.mode == Mode::current ? largest_reference(s) : drive.current_limit_A;
+  if (limited) asked = 1.25 * std::min(asked, drive.extras.limits.current_A);
+  const double range = *sensors.current_range_A;
+  const double read =
+      range - 2 * range / std::ldexp(1.0, sensors.adc_bits) - std::fabs(sensors.current_offset_A);
+  if (asked < read) return;
+  out.push_back({"sensors.current_range_A", number(range),
+                 "lets the converter read up to " + number(read) + " A, and the drive " +
+                     (limited ? "turns off above " : "may ask for ") + number(asked) + " A",
+                 s.control.mode == Mode::current ? "widen it, or lower the reference"
+                                                 : "widen it, or lower control.current.limit_A"});
+}
+
+/// One shunt shows no current that runs through the lower switches, or in a pulse too short for it.
+void check_shunt(const Scenario& s, base::Problems& out) {
+  if (s.sensors.currents != rig::CurrentSensing::dc_link) return;
+  const auto refuse = [&out](const char* key, const std::optional<double>& value) {
+    if (value)
+      out.push_back({key, number(*value),
+                     "needs every phase's current, and a shunt in the DC link hides some",
+                     "set sensors.currents = \"phases\", or leave it away"});
+  };
+  refuse("control.limits.current_A", s.control.limits.current_A);
+  refuse("control.limits.torque_Nm", s.control.limits.torque_Nm);
+  refuse("control.regeneration.limit_V", s.control.regeneration.limit_V);
+}
+
+/// With one full pulse above the limit there is nothing between too little and too much.
+void check_current(const Scenario& s, const design::LimitSetting& setting, base::Problems& out) {
+  const Limits& wanted = s.control.limits;
+  if (!wanted.current_A && !wanted.torque_Nm) return;
+  const double pulse_A = setting.bus_V * s.pwm.period_s / (2 * setting.machine.L_H);
+  if (pulse_A <= setting.current_A) return;
+  const bool by_current = wanted.current_A.has_value();
+  out.push_back({by_current ? "control.limits.current_A" : "control.limits.torque_Nm",
+                 number(by_current ? *wanted.current_A : *wanted.torque_Nm),
+                 "is " + number(setting.current_A) + " A, and one PWM period drives " + number(pulse_A) +
+                     " A into the held rotor",
+                 "shorten pwm.period_s to " + number(s.pwm.period_s * setting.current_A / pulse_A) +
+                     " or raise the limit"});
+}
+
+/// Mechanical angle in which the drive does not learn of a speed: k sectors that it is the mean of and the
+/// one that has not ended, and what the filter holds edges back.
+double late_rad(const Scenario& s, const plant::Machine& machine, double speed_rad_s) {
+  if (s.sensors.rotor != RotorSensing::hall) return 0.0;
+  return (s.sensors.speed_edges + 1) * base::pi / 3 / machine.pole_pairs +
+         (s.sensors.hall_stable_samples - 1) * s.pwm.period_s * speed_rad_s;
+}
+
+void check_speed(const Scenario& s, const design::LimitSetting& setting, base::Problems& out) {
+  if (!s.control.limits.speed_rad_s || s.load.locked) return;
+  const double limit = *s.control.limits.speed_rad_s, fastest = 1.25;
+  if (limit >= setting.speed_rad_s) return;  // the bus does not reach it
+  const auto most = [&](double w) {
+    return design::most_speed_rad_s(setting, w, late_rad(s, setting.machine, w * fastest));
+  };
+  if (most(limit) <= fastest * limit) return;
+  double least = limit;
+  while (most(least) > fastest * least) least *= 1.02;
+  out.push_back({"control.limits.speed_rad_s", number(limit),
+                 "cannot be held: until a sample tells, the drive's own torque may take the rotor to " +
+                     number(most(limit)) + " rad/s",
+                 "raise it to " + number(least) + ", lower control.limits.current_A" +
+                     (s.sensors.rotor == RotorSensing::hall ? ", or take fewer sensors.speed_edges"
+                                                            : ", or shorten pwm.period_s")});
+}
+
+void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& out) {
+  const std::optional<double>& wanted = s.control.regeneration.limit_V;
+  if (!wanted || !(s.supply.capacitance_F > 0)) return;
+  const double from = highest_start_V(s);
+  if (!(*wanted > from)) {  // check.cpp says so of the supply at the start
+    out.push_back({"control.regeneration.limit_V", number(*wanted),
+                   "must be above the highest supply or start, " + number(from) + " V",
+                   "the drive could never brake"});
+    return;
+  }
+  // Beyond the limit at most as much again as the limit is above the supply.
+  const auto holds = [&](double limit_V, double C_F) {
+    setting.bus_V = 2 * limit_V - from + 2 * s.bridge.diode_drop_V;
+    return design::most_bus_V(setting, limit_V, C_F) <= 2 * limit_V - from;
+  };
+  const double C = s.supply.capacitance_F;
+  if (holds(*wanted, C)) return;
+  const double reached = design::most_bus_V(setting, *wanted, C);
+  double limit_V = *wanted, C_F = C;
+  while (!holds(limit_V, C) && limit_V < 100 * from) limit_V = from + 1.05 * (limit_V - from);
+  while (!holds(*wanted, C_F) && C_F < 1e6 * C) C_F *= 1.05;
+  const bool can_store = holds(*wanted, C_F);
+  out.push_back({"control.regeneration.limit_V", number(*wanted),
+                 "cannot be held: what the windings hold when the drive lets go, up to " +
+                     number(design::most_current_A(setting)) + " A, may lift the bus to " + number(reached) +
+                     " V",
+                 "raise it to " + number(limit_V) +
+                     (can_store ? " or supply.capacitance_F to " + number(C_F) : std::string()) +
+                     ", or lower the current limit"});
+}
+
+}  // namespace
+
+design::LimitSetting limit_setting(const Scenario& s, const Basis& basis,
+                                   const control::DriveConfig<double>& drive) {
+  const double J = basis.shaft.J_kg_m2, C = s.supply.capacitance_F;
+  const std::optional<double>& limit_V = s.control.regeneration.limit_V;
+  design::LimitSetting out{basis.motor.machine, J, s.pwm.period_s};
+  out.current_A = drive.extras.limits.current_A;
+  const double from = highest_start_V(s);
+  double bus = std::max(from, limit_V.value_or(0.0));
+  out.speed_rad_s = std::max(std::fabs(s.initial.speed_rad_s), from / basis.motor.K_t_Nm_A);
+  // What the source does not take back lifts the bus, at worst by all that the rotor has.
+  if (C > 0 && s.supply.sinks) bus += 1.25 * out.current_A * s.supply.resistance_ohm;
+  if (C > 0 && !s.supply.sinks && !limit_V)
+    bus = std::sqrt(bus * bus + J * out.speed_rad_s * out.speed_rad_s / C);
+  out.bus_V = bus + 2 * s.bridge.diode_drop_V;
+  return out;
+}
+
+base::Problems check_limits(const Scenario& s, const Basis& basis,
+                            const control::DriveConfig<double>& drive) {
+  base::Problems out;
+  const bool has_current_loop = s.control.mode == Mode::current || drive.current_limit_A > 0;
+  if (has_current_loop && s.control.current.type == CurrentLoopType::pi) check_converter(s, drive, out);
+  if (!drive.extras.limits_current) return out;
+  check_shunt(s, out);
+  const design::LimitSetting setting = limit_setting(s, basis, drive);
+  check_current(s, setting, out);
+  check_speed(s, setting, out);
+  check_bus(s, setting, out);
+  return out;
+}
+
+}  // namespace sixstep::study
