@@ -28,7 +28,8 @@ what its metric and signal ask for, `max = "150 mA"`. The unit must be of the ke
 `extends = "base.toml"`, or a list of files, takes what stands in other scenarios, each name relative to the file that names
 it. What is nearer wins: this file over its bases, a later base over an earlier one, `--set` over all. Tables under headings are
 joined key by key. Lists of tables, as `[[require]]`, are joined too, the bases' first, unless this file's is empty: `require = []`.
-Whatever stands in brackets or braces is one value and replaces the other.
+Whatever stands in brackets or braces is one value and replaces the other. Empty braces drop a table that a base has, as if
+nobody had written it: `load = {}`, or `speed = {}` under `[control]`.
 
 `[[at]]` changes something at an instant of the run: the reference, the source's voltage, the load, a Hall line, the request to
 the product drive. A reference that moves is looked at by each control tick, and held until the next. Figures that are taken of

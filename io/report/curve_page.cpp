@@ -69,7 +69,7 @@ std::string drop_fact(const study::SpeedDrop& d) {
   const auto per_mNm = [](double x) { return plain(x * rpm_per_rad_s / milli, 3); };
   std::string text = "curve " + per_mNm(*d.curve);
   if (d.sheet) text += ", the sheet's two points " + per_mNm(*d.sheet);
-  text += fmt::format("; R/K_t² = {}", per_mNm(d.ideal));
+  text += fmt::format("; R/Kₜ² = {}", per_mNm(d.ideal));
   if (d.printed) text += fmt::format(", printed {},", per_mNm(*d.printed));
   return text + " leaves out the time that commutation takes";
 }

@@ -174,10 +174,11 @@ std::string cost(const Outcome& outcome, const Trace& trace) {
       if ((*counts)[k] > (*counts)[busiest]) busiest = k;
     }
     const std::string told =
-        all == 0 ? std::string("none: no switch is turned on after the start")
-                 : fmt::format("<b>{}</b> turn-ons, {} on average; T{} most often, {} times", grouped(all),
-                               computed(static_cast<double>(all) / outcome.simulated_s, "Hz"), busiest + 1,
-                               grouped((*counts)[busiest]));
+        all == 0
+            ? std::string("none: no switch is turned on after the start")
+            : fmt::format("chopped at <b>{}</b> on average; {} turn-ons of all six, T{} most often, {} times",
+                          computed(switching_frequency_Hz(outcome), "Hz"), grouped(all), busiest + 1,
+                          grouped((*counts)[busiest]));
     text += list(answer("Switching", told));
   }
   return text.empty() ? "" : card("cost", "What it cost", text);

@@ -93,6 +93,7 @@ Json limits(const DriveDesign& d) {
     headroom.push_back({w, sixstep::design::headroom_V(d.motor, d.bus_V, d.nominal_current_A, w)});
   }
   return {{"nominal_current_A", d.nominal_current_A},
+          {"nominal_current_of_the_sheet", d.motor.nominal_current_A > 0.0},
           {"torque_limit_Nm", d.torque_limit_Nm},
           {"current_ripple_A", d.ripple.worst_A},
           {"current_ripple_duty", d.ripple.worst_duty},

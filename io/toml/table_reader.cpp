@@ -97,6 +97,18 @@ base::Result<double> TableReader::number_of(const toml::node& node, const base::
   return base::Problem{.limit = "must be a number"};
 }
 
+/// A limit is told in the unit in which the value was written.
+std::string TableReader::limit_as_written(const toml::node& node, const base::About& about) const {
+  const toml::value<std::string>* text = node.as_string();
+  const std::optional<std::string> own = text ? unit_of_key(about) : std::nullopt;
+  const std::optional<Written> written = text ? split_number(text->get()) : std::nullopt;
+  if (!own || own->empty() || !written || written->unit.empty()) return limit_of(about.range);
+  base::Range range = about.range;
+  for (double* const end : {&range.low, &range.high})
+    if (const auto there = in_unit(fmt::format("{} {}", *end, *own), written->unit)) *end = *there;
+  return fmt::format("{}, in {}", limit_of(range), written->unit);
+}
+
 bool TableReader::number(const toml::node& node, const std::string& path, const base::About& about,
                          double& out) {
   const base::Result<double> x = number_of(node, about);
@@ -109,8 +121,7 @@ bool TableReader::number(const toml::node& node, const std::string& path, const 
   if (!x) return refuse(x.problems().at(0));
   if (!about.range.holds(*x)) {
     const bool finite = *x - *x == 0.0;
-    const std::string in = node.is_string() && !about.unit.empty() ? in_unit_words(about) : "";
-    return refuse({.limit = finite ? limit_of(about.range) + in : "must be a finite number"});
+    return refuse({.limit = finite ? limit_as_written(node, about) : "must be a finite number"});
   }
   out = *x;
   return true;

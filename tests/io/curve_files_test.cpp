@@ -122,7 +122,7 @@ TEST(CurvePage, ShowsTheUsableCornerAndWhatItAllows) {
   const auto page = [&] {
     return io::report::render_curve({m.request, m.curve, "sixstep curve x", "0.1.0"});
   };
-  EXPECT_NE(page().find("\"corner\":236"), std::string::npos) << "10 % above what ten seconds allow";
+  EXPECT_NE(page().find("\"corner\":235.5"), std::string::npos) << "10 % above what ten seconds allow";
   for (const char* region : {"\"continuous\"", "\"short-time\""})
     EXPECT_NE(page().find(region), std::string::npos) << region;
   // Nobody says what the winding stands: the nominal torque tells how the motor is used, or all is shown.

@@ -149,10 +149,15 @@ TEST(Units, OfAReferenceFollowTheMode) {
             "x.toml:3:19: reference.value = \"955 rpm\" is in the unit of control.mode, and this mode has "
             "none; set "
             "control.mode, or write a number without quotes");
-  EXPECT_EQ(
-      told("duration_s = \"-20 ms\"\n"),
-      "x.toml:2:14: duration_s = \"-20 ms\" must be above 0 and at most 9000000, in s; it means: simulated "
-      "time, in s");
+  EXPECT_EQ(told("duration_s = \"-20 ms\"\n"),
+            "x.toml:2:14: duration_s = \"-20 ms\" must be above 0 and at most 9000000000, in ms; it means: "
+            "simulated time, in s");
+}
+
+TEST(Units, ALimitIsToldInTheUnitThatWasWritten) {
+  const auto s = with("duration_s = 0.1\n[sensors]\nrotor = \"hall\"\nhall.capture_Hz = \"5000 GHz\"\n");
+  ASSERT_FALSE(s);
+  EXPECT_THAT(to_string(s.problems()[0]), testing::HasSubstr("XX"));
 }
 
 TEST(Units, OfALimitFollowMetricAndSignal) {

@@ -177,6 +177,8 @@ function chartOptions(chart, width, time, hooks) {
     scales: {x: chart.log ? {time: false, distr: 3, range: (u, min, max) => [min, max]} : {time: false}, y: chart.logic ? {range: () => [-0.12, count - 0.1]} : chart.lanes ? {range: () => chart.axis.range} : {range, distr: chart.log ? 3 : 1}},
     axes: [x, ...valueAxes(chart)],
     series: [{}, ...chart.curves.map((c, i) => curveOptions(c, i, chart, count))],
+    // Of two regions the wider one is filled down to the narrower, so that their colours do not mix.
+    bands: chart.curves.flatMap((c, i) => (c.region && chart.curves[i + 1]?.region ? [{series: [i + 1, i + 2]}] : [])),
     cursor: {
       y: false, points: {show: !chart.logic && !chart.joined, size: 6, width: 0, fill: (u, i) => palette[chart.curves[i - 1].style]},
       drag: {x: true, y: false, dist: 4}, sync: {key: hooks.sync, scales: ['x', null]},

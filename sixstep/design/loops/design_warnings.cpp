@@ -88,7 +88,7 @@ void look_at_ripple(const DriveDesign& d, Collector& out) {
     const double period_s =
         period_for_ripple_s(d.motor, d.bus_V, d.wish.chopping, greatest_ripple * d.nominal_current_A);
     out.add("the PWM ripple reaches " + rounded(d.ripple.worst_A) + " A, " +
-                rounded(100.0 * d.ripple.worst_A / d.nominal_current_A) + " % of the nominal current",
+                rounded(100.0 * d.ripple.worst_A / d.nominal_current_A) + " % of " + nominal_current_words(d),
             "keep --period below " + microseconds(period_s) +
                 (d.wish.chopping == control::Chopping::hard ? ", or chop softly" : ", or add inductance"));
   }
@@ -108,11 +108,12 @@ void look_at_braking(const DriveDesign& d, Collector& out) {
 void look_at_voltage(const DriveDesign& d, Collector& out) {
   const double first_V = d.loops[0].gains.d1 * d.nominal_current_A;
   if (first_V > d.bus_V)
-    out.add("a step of the nominal current asks for " + rounded(first_V) + " V at once, the bus has " +
-                rounded(d.bus_V) + " V: it settles later than designed",
+    out.add("a step of " + std::string(nominal_current_words(d)) + " asks for " + rounded(first_V) +
+                " V at once, the bus has " + rounded(d.bus_V) + " V: it settles later than designed",
             slower(d, d.loops[0]) + " or raise --voltage");
   if (d.headroom_end_rad_s <= 0.0)
-    out.add("the bus cannot drive the nominal current even through the held rotor", "raise --voltage", true);
+    out.add("the bus cannot drive " + std::string(nominal_current_words(d)) + " even through the held rotor",
+            "raise --voltage", true);
 }
 
 void look_at_settling(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
@@ -126,7 +127,8 @@ void look_at_settling(const DriveDesign& d, const LoopDesign& loop, Collector& o
 void look_at_heat(const DriveDesign& d, Collector& out) {
   if (d.wish.mode != control::Mode::current && d.current_at_full_torque_A > 3.0 * d.nominal_current_A)
     out.add("the speed loop may ask for " + rounded(d.current_at_full_torque_A) + " A, " +
-                rounded(d.current_at_full_torque_A / d.nominal_current_A) + " times the nominal current",
+                rounded(d.current_at_full_torque_A / d.nominal_current_A) + " times " +
+                nominal_current_words(d),
             "give --torque-limit what bridge, winding and load bear");
 }
 

@@ -71,6 +71,12 @@ struct DriveDesign {
   const LoopDesign& loop(std::string_view name) const;
 };
 
+/// What nominal_current_A is called: nothing that was made up passes for the sheet's.
+inline const char* nominal_current_words(const DriveDesign& d) {
+  return d.motor.nominal_current_A > 0.0 ? "the nominal current"
+                                         : "a tenth of the stall current (the sheet names no nominal one)";
+}
+
 /// Gains for the wish. In position mode the gain is the largest with which the linear loop does not
 /// overshoot; what limits allow is study's to find, with with_position_gain(). Problems name the option.
 base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignWish& wish);
