@@ -54,7 +54,9 @@ frames, one must be written. [Motors](motors.md) explains the numbers, and `sixs
 
 class Entry:
     def __init__(self, program, path):
-        lines = subprocess.run([program, "help", path], capture_output=True, text=True, check=True).stdout.splitlines()
+        told = subprocess.run([program, "help", path], capture_output=True, text=True, check=True).stdout
+        below = told.rpartition(f"The key {path} of a scenario:\n")[2]  # a command may have that name too
+        lines = below.splitlines()
         self.path, self.meaning, self.type = lines[0], lines[1].strip(), lines[2].strip()
         self.inner = [line.split()[0] for line in lines[3:] if line.startswith(f"  {path}.")]
         self.required = "  required" in lines

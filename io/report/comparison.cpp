@@ -156,11 +156,11 @@ std::string usual_figures(const std::vector<ComparedRun>& runs) {
     const auto held = held_back(run.events, run.scenario, run.outcome);
     return held ? std::optional(Measured{held->bus_s, ""}) : std::nullopt;
   });
-  rows +=
-      figure_row("switching frequency", "Hz", runs, [](const ComparedRun& run) -> std::optional<Measured> {
-        if (!(run.outcome.simulated_s > 0.0)) return std::nullopt;
-        return Measured{switching_frequency_Hz(run.outcome), ""};
-      });
+  rows += figure_row("switching frequency of the whole run", "Hz", runs,
+                     [](const ComparedRun& run) -> std::optional<Measured> {
+                       if (!(run.outcome.simulated_s > 0.0)) return std::nullopt;
+                       return Measured{switching_frequency_Hz(run.outcome), ""};
+                     });
   return rows + energy_rows(runs);
 }
 

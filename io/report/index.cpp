@@ -67,7 +67,7 @@ std::string overview(const std::vector<IndexEntry>& entries) {
         closest(outcome), furthest(outcome));
   }
   return table("overview",
-               "<th></th><th>Experiment</th><th class=\"num\">Hold</th><th>Closest requirement</th>"
+               "<th></th><th>Experiment</th><th class=\"num\">Requirements</th><th>Closest requirement</th>"
                "<th class=\"num\">Furthest comparison</th>",
                rows);
 }
