@@ -158,6 +158,18 @@ test('fits a narrow window without scrolling sideways', async () => {
   await close(page);
 });
 
+test('on a phone no figure is cut off at the side', async () => {
+  for (const name of ['compare.html', 'index.html']) {
+    const page = await opened(name);
+    await page.setViewportSize({width: 390, height: 800});
+    const cut = await page.evaluate(() => [...document.querySelectorAll('table.compared, table.comparisons, table.verdicts, table.overview')]
+      .filter((t) => t.scrollWidth > t.clientWidth || [...t.rows].some((r) => r.offsetWidth && r.offsetWidth < 0.95 * t.clientWidth)).map((t) => t.className));
+    assert.deepEqual(cut, [], name);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), name);
+    await close(page);
+  }
+});
+
 test('where the energy went is drawn so that it can be read, in light and dark, and heard', async () => {
   const inks = [];
   for (const theme of ['light', 'dark']) {

@@ -8,7 +8,7 @@
 
 #include "sixstep/design/sheet/thermal.hpp"
 #include "sixstep/study/curve/operating_point.hpp"
-#include "sixstep/study/verify/robust.hpp"
+#include "sixstep/study/for_each.hpp"
 
 namespace sixstep::study {
 
