@@ -158,7 +158,8 @@ TEST(DriveDesign, WarnsOfWhatIsOffAndOfNothingElse) {
                     "times the frequency"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.25e-3}), "asks for"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .period_s = 60e-6}), "ripple"));
-  EXPECT_TRUE(warns(designed({.mode = Mode::speed}), "times the nominal current"));
+  EXPECT_TRUE(
+      warns(designed({.mode = Mode::speed}), "times a tenth of the stall current (the sheet names no"));
 }
 
 TEST(DriveDesign, NamesOptionsThatContradict) {
