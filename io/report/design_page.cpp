@@ -46,7 +46,7 @@ std::string warnings(const DesignStudy& s) {
 
 std::string simulated(const DesignStudy& s) {
   std::string out =
-      "<table>" + head({"Figure", "#Expected", "#Simulated", "#Deviation", "Expected is"}) + "<tbody>\n";
+      "<table class=\"comparisons\">" + head({"Figure", "#Expected", "#Simulated", "#Deviation", "Expected is"}) + "<tbody>\n";
   for (const auto& c : s.outcome.comparisons)
     out += fmt::format(
         "<tr><th scope=\"row\">{}</th>{}{}{}<td class=\"source\">{}</td></tr>\n", escaped(c.figure),
