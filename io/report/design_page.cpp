@@ -45,8 +45,8 @@ std::string warnings(const DesignStudy& s) {
 }
 
 std::string simulated(const DesignStudy& s) {
-  std::string out =
-      "<table class=\"comparisons\">" + head({"Figure", "#Expected", "#Simulated", "#Deviation", "Expected is"}) + "<tbody>\n";
+  std::string out = "<table class=\"comparisons\">" +
+                    head({"Figure", "#Expected", "#Simulated", "#Deviation", "Expected is"}) + "<tbody>\n";
   for (const auto& c : s.outcome.comparisons)
     out += fmt::format(
         "<tr><th scope=\"row\">{}</th>{}{}{}<td class=\"source\">{}</td></tr>\n", escaped(c.figure),
