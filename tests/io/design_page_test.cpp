@@ -87,6 +87,7 @@ TEST(Design, ANominalCurrentThatNobodyNamedIsNotCalledSo) {
   EXPECT_THAT(text,
               HasSubstr("Limits at a tenth of the stall current (the sheet names no nominal one), 2.3301 A"));
   EXPECT_THAT(page, HasSubstr("a tenth of stall"));
+  EXPECT_THAT(text, HasSubstr(" A, a tenth of the stall current (the sheet names no nominal one), above "));
 }
 
 TEST(DesignPage, ShowsAMoveAndAHeldRotor) {

@@ -98,8 +98,9 @@ void look_at_braking(const DriveDesign& d, Collector& out) {
   const double top =
       d.motor.no_load_speed_rad_s > 0.0 ? d.motor.no_load_speed_rad_s : d.bus_V / d.motor.K_t_Nm_A;
   if (d.wish.chopping == control::Chopping::soft && d.braking_limit_rad_s < top)
-    out.add("soft chopping cannot hold a braking current of " + rounded(d.nominal_current_A) + " A above " +
-                rounded(d.braking_limit_rad_s) +
+    out.add("soft chopping cannot hold a braking current of " + rounded(d.nominal_current_A) + " A" +
+                (d.motor.nominal_current_A > 0.0 ? "" : std::string(", ") + nominal_current_words(d) + ",") +
+                " above " + rounded(d.braking_limit_rad_s) +
                 " rad/s, (i/K_t) R: the motor brakes through the lower switches",
             "brake with --chopping complementary or hard, or smooth_chopping.hpp on the chip");
 }
