@@ -21,17 +21,21 @@
 #include "io/scenario/scenario_file.hpp"
 #include "io/scenario/scenario_text.hpp"
 #include "sixstep/study/scenario/choices.hpp"
+#include "sixstep/study/scenario/sensors_description.hpp"
 #include "sixstep/study/verify/design_study.hpp"
+#include "sixstep/study/verify/scenario_wish.hpp"
 
 namespace cli {
 namespace {
 
 struct DesignArguments {
   std::string motor;
-  std::string mode = "current", method = "pole-placement", chopping = "soft";
+  std::string scenario;  ///< whose board, motor and task are designed for
+  std::optional<std::string> mode, chopping, rotor, currents;
+  std::string method = "pole-placement";
   std::optional<double> settle_s, current_settle_s, damping, bandwidth_rad_s, period_s, voltage_V,
-      torque_limit_Nm, load_inertia_kg_m2, step;
-  int delay_periods = 0;
+      torque_limit_Nm, load_inertia_kg_m2, lowest_speed_rad_s, step;
+  std::optional<int> delay_periods, edges;
   bool quick = false;  ///< without the tolerances
   bool quiet = false;
   unsigned jobs = 0;
@@ -43,23 +47,32 @@ struct DesignArguments {
 
 namespace fs = std::filesystem;
 
-design::DesignWish wish_of(const DesignArguments& a, base::Problems& found) {
-  design::DesignWish w;
+/// Options over what a scenario says, or over what a board has.
+design::DesignWish wish_of(const DesignArguments& a, const study::Scenario* scenario, base::Problems& found) {
+  design::DesignWish w = scenario ? study::wish_of(*scenario) : design::on_a_board();
   // Only what a design is for: off and duty need none.
   constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[2], study::mode_choices[3],
                                                             study::mode_choices[4]};
-  choose("--mode", a.mode, modes, w.mode, found);
+  if (a.mode) choose("--mode", *a.mode, modes, w.mode, found);
   choose("--method", a.method, method_choices, w.method, found);
-  choose("--chopping", a.chopping, study::chopping_choices, w.chopping, found);
-  w.settle_s = a.settle_s;
-  w.current_settle_s = a.current_settle_s;
+  if (a.chopping) choose("--chopping", *a.chopping, study::chopping_choices, w.chopping, found);
+  study::RotorSensing rotor = w.rotor.hall ? study::RotorSensing::hall : study::RotorSensing::ideal;
+  if (a.rotor) choose("--rotor", *a.rotor, study::rotor_sensing_choices, rotor, found);
+  w.rotor.hall = rotor == study::RotorSensing::hall;
+  w.rotor.edges = a.edges.value_or(w.rotor.edges);
+  const auto take = [](std::optional<double>& into, const std::optional<double>& option) {
+    if (option) into = option;
+  };
+  take(w.settle_s, a.settle_s);
+  take(w.current_settle_s, a.current_settle_s);
+  take(w.voltage_V, a.voltage_V);
+  take(w.torque_limit_Nm, a.torque_limit_Nm);
+  take(w.lowest_speed_rad_s, a.lowest_speed_rad_s);
   w.damping = a.damping.value_or(w.damping);
   w.bandwidth_rad_s = a.bandwidth_rad_s;
   w.period_s = a.period_s.value_or(w.period_s);
-  w.voltage_V = a.voltage_V;
-  w.torque_limit_Nm = a.torque_limit_Nm;
-  w.load_inertia_kg_m2 = a.load_inertia_kg_m2.value_or(0.0);
-  w.delay_periods = a.delay_periods;
+  w.load_inertia_kg_m2 = a.load_inertia_kg_m2.value_or(w.load_inertia_kg_m2);
+  w.delay_periods = a.delay_periods.value_or(w.delay_periods);
   return w;
 }
 
@@ -104,7 +117,7 @@ base::Problems write(const study::DesignStudy& s, const DesignArguments& a, Outp
   base::Problems found = put(out.json, io::design_json(s));
   const auto add = [&](const base::Problems& more) { found.insert(found.end(), more.begin(), more.end()); };
   study::Scenario scenario = s.scenario;
-  scenario.motor = motor_beside(a.motor, a.toml);
+  scenario.motor = motor_beside(scenario.motor, a.toml);
   std::vector<std::string> comments{"Made by: " + a.command};
   for (const std::string& line : io::design_lines(s)) comments.push_back(line);
   const std::string text = io::scenario_text(scenario, comments);
@@ -133,17 +146,54 @@ base::Problems write(const study::DesignStudy& s, const DesignArguments& a, Outp
   return found;
 }
 
+/// The scenario that --scenario names.
+std::optional<study::Scenario> board_of(const DesignArguments& a, base::Problems& found) {
+  if (a.scenario.empty()) return std::nullopt;
+  const base::Result<study::Scenario> scenario = io::read_scenario(a.scenario, {.data_dir = a.data_dir});
+  if (scenario) return *scenario;
+  found = scenario.problems();
+  return std::nullopt;
+}
+
+/// The motor that was named, else the scenario's.
+base::Result<study::DesignSubject> subject_of(const DesignArguments& a,
+                                              const std::optional<study::Scenario>& board,
+                                              base::Problems& found) {
+  study::DesignSubject subject{.motor = a.motor, .sheet = {}, .board = board, .currents = {}, .step = a.step};
+  if (a.currents) {
+    study::Sensors sensors;
+    choose("--currents", *a.currents, study::current_sensing_choices, sensors.currents, found);
+    subject.currents = sensors.currents;
+  }
+  if (a.motor.empty() && board) {
+    subject.motor = board->motor;
+    subject.sheet = board->sheet;
+    return subject;
+  }
+  if (a.motor.empty()) {
+    found.push_back({"MOTOR", "", "is missing", "name a motor or its file, or a scenario with --scenario"});
+    return found;
+  }
+  const base::Result<design::Sheet> sheet = io::read_sheet(a.motor, a.data_dir);
+  if (sheet)
+    subject.sheet = *sheet;
+  else
+    found.insert(found.end(), sheet.problems().begin(), sheet.problems().end());
+  return subject;
+}
+
 Exit design_command(const DesignArguments& a) {
   base::Problems found;
-  const design::DesignWish wish = wish_of(a, found);
-  const base::Result<design::Sheet> sheet = io::read_sheet(a.motor, a.data_dir);
-  if (!sheet) found.insert(found.end(), sheet.problems().begin(), sheet.problems().end());
+  const std::optional<study::Scenario> board = board_of(a, found);
+  if (!found.empty()) return refused(found);
+  const design::DesignWish wish = wish_of(a, board ? &*board : nullptr, found);
+  const base::Result<study::DesignSubject> subject = subject_of(a, board, found);
   Outputs outputs;
   if (found.empty()) found = outputs.open(a);
   if (!found.empty()) return refused(found);
   catch_interrupts();
   const base::Result<study::DesignStudy> s = study::study_design(
-      {.subject = {a.motor, *sheet, a.step},
+      {.subject = *subject,
        .wish = wish,
        .tolerances = a.quick ? std::vector<study::Tolerance>() : study::sheet_tolerances(wish.mode),
        .for_each = side_by_side(a.jobs, a.quiet, "motors"),
@@ -158,9 +208,11 @@ Exit design_command(const DesignArguments& a) {
 }
 
 void declare_options(CLI::App& design, DesignArguments& a) {
-  design.add_option("MOTOR", a.motor, "motor's name or file")->required();
-  design.add_option("--mode", a.mode, "current, speed or position")->capture_default_str();
-  design.add_option("--settle", a.settle_s, "settling time of the mode's PI loop in s; 1e-3, speed 10e-3");
+  design.add_option("MOTOR", a.motor, "motor's name or file; with --scenario that one's");
+  design.add_option("--scenario", a.scenario, "a scenario whose board, motor and task are designed for");
+  design.add_option("--mode", a.mode, "current, speed or position; current");
+  design.add_option("--settle", a.settle_s,
+                    "settling time of the mode's PI loop in s; 1e-3, speed 10e-3 or what the sensor allows");
   design.add_option("--damping", a.damping, "of the placed poles, above 0 to 1; 0.9");
   design.add_option(
       "--current-settle", a.current_settle_s,
@@ -171,11 +223,17 @@ void declare_options(CLI::App& design, DesignArguments& a) {
                     "cancellation, symmetrical-optimum: of the loop, in rad/s");
   design.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");
   design.add_option("--voltage", a.voltage_V, "of the bus in V; the sheet's nominal voltage");
-  design.add_option("--torque-limit", a.torque_limit_Nm, "speed, position: in N m; the stall torque");
+  design.add_option("--torque-limit", a.torque_limit_Nm,
+                    "speed, position: in N m; that of 2.5 times the nominal current");
+  design.add_option("--rotor", a.rotor, "hall, or ideal: as an encoder of very many lines; hall");
+  design.add_option("--edges", a.edges,
+                    "Hall edges that a speed is taken over, 1 to 6; else 6 or 1, adaptive");
+  design.add_option("--lowest-speed", a.lowest_speed_rad_s,
+                    "that is to be held, in rad/s; a tenth of what the bus reaches");
+  design.add_option("--currents", a.currents, "phases, dc-link or ideal; phases");
   design.add_option("--load-inertia", a.load_inertia_kg_m2, "on the shaft, beside the rotor's, in kg m2; 0");
-  design.add_option("--delay", a.delay_periods, "periods until a command counts, 0 or 1")
-      ->capture_default_str();
-  design.add_option("--chopping", a.chopping, "soft, hard or complementary")->capture_default_str();
+  design.add_option("--delay", a.delay_periods, "periods until a command counts, 0 or 1; 1");
+  design.add_option("--chopping", a.chopping, "soft, hard or complementary; soft");
   design.add_option("--step", a.step, "what is simulated: a step in A, rad/s or deg as the mode asks");
   design.add_option("--json", a.json, "write everything as numbers; - for standard output");
   design.add_option("--toml", a.toml, "write the scenario that was simulated, for sixstep run");

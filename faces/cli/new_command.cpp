@@ -9,6 +9,7 @@
 
 #include "faces/cli/choose.hpp"
 #include "faces/cli/new_file.hpp"
+#include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
 #include "io/scenario/json_schema.hpp"
 #include "io/scenario/scenario_file.hpp"
@@ -41,6 +42,7 @@ base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::stri
   wish.motor = motor_beside(a.motor, path);
   wish.sheet = *sheet;
   wish.voltage_V = a.voltage_V;
+  wish.for_each = side_by_side(0, true, "motors");
   return study::first_scenario(wish);
 }
 

@@ -57,6 +57,7 @@ void hall_lines(ConfigText<Scalar>& t, const sixstep::control::ProtectedConfig<d
            "rad/s", "times the ticks of a sector");
   t.count("speed.timeout_ticks", k.speed.timeout_ticks, 0, "of the timer: it stands");
   t.count("speed.edges", k.speed.edges, 1);
+  t.count("speed.window_ticks", k.speed.window_ticks, 0, "of the timer: longer, and one edge is taken");
   t.gain("position.per_sector", k.position.per_sector, d.position.per_sector,
          b.position_deg * raw_unit<Scalar>(), "deg");
   t.gain("position.per_fraction", k.position.per_fraction, d.position.per_fraction, b.position_deg, "deg");

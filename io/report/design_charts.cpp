@@ -116,7 +116,7 @@ std::string limit_charts(const DesignStudy& s) {
   SvgChart headroom{.title = "Voltage left", .x_label = "rad/s", .y_label = "V", .levels = {0.0}};
   const double top = d.bus_V / d.motor.K_t_Nm_A;
   std::size_t n = 0;
-  const char* const loaded = d.motor.nominal_current_A > 0.0 ? "nominal current" : "a tenth of stall";
+  const char* const loaded = d.nominal_printed ? "nominal current" : "a tenth of stall";
   for (const double part : {0.0, 1.0}) {
     SvgCurve curve{part == 0 ? "no current" : loaded, styles[n++], {0, top}, {}};
     for (const double w : curve.x)

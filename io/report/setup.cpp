@@ -96,7 +96,9 @@ std::string sensors(const study::Sensors& s) {
         fmt::format("; bus through {} bits up to {}", s.adc_bits, given(s.bus_range_V.value_or(0.0), "V"));
   if (s.rotor == study::RotorSensing::hall)
     text += fmt::format("; speed from Hall edges against {}, over {}", given(s.capture_Hz, "Hz"),
-                        s.speed_edges == 1 ? "one sector" : fmt::format("{} sectors", s.speed_edges));
+                        s.speed_edges == 0   ? "six sectors, at low speed one"
+                        : s.speed_edges == 1 ? "one sector"
+                                             : fmt::format("{} sectors", s.speed_edges));
   if (s.hall_break.at_s)
     text += fmt::format("; line H{} breaks at {}", s.hall_break.line, given(*s.hall_break.at_s, "s"));
   return text;

@@ -93,7 +93,7 @@ Json limits(const DriveDesign& d) {
     headroom.push_back({w, sixstep::design::headroom_V(d.motor, d.bus_V, d.nominal_current_A, w)});
   }
   return {{"nominal_current_A", d.nominal_current_A},
-          {"nominal_current_of_the_sheet", d.motor.nominal_current_A > 0.0},
+          {"nominal_current_printed", d.nominal_printed},
           {"torque_limit_Nm", d.torque_limit_Nm},
           {"current_ripple_A", d.ripple.worst_A},
           {"current_ripple_duty", d.ripple.worst_duty},
@@ -102,6 +102,22 @@ Json limits(const DriveDesign& d) {
           {"headroom_end_rad_s", d.headroom_end_rad_s},
           {"soft_braking_limit_rad_s", d.braking_limit_rad_s},
           {"longest_period_s", d.longest_period_s}};
+}
+
+/// The speed's sensor: how old its speed is, and how fast each way of sensing lets the loop be.
+Json sensing(const DriveDesign& d) {
+  Json steps = Json::array(), limits = Json::array();
+  for (const auto& s : d.sensing)
+    steps.push_back({{"symbol", s.symbol}, {"formula", s.formula}, {"value", s.value}, {"unit", s.unit}});
+  for (const auto& l : d.limits)
+    limits.push_back({{"edges", l.sensing.edges},
+                      {"lowest_speed_rad_s", l.lowest_speed_rad_s},
+                      {"fastest_settling_s", or_null(l.settle_s)}});
+  return {{"lowest_speed_rad_s", d.lowest_speed_rad_s},
+          {"delay_s", d.lag.delay_s()},
+          {"phase_margin_rad", or_null(d.loop("speed").built.phase_rad)},
+          {"steps", steps},
+          {"fastest_settling", limits}};
 }
 
 Json robust(const std::vector<RobustFigure>& list) {
@@ -151,6 +167,7 @@ std::string design_json(const study::DesignStudy& s) {
   out["loops"] = Json::array();
   for (const LoopDesign& loop : d.loops) out["loops"].push_back(loop_json(loop, d));
   out["limits"] = limits(d);
+  if (!d.sensing.empty()) out["sensing"] = sensing(d);
   if (s.position)
     out["position_gain"] = {{"estimate", s.position->estimate},
                             {"linear", s.position->linear},

@@ -69,6 +69,12 @@ std::string motor_line(const DriveDesign& d, const study::Scenario& s) {
       d.wish.delay_periods == 1 ? "one period late" : "at once");
 }
 
+std::string edges_text(const sixstep::design::RotorSensing& sensing) {
+  return sensing.edges == 0   ? "Hall, 6 edges or 1"
+         : sensing.edges == 1 ? "Hall, 1 edge"
+                              : fmt::format("Hall, {} edges", sensing.edges);
+}
+
 std::string gain_unit(const LoopDesign& loop) { return loop.name == "current" ? "V/A" : "per rad/s"; }
 
 std::string loop_text(const LoopDesign& loop) {
@@ -138,19 +144,44 @@ std::string figures_text(const DriveDesign& d) {
   line("peak of sensitivity, one period late", [&](const LoopDesign& l) {
     return delayed(l).stable ? factor(delayed(l).sensitivity_peak) : "unstable";
   });
-  line("step: settling to 2 %",
+  if (d.lag.delay_s() > 0)
+    line("phase margin with the speed's sensor",
+         [&](const LoopDesign& l) { return or_none(l.built.phase_rad, degrees); });
+  line(d.lag.delay_s() > 0 ? "step: settling" : "step: settling to 2 %",
        [&](const LoopDesign& l) { return quantity_text(l.step.settling_s, "s", 4); });
   line("step: overshoot",
        [&](const LoopDesign& l) { return fmt::format("{:.1f} %", 100 * l.step.overshoot); });
   return "\nLoops, with the hold of the PWM and the loops within\n" + rows.text();
 }
 
+/// What the sensor of the speed costs, and what each way of sensing allows.
+std::string sensing_text(const DriveDesign& d) {
+  if (d.sensing.empty()) return "";
+  Rows steps;
+  for (const DerivationStep& step : d.sensing)
+    steps.add({step.symbol, quantity_text(step.value, step.unit, 6), step.formula});
+  Rows table;
+  std::vector<std::string> head{"sensor"};
+  for (std::size_t n = 0; n < 3 && n < d.limits.size(); ++n)
+    head.push_back("down to " + quantity_text(d.limits[n].lowest_speed_rad_s, "rad/s", 3));
+  table.add(head);
+  for (std::size_t n = 0; n + 3 <= d.limits.size(); n += 3) {
+    std::vector<std::string> cells{edges_text(d.limits[n].sensing)};
+    for (std::size_t k = n; k < n + 3; ++k)
+      cells.push_back(d.limits[k].settle_s ? quantity_text(*d.limits[k].settle_s, "s", 3) : "none");
+    table.add(std::move(cells));
+  }
+  return "\nSpeed from Hall edges, " + edges_text(d.wish.rotor).substr(6) + "\n" + steps.text() +
+         "\nFastest settling of the speed loop that keeps 45 degrees of phase\n" + table.text();
+}
+
 std::string limits_text(const DriveDesign& d) {
   std::string text = fmt::format(
-      "\nLimits at {}{}{}\n"
+      "\nLimits at the nominal current of {}{}\n"
       "  current ripple      {} peak to peak at worst (duty {}); gaps in the current below {}\n",
-      sixstep::design::nominal_current_words(d), d.motor.nominal_current_A > 0.0 ? " of " : ", ",
-      quantity_text(d.nominal_current_A, "A"), quantity_text(d.ripple.worst_A, "A", 3), d.ripple.worst_duty,
+      quantity_text(d.nominal_current_A, "A"),
+      d.nominal_printed ? "" : ", a tenth of the stall current: the sheet names none",
+      quantity_text(d.ripple.worst_A, "A", 3), d.ripple.worst_duty,
       quantity_text(d.ripple.continuous_above_A, "A", 3));
   text += "  voltage left        ";
   for (int n = 0; n <= 4; ++n) {
@@ -203,13 +234,39 @@ std::string robust_text(const study::Robustness& r) {
 }
 
 std::string position_text(const study::PositionGain& p) {
-  return fmt::format(
+  std::string text = fmt::format(
       "  found by {} simulations between {} (full torque stops it from top speed) and {} (no limit acts)\n",
       p.runs, number(p.estimate), number(p.linear));
+  if (p.gain_rad_s_per_deg < p.nominal)
+    text += fmt::format("  the sheet's motor alone would stand {} rad/s/deg; the tolerances do not\n",
+                        number(p.nominal));
+  return text;
 }
 
 std::string counted(std::size_t n, const char* what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+/// What the motor worst off makes of a figure.
+std::string at_worst(const study::DesignStudy& s, const char* figure, double nominal, int digits) {
+  if (!s.robustness) return "";
+  for (const RobustFigure& f : s.robustness->figures)
+    if (f.figure == figure && f.worst > nominal)
+      return fmt::format(", {} at worst", quantity_text(f.worst, f.unit, digits));
+  return "";
+}
+
+/// What the verdict holds for.
+std::string conditions(const study::DesignStudy& s) {
+  const DriveDesign& d = s.design;
+  std::string text =
+      !d.wish.rotor.hall   ? "with an ideal rotor sensor"
+      : d.loops.size() < 2 ? "with Hall probes"
+      : d.wish.mode == Mode::speed
+          ? fmt::format("with Hall probes, down to {}", quantity_text(d.lowest_speed_rad_s, "rad/s", 3))
+          : "with Hall probes";
+  return text +
+         (s.robustness ? fmt::format(", over {} motors", s.robustness->runs) : ", tolerances not looked at");
 }
 
 }  // namespace
@@ -229,12 +286,17 @@ std::string design_verdict(const study::DesignStudy& s) {
     text += fmt::format(": the {} loop settles in {}", mode, quantity_text(settling->measured, "s", 4));
     const auto& placed = s.design.loops.back().placed;
     if (placed) text += fmt::format(" ({} asked for)", quantity_text(placed->settle_s, "s", 4));
+    text += at_worst(s, "settling time", settling->measured, 4);
   }
-  if (overshoot)
-    text += sixstep::study::as_read(*overshoot, s.scenario) == 0.0
-                ? ", no overshoot"
-                : ", overshoot " + quantity_text(overshoot->measured, overshoot->unit, 3);
-  return text;
+  if (overshoot) {
+    const double measured = sixstep::study::as_read(*overshoot, s.scenario);
+    text += measured == 0.0 ? ", no overshoot" : ", overshoot " + quantity_text(measured, overshoot->unit, 3);
+    text += at_worst(s, "overshoot", measured, 3);
+  }
+  if (const auto* swing = find(s, "swing around the target"))
+    text += ", then swings by " + quantity_text(swing->measured, swing->unit, 3) +
+            at_worst(s, "swing around the target", swing->measured, 3);
+  return text + "; " + conditions(s);
 }
 
 std::string design_text(const study::DesignStudy& s, bool colour) {
@@ -243,7 +305,7 @@ std::string design_text(const study::DesignStudy& s, bool colour) {
   std::string text = verdict + "\n\n" + motor_line(s.design, s.scenario);
   for (const LoopDesign& loop : s.design.loops) text += loop_text(loop);
   if (s.position) text += position_text(*s.position);
-  text += figures_text(s.design) + limits_text(s.design) + simulated_text(s);
+  text += figures_text(s.design) + sensing_text(s.design) + limits_text(s.design) + simulated_text(s);
   if (s.robustness) text += robust_text(*s.robustness);
   if (!s.warnings.empty()) text += "\nWarnings\n";
   for (const auto& w : s.warnings)

@@ -39,4 +39,17 @@ inline double last_digit_of(double printed) {
   return 0.0;
 }
 
+/// To so many digits, towards the larger or the smaller number: what one likes to read, to type, to change.
+enum class Towards : bool { down, up };
+inline double shortened(double x, int digits, Towards towards) {
+  if (x == 0.0 || !(x - x == 0.0)) return x;
+  double least = 1.0;
+  for (int n = 1; n < digits; ++n) least *= 10.0;
+  int power = 0;
+  while (std::fabs(times_ten_to(x, power)) < least && power < 22) ++power;
+  while (std::fabs(times_ten_to(x, power)) >= 10.0 * least && power > -22) --power;
+  const double whole = times_ten_to(x, power);
+  return times_ten_to(towards == Towards::up ? std::ceil(whole) : std::floor(whole), -power);
+}
+
 }  // namespace sixstep::base

@@ -6,9 +6,13 @@
 //   fraction = ticks since the last edge/ticks of the mean sector, at most 1
 //
 // Times are readings of a free-running 32-bit counter that may wrap (widen a 16-bit capture register by its
-// overflow count). Faults of the probes' placement cancel over k = 6 edges, one electrical turn; k = 1 is the
-// fastest. The first edge, a reversal and a time-out start the history anew, with speed 0: one edge alone
-// says nothing about speed.
+// overflow count). The first edge, a reversal and a time-out start the history anew, with speed 0: one edge
+// alone says nothing about speed.
+//
+// A speed over k edges is k/2 sectors old, and up to one more until the next edge: (k + 1)/2 sectors in the
+// mean, (k + 1)/2 (pi/3)/(p w). Faults of the probes' placement cancel over k = 6, one electrical turn, but
+// at low speed a speed loop cannot stand so old a speed. With a window the speed is taken over `edges` where
+// these came within it, and over one edge where the rotor is too slow for that.
 #pragma once
 #include <cstdint>
 
@@ -23,6 +27,7 @@ struct HallSpeedConfig {
   TickRatio<Scalar> sector_rad_s_ticks{};  ///< (pi/3)/p timer_Hz: speed times ticks of one sector
   std::uint32_t timeout_ticks = 0;  ///< no edge for so long is standstill; below 2^32 less one control period
   std::uint8_t edges = 1;           ///< k, 1..6
+  std::uint32_t window_ticks = 0;   ///< k = 1 where `edges` took longer than this; 0: always `edges`
 };
 
 struct HallSpeedState {
@@ -35,6 +40,16 @@ constexpr std::uint8_t hall_speed_edges(std::uint8_t wanted, std::uint8_t known)
   const std::uint8_t most = wanted < 1 ? 1 : wanted > 6 ? 6 : wanted;
   const std::uint8_t intervals = known > 0 ? static_cast<std::uint8_t>(known - 1) : std::uint8_t{0};
   return intervals < most ? intervals : most;
+}
+
+/// Over how many sectors the speed is taken now; 0: nothing is known yet.
+template <class Scalar>
+constexpr std::uint8_t hall_speed_sectors(const HallSpeedConfig<Scalar>& config,
+                                          const HallSpeedState& state) {
+  const std::uint8_t k = hall_speed_edges(config.edges, state.known);
+  if (k < 2 || config.window_ticks == 0) return k;
+  return static_cast<std::uint32_t>(state.times[0] - state.times[k]) > config.window_ticks ? std::uint8_t{1}
+                                                                                           : k;
 }
 
 /// An edge in `direction` (+1, -1) at counter reading `now`.
@@ -58,7 +73,7 @@ constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedStat
     state.direction = 0;
     return Scalar{};
   }
-  const std::uint8_t k = hall_speed_edges(config.edges, state.known);
+  const std::uint8_t k = hall_speed_sectors(config, state);
   if (k == 0) return Scalar{};
   const std::uint32_t ticks = static_cast<std::uint32_t>(state.times[0] - state.times[k]);
   Scalar w = T::per_ticks(T::times(config.sector_rad_s_ticks, k), ticks == 0 ? 1 : ticks);
@@ -74,7 +89,7 @@ constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedStat
 template <class Scalar>
 constexpr bool edge_overdue(const HallSpeedConfig<Scalar>& config, const HallSpeedState& state,
                             std::uint32_t now) {
-  const std::uint8_t k = hall_speed_edges(config.edges, state.known);
+  const std::uint8_t k = hall_speed_sectors(config, state);
   if (k == 0) return false;
   const std::uint32_t sector = static_cast<std::uint32_t>(state.times[0] - state.times[k]) / k;
   return static_cast<std::uint32_t>(now - state.times[0]) / 3 > sector / 2;
@@ -85,7 +100,7 @@ template <class Scalar>
 constexpr Scalar sector_fraction(const HallSpeedConfig<Scalar>& config, const HallSpeedState& state,
                                  std::uint32_t now) {
   using T = ScalarTraits<Scalar>;
-  const std::uint8_t k = hall_speed_edges(config.edges, state.known);
+  const std::uint8_t k = hall_speed_sectors(config, state);
   if (k == 0) return T::fraction(1, 2);
   const std::uint32_t ticks = static_cast<std::uint32_t>(state.times[0] - state.times[k]);
   return T::fraction(static_cast<std::uint32_t>(now - state.times[0]), ticks / k);

@@ -26,12 +26,20 @@ struct SensorsConfig {
   bool decodes_hall = false;     ///< follow the lines, to name a broken one
   std::uint8_t commutation_samples = 0;
   std::uint8_t edges = 6;  ///< that a speed is taken over
+  double window_s = 0.0;   ///< one edge where these take longer; 0: always `edges`
 
   /// The controller is told what is.
   bool ideal() const {
     return currents == CurrentSensing::ideal && !measures_bus && !rotor_from_hall && !decodes_hall;
   }
 };
+
+/// The window in counts of the timer: at least one where there is one.
+inline std::uint32_t window_ticks(const SensorsConfig& config) {
+  if (!(config.window_s > 0.0)) return 0;
+  const double ticks = config.window_s * config.capture_Hz;
+  return ticks < 1.0 ? 1u : ticks < 0x1p31 ? static_cast<std::uint32_t>(ticks) : 0x80000000u;
+}
 
 /// One sample instant: the plant in SI and the command in effect.
 struct Sample {

@@ -74,7 +74,8 @@ Sensors<Scalar>::Sensors(const SensorsConfig& config, const Units& units, double
   shunt_config_ = {Scalar(config.least_duty), config.commutation_samples, Scalar(config.fade)};
   using Ratio = control::TickRatio<Scalar>;
   speed_config_ = {Ratio(sector_rad * config.capture_Hz / units.speed_rad_s),
-                   static_cast<std::uint32_t>(config.timeout_s * config.capture_Hz), config.edges};
+                   static_cast<std::uint32_t>(config.timeout_s * config.capture_Hz), config.edges,
+                   window_ticks(config)};
   using Gain = control::Gain<Scalar>;
   position_config_ = {Gain(sector_deg / units.position_deg / raw_unit<Scalar>()),
                       Gain(sector_deg / units.position_deg)};

@@ -2,6 +2,7 @@
 // Whole drives: the loops with what lies within against a simulation written out, the poles that were placed,
 // the warnings that must and must not come.
 #include "sixstep/design/loops/drive_design.hpp"
+#include "sixstep/base/angle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +36,7 @@ DriveDesign designed(const DesignWish& wish) {
 }
 
 TEST(DriveDesign, PlacesTheThesissPoles) {
-  const DriveDesign d = designed({.mode = Mode::speed});
+  const DriveDesign d = designed({.mode = Mode::speed, .torque_limit_Nm = 0.78});
   ASSERT_EQ(d.loops.size(), 2u);
   EXPECT_NEAR(d.loop("current").gains.d1, 4.0956, 0.5e-4);
   EXPECT_NEAR(d.loop("speed").gains.d1, 0.0158299, 0.5e-7);
@@ -158,8 +159,69 @@ TEST(DriveDesign, WarnsOfWhatIsOffAndOfNothingElse) {
                     "times the frequency"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.25e-3}), "asks for"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .period_s = 60e-6}), "ripple"));
-  EXPECT_TRUE(
-      warns(designed({.mode = Mode::speed}), "times a tenth of the stall current (the sheet names no"));
+  EXPECT_TRUE(warns(designed({.mode = Mode::speed}), "names no nominal current"));
+  MotorModel printed = thesis_motor();
+  printed.nominal_current_A = 2.33;
+  EXPECT_FALSE(warns(*design_drive(printed, {.mode = Mode::speed}), "nominal current:"));
+  EXPECT_TRUE(warns(*design_drive(printed, {.mode = Mode::speed, .torque_limit_Nm = 0.78}),
+                    "times the nominal current"));
+}
+
+TEST(DriveDesign, AsksForWhatTheMotorStandsWhereNobodySaid) {
+  MotorModel motor = thesis_motor();
+  motor.nominal_current_A = 2.33;
+  EXPECT_DOUBLE_EQ(design_drive(motor, {.mode = Mode::speed})->current_at_full_torque_A, 2.5 * 2.33);
+  // Without a printed current a tenth of the stall current, 24/1.03/10 A, and the design says so.
+  const auto silent = design_drive(thesis_motor(), {.mode = Mode::speed});
+  EXPECT_FALSE(silent->nominal_printed);
+  EXPECT_DOUBLE_EQ(silent->current_at_full_torque_A, 2.5 * 24 / 1.03 / 10);
+  // No more than the bus drives through the held rotor.
+  motor.nominal_current_A = 20.0;
+  EXPECT_DOUBLE_EQ(design_drive(motor, {.mode = Mode::speed})->current_at_full_torque_A, 24 / 1.03);
+}
+
+DesignWish on_hall_probes(int edges, double settle_s) {
+  return {.mode = Mode::speed,
+          .settle_s = settle_s,
+          .delay_periods = 1,
+          .rotor = {.hall = true, .edges = edges},
+          .lowest_speed_rad_s = 100.0};
+}
+
+TEST(DriveDesign, TakesNoFasterSpeedLoopThanItsSensorStands) {
+  DesignWish open = on_hall_probes(6, 1.0);
+  open.settle_s.reset();
+  const DriveDesign slow = designed(open);
+  open.rotor.edges = 1;
+  const DriveDesign quick = designed(open);
+  // Six edges at 100 rad/s are 3.5 sectors of 1.309 ms old, one edge is one: settling times in that ratio but
+  // for what the current loop costs.
+  EXPECT_NEAR(slow.lag.delay_s(), 3.5 * base::pi / 3 / 8 / 100, 1e-12);
+  EXPECT_NEAR(quick.lag.delay_s(), base::pi / 3 / 8 / 100, 1e-12);
+  EXPECT_NEAR(*slow.wish.settle_s / *quick.wish.settle_s, 3.5, 0.35);
+  for (const DriveDesign* d : {&slow, &quick}) {
+    EXPECT_GE(*d->loop("speed").built.phase_rad * 180 / base::pi, 45.0);
+    EXPECT_LE(*d->loop("speed").built.phase_rad * 180 / base::pi, 47.0);  // rounded up to two digits
+    EXPECT_FALSE(warns(*d, "rad/s, where a speed from Hall edges"));
+  }
+  EXPECT_TRUE(warns(designed(on_hall_probes(6, 60e-3)), "degrees of phase at 100 rad/s"));
+  EXPECT_TRUE(warns(designed(on_hall_probes(6, 10e-3)), "the speed loop is unstable at 100 rad/s"));
+  EXPECT_FALSE(warns(designed({.mode = Mode::speed}), "Hall"));
+}
+
+TEST(DriveDesign, TellsWhatEachWayOfSensingAllows) {
+  const DriveDesign d = designed(on_hall_probes(0, 0.1));
+  ASSERT_EQ(d.limits.size(), 9u);
+  for (std::size_t n = 0; n < 9; ++n) {
+    ASSERT_TRUE(d.limits[n].settle_s);
+    EXPECT_DOUBLE_EQ(d.limits[n].lowest_speed_rad_s, (n % 3 == 0 ? 1.0 : n % 3 == 1 ? 2.0 : 5.0) * 100.0);
+    if (n % 3 > 0) {
+      EXPECT_LT(*d.limits[n].settle_s, *d.limits[n - 1].settle_s);  // faster where it turns faster
+    }
+    if (n >= 3 && n < 6) {
+      EXPECT_GT(*d.limits[n].settle_s, *d.limits[n - 3].settle_s);  // six edges after one
+    }
+  }
 }
 
 TEST(DriveDesign, NamesOptionsThatContradict) {

@@ -65,6 +65,9 @@ class Examples(unittest.TestCase):
             text = there.read_text()
             command = re.search(r"^//   sixstep (.*) --out (\S+)$", text, re.M)
             self.assertEqual(command.group(2), there.relative_to(REPOSITORY).as_posix())
+            scenario = re.search(r"data/scenarios/firmware/\S+\.toml", command.group(1)).group()
+            held = subprocess.run([TOOLS[0], "run", scenario], cwd=REPOSITORY, capture_output=True, text=True, check=False)
+            self.assertEqual(held.returncode, 0, held.stdout + held.stderr)
             made = subprocess.run([TOOLS[0], *command.group(1).split()], cwd=REPOSITORY, capture_output=True, text=True, check=True)
             self.assertEqual(text, LICENCE + made.stdout.replace(command.group(1), f"{command.group(1)} --out {command.group(2)}", 1),
                              "run the command again, and keep the licence line above it")

@@ -42,7 +42,7 @@ TEST(CortexM, TheTimersOutputsAreTheGates) {
 }
 
 /// ATmega2560 datasheet, 17.11.1: COM1x1 clears the pin at the compare value in fast PWM; without it the pin
-/// is a port pin, low. Timer 1 with WGM11 alone in TCCR1A is mode 14 by TCCR1B's other bits.
+/// is a port pin, low. Timer 1 with WGM11 alone in TCCR1A is mode 10 by TCCR1B's other bits.
 unsigned gates_of(const firmware::Pins& pins, bool on_time) {
   unsigned gates = 0;
   EXPECT_EQ(pins.TCCR1A & 0x57, 2);

@@ -57,6 +57,41 @@ void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& 
             cure);
 }
 
+/// What the sensor of the speed leaves of the phase, at the lowest speed.
+void look_at_sensing(const DriveDesign& d, Collector& out) {
+  if (d.loops.size() < 2 || !(d.lag.delay_s() > 0.0)) return;
+  const LoopDesign& speed = d.loops[1];
+  if (!speed.figures.stable) return;  // told already
+  const std::string at = " at " + rounded(d.lowest_speed_rad_s) +
+                         " rad/s, where a speed from Hall edges is " + milliseconds(d.lag.delay_s()) + " old";
+  std::string cure = "design the speed loop slower (--settle";
+  for (const SettlingLimit& limit : d.limits)
+    if (limit.sensing.edges == d.wish.rotor.edges && limit.lowest_speed_rad_s == d.lowest_speed_rad_s &&
+        limit.settle_s)
+      cure.append(" ").append(rounded(*limit.settle_s));
+  cure += d.wish.rotor.edges > 1 ? "), take the speed over one edge (--edges 1), or raise --lowest-speed"
+                                 : ") or raise --lowest-speed";
+  if (!speed.built.stable) return out.add("the speed loop is unstable" + at, cure, true);
+  const double phase_deg = speed.built.phase_rad.value_or(base::pi) * 180.0 / base::pi;
+  // A tenth of a degree: what rounding a settling time may cost.
+  if (phase_deg < least_phase_deg - 0.1)
+    out.add("the speed loop keeps " + rounded(phase_deg) + " degrees of phase" + at, cure);
+}
+
+/// A P loop on counted edges: one step away it asks for K_p steps per second, so the next edge is 1/K_p away
+/// and the speed as old.
+void look_at_steps(const DriveDesign& d, Collector& out) {
+  if (d.wish.mode != control::Mode::position || !d.wish.rotor.hall || d.loops.size() < 3) return;
+  const double blind_s = 1.0 / (d.loops[2].gains.d1 * 180.0 / base::pi);
+  const double step_deg = 60.0 / d.motor.machine.pole_pairs;
+  if (const std::optional<double> stands = d.loops[1].figures.delay_s; stands && blind_s > *stands)
+    out.add("within a Hall step of " + rounded(step_deg) +
+                " degrees of its target the drive learns its speed every " + milliseconds(blind_s) +
+                " (1/K_p), and the speed loop stands " + milliseconds(*stands) +
+                ": it comes to within a few steps and never rests",
+            "take an encoder where the shaft is to rest; or turn the drive off once it is there");
+}
+
 void look_at_sign(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
   if (loop.gains.d1 <= 0.0 && loop.name == "current")
     out.add("the current loop is asked to be slower than the motor's own L/R, " +
@@ -68,7 +103,8 @@ void look_at_sign(const DriveDesign& d, const LoopDesign& loop, Collector& out) 
 void look_at_overshoot(const LoopDesign& loop, Collector& out) {
   if (loop.name != "position" && loop.figures.stable && loop.step.overshoot > 0.1)
     out.add("the " + loop.name + " loop overshoots a step by " + rounded(100.0 * loop.step.overshoot) +
-                " %, for the PI's zero",
+                " %, for the PI's zero" +
+                (loop.built.phase_rad != loop.figures.phase_rad ? " and the delay of its sensor" : ""),
             loop.name == "current" ? "give --method cancellation, or limit how fast the setpoint rises"
                                    : "limit how fast the setpoint rises (control/slew.hpp)");
 }
@@ -99,8 +135,8 @@ void look_at_braking(const DriveDesign& d, Collector& out) {
       d.motor.no_load_speed_rad_s > 0.0 ? d.motor.no_load_speed_rad_s : d.bus_V / d.motor.K_t_Nm_A;
   if (d.wish.chopping == control::Chopping::soft && d.braking_limit_rad_s < top)
     out.add("soft chopping cannot hold a braking current of " + rounded(d.nominal_current_A) + " A" +
-                (d.motor.nominal_current_A > 0.0 ? "" : std::string(", ") + nominal_current_words(d) + ",") +
-                " above " + rounded(d.braking_limit_rad_s) +
+                (d.nominal_printed ? "" : std::string(", ") + nominal_current_words(d) + ",") + " above " +
+                rounded(d.braking_limit_rad_s) +
                 " rad/s, (i/K_t) R: the motor brakes through the lower switches",
             "brake with --chopping complementary or hard, or smooth_chopping.hpp on the chip");
 }
@@ -126,10 +162,14 @@ void look_at_settling(const DriveDesign& d, const LoopDesign& loop, Collector& o
 }
 
 void look_at_heat(const DriveDesign& d, Collector& out) {
-  if (d.wish.mode != control::Mode::current && d.current_at_full_torque_A > 3.0 * d.nominal_current_A)
+  if (d.wish.mode == control::Mode::current) return;
+  if (!d.nominal_printed)
+    return out.add("the sheet names no nominal current: a tenth of the stall current, " +
+                       rounded(d.nominal_current_A) + " A, stands in for it",
+                   "give the sheet's nominal_current_A, or --torque-limit with what bridge and winding bear");
+  if (d.current_at_full_torque_A > 3.0 * d.nominal_current_A)
     out.add("the speed loop may ask for " + rounded(d.current_at_full_torque_A) + " A, " +
-                rounded(d.current_at_full_torque_A / d.nominal_current_A) + " times " +
-                nominal_current_words(d),
+                rounded(d.current_at_full_torque_A / d.nominal_current_A) + " times the nominal current",
             "give --torque-limit what bridge, winding and load bear");
 }
 
@@ -145,6 +185,8 @@ std::vector<Warning> warnings_of(const DriveDesign& d) {
   }
   // A position gain is bounded by the overshoot itself.
   if (d.loops.size() > 1) look_at_separation(d.loops[0], d.loops[1], out);
+  look_at_sensing(d, out);
+  look_at_steps(d, out);
   look_at_voltage(d, out);
   look_at_ripple(d, out);
   look_at_braking(d, out);

@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/decimal.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/loops/design_warnings.hpp"
 #include "sixstep/design/loops/drive_loops.hpp"
 #include "sixstep/design/loops/gain_rules.hpp"
 #include "sixstep/design/loops/margins.hpp"
+#include "sixstep/design/loops/wish_check.hpp"
 
 namespace sixstep::design {
 namespace {
@@ -22,39 +24,6 @@ double settle_of_current(const DesignWish& w) {
   if (w.mode == Mode::current) return w.settle_s.value_or(current_settle);
   return w.current_settle_s.value_or(
       std::fmin(current_settle, w.settle_s.value_or(speed_settle) / inner_faster));
-}
-
-base::Problems check(const MotorModel& motor, const DesignWish& w) {
-  base::Problems found;
-  const auto add = [&](const char* where, const std::string& value, const char* limit, const char* cure) {
-    found.push_back({where, value, limit, cure});
-  };
-  const auto above_0 = [](double x) { return x > 0.0 && x - x == 0.0; };
-  if (w.mode != Mode::current && w.mode != Mode::speed && w.mode != Mode::position)
-    add("--mode", "", "must be current, speed or position", "choose what is to be controlled");
-  if (w.method == GainMethod::symmetrical_optimum && w.mode == Mode::current)
-    add("--method", "symmetrical-optimum", "is a rule for speed loops",
-        "add --mode speed, or take pole-placement or cancellation");
-  if (w.delay_periods < 0 || w.delay_periods > 1)
-    add("--delay", std::to_string(w.delay_periods), "must be 0 or 1",
-        "0: a command counts at once, 1: from the next period on");
-  if (w.bandwidth_rad_s && w.method == GainMethod::pole_placement)
-    add("--bandwidth", base::written(*w.bandwidth_rad_s), "is no input of pole placement",
-        "give --settle, or take --method cancellation");
-  if (w.bandwidth_rad_s && !above_0(*w.bandwidth_rad_s))
-    add("--bandwidth", base::written(*w.bandwidth_rad_s), "must be above 0", "give it in rad/s");
-  if (w.voltage_V && !above_0(*w.voltage_V))
-    add("--voltage", base::written(*w.voltage_V), "must be above 0", "give the bus voltage in volts");
-  if (!w.voltage_V && !above_0(motor.nominal_voltage_V))
-    add("--voltage", "", "is missing, and the sheet prints no nominal voltage",
-        "give the bus voltage in volts");
-  if (!above_0(w.period_s))
-    add("--period", base::written(w.period_s), "must be above 0", "give the control period in seconds");
-  if (w.torque_limit_Nm && !above_0(*w.torque_limit_Nm))
-    add("--torque-limit", base::written(*w.torque_limit_Nm), "must be above 0", "give it in N m");
-  if (!(w.load_inertia_kg_m2 >= 0.0 && w.load_inertia_kg_m2 - w.load_inertia_kg_m2 == 0.0))
-    add("--load-inertia", base::written(w.load_inertia_kg_m2), "must not be negative", "give it in kg m2");
-  return found;
 }
 
 DriveLoops loops_of(const DriveDesign& d, const MotorModel& motor, int delay_periods) {
@@ -80,9 +49,16 @@ void judge(DriveDesign& d, LoopDesign& loop, std::size_t index) {
   loop.loop = open_loops(d, d.motor, delay_periods)[index];
   loop.figures = loop_figures(loop.loop, d.wish.period_s);
   loop.other = loop_figures(open_loops(d, d.motor, 1 - delay_periods)[index], d.wish.period_s);
+  const SensedLoop sensed = sensed_loops(d, d.motor, delay_periods)[index];
+  const bool lags = sensed.lag.delay_s() > 0.0;
+  loop.built = lags ? sensed_figures(sensed, d.wish.period_s) : loop.figures;
+  if (!loop.built.stable) return;
   const Transfer whole = closed(loop.loop);
-  if (loop.figures.stable)
-    loop.step = step_response(whole, d.wish.period_s, watched_s(whole, d.wish.period_s));
+  const double watched = watched_s(whole, d.wish.period_s);
+  // The step of a position loop is shaped by limits, not by the linear loop: it is not looked at.
+  loop.step = lags && loop.name == "speed"
+                  ? sensed_step(sensed, d.wish.period_s, 2 * watched, settling_band(d))
+                  : step_response(whole, d.wish.period_s, watched);
 }
 
 base::Result<LoopDesign> by_placement(const char* name, const ZohPlant& plant, double settle_s,
@@ -105,6 +81,7 @@ base::Result<LoopDesign> by_placement(const char* name, const ZohPlant& plant, d
                     .loop = {},
                     .figures = {},
                     .other = {},
+                    .built = {},
                     .step = {}};
 }
 
@@ -118,6 +95,7 @@ base::Result<LoopDesign> by_rule(const char* name, const char* method, const bas
                     .loop = {},
                     .figures = {},
                     .other = {},
+                    .built = {},
                     .step = {}};
 }
 
@@ -185,6 +163,7 @@ LoopDesign position_loop(double gain, const char* method) {
           .loop = {},
           .figures = {},
           .other = {},
+          .built = {},
           .step = {}};
 }
 
@@ -212,6 +191,34 @@ double longest_period(const DriveDesign& d) {
   return low;
 }
 
+/// The speed loop's crossover, its integral not counted; 0 where there is no speed loop.
+double crossover_of(const DriveDesign& d) {
+  if (d.loops.size() < 2) return 0.0;
+  return speed_crossover_rad_s(d.loop("speed").gains.d1, d.torque_limit_Nm / d.motor.shaft.J_kg_m2);
+}
+
+SettlingQuestion settling_question(const DriveDesign& d) {
+  return {loops_of(d, d.motor, d.wish.delay_periods), d.torque_limit_Nm, d.wish.damping};
+}
+
+/// Nobody said how fast: the thesis's settling time, or what the sensor stands where that is longer.
+void choose_settling(DriveDesign& d) {
+  if (d.wish.settle_s || d.wish.mode == Mode::current) return;
+  d.wish.settle_s = speed_settle;
+  if (!d.wish.rotor.hall) return;
+  const std::optional<double> least =
+      fastest_settling_s(settling_question(d), d.wish.rotor, d.lowest_speed_rad_s);
+  if (least && *least > speed_settle) d.wish.settle_s = base::shortened(*least, 2, base::Towards::up);
+}
+
+void add_sensing(DriveDesign& d) {
+  if (!d.wish.rotor.hall || d.loops.size() < 2) return;
+  const double pole_pairs = d.motor.machine.pole_pairs, crossover = crossover_of(d);
+  d.lag = speed_lag(d.wish.rotor, pole_pairs, d.lowest_speed_rad_s, crossover);
+  d.sensing = lag_steps(d.wish.rotor, pole_pairs, d.lowest_speed_rad_s, crossover);
+  d.limits = settling_limits(settling_question(d), d.lowest_speed_rad_s);
+}
+
 void add_limits(DriveDesign& d) {
   d.ripple = worst_ripple(d.motor, d.bus_V, d.wish.period_s, d.wish.chopping);
   d.headroom_end_rad_s = speed_for_current_rad_s(d.motor, d.bus_V, d.nominal_current_A);
@@ -226,6 +233,8 @@ void finish(DriveDesign& d) {
 
 }  // namespace
 
+double settling_band(const DriveDesign& d) { return d.lag.delay_s() > 0.0 ? 0.1 : 0.02; }
+
 const LoopDesign& DriveDesign::loop(std::string_view name) const {
   for (const LoopDesign& l : loops)
     if (l.name == name) return l;
@@ -233,26 +242,30 @@ const LoopDesign& DriveDesign::loop(std::string_view name) const {
 }
 
 base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignWish& wish) {
-  if (base::Problems found = check(motor, wish); !found.empty()) return found;
+  if (base::Problems found = check_wish(motor, wish); !found.empty()) return found;
   DriveDesign d;
   d.wish = wish;
   d.motor = motor;
   d.motor.shaft.J_kg_m2 += wish.load_inertia_kg_m2;
   d.bus_V = wish.voltage_V.value_or(motor.nominal_voltage_V);
-  const double stall_A = d.bus_V / (2.0 * motor.machine.R_ohm);
-  const double stall_Nm = motor.stall_torque_Nm > 0.0 ? motor.stall_torque_Nm : motor.K_t_Nm_A * stall_A;
-  d.torque_limit_Nm = wish.torque_limit_Nm.value_or(stall_Nm);
+  d.torque_limit_Nm = wish.torque_limit_Nm.value_or(usual_torque_limit_Nm(motor, d.bus_V));
   d.current_at_full_torque_A = d.torque_limit_Nm / motor.K_t_Nm_A;
-  d.nominal_current_A = motor.nominal_current_A > 0.0 ? motor.nominal_current_A : stall_A / 10.0;
+  const NominalCurrent nominal = nominal_current(motor, d.bus_V);
+  d.nominal_current_A = nominal.A;
+  d.nominal_printed = nominal.printed;
+  d.lowest_speed_rad_s = wish.lowest_speed_rad_s.value_or(
+      base::shortened(0.1 * d.bus_V / motor.K_t_Nm_A, 2, base::Towards::down));
   base::Result<LoopDesign> current = current_loop(d);
   if (!current) return current.problems();
   d.loops.push_back(*current);
   if (wish.mode != Mode::current) {
+    choose_settling(d);
     base::Result<LoopDesign> speed = speed_loop(d);
     if (!speed) return speed.problems();
     d.loops.push_back(*speed);
   }
   add_limits(d);
+  add_sensing(d);
   if (wish.mode == Mode::position)
     d.loops.push_back(position_loop(largest_position_gain(d), "largest linear gain without overshoot"));
   finish(d);
@@ -271,6 +284,14 @@ std::vector<Transfer> open_loops(const DriveDesign& design, const MotorModel& mo
   std::vector<Transfer> out{open_current_loop(loops)};
   if (design.loops.size() > 1) out.push_back(open_speed_loop(loops));
   if (design.loops.size() > 2) out.push_back(open_position_loop(loops));
+  return out;
+}
+
+std::vector<SensedLoop> sensed_loops(const DriveDesign& design, const MotorModel& motor, int delay_periods) {
+  const std::vector<Transfer> open = open_loops(design, motor, delay_periods);
+  std::vector<SensedLoop> out{{open[0], {}, {}}};
+  if (open.size() > 1) out.push_back({open[1], design.lag, {}});
+  if (open.size() > 2) out.push_back({open[2], design.lag, open[1]});
   return out;
 }
 

@@ -13,6 +13,8 @@
 #include "sixstep/design/loops/loop_figures.hpp"
 #include "sixstep/design/loops/operating_limits.hpp"
 #include "sixstep/design/loops/pole_placement.hpp"
+#include "sixstep/design/loops/rotor_sensing.hpp"
+#include "sixstep/design/loops/settling_limits.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 
 namespace sixstep::design {
@@ -23,18 +25,30 @@ enum class GainMethod : std::uint8_t { pole_placement, cancellation, symmetrical
 struct DesignWish {
   control::Mode mode = control::Mode::current;  ///< current, speed or position
   GainMethod method = GainMethod::pole_placement;
-  std::optional<double> settle_s;  ///< of the PI of the mode; 1 ms for current, 10 ms for speed
+  /// Of the PI of the mode; 1 ms for current; for speed 10 ms, or what the sensor allows where that is more.
+  std::optional<double> settle_s;
   std::optional<double>
       current_settle_s;  ///< of the inner loop; 1 ms, or a tenth of the speed loop's if shorter
   double damping = 0.9;
   std::optional<double> bandwidth_rad_s;  ///< of the loop the method is for; else 4.6/settle_s
   double period_s = 30e-6;
   std::optional<double> voltage_V;        ///< of the bus; else the sheet's
-  std::optional<double> torque_limit_Nm;  ///< full output of the speed loop; else the stall torque
+  std::optional<double> torque_limit_Nm;  ///< full output of the speed loop; else usual_torque_limit_Nm
   double load_inertia_kg_m2 = 0.0;        ///< on the shaft, beside the rotor's
   int delay_periods = 0;                  ///< from a sample until its result takes effect, 0 or 1
   control::Chopping chopping = control::Chopping::soft;
+  RotorSensing rotor{.hall = false};
+  /// That the drive is to hold; else a tenth of the speed that the bus reaches, bus/K_t.
+  std::optional<double> lowest_speed_rad_s;
 };
+
+/// A wish as for a board that is built: Hall probes, and a command that counts one period late.
+inline DesignWish on_a_board() {
+  DesignWish wish;
+  wish.rotor.hall = true;
+  wish.delay_periods = 1;
+  return wish;
+}
 
 struct LoopDesign {
   std::string name;    ///< "current", "speed", "position"
@@ -45,7 +59,8 @@ struct LoopDesign {
   Transfer loop;        ///< open, with the wished delay, the inner loops counted in
   LoopFigures figures;  ///< of `loop`
   LoopFigures other;    ///< with the other delay: 1 where the wish is 0, and 0 where it is 1
-  StepResponse step;    ///< of the closed loop
+  LoopFigures built;    ///< of `loop` with what the wish's sensor of the speed adds at the lowest speed
+  StepResponse step;    ///< of the closed loop, sensor included
 };
 
 struct Warning {
@@ -60,8 +75,13 @@ struct DriveDesign {
   double bus_V = 0.0;
   double torque_limit_Nm = 0.0;
   double current_at_full_torque_A = 0.0;
-  double nominal_current_A = 0.0;  ///< the sheet's; where it is silent a tenth of the stall current
-  std::vector<LoopDesign> loops;   ///< from the inside out
+  double nominal_current_A = 0.0;
+  bool nominal_printed = true;  ///< false: the sheet is silent, and a tenth of the stall current stands in
+  double lowest_speed_rad_s = 0.0;
+  SpeedLag lag;                         ///< of the speed at the lowest speed
+  std::vector<DerivationStep> sensing;  ///< how that lag comes about
+  std::vector<SettlingLimit> limits;    ///< what each way of sensing allows; speed and position
+  std::vector<LoopDesign> loops;        ///< from the inside out
   Ripple ripple;
   double longest_period_s = 0.0;  ///< up to which the current loop keeps 45 degrees with one period of delay
   double headroom_end_rad_s = 0.0;   ///< up to which the nominal current can be driven
@@ -73,9 +93,13 @@ struct DriveDesign {
 
 /// What nominal_current_A is called: nothing that was made up passes for the sheet's.
 inline const char* nominal_current_words(const DriveDesign& d) {
-  return d.motor.nominal_current_A > 0.0 ? "the nominal current"
-                                         : "a tenth of the stall current (the sheet names no nominal one)";
+  return d.nominal_printed ? "the nominal current"
+                           : "a tenth of the stall current (the sheet names no nominal one)";
 }
+
+/// Part of a step of the speed within which it counts as settled: 2 %, on Hall probes 10 %, the twentieth of
+/// the lowest speed that a step of half of it is judged by.
+double settling_band(const DriveDesign& design);
 
 /// Gains for the wish. In position mode the gain is the largest with which the linear loop does not
 /// overshoot; what limits allow is study's to find, with with_position_gain(). Problems name the option.
@@ -87,5 +111,8 @@ DriveDesign with_position_gain(const DriveDesign& design, double gain_rad_s_per_
 /// The loops of the same controller on another motor: what a tolerance does to the margins. From the inside
 /// out, open.
 std::vector<Transfer> open_loops(const DriveDesign& design, const MotorModel& motor, int delay_periods);
+
+/// The same with what the wish's sensor of the speed adds at the lowest speed.
+std::vector<SensedLoop> sensed_loops(const DriveDesign& design, const MotorModel& motor, int delay_periods);
 
 }  // namespace sixstep::design

@@ -42,16 +42,13 @@ double lowest_turn(const Transfer& loop) {
   return std::clamp(decay > 0.0 ? 0.01 * decay : 1e-5, 1e-12, 0.1);
 }
 
-double size_over_one(const Transfer& t, double turn) { return t.at(turn).size() - 1.0; }
-
 /// As margins.hpp has it: pi + arg L with arg L in (-2 pi, 0], negative where the loop is past -180 degrees.
 double phase_left(Complex L) {
   const double angle = L.angle_rad();
   return base::pi + (angle > 0.0 ? angle - 2.0 * base::pi : angle);
 }
 
-void look_at_crossing(LoopFigures& f, const Transfer& loop, double turn, double period_s, bool falls) {
-  const double w = turn / period_s, left = phase_left(loop.at(turn));
+void look_at_crossing(LoopFigures& f, double w, double left, bool falls) {
   if (falls) f.crossover_rad_s = w;
   if (!f.phase_rad || left < *f.phase_rad) f.phase_rad = left;
   const double delay_s = left > 0.0 ? left / w : 0.0;
@@ -67,38 +64,77 @@ void look_at_axis(LoopFigures& f, Complex L) {
 
 }  // namespace
 
-LoopFigures loop_figures(const Transfer& loop, double period_s, int points) {
+namespace {
+
+/// Scans a loop given by its value L(turn) and the phase that is left to -180 degrees there.
+template <class Loop, class Left>
+LoopFigures scanned(const Loop& loop, const Left& left, double lowest, double period_s, int points) {
   LoopFigures f;
-  const Transfer whole = closed(loop);
-  f.stable = is_stable(whole.den);
-  const std::vector<double> turns = grid(lowest_turn(loop), points);
-  Complex last = loop.at(turns[0]);
-  double last_closed = whole.at(turns[0]).size();
+  const auto whole = [&](double turn) {
+    const Complex L = loop(turn);
+    return (L / (L + Complex{1.0, 0.0})).size();
+  };
+  const std::vector<double> turns = grid(lowest, points);
+  Complex last = loop(turns[0]);
+  double last_closed = whole(turns[0]);
   constexpr double half_power = 0.70710678118654752440;
   for (std::size_t n = 0; n < turns.size(); ++n) {
     const double turn = turns[n];
-    const Complex L = loop.at(turn);
-    const double sensitivity = 1.0 / (L + Complex{1.0, 0.0}).size(), through = whole.at(turn).size();
+    const Complex L = loop(turn), one_more = L + Complex{1.0, 0.0};
+    const double sensitivity = 1.0 / one_more.size(), through = (L / one_more).size();
     if (sensitivity > f.sensitivity_peak) {
       f.sensitivity_peak = sensitivity;
       f.sensitivity_peak_rad_s = turn / period_s;
     }
     if (n > 0) {
       const double before = turns[n - 1];
-      if ((L.size() < 1.0) != (last.size() < 1.0))
-        look_at_crossing(f, loop, root(before, turn, [&](double x) { return size_over_one(loop, x); }),
-                         period_s, L.size() < 1.0);
+      if ((L.size() < 1.0) != (last.size() < 1.0)) {
+        const double at = root(before, turn, [&](double x) { return loop(x).size() - 1.0; });
+        look_at_crossing(f, at / period_s, left(at), L.size() < 1.0);
+      }
       const bool end = n + 1 == turns.size();  // at half the sampling rate L is real
       if (!end && (L.im < 0.0) != (last.im < 0.0) && L.re < 0.0)
-        look_at_axis(f, loop.at(root(before, turn, [&](double x) { return loop.at(x).im; })));
+        look_at_axis(f, loop(root(before, turn, [&](double x) { return loop(x).im; })));
       if (end) look_at_axis(f, {L.re, 0.0});
       if (!f.bandwidth_rad_s && last_closed >= half_power && through < half_power)
-        f.bandwidth_rad_s =
-            root(before, turn, [&](double x) { return whole.at(x).size() - half_power; }) / period_s;
+        f.bandwidth_rad_s = root(before, turn, [&](double x) { return whole(x) - half_power; }) / period_s;
     }
     last = L;
     last_closed = through;
   }
+  return f;
+}
+
+}  // namespace
+
+LoopFigures loop_figures(const Transfer& loop, double period_s, int points) {
+  const auto at = [&](double turn) { return loop.at(turn); };
+  LoopFigures f = scanned(
+      at, [&](double turn) { return phase_left(loop.at(turn)); }, lowest_turn(loop), period_s, points);
+  f.stable = is_stable(closed(loop).den);
+  return f;
+}
+
+LoopFigures sensed_figures(const SensedLoop& s, double period_s, int points) {
+  const Complex one{1.0, 0.0};
+  const auto H = [&](double turn) { return s.lag.at(turn / period_s); };
+  // The lag's own phase is linear; counted apart it does not wrap, however long the lag is.
+  const auto left = [&](double turn) {
+    return phase_left(s.loop.at(turn)) - turn / period_s * s.lag.delay_s();
+  };
+  LoopFigures f;
+  if (!s.around) {
+    f = scanned([&](double turn) { return s.loop.at(turn) * H(turn); }, left, lowest_turn(s.loop), period_s,
+                points);
+  } else {
+    const auto at = [&](double turn) {
+      const Complex inner = s.around->at(turn);
+      return s.loop.at(turn) * (one + inner) / (one + inner * H(turn));
+    };
+    f = scanned(
+        at, [&](double turn) { return phase_left(at(turn)); }, lowest_turn(s.loop), period_s, points);
+  }
+  f.stable = is_stable(closed(s.loop).den) && !(f.phase_rad && *f.phase_rad <= 0.0);
   return f;
 }
 
@@ -142,22 +178,44 @@ class Recursion {
     for (std::size_t k = 0; k < x_.size(); ++k) x_[k] += k + 1 < x_.size() ? x_[k + 1] : top;
     return y;
   }
+  /// The output now, of a system whose input does not reach it at once.
+  double output() const {
+    double y = 0.0;
+    for (std::size_t k = 0; k < x_.size(); ++k) y += num_[k] * x_[k];
+    return y;
+  }
 
  private:
   Polynomial num_, den_;
   std::vector<double> x_;
 };
 
-}  // namespace
+/// The mean over the last so many samples, 0 before the first.
+class Mean {
+ public:
+  explicit Mean(double samples) : held_(std::max<std::size_t>(1, static_cast<std::size_t>(samples + 0.5))) {}
+  double next(double x) {
+    sum_ += x - held_[at_];
+    held_[at_] = x;
+    at_ = (at_ + 1) % held_.size();
+    return sum_ / static_cast<double>(held_.size());
+  }
 
-StepResponse step_response(const Transfer& closed_loop, double period_s, double seconds, double band) {
+ private:
+  std::vector<double> held_;
+  std::size_t at_ = 0;
+  double sum_ = 0.0;
+};
+
+/// What is told of a step whose samples `next` gives.
+template <class Next>
+StepResponse response(const Next& next, double period_s, double seconds, double band) {
   StepResponse r;
   const std::size_t count = static_cast<std::size_t>(seconds / period_s) + 2;
-  Recursion recursion(closed_loop);
   double highest = 0.0;
   std::size_t inside_from = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    const double y = recursion.next(1.0);
+    const double y = next();
     r.samples.push_back(y);
     highest = std::max(highest, y);
     if (!r.reach_s && y >= 0.98) r.reach_s = static_cast<double>(k) * period_s;
@@ -167,6 +225,24 @@ StepResponse step_response(const Transfer& closed_loop, double period_s, double 
   r.settling_s = inside_from < count ? static_cast<double>(inside_from) * period_s
                                      : std::numeric_limits<double>::infinity();
   return r;
+}
+
+}  // namespace
+
+StepResponse step_response(const Transfer& closed_loop, double period_s, double seconds, double band) {
+  Recursion recursion(closed_loop);
+  return response([&] { return recursion.next(1.0); }, period_s, seconds, band);
+}
+
+StepResponse sensed_step(const SensedLoop& s, double period_s, double seconds, double band) {
+  Recursion recursion(s.loop);
+  Mean mean(s.lag.mean_s / period_s), hold(s.lag.hold_s / period_s);
+  const auto next = [&] {
+    const double y = recursion.output();
+    recursion.next(1.0 - hold.next(mean.next(y)));
+    return y;
+  };
+  return response(next, period_s, seconds, band);
 }
 
 }  // namespace sixstep::design

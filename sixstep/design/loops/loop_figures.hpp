@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "sixstep/design/loops/rotor_sensing.hpp"
 #include "sixstep/design/loops/transfer.hpp"
 
 namespace sixstep::design {
@@ -27,6 +28,18 @@ struct LoopFigures {
 /// hide from the peak of sensitivity; a PI loop has none.
 LoopFigures loop_figures(const Transfer& loop, double period_s, int points = 4096);
 
+/// A loop that sees its speed through a sensor: L H. With `around`, a loop around that speed loop,
+/// `loop` (1 + around)/(1 + around H), which sees its own quantity as it is.
+struct SensedLoop {
+  Transfer loop;
+  SpeedLag lag;
+  std::optional<Transfer> around{};
+};
+
+/// The same figures with the sensor's lag. `stable`: the loop is so without the lag, and no crossing has lost
+/// its phase to it.
+LoopFigures sensed_figures(const SensedLoop& sensed, double period_s, int points = 4096);
+
 struct BodePoint {
   double w_rad_s = 0.0;
   double gain = 0.0, phase_rad = 0.0;  ///< of L, phase unwrapped from the lowest frequency on
@@ -44,5 +57,7 @@ struct StepResponse {
 };
 /// Settled from the first sample on after which each lies inside the band, as study's gauge counts.
 StepResponse step_response(const Transfer& closed_loop, double period_s, double seconds, double band = 0.02);
+/// The same of a loop, given open, whose controller sees the output through the lag, in whole periods.
+StepResponse sensed_step(const SensedLoop& sensed, double period_s, double seconds, double band = 0.02);
 
 }  // namespace sixstep::design

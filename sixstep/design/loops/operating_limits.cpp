@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/design/loops/operating_limits.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "sixstep/base/elementary.hpp"
@@ -36,6 +37,16 @@ double period_for_ripple_s(const MotorModel& motor, double bus_V, control::Chopp
   const double y = ripple_A * 2.0 * motor.machine.R_ohm / swing_V(bus_V, chopping);
   if (!(y < 1.0)) return std::numeric_limits<double>::infinity();
   return 2.0 * base::log((1.0 + y) / (1.0 - y)) * motor.machine.L_H / motor.machine.R_ohm;
+}
+
+NominalCurrent nominal_current(const MotorModel& motor, double bus_V) {
+  if (motor.nominal_current_A > 0.0) return {motor.nominal_current_A, true};
+  return {bus_V / (2.0 * motor.machine.R_ohm) / 10.0, false};
+}
+
+double usual_torque_limit_Nm(const MotorModel& motor, double bus_V) {
+  const double stall_A = bus_V / (2.0 * motor.machine.R_ohm);
+  return motor.K_t_Nm_A * std::fmin(usual_overload * nominal_current(motor, bus_V).A, stall_A);
 }
 
 double headroom_V(const MotorModel& motor, double bus_V, double current_A, double speed_rad_s) {

@@ -25,6 +25,19 @@ Ripple worst_ripple(const MotorModel& motor, double bus_V, double period_s, cont
 double period_for_ripple_s(const MotorModel& motor, double bus_V, control::Chopping chopping,
                            double ripple_A);
 
+/// What a motor stands. Where the sheet names no nominal current, a tenth of the stall current stands in for
+/// it, and `printed` is false: whatever shows the number says so.
+struct NominalCurrent {
+  double A = 0.0;
+  bool printed = true;
+};
+NominalCurrent nominal_current(const MotorModel& motor, double bus_V);
+
+/// Torque that a drive asks for where nobody said: of 2.5 times the nominal current, which a winding stands
+/// for seconds (2 to 3 is usual), and no more than the bus drives through the held rotor.
+inline constexpr double usual_overload = 2.5;
+double usual_torque_limit_Nm(const MotorModel& motor, double bus_V);
+
 /// What is left of the bus for changing the current i at speed w: U_s - R_tt i - K_t w. Negative: i cannot
 /// flow.
 double headroom_V(const MotorModel& motor, double bus_V, double current_A, double speed_rad_s);

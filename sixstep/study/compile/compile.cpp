@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sixstep/base/elementary.hpp"
+#include "sixstep/design/loops/rotor_sensing.hpp"
 #include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/compile/timeline.hpp"
 
@@ -71,7 +72,7 @@ rig::SensorsConfig sensors_of(const Scenario& s, double L_over_R_s) {
   to.decodes_hall = breaks_a_hall_line(s);
   to.capture_Hz = from.capture_Hz;
   to.timeout_s = from.timeout_s;
-  to.edges = static_cast<std::uint8_t>(from.speed_edges);
+  to.edges = static_cast<std::uint8_t>(from.speed_edges);  // 0 is settled where the loops are known
   to.seed = static_cast<std::uint64_t>(from.seed);
   return to;
 }
@@ -134,6 +135,19 @@ base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Compiled& o
   if (out.drive.current_limit_A < out.drive.current_at_full_torque_A)
     out.drive.speed.limit = out.drive.current_limit_A / out.drive.current_at_full_torque_A;
   return {};
+}
+
+/// Edges for the loop that looks at them (design/loops/rotor_sensing.hpp).
+void settle_edges(const Scenario& s, const Basis& basis, Compiled& out) {
+  rig::SensorsConfig& sensors = out.board.sensors;
+  if (sensors.edges != 0) return;
+  const bool cascade = s.control.speed.output == SpeedOutput::current;
+  const double full_A =
+      cascade ? out.drive.current_at_full_torque_A : basis.bus_V / (2 * basis.motor.machine.R_ohm);
+  const double full_rad_s2 = full_A * basis.motor.K_t_Nm_A / basis.shaft.J_kg_m2;
+  // Without a speed loop its gain is 0, and so is the window.
+  sensors.window_s = design::hall_window_s(design::speed_crossover_rad_s(out.drive.speed.d1, full_rad_s2));
+  sensors.edges = sensors.window_s > 0.0 ? 6 : 1;
 }
 
 base::Problems add_loops(const Scenario& s, const Basis& basis, Compiled& out) {
@@ -211,6 +225,7 @@ base::Result<Compiled> compile(const Scenario& s) {
                                   : control::CurrentControl::hysteresis;
   out.drive.hysteresis = {s.control.current.band_A, watch_of(s.control.current)};
   if (base::Problems problems = add_loops(s, basis, out); !problems.empty()) return problems;
+  settle_edges(s, basis, out);
   add_extras(s, basis, out.drive);
   if (s.control.drive == Drive::product) out.product = product_around(s, basis, out.drive, out.board.sensors);
   return out;

@@ -60,7 +60,8 @@ control::ProtectedConfig<double> product_around(const Scenario& s, const Basis& 
   c.bus_adc = decoded(sensors.bus, 0.0);
   c.shunt = {sensors.least_duty, sensors.commutation_samples, sensors.fade};
   c.speed = {base::pi / 3 / pole_pairs * sensors.capture_Hz,
-             static_cast<std::uint32_t>(sensors.timeout_s * sensors.capture_Hz), sensors.edges};
+             static_cast<std::uint32_t>(sensors.timeout_s * sensors.capture_Hz), sensors.edges,
+             rig::window_ticks(sensors)};
   c.position = {sector_deg, sector_deg};
   c.hall.stable_samples = static_cast<std::uint8_t>(s.sensors.hall_stable_samples);
   c.advance = advance_of(s.control.advance);

@@ -37,7 +37,7 @@ struct Sensors {
   double bus_noise_V = 0.0;
   RotorSensing rotor = RotorSensing::ideal;
   double capture_Hz = 1e6;
-  int speed_edges = 6;
+  int speed_edges = 0;  // 0: six where the speed loop stands their delay, else one
   double timeout_s = 0.05;
   int hall_stable_samples = 1;
   int seed = 0;

@@ -80,8 +80,10 @@ void describe(Visitor& v, Sensors& s) {
            .unit = "Hz",
            .range = base::between(1, 1e9)});
   v.value("speed_edges", s.speed_edges,
-          {.meaning = "Hall edges that a speed is taken over; 6 are an electrical turn",
-           .range = base::between(1, 6)});
+          {.meaning = "Hall edges that a speed is taken over; 6 are an electrical turn, over which faults of "
+                      "the probes cancel, and 3.5 sectors old; 0: 6 where they cost the speed loop at most "
+                      "22.5 degrees of phase, else 1",
+           .range = base::between(0, 6)});
   v.value("timeout_s", s.timeout_s,
           {.meaning = "time without a Hall edge that counts as standstill",
            .unit = "s",

@@ -10,6 +10,7 @@
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/run/keep_going.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "sixstep/study/verify/board.hpp"
 
 namespace sixstep::study {
 namespace {
@@ -32,10 +33,14 @@ std::string cure_of_settling(const design::DriveDesign& d) {
 /// The torque ripple of the commutations can be wider than the band of a small step: then settling times say
 /// nothing.
 bool drowned(const DesignStudy& s) {
-  const ComparisonResult* ripple = find(s.outcome, "speed ripple");
-  if (!ripple || s.scenario.reference.values.size() < 2) return false;
+  if (!s.ideal_swing_rad_s || s.scenario.reference.values.size() < 2) return false;
   const std::vector<double>& levels = s.scenario.reference.values;
-  return ripple->measured > 2 * 0.02 * std::fabs(levels[1] - levels[0]);
+  return *s.ideal_swing_rad_s > 2 * design::settling_band(s.design) * std::fabs(levels[1] - levels[0]);
+}
+
+/// Out of tolerance where to look and what to do.
+std::string chiefly(const RobustFigure& f, const char* cure) {
+  return (f.culprit.empty() ? "" : "chiefly for " + f.culprit + "; ") + cure;
 }
 
 /// A loop at whose limits the run was not to come must settle as designed; a quarter more is told.
@@ -56,10 +61,22 @@ void look_at_settling(DesignStudy& s) {
                           cure_of_settling(s.design), false});
 }
 
+/// A limit cycle swings further than the commutations do.
+void look_at_swing(DesignStudy& s) {
+  const std::optional<double> allowed = s.allowed_swing_rad_s;
+  const ComparisonResult* swing = find(s.outcome, "speed ripple");
+  if (!allowed || !swing || swing->measured <= *allowed) return;
+  s.warnings.push_back({"in the simulation the speed swings by " + rounded(swing->measured) +
+                            " rad/s without end; with ideal sensors by " + rounded(*s.ideal_swing_rad_s) +
+                            " rad/s",
+                        cure_of_settling(s.design), true});
+}
+
 void look_at_run(DesignStudy& s) {
   if (s.outcome.fault)
     s.warnings.push_back(
         {"a fault stopped the simulation: " + base::to_string(*s.outcome.fault), "see the scenario", true});
+  look_at_swing(s);
   look_at_settling(s);
   for (const Verdict& v : s.outcome.verdicts)
     if (!v.ok && s.usable())  // else the reason is told
@@ -69,17 +86,21 @@ void look_at_run(DesignStudy& s) {
 
 void look_at_tolerances(DesignStudy& s) {
   if (!s.robustness) return;
+  const std::optional<double> swing = s.allowed_swing_rad_s;
   for (const RobustFigure& f : s.robustness->figures) {
+    if (f.figure == "speed ripple" && swing && f.nominal <= *swing && f.worst > *swing)
+      s.warnings.push_back(
+          {"out of tolerance the speed swings by " + rounded(f.worst) + " rad/s without end: " + f.at,
+           chiefly(f, "design slower (--settle)"), true});
     if (f.figure == "settling time" && !drowned(s) && std::isfinite(f.nominal) && !std::isfinite(f.worst))
       s.warnings.push_back(
-          {"out of tolerance it never settles: " + f.at,
-           (f.culprit.empty() ? "" : "chiefly for " + f.culprit + "; ") + "design slower (--settle)", false});
+          {"out of tolerance it never settles: " + f.at, chiefly(f, "design slower (--settle)"), true});
     const bool position = s.design.wish.mode == control::Mode::position;
-    if (position && f.figure == "overshoot" && f.worst > 1e-9 * std::fabs(s.scenario.reference.value))
+    if (position && f.figure == "overshoot" &&
+        f.worst > allowed_overshoot_deg(s.design, s.scenario.reference.value))
       s.warnings.push_back({"out of tolerance it overshoots by " + rounded(f.worst) + " deg: " + f.at,
-                            (f.culprit.empty() ? "" : "chiefly for " + f.culprit + "; ") +
-                                "lower the gain, or --torque-limit so that braking keeps a reserve",
-                            false});
+                            chiefly(f, "lower the gain, or --torque-limit so that braking keeps a reserve"),
+                            true});
   }
   for (const RobustFigure& f : s.robustness->phases)
     if (f.worst < 30.0 && f.nominal >= 30.0)
@@ -107,10 +128,26 @@ base::Problems find_gain(const DesignOrder& order, DesignStudy& s) {
              "--bandwidth)"}};
   if (base::Problems found = too_long(design_scenario(s.design, order.subject)); !found.empty()) return found;
   base::Result<PositionGain> gain = largest_position_gain(s.design, order.subject, order.keep_going);
+  if (gain && !order.tolerances.empty())
+    gain = lowered_for_tolerances(s.design, order.subject, *gain, order.tolerances, order.for_each,
+                                  order.keep_going);
   if (!gain) return gain.problems();
   s.position = *gain;
   s.design = design::with_position_gain(s.design, gain->gain_rad_s_per_deg);
   return {};
+}
+
+/// What the commutations alone make of the speed: the run once more with ideal sensors, where it had others.
+std::optional<double> ideal_swing(const DesignStudy& s, const std::function<bool()>& keep_going) {
+  const ComparisonResult* swing = find(s.outcome, "speed ripple");
+  if (!swing) return std::nullopt;
+  if (s.scenario.sensors.rotor == RotorSensing::ideal) return swing->measured;
+  const base::Result<Outcome> ideal =
+      run(with_ideal_sensors(s.scenario),
+          {.on_record = {}, .on_event = {}, .keep_going = listening(keep_going), .keep_books = false});
+  if (!ideal) return std::nullopt;
+  const ComparisonResult* found = find(*ideal, "speed ripple");
+  return found ? std::optional(found->measured) : std::nullopt;
 }
 
 }  // namespace
@@ -148,6 +185,9 @@ base::Result<DesignStudy> study_design(const DesignOrder& order) {
   s.outcome = std::move(*outcome);
   if (!order.tolerances.empty())
     s.robustness = robustness(s.design, s.scenario, order.tolerances, order.for_each, order.keep_going);
+  s.ideal_swing_rad_s = ideal_swing(s, order.keep_going);
+  if (s.ideal_swing_rad_s && s.scenario.reference.values.size() > 1)
+    s.allowed_swing_rad_s = allowed_swing_rad_s(*s.ideal_swing_rad_s, s.scenario.reference.values[1]);
   s.warnings = s.design.warnings;
   look_at_run(s);
   look_at_tolerances(s);

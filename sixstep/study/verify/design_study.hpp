@@ -22,7 +22,9 @@ struct DesignStudy {
   Outcome outcome;
   Trace trace;  ///< of that run, as its [record] asks
   std::optional<Robustness> robustness;
-  std::vector<design::Warning> warnings;  ///< the design's, and what only the runs could show
+  std::optional<double> ideal_swing_rad_s;  ///< peak to peak of the speed in steady state, with ideal sensors
+  std::optional<double> allowed_swing_rad_s;  ///< above which the speed loop oscillates (board.hpp)
+  std::vector<design::Warning> warnings;      ///< the design's, and what only the runs could show
 
   bool usable() const;  ///< no warning is grave
 };

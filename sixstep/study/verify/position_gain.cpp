@@ -7,11 +7,12 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/study/run/keep_going.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "sixstep/study/verify/board.hpp"
 
 namespace sixstep::study {
 namespace {
 
-constexpr double precision = 1e-3;
+constexpr double precision = 1e-3, coarse_precision = 0.02;
 
 /// Runs the move with a gain; only the overshoot is looked at.
 class Trial {
@@ -41,6 +42,51 @@ class Trial {
  private:
   const design::DriveDesign& design_;
   const DesignSubject& subject_;
+  const std::function<bool()>& keep_going_;
+};
+
+/// All motors of the tolerances, each making the move with a gain.
+class Field {
+ public:
+  Field(const design::DriveDesign& design, const DesignSubject& subject,
+        const std::vector<Tolerance>& tolerances, const ForEach& for_each,
+        const std::function<bool()>& keep_going)
+      : design_(design),
+        subject_(subject),
+        tolerances_(tolerances),
+        all_(variations(tolerances)),
+        for_each_(for_each),
+        keep_going_(keep_going) {}
+
+  std::size_t motors() const { return all_.size(); }
+
+  bool holds(double gain) {
+    design::DriveDesign d = design_;
+    d.loops.back().gains.d1 = gain;
+    Scenario nominal = design_scenario(d, subject_);
+    nominal.compare.clear();
+    nominal.require.front().max = allowed_overshoot_deg(d, nominal.reference.value);
+    std::vector<base::Result<Outcome>> outcomes(all_.size(), base::Problem{});
+    for_each_(all_.size(), [&](std::size_t n) {
+      outcomes[n] =
+          run(n == 0 ? nominal : varied_scenario(nominal, d.motor, tolerances_, all_[n]),
+              {.on_record = {}, .on_event = {}, .keep_going = listening(keep_going_), .keep_books = false});
+    });
+    for (const base::Result<Outcome>& outcome : outcomes) {
+      if (!outcome) problems = outcome.problems();
+      if (!outcome || outcome->fault || !outcome->passed()) return false;
+    }
+    return true;
+  }
+
+  base::Problems problems;
+
+ private:
+  const design::DriveDesign& design_;
+  const DesignSubject& subject_;
+  const std::vector<Tolerance>& tolerances_;
+  std::vector<Variation> all_;
+  const ForEach& for_each_;
   const std::function<bool()>& keep_going_;
 };
 
@@ -74,8 +120,36 @@ base::Result<PositionGain> largest_position_gain(const design::DriveDesign& desi
       low = middle;
   }
   if (!trial.problems.empty()) return trial.problems;
-  found.gain_rad_s_per_deg = low;
+  found.gain_rad_s_per_deg = found.nominal = low;
   found.runs = trial.runs;
+  return found;
+}
+
+base::Result<PositionGain> lowered_for_tolerances(const design::DriveDesign& design,
+                                                  const DesignSubject& subject, const PositionGain& nominal,
+                                                  const std::vector<Tolerance>& tolerances,
+                                                  const ForEach& for_each,
+                                                  const std::function<bool()>& keep_going) {
+  PositionGain found = nominal;
+  Field field(design, subject, tolerances, for_each, keep_going);
+  const auto holds = [&](double gain) {
+    found.runs += static_cast<int>(field.motors());
+    return field.holds(gain);
+  };
+  double low = nominal.nominal, high = low;
+  while (!holds(low)) {
+    if (low < nominal.nominal / 16 || !field.problems.empty()) break;
+    high = low;
+    low /= 2;
+  }
+  if (!field.problems.empty()) return field.problems;
+  if (low < nominal.nominal / 16) return found;
+  while (high - low > coarse_precision * low) {
+    const double middle = low + (high - low) / 2;
+    (holds(middle) ? low : high) = middle;
+  }
+  if (!field.problems.empty()) return field.problems;
+  found.gain_rad_s_per_deg = low;
   return found;
 }
 

@@ -6,6 +6,7 @@
 
 #include "sixstep/base/result.hpp"
 #include "sixstep/study/verify/design_scenario.hpp"
+#include "sixstep/study/verify/robust.hpp"
 
 namespace sixstep::study {
 
@@ -14,6 +15,8 @@ struct PositionGain {
   double estimate = 0.0;    ///< a closed form below it: what braking from full speed allows
   double linear = 0.0;      ///< above it: the linear loop's own
   double overshoots = 0.0;  ///< the smallest gain tried that overshoots; 0 where none did
+  double nominal =
+      0.0;  ///< what the motor of the sheet stands; the gain is lower where tolerances ask for it
   int runs = 0;
 };
 
@@ -24,5 +27,13 @@ struct PositionGain {
 base::Result<PositionGain> largest_position_gain(const design::DriveDesign& design,
                                                  const DesignSubject& subject,
                                                  const std::function<bool()>& keep_going = {});
+
+/// The gain lowered until no motor of the tolerances overshoots by more than allowed_overshoot_deg
+/// (board.hpp), to a part in 50; the nominal one where a sixteenth of it does not do either.
+base::Result<PositionGain> lowered_for_tolerances(const design::DriveDesign& design,
+                                                  const DesignSubject& subject, const PositionGain& nominal,
+                                                  const std::vector<Tolerance>& tolerances,
+                                                  const ForEach& for_each,
+                                                  const std::function<bool()>& keep_going = {});
 
 }  // namespace sixstep::study

@@ -57,7 +57,8 @@ struct RobustFigure {
 
 struct Robustness {
   std::vector<RobustFigure> figures;  ///< of the scenario's comparisons, in their order
-  std::vector<RobustFigure> phases;   ///< of each loop with one period of delay, in degrees: worst is least
+  /// Of each loop with one period of delay and the sensor of the speed, in degrees: worst is least.
+  std::vector<RobustFigure> phases;
   std::size_t runs = 0;
 };
 

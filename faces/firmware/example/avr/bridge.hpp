@@ -10,7 +10,7 @@
 namespace firmware {
 
 struct Pins {
-  std::uint8_t TCCR1A;  ///< COM1A1, COM1B1, COM1C1 and WGM11 (fast PWM up to ICR1)
+  std::uint8_t TCCR1A;  ///< COM1A1, COM1B1, COM1C1 and WGM11 (phase correct up to ICR1)
   std::uint8_t PORTA;
 };
 

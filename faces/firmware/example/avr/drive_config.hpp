@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // clang-format off
 // Made by sixstep 0.1.0. Change the scenario, not this file:
-//   sixstep export header data/scenarios/thesis/7.3.1-turning-exact-design.toml --set pwm.period_s=300e-6 --arithmetic q15 --range current_A=25 --range setpoint=20 --out faces/firmware/example/avr/drive_config.hpp
+//   sixstep export header data/scenarios/firmware/avr.toml --arithmetic q15 --range current_A=25 --range setpoint=20 --out faces/firmware/example/avr/drive_config.hpp
 //
-// scenario  7.3.1 Current PI, rotor turning, the same rule evaluated exactly
-// motor     maxon EC 45 flat 251601: 8 pole pairs, terminal R = 1.03 ohm, L = 0.000572 H, K_t = 0.0335 N m/A; J = 1.35e-05 kg m2
-// current   d1 = 2.93109 V/A, d0 = -1.28162 V/A; pole placement from settle_s and damping; poles z = 0.197448 +- 0.155904j (settle_s = 0.001, damping = 0.9) on 0.405217/(z -0.582626)
+// scenario  Current loop in Q15 on an AVR: one shunt, a tick every 300 us
+// motor     maxon EC 45 flat 251601: 8 pole pairs, terminal R = 1.03 ohm, L = 0.000572 H, K_t = 0.0335 N m/A; J = 0.0001135 kg m2
+// current   d1 = 0.720057 V/A, d0 = -0.419524 V/A; given as d1, d0; poles z = 0.708221 and 0.582626 on 0.405217/(z -0.582626); settle_s = 0.001, damping = 0.9 would give d1 = 2.93109, d0 = -1.28162
 // Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the motor.
 //
 // Fixed point: what each quantity may reach and where the format ends, in SI
@@ -17,7 +17,7 @@
 //   voltage with feed-forward             24 of 24
 //   bus                                   24 of 24
 //   current.limit                         24 of 24
-//   current integral increment       74.2263 of 336
+//   current integral increment        13.524 of 336
 #pragma once
 #include <cstdint>
 
@@ -38,10 +38,10 @@ inline constexpr sixstep::control::Units<Scalar> units{
 
 inline constexpr std::uint8_t pole_pairs = 8;                             // electrical turns per mechanical one
 inline constexpr std::uint64_t pwm_period_ps = 300000000;                 // 300 us, and the period of the control tick
-inline constexpr bool pwm_centre_aligned = false;                         // else the on-time begins with the period
-inline constexpr std::uint64_t dead_time_ps = 0;                          // 0 us
+inline constexpr bool pwm_centre_aligned = true;                          // else the on-time begins with the period
+inline constexpr std::uint64_t dead_time_ps = 1000000;                    // 1 us
 inline constexpr bool commutate_at_sample = false;                        // else in the Hall interrupt
-inline constexpr bool command_delayed = false;                            // a command counts from the next period on
+inline constexpr bool command_delayed = true;                             // a command counts from the next period on
 
 constexpr sixstep::control::DriveConfig<Scalar> make_drive() {
   using namespace sixstep::control;
@@ -51,8 +51,8 @@ constexpr sixstep::control::DriveConfig<Scalar> make_drive() {
   c.current_control = CurrentControl::pi;
   c.speed_control = SpeedControl::cascade;
   c.hysteresis.watch = Watch::motor;
-  c.current.d1 = Gain<Scalar>::from_raw(22511, 12);                       // 2.93109301 V/A, held as 2.93112
-  c.current.K_i = Gain<Scalar>::from_raw(25336, 13);                      // 1.64947441 V/A, held as 1.64948: d1 + d0, per sample
+  c.current.d1 = Gain<Scalar>::from_raw(22120, 14);                       // 0.720057 V/A, held as 0.720052
+  c.current.K_i = Gain<Scalar>::from_raw(18465, 15);                      // 0.300533 V/A, held as 0.300537: d1 + d0, per sample
   c.current.limit = Scalar::from_raw(32767);                              // 24 V
   c.hysteresis.band_A = Scalar::from_raw(146);                            // 0.2 A, held as 0.200507
   c.nominal_bus_V = Divisor<Scalar>::from_reciprocal(Gain<Scalar>::from_raw(16385, 14));  // 24 V, held as 23.9993: duty 1

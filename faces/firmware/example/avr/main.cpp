@@ -16,15 +16,19 @@ using exported::drive, exported::Scalar, exported::units;
 
 static_assert(drive.mode == Mode::current && drive.chopping == Chopping::soft,
               "what these pins and loops are for");
-constexpr auto pwm_counts = static_cast<std::uint32_t>(exported::pwm_period_ps / 62'500);  // of 1/16 MHz
+static_assert(exported::pwm_centre_aligned && exported::command_delayed,
+              "timer 1 counts up and down, and its compare registers are taken at the top");
+// Up and down again, of 1/16 MHz.
+constexpr auto pwm_counts = static_cast<std::uint32_t>(exported::pwm_period_ps / 62'500 / 2);
 
 // 5 V over 10 bits, 0.1 V/A, 0 A in the middle: 25 A both ways
 constexpr AdcConfig<Scalar> adc{
     .per_eighth = units.amperes_per_count(5.0 / 1024 / 0.1), .offset_counts = 512, .offset_tolerance = 15};
-constexpr OneShuntConfig<Scalar> shunt{// sampled and settled 15 us into the period; fade = exp(-T R/L)
-                                       .least_duty = units.plain(0.05),
-                                       .commutation_samples = 2,
-                                       .fade = units.plain(0.583)};
+constexpr OneShuntConfig<Scalar> shunt{
+    // settled 15 us after the edge, half an on-time before the sample
+    .least_duty = units.plain(0.1),  // 2 times 15 of 300 us; fade = exp(-T R/L)
+    .commutation_samples = 2,
+    .fade = units.plain(0.583)};
 constexpr Scalar over_current = units.amperes(24);
 
 DriveState<Scalar> state;
@@ -46,10 +50,9 @@ void apply(const BridgeCommand<Scalar>& command) {
   const Pins to = pins(command, counts > 0);
   TCCR1A() = upper_gates_off.TCCR1A;
   PORTA() = to.PORTA;
-  const auto last = static_cast<std::uint16_t>(counts - (counts > 0));  // the on-time's last count
-  OCR1A() = last;
-  OCR1B() = last;
-  OCR1C() = last;
+  OCR1A() = counts;
+  OCR1B() = counts;
+  OCR1C() = counts;
   TCCR1A() = to.TCCR1A;
 }
 
@@ -73,7 +76,7 @@ Measurement<Scalar> measured(std::uint8_t code, std::uint16_t counts) {
 
 }  // namespace firmware
 
-/// Timer 1's overflow, the beginning of a PWM period, starts the conversion; its end calls here.
+/// Timer 1's overflow, its bottom in the middle of the on-time, starts the conversion; its end calls here.
 extern "C" __attribute__((signal, used)) void INTERRUPT_ADC() {
   using namespace firmware;
   TIFR1() = timer1_overflow;  // the next overflow triggers again

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // clang-format off
 // Made by sixstep 0.1.0. Change the scenario, not this file:
-//   sixstep export header data/scenarios/thesis/7.4-speed-exact-design.toml --arithmetic float --out faces/firmware/example/cortex_m/drive_config.hpp
+//   sixstep export header data/scenarios/firmware/cortex-m.toml --arithmetic float --out faces/firmware/example/cortex_m/drive_config.hpp
 //
-// scenario  7.4 Speed cascade, the same rule evaluated exactly
+// scenario  Speed cascade on a Cortex-M: 70 to 300 rad/s on Hall probes
 // motor     maxon EC 45 flat 251601: 8 pole pairs, terminal R = 1.03 ohm, L = 0.000572 H, K_t = 0.0335 N m/A; J = 1.35e-05 kg m2
 // current   d1 = 4.09559 V/A, d0 = -3.69396 V/A; pole placement from settle_s and damping; poles z = 0.869154 +- 0.0581778j (settle_s = 0.001, damping = 0.9) on 0.0510561/(z -0.947412)
-// speed     d1 = 0.0158299 per rad/s, d0 = -0.0156961 per rad/s; pole placement from settle_s and damping; poles z = 0.986273 +- 0.006592j (settle_s = 0.01, damping = 0.9) on 1.73332/(z -0.999984)
+// speed     d1 = 0.0158648 per rad/s, d0 = -0.015831 per rad/s; pole placement from settle_s and damping; poles z = 0.996555 +- 0.00166516j (settle_s = 0.04, damping = 0.9) on 0.43333/(z -0.999984)
 // Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the motor.
 #pragma once
 #include <cstdint>
 
-#include "sixstep/control/drive.hpp"
+#include "sixstep/control/protected_drive.hpp"
 #include "sixstep/control/units.hpp"
 
 namespace exported {
@@ -29,9 +29,9 @@ inline constexpr sixstep::control::Units<Scalar> units{
 inline constexpr std::uint8_t pole_pairs = 8;                             // electrical turns per mechanical one
 inline constexpr std::uint64_t pwm_period_ps = 30000000;                  // 30 us, and the period of the control tick
 inline constexpr bool pwm_centre_aligned = false;                         // else the on-time begins with the period
-inline constexpr std::uint64_t dead_time_ps = 0;                          // 0 us
+inline constexpr std::uint64_t dead_time_ps = 500000;                     // 0.5 us
 inline constexpr bool commutate_at_sample = false;                        // else in the Hall interrupt
-inline constexpr bool command_delayed = false;                            // a command counts from the next period on
+inline constexpr bool command_delayed = true;                             // a command counts from the next period on
 
 constexpr sixstep::control::DriveConfig<Scalar> make_drive() {
   using namespace sixstep::control;
@@ -46,13 +46,52 @@ constexpr sixstep::control::DriveConfig<Scalar> make_drive() {
   c.current.limit = 0x1.8p+4f;                                            // 24 V
   c.hysteresis.band_A = 0x1.99999ap-3f;                                   // 0.2 A
   c.nominal_bus_V = 0x1.8p+4f;                                            // 24 V: duty 1
-  c.speed.d1 = 0x1.035b68p-6f;                                            // 0.0158298993 per rad/s
-  c.speed.d0 = -0x1.012a46p-6f;                                           // -0.0156961146 per rad/s
+  c.speed.d1 = 0x1.03ed9ap-6f;                                            // 0.015864755 per rad/s
+  c.speed.d0 = -0x1.035fdep-6f;                                           // -0.0158309613 per rad/s
   c.speed.limit = 0x1p+0f;                                                // 1 of full torque
-  c.current_at_full_torque_A = 0x1.74898ep+4f;                            // 23.2835821 A: torque limit over K_t
-  c.current_limit_A = 0x1.74898ep+4f;                                     // 23.2835821 A
+  c.current_at_full_torque_A = 0x1.74898ep+2f;                            // 5.82089552 A: torque limit over K_t
+  c.current_limit_A = 0x1.74898ep+2f;                                     // 5.82089552 A
   return c;
 }
 inline constexpr sixstep::control::DriveConfig<Scalar> drive = make_drive();
+
+constexpr sixstep::control::ProtectedConfig<Scalar> make_product() {
+  using namespace sixstep::control;
+  ProtectedConfig<Scalar> c;
+  c.drive = drive;
+  c.setpoint_limit = 0x1.2cp+8f;                                          // 300 rad/s
+  c.sensing = CurrentSensing::phases;
+  c.current_adc[0].per_eighth = 0x1.08p-9f;                               // 0.00201416016 A: per eighth of a count
+  c.current_adc[0].offset_counts = 2048;
+  c.current_adc[0].offset_tolerance = 41;                                 // counts
+  c.current_adc[1].per_eighth = 0x1.08p-9f;                               // 0.00201416016 A: per eighth of a count
+  c.current_adc[1].offset_counts = 2048;
+  c.current_adc[1].offset_tolerance = 41;                                 // counts
+  c.current_adc[2].per_eighth = 0x1.08p-9f;                               // 0.00201416016 A: per eighth of a count
+  c.current_adc[2].offset_counts = 2048;
+  c.current_adc[2].offset_tolerance = 41;                                 // counts
+  c.bus_adc.per_eighth = 0x1.a66666p-10f;                                 // 0.00161132812 V: per eighth of a count
+  c.shunt.least_duty = 0x1.111112p-1f;                                    // 0.533333333: above it a sample shows the current
+  c.shunt.commutation_samples = 4;
+  c.shunt.fade = 0x1.e51338p-1f;                                          // 0.947412231: of a hidden current, per tick
+  c.speed.sector_rad_s_ticks = 0x1.1f9f14p+23f;                           // 9424777.96 rad/s: times the ticks of a sector
+  c.speed.timeout_ticks = 7200000;                                        // of the timer: it stands
+  c.speed.edges = 6;
+  c.speed.window_ticks = 211515;                                          // of the timer: longer, and one edge is taken
+  c.position.per_sector = 0x1.ep+2f;                                      // 7.5 deg
+  c.position.per_fraction = 0x1.ep+2f;                                    // 7.5 deg
+  c.faults.over_current_A = 0x1.ep+3f;                                    // 15 A
+  c.faults.over_voltage_V = 0x1.ep+4f;                                    // 30 V
+  c.faults.under_voltage_V = 0x1.4p+3f;                                   // 10 V
+  c.faults.over_speed_rad_s = 0x1.9p+9f;                                  // 800 rad/s
+  c.faults.stall_current_A = 0x1p+3f;                                     // 8 A
+  c.faults.stall_ticks = 10000;                                           // control periods
+  c.faults.voltage_ticks = 3;                                             // control periods
+  c.brake_current_A = 0x1p+1f;                                            // 2 A
+  c.short_below_rad_s = 0x1.9p+6f;                                        // 100 rad/s
+  c.standing_rad_s = 0x1.4p+2f;                                           // 5 rad/s
+  return c;
+}
+inline constexpr sixstep::control::ProtectedConfig<Scalar> product = make_product();
 
 }  // namespace exported

@@ -10,35 +10,15 @@
 namespace firmware {
 
 using namespace sixstep::control;
-using exported::Scalar, exported::units;
+using exported::Scalar;
 
 constexpr std::uint32_t clock_MHz = 72;
 constexpr auto pwm_counts = static_cast<std::uint32_t>(exported::pwm_period_ps * clock_MHz / 1'000'000);
 
-constexpr ProtectedConfig<Scalar> make_config() {
-  ProtectedConfig<Scalar> c;
-  c.drive = exported::drive;
-  c.setpoint_limit = units.rad_per_s(600);
-  // 3.3 V over 12 bits, 0.05 V/A, 0 A in the middle: 33 A both ways
-  for (AdcConfig<Scalar>& adc : c.current_adc)
-    adc = {.per_eighth = units.amperes_per_count(3.3 / 4096 / 0.05),
-           .offset_counts = 2048,
-           .offset_tolerance = 60};
-  c.bus_adc = {.per_eighth = units.volts_per_count(3.3 / 4096 * 16)};  // divider 15 to 1
-  c.speed = units.hall_speed(exported::pole_pairs, clock_MHz * 1e6, 7'200'000, 6);
-  c.faults = {.over_current_A = units.amperes(30),
-              .over_voltage_V = units.volts(30),
-              .under_voltage_V = units.volts(10),
-              .over_speed_rad_s = units.rad_per_s(800),
-              .stall_current_A = units.amperes(20),
-              .stall_ticks = 10'000,
-              .voltage_ticks = 3};
-  c.brake_current_A = units.amperes(5);
-  c.short_below_rad_s = units.rad_per_s(100);
-  c.standing_rad_s = units.rad_per_s(5);
-  return c;
-}
-constexpr ProtectedConfig<Scalar> config = make_config();
+// Gains, converters, capture and thresholds, as the scenario simulated them.
+constexpr const ProtectedConfig<Scalar>& config = exported::product;
+static_assert(exported::command_delayed,
+              "the compare registers are preloaded: a command counts from the next period on");
 
 ProtectedState<Scalar> state;
 ProtectedTelemetry<Scalar> telemetry;  // for a display; the drive never reads it

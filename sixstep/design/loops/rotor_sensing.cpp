@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/loops/rotor_sensing.hpp"
+
+#include <cmath>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/elementary.hpp"
+
+namespace sixstep::design {
+namespace {
+
+double sinc(double x) { return std::fabs(x) < 1e-4 ? 1.0 - x * x / 6.0 : base::sin(x) / x; }
+
+double sector_s(double pole_pairs, double speed_rad_s) { return base::pi / 3 / (pole_pairs * speed_rad_s); }
+
+constexpr int one_turn = 6;  // sectors of an electrical turn
+
+}  // namespace
+
+double hall_window_s(double crossover_rad_s) {
+  if (!(crossover_rad_s > 0.0)) return 0.0;
+  return six_edges_phase_rad / crossover_rad_s * 2 * one_turn / (one_turn + 1);
+}
+
+double speed_crossover_rad_s(double d1, double full_acceleration_rad_s2) {
+  return std::fabs(d1) * full_acceleration_rad_s2;
+}
+
+Complex SpeedLag::at(double v_rad_s) const {
+  const double size = sinc(v_rad_s * mean_s / 2) * sinc(v_rad_s * hold_s / 2), turn = v_rad_s * delay_s();
+  return {size * base::cos(turn), -size * base::sin(turn)};
+}
+
+SpeedLag speed_lag(const RotorSensing& sensing, double pole_pairs, double speed_rad_s,
+                   double crossover_rad_s) {
+  if (!sensing.hall) return {};
+  const double T = sector_s(pole_pairs, speed_rad_s);
+  if (sensing.edges > 0) return {sensing.edges * T, T};
+  const double window = hall_window_s(crossover_rad_s);
+  const SpeedLag one{T, T};
+  // Six edges from the speed on at which they fit into the window: above it they come faster.
+  const double at_most = std::fmin(window, one_turn * T);
+  const SpeedLag six{at_most, at_most / one_turn};
+  return six.delay_s() > one.delay_s() || one_turn * T <= window ? six : one;
+}
+
+std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_pairs, double speed_rad_s,
+                                      double crossover_rad_s) {
+  if (!sensing.hall) return {};
+  const SpeedLag lag = speed_lag(sensing, pole_pairs, speed_rad_s, crossover_rad_s);
+  std::vector<DerivationStep> steps{
+      {"w_low", "lowest speed asked for", speed_rad_s, "rad/s"},
+      {"T", "(pi/3)/(p w_low), a sector at that speed", sector_s(pole_pairs, speed_rad_s), "s"}};
+  if (sensing.edges == 0)
+    steps.push_back({"T_6", "pi/8 12/7 / w_c: six edges where they come within it, else one",
+                     hall_window_s(crossover_rad_s), "s"});
+  else
+    steps.push_back({"k", "edges that a speed is taken over", static_cast<double>(sensing.edges), ""});
+  steps.push_back({"delay", "(k + 1)/2 sectors, the most from w_low up", lag.delay_s(), "s"});
+  steps.push_back({"phase", "w_c times it, what the sensor costs",
+                   crossover_rad_s * lag.delay_s() * 180 / base::pi, "deg"});
+  return steps;
+}
+
+}  // namespace sixstep::design

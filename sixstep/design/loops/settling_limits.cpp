@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/loops/settling_limits.hpp"
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/design/loops/design_warnings.hpp"
+#include "sixstep/design/loops/loop_figures.hpp"
+
+namespace sixstep::design {
+namespace {
+
+constexpr double longest_s = 1000.0;
+constexpr int points = 512;  // of a PI loop, whose phase has no narrow features
+
+bool holds(const SettlingQuestion& q, const RotorSensing& sensing, double speed_rad_s, double settle_s) {
+  const plant::Shaft& shaft = q.drive.motor.shaft;
+  const ZohPlant plant = speed_plant(q.torque_limit_Nm, shaft.J_kg_m2, shaft.B_Nm_s, q.drive.period_s);
+  const base::Result<PolePlacement> placed = place_poles(plant, settle_s, q.damping, q.drive.period_s);
+  if (!placed) return false;
+  DriveLoops drive = q.drive;
+  drive.speed = placed->gains;
+  const double crossover = speed_crossover_rad_s(placed->gains.d1, q.torque_limit_Nm / shaft.J_kg_m2);
+  const SpeedLag lag = speed_lag(sensing, drive.motor.machine.pole_pairs, speed_rad_s, crossover);
+  const LoopFigures f = sensed_figures({open_speed_loop(drive), lag}, drive.period_s, points);
+  return f.stable && f.phase_rad && *f.phase_rad * 180 / base::pi >= least_phase_deg;
+}
+
+}  // namespace
+
+std::optional<double> fastest_settling_s(const SettlingQuestion& q, const RotorSensing& sensing,
+                                         double lowest_speed_rad_s) {
+  // The phase grows with the settling time: doubled until it holds, then halved to a thousandth.
+  double low = 2 * q.drive.period_s, high = 4 * q.drive.period_s;
+  while (!holds(q, sensing, lowest_speed_rad_s, high)) {
+    low = high;
+    high *= 2;
+    if (high > longest_s) return std::nullopt;
+  }
+  while (high - low > 1e-3 * low) {
+    const double middle = low + (high - low) / 2;
+    (holds(q, sensing, lowest_speed_rad_s, middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+std::vector<SettlingLimit> settling_limits(const SettlingQuestion& question, double lowest_speed_rad_s) {
+  std::vector<SettlingLimit> out;
+  for (const int edges : {1, 6, 0})
+    for (const double times : {1.0, 2.0, 5.0}) {
+      const RotorSensing sensing{.hall = true, .edges = edges};
+      const double speed = times * lowest_speed_rad_s;
+      out.push_back({sensing, speed, fastest_settling_s(question, sensing, speed)});
+    }
+  return out;
+}
+
+}  // namespace sixstep::design
