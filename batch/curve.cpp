@@ -21,7 +21,7 @@ base::Result<study::Curve> torque_speed_curve(const study::CurveRequest& asked,
     if (!*result) return result->problems();
     found.push_back(**result);
   }
-  return study::curve_of(request, *plan, found);
+  return study::curve_of(request, *plan, found, for_each);
 }
 
 }  // namespace batch

@@ -5,7 +5,7 @@
 
 #include "batch/rooms.hpp"
 #include "sixstep/study/curve/curve.hpp"
-#include "sixstep/study/verify/robust.hpp"
+#include "sixstep/study/for_each.hpp"
 
 namespace batch {
 

@@ -33,7 +33,8 @@ hysteresis band that is crossed within 100 ns. In a table of rows what is smalle
 `extends = "base.toml"`, or a list of files, takes what stands in other scenarios, each name relative to the file that names
 it. What is nearer wins: this file over its bases, a later base over an earlier one, `--set` over all. Tables under headings are
 joined key by key. Lists of tables, as `[[require]]`, are joined too, the bases' first, unless this file's is empty: `require = []`.
-Whatever stands in brackets or braces is one value and replaces the other.
+Whatever stands in brackets or braces is one value and replaces the other. Empty braces drop a table that a base has, as if
+nobody had written it: `load = {}`, or `speed = {}` under `[control]`.
 
 `[[at]]` changes something at an instant of the run: the reference, the source's voltage, the load, a Hall line, the request to
 the product drive. A reference that moves is looked at by each control tick, and held until the next. Figures that are taken of
@@ -58,7 +59,9 @@ frames, one must be written. [Motors](motors.md) explains the numbers, and `sixs
 
 class Entry:
     def __init__(self, program, path):
-        lines = subprocess.run([program, "help", path], capture_output=True, text=True, check=True).stdout.splitlines()
+        told = subprocess.run([program, "help", path], capture_output=True, text=True, check=True).stdout
+        below = told.rpartition(f"The key {path} of a scenario:\n")[2]  # a command may have that name too
+        lines = below.splitlines()
         self.path, self.meaning, self.type = lines[0], lines[1].strip(), lines[2].strip()
         self.inner = [line.split()[0] for line in lines[3:] if line.startswith(f"  {path}.")]
         self.required = "  required" in lines

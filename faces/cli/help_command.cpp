@@ -68,7 +68,8 @@ const KeyEntry* by_name(const std::vector<KeyEntry>& entries, const std::string&
   return found;
 }
 
-/// Who asks for a command's help here means `sixstep COMMAND --help`; a key of that name comes first.
+/// Who asks for a command's help here means `sixstep COMMAND --help`; where a key has that name too, the
+/// command comes first and the key below it.
 const CLI::App* command_of(const CLI::App& app, const std::string& name) {
   const auto found = app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == name; });
   return found.empty() ? nullptr : found.front();
@@ -80,20 +81,20 @@ Exit help_command(const CLI::App& app, const std::string& key) {
     print(overview(scenario, sheet));
     return Exit::ok;
   }
+  const CLI::App* const verb = command_of(app, key);
+  if (verb) print(verb->help(app.get_name()));
   if (const KeyEntry* entry = by_path(scenario, key)) {
+    if (verb) print(fmt::format("The key {} of a scenario:\n", key));
     print(is_table(*entry) ? of_table(scenario, *entry) : of_key(*entry));
     return Exit::ok;
   }
+  if (verb) return Exit::ok;
   if (const KeyEntry* entry = io::find_key(sheet, key)) {
     print(io::help_text(*entry) + "  in a motor file or in [motor_override]\n");
     return Exit::ok;
   }
   if (const KeyEntry* entry = by_name(scenario, key)) {
     print(of_key(*entry));
-    return Exit::ok;
-  }
-  if (const CLI::App* verb = command_of(app, key)) {
-    print(verb->help(app.get_name()));
     return Exit::ok;
   }
   std::vector<std::string> known;

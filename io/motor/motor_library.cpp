@@ -24,6 +24,23 @@ std::vector<std::string> candidates(const MotorQuery& query) {
   return paths;
 }
 
+/// A slip of the pen means one motor; a maker's name or an order number all that contain it.
+std::string motor_meant(const std::string& name) {
+  const std::vector<std::string> all = built_in_motors();
+  if (const std::string near = nearest(name, all); !near.empty())
+    return fmt::format("did you mean \"{}\"?", near);
+  std::string word = fs::path(name).stem().string();
+  for (char& c : word)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  std::vector<std::string> holding;
+  constexpr std::size_t fewest_letters = 2;
+  for (const std::string& motor : all)
+    if (word.size() >= fewest_letters && motor.find(word) != std::string::npos) holding.push_back(motor);
+  if (holding.empty())
+    return "sixstep motor list shows the built-in ones, sixstep motor new writes the file of another";
+  return "did you mean " + quoted_alternatives(holding) + "?";
+}
+
 }  // namespace
 
 std::vector<std::string> built_in_motors() {
@@ -48,12 +65,8 @@ base::Result<Document> find_motor(const MotorQuery& query) {
   for (const motors::File& file : motors::all)
     if (file.name == query.name)
       return Document::parse(fmt::format("built-in {}", file.name), std::string(file.text));
-  const std::vector<std::string> names = built_in_motors();
-  const std::string near = nearest(query.name, names);
   return base::Problem{.limit = fmt::format("is neither {} nor a built-in motor", fmt::join(paths, " nor ")),
-                       .cure = near.empty() ? "sixstep motor list shows the built-in ones, sixstep motor new "
-                                              "writes the file of another"
-                                            : fmt::format("did you mean \"{}\"?", near)};
+                       .cure = motor_meant(query.name)};
 }
 
 }  // namespace io

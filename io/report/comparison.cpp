@@ -30,8 +30,9 @@ std::string table(const char* first, std::size_t runs, const std::string& rows) 
   std::string head = fmt::format("<th scope=\"col\">{}</th>", first);
   for (std::size_t k = 0; k < runs; ++k)
     head += fmt::format("<th scope=\"col\" class=\"num\">{}</th>", number(k));
-  return fmt::format("<table class=\"compared\"><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table>\n",
-                     head, rows);
+  return fmt::format(
+      "<table class=\"compared\" style=\"--runs:{}\"><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table>\n",
+      runs, head, rows);
 }
 
 std::string run_rows(const std::vector<ComparedRun>& runs) {
@@ -155,14 +156,10 @@ std::string usual_figures(const std::vector<ComparedRun>& runs) {
     const auto held = held_back(run.events, run.scenario, run.outcome);
     return held && run.events.whole.empty() ? std::optional(Measured{held->bus_s, ""}) : std::nullopt;
   });
-  rows += figure_row("mean switching frequency", "Hz", runs,
+  rows += figure_row("switching frequency of the whole run", "Hz", runs,
                      [](const ComparedRun& run) -> std::optional<Measured> {
-                       const auto counts = turn_on_counts(run.events);
-                       if (!counts || !run.events.whole.empty() || !(run.outcome.simulated_s > 0.0))
-                         return std::nullopt;
-                       double all = 0.0;
-                       for (const long long n : *counts) all += static_cast<double>(n);
-                       return Measured{all / run.outcome.simulated_s, ""};
+                       if (!(run.outcome.simulated_s > 0.0)) return std::nullopt;
+                       return Measured{switching_frequency_Hz(run.outcome), ""};
                      });
   return rows + energy_rows(runs);
 }

@@ -196,6 +196,10 @@ std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
   return out;
 }
 
+double switching_frequency_Hz(const sixstep::study::Outcome& outcome) {
+  return static_cast<double>(outcome.turn_ons) / outcome.simulated_s;
+}
+
 std::optional<std::array<long long, 6>> turn_on_counts(const Trace& trace) {
   static constexpr const char* names[] = {"gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"};
   std::array<long long, 6> counts{};

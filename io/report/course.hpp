@@ -52,6 +52,11 @@ struct Held {
 std::optional<Held> held_back(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
                               const sixstep::study::Outcome& outcome);
 
+/// Turn-ons per second of what is chopped, as the figure of that name: the PWM's frequency where a PWM chops.
+/// All six switches together turn on more often: commutation turns on too, and the other switch of a leg that
+/// is chopped complementarily.
+double switching_frequency_Hz(const sixstep::study::Outcome& outcome);
+
 /// Turn-ons of T1 to T6, from whole_from_s() on.
 std::optional<std::array<long long, 6>> turn_on_counts(const sixstep::study::Trace& trace);
 

@@ -2,6 +2,7 @@
 #include "io/report/curve_charts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -30,7 +31,7 @@ using Of = std::function<double(const Place&)>;
 struct Line {
   const char *label, *style, *meaning;
   Of of;
-  bool points = false;
+  enum class Drawn { line, points, region } drawn = Drawn::line;  ///< a region is filled down to zero
 };
 
 template <double study::OperatingPoint::*member>
@@ -42,7 +43,11 @@ class Charts {
  public:
   Charts(const study::CurveRequest& request, const study::Curve& curve) : request_(request), curve_(curve) {
     for (const study::OperatingPoint& p : curve.points) places_.push_back({&p});
-    if (curve.nominal) places_.push_back({&curve.nominal->on_curve, &*curve.nominal});
+    if (curve.marks.best_efficiency) places_.push_back({&*curve.marks.best_efficiency});
+    if (curve.marks.for_ever) places_.push_back({&*curve.marks.for_ever});
+    if (curve.marks.nominal) places_.push_back({&*curve.marks.nominal});
+    if (curve.nominal && curve.nominal->at_speed)
+      places_.push_back({&*curve.nominal->at_speed, &*curve.nominal});
     std::stable_sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
       return a.point->speed_rad_s < b.point->speed_rad_s;
     });
@@ -50,32 +55,40 @@ class Charts {
     for (const Place& place : places_) rpm.push_back(place.point->speed_rad_s * rpm_per_rad_s);
     out_["axis"] = base64(std::span<const double>(rpm));
     out_["charts"] = json::array();
+    corner_Nm_ = corner_Nm();
   }
 
   void add(const char* id, const char* title, const char* unit, int height, const std::vector<Line>& lines) {
     json chart = {{"id", id}, {"title", title}, {"unit", unit}, {"height", height}};
+    double corner = 0.0;
     for (const Line& line : lines) {
       std::vector<float> values;
-      for (const Place& place : places_) values.push_back(static_cast<float>(line.of(place)));
+      for (const Place& place : places_) {
+        const double v = line.of(place);
+        values.push_back(static_cast<float>(v));
+        if (place.point->shaft_torque_Nm <= corner_Nm_) corner = std::fmax(corner, v);
+      }
       chart["curves"].push_back({{"label", line.label},
                                  {"style", line.style},
                                  {"meaning", line.meaning},
-                                 {"points", line.points},
+                                 {"points", line.drawn == Line::Drawn::points},
+                                 {"region", line.drawn == Line::Drawn::region},
                                  {"data", base64(std::span<const float>(values))}});
     }
+    if (corner_Nm_ > 0.0) chart["corner"] = corner;
     out_["charts"].push_back(std::move(chart));
   }
 
   void torque() {
-    std::vector<Line> lines = {
-        {"shaft", "main", "mean torque on the shaft", of<&study::OperatingPoint::shaft_torque_Nm>(milli)},
-        {"ideal", "reference", "straight line without commutation time and friction", [this](const Place& p) {
-           return milli * study::ideal_torque_Nm(request_.bench, p.point->speed_rad_s);
-         }}};
+    std::vector<Line> lines = regions();
+    lines.insert(lines.end(), {{"shaft", "main", "mean torque on the shaft",
+                                of<&study::OperatingPoint::shaft_torque_Nm>(milli)},
+                               {"ideal", "reference", "straight line without commutation time and friction",
+                                [this](const Place& p) {
+                                  return milli * study::ideal_torque_Nm(request_.bench, p.point->speed_rad_s);
+                                }}});
     if (curve_.thermal) {
-      const auto limit = [this](const Place& p) {
-        return study::thermal_limits(*curve_.thermal, request_, p.point->speed_rad_s);
-      };
+      const auto limit = limits();
       lines.push_back({"for ever", "c", "what the winding stands for ever",
                        [limit](const Place& p) { return milli * limit(p).continuous_Nm; }});
       lines.push_back({"60 s", "a", "what it stands for 60 s from ambient temperature",
@@ -86,8 +99,9 @@ class Charts {
     if (curve_.nominal && curve_.nominal->torque_Nm)
       lines.push_back({"nominal point", "b", "as the sheet prints it",
                        [](const Place& p) { return p.nominal ? milli * *p.nominal->torque_Nm : none; },
-                       true});
+                       Line::Drawn::points});
     add("torque", "Torque", "mNm", 320, lines);
+    if (corner_Nm_ > 0.0) out_["charts"].back()["corner"] = milli * corner_Nm_;
   }
 
   void currents() {
@@ -99,17 +113,50 @@ class Charts {
                                {"supply", "c", "mean current from the supply", of<&P::bus_current_A>(1)}};
     if (curve_.nominal && curve_.nominal->current_A)
       lines.push_back({"nominal point", "b", "as the sheet prints it",
-                       [](const Place& p) { return p.nominal ? *p.nominal->current_A : none; }, true});
+                       [](const Place& p) { return p.nominal ? *p.nominal->current_A : none; },
+                       Line::Drawn::points});
     add("current", "Current", "A", 220, lines);
   }
 
   std::string text() const { return out_.dump(); }
 
  private:
+  std::function<study::ThermalLimits(const Place&)> limits() const {
+    return [this](const Place& p) {
+      return study::thermal_limits(*curve_.thermal, request_, p.point->speed_rad_s);
+    };
+  }
+
+  /// What bus and winding allow together: for ever, and for ten seconds.
+  std::vector<Line> regions() const {
+    if (!curve_.thermal) return {};
+    const auto below = [](double allowed_Nm, const Place& p) {
+      return milli * std::fmax(0.0, std::fmin(allowed_Nm, p.point->shaft_torque_Nm));
+    };
+    const auto limit = limits();
+    return {{"short-time", "b", "what bus and winding allow together for 10 s from ambient temperature",
+             [=](const Place& p) { return below(limit(p).short_Nm[0], p); }, Line::Drawn::region},
+            {"continuous", "c", "what bus and winding allow together for ever",
+             [=](const Place& p) { return below(limit(p).continuous_Nm, p); }, Line::Drawn::region}};
+  }
+
+  /// Up to which torque the motor is used: a stalled one shows ten times that, and would squeeze the rest
+  /// into a strip. 0 where nobody says.
+  double corner_Nm() const {
+    constexpr double room = 1.1, of_nominal = 3.0, worth_it = 0.7;
+    double corner = 0.0;
+    if (curve_.thermal)
+      corner = room * study::thermal_limits(*curve_.thermal, request_, 0.0).short_Nm[0];
+    else if (curve_.nominal && curve_.nominal->torque_Nm)
+      corner = of_nominal * *curve_.nominal->torque_Nm;
+    return corner < worth_it * curve_.points.front().shaft_torque_Nm ? corner : 0.0;
+  }
+
   const study::CurveRequest& request_;
   const study::Curve& curve_;
   std::vector<Place> places_;
   json out_;
+  double corner_Nm_ = 0.0;
 };
 
 }  // namespace

@@ -52,35 +52,61 @@ std::string certainty(const study::Curve& curve) {
                      plain(residual, 2));
 }
 
-std::string nominal_fact(const study::NominalPoint& n) {
-  std::string text = rpm(n.speed_rad_s);
-  if (n.torque_Nm) text += ", " + mNm(*n.torque_Nm);
-  if (n.current_A) text += ", " + amperes(*n.current_A);
-  return text + fmt::format("; the curve there: {}, {}", mNm(n.on_curve.shaft_torque_Nm),
-                            amperes(n.on_curve.winding_current_A));
+std::string nominal_fact(const study::CurveRequest& r, const study::NominalPoint& n) {
+  std::string text;
+  const auto item = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+  if (n.torque_Nm) item(mNm(*n.torque_Nm));
+  if (n.speed_rad_s) item(rpm(*n.speed_rad_s));
+  if (n.current_A) item(amperes(*n.current_A));
+  if (r.bench.duty != 1 || r.bench.voltage_V != r.bench.motor.nominal_voltage_V || !n.at_torque) return text;
+  text += "; at that torque the curve has " + rpm(n.at_torque->speed_rad_s);
+  if (n.speed_rad_s) text += fmt::format(" ({})", deviation(n.at_torque->speed_rad_s, *n.speed_rad_s, ""));
+  return text + ", " + amperes(n.at_torque->winding_current_A);
+}
+
+/// Why a sheet's gradient is not the curve's.
+std::string drop_fact(const study::SpeedDrop& d) {
+  const auto per_mNm = [](double x) { return plain(x * rpm_per_rad_s / milli, 3); };
+  std::string text = "curve " + per_mNm(*d.curve);
+  if (d.sheet) text += ", the sheet's two points " + per_mNm(*d.sheet);
+  text += fmt::format("; R/Kₜ² = {}", per_mNm(d.ideal));
+  if (d.printed) text += fmt::format(", printed {},", per_mNm(*d.printed));
+  return text + " leaves out the time that commutation takes";
+}
+
+std::string locked_fact(const study::OperatingPoint& turning) {
+  const study::LockedRotor& l = *turning.locked;
+  const bool one = l.greatest_torque_Nm - l.least_torque_Nm <= 1e-9 * l.greatest_torque_Nm;
+  return fmt::format("{} through two phases, {}{}", amperes(l.phase_rms_A), mNm(l.least_torque_Nm),
+                     one ? "" : " … " + mNm(l.greatest_torque_Nm) + " with the angle");
+}
+
+std::string lasting_fact(const study::Curve& curve) {
+  if (!curve.marks.for_ever) return "not even without load";
+  const study::OperatingPoint& from = *curve.marks.for_ever;
+  return fmt::format("from {} ({}) on", rpm(from.speed_rad_s), mNm(from.shaft_torque_Nm));
 }
 
 std::string facts(const study::CurveRequest& r, const study::Curve& curve) {
   const study::NoLoad& n = curve.no_load;
   std::string html =
-      fact("Standstill", fmt::format("{}, {}", mNm(curve.points.front().shaft_torque_Nm),
-                                     amperes(curve.points.front().winding_current_A))) +
+      fact("Locked rotor", locked_fact(curve.points.front())) +
       fact("No load", fmt::format("{}, {}", rpm(n.point.speed_rad_s), amperes(n.point.winding_current_A))) +
       fact("A rotor let free runs at", rpm(n.free_speed_rad_s)) +
       fact("Ideal line", fmt::format("{} … {}", mNm(study::ideal_torque_Nm(r.bench, 0.0)),
                                      rpm(study::ideal_no_load_rad_s(r.bench))));
-  const auto best = std::max_element(
-      curve.points.begin(), curve.points.end(),
-      [](const auto& a, const auto& b) { return a.efficiency.value_or(0) < b.efficiency.value_or(0); });
-  if (best->efficiency)
-    html += fact("Best efficiency of the points",
-                 fmt::format("{}\u00a0% at {}", plain(100 * *best->efficiency, 3), rpm(best->speed_rad_s)));
-  if (curve.nominal) html += fact("Nominal point of the sheet", nominal_fact(*curve.nominal));
+  if (const auto& best = curve.marks.best_efficiency)
+    html += fact("Best efficiency", fmt::format("{}\u00a0% at {}, {}", plain(100 * *best->efficiency, 3),
+                                                rpm(best->speed_rad_s), mNm(best->shaft_torque_Nm)));
+  if (curve.nominal) html += fact("Nominal point of the sheet", nominal_fact(r, *curve.nominal));
+  if (curve.nominal && curve.nominal->at_torque)
+    html += fact("Speed lost per torque, rpm/mNm", drop_fact(study::speed_drop(r, curve)));
   if (curve.thermal) {
     const study::ThermalLimits still = study::thermal_limits(*curve.thermal, r, 0.0);
     html += fact(fmt::format("Current at {}\u00a0°C ambient", plain(r.ambient_degC, 3, true)),
                  fmt::format("{} for ever, {} for 60\u00a0s, {} for 10\u00a0s", amperes(still.continuous_A),
-                             amperes(still.short_A[1]), amperes(still.short_A[0])));
+                             amperes(still.short_A[1]), amperes(still.short_A[0]))) +
+            fact("The curve itself can be held for ever", lasting_fact(curve));
   }
   return html + fact("Certainty", certainty(curve));
 }

@@ -84,9 +84,14 @@ std::string step_charts(const DesignStudy& s) {
 }
 
 std::string loop_charts(const DesignStudy& s) {
-  SvgChart gain{.title = "Gain |L|", .x_label = "Hz", .log_x = true, .log_y = true, .levels = {1.0}};
-  SvgChart phase{
-      .title = "Phase of L", .x_label = "Hz", .y_label = "degrees", .log_x = true, .levels = {-180.0}};
+  SvgChart gain{
+      .title = "Gain |L|", .x_label = "Hz", .y_label = "dB", .log_x = true, .y_tick = 20.0, .levels = {0.0}};
+  SvgChart phase{.title = "Phase of L",
+                 .x_label = "Hz",
+                 .y_label = "degrees",
+                 .log_x = true,
+                 .y_tick = 45.0,
+                 .levels = {-180.0}};
   std::size_t n = 0;
   for (const auto& loop : s.design.loops) {
     const double from = loop.figures.crossover_rad_s.value_or(0.1 / s.design.wish.period_s) / 30;
@@ -97,7 +102,7 @@ std::string loop_charts(const DesignStudy& s) {
       // Beyond that neither tells anything.
       const bool shown = point.gain > 1e-3 && deg > -400;
       g.x.push_back(point.w_rad_s / turn);
-      g.y.push_back(shown ? point.gain : NAN);
+      g.y.push_back(shown ? 20 * std::log10(point.gain) : NAN);
       p.y.push_back(shown ? deg : NAN);
     }
     p.x = g.x;
@@ -111,8 +116,9 @@ std::string limit_charts(const DesignStudy& s) {
   SvgChart headroom{.title = "Voltage left", .x_label = "rad/s", .y_label = "V", .levels = {0.0}};
   const double top = d.bus_V / d.motor.K_t_Nm_A;
   std::size_t n = 0;
+  const char* const loaded = d.nominal_printed ? "nominal current" : "a tenth of stall";
   for (const double part : {0.0, 1.0}) {
-    SvgCurve curve{part == 0 ? "no current" : "nominal current", styles[n++], {0, top}, {}};
+    SvgCurve curve{part == 0 ? "no current" : loaded, styles[n++], {0, top}, {}};
     for (const double w : curve.x)
       curve.y.push_back(sixstep::design::headroom_V(d.motor, d.bus_V, part * d.nominal_current_A, w));
     headroom.curves.push_back(std::move(curve));

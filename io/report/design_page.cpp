@@ -45,14 +45,27 @@ std::string warnings(const DesignStudy& s) {
 }
 
 std::string simulated(const DesignStudy& s) {
-  std::string out =
-      "<table>" + head({"Figure", "#Expected", "#Simulated", "#Deviation", "Expected is"}) + "<tbody>\n";
+  std::string out = "<table class=\"comparisons\">" +
+                    head({"Figure", "#Expected", "#Simulated", "#Deviation", "Expected is"}) + "<tbody>\n";
   for (const auto& c : s.outcome.comparisons)
     out += fmt::format(
         "<tr><th scope=\"row\">{}</th>{}{}{}<td class=\"source\">{}</td></tr>\n", escaped(c.figure),
         cell(shown(c.value, c.unit)), cell(shown(sixstep::study::as_read(c, s.scenario), c.unit)),
         cell(escaped(deviation(sixstep::study::as_read(c, s.scenario), c.value, c.unit))), escaped(c.source));
   return out + "</tbody></table>\n";
+}
+
+/// What the steps lead to; a position loop has one gain.
+std::string gain_table(const DesignStudy& s) {
+  std::string rows;
+  for (const LoopDesign& loop : s.design.loops) {
+    const bool one = loop.name == "position";
+    rows += fmt::format("<tr><th scope=\"row\">{}</th>{}{}<td>{}</td></tr>\n", escaped(loop.name),
+                        cell(plain(loop.gains.d1, 6, true) + (one ? "\u00a0rad/s per deg" : "")),
+                        cell(one ? "–" : plain(loop.gains.d0, 6, true)), escaped(loop.method));
+  }
+  return "<table>" + head({"Loop", "#d<sub>1</sub>", "#d<sub>0</sub>", "Method"}) + "<tbody>\n" + rows +
+         "</tbody></table>\n";
 }
 
 std::string steps(const LoopDesign& loop) {
@@ -101,7 +114,10 @@ std::string margins(const DesignStudy& s) {
       [&](const LoopDesign& l) { return in(at_once(l).phase_rad, degrees, "deg"); });
   row("phase margin, one period late",
       [&](const LoopDesign& l) { return in(delayed(l).phase_rad, degrees, "deg"); });
-  row("gain margin, one period late", [&](const LoopDesign& l) { return in(delayed(l).gain, 1, ""); });
+  row("gain margin, one period late", [&](const LoopDesign& l) {
+    const auto& gain = delayed(l).gain;
+    return gain ? plain(20 * std::log10(*gain), 3) + "\u00a0dB" : std::string("–");
+  });
   row("delay margin, one period late", [&](const LoopDesign& l) { return in(delayed(l).delay_s, 1, "s"); });
   row("peak of sensitivity, one period late", [&](const LoopDesign& l) {
     return delayed(l).stable ? plain(delayed(l).sensitivity_peak, 3) : std::string("unstable");
@@ -134,8 +150,8 @@ std::string tolerances(const DesignStudy& s) {
 
 std::string render_design(const DesignPage& page) {
   const DesignStudy& s = page.study;
-  std::string gains;
-  for (const LoopDesign& loop : s.design.loops) gains += steps(loop);
+  std::string derivation;
+  for (const LoopDesign& loop : s.design.loops) derivation += steps(loop);
   const std::size_t colon = page.verdict.find(':');
   const std::string word = page.verdict.substr(0, colon),
                     line = colon == page.verdict.npos ? "" : page.verdict.substr(colon + 1);
@@ -149,7 +165,8 @@ std::string render_design(const DesignPage& page) {
               {"warnings", warnings(s)},
               {"simulated", simulated(s)},
               {"step_charts", step_charts(s)},
-              {"gains", gains},
+              {"gains", gain_table(s)},
+              {"derivation", derivation},
               {"margins", margins(s)},
               {"loop_charts", loop_charts(s)},
               {"limit_charts", limit_charts(s)},

@@ -177,11 +177,12 @@ std::string cost(const Outcome& outcome, const Trace& trace) {
     }
     const std::string told =
         all == 0 ? std::string("none: no switch is turned on after the start")
-                 : fmt::format("<b>{}</b> turn-ons, {} on average; T{} most often, {} times", grouped(all),
-                               computed(static_cast<double>(all) / seen_s, "Hz"), busiest + 1,
-                               grouped((*counts)[busiest]));
-    const std::string when = trace.whole.empty() ? "" : " in the last " + computed(seen_s, "s");
-    text += list(answer("Switching" + when, told));
+                 : fmt::format(
+                       "chopped at <b>{}</b> on average; {} turn-ons of all six{}, T{} most often, {} times",
+                       computed(switching_frequency_Hz(outcome), "Hz"), grouped(all),
+                       trace.whole.empty() ? "" : " in the last " + computed(seen_s, "s"), busiest + 1,
+                       grouped((*counts)[busiest]));
+    text += list(answer("Switching", told));
   }
   return text.empty() ? "" : card("cost", "What it cost", text);
 }

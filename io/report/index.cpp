@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <report_assets.hpp>
 
 #include "io/escape/escape.hpp"
@@ -25,11 +26,59 @@ std::string linked(const IndexEntry& entry) {
   return fmt::format("<a href=\"{}\">{}</a>", url_of_name(entry.file), escaped(entry.title));
 }
 
-std::string experiment(const IndexEntry& entry) {
+std::string anchor(std::size_t place) { return fmt::format("e{}", place + 1); }
+
+/// The requirement that has least room left, and how much.
+std::string closest(const sixstep::study::Outcome& outcome) {
+  const sixstep::study::Verdict* tightest = nullptr;
+  for (const auto& v : outcome.verdicts)
+    if (room(v) && (!tightest || *room(v) < *room(*tightest))) tightest = &v;
+  if (!tightest) return "";
+  return fmt::format("{}<small class=\"aside\">{}</small>", with_subscripts(tightest->figure),
+                     *room(*tightest) < 0.0
+                         ? "not met"
+                         : plain(100.0 * *room(*tightest), 2, true) + "\u00a0% of its room left");
+}
+
+/// The comparison that is furthest off, in parts of what the other says.
+std::string furthest(const sixstep::study::Outcome& outcome) {
+  const sixstep::study::ComparisonResult* worst = nullptr;
+  const auto part = [](const auto& c) { return std::abs(c.measured / c.value - 1.0); };
+  for (const auto& c : outcome.comparisons)
+    if (std::isfinite(part(c)) && (!worst || part(c) > part(*worst))) worst = &c;
+  if (!worst) return "";
+  return fmt::format("{}<small class=\"aside\">{}</small>",
+                     escaped(deviation(worst->measured, worst->value, worst->unit)),
+                     with_subscripts(worst->figure));
+}
+
+/// All on one screen: a line each, with what is nearest to going wrong.
+std::string overview(const std::vector<IndexEntry>& entries) {
+  std::string rows;
+  for (std::size_t n = 0; n < entries.size(); ++n) {
+    if (!entries[n].finished) continue;
+    const auto& outcome = *entries[n].outcome;
+    const Standing verdict = standing(outcome);
+    const auto held = std::ranges::count_if(outcome.verdicts, [](const auto& v) { return v.ok; });
+    rows += fmt::format(
+        "<tr><td><span class=\"chip {}\">{}</span></td><th scope=\"row\"><a href=\"#{}\">{}</a></th>"
+        "<td class=\"num\">{}</td><td>{}</td><td class=\"num\">{}</td></tr>\n",
+        verdict.css, verdict.word, anchor(n), escaped(entries[n].title),
+        outcome.verdicts.empty() ? "" : fmt::format("{} of {}", held, outcome.verdicts.size()),
+        closest(outcome), furthest(outcome));
+  }
+  return table("overview",
+               "<th></th><th>Experiment</th><th class=\"num\">Requirements</th><th>Closest requirement</th>"
+               "<th class=\"num\">Furthest comparison</th>",
+               rows);
+}
+
+std::string experiment(const IndexEntry& entry, std::size_t place) {
   const Standing verdict = standing(*entry.outcome);
   std::string html = fmt::format(
-      "<section class=\"experiment {0}\"><header><h2>{1}</h2><span class=\"chip {0}\">{2}</span></header>\n",
-      verdict.css, linked(entry), verdict.word);
+      "<section class=\"experiment {0}\" id=\"{3}\"><header><h2>{1}</h2><span class=\"chip "
+      "{0}\">{2}</span></header>\n",
+      verdict.css, linked(entry), verdict.word, anchor(place));
   if (entry.outcome->fault)
     html += fmt::format("<p class=\"alert\"><b>Fault.</b> {}</p>\n",
                         escaped(sixstep::base::to_string(*entry.outcome->fault)));
@@ -82,13 +131,14 @@ Standing standing_of(const std::vector<IndexEntry>& entries) {
 std::string render_index(const std::vector<IndexEntry>& entries, std::string_view command,
                          std::string_view version) {
   std::string sections;
-  for (const IndexEntry& entry : entries)
-    if (entry.finished) sections += experiment(entry);
+  for (std::size_t n = 0; n < entries.size(); ++n)
+    if (entries[n].finished) sections += experiment(entries[n], n);
   const Standing verdict = standing_of(entries);
   const std::string body = filled(assets::index_html, {{"standing_class", verdict.css},
                                                        {"standing", verdict.word},
                                                        {"standing_line", verdict.line},
                                                        {"failed", failed_list(entries)},
+                                                       {"overview", overview(entries)},
                                                        {"sections", sections + unfinished_section(entries)}});
   return in_shell({.title = fmt::format("{} · {}", verdict.word, verdict.line),
                    .body = body,

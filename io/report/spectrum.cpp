@@ -167,9 +167,11 @@ std::string origin_of(std::size_t line, long long turns, double periods) {
   }
   if (beat >= 1.0 && turns > 0 && std::abs(at - beat * periods) < electrical / 2)
     return "beside " + times(beat, "PWM");
-  // Far up every line is near some multiple.
-  if (order >= 1.0 && electrical > 4 * near && order <= 60.0 && std::abs(at - order * electrical) <= near)
-    return times(order, "electrical");
+  // The stretch is whole turns, so that a multiple stands on its own line: of few turns that line alone is
+  // named, of many its neighbours too. Far up every line is near some multiple.
+  const double off = electrical > 4 * near ? near : 0.0;
+  if (order >= 1.0 && order <= 60.0 && std::abs(at - order * electrical) <= off)
+    return order == 1.0 ? "electrical, the fundamental" : times(order, "electrical");
   return "";
 }
 

@@ -42,7 +42,7 @@ class Axis {
         logarithmic_ ? std::log(v / low_) / std::log(high_ / low_) : (v - low_) / (high_ - low_);
     return from_ + part * (to_ - from_);
   }
-  std::vector<double> ticks() const {
+  std::vector<double> ticks(double wanted) const {
     std::vector<double> out;
     if (logarithmic_) {
       const int last = static_cast<int>(std::floor(std::log10(high_) + 1e-9));
@@ -54,6 +54,7 @@ class Axis {
     double step = power * 10;
     for (const double m : {5.0, 2.0, 1.0})
       if (power * m >= rough) step = power * m;
+    if (wanted > 0.0) step = wanted * std::fmax(1.0, std::ceil((high_ - low_) / wanted / 9));
     const auto last = static_cast<long>(std::floor(high_ / step));
     for (auto n = static_cast<long>(std::ceil(low_ / step)); n <= last; ++n)
       out.push_back(static_cast<double>(n) * step);
@@ -71,12 +72,12 @@ std::string label(double v) { return fmt::format("{:.6g}", v); }
 std::string grid(const Axis& x, const Axis& y, const SvgChart& chart) {
   const auto [width, height] = size_of(chart);
   std::string out;
-  for (const double v : x.ticks())
+  for (const double v : x.ticks(0.0))
     out += fmt::format(
         "<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/><text x=\"{0:.1f}\" "
         "y=\"{3}\" text-anchor=\"middle\">{4}</text>\n",
         x.at(v), top, height - bottom, height - bottom + 16, label(v));
-  for (const double v : y.ticks())
+  for (const double v : y.ticks(chart.y_tick))
     out += fmt::format(
         "<line class=\"grid\" x1=\"{1}\" x2=\"{2}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\"/><text x=\"{3}\" "
         "y=\"{4:.1f}\" "

@@ -15,6 +15,7 @@ struct SvgCurve {
 struct SvgChart {
   std::string title, x_label, y_label;
   bool log_x = false, log_y = false;
+  double y_tick = 0.0;   ///< distance of the lines; 0: round numbers
   bool compact = false;  ///< half as large, for a place beside others
   std::vector<SvgCurve> curves;
   std::vector<double> levels;  ///< horizontal lines

@@ -32,8 +32,14 @@ Json bench(const study::CurveRequest& r) {
           {"ambient_degC", r.ambient_degC}};
 }
 
+/// A point that lies between those of the curve.
+Json loose(const study::CurveRequest& r, const study::Curve& curve,
+           const std::optional<study::OperatingPoint>& p) {
+  return p ? point(curve_row(r, curve, *p, loose_point(r, curve, *p))) : Json(nullptr);
+}
+
 Json no_load(const study::CurveRequest& r, const study::Curve& curve) {
-  Json out = point(curve_row(r, curve, curve.no_load.point, loose_point(r, curve, curve.no_load.point)));
+  Json out = loose(r, curve, curve.no_load.point);
   out["slope_Nm_s"] = curve.no_load.slope_Nm_s;
   out["half_width_rad_s"] = curve.no_load.half_width_rad_s;
   out["free_speed_rad_s"] = curve.no_load.free_speed_rad_s;
@@ -47,11 +53,26 @@ Json no_load(const study::CurveRequest& r, const study::Curve& curve) {
 
 Json nominal(const study::CurveRequest& r, const study::Curve& curve) {
   if (!curve.nominal) return nullptr;
-  const study::OperatingPoint& p = curve.nominal->on_curve;
-  return {{"speed_rad_s", curve.nominal->speed_rad_s},
+  const study::SpeedDrop d = study::speed_drop(r, curve);
+  return {{"sheet_speed_rad_s", or_null(curve.nominal->speed_rad_s)},
           {"sheet_torque_Nm", or_null(curve.nominal->torque_Nm)},
           {"sheet_current_A", or_null(curve.nominal->current_A)},
-          {"curve", point(curve_row(r, curve, p, loose_point(r, curve, p)))}};
+          {"speed_drop_rad_s_Nm",
+           {{"ideal", d.ideal},
+            {"printed", or_null(d.printed)},
+            {"sheet", or_null(d.sheet)},
+            {"curve", or_null(d.curve)}}},
+          {"curve_at_torque", loose(r, curve, curve.nominal->at_torque)},
+          {"curve_at_speed", loose(r, curve, curve.nominal->at_speed)}};
+}
+
+Json locked(const study::OperatingPoint& turning) {
+  const study::LockedRotor& l = *turning.locked;
+  return {{"current_A", turning.winding_current_A},
+          {"phase_rms_A", l.phase_rms_A},
+          {"least_torque_Nm", l.least_torque_Nm},
+          {"greatest_torque_Nm", l.greatest_torque_Nm},
+          {"ripple_Nm", l.ripple_Nm}};
 }
 
 Json thermal(const study::Curve& curve) {
@@ -74,6 +95,9 @@ std::string curve_json(const study::CurveRequest& r, const study::Curve& curve) 
   out["ideal"] = {{"stall_torque_Nm", study::ideal_torque_Nm(r.bench, 0.0)},
                   {"no_load_speed_rad_s", study::ideal_no_load_rad_s(r.bench)}};
   out["no_load"] = no_load(r, curve);
+  out["locked"] = locked(curve.points.front());
+  out["best_efficiency"] = loose(r, curve, curve.marks.best_efficiency);
+  out["for_ever_from"] = loose(r, curve, curve.marks.for_ever);
   out["nominal"] = nominal(r, curve);
   out["thermal"] = thermal(curve);
   out["thermal_missing"] = curve.thermal ? Json(nullptr) : Json(to_string(curve.thermal_missing[0]));

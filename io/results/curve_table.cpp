@@ -123,19 +123,35 @@ class Table {
   std::vector<Row> rows_;
 };
 
+/// A rotor that is held, and the same just turning: what the angle decides is averaged there.
+void add_standstill(Table& table, const study::OperatingPoint& turning) {
+  study::OperatingPoint locked = turning;
+  locked.shaft_torque_Nm = turning.locked->least_torque_Nm;
+  locked.ripple_Nm = turning.locked->ripple_Nm;
+  locked.phase_rms_A = turning.locked->phase_rms_A;
+  table.add("locked", locked);
+  table.add("just turning", turning);
+}
+
 /// Every k-th point, the last always.
 std::string points(const study::CurveRequest& request, const study::Curve& curve) {
   Table table(request, curve);
   const std::size_t count = curve.points.size(), step = (count + shown_points - 2) / (shown_points - 1);
-  for (std::size_t n = 0; n + 1 < count; n += std::max<std::size_t>(step, 1))
-    table.add(n == 0 ? "standstill" : "", curve.points[n]);
+  add_standstill(table, curve.points.front());
+  for (std::size_t n = step; n + 1 < count; n += step) table.add("", curve.points[n]);
   table.add("no load", curve.points.back());
-  const auto best = std::max_element(
-      curve.points.begin(), curve.points.end(),
-      [](const auto& a, const auto& b) { return a.efficiency.value_or(0) < b.efficiency.value_or(0); });
-  if (best->efficiency) table.add("best efficiency", *best);
-  if (curve.nominal) table.add("nominal speed", curve.nominal->on_curve);
+  if (curve.marks.best_efficiency) table.add("best efficiency", *curve.marks.best_efficiency);
+  if (curve.marks.nominal) table.add("nominal torque", *curve.marks.nominal);
   return table.text();
+}
+
+/// Where the angle decides the torque of a held rotor, between what.
+std::string locked(const study::OperatingPoint& turning, TorqueUnit unit) {
+  const study::LockedRotor& l = *turning.locked;
+  if (l.greatest_torque_Nm - l.least_torque_Nm <= 1e-9 * l.greatest_torque_Nm) return "";
+  return fmt::format("Locked, the angle decides: {} to {} {}; the row above has the least.\n",
+                     significant(l.least_torque_Nm * unit.factor, 4),
+                     significant(l.greatest_torque_Nm * unit.factor, 4), unit.name);
 }
 
 std::string no_load(const study::NoLoad& n) {
@@ -163,20 +179,46 @@ std::string against(double here, double sheet) {
   return fmt::format("{:+.1f} %", per_cent * (here / sheet - 1));
 }
 
-/// Compared only where the curve is of the voltage that the sheet's point belongs to.
-std::string nominal(const study::CurveRequest& r, const study::NominalPoint& n, TorqueUnit unit) {
-  const study::OperatingPoint& p = n.on_curve;
-  std::string text = fmt::format("Nominal point of the sheet: {} rpm", rpm(n.speed_rad_s));
-  if (n.torque_Nm) text += fmt::format(", {} {}", significant(*n.torque_Nm * unit.factor, 4), unit.name);
-  if (n.current_A) text += fmt::format(", {} A", significant(*n.current_A, 4));
+/// What the sheet's gradient does not say: it is the ideal line's.
+std::string drop(const study::CurveRequest& r, const study::Curve& curve, TorqueUnit unit) {
+  const study::SpeedDrop d = study::speed_drop(r, curve);
+  const auto per_torque = [&](double x) { return significant(x * rpm_per_rad_s / unit.factor, 3); };
+  std::string text = fmt::format("From no load to that torque the curve falls by {} rpm/{}",
+                                 per_torque(*d.curve), unit.name);
+  if (d.sheet) text += fmt::format(", the sheet's own two points by {}", per_torque(*d.sheet));
+  text += fmt::format("; R/K_t^2 is {}", per_torque(d.ideal));
+  if (d.printed) text += fmt::format(" (printed as gradient: {})", per_torque(*d.printed));
+  return text + " and leaves out the time that commutation takes.\n";
+}
+
+/// Compared only where the curve is of the voltage that the sheet's point belongs to, and at the torque: the
+/// load asks for that, the speed is the motor's answer.
+std::string nominal(const study::CurveRequest& r, const study::Curve& curve, TorqueUnit unit) {
+  const study::NominalPoint& n = *curve.nominal;
+  std::string text = "Nominal point of the sheet:";
+  const auto item = [&](const std::string& what) { text += (text.back() == ':' ? " " : ", ") + what; };
+  if (n.torque_Nm) item(fmt::format("{} {}", significant(*n.torque_Nm * unit.factor, 4), unit.name));
+  if (n.speed_rad_s) item(rpm(*n.speed_rad_s) + " rpm");
+  if (n.current_A) item(significant(*n.current_A, 4) + " A");
   const double sheet_V = r.bench.motor.nominal_voltage_V;
   if (r.bench.duty != 1 || r.bench.voltage_V != sheet_V)
     return text + fmt::format(", at full duty and {:g} V.\n", sheet_V);
-  text += fmt::format("; the curve has {} {}", significant(p.shaft_torque_Nm * unit.factor, 4), unit.name);
-  if (n.torque_Nm) text += fmt::format(" ({})", against(p.shaft_torque_Nm, *n.torque_Nm));
+  if (!n.torque_Nm) return text + "; without a torque it is no point of the curve.\n";
+  if (!n.at_torque) return text + "; the curve never has that torque.\n";
+  const study::OperatingPoint& p = *n.at_torque;
+  text += fmt::format("; at that torque the curve has {} rpm", rpm(p.speed_rad_s));
+  if (n.speed_rad_s) text += fmt::format(" ({})", against(p.speed_rad_s, *n.speed_rad_s));
   text += fmt::format(" and {} A", significant(p.winding_current_A, 4));
   if (n.current_A) text += fmt::format(" ({})", against(p.winding_current_A, *n.current_A));
-  return text + " there.\n";
+  return text + ".\n" + drop(r, curve, unit);
+}
+
+/// Where the winding stands the curve itself.
+std::string lasting(const study::Curve& curve, TorqueUnit unit) {
+  if (!curve.marks.for_ever) return "Not even no load can be held for ever.\n";
+  const study::OperatingPoint& from = *curve.marks.for_ever;
+  return fmt::format("The curve itself can be held for ever from {} rpm ({} {}) on.\n", rpm(from.speed_rad_s),
+                     significant(from.shaft_torque_Nm * unit.factor, 4), unit.name);
 }
 
 std::string thermal(const study::CurveRequest& r, const study::Curve& curve, TorqueUnit unit) {
@@ -190,12 +232,7 @@ std::string thermal(const study::CurveRequest& r, const study::Curve& curve, Tor
       r.ambient_degC, curve.thermal->max_winding_degC, significant(still.continuous_A, 3),
       significant(still.continuous_Nm * unit.factor, 4), unit.name, significant(still.short_A[1], 3),
       study::short_times_s[1], significant(still.short_A[0], 3), study::short_times_s[0]);
-  const auto first = std::find_if(curve.warming.begin(), curve.warming.end(),
-                                  [](const study::Warming& w) { return !w.permissible_s; });
-  if (first == curve.warming.end()) return text + "No point of the curve can be held for ever.\n";
-  const auto n = static_cast<std::size_t>(first - curve.warming.begin());
-  return text + fmt::format("The curve's points can be held for ever from {} rpm on.\n",
-                            rpm(curve.points[n].speed_rad_s));
+  return text + lasting(curve, unit);
 }
 
 std::string certainty(const study::Curve& curve, TorqueUnit unit) {
@@ -226,8 +263,8 @@ std::string curve_table(const study::CurveRequest& r, const study::Curve& curve)
                         base::word(study::chopping_choices, b.chopping), b.pwm_period_s * 1e6);
   text += "\n";
   const TorqueUnit unit = torque_unit(curve);
-  text += points(r, curve) + ideal(b, unit) + no_load(curve.no_load);
-  if (curve.nominal) text += nominal(r, *curve.nominal, unit);
+  text += points(r, curve) + locked(curve.points.front(), unit) + ideal(b, unit) + no_load(curve.no_load);
+  if (curve.nominal) text += nominal(r, curve, unit);
   return text + thermal(r, curve, unit) + certainty(curve, unit);
 }
 

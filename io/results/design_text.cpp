@@ -122,6 +122,7 @@ std::string figures_text(const DriveDesign& d) {
   const auto at_once = [&](const LoopDesign& l) -> const LoopFigures& { return late ? l.other : l.figures; };
   const auto delayed = [&](const LoopDesign& l) -> const LoopFigures& { return late ? l.figures : l.other; };
   const auto factor = +[](double x) { return fmt::format("{:.2f}", x); };
+  const auto decibels = +[](double x) { return fmt::format("{:.1f} dB", 20 * std::log10(x)); };
   const auto seconds = +[](double s) { return quantity_text(s, "s", 3); };
   line("crossover", [&](const LoopDesign& l) { return or_none(l.figures.crossover_rad_s, hertz); });
   if (d.loops.size() > 1) {
@@ -137,7 +138,8 @@ std::string figures_text(const DriveDesign& d) {
        [&](const LoopDesign& l) { return or_none(at_once(l).phase_rad, degrees); });
   line("phase margin, one period late",
        [&](const LoopDesign& l) { return or_none(delayed(l).phase_rad, degrees); });
-  line("gain margin, one period late", [&](const LoopDesign& l) { return or_none(delayed(l).gain, factor); });
+  line("gain margin, one period late",
+       [&](const LoopDesign& l) { return or_none(delayed(l).gain, decibels); });
   line("delay margin, one period late",
        [&](const LoopDesign& l) { return or_none(delayed(l).delay_s, seconds); });
   line("peak of sensitivity, one period late", [&](const LoopDesign& l) {

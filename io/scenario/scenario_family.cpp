@@ -36,7 +36,7 @@ class Family {
     base::Problems problems = complaints.in_order();
     problems.insert(problems.end(), of_bases.begin(), of_bases.end());
     if (!problems.empty()) return problems;
-    for (; !bases.empty(); bases.pop_back()) document->lay_over(std::move(bases.back()));
+    document->lay_over(std::move(bases));
     return document;
   }
 

@@ -62,15 +62,29 @@ void put_first(toml::array& list, toml::array& first) {
     for (toml::node& item : *from) list.push_back(std::move(*item.as_table()));
 }
 
-/// What `over` leaves open is moved there from `base`, and keeps its place in its file.
-void fill(toml::table& over, toml::table& base) {
+/// `name = {}`
+bool is_empty_inline(const toml::node* node) {
+  const toml::table* table = node ? node->as_table() : nullptr;
+  return table && table->is_inline() && table->empty();
+}
+
+struct Dropped {
+  toml::table* holder;
+  std::string key;
+};
+
+/// What `over` leaves open is moved there from `base`, and keeps its place in its file. What it drops stays
+/// as a mark until all bases are through: a weaker one may hold the same table.
+void fill(toml::table& over, toml::table& base, std::vector<Dropped>& dropped) {
   for (auto&& [key, node] : base) {
     toml::node* mine = over.get(key.str());
     toml::table *a = mine ? mine->as_table() : nullptr, *b = node.as_table();
-    if (!mine)
+    if (is_empty_inline(mine) && b)
+      dropped.push_back({&over, std::string(key.str())});
+    else if (!mine)
       node.visit([&, &key = key](auto& value) { over.insert(key, std::move(value)); });
     else if (a && b && !a->is_inline() && !b->is_inline())
-      fill(*a, *b);
+      fill(*a, *b, dropped);
     else if (mine->is_array_of_tables() && node.is_array_of_tables())
       put_first(*mine->as_array(), *node.as_array());
   }
@@ -78,9 +92,13 @@ void fill(toml::table& over, toml::table& base) {
 
 }  // namespace
 
-void Document::lay_over(Document base) {
-  fill(root_, base.root_);
-  for (File& file : base.files_) files_.push_back(std::move(file));
+void Document::lay_over(std::vector<Document> bases) {
+  std::vector<Dropped> dropped;
+  for (; !bases.empty(); bases.pop_back()) {
+    fill(root_, bases.back().root_, dropped);
+    for (File& file : bases.back().files_) files_.push_back(std::move(file));
+  }
+  for (const Dropped& table : dropped) table.holder->erase(table.key);
 }
 
 std::size_t Document::order_of(const toml::source_region& region) const {

@@ -24,10 +24,11 @@ class Document {
   /// `name` is what messages call the file.
   static base::Result<Document> parse(std::string name, std::string text);
 
-  /// Lays this file over another: what stands in this one wins. Tables under [headings] are joined key by
-  /// key; lists of tables are joined, the other's first, unless this one's is empty; whatever stands in
-  /// brackets or braces is one value.
-  void lay_over(Document base);
+  /// Lays this file over others, the strongest last: what stands in this one wins. Tables under [headings]
+  /// are joined key by key; lists of tables are joined, the other's first, unless this one's is empty;
+  /// whatever stands in brackets or braces is one value, and empty braces over a table drop it: it is as if
+  /// nobody had written it.
+  void lay_over(std::vector<Document> bases);
 
   /// Applies values given on the command line. A text that is no TOML value is taken as a word:
   /// `chopping=hard`.

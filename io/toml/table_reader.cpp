@@ -119,6 +119,26 @@ base::Result<double> TableReader::number_of(const toml::node& node, const base::
   return base::Problem{.limit = "must be a number"};
 }
 
+/// A limit is told in the unit in which the value was written.
+std::string TableReader::limit_as_written(const toml::node& node, const base::About& about, double x) const {
+  const base::Range allowed = base::allowed(about);
+  const toml::value<std::string>* text = node.as_string();
+  const std::optional<std::string> own = text ? unit_of_key(about) : std::nullopt;
+  const std::optional<Written> written = text ? split_number(text->get()) : std::nullopt;
+  if (!own || own->empty() || !written || written->unit.empty()) return limit_of(about.range, allowed, x);
+  const auto there = [&](double value) {
+    return in_unit(fmt::format("{} {}", value, *own), written->unit).value_or(value);
+  };
+  const auto in_its_unit = [&](base::Range range) {
+    range.low = there(range.low);
+    range.high = there(range.high);
+    if (range.least != 0.0) range.least = there(range.least);
+    return range;
+  };
+  return fmt::format("{}, in {}", limit_of(in_its_unit(about.range), in_its_unit(allowed), there(x)),
+                     written->unit);
+}
+
 bool TableReader::number(const toml::node& node, const std::string& path, const base::About& about,
                          double& out) {
   const base::Result<double> x = number_of(node, about);
@@ -132,8 +152,7 @@ bool TableReader::number(const toml::node& node, const std::string& path, const 
   if (!x) return refuse(x.problems().at(0));
   if (const base::Range range = base::allowed(about); !range.holds(*x)) {
     const bool finite = *x - *x == 0.0;
-    const std::string in = finite && node.is_string() ? in_unit_words(about) : "";
-    return refuse({.limit = limit_of(about.range, range, *x) + in});
+    return refuse({.limit = finite ? limit_as_written(node, about, *x) : "must be a finite number"});
   }
   out = *x;
   return true;

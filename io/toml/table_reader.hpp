@@ -126,6 +126,7 @@ class TableReader {
   static double within(const base::About& about);
   std::optional<std::string> unit_of_key(const base::About& about) const;
   base::Result<double> number_of(const toml::node& node, const base::About& about) const;
+  std::string limit_as_written(const toml::node& node, const base::About& about, double x) const;
   bool number(const toml::node& node, const std::string& path, const base::About& about, double& out);
   bool word(const toml::node& node, const std::string& path, const base::About& about, std::string& out);
   void frame(const toml::node& node, const std::string& path, const base::About& about,

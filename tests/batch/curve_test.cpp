@@ -40,6 +40,9 @@ TEST(TorqueSpeedCurve, HasTheSameBitsOnAnyNumberOfThreads) {
       EXPECT_EQ(one->limits[n].continuous_A, many->limits[n].continuous_A);
     }
     EXPECT_EQ(one->no_load.free_speed_rad_s, many->no_load.free_speed_rad_s);
+    ASSERT_TRUE(one->marks.best_efficiency && many->marks.best_efficiency);
+    EXPECT_EQ(one->marks.best_efficiency->speed_rad_s, many->marks.best_efficiency->speed_rad_s);
+    EXPECT_EQ(one->marks.for_ever->speed_rad_s, many->marks.for_ever->speed_rad_s);
   }
 }
 

@@ -187,6 +187,18 @@ test('fits a narrow window without scrolling sideways', async () => {
   await close(page);
 });
 
+test('on a phone no figure is cut off at the side', async () => {
+  for (const name of ['compare.html', 'index.html']) {
+    const page = await opened(name);
+    await page.setViewportSize({width: 390, height: 800});
+    const cut = await page.evaluate(() => [...document.querySelectorAll('table.compared, table.comparisons, table.verdicts, table.overview')]
+      .filter((t) => t.scrollWidth > t.clientWidth || [...t.rows].some((r) => r.offsetWidth && r.offsetWidth < 0.95 * t.clientWidth)).map((t) => t.className));
+    assert.deepEqual(cut, [], name);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), name);
+    await close(page);
+  }
+});
+
 test('where the energy went is drawn so that it can be read, in light and dark, and heard', async () => {
   const inks = [];
   for (const theme of ['light', 'dark']) {
@@ -223,12 +235,22 @@ test('a torque-speed curve opens with its charts, the nominal point and one zoom
   const page = await opened('curve.html');
   const ids = await page.locator('#charts .chart').evaluateAll((all) => all.map((c) => c.id));
   assert.deepEqual(ids, ['torque', 'current', 'efficiency', 'power', 'ripple'].map((n) => 'chart-' + n));
-  assert.equal(await page.locator('#chart-torque .chip').count(), 6);
+  assert.equal(await page.locator('#chart-torque .chip').count(), 8);
   const nominal = await page.evaluate(() => {
     const u = sixstep.charts[0], values = u.data[u.data.length - 1];
     return Array.from(u.data[0]).flatMap((rpm, n) => (values[n] == null ? [] : [[Math.round(rpm), Math.round(10 * values[n])]]));
   });
   assert.deepEqual(nominal, [[5240, 834]]);
+  // The usable corner first; what a stalled motor does on demand, and back.
+  const highest = () => page.evaluate(() => sixstep.charts.map((u) => u.scales.y.max));
+  const corner = await highest();
+  assert.ok(corner[0] > 200 && corner[0] < 300, `${corner[0]} mNm`);
+  assert.ok(corner[1] < 12, `${corner[1]} A`);
+  await page.click('#stall');
+  await eventually(async () => assert.ok((await highest())[0] > 780 && (await highest())[1] > 23));
+  assert.equal(await page.locator('#usable').getAttribute('aria-pressed'), 'false');
+  await page.click('#usable');
+  await eventually(async () => assert.deepEqual(await highest(), corner));
   const before = await scales(page);
   assert.ok(allEqual(before));
   await drag(page, 'current', 0.5, 0.75);

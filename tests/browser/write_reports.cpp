@@ -56,7 +56,8 @@ std::string curve() {
   const study::CurvePlan plan = *study::plan_curve(request);
   std::vector<study::OperatingPoint> found;
   for (const double speed : plan.speeds_rad_s) found.push_back(*study::operating_point(request.bench, speed));
-  return io::report::render_curve({request, study::curve_of(request, plan, found),
+  return io::report::render_curve({request,
+                                   *study::curve_of(request, plan, found, study::one_after_the_other),
                                    "sixstep curve maxon-251601 --html curve.html", "0.1.0"});
 }
 

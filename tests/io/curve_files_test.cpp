@@ -82,6 +82,10 @@ TEST(CurveJson, HasEveryColumnOfEveryPoint) {
     EXPECT_EQ(json["bench"]["chopping"], "soft");
     EXPECT_EQ(json["no_load"]["speed_rad_s"].get<double>(), m.curve.no_load.point.speed_rad_s);
     EXPECT_EQ(json["nominal"].is_null(), !thermal);
+    EXPECT_EQ(json["for_ever_from"].is_null(), !thermal);
+    EXPECT_EQ(json["best_efficiency"]["efficiency"].get<double>(),
+              *m.curve.marks.best_efficiency->efficiency);
+    EXPECT_NEAR(json["locked"]["phase_rms_A"].get<double>(), 24 / 1.03, 1e-12);
     EXPECT_EQ(json["thermal"].is_null(), !thermal);
     EXPECT_EQ(json["thermal_missing"].is_null(), thermal);
   }
@@ -91,14 +95,48 @@ TEST(CurveTable, ShowsAnEngineersUnits) {
   const Made m = made(true);
   const std::string text = io::curve_table(m.request, m.curve);
   for (const char* line :
-       {"maxon EC 45 flat 251601 at 24 V\n", "standstill", "no load", "nominal speed",
-        "780.58 mNm at standstill, 6841.3 rpm", "No load: 6709.5 rpm (702.613 rad/s) with 0.1531 A",
-        "83.40 mNm, 2.330 A; the curve has 73.37 mNm (-12.0 %)",
+       {"maxon EC 45 flat 251601 at 24 V\n", "locked", "just turning", "no load", "best efficiency",
+        "nominal torque", "780.58 mNm at standstill, 6841.3 rpm",
+        "No load: 6709.5 rpm (702.613 rad/s) with 0.1531 A",
+        "83.40 mNm, 5240 rpm, 2.330 A; at that torque the curve has 5078 rpm (-3.1 %)",
+        "R/K_t^2 is 8.76 and leaves out the time that commutation takes",
+        "The curve itself can be held for ever from 5027 rpm (86.64 mNm) on.",
         "At 25 degC ambient the winding stays below 125 degC with 2.82 A", "for 60 s", "for ever"})
     EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
   const std::string without = io::curve_table(made(false).request, made(false).curve);
   EXPECT_NE(without.find("No thermal limits: thermal_resistance_winding_housing_K_W"), std::string::npos);
   EXPECT_NE(without.find("add the sheet's thermal lines to the motor file"), std::string::npos);
+}
+
+TEST(CurveTable, SaysWhereALockedRotorsAngleDecides) {
+  Made m = made(false);
+  EXPECT_EQ(io::curve_table(m.request, m.curve).find("Locked, the angle"), std::string::npos) << "flat top";
+  m.request.bench = shaped(design::BackEmfShape::sine, 120);
+  m.curve = *batch::torque_speed_curve(m.request, batch::on_threads(1));
+  const std::string text = io::curve_table(m.request, m.curve);
+  EXPECT_NE(text.find("Locked, the angle decides: 707.9 to 817.4 mNm"), std::string::npos) << text;
+}
+
+TEST(CurvePage, ShowsTheUsableCornerAndWhatItAllows) {
+  Made m = made(true);
+  const auto page = [&] {
+    return io::report::render_curve({m.request, m.curve, "sixstep curve x", "0.1.0"});
+  };
+  const std::string whole = page();
+  const std::size_t at = whole.find("\"corner\":");
+  ASSERT_NE(at, std::string::npos);
+  const study::ThermalLimits still = study::thermal_limits(*m.curve.thermal, m.request, 0.0);
+  EXPECT_NEAR(std::stod(whole.substr(at + 9)), 1.1e3 * still.short_Nm[0], 1e-9)
+      << "some room above ten seconds";
+  for (const char* region : {"\"continuous\"", "\"short-time\""})
+    EXPECT_NE(page().find(region), std::string::npos) << region;
+  // Nobody says what the winding stands: the nominal torque tells how the motor is used, or all is shown.
+  m.curve.thermal.reset();
+  m.curve.thermal_missing = {{.where = "lines", .limit = "are missing"}};
+  EXPECT_NE(page().find("\"corner\":2"), std::string::npos);
+  EXPECT_EQ(page().find("\"continuous\""), std::string::npos);
+  m.curve.nominal.reset();
+  EXPECT_EQ(page().find("\"corner\""), std::string::npos);
 }
 
 TEST(CurveTable, SaysHowSureAChoppedMeanIs) {

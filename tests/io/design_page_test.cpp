@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "io/report/svg_chart.hpp"
+#include "io/results/design_text.hpp"
 #include "io/scenario/scenario_file.hpp"
 
 namespace io::report {
@@ -53,6 +54,39 @@ TEST(DesignPage, HasEveryPartOfTheDesign) {
   for (const char* part : {"0.0158299", "0.017225", "4.09559", "Speed cascade as designed", "J doubled",
                            "Tolerances", "motor = &quot;&lt;x&gt;&quot;", ">usable, 1 warning<", "slew.hpp"})
     EXPECT_THAT(page, HasSubstr(part));
+}
+
+TEST(DesignPage, ShowsWhatDecidesFirstAndFoldsTheRest) {
+  const std::string page = page_of(studied(Mode::speed));
+  const std::size_t steps = page.find("<details><summary>How they come about"),
+                    margins = page.find("gain margin"), tolerances = page.find("<h2>Tolerances"),
+                    file = page.find("<details><summary>The file");
+  ASSERT_NE(steps, page.npos);
+  ASSERT_NE(file, page.npos);
+  EXPECT_LT(page.find("<h2>Gains"), steps);
+  EXPECT_GT(page.find("class=\"steps\""), steps) << "32 rows of derivation are folded";
+  EXPECT_LT(page.find("class=\"steps\""), page.find("</details>"));
+  EXPECT_LT(margins, tolerances);
+  EXPECT_LT(tolerances, file);
+  EXPECT_THAT(page, HasSubstr("gain margin, one period late</th><td class=\"num\">13.5\u00a0dB</td>"));
+  EXPECT_THAT(page, HasSubstr("<span class=\"unit\">dB</span>"));
+}
+
+TEST(Design, ANominalCurrentThatNobodyNamedIsNotCalledSo) {
+  auto sheet =
+      io::read_sheet((std::filesystem::path(SIXSTEP_SOURCE_DIR) / "data/motors/maxon-251601.toml").string());
+  sheet->nominal_current_A.reset();
+  const auto s = study::study_design(
+      {.subject = {"maxon-251601", *sheet, {}}, .wish = {.mode = Mode::speed}, .tolerances = {}});
+  ASSERT_TRUE(s);
+  const std::string page = page_of(*s), text = io::design_text(*s, false);
+  for (const std::string& told : {page, text}) {
+    EXPECT_THAT(told, Not(HasSubstr("half the nominal torque")));
+    EXPECT_THAT(told, HasSubstr("the sheet names no nominal current: a tenth of the stall current, 2.33"));
+  }
+  EXPECT_THAT(text, HasSubstr("2.3301 A, a tenth of the stall current: the sheet names none"));
+  EXPECT_THAT(page, HasSubstr("a tenth of stall"));
+  EXPECT_THAT(text, HasSubstr(" A, a tenth of the stall current (the sheet names no nominal one), above "));
 }
 
 TEST(DesignPage, ShowsAMoveAndAHeldRotor) {

@@ -118,5 +118,18 @@ TEST(MotorLibraryFolder, AMotorWithoutItsInertiaRunsOnceTheScenarioGivesIt) {
                                  std::string(head) + "simulatable = true\nnot_simulatable_because = \"\"\n"));
 }
 
+TEST(MotorNames, AWordStandsForAllThatContainIt) {
+  const auto cure = [](const std::string& name) {
+    const auto sheet = read_sheet(name);
+    return sheet ? std::string("found") : sheet.problems()[0].cure;
+  };
+  EXPECT_THAT(cure("Maxon"), testing::AllOf(testing::HasSubstr("\"maxon-200142\""),
+                                            testing::HasSubstr("or \"maxon-651614\"?")));
+  EXPECT_EQ(cure("488607"), "did you mean \"maxon-488607\"?");
+  EXPECT_EQ(cure("maxon-25160"), "did you mean \"maxon-251601\"?") << "a slip means one";
+  EXPECT_THAT(cure("x"), testing::HasSubstr("sixstep motor list"));
+  EXPECT_THAT(cure("unheard-of"), testing::HasSubstr("sixstep motor list"));
+}
+
 }  // namespace
 }  // namespace io

@@ -107,7 +107,7 @@ TEST(Glance, answers_what_a_reader_asks_first) {
   EXPECT_THAT(html, HasSubstr("Current in its step from 5\u00a0A to −5\u00a0A"));
   EXPECT_THAT(html, HasSubstr("given as d1, d0; pole placement says 4.0956, −3.694"));
   EXPECT_THAT(html, HasSubstr("<h2>What it cost</h2>"));
-  EXPECT_THAT(html, HasSubstr("turn-ons, "));
+  EXPECT_THAT(html, HasSubstr("chopped at <b>"));
   run.scenario.control.current.type = sixstep::study::CurrentLoopType::hysteresis;
   run.scenario.control.current.band_A = 0.25;
   run.outcome.gains.clear();
@@ -289,6 +289,19 @@ TEST(Spectrum, lines_are_called_by_what_they_come_from) {
   EXPECT_EQ(origin_of(1004, 10, 1000), "beside PWM");
   EXPECT_EQ(origin_of(65, 10, 1000), "");
   EXPECT_EQ(origin_of(65, 0, 0), "");
+  EXPECT_EQ(origin_of(10, 10, 1000), "electrical, the fundamental");
+}
+
+TEST(Spectrum, of_few_turns_the_harmonics_are_named_on_their_own_lines) {
+  for (const long long turns : {1, 2, 3, 4, 5, 6}) {
+    const auto t = static_cast<std::size_t>(turns);
+    EXPECT_EQ(origin_of(t, turns, 1000), "electrical, the fundamental") << turns;
+    EXPECT_EQ(origin_of(5 * t, turns, 1000), "5 × electrical") << turns;
+    EXPECT_EQ(origin_of(6 * t, turns, 1000), "6 × electrical") << turns;
+    if (turns > 1) {
+      EXPECT_EQ(origin_of(5 * t + 1, turns, 1000), "") << "between two multiples of " << turns;
+    }
+  }
 }
 
 TEST(Spectrum, a_drawn_chart_keeps_the_highest_line_of_each_step) {

@@ -238,6 +238,12 @@ TEST(Index, names_every_experiment_and_its_verdict) {
       {{"One & two", "a.html", &good.outcome}, {"Three", "b.html", &bad.outcome}}, "sixstep run", "0.1.0");
   EXPECT_THAT(html, HasSubstr("1 of 2 experiments pass"));
   EXPECT_THAT(html, HasSubstr("<a href=\"a.html\">One &amp; two</a>"));
+  // All at a glance first, each line leading to its section.
+  const std::size_t overview = html.find("<table class=\"overview\">");
+  ASSERT_NE(overview, html.npos);
+  EXPECT_LT(overview, html.find("<section class=\"experiment"));
+  EXPECT_THAT(html, HasSubstr("<a href=\"#e2\">Three</a></th><td class=\"num\">2 of 3</td>"));
+  EXPECT_THAT(html, HasSubstr("<section class=\"experiment fail\" id=\"e2\">"));
   EXPECT_THAT(html, HasSubstr("not met"));
 }
 

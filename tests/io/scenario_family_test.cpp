@@ -67,6 +67,31 @@ TEST_F(Family, ValuesInBracketsAndBracesAreReplacedWhole) {
   EXPECT_THAT(s->reference.values, ElementsAre(7.0));
 }
 
+TEST_F(Family, EmptyBracesDropATableOfTheBases) {
+  write("far.toml", head + "[load]\ntorque_Nm = 0.01\nviscous_Nm_s = 1e-6\n");
+  write("base.toml",
+        "extends = \"far.toml\"\n[load]\ntorque_Nm = 0.05\n[control]\nmode = \"speed\"\n"
+        "current = { settle_s = 1e-3 }\n[control.speed]\nsettle_s = 0.02\n[reference]\nvalue = 100\n");
+  const auto s = read("extends = \"base.toml\"\nload = {}\n");
+  ASSERT_TRUE(s) << to_string(s.problems()[0]);
+  EXPECT_EQ(s->load.torque_Nm, 0.0);
+  EXPECT_EQ(s->load.viscous_Nm_s, 0.0) << "nor does a farther base's come through";
+  const auto of_two = read("extends = [\"far.toml\", \"base.toml\"]\nload = {}\n");
+  ASSERT_TRUE(of_two);
+  EXPECT_EQ(of_two->load.viscous_Nm_s, 0.0);
+  // A loop whose table would ask for more is gone too; the tables beside it stay.
+  const auto current = read("extends = \"base.toml\"\n[control]\nmode = \"current\"\nspeed = {}\n");
+  ASSERT_TRUE(current) << to_string(current.problems()[0]);
+  EXPECT_EQ(current->load.torque_Nm, 0.05);
+  EXPECT_EQ(*current->control.current.settle_s, 1e-3);
+  // In between it drops what is below, and what is above may say it anew.
+  write("middle.toml", "extends = \"base.toml\"\nload = {}\n");
+  const auto anew = read("extends = \"middle.toml\"\n[load]\ntorque_Nm = 0.02\n");
+  ASSERT_TRUE(anew);
+  EXPECT_EQ(anew->load.torque_Nm, 0.02);
+  EXPECT_EQ(anew->load.viscous_Nm_s, 0.0);
+}
+
 TEST_F(Family, NamesInABaseAreLookedForBesideIt) {
   write("bases/r.csv", "0,1\n0.01,2\n");
   write("bases/common.toml", head + "control.mode = \"current\"\n");

@@ -149,10 +149,19 @@ TEST(Units, OfAReferenceFollowTheMode) {
             "x.toml:3:19: reference.value = \"955 rpm\" is in the unit of control.mode, and this mode has "
             "none; set "
             "control.mode, or write a number without quotes");
-  EXPECT_EQ(
-      told("duration_s = \"-20 ms\"\n"),
-      "x.toml:2:14: duration_s = \"-20 ms\" must be above 0 and at most 9000000, in s; it means: simulated "
-      "time, in s");
+  EXPECT_EQ(told("duration_s = \"-20 ms\"\n"),
+            "x.toml:2:14: duration_s = \"-20 ms\" must be above 0 and at most 9000000000, in ms; it means: "
+            "simulated time, in s");
+}
+
+TEST(Units, ALimitIsToldInTheUnitThatWasWritten) {
+  const auto told = [](const std::string& hertz) {
+    const auto s = with("duration_s = 0.1\n[sensors]\ncapture_Hz = " + hertz + "\n");
+    return s ? std::string("taken") : to_string(s.problems()[0]);
+  };
+  EXPECT_THAT(told("\"5000 MHz\""), testing::HasSubstr("\"5000 MHz\" must lie in 1e-06 to 1000, in MHz;"));
+  EXPECT_THAT(told("\"2e6 kHz\""), testing::HasSubstr("must lie in 0.001 to 1000000, in kHz;"));
+  EXPECT_THAT(told("5e9"), testing::HasSubstr("must lie in 1 to 1000000000;"));
 }
 
 TEST(Units, OfALimitFollowMetricAndSignal) {

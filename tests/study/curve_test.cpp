@@ -25,7 +25,9 @@ Curve whole(const CurveRequest& r) {
   EXPECT_TRUE(plan) << base::to_string(plan.problems()[0]);
   std::vector<study::OperatingPoint> found;
   for (const double speed : plan->speeds_rad_s) found.push_back(*study::operating_point(r.bench, speed));
-  return study::curve_of(r, *plan, found);
+  const base::Result<Curve> curve = study::curve_of(r, *plan, found, study::one_after_the_other);
+  EXPECT_TRUE(curve) << base::to_string(curve.problems()[0]);
+  return *curve;
 }
 
 TEST(Curve, GoesFromStandstillToNoLoadInEqualSteps) {
@@ -40,16 +42,87 @@ TEST(Curve, GoesFromStandstillToNoLoadInEqualSteps) {
   EXPECT_EQ(curve.warming.size(), 9u);
 }
 
-TEST(Curve, MarksTheSheetsNominalPoint) {
+TEST(Curve, ComparesTheNominalPointAtItsTorque) {
   const Curve curve = whole(request(3));
-  ASSERT_TRUE(curve.nominal);
-  EXPECT_NEAR(curve.nominal->speed_rad_s, 5240 * base::pi / 30, 1e-12);
+  ASSERT_TRUE(curve.nominal && curve.nominal->at_torque && curve.nominal->at_speed);
+  EXPECT_NEAR(*curve.nominal->speed_rad_s, 5240 * base::pi / 30, 1e-12);
   EXPECT_NEAR(*curve.nominal->torque_Nm, 83.4e-3, 1e-17);
   EXPECT_EQ(*curve.nominal->current_A, 2.33);
-  EXPECT_EQ(curve.nominal->on_curve.speed_rad_s, curve.nominal->speed_rad_s);
+  EXPECT_EQ(curve.nominal->at_speed->speed_rad_s, *curve.nominal->speed_rad_s);
+  EXPECT_NEAR(curve.nominal->at_torque->shaft_torque_Nm, 83.4e-3, 1e-12);
+  // 12 % of torque are missing at the speed, 3.5 % of speed at the torque: the same difference.
+  const double slower = curve.nominal->at_torque->speed_rad_s / *curve.nominal->speed_rad_s - 1;
+  EXPECT_LT(curve.nominal->at_speed->shaft_torque_Nm, 0.89 * 83.4e-3);
+  EXPECT_GT(slower, -0.04);
+  EXPECT_LT(slower, 0.0);
   CurveRequest silent = request(3);
   silent.sheet.nominal_speed_rpm.reset();
+  EXPECT_FALSE(whole(silent).nominal->at_speed);
+  silent.sheet.nominal_torque_mNm.reset();
   EXPECT_FALSE(whole(silent).nominal);
+  CurveRequest weak = request(3);
+  weak.sheet.nominal_torque_mNm->value = 800;
+  EXPECT_FALSE(whole(weak).nominal->at_torque) << "beyond stall";
+}
+
+TEST(Curve, TellsTheSheetsGradientFromItsTwoPoints) {
+  CurveRequest r = request(3);
+  r.sheet.no_load_speed_rpm = base::Quantity{6710, "", ""};
+  r.sheet.speed_torque_gradient_rpm_mNm = base::Quantity{8.8, "", ""};
+  const Curve curve = whole(r);
+  const study::SpeedDrop d = study::speed_drop(r, curve);
+  const double per_mNm = base::pi / 30 * 1e3;
+  EXPECT_NEAR(d.ideal, 1.03 / (0.0335 * 0.0335), 1e-9);
+  EXPECT_NEAR(*d.printed, 8.8 * per_mNm, 1e-9);
+  EXPECT_NEAR(*d.sheet, (6710 - 5240) / 83.4 * per_mNm, 1e-9);
+  // Both twice the gradient: commutation takes the same whoever measures.
+  EXPECT_GT(*d.curve, 2 * d.ideal);
+  EXPECT_NEAR(*d.curve, *d.sheet, 0.15 * *d.sheet);
+}
+
+TEST(Curve, TheBestEfficiencyIsAMaximumWhateverPointsAreShown) {
+  const CurveRequest r = request(3);
+  const study::OperatingPoint best = *whole(r).marks.best_efficiency;
+  EXPECT_EQ(best.speed_rad_s, whole(request(41)).marks.best_efficiency->speed_rad_s);
+  for (const study::OperatingPoint& p : whole(request(41)).points)
+    EXPECT_LE(p.efficiency.value_or(0.0), *best.efficiency);
+  for (const double beside : {0.999, 1.001}) {
+    const auto p = study::operating_point(r.bench, beside * best.speed_rad_s);
+    EXPECT_LT(*p->efficiency, *best.efficiency);
+    EXPECT_GT(*p->efficiency, *best.efficiency - 1e-4);
+  }
+}
+
+TEST(Curve, ForEverBeginsWhereTheWindingComesToItsLimit) {
+  const CurveRequest r = request(3);
+  const Curve curve = whole(r);
+  ASSERT_TRUE(curve.marks.for_ever);
+  const study::OperatingPoint& from = *curve.marks.for_ever;
+  EXPECT_NEAR(design::steady_temperatures(*curve.thermal, {from.copper_W, from.friction_W, 25})->winding_degC,
+              125, 1e-5);
+  EXPECT_EQ(from.speed_rad_s, whole(request(41)).marks.for_ever->speed_rad_s);
+  CurveRequest hot = request(3);
+  hot.ambient_degC = 120;
+  EXPECT_FALSE(whole(hot).marks.for_ever) << "friction alone takes it beyond";
+  CurveRequest cooled = request(3);
+  cooled.sheet.thermal_resistance_housing_ambient_K_W->value = 1e-3;
+  cooled.sheet.thermal_resistance_winding_housing_K_W->value = 1e-3;
+  EXPECT_EQ(whole(cooled).marks.for_ever->speed_rad_s, 0.0);
+}
+
+TEST(Curve, MarksOfAChoppedOneLieWithinItsPrecision) {
+  CurveRequest r = request(3);
+  r.bench.duty = 0.6;
+  r.bench.chopping = control::Chopping::complementary;
+  const Curve curve = whole(r);
+  ASSERT_TRUE(curve.marks.best_efficiency && curve.marks.nominal);
+  const double whole_rad_s = curve.no_load.point.speed_rad_s;
+  const study::OperatingPoint& nominal = *curve.marks.nominal;
+  const double steepest = curve.points.front().shaft_torque_Nm / whole_rad_s * 2;
+  EXPECT_NEAR(nominal.shaft_torque_Nm, 83.4e-3, nominal.half_width_Nm + steepest * 1e-4 * whole_rad_s);
+  for (const double beside : {0.97, 1.03})
+    EXPECT_LT(*study::operating_point(r.bench, beside * curve.marks.best_efficiency->speed_rad_s)->efficiency,
+              *curve.marks.best_efficiency->efficiency);
 }
 
 TEST(Curve, WithoutThermalLinesSaysWhatIsMissing) {

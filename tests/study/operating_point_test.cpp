@@ -213,6 +213,27 @@ TEST(OperatingPoint, AtStandstillIsTheMeanOverHeldRotors) {
   }
 }
 
+TEST(OperatingPoint, ALockedRotorLoadsTwoPhasesAndItsAngleDecides) {
+  const double i = 24 / 1.03;
+  for (const Bench& b : {maxon_bench(), shaped(design::BackEmfShape::trapezoid, 90),
+                         shaped(design::BackEmfShape::sine, 120)}) {
+    const OperatingPoint p = at(b, 0.0);
+    const HeldMeans angles = held(b, {0, 15, 30, 45, 60});
+    ASSERT_TRUE(p.locked);
+    EXPECT_NEAR(p.locked->phase_rms_A, i, 1e-12) << "nobody takes turns";
+    EXPECT_NEAR(p.locked->least_torque_Nm, angles.low, 1e-8);
+    EXPECT_NEAR(p.locked->greatest_torque_Nm, angles.high, 1e-8);
+    EXPECT_EQ(p.locked->ripple_Nm, 0.0);
+    EXPECT_FALSE(at(b, 1.0).locked);
+  }
+  Bench chopped = maxon_bench();
+  chopped.duty = 0.5;
+  const OperatingPoint p = at(chopped, 0.0);
+  ASSERT_TRUE(p.locked);
+  EXPECT_NEAR(3 * p.phase_rms_A * p.phase_rms_A, 2 * p.locked->phase_rms_A * p.locked->phase_rms_A, 1e-9);
+  EXPECT_GT(p.locked->ripple_Nm, 0.0);
+}
+
 TEST(OperatingPoint, SlowRotationLeadsToStandstill) {
   for (const Bench& b : {maxon_bench(), shaped(design::BackEmfShape::sine, 120)}) {
     const OperatingPoint still = at(b, 0.0), slow = at(b, 0.01), slower = at(b, 0.005);

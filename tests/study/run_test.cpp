@@ -214,6 +214,22 @@ TEST(Run, HysteresisKeepsItsBand) {
   EXPECT_NEAR(asked(*out, 1), 0.0, 1e-11);
 }
 
+TEST(Run, TurnOnsAreThoseOfThePwmHoweverManySwitchesTakePart) {
+  using control::Chopping;
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary}) {
+    Scenario s = current_square();
+    s.control.mode = control::Mode::duty;
+    s.reference = {.value = 0.6};
+    s.pwm.period_s = 50e-6;
+    s.pwm.chopping = chopping;
+    s.bridge.dead_time_s = 1e-6;
+    s.duration_s = 0.1;
+    const auto out = run(s);
+    ASSERT_TRUE(out);
+    EXPECT_NEAR(static_cast<double>(out->turn_ons), 0.1 * 20e3, 1.0) << static_cast<int>(chopping);
+  }
+}
+
 TEST(Run, SwitchingFrequencyIsTurnOnsOverTheWindow) {
   Scenario s = current_square();
   s.control.current = {.type = CurrentLoopType::hysteresis, .band_A = 0.2};

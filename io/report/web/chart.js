@@ -84,6 +84,8 @@ function curveOptions(curve, index, chart, count) {
   const color = () => palette[curve.style];
   const options = {label: curve.label, stroke: color, width: curve.style === 'main' ? 1.8 : 1.3, points: {show: false}, spanGaps: chart.joined};
   if (curve.style === 'reference') Object.assign(options, {dash: [6, 4], width: 1.6});
+  // What lies below the curve, without a line of its own.
+  if (curve.region) Object.assign(options, {stroke: 'transparent', width: 0, fill: () => translucent(color(), 0.16), fillTo: () => 0});
   // Single points: nothing is drawn between them.
   if (curve.points) Object.assign(options, {paths: () => null, points: {show: true, size: 11, width: 2, stroke: color, fill: () => palette.paper}});
   if (chart.logic) {
@@ -164,6 +166,7 @@ function chartOptions(chart, width, time, hooks) {
   // A curve that never moves would otherwise fill the chart with rounding noise.
   const range = (u, min, max) => {
     if (min == null) return [0, 1];
+    if (chart.corner && !chart.whole) max = Math.min(max, chart.corner);
     if (chart.log) return [10 ** Math.floor(Math.log10(max) - 4), 10 ** Math.ceil(Math.log10(max))];
     const size = Math.max(Math.abs(min), Math.abs(max));
     const room = max - min > 1e-6 * size ? (max - min) * 0.07 : size > 0 ? size * 0.05 : 1;
@@ -174,6 +177,8 @@ function chartOptions(chart, width, time, hooks) {
     scales: {x: chart.log ? {time: false, distr: 3, range: (u, min, max) => [min, max]} : {time: false}, y: chart.logic ? {range: () => [-0.12, count - 0.1]} : chart.lanes ? {range: () => chart.axis.range} : {range, distr: chart.log ? 3 : 1}},
     axes: [x, ...valueAxes(chart)],
     series: [{}, ...chart.curves.map((c, i) => curveOptions(c, i, chart, count))],
+    // Of two regions the wider one is filled down to the narrower, so that their colours do not mix.
+    bands: chart.curves.flatMap((c, i) => (c.region && chart.curves[i + 1]?.region ? [{series: [i + 1, i + 2]}] : [])),
     cursor: {
       y: false, points: {show: !chart.logic && !chart.joined, size: 6, width: 0, fill: (u, i) => palette[chart.curves[i - 1].style]},
       drag: {x: true, y: false, dist: 4}, sync: {key: hooks.sync, scales: ['x', null]},
@@ -199,8 +204,9 @@ function captionOf(chart, onToggle) {
     chip.title = curve.meaning;
     chip.setAttribute('aria-pressed', 'true');
     const swatch = chip.appendChild(document.createElement('span'));
-    swatch.className = curve.points ? 'swatch point' : curve.style === 'reference' ? 'swatch dashed' : 'swatch';
+    swatch.className = curve.points ? 'swatch point' : curve.region ? 'swatch region' : curve.style === 'reference' ? 'swatch dashed' : 'swatch';
     swatch.style.borderColor = `var(--${curve.style})`;
+    if (curve.region) swatch.style.background = `var(--${curve.style}-soft)`;
     chip.append(labelNode(curve.label));
     const value = chip.appendChild(document.createElement('span'));
     value.className = 'value';

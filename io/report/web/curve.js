@@ -22,6 +22,17 @@ function pointed(rpm) {
   document.getElementById('cursor').textContent = rpm == null ? '' : `${speed.text(rpm, 1)} rpm`;
 }
 
+/** Up to the torque that the motor is used with, or up to what it does at standstill. */
+function showUpTo(stall) {
+  for (const [id, on] of [['usable', !stall], ['stall', stall]]) document.getElementById(id).setAttribute('aria-pressed', String(on));
+  linking = true;
+  for (const chart of charts) {
+    chart.chart.whole = stall;
+    chart.rescale();
+  }
+  linking = false;
+}
+
 function start() {
   document.getElementById('plots').hidden = false;
   readPalette();
@@ -31,6 +42,11 @@ function start() {
   };
   for (const chart of data.charts) charts.push(buildChart(document.getElementById('charts'), chart, () => axis, speed, hooks));
   show(...whole);
+  if (data.charts.some((c) => c.corner)) {
+    document.getElementById('ranges').hidden = false;
+    document.getElementById('usable').addEventListener('click', () => showUpTo(false));
+    document.getElementById('stall').addEventListener('click', () => showUpTo(true));
+  }
   watchPage(charts, () => {});
   globalThis.sixstep = {charts: charts.map((c) => c.plot), show};  // for scripts and tests
 }

@@ -59,6 +59,7 @@ function readout(table, entries, named) {
     return logic ? String(v) : figure(turn ? v * factor - turn * Math.floor((v * factor) / turn) : v * factor);
   };
   return (instants) => {
+    table.hidden = instants.every((t) => t == null);  // rows without a number tell nothing
     for (const {entry, curve, unit, cells} of rows) {
       const values = instants.map((t) => (t == null ? null : valueAt(curve.full ?? curve, t)));
       values.forEach((v, n) => { cells[n].textContent = text(entry, v); });

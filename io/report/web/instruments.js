@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands beside the charts of a run: the bridge, the phase-plane, the table of all curves, the units.
+// What stands beside the charts of a run: the bridge, the currents' locus, the table of all curves, the units.
 
 /** The rotor's angle, which grows with every turn: shown within one. Not a chart, but read out like one. */
 function rotorEntry(axisOf) {
@@ -16,7 +16,7 @@ function wearRotorUnit(entry) {
 /** What is between the marks: their distance and the frequency of that period. */
 function describeMarks() {
   const {A, B} = instants, dt = B - A, step = (view[1] - view[0]) / 1000;
-  element('between').textContent = A == null || B == null ? 'Marks A and B: keys a, b.'
+  element('between').textContent = A == null || B == null ? `${instants.cursor == null ? 'Point at a chart to read all curves here. ' : ''}Marks A and B: keys a, b.`
     : `Δt = ${time.text(dt, Math.min(step, Math.abs(dt) / 1000 || step))} ${time.unit}, 1/Δt = ${frequencyText(dt)}`;
 }
 

@@ -124,7 +124,7 @@ void look_at_ripple(const DriveDesign& d, Collector& out) {
     const double period_s =
         period_for_ripple_s(d.motor, d.bus_V, d.wish.chopping, greatest_ripple * d.nominal_current_A);
     out.add("the PWM ripple reaches " + rounded(d.ripple.worst_A) + " A, " +
-                rounded(100.0 * d.ripple.worst_A / d.nominal_current_A) + " % of the nominal current",
+                rounded(100.0 * d.ripple.worst_A / d.nominal_current_A) + " % of " + nominal_current_words(d),
             "keep --period below " + microseconds(period_s) +
                 (d.wish.chopping == control::Chopping::hard ? ", or chop softly" : ", or add inductance"));
   }
@@ -134,7 +134,8 @@ void look_at_braking(const DriveDesign& d, Collector& out) {
   const double top =
       d.motor.no_load_speed_rad_s > 0.0 ? d.motor.no_load_speed_rad_s : d.bus_V / d.motor.K_t_Nm_A;
   if (d.wish.chopping == control::Chopping::soft && d.braking_limit_rad_s < top)
-    out.add("soft chopping cannot hold a braking current of " + rounded(d.nominal_current_A) + " A above " +
+    out.add("soft chopping cannot hold a braking current of " + rounded(d.nominal_current_A) + " A" +
+                (d.nominal_printed ? "" : std::string(", ") + nominal_current_words(d) + ",") + " above " +
                 rounded(d.braking_limit_rad_s) +
                 " rad/s, (i/K_t) R: the motor brakes through the lower switches",
             "brake with --chopping complementary or hard, or smooth_chopping.hpp on the chip");
@@ -144,11 +145,12 @@ void look_at_braking(const DriveDesign& d, Collector& out) {
 void look_at_voltage(const DriveDesign& d, Collector& out) {
   const double first_V = d.loops[0].gains.d1 * d.nominal_current_A;
   if (first_V > d.bus_V)
-    out.add("a step of the nominal current asks for " + rounded(first_V) + " V at once, the bus has " +
-                rounded(d.bus_V) + " V: it settles later than designed",
+    out.add("a step of " + std::string(nominal_current_words(d)) + " asks for " + rounded(first_V) +
+                " V at once, the bus has " + rounded(d.bus_V) + " V: it settles later than designed",
             slower(d, d.loops[0]) + " or raise --voltage");
   if (d.headroom_end_rad_s <= 0.0)
-    out.add("the bus cannot drive the nominal current even through the held rotor", "raise --voltage", true);
+    out.add("the bus cannot drive " + std::string(nominal_current_words(d)) + " even through the held rotor",
+            "raise --voltage", true);
 }
 
 void look_at_settling(const DriveDesign& d, const LoopDesign& loop, Collector& out) {

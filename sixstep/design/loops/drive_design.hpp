@@ -91,6 +91,12 @@ struct DriveDesign {
   const LoopDesign& loop(std::string_view name) const;
 };
 
+/// What nominal_current_A is called: nothing that was made up passes for the sheet's.
+inline const char* nominal_current_words(const DriveDesign& d) {
+  return d.nominal_printed ? "the nominal current"
+                           : "a tenth of the stall current (the sheet names no nominal one)";
+}
+
 /// Part of a step of the speed within which it counts as settled: 2 %, on Hall probes 10 %, the twentieth of
 /// the lowest speed that a step of half of it is judged by.
 double settling_band(const DriveDesign& design);

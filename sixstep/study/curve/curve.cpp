@@ -39,14 +39,13 @@ base::Result<CurvePlan> plan_curve(const CurveRequest& r) {
   if (base::Problems problems = check(r); !problems.empty()) return problems;
   base::Result<NoLoad> end = no_load(r.bench);
   if (!end) return end.problems();
-  CurvePlan plan{.no_load = *end};
+  CurvePlan plan{.no_load = *end, .speeds_rad_s = {}};
   const double highest = plan.no_load.point.speed_rad_s;
   for (int n = 0; n + 1 < r.points; ++n) plan.speeds_rad_s.push_back(n * highest / (r.points - 1));
-  if (r.sheet.nominal_speed_rpm) {
-    plan.nominal = true;
-    const double sign = r.bench.duty < 0 ? -1 : 1;
-    plan.speeds_rad_s.push_back(sign * r.sheet.nominal_speed_rpm->value * rad_s_per_rpm);
-  }
+  const std::vector<double> course = course_speeds(highest);
+  plan.speeds_rad_s.insert(plan.speeds_rad_s.end(), course.begin(), course.end() - 1);
+  if (const auto nominal = scaled(r.sheet.nominal_speed_rpm, rad_s_per_rpm))
+    plan.speeds_rad_s.push_back(*nominal);
   return plan;
 }
 
@@ -79,25 +78,53 @@ std::optional<double> printed_current(const design::MotorModel& motor) {
   return std::nullopt;
 }
 
-Curve curve_of(const CurveRequest& r, const CurvePlan& plan, const std::vector<OperatingPoint>& found) {
-  Curve out{.points = found, .no_load = plan.no_load};
-  if (plan.nominal) {
-    const double sign = r.bench.duty < 0 ? -1 : 1;
-    out.nominal = NominalPoint{plan.speeds_rad_s.back(), scaled(r.sheet.nominal_torque_mNm, sign * 1e-3),
-                               printed_current(r.bench.motor), found.back()};
-    out.points.pop_back();
-  }
+std::optional<NominalPoint> nominal_point(const CurveRequest& r, const Marks& marks,
+                                          const OperatingPoint& last) {
+  NominalPoint out{.speed_rad_s = scaled(r.sheet.nominal_speed_rpm, rad_s_per_rpm),
+                   .torque_Nm = scaled(r.sheet.nominal_torque_mNm, 1e-3),
+                   .current_A = printed_current(r.bench.motor),
+                   .at_torque = marks.nominal,
+                   .at_speed = {}};
+  if (out.speed_rad_s) out.at_speed = last;
+  if (!out.speed_rad_s && !out.torque_Nm) return {};
+  return out;
+}
+
+base::Result<Curve> curve_of(const CurveRequest& r, const CurvePlan& plan,
+                             const std::vector<OperatingPoint>& found, const ForEach& for_each) {
+  const auto points = static_cast<std::ptrdiff_t>(r.points) - 1;
+  Curve out{.points = {found.begin(), found.begin() + points}, .no_load = plan.no_load};
   out.points.push_back(plan.no_load.point);
+  std::vector<OperatingPoint> course(found.begin() + points, found.begin() + points + course_steps);
+  course.push_back(plan.no_load.point);
   const base::Result<design::ThermalModel> model = design::thermal_model(r.sheet);
-  if (!model) {
+  if (model)
+    out.thermal = *model;
+  else
     out.thermal_missing = model.problems();
-    return out;
-  }
-  out.thermal = *model;
+  base::Result<Marks> marks = find_marks(
+      r.bench, {out.thermal, r.ambient_degC, scaled(r.sheet.nominal_torque_mNm, 1e-3)}, course, for_each);
+  if (!marks) return marks.problems();
+  out.marks = *marks;
+  out.nominal = nominal_point(r, out.marks, found.back());
   for (const OperatingPoint& p : out.points) {
-    out.limits.push_back(thermal_limits(*model, r, p.speed_rad_s));
-    out.warming.push_back(warming(*model, r, p));
+    if (!out.thermal) break;
+    out.limits.push_back(thermal_limits(*out.thermal, r, p.speed_rad_s));
+    out.warming.push_back(warming(*out.thermal, r, p));
   }
+  return out;
+}
+
+SpeedDrop speed_drop(const CurveRequest& r, const Curve& curve) {
+  const double K_t = r.bench.motor.K_t_Nm_A;
+  SpeedDrop out{.ideal = 2 * r.bench.motor.machine.R_ohm / (K_t * K_t),
+                .printed = scaled(r.sheet.speed_torque_gradient_rpm_mNm, 1e3 * rad_s_per_rpm)};
+  if (!curve.nominal || !curve.nominal->torque_Nm) return out;
+  const double torque = *curve.nominal->torque_Nm;
+  if (r.sheet.no_load_speed_rpm && curve.nominal->speed_rad_s)
+    out.sheet = (r.sheet.no_load_speed_rpm->value * rad_s_per_rpm - *curve.nominal->speed_rad_s) / torque;
+  if (curve.nominal->at_torque)
+    out.curve = (curve.no_load.point.speed_rad_s - curve.nominal->at_torque->speed_rad_s) / torque;
   return out;
 }
 

@@ -3,11 +3,11 @@
 // the winding stands for ever or for a while.
 #pragma once
 #include <array>
-
 #include <optional>
 #include <vector>
 
 #include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/study/curve/marks.hpp"
 #include "sixstep/study/curve/no_load.hpp"
 
 namespace sixstep::study {
@@ -22,11 +22,21 @@ struct CurveRequest {
   double ambient_degC = design::sheet_degC;
 };
 
-/// The point that the sheet calls nominal, and the curve at its speed.
+/// The point that the sheet calls nominal, and where the curve has its torque. A load asks for a torque: what
+/// the motor then does differently is to turn slower. The torque at the printed speed would magnify the same
+/// difference by the curve's steepness.
 struct NominalPoint {
-  double speed_rad_s = 0.0;
-  std::optional<double> torque_Nm, current_A;  ///< as printed
-  OperatingPoint on_curve;
+  std::optional<double> speed_rad_s, torque_Nm, current_A;  ///< as printed
+  std::optional<OperatingPoint> at_torque;  ///< empty without a torque, or where the curve never has it
+  std::optional<OperatingPoint> at_speed;   ///< empty without a speed
+};
+
+/// How much speed a torque costs, rad/s per N m, from no load to the nominal point.
+struct SpeedDrop {
+  double ideal = 0.0;             ///< R_tt/K_t^2: what a sheet's speed-torque gradient is
+  std::optional<double> printed;  ///< that gradient as printed
+  std::optional<double> sheet;    ///< between the sheet's own two points
+  std::optional<double> curve;    ///< between the same torques of the curve
 };
 
 /// Times for which short-time limits are given, s.
@@ -49,6 +59,7 @@ struct Warming {
 struct Curve {
   std::vector<OperatingPoint> points;
   NoLoad no_load;
+  Marks marks;
   std::optional<NominalPoint> nominal;
   std::optional<design::ThermalModel> thermal;
   std::vector<ThermalLimits> limits;  ///< one per point; empty without thermal lines
@@ -56,18 +67,20 @@ struct Curve {
   base::Problems thermal_missing;     ///< why there are none
 };
 
-/// What comes first: the no-load point, and the speeds that are then independent of each other. The last one
-/// is the sheet's nominal speed, where it has one.
+/// What comes first: the no-load point, and the speeds that are then independent of each other: those of the
+/// points, then the course on which the marks are looked for, both ending before no load, and the sheet's
+/// nominal speed where it has one.
 struct CurvePlan {
   NoLoad no_load;
   std::vector<double> speeds_rad_s;
-  bool nominal = false;
 };
 
 base::Problems check(const CurveRequest& request);
 base::Result<CurvePlan> plan_curve(const CurveRequest& request);
 /// `found` are the points at the plan's speeds, in order.
-Curve curve_of(const CurveRequest& request, const CurvePlan& plan, const std::vector<OperatingPoint>& found);
+base::Result<Curve> curve_of(const CurveRequest& request, const CurvePlan& plan,
+                             const std::vector<OperatingPoint>& found, const ForEach& for_each);
+SpeedDrop speed_drop(const CurveRequest& request, const Curve& curve);
 
 ThermalLimits thermal_limits(const design::ThermalModel& model, const CurveRequest& request,
                              double speed_rad_s);

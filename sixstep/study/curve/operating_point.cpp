@@ -221,7 +221,10 @@ base::Result<OperatingPoint> chopped(const Bench& b, double speed) {
   p.half_width_Nm = interval(g.parts, [](const Sums& s) { return s.torque / s.seconds; }).half_width;
   p.half_width_A =
       interval(g.parts, [&](const Sums& s) { return s.supplied / s.seconds / b.voltage_V; }).half_width;
-  if (speed == 0) spread_over_angles(b.motor, all, p);
+  if (speed == 0) {
+    spread_over_angles(b.motor, all, p);
+    p.locked = locked_rotor(b.motor, all);
+  }
   take_to_shaft(b, p);
   return p;
 }
@@ -241,6 +244,7 @@ OperatingPoint stall(const Bench& b) {
   sums.supplied = b.voltage_V * std::fabs(i);
   OperatingPoint p = point_of(b, 0.0, sums);
   spread_over_angles(b.motor, sums, p);
+  p.locked = locked_rotor(b.motor, sums);
   take_to_shaft(b, p);
   return p;
 }

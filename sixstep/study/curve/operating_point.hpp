@@ -10,7 +10,8 @@
 //   chopped    PWM and rotor are out of step, the orbit never quite repeats: mean values over batches that
 //              start in different phases, with a confidence interval from their scatter.
 //   standstill the limit of slow rotation: without back-EMF the current does not depend on the angle, so that
-//              the mean over all angles is closed form.
+//              the mean over all angles is closed form. What a rotor that does not turn at all makes of the
+//              same current at one angle stands beside it.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -21,6 +22,13 @@
 namespace sixstep::study {
 
 enum class Orbit : std::uint8_t { standstill, periodic, quasi_periodic };
+
+/// Held at one angle: two phases carry all of the current, the third none, and the angle decides the torque.
+struct LockedRotor {
+  double phase_rms_A = 0.0;                                ///< of each of the two
+  double least_torque_Nm = 0.0, greatest_torque_Nm = 0.0;  ///< by size, of all angles
+  double ripple_Nm = 0.0;  ///< within a PWM period where the torque is least, peak to peak
+};
 
 /// Mean values over the orbit; powers positive as a motor: supplied = copper + devices + air gap, air gap =
 /// friction + shaft.
@@ -38,6 +46,8 @@ struct OperatingPoint {
   /// Shaft over supply as a motor, supply over shaft as a generator; empty where one of them is no source.
   std::optional<double> efficiency;
   double energy_residual = 0.0;  ///< supplied - copper - devices - air gap - stored, over what moved
+
+  std::optional<LockedRotor> locked;  ///< at standstill
 
   Orbit orbit = Orbit::standstill;
   std::int64_t sectors = 0;    ///< simulated

@@ -49,4 +49,13 @@ void spread_over_angles(const design::MotorModel& motor, const Sums& sums, Opera
   p.ripple_Nm = highest - lowest;
 }
 
+LockedRotor locked_rotor(const design::MotorModel& motor, const Sums& sums) {
+  const ShapeMeans g = shape_means(motor.machine);
+  const double T = sums.seconds, i = sums.motor / T;
+  return {.phase_rms_A = std::sqrt(sums.copper / T / (2 * motor.machine.R_ohm)),
+          .least_torque_Nm = g.low * i,
+          .greatest_torque_Nm = g.high * i,
+          .ripple_Nm = g.low * (sums.motor_high - sums.motor_low)};
+}
+
 }  // namespace sixstep::study

@@ -18,4 +18,7 @@ ShapeMeans shape_means(const plant::Machine& machine);
 /// with theta and t independent.
 void spread_over_angles(const design::MotorModel& motor, const Sums& sums, OperatingPoint& p);
 
+/// The same current where the rotor is held at the angle of least torque.
+LockedRotor locked_rotor(const design::MotorModel& motor, const Sums& sums);
+
 }  // namespace sixstep::study

@@ -65,7 +65,8 @@ struct Outcome {
   std::optional<Trip> trip;  // the same in parts, where it was the drive that stopped
   double simulated_s = 0.0;
   std::int64_t segments = 0;
-  std::uint64_t digest = 0;  // of every bit of the trajectory (study/measure/digest.hpp)
+  std::int64_t turn_ons = 0;  // of the role that is chopped, wherever commutation puts it
+  std::uint64_t digest = 0;   // of every bit of the trajectory (study/measure/digest.hpp)
 
   bool passed() const {
     for (const Verdict& v : verdicts)

@@ -43,6 +43,7 @@ base::Problems run_rig(Rig& rig, const Compiled& compiled, Watchers& w, Outcome&
   else
     note_trip(rig.firmware().diagnosis(), out);
   out.segments = run.segments;
+  out.turn_ons = rig.modulator().turn_ons();
   out.simulated_s = t_s;
   out.digest = w.digest.after(rig);
   if (w.logic) w.logic->end(rig);

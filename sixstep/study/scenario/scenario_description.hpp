@@ -136,7 +136,8 @@ void describe(Visitor& v, Scenario& s) {
   v.value(
       "extends", s.extends,
       {.meaning = "a scenario beside this one whose keys hold where this one is silent, or a list of them, "
-                  "the later the stronger; lists of tables add to theirs, an empty list drops them"});
+                  "the later the stronger; lists of tables add to theirs; an empty list [] or table {} drops "
+                  "theirs"});
   v.value(
       "motor", s.motor,
       {.meaning =

@@ -190,7 +190,8 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, Scenario& s) {
 
 void add_speed(const DriveDesign& d, const DesignSubject& subject, Scenario& s) {
   const SpeedTest t = speed_test(d, subject);
-  s.title = "Speed cascade as designed, against half the nominal torque";
+  s.title = d.nominal_printed ? "Speed cascade as designed, against half the nominal torque"
+                              : "Speed cascade as designed, against a twentieth of the stall torque";
   s.duration_s = t.end;
   s.load.torque_Nm = d.motor.K_t_Nm_A * t.load_A;
   s.reference.shape = Shape::steps;

@@ -171,10 +171,6 @@ Scenario varied_scenario(const Scenario& nominal, const design::MotorModel& moto
   return s;
 }
 
-void one_after_the_other(std::size_t count, const std::function<void(std::size_t)>& work) {
-  for (std::size_t n = 0; n < count; ++n) work(n);
-}
-
 Robustness robustness(const design::DriveDesign& design, const Scenario& scenario,
                       const std::vector<Tolerance>& tolerances, const ForEach& for_each,
                       const std::function<bool()>& keep_going) {

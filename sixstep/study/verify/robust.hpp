@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sixstep/design/loops/drive_design.hpp"
+#include "sixstep/study/for_each.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
 namespace sixstep::study {
@@ -60,10 +61,6 @@ struct Robustness {
   std::vector<RobustFigure> phases;
   std::size_t runs = 0;
 };
-
-/// Calls work(0) .. work(count - 1), each once, side by side or one after the other.
-using ForEach = std::function<void(std::size_t count, const std::function<void(std::size_t)>& work)>;
-void one_after_the_other(std::size_t count, const std::function<void(std::size_t)>& work);
 
 Robustness robustness(const design::DriveDesign& design, const Scenario& scenario,
                       const std::vector<Tolerance>& tolerances, const ForEach& for_each = one_after_the_other,
