@@ -127,7 +127,8 @@ std::string TableReader::limit_as_written(const toml::node& node, const base::Ab
   const std::optional<Written> written = text ? split_number(text->get()) : std::nullopt;
   if (!own || own->empty() || !written || written->unit.empty()) return limit_of(about.range, allowed, x);
   const auto there = [&](double value) {
-    return in_unit(fmt::format("{} {}", value, *own), written->unit).value_or(value);
+    const auto found = in_unit(fmt::format("{} {}", value, *own), written->unit);
+    return found ? *found : value;
   };
   const auto in_its_unit = [&](base::Range range) {
     range.low = there(range.low);

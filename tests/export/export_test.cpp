@@ -129,7 +129,7 @@ TEST(ExportHeader, FixedPointIsWhatTheScalingProved) {
 }
 
 // As above, of io/export/product_lines.hpp.
-static_assert(sizeof(ProtectedConfig<double>) == 576);
+static_assert(sizeof(ProtectedConfig<double>) == 584);
 
 template <class Format>
 std::int64_t bits(FixedTickRatio<Format> x) {
