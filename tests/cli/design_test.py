@@ -39,7 +39,7 @@ def mat_variables(data):
 class Design(ProgramTest):
     def test_design_prints_verdict_first_then_every_step(self):
         text = self.run_program("design", "maxon-251601").stdout
-        self.assertRegex(text.splitlines()[0], r"^usable, 1 warning: the current loop settles in 990 us \(1 ms asked for\)")
+        self.assertRegex(text.splitlines()[0], r"^usable, 2 warnings: the current loop settles in 930 us \(1 ms asked for\), 1\.02 ms at worst, .*; with Hall probes, over 10 motors$")
         self.assertRegex(text, r"  d1 +4\.09559 +.* thesis 4\.5\n")
         self.assertRegex(text, r"  Re z +0\.869154 +.* thesis 0\.8588\n")
         self.assertIn("phase margin, one period late         59.8 deg", text)
@@ -47,7 +47,7 @@ class Design(ProgramTest):
         self.assertEqual(self.names(), [])
 
     def test_design_writes_a_scenario_that_runs_and_is_exported_with_the_same_gains(self):
-        for mode, figures in (("current", 3), ("speed", 7), ("position", 4)):
+        for mode, figures in (("current", 3), ("speed", 7), ("position", 5)):
             self.run_program("design", "maxon-251601", "--mode", mode, "--quick", "--quiet", "--toml", "d.toml",
                              "--json", "d.json")
             designed = json.loads((self.path / "d.json").read_text())
@@ -75,7 +75,8 @@ class Design(ProgramTest):
         self.run_program("run", "out/d.toml", "--quiet")
 
     def test_design_json_has_bode_step_margins_and_worst_corners(self):
-        result = self.run_program("design", "maxon-251601", "--mode", "speed", "--json", "-", "--quiet")
+        result = self.run_program("design", "maxon-251601", "--mode", "speed", "--rotor", "ideal", "--delay", "0",
+                                  "--torque-limit", "0.78", "--json", "-", "--quiet")
         d = json.loads(result.stdout)
         self.assertEqual([loop["name"] for loop in d["loops"]], ["current", "speed"])
         self.assertEqual(d["tolerances"]["motors"], 25)

@@ -127,7 +127,7 @@ class Gate(ProgramTest):
                                 "--despite", reason).stdout
         lines = text.splitlines()
         at = lines.index("// NOT CLEARED FOR A BRIDGE. Written all the same, for this reason:")
-        self.assertEqual(lines[at + 1:at + 3], ["//   one bench #error two */", "// What was overridden:"])
+        self.assertEqual(lines[at + 1:at + 3], ["//   one bench\\u000a#error two\\u000d*/ \\ \\u202e", "// What was overridden:"])
         self.assertEqual([line.split(" ")[3] for line in lines[at + 3:at + 6]], ["sensors.currents", "pwm.delay_periods", "slowest"])
         self.assertRegex(lines[at + 6], r"^// Its run: 0\.02 s simulated in double, digest \w{16}$")
         self.assertNotIn("\u202e", text)

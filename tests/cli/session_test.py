@@ -226,7 +226,7 @@ class Terminal(Session):
             time.sleep(0.7)
             program.send_signal(signal.SIGINT)
             self.assertEqual(program.communicate(timeout=20), ("", ended + "\n"), "nothing of the bar reaches a pipe")
-        slow = ["design", "maxon-251601", "--mode", "position", "--settle", "1", "--jobs", "1"]
+        slow = ["design", "maxon-251601", "--mode", "speed", "--settle", "1", "--jobs", "1"]
         self.assertRegex(self.screen(*slow, until="motors"), r"\d+ of \d+ motors")
 
 

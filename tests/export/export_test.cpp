@@ -284,7 +284,8 @@ TEST(ExportHeader, TextsStayInTheirComment) {
   s.title = "a\nint b;\r*/ \u202e\u2066 gr\u00fcn \\";
   const auto text = header_of(s, study::Arithmetic::float64);
   ASSERT_TRUE(text);
-  EXPECT_NE(text->find("// scenario  a int b; */    gr\u00fcn\n"), std::string::npos) << text->substr(0, 400);
+  EXPECT_NE(text->find("// scenario  a\\u000aint b;\\u000d*/ \\u202e\\u2066 gr\u00fcn\n"), std::string::npos)
+      << text->substr(0, 400);
 }
 
 }  // namespace

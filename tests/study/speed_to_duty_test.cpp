@@ -17,6 +17,7 @@ using control::Mode;
 Scenario direct(double reference_rad_s, double duration_s) {
   Scenario s = maxon_scenario(Mode::speed, reference_rad_s);
   s.control.speed.output = SpeedOutput::duty;
+  s.control.speed.torque_limit_Nm.reset();
   s.pwm.chopping = control::Chopping::complementary;
   s.duration_s = duration_s;
   return s;

@@ -28,7 +28,7 @@ class CopiedCheckout(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.original = pathlib.Path(folder.name) / "a checkout"
         (self.original / "tools").mkdir(parents=True)
-        for name in ("run", "test", "tools/configure.sh"):
+        for name in ("run", "test", "tools/configure.sh", "tools/parts.sh"):
             shutil.copy2(SOURCE / name, self.original / name)
         for name, text in NOTHING.items():
             (self.original / name).write_text(text)

@@ -136,13 +136,14 @@ void check_control(const Scenario& s, base::Problems& out) {
                    "remove d1, d0, kp, ki, settle_s and damping, or set type = \"pi\""});
 }
 
-/// The speed controller's full output is a torque; a sheet without voltage and stall point has none to offer.
+/// The speed controller's full output is a torque; where the sheet says what the motor stands it is 2.5 times
+/// the nominal current's.
 void check_torque_limit(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
   const bool speed = s.control.mode == control::Mode::speed || s.control.mode == control::Mode::position;
   const bool asks_torque = speed && s.control.speed.output == SpeedOutput::current;
-  if (asks_torque && !s.control.speed.torque_limit_Nm && !(motor.stall_torque_Nm > 0))
+  if (asks_torque && !s.control.speed.torque_limit_Nm && !(motor.nominal_current_A > 0))
     out.push_back({"control.speed.torque_limit_Nm", "",
-                   "is missing, and the motor's sheet has no stall torque and no nominal voltage",
+                   "is missing, and the motor's sheet names no nominal current",
                    "give the torque that the drive may ask for"});
 }
 

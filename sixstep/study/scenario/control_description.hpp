@@ -55,13 +55,11 @@ void describe(Visitor& v, SpeedLoop& s) {
   v.choice("form", s.form, speed_form_choices,
            {.meaning = "how its PI is computed; short of the limit both forms are one controller"});
   describe_gains(v, s);
-  v.value(
-      "torque_limit_Nm", s.torque_limit_Nm,
-      {.meaning =
-           "torque at the speed controller's full output; without it that of "
-           "2.5 times the nominal current, or of a quarter of the stall current where the sheet names none",
-       .unit = "N m",
-       .range = above(0)});
+  v.value("torque_limit_Nm", s.torque_limit_Nm,
+          {.meaning = "torque at the speed controller's full output; without it that of 2.5 times the "
+                      "sheet's nominal current",
+           .unit = "N m",
+           .range = above(0)});
   v.value(
       "anti_windup", s.anti_windup,
       {.meaning = "positional: part of what the limit cuts off that each sample takes off the integral; 0 "

@@ -6,6 +6,7 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/decimal.hpp"
+#include "sixstep/base/plausible.hpp"
 
 namespace sixstep::study {
 namespace {
@@ -21,7 +22,7 @@ Sensors board_sensors(const design::DriveDesign& d) {
   if (!d.wish.rotor.hall) return s;
   sense_currents(d, rig::CurrentSensing::phases, s);
   s.bus = BusSensing::adc;
-  s.bus_range_V = range_from(1.5 * d.bus_V);
+  s.bus_range_V = std::min(range_from(1.5 * d.bus_V), base::plausible("V").most);
   s.rotor = RotorSensing::hall;
   s.speed_edges = d.wish.rotor.edges;
   const double sector_s = base::pi / 3 / d.motor.machine.pole_pairs / d.lowest_speed_rad_s;
