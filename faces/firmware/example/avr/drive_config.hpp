@@ -8,7 +8,7 @@
 // current   d1 = 0.720057 V/A, d0 = -0.419524 V/A; given as d1, d0; poles z = 0.708221 and 0.582626 on 0.405217/(z -0.582626); settle_s = 0.001, damping = 0.9 would give d1 = 2.93109, d0 = -1.28162
 // Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the motor.
 //
-// Cleared by its run: 0.2 s simulated in q15, digest 0810c4bb58b88ae7
+// Cleared by its run: 0.2 s simulated in q15, digest 5d18b491352563c1
 //   mean current at 3 A: 2.7 .. 3.3 A required, 2.88645 A measured
 //   mean current at 5 A: 4.5 .. 5.5 A required, 4.6484 A measured
 //   greatest current: <= 10 A required, 7.66496 A measured
