@@ -214,11 +214,12 @@ TEST(Check, AMovingReferenceHasNoStepsToTakeFiguresOf) {
   }
 }
 
-TEST(Check, ASheetWithoutVoltageAndStallPointNeedsTheTorqueLimit) {
+TEST(Check, ASheetWithoutANominalCurrentNeedsTheTorqueLimit) {
   Scenario s = maxon_scenario(control::Mode::speed, 200.0);
-  s.sheet.nominal_voltage_V.reset();
+  s.control.speed.torque_limit_Nm.reset();
+  s.sheet.nominal_current_A = {2.33, "terminal", ""};
   EXPECT_THAT(places(s), ::testing::IsEmpty());
-  s.sheet.stall_torque_mNm.reset();
+  s.sheet.nominal_current_A.reset();
   EXPECT_THAT(places(s), ::testing::ElementsAre("control.speed.torque_limit_Nm"));
   s.control.speed.torque_limit_Nm = 0.5;
   EXPECT_THAT(places(s), ::testing::IsEmpty());

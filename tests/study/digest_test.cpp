@@ -167,7 +167,7 @@ Scenario flashed() {
   s.reference = {.shape = Shape::trapezoid, .end = 150.0, .slope = 2e4, .acceleration = 4e6};
   s.control.speed.form = SpeedForm::positional;
   s.control.speed.derivative_s = 1e-3;
-  s.control.speed.anti_windup = 0.02;
+  s.control.speed.derivative_filter_s = 3e-3;
   s.control.limits.speed_rad_s = 300.0;
   s.control.slew = 5e4;
   s.sensors.current_noise_A = 0.01;
