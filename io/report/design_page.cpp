@@ -122,9 +122,38 @@ std::string margins(const DesignStudy& s) {
   row("peak of sensitivity, one period late", [&](const LoopDesign& l) {
     return delayed(l).stable ? plain(delayed(l).sensitivity_peak, 3) : std::string("unstable");
   });
-  row("step: settling to 2 %", [&](const LoopDesign& l) { return shown(l.step.settling_s, "s"); });
+  if (s.design.lag.delay_s() > 0)
+    row("phase margin with the speed’s sensor",
+        [&](const LoopDesign& l) { return in(l.built.phase_rad, degrees, "deg"); });
+  row(s.design.lag.delay_s() > 0 ? "step: settling" : "step: settling to 2 %",
+      [&](const LoopDesign& l) { return shown(l.step.settling_s, "s"); });
   row("step: overshoot", [&](const LoopDesign& l) { return plain(100 * l.step.overshoot, 3) + " %"; });
   return out + "</tbody></table>\n";
+}
+
+/// How old the speed is, and how fast each way of sensing lets the loop be.
+std::string sensing(const DesignStudy& s) {
+  const sixstep::design::DriveDesign& d = s.design;
+  if (d.limits.empty()) return "";
+  std::vector<std::string> heads{"Sensor"};
+  for (std::size_t n = 0; n < 3; ++n)
+    heads.push_back("#down to " + computed(d.limits[n].lowest_speed_rad_s, "rad/s"));
+  std::string rows;
+  for (std::size_t n = 0; n + 3 <= d.limits.size(); n += 3) {
+    rows += "<tr><th scope=\"row\">" + escaped(edges_words(d.limits[n].sensing)) + "</th>";
+    for (std::size_t k = n; k < n + 3; ++k)
+      rows += cell(d.limits[k].settle_s ? computed(*d.limits[k].settle_s, "s") : "–");
+    rows += "</tr>\n";
+  }
+  std::string table = "<table><thead><tr>";
+  for (const std::string& text : heads)
+    table +=
+        text[0] == '#' ? "<th class=\"num\">" + escaped(text.substr(1)) + "</th>" : "<th>" + text + "</th>";
+  return fmt::format(
+      "<h3>Fastest settling of the speed loop</h3><p class=\"origin\">that keeps 45 degrees of phase at the "
+      "lowest "
+      "speed; this design's speed is {} old there</p>\n{}</tr></thead><tbody>\n{}</tbody></table>\n",
+      escaped(computed(d.lag.delay_s(), "s")), table, rows);
 }
 
 std::string robust_row(const RobustFigure& f) {
@@ -167,7 +196,7 @@ std::string render_design(const DesignPage& page) {
               {"step_charts", step_charts(s)},
               {"gains", gain_table(s)},
               {"derivation", derivation},
-              {"margins", margins(s)},
+              {"margins", margins(s) + sensing(s)},
               {"loop_charts", loop_charts(s)},
               {"limit_charts", limit_charts(s)},
               {"tolerances", tolerances(s)},

@@ -70,12 +70,6 @@ std::string motor_line(const DriveDesign& d, const study::Scenario& s) {
       d.wish.delay_periods == 1 ? "one period late" : "at once");
 }
 
-std::string edges_text(const sixstep::design::RotorSensing& sensing) {
-  return sensing.edges == 0   ? "Hall, 6 edges or 1"
-         : sensing.edges == 1 ? "Hall, 1 edge"
-                              : fmt::format("Hall, {} edges", sensing.edges);
-}
-
 std::string gain_unit(const LoopDesign& loop) { return loop.name == "current" ? "V/A" : "per rad/s"; }
 
 std::string loop_text(const LoopDesign& loop) {
@@ -167,13 +161,14 @@ std::string sensing_text(const DriveDesign& d) {
     head.push_back("down to " + quantity_text(d.limits[n].lowest_speed_rad_s, "rad/s", 3));
   table.add(head);
   for (std::size_t n = 0; n + 3 <= d.limits.size(); n += 3) {
-    std::vector<std::string> cells{edges_text(d.limits[n].sensing)};
+    std::vector<std::string> cells{sixstep::design::edges_words(d.limits[n].sensing)};
     for (std::size_t k = n; k < n + 3; ++k)
       cells.push_back(d.limits[k].settle_s ? quantity_text(*d.limits[k].settle_s, "s", 3) : "none");
     table.add(std::move(cells));
   }
-  return "\nSpeed from Hall edges, " + edges_text(d.wish.rotor).substr(6) + "\n" + steps.text() +
-         "\nFastest settling of the speed loop that keeps 45 degrees of phase\n" + table.text();
+  return "\nSpeed from Hall edges, " + sixstep::design::edges_words(d.wish.rotor).substr(6) + "\n" +
+         steps.text() + "\nFastest settling of the speed loop that keeps 45 degrees of phase\n" +
+         table.text();
 }
 
 std::string limits_text(const DriveDesign& d) {

@@ -17,6 +17,11 @@ constexpr int one_turn = 6;  // sectors of an electrical turn
 
 }  // namespace
 
+std::string edges_words(const RotorSensing& sensing) {
+  if (sensing.edges == 0) return "Hall, 6 edges or 1";
+  return "Hall, " + std::to_string(sensing.edges) + (sensing.edges == 1 ? " edge" : " edges");
+}
+
 double hall_window_s(double crossover_rad_s) {
   if (!(crossover_rad_s > 0.0)) return 0.0;
   return six_edges_phase_rad / crossover_rad_s * 2 * one_turn / (one_turn + 1);

@@ -9,6 +9,7 @@
 // (k + 1)/2 T and little else. It grows as the rotor slows down: what a loop can do is said for the lowest
 // speed that is asked for.
 #pragma once
+#include <string>
 #include <vector>
 
 #include "sixstep/design/loops/pole_placement.hpp"
@@ -21,6 +22,9 @@ struct RotorSensing {
   bool hall = true;  ///< Hall probes; else ideal, as an encoder of very many lines
   int edges = 0;     ///< that a speed is taken over, 1..6; 0: six where they cost the loop little, else one
 };
+
+/// "Hall, 1 edge", "Hall, 6 edges or 1"
+std::string edges_words(const RotorSensing& sensing);
 
 /// Phase in rad that six edges may cost a speed loop at its crossover before one edge is taken instead:
 /// an eighth of the half turn that makes feedback unstable.

@@ -123,6 +123,8 @@ void shorten(Scenario& s) {
   }
   s.load.torque_Nm = base::shortened(s.load.torque_Nm, 2, base::Towards::down);
   s.initial.angle_rad = base::shortened(s.initial.angle_rad, 4, base::Towards::down);
+  if (std::optional<double>& limit = s.control.speed.torque_limit_Nm)
+    limit = base::shortened(*limit, 3, base::Towards::down);
   double& gain = s.control.position.gain_rad_s_per_deg;
   gain = base::shortened(gain, 2, base::Towards::down);  // a lower one overshoots less
 }
