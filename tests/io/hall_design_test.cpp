@@ -38,6 +38,32 @@ double figure(const Outcome& o, const std::string& name) {
   return NAN;
 }
 
+/// Whether one of the motors out of tolerance fails a design: swings, or has not settled after twice the time
+/// (the doubled inertia takes so long with ideal sensors too).
+struct Field {
+  int motors = 0, swing = 0, late = 0;
+};
+
+Field field_of(const DesignSubject& subject, const design::DesignWish& wish, bool until_one_swings) {
+  const auto d = design::design_drive(*design::motor_model(subject.sheet), wish);
+  EXPECT_TRUE(d);
+  const Scenario nominal = design_scenario(*d, subject);
+  const auto ideal = run(with_ideal_sensors(nominal));
+  EXPECT_TRUE(ideal);
+  const double allowed = allowed_swing_rad_s(figure(*ideal, "speed ripple"), nominal.reference.values[1]);
+  const auto tolerances = sheet_tolerances(control::Mode::speed);
+  Field found;
+  for (const Variation& v : variations(tolerances)) {
+    const auto outcome = run(varied_scenario(nominal, d->motor, tolerances, v));
+    EXPECT_TRUE(outcome && !outcome->fault) << v.words;
+    ++found.motors;
+    if (!(figure(*outcome, "speed ripple") <= allowed)) ++found.swing;
+    if (until_one_swings && found.swing > 0) break;
+    if (!until_one_swings && !(figure(*outcome, "settling time") <= 2 * *wish.settle_s)) ++found.late;
+  }
+  return found;
+}
+
 class HallDesign : public testing::TestWithParam<Drawn> {
  protected:
   void SetUp() override {
@@ -47,31 +73,10 @@ class HallDesign : public testing::TestWithParam<Drawn> {
     subject_.sheet = *sheet;
   }
 
-  /// Whether one of the motors out of tolerance fails a design: swings, or has not settled after twice the
-  /// time (the doubled inertia takes so long with ideal sensors too).
-  struct Field {
-    int motors = 0, swing = 0, late = 0;
-  };
   Field field(double settle_s, bool until_one_swings) {
     design::DesignWish wish = wish_of(GetParam());
     wish.settle_s = settle_s;
-    const auto d = design::design_drive(*design::motor_model(subject_.sheet), wish);
-    EXPECT_TRUE(d);
-    const Scenario nominal = design_scenario(*d, subject_);
-    const auto ideal = run(with_ideal_sensors(nominal));
-    EXPECT_TRUE(ideal);
-    const double allowed = allowed_swing_rad_s(figure(*ideal, "speed ripple"), nominal.reference.values[1]);
-    const auto tolerances = sheet_tolerances(control::Mode::speed);
-    Field found;
-    for (const Variation& v : variations(tolerances)) {
-      const auto outcome = run(varied_scenario(nominal, d->motor, tolerances, v));
-      EXPECT_TRUE(outcome && !outcome->fault) << v.words;
-      ++found.motors;
-      if (!(figure(*outcome, "speed ripple") <= allowed)) ++found.swing;
-      if (until_one_swings && found.swing > 0) break;
-      if (!until_one_swings && !(figure(*outcome, "settling time") <= 2 * settle_s)) ++found.late;
-    }
-    return found;
+    return field_of(subject_, wish, until_one_swings);
   }
 
   DesignSubject subject_;
@@ -97,7 +102,24 @@ INSTANTIATE_TEST_SUITE_P(SixMotors, HallDesign,
                                          Drawn{"baldor-bsm90n-175", 200, 6}, Drawn{"hoverboard-hub", 36, 1},
                                          Drawn{"hoverboard-hub", 36, 6}));
 
-TEST(HallDesign, DefaultEdgesHoldWhereSixWouldNot) {
+TEST(HallTable, EachOfItsEntriesHoldsAtEveryCorner) {
+  const DesignSubject subject{.motor = "maxon-251601", .sheet = *io::read_sheet("maxon-251601", "")};
+  const auto d = design::design_drive(*design::motor_model(subject.sheet), wish_of({"maxon-251601", 24, 0}));
+  ASSERT_TRUE(d);
+  ASSERT_EQ(d->limits.size(), 9u);
+  for (const design::SettlingLimit& limit : d->limits) {
+    SCOPED_TRACE(design::edges_words(limit.sensing) + " at " + std::to_string(limit.lowest_speed_rad_s));
+    design::DesignWish wish = wish_of({"maxon-251601", 24, limit.sensing.edges});
+    wish.lowest_speed_rad_s = limit.lowest_speed_rad_s;
+    wish.settle_s = limit.settle_s;
+    const Field held = field_of(subject, wish, false);
+    EXPECT_EQ(held.motors, 25);
+    EXPECT_EQ(held.swing, 0);
+    EXPECT_EQ(held.late, 0);
+  }
+}
+
+TEST(HallDesigned, DefaultEdgesHoldWhereSixWouldNot) {
   // The speed loop that design names for adaptive edges, on the same drive with six at every speed.
   const DesignSubject subject{.motor = "maxon-251601", .sheet = *io::read_sheet("maxon-251601", "")};
   const auto adaptive = study_design({.subject = subject, .wish = wish_of({"maxon-251601", 24, 0})});

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """./run and ./test in a copy of a checkout, build folder and all, build the copy's sources: around the real scripts
 stands a project of one line."""
+import os
 import pathlib
 import shutil
 import subprocess
@@ -41,7 +42,8 @@ class CopiedCheckout(unittest.TestCase):
         (checkout / "sixstep.c").write_text(f'#include <stdio.h>\nint main(void) {{ puts("{word}"); return 0; }}\n')
 
     def call(self, checkout, *words):
-        result = subprocess.run(["./" + words[0], *words[1:]], cwd=checkout, capture_output=True, text=True, timeout=120)
+        result = subprocess.run(["./" + words[0], *words[1:]], cwd=checkout, capture_output=True, text=True, timeout=120,
+                                env={name: value for name, value in os.environ.items() if name != "SIXSTEP_PARTS"})
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         return result.stdout, result.stderr
 

@@ -219,6 +219,15 @@ void add_sensing(DriveDesign& d) {
   d.limits = settling_limits(settling_question(d), d.lowest_speed_rad_s);
 }
 
+/// A P loop that counts edges: one step away from its target it asks for K_p steps per second.
+void add_steps(DriveDesign& d) {
+  if (!d.wish.rotor.hall || d.loops.size() < 3) return;
+  std::erase_if(d.sensing, [](const DerivationStep& s) { return s.symbol == "q" || s.symbol == "1/K_p"; });
+  const double gain = d.loops[2].gains.d1 * 180.0 / base::pi;
+  d.sensing.push_back({"q", "60/p, a Hall step", 60.0 / d.motor.machine.pole_pairs, "deg"});
+  d.sensing.push_back({"1/K_p", "a step away from the target the next edge is so far off", 1.0 / gain, "s"});
+}
+
 void add_limits(DriveDesign& d) {
   d.ripple = worst_ripple(d.motor, d.bus_V, d.wish.period_s, d.wish.chopping);
   d.headroom_end_rad_s = speed_for_current_rad_s(d.motor, d.bus_V, d.nominal_current_A);
@@ -228,6 +237,7 @@ void add_limits(DriveDesign& d) {
 
 void finish(DriveDesign& d) {
   for (std::size_t n = 0; n < d.loops.size(); ++n) judge(d, d.loops[n], n);
+  add_steps(d);
   d.warnings = warnings_of(d);
 }
 
