@@ -136,7 +136,7 @@ base::Result<Scenario> designed(const FirstWish& wish) {
   Scenario s = study->scenario;
   s.record = {};  // a reader wants to see everything
   s.compare.resize(std::min<std::size_t>(s.compare.size(), 2));
-  // A loop too fast for its sensor swings without end, and its mean is right all the same.
+  // A loop too fast for its sensor swings without end, and its mean may be right all the same.
   if (const std::optional<double> allowed = study->allowed_swing_rad_s) {
     Measure swing = s.require.front().measure;
     swing.metric = MetricKind::peak_to_peak;
