@@ -57,7 +57,7 @@ void put(toml::array& array, std::size_t index, toml::node& value) {
 /// The tables of `first` before those of the list.
 void put_first(toml::array& list, toml::array& first) {
   toml::array own = std::move(list);
-  list.clear();
+  list = {};
   for (toml::array* from : {&first, &own})
     for (toml::node& item : *from) list.push_back(std::move(*item.as_table()));
 }

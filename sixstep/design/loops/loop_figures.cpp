@@ -193,7 +193,8 @@ class Recursion {
 /// The mean over the last so many samples, 0 before the first.
 class Mean {
  public:
-  explicit Mean(double samples) : held_(std::max<std::size_t>(1, static_cast<std::size_t>(samples + 0.5))) {}
+  explicit Mean(double samples)
+      : held_(static_cast<std::size_t>(std::fmax(1.0, std::floor(samples + 0.5)))) {}
   double next(double x) {
     sum_ += x - held_[at_];
     held_[at_] = x;

@@ -114,6 +114,7 @@ std::optional<OperatingPoint> for_ever(Search& search, const Course& course, con
 
 std::vector<double> course_speeds(double no_load_rad_s) {
   std::vector<double> speeds;
+  speeds.reserve(speeds.size() + course_steps);
   for (int n = 0; n < course_steps; ++n) speeds.push_back(n * no_load_rad_s / course_steps);
   speeds.push_back(no_load_rad_s);
   return speeds;
