@@ -58,6 +58,7 @@ void hall_lines(ConfigText<Scalar>& t, const sixstep::control::ProtectedConfig<d
   t.count("speed.timeout_ticks", k.speed.timeout_ticks, 0, "of the timer: it stands");
   t.count("speed.edges", k.speed.edges, 1);
   t.count("speed.window_ticks", k.speed.window_ticks, 0, "of the timer: longer, and one edge is taken");
+  t.count("speed.grain_ticks", k.speed.grain_ticks, 1, "of the timer: to so many an edge's time is known");
   t.gain("position.per_sector", k.position.per_sector, d.position.per_sector,
          b.position_deg * raw_unit<Scalar>(), "deg");
   t.gain("position.per_fraction", k.position.per_fraction, d.position.per_fraction, b.position_deg, "deg");

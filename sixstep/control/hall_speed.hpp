@@ -29,6 +29,7 @@ struct HallSpeedConfig {
   std::uint32_t timeout_ticks = 0;  ///< no edge for so long is standstill; below 2^32 less one control period
   std::uint8_t edges = 1;           ///< k, 1..6
   std::uint32_t window_ticks = 0;   ///< k = 1 where `edges` took longer than this; 0: always `edges`
+  std::uint32_t grain_ticks = 1;    ///< an edge's time is known to: 1 by capture, a control period by looking
 };
 
 struct HallSpeedState {
@@ -95,7 +96,9 @@ constexpr bool alike(std::uint32_t later, std::uint32_t earlier) {
 /// took as long as the one before to a quarter. A rotor that starts from rest at a constant torque (sectors
 /// of 1, 0.41, 0.32, 0.27, 0.24) brings no edge that is `soon` from then on; one that slows down so brings
 /// none that is `twice`, nor two sectors `within`.
-constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t now) {
+/// Times known to a grain tell nothing of a sector shorter than eight: of a steady rotor (T - g)/(T + g) is
+/// at least 3/4 then.
+constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t grain, std::uint32_t now) {
   if (state.known < 5) return SectorTime::unknown;
   const std::uint32_t since = static_cast<std::uint32_t>(now - state.times[0]);
   std::uint32_t sector[3]{};
@@ -104,6 +107,7 @@ constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t now)
     if (sector[n] > 0x3fffffff) return SectorTime::unknown;  // 2 1/2 of it would not fit
   }
   const std::uint32_t last = sector[0];
+  if (last / 8 < grain) return SectorTime::unknown;
   if (!alike(last, sector[1]) || !alike(sector[1], sector[2])) return SectorTime::unknown;
   if (since < last - last / 4) return SectorTime::soon;
   if (since <= last + last / 4) return SectorTime::within;

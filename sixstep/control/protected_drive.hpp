@@ -89,7 +89,8 @@ namespace detail {
 template <class Scalar>
 constexpr void take_hall(const ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state,
                          std::uint8_t pins, std::uint32_t when) {
-  const HallReading reading = hall_step(config.hall, state.hall, pins, sector_time(state.speed, when));
+  const SectorTime time = sector_time(state.speed, config.speed.grain_ticks, when);
+  const HallReading reading = hall_step(config.hall, state.hall, pins, time);
   if (reading.fault != HallFault::none) state.events.hall = true;
   if (reading.line != 0) state.events.hall_line = reading.line;
   if (reading.moved == 0) return;

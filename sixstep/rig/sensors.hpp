@@ -107,8 +107,8 @@ template <class Scalar>
 void Sensors<Scalar>::hall_edge(std::uint8_t pins, const sim::Instant& at) {
   if (!decodes_hall()) return;
   const std::uint32_t now = registers_.counter(at);
-  const control::HallReading reading =
-      control::hall_step(hall_config_, hall_, pins, control::sector_time(speed_, now));
+  const control::HallReading reading = control::hall_step(
+      hall_config_, hall_, pins, control::sector_time(speed_, speed_config_.grain_ticks, now));
   if (reading.line != 0) broken_line_ = reading.line;
   control::hall_speed_edge(speed_, now, reading.moved);
   control::hall_position_edge(position_, reading.moved);

@@ -102,7 +102,7 @@ TEST(Hall, ABrokenLineIsNamed) {
               if (t >= 240 + breaks_at)
                 code = static_cast<std::uint8_t>(level ? (code | bit) : (code & ~bit));
               const auto now = static_cast<std::uint32_t>(t);
-              fault = hall_step(config, state, code, sector_time(times, now));
+              fault = hall_step(config, state, code, sector_time(times, 1, now));
               hall_speed_edge(times, now, fault.moved);
             }
             ASSERT_NE(fault.fault, HallFault::none);
@@ -130,7 +130,7 @@ std::uint8_t named(double w, double a, double at_s, int line, int level) {
     const unsigned bit = 0b1000u >> line;
     if (s >= at_s) code = static_cast<std::uint8_t>(level ? (code | bit) : (code & ~bit));
     const auto now = static_cast<std::uint32_t>(t);
-    const HallReading r = hall_step(HallConfig{}, state, code, sector_time(times, now));
+    const HallReading r = hall_step(HallConfig{}, state, code, sector_time(times, 1, now));
     hall_speed_edge(times, now, r.moved);
     if (r.fault == HallFault::impossible_code) return r.line;
     if (place < 10) return 0;
@@ -160,12 +160,12 @@ TEST(Hall, FromRestNoEdgeComesSoonerThanARotorBringsIt) {
   std::uint32_t now = 0;
   // sqrt(n + 1) - sqrt(n) at a constant torque.
   for (const std::uint32_t after : {1000u, 414u, 318u, 268u, 236u, 213u, 196u}) {
-    EXPECT_NE(sector_time(times, now + after), SectorTime::soon) << after;
+    EXPECT_NE(sector_time(times, 1, now + after), SectorTime::soon) << after;
     hall_speed_edge(times, now += after, 1);
   }
-  EXPECT_EQ(sector_time(times, now + 140), SectorTime::soon);
-  EXPECT_EQ(sector_time(times, now + 182), SectorTime::within);
-  EXPECT_EQ(sector_time(times, now + 182 + 170), SectorTime::twice);
+  EXPECT_EQ(sector_time(times, 1, now + 140), SectorTime::soon);
+  EXPECT_EQ(sector_time(times, 1, now + 182), SectorTime::within);
+  EXPECT_EQ(sector_time(times, 1, now + 182 + 170), SectorTime::twice);
 }
 
 template <class Scalar>

@@ -149,7 +149,7 @@ std::vector<std::int64_t> bits_of(const ProtectedConfig<S>& c) {
   add_adc(c.bus_adc);
   add({bits(c.shunt.least_duty), c.shunt.commutation_samples, bits(c.shunt.fade), bits(c.hall.arrangement),
        c.hall.stable_samples, bits(c.speed.sector_rad_s_ticks), c.speed.timeout_ticks, c.speed.edges,
-       c.speed.window_ticks, bits(c.position.per_sector), bits(c.position.per_fraction),
+       c.speed.window_ticks, c.speed.grain_ticks, bits(c.position.per_sector), bits(c.position.per_fraction),
        bits(c.advance.fixed), bits(c.advance.per_speed), bits(c.advance.limit)});
   const FaultConfig<S>& f = c.faults;
   add({bits(f.over_current_A), bits(f.over_voltage_V), bits(f.under_voltage_V), bits(f.over_speed_rad_s),

@@ -44,7 +44,7 @@ void scale_motion(const ProtectedConfig<double>& p, const Bases& b, Proof<Scalar
          "over so many edges is " + base::written(raw / most) + " times what its sum holds",
          "take a slower timer, fewer edges or 32 bits"});
   c.speed = {control::TickRatio<Scalar>(p.speed.sector_rad_s_ticks / b.speed_rad_s), p.speed.timeout_ticks,
-             p.speed.edges, p.speed.window_ticks};
+             p.speed.edges, p.speed.window_ticks, p.speed.grain_ticks};
   if (p.drive.mode == control::Mode::position)
     c.position = {proof.gain("position.per_sector", p.position.per_sector / b.position_deg / digit),
                   proof.gain("position.per_fraction", p.position.per_fraction / b.position_deg)};

@@ -104,23 +104,23 @@ control::ProtectedConfig<Scalar> product_in_float(const control::ProtectedConfig
     return control::AdcConfig<Scalar>{s(a.per_eighth), a.offset_counts, a.offset_tolerance, a.log2_samples};
   };
   const control::FaultConfig<double>& f = c.faults;
-  return {
-      .drive = in_arithmetic<Scalar>(c.drive),
-      .setpoint_limit = s(c.setpoint_limit),
-      .sensing = c.sensing,
-      .current_adc = {adc(c.current_adc[0]), adc(c.current_adc[1]), adc(c.current_adc[2])},
-      .bus_adc = adc(c.bus_adc),
-      .shunt = {s(c.shunt.least_duty), c.shunt.commutation_samples, s(c.shunt.fade)},
-      .hall = c.hall,
-      .speed = {s(c.speed.sector_rad_s_ticks), c.speed.timeout_ticks, c.speed.edges, c.speed.window_ticks},
-      .position = {s(c.position.per_sector), s(c.position.per_fraction)},
-      .advance = {s(c.advance.fixed), s(c.advance.per_speed), s(c.advance.limit)},
-      .faults = {s(f.over_current_A), s(f.over_voltage_V), s(f.under_voltage_V), s(f.over_speed_rad_s),
-                 s(f.stall_current_A), f.stall_ticks, f.voltage_ticks},
-      .align = {s(c.align.current_A), c.align.ticks, c.align.settled_ticks, c.align.sector},
-      .brake_current_A = s(c.brake_current_A),
-      .short_below_rad_s = s(c.short_below_rad_s),
-      .standing_rad_s = s(c.standing_rad_s)};
+  return {.drive = in_arithmetic<Scalar>(c.drive),
+          .setpoint_limit = s(c.setpoint_limit),
+          .sensing = c.sensing,
+          .current_adc = {adc(c.current_adc[0]), adc(c.current_adc[1]), adc(c.current_adc[2])},
+          .bus_adc = adc(c.bus_adc),
+          .shunt = {s(c.shunt.least_duty), c.shunt.commutation_samples, s(c.shunt.fade)},
+          .hall = c.hall,
+          .speed = {s(c.speed.sector_rad_s_ticks), c.speed.timeout_ticks, c.speed.edges, c.speed.window_ticks,
+                    c.speed.grain_ticks},
+          .position = {s(c.position.per_sector), s(c.position.per_fraction)},
+          .advance = {s(c.advance.fixed), s(c.advance.per_speed), s(c.advance.limit)},
+          .faults = {s(f.over_current_A), s(f.over_voltage_V), s(f.under_voltage_V), s(f.over_speed_rad_s),
+                     s(f.stall_current_A), f.stall_ticks, f.voltage_ticks},
+          .align = {s(c.align.current_A), c.align.ticks, c.align.settled_ticks, c.align.sector},
+          .brake_current_A = s(c.brake_current_A),
+          .short_below_rad_s = s(c.short_below_rad_s),
+          .standing_rad_s = s(c.standing_rad_s)};
 }
 
 }  // namespace

@@ -23,6 +23,13 @@ control::AdcConfig<double> decoded(const rig::AdcPath& path, double tolerance) {
       .offset_tolerance = static_cast<std::uint16_t>(std::min(std::ceil(tolerance / path.lsb()), 65535.0))};
 }
 
+/// To how many counts an edge's time is known: captured by the timer, or found at a control tick.
+std::uint32_t edge_grain(const Scenario& s) {
+  const bool captured = s.pwm.commutation == CommutationAt::hall_edge && s.sensors.hall_stable_samples <= 1;
+  if (captured) return 1;
+  return static_cast<std::uint32_t>(std::min(std::ceil(s.pwm.period_s * s.sensors.capture_Hz), 4e9));
+}
+
 control::FaultConfig<double> faults_of(const Scenario& s) {
   const Protection& p = s.protection;
   const bool watches_stall = p.stall_current_A && p.stall_s;
@@ -61,7 +68,7 @@ control::ProtectedConfig<double> product_around(const Scenario& s, const Basis& 
   c.shunt = {sensors.least_duty, sensors.commutation_samples, sensors.fade};
   c.speed = {base::pi / 3 / pole_pairs * sensors.capture_Hz,
              static_cast<std::uint32_t>(sensors.timeout_s * sensors.capture_Hz), sensors.edges,
-             rig::window_ticks(sensors)};
+             rig::window_ticks(sensors), edge_grain(s)};
   c.position = {sector_deg, sector_deg};
   c.hall.stable_samples = static_cast<std::uint8_t>(s.sensors.hall_stable_samples);
   c.advance = advance_of(s.control.advance);
