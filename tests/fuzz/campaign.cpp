@@ -34,7 +34,7 @@ thread_local std::uint64_t seed_at_hand = 0;
 const char* campaign_at_hand = "";
 
 /// Says which seed it was, with nothing that a broken process could not do any more.
-void on_crash(int signal) {
+[[maybe_unused]] void on_crash(int signal) {
   char text[64];
   char* at = text + sizeof text;
   *--at = '\n';
