@@ -6,11 +6,15 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
+#include <initializer_list>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <string>
+#include <string_view>
 
 #include "io/report/html.hpp"
 #include "io/toml/document.hpp"
@@ -106,10 +110,31 @@ TEST(Escape, AShellTakesAWordForWhatItWas) {
   EXPECT_EQ(shell_word(""), "''");
 }
 
+/// A text with every one of the words cut out.
+std::string without(std::string text, std::initializer_list<std::string_view> words) {
+  for (const std::string_view word : words)
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at))
+      text.erase(at, word.size());
+  return text;
+}
+
+/// Letters that end or begin nothing in a URL, and what is written as %41.
+bool is_plain_url(std::string_view url) {
+  for (std::size_t n = 0; n < url.size(); ++n) {
+    if (url[n] != '%') {
+      if (!std::isalnum(static_cast<unsigned char>(url[n])) && !std::strchr("._~-", url[n])) return false;
+      continue;
+    }
+    for (int digit = 0; digit < 2; ++digit)
+      if (++n >= url.size() || url[n] == '\0' || !std::strchr("0123456789ABCDEF", url[n])) return false;
+  }
+  return true;
+}
+
 TEST(Escape, AUrlLeadsToTheFileAndNowhereElse) {
   for (const std::string& name : hostile_names()) {
     const std::string url = url_of_name(name);
-    EXPECT_TRUE(std::regex_match(url, std::regex("([A-Za-z0-9._~-]|%[0-9A-F]{2})*"))) << url;
+    EXPECT_TRUE(is_plain_url(url)) << url;
     std::string back;
     for (std::size_t n = 0; n < url.size(); ++n)
       back += url[n] == '%' ? static_cast<char>(std::stoi(url.substr((n += 2) - 1, 2), nullptr, 16)) : url[n];
@@ -120,9 +145,9 @@ TEST(Escape, AUrlLeadsToTheFileAndNowhereElse) {
 TEST(Escape, APageShowsANameAsText) {
   for (const std::string& name : hostile_names())
     for (const std::string& html : {report::escaped(name), report::with_subscripts(name)}) {
-      const std::string text = std::regex_replace(html, std::regex("</?sub>|&(amp|lt|gt|quot|#39);"), "");
+      const std::string text = without(html, {"<sub>", "</sub>", "&amp;", "&lt;", "&gt;", "&quot;", "&#39;"});
       EXPECT_EQ(text.find_first_of("<>\"'&"), std::string::npos) << html;
-      EXPECT_FALSE(acts(std::regex_replace(text, std::regex("[\n\t]"), ""))) << html;
+      EXPECT_FALSE(acts(without(text, {"\n", "\t"}))) << html;
     }
 }
 
