@@ -11,7 +11,7 @@ namespace {
 using namespace sixstep::testing;
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr std::uint64_t valid_count = 60, hostile_count = 600;
+constexpr std::uint64_t valid_count = 180, hostile_count = 600;
 #else
 constexpr std::uint64_t valid_count = 600, hostile_count = 6000;
 #endif
