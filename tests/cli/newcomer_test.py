@@ -246,7 +246,7 @@ class Newcomer(ProgramTest):
         self.run_program("run", "first.toml")
 
     def passes(self):
-        return subprocess.run([PROGRAM, "run", "first.toml"], cwd=self.path, capture_output=True, timeout=60).returncode == 0
+        return subprocess.run([PROGRAM, "run", "first.toml"], cwd=self.path, capture_output=True, timeout=300).returncode == 0
 
     def test_each_message_leads_to_the_edit_that_mends_it(self):
         self.assertGreaterEqual(len(MISTAKES), 10)

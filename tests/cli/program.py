@@ -39,7 +39,7 @@ class ProgramTest(unittest.TestCase):
         self.folder.cleanup()
 
     def run_program(self, *words, code=0):
-        result = subprocess.run([PROGRAM, *words], cwd=self.path, capture_output=True, text=True, timeout=60)
+        result = subprocess.run([PROGRAM, *words], cwd=self.path, capture_output=True, text=True, timeout=300)
         self.assertEqual(result.returncode, code, result.stderr + result.stdout)
         return result
 
