@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The virtual board's configuration, and what is true of it as it wakes.
 #pragma once
-#include "sixstep/rig/modulator.hpp"
+#include "sixstep/rig/pulse.hpp"
 #include "sixstep/rig/registers.hpp"
 #include "sixstep/rig/units.hpp"
 
