@@ -2,9 +2,9 @@
 // What a controller answers, as the board's timer takes it, and which modulator does: a driven pair with one
 // duty, or three legs. A firmware that answers three legs shares nothing with six-step but the timer.
 #pragma once
+#include "sixstep/rig/bases.hpp"
 #include "sixstep/rig/six_step_modulator.hpp"
 #include "sixstep/rig/three_leg_modulator.hpp"
-#include "sixstep/rig/units.hpp"
 
 namespace sixstep::rig {
 
@@ -20,18 +20,18 @@ struct ModulatorFor<control::LegCommands<Scalar>> {
 };
 
 template <class Scalar>
-BoardCommand widened(const control::BridgeCommand<Scalar>& c, const Units& units) {
+BoardCommand widened(const control::BridgeCommand<Scalar>& c, const Bases& bases) {
   return {.enabled = c.enabled,
           .pair = c.pair,
           .duty = to_si(c.duty, 1.0),
           .chopping = c.chopping,
           .watch = c.watch,
-          .on_below_A = to_si(c.on_below_A, units.current_A),
-          .off_above_A = to_si(c.off_above_A, units.current_A)};
+          .on_below_A = to_si(c.on_below_A, bases.current_A),
+          .off_above_A = to_si(c.off_above_A, bases.current_A)};
 }
 
 template <class Scalar>
-control::LegCommands<double> widened(const control::LegCommands<Scalar>& c, const Units&) {
+control::LegCommands<double> widened(const control::LegCommands<Scalar>& c, const Bases&) {
   control::LegCommands<double> legs{.enabled = c.enabled, .fault = c.fault};
   for (unsigned k = 0; k < 3; ++k)
     legs.leg[k] = {c.leg[k].state, c.leg[k].switches, to_si(c.leg[k].duty, 1.0)};

@@ -17,7 +17,7 @@ namespace sixstep::rig {
 enum class Fault : std::uint8_t { none, shoot_through, impossible_hall };
 
 /// Kinds of events, for the run's statistics.
-enum class Happening : std::uint8_t {
+enum class EventKind : std::uint8_t {
   sector_edge,
   diode_off,
   standstill,
@@ -61,10 +61,10 @@ class Rig {
   const Firmware& firmware() const { return firmware_; }
   const auto& telemetry() const { return firmware_.telemetry(); }
   double current_reference_A() const {
-    return to_si(telemetry().current_reference_A, board_.units.current_A);
+    return to_si(telemetry().current_reference_A, board_.bases.current_A);
   }
   double speed_reference_rad_s() const {
-    return to_si(telemetry().speed_reference_rad_s, board_.units.speed_rad_s);
+    return to_si(telemetry().speed_reference_rad_s, board_.bases.speed_rad_s);
   }
   double setpoint() const { return setpoint_; }
   Fault fault() const { return fault_; }
@@ -72,7 +72,7 @@ class Rig {
   std::uint8_t pins() const {
     return static_cast<std::uint8_t>((plant::hall_code(plant_.sector()) & ~stuck_low_) | stuck_high_);
   }
-  std::int64_t happened(Happening what) const { return happened_[static_cast<std::size_t>(what)]; }
+  std::int64_t event_count(EventKind what) const { return event_counts_[static_cast<std::size_t>(what)]; }
   /// True between a control tick and the segment that follows it.
   bool ticked() const { return ticked_; }
 
@@ -97,7 +97,7 @@ class Rig {
   bool do_half_tick();
   void set_hall_line(double line, bool stuck_high, bool stuck_low);
   void control_step(bool starts_period);
-  void follow_course();
+  void follow_waveform();
   void skip_idle_ticks();
   void sector_edge();
   void hall_edge();
@@ -106,7 +106,7 @@ class Rig {
   void comparator_guards(Visit&& visit) const;
   void trip(int which);
   void let_go();
-  void count(Happening what) { ++happened_[static_cast<std::size_t>(what)]; }
+  void count(EventKind what) { ++event_counts_[static_cast<std::size_t>(what)]; }
 
   // Small fields last: the plant begins on a cache line, and each gap might cost a whole one.
   plant::Plant<Real> plant_;
@@ -118,10 +118,10 @@ class Rig {
   sim::Instant due_{};  ///< the earliest of all clocks
   std::size_t next_action_ = 0;
   double setpoint_ = 0.0;
-  std::size_t course_ = 0;  ///< the action whose course the setpoint follows, where moving_
+  std::size_t waveform_ = 0;  ///< the action whose waveform the setpoint follows, where moving_
   BoardAnswer pending_ = Modulator::before_first();  ///< waits for its period
   BoardAnswer loaded_{};                             ///< sampled in the middle: what the timer takes up next
-  std::array<std::int64_t, static_cast<std::size_t>(Happening::count)> happened_{};
+  std::array<std::int64_t, static_cast<std::size_t>(EventKind::count)> event_counts_{};
   Firmware firmware_;
   bool moved_ = true;  ///< a located event changed what the board drives
   bool moving_ = false;
@@ -152,7 +152,7 @@ bool Rig<Real, Firmware>::act() {
   moved_ = false;
   do {
     while (fault_ == Fault::none && !(now_ < due_)) {
-      if (!do_timeline() && !do_tick() && modulator_.act(now_)) count(Happening::pwm_edge);
+      if (!do_timeline() && !do_tick() && modulator_.act(now_)) count(EventKind::pwm_edge);
       due_ = next_due();
     }
   } while (fault_ == Fault::none && compared());
@@ -167,19 +167,20 @@ bool Rig<Real, Firmware>::do_tick() {
   next_tick_.ticks += board_.modulator.period_ticks;
   control_step(true);
   skip_idle_ticks();
-  count(Happening::tick);
+  count(EventKind::tick);
   return ticked_ = true;
 }
 
 template <class Real, class Firmware>
 void Rig<Real, Firmware>::control_step(bool starts_period) {
-  if (moving_) follow_course();
-  Sight<Real> sight{plant_, now_, static_cast<std::uint64_t>(happened(Happening::tick)), pins(), reversed_};
-  if constexpr (six_step) sight.duty = modulator_.command().duty;
-  const auto& answer = firmware_.tick(sight, setpoint_);
+  if (moving_) follow_waveform();
+  SampleInstant<Real> instant{plant_, now_, static_cast<std::uint64_t>(event_count(EventKind::tick)), pins(),
+                              reversed_};
+  if constexpr (six_step) instant.duty = modulator_.command().duty;
+  const auto& answer = firmware_.tick(instant, setpoint_);
   if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
   if (!answer.enabled) let_go();
-  BoardAnswer command = widened(answer, board_.units);
+  BoardAnswer command = widened(answer, board_.bases);
   bool reversed = false;
   if constexpr (six_step) reversed = firmware_.reversed();
   if (board_.delayed) {
@@ -241,14 +242,14 @@ template <class Real, class Firmware>
 void Rig<Real, Firmware>::apply(int id) {
   using namespace plant;
   if (id >= guard::first_free) {
-    count(Happening::comparator);
+    count(EventKind::comparator);
     moved_ = true;
     if constexpr (six_step) trip(id - guard::first_free);
     return;
   }
-  if (id < guard::standstill) count(Happening::diode_off);
-  if (id == guard::standstill) count(Happening::standstill);
-  if (id == guard::breakaway_forward || id == guard::breakaway_backward) count(Happening::breakaway);
+  if (id < guard::standstill) count(EventKind::diode_off);
+  if (id == guard::standstill) count(EventKind::standstill);
+  if (id == guard::breakaway_forward || id == guard::breakaway_backward) count(EventKind::breakaway);
   if (!plant_.apply(id)) return;
   sector_edge();
   moved_ = true;

@@ -23,7 +23,7 @@ void Rig<Real, Firmware>::commutate() {
 template <class Real, class Firmware>
 bool Rig<Real, Firmware>::compare() {
   const int switched = modulator_.compare(now_, plant_.state().i);
-  happened_[static_cast<std::size_t>(Happening::comparator)] += switched;
+  event_counts_[static_cast<std::size_t>(EventKind::comparator)] += switched;
   due_ = next_due();
   return switched > 0;
 }
@@ -40,7 +40,7 @@ void Rig<Real, Firmware>::trip(int which) {
   const plant::PerLeg<Real>& i = plant_.state().i;
   const Real current = Real(weight[0]) * i[0] + Real(weight[1]) * i[1] + Real(weight[2]) * i[2];
   if (std::fabs(current - Real(other.level_A)) > plant_.constants().amp_noise) return;
-  count(Happening::comparator);
+  count(EventKind::comparator);
   modulator_.comparator_tripped(now_, 1 - which);
 }
 

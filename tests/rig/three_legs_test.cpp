@@ -26,7 +26,7 @@ void expect_same_state(const Rig& one, const auto& two) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(one.plant().state().i[k], two.plant().state().i[k]);
   EXPECT_EQ(one.plant().state().w, two.plant().state().w);
   EXPECT_EQ(one.plant().state().x, two.plant().state().x);
-  EXPECT_EQ(one.happened(rig::Happening::pwm_edge), two.happened(rig::Happening::pwm_edge));
+  EXPECT_EQ(one.event_count(rig::EventKind::pwm_edge), two.event_count(rig::EventKind::pwm_edge));
 }
 
 /// What the pair of the present sector would be told, seen by a firmware that fills the legs itself.
@@ -34,8 +34,8 @@ struct SixStepLegs {
   Chopping chopping;
 
   template <class Real>
-  control::LegCommands<double> operator()(const rig::Sight<Real>& sight, double duty) const {
-    const control::Pair pair = control::positive_pair(control::sector_of_hall(sight.pins));
+  control::LegCommands<double> operator()(const rig::SampleInstant<Real>& instant, double duty) const {
+    const control::Pair pair = control::positive_pair(control::sector_of_hall(instant.pins));
     return as_legs(
         control::BridgeCommand<double>{.enabled = true, .pair = pair, .duty = duty, .chopping = chopping});
   }
@@ -60,7 +60,7 @@ TEST(ThreeLegs, SixStepAsThreeLegsHasTheBitsOfSixStep) {
         ASSERT_EQ(run_to(six, 8e-3), sim::Stop::end);
         ASSERT_EQ(run_to(three, 8e-3, laws), sim::Stop::end);
         laws.expect_all();
-        EXPECT_GT(three.happened(rig::Happening::sector_edge), 3);
+        EXPECT_GT(three.event_count(rig::EventKind::sector_edge), 3);
         expect_same_state(six, three);
       }
 }
@@ -141,8 +141,8 @@ TEST(ThreeLegs, ALegThatIsOffFloatsAndCarriesNothing) {
 TEST(ThreeLegs, TurningOffLetsTheCurrentsEndInTheDiodes) {
   struct Once {
     template <class Real>
-    control::LegCommands<double> operator()(const rig::Sight<Real>& sight, double) const {
-      return sight.number < 10 ? complementary(0.9, 0.1, 0.5) : control::LegCommands<double>{};
+    control::LegCommands<double> operator()(const rig::SampleInstant<Real>& instant, double) const {
+      return instant.number < 10 ? complementary(0.9, 0.1, 0.5) : control::LegCommands<double>{};
     }
   };
   Board b = locked_at(10.0);
@@ -163,14 +163,14 @@ TEST(ThreeLegs, PeriodZeroOfADelayedBoardHasNoVoltage) {
   ASSERT_EQ(run_to(rig, 0.26 * T), sim::Stop::end);
   EXPECT_EQ(rig.plant().gates(), gates({true, true, true}, {}));
   ASSERT_EQ(run_to(rig, T), sim::Stop::end);
-  EXPECT_EQ(rig.happened(rig::Happening::pwm_edge), 2);
+  EXPECT_EQ(rig.event_count(rig::EventKind::pwm_edge), 2);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(rig.plant().state().i[k], 0.0);
   ASSERT_EQ(run_to(rig, 2 * T), sim::Stop::end);
   EXPECT_GT(rig.plant().state().i[0], 1.0);
 
   auto silent = three_leg_rig(b, HeldLegs{});
   ASSERT_EQ(run_to(silent, 3 * T), sim::Stop::end);
-  EXPECT_EQ(silent.happened(rig::Happening::pwm_edge), 0);
+  EXPECT_EQ(silent.event_count(rig::EventKind::pwm_edge), 0);
 }
 
 /// Sampled in the middle: the answer of a period's middle acts from the next start.

@@ -32,8 +32,8 @@ struct TurningVector {
     return space_vector ? control::space_vector(v, U) : control::sine_triangle(v, U);
   }
   template <class Real>
-  control::LegCommands<double> operator()(const rig::Sight<Real>& sight, double) const {
-    return at(sight.number);
+  control::LegCommands<double> operator()(const rig::SampleInstant<Real>& instant, double) const {
+    return at(instant.number);
   }
 };
 

@@ -6,7 +6,7 @@
 
 namespace sixstep::testing {
 
-/// Controller: LegCommands<double> operator()(sight, setpoint), with whatever it keeps.
+/// Controller: LegCommands<double> operator()(instant, setpoint), with whatever it keeps.
 template <class Controller>
 class ThreeLegFirmware {
  public:
@@ -15,12 +15,12 @@ class ThreeLegFirmware {
   using Command = control::LegCommands<double>;
   static constexpr bool fault_ends_run = true;
 
-  ThreeLegFirmware(const Controller& controller, const rig::BoardConfig&, const rig::Waking&)
+  ThreeLegFirmware(const Controller& controller, const rig::BoardConfig&, const rig::PowerUp&)
       : controller_(controller) {}
 
   template <class Real>
-  Command tick(const rig::Sight<Real>& sight, double setpoint) {
-    return controller_(sight, setpoint);
+  Command tick(const rig::SampleInstant<Real>& instant, double setpoint) {
+    return controller_(instant, setpoint);
   }
   void captured(std::uint8_t, const sim::Instant&) {}
   void request_run(bool) {}
@@ -46,7 +46,7 @@ struct HeldLegs {
   control::LegCommands<double> legs;
 
   template <class Real>
-  control::LegCommands<double> operator()(const rig::Sight<Real>&, double) const {
+  control::LegCommands<double> operator()(const rig::SampleInstant<Real>&, double) const {
     return legs;
   }
 };

@@ -6,7 +6,7 @@
 namespace sixstep::rig {
 
 /// What the controller's 1.0 stands for (design::Bases). Floating point has 1 of each.
-struct Units {
+struct Bases {
   double current_A = 1.0;
   double voltage_V = 1.0;
   double speed_rad_s = 1.0;
