@@ -9,8 +9,8 @@
 #include <report_assets.hpp>
 
 #include "report/comparison_data.hpp"
-#include "report/course.hpp"
 #include "report/figures.hpp"
+#include "report/highlights.hpp"
 #include "report/html.hpp"
 #include "report/scenario_differences.hpp"
 #include "report/scripts.hpp"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/course.hpp"
 #include "report/figures.hpp"
+#include "report/highlights.hpp"
 #include "report/html.hpp"
 #include "report/svg_chart.hpp"
 #include "report/verdicts.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "report/course.hpp"
+#include "report/highlights.hpp"
 #include "report/windows.hpp"
 #include "sixstep/study/measure/columns.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "report/course.hpp"
+#include "report/highlights.hpp"
 #include "report/windows.hpp"
 #include "sixstep/study/measure/trace.hpp"
 

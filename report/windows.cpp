@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "report/course.hpp"
+#include "report/highlights.hpp"
 #include "sixstep/study/measure/trace.hpp"
 
 namespace report {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "report/course.hpp"
+#include "report/highlights.hpp"
 #include "report/kept_rows.hpp"
 #include "report/windows.hpp"
 #include "sixstep/study/measure/columns.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/course.hpp"
+#include "report/highlights.hpp"
 
 #include <algorithm>
 #include <cmath>
