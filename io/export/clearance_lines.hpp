@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "io/rooms.hpp"
+#include "sixstep/study/run/export_gate.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
-#include "sixstep/study/verify/export_gate.hpp"
 
 namespace io {
 

@@ -8,8 +8,8 @@
 #include "io/rooms.hpp"
 #include "sixstep/base/result.hpp"
 #include "sixstep/design/scaling/scaling.hpp"
+#include "sixstep/study/run/export_gate.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
-#include "sixstep/study/verify/export_gate.hpp"
 
 namespace io {
 

@@ -4,12 +4,12 @@
 #include <string>
 
 #include "io/rooms.hpp"
-#include "sixstep/study/verify/design_study.hpp"
+#include "sixstep/analysis/verify/design_study.hpp"
 
 namespace io {
 
 /// Gains, derivations, margins, Bode and step data of each loop, limits, what the simulation says beside what
 /// was designed, worst corners, warnings. Values that are infinite or do not exist are null.
-std::string design_json(const study::DesignStudy& study);
+std::string design_json(const analysis::DesignStudy& study);
 
 }  // namespace io

@@ -8,13 +8,15 @@
 #include <string>
 
 #include "io/scenario/scenario_file.hpp"
+#include "sixstep/analysis/verify/board.hpp"
+#include "sixstep/analysis/verify/design_study.hpp"
+#include "sixstep/analysis/verify/robust.hpp"
 #include "sixstep/study/run/run.hpp"
-#include "sixstep/study/verify/board.hpp"
-#include "sixstep/study/verify/design_study.hpp"
-#include "sixstep/study/verify/robust.hpp"
 
-namespace sixstep::study {
+namespace sixstep::analysis {
 namespace {
+
+using study::ComparisonResult, study::Outcome, study::Scenario;
 
 struct Drawn {
   const char* motor;
@@ -133,4 +135,4 @@ TEST(HallDesigned, DefaultEdgesHoldWhereSixWouldNot) {
 }
 
 }  // namespace
-}  // namespace sixstep::study
+}  // namespace sixstep::analysis

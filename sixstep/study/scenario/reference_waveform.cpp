@@ -38,7 +38,7 @@ class StretchWriter {
 
  private:
   void put(double at_s, double value, const rig::Waveform& waveform = {}) {
-    if (at_s == 0.0 || from_s_ + at_s < until_s_) out_.push_back({from_s_ + at_s, value, stretches});
+    if (at_s == 0.0 || from_s_ + at_s < until_s_) out_.push_back({from_s_ + at_s, value, waveform});
   }
   void stand_until(double at_s, double value) {
     if (at_s > 0.0) put(0.0, value);
