@@ -72,7 +72,7 @@ double fastest_change_of_speed(const Scenario& s, const Compiled& c, const desig
   double load = std::fabs(s.load.torque_Nm);
   for (const double torque : s.load.torques_Nm) load = std::max(load, std::fabs(torque));
   for (const At& at : s.at) load = std::max(load, std::fabs(at.load.torque_Nm.value_or(0.0)));
-  const double friction = c.shaft.B_Nm_s * range.speed_rad_s + c.shaft.coulomb_Nm;
+  const double friction = plant::friction_Nm(c.shaft, range.speed_rad_s);
   const double own = design::torque_per_A(c.motor.machine) * range.current_A;
   return (own + load + friction) / c.shaft.J_kg_m2 * s.pwm.period_s;
 }

@@ -16,19 +16,17 @@ void EnergyGauge::segment(const Glance& g, double s) {
 /// The segment's energies from its begin to s, times `sign`.
 void EnergyGauge::add_up_to(const Glance& g, double s, double sign) {
   const plant::SegmentEnergy<double> e = plant::segment_energy(g.plant, s);
-  const plant::Constants<double>& c = g.plant.constants();
   const plant::Motion motion = g.plant.mode().motion;
-  const double slide = motion == plant::Motion::forward    ? e.travel
-                       : motion == plant::Motion::backward ? -e.travel
-                                                           : 0.0;
+  const auto [load, dry, B] = plant::torques(g.plant.constants(), motion);
   supplied_.add(sign * e.supplied);
   copper_.add(sign * e.copper);
   devices_.add(sign * e.devices);
   air_gap_.add(sign * e.air_gap);
-  friction_.add(sign * (e.viscous + c.coulomb * slide));
-  load_work_.add(sign * c.load * e.travel);
-  const double squares = c.B > 0 ? e.viscous / c.B : 0.0;  // integral of w^2
-  load_friction_.add(sign * (load_.viscous_Nm_s * squares + load_.coulomb_Nm * slide));
+  friction_.add(sign * (e.viscous + e.dry));
+  load_work_.add(sign * e.load);
+  const double squares = B > 0 ? e.viscous / B : 0.0;  // integral of w^2
+  load_friction_.add(sign *
+                     (load_.viscous_Nm_s * squares + load_.coulomb_Nm * plant::against(motion, e.travel)));
 }
 
 std::optional<double> EnergyGauge::energy(Signal signal) const {

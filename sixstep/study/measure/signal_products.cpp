@@ -95,7 +95,7 @@ Series pole_series(const Stretch& part, int k) {
   const plant::Mode& mode = plant.mode();
   Series u{};
   if (!plant::is_floating(mode.legs[k])) {
-    const auto& terms = plant.constants().pole_terms[static_cast<std::size_t>(mode.legs[k])];
+    const auto& terms = plant.constants().poles[static_cast<std::size_t>(mode.legs[k])];
     add(u, terms.bus_share, part.of(y.bus));
     add(u, -terms.r_ohm, part.of(y.i[k]));
     u[0] += terms.offset_V;
@@ -125,7 +125,7 @@ Series device_loss(const Stretch& part) {
   const plant::Plant<double>& plant = part.g.plant;
   Series loss{};
   for (int k = 0; k < 3; ++k) {
-    const auto& terms = plant.constants().pole_terms[static_cast<std::size_t>(plant.mode().legs[k])];
+    const auto& terms = plant.constants().poles[static_cast<std::size_t>(plant.mode().legs[k])];
     const Series i = part.of(plant.expansion().i[k]);
     if (terms.r_ohm != 0) add(loss, terms.r_ohm, part.product(i, i));
     add(loss, -terms.offset_V, i);
@@ -142,15 +142,14 @@ Series copper_loss(const Stretch& part) {
   return loss;
 }
 
-/// B w^2 + T_c |w|.
+/// B w^2 + T_c |w|: of the torques against the turning all but the load's.
 Series friction_loss(const Stretch& part) {
   const plant::Plant<double>& plant = part.g.plant;
   const Series w = part.of(plant.expansion().w);
-  const plant::Motion motion = plant.mode().motion;
+  const auto [load, dry, per_speed] = plant::torques(plant.constants(), plant.mode().motion);
   Series loss{};
-  add(loss, plant.constants().B, part.product(w, w));
-  if (motion == plant::Motion::forward) add(loss, plant.constants().coulomb, w);
-  if (motion == plant::Motion::backward) add(loss, -plant.constants().coulomb, w);
+  add(loss, per_speed, part.product(w, w));
+  add(loss, dry, w);
   return loss;
 }
 
