@@ -5,8 +5,7 @@
 
 #include "io/escape/escape.hpp"
 #include "io/export/clearance_lines.hpp"
-#include "io/export/config_lines.hpp"
-#include "io/export/product_lines.hpp"
+#include "io/export/config_text.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
 #include "sixstep/study/compile/compile.hpp"
@@ -133,10 +132,11 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   text += "inline constexpr sixstep::control::Units<Scalar> units{\n" + base("current_A", b.current_A, "A") +
           base("voltage_V", b.voltage_V, "V") + base("speed_rad_s", b.speed_rad_s, "rad/s") +
           base("position_deg", b.position_deg, "deg") + "};\n\n";
-  text += timing(c) + "\n" + made("DriveConfig", "drive", drive_lines<Scalar>(c.drive, kept.drive, b));
+  text += timing(c) + "\n" +
+          made("DriveConfig", "drive", config_lines<Scalar>(c.drive.mode, c.drive, kept.drive, b));
   if (c.product)
     text += made("ProtectedConfig", "product",
-                 "  c.drive = drive;\n" + product_lines<Scalar>(*c.product, kept, b));
+                 "  c.drive = drive;\n" + config_lines<Scalar>(c.drive.mode, *c.product, kept, b));
   return text + fmt::format("}}  // namespace {}\n", w.name_space);
 }
 

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <string>
 
-#include "io/export/config_lines.hpp"
+#include "io/export/config_text.hpp"
 #include "tests/export/extras_drive.hpp"
 
 int main(int count, char** words) {
@@ -11,11 +11,12 @@ int main(int count, char** words) {
   using sixstep::control::Q31;
   std::ofstream out(words[2]);
   if (std::string(words[1]) == "double") {
-    out << io::drive_lines<double>(extras::drive(), extras::drive(), {});
+    out << io::config_lines<double>(sixstep::control::Mode::speed, extras::drive(), extras::drive(), {});
   } else {
     const auto scaled = sixstep::design::scaled<Q31>(extras::drive(), extras::range);
     if (!scaled) return 1;
-    out << io::drive_lines<Q31>(extras::drive(), scaled->config, scaled->bases);
+    out << io::config_lines<Q31>(sixstep::control::Mode::speed, extras::drive(), scaled->config,
+                                 scaled->bases);
   }
   return out.flush() ? 0 : 1;
 }
