@@ -80,7 +80,7 @@ Walk walk_in(const study::Scenario& s, const study::Compiled& c, const WalkPlan&
   }();
   if (!chip) return {.problems = chip.problems()};
   rig::BoardConfig board = c.board;
-  board.units = chip->units;
+  board.bases = chip->bases;
   const plant::Plant<double> plant(c.motor.machine, c.shaft, c.devices, c.supply, c.start);
   return walk_rig(rig::Rig<double, Firmware>(plant, chip->config, board, c.timeline), c.end, plan);
 }

@@ -5,7 +5,7 @@
 #include "sixstep/study/measure/harmonic_gauge.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/measure_choices.hpp"
-#include "sixstep/study/scenario/reference_course.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
 
 namespace sixstep::study {
 

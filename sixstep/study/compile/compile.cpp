@@ -236,7 +236,8 @@ base::Result<Compiled> compile(const Scenario& s) {
   // What a limit can hold is judged on the drive as designed; one of a series that strays from it is run.
   if (!nominal)
     if (base::Problems problems = check_limits(s, basis, out.drive); !problems.empty()) return problems;
-  if (s.control.drive == Drive::product) out.product = product_around(s, basis, out.drive, out.board.sensors);
+  if (s.control.drive == FirmwareKind::product)
+    out.product = product_around(s, basis, out.drive, out.board.sensors);
   return out;
 }
 

@@ -12,7 +12,7 @@
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/measure/switching_gauge.hpp"
 #include "sixstep/study/scenario/measure_choices.hpp"
-#include "sixstep/study/scenario/reference_course.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
 
 namespace sixstep::study {
 
@@ -22,28 +22,28 @@ using Gauges = std::vector<Gauge>;
 /// What one figure is taken by: fed segment by segment, and asked for its value at the end.
 struct BandExcess {
   HysteresisGauge gauge;
-  void segment(const Glance& g, double s) { gauge.segment(g, s); }
+  void segment(const SegmentView& g, double s) { gauge.segment(g, s); }
   double value() const { return gauge.figures().excess_A; }
 };
 struct BandDeficit {
   HysteresisGauge gauge;
-  void segment(const Glance& g, double s) { gauge.segment(g, s); }
+  void segment(const SegmentView& g, double s) { gauge.segment(g, s); }
   double value() const { return gauge.figures().deficit_A; }
 };
 struct Energy {
   EnergyGauge gauge;
   Signal signal;
-  void segment(const Glance& g, double s) { gauge.segment(g, s); }
+  void segment(const SegmentView& g, double s) { gauge.segment(g, s); }
   double value() const;
 };
 struct Efficiency {
   EnergyGauge gauge;
-  void segment(const Glance& g, double s) { gauge.segment(g, s); }
+  void segment(const SegmentView& g, double s) { gauge.segment(g, s); }
   double value() const;
 };
 struct Distortion {
   HarmonicGauge gauge;
-  void segment(const Glance& g, double s) { gauge.segment(g, s); }
+  void segment(const SegmentView& g, double s) { gauge.segment(g, s); }
   double value() const;
 };
 using Taken = std::variant<Gauges, BandExcess, BandDeficit, SwitchingGauge, Energy, Efficiency, Distortion>;
@@ -55,7 +55,7 @@ class Figures {
   /// A run that is asked nothing pays nothing.
   template <class Rig>
   void segment(const Rig& rig, double s) {
-    if (!figures_.empty()) watch(glance(rig), s);
+    if (!figures_.empty()) watch(segment_view(rig), s);
   }
 
   void judge(const Scenario& scenario, Outcome& outcome) const;
@@ -66,7 +66,7 @@ class Figures {
     Taken taken_by;
     std::size_t behind = 0;  ///< gauges whose window has passed
   };
-  void watch(const Glance& g, double s);
+  void watch(const SegmentView& g, double s);
 
   std::vector<Figure> figures_;  ///< requirements first, then comparisons
 };

@@ -15,14 +15,14 @@ using plant::PerLeg;
 using Extremes = series::Extremes<double>;
 
 /// The angle since theta_e = 0, times `per_electrical_rad`; the sectors passed are counted, not summed.
-Series angle_series(const Glance& g, double per_electrical_rad, double per_sector) {
+Series angle_series(const SegmentView& g, double per_electrical_rad, double per_sector) {
   Series c = g.plant.expansion().x;
   for (int j = 0; j <= g.plant.expansion().degree; ++j) c[j] *= per_electrical_rad;
   c[0] += static_cast<double>(g.plant.state().sector) * per_sector;
   return c;
 }
 
-Series position_series(const Glance& g) {
+Series position_series(const SegmentView& g) {
   const double p = g.plant.constants().pole_pairs;
   return angle_series(g, 180.0 / base::pi / p, 60.0 / p);
 }
@@ -34,7 +34,7 @@ Series less(double reference, Series c, int degree) {
   return c;
 }
 
-double load_torque(const Glance& g) {
+double load_torque(const SegmentView& g) {
   const auto [load, dry, per_speed] = plant::torques(g.plant.constants(), g.plant.mode().motion);
   return load;
 }
@@ -45,7 +45,7 @@ Extremes around(double middle, double reach) {
   return {middle - wide, middle + wide};
 }
 
-Extremes bounds_of_currents(const Glance& g, const PerLeg<double>& w) {
+Extremes bounds_of_currents(const SegmentView& g, const PerLeg<double>& w) {
   const auto& y = g.plant.expansion();
   double middle = 0.0, reach = 0.0;
   for (int k = 0; k < 3; ++k) {
@@ -55,16 +55,16 @@ Extremes bounds_of_currents(const Glance& g, const PerLeg<double>& w) {
   return around(middle, reach);
 }
 
-Series motor_current(const Glance& g) {
+Series motor_current(const SegmentView& g) {
   return weighted_current(motor_current_weights(g.plant.sector()), g.plant.expansion());
 }
 
-Series mechanical_angle(const Glance& g) {
+Series mechanical_angle(const SegmentView& g) {
   const double p = g.plant.constants().pole_pairs;
   return angle_series(g, 1.0 / p, base::sector_rad / p);
 }
 
-Series load_power(const Glance& g) {
+Series load_power(const SegmentView& g) {
   const auto& y = g.plant.expansion();
   Series c{};
   for (int j = 0; j <= y.degree; ++j) c[j] = load_torque(g) * y.w[j];
@@ -72,17 +72,17 @@ Series load_power(const Glance& g) {
 }
 
 template <unsigned n>
-Series gate(const Glance& g) {
+Series gate(const SegmentView& g) {
   const plant::Gates& gates = g.plant.gates();
   return {(n % 2 == 0 ? gates.high : gates.low)[n / 2] ? 1.0 : 0.0};
 }
 
 template <int k>
-Series phase(const Glance& g) {
+Series phase(const SegmentView& g) {
   return g.plant.expansion().i[k];
 }
 template <int k>
-Extremes phase_bounds(const Glance& g) {
+Extremes phase_bounds(const SegmentView& g) {
   PerLeg<double> weights{};
   weights[k] = 1.0;
   return bounds_of_currents(g, weights);
@@ -92,39 +92,39 @@ Extremes phase_bounds(const Glance& g) {
 /// segment's degree.
 struct PlainSignal {
   Signal signal;
-  Series (*series)(const Glance&);
-  Extremes (*bounds)(const Glance&) = nullptr;  ///< where the expansion comes with any
+  Series (*series)(const SegmentView&);
+  Extremes (*bounds)(const SegmentView&) = nullptr;  ///< where the expansion comes with any
 };
 constexpr PlainSignal plain_signals[] = {
     {Signal::current, motor_current,
-     [](const Glance& g) { return bounds_of_currents(g, motor_current_weights(g.plant.sector())); }},
+     [](const SegmentView& g) { return bounds_of_currents(g, motor_current_weights(g.plant.sector())); }},
     {Signal::phase_a, phase<0>, phase_bounds<0>},
     {Signal::phase_b, phase<1>, phase_bounds<1>},
     {Signal::phase_c, phase<2>, phase_bounds<2>},
-    {Signal::speed, [](const Glance& g) { return g.plant.expansion().w; },
-     [](const Glance& g) { return around(g.plant.expansion().w[0], g.plant.expansion().reach_w); }},
+    {Signal::speed, [](const SegmentView& g) { return g.plant.expansion().w; },
+     [](const SegmentView& g) { return around(g.plant.expansion().w[0], g.plant.expansion().reach_w); }},
     {Signal::position, position_series},
-    {Signal::torque, [](const Glance& g) { return g.plant.expansion().torque; }},
-    {Signal::bus_voltage, [](const Glance& g) { return g.plant.expansion().bus; }},
+    {Signal::torque, [](const SegmentView& g) { return g.plant.expansion().torque; }},
+    {Signal::bus_voltage, [](const SegmentView& g) { return g.plant.expansion().bus; }},
     {Signal::bus_current,
-     [](const Glance& g) { return weighted_current(bus_current_weights(g.plant), g.plant.expansion()); },
-     [](const Glance& g) { return bounds_of_currents(g, bus_current_weights(g.plant)); }},
+     [](const SegmentView& g) { return weighted_current(bus_current_weights(g.plant), g.plant.expansion()); },
+     [](const SegmentView& g) { return bounds_of_currents(g, bus_current_weights(g.plant)); }},
     {Signal::angle, mechanical_angle},
-    {Signal::duty, [](const Glance& g) { return Series{signed_duty(g.modulator, g.plant.sector())}; }},
-    {Signal::current_reference, [](const Glance& g) { return Series{g.current_reference_A}; }},
-    {Signal::speed_reference, [](const Glance& g) { return Series{g.speed_reference_rad_s}; }},
-    {Signal::position_reference, [](const Glance& g) { return Series{g.setpoint}; }},
+    {Signal::duty, [](const SegmentView& g) { return Series{signed_duty(g.modulator, g.plant.sector())}; }},
+    {Signal::current_reference, [](const SegmentView& g) { return Series{g.current_reference_A}; }},
+    {Signal::speed_reference, [](const SegmentView& g) { return Series{g.speed_reference_rad_s}; }},
+    {Signal::position_reference, [](const SegmentView& g) { return Series{g.setpoint}; }},
     {Signal::current_error,
-     [](const Glance& g) {
+     [](const SegmentView& g) {
        return less(g.current_reference_A, motor_current(g), g.plant.expansion().degree);
      }},
     {Signal::speed_error,
-     [](const Glance& g) {
+     [](const SegmentView& g) {
        return less(g.speed_reference_rad_s, g.plant.expansion().w, g.plant.expansion().degree);
      }},
     {Signal::position_error,
-     [](const Glance& g) { return less(g.setpoint, position_series(g), g.plant.expansion().degree); }},
-    {Signal::load_torque, [](const Glance& g) { return Series{load_torque(g)}; }},
+     [](const SegmentView& g) { return less(g.setpoint, position_series(g), g.plant.expansion().degree); }},
+    {Signal::load_torque, [](const SegmentView& g) { return Series{load_torque(g)}; }},
     {Signal::gate_T1, gate<0>},
     {Signal::gate_T2, gate<1>},
     {Signal::gate_T3, gate<2>},
@@ -150,7 +150,7 @@ static_assert([] {
 }());
 
 /// Half the sum of the current magnitudes, within a part in which no phase changes its sign.
-Series magnitude_series(const Glance& g, double from, double to) {
+Series magnitude_series(const SegmentView& g, double from, double to) {
   const auto& y = g.plant.expansion();
   PerLeg<double> half{};
   for (int k = 0; k < 3; ++k) half[k] = series::evaluate(y.i[k], y.degree, (from + to) / 2) < 0 ? -0.5 : 0.5;
@@ -168,12 +168,12 @@ double signed_duty(const rig::Modulator& modulator, int sector) {
   return command.pair.source == positive.source ? duty : -duty;
 }
 
-bool is_cut(const Glance& g, Signal signal) {
+bool is_cut(const SegmentView& g, Signal signal) {
   return signal == Signal::current_magnitude ||
          (is_product(signal) && needs_halves(g.plant.expansion().degree));
 }
 
-std::vector<double> cuts_of(const Glance& g, Signal signal, double from, double to) {
+std::vector<double> cuts_of(const SegmentView& g, Signal signal, double from, double to) {
   const auto& y = g.plant.expansion();
   std::vector<double> cuts = {from, to};
   if (signal != Signal::current_magnitude)
@@ -188,7 +188,7 @@ std::vector<double> cuts_of(const Glance& g, Signal signal, double from, double 
   return cuts;
 }
 
-Piece piece_of(const Glance& g, Signal signal, double from, double to) {
+Piece piece_of(const SegmentView& g, Signal signal, double from, double to) {
   const int degree = g.plant.expansion().degree;
   if (is_product(signal)) return product_piece(g, signal, from, to);
   const PlainSignal* row = plain(signal);
@@ -196,13 +196,13 @@ Piece piece_of(const Glance& g, Signal signal, double from, double to) {
   return {from == 0.0 && to == 1.0 ? c : series::restricted(c, degree, from, to), degree};
 }
 
-double signal_now(const Glance& g, Signal signal) {
+double signal_now(const SegmentView& g, Signal signal) {
   if (signal != Signal::current_magnitude) return piece_of(g, signal, 0.0, 1.0).c[0];
   const auto& i = g.plant.expansion().i;
   return (std::fabs(i[0][0]) + std::fabs(i[1][0]) + std::fabs(i[2][0])) / 2;
 }
 
-series::Extremes<double> signal_bounds(const Glance& g, Signal signal) {
+series::Extremes<double> signal_bounds(const SegmentView& g, Signal signal) {
   const PlainSignal* row = plain(signal);
   if (row && row->bounds) return row->bounds(g);
   return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};

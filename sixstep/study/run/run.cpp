@@ -12,11 +12,11 @@ namespace {
 /// Curves drawn from row to row need about this many points over a run.
 constexpr double drawn_points = 2000.0;
 
-Watchers watchers(const Scenario& s, const Compiled& compiled, const Listeners& listeners,
-                  const std::vector<std::size_t>& indices) {
+Observers observers(const Scenario& s, const Compiled& compiled, const Listeners& listeners,
+                    const std::vector<std::size_t>& indices) {
   const control::Mode mode = s.control.mode;
   const double gap_s = s.duration_s / drawn_points;
-  Watchers w{.figures = Figures(s, reference_levels(s)), .keep_going = listeners.keep_going};
+  Observers w{.figures = Figures(s, reference_levels(s)), .keep_going = listeners.keep_going};
   if (listeners.keep_books) w.audit.emplace();
   if (listeners.on_record && s.record.events)
     w.events.emplace(gap_s, mode, indices, listeners.on_record);
@@ -31,8 +31,8 @@ Watchers watchers(const Scenario& s, const Compiled& compiled, const Listeners& 
 }
 
 /// A run pays for what its firmware does, and for nothing else.
-base::Problems run_on_board(const Scenario& s, const Compiled& compiled, Watchers& w, Outcome& out) {
-  if (s.control.drive == Drive::product) return run_product(s, compiled, w, out);
+base::Problems run_on_board(const Scenario& s, const Compiled& compiled, Observers& w, Outcome& out) {
+  if (s.control.drive == FirmwareKind::product) return run_product(s, compiled, w, out);
   return compiled.board.sensors.ideal() ? run_lean(s, compiled, w, out) : run_sensed(s, compiled, w, out);
 }
 
@@ -48,7 +48,7 @@ base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners) 
   Outcome out;
   out.motor = compiled->motor;
   out.gains = compiled->gains;
-  Watchers w = watchers(scenario, *compiled, listeners, *indices);
+  Observers w = observers(scenario, *compiled, listeners, *indices);
   const base::Problems problems = run_on_board(scenario, *compiled, w, out);
   if (!problems.empty()) return problems;
   if (w.audit) {

@@ -3,7 +3,7 @@
 
 namespace sixstep::study {
 
-base::Problems run_lean(const Scenario& scenario, const Compiled& compiled, Watchers& w, Outcome& out) {
+base::Problems run_lean(const Scenario& scenario, const Compiled& compiled, Observers& w, Outcome& out) {
   return detail::run_chosen<rig::LeanDrive>(scenario, compiled, w, out);
 }
 

@@ -14,20 +14,20 @@ namespace sixstep::study::detail {
 
 template <class Rig>
 void count_events(const Rig& rig, Outcome& out) {
-  using rig::Happening;
-  constexpr std::pair<Happening, const char*> names[] = {{Happening::sector_edge, "sector edges"},
-                                                         {Happening::diode_off, "diode stops"},
-                                                         {Happening::comparator, "comparator switches"},
-                                                         {Happening::standstill, "rotor stops"},
-                                                         {Happening::breakaway, "rotor breaks away"},
-                                                         {Happening::tick, "control ticks"},
-                                                         {Happening::pwm_edge, "PWM edges"}};
-  for (const auto& [what, name] : names) out.events.push_back({name, rig.happened(what)});
+  using rig::EventKind;
+  constexpr std::pair<EventKind, const char*> names[] = {{EventKind::sector_edge, "sector edges"},
+                                                         {EventKind::diode_off, "diode stops"},
+                                                         {EventKind::comparator, "comparator switches"},
+                                                         {EventKind::standstill, "rotor stops"},
+                                                         {EventKind::breakaway, "rotor breaks away"},
+                                                         {EventKind::tick, "control ticks"},
+                                                         {EventKind::pwm_edge, "PWM edges"}};
+  for (const auto& [what, name] : names) out.events.push_back({name, rig.event_count(what)});
   out.events.push_back({"diode starts to conduct", rig.plant().diodes_started()});
 }
 
 template <class Rig>
-base::Problems run_rig(Rig& rig, const Compiled& compiled, Watchers& w, Outcome& out) {
+base::Problems run_rig(Rig& rig, const Compiled& compiled, Observers& w, Outcome& out) {
   const sim::Run run = sim::run(rig, compiled.end, w);
   const double t_s = rig.now().seconds();
   const bool away = has_run_away(rig.plant());
@@ -61,20 +61,20 @@ auto chip_for(std::type_identity<Firmware>, const Scenario& s, const Compiled& c
 }
 
 template <class Firmware>
-base::Problems run_in(const Scenario& scenario, const Compiled& compiled, Watchers& w, Outcome& out) {
+base::Problems run_in(const Scenario& scenario, const Compiled& compiled, Observers& w, Outcome& out) {
   const auto chip = chip_for(std::type_identity<Firmware>{}, scenario, compiled);
   if (!chip) return chip.problems();
   const plant::Plant<double> plant(compiled.motor.machine, compiled.shaft, compiled.devices, compiled.supply,
                                    compiled.start);
   rig::BoardConfig board = compiled.board;
-  board.units = chip->units;
+  board.bases = chip->bases;
   rig::Rig<double, Firmware> rig(plant, chip->config, board, compiled.timeline);
   return run_rig(rig, compiled, w, out);
 }
 
 /// Which arithmetic runs is decided here, once.
 template <template <class> class Firmware>
-base::Problems run_chosen(const Scenario& s, const Compiled& compiled, Watchers& w, Outcome& out) {
+base::Problems run_chosen(const Scenario& s, const Compiled& compiled, Observers& w, Outcome& out) {
   switch (s.control.arithmetic) {
     case Arithmetic::float64:
       return run_in<Firmware<double>>(s, compiled, w, out);
