@@ -10,15 +10,15 @@
 #include <type_traits>
 #include <vector>
 
-#include "io/export/config_header.hpp"
-#include "io/export/config_text.hpp"
-#include "io/scenario/scenario_file.hpp"
 #include "sixstep/design/loops/pole_placement.hpp"
 #include "sixstep/design/scaling/product_scaling.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
 #include "sixstep/study/compile/compile.hpp"
 #include "tests/export/extras_drive.hpp"
 #include "tests/export/headers.hpp"
+#include "text/export/config_header.hpp"
+#include "text/export/config_text.hpp"
+#include "text/scenario/scenario_file.hpp"
 
 namespace {
 
@@ -27,7 +27,7 @@ using namespace sixstep::control;
 
 study::Scenario shipped(const std::string& name) {
   const std::string path = std::string(SIXSTEP_SOURCE_DIR) + "/data/scenarios/" + name + ".toml";
-  const auto scenario = io::read_scenario(path);
+  const auto scenario = text::read_scenario(path);
   if (!scenario) ADD_FAILURE() << to_string(scenario.problems()[0]);
   return scenario ? *scenario : study::Scenario{};
 }
@@ -221,7 +221,7 @@ TEST(ExportHeader, UnitsCountPositionAsTheProductsScaling) {
 
 base::Result<std::string> header_of(const study::Scenario& s, study::Arithmetic a, const char* name = "x",
                                     design::OperatingRange range = {}) {
-  return io::config_header(
+  return text::config_header(
       {.scenario = s, .arithmetic = a, .range = range, .name_space = name, .command = "c"});
 }
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// What conducts in each leg of the bridge, from gates and currents of the rows.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "sixstep/study/measure/trace.hpp"
+
+namespace report {
+
+/// From time_s[n] on, to time_s[n + 1] or the end, the legs are connected as code[n] says: a + 5 b + 25 c,
+/// each a plant::Connection. The browser counts on its order (web/bridge.js).
+struct Conduction {
+  std::vector<double> time_s;
+  std::vector<std::uint8_t> code;
+  double end_s = 0.0;
+};
+
+/// Every change of the run; empty where the trace has no gates or currents.
+Conduction conduction(const sixstep::study::Trace& trace);
+
+}  // namespace report
