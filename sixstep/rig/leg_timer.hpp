@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The PWM timer of the board: three compare units that make pulses, and three legs, each on one of them with
 // a dead time of its own (MODEL2 11). A leg says which switch it has on within the pulse and which in the
-// rest of the period. six_step_modulator.hpp fills all three from a pair and one duty, three_leg_modulator.hpp
-// from three commands.
+// rest of the period. six_step_modulator.hpp fills all three from a pair and one duty,
+// three_leg_modulator.hpp from three commands.
 #pragma once
 #include <array>
 
