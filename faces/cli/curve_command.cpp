@@ -12,17 +12,17 @@
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
-#include "io/escape/escape.hpp"
-#include "io/keys/key_advice.hpp"
-#include "io/report/curve_page.hpp"
-#include "io/results/curve_columns.hpp"
-#include "io/results/curve_json.hpp"
-#include "io/results/curve_table.hpp"
-#include "io/scenario/scenario_file.hpp"
-#include "io/trace/csv_writer.hpp"
+#include "files/trace/csv_writer.hpp"
+#include "report/curve_page.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/scenario/choices.hpp"
+#include "text/escape/escape.hpp"
+#include "text/keys/key_advice.hpp"
+#include "text/results/curve_columns.hpp"
+#include "text/results/curve_json.hpp"
+#include "text/results/curve_table.hpp"
+#include "text/scenario/scenario_file.hpp"
 
 namespace cli {
 namespace {
@@ -41,25 +41,26 @@ struct CurveArguments {
 
 /// Files are made before the work begins: one that cannot be written is told at once.
 struct CurveFiles {
-  std::optional<io::CsvWriter> csv;
-  std::optional<io::AtomicFile> json, html;
+  std::optional<files::CsvWriter> csv;
+  std::optional<files::AtomicFile> json, html;
 };
 
 CurveFiles outputs(const CurveArguments& a, base::Problems& problems) {
   CurveFiles out;
   if (!a.csv.empty()) {
     std::vector<study::Column> columns;
-    for (const io::CurveColumn& c : io::curve_columns()) columns.push_back(c.column);
-    const std::string origin[] = {"sixstep " SIXSTEP_VERSION, "motor: " + io::visible(a.motor),
+    for (const text::CurveColumn& c : text::curve_columns()) columns.push_back(c.column);
+    const std::string origin[] = {"sixstep " SIXSTEP_VERSION, "motor: " + text::visible(a.motor),
                                   "command: " + a.command};
-    keep(out.csv, io::CsvWriter::create({a.csv, a.force}, columns, origin), problems);
+    keep(out.csv, files::CsvWriter::create({a.csv, a.force}, columns, origin), problems);
   }
-  if (!a.json.empty() && a.json != "-") keep(out.json, io::AtomicFile::create({a.json, a.force}), problems);
-  if (!a.html.empty()) keep(out.html, io::AtomicFile::create({a.html, a.force}), problems);
+  if (!a.json.empty() && a.json != "-")
+    keep(out.json, files::AtomicFile::create({a.json, a.force}), problems);
+  if (!a.html.empty()) keep(out.html, files::AtomicFile::create({a.html, a.force}), problems);
   return out;
 }
 
-void write(const CurveArguments& a, const study::CurveRequest& request, const study::Curve& curve,
+void write(const CurveArguments& a, const analysis::CurveRequest& request, const analysis::Curve& curve,
            CurveFiles& out, base::Problems& problems) {
   const auto commit = [&](auto& file) {
     const base::Problems failed = file.commit();
@@ -67,28 +68,28 @@ void write(const CurveArguments& a, const study::CurveRequest& request, const st
   };
   if (out.csv) {
     std::vector<double> numbers;
-    for (const io::CurveRow& row : io::curve_rows(request, curve)) {
+    for (const text::CurveRow& row : text::curve_rows(request, curve)) {
       numbers.clear();
-      for (const io::CurveColumn& c : io::curve_columns()) numbers.push_back(c.value(row));
+      for (const text::CurveColumn& c : text::curve_columns()) numbers.push_back(c.value(row));
       out.csv->row(numbers);
     }
     commit(*out.csv);
   }
   if (out.json) {
-    out.json->write(io::curve_json(request, curve));
+    out.json->write(text::curve_json(request, curve));
     commit(*out.json);
   }
   if (out.html) {
-    out.html->write(io::report::render_curve({request, curve, a.command, SIXSTEP_VERSION}));
+    out.html->write(report::render_curve({request, curve, a.command, SIXSTEP_VERSION}));
     commit(*out.html);
   }
   if (a.json == "-")
-    print(io::curve_json(request, curve));
+    print(text::curve_json(request, curve));
   else if (!a.quiet)
-    print(io::curve_table(request, curve));
+    print(text::curve_table(request, curve));
 }
 
-void read_chopping(const std::string& word, study::Bench& bench, base::Problems& problems) {
+void read_chopping(const std::string& word, analysis::Bench& bench, base::Problems& problems) {
   if (word.empty()) return;
   std::vector<std::string> known;
   for (const auto& choice : study::chopping_choices) {
@@ -96,7 +97,7 @@ void read_chopping(const std::string& word, study::Bench& bench, base::Problems&
     if (choice.word == word) return;
     known.emplace_back(choice.word);
   }
-  const std::string near = io::nearest(word, known);
+  const std::string near = text::nearest(word, known);
   problems.push_back({"chopping", word, fmt::format("must be one of {}", fmt::join(known, ", ")),
                       near.empty() ? "soft is the default" : fmt::format("did you mean {}?", near)});
 }
@@ -108,8 +109,8 @@ std::string option_of(std::string member) {
   return "--" + member;
 }
 
-base::Result<study::CurveRequest> request_of(const CurveArguments& a) {
-  const base::Result<design::Sheet> sheet = io::read_sheet(a.motor, a.data_dir);
+base::Result<analysis::CurveRequest> request_of(const CurveArguments& a) {
+  const base::Result<design::Sheet> sheet = text::read_sheet(a.motor, a.data_dir);
   if (!sheet) return sheet.problems();
   base::Result<design::MotorModel> motor = design::motor_model(*sheet);
   if (!motor) {
@@ -120,8 +121,8 @@ base::Result<study::CurveRequest> request_of(const CurveArguments& a) {
   if (!a.voltage_V && !(motor->nominal_voltage_V > 0))
     return base::Problem{"--voltage", "", "is missing, and the sheet prints no nominal voltage",
                          "give the bus voltage in volts"};
-  study::CurveRequest r{.sheet = *sheet, .bench = {.motor = *motor}};
-  study::Bench& b = r.bench;
+  analysis::CurveRequest r{.sheet = *sheet, .bench = {.motor = *motor}};
+  analysis::Bench& b = r.bench;
   b.voltage_V = a.voltage_V.value_or(motor->nominal_voltage_V);
   b.duty = a.duty.value_or(b.duty);
   b.pwm_period_s = a.pwm_period_s.value_or(b.pwm_period_s);
@@ -129,7 +130,7 @@ base::Result<study::CurveRequest> request_of(const CurveArguments& a) {
   b.devices.V_f_V = a.diode_drop_V.value_or(0.0);
   r.ambient_degC = a.ambient_degC.value_or(r.ambient_degC);
   r.points = a.points.value_or(r.points);
-  base::Problems problems = study::check(r);
+  base::Problems problems = analysis::check(r);
   read_chopping(a.chopping, b, problems);
   for (base::Problem& p : problems) p.where = option_of(p.where);
   if (!problems.empty()) return problems;
@@ -137,7 +138,7 @@ base::Result<study::CurveRequest> request_of(const CurveArguments& a) {
 }
 
 Exit curve_command(const CurveArguments& a) {
-  const base::Result<study::CurveRequest> request = request_of(a);
+  const base::Result<analysis::CurveRequest> request = request_of(a);
   if (!request) {
     complain(request.problems());
     return Exit::bad_input;
@@ -147,7 +148,7 @@ Exit curve_command(const CurveArguments& a) {
   CurveFiles out = outputs(a, problems);
   if (!problems.empty()) return refused(problems);
   catch_interrupts();
-  const base::Result<study::Curve> curve = batch::torque_speed_curve(
+  const base::Result<analysis::Curve> curve = batch::torque_speed_curve(
       *request, side_by_side(a.jobs, a.quiet, "points"), [] { return !interrupted(); });
   if (!curve) {
     if (interrupted()) return told_interrupted("curve " + a.motor);

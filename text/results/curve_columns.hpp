@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The columns of a torque-speed curve: one list for the CSV file and the JSON summary.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "sixstep/analysis/curve/curve.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+/// One point with all that is known of it; the thermal members are null where the sheet has no such lines.
+struct CurveRow {
+  const analysis::CurveRequest& request;
+  const analysis::OperatingPoint& point;
+  const analysis::ThermalLimits* limits = nullptr;
+  const analysis::Warming* warming = nullptr;
+};
+
+struct CurveColumn {
+  study::Column column;
+  double (*value)(const CurveRow&);  ///< NaN: there is none
+};
+
+/// SI units, mechanical speed, phase currents; speed first.
+std::span<const CurveColumn> curve_columns();
+
+/// The rows of the curve's points, from standstill to no load.
+std::vector<CurveRow> curve_rows(const analysis::CurveRequest& request, const analysis::Curve& curve);
+
+/// Of a point that is not one of the curve's own.
+struct LoosePoint {
+  analysis::ThermalLimits limits;
+  analysis::Warming warming;
+};
+LoosePoint loose_point(const analysis::CurveRequest& request, const analysis::Curve& curve,
+                       const analysis::OperatingPoint& point);
+CurveRow curve_row(const analysis::CurveRequest& request, const analysis::Curve& curve,
+                   const analysis::OperatingPoint& point, const LoosePoint& thermal);
+
+}  // namespace text

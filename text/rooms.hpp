@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// The library's rooms by their short names, for code in text.
+#pragma once
+
+namespace sixstep {
+namespace analysis {}
+namespace base {}
+namespace design {}
+namespace study {}
+}  // namespace sixstep
+
+namespace text {
+namespace analysis = sixstep::analysis;
+namespace base = sixstep::base;
+namespace design = sixstep::design;
+namespace study = sixstep::study;
+}  // namespace text
