@@ -21,9 +21,9 @@ double Modulator::in_counts(double ticks) const {
   return std::floor(ticks / config_.timer_ticks + 0.5) * config_.timer_ticks;
 }
 
-/// Where the pair moves on, the PWM state moves from leg to leg as it is (MODEL 3): the leg that leaves the
-/// pair gives its channel, waits and all, to the one that enters. A change of sign moves nothing, each leg
-/// keeps its own.
+/// Where the pair moves on, the PWM state moves from leg to leg as it is (model.md 3): the leg that leaves
+/// the pair gives its channel, waits and all, to the one that enters. A change of sign moves nothing, each
+/// leg keeps its own.
 Modulator::Entered Modulator::hand_over(control::Pair to) {
   const auto legs_of = [](control::Pair pair) { return 1u << index(pair.source) | 1u << index(pair.sink); };
   const unsigned before = legs_of(command_.pair), after = legs_of(to);
@@ -53,7 +53,7 @@ Modulator::Entered Modulator::take(const Instant& t, const BoardCommand& command
   for (LegChannel& leg : legs_) leg.hold(t, dead_ticks_);
   source_on_ = false;
   sink_on_ = true;
-  if (command.watch != Watch::none) switch_source(true);  // hysteresis starts on (MODEL 4)
+  if (command.watch != Watch::none) switch_source(true);  // hysteresis starts on (model.md 4)
   return entered;
 }
 
@@ -88,8 +88,8 @@ void Modulator::switch_source(bool on) {
   source_on_ = on;
 }
 
-/// Six-step's three leg commands (MODEL 3). What a leg that has just entered the pair would turn on at this
-/// instant waits too where dead time at commutation is asked for.
+/// Six-step's three leg commands (model.md 3). What a leg that has just entered the pair would turn on at
+/// this instant waits too where dead time at commutation is asked for.
 void Modulator::tell_legs(const Instant& t, Entered entered) {
   std::array<LegSide, 3> sides{};
   if (command_.enabled) {

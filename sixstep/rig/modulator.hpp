@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The timer and comparators of the board: a bridge command becomes gates. Owns PWM edges, event comparators
-// and one channel per leg, which keeps the dead time (MODEL 3, MODEL2 11). Six-step fills three leg commands
+// and one channel per leg, which keeps the dead time (model.md 3, 11). Six-step fills three leg commands
 // from a pair and one duty; where the pair moves on, the leg that leaves it hands its channel to the one that
 // enters.
 #pragma once
