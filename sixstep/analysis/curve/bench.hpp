@@ -41,12 +41,6 @@ struct Asking {
 /// What no curve can be taken of; `where` is the member's name.
 base::Problems check(const Bench& bench);
 
-/// Friction at a speed, B w + T_c sign(w), N m: positive against a forward rotation.
-inline double friction_Nm(const plant::Shaft& shaft, double speed_rad_s) {
-  const double sign = speed_rad_s > 0 ? 1.0 : speed_rad_s < 0 ? -1.0 : 0.0;
-  return shaft.B_Nm_s * speed_rad_s + sign * shaft.coulomb_Nm;
-}
-
 /// Mean voltage across the driven pair while current flows throughout, V: d U, or (2 |d| - 1) U where both
 /// switches chop and the off part of a period drives the current back into the bus.
 inline double mean_voltage_V(const Bench& b) {

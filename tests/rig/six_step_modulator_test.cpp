@@ -15,7 +15,7 @@ using namespace sixstep;
 using namespace sixstep::testing;
 
 TEST(Modulator, IsOffUntilItIsToldSomething) {
-  const Modulator m{ModulatorConfig{}};
+  const SixStepModulator m{ModulatorConfig{}};
   EXPECT_EQ(on(m), "");
   EXPECT_TRUE(m.steady());
 }
@@ -26,7 +26,7 @@ TEST(Modulator, GatesOfEachChoppingInBothParts) {
       {Chopping::hard, {"a+b-", ""}},
       {Chopping::complementary, {"a+b-", "a-b-"}}};
   for (const auto& [chopping, gates] : table) {
-    Modulator m{ModulatorConfig{}};
+    SixStepModulator m{ModulatorConfig{}};
     m.start_period(at(0), command(0.25, chopping));
     EXPECT_EQ(on(m), gates[0]);
     EXPECT_EQ(do_next(m), at(period / 4));
@@ -36,7 +36,7 @@ TEST(Modulator, GatesOfEachChoppingInBothParts) {
 }
 
 TEST(Modulator, ZeroHasNoOnTimeAndOneNoGap) {
-  Modulator m{ModulatorConfig{}};
+  SixStepModulator m{ModulatorConfig{}};
   for (int n = 0; n < 3; ++n) {
     m.start_period(at(n * period), command(0.0));
     EXPECT_EQ(on(m), "b-");
@@ -53,7 +53,7 @@ TEST(Modulator, ZeroHasNoOnTimeAndOneNoGap) {
 
 TEST(Modulator, PicosecondPulsesAreNotDropped) {
   for (const double ticks : {1.0, 0.25, 1e-6}) {
-    Modulator m{ModulatorConfig{}};
+    SixStepModulator m{ModulatorConfig{}};
     m.start_period(at(0), command(ticks / period));
     EXPECT_EQ(on(m), "a+b-");
     const Instant edge = do_next(m);
@@ -63,7 +63,7 @@ TEST(Modulator, PicosecondPulsesAreNotDropped) {
 }
 
 TEST(Modulator, CentreAlignedPulsesAreCentred) {
-  Modulator m{ModulatorConfig{.centre_aligned = true}};
+  SixStepModulator m{ModulatorConfig{.centre_aligned = true}};
   m.start_period(at(period), command(0.25));
   EXPECT_EQ(on(m), "b-");
   EXPECT_EQ(do_next(m), at(period + 11'250'000));
@@ -73,14 +73,14 @@ TEST(Modulator, CentreAlignedPulsesAreCentred) {
 }
 
 TEST(Modulator, CentreAlignedAfterFullDutyTurnsOffAtThePeriodsStart) {
-  Modulator m{ModulatorConfig{.centre_aligned = true}};
+  SixStepModulator m{ModulatorConfig{.centre_aligned = true}};
   m.start_period(at(0), command(1.0));
   m.start_period(at(period), command(0.5));
   EXPECT_EQ(on(m), "b-");
 }
 
 TEST(Modulator, DeadTimeDelaysEachTurnOnTheFirstToo) {
-  Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(0.5, Chopping::complementary));
   EXPECT_EQ(on(m), "");
   EXPECT_EQ(do_next(m), at(1'000'000));
@@ -96,7 +96,7 @@ TEST(Modulator, DeadTimeDelaysEachTurnOnTheFirstToo) {
 }
 
 TEST(Modulator, APulseShorterThanTheDeadTimeNeverTurnsOn) {
-  Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(0.01, Chopping::complementary));  // 0.3 us
   EXPECT_EQ(do_next(m), at(300'000));
   EXPECT_EQ(do_next(m), at(1'000'000));
@@ -111,7 +111,7 @@ TEST(Modulator, TheFirstTurnOnOfARunWaitsInEveryChoppingForDutyAndHysteresis) {
     for (const double duty : {0.5, 1.0})
       for (const Watch watch : {Watch::none, Watch::motor, Watch::phase}) {
         SCOPED_TRACE(::testing::Message() << int(chopping) << " " << duty << " " << int(watch));
-        Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+        SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
         m.start_period(at(0),
                        watch == Watch::none ? command(duty, chopping) : compared(watch, chopping, 5.0));
         EXPECT_EQ(on(m), "");
@@ -123,7 +123,7 @@ TEST(Modulator, TheFirstTurnOnOfARunWaitsInEveryChoppingForDutyAndHysteresis) {
 /// Nothing within the leg was told to turn off.
 TEST(Modulator, LaterTurnOnsOfSoftAndHardChoppingNeedNoDeadTime) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard}) {
-    Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+    SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
     m.start_period(at(0), command(0.5, chopping));
     while (m.next_edge() < at(period)) do_next(m);
     m.start_period(at(period), command(0.5, chopping));
@@ -134,7 +134,7 @@ TEST(Modulator, LaterTurnOnsOfSoftAndHardChoppingNeedNoDeadTime) {
 TEST(Modulator, WithoutAChangeOfTheLegsCommandThereIsNoDeadTime) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const double duty : {0.0, 1.0}) {
-      Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+      SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
       m.start_period(at(0), command(duty, chopping));
       m.act(at(1'000'000));
       const std::string before = on(m);
@@ -149,7 +149,7 @@ TEST(Modulator, WithoutAChangeOfTheLegsCommandThereIsNoDeadTime) {
 /// 0.3 us of gap: the lower switch, told to turn on and off again, never came on; its turn-off counts all the
 /// same.
 TEST(Modulator, AGapShorterThanTheDeadTimeKeepsTheUpperSwitchWaitingForAllOfIt) {
-  Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(0.99, Chopping::complementary));
   EXPECT_EQ(do_next(m), at(1'000'000));
   EXPECT_EQ(do_next(m), at(29'700'000));
@@ -162,7 +162,7 @@ TEST(Modulator, AGapShorterThanTheDeadTimeKeepsTheUpperSwitchWaitingForAllOfIt) 
 
 TEST(Modulator, AReversalWaitsWhereTheSourceWasTheSink) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary}) {
-    Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+    SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
     m.start_period(at(0), command(1.0, chopping));
     m.act(at(1'000'000));
     m.start_period(at(period), command(1.0, chopping, {Leg::b, Leg::a}));
@@ -175,7 +175,7 @@ TEST(Modulator, AReversalWaitsWhereTheSourceWasTheSink) {
 /// On-time of 98 % around the middle begins 0.3 us into the period, within the dead time of 1 us.
 TEST(Modulator, ACentredOnTimeWaitsAtAReversalToo) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard}) {
-    Modulator m{ModulatorConfig{.centre_aligned = true, .dead_ticks = 1e6}};
+    SixStepModulator m{ModulatorConfig{.centre_aligned = true, .dead_ticks = 1e6}};
     m.start_period(at(0), command(1.0, chopping));
     m.start_period(at(period), command(0.98, chopping, {Leg::b, Leg::a}));
     EXPECT_EQ(do_next(m), at(period + 300'000)) << int(chopping);
@@ -189,7 +189,7 @@ TEST(Modulator, ACentredOnTimeWaitsAtAReversalToo) {
 /// waits.
 TEST(Modulator, AnotherChoppingWaitsForTheLowerSwitch) {
   for (const bool centred : {false, true}) {
-    Modulator m{ModulatorConfig{.centre_aligned = centred, .dead_ticks = 1e6}};
+    SixStepModulator m{ModulatorConfig{.centre_aligned = centred, .dead_ticks = 1e6}};
     m.start_period(at(0), command(0.5, Chopping::complementary));
     while (m.next_edge() < at(period)) do_next(m);
     EXPECT_EQ(on(m), "a-b-") << centred;
@@ -206,7 +206,7 @@ TEST(Modulator, AReversalWaitsWhereTheSinkWasTheSource) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const double duty : {0.98, 1.0}) {
       SCOPED_TRACE(::testing::Message() << int(chopping) << " " << duty);
-      Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+      SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
       m.start_period(at(0), command(duty, chopping));
       while (m.next_edge() < at(period)) do_next(m);
       m.start_period(at(period), command(1.0, chopping, {Leg::b, Leg::a}));
@@ -221,7 +221,7 @@ TEST(Modulator, AReversalWaitsWhereTheSinkWasTheSource) {
 
 /// Both switches of the pair have been off since the middle of the period.
 TEST(Modulator, AHardSignFlipDoesNotWaitWhereTheOtherSwitchIsLongOff) {
-  Modulator m{ModulatorConfig{.dead_ticks = 2e6}};
+  SixStepModulator m{ModulatorConfig{.dead_ticks = 2e6}};
   m.start_period(at(0), command(0.5, Chopping::hard));
   while (m.next_edge() < at(period)) do_next(m);
   EXPECT_EQ(on(m), "");
@@ -231,7 +231,7 @@ TEST(Modulator, AHardSignFlipDoesNotWaitWhereTheOtherSwitchIsLongOff) {
 }
 
 TEST(Modulator, AHardSinkWaitsWithItsSourceAtAReversal) {
-  Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(1.0, Chopping::hard));
   m.act(at(1'000'000));
   m.start_period(at(period), command(1.0, Chopping::hard, {Leg::b, Leg::a}));
@@ -240,7 +240,7 @@ TEST(Modulator, AHardSinkWaitsWithItsSourceAtAReversal) {
 
 TEST(Modulator, TheFirstTurnOnOfTheLowerSwitchWaitsToo) {
   for (const bool centred : {false, true}) {
-    Modulator m{ModulatorConfig{.centre_aligned = centred, .dead_ticks = 1e6}};
+    SixStepModulator m{ModulatorConfig{.centre_aligned = centred, .dead_ticks = 1e6}};
     m.start_period(at(0), command(centred ? 0.5 : 0.0, Chopping::complementary));
     EXPECT_EQ(on(m), "") << centred;
     EXPECT_EQ(do_next(m), at(1'000'000)) << centred;
@@ -249,7 +249,7 @@ TEST(Modulator, TheFirstTurnOnOfTheLowerSwitchWaitsToo) {
 }
 
 TEST(Modulator, AHysteresisThatWasOffWakesOn) {
-  Modulator m{ModulatorConfig{}};
+  SixStepModulator m{ModulatorConfig{}};
   m.start_period(at(0), compared(Watch::motor, Chopping::soft, 5.0));
   m.comparator_tripped(at(1'000), 0);
   EXPECT_EQ(on(m), "b-");
@@ -260,7 +260,7 @@ TEST(Modulator, AHysteresisThatWasOffWakesOn) {
 }
 
 TEST(Modulator, AHallEdgeMovesTheStateAsItIs) {
-  Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(0.5, Chopping::complementary));
   m.commutate(at(500'000), {Leg::a, Leg::c});  // dead
   EXPECT_EQ(on(m), "");
@@ -279,7 +279,7 @@ TEST(Modulator, AHallEdgeMovesTheStateAsItIs) {
 }
 
 TEST(Modulator, DeadTimeAtCommutationDelaysTheNewTurnOnsOnly) {
-  Modulator m{ModulatorConfig{.dead_ticks = 1e6, .dead_time_at_commutation = true}};
+  SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6, .dead_time_at_commutation = true}};
   m.start_period(at(0), command(0.5));
   EXPECT_EQ(do_next(m), at(1'000'000));
   EXPECT_EQ(on(m), "a+b-");
@@ -298,7 +298,7 @@ TEST(Modulator, ACommutationAtTheSampleMovesTheStateAsItIs) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const double duty : {0.5, 1.0}) {
       SCOPED_TRACE(::testing::Message() << int(chopping) << " " << duty);
-      Modulator m{ModulatorConfig{.dead_ticks = 1e6}};
+      SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
       m.start_period(at(0), command(duty, chopping, {Leg::a, Leg::c}));
       while (m.next_edge() < at(period)) do_next(m);
       m.start_period(at(period), command(duty, chopping, {Leg::b, Leg::c}));
@@ -315,7 +315,7 @@ TEST(Modulator, ACommutationAtTheSampleMovesTheStateAsItIs) {
 TEST(Modulator, DeadTimeAtCommutationDelaysSourceAndSinkAtTheSampleToo) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary}) {
     SCOPED_TRACE(int(chopping));
-    Modulator m{ModulatorConfig{.dead_ticks = 1e6, .dead_time_at_commutation = true}};
+    SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6, .dead_time_at_commutation = true}};
     m.start_period(at(0), command(1.0, chopping));
     m.act(at(1'000'000));
     m.start_period(at(period), command(1.0, chopping, {Leg::a, Leg::c}));
@@ -330,15 +330,15 @@ TEST(Modulator, DeadTimeAtCommutationDelaysSourceAndSinkAtTheSampleToo) {
 }
 
 TEST(Modulator, ATimerRoundsEdgesAndDeadTimeToItsCounts) {
-  Modulator m{ModulatorConfig{.dead_ticks = 1.04e6, .timer_ticks = 100'000}};  // 10 MHz
-  m.start_period(at(0), command(0.5017, Chopping::complementary));             // 15.051 us -> 15.1 us
+  SixStepModulator m{ModulatorConfig{.dead_ticks = 1.04e6, .timer_ticks = 100'000}};  // 10 MHz
+  m.start_period(at(0), command(0.5017, Chopping::complementary));                    // 15.051 us -> 15.1 us
   EXPECT_EQ(do_next(m), at(1'000'000));
   EXPECT_EQ(do_next(m), at(15'100'000));
   EXPECT_EQ(do_next(m), at(16'100'000));
 }
 
 TEST(Modulator, APairOfOneLegIsAShootThroughThatThePlantRefuses) {
-  Modulator m{ModulatorConfig{}};
+  SixStepModulator m{ModulatorConfig{}};
   m.start_period(at(0), command(0.5, Chopping::soft, {Leg::a, Leg::a}));
   EXPECT_TRUE(shoots_through(m.gates()));
   plant::Plant<double> plant = Drivetrain{}.plant();
@@ -346,7 +346,7 @@ TEST(Modulator, APairOfOneLegIsAShootThroughThatThePlantRefuses) {
 }
 
 TEST(Modulator, TurningOffOpensEverything) {
-  Modulator m{ModulatorConfig{}};
+  SixStepModulator m{ModulatorConfig{}};
   m.start_period(at(0), command(1.0));
   m.turn_off(at(5));
   EXPECT_EQ(on(m), "");
@@ -375,7 +375,7 @@ TEST(Modulator, NeverHasBothGatesOfALegOn) {
                                  .dead_time_at_commutation = random() % 2 == 0,
                                  .timer_ticks = random() % 2 == 0 ? 0.0 : 13888.9};
     const auto chopping = static_cast<Chopping>(random() % 3);
-    Modulator m{config};
+    SixStepModulator m{config};
     for (int k = 0; k < 20; ++k) {
       const Instant start = at(k * period);
       m.start_period(start, drawn(random, config, chopping));
@@ -411,7 +411,7 @@ TEST(Modulator, DeadTimeHoldsInEveryLegOverAnyDutiesChoppingsSignsAndCommutation
   std::mt19937_64 random{seed};
   for (const bool centred : {false, true})
     for (const bool at_commutation : {false, true}) {
-      Modulator m{ModulatorConfig{
+      SixStepModulator m{ModulatorConfig{
           .centre_aligned = centred, .dead_ticks = 1e6, .dead_time_at_commutation = at_commutation}};
       DeadTimeWatch watch{1e-6};
       unsigned sector = 0;
