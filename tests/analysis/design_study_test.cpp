@@ -294,16 +294,16 @@ TEST(DesignStudy, PassesProblemsOn) {
     const auto s = study_design({.subject = with_step, .spec = spec});
     return s ? std::string() : s.problems()[0].where;
   };
-  EXPECT_EQ(refused({.settle_s = -1.0}), "--settle");
-  EXPECT_EQ(refused({}, 0.0), "--step");
+  EXPECT_EQ(refused({.settle_s = -1.0}), "settle_s");
+  EXPECT_EQ(refused({}, 0.0), "step");
   EXPECT_EQ(refused({.mode = Mode::position, .load_inertia_kg_m2 = 1.0}), "the test");
   EXPECT_EQ(
       refused({.mode = Mode::position, .method = design::GainMethod::cancellation, .bandwidth_rad_s = 50.0}),
-      "--mode");
+      "mode");
   EXPECT_EQ(
       refused(
           {.mode = Mode::speed, .method = design::GainMethod::symmetrical_optimum, .bandwidth_rad_s = 1e5}),
-      "--bandwidth");
+      "bandwidth_rad_s");
   EXPECT_EQ(refused({.mode = Mode::speed}, -20.0), "");  // downwards is a step too
 }
 
