@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the current loop need not find out by itself: the back-EMF it works against and the bus it works with.
 //
-//   u = u_PI + K_t w          back-EMF between the driven terminals on flat tops (MODEL 1: e = K_t w)
-//   d = u/U_s                 measured bus in place of the nominal one (MODEL 4)
+//   u = u_PI + K_t w          back-EMF between the driven terminals on flat tops (model.md 1: e = K_t w)
+//   d = u/U_s                 measured bus in place of the nominal one (model.md 4)
 #pragma once
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/scalar.hpp"

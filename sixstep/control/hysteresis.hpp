@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two-level current control: on below |i_ref| - h, off above |i_ref| + h, kept between, starts on (MODEL 4).
+// Two-level current control: on below |i_ref| - h, off above |i_ref| + h, kept between, starts on (model.md
+// 4).
 #pragma once
 
 #include "sixstep/control/bridge_command.hpp"

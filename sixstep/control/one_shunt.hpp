@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Motor current from one shunt in the DC link. What the shunt carries is the sum of the legs connected high
-// (MODEL 3): within the on-time the source phase's current, and zero or the returned current in the off-time.
-// So a sample counts only if it was taken in the on-time and the amplifier had time to settle.
+// (model.md 3): within the on-time the source phase's current, and zero or the returned current in the
+// off-time. So a sample counts only if it was taken in the on-time and the amplifier had time to settle.
 //
 // Around a commutation one phase keeps its current i_k, one comes in and one runs out through a diode:
 //   sink changes: the outgoing sink feeds the upper rail, the shunt sees i_k less that: the incoming current

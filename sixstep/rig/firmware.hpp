@@ -102,8 +102,8 @@ class LeanDrive {
   bool reversed() const { return state_.reversed; }
   /// Asks nothing of a tick but the setpoint.
   bool open_loop() const { return config_.mode == control::Mode::off || config_.mode == control::Mode::duty; }
-  /// An event hysteresis on the setpoint itself has no sample to wait for (MODEL 4). One that slews has: it
-  /// moves once a tick.
+  /// An event hysteresis on the setpoint itself has no sample to wait for (model.md 4). One that slews has:
+  /// it moves once a tick.
   bool follows_setpoint_at_once() const {
     return config_.mode == control::Mode::current &&
            config_.current_control == control::CurrentControl::hysteresis &&

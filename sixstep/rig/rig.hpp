@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The virtual board around the plant: samples, runs the controller, modulates, and plays the scenario's
-// timeline. It is the System that sim::run drives; the order of things at one instant is act()'s (MODEL 4b).
-// What its chip runs is a template parameter (firmware.hpp).
+// timeline. It is the System that sim::run drives; the order of things at one instant is act()'s (model.md
+// 4b). What its chip runs is a template parameter (firmware.hpp).
 #pragma once
 #include <array>
 #include <type_traits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three leg commands on the board's timer (MODEL2 11): each leg on a pulse of its own. A Hall edge asks
+// Three leg commands on the board's timer (model.md 11): each leg on a pulse of its own. A Hall edge asks
 // nothing of it.
 #pragma once
 #include "sixstep/rig/leg_timer.hpp"

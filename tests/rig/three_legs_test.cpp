@@ -86,7 +86,7 @@ double mean_of_a(const Board& b, const control::LegCommands<double>& legs) {
   return mean.ampere_s / mean.s;
 }
 
-/// The engine's error of currents (ENGINE) is 6.5e-12 of full scale, 23.3 A.
+/// The engine's error of currents (model.md 12) is 6.5e-12 of full scale, 23.3 A.
 constexpr double amp_tolerance = 6.5e-12 * 23.3;
 
 TEST(ThreeLegs, TheMeanVoltageOfEachLegIsItsDuty) {
@@ -156,7 +156,7 @@ TEST(ThreeLegs, TurningOffLetsTheCurrentsEndInTheDiodes) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(rig.plant().state().i[k], 0.0);
 }
 
-/// MODEL2 11: with delay 1 period 0 has d = 1/2 in each leg, and a firmware that is off stays off.
+/// model.md 11: with delay 1 period 0 has d = 1/2 in each leg, and a firmware that is off stays off.
 TEST(ThreeLegs, PeriodZeroOfADelayedBoardHasNoVoltage) {
   Board b = locked_at(10.0);
   b.board.delayed = true;

@@ -111,7 +111,7 @@ Complex pulsed(const TurningVector& v, bool centred) {
 /// changes its sign over half a turn; x/4 has V/(4 U), the cube at most 2/8.
 double pulse_shape_V(double V) { return (V + U) / 4 * w * T * w * T / 24; }
 
-/// Solver (6.5e-12 of full scale, ENGINE), quadrature and 45 time constants.
+/// Solver (6.5e-12 of full scale, model.md 12), quadrature and 45 time constants.
 constexpr double tolerance_A = 1e-10 * 23.3;
 
 TEST(VoltageVector, ItsCurrentIsThatOfThePhasorSolution) {

@@ -65,7 +65,7 @@ base::Result<std::vector<std::size_t>> record_indices(const Scenario& scenario) 
         std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
     if (found == columns.end())
       problems.push_back({"record.columns", "\"" + name + "\"", "is no column of the trace",
-                          "`sixstep help columns` lists them"});
+                          "the help on columns lists them"});
     else if (found != columns.begin())
       indices.push_back(static_cast<std::size_t>(found - columns.begin()));
   }
