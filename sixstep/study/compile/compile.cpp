@@ -83,6 +83,7 @@ rig::BoardConfig board_of(const Scenario& s, double L_over_R_s) {
   board.modulator.dead_ticks = static_cast<double>(sim::to_instant(s.bridge.dead_time_s).ticks);
   board.modulator.dead_time_at_commutation = s.bridge.dead_time_at_commutation;
   board.modulator.timer_ticks = s.pwm.timer_Hz > 0 ? sim::ticks_per_second / s.pwm.timer_Hz : 0.0;
+  board.modulator.minimum_pulse_ticks = static_cast<double>(sim::to_instant(s.pwm.minimum_pulse_s).ticks);
   board.commutate_at_sample = s.pwm.commutation == CommutationAt::sample;
   board.delayed = s.pwm.delay_periods > 0;
   board.sampled_in_middle = s.pwm.sample == SampleAt::middle;

@@ -159,7 +159,7 @@ Series magnitude_series(const SegmentView& g, double from, double to) {
 
 }  // namespace
 
-double signed_duty(const rig::Modulator& modulator, int sector) {
+double signed_duty(const rig::SixStepModulator& modulator, int sector) {
   const rig::BoardCommand& command = modulator.command();
   if (!command.enabled) return 0.0;
   const bool compares = command.watch != control::Watch::none;
