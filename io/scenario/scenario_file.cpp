@@ -176,7 +176,7 @@ void check_columns(const study::Scenario& scenario, Complaints& complaints) {
   for (std::size_t n = 0; n < columns.size(); ++n) {
     const std::vector<std::string>& asked = scenario.record.columns;
     if (std::find(asked.begin(), asked.end(), columns[n].name) == asked.end()) continue;
-    if (!study::applies(static_cast<study::ColumnId>(n), scenario.control.mode))
+    if (!study::applies(static_cast<study::ColumnId>(n), scenario))
       complaints.later({"record.columns", "\"" + columns[n].name + "\"", "has no value in this control.mode",
                         "remove it, or control what it is the reference of"});
   }

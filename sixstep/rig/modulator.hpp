@@ -50,6 +50,8 @@ class Modulator {
   /// New thresholds between periods (the setpoint of an event hysteresis jumped).
   void rearm(const sim::Instant& t, const BoardCommand& command) { tell_legs(t, take(t, command)); }
   void turn_off(const sim::Instant& t);
+  /// Of the changes from now on; what waits already waits as long as it was told.
+  void set_dead_time(double ticks) { dead_ticks_ = in_counts(ticks); }
 
   sim::Instant next_edge() const;
   /// Does the edges due at `now`; false where none was.
