@@ -116,7 +116,7 @@ table = [
      "(timeline_[n].at.ticks + period) / period * period"),
     ("rig/rig.hpp", "firmware_.open_loop() || «moving_»", "false"),
     ("rig/rig_inputs.hpp", "if (firmware_.follows_setpoint_at_once() && «!board_.delayed»)", "true"),
-    ("rig/rig_inputs.hpp", "const Action& from = timeline_[«course_»]", "0"),
+    ("rig/rig_inputs.hpp", "const Action& from = timeline_[«waveform_»]", "0"),
     ("rig/timeline.hpp", "(rate + «curvature / 2 * t_s») * t_s", "0.0"),
     ("rig/timeline.hpp", "(turns - «std::floor(turns)»)", "0.0"),
     ("rig/firmware.hpp", "* 60 + «s.x * Real(180) / Real(base::pi)»", "s.x"),

@@ -40,13 +40,13 @@ struct CurveArguments {
 };
 
 /// Files are made before the work begins: one that cannot be written is told at once.
-struct Outputs {
+struct CurveFiles {
   std::optional<io::CsvWriter> csv;
   std::optional<io::AtomicFile> json, html;
 };
 
-Outputs outputs(const CurveArguments& a, base::Problems& problems) {
-  Outputs out;
+CurveFiles outputs(const CurveArguments& a, base::Problems& problems) {
+  CurveFiles out;
   if (!a.csv.empty()) {
     std::vector<study::Column> columns;
     for (const io::CurveColumn& c : io::curve_columns()) columns.push_back(c.column);
@@ -60,7 +60,7 @@ Outputs outputs(const CurveArguments& a, base::Problems& problems) {
 }
 
 void write(const CurveArguments& a, const study::CurveRequest& request, const study::Curve& curve,
-           Outputs& out, base::Problems& problems) {
+           CurveFiles& out, base::Problems& problems) {
   const auto commit = [&](auto& file) {
     const base::Problems failed = file.commit();
     problems.insert(problems.end(), failed.begin(), failed.end());
@@ -144,7 +144,7 @@ Exit curve_command(const CurveArguments& a) {
   }
   base::Problems problems = written_twice({{"--csv", a.csv}, {"--json", a.json}, {"--html", a.html}});
   if (!problems.empty()) return refused(problems);
-  Outputs out = outputs(a, problems);
+  CurveFiles out = outputs(a, problems);
   if (!problems.empty()) return refused(problems);
   catch_interrupts();
   const base::Result<study::Curve> curve = batch::torque_speed_curve(

@@ -24,7 +24,7 @@
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 #include "sixstep/study/verify/design_study.hpp"
-#include "sixstep/study/verify/scenario_wish.hpp"
+#include "sixstep/study/verify/scenario_spec.hpp"
 
 namespace cli {
 namespace {
@@ -49,8 +49,8 @@ struct DesignArguments {
 namespace fs = std::filesystem;
 
 /// Options over what a scenario says, or over what a board has.
-design::DesignWish wish_of(const DesignArguments& a, const study::Scenario* scenario, base::Problems& found) {
-  design::DesignWish w = scenario ? study::wish_of(*scenario) : design::on_a_board();
+design::DesignSpec spec_of(const DesignArguments& a, const study::Scenario* scenario, base::Problems& found) {
+  design::DesignSpec w = scenario ? study::spec_of(*scenario) : design::on_a_board();
   // Only what a design is for: off and duty need none.
   constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[2], study::mode_choices[3],
                                                             study::mode_choices[4]};
@@ -81,7 +81,7 @@ design::DesignWish wish_of(const DesignArguments& a, const study::Scenario* scen
 }
 
 /// The files that were asked for, open before anything runs.
-struct Outputs {
+struct DesignFiles {
   std::optional<io::AtomicFile> json, toml, models, html;
 
   base::Problems open(const DesignArguments& a) {
@@ -113,7 +113,7 @@ base::Problems put(std::optional<io::AtomicFile>& file, const std::string& text)
   return file->commit();
 }
 
-base::Problems write(const study::DesignStudy& s, const DesignArguments& a, Outputs& out) {
+base::Problems write(const study::DesignStudy& s, const DesignArguments& a, DesignFiles& out) {
   base::Problems found = put(out.json, io::design_json(s));
   const auto add = [&](const base::Problems& more) { found.insert(found.end(), more.begin(), more.end()); };
   study::Scenario scenario = s.scenario;
@@ -175,16 +175,16 @@ Exit design_command(const DesignArguments& a) {
   base::Problems found;
   const std::optional<study::Scenario> board = board_of(a, found);
   if (!found.empty()) return refused(found);
-  const design::DesignWish wish = wish_of(a, board ? &*board : nullptr, found);
+  const design::DesignSpec spec = spec_of(a, board ? &*board : nullptr, found);
   const base::Result<study::DesignSubject> subject = subject_of(a, board, found);
-  Outputs outputs;
+  DesignFiles outputs;
   if (found.empty()) found = outputs.open(a);
   if (!found.empty()) return refused(found);
   catch_interrupts();
   const base::Result<study::DesignStudy> s = study::study_design(
       {.subject = *subject,
-       .wish = wish,
-       .tolerances = a.quick ? std::vector<study::Tolerance>() : study::sheet_tolerances(wish.mode),
+       .spec = spec,
+       .tolerances = a.quick ? std::vector<study::Tolerance>() : study::sheet_tolerances(spec.mode),
        .for_each = side_by_side(a.jobs, a.quiet, "motors"),
        .keep_going = [] { return !interrupted(); }});
   if (interrupted()) return told_interrupted("design " + a.motor);

@@ -32,19 +32,19 @@ struct NewArguments {
 
 base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::string& path) {
   base::Problems found;
-  study::FirstWish wish;
+  study::FirstScenarioSpec spec;
   // Something is to be driven: off is none of them.
   constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[3], study::mode_choices[2],
                                                             study::mode_choices[4], study::mode_choices[1]};
-  choose("--mode", a.mode, modes, wish.mode, found);
+  choose("--mode", a.mode, modes, spec.mode, found);
   const base::Result<design::Sheet> sheet = io::read_sheet(a.motor, a.data_dir);
   if (!sheet) found.insert(found.end(), sheet.problems().begin(), sheet.problems().end());
   if (!found.empty()) return found;
-  wish.motor = motor_beside(a.motor, path);
-  wish.sheet = *sheet;
-  wish.voltage_V = a.voltage_V;
-  wish.for_each = side_by_side(0, true, "motors");
-  return study::first_scenario(wish);
+  spec.motor = motor_beside(a.motor, path);
+  spec.sheet = *sheet;
+  spec.voltage_V = a.voltage_V;
+  spec.for_each = side_by_side(0, true, "motors");
+  return study::first_scenario(spec);
 }
 
 /// The schema lies beside the scenario, where its first line looks for it; one that is there already stays.

@@ -10,12 +10,12 @@
 
 #include "batch/for_each.hpp"
 #include "faces/cli/compare_command.hpp"
+#include "faces/cli/file_watch.hpp"
 #include "faces/cli/progress.hpp"
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/run_reading.hpp"
 #include "faces/cli/series_command.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/watch.hpp"
 #include "io/escape/escape.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/results/verdict_table.hpp"
@@ -135,7 +135,7 @@ Exit run_jobs(const RunArguments& arguments, JobsRead& read) {
 Exit run_again_on_save(const RunArguments& arguments) {
   for (;;) {
     JobsRead read = read_jobs(arguments);
-    const Watch watch(read.files);
+    const FileWatch watch(read.files);
     const Exit exit = run_jobs(arguments, read);
     if (interrupted() || unheard()) return exit;
     if (!arguments.quiet) print("-- runs again when a file is saved; Ctrl-C ends\n", stderr);

@@ -57,7 +57,7 @@ std::string timing(const study::Pwm& p) {
 }
 
 std::string currents(const study::Sensors& s) {
-  if (s.currents == sixstep::rig::CurrentSensing::ideal) return "as they are";
+  if (s.currents == sixstep::rig::CurrentMeasurement::ideal) return "as they are";
   return fmt::format("{}, {} bits over +-{:.6g} A",
                      sixstep::base::word(study::current_sensing_choices, s.currents), s.adc_bits,
                      s.current_range_A.value_or(0.0)) +

@@ -168,7 +168,7 @@ base::Result<std::string> fixed_header(const ConfigHeader& w, const study::Compi
     scenario.control.arithmetic = w.arithmetic.value_or(scenario.control.arithmetic);
     const base::Result<study::DriveIn<Scalar>> own = study::drive_in<Scalar>(scenario, c);
     if (!own) return own.problems();
-    bases = {own->units.current_A, own->units.voltage_V, own->units.speed_rad_s, own->units.position_deg};
+    bases = {own->bases.current_A, own->bases.voltage_V, own->bases.speed_rad_s, own->bases.position_deg};
   }
   if (c.product) {
     const auto product =

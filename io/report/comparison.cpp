@@ -9,8 +9,8 @@
 #include <report_assets.hpp>
 
 #include "io/report/comparison_data.hpp"
-#include "io/report/course.hpp"
 #include "io/report/figures.hpp"
+#include "io/report/highlights.hpp"
 #include "io/report/html.hpp"
 #include "io/report/scenario_differences.hpp"
 #include "io/report/scripts.hpp"

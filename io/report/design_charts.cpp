@@ -25,7 +25,7 @@ const std::vector<double>* column(const DesignStudy& s, std::string_view name) {
 /// Three settling times show a step; a move is shown whole.
 double end_of_view(const DesignStudy& s, double begin_s) {
   const double settle = s.design.loops.back().step.settling_s;
-  const bool whole = s.design.wish.mode == Mode::position || !std::isfinite(settle);
+  const bool whole = s.design.spec.mode == Mode::position || !std::isfinite(settle);
   return whole ? s.scenario.duration_s : std::fmin(s.scenario.duration_s, begin_s + 3 * settle);
 }
 
@@ -34,7 +34,7 @@ SvgCurve designed(const DesignStudy& s, double begin_s, double from, double heig
   SvgCurve curve{"designed", "reference", {}, {}};
   const auto& samples = s.design.loops.back().step.samples;
   for (std::size_t n = 0; n < samples.size(); ++n) {
-    const double t = begin_s + static_cast<double>(n) * s.design.wish.period_s;
+    const double t = begin_s + static_cast<double>(n) * s.design.spec.period_s;
     if (t > end_of_view(s, begin_s)) break;
     curve.x.push_back(t * 1e3);
     curve.y.push_back(from + height * samples[n]);
@@ -58,11 +58,11 @@ SvgCurve simulated(const DesignStudy& s, std::string_view name, double begin_s, 
 std::string step_charts(const DesignStudy& s) {
   const auto& r = s.scenario.reference;
   SvgChart chart{.title = "Step", .x_label = "ms"};
-  if (s.design.wish.mode == Mode::current) {
+  if (s.design.spec.mode == Mode::current) {
     chart.y_label = "A";
     chart.curves = {simulated(s, "i_m_A", 0, 1), designed(s, 0, 0, r.value)};
     chart.levels = {r.value};
-  } else if (s.design.wish.mode == Mode::speed) {
+  } else if (s.design.spec.mode == Mode::speed) {
     chart.y_label = "rad/s";
     const double begin = r.times_s.at(1), from = r.values.at(0), to = r.values.at(1);
     chart.curves = {simulated(s, "speed_rad_s", begin, 1), designed(s, begin, from, to - from)};
@@ -74,8 +74,8 @@ std::string step_charts(const DesignStudy& s) {
     chart.curves[1].label = "were there no limits";
     chart.levels = {r.value};
   }
-  if (s.design.wish.mode == Mode::current) return svg_chart(chart);
-  const double begin = s.design.wish.mode == Mode::speed ? r.times_s.at(1) : 0.0;
+  if (s.design.spec.mode == Mode::current) return svg_chart(chart);
+  const double begin = s.design.spec.mode == Mode::speed ? r.times_s.at(1) : 0.0;
   return svg_chart(chart) + svg_chart({.title = "Motor current",
                                        .x_label = "ms",
                                        .y_label = "A",
@@ -94,10 +94,10 @@ std::string loop_charts(const DesignStudy& s) {
                  .levels = {-180.0}};
   std::size_t n = 0;
   for (const auto& loop : s.design.loops) {
-    const double from = loop.figures.crossover_rad_s.value_or(0.1 / s.design.wish.period_s) / 30;
+    const double from = loop.figures.crossover_rad_s.value_or(0.1 / s.design.spec.period_s) / 30;
     SvgCurve& g = gain.curves.emplace_back(SvgCurve{loop.name, styles[n % 3], {}, {}});
     SvgCurve& p = phase.curves.emplace_back(SvgCurve{loop.name, styles[n % 3], {}, {}});
-    for (const auto& point : sixstep::design::bode(loop.loop, s.design.wish.period_s, from, 240)) {
+    for (const auto& point : sixstep::design::bode(loop.loop, s.design.spec.period_s, from, 240)) {
       const double deg = point.phase_rad * degrees;
       // Beyond that neither tells anything.
       const bool shown = point.gain > 1e-3 && deg > -400;
@@ -128,7 +128,7 @@ std::string limit_charts(const DesignStudy& s) {
   for (int k = 0; k <= 100; ++k) {
     curve.x.push_back(k / 100.0);
     curve.y.push_back(
-        sixstep::design::current_ripple_A(d.motor, d.bus_V, d.wish.period_s, d.wish.chopping, k / 100.0));
+        sixstep::design::current_ripple_A(d.motor, d.bus_V, d.spec.period_s, d.spec.chopping, k / 100.0));
   }
   ripple.curves.push_back(std::move(curve));
   return svg_chart(headroom) + svg_chart(ripple);

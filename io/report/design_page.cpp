@@ -96,7 +96,7 @@ std::string margins(const DesignStudy& s) {
   std::string out = "<table><thead><tr><th>Loop</th>";
   for (const LoopDesign& loop : s.design.loops) out += "<th class=\"num\">" + escaped(loop.name) + "</th>";
   out += "</tr></thead><tbody>\n";
-  const bool late = s.design.wish.delay_periods == 1;
+  const bool late = s.design.spec.delay_periods == 1;
   const auto row = [&](const char* name, auto value) {
     out += fmt::format("<tr><th scope=\"row\">{}</th>", name);
     for (const LoopDesign& loop : s.design.loops) out += cell(value(loop));

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/report/course.hpp"
 #include "io/report/figures.hpp"
+#include "io/report/highlights.hpp"
 #include "io/report/html.hpp"
 #include "io/report/svg_chart.hpp"
 #include "io/report/verdicts.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "io/report/course.hpp"
+#include "io/report/highlights.hpp"
 #include "io/report/windows.hpp"
 #include "sixstep/study/measure/columns.hpp"
 

@@ -83,13 +83,13 @@ std::string control(const study::Scenario& s) {
 }
 
 std::string sensors(const study::Sensors& s) {
-  using sixstep::rig::CurrentSensing;
-  std::string text = s.currents == CurrentSensing::ideal    ? "ideal currents"
-                     : s.currents == CurrentSensing::phases ? "phase currents"
-                                                            : "one shunt in the DC link";
-  if (s.currents != CurrentSensing::ideal)
+  using sixstep::rig::CurrentMeasurement;
+  std::string text = s.currents == CurrentMeasurement::ideal    ? "ideal currents"
+                     : s.currents == CurrentMeasurement::phases ? "phase currents"
+                                                                : "one shunt in the DC link";
+  if (s.currents != CurrentMeasurement::ideal)
     text += fmt::format(" through {} bits over ±{}", s.adc_bits, given(s.current_range_A.value_or(0.0), "A"));
-  if (s.currents != CurrentSensing::ideal && s.current_noise_A > 0.0)
+  if (s.currents != CurrentMeasurement::ideal && s.current_noise_A > 0.0)
     text += ", noise " + given(s.current_noise_A, "A");
   if (s.bus == study::BusSensing::adc)
     text +=
@@ -105,7 +105,7 @@ std::string sensors(const study::Sensors& s) {
 }
 
 bool all_ideal(const study::Sensors& s) {
-  return s.currents == sixstep::rig::CurrentSensing::ideal && s.bus == study::BusSensing::ideal &&
+  return s.currents == sixstep::rig::CurrentMeasurement::ideal && s.bus == study::BusSensing::ideal &&
          s.rotor == study::RotorSensing::ideal && !s.hall_break.at_s;
 }
 
@@ -211,7 +211,7 @@ std::string setup_section(const study::Scenario& s) {
   add("PWM", pwm(s.pwm));
   add("Control", control(s));
   if (!all_ideal(s.sensors)) add("Sensors", sensors(s.sensors));
-  if (s.control.drive == study::Drive::product) add("Product drive", protection(s.protection));
+  if (s.control.drive == study::FirmwareKind::product) add("Product drive", protection(s.protection));
   if (s.control.mode != control::Mode::off) add("Reference", reference(s));
   add("Commutation", at_edge ? "at the Hall edge" : "at the next sample");
   add("Shaft", shaft(s.load));

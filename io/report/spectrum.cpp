@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/report/course.hpp"
+#include "io/report/highlights.hpp"
 #include "io/report/windows.hpp"
 #include "sixstep/study/measure/trace.hpp"
 

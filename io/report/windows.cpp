@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "io/report/course.hpp"
+#include "io/report/highlights.hpp"
 #include "sixstep/study/measure/trace.hpp"
 
 namespace io::report {

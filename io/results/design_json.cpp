@@ -79,11 +79,11 @@ Json loop_json(const LoopDesign& loop, const DriveDesign& d) {
     out["steps"].push_back(row);
   }
   out["open_loop_in_z_minus_1"] = {{"num", loop.loop.num}, {"den", loop.loop.den}};
-  const bool late = d.wish.delay_periods == 1;
+  const bool late = d.spec.delay_periods == 1;
   out["margins"] = {{"at_once", figures(late ? loop.other : loop.figures)},
                     {"one_period_late", figures(late ? loop.figures : loop.other)}};
-  out["bode"] = bode(loop, d.wish.period_s);
-  out["step"] = step(loop, d.wish.period_s);
+  out["bode"] = bode(loop, d.spec.period_s);
+  out["step"] = step(loop, d.spec.period_s);
   return out;
 }
 
@@ -153,11 +153,11 @@ std::string design_json(const study::DesignStudy& s) {
            {"verdict", design_verdict(s)},
            {"usable", s.usable()},
            {"motor", s.scenario.sheet.name},
-           {"mode", sixstep::base::word(sixstep::study::mode_choices, d.wish.mode)},
+           {"mode", sixstep::base::word(sixstep::study::mode_choices, d.spec.mode)},
            {"bus_V", d.bus_V},
-           {"period_s", d.wish.period_s},
-           {"delay_periods", d.wish.delay_periods},
-           {"chopping", sixstep::base::word(sixstep::study::chopping_choices, d.wish.chopping)}};
+           {"period_s", d.spec.period_s},
+           {"delay_periods", d.spec.delay_periods},
+           {"chopping", sixstep::base::word(sixstep::study::chopping_choices, d.spec.chopping)}};
   const auto& m = d.motor;
   out["model"] = {{"terminal_resistance_ohm", 2 * m.machine.R_ohm},
                   {"terminal_inductance_H", 2 * m.machine.L_H},

@@ -60,14 +60,14 @@ const study::ComparisonResult* find(const study::DesignStudy& s, const char* fig
 
 std::string motor_line(const DriveDesign& d, const study::Scenario& s) {
   const auto& m = d.motor;
-  const std::string chopping(sixstep::base::word(sixstep::study::chopping_choices, d.wish.chopping));
+  const std::string chopping(sixstep::base::word(sixstep::study::chopping_choices, d.spec.chopping));
   return fmt::format(
       "{} on {} V: terminal R = {} ohm, L = {} mH, K_t = {} mNm/A, J = {} g cm2, B = {} N m s\n"
       "control and PWM period {}, {} chopping, a command counts {}\n",
       visible(s.sheet.name.empty() ? s.motor : s.sheet.name), number(d.bus_V), number(2 * m.machine.R_ohm),
       number(2e3 * m.machine.L_H), number(1e3 * m.K_t_Nm_A), number(1e7 * m.shaft.J_kg_m2),
-      number(m.shaft.B_Nm_s), quantity_text(d.wish.period_s, "s"), chopping,
-      d.wish.delay_periods == 1 ? "one period late" : "at once");
+      number(m.shaft.B_Nm_s), quantity_text(d.spec.period_s, "s"), chopping,
+      d.spec.delay_periods == 1 ? "one period late" : "at once");
 }
 
 std::string gain_unit(const LoopDesign& loop) { return loop.name == "current" ? "V/A" : "per rad/s"; }
@@ -112,7 +112,7 @@ std::string figures_text(const DriveDesign& d) {
     for (const LoopDesign& loop : d.loops) cells.push_back(cell(loop));
     rows.add(std::move(cells));
   };
-  const bool late = d.wish.delay_periods == 1;
+  const bool late = d.spec.delay_periods == 1;
   const auto at_once = [&](const LoopDesign& l) -> const LoopFigures& { return late ? l.other : l.figures; };
   const auto delayed = [&](const LoopDesign& l) -> const LoopFigures& { return late ? l.figures : l.other; };
   const auto factor = +[](double x) { return fmt::format("{:.2f}", x); };
@@ -166,7 +166,7 @@ std::string sensing_text(const DriveDesign& d) {
       cells.push_back(d.limits[k].settle_s ? quantity_text(*d.limits[k].settle_s, "s", 3) : "none");
     table.add(std::move(cells));
   }
-  return "\nSpeed from Hall edges, " + sixstep::design::edges_words(d.wish.rotor).substr(6) + "\n" +
+  return "\nSpeed from Hall edges, " + sixstep::design::edges_words(d.spec.rotor).substr(6) + "\n" +
          steps.text() + "\nFastest settling of the speed loop that keeps 45 degrees of phase\n" +
          table.text();
 }
@@ -256,9 +256,9 @@ std::string at_worst(const study::DesignStudy& s, const char* figure, double nom
 std::string conditions(const study::DesignStudy& s) {
   const DriveDesign& d = s.design;
   std::string text =
-      !d.wish.rotor.hall   ? "with an ideal rotor sensor"
+      !d.spec.rotor.hall   ? "with an ideal rotor sensor"
       : d.loops.size() < 2 ? "with Hall probes"
-      : d.wish.mode == Mode::speed
+      : d.spec.mode == Mode::speed
           ? fmt::format("with Hall probes, down to {}", quantity_text(d.lowest_speed_rad_s, "rad/s", 3))
           : "with Hall probes";
   return text +

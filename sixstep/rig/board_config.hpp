@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The virtual board's configuration, and what is true of it as it wakes.
 #pragma once
+#include "sixstep/rig/bases.hpp"
 #include "sixstep/rig/modulator.hpp"
 #include "sixstep/rig/registers.hpp"
-#include "sixstep/rig/units.hpp"
 
 namespace sixstep::rig {
 
@@ -12,12 +12,12 @@ struct BoardConfig {
   bool commutate_at_sample = false;  ///< else at the Hall edge itself
   bool delayed = false;              ///< a command takes effect one period after its sample
   bool sampled_in_middle = false;    ///< of the period; the answer takes effect at the next one's start
-  Units units{};                     ///< of the controller's number
+  Bases bases{};                     ///< of the controller's number
   SensorsConfig sensors{};
 };
 
 /// What a firmware may know before its first sample.
-struct Waking {
+struct PowerUp {
   double pole_pairs = 1.0;
   std::int64_t sector = 0;  ///< counted from angle 0
   std::uint8_t pins = 0;

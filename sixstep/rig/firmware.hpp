@@ -21,7 +21,7 @@ namespace sixstep::rig {
 
 /// The instant that a firmware's tick looks at.
 template <class Real>
-struct Sight {
+struct SampleInstant {
   const plant::Plant<Real>& plant;
   const BoardCommand& in_effect;
   sim::Instant at{};
@@ -46,30 +46,30 @@ struct Tuning {
 
 /// Everything as it is.
 template <class Scalar, class Real>
-control::Measurement<Scalar> ideal_measurement(const Sight<Real>& sight, const Units& u) {
-  const plant::State<Real>& s = sight.plant.state();
+control::Measurement<Scalar> ideal_measurement(const SampleInstant<Real>& instant, const Bases& u) {
+  const plant::State<Real>& s = instant.plant.state();
   const Real sector_deg = static_cast<Real>(s.sector) * 60 + s.x * Real(180) / Real(base::pi);
   return {.i_a_A = from_si<Scalar>(s.i[0], u.current_A),
           .i_b_A = from_si<Scalar>(s.i[1], u.current_A),
           .i_c_A = from_si<Scalar>(s.i[2], u.current_A),
           .speed_rad_s = from_si<Scalar>(s.w, u.speed_rad_s),
-          .position_deg = from_si<Scalar>(sector_deg / sight.plant.constants().pole_pairs, u.position_deg),
+          .position_deg = from_si<Scalar>(sector_deg / instant.plant.constants().pole_pairs, u.position_deg),
           .bus_V = from_si<Scalar>(s.bus, u.voltage_V),
-          .hall = sight.pins};
+          .hall = instant.pins};
 }
 
 /// What converters and shunt are exposed to.
 template <class Real>
-Sample sample_of(const Sight<Real>& sight) {
-  const plant::State<Real>& s = sight.plant.state();
+Sample sample_of(const SampleInstant<Real>& instant) {
+  const plant::State<Real>& s = instant.plant.state();
   Sample sample{.bus_V = static_cast<double>(s.bus),
-                .at = sight.at,
-                .number = sight.number,
-                .duty = sight.in_effect.duty,
-                .reversed = sight.reversed};
+                .at = instant.at,
+                .number = instant.number,
+                .duty = instant.in_effect.duty,
+                .reversed = instant.reversed};
   for (std::size_t k = 0; k < 3; ++k) {
     sample.i_A[k] = static_cast<double>(s.i[k]);
-    if (plant::is_high(sight.plant.mode().legs[k])) sample.dc_link_A += sample.i_A[k];
+    if (plant::is_high(instant.plant.mode().legs[k])) sample.dc_link_A += sample.i_A[k];
   }
   return sample;
 }
@@ -82,16 +82,16 @@ class LeanDrive {
   using Config = control::DriveConfig<Scalar>;
   static constexpr bool fault_ends_run = true;
 
-  LeanDrive(const Config& config, const BoardConfig& board, const Waking&)
-      : config_(config), units_(board.units) {}
+  LeanDrive(const Config& config, const BoardConfig& board, const PowerUp&)
+      : config_(config), bases_(board.bases) {}
 
   template <class Real>
-  const control::BridgeCommand<Scalar>& tick(const Sight<Real>& sight, double setpoint) {
-    return step(ideal_measurement<Scalar>(sight, units_), setpoint);
+  const control::BridgeCommand<Scalar>& tick(const SampleInstant<Real>& instant, double setpoint) {
+    return step(ideal_measurement<Scalar>(instant, bases_), setpoint);
   }
   /// The command where it stands: a copy would have to wait for the fields that were just set.
   const control::BridgeCommand<Scalar>& step(const control::Measurement<Scalar>& measured, double setpoint) {
-    control::step(config_, state_, measured, {from_si<Scalar>(setpoint, units_.setpoint)}, telemetry_);
+    control::step(config_, state_, measured, {from_si<Scalar>(setpoint, bases_.setpoint)}, telemetry_);
     return state_.command;
   }
   void captured(std::uint8_t, const sim::Instant&) {}
@@ -102,7 +102,7 @@ class LeanDrive {
   void request_clear() {}
   void retune(const Tuning<Config>& tuning) {
     control::retune(config_, state_, tuning.config);
-    units_.setpoint = tuning.setpoint_unit;
+    bases_.setpoint = tuning.setpoint_unit;
   }
 
   control::Mode mode() const { return config_.mode; }
@@ -123,7 +123,7 @@ class LeanDrive {
 
  private:
   Config config_;
-  Units units_;
+  Bases bases_;
   control::DriveState<Scalar> state_{};
   control::Telemetry<Scalar> telemetry_{};
 };
@@ -136,15 +136,15 @@ class SensedDrive {
   using Config = control::DriveConfig<Scalar>;
   static constexpr bool fault_ends_run = true;
 
-  SensedDrive(const Config& config, const BoardConfig& board, const Waking& waking)
-      : drive_(config, board, waking),
-        sensors_(board.sensors, board.units, waking.pole_pairs, waking.sector, waking.pins),
-        units_(board.units) {}
+  SensedDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
+      : drive_(config, board, power_up),
+        sensors_(board.sensors, board.bases, power_up.pole_pairs, power_up.sector, power_up.pins),
+        bases_(board.bases) {}
 
   template <class Real>
-  control::BridgeCommand<Scalar> tick(const Sight<Real>& sight, double setpoint) {
-    control::Measurement<Scalar> measured = ideal_measurement<Scalar>(sight, units_);
-    sensors_.sense(measured, sample_of(sight));
+  control::BridgeCommand<Scalar> tick(const SampleInstant<Real>& instant, double setpoint) {
+    control::Measurement<Scalar> measured = ideal_measurement<Scalar>(instant, bases_);
+    sensors_.sense(measured, sample_of(instant));
     return drive_.step(measured, setpoint);
   }
   void captured(std::uint8_t pins, const sim::Instant& at) { sensors_.hall_edge(pins, at); }
@@ -167,7 +167,7 @@ class SensedDrive {
  private:
   LeanDrive<Scalar> drive_;
   Sensors<Scalar> sensors_;
-  Units units_;
+  Bases bases_;
 };
 
 /// What is flashed: registers in, command out. The request to run is a level that the timeline sets.
@@ -179,13 +179,13 @@ class ProductDrive {
   static constexpr bool fault_ends_run = false;
 
   /// It knows its turn: position counts on from where the rotor stands.
-  ProductDrive(const Config& config, const BoardConfig& board, const Waking& waking)
-      : config_(config), registers_(board.sensors), units_(board.units) {
-    state_.position.sectors = static_cast<std::int32_t>(waking.sector);
+  ProductDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
+      : config_(config), registers_(board.sensors), bases_(board.bases) {
+    state_.position.sectors = static_cast<std::int32_t>(power_up.sector);
   }
 
   template <class Real>
-  control::BridgeCommand<Scalar> tick(const Sight<Real>& sight, double setpoint);
+  control::BridgeCommand<Scalar> tick(const SampleInstant<Real>& instant, double setpoint);
   void captured(std::uint8_t, const sim::Instant&) {}
   control::BridgeCommand<Scalar> hall_interrupt(std::uint8_t pins, const sim::Instant& at) {
     return control::protected_on_hall(config_, state_, pins, registers_.counter(at));
@@ -195,7 +195,7 @@ class ProductDrive {
   void request_clear() { request_.clear = true; }
   void retune(const Tuning<Config>& tuning) {
     control::retune(config_, state_, tuning.config);
-    units_.setpoint = tuning.setpoint_unit;
+    bases_.setpoint = tuning.setpoint_unit;
   }
 
   control::Mode mode() const { return config_.drive.mode; }
@@ -209,7 +209,7 @@ class ProductDrive {
  private:
   Config config_;
   Registers registers_;
-  Units units_;
+  Bases bases_;
   control::Request request_{};
   control::ProtectedState<Scalar> state_{};
   control::ProtectedTelemetry<Scalar> telemetry_{};
@@ -218,14 +218,15 @@ class ProductDrive {
 
 template <class Scalar>
 template <class Real>
-control::BridgeCommand<Scalar> ProductDrive<Scalar>::tick(const Sight<Real>& sight, double setpoint) {
-  const Sample s = sample_of(sight);
+control::BridgeCommand<Scalar> ProductDrive<Scalar>::tick(const SampleInstant<Real>& instant,
+                                                          double setpoint) {
+  const Sample s = sample_of(instant);
   const bool one_shunt = config_.sensing == control::CurrentSensing::one_shunt;
   control::BoardInput in{
-      .bus_counts = registers_.bus_counts(s), .hall_pins = sight.pins, .now = registers_.counter(s.at)};
+      .bus_counts = registers_.bus_counts(s), .hall_pins = instant.pins, .now = registers_.counter(s.at)};
   for (std::size_t k = 0; k < (one_shunt ? 1u : 3u); ++k)
     in.current_counts[k] = registers_.current_counts(k, one_shunt ? s.dc_link_A : s.i_A[k], s.number);
-  const control::Setpoint<Scalar> wanted{from_si<Scalar>(setpoint, units_.setpoint)};
+  const control::Setpoint<Scalar> wanted{from_si<Scalar>(setpoint, bases_.setpoint)};
   const control::BridgeCommand<Scalar> answer =
       control::protected_step(config_, state_, in, request_, wanted, telemetry_);
   request_.clear = false;
@@ -233,7 +234,7 @@ control::BridgeCommand<Scalar> ProductDrive<Scalar>::tick(const Sight<Real>& sig
     diagnosis_ = {
         telemetry_.first_fault,
         (telemetry_.first_fault & control::fault_hall) != 0 ? telemetry_.hall_line : std::uint8_t{0},
-        sight.at};
+        instant.at};
   return answer;
 }
 

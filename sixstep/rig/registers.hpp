@@ -8,7 +8,7 @@
 
 namespace sixstep::rig {
 
-enum class CurrentSensing : std::uint8_t { ideal, phases, dc_link };
+enum class CurrentMeasurement : std::uint8_t { ideal, phases, dc_link };
 
 struct SensorsConfig {
   AdcPath current{};  ///< of each phase, or of the shunt
@@ -18,7 +18,7 @@ struct SensorsConfig {
   double capture_Hz = 1e6;  ///< of the timer that captures the edges
   double timeout_s = 0.05;  ///< no edge for so long is standstill
   std::uint64_t seed = 0;   ///< of the noise
-  CurrentSensing currents = CurrentSensing::ideal;
+  CurrentMeasurement currents = CurrentMeasurement::ideal;
   bool calibrated = true;  ///< offsets were measured, with their noise, before the run
   bool measures_bus = false;
   bool rotor_from_hall = false;  ///< speed and position from captured edges
@@ -29,7 +29,7 @@ struct SensorsConfig {
 
   /// The controller is told what is.
   bool ideal() const {
-    return currents == CurrentSensing::ideal && !measures_bus && !rotor_from_hall && !decodes_hall;
+    return currents == CurrentMeasurement::ideal && !measures_bus && !rotor_from_hall && !decodes_hall;
   }
 };
 

@@ -15,7 +15,7 @@ namespace sixstep::rig {
 enum class Fault : std::uint8_t { none, shoot_through, impossible_hall };
 
 /// Kinds of events, for the run's statistics.
-enum class Happening : std::uint8_t {
+enum class EventKind : std::uint8_t {
   sector_edge,
   diode_off,
   standstill,
@@ -66,10 +66,10 @@ class Rig {
   const Firmware& firmware() const { return firmware_; }
   const auto& telemetry() const { return firmware_.telemetry(); }
   double current_reference_A() const {
-    return to_si(telemetry().current_reference_A, board_.units.current_A);
+    return to_si(telemetry().current_reference_A, board_.bases.current_A);
   }
   double speed_reference_rad_s() const {
-    return to_si(telemetry().speed_reference_rad_s, board_.units.speed_rad_s);
+    return to_si(telemetry().speed_reference_rad_s, board_.bases.speed_rad_s);
   }
   double setpoint() const { return setpoint_; }
   Fault fault() const { return fault_; }
@@ -77,7 +77,7 @@ class Rig {
   std::uint8_t pins() const {
     return static_cast<std::uint8_t>((plant::hall_code(plant_.sector()) & ~stuck_low_) | stuck_high_);
   }
-  std::int64_t happened(Happening what) const { return happened_[static_cast<std::size_t>(what)]; }
+  std::int64_t event_count(EventKind what) const { return event_counts_[static_cast<std::size_t>(what)]; }
   /// True between a control tick and the segment that follows it.
   bool ticked() const { return ticked_; }
   /// When the chip looks next; in open loop at a steady bridge that may be never.
@@ -93,14 +93,14 @@ class Rig {
   bool do_half_tick();
   void set_hall_line(double line, bool stuck_high, bool stuck_low);
   void control_step(bool starts_period);
-  void follow_course();
+  void follow_waveform();
   void skip_idle_ticks();
   sim::Instant told_next() const;
   void sector_edge();
   void hall_edge();
   void trip(int which);
   void let_go();
-  void count(Happening what) { ++happened_[static_cast<std::size_t>(what)]; }
+  void count(EventKind what) { ++event_counts_[static_cast<std::size_t>(what)]; }
 
   // Small fields last: the plant begins on a cache line, and each gap might cost a whole one.
   plant::Plant<Real> plant_;
@@ -113,10 +113,10 @@ class Rig {
   sim::Instant due_{};  ///< the earliest of all clocks
   std::size_t next_action_ = 0;
   double setpoint_ = 0.0;
-  std::size_t course_ = 0;  ///< the action whose course the setpoint follows, where moving_
-  BoardCommand pending_{};  ///< waits for its period
-  BoardCommand loaded_{};   ///< sampled in the middle: what the timer takes up next
-  std::array<std::int64_t, static_cast<std::size_t>(Happening::count)> happened_{};
+  std::size_t waveform_ = 0;  ///< the action whose waveform the setpoint follows, where moving_
+  BoardCommand pending_{};    ///< waits for its period
+  BoardCommand loaded_{};     ///< sampled in the middle: what the timer takes up next
+  std::array<std::int64_t, static_cast<std::size_t>(EventKind::count)> event_counts_{};
   Firmware firmware_;
   bool moved_ = true;  ///< a located event changed what the board drives
   bool moving_ = false;
@@ -147,7 +147,7 @@ bool Rig<Real, Firmware>::act() {
   moved_ = false;
   do {
     while (fault_ == Fault::none && !(now_ < due_)) {
-      if (!do_timeline() && !do_tick() && modulator_.act(now_)) count(Happening::pwm_edge);
+      if (!do_timeline() && !do_tick() && modulator_.act(now_)) count(EventKind::pwm_edge);
       due_ = next_due();
     }
   } while (fault_ == Fault::none && watching() && compare());
@@ -159,7 +159,7 @@ bool Rig<Real, Firmware>::act() {
 template <class Real, class Firmware>
 bool Rig<Real, Firmware>::compare() {
   const int switched = modulator_.compare(now_, plant_.state().i);
-  happened_[static_cast<std::size_t>(Happening::comparator)] += switched;
+  event_counts_[static_cast<std::size_t>(EventKind::comparator)] += switched;
   due_ = next_due();
   return switched > 0;
 }
@@ -171,20 +171,20 @@ bool Rig<Real, Firmware>::do_tick() {
   next_tick_.ticks += board_.modulator.period_ticks;
   control_step(true);
   skip_idle_ticks();
-  count(Happening::tick);
+  count(EventKind::tick);
   return ticked_ = true;
 }
 
 template <class Real, class Firmware>
 void Rig<Real, Firmware>::control_step(bool starts_period) {
-  if (moving_) follow_course();
-  const Sight<Real> sight{plant_, modulator_.command(),
-                          now_,   static_cast<std::uint64_t>(happened(Happening::tick)),
-                          pins(), reversed_};
-  const auto& answer = firmware_.tick(sight, setpoint_);
+  if (moving_) follow_waveform();
+  const SampleInstant<Real> instant{plant_, modulator_.command(),
+                                    now_,   static_cast<std::uint64_t>(event_count(EventKind::tick)),
+                                    pins(), reversed_};
+  const auto& answer = firmware_.tick(instant, setpoint_);
   if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
   if (!answer.enabled) let_go();
-  BoardCommand command = widened(answer, board_.units);
+  BoardCommand command = widened(answer, board_.bases);
   bool reversed = firmware_.reversed();
   if (board_.delayed) {
     std::swap(command, pending_);
@@ -255,7 +255,7 @@ void Rig<Real, Firmware>::trip(int which) {
   const plant::PerLeg<Real>& i = plant_.state().i;
   const Real current = Real(weight[0]) * i[0] + Real(weight[1]) * i[1] + Real(weight[2]) * i[2];
   if (std::fabs(current - Real(other.level_A)) > plant_.constants().amp_noise) return;
-  count(Happening::comparator);
+  count(EventKind::comparator);
   modulator_.comparator_tripped(now_, 1 - which);
 }
 
@@ -284,13 +284,13 @@ template <class Real, class Firmware>
 void Rig<Real, Firmware>::apply(int id) {
   using namespace plant;
   if (id >= guard::first_free) {
-    count(Happening::comparator);
+    count(EventKind::comparator);
     moved_ = true;
     return trip(id - guard::first_free);
   }
-  if (id < guard::standstill) count(Happening::diode_off);
-  if (id == guard::standstill) count(Happening::standstill);
-  if (id == guard::breakaway_forward || id == guard::breakaway_backward) count(Happening::breakaway);
+  if (id < guard::standstill) count(EventKind::diode_off);
+  if (id == guard::standstill) count(EventKind::standstill);
+  if (id == guard::breakaway_forward || id == guard::breakaway_backward) count(EventKind::breakaway);
   if (!plant_.apply(id)) return;
   sector_edge();
   moved_ = true;

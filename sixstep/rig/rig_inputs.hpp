@@ -40,8 +40,8 @@ void Rig<Real, Firmware>::do_action(const Action& action) {
       break;
   }
   setpoint_ = action.value;
-  moving_ = action.course.moves();
-  course_ = next_action_ - 1;
+  moving_ = action.waveform.moves();
+  waveform_ = next_action_ - 1;
   if (firmware_.follows_setpoint_at_once() && !board_.delayed) control_step(false);
 }
 
@@ -61,14 +61,14 @@ void Rig<Real, Firmware>::replace_future(Timeline timeline, const Tuning<Config>
 
 /// Where the setpoint stands at this tick.
 template <class Real, class Firmware>
-void Rig<Real, Firmware>::follow_course() {
-  const Action& from = timeline_[course_];
-  setpoint_ = from.course.after(from.value, sim::seconds_between(from.at, now_));
+void Rig<Real, Firmware>::follow_waveform() {
+  const Action& from = timeline_[waveform_];
+  setpoint_ = from.waveform.after(from.value, sim::seconds_between(from.at, now_));
 }
 
 template <class Real, class Firmware>
 void Rig<Real, Firmware>::sector_edge() {
-  count(Happening::sector_edge);
+  count(EventKind::sector_edge);
   const std::uint8_t stuck = stuck_high_ | stuck_low_;
   // The one line that changes between this sector and its neighbour behind is stuck: no edge on the pins.
   const int s = plant_.sector(), behind = (s + (plant_.state().w < Real(0) ? 1 : 5)) % 6;
@@ -100,7 +100,7 @@ bool Rig<Real, Firmware>::do_half_tick() {
     return true;
   }
   control_step(true);
-  count(Happening::tick);
+  count(EventKind::tick);
   return ticked_ = true;
 }
 

@@ -8,22 +8,23 @@
 #include "sixstep/control/hall.hpp"
 #include "sixstep/control/hall_speed.hpp"
 #include "sixstep/control/one_shunt.hpp"
+#include "sixstep/rig/bases.hpp"
 #include "sixstep/rig/registers.hpp"
-#include "sixstep/rig/units.hpp"
 
 namespace sixstep::rig {
 
 template <class Scalar>
 class Sensors {
  public:
-  Sensors(const SensorsConfig& config, const Units& units, double pole_pairs, std::int64_t sector,
+  Sensors(const SensorsConfig& config, const Bases& bases, double pole_pairs, std::int64_t sector,
           std::uint8_t pins);
 
   /// A Hall line changed.
   void hall_edge(std::uint8_t pins, const sim::Instant& at);
   /// The driven pair moved on.
   void commutated() {
-    if (config_.currents == CurrentSensing::dc_link) control::one_shunt_commutation(shunt_config_, shunt_);
+    if (config_.currents == CurrentMeasurement::dc_link)
+      control::one_shunt_commutation(shunt_config_, shunt_);
   }
   /// Puts what was sensed in the place of what is.
   void sense(control::Measurement<Scalar>& measured, const Sample& sample);
@@ -65,20 +66,20 @@ double raw_unit() {
 }
 
 template <class Scalar>
-Sensors<Scalar>::Sensors(const SensorsConfig& config, const Units& units, double pole_pairs,
+Sensors<Scalar>::Sensors(const SensorsConfig& config, const Bases& bases, double pole_pairs,
                          std::int64_t sector, std::uint8_t pins)
     : config_(config), registers_(config) {
   const double sector_rad = base::pi / 3 / pole_pairs, sector_deg = 60.0 / pole_pairs;
-  current_adc_ = decoding(config.current, units.current_A);
-  bus_adc_ = decoding(config.bus, units.voltage_V);
+  current_adc_ = decoding(config.current, bases.current_A);
+  bus_adc_ = decoding(config.bus, bases.voltage_V);
   shunt_config_ = {Scalar(config.least_duty), config.commutation_samples, Scalar(config.fade)};
   using Ratio = control::TickRatio<Scalar>;
-  speed_config_ = {Ratio(sector_rad * config.capture_Hz / units.speed_rad_s),
+  speed_config_ = {Ratio(sector_rad * config.capture_Hz / bases.speed_rad_s),
                    static_cast<std::uint32_t>(config.timeout_s * config.capture_Hz), config.edges,
                    window_ticks(config)};
   using Gain = control::Gain<Scalar>;
-  position_config_ = {Gain(sector_deg / units.position_deg / raw_unit<Scalar>()),
-                      Gain(sector_deg / units.position_deg)};
+  position_config_ = {Gain(sector_deg / bases.position_deg / raw_unit<Scalar>()),
+                      Gain(sector_deg / bases.position_deg)};
   position_.sectors = static_cast<std::int32_t>(sector);
   control::hall_step(hall_config_, hall_, pins);
   if (config.calibrated) calibrate();
@@ -95,7 +96,7 @@ control::AdcConfig<Scalar> Sensors<Scalar>::decoding(const AdcPath& path, double
 /// Before a run the bridge is off and no current flows; the bus has no zero to be found.
 template <class Scalar>
 void Sensors<Scalar>::calibrate() {
-  if (config_.currents == CurrentSensing::ideal) return;
+  if (config_.currents == CurrentMeasurement::ideal) return;
   for (std::size_t input = 0; input < 3; ++input)
     for (std::uint64_t n = 0;; ++n) {
       const std::uint16_t counts = registers_.calibration_counts(input, n);
@@ -116,11 +117,11 @@ void Sensors<Scalar>::hall_edge(std::uint8_t pins, const sim::Instant& at) {
 
 template <class Scalar>
 void Sensors<Scalar>::sense(control::Measurement<Scalar>& m, const Sample& s) {
-  if (config_.currents == CurrentSensing::phases) {
+  if (config_.currents == CurrentMeasurement::phases) {
     m.i_a_A = current(0, s.i_A[0], s);
     m.i_b_A = current(1, s.i_A[1], s);
     m.i_c_A = current(2, s.i_A[2], s);
-  } else if (config_.currents == CurrentSensing::dc_link) {
+  } else if (config_.currents == CurrentMeasurement::dc_link) {
     const Scalar shunt_A = current(0, s.dc_link_A, s);
     const Scalar i_m =
         control::one_shunt_step(shunt_config_, shunt_, s.reversed, from_si<Scalar>(s.duty, 1.0), shunt_A);

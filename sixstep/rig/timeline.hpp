@@ -28,7 +28,7 @@ enum class ActionKind : std::uint8_t {
 /// How a setpoint moves from its action on: t seconds later it stands at
 ///   value + rate t + curvature t^2/2 + amplitude sin(2 pi (frequency_Hz t + phase_turns)).
 /// A control tick looks at it; between two ticks the chip holds what it saw.
-struct Course {
+struct Waveform {
   double rate = 0.0;       ///< per s
   double curvature = 0.0;  ///< per s^2
   double amplitude = 0.0;
@@ -48,10 +48,10 @@ struct Course {
 struct Action {
   sim::Instant at;
   ActionKind kind = ActionKind::setpoint;
-  double value = 0.0;  ///< setpoint in the mode's unit; N m; Hall line 1 to 3, stuck low where negative;
-                       ///< V; a request to run, a clamp on the shaft, a sinking source: 1 or 0; which of
-                       ///< the rig's tunings; ps
-  Course course{};     ///< of a setpoint
+  double value = 0.0;   ///< setpoint in the mode's unit; N m; Hall line 1 to 3, stuck low where negative;
+                        ///< V; a request to run, a clamp on the shaft, a sinking source: 1 or 0; which of
+                        ///< the rig's tunings; ps
+  Waveform waveform{};  ///< of a setpoint
 };
 
 /// Sorted by time, stable where times are equal.

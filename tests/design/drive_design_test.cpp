@@ -29,8 +29,8 @@ MotorModel thesis_motor() {
   return m;
 }
 
-DriveDesign designed(const DesignWish& wish) {
-  const auto d = design_drive(thesis_motor(), wish);
+DriveDesign designed(const DesignSpec& spec) {
+  const auto d = design_drive(thesis_motor(), spec);
   EXPECT_TRUE(d);
   return *d;
 }
@@ -59,7 +59,7 @@ TEST(DriveDesign, PlacesTheThesissPoles) {
 /// The cascade as a program: current and speed of the motor in small steps of the exact solution would need
 /// an exponential; here Runge and Kutta with 50 steps a period, whose error is far below what is asked.
 std::vector<double> simulated(const DriveDesign& d, double position_gain, std::size_t count) {
-  const double R = 1.03, L = 0.572e-3, K = 0.0335, J = 1.35e-5, B = 7.3e-6, T = d.wish.period_s;
+  const double R = 1.03, L = 0.572e-3, K = 0.0335, J = 1.35e-5, B = 7.3e-6, T = d.spec.period_s;
   double i = 0, w = 0, theta = 0, u = 0, e1 = 0, y = 0, e2 = 0, next_u = 0;
   std::vector<double> out;
   for (std::size_t k = 0; k < count; ++k) {
@@ -69,10 +69,10 @@ std::vector<double> simulated(const DriveDesign& d, double position_gain, std::s
     y += d.loop("speed").gains.d1 * speed_error + d.loop("speed").gains.d0 * e1;
     e1 = speed_error;
     const double current_error = y * d.current_at_full_torque_A - i;
-    const double fresh = (d.wish.delay_periods == 1 ? next_u : u) +
+    const double fresh = (d.spec.delay_periods == 1 ? next_u : u) +
                          d.loop("current").gains.d1 * current_error + d.loop("current").gains.d0 * e2;
     e2 = current_error;
-    u = d.wish.delay_periods == 1 ? next_u : fresh;
+    u = d.spec.delay_periods == 1 ? next_u : fresh;
     next_u = fresh;
     constexpr int steps = 50;
     for (int n = 0; n < steps; ++n) {
@@ -96,10 +96,10 @@ TEST(DriveDesign, TheClosedLoopsAreTheCascadeWrittenOut) {
     const DriveDesign d = designed({.mode = Mode::position, .delay_periods = late});
     const double gain = d.loop("position").gains.d1;
     const std::vector<double> speed = simulated(d, 0.0, 300), position = simulated(d, gain, 300);
-    const StepResponse w = step_response(closed(d.loop("speed").loop), d.wish.period_s,
-                                         300 * d.wish.period_s),
-                       theta = step_response(closed(d.loop("position").loop), d.wish.period_s,
-                                             300 * d.wish.period_s);
+    const StepResponse w = step_response(closed(d.loop("speed").loop), d.spec.period_s,
+                                         300 * d.spec.period_s),
+                       theta = step_response(closed(d.loop("position").loop), d.spec.period_s,
+                                             300 * d.spec.period_s);
     // The K of Runge's and Kutta's error is (h R/L)^4, 1e-12 a period; 300 periods and a sum of angles.
     for (std::size_t k = 0; k < 300; ++k) {
       ASSERT_NEAR(w.samples[k], speed[k], 1e-9) << k;
@@ -180,7 +180,7 @@ TEST(DriveDesign, AsksForWhatTheMotorStandsWhereNobodySaid) {
   EXPECT_DOUBLE_EQ(design_drive(motor, {.mode = Mode::speed})->current_at_full_torque_A, 24 / 1.03);
 }
 
-DesignWish on_hall_probes(int edges, double settle_s) {
+DesignSpec on_hall_probes(int edges, double settle_s) {
   return {.mode = Mode::speed,
           .settle_s = settle_s,
           .delay_periods = 1,
@@ -189,7 +189,7 @@ DesignWish on_hall_probes(int edges, double settle_s) {
 }
 
 TEST(DriveDesign, TakesNoFasterSpeedLoopThanItsSensorStands) {
-  DesignWish open = on_hall_probes(6, 1.0);
+  DesignSpec open = on_hall_probes(6, 1.0);
   open.settle_s.reset();
   const DriveDesign slow = designed(open);
   open.rotor.edges = 1;
@@ -198,7 +198,7 @@ TEST(DriveDesign, TakesNoFasterSpeedLoopThanItsSensorStands) {
   // for what the current loop costs.
   EXPECT_NEAR(slow.lag.delay_s(), 3.5 * base::pi / 3 / 8 / 100, 1e-12);
   EXPECT_NEAR(quick.lag.delay_s(), base::pi / 3 / 8 / 100, 1e-12);
-  EXPECT_NEAR(*slow.wish.settle_s / *quick.wish.settle_s, 3.5, 0.35);
+  EXPECT_NEAR(*slow.spec.settle_s / *quick.spec.settle_s, 3.5, 0.35);
   for (const DriveDesign* d : {&slow, &quick}) {
     EXPECT_GE(*d->loop("speed").built.phase_rad * 180 / base::pi, 45.0);
     EXPECT_LE(*d->loop("speed").built.phase_rad * 180 / base::pi, 47.0);  // rounded up to two digits
@@ -225,8 +225,8 @@ TEST(DriveDesign, TellsWhatEachWayOfSensingAllows) {
 }
 
 TEST(DriveDesign, NamesOptionsThatContradict) {
-  const auto refused = [](const DesignWish& wish) {
-    const auto d = design_drive(thesis_motor(), wish);
+  const auto refused = [](const DesignSpec& spec) {
+    const auto d = design_drive(thesis_motor(), spec);
     return d ? std::string() : to_string(d.problems()[0]);
   };
   EXPECT_EQ(

@@ -176,7 +176,7 @@ Scenario one_shunt_q15() {
   Scenario s = designed_current(1e-3, 0.9);
   s.control.arithmetic = Arithmetic::q15;
   s.sensors = board_sensors();
-  s.sensors.currents = rig::CurrentSensing::dc_link;
+  s.sensors.currents = rig::CurrentMeasurement::dc_link;
   s.sensors.current_noise_A = 0.02;
   s.sensors.seed = 5;
   s.pwm.alignment = Alignment::centre;

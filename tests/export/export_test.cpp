@@ -170,8 +170,8 @@ void expect_product(const ProtectedConfig<S>& product, const Units<S>& units,
   const auto run = study::product_in<S>(s, compiled(s));
   ASSERT_TRUE(run) << to_string(run.problems()[0]);
   EXPECT_EQ(bits_of(product), bits_of(run->config));
-  EXPECT_EQ(units.current_A, run->units.current_A);
-  EXPECT_EQ(units.speed_rad_s, run->units.speed_rad_s);
+  EXPECT_EQ(units.current_A, run->bases.current_A);
+  EXPECT_EQ(units.speed_rad_s, run->bases.speed_rad_s);
 }
 
 TEST(ExportHeader, TheProductIsWhatTheRunComputesWith) {

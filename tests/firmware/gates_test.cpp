@@ -21,7 +21,7 @@ std::vector<BridgeCommand<float>> commands() {
 
 /// RM0316, output control bits of complementary channels with MOE = OSSR = 1: CCxE, CCxNE and the reference
 /// OCxREF, which PWM mode 1 (110) raises in the on-time and 100 holds low. Dead time left out.
-unsigned gates_of(const firmware::Outputs& out, bool on_time) {
+unsigned gates_of(const firmware::GateOutputs& out, bool on_time) {
   unsigned gates = 0;
   for (unsigned n = 0; n < 3; ++n) {
     const std::uint32_t mode = (n == 0 ? out.CCMR1 >> 4 : n == 1 ? out.CCMR1 >> 12 : out.CCMR2 >> 4) & 7;
@@ -36,7 +36,7 @@ unsigned gates_of(const firmware::Outputs& out, bool on_time) {
 
 TEST(CortexM, TheTimersOutputsAreTheGates) {
   for (const BridgeCommand<float>& c : commands()) {
-    const firmware::Outputs out = firmware::outputs(c);
+    const firmware::GateOutputs out = firmware::outputs(c);
     for (const bool on_time : {true, false}) EXPECT_EQ(gates_of(out, on_time), gates(c, on_time));
   }
 }

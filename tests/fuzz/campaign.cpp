@@ -27,7 +27,7 @@ struct Worker {
   std::atomic<double> since_s{0.0};  ///< of its own time
   std::atomic<bool> done{false};
   std::thread thread;
-  Tally tally;
+  CampaignResult result;
 };
 
 thread_local std::uint64_t seed_at_hand = 0;
@@ -74,7 +74,7 @@ void work(const Campaign& c, std::atomic<std::uint64_t>& next, Worker& own) {
     seed_at_hand = c.first_seed + n;
     own.since_s = seconds(CLOCK_THREAD_CPUTIME_ID);
     own.seed = seed_at_hand;
-    own.tally.take(seed_at_hand, c.examine(seed_at_hand));
+    own.result.take(seed_at_hand, c.examine(seed_at_hand));
   }
   own.done = true;
 }
@@ -98,7 +98,7 @@ void watch(const Campaign& c, std::vector<Worker>& workers) {
 
 }  // namespace
 
-void Tally::take(std::uint64_t seed, const Examined& e) {
+void CampaignResult::take(std::uint64_t seed, const Examined& e) {
   Kind& kind = kinds[e.kind];
   ++(e.accepted ? accepted : refused);
   ++(e.accepted ? kind.accepted : kind.refused);
@@ -110,7 +110,7 @@ void Tally::take(std::uint64_t seed, const Examined& e) {
   }
 }
 
-void Tally::add(const Tally& other) {
+void CampaignResult::add(const CampaignResult& other) {
   accepted += other.accepted;
   refused += other.refused;
   for (const auto& [name, kind] : other.kinds) {
@@ -124,21 +124,21 @@ void Tally::add(const Tally& other) {
   broken.insert(broken.end(), other.broken.begin(), other.broken.end());
 }
 
-Tally carry_out(const Campaign& c) {
+CampaignResult carry_out(const Campaign& c) {
   campaign_at_hand = c.name;
   std::vector<Worker> workers(std::max(1u, c.threads));
   std::atomic<std::uint64_t> next{0};
   for (Worker& own : workers) own.thread = std::thread([&c, &next, &own] { work(c, next, own); });
   watch(c, workers);
   for (Worker& own : workers) own.thread.join();
-  Tally all;
-  for (const Worker& worker : workers) all.add(worker.tally);
+  CampaignResult all;
+  for (const Worker& worker : workers) all.add(worker.result);
   std::sort(all.broken.begin(), all.broken.end(),
             [](const auto& a, const auto& b) { return a.seed < b.seed; });
   return all;
 }
 
-std::string as_markdown(const Campaign& c, const Tally& t) {
+std::string as_markdown(const Campaign& c, const CampaignResult& t) {
   std::string out = fmt::format(
       "{} {} scenarios, seeds {} to {}: {} accepted, {} refused with words, {} laws broken.\n\n", c.count,
       c.name, c.first_seed, c.first_seed + c.count - 1, t.accepted, t.refused, t.broken.size());

@@ -17,7 +17,7 @@ struct Campaign {
   unsigned threads = 1;
 };
 
-struct Tally {
+struct CampaignResult {
   struct Kind {
     std::uint64_t accepted = 0, refused = 0;
   };
@@ -38,13 +38,13 @@ struct Tally {
   std::vector<Broken> broken;
 
   void take(std::uint64_t seed, const Examined& examined);
-  void add(const Tally& other);
+  void add(const CampaignResult& other);
 };
 
 /// A case that lasts for minutes, or a crash, ends the program with its seed.
-Tally carry_out(const Campaign& campaign);
+CampaignResult carry_out(const Campaign& campaign);
 
 /// As tables in Markdown: counts, kinds, and how much of each law was used.
-std::string as_markdown(const Campaign& campaign, const Tally& tally);
+std::string as_markdown(const Campaign& campaign, const CampaignResult& result);
 
 }  // namespace sixstep::testing

@@ -78,7 +78,7 @@ void draw_control(Draw& draw, Scenario& s, Scales& of) {
   of.kept_A = of.stall_A * draw.decades(0.05, 0.8);
   c.mode = modes[draw.one_of(10)];
   c.arithmetic = static_cast<Arithmetic>(draw.one_of(6));
-  if (draw.chance(0.3)) c.drive = Drive::product;
+  if (draw.chance(0.3)) c.drive = FirmwareKind::product;
   const bool speed = c.mode == Mode::speed || c.mode == Mode::position;
   if (speed) draw_speed_loop(draw, s, of);
   const bool current = c.mode == Mode::current || (speed && c.speed.output == SpeedOutput::current);
@@ -101,7 +101,7 @@ void draw_control(Draw& draw, Scenario& s, Scales& of) {
 
 void draw_sensors(Draw& draw, Scenario& s, const Scales& of) {
   Sensors& sensors = s.sensors;
-  const bool product = s.control.drive == Drive::product;
+  const bool product = s.control.drive == FirmwareKind::product;
   if (!product && draw.chance(0.5)) return;
   const bool narrow = s.control.arithmetic == Arithmetic::q15 || s.control.arithmetic == Arithmetic::q14;
   sensors.adc_bits = narrow ? 8 + draw.one_of(5) : 8 + draw.one_of(9);
@@ -109,8 +109,8 @@ void draw_sensors(Draw& draw, Scenario& s, const Scales& of) {
   if (product || draw.chance(0.6)) {
     const bool late = product && s.pwm.delay_periods > 0;
     sensors.currents = s.pwm.sample == SampleAt::middle && !late && draw.chance(0.5)
-                           ? rig::CurrentSensing::dc_link
-                           : rig::CurrentSensing::phases;
+                           ? rig::CurrentMeasurement::dc_link
+                           : rig::CurrentMeasurement::phases;
     sensors.current_range_A = of.kept_A * draw.decades(1.5, 6.0);
     if (draw.chance(0.5)) sensors.current_offset_A = draw.between(-0.01, 0.01) * *sensors.current_range_A;
     if (draw.chance(0.5)) sensors.current_gain_error = draw.between(-0.05, 0.05);

@@ -93,7 +93,7 @@ void draw_events(Draw& draw, Scenario& s, const Scales& of) {
   for (int n = draw.chance(0.5) ? draw.one_of(4) + 1 : 0; n > 0; --n) {
     At at;
     at.time_s = instant(draw, s);
-    switch (draw.one_of(s.control.drive == Drive::product ? 7 : 6)) {
+    switch (draw.one_of(s.control.drive == FirmwareKind::product ? 7 : 6)) {
       case 0:
       case 1:
         if (s.control.mode == Mode::off) continue;

@@ -99,7 +99,7 @@ void draw_parts(Draw& draw, Scenario& s) {
   draw_pwm(draw, s, of);
   draw_bridge(draw, s, motor->machine.R_ohm);
   draw_control(draw, s, of);
-  const bool product = s.control.drive == Drive::product;  // measures its offsets for 64 periods first
+  const bool product = s.control.drive == FirmwareKind::product;  // measures its offsets for 64 periods first
   s.duration_s = s.pwm.period_s * (product ? draw.between(90.0, 400.0) : draw.between(10.0, 150.0));
   draw_load(draw, s, of);
   draw_start(draw, s, of);

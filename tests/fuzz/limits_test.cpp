@@ -116,7 +116,7 @@ void DrawnLimits::draw_sensors(Draw& draw) {
   const bool product = draw.chance(0.3);
   study::Sensors& sensors = s.sensors;
   if (product || draw.chance(0.3)) {
-    sensors.currents = rig::CurrentSensing::phases;
+    sensors.currents = rig::CurrentMeasurement::phases;
     sensors.current_range_A = draw.between(1.5, 4) * current_A;
   }
   if (product || draw.chance(0.3)) {
@@ -130,7 +130,7 @@ void DrawnLimits::draw_sensors(Draw& draw) {
     s.initial.speed_rad_s = draw.sign() * draw.between(0.3, 0.95) * top_rad_s;
   }
   if (!product) return;
-  s.control.drive = study::Drive::product;
+  s.control.drive = study::FirmwareKind::product;
   s.protection = {.over_current_A = 0.98 * *sensors.current_range_A,
                   .over_voltage_V = 2.4 * highest_V,
                   .under_voltage_V = 0.1 * bus_V,
@@ -163,16 +163,17 @@ void ask(Scenario& s) {
 /// What a sensor may be off by: half a count, half a digit of 16 bits of a range that holds differences.
 double digits(const Scenario& s, double largest) {
   const bool narrow = s.control.arithmetic == Arithmetic::q15 || s.control.arithmetic == Arithmetic::q14;
-  return largest * ((narrow ? 0x1p-12 : 0.0) + 0x1p-10 * (s.sensors.currents != rig::CurrentSensing::ideal));
+  return largest *
+         ((narrow ? 0x1p-12 : 0.0) + 0x1p-10 * (s.sensors.currents != rig::CurrentMeasurement::ideal));
 }
 
 /// How often a limit was reached, and the most that was used of what it may be passed by.
-struct Tally {
+struct Counts {
   int runs = 0, refused = 0, currents = 0, speeds = 0, buses = 0;
   double current = 0, speed = 0, bus = 0;
 };
 
-void judge(const DrawnLimits& drawn, const Reached& r, Tally& tally) {
+void judge(const DrawnLimits& drawn, const Reached& r, Counts& counts) {
   const Scenario& s = drawn.s;
   const auto compiled = study::compile(s);
   const study::Basis basis{compiled->motor, compiled->shaft, s.supply.voltage_V};
@@ -180,8 +181,8 @@ void judge(const DrawnLimits& drawn, const Reached& r, Tally& tally) {
   ASSERT_LE(r.speed_rad_s, 1.05 * setting.speed_rad_s) << "or the bounds say nothing";
   const double most_A = design::most_current_A(setting) + digits(s, 3 * drawn.current_A);
   EXPECT_LE(r.current_A, most_A);
-  tally.currents += r.current_A > drawn.current_A;
-  tally.current = std::max(tally.current, (r.current_A - drawn.current_A) / (most_A - drawn.current_A));
+  counts.currents += r.current_A > drawn.current_A;
+  counts.current = std::max(counts.current, (r.current_A - drawn.current_A) / (most_A - drawn.current_A));
   const double started = std::fabs(s.initial.speed_rad_s);
   if (const auto limit = s.control.limits.speed_rad_s; limit && *limit > started) {
     const double late = s.sensors.rotor == study::RotorSensing::hall
@@ -189,39 +190,39 @@ void judge(const DrawnLimits& drawn, const Reached& r, Tally& tally) {
                             : 0.0;
     const double most = design::most_speed_rad_s(setting, *limit, late) + digits(s, 3 * setting.speed_rad_s);
     EXPECT_LE(r.speed_rad_s, most) << "limit " << *limit;
-    tally.speeds += r.speed_rad_s > 0.98 * *limit;
-    tally.speed = std::max(tally.speed, (r.speed_rad_s - *limit) / (most - *limit));
+    counts.speeds += r.speed_rad_s > 0.98 * *limit;
+    counts.speed = std::max(counts.speed, (r.speed_rad_s - *limit) / (most - *limit));
   }
   if (const auto limit = s.control.regeneration.limit_V) {
     design::LimitSetting at_most = setting;
     at_most.bus_V = 2 * *limit - drawn.bus_V + 2 * s.bridge.diode_drop_V;
     const double most = design::most_bus_V(at_most, *limit, s.supply.capacitance_F) + digits(s, 3 * *limit);
     EXPECT_LE(r.bus_V, most) << "limit " << *limit;
-    tally.buses += r.bus_V > 0.9 * *limit + 0.1 * drawn.bus_V;
-    tally.bus = std::max(tally.bus, (r.bus_V - *limit) / (most - *limit));
+    counts.buses += r.bus_V > 0.9 * *limit + 0.1 * drawn.bus_V;
+    counts.bus = std::max(counts.bus, (r.bus_V - *limit) / (most - *limit));
   }
 }
 
-void run_one(std::uint64_t seed, Tally& tally) {
+void run_one(std::uint64_t seed, Counts& counts) {
   SCOPED_TRACE("SIXSTEP_FUZZ_SEED=" + std::to_string(seed));
   DrawnLimits drawn(seed);
   ask(drawn.s);
   const auto out = study::run(drawn.s);
-  ++tally.runs;
+  ++counts.runs;
   if (!out) {
-    ++tally.refused;
+    ++counts.refused;
     for (const base::Problem& p : out.problems()) {
       EXPECT_FALSE(p.cure.empty()) << to_string(p);
       if (std::getenv("SIXSTEP_FUZZ_SEED")) std::printf("refused: %s\n", to_string(p).c_str());
     }
     return;
   }
-  judge(drawn, reached(*out), tally);
+  judge(drawn, reached(*out), counts);
 }
 
 TEST(Fuzz, LimitsHoldOrAreRefused) {
   const Seeds range = seeds(600);
-  Tally t;
+  Counts t;
   for (std::uint64_t n = 0; n < range.count; ++n) run_one(range.first + n, t);
   std::printf(
       "seeds %llu to %llu: %d runs, %d refused; limits reached, and most of what they may be passed by: "

@@ -43,15 +43,15 @@ int show(std::string_view what, std::uint64_t seed) {
 bool holds(const Campaign& campaign) {
   if (campaign.count == 0) return true;
   fmt::print(stderr, "{}: {} from seed {}\n", campaign.name, campaign.count, campaign.first_seed);
-  const Tally tally = carry_out(campaign);
-  fmt::print("### {}\n\n{}\n", campaign.name, as_markdown(campaign, tally));
+  const CampaignResult result = carry_out(campaign);
+  fmt::print("### {}\n\n{}\n", campaign.name, as_markdown(campaign, result));
   if (std::getenv("SIXSTEP_REFUSED"))
-    for (const auto& [where, count] : tally.refused_at)
+    for (const auto& [where, count] : result.refused_at)
       fmt::print(stderr, "{:>8} {}\n", count, where.substr(0, 100));
-  for (const Tally::Broken& b : tally.broken)
+  for (const CampaignResult::Broken& b : result.broken)
     fmt::print(stderr, "BROKEN {} seed {}: {} ({:.3g})\n  {}\n", campaign.name, b.seed, b.law, b.part,
                b.words.substr(0, 600));
-  return tally.broken.empty();
+  return result.broken.empty();
 }
 
 }  // namespace

@@ -152,9 +152,11 @@ void keep_words(const base::Problems& problems, Examined& out) {
 }
 
 std::string kind_of(const Scenario& s) {
-  const bool sensed = s.sensors.currents != rig::CurrentSensing::ideal ||
+  const bool sensed = s.sensors.currents != rig::CurrentMeasurement::ideal ||
                       s.sensors.bus != BusSensing::ideal || s.sensors.rotor != RotorSensing::ideal;
-  const std::string firmware = s.control.drive == Drive::product ? "product" : sensed ? "sensed" : "lean";
+  const std::string firmware = s.control.drive == FirmwareKind::product ? "product"
+                               : sensed                                 ? "sensed"
+                                                                        : "lean";
   return firmware + ", " + std::string(base::word(arithmetic_choices, s.control.arithmetic));
 }
 

@@ -16,27 +16,27 @@ constexpr std::uint64_t valid_count = 180, hostile_count = 600;
 constexpr std::uint64_t valid_count = 600, hostile_count = 6000;
 #endif
 
-Tally all_hold(const char* name, Examined (*examine)(std::uint64_t), std::uint64_t count) {
+CampaignResult all_hold(const char* name, Examined (*examine)(std::uint64_t), std::uint64_t count) {
   const Seeds range = seeds(count);
-  const Tally tally = carry_out({name, examine, range.first, range.count, 2});
-  for (const Tally::Broken& b : tally.broken)
+  const CampaignResult result = carry_out({name, examine, range.first, range.count, 2});
+  for (const CampaignResult::Broken& b : result.broken)
     ADD_FAILURE() << "SIXSTEP_FUZZ_SEED=" << b.seed << ": " << b.law << " (" << b.part << ")\n" << b.words;
-  return tally;
+  return result;
 }
 
 TEST(DrawnScenarios, KeepTheLawsInEveryFirmwareAndArithmetic) {
-  const Tally tally = all_hold("valid", examine_drawn, valid_count);
+  const CampaignResult result = all_hold("valid", examine_drawn, valid_count);
   if (std::getenv("SIXSTEP_FUZZ_SEED")) return;
-  EXPECT_GT(tally.accepted, 2 * tally.refused) << "most of what is drawn must be worth a run";
-  EXPECT_EQ(tally.kinds.size(), 18u);
+  EXPECT_GT(result.accepted, 2 * result.refused) << "most of what is drawn must be worth a run";
+  EXPECT_EQ(result.kinds.size(), 18u);
 }
 
 /// Both ways are walked, or the test would see one half of the reader only.
 TEST(HostileScenarios, AreRefusedWithWordsOrRunToNumbers) {
-  const Tally tally = all_hold("hostile", examine_hostile, hostile_count);
+  const CampaignResult result = all_hold("hostile", examine_hostile, hostile_count);
   if (std::getenv("SIXSTEP_FUZZ_SEED")) return;
-  EXPECT_GT(tally.accepted, hostile_count / 20);
-  EXPECT_GT(tally.refused, hostile_count / 3);
+  EXPECT_GT(result.accepted, hostile_count / 20);
+  EXPECT_GT(result.refused, hostile_count / 3);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ study::DesignStudy studied(Mode mode, const std::string& name = "") {
   auto sheet = io::read_sheet(file.string());
   if (!name.empty()) sheet->name = name;
   const auto s = study::study_design({.subject = {"maxon-251601", *sheet, {}},
-                                      .wish = {.mode = mode, .torque_limit_Nm = 0.78},
+                                      .spec = {.mode = mode, .torque_limit_Nm = 0.78},
                                       .tolerances = study::sheet_tolerances(mode)});
   EXPECT_TRUE(s);
   return *s;
@@ -77,7 +77,7 @@ TEST(Design, ANominalCurrentThatNobodyNamedIsNotCalledSo) {
       io::read_sheet((std::filesystem::path(SIXSTEP_SOURCE_DIR) / "data/motors/maxon-251601.toml").string());
   sheet->nominal_current_A.reset();
   const auto s = study::study_design(
-      {.subject = {"maxon-251601", *sheet, {}}, .wish = {.mode = Mode::speed}, .tolerances = {}});
+      {.subject = {"maxon-251601", *sheet, {}}, .spec = {.mode = Mode::speed}, .tolerances = {}});
   ASSERT_TRUE(s);
   const std::string page = page_of(*s), text = io::design_text(*s, false);
   for (const std::string& told : {page, text}) {

@@ -23,12 +23,12 @@ struct Drawn {
 };
 void PrintTo(const Drawn& d, std::ostream* out) { *out << d.motor << ", " << d.edges << " edges"; }
 
-design::DesignWish wish_of(const Drawn& d) {
-  design::DesignWish wish = design::on_a_board();
-  wish.mode = control::Mode::speed;
-  wish.voltage_V = d.bus_V;
-  wish.rotor.edges = d.edges;
-  return wish;
+design::DesignSpec spec_of(const Drawn& d) {
+  design::DesignSpec spec = design::on_a_board();
+  spec.mode = control::Mode::speed;
+  spec.voltage_V = d.bus_V;
+  spec.rotor.edges = d.edges;
+  return spec;
 }
 
 double figure(const Outcome& o, const std::string& name) {
@@ -44,8 +44,8 @@ struct Field {
   int motors = 0, swing = 0, late = 0;
 };
 
-Field field_of(const DesignSubject& subject, const design::DesignWish& wish, bool until_one_swings) {
-  const auto d = design::design_drive(*design::motor_model(subject.sheet), wish);
+Field field_of(const DesignSubject& subject, const design::DesignSpec& spec, bool until_one_swings) {
+  const auto d = design::design_drive(*design::motor_model(subject.sheet), spec);
   EXPECT_TRUE(d);
   const Scenario nominal = design_scenario(*d, subject);
   const auto ideal = run(with_ideal_sensors(nominal));
@@ -59,7 +59,7 @@ Field field_of(const DesignSubject& subject, const design::DesignWish& wish, boo
     ++found.motors;
     if (!(figure(*outcome, "speed ripple") <= allowed)) ++found.swing;
     if (until_one_swings && found.swing > 0) break;
-    if (!until_one_swings && !(figure(*outcome, "settling time") <= 2 * *wish.settle_s)) ++found.late;
+    if (!until_one_swings && !(figure(*outcome, "settling time") <= 2 * *spec.settle_s)) ++found.late;
   }
   return found;
 }
@@ -74,16 +74,16 @@ class HallDesign : public testing::TestWithParam<Drawn> {
   }
 
   Field field(double settle_s, bool until_one_swings) {
-    design::DesignWish wish = wish_of(GetParam());
-    wish.settle_s = settle_s;
-    return field_of(subject_, wish, until_one_swings);
+    design::DesignSpec spec = spec_of(GetParam());
+    spec.settle_s = settle_s;
+    return field_of(subject_, spec, until_one_swings);
   }
 
   DesignSubject subject_;
 };
 
 TEST_P(HallDesign, SettlesAsNamedAtEveryCornerAndNotAtAThird) {
-  const auto d = design::design_drive(*design::motor_model(subject_.sheet), wish_of(GetParam()));
+  const auto d = design::design_drive(*design::motor_model(subject_.sheet), spec_of(GetParam()));
   ASSERT_TRUE(d);
   const double named_s = d->loop("speed").placed->settle_s;
   const Field held = field(named_s, false);
@@ -104,15 +104,15 @@ INSTANTIATE_TEST_SUITE_P(SixMotors, HallDesign,
 
 TEST(HallTable, EachOfItsEntriesHoldsAtEveryCorner) {
   const DesignSubject subject{.motor = "maxon-251601", .sheet = *io::read_sheet("maxon-251601", "")};
-  const auto d = design::design_drive(*design::motor_model(subject.sheet), wish_of({"maxon-251601", 24, 0}));
+  const auto d = design::design_drive(*design::motor_model(subject.sheet), spec_of({"maxon-251601", 24, 0}));
   ASSERT_TRUE(d);
   ASSERT_EQ(d->limits.size(), 9u);
   for (const design::SettlingLimit& limit : d->limits) {
     SCOPED_TRACE(design::edges_words(limit.sensing) + " at " + std::to_string(limit.lowest_speed_rad_s));
-    design::DesignWish wish = wish_of({"maxon-251601", 24, limit.sensing.edges});
-    wish.lowest_speed_rad_s = limit.lowest_speed_rad_s;
-    wish.settle_s = limit.settle_s;
-    const Field held = field_of(subject, wish, false);
+    design::DesignSpec spec = spec_of({"maxon-251601", 24, limit.sensing.edges});
+    spec.lowest_speed_rad_s = limit.lowest_speed_rad_s;
+    spec.settle_s = limit.settle_s;
+    const Field held = field_of(subject, spec, false);
     EXPECT_EQ(held.motors, 25);
     EXPECT_EQ(held.swing, 0);
     EXPECT_EQ(held.late, 0);
@@ -122,12 +122,12 @@ TEST(HallTable, EachOfItsEntriesHoldsAtEveryCorner) {
 TEST(HallDesigned, DefaultEdgesHoldWhereSixWouldNot) {
   // The speed loop that design names for adaptive edges, on the same drive with six at every speed.
   const DesignSubject subject{.motor = "maxon-251601", .sheet = *io::read_sheet("maxon-251601", "")};
-  const auto adaptive = study_design({.subject = subject, .wish = wish_of({"maxon-251601", 24, 0})});
+  const auto adaptive = study_design({.subject = subject, .spec = spec_of({"maxon-251601", 24, 0})});
   ASSERT_TRUE(adaptive);
   EXPECT_TRUE(adaptive->usable());
-  design::DesignWish six = wish_of({"maxon-251601", 24, 6});
+  design::DesignSpec six = spec_of({"maxon-251601", 24, 6});
   six.settle_s = adaptive->design.loop("speed").placed->settle_s;
-  const auto fixed = study_design({.subject = subject, .wish = six});
+  const auto fixed = study_design({.subject = subject, .spec = six});
   ASSERT_TRUE(fixed);
   EXPECT_FALSE(fixed->usable());
 }

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "io/report/course.hpp"
+#include "io/report/highlights.hpp"
 #include "io/report/kept_rows.hpp"
 #include "io/report/windows.hpp"
 #include "sixstep/study/measure/columns.hpp"

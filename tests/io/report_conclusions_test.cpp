@@ -9,8 +9,8 @@
 #include "io/report/comparison.hpp"
 #include "io/report/comparison_data.hpp"
 #include "io/report/conduction.hpp"
-#include "io/report/course.hpp"
 #include "io/report/glance.hpp"
+#include "io/report/highlights.hpp"
 #include "io/report/html.hpp"
 #include "io/report/packed_rows.hpp"
 #include "io/report/scenario_differences.hpp"
@@ -48,7 +48,7 @@ SyntheticRun stepped_run() {
   return run;
 }
 
-TEST(Course, the_largest_step_is_found_with_its_current) {
+TEST(Highlights, the_largest_step_is_found_with_its_current) {
   const SyntheticRun run = stepped_run();
   const auto step = largest_step(run.trace, run.scenario);
   ASSERT_TRUE(step);
@@ -71,7 +71,7 @@ TEST(Course, the_largest_step_is_found_with_its_current) {
   EXPECT_EQ(*current->then_span_A, 6.0);
 }
 
-TEST(Course, what_held_the_run_back_is_timed) {
+TEST(Highlights, what_held_the_run_back_is_timed) {
   const SyntheticRun run = stepped_run();
   const auto held = held_back(run.trace, run.scenario, run.outcome);
   ASSERT_TRUE(held);

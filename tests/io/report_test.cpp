@@ -124,8 +124,8 @@ TEST(Report, shows_what_is_not_ideal_and_who_stopped_the_drive) {
   SyntheticRun run = synthetic_run(0.001);
   const std::string plain = page(run);
   for (const char* row : {"<dt>Sensors", "<dt>Product drive"}) EXPECT_THAT(plain, Not(HasSubstr(row)));
-  run.scenario.control.drive = sixstep::study::Drive::product;
-  run.scenario.sensors.currents = sixstep::rig::CurrentSensing::phases;
+  run.scenario.control.drive = sixstep::study::FirmwareKind::product;
+  run.scenario.sensors.currents = sixstep::rig::CurrentMeasurement::phases;
   run.scenario.sensors.current_range_A = 20.48;
   run.scenario.sensors.hall_break = {.at_s = 0.3, .line = 2};
   run.scenario.protection.over_current_A = 15.0;

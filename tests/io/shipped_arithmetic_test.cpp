@@ -91,16 +91,16 @@ Figures figures(Scenario s, const Case& c, Arithmetic arithmetic) {
 /// What 1.0 means for a signal in a format.
 double unit_of(Signal signal, Arithmetic arithmetic, const Scenario& s) {
   const auto compiled = study::compile(s);
-  const auto units = [&]() -> rig::Units {
+  const auto units = [&]() -> rig::Bases {
     switch (arithmetic) {
       case Arithmetic::q15:
-        return study::drive_in<control::Q15>(s, *compiled)->units;
+        return study::drive_in<control::Q15>(s, *compiled)->bases;
       case Arithmetic::q14:
-        return study::drive_in<control::Q14>(s, *compiled)->units;
+        return study::drive_in<control::Q14>(s, *compiled)->bases;
       case Arithmetic::q31:
-        return study::drive_in<control::Q31>(s, *compiled)->units;
+        return study::drive_in<control::Q31>(s, *compiled)->bases;
       default:
-        return study::drive_in<control::Q30>(s, *compiled)->units;
+        return study::drive_in<control::Q30>(s, *compiled)->bases;
     }
   }();
   return signal == Signal::current ? units.current_A

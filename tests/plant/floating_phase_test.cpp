@@ -76,8 +76,8 @@ TEST(SoftChopping, FloatingPhaseConductsAsOftenAsInTheReference) {
   Starts starts;
   ASSERT_EQ(run_to(again, length_s, starts), sim::Stop::end);
   // Counts of the reference trajectory R3.
-  EXPECT_EQ(rig.happened(rig::Happening::sector_edge), 224);
-  EXPECT_EQ(rig.happened(rig::Happening::diode_off), 2034);
+  EXPECT_EQ(rig.event_count(rig::EventKind::sector_edge), 224);
+  EXPECT_EQ(rig.event_count(rig::EventKind::diode_off), 2034);
   EXPECT_EQ(starts.count, 1600);
 }
 

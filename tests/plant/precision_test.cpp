@@ -30,7 +30,7 @@ void compare(const Board& board, double length_s, double grid_s) {
   EXPECT_LE(i_error, 1e-11 * i_top);
   EXPECT_LE(w_error, 1e-12 * w_top);
   EXPECT_EQ(twice.plant().diodes_started(), wide.plant().diodes_started());
-  EXPECT_EQ(twice.happened(rig::Happening::diode_off), wide.happened(rig::Happening::diode_off));
+  EXPECT_EQ(twice.event_count(rig::EventKind::diode_off), wide.event_count(rig::EventKind::diode_off));
 }
 
 TEST(Pitfall11_ScalarIsATemplate, DoubleFollowsLongDoubleUnderSoftChopping) {

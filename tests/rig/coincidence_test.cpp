@@ -13,7 +13,7 @@ namespace {
 using namespace sixstep;
 using namespace sixstep::testing;
 using control::Chopping;
-using rig::Happening;
+using rig::EventKind;
 
 constexpr std::int64_t period = period_ticks;
 
@@ -33,7 +33,7 @@ TEST(Pitfall01_CoincidentInstants, StepAndTickTheTickSeesTheStep) {
   ASSERT_EQ(run_to(rig, 15e-3), sim::Stop::end);
   EXPECT_EQ(rig.setpoint(), -0.25);
   EXPECT_EQ(rig.telemetry().duty, -0.25) << "a reference that steps at 15 ms is new at that sample";
-  EXPECT_EQ(rig.happened(Happening::tick), 501);
+  EXPECT_EQ(rig.event_count(EventKind::tick), 501);
 }
 
 TEST(Pitfall01_CoincidentInstants, StepAndPwmEdge) {
@@ -45,7 +45,7 @@ TEST(Pitfall01_CoincidentInstants, StepAndPwmEdge) {
   EXPECT_EQ(rig.setpoint(), 0.75);
   EXPECT_EQ(static_cast<double>(rig.plant().constants().load), 0.1);
   EXPECT_FALSE(rig.modulator().source_on()) << "the running period keeps its duty";
-  EXPECT_EQ(rig.happened(Happening::pwm_edge), 11);
+  EXPECT_EQ(rig.event_count(EventKind::pwm_edge), 11);
   ASSERT_EQ(run_to(rig, 11.5 * 30 * us), sim::Stop::end);
   EXPECT_TRUE(rig.modulator().source_on());
 }
@@ -63,7 +63,7 @@ TEST(Pitfall01_CoincidentInstants, StepAndComparator) {
   ASSERT_EQ(run_to(rig, 130 * us), sim::Stop::end);
   EXPECT_FALSE(rig.modulator().source_on()) << "and only once";
   EXPECT_EQ(rig.modulator().turn_ons(), 1);
-  EXPECT_EQ(rig.happened(Happening::comparator), 1);
+  EXPECT_EQ(rig.event_count(EventKind::comparator), 1);
 }
 
 TEST(Pitfall01_CoincidentInstants, StepAndSectorEdge) {
@@ -73,7 +73,7 @@ TEST(Pitfall01_CoincidentInstants, StepAndSectorEdge) {
   auto rig = b.rig();
   LawChecker<> laws;
   ASSERT_EQ(run_to(rig, 20 * us + ns, laws), sim::Stop::end);
-  EXPECT_EQ(rig.happened(Happening::sector_edge), 1);
+  EXPECT_EQ(rig.event_count(EventKind::sector_edge), 1);
   EXPECT_EQ(sink_leg(rig), 2);
   EXPECT_EQ(rig.setpoint(), 0.5);
   EXPECT_EQ(static_cast<double>(rig.plant().constants().load), 0.125);
@@ -88,12 +88,12 @@ TEST(Pitfall01_CoincidentInstants, StepAndCurrentZero) {
   b.load(27'000'000, 0.125);
   auto rig = b.rig();
   ASSERT_EQ(run_to(rig, 27 * us + ns), sim::Stop::end);
-  EXPECT_EQ(rig.happened(Happening::diode_off), 1);
+  EXPECT_EQ(rig.event_count(EventKind::diode_off), 1);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(rig.plant().state().i[k], 0.0);
   EXPECT_EQ(static_cast<double>(rig.plant().constants().load), 0.125);
   ASSERT_EQ(run_to(rig, 30 * us), sim::Stop::end);
   EXPECT_EQ(rig.telemetry().duty, 0.75);
-  EXPECT_EQ(rig.happened(Happening::diode_off), 1);
+  EXPECT_EQ(rig.event_count(EventKind::diode_off), 1);
 }
 
 TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeBothHappen) {
@@ -106,13 +106,13 @@ TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeBothHappen) {
     b.setpoint(period, next);
     auto rig = b.rig();
     ASSERT_EQ(run_to(rig, 30 * us - 1e-12), sim::Stop::end);
-    ASSERT_EQ(rig.happened(Happening::pwm_edge), 3);
+    ASSERT_EQ(rig.event_count(EventKind::pwm_edge), 3);
     ASSERT_FALSE(rig.plant().gates().low[0]);
     ASSERT_EQ(run_to(rig, 30 * us), sim::Stop::end);
-    EXPECT_EQ(rig.happened(Happening::tick), 2);
+    EXPECT_EQ(rig.event_count(EventKind::tick), 2);
     EXPECT_EQ(rig.telemetry().duty, next);
     // Full duty: the tick comes first, turns on, and the dead time that would have ended begins anew.
-    EXPECT_EQ(rig.happened(Happening::pwm_edge), next < 1.0 ? 4 : 3);
+    EXPECT_EQ(rig.event_count(EventKind::pwm_edge), next < 1.0 ? 4 : 3);
     EXPECT_EQ(rig.plant().gates().low[0], next < 1.0);
     EXPECT_FALSE(rig.plant().gates().high[0]);
   }
@@ -126,8 +126,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeTheTickComesFirst) {
   auto rig = b.rig();
   for (int n = 1; n < 20; ++n) {
     ASSERT_EQ(run_to(rig, n * 15 * us), sim::Stop::end);
-    EXPECT_EQ(rig.happened(Happening::tick), n / 2 + 1);
-    EXPECT_EQ(rig.happened(Happening::pwm_edge), (n + 1) / 2);
+    EXPECT_EQ(rig.event_count(EventKind::tick), n / 2 + 1);
+    EXPECT_EQ(rig.event_count(EventKind::pwm_edge), (n + 1) / 2);
     EXPECT_FALSE(rig.plant().gates().high[0]);
     EXPECT_FALSE(rig.plant().gates().low[0]);
   }
@@ -140,8 +140,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndAPwmEdgeThatTheTimerRoundsOntoItLeaveN
   auto rig = b.rig();
   LawChecker<> laws;
   ASSERT_EQ(run_to(rig, 1e-3, laws), sim::Stop::end);
-  EXPECT_EQ(rig.happened(Happening::pwm_edge), 0);
-  EXPECT_EQ(rig.happened(Happening::tick), 34);
+  EXPECT_EQ(rig.event_count(EventKind::pwm_edge), 0);
+  EXPECT_EQ(rig.event_count(EventKind::tick), 34);
   EXPECT_EQ(rig.modulator().turn_ons(), 1);
   const double exact = -24.0 / b.R_tt() * std::expm1(-1e-3 / b.tau());
   EXPECT_NEAR(rig.plant().state().i[0], exact, 1e-13 * exact);
@@ -157,8 +157,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndComparator) {
   EXPECT_TRUE(rig.modulator().source_on());
   ASSERT_EQ(run_to(rig, 150 * us + ns), sim::Stop::end);
   EXPECT_FALSE(rig.modulator().source_on());
-  EXPECT_EQ(rig.happened(Happening::tick), 6);
-  EXPECT_EQ(rig.happened(Happening::comparator), 1);
+  EXPECT_EQ(rig.event_count(EventKind::tick), 6);
+  EXPECT_EQ(rig.event_count(EventKind::comparator), 1);
   EXPECT_EQ(rig.modulator().turn_ons(), 1);
 }
 
@@ -169,8 +169,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndSectorEdge) {
     b.setpoint(period, 0.25);
     auto rig = b.rig();
     ASSERT_EQ(run_to(rig, 30 * us + ns), sim::Stop::end);
-    EXPECT_EQ(rig.happened(Happening::sector_edge), 1);
-    EXPECT_EQ(rig.happened(Happening::tick), 2);
+    EXPECT_EQ(rig.event_count(EventKind::sector_edge), 1);
+    EXPECT_EQ(rig.event_count(EventKind::tick), 2);
     EXPECT_EQ(rig.telemetry().duty, 0.25);
     EXPECT_EQ(rig.plant().sector(), 1);
     // Commutation at the sample: rounding may put the edge just behind this one.
@@ -188,8 +188,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndSectorEdgeAtTheStartBackwards) {
   b.start.speed_rad_s = -100.0;
   auto rig = b.rig();
   ASSERT_EQ(run_to(rig, ns), sim::Stop::end);
-  EXPECT_EQ(rig.happened(Happening::sector_edge), 0);
-  EXPECT_EQ(rig.happened(Happening::tick), 1);
+  EXPECT_EQ(rig.event_count(EventKind::sector_edge), 0);
+  EXPECT_EQ(rig.event_count(EventKind::tick), 1);
   EXPECT_EQ(rig.plant().sector(), 5);
   EXPECT_EQ(source_leg(rig), 2);
   EXPECT_EQ(sink_leg(rig), 1);
@@ -202,13 +202,13 @@ TEST(Pitfall01_CoincidentInstants, TickAndCurrentZero) {
   auto rig = b.rig();
   LawChecker<> laws;
   ASSERT_EQ(run_to(rig, 30 * us + ns, laws), sim::Stop::end);
-  EXPECT_EQ(rig.happened(Happening::tick), 2);
+  EXPECT_EQ(rig.event_count(EventKind::tick), 2);
   EXPECT_TRUE(rig.plant().gates().high[0]);
   // Within rounding the current was zero at the tick: the second period is the first again.
   const double exact = 24.0 * ns / b.L_tt();
   EXPECT_NEAR(rig.plant().state().i[0], exact, 1e-5 * exact);
   ASSERT_EQ(run_to(rig, 60 * us + ns, laws), sim::Stop::end);
-  EXPECT_EQ(rig.happened(Happening::tick), 3);
+  EXPECT_EQ(rig.event_count(EventKind::tick), 3);
   EXPECT_NEAR(rig.plant().state().i[0], exact, 1e-5 * exact);
   laws.expect_all();
 }

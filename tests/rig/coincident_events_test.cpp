@@ -12,7 +12,7 @@ namespace {
 using namespace sixstep;
 using namespace sixstep::testing;
 using control::Chopping;
-using rig::Happening;
+using rig::EventKind;
 
 TEST(Pitfall01_CoincidentInstants, PwmEdgeAndComparator) {
   // Complementary with a dead time of 1 us: off by a step at 500 us; the leg's dead time ends just when the
@@ -23,14 +23,15 @@ TEST(Pitfall01_CoincidentInstants, PwmEdgeAndComparator) {
   b.setpoint(501'000'000, 20.0);
   auto rig = b.rig();
   ASSERT_EQ(run_to(rig, 500.5 * us), sim::Stop::end);
-  ASSERT_EQ(rig.happened(Happening::pwm_edge), 1) << "end of the first turn-on's dead time";
-  ASSERT_EQ(rig.happened(Happening::comparator), 1);
+  ASSERT_EQ(rig.event_count(EventKind::pwm_edge), 1) << "end of the first turn-on's dead time";
+  ASSERT_EQ(rig.event_count(EventKind::comparator), 1);
   ASSERT_FALSE(rig.plant().gates().high[0]);
   ASSERT_FALSE(rig.plant().gates().low[0]);
   ASSERT_EQ(run_to(rig, 501 * us), sim::Stop::end);
   EXPECT_TRUE(rig.modulator().source_on()) << "the comparator did switch";
-  EXPECT_EQ(rig.happened(Happening::comparator), 2);
-  EXPECT_EQ(rig.happened(Happening::pwm_edge), 2) << "the edge first: the comparator would have replaced it";
+  EXPECT_EQ(rig.event_count(EventKind::comparator), 2);
+  EXPECT_EQ(rig.event_count(EventKind::pwm_edge), 2)
+      << "the edge first: the comparator would have replaced it";
   EXPECT_FALSE(rig.plant().gates().low[0]) << "no glitch of the lower switch";
   EXPECT_FALSE(rig.plant().gates().high[0]) << "the turn-on waits";
   ASSERT_EQ(run_to(rig, 502 * us), sim::Stop::end);
@@ -42,8 +43,8 @@ TEST(Pitfall01_CoincidentInstants, PwmEdgeAndSectorEdge) {
   auto rig = b.rig();
   LawChecker<> laws;
   ASSERT_EQ(run_to(rig, 15 * us + ns, laws), sim::Stop::end);
-  EXPECT_EQ(rig.happened(Happening::sector_edge), 1);
-  EXPECT_EQ(rig.happened(Happening::pwm_edge), 1);
+  EXPECT_EQ(rig.event_count(EventKind::sector_edge), 1);
+  EXPECT_EQ(rig.event_count(EventKind::pwm_edge), 1);
   EXPECT_FALSE(rig.modulator().source_on());
   EXPECT_EQ(rig.plant().gates(), gates({}, {false, false, true}));
   laws.expect_all();
@@ -59,7 +60,7 @@ TEST(Pitfall01_CoincidentInstants, PwmEdgeAndCurrentZero) {
   LawChecker<> laws;
   const double duty = b.timeline[0].value, on_edge_s = 30 * us * (1 + (1 - duty) / 2);
   ASSERT_EQ(run_to(rig, on_edge_s + ns, laws), sim::Stop::end);
-  EXPECT_EQ(rig.happened(Happening::pwm_edge), 3);
+  EXPECT_EQ(rig.event_count(EventKind::pwm_edge), 3);
   EXPECT_TRUE(rig.plant().gates().high[0]);
   EXPECT_NEAR(rig.plant().state().i[0], 24.0 * ns / b.L_tt(), 1e-2 * 24.0 * ns / b.L_tt());
   laws.expect_all();
@@ -70,7 +71,7 @@ struct UntilDiodeStops {
   void segment(const Rig&, double) {}
   template <class Rig>
   bool done(const Rig& rig) const {
-    return rig.happened(Happening::diode_off) > 0;
+    return rig.event_count(EventKind::diode_off) > 0;
   }
 };
 
@@ -107,8 +108,8 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndSectorEdgeBothHappen) {
   at_levels_around(level, b, [&](auto& rig) {
     LawChecker<> laws;
     ASSERT_EQ(run_to(rig, edge_s + ns, laws), sim::Stop::end);
-    EXPECT_EQ(rig.happened(Happening::sector_edge), 1);
-    EXPECT_EQ(rig.happened(Happening::comparator), 1);
+    EXPECT_EQ(rig.event_count(EventKind::sector_edge), 1);
+    EXPECT_EQ(rig.event_count(EventKind::comparator), 1);
     EXPECT_FALSE(rig.modulator().source_on());
     EXPECT_EQ(rig.plant().gates(), gates({}, {false, false, true}));
     // Rounding may keep the switch on for 64 eps of the stall current, the guard's noise, longer.
@@ -126,9 +127,9 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndSectorEdgeWhereTheEdgeTakesTheCa
   const double level = current_at(b, edge_s - 1e-12) / (1 - 1e-12 / edge_s);
   at_levels_around(level, b, [&](auto& rig) {
     ASSERT_EQ(run_to(rig, edge_s + ns), sim::Stop::end);
-    EXPECT_EQ(rig.happened(Happening::sector_edge), 1);
-    EXPECT_EQ(rig.happened(Happening::comparator) % 2, 0);
-    EXPECT_LE(rig.happened(Happening::comparator), 2);
+    EXPECT_EQ(rig.event_count(EventKind::sector_edge), 1);
+    EXPECT_EQ(rig.event_count(EventKind::comparator) % 2, 0);
+    EXPECT_LE(rig.event_count(EventKind::comparator), 2);
     EXPECT_TRUE(rig.modulator().source_on());
     EXPECT_EQ(rig.plant().gates(), gates({true, false, false}, {false, false, true}));
   });
@@ -148,11 +149,11 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndCurrentZeroBothHappen) {
   at_levels_around(level, b, [&](auto& rig) {
     LawChecker<> laws;
     ASSERT_EQ(run_to(rig, zero_s + ns, laws), sim::Stop::end);
-    EXPECT_EQ(rig.happened(Happening::comparator), 1);
+    EXPECT_EQ(rig.event_count(EventKind::comparator), 1);
     EXPECT_FALSE(rig.modulator().source_on());
     EXPECT_EQ(rig.plant().gates(), all_off());
     // The current ends, by its own event or, the comparator first, within rounding of it; and for good.
-    EXPECT_LE(rig.happened(Happening::diode_off), 1);
+    EXPECT_LE(rig.event_count(EventKind::diode_off), 1);
     EXPECT_EQ(rig.plant().state().i[1], 0.0);
     EXPECT_TRUE(plant::is_floating(rig.plant().mode().legs[1]));
     laws.expect_all();
@@ -165,7 +166,7 @@ TEST(Pitfall01_CoincidentInstants, AComparatorThatWaitsForZeroDoesNotTripThere) 
   auto rig = b.rig();
   LawChecker<> laws;
   ASSERT_EQ(run_to(rig, 1e-3, laws), sim::Stop::end);
-  EXPECT_EQ(rig.happened(Happening::diode_off), 1);
+  EXPECT_EQ(rig.event_count(EventKind::diode_off), 1);
   EXPECT_FALSE(rig.modulator().source_on());
   for (int k = 0; k < 3; ++k) EXPECT_EQ(rig.plant().state().i[k], 0.0);
   laws.expect_all();
@@ -182,11 +183,11 @@ TEST(Pitfall01_CoincidentInstants, SectorEdgeAndCurrentZero) {
   EXPECT_GT(rig.plant().state().i[0], 0.0);
   EXPECT_EQ(rig.plant().sector(), 0);
   ASSERT_EQ(run_to(rig, edge_s + ns, laws), sim::Stop::end);
-  EXPECT_EQ(rig.happened(Happening::sector_edge), 1);
-  EXPECT_EQ(rig.happened(Happening::diode_off), 1);
+  EXPECT_EQ(rig.event_count(EventKind::sector_edge), 1);
+  EXPECT_EQ(rig.event_count(EventKind::diode_off), 1);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(rig.plant().state().i[k], 0.0);
   ASSERT_EQ(run_to(rig, 31 * us, laws), sim::Stop::end);
-  EXPECT_EQ(rig.happened(Happening::sector_edge), 1);
+  EXPECT_EQ(rig.event_count(EventKind::sector_edge), 1);
   EXPECT_EQ(rig.plant().gates(), gates({true, false, false}, {false, false, true}));
   laws.expect_all();
 }

@@ -48,7 +48,7 @@ TEST(DeadTime, HoldsInEveryLegOverWholeRuns) {
           GatesWatch gates;
           ASSERT_EQ(run_to(rig, 18e-3, gates), sim::Stop::end);
           EXPECT_GT(gates.watch.turn_ons(), 100);
-          EXPECT_GT(rig.happened(rig::Happening::sector_edge), 5);
+          EXPECT_GT(rig.event_count(rig::EventKind::sector_edge), 5);
         }
 }
 

@@ -54,7 +54,7 @@ TEST(FirstInstant, OnASectorEdgeTurningBackwardsTheFirstTickUsesTheSectorThatIsE
       EXPECT_EQ(rig.modulator().command().pair, control::positive_pair(static_cast<std::uint8_t>(sector)));
       ASSERT_EQ(run_to(rig, 29 * us), sim::Stop::end);
       EXPECT_EQ(rig.plant().sector(), sector);
-      EXPECT_EQ(rig.happened(rig::Happening::sector_edge), 0) << "an edge is passed once, and was";
+      EXPECT_EQ(rig.event_count(rig::EventKind::sector_edge), 0) << "an edge is passed once, and was";
     }
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using namespace sixstep;
 using namespace sixstep::testing;
-using rig::Happening;
+using rig::EventKind;
 
 std::int64_t seconds() {
   const char* text = std::getenv("SIXSTEP_SIMULATED_S");
@@ -52,7 +52,7 @@ void expect_angle(const Rig& rig, double way_rad) {
   const auto& s = rig.plant().state();
   const long double angle = (static_cast<long double>(s.sector) * base::sector_rad + s.x) / 8;
   EXPECT_NEAR(static_cast<double>(angle / way_rad), 1.0, 64 * eps);
-  EXPECT_EQ(rig.happened(Happening::sector_edge), s.sector) << "every edge is one sector forward";
+  EXPECT_EQ(rig.event_count(EventKind::sector_edge), s.sector) << "every edge is one sector forward";
 }
 
 TEST(OneHour, AtFullVoltageKeepsTimeAngleAndEnergy) {
@@ -62,7 +62,8 @@ TEST(OneHour, AtFullVoltageKeepsTimeAngleAndEnergy) {
   const sim::Instant end{seconds() * second_ticks, 0.0};
   ASSERT_EQ(sim::run(rig, end, both).stop, sim::Stop::end);
   EXPECT_EQ(rig.now(), end);
-  EXPECT_EQ(rig.happened(Happening::tick), 1) << "a steady bridge in open loop asks nothing of later ticks";
+  EXPECT_EQ(rig.event_count(EventKind::tick), 1)
+      << "a steady bridge in open loop asks nothing of later ticks";
   expect_angle(rig, both.way.rad());
   const plant::EnergyBook book = both.audit.energy();
   EXPECT_LE(std::fabs(book.electrical_residual), 1e-11);
@@ -79,8 +80,8 @@ TEST(OneHour, OfChoppingCountsEveryPeriod) {
   EXPECT_EQ(rig.now(), end);
   // What is due at the end is done: a tick on it, the off edge of a period that ends in its second half.
   const std::int64_t whole = end.ticks / period_ticks, rest = end.ticks % period_ticks;
-  EXPECT_EQ(rig.happened(Happening::tick), whole + 1);
-  EXPECT_EQ(rig.happened(Happening::pwm_edge), whole + (rest >= period_ticks / 2));
+  EXPECT_EQ(rig.event_count(EventKind::tick), whole + 1);
+  EXPECT_EQ(rig.event_count(EventKind::pwm_edge), whole + (rest >= period_ticks / 2));
   EXPECT_EQ(rig.modulator().turn_ons(), whole + 1);
   expect_angle(rig, way.rad());
 }

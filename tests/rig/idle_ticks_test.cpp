@@ -26,11 +26,11 @@ TEST(IdleTicks, SkippingThemChangesRoundingOnly) {
   auto a = full.rig(), b = busy.rig();
   ASSERT_EQ(run_to(a, 30e-3), sim::Stop::end);
   ASSERT_EQ(run_to(b, 30e-3), sim::Stop::end);
-  EXPECT_EQ(a.happened(rig::Happening::tick), 1);
-  EXPECT_EQ(b.happened(rig::Happening::tick), 1001);
+  EXPECT_EQ(a.event_count(rig::EventKind::tick), 1);
+  EXPECT_EQ(b.event_count(rig::EventKind::tick), 1001);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(a.plant().state().i[k], b.plant().state().i[k], 1e-11 * 23.3);
   EXPECT_NEAR(a.plant().state().w, b.plant().state().w, 1e-12 * 700.0);
-  EXPECT_EQ(a.happened(rig::Happening::sector_edge), b.happened(rig::Happening::sector_edge));
+  EXPECT_EQ(a.event_count(rig::EventKind::sector_edge), b.event_count(rig::EventKind::sector_edge));
 }
 
 /// Steps of the duty on ticks and between them: full, then half a period's worth less than full (never

@@ -11,7 +11,7 @@ namespace {
 
 using namespace sixstep;
 using namespace sixstep::testing;
-using rig::Happening;
+using rig::EventKind;
 
 std::int64_t periods() {
   const char* text = std::getenv("SIXSTEP_PWM_PERIODS");
@@ -23,7 +23,7 @@ void run_periods(Rig& rig, std::int64_t count) {
   sim::NoObserver none;
   ASSERT_EQ(sim::run(rig, sim::Instant{count * period_ticks, 0.0}, none).stop, sim::Stop::end);
   EXPECT_EQ(rig.now(), (sim::Instant{count * period_ticks, 0.0}));
-  EXPECT_EQ(rig.happened(Happening::tick), count + 1);  // the end's own tick is due at it
+  EXPECT_EQ(rig.event_count(EventKind::tick), count + 1);  // the end's own tick is due at it
 }
 
 TEST(Pitfall02_TimeAndAngleAreCounted, TimeDoesNotDriftWhileTheRotorIsLocked) {
@@ -32,7 +32,7 @@ TEST(Pitfall02_TimeAndAngleAreCounted, TimeDoesNotDriftWhileTheRotorIsLocked) {
   Board b = locked(Board::duty(1.0 / 3.0));
   auto rig = b.rig();
   run_periods(rig, periods());
-  EXPECT_EQ(rig.happened(Happening::pwm_edge), periods());
+  EXPECT_EQ(rig.event_count(EventKind::pwm_edge), periods());
   EXPECT_EQ(rig.modulator().turn_ons(), periods() + 1);
   // The ripple's foot in closed form: i(0) = i(T), on over T/3 towards U/R_tt, off by the diodes' loop
   // towards 0.
@@ -59,7 +59,7 @@ TEST(Pitfall02_TimeAndAngleAreCounted, AngleDoesNotDriftAtASpeedThatNoTorqueChan
   // row.
   EXPECT_NEAR(static_cast<double>(turned / exact), 1.0, 1e-12);
   const auto edges = static_cast<std::int64_t>(exact * 8 / base::sector_rad);
-  EXPECT_NEAR(static_cast<double>(rig.happened(Happening::sector_edge)), static_cast<double>(edges), 1.0);
+  EXPECT_NEAR(static_cast<double>(rig.event_count(EventKind::sector_edge)), static_cast<double>(edges), 1.0);
 }
 
 }  // namespace

@@ -39,8 +39,8 @@ void expect_same(const Board& one, const Board& two, std::array<int, 3> phase, d
       EXPECT_NEAR(a.plant().state().i[k], b.plant().state().i[phase[k]], current_part * 23.3) << n;
     EXPECT_NEAR(a.plant().state().w, sign * b.plant().state().w, speed_part * 700.0) << n;
   }
-  for (const auto what : {rig::Happening::sector_edge, rig::Happening::diode_off, rig::Happening::pwm_edge})
-    EXPECT_EQ(a.happened(what), b.happened(what));
+  for (const auto what : {rig::EventKind::sector_edge, rig::EventKind::diode_off, rig::EventKind::pwm_edge})
+    EXPECT_EQ(a.event_count(what), b.event_count(what));
 }
 
 Board drive(Chopping chopping, bool real_devices) {

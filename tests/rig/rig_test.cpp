@@ -13,7 +13,7 @@ namespace {
 using namespace sixstep;
 using namespace sixstep::testing;
 using control::Chopping;
-using rig::Happening;
+using rig::EventKind;
 
 constexpr double us = 1e-6;
 
@@ -77,7 +77,7 @@ TEST(Rig, CommutatesAtTheHallEdgeItself) {
   auto rig = b.rig();
   ASSERT_EQ(run_to(rig, 41 * us), sim::Stop::end);
   EXPECT_EQ(rig.plant().gates(), gates({true, false, false}, {false, false, true}));
-  EXPECT_EQ(rig.happened(Happening::tick), 2);
+  EXPECT_EQ(rig.event_count(EventKind::tick), 2);
 }
 
 TEST(Rig, OrAtTheNextSample) {
@@ -85,7 +85,7 @@ TEST(Rig, OrAtTheNextSample) {
   b.board.commutate_at_sample = true;
   auto rig = b.rig();
   ASSERT_EQ(run_to(rig, 41 * us), sim::Stop::end);
-  EXPECT_EQ(rig.happened(Happening::sector_edge), 1);
+  EXPECT_EQ(rig.event_count(EventKind::sector_edge), 1);
   EXPECT_EQ(rig.plant().gates(), a_to_b());
   ASSERT_EQ(run_to(rig, 61 * us), sim::Stop::end);
   EXPECT_EQ(rig.plant().gates(), gates({true, false, false}, {false, false, true}));
@@ -121,8 +121,8 @@ TEST(Rig, TicksAndEdgesAreCounted) {
   const Board b = Board::duty(0.5);
   auto rig = b.rig();
   ASSERT_EQ(run_to(rig, 3e-3), sim::Stop::end);
-  EXPECT_EQ(rig.happened(Happening::tick), 101);
-  EXPECT_EQ(rig.happened(Happening::pwm_edge), 100);
+  EXPECT_EQ(rig.event_count(EventKind::tick), 101);
+  EXPECT_EQ(rig.event_count(EventKind::pwm_edge), 100);
   EXPECT_EQ(rig.modulator().turn_ons(), 101);
 }
 
@@ -143,7 +143,7 @@ TEST(Rig, CountsEverySwitchingOfAComparator) {
   ASSERT_EQ(run_to(rig, 20e-3 - 1e-12), sim::Stop::end);
   // R7s: 332 switchings off; every one but the last few is followed by one on.
   const std::int64_t off = 332;
-  EXPECT_NEAR(static_cast<double>(rig.happened(Happening::comparator)), 2.0 * off, 1.0);
+  EXPECT_NEAR(static_cast<double>(rig.event_count(EventKind::comparator)), 2.0 * off, 1.0);
 }
 
 /// Times at which the comparator switched off.

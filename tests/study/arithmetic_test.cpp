@@ -18,14 +18,14 @@ using study::Scenario;
 using ::testing::HasSubstr;
 
 template <class Scalar>
-rig::Units units(const Scenario& s) {
+rig::Bases units(const Scenario& s) {
   const auto compiled = study::compile(s);
   const auto drive = study::drive_in<Scalar>(s, *compiled);
-  return drive ? drive->units : rig::Units{.current_A = -1};
+  return drive ? drive->bases : rig::Bases{.current_A = -1};
 }
 
 TEST(Arithmetic, FloatingPointComputesInSI) {
-  const rig::Units u = units<float>(current_square());
+  const rig::Bases u = units<float>(current_square());
   for (const double unit : {u.current_A, u.voltage_V, u.speed_rad_s, u.position_deg, u.setpoint})
     EXPECT_EQ(unit, 1.0);
 }
@@ -38,16 +38,16 @@ TEST(Arithmetic, TheProductsDriveIsTheOneThatIsExported) {
   const auto drive = study::drive_in<control::Q15>(s, *compiled);
   const auto product = study::product_in<control::Q15>(s, *compiled);
   ASSERT_TRUE(drive && product);
-  EXPECT_EQ(drive->units.current_A, product->units.current_A);
-  EXPECT_EQ(drive->units.setpoint, product->units.setpoint);
+  EXPECT_EQ(drive->bases.current_A, product->bases.current_A);
+  EXPECT_EQ(drive->bases.setpoint, product->bases.setpoint);
   EXPECT_EQ(drive->config.current.d1.mantissa, product->config.drive.current.d1.mantissa);
   EXPECT_EQ(drive->config.speed.K_i.right, product->config.drive.speed.K_i.right);
-  EXPECT_GE(product->units.current_A, 20.48) << "the converter's end";
+  EXPECT_GE(product->bases.current_A, 20.48) << "the converter's end";
 }
 
 TEST(Arithmetic, BasesHoldTwiceTheReferenceAgainstIt) {
   // 10 A measured less a reference of -5 A; the end of Q31 is one digit below its base.
-  const rig::Units u = units<control::Q31>(current_square());
+  const rig::Bases u = units<control::Q31>(current_square());
   EXPECT_NEAR(u.current_A, 15.0, 15.0 * 0x1p-30);
   EXPECT_NEAR(u.voltage_V, 24.0, 24.0 * 0x1p-30);
   EXPECT_EQ(u.setpoint, u.current_A);

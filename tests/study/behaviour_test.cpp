@@ -132,7 +132,7 @@ TEST(Behaviour, OneShuntTurnsTheRotorAsPhaseCurrentsDo) {
   mean.from_s = 2e-3;
   ask(s, mean);
   const auto ideal = study::run(s);
-  s.sensors.currents = rig::CurrentSensing::dc_link;
+  s.sensors.currents = rig::CurrentMeasurement::dc_link;
   s.sensors.current_range_A = 20.48;
   const auto shunt = study::run(s);
   ASSERT_TRUE(ideal && shunt);

@@ -46,21 +46,21 @@ TEST(Check, EachContradictionIsFoundAndNamed) {
          s.load.locked = true;
          s.initial.speed_rad_s = 1.0;
        }},
-      {"sensors.current_range_A", [](Scenario& s) { s.sensors.currents = rig::CurrentSensing::phases; }},
+      {"sensors.current_range_A", [](Scenario& s) { s.sensors.currents = rig::CurrentMeasurement::phases; }},
       {"sensors.current_offset_A",
        [](Scenario& s) {
-         s.sensors.currents = rig::CurrentSensing::phases;
+         s.sensors.currents = rig::CurrentMeasurement::phases;
          s.sensors.current_range_A = 10.0;
          s.sensors.current_offset_A = -10.0;
        }},
       {"sensors.currents",
        [](Scenario& s) {
-         s.sensors.currents = rig::CurrentSensing::dc_link;
+         s.sensors.currents = rig::CurrentMeasurement::dc_link;
          s.sensors.current_range_A = 10.0;
        }},
       {"sensors.adc_bits",
        [](Scenario& s) {
-         s.sensors.currents = rig::CurrentSensing::phases;
+         s.sensors.currents = rig::CurrentMeasurement::phases;
          s.sensors.current_range_A = 10.0;
          s.sensors.adc_bits = 13;
          s.control.arithmetic = study::Arithmetic::q15;

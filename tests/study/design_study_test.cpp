@@ -21,15 +21,15 @@ using namespace sixstep;
 using namespace sixstep::study;
 using control::Chopping;
 using control::Mode;
-using design::DesignWish;
+using design::DesignSpec;
 using design::DriveDesign;
 
 constexpr double period_s = 30e-6;
 
 const DesignSubject subject{"maxon-251601", sixstep::testing::maxon_sheet(), {}};
 
-DriveDesign designed(const DesignWish& wish) {
-  const auto d = design::design_drive(*design::motor_model(subject.sheet), wish);
+DriveDesign designed(const DesignSpec& spec) {
+  const auto d = design::design_drive(*design::motor_model(subject.sheet), spec);
   EXPECT_TRUE(d);
   return *d;
 }
@@ -200,10 +200,10 @@ TEST(Robustness, SaysNeverWhereTheLoopNoLongerSettles) {
 TEST(DesignedCurrentLoop, OfAFastLoopWithDelaySoftChoppingMakesAnOscillator) {
   // A negative duty of soft chopping puts the whole bus against the current, however small it is (MODEL 4b):
   // no linear design knows. The same gains settle as designed where the legs complement each other.
-  const DesignWish wish{.mode = Mode::current, .settle_s = 0.5e-3, .delay_periods = 1};
-  DesignWish complementary = wish;
+  const DesignSpec spec{.mode = Mode::current, .settle_s = 0.5e-3, .delay_periods = 1};
+  DesignSpec complementary = spec;
   complementary.chopping = Chopping::complementary;
-  const DriveDesign soft = designed(wish), both = designed(complementary);
+  const DriveDesign soft = designed(spec), both = designed(complementary);
   EXPECT_EQ(soft.loop("current").gains.d1, both.loop("current").gains.d1);
   EXPECT_TRUE(std::isinf(measured(ran(design_scenario(soft, subject)), "settling time")));
   const Outcome o = ran(design_scenario(both, subject));
@@ -228,7 +228,7 @@ bool warns(const DesignStudy& s, const std::string& of) {
 TEST(DesignStudy, RunsWithTheVeryGainsThatWereDesigned) {
   for (const Mode mode : {Mode::current, Mode::speed, Mode::position}) {
     for (const auto method : {design::GainMethod::pole_placement, design::GainMethod::cancellation}) {
-      const auto s = study_design({.subject = subject, .wish = {.mode = mode, .method = method}});
+      const auto s = study_design({.subject = subject, .spec = {.mode = mode, .method = method}});
       ASSERT_TRUE(s);
       EXPECT_TRUE(s->usable());
       EXPECT_EQ(s->position.has_value(), mode == Mode::position);
@@ -244,7 +244,7 @@ TEST(DesignStudy, RunsWithTheVeryGainsThatWereDesigned) {
 
 TEST(DesignStudy, CountsTheLoadsInertiaIn) {
   const auto s = study_design({.subject = subject,
-                               .wish = {.mode = Mode::speed, .settle_s = 20e-3, .load_inertia_kg_m2 = 2e-5},
+                               .spec = {.mode = Mode::speed, .settle_s = 20e-3, .load_inertia_kg_m2 = 2e-5},
                                .tolerances = {{Strays::inertia, {{"J +50 %", 1.5}}}}});
   ASSERT_TRUE(s && s->usable());
   EXPECT_EQ(s->outcome.gains[1].d1, s->design.loop("speed").gains.d1);
@@ -258,13 +258,13 @@ TEST(DesignStudy, CountsTheLoadsInertiaIn) {
 
 TEST(DesignStudy, SaysWhatOnlyTheRunCouldShow) {
   const auto oscillates = study_design(
-      {.subject = subject, .wish = {.mode = Mode::current, .settle_s = 0.5e-3, .delay_periods = 1}});
+      {.subject = subject, .spec = {.mode = Mode::current, .settle_s = 0.5e-3, .delay_periods = 1}});
   ASSERT_TRUE(oscillates);
   EXPECT_FALSE(oscillates->usable());
   EXPECT_TRUE(warns(*oscillates, "never settles"));
   const auto drowned = study_design(
       {.subject = subject,
-       .wish = {
+       .spec = {
            .mode = Mode::speed, .method = design::GainMethod::symmetrical_optimum, .torque_limit_Nm = 0.78}});
   ASSERT_TRUE(drowned);
   EXPECT_TRUE(warns(*drowned, "ripple in speed"));
@@ -272,7 +272,7 @@ TEST(DesignStudy, SaysWhatOnlyTheRunCouldShow) {
 
 TEST(DesignStudy, ItsPositionGainStandsTheTolerances) {
   const auto moved = study_design(
-      {.subject = subject, .wish = {.mode = Mode::position}, .tolerances = sheet_tolerances(Mode::position)});
+      {.subject = subject, .spec = {.mode = Mode::position}, .tolerances = sheet_tolerances(Mode::position)});
   ASSERT_TRUE(moved && moved->robustness && moved->position);
   EXPECT_TRUE(moved->usable());
   // The sheet's motor alone would stand more: with twice its inertia it would overshoot.
@@ -286,11 +286,11 @@ TEST(DesignStudy, ItsPositionGainStandsTheTolerances) {
 TEST(DesignStudy, PassesProblemsOn) {
   DesignSubject broken = subject;
   broken.sheet.resistance_ohm->value = -1;
-  EXPECT_FALSE(study_design({.subject = broken, .wish = {}}));
-  const auto refused = [](const DesignWish& wish, std::optional<double> step = {}) {
+  EXPECT_FALSE(study_design({.subject = broken, .spec = {}}));
+  const auto refused = [](const DesignSpec& spec, std::optional<double> step = {}) {
     DesignSubject with_step = subject;
     with_step.step = step;
-    const auto s = study_design({.subject = with_step, .wish = wish});
+    const auto s = study_design({.subject = with_step, .spec = spec});
     return s ? std::string() : s.problems()[0].where;
   };
   EXPECT_EQ(refused({.settle_s = -1.0}), "--settle");

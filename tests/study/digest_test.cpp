@@ -153,7 +153,7 @@ Scenario one_shunt() {
   Scenario s = current_square();
   s.control.current = {.settle_s = 1e-3, .damping = 0.9};
   s.sensors = board_sensors();
-  s.sensors.currents = rig::CurrentSensing::dc_link;
+  s.sensors.currents = rig::CurrentMeasurement::dc_link;
   s.sensors.current_noise_A = 0.02;
   s.sensors.bus_noise_V = 0.05;
   s.pwm.alignment = Alignment::centre;
@@ -183,7 +183,7 @@ TEST(Digest, GoesOnFromASnapshotInEveryFirmwareAndArithmetic) {
   for (Scenario s : {late_chip(), one_shunt(), flashed()})
     for (const auto& arithmetic : arithmetic_choices) {
       s.control.arithmetic = arithmetic.value;
-      SCOPED_TRACE(std::string(s.control.drive == Drive::product ? "product " : "") +
+      SCOPED_TRACE(std::string(s.control.drive == FirmwareKind::product ? "product " : "") +
                    std::string(arithmetic.word));
       const auto compiled = compile(s);
       ASSERT_TRUE(compiled);

@@ -113,7 +113,7 @@ TEST(Limits, ASpeedThatHallEdgesTellTooLateIsRefused) {
 
 TEST(Limits, AReferenceBeyondTheConverterIsRefused) {
   Scenario s = maxon_scenario(Mode::current, 12.0);
-  s.sensors.currents = rig::CurrentSensing::phases;
+  s.sensors.currents = rig::CurrentMeasurement::phases;
   s.sensors.current_range_A = 10.0;
   EXPECT_THAT(refusal(s), HasSubstr("sensors.current_range_A = 10"));
   s.sensors.current_range_A = 12.1;
@@ -126,7 +126,7 @@ TEST(Limits, OneShuntHidesWhatALimitOfCurrentMustSee) {
   Scenario s = maxon_scenario(Mode::current, 2.0);
   s.control.limits.current_A = 2.0;
   s.pwm.sample = study::SampleAt::middle;
-  s.sensors.currents = rig::CurrentSensing::dc_link;
+  s.sensors.currents = rig::CurrentMeasurement::dc_link;
   s.sensors.current_range_A = 20.48;
   EXPECT_THAT(refusal(s), HasSubstr("control.limits.current_A = 2 needs every phase's current"));
 }

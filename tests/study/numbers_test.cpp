@@ -62,24 +62,24 @@ TEST(Numbers, ASpreadStaysWithinWhatItsKeyMayBe) {
 
 TEST(Numbers, OfADesignsWishAreHeldToTheTable) {
   const design::MotorModel motor = *design::motor_model(testing::maxon_sheet());
-  using Wish = design::DesignWish;
+  using Spec = design::DesignSpec;
   const auto refused = [&](const char* option, auto&& give) {
     for (const double bad : hostile) {
-      Wish wish{.mode = control::Mode::speed};
-      give(wish, bad);
-      const auto d = design::design_drive(motor, wish);
+      Spec spec{.mode = control::Mode::speed};
+      give(spec, bad);
+      const auto d = design::design_drive(motor, spec);
       ASSERT_FALSE(d) << option << " " << bad;
       EXPECT_EQ(first(d.problems()).rfind(option, 0), 0u) << first(d.problems());
     }
   };
-  refused("--voltage", [](Wish& w, double x) { w.voltage_V = x; });
-  refused("--period", [](Wish& w, double x) { w.period_s = x; });
-  refused("--settle", [](Wish& w, double x) { w.settle_s = x; });
-  refused("--current-settle", [](Wish& w, double x) { w.current_settle_s = x; });
-  refused("--damping", [](Wish& w, double x) { w.damping = x; });
-  refused("--torque-limit", [](Wish& w, double x) { w.torque_limit_Nm = x; });
-  refused("--load-inertia", [](Wish& w, double x) { w.load_inertia_kg_m2 = x; });
-  refused("--bandwidth", [](Wish& w, double x) {
+  refused("--voltage", [](Spec& w, double x) { w.voltage_V = x; });
+  refused("--period", [](Spec& w, double x) { w.period_s = x; });
+  refused("--settle", [](Spec& w, double x) { w.settle_s = x; });
+  refused("--current-settle", [](Spec& w, double x) { w.current_settle_s = x; });
+  refused("--damping", [](Spec& w, double x) { w.damping = x; });
+  refused("--torque-limit", [](Spec& w, double x) { w.torque_limit_Nm = x; });
+  refused("--load-inertia", [](Spec& w, double x) { w.load_inertia_kg_m2 = x; });
+  refused("--bandwidth", [](Spec& w, double x) {
     w.method = design::GainMethod::cancellation;
     w.bandwidth_rad_s = x;
   });
@@ -91,11 +91,11 @@ TEST(Numbers, ADesignAtTheEndsOfTheTableIsUsableOrRefused) {
     for (const double period_s : {1e-9, 30e-6, 1e-3, 1.0})
       for (const double inertia : {0.0, 1e9}) {
         study::DesignOrder order{
-            .subject = {"maxon", testing::maxon_sheet(), std::nullopt}, .wish = {}, .tolerances = {}};
-        order.wish.mode = control::Mode::current;
-        order.wish.voltage_V = voltage_V;
-        order.wish.period_s = period_s;
-        order.wish.load_inertia_kg_m2 = inertia;
+            .subject = {"maxon", testing::maxon_sheet(), std::nullopt}, .spec = {}, .tolerances = {}};
+        order.spec.mode = control::Mode::current;
+        order.spec.voltage_V = voltage_V;
+        order.spec.period_s = period_s;
+        order.spec.load_inertia_kg_m2 = inertia;
         const auto study = study::study_design(order);
         if (!study) {
           EXPECT_EQ(first(study.problems()).find("defect"), std::string::npos) << first(study.problems());
@@ -135,11 +135,11 @@ TEST(Numbers, OfABenchAreHeldToTheTable) {
 
 TEST(Numbers, OfAFirstScenarioAreHeldToTheTable) {
   for (const double bad : hostile) {
-    study::FirstWish wish{.motor = "maxon", .sheet = testing::maxon_sheet()};
+    study::FirstScenarioSpec spec{.motor = "maxon", .sheet = testing::maxon_sheet()};
     for (const control::Mode mode : {control::Mode::duty, control::Mode::speed}) {
-      wish.mode = mode;
-      wish.voltage_V = bad;
-      const auto s = study::first_scenario(wish);
+      spec.mode = mode;
+      spec.voltage_V = bad;
+      const auto s = study::first_scenario(spec);
       ASSERT_FALSE(s);
       EXPECT_EQ(first(s.problems()).rfind("--voltage = ", 0), 0u) << first(s.problems());
     }

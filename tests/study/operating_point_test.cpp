@@ -10,7 +10,7 @@
 #include "sixstep/base/random.hpp"
 #include "sixstep/study/curve/full_on.hpp"
 #include "sixstep/study/curve/open_loop.hpp"
-#include "sixstep/study/measure/tally.hpp"
+#include "sixstep/study/measure/sums_recorder.hpp"
 #include "tests/support/bench.hpp"
 
 namespace {
@@ -263,10 +263,10 @@ TEST(OperatingPoint, ChoppedIntervalCoversARunTenTimesAsLong) {
     EXPECT_LE(std::fabs(p.energy_residual), 1e-11);
     EXPECT_GE(p.winding_current_A, p.motor_current_A);
     study::OpenLoop run(b, study::plant_of(b, study::imposed_speed(), speed));
-    study::Tally tally;
+    study::SumsRecorder recorder;
     ASSERT_EQ(run.run_for(0.02), sim::Stop::end);
-    ASSERT_EQ(run.run_for(10 * p.simulated_s, tally), sim::Stop::end);
-    const study::Sums& s = tally.sums();
+    ASSERT_EQ(run.run_for(10 * p.simulated_s, recorder), sim::Stop::end);
+    const study::Sums& s = recorder.sums();
     missed += std::fabs(p.torque_Nm - s.torque / s.seconds) > p.half_width_Nm;
     missed += std::fabs(p.bus_current_A - s.supplied / s.seconds / 24) > p.half_width_A;
   }

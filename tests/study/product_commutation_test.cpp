@@ -166,7 +166,7 @@ TEST(ProductCommutation, SaysWhatCannotBe) {
   s.sensors.hall_stable_samples = 6;
   s.control.advance = {20.0, 0.0, 20.0};
   EXPECT_TRUE(study::check(s).empty());
-  s.control.drive = study::Drive::lean;
+  s.control.drive = study::FirmwareKind::lean;
   s.protection = {};
   all.clear();
   for (const base::Problem& p : study::check(s)) all += to_string(p) + "\n";
@@ -180,7 +180,7 @@ TEST(ProductCommutation, FullScaleMayBeChosenForTheProductToo) {
   s.control.full_scale.current_A = 64.0;
   const auto product = study::product_in<control::Q31>(s, *study::compile(s));
   ASSERT_TRUE(product);
-  EXPECT_EQ(product->units.current_A, 64.0);
+  EXPECT_EQ(product->bases.current_A, 64.0);
   EXPECT_TRUE(study::run(s));
   s.control.full_scale.current_A = 16.0;  // converters span 20.48 A
   const auto refused = study::run(s);

@@ -100,7 +100,7 @@ TEST(Product, WithoutAFaultItIsTheLeanDriveToTheLastBit) {
     product.control.arithmetic = a;
     product.reference = {.shape = study::Shape::steps, .times_s = {3e-3, 0.2}, .values = {100.0, 102.0}};
     Scenario lean = product;
-    lean.control.drive = study::Drive::lean;
+    lean.control.drive = study::FirmwareKind::lean;
     lean.protection = {};
     const std::vector<double> p = recorded(product, 3e-3), l = recorded(lean, 3e-3);
     ASSERT_EQ(p.size(), l.size());
@@ -127,7 +127,7 @@ TEST(Product, FollowsTheStepsOf74AsTheIdealDrive) {
     ask(s, m);
   }
   Scenario ideal = s;
-  ideal.control.drive = study::Drive::lean;
+  ideal.control.drive = study::FirmwareKind::lean;
   ideal.sensors = {};
   ideal.protection = {};
   const auto p = study::run(s), l = study::run(ideal);
@@ -300,7 +300,7 @@ TEST(Product, OneShuntAndALateAnswerStopWithinTheTickToo) {
   Scenario shunt = at_100_rad_s();
   shunt.pwm.alignment = study::Alignment::centre;
   shunt.pwm.sample = study::SampleAt::middle;
-  shunt.sensors.currents = rig::CurrentSensing::dc_link;
+  shunt.sensors.currents = rig::CurrentMeasurement::dc_link;
   Witness w;
   const study::Outcome out = run_watched(shunt, w);
   EXPECT_FALSE(out.fault) << to_string(*out.fault);
@@ -330,7 +330,7 @@ TEST(Product, SaysWhatItLacks) {
   ASSERT_EQ(study::check(s).size(), 1u);
   EXPECT_THAT(to_string(study::check(s)[0]), HasSubstr("converter ends"));
   s = product_scenario(Mode::speed, 100.0);
-  s.control.drive = study::Drive::lean;
+  s.control.drive = study::FirmwareKind::lean;
   ASSERT_EQ(study::check(s).size(), 1u);
   EXPECT_THAT(to_string(study::check(s)[0]), HasSubstr("product drive only"));
 }

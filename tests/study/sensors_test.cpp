@@ -14,7 +14,7 @@ namespace {
 using namespace sixstep;
 using namespace sixstep::testing;
 using control::Mode;
-using rig::CurrentSensing;
+using rig::CurrentMeasurement;
 using study::Arithmetic;
 using study::MetricKind;
 using study::Scenario;
@@ -33,7 +33,7 @@ Scenario held_at_5_A() {
 }
 
 Scenario with_phases(Scenario s, int bits = 12) {
-  s.sensors.currents = CurrentSensing::phases;
+  s.sensors.currents = CurrentMeasurement::phases;
   s.sensors.adc_bits = bits;
   s.sensors.current_range_A = 20.48;
   return s;
@@ -75,7 +75,7 @@ TEST(Sensors, CalibrationTakesTheOffsetAway) {
 Scenario with_shunt(Scenario s) {
   s.pwm.alignment = study::Alignment::centre;
   s.pwm.sample = study::SampleAt::middle;
-  s.sensors.currents = CurrentSensing::dc_link;
+  s.sensors.currents = CurrentMeasurement::dc_link;
   s.sensors.current_range_A = 40.96;
   return s;
 }

@@ -26,8 +26,9 @@ struct WithinBounds {
   void segment(const Rig& rig, double) {
     const int degree = rig.plant().expansion().degree;
     for (const Signal signal : bounded) {
-      const Series c = piece_of(glance(rig), signal, 0.0, 1.0).c;
-      const series::Extremes<double> e = series::extremes(c, degree), b = signal_bounds(glance(rig), signal);
+      const Series c = piece_of(segment_view(rig), signal, 0.0, 1.0).c;
+      const series::Extremes<double> e = series::extremes(c, degree),
+                                     b = signal_bounds(segment_view(rig), signal);
       ++segments;
       breaches += !(b.low <= e.low && e.high <= b.high);
       // A straight line is bounded by itself and, on the other side, by its mirror image: twice as wide.
@@ -54,9 +55,9 @@ TEST(SignalBounds, HoldTheWholeCurve) {
 
 TEST(SignalBounds, NoneForWhatHasNoneAtHand) {
   auto rig = Board::duty(0.3).rig();
-  EXPECT_EQ(signal_bounds(glance(rig), Signal::current_magnitude).high,
+  EXPECT_EQ(signal_bounds(segment_view(rig), Signal::current_magnitude).high,
             std::numeric_limits<double>::infinity());
-  EXPECT_EQ(signal_bounds(glance(rig), Signal::torque).low, -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(signal_bounds(segment_view(rig), Signal::torque).low, -std::numeric_limits<double>::infinity());
 }
 
 /// Every signal against what the snapshot of the same instant says, column by column and power by power.
@@ -74,7 +75,7 @@ struct AgainstTheTrace {
   }
   template <class Rig>
   void segment(const Rig& rig, double s) {
-    const Glance g = glance(rig);
+    const SegmentView g = segment_view(rig);
     free_stars += plant::connected_count(g.plant.mode().legs) == 0;
     high_degrees += 2 * g.plant.expansion().degree > series::max_degree;
     for (const SignalFact& fact : signal_facts)

@@ -53,7 +53,7 @@ TEST(Spread, EachDriveHasItsOwnNoise) {
   Scenario s = series();
   s.duration_s = 2e-3;
   s.spread.clear();
-  s.sensors.currents = rig::CurrentSensing::phases;
+  s.sensors.currents = rig::CurrentMeasurement::phases;
   s.sensors.current_range_A = 20.48;
   s.sensors.current_noise_A = 0.05;
   const auto digest = [&s](std::uint64_t of_seed, std::uint64_t number) {

@@ -13,7 +13,7 @@ namespace sixstep::testing {
 /// Currents of +-20.48 A in 12 bits, 10 mA a count; 40.96 V; Hall edges against 1 MHz.
 inline study::Sensors board_sensors(int bits = 12) {
   study::Sensors s;
-  s.currents = rig::CurrentSensing::phases;
+  s.currents = rig::CurrentMeasurement::phases;
   s.adc_bits = bits;
   s.current_range_A = 20.48;
   s.bus = study::BusSensing::adc;
@@ -27,7 +27,7 @@ inline study::Sensors board_sensors(int bits = 12) {
 /// soft: edges tell the speed a sector late.
 inline study::Scenario product_scenario(control::Mode mode, double reference) {
   study::Scenario s = maxon_scenario(mode, reference);
-  s.control.drive = study::Drive::product;
+  s.control.drive = study::FirmwareKind::product;
   s.control.speed.settle_s = 0.1;
   s.control.speed.damping = 0.9;
   s.control.current.limit_A = 10.0;

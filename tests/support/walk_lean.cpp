@@ -4,7 +4,7 @@
 namespace sixstep::testing {
 
 Walk walk(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan) {
-  if (s.control.drive == study::Drive::product) return walk_product(s, c, plan);
+  if (s.control.drive == study::FirmwareKind::product) return walk_product(s, c, plan);
   return c.board.sensors.ideal() ? walk_lean(s, c, plan) : walk_sensed(s, c, plan);
 }
 

@@ -25,13 +25,13 @@ struct Collector {
 
 /// The figures with a delay of one period, whichever of the two that is.
 const LoopFigures& delayed(const DriveDesign& d, const LoopDesign& loop) {
-  return d.wish.delay_periods == 1 ? loop.figures : loop.other;
+  return d.spec.delay_periods == 1 ? loop.figures : loop.other;
 }
 
 std::string slower(const DriveDesign& d, const LoopDesign& loop) {
   if (loop.name == "position") return "lower the position gain";
-  std::string text = loop.name == "current" && d.wish.mode != control::Mode::current ? "--current-settle"
-                     : d.wish.bandwidth_rad_s                                        ? "--bandwidth"
+  std::string text = loop.name == "current" && d.spec.mode != control::Mode::current ? "--current-settle"
+                     : d.spec.bandwidth_rad_s                                        ? "--bandwidth"
                                                                                      : "--settle";
   return "design the " + loop.name + " loop slower (" + text + ")";
 }
@@ -66,10 +66,10 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
                          " rad/s, where a speed from Hall edges is " + milliseconds(d.lag.delay_s()) + " old";
   std::string cure = "design the speed loop slower (--settle";
   for (const SettlingLimit& limit : d.limits)
-    if (limit.sensing.edges == d.wish.rotor.edges && limit.lowest_speed_rad_s == d.lowest_speed_rad_s &&
+    if (limit.sensing.edges == d.spec.rotor.edges && limit.lowest_speed_rad_s == d.lowest_speed_rad_s &&
         limit.settle_s)
       cure.append(" ").append(rounded(*limit.settle_s));
-  cure += d.wish.rotor.edges > 1 ? "), take the speed over one edge (--edges 1), or raise --lowest-speed"
+  cure += d.spec.rotor.edges > 1 ? "), take the speed over one edge (--edges 1), or raise --lowest-speed"
                                  : ") or raise --lowest-speed";
   if (!speed.built.stable) return out.add("the speed loop is unstable" + at, cure, true);
   const double phase_deg = speed.built.phase_rad.value_or(base::pi) * 180.0 / base::pi;
@@ -81,7 +81,7 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
 /// A P loop on counted edges: one step away it asks for K_p steps per second, so the next edge is 1/K_p away
 /// and the speed as old.
 void look_at_steps(const DriveDesign& d, Collector& out) {
-  if (d.wish.mode != control::Mode::position || !d.wish.rotor.hall || d.loops.size() < 3) return;
+  if (d.spec.mode != control::Mode::position || !d.spec.rotor.hall || d.loops.size() < 3) return;
   const double blind_s = 1.0 / (d.loops[2].gains.d1 * 180.0 / base::pi);
   const double step_deg = 60.0 / d.motor.machine.pole_pairs;
   if (const std::optional<double> stands = d.loops[1].figures.delay_s; stands && blind_s > *stands)
@@ -122,18 +122,18 @@ void look_at_separation(const LoopDesign& inner, const LoopDesign& outer, Collec
 void look_at_ripple(const DriveDesign& d, Collector& out) {
   if (d.ripple.worst_A > greatest_ripple * d.nominal_current_A) {
     const double period_s =
-        period_for_ripple_s(d.motor, d.bus_V, d.wish.chopping, greatest_ripple * d.nominal_current_A);
+        period_for_ripple_s(d.motor, d.bus_V, d.spec.chopping, greatest_ripple * d.nominal_current_A);
     out.add("the PWM ripple reaches " + rounded(d.ripple.worst_A) + " A, " +
                 rounded(100.0 * d.ripple.worst_A / d.nominal_current_A) + " % of " + nominal_current_words(d),
             "keep --period below " + microseconds(period_s) +
-                (d.wish.chopping == control::Chopping::hard ? ", or chop softly" : ", or add inductance"));
+                (d.spec.chopping == control::Chopping::hard ? ", or chop softly" : ", or add inductance"));
   }
 }
 
 void look_at_braking(const DriveDesign& d, Collector& out) {
   const double top =
       d.motor.no_load_speed_rad_s > 0.0 ? d.motor.no_load_speed_rad_s : d.bus_V / d.motor.K_t_Nm_A;
-  if (d.wish.chopping == control::Chopping::soft && d.braking_limit_rad_s < top)
+  if (d.spec.chopping == control::Chopping::soft && d.braking_limit_rad_s < top)
     out.add("soft chopping cannot hold a braking current of " + rounded(d.nominal_current_A) + " A" +
                 (d.nominal_printed ? "" : std::string(", ") + nominal_current_words(d) + ",") + " above " +
                 rounded(d.braking_limit_rad_s) +
@@ -155,14 +155,14 @@ void look_at_voltage(const DriveDesign& d, Collector& out) {
 
 void look_at_settling(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
   if (!loop.placed || !loop.figures.stable) return;
-  if (loop.placed->settle_s < 10.0 * d.wish.period_s)
+  if (loop.placed->settle_s < 10.0 * d.spec.period_s)
     out.add("the " + loop.name + " loop is to settle within " + milliseconds(loop.placed->settle_s) + ", " +
-                rounded(loop.placed->settle_s / d.wish.period_s) + " control periods",
+                rounded(loop.placed->settle_s / d.spec.period_s) + " control periods",
             slower(d, loop) + " or shorten --period to a tenth");
 }
 
 void look_at_heat(const DriveDesign& d, Collector& out) {
-  if (d.wish.mode == control::Mode::current) return;
+  if (d.spec.mode == control::Mode::current) return;
   if (!d.nominal_printed)
     return out.add("the sheet names no nominal current: a tenth of the stall current, " +
                        rounded(d.nominal_current_A) + " A, stands in for it",

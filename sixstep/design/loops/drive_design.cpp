@@ -10,7 +10,7 @@
 #include "sixstep/design/loops/drive_loops.hpp"
 #include "sixstep/design/loops/gain_rules.hpp"
 #include "sixstep/design/loops/margins.hpp"
-#include "sixstep/design/loops/wish_check.hpp"
+#include "sixstep/design/loops/spec_check.hpp"
 
 namespace sixstep::design {
 namespace {
@@ -20,14 +20,14 @@ using control::Mode;
 // The thesis's choices (chapter 6), and the ratio of its two loops.
 constexpr double current_settle = 1e-3, speed_settle = 10e-3, inner_faster = 10.0;
 
-double settle_of_current(const DesignWish& w) {
+double settle_of_current(const DesignSpec& w) {
   if (w.mode == Mode::current) return w.settle_s.value_or(current_settle);
   return w.current_settle_s.value_or(
       std::fmin(current_settle, w.settle_s.value_or(speed_settle) / inner_faster));
 }
 
 DriveLoops loops_of(const DriveDesign& d, const MotorModel& motor, int delay_periods) {
-  DriveLoops to{.motor = motor, .period_s = d.wish.period_s, .delay_periods = delay_periods};
+  DriveLoops to{.motor = motor, .period_s = d.spec.period_s, .delay_periods = delay_periods};
   for (const LoopDesign& loop : d.loops) {
     if (loop.name == "current") to.current = loop.gains;
     if (loop.name == "speed") to.speed = loop.gains;
@@ -45,20 +45,20 @@ double watched_s(const Transfer& whole, double period_s) {
 }
 
 void judge(DriveDesign& d, LoopDesign& loop, std::size_t index) {
-  const int delay_periods = d.wish.delay_periods;
+  const int delay_periods = d.spec.delay_periods;
   loop.loop = open_loops(d, d.motor, delay_periods)[index];
-  loop.figures = loop_figures(loop.loop, d.wish.period_s);
-  loop.other = loop_figures(open_loops(d, d.motor, 1 - delay_periods)[index], d.wish.period_s);
+  loop.figures = loop_figures(loop.loop, d.spec.period_s);
+  loop.other = loop_figures(open_loops(d, d.motor, 1 - delay_periods)[index], d.spec.period_s);
   const SensedLoop sensed = sensed_loops(d, d.motor, delay_periods)[index];
   const bool lags = sensed.lag.delay_s() > 0.0;
-  loop.built = lags ? sensed_figures(sensed, d.wish.period_s) : loop.figures;
+  loop.built = lags ? sensed_figures(sensed, d.spec.period_s) : loop.figures;
   if (!loop.built.stable) return;
   const Transfer whole = closed(loop.loop);
-  const double watched = watched_s(whole, d.wish.period_s);
+  const double watched = watched_s(whole, d.spec.period_s);
   // The step of a position loop is shaped by limits, not by the linear loop: it is not looked at.
   loop.step = lags && loop.name == "speed"
-                  ? sensed_step(sensed, d.wish.period_s, 2 * watched, settling_band(d))
-                  : step_response(whole, d.wish.period_s, watched);
+                  ? sensed_step(sensed, d.spec.period_s, 2 * watched, settling_band(d))
+                  : step_response(whole, d.spec.period_s, watched);
 }
 
 base::Result<LoopDesign> by_placement(const char* name, const ZohPlant& plant, double settle_s,
@@ -100,7 +100,7 @@ base::Result<LoopDesign> by_rule(const char* name, const char* method, const bas
 }
 
 base::Result<LoopDesign> current_loop(const DriveDesign& d) {
-  const DesignWish& w = d.wish;
+  const DesignSpec& w = d.spec;
   const double R = 2.0 * d.motor.machine.R_ohm, L = 2.0 * d.motor.machine.L_H, settle = settle_of_current(w);
   if (w.method == GainMethod::cancellation)
     return by_rule("current", "pole-zero cancellation",
@@ -109,7 +109,7 @@ base::Result<LoopDesign> current_loop(const DriveDesign& d) {
 }
 
 base::Result<LoopDesign> speed_loop(const DriveDesign& d) {
-  const DesignWish& w = d.wish;
+  const DesignSpec& w = d.spec;
   const plant::Shaft& shaft = d.motor.shaft;
   if (w.method == GainMethod::symmetrical_optimum) {
     const ZohPlant plant = current_plant(2.0 * d.motor.machine.R_ohm, 2.0 * d.motor.machine.L_H, w.period_s);
@@ -138,17 +138,17 @@ bool overshoots(const Transfer& open, double gain, double period_s) {
 
 /// The largest gain with which the linear loop does not overshoot: an overshoot grows with the gain.
 double largest_position_gain(const DriveDesign& d) {
-  DriveLoops loops = loops_of(d, d.motor, d.wish.delay_periods);
+  DriveLoops loops = loops_of(d, d.motor, d.spec.delay_periods);
   loops.position_gain_rad_s_per_deg = 1.0;
   const Transfer open = open_position_loop(loops);
   double low = 0.0, high = 1e-3;
-  while (!overshoots(open, high, d.wish.period_s) && high < 1e6) {
+  while (!overshoots(open, high, d.spec.period_s) && high < 1e6) {
     low = high;
     high *= 2.0;
   }
   for (int n = 0; n < 24; ++n) {
     const double middle = low + (high - low) / 2.0;
-    (overshoots(open, middle, d.wish.period_s) ? high : low) = middle;
+    (overshoots(open, middle, d.spec.period_s) ? high : low) = middle;
   }
   return low;
 }
@@ -172,7 +172,7 @@ LoopDesign position_loop(double gain, const char* method) {
 double longest_period(const DriveDesign& d) {
   const auto holds = [&](double period_s) {
     DriveDesign at = d;
-    at.wish.period_s = period_s;
+    at.spec.period_s = period_s;
     const base::Result<LoopDesign> loop = current_loop(at);
     if (!loop) return false;
     const ZohPlant plant = current_plant(2.0 * d.motor.machine.R_ohm, 2.0 * d.motor.machine.L_H, period_s);
@@ -198,30 +198,30 @@ double crossover_of(const DriveDesign& d) {
 }
 
 SettlingQuestion settling_question(const DriveDesign& d) {
-  return {loops_of(d, d.motor, d.wish.delay_periods), d.torque_limit_Nm, d.wish.damping};
+  return {loops_of(d, d.motor, d.spec.delay_periods), d.torque_limit_Nm, d.spec.damping};
 }
 
 /// Nobody said how fast: the thesis's settling time, or what the sensor stands where that is longer.
 void choose_settling(DriveDesign& d) {
-  if (d.wish.settle_s || d.wish.mode == Mode::current) return;
-  d.wish.settle_s = speed_settle;
-  if (!d.wish.rotor.hall) return;
+  if (d.spec.settle_s || d.spec.mode == Mode::current) return;
+  d.spec.settle_s = speed_settle;
+  if (!d.spec.rotor.hall) return;
   const std::optional<double> least =
-      fastest_settling_s(settling_question(d), d.wish.rotor, d.lowest_speed_rad_s);
-  if (least && *least > speed_settle) d.wish.settle_s = base::shortened(*least, 2, base::Towards::up);
+      fastest_settling_s(settling_question(d), d.spec.rotor, d.lowest_speed_rad_s);
+  if (least && *least > speed_settle) d.spec.settle_s = base::shortened(*least, 2, base::Towards::up);
 }
 
 void add_sensing(DriveDesign& d) {
-  if (!d.wish.rotor.hall || d.loops.size() < 2) return;
+  if (!d.spec.rotor.hall || d.loops.size() < 2) return;
   const double pole_pairs = d.motor.machine.pole_pairs, crossover = crossover_of(d);
-  d.lag = speed_lag(d.wish.rotor, pole_pairs, d.lowest_speed_rad_s, crossover);
-  d.sensing = lag_steps(d.wish.rotor, pole_pairs, d.lowest_speed_rad_s, crossover);
+  d.lag = speed_lag(d.spec.rotor, pole_pairs, d.lowest_speed_rad_s, crossover);
+  d.sensing = lag_steps(d.spec.rotor, pole_pairs, d.lowest_speed_rad_s, crossover);
   d.limits = settling_limits(settling_question(d), d.lowest_speed_rad_s);
 }
 
 /// A P loop that counts edges: one step away from its target it asks for K_p steps per second.
 void add_steps(DriveDesign& d) {
-  if (!d.wish.rotor.hall || d.loops.size() < 3) return;
+  if (!d.spec.rotor.hall || d.loops.size() < 3) return;
   std::erase_if(d.sensing, [](const DerivationStep& s) { return s.symbol == "q" || s.symbol == "1/K_p"; });
   const double gain = d.loops[2].gains.d1 * 180.0 / base::pi;
   d.sensing.push_back({"q", "60/p, a Hall step", 60.0 / d.motor.machine.pole_pairs, "deg"});
@@ -229,7 +229,7 @@ void add_steps(DriveDesign& d) {
 }
 
 void add_limits(DriveDesign& d) {
-  d.ripple = worst_ripple(d.motor, d.bus_V, d.wish.period_s, d.wish.chopping);
+  d.ripple = worst_ripple(d.motor, d.bus_V, d.spec.period_s, d.spec.chopping);
   d.headroom_end_rad_s = speed_for_current_rad_s(d.motor, d.bus_V, d.nominal_current_A);
   d.braking_limit_rad_s = soft_braking_limit_rad_s(d.motor, d.nominal_current_A);
   d.longest_period_s = longest_period(d);
@@ -251,24 +251,24 @@ const LoopDesign& DriveDesign::loop(std::string_view name) const {
   return loops.back();
 }
 
-base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignWish& wish) {
-  if (base::Problems found = check_wish(motor, wish); !found.empty()) return found;
+base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignSpec& spec) {
+  if (base::Problems found = check_spec(motor, spec); !found.empty()) return found;
   DriveDesign d;
-  d.wish = wish;
+  d.spec = spec;
   d.motor = motor;
-  d.motor.shaft.J_kg_m2 += wish.load_inertia_kg_m2;
-  d.bus_V = wish.voltage_V.value_or(motor.nominal_voltage_V);
-  d.torque_limit_Nm = wish.torque_limit_Nm.value_or(usual_torque_limit_Nm(motor, d.bus_V));
+  d.motor.shaft.J_kg_m2 += spec.load_inertia_kg_m2;
+  d.bus_V = spec.voltage_V.value_or(motor.nominal_voltage_V);
+  d.torque_limit_Nm = spec.torque_limit_Nm.value_or(usual_torque_limit_Nm(motor, d.bus_V));
   d.current_at_full_torque_A = d.torque_limit_Nm / motor.K_t_Nm_A;
   const NominalCurrent nominal = nominal_current(motor, d.bus_V);
   d.nominal_current_A = nominal.A;
   d.nominal_printed = nominal.printed;
-  d.lowest_speed_rad_s = wish.lowest_speed_rad_s.value_or(
+  d.lowest_speed_rad_s = spec.lowest_speed_rad_s.value_or(
       base::shortened(0.1 * d.bus_V / motor.K_t_Nm_A, 2, base::Towards::down));
   base::Result<LoopDesign> current = current_loop(d);
   if (!current) return current.problems();
   d.loops.push_back(*current);
-  if (wish.mode != Mode::current) {
+  if (spec.mode != Mode::current) {
     choose_settling(d);
     base::Result<LoopDesign> speed = speed_loop(d);
     if (!speed) return speed.problems();
@@ -276,7 +276,7 @@ base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignWish
   }
   add_limits(d);
   add_sensing(d);
-  if (wish.mode == Mode::position)
+  if (spec.mode == Mode::position)
     d.loops.push_back(position_loop(largest_position_gain(d), "largest linear gain without overshoot"));
   finish(d);
   return d;

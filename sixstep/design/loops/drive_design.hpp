@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a motor and a wish to the gains of a whole drive, loop by loop from the inside out, with the figures
+// From a motor and a spec to the gains of a whole drive, loop by loop from the inside out, with the figures
 // by which a designer judges each loop and a warning where one is off. Closed form: nothing is simulated
 // here.
 #pragma once
@@ -22,7 +22,7 @@ namespace sixstep::design {
 enum class GainMethod : std::uint8_t { pole_placement, cancellation, symmetrical_optimum };
 
 /// What is wanted. What is left out is the thesis's choice, carried over to this motor.
-struct DesignWish {
+struct DesignSpec {
   control::Mode mode = control::Mode::current;  ///< current, speed or position
   GainMethod method = GainMethod::pole_placement;
   /// Of the PI of the mode; 1 ms for current; for speed 10 ms, or what the sensor allows where that is more.
@@ -42,12 +42,12 @@ struct DesignWish {
   std::optional<double> lowest_speed_rad_s;
 };
 
-/// A wish as for a board that is built: Hall probes, and a command that counts one period late.
-inline DesignWish on_a_board() {
-  DesignWish wish;
-  wish.rotor.hall = true;
-  wish.delay_periods = 1;
-  return wish;
+/// A spec as for a board that is built: Hall probes, and a command that counts one period late.
+inline DesignSpec on_a_board() {
+  DesignSpec spec;
+  spec.rotor.hall = true;
+  spec.delay_periods = 1;
+  return spec;
 }
 
 struct LoopDesign {
@@ -58,8 +58,8 @@ struct LoopDesign {
   std::optional<PolePlacement> placed;
   Transfer loop;        ///< open, with the wished delay, the inner loops counted in
   LoopFigures figures;  ///< of `loop`
-  LoopFigures other;    ///< with the other delay: 1 where the wish is 0, and 0 where it is 1
-  LoopFigures built;    ///< of `loop` with what the wish's sensor of the speed adds at the lowest speed
+  LoopFigures other;    ///< with the other delay: 1 where the spec is 0, and 0 where it is 1
+  LoopFigures built;    ///< of `loop` with what the spec's sensor of the speed adds at the lowest speed
   StepResponse step;    ///< of the closed loop, sensor included
 };
 
@@ -70,7 +70,7 @@ struct Warning {
 };
 
 struct DriveDesign {
-  DesignWish wish;
+  DesignSpec spec;
   MotorModel motor;  ///< with the load's inertia on its shaft
   double bus_V = 0.0;
   double torque_limit_Nm = 0.0;
@@ -101,9 +101,9 @@ inline const char* nominal_current_words(const DriveDesign& d) {
 /// the lowest speed that a step of half of it is judged by.
 double settling_band(const DriveDesign& design);
 
-/// Gains for the wish. In position mode the gain is the largest with which the linear loop does not
+/// Gains for the spec. In position mode the gain is the largest with which the linear loop does not
 /// overshoot; what limits allow is study's to find, with with_position_gain(). Problems name the option.
-base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignWish& wish);
+base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignSpec& spec);
 
 /// The same with another position gain, figures and warnings anew.
 DriveDesign with_position_gain(const DriveDesign& design, double gain_rad_s_per_deg);
@@ -112,7 +112,7 @@ DriveDesign with_position_gain(const DriveDesign& design, double gain_rad_s_per_
 /// out, open.
 std::vector<Transfer> open_loops(const DriveDesign& design, const MotorModel& motor, int delay_periods);
 
-/// The same with what the wish's sensor of the speed adds at the lowest speed.
+/// The same with what the spec's sensor of the speed adds at the lowest speed.
 std::vector<SensedLoop> sensed_loops(const DriveDesign& design, const MotorModel& motor, int delay_periods);
 
 }  // namespace sixstep::design

@@ -9,7 +9,7 @@
 
 namespace sixstep::design {
 
-/// What the thesis prints for a symbol of PolePlacement::steps; empty for another motor, period or wish, and
+/// What the thesis prints for a symbol of PolePlacement::steps; empty for another motor, period or spec, and
 /// for what it does not print. Loops: "current", "speed".
 std::optional<double> thesis_figure(std::string_view loop, const PolePlacement& design,
                                     std::string_view symbol);

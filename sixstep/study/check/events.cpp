@@ -91,7 +91,7 @@ void check_event(const Event& e) {
   if (at.reference && mode == control::Mode::off)
     out.push_back({where + ".reference", "", "asks for something that control.mode = \"off\" does not do",
                    "set control.mode"});
-  if (at.request != DriveRequest::none && s.control.drive != Drive::product)
+  if (at.request != DriveRequest::none && s.control.drive != FirmwareKind::product)
     out.push_back(
         {where + ".request", "", "is heard by the product drive only", "set control.drive = \"product\""});
 }

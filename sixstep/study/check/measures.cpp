@@ -6,7 +6,7 @@
 #include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/measure_choices.hpp"
-#include "sixstep/study/scenario/reference_course.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
 
 namespace sixstep::study {
 

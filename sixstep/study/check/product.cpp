@@ -17,14 +17,14 @@ using control::Mode;
 void check_registers(const Scenario& s, base::Problems& out) {
   const std::string asks =
       "is nothing that a register shows, and control.drive = \"product\" reads registers";
-  if (s.sensors.currents == rig::CurrentSensing::ideal)
+  if (s.sensors.currents == rig::CurrentMeasurement::ideal)
     out.push_back({"sensors.currents", "\"ideal\"", asks,
                    "set currents = \"phases\" (or \"dc-link\") and current_range_A"});
   if (s.sensors.bus == BusSensing::ideal)
     out.push_back({"sensors.bus", "\"ideal\"", asks, "set bus = \"adc\" and bus_range_V"});
   if (s.sensors.rotor == RotorSensing::ideal)
     out.push_back({"sensors.rotor", "\"ideal\"", asks, "set rotor = \"hall\""});
-  if (s.sensors.currents == rig::CurrentSensing::dc_link && s.pwm.delay_periods > 0)
+  if (s.sensors.currents == rig::CurrentMeasurement::dc_link && s.pwm.delay_periods > 0)
     out.push_back({"pwm.delay_periods", std::to_string(s.pwm.delay_periods),
                    "leaves the product drive with the duty of another period than its shunt's sample",
                    "set delay_periods = 0: with pwm.sample = \"middle\" the answer waits for the next start "
@@ -145,7 +145,7 @@ void check_lean(const Scenario& s, base::Problems& out) {
 }  // namespace
 
 void check_product(const Scenario& s, const std::optional<double>& sector_rad, base::Problems& out) {
-  if (s.control.drive != Drive::product) return check_lean(s, out);
+  if (s.control.drive != FirmwareKind::product) return check_lean(s, out);
   check_registers(s, out);
   check_thresholds(s, out);
   check_activities(s, out);

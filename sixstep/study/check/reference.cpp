@@ -8,7 +8,7 @@
 #include "sixstep/study/check/reference_cures.hpp"
 #include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/choices.hpp"
-#include "sixstep/study/scenario/reference_course.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
 
 namespace sixstep::study {
 

@@ -10,11 +10,11 @@ namespace sixstep::study {
 
 namespace {
 
-using rig::CurrentSensing;
+using rig::CurrentMeasurement;
 
 void check_currents(const Scenario& s, base::Problems& out) {
   const Sensors& sensors = s.sensors;
-  if (sensors.currents == CurrentSensing::ideal) return;
+  if (sensors.currents == CurrentMeasurement::ideal) return;
   if (!sensors.current_range_A)
     out.push_back({"sensors.current_range_A", "", "is missing, and currents go through a converter",
                    "give the current at the converter's ends, or currents = \"ideal\""});
@@ -23,13 +23,13 @@ void check_currents(const Scenario& s, base::Problems& out) {
                    "leaves nothing of current_range_A = " + base::written(*sensors.current_range_A),
                    "lower it or widen the range"});
   const bool samples_in_middle = s.pwm.sample == SampleAt::middle;
-  if (sensors.currents == CurrentSensing::dc_link && !samples_in_middle)
+  if (sensors.currents == CurrentMeasurement::dc_link && !samples_in_middle)
     out.push_back({"sensors.currents", "\"dc-link\"", "shows nothing before the on-time has begun",
                    "set pwm.sample = \"middle\", best with pwm.alignment = \"centre\""});
 }
 
 void check_bits(const Scenario& s, base::Problems& out) {
-  const bool used = s.sensors.currents != CurrentSensing::ideal || s.sensors.bus == BusSensing::adc;
+  const bool used = s.sensors.currents != CurrentMeasurement::ideal || s.sensors.bus == BusSensing::adc;
   const Arithmetic a = s.control.arithmetic;
   if (used && (a == Arithmetic::q15 || a == Arithmetic::q14) && s.sensors.adc_bits > 12)
     out.push_back({"sensors.adc_bits", std::to_string(s.sensors.adc_bits),

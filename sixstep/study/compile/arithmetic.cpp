@@ -61,7 +61,7 @@ base::Problems unheld_speed(const Scenario& s, const Compiled& c, const design::
            "take a slower timer, fewer edges, or a 32-bit format"}};
 }
 
-rig::Units units_of(Mode mode, const design::Bases& b) {
+rig::Bases units_of(Mode mode, const design::Bases& b) {
   return {b.current_A, b.voltage_V, b.speed_rad_s, b.position_deg, design::setpoint_base(mode, b)};
 }
 

@@ -3,7 +3,7 @@
 // scaled to fixed point with a proof that they fit.
 #pragma once
 #include "sixstep/design/scaling/product_scaling.hpp"
-#include "sixstep/rig/units.hpp"
+#include "sixstep/rig/bases.hpp"
 #include "sixstep/study/compile/compile.hpp"
 
 namespace sixstep::study {
@@ -25,7 +25,7 @@ control::DriveConfig<Scalar> in_arithmetic(const control::DriveConfig<double>& c
 template <class Scalar>
 struct DriveIn {
   control::DriveConfig<Scalar> config;
-  rig::Units units;
+  rig::Bases bases;
 };
 
 /// Problems name the quantity that the format cannot hold, under the key control.arithmetic.
@@ -37,7 +37,7 @@ base::Result<DriveIn<Scalar>> drive_in(const Scenario& scenario, const Compiled&
 template <class Scalar>
 struct ProductIn {
   control::ProtectedConfig<Scalar> config;
-  rig::Units units;
+  rig::Bases bases;
 };
 template <class Scalar>
 base::Result<ProductIn<Scalar>> product_in(const Scenario& scenario, const Compiled& compiled);

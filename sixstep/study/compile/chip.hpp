@@ -15,13 +15,13 @@ namespace sixstep::study {
 template <class Firmware>
 struct Chip {
   typename Firmware::Config config;
-  rig::Units units;
+  rig::Bases bases;
   std::vector<rig::Tuning<typename Firmware::Config>> later;  ///< what the timeline's retune actions name
 };
 
 /// [control.full_scale] that makes the bases `units` of it, to the bit. Floating point has none.
 template <class Scalar>
-FullScale full_scale_of(const rig::Units& units) {
+FullScale full_scale_of(const rig::Bases& bases) {
   if constexpr (std::is_arithmetic_v<Scalar>) {
     return {};
   } else {
@@ -57,7 +57,7 @@ base::Problems add_later(const Scenario& s, const Compiled& c, Chip<Firmware>& o
     then.product = c.later[number].product;
     const auto chip = given_to(std::type_identity<Firmware>{}, settled_s, then);
     if (!chip) return told_of_event(s, *at, chip.problems());
-    out.later.push_back({chip->config, chip->units.setpoint});
+    out.later.push_back({chip->config, chip->bases.setpoint});
     ++number;
   }
   return {};
@@ -81,7 +81,7 @@ template <class Firmware>
 rig::Rig<double, Firmware> rig_of(const Compiled& c, const Chip<Firmware>& chip, rig::Timeline timeline) {
   const plant::Plant<double> plant(c.motor.machine, c.shaft, c.devices, c.supply, c.start);
   rig::BoardConfig board = c.board;
-  board.units = chip.units;
+  board.bases = chip.units;
   return {plant, chip.config, board, std::move(timeline), chip.later};
 }
 

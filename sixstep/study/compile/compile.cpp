@@ -272,7 +272,7 @@ base::Result<Compiled> compile(const Scenario& s) {
   out.drive = first->drive;
   out.gains = std::move(first->gains);
   settle_edges(s, basis, out);
-  if (s.control.drive == Drive::product)
+  if (s.control.drive == FirmwareKind::product)
     out.product = product_around(alone ? *alone : s, basis, out.drive, out.board.sensors);
   if (base::Problems problems = add_later(s, basis, out); !problems.empty()) return problems;
   return out;

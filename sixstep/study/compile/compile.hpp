@@ -6,7 +6,7 @@
 #include "sixstep/control/protected_drive.hpp"
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/study/measure/outcome.hpp"
-#include "sixstep/study/scenario/reference_course.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
 namespace sixstep::study {

@@ -25,7 +25,7 @@ double highest_start_V(const Scenario& s) {
 /// A loop that reads less than it was asked for drives without an end.
 void check_converter(const Scenario& s, const control::DriveConfig<double>& drive, base::Problems& out) {
   const Sensors& sensors = s.sensors;
-  if (sensors.currents == rig::CurrentSensing::ideal || !sensors.current_range_A) return;
+  if (sensors.currents == rig::CurrentMeasurement::ideal || !sensors.current_range_A) return;
   const bool limited = drive.extras.limits_current;
   double asked = s.control.mode == Mode::current ? largest_reference(s) : drive.current_limit_A;
   if (limited) asked = 1.25 * std::min(asked, drive.extras.limits.current_A);
@@ -42,7 +42,7 @@ void check_converter(const Scenario& s, const control::DriveConfig<double>& driv
 
 /// One shunt shows no current that runs through the lower switches, or in a pulse too short for it.
 void check_shunt(const Scenario& s, base::Problems& out) {
-  if (s.sensors.currents != rig::CurrentSensing::dc_link) return;
+  if (s.sensors.currents != rig::CurrentMeasurement::dc_link) return;
   const auto refuse = [&out](const char* key, const std::optional<double>& value) {
     if (value)
       out.push_back({key, number(*value),

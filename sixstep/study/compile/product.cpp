@@ -61,8 +61,8 @@ control::ProtectedConfig<double> product_around(const Scenario& s, const Basis& 
   control::ProtectedConfig<double> c;
   c.drive = drive;
   c.setpoint_limit = largest_reference(s);
-  c.sensing = sensors.currents == rig::CurrentSensing::dc_link ? control::CurrentSensing::one_shunt
-                                                               : control::CurrentSensing::phases;
+  c.sensing = sensors.currents == rig::CurrentMeasurement::dc_link ? control::CurrentSensing::one_shunt
+                                                                   : control::CurrentSensing::phases;
   for (control::AdcConfig<double>& adc : c.current_adc) adc = decoded(sensors.current, tolerance_A);
   c.bus_adc = decoded(sensors.bus, 0.0);
   c.shunt = {sensors.least_duty, sensors.commutation_samples, sensors.fade};

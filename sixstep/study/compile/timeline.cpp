@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "sixstep/study/scenario/changes.hpp"
-#include "sixstep/study/scenario/reference_course.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
 
 namespace sixstep::study {
 
@@ -49,12 +49,14 @@ void add_tunings(const Scenario& s, rig::Timeline& timeline) {
 rig::Timeline timeline_of(const Scenario& s) {
   rig::Timeline timeline;
   add_tunings(s, timeline);
-  for (const Stretch& stretch : reference_course(s))
-    timeline.push_back({sim::to_instant(stretch.at_s), ActionKind::setpoint, stretch.value, stretch.course});
+  for (const Stretch& stretch : reference_waveform(s))
+    timeline.push_back(
+        {sim::to_instant(stretch.at_s), ActionKind::setpoint, stretch.value, stretch.waveform});
   timeline.push_back({sim::Instant{}, ActionKind::load_torque, s.load.torque_Nm});
   for (std::size_t n = 0; n < s.load.times_s.size(); ++n)
     timeline.push_back({sim::to_instant(s.load.times_s[n]), ActionKind::load_torque, s.load.torques_Nm[n]});
-  if (s.control.drive == Drive::product) timeline.push_back({sim::Instant{}, ActionKind::run_request, 1.0});
+  if (s.control.drive == FirmwareKind::product)
+    timeline.push_back({sim::Instant{}, ActionKind::run_request, 1.0});
   if (const auto& off_at_s = s.protection.off_at_s)
     timeline.push_back({sim::to_instant(*off_at_s), ActionKind::run_request, 0.0});
   if (const HallBreak& broken = s.sensors.hall_break; broken.at_s)

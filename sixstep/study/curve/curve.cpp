@@ -42,8 +42,8 @@ base::Result<CurvePlan> plan_curve(const CurveRequest& r) {
   CurvePlan plan{.no_load = *end, .speeds_rad_s = {}};
   const double highest = plan.no_load.point.speed_rad_s;
   for (int n = 0; n + 1 < r.points; ++n) plan.speeds_rad_s.push_back(n * highest / (r.points - 1));
-  const std::vector<double> course = course_speeds(highest);
-  plan.speeds_rad_s.insert(plan.speeds_rad_s.end(), course.begin(), course.end() - 1);
+  const std::vector<double> sweep = sweep_speeds(highest);
+  plan.speeds_rad_s.insert(plan.speeds_rad_s.end(), sweep.begin(), sweep.end() - 1);
   if (const auto nominal = scaled(r.sheet.nominal_speed_rpm, rad_s_per_rpm))
     plan.speeds_rad_s.push_back(*nominal);
   return plan;
@@ -95,15 +95,15 @@ base::Result<Curve> curve_of(const CurveRequest& r, const CurvePlan& plan,
   const auto points = static_cast<std::ptrdiff_t>(r.points) - 1;
   Curve out{.points = {found.begin(), found.begin() + points}, .no_load = plan.no_load};
   out.points.push_back(plan.no_load.point);
-  std::vector<OperatingPoint> course(found.begin() + points, found.begin() + points + course_steps);
-  course.push_back(plan.no_load.point);
+  std::vector<OperatingPoint> sweep(found.begin() + points, found.begin() + points + sweep_steps);
+  sweep.push_back(plan.no_load.point);
   const base::Result<design::ThermalModel> model = design::thermal_model(r.sheet);
   if (model)
     out.thermal = *model;
   else
     out.thermal_missing = model.problems();
   base::Result<Marks> marks = find_marks(
-      r.bench, {out.thermal, r.ambient_degC, scaled(r.sheet.nominal_torque_mNm, 1e-3)}, course, for_each);
+      r.bench, {out.thermal, r.ambient_degC, scaled(r.sheet.nominal_torque_mNm, 1e-3)}, sweep, for_each);
   if (!marks) return marks.problems();
   out.marks = *marks;
   out.nominal = nominal_point(r, out.marks, found.back());

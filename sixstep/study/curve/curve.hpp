@@ -68,7 +68,7 @@ struct Curve {
 };
 
 /// What comes first: the no-load point, and the speeds that are then independent of each other: those of the
-/// points, then the course on which the marks are looked for, both ending before no load, and the sheet's
+/// points, then the sweep on which the marks are looked for, both ending before no load, and the sheet's
 /// nominal speed where it has one.
 struct CurvePlan {
   NoLoad no_load;

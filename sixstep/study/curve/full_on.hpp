@@ -5,7 +5,7 @@
 #include "sixstep/rig/bare_plant.hpp"
 #include "sixstep/sim/run.hpp"
 #include "sixstep/study/curve/bench.hpp"
-#include "sixstep/study/measure/tally.hpp"
+#include "sixstep/study/measure/sums_recorder.hpp"
 
 namespace sixstep::study {
 
@@ -46,10 +46,10 @@ class FullOn : public rig::BarePlant<double> {
     return run_for(seconds, none);
   }
 
-  /// Until that many edges are passed, with or without a tally: Stop::observer. Stop::end where it was told
-  /// to stop before; anything else is a defect.
-  sim::Stop run_to_edge(std::int64_t target, Tally* tally = nullptr) {
-    UntilEdge until{target, tally, keep_going_, asked_};
+  /// Until that many edges are passed, with or without a recorder: Stop::observer. Stop::end where it was
+  /// told to stop before; anything else is a defect.
+  sim::Stop run_to_edge(std::int64_t target, SumsRecorder* recorder = nullptr) {
+    UntilEdge until{target, recorder, keep_going_, asked_};
     const sim::Stop stop = sim::run(*this, sim::Instant::never(), until).stop;
     return stop == sim::Stop::observer && edges_ < target ? sim::Stop::end : stop;
   }
@@ -59,11 +59,11 @@ class FullOn : public rig::BarePlant<double> {
  private:
   struct UntilEdge {
     std::int64_t target;
-    Tally* tally;
+    SumsRecorder* recorder;
     const std::function<bool()>& keep_going;
     std::uint32_t& asked;  // from one call to the next: a sector has a few segments
     void segment(const FullOn& system, double s) {
-      if (tally) tally->segment(system, s);
+      if (recorder) recorder->segment(system, s);
     }
     bool done(const FullOn& system) {
       return system.edges() >= target || (keep_going && ++asked % 256 == 0 && !keep_going());

@@ -8,7 +8,7 @@
 namespace sixstep::study {
 namespace {
 
-using Course = std::vector<OperatingPoint>;
+using Sweep = std::vector<OperatingPoint>;
 using Value = std::function<double(const OperatingPoint&)>;
 
 /// What a search may ask the bench for; the first point that could not be computed ends it.
@@ -32,17 +32,17 @@ struct Search {
   }
 };
 
-/// Golden section between the neighbours of the course's best point.
-std::optional<OperatingPoint> greatest(Search& search, const Course& course, const Value& value) {
+/// Golden section between the neighbours of the sweep's best point.
+std::optional<OperatingPoint> greatest(Search& search, const Sweep& sweep, const Value& value) {
   std::size_t top = 0;
-  for (std::size_t n = 1; n < course.size(); ++n)
-    if (value(course[n]) > value(course[top])) top = n;
-  if (!(value(course[top]) > 0)) return {};
+  for (std::size_t n = 1; n < sweep.size(); ++n)
+    if (value(sweep[n]) > value(sweep[top])) top = n;
+  if (!(value(sweep[top]) > 0)) return {};
   constexpr double golden = 0.6180339887498949;
-  const double whole = course.back().speed_rad_s;
-  double low = course[top > 0 ? top - 1 : 0].speed_rad_s,
-         high = course[std::min(top + 1, course.size() - 1)].speed_rad_s;
-  OperatingPoint best = course[top], left, right;
+  const double whole = sweep.back().speed_rad_s;
+  double low = sweep[top > 0 ? top - 1 : 0].speed_rad_s,
+         high = sweep[std::min(top + 1, sweep.size() - 1)].speed_rad_s;
+  OperatingPoint best = sweep[top], left, right;
   if (!search.take(high - golden * (high - low), left) || !search.take(low + golden * (high - low), right))
     return {};
   const double goal = std::fabs(whole) * search.near(1e-6, 2e-3);
@@ -90,48 +90,48 @@ std::optional<OperatingPoint> root(Search& search, const OperatingPoint& a, cons
 }
 
 /// The crossing nearest to no load, which has `value` above zero; standstill where nothing crosses.
-std::optional<OperatingPoint> crossing(Search& search, const Course& course, const Value& value) {
-  const double goal = std::fabs(course.back().speed_rad_s) * search.near(1e-9, 1e-4);
-  for (std::size_t n = course.size() - 1; n > 0; --n)
-    if (value(course[n - 1]) < 0) return root(search, course[n - 1], course[n], value, goal);
-  return course.front();
+std::optional<OperatingPoint> crossing(Search& search, const Sweep& sweep, const Value& value) {
+  const double goal = std::fabs(sweep.back().speed_rad_s) * search.near(1e-9, 1e-4);
+  for (std::size_t n = sweep.size() - 1; n > 0; --n)
+    if (value(sweep[n - 1]) < 0) return root(search, sweep[n - 1], sweep[n], value, goal);
+  return sweep.front();
 }
 
-std::optional<OperatingPoint> at_torque(Search& search, const Course& course, double torque_Nm) {
-  if (!(course.front().shaft_torque_Nm > torque_Nm) || !(torque_Nm > 0)) return {};
-  return crossing(search, course, [=](const OperatingPoint& p) { return torque_Nm - p.shaft_torque_Nm; });
+std::optional<OperatingPoint> at_torque(Search& search, const Sweep& sweep, double torque_Nm) {
+  if (!(sweep.front().shaft_torque_Nm > torque_Nm) || !(torque_Nm > 0)) return {};
+  return crossing(search, sweep, [=](const OperatingPoint& p) { return torque_Nm - p.shaft_torque_Nm; });
 }
 
-std::optional<OperatingPoint> for_ever(Search& search, const Course& course, const MarksWanted& wanted) {
+std::optional<OperatingPoint> for_ever(Search& search, const Sweep& sweep, const MarksWanted& wanted) {
   const auto left_W = [&](const OperatingPoint& p) {
     return design::continuous_copper_W(*wanted.thermal, p.friction_W, wanted.ambient_degC) - p.copper_W;
   };
-  if (!(left_W(course.back()) > 0)) return {};
-  return crossing(search, course, left_W);
+  if (!(left_W(sweep.back()) > 0)) return {};
+  return crossing(search, sweep, left_W);
 }
 
 }  // namespace
 
-std::vector<double> course_speeds(double no_load_rad_s) {
+std::vector<double> sweep_speeds(double no_load_rad_s) {
   std::vector<double> speeds;
-  speeds.reserve(speeds.size() + course_steps);
-  for (int n = 0; n < course_steps; ++n) speeds.push_back(n * no_load_rad_s / course_steps);
+  speeds.reserve(speeds.size() + sweep_steps);
+  for (int n = 0; n < sweep_steps; ++n) speeds.push_back(n * no_load_rad_s / sweep_steps);
   speeds.push_back(no_load_rad_s);
   return speeds;
 }
 
-base::Result<Marks> find_marks(const Bench& bench, const MarksWanted& wanted, const Course& course,
+base::Result<Marks> find_marks(const Bench& bench, const MarksWanted& wanted, const Sweep& sweep,
                                const ForEach& for_each) {
   Marks out;
   std::array<Search, 3> searches = {Search{bench}, Search{bench}, Search{bench}};
   for_each(searches.size(), [&](std::size_t n) {
     if (n == 0)
       out.best_efficiency =
-          greatest(searches[n], course, [](const OperatingPoint& p) { return p.efficiency.value_or(0.0); });
+          greatest(searches[n], sweep, [](const OperatingPoint& p) { return p.efficiency.value_or(0.0); });
     else if (n == 1 && wanted.thermal)
-      out.for_ever = for_ever(searches[n], course, wanted);
+      out.for_ever = for_ever(searches[n], sweep, wanted);
     else if (n == 2 && wanted.torque_Nm)
-      out.nominal = at_torque(searches[n], course, *wanted.torque_Nm);
+      out.nominal = at_torque(searches[n], sweep, *wanted.torque_Nm);
   });
   for (const Search& search : searches)
     if (!search.problems.empty()) return search.problems;

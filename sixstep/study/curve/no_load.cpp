@@ -7,7 +7,7 @@
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/curve/full_on.hpp"
 #include "sixstep/study/curve/open_loop.hpp"
-#include "sixstep/study/measure/tally.hpp"
+#include "sixstep/study/measure/sums_recorder.hpp"
 
 namespace sixstep::study {
 namespace {
@@ -108,10 +108,10 @@ void note_means(const Bench& b, const Sums& sums, double turned_rad, double befo
 /// Lets the rotor run for `settle_s`, then takes mean values over `mean_s`.
 void run_free(const Bench& b, OpenLoop& system, double settle_s, double mean_s, NoLoad& out) {
   system.run_for(settle_s);
-  Tally tally;
+  SumsRecorder recorder;
   const double from = angle_of(system.plant());
-  system.run_for(mean_s, tally);
-  note_means(b, tally.sums(), angle_of(system.plant()) - from, settle_s, out);
+  system.run_for(mean_s, recorder);
+  note_means(b, recorder.sums(), angle_of(system.plant()) - from, settle_s, out);
 }
 
 /// The same over a whole number of sectors: a part of one would let the rotor's swing into the means.
@@ -120,10 +120,10 @@ void run_free(const Bench& b, FullOn& system, double settle_s, double mean_s, No
   const std::int64_t first = system.edges();
   system.run_to_edge(first + 1);
   const double settled_s = system.now().seconds(), from = angle_of(system.plant());
-  Tally tally;
+  SumsRecorder recorder;
   const double sectors = std::ceil(static_cast<double>(first) * mean_s / settle_s);
-  system.run_to_edge(first + 1 + static_cast<std::int64_t>(sectors), &tally);
-  note_means(b, tally.sums(), angle_of(system.plant()) - from, settled_s, out);
+  system.run_to_edge(first + 1 + static_cast<std::int64_t>(sectors), &recorder);
+  note_means(b, recorder.sums(), angle_of(system.plant()) - from, settled_s, out);
 }
 
 }  // namespace

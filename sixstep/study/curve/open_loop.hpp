@@ -23,7 +23,7 @@ class OpenLoop {
     sim::NoObserver none;
     return run_for(seconds, none);
   }
-  std::int64_t sectors() const { return rig_.happened(rig::Happening::sector_edge); }
+  std::int64_t sectors() const { return rig_.event_count(rig::EventKind::sector_edge); }
   const plant::Plant<double>& plant() const { return rig_.plant(); }
 
  private:

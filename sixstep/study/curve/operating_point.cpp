@@ -11,7 +11,7 @@
 #include "sixstep/study/curve/full_on.hpp"
 #include "sixstep/study/curve/open_loop.hpp"
 #include "sixstep/study/curve/shape_means.hpp"
-#include "sixstep/study/measure/tally.hpp"
+#include "sixstep/study/measure/sums_recorder.hpp"
 
 namespace sixstep::study {
 namespace {
@@ -85,8 +85,8 @@ class SectorMap {
   SectorMap(const Bench& b, double speed) : system_(b, imposed_speed(), speed), forward_(speed > 0) {}
 
   /// Runs to the next sector start; how far the currents came from where they were one sector ago.
-  double apply(sim::Stop& stop, Tally* tally = nullptr) {
-    stop = system_.run_to_edge(system_.edges() + 1, tally);
+  double apply(sim::Stop& stop, SumsRecorder* recorder = nullptr) {
+    stop = system_.run_to_edge(system_.edges() + 1, recorder);
     const PerLeg<double> now = system_.plant().state().i;
     const double moved = distance(now, one_sector_on(start_, forward_));
     start_ = now;
@@ -116,10 +116,10 @@ base::Result<OperatingPoint> full_on(const Bench& b, double speed) {
   do moved = map.apply(stop);
   while (stop == sim::Stop::observer && moved > noise && map.system().edges() < most_sectors);
   const bool repeats = moved <= noise;
-  Tally tally;
-  if (stop == sim::Stop::observer) moved = map.apply(stop, &tally);
+  SumsRecorder recorder;
+  if (stop == sim::Stop::observer) moved = map.apply(stop, &recorder);
   if (stop != sim::Stop::observer) return ended_early(speed, stop);
-  OperatingPoint p = point_of(b, speed, tally.sums());
+  OperatingPoint p = point_of(b, speed, recorder.sums());
   p.orbit = Orbit::periodic;
   p.sectors = map.system().edges();
   p.residual_A = moved;
@@ -196,9 +196,9 @@ Gathered gather(const Bench& b, double speed) {
   double length = batch_seconds(b, speed);
   for (int doubled = 0; out.stop == sim::Stop::end; ++doubled) {
     for (std::size_t n = 0; n < batches && out.stop == sim::Stop::end; ++n) {
-      Tally tally;
-      out.stop = runs[n].run_for(length, tally);
-      out.parts[n].add(tally.sums());
+      SumsRecorder recorder;
+      out.stop = runs[n].run_for(length, recorder);
+      out.parts[n].add(recorder.sums());
     }
     const Interval torque = interval(out.parts, [](const Sums& s) { return s.torque / s.seconds; });
     out.precise = torque.half_width <= goal_Nm(b);

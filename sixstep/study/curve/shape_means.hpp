@@ -4,7 +4,7 @@
 #pragma once
 #include "sixstep/plant/back_emf.hpp"
 #include "sixstep/study/curve/operating_point.hpp"
-#include "sixstep/study/measure/tally.hpp"
+#include "sixstep/study/measure/sums_recorder.hpp"
 
 namespace sixstep::study {
 

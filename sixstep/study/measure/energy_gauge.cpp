@@ -5,7 +5,7 @@
 
 namespace sixstep::study {
 
-void EnergyGauge::segment(const Glance& g, double s) {
+void EnergyGauge::segment(const SegmentView& g, double s) {
   const Clip seen = clipped(window_, g.t_s, g.plant.expansion().h, s);
   if (seen.empty()) return;
   seen_ = true;
@@ -14,7 +14,7 @@ void EnergyGauge::segment(const Glance& g, double s) {
 }
 
 /// The segment's energies from its begin to s, times `sign`.
-void EnergyGauge::add_up_to(const Glance& g, double s, double sign) {
+void EnergyGauge::add_up_to(const SegmentView& g, double s, double sign) {
   const plant::SegmentEnergy<double> e = plant::segment_energy(g.plant, s);
   const plant::Constants<double>& c = g.plant.constants();
   const plant::Motion motion = g.plant.mode().motion;

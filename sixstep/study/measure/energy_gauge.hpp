@@ -18,7 +18,7 @@ class EnergyGauge {
  public:
   EnergyGauge(const Window& window, const LoadFriction& load) : window_(window), load_(load) {}
 
-  void segment(const Glance& g, double s);
+  void segment(const SegmentView& g, double s);
   /// J, of a signal that is a power; empty where the window saw nothing.
   std::optional<double> energy(Signal signal) const;
   /// Out over in, 0 to 1. As a motor: energy given to load and inertias over energy from the bus. Braking,
@@ -32,7 +32,7 @@ class EnergyGauge {
     double value = 0.0, low = 0.0;
     void add(double x) { series::add_compensated(value, low, x); }
   };
-  void add_up_to(const Glance& g, double s, double sign);
+  void add_up_to(const SegmentView& g, double s, double sign);
 
   Window window_;
   LoadFriction load_;

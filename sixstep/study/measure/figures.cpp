@@ -44,7 +44,7 @@ Gauges gauges_for(const Measure& m, const Scenario& scenario, const std::vector<
   return {Gauge(m, window, m.level.value_or(0.0), m.start)};
 }
 
-void watch_with(Gauge& gauge, Signal signal, const Glance& g, double s) {
+void watch_with(Gauge& gauge, Signal signal, const SegmentView& g, double s) {
   const double h = g.plant.expansion().h;
   const Clip seen = clipped(gauge.window(), g.t_s, h, s);
   if (seen.empty()) return;
@@ -55,7 +55,7 @@ void watch_with(Gauge& gauge, Signal signal, const Glance& g, double s) {
 }
 
 /// A reference may step a million times: those whose window has passed, or has not begun, cost nothing.
-void watch_with(Gauges& gauges, const Measure& m, std::size_t& behind, const Glance& g, double s) {
+void watch_with(Gauges& gauges, const Measure& m, std::size_t& behind, const SegmentView& g, double s) {
   while (behind < gauges.size() && gauges[behind].window().to_s < g.t_s) ++behind;
   const double end_s = g.t_s + g.plant.expansion().h;
   const auto begun = [&](std::size_t n) { return n < gauges.size() && gauges[n].window().from_s <= end_s; };
@@ -67,7 +67,9 @@ void watch_with(Gauges& gauges, const Measure& m, std::size_t& behind, const Gla
   }
 }
 
-void watch_with(auto& gauge, const Measure&, std::size_t&, const Glance& g, double s) { gauge.segment(g, s); }
+void watch_with(auto& gauge, const Measure&, std::size_t&, const SegmentView& g, double s) {
+  gauge.segment(g, s);
+}
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
@@ -113,7 +115,7 @@ Figures::Figures(const Scenario& scenario, const std::vector<Level>& levels) {
   for (const Comparison& c : scenario.compare) add(c.measure);
 }
 
-void Figures::watch(const Glance& g, double s) {
+void Figures::watch(const SegmentView& g, double s) {
   for (Figure& figure : figures_)
     std::visit([&](auto& gauge) { watch_with(gauge, figure.measure, figure.behind, g, s); }, figure.taken_by);
 }

@@ -12,7 +12,7 @@
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/measure/switching_gauge.hpp"
 #include "sixstep/study/scenario/measure_choices.hpp"
-#include "sixstep/study/scenario/reference_course.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
 
 namespace sixstep::study {
 
@@ -26,7 +26,7 @@ class Figures {
   /// A run that is asked nothing pays nothing.
   template <class Rig>
   void segment(const Rig& rig, double s) {
-    if (!figures_.empty()) watch(glance(rig), s);
+    if (!figures_.empty()) watch(segment_view(rig), s);
   }
 
   void judge(const Scenario& scenario, Outcome& outcome) const;
@@ -37,7 +37,7 @@ class Figures {
     std::variant<Gauges, HysteresisGauge, SwitchingGauge, EnergyGauge, HarmonicGauge> taken_by;
     std::size_t behind = 0;  ///< gauges whose window has passed
   };
-  void watch(const Glance& g, double s);
+  void watch(const SegmentView& g, double s);
 
   std::vector<Figure> figures_;  ///< requirements first, then comparisons
 };

@@ -50,7 +50,7 @@ HarmonicGauge::HarmonicGauge(const Window& window, Signal signal, std::optional<
   if (frequency_Hz) window_.to_s = window.from_s + whole_periods(window, *frequency_Hz) / *frequency_Hz;
 }
 
-void HarmonicGauge::segment(const Glance& g, double s) {
+void HarmonicGauge::segment(const SegmentView& g, double s) {
   const Clip seen = clipped(window_, g.t_s, g.plant.expansion().h, s);
   if (seen.empty() || turned_back_) return;
   if (!begun_) {
@@ -64,14 +64,14 @@ void HarmonicGauge::segment(const Glance& g, double s) {
 }
 
 /// Electrical rad since the window's begin.
-double HarmonicGauge::swept(const Glance& g, double s) const {
+double HarmonicGauge::swept(const SegmentView& g, double s) const {
   const plant::Expansion<double>& y = g.plant.expansion();
   return static_cast<double>(g.plant.state().sector - first_sector_) * base::sector_rad +
          (series::evaluate(y.x, y.degree, s) - first_x_);
 }
 
 /// Where a turn is completed within the part, all up to there is put aside.
-void HarmonicGauge::turn(const Glance& g, const Piece& y, double from, double to) {
+void HarmonicGauge::turn(const SegmentView& g, const Piece& y, double from, double to) {
   const plant::Expansion<double>& e = g.plant.expansion();
   const double moved = swept(g, to) - swept(g, from);
   if (moved == 0.0) return;
@@ -98,7 +98,7 @@ void HarmonicGauge::turn(const Glance& g, const Piece& y, double from, double to
 /// The electrical angle turns no faster than the series of a segment change, so that their degree says how
 /// many points do. Products have three factors here, the speed being the weight: series/quadrature.hpp's
 /// bound is then (pi/2) (3/4)^n e^(3 x) u M^3 for degree n, below u M^3/5 where n is 8 or more.
-void HarmonicGauge::turn_part(const Glance& g, const Piece& y, double from, double to) {
+void HarmonicGauge::turn_part(const SegmentView& g, const Piece& y, double from, double to) {
   const plant::Expansion<double>& e = g.plant.expansion();
   const double per_s = direction_ * g.plant.constants().pole_pairs * e.h * (to - from);
   const double sector = static_cast<double>(g.plant.sector()) * base::sector_rad;
@@ -116,7 +116,7 @@ void HarmonicGauge::turn_part(const Glance& g, const Piece& y, double from, doub
   swept_ = direction_ * swept(g, to);
 }
 
-void HarmonicGauge::time_part(const Glance& g, const Piece& y, double from, double to) {
+void HarmonicGauge::time_part(const SegmentView& g, const Piece& y, double from, double to) {
   const double h = g.plant.expansion().h, length = h * (to - from);
   const double rate = 2 * base::pi * *frequency_Hz_;
   const std::int64_t count = 1 + static_cast<std::int64_t>(rate * length / largest_turn);

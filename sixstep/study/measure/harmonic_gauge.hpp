@@ -32,15 +32,15 @@ class HarmonicGauge {
   /// then over the angle. With a frequency they are over time and whole periods of it.
   HarmonicGauge(const Window& window, Signal signal, std::optional<double> frequency_Hz);
 
-  void segment(const Glance& g, double s);
+  void segment(const SegmentView& g, double s);
   /// Empty where the window holds no whole period, or the rotor turned back within it.
   std::optional<double> thd() const;
 
  private:
-  void turn(const Glance& g, const Piece& y, double from, double to);
-  void turn_part(const Glance& g, const Piece& y, double from, double to);
-  void time_part(const Glance& g, const Piece& y, double from, double to);
-  double swept(const Glance& g, double s) const;
+  void turn(const SegmentView& g, const Piece& y, double from, double to);
+  void turn_part(const SegmentView& g, const Piece& y, double from, double to);
+  void time_part(const SegmentView& g, const Piece& y, double from, double to);
+  double swept(const SegmentView& g, double s) const;
 
   Window window_;
   Signal signal_;

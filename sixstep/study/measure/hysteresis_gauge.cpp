@@ -5,7 +5,7 @@
 
 namespace sixstep::study {
 
-void HysteresisGauge::segment(const Glance& g, double s) {
+void HysteresisGauge::segment(const SegmentView& g, double s) {
   for (int which = 0; which < 2; ++which) {
     if (!g.modulator.comparator(which).armed) continue;
     const auto& y = g.plant.expansion();
@@ -19,7 +19,7 @@ void HysteresisGauge::segment(const Glance& g, double s) {
   }
 }
 
-void HysteresisGauge::part(Watched& watched, const Glance& g, const Series& c, const Limits& limits,
+void HysteresisGauge::part(Watched& watched, const SegmentView& g, const Series& c, const Limits& limits,
                            double s) {
   const plant::Expansion<double>& y = g.plant.expansion();
   if (limits.key != watched.key) watched.excused_above = watched.excused_below = true;

@@ -22,7 +22,7 @@ class HysteresisGauge {
 
   /// One segment, up to its fraction s, by every armed comparator. Outside of the window it is followed too:
   /// what is excused at the window's begin hangs on what was before.
-  void segment(const Glance& g, double s);
+  void segment(const SegmentView& g, double s);
   const HysteresisFigures& figures() const { return figures_; }
 
  private:
@@ -36,7 +36,7 @@ class HysteresisGauge {
   struct Limits {
     double lower, upper, key;
   };
-  void part(Watched& watched, const Glance& g, const Series& c, const Limits& limits, double s);
+  void part(Watched& watched, const SegmentView& g, const Series& c, const Limits& limits, double s);
 
   Window window_;
   HysteresisFigures figures_;

@@ -23,7 +23,7 @@ LogicRow logic_row(const Rig& rig) {
   set(LogicId::H2, pins >> 1U & 1U);
   set(LogicId::H3, pins & 1U);
   set(LogicId::sector, rig.plant().sector());
-  const std::int64_t ticks = rig.happened(rig::Happening::tick);
+  const std::int64_t ticks = rig.event_count(rig::EventKind::tick);
   set(LogicId::tick, ticks);
   set(LogicId::periods, ticks);
   const auto& command = rig.modulator().command();

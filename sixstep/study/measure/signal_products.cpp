@@ -23,7 +23,7 @@ namespace {
 
 /// The segment's own series seen over [from, to], with zeros behind their degree.
 struct Stretch {
-  const Glance& g;
+  const SegmentView& g;
   double from, to;
 
   Series of(const Series& c) const {
@@ -196,7 +196,7 @@ Series product_series(const Stretch& part, Signal signal) {
 
 }  // namespace
 
-Piece product_piece(const Glance& g, Signal signal, double from, double to) {
+Piece product_piece(const SegmentView& g, Signal signal, double from, double to) {
   const Stretch part{g, from, to};
   return {product_series(part, signal), part.degree()};
 }

@@ -11,7 +11,7 @@ namespace sixstep::study {
 constexpr bool needs_halves(int degree) { return 2 * degree > series::max_degree; }
 
 /// Over [from, to] of the segment; of a signal with is_product().
-Piece product_piece(const Glance& g, Signal signal, double from, double to);
+Piece product_piece(const SegmentView& g, Signal signal, double from, double to);
 
 /// w_a i_a + w_b i_b + w_c i_c.
 Series weighted_current(const plant::PerLeg<double>& w, const plant::Expansion<double>& y);

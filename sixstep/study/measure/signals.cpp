@@ -14,7 +14,7 @@ namespace {
 using plant::PerLeg;
 
 /// What stands still from one event to the next.
-double constant_value(const Glance& g, Signal signal) {
+double constant_value(const SegmentView& g, Signal signal) {
   switch (signal) {
     case Signal::duty:
       return signed_duty(g.modulator, g.plant.sector());
@@ -35,14 +35,14 @@ double constant_value(const Glance& g, Signal signal) {
 }
 
 /// The angle since theta_e = 0, times `per_electrical_rad`; the sectors passed are counted, not summed.
-Series angle_series(const Glance& g, double per_electrical_rad, double per_sector) {
+Series angle_series(const SegmentView& g, double per_electrical_rad, double per_sector) {
   Series c = g.plant.expansion().x;
   for (int j = 0; j <= g.plant.expansion().degree; ++j) c[j] *= per_electrical_rad;
   c[0] += static_cast<double>(g.plant.state().sector) * per_sector;
   return c;
 }
 
-Series position_series(const Glance& g) {
+Series position_series(const SegmentView& g) {
   const double p = g.plant.constants().pole_pairs;
   return angle_series(g, 180.0 / base::pi / p, 60.0 / p);
 }
@@ -55,7 +55,7 @@ Series less(double reference, Series c, int degree) {
 }
 
 /// A signal that is a sum of the segment's own series: over the whole segment, of the segment's degree.
-Series plain_series(const Glance& g, Signal signal) {
+Series plain_series(const SegmentView& g, Signal signal) {
   const auto& y = g.plant.expansion();
   const auto motor_current = [&] { return weighted_current(motor_current_weights(g.plant.sector()), y); };
   switch (signal) {
@@ -98,7 +98,7 @@ Series plain_series(const Glance& g, Signal signal) {
 }
 
 /// Half the sum of the current magnitudes, within a part in which no phase changes its sign.
-Series magnitude_series(const Glance& g, double from, double to) {
+Series magnitude_series(const SegmentView& g, double from, double to) {
   const auto& y = g.plant.expansion();
   PerLeg<double> half{};
   for (int k = 0; k < 3; ++k) half[k] = series::evaluate(y.i[k], y.degree, (from + to) / 2) < 0 ? -0.5 : 0.5;
@@ -116,12 +116,12 @@ double signed_duty(const rig::Modulator& modulator, int sector) {
   return command.pair.source == positive.source ? duty : -duty;
 }
 
-bool is_cut(const Glance& g, Signal signal) {
+bool is_cut(const SegmentView& g, Signal signal) {
   return signal == Signal::current_magnitude ||
          (is_product(signal) && needs_halves(g.plant.expansion().degree));
 }
 
-std::vector<double> cuts_of(const Glance& g, Signal signal, double from, double to) {
+std::vector<double> cuts_of(const SegmentView& g, Signal signal, double from, double to) {
   const auto& y = g.plant.expansion();
   std::vector<double> cuts = {from, to};
   if (signal != Signal::current_magnitude)
@@ -136,7 +136,7 @@ std::vector<double> cuts_of(const Glance& g, Signal signal, double from, double 
   return cuts;
 }
 
-Piece piece_of(const Glance& g, Signal signal, double from, double to) {
+Piece piece_of(const SegmentView& g, Signal signal, double from, double to) {
   const int degree = g.plant.expansion().degree;
   if (is_product(signal)) return product_piece(g, signal, from, to);
   const Series c =
@@ -144,13 +144,13 @@ Piece piece_of(const Glance& g, Signal signal, double from, double to) {
   return {from == 0.0 && to == 1.0 ? c : series::restricted(c, degree, from, to), degree};
 }
 
-double signal_now(const Glance& g, Signal signal) {
+double signal_now(const SegmentView& g, Signal signal) {
   if (signal != Signal::current_magnitude) return piece_of(g, signal, 0.0, 1.0).c[0];
   const auto& i = g.plant.expansion().i;
   return (std::fabs(i[0][0]) + std::fabs(i[1][0]) + std::fabs(i[2][0])) / 2;
 }
 
-series::Extremes<double> signal_bounds(const Glance& g, Signal signal) {
+series::Extremes<double> signal_bounds(const SegmentView& g, Signal signal) {
   const auto& y = g.plant.expansion();
   // Sums of up to 16 terms and of three series: rounding is below 32 * 2^-53 of their magnitudes.
   const auto around = [](double middle, double reach) {

@@ -12,7 +12,7 @@ namespace sixstep::study {
 using Series = series::Coefficients<double>;
 
 /// What figures see of a segment: all that they need is the same for every firmware, and compiled once.
-struct Glance {
+struct SegmentView {
   const plant::Plant<double>& plant;
   const rig::Modulator& modulator;
   double t_s = 0.0;  ///< where the segment begins
@@ -20,7 +20,7 @@ struct Glance {
   bool ticked = false;  ///< a control sample was taken where the segment begins
 };
 template <class Rig>
-Glance glance(const Rig& rig) {
+SegmentView segment_view(const Rig& rig) {
   return {.plant = rig.plant(),
           .modulator = rig.modulator(),
           .t_s = rig.now().seconds(),
@@ -45,20 +45,20 @@ double signed_duty(const rig::Modulator& modulator, int sector);
 
 /// Whether a signal is no polynomial over the whole segment, or would need more than max_degree of one; and
 /// where: the cuts of [from, to], both ends included.
-bool is_cut(const Glance& g, Signal signal);
-std::vector<double> cuts_of(const Glance& g, Signal signal, double from, double to);
+bool is_cut(const SegmentView& g, Signal signal);
+std::vector<double> cuts_of(const SegmentView& g, Signal signal, double from, double to);
 
 /// Over [from, to] of the segment, which no cut divides, as a polynomial of its own s in [0, 1].
 struct Piece {
   Series c{};
   int degree = 0;
 };
-Piece piece_of(const Glance& g, Signal signal, double from, double to);
+Piece piece_of(const SegmentView& g, Signal signal, double from, double to);
 
 /// Calls visit(piece, from, to) for the parts of [from, to] in order. Most signals are one part, and nothing
 /// is allocated.
 template <class Visit>
-void for_each_piece(const Glance& g, Signal signal, double from, double to, Visit&& visit) {
+void for_each_piece(const SegmentView& g, Signal signal, double from, double to, Visit&& visit) {
   if (!is_cut(g, signal)) return visit(piece_of(g, signal, from, to), from, to);
   const std::vector<double> cuts = cuts_of(g, signal, from, to);
   for (std::size_t n = 0; n + 1 < cuts.size(); ++n)
@@ -66,10 +66,10 @@ void for_each_piece(const Glance& g, Signal signal, double from, double to, Visi
 }
 
 /// At the segment's begin.
-double signal_now(const Glance& g, Signal signal);
+double signal_now(const SegmentView& g, Signal signal);
 
 /// Where a signal stays over the whole segment, from the bounds that the expansion comes with: wider than the
 /// curve, and by more than rounding. Without limits where no bound is at hand.
-series::Extremes<double> signal_bounds(const Glance& g, Signal signal);
+series::Extremes<double> signal_bounds(const SegmentView& g, Signal signal);
 
 }  // namespace sixstep::study

@@ -14,7 +14,7 @@ class SwitchingGauge {
   /// `signal`: a gate, else whatever is chopped.
   SwitchingGauge(const Window& window, Signal signal) : window_(window), signal_(signal) {}
 
-  void segment(const Glance& g, double s);
+  void segment(const SegmentView& g, double s);
   /// Hz; NaN where the run ended before the window.
   double value() const {
     if (!(last_s_ > window_.from_s)) return std::numeric_limits<double>::quiet_NaN();
@@ -22,7 +22,7 @@ class SwitchingGauge {
   }
 
  private:
-  std::int64_t count(const Glance& g);
+  std::int64_t count(const SegmentView& g);
 
   Window window_;
   Signal signal_;
@@ -32,7 +32,7 @@ class SwitchingGauge {
   double last_s_ = 0.0;
 };
 
-inline std::int64_t SwitchingGauge::count(const Glance& g) {
+inline std::int64_t SwitchingGauge::count(const SegmentView& g) {
   if (!is_gate(signal_)) return g.modulator.turn_ons();
   const bool on = signal_now(g, signal_) > 0.5;
   gate_turn_ons_ += int{on && !on_};
@@ -40,7 +40,7 @@ inline std::int64_t SwitchingGauge::count(const Glance& g) {
   return gate_turn_ons_;
 }
 
-inline void SwitchingGauge::segment(const Glance& g, double s) {
+inline void SwitchingGauge::segment(const SegmentView& g, double s) {
   const std::int64_t turn_ons = count(g);
   if (g.t_s < window_.from_s) before_ = turn_ons;
   if (g.t_s < window_.to_s) {

@@ -12,10 +12,10 @@ constexpr double drawn_points = 2000.0;
 
 }  // namespace
 
-Watchers observers_of(const Scenario& s, const Listeners& listeners,
-                      const std::vector<std::size_t>& indices) {
+Observers observers_of(const Scenario& s, const Listeners& listeners,
+                       const std::vector<std::size_t>& indices) {
   const double gap_s = s.duration_s / drawn_points;
-  Watchers w{.figures = Figures(s, reference_levels(s)), .keep_going = listeners.keep_going};
+  Observers w{.figures = Figures(s, reference_levels(s)), .keep_going = listeners.keep_going};
   if (listeners.keep_books) w.audit.emplace();
   if (listeners.on_record && s.record.events)
     w.events.emplace(gap_s, indices, listeners.on_record);

@@ -11,8 +11,8 @@ namespace sixstep::study {
 namespace {
 
 /// A run pays for what its firmware does, and for nothing else.
-base::Problems run_on_board(const Scenario& s, Compiled compiled, Watchers& w, Outcome& out) {
-  if (s.control.drive == Drive::product) return run_product(s, std::move(compiled), w, out);
+base::Problems run_on_board(const Scenario& s, Compiled compiled, Observers& w, Outcome& out) {
+  if (s.control.drive == FirmwareKind::product) return run_product(s, std::move(compiled), w, out);
   const bool ideal = compiled.board.sensors.ideal();
   return ideal ? run_lean(s, std::move(compiled), w, out) : run_sensed(s, std::move(compiled), w, out);
 }
@@ -29,7 +29,7 @@ base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners) 
   Outcome out;
   out.motor = compiled->motor;
   out.gains = compiled->gains;
-  Watchers w = observers_of(scenario, listeners, *indices);
+  Observers w = observers_of(scenario, listeners, *indices);
   const base::Problems problems = run_on_board(scenario, std::move(*compiled), w, out);
   if (!problems.empty()) return problems;
   if (w.audit) {

@@ -5,13 +5,13 @@
 #pragma once
 #include "sixstep/base/result.hpp"
 #include "sixstep/study/compile/compile.hpp"
-#include "sixstep/study/measure/watchers.hpp"
+#include "sixstep/study/measure/observers.hpp"
 
 namespace sixstep::study {
 
 /// Problems: the arithmetic cannot hold the drive, or a defect of the engine. A fault is part of the outcome.
-base::Problems run_lean(const Scenario& scenario, Compiled compiled, Watchers& w, Outcome& out);
-base::Problems run_sensed(const Scenario& scenario, Compiled compiled, Watchers& w, Outcome& out);
-base::Problems run_product(const Scenario& scenario, Compiled compiled, Watchers& w, Outcome& out);
+base::Problems run_lean(const Scenario& scenario, Compiled compiled, Observers& w, Outcome& out);
+base::Problems run_sensed(const Scenario& scenario, Compiled compiled, Observers& w, Outcome& out);
+base::Problems run_product(const Scenario& scenario, Compiled compiled, Observers& w, Outcome& out);
 
 }  // namespace sixstep::study

@@ -14,21 +14,21 @@ namespace sixstep::study::detail {
 
 template <class Rig>
 void count_events(const Rig& rig, Outcome& out) {
-  using rig::Happening;
-  constexpr std::pair<Happening, const char*> names[] = {{Happening::sector_edge, "sector edges"},
-                                                         {Happening::diode_off, "diode stops"},
-                                                         {Happening::comparator, "comparator switches"},
-                                                         {Happening::standstill, "rotor stops"},
-                                                         {Happening::breakaway, "rotor breaks away"},
-                                                         {Happening::tick, "control ticks"},
-                                                         {Happening::pwm_edge, "PWM edges"}};
-  for (const auto& [what, name] : names) out.events.push_back({name, rig.happened(what)});
+  using rig::EventKind;
+  constexpr std::pair<EventKind, const char*> names[] = {{EventKind::sector_edge, "sector edges"},
+                                                         {EventKind::diode_off, "diode stops"},
+                                                         {EventKind::comparator, "comparator switches"},
+                                                         {EventKind::standstill, "rotor stops"},
+                                                         {EventKind::breakaway, "rotor breaks away"},
+                                                         {EventKind::tick, "control ticks"},
+                                                         {EventKind::pwm_edge, "PWM edges"}};
+  for (const auto& [what, name] : names) out.events.push_back({name, rig.event_count(what)});
   out.events.push_back({"diode starts to conduct", rig.plant().diodes_started()});
 }
 
 /// What a run leaves behind that has stopped, or stands where it is now.
 template <class Rig>
-base::Problems note_end(const Rig& rig, sim::Stop stop, Watchers& w, Outcome& out) {
+base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& out) {
   const double t_s = rig.now().seconds();
   const bool away = has_run_away(rig.plant());
   if (!away && (stop == sim::Stop::unsettled || stop == sim::Stop::no_progress || w.crowded))
@@ -51,7 +51,7 @@ base::Problems note_end(const Rig& rig, sim::Stop stop, Watchers& w, Outcome& ou
 }
 
 template <class Firmware>
-base::Problems run_in(const Scenario& scenario, Compiled compiled, Watchers& w, Outcome& out) {
+base::Problems run_in(const Scenario& scenario, Compiled compiled, Observers& w, Outcome& out) {
   const base::Result<Chip<Firmware>> chip = chip_of<Firmware>(scenario, compiled);
   if (!chip) return chip.problems();
   rig::Rig<double, Firmware> rig = rig_of<Firmware>(compiled, *chip, std::move(compiled.timeline));
@@ -62,7 +62,7 @@ base::Problems run_in(const Scenario& scenario, Compiled compiled, Watchers& w, 
 
 /// Which arithmetic runs is decided here, once.
 template <template <class> class Firmware>
-base::Problems run_chosen(const Scenario& s, Compiled compiled, Watchers& w, Outcome& out) {
+base::Problems run_chosen(const Scenario& s, Compiled compiled, Observers& w, Outcome& out) {
   switch (s.control.arithmetic) {
     case Arithmetic::float64:
       return run_in<Firmware<double>>(s, std::move(compiled), w, out);

@@ -3,7 +3,7 @@
 
 namespace sixstep::study {
 
-base::Problems run_sensed(const Scenario& scenario, Compiled compiled, Watchers& w, Outcome& out) {
+base::Problems run_sensed(const Scenario& scenario, Compiled compiled, Observers& w, Outcome& out) {
   return detail::run_chosen<rig::SensedDrive>(scenario, std::move(compiled), w, out);
 }
 

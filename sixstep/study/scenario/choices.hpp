@@ -29,9 +29,9 @@ inline constexpr Choice<SampleAt> sample_choices[] = {
     {"start", SampleAt::start, "at the start of the period, before the switching of that instant"},
     {"middle", SampleAt::middle, "in the middle; the answer takes effect at the next start"},
 };
-inline constexpr Choice<Drive> drive_choices[] = {
-    {"lean", Drive::lean, "the loops alone; what they measure is ideal, or as [sensors] says"},
-    {"product", Drive::product,
+inline constexpr Choice<FirmwareKind> drive_choices[] = {
+    {"lean", FirmwareKind::lean, "the loops alone; what they measure is ideal, or as [sensors] says"},
+    {"product", FirmwareKind::product,
      "what is flashed: offset calibration, Hall decoding, fault monitor and state machine around the loops; "
      "needs converters in [sensors] and thresholds in [protection]"},
 };

@@ -86,10 +86,10 @@ struct Advance {
 constexpr bool advances(const Advance& a) { return a.angle_deg > 0 || a.gain_deg_s_per_rad > 0; }
 
 /// What the chip runs (rig/firmware.hpp).
-enum class Drive : std::uint8_t { lean, product };
+enum class FirmwareKind : std::uint8_t { lean, product };
 
 struct Control {
-  Drive drive = Drive::lean;
+  FirmwareKind drive = FirmwareKind::lean;
   control::Mode mode = control::Mode::off;
   Arithmetic arithmetic = Arithmetic::float64;
   FullScale full_scale;

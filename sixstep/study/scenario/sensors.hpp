@@ -21,7 +21,7 @@ struct HallBreak {
 };
 
 struct Sensors {
-  rig::CurrentSensing currents = rig::CurrentSensing::ideal;
+  rig::CurrentMeasurement currents = rig::CurrentMeasurement::ideal;
   int adc_bits = 12;
   std::optional<double> current_range_A;
   double current_offset_A = 0.0;

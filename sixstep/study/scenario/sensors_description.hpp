@@ -6,10 +6,10 @@
 
 namespace sixstep::study {
 
-inline constexpr base::Choice<rig::CurrentSensing> current_sensing_choices[] = {
-    {"ideal", rig::CurrentSensing::ideal, "the phase currents as they are"},
-    {"phases", rig::CurrentSensing::phases, "an amplifier and a converter per phase"},
-    {"dc-link", rig::CurrentSensing::dc_link,
+inline constexpr base::Choice<rig::CurrentMeasurement> current_sensing_choices[] = {
+    {"ideal", rig::CurrentMeasurement::ideal, "the phase currents as they are"},
+    {"phases", rig::CurrentMeasurement::phases, "an amplifier and a converter per phase"},
+    {"dc-link", rig::CurrentMeasurement::dc_link,
      "one shunt in the DC link, which shows the motor current within the on-time only"},
 };
 inline constexpr base::Choice<BusSensing> bus_sensing_choices[] = {

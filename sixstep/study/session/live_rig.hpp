@@ -15,7 +15,7 @@ namespace sixstep::study::detail {
 /// The observer of one slice: everybody who watches the run, the row at the instant asked for, and how far
 /// ahead the segments' polynomials looked. It ends the slice behind an event, so that no segment is cut.
 struct Slice {
-  Watchers& watchers;
+  Observers& watchers;
   Present& present;
   sim::Instant until;   ///< the row is taken here, on the polynomial of the segment that passes it
   sim::Instant& reach;  ///< of segments that skipped ticks: nothing that happens sooner may be news to them
@@ -50,7 +50,7 @@ template <class FirmwareType>
 struct LiveRig {
   using Firmware = FirmwareType;
   rig::Rig<double, Firmware> rig;
-  rig::Units units;  ///< the scaling of the whole run
+  rig::Bases bases;  ///< the scaling of the whole run
 
   /// At the start of the run.
   static base::Result<LiveRig> made(const Scenario& scenario, const Compiled& compiled,
@@ -62,7 +62,7 @@ struct LiveRig {
   void look(Slice& slice) const;
   /// The scenario that this run is now one of: its past is this one's.
   base::Problems take(const Scenario& scenario, const Compiled& compiled, rig::Timeline timeline);
-  base::Problems end(sim::Stop stop, Watchers& watchers, Outcome& out) const;
+  base::Problems end(sim::Stop stop, Observers& watchers, Outcome& out) const;
   FullScale full_scale() const { return full_scale_of<typename Firmware::Number>(units); }
 };
 

@@ -13,7 +13,7 @@ base::Result<LiveRig<FirmwareType>> LiveRig<FirmwareType>::made(const Scenario& 
                                                                 rig::Timeline timeline) {
   const base::Result<Chip<Firmware>> chip = chip_of<Firmware>(scenario, compiled);
   if (!chip) return chip.problems();
-  return LiveRig{rig_of<Firmware>(compiled, *chip, std::move(timeline)), chip->units};
+  return LiveRig{rig_of<Firmware>(compiled, *chip, std::move(timeline)), chip->bases};
 }
 
 template <class FirmwareType>
@@ -33,12 +33,12 @@ base::Problems LiveRig<FirmwareType>::take(const Scenario& scenario, const Compi
                                            rig::Timeline timeline) {
   const base::Result<Chip<Firmware>> chip = chip_of<Firmware>(scenario, compiled);
   if (!chip) return chip.problems();
-  rig.replace_future(std::move(timeline), {chip->config, chip->units.setpoint}, chip->later);
+  rig.replace_future(std::move(timeline), {chip->config, chip->bases.setpoint}, chip->later);
   return {};
 }
 
 template <class FirmwareType>
-base::Problems LiveRig<FirmwareType>::end(sim::Stop stop, Watchers& watchers, Outcome& out) const {
+base::Problems LiveRig<FirmwareType>::end(sim::Stop stop, Observers& watchers, Outcome& out) const {
   return note_end(rig, stop, watchers, out);
 }
 

@@ -19,7 +19,7 @@ using sim::Instant;
 struct Session::State {
   Scenario scenario;
   Compiled compiled;  ///< its timeline is the rig's
-  Watchers watchers;
+  Observers watchers;
   AnyRig rig;
   Present present{};
   Instant reach{};
@@ -120,7 +120,7 @@ base::Result<Session> Session::open(const Scenario& scenario, const Listeners& l
   if (!indices) return indices.problems();
   compiled->board.sensors.decodes_hall = true;  // a line may break at any time
   rig::Timeline timeline = std::move(compiled->timeline);
-  base::Result<AnyRig> rig = scenario.control.drive == Drive::product
+  base::Result<AnyRig> rig = scenario.control.drive == FirmwareKind::product
                                  ? made_in<rig::ProductDrive>(scenario, *compiled, std::move(timeline))
                                  : made_in<rig::SensedDrive>(scenario, *compiled, std::move(timeline));
   if (!rig) return rig.problems();

@@ -19,21 +19,21 @@ constexpr double sectors_until_standstill = 20.0;
 
 Sensors board_sensors(const design::DriveDesign& d) {
   Sensors s;
-  if (!d.wish.rotor.hall) return s;
-  sense_currents(d, rig::CurrentSensing::phases, s);
+  if (!d.spec.rotor.hall) return s;
+  sense_currents(d, rig::CurrentMeasurement::phases, s);
   s.bus = BusSensing::adc;
   s.bus_range_V = std::min(range_from(1.5 * d.bus_V), base::plausible("V").most);
   s.rotor = RotorSensing::hall;
-  s.speed_edges = d.wish.rotor.edges;
+  s.speed_edges = d.spec.rotor.edges;
   const double sector_s = base::pi / 3 / d.motor.machine.pole_pairs / d.lowest_speed_rad_s;
   s.timeout_s = std::max(s.timeout_s, range_from(sectors_until_standstill * sector_s));
   return s;
 }
 
-void sense_currents(const design::DriveDesign& d, rig::CurrentSensing currents, Sensors& s) {
+void sense_currents(const design::DriveDesign& d, rig::CurrentMeasurement currents, Sensors& s) {
   s.currents = currents;
-  if (currents == rig::CurrentSensing::ideal || s.current_range_A) return;
-  const double most_A = d.wish.mode == control::Mode::current ? design::usual_overload * d.nominal_current_A
+  if (currents == rig::CurrentMeasurement::ideal || s.current_range_A) return;
+  const double most_A = d.spec.mode == control::Mode::current ? design::usual_overload * d.nominal_current_A
                                                               : d.current_at_full_torque_A;
   s.current_range_A = range_from(1.25 * (most_A + d.ripple.worst_A));
 }
@@ -49,7 +49,7 @@ double allowed_swing_rad_s(double with_ideal_sensors_rad_s, double speed_rad_s) 
 
 double allowed_overshoot_deg(const design::DriveDesign& d, double move_deg) {
   const double part = std::fabs(move_deg) / 100;
-  return d.wish.rotor.hall ? std::max(part, 3 * 60.0 / d.motor.machine.pole_pairs) : part;
+  return d.spec.rotor.hall ? std::max(part, 3 * 60.0 / d.motor.machine.pole_pairs) : part;
 }
 
 }  // namespace sixstep::study

@@ -7,11 +7,11 @@
 namespace sixstep::study {
 
 /// Sensors as boards have them, sized for the design: 12 bits for the phase currents (a quarter above what
-/// the drive may ask for) and for the bus (half as much again), Hall probes. All ideal where the wish's rotor
+/// the drive may ask for) and for the bus (half as much again), Hall probes. All ideal where the spec's rotor
 /// is.
 Sensors board_sensors(const design::DriveDesign& design);
 /// Currents by another way, over the range that the design asks for where none is given.
-void sense_currents(const design::DriveDesign& design, rig::CurrentSensing currents, Sensors& sensors);
+void sense_currents(const design::DriveDesign& design, rig::CurrentMeasurement currents, Sensors& sensors);
 
 /// The same run with everything measured as it is: what the sensors cost is the difference.
 Scenario with_ideal_sensors(Scenario scenario);

@@ -63,22 +63,23 @@ Scenario common(const DriveDesign& d, const DesignSubject& subject) {
     s.bridge = subject.board->bridge;
     s.pwm = subject.board->pwm;
     s.sensors = subject.board->sensors;
-    s.sensors.rotor = d.wish.rotor.hall ? RotorSensing::hall : RotorSensing::ideal;
-    s.sensors.speed_edges = d.wish.rotor.edges;
+    s.sensors.rotor = d.spec.rotor.hall ? RotorSensing::hall : RotorSensing::ideal;
+    s.sensors.speed_edges = d.spec.rotor.edges;
   } else {
     s.sensors = board_sensors(d);
   }
   if (subject.currents) sense_currents(d, *subject.currents, s.sensors);
-  if (s.sensors.currents == rig::CurrentSensing::dc_link) {  // it sees nothing before the on-time has begun
+  if (s.sensors.currents ==
+      rig::CurrentMeasurement::dc_link) {  // it sees nothing before the on-time has begun
     s.pwm.alignment = Alignment::centre;
     s.pwm.sample = SampleAt::middle;
   }
   s.supply.voltage_V = d.bus_V;
-  s.pwm.period_s = d.wish.period_s;
-  s.pwm.chopping = d.wish.chopping;
-  s.pwm.delay_periods = d.wish.delay_periods;
-  s.load.inertia_kg_m2 = d.wish.load_inertia_kg_m2;
-  s.control.mode = d.wish.mode;
+  s.pwm.period_s = d.spec.period_s;
+  s.pwm.chopping = d.spec.chopping;
+  s.pwm.delay_periods = d.spec.delay_periods;
+  s.load.inertia_kg_m2 = d.spec.load_inertia_kg_m2;
+  s.control.mode = d.spec.mode;
   set_gains(d.loop("current"), s.control.current);
   if (d.loops.size() > 1) {
     set_gains(d.loop("speed"), s.control.speed);
@@ -96,8 +97,8 @@ void add_current(const DriveDesign& d, const DesignSubject& subject, Scenario& s
   const LoopDesign& loop = d.loop("current");
   const double step = subject.step.value_or(
       plain_number(std::min(d.nominal_current_A, part_of_bus * d.bus_V / std::fabs(loop.gains.d1))));
-  const double settle = settling_of(loop, 100 * d.wish.period_s), end = plain_time(5 * settle);
-  const double last = end - 10 * d.wish.period_s, R = 2 * d.motor.machine.R_ohm;
+  const double settle = settling_of(loop, 100 * d.spec.period_s), end = plain_time(5 * settle);
+  const double last = end - 10 * d.spec.period_s, R = 2 * d.motor.machine.R_ohm;
   s.title = "Current loop as designed, rotor held";
   s.duration_s = end;
   s.load.locked = true;
@@ -112,7 +113,7 @@ void add_current(const DriveDesign& d, const DesignSubject& subject, Scenario& s
       {settling, loop.step.settling_s, "designed, at the samples, 2 %"},
       {overshoot, loop.step.overshoot * std::fabs(step), "designed, at the samples"},
       {window_measure(MetricKind::peak_to_peak, Signal::current, last, end, "current ripple"),
-       design::current_ripple_A(d.motor, d.bus_V, d.wish.period_s, d.wish.chopping,
+       design::current_ripple_A(d.motor, d.bus_V, d.spec.period_s, d.spec.chopping,
                                 std::fabs(step) * R / d.bus_V),
        "PWM at this duty"},
   };
@@ -149,7 +150,7 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
       lags ? -d.lowest_speed_rad_s / 2
            : plain_number(std::min(t.first / 2, volts / (speed.gains.d1 * d.current_at_full_torque_A *
                                                          std::max(current.gains.d1, R)))));
-  const double settle = std::max(settling_of(speed, 1000 * d.wish.period_s), 8 * d.lag.delay_s());
+  const double settle = std::max(settling_of(speed, 1000 * d.spec.period_s), 8 * d.lag.delay_s());
   t.begin = plain_time(5 * settle + 2 * start_time(d, t.first, K * t.load_A));
   t.end = plain_time(t.begin + 5 * settle);
   t.calm = t.end - settle;
@@ -174,7 +175,7 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, Scenario& s) {
       {window_measure(MetricKind::peak_to_peak, Signal::speed, t.calm, t.end, "speed ripple"), 0.0,
        "none wanted"},
       {window_measure(MetricKind::peak_to_peak, Signal::current, t.calm, t.end, "current ripple"),
-       design::current_ripple_A(d.motor, d.bus_V, d.wish.period_s, d.wish.chopping, duty),
+       design::current_ripple_A(d.motor, d.bus_V, d.spec.period_s, d.spec.chopping, duty),
        "PWM alone, without commutation"},
       {of(MetricKind::settling_time, false, "settling of the start"), linear.settling_s,
        "designed, were there no limits"},
@@ -216,7 +217,7 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, Scenario& 
   s.reference.unit.emplace("deg");
   Measure settling =
       step_measure(MetricKind::settling_time, Signal::position, 0, end, 0, step, "settling time");
-  const bool counts = d.wish.rotor.hall;  // edges: it rests within steps, if at all
+  const bool counts = d.spec.rotor.hall;  // edges: it rests within steps, if at all
   const double steps = allowed_overshoot_deg(d, step);
   settling.band = counts ? steps / std::fabs(step) : 0.0005;
   const Measure overshoot =
@@ -240,12 +241,12 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, Scenario& 
 
 Scenario design_scenario(const DriveDesign& design, const DesignSubject& subject) {
   Scenario s = common(design, subject);
-  if (design.wish.mode == Mode::current) add_current(design, subject, s);
-  if (design.wish.mode == Mode::speed) add_speed(design, subject, s);
-  if (design.wish.mode == Mode::position) add_position(design, subject, s);
+  if (design.spec.mode == Mode::current) add_current(design, subject, s);
+  if (design.spec.mode == Mode::speed) add_speed(design, subject, s);
+  if (design.spec.mode == Mode::position) add_position(design, subject, s);
   s.record.columns = {"i_m_A"};
-  if (design.wish.mode != Mode::current) s.record.columns.push_back("speed_rad_s");
-  if (design.wish.mode == Mode::position) s.record.columns.push_back("angle_rad");
+  if (design.spec.mode != Mode::current) s.record.columns.push_back("speed_rad_s");
+  if (design.spec.mode == Mode::position) s.record.columns.push_back("angle_rad");
   // Some 2000 rows, on the samples.
   const double periods = std::ceil(s.duration_s / 2000 / s.pwm.period_s);
   if (periods > 1) s.record.grid_s = periods * s.pwm.period_s;

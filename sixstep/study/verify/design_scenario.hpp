@@ -17,7 +17,7 @@ struct DesignSubject {
   /// The board it is run on: supply, bridge, PWM and sensors of this scenario. Else a stiff supply, ideal
   /// devices, and the sensors that board_sensors() puts on a board.
   std::optional<Scenario> board{};
-  std::optional<rig::CurrentSensing> currents{};  ///< instead of what that board has
+  std::optional<rig::CurrentMeasurement> currents{};  ///< instead of what that board has
   /// Height of the step in the unit of the mode; else one at which no limit acts (current, speed), or the
   /// thesis's 1000 degrees.
   std::optional<double> step;

@@ -24,7 +24,7 @@ const ComparisonResult* find(const Outcome& outcome, const std::string& figure) 
 }
 
 std::string cure_of_settling(const design::DriveDesign& d) {
-  return d.wish.chopping == control::Chopping::soft ? "try --chopping complementary: soft chopping puts the "
+  return d.spec.chopping == control::Chopping::soft ? "try --chopping complementary: soft chopping puts the "
                                                       "whole bus against the current as soon as "
                                                       "the duty turns negative; or design slower (--settle)"
                                                     : "design slower (--settle)";
@@ -46,7 +46,7 @@ std::string chiefly(const RobustFigure& f, const char* cure) {
 /// A loop at whose limits the run was not to come must settle as designed; a quarter more is told.
 void look_at_settling(DesignStudy& s) {
   const ComparisonResult* c = find(s.outcome, "settling time");
-  if (!c || s.design.wish.mode == control::Mode::position) return;
+  if (!c || s.design.spec.mode == control::Mode::position) return;
   if (drowned(s))
     s.warnings.push_back(
         {"the commutations' ripple in speed, " + rounded(find(s.outcome, "speed ripple")->measured) +
@@ -95,7 +95,7 @@ void look_at_tolerances(DesignStudy& s) {
     if (f.figure == "settling time" && !drowned(s) && std::isfinite(f.nominal) && !std::isfinite(f.worst))
       s.warnings.push_back(
           {"out of tolerance it never settles: " + f.at, chiefly(f, "design slower (--settle)"), true});
-    const bool position = s.design.wish.mode == control::Mode::position;
+    const bool position = s.design.spec.mode == control::Mode::position;
     if (position && f.figure == "overshoot" &&
         f.worst > allowed_overshoot_deg(s.design, s.scenario.reference.value))
       s.warnings.push_back({"out of tolerance it overshoots by " + rounded(f.worst) + " deg: " + f.at,
@@ -163,11 +163,11 @@ base::Result<DesignStudy> study_design(const DesignOrder& order) {
                          "give it in A, rad/s or deg as the mode asks"};
   const base::Result<design::MotorModel> motor = design::motor_model(order.subject.sheet);
   if (!motor) return motor.problems();
-  base::Result<design::DriveDesign> design = design::design_drive(*motor, order.wish);
+  base::Result<design::DriveDesign> design = design::design_drive(*motor, order.spec);
   if (!design) return design.problems();
   DesignStudy s;
   s.design = std::move(*design);
-  if (order.wish.mode == control::Mode::position)
+  if (order.spec.mode == control::Mode::position)
     if (base::Problems found = find_gain(order, s); !found.empty()) return found;
   s.scenario = design_scenario(s.design, order.subject);
   if (base::Problems found = too_long(s.scenario); !found.empty()) return found;

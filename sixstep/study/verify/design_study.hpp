@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole road from a sheet and a wish to gains that are known to hold: designed in closed form, run with
+// The whole road from a sheet and a spec to gains that are known to hold: designed in closed form, run with
 // all switching, put through the sheet's tolerances.
 #pragma once
 #include <functional>
@@ -31,13 +31,13 @@ struct DesignStudy {
 
 struct DesignOrder {
   DesignSubject subject;
-  design::DesignWish wish;
+  design::DesignSpec spec;
   std::vector<Tolerance> tolerances;  ///< empty: not looked at
   ForEach for_each = one_after_the_other;
   std::function<bool()> keep_going;  ///< false ends it early: what comes out then means nothing
 };
 
-/// Problems are those of sheet, wish and scenario.
+/// Problems are those of sheet, spec and scenario.
 base::Result<DesignStudy> study_design(const DesignOrder& order);
 
 }  // namespace sixstep::study

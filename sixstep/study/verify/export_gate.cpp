@@ -45,7 +45,7 @@ void look_at_sensors(const Scenario& s, base::Problems& out) {
   if (reads_rotor(s) && s.sensors.rotor == RotorSensing::ideal)
     ideal("sensors.rotor", "speed and position at every instant, and a board has the Hall edges",
           "set rotor = \"hall\"");
-  if (reads_currents(s) && s.sensors.currents == rig::CurrentSensing::ideal)
+  if (reads_currents(s) && s.sensors.currents == rig::CurrentMeasurement::ideal)
     ideal("sensors.currents", "currents that no amplifier and converter have been through",
           "set currents = \"phases\" or \"dc-link\", and current_range_A");
   if (reads_bus(s) && s.sensors.bus == BusSensing::ideal)

@@ -32,8 +32,8 @@ Measure measure(MetricKind metric, Signal signal, double from_s, const char* lab
   return m;
 }
 
-base::Result<Scenario> run_up(const FirstWish& wish, const design::MotorModel& motor) {
-  const double U = wish.voltage_V.value_or(motor.nominal_voltage_V);
+base::Result<Scenario> run_up(const FirstScenarioSpec& spec, const design::MotorModel& motor) {
+  const double U = spec.voltage_V.value_or(motor.nominal_voltage_V);
   if (!(U > 0.0))
     return base::Problem{"--voltage", "", "is missing, and the motor's sheet has no nominal voltage",
                          "give the bus voltage in V"};
@@ -47,8 +47,8 @@ base::Result<Scenario> run_up(const FirstWish& wish, const design::MotorModel& m
   if (!(least > 0.0))
     return base::Problem{"--voltage", "", "does not turn the rotor: friction holds it at half the voltage",
                          "give a higher bus voltage in V"};
-  s.motor = wish.motor;
-  s.sheet = wish.sheet;
+  s.motor = spec.motor;
+  s.sheet = spec.sheet;
   s.title = "Run-up at half the voltage";
   s.supply.voltage_V = U;
   s.pwm.chopping = control::Chopping::complementary;
@@ -59,7 +59,7 @@ base::Result<Scenario> run_up(const FirstWish& wish, const design::MotorModel& m
   s.reference.unit.emplace("1");
   const double tau = motor.shaft.J_kg_m2 / slope;
   if (!(10 * tau < longest_run_up_s))
-    return base::Problem{"the motor", wish.motor,
+    return base::Problem{"the motor", spec.motor,
                          "takes " + base::rounded(10 * tau, 3) + " s to run up, and minutes to simulate it",
                          "look at the inertia and the torque constant of its sheet"};
   s.duration_s = std::ceil(10 * tau * 1e3) / 1e3;  // exp(-9) of the way is left where the window begins
@@ -74,20 +74,20 @@ base::Result<Scenario> run_up(const FirstWish& wish, const design::MotorModel& m
 
 /// On a board's sensors and over the sheet's tolerances: the settling time that the design chooses, then
 /// slower ones.
-base::Result<DesignStudy> usable_design(const FirstWish& wish) {
+base::Result<DesignStudy> usable_design(const FirstScenarioSpec& spec) {
   base::Problems told;
   std::optional<double> chosen_s;
   for (const double times : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
-    DesignOrder order{.subject = {.motor = wish.motor, .sheet = wish.sheet},
-                      .wish = design::on_a_board(),
-                      .tolerances = sheet_tolerances(wish.mode),
-                      .for_each = wish.for_each};
-    order.wish.mode = wish.mode;
-    order.wish.voltage_V = wish.voltage_V;
-    if (chosen_s) order.wish.settle_s = times * *chosen_s;
+    DesignOrder order{.subject = {.motor = spec.motor, .sheet = spec.sheet},
+                      .spec = design::on_a_board(),
+                      .tolerances = sheet_tolerances(spec.mode),
+                      .for_each = spec.for_each};
+    order.spec.mode = spec.mode;
+    order.spec.voltage_V = spec.voltage_V;
+    if (chosen_s) order.spec.settle_s = times * *chosen_s;
     base::Result<DesignStudy> study = study_design(order);
-    if (!chosen_s) chosen_s = study ? study->design.wish.settle_s : std::nullopt;
-    if (!chosen_s) chosen_s = wish.mode == Mode::current ? 1e-3 : 10e-3;
+    if (!chosen_s) chosen_s = study ? study->design.spec.settle_s : std::nullopt;
+    if (!chosen_s) chosen_s = spec.mode == Mode::current ? 1e-3 : 10e-3;
     if (!study) {
       if (told.empty()) told = study.problems();
     } else if (study->usable() && study->outcome.passed()) {
@@ -95,7 +95,7 @@ base::Result<DesignStudy> usable_design(const FirstWish& wish) {
     }
   }
   if (told.empty())
-    told.push_back({"the motor", wish.motor, "has no usable design with the usual settling times",
+    told.push_back({"the motor", spec.motor, "has no usable design with the usual settling times",
                     "sixstep design MOTOR tells why; or start with --mode duty"});
   return told;
 }
@@ -130,8 +130,8 @@ void shorten(Scenario& s) {
 }
 
 /// The design's test as a scenario of one's own.
-base::Result<Scenario> designed(const FirstWish& wish) {
-  const base::Result<DesignStudy> study = usable_design(wish);
+base::Result<Scenario> designed(const FirstScenarioSpec& spec) {
+  const base::Result<DesignStudy> study = usable_design(spec);
   if (!study) return study.problems();
   Scenario s = study->scenario;
   s.record = {};  // a reader wants to see everything
@@ -148,21 +148,21 @@ base::Result<Scenario> designed(const FirstWish& wish) {
 
 }  // namespace
 
-base::Result<Scenario> first_scenario(const FirstWish& wish) {
-  const base::Result<design::MotorModel> motor = design::motor_model(wish.sheet);
+base::Result<Scenario> first_scenario(const FirstScenarioSpec& spec) {
+  const base::Result<design::MotorModel> motor = design::motor_model(spec.sheet);
   if (!motor) return motor.problems();
-  if (wish.voltage_V)
-    if (base::Problems out = base::out_of_range("--voltage", *wish.voltage_V, base::above(0), "V",
+  if (spec.voltage_V)
+    if (base::Problems out = base::out_of_range("--voltage", *spec.voltage_V, base::above(0), "V",
                                                 "give the bus voltage in volts");
         !out.empty())
       return out;
-  base::Result<Scenario> s = wish.mode == Mode::duty ? run_up(wish, *motor) : designed(wish);
+  base::Result<Scenario> s = spec.mode == Mode::duty ? run_up(spec, *motor) : designed(spec);
   if (!s) return s.problems();
   shorten(*s);
   const base::Result<Outcome> outcome = run(*s);
   if (!outcome) return outcome.problems();
   if (!outcome->passed() || outcome->fault)
-    return base::Problem{"the motor", wish.motor, "does not do what its sheet foretells",
+    return base::Problem{"the motor", spec.motor, "does not do what its sheet foretells",
                          "see sixstep motor check; or start with another --mode"};
   return s;
 }

@@ -11,7 +11,7 @@
 
 namespace sixstep::study {
 
-struct FirstWish {
+struct FirstScenarioSpec {
   control::Mode mode = control::Mode::speed;  ///< duty, current, speed or position
   std::string motor;                          ///< name or path, as the scenario is to have it
   design::Sheet sheet;                        ///< of that motor
@@ -26,6 +26,6 @@ struct FirstWish {
 /// - duty: a run-up from rest at half the voltage, complementary chopping, so that the current flows without
 ///   gaps and the sheet's straight line foretells the speed: 0 = K_t (d U - K_t w)/R_tt - B w - T_c.
 /// Problems are those of the sheet, or that no design suits.
-base::Result<Scenario> first_scenario(const FirstWish& wish);
+base::Result<Scenario> first_scenario(const FirstScenarioSpec& spec);
 
 }  // namespace sixstep::study

@@ -105,7 +105,7 @@ std::vector<RobustFigure> phases_of(const design::DriveDesign& design,
     const std::vector<design::SensedLoop> loops =
         design::sensed_loops(design, varied_motor(design.motor, tolerances, v), 1);
     for (std::size_t n = 0; n < loops.size(); ++n) {
-      const design::LoopFigures f = design::sensed_figures(loops[n], design.wish.period_s, 1024);
+      const design::LoopFigures f = design::sensed_figures(loops[n], design.spec.period_s, 1024);
       lost[n].push_back(f.stable && f.phase_rad ? -*f.phase_rad * 180 / base::pi : f.stable ? -180.0 : 0.0);
     }
   }

@@ -8,7 +8,7 @@
 
 namespace firmware {
 
-struct Outputs {
+struct GateOutputs {
   std::uint32_t CCMR1, CCMR2, CCER;
 };
 
@@ -26,7 +26,7 @@ constexpr LegOutput leg_output(sixstep::control::Leg leg, unsigned on, unsigned 
 }
 
 template <class Scalar>
-constexpr Outputs outputs(const sixstep::control::BridgeCommand<Scalar>& command) {
+constexpr GateOutputs outputs(const sixstep::control::BridgeCommand<Scalar>& command) {
   using sixstep::control::Leg;
   const unsigned on = gates(command, true), off = gates(command, false);
   const LegOutput a = leg_output(Leg::a, on, off), b = leg_output(Leg::b, on, off),

@@ -26,7 +26,7 @@ Request request;                       // from the main loop, with interrupts of
 Setpoint<Scalar> setpoint;
 
 void apply(const BridgeCommand<Scalar>& command) {
-  const Outputs out = outputs(command);
+  const GateOutputs out = outputs(command);
   const auto compare = static_cast<std::uint32_t>(command.duty * static_cast<float>(pwm_counts));
   for (int n = 0; n < 3; ++n) tim1().CCR[n] = compare;
   tim1().CCMR1 = out.CCMR1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/report/course.hpp"
+#include "io/report/highlights.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -12,13 +12,13 @@ namespace sixstep::study {
 struct Stretch {
   double at_s = 0.0;
   double value = 0.0;  ///< at at_s
-  rig::Course course{};
+  rig::Waveform waveform{};
 
-  double at(double t_s) const { return course.after(value, t_s - at_s); }
+  double at(double t_s) const { return waveform.after(value, t_s - at_s); }
 };
 
 /// Rising in time, the first at 0. Assumes that check_reference() found nothing.
-std::vector<Stretch> reference_course(const Scenario& scenario);
+std::vector<Stretch> reference_waveform(const Scenario& scenario);
 
 /// The reference's values over time: {instant, value}, first at 0. A stretch that moves counts as its end's
 /// value, for what comes after it is no step.

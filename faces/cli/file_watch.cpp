@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "faces/cli/watch.hpp"
+#include "faces/cli/file_watch.hpp"
 
 #include <sys/stat.h>
 
@@ -10,9 +10,9 @@
 
 namespace cli {
 
-Watch::Watch(std::vector<std::string> paths) : paths_(std::move(paths)), seen_(look()) {}
+FileWatch::FileWatch(std::vector<std::string> paths) : paths_(std::move(paths)), seen_(look()) {}
 
-std::vector<Watch::Stamp> Watch::look() const {
+std::vector<FileWatch::Stamp> FileWatch::look() const {
   std::vector<Stamp> stamps;
   for (const std::string& path : paths_) {
     Stamp stamp;
@@ -25,7 +25,7 @@ std::vector<Watch::Stamp> Watch::look() const {
   return stamps;
 }
 
-bool Watch::wait_for_a_change() const {
+bool FileWatch::wait_for_a_change() const {
   constexpr std::chrono::milliseconds pause{100};
   std::vector<Stamp> before = seen_;
   while (!interrupted()) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sixstep/study/verify/scenario_wish.hpp"
+#include "sixstep/study/verify/scenario_spec.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "sixstep/study/scenario/reference_course.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
 
 namespace sixstep::study {
 namespace {
@@ -22,8 +22,8 @@ std::optional<double> lowest_speed(const Scenario& s) {
 
 }  // namespace
 
-design::DesignWish wish_of(const Scenario& s) {
-  design::DesignWish w;
+design::DesignSpec spec_of(const Scenario& s) {
+  design::DesignSpec w;
   const bool loops =
       s.control.mode == Mode::current || s.control.mode == Mode::speed || s.control.mode == Mode::position;
   if (loops) w.mode = s.control.mode;
@@ -39,7 +39,7 @@ design::DesignWish wish_of(const Scenario& s) {
   w.delay_periods = s.pwm.delay_periods;
   w.chopping = s.pwm.chopping;
   // The product drive has no other sensor than its Hall probes.
-  w.rotor.hall = s.sensors.rotor == RotorSensing::hall || s.control.drive == Drive::product;
+  w.rotor.hall = s.sensors.rotor == RotorSensing::hall || s.control.drive == FirmwareKind::product;
   w.rotor.edges = s.sensors.speed_edges;
   w.lowest_speed_rad_s = lowest_speed(s);
   return w;

@@ -6,6 +6,6 @@
 
 namespace sixstep::design {
 
-base::Problems check_wish(const MotorModel& motor, const DesignWish& wish);
+base::Problems check_spec(const MotorModel& motor, const DesignSpec& spec);
 
 }  // namespace sixstep::design

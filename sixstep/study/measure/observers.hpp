@@ -12,7 +12,7 @@
 
 namespace sixstep::study {
 
-struct Watchers {
+struct Observers {
   std::optional<plant::Audit<double>> audit;
   Digest digest;
   Figures figures;

@@ -37,7 +37,7 @@ struct Sums {
 };
 
 /// An observer of sim::run for any System that has a plant().
-class Tally {
+class SumsRecorder {
  public:
   const Sums& sums() const { return sums_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sixstep/study/scenario/reference_course.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,8 +39,8 @@ class StretchWriter {
   }
 
  private:
-  void put(double at_s, double value, const rig::Course& course = {}) {
-    if (at_s == 0.0 || from_s_ + at_s < until_s_) out_.push_back({from_s_ + at_s, value, course});
+  void put(double at_s, double value, const rig::Waveform& waveform = {}) {
+    if (at_s == 0.0 || from_s_ + at_s < until_s_) out_.push_back({from_s_ + at_s, value, waveform});
   }
   void stand_until(double at_s, double value) {
     if (at_s > 0.0) put(0.0, value);
@@ -100,56 +100,57 @@ class StretchWriter {
 };
 
 /// Where stretch n ends.
-double end_of(const std::vector<Stretch>& course, std::size_t n, double duration_s) {
-  return n + 1 < course.size() ? course[n + 1].at_s : duration_s;
+double end_of(const std::vector<Stretch>& stretches, std::size_t n, double duration_s) {
+  return n + 1 < stretches.size() ? stretches[n + 1].at_s : duration_s;
 }
 
 }  // namespace
 
-std::vector<Stretch> reference_course(const Scenario& s) {
+std::vector<Stretch> reference_waveform(const Scenario& s) {
   std::vector<const At*> changes = in_order(s);
   std::erase_if(changes, [](const At* at) { return !at->reference; });
   const auto until = [&](std::size_t n) {
     return n < changes.size() ? happens_at_s(s, *changes[n]) : s.duration_s;
   };
-  std::vector<Stretch> course;
-  StretchWriter(s.reference, 0.0, until(0), 0.0, course).add();
+  std::vector<Stretch> stretches;
+  StretchWriter(s.reference, 0.0, until(0), 0.0, stretches).add();
   for (std::size_t n = 0; n < changes.size(); ++n) {
     const double from_s = until(n);
-    StretchWriter(*changes[n]->reference, from_s, until(n + 1), course.back().at(from_s), course).add();
+    StretchWriter(*changes[n]->reference, from_s, until(n + 1), stretches.back().at(from_s), stretches).add();
   }
-  return course;
+  return stretches;
 }
 
 std::vector<Level> reference_levels(const Scenario& s) {
-  const std::vector<Stretch> course = reference_course(s);
+  const std::vector<Stretch> stretches = reference_waveform(s);
   std::vector<Level> levels;
-  for (std::size_t n = 0; n < course.size(); ++n) {
-    const Stretch& stretch = course[n];
-    levels.push_back(
-        {stretch.at_s, stretch.course.moves() ? stretch.at(end_of(course, n, s.duration_s)) : stretch.value});
+  for (std::size_t n = 0; n < stretches.size(); ++n) {
+    const Stretch& stretch = stretches[n];
+    levels.push_back({stretch.at_s, stretch.waveform.moves() ? stretch.at(end_of(stretches, n, s.duration_s))
+                                                             : stretch.value});
   }
   return levels;
 }
 
 double largest_reference(const Scenario& s) {
-  const std::vector<Stretch> course = reference_course(s);
+  const std::vector<Stretch> stretches = reference_waveform(s);
   double largest = 0.0;
   // No stretch turns back on its way, so that its ends bound it.
-  for (std::size_t n = 0; n < course.size(); ++n) {
-    const Stretch& stretch = course[n];
-    const double swing = std::fabs(stretch.course.amplitude);
+  for (std::size_t n = 0; n < stretches.size(); ++n) {
+    const Stretch& stretch = stretches[n];
+    const double swing = std::fabs(stretch.waveform.amplitude);
     largest = std::max(largest, std::fabs(stretch.value) + swing);
-    if (stretch.course.moves() && swing == 0.0)
-      largest = std::max(largest, std::fabs(stretch.at(end_of(course, n, s.duration_s))));
+    if (stretch.waveform.moves() && swing == 0.0)
+      largest = std::max(largest, std::fabs(stretch.at(end_of(stretches, n, s.duration_s))));
   }
   return largest;
 }
 
 bool reference_moves(const Scenario& s, double from_s, double to_s) {
-  const std::vector<Stretch> course = reference_course(s);
-  for (std::size_t n = 0; n < course.size(); ++n)
-    if (course[n].course.moves() && course[n].at_s < to_s && end_of(course, n, s.duration_s) > from_s)
+  const std::vector<Stretch> stretches = reference_waveform(s);
+  for (std::size_t n = 0; n < stretches.size(); ++n)
+    if (stretches[n].waveform.moves() && stretches[n].at_s < to_s &&
+        end_of(stretches, n, s.duration_s) > from_s)
       return true;
   return false;
 }

@@ -9,7 +9,7 @@
 namespace sixstep::rig {
 
 /// What the controller's 1.0 stands for (design::Bases). Floating point has 1 of each.
-struct Units {
+struct Bases {
   double current_A = 1.0;
   double voltage_V = 1.0;
   double speed_rad_s = 1.0;
@@ -37,14 +37,14 @@ double to_si(Scalar x, double unit) {
 
 /// A command as the board's timer and comparators take it.
 template <class Scalar>
-BoardCommand widened(const control::BridgeCommand<Scalar>& c, const Units& units) {
+BoardCommand widened(const control::BridgeCommand<Scalar>& c, const Bases& bases) {
   return {.enabled = c.enabled,
           .pair = c.pair,
           .duty = to_si(c.duty, 1.0),
           .chopping = c.chopping,
           .watch = c.watch,
-          .on_below_A = to_si(c.on_below_A, units.current_A),
-          .off_above_A = to_si(c.off_above_A, units.current_A)};
+          .on_below_A = to_si(c.on_below_A, bases.current_A),
+          .off_above_A = to_si(c.off_above_A, bases.current_A)};
 }
 
 }  // namespace sixstep::rig

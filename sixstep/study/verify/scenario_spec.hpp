@@ -7,8 +7,8 @@
 namespace sixstep::study {
 
 /// What the scenario says of the drive: mode, bus, PWM, delay, rotor sensor, load inertia, torque limit,
-/// settling times, and the lowest speed that its reference asks for. What it leaves open stays the wish's
+/// settling times, and the lowest speed that its reference asks for. What it leaves open stays the spec's
 /// default; given gains are not looked at, since new ones are asked for.
-design::DesignWish wish_of(const Scenario& scenario);
+design::DesignSpec spec_of(const Scenario& scenario);
 
 }  // namespace sixstep::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sixstep/design/loops/wish_check.hpp"
+#include "sixstep/design/loops/spec_check.hpp"
 
 #include <optional>
 #include <string>
@@ -12,7 +12,7 @@ namespace sixstep::design {
 
 using control::Mode;
 
-base::Problems check_wish(const MotorModel& motor, const DesignWish& w) {
+base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
   base::Problems found;
   const auto add = [&](const char* where, const std::string& value, const char* limit, const char* cure) {
     found.push_back({where, value, limit, cure});

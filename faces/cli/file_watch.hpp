@@ -9,9 +9,9 @@ namespace cli {
 /// How the files looked when they were read. A file's time, size and identity are asked for ten times a
 /// second: that works on every disk, on shared folders, and with editors that write another file and rename
 /// it.
-class Watch {
+class FileWatch {
  public:
-  explicit Watch(std::vector<std::string> paths);
+  explicit FileWatch(std::vector<std::string> paths);
 
   /// Returns once a file differs and all have stayed as they are for a moment; false where Ctrl-C came first.
   bool wait_for_a_change() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // References that move: what the controller sees at its ticks is the closed form, to the bit.
-#include "sixstep/study/scenario/reference_course.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,16 +26,16 @@ Scenario with(const Reference& reference, double duration_s = 10.0) {
   return s;
 }
 
-double at(const std::vector<Stretch>& course, double t_s) {
+double at(const std::vector<Stretch>& stretches, double t_s) {
   std::size_t n = 0;
-  while (n + 1 < course.size() && course[n + 1].at_s <= t_s) ++n;
-  return course[n].at(t_s);
+  while (n + 1 < stretches.size() && stretches[n + 1].at_s <= t_s) ++n;
+  return stretches[n].at(t_s);
 }
 
 /// Where one stretch ends the next begins: to the rounding of a few products of the size of `way`.
-void expect_no_jump(const std::vector<Stretch>& course, double way) {
-  for (std::size_t n = 0; n + 1 < course.size(); ++n)
-    EXPECT_NEAR(course[n].at(course[n + 1].at_s), course[n + 1].value, 8 * 0x1p-52 * way) << n;
+void expect_no_jump(const std::vector<Stretch>& stretches, double way) {
+  for (std::size_t n = 0; n + 1 < stretches.size(); ++n)
+    EXPECT_NEAR(stretches[n].at(stretches[n + 1].at_s), stretches[n + 1].value, 8 * 0x1p-52 * way) << n;
 }
 
 TEST(ReferenceCourse, ARampIsALineFromStartToEnd) {
@@ -44,42 +44,42 @@ TEST(ReferenceCourse, ARampIsALineFromStartToEnd) {
   by_slope.end_s.reset();
   by_slope.slope = 2.5;
   for (const Reference& r : {by_time, by_slope}) {
-    const std::vector<Stretch> course = reference_course(with(r));
-    expect_no_jump(course, 10.0);
-    EXPECT_EQ(at(course, 0.25), 2.0);
-    EXPECT_EQ(at(course, 1.5), -0.5);
-    EXPECT_EQ(at(course, 4.5), -8.0);
-    EXPECT_EQ(at(course, 9.0), -8.0);
+    const std::vector<Stretch> stretches = reference_waveform(with(r));
+    expect_no_jump(stretches, 10.0);
+    EXPECT_EQ(at(stretches, 0.25), 2.0);
+    EXPECT_EQ(at(stretches, 1.5), -0.5);
+    EXPECT_EQ(at(stretches, 4.5), -8.0);
+    EXPECT_EQ(at(stretches, 9.0), -8.0);
   }
 }
 
 TEST(ReferenceCourse, ASineCountsItsTurns) {
-  const std::vector<Stretch> course = reference_course(with(
+  const std::vector<Stretch> stretches = reference_waveform(with(
       {.shape = Shape::sine, .offset = 1.0, .amplitude = 3.0, .frequency_Hz = 1000.0, .phase_deg = 90.0}));
-  ASSERT_EQ(course.size(), 1u);
-  EXPECT_EQ(course[0].at(0.0), 4.0);
+  ASSERT_EQ(stretches.size(), 1u);
+  EXPECT_EQ(stretches[0].at(0.0), 4.0);
   // 1e9 turns later the same bits: 1000 Hz times these times is whole.
-  EXPECT_EQ(course[0].at(1e6), course[0].at(0.0));
+  EXPECT_EQ(stretches[0].at(1e6), stretches[0].at(0.0));
   for (const double t : {1e-4, 3.3e-4, 7.7e-4})
-    EXPECT_NEAR(course[0].at(t), 1.0 + 3.0 * std::cos(2 * M_PI * 1000.0 * t), 8 * 0x1p-52 * 4.0);
+    EXPECT_NEAR(stretches[0].at(t), 1.0 + 3.0 * std::cos(2 * M_PI * 1000.0 * t), 8 * 0x1p-52 * 4.0);
 }
 
 TEST(ReferenceCourse, ATrapezoidKeepsRateAndAcceleration) {
   // 90 deg at 30 deg/s and 60 deg/s^2: 0.5 s to get up to speed over 7.5 deg, 2.5 s at speed, 0.5 s down.
   const Reference far{
       .shape = Shape::trapezoid, .begin_s = 1.0, .end = 90.0, .slope = 30, .acceleration = 60};
-  const std::vector<Stretch> course = reference_course(with(far));
-  expect_no_jump(course, 90.0);
-  EXPECT_EQ(at(course, 1.0), 0.0);
-  EXPECT_EQ(at(course, 1.5), 7.5);
-  EXPECT_EQ(at(course, 2.75), 45.0);
-  EXPECT_EQ(at(course, 4.0), 82.5);
-  EXPECT_EQ(at(course, 4.5), 90.0);
-  EXPECT_EQ(at(course, 9.0), 90.0);
+  const std::vector<Stretch> stretches = reference_waveform(with(far));
+  expect_no_jump(stretches, 90.0);
+  EXPECT_EQ(at(stretches, 1.0), 0.0);
+  EXPECT_EQ(at(stretches, 1.5), 7.5);
+  EXPECT_EQ(at(stretches, 2.75), 45.0);
+  EXPECT_EQ(at(stretches, 4.0), 82.5);
+  EXPECT_EQ(at(stretches, 4.5), 90.0);
+  EXPECT_EQ(at(stretches, 9.0), 90.0);
   // 3.75 deg the other way: 0.25 s up to 15 deg/s and 0.25 s down, never at 30.
   Reference near = far;
   near.end = -3.75;
-  const std::vector<Stretch> there = reference_course(with(near));
+  const std::vector<Stretch> there = reference_waveform(with(near));
   expect_no_jump(there, 3.75);
   EXPECT_EQ(at(there, 1.25), -1.875);
   EXPECT_EQ(at(there, 1.5), -3.75);
@@ -91,8 +91,8 @@ TEST(ReferenceCourse, TheChipsOwnProfileOfTheSameLimitsIsThereNoLater) {
   // control/profile.hpp moves in whole ticks and claims to be at least as fast as the continuous profile.
   const double T = 1e-3;
   for (const double way : {0.001, 0.37, 3.75, 12.0, 90.0}) {
-    const std::vector<Stretch> course =
-        reference_course(with({.shape = Shape::trapezoid, .end = way, .slope = 30, .acceleration = 60}));
+    const std::vector<Stretch> stretches =
+        reference_waveform(with({.shape = Shape::trapezoid, .end = way, .slope = 30, .acceleration = 60}));
     const control::ProfileConfig<double> config{30 * T, 60 * T * T};
     control::ProfileState<double> state;
     int ticks = 0;
@@ -100,24 +100,24 @@ TEST(ReferenceCourse, TheChipsOwnProfileOfTheSameLimitsIsThereNoLater) {
       control::profile_step(config, state, way);
       ++ticks;
     }
-    EXPECT_LE(ticks * T, course.back().at_s + T) << way;
-    EXPECT_GE(ticks * T, course.back().at_s - 2 * T) << way;
+    EXPECT_LE(ticks * T, stretches.back().at_s + T) << way;
+    EXPECT_GE(ticks * T, stretches.back().at_s - 2 * T) << way;
   }
 }
 
 TEST(ReferenceCourse, RowsAreJoinedOrHeldAndRunOnAtBothEnds) {
   Reference r{.shape = Shape::csv, .times_s = {1.0, 2.0, 4.0}, .values = {5.0, 7.0, 1.0}};
-  std::vector<Stretch> course = reference_course(with(r));
-  EXPECT_EQ(at(course, 0.0), 5.0);
-  EXPECT_EQ(at(course, 1.5), 6.0);
-  EXPECT_EQ(at(course, 3.0), 4.0);
-  EXPECT_EQ(at(course, 9.0), 1.0);
+  std::vector<Stretch> stretches = reference_waveform(with(r));
+  EXPECT_EQ(at(stretches, 0.0), 5.0);
+  EXPECT_EQ(at(stretches, 1.5), 6.0);
+  EXPECT_EQ(at(stretches, 3.0), 4.0);
+  EXPECT_EQ(at(stretches, 9.0), 1.0);
   EXPECT_TRUE(reference_moves(with(r), 3.0, 3.5));
   EXPECT_FALSE(reference_moves(with(r), 4.0, 9.0));
   r.interpolation = study::Interpolation::hold;
-  course = reference_course(with(r));
-  EXPECT_EQ(at(course, 1.5), 5.0);
-  EXPECT_EQ(at(course, 3.9), 7.0);
+  stretches = reference_waveform(with(r));
+  EXPECT_EQ(at(stretches, 1.5), 5.0);
+  EXPECT_EQ(at(stretches, 3.9), 7.0);
   EXPECT_FALSE(reference_moves(with(r), 0.0, 9.0));
 }
 
@@ -126,11 +126,11 @@ TEST(ReferenceCourse, AnEventTakesOverWhereTheReferenceStood) {
   // Times count from the event, which replaces all that the square would still have done.
   s.at.push_back({.time_s = 5.5, .reference = Reference{.shape = Shape::ramp, .end = 6.0, .slope = 5.0}});
   s.at.push_back({.time_s = 8.0, .reference = Reference{.value = 1.0}});
-  const std::vector<Stretch> course = reference_course(s);
-  EXPECT_EQ(at(course, 5.4), -4.0);
-  EXPECT_EQ(at(course, 6.5), 1.0);
-  EXPECT_EQ(at(course, 7.9), 6.0);
-  EXPECT_EQ(at(course, 9.0), 1.0);
+  const std::vector<Stretch> stretches = reference_waveform(s);
+  EXPECT_EQ(at(stretches, 5.4), -4.0);
+  EXPECT_EQ(at(stretches, 6.5), 1.0);
+  EXPECT_EQ(at(stretches, 7.9), 6.0);
+  EXPECT_EQ(at(stretches, 9.0), 1.0);
   EXPECT_EQ(largest_reference(s), 6.0);
   // A run that ends on the way never asks for more than it got to.
   s.at.pop_back();
@@ -162,7 +162,7 @@ TEST(ReferenceCourse, TheControllerSeesTheClosedFormAtItsTicks) {
   s.at.push_back(
       {.time_s = 7e-3,
        .reference = Reference{.shape = Shape::trapezoid, .end = -2.0, .slope = 900.0, .acceleration = 6e5}});
-  const std::vector<Stretch> course = reference_course(s);
+  const std::vector<Stretch> stretches = reference_waveform(s);
   const std::vector<double> wide = held(s, "i_ref_A");
   s.control.arithmetic = study::Arithmetic::float32;
   const std::vector<double> narrow = held(s, "i_ref_A");
@@ -170,7 +170,7 @@ TEST(ReferenceCourse, TheControllerSeesTheClosedFormAtItsTicks) {
   const std::vector<double> fixed = held(s, "i_ref_A");
   ASSERT_EQ(wide.size(), 667u);
   for (std::size_t n = 0; n < wide.size(); ++n) {
-    const double expected = at(course, static_cast<double>(n) * 30'000'000 / 1e12);
+    const double expected = at(stretches, static_cast<double>(n) * 30'000'000 / 1e12);
     // The engine takes the time since the stretch began from its clock, to the picosecond.
     EXPECT_NEAR(wide[n], expected, 2 * 3.0 * 2 * M_PI * 333.0 * 1e-12) << n;
     EXPECT_EQ(narrow[n], static_cast<double>(static_cast<float>(wide[n]))) << n;
@@ -182,12 +182,12 @@ TEST(ReferenceCourse, EventComparatorsFollowItFromTickToTick) {
   Scenario s = current_square();
   s.control.current = {.type = study::CurrentLoopType::hysteresis};
   s.reference = {.shape = Shape::ramp, .begin_s = 1e-3 + 1e-6, .start = 2.0, .end = 5.0, .end_s = 12e-3};
-  const std::vector<Stretch> course = reference_course(s);
+  const std::vector<Stretch> stretches = reference_waveform(s);
   const std::vector<double> seen = held(s, "i_ref_A");
   // The step into the ramp, between two ticks, is taken at once; the ramp itself at each tick, for which the
   // engine has the time since then to the picosecond.
   for (std::size_t n = 0; n < seen.size(); ++n)
-    EXPECT_NEAR(seen[n], at(course, static_cast<double>(n) * 30'000'000 / 1e12), 2 * 3.0 / 11e-3 * 1e-12)
+    EXPECT_NEAR(seen[n], at(stretches, static_cast<double>(n) * 30'000'000 / 1e12), 2 * 3.0 / 11e-3 * 1e-12)
         << n;
 }
 
