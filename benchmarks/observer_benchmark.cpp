@@ -10,7 +10,7 @@
 #include <string>
 
 #include "benchmarks/cases.hpp"
-#include "io/trace/csv_writer.hpp"
+#include "files/trace/csv_writer.hpp"
 #include "sixstep/plant/audit.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/digest.hpp"
@@ -94,9 +94,9 @@ void csv(benchmark::State& state, const Case& c) {
   const std::string name =
       (std::filesystem::temp_directory_path() / "sixstep-observer-benchmark.csv").string();
   const auto columns = std::span(study::all_columns()).first(7);
-  std::optional<io::CsvWriter> file;
+  std::optional<files::CsvWriter> file;
   measure(state, c, [&](const Prepared& p) {
-    auto made = io::CsvWriter::create(name, columns);
+    auto made = files::CsvWriter::create(name, columns);
     file.reset();
     if (made) file.emplace(std::move(*made));
     return study::GridRecorder(grid_ticks, p.end(), first_columns(7), [&file](std::span<const double> row) {

@@ -17,8 +17,8 @@ function(sixstep_room name)
 endfunction()
 
 # The text files of a folder as C++ constants, so that the program needs nothing beside itself.
-#   sixstep_embed(TARGET io NAMESPACE io::assets FILES a.html b.js)
-# makes io/assets.hpp-style code: for each file a std::string_view named after it, dots and dashes as underscores.
+#   sixstep_embed(TARGET report NAMESPACE report::assets FILES a.html b.js)
+# makes report_assets.hpp-style code: for each file a std::string_view named after it, dots and dashes as underscores.
 function(sixstep_embed)
   cmake_parse_arguments(E "" "TARGET;NAMESPACE;HEADER" "FILES" ${ARGN})
   set(out ${CMAKE_CURRENT_BINARY_DIR}/embedded/${E_HEADER})

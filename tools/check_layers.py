@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Holds the code to the layer picture of docs/architecture.md.
 
-Reads the ```layers block there and checks every #include under sixstep/, batch/, io/ and faces/:
+Reads the ```layers block there and checks every #include under the rooms:
   - a layer includes only itself and what stands behind its arrow; where the block names corners of a room
     (study/run), so does each corner within its room;
   - third-party headers appear only outside the library, and nothing includes tests/ or benchmarks/;
@@ -16,7 +16,7 @@ import re
 import sys
 
 SOURCE = {".hpp", ".cpp", ".h", ".cc", ".inl"}
-ROOTS = ("sixstep", "batch", "io", "faces")
+ROOTS = ("sixstep", "batch", "text", "files", "report", "faces")
 DETERMINISTIC = {"base", "series", "control", "plant", "sim", "rig", "design"}
 
 # What C++20 promises without an operating system (the freestanding headers, and three that need none).
@@ -115,9 +115,9 @@ def check_include(layer: str, quoted: bool, target: str, layers: dict[str, set[s
     if not in_library:
         return None
     if not CPP_HEADER.match(target):
-        return f"<{target}> is not the C++ standard library's; third-party code belongs to batch, io or faces"
+        return f"<{target}> is not the C++ standard library's; third-party code belongs to batch, text, files, report or faces"
     if target not in LIBRARY:
-        return f"<{target}> knows files, clocks, threads or differs between platforms; do that in batch, io or faces"
+        return f"<{target}> knows files, clocks, threads or differs between platforms; do that in batch, files or faces"
     return None
 
 

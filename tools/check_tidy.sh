@@ -12,7 +12,7 @@ for word in "$@"; do
     *) build=$word ;;
   esac
 done
-git ls-files -z 'sixstep/*.cpp' 'batch/*.cpp' 'io/*.cpp' 'faces/*.cpp' ':!faces/firmware' |
+git ls-files -z 'sixstep/*.cpp' 'batch/*.cpp' 'text/*.cpp' 'files/*.cpp' 'report/*.cpp' 'faces/*.cpp' ':!faces/firmware' |
   xargs -0 -n 1 -P "$(nproc)" clang-tidy -p "$build" --quiet "$checks" 2>/dev/null
 # Firmware is in no build for this machine: each example with the flags of its chip.
 firmware() {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "faces/cli/rooms.hpp"
-#include "io/keys/key_advice.hpp"
 #include "sixstep/base/problem.hpp"
+#include "text/keys/key_advice.hpp"
 
 namespace cli {
 
@@ -24,7 +24,7 @@ void choose(const char* option, const std::string& word, const Choices& choices,
     }
     known.emplace_back(choice.word);
   }
-  const std::string near = io::nearest(word, known);
+  const std::string near = text::nearest(word, known);
   found.push_back(
       {option, word, fmt::format("must be one of {}", fmt::join(known, ", ")),
        near.empty() ? fmt::format("take {}", known.front()) : fmt::format("did you mean {}?", near)});

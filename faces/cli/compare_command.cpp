@@ -11,13 +11,13 @@
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/run_command.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/files/atomic_file.hpp"
-#include "io/report/comparison.hpp"
-#include "io/report/kept_rows.hpp"
-#include "io/results/verdict_table.hpp"
+#include "files/atomic_file.hpp"
+#include "report/comparison.hpp"
+#include "report/kept_rows.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "text/results/verdict_table.hpp"
 
 namespace cli {
 namespace {
@@ -35,9 +35,9 @@ void add(study::Trace& trace, study::Row row) {
 /// A run that keeps what is drawn and what is subtracted.
 struct Compared {
   study::Scenario scenario;
-  std::size_t most_bytes = io::report::most_row_bytes;  ///< of events
+  std::size_t most_bytes = report::most_row_bytes;  ///< of events
   study::Trace grid = all_columns();
-  std::optional<io::report::KeptRows> events;
+  std::optional<report::KeptRows> events;
   std::optional<study::Outcome> outcome;
   base::Problems problems;
 
@@ -67,8 +67,8 @@ std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
   for (const Job& job : jobs) scenarios.push_back(&job.scenario());
   for (const Job& job : jobs) {
     Compared& run = runs.emplace_back(
-        Compared{.scenario = job.scenario(), .most_bytes = io::report::most_row_bytes / jobs.size()});
-    run.scenario.record = {.grid_s = io::report::common_grid_s(scenarios)};
+        Compared{.scenario = job.scenario(), .most_bytes = report::most_row_bytes / jobs.size()});
+    run.scenario.record = {.grid_s = report::common_grid_s(scenarios)};
     // A column that a mode has no use for is asked for all the same, so that all runs have the same ones.
     for (const study::Column& column : study::all_columns())
       run.scenario.record.columns.push_back(column.name);
@@ -77,9 +77,10 @@ std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
 }
 
 void print_table(const std::vector<Job>& jobs, const std::vector<Compared>& runs) {
-  std::vector<io::TableEntry> entries;
+  std::vector<text::TableEntry> entries;
   for (std::size_t n = 0; n < runs.size(); ++n) entries.push_back({jobs[n].name(), &*runs[n].outcome});
-  print(io::verdict_table(entries, may_colour(stdout)) + io::verdict_summary(entries, may_colour(stdout)));
+  print(text::verdict_table(entries, may_colour(stdout)) +
+        text::verdict_summary(entries, may_colour(stdout)));
 }
 
 }  // namespace
@@ -90,16 +91,16 @@ bool compares(const RunArguments& a) {
 }
 
 base::Problems check_comparison(const RunArguments& arguments) {
-  if (arguments.files.size() <= io::report::most_compared) return {};
-  return {
-      {.where = "--html",
-       .value = fmt::format("{} files", arguments.files.size()),
-       .limit = fmt::format("is more than the {} that one page can tell apart", io::report::most_compared),
-       .cure = "compare fewer, or write one report each with --out DIR"}};
+  if (arguments.files.size() <= report::most_compared) return {};
+  return {{.where = "--html",
+           .value = fmt::format("{} files", arguments.files.size()),
+           .limit = fmt::format("is more than the {} that one page can tell apart", report::most_compared),
+           .cure = "compare fewer, or write one report each with --out DIR"}};
 }
 
 Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs) {
-  base::Result<io::AtomicFile> file = io::AtomicFile::create({arguments.paths.html, arguments.paths.force});
+  base::Result<files::AtomicFile> file =
+      files::AtomicFile::create({arguments.paths.html, arguments.paths.force});
   if (!file) return refused(file.problems());
   std::vector<Compared> runs = on_one_grid(jobs);
   {
@@ -123,7 +124,7 @@ Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs
   }
   if (sources.size() < runs.size()) return exit;
   for (const ComparedSource& source : sources)
-    if (const std::string told = io::report::rows_told(source.events); !told.empty() && !arguments.quiet)
+    if (const std::string told = report::rows_told(source.events); !told.empty() && !arguments.quiet)
       print(fmt::format("{}: {}\n", source.name, told), stderr);
   file->write(comparison_page(sources, arguments.command));
   const base::Problems unwritten = file->commit();

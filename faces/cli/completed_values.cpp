@@ -9,12 +9,12 @@
 
 #include "faces/cli/choose.hpp"
 #include "faces/cli/design_command.hpp"
-#include "io/escape/escape.hpp"
-#include "io/keys/key_catalog.hpp"
-#include "io/keys/key_tree.hpp"
-#include "io/motor/motor_library.hpp"
-#include "io/motor/motor_template.hpp"
 #include "sixstep/study/scenario/choices.hpp"
+#include "text/escape/escape.hpp"
+#include "text/keys/key_catalog.hpp"
+#include "text/keys/key_tree.hpp"
+#include "text/motor/motor_library.hpp"
+#include "text/motor/motor_template.hpp"
 
 namespace cli {
 namespace {
@@ -32,7 +32,7 @@ Candidates files(const std::string& current, std::string_view extension, bool fo
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(start) || (name.front() == '.' && start.empty())) continue;
-    if (io::visible(name) != name) continue;  // shells show candidates as they are, one a line
+    if (text::visible(name) != name) continue;  // shells show candidates as they are, one a line
     // What begins as an option does would be read as one.
     const std::string path = (name.front() == '-' && folder.empty() ? "./" : folder) + name;
     if (entry.is_directory(error))
@@ -46,7 +46,7 @@ Candidates files(const std::string& current, std::string_view extension, bool fo
 
 Candidates motors(const std::string& current) {
   Candidates found;
-  for (const std::string& name : io::built_in_motors()) found.push_back({name, "built-in"});
+  for (const std::string& name : text::built_in_motors()) found.push_back({name, "built-in"});
   const Candidates own = files(current, ".toml");
   found.insert(found.end(), own.begin(), own.end());
   return found;
@@ -61,8 +61,8 @@ Candidates words(const Choices& choices) {
 
 Candidates keys(std::string_view behind, bool tables) {
   Candidates found;
-  for (const io::KeyEntry& key : io::scenario_keys())
-    if (tables || !io::is_table(key))
+  for (const text::KeyEntry& key : text::scenario_keys())
+    if (tables || !text::is_table(key))
       found.push_back({key.path + std::string(behind), std::string(key.about.meaning)});
   return found;
 }
@@ -71,21 +71,21 @@ Candidates keys(std::string_view behind, bool tables) {
 Candidates settings(const std::string& current) {
   const std::size_t equals = current.find('=');
   if (equals == std::string::npos) return keys("=", false);
-  const std::vector<io::KeyEntry> all = io::scenario_keys();
-  const io::KeyEntry* key = io::find_key(all, current.substr(0, equals));
+  const std::vector<text::KeyEntry> all = text::scenario_keys();
+  const text::KeyEntry* key = text::find_key(all, current.substr(0, equals));
   Candidates found;
   if (!key) return found;
   const std::string start = current.substr(0, equals + 1);
   for (const auto& [word, meaning] : key->choices) found.push_back({start + word, meaning});
-  if (key->type == io::KeyType::flag) found = {{start + "true", ""}, {start + "false", ""}};
+  if (key->type == text::KeyType::flag) found = {{start + "true", ""}, {start + "false", ""}};
   if (key->path == "motor")
-    for (const std::string& name : io::built_in_motors()) found.push_back({start + name, "built-in"});
+    for (const std::string& name : text::built_in_motors()) found.push_back({start + name, "built-in"});
   return found;
 }
 
 Candidates styles() {
   Candidates found;
-  for (const std::string& style : io::template_styles()) found.push_back({style, ""});
+  for (const std::string& style : text::template_styles()) found.push_back({style, ""});
   return found;
 }
 

@@ -12,17 +12,17 @@
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
-#include "io/escape/escape.hpp"
-#include "io/keys/key_advice.hpp"
-#include "io/report/curve_page.hpp"
-#include "io/results/curve_columns.hpp"
-#include "io/results/curve_json.hpp"
-#include "io/results/curve_table.hpp"
-#include "io/scenario/scenario_file.hpp"
-#include "io/trace/csv_writer.hpp"
+#include "files/trace/csv_writer.hpp"
+#include "report/curve_page.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/scenario/choices.hpp"
+#include "text/escape/escape.hpp"
+#include "text/keys/key_advice.hpp"
+#include "text/results/curve_columns.hpp"
+#include "text/results/curve_json.hpp"
+#include "text/results/curve_table.hpp"
+#include "text/scenario/scenario_file.hpp"
 
 namespace cli {
 namespace {
@@ -41,21 +41,22 @@ struct CurveArguments {
 
 /// Files are made before the work begins: one that cannot be written is told at once.
 struct CurveFiles {
-  std::optional<io::CsvWriter> csv;
-  std::optional<io::AtomicFile> json, html;
+  std::optional<files::CsvWriter> csv;
+  std::optional<files::AtomicFile> json, html;
 };
 
 CurveFiles outputs(const CurveArguments& a, base::Problems& problems) {
   CurveFiles out;
   if (!a.csv.empty()) {
     std::vector<study::Column> columns;
-    for (const io::CurveColumn& c : io::curve_columns()) columns.push_back(c.column);
-    const std::string origin[] = {"sixstep " SIXSTEP_VERSION, "motor: " + io::visible(a.motor),
+    for (const text::CurveColumn& c : text::curve_columns()) columns.push_back(c.column);
+    const std::string origin[] = {"sixstep " SIXSTEP_VERSION, "motor: " + text::visible(a.motor),
                                   "command: " + a.command};
-    keep(out.csv, io::CsvWriter::create({a.csv, a.force}, columns, origin), problems);
+    keep(out.csv, files::CsvWriter::create({a.csv, a.force}, columns, origin), problems);
   }
-  if (!a.json.empty() && a.json != "-") keep(out.json, io::AtomicFile::create({a.json, a.force}), problems);
-  if (!a.html.empty()) keep(out.html, io::AtomicFile::create({a.html, a.force}), problems);
+  if (!a.json.empty() && a.json != "-")
+    keep(out.json, files::AtomicFile::create({a.json, a.force}), problems);
+  if (!a.html.empty()) keep(out.html, files::AtomicFile::create({a.html, a.force}), problems);
   return out;
 }
 
@@ -67,25 +68,25 @@ void write(const CurveArguments& a, const study::CurveRequest& request, const st
   };
   if (out.csv) {
     std::vector<double> numbers;
-    for (const io::CurveRow& row : io::curve_rows(request, curve)) {
+    for (const text::CurveRow& row : text::curve_rows(request, curve)) {
       numbers.clear();
-      for (const io::CurveColumn& c : io::curve_columns()) numbers.push_back(c.value(row));
+      for (const text::CurveColumn& c : text::curve_columns()) numbers.push_back(c.value(row));
       out.csv->row(numbers);
     }
     commit(*out.csv);
   }
   if (out.json) {
-    out.json->write(io::curve_json(request, curve));
+    out.json->write(text::curve_json(request, curve));
     commit(*out.json);
   }
   if (out.html) {
-    out.html->write(io::report::render_curve({request, curve, a.command, SIXSTEP_VERSION}));
+    out.html->write(report::render_curve({request, curve, a.command, SIXSTEP_VERSION}));
     commit(*out.html);
   }
   if (a.json == "-")
-    print(io::curve_json(request, curve));
+    print(text::curve_json(request, curve));
   else if (!a.quiet)
-    print(io::curve_table(request, curve));
+    print(text::curve_table(request, curve));
 }
 
 void read_chopping(const std::string& word, study::Bench& bench, base::Problems& problems) {
@@ -96,7 +97,7 @@ void read_chopping(const std::string& word, study::Bench& bench, base::Problems&
     if (choice.word == word) return;
     known.emplace_back(choice.word);
   }
-  const std::string near = io::nearest(word, known);
+  const std::string near = text::nearest(word, known);
   problems.push_back({"chopping", word, fmt::format("must be one of {}", fmt::join(known, ", ")),
                       near.empty() ? "soft is the default" : fmt::format("did you mean {}?", near)});
 }
@@ -109,7 +110,7 @@ std::string option_of(std::string member) {
 }
 
 base::Result<study::CurveRequest> request_of(const CurveArguments& a) {
-  const base::Result<design::Sheet> sheet = io::read_sheet(a.motor, a.data_dir);
+  const base::Result<design::Sheet> sheet = text::read_sheet(a.motor, a.data_dir);
   if (!sheet) return sheet.problems();
   base::Result<design::MotorModel> motor = design::motor_model(*sheet);
   if (!motor) {

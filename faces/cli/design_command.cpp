@@ -11,20 +11,20 @@
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
-#include "io/export/model_export.hpp"
-#include "io/files/atomic_file.hpp"
-#include "io/files/own_file.hpp"
-#include "io/keys/key_advice.hpp"
-#include "io/report/design_page.hpp"
-#include "io/results/design_json.hpp"
-#include "io/results/design_text.hpp"
-#include "io/scenario/scenario_file.hpp"
-#include "io/scenario/scenario_text.hpp"
+#include "files/atomic_file.hpp"
+#include "files/own_file.hpp"
+#include "files/trace/model_export.hpp"
+#include "report/design_page.hpp"
 #include "sixstep/base/range_text.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 #include "sixstep/study/verify/design_study.hpp"
 #include "sixstep/study/verify/scenario_spec.hpp"
+#include "text/keys/key_advice.hpp"
+#include "text/results/design_json.hpp"
+#include "text/results/design_text.hpp"
+#include "text/scenario/scenario_file.hpp"
+#include "text/scenario/scenario_text.hpp"
 
 namespace cli {
 namespace {
@@ -82,7 +82,7 @@ design::DesignSpec spec_of(const DesignArguments& a, const study::Scenario* scen
 
 /// The files that were asked for, open before anything runs.
 struct DesignFiles {
-  std::optional<io::AtomicFile> json, toml, models, html;
+  std::optional<files::AtomicFile> json, toml, models, html;
 
   base::Problems open(const DesignArguments& a) {
     base::Problems found =
@@ -91,9 +91,9 @@ struct DesignFiles {
     const std::string kind = fs::path(a.models).extension().string();
     if (!a.models.empty() && kind != ".json" && kind != ".mat")
       return {{"--models", a.models, "must end in .json or .mat", "name the file so"}};
-    const auto one = [&](std::optional<io::AtomicFile>& into, const std::string& path) {
+    const auto one = [&](std::optional<files::AtomicFile>& into, const std::string& path) {
       if (path.empty() || path == "-") return;
-      base::Result<io::AtomicFile> file = io::AtomicFile::create({path, a.force});
+      base::Result<files::AtomicFile> file = files::AtomicFile::create({path, a.force});
       if (file)
         into.emplace(std::move(*file));
       else
@@ -107,29 +107,30 @@ struct DesignFiles {
   }
 };
 
-base::Problems put(std::optional<io::AtomicFile>& file, const std::string& text) {
+base::Problems put(std::optional<files::AtomicFile>& file, const std::string& text) {
   if (!file) return {};
   file->write(text);
   return file->commit();
 }
 
 base::Problems write(const study::DesignStudy& s, const DesignArguments& a, DesignFiles& out) {
-  base::Problems found = put(out.json, io::design_json(s));
+  base::Problems found = put(out.json, text::design_json(s));
   const auto add = [&](const base::Problems& more) { found.insert(found.end(), more.begin(), more.end()); };
   study::Scenario scenario = s.scenario;
   scenario.motor = motor_beside(scenario.motor, a.toml);
-  const std::string text = io::with_own_mark(a.command, io::scenario_text(scenario, io::design_lines(s)));
+  const std::string text =
+      files::with_own_mark(a.command, text::scenario_text(scenario, text::design_lines(s)));
   add(put(out.toml, text));
   if (out.html)
-    add(put(out.html, io::report::render_design({.study = s,
-                                                 .verdict = io::design_verdict(s),
-                                                 .scenario = text,
-                                                 .command = a.command,
-                                                 .version = SIXSTEP_VERSION})));
+    add(put(out.html, report::render_design({.study = s,
+                                             .verdict = text::design_verdict(s),
+                                             .scenario = text,
+                                             .command = a.command,
+                                             .version = SIXSTEP_VERSION})));
   if (out.models) {
-    const io::ModelPoint point{s.design.motor, a.angle_deg};
+    const files::ModelPoint point{s.design.motor, a.angle_deg};
     const base::Result<std::string> bytes =
-        fs::path(a.models).extension() == ".mat" ? io::models_mat(point) : io::models_json(point);
+        fs::path(a.models).extension() == ".mat" ? files::models_mat(point) : files::models_json(point);
     add(bytes ? put(out.models, *bytes) : bytes.problems());
   }
   return found;
@@ -138,7 +139,7 @@ base::Problems write(const study::DesignStudy& s, const DesignArguments& a, Desi
 /// The scenario that --scenario names.
 std::optional<study::Scenario> board_of(const DesignArguments& a, base::Problems& found) {
   if (a.scenario.empty()) return std::nullopt;
-  const base::Result<study::Scenario> scenario = io::read_scenario(a.scenario, {.data_dir = a.data_dir});
+  const base::Result<study::Scenario> scenario = text::read_scenario(a.scenario, {.data_dir = a.data_dir});
   if (scenario) return *scenario;
   found = scenario.problems();
   return std::nullopt;
@@ -163,7 +164,7 @@ base::Result<study::DesignSubject> subject_of(const DesignArguments& a,
     found.push_back({"MOTOR", "", "is missing", "name a motor or its file, or a scenario with --scenario"});
     return found;
   }
-  const base::Result<design::Sheet> sheet = io::read_sheet(a.motor, a.data_dir);
+  const base::Result<design::Sheet> sheet = text::read_sheet(a.motor, a.data_dir);
   if (sheet)
     subject.sheet = *sheet;
   else
@@ -190,9 +191,9 @@ Exit design_command(const DesignArguments& a) {
   if (interrupted()) return told_interrupted("design " + a.motor);
   if (!s) return refused(s.problems());
   if (const base::Problems unwritten = write(*s, a, outputs); !unwritten.empty()) return refused(unwritten);
-  if (a.json == "-") print(io::design_json(*s));
+  if (a.json == "-") print(text::design_json(*s));
   std::FILE* to = a.json == "-" ? stderr : stdout;  // standard output is the JSON's alone
-  if (!a.quiet) print(io::design_text(*s, may_colour(to)), to);
+  if (!a.quiet) print(text::design_text(*s, may_colour(to)), to);
   return s->usable() ? Exit::ok : Exit::failed;
 }
 

@@ -12,11 +12,11 @@
 #include "faces/cli/progress.hpp"
 #include "faces/cli/settings.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/export/config_header.hpp"
-#include "io/files/atomic_file.hpp"
-#include "io/keys/key_advice.hpp"
+#include "files/atomic_file.hpp"
 #include "sixstep/base/plausible.hpp"
 #include "sixstep/study/scenario/choices.hpp"
+#include "text/export/config_header.hpp"
+#include "text/keys/key_advice.hpp"
 
 namespace cli {
 namespace {
@@ -35,7 +35,7 @@ struct ExportArguments {
 };
 
 std::string meant(const std::string& word, const std::vector<std::string>& known) {
-  const std::string near = io::nearest(word, known);
+  const std::string near = text::nearest(word, known);
   return near.empty() ? fmt::format("take one of {}", fmt::join(known, ", "))
                       : fmt::format("did you mean {}?", near);
 }
@@ -96,12 +96,12 @@ design::OperatingRange range_of(const ExportArguments& a, base::Problems& proble
 base::Result<study::Scenario> scenario_of(const ExportArguments& a) {
   base::Problems problems;
   const std::optional<study::Arithmetic> arithmetic = arithmetic_of(a.arithmetic, problems);
-  const io::ReadOptions options = read_options(a.data_dir, a.sets, problems);
+  const text::ReadOptions options = read_options(a.data_dir, a.sets, problems);
   if (a.despite && a.despite->find_first_not_of(" \t\r\n") == std::string::npos)
     problems.push_back({"--despite", "", "gives no reason",
                         "say why the header is written all the same: whoever flashes it reads that"});
   if (!problems.empty()) return problems;
-  base::Result<study::Scenario> scenario = io::read_scenario(a.file, options);
+  base::Result<study::Scenario> scenario = text::read_scenario(a.file, options);
   if (!scenario) return scenario;
   if (arithmetic) scenario->control.arithmetic = *arithmetic;
   const study::Arithmetic number = scenario->control.arithmetic;
@@ -144,18 +144,19 @@ Exit export_header(const ExportArguments& a) {
   const base::Result<study::Scenario> scenario = scenario_of(a);
   if (!scenario) problems.insert(problems.end(), scenario.problems().begin(), scenario.problems().end());
   if (!problems.empty()) return refused(problems);
-  io::ConfigHeader wanted{.scenario = *scenario,
-                          .arithmetic = {},
-                          .range = range,
-                          .name_space = a.name_space,
-                          .single_header = a.single_header,
-                          .command = a.command,
-                          .clearance = nullptr,
-                          .despite = a.despite.value_or("")};
+  text::ConfigHeader wanted{.scenario = *scenario,
+                            .arithmetic = {},
+                            .range = range,
+                            .name_space = a.name_space,
+                            .single_header = a.single_header,
+                            .command = a.command,
+                            .clearance = nullptr,
+                            .despite = a.despite.value_or("")};
   // What the format does not hold, or a file that cannot be written, is told before anything runs.
-  if (const auto unrun = io::config_header(wanted); !unrun) return refused(within(a.file, unrun.problems()));
-  std::optional<io::AtomicFile> file;
-  if (!a.out.empty() && a.out != "-") keep(file, io::AtomicFile::create({a.out, a.force}), problems);
+  if (const auto unrun = text::config_header(wanted); !unrun)
+    return refused(within(a.file, unrun.problems()));
+  std::optional<files::AtomicFile> file;
+  if (!a.out.empty() && a.out != "-") keep(file, files::AtomicFile::create({a.out, a.force}), problems);
   if (!problems.empty()) return refused(problems);
   catch_interrupts();
   const base::Result<study::Clearance> clearance = cleared(*scenario);
@@ -165,7 +166,7 @@ Exit export_header(const ExportArguments& a) {
   if (a.despite && clearance->clear())
     print("--despite was not needed: the run holds, and the header says so\n", stderr);
   wanted.clearance = &*clearance;
-  const base::Result<std::string> text = io::config_header(wanted);
+  const base::Result<std::string> text = text::config_header(wanted);
   if (!text) return refused(within(a.file, text.problems()));
   if (!file) {
     print(*text);

@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "faces/cli/terminal.hpp"
-#include "io/keys/key_advice.hpp"
-#include "io/keys/key_catalog.hpp"
-#include "io/keys/key_tree.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "text/keys/key_advice.hpp"
+#include "text/keys/key_catalog.hpp"
+#include "text/keys/key_tree.hpp"
 
 namespace cli {
 namespace {
 
-using io::KeyEntry;
+using text::KeyEntry;
 
 bool inside(const KeyEntry& entry, const std::string& table) { return entry.path.starts_with(table + "."); }
 
@@ -37,14 +37,14 @@ std::string overview(const std::vector<KeyEntry>& scenario, const std::vector<Ke
 }
 
 std::string of_table(const std::vector<KeyEntry>& entries, const KeyEntry& table) {
-  std::string text = io::help_text(table);
+  std::string text = text::help_text(table);
   for (const KeyEntry& entry : entries)
     if (inside(entry, table.path)) text += line(entry);
   return text;
 }
 
 std::string of_key(const KeyEntry& entry) {
-  std::string text = io::help_text(entry);
+  std::string text = text::help_text(entry);
   if (entry.path != "record.columns") return text;
   for (const study::Column& column : study::all_columns())
     text += fmt::format("    {:<20}{}\n", column.name, column.meaning);
@@ -76,7 +76,7 @@ const CLI::App* command_of(const CLI::App& app, const std::string& name) {
 }
 
 Exit help_command(const CLI::App& app, const std::string& key) {
-  const std::vector<KeyEntry> scenario = io::scenario_keys(), sheet = io::sheet_keys();
+  const std::vector<KeyEntry> scenario = text::scenario_keys(), sheet = text::sheet_keys();
   if (key.empty()) {
     print(overview(scenario, sheet));
     return Exit::ok;
@@ -89,8 +89,8 @@ Exit help_command(const CLI::App& app, const std::string& key) {
     return Exit::ok;
   }
   if (verb) return Exit::ok;
-  if (const KeyEntry* entry = io::find_key(sheet, key)) {
-    print(io::help_text(*entry) + "  in a motor file or in [motor_override]\n");
+  if (const KeyEntry* entry = text::find_key(sheet, key)) {
+    print(text::help_text(*entry) + "  in a motor file or in [motor_override]\n");
     return Exit::ok;
   }
   if (const KeyEntry* entry = by_name(scenario, key)) {
@@ -100,9 +100,9 @@ Exit help_command(const CLI::App& app, const std::string& key) {
   std::vector<std::string> known;
   for (const std::vector<KeyEntry>* entries : {&scenario, &sheet})
     for (const KeyEntry& entry : *entries) known.push_back(entry.path);
-  std::string near = io::nearest(key, known);
+  std::string near = text::nearest(key, known);
   for (const std::string& path : known)  // "voltage_V" stands in a table; so may a misspelt one
-    if (near.empty() && io::edit_distance(path.substr(path.rfind('.') + 1), key) <= 1) near = path;
+    if (near.empty() && text::edit_distance(path.substr(path.rfind('.') + 1), key) <= 1) near = path;
   complain({{.where = key,
              .limit = "is no key of a scenario or motor file",
              .cure = near.empty() ? "sixstep help lists them" : fmt::format("did you mean {}?", near)}});

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "faces/cli/terminal.hpp"
-#include "io/escape/escape.hpp"
+#include "text/escape/escape.hpp"
 
 namespace cli {
 
@@ -38,7 +38,7 @@ std::string Job::report_told() const {
 }
 
 std::string Job::report_foretold() const {
-  const std::string told = reports_ ? io::report::rows_foretold(scenario_) : std::string();
+  const std::string told = reports_ ? report::rows_foretold(scenario_) : std::string();
   return told.empty() ? "" : fmt::format("{}: {}\n", name(), told);
 }
 
@@ -49,7 +49,7 @@ std::string Job::cut_short() const {
                   outcome_->simulated_s, scenario_.duration_s);
   if (!outputs_.partial_files().empty())
     text += fmt::format("; what was finished is in {}", fmt::join(outputs_.partial_files(), ", "));
-  return io::visible(text) + "\n";
+  return text::visible(text) + "\n";
 }
 
 Exit Job::exit_code() const {

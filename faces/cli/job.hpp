@@ -12,7 +12,7 @@ namespace cli {
 
 class Job {
  public:
-  Job(study::Scenario scenario, io::TraceOrigin origin)
+  Job(study::Scenario scenario, files::TraceOrigin origin)
       : scenario_(std::move(scenario)), origin_(std::move(origin)) {}
 
   /// Opens every output; Problems mean that nothing was written and nothing must run.
@@ -41,7 +41,7 @@ class Job {
 
  private:
   study::Scenario scenario_;
-  io::TraceOrigin origin_;
+  files::TraceOrigin origin_;
   Outputs outputs_;
   std::optional<study::Outcome> outcome_;
   base::Problems problems_;

@@ -21,8 +21,8 @@
 #include "faces/cli/run_command.hpp"
 #include "faces/cli/schema_command.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/escape/escape.hpp"
-#include "io/files/text_file.hpp"
+#include "text/escape/escape.hpp"
+#include "text/toml/text_file.hpp"
 
 namespace cli {
 namespace {
@@ -30,7 +30,7 @@ namespace {
 /// The command line as a shell would take it again. The program is called by its name: its path says nothing.
 std::string retyped(int count, const char* const* words) {
   std::string text = "sixstep";
-  for (int n = 1; n < count; ++n) text += " " + io::shell_word(words[n]);
+  for (int n = 1; n < count; ++n) text += " " + text::shell_word(words[n]);
   return text;
 }
 
@@ -59,7 +59,7 @@ Exit run_program(int count, const char* const* words) {
   } catch (const CLI::ParseError& error) {
     return not_called(app, error);
   }
-  const io::ReadLog inputs;  // no output takes the place of an input
+  const text::ReadLog inputs;  // no output takes the place of an input
   const auto chosen =
       std::find_if(std::begin(verbs), std::end(verbs), [](const Verb& v) { return v.app->parsed(); });
   return chosen->call(retyped(count, words));
@@ -73,7 +73,7 @@ int main(int count, char** words) {
   try {
     return static_cast<int>(cli::exit_after_printing(cli::run_program(count, words)));
   } catch (const std::exception& error) {
-    cli::print("internal error: " + io::visible(error.what()) + "\n", stderr);
+    cli::print("internal error: " + text::visible(error.what()) + "\n", stderr);
   } catch (...) {
     cli::print("internal error\n", stderr);
   }

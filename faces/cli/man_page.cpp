@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "faces/cli/exit_code.hpp"
-#include "io/keys/key_catalog.hpp"
-#include "io/keys/key_tree.hpp"
+#include "text/keys/key_catalog.hpp"
+#include "text/keys/key_tree.hpp"
 
 namespace cli {
 namespace {
@@ -106,11 +106,11 @@ std::string files() {
       "These are its keys and tables;\n"
       ".B sixstep help\n.I TABLE\nlists the keys of one, and\n.B sixstep help\n.I KEY\n"
       "tells unit, range, default and words.\n";
-  const std::vector<io::KeyEntry> keys = io::scenario_keys();
-  for (const io::KeyEntry* key : io::keys_in(keys, "")) {
-    const std::string name = key->type == io::KeyType::table  ? fmt::format("[{}]", key->path)
-                             : key->type == io::KeyType::list ? fmt::format("[[{}]]", key->path)
-                                                              : key->path;
+  const std::vector<text::KeyEntry> keys = text::scenario_keys();
+  for (const text::KeyEntry* key : text::keys_in(keys, "")) {
+    const std::string name = key->type == text::KeyType::table  ? fmt::format("[{}]", key->path)
+                             : key->type == text::KeyType::list ? fmt::format("[[{}]]", key->path)
+                                                                : key->path;
     text += entry(bold(name), std::string(key->about.meaning) + (key->about.required ? " (required)" : ""));
   }
   return text +

@@ -9,11 +9,11 @@
 
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/escape/escape.hpp"
-#include "io/motor/motor_library.hpp"
-#include "io/motor/motor_template.hpp"
-#include "io/motor/motor_text.hpp"
-#include "io/scenario/scenario_file.hpp"
+#include "text/escape/escape.hpp"
+#include "text/motor/motor_library.hpp"
+#include "text/motor/motor_template.hpp"
+#include "text/motor/motor_text.hpp"
+#include "text/scenario/scenario_file.hpp"
 
 namespace cli {
 namespace {
@@ -32,7 +32,7 @@ struct Checked {
 
 /// Nothing where the sheet cannot be read or judged, which has been told.
 std::optional<Checked> checked(const MotorArguments& a) {
-  base::Result<design::Sheet> sheet = io::read_sheet(a.name, a.data_dir);
+  base::Result<design::Sheet> sheet = text::read_sheet(a.name, a.data_dir);
   if (!sheet) {
     complain(sheet.problems());
     return {};
@@ -48,9 +48,9 @@ std::optional<Checked> checked(const MotorArguments& a) {
 /// One line per motor compiled in.
 Exit list_motors(const MotorArguments& a) {
   std::size_t width = 0;
-  std::vector<io::NamedSheet> motors;
-  for (const std::string& name : io::built_in_motors()) {
-    const base::Result<design::Sheet> sheet = io::read_sheet(name);
+  std::vector<text::NamedSheet> motors;
+  for (const std::string& name : text::built_in_motors()) {
+    const base::Result<design::Sheet> sheet = text::read_sheet(name);
     if (!sheet) {
       complain(sheet.problems());
       return Exit::internal;
@@ -59,11 +59,11 @@ Exit list_motors(const MotorArguments& a) {
     motors.push_back({name, *sheet});
   }
   if (a.json) {
-    print(io::motor_list_json(motors));
+    print(text::motor_list_json(motors));
     return Exit::ok;
   }
-  std::string text = io::motor_line_heading(width);
-  for (const io::NamedSheet& motor : motors) text += io::motor_line(motor.name, motor.sheet, width);
+  std::string text = text::motor_line_heading(width);
+  for (const text::NamedSheet& motor : motors) text += text::motor_line(motor.name, motor.sheet, width);
   print(text);
   return Exit::ok;
 }
@@ -72,22 +72,23 @@ Exit show_motor(const MotorArguments& a) {
   const std::optional<Checked> motor = checked(a);
   if (!motor) return Exit::bad_input;
   if (a.json)
-    print(io::motor_json(motor->sheet, motor->check));
+    print(text::motor_json(motor->sheet, motor->check));
   else
-    print(io::sheet_table(motor->sheet) + "\n" + io::model_table(motor->sheet, motor->check));
+    print(text::sheet_table(motor->sheet) + "\n" + text::model_table(motor->sheet, motor->check));
   return Exit::ok;
 }
 
 Exit check_motor(const MotorArguments& a) {
   const std::optional<Checked> motor = checked(a);
   if (!motor) return Exit::bad_input;
-  print(a.json ? io::motor_json(motor->sheet, motor->check) : io::check_report(motor->sheet, motor->check));
+  print(a.json ? text::motor_json(motor->sheet, motor->check)
+               : text::check_report(motor->sheet, motor->check));
   return motor->check.consistent ? Exit::ok : Exit::failed;
 }
 
 Exit new_motor(const MotorArguments& a) {
   const std::string stem = std::filesystem::path(a.name).stem().string();
-  const base::Result<std::string> text = io::motor_template(a.style, stem.empty() ? "my motor" : stem);
+  const base::Result<std::string> text = text::motor_template(a.style, stem.empty() ? "my motor" : stem);
   if (!text) {
     complain(text.problems());
     return Exit::bad_input;
@@ -102,7 +103,7 @@ Exit new_motor(const MotorArguments& a) {
     complain(problems);
     return Exit::bad_input;
   }
-  print("wrote " + io::visible(path) + "; fill it in, then: sixstep motor check " + io::shell_word(path) +
+  print("wrote " + text::visible(path) + "; fill it in, then: sixstep motor check " + text::shell_word(path) +
         "\n");
   return Exit::ok;
 }

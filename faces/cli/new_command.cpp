@@ -11,12 +11,12 @@
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/escape/escape.hpp"
-#include "io/scenario/json_schema.hpp"
-#include "io/scenario/scenario_file.hpp"
-#include "io/scenario/starter_scenario.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/verify/first_scenario.hpp"
+#include "text/escape/escape.hpp"
+#include "text/scenario/json_schema.hpp"
+#include "text/scenario/scenario_file.hpp"
+#include "text/scenario/starter_scenario.hpp"
 
 namespace cli {
 namespace {
@@ -37,7 +37,7 @@ base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::stri
   constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[3], study::mode_choices[2],
                                                             study::mode_choices[4], study::mode_choices[1]};
   choose("--mode", a.mode, modes, spec.mode, found);
-  const base::Result<design::Sheet> sheet = io::read_sheet(a.motor, a.data_dir);
+  const base::Result<design::Sheet> sheet = text::read_sheet(a.motor, a.data_dir);
   if (!sheet) found.insert(found.end(), sheet.problems().begin(), sheet.problems().end());
   if (!found.empty()) return found;
   spec.motor = motor_beside(a.motor, path);
@@ -49,7 +49,7 @@ base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::stri
 
 /// The schema lies beside the scenario, where its first line looks for it; one that is there already stays.
 base::Problems write_schema(const std::string& path) {
-  return taken(path).empty() ? write_new(path, io::scenario_schema()) : base::Problems{};
+  return taken(path).empty() ? write_new(path, text::scenario_schema()) : base::Problems{};
 }
 
 Exit new_command(const NewArguments& a) {
@@ -59,20 +59,20 @@ Exit new_command(const NewArguments& a) {
   if (!scenario) found.insert(found.end(), scenario.problems().begin(), scenario.problems().end());
   if (!found.empty()) return refused(found);
   const std::string file = path.empty() ? "FILE.toml" : path;
-  const std::string text = io::starter_text(*scenario, {.file = file, .full = a.full});
+  const std::string text = text::starter_text(*scenario, {.file = file, .full = a.full});
   if (path.empty()) {
     print(text);
     return Exit::ok;
   }
-  const std::string schema = (fs::path(path).parent_path() / io::scenario_schema_file).string();
+  const std::string schema = (fs::path(path).parent_path() / text::scenario_schema_file).string();
   base::Problems problems = write_new(path, text);
   if (problems.empty()) problems = write_schema(schema);
   if (!problems.empty()) return refused(problems);
   print(
       fmt::format("wrote {}, and {}, with which editors complete and check it\n"
                   "next: sixstep run {} --html {}\n",
-                  io::visible(path), io::visible(schema), io::shell_word(path),
-                  io::shell_word(fs::path(path).replace_extension(".html").string())));
+                  text::visible(path), text::visible(schema), text::shell_word(path),
+                  text::shell_word(fs::path(path).replace_extension(".html").string())));
   return Exit::ok;
 }
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "io/files/atomic_file.hpp"
+#include "files/atomic_file.hpp"
 
 namespace cli {
 
@@ -19,7 +19,7 @@ base::Problems taken(const std::string& path) {
 
 base::Problems write_new(const std::string& path, const std::string& text) {
   if (base::Problems found = taken(path); !found.empty()) return found;
-  base::Result<io::AtomicFile> file = io::AtomicFile::create(path);
+  base::Result<files::AtomicFile> file = files::AtomicFile::create(path);
   if (!file) return file.problems();
   file->write(text);
   return file->commit();

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "faces/cli/terminal.hpp"
-#include "io/escape/escape.hpp"
-#include "io/keys/key_advice.hpp"
-#include "io/keys/key_catalog.hpp"
-#include "io/keys/key_tree.hpp"
+#include "text/escape/escape.hpp"
+#include "text/keys/key_advice.hpp"
+#include "text/keys/key_catalog.hpp"
+#include "text/keys/key_tree.hpp"
 
 namespace cli {
 namespace {
@@ -52,7 +52,7 @@ std::vector<std::string> options_of(const CLI::App& verb) {
 std::string nearest_verb(const std::string& word, const std::vector<std::string>& verbs) {
   for (int distance = 1; distance <= 2; ++distance)
     for (const std::string& verb : verbs)
-      if (io::edit_distance(word, verb) <= distance) return verb;
+      if (text::edit_distance(word, verb) <= distance) return verb;
   return "";
 }
 
@@ -60,12 +60,12 @@ std::string nearest_verb(const std::string& word, const std::vector<std::string>
 std::string setting_meant(const CLI::App& verb, const std::string& word) {
   if (!verb.get_option_no_throw("--set")) return "";
   std::vector<std::string> keys;
-  for (const io::KeyEntry& key : io::scenario_keys())
-    if (!io::is_table(key)) keys.push_back(key.path);
+  for (const text::KeyEntry& key : text::scenario_keys())
+    if (!text::is_table(key)) keys.push_back(key.path);
   std::string name = word.substr(0, word.find('='));
   name.erase(0, name.find_first_not_of('-'));
   std::replace(name.begin(), name.end(), '-', '_');
-  const std::string near = io::nearest_word(name, keys);
+  const std::string near = text::nearest_word(name, keys);
   return near.empty() ? "" : fmt::format("--set {}=..", near);
 }
 
@@ -74,8 +74,8 @@ Problem unknown_word(const Called& called, const std::string& word) {
   const bool is_option = word.starts_with("-");
   if (!is_option && !verbs.empty() && word.ends_with(".toml"))
     return {word, "", "is no command of " + called.path,
-            fmt::format("did you mean sixstep run {}?", io::shell_word(word))};
-  std::string near = is_option ? io::nearest(word, options_of(*called.verb)) : nearest_verb(word, verbs);
+            fmt::format("did you mean sixstep run {}?", text::shell_word(word))};
+  std::string near = is_option ? text::nearest(word, options_of(*called.verb)) : nearest_verb(word, verbs);
   if (is_option && near.empty()) near = setting_meant(*called.verb, word);
   const char* kind = is_option || verbs.empty() ? "argument" : "command";
   return {.where = word,

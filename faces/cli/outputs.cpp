@@ -7,8 +7,8 @@
 #include "faces/cli/keep.hpp"
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/results/json_summary.hpp"
 #include "sixstep/study/measure/columns.hpp"
+#include "text/results/json_summary.hpp"
 
 namespace cli {
 
@@ -25,22 +25,24 @@ std::vector<std::pair<std::string, std::string>> OutputPaths::files() const {
 }
 
 base::Problems Outputs::open(const OutputPaths& paths, const study::Scenario& scenario,
-                             const io::TraceOrigin& origin) {
+                             const files::TraceOrigin& origin) {
   paths_ = paths;
-  const auto to = [&](const std::string& path) { return io::Destination(path, paths.force); };
+  const auto to = [&](const std::string& path) { return files::Destination(path, paths.force); };
   base::Problems problems;
   base::Result<std::vector<study::Column>> columns = study::record_columns(scenario);
   if (!columns) return columns.problems();
   if (!paths.csv.empty())
-    keep(csv_, io::CsvWriter::create(to(paths.csv), *columns, io::origin_lines(origin)), problems);
+    keep(csv_, files::CsvWriter::create(to(paths.csv), *columns, files::origin_lines(origin)), problems);
   if (!paths.mat.empty())
-    keep(mat_, io::MatWriter::create(to(paths.mat), *columns, io::MatVersion::v5, origin), problems);
+    keep(mat_, files::MatWriter::create(to(paths.mat), *columns, files::MatVersion::v5, origin), problems);
   if (!paths.mat73.empty())
-    keep(mat73_, io::MatWriter::create(to(paths.mat73), *columns, io::MatVersion::v7_3, origin), problems);
+    keep(mat73_, files::MatWriter::create(to(paths.mat73), *columns, files::MatVersion::v7_3, origin),
+         problems);
   if (!paths.vcd.empty())
-    keep(vcd_, io::VcdWriter::create(to(paths.vcd), study::logic_signals(), origin), problems);
-  if (!paths.json.empty() && paths.json != "-") keep(json_, io::AtomicFile::create(to(paths.json)), problems);
-  if (!paths.html.empty()) keep(html_, io::AtomicFile::create(to(paths.html)), problems);
+    keep(vcd_, files::VcdWriter::create(to(paths.vcd), study::logic_signals(), origin), problems);
+  if (!paths.json.empty() && paths.json != "-")
+    keep(json_, files::AtomicFile::create(to(paths.json)), problems);
+  if (!paths.html.empty()) keep(html_, files::AtomicFile::create(to(paths.html)), problems);
   return problems;
 }
 
@@ -75,7 +77,7 @@ std::string Outputs::put(std::optional<File>& file, const std::string& path, boo
   file.reset();
   if (!problems.empty()) return {};
   // What is no regular file has no such name.
-  std::string partial = io::partial_name(path);
+  std::string partial = files::partial_name(path);
   if (whole || !std::filesystem::exists(partial)) return path;
   partial_files_.push_back(partial);
   return partial;
@@ -86,13 +88,13 @@ base::Problems Outputs::publish(const RunStory& s, bool whole) {
   put(mat_, paths_.mat, whole, s.outcome.digest);
   put(mat73_, paths_.mat73, whole, s.outcome.digest);
   put(vcd_, paths_.vcd, whole);
-  if (json_) json_->write(io::json_summary(s.scenario, s.outcome));
+  if (json_) json_->write(text::json_summary(s.scenario, s.outcome));
   put(json_, paths_.json, whole);
-  if (html_) rows_told_ = io::report::rows_told(events_->trace());
+  if (html_) rows_told_ = report::rows_told(events_->trace());
   if (html_)
     html_->write(report_page({s.scenario, s.outcome, events_->trace(), s.origin.text, s.origin.command}));
   report_ = put(html_, paths_.html, whole);
-  if (paths_.json == "-" && whole) print(io::json_summary(s.scenario, s.outcome));
+  if (paths_.json == "-" && whole) print(text::json_summary(s.scenario, s.outcome));
   events_.reset();
   return std::exchange(problems_, {});
 }

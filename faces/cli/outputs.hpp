@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "faces/cli/rooms.hpp"
-#include "io/report/kept_rows.hpp"
-#include "io/trace/csv_writer.hpp"
-#include "io/trace/mat_writer.hpp"
-#include "io/trace/vcd_writer.hpp"
+#include "files/trace/csv_writer.hpp"
+#include "files/trace/mat_writer.hpp"
+#include "files/trace/vcd_writer.hpp"
+#include "report/kept_rows.hpp"
 #include "sixstep/study/run/run.hpp"
 
 namespace cli {
@@ -26,14 +26,14 @@ struct OutputPaths {
 struct RunStory {
   const study::Scenario& scenario;
   const study::Outcome& outcome;
-  const io::TraceOrigin& origin;
+  const files::TraceOrigin& origin;
 };
 
 class Outputs {
  public:
   /// Problems mean that nothing was written and nothing must run.
   base::Problems open(const OutputPaths& paths, const study::Scenario& scenario,
-                      const io::TraceOrigin& origin);
+                      const files::TraceOrigin& origin);
 
   /// The scenario must live as long as the run.
   void listen(const study::Scenario& scenario, study::Listeners& listeners);
@@ -58,11 +58,11 @@ class Outputs {
   std::string put(std::optional<File>& file, const std::string& path, bool whole, Facts... facts);
 
   OutputPaths paths_;
-  std::optional<io::CsvWriter> csv_;
-  std::optional<io::MatWriter> mat_, mat73_;
-  std::optional<io::VcdWriter> vcd_;
-  std::optional<io::AtomicFile> json_, html_;
-  std::optional<io::report::KeptRows> events_;  // for the report only
+  std::optional<files::CsvWriter> csv_;
+  std::optional<files::MatWriter> mat_, mat73_;
+  std::optional<files::VcdWriter> vcd_;
+  std::optional<files::AtomicFile> json_, html_;
+  std::optional<report::KeptRows> events_;  // for the report only
   base::Problems problems_;
   std::string report_, rows_told_;
   std::vector<std::string> partial_files_;

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/cli/report_page.hpp"
 
-#include "io/report/comparison.hpp"
+#include "report/comparison.hpp"
 
 namespace cli {
 
 std::string report_page(const ReportSource& s) {
-  return io::report::render({.scenario = s.scenario,
-                             .outcome = s.outcome,
-                             .trace = s.events,
-                             .command = s.command,
-                             .version = SIXSTEP_VERSION,
-                             .scenario_text = s.text});
+  return report::render({.scenario = s.scenario,
+                         .outcome = s.outcome,
+                         .trace = s.events,
+                         .command = s.command,
+                         .version = SIXSTEP_VERSION,
+                         .scenario_text = s.text});
 }
 
-std::string report_index(const std::vector<io::report::IndexEntry>& entries, const std::string& command) {
-  return io::report::render_index(entries, command, SIXSTEP_VERSION);
+std::string report_index(const std::vector<report::IndexEntry>& entries, const std::string& command) {
+  return report::render_index(entries, command, SIXSTEP_VERSION);
 }
 
 std::string comparison_page(const std::vector<ComparedSource>& runs, const std::string& command) {
-  io::report::ComparisonInput input{.runs = {}, .command = command, .version = SIXSTEP_VERSION};
+  report::ComparisonInput input{.runs = {}, .command = command, .version = SIXSTEP_VERSION};
   for (const ComparedSource& run : runs)
     input.runs.push_back({run.name, run.scenario, run.outcome, run.events, run.grid});
-  return io::report::render_comparison(input);
+  return report::render_comparison(input);
 }
 
 }  // namespace cli

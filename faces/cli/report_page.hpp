@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "faces/cli/rooms.hpp"
-#include "io/report/report.hpp"
+#include "report/report.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
@@ -22,7 +22,7 @@ struct ReportSource {
 
 std::string report_page(const ReportSource& source);
 
-std::string report_index(const std::vector<io::report::IndexEntry>& entries, const std::string& command);
+std::string report_index(const std::vector<report::IndexEntry>& entries, const std::string& command);
 
 struct ComparedSource {
   std::string name;

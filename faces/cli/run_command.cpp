@@ -16,9 +16,9 @@
 #include "faces/cli/run_reading.hpp"
 #include "faces/cli/series_command.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/escape/escape.hpp"
-#include "io/files/atomic_file.hpp"
-#include "io/results/verdict_table.hpp"
+#include "files/atomic_file.hpp"
+#include "text/escape/escape.hpp"
+#include "text/results/verdict_table.hpp"
 
 namespace cli {
 namespace {
@@ -41,7 +41,7 @@ OutputPaths paths_of(const RunArguments& arguments, const Job& job) {
 
 /// Opens all outputs before anything runs. The index is the last to be written and proves the folder now.
 base::Problems prepare(const RunArguments& arguments, std::vector<Job>& jobs,
-                       std::optional<io::AtomicFile>& index) {
+                       std::optional<files::AtomicFile>& index) {
   base::Problems problems;
   if (!arguments.out.empty()) {
     std::error_code error;
@@ -50,8 +50,8 @@ base::Problems prepare(const RunArguments& arguments, std::vector<Job>& jobs,
       return {{.where = arguments.out + ":",
                .limit = fmt::format("cannot be made a folder: {}", error.message()),
                .cure = "choose another --out"}};
-    base::Result<io::AtomicFile> file =
-        io::AtomicFile::create({(fs::path(arguments.out) / "index.html").string(), arguments.paths.force});
+    base::Result<files::AtomicFile> file =
+        files::AtomicFile::create({(fs::path(arguments.out) / "index.html").string(), arguments.paths.force});
     if (!file) return file.problems();
     index.emplace(std::move(*file));
   }
@@ -73,8 +73,8 @@ void run_all(std::vector<Job>& jobs, const RunArguments& arguments) {
 
 /// Of all, or under its partial name of what is finished, which is then told.
 base::Problems write_index(const RunArguments& arguments, const std::vector<Job>& jobs,
-                           io::AtomicFile& index) {
-  std::vector<io::report::IndexEntry> entries;
+                           files::AtomicFile& index) {
+  std::vector<report::IndexEntry> entries;
   std::size_t finished = 0;
   for (const Job& job : jobs) {
     entries.push_back(
@@ -86,25 +86,26 @@ base::Problems write_index(const RunArguments& arguments, const std::vector<Job>
   base::Problems unwritten = index.commit_partial();
   if (unwritten.empty())
     print(fmt::format("{} of {} experiments finished; {} lists them\n", finished, jobs.size(),
-                      io::visible(io::partial_name(index.path()))),
+                      text::visible(files::partial_name(index.path()))),
           stderr);
   return unwritten;
 }
 
 void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
-  std::vector<io::TableEntry> entries;
+  std::vector<text::TableEntry> entries;
   for (const Job& job : jobs)  // what was cut short has met or missed nothing yet
     if (job.finished()) entries.push_back({job.name(), job.outcome()});
   std::FILE* to = arguments.paths.json == "-" ? stderr : stdout;  // standard output is the JSON's alone
   if (entries.empty()) return;
-  std::string text = io::verdict_table(entries, may_colour(to));
+  std::string text = text::verdict_table(entries, may_colour(to));
   // Of runs that were cut short or never began no sum is drawn.
-  if (!interrupted() && entries.size() == jobs.size()) text += io::verdict_summary(entries, may_colour(to));
+  if (!interrupted() && entries.size() == jobs.size()) text += text::verdict_summary(entries, may_colour(to));
   print(text, to);
 }
 
 /// What went wrong, what was cut short, the table, the index.
-Exit tell(const std::vector<Job>& jobs, const RunArguments& arguments, std::optional<io::AtomicFile>& index) {
+Exit tell(const std::vector<Job>& jobs, const RunArguments& arguments,
+          std::optional<files::AtomicFile>& index) {
   Exit exit = interrupted() ? exit_of_interrupt() : Exit::ok;
   for (const Job& job : jobs) {
     if (!interrupted()) exit = graver(exit, job.exit_code());
@@ -122,7 +123,7 @@ Exit tell(const std::vector<Job>& jobs, const RunArguments& arguments, std::opti
 }
 
 Exit run_jobs(const RunArguments& arguments, JobsRead& read) {
-  std::optional<io::AtomicFile> index;
+  std::optional<files::AtomicFile> index;
   base::Problems problems = std::move(read.problems);
   if (problems.empty() && arguments.runs > 0) return series_command(arguments, read.jobs);
   if (problems.empty() && compares(arguments)) return compare_command(arguments, read.jobs);

@@ -10,9 +10,9 @@
 #include "faces/cli/compare_command.hpp"
 #include "faces/cli/settings.hpp"
 #include "faces/cli/written_twice.hpp"
-#include "io/files/text_file.hpp"
-#include "io/scenario/scenario_file.hpp"
 #include "sixstep/study/scenario/spread.hpp"
+#include "text/scenario/scenario_file.hpp"
+#include "text/toml/text_file.hpp"
 
 namespace cli {
 namespace {
@@ -22,16 +22,16 @@ void append(base::Problems& to, const base::Problems& more) { to.insert(to.end()
 std::string place(const std::string& file) { return fmt::format("{}:", file); }
 
 /// Of what is read for a scenario and of what the command line sets in it.
-std::uint64_t inputs_digest(const io::ReadLog& log, const RunArguments& a) {
+std::uint64_t inputs_digest(const text::ReadLog& log, const RunArguments& a) {
   std::uint64_t digest = log.digest();
-  for (const std::string& set : a.sets) digest = io::text_digest(set, digest);
-  return a.drive ? io::text_digest(fmt::format("seed {} drive {}", a.seed, *a.drive), digest) : digest;
+  for (const std::string& set : a.sets) digest = text::text_digest(set, digest);
+  return a.drive ? text::text_digest(fmt::format("seed {} drive {}", a.seed, *a.drive), digest) : digest;
 }
 
 std::optional<Job> read_job(const std::string& file, const RunArguments& arguments,
-                            const io::ReadOptions& options, JobsRead& into) {
-  const io::ReadLog log;
-  base::Result<study::Scenario> scenario = io::read_scenario(file, options);
+                            const text::ReadOptions& options, JobsRead& into) {
+  const text::ReadLog log;
+  base::Result<study::Scenario> scenario = text::read_scenario(file, options);
   into.files.insert(into.files.end(), log.paths().begin(), log.paths().end());
   if (!scenario) {
     append(into.problems, scenario.problems());
@@ -42,12 +42,12 @@ std::optional<Job> read_job(const std::string& file, const RunArguments& argumen
                              .limit = "describes no series: all drives would be the same",
                              .cure = "say in [[spread]] what differs; see: sixstep help spread"});
   if (arguments.drive) *scenario = study::varied(*scenario, arguments.seed, *arguments.drive);
-  io::TraceOrigin origin{.scenario = file,
-                         .digest = inputs_digest(log, arguments),
-                         .title = scenario->title,
-                         .motor = scenario->sheet.name,
-                         .command = arguments.command,
-                         .text = log.first_text()};
+  files::TraceOrigin origin{.scenario = file,
+                            .digest = inputs_digest(log, arguments),
+                            .title = scenario->title,
+                            .motor = scenario->sheet.name,
+                            .command = arguments.command,
+                            .text = log.first_text()};
   return Job(std::move(*scenario), std::move(origin));
 }
 
@@ -92,7 +92,7 @@ base::Problems contradictions(const RunArguments& arguments) {
 
 JobsRead read_jobs(const RunArguments& arguments) {
   JobsRead read;
-  const io::ReadOptions options = read_options(arguments.data_dir, arguments.sets, read.problems);
+  const text::ReadOptions options = read_options(arguments.data_dir, arguments.sets, read.problems);
   if (!read.problems.empty()) return read;
   for (const std::string& file : arguments.files)
     if (std::optional<Job> job = read_job(file, arguments, options, read))

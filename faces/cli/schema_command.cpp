@@ -5,15 +5,15 @@
 
 #include "faces/cli/choose.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/scenario/json_schema.hpp"
+#include "text/scenario/json_schema.hpp"
 
 namespace cli {
 namespace {
 
 Exit print_schema(const std::string& kind) {
   using Schema = std::string (*)();
-  constexpr base::Choice<Schema> kinds[] = {{"scenario", io::scenario_schema, "of a scenario file"},
-                                            {"motor", io::motor_schema, "of a motor file"}};
+  constexpr base::Choice<Schema> kinds[] = {{"scenario", text::scenario_schema, "of a scenario file"},
+                                            {"motor", text::motor_schema, "of a motor file"}};
   Schema schema = nullptr;
   base::Problems found;
   choose("KIND", kind, kinds, schema, found);

@@ -9,7 +9,7 @@
 #include "batch/monte_carlo.hpp"
 #include "faces/cli/progress.hpp"
 #include "faces/cli/terminal.hpp"
-#include "io/results/series_table.hpp"
+#include "text/results/series_table.hpp"
 
 namespace cli {
 namespace {
@@ -52,7 +52,7 @@ Exit series_command(const RunArguments& arguments, const std::vector<Job>& jobs)
                          .stop = interrupter.token(),
                          .progress = [&](std::size_t done) { progress->pieces_done(done); }});
     progress.reset();
-    if (!arguments.quiet) print(io::series_table(job.name(), series, arguments.seed, arguments.runs));
+    if (!arguments.quiet) print(text::series_table(job.name(), series, arguments.seed, arguments.runs));
     exit = graver(exit, interrupted() ? exit_of_interrupt() : exit_of(series));
     if (interrupted()) break;
   }

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <string>
 
-#include "io/escape/escape.hpp"
+#include "text/escape/escape.hpp"
 
 namespace cli {
 namespace {
@@ -57,7 +57,7 @@ Exit exit_after_printing(Exit exit) {
 
 void complain(const base::Problems& problems) {
   std::string text;
-  for (const base::Problem& problem : problems) text += io::visible(to_string(problem)) + "\n";
+  for (const base::Problem& problem : problems) text += text::visible(to_string(problem)) + "\n";
   print(text, stderr);
 }
 

@@ -73,13 +73,15 @@ constexpr std::uint16_t fault_step(const FaultConfig<Scalar>& config, FaultState
   if (lasting(!(m.bus_V <= config.over_voltage_V), state.over)) now |= fault_over_voltage;
   if (lasting(!(m.bus_V >= config.under_voltage_V), state.under)) now |= fault_under_voltage;
   const bool too_fast = !within(m.speed_rad_s, config.over_speed_rad_s);
-  if (too_fast) now |= events.false_edge != 0 ? fault_hall : fault_over_speed;
+  // A false edge and a rotor that truly runs away look the same from here: both are told, and the line only
+  // where a code proves it.
+  if (too_fast) now |= fault_over_speed;
+  if (too_fast && events.false_edge != 0) now |= fault_hall;
   if (events.hall) now |= fault_hall;
   if (still && state.still >= config.stall_ticks) now |= fault_stall;
   state.present = static_cast<std::uint16_t>(now);
   if (state.latched == 0) state.first = state.present;
   if (state.hall_line == 0) state.hall_line = events.hall_line;
-  if (state.hall_line == 0 && too_fast) state.hall_line = events.false_edge;
   state.latched = static_cast<std::uint16_t>(state.latched | now);
   return state.latched;
 }

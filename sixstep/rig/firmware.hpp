@@ -231,10 +231,9 @@ control::BridgeCommand<Scalar> ProductDrive<Scalar>::tick(const SampleInstant<Re
       control::protected_step(config_, state_, in, request_, wanted, telemetry_);
   request_.clear = false;
   if (telemetry_.first_fault != 0 && diagnosis_.faults == 0)
-    diagnosis_ = {
-        telemetry_.first_fault,
-        (telemetry_.first_fault & control::fault_hall) != 0 ? telemetry_.hall_line : std::uint8_t{0},
-        instant.at};
+    diagnosis_ = {.faults = telemetry_.first_fault, .at = instant.at};
+  // The line may be told later than the fault: by the first impossible code of the coasting rotor.
+  if ((diagnosis_.faults & control::fault_hall) != 0) diagnosis_.hall_line = telemetry_.hall_line;
   return answer;
 }
 

@@ -4,11 +4,11 @@
 #include <fstream>
 #include <iostream>
 
-#include "io/report/comparison.hpp"
-#include "io/report/curve_page.hpp"
-#include "io/report/report.hpp"
+#include "report/comparison.hpp"
+#include "report/curve_page.hpp"
+#include "report/report.hpp"
 #include "sixstep/study/measure/trace.hpp"
-#include "tests/io/synthetic_run.hpp"
+#include "tests/report/synthetic_run.hpp"
 #include "tests/support/bench.hpp"
 
 namespace {
@@ -27,12 +27,12 @@ void write(const std::filesystem::path& file, const std::string& text) {
 }
 
 std::string page(const sixstep_tests::SyntheticRun& run) {
-  return io::report::render({.scenario = run.scenario,
-                             .outcome = run.outcome,
-                             .trace = run.trace,
-                             .command = "sixstep run data/scenarios/thesis/7.3.1.toml --html pi.html",
-                             .version = "0.1.0",
-                             .scenario_text = scenario_text});
+  return report::render({.scenario = run.scenario,
+                         .outcome = run.outcome,
+                         .trace = run.trace,
+                         .command = "sixstep run data/scenarios/thesis/7.3.1.toml --html pi.html",
+                         .version = "0.1.0",
+                         .scenario_text = scenario_text});
 }
 
 /// The synthetic run has no polynomials: the row at or before each instant of the grid.
@@ -56,9 +56,8 @@ std::string curve() {
   const study::CurvePlan plan = *study::plan_curve(request);
   std::vector<study::OperatingPoint> found;
   for (const double speed : plan.speeds_rad_s) found.push_back(*study::operating_point(request.bench, speed));
-  return io::report::render_curve({request,
-                                   *study::curve_of(request, plan, found, study::one_after_the_other),
-                                   "sixstep curve maxon-251601 --html curve.html", "0.1.0"});
+  return report::render_curve({request, *study::curve_of(request, plan, found, study::one_after_the_other),
+                               "sixstep curve maxon-251601 --html curve.html", "0.1.0"});
 }
 
 }  // namespace
@@ -77,12 +76,12 @@ int main(int argc, char** argv) {
   write(folder / "curve.html", curve());
   const auto other = sixstep_tests::synthetic_run(0.02, 40.0);
   write(folder / "compare.html",
-        io::report::render_comparison(
+        report::render_comparison(
             {.runs = {{"as-is", good.scenario, good.outcome, good.trace, sampled(good.trace)},
                       {"slower-start", other.scenario, other.outcome, other.trace, sampled(other.trace)}},
              .command = "sixstep run as-is.toml slower-start.toml --html compare.html",
              .version = "0.1.0"}));
-  write(folder / "index.html", io::report::render_index({{good.scenario.title, "short.html", &good.outcome},
-                                                         {bad.scenario.title, "long.html", &bad.outcome}},
-                                                        "sixstep run a.toml b.toml --out out", "0.1.0"));
+  write(folder / "index.html", report::render_index({{good.scenario.title, "short.html", &good.outcome},
+                                                     {bad.scenario.title, "long.html", &bad.outcome}},
+                                                    "sixstep run a.toml b.toml --out out", "0.1.0"));
 }

@@ -112,7 +112,7 @@ class Gate(ProgramTest):
 
     def test_a_fault_is_refused(self):
         told = self.refused(3, "product-broken-hall-line")
-        self.assertRegex(told[-1], "the drive tripped by an impossible Hall code or jump: line H2")
+        self.assertRegex(told[-1], "the drive tripped by an impossible Hall code, jump or edge: line H2")
 
     def test_a_scenario_that_asks_for_nothing_is_refused(self):
         text = pathlib.Path(self.scenario(BOARD)).read_text().replace('"current-square.toml"', '"plain.toml"')

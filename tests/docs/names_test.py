@@ -15,7 +15,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve()) if len(sys.argv) > 1 else str(ROOT / "build/dev/sixstep")
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("**/*.md")])
-SOURCES = sorted(file for room in ("sixstep", "io", "faces/cli") for file in (ROOT / room).glob("**/*.[ch]pp"))
+SOURCES = sorted(file for room in ("sixstep", "text", "files", "report", "faces/cli") for file in (ROOT / room).glob("**/*.[ch]pp"))
 FILE_NAMES = r"(?!\w*(?:hpp|cpp|md|h|toml|csv|json|html|py)\b)"
 
 

@@ -10,15 +10,15 @@
 #include <type_traits>
 #include <vector>
 
-#include "io/export/config_header.hpp"
-#include "io/export/config_lines.hpp"
-#include "io/scenario/scenario_file.hpp"
 #include "sixstep/design/loops/pole_placement.hpp"
 #include "sixstep/design/scaling/product_scaling.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
 #include "sixstep/study/compile/compile.hpp"
 #include "tests/export/extras_drive.hpp"
 #include "tests/export/headers.hpp"
+#include "text/export/config_header.hpp"
+#include "text/export/config_lines.hpp"
+#include "text/scenario/scenario_file.hpp"
 
 namespace {
 
@@ -27,7 +27,7 @@ using namespace sixstep::control;
 
 study::Scenario shipped(const std::string& name) {
   const std::string path = std::string(SIXSTEP_SOURCE_DIR) + "/data/scenarios/" + name + ".toml";
-  const auto scenario = io::read_scenario(path);
+  const auto scenario = text::read_scenario(path);
   if (!scenario) ADD_FAILURE() << to_string(scenario.problems()[0]);
   return scenario ? *scenario : study::Scenario{};
 }
@@ -57,7 +57,7 @@ requires std::is_enum_v<Enum> || std::is_same_v<Enum, bool> std::int64_t bits(En
   return static_cast<std::int64_t>(x);
 }
 
-// A new member must be written by io/export/config_lines.hpp and compared here.
+// A new member must be written by text/export/config_lines.hpp and compared here.
 static_assert(sizeof(DriveConfig<double>) == 312 && sizeof(DriveExtras<double>) == 192);
 
 /// Every member, in its order.
@@ -128,7 +128,7 @@ TEST(ExportHeader, FixedPointIsWhatTheScalingProved) {
   expect_scaled(exported_position_q31::drive, exported_position_q31::units, "thesis/7.5-position");
 }
 
-// As above, of io/export/product_lines.hpp.
+// As above, of text/export/product_lines.hpp.
 static_assert(sizeof(ProtectedConfig<double>) == 584);
 
 template <class Format>
@@ -240,7 +240,7 @@ TEST(ExportHeader, UnitsCountPositionAsTheProductsScaling) {
 
 base::Result<std::string> header_of(const study::Scenario& s, study::Arithmetic a, const char* name = "x",
                                     design::OperatingRange range = {}) {
-  return io::config_header(
+  return text::config_header(
       {.scenario = s, .arithmetic = a, .range = range, .name_space = name, .command = "c"});
 }
 

@@ -3,19 +3,19 @@
 #include <fstream>
 #include <string>
 
-#include "io/export/config_lines.hpp"
 #include "tests/export/extras_drive.hpp"
+#include "text/export/config_lines.hpp"
 
 int main(int count, char** words) {
   if (count != 3) return 2;
   using sixstep::control::Q31;
   std::ofstream out(words[2]);
   if (std::string(words[1]) == "double") {
-    out << io::drive_lines<double>(extras::drive(), extras::drive(), {});
+    out << text::drive_lines<double>(extras::drive(), extras::drive(), {});
   } else {
     const auto scaled = sixstep::design::scaled<Q31>(extras::drive(), extras::range);
     if (!scaled) return 1;
-    out << io::drive_lines<Q31>(extras::drive(), scaled->config, scaled->bases);
+    out << text::drive_lines<Q31>(extras::drive(), scaled->config, scaled->bases);
   }
   return out.flush() ? 0 : 1;
 }

@@ -3,14 +3,14 @@
 
 #include <map>
 
-#include "io/motor/motor_library.hpp"
-#include "io/scenario/scenario_file.hpp"
-#include "io/scenario/scenario_text.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "tests/fuzz/draw.hpp"
 #include "tests/fuzz/drawn_parts.hpp"
+#include "text/motor/motor_library.hpp"
+#include "text/scenario/scenario_file.hpp"
+#include "text/scenario/scenario_text.hpp"
 
 namespace sixstep::testing {
 namespace {
@@ -27,8 +27,8 @@ struct Motor {
 const std::vector<Motor>& library() {
   static const std::vector<Motor> motors = [] {
     std::vector<Motor> all;
-    for (const std::string& name : io::built_in_motors()) {
-      const auto sheet = io::read_sheet(name);
+    for (const std::string& name : text::built_in_motors()) {
+      const auto sheet = text::read_sheet(name);
       if (!sheet) continue;
       const auto model = design::motor_model(*sheet);
       if (model && model->nominal_voltage_V > 0 && model->K_t_Nm_A > 0) all.push_back({name, *sheet});
@@ -88,7 +88,7 @@ DrawnScenario drawn_scenario(std::uint64_t seed) {
   }
   draw_parts(draw, s);
   s.title = "drawn with seed " + std::to_string(seed);
-  out.text = io::scenario_text(s) + overrides;
+  out.text = text::scenario_text(s) + overrides;
   return out;
 }
 

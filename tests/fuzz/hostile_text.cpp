@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "io/files/text_file.hpp"
-#include "io/keys/key_catalog.hpp"
 #include "tests/fuzz/draw.hpp"
 #include "tests/fuzz/drawn_scenario.hpp"
 #include "tests/fuzz/hostile_literals.hpp"
+#include "text/keys/key_catalog.hpp"
+#include "text/toml/text_file.hpp"
 
 namespace sixstep::testing {
 namespace {
@@ -29,16 +29,16 @@ const std::vector<std::string>& shipped() {
     std::sort(files.begin(), files.end());  // a folder has no order
     std::vector<std::string> all;
     for (const fs::path& file : files)
-      if (const auto text = io::read_text(file.string())) all.push_back(*text);
+      if (const auto text = text::read_text(file.string())) all.push_back(*text);
     return all;
   }();
   return texts;
 }
 
-const std::vector<io::KeyEntry>& keys() {
-  static const std::vector<io::KeyEntry> all = [] {
-    std::vector<io::KeyEntry> keys = io::scenario_keys();
-    for (io::KeyEntry& key : io::sheet_keys()) {
+const std::vector<text::KeyEntry>& keys() {
+  static const std::vector<text::KeyEntry> all = [] {
+    std::vector<text::KeyEntry> keys = text::scenario_keys();
+    for (text::KeyEntry& key : text::sheet_keys()) {
       key.path.insert(0, "motor_override.");
       keys.push_back(std::move(key));
     }
@@ -81,7 +81,7 @@ class Breaker {
   std::size_t at(std::size_t n) { return n == 0 ? 0 : static_cast<std::size_t>(draw_.unit() * double(n)); }
   std::size_t at(int n) { return at(static_cast<std::size_t>(n)); }
   std::string literal() { return hostile_literals[at(std::size(hostile_literals))]; }
-  const io::KeyEntry& key() { return keys()[at(keys().size())]; }
+  const text::KeyEntry& key() { return keys()[at(keys().size())]; }
   static std::string repeated(std::string_view piece, std::size_t times) {
     std::string out;
     for (out.reserve(piece.size() * times); times > 0; --times) out += piece;
@@ -125,7 +125,7 @@ class Breaker {
   }
   /// A number right at or beside an end of the key's range.
   void end_of_range() {
-    const io::KeyEntry& k = key();
+    const text::KeyEntry& k = key();
     const auto& range = k.about.range;
     const double ends[] = {range.low, range.high, range.low * (1 - 1e-16), range.high * (1 + 1e-15)};
     char text[40];

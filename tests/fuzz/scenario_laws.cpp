@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/scenario/scenario_file.hpp"
-#include "io/scenario/scenario_text.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/run/run.hpp"
@@ -17,6 +15,8 @@
 #include "tests/fuzz/drawn_scenario.hpp"
 #include "tests/fuzz/hostile_text.hpp"
 #include "tests/support/scenario_walk.hpp"
+#include "text/scenario/scenario_file.hpp"
+#include "text/scenario/scenario_text.hpp"
 
 namespace sixstep::testing {
 namespace {
@@ -215,7 +215,7 @@ Examined examine_drawn(std::uint64_t seed) {
   const DrawnScenario drawn = drawn_scenario(seed);
   Examined out;
   out.kind = kind_of(drawn.scenario);
-  const auto scenario = io::read_scenario_text(beside_scenarios("drawn.toml"), drawn.text);
+  const auto scenario = text::read_scenario_text(beside_scenarios("drawn.toml"), drawn.text);
   if (!scenario) {
     refuse(scenario.problems(), began_s, out);
     return out;
@@ -241,7 +241,7 @@ Examined examine_drawn(std::uint64_t seed) {
        .watched = watched ? &*watched : &*outcome,
        .rows = &rows,
        .walk = &walked,
-       .read_back_equal = io::scenario_text(*scenario) == io::scenario_text(drawn.scenario) &&
+       .read_back_equal = text::scenario_text(*scenario) == text::scenario_text(drawn.scenario) &&
                           scenario->sheet.resistance_ohm->value == drawn.scenario.sheet.resistance_ohm->value,
        .breaks_a_hall_line = breaks_hall(*scenario),
        .clamps = clamps(*scenario),
@@ -256,7 +256,7 @@ Examined examine_hostile(std::uint64_t seed) {
   const BrokenText broken = broken_text(seed);
   Examined out;
   out.kind = broken.kind;
-  const auto scenario = io::read_scenario_text(beside_scenarios("hostile.toml"), broken.text);
+  const auto scenario = text::read_scenario_text(beside_scenarios("hostile.toml"), broken.text);
   if (!scenario) {
     refuse(scenario.problems(), began_s, out);
     return out;

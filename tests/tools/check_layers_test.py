@@ -9,7 +9,7 @@ import unittest
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 TOOL = REPOSITORY / "tools" / "check_layers.py"
-PICTURE = "# x\n\n```layers\nbase ->\ncontrol ->\nplant -> base\nstudy -> plant base\nio -> study base\ncli -> io\n```\n"
+PICTURE = "# x\n\n```layers\nbase ->\ncontrol ->\nplant -> base\nstudy -> plant base\ntext -> study base\ncli -> text\n```\n"
 
 
 class CheckLayers(unittest.TestCase):
@@ -37,8 +37,8 @@ class CheckLayers(unittest.TestCase):
             self.assertIn(words, out)
 
     def test_clean_tree_passes(self):
-        self.write("io/toml/toml.cpp", '#include <toml++/toml.h>\n#include "sixstep/study/run/run.hpp"\n')
-        self.write("faces/cli/main.cpp", '#include <CLI/CLI.hpp>\n#include "io/toml/toml.hpp"\n#include "faces/cli/x.hpp"\n')
+        self.write("text/toml/toml.cpp", '#include <toml++/toml.h>\n#include "sixstep/study/run/run.hpp"\n')
+        self.write("faces/cli/main.cpp", '#include <CLI/CLI.hpp>\n#include "text/toml/toml.hpp"\n#include "faces/cli/x.hpp"\n')
         self.assertEqual(self.run_tool(), (0, "", ""))
 
     def test_upward_include(self):
@@ -46,25 +46,25 @@ class CheckLayers(unittest.TestCase):
                     "sixstep/base/angle.hpp:2:", "base may include nothing, not plant", "down a layer")
 
     def test_layer_that_is_only_reachable_through_another(self):
-        self.expect("faces/cli/main.cpp", '#include "sixstep/plant/motor.hpp"\n', "cli may include io, not plant")
+        self.expect("faces/cli/main.cpp", '#include "sixstep/plant/motor.hpp"\n', "cli may include text, not plant")
 
     def test_corners_of_a_room(self):
-        picture = PICTURE.replace("io ->", "study/ask ->\nstudy/run -> study/ask\nio ->")
+        picture = PICTURE.replace("text ->", "study/ask ->\nstudy/run -> study/ask\ntext ->")
         self.write("docs/architecture.md", picture)
         self.write("sixstep/study/run/run.cpp", '#include "sixstep/study/ask/ask.hpp"\n#include "sixstep/base/angle.hpp"\n')
-        self.write("io/toml/toml.cpp", '#include "sixstep/study/run/run.hpp"\n')
+        self.write("text/toml/toml.cpp", '#include "sixstep/study/run/run.hpp"\n')
         self.assertEqual(self.run_tool(), (0, "", ""))
         self.expect("sixstep/study/ask/ask.cpp", '\n#include "sixstep/study/run/run.hpp"\n',
                     "ask.cpp:2:", "study/ask may include no other corner, not study/run", "corner below")
 
     def test_what_lies_in_no_corner_is_for_all_of_them(self):
-        self.write("docs/architecture.md", PICTURE.replace("io ->", "study/ask ->\nio ->"))
+        self.write("docs/architecture.md", PICTURE.replace("text ->", "study/ask ->\ntext ->"))
         self.write("sixstep/study/ask/ask.cpp", '#include "sixstep/study/names.hpp"\n')
         self.assertEqual(self.run_tool(), (0, "", ""))
         self.expect("sixstep/study/names.hpp", '#include "sixstep/study/ask/ask.hpp"\n', "study may include no other corner")
 
     def test_unknown_corner(self):
-        self.write("docs/architecture.md", PICTURE.replace("io ->", "study/ask ->\nio ->"))
+        self.write("docs/architecture.md", PICTURE.replace("text ->", "study/ask ->\ntext ->"))
         self.expect("sixstep/study/run/run.cpp", '#include "sixstep/study/ask/ask.hpp"\n', "study/run is no corner", "add a row")
 
     def test_third_party_in_the_library(self):
@@ -80,7 +80,7 @@ class CheckLayers(unittest.TestCase):
         self.expect("sixstep/control/pi.hpp", '#include "sixstep/base/angle.hpp"\n', "control may include nothing, not base")
 
     def test_tests_are_no_layer(self):
-        self.expect("io/csv.cpp", '#include "tests/helper.hpp"\n', "in no layer")
+        self.expect("text/csv.cpp", '#include "tests/helper.hpp"\n', "in no layer")
 
     def test_relative_include(self):
         self.expect("sixstep/plant/bridge.cpp", '#include "motor.hpp"\n', "path from the repository root")

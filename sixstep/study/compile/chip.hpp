@@ -19,7 +19,7 @@ struct Chip {
   std::vector<rig::Tuning<typename Firmware::Config>> later;  ///< what the timeline's retune actions name
 };
 
-/// [control.full_scale] that makes the bases `units` of it, to the bit. Floating point has none.
+/// [control.full_scale] that makes these bases of it, to the bit. Floating point has none.
 template <class Scalar>
 FullScale full_scale_of(const rig::Bases& bases) {
   if constexpr (std::is_arithmetic_v<Scalar>) {
@@ -28,7 +28,7 @@ FullScale full_scale_of(const rig::Bases& bases) {
     constexpr int before_the_point =
         control::detail::Widths<typename Scalar::Storage>::bits - 1 - Scalar::fraction_bits;
     const auto end = [](double base) { return std::ldexp(base, before_the_point); };
-    return {end(units.current_A), end(units.voltage_V), end(units.speed_rad_s), end(units.position_deg)};
+    return {end(bases.current_A), end(bases.voltage_V), end(bases.speed_rad_s), end(bases.position_deg)};
   }
 }
 
@@ -52,7 +52,7 @@ base::Problems add_later(const Scenario& s, const Compiled& c, Chip<Firmware>& o
     if (!retunes(*at)) continue;
     Scenario settled_s = settled(s, at);
     if (!std::is_arithmetic_v<typename Firmware::Number>)
-      settled_s.control.full_scale = full_scale_of<typename Firmware::Number>(out.units);
+      settled_s.control.full_scale = full_scale_of<typename Firmware::Number>(out.bases);
     then.drive = c.later[number].drive;
     then.product = c.later[number].product;
     const auto chip = given_to(std::type_identity<Firmware>{}, settled_s, then);
@@ -71,7 +71,7 @@ base::Result<Chip<Firmware>> chip_of(const Scenario& s, const Compiled& c) {
   const std::optional<Scenario> alone = changes_mode(s) ? std::optional(settled(s, nullptr)) : std::nullopt;
   const auto first = detail::given_to(std::type_identity<Firmware>{}, alone ? *alone : s, c);
   if (!first) return first.problems();
-  Chip<Firmware> out{first->config, first->units, {}};
+  Chip<Firmware> out{first->config, first->bases, {}};
   if (base::Problems problems = detail::add_later(s, c, out); !problems.empty()) return problems;
   return out;
 }
@@ -81,7 +81,7 @@ template <class Firmware>
 rig::Rig<double, Firmware> rig_of(const Compiled& c, const Chip<Firmware>& chip, rig::Timeline timeline) {
   const plant::Plant<double> plant(c.motor.machine, c.shaft, c.devices, c.supply, c.start);
   rig::BoardConfig board = c.board;
-  board.bases = chip.units;
+  board.bases = chip.bases;
   return {plant, chip.config, board, std::move(timeline), chip.later};
 }
 

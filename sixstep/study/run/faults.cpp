@@ -49,7 +49,7 @@ void note_trip(const rig::Diagnosis& found, Outcome& out) {
        "brake less, let the supply take current back, or set control.regeneration.limit_V"},
       {control::fault_under_voltage, "under-voltage", "look at the supply and protection.under_voltage_V"},
       {control::fault_over_speed, "over-speed", "look at the load and protection.over_speed_rad_s"},
-      {control::fault_hall, "an impossible Hall code or jump", "look at the probes and their wires"},
+      {control::fault_hall, "an impossible Hall code, jump or edge", "look at the probes and their wires"},
       {control::fault_stall, "stall", "look at the load and protection.stall_s"},
       {control::fault_calibration, "the offset of a current amplifier",
        "look at sensors.current_offset_A and protection.offset_tolerance_A"},
@@ -62,7 +62,7 @@ void note_trip(const rig::Diagnosis& found, Outcome& out) {
     if ((found.faults & reason.bit) == 0) continue;
     trip.reasons.emplace_back(reason.text);
     text += (text.empty() ? "" : "; ") + trip.reasons.back();
-    if (cure.empty()) cure = reason.cure;
+    cure += (cure.empty() ? "" : "; ") + std::string(reason.cure);
   }
   if (found.hall_line != 0) {
     text += ": " + line_to_blame(found.hall_line);

@@ -28,7 +28,7 @@ struct Reference {
   std::optional<double> acceleration;          // trapezoid: largest change of the rate
   double offset = 0.0, amplitude = 0.0;        // sine
   double frequency_Hz = 0.0, phase_deg = 0.0;  // sine
-  std::string file;                            // csv: read into times_s and values by io
+  std::string file;                            // csv: read into times_s and values by text
   std::optional<std::string> column;           // csv: heading of the values; default: the second column
   Interpolation interpolation = Interpolation::linear;  // csv
   std::optional<std::string> unit;                      // checked against the mode where given

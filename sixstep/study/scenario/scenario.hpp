@@ -105,11 +105,12 @@ struct Nominal {
 
 struct Scenario {
   std::string title;
-  std::vector<std::string> extends;  // files it is laid over, as written; their keys are in it (filled by io)
-  std::string motor;                 // name or path as written
+  std::vector<std::string>
+      extends;        // files it is laid over, as written; their keys are in it (filled by text)
+  std::string motor;  // name or path as written
   double duration_s = 0.0;
   std::string notes;    // what the run teaches, shown in the report
-  design::Sheet sheet;  // the motor's sheet with overrides applied (filled by io)
+  design::Sheet sheet;  // the motor's sheet with overrides applied (filled by text)
   Supply supply;
   Bridge bridge;
   Pwm pwm;

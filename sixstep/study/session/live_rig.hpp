@@ -63,7 +63,7 @@ struct LiveRig {
   /// The scenario that this run is now one of: its past is this one's.
   base::Problems take(const Scenario& scenario, const Compiled& compiled, rig::Timeline timeline);
   base::Problems end(sim::Stop stop, Observers& watchers, Outcome& out) const;
-  FullScale full_scale() const { return full_scale_of<typename Firmware::Number>(units); }
+  FullScale full_scale() const { return full_scale_of<typename Firmware::Number>(bases); }
 };
 
 template <class Scalar>

@@ -6,16 +6,16 @@
 #include <cstdint>
 #include <fstream>
 
-#include "io/motor/motor_text.hpp"
-#include "io/scenario/scenario_file.hpp"
 #include "sixstep/design/loops/drive_design.hpp"
 #include "tests/fuzz/libfuzzer/complaints.hpp"
+#include "text/motor/motor_text.hpp"
+#include "text/scenario/scenario_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::string file = "/dev/shm/motor." + std::to_string(::getpid()) + ".toml";
   std::ofstream(file, std::ios::binary)
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
-  const auto sheet = io::read_sheet(file);
+  const auto sheet = text::read_sheet(file);
   if (!sheet) {
     fuzzing::must_say_something(sheet.problems());
     return 0;
@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto check = sixstep::design::check_sheet(*sheet);
   if (!check)
     fuzzing::must_say_something(check.problems());
-  else if (io::sheet_table(*sheet).empty() || io::model_table(*sheet, *check).empty())
+  else if (text::sheet_table(*sheet).empty() || text::model_table(*sheet, *check).empty())
     std::abort();
   const auto model = sixstep::design::motor_model(*sheet);
   if (!model) {

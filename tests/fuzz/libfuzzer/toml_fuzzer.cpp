@@ -3,12 +3,12 @@
 // a crash. What it accepts must also compile, or say why not.
 #include <cstdint>
 
-#include "io/scenario/scenario_file.hpp"
 #include "tests/fuzz/libfuzzer/complaints.hpp"
+#include "text/scenario/scenario_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::string text(reinterpret_cast<const char*>(data), size);
-  const auto scenario = io::read_scenario_text("fuzz.toml", std::move(text));
+  const auto scenario = text::read_scenario_text("fuzz.toml", std::move(text));
   if (scenario)
     fuzzing::must_compile(*scenario);
   else

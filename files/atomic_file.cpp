@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "files/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <random>
+#include <tuple>
+#include <utility>
+
+#include "files/own_file.hpp"
+#include "text/toml/text_file.hpp"
+
+namespace files {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Calls again what a signal has interrupted; 0, or what errno says.
+template <class Call>
+int persistently(Call call) {
+  for (;;) {
+    if (call() == 0) return 0;
+    if (errno != EINTR) return errno;
+  }
+}
+
+/// As much as the kernel takes, until all is written; 0, or what errno says. Who writes to a pipe may have to
+/// wait for its reader, and is waked by a signal that asks the program to end.
+int write_all(int descriptor, std::string_view text, bool waits) {
+  while (!text.empty()) {
+    const ssize_t taken = ::write(descriptor, text.data(), text.size());
+    if (taken >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(taken));
+    } else if (errno == EAGAIN && waits) {
+      pollfd ready{descriptor, POLLOUT, 0};
+      if (::poll(&ready, 1, -1) < 0) return errno;
+    } else if (errno != EINTR) {
+      return errno;
+    }
+  }
+  return 0;
+}
+
+/// What the chain of links ends at, there or not; where it goes round, the last one looked at.
+fs::path end_of_links(fs::path path) {
+  constexpr int most_links = 40;  // as the kernel counts
+  std::error_code none;
+  for (int n = 0; n < most_links && fs::is_symlink(path, none); ++n)
+    path = path.parent_path() / fs::read_symlink(path, none);
+  return path;
+}
+
+/// Nothing that two programs share, or that one killed before has left behind.
+std::string random_name() {
+  std::random_device random;
+  return fmt::format(".sixstep-{:08x}{:08x}.tmp", random(), random());
+}
+
+/// Why no file may be put there, though the folder could be written. `partial`: what an interrupted run
+/// leaves.
+base::Problems refused(const Destination& to, const std::string& partial) {
+  if (text::ReadLog::has(to.path))
+    return {{.where = to.path + ":",
+             .limit = "is read here: what is written would take its place",
+             .cure = "name another file"}};
+  for (const std::string& path : {to.path, partial})
+    if (!to.force && is_foreign(path))
+      return {{.where = path + ":",
+               .limit = "holds what sixstep has not written",
+               .cure = "name another file, or add --force to lose that one"}};
+  struct stat unused {};
+  if (::lstat(partial.c_str(), &unused) != 0 && errno == ENAMETOOLONG)
+    return {unwritable(to.path, ENAMETOOLONG)};
+  return {};
+}
+
+/// The name is safe on the disk only once its folder is.
+void sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+base::Problem unwritable(const std::string& path, int reason) {
+  const char* cure = "check that the folder exists and may be written, and that the disk has room";
+  if (reason == EISDIR) cure = "name a file in it";
+  if (reason == ENAMETOOLONG) cure = "take a shorter name: a run that is cut short puts .partial into it";
+  if (reason == ELOOP) cure = "name the file itself, not a link that leads to itself";
+  return {
+      .where = path + ":", .limit = std::string("cannot be written: ") + std::strerror(reason), .cure = cure};
+}
+
+std::string saved_instead(const std::string& path) {
+  return fmt::format("what was finished is in {}; make room and run it again", partial_name(path));
+}
+
+std::string partial_name(const std::string& path) {
+  fs::path name(path);
+  const std::string extension = name.extension().string();
+  return name.replace_extension(fmt::format(".partial{}", extension)).string();
+}
+
+void AtomicFile::Close::operator()(int* descriptor) const {
+  ::close(*descriptor);
+  delete descriptor;
+}
+
+void AtomicFile::Remove::operator()(std::string* name) const {
+  if (!name->empty()) ::unlink(name->c_str());
+  delete name;
+}
+
+/// Opened as it is, which may wait for a pipe's other end. Written without waiting inside the kernel, where
+/// no signal that comes between two pieces would be noticed.
+int AtomicFile::open_device() {
+  waits_ = true;
+  const int descriptor = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor >= 0) ::fcntl(descriptor, F_SETFL, O_NONBLOCK);
+  return descriptor;
+}
+
+/// Under a name that nothing else has, in the folder of the file that it is to become. `old`: the file whose
+/// place it takes; for no moment may others do more with the new one.
+int AtomicFile::open_beside(const struct stat* old) {
+  constexpr mode_t usual = 0666, permission_bits = 0777;
+  const mode_t permissions = old ? old->st_mode & permission_bits : usual;
+  int descriptor = -1;
+  do {
+    const std::string name = (fs::path(path_).parent_path() / random_name()).string();
+    descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
+    if (descriptor >= 0) temporary_.reset(new std::string(name));
+  } while (descriptor < 0 && errno == EEXIST);
+  if (descriptor >= 0 && old) {
+    std::ignore = ::fchown(descriptor, old->st_uid, old->st_gid);  // only root may give a file away
+    ::fchmod(descriptor, permissions);                             // the umask may have taken some
+  }
+  return descriptor;
+}
+
+base::Result<AtomicFile> AtomicFile::create(const Destination& to) {
+  AtomicFile file;
+  file.path_ = to.path;
+  struct stat there {};
+  const bool exists = ::stat(to.path.c_str(), &there) == 0;
+  if (!exists && errno != ENOENT) return unwritable(to.path, errno);
+  if (exists && S_ISDIR(there.st_mode)) return unwritable(to.path, EISDIR);
+  if (exists && S_ISBLK(there.st_mode))
+    return base::Problem{.where = to.path + ":", .limit = "is a whole disk", .cure = "name a file on it"};
+  int descriptor = -1;
+  if (exists && !S_ISREG(there.st_mode)) {
+    descriptor = file.open_device();
+  } else {
+    file.path_ = end_of_links(to.path).string();
+    if (base::Problems found = refused(to, partial_name(file.path_)); !found.empty()) return found;
+    if (exists && ::access(to.path.c_str(), W_OK) != 0) return unwritable(to.path, errno);
+    descriptor = file.open_beside(exists ? &there : nullptr);
+  }
+  if (descriptor < 0) return unwritable(to.path, errno);
+  file.descriptor_.reset(new int(descriptor));
+  return file;
+}
+
+void AtomicFile::write(std::string_view text) {
+  if (error_ != 0 || !descriptor_) return;
+  error_ = write_all(*descriptor_, text, waits_);
+  if (error_ == 0) size_ += text.size();
+}
+
+int AtomicFile::reserve(std::uint64_t bytes) {
+  if (!temporary_ || !descriptor_) return 0;
+  int failed = EINTR;
+  while (failed == EINTR) failed = ::posix_fallocate(*descriptor_, 0, static_cast<off_t>(bytes));
+  return failed;
+}
+
+base::Problems AtomicFile::commit_partial() { return commit_as(temporary_ ? partial_name(path_) : path_); }
+
+base::Problems AtomicFile::commit_as(const std::string& path) {
+  if (!descriptor_) return {};
+  if (error_ != 0) return save_what_is_whole();
+  error_ = put_in_place(path);
+  descriptor_.reset();
+  if (error_ != 0) return {unwritable(path, error_)};
+  if (temporary_) {
+    temporary_->clear();
+    sync_folder(fs::path(path).parent_path());
+  }
+  return {};
+}
+
+base::Problems AtomicFile::save_what_is_whole() {
+  // The reader of a pipe has seen enough, or who waits for it has: nobody is to blame.
+  if (error_ == EPIPE || error_ == EINTR) return {};
+  base::Problem problem = unwritable(path_, error_);
+  if (!temporary_ || size_ == 0) return {problem};
+  error_ = 0;
+  if (commit_partial().empty()) problem.cure = saved_instead(path_);
+  return {problem};
+}
+
+/// Safely on the disk first, then under its name. 0, or what errno says.
+int AtomicFile::put_in_place(const std::string& path) {
+  if (!temporary_) return 0;
+  const int descriptor = *descriptor_;
+  // Beyond what was written whole there may be a piece that failed, or room that was only reserved.
+  if (!elsewhere_)
+    if (const int failed = persistently([&] { return ::ftruncate(descriptor, static_cast<off_t>(size_)); }))
+      return failed;
+  if (const int failed = persistently([&] { return ::fsync(descriptor); })) return failed;
+  return std::rename(temporary_->c_str(), path.c_str()) == 0 ? 0 : errno;
+}
+
+}  // namespace files

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The library's rooms by their short names, for code in files.
+#pragma once
+
+namespace sixstep {
+namespace base {}
+namespace design {}
+namespace study {}
+}  // namespace sixstep
+
+namespace files {
+namespace base = sixstep::base;
+namespace design = sixstep::design;
+namespace study = sixstep::study;
+}  // namespace files

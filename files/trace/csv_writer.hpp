@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The trace as text: lines of comment behind #, one header line of column names, then rows of numbers that
+// read back bit for bit.
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "files/atomic_file.hpp"
+#include "sixstep/study/measure/trace.hpp"
+
+namespace files {
+
+class CsvWriter {
+ public:
+  /// Each comment is one line.
+  static base::Result<CsvWriter> create(const Destination& to, std::span<const study::Column> columns,
+                                        std::span<const std::string> comments = {});
+
+  void row(std::span<const double> numbers);
+  bool failed() const { return file_.failed(); }
+  base::Problems commit();
+  base::Problems commit_partial();
+
+ private:
+  explicit CsvWriter(AtomicFile file) : file_(std::move(file)) {}
+  void flush();
+
+  AtomicFile file_;
+  std::string pending_;
+};
+
+/// Appends a number in as few digits as let it come back as itself, at most 17.
+void append_number(std::string& text, double x);
+
+}  // namespace files

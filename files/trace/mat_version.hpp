@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+
+namespace files {
+
+/// 5 for Octave, scipy and MATLAB; 7.3, which is HDF5, where columns grow without bound.
+enum class MatVersion : std::uint8_t { v5, v7_3 };
+
+}  // namespace files

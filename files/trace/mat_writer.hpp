@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The trace as a MAT file: each column a vector of its name, `units` and `meanings` by column, `sixstep` with
+// where it comes from. Rows wait on the disk (ColumnSpool), so memory does not grow with the run.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "files/atomic_file.hpp"
+#include "files/column_spool.hpp"
+#include "files/trace/mat_version.hpp"
+#include "files/trace/trace_origin.hpp"
+#include "sixstep/study/measure/trace.hpp"
+
+namespace files {
+
+class MatFile;
+
+class MatWriter {
+ public:
+  /// A variable of version 5 stays below 2 GiB in all: many read the sizes in its tags as signed.
+  static constexpr std::size_t v5_most_rows = ((std::size_t{1} << 31U) - 1024) / sizeof(double);
+
+  /// Version 7.3 needs a file that can be written to and fro: a pipe is refused.
+  static base::Result<MatWriter> create(const Destination& to, std::span<const study::Column> columns,
+                                        MatVersion version, TraceOrigin origin,
+                                        std::size_t most_rows_of_v5 = v5_most_rows);
+
+  void row(std::span<const double> numbers);
+  bool failed() const { return too_long_ || error_ != 0 || spool_.failed() || file_.failed(); }
+
+  /// `digest`: of the run, which only its end knows.
+  base::Problems commit(std::uint64_t digest);
+  base::Problems commit_partial(std::uint64_t digest);
+
+ private:
+  MatWriter(AtomicFile file, std::span<const study::Column> columns, MatVersion version, TraceOrigin origin,
+            std::size_t most_rows_of_v5);
+  void reserve();
+  void describe_trace(MatFile& mat, std::uint64_t digest) const;
+  bool assemble(std::uint64_t digest);
+  bool assemble_v5(std::uint64_t digest);
+  bool assemble_v7_3(std::uint64_t digest);
+  base::Problems save_what_fits(std::uint64_t digest);
+
+  AtomicFile file_;
+  std::vector<study::Column> columns_;
+  MatVersion version_;
+  TraceOrigin origin_;
+  std::size_t most_rows_;
+  ColumnSpool spool_;
+  bool too_long_ = false;
+  int error_ = 0;  // what errno said when room was asked for
+};
+
+}  // namespace files

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a trace comes from, in the words that every trace file begins with.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "files/rooms.hpp"
+
+namespace files {
+
+struct TraceOrigin {
+  std::string scenario;      ///< the file's name
+  std::uint64_t digest = 0;  ///< of everything that was read for it, and of what the command line set
+  std::string title, motor;
+  std::string command;  ///< makes the trace again
+  std::string text;     ///< the scenario file's, as it was read
+};
+
+/// Three lines without a line break in them: program and version, scenario with digest, command.
+std::vector<std::string> origin_lines(const TraceOrigin& origin);
+
+}  // namespace files

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <report_assets.hpp>
+
+#include "report/comparison_data.hpp"
+#include "report/figures.hpp"
+#include "report/highlights.hpp"
+#include "report/html.hpp"
+#include "report/scenario_differences.hpp"
+#include "report/scripts.hpp"
+#include "report/shell.hpp"
+#include "report/verdicts.hpp"
+
+namespace report {
+namespace {
+
+std::string number(std::size_t place) {
+  return fmt::format("<span class=\"run\" style=\"border-color:var(--{})\">{}</span>", run_style(place),
+                     place + 1);
+}
+
+/// A table with one column a run behind the first.
+std::string table(const char* first, std::size_t runs, const std::string& rows) {
+  std::string head = fmt::format("<th scope=\"col\">{}</th>", first);
+  for (std::size_t k = 0; k < runs; ++k)
+    head += fmt::format("<th scope=\"col\" class=\"num\">{}</th>", number(k));
+  return fmt::format(
+      "<table class=\"compared\" style=\"--runs:{}\"><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table>\n",
+      runs, head, rows);
+}
+
+std::string run_rows(const std::vector<ComparedRun>& runs) {
+  std::string html;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const Standing verdict = standing(runs[k].outcome);
+    html += fmt::format(
+        "<tr><td>{}</td><th scope=\"row\">{}<small class=\"aside\">{}</small></th><td><span class=\"chip "
+        "{}\">{}</span></td>"
+        "<td>{}</td></tr>\n",
+        number(k), escaped(runs[k].name), escaped(runs[k].scenario.title), verdict.css, verdict.word,
+        verdict.line);
+  }
+  return html;
+}
+
+std::string difference_table(const std::vector<ComparedRun>& runs) {
+  std::vector<const sixstep::study::Scenario*> scenarios;
+  scenarios.reserve(runs.size());
+  for (const ComparedRun& run : runs) scenarios.push_back(&run.scenario);
+  std::string rows;
+  for (const KeyDifference& d : differences(scenarios)) {
+    rows += fmt::format("<tr><th scope=\"row\"><code>{}</code></th>", escaped(d.key));
+    for (const std::string& v : d.values) rows += fmt::format("<td class=\"num\">{}</td>", escaped(v));
+    rows += "</tr>\n";
+  }
+  return rows.empty() ? "<p class=\"quiet\">Nothing that changes a run.</p>\n"
+                      : table("Key", runs.size(), rows);
+}
+
+/// What one run says of a figure.
+struct Measured {
+  double value = 0.0;
+  std::string css;  ///< "ok", "bad" where it was judged
+};
+using Ask = std::function<std::optional<Measured>(const ComparedRun&)>;
+
+const char* mark(const std::string& css) {
+  if (css == "ok") return " <b>✓</b>";
+  return css == "bad" ? " <b>✗ not met</b>" : "";
+}
+
+/// A figure of all runs; behind the first the difference to it.
+std::string figure_row(const std::string& name, const std::string& unit, const std::vector<ComparedRun>& runs,
+                       const Ask& ask) {
+  std::vector<std::optional<Measured>> found;
+  found.reserve(runs.size());
+  for (const ComparedRun& run : runs) found.push_back(ask(run));
+  // Neither what no run knows nor what is nothing in all of them.
+  if (std::ranges::all_of(found, [](const auto& m) { return !m || (m->value == 0.0 && m->css.empty()); }))
+    return "";
+  std::string html = fmt::format("<tr><th scope=\"row\">{}</th>", with_subscripts(name));
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (!found[k]) {
+      html += "<td class=\"num\">–</td>";
+      continue;
+    }
+    const bool against = k > 0 && found[0] && found[k]->value != found[0]->value;
+    const std::string aside = against
+                                  ? fmt::format("<small class=\"aside\">{}</small>",
+                                                escaped(deviation(found[k]->value, found[0]->value, unit)))
+                                  : "";
+    html += fmt::format("<td class=\"num {}\">{}{}{}</td>", found[k]->css,
+                        escaped(computed(found[k]->value, unit)), mark(found[k]->css), aside);
+  }
+  return html + "</tr>\n";
+}
+
+/// Requirements and comparisons of all runs by name, in the order they first appear.
+std::string named_figures(const std::vector<ComparedRun>& runs) {
+  std::vector<std::pair<std::string, std::string>> names;
+  const auto meet = [&](const std::string& figure, const std::string& unit) {
+    if (std::ranges::find(names, std::pair{figure, unit}) == names.end()) names.emplace_back(figure, unit);
+  };
+  for (const ComparedRun& run : runs) {
+    for (const auto& v : run.outcome.verdicts) meet(v.figure, v.unit);
+    for (const auto& c : run.outcome.comparisons) meet(c.figure, c.unit);
+  }
+  std::string rows;
+  for (const auto& [figure, unit] : names)
+    rows += figure_row(figure, unit, runs,
+                       [&, figure = figure, unit = unit](const ComparedRun& run) -> std::optional<Measured> {
+                         for (const auto& v : run.outcome.verdicts)
+                           if (v.figure == figure && v.unit == unit)
+                             return Measured{v.measured, v.ok ? "ok" : "bad"};
+                         for (const auto& c : run.outcome.comparisons)
+                           if (c.figure == figure && c.unit == unit) return Measured{c.measured, ""};
+                         return std::nullopt;
+                       });
+  return rows;
+}
+
+std::string energy_rows(const std::vector<ComparedRun>& runs) {
+  using Book = sixstep::study::EnergyBook;
+  static constexpr std::pair<const char*, double Book::*> entries[] = {
+      {"energy supplied", &Book::supplied},
+      {"of it in copper", &Book::copper},
+      {"in switches and diodes", &Book::devices},
+      {"in friction", &Book::friction},
+      {"in the load", &Book::load}};
+  std::string rows;
+  for (const auto& [name, entry] : entries)
+    rows += figure_row(name, "J", runs, [entry = entry](const ComparedRun& run) -> std::optional<Measured> {
+      if (!run.outcome.energy) return std::nullopt;
+      return Measured{*run.outcome.energy.*entry, ""};
+    });
+  return rows;
+}
+
+/// What every run is asked, whatever its scenario asks for.
+std::string usual_figures(const std::vector<ComparedRun>& runs) {
+  const auto of_step = [](const ComparedRun& run) {
+    const auto step = largest_step(run.events, run.scenario);
+    return step ? step_current(run.events, *step) : std::nullopt;
+  };
+  std::string rows = figure_row("peak current of the largest step", "A", runs, [&](const ComparedRun& run) {
+    const auto current = of_step(run);
+    return current ? std::optional(Measured{current->peak_A, ""}) : std::nullopt;
+  });
+  rows += figure_row("all of the bus in use for", "s", runs, [](const ComparedRun& run) {
+    const auto held = held_back(run.events, run.scenario, run.outcome);
+    return held && run.events.whole.empty() ? std::optional(Measured{held->bus_s, ""}) : std::nullopt;
+  });
+  rows += figure_row("switching frequency of the whole run", "Hz", runs,
+                     [](const ComparedRun& run) -> std::optional<Measured> {
+                       if (!(run.outcome.simulated_s > 0.0)) return std::nullopt;
+                       return Measured{switching_frequency_Hz(run.outcome), ""};
+                     });
+  return rows + energy_rows(runs);
+}
+
+std::string gain_table(const std::vector<ComparedRun>& runs) {
+  std::string rows;
+  for (const char* loop : {"current", "speed", "position"})
+    for (const auto& [symbol, gain] :
+         {std::pair{"d_1", &sixstep::study::LoopGains::d1}, std::pair{"d_0", &sixstep::study::LoopGains::d0}})
+      rows += figure_row(fmt::format("{} loop, {}", loop, symbol), "", runs,
+                         [&, gain = gain](const ComparedRun& run) -> std::optional<Measured> {
+                           for (const auto& g : run.outcome.gains)
+                             if (g.loop == loop) return Measured{g.*gain, ""};
+                           return std::nullopt;
+                         });
+  return rows.empty() ? "<p class=\"quiet\">No controller in any run.</p>\n"
+                      : table("Gain", runs.size(), rows);
+}
+
+}  // namespace
+
+std::string render_comparison(const ComparisonInput& in) {
+  std::vector<const sixstep::study::Scenario*> scenarios;
+  std::string names;
+  for (const ComparedRun& run : in.runs) {
+    scenarios.push_back(&run.scenario);
+    names += (names.empty() ? "" : ", ") + run.name;
+  }
+  const std::string title = fmt::format("{} runs compared", in.runs.size());
+  const std::string body =
+      filled(assets::comparison_html,
+             {{"title", title},
+              {"subtitle", escaped(names) + "; differences are against the first"},
+              {"runs", run_rows(in.runs)},
+              {"differences", difference_table(in.runs)},
+              {"figures", table("Figure", in.runs.size(), named_figures(in.runs) + usual_figures(in.runs))},
+              {"plots", assets::plots_html},
+              {"grid", escaped(given(common_grid_s(scenarios), "s"))},
+              {"gains", gain_table(in.runs)}});
+  return in_shell(
+      {.title = title + " · " + escaped(names), .body = body, .command = in.command, .version = in.version},
+      comparison_data(in.runs), run_scripts);
+}
+
+}  // namespace report

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/conduction.hpp"
+
+#include <array>
+
+#include "report/windows.hpp"
+#include "sixstep/study/measure/trace.hpp"
+
+namespace report {
+namespace {
+
+using Values = std::vector<double>;
+
+struct Columns {
+  const Values* current;
+  const Values* upper;
+  const Values* lower;
+  bool complete() const { return current && upper && lower; }
+};
+
+/// Between row n and the next. At its ends a diode's current may be zero; between them it has its sign.
+Leg leg_after(const Columns& c, std::size_t n) {
+  if ((*c.upper)[n] > 0.5) return Leg::upper_switch;
+  if ((*c.lower)[n] > 0.5) return Leg::lower_switch;
+  const double i = (*c.current)[n] + (*c.current)[n + 1];
+  if (i == 0.0) return Leg::floating;
+  return i > 0.0 ? Leg::lower_diode : Leg::upper_diode;  // into the motor it comes up from the negative rail
+}
+
+}  // namespace
+
+Conduction conduction(const sixstep::study::Trace& trace) {
+  const auto* time = find_column(trace, "t_s");
+  const std::array<Columns, 3> legs{{
+      {find_column(trace, "i_a_A"), find_column(trace, "gate_T1"), find_column(trace, "gate_T2")},
+      {find_column(trace, "i_b_A"), find_column(trace, "gate_T3"), find_column(trace, "gate_T4")},
+      {find_column(trace, "i_c_A"), find_column(trace, "gate_T5"), find_column(trace, "gate_T6")},
+  }};
+  Conduction out;
+  if (!time || time->size() < 2 || !legs[0].complete() || !legs[1].complete() || !legs[2].complete())
+    return out;
+  out.end_s = time->back();
+  for (std::size_t n = 0; n + 1 < time->size(); ++n) {
+    if (!((*time)[n] < (*time)[n + 1])) continue;
+    unsigned code = 0;
+    for (std::size_t k = 3; k-- > 0;) code = 5 * code + static_cast<unsigned>(leg_after(legs[k], n));
+    if (!out.code.empty() && out.code.back() == code) continue;
+    out.time_s.push_back((*time)[n]);
+    out.code.push_back(static_cast<std::uint8_t>(code));
+  }
+  return out;
+}
+
+}  // namespace report

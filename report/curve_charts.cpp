@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/curve_charts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "report/html.hpp"
+#include "sixstep/base/angle.hpp"
+
+namespace report {
+namespace {
+
+using json = nlohmann::ordered_json;
+namespace study = sixstep::study;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double rpm_per_rad_s = 30 / sixstep::base::pi, milli = 1e3;
+
+/// One place on the axis.
+struct Place {
+  const study::OperatingPoint* point;
+  const study::NominalPoint* nominal = nullptr;
+};
+
+using Of = std::function<double(const Place&)>;
+
+struct Line {
+  const char *label, *style, *meaning;
+  Of of;
+  enum class Drawn { line, points, region } drawn = Drawn::line;  ///< a region is filled down to zero
+};
+
+template <double study::OperatingPoint::*member>
+Of of(double factor) {
+  return [factor](const Place& place) { return factor * (place.point->*member); };
+}
+
+class Charts {
+ public:
+  Charts(const study::CurveRequest& request, const study::Curve& curve) : request_(request), curve_(curve) {
+    for (const study::OperatingPoint& p : curve.points) places_.push_back({&p});
+    if (curve.marks.best_efficiency) places_.push_back({&*curve.marks.best_efficiency});
+    if (curve.marks.for_ever) places_.push_back({&*curve.marks.for_ever});
+    if (curve.marks.nominal) places_.push_back({&*curve.marks.nominal});
+    if (curve.nominal && curve.nominal->at_speed)
+      places_.push_back({&*curve.nominal->at_speed, &*curve.nominal});
+    std::stable_sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
+      return a.point->speed_rad_s < b.point->speed_rad_s;
+    });
+    std::vector<double> rpm;
+    for (const Place& place : places_) rpm.push_back(place.point->speed_rad_s * rpm_per_rad_s);
+    out_["axis"] = base64(std::span<const double>(rpm));
+    out_["charts"] = json::array();
+    corner_Nm_ = corner_Nm();
+  }
+
+  void add(const char* id, const char* title, const char* unit, int height, const std::vector<Line>& lines) {
+    json chart = {{"id", id}, {"title", title}, {"unit", unit}, {"height", height}};
+    double corner = 0.0;
+    for (const Line& line : lines) {
+      std::vector<float> values;
+      for (const Place& place : places_) {
+        const double v = line.of(place);
+        values.push_back(static_cast<float>(v));
+        if (place.point->shaft_torque_Nm <= corner_Nm_) corner = std::fmax(corner, v);
+      }
+      chart["curves"].push_back({{"label", line.label},
+                                 {"style", line.style},
+                                 {"meaning", line.meaning},
+                                 {"points", line.drawn == Line::Drawn::points},
+                                 {"region", line.drawn == Line::Drawn::region},
+                                 {"data", base64(std::span<const float>(values))}});
+    }
+    if (corner_Nm_ > 0.0) chart["corner"] = corner;
+    out_["charts"].push_back(std::move(chart));
+  }
+
+  void torque() {
+    std::vector<Line> lines = regions();
+    lines.insert(lines.end(), {{"shaft", "main", "mean torque on the shaft",
+                                of<&study::OperatingPoint::shaft_torque_Nm>(milli)},
+                               {"ideal", "reference", "straight line without commutation time and friction",
+                                [this](const Place& p) {
+                                  return milli * study::ideal_torque_Nm(request_.bench, p.point->speed_rad_s);
+                                }}});
+    if (curve_.thermal) {
+      const auto limit = limits();
+      lines.push_back({"for ever", "c", "what the winding stands for ever",
+                       [limit](const Place& p) { return milli * limit(p).continuous_Nm; }});
+      lines.push_back({"60 s", "a", "what it stands for 60 s from ambient temperature",
+                       [limit](const Place& p) { return milli * limit(p).short_Nm[1]; }});
+      lines.push_back({"10 s", "b", "what it stands for 10 s from ambient temperature",
+                       [limit](const Place& p) { return milli * limit(p).short_Nm[0]; }});
+    }
+    if (curve_.nominal && curve_.nominal->torque_Nm)
+      lines.push_back({"nominal point", "b", "as the sheet prints it",
+                       [](const Place& p) { return p.nominal ? milli * *p.nominal->torque_Nm : none; },
+                       Line::Drawn::points});
+    add("torque", "Torque", "mNm", 320, lines);
+    if (corner_Nm_ > 0.0) out_["charts"].back()["corner"] = milli * corner_Nm_;
+  }
+
+  void currents() {
+    using P = study::OperatingPoint;
+    std::vector<Line> lines = {{"winding", "main", "mean of half the sum of the phase currents' magnitudes",
+                                of<&P::winding_current_A>(1)},
+                               {"peak", "b", "greatest phase current", of<&P::phase_peak_A>(1)},
+                               {"rms", "a", "rms of a phase current", of<&P::phase_rms_A>(1)},
+                               {"supply", "c", "mean current from the supply", of<&P::bus_current_A>(1)}};
+    if (curve_.nominal && curve_.nominal->current_A)
+      lines.push_back({"nominal point", "b", "as the sheet prints it",
+                       [](const Place& p) { return p.nominal ? *p.nominal->current_A : none; },
+                       Line::Drawn::points});
+    add("current", "Current", "A", 220, lines);
+  }
+
+  std::string text() const { return out_.dump(); }
+
+ private:
+  std::function<study::ThermalLimits(const Place&)> limits() const {
+    return [this](const Place& p) {
+      return study::thermal_limits(*curve_.thermal, request_, p.point->speed_rad_s);
+    };
+  }
+
+  /// What bus and winding allow together: for ever, and for ten seconds.
+  std::vector<Line> regions() const {
+    if (!curve_.thermal) return {};
+    const auto below = [](double allowed_Nm, const Place& p) {
+      return milli * std::fmax(0.0, std::fmin(allowed_Nm, p.point->shaft_torque_Nm));
+    };
+    const auto limit = limits();
+    return {{"short-time", "b", "what bus and winding allow together for 10 s from ambient temperature",
+             [=](const Place& p) { return below(limit(p).short_Nm[0], p); }, Line::Drawn::region},
+            {"continuous", "c", "what bus and winding allow together for ever",
+             [=](const Place& p) { return below(limit(p).continuous_Nm, p); }, Line::Drawn::region}};
+  }
+
+  /// Up to which torque the motor is used: a stalled one shows ten times that, and would squeeze the rest
+  /// into a strip. 0 where nobody says.
+  double corner_Nm() const {
+    constexpr double room = 1.1, of_nominal = 3.0, worth_it = 0.7;
+    double corner = 0.0;
+    if (curve_.thermal)
+      corner = room * study::thermal_limits(*curve_.thermal, request_, 0.0).short_Nm[0];
+    else if (curve_.nominal && curve_.nominal->torque_Nm)
+      corner = of_nominal * *curve_.nominal->torque_Nm;
+    return corner < worth_it * curve_.points.front().shaft_torque_Nm ? corner : 0.0;
+  }
+
+  const study::CurveRequest& request_;
+  const study::Curve& curve_;
+  std::vector<Place> places_;
+  json out_;
+  double corner_Nm_ = 0.0;
+};
+
+}  // namespace
+
+std::string curve_charts(const study::CurveRequest& request, const study::Curve& curve) {
+  using P = study::OperatingPoint;
+  Charts charts(request, curve);
+  charts.torque();
+  charts.currents();
+  charts.add("efficiency", "Efficiency", "%", 180,
+             {{"efficiency", "main", "shaft over supply",
+               [](const Place& p) { return 100 * p.point->efficiency.value_or(0.0); }}});
+  std::vector<Line> power = {{"in", "main", "taken from the supply", of<&P::supplied_W>(1)},
+                             {"out", "c", "given by the shaft", of<&P::shaft_W>(1)},
+                             {"copper", "b", "loss in the winding", of<&P::copper_W>(1)},
+                             {"friction", "a", "loss by friction", of<&P::friction_W>(1)}};
+  const auto& devices = request.bench.devices;
+  if (devices.R_on_ohm > 0 || devices.V_f_V > 0 || devices.r_d_ohm > 0)
+    power.push_back({"devices", "reference", "loss in switches and diodes", of<&P::devices_W>(1)});
+  charts.add("power", "Power", "W", 220, power);
+  charts.add("ripple", "Torque ripple", "mNm", 180,
+             {{"peak to peak", "main", "electromagnetic torque", of<&P::ripple_Nm>(milli)},
+              {"rms", "a", "about the mean", of<&P::ripple_rms_Nm>(milli)}});
+  return charts.text();
+}
+
+}  // namespace report

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// A torque-speed curve as one HTML file that opens anywhere, without a network.
+#pragma once
+#include <string>
+
+#include "sixstep/study/curve/curve.hpp"
+
+namespace report {
+
+struct CurvePageInput {
+  const sixstep::study::CurveRequest& request;
+  const sixstep::study::Curve& curve;
+  std::string command;  ///< what makes this page again
+  std::string version;
+};
+
+/// The same input gives the same bytes.
+std::string render_curve(const CurvePageInput& input);
+
+}  // namespace report

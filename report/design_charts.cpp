@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/design_charts.hpp"
+
+#include <cmath>
+
+#include "report/svg_chart.hpp"
+#include "sixstep/base/angle.hpp"
+
+namespace report {
+namespace {
+
+using sixstep::control::Mode;
+using sixstep::design::DriveDesign;
+using sixstep::study::DesignStudy;
+
+constexpr const char* styles[] = {"a", "b", "c"};
+constexpr double turn = 2 * sixstep::base::pi, degrees = 180 / sixstep::base::pi;
+
+const std::vector<double>* column(const DesignStudy& s, std::string_view name) {
+  for (std::size_t n = 0; n < s.trace.columns.size(); ++n)
+    if (s.trace.columns[n].name == name) return &s.trace.values[n];
+  return nullptr;
+}
+
+/// Three settling times show a step; a move is shown whole.
+double end_of_view(const DesignStudy& s, double begin_s) {
+  const double settle = s.design.loops.back().step.settling_s;
+  const bool whole = s.design.spec.mode == Mode::position || !std::isfinite(settle);
+  return whole ? s.scenario.duration_s : std::fmin(s.scenario.duration_s, begin_s + 3 * settle);
+}
+
+/// The linear response on top of where the step begins.
+SvgCurve designed(const DesignStudy& s, double begin_s, double from, double height) {
+  SvgCurve curve{"designed", "reference", {}, {}};
+  const auto& samples = s.design.loops.back().step.samples;
+  for (std::size_t n = 0; n < samples.size(); ++n) {
+    const double t = begin_s + static_cast<double>(n) * s.design.spec.period_s;
+    if (t > end_of_view(s, begin_s)) break;
+    curve.x.push_back(t * 1e3);
+    curve.y.push_back(from + height * samples[n]);
+  }
+  return curve;
+}
+
+SvgCurve simulated(const DesignStudy& s, std::string_view name, double begin_s, double factor) {
+  SvgCurve curve{"simulated", "a", {}, {}};
+  const std::vector<double>*t = column(s, "t_s"), *y = column(s, name);
+  for (std::size_t n = 0; t && y && n < t->size(); ++n) {
+    if ((*t)[n] < begin_s || (*t)[n] > end_of_view(s, begin_s)) continue;
+    curve.x.push_back((*t)[n] * 1e3);
+    curve.y.push_back((*y)[n] * factor);
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::string step_charts(const DesignStudy& s) {
+  const auto& r = s.scenario.reference;
+  SvgChart chart{.title = "Step", .x_label = "ms"};
+  if (s.design.spec.mode == Mode::current) {
+    chart.y_label = "A";
+    chart.curves = {simulated(s, "i_m_A", 0, 1), designed(s, 0, 0, r.value)};
+    chart.levels = {r.value};
+  } else if (s.design.spec.mode == Mode::speed) {
+    chart.y_label = "rad/s";
+    const double begin = r.times_s.at(1), from = r.values.at(0), to = r.values.at(1);
+    chart.curves = {simulated(s, "speed_rad_s", begin, 1), designed(s, begin, from, to - from)};
+    chart.levels = {to};
+  } else {
+    chart.y_label = "deg";
+    chart.title = "Move";
+    chart.curves = {simulated(s, "angle_rad", 0, degrees), designed(s, 0, 0, r.value)};
+    chart.curves[1].label = "were there no limits";
+    chart.levels = {r.value};
+  }
+  if (s.design.spec.mode == Mode::current) return svg_chart(chart);
+  const double begin = s.design.spec.mode == Mode::speed ? r.times_s.at(1) : 0.0;
+  return svg_chart(chart) + svg_chart({.title = "Motor current",
+                                       .x_label = "ms",
+                                       .y_label = "A",
+                                       .curves = {simulated(s, "i_m_A", begin, 1)},
+                                       .levels = {}});
+}
+
+std::string loop_charts(const DesignStudy& s) {
+  SvgChart gain{
+      .title = "Gain |L|", .x_label = "Hz", .y_label = "dB", .log_x = true, .y_tick = 20.0, .levels = {0.0}};
+  SvgChart phase{.title = "Phase of L",
+                 .x_label = "Hz",
+                 .y_label = "degrees",
+                 .log_x = true,
+                 .y_tick = 45.0,
+                 .levels = {-180.0}};
+  std::size_t n = 0;
+  for (const auto& loop : s.design.loops) {
+    const double from = loop.figures.crossover_rad_s.value_or(0.1 / s.design.spec.period_s) / 30;
+    SvgCurve& g = gain.curves.emplace_back(SvgCurve{loop.name, styles[n % 3], {}, {}});
+    SvgCurve& p = phase.curves.emplace_back(SvgCurve{loop.name, styles[n % 3], {}, {}});
+    for (const auto& point : sixstep::design::bode(loop.loop, s.design.spec.period_s, from, 240)) {
+      const double deg = point.phase_rad * degrees;
+      // Beyond that neither tells anything.
+      const bool shown = point.gain > 1e-3 && deg > -400;
+      g.x.push_back(point.w_rad_s / turn);
+      g.y.push_back(shown ? 20 * std::log10(point.gain) : NAN);
+      p.y.push_back(shown ? deg : NAN);
+    }
+    p.x = g.x;
+    ++n;
+  }
+  return svg_chart(gain) + svg_chart(phase);
+}
+
+std::string limit_charts(const DesignStudy& s) {
+  const DriveDesign& d = s.design;
+  SvgChart headroom{.title = "Voltage left", .x_label = "rad/s", .y_label = "V", .levels = {0.0}};
+  const double top = d.bus_V / d.motor.K_t_Nm_A;
+  std::size_t n = 0;
+  const char* const loaded = d.nominal_printed ? "nominal current" : "a tenth of stall";
+  for (const double part : {0.0, 1.0}) {
+    SvgCurve curve{part == 0 ? "no current" : loaded, styles[n++], {0, top}, {}};
+    for (const double w : curve.x)
+      curve.y.push_back(sixstep::design::headroom_V(d.motor, d.bus_V, part * d.nominal_current_A, w));
+    headroom.curves.push_back(std::move(curve));
+  }
+  SvgChart ripple{.title = "Current ripple, peak to peak", .x_label = "duty", .y_label = "A"};
+  SvgCurve curve{"PWM", "a", {}, {}};
+  for (int k = 0; k <= 100; ++k) {
+    curve.x.push_back(k / 100.0);
+    curve.y.push_back(
+        sixstep::design::current_ripple_A(d.motor, d.bus_V, d.spec.period_s, d.spec.chopping, k / 100.0));
+  }
+  ripple.curves.push_back(std::move(curve));
+  return svg_chart(headroom) + svg_chart(ripple);
+}
+
+}  // namespace report

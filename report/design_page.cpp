@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/design_page.hpp"
+
+#include <fmt/format.h>
+#include <report_assets.hpp>
+
+#include <cmath>
+
+#include "report/design_charts.hpp"
+#include "report/figures.hpp"
+#include "report/html.hpp"
+#include "report/shell.hpp"
+#include "sixstep/base/angle.hpp"
+#include "sixstep/design/thesis/thesis_figures.hpp"
+
+namespace report {
+namespace {
+
+using sixstep::design::LoopDesign;
+using sixstep::design::LoopFigures;
+using sixstep::study::DesignStudy;
+using sixstep::study::RobustFigure;
+
+std::string shown(double x, const std::string& unit) {
+  if (std::isfinite(x)) return escaped(computed(x, unit));
+  return unit == "s" ? "never" : "–";
+}
+
+std::string cell(const std::string& html) { return "<td class=\"num\">" + html + "</td>"; }
+/// A name that begins with # stands over numbers.
+std::string head(std::initializer_list<std::string_view> names) {
+  std::string out = "<thead><tr>";
+  for (const std::string_view name : names)
+    out += name.starts_with('#') ? fmt::format("<th class=\"num\">{}</th>", name.substr(1))
+                                 : fmt::format("<th>{}</th>", name);
+  return out + "</tr></thead>";
+}
+
+std::string warnings(const DesignStudy& s) {
+  std::string out;
+  for (const auto& w : s.warnings)
+    out += fmt::format("<p class=\"{}\">{}<b>{}.</b> {}.</p>\n", w.grave ? "alert" : "notes",
+                       w.grave ? "Grave: " : "", escaped(w.what), escaped(w.cure));
+  return out;
+}
+
+std::string simulated(const DesignStudy& s) {
+  std::string out = "<table class=\"comparisons\">" +
+                    head({"Figure", "#Expected", "#Simulated", "#Deviation", "Expected is"}) + "<tbody>\n";
+  for (const auto& c : s.outcome.comparisons)
+    out += fmt::format(
+        "<tr><th scope=\"row\">{}</th>{}{}{}<td class=\"source\">{}</td></tr>\n", escaped(c.figure),
+        cell(shown(c.value, c.unit)), cell(shown(sixstep::study::as_read(c, s.scenario), c.unit)),
+        cell(escaped(deviation(sixstep::study::as_read(c, s.scenario), c.value, c.unit))), escaped(c.source));
+  return out + "</tbody></table>\n";
+}
+
+/// What the steps lead to; a position loop has one gain.
+std::string gain_table(const DesignStudy& s) {
+  std::string rows;
+  for (const LoopDesign& loop : s.design.loops) {
+    const bool one = loop.name == "position";
+    rows += fmt::format("<tr><th scope=\"row\">{}</th>{}{}<td>{}</td></tr>\n", escaped(loop.name),
+                        cell(plain(loop.gains.d1, 6, true) + (one ? "\u00a0rad/s per deg" : "")),
+                        cell(one ? "–" : plain(loop.gains.d0, 6, true)), escaped(loop.method));
+  }
+  return "<table>" + head({"Loop", "#d<sub>1</sub>", "#d<sub>0</sub>", "Method"}) + "<tbody>\n" + rows +
+         "</tbody></table>\n";
+}
+
+std::string steps(const LoopDesign& loop) {
+  bool thesis = false;
+  std::string rows;
+  for (const auto& step : loop.steps) {
+    const Scale scale = scale_for(step.value, step.unit);
+    std::string printed;
+    if (loop.placed)
+      if (const auto value = sixstep::design::thesis_figure(loop.name, *loop.placed, step.symbol)) {
+        printed = plain(*value, 6, true);
+        thesis = true;
+      }
+    rows += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"formula\">{}</td>{}{}</tr>\n",
+                        typeset(step.symbol), typeset(step.formula),
+                        cell(plain(step.value * scale.factor, 6, true) +
+                             (scale.unit.empty() ? "" : "\u00a0") + escaped(scale.unit)),
+                        cell(printed));
+  }
+  return fmt::format(
+      "<div class=\"loop\"><h3>{} loop</h3><p class=\"origin\">{}</p>\n<table class=\"steps\">{}<tbody>{}"
+      "</tbody></table></div>\n",
+      escaped(loop.name), escaped(loop.method), head({"Step", "Formula", "#Value", thesis ? "#Thesis" : "#"}),
+      rows);
+}
+
+std::string margins(const DesignStudy& s) {
+  std::string out = "<table><thead><tr><th>Loop</th>";
+  for (const LoopDesign& loop : s.design.loops) out += "<th class=\"num\">" + escaped(loop.name) + "</th>";
+  out += "</tr></thead><tbody>\n";
+  const bool late = s.design.spec.delay_periods == 1;
+  const auto row = [&](const char* name, auto value) {
+    out += fmt::format("<tr><th scope=\"row\">{}</th>", name);
+    for (const LoopDesign& loop : s.design.loops) out += cell(value(loop));
+    out += "</tr>\n";
+  };
+  const auto delayed = [&](const LoopDesign& l) -> const LoopFigures& { return late ? l.figures : l.other; };
+  const auto at_once = [&](const LoopDesign& l) -> const LoopFigures& { return late ? l.other : l.figures; };
+  const auto in = [](const std::optional<double>& x, double factor, const char* unit) {
+    return x ? escaped(computed(*x * factor, unit)) : std::string("–");
+  };
+  constexpr double degrees = 180 / sixstep::base::pi, hertz = 1 / (2 * sixstep::base::pi);
+  row("crossover", [&](const LoopDesign& l) { return in(l.figures.crossover_rad_s, hertz, "Hz"); });
+  row("bandwidth, −3 dB", [&](const LoopDesign& l) { return in(l.figures.bandwidth_rad_s, hertz, "Hz"); });
+  row("phase margin, command at once",
+      [&](const LoopDesign& l) { return in(at_once(l).phase_rad, degrees, "deg"); });
+  row("phase margin, one period late",
+      [&](const LoopDesign& l) { return in(delayed(l).phase_rad, degrees, "deg"); });
+  row("gain margin, one period late", [&](const LoopDesign& l) {
+    const auto& gain = delayed(l).gain;
+    return gain ? plain(20 * std::log10(*gain), 3) + "\u00a0dB" : std::string("–");
+  });
+  row("delay margin, one period late", [&](const LoopDesign& l) { return in(delayed(l).delay_s, 1, "s"); });
+  row("peak of sensitivity, one period late", [&](const LoopDesign& l) {
+    return delayed(l).stable ? plain(delayed(l).sensitivity_peak, 3) : std::string("unstable");
+  });
+  if (s.design.lag.delay_s() > 0)
+    row("phase margin with the speed’s sensor",
+        [&](const LoopDesign& l) { return in(l.built.phase_rad, degrees, "deg"); });
+  row(s.design.lag.delay_s() > 0 ? "step: settling" : "step: settling to 2 %",
+      [&](const LoopDesign& l) { return shown(l.step.settling_s, "s"); });
+  row("step: overshoot", [&](const LoopDesign& l) { return plain(100 * l.step.overshoot, 3) + " %"; });
+  return out + "</tbody></table>\n";
+}
+
+/// How old the speed is, and how fast each way of sensing lets the loop be.
+std::string sensing(const DesignStudy& s) {
+  const sixstep::design::DriveDesign& d = s.design;
+  if (d.limits.empty()) return "";
+  std::vector<std::string> heads{"Sensor"};
+  for (std::size_t n = 0; n < 3; ++n)
+    heads.push_back("#down to " + computed(d.limits[n].lowest_speed_rad_s, "rad/s"));
+  std::string rows;
+  for (std::size_t n = 0; n + 3 <= d.limits.size(); n += 3) {
+    rows += "<tr><th scope=\"row\">" + escaped(edges_words(d.limits[n].sensing)) + "</th>";
+    for (std::size_t k = n; k < n + 3; ++k)
+      rows += cell(d.limits[k].settle_s ? computed(*d.limits[k].settle_s, "s") : "–");
+    rows += "</tr>\n";
+  }
+  std::string table = "<table><thead><tr>";
+  for (const std::string& text : heads)
+    table +=
+        text[0] == '#' ? "<th class=\"num\">" + escaped(text.substr(1)) + "</th>" : "<th>" + text + "</th>";
+  return fmt::format(
+      "<h3>Fastest settling of the speed loop</h3><p class=\"origin\">that keeps 45 degrees of phase at the "
+      "lowest "
+      "speed; this design's speed is {} old there</p>\n{}</tr></thead><tbody>\n{}</tbody></table>\n",
+      escaped(computed(d.lag.delay_s(), "s")), table, rows);
+}
+
+std::string robust_row(const RobustFigure& f) {
+  return fmt::format("<tr><th scope=\"row\">{}</th>{}{}<td>{}</td><td>{}</td></tr>\n",
+                     with_subscripts(f.figure), cell(shown(f.nominal, f.unit)), cell(shown(f.worst, f.unit)),
+                     with_subscripts(f.at),
+                     f.culprit.empty() ? "" : with_subscripts(f.culprit) + ": " + shown(f.alone, f.unit));
+}
+
+std::string tolerances(const DesignStudy& s) {
+  if (!s.robustness) return "";
+  std::string out = fmt::format(
+      "<h2>Tolerances</h2><p class=\"origin\">{} motors, the controller as designed; phase margins one "
+      "period "
+      "late</p>\n<table>{}<tbody>\n",
+      s.robustness->runs, head({"Figure", "#Nominal", "#Worst", "Where", "Chiefly, alone"}));
+  for (const RobustFigure& f : s.robustness->figures) out += robust_row(f);
+  for (const RobustFigure& f : s.robustness->phases) out += robust_row(f);
+  return out + "</tbody></table>\n";
+}
+
+}  // namespace
+
+std::string render_design(const DesignPage& page) {
+  const DesignStudy& s = page.study;
+  std::string derivation;
+  for (const LoopDesign& loop : s.design.loops) derivation += steps(loop);
+  const std::size_t colon = page.verdict.find(':');
+  const std::string word = page.verdict.substr(0, colon),
+                    line = colon == page.verdict.npos ? "" : page.verdict.substr(colon + 1);
+  const std::string body =
+      filled(assets::design_html,
+             {{"title", escaped(s.scenario.title)},
+              {"subtitle", escaped(s.scenario.sheet.name) + " · " + escaped(given(s.design.bus_V, "V"))},
+              {"standing_class", s.usable() ? "pass" : "fail"},
+              {"standing", escaped(word)},
+              {"standing_line", escaped(line)},
+              {"warnings", warnings(s)},
+              {"simulated", simulated(s)},
+              {"step_charts", step_charts(s)},
+              {"gains", gain_table(s)},
+              {"derivation", derivation},
+              {"margins", margins(s) + sensing(s)},
+              {"loop_charts", loop_charts(s)},
+              {"limit_charts", limit_charts(s)},
+              {"tolerances", tolerances(s)},
+              {"scenario", escaped(page.scenario)}});
+  return in_shell({.title = escaped(word + " · " + s.scenario.title),
+                   .body = body,
+                   .command = page.command,
+                   .version = page.version});
+}
+
+}  // namespace report

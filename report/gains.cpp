@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gains as used beside the exact design, and the design's every step.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "report/figures.hpp"
+#include "report/html.hpp"
+#include "report/parameters.hpp"
+
+namespace report {
+namespace {
+
+using sixstep::study::LoopGains;
+
+std::string gain_table(const LoopGains& g) {
+  if (g.loop == "position")
+    return fmt::format(
+        "<table class=\"gains\"><tbody><tr><th scope=\"row\">gain</th><td class=\"num strong\">{} rad/s per "
+        "degree"
+        "</td></tr></tbody></table>\n",
+        plain(g.d1, 6, true));
+  const auto row = [&](const char* symbol, double used, double exact) {
+    std::string html =
+        fmt::format("<tr><th scope=\"row\">{}</th><td class=\"num strong\">{}</td>", symbol, plain(used, 6));
+    if (g.derivation)
+      html += fmt::format(
+          "<td class=\"num\">{}</td><td class=\"num\">{}</td>", plain(exact, 6),
+          std::abs(used - exact) <= 1e-12 * std::abs(exact) ? "same" : deviation(used, exact, ""));
+    return html + "</tr>\n";
+  };
+  const auto exact = g.derivation ? g.derivation->gains : sixstep::design::PiGains{};
+  std::string html = "<table class=\"gains\"><thead><tr><th></th><th class=\"num\">used</th>";
+  if (g.derivation) html += "<th class=\"num\">pole placement</th><th class=\"num\">deviation</th>";
+  html += "</tr></thead><tbody>\n";
+  html += row("d<sub>1</sub> = K", g.d1, exact.d1);
+  html += row("d<sub>0</sub>", g.d0, exact.d0);
+  html += row("K<sub>i</sub> = d<sub>0</sub> + d<sub>1</sub>", g.d0 + g.d1, exact.d0 + exact.d1);
+  return html + "</tbody></table>\n";
+}
+
+std::string derivation(const sixstep::design::PolePlacement& design) {
+  std::string html =
+      "<table class=\"steps\"><thead><tr><th>Step</th><th>Formula</th><th "
+      "class=\"num\">Value</th></tr></thead><tbody>\n";
+  for (const auto& step : design.steps) {
+    const Scale scale = scale_for(step.value, step.unit);
+    html += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td class=\"formula\">{}</td><td class=\"num\">{}{}{}</td></tr>\n",
+        typeset(step.symbol), typeset(step.formula), plain(step.value * scale.factor, 6, true),
+        scale.unit.empty() ? "" : "\u00a0", escaped(scale.unit));
+  }
+  return html + "</tbody></table>\n";
+}
+
+}  // namespace
+
+std::string gains_section(const sixstep::study::Outcome& outcome) {
+  std::string html;
+  for (const LoopGains& g : outcome.gains) {
+    html += fmt::format(
+        "<div class=\"loop\"><h3>{} loop</h3><p class=\"origin\">{}</p>\n<div "
+        "class=\"columns\"><div>{}</div>",
+        escaped(g.loop), escaped(g.origin), gain_table(g));
+    if (g.derivation) html += "<div>" + derivation(*g.derivation) + "</div>";
+    html += "</div></div>\n";
+  }
+  return html.empty() ? "<p class=\"quiet\">No controller: nothing to tune.</p>\n" : html;
+}
+
+}  // namespace report

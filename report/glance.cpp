@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/glance.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/figures.hpp"
+#include "report/highlights.hpp"
+#include "report/html.hpp"
+#include "report/svg_chart.hpp"
+#include "report/verdicts.hpp"
+#include "report/windows.hpp"
+#include "sixstep/study/measure/trace.hpp"
+
+namespace report {
+namespace {
+
+using sixstep::study::EnergyBook;
+using sixstep::study::LoopGains;
+using sixstep::study::Outcome;
+using sixstep::study::Scenario;
+using sixstep::study::Trace;
+using sixstep::study::Verdict;
+
+std::string answer(std::string_view name, const std::string& text) {
+  return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, text);
+}
+
+std::string card(std::string_view css, std::string_view title, const std::string& content) {
+  return fmt::format("<section class=\"card {}\"><h2>{}</h2>{}</section>\n", css, title, content);
+}
+
+std::string list(const std::string& answers) { return "<dl>" + answers + "</dl>\n"; }
+
+std::string percent(double part) { return plain(100.0 * part, 2, true) + "\u00a0%"; }
+
+std::string closest(const Outcome& outcome) {
+  const auto failed = std::ranges::find_if(outcome.verdicts, [](const Verdict& v) { return !v.ok; });
+  if (failed != outcome.verdicts.end()) return answer("Not met", with_subscripts(failed->figure));
+  const Verdict* tightest = nullptr;
+  for (const Verdict& v : outcome.verdicts)
+    if (room(v) && (!tightest || *room(v) < *room(*tightest))) tightest = &v;
+  if (!tightest) return "";
+  return answer("Closest requirement",
+                fmt::format("{}: {} of its room is left", with_subscripts(tightest->figure),
+                            percent(*room(*tightest))));
+}
+
+std::string limits(const Scenario& scenario, const Outcome& outcome, const Trace& trace) {
+  std::string text = closest(outcome);
+  if (const auto held = held_back(trace, scenario, outcome)) {
+    const auto lasted = [&](double seconds) {
+      const std::string seen = trace.whole.empty() ? "the run" : "its last " + computed(held->seen_s, "s");
+      return fmt::format("<b>{}</b>, {} of {}", computed(seconds, "s"),
+                         percent(seconds / (trace.whole.empty() ? outcome.simulated_s : held->seen_s)), seen);
+    };
+    text += answer("Bus voltage", held->bus_s > 0.0 ? "all of it in use for " + lasted(held->bus_s)
+                                                    : fmt::format("never all in use: duty {} at most",
+                                                                  plain(held->largest_duty, 3)));
+    if (held->limit_A)
+      text += answer("Current limit", held->limit_s > 0.0
+                                          ? fmt::format("{} asked for during {}",
+                                                        computed(*held->limit_A, "A"), lasted(held->limit_s))
+                                          : computed(*held->limit_A, "A") + ", never asked for");
+  }
+  if (text.empty()) text = answer("Limits", "nothing was required, and no duty was commanded");
+  return card("limits", "What limits it", list(text));
+}
+
+std::string loop(const LoopGains& g) {
+  if (g.loop == "position") return plain(g.d1, 4, true) + "\u00a0rad/s per degree, " + escaped(g.origin);
+  std::string text = fmt::format("<b>d<sub>1</sub> {}, d<sub>0</sub> {}</b><br>{}", plain(g.d1, 5, true),
+                                 plain(g.d0, 5, true), escaped(g.origin));
+  if (!g.derivation) return text;
+  const auto& design = *g.derivation;
+  const bool as_designed = std::abs(g.d1 - design.gains.d1) <= 1e-12 * std::abs(g.d1);
+  text += as_designed ? fmt::format(": {}, ξ {}", given(design.settle_s, "s"), plain(design.damping, 3, true))
+                      : fmt::format("; pole placement says {}, {}", plain(design.gains.d1, 5, true),
+                                    plain(design.gains.d0, 5, true));
+  return text;
+}
+
+std::string gains(const Scenario& scenario, const Outcome& outcome) {
+  using sixstep::control::Mode;
+  const auto& inner = scenario.control.current;
+  std::string text;
+  if (scenario.control.mode >= Mode::current && inner.type == sixstep::study::CurrentLoopType::hysteresis)
+    text += answer("Current loop", "<b>hysteresis, ±" + computed(inner.band_A, "A") + "</b>");
+  for (const LoopGains& g : outcome.gains) text += answer(escaped(g.loop + " loop"), loop(g));
+  if (text.empty())
+    text = answer("Controller", scenario.control.mode == Mode::off ? "off" : "none: the duty is given");
+  if (!outcome.gains.empty()) text += "<div class=\"more\"><a href=\"#gains\">Derivation</a></div>";
+  return card("tuned", "Gains", list(text));
+}
+
+/// The motor current and its reference over the step, in the step's own time.
+std::string step_chart(const Trace& trace, const Step& step) {
+  constexpr std::size_t rows_drawn = 600;
+  const auto* time = find_column(trace, "t_s");
+  const auto* current = find_column(trace, "i_m_A");
+  const auto* reference = find_column(trace, "i_ref_A");
+  if (!time || !current) return "";
+  const auto begin = std::ranges::lower_bound(*time, step.window.from) - time->begin();
+  const auto end = std::ranges::upper_bound(*time, step.window.to) - time->begin();
+  const auto part = [&](const std::vector<double>& column) {
+    return std::span(column).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+  };
+  Curves curves{part(*current)};
+  if (reference) curves.push_back(part(*reference));
+  const Scale in = scale_for(step.window.to - step.window.from, "s");
+  SvgChart chart{.title = "Motor current",
+                 .x_label = in.unit + (step.of == "start" ? " after the start" : " after the step"),
+                 .y_label = "A",
+                 .compact = true};
+  const Thinned kept = thinned(part(*time), curves, {}, rows_drawn, rows_drawn);
+  const auto drawn = [&](const char* label, const char* style, std::span<const double> values) {
+    SvgCurve curve{.label = label, .style = style};
+    for (const std::size_t n : kept.rows) {
+      curve.x.push_back((part(*time)[n] - step.at_s) * in.factor);
+      curve.y.push_back(values[n]);
+    }
+    chart.curves.push_back(curve);
+  };
+  drawn("i_m", "main", curves[0]);
+  if (reference) drawn("i_ref", "reference", curves[1]);
+  return svg_chart(chart);
+}
+
+std::string step(const Scenario& scenario, const Trace& trace) {
+  const auto found = largest_step(trace, scenario);
+  const auto current = found ? step_current(trace, *found) : std::nullopt;
+  if (!current) return "";
+  const bool asked = found->of != "start";
+  std::string text = fmt::format("peak <b>{}</b> after {}", computed(current->peak_A, "A"),
+                                 computed(current->peak_after_s, "s"));
+  if (current->asked_A && found->of != "current")
+    text += fmt::format(" ({} asked for)", computed(*current->asked_A, "A"));
+  text += fmt::format(", {} rms", computed(current->rms_A, "A"));
+  if (current->then_mean_A)
+    text += fmt::format("; then {} on average, {} peak to peak", computed(*current->then_mean_A, "A"),
+                        computed(*current->then_span_A, "A"));
+  const std::string title = asked
+                                ? fmt::format("{} from {} to {}",
+                                              found->of == "current" ? "Current in its step"
+                                                                     : "Current in the step of " + found->of,
+                                              given(found->from, found->unit), given(found->to, found->unit))
+                                : std::string("Current of the run");
+  return card("step", title, "<p>" + text + "</p>" + step_chart(trace, *found));
+}
+
+/// What became of the supplied energy; a part may be negative where the motor gave back.
+std::string energy(const EnergyBook& b) {
+  const auto row = [&](const char* name, double joule) {
+    // What went in and came out again leaves a rounding.
+    if (std::abs(joule) <= 1e-12 * b.moved) return std::string();
+    const double share = b.supplied > 0.0 ? joule / b.supplied : 0.0;
+    return fmt::format(
+        "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n", name,
+        computed(joule, "J"), b.supplied > 0.0 ? percent(share) : "");
+  };
+  return "<table class=\"plain\"><tbody>" + row("<b>Supplied</b>", b.supplied) + row("Copper", b.copper) +
+         row("Switches, diodes", b.devices) + row("Friction", b.friction) + row("Load", b.load) +
+         row("Stored", b.kinetic + b.magnetic) + "</tbody></table>\n";
+}
+
+std::string cost(const Outcome& outcome, const Trace& trace) {
+  std::string text = outcome.energy ? energy(*outcome.energy) : "";
+  const double seen_s = trace.whole.empty() ? outcome.simulated_s : outcome.simulated_s - whole_from_s(trace);
+  if (const auto counts = turn_on_counts(trace); counts && seen_s > 0.0) {
+    long long all = 0;
+    std::size_t busiest = 0;
+    for (std::size_t k = 0; k < 6; ++k) {
+      all += (*counts)[k];
+      if ((*counts)[k] > (*counts)[busiest]) busiest = k;
+    }
+    const std::string told =
+        all == 0 ? std::string("none: no switch is turned on after the start")
+                 : fmt::format(
+                       "chopped at <b>{}</b> on average; {} turn-ons of all six{}, T{} most often, {} times",
+                       computed(switching_frequency_Hz(outcome), "Hz"), grouped(all),
+                       trace.whole.empty() ? "" : " in the last " + computed(seen_s, "s"), busiest + 1,
+                       grouped((*counts)[busiest]));
+    text += list(answer("Switching", told));
+  }
+  return text.empty() ? "" : card("cost", "What it cost", text);
+}
+
+}  // namespace
+
+std::string glance_section(const Scenario& scenario, const Outcome& outcome, const Trace& trace) {
+  return "<div class=\"glance\">\n<div>" + limits(scenario, outcome, trace) + gains(scenario, outcome) +
+         "</div>\n" + step(scenario, trace) + cost(outcome, trace) + "</div>\n";
+}
+
+}  // namespace report

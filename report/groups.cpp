@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/groups.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/windows.hpp"
+#include "sixstep/study/measure/trace.hpp"
+
+namespace report {
+namespace {
+
+using sixstep::control::Mode;
+using sixstep::study::Trace;
+
+constexpr const char* hall_labels[] = {"H1", "H2", "H3"};
+
+/// What a reader sees when hovering over a label: the column's own words.
+std::string meaning_of(const Trace& trace, std::string_view name) {
+  for (const auto& column : trace.columns)
+    if (column.name == name)
+      return column.frame.empty() ? column.meaning : column.meaning + " (" + column.frame + ")";
+  return {};
+}
+
+void add(Group& group, const Trace& trace, std::string_view name, std::string label, std::string style) {
+  if (const auto* values = find_column(trace, name))
+    group.curves.push_back({std::move(label), std::move(style), meaning_of(trace, name), values});
+}
+
+std::vector<double> in_degrees(std::vector<double> angles) {
+  for (double& value : angles) value *= 180.0 / 3.14159265358979323846;
+  return angles;
+}
+
+Group currents(const Trace& trace) {
+  Group g{.id = "currents", .title = "Currents", .unit = "A", .height_px = 270, .quantity = "current"};
+  add(g, trace, "i_a_A", "i_a", "a");
+  add(g, trace, "i_b_A", "i_b", "b");
+  add(g, trace, "i_c_A", "i_c", "c");
+  add(g, trace, "i_m_A", "i_m", "main");
+  add(g, trace, "i_ref_A", "i_ref", "reference");
+  return g;
+}
+
+Group logic(const Trace& trace, std::deque<std::vector<double>>& derived) {
+  Group g{.id = "logic", .title = "Gates and Hall probes", .unit = "", .height_px = 216, .logic = true};
+  add(g, trace, "gate_T1", "T1 a↑", "a");
+  add(g, trace, "gate_T2", "T2 a↓", "a-soft");
+  add(g, trace, "gate_T3", "T3 b↑", "b");
+  add(g, trace, "gate_T4", "T4 b↓", "b-soft");
+  add(g, trace, "gate_T5", "T5 c↑", "c");
+  add(g, trace, "gate_T6", "T6 c↓", "c-soft");
+  const auto* hall = find_column(trace, "hall");
+  if (!hall) return g;
+  for (int bit = 2; bit >= 0; --bit) {  // H1 H2 H3 are bits 2, 1, 0
+    std::vector<double> level;
+    level.reserve(hall->size());
+    for (const double code : *hall)
+      level.push_back(std::isfinite(code) ? (static_cast<int>(code) >> bit & 1) : code);
+    derived.push_back(std::move(level));
+    g.curves.push_back({hall_labels[2 - bit], "main", "Hall probe", &derived.back()});
+  }
+  return g;
+}
+
+Group line_voltages(const Trace& trace) {
+  Group g{.id = "line-voltages", .title = "Line voltages", .unit = "V", .height_px = 216, .lanes = true};
+  add(g, trace, "u_ab_V", "u_ab", "a");
+  add(g, trace, "u_bc_V", "u_bc", "b");
+  add(g, trace, "u_ca_V", "u_ca", "c");
+  return g;
+}
+
+Group back_emf(const Trace& trace) {
+  Group g{.id = "back-emf", .title = "Back-EMF", .unit = "V", .height_px = 150};
+  add(g, trace, "e_a_V", "e_a", "a");
+  add(g, trace, "e_b_V", "e_b", "b");
+  add(g, trace, "e_c_V", "e_c", "c");
+  return g;
+}
+
+Group speed(const Trace& trace) {
+  Group g{.id = "speed", .title = "Speed", .unit = "rad/s", .height_px = 190, .quantity = "speed"};
+  add(g, trace, "speed_rad_s", "ω", "main");
+  add(g, trace, "speed_ref_rad_s", "ω_ref", "reference");
+  return g;
+}
+
+Group torque(const Trace& trace) {
+  Group g{.id = "torque", .title = "Torque", .unit = "Nm", .height_px = 150, .quantity = "torque"};
+  add(g, trace, "torque_Nm", "T_e", "main");
+  const auto* load = find_column(trace, "load_Nm");
+  if (load && std::ranges::any_of(*load, [](double t) { return t != 0.0; }))
+    add(g, trace, "load_Nm", "T_load", "reference");
+  return g;
+}
+
+Group duty(const Trace& trace) {
+  Group g{.id = "duty", .title = "Duty", .unit = "", .height_px = 130};
+  add(g, trace, "duty", "d", "main");
+  return g;
+}
+
+/// The shaft's angle is of interest where it is controlled; elsewhere it only grows.
+Group position(const Trace& trace, std::deque<std::vector<double>>& derived) {
+  Group g{.id = "position", .title = "Position", .unit = "°", .height_px = 220, .quantity = "angle"};
+  if (const auto* angle = find_column(trace, "angle_rad")) {
+    derived.push_back(in_degrees(*angle));
+    g.curves.push_back({"θ", "main", meaning_of(trace, "angle_rad"), &derived.back()});
+  }
+  add(g, trace, "position_ref_deg", "θ_ref", "reference");
+  return g;
+}
+
+/// A stiff bus needs no chart.
+Group bus(const Trace& trace) {
+  Group g{.id = "bus", .title = "Bus voltage", .unit = "V", .height_px = 130};
+  const auto* volts = find_column(trace, "bus_V");
+  if (!volts) return g;
+  const auto [low, high] = std::ranges::minmax(*volts, [](double a, double b) { return a < b; });
+  if (high - low > 1e-9 * std::abs(high)) add(g, trace, "bus_V", "U_s", "main");
+  return g;
+}
+
+/// Without a curve, or zero throughout as the speed of a held rotor is. Currents stay: that none flows says
+/// something.
+bool nothing_to_see(const Group& g) {
+  if (g.logic || g.id == "currents") return g.curves.empty();
+  return std::ranges::all_of(g.curves, [](const Curve& curve) {
+    return std::ranges::none_of(*curve.values, [](double v) { return std::abs(v) > 0.0; });
+  });
+}
+
+}  // namespace
+
+Groups chart_groups(const Trace& trace, const sixstep::study::Scenario& scenario) {
+  const Mode mode = scenario.control.mode;
+  Groups out;
+  auto& charts = out.charts;
+  if (mode == Mode::position) charts.push_back(position(trace, out.derived));
+  if (mode == Mode::position || mode == Mode::speed) charts.push_back(speed(trace));
+  charts.push_back(currents(trace));
+  charts.push_back(logic(trace, out.derived));
+  charts.push_back(line_voltages(trace));
+  charts.push_back(back_emf(trace));
+  if (mode != Mode::position && mode != Mode::speed) charts.push_back(speed(trace));
+  charts.push_back(torque(trace));
+  charts.push_back(duty(trace));
+  charts.push_back(bus(trace));
+  std::erase_if(charts, nothing_to_see);
+  if (const auto* angle = find_column(trace, "angle_rad")) out.angle_deg = in_degrees(*angle);
+  return out;
+}
+
+}  // namespace report

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/highlights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/windows.hpp"
+#include "sixstep/design/loops/operating_limits.hpp"
+#include "sixstep/study/measure/trace.hpp"
+
+namespace report {
+namespace {
+
+using sixstep::control::Mode;
+using sixstep::study::Scenario;
+using sixstep::study::Trace;
+
+constexpr double near = 0.1;  ///< of a step: its goal's neighbourhood, wider than most ripple
+constexpr double degrees_per_rad = 180.0 / 3.14159265358979323846;
+
+/// What is wanted and what is, in one unit: signal = column * factor.
+struct Loop {
+  const char *of, *unit, *reference, *signal;
+  double factor;
+};
+constexpr Loop current_loop{"current", "A", "i_ref_A", "i_m_A", 1.0};
+constexpr Loop speed_loop{"speed", "rad/s", "speed_ref_rad_s", "speed_rad_s", 1.0};
+constexpr Loop position_loop{"position", "deg", "position_ref_deg", "angle_rad", degrees_per_rad};
+
+const Loop* loop_of(Mode mode) {
+  if (mode == Mode::current) return &current_loop;
+  if (mode == Mode::speed) return &speed_loop;
+  return mode == Mode::position ? &position_loop : nullptr;
+}
+
+using Values = std::vector<double>;
+
+struct Change {
+  std::size_t row = 0;
+  double from = 0.0, to = 0.0;
+  double size() const { return std::abs(to - from); }
+};
+
+std::vector<Change> changes_of(const Values& reference, double start) {
+  std::vector<Change> out;
+  double last = start;
+  for (std::size_t n = 0; n < reference.size(); ++n) {
+    if (!std::isfinite(reference[n]) || (n > 0 && reference[n] == last)) continue;
+    out.push_back({n, last, reference[n]});
+    last = reference[n];
+  }
+  return out;
+}
+
+/// The whole run, where nothing is asked for.
+Step from_start(const Values& time) {
+  return {.of = "start",
+          .unit = "",
+          .at_s = time.front(),
+          .next_s = time.back(),
+          .window = {time.front(), time.back()}};
+}
+
+}  // namespace
+
+std::optional<double> last_setpoint_s(const Trace& trace, const Scenario& scenario) {
+  const auto* time = find_column(trace, "t_s");
+  const Loop* loop = loop_of(scenario.control.mode);
+  const Values* reference = loop ? find_column(trace, loop->reference) : nullptr;
+  if (!time || !reference) return std::nullopt;
+  const std::vector<Change> changes = changes_of(*reference, 0.0);
+  return changes.empty() ? time->front() : (*time)[changes.back().row];
+}
+
+std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
+  const auto* time = find_column(trace, "t_s");
+  if (!time || time->size() < 2) return std::nullopt;
+  const Loop* loop = loop_of(scenario.control.mode);
+  const Values* reference = loop ? find_column(trace, loop->reference) : nullptr;
+  const Values* signal = loop ? find_column(trace, loop->signal) : nullptr;
+  if (!reference || !signal) return from_start(*time);
+  const std::vector<Change> changes = changes_of(*reference, signal->front() * loop->factor);
+  const auto largest =
+      std::ranges::max_element(changes, [](const Change& a, const Change& b) { return a.size() < b.size(); });
+  if (largest == changes.end() || largest->size() == 0.0) return from_start(*time);
+  const std::size_t next = largest + 1 == changes.end() ? time->size() - 1 : (largest + 1)->row;
+  std::size_t outside = largest->row;  // last row away from the goal
+  for (std::size_t n = largest->row; n <= next; ++n)
+    if (std::abs((*signal)[n] * loop->factor - largest->to) > near * largest->size()) outside = n;
+  const double at = (*time)[largest->row], end = (*time)[next];
+  const double shown = std::max(1.5 * ((*time)[outside] - at), 20.0 * scenario.pwm.period_s);
+  return Step{.of = loop->of,
+              .unit = loop->unit,
+              .at_s = at,
+              .from = largest->from,
+              .to = largest->to,
+              .next_s = end,
+              .window = {at, std::min(end, at + shown)},
+              .done = at + shown < end};
+}
+
+namespace {
+
+/// Of the line through the rows, over a window: integrals of y and y^2, and between which values it lies.
+struct Line {
+  double integral = 0.0, square = 0.0, low = INFINITY, high = -INFINITY;
+};
+
+Line line_over(const Values& time, const Values& y, const Interval& window) {
+  Line out;
+  for (std::size_t n = 1; n < time.size(); ++n) {
+    const double t0 = time[n - 1], t1 = time[n];
+    const double from = std::max(t0, window.from), to = std::min(t1, window.to);
+    if (!(from < to)) continue;
+    const double slope = (y[n] - y[n - 1]) / (t1 - t0);
+    const double a = y[n - 1] + slope * (from - t0), b = y[n - 1] + slope * (to - t0);
+    out.integral += (to - from) / 2.0 * (a + b);
+    out.square += (to - from) / 3.0 * (a * a + a * b + b * b);
+    out.low = std::min({out.low, a, b});
+    out.high = std::max({out.high, a, b});
+  }
+  return out;
+}
+
+/// The row of largest magnitude in a window.
+std::size_t peak_row(const Values& time, const Values& y, const Interval& window) {
+  std::size_t row = 0;
+  double largest = -1.0;
+  for (std::size_t n = 0; n < time.size(); ++n)
+    if (window.holds(time[n]) && std::abs(y[n]) > largest) largest = std::abs(y[n]), row = n;
+  return row;
+}
+
+}  // namespace
+
+std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
+  const auto* time = find_column(trace, "t_s");
+  const auto* current = find_column(trace, "i_m_A");
+  if (!time || !current) return std::nullopt;
+  const double shown = step.window.to - step.window.from, rest = step.next_s - step.window.to;
+  if (!(shown > 0.0) || !is_whole(trace, step.window)) return std::nullopt;
+  const std::size_t peak = peak_row(*time, *current, step.window);
+  StepCurrent out{.peak_A = (*current)[peak],
+                  .peak_after_s = (*time)[peak] - step.at_s,
+                  .rms_A = std::sqrt(line_over(*time, *current, step.window).square / shown)};
+  if (step.done && rest > 0.0 && is_whole(trace, {step.window.to, step.next_s})) {
+    const Line then = line_over(*time, *current, {step.window.to, step.next_s});
+    out.then_mean_A = then.integral / rest;
+    out.then_span_A = then.high - then.low;
+  }
+  if (const auto* reference = find_column(trace, "i_ref_A"))
+    out.asked_A = (*reference)[peak_row(*time, *reference, step.window)];
+  return out;
+}
+
+namespace {
+
+/// Of a value that is held from one row to the next: how long it was at the bound or beyond.
+double seconds_at(const Values& time, const Values& held, double bound, double from_s) {
+  double sum = 0.0;
+  for (std::size_t n = 1; n < time.size(); ++n)
+    if (time[n - 1] >= from_s && std::abs(held[n - 1]) >= bound && std::abs(held[n]) >= bound)
+      sum += time[n] - time[n - 1];
+  return sum;
+}
+
+/// Of the current reference of a cascade: what the speed loop may ask for.
+std::optional<double> current_limit_A(const Scenario& s, const sixstep::design::MotorModel& motor) {
+  const bool cascade = s.control.mode == Mode::speed || s.control.mode == Mode::position;
+  if (!cascade || s.control.speed.output == sixstep::study::SpeedOutput::duty) return std::nullopt;
+  if (s.control.current.limit_A) return s.control.current.limit_A;
+  const double torque = s.control.speed.torque_limit_Nm.value_or(
+      sixstep::design::usual_torque_limit_Nm(motor, s.supply.voltage_V));
+  if (!(motor.K_t_Nm_A > 0.0) || !(torque > 0.0)) return std::nullopt;
+  return torque / motor.K_t_Nm_A;
+}
+
+}  // namespace
+
+std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
+                              const sixstep::study::Outcome& outcome) {
+  const auto* time = find_column(trace, "t_s");
+  const auto* duty = find_column(trace, "duty");
+  const bool compares = scenario.control.current.type == sixstep::study::CurrentLoopType::hysteresis &&
+                        scenario.control.mode >= Mode::current;
+  if (!time || !duty || compares || scenario.control.mode == Mode::off) return std::nullopt;
+  const double from_s = whole_from_s(trace);
+  Held out{.seen_s = time->back() - from_s,
+           .bus_s = seconds_at(*time, *duty, 1.0, from_s),
+           .limit_A = current_limit_A(scenario, outcome.motor)};
+  for (const double d : *duty) out.largest_duty = std::max(out.largest_duty, std::abs(d));
+  const auto* reference = find_column(trace, "i_ref_A");
+  // The controller's number may be a float or a fixed one: as near as its coarsest step, 2^-14 of full scale.
+  if (reference && out.limit_A)
+    out.limit_s = seconds_at(*time, *reference, *out.limit_A * (1.0 - 1.0 / 8192), from_s);
+  return out;
+}
+
+double switching_frequency_Hz(const sixstep::study::Outcome& outcome) {
+  return static_cast<double>(outcome.turn_ons) / outcome.simulated_s;
+}
+
+std::optional<std::array<long long, 6>> turn_on_counts(const Trace& trace) {
+  static constexpr const char* names[] = {"gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"};
+  std::array<long long, 6> counts{};
+  const auto* time = find_column(trace, "t_s");
+  if (!time) return std::nullopt;
+  const auto first =
+      static_cast<std::size_t>(std::ranges::lower_bound(*time, whole_from_s(trace)) - time->begin());
+  bool any = false;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto* gate = find_column(trace, names[k]);
+    if (!gate) continue;
+    any = true;
+    for (std::size_t n = first + 1; n < gate->size(); ++n)
+      counts[k] += (*gate)[n] > 0.5 && (*gate)[n - 1] < 0.5;
+  }
+  return any ? std::optional(counts) : std::nullopt;
+}
+
+}  // namespace report

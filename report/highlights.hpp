@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the rows of a run say at first reading: its largest step, the current during it, how long the bus or a
+// limit held it back, how often it switched. Between two rows the trace is the straight line a chart draws.
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+
+#include "report/thinning.hpp"
+#include "sixstep/study/measure/outcome.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace report {
+
+/// The greatest change of what the controller is asked for. The first setpoint counts from the start's value.
+struct Step {
+  std::string of;  ///< "speed", "current", "position"; "start" where nothing is controlled
+  std::string unit;
+  double at_s = 0.0;
+  double from = 0.0, to = 0.0;
+  double next_s = 0.0;  ///< the next change, or the run's end
+  Interval window;      ///< worth a close-up: half as long again as the goal's neighbourhood takes
+  bool done = false;    ///< the goal's neighbourhood (10 % of the step) was reached before next_s
+};
+std::optional<Step> largest_step(const sixstep::study::Trace& trace,
+                                 const sixstep::study::Scenario& scenario);
+
+/// When what is asked for changed for the last time; empty where nothing is asked for.
+std::optional<double> last_setpoint_s(const sixstep::study::Trace& trace,
+                                      const sixstep::study::Scenario& scenario);
+
+/// The motor current i_m during a step; empty where an envelope stands for it.
+struct StepCurrent {
+  double peak_A = 0.0, peak_after_s = 0.0;
+  std::optional<double> asked_A;                   ///< largest reference, where there is a current loop
+  double rms_A = 0.0;                              ///< over the window
+  std::optional<double> then_mean_A, then_span_A;  ///< from the window's end to the next change
+};
+std::optional<StepCurrent> step_current(const sixstep::study::Trace& trace, const Step& step);
+
+/// How long what held the run back, s.
+struct Held {
+  double seen_s =
+      0.0;  ///< of the run's last part, where an envelope stands for the rows before; else all of it
+  double bus_s = 0.0;  ///< the driven pair fully on: no more voltage to be had
+  double largest_duty = 0.0;
+  std::optional<double> limit_A;  ///< of the current reference, in cascades
+  double limit_s = 0.0;           ///< the reference at it
+};
+/// Empty where the bridge is switched by comparators: their duty is the state of a switch.
+std::optional<Held> held_back(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
+                              const sixstep::study::Outcome& outcome);
+
+/// Turn-ons per second of what is chopped, as the figure of that name: the PWM's frequency where a PWM chops.
+/// All six switches together turn on more often: commutation turns on too, and the other switch of a leg that
+/// is chopped complementarily.
+double switching_frequency_Hz(const sixstep::study::Outcome& outcome);
+
+/// Turn-ons of T1 to T6, from whole_from_s() on.
+std::optional<std::array<long long, 6>> turn_on_counts(const sixstep::study::Trace& trace);
+
+}  // namespace report

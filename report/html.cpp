@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/html.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cstdint>
+
+#include "text/escape/escape.hpp"
+
+namespace report {
+namespace {
+
+std::string base64_bytes(const std::string& bytes) {
+  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t n = 0; n < bytes.size(); n += 3) {
+    std::uint32_t triple = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      triple = triple << 8 | (n + k < bytes.size() ? static_cast<unsigned char>(bytes[n + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += n + k <= bytes.size() ? digits[triple >> (18 - 6 * k) & 63u] : '=';
+  }
+  return text;
+}
+
+template <class Bits, class Real>
+std::string little_endian(std::span<const Real> values) {
+  std::string bytes;
+  bytes.reserve(values.size() * sizeof(Real));
+  for (const Real value : values) {
+    const Bits bits = std::bit_cast<Bits>(value);
+    for (std::size_t k = 0; k < sizeof(Real); ++k) bytes += static_cast<char>(bits >> (8 * k) & 0xffu);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  out.reserve(text.size() + text.size() / 8);
+  for (const char c : text::visible(text, text::Lines::kept)) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+namespace {
+
+/// K_t, I_stall, tau_m: one underscore behind a short name. resistance_ohm is a key and stays as it is typed.
+std::string word_with_subscript(std::string_view word) {
+  constexpr std::size_t longest_name = 3;
+  const std::size_t cut = word.find('_');
+  const bool symbol = cut != std::string_view::npos && cut > 0 && cut <= longest_name &&
+                      cut + 1 < word.size() && word.find('_', cut + 1) == std::string_view::npos;
+  if (!symbol) return std::string(word);
+  return fmt::format("{}<sub>{}</sub>", word.substr(0, cut), word.substr(cut + 1));
+}
+
+}  // namespace
+
+std::string with_subscripts(std::string_view words) {
+  const std::string shown = text::visible(words);
+  std::string_view text = shown;
+  const auto in_word = [](char c) {
+    return c < 0 || c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0;
+  };
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t size =
+        static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), in_word) - text.begin());
+    out += size > 0 ? word_with_subscript(text.substr(0, size)) : escaped(text.substr(0, 1));
+    text.remove_prefix(size > 0 ? size : 1);
+  }
+  return out;
+}
+
+std::string typeset(std::string_view formula) {
+  static constexpr std::pair<std::string_view, std::string_view> signs[] = {
+      {"+-", "±"}, {"^2", "²"}, {" - ", " − "}};
+  static constexpr std::pair<std::string_view, std::string_view> words[] = {
+      {"sqrt", "√"}, {"xi", "ξ"},   {"w0", "ω_0"}, {"a0", "a_0"}, {"b0", "b_0"},
+      {"c0", "c_0"}, {"c1", "c_1"}, {"d0", "d_0"}, {"d1", "d_1"}};
+  const auto wordy = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  std::string text;
+  while (!formula.empty()) {
+    std::size_t length = 0;
+    while (length < formula.size() && wordy(formula[length])) ++length;
+    const bool word = length > 0;
+    std::string_view piece = formula.substr(0, word ? length : 1), shown = piece;
+    if (word) {
+      for (const auto& [typed, printed] : words)
+        if (piece == typed) shown = printed;
+    } else {
+      for (const auto& [typed, printed] : signs)
+        if (formula.starts_with(typed)) piece = typed, shown = printed;
+      if (piece == "-" && (text.empty() || text.ends_with('('))) shown = "−";  // a sign, not a hyphen
+    }
+    text += shown;
+    formula.remove_prefix(piece.size());
+  }
+  return with_subscripts(text);
+}
+
+std::string script_safe(std::string_view json) {
+  // In JSON a '<' stands only inside strings, where \u003c means the same.
+  std::string out;
+  out.reserve(json.size());
+  for (const char c : text::visible(json, text::Lines::kept)) {
+    if (c == '<')
+      out += "\\u003c";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+  return base64_bytes(std::string(bytes.begin(), bytes.end()));
+}
+std::string base64(std::span<const float> values) {
+  return base64_bytes(little_endian<std::uint32_t>(values));
+}
+std::string base64(std::span<const double> values) {
+  return base64_bytes(little_endian<std::uint64_t>(values));
+}
+
+std::string filled(std::string_view page, std::initializer_list<Gap> gaps) {
+  std::string out;
+  while (true) {
+    const std::size_t open = page.find("{{");
+    const std::size_t close = open == page.npos ? page.npos : page.find("}}", open);
+    if (close == page.npos) return out.append(page);
+    out.append(page.substr(0, open));
+    const std::string_view name = page.substr(open + 2, close - open - 2);
+    for (const Gap& gap : gaps)
+      if (gap.first == name) out.append(gap.second);
+    page.remove_prefix(close + 2);
+  }
+}
+
+}  // namespace report

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/kept_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "report/highlights.hpp"
+#include "report/windows.hpp"
+#include "sixstep/study/measure/columns.hpp"
+
+namespace report {
+namespace {
+
+using sixstep::study::Scenario;
+using sixstep::study::Trace;
+
+constexpr double end_of_time = std::numeric_limits<double>::infinity();
+
+/// Lowest and highest of each column, first and last.
+constexpr std::size_t rows_a_bucket = 2 * sixstep::study::column_count + 2;
+
+std::size_t row_at(const std::vector<double>& time, double t_s) {
+  return static_cast<std::size_t>(std::ranges::lower_bound(time, t_s) - time.begin());
+}
+
+/// Bytes of events, about.
+double expected_bytes(const Scenario& s) {
+  // Soft chopping has seven rows a period: a tick and two edges, with both sides of each jump.
+  constexpr double rows_a_period = 7.0;
+  return s.duration_s / s.pwm.period_s * rows_a_period * sizeof(double) * sixstep::study::column_count;
+}
+
+}  // namespace
+
+KeptRows::KeptRows(const Scenario& scenario, std::size_t most_bytes)
+    : scenario_(&scenario),
+      most_(std::max(most_bytes / (sizeof(double) * sixstep::study::column_count), 16 * rows_a_bucket)) {
+  trace_.columns = sixstep::study::all_columns();
+  trace_.values.resize(trace_.columns.size());
+  trace_.every_event = true;
+}
+
+void KeptRows::add(sixstep::study::Row row) {
+  if (rows() == most_) thin();
+  for (std::size_t n = 0; n < row.size(); ++n) trace_.values[n].push_back(row[n]);
+}
+
+/// The older half of what is whole becomes an envelope of a sixteenth of it; an envelope that has grown to a
+/// quarter of all becomes one of half its length. So each row is looked at twice at most before it goes.
+void KeptRows::thin() {
+  const std::size_t before = rows(), end = thinned_ + (before - thinned_) / 2;
+  step_ = step_to_keep(end);
+  keep_envelope(thinned_, end, (end - thinned_) / 16 / rows_a_bucket);
+  thinned_ = end - (before - rows());
+  if (thinned_ > most_ / 4) {
+    const std::size_t with_old = rows();
+    keep_envelope(0, thinned_, thinned_ / 2 / rows_a_bucket);
+    thinned_ -= with_old - rows();
+  }
+  trace_.left_out += before - rows();
+  say_what_is_whole();
+}
+
+/// The largest step so far, where none of its rows is lost yet and they take no more than an eighth of all.
+std::optional<Interval> KeptRows::step_to_keep(std::size_t end) const {
+  const auto step = largest_step(trace_, *scenario_);
+  if (!step || step->of == "start" || !is_whole(trace_, step->window)) return std::nullopt;
+  const std::vector<double>& time = trace_.values.front();
+  const std::size_t first = row_at(time, step->window.from),
+                    last = std::min(end, row_at(time, step->window.to));
+  if (first < last && last - first > most_ / 8) return std::nullopt;
+  return step->window;
+}
+
+void KeptRows::keep_envelope(std::size_t begin, std::size_t end, std::size_t buckets) {
+  const std::vector<double>& time = trace_.values.front();
+  Curves curves;
+  for (std::size_t c = 1; c < trace_.values.size(); ++c) curves.emplace_back(trace_.values[c].data(), end);
+  std::vector<std::size_t> rows(end - begin), detail;
+  std::iota(rows.begin(), rows.end(), begin);
+  for (const std::size_t n : rows)
+    if (step_ && step_->holds(time[n])) detail.push_back(n);
+  const std::vector<std::size_t> coarse = envelope(time, rows, curves, std::max<std::size_t>(buckets, 1));
+  rows.clear();
+  std::ranges::set_union(coarse, detail, std::back_inserter(rows));
+  for (std::vector<double>& column : trace_.values) {
+    for (std::size_t n = 0; n < rows.size(); ++n) column[begin + n] = column[rows[n]];
+    column.erase(column.begin() + static_cast<std::ptrdiff_t>(begin + rows.size()),
+                 column.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+}
+
+void KeptRows::say_what_is_whole() {
+  const double from_s = trace_.values.front()[thinned_];
+  trace_.whole.clear();
+  if (step_ && step_->to >= from_s) {
+    trace_.whole.push_back({std::min(step_->from, from_s), end_of_time});
+    return;
+  }
+  if (step_) trace_.whole.push_back({step_->from, step_->to});
+  trace_.whole.push_back({from_s, end_of_time});
+}
+
+std::string rows_foretold(const Scenario& s, std::size_t most_bytes) {
+  const double bytes = expected_bytes(s), most = static_cast<double>(most_bytes);
+  if (!(bytes > 1.5 * most)) return "";
+  return fmt::format(
+      "its events are some {:.2g} MB, and a report keeps {:.3g} MB: those of about the last {:.2g} s and of "
+      "the "
+      "largest step, and an envelope of the others",
+      bytes / 1e6, most / 1e6, 0.6 * most / bytes * s.duration_s);
+}
+
+std::string rows_told(const Trace& trace) {
+  if (trace.whole.empty()) return "";
+  std::string where;
+  if (trace.whole.size() > 1)
+    where =
+        fmt::format("from {:.6g} s to {:.6g} s and ", trace.whole.front().from_s, trace.whole.front().to_s);
+  return fmt::format(
+      "the report has every event {}from {:.6g} s on; an envelope that keeps each peak stands for {} others, "
+      "as their rows would take too much memory",
+      where, trace.whole.back().from_s, trace.left_out);
+}
+
+}  // namespace report

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the run was made of: the sheet's values with frame and source, the model derived from them, the gains.
+#pragma once
+#include <string>
+
+#include "sixstep/study/measure/outcome.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace report {
+
+std::string sheet_section(const sixstep::design::Sheet& sheet);
+std::string model_section(const sixstep::design::MotorModel& motor);
+std::string setup_section(const sixstep::study::Scenario& scenario);
+std::string gains_section(const sixstep::study::Outcome& outcome);
+
+}  // namespace report

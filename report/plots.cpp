@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/plots.hpp"
+
+#include <numeric>
+
+#include "report/chart_json.hpp"
+#include "report/conduction.hpp"
+#include "sixstep/study/measure/trace.hpp"
+
+namespace report {
+namespace {
+
+/// All changes where they are few enough to carry; a page must stay small enough to send. Where every row
+/// comes along, it says what conducts from there on.
+json conduction_json(const Conduction& c, bool with_rows) {
+  constexpr std::size_t most = 400000;
+  if (c.code.empty()) return nullptr;
+  if (with_rows) return {{"end", c.end_s}};
+  if (c.code.size() > most) return nullptr;
+  return {{"time", base64(std::span<const double>(c.time_s))},
+          {"code", base64(std::span<const std::uint8_t>(c.code))},
+          {"end", c.end_s}};
+}
+
+/// What conducts from each row on: a column that costs next to nothing, as gates and currents tell when it
+/// changes.
+std::vector<double> by_row(const Conduction& c, const std::vector<double>& time) {
+  std::vector<double> codes;
+  codes.reserve(time.size());
+  std::size_t next = 0;
+  for (const double t : time) {
+    while (next < c.time_s.size() && c.time_s[next] <= t) ++next;
+    codes.push_back(next > 0 ? c.code[next - 1] : 0.0);
+  }
+  return codes;
+}
+
+/// Every row of every curve, and behind them of what conducts; null where that is too much to send.
+json every_row(const std::vector<double>& time, const Groups& groups, const Conduction& conducts,
+               std::size_t most_bytes) {
+  std::vector<const std::vector<double>*> columns;
+  std::vector<CurvePlace> places;
+  for (std::size_t chart = 0; chart < groups.charts.size(); ++chart)
+    for (std::size_t curve = 0; curve < groups.charts[chart].curves.size(); ++curve) {
+      columns.push_back(groups.charts[chart].curves[curve].values);
+      places.push_back({chart, curve});
+    }
+  const std::vector<double> codes = by_row(conducts, time);
+  if (!conducts.code.empty()) columns.push_back(&codes);
+  const auto packed = packed_rows(time, columns, most_bytes);
+  return packed ? rows_json(*packed, places) : json();
+}
+
+json spectra_json(const Spectra& spectra, json& page) {
+  json charts = json::array();
+  for (const DrawnSpectrum& s : spectra.all) {
+    const Drawn lines = drawn_lines(s.lines);
+    const Group group{.id = s.id, .title = s.title, .unit = s.unit, .height_px = 220, .quantity = s.quantity};
+    std::vector<std::size_t> rows(lines.amplitude.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    json chart = chart_json(group, true, rows.size());
+    chart["log"] = true;
+    const Curve curve{s.label, s.style, "amplitude", &lines.amplitude};
+    chart["curves"].push_back(curve_json(curve, page["axes"].size(), rows));
+    page["axes"].push_back(packed<double>(lines.frequency_Hz, rows));
+    charts.push_back(std::move(chart));
+  }
+  return charts;
+}
+
+}  // namespace
+
+std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
+                      int pole_pairs, PlotSize size, const std::optional<Spectra>& found) {
+  json out{
+      {"run", json::array()}, {"windows", json::array()}, {"axes", json::array()}, {"charts", json::array()}};
+  const auto* time = find_column(trace, "t_s");
+  if (!time || time->size() < 2) return out.dump();
+  out["run"] = {time->front(), time->back()};
+  const Windows windows = choose_windows(trace, scenario);
+  out["windows"] = windows_json(windows, scenario);
+  Axes axes(out);
+  const Groups groups = chart_groups(trace, scenario);
+  const Conduction conducts = trace.whole.empty() ? conduction(trace) : Conduction();
+  const json every = time->size() > size.full && trace.whole.empty()
+                         ? every_row(*time, groups, conducts, size.packed_bytes)
+                         : json();
+  // Where every row is at hand, an envelope needs no close-ups.
+  const std::vector<Interval> keep =
+      every.is_null() ? kept(windows, *time, size.full) : std::vector<Interval>();
+  if (!every.is_null()) out["rows"] = json::array({every});
+  for (const Group& group : groups.charts) {
+    Curves curves;
+    for (const Curve& curve : group.curves) curves.emplace_back(*curve.values);
+    const Thinned rows = thinned(*time, curves, keep, size.cap, size.full);
+    json chart = chart_json(group, rows.complete && trace.whole.empty(), time->size() + trace.left_out);
+    for (const Curve& curve : group.curves)
+      chart["curves"].push_back(curve_json(curve, axes.of(*time, rows.rows), rows.rows));
+    out["charts"].push_back(std::move(chart));
+  }
+  if (!groups.angle_deg.empty()) {
+    // It turns smoothly: between 2000 rows a straight line is as good as the drawing.
+    const Thinned rows = thinned(*time, {groups.angle_deg}, {}, 2000, 2000);
+    out["angle"] = {{"axis", axes.of(*time, rows.rows)},
+                    {"data", packed<float>(groups.angle_deg, rows.rows)}};
+  }
+  out["conduction"] = conduction_json(conducts, !every.is_null());
+  if (found) out["spectra"] = spectra_json(*found, out);  // behind the axes over time
+  out["pole_pairs"] = pole_pairs;
+  return dumped(out);
+}
+
+}  // namespace report

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/report.hpp"
+
+#include <fmt/format.h>
+#include <report_assets.hpp>
+
+#include "report/figures.hpp"
+#include "report/glance.hpp"
+#include "report/html.hpp"
+#include "report/kept_rows.hpp"
+#include "report/ledger.hpp"
+#include "report/parameters.hpp"
+#include "report/plots.hpp"
+#include "report/scripts.hpp"
+#include "report/shell.hpp"
+#include "report/spectra.hpp"
+#include "report/verdicts.hpp"
+#include "sixstep/study/run/run.hpp"
+
+namespace report {
+namespace {
+
+std::string subtitle(const ReportInput& in) {
+  const auto& sheet = in.scenario.sheet;
+  std::string name = sheet.name.empty() ? in.scenario.motor : sheet.name;
+  if (!sheet.maker.empty() && name.find(sheet.maker) == name.npos) name = sheet.maker + " " + name;
+  return escaped(name) + " · " + escaped(given(in.outcome.simulated_s, "s")) + " simulated";
+}
+
+/// What the reader must know before any number: a fault, or a run that ended early.
+std::string alerts(const ReportInput& in) {
+  std::string html;
+  if (in.outcome.fault)
+    html += fmt::format("<p class=\"alert\" role=\"alert\"><b>Fault.</b> {}</p>\n",
+                        escaped(sixstep::base::to_string(*in.outcome.fault)));
+  if (sixstep::study::cut_short(in.scenario, in.outcome))
+    html +=
+        fmt::format("<p class=\"alert\" role=\"alert\"><b>Interrupted</b> at {} of {}.</p>\n",
+                    escaped(given(in.outcome.simulated_s, "s")), escaped(given(in.scenario.duration_s, "s")));
+  if (const std::string told = rows_told(in.trace); !told.empty())
+    html += fmt::format("<p class=\"quiet\">Of this run {}.</p>\n", escaped(told));
+  return html;
+}
+
+std::string requirements(const sixstep::study::Outcome& outcome) {
+  if (outcome.verdicts.empty()) return "";
+  return "<table class=\"verdicts\"><thead><tr><th></th><th>Figure</th><th class=\"num\">Required</th>"
+         "<th class=\"num\">Measured</th><th>Within limits</th></tr></thead><tbody>\n" +
+         requirement_rows(outcome) + "</tbody></table>\n";
+}
+
+std::string comparisons(const sixstep::study::Outcome& outcome) {
+  if (outcome.comparisons.empty()) return "";
+  return "<h2>Compared with</h2><table class=\"comparisons\"><thead><tr><th>Figure</th><th "
+         "class=\"num\">There</th>"
+         "<th class=\"num\">Here</th><th class=\"num\">Deviation</th><th>Source</th></tr></thead><tbody>\n" +
+         comparison_rows(outcome) + "</tbody></table>\n";
+}
+
+/// Who interrupts a run waits for its report: packing every row would take longest.
+PlotSize size_of(const ReportInput& in) {
+  PlotSize size;
+  if (sixstep::study::cut_short(in.scenario, in.outcome)) size.packed_bytes = 0;
+  return size;
+}
+
+}  // namespace
+
+std::string render(const ReportInput& in) {
+  const Standing verdict = standing(in.outcome);
+  const std::string title = escaped(in.scenario.title.empty() ? in.scenario.motor : in.scenario.title);
+  const std::string notes =
+      in.scenario.notes.empty() ? "" : "<p class=\"notes\">" + escaped(in.scenario.notes) + "</p>\n";
+  const int pole_pairs = in.outcome.motor.machine.pole_pairs;
+  const std::optional<Spectra> found = spectra(in.trace, in.scenario, pole_pairs);
+  const std::string body = filled(
+      assets::page_html, {{"title", title},
+                          {"subtitle", subtitle(in)},
+                          {"standing_class", verdict.css},
+                          {"standing", verdict.word},
+                          {"standing_line", verdict.line},
+                          {"notes", notes},
+                          {"alerts", alerts(in)},
+                          {"glance", glance_section(in.scenario, in.outcome, in.trace)},
+                          {"requirements", requirements(in.outcome)},
+                          {"comparisons", comparisons(in.outcome)},
+                          {"setup", setup_section(in.scenario)},
+                          {"sheet", sheet_section(in.scenario.sheet)},
+                          {"model", model_section(in.outcome.motor)},
+                          {"gains", gains_section(in.outcome)},
+                          {"energy", in.outcome.energy ? energy_section(*in.outcome.energy)
+                                                       : "<p class=\"quiet\">No books were kept.</p>\n"},
+                          {"events", event_section(in.outcome)},
+                          {"plots", assets::plots_html},
+                          {"spectra", spectra_section(found)},
+                          {"scenario", escaped(in.scenario_text)}});
+  return in_shell(
+      {.title = verdict.word + " · " + title, .body = body, .command = in.command, .version = in.version},
+      plot_data(in.trace, in.scenario, pole_pairs, size_of(in), found), run_scripts);
+}
+
+}  // namespace report

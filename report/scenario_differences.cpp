@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/scenario_differences.hpp"
+
+#include <algorithm>
+#include <concepts>
+#include <utility>
+
+#include "report/figures.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/scenario/scenario_description.hpp"
+
+namespace report {
+namespace {
+
+using sixstep::base::About;
+
+constexpr const char* absent = "–";
+
+std::string shown(double x, std::string_view unit) {
+  return sixstep::base::written(x) + (unit.empty() ? "" : "\u00a0" + std::string(unit));
+}
+std::string shown(bool x, std::string_view) { return x ? "true" : "false"; }
+template <std::integral Int>
+std::string shown(Int x, std::string_view) {
+  return std::to_string(x);
+}
+std::string shown(const std::string& x, std::string_view) { return x; }
+template <class T>
+std::string shown(const std::optional<T>& x, std::string_view unit) {
+  return x ? shown(*x, unit) : absent;
+}
+template <class T>
+std::string shown(const std::vector<T>& list, std::string_view unit) {
+  std::string out;
+  for (std::size_t n = 0; n < list.size(); ++n) out += (n ? ", " : "") + shown(list[n], "");
+  return out.empty() ? absent : out + (unit.empty() ? "" : "\u00a0" + std::string(unit));
+}
+
+/// Every key of a scenario with its value as text, in the order of the descriptions.
+class Flat {
+ public:
+  std::vector<std::pair<std::string, std::string>> rows;
+
+  template <class T>
+  void value(std::string_view key, const T& member, const About& about) {
+    add(key, shown(member, about.unit));
+  }
+  template <class Enum, class Choices>
+  void choice(std::string_view key, const Enum& member, const Choices& choices, const About&) {
+    add(key, std::string(sixstep::base::word(choices, member)));
+  }
+  void quantity(std::string_view key, const sixstep::base::Quantity& q, const About& about) {
+    add(key, shown(q.value, about.unit));
+  }
+  void quantity(std::string_view key, const std::optional<sixstep::base::Quantity>& q, const About& about) {
+    add(key, q ? shown(q->value, about.unit) : absent);
+  }
+  template <class Struct>
+  void table(std::string_view key, Struct& member, const About&) {
+    const std::string outer = std::exchange(path_, path_ + std::string(key) + ".");
+    describe(*this, member);
+    path_ = outer;
+  }
+  template <class Struct>
+  void table(std::string_view key, std::optional<Struct>& member, const About& about) {
+    if (member) table(key, *member, about);
+  }
+  /// Of the lists only [[at]] changes a run. What an event leaves alone is not told.
+  template <class Item>
+  void list(std::string_view key, std::vector<Item>& items, const About&) {
+    if (key != "at") return;
+    Item usual;
+    Flat plain;
+    describe(plain, usual);
+    for (std::size_t n = 0; n < items.size(); ++n) {
+      Flat event;
+      describe(event, items[n]);
+      for (auto& row : event.rows)
+        if (row.first == "time_s" || std::ranges::find(plain.rows, row) == plain.rows.end())
+          rows.emplace_back("at[" + std::to_string(n) + "]." + row.first, std::move(row.second));
+    }
+  }
+
+  std::string text_of(const std::string& key) const {
+    const auto found = std::ranges::find(rows, key, &std::pair<std::string, std::string>::first);
+    return found == rows.end() ? absent : found->second;
+  }
+
+ private:
+  void add(std::string_view key, std::string text) {
+    rows.emplace_back(path_ + std::string(key), std::move(text));
+  }
+  std::string path_;
+};
+
+/// What a base said has become the scenario's own.
+bool changes_no_run(const std::string& key) {
+  return key == "title" || key == "notes" || key == "extends" || key.starts_with("record.");
+}
+
+/// In the order of the descriptions; what only a later scenario has stands behind.
+std::vector<std::string> keys_of(const std::vector<Flat>& all) {
+  std::vector<std::string> keys;
+  for (const Flat& flat : all)
+    for (const auto& row : flat.rows)
+      if (std::ranges::find(keys, row.first) == keys.end()) keys.push_back(row.first);
+  return keys;
+}
+
+}  // namespace
+
+std::vector<KeyDifference> differences(const std::vector<const sixstep::study::Scenario*>& scenarios) {
+  std::vector<Flat> all(scenarios.size());
+  for (std::size_t k = 0; k < scenarios.size(); ++k) {
+    sixstep::study::Scenario copy = *scenarios[k];
+    describe(all[k], copy);
+  }
+  std::vector<KeyDifference> out;
+  for (const std::string& key : keys_of(all)) {
+    KeyDifference row{key, {}};
+    for (const Flat& flat : all) row.values.push_back(flat.text_of(key));
+    const bool same =
+        std::ranges::all_of(row.values, [&](const std::string& v) { return v == row.values[0]; });
+    if (!same && !changes_no_run(key)) out.push_back(std::move(row));
+  }
+  return out;
+}
+
+}  // namespace report

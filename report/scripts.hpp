@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which scripts a page takes, in the order in which they build on each other.
+#pragma once
+#include <initializer_list>
+#include <report_assets.hpp>
+#include <string_view>
+
+namespace report {
+
+/// Of pages whose charts run over time: one run, or several compared.
+inline constexpr std::initializer_list<std::string_view> run_scripts = {
+    assets::units_js,       assets::curves_js,  assets::chart_js,  assets::rows_js,
+    assets::page_js,        assets::instant_js, assets::bridge_js, assets::plane_js,
+    assets::instruments_js, assets::spectra_js, assets::report_js};
+
+}  // namespace report

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every page has around its own content: head, style, the line that says how it was made, the scripts.
+#pragma once
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace report {
+
+struct Shell {
+  std::string title;  ///< of the window, escaped
+  std::string body;   ///< from the heading on
+  std::string_view command;
+  std::string_view version;
+  std::string_view main_class = {};
+};
+
+/// A page without a script.
+std::string in_shell(const Shell& shell);
+
+/// A page with charts: `data` is the JSON its scripts read, `scripts` stand behind uPlot in one scope, in
+/// this order.
+std::string in_shell(const Shell& shell, std::string_view data,
+                     std::initializer_list<std::string_view> scripts);
+
+}  // namespace report

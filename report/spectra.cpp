@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/spectra.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/figures.hpp"
+#include "report/html.hpp"
+#include "report/windows.hpp"
+#include "sixstep/study/measure/trace.hpp"
+
+namespace report {
+namespace {
+
+std::string how(const Spectra& s) {
+  const Lines& lines = s.all.front().lines;
+  const std::string part = s.stretch.turns > 0 ? fmt::format("{} electrical turns", grouped(s.stretch.turns))
+                                               : std::string("stretch of one setpoint");
+  return fmt::format(
+      "<p class=\"origin\">Amplitudes over the last {}, from {} to {}: Hann window, one line every {}, from "
+      "means of the "
+      "recorded curve over {}. The mean itself is left out.</p>\n",
+      part, escaped(given(s.stretch.time.from, "s")), escaped(given(s.stretch.time.to, "s")),
+      escaped(computed(lines.spacing_Hz, "Hz")), escaped(computed(lines.cell_s, "s")));
+}
+
+std::string table(const Spectra& s, const DrawnSpectrum& d) {
+  constexpr std::size_t most = 6;
+  const double periods = s.period_s > 0.0 ? (s.stretch.time.to - s.stretch.time.from) / s.period_s : 0.0;
+  std::string rows;
+  for (const std::size_t k : strongest(d.lines, most))
+    rows += fmt::format("<tr><td class=\"num\">{}</td><td class=\"num\">{}</td><td>{}</td></tr>\n",
+                        escaped(computed(static_cast<double>(k) * d.lines.spacing_Hz, "Hz")),
+                        escaped(computed(d.lines.amplitude[k], d.unit)),
+                        escaped(origin_of(k, s.stretch.turns, periods)));
+  return fmt::format(
+      "<div><h3>{}, strongest lines</h3><table><thead><tr><th class=\"num\">Frequency</th><th "
+      "class=\"num\">Amplitude</th>"
+      "<th>What it is</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+      d.title, rows);
+}
+
+}  // namespace
+
+std::optional<Spectra> spectra(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
+                               int pole_pairs) {
+  struct Wanted {
+    const char *id, *title, *quantity, *unit, *label, *style, *column;
+  };
+  static constexpr Wanted wanted[] = {
+      {"current-spectrum", "Spectrum of the phase current", "current", "A", "i_a", "a", "i_a_A"},
+      {"torque-spectrum", "Spectrum of the torque", "torque", "Nm", "T_e", "main", "torque_Nm"}};
+  const auto stretch = steady_stretch(trace, scenario, pole_pairs);
+  if (!stretch) return std::nullopt;
+  const bool free_running = scenario.control.current.type == sixstep::study::CurrentLoopType::hysteresis &&
+                            scenario.control.mode >= sixstep::control::Mode::current;
+  Spectra out{*stretch, free_running ? 0.0 : scenario.pwm.period_s, {}};
+  const auto& time = *find_column(trace, "t_s");
+  for (const Wanted& w : wanted) {
+    const auto* values = find_column(trace, w.column);
+    if (!values) continue;
+    // 64 cells a period: an eighth of their frequency is eight times the PWM's. What would be folded into the
+    // lines lies above 56 times it, where the cells' means leave an eighth.
+    Lines lines = lines_of(time, *values, stretch->time, scenario.pwm.period_s / 64);
+    if (std::ranges::max(lines.amplitude) > 0.0)
+      out.all.push_back({w.id, w.title, w.quantity, w.unit, w.label, w.style, std::move(lines)});
+  }
+  if (out.all.empty()) return std::nullopt;
+  return out;
+}
+
+std::string spectra_section(const std::optional<Spectra>& found) {
+  if (!found) return "";
+  std::string html =
+      "<h2>Spectrum</h2>\n" + how(*found) + "<div id=\"spectra\" class=\"columns wide\"></div>\n";
+  html += "<div class=\"columns wide\">\n";
+  for (const DrawnSpectrum& d : found->all) html += table(*found, d);
+  return html + "</div>\n";
+}
+
+Drawn drawn_lines(const Lines& lines) {
+  constexpr double steps = 1500.0;
+  const double last = std::log(static_cast<double>(lines.amplitude.size() - 1));
+  Drawn out;
+  std::size_t highest = 0;
+  long step = -1;
+  for (std::size_t k = 1; k < lines.amplitude.size(); ++k) {
+    const long here = std::lround(std::log(static_cast<double>(k)) / last * steps);
+    if (here == step && lines.amplitude[k] <= lines.amplitude[highest]) continue;
+    if (here != step) {
+      out.frequency_Hz.push_back(0.0);
+      out.amplitude.push_back(0.0);
+    }
+    step = here;
+    highest = k;
+    out.frequency_Hz.back() = static_cast<double>(k) * lines.spacing_Hz;
+    out.amplitude.back() = lines.amplitude[k];
+  }
+  return out;
+}
+
+}  // namespace report

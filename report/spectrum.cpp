@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/spectrum.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "report/highlights.hpp"
+#include "report/windows.hpp"
+#include "sixstep/study/measure/trace.hpp"
+
+namespace report {
+namespace {
+
+using Values = std::vector<double>;
+using std::numbers::pi;
+
+constexpr double fewest_periods = 64.0;
+constexpr double most_periods =
+    4096.0;  // with 64 cells a period as many cells as a transform takes in some 50 ms
+constexpr std::size_t fewest_cells = 1024, most_cells = 1u << 18;
+
+/// On the line from row to row.
+double value_at(const Values& time, const Values& y, double t) {
+  const auto after = std::ranges::upper_bound(time, t) - time.begin();
+  if (after == 0) return y.front();
+  const auto n = static_cast<std::size_t>(after);
+  if (n == time.size()) return y.back();
+  return y[n - 1] + (y[n] - y[n - 1]) * (t - time[n - 1]) / (time[n] - time[n - 1]);
+}
+
+/// When a curve that runs from row to row was last at `level` before the row `last`.
+std::optional<double> last_crossing(const Values& time, const Values& y, double level, double not_before) {
+  for (std::size_t n = time.size(); n-- > 1 && time[n] >= not_before;) {
+    const double a = y[n - 1] - level, b = y[n] - level;
+    if (a == 0.0) return time[n - 1];
+    if ((a < 0.0) != (b < 0.0)) return time[n - 1] + (time[n] - time[n - 1]) * a / (a - b);
+  }
+  return std::nullopt;
+}
+
+/// Means of the line through the rows over `count` equal cells of the stretch.
+Values cell_means(const Values& time, const Values& y, const Interval& stretch, std::size_t count) {
+  const double width = (stretch.to - stretch.from) / static_cast<double>(count);
+  Values means(count, 0.0);
+  std::size_t cell = 0;
+  for (std::size_t n = 1; n < time.size(); ++n) {
+    const double t0 = time[n - 1], t1 = time[n];
+    double from = std::max(t0, stretch.from);
+    const double end = std::min(t1, stretch.to);
+    if (!(from < end)) continue;
+    const double slope = (y[n] - y[n - 1]) / (t1 - t0);
+    while (from < end) {
+      const bool last = cell + 1 == count;  // its edge may be rounded below the stretch's end
+      const double to = last ? end : std::min(end, stretch.from + width * static_cast<double>(cell + 1));
+      if (to > from) means[cell] += (to - from) * (y[n - 1] + slope * ((from + to) / 2 - t0)) / width;
+      if (to < end) ++cell;
+      from = std::max(from, to);
+    }
+  }
+  return means;
+}
+
+}  // namespace
+
+std::optional<Stretch> steady_stretch(const sixstep::study::Trace& trace,
+                                      const sixstep::study::Scenario& scenario, int pole_pairs) {
+  const auto* time = find_column(trace, "t_s");
+  if (!time || time->size() < 2) return std::nullopt;
+  const double end = time->back(), begin = last_setpoint_s(trace, scenario).value_or(time->front());
+  const double longest = most_periods * scenario.pwm.period_s;
+  Stretch out{{std::max({(begin + end) / 2, end - longest, whole_from_s(trace)}), end}, 0};
+  const auto* angle = find_column(trace, "angle_rad");
+  if (angle && pole_pairs > 0) {
+    const double turned = (angle->back() - value_at(*time, *angle, out.time.from)) * pole_pairs / (2 * pi);
+    const double whole = std::trunc(turned);
+    const auto from =
+        last_crossing(*time, *angle, angle->back() - whole * 2 * pi / pole_pairs, out.time.from);
+    if (whole != 0.0 && from) out = {{*from, end}, std::llabs(static_cast<long long>(whole))};
+  }
+  if (out.time.to - out.time.from < fewest_periods * scenario.pwm.period_s) return std::nullopt;
+  return out;
+}
+
+void transform(std::vector<std::complex<double>>& values) {
+  const std::size_t count = values.size();
+  for (std::size_t n = 1, reversed = 0; n < count; ++n) {
+    std::size_t bit = count >> 1;
+    for (; reversed & bit; bit >>= 1) reversed ^= bit;
+    reversed ^= bit;
+    if (n < reversed) std::swap(values[n], values[reversed]);
+  }
+  for (std::size_t size = 2; size <= count; size *= 2) {
+    std::vector<std::complex<double>> turn(size / 2);
+    for (std::size_t k = 0; k < size / 2; ++k)
+      turn[k] = std::polar(1.0, -2 * pi * static_cast<double>(k) / static_cast<double>(size));
+    for (std::size_t start = 0; start < count; start += size)
+      for (std::size_t k = 0; k < size / 2; ++k) {
+        const std::complex<double> even = values[start + k], other = values[start + k + size / 2];
+        // Written out: the operator also minds infinities, at three times the time.
+        const std::complex<double> odd(turn[k].real() * other.real() - turn[k].imag() * other.imag(),
+                                       turn[k].real() * other.imag() + turn[k].imag() * other.real());
+        values[start + k] = even + odd;
+        values[start + k + size / 2] = even - odd;
+      }
+  }
+}
+
+Lines lines_of(const Values& time, const Values& values, const Interval& stretch, double cell_s) {
+  const double duration = stretch.to - stretch.from;
+  std::size_t count = fewest_cells;
+  while (count < most_cells && duration / static_cast<double>(count) > cell_s) count *= 2;
+  const Values means = cell_means(time, values, stretch, count);
+  double mean = 0.0;
+  for (const double v : means) mean += v / static_cast<double>(count);
+  std::vector<std::complex<double>> bins(count);
+  for (std::size_t n = 0; n < count; ++n)
+    bins[n] = (means[n] - mean) *
+              (0.5 - 0.5 * std::cos(2 * pi * static_cast<double>(n) / static_cast<double>(count)));
+  transform(bins);
+  Lines out{.spacing_Hz = 1 / duration, .cell_s = duration / static_cast<double>(count)};
+  out.amplitude.assign(count / 8 + 1, 0.0);
+  for (std::size_t k = 1; k < out.amplitude.size(); ++k) {
+    const double x = pi * static_cast<double>(k) / static_cast<double>(count);
+    // 2/N for an amplitude, 1/2 for the window's mean; and what the cell's mean damped.
+    out.amplitude[k] = 4.0 / static_cast<double>(count) * std::abs(bins[k]) * x / std::sin(x);
+  }
+  return out;
+}
+
+std::vector<std::size_t> strongest(const Lines& lines, std::size_t most) {
+  constexpr std::size_t apart = 4;
+  const Values& a = lines.amplitude;
+  const double floor = a.empty() ? 0.0 : 1e-3 * std::ranges::max(a);
+  std::vector<std::size_t> peaks;
+  for (std::size_t k = 1; k < a.size(); ++k) {
+    const std::size_t from = k > apart ? k - apart : 1, to = std::min(k + apart, a.size() - 1);
+    if (a[k] > floor && std::max_element(a.begin() + static_cast<std::ptrdiff_t>(from),
+                                         a.begin() + static_cast<std::ptrdiff_t>(to) + 1) ==
+                            a.begin() + static_cast<std::ptrdiff_t>(k))
+      peaks.push_back(k);
+  }
+  std::ranges::stable_sort(peaks, [&](std::size_t p, std::size_t q) { return a[p] > a[q]; });
+  peaks.resize(std::min(peaks.size(), most));
+  return peaks;
+}
+
+std::string origin_of(std::size_t line, long long turns, double periods) {
+  constexpr double near = 1.5;  // lines: half the width of a tone in a Hann window
+  constexpr long long highest_side = 12;
+  const auto at = static_cast<double>(line);
+  const double electrical = static_cast<double>(turns);
+  const auto times = [](double n, const char* what) {
+    return n == 1.0 ? std::string(what) : fmt::format("{} × {}", n, what);
+  };
+  const double order = turns > 0 ? std::round(at / electrical) : 0.0;
+  const double beat = periods > 0.0 ? std::round(at / periods) : 0.0;
+  if (beat >= 1.0 && std::abs(at - beat * periods) <= near) return times(beat, "PWM");
+  if (beat >= 1.0 && turns > 0) {
+    const double side = std::round((at - beat * periods) / electrical);
+    if (std::abs(side) <= static_cast<double>(highest_side) &&
+        std::abs(at - beat * periods - side * electrical) <= near)
+      return fmt::format("{} {} {}", times(beat, "PWM"), side < 0 ? "−" : "+",
+                         times(std::abs(side), "electrical"));
+  }
+  if (beat >= 1.0 && turns > 0 && std::abs(at - beat * periods) < electrical / 2)
+    return "beside " + times(beat, "PWM");
+  // The stretch is whole turns, so that a multiple stands on its own line: of few turns that line alone is
+  // named, of many its neighbours too. Far up every line is near some multiple.
+  const double off = electrical > 4 * near ? near : 0.0;
+  if (order >= 1.0 && order <= 60.0 && std::abs(at - order * electrical) <= off)
+    return order == 1.0 ? "electrical, the fundamental" : times(order, "electrical");
+  return "";
+}
+
+}  // namespace report

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/thinning.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace report {
+namespace {
+
+bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+/// Rows whose neighbours hold the same values in every curve lie on a level line: not needed to draw it.
+std::vector<std::size_t> changing_rows(std::size_t count, const Curves& curves) {
+  std::vector<std::size_t> rows;
+  for (std::size_t n = 0; n < count; ++n) {
+    const bool level = n > 0 && n + 1 < count && std::ranges::all_of(curves, [n](const auto& y) {
+                         return same(y[n - 1], y[n]) && same(y[n], y[n + 1]);
+                       });
+    if (!level) rows.push_back(n);
+  }
+  return rows;
+}
+
+/// First, last and each curve's extremes of the rows [begin, end), rising and without repetition.
+void keep_extremes(const std::vector<std::size_t>& rows, std::size_t begin, std::size_t end,
+                   const Curves& curves, std::vector<std::size_t>& kept) {
+  std::vector<std::size_t> chosen{rows[begin], rows[end - 1]};
+  for (const auto& y : curves) {
+    std::size_t low = rows[begin], high = rows[begin];
+    for (std::size_t n = begin; n < end; ++n) {
+      if (y[rows[n]] < y[low] || std::isnan(y[low])) low = rows[n];
+      if (y[rows[n]] > y[high] || std::isnan(y[high])) high = rows[n];
+    }
+    chosen.push_back(low);
+    chosen.push_back(high);
+  }
+  std::ranges::sort(chosen);
+  kept.insert(kept.end(), chosen.begin(), std::unique(chosen.begin(), chosen.end()));
+}
+
+}  // namespace
+
+std::vector<std::size_t> envelope(std::span<const double> time, const std::vector<std::size_t>& rows,
+                                  const Curves& curves, std::size_t buckets) {
+  const double start = time[rows.front()];
+  const double width = (time[rows.back()] - start) / static_cast<double>(buckets);
+  std::vector<std::size_t> kept;
+  std::size_t begin = 0;
+  for (std::size_t bucket = 1; begin < rows.size(); ++bucket) {
+    std::size_t end = begin;
+    const double edge = start + width * static_cast<double>(bucket);
+    while (end < rows.size() && (bucket >= buckets || time[rows[end]] < edge)) ++end;
+    if (end > begin) keep_extremes(rows, begin, end, curves, kept);
+    begin = end;
+  }
+  return kept;
+}
+
+Thinned thinned(std::span<const double> time, const Curves& curves, std::span<const Interval> keep,
+                std::size_t cap, std::size_t full) {
+  Thinned out;
+  out.rows = changing_rows(time.size(), curves);
+  if (out.rows.size() <= full) return out;
+  out.complete = false;
+  std::vector<std::size_t> detail;
+  for (const std::size_t n : out.rows)
+    if (std::ranges::any_of(keep, [&](const Interval& i) { return i.holds(time[n]); })) detail.push_back(n);
+  // Extremes often fall together, so start with many buckets and shrink until the rows fit.
+  std::size_t buckets = std::max<std::size_t>(cap / 3, 1);
+  std::vector<std::size_t> coarse = envelope(time, out.rows, curves, buckets);
+  while (coarse.size() > cap && buckets > 1) {
+    const double ratio = static_cast<double>(cap) / static_cast<double>(coarse.size());
+    buckets = std::max<std::size_t>(static_cast<std::size_t>(0.97 * ratio * static_cast<double>(buckets)), 1);
+    coarse = envelope(time, out.rows, curves, buckets);
+  }
+  out.rows.clear();
+  std::ranges::set_union(coarse, detail, std::back_inserter(out.rows));
+  return out;
+}
+
+}  // namespace report

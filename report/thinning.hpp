@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fewer rows with the same picture: what is drawn must never lose a peak.
+#pragma once
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace report {
+
+struct Interval {
+  double from = 0.0, to = 0.0;
+  bool holds(double t) const { return from <= t && t <= to; }
+};
+
+using Curves = std::vector<std::span<const double>>;
+
+struct Thinned {
+  std::vector<std::size_t> rows;  ///< of the original, rising
+  bool complete = true;           ///< false: outside the kept intervals an envelope stands for the rows
+};
+
+/// The rows that draw these curves over one time axis. Rows that change nothing are dropped without loss. If
+/// more than `full` are left, time is cut into equal buckets and each keeps, per curve, its first, lowest,
+/// highest and last row, `cap` rows at most; inside `keep` every row stays.
+Thinned thinned(std::span<const double> time, const Curves& curves, std::span<const Interval> keep,
+                std::size_t cap, std::size_t full);
+
+/// Of these rows the first, lowest, highest and last of each curve in each of `buckets` equal stretches of
+/// time, so 2 + 2 curves rows a stretch at most.
+std::vector<std::size_t> envelope(std::span<const double> time, const std::vector<std::size_t>& rows,
+                                  const Curves& curves, std::size_t buckets);
+
+}  // namespace report

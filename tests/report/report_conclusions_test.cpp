@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a report concludes from the rows of a run, and from those of several.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/comparison.hpp"
+#include "report/comparison_data.hpp"
+#include "report/conduction.hpp"
+#include "report/glance.hpp"
+#include "report/highlights.hpp"
+#include "report/html.hpp"
+#include "report/packed_rows.hpp"
+#include "report/scenario_differences.hpp"
+#include "report/spectra.hpp"
+#include "report/spectrum.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "tests/report/synthetic_run.hpp"
+
+namespace {
+
+using namespace report;
+using sixstep_tests::synthetic_run;
+using sixstep_tests::SyntheticRun;
+using testing::HasSubstr;
+
+std::string page(const SyntheticRun& run) { return glance_section(run.scenario, run.outcome, run.trace); }
+
+/// Rows at times that need no rounding: a speed step, a current that rises, stays and falls.
+SyntheticRun stepped_run() {
+  SyntheticRun run = synthetic_run(0.001);
+  run.scenario.control.mode = sixstep::control::Mode::speed;
+  run.scenario.control.speed.torque_limit_Nm = 0.335;
+  run.scenario.pwm.period_s = 1.0 / 1024;
+  run.trace.columns = {{"t_s", "s", "", ""},
+                       {"i_m_A", "A", "", ""},
+                       {"i_ref_A", "A", "", ""},
+                       {"speed_ref_rad_s", "rad/s", "", ""},
+                       {"speed_rad_s", "rad/s", "", ""},
+                       {"duty", "1", "", ""},
+                       {"gate_T1", "1", "", ""}};
+  run.trace.values = {{0, 1, 1, 2, 3, 3, 8, 9},      {0, 0, 0, 6, 6, 6, 0, 0},
+                      {0, 0, 10, 10, 10, 0, 0, 0},   {0, 0, 50, 50, 50, 50, 50, 60},
+                      {0, 0, 0, 25, 50, 50, 50, 50}, {0, 0, 1, 1, 1, -0.5, -0.5, 0},
+                      {0, 0, 1, 1, 0, 1, 1, 0}};
+  return run;
+}
+
+TEST(Highlights, the_largest_step_is_found_with_its_current) {
+  const SyntheticRun run = stepped_run();
+  const auto step = largest_step(run.trace, run.scenario);
+  ASSERT_TRUE(step);
+  EXPECT_EQ(step->of, "speed");
+  EXPECT_EQ(step->at_s, 1.0);
+  EXPECT_EQ(step->from, 0.0);
+  EXPECT_EQ(step->to, 50.0);
+  EXPECT_EQ(step->next_s, 9.0);
+  EXPECT_EQ(step->window.to, 2.5);  // the last row away from the goal is 1 s behind the step
+  EXPECT_TRUE(step->done);
+  const auto current = step_current(run.trace, *step);
+  ASSERT_TRUE(current);
+  EXPECT_EQ(current->peak_A, 6.0);
+  EXPECT_EQ(current->peak_after_s, 1.0);
+  EXPECT_EQ(current->asked_A, 10.0);
+  // 0 to 6 A in a second, 6 A for the half second to the window's end: integral of i^2 = 12 + 18.
+  EXPECT_DOUBLE_EQ(current->rms_A, std::sqrt(30.0 / 1.5));
+  // Half a second of 6 A, then 6 A to 0 in five seconds, then nothing: 18 As in 6.5 s.
+  EXPECT_DOUBLE_EQ(*current->then_mean_A, 18.0 / 6.5);
+  EXPECT_EQ(*current->then_span_A, 6.0);
+}
+
+TEST(Highlights, what_held_the_run_back_is_timed) {
+  const SyntheticRun run = stepped_run();
+  const auto held = held_back(run.trace, run.scenario, run.outcome);
+  ASSERT_TRUE(held);
+  EXPECT_EQ(held->bus_s, 2.0);
+  EXPECT_EQ(held->largest_duty, 1.0);
+  ASSERT_TRUE(held->limit_A);
+  EXPECT_DOUBLE_EQ(*held->limit_A, 10.0);  // 0.335 Nm / 0.0335 Nm/A
+  EXPECT_EQ(held->limit_s, 2.0);
+  EXPECT_EQ((*turn_on_counts(run.trace))[0], 2);
+}
+
+TEST(Conduction, a_leg_without_a_gate_carries_by_the_diode_its_current_opens) {
+  sixstep::study::Trace trace;
+  for (const char* name :
+       {"t_s", "i_a_A", "i_b_A", "i_c_A", "gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"})
+    trace.columns.push_back({name, "", "", ""});
+  // T1 and T4 drive a to b; T1 goes off and a's lower diode takes over until nothing flows; c's upper diode
+  // last.
+  trace.values = {{0, 1, 1, 2, 2, 3, 3, 4},  {0, 2, 2, 0, 0, 0, 0, 0}, {0, -2, -2, 0, 0, 0, 0, 1},
+                  {0, 0, 0, 0, 0, 0, 0, -1}, {1, 1, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
+                  {0, 0, 0, 0, 0, 0, 1, 1},  {1, 1, 1, 1, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
+                  {0, 0, 0, 0, 0, 0, 0, 0}};
+  const Conduction found = conduction(trace);
+  EXPECT_THAT(found.time_s, testing::ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(found.code, testing::ElementsAre(1 + 5 * 2, 4 + 5 * 2, 0, 5 * 1 + 25 * 3));
+  EXPECT_EQ(found.end_s, 4.0);
+}
+
+TEST(Glance, answers_what_a_reader_asks_first) {
+  SyntheticRun run = synthetic_run(0.02);
+  std::string html = page(run);
+  EXPECT_THAT(html, HasSubstr("Closest requirement</dt><dd>largest current: 1.5\u00a0% of its room is left"));
+  EXPECT_THAT(html, HasSubstr("Current in its step from 5\u00a0A to −5\u00a0A"));
+  EXPECT_THAT(html, HasSubstr("given as d1, d0; pole placement says 4.0956, −3.694"));
+  EXPECT_THAT(html, HasSubstr("<h2>What it cost</h2>"));
+  EXPECT_THAT(html, HasSubstr("chopped at <b>"));
+  run.scenario.control.current.type = sixstep::study::CurrentLoopType::hysteresis;
+  run.scenario.control.current.band_A = 0.25;
+  run.outcome.gains.clear();
+  EXPECT_THAT(page(run), HasSubstr("hysteresis, ±250.0\u00a0mA"));
+  run.outcome.verdicts[2].ok = false;
+  EXPECT_THAT(page(run), HasSubstr("Not met</dt><dd>mean current from 2 ms to 5 ms"));
+}
+
+/// A run of three rows: a current that jumps in the middle, on its own events; and its grid of two.
+SyntheticRun ramp_run(double height) {
+  SyntheticRun run = synthetic_run(0.001);
+  run.trace.columns = {{"t_s", "s", "", ""}, {"i_m_A", "A", "", ""}};
+  run.trace.values = {{0, 0.25 * height, 1}, {0, height, 0}};
+  return run;
+}
+sixstep::study::Trace grid_of(double first, double second) {
+  sixstep::study::Trace trace;
+  trace.columns = {{"t_s", "s", "", ""}, {"i_m_A", "A", "", ""}};
+  trace.values = {{0, 0.5}, {first, second}};
+  return trace;
+}
+
+TEST(Comparison, draws_each_run_on_its_own_rows_and_subtracts_on_the_common_grid) {
+  const SyntheticRun one = ramp_run(1), two = ramp_run(2);
+  const auto grid_one = grid_of(0.125, 0.75), grid_two = grid_of(0.625, 0.5);
+  const std::vector<ComparedRun> runs{{"one", one.scenario, one.outcome, one.trace, grid_one},
+                                      {"two", two.scenario, two.outcome, two.trace, grid_two}};
+  const auto data = nlohmann::json::parse(comparison_data(runs));
+  ASSERT_EQ(data["charts"].size(), 2u);
+  const auto& over = data["charts"][0]["curves"];
+  ASSERT_EQ(over.size(), 2u);
+  EXPECT_NE(over[0]["axis"], over[1]["axis"]);
+  const std::vector<float> rises{0, 2, 0}, between{0.5f, -0.25f};
+  EXPECT_EQ(over[1]["data"], base64(std::span<const float>(rises)));
+  const auto& less = data["charts"][1];
+  EXPECT_EQ(less["id"], "motor-current-difference");
+  EXPECT_EQ(less["curves"][0]["label"], "2 − 1");
+  EXPECT_EQ(less["curves"][0]["data"], base64(std::span<const float>(between)));
+  const std::vector<double> instants{0, 0.5};
+  EXPECT_EQ(data["axes"][less["curves"][0]["axis"].get<std::size_t>()],
+            base64(std::span<const double>(instants)));
+}
+
+TEST(Comparison, the_grid_counts_whole_periods_and_stays_drawable) {
+  auto scenario = synthetic_run(0.001).scenario, other = scenario;
+  scenario.duration_s = 0.02;
+  other.duration_s = 0.02;
+  other.pwm.period_s = 50e-6;
+  EXPECT_EQ(common_grid_s({&scenario, &other}), 30e-6);
+  scenario.duration_s = 0.5;  // 16667 periods of 30 us are more than 15000
+  EXPECT_EQ(common_grid_s({&scenario, &other}), 60e-6);
+}
+
+TEST(Comparison, names_the_keys_that_differ_and_no_others) {
+  auto one = synthetic_run(0.001).scenario, two = one;
+  two.title = "another title";
+  two.record.grid_s = 1.0;
+  EXPECT_TRUE(differences({&one, &two}).empty());
+  two.control.current.settle_s = 2e-3;
+  two.supply.sinks = false;
+  two.sheet.resistance_ohm->value = 1.5;
+  const auto found = differences({&one, &two});
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(found[0].key, "motor_override.resistance_ohm");
+  EXPECT_THAT(found[0].values, testing::ElementsAre("1.03\u00a0ohm", "1.5\u00a0ohm"));
+  EXPECT_EQ(found[1].key, "supply.sinks");
+  EXPECT_EQ(found[2].key, "control.current.settle_s");
+  EXPECT_THAT(found[2].values, testing::ElementsAre("–", "0.002\u00a0s"));
+}
+
+TEST(Comparison, names_what_an_event_changes) {
+  auto one = synthetic_run(0.001).scenario, two = one;
+  two.extends = {"one.toml"};
+  two.at.resize(1);
+  two.at[0].time_s = 5e-4;
+  two.at[0].supply.voltage_V = 12.0;
+  const auto found = differences({&one, &two});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].key, "at[0].time_s");
+  EXPECT_EQ(found[1].key, "at[0].supply.voltage_V");
+  EXPECT_THAT(found[1].values, testing::ElementsAre("–", "12 V"));
+}
+
+TEST(Comparison, foreign_text_stays_text_and_figures_stand_side_by_side) {
+  SyntheticRun one = synthetic_run(0.002), two = synthetic_run(0.002);
+  two.scenario.title = "<b>bold</b>";
+  two.outcome.verdicts[1].ok = false;
+  two.outcome.verdicts[1].measured = 2 * one.outcome.verdicts[1].measured;
+  const std::string html =
+      render_comparison({.runs = {{"one", one.scenario, one.outcome, one.trace, one.trace},
+                                  {"two", two.scenario, two.outcome, two.trace, two.trace}},
+                         .command = "sixstep run one.toml two.toml --html x.html",
+                         .version = "0.1.0"});
+  EXPECT_THAT(html, HasSubstr("&lt;b&gt;bold&lt;/b&gt;"));
+  EXPECT_THAT(
+      html,
+      HasSubstr(
+          "<td class=\"num bad\">10.83\u00a0A <b>✗ not met</b><small class=\"aside\">+100\u00a0%</small>"));
+  EXPECT_THAT(html, HasSubstr("Nothing that changes a run."));
+}
+
+TEST(PackedRows, keep_the_range_in_65533_steps_with_zero_on_one_and_refuse_what_is_too_much) {
+  const std::vector<double> time{0, 1e-6, 1e-6, 5}, held{2, 2, 2, 2}, moving{-1, 0, 2, NAN};
+  const auto packed = packed_rows(time, {&held, &moving}, 1000);
+  ASSERT_TRUE(packed);
+  EXPECT_EQ(packed->rows, 4u);
+  EXPECT_GE(packed->tick_s * 4294967295.0, 5.0) << "the longest gap fits into 32 bits";
+  EXPECT_EQ(packed->columns[0].low, 2.0);
+  EXPECT_EQ(packed->columns[0].step, 0.0);
+  EXPECT_EQ(packed->columns[1].step, 3.0 / 65533);
+  const double zero = -packed->columns[1].low / packed->columns[1].step;
+  EXPECT_EQ(zero, std::round(zero));
+  EXPECT_FALSE(packed_rows(time, {&held, &moving}, 10));
+}
+
+/// A saw of `turns` teeth from -1 to 1 in one second, its rows at the jumps alone.
+struct Saw {
+  std::vector<double> time, values;
+};
+Saw saw(int turns) {
+  Saw out;
+  for (int n = 0; n < turns; ++n)
+    for (const int side : {0, 1}) {
+      out.time.push_back((n + side) / static_cast<double>(turns));
+      out.values.push_back(side ? 1.0 : -1.0);
+    }
+  return out;
+}
+
+TEST(Spectrum, of_a_saw_is_the_fourier_series) {
+  // 37 teeth: no power of two, so that no tooth and no jump keeps to the cells. Harmonic n has the amplitude
+  // 2/(pi n).
+  constexpr int turns = 37, cells = 4096;
+  const Saw s = saw(turns);
+  const Lines lines = lines_of(s.time, s.values, {0, 1}, 1.0 / cells);
+  EXPECT_EQ(lines.cell_s, 1.0 / cells);
+  EXPECT_EQ(lines.spacing_Hz, 1.0);
+  ASSERT_EQ(lines.amplitude.size(), cells / 8 + 1u);
+  for (int n = 1; n * turns + 1 < cells / 8; ++n) {
+    const auto k = static_cast<std::size_t>(n * turns);
+    // What the cells fold onto a line is the harmonics at m cells -+ k, m = 1, 2 ..; a cell's mean leaves
+    // k/(m cells -+ k) of each, and the correction divides by the same for k. Their amplitude is at most 2/pi
+    // turns/(m cells - k), so their sum is below 2/pi turns k/cells^2 times twice the sum of 1/(m - 1/8)^2,
+    // which is less than 4.
+    const double folded = 4 * 2 / M_PI * turns * (n * turns) / (static_cast<double>(cells) * cells);
+    EXPECT_NEAR(lines.amplitude[k], 2 / (M_PI * n), folded + 1e-12) << n;
+    EXPECT_NEAR(lines.amplitude[k + 1], 1 / (M_PI * n), folded + 1e-12) << "Hann: half of it beside the line";
+  }
+  for (const std::size_t k : {5u, 20u, 55u}) EXPECT_LT(lines.amplitude[k], 1e-2) << "between the harmonics";
+  EXPECT_THAT(strongest(lines, 3), testing::ElementsAre(37u, 74u, 111u));
+}
+
+TEST(Spectrum, is_taken_over_whole_electrical_turns_of_the_last_setpoint) {
+  SyntheticRun run = stepped_run();
+  run.trace.columns.push_back({"angle_rad", "rad", "", ""});
+  run.trace.values.push_back({0, 0, 0, 0, 0, 0, 0, 0});
+  auto& time = run.trace.values[0];
+  auto& angle = run.trace.values.back();
+  auto& reference = run.trace.values[3];
+  for (std::size_t n = 0; n < time.size(); ++n) {
+    angle[n] = time[n] * 0.6 * M_PI;  // two pole pairs: 0.6 electrical turns a second
+    reference[n] = time[n] < 1 ? 0 : 50;
+  }
+  const auto found = steady_stretch(run.trace, run.scenario, 2);
+  ASSERT_TRUE(found);  // 1 s (the second row of it) to 9 s: the later half has 2.4 turns
+  EXPECT_EQ(found->turns, 2);
+  EXPECT_NEAR(found->time.from, 9 - 2 / 0.6, 8 * 9 * 2.3e-16);  // a few roundings of numbers up to 9
+  EXPECT_EQ(found->time.to, 9.0);
+  run.scenario.pwm.period_s = 0.1;  // 40 periods tell nothing
+  EXPECT_FALSE(steady_stretch(run.trace, run.scenario, 2));
+}
+
+TEST(Spectrum, lines_are_called_by_what_they_come_from) {
+  // 10 turns and 1000 PWM periods in the stretch.
+  EXPECT_EQ(origin_of(60, 10, 1000), "6 × electrical");
+  EXPECT_EQ(origin_of(1000, 10, 1000), "PWM");
+  EXPECT_EQ(origin_of(2000, 0, 1000), "2 × PWM");
+  EXPECT_EQ(origin_of(980, 10, 1000), "PWM − 2 × electrical");
+  EXPECT_EQ(origin_of(1004, 10, 1000), "beside PWM");
+  EXPECT_EQ(origin_of(65, 10, 1000), "");
+  EXPECT_EQ(origin_of(65, 0, 0), "");
+  EXPECT_EQ(origin_of(10, 10, 1000), "electrical, the fundamental");
+}
+
+TEST(Spectrum, of_few_turns_the_harmonics_are_named_on_their_own_lines) {
+  for (const long long turns : {1, 2, 3, 4, 5, 6}) {
+    const auto t = static_cast<std::size_t>(turns);
+    EXPECT_EQ(origin_of(t, turns, 1000), "electrical, the fundamental") << turns;
+    EXPECT_EQ(origin_of(5 * t, turns, 1000), "5 × electrical") << turns;
+    EXPECT_EQ(origin_of(6 * t, turns, 1000), "6 × electrical") << turns;
+    if (turns > 1) {
+      EXPECT_EQ(origin_of(5 * t + 1, turns, 1000), "") << "between two multiples of " << turns;
+    }
+  }
+}
+
+TEST(Spectrum, a_drawn_chart_keeps_the_highest_line_of_each_step) {
+  Lines lines{.spacing_Hz = 2, .amplitude = std::vector<double>(30001, 1e-3)};
+  lines.amplitude[29000] = 5;
+  const Drawn drawn = drawn_lines(lines);
+  EXPECT_LE(drawn.amplitude.size(), 1501u);
+  EXPECT_EQ(drawn.frequency_Hz.front(), 2.0);
+  EXPECT_TRUE(std::ranges::is_sorted(drawn.frequency_Hz));
+  const auto peak = std::ranges::max_element(drawn.amplitude) - drawn.amplitude.begin();
+  EXPECT_EQ(drawn.frequency_Hz[static_cast<std::size_t>(peak)], 58000.0);
+}
+
+}  // namespace

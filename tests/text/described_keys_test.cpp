@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// What holds of every key because all of them come from one description.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "sixstep/study/scenario/scenario_description.hpp"
+#include "text/keys/key_advice.hpp"
+#include "text/keys/key_catalog.hpp"
+#include "text/toml/table_reader.hpp"
+
+namespace text {
+namespace {
+
+/// Writes a struct as TOML; with `change` it first gives every member another value that its range allows.
+class Dump {
+ public:
+  explicit Dump(bool change) : change_(change) {}
+  std::string text;
+
+  void value(std::string_view key, double& x, const base::About& about) {
+    if (change_) x = inside(about.range, x);
+    emit(key, fmt::format("{}", x));
+  }
+  void value(std::string_view key, int& x, const base::About& about) {
+    if (change_) x = about.range.holds(7) ? 7 : about.range.high < 2 ? 1 : 3;
+    emit(key, fmt::format("{}", x));
+  }
+  void value(std::string_view key, bool& x, const base::About&) {
+    if (change_) x = !x;
+    emit(key, x ? "true" : "false");
+  }
+  void value(std::string_view key, std::string& x, const base::About&) {
+    if (change_) x = fmt::format("text of {}", key);
+    emit(key, fmt::format("\"{}\"", x));
+  }
+  void value(std::string_view key, std::vector<double>& x, const base::About&) {
+    if (change_) x = {0.25, 0.5};
+    emit(key, fmt::format("[{}]", fmt::join(x, ", ")));
+  }
+  void value(std::string_view key, std::vector<std::string>& x, const base::About&) {
+    if (change_) x = {"one", "two"};
+    emit(key, fmt::format("[\"{}\"]", fmt::join(x, "\", \"")));
+  }
+  template <class T>
+  void value(std::string_view key, std::optional<T>& x, const base::About& about) {
+    if (change_) x.emplace();
+    if (x) value(key, *x, about);
+  }
+  template <class Enum, class Choices>
+  void choice(std::string_view key, Enum& x, const Choices& choices, const base::About&) {
+    if (change_) x = std::rbegin(choices)->value;
+    emit(key, fmt::format("\"{}\"", base::word(choices, x)));
+  }
+  void quantity(std::string_view key, base::Quantity& q, const base::About& about) {
+    if (change_) {
+      q = {inside(about.range, q.value), std::string(about.frame.substr(about.frame.rfind('|') + 1)),
+           "a source"};
+      q.kind = base::Trust::measured;
+      q.range = base::Interval{0.125, 8.5};
+    }
+    const std::string frame = q.frame.empty() ? "" : fmt::format("frame = \"{}\", ", q.frame);
+    const std::string kind = q.kind == base::Trust::unstated ? "" : ", kind = \"measured\"";
+    const std::string range = q.range ? fmt::format(", range = [{}, {}]", q.range->low, q.range->high) : "";
+    emit(key, fmt::format("{{ value = {}, {}source = \"{}\"{}{} }}", q.value, frame, q.source, kind, range));
+  }
+  void quantity(std::string_view key, std::optional<base::Quantity>& q, const base::About& about) {
+    if (change_) q.emplace();
+    if (q) quantity(key, *q, about);
+  }
+  template <class Struct>
+  void table(std::string_view key, Struct& member, const base::About&) {
+    const std::string outer = prefix_;
+    prefix_ += std::string(key) + '.';
+    describe(*this, member);
+    prefix_ = outer;
+  }
+  template <class Struct>
+  void table(std::string_view key, std::optional<Struct>& member, const base::About& about) {
+    if (change_) member.emplace();
+    if (member) table(key, *member, about);
+  }
+  template <class Struct>
+  void list(std::string_view key, std::vector<Struct>& member, const base::About&) {
+    if (change_) member.resize(2);
+    const std::string keys = std::exchange(text, "");
+    for (Struct& item : member) {
+      text += fmt::format("[[{}]]\n", key);
+      describe(*this, item);
+    }
+    lists_ += std::exchange(text, keys);
+  }
+  /// Lists come last: what follows a heading would belong to it.
+  std::string whole() const { return text + lists_; }
+
+ private:
+  static double inside(const base::Range& range, double present) {
+    const double tried = 0.375;
+    return range.holds(tried) && tried != present ? tried : range.holds(5.5) ? 5.5 : 1.0;
+  }
+  void emit(std::string_view key, const std::string& toml) {
+    text += fmt::format("{}{} = {}\n", prefix_, key, toml);
+  }
+  bool change_;
+  std::string prefix_, lists_;
+};
+
+template <class Struct>
+std::string dump(Struct& s, bool change) {
+  Dump visitor(change);
+  describe(visitor, s);
+  return visitor.whole();
+}
+
+template <class Struct>
+void expect_round_trip() {
+  Struct written, unread;
+  const std::string text = dump(written, true);
+  const base::Result<Document> document = Document::parse("x.toml", text);
+  ASSERT_TRUE(document) << to_string(document.problems().at(0)) << "\n" << text;
+  Struct read;
+  Complaints complaints(*document);
+  read_root(*document, read, complaints);
+  for (const base::Problem& problem : complaints.in_order()) ADD_FAILURE() << to_string(problem);
+  EXPECT_EQ(dump(read, false), text);
+  // Every line of the changed text differs from the default's, or it would prove nothing.
+  const std::string plain = dump(unread, false);
+  std::size_t begin = 0;
+  for (std::size_t end = text.find('\n'); end != std::string::npos;
+       begin = end + 1, end = text.find('\n', begin)) {
+    const std::string line = text.substr(begin, end - begin + 1);
+    if (line.starts_with("[[")) break;                // lists are empty by default
+    if (line.starts_with("bridge.device")) continue;  // one choice only
+    EXPECT_EQ(plain.find("\n" + line), std::string::npos) << line;
+  }
+}
+
+TEST(DescribedKeys, EveryScenarioKeyRoundTrips) { expect_round_trip<study::Scenario>(); }
+TEST(DescribedKeys, EveryMotorKeyRoundTrips) { expect_round_trip<design::Sheet>(); }
+
+std::vector<KeyEntry> all_keys() {
+  std::vector<KeyEntry> keys = scenario_keys();
+  const std::vector<KeyEntry> sheet = sheet_keys();
+  keys.insert(keys.end(), sheet.begin(), sheet.end());
+  return keys;
+}
+
+TEST(DescribedKeys, EveryKeyAndWordHasAMeaning) {
+  for (const KeyEntry& key : all_keys()) {
+    EXPECT_FALSE(key.about.meaning.empty()) << key.path;
+    EXPECT_NE(key.about.meaning.back(), '.') << key.path;
+    EXPECT_EQ(key.type == KeyType::word, !key.choices.empty()) << key.path;
+    for (const auto& [word, meaning] : key.choices) EXPECT_FALSE(meaning.empty()) << key.path << " " << word;
+  }
+}
+
+std::string letters(std::string_view text) {
+  std::string plain;
+  for (const char c : text)
+    if (c != ' ' && c != '/' && c != '_') plain += c;
+  if (const std::size_t per = plain.find("per"); per != std::string::npos) plain.erase(per, 3);
+  return plain;
+}
+
+TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
+  // Counts, ratios and gains, and what is meant in the unit of a mode or figure that another key names.
+  const std::set<std::string> without = {"pole_pairs",
+                                         "delay_periods",
+                                         "hall_stable_samples",
+                                         "damping",
+                                         "anti_windup",
+                                         "d1",
+                                         "d0",
+                                         "kp",
+                                         "ki",
+                                         "value",
+                                         "values",
+                                         "slew",
+                                         "high",
+                                         "low",
+                                         "end",
+                                         "slope",
+                                         "acceleration",
+                                         "offset",
+                                         "amplitude",
+                                         "level",
+                                         "start",
+                                         "fraction",
+                                         "band",
+                                         "tail",
+                                         "min",
+                                         "max",
+                                         "relative",
+                                         "absolute",
+                                         "cut_sigma",
+                                         "adc_bits",
+                                         "current_gain_error",
+                                         "bus_gain_error",
+                                         "voltage_samples",
+                                         "commutation_samples",
+                                         "speed_edges",
+                                         "seed",
+                                         "line",
+                                         "poles",
+                                         "sector",
+                                         "turns_in_series"};
+  for (const KeyEntry& key : all_keys()) {
+    const bool number = key.type == KeyType::number || key.type == KeyType::whole_number ||
+                        key.type == KeyType::numbers || key.type == KeyType::quantity;
+    if (!number) continue;
+    const std::string name = key.path.substr(key.path.rfind('.') + 1);
+    EXPECT_EQ(key.about.unit.empty(), without.contains(name)) << key.path;
+    EXPECT_EQ(letters(name.substr(without_unit(name).size())), letters(key.about.unit)) << key.path;
+  }
+}
+
+TEST(DescribedKeys, HelpTellsUnitRangeDefaultAndWords) {
+  const std::vector<KeyEntry> keys = scenario_keys();
+  const auto find = [&](const char* path) {
+    return *std::find_if(keys.begin(), keys.end(), [&](const KeyEntry& k) { return k.path == path; });
+  };
+  EXPECT_EQ(help_text(find("supply.voltage_V")),
+            "supply.voltage_V\n  voltage of the source\n  number, in V, must be above 0 and at most 100000\n "
+            " default 24\n");
+  EXPECT_EQ(
+      help_text(find("pwm.alignment")),
+      "pwm.alignment\n  where in the period the on-time lies\n  one word of those below\n  default \"edge\"\n"
+      "    edge          on-time starts with the period\n"
+      "    centre        on-time lies in the middle of the period\n");
+}
+
+}  // namespace
+}  // namespace text

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// What design names for Hall probes holds, and is no coward: six motors of the library from the smallest to
+// the largest inertia, speeds over one edge and over six.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+#include <string>
+
+#include "sixstep/study/run/run.hpp"
+#include "sixstep/study/verify/board.hpp"
+#include "sixstep/study/verify/design_study.hpp"
+#include "sixstep/study/verify/robust.hpp"
+#include "text/scenario/scenario_file.hpp"
+
+namespace sixstep::study {
+namespace {
+
+struct Drawn {
+  const char* motor;
+  double bus_V;
+  int edges;
+};
+void PrintTo(const Drawn& d, std::ostream* out) { *out << d.motor << ", " << d.edges << " edges"; }
+
+design::DesignSpec spec_of(const Drawn& d) {
+  design::DesignSpec spec = design::on_a_board();
+  spec.mode = control::Mode::speed;
+  spec.voltage_V = d.bus_V;
+  spec.rotor.edges = d.edges;
+  return spec;
+}
+
+double figure(const Outcome& o, const std::string& name) {
+  for (const ComparisonResult& c : o.comparisons)
+    if (c.figure == name) return c.measured;
+  ADD_FAILURE() << name;
+  return NAN;
+}
+
+/// Whether one of the motors out of tolerance fails a design: swings, or has not settled after twice the time
+/// (the doubled inertia takes so long with ideal sensors too).
+struct Field {
+  int motors = 0, swing = 0, late = 0;
+};
+
+Field field_of(const DesignSubject& subject, const design::DesignSpec& spec, bool until_one_swings) {
+  const auto d = design::design_drive(*design::motor_model(subject.sheet), spec);
+  EXPECT_TRUE(d);
+  const Scenario nominal = design_scenario(*d, subject);
+  const auto ideal = run(with_ideal_sensors(nominal));
+  EXPECT_TRUE(ideal);
+  const double allowed = allowed_swing_rad_s(figure(*ideal, "speed ripple"), nominal.reference.values[1]);
+  const auto tolerances = sheet_tolerances(control::Mode::speed);
+  Field found;
+  for (const Variation& v : variations(tolerances)) {
+    const auto outcome = run(varied_scenario(nominal, d->motor, tolerances, v));
+    EXPECT_TRUE(outcome && !outcome->fault) << v.words;
+    ++found.motors;
+    if (!(figure(*outcome, "speed ripple") <= allowed)) ++found.swing;
+    if (until_one_swings && found.swing > 0) break;
+    if (!until_one_swings && !(figure(*outcome, "settling time") <= 2 * *spec.settle_s)) ++found.late;
+  }
+  return found;
+}
+
+class HallDesign : public testing::TestWithParam<Drawn> {
+ protected:
+  void SetUp() override {
+    const auto sheet = text::read_sheet(GetParam().motor, "");
+    ASSERT_TRUE(sheet);
+    subject_.motor = GetParam().motor;
+    subject_.sheet = *sheet;
+  }
+
+  Field field(double settle_s, bool until_one_swings) {
+    design::DesignSpec spec = spec_of(GetParam());
+    spec.settle_s = settle_s;
+    return field_of(subject_, spec, until_one_swings);
+  }
+
+  DesignSubject subject_;
+};
+
+TEST_P(HallDesign, SettlesAsNamedAtEveryCornerAndNotAtAThird) {
+  const auto d = design::design_drive(*design::motor_model(subject_.sheet), spec_of(GetParam()));
+  ASSERT_TRUE(d);
+  const double named_s = d->loop("speed").placed->settle_s;
+  const Field held = field(named_s, false);
+  EXPECT_EQ(held.motors, 25);
+  EXPECT_EQ(held.swing, 0);
+  EXPECT_EQ(held.late, 0);
+  EXPECT_GT(field(named_s / 3, true).swing, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(SixMotors, HallDesign,
+                         testing::Values(Drawn{"dji-2212-920kv", 12, 1}, Drawn{"dji-2212-920kv", 12, 6},
+                                         Drawn{"anaheim-bly172s", 24, 1}, Drawn{"anaheim-bly172s", 24, 6},
+                                         Drawn{"maxon-251601", 24, 1}, Drawn{"maxon-251601", 24, 6},
+                                         Drawn{"mjbots-mj5208", 24, 1}, Drawn{"mjbots-mj5208", 24, 6},
+                                         Drawn{"baldor-bsm90n-175", 200, 1},
+                                         Drawn{"baldor-bsm90n-175", 200, 6}, Drawn{"hoverboard-hub", 36, 1},
+                                         Drawn{"hoverboard-hub", 36, 6}));
+
+TEST(HallTable, EachOfItsEntriesHoldsAtEveryCorner) {
+  const DesignSubject subject{.motor = "maxon-251601", .sheet = *text::read_sheet("maxon-251601", "")};
+  const auto d = design::design_drive(*design::motor_model(subject.sheet), spec_of({"maxon-251601", 24, 0}));
+  ASSERT_TRUE(d);
+  ASSERT_EQ(d->limits.size(), 9u);
+  for (const design::SettlingLimit& limit : d->limits) {
+    SCOPED_TRACE(design::edges_words(limit.sensing) + " at " + std::to_string(limit.lowest_speed_rad_s));
+    design::DesignSpec spec = spec_of({"maxon-251601", 24, limit.sensing.edges});
+    spec.lowest_speed_rad_s = limit.lowest_speed_rad_s;
+    spec.settle_s = limit.settle_s;
+    const Field held = field_of(subject, spec, false);
+    EXPECT_EQ(held.motors, 25);
+    EXPECT_EQ(held.swing, 0);
+    EXPECT_EQ(held.late, 0);
+  }
+}
+
+TEST(HallDesigned, DefaultEdgesHoldWhereSixWouldNot) {
+  // The speed loop that design names for adaptive edges, on the same drive with six at every speed.
+  const DesignSubject subject{.motor = "maxon-251601", .sheet = *text::read_sheet("maxon-251601", "")};
+  const auto adaptive = study_design({.subject = subject, .spec = spec_of({"maxon-251601", 24, 0})});
+  ASSERT_TRUE(adaptive);
+  EXPECT_TRUE(adaptive->usable());
+  design::DesignSpec six = spec_of({"maxon-251601", 24, 6});
+  six.settle_s = adaptive->design.loop("speed").placed->settle_s;
+  const auto fixed = study_design({.subject = subject, .spec = six});
+  ASSERT_TRUE(fixed);
+  EXPECT_FALSE(fixed->usable());
+}
+
+}  // namespace
+}  // namespace sixstep::study

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files made to hurt: numbers that overflow, text that nests or repeats without end. Each is told what is
+// wrong with it, in a message of a readable length and in steps that grow as the file does.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "sixstep/study/run/run.hpp"
+#include "text/scenario/reference_file.hpp"
+#include "text/scenario/scenario_file.hpp"
+
+namespace text {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+const std::string head = "motor = \"maxon-251601\"\nduration_s = 0.001\n";
+
+std::vector<std::string> told(const std::string& text, const std::vector<Setting>& settings = {}) {
+  const auto scenario = read_scenario_text("x.toml", text, {.data_dir = {}, .overrides = settings});
+  std::vector<std::string> lines;
+  if (!scenario)
+    for (const base::Problem& p : scenario.problems()) lines.push_back(to_string(p));
+  return lines;
+}
+
+TEST(HostileInput, AResistanceThatUnderflowsIsRefused) {
+  EXPECT_THAT(told(head + "[motor_override]\nline_10_terminal_resistance_ohm = 5e-324\n"),
+              ElementsAre(HasSubstr("x.toml:4:35: motor_override.line_10_terminal_resistance_ohm = 5e-324 "
+                                    "must be at least 1e-06")));
+}
+
+TEST(HostileInput, ASpeedThatOverflowsIsRefused) {
+  EXPECT_THAT(
+      told(head + "[initial]\nspeed_rad_s = 1.7976931348623157e+308\n"),
+      ElementsAre("x.toml:4:15: initial.speed_rad_s = 1.7976931348623157e+308 must lie in -1000000 to "
+                  "1000000; it means: mechanical speed at the start, in rad/s"));
+}
+
+TEST(HostileInput, ABusFasterThanAnyBoardIsRefusedWithItsTimeConstant) {
+  const std::string bus = "[supply]\nresistance_ohm = 0.2\ncapacitance_F = 1e-7\n";
+  EXPECT_THAT(
+      told(head + bus),
+      ElementsAre("x.toml:5:17: supply.capacitance_F = 1e-07 makes the bus's time constant with "
+                  "supply.resistance_ohm = 0.2 and the winding 14.4 ns, and on no board it is below 100 "
+                  "ns; look at its unit: a bus has hundreds of microfarads; or leave both away for a "
+                  "stiff bus"));
+  EXPECT_THAT(told(head + "[supply]\nresistance_ohm = 0.2\ncapacitance_F = 1e-5\n"), SizeIs(0));
+  EXPECT_THAT(told(head + "[initial]\nbus_V = 1e308\n[supply]\nresistance_ohm = 0.2\ncapacitance_F = 1e-3\n"),
+              ElementsAre(HasSubstr("initial.bus_V = 1e308 must be above 0 and at most 100000")));
+}
+
+TEST(HostileInput, ASwitchOfMegohmsIsRefused) {
+  EXPECT_THAT(told(head + "[bridge]\non_resistance_ohm = 1e9\n"),
+              ElementsAre(HasSubstr("bridge.on_resistance_ohm = 1e9 must lie in 0 to 1000000")));
+  EXPECT_THAT(told(head + "[bridge]\non_resistance_ohm = 1e5\n"),
+              ElementsAre(HasSubstr("makes the time constant of winding and bridge 2.86 ns")));
+}
+
+TEST(HostileInput, AFrictionThatStopsTheRotorAtOnceIsRefused) {
+  EXPECT_THAT(told(head + "[load]\nviscous_Nm_s = 1000\n"),
+              ElementsAre(HasSubstr("stops the rotor within 13.5 ns")));
+}
+
+TEST(HostileInput, ABandThatNoBridgeFollowsIsRefusedAndIsNoDefect) {
+  const auto band = [](const char* band_A) {
+    return told(head + "[control]\nmode = \"current\"\ncurrent = { type = \"hysteresis\", band_A = " +
+                band_A + " }\n[reference]\nvalue = 5\n");
+  };
+  EXPECT_THAT(band("1e-15"), ElementsAre(HasSubstr("control.current.band_A = 1e-15 must be at least 1e-09")));
+  EXPECT_THAT(band("1e-6"), ElementsAre(HasSubstr("widen it to at least 0.0021 A")));
+  EXPECT_THAT(band("0.0022"), SizeIs(0));
+}
+
+TEST(HostileInput, ReferencesBeyondAnyMotorAreRefused) {
+  const std::string mode = "[control]\nmode = \"current\"\n[reference]\n";
+  EXPECT_THAT(told(head + mode + "value = 1e308\n"),
+              ElementsAre(HasSubstr("reference.value = 1e308 must lie in")));
+  EXPECT_THAT(told(head + mode + "value = 2e6\n"),
+              ElementsAre(HasSubstr("reference.value = 2e+06 must lie in -1000000 to 1000000")));
+  EXPECT_THAT(told(head + mode + "shape = \"csv\"\ntimes_s = [0, 1e-4]\nvalues = [1, -1e308]\n"),
+              ElementsAre(HasSubstr("x.toml:8:14: reference.values = -1e308 must lie in")));
+}
+
+TEST(HostileInput, ATorqueWithoutMeasureIsRefused) {
+  EXPECT_THAT(
+      told(head + "[load]\ntorque_Nm = 1e6\n"),
+      ElementsAre(HasSubstr("load.torque_Nm = 1e+06 is no load for a moment of inertia of 1.35e-05 kg m2: "
+                            "at most 1.69e+04 N m are simulated")));
+  EXPECT_THAT(told(head + "[[at]]\ntime_s = 1e-4\nload.torque_Nm = 1e6\n"), SizeIs(1));
+  EXPECT_THAT(told(head + "[load]\ntimes_s = [0, 1e-4]\ntorques_Nm = [0, 1e6]\n"), SizeIs(1));
+}
+
+/// Each number may be: together they throw the rotor out of all bounds.
+TEST(HostileInput, ARunThatRunsAwayEndsWithAFaultAndWritesNumbersOnly) {
+  const auto scenario = read_scenario_text(
+      "x.toml",
+      head + "[load]\ntorque_Nm = -1e4\n[[require]]\nmetric = \"max\"\nsignal = \"current\"\nmax = 1e9\n");
+  ASSERT_TRUE(scenario);
+  bool numbers = true;
+  const auto outcome = study::run(*scenario, {.on_record = [&](study::Row row) {
+    for (const double x : row) numbers = numbers && x - x == 0.0;
+  }});
+  ASSERT_TRUE(outcome);
+  ASSERT_TRUE(outcome->fault);
+  EXPECT_THAT(to_string(*outcome->fault), HasSubstr("the run has run away: the speed is"));
+  EXPECT_FALSE(outcome->passed());
+  EXPECT_TRUE(numbers);
+}
+
+TEST(HostileInput, AColumnThatTheModeDoesNotHaveIsRefusedAndNotWrittenAsNoNumber) {
+  const std::string columns = "record.columns = [\"i_m_A\", \"i_ref_A\"]\n[control]\nmode = ";
+  EXPECT_THAT(
+      told(head + columns + "\"duty\"\n"),
+      ElementsAre("x.toml:3:18: record.columns = \"i_ref_A\" has no value in this control.mode; remove it, "
+                  "or control what it is the reference of"));
+  EXPECT_THAT(told(head + columns + "\"current\"\n"), SizeIs(0));
+}
+
+std::string repeated(const std::string& text, std::size_t times) {
+  std::string all;
+  all.reserve(text.size() * times);
+  for (std::size_t n = 0; n < times; ++n) all += text;
+  return all;
+}
+
+TEST(HostileInput, AKeyOfAHundredThousandPartsDoesNotTakeTheStack) {
+  EXPECT_THAT(told(head + repeated("a.", 100'000) + "b = 1\n"),
+              ElementsAre("x.toml:3:66: nests deeper than 32 tables or lists; no key lies deeper than "
+                          "control.current.settle_s"));
+  EXPECT_THAT(told(head + "[" + repeated("a.", 100'000) + "b]\n"), ElementsAre(HasSubstr("nests deeper")));
+  EXPECT_THAT(told(head + "a = " + repeated("[", 100'000)), ElementsAre(HasSubstr("nests deeper")));
+  EXPECT_THAT(told(head + "a = " + repeated("{a = ", 100'000)), ElementsAre(HasSubstr("nests deeper")));
+  EXPECT_THAT(told(head, {{repeated("a.", 100'000) + "b", "1"}}), ElementsAre(HasSubstr("nests too deep")));
+  EXPECT_THAT(told(head, {{"a", "{" + repeated("a.", 100'000) + "b = 1}"}}),
+              ElementsAre(HasSubstr("nests too deep")));
+}
+
+TEST(HostileInput, DotsAndBracketsInWordsAndRemarksNestNothing) {
+  const std::string dots = repeated(".[{", 100);
+  EXPECT_THAT(told("title = \"" + dots + "\\\"" + dots + "\"\n" + head), SizeIs(0));
+  EXPECT_THAT(told("title = '" + dots + "'\n" + head), SizeIs(0));
+  EXPECT_THAT(told("title = \"\"\"" + dots + "\n\" \"\" " + dots + "\"\"\"\n" + head), SizeIs(0));
+  EXPECT_THAT(told("title = '''" + dots + "\n'' " + dots + "'''\n" + head), SizeIs(0));
+  EXPECT_THAT(told("# " + dots + "\n" + head), SizeIs(0));
+}
+
+TEST(HostileInput, OfAListOfWrongEntriesSomeAreTold) {
+  const std::string list =
+      "[reference]\nshape = \"steps\"\ntimes_s = [" + repeated("true,\n", 100'000) + "]\n";
+  EXPECT_THAT(told(head + list), SizeIs(6));
+  const std::string words = "[record]\ncolumns = [" + repeated("1,", 100'000) + "]\n";
+  EXPECT_THAT(told(head + words), SizeIs(6));
+  const std::string ones = "[" + repeated("1,", 100'000) + "]\n";
+  EXPECT_THAT(told(head + "[reference]\nshape = \"steps\"\ntimes_s = " + ones + "values = " + ones),
+              SizeIs(5));
+}
+
+TEST(HostileInput, OfAHundredThousandMistakesAHundredAreTold) {
+  std::string keys;
+  for (int n = 0; n < 100'000; ++n) keys += fmt::format("nonsense_{} = 1\n", n);
+  const std::vector<std::string> lines = told(head + keys);
+  ASSERT_THAT(lines, SizeIs(101));
+  EXPECT_EQ(lines.back(), "x.toml: is wrong in 99900 more places; mend those above first");
+  EXPECT_THAT(told(head + repeated("[[require]]\nmetric = 1\n", 20'000)),
+              ElementsAre(HasSubstr("has 20000 tables, more than 10000")));
+}
+
+TEST(HostileInput, MessagesAboutLongTextStayShort) {
+  const std::string long_word(10'000'000, 'x'), digits(10'000'000, '7');
+  const std::vector<std::string> files = {
+      head + long_word + " = 1\n",
+      head + "[supply]\nvoltage_V = \"" + digits + " V\"\n",
+      head + "[supply]\nvoltage_V = \"1 " + long_word + "\"\n",
+      head + "[control]\nmode = \"" + long_word + "\"\n",
+      head + "[supply]\nvoltage_V = 0." + digits + "\n",
+      head + "[[require]]\nmetric = \"max\"\nmax = 1\nlabel = 1\nsignal = \"" + long_word + "\"\n",
+      "motor = \"" + long_word + "\"\nduration_s = 1\n",
+  };
+  for (const std::string& file : files) {
+    const std::vector<std::string> lines = told(file);
+    EXPECT_FALSE(lines.empty());
+    for (const std::string& line : lines) EXPECT_LT(line.size(), 2500u) << line.substr(0, 200);
+  }
+}
+
+std::vector<std::string> told_of_rows(const std::string& rows) {
+  const auto read = reference_rows("r.csv", rows, {}, "A");
+  std::vector<std::string> lines;
+  if (!read)
+    for (const base::Problem& p : read.problems()) lines.push_back(to_string(p));
+  return lines;
+}
+
+TEST(HostileInput, ATableOfRowsIsHeldToTheSameNumbers) {
+  EXPECT_THAT(
+      told_of_rows("t_s,i_A\n0,1\n1e-3,1e308\n"),
+      ElementsAre(
+          "r.csv:3: \"1e308\" must lie in -1000000 to 1000000, in A; look at the unit of its column"));
+  EXPECT_THAT(told_of_rows("0,1\n1e10,2\n"),
+              ElementsAre(HasSubstr("\"1e10\" must lie in -9000000 to 9000000, in s")));
+  for (const char* none : {"nan", "inf", "-inf", "1e999"})
+    EXPECT_THAT(told_of_rows(std::string("0,1\n1,") + none + "\n"), ElementsAre(HasSubstr("is no number")))
+        << none;
+}
+
+TEST(HostileInput, ARecordedTraceThatFadesIsZeroInTheEnd) {
+  const auto rows = reference_rows("r.csv", "0,1\n1e-3,-3e-312\n", {}, "A");
+  ASSERT_TRUE(rows);
+  EXPECT_EQ(rows->values, (std::vector<double>{1.0, 0.0}));
+}
+
+TEST(HostileInput, CellsOfTenMillionDigitsAreReadOrToldInAFewWords) {
+  const std::string digits(10'000'000, '1');
+  const auto rows = reference_rows("r.csv", "0,1." + digits + "\n", {}, "A");
+  ASSERT_TRUE(rows);
+  EXPECT_NEAR(rows->values.at(0), 10.0 / 9, 1e-15);
+  const std::vector<std::string> lines = told_of_rows("0," + digits + "\n");
+  ASSERT_THAT(lines, SizeIs(1));
+  EXPECT_LT(lines[0].size(), 2500u);
+  EXPECT_THAT(told_of_rows("0,1" + std::string(10'000'000, ';') + "\n"), SizeIs(1));
+  EXPECT_THAT(told_of_rows(std::string(10'000'000, 'a') + "\n"), SizeIs(1));
+}
+
+}  // namespace
+}  // namespace text

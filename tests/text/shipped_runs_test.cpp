@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The standing laws (MODEL 5) on every run that is shipped, and the verdict each was shipped with.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "sixstep/study/run/run.hpp"
+#include "text/scenario/scenario_file.hpp"
+
+namespace text {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace sixstep;
+
+std::vector<std::string> shipped_scenarios() {
+  std::vector<std::string> files;
+  for (const fs::directory_entry& entry :
+       fs::recursive_directory_iterator(fs::path(SIXSTEP_SOURCE_DIR) / "data" / "scenarios"))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+class EveryShippedRun : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryShippedRun, ObeysTheStandingLaws) {
+  const auto scenario = read_scenario(GetParam());
+  ASSERT_TRUE(scenario);
+  double last_s = 0.0;
+  bool time_holds = true, complete = true;
+  const auto outcome = study::run(*scenario, {.on_event = [&](study::Row row) {
+    time_holds = time_holds && row[0] >= last_s;
+    last_s = row[0];
+    for (const std::size_t state : {1, 2, 3, 13, 14, 16}) complete = complete && std::isfinite(row[state]);
+  }});
+  ASSERT_TRUE(outcome) << to_string(outcome.problems().front());
+  EXPECT_TRUE(time_holds) << "time went back";
+  EXPECT_TRUE(complete) << "a current, speed, angle or bus voltage is no number";
+  EXPECT_DOUBLE_EQ(last_s, scenario->duration_s);
+  EXPECT_LE(std::fabs(outcome->energy->electrical_residual), 1e-11);
+  EXPECT_LE(std::fabs(outcome->energy->mechanical_residual), 1e-11);
+  EXPECT_LE(outcome->laws->current_sum_A, 4 * 0x1p-52 * 24.0 / 0.515)
+      << "a few roundings of the stall current";
+  EXPECT_LE(outcome->laws->reverse_diode_A, 64 * 0x1p-52 * 24.0 / 0.515)
+      << "the engine's noise level of a current";
+  EXPECT_EQ(outcome->laws->floating_current_A, 0.0);
+  // A line that breaks must be told, and named.
+  const sixstep::study::HallBreak& broken = scenario->sensors.hall_break;
+  EXPECT_EQ(outcome->fault.has_value(), broken.at_s.has_value());
+  EXPECT_EQ(outcome->trip ? outcome->trip->hall_line : 0, broken.at_s ? broken.line : 0);
+  for (const study::Verdict& v : outcome->verdicts)
+    EXPECT_TRUE(v.ok) << v.figure << ": " << v.measured << " " << v.unit;
+}
+
+INSTANTIATE_TEST_SUITE_P(Data, EveryShippedRun, testing::ValuesIn(shipped_scenarios()),
+                         [](const auto& scenario) {
+                           std::string name = fs::path(scenario.param).stem().string();
+                           for (char& c : name)
+                             if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace text

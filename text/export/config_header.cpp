@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/export/config_header.hpp"
+
+#include <cmath>
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/compile/arithmetic.hpp"
+#include "sixstep/study/compile/compile.hpp"
+#include "text/escape/escape.hpp"
+#include "text/export/clearance_lines.hpp"
+#include "text/export/config_lines.hpp"
+#include "text/export/product_lines.hpp"
+
+namespace text {
+namespace {
+
+namespace control = sixstep::control;
+
+std::string comment(std::string_view label, std::string_view text) {
+  return fmt::format("// {:<10}{}\n", label, comment_text(text));
+}
+
+std::string number(double x) { return fmt::format("{:.6g}", x); }
+
+/// Where the gains put the closed loop's poles: z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) = 0.
+std::string closed_loop_poles(const study::LoopGains& g, const design::ZohPlant& plant) {
+  const double half = (plant.b0 * g.d1 + plant.a0 - 1) / 2, product = plant.b0 * g.d0 - plant.a0;
+  const double square = half * half - product, root = std::sqrt(std::fabs(square));
+  return square < 0 ? fmt::format("z = {} +- {}j", number(-half), number(root))
+                    : fmt::format("z = {} and {}", number(-half + root), number(-half - root));
+}
+
+/// One line: the gains and where they come from.
+std::string derivation(const study::LoopGains& g) {
+  if (g.loop == "position") return fmt::format("{} rad/s per deg; {}", base::written(g.d1), g.origin);
+  const char* unit = g.loop == "current" ? "V/A" : "per rad/s";
+  std::string text =
+      fmt::format("d1 = {} {}, d0 = {} {}; {}", number(g.d1), unit, number(g.d0), unit, g.origin);
+  if (!g.derivation) return text;
+  const design::PolePlacement& p = *g.derivation;
+  const bool designed = p.gains.d1 == g.d1 && p.gains.d0 == g.d0;
+  const std::string rule =
+      fmt::format("settle_s = {}, damping = {}", base::written(p.settle_s), base::written(p.damping));
+  text += fmt::format("; poles {}{} on {}/(z {:+.6g})", closed_loop_poles(g, p.plant),
+                      designed ? fmt::format(" ({})", rule) : "", number(p.plant.b0), p.plant.a0);
+  if (designed) return text;
+  return text + fmt::format("; {} would give d1 = {}, d0 = {}", rule, number(p.gains.d1), number(p.gains.d0));
+}
+
+bool states_range(const design::OperatingRange& r) {
+  return r.current_A > 0 || r.speed_rad_s > 0 || r.position_deg > 0 || r.bus_V > 0 || r.setpoint > 0;
+}
+
+std::string head(const ConfigHeader& w, const study::Compiled& c) {
+  const sixstep::plant::Machine& m = c.motor.machine;
+  std::string text = "// clang-format off\n";
+  text += fmt::format("// Made by sixstep {}. Change the scenario, not this file:\n//   {}\n//\n",
+                      SIXSTEP_VERSION, comment_text(w.command));
+  text += comment("scenario", w.scenario.title.empty() ? "(no title)" : w.scenario.title);
+  text += comment(
+      "motor", fmt::format("{}: {} pole pairs, terminal R = {} ohm, L = {} H, K_t = {} N m/A; J = {} kg m2",
+                           w.scenario.sheet.name, m.pole_pairs, number(2 * m.R_ohm), number(2 * m.L_H),
+                           number(c.motor.K_t_Nm_A), number(c.shaft.J_kg_m2)));
+  for (const study::LoopGains& g : c.gains) text += comment(g.loop, derivation(g));
+  text +=
+      "// Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the "
+      "motor.\n//\n";
+  return text + clearance_lines({w.scenario, w.clearance, w.despite, states_range(w.range)});
+}
+
+std::string proof(const std::vector<design::Headroom>& rows) {
+  std::string text = "//\n// Fixed point: what each quantity may reach and where the format ends, in SI\n";
+  for (const design::Headroom& row : rows)
+    if (row.largest != 0)
+      text += fmt::format("//   {:<28}{:>12.6g} of {:.6g}\n", row.name, row.largest, row.full_scale);
+  return text;
+}
+
+std::string constant(std::string_view type, std::string_view name, const std::string& value,
+                     const std::string& about) {
+  const std::string code = fmt::format("inline constexpr {} {} = {};", type, name, value);
+  return fmt::format("{:<72}  // {}\n", code, about);
+}
+
+std::string timing(const study::Compiled& c) {
+  const sixstep::rig::ModulatorConfig& m = c.board.modulator;
+  const auto flag = [](bool on) { return std::string(on ? "true" : "false"); };
+  const auto us = [](double ps) { return fmt::format("{:.9g} us", ps / 1e6); };
+  const double dead = m.dead_ticks;
+  return constant("std::uint8_t", "pole_pairs", std::to_string(c.motor.machine.pole_pairs),
+                  "electrical turns per mechanical one") +
+         constant("std::uint64_t", "pwm_period_ps", std::to_string(m.period_ticks),
+                  us(static_cast<double>(m.period_ticks)) + ", and the period of the control tick") +
+         constant("bool", "pwm_centre_aligned", flag(m.centre_aligned),
+                  "else the on-time begins with the period") +
+         constant("std::uint64_t", "dead_time_ps", fmt::format("{:.0f}", dead), us(dead)) +
+         constant("bool", "commutate_at_sample", flag(c.board.commutate_at_sample),
+                  "else in the Hall interrupt") +
+         constant("bool", "command_delayed", flag(c.board.delayed),
+                  "a command counts from the next period on");
+}
+
+/// A function that makes a constant, and the constant.
+std::string made(std::string_view type, std::string_view name, const std::string& lines) {
+  return fmt::format(
+      "constexpr sixstep::control::{0}<Scalar> make_{1}() {{\n  using namespace sixstep::control;\n"
+      "  {0}<Scalar> c;\n{2}  return c;\n}}\n"
+      "inline constexpr sixstep::control::{0}<Scalar> {1} = make_{1}();\n\n",
+      type, name, lines);
+}
+
+std::string includes(const ConfigHeader& w, bool product) {
+  if (w.single_header) return "#include \"sixstep_control.hpp\"\n";
+  return fmt::format("#include \"sixstep/control/{}.hpp\"\n#include \"sixstep/control/units.hpp\"\n",
+                     product ? "protected_drive" : "drive");
+}
+
+/// `kept`: the drive in the target's arithmetic, and the product around it where the scenario has one.
+template <class Scalar>
+std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_view type,
+                   const control::ProtectedConfig<Scalar>& kept, const design::Bases& b,
+                   const std::vector<design::Headroom>& rows) {
+  std::string text = head(w, c);
+  if (!rows.empty()) text += proof(rows);
+  text += "#pragma once\n#include <cstdint>\n\n";
+  text += includes(w, c.product.has_value());
+  text += fmt::format("\nnamespace {} {{\n\nusing Scalar = {};\n\n", w.name_space, type);
+  const auto base = [](const char* member, double x, const char* unit) {
+    return fmt::format("{:<72}  // {} {}\n", fmt::format("  .{} = {},", member, hex_float(x)), number(x),
+                       unit);
+  };
+  text += "// What 1.0 means; constants of the board are made by its functions: units.amperes(15)\n";
+  text += "inline constexpr sixstep::control::Units<Scalar> units{\n" + base("current_A", b.current_A, "A") +
+          base("voltage_V", b.voltage_V, "V") + base("speed_rad_s", b.speed_rad_s, "rad/s") +
+          base("position_deg", b.position_deg, "deg") + "};\n\n";
+  text += timing(c) + "\n" + made("DriveConfig", "drive", drive_lines<Scalar>(c.drive, kept.drive, b));
+  if (c.product)
+    text += made("ProtectedConfig", "product",
+                 "  c.drive = drive;\n" + product_lines<Scalar>(*c.product, kept, b));
+  return text + fmt::format("}}  // namespace {}\n", w.name_space);
+}
+
+/// The stated range, and where nothing was stated the scenario's own.
+design::OperatingRange range_of(const ConfigHeader& w, const study::Compiled& c) {
+  const design::OperatingRange own = study::operating_range(w.scenario, c);
+  const auto stated = [](double x, double otherwise) { return x > 0 ? x : otherwise; };
+  return {stated(w.range.current_A, own.current_A),       stated(w.range.speed_rad_s, own.speed_rad_s),
+          stated(w.range.position_deg, own.position_deg), stated(w.range.bus_V, own.bus_V),
+          stated(w.range.setpoint, own.setpoint),         own.speed_change_rad_s};
+}
+
+template <class Scalar>
+base::Result<std::string> floating_header(const ConfigHeader& w, const study::Compiled& c,
+                                          std::string_view type) {
+  control::ProtectedConfig<Scalar> kept;
+  kept.drive = study::in_arithmetic<Scalar>(c.drive);
+  if (c.product) kept = study::product_in<Scalar>(w.scenario, c)->config;
+  return header<Scalar>(w, c, type, kept, {}, {});
+}
+
+template <class Scalar>
+base::Result<std::string> fixed_header(const ConfigHeader& w, const study::Compiled& c,
+                                       std::string_view type) {
+  const design::OperatingRange range = range_of(w, c);
+  design::Bases bases = design::bases_for(c.drive, range, static_cast<double>(Scalar::max()));
+  if (!states_range(w.range)) {  // as the run has it
+    study::Scenario scenario = w.scenario;
+    scenario.control.arithmetic = w.arithmetic.value_or(scenario.control.arithmetic);
+    const base::Result<study::DriveIn<Scalar>> own = study::drive_in<Scalar>(scenario, c);
+    if (!own) return own.problems();
+    bases = {own->bases.current_A, own->bases.voltage_V, own->bases.speed_rad_s, own->bases.position_deg};
+  }
+  if (c.product) {
+    const auto product =
+        design::scaled_product<Scalar>(*c.product, range, bases, w.scenario.sensors.adc_bits);
+    if (!product) return product.problems();
+    return header<Scalar>(w, c, type, product->config, product->bases, product->proof);
+  }
+  const base::Result<design::Scaled<Scalar>> scaled = design::scaled<Scalar>(c.drive, range, bases);
+  if (!scaled) return scaled.problems();
+  control::ProtectedConfig<Scalar> kept;
+  kept.drive = scaled->config;
+  return header<Scalar>(w, c, type, kept, scaled->bases, scaled->proof);
+}
+
+bool is_name_space(std::string_view text) {
+  bool begins = true;
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    const char x = text[n];
+    const bool letter = (x >= 'a' && x <= 'z') || (x >= 'A' && x <= 'Z') || x == '_';
+    if (x == ':' && !begins && text.substr(n, 2) == "::") {
+      begins = true;
+      ++n;
+    } else if (letter || (x >= '0' && x <= '9' && !begins)) {
+      begins = false;
+    } else {
+      return false;
+    }
+  }
+  return !begins;
+}
+
+}  // namespace
+
+base::Result<std::string> config_header(const ConfigHeader& w) {
+  if (!is_name_space(w.name_space))
+    return base::Problem{"--namespace", w.name_space, "is no name of a C++ namespace",
+                         "take letters, digits and _, as in product or product::left_wheel"};
+  if (w.scenario.control.mode == control::Mode::off)
+    return base::Problem{"control.mode", "off", "leaves no drive to export",
+                         "set it to duty, current, speed or position"};
+  const base::Result<study::Compiled> c = study::compile(w.scenario);
+  if (!c) return c.problems();
+  switch (w.arithmetic.value_or(w.scenario.control.arithmetic)) {
+    case study::Arithmetic::float64:
+      return floating_header<double>(w, *c, "double");
+    case study::Arithmetic::float32:
+      return floating_header<float>(w, *c, "float");
+    case study::Arithmetic::q15:
+      return fixed_header<control::Q15>(w, *c, "sixstep::control::Q15");
+    case study::Arithmetic::q14:
+      return fixed_header<control::Q14>(w, *c, "sixstep::control::Q14");
+    case study::Arithmetic::q30:
+      return fixed_header<control::Q30>(w, *c, "sixstep::control::Q30");
+    case study::Arithmetic::q31:
+      return fixed_header<control::Q31>(w, *c, "sixstep::control::Q31");
+  }
+  return base::Problems{};
+}
+
+}  // namespace text

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// A message is read by a person: what it quotes of a file may be ten million characters long.
+#pragma once
+#include <string>
+
+#include "sixstep/base/problem.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+/// The begin and the end of a text that is longer than `most` bytes, cut between characters.
+inline std::string bounded(std::string text, std::size_t most) {
+  if (text.size() <= most) return text;
+  const auto inside = [&text](std::size_t at) {
+    return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
+  };
+  std::size_t begin = most * 3 / 4, end = text.size() - most / 4;
+  while (begin > 0 && inside(begin)) --begin;
+  while (inside(end)) ++end;
+  return text.substr(0, begin) + " ... " + text.substr(end);
+}
+
+/// Of a place the name of a file is a part, and of a limit the words that may be.
+inline base::Problem bounded(base::Problem p) {
+  return {bounded(std::move(p.where), 1000), bounded(std::move(p.value), 200),
+          bounded(std::move(p.limit), 1000), bounded(std::move(p.cure), 1000)};
+}
+
+}  // namespace text

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the writer of an unknown key probably meant.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sixstep/base/describe.hpp"
+#include "sixstep/base/problem.hpp"
+#include "sixstep/base/range_text.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+using base::limit_of;
+
+/// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other.
+int edit_distance(std::string_view a, std::string_view b);
+
+/// The nearest word where one is near enough to be meant (at most a third of it differs); else empty.
+std::string nearest(std::string_view word, std::span<const std::string> known);
+
+/// The same among words that may end in a unit: "u_ab" means "u_ab_V", and "energy_mJ" means "energy_J".
+std::string nearest_word(std::string_view word, std::span<const std::string> known);
+
+/// A key without its unit suffix: "no_load_speed" for "no_load_speed_rad_s".
+std::string_view without_unit(std::string_view key);
+
+/// Limit and cure for a key that is none of the known ones: `where` and `value` are left empty. A key that
+/// differs in its unit only is told as a wrong unit; one that is like none of them is told `advice`, where
+/// there is one, instead of them all.
+base::Problem unknown_key(std::string_view key, std::span<const std::string> known,
+                          std::string_view advice = {});
+
+/// "a", "b" or "c", each in quotes.
+std::string quoted_alternatives(const std::vector<std::string>& words);
+
+/// Shortest text that reads back as the same number.
+std::string shortest(double x);
+
+}  // namespace text

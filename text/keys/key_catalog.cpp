@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/keys/key_catalog.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "sixstep/base/plausible.hpp"
+#include "sixstep/design/sheet/sheet_description.hpp"
+#include "sixstep/study/scenario/scenario_description.hpp"
+#include "text/keys/key_advice.hpp"
+
+namespace text {
+namespace {
+
+KeyType type_of(const double&) { return KeyType::number; }
+KeyType type_of(const int&) { return KeyType::whole_number; }
+KeyType type_of(const bool&) { return KeyType::flag; }
+KeyType type_of(const std::string&) { return KeyType::text; }
+KeyType type_of(const std::vector<double>&) { return KeyType::numbers; }
+KeyType type_of(const std::vector<std::string>&) { return KeyType::texts; }
+
+std::string as_toml(double x) { return shortest(x); }
+std::string as_toml(int x) { return fmt::format("{}", x); }
+std::string as_toml(bool x) { return x ? "true" : "false"; }
+std::string as_toml(const std::string& text) { return text.empty() ? "" : fmt::format("\"{}\"", text); }
+template <class T>
+std::string as_toml(const std::vector<T>&) {
+  return "";
+}
+
+class Catalog {
+ public:
+  template <class T>
+  void value(std::string_view key, T& member, const base::About& about) {
+    add(key, type_of(member), about).default_value = about.required ? "" : as_toml(member);
+  }
+  template <class T>
+  void value(std::string_view key, std::optional<T>&, const base::About& about) {
+    add(key, type_of(T{}), about).optional = true;
+  }
+  template <class Enum, class Choices>
+  void choice(std::string_view key, Enum& member, const Choices& choices, const base::About& about) {
+    KeyEntry& entry = add(key, KeyType::word, about);
+    if (!about.required) entry.default_value = fmt::format("\"{}\"", base::word(choices, member));
+    for (const auto& choice : choices) entry.choices.emplace_back(choice.word, choice.meaning);
+  }
+  void quantity(std::string_view key, base::Quantity&, const base::About& about) {
+    add(key, KeyType::quantity, about);
+  }
+  void quantity(std::string_view key, std::optional<base::Quantity>&, const base::About& about) {
+    add(key, KeyType::quantity, about).optional = true;
+  }
+  template <class Struct>
+  void table(std::string_view key, Struct& member, const base::About& about) {
+    add(key, KeyType::table, about);
+    const std::string outer = prefix_;
+    prefix_ += std::string(key) + ".";
+    describe(*this, member);
+    prefix_ = outer;
+  }
+  template <class Struct>
+  void table(std::string_view key, std::optional<Struct>&, const base::About& about) {
+    Struct inner;
+    table(key, inner, about);
+  }
+  template <class Struct>
+  void list(std::string_view key, std::vector<Struct>&, const base::About& about) {
+    Struct item;
+    table(key, item, about);
+    for (KeyEntry& entry : entries_)
+      if (entry.path == prefix_ + std::string(key)) entry.type = KeyType::list;
+  }
+
+  std::vector<KeyEntry> take() { return std::move(entries_); }
+
+ private:
+  KeyEntry& add(std::string_view key, KeyType type, const base::About& about) {
+    return entries_.emplace_back(KeyEntry{.path = prefix_ + std::string(key), .type = type, .about = about});
+  }
+  std::string prefix_;
+  std::vector<KeyEntry> entries_;
+};
+
+std::string type_text(const KeyEntry& entry) {
+  switch (entry.type) {
+    case KeyType::number:
+      return "number";
+    case KeyType::whole_number:
+      return "whole number";
+    case KeyType::flag:
+      return "true or false";
+    case KeyType::text:
+      return "text";
+    case KeyType::numbers:
+      return "list of numbers";
+    case KeyType::texts:
+      return "list of words";
+    case KeyType::word:
+      return "one word of those below";
+    case KeyType::quantity:
+      return "number, or { value, frame, source }";
+    case KeyType::table:
+      return "table";
+    case KeyType::list:
+      return "list of tables, [[" + entry.path + "]]";
+  }
+  return "";
+}
+
+bool is_numeric(KeyType type) {
+  return type == KeyType::number || type == KeyType::whole_number || type == KeyType::numbers ||
+         type == KeyType::quantity;
+}
+
+}  // namespace
+
+std::vector<KeyEntry> scenario_keys() {
+  Catalog catalog;
+  study::Scenario scenario;
+  describe(catalog, scenario);
+  return catalog.take();
+}
+
+std::vector<KeyEntry> sheet_keys() {
+  Catalog catalog;
+  design::Sheet sheet;
+  describe(catalog, sheet);
+  return catalog.take();
+}
+
+const KeyEntry* find_key(const std::vector<KeyEntry>& keys, std::string_view path) {
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const KeyEntry& key) {
+    return key.path == path || std::any_of(key.about.also.begin(), key.about.also.end(),
+                                           [&](const base::Spelling& s) { return s.key == path; });
+  });
+  return found == keys.end() ? nullptr : &*found;
+}
+
+std::string help_text(const KeyEntry& entry) {
+  const base::About& about = entry.about;
+  std::string text = fmt::format("{}\n  {}\n  {}", entry.path, about.meaning, type_text(entry));
+  if (!about.unit.empty()) text += fmt::format(", in {}", about.unit);
+  if (!about.frame.empty()) text += fmt::format(", frame {}", about.frame);
+  if (is_numeric(entry.type)) text += ", " + limit_of(base::allowed(about));
+  if (about.required) text += "\n  required";
+  if (!entry.default_value.empty()) text += "\n  default " + entry.default_value;
+  std::size_t width = 12;
+  for (const auto& [word, meaning] : entry.choices) width = std::max(width, word.size());
+  for (const auto& [word, meaning] : entry.choices)
+    text += fmt::format("\n    {:<{}}  {}", word, width, meaning);
+  for (const base::Spelling& spelling : about.also) text += fmt::format("\n  or as {}", spelling.key);
+  return text + "\n";
+}
+
+}  // namespace text

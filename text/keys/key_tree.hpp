@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The flat list of keys read as the tables that a file has.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "text/keys/key_catalog.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+/// The entries directly inside a table, in reading order; path "" is the file itself.
+std::vector<const KeyEntry*> keys_in(const std::vector<KeyEntry>& keys, std::string_view table);
+
+/// The last word of the path: "period_s" of "pwm.period_s".
+std::string_view name_of(const KeyEntry& entry);
+
+inline bool is_table(const KeyEntry& entry) {
+  return entry.type == KeyType::table || entry.type == KeyType::list;
+}
+
+/// The frames that a key allows; none where its value has one meaning only.
+std::vector<std::string> frames_of(std::string_view frame);
+
+/// The key with another spelling's unit and frame in place of its own.
+KeyEntry spelled(const KeyEntry& entry, const base::Spelling& spelling);
+
+}  // namespace text

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
+#include "sixstep/design/sheet/sheet_description.hpp"
+#include "text/escape/escape.hpp"
+#include "text/motor/motor_text.hpp"
+
+namespace text {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Visits a sheet; what it does not give is left out.
+class SheetJson {
+ public:
+  Json object = Json::object();
+
+  template <class T>
+  void value(std::string_view key, const T& member, const base::About&) {
+    object[std::string(key)] = member;
+  }
+  template <class T>
+  void value(std::string_view key, const std::optional<T>& member, const base::About& about) {
+    if (member) value(key, *member, about);
+  }
+  template <class Enum, class Choices>
+  void choice(std::string_view key, const Enum& member, const Choices& choices, const base::About&) {
+    object[std::string(key)] = base::word(choices, member);
+  }
+  void quantity(std::string_view key, const std::optional<base::Quantity>& q, const base::About& about) {
+    if (!q) return;
+    Json entry = {{"value", q->value}, {"unit", about.unit}};
+    if (!q->frame.empty()) entry["frame"] = q->frame;
+    if (!q->source.empty()) entry["source"] = q->source;
+    if (q->kind != base::Trust::unstated) entry["kind"] = base::word(base::trust_choices, q->kind);
+    if (q->range) entry["range"] = {q->range->low, q->range->high};
+    if (!q->key.empty()) entry["printed_as"] = q->key;
+    object[std::string(key)] = std::move(entry);
+  }
+};
+
+Json or_null(const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); }
+
+Json constant(const std::optional<design::Constant>& c) {
+  return c ? Json({{"value", c->value}, {"from", c->from}}) : Json(nullptr);
+}
+
+Json model(const design::Sheet& sheet, const design::SheetCheck& check) {
+  const design::SheetConstants& c = check.constants;
+  Json missing = Json::array();
+  for (const base::Problem& problem : c.missing) missing.push_back(base::to_string(problem));
+  return {{"simulatable", sheet.simulatable && c.missing.empty()},
+          {"missing", missing},
+          {"pole_pairs", c.pole_pairs ? Json(*c.pole_pairs) : Json(nullptr)},
+          {"R_ohm", constant(c.R_ohm)},
+          {"L_H", constant(c.L_H)},
+          {"K_e_V_s", constant(c.K_e_V_s)},
+          {"K_t_Nm_A", constant(c.K_t_Nm_A)},
+          {"J_kg_m2", constant(c.J_kg_m2)},
+          {"electrical_time_constant_s", or_null(check.electrical_time_constant_s)},
+          {"mechanical_time_constant_s", or_null(check.mechanical_time_constant_s)},
+          {"stall_current_A", or_null(check.stall_current_A)},
+          {"friction",
+           {{"viscous_Nm_s", c.friction.B_Nm_s},
+            {"coulomb_Nm", c.friction.coulomb_Nm},
+            {"from", c.friction.from},
+            {"all_viscous_Nm_s", or_null(c.friction.all_viscous_Nm_s)},
+            {"all_coulomb_Nm", or_null(c.friction.all_coulomb_Nm)},
+            {"split_viscous_Nm_s", or_null(c.friction.split_viscous_Nm_s)},
+            {"split_coulomb_Nm", or_null(c.friction.split_coulomb_Nm)}}}};
+}
+
+Json relations(const design::SheetCheck& check) {
+  Json list = Json::array();
+  for (const design::Relation& r : check.relations) {
+    const bool holds = r.verdict == design::RelationVerdict::holds;
+    list.push_back({{"name", r.name},
+                    {"left", r.left_words},
+                    {"right", r.right_words},
+                    {"left_value", r.left},
+                    {"right_value", r.right},
+                    {"unit", r.unit},
+                    {"deviation", r.deviation},
+                    {"tolerated", {r.lowest, r.highest}},
+                    {"verdict", holds                                         ? "ok"
+                                : r.verdict == design::RelationVerdict::known ? "known"
+                                                                              : "broken"},
+                    {"remark", r.remark}});
+  }
+  return list;
+}
+
+Json lines(const design::SheetCheck& check) {
+  Json list = Json::array();
+  for (const design::LineUse& line : check.lines)
+    list.push_back({{"key", line.key}, {"used", line.used}, {"why", line.why}});
+  return list;
+}
+
+}  // namespace
+
+std::string motor_json(const design::Sheet& sheet, const design::SheetCheck& check) {
+  SheetJson printed;
+  design::Sheet copy = sheet;
+  describe(printed, copy);
+  const Json all = {{"sixstep", SIXSTEP_VERSION},        {"name", sheet.name},
+                    {"consistent", check.consistent},    {"relations", relations(check)},
+                    {"model", model(sheet, check)},      {"lines", lines(check)},
+                    {"sheet", std::move(printed.object)}};
+  return visible(all.dump(2, ' ', false, Json::error_handler_t::replace), Lines::kept) + "\n";
+}
+
+std::string motor_list_json(const std::vector<NamedSheet>& motors) {
+  Json list = Json::array();
+  for (const NamedSheet& motor : motors) {
+    const design::SheetConstants c = design::sheet_constants(motor.sheet);
+    const auto value = [](const auto& constant, double times) {
+      return constant ? Json(constant->value * times) : Json();
+    };
+    list.push_back({{"name", motor.name},
+                    {"title", motor.sheet.name},
+                    {"maker", motor.sheet.maker},
+                    {"pole_pairs", c.pole_pairs ? Json(*c.pole_pairs) : Json()},
+                    {"nominal_voltage_V", c.nominal_voltage_V ? Json(*c.nominal_voltage_V) : Json()},
+                    {"terminal_resistance_ohm", value(c.R_ohm, 2.0)},
+                    {"torque_constant_Nm_A", value(c.K_t_Nm_A, 1.0)},
+                    {"inertia_kg_m2", value(c.J_kg_m2, 1.0)},
+                    {"simulatable", motor.sheet.simulatable},
+                    {"not_simulatable_because", motor.sheet.not_simulatable_because}});
+  }
+  return visible(list.dump(2, ' ', false, Json::error_handler_t::replace), Lines::kept) + "\n";
+}
+
+}  // namespace text

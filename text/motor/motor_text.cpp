@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/motor/motor_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sixstep/base/decimal.hpp"
+#include "sixstep/design/sheet/sheet_description.hpp"
+#include "text/escape/escape.hpp"
+#include "text/keys/key_advice.hpp"
+
+namespace text {
+namespace {
+
+using design::Constant;
+using design::Relation;
+using design::RelationVerdict;
+using design::SheetCheck;
+using design::SheetConstants;
+
+std::string short_number(double x) { return fmt::format("{:.4g}", x); }
+
+/// A line, whatever the sheet's own words hold.
+std::string trimmed(std::string row) {
+  row.erase(row.find_last_not_of(' ') + 1);
+  return visible(row) + "\n";
+}
+
+/// Visits a sheet and writes one row per value that it gives.
+class SheetRows {
+ public:
+  template <class T>
+  void value(std::string_view key, const T& member, const base::About& about) {
+    add(key, fmt::format("{}", member), about.unit, "", "");
+  }
+  void value(std::string_view key, const std::string& member, const base::About&) {
+    if (!member.empty()) add(key, member, "", "", "");
+  }
+  void value(std::string_view key, const bool& member, const base::About&) {
+    if (member != (key == "simulatable")) add(key, member ? "true" : "false", "", "", "");
+  }
+  void value(std::string_view key, const std::vector<std::string>& member, const base::About&) {
+    if (!member.empty()) add(key, fmt::format("{}", fmt::join(member, ", ")), "", "", "");
+  }
+  template <class T>
+  void value(std::string_view key, const std::optional<T>& member, const base::About& about) {
+    if (member) value(key, *member, about);
+  }
+  template <class Enum, class Choices>
+  void choice(std::string_view key, const Enum& member, const Choices& choices, const base::About&) {
+    add(key, base::word(choices, member), "", "", "");
+  }
+  /// As printed: in the unit of the key that the file uses.
+  void quantity(std::string_view key, const std::optional<base::Quantity>& q, const base::About& about) {
+    if (!q) return;
+    double value = q->value;
+    std::string_view unit = about.unit;
+    const auto spelling =
+        std::find_if(about.also.begin(), about.also.end(), [&](const auto& s) { return s.key == q->key; });
+    const int ten = spelling == about.also.end() ? 0 : -spelling->ten;
+    if (spelling != about.also.end() && !spelling->unit.empty()) unit = spelling->unit;
+    value = base::times_ten_to(value, ten);
+    std::string source = q->source;
+    if (q->kind != base::Trust::unstated)
+      source.append(
+          fmt::format("{}[{}]", source.empty() ? "" : " ", base::word(base::trust_choices, q->kind)));
+    if (q->range)
+      source += fmt::format(" (sources: {} to {})", shortest(base::times_ten_to(q->range->low, ten)),
+                            shortest(base::times_ten_to(q->range->high, ten)));
+    add(q->key.empty() ? key : std::string_view(q->key), shortest(value), unit, q->frame, source);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  void add(std::string_view key, std::string_view value, std::string_view unit, std::string_view frame,
+           std::string_view source) {
+    text_ += trimmed(fmt::format("{:<26} {:>10} {:<8}{:<10}{}", key, value, unit, frame, source));
+  }
+  std::string text_;
+};
+
+std::string model_row(std::string_view symbol, const std::string& value, std::string_view from) {
+  return trimmed(fmt::format("  {:<6} {:<18} {}", symbol, value, from));
+}
+
+std::string model_row(std::string_view symbol, const std::optional<Constant>& constant, double unit,
+                      std::string_view unit_word, std::string_view from = "") {
+  if (!constant) return model_row(symbol, "not given", "");
+  return model_row(symbol, fmt::format("{:.4g} {}", constant->value * unit, unit_word),
+                   from.empty() ? std::string_view(constant->from) : from);
+}
+
+std::string shape_words(const design::Sheet& sheet) {
+  return sheet.back_emf == design::BackEmfShape::sine
+             ? "sine"
+             : fmt::format("trapezoid, {:g} deg flat", sheet.flat_deg);
+}
+
+std::string friction_rows(const design::Friction& f) {
+  std::string text = model_row("B", short_number(f.B_Nm_s) + " Nm s", f.from);
+  if (f.coulomb_Nm > 0.0) text += model_row("T_c", short_number(f.coulomb_Nm * 1e3) + " mNm", "");
+  if (f.all_viscous_Nm_s) {
+    text += fmt::format("         no-load point at {} rad/s: B = {} Nm s if all of it is viscous,\n",
+                        short_number(f.no_load_speed_rad_s), short_number(*f.all_viscous_Nm_s));
+    text += fmt::format("         T_c = {} mNm if none of it is\n", short_number(*f.all_coulomb_Nm * 1e3));
+  }
+  if (f.split_viscous_Nm_s)
+    text += fmt::format("         with the second point: B = {} Nm s and T_c = {} mNm\n",
+                        short_number(*f.split_viscous_Nm_s), short_number(*f.split_coulomb_Nm * 1e3));
+  return text;
+}
+
+std::string_view word(RelationVerdict verdict) {
+  return verdict == RelationVerdict::holds ? "ok" : verdict == RelationVerdict::known ? "known" : "BROKEN";
+}
+
+std::string relation_rows(const Relation& r) {
+  std::string text =
+      trimmed(fmt::format("  {:<7}{:<25} {:<27} {:>9} {:>9} {:<13} {:>+7.2f} % {:>+7.2f} {:>+6.2f} %",
+                          word(r.verdict), r.name, r.left_words, short_number(r.left), short_number(r.right),
+                          r.unit, 100.0 * r.deviation, 100.0 * r.lowest, 100.0 * r.highest));
+  if (!r.remark.empty()) text += trimmed("         " + r.remark);
+  return text;
+}
+
+std::string verdict_line(const SheetCheck& check) {
+  std::size_t holds = 0, known = 0, broken = 0;
+  for (const Relation& r : check.relations)
+    ++(r.verdict == RelationVerdict::holds ? holds : r.verdict == RelationVerdict::known ? known : broken);
+  if (check.relations.empty()) return "consistent: the sheet prints nothing twice\n";
+  std::string text =
+      fmt::format("{}: {} of {} relations hold", check.consistent ? "consistent" : "INCONSISTENT", holds,
+                  check.relations.size());
+  if (known > 0) text += fmt::format(", {} broken as the file says", known);
+  if (broken > 0) text += fmt::format(", {} broken", broken);
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string sheet_table(const design::Sheet& sheet) {
+  SheetRows rows;
+  design::Sheet copy = sheet;
+  describe(rows, copy);
+  return rows.text();
+}
+
+std::string model_table(const design::Sheet& sheet, const SheetCheck& check) {
+  const SheetConstants& c = check.constants;
+  std::string text = "Model, per phase of the star\n";
+  if (!sheet.simulatable) text += trimmed("  not simulatable: " + sheet.not_simulatable_because);
+  for (const base::Problem& p : c.missing) text += trimmed("  " + base::to_string(p));
+  text += model_row("p", c.pole_pairs ? fmt::format("{}", *c.pole_pairs) : "not given", "pole pairs");
+  text += model_row("R_s", c.R_ohm, 1.0, "ohm");
+  text += model_row("L_s", c.L_H, 1e3, "mH");
+  const std::string peak = fmt::format("a phase's peak per rad/s; {}", shape_words(sheet));
+  text += model_row("K_e", c.K_e_V_s, 1e3, "mV s", peak);
+  text += model_row("K_t", c.K_t_Nm_A, 1e3, "mNm/A");
+  text += model_row("J", c.J_kg_m2, 1e7, "g cm2");
+  if (check.electrical_time_constant_s)
+    text += model_row("tau_e", short_number(*check.electrical_time_constant_s * 1e3) + " ms", "L / R");
+  if (check.mechanical_time_constant_s)
+    text += model_row("tau_m", short_number(*check.mechanical_time_constant_s * 1e3) + " ms",
+                      "R J / K_t^2, between two terminals");
+  if (check.stall_current_A) text += model_row("I_st", short_number(*check.stall_current_A) + " A", "U / R");
+  return text + friction_rows(c.friction);
+}
+
+std::string check_report(const design::Sheet& sheet, const SheetCheck& check) {
+  std::string text = trimmed(sheet.name);
+  if (!check.relations.empty())
+    text += fmt::format("\n  {:<32} {:<27} {:>9} {:>9} {:<13} {:>9} {:>16}\n", "Relation", "computed", "",
+                        "printed", "", "deviation", "tolerated");
+  for (const Relation& r : check.relations) text += relation_rows(r);
+  text.append("\n").append(model_table(sheet, check));
+  std::string unused;
+  for (const design::LineUse& line : check.lines)
+    if (!line.used) unused += trimmed(fmt::format("  {}: {}", line.key, line.why));
+  if (!unused.empty()) text += "\nLines that the model is not made of\n" + unused;
+  return text + "\n" + verdict_line(check);
+}
+
+std::string motor_line_heading(std::size_t width) {
+  return fmt::format("{:<{}} {:>2} {:>6} {:>10} {:>10} {:>10}\n", "", width, "p", "U/V", "R_tt/ohm",
+                     "K_t/mNm/A", "J/gcm2");
+}
+
+std::string motor_line(const std::string& name, const design::Sheet& sheet, std::size_t width) {
+  const SheetConstants c = design::sheet_constants(sheet);
+  const auto number = [](const auto& constant, double unit) {
+    return constant ? short_number(constant->value * unit) : std::string("-");
+  };
+  return trimmed(fmt::format(
+      "{:<{}} {:>2} {:>6} {:>10} {:>10} {:>10}  {}", name, width,
+      c.pole_pairs ? fmt::format("{}", *c.pole_pairs) : "-",
+      c.nominal_voltage_V ? short_number(*c.nominal_voltage_V) : "-", number(c.R_ohm, 2.0),
+      number(c.K_t_Nm_A, 1e3), number(c.J_kg_m2, 1e7),
+      sheet.simulatable ? "" : fmt::format("not simulatable: {}", sheet.not_simulatable_because)));
+}
+
+}  // namespace text

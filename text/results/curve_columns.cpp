@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/results/curve_columns.hpp"
+
+#include <array>
+#include <limits>
+
+namespace text {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+double number(const std::optional<double>& x) { return x.value_or(none); }
+
+template <double study::OperatingPoint::*member>
+double of_point(const CurveRow& row) {
+  return row.point.*member;
+}
+template <double study::ThermalLimits::*member>
+double of_limits(const CurveRow& row) {
+  return row.limits ? row.limits->*member : none;
+}
+template <std::size_t n>
+double short_torque(const CurveRow& row) {
+  return row.limits ? row.limits->short_Nm[n] : none;
+}
+
+using P = study::OperatingPoint;
+static_assert(study::short_times_s == std::array{10.0, 60.0}, "the columns' names say so");
+
+const std::array<CurveColumn, 25> columns = {{
+    {{"speed_rad_s", "rad/s", "mechanical", "held speed"}, of_point<&P::speed_rad_s>},
+    {{"torque_Nm", "N m", "shaft", "mean torque on the shaft"}, of_point<&P::shaft_torque_Nm>},
+    {{"air_gap_torque_Nm", "N m", "", "mean electromagnetic torque, before friction"},
+     of_point<&P::torque_Nm>},
+    {{"ideal_torque_Nm", "N m", "", "straight line without commutation time and friction"},
+     [](const CurveRow& row) { return study::ideal_torque_Nm(row.request.bench, row.point.speed_rad_s); }},
+    {{"ripple_Nm", "N m", "", "electromagnetic torque, peak to peak"}, of_point<&P::ripple_Nm>},
+    {{"ripple_rms_Nm", "N m", "", "electromagnetic torque about its mean, rms"}, of_point<&P::ripple_rms_Nm>},
+    {{"winding_current_A", "A", "", "mean of half the sum of the phase currents' magnitudes"},
+     of_point<&P::winding_current_A>},
+    {{"motor_current_A", "A", "", "mean of |i_m|, the driven pair's current"}, of_point<&P::motor_current_A>},
+    {{"phase_rms_A", "A", "phase", "rms of a phase current"}, of_point<&P::phase_rms_A>},
+    {{"phase_peak_A", "A", "phase", "greatest phase current"}, of_point<&P::phase_peak_A>},
+    {{"bus_current_A", "A", "", "mean current from the supply"}, of_point<&P::bus_current_A>},
+    {{"supplied_W", "W", "", "taken from the supply"}, of_point<&P::supplied_W>},
+    {{"copper_W", "W", "", "loss in the winding"}, of_point<&P::copper_W>},
+    {{"devices_W", "W", "", "loss in switches and diodes"}, of_point<&P::devices_W>},
+    {{"friction_W", "W", "", "loss by friction"}, of_point<&P::friction_W>},
+    {{"shaft_W", "W", "shaft", "given by the shaft"}, of_point<&P::shaft_W>},
+    {{"efficiency", "1", "", "shaft over supply, as a generator supply over shaft"},
+     [](const CurveRow& row) { return number(row.point.efficiency); }},
+    {{"energy_residual", "1", "", "what the energy balance lacks, over what moves"},
+     of_point<&P::energy_residual>},
+    {{"current_bound_A", "A", "phase", "error bound of the steady state's currents"},
+     [](const CurveRow& row) {
+       return row.point.orbit == study::Orbit::quasi_periodic ? none : row.point.error_bound_A;
+     }},
+    {{"torque_half_width_Nm", "N m", "", "half width of the mean torque's 99 % interval (chopped)"},
+     of_point<&P::half_width_Nm>},
+    {{"continuous_torque_Nm", "N m", "shaft", "what the winding stands for ever"},
+     of_limits<&study::ThermalLimits::continuous_Nm>},
+    {{"torque_60s_Nm", "N m", "shaft", "what it stands for 60 s from ambient temperature"}, short_torque<1>},
+    {{"torque_10s_Nm", "N m", "shaft", "what it stands for 10 s from ambient temperature"}, short_torque<0>},
+    {{"winding_degC", "degC", "", "winding in the end, were this point held"},
+     [](const CurveRow& row) { return row.warming ? number(row.warming->winding_degC) : none; }},
+    {{"permissible_s", "s", "", "how long this point may last from ambient temperature; inf: for ever"},
+     [](const CurveRow& row) {
+       constexpr double ever = std::numeric_limits<double>::infinity();
+       return row.warming ? row.warming->permissible_s.value_or(ever) : none;
+     }},
+}};
+
+}  // namespace
+
+std::span<const CurveColumn> curve_columns() { return columns; }
+
+std::vector<CurveRow> curve_rows(const study::CurveRequest& request, const study::Curve& curve) {
+  std::vector<CurveRow> rows;
+  for (std::size_t n = 0; n < curve.points.size(); ++n)
+    rows.push_back({request, curve.points[n], curve.thermal ? &curve.limits[n] : nullptr,
+                    curve.thermal ? &curve.warming[n] : nullptr});
+  return rows;
+}
+
+LoosePoint loose_point(const study::CurveRequest& request, const study::Curve& curve,
+                       const study::OperatingPoint& point) {
+  if (!curve.thermal) return {};
+  return {study::thermal_limits(*curve.thermal, request, point.speed_rad_s),
+          study::warming(*curve.thermal, request, point)};
+}
+
+CurveRow curve_row(const study::CurveRequest& request, const study::Curve& curve,
+                   const study::OperatingPoint& point, const LoosePoint& thermal) {
+  return {request, point, curve.thermal ? &thermal.limits : nullptr,
+          curve.thermal ? &thermal.warming : nullptr};
+}
+
+}  // namespace text

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+
+#include "text/results/curve_columns.hpp"
+
+namespace text {
+
+/// The curve for other programs: bench, ideal line, no-load and nominal point, thermal limits, and every
+/// point with all columns. Numbers that are not there, or not finite, appear as null.
+std::string curve_json(const study::CurveRequest& request, const study::Curve& curve);
+
+}  // namespace text

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// A design for programs, in full precision.
+#pragma once
+#include <string>
+
+#include "sixstep/study/verify/design_study.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+/// Gains, derivations, margins, Bode and step data of each loop, limits, what the simulation says beside what
+/// was designed, worst corners, warnings. Values that are infinite or do not exist are null.
+std::string design_json(const study::DesignStudy& study);
+
+}  // namespace text

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// A design for the terminal: the verdict first, then every step in numbers.
+#pragma once
+#include <string>
+
+#include "sixstep/study/verify/design_study.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+std::string design_text(const study::DesignStudy& study, bool colour);
+
+/// "usable, 2 warnings: the current loop settles in 990 us (asked for 1 ms), overshoot 7.9 %"
+std::string design_verdict(const study::DesignStudy& study);
+
+/// For the head of a scenario file: where the gains come from, one line per loop.
+std::vector<std::string> design_lines(const study::DesignStudy& study);
+
+}  // namespace text

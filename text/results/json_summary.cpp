@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/results/json_summary.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/run/run.hpp"
+#include "text/escape/escape.hpp"
+
+namespace text {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json or_null(const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); }
+
+Json verdicts(const study::Outcome& outcome) {
+  Json list = Json::array();
+  for (const study::Verdict& v : outcome.verdicts)
+    list.push_back({{"figure", v.figure},
+                    {"unit", v.unit},
+                    {"measured", v.measured},
+                    {"min", or_null(v.min)},
+                    {"max", or_null(v.max)},
+                    {"ok", v.ok}});
+  return list;
+}
+
+Json comparisons(const study::Outcome& outcome) {
+  Json list = Json::array();
+  for (const study::ComparisonResult& c : outcome.comparisons)
+    list.push_back({{"figure", c.figure},
+                    {"unit", c.unit},
+                    {"measured", c.measured},
+                    {"value", c.value},
+                    {"source", c.source}});
+  return list;
+}
+
+Json gains(const study::Outcome& outcome) {
+  Json list = Json::array();
+  for (const study::LoopGains& g : outcome.gains)
+    list.push_back({{"loop", g.loop}, {"d1", g.d1}, {"d0", g.d0}, {"origin", g.origin}});
+  return list;
+}
+
+Json energy(const sixstep::plant::EnergyBook& e) {
+  return {{"supplied_J", e.supplied},
+          {"copper_J", e.copper},
+          {"devices_J", e.devices},
+          {"magnetic_J", e.magnetic},
+          {"air_gap_J", e.air_gap},
+          {"friction_J", e.friction},
+          {"load_J", e.load},
+          {"kinetic_J", e.kinetic},
+          {"moved_J", e.moved},
+          {"electrical_residual", e.electrical_residual},
+          {"mechanical_residual", e.mechanical_residual}};
+}
+
+Json laws(const sixstep::plant::Laws& l) {
+  return {{"current_sum_A", l.current_sum_A},
+          {"reverse_diode_A", l.reverse_diode_A},
+          {"floating_current_A", l.floating_current_A}};
+}
+
+Json trip(const study::Trip& t) {
+  return {{"at_s", t.at_s},
+          {"reasons", t.reasons},
+          {"hall_line", t.hall_line > 0 ? Json(t.hall_line) : Json(nullptr)}};
+}
+
+Json events(const study::Outcome& outcome) {
+  Json counts = Json::object();
+  for (const study::EventCount& e : outcome.events) counts[e.event] = e.count;
+  return counts;
+}
+
+}  // namespace
+
+std::string json_summary(const study::Scenario& scenario, const study::Outcome& outcome) {
+  Json summary = {{"sixstep", SIXSTEP_VERSION},
+                  {"title", scenario.title},
+                  {"motor", scenario.sheet.name},
+                  {"passed", outcome.passed()},
+                  {"fault", outcome.fault ? Json(base::to_string(*outcome.fault)) : Json(nullptr)},
+                  {"trip", outcome.trip ? trip(*outcome.trip) : Json(nullptr)},
+                  {"duration_s", scenario.duration_s},
+                  {"complete", !study::cut_short(scenario, outcome)},
+                  {"simulated_s", outcome.simulated_s},
+                  {"segments", outcome.segments},
+                  {"digest", base::written_hex(outcome.digest)}};
+  summary["require"] = verdicts(outcome);
+  summary["compare"] = comparisons(outcome);
+  summary["gains"] = gains(outcome);
+  summary["energy"] = outcome.energy ? energy(*outcome.energy) : Json(nullptr);
+  summary["laws"] = outcome.laws ? laws(*outcome.laws) : Json(nullptr);
+  summary["events"] = events(outcome);
+  // A title may hold bytes that are no UTF-8: shown as such, never thrown over.
+  return visible(summary.dump(2, ' ', false, Json::error_handler_t::replace), Lines::kept) + "\n";
+}
+
+}  // namespace text

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/results/quantity_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace text {
+namespace {
+
+constexpr int few_digits = 5, all_digits = 17;
+
+struct Prefix {
+  std::string_view letter;
+  double times;  ///< 1 milli is written as x times 1000
+};
+constexpr Prefix none{"", 1.0};
+
+/// rad/s, degrees and ratios are read without prefix.
+bool takes_prefix(std::string_view unit) {
+  constexpr std::array<std::string_view, 10> with = {"s", "A", "V", "Hz", "N m", "Nm", "W", "J", "ohm", "H"};
+  return std::find(with.begin(), with.end(), unit) != with.end();
+}
+
+Prefix prefix_for(double x, std::string_view unit) {
+  const double size = std::abs(x);
+  if (!takes_prefix(unit) || !(size >= 1e-12) || !(size < 1e9)) return none;
+  if (size >= 0.1 && size < 1e3) return none;  // 0.78 N m and 0.5 A are read as they stand
+  constexpr std::array<Prefix, 7> prefixes = {
+      {{"M", 1e-6}, {"k", 1e-3}, {"", 1.0}, {"m", 1e3}, {"u", 1e6}, {"n", 1e9}, {"p", 1e12}}};
+  // A hair below 1 counts as 1: 1e-9 * 1e9 need not be 1.
+  for (const Prefix& prefix : prefixes)
+    if (size * prefix.times >= 1.0 - 1e-12) return prefix;
+  return none;
+}
+
+std::string number(double x, Prefix prefix, int digits) {
+  const std::string text = fmt::format("{:.{}g}", x * prefix.times, digits);
+  return text == "-0" ? "0" : text;
+}
+
+std::string unit_text(Prefix prefix, const std::string& unit) {
+  return unit == "1" ? "" : std::string(prefix.letter) + unit;
+}
+
+std::string joined(const std::string& text, const std::string& unit) {
+  return unit.empty() ? text : text + " " + unit;
+}
+
+/// A time that did not come, a figure of an empty window: words, for numbers they are not.
+std::string without_number(double x, const std::string& unit) {
+  if (std::isnan(x)) return "no value";
+  return unit == "s" && x > 0.0 ? "never" : joined(number(x, none, few_digits), unit_text(none, unit));
+}
+
+}  // namespace
+
+std::string quantity_text(double x, const std::string& unit, int digits) {
+  if (!std::isfinite(x)) return without_number(x, unit);
+  const Prefix prefix = prefix_for(x, unit);
+  return joined(number(x, prefix, digits), unit_text(prefix, unit));
+}
+
+ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const std::string& unit) {
+  double largest = 0.0;
+  for (const double y : yardsticks) largest = std::max(largest, std::abs(y));
+  // Beside zero only x itself has a magnitude.
+  Prefix shared = prefix_for(largest > 0.0 ? largest : x, unit);
+  if (largest == 0.0 && x == 0.0) shared = none;
+  const double ratio = std::abs(largest > 0.0 ? x / largest : 1.0);
+  const bool alike = x == 0.0 || (ratio >= 1e-3 && ratio < 1e3);
+  const Prefix own = alike ? shared : prefix_for(x, unit);
+
+  ComparedTexts texts;
+  for (int digits = few_digits; digits <= all_digits; ++digits) {
+    // Of what is a thousand times smaller than all it is held against, the magnitude alone counts.
+    const bool tiny = !alike && ratio < 1e-3;
+    const std::string x_text = number(x, own, tiny ? 2 : digits);
+    texts = {{}, joined(x_text, unit_text(own, unit)), unit_text(shared, unit)};
+    bool told_apart = true;
+    for (const double y : yardsticks) {
+      const std::string text = number(y, shared, digits);
+      told_apart = told_apart && (y == x || !alike || text != x_text);
+      for (std::size_t n = 0; n < texts.yardsticks.size(); ++n)
+        told_apart = told_apart && (y == yardsticks[n] || text != texts.yardsticks[n]);
+      texts.yardsticks.push_back(text);
+    }
+    if (!std::isfinite(x)) texts.x = without_number(x, unit);
+    if (told_apart) return texts;
+  }
+  // The prefix's product has swallowed the last bit: without prefix it shows.
+  return {[&] {
+            std::vector<std::string> plain;
+            for (const double y : yardsticks) plain.push_back(number(y, none, all_digits));
+            return plain;
+          }(),
+          joined(number(x, none, all_digits), unit_text(none, unit)), unit_text(none, unit)};
+}
+
+}  // namespace text

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/results/verdict_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "text/escape/escape.hpp"
+#include "text/results/quantity_text.hpp"
+
+namespace text {
+namespace {
+
+enum class Kind { heading, name, ok, failed, comparison, note };
+struct Line {
+  Kind kind;
+  std::array<std::string, 5> cells;
+};
+
+/// Characters, not bytes: a title may be in any language.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+const char* colour_of(Kind kind) {
+  switch (kind) {
+    case Kind::heading:
+    case Kind::name:
+      return "\x1b[1m";
+    case Kind::ok:
+      return "\x1b[32m";
+    case Kind::failed:
+      return "\x1b[31m";
+    case Kind::comparison:
+      return "\x1b[2m";
+    case Kind::note:
+      return "";
+  }
+  return "";
+}
+
+/// A line that is no row of columns: it widens none.
+bool is_free(Kind kind) { return kind == Kind::name || kind == Kind::note; }
+
+std::string coloured(Kind kind, std::string text, bool colour) {
+  text.erase(text.find_last_not_of(' ') + 1);
+  return colour ? fmt::format("{}{}\x1b[0m\n", colour_of(kind), text) : text + "\n";
+}
+
+Line requirement_line(const study::Verdict& v) {
+  std::vector<double> limits;
+  if (v.min) limits.push_back(*v.min);
+  if (v.max) limits.push_back(*v.max);
+  const ComparedTexts texts = compared_texts(v.measured, limits, v.unit);
+  std::string required;
+  if (v.min && v.max)
+    required = texts.yardsticks[0] + " .. " + texts.yardsticks[1];
+  else if (v.min || v.max)
+    required = (v.max ? "<= " : ">= ") + texts.yardsticks[0];
+  if (!texts.unit.empty() && !required.empty()) required += " " + texts.unit;
+  return {v.ok ? Kind::ok : Kind::failed,
+          {"  " + v.figure, std::move(required), texts.x, v.ok ? "ok" : "FAILED", ""}};
+}
+
+Line comparison_line(const study::ComparisonResult& c) {
+  return {Kind::comparison,
+          {"  " + c.figure, quantity_text(c.value, c.unit), quantity_text(c.measured, c.unit),
+           deviation_text(c), c.source}};
+}
+
+void add_entry(std::vector<Line>& lines, const TableEntry& entry) {
+  lines.push_back({Kind::name, {entry.experiment}});
+  const std::size_t before = lines.size();
+  for (const study::Verdict& v : entry.outcome->verdicts) lines.push_back(requirement_line(v));
+  for (const study::ComparisonResult& c : entry.outcome->comparisons) lines.push_back(comparison_line(c));
+  if (entry.outcome->fault)
+    lines.push_back({Kind::note, {"  STOPPED by a fault: " + base::to_string(*entry.outcome->fault)}});
+  if (lines.size() == before) lines.push_back({Kind::note, {"  requires nothing"}});
+}
+
+std::string counted(std::size_t n, const char* what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string deviation_text(const study::ComparisonResult& c) {
+  if (!std::isfinite(c.measured)) return "not comparable";
+  if (c.value == 0.0) return "";
+  const double percent = 100.0 * (c.measured - c.value) / std::abs(c.value);
+  return std::abs(percent) < 1e-9 ? "0 %" : fmt::format("{:+.3g} %", percent);
+}
+
+std::string verdict_table(std::span<const TableEntry> entries, bool colour) {
+  std::vector<Line> lines{{Kind::heading, {"experiment", "required", "measured", "", "source"}}};
+  for (const TableEntry& entry : entries) add_entry(lines, entry);
+  const bool has_source = std::any_of(entries.begin(), entries.end(),
+                                      [](const TableEntry& e) { return !e.outcome->comparisons.empty(); });
+  if (!has_source) lines[0].cells[4].clear();
+  for (Line& line : lines)
+    for (std::string& cell : line.cells) cell = visible(cell);
+  std::array<std::size_t, 5> widths{};
+  for (const Line& line : lines)
+    for (std::size_t n = 0; n < widths.size() && !is_free(line.kind); ++n)
+      widths[n] = std::max(widths[n], width(line.cells[n]));
+  std::string text;
+  for (const Line& line : lines) {
+    std::string row;
+    for (std::size_t n = 0; n < widths.size(); ++n) {
+      row += line.cells[n];
+      if (!is_free(line.kind)) row += std::string(widths[n] - width(line.cells[n]) + 2, ' ');
+    }
+    text += coloured(line.kind, row, colour);
+  }
+  return text;
+}
+
+std::string verdict_summary(std::span<const TableEntry> entries, bool colour) {
+  std::size_t requirements = 0, misses = 0, stopped = 0;
+  std::string which;
+  const auto tell = [&which](const std::string& line) { which += "\n  " + visible(line); };
+  for (const TableEntry& entry : entries) {
+    requirements += entry.outcome->verdicts.size();
+    for (const study::Verdict& v : entry.outcome->verdicts) {
+      if (v.ok) continue;
+      ++misses;
+      tell(entry.experiment + ": " + v.figure);
+    }
+    if (!entry.outcome->fault) continue;
+    ++stopped;
+    tell(entry.experiment + ": stopped by a fault");
+  }
+  std::string text = counted(entries.size(), "experiment") + ": ";
+  if (misses > 0)
+    text += fmt::format("{} of {} requirements FAILED", misses, requirements);
+  else if (requirements == 0)
+    text += "nothing required";
+  else
+    text +=
+        requirements == 1 ? "the requirement holds" : fmt::format("all {} requirements hold", requirements);
+  if (stopped > 0) text += fmt::format(", {} stopped by a fault", stopped);
+  return coloured(misses + stopped > 0 ? Kind::failed : Kind::ok, text + which, colour);
+}
+
+}  // namespace text

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <span>
+#include <string>
+
+#include "sixstep/study/measure/outcome.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+struct TableEntry {
+  std::string experiment;  ///< short name
+  const study::Outcome* outcome = nullptr;
+};
+
+/// Each experiment's name, beneath it one line per requirement and per comparison: figure, required or
+/// expected value, measured value, ok or deviation, source.
+std::string verdict_table(std::span<const TableEntry> entries, bool colour);
+
+/// "22 experiments: all 43 requirements hold", or which of them fail.
+std::string verdict_summary(std::span<const TableEntry> entries, bool colour);
+
+/// "-0.25 %"; empty where the source says zero: the measured value is the difference.
+std::string deviation_text(const study::ComparisonResult& comparison);
+
+}  // namespace text

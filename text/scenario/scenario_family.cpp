@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/scenario/scenario_family.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "text/toml/complaints.hpp"
+#include "text/toml/text_file.hpp"
+
+namespace text {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_files = 64;
+
+class Family {
+ public:
+  base::Result<Document> read(const std::string& name, std::string text) {
+    base::Result<Document> document = Document::parse(name, std::move(text));
+    if (!document) return document.problems();
+    chain_.push_back(identity(name));
+    Complaints complaints(*document);
+    std::vector<Document> bases;
+    base::Problems of_bases;
+    for (const Named& base : named(*document)) {
+      base::Result<Document> read = follow(base, name, complaints);
+      if (read)
+        bases.push_back(std::move(*read));
+      else
+        of_bases.insert(of_bases.end(), read.problems().begin(), read.problems().end());
+    }
+    chain_.pop_back();
+    base::Problems problems = complaints.in_order();
+    problems.insert(problems.end(), of_bases.begin(), of_bases.end());
+    if (!problems.empty()) return problems;
+    document->lay_over(std::move(bases));
+    return document;
+  }
+
+ private:
+  struct Named {
+    const toml::node* node;
+    std::string path, file;
+  };
+
+  static std::string identity(const std::string& name) {
+    std::error_code failed;
+    const fs::path canonical = fs::weakly_canonical(name, failed);
+    return failed ? name : canonical.string();
+  }
+
+  /// A value of another type is told by the scenario's description.
+  static std::vector<Named> named(const Document& document) {
+    std::vector<Named> all;
+    const toml::node* node = document.find("extends");
+    const auto add = [&](const toml::node& item, std::string path) {
+      if (const auto* text = item.as_string()) all.push_back({&item, std::move(path), text->get()});
+    };
+    if (node) add(*node, "extends");
+    if (const toml::array* list = node ? node->as_array() : nullptr)
+      for (std::size_t n = 0; n < list->size(); ++n) add(*list->get(n), fmt::format("extends[{}]", n));
+    return all;
+  }
+
+  /// The base's own `extends` has done its work.
+  base::Result<Document> follow(const Named& base, const std::string& from, Complaints& complaints) {
+    const auto refuse = [&](std::string limit, std::string cure) -> base::Result<Document> {
+      complaints.value(*base.node, base.path, {.limit = std::move(limit), .cure = std::move(cure)});
+      return base::Problems{};
+    };
+    const std::string name = (fs::path(from).parent_path() / base.file).string();
+    if (std::find(chain_.begin(), chain_.end(), identity(name)) != chain_.end())
+      return refuse("goes round in a circle: that file extends this one",
+                    "take the common keys into a third");
+    if (++files_ > most_files)
+      return refuse(fmt::format("makes the family larger than {} files", most_files), "join some of them");
+    base::Result<std::string> text = read_regular_text(name);
+    if (!text)
+      return refuse(fmt::format("names {}, which {}", name, text.problems().at(0).limit),
+                    text.problems().at(0).cure);
+    base::Result<Document> read_base = read(name, std::move(*text));
+    if (read_base) read_base->root().erase("extends");
+    return read_base;
+  }
+
+  std::vector<std::string> chain_;  ///< the files that are being read, each named by the one before
+  std::size_t files_ = 1;
+};
+
+}  // namespace
+
+base::Result<Document> read_family(const std::string& name, std::string text) {
+  return Family().read(name, std::move(text));
+}
+
+}  // namespace text

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/scenario/scenario_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <span>
+
+#include "sixstep/design/sheet/sheet_constants.hpp"
+#include "sixstep/design/sheet/sheet_description.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/measure/columns.hpp"
+#include "sixstep/study/run/run.hpp"
+#include "sixstep/study/scenario/scenario_description.hpp"
+#include "text/keys/key_catalog.hpp"
+#include "text/motor/motor_library.hpp"
+#include "text/scenario/reference_file.hpp"
+#include "text/scenario/scenario_family.hpp"
+#include "text/toml/file_kind.hpp"
+#include "text/toml/table_reader.hpp"
+#include "text/toml/text_file.hpp"
+
+namespace text {
+namespace {
+
+struct SheetSource {
+  Document document;
+  design::Sheet sheet;
+};
+
+base::Result<SheetSource> sheet_of(Document document) {
+  Complaints complaints(document);
+  design::Sheet sheet;
+  read_root(document, sheet, complaints);
+  if (complaints.empty()) return SheetSource{std::move(document), std::move(sheet)};
+  if (std::optional<base::Problem> problem = taken_for(FileKind::motor, document)) return *problem;
+  return complaints.in_order();
+}
+
+/// A file that a value names is looked for beside the file in which the value stands.
+std::string folder_of(const Document& document, const toml::node& node, std::string_view path) {
+  return std::filesystem::path(document.file_of(node, path)).parent_path().string();
+}
+
+/// The sheet that the scenario's `motor` names. What is wrong in the motor's own file is told of that file,
+/// what is wrong with the name at the name.
+std::optional<SheetSource> named_sheet(const Document& scenario, const ReadOptions& options,
+                                       Complaints& complaints, base::Problems& of_other_files) {
+  const toml::node* name = scenario.find("motor");
+  if (!name || !name->is_string()) return {};  // told by the description
+  base::Result<Document> document =
+      find_motor({name->as_string()->get(), folder_of(scenario, *name, "motor"), options.data_dir});
+  if (!document) {
+    for (const base::Problem& problem : document.problems())
+      problem.where.empty() ? complaints.value(*name, "motor", problem) : of_other_files.push_back(problem);
+    return {};
+  }
+  base::Result<SheetSource> source = sheet_of(std::move(*document));
+  if (!source) {
+    of_other_files.insert(of_other_files.end(), source.problems().begin(), source.problems().end());
+    return {};
+  }
+  return std::move(*source);
+}
+
+/// Lines that say the same thing: overriding one makes what the sheet prints in the others stale.
+constexpr std::array torque_keys = {"torque_constant_mNm_A",    "back_emf_mV_s",    "torque_constant_Nm_A",
+                                    "back_emf_constant_V_krpm", "flux_linkage_mWb", "speed_constant_rpm_V"};
+constexpr std::array inductance_keys = {"inductance_mH", "d_axis_inductance_mH", "q_axis_inductance_mH"};
+constexpr std::array geometry_keys = {"flux_density_T", "active_length_mm", "air_gap_radius_mm",
+                                      "turns_in_series"};
+constexpr std::array pole_keys = {"pole_pairs", "poles", "winding"};
+
+bool overridden(const Document& document, std::string_view key) {
+  if (document.find(fmt::format("motor_override.{}", key))) return true;
+  const std::vector<KeyEntry> keys = sheet_keys();
+  const KeyEntry* entry = find_key(keys, key);
+  return entry && std::any_of(entry->about.also.begin(), entry->about.also.end(), [&](const auto& spelling) {
+           return document.find(fmt::format("motor_override.{}", spelling.key)) != nullptr;
+         });
+}
+
+/// Visits a sheet and clears those of the keys that the override leaves alone.
+class Forget {
+ public:
+  Forget(const Document& document, std::span<const char* const> keys) : document_(document), keys_(keys) {}
+  template <class T>
+  void quantity(std::string_view key, std::optional<T>& member, const base::About&) {
+    if (stale(key)) member.reset();
+  }
+  void value(std::string_view key, std::optional<int>& member, const base::About&) {
+    if (stale(key)) member.reset();
+  }
+  void value(std::string_view key, std::string& member, const base::About&) {
+    if (stale(key)) member.clear();
+  }
+  template <class T>
+  void value(std::string_view, T&, const base::About&) {}
+  template <class Enum, class Choices>
+  void choice(std::string_view, Enum&, const Choices&, const base::About&) {}
+
+ private:
+  bool stale(std::string_view key) const {
+    return std::find(keys_.begin(), keys_.end(), key) != keys_.end() && !overridden(document_, key);
+  }
+  const Document& document_;
+  std::span<const char* const> keys_;
+};
+
+void drop_stale(const Document& document, design::Sheet& sheet) {
+  using Keys = std::span<const char* const>;
+  const auto any = [&](Keys keys) {
+    return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return overridden(document, key); });
+  };
+  const auto forget = [&](Keys keys) {
+    Forget stale(document, keys);
+    describe(stale, sheet);
+  };
+  const bool geometry = any(geometry_keys);
+  if (geometry || any(torque_keys)) forget(torque_keys);
+  if (!geometry && any(torque_keys)) forget(geometry_keys);
+  if (any(inductance_keys)) forget(inductance_keys);
+  if (any(pole_keys)) forget(pole_keys);
+}
+
+/// Whether a check speaks of the motor's sheet, whose keys it names without a table.
+bool is_sheet_key(const std::string& where) {
+  const std::vector<KeyEntry> keys = sheet_keys();
+  return find_key(keys, where) != nullptr;
+}
+
+/// A sheet's check speaks in the standard key's unit: what stands in another spelling is quoted from the
+/// file.
+base::Problem as_written(const Document& document, const std::string& table, base::Problem problem) {
+  const std::vector<KeyEntry> keys = sheet_keys();
+  const KeyEntry* entry = find_key(keys, problem.where);
+  if (!entry || entry->path == problem.where) return problem;
+  for (const char* part : {".value", ""}) {
+    const std::string path = table + problem.where + part;
+    const toml::node* node = document.find(path);
+    if (!node) continue;
+    problem.value = document.quote(*node, path);
+    break;
+  }
+  return problem;
+}
+
+/// What study::check found, each told where it stands: in the scenario, its overrides, or the motor's file.
+void run_checks(const Document& document, const SheetSource& source, const study::Scenario& scenario,
+                Complaints& complaints, base::Problems& of_other_files) {
+  Complaints of_motor(source.document);
+  base::Problems of_scenario;
+  for (base::Problem& problem : study::check(scenario)) {
+    if (is_sheet_key(problem.where)) {
+      const std::string in_override = fmt::format("motor_override.{}", problem.where);
+      if (!document.find(in_override)) {
+        of_motor.later(as_written(source.document, "", std::move(problem)));
+        continue;
+      }
+      problem = as_written(document, "motor_override.", std::move(problem));
+      problem.where = in_override;
+    }
+    // What follows from a mistake told already would only hide it.
+    if (!complaints.about_table_of(problem.where)) of_scenario.push_back(std::move(problem));
+  }
+  for (base::Problem& problem : of_scenario) complaints.later(std::move(problem));
+  for (base::Problem& problem : of_motor.in_order()) of_other_files.push_back(std::move(problem));
+}
+
+/// A file's column of what its mode does not have would be written as no number; reports draw it as a gap.
+void check_columns(const study::Scenario& scenario, Complaints& complaints) {
+  const std::vector<study::Column>& columns = study::all_columns();
+  for (std::size_t n = 0; n < columns.size(); ++n) {
+    const std::vector<std::string>& asked = scenario.record.columns;
+    if (std::find(asked.begin(), asked.end(), columns[n].name) == asked.end()) continue;
+    if (!study::applies(static_cast<study::ColumnId>(n), scenario))
+      complaints.later({"record.columns", "\"" + columns[n].name + "\"", "has no value in this control.mode",
+                        "remove it, or control what it is the reference of"});
+  }
+}
+
+/// The rows of a csv reference, from the file that it names.
+void read_rows(const Document& document, const std::string& path, const std::string& unit,
+               study::Reference& r, Complaints& complaints, base::Problems& of_other_files) {
+  if (r.file.empty() || r.shape != study::Shape::csv) return;
+  const std::string key = path + ".file";
+  const auto complain = [&](base::Problem problem) {
+    problem.where = key;
+    complaints.later(std::move(problem));
+  };
+  if (!r.times_s.empty() || !r.values.empty())
+    return complain(
+        {.limit = "contradicts times_s and values: the rows are given twice", .cure = "keep one of the two"});
+  const toml::node* node = document.find(key);
+  if (!node) return;
+  const std::string name = (std::filesystem::path(folder_of(document, *node, key)) / r.file).string();
+  const base::Result<std::string> text = read_regular_text(name);
+  if (!text)
+    return complain({.limit = fmt::format("names {}, which {}", name, text.problems().at(0).limit),
+                     .cure = text.problems().at(0).cure});
+  base::Result<ReferenceRows> rows = reference_rows(name, *text, r.column, unit);
+  if (!rows) {
+    of_other_files.insert(of_other_files.end(), rows.problems().begin(), rows.problems().end());
+    return complaints.told_elsewhere(key);
+  }
+  r.times_s = std::move(rows->times_s);
+  r.values = std::move(rows->values);
+}
+
+void read_all_rows(const Document& document, study::Scenario& scenario, Complaints& complaints,
+                   base::Problems& of_other_files) {
+  // A duty is a plain number.
+  const std::string_view of_mode = study::reference_unit(scenario.control.mode);
+  const std::string unit(of_mode == "1" ? "" : of_mode);
+  read_rows(document, "reference", unit, scenario.reference, complaints, of_other_files);
+  for (std::size_t n = 0; n < scenario.at.size(); ++n)
+    if (scenario.at[n].reference)
+      read_rows(document, fmt::format("at[{}].reference", n), unit, *scenario.at[n].reference, complaints,
+                of_other_files);
+}
+
+base::Problems apply_overrides(Document& document, const std::vector<Setting>& overrides) {
+  for (const Setting& setting : overrides)
+    if (path_words(setting.path) == std::vector<std::string>{"extends"})
+      return {{.where = "--set extends",
+               .value = setting.text,
+               .limit = "comes too late: the files are joined already",
+               .cure = "write extends in the scenario"}};
+  return document.set(overrides);
+}
+
+}  // namespace
+
+base::Result<design::Sheet> read_sheet(const std::string& name, const std::string& data_dir) {
+  base::Result<Document> document = find_motor({name, "", data_dir});
+  if (!document) {
+    base::Problems problems = document.problems();
+    for (base::Problem& problem : problems)
+      if (problem.where.empty()) problem.where = name;
+    return problems;
+  }
+  base::Result<SheetSource> source = sheet_of(std::move(*document));
+  if (!source) return source.problems();
+  Complaints complaints(source->document);
+  for (base::Problem& problem : design::sheet_constants(source->sheet).problems)
+    complaints.later(as_written(source->document, "", std::move(problem)));
+  if (!complaints.empty()) return complaints.in_order();
+  return std::move(source->sheet);
+}
+
+base::Result<study::Scenario> read_scenario(const std::string& path, const ReadOptions& options) {
+  base::Result<std::string> text = read_text(path);
+  if (!text) return text.problems();
+  return read_scenario_text(path, std::move(*text), options);
+}
+
+base::Result<study::Scenario> read_scenario_text(const std::string& path, std::string text,
+                                                 const ReadOptions& options) {
+  base::Result<Document> parsed = read_family(path, std::move(text));
+  if (!parsed) return parsed.problems();
+  Document& document = *parsed;
+  if (base::Problems problems = apply_overrides(document, options.overrides); !problems.empty())
+    return problems;
+
+  Complaints complaints(document);
+  base::Problems of_other_files;
+  std::optional<SheetSource> source = named_sheet(document, options, complaints, of_other_files);
+  study::Scenario scenario;
+  if (source) scenario.sheet = source->sheet;
+  read_root(document, scenario, complaints);
+  drop_stale(document, scenario.sheet);
+  // A duration that is wrong has been told: nothing shall lie behind its end besides.
+  if (!(scenario.duration_s > 0.0)) scenario.duration_s = study::longest_s;
+  read_all_rows(document, scenario, complaints, of_other_files);
+  check_columns(scenario, complaints);
+  if (source) run_checks(document, *source, scenario, complaints, of_other_files);
+
+  base::Problems problems = complaints.in_order();
+  problems.insert(problems.end(), of_other_files.begin(), of_other_files.end());
+  if (!problems.empty()) {
+    if (std::optional<base::Problem> problem = taken_for(FileKind::scenario, document)) return *problem;
+    return problems;
+  }
+  if (scenario.title.empty()) scenario.title = std::filesystem::path(path).stem().string();
+  return scenario;
+}
+
+}  // namespace text

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/scenario/starter_scenario.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+#include <string_view>
+
+#include "text/escape/escape.hpp"
+#include "text/keys/key_catalog.hpp"
+#include "text/keys/key_tree.hpp"
+#include "text/keys/template_line.hpp"
+#include "text/scenario/json_schema.hpp"
+#include "text/scenario/scenario_text.hpp"
+
+namespace text {
+namespace {
+
+using sixstep::control::Mode;
+
+struct Wanted {
+  std::string_view path;
+  bool open = false;  ///< as it stands, even where it says only what holds anyhow
+};
+
+/// What a first scenario should show besides what it sets.
+std::vector<Wanted> wanted_keys(Mode mode) {
+  std::vector<Wanted> keys = {{"title", true},
+                              {"supply.voltage_V", true},
+                              {"supply.resistance_ohm"},
+                              {"supply.capacitance_F"},
+                              {"bridge.on_resistance_ohm"},
+                              {"bridge.diode_drop_V"},
+                              {"bridge.dead_time_s"},
+                              {"pwm.period_s", true},
+                              {"pwm.chopping", true},
+                              {"pwm.delay_periods"},
+                              {"reference.shape", true},
+                              {"reference.unit", true},
+                              {"load.torque_Nm", true},
+                              {"load.inertia_kg_m2"},
+                              {"load.coulomb_Nm"},
+                              {"initial.speed_rad_s"},
+                              {"record.grid_s"},
+                              {"record.events"}};
+  if (mode == Mode::current) keys.push_back({"load.locked", true});
+  if (mode != Mode::duty) keys.push_back({"control.limits.current_A"});
+  if (mode == Mode::position) keys.push_back({"control.position.speed_limit_rad_s"});
+  return keys;
+}
+
+/// The value that a line shows where the scenario has none: refused until a number is given.
+std::string placeholder(const KeyEntry& entry) {
+  if (!entry.default_value.empty()) return entry.default_value;
+  switch (entry.type) {
+    case KeyType::flag:
+      return "false";
+    case KeyType::text:
+      return "\"\"";
+    case KeyType::numbers:
+    case KeyType::texts:
+      return "[]";
+    case KeyType::word:
+      return fmt::format("\"{}\"", entry.choices.front().first);
+    default:
+      return "nan";
+  }
+}
+
+/// "3e-05" as engineers write it, "30e-6": the same number. Other texts stay as they are.
+std::string with_plain_exponent(const std::string& text) {
+  const std::size_t cut = text.find('e');
+  if (cut == std::string::npos || text.find_first_not_of("-.0123456789") != cut) return text;
+  std::string digits = text.substr(0, cut);
+  int power = std::atoi(text.c_str() + cut + 1);
+  if (digits.find('.') == std::string::npos) digits += '.';
+  for (; power % 3 != 0; --power) {  // the point goes one digit to the right
+    const std::size_t point = digits.find('.');
+    if (point + 1 == digits.size()) digits += '0';
+    std::swap(digits[point], digits[point + 1]);
+  }
+  if (digits.back() == '.') digits.pop_back();
+  return fmt::format("{}e{}", digits, power);
+}
+
+/// Written out it stands for itself: what it extends is in it already, and would be laid under it once more.
+study::Scenario alone(study::Scenario scenario) {
+  scenario.extends.clear();
+  return scenario;
+}
+
+class Starter {
+ public:
+  Starter(const study::Scenario& scenario, bool full)
+      : keys_(scenario_keys()),
+        values_(scenario_values(alone(scenario))),
+        wanted_(wanted_keys(scenario.control.mode)),
+        full_(full) {}
+
+  std::string text() { return table("", ""); }
+
+ private:
+  /// The keys of one table and of those within it. `at` is where it stands: "control", or "require[0]".
+  std::string table(const std::string& path, const std::string& at) {
+    std::string own, inner;
+    for (const KeyEntry* entry : keys_in(keys_, path)) {
+      if (entry->type == KeyType::list)
+        inner += list(*entry);
+      else if (entry->type == KeyType::table)
+        inner += entry->about.partial ? override_table(*entry) : inner_table(*entry, at);
+      else
+        own += line(*entry, at);
+    }
+    return own + inner;
+  }
+
+  /// Whether the scenario says anything of the table that stands there.
+  bool says(const std::string& at) const {
+    return std::any_of(values_.begin(), values_.end(),
+                       [&](const WrittenValue& value) { return value.path.starts_with(at + "."); });
+  }
+
+  std::string inner_table(const KeyEntry& entry, const std::string& outer) {
+    const std::string at =
+        outer.empty() ? std::string(name_of(entry)) : fmt::format("{}.{}", outer, name_of(entry));
+    const bool in_list = outer.find('[') != std::string::npos;  // there it may be left out, header and all
+    return headed(entry, table(entry.path, at), !in_list || says(at));
+  }
+
+  /// The header of a table that is there stands open, so that taking one # away suffices.
+  static std::string headed(const KeyEntry& table, const std::string& lines, bool open) {
+    // Tables within need no header of their own above them: TOML makes it.
+    if (lines.empty() || lines.front() == '\n') return lines;
+    return fmt::format("\n{}{}[{}]\n{}", wrapped_comment(table.about.meaning), open ? "" : "# ", table.path,
+                       lines);
+  }
+
+  std::string list(const KeyEntry& entry) {
+    std::string text;
+    for (std::size_t n = 0; true; ++n) {
+      const std::string at = fmt::format("{}[{}]", entry.path, n);
+      const bool there = says(at);
+      if (!there && (n > 0 || !full_)) return text;
+      text += fmt::format("\n{}{}[[{}]]\n{}", n == 0 ? wrapped_comment(entry.about.meaning) : "",
+                          there ? "" : "# ", entry.path, table(entry.path, at));
+    }
+  }
+
+  /// The motor's own keys: their file explains them.
+  std::string override_table(const KeyEntry& entry) {
+    if (!full_) return "";
+    std::string text;
+    for (const KeyEntry* key : keys_in(keys_, entry.path))
+      if (key->type == KeyType::quantity)
+        text += template_line(*key, {.key = name_of(*key), .value = "nan", .open = false});
+    return headed(entry, text, true);
+  }
+
+  std::string line(const KeyEntry& entry, const std::string& at) {
+    const std::string path =
+        at.empty() ? std::string(name_of(entry)) : fmt::format("{}.{}", at, name_of(entry));
+    const auto value =
+        std::find_if(values_.begin(), values_.end(), [&](const WrittenValue& v) { return v.path == path; });
+    const auto wanted =
+        std::find_if(wanted_.begin(), wanted_.end(), [&](const Wanted& w) { return w.path == entry.path; });
+    const bool given = value != values_.end();
+    const bool open = given && (!value->usual || (wanted != wanted_.end() && wanted->open));
+    if (!open && !full_ && wanted == wanted_.end()) return "";
+    // Lists repeat their keys, loops their gains: each is explained once.
+    return template_line(entry, {.key = name_of(entry),
+                                 .value = given ? with_plain_exponent(value->text) : placeholder(entry),
+                                 .open = open,
+                                 .explained = explained_.insert(entry.about.meaning).second});
+  }
+
+  std::vector<KeyEntry> keys_;
+  std::vector<WrittenValue> values_;
+  std::vector<Wanted> wanted_;
+  bool full_;
+  std::set<std::string_view> explained_;
+};
+
+}  // namespace
+
+std::string starter_text(const study::Scenario& scenario, const StarterOptions& options) {
+  return fmt::format("#:schema {}\n", scenario_schema_file) +
+         wrapped_comment(
+             fmt::format("sixstep run {} runs this and judges it; with --html the report is "
+                         "written too. Lines behind a # say what holds without them: take the # "
+                         "away to change it; where one says nan, nothing holds, and a number goes "
+                         "there. sixstep help TABLE and sixstep help KEY tell more.",
+                         shell_word(options.file))) +
+         Starter(scenario, options.full).text();
+}
+
+}  // namespace text

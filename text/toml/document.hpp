@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// A TOML file with its text, so that every complaint can quote it and say where it stands; laid over others,
+// each value still knows its own file.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sixstep/base/result.hpp"
+#include "text/rooms.hpp"
+#include "text/toml/toml.hpp"
+
+namespace text {
+
+/// `--set path=text`: replaces or adds one value.
+struct Setting {
+  std::string path;
+  std::string text;
+};
+
+class Document {
+ public:
+  /// `name` is what messages call the file.
+  static base::Result<Document> parse(std::string name, std::string text);
+
+  /// Lays this file over others, the strongest last: what stands in this one wins. Tables under [headings]
+  /// are joined key by key; lists of tables are joined, the other's first, unless this one's is empty;
+  /// whatever stands in brackets or braces is one value, and empty braces over a table drop it: it is as if
+  /// nobody had written it.
+  void lay_over(std::vector<Document> bases);
+
+  /// Applies values given on the command line. A text that is no TOML value is taken as a word:
+  /// `chopping=hard`.
+  base::Problems set(std::span<const Setting> settings);
+
+  const toml::table& root() const { return root_; }
+  toml::table& root() { return root_; }
+  const std::string& name() const { return files_[0].name; }
+
+  /// The node at "control.current.d1" or "require[1].max"; null where there is none.
+  const toml::node* find(std::string_view path) const;
+
+  /// What stands there, as written; a table or anything longer than one line is not quoted.
+  std::string quote(const toml::node& node, std::string_view path) const;
+
+  /// "file:line:column" of a region, or "--set path" where that is where the value came from.
+  std::string place(const toml::source_region& region) const;
+  std::string place(const toml::node& node, std::string_view path) const;
+
+  /// The file that a value stands in; this one for what stands in none.
+  const std::string& file_of(const toml::node& node, std::string_view path) const;
+
+  /// 0 for a region of this file, then those it was laid over, the nearest first.
+  std::size_t order_of(const toml::source_region& region) const;
+
+  /// As place(), of the node or of its nearest table that stands in the file.
+  std::string nearest_place(std::string_view path) const;
+
+ private:
+  struct File {
+    std::string name, text;
+    std::vector<std::size_t> lines;  ///< where each begins
+  };
+  Document(std::string name, std::string text, toml::table root);
+  const Setting* setting_of(std::string_view path) const;
+  std::string_view slice(const toml::source_region& region) const;
+
+  std::vector<File> files_;  ///< this one first
+  toml::table root_;
+  std::vector<Setting> settings_;
+};
+
+/// The words of a path: "require[1].max" is require, 1, max.
+std::vector<std::string> path_words(std::string_view path);
+
+}  // namespace text

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/toml/syntax_cure.hpp"
+
+#include <array>
+
+namespace text {
+namespace {
+
+struct Cure {
+  std::string_view met;  ///< part of what the parser says
+  std::string_view cure;
+};
+
+/// The first that fits counts.
+constexpr std::array<Cure, 11> cures = {{
+    {"invalid utf-8", "save the file as text in UTF-8"},
+    {"parsing string", "close the quote on the same line"},
+    {"cannot redefine", "give each key and table once"},
+    {"could not determine value type",
+     "put words in quotes, as \"speed\"; numbers, true and false stand alone"},
+    {"parsing boolean", "write true or false, in small letters"},
+    {"expected a comment or whitespace, saw ','", "write a decimal point, as 0.5, and a list in brackets"},
+    {"expected a comment or whitespace", "end the line behind the value: its unit is in the key"},
+    {"expected '='", "write KEY = VALUE"},
+    {"parsing table header", "close the header: [table], or [[table]] for one of a list"},
+    {"parsing array", "close the list with ]"},
+    {"parsing inline table", "close the table with }"},
+}};
+
+}  // namespace
+
+std::string_view syntax_cure(std::string_view met) {
+  for (const Cure& cure : cures)
+    if (met.find(cure.met) != std::string_view::npos) return cure.cure;
+  return "mend the TOML syntax";
+}
+
+}  // namespace text

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// The visitor that fills a described struct from a TOML table and complains about whatever does not fit.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "sixstep/base/describe.hpp"
+#include "sixstep/base/result.hpp"
+#include "text/rooms.hpp"
+#include "text/toml/complaints.hpp"
+
+namespace text {
+
+class TableReader {
+ public:
+  /// `path` is where the table stands; empty for the file itself. `partial`: no key is required.
+  /// `advice` is told of keys that are nothing like those of the table; empty: they are listed.
+  TableReader(const toml::table& table, std::string path, Complaints& complaints, bool partial,
+              std::string_view advice = {})
+      : table_(table), path_(std::move(path)), complaints_(complaints), partial_(partial), advice_(advice) {}
+
+  void value(std::string_view key, double& member, const base::About& about);
+  void value(std::string_view key, int& member, const base::About& about);
+  void value(std::string_view key, std::int64_t& member, const base::About& about);
+  void value(std::string_view key, bool& member, const base::About& about);
+  void value(std::string_view key, std::string& member, const base::About& about);
+  void value(std::string_view key, std::vector<double>& member, const base::About& about);
+  void value(std::string_view key, std::vector<std::string>& member, const base::About& about);
+  void quantity(std::string_view key, base::Quantity& member, const base::About& about);
+
+  template <class T>
+  void value(std::string_view key, std::optional<T>& member, const base::About& about) {
+    if (!any_spelling_in_file(key, about)) return absent(key, about);
+    T present{};
+    refused_ = false;
+    value(spelling_in_file(key, about)->key, present, about);
+    if constexpr (std::is_arithmetic_v<T>)
+      if (refused_) present = static_cast<T>(within(about));  // it is told of; what follows sees it as given
+    member = std::move(present);
+  }
+
+  void quantity(std::string_view key, std::optional<base::Quantity>& member, const base::About& about) {
+    if (!any_spelling_in_file(key, about)) return absent(key, about);
+    if (!member) member.emplace();
+    quantity(key, *member, about);
+  }
+
+  template <class Enum, class Choices>
+  void choice(std::string_view key, Enum& member, const Choices& choices, const base::About& about) {
+    const toml::node* node = find(key, about);
+    lost_word_ = lost_word_ || (!node && about.required);
+    if (!node) return;
+    std::vector<std::string> words;
+    for (const auto& choice : choices) {
+      if (node->value<std::string>() == choice.word) {
+        member = choice.value;
+        return;
+      }
+      words.emplace_back(choice.word);
+    }
+    lost_word_ = true;
+    no_such_word(*node, key, words);
+  }
+
+  template <class Struct>
+  void table(std::string_view key, Struct& member, const base::About& about) {
+    const toml::table* inner = find_table(key, about);
+    if (!inner) return;
+    TableReader reader(*inner, at(key), complaints_, partial_ || about.partial, about.cure);
+    describe(reader, member);
+    reader.refuse_unknown_keys();
+  }
+
+  template <class Struct>
+  void table(std::string_view key, std::optional<Struct>& member, const base::About& about) {
+    if (!given(key)) return absent(key, about);
+    table(key, member.emplace(), about);
+  }
+
+  template <class Struct>
+  void list(std::string_view key, std::vector<Struct>& member, const base::About& about) {
+    const toml::array* items = find_tables(key, about);
+    if (!items) return;
+    member.clear();
+    for (std::size_t n = 0; n < items->size(); ++n) {
+      TableReader reader(*items->get(n)->as_table(), at(key) + "[" + std::to_string(n) + "]", complaints_,
+                         partial_, about.cure);
+      describe(reader, member.emplace_back());
+      reader.refuse_unknown_keys();
+    }
+  }
+
+  /// To be called last: every key that no description named.
+  void refuse_unknown_keys();
+
+ private:
+  std::string at(std::string_view key) const {
+    return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+  }
+  bool given(std::string_view key) const { return table_.contains(key); }
+  const toml::node* find(std::string_view key, const base::About& about);
+  void absent(std::string_view key, const base::About& about) {
+    find(key, about);
+    for (const base::Spelling& spelling : about.also) known_.emplace_back(spelling.key);
+  }
+  bool any_spelling_in_file(std::string_view key, const base::About& about) const {
+    return given(key) || std::any_of(about.also.begin(), about.also.end(),
+                                     [&](const base::Spelling& spelling) { return given(spelling.key); });
+  }
+  /// Which of a quantity's keys the table holds; all of them are known from then on, and two are a complaint.
+  std::optional<base::Spelling> spelling_in_file(std::string_view key, const base::About& about);
+  void parts(const toml::table& table, const std::string& path, const base::About& about,
+             const base::Spelling& spelling, base::Quantity& out);
+  void interval(const toml::node& node, const std::string& path, const base::About& about, int ten,
+                base::Quantity& out);
+  std::optional<double> last_digit(const toml::node& node, const std::string& path, const base::About& about,
+                                   int ten) const;
+  const toml::table* find_table(std::string_view key, const base::About& about);
+  const toml::array* find_tables(std::string_view key, const base::About& about);
+  /// A number that the key may have.
+  static double within(const base::About& about);
+  std::optional<std::string> unit_of_key(const base::About& about) const;
+  base::Result<double> number_of(const toml::node& node, const base::About& about) const;
+  std::string limit_as_written(const toml::node& node, const base::About& about, double x) const;
+  bool number(const toml::node& node, const std::string& path, const base::About& about, double& out);
+  bool word(const toml::node& node, const std::string& path, const base::About& about, std::string& out);
+  void frame(const toml::node& node, const std::string& path, const base::About& about,
+             base::Quantity& quantity);
+  void no_such_word(const toml::node& node, std::string_view key, const std::vector<std::string>& words);
+
+  const toml::table& table_;
+  std::string path_;
+  Complaints& complaints_;
+  bool partial_;
+  std::string_view advice_;
+  std::vector<std::string> known_;
+  bool refused_ = false;    ///< a number was out of its range
+  bool lost_word_ = false;  ///< a choice could not be read: what unit it decides is not known
+};
+
+/// Fills the struct from the whole file.
+template <class Struct>
+void read_root(const Document& document, Struct& into, Complaints& complaints) {
+  TableReader reader(document.root(), "", complaints, false);
+  describe(reader, into);
+  reader.refuse_unknown_keys();
+}
+
+}  // namespace text

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// Quantities: a number in one of several spellings, with frame, source, trust and range.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "sixstep/base/decimal.hpp"
+#include "text/keys/key_advice.hpp"
+#include "text/keys/key_tree.hpp"
+#include "text/keys/units.hpp"
+#include "text/toml/table_reader.hpp"
+
+namespace text {
+
+std::optional<base::Spelling> TableReader::spelling_in_file(std::string_view key, const base::About& about) {
+  std::optional<base::Spelling> used;
+  const auto look = [&](const base::Spelling& spelling) {
+    known_.emplace_back(spelling.key);
+    const toml::node* node = table_.get(spelling.key);
+    if (!node) return;
+    if (used)
+      complaints_.value(*node, at(spelling.key),
+                        {.limit = fmt::format("is given already, as {}", used->key),
+                         .cure = "they are the same value: keep one of the two lines"});
+    else
+      used = spelling;
+  };
+  look({.key = key});
+  for (const base::Spelling& spelling : about.also) look(spelling);
+  return used;
+}
+
+/// What the last digit of the number is worth, from the text of the file: 0.1 for 36.0, 1 for 36, and 0.001
+/// for "36.0 mH" where H belong.
+std::optional<double> TableReader::last_digit(const toml::node& node, const std::string& path,
+                                              const base::About& about, int ten) const {
+  std::string text = complaints_.document().quote(node, path);
+  double factor = 1.0;
+  if (const toml::value<std::string>* quoted = node.as_string()) {
+    const std::optional<Written> written = split_number(quoted->get());
+    const std::optional<Unit> from = unit_of(written ? written->unit : ""), to = unit_of(about.unit);
+    if (!written || !from || !to) return {};
+    text = written->number;
+    ten += from->ten - to->ten;
+    factor = from->factor / to->factor;
+  }
+  const std::size_t exponent = text.find_first_of("eE"), point = text.find('.');
+  const std::string_view digits = std::string_view(text).substr(0, exponent);
+  if (digits.empty() || digits.find_first_not_of("+-_.0123456789") != std::string_view::npos) return {};
+  int power = 0;
+  if (exponent != std::string::npos) {
+    const char* from = text.c_str() + exponent + 1;
+    from += *from == '+';
+    if (std::from_chars(from, text.c_str() + text.size(), power).ec != std::errc()) return {};
+    if (power < -400 || power > 400) return {};  // no double has it
+  }
+  power += ten;
+  if (point != std::string::npos)
+    power -= static_cast<int>(std::count_if(digits.begin() + static_cast<std::ptrdiff_t>(point), digits.end(),
+                                            [](char c) { return c >= '0' && c <= '9'; }));
+  if (power < -22 || power > 22) return {};
+  return factor * base::times_ten_to(1.0, power);
+}
+
+void TableReader::interval(const toml::node& node, const std::string& path, const base::About& about, int ten,
+                           base::Quantity& out) {
+  const toml::array* ends = node.as_array();
+  double low = 0.0, high = 0.0;
+  if (!ends || ends->size() != 2)
+    return complaints_.value(node, path,
+                             {.limit = "must be a list of two numbers", .cure = "write range = [low, high]"});
+  base::About end = about;
+  end.required = false;
+  if (!number(*ends->get(0), path + "[0]", end, low) || !number(*ends->get(1), path + "[1]", end, high))
+    return;
+  if (low > high)
+    return complaints_.value(node, path, {.limit = "runs downwards", .cure = "write range = [low, high]"});
+  if (!(low <= out.value && out.value <= high))
+    return complaints_.value(node, path,
+                             {.limit = fmt::format("does not hold the value, {}", shortest(out.value)),
+                              .cure = "it reaches over what all sources say, the value included"});
+  out.range = base::Interval{base::times_ten_to(low, ten), base::times_ten_to(high, ten)};
+}
+
+void TableReader::parts(const toml::table& table, const std::string& path, const base::About& about,
+                        const base::Spelling& spelling, base::Quantity& out) {
+  TableReader reader(table, path, complaints_, false);
+  base::About number_about = about;
+  number_about.required = true;
+  number_about.also = {};
+  reader.value("value", out.value, number_about);
+  if (const toml::node* value = table.get("value"))
+    out.last_digit = last_digit(*value, path + ".value", about, spelling.ten);
+  if (const toml::node* written = reader.find("frame", {}))
+    reader.word(*written, path + ".frame", {.meaning = "frame"}, out.frame);
+  if (const toml::node* written = reader.find("source", {}))
+    reader.word(*written, path + ".source", {.meaning = "source"}, out.source);
+  if (table.contains("kind"))
+    reader.choice("kind", out.kind, base::trust_choices, {});
+  else
+    reader.find("kind", {});
+  if (const toml::node* written = reader.find("range", {}))
+    interval(*written, path + ".range", about, spelling.ten, out);
+  frame(table.contains("frame") ? *table.get("frame") : static_cast<const toml::node&>(table), path, about,
+        out);
+  reader.refuse_unknown_keys();
+}
+
+void TableReader::quantity(std::string_view key, base::Quantity& member, const base::About& about) {
+  const std::optional<base::Spelling> spelling = spelling_in_file(key, about);
+  if (!spelling) {
+    find(key, about);
+    return;
+  }
+  const toml::node& node = *table_.get(spelling->key);
+  base::About spelled = about;
+  if (!spelling->unit.empty()) spelled.unit = spelling->unit;
+  if (!spelling->frame.empty()) spelled.frame = spelling->frame;
+  base::Quantity read;
+  read.frame = spelling->frame.empty() ? member.frame : std::string();  // an override keeps the frame
+  read.source = partial_ ? "motor_override" : std::string(spelling->source);
+  if (spelling->key != key) read.key = spelling->key;
+  const std::string path = at(spelling->key);
+  if (const toml::table* table = node.as_table()) {
+    parts(*table, path, spelled, *spelling, read);
+  } else if (number(node, path, spelled, read.value)) {
+    frame(node, path, spelled, read);
+    read.last_digit = last_digit(node, path, spelled, spelling->ten);
+  }
+  read.value = base::times_ten_to(read.value, spelling->ten);
+  member = std::move(read);
+}
+
+/// A frame that is missing is told by the struct's own check, which can say what each candidate would mean.
+void TableReader::frame(const toml::node& node, const std::string& path, const base::About& about,
+                        base::Quantity& quantity) {
+  const std::vector<std::string> frames = frames_of(about.frame);
+  if (frames.size() == 1 && quantity.frame.empty()) quantity.frame = frames[0];
+  if (quantity.frame.empty() || std::find(frames.begin(), frames.end(), quantity.frame) != frames.end())
+    return;
+  if (frames.empty())
+    complaints_.value(node, path + ".frame",
+                      {.limit = "is not needed", .cure = "this value has one meaning only: leave frame out"});
+  else
+    complaints_.value(node, path + ".frame",
+                      {.limit = fmt::format("must be {}", quoted_alternatives(frames)),
+                       .cure = "say between which points the sheet measures"});
+}
+
+}  // namespace text
