@@ -6,22 +6,23 @@
 
 namespace batch {
 
-base::Result<study::Curve> torque_speed_curve(const study::CurveRequest& asked,
-                                              const study::ForEach& for_each,
-                                              const std::function<bool()>& keep_going) {
-  study::CurveRequest request = asked;
+base::Result<analysis::Curve> torque_speed_curve(const analysis::CurveRequest& asked,
+                                                 const analysis::ForEach& for_each,
+                                                 const std::function<bool()>& keep_going) {
+  analysis::CurveRequest request = asked;
   request.bench.keep_going = keep_going;
-  const base::Result<study::CurvePlan> plan = study::plan_curve(request);
+  const base::Result<analysis::CurvePlan> plan = analysis::plan_curve(request);
   if (!plan) return plan.problems();
-  std::vector<std::optional<base::Result<study::OperatingPoint>>> results(plan->speeds_rad_s.size());
-  for_each(results.size(),
-           [&](std::size_t n) { results[n] = study::operating_point(request.bench, plan->speeds_rad_s[n]); });
-  std::vector<study::OperatingPoint> found;
+  std::vector<std::optional<base::Result<analysis::OperatingPoint>>> results(plan->speeds_rad_s.size());
+  for_each(results.size(), [&](std::size_t n) {
+    results[n] = analysis::operating_point(request.bench, plan->speeds_rad_s[n]);
+  });
+  std::vector<analysis::OperatingPoint> found;
   for (const auto& result : results) {
     if (!*result) return result->problems();
     found.push_back(**result);
   }
-  return study::curve_of(request, *plan, found, for_each);
+  return analysis::curve_of(request, *plan, found, for_each);
 }
 
 }  // namespace batch

@@ -3,11 +3,13 @@
 #pragma once
 
 namespace sixstep {
+namespace analysis {}
 namespace base {}
 namespace study {}
 }  // namespace sixstep
 
 namespace batch {
+namespace analysis = sixstep::analysis;
 namespace base = sixstep::base;
 namespace study = sixstep::study;
 }  // namespace batch

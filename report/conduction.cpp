@@ -4,6 +4,7 @@
 #include <array>
 
 #include "report/windows.hpp"
+#include "sixstep/plant/circuit.hpp"
 #include "sixstep/study/measure/trace.hpp"
 
 namespace report {
@@ -19,12 +20,9 @@ struct Columns {
 };
 
 /// Between row n and the next. At its ends a diode's current may be zero; between them it has its sign.
-Leg leg_after(const Columns& c, std::size_t n) {
-  if ((*c.upper)[n] > 0.5) return Leg::upper_switch;
-  if ((*c.lower)[n] > 0.5) return Leg::lower_switch;
-  const double i = (*c.current)[n] + (*c.current)[n + 1];
-  if (i == 0.0) return Leg::floating;
-  return i > 0.0 ? Leg::lower_diode : Leg::upper_diode;  // into the motor it comes up from the negative rail
+sixstep::plant::Connection leg_after(const Columns& c, std::size_t n) {
+  return sixstep::plant::connection_of((*c.upper)[n] > 0.5, (*c.lower)[n] > 0.5,
+                                       (*c.current)[n] + (*c.current)[n + 1]);
 }
 
 }  // namespace

@@ -8,10 +8,8 @@
 
 namespace report {
 
-/// How a leg carries its current: by a switch that is on, else by the diode the current's sign opens.
-enum class Leg : std::uint8_t { floating, upper_switch, lower_switch, upper_diode, lower_diode };
-
-/// From time_s[n] on, to time_s[n + 1] or the end, the legs are as code[n] says: a + 5 b + 25 c.
+/// From time_s[n] on, to time_s[n + 1] or the end, the legs are connected as code[n] says: a + 5 b + 25 c,
+/// each a plant::Connection. The browser counts on its order (web/bridge.js).
 struct Conduction {
   std::vector<double> time_s;
   std::vector<std::uint8_t> code;

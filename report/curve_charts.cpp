@@ -15,15 +15,15 @@ namespace report {
 namespace {
 
 using json = nlohmann::ordered_json;
-namespace study = sixstep::study;
+namespace analysis = sixstep::analysis;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double rpm_per_rad_s = 30 / sixstep::base::pi, milli = 1e3;
 
 /// One place on the axis.
 struct Place {
-  const study::OperatingPoint* point;
-  const study::NominalPoint* nominal = nullptr;
+  const analysis::OperatingPoint* point;
+  const analysis::NominalPoint* nominal = nullptr;
 };
 
 using Of = std::function<double(const Place&)>;
@@ -34,15 +34,16 @@ struct Line {
   enum class Drawn { line, points, region } drawn = Drawn::line;  ///< a region is filled down to zero
 };
 
-template <double study::OperatingPoint::*member>
+template <double analysis::OperatingPoint::*member>
 Of of(double factor) {
   return [factor](const Place& place) { return factor * (place.point->*member); };
 }
 
 class Charts {
  public:
-  Charts(const study::CurveRequest& request, const study::Curve& curve) : request_(request), curve_(curve) {
-    for (const study::OperatingPoint& p : curve.points) places_.push_back({&p});
+  Charts(const analysis::CurveRequest& request, const analysis::Curve& curve)
+      : request_(request), curve_(curve) {
+    for (const analysis::OperatingPoint& p : curve.points) places_.push_back({&p});
     if (curve.marks.best_efficiency) places_.push_back({&*curve.marks.best_efficiency});
     if (curve.marks.for_ever) places_.push_back({&*curve.marks.for_ever});
     if (curve.marks.nominal) places_.push_back({&*curve.marks.nominal});
@@ -81,12 +82,13 @@ class Charts {
 
   void torque() {
     std::vector<Line> lines = regions();
-    lines.insert(lines.end(), {{"shaft", "main", "mean torque on the shaft",
-                                of<&study::OperatingPoint::shaft_torque_Nm>(milli)},
-                               {"ideal", "reference", "straight line without commutation time and friction",
-                                [this](const Place& p) {
-                                  return milli * study::ideal_torque_Nm(request_.bench, p.point->speed_rad_s);
-                                }}});
+    lines.insert(
+        lines.end(),
+        {{"shaft", "main", "mean torque on the shaft", of<&analysis::OperatingPoint::shaft_torque_Nm>(milli)},
+         {"ideal", "reference", "straight line without commutation time and friction",
+          [this](const Place& p) {
+            return milli * analysis::ideal_torque_Nm(request_.bench, p.point->speed_rad_s);
+          }}});
     if (curve_.thermal) {
       const auto limit = limits();
       lines.push_back({"for ever", "c", "what the winding stands for ever",
@@ -105,7 +107,7 @@ class Charts {
   }
 
   void currents() {
-    using P = study::OperatingPoint;
+    using P = analysis::OperatingPoint;
     std::vector<Line> lines = {{"winding", "main", "mean of half the sum of the phase currents' magnitudes",
                                 of<&P::winding_current_A>(1)},
                                {"peak", "b", "greatest phase current", of<&P::phase_peak_A>(1)},
@@ -121,9 +123,9 @@ class Charts {
   std::string text() const { return out_.dump(); }
 
  private:
-  std::function<study::ThermalLimits(const Place&)> limits() const {
+  std::function<analysis::ThermalLimits(const Place&)> limits() const {
     return [this](const Place& p) {
-      return study::thermal_limits(*curve_.thermal, request_, p.point->speed_rad_s);
+      return analysis::thermal_limits(*curve_.thermal, request_, p.point->speed_rad_s);
     };
   }
 
@@ -146,14 +148,14 @@ class Charts {
     constexpr double room = 1.1, of_nominal = 3.0, worth_it = 0.7;
     double corner = 0.0;
     if (curve_.thermal)
-      corner = room * study::thermal_limits(*curve_.thermal, request_, 0.0).short_Nm[0];
+      corner = room * analysis::thermal_limits(*curve_.thermal, request_, 0.0).short_Nm[0];
     else if (curve_.nominal && curve_.nominal->torque_Nm)
       corner = of_nominal * *curve_.nominal->torque_Nm;
     return corner < worth_it * curve_.points.front().shaft_torque_Nm ? corner : 0.0;
   }
 
-  const study::CurveRequest& request_;
-  const study::Curve& curve_;
+  const analysis::CurveRequest& request_;
+  const analysis::Curve& curve_;
   std::vector<Place> places_;
   json out_;
   double corner_Nm_ = 0.0;
@@ -161,8 +163,8 @@ class Charts {
 
 }  // namespace
 
-std::string curve_charts(const study::CurveRequest& request, const study::Curve& curve) {
-  using P = study::OperatingPoint;
+std::string curve_charts(const analysis::CurveRequest& request, const analysis::Curve& curve) {
+  using P = analysis::OperatingPoint;
   Charts charts(request, curve);
   charts.torque();
   charts.currents();

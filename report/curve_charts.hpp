@@ -3,12 +3,13 @@
 #pragma once
 #include <string>
 
-#include "sixstep/study/curve/curve.hpp"
+#include "sixstep/analysis/curve/curve.hpp"
 
 namespace report {
 
 /// {"axis": base64 float64 of rpm, "charts":[{.., "curves":[{.., "data": base64
 /// float32}]}]}: the curve's points and, in its place among them, the sheet's nominal speed.
-std::string curve_charts(const sixstep::study::CurveRequest& request, const sixstep::study::Curve& curve);
+std::string curve_charts(const sixstep::analysis::CurveRequest& request,
+                         const sixstep::analysis::Curve& curve);
 
 }  // namespace report

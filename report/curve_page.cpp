@@ -18,6 +18,7 @@
 namespace report {
 namespace {
 
+namespace analysis = sixstep::analysis;
 namespace study = sixstep::study;
 
 constexpr double rpm_per_rad_s = 30 / sixstep::base::pi, milli = 1e3;
@@ -30,8 +31,8 @@ std::string fact(std::string_view name, const std::string& value) {
   return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, escaped(value));
 }
 
-std::string subtitle(const study::CurveRequest& r) {
-  const study::Bench& b = r.bench;
+std::string subtitle(const analysis::CurveRequest& r) {
+  const analysis::Bench& b = r.bench;
   std::string text = fmt::format("{}\u00a0V", plain(b.voltage_V, 5, true));
   if (b.duty == 1) return text + ", full duty";
   return text + fmt::format(", duty {}, {} chopping at {}", plain(b.duty, 4, true),
@@ -39,9 +40,9 @@ std::string subtitle(const study::CurveRequest& r) {
                             given(1 / b.pwm_period_s, "Hz"));
 }
 
-std::string certainty(const study::Curve& curve) {
+std::string certainty(const analysis::Curve& curve) {
   double bound = 0.0, residual = 0.0, width = 0.0;
-  for (const study::OperatingPoint& p : curve.points) {
+  for (const analysis::OperatingPoint& p : curve.points) {
     bound = std::max(bound, p.error_bound_A);
     width = std::max(width, p.half_width_Nm);
     residual = std::max(residual, p.energy_residual < 0 ? -p.energy_residual : p.energy_residual);
@@ -52,7 +53,7 @@ std::string certainty(const study::Curve& curve) {
                      plain(residual, 2));
 }
 
-std::string nominal_fact(const study::CurveRequest& r, const study::NominalPoint& n) {
+std::string nominal_fact(const analysis::CurveRequest& r, const analysis::NominalPoint& n) {
   std::string text;
   const auto item = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
   if (n.torque_Nm) item(mNm(*n.torque_Nm));
@@ -65,7 +66,7 @@ std::string nominal_fact(const study::CurveRequest& r, const study::NominalPoint
 }
 
 /// Why a sheet's gradient is not the curve's.
-std::string drop_fact(const study::SpeedDrop& d) {
+std::string drop_fact(const analysis::SpeedDrop& d) {
   const auto per_mNm = [](double x) { return plain(x * rpm_per_rad_s / milli, 3); };
   std::string text = "curve " + per_mNm(*d.curve);
   if (d.sheet) text += ", the sheet's two points " + per_mNm(*d.sheet);
@@ -74,35 +75,35 @@ std::string drop_fact(const study::SpeedDrop& d) {
   return text + " leaves out the time that commutation takes";
 }
 
-std::string locked_fact(const study::OperatingPoint& turning) {
-  const study::LockedRotor& l = *turning.locked;
+std::string locked_fact(const analysis::OperatingPoint& turning) {
+  const analysis::LockedRotor& l = *turning.locked;
   const bool one = l.greatest_torque_Nm - l.least_torque_Nm <= 1e-9 * l.greatest_torque_Nm;
   return fmt::format("{} through two phases, {}{}", amperes(l.phase_rms_A), mNm(l.least_torque_Nm),
                      one ? "" : " … " + mNm(l.greatest_torque_Nm) + " with the angle");
 }
 
-std::string lasting_fact(const study::Curve& curve) {
+std::string lasting_fact(const analysis::Curve& curve) {
   if (!curve.marks.for_ever) return "not even without load";
-  const study::OperatingPoint& from = *curve.marks.for_ever;
+  const analysis::OperatingPoint& from = *curve.marks.for_ever;
   return fmt::format("from {} ({}) on", rpm(from.speed_rad_s), mNm(from.shaft_torque_Nm));
 }
 
-std::string facts(const study::CurveRequest& r, const study::Curve& curve) {
-  const study::NoLoad& n = curve.no_load;
+std::string facts(const analysis::CurveRequest& r, const analysis::Curve& curve) {
+  const analysis::NoLoad& n = curve.no_load;
   std::string html =
       fact("Locked rotor", locked_fact(curve.points.front())) +
       fact("No load", fmt::format("{}, {}", rpm(n.point.speed_rad_s), amperes(n.point.winding_current_A))) +
       fact("A rotor let free runs at", rpm(n.free_speed_rad_s)) +
-      fact("Ideal line", fmt::format("{} … {}", mNm(study::ideal_torque_Nm(r.bench, 0.0)),
-                                     rpm(study::ideal_no_load_rad_s(r.bench))));
+      fact("Ideal line", fmt::format("{} … {}", mNm(analysis::ideal_torque_Nm(r.bench, 0.0)),
+                                     rpm(analysis::ideal_no_load_rad_s(r.bench))));
   if (const auto& best = curve.marks.best_efficiency)
     html += fact("Best efficiency", fmt::format("{}\u00a0% at {}, {}", plain(100 * *best->efficiency, 3),
                                                 rpm(best->speed_rad_s), mNm(best->shaft_torque_Nm)));
   if (curve.nominal) html += fact("Nominal point of the sheet", nominal_fact(r, *curve.nominal));
   if (curve.nominal && curve.nominal->at_torque)
-    html += fact("Speed lost per torque, rpm/mNm", drop_fact(study::speed_drop(r, curve)));
+    html += fact("Speed lost per torque, rpm/mNm", drop_fact(analysis::speed_drop(r, curve)));
   if (curve.thermal) {
-    const study::ThermalLimits still = study::thermal_limits(*curve.thermal, r, 0.0);
+    const analysis::ThermalLimits still = analysis::thermal_limits(*curve.thermal, r, 0.0);
     html += fact(fmt::format("Current at {}\u00a0°C ambient", plain(r.ambient_degC, 3, true)),
                  fmt::format("{} for ever, {} for 60\u00a0s, {} for 10\u00a0s", amperes(still.continuous_A),
                              amperes(still.short_A[1]), amperes(still.short_A[0]))) +
@@ -116,9 +117,9 @@ std::string cell(double x, int digits = 4) {
   return fmt::format("<td class=\"num\">{}</td>", nothing ? "0" : plain(x, digits));
 }
 
-std::string row(const study::CurveRequest& r, const study::OperatingPoint& p) {
+std::string row(const analysis::CurveRequest& r, const analysis::OperatingPoint& p) {
   std::string html = "<tr>" + cell(p.speed_rad_s * rpm_per_rad_s, 5) + cell(p.shaft_torque_Nm * milli) +
-                     cell(study::ideal_torque_Nm(r.bench, p.speed_rad_s) * milli) +
+                     cell(analysis::ideal_torque_Nm(r.bench, p.speed_rad_s) * milli) +
                      cell(p.ripple_Nm * milli, 3);
   for (const double x : {p.winding_current_A, p.phase_rms_A, p.phase_peak_A, p.bus_current_A, p.supplied_W,
                          p.copper_W, p.devices_W, p.friction_W, p.shaft_W})
@@ -127,18 +128,18 @@ std::string row(const study::CurveRequest& r, const study::OperatingPoint& p) {
   return html + "</tr>\n";
 }
 
-std::string table(const study::CurveRequest& r, const study::Curve& curve) {
+std::string table(const analysis::CurveRequest& r, const analysis::Curve& curve) {
   std::string html = "<table><thead><tr>";
   for (const char* name : {"Speed<br>rpm", "Torque<br>mNm", "Ideal<br>mNm", "Ripple<br>mNm pp",
                            "Winding<br>A", "Phase rms<br>A", "Peak<br>A", "Supply<br>A", "In<br>W",
                            "Copper<br>W", "Devices<br>W", "Friction<br>W", "Out<br>W", "Efficiency<br>%"})
     html += fmt::format("<th class=\"num\">{}</th>", name);
   html += "</tr></thead><tbody>\n";
-  for (const study::OperatingPoint& p : curve.points) html += row(r, p);
+  for (const analysis::OperatingPoint& p : curve.points) html += row(r, p);
   return html + "</tbody></table>\n";
 }
 
-std::string alerts(const study::Curve& curve) {
+std::string alerts(const analysis::Curve& curve) {
   if (curve.thermal) return "";
   return fmt::format("<p class=\"notes\">No thermal limits: {}.</p>\n",
                      escaped(to_string(curve.thermal_missing[0])));

@@ -3,13 +3,13 @@
 #pragma once
 #include <string>
 
-#include "sixstep/study/curve/curve.hpp"
+#include "sixstep/analysis/curve/curve.hpp"
 
 namespace report {
 
 struct CurvePageInput {
-  const sixstep::study::CurveRequest& request;
-  const sixstep::study::Curve& curve;
+  const sixstep::analysis::CurveRequest& request;
+  const sixstep::analysis::Curve& curve;
   std::string command;  ///< what makes this page again
   std::string version;
 };

@@ -9,9 +9,9 @@
 namespace report {
 namespace {
 
+using sixstep::analysis::DesignStudy;
 using sixstep::control::Mode;
 using sixstep::design::DriveDesign;
-using sixstep::study::DesignStudy;
 
 constexpr const char* styles[] = {"a", "b", "c"};
 constexpr double turn = 2 * sixstep::base::pi, degrees = 180 / sixstep::base::pi;

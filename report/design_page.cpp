@@ -16,10 +16,10 @@
 namespace report {
 namespace {
 
+using sixstep::analysis::DesignStudy;
+using sixstep::analysis::RobustFigure;
 using sixstep::design::LoopDesign;
 using sixstep::design::LoopFigures;
-using sixstep::study::DesignStudy;
-using sixstep::study::RobustFigure;
 
 std::string shown(double x, const std::string& unit) {
   if (std::isfinite(x)) return escaped(computed(x, unit));
@@ -48,10 +48,11 @@ std::string simulated(const DesignStudy& s) {
   std::string out = "<table class=\"comparisons\">" +
                     head({"Figure", "#Expected", "#Simulated", "#Deviation", "Expected is"}) + "<tbody>\n";
   for (const auto& c : s.outcome.comparisons)
-    out += fmt::format(
-        "<tr><th scope=\"row\">{}</th>{}{}{}<td class=\"source\">{}</td></tr>\n", escaped(c.figure),
-        cell(shown(c.value, c.unit)), cell(shown(sixstep::study::as_read(c, s.scenario), c.unit)),
-        cell(escaped(deviation(sixstep::study::as_read(c, s.scenario), c.value, c.unit))), escaped(c.source));
+    out += fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}<td class=\"source\">{}</td></tr>\n",
+                       escaped(c.figure), cell(shown(c.value, c.unit)),
+                       cell(shown(sixstep::analysis::as_read(c, s.scenario), c.unit)),
+                       cell(escaped(deviation(sixstep::analysis::as_read(c, s.scenario), c.value, c.unit))),
+                       escaped(c.source));
   return out + "</tbody></table>\n";
 }
 

@@ -3,12 +3,12 @@
 #pragma once
 #include <string>
 
-#include "sixstep/study/verify/design_study.hpp"
+#include "sixstep/analysis/verify/design_study.hpp"
 
 namespace report {
 
 struct DesignPage {
-  const sixstep::study::DesignStudy& study;
+  const sixstep::analysis::DesignStudy& study;
   std::string verdict;   ///< one line
   std::string scenario;  ///< the file that was simulated
   std::string command;   ///< what makes this page again

@@ -60,7 +60,7 @@ CurveFiles outputs(const CurveArguments& a, base::Problems& problems) {
   return out;
 }
 
-void write(const CurveArguments& a, const study::CurveRequest& request, const study::Curve& curve,
+void write(const CurveArguments& a, const analysis::CurveRequest& request, const analysis::Curve& curve,
            CurveFiles& out, base::Problems& problems) {
   const auto commit = [&](auto& file) {
     const base::Problems failed = file.commit();
@@ -89,7 +89,7 @@ void write(const CurveArguments& a, const study::CurveRequest& request, const st
     print(text::curve_table(request, curve));
 }
 
-void read_chopping(const std::string& word, study::Bench& bench, base::Problems& problems) {
+void read_chopping(const std::string& word, analysis::Bench& bench, base::Problems& problems) {
   if (word.empty()) return;
   std::vector<std::string> known;
   for (const auto& choice : study::chopping_choices) {
@@ -109,7 +109,7 @@ std::string option_of(std::string member) {
   return "--" + member;
 }
 
-base::Result<study::CurveRequest> request_of(const CurveArguments& a) {
+base::Result<analysis::CurveRequest> request_of(const CurveArguments& a) {
   const base::Result<design::Sheet> sheet = text::read_sheet(a.motor, a.data_dir);
   if (!sheet) return sheet.problems();
   base::Result<design::MotorModel> motor = design::motor_model(*sheet);
@@ -121,8 +121,8 @@ base::Result<study::CurveRequest> request_of(const CurveArguments& a) {
   if (!a.voltage_V && !(motor->nominal_voltage_V > 0))
     return base::Problem{"--voltage", "", "is missing, and the sheet prints no nominal voltage",
                          "give the bus voltage in volts"};
-  study::CurveRequest r{.sheet = *sheet, .bench = {.motor = *motor}};
-  study::Bench& b = r.bench;
+  analysis::CurveRequest r{.sheet = *sheet, .bench = {.motor = *motor}};
+  analysis::Bench& b = r.bench;
   b.voltage_V = a.voltage_V.value_or(motor->nominal_voltage_V);
   b.duty = a.duty.value_or(b.duty);
   b.pwm_period_s = a.pwm_period_s.value_or(b.pwm_period_s);
@@ -130,7 +130,7 @@ base::Result<study::CurveRequest> request_of(const CurveArguments& a) {
   b.devices.V_f_V = a.diode_drop_V.value_or(0.0);
   r.ambient_degC = a.ambient_degC.value_or(r.ambient_degC);
   r.points = a.points.value_or(r.points);
-  base::Problems problems = study::check(r);
+  base::Problems problems = analysis::check(r);
   read_chopping(a.chopping, b, problems);
   for (base::Problem& p : problems) p.where = option_of(p.where);
   if (!problems.empty()) return problems;
@@ -138,7 +138,7 @@ base::Result<study::CurveRequest> request_of(const CurveArguments& a) {
 }
 
 Exit curve_command(const CurveArguments& a) {
-  const base::Result<study::CurveRequest> request = request_of(a);
+  const base::Result<analysis::CurveRequest> request = request_of(a);
   if (!request) {
     complain(request.problems());
     return Exit::bad_input;
@@ -148,7 +148,7 @@ Exit curve_command(const CurveArguments& a) {
   CurveFiles out = outputs(a, problems);
   if (!problems.empty()) return refused(problems);
   catch_interrupts();
-  const base::Result<study::Curve> curve = batch::torque_speed_curve(
+  const base::Result<analysis::Curve> curve = batch::torque_speed_curve(
       *request, side_by_side(a.jobs, a.quiet, "points"), [] { return !interrupted(); });
   if (!curve) {
     if (interrupted()) return told_interrupted("curve " + a.motor);

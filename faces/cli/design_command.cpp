@@ -15,11 +15,11 @@
 #include "files/own_file.hpp"
 #include "files/trace/model_export.hpp"
 #include "report/design_page.hpp"
+#include "sixstep/analysis/verify/design_study.hpp"
+#include "sixstep/analysis/verify/scenario_spec.hpp"
 #include "sixstep/base/range_text.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
-#include "sixstep/study/verify/design_study.hpp"
-#include "sixstep/study/verify/scenario_spec.hpp"
 #include "text/keys/key_advice.hpp"
 #include "text/results/design_json.hpp"
 #include "text/results/design_text.hpp"
@@ -50,7 +50,7 @@ namespace fs = std::filesystem;
 
 /// Options over what a scenario says, or over what a board has.
 design::DesignSpec spec_of(const DesignArguments& a, const study::Scenario* scenario, base::Problems& found) {
-  design::DesignSpec w = scenario ? study::spec_of(*scenario) : design::on_a_board();
+  design::DesignSpec w = scenario ? analysis::spec_of(*scenario) : design::on_a_board();
   // Only what a design is for: off and duty need none.
   constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[2], study::mode_choices[3],
                                                             study::mode_choices[4]};
@@ -113,7 +113,7 @@ base::Problems put(std::optional<files::AtomicFile>& file, const std::string& te
   return file->commit();
 }
 
-base::Problems write(const study::DesignStudy& s, const DesignArguments& a, DesignFiles& out) {
+base::Problems write(const analysis::DesignStudy& s, const DesignArguments& a, DesignFiles& out) {
   base::Problems found = put(out.json, text::design_json(s));
   const auto add = [&](const base::Problems& more) { found.insert(found.end(), more.begin(), more.end()); };
   study::Scenario scenario = s.scenario;
@@ -146,10 +146,11 @@ std::optional<study::Scenario> board_of(const DesignArguments& a, base::Problems
 }
 
 /// The motor that was named, else the scenario's.
-base::Result<study::DesignSubject> subject_of(const DesignArguments& a,
-                                              const std::optional<study::Scenario>& board,
-                                              base::Problems& found) {
-  study::DesignSubject subject{.motor = a.motor, .sheet = {}, .board = board, .currents = {}, .step = a.step};
+base::Result<analysis::DesignSubject> subject_of(const DesignArguments& a,
+                                                 const std::optional<study::Scenario>& board,
+                                                 base::Problems& found) {
+  analysis::DesignSubject subject{
+      .motor = a.motor, .sheet = {}, .board = board, .currents = {}, .step = a.step};
   if (a.currents) {
     study::Sensors sensors;
     choose("--currents", *a.currents, study::current_sensing_choices, sensors.currents, found);
@@ -177,15 +178,15 @@ Exit design_command(const DesignArguments& a) {
   const std::optional<study::Scenario> board = board_of(a, found);
   if (!found.empty()) return refused(found);
   const design::DesignSpec spec = spec_of(a, board ? &*board : nullptr, found);
-  const base::Result<study::DesignSubject> subject = subject_of(a, board, found);
+  const base::Result<analysis::DesignSubject> subject = subject_of(a, board, found);
   DesignFiles outputs;
   if (found.empty()) found = outputs.open(a);
   if (!found.empty()) return refused(found);
   catch_interrupts();
-  const base::Result<study::DesignStudy> s = study::study_design(
+  const base::Result<analysis::DesignStudy> s = analysis::study_design(
       {.subject = *subject,
        .spec = spec,
-       .tolerances = a.quick ? std::vector<study::Tolerance>() : study::sheet_tolerances(spec.mode),
+       .tolerances = a.quick ? std::vector<analysis::Tolerance>() : analysis::sheet_tolerances(spec.mode),
        .for_each = side_by_side(a.jobs, a.quiet, "motors"),
        .keep_going = [] { return !interrupted(); }});
   if (interrupted()) return told_interrupted("design " + a.motor);

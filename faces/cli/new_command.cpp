@@ -11,8 +11,8 @@
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
+#include "sixstep/analysis/verify/first_scenario.hpp"
 #include "sixstep/study/scenario/choices.hpp"
-#include "sixstep/study/verify/first_scenario.hpp"
 #include "text/escape/escape.hpp"
 #include "text/scenario/json_schema.hpp"
 #include "text/scenario/scenario_file.hpp"
@@ -32,7 +32,7 @@ struct NewArguments {
 
 base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::string& path) {
   base::Problems found;
-  study::FirstScenarioSpec spec;
+  analysis::FirstScenarioSpec spec;
   // Something is to be driven: off is none of them.
   constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[3], study::mode_choices[2],
                                                             study::mode_choices[4], study::mode_choices[1]};
@@ -44,7 +44,7 @@ base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::stri
   spec.sheet = *sheet;
   spec.voltage_V = a.voltage_V;
   spec.for_each = side_by_side(0, true, "motors");
-  return study::first_scenario(spec);
+  return analysis::first_scenario(spec);
 }
 
 /// The schema lies beside the scenario, where its first line looks for it; one that is there already stays.

@@ -8,7 +8,7 @@
 
 namespace cli {
 
-study::ForEach side_by_side(unsigned jobs, bool quiet, const char* what) {
+analysis::ForEach side_by_side(unsigned jobs, bool quiet, const char* what) {
   return [=](std::size_t count, const std::function<void(std::size_t)>& work) {
     std::atomic<std::size_t> done{0};
     Progress progress({.seconds = {}, .pieces = count, .of = what}, quiet);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "faces/cli/rooms.hpp"
-#include "sixstep/study/verify/robust.hpp"
+#include "sixstep/analysis/verify/robust.hpp"
 
 namespace cli {
 
 /// Pieces of one work on up to `jobs` threads (0: one per core), counted for who watches: "7 of 41 points".
-study::ForEach side_by_side(unsigned jobs, bool quiet, const char* what);
+analysis::ForEach side_by_side(unsigned jobs, bool quiet, const char* what);
 
 }  // namespace cli

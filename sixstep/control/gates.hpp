@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "sixstep/control/bridge_command.hpp"
+#include "sixstep/control/leg_command.hpp"
 
 namespace sixstep::control {
 
@@ -28,6 +29,14 @@ constexpr std::uint8_t gates(const BridgeCommand<Scalar>& command, bool on_time)
   if (command.chopping == Chopping::hard) return 0;
   if (command.chopping == Chopping::soft) return sink;
   return static_cast<std::uint8_t>(lower_gate(command.pair.source) | sink);
+}
+
+/// Of one leg, within its pulse or in the rest of the period.
+template <class Scalar>
+constexpr std::uint8_t gates(const LegCommand<Scalar>& command, Leg leg, bool pulse) {
+  const LegSides sides = sides_of(command);
+  const LegSide side = pulse ? sides.pulse : sides.rest;
+  return side == LegSide::high ? upper_gate(leg) : side == LegSide::low ? lower_gate(leg) : std::uint8_t{0};
 }
 
 }  // namespace sixstep::control

@@ -91,7 +91,7 @@ void Audit<Real>::check_laws(const Mode& mode, const PerLeg<Real>& i) {
   raise(laws_.current_sum_A, detail::abs(i[0] + i[1] + i[2]));
   for (int k = 0; k < 3; ++k) {
     const Connection leg = mode.legs[k];
-    if (is_diode(leg)) raise(laws_.reverse_diode_A, leg == Connection::low_diode ? -i[k] : i[k]);
+    if (is_diode(leg)) raise(laws_.reverse_diode_A, -along_diode(leg, i[k]));
     if (is_floating(leg)) raise(laws_.floating_current_A, detail::abs(i[k]));
   }
 }
@@ -110,18 +110,13 @@ void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
   check_laws(plant.mode(), {y.i[0][0], y.i[1][0], y.i[2][0]});
   check_laws(plant.mode(), end_.i);
   const SegmentEnergy<Real> e = segment_energy(plant, s);
-  const Motion motion = plant.mode().motion;
-  const Real slide = motion == Motion::forward    ? c.coulomb
-                     : motion == Motion::backward ? -c.coulomb
-                                                  : Real(0);
-  const Real load = c.load * e.travel;
   add_compensated(supplied_, supplied_low_, e.supplied);
   add_compensated(copper_, copper_low_, e.copper);
   add_compensated(devices_, devices_low_, e.devices);
   add_compensated(air_gap_, air_gap_low_, e.air_gap);
-  add_compensated(friction_, friction_low_, e.viscous + slide * e.travel);
-  add_compensated(load_, load_low_, load);
-  moved_ += detail::abs(e.supplied) + detail::abs(e.air_gap) + detail::abs(load);
+  add_compensated(friction_, friction_low_, e.viscous + e.dry);
+  add_compensated(load_, load_low_, e.load);
+  moved_ += detail::abs(e.supplied) + detail::abs(e.air_gap) + detail::abs(e.load);
 }
 
 template <class Real>

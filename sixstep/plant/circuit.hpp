@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 
 #include "sixstep/plant/machine.hpp"
 
@@ -33,14 +32,22 @@ constexpr int connected_count(const Legs& legs) {
 }
 
 /// MODEL 2's table for a MOSFET leg: the gated channel carries both directions alone; without a gate the
-/// current's sign names the diode, and no current leaves the leg floating (whether it stays so is a question
-/// of the voltages). Both gates on is shoot-through and has no connection.
-constexpr std::optional<Connection> connection_of(bool gate_high, bool gate_low, int current_sign) {
-  if (gate_high && gate_low) return std::nullopt;
+/// current's sign names the diode, and no current, up to `noise`, leaves the leg floating (whether it stays
+/// so is a question of the voltages). Both gates on is shoot-through and has no connection: shoots_through()
+/// comes first. Written with branches: foreseen, they let a segment's series begin before the currents' signs
+/// are known.
+template <class Real>
+constexpr Connection connection_of(bool gate_high, bool gate_low, Real current, Real noise = 0) {
   if (gate_high) return Connection::high_switch;
   if (gate_low) return Connection::low_switch;
-  if (current_sign > 0) return Connection::low_diode;
-  return current_sign < 0 ? Connection::high_diode : Connection::floating;
+  if (current > noise) return Connection::low_diode;
+  return current < -noise ? Connection::high_diode : Connection::floating;
+}
+
+/// v of a leg on its low diode, -v on its high one: a current that the diode carries is positive then.
+template <class Real>
+constexpr Real along_diode(Connection diode, Real v) {
+  return diode == Connection::low_diode ? v : -v;
 }
 
 /// Pole voltage of a connected leg as an affine law: u_k = bus_share U_s + offset_V - r_ohm i_k.
@@ -71,6 +78,18 @@ constexpr PoleTerms<Real> pole_terms(Connection c, const Devices& devices) {
   return {};
 }
 
+/// By Connection.
+template <class Real>
+using PoleTable = std::array<PoleTerms<Real>, 5>;
+
+template <class Real>
+constexpr PoleTable<Real> pole_table(const Devices& devices) {
+  PoleTable<Real> table;
+  for (std::size_t k = 0; k < table.size(); ++k)
+    table[k] = pole_terms<Real>(static_cast<Connection>(k), devices);
+  return table;
+}
+
 /// The pole voltage of a connected leg carrying i.
 template <class Real>
 constexpr Real pole_voltage(const PoleTerms<Real>& terms, Real U_s, Real i) {
@@ -81,13 +100,13 @@ constexpr Real pole_voltage(const PoleTerms<Real>& terms, Real U_s, Real i) {
 /// With |S| = 0 it is free; it is then put where the highest and the lowest terminal keep the same distance
 /// from their rails, so that "a floating terminal beyond a rail" says max e - min e > U_s + 2 V_f there too.
 template <class Real>
-constexpr Real star_voltage(const Legs& legs, const Devices& devices, Real U_s, const PerLeg<Real>& i,
+constexpr Real star_voltage(const Legs& legs, const PoleTable<Real>& poles, Real U_s, const PerLeg<Real>& i,
                             const PerLeg<Real>& e) {
   Real sum{};
   int connected = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     if (is_floating(legs[k])) continue;
-    sum += pole_voltage(pole_terms<Real>(legs[k], devices), U_s, i[k]) - e[k];
+    sum += pole_voltage(poles[static_cast<std::size_t>(legs[k])], U_s, i[k]) - e[k];
     ++connected;
   }
   if (connected > 0) return sum / Real(connected);
@@ -97,12 +116,13 @@ constexpr Real star_voltage(const Legs& legs, const Devices& devices, Real U_s, 
 
 /// All three pole voltages: the connected legs by their devices, the floating ones at u_n + e_k (MODEL 2).
 template <class Real>
-constexpr PerLeg<Real> pole_voltages(const Legs& legs, const Devices& devices, Real U_s,
+constexpr PerLeg<Real> pole_voltages(const Legs& legs, const PoleTable<Real>& poles, Real U_s,
                                      const PerLeg<Real>& i, const PerLeg<Real>& e) {
-  const Real u_n = star_voltage(legs, devices, U_s, i, e);
+  const Real u_n = star_voltage(legs, poles, U_s, i, e);
   PerLeg<Real> u{};
   for (std::size_t k = 0; k < 3; ++k)
-    u[k] = is_floating(legs[k]) ? u_n + e[k] : pole_voltage(pole_terms<Real>(legs[k], devices), U_s, i[k]);
+    u[k] =
+        is_floating(legs[k]) ? u_n + e[k] : pole_voltage(poles[static_cast<std::size_t>(legs[k])], U_s, i[k]);
   return u;
 }
 

@@ -91,8 +91,8 @@ struct Convergence {
 /// What one segment's recurrence works with: all in registers or on the stack.
 template <bool bus, class Currents, class Real>
 struct Recurrence {
-  Currents currents;
   Rotor<Real> rotor;
+  Currents currents;
   BusLaw<Real> bus_law;
   Convergence<Real> convergence;
   Growing<Real> y;
@@ -100,7 +100,7 @@ struct Recurrence {
   template <class Shape>
   Recurrence(const Constants<Real>& c, const Mode& mode, const LegsLaw<Real>& law, const Shape& shape,
              const Expansion<Real>& out)
-      : currents(c, mode, law, shape), rotor(c, mode.motion), bus_law(c, mode, law), convergence(c, out) {
+      : rotor(c, mode.motion), currents(rotor, c, law, shape), bus_law(c, mode, law), convergence(c, out) {
     y.h = out.h;
     y.w[0] = out.w[0];
     y.x[0] = out.x[0];
@@ -212,7 +212,8 @@ void expand_shape(const Constants<Real>& c, const Mode& mode, Expansion<Real>& y
   if (law.connected < 2) return recurrence<build, NoCurrent<sine, Real>>(c, mode, law, shape, y);
   if constexpr (!sine) {
     const bool flat = piece.beta[law.leg[0]] == piece.beta[law.leg[1]];
-    if (flat) return recurrence<build, FlatPair<Real>>(c, mode, law, shape, y);
+    if (flat && is_line_over_speed(torques(c, mode.motion)))
+      return recurrence<build, FlatPair<Real>>(c, mode, law, shape, y);
   }
   recurrence<build, OneCurrent<sine, Real>>(c, mode, law, shape, y);
 }
@@ -249,7 +250,7 @@ void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode
             Expansion<Real>& y) {
   y.h = wanted;
   for (int k = 0; k < 3; ++k) y.i[k][0] = state.i[k];
-  y.w[0] = mode.motion == Motion::locked || mode.motion == Motion::stuck ? Real(0) : state.w;
+  y.w[0] = turns(mode.motion) ? state.w : Real(0);
   y.x[0] = state.x;
   y.bus[0] = state.bus;
   if (c.sine) {

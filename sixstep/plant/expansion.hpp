@@ -18,7 +18,7 @@ struct Constants {
   Real V_0, inv_R_b, inv_C;  // inv_C = 0: stiff bus
   Real load = 0;             // T_load at present
   Devices devices;
-  std::array<PoleTerms<Real>, 5> pole_terms;  // by Connection
+  PoleTable<Real> poles;
   LegsLaws<Real> legs;
   EmfTable<Real> emf;  // times K_e: V s, or N m/A
   bool sine = false, locked = false, dry_friction = false, source_sinks = true;

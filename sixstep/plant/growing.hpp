@@ -2,7 +2,7 @@
 // The series of one segment while they grow, and what every conduction mode has in common: the rotor, the bus
 // and the shape of the back-EMF (MODEL 1).
 #pragma once
-#include "sixstep/plant/expansion.hpp"
+#include "sixstep/plant/torques.hpp"
 
 namespace sixstep::plant::detail {
 
@@ -25,21 +25,20 @@ struct Growing {
 template <class Real>
 struct Rotor {
   Real inv_J;  ///< zero for a rotor at rest
-  Real B, pole_pairs;
-  Real drag;  ///< load and dry friction
+  Real pole_pairs;
+  Real steady, per_speed;  ///< against the turning: what does not change with the speed, and what does
 
   Rotor(const Constants<Real>& c, Motion motion)
-      : inv_J(motion != Motion::locked && motion != Motion::stuck ? c.inv_J : Real(0)),
-        B(c.B),
-        pole_pairs(c.pole_pairs),
-        drag(c.load + (motion == Motion::forward    ? c.coulomb
-                       : motion == Motion::backward ? -c.coulomb
-                                                    : Real(0))) {}
+      : inv_J(turns(motion) ? c.inv_J : Real(0)), pole_pairs(c.pole_pairs) {
+    const auto [load, dry, B] = torques(c, motion);
+    steady = load + dry;
+    per_speed = B;
+  }
 
   template <int n>
   void step(Growing<Real>& y, Real f) const {
-    Real losses = B * y.w[n];
-    if constexpr (n == 0) losses += drag;
+    Real losses = per_speed * y.w[n];
+    if constexpr (n == 0) losses += steady;
     y.w[n + 1] = (y.torque[n] - losses) * (f * inv_J);
     y.x[n + 1] = f * pole_pairs * y.w[n];
   }

@@ -110,21 +110,22 @@ void rotor_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Re
   else if (mode.motion == Motion::backward)
     visit(guard::standstill, affine(y.w, y.degree, Real(-1), Real(0)), y.degree, speed_noise);
   else if (mode.motion == Motion::stuck) {
-    visit(guard::breakaway_forward, affine(y.torque, y.degree, Real(-1), c.breakaway + c.load), y.degree,
+    const auto [load, dry, per_speed] = torques(c, Motion::stuck);  // at rest: no B w, and dry as breakaway
+    visit(guard::breakaway_forward, affine(y.torque, y.degree, Real(-1), c.breakaway + load), y.degree,
           torque_noise);
-    visit(guard::breakaway_backward, affine(y.torque, y.degree, Real(1), c.breakaway - c.load), y.degree,
+    visit(guard::breakaway_backward, affine(y.torque, y.degree, Real(1), c.breakaway - load), y.degree,
           torque_noise);
   }
 }
 
 /// Of a current that names a diode: it goes on in its direction.
 template <class Real, class Visit>
-[[gnu::always_inline]] inline void diode_guard(bool low, const Expansion<Real>& y, int k, Real noise,
+[[gnu::always_inline]] inline void diode_guard(Connection diode, const Expansion<Real>& y, int k, Real noise,
                                                Visit&& visit) {
   const series::Coefficients<Real>& i = y.i[k];
-  const Real start = low ? i[0] : -i[0], slope = low ? i[1] : -i[1];
+  const Real start = along_diode(diode, i[0]), slope = along_diode(diode, i[1]);
   if (series::stays_above(start, slope, y.reach_i[k] - abs(slope), noise)) return;
-  if (low)
+  if (diode == Connection::low_diode)
     visit(guard::current_zero + k, i, y.degree, noise);
   else
     visit(guard::current_zero + k, affine(i, y.degree, Real(-1), Real(0)), y.degree, noise);
@@ -141,8 +142,7 @@ void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Rea
   if (law.diodes != 0) {
     const Real amp_noise = c.amp_noise * slack;
     for (int k = 0; k < 3; ++k)
-      if (law.diodes >> k & 1)
-        detail::diode_guard(mode.legs[k] == Connection::low_diode, y, k, amp_noise, visit);
+      if (law.diodes >> k & 1) detail::diode_guard(mode.legs[k], y, k, amp_noise, visit);
   }
   if (c.dry_friction) detail::rotor_guards(c, mode, y, slack, visit);
   if (law.floating != 0) {

@@ -25,6 +25,12 @@ struct Shaft {
   bool locked = false;      ///< the rotor is held
 };
 
+/// B w + T_c sign(w) at a speed, N m: positive against a forward rotation (a run's: torques.hpp).
+inline double friction_Nm(const Shaft& shaft, double speed_rad_s) {
+  const double sign = speed_rad_s > 0 ? 1.0 : speed_rad_s < 0 ? -1.0 : 0.0;
+  return shaft.B_Nm_s * speed_rad_s + sign * shaft.coulomb_Nm;
+}
+
 /// Switches and diodes (MODEL 2), MOSFET: the gated channel carries both directions alone.
 struct Devices {
   double R_on_ohm = 0.0;

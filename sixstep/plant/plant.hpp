@@ -104,8 +104,6 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   c.inv_pole_pairs = 1 / c.pole_pairs;
   c.coulomb = Real(shaft.coulomb_Nm);
   c.breakaway = std::max(c.coulomb, Real(shaft.static_Nm));
-  c.dry_friction = c.breakaway > 0 && !shaft.locked;
-  c.locked = shaft.locked;
   c.V_0 = Real(supply.V_0_V);
   const bool stiff = !(supply.C_F > 0);
   c.inv_C = stiff ? Real(0) : 1 / Real(supply.C_F);
@@ -120,11 +118,11 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   const Real emf = 2 * K_e * detail::abs(Real(start.speed_rad_s));
   c.K_e = K_e;
   set_scales(std::max(c.V_0, Real(start.bus_V)) + Real(devices.V_f_V) + emf);
-  for (int k = 0; k < 5; ++k) c.pole_terms[k] = pole_terms<Real>(static_cast<Connection>(k), devices);
-  set_steady_rate();
+  c.poles = pole_table<Real>(devices);
 
   state_.bus = stiff ? c.V_0 : Real(start.bus_V);
-  state_.w = shaft.locked ? Real(0) : Real(start.speed_rad_s);
+  state_.w = Real(start.speed_rad_s);
+  set_locked(shaft.locked);
   const double electrical = start.angle_rad * m.pole_pairs;
   // An edge named in degrees or radians of the shaft has been rounded up to four times on its way here.
   const double edge = std::floor(electrical / base::sector_rad + 0.5);
@@ -223,7 +221,7 @@ void Plant<Real>::advance(Real s) {
       q.i_low[second] = -q.i_low[first];
     }
   }
-  if (mode_.motion != Motion::locked && mode_.motion != Motion::stuck) {
+  if (turns(mode_.motion)) {
     add_compensated(q.w, q.w_low, by.w);
     add_compensated(q.x, q.x_low, by.x);
   }
@@ -285,7 +283,7 @@ Snapshot<Real> Plant<Real>::at(Real s) const {
   for (int k = 0; k < 3; ++k) now.emf[k] = now.speed * shape[k];
   now.torque = shape[0] * now.i[0] + shape[1] * now.i[1] + shape[2] * now.i[2];
   now.angle = (static_cast<Real>(state_.sector) * Real(base::sector_rad) + unit.x) / constants_.pole_pairs;
-  now.pole = pole_voltages(mode_.legs, constants_.devices, now.bus, now.i, now.emf);
+  now.pole = pole_voltages(mode_.legs, constants_.poles, now.bus, now.i, now.emf);
   now.bus_current = bus_current(mode_.legs, now.i);
   return now;
 }

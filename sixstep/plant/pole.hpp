@@ -29,6 +29,13 @@ template <class Real>
           .leg = j};
 }
 
+/// Its value in one state; phi0 and phi1 as back_emf.hpp has them.
+template <class Real>
+[[gnu::always_inline]] inline Real free_voltage(const PoleLaw<Real>& law, Real bus, const PerLeg<Real>& i,
+                                                Real w, Real phi0, Real phi1) {
+  return (law.bus * bus + law.offset) + (law.i * i[law.leg] + w * (law.w0 * phi0 + law.w1 * phi1));
+}
+
 /// What can be said of the voltage without its series: value and slope where the segment begins, and a bound
 /// of all later terms together; `bus_rest` is that bound of U_s.
 template <class Real>
@@ -43,7 +50,8 @@ template <class Real>
   using detail::abs;
   const Real w = y.w[0], x = y.x[0], reach_w = y.reach_w, reach_x = y.reach_x;
   const Real phi0 = c.sine ? y.phi0[0] : Real(1), phi1 = c.sine ? y.phi1[0] : x;
-  PoleOutline<Real> out{.start = law.bus * y.bus[0] + law.offset + w * (law.w0 * phi0 + law.w1 * phi1)};
+  PoleOutline<Real> out;
+  out.start = free_voltage(law, y.bus[0], {y.i[0][0], y.i[1][0], y.i[2][0]}, w, phi0, phi1);
   if (c.sine) {  // |w phi - (w phi)(0)| by product rule; phi0 and phi1 turn by no more than x does
     out.rest = (abs(law.w0) + abs(law.w1)) * ((abs(w) + reach_w) * reach_x + reach_w);
   } else {
@@ -54,7 +62,6 @@ template <class Real>
   }
   if (law.i != 0) {
     const Real first = y.i[law.leg][1];
-    out.start += law.i * y.i[law.leg][0];
     out.slope += law.i * first;
     out.rest += abs(law.i) * (y.reach_i[law.leg] - abs(first));
   }

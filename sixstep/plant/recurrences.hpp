@@ -9,7 +9,7 @@ namespace sixstep::plant::detail {
 template <bool sine, class Real>
 struct NoCurrent {
   static constexpr bool sine_shape = sine;
-  NoCurrent(const Constants<Real>&, const Mode&, const LegsLaw<Real>&, const ShapeLine<sine, Real>&) {}
+  NoCurrent(const Rotor<Real>&, const Constants<Real>&, const LegsLaw<Real>&, const ShapeLine<sine, Real>&) {}
   void start(const Expansion<Real>&, Growing<Real>& y) const { y.i[0] = y.i_2[0] = 0; }
   template <int n, bool bus>
   void step(const Rotor<Real>& rotor, Growing<Real>& y, Real f) {
@@ -78,7 +78,8 @@ struct OneCurrent {
   PairLaw<sine, Real> pair;
   Real from_square;  // w (x - x(0)) = ((x - x(0))^2)'/2 over p h, and a square has half the products
 
-  OneCurrent(const Constants<Real>& c, const Mode&, const LegsLaw<Real>& law, const ShapeLine<sine, Real>& f)
+  OneCurrent(const Rotor<Real>&, const Constants<Real>& c, const LegsLaw<Real>& law,
+             const ShapeLine<sine, Real>& f)
       : pair(law, f), from_square(pair.from_w1 * c.inv_pole_pairs) {}
   void start(const Expansion<Real>& out, Growing<Real>& y) const { pair.start(out, y); }
   void write(Expansion<Real>& out, int n, const Growing<Real>& y) const { pair.write(out, n, y); }
@@ -107,21 +108,23 @@ struct OneCurrent {
   }
 };
 
-/// Both connected phases on their flat tops: current and speed are a linear system of two, (i, w)' = M (i, w)
-/// + const, free of products. Its terms come two orders at a time from M^2, so that even and odd ones are two
-/// chains side by side. A bus that moves joins the chain of the plain form.
+/// Both connected phases on their flat tops, and torques that are a line over the speed: current and speed
+/// are a linear system of two, (i, w)' = M (i, w) + const, free of products. Its terms come two orders at a
+/// time from M^2, so that even and odd ones are two chains side by side. A bus that moves joins the chain of
+/// the plain form.
 template <class Real>
 struct FlatPair {
   static constexpr bool sine_shape = false;
   PairLaw<false, Real> pair;
   Real m_ii, m_iw, m_wi, m_ww;  // M^2
 
-  FlatPair(const Constants<Real>& c, const Mode& mode, const LegsLaw<Real>& law,
+  FlatPair(const Rotor<Real>& rotor, const Constants<Real>&, const LegsLaw<Real>& law,
            const ShapeLine<false, Real>& f)
       : pair(law, f) {
-    const bool turns = mode.motion != Motion::locked && mode.motion != Motion::stuck;
+    // Of the rotor's law the terms that multiply i and w: M has no others, and what is steady is in order 1.
+    [[maybe_unused]] const auto& [inv_J, pole_pairs, steady, per_speed] = rotor;
     const Real a = pair.slope.i, b = pair.from_w0;
-    const Real d = turns ? pair.torque_0 * c.inv_J : Real(0), e = turns ? -c.B * c.inv_J : Real(0);
+    const Real d = pair.torque_0 * inv_J, e = -per_speed * inv_J;
     m_ii = a * a + b * d;
     m_iw = a * b + b * e;
     m_wi = d * a + e * d;
@@ -162,7 +165,7 @@ struct TwoCurrents {
   Real torque_0a, torque_0b, torque_1a, torque_1b;  // per phi i_a, phi i_b
   series::Coefficients<Real> y0, y1;
 
-  TwoCurrents(const Constants<Real>& c, const Mode&, const LegsLaw<Real>& law,
+  TwoCurrents(const Rotor<Real>&, const Constants<Real>& c, const LegsLaw<Real>& law,
               const ShapeLine<sine, Real>& f) {
     const Real mean_0 = (f.now[0] + f.now[1] + f.now[2]) * Real(1.0L / 3);
     const Real mean_1 = (f.rise[0] + f.rise[1] + f.rise[2]) * Real(1.0L / 3);

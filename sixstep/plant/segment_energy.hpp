@@ -7,10 +7,10 @@
 
 namespace sixstep::plant {
 
-/// J over one segment; `travel` is the shaft's way in rad.
+/// J over one segment; friction is viscous and dry. `travel` is the shaft's way in rad.
 template <class Real>
 struct SegmentEnergy {
-  Real supplied = 0, copper = 0, devices = 0, air_gap = 0, viscous = 0, travel = 0;
+  Real supplied = 0, copper = 0, devices = 0, air_gap = 0, viscous = 0, dry = 0, load = 0, travel = 0;
 };
 
 namespace detail {
@@ -60,7 +60,7 @@ void electrical_energy(const Constants<Real>& c, const Mode& mode, const Expansi
   const LegIntegrals<Real> legs = leg_integrals<points>(law, i_1, i_2);
   Real devices = 0, charge = 0;
   for (int k = 0; k < 3; ++k) {
-    const PoleTerms<Real>& terms = c.pole_terms[static_cast<std::size_t>(mode.legs[k])];
+    const PoleTerms<Real>& terms = c.poles[static_cast<std::size_t>(mode.legs[k])];
     devices += terms.r_ohm * legs.square[k] - terms.offset_V * legs.charge[k];
     charge += terms.bus_share * legs.charge[k];
   }
@@ -72,7 +72,7 @@ void electrical_energy(const Constants<Real>& c, const Mode& mode, const Expansi
   }
   series::Nodes<points, Real> dc;
   const auto share = [&](int n) {
-    return c.pole_terms[static_cast<std::size_t>(mode.legs[law.leg[n]])].bus_share;
+    return c.poles[static_cast<std::size_t>(mode.legs[law.leg[n]])].bus_share;
   };
   for (int k = 0; k < points; ++k)
     dc[k] = (share(0) - share(2)) * i_1[k] + (share(1) - share(2)) * i_2[k];  // i_3 = -(i_1 + i_2)
@@ -89,16 +89,18 @@ SegmentEnergy<Real> segment_energy(const Plant<Real>& plant, Real to) {
   const Expansion<Real>& y = plant.expansion();
   const Mode& mode = plant.mode();
   const bool conducts = connected_count(mode.legs) >= 2;
-  const bool turns = mode.motion != Motion::locked && mode.motion != Motion::stuck;
   SegmentEnergy<Real> out;
   series::with_points_for(y.degree, [&]<int points>() {
     const auto s = series::nodes_up_to<points>(to);
     const Real dt = y.h * to;
     if (conducts) detail::electrical_energy<points>(c, mode, y, dt, s, out);
-    if (!turns) return;
+    if (!turns(mode.motion)) return;
     const auto w = series::values_at<points>(y.w, y.degree, s);
     out.travel = dt * series::weighted_sum<points>(w);
-    if (c.B > 0) out.viscous = dt * c.B * series::weighted_sum<points>(w, w);
+    const auto [load, dry, per_speed] = torques(c, mode.motion);
+    out.load = load * out.travel;
+    out.dry = dry * out.travel;
+    if (per_speed > 0) out.viscous = dt * per_speed * series::weighted_sum<points>(w, w);
     if (conducts)
       out.air_gap = dt * series::weighted_sum<points>(series::values_at<points>(y.torque, y.degree, s), w);
   });

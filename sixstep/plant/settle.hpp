@@ -50,25 +50,15 @@ template <class Real>
 Judgement judge_legs(const Constants<Real>& c, const State<Real>& s, const PerLeg<Real>& e, const Mode& m,
                      Real slack) {
   const Real noise = c.volt_noise * slack, V_f = Real(c.devices.V_f_V);
-  PerLeg<Real> u{};
-  Real sum = 0;
-  int connected = 0;
-  for (int k = 0; k < 3; ++k) {
-    if (is_floating(m.legs[k])) continue;
-    u[k] = pole_voltage(c.pole_terms[static_cast<std::size_t>(m.legs[k])], s.bus, s.i[k]);
-    sum += u[k] - e[k];
-    ++connected;
-  }
-  constexpr Real share[] = {Real(0), Real(1), Real(0.5), Real(1.0L / 3)};
-  const Real u_n = connected > 0 ? sum * share[connected] : star_voltage(m.legs, c.devices, s.bus, s.i, e);
+  const Real u_n = star_voltage(m.legs, c.poles, s.bus, s.i, e);
   Judgement all = Judgement::holds;
   for (int k = 0; k < 3; ++k) {
     if (is_floating(m.legs[k])) {
       const Real free = u_n + e[k];
       all = both(all, both(judge(free + V_f, noise), judge(s.bus + V_f - free, noise)));
     } else if (is_diode(m.legs[k]) && s.i[k] == 0) {
-      const Real drive = u[k] - u_n - e[k];  // L di/dt
-      all = both(all, judge(m.legs[k] == Connection::low_diode ? drive : -drive, noise));
+      const Real u = pole_voltage(c.poles[static_cast<std::size_t>(m.legs[k])], s.bus, s.i[k]);
+      all = both(all, judge(along_diode(m.legs[k], u - u_n - e[k]), noise));  // L di/dt
     }
   }
   return all;
@@ -77,7 +67,8 @@ Judgement judge_legs(const Constants<Real>& c, const State<Real>& s, const PerLe
 template <class Real>
 Judgement judge_motion(const Constants<Real>& c, const State<Real>& s, const Mode& m, Real slack) {
   if (!c.dry_friction || s.w != 0 || m.motion == Motion::locked) return Judgement::holds;
-  const Real noise = c.torque_noise * slack, excess = torque(c, s, m) - c.load;
+  const auto [load, dry, per_speed] = torques(c, Motion::stuck);  // at rest: no B w, and dry as breakaway
+  const Real noise = c.torque_noise * slack, excess = torque(c, s, m) - load;
   if (m.motion == Motion::stuck) return judge(c.breakaway - abs(excess), noise);
   // A breakaway torque above the sliding friction leaves a range in which only sticking is asked; slipping
   // must overcome it.
@@ -215,7 +206,7 @@ bool settle(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, bool&
   expanded = false;
   const Constants<Real>& c = q.constants;
   if (c.locked || !c.dry_friction || q.state.w != 0) {
-    mode.motion = c.locked ? locked : !c.dry_friction ? free : q.state.w > 0 ? forward : backward;
+    mode.motion = c.locked ? locked : !c.dry_friction ? free : motion_at(q.state.w);
     return detail::settle_source(q, mode, scratch, expanded);
   }
   for (const Motion motion : {stuck, forward, backward}) {

@@ -19,24 +19,13 @@ void shape_at(const Constants<Real>& c, const State<Real>& s, Real& phi0, Real& 
   }
 }
 
-/// The connections that gates and currents name; returns the legs that they leave open, as a mask. Written
-/// with branches: foreseen, they let the segment's series begin before the currents' signs are known.
+/// The connections that gates and currents name; returns the legs that they leave open, as a mask.
 template <class Real>
 unsigned named_legs(const State<Real>& s, const Gates& gates, Real noise, Legs& legs) {
   unsigned open = 0;
   for (unsigned k = 0; k < 3; ++k) {
-    if (gates.high[k]) {
-      legs[k] = Connection::high_switch;
-    } else if (gates.low[k]) {
-      legs[k] = Connection::low_switch;
-    } else if (s.i[k] > noise) {
-      legs[k] = Connection::low_diode;
-    } else if (s.i[k] < -noise) {
-      legs[k] = Connection::high_diode;
-    } else {
-      legs[k] = Connection::floating;
-      open |= 1U << k;
-    }
+    legs[k] = connection_of(gates.high[k], gates.low[k], s.i[k], noise);
+    if (is_floating(legs[k])) open |= 1U << k;
   }
   return open;
 }
@@ -47,11 +36,9 @@ unsigned named_legs(const State<Real>& s, const Gates& gates, Real noise, Legs& 
 template <class Real>
 bool settle_third_leg(const Constants<Real>& c, const State<Real>& s, const EmfPiece<Real>& piece, unsigned k,
                       Legs& legs) {
-  const PoleLaw<Real> law = pole_law(piece, c.legs[legs_index(legs)], k);
   Real phi0, phi1;
   shape_at(c, s, phi0, phi1);
-  const Real free =
-      (law.bus * s.bus + law.offset) + (law.i * s.i[law.leg] + s.w * (law.w0 * phi0 + law.w1 * phi1));
+  const Real free = free_voltage(pole_law(piece, c.legs[legs_index(legs)], k), s.bus, s.i, s.w, phi0, phi1);
   const Real V_f = Real(c.devices.V_f_V), noise = c.volt_noise;
   const Real above_low = free + V_f, below_high = s.bus + V_f - free;
   if ((above_low > noise) & (below_high > noise)) return true;
@@ -76,8 +63,8 @@ template <class Real>
   bool clear = true;
   for (unsigned k = 0; k < 3; ++k) {
     if ((open >> k & 1) == 0) continue;
-    const PoleLaw<Real> law = pole_law(piece, c.legs[legs_index(m.legs)], k);
-    const Real free = (law.bus * s.bus + law.offset) + s.w * (law.w0 * phi0 + law.w1 * phi1);
+    const Real free =
+        free_voltage(pole_law(piece, c.legs[legs_index(m.legs)], k), s.bus, s.i, s.w, phi0, phi1);
     clear = clear && s.i[k] == 0 && free + V_f > noise && s.bus + V_f - free > noise;
   }
   return clear;
@@ -93,7 +80,7 @@ bool settle_plainly(const Constants<Real>& c, const State<Real>& s, const Gates&
   Motion motion = c.locked ? Motion::locked : Motion::free;
   if (c.dry_friction) {
     if (detail::abs(s.w) <= c.speed_noise) return false;
-    motion = s.w > 0 ? Motion::forward : Motion::backward;
+    motion = motion_at(s.w);
   }
   // Straight to where they are read: a copy would wait until the bytes that it is made of have left for
   // memory.

@@ -20,6 +20,20 @@ inline bool shoots_through(const Gates& g) { return (g.high & g.low).any(); }
 /// How the rotor may move. `free`: no dry friction, w passes zero like any other value.
 enum class Motion : std::uint8_t { free, forward, backward, stuck, locked };
 
+constexpr bool turns(Motion motion) { return motion != Motion::locked && motion != Motion::stuck; }
+
+/// v against a forward rotation, -v against a backward one; 0 where dry friction has no direction.
+template <class Real>
+constexpr Real against(Motion motion, Real v) {
+  return motion == Motion::forward ? v : motion == Motion::backward ? -v : Real(0);
+}
+
+/// Of a rotor with dry friction that is not at rest.
+template <class Real>
+constexpr Motion motion_at(Real speed) {
+  return speed > 0 ? Motion::forward : Motion::backward;
+}
+
 template <class Real>
 struct State {
   PerLeg<Real> i{}, i_low{};  ///< phase currents, A, and their rounding remainders

@@ -3,9 +3,6 @@
 #pragma once
 #include <type_traits>
 
-#include "sixstep/control/bridge_command.hpp"
-#include "sixstep/rig/modulator.hpp"
-
 namespace sixstep::rig {
 
 /// What the controller's 1.0 stands for (design::Bases). Floating point has 1 of each.
@@ -33,18 +30,6 @@ double to_si(Scalar x, double unit) {
     return static_cast<double>(x);
   else
     return static_cast<double>(x) * unit;
-}
-
-/// A command as the board's timer and comparators take it.
-template <class Scalar>
-BoardCommand widened(const control::BridgeCommand<Scalar>& c, const Bases& bases) {
-  return {.enabled = c.enabled,
-          .pair = c.pair,
-          .duty = to_si(c.duty, 1.0),
-          .chopping = c.chopping,
-          .watch = c.watch,
-          .on_below_A = to_si(c.on_below_A, bases.current_A),
-          .off_above_A = to_si(c.off_above_A, bases.current_A)};
 }
 
 }  // namespace sixstep::rig

@@ -2,7 +2,7 @@
 // The virtual board's configuration, and what is true of it as it wakes.
 #pragma once
 #include "sixstep/rig/bases.hpp"
-#include "sixstep/rig/modulator.hpp"
+#include "sixstep/rig/pulse.hpp"
 #include "sixstep/rig/registers.hpp"
 
 namespace sixstep::rig {

@@ -10,6 +10,9 @@
 //
 // LeanDrive and SensedDrive run drive.hpp; ProductDrive runs protected_drive.hpp, offset calibration, Hall
 // decoding, fault monitor and state machine included.
+//
+// What a firmware answers, its Command, chooses the modulator (modulator.hpp). One that answers three legs
+// needs neither hall_interrupt() nor reversed(): both are six-step's.
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/retune.hpp"
@@ -23,11 +26,11 @@ namespace sixstep::rig {
 template <class Real>
 struct SampleInstant {
   const plant::Plant<Real>& plant;
-  const BoardCommand& in_effect;
   sim::Instant at{};
   std::uint64_t number = 0;  ///< of the sample
   std::uint8_t pins = 0;
-  bool reversed = false;  ///< sign of the command in effect
+  bool reversed = false;  ///< sign of the six-step command in effect
+  double duty = 0.0;      ///< and its duty: what a shunt in the DC link goes by
 };
 
 /// What a firmware has found out about a fault.
@@ -65,7 +68,7 @@ Sample sample_of(const SampleInstant<Real>& instant) {
   Sample sample{.bus_V = static_cast<double>(s.bus),
                 .at = instant.at,
                 .number = instant.number,
-                .duty = instant.in_effect.duty,
+                .duty = instant.duty,
                 .reversed = instant.reversed};
   for (std::size_t k = 0; k < 3; ++k) {
     sample.i_A[k] = static_cast<double>(s.i[k]);
@@ -79,6 +82,7 @@ template <class Scalar>
 class LeanDrive {
  public:
   using Number = Scalar;
+  using Command = control::BridgeCommand<Scalar>;
   using Config = control::DriveConfig<Scalar>;
   static constexpr bool fault_ends_run = true;
 
@@ -133,6 +137,7 @@ template <class Scalar>
 class SensedDrive {
  public:
   using Number = Scalar;
+  using Command = control::BridgeCommand<Scalar>;
   using Config = control::DriveConfig<Scalar>;
   static constexpr bool fault_ends_run = true;
 
@@ -175,6 +180,7 @@ template <class Scalar>
 class ProductDrive {
  public:
   using Number = Scalar;
+  using Command = control::BridgeCommand<Scalar>;
   using Config = control::ProtectedConfig<Scalar>;
   static constexpr bool fault_ends_run = false;
 

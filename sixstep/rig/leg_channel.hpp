@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// One leg's channel of the timer, with its dead time (MODEL2 11): at each change of the leg's command the
+// One leg's output of the timer, with its dead time (MODEL2 11): at each change of the leg's command the
 // switch that was on is off at once, and the other one comes on no earlier than the dead time after that
 // command. A new change before that cancels it. No change, no dead time.
 #pragma once
-#include <cstdint>
-
+#include "sixstep/control/leg_command.hpp"
 #include "sixstep/sim/instant.hpp"
 
 namespace sixstep::rig {
 
-/// The switch that a leg is told to have on.
-enum class LegSide : std::uint8_t { none, low, high };
+using control::LegSide;
 
 class LegChannel {
  public:

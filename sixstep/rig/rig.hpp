@@ -4,11 +4,13 @@
 // What its chip runs is a template parameter (firmware.hpp).
 #pragma once
 #include <array>
+#include <type_traits>
 
 #include "sixstep/plant/hall.hpp"
 #include "sixstep/plant/plant.hpp"
 #include "sixstep/rig/firmware.hpp"
 #include "sixstep/rig/modulator.hpp"
+#include "sixstep/rig/timeline.hpp"
 
 namespace sixstep::rig {
 
@@ -30,6 +32,7 @@ template <class RealType, class Firmware>
 class Rig {
  public:
   using Real = RealType;
+  using Modulator = typename ModulatorFor<typename Firmware::Command>::type;
   using Config = typename Firmware::Config;
   using Tunings = std::vector<Tuning<Config>>;
 
@@ -84,8 +87,19 @@ class Rig {
   const sim::Instant& next_tick() const { return next_tick_; }
 
  private:
+  /// What only six-step has: a sign, a pair that moves on at Hall edges, comparators.
+  static constexpr bool six_step = std::is_same_v<Modulator, SixStepModulator>;
+  using BoardAnswer = typename Modulator::Command;
+
   sim::Instant next_due() const;
-  bool watching() const { return modulator_.command().watch != control::Watch::none; }
+  bool watching() const {
+    if constexpr (six_step) return modulator_.watching();
+    return false;
+  }
+  bool compared() {
+    if constexpr (six_step) return watching() && compare();
+    return false;
+  }
   bool compare();
   bool do_timeline();
   void do_action(const Action& action);
@@ -98,6 +112,9 @@ class Rig {
   sim::Instant told_next() const;
   void sector_edge();
   void hall_edge();
+  void commutate();
+  template <class Visit>
+  void comparator_guards(Visit&& visit) const;
   void trip(int which);
   void let_go();
   void count(EventKind what) { ++event_counts_[static_cast<std::size_t>(what)]; }
@@ -114,8 +131,8 @@ class Rig {
   std::size_t next_action_ = 0;
   double setpoint_ = 0.0;
   std::size_t waveform_ = 0;  ///< the action whose waveform the setpoint follows, where moving_
-  BoardCommand pending_{};    ///< waits for its period
-  BoardCommand loaded_{};     ///< sampled in the middle: what the timer takes up next
+  BoardAnswer pending_ = Modulator::before_first();  ///< waits for its period
+  BoardAnswer loaded_{};                             ///< sampled in the middle: what the timer takes up next
   std::array<std::int64_t, static_cast<std::size_t>(EventKind::count)> event_counts_{};
   Firmware firmware_;
   bool moved_ = true;  ///< a located event changed what the board drives
@@ -150,18 +167,9 @@ bool Rig<Real, Firmware>::act() {
       if (!do_timeline() && !do_tick() && modulator_.act(now_)) count(EventKind::pwm_edge);
       due_ = next_due();
     }
-  } while (fault_ == Fault::none && watching() && compare());
+  } while (fault_ == Fault::none && compared());
   if (fault_ == Fault::none && !plant_.set_gates(modulator_.gates())) fault_ = Fault::shoot_through;
   return fault_ == Fault::none;
-}
-
-/// Comparators beyond their level; true where one switched.
-template <class Real, class Firmware>
-bool Rig<Real, Firmware>::compare() {
-  const int switched = modulator_.compare(now_, plant_.state().i);
-  event_counts_[static_cast<std::size_t>(EventKind::comparator)] += switched;
-  due_ = next_due();
-  return switched > 0;
 }
 
 template <class Real, class Firmware>
@@ -178,14 +186,15 @@ bool Rig<Real, Firmware>::do_tick() {
 template <class Real, class Firmware>
 void Rig<Real, Firmware>::control_step(bool starts_period) {
   if (moving_) follow_waveform();
-  const SampleInstant<Real> instant{plant_, modulator_.command(),
-                                    now_,   static_cast<std::uint64_t>(event_count(EventKind::tick)),
-                                    pins(), reversed_};
+  SampleInstant<Real> instant{plant_, now_, static_cast<std::uint64_t>(event_count(EventKind::tick)), pins(),
+                              reversed_};
+  if constexpr (six_step) instant.duty = modulator_.command().duty;
   const auto& answer = firmware_.tick(instant, setpoint_);
   if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
   if (!answer.enabled) let_go();
-  BoardCommand command = widened(answer, board_.bases);
-  bool reversed = firmware_.reversed();
+  BoardAnswer command = widened(answer, board_.bases);
+  bool reversed = false;
+  if constexpr (six_step) reversed = firmware_.reversed();
   if (board_.delayed) {
     std::swap(command, pending_);
     std::swap(reversed, pending_reversed_);
@@ -196,10 +205,9 @@ void Rig<Real, Firmware>::control_step(bool starts_period) {
     return;
   }
   reversed_ = reversed;
-  if (starts_period)
-    modulator_.start_period(now_, command);
-  else
-    modulator_.rearm(now_, command);
+  if constexpr (six_step)
+    if (!starts_period) return modulator_.rearm(now_, command);
+  modulator_.start_period(now_, command);
 }
 
 /// Turning off waits for no register: neither for a delayed command nor for one that the timer has loaded.
@@ -232,52 +240,16 @@ void Rig<Real, Firmware>::skip_idle_ticks() {
 template <class Real, class Firmware>
 void Rig<Real, Firmware>::hall_edge() {
   firmware_.captured(pins(), now_);
-  if (board_.commutate_at_sample) return;
-  const auto answer = firmware_.hall_interrupt(pins(), now_);
-  if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
-  if (!answer.enabled) return let_go();
-  pending_.pair = answer.pair;
-  if (board_.sampled_in_middle)
-    loaded_.pair = firmware_.reversed() == loaded_reversed_ ? answer.pair : control::swapped(answer.pair);
-  const bool same_sign = firmware_.reversed() == reversed_;
-  modulator_.commutate(now_, same_sign ? answer.pair : control::swapped(answer.pair));
-}
-
-/// With two legs conducting, both phases carry one current and two comparators reach their levels together:
-/// whether the second one switches too must not be left to a rounding error.
-template <class Real, class Firmware>
-void Rig<Real, Firmware>::trip(int which) {
-  const ArmedComparator other = modulator_.comparator(1 - which);
-  const bool same_level = other.armed && other.switches_off == modulator_.comparator(which).switches_off;
-  modulator_.comparator_tripped(now_, which);
-  if (!same_level || plant::connected_count(plant_.mode().legs) != 2) return;
-  const plant::PerLeg<double> weight = modulator_.comparator_weights(1 - which);
-  const plant::PerLeg<Real>& i = plant_.state().i;
-  const Real current = Real(weight[0]) * i[0] + Real(weight[1]) * i[1] + Real(weight[2]) * i[2];
-  if (std::fabs(current - Real(other.level_A)) > plant_.constants().amp_noise) return;
-  count(EventKind::comparator);
-  modulator_.comparator_tripped(now_, 1 - which);
+  if constexpr (six_step)
+    if (!board_.commutate_at_sample) commutate();
 }
 
 template <class Real, class Firmware>
 template <class Visit>
 void Rig<Real, Firmware>::guards(Visit&& visit) const {
   plant_.guards(visit);
-  if (!watching()) return;
-  for (int which = 0; which < 2; ++which) {
-    const ArmedComparator c = modulator_.comparator(which);
-    if (!c.armed) continue;
-    const plant::PerLeg<double> weight = modulator_.comparator_weights(which);
-    const plant::Expansion<Real>& y = plant_.expansion();
-    const Real sign = c.switches_off ? Real(-1) : Real(1);
-    const auto current = [&](int j) {
-      return sign * (Real(weight[0]) * y.i[0][j] + Real(weight[1]) * y.i[1][j] + Real(weight[2]) * y.i[2][j]);
-    };
-    series::Coefficients<Real> g;
-    g[0] = current(0) - sign * Real(c.level_A);
-    for (int j = 1; j <= y.degree; ++j) g[j] = current(j);
-    visit(plant::guard::first_free + which, g, y.degree, plant_.constants().amp_noise);
-  }
+  if constexpr (six_step)
+    if (watching()) comparator_guards(visit);
 }
 
 template <class Real, class Firmware>
@@ -286,7 +258,8 @@ void Rig<Real, Firmware>::apply(int id) {
   if (id >= guard::first_free) {
     count(EventKind::comparator);
     moved_ = true;
-    return trip(id - guard::first_free);
+    if constexpr (six_step) trip(id - guard::first_free);
+    return;
   }
   if (id < guard::standstill) count(EventKind::diode_off);
   if (id == guard::standstill) count(EventKind::standstill);
@@ -303,3 +276,4 @@ using LeanRig = Rig<Real, LeanDrive<Scalar>>;
 }  // namespace sixstep::rig
 
 #include "sixstep/rig/rig_inputs.hpp"
+#include "sixstep/rig/rig_six_step.hpp"

@@ -14,8 +14,8 @@ namespace {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-study::CurveRequest request(double duty) {
-  study::CurveRequest r{.sheet = curve_sheet(), .bench = maxon_bench(), .points = 8};
+analysis::CurveRequest request(double duty) {
+  analysis::CurveRequest r{.sheet = curve_sheet(), .bench = maxon_bench(), .points = 8};
   r.bench.duty = duty;
   return r;
 }
@@ -29,8 +29,8 @@ TEST(TorqueSpeedCurve, HasTheSameBitsOnAnyNumberOfThreads) {
     ASSERT_EQ(one->points.size(), 8u);
     ASSERT_EQ(many->points.size(), 8u);
     for (std::size_t n = 0; n < 8; ++n) {
-      const study::OperatingPoint &p = one->points[n], &q = many->points[n];
-      using P = study::OperatingPoint;
+      const analysis::OperatingPoint &p = one->points[n], &q = many->points[n];
+      using P = analysis::OperatingPoint;
       for (double P::*member :
            {&P::speed_rad_s, &P::torque_Nm, &P::shaft_torque_Nm, &P::ripple_Nm, &P::ripple_rms_Nm,
             &P::bus_current_A, &P::winding_current_A, &P::motor_current_A, &P::phase_rms_A, &P::phase_peak_A,
@@ -56,7 +56,7 @@ TEST(TorqueSpeedCurve, EndsWhenAskedTo) {
 }
 
 TEST(TorqueSpeedCurve, HandsOnWhatIsWrong) {
-  study::CurveRequest r = request(1.0);
+  analysis::CurveRequest r = request(1.0);
   r.bench.voltage_V = -1;
   EXPECT_FALSE(batch::torque_speed_curve(r, batch::on_threads(1)));
 }

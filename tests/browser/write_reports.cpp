@@ -51,12 +51,14 @@ sixstep::study::Trace sampled(const sixstep::study::Trace& trace) {
 
 std::string curve() {
   using namespace sixstep;
-  const study::CurveRequest request{
+  const analysis::CurveRequest request{
       .sheet = testing::curve_sheet(), .bench = testing::maxon_bench(), .points = 21};
-  const study::CurvePlan plan = *study::plan_curve(request);
-  std::vector<study::OperatingPoint> found;
-  for (const double speed : plan.speeds_rad_s) found.push_back(*study::operating_point(request.bench, speed));
-  return report::render_curve({request, *study::curve_of(request, plan, found, study::one_after_the_other),
+  const analysis::CurvePlan plan = *analysis::plan_curve(request);
+  std::vector<analysis::OperatingPoint> found;
+  for (const double speed : plan.speeds_rad_s)
+    found.push_back(*analysis::operating_point(request.bench, speed));
+  return report::render_curve({request,
+                               *analysis::curve_of(request, plan, found, analysis::one_after_the_other),
                                "sixstep curve maxon-251601 --html curve.html", "0.1.0"});
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// (The ripple beside the exact simulation: tests/study/design_study_test.cpp.)
+// (The ripple beside the exact simulation: tests/analysis/design_study_test.cpp.)
 #include "sixstep/design/loops/operating_limits.hpp"
 
 #include <gtest/gtest.h>

@@ -47,7 +47,7 @@ class Beside {
     for (int n = 0; n < steps_per_segment; ++n) {
       five_ = rk4<5>(five_, n * h, h, [&](double t, const auto& x) {
         const auto now = part(t);
-        const double u_n = plant::star_voltage(p.mode().legs, board_.devices, now.bus, now.i, now.emf);
+        const double u_n = plant::star_voltage(p.mode().legs, p.constants().poles, now.bus, now.i, now.emf);
         return design::phase_voltage_model(board_.machine, board_.shaft, {x[4]})
             .derivative(x, {now.pole[0] - u_n, now.pole[1] - u_n, now.pole[2] - u_n, load});
       });

@@ -17,7 +17,7 @@
 #include "tests/export/extras_drive.hpp"
 #include "tests/export/headers.hpp"
 #include "text/export/config_header.hpp"
-#include "text/export/config_lines.hpp"
+#include "text/export/config_text.hpp"
 #include "text/scenario/scenario_file.hpp"
 
 namespace {
@@ -52,37 +52,41 @@ template <class Format>
 std::int64_t bits(FixedSum<Format> x) {
   return x.raw;
 }
-template <class Enum>
-requires std::is_enum_v<Enum> || std::is_same_v<Enum, bool> std::int64_t bits(Enum x) {
+template <class Format>
+std::int64_t bits(FixedTickRatio<Format> x) {
+  return x.raw;
+}
+template <class Whole>
+requires std::is_enum_v<Whole> || std::is_integral_v<Whole> std::int64_t bits(Whole x) {
   return static_cast<std::int64_t>(x);
 }
 
-// A new member must be written by text/export/config_lines.hpp and compared here.
-static_assert(sizeof(DriveConfig<double>) == 312 && sizeof(DriveExtras<double>) == 192);
+/// Every member (tests/design/fields_test.cpp).
+struct Bits {
+  std::vector<std::int64_t> all;
+  static constexpr bool when_run(bool) { return true; }
+  static constexpr bool when_on(bool) { return true; }
+  void add(const auto& kept) { all.push_back(bits(kept)); }
+  void flag(const design::Field&, auto, const auto& kept) { add(kept); }
+  void choice(const design::Field&, auto, const auto& kept, auto) { add(kept); }
+  void count(const design::Field&, auto, const auto& kept, auto) { add(kept); }
+  void signal(const design::Field&, double, const auto& kept, design::Base) { add(kept); }
+  void threshold(const design::Field&, double, const auto& kept, design::Base) { add(kept); }
+  void gain(const design::Field&, double, const auto& kept, design::Ratio) { add(kept); }
+  void raw_gain(const design::Field&, double, const auto& kept, design::Base) { add(kept); }
+  void divisor(const design::Field&, double, const auto& kept, design::Base) { add(kept); }
+  void sum(const design::Field&, double, const auto& kept, design::Base) { add(kept); }
+  void ticks(const design::Field&, double, const auto& kept, design::Base) { add(kept); }
+  void part(const char*, const auto& designed, const auto& kept, const auto&... told) {
+    design::fields(*this, designed, kept, told...);
+  }
+};
 
-/// Every member, in its order.
 template <class S>
 std::vector<std::int64_t> bits_of(const DriveConfig<S>& c) {
-  const DriveExtras<S>& x = c.extras;
-  const LimitsConfig<S>& l = x.limits;
-  const auto second = [](const PiConfig<S>& pi) {
-    if constexpr (std::is_floating_point_v<S>)
-      return bits(pi.d0);
-    else
-      return bits(pi.K_i);
-  };
-  return {bits(c.mode), bits(c.chopping), bits(c.current_control), bits(c.current.d1), second(c.current),
-          bits(c.current.limit), bits(c.hysteresis.band_A), bits(c.hysteresis.watch), bits(c.nominal_bus_V),
-          bits(c.speed.d1), second(c.speed), bits(c.speed.limit), bits(c.current_at_full_torque_A),
-          bits(c.current_limit_A), bits(c.position_gain), bits(c.speed_limit_rad_s), bits(c.speed_control),
-          // extras
-          bits(x.on), bits(x.slews_setpoint), bits(x.slew.step), bits(x.limits_current), bits(l.current_A),
-          bits(l.limits_speed), bits(l.speed_rad_s), bits(l.A_per_rad_s), bits(l.limits_regeneration),
-          bits(l.bus_V), bits(l.A_per_V), bits(x.torque_fraction_per_A), bits(x.feed_forward.K_t_V_s),
-          bits(x.bus.lowest_bus_V), bits(x.smooth_chopping), bits(x.chopping.soft_above_A),
-          bits(x.chopping.complementary_below_A), bits(x.positional_speed), bits(x.speed.K),
-          bits(x.speed.K_i), bits(x.speed.K_b), bits(x.speed.limit), bits(x.speed_derivative.g),
-          bits(x.speed_derivative.b), bits(x.speed.K_c)};
+  Bits walk;
+  design::fields(walk, DriveConfig<double>{}, c);
+  return walk.all;
 }
 
 TEST(ExportHeader, FloatingPointIsWhatTheRunComputesWith) {
@@ -128,35 +132,11 @@ TEST(ExportHeader, FixedPointIsWhatTheScalingProved) {
   expect_scaled(exported_position_q31::drive, exported_position_q31::units, "thesis/7.5-position");
 }
 
-// As above, of text/export/product_lines.hpp.
-static_assert(sizeof(ProtectedConfig<double>) == 584);
-
-template <class Format>
-std::int64_t bits(FixedTickRatio<Format> x) {
-  return x.raw;
-}
-
-/// Every member, in its order.
 template <class S>
 std::vector<std::int64_t> bits_of(const ProtectedConfig<S>& c) {
-  std::vector<std::int64_t> all = bits_of(c.drive);
-  const auto add = [&all](std::initializer_list<std::int64_t> more) { all.insert(all.end(), more); };
-  const auto add_adc = [&](const AdcConfig<S>& a) {
-    add({bits(a.per_eighth), a.offset_counts, a.offset_tolerance, a.log2_samples});
-  };
-  add({bits(c.setpoint_limit), bits(c.sensing)});
-  for (const AdcConfig<S>& adc : c.current_adc) add_adc(adc);
-  add_adc(c.bus_adc);
-  add({bits(c.shunt.least_duty), c.shunt.commutation_samples, bits(c.shunt.fade), bits(c.hall.arrangement),
-       c.hall.stable_samples, bits(c.speed.sector_rad_s_ticks), c.speed.timeout_ticks, c.speed.edges,
-       c.speed.window_ticks, c.speed.grain_ticks, bits(c.position.per_sector), bits(c.position.per_fraction),
-       bits(c.advance.fixed), bits(c.advance.per_speed), bits(c.advance.limit)});
-  const FaultConfig<S>& f = c.faults;
-  add({bits(f.over_current_A), bits(f.over_voltage_V), bits(f.under_voltage_V), bits(f.over_speed_rad_s),
-       bits(f.stall_current_A), f.stall_ticks, f.voltage_ticks});
-  add({bits(c.align.current_A), c.align.ticks, c.align.settled_ticks, c.align.sector, bits(c.brake_current_A),
-       bits(c.short_below_rad_s), bits(c.standing_rad_s)});
-  return all;
+  Bits walk{bits_of(c.drive)};
+  design::fields(walk, ProtectedConfig<double>{}, c);
+  return walk.all;
 }
 
 template <class S>
@@ -207,7 +187,8 @@ TEST(ExportHeader, UnitsGiveTheBitsOfTheProductsScaling) {
   product.setpoint_limit = 700;
   for (AdcConfig<double>& adc : product.current_adc) adc = {40.0 / 4096 / 8, 2048, 40, 6};
   product.bus_adc = {40.0 / 4096 / 8, 0, 0, 6};
-  product.speed = {3.14159265358979323846 / 3 / 8 * 1e6, 100000, 6};
+  product.speed = {
+      .sector_rad_s_ticks = 3.14159265358979323846 / 3 / 8 * 1e6, .timeout_ticks = 100000, .edges = 6};
   product.faults = {15, 30, 10, 800, 8, 3000, 3};
   const auto scaled = design::scaled_product<Q15>(product, stated, 12);
   ASSERT_TRUE(scaled) << to_string(scaled.problems()[0]);

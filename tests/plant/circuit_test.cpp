@@ -18,7 +18,6 @@ TEST(Circuit, ConnectionsAreThoseOfTheGatesAndTheCurrentsSign) {
   static_assert(connection_of(false, false, 1) == low_diode);
   static_assert(connection_of(false, false, -1) == high_diode);
   static_assert(connection_of(false, false, 0) == floating);
-  static_assert(!connection_of(true, true, 0));
 }
 
 TEST(Circuit, PoleVoltagesFollowTheDevices) {
@@ -34,8 +33,8 @@ TEST(Circuit, CurrentsOfTheConnectedLegsKeepTheirSum) {
   const PerLeg<double> i{3.0, -5.0, 2.0}, e{6.0, -4.0, 1.5};
   for (const Legs& legs :
        {Legs{high_switch, low_switch, low_diode}, Legs{high_diode, low_diode, high_switch}}) {
-    const PerLeg<double> u = pole_voltages(legs, real, 24.0, i, e);
-    const double u_n = star_voltage(legs, real, 24.0, i, e);
+    const PerLeg<double> u = pole_voltages(legs, pole_table<double>(real), 24.0, i, e);
+    const double u_n = star_voltage(legs, pole_table<double>(real), 24.0, i, e);
     double sum = 0.0;
     for (std::size_t k = 0; k < 3; ++k) sum += u[k] - u_n - 0.515 * i[k] - e[k];
     EXPECT_NEAR(sum, 0.0, 1e-14);
@@ -45,7 +44,7 @@ TEST(Circuit, CurrentsOfTheConnectedLegsKeepTheirSum) {
 TEST(Circuit, FloatingTerminalShowsTheStarPointAndItsEmf) {
   const PerLeg<double> e{5.0, -5.0, 2.0};
   const PerLeg<double> u =
-      pole_voltages({high_switch, low_switch, floating}, Devices{}, 24.0, {1.0, -1.0, 0.0}, e);
+      pole_voltages({high_switch, low_switch, floating}, pole_table<double>({}), 24.0, {1.0, -1.0, 0.0}, e);
   EXPECT_EQ(u[2], 12.0 + 2.0);
 }
 
@@ -53,7 +52,8 @@ TEST(Circuit, FreeStarPointLiesSymmetrically) {
   // With no leg connected conduction starts when max e - min e exceeds U_s + 2 V_f: both rails are reached
   // together.
   const PerLeg<double> e{20.0, -12.0, 3.0};
-  const PerLeg<double> u = pole_voltages({floating, floating, floating}, real, 24.0, {}, e);
+  const PerLeg<double> u =
+      pole_voltages({floating, floating, floating}, pole_table<double>(real), 24.0, {}, e);
   EXPECT_DOUBLE_EQ(u[0] - 24.0, -u[1]);
 }
 

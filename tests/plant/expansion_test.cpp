@@ -3,6 +3,7 @@
 // same whatever instructions it is compiled to.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <random>
@@ -56,6 +57,76 @@ TEST(Series, OneThatIsTooLongIsHalvedUntilItsLastTwoTermsAreNothing) {
     EXPECT_NEAR(series::evaluate(y.i[0], y.degree, 1.0), exact, 8 * eps * exact) << taus;
   }
   EXPECT_GT(halved, 0);
+}
+
+/// A shaft with every torque there is, so that none can be lost on one of the ways.
+plant::Plant<double> braked(std::mt19937_64& random, bool stiff) {
+  std::uniform_real_distribution<double> part(0.1, 1);
+  Drivetrain setup;
+  setup.machine = {.R_ohm = part(random), .L_H = 1e-3 * part(random), .K_e_V_s = 0.03 * part(random)};
+  setup.shaft = {.J_kg_m2 = 1e-5 * part(random), .B_Nm_s = 1e-3 * part(random), .coulomb_Nm = part(random)};
+  setup.devices = {.R_on_ohm = 0.1 * part(random), .V_f_V = part(random), .r_d_ohm = 0.1 * part(random)};
+  if (!stiff) setup.supply = {.V_0_V = 24, .R_b_ohm = 0.1, .C_F = 1e-3};
+  plant::Plant<double> out = setup.plant();
+  out.set_load(part(random) - 0.5);
+  return out;
+}
+
+/// The same recurrence with no term negative: what the rounding of an order is measured by.
+struct Majorant {
+  series::Coefficients<double> i{}, w{}, bus{};
+  Majorant(const plant::Constants<double>& c, const plant::LegsLaw<double>& law, double emf, bool turns,
+           const plant::Expansion<double>& y) {
+    const auto size = [](double v) { return std::fabs(v); };
+    const double inv_J = turns ? c.inv_J : 0;
+    i[0] = size(y.i[law.leg[0]][0]);
+    w[0] = size(y.w[0]);
+    bus[0] = y.bus[0];
+    for (int n = 0; n < series::max_degree; ++n) {
+      const double f = y.h / (n + 1), first = n == 0 ? 1 : 0;
+      i[n + 1] = f * (size(law.slope.i) * i[n] + law.emf_rate * emf * w[n] + size(law.slope.bus) * bus[n] +
+                      first * size(law.slope.offset));
+      bus[n + 1] = f * c.inv_C * (c.inv_R_b * (first * c.V_0 + bus[n]) + 2 * i[n]);
+      w[n + 1] = f * inv_J * (emf * i[n] + c.B * w[n] + first * (size(c.load) + c.coulomb));
+    }
+  }
+};
+
+/// FlatPair multiplies the laws of winding and shaft out two orders at a time; the plain recurrence takes
+/// them as they stand. An order of either rounds less than a dozen times.
+TEST(Series, APairOnItsFlatTopsIsThePlainRecurrence) {
+  std::mt19937_64 random{20261122};
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int n = 0; n < 2000; ++n) {
+    const plant::Plant<double> rotor = braked(random, n % 2 == 0);
+    const plant::Constants<double>& c = rotor.constants();
+    plant::Mode mode{.motion = static_cast<plant::Motion>(random() % 5)};
+    // In sector 0 a and b stand on their tops, c on a ramp.
+    for (unsigned k = 0; k < 2; ++k) mode.legs[k] = static_cast<plant::Connection>(1 + random() % 4);
+    const plant::EmfPiece<double>& piece = c.emf[0].piece[0];
+    ASSERT_EQ(piece.beta[0], piece.beta[1]);
+    const plant::LegsLaw<double>& law = c.legs[plant::legs_index(mode.legs)];
+    plant::Expansion<double> flat{};
+    flat.h = 2e-5 * (1.5 + any(random));
+    flat.i[0][0] = 20 * any(random);
+    flat.i[1][0] = -flat.i[0][0];
+    flat.w[0] = plant::turns(mode.motion) ? 700 * any(random) : 0.0;
+    flat.x[0] = base::sector_rad * (1 + any(random)) / 2;
+    flat.bus[0] = 24 + any(random);
+    plant::Expansion<double> plain = flat;
+    const plant::detail::ShapeLine<false, double> shape(piece, flat.x[0]);
+    using plant::detail::Build;
+    plant::detail::recurrence<Build::any, plant::detail::FlatPair<double>>(c, mode, law, shape, flat);
+    plant::detail::recurrence<Build::any, plant::detail::OneCurrent<false, double>>(c, mode, law, shape,
+                                                                                    plain);
+    ASSERT_EQ(flat.h, plain.h);
+    const Majorant size(c, law, piece.alpha[0] - piece.alpha[1], plant::turns(mode.motion), plain);
+    for (int j = 0; j <= std::min(flat.degree, plain.degree); ++j) {
+      ASSERT_NEAR(flat.i[0][j], plain.i[0][j], 12 * (j + 1) * eps * size.i[j])
+          << "state " << n << " order " << j;
+      ASSERT_NEAR(flat.w[j], plain.w[j], 12 * (j + 1) * eps * size.w[j]) << "state " << n << " order " << j;
+    }
+  }
 }
 
 #ifdef __x86_64__

@@ -108,8 +108,7 @@ double watched(const plant::Plant<double>& p, int id, double s) {
   const double V_f = p.constants().devices.V_f_V;
   const auto& piece = p.constants().emf[p.sector()].piece[p.mode().piece];
   const double x = series::evaluate(p.expansion().x, p.expansion().degree, s);
-  if (id < guard::standstill)
-    return p.mode().legs[id] == plant::Connection::low_diode ? now.i[id] : -now.i[id];
+  if (id < guard::standstill) return plant::along_diode(p.mode().legs[id], now.i[id]);
   if (id == guard::standstill) return p.mode().motion == plant::Motion::forward ? now.speed : -now.speed;
   if (id == guard::edge_ahead) return piece.to - x;
   if (id == guard::edge_behind) return x - piece.from;

@@ -52,9 +52,7 @@ struct DrivenPair {
 };
 constexpr std::array<DrivenPair, 6> pairs{{{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}}};
 
-Connection free_leg(char sign) {
-  return *connection_of(false, false, sign == '+' ? 1 : sign == '-' ? -1 : 0);
-}
+Connection free_leg(char sign) { return connection_of(false, false, sign == '+' ? 1 : sign == '-' ? -1 : 0); }
 
 /// Table 4: both driven switches conduct. Table 5: only the sink's lower one, the source is free as the third
 /// leg is.
@@ -79,7 +77,7 @@ Derived derived(const Legs& legs) {
     const double U_s = n == 0 ? 1.0 : 0.0;
     PerLeg<double> e{};
     if (n > 0) e[n - 1] = 1.0;
-    const PerLeg<double> u = pole_voltages(legs, Devices{}, U_s, PerLeg<double>{}, e);
+    const PerLeg<double> u = pole_voltages(legs, pole_table<double>({}), U_s, PerLeg<double>{}, e);
     d.ab[n] = (u[0] - u[1]) - (e[0] - e[1]);
     d.bc[n] = (u[1] - u[2]) - (e[1] - e[2]);
   }

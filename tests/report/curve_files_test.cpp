@@ -20,15 +20,15 @@ using namespace sixstep;
 using namespace sixstep::testing;
 
 struct Made {
-  study::CurveRequest request;
-  study::Curve curve;
+  analysis::CurveRequest request;
+  analysis::Curve curve;
 };
 
 Made made(bool thermal, double duty = 1.0) {
-  study::CurveRequest r{
+  analysis::CurveRequest r{
       .sheet = thermal ? curve_sheet() : maxon_sheet(), .bench = maxon_bench(), .points = 5};
   r.bench.duty = duty;
-  base::Result<study::Curve> curve = batch::torque_speed_curve(r, batch::on_threads(1));
+  base::Result<analysis::Curve> curve = batch::torque_speed_curve(r, batch::on_threads(1));
   EXPECT_TRUE(curve);
   return {r, std::move(*curve)};
 }
@@ -54,7 +54,7 @@ TEST(CurveColumns, HoldThePointsNumbers) {
     return 0.0;
   };
   for (std::size_t n = 0; n < 5; ++n) {
-    const study::OperatingPoint& p = m.curve.points[n];
+    const analysis::OperatingPoint& p = m.curve.points[n];
     EXPECT_EQ(value(n, "torque_Nm"), p.shaft_torque_Nm);
     EXPECT_EQ(value(n, "air_gap_torque_Nm"), p.torque_Nm);
     EXPECT_EQ(value(n, "copper_W"), p.copper_W);
@@ -123,7 +123,7 @@ TEST(CurvePage, ShowsTheUsableCornerAndWhatItAllows) {
   const std::string whole = page();
   const std::size_t at = whole.find("\"corner\":");
   ASSERT_NE(at, std::string::npos);
-  const study::ThermalLimits still = study::thermal_limits(*m.curve.thermal, m.request, 0.0);
+  const analysis::ThermalLimits still = analysis::thermal_limits(*m.curve.thermal, m.request, 0.0);
   EXPECT_NEAR(std::stod(whole.substr(at + 9)), 1.1e3 * still.short_Nm[0], 1e-9)
       << "some room above ten seconds";
   for (const char* region : {"\"continuous\"", "\"short-time\""})

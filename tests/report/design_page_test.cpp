@@ -14,23 +14,23 @@
 namespace report {
 namespace {
 
-namespace study = sixstep::study;
+namespace analysis = sixstep::analysis;
 using sixstep::control::Mode;
 using testing::HasSubstr;
 using testing::Not;
 
-study::DesignStudy studied(Mode mode, const std::string& name = "") {
+analysis::DesignStudy studied(Mode mode, const std::string& name = "") {
   const auto file = std::filesystem::path(SIXSTEP_SOURCE_DIR) / "data/motors/maxon-251601.toml";
   auto sheet = text::read_sheet(file.string());
   if (!name.empty()) sheet->name = name;
-  const auto s = study::study_design({.subject = {"maxon-251601", *sheet, {}},
-                                      .spec = {.mode = mode, .torque_limit_Nm = 0.78},
-                                      .tolerances = study::sheet_tolerances(mode)});
+  const auto s = analysis::study_design({.subject = {"maxon-251601", *sheet, {}},
+                                         .spec = {.mode = mode, .torque_limit_Nm = 0.78},
+                                         .tolerances = analysis::sheet_tolerances(mode)});
   EXPECT_TRUE(s);
   return *s;
 }
 
-std::string page_of(const study::DesignStudy& s) {
+std::string page_of(const analysis::DesignStudy& s) {
   return render_design({s, "usable, 1 warning: a line", "motor = \"<x>\"", "sixstep design", "0"});
 }
 
@@ -41,7 +41,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 }
 
 TEST(DesignPage, HasEveryPartOfTheDesign) {
-  const study::DesignStudy s = studied(Mode::speed);
+  const analysis::DesignStudy s = studied(Mode::speed);
   const std::string page = page_of(s);
   EXPECT_EQ(page, page_of(s));
   EXPECT_THAT(page, Not(HasSubstr("{{")));
@@ -76,7 +76,7 @@ TEST(Design, ANominalCurrentThatNobodyNamedIsNotCalledSo) {
   auto sheet = text::read_sheet(
       (std::filesystem::path(SIXSTEP_SOURCE_DIR) / "data/motors/maxon-251601.toml").string());
   sheet->nominal_current_A.reset();
-  const auto s = study::study_design(
+  const auto s = analysis::study_design(
       {.subject = {"maxon-251601", *sheet, {}}, .spec = {.mode = Mode::speed}, .tolerances = {}});
   ASSERT_TRUE(s);
   const std::string page = page_of(*s), text = text::design_text(*s, false);

@@ -10,7 +10,7 @@ using namespace sixstep;
 using namespace sixstep::testing;
 
 TEST(Comparator, StartsOnAndSwitchesStrictlyBeyondItsLevels) {
-  Modulator m{ModulatorConfig{}};
+  SixStepModulator m{ModulatorConfig{}};
   m.start_period(at(0), compared(Watch::motor, Chopping::soft, 5.0));
   EXPECT_EQ(on(m), "a+b-");
   EXPECT_FALSE(m.compare(at(1), plant::PerLeg<double>{5.25, -5.25, 0.0}));
@@ -23,7 +23,7 @@ TEST(Comparator, StartsOnAndSwitchesStrictlyBeyondItsLevels) {
 }
 
 TEST(Comparator, OfEachPhaseSwitchesItsOwnSwitch) {
-  Modulator m{ModulatorConfig{}};
+  SixStepModulator m{ModulatorConfig{}};
   m.start_period(at(0), compared(Watch::phase, Chopping::hard, 5.0));
   EXPECT_EQ(on(m), "a+b-");
   EXPECT_TRUE(m.compare(at(1), plant::PerLeg<double>{5.5, -5.0, -0.5}));
@@ -35,7 +35,7 @@ TEST(Comparator, OfEachPhaseSwitchesItsOwnSwitch) {
 }
 
 TEST(Comparator, SoftChoppingOnPhasesHasOnlyTheSourcesOne) {
-  Modulator m{ModulatorConfig{}};
+  SixStepModulator m{ModulatorConfig{}};
   m.start_period(at(0), compared(Watch::phase, Chopping::soft, 5.0));
   EXPECT_TRUE(m.comparator(0).armed);
   EXPECT_FALSE(m.comparator(1).armed);
@@ -43,7 +43,7 @@ TEST(Comparator, SoftChoppingOnPhasesHasOnlyTheSourcesOne) {
 }
 
 TEST(Comparator, TicksNeitherRestartNorResetIt) {
-  Modulator m{ModulatorConfig{}};
+  SixStepModulator m{ModulatorConfig{}};
   m.start_period(at(0), compared(Watch::motor, Chopping::soft, 5.0));
   m.compare(at(1), plant::PerLeg<double>{6.0, -6.0, 0.0});
   m.start_period(at(period), compared(Watch::motor, Chopping::soft, 5.0));

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sixstep/study/check/check.hpp"
-#include "sixstep/study/verify/export_gate.hpp"
+#include "sixstep/study/run/export_gate.hpp"
 #include "tests/support/product_scenarios.hpp"
 
 namespace {

@@ -7,13 +7,9 @@
 
 #include "sixstep/design/loops/drive_design.hpp"
 #include "sixstep/study/check/check.hpp"
-#include "sixstep/study/curve/curve.hpp"
 #include "sixstep/study/measure/gauge.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "sixstep/study/scenario/spread.hpp"
-#include "sixstep/study/verify/design_study.hpp"
-#include "sixstep/study/verify/first_scenario.hpp"
-#include "tests/support/bench.hpp"
 #include "tests/support/maxon.hpp"
 #include "tests/support/scenarios.hpp"
 
@@ -83,67 +79,6 @@ TEST(Numbers, OfADesignsWishAreHeldToTheTable) {
     w.method = design::GainMethod::cancellation;
     w.bandwidth_rad_s = x;
   });
-}
-
-/// What the table lets pass is a drive, or is refused in words; never a defect.
-TEST(Numbers, ADesignAtTheEndsOfTheTableIsUsableOrRefused) {
-  for (const double voltage_V : {1e-6, 1e-3, 100.0, 1e3, 1e5})
-    for (const double period_s : {1e-9, 30e-6, 1e-3, 1.0})
-      for (const double inertia : {0.0, 1e9}) {
-        study::DesignOrder order{
-            .subject = {"maxon", testing::maxon_sheet(), std::nullopt}, .spec = {}, .tolerances = {}};
-        order.spec.mode = control::Mode::current;
-        order.spec.voltage_V = voltage_V;
-        order.spec.period_s = period_s;
-        order.spec.load_inertia_kg_m2 = inertia;
-        const auto study = study::study_design(order);
-        if (!study) {
-          EXPECT_EQ(first(study.problems()).find("defect"), std::string::npos) << first(study.problems());
-        } else {
-          for (const std::vector<double>& column : study->trace.values)
-            for (const double x : column) ASSERT_TRUE(std::isfinite(x)) << voltage_V << " " << period_s;
-        }
-      }
-}
-
-TEST(Numbers, OfABenchAreHeldToTheTable) {
-  using study::CurveRequest;
-  const auto refused = [](const char* where, auto&& give) {
-    for (const double bad : hostile) {
-      CurveRequest r{.sheet = testing::curve_sheet(), .bench = testing::maxon_bench()};
-      give(r, bad);
-      EXPECT_EQ(first(study::check(r)).rfind(where, 0), 0u) << where << " " << bad << first(study::check(r));
-    }
-  };
-  refused("voltage_V", [](CurveRequest& r, double x) { r.bench.voltage_V = x; });
-  refused("duty", [](CurveRequest& r, double x) { r.bench.duty = x; });
-  refused("pwm_period_s", [](CurveRequest& r, double x) { r.bench.pwm_period_s = x; });
-  refused("on_resistance_ohm", [](CurveRequest& r, double x) { r.bench.devices.R_on_ohm = x; });
-  refused("diode_drop_V", [](CurveRequest& r, double x) { r.bench.devices.V_f_V = x; });
-  refused("diode_resistance_ohm", [](CurveRequest& r, double x) { r.bench.devices.r_d_ohm = x; });
-  CurveRequest many{.sheet = testing::curve_sheet(), .bench = testing::maxon_bench()};
-  many.points = 2147483647;
-  EXPECT_EQ(
-      first(study::check(many)),
-      "points = 2147483647 must be at most 200000; a page shows some hundred; each is simulated and kept");
-  many.points = 41;
-  many.bench.voltage_V = 1e4;
-  EXPECT_NE(first(study::check(many)).find("lets the field turn at 2.39e+06 electrical rad/s"),
-            std::string::npos)
-      << first(study::check(many));
-}
-
-TEST(Numbers, OfAFirstScenarioAreHeldToTheTable) {
-  for (const double bad : hostile) {
-    study::FirstScenarioSpec spec{.motor = "maxon", .sheet = testing::maxon_sheet()};
-    for (const control::Mode mode : {control::Mode::duty, control::Mode::speed}) {
-      spec.mode = mode;
-      spec.voltage_V = bad;
-      const auto s = study::first_scenario(spec);
-      ASSERT_FALSE(s);
-      EXPECT_EQ(first(s.problems()).rfind("--voltage = ", 0), 0u) << first(s.problems());
-    }
-  }
 }
 
 /// NaN loses every comparison, so that the extremes of what else was seen would stand for a figure.

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The reference motor on the bench that holds its speed.
 #pragma once
-#include "sixstep/study/curve/bench.hpp"
+#include "sixstep/analysis/curve/bench.hpp"
 #include "tests/support/maxon.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace sixstep::testing {
 
-inline study::Bench maxon_bench() {
-  study::Bench b;
+inline analysis::Bench maxon_bench() {
+  analysis::Bench b;
   b.motor = *design::motor_model(maxon_sheet());
   b.motor.nominal_current_A = 2.33;
   b.voltage_V = 24.0;
@@ -16,11 +16,11 @@ inline study::Bench maxon_bench() {
 }
 
 /// The same motor with another shape of the back-EMF, K_t unchanged.
-inline study::Bench shaped(design::BackEmfShape shape, double flat_deg) {
+inline analysis::Bench shaped(design::BackEmfShape shape, double flat_deg) {
   design::Sheet sheet = maxon_sheet();
   sheet.back_emf = shape;
   sheet.flat_deg = flat_deg;
-  study::Bench b = maxon_bench();
+  analysis::Bench b = maxon_bench();
   b.motor = *design::motor_model(sheet);
   return b;
 }

@@ -14,8 +14,9 @@ using control::Leg;
 using control::Pair;
 using control::Watch;
 using rig::BoardCommand;
-using rig::Modulator;
 using rig::ModulatorConfig;
+using rig::SixStepModulator;
+using rig::ThreeLegModulator;
 using sim::Instant;
 
 inline constexpr std::int64_t period = 30'000'000;
@@ -26,7 +27,8 @@ inline BoardCommand command(double duty, Chopping chopping = Chopping::soft, Pai
 inline Instant at(std::int64_t ticks, double offset = 0.0) { return {ticks, offset}; }
 
 /// "a+ b-": which gates are on.
-inline std::string on(const Modulator& m) {
+template <class Modulator>
+std::string on(const Modulator& m) {
   std::string text;
   for (int k = 0; k < 3; ++k) {
     const char leg = static_cast<char>('a' + k);
@@ -37,7 +39,8 @@ inline std::string on(const Modulator& m) {
 }
 
 /// Does the next edge and says when it was.
-inline Instant do_next(Modulator& m) {
+template <class Modulator>
+Instant do_next(Modulator& m) {
   const Instant edge = m.next_edge();
   EXPECT_TRUE(m.act(edge));
   return edge;

@@ -54,10 +54,7 @@ class NaiveSoftChopper {
     const int sector = static_cast<int>(sector_of(y_)) % 6;
     plant::Legs legs;
     for (int k = 0; k < 3; ++k)
-      legs[k] = *plant::connection_of(on && k == pair[sector][0], k == pair[sector][1],
-                                      y_[k] > 0   ? 1
-                                      : y_[k] < 0 ? -1
-                                                  : 0);
+      legs[k] = plant::connection_of(on && k == pair[sector][0], k == pair[sector][1], y_[k]);
     return legs;
   }
   State rate(const State& y, const plant::Legs& legs) const {
@@ -69,8 +66,9 @@ class NaiveSoftChopper {
       e[k] = m.K_e_V_s * y[3] * f;
       torque += m.K_e_V_s * f * y[k];
     }
-    const auto u = plant::pole_voltages(legs, d_.devices, d_.supply.V_0_V, i, e);
-    const double u_n = plant::star_voltage(legs, d_.devices, d_.supply.V_0_V, i, e);
+    const auto poles = plant::pole_table<double>(d_.devices);
+    const auto u = plant::pole_voltages(legs, poles, d_.supply.V_0_V, i, e);
+    const double u_n = plant::star_voltage(legs, poles, d_.supply.V_0_V, i, e);
     State r{};
     for (int k = 0; k < 3; ++k)
       if (!plant::is_floating(legs[k])) r[k] = (u[k] - u_n - m.R_ohm * i[k] - e[k]) / m.L_H;

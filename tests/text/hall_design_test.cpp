@@ -7,14 +7,16 @@
 #include <ostream>
 #include <string>
 
+#include "sixstep/analysis/verify/board.hpp"
+#include "sixstep/analysis/verify/design_study.hpp"
+#include "sixstep/analysis/verify/robust.hpp"
 #include "sixstep/study/run/run.hpp"
-#include "sixstep/study/verify/board.hpp"
-#include "sixstep/study/verify/design_study.hpp"
-#include "sixstep/study/verify/robust.hpp"
 #include "text/scenario/scenario_file.hpp"
 
-namespace sixstep::study {
+namespace sixstep::analysis {
 namespace {
+
+using study::ComparisonResult, study::Outcome, study::Scenario;
 
 struct Drawn {
   const char* motor;
@@ -133,4 +135,4 @@ TEST(HallDesigned, DefaultEdgesHoldWhereSixWouldNot) {
 }
 
 }  // namespace
-}  // namespace sixstep::study
+}  // namespace sixstep::analysis

@@ -52,8 +52,10 @@ std::string timing(const study::Pwm& p) {
   text += p.delay_periods > 0 ? ", answered one period later" : "";
   if (p.delay_periods == 0)
     text += p.sample == study::SampleAt::middle ? ", answered at the next one's start" : ", answered at once";
-  return text + (p.timer_Hz > 0 ? fmt::format("; edges on counts of {:.6g} Hz", p.timer_Hz)
-                                : "; edges on no counter's steps");
+  text += p.timer_Hz > 0 ? fmt::format("; edges on counts of {:.6g} Hz", p.timer_Hz)
+                         : "; edges on no counter's steps";
+  return text +
+         (p.minimum_pulse_s > 0 ? fmt::format("; no pulse or gap below {:.6g} s", p.minimum_pulse_s) : "");
 }
 
 std::string currents(const study::Sensors& s) {

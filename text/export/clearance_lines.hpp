@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "sixstep/study/run/export_gate.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
-#include "sixstep/study/verify/export_gate.hpp"
 #include "text/rooms.hpp"
 
 namespace text {

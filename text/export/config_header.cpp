@@ -8,8 +8,7 @@
 #include "sixstep/study/compile/compile.hpp"
 #include "text/escape/escape.hpp"
 #include "text/export/clearance_lines.hpp"
-#include "text/export/config_lines.hpp"
-#include "text/export/product_lines.hpp"
+#include "text/export/config_text.hpp"
 
 namespace text {
 namespace {
@@ -133,10 +132,11 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   text += "inline constexpr sixstep::control::Units<Scalar> units{\n" + base("current_A", b.current_A, "A") +
           base("voltage_V", b.voltage_V, "V") + base("speed_rad_s", b.speed_rad_s, "rad/s") +
           base("position_deg", b.position_deg, "deg") + "};\n\n";
-  text += timing(c) + "\n" + made("DriveConfig", "drive", drive_lines<Scalar>(c.drive, kept.drive, b));
+  text += timing(c) + "\n" +
+          made("DriveConfig", "drive", config_lines<Scalar>(c.drive.mode, c.drive, kept.drive, b));
   if (c.product)
     text += made("ProtectedConfig", "product",
-                 "  c.drive = drive;\n" + product_lines<Scalar>(*c.product, kept, b));
+                 "  c.drive = drive;\n" + config_lines<Scalar>(c.drive.mode, *c.product, kept, b));
   return text + fmt::format("}}  // namespace {}\n", w.name_space);
 }
 

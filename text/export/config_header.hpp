@@ -7,8 +7,8 @@
 
 #include "sixstep/base/result.hpp"
 #include "sixstep/design/scaling/scaling.hpp"
+#include "sixstep/study/run/export_gate.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
-#include "sixstep/study/verify/export_gate.hpp"
 #include "text/rooms.hpp"
 
 namespace text {

@@ -12,8 +12,9 @@
 
 #include "sixstep/base/describe.hpp"
 #include "sixstep/control/fixed.hpp"
-#include "sixstep/control/pi.hpp"
+#include "sixstep/design/fields/product_fields.hpp"
 #include "sixstep/design/scaling/scaling.hpp"
+#include "sixstep/study/scenario/choices.hpp"
 
 namespace text {
 
@@ -48,68 +49,168 @@ std::string literal(sixstep::control::FixedSum<Format> s) {
   return fmt::format("Accumulator<Scalar>::from_raw({})", s.raw);
 }
 
+/// The C++ names of an enumeration in control/ and its values.
+template <class Enum>
+struct EnumText;
+template <>
+struct EnumText<sixstep::control::Mode> {
+  static constexpr const char* type = "Mode";
+  static constexpr auto& words = sixstep::study::mode_choices;
+};
+template <>
+struct EnumText<sixstep::control::Chopping> {
+  static constexpr const char* type = "Chopping";
+  static constexpr auto& words = sixstep::study::chopping_choices;
+};
+template <>
+struct EnumText<sixstep::control::CurrentControl> {
+  using enum sixstep::control::CurrentControl;
+  static constexpr const char* type = "CurrentControl";
+  static constexpr sixstep::base::Choice<sixstep::control::CurrentControl> words[] = {
+      {"pi", pi, ""}, {"hysteresis", hysteresis, ""}};
+};
+template <>
+struct EnumText<sixstep::control::SpeedControl> {
+  using enum sixstep::control::SpeedControl;
+  static constexpr const char* type = "SpeedControl";
+  static constexpr sixstep::base::Choice<sixstep::control::SpeedControl> words[] = {{"cascade", cascade, ""},
+                                                                                    {"duty", duty, ""}};
+};
+template <>
+struct EnumText<sixstep::control::Watch> {
+  using enum sixstep::control::Watch;
+  static constexpr const char* type = "Watch";
+  static constexpr sixstep::base::Choice<sixstep::control::Watch> words[] = {
+      {"none", none, ""}, {"motor", motor, ""}, {"phase", phase, ""}};
+};
+template <>
+struct EnumText<sixstep::control::CurrentSensing> {
+  using enum sixstep::control::CurrentSensing;
+  static constexpr const char* type = "CurrentSensing";
+  static constexpr sixstep::base::Choice<sixstep::control::CurrentSensing> words[] = {
+      {"phases", phases, ""}, {"one_shunt", one_shunt, ""}};
+};
+template <>
+struct EnumText<sixstep::control::HallArrangement> {
+  using enum sixstep::control::HallArrangement;
+  static constexpr const char* type = "HallArrangement";
+  static constexpr sixstep::base::Choice<sixstep::control::HallArrangement> words[] = {
+      {"degrees_120", degrees_120, ""}, {"degrees_60", degrees_60, ""}};
+};
+
+/// A walk over the fields of a configuration (design/fields), the designed one in SI beside the kept one in
+/// the target's arithmetic.
 template <class Scalar>
 class ConfigText {
  public:
-  static constexpr bool fixed = !std::is_floating_point_v<Scalar>;
+  using Field = sixstep::design::Field;
+  using Base = sixstep::design::Base;
 
   /// Floating point has the bases 1.
-  explicit ConfigText(const sixstep::design::Bases& bases) : b_(bases) {}
-  const sixstep::design::Bases& bases() const { return b_; }
+  ConfigText(sixstep::control::Mode mode, const sixstep::design::Bases& bases) : mode_(mode), b_(bases) {}
   const std::string& text() const { return text_; }
 
-  void line(std::string_view member, const std::string& value, const std::string& comment) {
-    const std::string code = fmt::format("  c.{} = {};", member, value);
+  /// A loop that is not run has its fields beside it, where floating point keeps them.
+  static constexpr bool when_run(bool) { return true; }
+  static constexpr bool when_on(bool on) { return on; }
+
+  template <class Designed, class Kept, class... Told>
+  void part(const char* name, const Designed& designed, const Kept& kept, const Told&... told) {
+    const std::string outer = within_;
+    within_ += name;
+    within_ += '.';
+    sixstep::design::fields(*this, designed, kept, told...);
+    within_ = outer;
+  }
+  void flag(const Field& f, bool, bool on) {
+    if (on) line(f, "true", "");
+  }
+  template <class Enum>
+  void choice(const Field& f, Enum, Enum kept, Enum otherwise) {
+    if (!f.always && kept == otherwise) return;
+    using Text = EnumText<Enum>;
+    line(f, fmt::format("{}::{}", Text::type, sixstep::base::word(Text::words, kept)), "");
+  }
+  template <class Whole>
+  void count(const Field& f, Whole, Whole kept, Whole otherwise) {
+    if (kept != otherwise) line(f, std::to_string(kept), f.about);
+  }
+  void signal(const Field& f, double designed, Scalar kept, Base base) {
+    if (f.always || literal(kept) != literal(Scalar{}))
+      number(f, literal(kept), designed, static_cast<double>(kept) * value(base), unit(f, base));
+  }
+  void threshold(const Field& f, double designed, Scalar kept, Base base) { signal(f, designed, kept, base); }
+  void gain(const Field& f, double designed, sixstep::control::Gain<Scalar> kept,
+            sixstep::design::Ratio ratio) {
+    gain_of(f, designed, kept, value(ratio.out) / value(ratio.in));
+  }
+  void raw_gain(const Field& f, double designed, sixstep::control::Gain<Scalar> kept, Base base) {
+    gain_of(f, designed, kept, value(base) * digit());
+  }
+  void divisor(const Field& f, double designed, sixstep::control::Divisor<Scalar> kept, Base base) {
+    if (!(kept > sixstep::control::Divisor<Scalar>{})) return;
+    double held = designed;
+    if constexpr (fixed) held = value(base) / static_cast<double>(kept.reciprocal);
+    number(f, literal(kept), designed, held, f.unit);
+  }
+  void sum(const Field& f, double designed, sixstep::control::Accumulator<Scalar> kept, Base base) {
+    if (literal(kept) == literal(sixstep::control::Accumulator<Scalar>{})) return;
+    double held = designed;
+    if constexpr (fixed)
+      held = std::ldexp(static_cast<double>(kept.raw), -Scalar::fraction_bits - decltype(kept)::guard_bits) *
+             value(base);
+    number(f, literal(kept), designed, held, unit(f, base));
+  }
+  void ticks(const Field& f, double designed, sixstep::control::TickRatio<Scalar> kept, Base base) {
+    double held = designed;
+    if constexpr (fixed) held = static_cast<double>(kept.raw) * digit() * value(base);
+    number(f, literal(kept), designed, held, f.unit);
+  }
+
+ private:
+  static constexpr bool fixed = !std::is_floating_point_v<Scalar>;
+
+  /// The last bit of a fixed format, in which gains of counts give their answer (adc.hpp, hall_speed.hpp).
+  static double digit() {
+    if constexpr (fixed)
+      return static_cast<double>(Scalar::from_raw(1));
+    else
+      return 1.0;
+  }
+  double value(Base base) const { return sixstep::design::value_of(base, mode_, b_); }
+  std::string_view unit(const Field& f, Base base) const {
+    return base == Base::setpoint ? sixstep::study::reference_unit(mode_) : f.unit;
+  }
+  void gain_of(const Field& f, double designed, sixstep::control::Gain<Scalar> kept, double per_unit) {
+    if (literal(kept) != literal(sixstep::control::Gain<Scalar>{}))
+      number(f, literal(kept), designed, static_cast<double>(kept) * per_unit, f.unit);
+  }
+  void line(const Field& f, const std::string& value, const std::string& comment) {
+    const std::string code = fmt::format("  c.{}{} = {};", within_, f.name, value);
     text_ += comment.empty() ? code + "\n" : fmt::format("{:<72}  // {}\n", code, comment);
   }
   /// `held`: what the format makes of it, in SI; told where it differs in six digits.
-  void number(std::string_view member, const std::string& value, double designed, double held,
-              std::string_view unit, std::string_view why) {
+  void number(const Field& f, const std::string& value, double designed, double held, std::string_view unit) {
     std::string comment = fmt::format("{:.9g}", designed);
     if (!unit.empty()) comment += fmt::format(" {}", unit);
     if (fixed && fmt::format("{:.6g}", held) != fmt::format("{:.6g}", designed))
       comment += fmt::format(", held as {:.6g}", held);
-    if (!why.empty()) comment += fmt::format(": {}", why);
-    line(member, value, comment);
-  }
-  void signal(std::string_view member, Scalar kept, double designed, double base, std::string_view unit,
-              std::string_view why = "") {
-    if (literal(kept) != literal(Scalar{}))
-      number(member, literal(kept), designed, static_cast<double>(kept) * base, unit, why);
-  }
-  /// `per_unit`: the base of its output over that of its input.
-  void gain(std::string_view member, sixstep::control::Gain<Scalar> kept, double designed, double per_unit,
-            std::string_view unit, std::string_view why = "") {
-    if (literal(kept) != literal(sixstep::control::Gain<Scalar>{}))
-      number(member, literal(kept), designed, static_cast<double>(kept) * per_unit, unit, why);
-  }
-  template <class Enum, class Choices>
-  void choice(std::string_view member, std::string_view type, Enum value, const Choices& choices) {
-    line(member, fmt::format("{}::{}", type, sixstep::base::word(choices, value)), "");
-  }
-  void flag(std::string_view member, bool on) {
-    if (on) line(member, "true", "");
+    if (*f.about != '\0') comment += fmt::format(": {}", f.about);
+    line(f, value, comment);
   }
 
-  void pi(const std::string& member, const sixstep::control::PiConfig<double>& designed,
-          const sixstep::control::PiConfig<Scalar>& kept, double in, double out, const std::string& per,
-          std::string_view unit) {
-    gain(member + ".d1", kept.d1, designed.d1, out / in, per);
-    if constexpr (fixed)
-      gain(member + ".K_i", kept.K_i, designed.d1 + designed.d0, out / in, per, "d1 + d0, per sample");
-    else
-      gain(member + ".d0", kept.d0, designed.d0, out / in, per);
-    signal(member + ".limit", kept.limit, designed.limit, out, unit);
-  }
-  /// A count, left out where it is the default's.
-  void count(std::string_view member, std::uint64_t kept, std::uint64_t otherwise,
-             std::string_view what = "") {
-    if (kept != otherwise) line(member, std::to_string(kept), std::string(what));
-  }
-
- private:
+  sixstep::control::Mode mode_;
   sixstep::design::Bases b_;
-  std::string text_;
+  std::string text_, within_;
 };
+
+/// The drive, or what a product has around it: `designed` in SI beside `kept` in the target's arithmetic.
+template <class Scalar, class Designed, class Kept>
+std::string config_lines(sixstep::control::Mode mode, const Designed& designed, const Kept& kept,
+                         const sixstep::design::Bases& bases) {
+  ConfigText<Scalar> text(mode, bases);
+  sixstep::design::fields(text, designed, kept);
+  return text.text();
+}
 
 }  // namespace text

@@ -11,11 +11,11 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 double number(const std::optional<double>& x) { return x.value_or(none); }
 
-template <double study::OperatingPoint::*member>
+template <double analysis::OperatingPoint::*member>
 double of_point(const CurveRow& row) {
   return row.point.*member;
 }
-template <double study::ThermalLimits::*member>
+template <double analysis::ThermalLimits::*member>
 double of_limits(const CurveRow& row) {
   return row.limits ? row.limits->*member : none;
 }
@@ -24,8 +24,8 @@ double short_torque(const CurveRow& row) {
   return row.limits ? row.limits->short_Nm[n] : none;
 }
 
-using P = study::OperatingPoint;
-static_assert(study::short_times_s == std::array{10.0, 60.0}, "the columns' names say so");
+using P = analysis::OperatingPoint;
+static_assert(analysis::short_times_s == std::array{10.0, 60.0}, "the columns' names say so");
 
 const std::array<CurveColumn, 25> columns = {{
     {{"speed_rad_s", "rad/s", "mechanical", "held speed"}, of_point<&P::speed_rad_s>},
@@ -33,7 +33,7 @@ const std::array<CurveColumn, 25> columns = {{
     {{"air_gap_torque_Nm", "N m", "", "mean electromagnetic torque, before friction"},
      of_point<&P::torque_Nm>},
     {{"ideal_torque_Nm", "N m", "", "straight line without commutation time and friction"},
-     [](const CurveRow& row) { return study::ideal_torque_Nm(row.request.bench, row.point.speed_rad_s); }},
+     [](const CurveRow& row) { return analysis::ideal_torque_Nm(row.request.bench, row.point.speed_rad_s); }},
     {{"ripple_Nm", "N m", "", "electromagnetic torque, peak to peak"}, of_point<&P::ripple_Nm>},
     {{"ripple_rms_Nm", "N m", "", "electromagnetic torque about its mean, rms"}, of_point<&P::ripple_rms_Nm>},
     {{"winding_current_A", "A", "", "mean of half the sum of the phase currents' magnitudes"},
@@ -53,12 +53,12 @@ const std::array<CurveColumn, 25> columns = {{
      of_point<&P::energy_residual>},
     {{"current_bound_A", "A", "phase", "error bound of the steady state's currents"},
      [](const CurveRow& row) {
-       return row.point.orbit == study::Orbit::quasi_periodic ? none : row.point.error_bound_A;
+       return row.point.orbit == analysis::Orbit::quasi_periodic ? none : row.point.error_bound_A;
      }},
     {{"torque_half_width_Nm", "N m", "", "half width of the mean torque's 99 % interval (chopped)"},
      of_point<&P::half_width_Nm>},
     {{"continuous_torque_Nm", "N m", "shaft", "what the winding stands for ever"},
-     of_limits<&study::ThermalLimits::continuous_Nm>},
+     of_limits<&analysis::ThermalLimits::continuous_Nm>},
     {{"torque_60s_Nm", "N m", "shaft", "what it stands for 60 s from ambient temperature"}, short_torque<1>},
     {{"torque_10s_Nm", "N m", "shaft", "what it stands for 10 s from ambient temperature"}, short_torque<0>},
     {{"winding_degC", "degC", "", "winding in the end, were this point held"},
@@ -74,7 +74,7 @@ const std::array<CurveColumn, 25> columns = {{
 
 std::span<const CurveColumn> curve_columns() { return columns; }
 
-std::vector<CurveRow> curve_rows(const study::CurveRequest& request, const study::Curve& curve) {
+std::vector<CurveRow> curve_rows(const analysis::CurveRequest& request, const analysis::Curve& curve) {
   std::vector<CurveRow> rows;
   for (std::size_t n = 0; n < curve.points.size(); ++n)
     rows.push_back({request, curve.points[n], curve.thermal ? &curve.limits[n] : nullptr,
@@ -82,15 +82,15 @@ std::vector<CurveRow> curve_rows(const study::CurveRequest& request, const study
   return rows;
 }
 
-LoosePoint loose_point(const study::CurveRequest& request, const study::Curve& curve,
-                       const study::OperatingPoint& point) {
+LoosePoint loose_point(const analysis::CurveRequest& request, const analysis::Curve& curve,
+                       const analysis::OperatingPoint& point) {
   if (!curve.thermal) return {};
-  return {study::thermal_limits(*curve.thermal, request, point.speed_rad_s),
-          study::warming(*curve.thermal, request, point)};
+  return {analysis::thermal_limits(*curve.thermal, request, point.speed_rad_s),
+          analysis::warming(*curve.thermal, request, point)};
 }
 
-CurveRow curve_row(const study::CurveRequest& request, const study::Curve& curve,
-                   const study::OperatingPoint& point, const LoosePoint& thermal) {
+CurveRow curve_row(const analysis::CurveRequest& request, const analysis::Curve& curve,
+                   const analysis::OperatingPoint& point, const LoosePoint& thermal) {
   return {request, point, curve.thermal ? &thermal.limits : nullptr,
           curve.thermal ? &thermal.warming : nullptr};
 }

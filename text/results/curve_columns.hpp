@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "sixstep/study/curve/curve.hpp"
+#include "sixstep/analysis/curve/curve.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "text/rooms.hpp"
 
@@ -12,10 +12,10 @@ namespace text {
 
 /// One point with all that is known of it; the thermal members are null where the sheet has no such lines.
 struct CurveRow {
-  const study::CurveRequest& request;
-  const study::OperatingPoint& point;
-  const study::ThermalLimits* limits = nullptr;
-  const study::Warming* warming = nullptr;
+  const analysis::CurveRequest& request;
+  const analysis::OperatingPoint& point;
+  const analysis::ThermalLimits* limits = nullptr;
+  const analysis::Warming* warming = nullptr;
 };
 
 struct CurveColumn {
@@ -27,16 +27,16 @@ struct CurveColumn {
 std::span<const CurveColumn> curve_columns();
 
 /// The rows of the curve's points, from standstill to no load.
-std::vector<CurveRow> curve_rows(const study::CurveRequest& request, const study::Curve& curve);
+std::vector<CurveRow> curve_rows(const analysis::CurveRequest& request, const analysis::Curve& curve);
 
 /// Of a point that is not one of the curve's own.
 struct LoosePoint {
-  study::ThermalLimits limits;
-  study::Warming warming;
+  analysis::ThermalLimits limits;
+  analysis::Warming warming;
 };
-LoosePoint loose_point(const study::CurveRequest& request, const study::Curve& curve,
-                       const study::OperatingPoint& point);
-CurveRow curve_row(const study::CurveRequest& request, const study::Curve& curve,
-                   const study::OperatingPoint& point, const LoosePoint& thermal);
+LoosePoint loose_point(const analysis::CurveRequest& request, const analysis::Curve& curve,
+                       const analysis::OperatingPoint& point);
+CurveRow curve_row(const analysis::CurveRequest& request, const analysis::Curve& curve,
+                   const analysis::OperatingPoint& point, const LoosePoint& thermal);
 
 }  // namespace text

@@ -21,8 +21,8 @@ Json point(const CurveRow& row) {
   return out;
 }
 
-Json bench(const study::CurveRequest& r) {
-  const study::Bench& b = r.bench;
+Json bench(const analysis::CurveRequest& r) {
+  const analysis::Bench& b = r.bench;
   return {{"voltage_V", b.voltage_V},
           {"duty", b.duty},
           {"chopping", base::word(study::chopping_choices, b.chopping)},
@@ -33,12 +33,12 @@ Json bench(const study::CurveRequest& r) {
 }
 
 /// A point that lies between those of the curve.
-Json loose(const study::CurveRequest& r, const study::Curve& curve,
-           const std::optional<study::OperatingPoint>& p) {
+Json loose(const analysis::CurveRequest& r, const analysis::Curve& curve,
+           const std::optional<analysis::OperatingPoint>& p) {
   return p ? point(curve_row(r, curve, *p, loose_point(r, curve, *p))) : Json(nullptr);
 }
 
-Json no_load(const study::CurveRequest& r, const study::Curve& curve) {
+Json no_load(const analysis::CurveRequest& r, const analysis::Curve& curve) {
   Json out = loose(r, curve, curve.no_load.point);
   out["slope_Nm_s"] = curve.no_load.slope_Nm_s;
   out["half_width_rad_s"] = curve.no_load.half_width_rad_s;
@@ -51,9 +51,9 @@ Json no_load(const study::CurveRequest& r, const study::Curve& curve) {
   return out;
 }
 
-Json nominal(const study::CurveRequest& r, const study::Curve& curve) {
+Json nominal(const analysis::CurveRequest& r, const analysis::Curve& curve) {
   if (!curve.nominal) return nullptr;
-  const study::SpeedDrop d = study::speed_drop(r, curve);
+  const analysis::SpeedDrop d = analysis::speed_drop(r, curve);
   return {{"sheet_speed_rad_s", or_null(curve.nominal->speed_rad_s)},
           {"sheet_torque_Nm", or_null(curve.nominal->torque_Nm)},
           {"sheet_current_A", or_null(curve.nominal->current_A)},
@@ -66,8 +66,8 @@ Json nominal(const study::CurveRequest& r, const study::Curve& curve) {
           {"curve_at_speed", loose(r, curve, curve.nominal->at_speed)}};
 }
 
-Json locked(const study::OperatingPoint& turning) {
-  const study::LockedRotor& l = *turning.locked;
+Json locked(const analysis::OperatingPoint& turning) {
+  const analysis::LockedRotor& l = *turning.locked;
   return {{"current_A", turning.winding_current_A},
           {"phase_rms_A", l.phase_rms_A},
           {"least_torque_Nm", l.least_torque_Nm},
@@ -75,7 +75,7 @@ Json locked(const study::OperatingPoint& turning) {
           {"ripple_Nm", l.ripple_Nm}};
 }
 
-Json thermal(const study::Curve& curve) {
+Json thermal(const analysis::Curve& curve) {
   if (!curve.thermal) return nullptr;
   const design::ThermalModel& m = *curve.thermal;
   return {{"winding_housing_K_W", m.winding_housing_K_W},
@@ -89,11 +89,11 @@ Json thermal(const study::Curve& curve) {
 
 }  // namespace
 
-std::string curve_json(const study::CurveRequest& r, const study::Curve& curve) {
+std::string curve_json(const analysis::CurveRequest& r, const analysis::Curve& curve) {
   Json out = {{"sixstep", SIXSTEP_VERSION}, {"motor", r.sheet.name}, {"bench", bench(r)}};
-  out["confidence_level"] = study::confidence_level;
-  out["ideal"] = {{"stall_torque_Nm", study::ideal_torque_Nm(r.bench, 0.0)},
-                  {"no_load_speed_rad_s", study::ideal_no_load_rad_s(r.bench)}};
+  out["confidence_level"] = analysis::confidence_level;
+  out["ideal"] = {{"stall_torque_Nm", analysis::ideal_torque_Nm(r.bench, 0.0)},
+                  {"no_load_speed_rad_s", analysis::ideal_no_load_rad_s(r.bench)}};
   out["no_load"] = no_load(r, curve);
   out["locked"] = locked(curve.points.front());
   out["best_efficiency"] = loose(r, curve, curve.marks.best_efficiency);

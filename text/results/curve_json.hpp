@@ -8,6 +8,6 @@ namespace text {
 
 /// The curve for other programs: bench, ideal line, no-load and nominal point, thermal limits, and every
 /// point with all columns. Numbers that are not there, or not finite, appear as null.
-std::string curve_json(const study::CurveRequest& request, const study::Curve& curve);
+std::string curve_json(const analysis::CurveRequest& request, const analysis::Curve& curve);
 
 }  // namespace text

@@ -23,7 +23,7 @@ struct TorqueUnit {
   double factor;
   const char* name;
 };
-TorqueUnit torque_unit(const study::Curve& curve) {
+TorqueUnit torque_unit(const analysis::Curve& curve) {
   constexpr double large_Nm = 10.0;
   return curve.points.front().shaft_torque_Nm < large_Nm ? TorqueUnit{1e3, "mNm"} : TorqueUnit{1.0, "Nm"};
 }
@@ -46,7 +46,7 @@ std::string significant(double x, int digits = 5) {
 std::string rpm(double rad_s) { return fixed(rad_s * rpm_per_rad_s, 0); }
 
 /// What the winding does, were the point held: a temperature, or a time.
-std::string warming(const study::Warming& w) {
+std::string warming(const analysis::Warming& w) {
   if (!w.permissible_s) return fmt::format("{} degC", fixed(*w.winding_degC, 0));
   const double s = *w.permissible_s;
   return s < 100 ? fmt::format("{} s", significant(s, 3)) : fmt::format("{} min", fixed(s / 60, 1));
@@ -70,18 +70,18 @@ Row units(bool thermal, bool devices, const char* torque) {
 
 class Table {
  public:
-  Table(const study::CurveRequest& request, const study::Curve& curve)
+  Table(const analysis::CurveRequest& request, const analysis::Curve& curve)
       : request_(request), curve_(curve), unit_(torque_unit(curve)) {
-    for (const study::OperatingPoint& p : curve.points) devices_ = devices_ || p.devices_W != 0;
+    for (const analysis::OperatingPoint& p : curve.points) devices_ = devices_ || p.devices_W != 0;
     rows_ = {head(curve.thermal.has_value(), devices_),
              units(curve.thermal.has_value(), devices_, unit_.name)};
   }
 
-  void add(const std::string& name, const study::OperatingPoint& p) {
+  void add(const std::string& name, const analysis::OperatingPoint& p) {
     Row row = {name,
                rpm(p.speed_rad_s),
                significant(p.shaft_torque_Nm * unit_.factor, 4),
-               significant(study::ideal_torque_Nm(request_.bench, p.speed_rad_s) * unit_.factor, 4),
+               significant(analysis::ideal_torque_Nm(request_.bench, p.speed_rad_s) * unit_.factor, 4),
                significant(p.ripple_Nm * unit_.factor, 3),
                significant(p.winding_current_A, 4),
                significant(p.phase_rms_A, 4),
@@ -95,8 +95,9 @@ class Table {
     row.push_back(p.efficiency ? fixed(*p.efficiency * per_cent, 1) : "-");
     if (curve_.thermal) {
       row.push_back(significant(
-          study::thermal_limits(*curve_.thermal, request_, p.speed_rad_s).continuous_Nm * unit_.factor, 4));
-      row.push_back(warming(study::warming(*curve_.thermal, request_, p)));
+          analysis::thermal_limits(*curve_.thermal, request_, p.speed_rad_s).continuous_Nm * unit_.factor,
+          4));
+      row.push_back(warming(analysis::warming(*curve_.thermal, request_, p)));
     }
     rows_.push_back(std::move(row));
   }
@@ -116,16 +117,16 @@ class Table {
   }
 
  private:
-  const study::CurveRequest& request_;
-  const study::Curve& curve_;
+  const analysis::CurveRequest& request_;
+  const analysis::Curve& curve_;
   TorqueUnit unit_;
   bool devices_ = false;
   std::vector<Row> rows_;
 };
 
 /// A rotor that is held, and the same just turning: what the angle decides is averaged there.
-void add_standstill(Table& table, const study::OperatingPoint& turning) {
-  study::OperatingPoint locked = turning;
+void add_standstill(Table& table, const analysis::OperatingPoint& turning) {
+  analysis::OperatingPoint locked = turning;
   locked.shaft_torque_Nm = turning.locked->least_torque_Nm;
   locked.ripple_Nm = turning.locked->ripple_Nm;
   locked.phase_rms_A = turning.locked->phase_rms_A;
@@ -134,7 +135,7 @@ void add_standstill(Table& table, const study::OperatingPoint& turning) {
 }
 
 /// Every k-th point, the last always.
-std::string points(const study::CurveRequest& request, const study::Curve& curve) {
+std::string points(const analysis::CurveRequest& request, const analysis::Curve& curve) {
   Table table(request, curve);
   const std::size_t count = curve.points.size(), step = (count + shown_points - 2) / (shown_points - 1);
   add_standstill(table, curve.points.front());
@@ -146,15 +147,15 @@ std::string points(const study::CurveRequest& request, const study::Curve& curve
 }
 
 /// Where the angle decides the torque of a held rotor, between what.
-std::string locked(const study::OperatingPoint& turning, TorqueUnit unit) {
-  const study::LockedRotor& l = *turning.locked;
+std::string locked(const analysis::OperatingPoint& turning, TorqueUnit unit) {
+  const analysis::LockedRotor& l = *turning.locked;
   if (l.greatest_torque_Nm - l.least_torque_Nm <= 1e-9 * l.greatest_torque_Nm) return "";
   return fmt::format("Locked, the angle decides: {} to {} {}; the row above has the least.\n",
                      significant(l.least_torque_Nm * unit.factor, 4),
                      significant(l.greatest_torque_Nm * unit.factor, 4), unit.name);
 }
 
-std::string no_load(const study::NoLoad& n) {
+std::string no_load(const analysis::NoLoad& n) {
   const std::string unsure =
       n.half_width_rad_s > 0 ? fmt::format(" +- {}", significant(n.half_width_rad_s * rpm_per_rad_s, 2)) : "";
   return fmt::format(
@@ -167,11 +168,11 @@ std::string no_load(const study::NoLoad& n) {
                 : fmt::format(", short of 20 time constants of {} s", significant(n.time_constant_s, 2)));
 }
 
-std::string ideal(const study::Bench& b, TorqueUnit unit) {
+std::string ideal(const analysis::Bench& b, TorqueUnit unit) {
   return fmt::format(
       "Ideal line, without commutation time and friction: {} {} at standstill, {} rpm without load.\n",
-      significant(study::ideal_torque_Nm(b, 0.0) * unit.factor), unit.name,
-      significant(study::ideal_no_load_rad_s(b) * rpm_per_rad_s));
+      significant(analysis::ideal_torque_Nm(b, 0.0) * unit.factor), unit.name,
+      significant(analysis::ideal_no_load_rad_s(b) * rpm_per_rad_s));
 }
 
 /// "-12.0 %": how far from what the sheet prints.
@@ -180,8 +181,8 @@ std::string against(double here, double sheet) {
 }
 
 /// What the sheet's gradient does not say: it is the ideal line's.
-std::string drop(const study::CurveRequest& r, const study::Curve& curve, TorqueUnit unit) {
-  const study::SpeedDrop d = study::speed_drop(r, curve);
+std::string drop(const analysis::CurveRequest& r, const analysis::Curve& curve, TorqueUnit unit) {
+  const analysis::SpeedDrop d = analysis::speed_drop(r, curve);
   const auto per_torque = [&](double x) { return significant(x * rpm_per_rad_s / unit.factor, 3); };
   std::string text = fmt::format("From no load to that torque the curve falls by {} rpm/{}",
                                  per_torque(*d.curve), unit.name);
@@ -193,8 +194,8 @@ std::string drop(const study::CurveRequest& r, const study::Curve& curve, Torque
 
 /// Compared only where the curve is of the voltage that the sheet's point belongs to, and at the torque: the
 /// load asks for that, the speed is the motor's answer.
-std::string nominal(const study::CurveRequest& r, const study::Curve& curve, TorqueUnit unit) {
-  const study::NominalPoint& n = *curve.nominal;
+std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curve, TorqueUnit unit) {
+  const analysis::NominalPoint& n = *curve.nominal;
   std::string text = "Nominal point of the sheet:";
   const auto item = [&](const std::string& what) { text += (text.back() == ':' ? " " : ", ") + what; };
   if (n.torque_Nm) item(fmt::format("{} {}", significant(*n.torque_Nm * unit.factor, 4), unit.name));
@@ -205,7 +206,7 @@ std::string nominal(const study::CurveRequest& r, const study::Curve& curve, Tor
     return text + fmt::format(", at full duty and {:g} V.\n", sheet_V);
   if (!n.torque_Nm) return text + "; without a torque it is no point of the curve.\n";
   if (!n.at_torque) return text + "; the curve never has that torque.\n";
-  const study::OperatingPoint& p = *n.at_torque;
+  const analysis::OperatingPoint& p = *n.at_torque;
   text += fmt::format("; at that torque the curve has {} rpm", rpm(p.speed_rad_s));
   if (n.speed_rad_s) text += fmt::format(" ({})", against(p.speed_rad_s, *n.speed_rad_s));
   text += fmt::format(" and {} A", significant(p.winding_current_A, 4));
@@ -214,16 +215,16 @@ std::string nominal(const study::CurveRequest& r, const study::Curve& curve, Tor
 }
 
 /// Where the winding stands the curve itself.
-std::string lasting(const study::Curve& curve, TorqueUnit unit) {
+std::string lasting(const analysis::Curve& curve, TorqueUnit unit) {
   if (!curve.marks.for_ever) return "Not even no load can be held for ever.\n";
-  const study::OperatingPoint& from = *curve.marks.for_ever;
+  const analysis::OperatingPoint& from = *curve.marks.for_ever;
   return fmt::format("The curve itself can be held for ever from {} rpm ({} {}) on.\n", rpm(from.speed_rad_s),
                      significant(from.shaft_torque_Nm * unit.factor, 4), unit.name);
 }
 
-std::string thermal(const study::CurveRequest& r, const study::Curve& curve, TorqueUnit unit) {
+std::string thermal(const analysis::CurveRequest& r, const analysis::Curve& curve, TorqueUnit unit) {
   if (!curve.thermal) return fmt::format("No thermal limits: {}.\n", to_string(curve.thermal_missing[0]));
-  const study::ThermalLimits still = study::thermal_limits(*curve.thermal, r, 0.0);
+  const analysis::ThermalLimits still = analysis::thermal_limits(*curve.thermal, r, 0.0);
   std::string text = fmt::format(
       "At {:g} degC ambient the winding stays below {:g} degC with {} A ({} {} at standstill) for ever, {} "
       "A "
@@ -231,23 +232,23 @@ std::string thermal(const study::CurveRequest& r, const study::Curve& curve, Tor
       "{} s, {} A for {} s.\n",
       r.ambient_degC, curve.thermal->max_winding_degC, significant(still.continuous_A, 3),
       significant(still.continuous_Nm * unit.factor, 4), unit.name, significant(still.short_A[1], 3),
-      study::short_times_s[1], significant(still.short_A[0], 3), study::short_times_s[0]);
+      analysis::short_times_s[1], significant(still.short_A[0], 3), analysis::short_times_s[0]);
   return text + lasting(curve, unit);
 }
 
-std::string certainty(const study::Curve& curve, TorqueUnit unit) {
+std::string certainty(const analysis::Curve& curve, TorqueUnit unit) {
   double bound = 0.0, residual = 0.0, width = 0.0;
   bool precise = true;
-  for (const study::OperatingPoint& p : curve.points) {
+  for (const analysis::OperatingPoint& p : curve.points) {
     bound = std::max(bound, p.error_bound_A);
     residual = std::max(residual, std::fabs(p.energy_residual));
     width = std::max(width, p.half_width_Nm);
     precise = precise && p.precise;
   }
-  std::string text = curve.no_load.point.orbit == study::Orbit::quasi_periodic
+  std::string text = curve.no_load.point.orbit == analysis::Orbit::quasi_periodic
                          ? fmt::format("Mean torque within +- {} {} at {} % ({} batches)",
                                        significant(width * unit.factor, 2), unit.name,
-                                       per_cent * study::confidence_level, study::batches)
+                                       per_cent * analysis::confidence_level, analysis::batches)
                          : fmt::format("Steady currents within {:.1g} A", bound);
   if (!precise) text += ", at some points less narrow than wanted";
   return text + fmt::format("; the energy balance closes to {:.1g}.\n", residual);
@@ -255,8 +256,8 @@ std::string certainty(const study::Curve& curve, TorqueUnit unit) {
 
 }  // namespace
 
-std::string curve_table(const study::CurveRequest& r, const study::Curve& curve) {
-  const study::Bench& b = r.bench;
+std::string curve_table(const analysis::CurveRequest& r, const analysis::Curve& curve) {
+  const analysis::Bench& b = r.bench;
   std::string text = fmt::format("{} at {:g} V", visible(r.sheet.name), b.voltage_V);
   if (std::fabs(b.duty) != 1)
     text += fmt::format(", duty {:g}, {} chopping, PWM period {:g} us", b.duty,

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "sixstep/study/curve/curve.hpp"
+#include "sixstep/analysis/curve/curve.hpp"
 #include "text/rooms.hpp"
 
 namespace text {
@@ -10,6 +10,6 @@ namespace text {
 /// The curve in an engineer's units, at most a dozen of its points, and in words what belongs to it: the
 /// ideal line, no load with the free rotor's check, the sheet's nominal point, the thermal region, and how
 /// sure the numbers are.
-std::string curve_table(const study::CurveRequest& request, const study::Curve& curve);
+std::string curve_table(const analysis::CurveRequest& request, const analysis::Curve& curve);
 
 }  // namespace text

@@ -16,10 +16,10 @@ namespace text {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using sixstep::analysis::RobustFigure;
 using sixstep::design::DriveDesign;
 using sixstep::design::LoopDesign;
 using sixstep::design::LoopFigures;
-using sixstep::study::RobustFigure;
 
 Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 Json or_null(const std::optional<double>& x) { return x ? finite(*x) : Json(nullptr); }
@@ -134,7 +134,7 @@ Json robust(const std::vector<RobustFigure>& list) {
   return out;
 }
 
-Json simulated(const study::DesignStudy& s) {
+Json simulated(const analysis::DesignStudy& s) {
   Json out = Json::array();
   for (const auto& c : s.outcome.comparisons)
     out.push_back({{"figure", c.figure},
@@ -147,7 +147,7 @@ Json simulated(const study::DesignStudy& s) {
 
 }  // namespace
 
-std::string design_json(const study::DesignStudy& s) {
+std::string design_json(const analysis::DesignStudy& s) {
   const DriveDesign& d = s.design;
   Json out{{"sixstep", SIXSTEP_VERSION},
            {"verdict", design_verdict(s)},

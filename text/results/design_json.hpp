@@ -3,13 +3,13 @@
 #pragma once
 #include <string>
 
-#include "sixstep/study/verify/design_study.hpp"
+#include "sixstep/analysis/verify/design_study.hpp"
 #include "text/rooms.hpp"
 
 namespace text {
 
 /// Gains, derivations, margins, Bode and step data of each loop, limits, what the simulation says beside what
 /// was designed, worst corners, warnings. Values that are infinite or do not exist are null.
-std::string design_json(const study::DesignStudy& study);
+std::string design_json(const analysis::DesignStudy& study);
 
 }  // namespace text

@@ -16,12 +16,12 @@
 namespace text {
 namespace {
 
+using sixstep::analysis::RobustFigure;
 using sixstep::control::Mode;
 using sixstep::design::DerivationStep;
 using sixstep::design::DriveDesign;
 using sixstep::design::LoopDesign;
 using sixstep::design::LoopFigures;
-using sixstep::study::RobustFigure;
 
 std::string number(double x) { return fmt::format("{:.6g}", x); }
 std::string degrees(double rad) { return fmt::format("{:.1f} deg", rad * 180 / sixstep::base::pi); }
@@ -52,7 +52,7 @@ class Rows {
   std::vector<std::vector<std::string>> rows_;
 };
 
-const study::ComparisonResult* find(const study::DesignStudy& s, const char* figure) {
+const study::ComparisonResult* find(const analysis::DesignStudy& s, const char* figure) {
   for (const auto& c : s.outcome.comparisons)
     if (c.figure == figure) return &c;
   return nullptr;
@@ -192,12 +192,12 @@ std::string limits_text(const DriveDesign& d) {
   return text;
 }
 
-std::string simulated_text(const study::DesignStudy& s) {
+std::string simulated_text(const analysis::DesignStudy& s) {
   Rows rows;
   rows.add({"figure", "expected", "simulated", "", ""});
   for (const auto& c : s.outcome.comparisons)
     rows.add({c.figure, quantity_text(c.value, c.unit),
-              quantity_text(sixstep::study::as_read(c, s.scenario), c.unit), deviation_text(c), c.source});
+              quantity_text(sixstep::analysis::as_read(c, s.scenario), c.unit), deviation_text(c), c.source});
   const study::Scenario& n = s.scenario;
   std::string how;
   if (n.control.mode == Mode::current)
@@ -219,7 +219,7 @@ void add_robust(Rows& rows, const RobustFigure& f, int digits) {
                 : fmt::format("{} alone: {}", f.culprit, quantity_text(f.alone, f.unit, digits))});
 }
 
-std::string robust_text(const study::Robustness& r) {
+std::string robust_text(const analysis::Robustness& r) {
   Rows rows;
   rows.add({"figure", "nominal", "worst", "where", "chiefly"});
   for (const RobustFigure& f : r.figures) add_robust(rows, f, 4);
@@ -229,7 +229,7 @@ std::string robust_text(const study::Robustness& r) {
          rows.text();
 }
 
-std::string position_text(const study::PositionGain& p) {
+std::string position_text(const analysis::PositionGain& p) {
   std::string text = fmt::format(
       "  found by {} simulations between {} (full torque stops it from top speed) and {} (no limit acts)\n",
       p.runs, number(p.estimate), number(p.linear));
@@ -244,7 +244,7 @@ std::string counted(std::size_t n, const char* what) {
 }
 
 /// What the motor worst off makes of a figure.
-std::string at_worst(const study::DesignStudy& s, const char* figure, double nominal, int digits) {
+std::string at_worst(const analysis::DesignStudy& s, const char* figure, double nominal, int digits) {
   if (!s.robustness) return "";
   for (const RobustFigure& f : s.robustness->figures)
     if (f.figure == figure && f.worst > nominal)
@@ -253,7 +253,7 @@ std::string at_worst(const study::DesignStudy& s, const char* figure, double nom
 }
 
 /// What the verdict holds for.
-std::string conditions(const study::DesignStudy& s) {
+std::string conditions(const analysis::DesignStudy& s) {
   const DriveDesign& d = s.design;
   std::string text =
       !d.spec.rotor.hall   ? "with an ideal rotor sensor"
@@ -267,7 +267,7 @@ std::string conditions(const study::DesignStudy& s) {
 
 }  // namespace
 
-std::string design_verdict(const study::DesignStudy& s) {
+std::string design_verdict(const analysis::DesignStudy& s) {
   const std::string mode = s.design.loops.back().name;
   std::string text = s.warnings.empty() ? "good"
                      : s.usable()       ? "usable, " + counted(s.warnings.size(), "warning")
@@ -285,7 +285,7 @@ std::string design_verdict(const study::DesignStudy& s) {
     text += at_worst(s, "settling time", settling->measured, 4);
   }
   if (overshoot) {
-    const double measured = sixstep::study::as_read(*overshoot, s.scenario);
+    const double measured = sixstep::analysis::as_read(*overshoot, s.scenario);
     text += measured == 0.0 ? ", no overshoot" : ", overshoot " + quantity_text(measured, overshoot->unit, 3);
     text += at_worst(s, "overshoot", measured, 3);
   }
@@ -295,7 +295,7 @@ std::string design_verdict(const study::DesignStudy& s) {
   return text + "; " + conditions(s);
 }
 
-std::string design_text(const study::DesignStudy& s, bool colour) {
+std::string design_text(const analysis::DesignStudy& s, bool colour) {
   std::string verdict = design_verdict(s);
   if (colour) verdict = fmt::format("\x1b[{}m{}\x1b[0m", s.usable() ? "32" : "31;1", verdict);
   std::string text = verdict + "\n\n" + motor_line(s.design, s.scenario);
@@ -309,7 +309,7 @@ std::string design_text(const study::DesignStudy& s, bool colour) {
   return text;
 }
 
-std::vector<std::string> design_lines(const study::DesignStudy& s) {
+std::vector<std::string> design_lines(const analysis::DesignStudy& s) {
   std::vector<std::string> lines;
   for (const LoopDesign& loop : s.design.loops) {
     std::string line = fmt::format("{} loop, {}: ", loop.name, loop.method);

@@ -3,17 +3,17 @@
 #pragma once
 #include <string>
 
-#include "sixstep/study/verify/design_study.hpp"
+#include "sixstep/analysis/verify/design_study.hpp"
 #include "text/rooms.hpp"
 
 namespace text {
 
-std::string design_text(const study::DesignStudy& study, bool colour);
+std::string design_text(const analysis::DesignStudy& study, bool colour);
 
 /// "usable, 2 warnings: the current loop settles in 990 us (asked for 1 ms), overshoot 7.9 %"
-std::string design_verdict(const study::DesignStudy& study);
+std::string design_verdict(const analysis::DesignStudy& study);
 
 /// For the head of a scenario file: where the gains come from, one line per loop.
-std::vector<std::string> design_lines(const study::DesignStudy& study);
+std::vector<std::string> design_lines(const analysis::DesignStudy& study);
 
 }  // namespace text

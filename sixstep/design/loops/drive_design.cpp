@@ -18,12 +18,12 @@ namespace {
 using control::Mode;
 
 // The thesis's choices (chapter 6), and the ratio of its two loops.
-constexpr double current_settle = 1e-3, speed_settle = 10e-3, inner_faster = 10.0;
+constexpr double inner_faster = 10.0;
 
 double settle_of_current(const DesignSpec& w) {
-  if (w.mode == Mode::current) return w.settle_s.value_or(current_settle);
+  if (w.mode == Mode::current) return w.settle_s.value_or(usual_current_settle_s);
   return w.current_settle_s.value_or(
-      std::fmin(current_settle, w.settle_s.value_or(speed_settle) / inner_faster));
+      std::fmin(usual_current_settle_s, w.settle_s.value_or(usual_speed_settle_s) / inner_faster));
 }
 
 DriveLoops loops_of(const DriveDesign& d, const MotorModel& motor, int delay_periods) {
@@ -103,8 +103,9 @@ base::Result<LoopDesign> current_loop(const DriveDesign& d) {
   const DesignSpec& w = d.spec;
   const double R = 2.0 * d.motor.machine.R_ohm, L = 2.0 * d.motor.machine.L_H, settle = settle_of_current(w);
   if (w.method == GainMethod::cancellation)
-    return by_rule("current", "pole-zero cancellation",
-                   cancel_pole(R, L, w.bandwidth_rad_s.value_or(4.6 / settle), w.period_s));
+    return by_rule(
+        "current", "pole-zero cancellation",
+        cancel_pole(R, L, w.bandwidth_rad_s.value_or(time_constants_to_settle / settle), w.period_s));
   return by_placement("current", current_plant(R, L, w.period_s), settle, w.damping, w.period_s);
 }
 
@@ -124,7 +125,7 @@ base::Result<LoopDesign> speed_loop(const DriveDesign& d) {
                    symmetrical_optimum(shaft.J_kg_m2, d.torque_limit_Nm, lag, a, w.period_s));
   }
   return by_placement("speed", speed_plant(d.torque_limit_Nm, shaft.J_kg_m2, shaft.B_Nm_s, w.period_s),
-                      w.settle_s.value_or(speed_settle), w.damping, w.period_s);
+                      w.settle_s.value_or(usual_speed_settle_s), w.damping, w.period_s);
 }
 
 bool overshoots(const Transfer& open, double gain, double period_s) {
@@ -204,11 +205,11 @@ SettlingQuestion settling_question(const DriveDesign& d) {
 /// Nobody said how fast: the thesis's settling time, or what the sensor stands where that is longer.
 void choose_settling(DriveDesign& d) {
   if (d.spec.settle_s || d.spec.mode == Mode::current) return;
-  d.spec.settle_s = speed_settle;
+  d.spec.settle_s = usual_speed_settle_s;
   if (!d.spec.rotor.hall) return;
   const std::optional<double> least =
       fastest_settling_s(settling_question(d), d.spec.rotor, d.lowest_speed_rad_s);
-  if (least && *least > speed_settle) d.spec.settle_s = base::shortened(*least, 2, base::Towards::up);
+  if (least && *least > usual_speed_settle_s) d.spec.settle_s = base::shortened(*least, 2, base::Towards::up);
 }
 
 void add_sensing(DriveDesign& d) {

@@ -29,7 +29,7 @@ struct DesignSpec {
   std::optional<double> settle_s;
   std::optional<double>
       current_settle_s;  ///< of the inner loop; 1 ms, or a tenth of the speed loop's if shorter
-  double damping = 0.9;
+  double damping = usual_damping;
   std::optional<double> bandwidth_rad_s;  ///< of the loop the method is for; else 4.6/settle_s
   double period_s = 30e-6;
   std::optional<double> voltage_V;        ///< of the bus; else the sheet's

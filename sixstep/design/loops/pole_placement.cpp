@@ -86,7 +86,7 @@ base::Result<PolePlacement> place_poles(const ZohPlant& plant, double settle_s, 
   if (Problems found = check(plant, settle_s, damping, period_s); !found.empty()) return found;
   PolePlacement p{.settle_s = settle_s, .damping = damping, .period_s = period_s, .plant = plant};
   // Thesis 6.9 to 6.12: w0 = 4.6/(xi T_reg), s = -xi w0 +- j w0 sqrt(1 - xi^2), z = exp(s T_s).
-  p.w0_rad_s = 4.6 / (damping * settle_s);
+  p.w0_rad_s = time_constants_to_settle / (damping * settle_s);
   p.s_re = -damping * p.w0_rad_s;
   p.s_im = p.w0_rad_s * std::sqrt((1.0 - damping) * (1.0 + damping));
   const double radius = base::exp(p.s_re * period_s);

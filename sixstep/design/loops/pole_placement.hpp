@@ -29,6 +29,12 @@ struct DerivationStep {
   std::string unit;
 };
 
+/// What is designed where nothing is asked for: the inputs of the thesis (chapter 6).
+inline constexpr double usual_current_settle_s = 1e-3, usual_speed_settle_s = 10e-3, usual_damping = 0.9;
+
+/// A settling time is that of 1 %: exp(-4.6).
+inline constexpr double time_constants_to_settle = 4.6;
+
 struct PolePlacement {
   double settle_s = 0.0, damping = 0.0, period_s = 0.0;
   double w0_rad_s = 0.0;          // 4.6/(xi T_reg)

@@ -13,7 +13,7 @@ namespace sixstep::design {
 struct SettlingQuestion {
   DriveLoops drive;
   double torque_limit_Nm = 0.0;
-  double damping = 0.9;
+  double damping = usual_damping;
 };
 
 /// The shortest settling time whose loop keeps least_phase_deg with the sensor's lag at the lowest speed. It

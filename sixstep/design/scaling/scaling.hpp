@@ -7,6 +7,7 @@
 
 #include "sixstep/base/result.hpp"
 #include "sixstep/control/drive.hpp"
+#include "sixstep/design/fields/field.hpp"
 
 namespace sixstep::design {
 
@@ -36,6 +37,25 @@ constexpr double setpoint_base(control::Mode mode, const Bases& b) {
          : mode == control::Mode::speed    ? b.speed_rad_s
          : mode == control::Mode::position ? b.position_deg
                                            : 1.0;
+}
+
+/// By field (design/fields).
+constexpr double value_of(Base base, control::Mode mode, const Bases& b) {
+  switch (base) {
+    case Base::one:
+      return 1.0;
+    case Base::current:
+      return b.current_A;
+    case Base::voltage:
+      return b.voltage_V;
+    case Base::speed:
+      return b.speed_rad_s;
+    case Base::position:
+      return b.position_deg;
+    case Base::setpoint:
+      return setpoint_base(mode, b);
+  }
+  return 1.0;
 }
 
 /// One line of the proof: a quantity, the most it reaches, and where the format ends.

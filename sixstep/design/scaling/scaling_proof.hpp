@@ -48,20 +48,18 @@ struct Proof {
     return control::Gain<Scalar>(per_unit);
   }
 
-  control::PiConfig<Scalar> pi(const std::string& name, const control::PiConfig<double>& c, double in,
-                               double out, double largest_error) {
-    const double K_i = c.d1 + c.d0;
-    const std::string d1_name = name + ".d1", K_i_name = name + ".K_i", limit_name = name + ".limit";
-    const double K_i_pu = K_i * in / out;
+  /// Of a PI: its integral sees an error of one digit, and saturates at none.
+  void integral(const std::string& name, const control::PiConfig<double>& c, double in, double out,
+                double largest_error) {
+    const double K_i = c.d1 + c.d0, K_i_pu = K_i * in / out;
     const double vanishes = std::ldexp(1.0, -1 - control::Accumulator<Scalar>::guard_bits);
     if (K_i != 0 && std::fabs(K_i_pu) < vanishes)
       problems.push_back(
-          {K_i_name, base::written(K_i_pu),
+          {name + ".K_i", base::written(K_i_pu),
            "per unit leaves an error of one digit unseen: it must reach " + base::written(vanishes),
            "take 32 bits, a longer control period or a smaller base of the output"});
-    fits(limit_name.c_str(), c.limit, out);
+    fits((name + ".limit").c_str(), c.limit, out);
     fits((name + " integral increment").c_str(), std::fabs(K_i) * largest_error, 14 * out);
-    return {gain(d1_name.c_str(), c.d1 * in / out), gain(K_i_name.c_str(), K_i_pu), Scalar(c.limit / out)};
   }
 };
 

@@ -27,7 +27,8 @@ bool same(double x, double as_printed, double half_digit) { return std::fabs(x -
 
 std::optional<double> thesis_figure(std::string_view loop, const PolePlacement& p, std::string_view symbol) {
   const bool speed = loop == "speed";
-  const bool its_wish = p.period_s == 30e-6 && p.damping == 0.9 && p.settle_s == (speed ? 10e-3 : 1e-3);
+  const bool its_wish = p.period_s == 30e-6 && p.damping == usual_damping &&
+                        p.settle_s == (speed ? usual_speed_settle_s : usual_current_settle_s);
   const bool its_plant = speed ? same(p.plant.a0, -0.99998, 0.5e-5) && same(p.plant.b0, 1.733, 0.5e-3)
                                : same(p.plant.a0, -0.9474, 0.5e-4) && same(p.plant.b0, 0.0511, 0.5e-4);
   if (!its_wish || !its_plant) return std::nullopt;

@@ -53,7 +53,7 @@ void check_band(const Asked& a) {
   const bool closed = a.s.control.mode != Mode::off && a.s.control.mode != Mode::duty;
   const bool armed =
       closed && loop.type == CurrentLoopType::hysteresis && loop.comparator == Comparator::event;
-  if (is_band(a.m.metric) && !armed)
+  if (fact_of(a.m.metric).of == TakenOf::band && !armed)
     a.refuse("metric", quoted(a.m.metric), "needs a hysteresis with event comparators",
              "set control.current.type = \"hysteresis\" and comparator = \"event\", or measure max and min");
 }
@@ -62,15 +62,27 @@ void check_band(const Asked& a) {
 void check_signal(const Asked& a) {
   const Signal signal = a.m.signal;
   const bool given = signal != Signal::current;
-  if ((is_band(a.m.metric) || a.m.metric == MetricKind::efficiency) && given)
-    a.refuse("signal", quoted(signal), "is nothing that " + quoted(a.m.metric) + " is taken of",
-             "remove signal");
-  if (a.m.metric == MetricKind::switching_frequency && given && !is_gate(signal))
-    a.refuse("signal", quoted(signal), "does not switch",
-             "name a switch, \"gate_T1\" to \"gate_T6\", or remove signal to count what is chopped");
-  if (a.m.metric == MetricKind::energy && !is_power(signal))
-    a.refuse("signal", quoted(signal), "is no power, and has no energy",
-             "name a power or a loss, as signal = \"supply_power_W\" or \"copper_loss_W\"");
+  switch (fact_of(a.m.metric).of) {
+    case TakenOf::signal:
+    case TakenOf::fundamental:
+      return;
+    case TakenOf::band:
+    case TakenOf::energies:
+      if (given)
+        a.refuse("signal", quoted(signal), "is nothing that " + quoted(a.m.metric) + " is taken of",
+                 "remove signal");
+      return;
+    case TakenOf::switching:
+      if (given && !is_gate(signal))
+        a.refuse("signal", quoted(signal), "does not switch",
+                 "name a switch, \"gate_T1\" to \"gate_T6\", or remove signal to count what is chopped");
+      return;
+    case TakenOf::power:
+      if (!is_power(signal))
+        a.refuse("signal", quoted(signal), "is no power, and has no energy",
+                 "name a power or a loss, as signal = \"supply_power_W\" or \"copper_loss_W\"");
+      return;
+  }
 }
 
 /// A reference that the mode does not have, and the error against it.
@@ -96,21 +108,21 @@ bool is_controlled(Signal signal, Mode mode) {
 }
 
 void check_level(const Asked& a) {
-  const bool wanted = is_of_a_step(a.m.metric) || is_error(a.m.metric);
+  const bool wanted = fact_of(a.m.metric).over != TakenOver::window;
   if (wanted && !a.m.level && !is_controlled(a.m.signal, a.s.control.mode))
     a.refuse("level", "", "is missing, and the reference is of another signal",
              "give the level that the signal is to reach, in its own unit");
-  if (a.m.tail && !is_error(a.m.metric))
+  if (a.m.tail && !is_of_a_level(a.m.metric))
     a.refuse("tail", base::written(*a.m.tail), "is nothing that " + quoted(a.m.metric) + " looks at",
              "remove it, or set from_s and to_s");
-  if (a.m.tail && is_error(a.m.metric) && a.m.level)
+  if (a.m.tail && is_of_a_level(a.m.metric) && a.m.level)
     a.refuse("tail", base::written(*a.m.tail), "is a part of the reference's levels, and level is given",
              "remove it and set from_s and to_s");
 }
 
 /// Steps are told apart by the reference's levels: while it moves it has none.
 void check_levels_of_reference(const Asked& a) {
-  const bool takes_levels = is_of_a_step(a.m.metric) || is_error(a.m.metric);
+  const bool takes_levels = fact_of(a.m.metric).over != TakenOver::window;
   if (takes_levels && !a.m.level && is_controlled(a.m.signal, a.s.control.mode) &&
       reference_moves(a.s, a.from_s(), a.to_s()))
     a.refuse(
@@ -125,10 +137,7 @@ void check_levels_of_reference(const Asked& a) {
 
 void check_sampled(const Asked& a) {
   if (!a.m.sampled) return;
-  const bool counted = is_band(a.m.metric) || a.m.metric == MetricKind::switching_frequency;
-  const bool integrated = a.m.metric == MetricKind::thd || a.m.metric == MetricKind::energy ||
-                          a.m.metric == MetricKind::efficiency;
-  if (counted || integrated)
+  if (fact_of(a.m.metric).of != TakenOf::signal)
     a.refuse("sampled", "true", "would miss what " + quoted(a.m.metric) + " is about",
              "remove it: the whole curve is looked at");
   else if (!is_known_at_samples(a.m.signal))
@@ -139,7 +148,7 @@ void check_sampled(const Asked& a) {
 
 void check_fundamental(const Asked& a) {
   const std::optional<double>& frequency_Hz = a.m.frequency_Hz;
-  if (a.m.metric != MetricKind::thd) {
+  if (fact_of(a.m.metric).of != TakenOf::fundamental) {
     if (frequency_Hz)
       a.refuse("frequency_Hz", base::written(*frequency_Hz),
                "is nothing that " + quoted(a.m.metric) + " looks at", "remove it");

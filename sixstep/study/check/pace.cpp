@@ -119,6 +119,14 @@ void check_timer(const Scenario& s, base::Problems& out) {
                    "give the timer's clock in Hz, 16e6 for 16 MHz; 0 rounds nothing"});
 }
 
+/// Longer ones would leave no duty but 0 and 1.
+void check_minimum_pulse(const Scenario& s, base::Problems& out) {
+  if (s.pwm.minimum_pulse_s > s.pwm.period_s / 2)
+    out.push_back({"pwm.minimum_pulse_s", written(s.pwm.minimum_pulse_s),
+                   "leaves room for no pulse in pwm.period_s = " + written(s.pwm.period_s),
+                   "give at most half the period"});
+}
+
 }  // namespace
 
 void check_pace(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
@@ -129,6 +137,7 @@ void check_pace(const Scenario& s, const design::MotorModel& motor, base::Proble
   check_field(s, motor.machine, out);
   check_band(s, motor.machine, out);
   check_timer(s, out);
+  check_minimum_pulse(s, out);
 }
 
 }  // namespace sixstep::study

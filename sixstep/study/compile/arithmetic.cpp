@@ -7,6 +7,7 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/control/fixed.hpp"
+#include "sixstep/design/fields/product_fields.hpp"
 #include "sixstep/design/loops/limit_bounds.hpp"
 #include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/compile/timeline.hpp"
@@ -72,75 +73,26 @@ double fastest_change_of_speed(const Scenario& s, const Compiled& c, const desig
   double load = std::fabs(s.load.torque_Nm);
   for (const double torque : s.load.torques_Nm) load = std::max(load, std::fabs(torque));
   for (const At& at : s.at) load = std::max(load, std::fabs(at.load.torque_Nm.value_or(0.0)));
-  const double friction = c.shaft.B_Nm_s * range.speed_rad_s + c.shaft.coulomb_Nm;
+  const double friction = plant::friction_Nm(c.shaft, range.speed_rad_s);
   const double own = design::torque_per_A(c.motor.machine) * range.current_A;
   return (own + load + friction) / c.shaft.J_kg_m2 * s.pwm.period_s;
 }
 
 template <class Scalar>
-control::DriveExtras<Scalar> extras_in(const control::DriveExtras<double>& x) {
-  const auto s = [](double v) { return static_cast<Scalar>(v); };
-  const control::LimitsConfig<double>& l = x.limits;
-  return {.on = x.on,
-          .slews_setpoint = x.slews_setpoint,
-          .slew = {s(x.slew.step)},
-          .limits_current = x.limits_current,
-          .limits = {s(l.current_A), l.limits_speed, s(l.speed_rad_s), s(l.A_per_rad_s),
-                     l.limits_regeneration, s(l.bus_V), s(l.A_per_V)},
-          .torque_fraction_per_A = s(x.torque_fraction_per_A),
-          .feed_forward = {s(x.feed_forward.K_t_V_s)},
-          .bus = {s(x.bus.lowest_bus_V)},
-          .smooth_chopping = x.smooth_chopping,
-          .chopping = {s(x.chopping.soft_above_A), s(x.chopping.complementary_below_A)},
-          .positional_speed = x.positional_speed,
-          .speed = {s(x.speed.K), s(x.speed.K_i), s(x.speed.K_b), s(x.speed.limit), s(x.speed.K_c)},
-          .speed_derivative = {s(x.speed_derivative.g), s(x.speed_derivative.b)}};
-}
-
-template <class Scalar>
 control::ProtectedConfig<Scalar> product_in_float(const control::ProtectedConfig<double>& c) {
-  const auto s = [](double v) { return static_cast<Scalar>(v); };
-  const auto adc = [&](const control::AdcConfig<double>& a) {
-    return control::AdcConfig<Scalar>{s(a.per_eighth), a.offset_counts, a.offset_tolerance, a.log2_samples};
-  };
-  const control::FaultConfig<double>& f = c.faults;
-  return {.drive = in_arithmetic<Scalar>(c.drive),
-          .setpoint_limit = s(c.setpoint_limit),
-          .sensing = c.sensing,
-          .current_adc = {adc(c.current_adc[0]), adc(c.current_adc[1]), adc(c.current_adc[2])},
-          .bus_adc = adc(c.bus_adc),
-          .shunt = {s(c.shunt.least_duty), c.shunt.commutation_samples, s(c.shunt.fade)},
-          .hall = c.hall,
-          .speed = {s(c.speed.sector_rad_s_ticks), c.speed.timeout_ticks, c.speed.edges, c.speed.window_ticks,
-                    c.speed.grain_ticks},
-          .position = {s(c.position.per_sector), s(c.position.per_fraction)},
-          .advance = {s(c.advance.fixed), s(c.advance.per_speed), s(c.advance.limit)},
-          .faults = {s(f.over_current_A), s(f.over_voltage_V), s(f.under_voltage_V), s(f.over_speed_rad_s),
-                     s(f.stall_current_A), f.stall_ticks, f.voltage_ticks},
-          .align = {s(c.align.current_A), c.align.ticks, c.align.settled_ticks, c.align.sector},
-          .brake_current_A = s(c.brake_current_A),
-          .short_below_rad_s = s(c.short_below_rad_s),
-          .standing_rad_s = s(c.standing_rad_s)};
+  control::ProtectedConfig<Scalar> out;
+  out.drive = in_arithmetic<Scalar>(c.drive);
+  design::fields(design::AsFloat{}, c, out);
+  return out;
 }
 
 }  // namespace
 
 template <class Scalar>
 control::DriveConfig<Scalar> in_arithmetic(const control::DriveConfig<double>& c) {
-  const auto s = [](double v) { return static_cast<Scalar>(v); };
-  return {.mode = c.mode,
-          .chopping = c.chopping,
-          .current_control = c.current_control,
-          .current = {s(c.current.d1), s(c.current.d0), s(c.current.limit)},
-          .hysteresis = {s(c.hysteresis.band_A), c.hysteresis.watch},
-          .nominal_bus_V = s(c.nominal_bus_V),
-          .speed = {s(c.speed.d1), s(c.speed.d0), s(c.speed.limit)},
-          .current_at_full_torque_A = s(c.current_at_full_torque_A),
-          .current_limit_A = s(c.current_limit_A),
-          .position_gain = s(c.position_gain),
-          .speed_limit_rad_s = s(c.speed_limit_rad_s),
-          .speed_control = c.speed_control,
-          .extras = extras_in<Scalar>(c.extras)};
+  control::DriveConfig<Scalar> out;
+  design::fields(design::AsFloat{}, c, out);
+  return out;
 }
 template control::DriveConfig<float> in_arithmetic(const control::DriveConfig<double>&);
 template control::DriveConfig<double> in_arithmetic(const control::DriveConfig<double>&);

@@ -15,9 +15,6 @@ namespace sixstep::study {
 
 namespace {
 
-// The thesis's design inputs (chapter 6), used where a scenario names none.
-constexpr double current_settle_s = 1e-3, speed_settle_s = 10e-3, usual_damping = 0.9;
-
 /// The loop's gains as given, else by pole placement; the exact design is derived beside given gains too.
 template <class Loop>
 base::Result<LoopGains> loop_gains(const Loop& loop, const std::string& name, const design::ZohPlant& plant,
@@ -25,7 +22,7 @@ base::Result<LoopGains> loop_gains(const Loop& loop, const std::string& name, co
   LoopGains out;
   out.loop = name;
   const double settle = loop.settle_s.value_or(usual_settle_s),
-               damping = loop.damping.value_or(usual_damping);
+               damping = loop.damping.value_or(design::usual_damping);
   base::Result<design::PolePlacement> placed = design::place_poles(plant, settle, damping, period_s);
   const GivenGains given = given_gains(loop, "control." + name);
   if (!given.problems.empty()) return given.problems;
@@ -87,6 +84,7 @@ rig::BoardConfig board_of(const Scenario& s, double L_over_R_s) {
   board.modulator.dead_ticks = static_cast<double>(sim::to_instant(s.bridge.dead_time_s).ticks);
   board.modulator.dead_time_at_commutation = s.bridge.dead_time_at_commutation;
   board.modulator.timer_ticks = s.pwm.timer_Hz > 0 ? sim::ticks_per_second / s.pwm.timer_Hz : 0.0;
+  board.modulator.minimum_pulse_ticks = static_cast<double>(sim::to_instant(s.pwm.minimum_pulse_s).ticks);
   board.commutate_at_sample = s.pwm.commutation == CommutationAt::sample;
   board.delayed = s.pwm.delay_periods > 0;
   board.sampled_in_middle = s.pwm.sample == SampleAt::middle;
@@ -104,7 +102,7 @@ base::Problems add_current_loop(const Scenario& s, const Basis& basis, Tuned& ou
   const design::ZohPlant plant =
       design::current_plant(2 * basis.motor.machine.R_ohm, 2 * basis.motor.machine.L_H, s.pwm.period_s);
   base::Result<LoopGains> gains =
-      loop_gains(s.control.current, "current", plant, current_settle_s, s.pwm.period_s);
+      loop_gains(s.control.current, "current", plant, design::usual_current_settle_s, s.pwm.period_s);
   if (!gains) return gains.problems();
   out.drive.current = {gains->d1, gains->d0, basis.bus_V};
   out.gains.push_back(*gains);
@@ -125,7 +123,7 @@ base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Tuned& out)
   const double torque_limit =
       s.control.speed.torque_limit_Nm.value_or(design::usual_torque_limit_Nm(basis.motor, basis.bus_V));
   base::Result<LoopGains> gains = loop_gains(s.control.speed, "speed", speed_plant_of(s, basis, torque_limit),
-                                             speed_settle_s, s.pwm.period_s);
+                                             design::usual_speed_settle_s, s.pwm.period_s);
   if (!gains) return gains.problems();
   out.drive.speed = {gains->d1, gains->d0, 1.0};
   out.gains.push_back(*gains);
@@ -219,7 +217,9 @@ base::Problems told_of_event(const Scenario& s, const At& at, base::Problems pro
   return problems;
 }
 
-double current_settling_s(const Scenario& s) { return s.control.current.settle_s.value_or(current_settle_s); }
+double current_settling_s(const Scenario& s) {
+  return s.control.current.settle_s.value_or(design::usual_current_settle_s);
+}
 
 template <class Loop>
 GivenGains given_gains(const Loop& loop, const std::string& where) {

@@ -16,47 +16,57 @@ void EnergyGauge::segment(const SegmentView& g, double s) {
 /// The segment's energies from its begin to s, times `sign`.
 void EnergyGauge::add_up_to(const SegmentView& g, double s, double sign) {
   const plant::SegmentEnergy<double> e = plant::segment_energy(g.plant, s);
-  const plant::Constants<double>& c = g.plant.constants();
   const plant::Motion motion = g.plant.mode().motion;
-  const double slide = motion == plant::Motion::forward    ? e.travel
-                       : motion == plant::Motion::backward ? -e.travel
-                                                           : 0.0;
-  supplied_.add(sign * e.supplied);
-  copper_.add(sign * e.copper);
-  devices_.add(sign * e.devices);
-  air_gap_.add(sign * e.air_gap);
-  friction_.add(sign * (e.viscous + c.coulomb * slide));
-  load_work_.add(sign * c.load * e.travel);
-  const double squares = c.B > 0 ? e.viscous / c.B : 0.0;  // integral of w^2
-  load_friction_.add(sign * (load_.viscous_Nm_s * squares + load_.coulomb_Nm * slide));
+  const auto [load, dry, B] = plant::torques(g.plant.constants(), motion);
+  sum_.supplied.add(sign * e.supplied);
+  sum_.copper.add(sign * e.copper);
+  sum_.devices.add(sign * e.devices);
+  sum_.air_gap.add(sign * e.air_gap);
+  sum_.friction.add(sign * (e.viscous + e.dry));
+  sum_.load.add(sign * e.load);
+  const double squares = B > 0 ? e.viscous / B : 0.0;  // integral of w^2
+  sum_.load_friction.add(
+      sign * (load_.viscous_Nm_s * squares + load_.coulomb_Nm * plant::against(motion, e.travel)));
 }
+
+namespace {
+
+/// Every power, and the energy that it is over time.
+struct EnergyOf {
+  Signal power;
+  double (*taken)(const Energies&);
+};
+constexpr EnergyOf energies[] = {
+    {Signal::supply_power, [](const Energies& e) { return e.supplied.value; }},
+    {Signal::motor_power, [](const Energies& e) { return e.supplied.value - e.devices.value; }},
+    {Signal::mechanical_power, [](const Energies& e) { return e.air_gap.value; }},
+    {Signal::load_power, [](const Energies& e) { return e.load.value; }},
+    {Signal::copper_loss, [](const Energies& e) { return e.copper.value; }},
+    {Signal::device_loss, [](const Energies& e) { return e.devices.value; }},
+    {Signal::friction_loss, [](const Energies& e) { return e.friction.value; }},
+};
+static_assert([] {
+  for (const SignalFact& fact : signal_facts) {
+    bool has = false;
+    for (const EnergyOf& e : energies) has = has || e.power == fact.signal;
+    if (has != is_power(fact.signal)) return false;
+  }
+  return true;
+}());
+
+}  // namespace
 
 std::optional<double> EnergyGauge::energy(Signal signal) const {
   if (!seen_) return std::nullopt;
-  switch (signal) {
-    case Signal::supply_power:
-      return supplied_.value;
-    case Signal::motor_power:
-      return supplied_.value - devices_.value;
-    case Signal::mechanical_power:
-      return air_gap_.value;
-    case Signal::load_power:
-      return load_work_.value;
-    case Signal::copper_loss:
-      return copper_.value;
-    case Signal::device_loss:
-      return devices_.value;
-    case Signal::friction_loss:
-      return friction_.value;
-    default:
-      return std::nullopt;
-  }
+  for (const EnergyOf& e : energies)
+    if (e.power == signal) return e.taken(sum_);
+  return std::nullopt;
 }
 
 std::optional<double> EnergyGauge::efficiency() const {
   if (!seen_) return std::nullopt;
-  const double electrical = supplied_.value;
-  const double mechanical = air_gap_.value - (friction_.value - load_friction_.value);
+  const double electrical = sum_.supplied.value;
+  const double mechanical = sum_.air_gap.value - (sum_.friction.value - sum_.load_friction.value);
   if (electrical > 0.0) return mechanical > 0.0 ? mechanical / electrical : 0.0;
   if (mechanical < 0.0) return electrical < 0.0 ? electrical / mechanical : 0.0;
   return std::nullopt;

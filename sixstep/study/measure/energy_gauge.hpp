@@ -14,6 +14,16 @@ struct LoadFriction {
   double viscous_Nm_s = 0.0, coulomb_Nm = 0.0;
 };
 
+/// J over a window, in sums that keep what they round away.
+struct Energies {
+  struct Sum {
+    double value = 0.0, low = 0.0;
+    void add(double x) { series::add_compensated(value, low, x); }
+  };
+  Sum supplied, copper, devices, air_gap, friction, load;
+  Sum load_friction;  ///< the load's share of friction
+};
+
 class EnergyGauge {
  public:
   EnergyGauge(const Window& window, const LoadFriction& load) : window_(window), load_(load) {}
@@ -27,17 +37,12 @@ class EnergyGauge {
   std::optional<double> efficiency() const;
 
  private:
-  /// A running sum that keeps what it rounds away.
-  struct Sum {
-    double value = 0.0, low = 0.0;
-    void add(double x) { series::add_compensated(value, low, x); }
-  };
   void add_up_to(const SegmentView& g, double s, double sign);
 
   Window window_;
   LoadFriction load_;
   bool seen_ = false;
-  Sum supplied_, copper_, devices_, air_gap_, friction_, load_work_, load_friction_;
+  Energies sum_;
 };
 
 }  // namespace sixstep::study

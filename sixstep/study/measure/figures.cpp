@@ -40,7 +40,7 @@ Gauges gauges_for(const Measure& m, const Scenario& scenario, const std::vector<
   const Window window{m.from_s.value_or(0.0), m.to_s.value_or(scenario.duration_s)};
   const bool square = scenario.reference.shape == Shape::square;
   if (is_of_a_step(m.metric) && !m.level) return step_gauges(m, levels, window, square);
-  if (is_error(m.metric) && !m.level) return level_gauges(m, levels, window);
+  if (is_of_a_level(m.metric) && !m.level) return level_gauges(m, levels, window);
   return {Gauge(m, window, m.level.value_or(0.0), m.start)};
 }
 
@@ -48,7 +48,7 @@ void watch_with(Gauge& gauge, Signal signal, const SegmentView& g, double s) {
   const double h = g.plant.expansion().h;
   const Clip seen = clipped(gauge.window(), g.t_s, h, s);
   if (seen.empty()) return;
-  if (gauge.seeks_extremes() && gauge.holds(signal_bounds(g, signal))) return;
+  if (gauge.holds([&] { return signal_bounds(g, signal); })) return;
   for_each_piece(g, signal, seen.from, seen.to, [&](const Piece& y, double from, double to) {
     gauge.part(y.c, y.degree, g.t_s + from * h, (to - from) * h);
   });
@@ -85,34 +85,54 @@ double value_of(const Gauges& gauges, const Measure& m) {
   }
   return worst;
 }
-double value_of(const HysteresisGauge& gauge, const Measure& m) {
-  return m.metric == MetricKind::band_excess ? gauge.figures().excess_A : gauge.figures().deficit_A;
+double value_of(const auto& taken, const Measure&) { return taken.value(); }
+
+Taken taken_by(const Measure& m, const Scenario& scenario, const std::vector<Level>& levels) {
+  const Window all{m.from_s.value_or(0.0), m.to_s.value_or(std::numeric_limits<double>::infinity())};
+  const EnergyGauge energies(all, {scenario.load.viscous_Nm_s, scenario.load.coulomb_Nm});
+  switch (m.metric) {
+    case MetricKind::final_value:
+    case MetricKind::mean:
+    case MetricKind::rms:
+    case MetricKind::maximum:
+    case MetricKind::minimum:
+    case MetricKind::peak_to_peak:
+    case MetricKind::ripple_rms:
+    case MetricKind::overshoot:
+    case MetricKind::reach_time:
+    case MetricKind::rise_time:
+    case MetricKind::settling_time:
+    case MetricKind::steady_error:
+    case MetricKind::largest_error:
+      break;
+    case MetricKind::thd:
+      return Distortion{{{all.from_s, std::min(all.to_s, scenario.duration_s)}, m.signal, m.frequency_Hz}};
+    case MetricKind::energy:
+      return Energy{energies, m.signal};
+    case MetricKind::efficiency:
+      return Efficiency{energies};
+    case MetricKind::band_excess:
+      return BandExcess{HysteresisGauge(all)};
+    case MetricKind::band_deficit:
+      return BandDeficit{HysteresisGauge(all)};
+    case MetricKind::switching_frequency:
+      return SwitchingGauge(all, m.signal);
+  }
+  return gauges_for(m, scenario, levels);
 }
-double value_of(const SwitchingGauge& gauge, const Measure&) { return gauge.value(); }
-double value_of(const EnergyGauge& gauge, const Measure& m) {
-  return (m.metric == MetricKind::efficiency ? gauge.efficiency() : gauge.energy(m.signal)).value_or(nothing);
-}
-double value_of(const HarmonicGauge& gauge, const Measure&) { return gauge.thd().value_or(nothing); }
 
 }  // namespace
 
+double Energy::value() const { return gauge.energy(signal).value_or(nothing); }
+double Efficiency::value() const { return gauge.efficiency().value_or(nothing); }
+double Distortion::value() const { return gauge.thd().value_or(nothing); }
+
 Figures::Figures(const Scenario& scenario, const std::vector<Level>& levels) {
-  const auto add = [&](const Measure& m) {
-    const Window all{m.from_s.value_or(0.0), m.to_s.value_or(std::numeric_limits<double>::infinity())};
-    const Window window{all.from_s, std::min(all.to_s, scenario.duration_s)};
-    if (is_band(m.metric))
-      figures_.push_back({m, HysteresisGauge(all)});
-    else if (m.metric == MetricKind::switching_frequency)
-      figures_.push_back({m, SwitchingGauge(all, m.signal)});
-    else if (m.metric == MetricKind::energy || m.metric == MetricKind::efficiency)
-      figures_.push_back({m, EnergyGauge(all, {scenario.load.viscous_Nm_s, scenario.load.coulomb_Nm})});
-    else if (m.metric == MetricKind::thd)
-      figures_.push_back({m, HarmonicGauge(window, m.signal, m.frequency_Hz)});
-    else
-      figures_.push_back({m, gauges_for(m, scenario, levels)});
-  };
-  for (const Requirement& r : scenario.require) add(r.measure);
-  for (const Comparison& c : scenario.compare) add(c.measure);
+  figures_.reserve(scenario.require.size() + scenario.compare.size());
+  for (const Requirement& r : scenario.require)
+    figures_.push_back({r.measure, taken_by(r.measure, scenario, levels)});
+  for (const Comparison& c : scenario.compare)
+    figures_.push_back({c.measure, taken_by(c.measure, scenario, levels)});
 }
 
 void Figures::watch(const SegmentView& g, double s) {

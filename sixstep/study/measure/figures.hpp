@@ -19,6 +19,35 @@ namespace sixstep::study {
 /// Several: one per step or level of the reference, in the order of their windows; the worst counts.
 using Gauges = std::vector<Gauge>;
 
+/// What one figure is taken by: fed segment by segment, and asked for its value at the end.
+struct BandExcess {
+  HysteresisGauge gauge;
+  void segment(const SegmentView& g, double s) { gauge.segment(g, s); }
+  double value() const { return gauge.figures().excess_A; }
+};
+struct BandDeficit {
+  HysteresisGauge gauge;
+  void segment(const SegmentView& g, double s) { gauge.segment(g, s); }
+  double value() const { return gauge.figures().deficit_A; }
+};
+struct Energy {
+  EnergyGauge gauge;
+  Signal signal;
+  void segment(const SegmentView& g, double s) { gauge.segment(g, s); }
+  double value() const;
+};
+struct Efficiency {
+  EnergyGauge gauge;
+  void segment(const SegmentView& g, double s) { gauge.segment(g, s); }
+  double value() const;
+};
+struct Distortion {
+  HarmonicGauge gauge;
+  void segment(const SegmentView& g, double s) { gauge.segment(g, s); }
+  double value() const;
+};
+using Taken = std::variant<Gauges, BandExcess, BandDeficit, SwitchingGauge, Energy, Efficiency, Distortion>;
+
 class Figures {
  public:
   Figures(const Scenario& scenario, const std::vector<Level>& levels);
@@ -34,7 +63,7 @@ class Figures {
  private:
   struct Figure {
     Measure measure;
-    std::variant<Gauges, HysteresisGauge, SwitchingGauge, EnergyGauge, HarmonicGauge> taken_by;
+    Taken taken_by;
     std::size_t behind = 0;  ///< gauges whose window has passed
   };
   void watch(const SegmentView& g, double s);

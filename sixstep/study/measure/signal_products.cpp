@@ -95,7 +95,7 @@ Series pole_series(const Stretch& part, int k) {
   const plant::Mode& mode = plant.mode();
   Series u{};
   if (!plant::is_floating(mode.legs[k])) {
-    const auto& terms = plant.constants().pole_terms[static_cast<std::size_t>(mode.legs[k])];
+    const auto& terms = plant.constants().poles[static_cast<std::size_t>(mode.legs[k])];
     add(u, terms.bus_share, part.of(y.bus));
     add(u, -terms.r_ohm, part.of(y.i[k]));
     u[0] += terms.offset_V;
@@ -125,7 +125,7 @@ Series device_loss(const Stretch& part) {
   const plant::Plant<double>& plant = part.g.plant;
   Series loss{};
   for (int k = 0; k < 3; ++k) {
-    const auto& terms = plant.constants().pole_terms[static_cast<std::size_t>(plant.mode().legs[k])];
+    const auto& terms = plant.constants().poles[static_cast<std::size_t>(plant.mode().legs[k])];
     const Series i = part.of(plant.expansion().i[k]);
     if (terms.r_ohm != 0) add(loss, terms.r_ohm, part.product(i, i));
     add(loss, -terms.offset_V, i);
@@ -142,15 +142,14 @@ Series copper_loss(const Stretch& part) {
   return loss;
 }
 
-/// B w^2 + T_c |w|.
+/// B w^2 + T_c |w|: of the torques against the turning all but the load's.
 Series friction_loss(const Stretch& part) {
   const plant::Plant<double>& plant = part.g.plant;
   const Series w = part.of(plant.expansion().w);
-  const plant::Motion motion = plant.mode().motion;
+  const auto [load, dry, per_speed] = plant::torques(plant.constants(), plant.mode().motion);
   Series loss{};
-  add(loss, plant.constants().B, part.product(w, w));
-  if (motion == plant::Motion::forward) add(loss, plant.constants().coulomb, w);
-  if (motion == plant::Motion::backward) add(loss, -plant.constants().coulomb, w);
+  add(loss, per_speed, part.product(w, w));
+  add(loss, dry, w);
   return loss;
 }
 
@@ -159,46 +158,70 @@ Series supply_power(const Stretch& part) {
   return part.product(part.of(y.bus), part.of(weighted_current(bus_current_weights(part.g.plant), y)));
 }
 
-Series product_series(const Stretch& part, Signal signal) {
-  const auto leg = [signal](Signal first) { return static_cast<int>(signal) - static_cast<int>(first); };
-  switch (signal) {
-    case Signal::pole_a:
-    case Signal::pole_b:
-    case Signal::pole_c:
-      return pole_series(part, leg(Signal::pole_a));
-    case Signal::line_ab:
-    case Signal::line_bc:
-    case Signal::line_ca:
-      return line_series(part, leg(Signal::line_ab), (leg(Signal::line_ab) + 1) % 3);
-    case Signal::emf_a:
-    case Signal::emf_b:
-    case Signal::emf_c:
-      return emf_series(part, leg(Signal::emf_a));
-    case Signal::supply_power:
-      return supply_power(part);
-    case Signal::motor_power: {  // what the bridge takes less what its devices keep
-      Series p = supply_power(part);
-      add(p, -1.0, device_loss(part));
-      return p;
-    }
-    case Signal::mechanical_power:
-      return part.product(part.of(part.g.plant.expansion().torque), part.of(part.g.plant.expansion().w));
-    case Signal::copper_loss:
-      return copper_loss(part);
-    case Signal::device_loss:
-      return device_loss(part);
-    case Signal::friction_loss:
-      return friction_loss(part);
-    default:
-      return {};
-  }
+/// What the bridge takes less what its devices keep.
+Series motor_power(const Stretch& part) {
+  Series p = supply_power(part);
+  add(p, -1.0, device_loss(part));
+  return p;
 }
+
+Series mechanical_power(const Stretch& part) {
+  return part.product(part.of(part.g.plant.expansion().torque), part.of(part.g.plant.expansion().w));
+}
+
+template <int k>
+Series pole(const Stretch& part) {
+  return pole_series(part, k);
+}
+template <int k>
+Series line(const Stretch& part) {
+  return line_series(part, k, (k + 1) % 3);
+}
+template <int k>
+Series emf(const Stretch& part) {
+  return emf_series(part, k);
+}
+
+struct ProductSignal {
+  Signal signal;
+  Series (*series)(const Stretch&);
+};
+constexpr ProductSignal product_signals[] = {
+    {Signal::pole_a, pole<0>},
+    {Signal::pole_b, pole<1>},
+    {Signal::pole_c, pole<2>},
+    {Signal::line_ab, line<0>},
+    {Signal::line_bc, line<1>},
+    {Signal::line_ca, line<2>},
+    {Signal::emf_a, emf<0>},
+    {Signal::emf_b, emf<1>},
+    {Signal::emf_c, emf<2>},
+    {Signal::supply_power, supply_power},
+    {Signal::motor_power, motor_power},
+    {Signal::mechanical_power, mechanical_power},
+    {Signal::copper_loss, copper_loss},
+    {Signal::device_loss, device_loss},
+    {Signal::friction_loss, friction_loss},
+};
+
+constexpr const ProductSignal* product_signal(Signal signal) {
+  for (const ProductSignal& row : product_signals)
+    if (row.signal == signal) return &row;
+  return nullptr;
+}
+
+static_assert([] {
+  for (const SignalFact& fact : signal_facts)
+    if ((product_signal(fact.signal) != nullptr) != is_product(fact.signal)) return false;
+  return true;
+}());
 
 }  // namespace
 
 Piece product_piece(const SegmentView& g, Signal signal, double from, double to) {
   const Stretch part{g, from, to};
-  return {product_series(part, signal), part.degree()};
+  const ProductSignal* row = product_signal(signal);
+  return {row ? row->series(part) : Series{}, part.degree()};
 }
 
 }  // namespace sixstep::study

@@ -12,27 +12,7 @@ namespace sixstep::study {
 namespace {
 
 using plant::PerLeg;
-
-/// What stands still from one event to the next.
-double constant_value(const SegmentView& g, Signal signal) {
-  switch (signal) {
-    case Signal::duty:
-      return signed_duty(g.modulator, g.plant.sector());
-    case Signal::current_reference:
-      return g.current_reference_A;
-    case Signal::speed_reference:
-      return g.speed_reference_rad_s;
-    case Signal::position_reference:
-      return g.setpoint;
-    case Signal::load_torque:
-      return g.plant.constants().load;
-    default: {
-      const auto gate = static_cast<std::size_t>(signal) - static_cast<std::size_t>(Signal::gate_T1);
-      const plant::Gates& gates = g.plant.gates();
-      return (gate % 2 == 0 ? gates.high : gates.low)[gate / 2] ? 1.0 : 0.0;
-    }
-  }
-}
+using Extremes = series::Extremes<double>;
 
 /// The angle since theta_e = 0, times `per_electrical_rad`; the sectors passed are counted, not summed.
 Series angle_series(const SegmentView& g, double per_electrical_rad, double per_sector) {
@@ -54,48 +34,120 @@ Series less(double reference, Series c, int degree) {
   return c;
 }
 
-/// A signal that is a sum of the segment's own series: over the whole segment, of the segment's degree.
-Series plain_series(const SegmentView& g, Signal signal) {
-  const auto& y = g.plant.expansion();
-  const auto motor_current = [&] { return weighted_current(motor_current_weights(g.plant.sector()), y); };
-  switch (signal) {
-    case Signal::current:
-      return motor_current();
-    case Signal::phase_a:
-      return y.i[0];
-    case Signal::phase_b:
-      return y.i[1];
-    case Signal::phase_c:
-      return y.i[2];
-    case Signal::speed:
-      return y.w;
-    case Signal::torque:
-      return y.torque;
-    case Signal::bus_voltage:
-      return y.bus;
-    case Signal::bus_current:
-      return weighted_current(bus_current_weights(g.plant), y);
-    case Signal::position:
-      return position_series(g);
-    case Signal::angle: {
-      const double p = g.plant.constants().pole_pairs;
-      return angle_series(g, 1.0 / p, base::sector_rad / p);
-    }
-    case Signal::current_error:
-      return less(g.current_reference_A, motor_current(), y.degree);
-    case Signal::speed_error:
-      return less(g.speed_reference_rad_s, y.w, y.degree);
-    case Signal::position_error:
-      return less(g.setpoint, position_series(g), y.degree);
-    case Signal::load_power: {
-      Series c{};
-      for (int j = 0; j <= y.degree; ++j) c[j] = g.plant.constants().load * y.w[j];
-      return c;
-    }
-    default:
-      return {constant_value(g, signal)};
-  }
+double load_torque(const SegmentView& g) {
+  const auto [load, dry, per_speed] = plant::torques(g.plant.constants(), g.plant.mode().motion);
+  return load;
 }
+
+/// Sums of up to 16 terms and of three series: rounding is below 32 * 2^-53 of their magnitudes.
+Extremes around(double middle, double reach) {
+  const double wide = reach + 0x1p-48 * (std::fabs(middle) + reach);
+  return {middle - wide, middle + wide};
+}
+
+Extremes bounds_of_currents(const SegmentView& g, const PerLeg<double>& w) {
+  const auto& y = g.plant.expansion();
+  double middle = 0.0, reach = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    middle += w[k] * y.i[k][0];
+    reach += std::fabs(w[k]) * (y.reach_i[k] + 0x1p-48 * std::fabs(y.i[k][0]));
+  }
+  return around(middle, reach);
+}
+
+Series motor_current(const SegmentView& g) {
+  return weighted_current(motor_current_weights(g.plant.sector()), g.plant.expansion());
+}
+
+Series mechanical_angle(const SegmentView& g) {
+  const double p = g.plant.constants().pole_pairs;
+  return angle_series(g, 1.0 / p, base::sector_rad / p);
+}
+
+Series load_power(const SegmentView& g) {
+  const auto& y = g.plant.expansion();
+  Series c{};
+  for (int j = 0; j <= y.degree; ++j) c[j] = load_torque(g) * y.w[j];
+  return c;
+}
+
+template <unsigned n>
+Series gate(const SegmentView& g) {
+  const plant::Gates& gates = g.plant.gates();
+  return {(n % 2 == 0 ? gates.high : gates.low)[n / 2] ? 1.0 : 0.0};
+}
+
+template <int k>
+Series phase(const SegmentView& g) {
+  return g.plant.expansion().i[k];
+}
+template <int k>
+Extremes phase_bounds(const SegmentView& g) {
+  PerLeg<double> weights{};
+  weights[k] = 1.0;
+  return bounds_of_currents(g, weights);
+}
+
+/// A signal that is a sum of the segment's own series, or stands still: over the whole segment, of the
+/// segment's degree.
+struct PlainSignal {
+  Signal signal;
+  Series (*series)(const SegmentView&);
+  Extremes (*bounds)(const SegmentView&) = nullptr;  ///< where the expansion comes with any
+};
+constexpr PlainSignal plain_signals[] = {
+    {Signal::current, motor_current,
+     [](const SegmentView& g) { return bounds_of_currents(g, motor_current_weights(g.plant.sector())); }},
+    {Signal::phase_a, phase<0>, phase_bounds<0>},
+    {Signal::phase_b, phase<1>, phase_bounds<1>},
+    {Signal::phase_c, phase<2>, phase_bounds<2>},
+    {Signal::speed, [](const SegmentView& g) { return g.plant.expansion().w; },
+     [](const SegmentView& g) { return around(g.plant.expansion().w[0], g.plant.expansion().reach_w); }},
+    {Signal::position, position_series},
+    {Signal::torque, [](const SegmentView& g) { return g.plant.expansion().torque; }},
+    {Signal::bus_voltage, [](const SegmentView& g) { return g.plant.expansion().bus; }},
+    {Signal::bus_current,
+     [](const SegmentView& g) { return weighted_current(bus_current_weights(g.plant), g.plant.expansion()); },
+     [](const SegmentView& g) { return bounds_of_currents(g, bus_current_weights(g.plant)); }},
+    {Signal::angle, mechanical_angle},
+    {Signal::duty, [](const SegmentView& g) { return Series{signed_duty(g.modulator, g.plant.sector())}; }},
+    {Signal::current_reference, [](const SegmentView& g) { return Series{g.current_reference_A}; }},
+    {Signal::speed_reference, [](const SegmentView& g) { return Series{g.speed_reference_rad_s}; }},
+    {Signal::position_reference, [](const SegmentView& g) { return Series{g.setpoint}; }},
+    {Signal::current_error,
+     [](const SegmentView& g) {
+       return less(g.current_reference_A, motor_current(g), g.plant.expansion().degree);
+     }},
+    {Signal::speed_error,
+     [](const SegmentView& g) {
+       return less(g.speed_reference_rad_s, g.plant.expansion().w, g.plant.expansion().degree);
+     }},
+    {Signal::position_error,
+     [](const SegmentView& g) { return less(g.setpoint, position_series(g), g.plant.expansion().degree); }},
+    {Signal::load_torque, [](const SegmentView& g) { return Series{load_torque(g)}; }},
+    {Signal::gate_T1, gate<0>},
+    {Signal::gate_T2, gate<1>},
+    {Signal::gate_T3, gate<2>},
+    {Signal::gate_T4, gate<3>},
+    {Signal::gate_T5, gate<4>},
+    {Signal::gate_T6, gate<5>},
+    {Signal::load_power, load_power},
+};
+
+/// nullptr where it is none of them.
+constexpr const PlainSignal* plain(Signal signal) {
+  for (const PlainSignal& row : plain_signals)
+    if (row.signal == signal) return &row;
+  return nullptr;
+}
+
+static_assert([] {
+  for (const SignalFact& fact : signal_facts) {
+    const bool by_parts = is_product(fact.signal) || fact.kind == SignalKind::magnitude;
+    if ((plain(fact.signal) != nullptr) == by_parts) return false;
+  }
+  return true;
+}());
 
 /// Half the sum of the current magnitudes, within a part in which no phase changes its sign.
 Series magnitude_series(const SegmentView& g, double from, double to) {
@@ -107,7 +159,7 @@ Series magnitude_series(const SegmentView& g, double from, double to) {
 
 }  // namespace
 
-double signed_duty(const rig::Modulator& modulator, int sector) {
+double signed_duty(const rig::SixStepModulator& modulator, int sector) {
   const rig::BoardCommand& command = modulator.command();
   if (!command.enabled) return 0.0;
   const bool compares = command.watch != control::Watch::none;
@@ -139,8 +191,8 @@ std::vector<double> cuts_of(const SegmentView& g, Signal signal, double from, do
 Piece piece_of(const SegmentView& g, Signal signal, double from, double to) {
   const int degree = g.plant.expansion().degree;
   if (is_product(signal)) return product_piece(g, signal, from, to);
-  const Series c =
-      signal == Signal::current_magnitude ? magnitude_series(g, from, to) : plain_series(g, signal);
+  const PlainSignal* row = plain(signal);
+  const Series c = row ? row->series(g) : magnitude_series(g, from, to);
   return {from == 0.0 && to == 1.0 ? c : series::restricted(c, degree, from, to), degree};
 }
 
@@ -151,36 +203,9 @@ double signal_now(const SegmentView& g, Signal signal) {
 }
 
 series::Extremes<double> signal_bounds(const SegmentView& g, Signal signal) {
-  const auto& y = g.plant.expansion();
-  // Sums of up to 16 terms and of three series: rounding is below 32 * 2^-53 of their magnitudes.
-  const auto around = [](double middle, double reach) {
-    const double wide = reach + 0x1p-48 * (std::fabs(middle) + reach);
-    return series::Extremes<double>{middle - wide, middle + wide};
-  };
-  const auto combined = [&](const PerLeg<double>& w) {
-    double middle = 0.0, reach = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      middle += w[k] * y.i[k][0];
-      reach += std::fabs(w[k]) * (y.reach_i[k] + 0x1p-48 * std::fabs(y.i[k][0]));
-    }
-    return around(middle, reach);
-  };
-  switch (signal) {
-    case Signal::current:
-      return combined(motor_current_weights(g.plant.sector()));
-    case Signal::phase_a:
-      return combined({1.0, 0.0, 0.0});
-    case Signal::phase_b:
-      return combined({0.0, 1.0, 0.0});
-    case Signal::phase_c:
-      return combined({0.0, 0.0, 1.0});
-    case Signal::bus_current:
-      return combined(bus_current_weights(g.plant));
-    case Signal::speed:
-      return around(y.w[0], y.reach_w);
-    default:
-      return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  }
+  const PlainSignal* row = plain(signal);
+  if (row && row->bounds) return row->bounds(g);
+  return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace sixstep::study

@@ -14,7 +14,7 @@ using Series = series::Coefficients<double>;
 /// What figures see of a segment: all that they need is the same for every firmware, and compiled once.
 struct SegmentView {
   const plant::Plant<double>& plant;
-  const rig::Modulator& modulator;
+  const rig::SixStepModulator& modulator;
   double t_s = 0.0;  ///< where the segment begins
   double current_reference_A = 0.0, speed_reference_rad_s = 0.0, setpoint = 0.0;
   bool ticked = false;  ///< a control sample was taken where the segment begins
@@ -41,7 +41,7 @@ inline plant::PerLeg<double> motor_current_weights(int sector) {
 
 /// The duty in effect, negative where the source is not that of the sector's positive pair; with armed
 /// comparators whether the upper switch is on.
-double signed_duty(const rig::Modulator& modulator, int sector);
+double signed_duty(const rig::SixStepModulator& modulator, int sector);
 
 /// Whether a signal is no polynomial over the whole segment, or would need more than max_degree of one; and
 /// where: the cuts of [from, to], both ends included.

@@ -2,6 +2,7 @@
 // The words for figures and signals, in files and in results, and what they mean.
 #pragma once
 #include <array>
+#include <cstdint>
 #include <iterator>
 #include <string_view>
 
@@ -10,44 +11,104 @@
 
 namespace sixstep::study {
 
-inline constexpr base::Choice<MetricKind> metric_choices[] = {
-    {"final", MetricKind::final_value, "value at the end of the window"},
-    {"mean", MetricKind::mean, "mean over the window"},
-    {"rms", MetricKind::rms, "root of the mean square over the window"},
-    {"max", MetricKind::maximum, "largest value in the window"},
-    {"min", MetricKind::minimum, "smallest value in the window"},
-    {"peak_to_peak", MetricKind::peak_to_peak, "largest less smallest value in the window"},
-    {"ripple_rms", MetricKind::ripple_rms, "rms of what is left of the signal without its mean"},
-    {"overshoot", MetricKind::overshoot, "how far the signal goes beyond level, in the signal's unit"},
-    {"reach_time_s", MetricKind::reach_time,
+/// What a figure looks at.
+enum class TakenOf : std::uint8_t { signal, fundamental, power, energies, band, switching };
+
+/// Over which stretches of its window, where no level is given: all of it, each step or each level of the
+/// reference, of which the worst counts.
+enum class TakenOver : std::uint8_t { window, steps, levels };
+
+/// One row per figure. `phrase` stands before the signal's: "mean line voltage a to b". Without a unit the
+/// figure has that of its signal.
+struct MetricFact {
+  MetricKind kind;
+  std::string_view word;
+  std::string_view phrase;
+  std::string_view unit;
+  std::string_view meaning;
+  TakenOf of = TakenOf::signal;
+  TakenOver over = TakenOver::window;
+};
+
+inline constexpr MetricFact metric_facts[] = {
+    {MetricKind::final_value, "final", "final", "", "value at the end of the window"},
+    {MetricKind::mean, "mean", "mean", "", "mean over the window"},
+    {MetricKind::rms, "rms", "rms", "", "root of the mean square over the window"},
+    {MetricKind::maximum, "max", "maximum of", "", "largest value in the window"},
+    {MetricKind::minimum, "min", "minimum of", "", "smallest value in the window"},
+    {MetricKind::peak_to_peak, "peak_to_peak", "peak-to-peak", "",
+     "largest less smallest value in the window"},
+    {MetricKind::ripple_rms, "ripple_rms", "rms ripple of", "",
+     "rms of what is left of the signal without its mean"},
+    {MetricKind::overshoot, "overshoot", "overshoot of", "",
+     "how far the signal goes beyond level, in the signal's unit", TakenOf::signal, TakenOver::steps},
+    {MetricKind::reach_time, "reach_time_s", "time to reach,", "s",
      "time until the signal first gets to start + fraction (level - start); without level: the slowest over "
-     "all steps of the reference"},
-    {"rise_time_s", MetricKind::rise_time,
+     "all steps of the reference",
+     TakenOf::signal, TakenOver::steps},
+    {MetricKind::rise_time, "rise_time_s", "rise time of", "s",
      "time from 10 % to 90 % of the way from start to level; without level: the slowest over all steps of "
-     "the "
-     "reference"},
-    {"settling_time_s", MetricKind::settling_time,
+     "the reference",
+     TakenOf::signal, TakenOver::steps},
+    {MetricKind::settling_time, "settling_time_s", "settling time of", "s",
      "time of the last exit from level +- band |level - start|, counted from from_s; of samples: of the "
-     "first "
-     "one from which on all lie inside"},
-    {"steady_error", MetricKind::steady_error,
+     "first one from which on all lie inside",
+     TakenOf::signal, TakenOver::steps},
+    {MetricKind::steady_error, "steady_error", "steady error of", "",
      "mean of level - signal; without level: of reference - signal at the end of each of the reference's "
-     "levels, the largest by size"},
-    {"largest_error", MetricKind::largest_error,
+     "levels, the largest by size",
+     TakenOf::signal, TakenOver::levels},
+    {MetricKind::largest_error, "largest_error", "largest error of", "",
      "largest distance of the signal from level: half width of the band it keeps; without level as for "
-     "steady_error"},
-    {"thd", MetricKind::thd,
+     "steady_error",
+     TakenOf::signal, TakenOver::levels},
+    {MetricKind::thd, "thd", "THD of", "1",
      "total harmonic distortion: rms of all but mean and fundamental, over the rms of the fundamental; over "
-     "whole electrical turns, or whole periods of frequency_Hz"},
-    {"energy_J", MetricKind::energy, "energy over the window of a power or a loss"},
-    {"efficiency", MetricKind::efficiency,
-     "energy given to load and inertia over energy taken from the bus; while braking the other way round"},
-    {"band_excess_A", MetricKind::band_excess, "largest excess above the upper limit of the hysteresis band"},
-    {"band_deficit_A", MetricKind::band_deficit,
+     "whole electrical turns, or whole periods of frequency_Hz",
+     TakenOf::fundamental},
+    {MetricKind::energy, "energy_J", "energy of", "J", "energy over the window of a power or a loss",
+     TakenOf::power},
+    {MetricKind::efficiency, "efficiency", "efficiency", "1",
+     "energy given to load and inertia over energy taken from the bus; while braking the other way round",
+     TakenOf::energies},
+    {MetricKind::band_excess, "band_excess_A", "excess above the band of", "A",
+     "largest excess above the upper limit of the hysteresis band", TakenOf::band},
+    {MetricKind::band_deficit, "band_deficit_A", "shortfall below the band of", "A",
      "largest shortfall below the lower limit, except from a sector edge or reference step until the current "
-     "is back in the band"},
-    {"switching_frequency_Hz", MetricKind::switching_frequency,
-     "turn-ons per second in the window: of what is chopped, or of one switch with signal = \"gate_T1\""},
+     "is back in the band",
+     TakenOf::band},
+    {MetricKind::switching_frequency, "switching_frequency_Hz", "switching frequency", "Hz",
+     "turn-ons per second in the window: of what is chopped, or of one switch with signal = \"gate_T1\"",
+     TakenOf::switching},
+};
+
+inline constexpr auto metric_choices = [] {
+  std::array<base::Choice<MetricKind>, std::size(metric_facts)> all{};
+  std::size_t n = 0;
+  for (const MetricFact& fact : metric_facts) all[n++] = {fact.word, fact.kind, fact.meaning};
+  return all;
+}();
+
+constexpr const MetricFact& fact_of(MetricKind kind) { return metric_facts[static_cast<std::size_t>(kind)]; }
+
+static_assert([] {
+  for (std::size_t n = 0; n < std::size(metric_facts); ++n)
+    if (static_cast<std::size_t>(metric_facts[n].kind) != n) return false;
+  return std::size(metric_facts) == static_cast<std::size_t>(MetricKind::switching_frequency) + 1;
+}());
+
+/// What a signal is, which says what can be asked of it.
+enum class SignalKind : std::uint8_t {
+  series,         ///< as the engine has it, or a sum of such
+  phase_current,  ///< the same, and swings about zero
+  magnitude,      ///< a sum of magnitudes
+  voltage,        ///< of a terminal or a line: jumps with the gates
+  emf,
+  held,  ///< stands from one control sample to the next
+  duty,  ///< stands from one event to the next
+  gate,
+  power,
+  series_power  ///< a power, and a series as the engine has it
 };
 
 /// One row per signal. `phrase` stands behind a figure's name: "mean line voltage a to b".
@@ -57,62 +118,74 @@ struct SignalFact {
   std::string_view phrase;
   std::string_view unit;
   std::string_view meaning;
+  SignalKind kind;
 };
 
 /// A signal that is a column of the trace by another word carries the column's own name.
 inline constexpr SignalFact signal_facts[] = {
-    {Signal::current, "current", "motor current", "A", "motor current (i_p - i_n)/2 of the positive pair, A"},
-    {Signal::phase_a, "i_a", "current of phase a", "A", "current into phase a, A"},
-    {Signal::phase_b, "i_b", "current of phase b", "A", "current into phase b, A"},
-    {Signal::phase_c, "i_c", "current of phase c", "A", "current into phase c, A"},
+    {Signal::current, "current", "motor current", "A", "motor current (i_p - i_n)/2 of the positive pair, A",
+     SignalKind::series},
+    {Signal::phase_a, "i_a", "current of phase a", "A", "current into phase a, A", SignalKind::phase_current},
+    {Signal::phase_b, "i_b", "current of phase b", "A", "current into phase b, A", SignalKind::phase_current},
+    {Signal::phase_c, "i_c", "current of phase c", "A", "current into phase c, A", SignalKind::phase_current},
     {Signal::current_magnitude, "current_magnitude", "half the sum of current magnitudes", "A",
-     "half the sum of the phase currents' magnitudes, A"},
-    {Signal::speed, "speed", "speed", "rad/s", "mechanical speed, rad/s"},
-    {Signal::position, "position", "position", "deg", "mechanical angle counted over turns, deg"},
-    {Signal::torque, "torque", "torque", "N m", "electromagnetic torque, N m"},
-    {Signal::bus_voltage, "bus_voltage", "bus voltage", "V", "voltage of the bus, V"},
-    {Signal::bus_current, "bus_current", "bus current", "A", "current from the bus into the bridge, A"},
-    {Signal::pole_a, "u_a_V", "voltage of terminal a", "V",
-     "voltage of terminal a against the negative rail"},
-    {Signal::pole_b, "u_b_V", "voltage of terminal b", "V",
-     "voltage of terminal b against the negative rail"},
-    {Signal::pole_c, "u_c_V", "voltage of terminal c", "V",
-     "voltage of terminal c against the negative rail"},
-    {Signal::line_ab, "u_ab_V", "line voltage a to b", "V", "line voltage a to b"},
-    {Signal::line_bc, "u_bc_V", "line voltage b to c", "V", "line voltage b to c"},
-    {Signal::line_ca, "u_ca_V", "line voltage c to a", "V", "line voltage c to a"},
-    {Signal::emf_a, "e_a_V", "back-EMF of phase a", "V", "back-EMF of phase a"},
-    {Signal::emf_b, "e_b_V", "back-EMF of phase b", "V", "back-EMF of phase b"},
-    {Signal::emf_c, "e_c_V", "back-EMF of phase c", "V", "back-EMF of phase c"},
-    {Signal::angle, "angle_rad", "angle", "rad", "mechanical angle counted over turns"},
+     "half the sum of the phase currents' magnitudes, A", SignalKind::magnitude},
+    {Signal::speed, "speed", "speed", "rad/s", "mechanical speed, rad/s", SignalKind::series},
+    {Signal::position, "position", "position", "deg", "mechanical angle counted over turns, deg",
+     SignalKind::series},
+    {Signal::torque, "torque", "torque", "N m", "electromagnetic torque, N m", SignalKind::series},
+    {Signal::bus_voltage, "bus_voltage", "bus voltage", "V", "voltage of the bus, V", SignalKind::series},
+    {Signal::bus_current, "bus_current", "bus current", "A", "current from the bus into the bridge, A",
+     SignalKind::series},
+    {Signal::pole_a, "u_a_V", "voltage of terminal a", "V", "voltage of terminal a against the negative rail",
+     SignalKind::voltage},
+    {Signal::pole_b, "u_b_V", "voltage of terminal b", "V", "voltage of terminal b against the negative rail",
+     SignalKind::voltage},
+    {Signal::pole_c, "u_c_V", "voltage of terminal c", "V", "voltage of terminal c against the negative rail",
+     SignalKind::voltage},
+    {Signal::line_ab, "u_ab_V", "line voltage a to b", "V", "line voltage a to b", SignalKind::voltage},
+    {Signal::line_bc, "u_bc_V", "line voltage b to c", "V", "line voltage b to c", SignalKind::voltage},
+    {Signal::line_ca, "u_ca_V", "line voltage c to a", "V", "line voltage c to a", SignalKind::voltage},
+    {Signal::emf_a, "e_a_V", "back-EMF of phase a", "V", "back-EMF of phase a", SignalKind::emf},
+    {Signal::emf_b, "e_b_V", "back-EMF of phase b", "V", "back-EMF of phase b", SignalKind::emf},
+    {Signal::emf_c, "e_c_V", "back-EMF of phase c", "V", "back-EMF of phase c", SignalKind::emf},
+    {Signal::angle, "angle_rad", "angle", "rad", "mechanical angle counted over turns", SignalKind::series},
     {Signal::duty, "duty", "duty", "1",
-     "signed duty in effect; with armed comparators the state of the upper switch"},
-    {Signal::current_reference, "i_ref_A", "current reference", "A", "current reference at the last sample"},
+     "signed duty in effect; with armed comparators the state of the upper switch", SignalKind::duty},
+    {Signal::current_reference, "i_ref_A", "current reference", "A", "current reference at the last sample",
+     SignalKind::held},
     {Signal::speed_reference, "speed_ref_rad_s", "speed reference", "rad/s",
-     "speed reference at the last sample"},
-    {Signal::position_reference, "position_ref_deg", "position reference", "deg", "position setpoint"},
-    {Signal::current_error, "current_error_A", "current error", "A", "current reference less motor current"},
-    {Signal::speed_error, "speed_error_rad_s", "speed error", "rad/s", "speed reference less speed"},
-    {Signal::position_error, "position_error_deg", "position error", "deg",
-     "position setpoint less position"},
-    {Signal::load_torque, "load_Nm", "load torque", "N m", "load torque"},
-    {Signal::gate_T1, "gate_T1", "gate T1", "1", "upper gate of a, 1 while on: its mean is its duty"},
-    {Signal::gate_T2, "gate_T2", "gate T2", "1", "lower gate of a"},
-    {Signal::gate_T3, "gate_T3", "gate T3", "1", "upper gate of b"},
-    {Signal::gate_T4, "gate_T4", "gate T4", "1", "lower gate of b"},
-    {Signal::gate_T5, "gate_T5", "gate T5", "1", "upper gate of c"},
-    {Signal::gate_T6, "gate_T6", "gate T6", "1", "lower gate of c"},
+     "speed reference at the last sample", SignalKind::held},
+    {Signal::position_reference, "position_ref_deg", "position reference", "deg", "position setpoint",
+     SignalKind::held},
+    {Signal::current_error, "current_error_A", "current error", "A", "current reference less motor current",
+     SignalKind::series},
+    {Signal::speed_error, "speed_error_rad_s", "speed error", "rad/s", "speed reference less speed",
+     SignalKind::series},
+    {Signal::position_error, "position_error_deg", "position error", "deg", "position setpoint less position",
+     SignalKind::series},
+    {Signal::load_torque, "load_Nm", "load torque", "N m", "load torque", SignalKind::held},
+    {Signal::gate_T1, "gate_T1", "gate T1", "1", "upper gate of a, 1 while on: its mean is its duty",
+     SignalKind::gate},
+    {Signal::gate_T2, "gate_T2", "gate T2", "1", "lower gate of a", SignalKind::gate},
+    {Signal::gate_T3, "gate_T3", "gate T3", "1", "upper gate of b", SignalKind::gate},
+    {Signal::gate_T4, "gate_T4", "gate T4", "1", "lower gate of b", SignalKind::gate},
+    {Signal::gate_T5, "gate_T5", "gate T5", "1", "upper gate of c", SignalKind::gate},
+    {Signal::gate_T6, "gate_T6", "gate T6", "1", "lower gate of c", SignalKind::gate},
     {Signal::supply_power, "supply_power_W", "power from the bus", "W",
-     "bus voltage times bus current: power into the bridge"},
+     "bus voltage times bus current: power into the bridge", SignalKind::power},
     {Signal::motor_power, "motor_power_W", "power into the motor", "W",
-     "electrical power into the motor's terminals"},
+     "electrical power into the motor's terminals", SignalKind::power},
     {Signal::mechanical_power, "mechanical_power_W", "mechanical power", "W",
-     "torque times speed: power that the air gap converts"},
-    {Signal::load_power, "load_power_W", "power to the load torque", "W", "load torque times speed"},
-    {Signal::copper_loss, "copper_loss_W", "copper loss", "W", "R_s (i_a^2 + i_b^2 + i_c^2)"},
-    {Signal::device_loss, "device_loss_W", "device loss", "W", "conduction loss of switches and diodes"},
+     "torque times speed: power that the air gap converts", SignalKind::power},
+    {Signal::load_power, "load_power_W", "power to the load torque", "W", "load torque times speed",
+     SignalKind::series_power},
+    {Signal::copper_loss, "copper_loss_W", "copper loss", "W", "R_s (i_a^2 + i_b^2 + i_c^2)",
+     SignalKind::power},
+    {Signal::device_loss, "device_loss_W", "device loss", "W", "conduction loss of switches and diodes",
+     SignalKind::power},
     {Signal::friction_loss, "friction_loss_W", "friction loss", "W",
-     "viscous and dry friction of motor and load together"},
+     "viscous and dry friction of motor and load together", SignalKind::power},
 };
 
 /// Columns of the trace that have an older word.
@@ -148,59 +221,35 @@ constexpr std::string_view unit_of(Signal signal) { return fact_of(signal).unit;
 
 /// Unit of a figure: its own, or that of the signal it is taken of.
 constexpr std::string_view figure_unit(const Measure& m) {
-  switch (m.metric) {
-    case MetricKind::reach_time:
-    case MetricKind::rise_time:
-    case MetricKind::settling_time:
-      return "s";
-    case MetricKind::switching_frequency:
-      return "Hz";
-    case MetricKind::band_excess:
-    case MetricKind::band_deficit:
-      return "A";
-    case MetricKind::energy:
-      return "J";
-    case MetricKind::thd:
-    case MetricKind::efficiency:
-      return "1";
-    default:
-      return unit_of(m.signal);
-  }
+  const std::string_view own = fact_of(m.metric).unit;
+  return own.empty() ? unit_of(m.signal) : own;
 }
 
-constexpr bool is_gate(Signal signal) { return signal >= Signal::gate_T1 && signal <= Signal::gate_T6; }
+constexpr bool is_gate(Signal signal) { return fact_of(signal).kind == SignalKind::gate; }
 constexpr bool is_power(Signal signal) {
-  return signal >= Signal::supply_power && signal <= Signal::friction_loss;
+  const SignalKind kind = fact_of(signal).kind;
+  return kind == SignalKind::power || kind == SignalKind::series_power;
 }
 /// A product of two of the engine's series (signal_products.hpp).
 constexpr bool is_product(Signal signal) {
-  return (signal >= Signal::pole_a && signal <= Signal::emf_c) ||
-         (is_power(signal) && signal != Signal::load_power);
+  const SignalKind kind = fact_of(signal).kind;
+  return kind == SignalKind::voltage || kind == SignalKind::emf || kind == SignalKind::power;
 }
 /// Swings about zero at the electrical frequency.
 constexpr bool alternates(Signal signal) {
-  return (signal >= Signal::phase_a && signal <= Signal::phase_c) ||
-         (signal >= Signal::pole_a && signal <= Signal::emf_c);
+  const SignalKind kind = fact_of(signal).kind;
+  return kind == SignalKind::phase_current || kind == SignalKind::voltage || kind == SignalKind::emf;
 }
 /// Says something of every instant of a period, not only of the controller's samples.
 constexpr bool is_known_at_samples(Signal signal) {
-  return !is_gate(signal) && !is_power(signal) && signal != Signal::duty &&
-         !(signal >= Signal::pole_a && signal <= Signal::line_ca);
+  const SignalKind kind = fact_of(signal).kind;
+  return !is_power(signal) && kind != SignalKind::gate && kind != SignalKind::duty &&
+         kind != SignalKind::voltage;
 }
 /// The figures that belong to steps or levels of the reference where no level is given.
-constexpr bool is_of_a_step(MetricKind kind) {
-  return kind == MetricKind::reach_time || kind == MetricKind::rise_time ||
-         kind == MetricKind::settling_time || kind == MetricKind::overshoot;
-}
+constexpr bool is_of_a_step(MetricKind kind) { return fact_of(kind).over == TakenOver::steps; }
+constexpr bool is_of_a_level(MetricKind kind) { return fact_of(kind).over == TakenOver::levels; }
 /// Infinite where it never comes.
-constexpr bool is_time(MetricKind kind) {
-  return kind == MetricKind::reach_time || kind == MetricKind::rise_time || kind == MetricKind::settling_time;
-}
-constexpr bool is_error(MetricKind kind) {
-  return kind == MetricKind::steady_error || kind == MetricKind::largest_error;
-}
-constexpr bool is_band(MetricKind kind) {
-  return kind == MetricKind::band_excess || kind == MetricKind::band_deficit;
-}
+constexpr bool is_time(MetricKind kind) { return fact_of(kind).unit == "s"; }
 
 }  // namespace sixstep::study

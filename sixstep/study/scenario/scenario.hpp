@@ -46,7 +46,8 @@ struct Pwm {
   CommutationAt commutation = CommutationAt::hall_edge;
   SampleAt sample = SampleAt::start;
   int delay_periods = 0;
-  double timer_Hz = 0.0;  // 0: edges are not quantised
+  double timer_Hz = 0.0;         // 0: edges are not quantised
+  double minimum_pulse_s = 0.0;  // a shorter pulse does not come, a shorter gap closes
 };
 
 struct Load {

@@ -62,6 +62,12 @@ void describe(Visitor& v, Pwm& s) {
           {.meaning = "clock of the PWM timer, which rounds on-times and dead time; 0: not rounded",
            .unit = "Hz",
            .range = from(0)});
+  v.value("minimum_pulse_s", s.minimum_pulse_s,
+          {.meaning =
+               "on-time below which a period's pulse is left out, and off-time below which its gap closes, "
+               "as gate drivers do; a duty's, no comparator's",
+           .unit = "s",
+           .range = from(0)});
 }
 
 template <class Visitor>

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// A motor on a test bench that holds its speed: what the torque-speed curve is taken of.
+#pragma once
+#include <cstdint>
+#include <functional>
+
+#include "sixstep/base/problem.hpp"
+#include "sixstep/control/bridge_command.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
+#include "sixstep/plant/machine.hpp"
+
+namespace sixstep::analysis {
+
+/// Stiff bus, commutation at the Hall edges, duty held: open loop.
+struct Bench {
+  design::MotorModel motor;
+  plant::Devices devices{};
+  double voltage_V = 0.0;
+  double duty = 1.0;  ///< in [-1, 1], not 0; a negative one drives backwards
+  control::Chopping chopping = control::Chopping::soft;
+  double pwm_period_s = 30e-6;
+  /// Asked now and then, on any thread; false ends what is under way, which is a Problem then. May be empty.
+  std::function<bool()> keep_going{};
+};
+
+/// What keep_going has ended.
+inline bool told_to_stop(const Bench& b) { return b.keep_going && !b.keep_going(); }
+inline base::Problem interrupted_work() { return {"curve", "", "was interrupted", "start it again"}; }
+
+/// Watches a run with `observer`, which never ends one itself, and asks now and then whether to go on.
+template <class Observer>
+struct Asking {
+  const std::function<bool()>& keep_going;
+  Observer& observer;
+  std::uint32_t segments = 0;
+
+  void segment(const auto& system, double s) { observer.segment(system, s); }
+  bool done(const auto&) { return keep_going && ++segments % 256 == 0 && !keep_going(); }
+};
+
+/// What no curve can be taken of; `where` is the member's name.
+base::Problems check(const Bench& bench);
+
+/// Mean voltage across the driven pair while current flows throughout, V: d U, or (2 |d| - 1) U where both
+/// switches chop and the off part of a period drives the current back into the bus.
+inline double mean_voltage_V(const Bench& b) {
+  if (b.chopping != control::Chopping::hard) return b.duty * b.voltage_V;
+  return b.duty > 0 ? (2 * b.duty - 1) * b.voltage_V : (2 * b.duty + 1) * b.voltage_V;
+}
+
+/// The straight line of an ideal six-step motor, T = K_t (u - K_t w)/R_tt with that voltage, N m: smooth
+/// current, no commutation time, no friction, ideal devices. Soft and hard chopping cannot drive the current
+/// backwards: there the line ends at zero.
+inline double ideal_torque_Nm(const Bench& b, double speed_rad_s) {
+  const double K_t = b.motor.K_t_Nm_A, R_tt = 2 * b.motor.machine.R_ohm;
+  const double line = K_t * (mean_voltage_V(b) - K_t * speed_rad_s) / R_tt;
+  const bool one_way = b.duty > -1 && b.duty < 1 && b.chopping != control::Chopping::complementary;
+  return one_way && line * b.duty < 0 ? 0.0 : line;
+}
+
+/// Where that line meets the axis, rad/s; 0 where it never leaves it.
+inline double ideal_no_load_rad_s(const Bench& b) {
+  const double reached = mean_voltage_V(b) / b.motor.K_t_Nm_A;
+  return reached * b.duty > 0 ? reached : 0.0;
+}
+
+}  // namespace sixstep::analysis

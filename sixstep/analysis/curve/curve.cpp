@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/analysis/curve/curve.hpp"
+
+#include <cmath>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/written.hpp"
+
+namespace sixstep::analysis {
+namespace {
+
+constexpr double rad_s_per_rpm = base::pi / 30;
+
+std::optional<double> scaled(const std::optional<base::Quantity>& q, double factor) {
+  return q ? std::optional(q->value * factor) : std::nullopt;
+}
+
+}  // namespace
+
+base::Problems check(const CurveRequest& r) {
+  base::Problems problems = check(r.bench);
+  if (r.bench.duty < 0)
+    problems.push_back({"duty", base::written(r.bench.duty), "must be in (0, 1]",
+                        "a curve is taken forwards: backwards it is the same"});
+  if (r.points < 2)
+    problems.push_back({"points", std::to_string(r.points), "must be at least 2",
+                        "a curve has standstill and no load, and some points between"});
+  if (r.points > most_points)
+    problems.push_back({"points", std::to_string(r.points), "must be at most " + std::to_string(most_points),
+                        "a page shows some hundred; each is simulated and kept"});
+  // -273.15 degC, and what no winding sees.
+  if (!base::between(-273.15, 1000).holds(r.ambient_degC))
+    problems.push_back({"ambient_degC", base::written(r.ambient_degC), "must be a temperature in degC",
+                        "25 is what data sheets mean"});
+  return problems;
+}
+
+base::Result<CurvePlan> plan_curve(const CurveRequest& r) {
+  if (base::Problems problems = check(r); !problems.empty()) return problems;
+  base::Result<NoLoad> end = no_load(r.bench);
+  if (!end) return end.problems();
+  CurvePlan plan{.no_load = *end, .speeds_rad_s = {}};
+  const double highest = plan.no_load.point.speed_rad_s;
+  for (int n = 0; n + 1 < r.points; ++n) plan.speeds_rad_s.push_back(n * highest / (r.points - 1));
+  const std::vector<double> sweep = sweep_speeds(highest);
+  plan.speeds_rad_s.insert(plan.speeds_rad_s.end(), sweep.begin(), sweep.end() - 1);
+  if (const auto nominal = scaled(r.sheet.nominal_speed_rpm, rad_s_per_rpm))
+    plan.speeds_rad_s.push_back(*nominal);
+  return plan;
+}
+
+ThermalLimits thermal_limits(const design::ThermalModel& model, const CurveRequest& r, double speed) {
+  const double R_tt = 2 * r.bench.motor.machine.R_ohm, K_t = r.bench.motor.K_t_Nm_A;
+  const double friction = std::fabs(friction_Nm(r.bench.motor.shaft, speed));
+  const double heat = friction * std::fabs(speed), sign = r.bench.duty < 0 ? -1 : 1;
+  const auto torque = [&](double current) { return sign * (K_t * current - friction); };
+  ThermalLimits out;
+  out.continuous_A = std::sqrt(design::continuous_copper_W(model, heat, r.ambient_degC) / R_tt);
+  out.continuous_Nm = torque(out.continuous_A);
+  for (std::size_t n = 0; n < short_times_s.size(); ++n) {
+    out.short_A[n] =
+        std::sqrt(design::short_time_copper_W(model, heat, r.ambient_degC, short_times_s[n]) / R_tt);
+    out.short_Nm[n] = torque(out.short_A[n]);
+  }
+  return out;
+}
+
+Warming warming(const design::ThermalModel& model, const CurveRequest& r, const OperatingPoint& p) {
+  const design::Heating heating{p.copper_W, p.friction_W, r.ambient_degC};
+  Warming out;
+  if (const auto rest = design::steady_temperatures(model, heating)) out.winding_degC = rest->winding_degC;
+  out.permissible_s = design::permissible_seconds(model, heating);
+  return out;
+}
+
+std::optional<double> printed_current(const design::MotorModel& motor) {
+  if (motor.nominal_current_A > 0) return motor.nominal_current_A;
+  return std::nullopt;
+}
+
+std::optional<NominalPoint> nominal_point(const CurveRequest& r, const Marks& marks,
+                                          const OperatingPoint& last) {
+  NominalPoint out{.speed_rad_s = scaled(r.sheet.nominal_speed_rpm, rad_s_per_rpm),
+                   .torque_Nm = scaled(r.sheet.nominal_torque_mNm, 1e-3),
+                   .current_A = printed_current(r.bench.motor),
+                   .at_torque = marks.nominal,
+                   .at_speed = {}};
+  if (out.speed_rad_s) out.at_speed = last;
+  if (!out.speed_rad_s && !out.torque_Nm) return {};
+  return out;
+}
+
+base::Result<Curve> curve_of(const CurveRequest& r, const CurvePlan& plan,
+                             const std::vector<OperatingPoint>& found, const ForEach& for_each) {
+  const auto points = static_cast<std::ptrdiff_t>(r.points) - 1;
+  Curve out{.points = {found.begin(), found.begin() + points}, .no_load = plan.no_load};
+  out.points.push_back(plan.no_load.point);
+  std::vector<OperatingPoint> sweep(found.begin() + points, found.begin() + points + sweep_steps);
+  sweep.push_back(plan.no_load.point);
+  const base::Result<design::ThermalModel> model = design::thermal_model(r.sheet);
+  if (model)
+    out.thermal = *model;
+  else
+    out.thermal_missing = model.problems();
+  base::Result<Marks> marks = find_marks(
+      r.bench, {out.thermal, r.ambient_degC, scaled(r.sheet.nominal_torque_mNm, 1e-3)}, sweep, for_each);
+  if (!marks) return marks.problems();
+  out.marks = *marks;
+  out.nominal = nominal_point(r, out.marks, found.back());
+  for (const OperatingPoint& p : out.points) {
+    if (!out.thermal) break;
+    out.limits.push_back(thermal_limits(*out.thermal, r, p.speed_rad_s));
+    out.warming.push_back(warming(*out.thermal, r, p));
+  }
+  return out;
+}
+
+SpeedDrop speed_drop(const CurveRequest& r, const Curve& curve) {
+  const double K_t = r.bench.motor.K_t_Nm_A;
+  SpeedDrop out{.ideal = 2 * r.bench.motor.machine.R_ohm / (K_t * K_t),
+                .printed = scaled(r.sheet.speed_torque_gradient_rpm_mNm, 1e3 * rad_s_per_rpm)};
+  if (!curve.nominal || !curve.nominal->torque_Nm) return out;
+  const double torque = *curve.nominal->torque_Nm;
+  if (r.sheet.no_load_speed_rpm && curve.nominal->speed_rad_s)
+    out.sheet = (r.sheet.no_load_speed_rpm->value * rad_s_per_rpm - *curve.nominal->speed_rad_s) / torque;
+  if (curve.nominal->at_torque)
+    out.curve = (curve.no_load.point.speed_rad_s - curve.nominal->at_torque->speed_rad_s) / torque;
+  return out;
+}
+
+}  // namespace sixstep::analysis

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Motor and bridge at duty 1: the gates follow the sector, nothing is chopped. A System for sim::run.
+#pragma once
+#include "sixstep/analysis/curve/bench.hpp"
+#include "sixstep/analysis/curve/sums_recorder.hpp"
+#include "sixstep/control/commutation.hpp"
+#include "sixstep/rig/bare_plant.hpp"
+#include "sixstep/sim/run.hpp"
+
+namespace sixstep::analysis {
+
+/// A shaft whose speed nothing changes: 1/J = 0 makes dw/dt zero to the bit, whatever the torque. Friction is
+/// left to whoever asks for the shaft's torque; it cannot act on the currents at a given speed.
+inline plant::Shaft imposed_speed() { return {.J_kg_m2 = std::numeric_limits<double>::infinity()}; }
+
+/// Starts without current, by default in the middle of a sector, so that neither direction starts on an edge.
+inline plant::Plant<double> plant_of(const Bench& b, const plant::Shaft& shaft, double speed_rad_s,
+                                     double sectors = 0.5) {
+  const double angle = sectors * base::sector_rad / b.motor.machine.pole_pairs;
+  return {b.motor.machine, shaft, b.devices, {.V_0_V = b.voltage_V}, {speed_rad_s, angle, b.voltage_V}};
+}
+
+class FullOn : public rig::BarePlant<double> {
+ public:
+  FullOn(const Bench& bench, const plant::Shaft& shaft, double speed_rad_s)
+      : BarePlant(plant_of(bench, shaft, speed_rad_s)),
+        keep_going_(bench.keep_going),
+        reversed_(bench.duty < 0) {
+    commutate();
+  }
+
+  void apply(int id) {
+    if (!plant_.apply(id)) return;
+    ++edges_;
+    commutate();
+  }
+
+  /// As OpenLoop's, for what does not care which of the two it watches.
+  template <class Observer>
+  sim::Stop run_for(double seconds, Observer& observer) {
+    Asking<Observer> asking{keep_going_, observer};
+    return sim::run(*this, now_.plus_seconds(seconds), asking).stop;
+  }
+  sim::Stop run_for(double seconds) {
+    sim::NoObserver none;
+    return run_for(seconds, none);
+  }
+
+  /// Until that many edges are passed, with or without a recorder: Stop::observer. Stop::end where it was
+  /// told to stop before; anything else is a defect.
+  sim::Stop run_to_edge(std::int64_t target, SumsRecorder* recorder = nullptr) {
+    UntilEdge until{target, recorder, keep_going_, asked_};
+    const sim::Stop stop = sim::run(*this, sim::Instant::never(), until).stop;
+    return stop == sim::Stop::observer && edges_ < target ? sim::Stop::end : stop;
+  }
+
+  std::int64_t edges() const { return edges_; }  ///< sector edges passed
+
+ private:
+  struct UntilEdge {
+    std::int64_t target;
+    SumsRecorder* recorder;
+    const std::function<bool()>& keep_going;
+    std::uint32_t& asked;  // from one call to the next: a sector has a few segments
+    void segment(const FullOn& system, double s) {
+      if (recorder) recorder->segment(system, s);
+    }
+    bool done(const FullOn& system) {
+      return system.edges() >= target || (keep_going && ++asked % 256 == 0 && !keep_going());
+    }
+  };
+  void commutate() {
+    const control::Pair positive = control::positive_pair(static_cast<std::uint8_t>(plant_.sector()));
+    const control::Pair pair = reversed_ ? control::swapped(positive) : positive;
+    plant::Gates gates;
+    gates.high[static_cast<std::size_t>(pair.source)] = true;
+    gates.low[static_cast<std::size_t>(pair.sink)] = true;
+    plant_.set_gates(gates);  // two different legs: no shoot-through
+  }
+
+  std::function<bool()> keep_going_;
+  std::int64_t edges_ = 0;
+  std::uint32_t asked_ = 0;
+  bool reversed_;
+};
+
+}  // namespace sixstep::analysis

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/analysis/verify/design_scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/analysis/verify/board.hpp"
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/decimal.hpp"
+
+namespace sixstep::analysis {
+namespace {
+
+using control::Mode;
+using design::DriveDesign;
+using design::LoopDesign;
+
+/// The part of the bus that a first command may use: what is left keeps the clamp away.
+constexpr double part_of_bus = 0.8;
+
+/// One digit, rounded down: 10.9 -> 10.
+double plain_number(double x) { return base::shortened(x, 1, base::Towards::down); }
+
+/// Whole microseconds, upwards: short to write, and a few more do no harm.
+double plain_time(double s) { return std::ceil(s * 1e6) / 1e6; }
+
+study::Measure window_measure(study::MetricKind metric, study::Signal signal, double from_s, double to_s,
+                              const char* label) {
+  study::Measure m;
+  m.metric = metric;
+  m.signal = signal;
+  m.from_s = from_s;
+  m.to_s = to_s;
+  m.label = label;
+  return m;
+}
+
+study::Measure step_measure(study::MetricKind metric, study::Signal signal, double from_s, double to_s,
+                            double start, double level, const char* label) {
+  study::Measure m = window_measure(metric, signal, from_s, to_s, label);
+  m.start = start;
+  m.level = level;
+  return m;
+}
+
+/// Placed poles are said as such: the run places them again, to the same bits.
+template <class Gains>
+void set_gains(const LoopDesign& loop, Gains& to) {
+  if (loop.placed) {
+    to.settle_s = loop.placed->settle_s;
+    to.damping = loop.placed->damping;
+  } else {
+    to.d1 = loop.gains.d1;
+    to.d0 = loop.gains.d0;
+  }
+}
+
+study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
+  study::Scenario s;
+  s.motor = subject.motor;
+  s.sheet = subject.sheet;
+  if (subject.board) {
+    s.supply = subject.board->supply;
+    s.bridge = subject.board->bridge;
+    s.pwm = subject.board->pwm;
+    s.sensors = subject.board->sensors;
+    s.sensors.rotor = d.spec.rotor.hall ? study::RotorSensing::hall : study::RotorSensing::ideal;
+    s.sensors.speed_edges = d.spec.rotor.edges;
+  } else {
+    s.sensors = board_sensors(d);
+  }
+  if (subject.currents) sense_currents(d, *subject.currents, s.sensors);
+  if (s.sensors.currents ==
+      rig::CurrentMeasurement::dc_link) {  // it sees nothing before the on-time has begun
+    s.pwm.alignment = study::Alignment::centre;
+    s.pwm.sample = study::SampleAt::middle;
+  }
+  s.supply.voltage_V = d.bus_V;
+  s.pwm.period_s = d.spec.period_s;
+  s.pwm.chopping = d.spec.chopping;
+  s.pwm.delay_periods = d.spec.delay_periods;
+  s.load.inertia_kg_m2 = d.spec.load_inertia_kg_m2;
+  s.control.mode = d.spec.mode;
+  set_gains(d.loop("current"), s.control.current);
+  if (d.loops.size() > 1) {
+    set_gains(d.loop("speed"), s.control.speed);
+    s.control.speed.torque_limit_Nm = d.torque_limit_Nm;
+  }
+  if (d.loops.size() > 2) s.control.position.gain_rad_s_per_deg = d.loop("position").gains.d1;
+  return s;
+}
+
+double settling_of(const LoopDesign& loop, double otherwise) {
+  return std::isfinite(loop.step.settling_s) && loop.step.settling_s > 0.0 ? loop.step.settling_s : otherwise;
+}
+
+void add_current(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
+  const LoopDesign& loop = d.loop("current");
+  const double step = subject.step.value_or(
+      plain_number(std::min(d.nominal_current_A, part_of_bus * d.bus_V / std::fabs(loop.gains.d1))));
+  const double settle = settling_of(loop, 100 * d.spec.period_s), end = plain_time(5 * settle);
+  const double last = end - 10 * d.spec.period_s, R = 2 * d.motor.machine.R_ohm;
+  s.title = "Current loop as designed, rotor held";
+  s.duration_s = end;
+  s.load.locked = true;
+  s.initial.angle_rad = base::sector_rad / 2 / d.motor.machine.pole_pairs;
+  s.reference.value = step;
+  s.reference.unit.emplace("A");
+  study::Measure settling = step_measure(study::MetricKind::settling_time, study::Signal::current, 0, end, 0,
+                                         step, "settling time");
+  study::Measure overshoot =
+      step_measure(study::MetricKind::overshoot, study::Signal::current, 0, end, 0, step, "overshoot");
+  settling.sampled = overshoot.sampled = true;
+  s.compare = {
+      {settling, loop.step.settling_s, "designed, at the samples, 2 %"},
+      {overshoot, loop.step.overshoot * std::fabs(step), "designed, at the samples"},
+      {window_measure(study::MetricKind::peak_to_peak, study::Signal::current, last, end, "current ripple"),
+       design::current_ripple_A(d.motor, d.bus_V, d.spec.period_s, d.spec.chopping,
+                                std::fabs(step) * R / d.bus_V),
+       "PWM at this duty"},
+  };
+  const double band = 0.02 * std::fabs(step);  // the band of settling
+  study::Measure mean = window_measure(study::MetricKind::mean, study::Signal::current, last, end,
+                                       "mean of the last ten samples");
+  mean.sampled = true;  // the controller samples the lowest point of the ripple and holds that
+  s.require = {{mean, step - band, step + band}};
+}
+
+/// What a start at the limits takes at most: torque that the bus leaves at the end of it.
+double start_time(const DriveDesign& d, double to_rad_s, double load_Nm) {
+  const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
+  const double by_bus = K * (d.bus_V - K * to_rad_s) / R,
+               torque = std::min(d.torque_limit_Nm, by_bus) - load_Nm;
+  return torque > 0.0 ? d.motor.shaft.J_kg_m2 * to_rad_s / torque : 0.0;
+}
+
+/// Start from rest, then a small step.
+struct SpeedTest {
+  double load_A = 0.0, first = 0.0, step = 0.0;  // A, rad/s
+  double begin = 0.0, end = 0.0, calm = 0.0;     // s: the step, the end, and where it must have settled
+};
+
+SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
+  const LoopDesign &speed = d.loop("speed"), &current = d.loop("current");
+  const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
+  SpeedTest t{.load_A = d.nominal_current_A / 2, .first = plain_number(0.15 * d.bus_V / K)};
+  const bool lags = d.lag.delay_s() > 0;
+  if (lags) t.first = 1.5 * d.lowest_speed_rad_s;
+  // The current that a step asks for at first is d1 (speed) times the current at full torque. In volts that
+  // is d1 (current) at once, and R when it flows.
+  const double volts = part_of_bus * (d.bus_V - K * t.first - R * t.load_A);
+  t.step = subject.step.value_or(
+      lags ? -d.lowest_speed_rad_s / 2
+           : plain_number(std::min(t.first / 2, volts / (speed.gains.d1 * d.current_at_full_torque_A *
+                                                         std::max(current.gains.d1, R)))));
+  const double settle = std::max(settling_of(speed, 1000 * d.spec.period_s), 8 * d.lag.delay_s());
+  t.begin = plain_time(5 * settle + 2 * start_time(d, t.first, K * t.load_A));
+  t.end = plain_time(t.begin + 5 * settle);
+  t.calm = t.end - settle;
+  return t;
+}
+
+void add_speed_figures(const DriveDesign& d, const SpeedTest& t, study::Scenario& s) {
+  const design::StepResponse& linear = d.loop("speed").step;
+  const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm, last = t.first + t.step;
+  const double within = design::settling_band(d);
+  const auto of = [&](study::MetricKind kind, bool small, const char* label) {
+    study::Measure m = small ? step_measure(kind, study::Signal::speed, t.begin, t.end, t.first, last, label)
+                             : step_measure(kind, study::Signal::speed, 0, t.begin, 0, t.first, label);
+    if (kind == study::MetricKind::settling_time) m.band = within;
+    return m;
+  };
+  const double duty = (K * last + R * t.load_A) / d.bus_V;
+  s.compare = {
+      {of(study::MetricKind::settling_time, true, "settling time"), linear.settling_s,
+       within == 0.02 ? "designed, 2 %" : "designed, 10 %"},
+      {of(study::MetricKind::overshoot, true, "overshoot"), linear.overshoot * std::fabs(t.step), "designed"},
+      {window_measure(study::MetricKind::peak_to_peak, study::Signal::speed, t.calm, t.end, "speed ripple"),
+       0.0, "none wanted"},
+      {window_measure(study::MetricKind::peak_to_peak, study::Signal::current, t.calm, t.end,
+                      "current ripple"),
+       design::current_ripple_A(d.motor, d.bus_V, d.spec.period_s, d.spec.chopping, duty),
+       "PWM alone, without commutation"},
+      {of(study::MetricKind::settling_time, false, "settling of the start"), linear.settling_s,
+       "designed, were there no limits"},
+      {of(study::MetricKind::overshoot, false, "overshoot of the start"), linear.overshoot * t.first,
+       "designed, were there no limits"},
+      {window_measure(study::MetricKind::maximum, study::Signal::current, 0, t.begin,
+                      "peak current of the start"),
+       d.current_at_full_torque_A, "at full torque"},
+  };
+  const double band = within * std::fabs(t.step);
+  s.require = {
+      {window_measure(study::MetricKind::mean, study::Signal::speed, t.calm, t.end, "mean speed at the end"),
+       last - band, last + band}};
+}
+
+void add_speed(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
+  const SpeedTest t = speed_test(d, subject);
+  s.title = d.nominal_printed ? "Speed cascade as designed, against half the nominal torque"
+                              : "Speed cascade as designed, against a twentieth of the stall torque";
+  s.duration_s = t.end;
+  s.load.torque_Nm = d.motor.K_t_Nm_A * t.load_A;
+  s.reference.shape = study::Shape::steps;
+  s.reference.times_s = {0, t.begin};
+  s.reference.values = {t.first, t.first + t.step};
+  s.reference.unit.emplace("rad/s");
+  add_speed_figures(d, t, s);
+}
+
+void add_position(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
+  const LoopDesign& loop = d.loop("position");
+  const double step = subject.step.value_or(1000.0), height = std::fabs(step) * base::pi / 180;
+  const double J = d.motor.shaft.J_kg_m2, K = d.motor.K_t_Nm_A;
+  // Full torque half of the way forth, half of it back; the bus ends the acceleration at U/K_t, and a third
+  // of that is what a bus-limited start reaches soon. Then the P loop's exponential down to 1e-9 of the step.
+  const double fastest = 2 * std::sqrt(height * J / d.torque_limit_Nm), top = d.bus_V / K;
+  const double travel = 2 * fastest + 3 * height / top + 4 * start_time(d, top / 2, 0.0);
+  const double fade = 21.0 / (loop.gains.d1 * 180 / base::pi), end = plain_time(travel + fade);
+  s.title = "Position cascade as designed, one move";
+  s.duration_s = end;
+  s.reference.value = step;
+  s.reference.unit.emplace("deg");
+  study::Measure settling = step_measure(study::MetricKind::settling_time, study::Signal::position, 0, end, 0,
+                                         step, "settling time");
+  const bool counts = d.spec.rotor.hall;  // edges: it rests within steps, if at all
+  const double steps = allowed_overshoot_deg(d, step);
+  settling.band = counts ? steps / std::fabs(step) : 0.0005;
+  const study::Measure overshoot =
+      step_measure(study::MetricKind::overshoot, study::Signal::position, 0, end, 0, step, "overshoot");
+  s.compare = {
+      {settling, fastest,
+       counts ? "full torque forth and back; to three Hall steps" : "full torque forth and back; to 0.05 %"},
+      {overshoot, 0.0, "none wanted"},
+      {window_measure(study::MetricKind::maximum, study::Signal::speed, 0, end, "peak speed"), top,
+       "bus/K_t"},
+      {window_measure(study::MetricKind::maximum, study::Signal::current, 0, end, "peak current"),
+       d.current_at_full_torque_A, "at full torque"},
+  };
+  if (counts)
+    s.compare.push_back({window_measure(study::MetricKind::peak_to_peak, study::Signal::position,
+                                        end - 0.2 * (end - travel), end, "swing around the target"),
+                         0.0, "none wanted"});
+  s.require = {{overshoot, std::nullopt, counts ? steps : 1e-9 * std::fabs(step)}};
+}
+
+}  // namespace
+
+study::Scenario design_scenario(const DriveDesign& design, const DesignSubject& subject) {
+  study::Scenario s = common(design, subject);
+  if (design.spec.mode == Mode::current) add_current(design, subject, s);
+  if (design.spec.mode == Mode::speed) add_speed(design, subject, s);
+  if (design.spec.mode == Mode::position) add_position(design, subject, s);
+  s.record.columns = {"i_m_A"};
+  if (design.spec.mode != Mode::current) s.record.columns.push_back("speed_rad_s");
+  if (design.spec.mode == Mode::position) s.record.columns.push_back("angle_rad");
+  // Some 2000 rows, on the samples.
+  const double periods = std::ceil(s.duration_s / 2000 / s.pwm.period_s);
+  if (periods > 1) s.record.grid_s = periods * s.pwm.period_s;
+  // Of an unstable loop the design foretells nothing.
+  std::erase_if(s.compare, [](const study::Comparison& c) { return !std::isfinite(c.value); });
+  return s;
+}
+
+double as_read(const study::ComparisonResult& c, const study::Scenario& scenario) {
+  const bool rounding = c.value == 0.0 && std::fabs(c.measured) <= 1e-9 * std::fabs(scenario.reference.value);
+  return rounding ? 0.0 : c.measured;
+}
+
+}  // namespace sixstep::analysis

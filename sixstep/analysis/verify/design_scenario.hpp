@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// A design put to the test: the scenario that runs it with all switching, and whose comparisons set what was
+// designed beside what comes out.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "sixstep/design/loops/drive_design.hpp"
+#include "sixstep/study/measure/outcome.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::analysis {
+
+struct DesignSubject {
+  std::string motor;    ///< name or path, as a scenario is to have it
+  design::Sheet sheet;  ///< of that motor
+  /// The board it is run on: supply, bridge, PWM and sensors of this scenario. Else a stiff supply, ideal
+  /// devices, and the sensors that board_sensors() puts on a board.
+  std::optional<study::Scenario> board{};
+  std::optional<rig::CurrentMeasurement> currents{};  ///< instead of what that board has
+  /// Height of the step in the unit of the mode; else one at which no limit acts (current, speed), or the
+  /// thesis's 1000 degrees.
+  std::optional<double> step;
+};
+
+/// - current: rotor held in the middle of a sector, a step of the setpoint; settling and overshoot at the
+///   controller's samples, ripple of the last ten periods.
+/// - speed: against half the nominal torque, so that the current flows without gaps: a start from rest, where
+///   torque and bus limit, then a step so small that nothing does, which the linear design must foretell.
+///   With Hall probes the step goes down to the lowest speed, where the speed is oldest, and is judged by a
+///   band of a twentieth of that speed.
+/// - position: one move; without a load, since a P controller leaves an error behind one.
+/// Each comparison's value is what the design says, its source in words how.
+study::Scenario design_scenario(const design::DriveDesign& design, const DesignSubject& subject);
+
+/// What a reader is shown of a figure: 0 where the design expects 0 and rounding alone is left of the step.
+double as_read(const study::ComparisonResult& figure, const study::Scenario& scenario);
+
+}  // namespace sixstep::analysis

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/analysis/verify/design_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/analysis/verify/board.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/measure/columns.hpp"
+#include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/run/keep_going.hpp"
+#include "sixstep/study/run/run.hpp"
+
+namespace sixstep::analysis {
+namespace {
+
+std::string rounded(double x) { return base::rounded(x, 3); }
+
+const study::ComparisonResult* find(const study::Outcome& outcome, const std::string& figure) {
+  for (const study::ComparisonResult& c : outcome.comparisons)
+    if (c.figure == figure) return &c;
+  return nullptr;
+}
+
+std::string cure_of_settling(const design::DriveDesign& d) {
+  return d.spec.chopping == control::Chopping::soft ? "try --chopping complementary: soft chopping puts the "
+                                                      "whole bus against the current as soon as "
+                                                      "the duty turns negative; or design slower (--settle)"
+                                                    : "design slower (--settle)";
+}
+
+/// The torque ripple of the commutations can be wider than the band of a small step: then settling times say
+/// nothing.
+bool drowned(const DesignStudy& s) {
+  if (!s.ideal_swing_rad_s || s.scenario.reference.values.size() < 2) return false;
+  const std::vector<double>& levels = s.scenario.reference.values;
+  return *s.ideal_swing_rad_s > 2 * design::settling_band(s.design) * std::fabs(levels[1] - levels[0]);
+}
+
+/// Out of tolerance where to look and what to do.
+std::string chiefly(const RobustFigure& f, const char* cure) {
+  return (f.culprit.empty() ? "" : "chiefly for " + f.culprit + "; ") + cure;
+}
+
+/// A loop at whose limits the run was not to come must settle as designed; a quarter more is told.
+void look_at_settling(DesignStudy& s) {
+  const study::ComparisonResult* c = find(s.outcome, "settling time");
+  if (!c || s.design.spec.mode == control::Mode::position) return;
+  if (drowned(s))
+    s.warnings.push_back(
+        {"the commutations' ripple in speed, " + rounded(find(s.outcome, "speed ripple")->measured) +
+             " rad/s, is wider than 2 % of the largest step at which no limit acts: its settling "
+             "time says nothing",
+         "design the speed loop slower, or give --step and mind that limits act", false});
+  else if (!std::isfinite(c->measured))
+    s.warnings.push_back({"in the simulation it never settles", cure_of_settling(s.design), true});
+  else if (c->measured > 1.25 * c->value)
+    s.warnings.push_back({"in the simulation it settles in " + rounded(1e3 * c->measured) +
+                              " ms, designed were " + rounded(1e3 * c->value) + " ms",
+                          cure_of_settling(s.design), false});
+}
+
+/// A limit cycle swings further than the commutations do.
+void look_at_swing(DesignStudy& s) {
+  const std::optional<double> allowed = s.allowed_swing_rad_s;
+  const study::ComparisonResult* swing = find(s.outcome, "speed ripple");
+  if (!allowed || !swing || swing->measured <= *allowed) return;
+  s.warnings.push_back({"in the simulation the speed swings by " + rounded(swing->measured) +
+                            " rad/s without end; with ideal sensors by " + rounded(*s.ideal_swing_rad_s) +
+                            " rad/s",
+                        cure_of_settling(s.design), true});
+}
+
+void look_at_run(DesignStudy& s) {
+  if (s.outcome.fault)
+    s.warnings.push_back(
+        {"a fault stopped the simulation: " + base::to_string(*s.outcome.fault), "see the scenario", true});
+  look_at_swing(s);
+  look_at_settling(s);
+  for (const study::Verdict& v : s.outcome.verdicts)
+    if (!v.ok && s.usable())  // else the reason is told
+      s.warnings.push_back({"in the simulation the " + v.figure + " is " + rounded(v.measured) + " " + v.unit,
+                            cure_of_settling(s.design), true});
+}
+
+void look_at_tolerances(DesignStudy& s) {
+  if (!s.robustness) return;
+  const std::optional<double> swing = s.allowed_swing_rad_s;
+  for (const RobustFigure& f : s.robustness->figures) {
+    if (f.figure == "speed ripple" && swing && f.nominal <= *swing && f.worst > *swing)
+      s.warnings.push_back(
+          {"out of tolerance the speed swings by " + rounded(f.worst) + " rad/s without end: " + f.at,
+           chiefly(f, "design slower (--settle)"), true});
+    if (f.figure == "settling time" && !drowned(s) && std::isfinite(f.nominal) && !std::isfinite(f.worst))
+      s.warnings.push_back(
+          {"out of tolerance it never settles: " + f.at, chiefly(f, "design slower (--settle)"), true});
+    const bool position = s.design.spec.mode == control::Mode::position;
+    if (position && f.figure == "overshoot" &&
+        f.worst > allowed_overshoot_deg(s.design, s.scenario.reference.value))
+      s.warnings.push_back({"out of tolerance it overshoots by " + rounded(f.worst) + " deg: " + f.at,
+                            chiefly(f, "lower the gain, or --torque-limit so that braking keeps a reserve"),
+                            true});
+  }
+  for (const RobustFigure& f : s.robustness->phases)
+    if (f.worst < 30.0 && f.nominal >= 30.0)
+      s.warnings.push_back({"out of tolerance the " + f.figure + " falls to " +
+                                rounded(std::max(f.worst, 0.0)) +
+                                " degrees with one period of delay: " + f.at,
+                            "design slower (--settle)", false});
+}
+
+/// Some seconds of computing for a run; a slower drive is to be looked at by hand.
+constexpr double most_periods = 2e6;
+
+base::Problems too_long(const study::Scenario& s) {
+  if (s.duration_s / s.pwm.period_s <= most_periods) return {};
+  return {{"the test", rounded(s.duration_s) + " s",
+           "is longer than two million control periods, so slow is the drive beside them",
+           "give a shorter --settle, a smaller --step or more --torque-limit, or a longer --period"}};
+}
+
+/// Position: the gain, and the design that has it.
+base::Problems find_gain(const DesignOrder& order, DesignStudy& s) {
+  if (!(s.design.loop("position").gains.d1 > 0.0))
+    return {{"--mode", "position", "finds no gain that does not overshoot: the speed loop within is unstable",
+             "design the speed loop slower (--settle) or the current loop faster (--current-settle, "
+             "--bandwidth)"}};
+  if (base::Problems found = too_long(design_scenario(s.design, order.subject)); !found.empty()) return found;
+  base::Result<PositionGain> gain = largest_position_gain(s.design, order.subject, order.keep_going);
+  if (gain && !order.tolerances.empty())
+    gain = lowered_for_tolerances(s.design, order.subject, *gain, order.tolerances, order.for_each,
+                                  order.keep_going);
+  if (!gain) return gain.problems();
+  s.position = *gain;
+  s.design = design::with_position_gain(s.design, gain->gain_rad_s_per_deg);
+  return {};
+}
+
+/// What the commutations alone make of the speed: the run once more with ideal sensors, where it had others.
+std::optional<double> ideal_swing(const DesignStudy& s, const std::function<bool()>& keep_going) {
+  const study::ComparisonResult* swing = find(s.outcome, "speed ripple");
+  if (!swing) return std::nullopt;
+  if (s.scenario.sensors.rotor == study::RotorSensing::ideal) return swing->measured;
+  const base::Result<study::Outcome> ideal = study::run(
+      with_ideal_sensors(s.scenario),
+      {.on_record = {}, .on_event = {}, .keep_going = study::listening(keep_going), .keep_books = false});
+  if (!ideal) return std::nullopt;
+  const study::ComparisonResult* found = find(*ideal, "speed ripple");
+  return found ? std::optional(found->measured) : std::nullopt;
+}
+
+}  // namespace
+
+bool DesignStudy::usable() const {
+  return std::none_of(warnings.begin(), warnings.end(), [](const design::Warning& w) { return w.grave; });
+}
+
+base::Result<DesignStudy> study_design(const DesignOrder& order) {
+  const std::optional<double>& step = order.subject.step;
+  if (step && !(std::isfinite(*step) && *step != 0.0))
+    return base::Problem{"--step", rounded(*step), "must be a number other than 0",
+                         "give it in A, rad/s or deg as the mode asks"};
+  const base::Result<design::MotorModel> motor = design::motor_model(order.subject.sheet);
+  if (!motor) return motor.problems();
+  base::Result<design::DriveDesign> design = design::design_drive(*motor, order.spec);
+  if (!design) return design.problems();
+  DesignStudy s;
+  s.design = std::move(*design);
+  if (order.spec.mode == control::Mode::position)
+    if (base::Problems found = find_gain(order, s); !found.empty()) return found;
+  s.scenario = design_scenario(s.design, order.subject);
+  if (base::Problems found = too_long(s.scenario); !found.empty()) return found;
+  if (base::Problems found = study::check(s.scenario); !found.empty()) {
+    for (base::Problem& p : found)  // what was typed is an option, not a key
+      if (p.where == "supply.voltage_V") p.where = "--voltage";
+    return found;
+  }
+  base::Result<std::vector<study::Column>> columns = record_columns(s.scenario);
+  if (!columns) return columns.problems();
+  s.trace = {*columns, std::vector<std::vector<double>>(columns->size()), false};
+  const auto record = [&](study::Row row) {
+    for (std::size_t n = 0; n < row.size(); ++n) s.trace.values[n].push_back(row[n]);
+  };
+  base::Result<study::Outcome> outcome =
+      study::run(s.scenario, {.on_record = record,
+                              .on_event = {},
+                              .keep_going = study::listening(order.keep_going),
+                              .keep_books = true});
+  if (!outcome) return outcome.problems();
+  s.outcome = std::move(*outcome);
+  if (!order.tolerances.empty())
+    s.robustness = robustness(s.design, s.scenario, order.tolerances, order.for_each, order.keep_going);
+  s.ideal_swing_rad_s = ideal_swing(s, order.keep_going);
+  if (s.ideal_swing_rad_s && s.scenario.reference.values.size() > 1)
+    s.allowed_swing_rad_s = allowed_swing_rad_s(*s.ideal_swing_rad_s, s.scenario.reference.values[1]);
+  s.warnings = s.design.warnings;
+  look_at_run(s);
+  look_at_tolerances(s);
+  return s;
+}
+
+}  // namespace sixstep::analysis

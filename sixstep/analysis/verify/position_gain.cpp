@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/analysis/verify/position_gain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/analysis/verify/board.hpp"
+#include "sixstep/base/angle.hpp"
+#include "sixstep/study/run/keep_going.hpp"
+#include "sixstep/study/run/run.hpp"
+
+namespace sixstep::analysis {
+namespace {
+
+constexpr double precision = 1e-3, coarse_precision = 0.02;
+
+/// Runs the move with a gain; only the overshoot is looked at.
+class Trial {
+ public:
+  Trial(const design::DriveDesign& design, const DesignSubject& subject,
+        const std::function<bool()>& keep_going)
+      : design_(design), subject_(subject), keep_going_(keep_going) {}
+
+  bool overshoots(double gain) {
+    ++runs;
+    design::DriveDesign d = design_;
+    d.loops.back().gains.d1 = gain;
+    study::Scenario s = design_scenario(d, subject_);
+    s.compare.clear();
+    const base::Result<study::Outcome> outcome = study::run(
+        s,
+        {.on_record = {}, .on_event = {}, .keep_going = study::listening(keep_going_), .keep_books = false});
+    if (!outcome) {
+      problems = outcome.problems();
+      return true;
+    }
+    return !outcome->passed();
+  }
+
+  int runs = 0;
+  base::Problems problems;
+
+ private:
+  const design::DriveDesign& design_;
+  const DesignSubject& subject_;
+  const std::function<bool()>& keep_going_;
+};
+
+/// All motors of the tolerances, each making the move with a gain.
+class Field {
+ public:
+  Field(const design::DriveDesign& design, const DesignSubject& subject,
+        const std::vector<Tolerance>& tolerances, const ForEach& for_each,
+        const std::function<bool()>& keep_going)
+      : design_(design),
+        subject_(subject),
+        tolerances_(tolerances),
+        all_(variations(tolerances)),
+        for_each_(for_each),
+        keep_going_(keep_going) {}
+
+  std::size_t motors() const { return all_.size(); }
+
+  bool holds(double gain) {
+    design::DriveDesign d = design_;
+    d.loops.back().gains.d1 = gain;
+    study::Scenario nominal = design_scenario(d, subject_);
+    nominal.compare.clear();
+    nominal.require.front().max = allowed_overshoot_deg(d, nominal.reference.value);
+    std::vector<base::Result<study::Outcome>> outcomes(all_.size(), base::Problem{});
+    for_each_(all_.size(), [&](std::size_t n) {
+      outcomes[n] = study::run(n == 0 ? nominal : varied_scenario(nominal, d.motor, tolerances_, all_[n]),
+                               {.on_record = {},
+                                .on_event = {},
+                                .keep_going = study::listening(keep_going_),
+                                .keep_books = false});
+    });
+    for (const base::Result<study::Outcome>& outcome : outcomes) {
+      if (!outcome) problems = outcome.problems();
+      if (!outcome || outcome->fault || !outcome->passed()) return false;
+    }
+    return true;
+  }
+
+  base::Problems problems;
+
+ private:
+  const design::DriveDesign& design_;
+  const DesignSubject& subject_;
+  const std::vector<Tolerance>& tolerances_;
+  std::vector<Variation> all_;
+  const ForEach& for_each_;
+  const std::function<bool()>& keep_going_;
+};
+
+}  // namespace
+
+base::Result<PositionGain> largest_position_gain(const design::DriveDesign& design,
+                                                 const DesignSubject& subject,
+                                                 const std::function<bool()>& keep_going) {
+  PositionGain found;
+  found.linear = design.loop("position").gains.d1;
+  found.estimate = design.torque_limit_Nm / design.motor.shaft.J_kg_m2 /
+                   (design.bus_V / design.motor.K_t_Nm_A) * base::pi / 180;
+  Trial trial(design, subject, keep_going);
+  double low = std::min(found.estimate, found.linear), high = found.linear;
+  for (int n = 0; n < 20 && trial.overshoots(low) && trial.problems.empty(); ++n) {
+    high = found.overshoots = low;
+    low /= 2;
+  }
+  if (!trial.problems.empty()) return trial.problems;
+  if (found.overshoots == 0.0 && high > low) {
+    if (trial.overshoots(high))
+      found.overshoots = high;
+    else
+      low = high;
+  }
+  while (trial.problems.empty() && high - low > precision * low) {
+    const double middle = low + (high - low) / 2;
+    if (trial.overshoots(middle))
+      high = found.overshoots = middle;
+    else
+      low = middle;
+  }
+  if (!trial.problems.empty()) return trial.problems;
+  found.gain_rad_s_per_deg = found.nominal = low;
+  found.runs = trial.runs;
+  return found;
+}
+
+base::Result<PositionGain> lowered_for_tolerances(const design::DriveDesign& design,
+                                                  const DesignSubject& subject, const PositionGain& nominal,
+                                                  const std::vector<Tolerance>& tolerances,
+                                                  const ForEach& for_each,
+                                                  const std::function<bool()>& keep_going) {
+  PositionGain found = nominal;
+  Field field(design, subject, tolerances, for_each, keep_going);
+  const auto holds = [&](double gain) {
+    found.runs += static_cast<int>(field.motors());
+    return field.holds(gain);
+  };
+  double low = nominal.nominal, high = low;
+  while (!holds(low)) {
+    if (low < nominal.nominal / 16 || !field.problems.empty()) break;
+    high = low;
+    low /= 2;
+  }
+  if (!field.problems.empty()) return field.problems;
+  if (low < nominal.nominal / 16) return found;
+  while (high - low > coarse_precision * low) {
+    const double middle = low + (high - low) / 2;
+    (holds(middle) ? low : high) = middle;
+  }
+  if (!field.problems.empty()) return field.problems;
+  found.gain_rad_s_per_deg = low;
+  return found;
+}
+
+}  // namespace sixstep::analysis

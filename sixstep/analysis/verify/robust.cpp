@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/analysis/verify/robust.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sixstep/analysis/verify/design_scenario.hpp"
+#include "sixstep/base/angle.hpp"
+#include "sixstep/study/measure/figures.hpp"
+#include "sixstep/study/run/keep_going.hpp"
+#include "sixstep/study/run/run.hpp"
+
+namespace sixstep::analysis {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+double factor_of(const std::vector<Tolerance>& tolerances, const Variation& v, Strays quantity) {
+  double factor = 1.0;
+  for (std::size_t n = 0; n < tolerances.size(); ++n)
+    if (tolerances[n].quantity == quantity) factor *= v.factors[n];
+  return factor;
+}
+
+design::MotorModel varied_motor(const design::MotorModel& motor, const std::vector<Tolerance>& tolerances,
+                                const Variation& v) {
+  const auto by = [&](Strays quantity) { return factor_of(tolerances, v, quantity); };
+  design::MotorModel m = motor;
+  m.machine.R_ohm *= by(Strays::resistance);
+  m.machine.L_H *= by(Strays::inductance);
+  m.machine.K_e_V_s *= by(Strays::torque_constant);
+  m.K_t_Nm_A *= by(Strays::torque_constant);
+  m.shaft.J_kg_m2 *= by(Strays::inertia);
+  return m;
+}
+
+/// The model as a sheet, whatever way the motor's own sheet says it.
+design::Sheet sheet_of(const design::Sheet& from, const design::MotorModel& m) {
+  design::Sheet s;
+  s.name = from.name;
+  s.maker = from.maker;
+  s.pole_pairs = m.machine.pole_pairs;
+  s.back_emf = from.back_emf;
+  s.flat_deg = from.flat_deg;
+  if (m.nominal_voltage_V > 0) s.nominal_voltage_V = {m.nominal_voltage_V, "", ""};
+  s.resistance_ohm = {2 * m.machine.R_ohm, "terminal", ""};
+  s.inductance_mH = {2e3 * m.machine.L_H, "terminal", ""};
+  s.torque_constant_mNm_A = base::Quantity{1e3 * m.K_t_Nm_A, "", ""};
+  s.inertia_gcm2 = {1e7 * m.shaft.J_kg_m2, "", ""};
+  s.viscous_friction_Nm_s = base::Quantity{m.shaft.B_Nm_s, "", ""};
+  s.coulomb_friction_mNm = base::Quantity{1e3 * m.shaft.coulomb_Nm, "", ""};
+  return s;
+}
+
+/// Outermost levels of a tolerance: below and above the nominal value.
+std::vector<Tolerance::Level> ends(const Tolerance& t) {
+  Tolerance::Level low{"", 1.0}, high{"", 1.0};
+  for (const Tolerance::Level& level : t.levels) {
+    if (level.factor < low.factor) low = level;
+    if (level.factor > high.factor) high = level;
+  }
+  std::vector<Tolerance::Level> out{low};
+  if (high.factor != low.factor) out.push_back(high);
+  return out;
+}
+
+void add_corners(const std::vector<Tolerance>& tolerances, std::vector<Variation>& out) {
+  std::vector<Variation> corners{{"", {}, false}};
+  for (const Tolerance& t : tolerances) {
+    std::vector<Variation> next;
+    for (const Variation& corner : corners)
+      for (const Tolerance::Level& end : ends(t)) {
+        Variation v = corner;
+        v.factors.push_back(end.factor);
+        if (!end.words.empty()) v.words += (v.words.empty() ? "" : ", ") + end.words;
+        next.push_back(std::move(v));
+      }
+    corners = std::move(next);
+  }
+  out.insert(out.end(), corners.begin(), corners.end());
+}
+
+/// values[v] of each variation, nominal first; larger is worse.
+void find_worst(RobustFigure& figure, const std::vector<Variation>& all, const std::vector<double>& values) {
+  figure.nominal = figure.worst = values.front();
+  figure.alone = values.front();
+  for (std::size_t n = 1; n < all.size(); ++n) {
+    if (values[n] > figure.worst) {
+      figure.worst = values[n];
+      figure.at = all[n].words;
+    }
+    if (all[n].single && values[n] > figure.alone) {
+      figure.alone = values[n];
+      figure.culprit = all[n].words;
+    }
+  }
+}
+
+std::vector<RobustFigure> phases_of(const design::DriveDesign& design,
+                                    const std::vector<Tolerance>& tolerances,
+                                    const std::vector<Variation>& all) {
+  std::vector<std::vector<double>> lost(design.loops.size());
+  for (const Variation& v : all) {
+    const std::vector<design::SensedLoop> loops =
+        design::sensed_loops(design, varied_motor(design.motor, tolerances, v), 1);
+    for (std::size_t n = 0; n < loops.size(); ++n) {
+      const design::LoopFigures f = design::sensed_figures(loops[n], design.spec.period_s, 1024);
+      lost[n].push_back(f.stable && f.phase_rad ? -*f.phase_rad * 180 / base::pi : f.stable ? -180.0 : 0.0);
+    }
+  }
+  std::vector<RobustFigure> out;
+  for (std::size_t n = 0; n < design.loops.size(); ++n) {
+    RobustFigure figure{.figure = "phase margin of the " + design.loops[n].name + " loop", .unit = "deg"};
+    find_worst(figure, all, lost[n]);
+    figure.nominal = -figure.nominal;
+    figure.worst = -figure.worst;
+    figure.alone = -figure.alone;
+    out.push_back(figure);
+  }
+  return out;
+}
+
+/// What the run says of each comparison; never where it could not.
+std::vector<double> measured(const study::Scenario& scenario, const std::function<bool()>& keep_going) {
+  std::vector<double> values(scenario.compare.size(), never);
+  const base::Result<study::Outcome> outcome = study::run(
+      scenario,
+      {.on_record = {}, .on_event = {}, .keep_going = study::listening(keep_going), .keep_books = false});
+  if (!outcome || outcome->fault) return values;
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const double x = as_read(outcome->comparisons[n], scenario);
+    if (x == x) values[n] = x;
+  }
+  return values;
+}
+
+}  // namespace
+
+std::vector<Tolerance> sheet_tolerances(control::Mode mode) {
+  std::vector<Tolerance> out{
+      {Strays::resistance,
+       {{"R -10 %", 0.9}, {"R +10 %", 1.1}, {"R at 120 degC", 1.0 + 0.00393 * (120 - 25)}}},
+      {Strays::inductance, {{"L -20 %", 0.8}, {"L +20 %", 1.2}}},
+  };
+  if (mode == control::Mode::current) return out;
+  out.push_back({Strays::torque_constant, {{"K_t -8 %", 0.92}, {"K_t +8 %", 1.08}}});
+  out.push_back({Strays::inertia, {{"J doubled", 2.0}}});
+  return out;
+}
+
+std::vector<Variation> variations(const std::vector<Tolerance>& tolerances) {
+  const std::vector<double> ones(tolerances.size(), 1.0);
+  std::vector<Variation> out{{"", ones, false}};
+  for (std::size_t n = 0; n < tolerances.size(); ++n)
+    for (const Tolerance::Level& level : tolerances[n].levels) {
+      Variation v{level.words, ones, true};
+      v.factors[n] = level.factor;
+      out.push_back(v);
+    }
+  add_corners(tolerances, out);
+  return out;
+}
+
+study::Scenario varied_scenario(const study::Scenario& nominal, const design::MotorModel& motor,
+                                const std::vector<Tolerance>& tolerances, const Variation& variation) {
+  study::Scenario s = nominal;
+  s.designed_for = study::Nominal{nominal.sheet, nominal.supply, nominal.load};
+  design::MotorModel varied = varied_motor(motor, tolerances, variation);
+  varied.shaft.J_kg_m2 -= nominal.load.inertia_kg_m2;  // the load stays beside the rotor
+  s.sheet = sheet_of(nominal.sheet, varied);
+  return s;
+}
+
+Robustness robustness(const design::DriveDesign& design, const study::Scenario& scenario,
+                      const std::vector<Tolerance>& tolerances, const ForEach& for_each,
+                      const std::function<bool()>& keep_going) {
+  const std::vector<Variation> all = variations(tolerances);
+  std::vector<std::vector<double>> by_variation(all.size());
+  for_each(all.size(), [&](std::size_t n) {
+    by_variation[n] =
+        measured(n == 0 ? scenario : varied_scenario(scenario, design.motor, tolerances, all[n]), keep_going);
+  });
+  Robustness out;
+  out.runs = all.size();
+  for (std::size_t k = 0; k < scenario.compare.size(); ++k) {
+    RobustFigure figure{.figure = figure_name(scenario.compare[k].measure),
+                        .unit = std::string(figure_unit(scenario.compare[k].measure))};
+    std::vector<double> values;
+    values.reserve(all.size());
+    for (const std::vector<double>& v : by_variation) values.push_back(v[k]);
+    find_worst(figure, all, values);
+    out.figures.push_back(std::move(figure));
+  }
+  out.phases = phases_of(design, tolerances, all);
+  return out;
+}
+
+}  // namespace sixstep::analysis

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a sheet's tolerances do to a design whose controller stays as it is: each one alone, and all corners
+// of them together.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sixstep/analysis/for_each.hpp"
+#include "sixstep/design/loops/drive_design.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::analysis {
+
+enum class Strays : std::uint8_t { resistance, inductance, torque_constant, inertia };
+
+/// One quantity and what it may be instead, as factors on the sheet's value.
+struct Tolerance {
+  struct Level {
+    std::string words;  ///< "R +10 %"
+    double factor = 1.0;
+  };
+  Strays quantity = Strays::resistance;
+  std::vector<Level> levels;
+};
+
+/// R +-10 % and copper at 120 degC (1 + 0.00393 (120 - 25) = 1.373), L +-20 %, K_t +-8 %: the tolerances that
+/// makers print or admit. J doubled: a load that nobody told of. With the rotor held, in current mode, only
+/// R and L matter.
+std::vector<Tolerance> sheet_tolerances(control::Mode mode);
+
+/// A motor out of tolerance.
+struct Variation {
+  std::string words;            ///< "R at 120 degC, L -20 %"; empty: nominal
+  std::vector<double> factors;  ///< one per tolerance
+  bool single = false;          ///< only one tolerance strays
+};
+/// The nominal motor, each level alone, then every corner of the outermost levels (of a tolerance to one side
+/// only, that and the nominal).
+std::vector<Variation> variations(const std::vector<Tolerance>& tolerances);
+
+/// The motor strays, the controller stays what was designed for the sheet. `motor` is DriveDesign's: with the
+/// load's inertia, which strays with the rotor's.
+study::Scenario varied_scenario(const study::Scenario& nominal, const design::MotorModel& motor,
+                                const std::vector<Tolerance>& tolerances, const Variation& variation);
+
+struct RobustFigure {
+  std::string figure, unit;
+  double nominal = 0.0;
+  double worst = 0.0;   ///< the largest: infinite where it never settles, or a fault ended the run
+  std::string at;       ///< the variation, in words; empty where none is worse than nominal
+  std::string culprit;  ///< the one level that alone makes most of it
+  double alone = 0.0;   ///< the figure with the culprit alone
+};
+
+struct Robustness {
+  std::vector<RobustFigure> figures;  ///< of the scenario's comparisons, in their order
+  /// Of each loop with one period of delay and the sensor of the speed, in degrees: worst is least.
+  std::vector<RobustFigure> phases;
+  std::size_t runs = 0;
+};
+
+Robustness robustness(const design::DriveDesign& design, const study::Scenario& scenario,
+                      const std::vector<Tolerance>& tolerances, const ForEach& for_each = one_after_the_other,
+                      const std::function<bool()>& keep_going = {});
+
+}  // namespace sixstep::analysis

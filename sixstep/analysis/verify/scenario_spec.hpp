@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// A design for the board and the task of a scenario.
+#pragma once
+#include "sixstep/design/loops/drive_design.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::analysis {
+
+/// What the scenario says of the drive: mode, bus, PWM, delay, rotor sensor, load inertia, torque limit,
+/// settling times, and the lowest speed that its reference asks for. What it leaves open stays the spec's
+/// default; given gains are not looked at, since new ones are asked for.
+design::DesignSpec spec_of(const study::Scenario& scenario);
+
+}  // namespace sixstep::analysis

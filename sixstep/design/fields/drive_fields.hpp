@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every field of the drive's configuration (control/drive.hpp), once, in the order of an exported header.
+// Each list binds all members of its struct: a new member stops the compiler here.
+#pragma once
+#include "sixstep/control/drive.hpp"
+#include "sixstep/design/fields/field.hpp"
+
+namespace sixstep::design {
+
+/// Which loops a drive has in hand.
+template <class Scalar>
+constexpr bool runs_speed(const control::DriveConfig<Scalar>& d) {
+  return d.mode == control::Mode::speed || d.mode == control::Mode::position;
+}
+template <class Scalar>
+constexpr bool runs_current(const control::DriveConfig<Scalar>& d) {
+  return d.mode == control::Mode::current ||
+         (runs_speed(d) && d.speed_control == control::SpeedControl::cascade);
+}
+
+/// What a PI turns into what.
+struct PiUse {
+  Ratio ratio;
+  const char* per = "";         ///< unit of its gains
+  const char* limit_unit = "";  ///< of its output
+};
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::PiConfig<double>& d, Kept& kept, const PiUse& use) {
+  const auto& [d1, d0, limit] = d;
+  auto& [kept_d1, kept_second, kept_limit] = kept;
+  w.gain({"d1", use.per}, d1, kept_d1, use.ratio);
+  if constexpr (requires { kept.K_i; })  // fixed point keeps the sum (pi.hpp)
+    w.gain({"K_i", use.per, "d1 + d0, per sample"}, d1 + d0, kept_second, use.ratio);
+  else
+    w.gain({"d0", use.per}, d0, kept_second, use.ratio);
+  w.signal({"limit", use.limit_unit}, limit, kept_limit, use.ratio.out);
+}
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::SlewConfig<double>& d, Kept& kept) {
+  auto& [step] = kept;
+  w.sum({"step", "", "per tick"}, d.step, step, Base::setpoint);
+}
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::LimitsConfig<double>& d, Kept& kept) {
+  auto& [current_A, limits_speed, speed_rad_s, A_per_rad_s, limits_regeneration, bus_V, A_per_V] = kept;
+  w.signal({"current_A", "A"}, d.current_A, current_A, Base::current);
+  w.flag({"limits_speed"}, d.limits_speed, limits_speed);
+  w.signal({"speed_rad_s", "rad/s"}, d.speed_rad_s, speed_rad_s, Base::speed);
+  w.gain({"A_per_rad_s", "A per rad/s"}, d.A_per_rad_s, A_per_rad_s, {Base::current, Base::speed});
+  w.flag({"limits_regeneration"}, d.limits_regeneration, limits_regeneration);
+  w.signal({"bus_V", "V"}, d.bus_V, bus_V, Base::voltage);
+  w.gain({"A_per_V", "A per V"}, d.A_per_V, A_per_V, {Base::current, Base::voltage});
+}
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::FeedForwardConfig<double>& d, Kept& kept) {
+  auto& [K_t_V_s] = kept;
+  w.gain({"K_t_V_s", "V per rad/s"}, d.K_t_V_s, K_t_V_s, {Base::voltage, Base::speed});
+}
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::BusCompensationConfig<double>& d, Kept& kept) {
+  auto& [lowest_bus_V] = kept;
+  w.signal({"lowest_bus_V", "V"}, d.lowest_bus_V, lowest_bus_V, Base::voltage);
+}
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::SmoothChoppingConfig<double>& d, Kept& kept) {
+  auto& [soft_above_A, complementary_below_A] = kept;
+  w.signal({"soft_above_A", "A"}, d.soft_above_A, soft_above_A, Base::current);
+  w.signal({"complementary_below_A", "A"}, d.complementary_below_A, complementary_below_A, Base::current);
+}
+
+/// Of a speed.
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::PiPositionalConfig<double>& d, Kept& kept) {
+  constexpr Ratio of_speed{Base::one, Base::speed};
+  auto& [K, K_i, K_b, limit, K_c] = kept;
+  w.gain({"K", "per rad/s"}, d.K, K, of_speed);
+  w.gain({"K_i", "per rad/s", "per sample"}, d.K_i, K_i, of_speed);
+  w.gain({"K_b", "", "of what the limit cuts off, per sample"}, d.K_b, K_b, Ratio{});
+  w.signal({"limit", "of full torque"}, d.limit, limit, Base::one);
+  w.gain({"K_c", "per rad/s", "at the limit, per sample"}, d.K_c, K_c, of_speed);
+}
+
+/// Of a speed.
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::DerivativeConfig<double>& d, Kept& kept) {
+  auto& [g, b] = kept;
+  w.gain({"g", "per rad/s"}, d.g, g, {Base::one, Base::speed});
+  w.gain({"b", "", "per sample"}, d.b, b, Ratio{});
+}
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::DriveExtras<double>& d, Kept& kept) {
+  auto& [on, slews_setpoint, slew, limits_current, limits, torque_fraction_per_A, feed_forward, bus,
+         smooth_chopping, chopping, positional_speed, speed, speed_derivative] = kept;
+  w.flag({"on"}, d.on, on);
+  if (!w.when_on(d.on)) return;
+  w.flag({"slews_setpoint"}, d.slews_setpoint, slews_setpoint);
+  w.part("slew", d.slew, slew);
+  w.flag({"limits_current"}, d.limits_current, limits_current);
+  if (w.when_on(d.limits_current)) w.part("limits", d.limits, limits);
+  w.gain({"torque_fraction_per_A", "per A"}, d.torque_fraction_per_A, torque_fraction_per_A,
+         {Base::one, Base::current});
+  w.part("feed_forward", d.feed_forward, feed_forward);
+  w.part("bus", d.bus, bus);
+  w.flag({"smooth_chopping"}, d.smooth_chopping, smooth_chopping);
+  w.part("chopping", d.chopping, chopping);
+  w.flag({"positional_speed"}, d.positional_speed, positional_speed);
+  if (!w.when_on(d.positional_speed)) return;
+  w.part("speed", d.speed, speed);
+  w.part("speed_derivative", d.speed_derivative, speed_derivative);
+}
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::DriveConfig<double>& d, Kept& kept) {
+  auto& [mode, chopping, current_control, current, hysteresis, nominal_bus_V, speed, current_at_full_torque_A,
+         current_limit_A, position_gain, speed_limit_rad_s, speed_control, extras] = kept;
+  auto& [band_A, watch] = hysteresis;
+  using control::CurrentControl, control::SpeedControl, control::Watch;
+  const bool current_runs = w.when_run(runs_current(d)), speed_runs = w.when_run(runs_speed(d));
+  w.choice({.name = "mode", .always = true}, d.mode, mode, control::Mode::off);
+  w.choice({.name = "chopping", .always = true}, d.chopping, chopping, control::Chopping::soft);
+  w.choice({.name = "current_control", .always = true}, d.current_control, current_control,
+           CurrentControl::pi);
+  w.choice({.name = "speed_control", .always = true}, d.speed_control, speed_control, SpeedControl::cascade);
+  w.choice({.name = "hysteresis.watch", .always = true}, current_runs ? d.hysteresis.watch : Watch::motor,
+           watch, Watch::motor);
+  if (current_runs) {
+    w.part("current", d.current, current, PiUse{{Base::voltage, Base::current}, "V/A", "V"});
+    w.signal({"hysteresis.band_A", "A"}, d.hysteresis.band_A, band_A, Base::current);
+    w.divisor({"nominal_bus_V", "V", "duty 1"}, d.nominal_bus_V, nominal_bus_V, Base::voltage);
+  }
+  if (speed_runs) {
+    w.part("speed", d.speed, speed, PiUse{{Base::one, Base::speed}, "per rad/s", "of full torque"});
+    w.gain({"current_at_full_torque_A", "A", "torque limit over K_t"}, d.current_at_full_torque_A,
+           current_at_full_torque_A, {Base::current, Base::one});
+    w.signal({"current_limit_A", "A"}, d.current_limit_A, current_limit_A, Base::current);
+    w.gain({"position_gain", "rad/s per deg"}, d.position_gain, position_gain, {Base::speed, Base::position});
+    w.signal({"speed_limit_rad_s", "rad/s"}, d.speed_limit_rad_s, speed_limit_rad_s, Base::speed);
+  }
+  w.part("extras", d.extras, extras);
+}
+
+}  // namespace sixstep::design

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The largest magnitudes of what a drive's loops compute, in SI: interval arithmetic around 0 on drive.hpp's
+// lines.
+#pragma once
+#include "sixstep/design/scaling/scaling.hpp"
+
+namespace sixstep::design::detail {
+
+struct Magnitudes {
+  double current = 0.0;  ///< phase and motor current
+  double current_ref = 0.0;
+  double current_levels = 0.0;  ///< reference and band
+  double speed = 0.0;
+  double speed_ref = 0.0;
+  double speed_change = 0.0;  ///< from sample to sample
+  double position = 0.0;
+  double position_ref = 0.0;
+  double voltage = 0.0;  ///< limit of the current PI
+  double emf = 0.0;      ///< feed-forward, clamped at that limit
+  double bus = 0.0;
+};
+
+Magnitudes magnitudes(const control::DriveConfig<double>& drive, const OperatingRange& range);
+
+}  // namespace sixstep::design::detail

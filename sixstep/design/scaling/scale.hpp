@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// The walk that brings a configuration's fields into fixed point (design/fields): each divided by its base,
+// with the lines of the proof that belong to it.
+#pragma once
+#include <algorithm>
+#include <string>
+
+#include "sixstep/design/fields/product_fields.hpp"
+#include "sixstep/design/scaling/magnitudes.hpp"
+#include "sixstep/design/scaling/scaling_proof.hpp"
+
+namespace sixstep::design::detail {
+
+inline constexpr double trip_ratio = 1.25;  // limits.hpp: over_limit
+
+/// What no mode uses, and what a flag turns off, stays as it is by default.
+template <class Scalar>
+class Scale {
+ public:
+  Scale(control::Mode mode, const Bases& bases, const Magnitudes& magnitudes, int adc_bits,
+        Proof<Scalar>& proof)
+      : mode_(mode), b_(bases), m_(magnitudes), adc_bits_(adc_bits), proof_(proof) {}
+
+  static constexpr bool when_run(bool runs) { return runs; }
+  static constexpr bool when_on(bool on) { return on; }
+
+  template <class T>
+  void flag(const Field&, T designed, T& kept) {
+    kept = designed;
+  }
+  template <class T>
+  void choice(const Field&, T designed, T& kept, T) {
+    kept = designed;
+  }
+  template <class T>
+  void count(const Field&, T designed, T& kept, T) {
+    kept = designed;
+  }
+  void signal(const Field&, double designed, Scalar& kept, Base base) {
+    kept = Scalar(designed / value(base));
+  }
+  void threshold(const Field& f, double designed, Scalar& kept, Base base) {
+    kept = proof_.threshold(path(f).c_str(), designed, value(base));
+  }
+  void gain(const Field& f, double designed, control::Gain<Scalar>& kept, Ratio ratio) {
+    kept = proof_.gain(path(f).c_str(), designed * value(ratio.in) / value(ratio.out));
+  }
+  void raw_gain(const Field& f, double designed, control::Gain<Scalar>& kept, Base base) {
+    kept = proof_.gain(path(f).c_str(), designed / value(base) / digit);
+  }
+  void divisor(const Field& f, double designed, control::Divisor<Scalar>& kept, Base base) {
+    if (!(designed > 0)) return;
+    kept = control::Divisor<Scalar>(designed / value(base));
+    proof_.gain(("1/" + path(f)).c_str(), value(base) / designed);
+  }
+  void sum(const Field& f, double designed, control::Accumulator<Scalar>& kept, Base base) {
+    kept = control::Accumulator<Scalar>(designed / value(base));
+    if (designed != 0 && kept.raw == 0)
+      proof_.problems.push_back({path(f), base::written(designed),
+                                 "is below the last bit of the setpoint's sum",
+                                 "take 32 bits or slew in a slower tick"});
+  }
+  void ticks(const Field&, double designed, control::TickRatio<Scalar>& kept, Base base) {
+    kept = control::TickRatio<Scalar>(designed / value(base));
+  }
+
+  template <class Designed, class Kept, class... Told>
+  void part(const char* name, const Designed& designed, Kept& kept, const Told&... told) {
+    const std::string outer = within_;
+    if constexpr (!std::is_same_v<Designed, control::DriveExtras<double>>) within_ += name;
+    if (prove(designed, told...)) {
+      if (!within_.empty() && within_.back() != '.') within_ += '.';
+      fields(*this, designed, kept, told...);
+    }
+    within_ = outer;
+  }
+
+ private:
+  static constexpr double digit = static_cast<double>(Scalar::from_raw(1));
+
+  double value(Base base) const { return value_of(base, mode_, b_); }
+  std::string path(const Field& f) const { return within_ + f.name; }
+
+  // What a part has to hold beside its fields, in the lines of the proof; false: it is left as it is.
+  template <class Config, class... Told>
+  bool prove(const Config&, const Told&...) {
+    return true;
+  }
+  bool prove(const control::PiConfig<double>& pi, const PiUse& use) {
+    const double largest_error =
+        use.ratio.in == Base::current ? m_.current + m_.current_ref : m_.speed + m_.speed_ref;
+    proof_.integral(within_, pi, value(use.ratio.in), value(use.ratio.out), largest_error);
+    return true;
+  }
+  bool prove(const control::LimitsConfig<double>& l) {
+    proof_.threshold("limits.current_A, 5/4 of it", trip_ratio * l.current_A, b_.current_A);
+    if (l.limits_speed)
+      proof_.fits("limits.speed_rad_s with speed", l.speed_rad_s + m_.speed, b_.speed_rad_s);
+    if (l.limits_regeneration) proof_.threshold("limits.bus_V", l.bus_V, b_.voltage_V);
+    return true;
+  }
+  bool prove(const control::DriveExtras<double>& x) {
+    extras_ = &x;
+    return true;
+  }
+  bool prove(const control::PiPositionalConfig<double>& pi);
+  bool prove(const control::AdcConfig<double>& adc, const AdcUse& use);
+  bool prove(const control::HallSpeedConfig<double>& speed);
+
+  control::Mode mode_;
+  Bases b_;
+  Magnitudes m_;
+  int adc_bits_;
+  Proof<Scalar>& proof_;
+  std::string within_;  ///< path of the part at hand
+  const control::DriveExtras<double>* extras_ = nullptr;
+};
+
+/// pi_positional.hpp and derivative.hpp: |y| <= g times the widest step of the speed, and g/b times its
+/// largest change per sample; |I| <= limit + |y| + |K_c| |e|/K_b. K e may saturate. K_i and its increments
+/// are those that DriveConfig::speed was proved with.
+template <class Scalar>
+bool Scale<Scalar>::prove(const control::PiPositionalConfig<double>& pi) {
+  const control::DerivativeConfig<double>& d = extras_->speed_derivative;
+  const double steepest = d.b > 0 ? d.g / d.b * m_.speed_change : HUGE_VAL;
+  const double braked = d.g > 0 ? std::min(2 * m_.speed * d.g, steepest) : 0.0;
+  const double integral =
+      pi.K_b > 0 ? pi.limit + braked + std::fabs(pi.K_c) / pi.K_b * (m_.speed + m_.speed_ref) : 0.0;
+  if (!(pi.K_b > 0) && pi.K_i != 0)
+    proof_.problems.push_back({"speed.K_b", "0",
+                               "lets the integral grow without an end, which fixed point has",
+                               "take K_i/K, or floating point"});
+  if (braked + integral > 14.0 * full_scale<Scalar>)
+    proof_.problems.push_back(
+        {"speed derivative and integral", base::written(braked + integral),
+         "of full output are above " + base::written(14.0 * full_scale<Scalar>),
+         "take K_b nearer K_i/K, a longer filter of the derivative, or a format with more "
+         "bits before the point"});
+  proof_.rows.push_back({"speed derivative and integral", braked + integral, 14.0 * full_scale<Scalar>});
+  return true;
+}
+
+/// One without a gain is not there.
+template <class Scalar>
+bool Scale<Scalar>::prove(const control::AdcConfig<double>& adc, const AdcUse& use) {
+  if (adc.per_eighth == 0) return false;
+  // "current_adc[1]" is told as "current_adc b".
+  const std::size_t phase = within_.find('[');
+  const std::string name = phase == std::string::npos ? within_
+                                                      : within_.substr(0, phase) + " " +
+                                                            static_cast<char>('a' + within_[phase + 1] - '0');
+  const double top = std::ldexp(1.0, adc_bits_) - 1, tolerance = adc.offset_tolerance;
+  const double furthest = std::max(adc.offset_counts + tolerance, top - adc.offset_counts + tolerance);
+  const double most = static_cast<double>(control::detail::greatest<typename Scalar::Storage>);
+  if (8 * furthest > most)
+    proof_.problems.push_back({name, base::written(furthest) + " counts",
+                               "in eighths are above " + base::written(most),
+                               "take 32 bits, or convert fewer bits"});
+  proof_.fits(name.c_str(), 8 * (furthest - tolerance) * std::fabs(adc.per_eighth), value(use.base));
+  return true;
+}
+
+template <class Scalar>
+bool Scale<Scalar>::prove(const control::HallSpeedConfig<double>& speed) {
+  const double edges = std::max(1, std::min(6, int{speed.edges}));
+  const double raw = speed.sector_rad_s_ticks / b_.speed_rad_s / digit * edges;
+  const double most = static_cast<double>(control::detail::greatest<typename Scalar::WideInt>);
+  if (raw > most)
+    proof_.problems.push_back(
+        {"speed.sector_rad_s_ticks", base::written(speed.sector_rad_s_ticks),
+         "over so many edges is " + base::written(raw / most) + " times what its sum holds",
+         "take a slower timer, fewer edges or 32 bits"});
+  return true;
+}
+
+}  // namespace sixstep::design::detail

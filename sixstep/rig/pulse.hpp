@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// One compare unit of the timer: when the pulse of a PWM period begins and ends (MODEL 3).
+#pragma once
+#include <cmath>
+#include <cstdint>
+
+#include "sixstep/sim/instant.hpp"
+
+namespace sixstep::rig {
+
+struct ModulatorConfig {
+  std::int64_t period_ticks = 30'000'000;
+  bool centre_aligned = false;
+  double dead_ticks = 0.0;
+  bool dead_time_at_commutation = false;
+  double timer_ticks = 0.0;          ///< ps per count of the timer; 0: edges anywhere
+  double minimum_pulse_ticks = 0.0;  ///< a pulse or a gap shorter than this is left out; 0: none
+
+  /// Rounded to counts of the timer.
+  double in_counts(double ticks) const {
+    if (!(timer_ticks > 0)) return ticks;
+    return std::floor(ticks / timer_ticks + 0.5) * timer_ticks;
+  }
+};
+
+struct Pulse {
+  bool on = false;
+  sim::Instant on_edge = sim::Instant::never(), off_edge = sim::Instant::never();
+
+  const sim::Instant& next() const { return on_edge < off_edge ? on_edge : off_edge; }
+  void cancel() { on_edge = off_edge = sim::Instant::never(); }
+  /// Whether it is on as the period begins, and the edges to come. |duty| = 1 has no gap, 0 no pulse. One
+  /// that is too short for the gate drivers does not come; a gap that is too short closes.
+  bool begin(const sim::Instant& t, double duty, const ModulatorConfig& c) {
+    const auto period = static_cast<double>(c.period_ticks);
+    const double on_time = duty * period;
+    const bool whole = duty >= 1.0 || period - on_time < c.minimum_pulse_ticks;
+    const bool chops = !whole && duty > 0.0 && !(on_time < c.minimum_pulse_ticks);
+    cancel();
+    if (chops && c.centre_aligned) on_edge = t.plus_ticks(c.in_counts((period - on_time) / 2));
+    if (chops) off_edge = t.plus_ticks(c.in_counts(c.centre_aligned ? (period + on_time) / 2 : on_time));
+    return whole || (chops && !c.centre_aligned);
+  }
+};
+
+}  // namespace sixstep::rig

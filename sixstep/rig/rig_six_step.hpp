@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a rig does for six-step alone: the pair that moves on at a Hall edge, and the comparators that switch
+// its legs. Part of rig.hpp.
+#pragma once
+#include "sixstep/rig/rig.hpp"
+
+namespace sixstep::rig {
+
+/// The Hall interrupt of six-step: the pair moves on, in what is in effect and in what waits.
+template <class Real, class Firmware>
+void Rig<Real, Firmware>::commutate() {
+  const auto answer = firmware_.hall_interrupt(pins(), now_);
+  if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
+  if (!answer.enabled) return let_go();
+  pending_.pair = answer.pair;
+  if (board_.sampled_in_middle)
+    loaded_.pair = firmware_.reversed() == loaded_reversed_ ? answer.pair : control::swapped(answer.pair);
+  const bool same_sign = firmware_.reversed() == reversed_;
+  modulator_.commutate(now_, same_sign ? answer.pair : control::swapped(answer.pair));
+}
+
+/// Comparators beyond their level; true where one switched.
+template <class Real, class Firmware>
+bool Rig<Real, Firmware>::compare() {
+  const int switched = modulator_.compare(now_, plant_.state().i);
+  event_counts_[static_cast<std::size_t>(EventKind::comparator)] += switched;
+  due_ = next_due();
+  return switched > 0;
+}
+
+/// With two legs conducting, both phases carry one current and two comparators reach their levels together:
+/// whether the second one switches too must not be left to a rounding error.
+template <class Real, class Firmware>
+void Rig<Real, Firmware>::trip(int which) {
+  const ArmedComparator other = modulator_.comparator(1 - which);
+  const bool same_level = other.armed && other.switches_off == modulator_.comparator(which).switches_off;
+  modulator_.comparator_tripped(now_, which);
+  if (!same_level || plant::connected_count(plant_.mode().legs) != 2) return;
+  const plant::PerLeg<double> weight = modulator_.comparator_weights(1 - which);
+  const plant::PerLeg<Real>& i = plant_.state().i;
+  const Real current = Real(weight[0]) * i[0] + Real(weight[1]) * i[1] + Real(weight[2]) * i[2];
+  if (std::fabs(current - Real(other.level_A)) > plant_.constants().amp_noise) return;
+  count(EventKind::comparator);
+  modulator_.comparator_tripped(now_, 1 - which);
+}
+
+template <class Real, class Firmware>
+template <class Visit>
+void Rig<Real, Firmware>::comparator_guards(Visit&& visit) const {
+  for (int which = 0; which < 2; ++which) {
+    const ArmedComparator c = modulator_.comparator(which);
+    if (!c.armed) continue;
+    const plant::PerLeg<double> weight = modulator_.comparator_weights(which);
+    const plant::Expansion<Real>& y = plant_.expansion();
+    const Real sign = c.switches_off ? Real(-1) : Real(1);
+    const auto current = [&](int j) {
+      return sign * (Real(weight[0]) * y.i[0][j] + Real(weight[1]) * y.i[1][j] + Real(weight[2]) * y.i[2][j]);
+    };
+    series::Coefficients<Real> g;
+    g[0] = current(0) - sign * Real(c.level_A);
+    for (int j = 1; j <= y.degree; ++j) g[j] = current(j);
+    visit(plant::guard::first_free + which, g, y.degree, plant_.constants().amp_noise);
+  }
+}
+
+}  // namespace sixstep::rig

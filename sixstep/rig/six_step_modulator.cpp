@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/rig/six_step_modulator.hpp"
+
+#include <bit>
+
+namespace sixstep::rig {
+
+using control::Chopping;
+using control::Watch;
+using sim::Instant;
+
+namespace {
+
+unsigned index(control::Leg leg) { return static_cast<unsigned>(leg); }
+
+}  // namespace
+
+/// The leg that a new pair brought in; none_late where it brought none, or took none away: a change of sign
+/// moves nothing, each leg keeps its own.
+int SixStepModulator::hand_over(control::Pair to) {
+  const auto legs_of = [](control::Pair pair) { return 1u << index(pair.source) | 1u << index(pair.sink); };
+  const unsigned before = legs_of(command_.pair), after = legs_of(to);
+  const unsigned entering = after & ~before, leaving = before & ~after;
+  if (entering == 0 || leaving == 0) return LegTimer::none_late;
+  const int entered = std::countr_zero(entering);
+  timer_.hand_over(static_cast<unsigned>(std::countr_zero(leaving)), static_cast<unsigned>(entered));
+  return entered;
+}
+
+int SixStepModulator::take(const Instant& t, const BoardCommand& command) {
+  const bool wakes = command.enabled && !command_.enabled;
+  const int entered = hand_over(command.pair);
+  // Field by field, as it was written: a copy in wider pieces would wait until the fields have left for
+  // memory. A field more or less does not compile.
+  const auto& [enabled, pair, duty, chopping, watch, on_below_A, off_above_A] = command;
+  command_.enabled = enabled;
+  command_.pair = pair;
+  command_.duty = duty;
+  command_.chopping = chopping;
+  command_.watch = watch;
+  command_.on_below_A = on_below_A;
+  command_.off_above_A = off_above_A;
+  if (!wakes) return entered;
+  // The first command is a change of every leg: nobody knows what it did before.
+  timer_.wake(t);
+  timer_.preset_pulse(sink_pulse, true);
+  if (watch != Watch::none) timer_.switch_pulse(source_pulse, true);  // hysteresis starts on (MODEL 4)
+  return entered;
+}
+
+void SixStepModulator::start_period(const Instant& t, const BoardCommand& command) {
+  const int entered = take(t, command);
+  timer_.start_period();
+  if (command.enabled && command.watch == Watch::none) timer_.start_pulse(source_pulse, t, command.duty);
+  fill_legs(t, entered);
+}
+
+void SixStepModulator::commutate(const Instant& t, control::Pair pair) {
+  const int entered = hand_over(pair);
+  command_.pair = pair;
+  fill_legs(t, entered);
+}
+
+void SixStepModulator::turn_off(const Instant& t) {
+  command_.enabled = false;
+  fill_legs(t, LegTimer::none_late);
+}
+
+/// Six-step's three leg commands (MODEL 3): within the pair they follow one pulse, but for the sink that hard
+/// chopping's second comparator switches.
+void SixStepModulator::fill_legs(const Instant& t, int entered) {
+  timer_.disconnect();
+  if (command_.enabled) {
+    const Chopping chopping = command_.chopping;
+    const unsigned sink = command_.watch == Watch::phase ? sink_pulse : source_pulse;
+    timer_.connect(index(command_.pair.source), sides_of(control::source_leg(chopping, 0.0)), source_pulse);
+    timer_.connect(index(command_.pair.sink), sides_of(control::sink_leg(chopping, 0.0)), sink);
+  }
+  timer_.update(t, timer_.dead_time_at_commutation() ? entered : LegTimer::none_late);
+}
+
+ArmedComparator SixStepModulator::comparator(int which) const {
+  const bool second = which == 1;
+  if (!command_.enabled || command_.watch == Watch::none) return {};
+  if (second && !(command_.watch == Watch::phase && command_.chopping == Chopping::hard)) return {};
+  const bool on = timer_.pulse_on(second ? sink_pulse : source_pulse);
+  return {true, on, on ? command_.off_above_A : command_.on_below_A};
+}
+
+plant::PerLeg<double> SixStepModulator::comparator_weights(int which) const {
+  plant::PerLeg<double> weight{};
+  const double share = command_.watch == Watch::motor ? 0.5 : 1.0;
+  if (command_.watch == Watch::motor || which == 0) weight[index(command_.pair.source)] = share;
+  if (command_.watch == Watch::motor || which == 1) weight[index(command_.pair.sink)] = -share;
+  return weight;
+}
+
+void SixStepModulator::comparator_tripped(const Instant& now, int which) {
+  const unsigned pulse = which == 1 ? sink_pulse : source_pulse;
+  timer_.switch_pulse(pulse, !timer_.pulse_on(pulse));
+  timer_.update(now);
+}
+
+}  // namespace sixstep::rig

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Six-step on the board's timer (MODEL 3): a pair and one duty, or armed comparators, fill three legs. The
+// legs of the pair share one pulse; where the pair moves on, the pulse goes on in the leg that takes the role
+// over, and the leg that leaves hands what it does, waits and all, to the one that enters.
+#pragma once
+#include "sixstep/control/bridge_command.hpp"
+#include "sixstep/rig/leg_timer.hpp"
+
+namespace sixstep::rig {
+
+/// A command as the board holds it: scalars widened to double.
+struct BoardCommand {
+  bool enabled = false;
+  control::Pair pair{};
+  double duty = 0.0;
+  control::Chopping chopping = control::Chopping::soft;
+  control::Watch watch = control::Watch::none;
+  double on_below_A = 0.0, off_above_A = 0.0;
+};
+
+/// A level that a comparator waits for: `current` of a role against a threshold.
+struct ArmedComparator {
+  bool armed = false;
+  bool switches_off = false;  ///< waits for the current to rise above, else to fall below
+  double level_A = 0.0;
+};
+
+class SixStepModulator {
+ public:
+  using Command = BoardCommand;
+
+  explicit SixStepModulator(const ModulatorConfig& config) : timer_(config) {}
+
+  /// In effect in period 0 of a board that answers a period later: nothing.
+  static BoardCommand before_first() { return {}; }
+
+  /// A PWM period begins at t with this command. |duty| = 1 has no off gap, 0 no on-time.
+  void start_period(const sim::Instant& t, const BoardCommand& command);
+  /// The pair changes at a Hall edge: PWM is not restarted, duty not resampled.
+  void commutate(const sim::Instant& t, control::Pair pair);
+  /// New thresholds between periods (the setpoint of an event hysteresis jumped).
+  void rearm(const sim::Instant& t, const BoardCommand& command) {
+    const int entered = take(t, command);
+    fill_legs(t, entered);
+  }
+  void turn_off(const sim::Instant& t);
+  void set_dead_time(double ticks) { timer_.set_dead_time(ticks); }
+
+  const sim::Instant& next_edge() const { return timer_.next_edge(); }
+  /// Does the edges due at `now`; false where none was.
+  bool act(const sim::Instant& now) { return timer_.act(now); }
+  /// Comparators are armed.
+  bool watching() const { return command_.watch != control::Watch::none; }
+  /// Switches where a comparator's current is beyond its level; how many did.
+  template <class Real>
+  int compare(const sim::Instant& now, const plant::PerLeg<Real>& i);
+  /// A comparator reached its level (0: motor or source leg, 1: sink leg).
+  void comparator_tripped(const sim::Instant& now, int which);
+
+  /// What comparator `which` waits for now.
+  ArmedComparator comparator(int which) const;
+  /// Its current as a combination of the phase currents.
+  plant::PerLeg<double> comparator_weights(int which) const;
+
+  /// A pair of one leg asks for both its switches: what no leg of the timer does, the plant is to refuse.
+  plant::Gates gates() const {
+    plant::Gates gates = timer_.gates();
+    if (command_.enabled && command_.pair.source == command_.pair.sink) gates.high |= gates.low;
+    return gates;
+  }
+  const BoardCommand& command() const { return command_; }
+  bool source_on() const { return timer_.pulse_on(source_pulse); }
+  /// No edge will come before the next command: duty 0 or 1, or off.
+  bool steady() const { return timer_.steady(); }
+  std::int64_t turn_ons() const { return timer_.turn_ons(); }
+
+ private:
+  /// The second pulse is that of hard chopping's second comparator.
+  static constexpr unsigned source_pulse = 0, sink_pulse = 1;
+
+  int take(const sim::Instant& t, const BoardCommand& command);
+  int hand_over(control::Pair to);
+  void fill_legs(const sim::Instant& t, int entered);
+
+  BoardCommand command_{};
+  LegTimer timer_;
+};
+
+template <class Real>
+int SixStepModulator::compare(const sim::Instant& now, const plant::PerLeg<Real>& i) {
+  int switched = 0;
+  for (int which = 0; which < 2; ++which) {
+    const ArmedComparator c = comparator(which);
+    if (!c.armed) continue;
+    const plant::PerLeg<double> weight = comparator_weights(which);
+    const Real current = Real(weight[0]) * i[0] + Real(weight[1]) * i[1] + Real(weight[2]) * i[2];
+    if (c.switches_off ? current > Real(c.level_A) : current < Real(c.level_A)) {
+      comparator_tripped(now, which);
+      ++switched;
+    }
+  }
+  return switched;
+}
+
+}  // namespace sixstep::rig

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Three leg commands on the board's timer (MODEL2 11): each leg on a pulse of its own. A Hall edge asks
+// nothing of it.
+#pragma once
+#include "sixstep/rig/leg_timer.hpp"
+
+namespace sixstep::rig {
+
+class ThreeLegModulator {
+ public:
+  /// As the board holds it: duties widened to double.
+  using Command = control::LegCommands<double>;
+
+  explicit ThreeLegModulator(const ModulatorConfig& config) : timer_(config) {}
+
+  /// In effect in period 0 of a board that answers a period later: no voltage, from legs that switch.
+  static Command before_first() {
+    constexpr control::LegCommand<double> half{control::LegState::pwm, control::PwmSwitches::complementary,
+                                               0.5};
+    return {.enabled = true, .leg = {half, half, half}};
+  }
+
+  void start_period(const sim::Instant& t, const Command& command);
+  void turn_off(const sim::Instant& t);
+  void set_dead_time(double ticks) { timer_.set_dead_time(ticks); }
+
+  const sim::Instant& next_edge() const { return timer_.next_edge(); }
+  /// Does the edges due at `now`; false where none was.
+  bool act(const sim::Instant& now) { return timer_.act(now); }
+
+  const plant::Gates& gates() const { return timer_.gates(); }
+  const Command& command() const { return command_; }
+  bool steady() const { return timer_.steady(); }
+  /// Of all three legs' pulses.
+  std::int64_t turn_ons() const { return timer_.turn_ons(); }
+
+ private:
+  Command command_{};
+  LegTimer timer_;
+};
+
+}  // namespace sixstep::rig

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a signal goes from where it starts to its level: when it gets there, and when it stays. Times are
+// infinite where that never comes.
+#pragma once
+#include <optional>
+
+#include "sixstep/study/measure/signals.hpp"
+
+namespace sixstep::study {
+
+/// Rise times are taken between these parts of the way, as control textbooks do.
+inline constexpr double rise_from = 0.1, rise_to = 0.9;
+
+/// Without a start the signal's first value is one.
+struct Step {
+  double level = 0.0;
+  std::optional<double> start;
+
+  void begin(double first) {
+    if (!start) start = first;
+  }
+  double height() const;
+  double sign() const { return level < start.value_or(0.0) ? -1.0 : 1.0; }
+  /// When that part of the way is made, if within this part of the signal.
+  std::optional<double> crossing(double fraction, const Series& c, int degree, double t0,
+                                 double length) const;
+  /// Whether a value has made that part of the way.
+  bool made(double fraction, double value) const {
+    return sign() * (value - *start - fraction * (level - *start)) >= 0.0;
+  }
+};
+
+class ReachTime {
+ public:
+  ReachTime(const Step& step, double fraction) : step_(step), fraction_(fraction) {}
+  void part(const Series& c, int degree, double t0, double length);
+  void sample(double t, double value);
+  double value(double from_s) const;
+
+ private:
+  Step step_;
+  double fraction_;
+  std::optional<double> reached_;
+};
+
+class RiseTime {
+ public:
+  explicit RiseTime(const Step& step) : step_(step) {}
+  void part(const Series& c, int degree, double t0, double length);
+  void sample(double t, double value);
+  double value(double from_s) const;
+
+ private:
+  Step step_;
+  std::optional<double> begun_, reached_;
+};
+
+class SettlingTime {
+ public:
+  SettlingTime(const Step& step, double band) : step_(step), band_(band) {}
+  void part(const Series& c, int degree, double t0, double length);
+  /// Settled from the first sample on after which every one lies inside.
+  void sample(double t, double value);
+  double value(double from_s) const;
+
+ private:
+  Step step_;
+  double band_;
+  double outside_until_ = 0.0;  ///< last instant outside the band
+  bool outside_now_ = true;
+};
+
+}  // namespace sixstep::study

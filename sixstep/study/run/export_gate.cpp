@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/run/export_gate.hpp"
+
+#include <cmath>
+
+#include "sixstep/base/written.hpp"
+
+namespace sixstep::study {
+namespace {
+
+using base::written;
+using control::Mode;
+
+/// Comparators on the board switch at once, and look at currents that nobody converts.
+bool by_comparators(const Scenario& s) {
+  const CurrentLoop& loop = s.control.current;
+  return loop.type == CurrentLoopType::hysteresis && loop.comparator == Comparator::event;
+}
+
+bool is_cascade(const Scenario& s) {
+  return s.control.mode == Mode::speed || s.control.mode == Mode::position;
+}
+
+bool has_current_loop(const Scenario& s) {
+  return s.control.mode == Mode::current || (is_cascade(s) && s.control.speed.output == SpeedOutput::current);
+}
+
+bool reads_currents(const Scenario& s) {
+  return (has_current_loop(s) && !by_comparators(s)) || s.control.smooth_chopping.on;
+}
+
+bool reads_bus(const Scenario& s) {
+  return has_current_loop(s) && (s.control.current.measured_bus_from_V || s.control.regeneration.limit_V);
+}
+
+bool reads_rotor(const Scenario& s) {
+  const bool within_current_loop = s.control.current.back_emf_feed_forward || s.control.limits.speed_rad_s;
+  return is_cascade(s) || (has_current_loop(s) && within_current_loop);
+}
+
+void look_at_sensors(const Scenario& s, base::Problems& out) {
+  const auto ideal = [&out](const char* key, const char* what, const char* cure) {
+    out.push_back({key, "\"ideal\"", std::string("tells the drive ") + what, cure});
+  };
+  if (reads_rotor(s) && s.sensors.rotor == RotorSensing::ideal)
+    ideal("sensors.rotor", "speed and position at every instant, and a board has the Hall edges",
+          "set rotor = \"hall\"");
+  if (reads_currents(s) && s.sensors.currents == rig::CurrentMeasurement::ideal)
+    ideal("sensors.currents", "currents that no amplifier and converter have been through",
+          "set currents = \"phases\" or \"dc-link\", and current_range_A");
+  if (reads_bus(s) && s.sensors.bus == BusSensing::ideal)
+    ideal("sensors.bus", "a bus voltage that no converter has been through",
+          "set bus = \"adc\" and bus_range_V");
+}
+
+/// What is sampled in the middle of a period is answered at the next one's start: that is a delay.
+void look_at_delay(const Scenario& s, base::Problems& out) {
+  const bool samples = reads_currents(s) || reads_bus(s) || reads_rotor(s);
+  if (samples && !by_comparators(s) && s.pwm.delay_periods == 0 && s.pwm.sample == SampleAt::start)
+    out.push_back({"pwm.delay_periods", "0",
+                   "answers a sample at the instant it is taken, and a chip has to convert and compute first",
+                   "set delay_periods = 1, or sample = \"middle\""});
+}
+
+void look_at_dead_time(const Scenario& s, base::Problems& out) {
+  const bool both_switch = s.pwm.chopping == control::Chopping::complementary || s.control.smooth_chopping.on;
+  if (both_switch && s.control.mode != Mode::off && !(s.bridge.dead_time_s > 0))
+    out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s),
+                   "turns one switch of a leg on while the other turns off, and real ones short the bus then",
+                   "give what the gate drivers need, as 500e-9"});
+}
+
+std::string required(const Verdict& v) {
+  const std::string unit = v.unit.empty() ? "" : " " + v.unit;
+  if (v.min && v.max) return written(*v.min) + " .. " + written(*v.max) + unit;
+  if (v.min) return ">= " + written(*v.min) + unit;
+  return v.max ? "<= " + written(*v.max) + unit : "";
+}
+
+/// In as many digits as tell it from the limit that it misses.
+std::string measured(const Verdict& v) {
+  if (!std::isfinite(v.measured)) return "never";
+  std::string text;
+  for (int digits = 5; digits <= 17; ++digits) {
+    text = base::rounded(v.measured, digits);
+    const auto looks_like = [&](const std::optional<double>& limit) {
+      return limit && text == base::rounded(*limit, digits);
+    };
+    if (!looks_like(v.min) && !looks_like(v.max)) break;
+  }
+  return v.unit.empty() ? text : text + " " + v.unit;
+}
+
+}  // namespace
+
+base::Problems never_measured(const Scenario& s) {
+  base::Problems out;
+  look_at_sensors(s, out);
+  look_at_delay(s, out);
+  look_at_dead_time(s, out);
+  if (s.require.empty())
+    out.push_back({"require", "", "is missing: where nothing is asked of a run, nothing has been shown",
+                   "say in [[require]] what the drive must do; see: sixstep help require"});
+  return out;
+}
+
+base::Problems not_held(const Outcome& outcome) {
+  base::Problems out;
+  if (outcome.fault) out.push_back(*outcome.fault);
+  for (const Verdict& v : outcome.verdicts)
+    if (!v.ok)
+      out.push_back({v.figure, measured(v), "misses what is required, " + required(v),
+                     "see it with sixstep run --html, and change the drive"});
+  return out;
+}
+
+base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listeners& listeners) {
+  base::Result<Outcome> outcome = run(scenario, listeners);
+  if (!outcome) return outcome.problems();
+  Clearance c{.outcome = std::move(*outcome), .unmeasured = never_measured(scenario), .unheld = {}};
+  c.unheld = not_held(c.outcome);
+  return c;
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the curve's points lie, what belongs to them, and what the winding stands.
+#include "sixstep/analysis/curve/curve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/bench.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using analysis::Curve;
+using analysis::CurvePlan;
+using analysis::CurveRequest;
+
+CurveRequest request(int points) {
+  return {.sheet = curve_sheet(), .bench = maxon_bench(), .points = points};
+}
+
+Curve whole(const CurveRequest& r) {
+  const base::Result<CurvePlan> plan = analysis::plan_curve(r);
+  EXPECT_TRUE(plan) << base::to_string(plan.problems()[0]);
+  std::vector<analysis::OperatingPoint> found;
+  for (const double speed : plan->speeds_rad_s) found.push_back(*analysis::operating_point(r.bench, speed));
+  const base::Result<Curve> curve = analysis::curve_of(r, *plan, found, analysis::one_after_the_other);
+  EXPECT_TRUE(curve) << base::to_string(curve.problems()[0]);
+  return *curve;
+}
+
+TEST(Curve, GoesFromStandstillToNoLoadInEqualSteps) {
+  const Curve curve = whole(request(9));
+  ASSERT_EQ(curve.points.size(), 9u);
+  const double end = curve.no_load.point.speed_rad_s;
+  for (std::size_t n = 0; n < 9; ++n)
+    EXPECT_NEAR(curve.points[n].speed_rad_s, static_cast<double>(n) * end / 8, 4 * eps * end);
+  for (std::size_t n = 1; n < 9; ++n)
+    EXPECT_LT(curve.points[n].shaft_torque_Nm, curve.points[n - 1].shaft_torque_Nm);
+  EXPECT_EQ(curve.limits.size(), 9u);
+  EXPECT_EQ(curve.warming.size(), 9u);
+}
+
+TEST(Curve, ComparesTheNominalPointAtItsTorque) {
+  const Curve curve = whole(request(3));
+  ASSERT_TRUE(curve.nominal && curve.nominal->at_torque && curve.nominal->at_speed);
+  EXPECT_NEAR(*curve.nominal->speed_rad_s, 5240 * base::pi / 30, 1e-12);
+  EXPECT_NEAR(*curve.nominal->torque_Nm, 83.4e-3, 1e-17);
+  EXPECT_EQ(*curve.nominal->current_A, 2.33);
+  EXPECT_EQ(curve.nominal->at_speed->speed_rad_s, *curve.nominal->speed_rad_s);
+  EXPECT_NEAR(curve.nominal->at_torque->shaft_torque_Nm, 83.4e-3, 1e-12);
+  // 12 % of torque are missing at the speed, 3.5 % of speed at the torque: the same difference.
+  const double slower = curve.nominal->at_torque->speed_rad_s / *curve.nominal->speed_rad_s - 1;
+  EXPECT_LT(curve.nominal->at_speed->shaft_torque_Nm, 0.89 * 83.4e-3);
+  EXPECT_GT(slower, -0.04);
+  EXPECT_LT(slower, 0.0);
+  CurveRequest silent = request(3);
+  silent.sheet.nominal_speed_rpm.reset();
+  EXPECT_FALSE(whole(silent).nominal->at_speed);
+  silent.sheet.nominal_torque_mNm.reset();
+  EXPECT_FALSE(whole(silent).nominal);
+  CurveRequest weak = request(3);
+  weak.sheet.nominal_torque_mNm->value = 800;
+  EXPECT_FALSE(whole(weak).nominal->at_torque) << "beyond stall";
+}
+
+TEST(Curve, TellsTheSheetsGradientFromItsTwoPoints) {
+  CurveRequest r = request(3);
+  r.sheet.no_load_speed_rpm = base::Quantity{6710, "", ""};
+  r.sheet.speed_torque_gradient_rpm_mNm = base::Quantity{8.8, "", ""};
+  const Curve curve = whole(r);
+  const analysis::SpeedDrop d = analysis::speed_drop(r, curve);
+  const double per_mNm = base::pi / 30 * 1e3;
+  EXPECT_NEAR(d.ideal, 1.03 / (0.0335 * 0.0335), 1e-9);
+  EXPECT_NEAR(*d.printed, 8.8 * per_mNm, 1e-9);
+  EXPECT_NEAR(*d.sheet, (6710 - 5240) / 83.4 * per_mNm, 1e-9);
+  // Both twice the gradient: commutation takes the same whoever measures.
+  EXPECT_GT(*d.curve, 2 * d.ideal);
+  EXPECT_NEAR(*d.curve, *d.sheet, 0.15 * *d.sheet);
+}
+
+TEST(Curve, TheBestEfficiencyIsAMaximumWhateverPointsAreShown) {
+  const CurveRequest r = request(3);
+  const analysis::OperatingPoint best = *whole(r).marks.best_efficiency;
+  EXPECT_EQ(best.speed_rad_s, whole(request(41)).marks.best_efficiency->speed_rad_s);
+  for (const analysis::OperatingPoint& p : whole(request(41)).points)
+    EXPECT_LE(p.efficiency.value_or(0.0), *best.efficiency);
+  for (const double beside : {0.999, 1.001}) {
+    const auto p = analysis::operating_point(r.bench, beside * best.speed_rad_s);
+    EXPECT_LT(*p->efficiency, *best.efficiency);
+    EXPECT_GT(*p->efficiency, *best.efficiency - 1e-4);
+  }
+}
+
+TEST(Curve, ForEverBeginsWhereTheWindingComesToItsLimit) {
+  const CurveRequest r = request(3);
+  const Curve curve = whole(r);
+  ASSERT_TRUE(curve.marks.for_ever);
+  const analysis::OperatingPoint& from = *curve.marks.for_ever;
+  EXPECT_NEAR(design::steady_temperatures(*curve.thermal, {from.copper_W, from.friction_W, 25})->winding_degC,
+              125, 1e-5);
+  EXPECT_EQ(from.speed_rad_s, whole(request(41)).marks.for_ever->speed_rad_s);
+  CurveRequest hot = request(3);
+  hot.ambient_degC = 120;
+  EXPECT_FALSE(whole(hot).marks.for_ever) << "friction alone takes it beyond";
+  CurveRequest cooled = request(3);
+  cooled.sheet.thermal_resistance_housing_ambient_K_W->value = 1e-3;
+  cooled.sheet.thermal_resistance_winding_housing_K_W->value = 1e-3;
+  EXPECT_EQ(whole(cooled).marks.for_ever->speed_rad_s, 0.0);
+}
+
+TEST(Curve, MarksOfAChoppedOneLieWithinItsPrecision) {
+  CurveRequest r = request(3);
+  r.bench.duty = 0.6;
+  r.bench.chopping = control::Chopping::complementary;
+  const Curve curve = whole(r);
+  ASSERT_TRUE(curve.marks.best_efficiency && curve.marks.nominal);
+  const double whole_rad_s = curve.no_load.point.speed_rad_s;
+  const analysis::OperatingPoint& nominal = *curve.marks.nominal;
+  const double steepest = curve.points.front().shaft_torque_Nm / whole_rad_s * 2;
+  EXPECT_NEAR(nominal.shaft_torque_Nm, 83.4e-3, nominal.half_width_Nm + steepest * 1e-4 * whole_rad_s);
+  for (const double beside : {0.97, 1.03})
+    EXPECT_LT(
+        *analysis::operating_point(r.bench, beside * curve.marks.best_efficiency->speed_rad_s)->efficiency,
+        *curve.marks.best_efficiency->efficiency);
+}
+
+TEST(Curve, WithoutThermalLinesSaysWhatIsMissing) {
+  CurveRequest r = request(3);
+  r.sheet.thermal_time_constant_motor_s.reset();
+  const Curve curve = whole(r);
+  EXPECT_FALSE(curve.thermal);
+  EXPECT_TRUE(curve.limits.empty());
+  ASSERT_EQ(curve.thermal_missing.size(), 1u);
+  EXPECT_EQ(curve.thermal_missing[0].where, "thermal_time_constant_motor_s");
+}
+
+TEST(Curve, ContinuousTorqueWarmsTheWindingToItsLimit) {
+  for (const double coulomb : {0.0, 2.46e-3}) {
+    CurveRequest r = request(3);
+    r.bench.motor.shaft.coulomb_Nm = coulomb;
+    r.ambient_degC = 40;
+    const design::ThermalModel model = *design::thermal_model(r.sheet);
+    double before = 1e9;
+    for (const double speed : {0.0, 300.0, 700.0}) {
+      const analysis::ThermalLimits limits = analysis::thermal_limits(model, r, speed);
+      const double friction = analysis::friction_Nm(r.bench.motor.shaft, speed);
+      const design::Heating heating{limits.continuous_A * limits.continuous_A * 1.03, friction * speed, 40};
+      EXPECT_NEAR(design::steady_temperatures(model, heating)->winding_degC, 125, 1e-10) << speed;
+      EXPECT_NEAR(limits.continuous_Nm, 0.0335 * limits.continuous_A - friction, 1e-15);
+      EXPECT_LT(limits.continuous_Nm, before);
+      for (std::size_t n = 0; n < analysis::short_times_s.size(); ++n) {
+        const design::Heating brief{limits.short_A[n] * limits.short_A[n] * 1.03, friction * speed, 40};
+        const double t = analysis::short_times_s[n];
+        EXPECT_NEAR(design::temperatures_after(model, brief, {40, 40}, t).winding_degC, 125, 1e-10);
+      }
+      EXPECT_GT(limits.short_Nm[0], limits.short_Nm[1]);
+      EXPECT_GT(limits.short_Nm[1], limits.continuous_Nm);
+      before = limits.continuous_Nm;
+    }
+  }
+}
+
+TEST(Curve, APointHeldTooLongOverheats) {
+  const Curve curve = whole(request(5));
+  // Stall puts 559 W into 3.7 J/K: below a second. No load is cool for ever.
+  ASSERT_TRUE(curve.warming.front().permissible_s);
+  EXPECT_FALSE(curve.warming.front().winding_degC) << "copper runs away above 1/(a R)";
+  EXPECT_LT(*curve.warming.front().permissible_s, 1.0);
+  EXPECT_FALSE(curve.warming.back().permissible_s);
+  EXPECT_GT(*curve.warming.back().winding_degC, 25);
+  const analysis::OperatingPoint& p = curve.points[1];
+  const design::Heating heating{p.copper_W, p.friction_W, 25};
+  EXPECT_NEAR(design::temperatures_after(*curve.thermal, heating, {25, 25}, *curve.warming[1].permissible_s)
+                  .winding_degC,
+              125, 1e-9);
+}
+
+TEST(Curve, RefusesWhatMakesNone) {
+  const auto refused = [](auto&& change, const char* text) {
+    CurveRequest r = request(3);
+    change(r);
+    const base::Result<CurvePlan> plan = analysis::plan_curve(r);
+    ASSERT_FALSE(plan);
+    EXPECT_EQ(base::to_string(plan.problems()[0]).rfind(text, 0), 0u) << base::to_string(plan.problems()[0]);
+  };
+  refused([](CurveRequest& r) { r.points = 1; }, "points = 1 must be at least 2");
+  refused([](CurveRequest& r) { r.bench.duty = -0.5; }, "duty = -0.5 must be in (0, 1]");
+  refused([](CurveRequest& r) { r.ambient_degC = -300; }, "ambient_degC = -300");
+  refused([](CurveRequest& r) { r.bench.voltage_V = 0; }, "voltage_V = 0 must be above 0");
+  refused([](CurveRequest& r) { r.bench.motor.shaft.coulomb_Nm = 9; }, "duty = 1 gives no torque beyond");
+}
+
+TEST(IdealLine, EndsAtZeroWhereTheCurrentCannotTurnBack) {
+  analysis::Bench b = maxon_bench();
+  b.duty = 0.5;
+  EXPECT_NEAR(analysis::ideal_no_load_rad_s(b), 12 / 0.0335, 1e-12);
+  EXPECT_EQ(analysis::ideal_torque_Nm(b, 500), 0.0);
+  b.chopping = control::Chopping::complementary;
+  EXPECT_NEAR(analysis::ideal_torque_Nm(b, 500), 0.0335 * (12 - 0.0335 * 500) / 1.03, 1e-15);
+  b.chopping = control::Chopping::hard;
+  EXPECT_EQ(analysis::ideal_torque_Nm(b, 0), 0.0);
+  b.duty = 0.75;
+  EXPECT_NEAR(analysis::ideal_torque_Nm(b, 0), 0.0335 * 12 / 1.03, 1e-15);
+}
+
+}  // namespace

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lists of a configuration's fields name every member that there is.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstring>
+
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/design/fields/product_fields.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::control;
+
+/// Leaves zeros where it has been.
+struct Clear {
+  static constexpr bool when_run(bool) { return true; }
+  static constexpr bool when_on(bool) { return true; }
+  void clear(auto& kept) const { std::memset(static_cast<void*>(&kept), 0, sizeof kept); }
+  void flag(const design::Field&, auto, auto& kept) const { clear(kept); }
+  void choice(const design::Field&, auto, auto& kept, auto) const { clear(kept); }
+  void count(const design::Field&, auto, auto& kept, auto) const { clear(kept); }
+  void signal(const design::Field&, double, auto& kept, design::Base) const { clear(kept); }
+  void threshold(const design::Field&, double, auto& kept, design::Base) const { clear(kept); }
+  void gain(const design::Field&, double, auto& kept, design::Ratio) const { clear(kept); }
+  void raw_gain(const design::Field&, double, auto& kept, design::Base) const { clear(kept); }
+  void divisor(const design::Field&, double, auto& kept, design::Base) const { clear(kept); }
+  void sum(const design::Field&, double, auto& kept, design::Base) const { clear(kept); }
+  void ticks(const design::Field&, double, auto& kept, design::Base) const { clear(kept); }
+  void part(const char*, const auto& designed, auto& kept, const auto&... told) const {
+    design::fields(*this, designed, kept, told...);
+  }
+};
+
+#if defined(__GNUC__) && !defined(__clang__)
+
+template <class Config, class Walked>
+void expect_all_walked(const Walked& walked) {
+  Config config;
+  std::memset(static_cast<void*>(&config), 0xff, sizeof config);
+  __builtin_clear_padding(&config);
+  walked(config);
+  std::byte left[sizeof config];
+  std::memcpy(left, static_cast<const void*>(&config), sizeof config);
+  for (std::size_t n = 0; n < sizeof config; ++n) EXPECT_EQ(left[n], std::byte{}) << "byte " << n;
+}
+
+template <class Scalar>
+void expect_every_member() {
+  expect_all_walked<DriveConfig<Scalar>>([](auto& c) { design::fields(Clear{}, DriveConfig<double>{}, c); });
+  expect_all_walked<ProtectedConfig<Scalar>>([](auto& c) {
+    design::fields(Clear{}, DriveConfig<double>{}, c.drive);
+    design::fields(Clear{}, ProtectedConfig<double>{}, c);
+  });
+}
+
+TEST(Fields, AreEveryMemberOfAConfiguration) {
+  expect_every_member<double>();
+  expect_every_member<float>();
+  expect_every_member<Q15>();
+  expect_every_member<Q31>();
+}
+
+#endif
+
+/// What is told of the loops that no mode runs stays as it is; the flags of extras do not matter.
+TEST(Fields, AsFloatTakesThemAll) {
+  DriveConfig<double> d;
+  d.mode = Mode::speed;
+  d.current = {4.25, -3.5, 24.0};
+  d.position_gain = 0.75;
+  d.extras.limits.A_per_V = 5.25;
+  d.extras.speed.K_c = -0.125;
+  DriveConfig<float> f;
+  design::fields(design::AsFloat{}, d, f);
+  EXPECT_EQ(f.mode, Mode::speed);
+  EXPECT_EQ(f.current.d0, -3.5f);
+  EXPECT_EQ(f.position_gain, 0.75f);
+  EXPECT_EQ(f.extras.limits.A_per_V, 5.25f);
+  EXPECT_EQ(f.extras.speed.K_c, -0.125f);
+}
+
+}  // namespace

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Open loop: a voltage vector that turns at constant speed, on the sine machine held at that speed, against
+// its phasor solution. The fundamental of a periodic current is that of the voltage over R + j w L.
+#include <gtest/gtest.h>
+
+#include <complex>
+#include <numbers>
+
+#include "sixstep/base/elementary.hpp"
+#include "sixstep/control/three_phase_pwm.hpp"
+#include "tests/support/three_leg_firmware.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using Complex = std::complex<double>;
+
+constexpr double T = 30e-6, U = 24.0, pi = std::numbers::pi;
+constexpr int periods = 60;  // of the PWM in an electrical turn
+constexpr double w = 2 * pi / (periods * T), start_deg = 20.0;
+
+/// The legs of sample n: a vector of length V, `phase_rad` ahead of phase a at n = 0.
+struct TurningVector {
+  double V = 0.0, phase_rad = 0.0;
+  bool space_vector = true;
+
+  control::LegCommands<double> at(std::uint64_t n) const {
+    const double angle = phase_rad + 2 * pi * static_cast<double>(n % periods) / periods;
+    const control::Direction<double> along{base::cos(angle), base::sin(angle)};
+    const control::Abc<double> v = inverse_clarke(inverse_park(control::Dq<double>{V, 0.0}, along));
+    return space_vector ? control::space_vector(v, U) : control::sine_triangle(v, U);
+  }
+  template <class Real>
+  control::LegCommands<double> operator()(const rig::SampleInstant<Real>& instant, double) const {
+    return at(instant.number);
+  }
+};
+
+/// A shaft of 1e9 kg m2: over the run the machine's torque changes its speed by parts in 1e13.
+Board bench(bool centred) {
+  Board b;
+  b.machine.back_emf = plant::BackEmf::sine;
+  b.shaft.J_kg_m2 = 1e9;
+  b.shaft.B_Nm_s = 0.0;
+  b.start.speed_rad_s = w / b.machine.pole_pairs;
+  b.start.angle_rad = at_electrical_deg(start_deg);
+  b.board.modulator.centre_aligned = centred;
+  return b;
+}
+
+/// (2/turn) integral of i_a exp(-j w t): Gauss' rule of five points a segment, which at w h <= 0.1 and orders
+/// of the current far below ten is exact to rounding.
+struct Fundamental {
+  Complex sum = 0.0;
+  void segment(const auto& rig, double part) {
+    constexpr double node[] = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
+                               0.9061798459386640};
+    constexpr double weight[] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
+                                 0.4786286704993665, 0.2369268850561891};
+    const double h = rig.plant().expansion().h * part;
+    for (int n = 0; n < 5; ++n) {
+      const double at = (1 + node[n]) / 2;
+      const double angle = w * (rig.now().seconds() + at * h);
+      sum += weight[n] / 2 * h * rig.plant().at(at * part).i[0] * Complex(std::cos(angle), -std::sin(angle));
+    }
+  }
+};
+
+/// Turns before the last one: L/R = 0.55 ms leaves exp(-45) of the start.
+constexpr int settling_turns = 14;
+
+Complex current(const Board& b, const TurningVector& vector) {
+  auto rig = three_leg_rig(b, vector);
+  EXPECT_EQ(run_to(rig, settling_turns * periods * T), sim::Stop::end);
+  Fundamental fundamental;
+  EXPECT_EQ(run_to(rig, (settling_turns + 1) * periods * T, fundamental), sim::Stop::end);
+  return fundamental.sum * (2 / (periods * T));
+}
+
+Complex impedance(const Board& b) { return {b.machine.R_ohm, w * b.machine.L_H}; }
+
+/// e_a = K_e w_m cos(theta_e - 60 deg) as a phasor.
+Complex back_emf(const Board& b) {
+  return std::polar(b.machine.K_e_V_s * w / b.machine.pole_pairs, (start_deg - 60.0) * pi / 180.0);
+}
+
+/// The vector as the bridge makes it, without the pulses' shape: each sample stands for a period.
+Complex held(const TurningVector& v) {
+  const double half = w * T / 2;
+  return std::polar(v.V * std::sin(half) / half, v.phase_rad - half);
+}
+
+/// Of the very pulses, phase a against the star point: a pulse of length d T about t_c has (2/turn) U d T
+/// sinc(w d T/2) exp(-j w t_c).
+Complex pulsed(const TurningVector& v, bool centred) {
+  const auto leg = [&](int k) {
+    Complex sum = 0.0;
+    for (int n = 0; n < periods; ++n) {
+      const double d = v.at(static_cast<std::uint64_t>(n)).leg[k].duty, half = w * d * T / 2;
+      if (half > 0)
+        sum += std::polar(d * std::sin(half) / half, -w * (n * T + (centred ? T / 2 : d * T / 2)));
+    }
+    return 2 * U / periods * sum;
+  };
+  return leg(0) - (leg(0) + leg(1) + leg(2)) / 3.0;
+}
+
+/// A centred pulse of d T in place of one of T: its sinc differs by less than (1 - d^2) (w T)^2/24, over a
+/// turn by 2 U d (1 - d^2) <= 0.77 U of that, and by a third more against the star point.
+constexpr double pulse_shape_V = 4.0 / 3.0 * 0.77 * U * w * T * w * T / 24;
+
+/// Solver (6.5e-12 of full scale, ENGINE), quadrature and 45 time constants.
+constexpr double tolerance_A = 1e-10 * 23.3;
+
+TEST(VoltageVector, ItsCurrentIsThatOfThePhasorSolution) {
+  for (const double phase_deg : {-40.0, 10.0, 80.0})
+    for (const bool space_vector : {false, true}) {
+      const TurningVector v{space_vector ? 13.5 : 11.5, phase_deg * pi / 180, space_vector};
+      const Board b = bench(true);
+      const Complex i = current(b, v);
+      EXPECT_LE(std::abs(i - (held(v) - back_emf(b)) / impedance(b)), pulse_shape_V / std::abs(impedance(b)));
+      EXPECT_GT(std::abs(i), 4.0) << "beside a bound of 10 mA";
+    }
+}
+
+TEST(VoltageVector, ItsCurrentIsThatOfItsPulsesToRounding) {
+  for (const bool centred : {false, true})
+    for (const bool space_vector : {false, true})
+      for (const double V : {5.0, 11.9, 13.8, 15.5, 30.0}) {  // up to U/2, to U/sqrt 3, and beyond both
+        SCOPED_TRACE(::testing::Message() << centred << space_vector << " " << V);
+        const TurningVector v{V, 0.3, space_vector};
+        const Board b = bench(centred);
+        const Complex i = current(b, v);
+        EXPECT_LE(std::abs(i - (pulsed(v, centred) - back_emf(b)) / impedance(b)), tolerance_A);
+      }
+}
+
+/// A period later: turned back by w T, and not a bit longer.
+TEST(VoltageVector, ADelayOfOnePeriodTurnsTheVoltageBackByOneSample) {
+  const TurningVector v{12.0, 0.3};
+  Board b = bench(true);
+  b.board.delayed = true;
+  const Complex voltage = pulsed(v, true) * std::polar(1.0, -w * T);
+  EXPECT_LE(std::abs(current(b, v) - (voltage - back_emf(b)) / impedance(b)), tolerance_A);
+}
+
+/// What the bridge makes of a vector of length V: undistorted up to U_s/2 and U_s/sqrt 3, short of it beyond.
+TEST(VoltageVector, SpaceVectorReachesUOverRoot3AndSineTriangleHalfOfU) {
+  const auto made = [](double V, bool space_vector) {
+    const Board b = bench(true);
+    const TurningVector v{V, 0.3, space_vector};
+    return std::abs(current(b, v) * impedance(b) + back_emf(b)) / std::abs(held(v));
+  };
+  const double root3 = U / std::numbers::sqrt3;
+  EXPECT_NEAR(made(0.999 * U / 2, false), 1.0, pulse_shape_V / (0.999 * U / 2));
+  EXPECT_NEAR(made(0.999 * root3, true), 1.0, pulse_shape_V / (0.999 * root3));
+  EXPECT_LT(made(root3, false), 0.95);
+  EXPECT_LT(made(1.2 * root3, true), 0.95);
+}
+
+}  // namespace

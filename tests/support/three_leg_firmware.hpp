@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Controllers that answer three legs, on the virtual board: a function of what a tick is given.
+#pragma once
+#include "sixstep/rig/rig.hpp"
+#include "tests/support/board.hpp"
+
+namespace sixstep::testing {
+
+/// Controller: LegCommands<double> operator()(instant, setpoint), with whatever it keeps.
+template <class Controller>
+class ThreeLegFirmware {
+ public:
+  using Number = double;
+  using Config = Controller;
+  using Command = control::LegCommands<double>;
+  static constexpr bool fault_ends_run = true;
+
+  ThreeLegFirmware(const Controller& controller, const rig::BoardConfig&, const rig::PowerUp&)
+      : controller_(controller) {}
+
+  template <class Real>
+  Command tick(const rig::SampleInstant<Real>& instant, double setpoint) {
+    return controller_(instant, setpoint);
+  }
+  void captured(std::uint8_t, const sim::Instant&) {}
+  void request_run(bool) {}
+  void request_clear() {}
+  void retune(const rig::Tuning<Config>&) {}
+  bool open_loop() const { return false; }
+  bool follows_setpoint_at_once() const { return false; }
+
+ private:
+  Controller controller_;
+};
+
+template <class Controller>
+using ThreeLegRig = rig::Rig<double, ThreeLegFirmware<Controller>>;
+
+/// The timeline lives in `b`.
+template <class Controller>
+ThreeLegRig<Controller> three_leg_rig(const Board& b, const Controller& controller) {
+  return ThreeLegRig<Controller>(b.plant(), controller, b.board, b.timeline);
+}
+
+/// The same legs in every period.
+struct HeldLegs {
+  control::LegCommands<double> legs;
+
+  template <class Real>
+  control::LegCommands<double> operator()(const rig::SampleInstant<Real>&, double) const {
+    return legs;
+  }
+};
+
+inline control::LegCommands<double> complementary(double a, double b, double c) {
+  constexpr control::LegState pwm = control::LegState::pwm;
+  constexpr control::PwmSwitches both = control::PwmSwitches::complementary;
+  return {.enabled = true, .leg = {{pwm, both, a}, {pwm, both, b}, {pwm, both, c}}};
+}
+
+}  // namespace sixstep::testing
