@@ -101,10 +101,20 @@ Outcome sliced(const Scenario& s, const Listeners& listeners = {}) {
   return closed(session);
 }
 
+/// A drive that its arithmetic cannot hold is refused by a run and a session alike.
+bool can_run(const Scenario& s) {
+  const auto session = Session::open(s);
+  EXPECT_EQ(bool(session), bool(run(s)));
+  return bool(session);
+}
+
 TEST(Session, SlicesHaveTheBitsOfTheUncutRunInEveryFirmwareAndArithmetic) {
+  int examined = 0;
   for (Scenario s : each())
     for (const auto& arithmetic : arithmetic_choices) {
       s.control.arithmetic = arithmetic.value;
+      if (!can_run(s)) continue;
+      ++examined;
       ask(s, measure(MetricKind::rms, Signal::current));
       ask(s, measure(MetricKind::maximum, Signal::speed));
       const Outcome whole = outcome(s), parts = sliced(s);
@@ -118,6 +128,7 @@ TEST(Session, SlicesHaveTheBitsOfTheUncutRunInEveryFirmwareAndArithmetic) {
       for (std::size_t n = 0; n < whole.events.size(); ++n)
         EXPECT_EQ(parts.events[n].count, whole.events[n].count) << whole.events[n].event;
     }
+  EXPECT_GE(examined, 24);
 }
 
 TEST(Session, ListenersHearTheSame) {
@@ -139,7 +150,7 @@ TEST(Session, ListenersHearTheSame) {
 /// What a grid records of the uncut run, at instants between any two events.
 TEST(Session, ShowsTheInstantAskedForWithoutCuttingASegment) {
   Scenario s = cascade();
-  s.record.grid_s = 7.3e-6;
+  s.record.grid_s = 7.301e-6;  // never on a PWM edge
   for (const Column& c : all_columns()) s.record.columns.push_back(c.name);
   s.record.columns.erase(s.record.columns.begin());
   std::vector<std::vector<double>> rows;
@@ -207,6 +218,7 @@ TEST(Session, WhatItWasToldReplaysInEveryFirmwareAndArithmetic) {
   for (Scenario s : each())
     for (const auto& arithmetic : arithmetic_choices) {
       s.control.arithmetic = arithmetic.value;
+      if (!can_run(s)) continue;
       SCOPED_TRACE(std::string(base::word(mode_choices, s.control.mode)) + " " +
                    std::string(arithmetic.word));
       Session session = opened(s);
@@ -221,7 +233,7 @@ TEST(Session, WhatItWasToldReplaysInEveryFirmwareAndArithmetic) {
       dead.pwm.chopping = AtChopping::complementary;
       told(session, dead);
       session.advance(3.456e-3);
-      if (s.control.mode == Mode::speed) told(session, gains(1.5e-3));
+      (void)session.change(gains(1.5e-3));  // a hysteresis has none
       session.advance(4e-3);
       session.advance(s.duration_s);
       EXPECT_TRUE(session.over());
