@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The PWM timer of the board: three compare units that make pulses, and three legs, each on one of them with
 // a dead time of its own (model.md 11). A leg says which switch it has on within the pulse and which in the
-// rest of the period. Who drives it fills all three: six_step.hpp from a pair and one duty, three_legs.hpp
-// from three commands.
+// rest of the period. six_step_modulator.hpp fills all three from a pair and one duty,
+// three_leg_modulator.hpp from three commands.
 #pragma once
 #include <array>
 

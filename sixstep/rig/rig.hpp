@@ -147,11 +147,13 @@ sim::Instant Rig<Real, Firmware>::next_due() const {
 template <class Real, class Firmware>
 bool Rig<Real, Firmware>::act() {
   ticked_ = false;
+  // mutant: now_ < due_ && !moved_ && !watching() => now_ < due_ && !watching()
   if (now_ < due_ && !moved_ && !watching()) return true;
   if (moved_) due_ = next_due();
   moved_ = false;
   do {
     while (fault_ == Fault::none && !(now_ < due_)) {
+      // mutant: !do_timeline() && !do_tick() => !do_tick() && !do_timeline()
       if (!do_timeline() && !do_tick() && modulator_.act(now_)) count(EventKind::pwm_edge);
       due_ = next_due();
     }
@@ -185,6 +187,7 @@ void Rig<Real, Firmware>::control_step(bool starts_period) {
   if constexpr (six_step) reversed = firmware_.reversed();
   if (board_.delayed) {
     std::swap(command, pending_);
+    // mutant: std::swap(reversed, pending_reversed_); => nothing
     std::swap(reversed, pending_reversed_);
   }
   if (board_.sampled_in_middle) {
@@ -209,6 +212,7 @@ void Rig<Real, Firmware>::let_go() {
 /// simulated.
 template <class Real, class Firmware>
 void Rig<Real, Firmware>::skip_idle_ticks() {
+  // mutant: moving_ => false
   if (!firmware_.open_loop() || moving_ || board_.delayed || board_.commutate_at_sample ||
       !modulator_.steady())
     return;
@@ -218,6 +222,7 @@ void Rig<Real, Firmware>::skip_idle_ticks() {
   if (n == timeline_.size() && next_tick_ > now_) {
     next_tick_ = sim::Instant::never();
   } else if (n < timeline_.size() && timeline_[n].at > now_) {
+    // mutant: (timeline_[n].at.ticks + period - 1) / period * period => (timeline_[n].at.ticks + period) / period * period
     const std::int64_t due = (timeline_[n].at.ticks + period - 1) / period * period;
     if (next_tick_ > now_) next_tick_ = {due, 0.0};
   }

@@ -137,16 +137,18 @@ TEST(ThreeLegs, ALegThatIsOffFloatsAndCarriesNothing) {
   EXPECT_EQ(rig.plant().state().i[2], 0.0);
 }
 
+/// Ten periods, then off.
+struct TenPeriods {
+  template <class Real>
+  control::LegCommands<double> operator()(const rig::SampleInstant<Real>& instant, double) const {
+    return instant.number < 10 ? complementary(0.9, 0.1, 0.5) : control::LegCommands<double>{};
+  }
+};
+
 /// Let go by all legs the currents run back through the diodes: L di/dt = -U against both, until they end.
 TEST(ThreeLegs, TurningOffLetsTheCurrentsEndInTheDiodes) {
-  struct Once {
-    template <class Real>
-    control::LegCommands<double> operator()(const rig::SampleInstant<Real>& instant, double) const {
-      return instant.number < 10 ? complementary(0.9, 0.1, 0.5) : control::LegCommands<double>{};
-    }
-  };
   Board b = locked_at(10.0);
-  auto rig = three_leg_rig(b, Once{});
+  auto rig = three_leg_rig(b, TenPeriods{});
   ASSERT_EQ(run_to(rig, 10 * T), sim::Stop::end);
   EXPECT_GT(rig.plant().state().i[0], 5.0);
   ASSERT_EQ(run_to(rig, 40 * T), sim::Stop::end);
