@@ -32,6 +32,7 @@ struct DriveConfig {
   Scalar speed_limit_rad_s{};    ///< of the reference a position loop gives
   SpeedControl speed_control = SpeedControl::cascade;
   DriveExtras<Scalar> extras{};
+  bool operator==(const DriveConfig&) const = default;
 };
 
 template <class Scalar>

@@ -13,6 +13,7 @@ namespace sixstep::control {
 template <class Scalar>
 struct FeedForwardConfig {
   Gain<Scalar> K_t_V_s{};  ///< V per mechanical rad/s, terminal: the torque constant's number
+  bool operator==(const FeedForwardConfig&) const = default;
 };
 
 template <class Scalar>
@@ -24,6 +25,7 @@ constexpr Scalar back_emf_voltage(const FeedForwardConfig<Scalar>& config, Scala
 template <class Scalar>
 struct BusCompensationConfig {
   Scalar lowest_bus_V{};  ///< divides by this where the measurement is lower (a lost sensor); 0: off
+  bool operator==(const BusCompensationConfig&) const = default;
 };
 
 /// Duty -1..1 for a voltage between the driven terminals.

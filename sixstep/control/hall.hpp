@@ -35,6 +35,7 @@ struct HallConfig {
   /// A new code counts when it stood this many samples in a row. It delays each edge by so many samples less
   /// one; 0 counts as 1. In an interrupt, where the first reading counts, leave it at 1.
   std::uint8_t stable_samples = 1;
+  bool operator==(const HallConfig&) const = default;
 };
 
 struct HallState {

@@ -12,6 +12,7 @@ template <class Scalar>
 struct HysteresisConfig {
   Scalar band_A{};             ///< h, half the width of the band
   Watch watch = Watch::motor;  ///< what the board's comparators look at; Watch::none: sampled here, on i_m
+  bool operator==(const HysteresisConfig&) const = default;
 };
 
 template <class Scalar>

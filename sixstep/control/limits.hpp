@@ -40,6 +40,7 @@ struct LimitsConfig {
   bool limits_regeneration = false;
   Scalar bus_V{};          ///< U_limit
   Gain<Scalar> A_per_V{};  ///< g: full braking current down to current_A/g below the limit
+  bool operator==(const LimitsConfig&) const = default;
 };
 
 /// The references that are allowed, low <= 0 <= high.

@@ -25,6 +25,7 @@ struct OneShuntConfig {
   Scalar least_duty = one<Scalar>;       ///< (delay of the sample + settling)/T_s; visible strictly above
   std::uint8_t commutation_samples = 0;  ///< longest commutation that is corrected for
   Scalar fade{};                         ///< of the kept value per hidden tick: exp(-T_s R/L), 1 holds it
+  bool operator==(const OneShuntConfig&) const = default;
 };
 
 template <class Scalar>

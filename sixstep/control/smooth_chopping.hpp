@@ -19,6 +19,7 @@ template <class Scalar>
 struct SmoothChoppingConfig {
   Scalar soft_above_A{};
   Scalar complementary_below_A{};  ///< below soft_above_A
+  bool operator==(const SmoothChoppingConfig&) const = default;
 };
 
 template <class Scalar>

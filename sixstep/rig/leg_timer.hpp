@@ -27,6 +27,9 @@ class LegTimer {
   /// As it stands before anything happens: that is no turn-on.
   void preset_pulse(unsigned pulse, bool on) { pulses_[pulse].on = on; }
 
+  /// Of the changes from now on; what waits already waits as long as it was told.
+  void set_dead_time(double ticks) { dead_ticks_ = config_.in_counts(ticks); }
+
   /// All legs off; the pulses go on.
   void disconnect() { outputs_ = {}; }
   void connect(unsigned leg, control::LegSides sides, unsigned pulse) {

@@ -44,6 +44,7 @@ class SixStepModulator {
     fill_legs(t, entered);
   }
   void turn_off(const sim::Instant& t);
+  void set_dead_time(double ticks) { timer_.set_dead_time(ticks); }
 
   const sim::Instant& next_edge() const { return timer_.next_edge(); }
   /// Does the edges due at `now`; false where none was.
