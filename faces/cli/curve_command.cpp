@@ -22,7 +22,7 @@
 #include "text/results/curve_columns.hpp"
 #include "text/results/curve_json.hpp"
 #include "text/results/curve_table.hpp"
-#include "text/scenario/scenario_file.hpp"
+#include "files/scenario_on_disk.hpp"
 
 namespace cli {
 namespace {
@@ -110,7 +110,7 @@ std::string option_of(std::string member) {
 }
 
 base::Result<analysis::CurveRequest> request_of(const CurveArguments& a) {
-  const base::Result<design::Sheet> sheet = text::read_sheet(a.motor, a.data_dir);
+  const base::Result<design::Sheet> sheet = files::read_sheet(a.motor, a.data_dir);
   if (!sheet) return sheet.problems();
   base::Result<design::MotorModel> motor = design::motor_model(*sheet);
   if (!motor) {

@@ -18,7 +18,7 @@
 #include "tests/export/headers.hpp"
 #include "text/export/config_header.hpp"
 #include "text/export/config_text.hpp"
-#include "text/scenario/scenario_file.hpp"
+#include "files/scenario_on_disk.hpp"
 
 namespace {
 
@@ -27,7 +27,7 @@ using namespace sixstep::control;
 
 study::Scenario shipped(const std::string& name) {
   const std::string path = std::string(SIXSTEP_SOURCE_DIR) + "/data/scenarios/" + name + ".toml";
-  const auto scenario = text::read_scenario(path);
+  const auto scenario = files::read_scenario(path);
   if (!scenario) ADD_FAILURE() << to_string(scenario.problems()[0]);
   return scenario ? *scenario : study::Scenario{};
 }
