@@ -5,9 +5,9 @@
 #include <string>
 
 #include "benchmarks/yardstick.hpp"
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/sim/run.hpp"
 #include "sixstep/study/compile/compile.hpp"
-#include "files/scenario_on_disk.hpp"
 
 namespace benchmarks {
 

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "files/text_file.hpp"
 #include "sixstep/base/written.hpp"
 #include "text/escape/escape.hpp"
-#include "files/text_file.hpp"
 
 namespace files {
 namespace {

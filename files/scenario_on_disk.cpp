@@ -60,8 +60,8 @@ base::Result<study::Scenario> read_scenario(const std::string& path, const ReadO
 
 base::Result<study::Scenario> read_scenario_text(const std::string& path, std::string text,
                                                  const ReadOptions& options) {
-  return text::read_scenario_text(
-      path, std::move(text), {.overrides = options.overrides, .resolve = on_disk(options.data_dir)});
+  return text::read_scenario_text(path, std::move(text),
+                                  {.overrides = options.overrides, .resolve = on_disk(options.data_dir)});
 }
 
 base::Result<design::Sheet> read_sheet(const std::string& name, const std::string& data_dir) {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "sixstep/base/result.hpp"
 #include "files/rooms.hpp"
+#include "sixstep/base/result.hpp"
 
 namespace files {
 

@@ -18,7 +18,7 @@ base::Result<NamedText> find_text(const Resolve& resolve, const Naming& naming) 
 Resolve among(std::vector<NamedText> texts) {
   return [texts = std::move(texts)](const Naming& naming) -> base::Result<NamedText> {
     const std::string name = beside(naming.from, naming.name);
-    const auto found = std::ranges::find_if(texts, [&](const NamedText& text) {
+    const auto found = std::find_if(texts.begin(), texts.end(), [&](const NamedText& text) {
       return text.name == name || (naming.kind == Naming::Kind::motor && text.name == name + ".toml");
     });
     if (found == texts.end()) return base::Problem{.where = name};
@@ -40,7 +40,8 @@ std::string beside(std::string_view from, std::string_view name) {
       parts.push_back(part);
   }
   std::string path;
-  for (const std::string_view part : parts) path.append(path.empty() && !joined.starts_with('/') ? "" : "/").append(part);
+  for (const std::string_view part : parts)
+    path.append(path.empty() && !joined.starts_with('/') ? "" : "/").append(part);
   return path;
 }
 

@@ -23,8 +23,8 @@ struct Naming {
   std::string from;  ///< of the text that names it; empty: nobody's
 };
 
-/// The text that is meant. A Problem's `where` is where it was looked for; its `limit` says what keeps it from
-/// being read, and is empty where nothing is there. An empty Resolve finds nothing.
+/// The text that is meant. A Problem's `where` is where it was looked for; its `limit` says what keeps it
+/// from being read, and is empty where nothing is there. An empty Resolve finds nothing.
 using Resolve = std::function<base::Result<NamedText>(const Naming&)>;
 
 /// The text, or a Problem to be told at the name that leads nowhere.

@@ -12,6 +12,7 @@
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
+#include "files/scenario_on_disk.hpp"
 #include "files/trace/csv_writer.hpp"
 #include "report/curve_page.hpp"
 #include "sixstep/study/check/check.hpp"
@@ -22,7 +23,6 @@
 #include "text/results/curve_columns.hpp"
 #include "text/results/curve_json.hpp"
 #include "text/results/curve_table.hpp"
-#include "files/scenario_on_disk.hpp"
 
 namespace cli {
 namespace {

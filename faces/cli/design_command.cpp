@@ -13,6 +13,7 @@
 #include "faces/cli/written_twice.hpp"
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
+#include "files/scenario_on_disk.hpp"
 #include "files/trace/model_export.hpp"
 #include "report/design_page.hpp"
 #include "sixstep/analysis/verify/design_study.hpp"
@@ -23,7 +24,6 @@
 #include "text/keys/key_advice.hpp"
 #include "text/results/design_json.hpp"
 #include "text/results/design_text.hpp"
-#include "files/scenario_on_disk.hpp"
 #include "text/scenario/scenario_text.hpp"
 
 namespace cli {

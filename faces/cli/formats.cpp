@@ -35,10 +35,7 @@ base::Result<files::Sink> report_sink(const files::Destination& to, const study:
 std::string report_foretold(const study::Scenario& scenario) { return report::rows_foretold(scenario); }
 
 constexpr Format list[] = {
-    {.option = "--csv",
-     .meaning = "write the recorded trace",
-     .open = files::csv_sink,
-     .in_folder = ".csv"},
+    {.option = "--csv", .meaning = "write the recorded trace", .open = files::csv_sink, .in_folder = ".csv"},
     {.option = "--mat",
      .meaning = "write the trace for MATLAB, Octave and scipy: MAT 5",
      .open = files::mat_sink,

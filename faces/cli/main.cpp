@@ -21,8 +21,8 @@
 #include "faces/cli/run_command.hpp"
 #include "faces/cli/schema_command.hpp"
 #include "faces/cli/terminal.hpp"
-#include "text/escape/escape.hpp"
 #include "files/text_file.hpp"
+#include "text/escape/escape.hpp"
 
 namespace cli {
 namespace {

@@ -9,11 +9,11 @@
 
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/terminal.hpp"
+#include "files/scenario_on_disk.hpp"
 #include "text/escape/escape.hpp"
 #include "text/motor/motor_library.hpp"
 #include "text/motor/motor_template.hpp"
 #include "text/motor/motor_text.hpp"
-#include "files/scenario_on_disk.hpp"
 
 namespace cli {
 namespace {

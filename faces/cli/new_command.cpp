@@ -11,11 +11,11 @@
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/analysis/verify/first_scenario.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
 #include "text/scenario/json_schema.hpp"
-#include "files/scenario_on_disk.hpp"
 #include "text/scenario/starter_scenario.hpp"
 
 namespace cli {

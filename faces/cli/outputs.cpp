@@ -60,9 +60,9 @@ base::Problems Outputs::open(const OutputPaths& paths, const study::Scenario& sc
     const Format& format = formats()[n];
     const std::string& path = paths.of_formats[n];
     if (path.empty()) continue;
-    base::Result<files::Sink> sink = is_stdout(format, path)
-                                         ? stdout_sink(format)
-                                         : format.open(files::Destination(path, paths.force), scenario, origin);
+    base::Result<files::Sink> sink =
+        is_stdout(format, path) ? stdout_sink(format)
+                                : format.open(files::Destination(path, paths.force), scenario, origin);
     if (sink)
       open_.push_back({format.option, is_stdout(format, path) ? "" : path, std::move(*sink)});
     else
@@ -92,7 +92,8 @@ std::string Outputs::foretold(const OutputPaths& paths, const study::Scenario& s
 }
 
 bool Outputs::failed() const {
-  return std::ranges::any_of(open_, [](const Open& output) { return output.sink.failed && output.sink.failed(); });
+  return std::ranges::any_of(open_,
+                             [](const Open& output) { return output.sink.failed && output.sink.failed(); });
 }
 
 base::Problems Outputs::publish(const files::RunStory& story, bool whole) {

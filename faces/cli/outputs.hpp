@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The outputs of one run in every format that was asked for: opened before it begins, filled while it goes on,
-// put in place at its end.
+// The outputs of one run in every format that was asked for: opened before it begins, filled while it goes
+// on, put in place at its end.
 #pragma once
 #include <string>
 #include <string_view>
@@ -14,7 +14,7 @@ namespace cli {
 
 struct OutputPaths {
   std::vector<std::string> of_formats = std::vector<std::string>(formats().size());  ///< empty: not wanted
-  bool force = false;                                                                ///< over whatever is there
+  bool force = false;  ///< over whatever is there
 
   const std::string& of(std::string_view option) const;
   /// Each that is wanted with its option, standard output left out.

@@ -10,9 +10,9 @@
 #include "faces/cli/compare_command.hpp"
 #include "faces/cli/settings.hpp"
 #include "faces/cli/written_twice.hpp"
-#include "sixstep/study/scenario/spread.hpp"
 #include "files/scenario_on_disk.hpp"
 #include "files/text_file.hpp"
+#include "sixstep/study/scenario/spread.hpp"
 
 namespace cli {
 namespace {

@@ -6,7 +6,7 @@
 namespace cli {
 
 files::ReadOptions read_options(const std::string& data_dir, const std::vector<std::string>& sets,
-                               base::Problems& problems) {
+                                base::Problems& problems) {
   files::ReadOptions options{.data_dir = data_dir, .overrides = {}};
   for (const std::string& set : sets) {
     const std::size_t cut = set.find('=');

@@ -11,6 +11,6 @@ namespace cli {
 
 /// "--set table.key=value" for each word; what is none is a Problem.
 files::ReadOptions read_options(const std::string& data_dir, const std::vector<std::string>& sets,
-                               base::Problems& problems);
+                                base::Problems& problems);
 
 }  // namespace cli

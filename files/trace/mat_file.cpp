@@ -29,9 +29,9 @@ std::vector<std::uint16_t> utf16(const std::string& text) {
 MatFile::MatFile(const Matio& library, const std::string& path, MatVersion version)
     : matio_(library),
       file_(matio_.CreateVer(path.c_str(),
-                          version == MatVersion::v5 ? "MATLAB 5.0 MAT-file, sixstep " SIXSTEP_VERSION
-                                                    : "MATLAB 7.3 MAT-file, sixstep " SIXSTEP_VERSION,
-                          version == MatVersion::v5 ? MAT_FT_MAT5 : MAT_FT_MAT73),
+                             version == MatVersion::v5 ? "MATLAB 5.0 MAT-file, sixstep " SIXSTEP_VERSION
+                                                       : "MATLAB 7.3 MAT-file, sixstep " SIXSTEP_VERSION,
+                             version == MatVersion::v5 ? MAT_FT_MAT5 : MAT_FT_MAT73),
             matio_.Close),
       good_(file_ != nullptr) {}
 

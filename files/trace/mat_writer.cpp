@@ -6,10 +6,10 @@
 #include <array>
 #include <cerrno>
 
+#include "files/text_file.hpp"
 #include "files/trace/mat_file.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/measure/trace.hpp"
-#include "files/text_file.hpp"
 
 namespace files {
 namespace {

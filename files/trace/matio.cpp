@@ -25,13 +25,12 @@ base::Result<Matio> load_matio(const std::string& name) {
   void* library = ::dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) return not_loaded();
   Matio m;
-  const bool whole = find(library, "Mat_CreateVer", m.CreateVer) && find(library, "Mat_Close", m.Close) &&
-                     find(library, "Mat_VarCreate", m.VarCreate) &&
-                     find(library, "Mat_VarCreateStruct", m.VarCreateStruct) &&
-                     find(library, "Mat_VarFree", m.VarFree) &&
-                     find(library, "Mat_VarSetStructFieldByName", m.VarSetStructFieldByName) &&
-                     find(library, "Mat_VarWrite", m.VarWrite) &&
-                     find(library, "Mat_VarWriteAppend", m.VarWriteAppend);
+  const bool whole =
+      find(library, "Mat_CreateVer", m.CreateVer) && find(library, "Mat_Close", m.Close) &&
+      find(library, "Mat_VarCreate", m.VarCreate) &&
+      find(library, "Mat_VarCreateStruct", m.VarCreateStruct) && find(library, "Mat_VarFree", m.VarFree) &&
+      find(library, "Mat_VarSetStructFieldByName", m.VarSetStructFieldByName) &&
+      find(library, "Mat_VarWrite", m.VarWrite) && find(library, "Mat_VarWriteAppend", m.VarWriteAppend);
   if (!whole) return not_loaded();
   return m;
 }

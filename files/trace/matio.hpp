@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// libmatio, loaded when the first MAT file is asked for. Linked to the program, it and the HDF5 behind it took
-// two thirds of the time that a short run takes as a whole.
+// libmatio, loaded when the first MAT file is asked for. Linked to the program, it and the HDF5 behind it
+// took two thirds of the time that a short run takes as a whole.
 #pragma once
 #include <matio.h>
 
@@ -23,7 +23,8 @@ struct Matio {
   decltype(&::Mat_VarWriteAppend) VarWriteAppend = nullptr;
 };
 
-/// A Problem where the library is not there or lacks a function; its `where` is left to whoever wants to write.
+/// A Problem where the library is not there or lacks a function; its `where` is left to whoever wants to
+/// write.
 base::Result<Matio> load_matio(const std::string& library);
 
 /// The one that the program was compiled for, loaded once and for good.

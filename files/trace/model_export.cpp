@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "files/text_file.hpp"
 #include "files/trace/mat_file.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/thesis/thesis_models.hpp"
-#include "files/text_file.hpp"
 
 namespace files {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One output of a run, whatever its format: opened before the run begins, filled while it goes on, put in place
-// at its end.
+// One output of a run, whatever its format: opened before the run begins, filled while it goes on, put in
+// place at its end.
 #pragma once
 #include <functional>
 #include <string>

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/design/loops/pole_placement.hpp"
 #include "sixstep/design/scaling/product_scaling.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
@@ -18,7 +19,6 @@
 #include "tests/export/headers.hpp"
 #include "text/export/config_header.hpp"
 #include "text/export/config_text.hpp"
-#include "files/scenario_on_disk.hpp"
 
 namespace {
 

@@ -11,10 +11,10 @@
 #include <sstream>
 
 #include "files/atomic_file.hpp"
+#include "files/text_file.hpp"
 #include "files/trace/csv_writer.hpp"
 #include "files/trace/mat_writer.hpp"
 #include "sixstep/study/measure/trace.hpp"
-#include "files/text_file.hpp"
 
 namespace files {
 namespace {

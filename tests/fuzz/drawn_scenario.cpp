@@ -3,13 +3,13 @@
 
 #include <map>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "tests/fuzz/draw.hpp"
 #include "tests/fuzz/drawn_parts.hpp"
 #include "text/motor/motor_library.hpp"
-#include "files/scenario_on_disk.hpp"
 #include "text/scenario/scenario_text.hpp"
 
 namespace sixstep::testing {

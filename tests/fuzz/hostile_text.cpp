@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "files/text_file.hpp"
 #include "tests/fuzz/draw.hpp"
 #include "tests/fuzz/drawn_scenario.hpp"
 #include "tests/fuzz/hostile_literals.hpp"
 #include "text/keys/key_catalog.hpp"
-#include "files/text_file.hpp"
 
 namespace sixstep::testing {
 namespace {

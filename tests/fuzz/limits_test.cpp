@@ -9,11 +9,11 @@
 #include <cstdio>
 #include <vector>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "tests/fuzz/draw.hpp"
 #include "text/motor/motor_library.hpp"
-#include "files/scenario_on_disk.hpp"
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/run/run.hpp"
@@ -15,7 +16,6 @@
 #include "tests/fuzz/drawn_scenario.hpp"
 #include "tests/fuzz/hostile_text.hpp"
 #include "tests/support/scenario_walk.hpp"
-#include "files/scenario_on_disk.hpp"
 #include "text/scenario/scenario_text.hpp"
 
 namespace sixstep::testing {

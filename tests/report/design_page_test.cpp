@@ -7,9 +7,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "files/scenario_on_disk.hpp"
 #include "report/svg_chart.hpp"
 #include "text/results/design_text.hpp"
-#include "files/scenario_on_disk.hpp"
 
 namespace report {
 namespace {

@@ -10,13 +10,13 @@
 #include <sstream>
 #include <string>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/design/sheet/sheet_check.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "text/keys/key_catalog.hpp"
 #include "text/motor/motor_template.hpp"
-#include "files/scenario_on_disk.hpp"
 #include "text/toml/table_reader.hpp"
 
 namespace text {
@@ -114,9 +114,9 @@ TEST_F(MotorFile, AValueInAnotherSpellingIsToldAsItStands) {
                             "\"phase\""));
   const auto scenario =
       files::read_scenario_text("x.toml",
-                         "motor = \"tmotor-4004-300kv\"\nduration_s = 0.01\n[motor_override]\n"
-                         "simulatable = true\nnot_simulatable_because = \"\"\n"
-                         "inertia_kgm2 = 6e-6\ninertia_with_brake_kgm2 = 6e-7\n");
+                                "motor = \"tmotor-4004-300kv\"\nduration_s = 0.01\n[motor_override]\n"
+                                "simulatable = true\nnot_simulatable_because = \"\"\n"
+                                "inertia_kgm2 = 6e-6\ninertia_with_brake_kgm2 = 6e-7\n");
   ASSERT_FALSE(scenario);
   EXPECT_EQ(to_string(scenario.problems().front()),
             "x.toml:7:27: motor_override.inertia_with_brake_kgm2 = 6e-7 is less than the rotor's own, "

@@ -21,10 +21,10 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
 #include "sixstep/study/run/run.hpp"
-#include "files/scenario_on_disk.hpp"
 
 namespace text {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "text/motor/motor_library.hpp"
 #include "files/scenario_on_disk.hpp"
+#include "text/motor/motor_library.hpp"
 
 namespace text {
 namespace {
@@ -16,7 +16,8 @@ using testing::Contains;
 const fs::path data = fs::path(SIXSTEP_SOURCE_DIR) / "data";
 
 study::Scenario shipped(const std::string& name) {
-  base::Result<study::Scenario> result = files::read_scenario((data / "scenarios" / (name + ".toml")).string());
+  base::Result<study::Scenario> result =
+      files::read_scenario((data / "scenarios" / (name + ".toml")).string());
   if (!result) {
     for (const base::Problem& problem : result.problems()) ADD_FAILURE() << to_string(problem);
     return {};
@@ -62,7 +63,8 @@ TEST(ShippedFiles, ReferenceCasesHaveTheirTrajectory) {
 }
 
 TEST(ShippedFiles, TheReferenceMotorSaysValueFrameAndSource) {
-  const base::Result<design::Sheet> sheet = files::read_sheet((data / "motors" / "maxon-251601.toml").string());
+  const base::Result<design::Sheet> sheet =
+      files::read_sheet((data / "motors" / "maxon-251601.toml").string());
   ASSERT_TRUE(sheet);
   EXPECT_EQ(sheet->pole_pairs, 8);
   EXPECT_EQ(sheet->resistance_ohm->value, 1.03);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "sixstep/study/run/run.hpp"
 #include "files/scenario_on_disk.hpp"
+#include "sixstep/study/run/run.hpp"
 
 namespace text {
 namespace {

@@ -16,7 +16,8 @@ std::size_t end_of_digits(std::string_view text, std::size_t at) {
   return std::min(text.find_first_not_of("0123456789", at), text.size());
 }
 
-/// A number as it is written: whether it is negative, its digits without the point, the power of ten of the last one.
+/// A number as it is written: whether it is negative, its digits without the point, the power of ten of the
+/// last one.
 struct Written {
   bool negative = false;
   std::string digits;
@@ -66,7 +67,8 @@ DecimalNumber decimal_number(std::string_view text) {
   if (w.digits.empty()) return {};
   const bool zero = w.digits.find_first_not_of('0') == std::string::npos;
   const double x = magnitude(text, w);
-  if (std::isinf(x) || (x == 0.0 && !zero)) return {.kind = DecimalNumber::Kind::out_of_range, .size = w.size};
+  if (std::isinf(x) || (x == 0.0 && !zero))
+    return {.kind = DecimalNumber::Kind::out_of_range, .size = w.size};
   return {DecimalNumber::Kind::number, w.negative ? -x : x, w.size};
 }
 

@@ -12,9 +12,9 @@ struct DecimalNumber {
   std::size_t size = 0;  ///< of what was read, also where it is out of range
 };
 
-/// The longest beginning of the text that is a number: perhaps a minus, digits with at most one point, perhaps
-/// an exponent. Rounded once, to even where two doubles are equally near. What would be infinite, or 0 although
-/// it has other digits, is out of range.
+/// The longest beginning of the text that is a number: perhaps a minus, digits with at most one point,
+/// perhaps an exponent. Rounded once, to even where two doubles are equally near. What would be infinite, or
+/// 0 although it has other digits, is out of range.
 DecimalNumber decimal_number(std::string_view text);
 
 }  // namespace text

@@ -67,7 +67,8 @@ class Natural {
 };
 
 constexpr int mantissa_bits = std::numeric_limits<double>::digits;
-constexpr int least_power = std::numeric_limits<double>::min_exponent - mantissa_bits;  // of two: the smallest double
+constexpr int least_power =
+    std::numeric_limits<double>::min_exponent - mantissa_bits;  // of two: the smallest double
 
 /// over / under as the nearest double.
 double quotient(Natural over, Natural under) {

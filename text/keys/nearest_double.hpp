@@ -5,8 +5,8 @@
 
 namespace text {
 
-/// The digits as a whole number, times ten to the power: the nearest double, the even one where two are equally
-/// near; 0 or infinity where it is beyond all.
+/// The digits as a whole number, times ten to the power: the nearest double, the even one where two are
+/// equally near; 0 or infinity where it is beyond all.
 double nearest_double(std::string digits, long power);
 
 }  // namespace text

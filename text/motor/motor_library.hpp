@@ -10,8 +10,8 @@
 namespace text {
 
 /// The motor's file, not yet read into a sheet. A Problem says where it was looked for and which name is
-/// near; its `where` is left empty for the caller, who knows who asked. `name` as written in `from`; without a
-/// Resolve only those compiled in are there.
+/// near; its `where` is left empty for the caller, who knows who asked. `name` as written in `from`; without
+/// a Resolve only those compiled in are there.
 base::Result<Document> find_motor(const std::string& name, const std::string& from, const Resolve& resolve);
 
 /// Names of the motors compiled in.

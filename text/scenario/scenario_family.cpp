@@ -67,7 +67,7 @@ class Family {
       return refuse(fmt::format("makes the family larger than {} files", most_files), "join some of them");
     base::Result<NamedText> found = find_text(resolve_, {Naming::Kind::scenario, base.file, from});
     if (!found) return refuse(found.problems().front().limit, found.problems().front().cure);
-    if (std::ranges::find(chain_, beside("", found->name)) != chain_.end())
+    if (std::find(chain_.begin(), chain_.end(), beside("", found->name)) != chain_.end())
       return refuse("goes round in a circle: that file extends this one",
                     "take the common keys into a third");
     base::Result<Document> read_base = read(found->name, std::move(found->text));

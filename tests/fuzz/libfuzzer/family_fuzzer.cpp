@@ -8,8 +8,8 @@
 #include <fstream>
 #include <map>
 
-#include "tests/fuzz/libfuzzer/complaints.hpp"
 #include "files/scenario_on_disk.hpp"
+#include "tests/fuzz/libfuzzer/complaints.hpp"
 
 namespace {
 

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <fstream>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/design/loops/drive_design.hpp"
 #include "tests/fuzz/libfuzzer/complaints.hpp"
 #include "text/motor/motor_text.hpp"
-#include "files/scenario_on_disk.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::string file = "/dev/shm/motor." + std::to_string(::getpid()) + ".toml";
