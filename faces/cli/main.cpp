@@ -57,7 +57,7 @@ Exit run_program(int count, const char* const* words) {
   try {
     app.parse(count, words);
   } catch (const CLI::ParseError& error) {
-    return not_called(app, error);
+    return not_called(app, error, count > 1 ? words[count - 1] : "");
   }
   const files::ReadLog inputs;  // no output takes the place of an input
   const auto chosen =

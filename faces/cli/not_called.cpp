@@ -5,6 +5,8 @@
 #include <CLI/App.hpp>
 
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -22,10 +24,10 @@ using base::Problem;
 
 /// The innermost verb that was read, and the words that lead there.
 struct Called {
-  const CLI::App* verb;
+  CLI::App* verb;
   std::string path = "sixstep";
 
-  explicit Called(const CLI::App& app) : verb(&app) {
+  explicit Called(CLI::App& app) : verb(&app) {
     for (auto inner = verb->get_subcommands(); !inner.empty(); inner = verb->get_subcommands()) {
       verb = inner.front();
       path.append(" ").append(verb->get_name());
@@ -83,74 +85,100 @@ Problem unknown_word(const Called& called, const std::string& word) {
           .cure = near.empty() ? called.path + " --help lists them" : fmt::format("did you mean {}?", near)};
 }
 
-/// "--csv" of "--csv: 1 required TEXT missing", "FILE" of "FILE is required".
-std::string option_in(const std::string& told) { return told.substr(0, told.find_first_of(": ")); }
+// What is wrong with an option is read from the options as they were parsed: the exception says of which kind
+// it is, and its words are the library's.
 
-Problem missing(const Called& called, const std::string& told) {
-  const std::string name = option_in(told);
-  const CLI::Option* option = called.verb->get_option_no_throw(name);
-  return {.where = called.path,
-          .limit = fmt::format("needs {}{}", name, option ? ": " + option->get_description() : ""),
-          .cure = called.help()};
+std::string meaning(const Called& called, const CLI::Option* option) {
+  return option ? "it means: " + option->get_description() : called.help();
 }
 
-Problem wrong_count(const Called& called, const std::string& told) {
-  const std::string name = option_in(told);
-  if (told.find("missing") == std::string::npos)
-    return {.where = name, .limit = "is given more than once", .cure = "keep one"};
-  const CLI::Option* option = called.verb->get_option_no_throw(name);
-  return {.where = name,
-          .limit = "needs a value behind it",
-          .cure = option ? "it means: " + option->get_description() : called.help()};
+std::optional<Problem> missing(const Called& called) {
+  for (const CLI::Option* option : called.verb->get_options())
+    if (option->get_required() && option->count() == 0)
+      return Problem{.where = called.path,
+                     .limit = fmt::format("needs {}: {}", option->get_name(), option->get_description()),
+                     .cure = called.help()};
+  return {};
 }
 
-/// "Could not convert: --points = 1e9": the type that the option has says what it takes.
-Problem no_number(const Called& called, const std::string& told) {
-  const std::string name = option_in(told.substr(told.find(": ") + 2));
-  const std::size_t equals = told.find(" = ");
-  const CLI::Option* option = called.verb->get_option_no_throw(name);
-  const bool whole = option && option->get_type_name() != "FLOAT";
-  return {.where = name,
-          .value = equals == std::string::npos ? "" : told.substr(equals + 3),
+/// An option takes the next word for its value, whatever that is: only the last one can lack it.
+std::optional<Problem> wrong_count(const Called& called, const std::string& last_word) {
+  for (const CLI::Option* option : called.verb->get_options())
+    if (static_cast<int>(option->results().size()) > option->get_items_expected_max())
+      return Problem{.where = option->get_name(), .limit = "is given more than once", .cure = "keep one"};
+  return Problem{.where = last_word,
+                 .limit = "needs a value behind it",
+                 .cure = meaning(called, called.verb->get_option_no_throw(last_word))};
+}
+
+template <class Number>
+bool reads(const std::string& word) {
+  Number number{};
+  return CLI::detail::lexical_cast(word, number);
+}
+
+/// By the type that the option has.
+std::optional<Problem> no_number(const Called& called) {
+  for (const CLI::Option* option : called.verb->get_options()) {
+    if (option->count() == 0) continue;
+    const std::string type = option->get_type_name(), word = option->results().front();
+    const bool whole = type.starts_with("INT") || type.starts_with("UINT");
+    if ((whole && !reads<std::int64_t>(word)) || (type.starts_with("FLOAT") && !reads<double>(word)))
+      return Problem{
+          .where = option->get_name(),
+          .value = word,
           .limit = whole ? "must be a whole number, in digits alone" : "must be a number, without its unit",
-          .cure = option ? "it means: " + option->get_description() : called.help()};
+          .cure = meaning(called, option)};
+  }
+  return {};
 }
 
-/// "--jobs: Value 0 not in range 1 to 1024".
-Problem out_of_range(const Called& called, const std::string& told) {
-  constexpr std::string_view value = "Value ", range = " not in range ";
-  const std::size_t begin = told.find(value), end = told.find(range);
-  if (begin == std::string::npos || end == std::string::npos) return {called.path, "", told, called.help()};
-  return {.where = option_in(told),
-          .value = told.substr(begin + value.size(), end - begin - value.size()),
-          .limit = "must be a whole number in " + told.substr(end + range.size()),
-          .cure = called.help()};
+/// By the limits of whole_in().
+std::optional<Problem> out_of_range(const Called& called) {
+  for (CLI::Option* option : called.verb->get_options())
+    for (std::string word : option->results()) {
+      std::string limit;
+      try {
+        limit = (*option->get_validator(0))(word);
+      } catch (const CLI::OptionNotFound&) {
+        break;  // it takes anything
+      }
+      if (!limit.empty())
+        return Problem{.where = option->get_name(), .value = word, .limit = limit, .cure = called.help()};
+    }
+  return {};
 }
 
-Problem problem_of(const Called& called, const CLI::ParseError& error) {
+std::optional<Problem> excluded(const Called& called) {
+  for (const CLI::Option* option : called.verb->get_options())
+    for (const CLI::Option* other : option->get_excludes())
+      if (option->count() > 0 && other->count() > 0)
+        return Problem{.where = option->get_name(),
+                       .limit = "does not go together with " + other->get_name(),
+                       .cure = "leave one of them out"};
+  return {};
+}
+
+Problem problem_of(const Called& called, const CLI::ParseError& error, const std::string& last_word) {
   const std::vector<std::string> left = called.verb->remaining(true);
-  const std::string told = error.what();
   // What nobody takes explains what is missing.
   if (!left.empty()) return unknown_word(called, left.front());
   if (!verbs_of(*called.verb).empty())
     return {.where = called.path,
             .limit = fmt::format("needs a command: {}", fmt::join(verbs_of(*called.verb), ", ")),
             .cure = called.help()};
-  if (dynamic_cast<const CLI::RequiredError*>(&error)) return missing(called, told);
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) return wrong_count(called, told);
-  if (dynamic_cast<const CLI::ConversionError*>(&error)) return no_number(called, told);
-  if (dynamic_cast<const CLI::ValidationError*>(&error)) return out_of_range(called, told);
-  const std::string_view excludes = " excludes ";
-  if (const std::size_t cut = told.find(excludes); cut != std::string::npos)
-    return {.where = told.substr(0, cut),
-            .limit = "does not go together with " + told.substr(cut + excludes.size()),
-            .cure = "leave one of them out"};
-  return {called.path, "", told, called.help()};
+  std::optional<Problem> found;
+  if (dynamic_cast<const CLI::RequiredError*>(&error)) found = missing(called);
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) found = wrong_count(called, last_word);
+  if (dynamic_cast<const CLI::ConversionError*>(&error)) found = no_number(called);
+  if (dynamic_cast<const CLI::ValidationError*>(&error)) found = out_of_range(called);
+  if (dynamic_cast<const CLI::ExcludesError*>(&error)) found = excluded(called);
+  return found ? *found : Problem{called.path, "", error.what(), called.help()};
 }
 
 }  // namespace
 
-Exit not_called(const CLI::App& app, const CLI::ParseError& error) {
+Exit not_called(CLI::App& app, const CLI::ParseError& error, const std::string& last_word) {
   std::ostringstream asked_for, ignored;
   if (app.exit(error, asked_for, ignored) == 0) {
     print(asked_for.str());
@@ -162,7 +190,7 @@ Exit not_called(const CLI::App& app, const CLI::ParseError& error) {
     print(app.help(), stderr);
     return Exit::bad_input;
   }
-  return refused({problem_of(called, error)});
+  return refused({problem_of(called, error, last_word)});
 }
 
 }  // namespace cli

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <string>
+
 #include "faces/cli/exit_code.hpp"
 
 namespace CLI {
@@ -11,6 +13,6 @@ namespace cli {
 
 /// A command line that calls no verb: help or the version that was asked for; else what is wrong with it, in
 /// the form of all other messages, with the nearest word for one that nobody takes.
-Exit not_called(const CLI::App& app, const CLI::ParseError& error);
+Exit not_called(CLI::App& app, const CLI::ParseError& error, const std::string& last_word);
 
 }  // namespace cli

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 
 #include <filesystem>
 #include <limits>
@@ -16,6 +15,7 @@
 #include "faces/cli/run_reading.hpp"
 #include "faces/cli/series_command.hpp"
 #include "faces/cli/terminal.hpp"
+#include "faces/cli/whole_in.hpp"
 #include "files/atomic_file.hpp"
 #include "text/escape/escape.hpp"
 #include "text/results/verdict_table.hpp"
@@ -174,9 +174,9 @@ void declare_options(CLI::App& run, RunArguments& a) {
   CLI::Option* watch = run.add_flag("--watch", a.watch, "run again whenever a file that was read is saved");
   CLI::Option* runs =
       run.add_option("--runs", a.runs, "that many drives of the series that [[spread]] describes");
-  runs->excludes(watch)->check(CLI::Range(1, 1'000'000'000));
+  runs->excludes(watch)->check(whole_in(1, 1'000'000'000));
   // A minus would come round as a large number.
-  const CLI::Range whole(std::int64_t{0}, std::numeric_limits<std::int64_t>::max());
+  const CLI::Validator whole = whole_in(0, std::numeric_limits<std::int64_t>::max());
   run.add_option("--seed", a.seed, "another series of drives; without it 1")->check(whole);
   run.add_option("--drive", a.drive, "drive N of the series alone, with all its outputs")
       ->excludes(runs)

@@ -2,7 +2,8 @@
 #include "faces/cli/verb.hpp"
 
 #include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
+
+#include "faces/cli/whole_in.hpp"
 
 namespace cli {
 
@@ -20,8 +21,7 @@ void take_force(CLI::App& verb, bool& force) {
 }
 
 void take_jobs(CLI::App& verb, unsigned& jobs, const std::string& what) {
-  verb.add_option("--jobs", jobs, what + " side by side; without it one per core")
-      ->check(CLI::Range(1, 1024));
+  verb.add_option("--jobs", jobs, what + " side by side; without it one per core")->check(whole_in(1, 1024));
 }
 
 }  // namespace cli

@@ -26,6 +26,7 @@ constexpr void scale(EmfPiece<Real>& piece, Real K_e) {
   for (int k = 0; k < 3; ++k) {
     const int j = (k + 1) % 3, m = (k + 2) % 3;
     piece.alpha_above[k] = piece.alpha[k] - (piece.alpha[j] + piece.alpha[m]) / 2;
+    // mutant: piece.beta[k] - (piece.beta[j] + piece.beta[m]) / 2 => piece.beta[k]
     piece.beta_above[k] = piece.beta[k] - (piece.beta[j] + piece.beta[m]) / 2;
   }
 }
@@ -50,8 +51,8 @@ constexpr int centre_distance_deg(int sector, int k) {
   return d;
 }
 
-/// f = 1 on the top, -1 on the bottom, (90 - |phi|)/(90 - w/2) on the ramps (MODEL 1), linear over one piece
-/// whose middle lies `middle_deg` behind the sector's start.
+/// f = 1 on the top, -1 on the bottom, (90 - |phi|)/(90 - w/2) on the ramps (model.md 1), linear over one
+/// piece whose middle lies `middle_deg` behind the sector's start.
 template <class Real>
 constexpr void trapezoid_line(int start_deg, Real middle_deg, Real flat_deg, Real& alpha, Real& beta) {
   Real phi = Real(start_deg) + middle_deg;
@@ -62,6 +63,7 @@ constexpr void trapezoid_line(int start_deg, Real middle_deg, Real flat_deg, Rea
   }
   const Real side = phi < 0 ? Real(-1) : Real(1);
   const Real distance = side * phi, half = flat_deg / 2;
+  // mutant: Real(180) - half => Real(180)
   if (distance <= half || distance >= Real(180) - half) {
     alpha = distance <= half ? Real(1) : Real(-1);
     beta = 0;
@@ -94,6 +96,7 @@ constexpr EmfTable<Real> trapezoid_table(double flat_deg) {
       piece.from = rad(bound[b]);
       piece.to = rad(bound[b + 1]);
       for (int k = 0; k < 3; ++k)
+        // mutant: (bound[b] + bound[b + 1]) / 2 => bound[b]
         detail::trapezoid_line(detail::centre_distance_deg(s, k), (bound[b] + bound[b + 1]) / 2, flat,
                                piece.alpha[k], piece.beta[k]);
     }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The series of one segment while they grow, and what every conduction mode has in common: the rotor, the bus
-// and the shape of the back-EMF (MODEL 1).
+// and the shape of the back-EMF (model.md 1).
 #pragma once
 #include "sixstep/plant/torques.hpp"
 
 namespace sixstep::plant::detail {
 
 // The order n of a term is a template argument: the whole recurrence is unrolled, products of short series
-// included (ENGINE: an unrolled kernel takes a quarter of the time of one with counted loops).
+// included (model.md 12: an unrolled kernel takes a quarter of the time of one with counted loops).
 
 /// The series while they grow: a local of the recurrence, so that the newest terms stay in registers and no
 /// store has to be waited for. What a law does not use is never made.
@@ -29,6 +29,7 @@ struct Rotor {
   Real steady, per_speed;  ///< against the turning: what does not change with the speed, and what does
 
   Rotor(const Constants<Real>& c, Motion motion)
+      // mutant: turns(motion) => motion != Motion::locked
       : inv_J(turns(motion) ? c.inv_J : Real(0)), pole_pairs(c.pole_pairs) {
     const auto [load, dry, B] = torques(c, motion);
     steady = load + dry;
@@ -49,6 +50,7 @@ template <int n, class Real>
 inline void sine_products(const Rotor<Real>& rotor, Growing<Real>& y, Real f, Real& w0, Real& w1) {
   w0 = series::product_term<n>(y.w, y.phi0);
   w1 = series::product_term<n>(y.w, y.phi1);
+  // mutant: -f * rotor.pole_pairs * w1 => -f * w1
   y.phi0[n + 1] = -f * rotor.pole_pairs * w1;  // (cos x)' = -p w sin x
   y.phi1[n + 1] = f * rotor.pole_pairs * w0;
 }
@@ -75,7 +77,9 @@ struct BusLaw {
     const auto high = [&](unsigned n) {
       return n < law.connected && is_high(mode.legs[law.leg[n]]) ? Real(1) : Real(0);
     };
+    // mutant: high(0) - high(2) => high(0) - high(1)
     dc_i = law.connected == 3 ? high(0) - high(2) : high(0) - high(1);
+    // mutant: high(1) - high(2) => high(1)
     dc_i_2 = law.connected == 3 ? high(1) - high(2) : Real(0);
   }
   template <int n>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which mode is consistent now? Switches and nonzero currents name most connections; legs without gate and
 // current, the rotor at rest and the bus at the source's voltage are enumerated: exactly one combination is
-// right, and where rounding makes several look right, the one with most legs off (MODEL 2, 4b). Plain values
-// first, series only for ties.
+// right, and where rounding makes several look right, the one with most legs off (model.md 2, 4b). Plain
+// values first, series only for ties.
 #pragma once
 #include <span>
 
@@ -35,7 +35,7 @@ PerLeg<Real> back_emf(const Constants<Real>& c, const State<Real>& s, const Mode
   return e;
 }
 
-/// Electromagnetic torque at w's limit: K_e sum f_k i_k, exact also at standstill (MODEL 1, eq. 3).
+/// Electromagnetic torque at w's limit: K_e sum f_k i_k, exact also at standstill (model.md (3)).
 template <class Real>
 Real torque(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
   State<Real> unit = s;
@@ -55,6 +55,7 @@ Judgement judge_legs(const Constants<Real>& c, const State<Real>& s, const PerLe
   for (int k = 0; k < 3; ++k) {
     if (is_floating(m.legs[k])) {
       const Real free = u_n + e[k];
+      // mutant: free + V_f => free
       all = both(all, both(judge(free + V_f, noise), judge(s.bus + V_f - free, noise)));
     } else if (is_diode(m.legs[k]) && s.i[k] == 0) {
       const Real u = pole_voltage(c.poles[static_cast<std::size_t>(m.legs[k])], s.bus, s.i[k]);
@@ -88,6 +89,7 @@ template <class Real>
 bool holds_in_series(const Constants<Real>& c, const Mode& m, const Expansion<Real>& y, Real slack) {
   bool ok = true;
   mode_guards(c, m, y, slack, [&](int, const series::Coefficients<Real>& g, int degree, Real noise) {
+    // mutant: series::leading(g, degree, noise).sign >= 0 => series::leading(g, degree, noise).sign > 0
     ok = ok && series::leading(g, degree, noise).sign >= 0;
   });
   return ok;
@@ -153,6 +155,7 @@ bool accepts(const Question<Real>& q, const PerLeg<Real>& emf, const Mode& mode,
                                     judge_source(q.constants, q.state, mode, q.slack)));
   expanded = false;
   if (plain == Judgement::fails) return false;
+  // mutant: !q.series_only => true
   if (plain == Judgement::holds && !q.series_only) return true;
   expand(q.constants, q.state, mode, q.h, scratch);
   expanded = true;

@@ -15,7 +15,7 @@
 // needs neither hall_interrupt() nor reversed(): both are six-step's.
 #pragma once
 #include "sixstep/base/angle.hpp"
-#include "sixstep/control/protected_drive.hpp"
+#include "sixstep/control/retune.hpp"
 #include "sixstep/plant/plant.hpp"
 #include "sixstep/rig/board_config.hpp"
 #include "sixstep/rig/sensors.hpp"
@@ -40,10 +40,18 @@ struct Diagnosis {
   sim::Instant at{};           ///< the tick that latched them
 };
 
+/// What a chip is given while it runs (control/retune.hpp).
+template <class Config>
+struct Tuning {
+  Config config;
+  double setpoint_unit = 1.0;  ///< that of its mode
+};
+
 /// Everything as it is.
 template <class Scalar, class Real>
 control::Measurement<Scalar> ideal_measurement(const SampleInstant<Real>& instant, const Bases& u) {
   const plant::State<Real>& s = instant.plant.state();
+  // mutant: s.x * Real(180) / Real(base::pi) => s.x
   const Real sector_deg = static_cast<Real>(s.sector) * 60 + s.x * Real(180) / Real(base::pi);
   return {.i_a_A = from_si<Scalar>(s.i[0], u.current_A),
           .i_b_A = from_si<Scalar>(s.i[1], u.current_A),
@@ -97,17 +105,23 @@ class LeanDrive {
   }
   void request_run(bool) {}
   void request_clear() {}
+  void retune(const Tuning<Config>& tuning) {
+    control::retune(config_, state_, tuning.config);
+    bases_.setpoint = tuning.setpoint_unit;
+  }
 
+  control::Mode mode() const { return config_.mode; }
   /// Sign of the last command.
   bool reversed() const { return state_.reversed; }
   /// Asks nothing of a tick but the setpoint.
   bool open_loop() const { return config_.mode == control::Mode::off || config_.mode == control::Mode::duty; }
-  /// An event hysteresis on the setpoint itself has no sample to wait for (MODEL 4). One that slews has: it
-  /// moves once a tick.
+  /// An event hysteresis on the setpoint itself has no sample to wait for (model.md 4). One that slews has:
+  /// it moves once a tick.
   bool follows_setpoint_at_once() const {
     return config_.mode == control::Mode::current &&
            config_.current_control == control::CurrentControl::hysteresis &&
            config_.hysteresis.watch != control::Watch::none &&
+           // mutant: !(config_.extras.on && config_.extras.slews_setpoint) => true
            !(config_.extras.on && config_.extras.slews_setpoint);
   }
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
@@ -148,7 +162,9 @@ class SensedDrive {
   }
   void request_run(bool) {}
   void request_clear() {}
+  void retune(const Tuning<Config>& tuning) { drive_.retune(tuning); }
 
+  control::Mode mode() const { return drive_.mode(); }
   bool reversed() const { return drive_.reversed(); }
   bool open_loop() const { return drive_.open_loop(); }
   bool follows_setpoint_at_once() const { return drive_.follows_setpoint_at_once(); }
@@ -185,7 +201,12 @@ class ProductDrive {
   void request_run(bool run) { request_.run = run; }
   /// Seen by the next tick alone: clearing acts on the rise.
   void request_clear() { request_.clear = true; }
+  void retune(const Tuning<Config>& tuning) {
+    control::retune(config_, state_, tuning.config);
+    bases_.setpoint = tuning.setpoint_unit;
+  }
 
+  control::Mode mode() const { return config_.drive.mode; }
   bool reversed() const { return state_.drive.reversed; }
   bool open_loop() const { return false; }
   bool follows_setpoint_at_once() const { return false; }

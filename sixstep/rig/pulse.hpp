@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One compare unit of the timer: when the pulse of a PWM period begins and ends (MODEL 3).
+// One compare unit of the timer: when the pulse of a PWM period begins and ends (model.md 3).
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -19,6 +19,7 @@ struct ModulatorConfig {
   /// Rounded to counts of the timer.
   double in_counts(double ticks) const {
     if (!(timer_ticks > 0)) return ticks;
+    // mutant: ticks / timer_ticks + 0.5 => ticks / timer_ticks
     return std::floor(ticks / timer_ticks + 0.5) * timer_ticks;
   }
 };
@@ -34,7 +35,9 @@ struct Pulse {
   bool begin(const sim::Instant& t, double duty, const ModulatorConfig& c) {
     const auto period = static_cast<double>(c.period_ticks);
     const double on_time = duty * period;
+    // mutant: period - on_time < c.minimum_pulse_ticks => false
     const bool whole = duty >= 1.0 || period - on_time < c.minimum_pulse_ticks;
+    // mutant: on_time < c.minimum_pulse_ticks => false
     const bool chops = !whole && duty > 0.0 && !(on_time < c.minimum_pulse_ticks);
     cancel();
     if (chops && c.centre_aligned) on_edge = t.plus_ticks(c.in_counts((period - on_time) / 2));

@@ -28,6 +28,7 @@ int SixStepModulator::hand_over(control::Pair to) {
 }
 
 int SixStepModulator::take(const Instant& t, const BoardCommand& command) {
+  // mutant: command.enabled && !command_.enabled => command.enabled
   const bool wakes = command.enabled && !command_.enabled;
   const int entered = hand_over(command.pair);
   // Field by field, as it was written: a copy in wider pieces would wait until the fields have left for
@@ -44,7 +45,7 @@ int SixStepModulator::take(const Instant& t, const BoardCommand& command) {
   // The first command is a change of every leg: nobody knows what it did before.
   timer_.wake(t);
   timer_.preset_pulse(sink_pulse, true);
-  if (watch != Watch::none) timer_.switch_pulse(source_pulse, true);  // hysteresis starts on (MODEL 4)
+  if (watch != Watch::none) timer_.switch_pulse(source_pulse, true);  // hysteresis starts on (model.md 4)
   return entered;
 }
 
@@ -66,12 +67,13 @@ void SixStepModulator::turn_off(const Instant& t) {
   fill_legs(t, LegTimer::none_late);
 }
 
-/// Six-step's three leg commands (MODEL 3): within the pair they follow one pulse, but for the sink that hard
-/// chopping's second comparator switches.
+/// Six-step's three leg commands (model.md 3): within the pair they follow one pulse, but for the sink that
+/// hard chopping's second comparator switches.
 void SixStepModulator::fill_legs(const Instant& t, int entered) {
   timer_.disconnect();
   if (command_.enabled) {
     const Chopping chopping = command_.chopping;
+    // mutant: sink_pulse => source_pulse
     const unsigned sink = command_.watch == Watch::phase ? sink_pulse : source_pulse;
     timer_.connect(index(command_.pair.source), sides_of(control::source_leg(chopping, 0.0)), source_pulse);
     timer_.connect(index(command_.pair.sink), sides_of(control::sink_leg(chopping, 0.0)), sink);

@@ -20,7 +20,9 @@ enum class ActionKind : std::uint8_t {
   shaft_locked,
   source_voltage,
   source_sinks,
-  hall_whole
+  hall_whole,
+  retune,
+  dead_time
 };
 
 /// How a setpoint moves from its action on: t seconds later it stands at
@@ -36,9 +38,11 @@ struct Waveform {
   bool moves() const { return rate != 0.0 || curvature != 0.0 || amplitude != 0.0; }
   /// Turns are counted, not summed: only their fraction goes into the sine.
   double after(double value, double t_s) const {
+    // mutant: curvature / 2 * t_s => 0.0
     const double straight = value + (rate + curvature / 2 * t_s) * t_s;
     if (amplitude == 0.0) return straight;
     const double turns = frequency_Hz * t_s + phase_turns;
+    // mutant: std::floor(turns) => 0.0
     return straight + amplitude * base::sin(2 * base::pi * (turns - std::floor(turns)));
   }
 };
@@ -47,7 +51,8 @@ struct Action {
   sim::Instant at;
   ActionKind kind = ActionKind::setpoint;
   double value = 0.0;   ///< setpoint in the mode's unit; N m; Hall line 1 to 3, stuck low where negative;
-                        ///< V; a request to run, a clamp on the shaft, a sinking source: 1 or 0
+                        ///< V; a request to run, a clamp on the shaft, a sinking source: 1 or 0; which of
+                        ///< the rig's tunings; ps
   Waveform waveform{};  ///< of a setpoint
 };
 

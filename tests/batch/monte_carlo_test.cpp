@@ -44,7 +44,7 @@ TEST(MonteCarlo, GivesTheSpreadThatTheCircuitsLawGives) {
   const analysis::Series series = monte_carlo(s, {.runs = count, .seed = 11});
   ASSERT_EQ(series.runs, count);
   ASSERT_EQ(series.figures.size(), 2u);
-  const SpreadFigure& current = series.figures[0];
+  const analysis::SpreadFigure& current = series.figures[0];
   std::size_t holds = 0;
   analysis::Statistics expected;
   for (std::size_t n = 0; n < count; ++n) {
@@ -89,7 +89,7 @@ TEST(MonteCarlo, DoesNotDependOnTheNumberOfThreadsOrOfRuns) {
 
 /// Limits of value by value cannot foresee this: with friction as printed some sheets contradict themselves.
 TEST(MonteCarlo, CountsWhatCouldNotStartAndGoesOn) {
-  Series series;
+  analysis::Series series;
   study::Scenario good = stall(100.0), bad = good;
   bad.sheet.resistance_ohm->value = 0.0;
   for (const study::Scenario* s : {&bad, &good, &bad, &good}) add(series, study::run(*s));
@@ -105,7 +105,7 @@ TEST(MonteCarlo, CountsWhatCouldNotStartAndGoesOn) {
 }
 
 TEST(MonteCarlo, CountsAFaultAsAMiss) {
-  Series series;
+  analysis::Series series;
   const base::Result<study::Outcome> whole = study::run(stall(100.0));
   study::Outcome stopped = *whole;
   stopped.fault = base::Problem{"t = 0.1 s", "", "shoot-through", ""};

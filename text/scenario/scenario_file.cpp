@@ -4,15 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
-#include <span>
 
 #include "sixstep/design/sheet/sheet_constants.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
+#include "sixstep/design/sheet/sheet_override.hpp"
 #include "sixstep/study/check/check.hpp"
-#include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
 #include "text/keys/key_catalog.hpp"
 #include "text/motor/motor_library.hpp"
@@ -59,14 +58,7 @@ std::optional<SheetSource> named_sheet(const Document& scenario, const Resolve& 
   return std::move(*source);
 }
 
-/// Lines that say the same thing: overriding one makes what the sheet prints in the others stale.
-constexpr std::array torque_keys = {"torque_constant_mNm_A",    "back_emf_mV_s",    "torque_constant_Nm_A",
-                                    "back_emf_constant_V_krpm", "flux_linkage_mWb", "speed_constant_rpm_V"};
-constexpr std::array inductance_keys = {"inductance_mH", "d_axis_inductance_mH", "q_axis_inductance_mH"};
-constexpr std::array geometry_keys = {"flux_density_T", "active_length_mm", "air_gap_radius_mm",
-                                      "turns_in_series"};
-constexpr std::array pole_keys = {"pole_pairs", "poles", "winding"};
-
+/// In any of the key's spellings.
 bool overridden(const Document& document, std::string_view key) {
   if (document.find(fmt::format("motor_override.{}", key))) return true;
   const std::vector<KeyEntry> keys = sheet_keys();
@@ -74,49 +66,6 @@ bool overridden(const Document& document, std::string_view key) {
   return entry && std::any_of(entry->about.also.begin(), entry->about.also.end(), [&](const auto& spelling) {
            return document.find(fmt::format("motor_override.{}", spelling.key)) != nullptr;
          });
-}
-
-/// Visits a sheet and clears those of the keys that the override leaves alone.
-class Forget {
- public:
-  Forget(const Document& document, std::span<const char* const> keys) : document_(document), keys_(keys) {}
-  template <class T>
-  void quantity(std::string_view key, std::optional<T>& member, const base::About&) {
-    if (stale(key)) member.reset();
-  }
-  void value(std::string_view key, std::optional<int>& member, const base::About&) {
-    if (stale(key)) member.reset();
-  }
-  void value(std::string_view key, std::string& member, const base::About&) {
-    if (stale(key)) member.clear();
-  }
-  template <class T>
-  void value(std::string_view, T&, const base::About&) {}
-  template <class Enum, class Choices>
-  void choice(std::string_view, Enum&, const Choices&, const base::About&) {}
-
- private:
-  bool stale(std::string_view key) const {
-    return std::find(keys_.begin(), keys_.end(), key) != keys_.end() && !overridden(document_, key);
-  }
-  const Document& document_;
-  std::span<const char* const> keys_;
-};
-
-void drop_stale(const Document& document, design::Sheet& sheet) {
-  using Keys = std::span<const char* const>;
-  const auto any = [&](Keys keys) {
-    return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return overridden(document, key); });
-  };
-  const auto forget = [&](Keys keys) {
-    Forget stale(document, keys);
-    describe(stale, sheet);
-  };
-  const bool geometry = any(geometry_keys);
-  if (geometry || any(torque_keys)) forget(torque_keys);
-  if (!geometry && any(torque_keys)) forget(geometry_keys);
-  if (any(inductance_keys)) forget(inductance_keys);
-  if (any(pole_keys)) forget(pole_keys);
 }
 
 /// Whether a check speaks of the motor's sheet, whose keys it names without a table.
@@ -163,18 +112,6 @@ void run_checks(const Document& document, const SheetSource& source, const study
   for (base::Problem& problem : of_motor.in_order()) of_other_files.push_back(std::move(problem));
 }
 
-/// A file's column of what its mode does not have would be written as no number; reports draw it as a gap.
-void check_columns(const study::Scenario& scenario, Complaints& complaints) {
-  const std::vector<study::Column>& columns = study::all_columns();
-  for (std::size_t n = 0; n < columns.size(); ++n) {
-    const std::vector<std::string>& asked = scenario.record.columns;
-    if (std::find(asked.begin(), asked.end(), columns[n].name) == asked.end()) continue;
-    if (!study::applies(static_cast<study::ColumnId>(n), scenario.control.mode))
-      complaints.later({"record.columns", "\"" + columns[n].name + "\"", "has no value in this control.mode",
-                        "remove it, or control what it is the reference of"});
-  }
-}
-
 /// The rows of a csv reference, from the file that it names.
 void read_rows(const Document& document, const std::string& path, const std::string& unit,
                const Resolve& resolve, study::Reference& r, Complaints& complaints,
@@ -205,12 +142,17 @@ void read_rows(const Document& document, const std::string& path, const std::str
 void read_all_rows(const Document& document, const Resolve& resolve, study::Scenario& scenario,
                    Complaints& complaints, base::Problems& of_other_files) {
   // A duty is a plain number.
-  const std::string_view of_mode = study::reference_unit(scenario.control.mode);
-  const std::string unit(of_mode == "1" ? "" : of_mode);
-  read_rows(document, "reference", unit, resolve, scenario.reference, complaints, of_other_files);
+  const auto unit = [](control::Mode mode) {
+    const std::string_view of_mode = study::reference_unit(mode);
+    return std::string(of_mode == "1" ? "" : of_mode);
+  };
+  read_rows(document, "reference", unit(scenario.control.mode), resolve, scenario.reference,
+            complaints, of_other_files);
+  const std::vector<control::Mode> modes = study::modes_from(scenario);
   for (std::size_t n = 0; n < scenario.at.size(); ++n)
     if (scenario.at[n].reference)
-      read_rows(document, fmt::format("at[{}].reference", n), unit, resolve, *scenario.at[n].reference,
+      read_rows(document, fmt::format("at[{}].reference", n), unit(modes[n]), resolve,
+                *scenario.at[n].reference,
                 complaints, of_other_files);
 }
 
@@ -257,11 +199,10 @@ base::Result<study::Scenario> read_scenario_text(const std::string& name, std::s
   study::Scenario scenario;
   if (source) scenario.sheet = source->sheet;
   read_root(document, scenario, complaints);
-  drop_stale(document, scenario.sheet);
+  drop_stale(scenario.sheet, [&](std::string_view key) { return overridden(document, key); });
   // A duration that is wrong has been told: nothing shall lie behind its end besides.
   if (!(scenario.duration_s > 0.0)) scenario.duration_s = study::longest_s;
   read_all_rows(document, options.resolve, scenario, complaints, of_other_files);
-  check_columns(scenario, complaints);
   if (source) run_checks(document, *source, scenario, complaints, of_other_files);
 
   base::Problems problems = complaints.in_order();

@@ -3,40 +3,54 @@
 
 #include <algorithm>
 
+#include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/measure_choices.hpp"
+
 namespace sixstep::study {
+
+namespace {
+
+/// A signal's column has its word, the older one where it has two, and its unit.
+Column of(Signal signal, const char* frame, const char* meaning) {
+  const std::string_view older = base::word(column_words, signal);
+  return {std::string(older.empty() ? fact_of(signal).word : older), std::string(unit_of(signal)), frame,
+          meaning};
+}
+
+}  // namespace
 
 const std::vector<Column>& all_columns() {
   static const std::vector<Column> columns = {
       {"t_s", "s", "", "time"},
-      {"i_a_A", "A", "phase, into the motor", "current of phase a"},
-      {"i_b_A", "A", "phase, into the motor", "current of phase b"},
-      {"i_c_A", "A", "phase, into the motor", "current of phase c"},
-      {"u_a_V", "V", "pole, against the negative rail", "voltage of terminal a"},
-      {"u_b_V", "V", "pole, against the negative rail", "voltage of terminal b"},
-      {"u_c_V", "V", "pole, against the negative rail", "voltage of terminal c"},
-      {"u_ab_V", "V", "terminal", "line voltage a to b"},
-      {"u_bc_V", "V", "terminal", "line voltage b to c"},
-      {"u_ca_V", "V", "terminal", "line voltage c to a"},
-      {"e_a_V", "V", "phase", "back-EMF of phase a"},
-      {"e_b_V", "V", "phase", "back-EMF of phase b"},
-      {"e_c_V", "V", "phase", "back-EMF of phase c"},
-      {"speed_rad_s", "rad/s", "mechanical", "speed"},
-      {"angle_rad", "rad", "mechanical", "angle, counted over turns"},
-      {"torque_Nm", "N m", "air gap", "electromagnetic torque"},
-      {"bus_V", "V", "", "bus voltage"},
-      {"bus_A", "A", "into the bridge", "bus current"},
-      {"duty", "1", "", "signed duty in effect; with armed comparators the state of the upper switch"},
-      {"i_m_A", "A", "motor", "motor current (i_p - i_n)/2 of the positive pair"},
-      {"i_ref_A", "A", "motor", "current reference at the last sample"},
-      {"speed_ref_rad_s", "rad/s", "mechanical", "speed reference at the last sample"},
-      {"position_ref_deg", "deg", "mechanical", "position setpoint"},
-      {"load_Nm", "N m", "shaft", "load torque"},
-      {"gate_T1", "1", "", "upper gate of a"},
-      {"gate_T2", "1", "", "lower gate of a"},
-      {"gate_T3", "1", "", "upper gate of b"},
-      {"gate_T4", "1", "", "lower gate of b"},
-      {"gate_T5", "1", "", "upper gate of c"},
-      {"gate_T6", "1", "", "lower gate of c"},
+      of(Signal::phase_a, "phase, into the motor", "current of phase a"),
+      of(Signal::phase_b, "phase, into the motor", "current of phase b"),
+      of(Signal::phase_c, "phase, into the motor", "current of phase c"),
+      of(Signal::pole_a, "pole, against the negative rail", "voltage of terminal a"),
+      of(Signal::pole_b, "pole, against the negative rail", "voltage of terminal b"),
+      of(Signal::pole_c, "pole, against the negative rail", "voltage of terminal c"),
+      of(Signal::line_ab, "terminal", "line voltage a to b"),
+      of(Signal::line_bc, "terminal", "line voltage b to c"),
+      of(Signal::line_ca, "terminal", "line voltage c to a"),
+      of(Signal::emf_a, "phase", "back-EMF of phase a"),
+      of(Signal::emf_b, "phase", "back-EMF of phase b"),
+      of(Signal::emf_c, "phase", "back-EMF of phase c"),
+      of(Signal::speed, "mechanical", "speed"),
+      of(Signal::angle, "mechanical", "angle, counted over turns"),
+      of(Signal::torque, "air gap", "electromagnetic torque"),
+      of(Signal::bus_voltage, "", "bus voltage"),
+      of(Signal::bus_current, "into the bridge", "bus current"),
+      of(Signal::duty, "", "signed duty in effect; with armed comparators the state of the upper switch"),
+      of(Signal::current, "motor", "motor current (i_p - i_n)/2 of the positive pair"),
+      of(Signal::current_reference, "motor", "current reference at the last sample"),
+      of(Signal::speed_reference, "mechanical", "speed reference at the last sample"),
+      of(Signal::position_reference, "mechanical", "position setpoint"),
+      of(Signal::load_torque, "shaft", "load torque"),
+      of(Signal::gate_T1, "", "upper gate of a"),
+      of(Signal::gate_T2, "", "lower gate of a"),
+      of(Signal::gate_T3, "", "upper gate of b"),
+      of(Signal::gate_T4, "", "lower gate of b"),
+      of(Signal::gate_T5, "", "upper gate of c"),
+      of(Signal::gate_T6, "", "lower gate of c"),
       {"hall", "1", "", "Hall code, H1 H2 H3 as bits 2, 1, 0"},
       {"sector", "1", "electrical", "sector 0 to 5"},
   };
@@ -51,12 +65,19 @@ bool applies(ColumnId id, control::Mode mode) {
   return true;
 }
 
+bool applies(ColumnId id, const Scenario& s) {
+  using control::Mode;
+  for (const Mode mode : {Mode::off, Mode::duty, Mode::current, Mode::speed, Mode::position})
+    if (comes_into(s, mode) && applies(id, mode)) return true;
+  return false;
+}
+
 base::Result<std::vector<std::size_t>> record_indices(const Scenario& scenario) {
   std::vector<std::size_t> indices = {0};
   const std::vector<Column>& columns = all_columns();
   if (scenario.record.columns.empty()) {
     for (std::size_t c = 1; c < column_count; ++c)
-      if (applies(static_cast<ColumnId>(c), scenario.control.mode)) indices.push_back(c);
+      if (applies(static_cast<ColumnId>(c), scenario)) indices.push_back(c);
     return indices;
   }
   base::Problems problems;
@@ -65,7 +86,7 @@ base::Result<std::vector<std::size_t>> record_indices(const Scenario& scenario) 
         std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
     if (found == columns.end())
       problems.push_back({"record.columns", "\"" + name + "\"", "is no column of the trace",
-                          "`sixstep help columns` lists them"});
+                          "the help on columns lists them"});
     else if (found != columns.begin())
       indices.push_back(static_cast<std::size_t>(found - columns.begin()));
   }

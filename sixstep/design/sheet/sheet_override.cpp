@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/sheet/sheet_override.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "sixstep/design/sheet/sheet_description.hpp"
+
+namespace sixstep::design {
+
+namespace {
+
+using Keys = std::span<const std::string_view>;
+
+constexpr std::array<std::string_view, 6> torque_keys = {"torque_constant_mNm_A", "back_emf_mV_s",
+                                                         "torque_constant_Nm_A",  "back_emf_constant_V_krpm",
+                                                         "flux_linkage_mWb",      "speed_constant_rpm_V"};
+constexpr std::array<std::string_view, 3> inductance_keys = {"inductance_mH", "d_axis_inductance_mH",
+                                                             "q_axis_inductance_mH"};
+constexpr std::array<std::string_view, 4> geometry_keys = {"flux_density_T", "active_length_mm",
+                                                           "air_gap_radius_mm", "turns_in_series"};
+constexpr std::array<std::string_view, 3> pole_keys = {"pole_pairs", "poles", "winding"};
+
+/// Visits a sheet and clears those of the keys that the override leaves alone.
+class Forget {
+ public:
+  Forget(Keys keys, const std::function<bool(std::string_view)>& overridden)
+      : keys_(keys), overridden_(overridden) {}
+  template <class T>
+  void quantity(std::string_view key, std::optional<T>& member, const base::About&) {
+    if (stale(key)) member.reset();
+  }
+  void value(std::string_view key, std::optional<int>& member, const base::About&) {
+    if (stale(key)) member.reset();
+  }
+  void value(std::string_view key, std::string& member, const base::About&) {
+    if (stale(key)) member.clear();
+  }
+  template <class T>
+  void value(std::string_view, T&, const base::About&) {}
+  template <class Enum, class Choices>
+  void choice(std::string_view, Enum&, const Choices&, const base::About&) {}
+
+ private:
+  bool stale(std::string_view key) const {
+    return std::find(keys_.begin(), keys_.end(), key) != keys_.end() && !overridden_(key);
+  }
+  Keys keys_;
+  const std::function<bool(std::string_view)>& overridden_;
+};
+
+}  // namespace
+
+void drop_stale(Sheet& sheet, const std::function<bool(std::string_view key)>& overridden) {
+  const auto any = [&](Keys keys) { return std::any_of(keys.begin(), keys.end(), overridden); };
+  const auto forget = [&](Keys keys) {
+    Forget stale(keys, overridden);
+    describe(stale, sheet);
+  };
+  const bool geometry = any(geometry_keys);
+  if (geometry || any(torque_keys)) forget(torque_keys);
+  if (!geometry && any(torque_keys)) forget(geometry_keys);
+  if (any(inductance_keys)) forget(inductance_keys);
+  if (any(pole_keys)) forget(pole_keys);
+}
+
+}  // namespace sixstep::design
