@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All who watch a run, in one observer: books, digest, figures of merit, recorders of rows and of logic.
+// Observers joins all observers of a run in one: energy book, digest, figures of merit, recorders of rows and
+// of logic.
 #pragma once
 #include <functional>
 #include <optional>

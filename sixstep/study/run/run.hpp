@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenario in, outcome out: compiles the scenario to a timeline and a rig, runs it, takes the figures of
-// merit.
+// run() compiles a scenario to a timeline and a rig, runs it and takes the figures of merit.
 #pragma once
 #include <functional>
 #include <span>
