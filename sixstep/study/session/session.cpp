@@ -139,13 +139,12 @@ base::Result<Session> Session::open(const Scenario& scenario, const Listeners& l
 
 bool Session::advance(double to_s) {
   State& s = *state_;
-  const Instant until = sim::to_instant(to_s);
-  if (s.over || !(s.now() < until)) return !s.over;
-  const bool to_end = !(until < s.compiled.end);
-  Slice slice = s.slice(to_end ? s.compiled.end : until);
-  if (to_end) slice.until = s.compiled.end;
-  const auto go = [&](auto& live) { return live.advance(s.compiled.end, slice); };
-  s.stop = std::visit(go, s.rig);
+  const Instant asked = sim::to_instant(to_s), end = s.compiled.end;
+  const bool to_end = !(asked < end);
+  if (s.over || (!to_end && !(s.now() < asked))) return !s.over;
+  Slice slice = s.slice(to_end ? end : asked);
+  const auto go = [&](auto& live) { return live.advance(end, slice); };
+  s.stop = s.now() < slice.until ? std::visit(go, s.rig) : sim::Stop::observer;
   // The end of the run is an instant too: what is due there is done.
   if (s.stop == sim::Stop::observer && !slice.stopped && to_end) s.stop = std::visit(go, s.rig);
   s.over = s.stop != sim::Stop::observer || slice.stopped;
