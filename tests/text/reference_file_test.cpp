@@ -131,7 +131,8 @@ TEST_F(ReferenceInAFile, AnEventsOwnFileIsReadToo) {
 
 TEST_F(ReferenceInAFile, WhatCannotChangeDuringARunIsToldWhatCan) {
   const std::string what(study::what_may_change);
-  for (const char* key : {"reference", "load.torque_Nm", "control.mode", "pwm.chopping", "bridge.dead_time_s"})
+  for (const char* key :
+       {"reference", "load.torque_Nm", "control.mode", "pwm.chopping", "bridge.dead_time_s"})
     EXPECT_THAT(what, HasSubstr(key));
   EXPECT_THAT(complaints("times_s = [0]\nvalues = [0]\n[[at]]\ntime_s = 0.005\npwm.period_s = 1e-5\n"
                          "supply.resistance_ohm = 1\nload.torque_mNm = 1\n"),
