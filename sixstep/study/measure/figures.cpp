@@ -90,32 +90,19 @@ double value_of(const auto& taken, const Measure&) { return taken.value(); }
 Taken taken_by(const Measure& m, const Scenario& scenario, const std::vector<Level>& levels) {
   const Window all{m.from_s.value_or(0.0), m.to_s.value_or(std::numeric_limits<double>::infinity())};
   const EnergyGauge energies(all, {scenario.load.viscous_Nm_s, scenario.load.coulomb_Nm});
-  switch (m.metric) {
-    case MetricKind::final_value:
-    case MetricKind::mean:
-    case MetricKind::rms:
-    case MetricKind::maximum:
-    case MetricKind::minimum:
-    case MetricKind::peak_to_peak:
-    case MetricKind::ripple_rms:
-    case MetricKind::overshoot:
-    case MetricKind::reach_time:
-    case MetricKind::rise_time:
-    case MetricKind::settling_time:
-    case MetricKind::steady_error:
-    case MetricKind::largest_error:
+  switch (fact_of(m.metric).of) {
+    case TakenOf::signal:
       break;
-    case MetricKind::thd:
+    case TakenOf::fundamental:
       return Distortion{{{all.from_s, std::min(all.to_s, scenario.duration_s)}, m.signal, m.frequency_Hz}};
-    case MetricKind::energy:
+    case TakenOf::power:
       return Energy{energies, m.signal};
-    case MetricKind::efficiency:
+    case TakenOf::energies:
       return Efficiency{energies};
-    case MetricKind::band_excess:
-      return BandExcess{HysteresisGauge(all)};
-    case MetricKind::band_deficit:
+    case TakenOf::band:
+      if (m.metric == MetricKind::band_excess) return BandExcess{HysteresisGauge(all)};
       return BandDeficit{HysteresisGauge(all)};
-    case MetricKind::switching_frequency:
+    case TakenOf::switching:
       return SwitchingGauge(all, m.signal);
   }
   return gauges_for(m, scenario, levels);
