@@ -99,10 +99,9 @@ void csv(benchmark::State& state, const Case& c) {
     auto made = files::CsvWriter::create(name, columns);
     file.reset();
     if (made) file.emplace(std::move(*made));
-    return study::GridRecorder(grid_ticks, p.end(), p.scenario().control.mode, first_columns(7),
-                               [&file](std::span<const double> row) {
-                                 if (file) file->row(row);
-                               });
+    return study::GridRecorder(grid_ticks, p.end(), first_columns(7), [&file](std::span<const double> row) {
+      if (file) file->row(row);
+    });
   });
 }
 
@@ -128,12 +127,10 @@ void register_all(const Case& c) {
   add(c, "energy audit and laws", [](const Prepared&) { return Audited{}; });
   for (const FigureRow& row : figure_rows)
     add(c, row.name, [measure = row.measure](const Prepared& p) { return figure(p, measure); });
-  add(c, "rows on a grid, one per PWM period", [](const Prepared& p) {
-    return study::GridRecorder(grid_ticks, p.end(), p.scenario().control.mode, first_columns(7), nowhere);
-  });
+  add(c, "rows on a grid, one per PWM period",
+      [](const Prepared& p) { return study::GridRecorder(grid_ticks, p.end(), first_columns(7), nowhere); });
   add(c, "rows at every event", [](const Prepared& p) {
-    return study::EventRecorder(gap_s, p.scenario().control.mode, first_columns(study::column_count),
-                                nowhere);
+    return study::EventRecorder(gap_s, first_columns(study::column_count), nowhere);
   });
   benchmark::RegisterBenchmark((std::string(c.name) + "/rows on a grid to a CSV file").c_str(),
                                [c](benchmark::State& state) { csv(state, c); });

@@ -5,6 +5,8 @@
 #include "report/figures.hpp"
 #include "report/html.hpp"
 #include "report/parameters.hpp"
+#include "sixstep/study/scenario/at_description.hpp"
+#include "sixstep/study/scenario/changes.hpp"
 
 namespace report {
 namespace {
@@ -163,11 +165,31 @@ std::string reference(const study::Reference& r, const char* unit) {
 
 std::string reference(const study::Scenario& s) {
   static constexpr const char* units[] = {"", "", "A", "rad/s", "deg"};
-  const char* unit = units[static_cast<int>(s.control.mode)];
-  std::string text = reference(s.reference, unit);
-  for (const study::At& at : s.at)
-    if (at.reference)
-      text += fmt::format("; from {} on {}", given(at.time_s, "s"), reference(*at.reference, unit));
+  const auto unit = [](control::Mode mode) { return units[static_cast<int>(mode)]; };
+  std::string text = reference(s.reference, unit(s.control.mode));
+  const std::vector<control::Mode> modes = study::modes_from(s);
+  for (std::size_t n = 0; n < s.at.size(); ++n)
+    if (s.at[n].reference)
+      text += fmt::format("; from {} on {}", given(s.at[n].time_s, "s"),
+                          reference(*s.at[n].reference, unit(modes[n])));
+  return text;
+}
+
+/// What of the controller an event changes, in a word or two each.
+std::string tuned(const study::At& at) {
+  std::string text;
+  const auto add = [&text](bool changed, const std::string& words) {
+    if (changed) text += (text.empty() ? "" : ", ") + words;
+  };
+  const study::AtControl& c = at.control;
+  add(c.mode != study::AtMode::same, fmt::format("mode {}", base::word(study::at_mode_choices, c.mode)));
+  add(!(c.current == study::AtCurrentLoop{}), "current controller");
+  add(!(c.speed == study::AtSpeedLoop{}), "speed controller");
+  add(!(c.position == study::AtPositionLoop{}), "position controller");
+  add(!(c.limits == study::AtLimits{}), "limits");
+  add(c.slew.has_value(), "slew");
+  add(at.pwm.chopping != study::AtChopping::same,
+      fmt::format("{} chopping", base::word(study::at_chopping_choices, at.pwm.chopping)));
   return text;
 }
 
@@ -181,6 +203,8 @@ std::string events(const std::vector<study::At>& events) {
     if (at.load.torque_Nm) add("load " + given(*at.load.torque_Nm, "Nm"));
     if (at.load.locked) add(*at.load.locked ? "rotor clamped" : "rotor let go");
     if (at.sensors.hall_break) add(fmt::format("line H{} breaks", at.sensors.hall_break->line));
+    if (at.bridge.dead_time_s) add("dead time " + given(*at.bridge.dead_time_s, "s"));
+    if (const std::string words = tuned(at); !words.empty()) add(words);
     if (at.request == study::DriveRequest::on) add("asked to run");
     if (at.request == study::DriveRequest::off) add("let go");
     if (at.request == study::DriveRequest::clear) add("fault cleared");

@@ -7,7 +7,8 @@ Reads the ```layers block there and checks every #include under the rooms:
     (study/run), so does each corner within its room;
   - third-party headers appear only outside the library, and nothing includes tests/ or benchmarks/;
   - control/ includes nothing that a bare chip lacks, the library nothing that knows files, clocks or threads;
-  - rooms that can influence a trajectory call no elementary function of the C library.
+  - rooms that can influence a trajectory call no elementary function of the C library;
+  - no text of the library names a command or an option: it has more faces than one.
 Prints file:line, the breach and its cure; exits 1 on any, 2 if the picture itself is broken.
 """
 import argparse
@@ -30,6 +31,7 @@ LIBRARY = FREESTANDING | set("algorithm bitset cassert charconv cmath cstdlib cs
 ELEMENTARY = re.compile(r"(?<![\w:])(?:std)?::\s*(a?sinh?|a?cosh?|a?tanh?|atan2|exp2?|expm1|log(?:10|1p|2)?|pow|cbrt|hypot|fma|lerp|"
                         r"[lt]gamma|erfc?)[fl]?\s*[(;]")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+FACE = re.compile(r"(?<![\w-])--[a-z][a-z-]+|\bsixstep (?:compare|completion|curve|design|export|help|man|motor|new|run|schema)\b")
 STRING = re.compile(r'"(?:\\.|[^"\\])*"')
 CPP_HEADER = re.compile(r"^[a-z_0-9]+$")  # <vector>: no dot, no slash
 
@@ -139,6 +141,11 @@ def check_file(root: pathlib.Path, file: pathlib.Path, layers: dict[str, set[str
                 breach = check_corner(path, target, layers)
             if breach:
                 breaches.append(f"{path}:{number}: {breach}")
+        for text in STRING.findall(line) if in_library and not include else ():
+            word = FACE.search(text)
+            if word:
+                breaches.append(f"{path}:{number}: says {word.group(0)}, which only one face knows; say it in the library's "
+                                "words and let the face translate (faces/cli/spec_words.hpp)")
         call = ELEMENTARY.search(STRING.sub('""', line)) if in_library and layer in DETERMINISTIC else None
         if call:
             breaches.append(f"{path}:{number}: calls the C library's {call.group(1)}, whose last digit differs between "

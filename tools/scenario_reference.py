@@ -37,8 +37,10 @@ Whatever stands in brackets or braces is one value and replaces the other. Empty
 nobody had written it: `load = {}`, or `speed = {}` under `[control]`.
 
 `[[at]]` changes something at an instant of the run: the reference, the source's voltage, the load, a Hall line, the request to
-the product drive. A reference that moves is looked at by each control tick, and held until the next. Figures that are taken of
-the reference's steps need one that stands still in their window, or their own `level`.
+the product drive, the dead time; gains, limits, mode and chopping, which the controller takes up with its next sample
+([what it keeps then](session.md#what-the-chip-does-at-a-change)). A reference that moves is looked at by each control tick, and
+held until the next. Figures that are taken of the reference's steps need one that stands still in their window, or their own
+`level`.
 
 The file of `shape = "csv"` has the time first and the reference in another column, parted by commas, semicolons (then with
 decimal commas, if you like), tabs or blanks. One line of headings may come first; a heading may bring a unit, `t_ms` or

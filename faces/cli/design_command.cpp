@@ -9,6 +9,7 @@
 #include "faces/cli/choose.hpp"
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/side_by_side.hpp"
+#include "faces/cli/spec_words.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
 #include "files/atomic_file.hpp"
@@ -183,14 +184,15 @@ Exit design_command(const DesignArguments& a) {
   if (found.empty()) found = outputs.open(a);
   if (!found.empty()) return refused(found);
   catch_interrupts();
-  const base::Result<analysis::DesignStudy> s = analysis::study_design(
+  base::Result<analysis::DesignStudy> s = analysis::study_design(
       {.subject = *subject,
        .spec = spec,
        .tolerances = a.quick ? std::vector<analysis::Tolerance>() : analysis::sheet_tolerances(spec.mode),
        .for_each = side_by_side(a.jobs, a.quiet, "motors"),
        .keep_going = [] { return !interrupted(); }});
   if (interrupted()) return told_interrupted("design " + a.motor);
-  if (!s) return refused(s.problems());
+  if (!s) return refused(in_options(s.problems()));
+  put_in_options(*s);
   if (const base::Problems unwritten = write(*s, a, outputs); !unwritten.empty()) return refused(unwritten);
   if (a.json == "-") print(text::design_json(*s));
   std::FILE* to = a.json == "-" ? stderr : stdout;  // standard output is the JSON's alone

@@ -10,6 +10,7 @@
 #include "faces/cli/choose.hpp"
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/side_by_side.hpp"
+#include "faces/cli/spec_words.hpp"
 #include "faces/cli/terminal.hpp"
 #include "sixstep/analysis/verify/first_scenario.hpp"
 #include "sixstep/study/scenario/choices.hpp"
@@ -44,7 +45,9 @@ base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::stri
   spec.sheet = *sheet;
   spec.voltage_V = a.voltage_V;
   spec.for_each = side_by_side(0, true, "motors");
-  return analysis::first_scenario(spec);
+  base::Result<study::Scenario> scenario = analysis::first_scenario(spec);
+  if (!scenario) return in_options(scenario.problems());
+  return scenario;
 }
 
 /// The schema lies beside the scenario, where its first line looks for it; one that is there already stays.

@@ -10,7 +10,7 @@ struct MechanicalAngle {
   bool operator==(const MechanicalAngle&) const = default;
 };
 
-/// Angle of the rotor's field against the stator's, rad: theta_e = p theta_m (MODEL 1).
+/// Angle of the rotor's field against the stator's, rad: theta_e = p theta_m (model.md 1).
 struct ElectricalAngle {
   double rad = 0.0;
   bool operator==(const ElectricalAngle&) const = default;

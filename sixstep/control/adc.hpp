@@ -20,6 +20,7 @@ struct AdcConfig {
   std::uint16_t offset_counts = 0;     ///< where no current reads, by the circuit
   std::uint16_t offset_tolerance = 0;  ///< counts that the measured offset may be off
   std::uint8_t log2_samples = 6;       ///< of one calibration, at most 12
+  bool operator==(const AdcConfig&) const = default;
 };
 
 struct AdcState {

@@ -20,6 +20,7 @@ struct AdvanceConfig {
   Scalar fixed{};            ///< sectors
   Gain<Scalar> per_speed{};  ///< sectors per rad/s, mechanical
   Scalar limit{};            ///< sectors, below 1
+  bool operator==(const AdvanceConfig&) const = default;
 };
 
 template <class Scalar>

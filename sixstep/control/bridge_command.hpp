@@ -6,10 +6,10 @@
 
 namespace sixstep::control {
 
-/// The thesis's modes (THESIS 5): what the setpoint means.
+/// The thesis's modes (model.md 13): what the setpoint means.
 enum class Mode : std::uint8_t { off, duty, current, speed, position };
 
-/// How the off part of a PWM period looks (MODEL 3).
+/// How the off part of a PWM period looks (model.md 3).
 enum class Chopping : std::uint8_t { soft, hard, complementary };
 
 /// A leg of the bridge, by the phase it feeds.

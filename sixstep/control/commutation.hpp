@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commutation table: the only place where Hall codes, sectors and driven pairs meet (MODEL 3).
+// The commutation table: the only place where Hall codes, sectors and driven pairs meet (model.md 3).
 #pragma once
 #include <cstdint>
 
@@ -64,7 +64,7 @@ constexpr Scalar phase_current(const Measurement<Scalar>& m, Leg leg) {
 }
 
 /// Motor current i_m = (i_p - i_n)/2 of the positive-torque pair, so that T_e = K_t i_m on flat tops
-/// (MODEL 3).
+/// (model.md 3).
 template <class Scalar>
 constexpr Scalar motor_current(const Measurement<Scalar>& m, Pair positive) {
   return ScalarTraits<Scalar>::half_difference(phase_current(m, positive.source),

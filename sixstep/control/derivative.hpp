@@ -18,6 +18,7 @@ template <class Scalar>
 struct DerivativeConfig {
   Gain<Scalar> g{};  ///< output per input: K_d/(T_f + T_s)
   Gain<Scalar> b{};  ///< T_s/(T_f + T_s), 1 without a filter
+  bool operator==(const DerivativeConfig&) const = default;
 };
 
 template <class Scalar>

@@ -32,6 +32,7 @@ struct DriveConfig {
   Scalar speed_limit_rad_s{};    ///< of the reference a position loop gives
   SpeedControl speed_control = SpeedControl::cascade;
   DriveExtras<Scalar> extras{};
+  bool operator==(const DriveConfig&) const = default;
 };
 
 template <class Scalar>
@@ -61,7 +62,7 @@ constexpr BridgeCommand<Scalar> bridge_off(bool fault) {
   return command;
 }
 
-/// d < 0 swaps source and sink; d = 0 counts as positive (MODEL 3).
+/// d < 0 swaps source and sink; d = 0 counts as positive (model.md 3).
 template <class Scalar>
 constexpr void set_duty(DriveState<Scalar>& state, Pair positive, Scalar d) {
   state.reversed = d < Scalar{};
@@ -175,7 +176,7 @@ constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveStat
 }  // namespace detail
 
 /// One control tick in a mode that may differ from the configured one (braking, say). A cascade runs outer to
-/// inner from one sample (MODEL 4). An impossible Hall code turns the bridge off and reports a fault.
+/// inner from one sample (model.md 4). An impossible Hall code turns the bridge off and reports a fault.
 template <class Scalar>
 constexpr BridgeCommand<Scalar> step_in(Mode mode, const DriveConfig<Scalar>& config,
                                         DriveState<Scalar>& state, const Measurement<Scalar>& measured,
@@ -212,7 +213,7 @@ constexpr BridgeCommand<Scalar> step(const DriveConfig<Scalar>& config, DriveSta
   return step_in(config.mode, config, state, measured, setpoint, telemetry);
 }
 
-/// The Hall interrupt: the present state moves to the new pair at once; duty and sign stay (MODEL 3).
+/// The Hall interrupt: the present state moves to the new pair at once; duty and sign stay (model.md 3).
 template <class Scalar>
 constexpr BridgeCommand<Scalar> on_hall(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                         std::uint8_t code) {

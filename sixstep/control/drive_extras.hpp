@@ -30,6 +30,7 @@ struct DriveExtras {
   bool positional_speed = false;  ///< the speed loop by the next two, else by DriveConfig::speed
   PiPositionalConfig<Scalar> speed{};
   DerivativeConfig<Scalar> speed_derivative{};  ///< of the measured speed, taken off the output
+  bool operator==(const DriveExtras&) const = default;
 };
 
 template <class Scalar>

@@ -33,6 +33,7 @@ struct FaultConfig {
   Scalar stall_current_A{};        ///< |i| of a phase strictly above, with no Hall edge, for
   std::uint32_t stall_ticks = 0;   ///< so many ticks in a row
   std::uint8_t voltage_ticks = 1;  ///< a voltage must be wrong so many ticks in a row; 0 counts as 1
+  bool operator==(const FaultConfig&) const = default;
 };
 
 struct FaultState {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the current loop need not find out by itself: the back-EMF it works against and the bus it works with.
 //
-//   u = u_PI + K_t w          back-EMF between the driven terminals on flat tops (MODEL 1: e = K_t w)
-//   d = u/U_s                 measured bus in place of the nominal one (MODEL 4)
+//   u = u_PI + K_t w          back-EMF between the driven terminals on flat tops (model.md 1: e = K_t w)
+//   d = u/U_s                 measured bus in place of the nominal one (model.md 4)
 #pragma once
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/scalar.hpp"
@@ -13,6 +13,7 @@ namespace sixstep::control {
 template <class Scalar>
 struct FeedForwardConfig {
   Gain<Scalar> K_t_V_s{};  ///< V per mechanical rad/s, terminal: the torque constant's number
+  bool operator==(const FeedForwardConfig&) const = default;
 };
 
 template <class Scalar>
@@ -24,6 +25,7 @@ constexpr Scalar back_emf_voltage(const FeedForwardConfig<Scalar>& config, Scala
 template <class Scalar>
 struct BusCompensationConfig {
   Scalar lowest_bus_V{};  ///< divides by this where the measurement is lower (a lost sensor); 0: off
+  bool operator==(const BusCompensationConfig&) const = default;
 };
 
 /// Duty -1..1 for a voltage between the driven terminals.

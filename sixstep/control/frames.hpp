@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three phases as one vector, in the stator's frame and in the rotor's (MODEL2 11). The scaling keeps
+// Three phases as one vector, in the stator's frame and in the rotor's (model.md 11). The scaling keeps
 // amplitudes: a phase quantity of peak 1 is a vector of length 1.
 //
 //   x_alpha = (2 x_a - x_b - x_c)/3         x_d =  x_alpha cos + x_beta sin

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A bridge command as the six gates of one instant, for firmware that sets pins or the output modes of a
-// timer. Within the on-time of a PWM period both driven switches are on; in its off-time (MODEL 3)
+// timer. Within the on-time of a PWM period both driven switches are on; in its off-time (model.md 3)
 //   soft           the sink's lower switch stays on
 //   hard           none
 //   complementary  as soft, and the source's lower switch, after the dead time that the timer inserts

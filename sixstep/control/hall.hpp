@@ -4,8 +4,8 @@
 // table itself is commutation.hpp's.
 //
 // Probes 60 degrees apart give 110 111 011 001 000 100 in sectors 0 to 5 (each probe is high over half a turn
-// and lags its predecessor by one sector); 010 and 101 are impossible (MODEL 3). Their H3 is the H2 of probes
-// 120 degrees apart, their H2 the complement of that arrangement's H3.
+// and lags its predecessor by one sector); 010 and 101 are impossible (model.md 3). Their H3 is the H2 of
+// probes 120 degrees apart, their H2 the complement of that arrangement's H3.
 #pragma once
 #include <cstdint>
 
@@ -35,6 +35,7 @@ struct HallConfig {
   /// A new code counts when it stood this many samples in a row. It delays each edge by so many samples less
   /// one; 0 counts as 1. In an interrupt, where the first reading counts, leave it at 1.
   std::uint8_t stable_samples = 1;
+  bool operator==(const HallConfig&) const = default;
 };
 
 struct HallState {

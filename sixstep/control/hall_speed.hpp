@@ -30,6 +30,7 @@ struct HallSpeedConfig {
   std::uint8_t edges = 1;           ///< k, 1..6
   std::uint32_t window_ticks = 0;   ///< k = 1 where `edges` took longer than this; 0: always `edges`
   std::uint32_t grain_ticks = 1;    ///< an edge's time is known to: 1 by capture, a control period by looking
+  bool operator==(const HallSpeedConfig&) const = default;
 };
 
 struct HallSpeedState {
@@ -131,6 +132,7 @@ template <class Scalar>
 struct HallPositionConfig {
   Gain<Scalar> per_sector{};    ///< position per sector counted: 60/p degrees mechanical; fixed: raw units
   Gain<Scalar> per_fraction{};  ///< position per whole sector interpolated: the same; fixed: of 1
+  bool operator==(const HallPositionConfig&) const = default;
 };
 
 struct HallPositionState {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two-level current control: on below |i_ref| - h, off above |i_ref| + h, kept between, starts on (MODEL 4).
+// Two-level current control: on below |i_ref| - h, off above |i_ref| + h, kept between, starts on (model.md
+// 4).
 #pragma once
 
 #include "sixstep/control/bridge_command.hpp"
@@ -11,6 +12,7 @@ template <class Scalar>
 struct HysteresisConfig {
   Scalar band_A{};             ///< h, half the width of the band
   Watch watch = Watch::motor;  ///< what the board's comparators look at; Watch::none: sampled here, on i_m
+  bool operator==(const HysteresisConfig&) const = default;
 };
 
 template <class Scalar>

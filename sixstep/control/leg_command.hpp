@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The second answer of a controller: one command per leg, as a timer's channel takes it (MODEL2 11). Six-step
-// answers with a pair and one duty (bridge_command.hpp); that struct knows nothing of this one, so that a
-// six-step chip carries and copies no more than it needs. How six-step reads as three legs is stated here.
+// The second answer of a controller: one command per leg, as a timer's channel takes it (model.md 11).
+// Six-step answers with a pair and one duty (bridge_command.hpp); that struct knows nothing of this one, so
+// that a six-step chip carries and copies no more than it needs. How six-step reads as three legs is stated
+// here.
 #pragma once
 #include <cstdint>
 
@@ -59,7 +60,7 @@ constexpr LegSides sides_of(const LegCommand<Scalar>& command) {
   return {};
 }
 
-/// The leg that the current of a driven pair enters by (MODEL 3): its upper switch chops.
+/// The leg that the current of a driven pair enters by (model.md 3): its upper switch chops.
 template <class Scalar>
 constexpr LegCommand<Scalar> source_leg(Chopping chopping, Scalar duty) {
   return {LegState::pwm,

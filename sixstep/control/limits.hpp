@@ -4,7 +4,7 @@
 // A window for the current reference, which each limit narrows:
 //
 //   current       |i| <= limit
-//   torque        |i| <= T_limit/K_t                                (MODEL 1: T_e = K_t i_m)
+//   torque        |i| <= T_limit/K_t                                (model.md 1: T_e = K_t i_m)
 //   speed         i <= K (w_limit - w) forward, i >= -K (w_limit + w) backward, both at least 0 A
 //   regeneration  braking current <= g (U_limit - U_s), at least 0 A
 //
@@ -40,6 +40,7 @@ struct LimitsConfig {
   bool limits_regeneration = false;
   Scalar bus_V{};          ///< U_limit
   Gain<Scalar> A_per_V{};  ///< g: full braking current down to current_A/g below the limit
+  bool operator==(const LimitsConfig&) const = default;
 };
 
 /// The references that are allowed, low <= 0 <= high.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Motor current from one shunt in the DC link. What the shunt carries is the sum of the legs connected high
-// (MODEL 3): within the on-time the source phase's current, and zero or the returned current in the off-time.
-// So a sample counts only if it was taken in the on-time and the amplifier had time to settle.
+// (model.md 3): within the on-time the source phase's current, and zero or the returned current in the
+// off-time. So a sample counts only if it was taken in the on-time and the amplifier had time to settle.
 //
 // Around a commutation one phase keeps its current i_k, one comes in and one runs out through a diode:
 //   sink changes: the outgoing sink feeds the upper rail, the shunt sees i_k less that: the incoming current
@@ -25,6 +25,7 @@ struct OneShuntConfig {
   Scalar least_duty = one<Scalar>;       ///< (delay of the sample + settling)/T_s; visible strictly above
   std::uint8_t commutation_samples = 0;  ///< longest commutation that is corrected for
   Scalar fade{};                         ///< of the kept value per hidden tick: exp(-T_s R/L), 1 holds it
+  bool operator==(const OneShuntConfig&) const = default;
 };
 
 template <class Scalar>

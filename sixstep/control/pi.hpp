@@ -12,6 +12,7 @@ struct PiConfig {
   Gain<Scalar> d1{};  ///< output per input: the proportional gain K
   Gain<Scalar> d0{};  ///< K_i = d1 + d0 per sample
   Scalar limit{};     ///< |u| never exceeds it
+  bool operator==(const PiConfig&) const = default;
 };
 
 template <class Scalar>

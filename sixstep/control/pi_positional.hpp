@@ -29,6 +29,7 @@ struct PiPositionalConfig {
   Gain<Scalar> K_b{};  ///< 0..1 per sample; K_i/K is usual
   Scalar limit{};      ///< |u| never exceeds it
   Gain<Scalar> K_c{};  ///< K_i - K_b K: what the integral still sees of e where the limit cuts; 0 is usual
+  bool operator==(const PiPositionalConfig&) const = default;
 };
 
 /// Of a rounded K_i/K next to nothing is left: nothing.

@@ -27,6 +27,7 @@ struct AlignConfig {
   std::uint32_t ticks = 0;          ///< longest; 0: no alignment
   std::uint32_t settled_ticks = 0;  ///< in one of the two sectors for so long
   std::uint8_t sector = 0;          ///< s
+  bool operator==(const AlignConfig&) const = default;
 };
 
 /// Every default leaves the bridge off.
@@ -47,6 +48,7 @@ struct ProtectedConfig {
   Scalar brake_current_A{};    ///< held against the turning; 0: coasts
   Scalar short_below_rad_s{};  ///< |w| from which on the windings are shorted: below brake_current_A R_tt/K_t
   Scalar standing_rad_s{};     ///< |w| at most: let go
+  bool operator==(const ProtectedConfig&) const = default;
 };
 
 /// What the registers say.

@@ -12,6 +12,7 @@ namespace sixstep::control {
 template <class Scalar>
 struct SlewConfig {
   Accumulator<Scalar> step{};  ///< largest change per tick; fixed point: may be below the last bit
+  bool operator==(const SlewConfig&) const = default;
 };
 
 template <class Scalar>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Chopping that stays smooth through d = 0. With ideal soft chopping d -> 0+ lets no current flow and d -> 0-
-// is a full short-circuit brake (MODEL 4b): a loop that crosses zero at speed meets a jump of 2 K_e w/R_tt.
-// Complementary chopping applies d U_s at both signs, with no jump, but switches a leg's two transistors
-// against each other all the time: dead time and switching loss, and at light load a current that reverses.
+// is a full short-circuit brake (model.md 4b): a loop that crosses zero at speed meets a jump of 2 K_e
+// w/R_tt. Complementary chopping applies d U_s at both signs, with no jump, but switches a leg's two
+// transistors against each other all the time: dead time and switching loss, and at light load a current that
+// reverses.
 //
 // While the driven current flows the whole period in the direction of the command, both are the same circuit
 // (the lower diode conducts in place of the lower switch). So: soft where s i_m is above `soft_above_A`,
@@ -18,6 +19,7 @@ template <class Scalar>
 struct SmoothChoppingConfig {
   Scalar soft_above_A{};
   Scalar complementary_below_A{};  ///< below soft_above_A
+  bool operator==(const SmoothChoppingConfig&) const = default;
 };
 
 template <class Scalar>

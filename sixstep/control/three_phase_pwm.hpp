@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three phase voltages as duties of three complementary legs (MODEL2 11):
+// Three phase voltages as duties of three complementary legs (model.md 11):
 //
 //   d_k = 1/2 + (v_k + v_0)/U_s, clamped to [0, 1]
 //   sine-triangle   v_0 = 0                      undistorted up to a phase voltage of U_s/2

@@ -50,8 +50,8 @@ constexpr int centre_distance_deg(int sector, int k) {
   return d;
 }
 
-/// f = 1 on the top, -1 on the bottom, (90 - |phi|)/(90 - w/2) on the ramps (MODEL 1), linear over one piece
-/// whose middle lies `middle_deg` behind the sector's start.
+/// f = 1 on the top, -1 on the bottom, (90 - |phi|)/(90 - w/2) on the ramps (model.md 1), linear over one
+/// piece whose middle lies `middle_deg` behind the sector's start.
 template <class Real>
 constexpr void trapezoid_line(int start_deg, Real middle_deg, Real flat_deg, Real& alpha, Real& beta) {
   Real phi = Real(start_deg) + middle_deg;

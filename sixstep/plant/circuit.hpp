@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The circuit law of the three-leg bridge on a star winding (MODEL 2): what each leg is connected to, its
+// The circuit law of the three-leg bridge on a star winding (model.md 2): what each leg is connected to, its
 // pole voltage against the negative rail, and the star point's voltage. Pure functions; who decides the
 // connections is elsewhere.
 #pragma once
@@ -31,7 +31,7 @@ constexpr int connected_count(const Legs& legs) {
   return int{!is_floating(legs[0])} + int{!is_floating(legs[1])} + int{!is_floating(legs[2])};
 }
 
-/// MODEL 2's table for a MOSFET leg: the gated channel carries both directions alone; without a gate the
+/// model.md 2's table for a MOSFET leg: the gated channel carries both directions alone; without a gate the
 /// current's sign names the diode, and no current, up to `noise`, leaves the leg floating (whether it stays
 /// so is a question of the voltages). Both gates on is shoot-through and has no connection: shoots_through()
 /// comes first. Written with branches: foreseen, they let a segment's series begin before the currents' signs
@@ -59,7 +59,7 @@ struct PoleTerms {
 };
 
 /// high by switch: U_s - R_on i; low by switch: -R_on i; low by diode: -V_f - r_d i; high by diode: U_s + V_f
-/// - r_d i (MODEL 2). A floating leg has no law of its own: all terms zero.
+/// - r_d i (model.md 2). A floating leg has no law of its own: all terms zero.
 template <class Real>
 constexpr PoleTerms<Real> pole_terms(Connection c, const Devices& devices) {
   const Real R_on = Real(devices.R_on_ohm), V_f = Real(devices.V_f_V), r_d = Real(devices.r_d_ohm);
@@ -96,7 +96,7 @@ constexpr Real pole_voltage(const PoleTerms<Real>& terms, Real U_s, Real i) {
   return terms.bus_share * U_s + terms.offset_V - terms.r_ohm * i;
 }
 
-/// Star point's voltage against the negative rail (MODEL 2, eq. 5): u_n = (1/|S|) sum_{k in S} (u_k - e_k).
+/// Star point's voltage against the negative rail (model.md (5)): u_n = (1/|S|) sum_{k in S} (u_k - e_k).
 /// With |S| = 0 it is free; it is then put where the highest and the lowest terminal keep the same distance
 /// from their rails, so that "a floating terminal beyond a rail" says max e - min e > U_s + 2 V_f there too.
 template <class Real>
@@ -114,7 +114,7 @@ constexpr Real star_voltage(const Legs& legs, const PoleTable<Real>& poles, Real
   return (U_s - highest - lowest) / Real(2);
 }
 
-/// All three pole voltages: the connected legs by their devices, the floating ones at u_n + e_k (MODEL 2).
+/// All three pole voltages: the connected legs by their devices, the floating ones at u_n + e_k (model.md 2).
 template <class Real>
 constexpr PerLeg<Real> pole_voltages(const Legs& legs, const PoleTable<Real>& poles, Real U_s,
                                      const PerLeg<Real>& i, const PerLeg<Real>& e) {
@@ -126,8 +126,8 @@ constexpr PerLeg<Real> pole_voltages(const Legs& legs, const PoleTable<Real>& po
   return u;
 }
 
-/// Current out of the positive rail: the sum of i_k over the legs connected high, by switch or diode (MODEL
-/// 4b).
+/// Current out of the positive rail: the sum of i_k over the legs connected high, by switch or diode
+/// (model.md 2).
 template <class Real>
 constexpr Real bus_current(const Legs& legs, const PerLeg<Real>& i) {
   Real sum{};

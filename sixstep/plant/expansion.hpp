@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the plant is made of in numbers, and the polynomials of one segment: between events the right-hand
-// side is polynomial in the state, so guards, dense output and energy all read the same series (ENGINE).
+// side is polynomial in the state, so guards, dense output and energy all read the same series (model.md 12).
 #pragma once
 #include <cmath>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The series of one segment while they grow, and what every conduction mode has in common: the rotor, the bus
-// and the shape of the back-EMF (MODEL 1).
+// and the shape of the back-EMF (model.md 1).
 #pragma once
 #include "sixstep/plant/torques.hpp"
 
 namespace sixstep::plant::detail {
 
 // The order n of a term is a template argument: the whole recurrence is unrolled, products of short series
-// included (ENGINE: an unrolled kernel takes a quarter of the time of one with counted loops).
+// included (model.md 12: an unrolled kernel takes a quarter of the time of one with counted loops).
 
 /// The series while they grow: a local of the recurrence, so that the newest terms stay in registers and no
 /// store has to be waited for. What a law does not use is never made.

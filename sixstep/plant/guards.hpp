@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What must stay >= 0 for the present mode to hold. Each guard is a polynomial made of the same series as the
 // dynamics, with the rounding level below which its coefficients say nothing. In order of what wins a tie:
-// current zero, standstill, sector edge, then rails and the rest (MODEL 4b).
+// current zero, standstill, sector edge, then rails and the rest (model.md 4b).
 #pragma once
 #include "sixstep/plant/expand.hpp"
 #include "sixstep/plant/pole.hpp"
@@ -24,7 +24,7 @@ inline constexpr int source = 23;
 inline constexpr int first_free = 24;
 }  // namespace guard
 
-/// Noise = 64 eps x natural scale (ENGINE, pitfall 6), widened by `slack` where rounding left no mode
+/// Noise = 64 eps x natural scale (pitfall 6), widened by `slack` where rounding left no mode
 /// consistent.
 template <class Real>
 constexpr Real noise_of(Real scale, Real slack) {

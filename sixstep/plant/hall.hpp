@@ -6,7 +6,7 @@
 
 namespace sixstep::plant {
 
-/// H1 H2 H3 as bits 2, 1, 0 in sector 0..5 (MODEL 3): H1 over sectors 5, 0, 1; H2 over 1, 2, 3; H3 over 3,
+/// H1 H2 H3 as bits 2, 1, 0 in sector 0..5 (model.md 3): H1 over sectors 5, 0, 1; H2 over 1, 2, 3; H3 over 3,
 /// 4, 5.
 constexpr std::uint8_t hall_code(int sector) {
   const bool h1 = sector == 5 || sector == 0 || sector == 1;

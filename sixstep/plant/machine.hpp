@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The star machine's parameters in the frame of its equations (MODEL 1): per phase, SI.
+// The star machine's parameters in the frame of its equations (model.md 1): per phase, SI.
 #pragma once
 #include <cstdint>
 
@@ -16,7 +16,7 @@ struct Machine {
   double flat_deg = 120.0;  ///< flat width of the trapezoid, electrical degrees, in (0, 180)
 };
 
-/// What turns: J dw/dt = T_e - B w - T_c(w) - T_load (MODEL 1, eq. 4).
+/// What turns: J dw/dt = T_e - B w - T_c(w) - T_load (model.md (4)).
 struct Shaft {
   double J_kg_m2 = 0.0;
   double B_Nm_s = 0.0;      ///< viscous friction
@@ -31,14 +31,14 @@ inline double friction_Nm(const Shaft& shaft, double speed_rad_s) {
   return shaft.B_Nm_s * speed_rad_s + sign * shaft.coulomb_Nm;
 }
 
-/// Switches and diodes (MODEL 2), MOSFET: the gated channel carries both directions alone.
+/// Switches and diodes (model.md 2), MOSFET: the gated channel carries both directions alone.
 struct Devices {
   double R_on_ohm = 0.0;
   double V_f_V = 0.0;
   double r_d_ohm = 0.0;
 };
 
-/// Stiff (C_F = 0) or a source V_0 behind R_b feeding C (MODEL 2).
+/// Stiff (C_F = 0) or a source V_0 behind R_b feeding C (model.md 2).
 struct Supply {
   double V_0_V = 0.0;
   double R_b_ohm = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motor, bridge with diodes, shaft and supply as one system between events (MODEL 1, 2, 4b). The rig sets
+// Motor, bridge with diodes, shaft and supply as one system between events (model.md 1, 2, 4b). The rig sets
 // gates and load; the run loop expands, advances and hands back located events.
 #pragma once
 #include <algorithm>
@@ -133,7 +133,8 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   mode_.sector = static_cast<std::uint8_t>(sector_in_turn(state_.sector));
   const EmfSector<Real>& pieces = c.emf[mode_.sector];
   while (mode_.piece + 1 < pieces.count && state_.x >= pieces.piece[mode_.piece].to) ++mode_.piece;
-  // Turning backwards it has just passed that edge: the located event comes before the first tick (MODEL 4b).
+  // Turning backwards it has just passed that edge: the located event comes before the first tick (model.md
+  // 4b).
   if (on_edge && state_.w < 0) pass_edge(false);
 }
 

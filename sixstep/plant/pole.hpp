@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The voltage of a floating terminal, u_n + e_k (MODEL 2), over a segment. Few segments bring one near a
+// The voltage of a floating terminal, u_n + e_k (model.md 2), over a segment. Few segments bring one near a
 // rail: its series is made only where a cheap bound cannot exclude that.
 #pragma once
 #include "sixstep/plant/recurrences.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One order of the Taylor recurrence for the currents, for each number of connected legs (MODEL 1 and 2).
+// One order of the Taylor recurrence for the currents, for each number of connected legs (model.md 1 and 2).
 #pragma once
 #include "sixstep/plant/growing.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which mode is consistent now? Switches and nonzero currents name most connections; legs without gate and
 // current, the rotor at rest and the bus at the source's voltage are enumerated: exactly one combination is
-// right, and where rounding makes several look right, the one with most legs off (MODEL 2, 4b). Plain values
-// first, series only for ties.
+// right, and where rounding makes several look right, the one with most legs off (model.md 2, 4b). Plain
+// values first, series only for ties.
 #pragma once
 #include <span>
 
@@ -35,7 +35,7 @@ PerLeg<Real> back_emf(const Constants<Real>& c, const State<Real>& s, const Mode
   return e;
 }
 
-/// Electromagnetic torque at w's limit: K_e sum f_k i_k, exact also at standstill (MODEL 1, eq. 3).
+/// Electromagnetic torque at w's limit: K_e sum f_k i_k, exact also at standstill (model.md (3)).
 template <class Real>
 Real torque(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
   State<Real> unit = s;

@@ -15,7 +15,7 @@
 // needs neither hall_interrupt() nor reversed(): both are six-step's.
 #pragma once
 #include "sixstep/base/angle.hpp"
-#include "sixstep/control/protected_drive.hpp"
+#include "sixstep/control/retune.hpp"
 #include "sixstep/plant/plant.hpp"
 #include "sixstep/rig/board_config.hpp"
 #include "sixstep/rig/sensors.hpp"
@@ -38,6 +38,13 @@ struct Diagnosis {
   std::uint16_t faults = 0;    ///< bits of control::Fault that stopped the drive
   std::uint8_t hall_line = 0;  ///< 1..3: the line that made an impossible code; 0: none, or it cannot be told
   sim::Instant at{};           ///< the tick that latched them
+};
+
+/// What a chip is given while it runs (control/retune.hpp).
+template <class Config>
+struct Tuning {
+  Config config;
+  double setpoint_unit = 1.0;  ///< that of its mode
 };
 
 /// Everything as it is.
@@ -97,13 +104,18 @@ class LeanDrive {
   }
   void request_run(bool) {}
   void request_clear() {}
+  void retune(const Tuning<Config>& tuning) {
+    control::retune(config_, state_, tuning.config);
+    bases_.setpoint = tuning.setpoint_unit;
+  }
 
+  control::Mode mode() const { return config_.mode; }
   /// Sign of the last command.
   bool reversed() const { return state_.reversed; }
   /// Asks nothing of a tick but the setpoint.
   bool open_loop() const { return config_.mode == control::Mode::off || config_.mode == control::Mode::duty; }
-  /// An event hysteresis on the setpoint itself has no sample to wait for (MODEL 4). One that slews has: it
-  /// moves once a tick.
+  /// An event hysteresis on the setpoint itself has no sample to wait for (model.md 4). One that slews has:
+  /// it moves once a tick.
   bool follows_setpoint_at_once() const {
     return config_.mode == control::Mode::current &&
            config_.current_control == control::CurrentControl::hysteresis &&
@@ -148,7 +160,9 @@ class SensedDrive {
   }
   void request_run(bool) {}
   void request_clear() {}
+  void retune(const Tuning<Config>& tuning) { drive_.retune(tuning); }
 
+  control::Mode mode() const { return drive_.mode(); }
   bool reversed() const { return drive_.reversed(); }
   bool open_loop() const { return drive_.open_loop(); }
   bool follows_setpoint_at_once() const { return drive_.follows_setpoint_at_once(); }
@@ -185,7 +199,12 @@ class ProductDrive {
   void request_run(bool run) { request_.run = run; }
   /// Seen by the next tick alone: clearing acts on the rise.
   void request_clear() { request_.clear = true; }
+  void retune(const Tuning<Config>& tuning) {
+    control::retune(config_, state_, tuning.config);
+    bases_.setpoint = tuning.setpoint_unit;
+  }
 
+  control::Mode mode() const { return config_.drive.mode; }
   bool reversed() const { return state_.drive.reversed; }
   bool open_loop() const { return false; }
   bool follows_setpoint_at_once() const { return false; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One leg's output of the timer, with its dead time (MODEL2 11): at each change of the leg's command the
+// One leg's output of the timer, with its dead time (model.md 11): at each change of the leg's command the
 // switch that was on is off at once, and the other one comes on no earlier than the dead time after that
 // command. A new change before that cancels it. No change, no dead time.
 #pragma once

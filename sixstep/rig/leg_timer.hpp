@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The PWM timer of the board: three compare units that make pulses, and three legs, each on one of them with
-// a dead time of its own (MODEL2 11). A leg says which switch it has on within the pulse and which in the
-// rest of the period. Who drives it fills all three: six_step.hpp from a pair and one duty, three_legs.hpp
-// from three commands.
+// a dead time of its own (model.md 11). A leg says which switch it has on within the pulse and which in the
+// rest of the period. six_step_modulator.hpp fills all three from a pair and one duty,
+// three_leg_modulator.hpp from three commands.
 #pragma once
 #include <array>
 
@@ -27,12 +27,15 @@ class LegTimer {
   /// As it stands before anything happens: that is no turn-on.
   void preset_pulse(unsigned pulse, bool on) { pulses_[pulse].on = on; }
 
+  /// Of the changes from now on; what waits already waits as long as it was told.
+  void set_dead_time(double ticks) { dead_ticks_ = config_.in_counts(ticks); }
+
   /// All legs off; the pulses go on.
   void disconnect() { outputs_ = {}; }
   void connect(unsigned leg, control::LegSides sides, unsigned pulse) {
     outputs_[leg] = {sides, static_cast<std::uint8_t>(pulse)};
   }
-  /// What a leg does, waits and all, goes on in another one (MODEL 3).
+  /// What a leg does, waits and all, goes on in another one (model.md 3).
   void hand_over(unsigned from, unsigned to);
   /// The legs follow pulses and connections. What leg `late` would turn on at this instant waits too.
   static constexpr int none_late = -1;

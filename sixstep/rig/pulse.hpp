@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One compare unit of the timer: when the pulse of a PWM period begins and ends (MODEL 3).
+// One compare unit of the timer: when the pulse of a PWM period begins and ends (model.md 3).
 #pragma once
 #include <cmath>
 #include <cstdint>

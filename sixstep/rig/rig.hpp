@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The virtual board around the plant: samples, runs the controller, modulates, and plays the scenario's
-// timeline. It is the System that sim::run drives; the order of things at one instant is act()'s (MODEL 4b).
-// What its chip runs is a template parameter (firmware.hpp).
+// timeline. It is the System that sim::run drives; the order of things at one instant is act()'s (model.md
+// 4b). What its chip runs is a template parameter (firmware.hpp).
 #pragma once
 #include <array>
 #include <type_traits>
@@ -33,11 +33,15 @@ class Rig {
  public:
   using Real = RealType;
   using Modulator = typename ModulatorFor<typename Firmware::Command>::type;
+  using Config = typename Firmware::Config;
+  using Tunings = std::vector<Tuning<Config>>;
 
-  Rig(const plant::Plant<Real>& plant, const typename Firmware::Config& chip, const BoardConfig& board,
-      const Timeline& timeline)
+  /// `tunings`: what the timeline's retune actions name. A copy of a rig is its snapshot.
+  Rig(const plant::Plant<Real>& plant, const Config& chip, const BoardConfig& board, Timeline timeline,
+      Tunings tunings = {})
       : plant_(plant),
-        timeline_(timeline),
+        timeline_(std::move(timeline)),
+        tunings_(std::move(tunings)),
         board_(board),
         modulator_(board.modulator),
         firmware_(chip, board,
@@ -55,6 +59,10 @@ class Rig {
     now_ = to;
   }
   void apply(int id);
+
+  /// Another future. What is done up to now begins the new timeline as it began the old one, and the
+  /// configuration in effect may differ in nothing that has been felt.
+  void replace_future(Timeline timeline, const Tuning<Config>& first, Tunings tunings);
 
   const plant::Plant<Real>& plant() const { return plant_; }
   const Modulator& modulator() const { return modulator_; }
@@ -75,6 +83,8 @@ class Rig {
   std::int64_t event_count(EventKind what) const { return event_counts_[static_cast<std::size_t>(what)]; }
   /// True between a control tick and the segment that follows it.
   bool ticked() const { return ticked_; }
+  /// When the chip looks next; in open loop at a steady bridge that may be never.
+  const sim::Instant& next_tick() const { return next_tick_; }
 
  private:
   /// What only six-step has: a sign, a pair that moves on at Hall edges, comparators.
@@ -99,6 +109,7 @@ class Rig {
   void control_step(bool starts_period);
   void follow_waveform();
   void skip_idle_ticks();
+  sim::Instant told_next() const;
   void sector_edge();
   void hall_edge();
   void commutate();
@@ -110,7 +121,8 @@ class Rig {
 
   // Small fields last: the plant begins on a cache line, and each gap might cost a whole one.
   plant::Plant<Real> plant_;
-  const Timeline& timeline_;
+  Timeline timeline_;
+  Tunings tunings_;
   BoardConfig board_;
   Modulator modulator_;
 
@@ -205,22 +217,24 @@ void Rig<Real, Firmware>::let_go() {
   pending_.enabled = loaded_.enabled = false;
 }
 
-/// Open loop with a steady bridge asks nothing of the coming ticks until the setpoint moves: they are not
-/// simulated.
+/// The tick that sees the next action which is the chip's: a setpoint or a tuning; never where none is left.
+template <class Real, class Firmware>
+sim::Instant Rig<Real, Firmware>::told_next() const {
+  const std::int64_t period = board_.modulator.period_ticks;
+  for (std::size_t n = next_action_; n < timeline_.size(); ++n)
+    if (timeline_[n].kind == ActionKind::setpoint || timeline_[n].kind == ActionKind::retune)
+      return {(timeline_[n].at.ticks + period - 1) / period * period, 0.0};
+  return sim::Instant::never();
+}
+
+/// Open loop with a steady bridge asks nothing of the coming ticks until the chip is told something: they are
+/// not simulated.
 template <class Real, class Firmware>
 void Rig<Real, Firmware>::skip_idle_ticks() {
   if (!firmware_.open_loop() || moving_ || board_.delayed || board_.commutate_at_sample ||
       !modulator_.steady())
     return;
-  const std::int64_t period = board_.modulator.period_ticks;
-  std::size_t n = next_action_;
-  while (n < timeline_.size() && timeline_[n].kind != ActionKind::setpoint) ++n;
-  if (n == timeline_.size() && next_tick_ > now_) {
-    next_tick_ = sim::Instant::never();
-  } else if (n < timeline_.size() && timeline_[n].at > now_) {
-    const std::int64_t due = (timeline_[n].at.ticks + period - 1) / period * period;
-    if (next_tick_ > now_) next_tick_ = {due, 0.0};
-  }
+  if (const sim::Instant told = told_next(); told > now_) next_tick_ = told;
 }
 
 template <class Real, class Firmware>

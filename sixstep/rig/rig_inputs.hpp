@@ -32,6 +32,10 @@ void Rig<Real, Firmware>::do_action(const Action& action) {
       return firmware_.request_run(action.value != 0);
     case ActionKind::clear_request:
       return firmware_.request_clear();
+    case ActionKind::retune:
+      return firmware_.retune(tunings_[static_cast<std::size_t>(action.value)]);
+    case ActionKind::dead_time:
+      return modulator_.set_dead_time(action.value);
     case ActionKind::setpoint:
       break;
   }
@@ -39,6 +43,20 @@ void Rig<Real, Firmware>::do_action(const Action& action) {
   moving_ = action.waveform.moves();
   waveform_ = next_action_ - 1;
   if (firmware_.follows_setpoint_at_once() && !board_.delayed) control_step(false);
+}
+
+/// Ticks that were skipped since nothing was to come are due again where something is.
+template <class Real, class Firmware>
+void Rig<Real, Firmware>::replace_future(Timeline timeline, const Tuning<Config>& first, Tunings tunings) {
+  timeline_ = std::move(timeline);
+  tunings_ = std::move(tunings);
+  const Tuning<Config>* in_effect = &first;
+  for (std::size_t n = 0; n < next_action_; ++n)
+    if (timeline_[n].kind == ActionKind::retune)
+      in_effect = &tunings_[static_cast<std::size_t>(timeline_[n].value)];
+  firmware_.retune(*in_effect);
+  if (const sim::Instant told = told_next(); told < next_tick_) next_tick_ = told;
+  moved_ = true;
 }
 
 /// Where the setpoint stands at this tick.

@@ -44,7 +44,7 @@ int SixStepModulator::take(const Instant& t, const BoardCommand& command) {
   // The first command is a change of every leg: nobody knows what it did before.
   timer_.wake(t);
   timer_.preset_pulse(sink_pulse, true);
-  if (watch != Watch::none) timer_.switch_pulse(source_pulse, true);  // hysteresis starts on (MODEL 4)
+  if (watch != Watch::none) timer_.switch_pulse(source_pulse, true);  // hysteresis starts on (model.md 4)
   return entered;
 }
 
@@ -66,8 +66,8 @@ void SixStepModulator::turn_off(const Instant& t) {
   fill_legs(t, LegTimer::none_late);
 }
 
-/// Six-step's three leg commands (MODEL 3): within the pair they follow one pulse, but for the sink that hard
-/// chopping's second comparator switches.
+/// Six-step's three leg commands (model.md 3): within the pair they follow one pulse, but for the sink that
+/// hard chopping's second comparator switches.
 void SixStepModulator::fill_legs(const Instant& t, int entered) {
   timer_.disconnect();
   if (command_.enabled) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Six-step on the board's timer (MODEL 3): a pair and one duty, or armed comparators, fill three legs. The
+// Six-step on the board's timer (model.md 3): a pair and one duty, or armed comparators, fill three legs. The
 // legs of the pair share one pulse; where the pair moves on, the pulse goes on in the leg that takes the role
 // over, and the leg that leaves hands what it does, waits and all, to the one that enters.
 #pragma once
@@ -44,6 +44,7 @@ class SixStepModulator {
     fill_legs(t, entered);
   }
   void turn_off(const sim::Instant& t);
+  void set_dead_time(double ticks) { timer_.set_dead_time(ticks); }
 
   const sim::Instant& next_edge() const { return timer_.next_edge(); }
   /// Does the edges due at `now`; false where none was.

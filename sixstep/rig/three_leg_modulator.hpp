@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three leg commands on the board's timer (MODEL2 11): each leg on a pulse of its own. A Hall edge asks
+// Three leg commands on the board's timer (model.md 11): each leg on a pulse of its own. A Hall edge asks
 // nothing of it.
 #pragma once
 #include "sixstep/rig/leg_timer.hpp"
@@ -22,6 +22,7 @@ class ThreeLegModulator {
 
   void start_period(const sim::Instant& t, const Command& command);
   void turn_off(const sim::Instant& t);
+  void set_dead_time(double ticks) { timer_.set_dead_time(ticks); }
 
   const sim::Instant& next_edge() const { return timer_.next_edge(); }
   /// Does the edges due at `now`; false where none was.

@@ -20,7 +20,9 @@ enum class ActionKind : std::uint8_t {
   shaft_locked,
   source_voltage,
   source_sinks,
-  hall_whole
+  hall_whole,
+  retune,
+  dead_time
 };
 
 /// How a setpoint moves from its action on: t seconds later it stands at
@@ -47,7 +49,8 @@ struct Action {
   sim::Instant at;
   ActionKind kind = ActionKind::setpoint;
   double value = 0.0;   ///< setpoint in the mode's unit; N m; Hall line 1 to 3, stuck low where negative;
-                        ///< V; a request to run, a clamp on the shaft, a sinking source: 1 or 0
+                        ///< V; a request to run, a clamp on the shaft, a sinking source: 1 or 0; which of
+                        ///< the rig's tunings; ps
   Waveform waveform{};  ///< of a setpoint
 };
 

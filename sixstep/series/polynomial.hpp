@@ -6,7 +6,8 @@
 
 namespace sixstep::series {
 
-/// 16 reaches rounding level over about half a time constant; more costs time and gains no length (ENGINE).
+/// 16 reaches rounding level over about half a time constant; more costs time and gains no length (model.md
+/// 12).
 inline constexpr int max_degree = 16;
 
 template <class Real>

@@ -46,7 +46,7 @@ struct NoObserver {
   void segment(const System&, Real) {}
 };
 
-/// Zero-length steps are legal; a hundred without any progress of time are not (ENGINE, pitfall 7).
+/// Zero-length steps are legal; a hundred without any progress of time are not (pitfall 7).
 inline constexpr int stalled_limit = 100;
 
 template <class System, class Observer>

@@ -199,8 +199,8 @@ TEST(Robustness, SaysNeverWhereTheLoopNoLongerSettles) {
 }
 
 TEST(DesignedCurrentLoop, OfAFastLoopWithDelaySoftChoppingMakesAnOscillator) {
-  // A negative duty of soft chopping puts the whole bus against the current, however small it is (MODEL 4b):
-  // no linear design knows. The same gains settle as designed where the legs complement each other.
+  // A negative duty of soft chopping puts the whole bus against the current, however small it is (model.md
+  // 4b): no linear design knows. The same gains settle as designed where the legs complement each other.
   const DesignSpec spec{.mode = Mode::current, .settle_s = 0.5e-3, .delay_periods = 1};
   DesignSpec complementary = spec;
   complementary.chopping = Chopping::complementary;
@@ -216,7 +216,7 @@ TEST(DesignScenario, TakesAStepThatWasAskedFor) {
   five.step = 5.0;
   const Scenario s = design_scenario(designed({.mode = Mode::current}), five);
   EXPECT_EQ(s.reference.value, 5.0);
-  // THESIS: the held rotor's step to 5 A with the exact design settles in about 0.99 ms.
+  // model.md 13: the held rotor's step to 5 A with the exact design settles in about 0.99 ms.
   EXPECT_NEAR(measured(ran(s), "settling time"), 0.99e-3, 1.001 * period_s);
 }
 
@@ -294,16 +294,16 @@ TEST(DesignStudy, PassesProblemsOn) {
     const auto s = study_design({.subject = with_step, .spec = spec});
     return s ? std::string() : s.problems()[0].where;
   };
-  EXPECT_EQ(refused({.settle_s = -1.0}), "--settle");
-  EXPECT_EQ(refused({}, 0.0), "--step");
+  EXPECT_EQ(refused({.settle_s = -1.0}), "settle_s");
+  EXPECT_EQ(refused({}, 0.0), "step");
   EXPECT_EQ(refused({.mode = Mode::position, .load_inertia_kg_m2 = 1.0}), "the test");
   EXPECT_EQ(
       refused({.mode = Mode::position, .method = design::GainMethod::cancellation, .bandwidth_rad_s = 50.0}),
-      "--mode");
+      "mode");
   EXPECT_EQ(
       refused(
           {.mode = Mode::speed, .method = design::GainMethod::symmetrical_optimum, .bandwidth_rad_s = 1e5}),
-      "--bandwidth");
+      "bandwidth_rad_s");
   EXPECT_EQ(refused({.mode = Mode::speed}, -20.0), "");  // downwards is a step too
 }
 

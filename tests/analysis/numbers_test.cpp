@@ -78,7 +78,7 @@ TEST(Numbers, OfAFirstScenarioAreHeldToTheTable) {
       spec.voltage_V = bad;
       const auto s = analysis::first_scenario(spec);
       ASSERT_FALSE(s);
-      EXPECT_EQ(first(s.problems()).rfind("--voltage = ", 0), 0u) << first(s.problems());
+      EXPECT_EQ(first(s.problems()).rfind("voltage_V = ", 0), 0u) << first(s.problems());
     }
   }
 }

@@ -123,7 +123,7 @@ class Design(ProgramTest):
             for name, value in models["parameters"].items():
                 self.assertEqual(mat[name], [[value]])
             self.assertEqual(mat["theta_e_deg"], [[float(angle)]])
-            # MODEL 1 on the sheet: R/L per phase, K_e f/L, 1/L.
+            # model.md 1 on the sheet: R/L per phase, K_e f/L, 1/L.
             A, L, K_e = mat["phase_A"], 0.286e-3, 0.01675
             self.assertAlmostEqual(A[0][0], -1.03 / 0.572e-3, 9)
             # Flat tops of 120 degrees, ramps of 60 between: c falls through 0 at 30, b rises through 0 at 90.

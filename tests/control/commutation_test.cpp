@@ -10,7 +10,7 @@ namespace {
 using namespace sixstep::control;
 
 TEST(Commutation, TableIsTheModels) {
-  // MODEL 3, row by row: H1 H2 H3 and the driven pair of sectors 0 to 5.
+  // model.md 3, row by row: H1 H2 H3 and the driven pair of sectors 0 to 5.
   constexpr std::uint8_t code[] = {0b100, 0b110, 0b010, 0b011, 0b001, 0b101};
   constexpr Pair pair[] = {{Leg::a, Leg::b}, {Leg::a, Leg::c}, {Leg::b, Leg::c},
                            {Leg::b, Leg::a}, {Leg::c, Leg::a}, {Leg::c, Leg::b}};

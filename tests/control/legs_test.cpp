@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three legs at once (MODEL2 11): leg commands, frames, modulation.
+// Three legs at once (model.md 11): leg commands, frames, modulation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +40,7 @@ TEST(Legs, EachStateAndKindOfPwmHasItsGates) {
   }
 }
 
-/// MODEL 3's choppings, once as a pair and once as three legs.
+/// model.md 3's choppings, once as a pair and once as three legs.
 TEST(Legs, SixStepAsLegsHasItsGates) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (unsigned source = 0; source < 3; ++source)

@@ -13,11 +13,11 @@ namespace sixstep::control {
 
 // What 1.0 means. Signals end at 2, so differences of full-scale signals still fit.
 inline constexpr double base_A = 20, base_V = 25, base_rad_s = 500, base_deg = 2000;
-// maxon 251601 (MODEL 6) at the terminals; the thesis's period; a timer of 1 MHz.
+// maxon 251601 (model.md 6) at the terminals; the thesis's period; a timer of 1 MHz.
 inline constexpr double R = 1.03, L = 0.572e-3, K_t = 33.5e-3, J = 135e-7, T = 30e-6, U = 24;
 inline constexpr int pole_pairs = 8;
 
-/// Gains of the thesis's chapter 6 (THESIS, the design numbers), per unit.
+/// Gains of the thesis's chapter 6 (model.md 13), per unit.
 template <class S>
 ProtectedConfig<S> product() {
   const auto s = [](double x) { return static_cast<S>(x); };

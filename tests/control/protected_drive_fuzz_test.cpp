@@ -40,7 +40,7 @@ testing::AssertionResult lawful(const ProtectedConfig<S>& config, const Protecte
   return testing::AssertionSuccess();
 }
 
-/// What probes of the arrangement say (MODEL 3): each is high over half a turn.
+/// What probes of the arrangement say (model.md 3): each is high over half a turn.
 std::uint8_t pins_of(HallArrangement arrangement, int sector) {
   constexpr std::uint8_t degrees_60[6] = {0b110, 0b111, 0b011, 0b001, 0b000, 0b100};
   return arrangement == HallArrangement::degrees_120 ? sixstep::plant::hall_code(sector) : degrees_60[sector];

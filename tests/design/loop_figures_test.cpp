@@ -110,7 +110,7 @@ TEST(StepResponses, AreTheControllersOwnRecursion) {
     ASSERT_NEAR(r.samples[k], i, 1e-12) << k;
     i = -current.a0 * i + current.b0 * sixstep::control::pi_step(pi, state, 1.0 - i);
   }
-  // THESIS: about 0.99 ms for the exact design.
+  // model.md 13: about 0.99 ms for the exact design.
   EXPECT_NEAR(r.settling_s, 0.99e-3, period_s);
   EXPECT_GT(r.overshoot, 0.0);
 }

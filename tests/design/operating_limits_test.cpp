@@ -32,7 +32,7 @@ TEST(Ripple, IsTheSteadyStateOfTwoExponentials) {
       EXPECT_NEAR(current_ripple_A(m, 24.0, T, control::Chopping::soft, d), highest - lowest, 1e-12);
     }
   }
-  // THESIS: 0.21 A at 5 A, which needs d = 5 R/24 with the rotor held.
+  // model.md 13: 0.21 A at 5 A, which needs d = 5 R/24 with the rotor held.
   EXPECT_NEAR(current_ripple_A(m, 24.0, T, control::Chopping::soft, 5 * R / 24), 0.21, 0.005);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis's numbers (THESIS "The design numbers", exact column) and the property that defines them: the
+// The thesis's numbers (model.md 13) and the property that defines them: the
 // closed loop's polynomial has the wanted poles as its roots.
 #include "sixstep/design/loops/pole_placement.hpp"
 

@@ -42,8 +42,8 @@ TEST(ThesisFigures, ThePrintedGainsFollowFromThePrintedPoles) {
 }
 
 TEST(ThesisFigures, ItsGainsBelongToAFasterPole) {
-  // THESIS: w0 = 5504 rad/s, xi = 0.908, T_reg = 0.92 ms are what 4.5 and -4.04 place. Back from the closed
-  // polynomial z^2 + c1 z + c0 to s = log(z)/T.
+  // model.md 13: w0 = 5504 rad/s, xi = 0.908, T_reg = 0.92 ms are what 4.5 and -4.04 place. Back from the
+  // closed polynomial z^2 + c1 z + c0 to s = log(z)/T.
   const double a0 = printed("current", "a0"), b0 = printed("current", "b0");
   const double c1 = b0 * 4.5 + a0 - 1.0, c0 = b0 * -4.04 - a0;
   const std::complex<double> z{-c1 / 2, std::sqrt(c0 - c1 * c1 / 4)}, s = std::log(z) / period_s;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis's matrices against MODEL 1 written out, against each other, and against the energy they must
-// balance; the signs as printed (THESIS "Errata") break that balance.
+// The thesis's matrices against model.md 1 written out, against each other, and against the energy they must
+// balance; the signs as printed (model.md 13) break that balance.
 #include "sixstep/design/thesis/thesis_models.hpp"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ State random_state(std::mt19937_64& random, int n) {
   return s;
 }
 
-/// MODEL 1, eq. 5 with all legs connected: u_n = mean of u_k - e_k.
+/// model.md (5) with all legs connected: u_n = mean of u_k - e_k.
 double star_voltage(const State& s) {
   return (s.u_a + s.u_b + s.u_c - s.K() * s.w * (s.f.a + s.f.b + s.f.c)) / 3.0;
 }

@@ -8,6 +8,7 @@
 #include "sixstep/study/measure/digest.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "tests/digest/cases.hpp"
+#include "tests/digest/sessions.hpp"
 
 namespace {
 
@@ -29,14 +30,13 @@ std::uint64_t figures(const study::Outcome& out) {
   return hash.value();
 }
 
-bool print(const testing::Case& c) {
-  const base::Result<study::Outcome> out = study::run(c.scenario);
+bool print(const std::string& name, const base::Result<study::Outcome>& out) {
   if (!out) {
     for (const base::Problem& p : out.problems())
-      std::fprintf(stderr, "%s: %s\n", c.name.c_str(), base::to_string(p).c_str());
+      std::fprintf(stderr, "%s: %s\n", name.c_str(), base::to_string(p).c_str());
     return false;
   }
-  std::printf("%-24s %s %s %8lld%s\n", c.name.c_str(), base::written_hex(out->digest).c_str(),
+  std::printf("%-24s %s %s %8lld%s\n", name.c_str(), base::written_hex(out->digest).c_str(),
               base::written_hex(figures(*out)).c_str(), static_cast<long long>(out->segments),
               out->fault ? " fault" : "");
   return true;
@@ -46,6 +46,10 @@ bool print(const testing::Case& c) {
 
 int main() {
   bool ok = true;
-  for (const testing::Case& c : testing::digest_cases()) ok = print(c) && ok;
+  for (const testing::Case& c : testing::digest_cases()) ok = print(c.name, study::run(c.scenario)) && ok;
+  for (const testing::LivedCase& c : testing::lived_cases()) {
+    ok = print(c.name, c.outcome) && ok;
+    ok = print(c.name + "-again", study::run(c.written)) && ok;
+  }
   return ok ? 0 : 1;
 }

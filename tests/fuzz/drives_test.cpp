@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole drives at random: each run ends where it should, in numbers, by the laws of MODEL 5, and without
+// Whole drives at random: each run ends where it should, in numbers, by the laws of model.md 5, and without
 // getting stuck.
 #include <gtest/gtest.h>
 

@@ -47,7 +47,7 @@ struct Outcome {
 };
 
 /// A current that is asked to be zero and is: the sign of its last bit decides whether soft chopping leaves
-/// it or brakes (MODEL 4b). Nothing can be compared there.
+/// it or brakes (model.md 4b). Nothing can be compared there.
 bool asks_for_nothing(const DrawnDrive& d) {
   return std::any_of(d.timeline.begin(), d.timeline.end(), [](const rig::Action& a) {
     return a.kind == rig::ActionKind::setpoint && a.value == 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The physics most often missed (ENGINE): under soft chopping the floating phase starts to conduct.
+// The physics most often missed (model.md 12): under soft chopping the floating phase starts to conduct.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -43,7 +43,7 @@ Differences against_naive(double step_s) {
 
 TEST(SoftChopping, FloatingPhaseStartsToConductAndLeavingItOutCostsTenPercentOfPeakCurrent) {
   const Differences d = against_naive(1e-6);
-  // ENGINE: 10.6 % and 0.4 %, to the digits given.
+  // model.md 12: 10.6 % and 0.4 %, to the digits given.
   EXPECT_NEAR(d.current / d.peak_current, 0.106, 0.0005);
   EXPECT_NEAR(d.speed / d.top_speed, 0.004, 0.0005);
 }

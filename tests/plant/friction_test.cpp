@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dry friction (MODEL 1, 4b): sticking, breakaway in the direction of the excess, stopping for good.
+// Dry friction (model.md 1, 4b): sticking, breakaway in the direction of the excess, stopping for good.
 #include <gtest/gtest.h>
 
 #include <cmath>

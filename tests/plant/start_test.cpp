@@ -24,7 +24,7 @@ TEST(Start, AnAngleOnASectorEdgeIsOnIt) {
     }
 }
 
-/// The edge is behind it, forwards and backwards; at rest the sector is the one ahead (MODEL 4b).
+/// The edge is behind it, forwards and backwards; at rest the sector is the one ahead (model.md 4b).
 TEST(Start, OnASectorEdgeTheRotorIsInTheSectorItTurnsInto) {
   for (const double flat_deg : {120.0, 100.0})  // one piece of back-EMF per sector, and three
     for (int edge = -7; edge <= 7; ++edge)

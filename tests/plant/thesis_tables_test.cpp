@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All 54 rows of the thesis's tables 4 and 5 follow from the circuit law (MODEL 2), but for one misprint,
+// All 54 rows of the thesis's tables 4 and 5 follow from the circuit law (model.md 2), but for one misprint,
 // which is found.
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ std::vector<TableRow> printed_rows() {
   return rows;
 }
 
-/// The driven pair by sector (MODEL 3): source, sink; legs 0, 1, 2 for a, b, c.
+/// The driven pair by sector (model.md 3): source, sink; legs 0, 1, 2 for a, b, c.
 struct DrivenPair {
   std::size_t source, sink;
 };
@@ -93,7 +93,7 @@ TEST(ThesisTables, FollowFromTheCircuitLawButForOneMisprint) {
     if (law.ab != row.ab || law.bc != row.bc) misprints.push_back(row.text);
   }
   ASSERT_EQ(misprints.size(), 1u);
-  // THESIS "Errata": table 5, 240-300 degrees, i_b < 0, i_c = 0. Printed (-U_s - e_a + e_b)/2; right (U_s +
+  // model.md 13: table 5, 240-300 degrees, i_b < 0, i_c = 0. Printed (-U_s - e_a + e_b)/2; right (U_s +
   // e_a - e_b)/2.
   EXPECT_EQ(misprints[0], "5,4,*,-,0,-1,-1,1,0,-0.5,-0.5,0.5,0");
   const Derived right = derived({Connection::low_switch, Connection::high_diode, Connection::floating});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two things at one instant, one test per pair of: scenario step, control tick, PWM edge, comparator, sector
-// edge, current zero. Both must happen, once, with the effect of MODEL 4b's order (ENGINE, pitfall 1: a lost
+// edge, current zero. Both must happen, once, with the effect of model.md 4b's order (pitfall 1: a lost
 // tick passes every energy balance). Here: the pairs of PWM edge, comparator, sector edge, current zero.
 #include <gtest/gtest.h>
 

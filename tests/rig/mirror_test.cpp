@@ -12,7 +12,7 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using control::Chopping;
 
-/// What the solver may make of two starts that differ by rounding: its own accuracy (ENGINE, 6.5e-12 of
+/// What the solver may make of two starts that differ by rounding: its own accuracy (model.md 12, 6.5e-12 of
 /// currents).
 constexpr double current_part = 1e-11, speed_part = 1e-12;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Board timing (MODEL 3, 4): delay, commutation at the sample, Hall edges, statistics, faults.
+// Board timing (model.md 3, 4): delay, commutation at the sample, Hall edges, statistics, faults.
 #include "sixstep/rig/rig.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Command in, gates out, edge by edge (MODEL 3). Ticks are picoseconds, the period is 30 us.
+// Command in, gates out, edge by edge (model.md 3). Ticks are picoseconds, the period is 30 us.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -105,7 +105,7 @@ TEST(Modulator, APulseShorterThanTheDeadTimeNeverTurnsOn) {
   EXPECT_EQ(on(m), "a-b-");
 }
 
-/// MODEL2 11: the first command of a run is a change, of every leg, whatever gave it.
+/// model.md 11: the first command of a run is a change, of every leg, whatever gave it.
 TEST(Modulator, TheFirstTurnOnOfARunWaitsInEveryChoppingForDutyAndHysteresis) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const double duty : {0.5, 1.0})

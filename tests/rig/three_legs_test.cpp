@@ -86,7 +86,7 @@ double mean_of_a(const Board& b, const control::LegCommands<double>& legs) {
   return mean.ampere_s / mean.s;
 }
 
-/// The engine's error of currents (ENGINE) is 6.5e-12 of full scale, 23.3 A.
+/// The engine's error of currents (model.md 12) is 6.5e-12 of full scale, 23.3 A.
 constexpr double amp_tolerance = 6.5e-12 * 23.3;
 
 TEST(ThreeLegs, TheMeanVoltageOfEachLegIsItsDuty) {
@@ -137,16 +137,18 @@ TEST(ThreeLegs, ALegThatIsOffFloatsAndCarriesNothing) {
   EXPECT_EQ(rig.plant().state().i[2], 0.0);
 }
 
+/// Ten periods, then off.
+struct TenPeriods {
+  template <class Real>
+  control::LegCommands<double> operator()(const rig::SampleInstant<Real>& instant, double) const {
+    return instant.number < 10 ? complementary(0.9, 0.1, 0.5) : control::LegCommands<double>{};
+  }
+};
+
 /// Let go by all legs the currents run back through the diodes: L di/dt = -U against both, until they end.
 TEST(ThreeLegs, TurningOffLetsTheCurrentsEndInTheDiodes) {
-  struct Once {
-    template <class Real>
-    control::LegCommands<double> operator()(const rig::SampleInstant<Real>& instant, double) const {
-      return instant.number < 10 ? complementary(0.9, 0.1, 0.5) : control::LegCommands<double>{};
-    }
-  };
   Board b = locked_at(10.0);
-  auto rig = three_leg_rig(b, Once{});
+  auto rig = three_leg_rig(b, TenPeriods{});
   ASSERT_EQ(run_to(rig, 10 * T), sim::Stop::end);
   EXPECT_GT(rig.plant().state().i[0], 5.0);
   ASSERT_EQ(run_to(rig, 40 * T), sim::Stop::end);
@@ -154,7 +156,7 @@ TEST(ThreeLegs, TurningOffLetsTheCurrentsEndInTheDiodes) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(rig.plant().state().i[k], 0.0);
 }
 
-/// MODEL2 11: with delay 1 period 0 has d = 1/2 in each leg, and a firmware that is off stays off.
+/// model.md 11: with delay 1 period 0 has d = 1/2 in each leg, and a firmware that is off stays off.
 TEST(ThreeLegs, PeriodZeroOfADelayedBoardHasNoVoltage) {
   Board b = locked_at(10.0);
   b.board.delayed = true;

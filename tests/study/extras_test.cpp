@@ -141,7 +141,7 @@ TEST(Extras, SmoothChoppingHasNoStepAtDutyZero) {
   const double smooth = current_at(d, true) - current_at(-d, true);
   std::printf("from -%g to %g: soft %.4g A, smooth %.4g A\n", d, d, soft, smooth);
   // At each commutation the current comes in anew with tau = L/R, 0.085 of a sector, and is measured as half
-  // of two phases meanwhile. Soft: from no current to a short circuit of the windings (MODEL 4b).
+  // of two phases meanwhile. Soft: from no current to a short circuit of the windings (model.md 4b).
   const double commutation = L / R / (M_PI / 24 / 20.0);
   EXPECT_NEAR(soft, K_t * 20.0 / R, commutation * K_t * 20.0 / R);
   // Smooth: what 2 d U drives.

@@ -68,14 +68,14 @@ TEST(Numbers, OfADesignsWishAreHeldToTheTable) {
       EXPECT_EQ(first(d.problems()).rfind(option, 0), 0u) << first(d.problems());
     }
   };
-  refused("--voltage", [](Spec& w, double x) { w.voltage_V = x; });
-  refused("--period", [](Spec& w, double x) { w.period_s = x; });
-  refused("--settle", [](Spec& w, double x) { w.settle_s = x; });
-  refused("--current-settle", [](Spec& w, double x) { w.current_settle_s = x; });
-  refused("--damping", [](Spec& w, double x) { w.damping = x; });
-  refused("--torque-limit", [](Spec& w, double x) { w.torque_limit_Nm = x; });
-  refused("--load-inertia", [](Spec& w, double x) { w.load_inertia_kg_m2 = x; });
-  refused("--bandwidth", [](Spec& w, double x) {
+  refused("voltage_V", [](Spec& w, double x) { w.voltage_V = x; });
+  refused("period_s", [](Spec& w, double x) { w.period_s = x; });
+  refused("settle_s", [](Spec& w, double x) { w.settle_s = x; });
+  refused("current_settle_s", [](Spec& w, double x) { w.current_settle_s = x; });
+  refused("damping", [](Spec& w, double x) { w.damping = x; });
+  refused("torque_limit_Nm", [](Spec& w, double x) { w.torque_limit_Nm = x; });
+  refused("load_inertia_kg_m2", [](Spec& w, double x) { w.load_inertia_kg_m2 = x; });
+  refused("bandwidth_rad_s", [](Spec& w, double x) {
     w.method = design::GainMethod::cancellation;
     w.bandwidth_rad_s = x;
   });

@@ -230,6 +230,21 @@ TEST(Run, TurnOnsAreThoseOfThePwmHoweverManySwitchesTakePart) {
   }
 }
 
+TEST(Run, APulseOrGapBelowTheMinimumIsNotSwitched) {
+  for (const auto& [duty, minimum_s, turn_ons] : {std::tuple{0.04, 0.0, 100},
+                                                  {0.04, 1.1e-6, 100},
+                                                  {0.04, 1.3e-6, 0},
+                                                  {0.96, 1.1e-6, 100},
+                                                  {0.96, 1.3e-6, 1}}) {
+    Scenario s = maxon_scenario(control::Mode::duty, duty);  // 1.2 us of 30 us
+    s.pwm.minimum_pulse_s = minimum_s;
+    s.duration_s = 3e-3;
+    const auto out = run(s);
+    ASSERT_TRUE(out);
+    EXPECT_EQ(out->turn_ons, turn_ons) << duty << " " << minimum_s;
+  }
+}
+
 TEST(Run, SwitchingFrequencyIsTurnOnsOverTheWindow) {
   Scenario s = current_square();
   s.control.current = {.type = CurrentLoopType::hysteresis, .band_A = 0.2};

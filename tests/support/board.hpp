@@ -6,7 +6,7 @@
 
 namespace sixstep::testing {
 
-/// Open loop or closed, as the configs say; the timeline lives here, the rig only looks at it.
+/// Open loop or closed, as the configs say; each rig gets its own timeline.
 struct Board : Drivetrain {
   control::DriveConfig<double> drive{.mode = control::Mode::duty, .nominal_bus_V = 24.0};
   rig::BoardConfig board{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The laws that hold for every run (MODEL 5), as an observer for any system that has a plant. It looks inside
-// the segments too, not only at their ends.
+// The laws that hold for every run (model.md 5), as an observer for any system that has a plant. It looks
+// inside the segments too, not only at their ends.
 #pragma once
 #include <gtest/gtest.h>
 

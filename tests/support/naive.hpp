@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a textbook simulator does with soft chopping: RK4, diodes by the sign of the current, a leg
 // without gate and current stays off. It leaves out that such a leg starts to conduct when its terminal would
-// pass a rail (MODEL 2).
+// pass a rail (model.md 2).
 #pragma once
 #include <array>
 #include <cmath>

@@ -25,6 +25,7 @@ class ThreeLegFirmware {
   void captured(std::uint8_t, const sim::Instant&) {}
   void request_run(bool) {}
   void request_clear() {}
+  void retune(const rig::Tuning<Config>&) {}
   bool open_loop() const { return false; }
   bool follows_setpoint_at_once() const { return false; }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sixstep/control/fixed.hpp"
-#include "sixstep/study/compile/arithmetic.hpp"
+#include "sixstep/study/compile/chip.hpp"
 #include "sixstep/study/measure/digest.hpp"
 #include "tests/support/scenario_walk.hpp"
 
@@ -71,18 +71,9 @@ Walk walk_rig(Rig rig, sim::Instant end, const WalkPlan& plan) {
 
 template <class Firmware>
 Walk walk_in(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan) {
-  using Number = typename Firmware::Number;
-  const auto chip = [&] {
-    if constexpr (std::is_same_v<Firmware, rig::ProductDrive<Number>>)
-      return study::product_in<Number>(s, c);
-    else
-      return study::drive_in<Number>(s, c);
-  }();
+  const auto chip = study::chip_of<Firmware>(s, c);
   if (!chip) return {.problems = chip.problems()};
-  rig::BoardConfig board = c.board;
-  board.bases = chip->bases;
-  const plant::Plant<double> plant(c.motor.machine, c.shaft, c.devices, c.supply, c.start);
-  return walk_rig(rig::Rig<double, Firmware>(plant, chip->config, board, c.timeline), c.end, plan);
+  return walk_rig(study::rig_of<Firmware>(c, *chip, c.timeline), c.end, plan);
 }
 
 template <template <class> class Firmware>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The standing laws (MODEL 5) on every run that is shipped, and the verdict each was shipped with.
+// The standing laws (model.md 5) on every run that is shipped, and the verdict each was shipped with.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -88,6 +88,11 @@ class CheckLayers(unittest.TestCase):
     def test_library_call_that_differs_between_platforms(self):
         self.expect("sixstep/plant/emf.cpp", "double f(double x) {\n  return std::sin(x);\n}\n", "emf.cpp:2:", "elementary.hpp")
 
+    def test_words_of_a_face(self):
+        self.expect("sixstep/study/run/run.cpp", 'const char* a = "lower settle_s";\nconst char* b = "lower --settle";\n',
+                    "run.cpp:2:", "--settle", "the face translate")
+        self.expect("sixstep/study/run/run.cpp", 'const char* b = "see sixstep help";  // sixstep run\n', "run.cpp:1:", "sixstep help")
+
     def test_comments_and_strings_are_no_code(self):
         self.write("sixstep/plant/emf.cpp", '// #include <chrono>, std::sin(x)\n/* \n#include "io/a.hpp"\n*/\n'
                                             'const char* t = "// std::cos(1)";  // std::exp(2)\n')

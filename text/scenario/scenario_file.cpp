@@ -12,6 +12,7 @@
 #include "sixstep/design/sheet/sheet_override.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
 #include "text/keys/key_catalog.hpp"
 #include "text/motor/motor_library.hpp"
@@ -149,13 +150,17 @@ void read_rows(const Document& document, const std::string& path, const std::str
 void read_all_rows(const Document& document, study::Scenario& scenario, Complaints& complaints,
                    base::Problems& of_other_files) {
   // A duty is a plain number.
-  const std::string_view of_mode = study::reference_unit(scenario.control.mode);
-  const std::string unit(of_mode == "1" ? "" : of_mode);
-  read_rows(document, "reference", unit, scenario.reference, complaints, of_other_files);
+  const auto unit = [](control::Mode mode) {
+    const std::string_view of_mode = study::reference_unit(mode);
+    return std::string(of_mode == "1" ? "" : of_mode);
+  };
+  read_rows(document, "reference", unit(scenario.control.mode), scenario.reference, complaints,
+            of_other_files);
+  const std::vector<control::Mode> modes = study::modes_from(scenario);
   for (std::size_t n = 0; n < scenario.at.size(); ++n)
     if (scenario.at[n].reference)
-      read_rows(document, fmt::format("at[{}].reference", n), unit, *scenario.at[n].reference, complaints,
-                of_other_files);
+      read_rows(document, fmt::format("at[{}].reference", n), unit(modes[n]), *scenario.at[n].reference,
+                complaints, of_other_files);
 }
 
 base::Problems apply_overrides(Document& document, const std::vector<Setting>& overrides) {

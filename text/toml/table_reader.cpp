@@ -29,10 +29,39 @@ std::string cure_of(const base::About& about) {
   return fmt::format("it means: {}{}", about.meaning, in_unit_words(about));
 }
 
-/// The unit that the reference has in the file's control mode; empty where the mode has none or is not known.
-std::string mode_unit(const Document& document) {
-  const toml::node* mode = document.find("control.mode");
-  const std::optional<std::string> word = mode ? mode->value<std::string>() : std::nullopt;
+std::optional<std::string> word_at(const Document& document, const std::string& path) {
+  const toml::node* node = document.find(path);
+  return node ? node->value<std::string>() : std::nullopt;
+}
+
+/// The control mode in the table at `path`: in one of [[at]] that of the last event up to it that changes it.
+std::optional<std::string> mode_at(const Document& document, const std::string& path) {
+  std::optional<std::string> mode = word_at(document, "control.mode");
+  if (!path.starts_with("at[")) return mode;
+  const std::string own = path.substr(0, path.find(']') + 1);
+  const auto time_of = [&](const std::string& event) {
+    const toml::node* node = document.find(event + ".time_s");
+    return node ? node->value<double>().value_or(0.0) : 0.0;
+  };
+  const toml::node* events = document.find("at");
+  const std::size_t count = events && events->is_array() ? events->as_array()->size() : 0;
+  const double own_s = time_of(own);
+  double last_s = -1.0;
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::string event = fmt::format("at[{}]", n);
+    const double time_s = time_of(event);
+    if (time_s > own_s || time_s < last_s) continue;
+    const std::optional<std::string> changed = word_at(document, event + ".control.mode");
+    if (!changed || *changed == "same") continue;
+    mode = changed;
+    last_s = time_s;
+  }
+  return mode;
+}
+
+/// The unit that a reference has in its control mode; empty where the mode has none or is not known.
+std::string mode_unit(const Document& document, const std::string& path) {
+  const std::optional<std::string> word = mode_at(document, path);
   for (const auto& choice : study::mode_choices)
     if (word == choice.word) return std::string(study::reference_unit(choice.value));
   return {};
@@ -96,7 +125,7 @@ std::optional<std::string> TableReader::unit_of_key(const base::About& about) co
   if (!about.unit_here.empty()) return std::string(about.unit_here);
   if (!about.unit_of.empty()) return unit_at(about.unit_of);
   if (about.mode_unit.empty()) return std::string(about.unit);
-  const std::string unit = mode_unit(complaints_.document());
+  const std::string unit = mode_unit(complaints_.document(), path_);
   if (unit.empty()) return {};
   // "1" stands for a duty.
   const std::string whole = unit + std::string(about.mode_unit.substr(1));

@@ -10,11 +10,8 @@ namespace sixstep::analysis {
 class OpenLoop {
  public:
   OpenLoop(const Bench& b, const plant::Plant<double>& plant)
-      : timeline_{{sim::Instant{}, rig::ActionKind::setpoint, b.duty}},
-        keep_going_(b.keep_going),
-        rig_(plant, drive_of(b), board_of(b), timeline_) {}
-  OpenLoop(const OpenLoop&) = delete;  // the rig looks at this timeline
-  OpenLoop& operator=(const OpenLoop&) = delete;
+      : keep_going_(b.keep_going),
+        rig_(plant, drive_of(b), board_of(b), {{sim::Instant{}, rig::ActionKind::setpoint, b.duty}}) {}
 
   /// Stop::observer: told to stop (Bench::keep_going).
   template <class Observer>
@@ -43,7 +40,6 @@ class OpenLoop {
     return drive;
   }
 
-  rig::Timeline timeline_;
   std::function<bool()> keep_going_;
   rig::LeanRig<double> rig_;
 };

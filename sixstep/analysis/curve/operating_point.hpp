@@ -40,7 +40,7 @@ struct OperatingPoint {
   double ripple_rms_Nm = 0.0;    ///< of T_e about its mean
   double bus_current_A = 0.0;
   double winding_current_A = 0.0;  ///< mean of (|i_a| + |i_b| + |i_c|)/2: what flows through the winding
-  double motor_current_A = 0.0;    ///< mean of |i_m|, i_m = (i_p - i_n)/2 of the positive pair (MODEL 3)
+  double motor_current_A = 0.0;    ///< mean of |i_m|, i_m = (i_p - i_n)/2 of the positive pair (model.md 3)
   double phase_rms_A = 0.0, phase_peak_A = 0.0;
   double supplied_W = 0.0, copper_W = 0.0, devices_W = 0.0, friction_W = 0.0, shaft_W = 0.0;
   /// Shaft over supply as a motor, supply over shaft as a generator; empty where one of them is no source.

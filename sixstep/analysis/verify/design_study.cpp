@@ -24,10 +24,10 @@ const study::ComparisonResult* find(const study::Outcome& outcome, const std::st
 }
 
 std::string cure_of_settling(const design::DriveDesign& d) {
-  return d.spec.chopping == control::Chopping::soft ? "try --chopping complementary: soft chopping puts the "
+  return d.spec.chopping == control::Chopping::soft ? "try chopping = complementary: soft chopping puts the "
                                                       "whole bus against the current as soon as "
-                                                      "the duty turns negative; or design slower (--settle)"
-                                                    : "design slower (--settle)";
+                                                      "the duty turns negative; or design slower (settle_s)"
+                                                    : "design slower (settle_s)";
 }
 
 /// The torque ripple of the commutations can be wider than the band of a small step: then settling times say
@@ -52,7 +52,7 @@ void look_at_settling(DesignStudy& s) {
         {"the commutations' ripple in speed, " + rounded(find(s.outcome, "speed ripple")->measured) +
              " rad/s, is wider than 2 % of the largest step at which no limit acts: its settling "
              "time says nothing",
-         "design the speed loop slower, or give --step and mind that limits act", false});
+         "design the speed loop slower, or give a step and mind that limits act", false});
   else if (!std::isfinite(c->measured))
     s.warnings.push_back({"in the simulation it never settles", cure_of_settling(s.design), true});
   else if (c->measured > 1.25 * c->value)
@@ -91,15 +91,15 @@ void look_at_tolerances(DesignStudy& s) {
     if (f.figure == "speed ripple" && swing && f.nominal <= *swing && f.worst > *swing)
       s.warnings.push_back(
           {"out of tolerance the speed swings by " + rounded(f.worst) + " rad/s without end: " + f.at,
-           chiefly(f, "design slower (--settle)"), true});
+           chiefly(f, "design slower (settle_s)"), true});
     if (f.figure == "settling time" && !drowned(s) && std::isfinite(f.nominal) && !std::isfinite(f.worst))
       s.warnings.push_back(
-          {"out of tolerance it never settles: " + f.at, chiefly(f, "design slower (--settle)"), true});
+          {"out of tolerance it never settles: " + f.at, chiefly(f, "design slower (settle_s)"), true});
     const bool position = s.design.spec.mode == control::Mode::position;
     if (position && f.figure == "overshoot" &&
         f.worst > allowed_overshoot_deg(s.design, s.scenario.reference.value))
       s.warnings.push_back({"out of tolerance it overshoots by " + rounded(f.worst) + " deg: " + f.at,
-                            chiefly(f, "lower the gain, or --torque-limit so that braking keeps a reserve"),
+                            chiefly(f, "lower the gain, or torque_limit_Nm so that braking keeps a reserve"),
                             true});
   }
   for (const RobustFigure& f : s.robustness->phases)
@@ -107,7 +107,7 @@ void look_at_tolerances(DesignStudy& s) {
       s.warnings.push_back({"out of tolerance the " + f.figure + " falls to " +
                                 rounded(std::max(f.worst, 0.0)) +
                                 " degrees with one period of delay: " + f.at,
-                            "design slower (--settle)", false});
+                            "design slower (settle_s)", false});
 }
 
 /// Some seconds of computing for a run; a slower drive is to be looked at by hand.
@@ -117,15 +117,15 @@ base::Problems too_long(const study::Scenario& s) {
   if (s.duration_s / s.pwm.period_s <= most_periods) return {};
   return {{"the test", rounded(s.duration_s) + " s",
            "is longer than two million control periods, so slow is the drive beside them",
-           "give a shorter --settle, a smaller --step or more --torque-limit, or a longer --period"}};
+           "give a shorter settle_s, a smaller step or more torque_limit_Nm, or a longer period_s"}};
 }
 
 /// Position: the gain, and the design that has it.
 base::Problems find_gain(const DesignOrder& order, DesignStudy& s) {
   if (!(s.design.loop("position").gains.d1 > 0.0))
-    return {{"--mode", "position", "finds no gain that does not overshoot: the speed loop within is unstable",
-             "design the speed loop slower (--settle) or the current loop faster (--current-settle, "
-             "--bandwidth)"}};
+    return {{"mode", "position", "finds no gain that does not overshoot: the speed loop within is unstable",
+             "design the speed loop slower (settle_s) or the current loop faster (current_settle_s, "
+             "bandwidth_rad_s)"}};
   if (base::Problems found = too_long(design_scenario(s.design, order.subject)); !found.empty()) return found;
   base::Result<PositionGain> gain = largest_position_gain(s.design, order.subject, order.keep_going);
   if (gain && !order.tolerances.empty())
@@ -159,7 +159,7 @@ bool DesignStudy::usable() const {
 base::Result<DesignStudy> study_design(const DesignOrder& order) {
   const std::optional<double>& step = order.subject.step;
   if (step && !(std::isfinite(*step) && *step != 0.0))
-    return base::Problem{"--step", rounded(*step), "must be a number other than 0",
+    return base::Problem{"step", rounded(*step), "must be a number other than 0",
                          "give it in A, rad/s or deg as the mode asks"};
   const base::Result<design::MotorModel> motor = design::motor_model(order.subject.sheet);
   if (!motor) return motor.problems();
@@ -172,8 +172,8 @@ base::Result<DesignStudy> study_design(const DesignOrder& order) {
   s.scenario = design_scenario(s.design, order.subject);
   if (base::Problems found = too_long(s.scenario); !found.empty()) return found;
   if (base::Problems found = study::check(s.scenario); !found.empty()) {
-    for (base::Problem& p : found)  // what was typed is an option, not a key
-      if (p.where == "supply.voltage_V") p.where = "--voltage";
+    for (base::Problem& p : found)  // the spec's, not the scenario's that was made of it
+      if (p.where == "supply.voltage_V") p.where = "voltage_V";
     return found;
   }
   base::Result<std::vector<study::Column>> columns = record_columns(s.scenario);

@@ -35,7 +35,7 @@ study::Measure measure(study::MetricKind metric, study::Signal signal, double fr
 base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design::MotorModel& motor) {
   const double U = spec.voltage_V.value_or(motor.nominal_voltage_V);
   if (!(U > 0.0))
-    return base::Problem{"--voltage", "", "is missing, and the motor's sheet has no nominal voltage",
+    return base::Problem{"voltage_V", "", "is missing, and the motor's sheet has no nominal voltage",
                          "give the bus voltage in V"};
   const double K = motor.K_t_Nm_A, R = 2 * motor.machine.R_ohm, d = 0.5;
   study::Scenario s;
@@ -45,7 +45,7 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
   // current keeps its sign, and nothing where it changes it in every period.
   const double speed = line(d), least = line(d - usual_dead_time_s / s.pwm.period_s);
   if (!(least > 0.0))
-    return base::Problem{"--voltage", "", "does not turn the rotor: friction holds it at half the voltage",
+    return base::Problem{"voltage_V", "", "does not turn the rotor: friction holds it at half the voltage",
                          "give a higher bus voltage in V"};
   s.motor = spec.motor;
   s.sheet = spec.sheet;
@@ -97,7 +97,7 @@ base::Result<DesignStudy> usable_design(const FirstScenarioSpec& spec) {
   }
   if (told.empty())
     told.push_back({"the motor", spec.motor, "has no usable design with the usual settling times",
-                    "sixstep design MOTOR tells why; or start with --mode duty"});
+                    "a design of it tells why; or start with mode = duty"});
   return told;
 }
 
@@ -153,7 +153,7 @@ base::Result<study::Scenario> first_scenario(const FirstScenarioSpec& spec) {
   const base::Result<design::MotorModel> motor = design::motor_model(spec.sheet);
   if (!motor) return motor.problems();
   if (spec.voltage_V)
-    if (base::Problems out = base::out_of_range("--voltage", *spec.voltage_V, base::above(0), "V",
+    if (base::Problems out = base::out_of_range("voltage_V", *spec.voltage_V, base::above(0), "V",
                                                 "give the bus voltage in volts");
         !out.empty())
       return out;
@@ -164,7 +164,7 @@ base::Result<study::Scenario> first_scenario(const FirstScenarioSpec& spec) {
   if (!outcome) return outcome.problems();
   if (!outcome->passed() || outcome->fault)
     return base::Problem{"the motor", spec.motor, "does not do what its sheet foretells",
-                         "see sixstep motor check; or start with another --mode"};
+                         "hold its sheet against itself; or start with another mode"};
   return s;
 }
 

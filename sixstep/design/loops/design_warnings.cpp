@@ -30,21 +30,21 @@ const LoopFigures& delayed(const DriveDesign& d, const LoopDesign& loop) {
 
 std::string slower(const DriveDesign& d, const LoopDesign& loop) {
   if (loop.name == "position") return "lower the position gain";
-  std::string text = loop.name == "current" && d.spec.mode != control::Mode::current ? "--current-settle"
-                     : d.spec.bandwidth_rad_s                                        ? "--bandwidth"
-                                                                                     : "--settle";
+  std::string text = loop.name == "current" && d.spec.mode != control::Mode::current ? "current_settle_s"
+                     : d.spec.bandwidth_rad_s                                        ? "bandwidth_rad_s"
+                                                                                     : "settle_s";
   return "design the " + loop.name + " loop slower (" + text + ")";
 }
 
 void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
   if (!loop.figures.stable)
-    return out.add("the " + loop.name + " loop is unstable", slower(d, loop) + " or shorten --period", true);
+    return out.add("the " + loop.name + " loop is unstable", slower(d, loop) + " or shorten period_s", true);
   const LoopFigures& late = delayed(d, loop);
   if (!late.stable)
     return out.add("the " + loop.name + " loop is unstable where its command counts one period late",
-                   slower(d, loop) + ", or keep --period below " + microseconds(d.longest_period_s));
+                   slower(d, loop) + ", or keep period_s below " + microseconds(d.longest_period_s));
   const double phase_deg = late.phase_rad.value_or(base::pi) * 180.0 / base::pi;
-  const std::string cure = loop.name == "current" ? slower(d, loop) + ", or keep --period below " +
+  const std::string cure = loop.name == "current" ? slower(d, loop) + ", or keep period_s below " +
                                                         microseconds(d.longest_period_s)
                                                   : slower(d, loop);
   if (phase_deg < least_phase_deg)
@@ -64,13 +64,13 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
   if (!speed.figures.stable) return;  // told already
   const std::string at = " at " + rounded(d.lowest_speed_rad_s) +
                          " rad/s, where a speed from Hall edges is " + milliseconds(d.lag.delay_s()) + " old";
-  std::string cure = "design the speed loop slower (--settle";
+  std::string cure = "design the speed loop slower (settle_s";
   for (const SettlingLimit& limit : d.limits)
     if (limit.sensing.edges == d.spec.rotor.edges && limit.lowest_speed_rad_s == d.lowest_speed_rad_s &&
         limit.settle_s)
       cure.append(" ").append(rounded(*limit.settle_s));
-  cure += d.spec.rotor.edges > 1 ? "), take the speed over one edge (--edges 1), or raise --lowest-speed"
-                                 : ") or raise --lowest-speed";
+  cure += d.spec.rotor.edges > 1 ? "), take the speed over one edge (edges = 1), or raise lowest_speed_rad_s"
+                                 : ") or raise lowest_speed_rad_s";
   if (!speed.built.stable) return out.add("the speed loop is unstable" + at, cure, true);
   const double phase_deg = speed.built.phase_rad.value_or(base::pi) * 180.0 / base::pi;
   // A tenth of a degree: what rounding a settling time may cost.
@@ -97,7 +97,7 @@ void look_at_sign(const DriveDesign& d, const LoopDesign& loop, Collector& out) 
     out.add("the current loop is asked to be slower than the motor's own L/R, " +
                 milliseconds(d.motor.machine.L_H / d.motor.machine.R_ohm) +
                 ": its proportional gain is negative",
-            "ask for a shorter --settle, or take --method cancellation");
+            "ask for a shorter settle_s, or take method = cancellation");
 }
 
 void look_at_overshoot(const LoopDesign& loop, Collector& out) {
@@ -105,7 +105,7 @@ void look_at_overshoot(const LoopDesign& loop, Collector& out) {
     out.add("the " + loop.name + " loop overshoots a step by " + rounded(100.0 * loop.step.overshoot) +
                 " %, for the PI's zero" +
                 (loop.built.phase_rad != loop.figures.phase_rad ? " and the delay of its sensor" : ""),
-            loop.name == "current" ? "give --method cancellation, or limit how fast the setpoint rises"
+            loop.name == "current" ? "give method = cancellation, or limit how fast the setpoint rises"
                                    : "limit how fast the setpoint rises (control/slew.hpp)");
 }
 
@@ -125,7 +125,7 @@ void look_at_ripple(const DriveDesign& d, Collector& out) {
         period_for_ripple_s(d.motor, d.bus_V, d.spec.chopping, greatest_ripple * d.nominal_current_A);
     out.add("the PWM ripple reaches " + rounded(d.ripple.worst_A) + " A, " +
                 rounded(100.0 * d.ripple.worst_A / d.nominal_current_A) + " % of " + nominal_current_words(d),
-            "keep --period below " + microseconds(period_s) +
+            "keep period_s below " + microseconds(period_s) +
                 (d.spec.chopping == control::Chopping::hard ? ", or chop softly" : ", or add inductance"));
   }
 }
@@ -138,7 +138,7 @@ void look_at_braking(const DriveDesign& d, Collector& out) {
                 (d.nominal_printed ? "" : std::string(", ") + nominal_current_words(d) + ",") + " above " +
                 rounded(d.braking_limit_rad_s) +
                 " rad/s, (i/K_t) R: the motor brakes through the lower switches",
-            "brake with --chopping complementary or hard, or smooth_chopping.hpp on the chip");
+            "brake with chopping = complementary or hard, or smooth_chopping.hpp on the chip");
 }
 
 /// The first command of a step of the nominal current is d1 i.
@@ -147,10 +147,10 @@ void look_at_voltage(const DriveDesign& d, Collector& out) {
   if (first_V > d.bus_V)
     out.add("a step of " + std::string(nominal_current_words(d)) + " asks for " + rounded(first_V) +
                 " V at once, the bus has " + rounded(d.bus_V) + " V: it settles later than designed",
-            slower(d, d.loops[0]) + " or raise --voltage");
+            slower(d, d.loops[0]) + " or raise voltage_V");
   if (d.headroom_end_rad_s <= 0.0)
     out.add("the bus cannot drive " + std::string(nominal_current_words(d)) + " even through the held rotor",
-            "raise --voltage", true);
+            "raise voltage_V", true);
 }
 
 void look_at_settling(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
@@ -158,19 +158,20 @@ void look_at_settling(const DriveDesign& d, const LoopDesign& loop, Collector& o
   if (loop.placed->settle_s < 10.0 * d.spec.period_s)
     out.add("the " + loop.name + " loop is to settle within " + milliseconds(loop.placed->settle_s) + ", " +
                 rounded(loop.placed->settle_s / d.spec.period_s) + " control periods",
-            slower(d, loop) + " or shorten --period to a tenth");
+            slower(d, loop) + " or shorten period_s to a tenth");
 }
 
 void look_at_heat(const DriveDesign& d, Collector& out) {
   if (d.spec.mode == control::Mode::current) return;
   if (!d.nominal_printed)
-    return out.add("the sheet names no nominal current: a tenth of the stall current, " +
-                       rounded(d.nominal_current_A) + " A, stands in for it",
-                   "give the sheet's nominal_current_A, or --torque-limit with what bridge and winding bear");
+    return out.add(
+        "the sheet names no nominal current: a tenth of the stall current, " + rounded(d.nominal_current_A) +
+            " A, stands in for it",
+        "give the sheet's nominal_current_A, or torque_limit_Nm with what bridge and winding bear");
   if (d.current_at_full_torque_A > 3.0 * d.nominal_current_A)
     out.add("the speed loop may ask for " + rounded(d.current_at_full_torque_A) + " A, " +
                 rounded(d.current_at_full_torque_A / d.nominal_current_A) + " times the nominal current",
-            "give --torque-limit what bridge, winding and load bear");
+            "give torque_limit_Nm what bridge, winding and load bear");
 }
 
 }  // namespace

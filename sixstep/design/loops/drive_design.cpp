@@ -64,15 +64,7 @@ void judge(DriveDesign& d, LoopDesign& loop, std::size_t index) {
 base::Result<LoopDesign> by_placement(const char* name, const ZohPlant& plant, double settle_s,
                                       double damping, double period_s) {
   base::Result<PolePlacement> placed = place_poles(plant, settle_s, damping, period_s);
-  if (!placed) {
-    base::Problems found = placed.problems();
-    for (base::Problem& p : found)
-      p.where = p.where == "settle_s"   ? "--settle"
-                : p.where == "damping"  ? "--damping"
-                : p.where == "period_s" ? "--period"
-                                        : p.where;
-    return found;
-  }
+  if (!placed) return placed.problems();
   return LoopDesign{.name = name,
                     .method = "pole placement",
                     .gains = placed->gains,
@@ -118,7 +110,7 @@ base::Result<LoopDesign> speed_loop(const DriveDesign& d) {
     const double a = w.bandwidth_rad_s ? 1.0 / (*w.bandwidth_rad_s * lag) : 1.0 + 2.0 * w.damping;
     if (w.bandwidth_rad_s && !(a > 1.0))
       return base::Problem{
-          "--bandwidth", base::written(*w.bandwidth_rad_s),
+          "bandwidth_rad_s", base::written(*w.bandwidth_rad_s),
           "must be below what the current loop's lag allows, " + base::written(1.0 / lag) + " rad/s",
           "lower it; a third of that has the most phase to spare"};
     return by_rule("speed", "symmetrical optimum",

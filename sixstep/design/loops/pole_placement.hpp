@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PI by pole placement on the ZOH plant, exactly as THESIS.md's chapter 6 does it, with every intermediate as
-// data.
+// PI by pole placement on the ZOH plant, exactly as the thesis's chapter 6 does it (model.md 13), with every
+// intermediate as data.
 #pragma once
 #include <string>
 #include <vector>

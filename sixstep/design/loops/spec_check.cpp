@@ -23,31 +23,31 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
     found.insert(found.end(), out.begin(), out.end());
   };
   if (w.mode != Mode::current && w.mode != Mode::speed && w.mode != Mode::position)
-    add("--mode", "", "must be current, speed or position", "choose what is to be controlled");
+    add("mode", "", "must be current, speed or position", "choose what is to be controlled");
   if (w.method == GainMethod::symmetrical_optimum && w.mode == Mode::current)
-    add("--method", "symmetrical-optimum", "is a rule for speed loops",
-        "add --mode speed, or take pole-placement or cancellation");
+    add("method", "symmetrical-optimum", "is a rule for speed loops",
+        "add mode = speed, or take pole-placement or cancellation");
   if (w.delay_periods < 0 || w.delay_periods > 1)
-    add("--delay", std::to_string(w.delay_periods), "must be 0 or 1",
+    add("delay_periods", std::to_string(w.delay_periods), "must be 0 or 1",
         "0: a command counts at once, 1: from the next period on");
   if (w.bandwidth_rad_s && w.method == GainMethod::pole_placement)
-    add("--bandwidth", base::written(*w.bandwidth_rad_s), "is no input of pole placement",
-        "give --settle, or take --method cancellation");
+    add("bandwidth_rad_s", base::written(*w.bandwidth_rad_s), "is no input of pole placement",
+        "give settle_s, or take method = cancellation");
   if (!w.voltage_V && !(motor.nominal_voltage_V > 0.0))
-    add("--voltage", "", "is missing, and the sheet prints no nominal voltage",
+    add("voltage_V", "", "is missing, and the sheet prints no nominal voltage",
         "give the bus voltage in volts");
   using base::above;
-  hold("--bandwidth", w.bandwidth_rad_s, above(0), "rad/s", "give it in rad/s");
-  hold("--voltage", w.voltage_V, above(0), "V", "give the bus voltage in volts");
-  hold("--period", w.period_s, {0, 1, false, true}, "s", "give the control period in seconds");
-  hold("--settle", w.settle_s, above(0), "s", "give the settling time in seconds");
-  hold("--current-settle", w.current_settle_s, above(0), "s", "give the settling time in seconds");
-  hold("--damping", w.damping, {0, 1, false, true}, "", "0.9 is the thesis's choice");
-  hold("--torque-limit", w.torque_limit_Nm, above(0), "N m", "give it in N m");
-  hold("--lowest-speed", w.lowest_speed_rad_s, above(0), "rad/s", "give it in rad/s");
+  hold("bandwidth_rad_s", w.bandwidth_rad_s, above(0), "rad/s", "give it in rad/s");
+  hold("voltage_V", w.voltage_V, above(0), "V", "give the bus voltage in volts");
+  hold("period_s", w.period_s, {0, 1, false, true}, "s", "give the control period in seconds");
+  hold("settle_s", w.settle_s, above(0), "s", "give the settling time in seconds");
+  hold("current_settle_s", w.current_settle_s, above(0), "s", "give the settling time in seconds");
+  hold("damping", w.damping, {0, 1, false, true}, "", "0.9 is the thesis's choice");
+  hold("torque_limit_Nm", w.torque_limit_Nm, above(0), "N m", "give it in N m");
+  hold("lowest_speed_rad_s", w.lowest_speed_rad_s, above(0), "rad/s", "give it in rad/s");
   if (w.rotor.edges < 0 || w.rotor.edges > 6)
-    add("--edges", std::to_string(w.rotor.edges), "must lie in 1 to 6", "leave it out to have them adaptive");
-  hold("--load-inertia", w.load_inertia_kg_m2, base::from(0), "kg m2", "give it in kg m2");
+    add("edges", std::to_string(w.rotor.edges), "must lie in 1 to 6", "leave it out to have them adaptive");
+  hold("load_inertia_kg_m2", w.load_inertia_kg_m2, base::from(0), "kg m2", "give it in kg m2");
   return found;
 }
 

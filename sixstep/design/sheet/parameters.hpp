@@ -28,7 +28,7 @@ struct MotorModel {
 };
 
 /// The constants of sheet_constants.hpp as a model: R_s = R_tt/2, L_s = L_tt/2, K_e from K_t by the shape's
-/// sector mean (MODEL 1): K_t/2 for the 120 degree trapezoid, K_t/1.65399 for a sine. Without a viscous
+/// sector mean (model.md 1): K_t/2 for the 120 degree trapezoid, K_t/1.65399 for a sine. Without a viscous
 /// coefficient the no-load point pays for all friction: B = (K_t I_0 - T_c)/w_0; a sheet that has neither
 /// turns without loss. All Problems come at once; each names the key, its value and the rule that is broken.
 base::Result<MotorModel> motor_model(const Sheet& sheet);

@@ -25,7 +25,7 @@ void describe_words(Visitor& v, Sheet& s) {
   v.value("not_simulatable_because", s.not_simulatable_because,
           {.meaning = "what is missing or in doubt, where simulatable = false"});
   v.value("known_deviation", s.known_deviation,
-          {.meaning = "relations of sixstep motor check that this sheet is known to break"});
+          {.meaning = "relations between its values that this sheet is known to break"});
 }
 
 template <class Visitor>

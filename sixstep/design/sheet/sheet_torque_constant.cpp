@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The torque constant and its other faces: what each way of printing it says about the peak phase EMF K_e.
-// For a sine these are MODEL 1's table of constants; for a trapezoid the factors are those of its own shape.
+// For a sine these are model.md 1's table of constants; for a trapezoid the factors are those of its own
+// shape.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -32,13 +32,14 @@ struct StateSpace {
   }
 };
 
-/// Trapezoid of peak 1, +1 within flat/2 of theta_e = 60 degrees, straight ramps between the tops (MODEL 1).
+/// Trapezoid of peak 1, +1 within flat/2 of theta_e = 60 degrees, straight ramps between the tops (model.md
+/// 1).
 double trapezoid(base::ElectricalAngle theta_e, double flat_deg = 120.0);
 
 /// f_a, f_b, f_c of the machine at this angle: one shape, each phase 120 degrees after the one before.
 base::Abc<double> back_emf_shape(const plant::Machine& machine, base::ElectricalAngle theta_e);
 
-/// T_e = K_e sum f_k i_k (MODEL 1, eq. 3), defined at standstill too.
+/// T_e = K_e sum f_k i_k (model.md (3)), defined at standstill too.
 double electromagnetic_torque(const plant::Machine& machine, const base::Abc<double>& f,
                               const base::Abc<double>& i_A);
 

@@ -2,6 +2,7 @@
 // What no range of a single value can say: keys that contradict each other or ask for what is not there.
 #include "sixstep/study/check/check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -13,8 +14,10 @@
 #include "sixstep/study/check/product.hpp"
 #include "sixstep/study/check/reference.hpp"
 #include "sixstep/study/check/sensors.hpp"
+#include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/compile/compile.hpp"
 #include "sixstep/study/measure/columns.hpp"
+#include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/spread.hpp"
 
@@ -153,10 +156,35 @@ void check_columns(const Scenario& s, base::Problems& out) {
   if (!columns) return void(out.insert(out.end(), columns.problems().begin(), columns.problems().end()));
   if (s.record.columns.empty()) return;
   for (const std::size_t n : *columns)
-    if (!applies(static_cast<ColumnId>(n), s.control.mode))
+    if (!applies(static_cast<ColumnId>(n), s))
       out.push_back({"record.columns", "\"" + all_columns()[n].name + "\"",
                      "has no value in this control.mode",
                      "remove it, or control what it is the reference of"});
+}
+
+/// What a controller can be wrong in, as an event leaves it: what was so from the start has been told.
+void check_tunings(const Scenario& s, const std::optional<design::MotorModel>& motor, base::Problems& out) {
+  const auto wrong = [&motor](const Scenario& then) {
+    base::Problems found;
+    check_control(then, found);
+    check_extras(then, found);
+    if (motor) check_torque_limit(then, *motor, found);
+    return found;
+  };
+  if (std::none_of(s.at.begin(), s.at.end(), retunes)) return;
+  const base::Problems told = wrong(s);
+  const auto is_told = [&told](const base::Problem& p) {
+    return std::any_of(told.begin(), told.end(), [&p](const base::Problem& other) {
+      return p.where == other.where && p.limit == other.limit;
+    });
+  };
+  for (const At* at : in_order(s)) {
+    if (!retunes(*at)) continue;
+    base::Problems found = wrong(settled(s, at));
+    std::erase_if(found, is_told);
+    const base::Problems of_event = told_of_event(s, *at, std::move(found));
+    out.insert(out.end(), of_event.begin(), of_event.end());
+  }
 }
 
 }  // namespace
@@ -166,7 +194,9 @@ base::Problems check(const Scenario& s) {
   if (base::Problems absurd = check_numbers(s); !absurd.empty()) return absurd;
   base::Problems out;
   std::optional<double> sector_rad;
+  std::optional<design::MotorModel> model;
   if (const auto motor = design::motor_model(s.sheet)) {
+    model = *motor;
     check_torque_limit(s, *motor, out);
     check_pace(s, *motor, out);
     sector_rad = base::pi / 3 / motor->machine.pole_pairs;
@@ -180,6 +210,7 @@ base::Problems check(const Scenario& s) {
   const bool sound_reference = out.size() == before;
   check_steps(s.load.times_s, s.load.torques_Nm, "load", "torques_Nm", s.duration_s, out);
   check_control(s, out);
+  check_tunings(s, model, out);
   check_sensors(s, out);
   check_product(s, sector_rad, out);
   check_extras(s, out);

@@ -2,6 +2,8 @@
 // What [[at]] asks for that the run at hand cannot do.
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/check/reference.hpp"
+#include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/choices.hpp"
 
 namespace sixstep::study {
 
@@ -11,17 +13,73 @@ using base::written;
 
 bool changes_nothing(const At& at) {
   return !at.reference && !at.supply.voltage_V && !at.supply.sinks && !at.load.torque_Nm && !at.load.locked &&
-         !at.sensors.hall_break && at.request == DriveRequest::none;
+         !at.sensors.hall_break && at.request == DriveRequest::none && !retunes(at) && !at.bridge.dead_time_s;
 }
 
-void check_event(const At& at, const std::string& where, const Scenario& s, base::Problems& out) {
+/// A reference that goes on from where it stood can not do so in another unit.
+bool goes_on(const Reference& r) {
+  const bool moves = r.shape == Shape::ramp || r.shape == Shape::trapezoid;
+  return (moves && !r.start) || (r.shape == Shape::steps && !r.times_s.empty() && r.times_s.front() > 0);
+}
+
+/// One event: where it stands in the file, and the modes before and from it.
+struct Event {
+  const At& at;
+  std::string where;
+  control::Mode before, mode;
+  const Scenario& s;
+  base::Problems& out;
+
+  void say(const char* key, std::string value, std::string limit, std::string cure) const {
+    out.push_back({where + key, std::move(value), std::move(limit), std::move(cure)});
+  }
+};
+
+void check_mode(const Event& e) {
+  if (e.at.control.mode == AtMode::same) return;
+  std::string word(1, '"');  // GCC 12 warns of a literal before it
+  word += base::word(mode_choices, e.mode);
+  word += '"';
+  if (e.mode == e.before) return e.say(".control.mode", word, "is the mode already", "leave it away");
+  if (e.mode == control::Mode::off) return;
+  if (!e.at.reference)
+    e.say(".control.mode", word, "needs a reference: the one before is in another unit",
+          "give reference beside it, in " + std::string(reference_unit(e.mode)));
+  else if (goes_on(*e.at.reference))
+    e.say(".reference", "", "goes on from where the reference stood, which was in another unit",
+          "give start, or let times_s begin at 0");
+  if (e.s.control.slew && !e.at.control.slew)
+    e.say(".control.mode", word, "leaves control.slew in the unit of another mode",
+          "give control.slew beside it");
+}
+
+/// What would change nothing, or could not hold.
+void check_chip(const Event& e) {
+  if (e.at.control.current.band_A && e.s.control.current.type != CurrentLoopType::hysteresis)
+    e.say(".control.current.band_A", written(*e.at.control.current.band_A),
+          "is of a hysteresis, and control.current.type = \"pi\"",
+          "leave it away: the kind of the controller cannot change during a run");
+  if (e.at.pwm.chopping != AtChopping::same && e.s.control.smooth_chopping.on)
+    e.say(".pwm.chopping", "", "is chosen by the current while control.smooth_chopping.on = true",
+          "leave it away, or set on = false");
+  if (e.at.bridge.dead_time_s && !(*e.at.bridge.dead_time_s < e.s.pwm.period_s))
+    e.say(".bridge.dead_time_s", written(*e.at.bridge.dead_time_s),
+          "must be shorter than pwm.period_s = " + written(e.s.pwm.period_s), "a leg would never turn on");
+}
+
+void check_event(const Event& e) {
+  const auto& [at, where, before, mode, s, out] = e;
+  check_mode(e);
+  check_chip(e);
   if (!(at.time_s < s.duration_s))
     out.push_back({where + ".time_s", written(at.time_s),
                    "lies behind the end of the run (duration_s = " + written(s.duration_s) + ")",
                    "lengthen duration_s or drop the event"});
   if (changes_nothing(at))
-    out.push_back({where + ".time_s", written(at.time_s), "is when nothing changes",
-                   "give a reference, a value of supply or load, sensors.hall_break or request"});
+    out.push_back(
+        {where + ".time_s", written(at.time_s), "is when nothing changes",
+         "give a reference, a value of supply or load, sensors.hall_break, request, or what changes of "
+         "control, pwm or bridge"});
   if (at.supply.sinks == false && !(s.supply.capacitance_F > 0))
     out.push_back({where + ".supply.sinks", "false", "needs a bus whose voltage can rise",
                    "give supply.resistance_ohm and supply.capacitance_F"});
@@ -30,7 +88,7 @@ void check_event(const At& at, const std::string& where, const Scenario& s, base
     out.push_back({where + ".supply.voltage_V", written(*at.supply.voltage_V),
                    "must stay below control.regeneration.limit_V = " + written(*limit_V),
                    "the drive could not brake any more"});
-  if (at.reference && s.control.mode == control::Mode::off)
+  if (at.reference && mode == control::Mode::off)
     out.push_back({where + ".reference", "", "asks for something that control.mode = \"off\" does not do",
                    "set control.mode"});
   if (at.request != DriveRequest::none && s.control.drive != FirmwareKind::product)
@@ -41,7 +99,13 @@ void check_event(const At& at, const std::string& where, const Scenario& s, base
 }  // namespace
 
 void check_events(const Scenario& s, base::Problems& out) {
-  for (std::size_t n = 0; n < s.at.size(); ++n) check_event(s.at[n], "at[" + std::to_string(n) + "]", s, out);
+  const std::vector<control::Mode> modes = modes_from(s);
+  control::Mode before = s.control.mode;
+  for (const At* at : in_order(s)) {
+    const auto n = static_cast<std::size_t>(at - s.at.data());
+    check_event({*at, "at[" + std::to_string(n) + "]", before, modes[n], s, out});
+    before = modes[n];
+  }
 }
 
 }  // namespace sixstep::study

@@ -3,6 +3,7 @@
 
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/measure/harmonic_gauge.hpp"
+#include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/measure_choices.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
@@ -87,8 +88,8 @@ void check_signal(const Asked& a) {
 /// A reference that the mode does not have, and the error against it.
 void check_mode(const Asked& a) {
   const Mode mode = a.s.control.mode;
-  const bool position = mode == Mode::position, speed = position || mode == Mode::speed;
-  const bool current = speed || mode == Mode::current;
+  const bool position = comes_into(a.s, Mode::position), speed = position || comes_into(a.s, Mode::speed);
+  const bool current = speed || comes_into(a.s, Mode::current);
   const Signal signal = a.m.signal;
   const bool missing =
       ((signal == Signal::current_reference || signal == Signal::current_error) && !current) ||
@@ -129,6 +130,9 @@ void check_levels_of_reference(const Asked& a) {
         "is taken of the reference's levels, and the reference moves in this window",
         "give level, start and from_s, or set from_s and to_s to where the reference stands, or take max "
         "and min of the error, as signal = \"speed_error_rad_s\"");
+  if (takes_levels && !a.m.level && changes_mode(a.s))
+    a.refuse("level", "", "is missing: the mode changes during the run, and with it what the levels are of",
+             "give the level that the signal is to reach, and from_s and to_s");
 }
 
 void check_sampled(const Asked& a) {

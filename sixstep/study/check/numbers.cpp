@@ -4,6 +4,7 @@
 #include "sixstep/base/plausible.hpp"
 #include "sixstep/base/range_text.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
 
 namespace sixstep::study {
@@ -16,7 +17,8 @@ constexpr std::size_t most_told = 5;
 /// The visitor that holds each number to what it may be.
 class Numbers {
  public:
-  explicit Numbers(control::Mode mode) : reference_unit_(reference_unit(mode)) {}
+  explicit Numbers(const Scenario& s)
+      : modes_(modes_from(s)), reference_unit_(reference_unit(s.control.mode)) {}
 
   base::Problems found;
 
@@ -48,8 +50,12 @@ class Numbers {
   }
   template <class Item>
   void list(std::string_view key, std::vector<Item>& items, const base::About&) {
-    for (std::size_t n = 0; n < items.size(); ++n)
+    const std::string_view at_start = reference_unit_;
+    for (std::size_t n = 0; n < items.size(); ++n) {
+      if constexpr (std::is_same_v<Item, At>) reference_unit_ = reference_unit(modes_[n]);
       within(std::string(key) + "[" + std::to_string(n) + "]", items[n]);
+    }
+    reference_unit_ = at_start;
   }
 
  private:
@@ -74,6 +80,7 @@ class Numbers {
   }
 
   std::string path_;
+  std::vector<control::Mode> modes_;  ///< from each event on
   std::string_view reference_unit_;
 };
 
@@ -81,7 +88,7 @@ class Numbers {
 
 base::Problems check_numbers(const Scenario& s) {
   Scenario described = s;  // descriptions are written for readers, which fill what they visit
-  Numbers numbers(s.control.mode);
+  Numbers numbers(s);
   describe(numbers, described);
   return std::move(numbers.found);
 }

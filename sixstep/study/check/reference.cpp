@@ -6,6 +6,7 @@
 
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/check/reference_cures.hpp"
+#include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
@@ -23,6 +24,7 @@ struct Place {
   const Reference& r;
   std::string table;  ///< "reference", "at[0].reference"
   double left_s;
+  control::Mode mode;
   const Scenario& s;
   base::Problems& out;
 
@@ -34,7 +36,7 @@ struct Place {
 };
 
 void check_unit(const Place& p) {
-  const control::Mode mode = p.s.control.mode;
+  const control::Mode mode = p.mode;
   if (p.r.unit && mode != control::Mode::off && *p.r.unit != reference_unit(mode))
     p.say("unit", "\"" + *p.r.unit + "\"",
           "is not the unit of mode \"" + std::string(base::word(mode_choices, mode)) + "\"",
@@ -151,7 +153,7 @@ const char* value_key(const Reference& r) {
 
 /// Each reference alone, so that a duty out of range is told of the one that holds it.
 void check_duty(const Place& p) {
-  if (p.s.control.mode != control::Mode::duty) return;
+  if (p.mode != control::Mode::duty) return;
   Scenario alone;
   alone.duration_s = p.left_s;
   alone.reference = p.r;
@@ -188,11 +190,12 @@ void check_steps(const std::vector<double>& times, const std::vector<double>& va
 }
 
 void check_references(const Scenario& s, base::Problems& out) {
-  check_one({s.reference, "reference", s.duration_s, s, out});
+  check_one({s.reference, "reference", s.duration_s, s.control.mode, s, out});
+  const std::vector<control::Mode> modes = modes_from(s);
   for (std::size_t n = 0; n < s.at.size(); ++n)
     if (s.at[n].reference)
       check_one({*s.at[n].reference, "at[" + std::to_string(n) + "].reference", s.duration_s - s.at[n].time_s,
-                 s, out});
+                 modes[n], s, out});
 }
 
 }  // namespace sixstep::study

@@ -13,6 +13,9 @@ struct Basis {
   double bus_V;
 };
 
+/// What was found wrong with the scenario as an event leaves it, under the event's keys.
+base::Problems told_of_event(const Scenario& scenario, const At& at, base::Problems problems);
+
 /// Settling time of the current loop, as designed: the thesis's (chapter 6) where the scenario names none.
 double current_settling_s(const Scenario& scenario);
 

@@ -9,6 +9,7 @@
 #include "sixstep/design/loops/rotor_sensing.hpp"
 #include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/compile/timeline.hpp"
+#include "sixstep/study/scenario/changes.hpp"
 
 namespace sixstep::study {
 
@@ -96,7 +97,7 @@ control::Watch watch_of(const CurrentLoop& loop) {
   return loop.on == HysteresisOn::motor ? control::Watch::motor : control::Watch::phase;
 }
 
-base::Problems add_current_loop(const Scenario& s, const Basis& basis, Compiled& out) {
+base::Problems add_current_loop(const Scenario& s, const Basis& basis, Tuned& out) {
   if (s.control.current.type != CurrentLoopType::pi) return {};
   const design::ZohPlant plant =
       design::current_plant(2 * basis.motor.machine.R_ohm, 2 * basis.motor.machine.L_H, s.pwm.period_s);
@@ -118,7 +119,7 @@ design::ZohPlant speed_plant_of(const Scenario& s, const Basis& basis, double to
   return design::speed_plant(per_V * basis.bus_V, shaft.J_kg_m2, shaft.B_Nm_s + per_V * K_t, s.pwm.period_s);
 }
 
-base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Compiled& out) {
+base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Tuned& out) {
   const double torque_limit =
       s.control.speed.torque_limit_Nm.value_or(design::usual_torque_limit_Nm(basis.motor, basis.bus_V));
   base::Result<LoopGains> gains = loop_gains(s.control.speed, "speed", speed_plant_of(s, basis, torque_limit),
@@ -151,7 +152,7 @@ void settle_edges(const Scenario& s, const Basis& basis, Compiled& out) {
   sensors.edges = sensors.window_s > 0.0 ? 6 : 1;
 }
 
-base::Problems add_loops(const Scenario& s, const Basis& basis, Compiled& out) {
+base::Problems add_loops(const Scenario& s, const Basis& basis, Tuned& out) {
   const control::Mode mode = s.control.mode;
   if (mode == control::Mode::off || mode == control::Mode::duty) return {};
   const bool has_current_loop =
@@ -172,7 +173,49 @@ base::Problems add_loops(const Scenario& s, const Basis& basis, Compiled& out) {
   return {};
 }
 
+/// The controller of a scenario that does not change it.
+base::Result<Tuned> tuned(const Scenario& s, const Basis& basis) {
+  Tuned out;
+  out.drive.mode = s.control.mode;
+  out.drive.chopping = s.pwm.chopping;
+  out.drive.nominal_bus_V = basis.bus_V;
+  out.drive.current_control = s.control.current.type == CurrentLoopType::pi
+                                  ? control::CurrentControl::pi
+                                  : control::CurrentControl::hysteresis;
+  out.drive.hysteresis = {s.control.current.band_A, watch_of(s.control.current)};
+  if (base::Problems problems = add_loops(s, basis, out); !problems.empty()) return problems;
+  add_extras(s, basis, out.drive);
+  // What a limit can hold is judged on the drive as designed; one of a series that strays from it is run.
+  if (!s.designed_for)
+    if (base::Problems problems = check_limits(s, basis, out.drive); !problems.empty()) return problems;
+  return out;
+}
+
+/// What [[at]] makes of it. Sensors stay as they were laid out for the start.
+base::Problems add_later(const Scenario& s, const Basis& basis, Compiled& out) {
+  for (const At* at : in_order(s)) {
+    if (!retunes(*at)) continue;
+    const Scenario then = settled(s, at);
+    base::Result<Tuned> later = tuned(then, basis);
+    if (!later) return told_of_event(s, *at, later.problems());
+    if (out.product) later->product = product_around(then, basis, later->drive, out.board.sensors);
+    out.later.push_back(std::move(*later));
+  }
+  return {};
+}
+
 }  // namespace
+
+base::Problems told_of_event(const Scenario& s, const At& at, base::Problems problems) {
+  const std::string event = "at[" + std::to_string(&at - s.at.data()) + "].";
+  for (base::Problem& problem : problems)
+    for (const char* table : {"control", "pwm", "bridge"})
+      if (problem.where.starts_with(table)) {
+        problem.where = event + problem.where;
+        break;
+      }
+  return problems;
+}
 
 double current_settling_s(const Scenario& s) {
   return s.control.current.settle_s.value_or(design::usual_current_settle_s);
@@ -223,21 +266,15 @@ base::Result<Compiled> compile(const Scenario& s) {
   out.board = board_of(s, basis.motor.machine.L_H / basis.motor.machine.R_ohm);
   out.timeline = timeline_of(s);
   out.end = sim::to_instant(s.duration_s);
-  out.drive.mode = s.control.mode;
-  out.drive.chopping = s.pwm.chopping;
-  out.drive.nominal_bus_V = basis.bus_V;
-  out.drive.current_control = s.control.current.type == CurrentLoopType::pi
-                                  ? control::CurrentControl::pi
-                                  : control::CurrentControl::hysteresis;
-  out.drive.hysteresis = {s.control.current.band_A, watch_of(s.control.current)};
-  if (base::Problems problems = add_loops(s, basis, out); !problems.empty()) return problems;
+  const std::optional<Scenario> alone = changes_mode(s) ? std::optional(settled(s, nullptr)) : std::nullopt;
+  base::Result<Tuned> first = tuned(alone ? *alone : s, basis);
+  if (!first) return first.problems();
+  out.drive = first->drive;
+  out.gains = std::move(first->gains);
   settle_edges(s, basis, out);
-  add_extras(s, basis, out.drive);
-  // What a limit can hold is judged on the drive as designed; one of a series that strays from it is run.
-  if (!nominal)
-    if (base::Problems problems = check_limits(s, basis, out.drive); !problems.empty()) return problems;
   if (s.control.drive == FirmwareKind::product)
-    out.product = product_around(s, basis, out.drive, out.board.sensors);
+    out.product = product_around(alone ? *alone : s, basis, out.drive, out.board.sensors);
+  if (base::Problems problems = add_later(s, basis, out); !problems.empty()) return problems;
   return out;
 }
 

@@ -11,6 +11,13 @@
 
 namespace sixstep::study {
 
+/// The controller as one event leaves it.
+struct Tuned {
+  control::DriveConfig<double> drive;
+  std::vector<LoopGains> gains;
+  std::optional<control::ProtectedConfig<double>> product;  ///< around the drive, where the chip runs it
+};
+
 struct Compiled {
   design::MotorModel motor;
   plant::Shaft shaft;  ///< the motor's with the load's share added
@@ -22,6 +29,7 @@ struct Compiled {
   control::DriveConfig<double> drive;
   std::optional<control::ProtectedConfig<double>> product;  ///< around the drive, where the chip runs it
   std::vector<LoopGains> gains;
+  std::vector<Tuned> later;  ///< what the timeline's retune actions name
   sim::Instant end;
 };
 

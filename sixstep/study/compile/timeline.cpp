@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
 namespace sixstep::study {
@@ -27,15 +28,27 @@ void add_event(const At& at, rig::Timeline& timeline) {
     else
       add(ActionKind::hall_stuck, hall_line(broken->line, broken->level == PinLevel::high));
   }
+  if (at.bridge.dead_time_s)
+    add(ActionKind::dead_time, static_cast<double>(sim::to_instant(*at.bridge.dead_time_s).ticks));
   if (at.request == DriveRequest::on) add(ActionKind::run_request, 1.0);
   if (at.request == DriveRequest::off) add(ActionKind::run_request, 0.0);
   if (at.request == DriveRequest::clear) add(ActionKind::clear_request, 1.0);
+}
+
+/// On the sample that sees them, before the setpoint of that instant.
+void add_tunings(const Scenario& s, rig::Timeline& timeline) {
+  double number = 0.0;
+  for (const At* at : in_order(s))
+    if (retunes(*at))
+      timeline.push_back(
+          {{sample_from_ticks(s.pwm, sim::to_instant(at->time_s).ticks), 0.0}, ActionKind::retune, number++});
 }
 
 }  // namespace
 
 rig::Timeline timeline_of(const Scenario& s) {
   rig::Timeline timeline;
+  add_tunings(s, timeline);
   for (const Stretch& stretch : reference_waveform(s))
     timeline.push_back(
         {sim::to_instant(stretch.at_s), ActionKind::setpoint, stretch.value, stretch.waveform});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/measure_choices.hpp"
 
 namespace sixstep::study {
@@ -64,12 +65,19 @@ bool applies(ColumnId id, control::Mode mode) {
   return true;
 }
 
+bool applies(ColumnId id, const Scenario& s) {
+  using control::Mode;
+  for (const Mode mode : {Mode::off, Mode::duty, Mode::current, Mode::speed, Mode::position})
+    if (comes_into(s, mode) && applies(id, mode)) return true;
+  return false;
+}
+
 base::Result<std::vector<std::size_t>> record_indices(const Scenario& scenario) {
   std::vector<std::size_t> indices = {0};
   const std::vector<Column>& columns = all_columns();
   if (scenario.record.columns.empty()) {
     for (std::size_t c = 1; c < column_count; ++c)
-      if (applies(static_cast<ColumnId>(c), scenario.control.mode)) indices.push_back(c);
+      if (applies(static_cast<ColumnId>(c), scenario)) indices.push_back(c);
     return indices;
   }
   base::Problems problems;
@@ -78,7 +86,7 @@ base::Result<std::vector<std::size_t>> record_indices(const Scenario& scenario) 
         std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
     if (found == columns.end())
       problems.push_back({"record.columns", "\"" + name + "\"", "is no column of the trace",
-                          "`sixstep help columns` lists them"});
+                          "the help on columns lists them"});
     else if (found != columns.begin())
       indices.push_back(static_cast<std::size_t>(found - columns.begin()));
   }

@@ -50,6 +50,8 @@ using FullRow = std::array<double, column_count>;
 
 /// Whether a column means anything in a mode (a duty run has no current reference): rows hold NaN in others.
 bool applies(ColumnId id, control::Mode mode);
+/// In a mode that comes into the run.
+bool applies(ColumnId id, const Scenario& scenario);
 
 /// Every column there is: t_s i_a_A i_b_A i_c_A u_a_V .. hall.
 const std::vector<Column>& all_columns();

@@ -13,15 +13,15 @@ namespace sixstep::study {
 
 using RowSink = std::function<void(std::span<const double>)>;
 
-/// The columns asked for out of the full row; NaN where a column means nothing in this mode.
+/// The columns asked for out of the full row; NaN where a column means nothing in the mode at hand.
 class Selection {
  public:
-  Selection(const std::vector<std::size_t>& columns, control::Mode mode) : row_(columns.size(), nothing) {
-    for (std::size_t n = 0; n < columns.size(); ++n) {
-      if (!applies(static_cast<ColumnId>(columns[n]), mode)) continue;
-      chosen_.push_back({n, columns[n]});
-      row_[n] = 0.0;
-    }
+  explicit Selection(const std::vector<std::size_t>& columns) : columns_(columns) { choose(); }
+  /// The mode from here on.
+  void follow(control::Mode mode) {
+    if (mode == mode_) return;
+    mode_ = mode;
+    choose();
   }
   /// True where a number differs from the row before.
   bool take(const FullRow& full) {
@@ -45,6 +45,18 @@ class Selection {
   struct Choice {
     std::size_t place, column;
   };
+  void choose() {
+    chosen_.clear();
+    row_.assign(columns_.size(), nothing);
+    for (std::size_t n = 0; n < columns_.size(); ++n) {
+      if (!applies(static_cast<ColumnId>(columns_[n]), mode_)) continue;
+      chosen_.push_back({n, columns_[n]});
+      row_[n] = 0.0;
+    }
+  }
+
+  std::vector<std::size_t> columns_;
+  control::Mode mode_ = control::Mode::off;
   std::vector<Choice> chosen_;
   std::vector<double> row_;
   bool sound_ = true;
@@ -53,9 +65,9 @@ class Selection {
 /// Rows at n * grid up to the end of the run, included where it lies on the grid: right limits at a jump.
 class GridRecorder {
  public:
-  GridRecorder(std::int64_t grid_ticks, sim::Instant end, control::Mode mode,
-               const std::vector<std::size_t>& columns, RowSink sink)
-      : grid_(grid_ticks), end_(end), selection_(columns, mode), sink_(std::move(sink)) {}
+  GridRecorder(std::int64_t grid_ticks, sim::Instant end, const std::vector<std::size_t>& columns,
+               RowSink sink)
+      : grid_(grid_ticks), end_(end), selection_(columns), sink_(std::move(sink)) {}
 
   template <class Rig>
   void segment(const Rig& rig, double s) {
@@ -66,6 +78,7 @@ class GridRecorder {
       // An end between picoseconds is rounded: a row on it belongs to what follows.
       if (!(sim::seconds_between(next_, to) > 0x1p-50 * length) && !last) return;
       const double at = length > 0 ? sim::seconds_between(from, next_) / rig.plant().expansion().h : 0.0;
+      selection_.follow(rig.firmware().mode());
       selection_.take(full_row(rig, at < s ? (at > 0 ? at : 0.0) : s, next_.seconds()));
       if (selection_.sound()) sink_(selection_.row());
       next_.ticks += grid_;
@@ -83,14 +96,15 @@ class GridRecorder {
 /// drawn from row to row show the curve. A row equal to the one before is left out.
 class EventRecorder {
  public:
-  EventRecorder(double gap_s, control::Mode mode, const std::vector<std::size_t>& columns, RowSink sink)
-      : gap_s_(gap_s), selection_(columns, mode), sink_(std::move(sink)) {}
+  EventRecorder(double gap_s, const std::vector<std::size_t>& columns, RowSink sink)
+      : gap_s_(gap_s), selection_(columns), sink_(std::move(sink)) {}
 
   template <class Rig>
   void segment(const Rig& rig, double s) {
     const double h = rig.plant().expansion().h;
     const double gaps = h * s / gap_s_;
     const int parts = 1 + static_cast<int>(gaps < 1000.0 ? gaps : 1000.0);
+    selection_.follow(rig.firmware().mode());
     for (int n = 0; n <= parts; ++n) {
       const double at = s * n / parts;
       const double t = rig.now().plus_seconds(at * h).seconds();

@@ -88,7 +88,7 @@ void add_free_star(const Stretch& part, const SpeedShapes& shapes, Series& u) {
   add(u, -(p.beta[high] + p.beta[low]) / 2, shapes.w1);
 }
 
-/// u_k by the leg's device, or u_n + e_k of a floating one (MODEL 2).
+/// u_k by the leg's device, or u_n + e_k of a floating one (model.md 2).
 Series pole_series(const Stretch& part, int k) {
   const plant::Plant<double>& plant = part.g.plant;
   const auto& y = plant.expansion();

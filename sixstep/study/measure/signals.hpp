@@ -30,7 +30,8 @@ SegmentView segment_view(const Rig& rig) {
           .ticked = rig.ticked()};
 }
 
-/// Motor current i_m = (i_p - i_n)/2 of the positive pair of a sector (MODEL 3), as weights of i_a, i_b, i_c.
+/// Motor current i_m = (i_p - i_n)/2 of the positive pair of a sector (model.md 3), as weights of i_a, i_b,
+/// i_c.
 inline plant::PerLeg<double> motor_current_weights(int sector) {
   const control::Pair pair = control::positive_pair(static_cast<std::uint8_t>(sector));
   plant::PerLeg<double> w{};

@@ -100,7 +100,7 @@ base::Problems never_measured(const Scenario& s) {
   look_at_dead_time(s, out);
   if (s.require.empty())
     out.push_back({"require", "", "is missing: where nothing is asked of a run, nothing has been shown",
-                   "say in [[require]] what the drive must do; see: sixstep help require"});
+                   "say in [[require]] what the drive must do; see the help on require"});
   return out;
 }
 
@@ -110,7 +110,7 @@ base::Problems not_held(const Outcome& outcome) {
   for (const Verdict& v : outcome.verdicts)
     if (!v.ok)
       out.push_back({v.figure, measured(v), "misses what is required, " + required(v),
-                     "see it with sixstep run --html, and change the drive"});
+                     "look at its report, and change the drive"});
   return out;
 }
 

@@ -10,8 +10,8 @@
 namespace sixstep::study {
 
 /// Problems: the arithmetic cannot hold the drive, or a defect of the engine. A fault is part of the outcome.
-base::Problems run_lean(const Scenario& scenario, const Compiled& compiled, Observers& w, Outcome& out);
-base::Problems run_sensed(const Scenario& scenario, const Compiled& compiled, Observers& w, Outcome& out);
-base::Problems run_product(const Scenario& scenario, const Compiled& compiled, Observers& w, Outcome& out);
+base::Problems run_lean(const Scenario& scenario, Compiled compiled, Observers& w, Outcome& out);
+base::Problems run_sensed(const Scenario& scenario, Compiled compiled, Observers& w, Outcome& out);
+base::Problems run_product(const Scenario& scenario, Compiled compiled, Observers& w, Outcome& out);
 
 }  // namespace sixstep::study

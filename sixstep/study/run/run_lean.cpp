@@ -3,8 +3,8 @@
 
 namespace sixstep::study {
 
-base::Problems run_lean(const Scenario& scenario, const Compiled& compiled, Observers& w, Outcome& out) {
-  return detail::run_chosen<rig::LeanDrive>(scenario, compiled, w, out);
+base::Problems run_lean(const Scenario& scenario, Compiled compiled, Observers& w, Outcome& out) {
+  return detail::run_chosen<rig::LeanDrive>(scenario, std::move(compiled), w, out);
 }
 
 }  // namespace sixstep::study

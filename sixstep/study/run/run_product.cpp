@@ -3,8 +3,8 @@
 
 namespace sixstep::study {
 
-base::Problems run_product(const Scenario& scenario, const Compiled& compiled, Observers& w, Outcome& out) {
-  return detail::run_chosen<rig::ProductDrive>(scenario, compiled, w, out);
+base::Problems run_product(const Scenario& scenario, Compiled compiled, Observers& w, Outcome& out) {
+  return detail::run_chosen<rig::ProductDrive>(scenario, std::move(compiled), w, out);
 }
 
 }  // namespace sixstep::study

@@ -2,11 +2,11 @@
 // From a firmware's type to a run: builds the rig, runs it, reads out what it has counted. Included by the
 // files of run_firmware.hpp only.
 #pragma once
-#include <type_traits>
+#include <utility>
 
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/sim/run.hpp"
-#include "sixstep/study/compile/arithmetic.hpp"
+#include "sixstep/study/compile/chip.hpp"
 #include "sixstep/study/run/faults.hpp"
 #include "sixstep/study/run/run_firmware.hpp"
 
@@ -26,23 +26,22 @@ void count_events(const Rig& rig, Outcome& out) {
   out.events.push_back({"diode starts to conduct", rig.plant().diodes_started()});
 }
 
+/// What a run leaves behind that has stopped, or stands where it is now.
 template <class Rig>
-base::Problems run_rig(Rig& rig, const Compiled& compiled, Observers& w, Outcome& out) {
-  const sim::Run run = sim::run(rig, compiled.end, w);
+base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& out) {
   const double t_s = rig.now().seconds();
   const bool away = has_run_away(rig.plant());
-  if (!away && (run.stop == sim::Stop::unsettled || run.stop == sim::Stop::no_progress || w.crowded))
+  if (!away && (stop == sim::Stop::unsettled || stop == sim::Stop::no_progress || w.crowded))
     return {{"t = " + std::to_string(t_s) + " s", "",
-             run.stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
-                                              : "events repeat without time going on",
+             stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
+                                          : "events repeat without time going on",
              "this is a defect of sixstep: please report it with the scenario file"}};
   if (away)
     out.fault = ran_away(rig.plant(), t_s);
-  else if (run.stop == sim::Stop::fault)
+  else if (stop == sim::Stop::fault)
     out.fault = stopped_by(rig.fault(), rig.firmware().diagnosis(), t_s);
   else
     note_trip(rig.firmware().diagnosis(), out);
-  out.segments = run.segments;
   out.turn_ons = rig.modulator().turn_ons();
   out.simulated_s = t_s;
   out.digest = w.digest.after(rig);
@@ -51,43 +50,32 @@ base::Problems run_rig(Rig& rig, const Compiled& compiled, Observers& w, Outcome
   return {};
 }
 
-template <class Scalar>
-auto chip_for(std::type_identity<rig::ProductDrive<Scalar>>, const Scenario& s, const Compiled& c) {
-  return product_in<Scalar>(s, c);
-}
 template <class Firmware>
-auto chip_for(std::type_identity<Firmware>, const Scenario& s, const Compiled& c) {
-  return drive_in<typename Firmware::Number>(s, c);
-}
-
-template <class Firmware>
-base::Problems run_in(const Scenario& scenario, const Compiled& compiled, Observers& w, Outcome& out) {
-  const auto chip = chip_for(std::type_identity<Firmware>{}, scenario, compiled);
+base::Problems run_in(const Scenario& scenario, Compiled compiled, Observers& w, Outcome& out) {
+  const base::Result<Chip<Firmware>> chip = chip_of<Firmware>(scenario, compiled);
   if (!chip) return chip.problems();
-  const plant::Plant<double> plant(compiled.motor.machine, compiled.shaft, compiled.devices, compiled.supply,
-                                   compiled.start);
-  rig::BoardConfig board = compiled.board;
-  board.bases = chip->bases;
-  rig::Rig<double, Firmware> rig(plant, chip->config, board, compiled.timeline);
-  return run_rig(rig, compiled, w, out);
+  rig::Rig<double, Firmware> rig = rig_of<Firmware>(compiled, *chip, std::move(compiled.timeline));
+  const sim::Run run = sim::run(rig, compiled.end, w);
+  out.segments = run.segments;
+  return note_end(rig, run.stop, w, out);
 }
 
 /// Which arithmetic runs is decided here, once.
 template <template <class> class Firmware>
-base::Problems run_chosen(const Scenario& s, const Compiled& compiled, Observers& w, Outcome& out) {
+base::Problems run_chosen(const Scenario& s, Compiled compiled, Observers& w, Outcome& out) {
   switch (s.control.arithmetic) {
     case Arithmetic::float64:
-      return run_in<Firmware<double>>(s, compiled, w, out);
+      return run_in<Firmware<double>>(s, std::move(compiled), w, out);
     case Arithmetic::float32:
-      return run_in<Firmware<float>>(s, compiled, w, out);
+      return run_in<Firmware<float>>(s, std::move(compiled), w, out);
     case Arithmetic::q15:
-      return run_in<Firmware<control::Q15>>(s, compiled, w, out);
+      return run_in<Firmware<control::Q15>>(s, std::move(compiled), w, out);
     case Arithmetic::q14:
-      return run_in<Firmware<control::Q14>>(s, compiled, w, out);
+      return run_in<Firmware<control::Q14>>(s, std::move(compiled), w, out);
     case Arithmetic::q31:
-      return run_in<Firmware<control::Q31>>(s, compiled, w, out);
+      return run_in<Firmware<control::Q31>>(s, std::move(compiled), w, out);
     case Arithmetic::q30:
-      return run_in<Firmware<control::Q30>>(s, compiled, w, out);
+      return run_in<Firmware<control::Q30>>(s, std::move(compiled), w, out);
   }
   return {};
 }

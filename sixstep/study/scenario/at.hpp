@@ -2,6 +2,7 @@
 // What changes at an instant of the run, as a scenario says it; what is not given stays as it was. What each
 // key means stands in at_description.hpp.
 #pragma once
+#include "sixstep/study/scenario/control.hpp"
 #include "sixstep/study/scenario/reference.hpp"
 #include "sixstep/study/scenario/sensors.hpp"
 
@@ -32,6 +33,57 @@ struct AtSensors {
 /// What the product drive is asked for.
 enum class DriveRequest : std::uint8_t { none, off, on, clear };
 
+/// A PI's gains as CurrentLoop has them. Whichever way they are given, they take the place of those before.
+struct AtGains {
+  std::optional<double> settle_s, damping;
+  std::optional<double> d1, d0;
+  std::optional<double> kp, ki;
+  bool operator==(const AtGains&) const = default;
+};
+
+struct AtCurrentLoop : AtGains {
+  std::optional<double> band_A, limit_A;
+  bool operator==(const AtCurrentLoop&) const = default;
+};
+
+struct AtSpeedLoop : AtGains {
+  std::optional<double> torque_limit_Nm;
+  bool operator==(const AtSpeedLoop&) const = default;
+};
+
+struct AtPositionLoop {
+  std::optional<double> gain_rad_s_per_deg, speed_limit_rad_s;
+  bool operator==(const AtPositionLoop&) const = default;
+};
+
+struct AtLimits {
+  std::optional<double> current_A, torque_Nm, speed_rad_s;
+  bool operator==(const AtLimits&) const = default;
+};
+
+/// control::Mode and control::Chopping, or as before.
+enum class AtMode : std::uint8_t { same, off, duty, current, speed, position };
+enum class AtChopping : std::uint8_t { same, soft, hard, complementary };
+
+struct AtControl {
+  AtMode mode = AtMode::same;
+  AtCurrentLoop current;
+  AtSpeedLoop speed;
+  AtPositionLoop position;
+  std::optional<double> slew;
+  AtLimits limits;
+  bool operator==(const AtControl&) const = default;
+};
+
+struct AtPwm {
+  AtChopping chopping = AtChopping::same;
+  bool operator==(const AtPwm&) const = default;
+};
+
+struct AtBridge {
+  std::optional<double> dead_time_s;
+};
+
 struct At {
   double time_s = 0.0;
   std::optional<Reference> reference;
@@ -39,6 +91,9 @@ struct At {
   AtLoad load;
   AtSensors sensors;
   DriveRequest request = DriveRequest::none;
+  AtControl control;
+  AtPwm pwm;
+  AtBridge bridge;
 };
 
 }  // namespace sixstep::study

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sixstep/study/scenario/changes.hpp"
+
 namespace sixstep::study {
 
 namespace {
@@ -105,16 +107,15 @@ double end_of(const std::vector<Stretch>& stretches, std::size_t n, double durat
 }  // namespace
 
 std::vector<Stretch> reference_waveform(const Scenario& s) {
-  std::vector<const At*> changes;
-  for (const At& at : s.at)
-    if (at.reference) changes.push_back(&at);
-  std::stable_sort(changes.begin(), changes.end(),
-                   [](const At* a, const At* b) { return a->time_s < b->time_s; });
-  const auto until = [&](std::size_t n) { return n < changes.size() ? changes[n]->time_s : s.duration_s; };
+  std::vector<const At*> changes = in_order(s);
+  std::erase_if(changes, [](const At* at) { return !at->reference; });
+  const auto until = [&](std::size_t n) {
+    return n < changes.size() ? happens_at_s(s, *changes[n]) : s.duration_s;
+  };
   std::vector<Stretch> stretches;
   StretchWriter(s.reference, 0.0, until(0), 0.0, stretches).add();
   for (std::size_t n = 0; n < changes.size(); ++n) {
-    const double from_s = changes[n]->time_s;
+    const double from_s = until(n);
     StretchWriter(*changes[n]->reference, from_s, until(n + 1), stretches.back().at(from_s), stretches).add();
   }
   return stretches;

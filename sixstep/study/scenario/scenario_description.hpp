@@ -144,11 +144,10 @@ void describe(Visitor& v, Scenario& s) {
       {.meaning = "a scenario beside this one whose keys hold where this one is silent, or a list of them, "
                   "the later the stronger; lists of tables add to theirs; an empty list [] or table {} drops "
                   "theirs"});
-  v.value(
-      "motor", s.motor,
-      {.meaning =
-           "motor file: a path, or a name looked up beside the scenario, in --data and in the built-in list",
-       .required = true});
+  v.value("motor", s.motor,
+          {.meaning = "motor file: a path, or a name looked up beside the scenario, in the data folder and "
+                      "in the built-in list",
+           .required = true});
   v.value("duration_s", s.duration_s,
           {.meaning = "simulated time",
            .unit = "s",
@@ -173,7 +172,7 @@ void describe(Visitor& v, Scenario& s) {
   v.list("require", s.require, {.meaning = "figures that decide whether the run passes"});
   v.list("compare", s.compare, {.meaning = "figures shown beside those of a source; they decide nothing"});
   v.list("spread", s.spread,
-         {.meaning = "how drives of a series differ, for sixstep run --runs; the controller stays designed "
+         {.meaning = "how drives of a series differ, for many runs; the controller stays designed "
                      "for the values as written"});
 }
 

@@ -148,7 +148,7 @@ struct Checker {
           where + ".key", "\"" + spread.key + "\"",
           "is no number of motor_override, supply, bridge, load or initial that differs from drive to "
           "drive",
-          "write it as table.key, as in \"supply.voltage_V\"; sixstep help spread.key lists the motor's");
+          "write it as table.key, as in \"supply.voltage_V\"; the help on spread.key lists the motor's");
     if (!at.number)
       return add(where + ".key", "\"" + spread.key + "\"", "has no value that could differ",
                  spread.key == torque_key     ? "the sheet gives back_emf_mV_s: spread that"

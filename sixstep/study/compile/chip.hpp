@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a firmware is given in the number its chip computes in: at the start, and by each event that changes
+// it. Fixed point has one scaling for the whole run, that of the start: what comes later must fit it.
+#pragma once
+#include <cmath>
+#include <type_traits>
+
+#include "sixstep/rig/rig.hpp"
+#include "sixstep/study/compile/arithmetic.hpp"
+#include "sixstep/study/compile/basis.hpp"
+#include "sixstep/study/scenario/changes.hpp"
+
+namespace sixstep::study {
+
+template <class Firmware>
+struct Chip {
+  typename Firmware::Config config;
+  rig::Bases bases;
+  std::vector<rig::Tuning<typename Firmware::Config>> later;  ///< what the timeline's retune actions name
+};
+
+/// [control.full_scale] that makes these bases of it, to the bit. Floating point has none.
+template <class Scalar>
+FullScale full_scale_of(const rig::Bases& bases) {
+  if constexpr (std::is_arithmetic_v<Scalar>) {
+    return {};
+  } else {
+    constexpr int before_the_point =
+        control::detail::Widths<typename Scalar::Storage>::bits - 1 - Scalar::fraction_bits;
+    const auto end = [](double base) { return std::ldexp(base, before_the_point); };
+    return {end(bases.current_A), end(bases.voltage_V), end(bases.speed_rad_s), end(bases.position_deg)};
+  }
+}
+
+namespace detail {
+
+template <class Scalar>
+auto given_to(std::type_identity<rig::ProductDrive<Scalar>>, const Scenario& s, const Compiled& c) {
+  return product_in<Scalar>(s, c);
+}
+template <class Firmware>
+auto given_to(std::type_identity<Firmware>, const Scenario& s, const Compiled& c) {
+  return drive_in<typename Firmware::Number>(s, c);
+}
+
+template <class Firmware>
+base::Problems add_later(const Scenario& s, const Compiled& c, Chip<Firmware>& out) {
+  if (c.later.empty()) return {};
+  Compiled then = c;
+  std::size_t number = 0;
+  for (const At* at : in_order(s)) {
+    if (!retunes(*at)) continue;
+    Scenario settled_s = settled(s, at);
+    if (!std::is_arithmetic_v<typename Firmware::Number>)
+      settled_s.control.full_scale = full_scale_of<typename Firmware::Number>(out.bases);
+    then.drive = c.later[number].drive;
+    then.product = c.later[number].product;
+    const auto chip = given_to(std::type_identity<Firmware>{}, settled_s, then);
+    if (!chip) return told_of_event(s, *at, chip.problems());
+    out.later.push_back({chip->config, chip->bases.setpoint});
+    ++number;
+  }
+  return {};
+}
+
+}  // namespace detail
+
+/// Problems name what the format cannot hold. The scenario is the one that was compiled.
+template <class Firmware>
+base::Result<Chip<Firmware>> chip_of(const Scenario& s, const Compiled& c) {
+  const std::optional<Scenario> alone = changes_mode(s) ? std::optional(settled(s, nullptr)) : std::nullopt;
+  const auto first = detail::given_to(std::type_identity<Firmware>{}, alone ? *alone : s, c);
+  if (!first) return first.problems();
+  Chip<Firmware> out{first->config, first->bases, {}};
+  if (base::Problems problems = detail::add_later(s, c, out); !problems.empty()) return problems;
+  return out;
+}
+
+/// Motor, bridge, chip and timeline of a run.
+template <class Firmware>
+rig::Rig<double, Firmware> rig_of(const Compiled& c, const Chip<Firmware>& chip, rig::Timeline timeline) {
+  const plant::Plant<double> plant(c.motor.machine, c.shaft, c.devices, c.supply, c.start);
+  rig::BoardConfig board = c.board;
+  board.bases = chip.bases;
+  return {plant, chip.config, board, std::move(timeline), chip.later};
+}
+
+}  // namespace sixstep::study

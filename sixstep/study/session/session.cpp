@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/session/session.hpp"
+
+#include <algorithm>
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/run/observers_of.hpp"
+#include "sixstep/study/session/live_rig.hpp"
+#include "sixstep/study/session/shortened.hpp"
+
+namespace sixstep::study {
+
+using detail::AnyRig;
+using detail::LiveRig;
+using detail::Slice;
+using sim::Instant;
+
+struct Session::State {
+  Scenario scenario;
+  Compiled compiled;  ///< its timeline is the rig's
+  Observers watchers;
+  AnyRig rig;
+  Present present{};
+  Instant reach{};
+  sim::Stop stop = sim::Stop::observer;
+  bool over = false;
+  bool figures_moved = false;  ///< windows are not those that were known when it began
+
+  Instant now() const {
+    return std::visit([](const auto& live) { return live.rig.now(); }, rig);
+  }
+  Slice slice(const Instant& until) {
+    return {watchers, present, until, reach, compiled.board.modulator.period_ticks};
+  }
+};
+
+namespace {
+
+template <class Firmware>
+base::Result<AnyRig> made(const Scenario& s, const Compiled& c, rig::Timeline timeline) {
+  base::Result<LiveRig<Firmware>> live = LiveRig<Firmware>::made(s, c, std::move(timeline));
+  if (!live) return live.problems();
+  return AnyRig(std::move(*live));
+}
+
+template <template <class> class Firmware>
+base::Result<AnyRig> made_in(const Scenario& s, const Compiled& c, rig::Timeline timeline) {
+  switch (s.control.arithmetic) {
+    case Arithmetic::float64:
+      return made<Firmware<double>>(s, c, std::move(timeline));
+    case Arithmetic::float32:
+      return made<Firmware<float>>(s, c, std::move(timeline));
+    case Arithmetic::q15:
+      return made<Firmware<control::Q15>>(s, c, std::move(timeline));
+    case Arithmetic::q14:
+      return made<Firmware<control::Q14>>(s, c, std::move(timeline));
+    case Arithmetic::q31:
+      return made<Firmware<control::Q31>>(s, c, std::move(timeline));
+    case Arithmetic::q30:
+      return made<Firmware<control::Q30>>(s, c, std::move(timeline));
+  }
+  return base::Problem{"control.arithmetic", "", "is none that there is", "see control.arithmetic"};
+}
+
+/// The chip as the run has felt it. How far a setpoint may go is felt by none that stays within.
+bool same_chip(const Tuned& a, const Tuned& b) {
+  if (!(a.drive == b.drive) || a.product.has_value() != b.product.has_value()) return false;
+  if (!a.product) return true;
+  control::ProtectedConfig<double> one = *a.product, other = *b.product;
+  one.setpoint_limit = other.setpoint_limit = 0.0;
+  return one == other;
+}
+
+/// Whether what was compiled anew had been the same run up to now.
+bool same_past(const Scenario& s, const Compiled& before, const Compiled& anew, const Instant& now) {
+  if (!same_chip({before.drive, {}, before.product}, {anew.drive, {}, anew.product})) return false;
+  std::size_t number = 0;
+  for (const At* at : in_order(s)) {
+    if (!retunes(*at)) continue;
+    if (sample_from_ticks(s.pwm, sim::to_instant(at->time_s).ticks) > now.ticks) break;
+    if (!same_chip(before.later[number], anew.later[number])) return false;
+    ++number;
+  }
+  return true;
+}
+
+/// The first control tick that the next segment can still be told of. In seconds that a file can name.
+Instant next_change(const Instant& now, const Instant& next_tick, const Instant& reach, std::int64_t period) {
+  std::int64_t from = std::max(now.ticks + (now.offset > 0 ? 1 : 0), reach.ticks);
+  if (now < next_tick) from = std::max(from, now.ticks + 1);
+  std::int64_t tick = (from + period - 1) / period * period;
+  while (sim::to_instant(Instant{tick, 0.0}.seconds()).ticks < from) tick += period;
+  return {tick, 0.0};
+}
+
+}  // namespace
+
+Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Session::Session(const Session& other) : state_(std::make_unique<State>(*other.state_)) {}
+Session& Session::operator=(const Session& other) {
+  if (this != &other) state_ = std::make_unique<State>(*other.state_);
+  return *this;
+}
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+Session::~Session() = default;
+
+const Present& Session::present() const { return state_->present; }
+double Session::now_s() const { return state_->now().seconds(); }
+bool Session::over() const { return state_->over; }
+const Scenario& Session::scenario() const { return state_->scenario; }
+double Session::period_s() const { return state_->scenario.pwm.period_s; }
+
+base::Result<Session> Session::open(const Scenario& scenario, const Listeners& listeners) {
+  if (base::Problems problems = check(scenario); !problems.empty()) return problems;
+  base::Result<Compiled> compiled = compile(scenario);
+  if (!compiled) return compiled.problems();
+  const base::Result<std::vector<std::size_t>> indices = record_indices(scenario);
+  if (!indices) return indices.problems();
+  compiled->board.sensors.decodes_hall = true;  // a line may break at any time
+  rig::Timeline timeline = std::move(compiled->timeline);
+  base::Result<AnyRig> rig = scenario.control.drive == FirmwareKind::product
+                                 ? made_in<rig::ProductDrive>(scenario, *compiled, std::move(timeline))
+                                 : made_in<rig::SensedDrive>(scenario, *compiled, std::move(timeline));
+  if (!rig) return rig.problems();
+  auto state = std::make_unique<State>(State{.scenario = scenario,
+                                             .compiled = std::move(*compiled),
+                                             .watchers = observers_of(scenario, listeners, *indices),
+                                             .rig = std::move(*rig)});
+  const Arithmetic arithmetic = scenario.control.arithmetic;
+  if (arithmetic != Arithmetic::float64 && arithmetic != Arithmetic::float32)
+    state->scenario.control.full_scale =
+        std::visit([](const auto& live) { return live.full_scale(); }, state->rig);
+  Slice first = state->slice({});
+  std::visit([&](const auto& live) { live.look(first); }, state->rig);
+  return Session(std::move(state));
+}
+
+bool Session::advance(double to_s) {
+  State& s = *state_;
+  const Instant until = sim::to_instant(to_s);
+  if (s.over || !(s.now() < until)) return !s.over;
+  const bool to_end = !(until < s.compiled.end);
+  Slice slice = s.slice(to_end ? s.compiled.end : until);
+  if (to_end) slice.until = s.compiled.end;
+  const auto go = [&](auto& live) { return live.advance(s.compiled.end, slice); };
+  s.stop = std::visit(go, s.rig);
+  // The end of the run is an instant too: what is due there is done.
+  if (s.stop == sim::Stop::observer && !slice.stopped && to_end) s.stop = std::visit(go, s.rig);
+  s.over = s.stop != sim::Stop::observer || slice.stopped;
+  if (!slice.taken) std::visit([&](const auto& live) { live.look(slice); }, s.rig);
+  return !s.over;
+}
+
+base::Result<double> Session::change(At at) {
+  State& s = *state_;
+  const auto next_tick = std::visit([](const auto& live) { return live.rig.next_tick(); }, s.rig);
+  const Instant when = next_change(s.now(), next_tick, s.reach, s.compiled.board.modulator.period_ticks);
+  if (s.over || !(when < s.compiled.end))
+    return base::Problem{"time_s", base::written(now_s()), "is where the session is over",
+                         "open one with a longer duration_s"};
+  at.time_s = when.seconds();
+  Scenario candidate = s.scenario;
+  candidate.at.push_back(std::move(at));
+  if (base::Problems problems = check(candidate); !problems.empty()) return problems;
+  base::Result<Compiled> compiled = compile(candidate);
+  if (!compiled) return compiled.problems();
+  if (!same_past(s.scenario, s.compiled, *compiled, s.now()))
+    return base::Problem{"reference", "", "would have laid out the drive's limits otherwise from the start",
+                         "open the session with control.limits.current_A, for the largest reference to come"};
+  compiled->board.sensors.decodes_hall = true;
+  rig::Timeline timeline = std::move(compiled->timeline);
+  if (base::Problems problems =
+          std::visit([&](auto& live) { return live.take(candidate, *compiled, std::move(timeline)); }, s.rig);
+      !problems.empty())
+    return problems;
+  s.figures_moved = s.figures_moved || candidate.at.back().reference;
+  s.scenario = std::move(candidate);
+  s.compiled = std::move(*compiled);
+  return when.seconds();
+}
+
+base::Result<Outcome> Session::close() {
+  State& s = *state_;
+  if (!s.over) {
+    const auto next_tick = std::visit([](const auto& live) { return live.rig.next_tick(); }, s.rig);
+    const std::int64_t period = s.compiled.board.modulator.period_ticks;
+    Instant end = next_change(s.now(), next_tick, s.reach, period);
+    if (end.ticks == 0) end.ticks = period;
+    if (end < s.compiled.end) {
+      Scenario cut = shortened(s.scenario, end.seconds());
+      base::Result<Compiled> compiled = compile(cut);
+      if (!compiled) return compiled.problems();
+      if (!same_past(cut, s.compiled, *compiled, s.now()))
+        return base::Problem{"duration_s", base::written(end.seconds()),
+                             "leaves out a reference that the drive's limits were laid out for",
+                             "open the session with control.limits.current_A"};
+      rig::Timeline timeline = std::move(compiled->timeline);
+      if (base::Problems problems =
+              std::visit([&](auto& live) { return live.take(cut, *compiled, std::move(timeline)); }, s.rig);
+          !problems.empty())
+        return problems;
+      s.scenario = std::move(cut);
+      s.compiled = std::move(*compiled);
+      s.figures_moved = true;
+    }
+    advance(s.compiled.end.seconds());
+  }
+  Outcome out;
+  out.motor = s.compiled.motor;
+  out.gains = s.compiled.gains;
+  if (base::Problems problems =
+          std::visit([&](const auto& live) { return live.end(s.stop, s.watchers, out); }, s.rig);
+      !problems.empty())
+    return problems;
+  out.segments = s.watchers.segments;
+  if (s.watchers.audit) {
+    out.energy = s.watchers.audit->energy();
+    out.laws = s.watchers.audit->laws();
+  }
+  if (!s.figures_moved || (s.scenario.require.empty() && s.scenario.compare.empty())) {
+    s.watchers.figures.judge(s.scenario, out);
+    return out;
+  }
+  const base::Result<Outcome> again = run(s.scenario, {.keep_books = false});
+  if (!again) return again.problems();
+  out.verdicts = again->verdicts;
+  out.comparisons = again->comparisons;
+  return out;
+}
+
+}  // namespace sixstep::study

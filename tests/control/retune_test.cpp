@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Another configuration between two ticks: which state goes on, and which begins at rest.
+#include "sixstep/control/retune.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace sixstep::control;
+
+DriveConfig<double> cascade() {
+  DriveConfig<double> c;
+  c.mode = Mode::speed;
+  c.current = {2.0, -1.5, 24.0};
+  c.nominal_bus_V = 24.0;
+  c.speed = {0.02, -0.018, 1.0};
+  c.current_at_full_torque_A = 10.0;
+  c.current_limit_A = 10.0;
+  return c;
+}
+
+Measurement<double> turning(double speed, double current) {
+  // Code 5 is sector 0 of commutation.hpp or another one: the pair's current is what counts.
+  const std::uint8_t code = hall_of_sector(0);
+  Measurement<double> m{.speed_rad_s = speed, .bus_V = 24.0, .hall = code};
+  set_phase_currents(m, positive_pair(0), current);
+  return m;
+}
+
+double duty_of(const DriveState<double>& s) { return s.reversed ? -s.command.duty : s.command.duty; }
+
+/// u[n] - u[n-1] = d1 (e[n] - e[n-1]) + K_i e[n-1] with the new gains: nothing moves at no error.
+TEST(Retune, AVelocityPiGoesOnFromItsLastOutput) {
+  DriveConfig<double> config = cascade();
+  config.mode = Mode::current;
+  DriveState<double> state;
+  Telemetry<double> telemetry;
+  for (const double i : {0.0, 1.0, 1.5}) step(config, state, turning(0.0, i), {2.0}, telemetry);
+  const double before = state.current.u, error = state.current.e;
+  EXPECT_EQ(error, 0.5);
+  DriveConfig<double> next = config;
+  next.current = {5.0, -4.8, 24.0};
+  retune(config, state, next);
+  EXPECT_EQ(state.current.u, before);
+  step(config, state, turning(0.0, 1.75), {2.0}, telemetry);
+  EXPECT_NEAR(state.current.u, before + 5.0 * (0.25 - 0.5) + 0.2 * 0.5, 4 * 0x1p-52 * 24.0);
+  // At rest at the reference: two more ticks without error change nothing, whatever the gains.
+  step(config, state, turning(0.0, 2.0), {2.0}, telemetry);
+  step(config, state, turning(0.0, 2.0), {2.0}, telemetry);
+  const double settled = duty_of(state);
+  next.current = {0.3, -0.29, 24.0};
+  retune(config, state, next);
+  step(config, state, turning(0.0, 2.0), {2.0}, telemetry);
+  EXPECT_EQ(duty_of(state), settled);
+}
+
+TEST(Retune, ALoopThatBothModesRunKeepsItsState) {
+  DriveConfig<double> config = cascade();
+  DriveState<double> state;
+  Telemetry<double> telemetry;
+  for (int n = 0; n < 5; ++n) step(config, state, turning(90.0, 0.5 * n), {100.0}, telemetry);
+  const PiState<double> current = state.current, speed = state.speed;
+  DriveConfig<double> next = config;
+  next.mode = Mode::current;
+  retune(config, state, next);
+  EXPECT_EQ(state.current.u, current.u);
+  EXPECT_EQ(state.current.e, current.e);
+  EXPECT_EQ(config.mode, Mode::current);
+  // And back: the speed loop did not run meanwhile.
+  next.mode = Mode::position;
+  retune(config, state, next);
+  EXPECT_EQ(state.speed.u, 0.0);
+  EXPECT_EQ(state.speed.e, 0.0);
+  EXPECT_EQ(state.current.u, current.u);
+  EXPECT_NE(speed.u, 0.0);
+}
+
+TEST(Retune, FromDutyOrOffTheLoopsBeginAtRest) {
+  for (const Mode idle : {Mode::duty, Mode::off}) {
+    DriveConfig<double> config = cascade(), other = cascade();
+    DriveState<double> state;
+    Telemetry<double> telemetry;
+    for (int n = 0; n < 5; ++n) step(config, state, turning(90.0, 0.5 * n), {100.0}, telemetry);
+    other.mode = idle;
+    retune(config, state, other);
+    step(config, state, turning(90.0, 0.0), {0.4}, telemetry);
+    EXPECT_EQ(duty_of(state), idle == Mode::duty ? 0.4 : 0.0);
+    retune(config, state, cascade());
+    EXPECT_EQ(state.current.u, 0.0);
+    EXPECT_EQ(state.speed.u, 0.0);
+    EXPECT_EQ(duty_of(state), idle == Mode::duty ? 0.4 : 0.0) << "the last command stands until the tick";
+  }
+}
+
+TEST(Retune, ASlewedSetpointStartsAtWhatIsMeasured) {
+  DriveConfig<double> config = cascade();
+  config.extras.on = config.extras.slews_setpoint = true;
+  config.extras.slew.step = 0.25;
+  DriveState<double> state;
+  Telemetry<double> telemetry;
+  for (int n = 0; n < 5; ++n) step(config, state, turning(90.0, 3.0), {100.0}, telemetry);
+  DriveConfig<double> next = config;
+  next.mode = Mode::current;
+  retune(config, state, next);
+  step(config, state, turning(90.0, 3.0), {8.0}, telemetry);
+  EXPECT_EQ(telemetry.current_reference_A, 3.25);
+}
+
+TEST(Retune, ABrakingProductKeepsTheLoopThatBrakes) {
+  ProtectedConfig<double> config;
+  config.drive = cascade();
+  config.drive.mode = Mode::duty;
+  ProtectedState<double> state;
+  state.drive.current.u = 3.0;
+  ProtectedConfig<double> next = config;
+  next.drive.mode = Mode::speed;
+  for (const Activity activity : {Activity::brake, Activity::run}) {
+    ProtectedConfig<double> taken = config;
+    state.activity.activity = activity;
+    retune(taken, state, next);
+    EXPECT_EQ(taken, next);
+    EXPECT_EQ(state.drive.current.u, activity == Activity::brake ? 3.0 : 0.0);
+  }
+}
+
+}  // namespace
