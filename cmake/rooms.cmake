@@ -1,7 +1,11 @@
 # A room is a folder, a namespace and a target of the same name. Rooms under sixstep/ are the library: compiled
-# without exceptions and RTTI, which proves that they also live where neither exists.
+# without exceptions and RTTI, which proves that they also live where neither exists. Their sources are those in the
+# folder: no list repeats it.
 function(sixstep_room name)
   cmake_parse_arguments(ROOM "LIBRARY" "" "SOURCES;DEPENDS" ${ARGN})
+  if(ROOM_LIBRARY)
+    file(GLOB_RECURSE ROOM_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  endif()
   if(ROOM_SOURCES)
     add_library(${name} STATIC ${ROOM_SOURCES})
     target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})

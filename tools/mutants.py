@@ -1,16 +1,25 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Do the tests notice when the engine is wrong? Each entry of the table breaks one line in the way a tired engineer
-would; a law or an analytic test must fail. By hand, not in CI; minutes:
+"""Do the tests notice when the engine is wrong? Marks in the sources say how to break a line as a tired engineer would; a
+law or an analytic test must fail. Minutes; `ctest --preset long` runs it too:
 
     tools/mutants.py              all of them; exits non-zero where one survives
     tools/mutants.py 7 12         these only
-    tools/mutants.py --list       the table, with the lines it stands on
+    tools/mutants.py --list       the marks, with the lines that they stand on
+
+A mark stands above the line it breaks, and replaces the first match from there on:
+
+    // mutant: OLD => NEW             an expression, or one statement with its semicolon
+    // mutant: BEFORE «OLD» => NEW    where OLD alone would be found too early
+    // mutant: OLD => nothing         a statement is left out
 
 All mutants are built at once into a copy under build/mutants, each behind a switch that the environment turns, so the
 tree stays as it is. Left out are the digests and the reference cases: a golden value notices everything and explains
-nothing. The tool fails where a text of the table is no longer found exactly once: then the entry has to follow the code.
+nothing. Not marked, because another line gives the same result: the length that useful_length() proposes (the series' own
+end decides), near_root() (a guess), the order in which settle() tries motions and sources (one alone is consistent), act()
+looking at the comparators after every segment (a guard below zero is an event at once).
 """
+import collections
 import os
 import re
 import shutil
@@ -23,120 +32,7 @@ root = Path(__file__).resolve().parent.parent
 work = root / "build" / "mutants"
 programs = ("series", "sim", "plant", "rig", "study", "fuzz")
 limit_s = 60  # the whole of a program takes seconds; a mutant may well run for ever
-
-# (file under sixstep/, text with the part to be replaced in « », what replaces it). The part is an expression, or
-# one statement with its semicolon; an empty replacement takes the statement away.
-# Not here, because another line gives the same result: the length that useful_length() proposes (the series' own end
-# decides), near_root() (a guess), the order in which settle() tries motions and sources (one alone is consistent), act()
-# looking at the comparators after every segment (a guard below zero is an event at once).
-table = [
-    ("plant/state.hpp", "motion == Motion::backward ? «-v»", "v"),
-    ("plant/growing.hpp", "inv_J(«turns(motion)» ? c.inv_J", "motion != Motion::locked"),
-    ("plant/growing.hpp", "y.phi0[n + 1] = «-f * rotor.pole_pairs * w1»", "-f * w1"),
-    ("plant/growing.hpp", "law.connected == 3 ? «high(0) - high(2)» :", "high(0) - high(1)"),
-    ("plant/growing.hpp", "dc_i_2 = law.connected == 3 ? «high(1) - high(2)»", "high(1)"),
-    ("plant/recurrences.hpp", "from_square(«pair.from_w1 * c.inv_pole_pairs»)", "pair.from_w1"),
-    ("plant/recurrences.hpp", "m_iw = «a * b + b * e»", "a * b + b * a"),
-    ("plant/recurrences.hpp", "Real(«1.0L / (n * (n + 1))»)", "1.0L / ((n + 1) * (n + 2))"),
-    ("plant/recurrences.hpp", "e = «-per_speed * inv_J»", "Real(0)"),
-    ("plant/recurrences.hpp", "torque_1b = «f.rise[1] - f.rise[2]»", "f.rise[1] - f.rise[0]"),
-    ("plant/recurrences.hpp", "-rate_1 * («f.rise[1] - mean_1»)", "f.rise[1]"),
-    ("plant/recurrences.hpp", "of = {y.reach_i, y.reach_i_2, «y.reach_i + y.reach_i_2»}", "y.reach_i_2"),
-    ("plant/expand.hpp", "out.later_x = «c.pole_pairs * out.h * r.y.reach_w / 2»", "Real(0)"),
-    ("plant/expand.hpp", "y.i[1] + «y.later_i», y.i_2[1]", "Real(0)"),
-    ("plant/expand.hpp", "for (int j = 0; j < «n - 1»; ++j) b /= 2", "n"),
-    ("plant/expand.hpp", "before < 4096 && «!from_nothing»", "true"),
-    ("plant/expand.hpp", "const bool flat = «piece.beta[law.leg[0]] == piece.beta[law.leg[1]]»",
-     "piece.beta[law.leg[0]] == 0"),
-    ("plant/legs_law.hpp", ".i = «(b.r_ohm - a.r_ohm) / 2»", "(a.r_ohm - b.r_ohm) / 2"),
-    ("plant/legs_law.hpp", ".i_2 = «own(2) - own(1)»", "own(2) - own(0)"),
-    ("plant/legs_law.hpp", "(«2 * R + a.r_ohm + b.r_ohm»)", "2 * R + 2 * a.r_ohm"),
-    ("plant/pole.hpp", "pair = «law.connected == 2»", "true"),
-    ("plant/pole.hpp", "(abs(law.w0) + abs(law.w1)) * («(abs(w) + reach_w) * reach_x + reach_w»)", "reach_w"),
-    ("plant/guards.hpp", "- is.start, «y.bus[1] - is.slope»", "-is.slope"),
-    ("plant/pole.hpp", "abs(law.w1) * («abs(x) * later_w + abs(w) * y.later_x + reach_w * reach_x»)", "abs(x) * later_w"),
-    ("plant/guards.hpp", "Real(-1), «c.breakaway + load»", "c.breakaway - load"),
-    ("plant/guards.hpp", "low[0] + «2 * Real(c.devices.V_f_V)»", "Real(c.devices.V_f_V)"),
-    ("plant/guards.hpp", "stays_above(«y.x[0] - piece.from», y.x[1]", "y.x[0]"),
-    ("plant/guards.hpp", "stays_above(«y.bus[0] + V_f - is.start»", "y.bus[0] + 2 * V_f - is.start"),
-    ("plant/settle_plainly.hpp", "below_high = «s.bus + V_f - free»", "s.bus - free"),
-    ("plant/settle_plainly.hpp", "if («open == 7 || !detail::two_legs_float(c, s, mode, open)») return false", "open == 7"),
-    ("plant/settle.hpp", "judge(«free + V_f», noise)", "free"),
-    ("plant/settle.hpp", "ok = ok && «series::leading(g, degree, noise).sign >= 0»",
-     "series::leading(g, degree, noise).sign > 0"),
-    ("plant/settle_plainly.hpp", "if («detail::abs(s.w) <= c.speed_noise») return false", "false"),
-    ("plant/plant.hpp", "Real amp_noise = «constants_.amp_noise»", "1000 * constants_.amp_noise"),
-    ("plant/settle.hpp", "Judgement::holds && «!q.series_only») return true", "true"),
-    ("plant/plant.hpp", "q.i_low[third] = «-(q.i_low[first] + q.i_low[second])»", "Real(0)"),
-    ("plant/plant.hpp", "«state_.x_low = 0;»", ""),
-    ("plant/plant.hpp", "doubted_ = «s == 0»", "false"),
-    ("plant/plant.hpp", "state_.i_low[k] = «-state_.i_low[j]»", "Real(0)"),
-    ("plant/settle_plainly.hpp", "if («s.i[k] != 0») return false", "false"),
-    ("plant/plant.hpp", "state_.x = ahead ? «piece.from» : piece.to", "Real(0)"),
-    ("plant/plant.hpp", "Real(base::sector_rad) + «unit.x»", "state_.x"),
-    ("plant/plant.hpp", "c.breakaway = «std::max(c.coulomb, Real(shaft.static_Nm))»", "c.coulomb"),
-    ("plant/plant.hpp", "started = «floated & constants_.legs[legs_index(mode_.legs)].diodes»",
-     "constants_.legs[legs_index(mode_.legs)].diodes"),
-    ("plant/back_emf.hpp", "«(bound[b] + bound[b + 1]) / 2»", "bound[b]"),
-    ("plant/back_emf.hpp", "distance >= «Real(180) - half»", "Real(180)"),
-    ("plant/back_emf.hpp", "piece.beta_above[k] = «piece.beta[k] - (piece.beta[j] + piece.beta[m]) / 2»", "piece.beta[k]"),
-    ("plant/circuit.hpp", "return «(U_s - highest - lowest) / Real(2)»", "(U_s + highest + lowest) / Real(2)"),
-    ("plant/segment_energy.hpp", "out.dry = «dry * out.travel»", "-dry * out.travel"),
-    ("plant/audit.hpp", "if («stopped && end_.w != 0»)", "false"),
-    ("plant/plant_changes.hpp", "«if (locked) state_.w = state_.w_low = 0;»", ""),
-    ("plant/plant_changes.hpp", "source_sinks = «sinks || !(constants_.inv_C > 0)»", "true"),
-    ("plant/audit.hpp", "raise(laws_.reverse_diode_A, «-along_diode(leg, i[k])»)", "Real(0)"),
-    ("plant/segment_energy.hpp", "devices += «terms.r_ohm * legs.square[k] - terms.offset_V * legs.charge[k]»",
-     "terms.r_ohm * legs.square[k] + terms.offset_V * legs.charge[k]"),
-    ("series/polynomial.hpp", "for (int j = «(n - 1) / 2 - n % 2»;", "(n - 1) / 2"),
-    ("series/polynomial.hpp", "for (int n = «2 * degree»;", "2 * degree - 1"),
-    ("series/polynomial.hpp", "low = «term - (sum - y)»", "dy - (sum - y)"),
-    ("series/polynomial.hpp", "j = degree - 1; «j >= level»", "j > level"),
-    ("series/first_root.hpp", "for (int j = 2; «j <= degree»; j += 2)", "j < degree"),
-    ("series/first_root.hpp", "slope_rest + «static_cast<Real>(j)»", "static_cast<Real>(j - 1)"),
-    ("series/first_root.hpp", "«of.slope_rest += of.tail;»  // with this", ""),
-    ("series/first_root.hpp", "inside && «std::fabs(step) <= last_step && std::fabs(turn) <= small»", "std::fabs(step) <= 1e-2"),
-    ("series/first_root.hpp", "newton - «turn * step»", "Real(0)"),
-    ("series/first_root.hpp", "s * (3 * o.slope + «4 * (t * o.bend)»)", "Real(0)"),
-    ("series/first_root.hpp", "«2 * (s * e.slope + t * o.slope)»", "2 * s * e.slope"),
-    ("sim/run.hpp", "root < first || («event < 0 && root == first»)", "root == first"),
-    ("sim/run.hpp", "if («stalled > stalled_limit»)", "stalled >= stalled_limit"),
-    ("sim/run.hpp", "reached = «event < 0 && length == wanted»", "event < 0"),
-    ("sim/run.hpp", "observer.segment(system, «first»)", "Real(1)"),
-    ("sim/instant.hpp", "if («later.offset >= 1.0»)", "later.offset > 1.0"),
-    ("sim/instant.hpp", ": «a.offset < b.offset»", "a.offset <= b.offset"),
-    ("sim/instant.hpp", "static_cast<double>(to.ticks - from.ticks) + «(to.offset - from.offset)»", "0.0"),
-    ("sim/instant.hpp", "std::floor(«seconds * ticks_per_second + 0.5»)", "seconds * ticks_per_second"),
-    ("rig/rig.hpp", "if («!do_timeline() && !do_tick()» && modulator_.act(now_))", "!do_tick() && !do_timeline()"),
-    ("rig/rig.hpp", "if («now_ < due_ && !moved_ && !watching()»)", "now_ < due_ && !watching()"),
-    ("rig/rig.hpp", "«std::swap(reversed, pending_reversed_);»", ""),
-    ("rig/rig.hpp", "«pending_.pair = answer.pair;»", ""),
-    ("rig/rig.hpp", "same_sign = «firmware_.reversed() == reversed_»", "true"),
-    ("rig/rig.hpp", "due = «(timeline_[n].at.ticks + period - 1) / period * period»",
-     "(timeline_[n].at.ticks + period) / period * period"),
-    ("rig/rig.hpp", "firmware_.open_loop() || «moving_»", "false"),
-    ("rig/rig_inputs.hpp", "if (firmware_.follows_setpoint_at_once() && «!board_.delayed»)", "true"),
-    ("rig/rig_inputs.hpp", "const Action& from = timeline_[«waveform_»]", "0"),
-    ("rig/timeline.hpp", "(rate + «curvature / 2 * t_s») * t_s", "0.0"),
-    ("rig/timeline.hpp", "(turns - «std::floor(turns)»)", "0.0"),
-    ("rig/firmware.hpp", "* 60 + «s.x * Real(180) / Real(base::pi)»", "s.x"),
-    ("rig/six_step_modulator.cpp", "Watch::phase ? «sink_pulse»", "source_pulse"),
-    ("rig/pulse.hpp", "std::floor(«ticks / timer_ticks + 0.5»)", "ticks / timer_ticks"),
-    ("rig/leg_timer.cpp", "«legs_[to] = legs_[from];»", ""),
-    ("rig/leg_timer.cpp", "if («late != none_late») legs_", "false"),
-    ("rig/six_step_modulator.cpp", "wakes = «command.enabled && !command_.enabled»", "command.enabled"),
-    ("rig/leg_timer.cpp", "«leg.hold(t, dead_ticks_);»", ""),
-    ("rig/leg_timer.cpp", "turn_ons_ += «on && !p.on»", "on"),
-    ("rig/pulse.hpp", "!(«on_time < c.minimum_pulse_ticks»)", "false"),
-    ("rig/pulse.hpp", "|| «period - on_time < c.minimum_pulse_ticks»", "false"),
-    ("rig/three_leg_modulator.cpp", "timer_.connect(k, sides_of(leg), «k»)", "0"),
-    ("rig/leg_channel.hpp", "if («side == side_») return", "false"),
-    ("rig/leg_channel.hpp", "(«side_ == LegSide::high» ? low_from_", "side_ != LegSide::high"),
-    ("rig/leg_channel.hpp", "side != LegSide::none && «t < from()»", "false"),
-    ("rig/capture_clock.hpp", "«t.offset * static_cast<double>(numerator_) >= static_cast<double>(missing)»", "false"),
-    ("plant/plant.hpp", "if («on_edge && state_.w < 0») pass_edge(false)", "false"),
-    ("rig/firmware.hpp", "«!(config_.extras.on && config_.extras.slews_setpoint)»", "true"),
-]
+Mutant = collections.namedtuple("Mutant", "file line begin end old new")
 
 switch = """#pragma once
 #include <cstdlib>
@@ -146,37 +42,46 @@ constexpr bool mutant_is(int n) { return !std::is_constant_evaluated() && sixste
 """
 
 
-def place(name, marked):
-    """Where the marked part stands in the file: (begin, end, line)."""
-    before, old, after = re.split("[«»]", marked)
-    text = (root / "sixstep" / name).read_text()
-    if text.count(before + old + after) != 1:
-        sys.exit(f"sixstep/{name}: found {text.count(before + old + after)} times, not once: {before + old + after}")
-    begin = text.index(before + old + after) + len(before)
-    return begin, begin + len(old), text.count("\n", 0, begin) + 1
+def mutants_of(file):
+    """The marks of a source; each part that they break as its place in the text."""
+    text = (root / file).read_text(encoding="utf-8")
+    for mark in re.finditer(r"(?m)^ *// mutant: (.*) => (.*)\n", text):
+        before, old = re.fullmatch(r"(?:(.*)«)?(.*?)»?", mark[1]).groups(default="")
+        pattern = r"\s+".join(re.escape(word) for word in (before + old).split())
+        found = re.compile(pattern).search(text, mark.end())
+        line = text.count("\n", 0, mark.start()) + 1
+        if not found or text.count("\n", mark.end(), found.start()) > 12:
+            sys.exit(f"{file}:{line}: what the mark breaks does not follow it: {mark[1]}")
+        begin = found.end() - len(re.search(r"\s+".join(re.escape(w) for w in old.split()) + r"\Z", found[0])[0])
+        yield Mutant(file, line, begin, found.end(), old, "" if mark[2] == "nothing" else mark[2])
 
 
-def broken(name):
+def all_mutants():
+    files = sorted(f.relative_to(root).as_posix() for f in (root / "sixstep").glob("**/*.[ch]pp"))
+    return [mutant for file in files for mutant in mutants_of(file)]
+
+
+def broken(file, mutants):
     """The file's text with all its mutants behind switches. Several may share one place."""
-    text = (root / "sixstep" / name).read_text()
-    places = {}
-    for number, (file, marked, new) in enumerate(table, 1):
-        if file == name:
-            places.setdefault(place(file, marked)[:2], []).append((number, new))
-    for (begin, end), mutants in sorted(places.items(), reverse=True):
+    text = (root / file).read_text(encoding="utf-8")
+    places = collections.defaultdict(list)
+    for number, mutant in enumerate(mutants, 1):
+        if mutant.file == file:
+            places[mutant.begin, mutant.end].append((number, mutant.new))
+    for (begin, end), here in sorted(places.items(), reverse=True):
         part = text[begin:end]
-        for number, new in mutants:
+        for number, new in here:
             part = (f"if (mutant_is({number})) {{ {new} }} else {{ {part} }}" if part.endswith(";") else
                     f"(mutant_is({number}) ? ({new}) : ({part}))")
         text = text[:begin] + part + text[end:]
     return text
 
 
-def build():
+def build(mutants):
     source = work / "source"
     files = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=root, check=True, capture_output=True, text=True)
     copied = {file: (root / file).read_bytes() for file in files.stdout.split() if (root / file).is_file()}
-    copied |= {f"sixstep/{name}": broken(name).encode() for name, _, _ in table} | {"switch.hpp": switch.encode()}
+    copied |= {file: broken(file, mutants).encode() for file in {m.file for m in mutants}} | {"switch.hpp": switch.encode()}
     for file, text in copied.items():
         copy = source / file
         if not copy.exists() or copy.read_bytes() != text:  # else nothing to compile anew
@@ -213,13 +118,14 @@ def failing(number):
 
 
 def main():
-    lines = [f"{n:3} {file}:{place(file, marked)[2]}  {marked}  ->  {new or '(gone)'}" for n, (file, marked, new) in enumerate(table, 1)]
+    mutants = all_mutants()
+    lines = [f"{n:3} {m.file}:{m.line}  {m.old}  =>  {m.new or 'nothing'}" for n, m in enumerate(mutants, 1)]
     if sys.argv[1:] == ["--list"]:
         return print("\n".join(lines))
-    build()
+    build(mutants)
     if failing(0):
         sys.exit(f"without any mutant these fail: {' '.join(failing(0))}")
-    chosen = [int(a) for a in sys.argv[1:]] or range(1, len(table) + 1)
+    chosen = [int(a) for a in sys.argv[1:]] or range(1, len(mutants) + 1)
     survivors = 0
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         for number, tests in zip(chosen, pool.map(failing, chosen)):

@@ -12,7 +12,7 @@ if [ $# -gt 0 ] && [ "$1" != --screenshots ]; then
 fi
 tools/scenario_reference.py "$program"
 tools/gallery.py "$program"
-for page in readme motors curve manual; do
+for page in readme motors curve design figures manual; do
   "tests/docs/${page}_md_test.py" "$program" --renew
 done
 if [ "${1:-}" = --screenshots ]; then

@@ -91,6 +91,7 @@ void Audit<Real>::check_laws(const Mode& mode, const PerLeg<Real>& i) {
   raise(laws_.current_sum_A, detail::abs(i[0] + i[1] + i[2]));
   for (int k = 0; k < 3; ++k) {
     const Connection leg = mode.legs[k];
+    // mutant: -along_diode(leg, i[k]) => Real(0)
     if (is_diode(leg)) raise(laws_.reverse_diode_A, -along_diode(leg, i[k]));
     if (is_floating(leg)) raise(laws_.floating_current_A, detail::abs(i[k]));
   }
@@ -105,6 +106,7 @@ void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
   // A shaft that was clamped while it turned has left its kinetic energy in the clamp, also where that let it
   // go at the same instant. What standstill snaps to zero is noise.
   const bool stopped = y.w[0] == 0 && (c.locked || detail::abs(end_.w) > c.speed_noise);
+  // mutant: stopped && end_.w != 0 => false
   if (stopped && end_.w != 0) add_compensated(friction_, friction_low_, kinetic_energy(end_));
   end_ = end_of(y, s);
   check_laws(plant.mode(), {y.i[0][0], y.i[1][0], y.i[2][0]});

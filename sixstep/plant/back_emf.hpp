@@ -26,6 +26,7 @@ constexpr void scale(EmfPiece<Real>& piece, Real K_e) {
   for (int k = 0; k < 3; ++k) {
     const int j = (k + 1) % 3, m = (k + 2) % 3;
     piece.alpha_above[k] = piece.alpha[k] - (piece.alpha[j] + piece.alpha[m]) / 2;
+    // mutant: piece.beta[k] - (piece.beta[j] + piece.beta[m]) / 2 => piece.beta[k]
     piece.beta_above[k] = piece.beta[k] - (piece.beta[j] + piece.beta[m]) / 2;
   }
 }
@@ -62,6 +63,7 @@ constexpr void trapezoid_line(int start_deg, Real middle_deg, Real flat_deg, Rea
   }
   const Real side = phi < 0 ? Real(-1) : Real(1);
   const Real distance = side * phi, half = flat_deg / 2;
+  // mutant: Real(180) - half => Real(180)
   if (distance <= half || distance >= Real(180) - half) {
     alpha = distance <= half ? Real(1) : Real(-1);
     beta = 0;
@@ -94,6 +96,7 @@ constexpr EmfTable<Real> trapezoid_table(double flat_deg) {
       piece.from = rad(bound[b]);
       piece.to = rad(bound[b + 1]);
       for (int k = 0; k < 3; ++k)
+        // mutant: (bound[b] + bound[b + 1]) / 2 => bound[b]
         detail::trapezoid_line(detail::centre_distance_deg(s, k), (bound[b] + bound[b + 1]) / 2, flat,
                                piece.alpha[k], piece.beta[k]);
     }

@@ -111,6 +111,7 @@ constexpr Real star_voltage(const Legs& legs, const PoleTable<Real>& poles, Real
   }
   if (connected > 0) return sum / Real(connected);
   const Real highest = std::max({e[0], e[1], e[2]}), lowest = std::min({e[0], e[1], e[2]});
+  // mutant: (U_s - highest - lowest) / Real(2) => (U_s + highest + lowest) / Real(2)
   return (U_s - highest - lowest) / Real(2);
 }
 

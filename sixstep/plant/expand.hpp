@@ -23,6 +23,7 @@ void shorten(Expansion<Real>& out, Real excess_last, Real excess_before) {
   // A term that is infinite stays so: the length then ends at nothing, and the run without progress.
   for (Real a = excess_last, b = excess_before; (a > 1 || b > 1) && halvings < most_halvings; ++halvings) {
     for (int j = 0; j < n; ++j) a /= 2;
+    // mutant: n - 1 => n
     for (int j = 0; j < n - 1; ++j) b /= 2;
   }
   Real factor = 1, half = 1;
@@ -85,6 +86,7 @@ struct Convergence {
   /// Of a linear system y' = A y term n + 1 is at most h |A|/(n + 1) of term n, and useful_length() keeps
   /// h |A| <= 1/2: behind a term of 8 levels all others together are below one. One small term may be a
   /// symmetry's zero; a small one after one not much larger is the end of the series.
+  // mutant: !from_nothing => true
   bool reached() const { return last < 8 && before < 4096 && !from_nothing; }
 };
 
@@ -114,6 +116,7 @@ struct Recurrence {
 
   /// The increments over the whole length: the first terms last, which are the largest.
   void add_up(Expansion<Real>& out) const {
+    // mutant: y.later_i => Real(0)
     out.end = {y.i[1] + y.later_i, y.i_2[1] + y.later_i_2, y.w[1] + y.later_w, y.x[1] + y.later_x};
   }
   /// Terms n + 1 of all series from terms n; true where that was enough.
@@ -164,6 +167,7 @@ template <bool bus, class Currents, class Shape, class Real>
   r.currents.reach(r.y, out.reach_i);
   out.reach_w = r.y.reach_w;
   r.add_up(out);
+  // mutant: c.pole_pairs * out.h * r.y.reach_w / 2 => Real(0)
   out.later_x = c.pole_pairs * out.h * r.y.reach_w / 2;  // x_(n+1) = p h w_n/(n + 1)
   out.reach_x = abs(out.x[1]) + out.later_x;
   if (r.convergence.reached()) return;
@@ -211,6 +215,7 @@ void expand_shape(const Constants<Real>& c, const Mode& mode, Expansion<Real>& y
   if (law.connected == 3) return recurrence<build, TwoCurrents<sine, Real>>(c, mode, law, shape, y);
   if (law.connected < 2) return recurrence<build, NoCurrent<sine, Real>>(c, mode, law, shape, y);
   if constexpr (!sine) {
+    // mutant: piece.beta[law.leg[0]] == piece.beta[law.leg[1]] => piece.beta[law.leg[0]] == 0
     const bool flat = piece.beta[law.leg[0]] == piece.beta[law.leg[1]];
     if (flat && is_line_over_speed(torques(c, mode.motion)))
       return recurrence<build, FlatPair<Real>>(c, mode, law, shape, y);

@@ -29,6 +29,7 @@ struct Rotor {
   Real steady, per_speed;  ///< against the turning: what does not change with the speed, and what does
 
   Rotor(const Constants<Real>& c, Motion motion)
+      // mutant: turns(motion) => motion != Motion::locked
       : inv_J(turns(motion) ? c.inv_J : Real(0)), pole_pairs(c.pole_pairs) {
     const auto [load, dry, B] = torques(c, motion);
     steady = load + dry;
@@ -49,6 +50,7 @@ template <int n, class Real>
 inline void sine_products(const Rotor<Real>& rotor, Growing<Real>& y, Real f, Real& w0, Real& w1) {
   w0 = series::product_term<n>(y.w, y.phi0);
   w1 = series::product_term<n>(y.w, y.phi1);
+  // mutant: -f * rotor.pole_pairs * w1 => -f * w1
   y.phi0[n + 1] = -f * rotor.pole_pairs * w1;  // (cos x)' = -p w sin x
   y.phi1[n + 1] = f * rotor.pole_pairs * w0;
 }
@@ -75,7 +77,9 @@ struct BusLaw {
     const auto high = [&](unsigned n) {
       return n < law.connected && is_high(mode.legs[law.leg[n]]) ? Real(1) : Real(0);
     };
+    // mutant: high(0) - high(2) => high(0) - high(1)
     dc_i = law.connected == 3 ? high(0) - high(2) : high(0) - high(1);
+    // mutant: high(1) - high(2) => high(1)
     dc_i_2 = law.connected == 3 ? high(1) - high(2) : Real(0);
   }
   template <int n>

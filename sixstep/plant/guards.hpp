@@ -73,6 +73,8 @@ template <class Real, class Visit>
   const PoleOutline<Real> is = pole_outline(c, y, law, bus_rest);
   const bool low = !series::stays_above(is.start + V_f, is.slope, is.rest, noise);
   const bool high =
+      // mutant: y.bus[0] + V_f - is.start => y.bus[0] + 2 * V_f - is.start
+      // mutant: y.bus[1] - is.slope => -is.slope
       !series::stays_above(y.bus[0] + V_f - is.start, y.bus[1] - is.slope, is.rest + bus_rest, noise);
   if (low || high) near_rail(c, law, y, k, low, high, noise, visit);
 }
@@ -94,6 +96,7 @@ void free_star_guards(const Constants<Real>& c, const EmfPiece<Real>& piece, con
       const series::Coefficients<Real> high = pole_series(c, y, pole_law(piece, law, j)),
                                        low = pole_series(c, y, pole_law(piece, law, k));
       series::Coefficients<Real> g;
+      // mutant: 2 * Real(c.devices.V_f_V) => Real(c.devices.V_f_V)
       g[0] = y.bus[0] - high[0] + low[0] + 2 * Real(c.devices.V_f_V);
       for (int n = 1; n <= y.degree; ++n) g[n] = y.bus[n] - high[n] + low[n];
       visit(guard::free_star + 3 * static_cast<int>(j) + static_cast<int>(k), g, y.degree, noise);
@@ -111,6 +114,7 @@ void rotor_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Re
     visit(guard::standstill, affine(y.w, y.degree, Real(-1), Real(0)), y.degree, speed_noise);
   else if (mode.motion == Motion::stuck) {
     const auto [load, dry, per_speed] = torques(c, Motion::stuck);  // at rest: no B w, and dry as breakaway
+    // mutant: c.breakaway + load => c.breakaway - load
     visit(guard::breakaway_forward, affine(y.torque, y.degree, Real(-1), c.breakaway + load), y.degree,
           torque_noise);
     visit(guard::breakaway_backward, affine(y.torque, y.degree, Real(1), c.breakaway - load), y.degree,
@@ -168,6 +172,7 @@ void edge_guards(const EmfPiece<Real>& piece, const Expansion<Real>& y, Visit&& 
   const Real noise = noise_of(Real(base::sector_rad), Real(1));
   if (!series::stays_above(piece.to - y.x[0], -y.x[1], y.later_x, noise))
     visit(guard::edge_ahead, detail::affine(y.x, y.degree, Real(-1), piece.to), y.degree, noise);
+  // mutant: y.x[0] - piece.from => y.x[0]
   if (!series::stays_above(y.x[0] - piece.from, y.x[1], y.later_x, noise))
     visit(guard::edge_behind, detail::affine(y.x, y.degree, Real(1), -piece.from), y.degree, noise);
 }

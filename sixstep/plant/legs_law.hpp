@@ -37,9 +37,11 @@ void pair_law(const PoleTerms<Real>& a, const PoleTerms<Real>& b, Real R, Real i
   law.emf_rate = inv_L / 2;
   law.slope = {.bus = law.emf_rate * (a.bus_share - b.bus_share),
                .offset = law.emf_rate * (a.offset_V - b.offset_V),
+               // mutant: 2 * R + a.r_ohm + b.r_ohm => 2 * R + 2 * a.r_ohm
                .i = -law.emf_rate * (2 * R + a.r_ohm + b.r_ohm)};
   law.star = {.bus = (a.bus_share + b.bus_share) / 2,
               .offset = (a.offset_V + b.offset_V) / 2,
+              // mutant: (b.r_ohm - a.r_ohm) / 2 => (a.r_ohm - b.r_ohm) / 2
               .i = (b.r_ohm - a.r_ohm) / 2};
 }
 
@@ -57,6 +59,7 @@ void three_leg_law(const PerLeg<PoleTerms<Real>>& terms, Real R, Real inv_L, Leg
     return typename LegsLaw<Real>::Terms{.bus = above_mean(&PoleTerms<Real>::bus_share),
                                          .offset = above_mean(&PoleTerms<Real>::offset_V),
                                          .i = own(2) - own(0),
+                                         // mutant: own(2) - own(1) => own(2) - own(0)
                                          .i_2 = own(2) - own(1)};
   };
   law.emf_rate = inv_L;

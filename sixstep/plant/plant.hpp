@@ -103,6 +103,7 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   c.pole_pairs = Real(m.pole_pairs);
   c.inv_pole_pairs = 1 / c.pole_pairs;
   c.coulomb = Real(shaft.coulomb_Nm);
+  // mutant: std::max(c.coulomb, Real(shaft.static_Nm)) => c.coulomb
   c.breakaway = std::max(c.coulomb, Real(shaft.static_Nm));
   c.V_0 = Real(supply.V_0_V);
   const bool stiff = !(supply.C_F > 0);
@@ -135,6 +136,7 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   while (mode_.piece + 1 < pieces.count && state_.x >= pieces.piece[mode_.piece].to) ++mode_.piece;
   // Turning backwards it has just passed that edge: the located event comes before the first tick (model.md
   // 4b).
+  // mutant: on_edge && state_.w < 0 => false
   if (on_edge && state_.w < 0) pass_edge(false);
 }
 
@@ -142,6 +144,7 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
 /// may hold the rotor, are zero: what is consistent there is decided by settle(), not by a rounding error.
 template <class Real>
 void Plant<Real>::snap() {
+  // mutant: constants_.amp_noise => 1000 * constants_.amp_noise
   const Real amp_noise = constants_.amp_noise;
   bool snapped = false;
   for (unsigned k = 0; k < 3; ++k) {
@@ -166,6 +169,7 @@ void Plant<Real>::balance() {
     const int zero = i[0] == 0 ? 0 : i[1] == 0 ? 1 : 2;
     const int j = (zero + 1) % 3, k = (zero + 2) % 3;
     i[k] = -i[j];
+    // mutant: -state_.i_low[j] => Real(0)
     state_.i_low[k] = -state_.i_low[j];
   }
 }
@@ -177,6 +181,7 @@ bool Plant<Real>::resettle(Real wanted, bool& expanded) {
   if ((doubted_ || !settle_plainly(constants_, state_, gates_, mode_)) && !settle_fully(wanted, expanded))
     return false;
   stale_ = false;
+  // mutant: floated & constants_.legs[legs_index(mode_.legs)].diodes => constants_.legs[legs_index(mode_.legs)].diodes
   for (unsigned started = floated & constants_.legs[legs_index(mode_.legs)].diodes; started != 0;
        started &= started - 1)
     ++diodes_started_;
@@ -216,6 +221,7 @@ void Plant<Real>::advance(Real s) {
     if (law.connected == 3) {
       add_compensated(q.i[second], q.i_low[second], by.i_2);
       q.i[third] = -(q.i[first] + q.i[second]);
+      // mutant: -(q.i_low[first] + q.i_low[second]) => Real(0)
       q.i_low[third] = -(q.i_low[first] + q.i_low[second]);
     } else {
       q.i[second] = -q.i[first];
@@ -227,6 +233,7 @@ void Plant<Real>::advance(Real s) {
     add_compensated(q.x, q.x_low, by.x);
   }
   if (constants_.inv_C > 0) add_compensated(q.bus, q.bus_low, series::increment(y_.bus, y_.degree, s));
+  // mutant: s == 0 => false
   doubted_ = s == 0;
 }
 
@@ -242,7 +249,9 @@ bool Plant<Real>::pass_edge(bool ahead) {
     mode_.piece = static_cast<std::uint8_t>(mode_.piece + (ahead ? 1 : -1));
   }
   const EmfPiece<Real>& piece = constants_.emf[sector()].piece[mode_.piece];
+  // mutant: piece.from => Real(0)
   state_.x = ahead ? piece.from : piece.to;
+  // mutant: state_.x_low = 0; => nothing
   state_.x_low = 0;
   return leaves;
 }
@@ -283,6 +292,7 @@ Snapshot<Real> Plant<Real>::at(Real s) const {
   const PerLeg<Real> shape = detail::back_emf(constants_, unit, mode_);
   for (int k = 0; k < 3; ++k) now.emf[k] = now.speed * shape[k];
   now.torque = shape[0] * now.i[0] + shape[1] * now.i[1] + shape[2] * now.i[2];
+  // mutant: unit.x => state_.x
   now.angle = (static_cast<Real>(state_.sector) * Real(base::sector_rad) + unit.x) / constants_.pole_pairs;
   now.pole = pole_voltages(mode_.legs, constants_.poles, now.bus, now.i, now.emf);
   now.bus_current = bus_current(mode_.legs, now.i);

@@ -36,6 +36,7 @@ template <class Real>
 void Plant<Real>::set_locked(bool locked) {
   constants_.locked = locked;
   constants_.dry_friction = constants_.breakaway > 0 && !locked;
+  // mutant: if (locked) state_.w = state_.w_low = 0; => nothing
   if (locked) state_.w = state_.w_low = 0;
   set_steady_rate();
   stale_ = true;
@@ -57,6 +58,7 @@ void Plant<Real>::set_source_voltage(double V_0_V) {
 
 template <class Real>
 void Plant<Real>::set_source_sinks(bool sinks) {
+  // mutant: sinks || !(constants_.inv_C > 0) => true
   constants_.source_sinks = sinks || !(constants_.inv_C > 0);
   stale_ = true;
 }

@@ -20,6 +20,7 @@ template <class Real>
                                                      unsigned k) {
   if (law.connected == 0) return {.w0 = p.alpha[k], .w1 = p.beta[k]};
   const int j = law.leg[0];
+  // mutant: law.connected == 2 => true
   const bool pair = law.connected == 2;
   return {.bus = law.star.bus,
           .offset = law.star.offset,
@@ -53,11 +54,13 @@ template <class Real>
   PoleOutline<Real> out;
   out.start = free_voltage(law, y.bus[0], {y.i[0][0], y.i[1][0], y.i[2][0]}, w, phi0, phi1);
   if (c.sine) {  // |w phi - (w phi)(0)| by product rule; phi0 and phi1 turn by no more than x does
+    // mutant: (abs(w) + reach_w) * reach_x + reach_w => reach_w
     out.rest = (abs(law.w0) + abs(law.w1)) * ((abs(w) + reach_w) * reach_x + reach_w);
   } else {
     const Real later_w = reach_w - abs(y.w[1]);
     out.slope = law.w0 * y.w[1] + law.w1 * (y.w[1] * x + w * y.x[1]);
     out.rest =
+        // mutant: abs(x) * later_w + abs(w) * y.later_x + reach_w * reach_x => abs(x) * later_w
         abs(law.w0) * later_w + abs(law.w1) * (abs(x) * later_w + abs(w) * y.later_x + reach_w * reach_x);
   }
   if (law.i != 0) {

@@ -80,6 +80,7 @@ struct OneCurrent {
 
   OneCurrent(const Rotor<Real>&, const Constants<Real>& c, const LegsLaw<Real>& law,
              const ShapeLine<sine, Real>& f)
+      // mutant: pair.from_w1 * c.inv_pole_pairs => pair.from_w1
       : pair(law, f), from_square(pair.from_w1 * c.inv_pole_pairs) {}
   void start(const Expansion<Real>& out, Growing<Real>& y) const { pair.start(out, y); }
   void write(Expansion<Real>& out, int n, const Growing<Real>& y) const { pair.write(out, n, y); }
@@ -124,8 +125,10 @@ struct FlatPair {
     // Of the rotor's law the terms that multiply i and w: M has no others, and what is steady is in order 1.
     [[maybe_unused]] const auto& [inv_J, pole_pairs, steady, per_speed] = rotor;
     const Real a = pair.slope.i, b = pair.from_w0;
+    // mutant: -per_speed * inv_J => Real(0)
     const Real d = pair.torque_0 * inv_J, e = -per_speed * inv_J;
     m_ii = a * a + b * d;
+    // mutant: a * b + b * e => a * b + b * a
     m_iw = a * b + b * e;
     m_wi = d * a + e * d;
     m_ww = d * b + e * e;
@@ -140,6 +143,7 @@ struct FlatPair {
     y.i_2[n + 1] = 0;
     y.torque[n] = pair.torque_0 * i[n];
     if constexpr (n >= 2 && !bus) {
+      // mutant: 1.0L / (n * (n + 1)) => 1.0L / ((n + 1) * (n + 2))
       const Real g = y.h * y.h * Real(1.0L / (n * (n + 1)));
       const Real next_w = g * (m_wi * i[n - 1] + m_ww * y.w[n - 1]);
       y.i[n + 1] = g * (m_ii * i[n - 1] + m_iw * y.w[n - 1]);
@@ -172,10 +176,12 @@ struct TwoCurrents {
     // w (x - x(0)) = ((x - x(0))^2)'/2 over p h, and a square has half the products.
     const Real rate_1 = sine ? law.emf_rate : law.emf_rate * c.inv_pole_pairs;
     a = {law.slope, -law.emf_rate * (f.now[0] - mean_0), -rate_1 * (f.rise[0] - mean_1)};
+    // mutant: f.rise[1] - mean_1 => f.rise[1]
     b = {law.slope_2, -law.emf_rate * (f.now[1] - mean_0), -rate_1 * (f.rise[1] - mean_1)};
     torque_0a = f.now[0] - f.now[2];
     torque_0b = f.now[1] - f.now[2];
     torque_1a = f.rise[0] - f.rise[2];
+    // mutant: f.rise[1] - f.rise[2] => f.rise[1] - f.rise[0]
     torque_1b = f.rise[1] - f.rise[2];
   }
   void start(const Expansion<Real>& out, Growing<Real>& y) const {
@@ -233,6 +239,7 @@ struct TwoCurrents {
     return 2 * (size + size_2);
   }
   void reach(const Growing<Real>& y, PerLeg<Real>& of) const {
+    // mutant: y.reach_i + y.reach_i_2 => y.reach_i_2
     of = {y.reach_i, y.reach_i_2, y.reach_i + y.reach_i_2};
   }
 };

@@ -61,6 +61,7 @@ void electrical_energy(const Constants<Real>& c, const Mode& mode, const Expansi
   Real devices = 0, charge = 0;
   for (int k = 0; k < 3; ++k) {
     const PoleTerms<Real>& terms = c.poles[static_cast<std::size_t>(mode.legs[k])];
+    // mutant: terms.r_ohm * legs.square[k] - terms.offset_V * legs.charge[k] => terms.r_ohm * legs.square[k] + terms.offset_V * legs.charge[k]
     devices += terms.r_ohm * legs.square[k] - terms.offset_V * legs.charge[k];
     charge += terms.bus_share * legs.charge[k];
   }
@@ -99,6 +100,7 @@ SegmentEnergy<Real> segment_energy(const Plant<Real>& plant, Real to) {
     out.travel = dt * series::weighted_sum<points>(w);
     const auto [load, dry, per_speed] = torques(c, mode.motion);
     out.load = load * out.travel;
+    // mutant: dry * out.travel => -dry * out.travel
     out.dry = dry * out.travel;
     if (per_speed > 0) out.viscous = dt * per_speed * series::weighted_sum<points>(w, w);
     if (conducts)

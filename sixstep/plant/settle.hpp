@@ -55,6 +55,7 @@ Judgement judge_legs(const Constants<Real>& c, const State<Real>& s, const PerLe
   for (int k = 0; k < 3; ++k) {
     if (is_floating(m.legs[k])) {
       const Real free = u_n + e[k];
+      // mutant: free + V_f => free
       all = both(all, both(judge(free + V_f, noise), judge(s.bus + V_f - free, noise)));
     } else if (is_diode(m.legs[k]) && s.i[k] == 0) {
       const Real u = pole_voltage(c.poles[static_cast<std::size_t>(m.legs[k])], s.bus, s.i[k]);
@@ -88,6 +89,7 @@ template <class Real>
 bool holds_in_series(const Constants<Real>& c, const Mode& m, const Expansion<Real>& y, Real slack) {
   bool ok = true;
   mode_guards(c, m, y, slack, [&](int, const series::Coefficients<Real>& g, int degree, Real noise) {
+    // mutant: series::leading(g, degree, noise).sign >= 0 => series::leading(g, degree, noise).sign > 0
     ok = ok && series::leading(g, degree, noise).sign >= 0;
   });
   return ok;
@@ -153,6 +155,7 @@ bool accepts(const Question<Real>& q, const PerLeg<Real>& emf, const Mode& mode,
                                     judge_source(q.constants, q.state, mode, q.slack)));
   expanded = false;
   if (plain == Judgement::fails) return false;
+  // mutant: !q.series_only => true
   if (plain == Judgement::holds && !q.series_only) return true;
   expand(q.constants, q.state, mode, q.h, scratch);
   expanded = true;

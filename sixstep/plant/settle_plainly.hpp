@@ -40,6 +40,7 @@ bool settle_third_leg(const Constants<Real>& c, const State<Real>& s, const EmfP
   shape_at(c, s, phi0, phi1);
   const Real free = free_voltage(pole_law(piece, c.legs[legs_index(legs)], k), s.bus, s.i, s.w, phi0, phi1);
   const Real V_f = Real(c.devices.V_f_V), noise = c.volt_noise;
+  // mutant: s.bus + V_f - free => s.bus - free
   const Real above_low = free + V_f, below_high = s.bus + V_f - free;
   if ((above_low > noise) & (below_high > noise)) return true;
   if (above_low < -2 * noise)
@@ -79,6 +80,7 @@ template <class Real>
 bool settle_plainly(const Constants<Real>& c, const State<Real>& s, const Gates& gates, Mode& mode) {
   Motion motion = c.locked ? Motion::locked : Motion::free;
   if (c.dry_friction) {
+    // mutant: detail::abs(s.w) <= c.speed_noise => false
     if (detail::abs(s.w) <= c.speed_noise) return false;
     motion = motion_at(s.w);
   }
@@ -87,9 +89,11 @@ bool settle_plainly(const Constants<Real>& c, const State<Real>& s, const Gates&
   Legs& legs = mode.legs;
   const unsigned open = detail::named_legs(s, gates, c.amp_noise, legs);
   if ((open & (open - 1)) != 0) {
+    // mutant: open == 7 || !detail::two_legs_float(c, s, mode, open) => open == 7
     if (open == 7 || !detail::two_legs_float(c, s, mode, open)) return false;
   } else if (open != 0) {
     const unsigned k = open >> 1;  // of one leg, its number
+    // mutant: s.i[k] != 0 => false
     if (s.i[k] != 0) return false;
     if (!detail::settle_third_leg(c, s, c.emf[mode.sector].piece[mode.piece], k, legs)) return false;
   }

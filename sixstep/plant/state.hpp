@@ -25,6 +25,7 @@ constexpr bool turns(Motion motion) { return motion != Motion::locked && motion 
 /// v against a forward rotation, -v against a backward one; 0 where dry friction has no direction.
 template <class Real>
 constexpr Real against(Motion motion, Real v) {
+  // mutant: -v => v
   return motion == Motion::forward ? v : motion == Motion::backward ? -v : Real(0);
 }
 

@@ -24,6 +24,7 @@ class CaptureClock {
   std::uint32_t counts(const sim::Instant& t) const {
     const Wide passed = static_cast<Wide>(t.ticks) * numerator_;
     const Wide whole = passed / per_count_, missing = per_count_ - passed % per_count_;
+    // mutant: t.offset * static_cast<double>(numerator_) >= static_cast<double>(missing) => false
     const bool one_more = t.offset * static_cast<double>(numerator_) >= static_cast<double>(missing);
     return static_cast<std::uint32_t>(whole) + std::uint32_t{one_more};
   }

@@ -51,6 +51,7 @@ struct Tuning {
 template <class Scalar, class Real>
 control::Measurement<Scalar> ideal_measurement(const SampleInstant<Real>& instant, const Bases& u) {
   const plant::State<Real>& s = instant.plant.state();
+  // mutant: s.x * Real(180) / Real(base::pi) => s.x
   const Real sector_deg = static_cast<Real>(s.sector) * 60 + s.x * Real(180) / Real(base::pi);
   return {.i_a_A = from_si<Scalar>(s.i[0], u.current_A),
           .i_b_A = from_si<Scalar>(s.i[1], u.current_A),
@@ -120,6 +121,7 @@ class LeanDrive {
     return config_.mode == control::Mode::current &&
            config_.current_control == control::CurrentControl::hysteresis &&
            config_.hysteresis.watch != control::Watch::none &&
+           // mutant: !(config_.extras.on && config_.extras.slews_setpoint) => true
            !(config_.extras.on && config_.extras.slews_setpoint);
   }
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }

@@ -15,9 +15,12 @@ class LegChannel {
   /// The turn-off command counts, not whether that switch had come on: after a gap shorter than the dead time
   /// the upper switch waits for the whole of it.
   void tell(const sim::Instant& t, LegSide side, double dead_ticks) {
+    // mutant: side == side_ => false
     if (side == side_) return;
+    // mutant: side_ == LegSide::high => side_ != LegSide::high
     if (side_ != LegSide::none) (side_ == LegSide::high ? low_from_ : high_from_) = t.plus_ticks(dead_ticks);
     side_ = side;
+    // mutant: t < from() => false
     waits_ = side != LegSide::none && t < from();
   }
   /// Nobody knows what the leg did before: whatever turns on waits.

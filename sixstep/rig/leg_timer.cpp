@@ -8,6 +8,7 @@ namespace sixstep::rig {
 using sim::Instant;
 
 void LegTimer::wake(const Instant& t) {
+  // mutant: leg.hold(t, dead_ticks_); => nothing
   for (LegChannel& leg : legs_) leg.hold(t, dead_ticks_);
   for (Pulse& pulse : pulses_) pulse.on = false;
 }
@@ -25,11 +26,13 @@ void LegTimer::start_pulse(unsigned pulse, const Instant& t, double duty) {
 
 void LegTimer::switch_pulse(unsigned pulse, bool on) {
   Pulse& p = pulses_[pulse];
+  // mutant: on && !p.on => on
   turn_ons_ += on && !p.on;
   p.on = on;
 }
 
 void LegTimer::hand_over(unsigned from, unsigned to) {
+  // mutant: legs_[to] = legs_[from]; => nothing
   legs_[to] = legs_[from];
   legs_[from] = {};
 }
@@ -39,6 +42,7 @@ void LegTimer::update(const Instant& t, int late) {
     const Output& output = outputs_[k];
     legs_[k].tell(t, pulses_[output.pulse].on ? output.sides.pulse : output.sides.rest, dead_ticks_);
   }
+  // mutant: late != none_late => false
   if (late != none_late) legs_[static_cast<unsigned>(late)].delay(t, dead_ticks_);
   look_at_legs();
 }

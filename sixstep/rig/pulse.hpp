@@ -19,6 +19,7 @@ struct ModulatorConfig {
   /// Rounded to counts of the timer.
   double in_counts(double ticks) const {
     if (!(timer_ticks > 0)) return ticks;
+    // mutant: ticks / timer_ticks + 0.5 => ticks / timer_ticks
     return std::floor(ticks / timer_ticks + 0.5) * timer_ticks;
   }
 };
@@ -34,7 +35,9 @@ struct Pulse {
   bool begin(const sim::Instant& t, double duty, const ModulatorConfig& c) {
     const auto period = static_cast<double>(c.period_ticks);
     const double on_time = duty * period;
+    // mutant: period - on_time < c.minimum_pulse_ticks => false
     const bool whole = duty >= 1.0 || period - on_time < c.minimum_pulse_ticks;
+    // mutant: on_time < c.minimum_pulse_ticks => false
     const bool chops = !whole && duty > 0.0 && !(on_time < c.minimum_pulse_ticks);
     cancel();
     if (chops && c.centre_aligned) on_edge = t.plus_ticks(c.in_counts((period - on_time) / 2));

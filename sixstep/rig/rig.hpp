@@ -159,11 +159,13 @@ sim::Instant Rig<Real, Firmware>::next_due() const {
 template <class Real, class Firmware>
 bool Rig<Real, Firmware>::act() {
   ticked_ = false;
+  // mutant: now_ < due_ && !moved_ && !watching() => now_ < due_ && !watching()
   if (now_ < due_ && !moved_ && !watching()) return true;
   if (moved_) due_ = next_due();
   moved_ = false;
   do {
     while (fault_ == Fault::none && !(now_ < due_)) {
+      // mutant: !do_timeline() && !do_tick() => !do_tick() && !do_timeline()
       if (!do_timeline() && !do_tick() && modulator_.act(now_)) count(EventKind::pwm_edge);
       due_ = next_due();
     }
@@ -197,6 +199,7 @@ void Rig<Real, Firmware>::control_step(bool starts_period) {
   if constexpr (six_step) reversed = firmware_.reversed();
   if (board_.delayed) {
     std::swap(command, pending_);
+    // mutant: std::swap(reversed, pending_reversed_); => nothing
     std::swap(reversed, pending_reversed_);
   }
   if (board_.sampled_in_middle) {
@@ -223,6 +226,7 @@ sim::Instant Rig<Real, Firmware>::told_next() const {
   const std::int64_t period = board_.modulator.period_ticks;
   for (std::size_t n = next_action_; n < timeline_.size(); ++n)
     if (timeline_[n].kind == ActionKind::setpoint || timeline_[n].kind == ActionKind::retune)
+      // mutant: timeline_[n].at.ticks + period - 1 => timeline_[n].at.ticks + period
       return {(timeline_[n].at.ticks + period - 1) / period * period, 0.0};
   return sim::Instant::never();
 }
@@ -231,6 +235,7 @@ sim::Instant Rig<Real, Firmware>::told_next() const {
 /// not simulated.
 template <class Real, class Firmware>
 void Rig<Real, Firmware>::skip_idle_ticks() {
+  // mutant: moving_ => false
   if (!firmware_.open_loop() || moving_ || board_.delayed || board_.commutate_at_sample ||
       !modulator_.steady())
     return;

@@ -42,6 +42,7 @@ void Rig<Real, Firmware>::do_action(const Action& action) {
   setpoint_ = action.value;
   moving_ = action.waveform.moves();
   waveform_ = next_action_ - 1;
+  // mutant: !board_.delayed => true
   if (firmware_.follows_setpoint_at_once() && !board_.delayed) control_step(false);
 }
 
@@ -62,6 +63,7 @@ void Rig<Real, Firmware>::replace_future(Timeline timeline, const Tuning<Config>
 /// Where the setpoint stands at this tick.
 template <class Real, class Firmware>
 void Rig<Real, Firmware>::follow_waveform() {
+  // mutant: waveform_ => 0
   const Action& from = timeline_[waveform_];
   setpoint_ = from.waveform.after(from.value, sim::seconds_between(from.at, now_));
 }

@@ -12,9 +12,11 @@ void Rig<Real, Firmware>::commutate() {
   const auto answer = firmware_.hall_interrupt(pins(), now_);
   if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
   if (!answer.enabled) return let_go();
+  // mutant: pending_.pair = answer.pair; => nothing
   pending_.pair = answer.pair;
   if (board_.sampled_in_middle)
     loaded_.pair = firmware_.reversed() == loaded_reversed_ ? answer.pair : control::swapped(answer.pair);
+  // mutant: firmware_.reversed() == reversed_ => true
   const bool same_sign = firmware_.reversed() == reversed_;
   modulator_.commutate(now_, same_sign ? answer.pair : control::swapped(answer.pair));
 }

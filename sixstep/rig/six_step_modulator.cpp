@@ -28,6 +28,7 @@ int SixStepModulator::hand_over(control::Pair to) {
 }
 
 int SixStepModulator::take(const Instant& t, const BoardCommand& command) {
+  // mutant: command.enabled && !command_.enabled => command.enabled
   const bool wakes = command.enabled && !command_.enabled;
   const int entered = hand_over(command.pair);
   // Field by field, as it was written: a copy in wider pieces would wait until the fields have left for
@@ -72,6 +73,7 @@ void SixStepModulator::fill_legs(const Instant& t, int entered) {
   timer_.disconnect();
   if (command_.enabled) {
     const Chopping chopping = command_.chopping;
+    // mutant: sink_pulse => source_pulse
     const unsigned sink = command_.watch == Watch::phase ? sink_pulse : source_pulse;
     timer_.connect(index(command_.pair.source), sides_of(control::source_leg(chopping, 0.0)), source_pulse);
     timer_.connect(index(command_.pair.sink), sides_of(control::sink_leg(chopping, 0.0)), sink);

@@ -17,6 +17,7 @@ void ThreeLegModulator::start_period(const sim::Instant& t, const Command& comma
       timer_.start_pulse(k, t, leg.duty);
     else
       timer_.preset_pulse(k, false);
+    // mutant: , «k» => 0
     timer_.connect(k, sides_of(leg), k);
   }
   timer_.update(t);

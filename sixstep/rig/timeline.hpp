@@ -38,9 +38,11 @@ struct Waveform {
   bool moves() const { return rate != 0.0 || curvature != 0.0 || amplitude != 0.0; }
   /// Turns are counted, not summed: only their fraction goes into the sine.
   double after(double value, double t_s) const {
+    // mutant: curvature / 2 * t_s => 0.0
     const double straight = value + (rate + curvature / 2 * t_s) * t_s;
     if (amplitude == 0.0) return straight;
     const double turns = frequency_Hz * t_s + phase_turns;
+    // mutant: std::floor(turns) => 0.0
     return straight + amplitude * base::sin(2 * base::pi * (turns - std::floor(turns)));
   }
 };

@@ -47,6 +47,7 @@ Outline<Real> outline(const Real* q, int n) {
     of.at_end += q[j];
     of.slope_rest += of.tail;
   }
+  // mutant: of.slope_rest += of.tail; => nothing
   of.slope_rest += of.tail;  // with this, term j has been counted j times
   of.tail += std::fabs(q[1]);
   of.at_end = q[0] + (q[1] + of.at_end);
@@ -61,6 +62,7 @@ Outline<Real> outline(const Real* q, int n, Real length) {
     const Real size = std::fabs(q[j]);
     of.tail = (of.tail + size) * length;
     of.at_end = (of.at_end + q[j]) * length;
+    // mutant: static_cast<Real>(j) => static_cast<Real>(j - 1)
     if (j >= 2) of.slope_rest = (of.slope_rest + static_cast<Real>(j) * size) * length;
   }
   of.at_end += q[0];
@@ -93,7 +95,9 @@ inline Local<Real> local(const Real* c, int degree, Real s) {
     }
     append(e, c[0]);
   }
+  // mutant: 2 * (s * e.slope + t * o.slope) => 2 * s * e.slope
   return {e.value + s * o.value, o.value + 2 * (s * e.slope + t * o.slope),
+          // mutant: 4 * (t * o.bend) => Real(0)
           e.slope + 4 * (t * e.bend) + s * (3 * o.slope + 4 * (t * o.bend))};
 }
 
@@ -112,6 +116,8 @@ Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) 
     const Real inverse = 1 / slope, step = -value * inverse, newton = s + step;
     const bool inside = slope < 0 && newton >= low && newton <= high;
     const Real turn = bend * inverse * step;
+    // mutant: turn * step => Real(0)
+    // mutant: std::fabs(step) <= last_step && std::fabs(turn) <= small => std::fabs(step) <= 1e-2
     if (inside && std::fabs(step) <= last_step && std::fabs(turn) <= small) return newton - turn * step;
     Real next = newton;
     if (!inside || newton == low || newton == high) {
@@ -215,6 +221,7 @@ Real subdivide(const Real* c, int degree, Real length) {
 template <class Real>
 inline Real tail_bound(const Coefficients<Real>& c, int degree) {
   Real even = 0, odd = 0;
+  // mutant: j <= degree => j < degree
   for (int j = 2; j <= degree; j += 2) even += std::fabs(c[j]);
   for (int j = 1; j <= degree; j += 2) odd += std::fabs(c[j]);
   return even + odd;

@@ -67,6 +67,7 @@ template <int n, class Real>
 inline Real half_increment_square_term(const Coefficients<Real>& a) {
   Real sum = n % 2 == 0 ? a[n / 2] * a[n / 2] * Real(0.5) : a[n / 2] * a[n / 2 + 1];
 #pragma GCC unroll 32
+  // mutant: (n - 1) / 2 - n % 2 => (n - 1) / 2
   for (int j = (n - 1) / 2 - n % 2; j >= 1; --j) sum += a[j] * a[n - j];
   return sum;
 }
@@ -91,6 +92,7 @@ inline Real integral(const Coefficients<Real>& c, int degree, Real to) {
 template <class Real>
 inline Real product_integral(const Coefficients<Real>& a, const Coefficients<Real>& b, int degree, Real to) {
   Real sum = 0;
+  // mutant: 2 * degree => 2 * degree - 1
   for (int n = 2 * degree; n >= 0; --n) {
     Real term = 0;
     const int first = n > degree ? n - degree : 0;
@@ -106,6 +108,7 @@ template <class Real>
 inline Coefficients<Real> restricted(Coefficients<Real> c, int degree, Real from, Real to) {
   if (from != 0)
     for (int level = 0; level < degree; ++level)
+      // mutant: j >= level => j > level
       for (int j = degree - 1; j >= level; --j) c[j] += from * c[j + 1];
   Real power = 1;
   for (int j = 0; j <= degree; ++j, power *= to - from) c[j] *= power;
@@ -117,6 +120,7 @@ template <class Real>
 inline void add_compensated(Real& y, Real& low, Real dy) {
   const Real term = dy + low;
   const Real sum = y + term;
+  // mutant: term - (sum - y) => dy - (sum - y)
   low = term - (sum - y);
   y = sum;
 }

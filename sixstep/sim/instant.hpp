@@ -19,6 +19,7 @@ struct Instant {
   constexpr bool operator==(const Instant&) const = default;
   friend constexpr bool operator<(const Instant& a, const Instant& b) {
     // Equal ticks are rare: a branch that is foreseen saves looking at the offsets.
+    // mutant: a.offset < b.offset => a.offset <= b.offset
     return a.ticks != b.ticks ? a.ticks < b.ticks : a.offset < b.offset;
   }
   friend constexpr bool operator>(const Instant& a, const Instant& b) { return b < a; }
@@ -31,6 +32,7 @@ struct Instant {
     auto whole = static_cast<std::int64_t>(sum);
     if (static_cast<double>(whole) > sum) --whole;  // the cast goes towards zero
     Instant later{ticks + whole, sum - static_cast<double>(whole)};
+    // mutant: later.offset >= 1.0 => later.offset > 1.0
     if (later.offset >= 1.0) later = {later.ticks + 1, 0.0};  // sum - whole may round up to 1
     return later;
   }
@@ -41,11 +43,13 @@ struct Instant {
 
 /// The tick nearest to a time in seconds, as files give it.
 inline Instant to_instant(double seconds) {
+  // mutant: seconds * ticks_per_second + 0.5 => seconds * ticks_per_second
   return {static_cast<std::int64_t>(std::floor(seconds * ticks_per_second + 0.5)), 0.0};
 }
 
 /// From one instant to a later one, in seconds; exact to rounding of the difference, not of the times.
 inline double seconds_between(const Instant& from, const Instant& to) {
+  // mutant: (to.offset - from.offset) => 0.0
   return (static_cast<double>(to.ticks - from.ticks) + (to.offset - from.offset)) / ticks_per_second;
 }
 

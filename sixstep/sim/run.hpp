@@ -69,13 +69,16 @@ Run run(System& system, Instant end, Observer& observer) {
     int event = -1;
     system.guards([&](int id, const series::Coefficients<Real>& c, int degree, Real noise) {
       if (const Real root = series::first_root(c, degree, first, noise);
+          // mutant: event < 0 && root == first => root == first
           root < first || (event < 0 && root == first)) {
         first = root;
         event = id;
       }
     });
 
+    // mutant: first => Real(1)
     observer.segment(system, first);
+    // mutant: event < 0 && length == wanted => event < 0
     const bool reached = event < 0 && length == wanted;
     const Instant to =
         reached ? known : now.plus_seconds(static_cast<double>(first * static_cast<Real>(length)));
@@ -85,6 +88,7 @@ Run run(System& system, Instant end, Observer& observer) {
     if constexpr (requires { observer.done(system); })
       if (observer.done(system)) return {Stop::observer, result.segments};
     stalled = now < to ? 0 : stalled + 1;
+    // mutant: stalled > stalled_limit => stalled >= stalled_limit
     if (stalled > stalled_limit) return {Stop::no_progress, result.segments};
   }
 }

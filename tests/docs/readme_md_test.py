@@ -1,8 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """readme_md_test.py PROGRAM [--renew]: what README.md says is so."""
-import re
-
 import page
 
 
@@ -16,10 +14,6 @@ class Readme(page.PageTest):
         # The comment names the command, and with it the file; all that follows is the same.
         one, two = ((self.desk.folder / f"{name}.csv").read_text().splitlines()[3:] for name in ("one", "two"))
         self.assertEqual(one, two)
-
-    def test_the_number_of_experiments_is_right(self):
-        count = len(list((page.REPOSITORY / "data/scenarios/thesis").glob("*.toml")))
-        self.assertEqual({int(n) for n in re.findall(r"(\d+) experiments", self.page.text)}, {count})
 
 
 if __name__ == "__main__":

@@ -1,3 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-// Compiles alone, for a chip: freestanding, without exceptions and RTTI.
-#include "sixstep/control/smooth_chopping.hpp"
