@@ -14,13 +14,13 @@
 namespace sixstep::study {
 
 struct Observers {
-  std::optional<plant::Audit<double>> audit;
-  Digest digest;
+  std::optional<plant::Audit<double>> audit{};
+  Digest digest{};
   Figures figures;
-  std::optional<GridRecorder> grid;
-  std::optional<EventRecorder> events, report;
-  std::optional<LogicRecorder> logic;
-  std::function<bool(double)> keep_going;
+  std::optional<GridRecorder> grid{};
+  std::optional<EventRecorder> events{}, report{};
+  std::optional<LogicRecorder> logic{};
+  std::function<bool(double)> keep_going{};
   std::int64_t segments = 0;
   sim::Instant looked{};  ///< when done() last looked
   bool crowded = false;   ///< events crowd so closely that time hardly goes on
