@@ -19,10 +19,10 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
 #include "sixstep/study/run/run.hpp"
-#include "text/scenario/scenario_file.hpp"
 
 namespace text {
 namespace {
@@ -112,7 +112,7 @@ TEST_P(ArithmeticOf, DiffersByItsResolution) {
   const Case& c = GetParam();
   const auto path = std::filesystem::path(SIXSTEP_SOURCE_DIR) / "data" / "scenarios" / "thesis" /
                     (std::string(c.file) + ".toml");
-  const auto s = read_scenario(path.string());
+  const auto s = files::read_scenario(path.string());
   ASSERT_TRUE(s);
   const Figures wide = figures(*s, c, Arithmetic::float64);
   for (const Format& f : formats) {
@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Arithmetic, TheSpeedCascadeStraysAsFarByADigitOfItsInertia) {
   const auto path =
       std::filesystem::path(SIXSTEP_SOURCE_DIR) / "data/scenarios/thesis/7.4-speed-exact-design.toml";
-  auto s = read_scenario(path.string());
+  auto s = files::read_scenario(path.string());
   ASSERT_TRUE(s);
   const Case c{"", Signal::speed, 0, levels};
   const std::vector<double> wide = figures(*s, c, Arithmetic::float64).means;
