@@ -7,14 +7,12 @@
 //            error of one digit (design/scaling): two digits of the loop's own signal. Hysteresis has no
 //            integral, but each threshold is the difference of two rounded numbers: two digits as well.
 //   phase    Another rounding moves the ripple against the window. A ripple of height h and period T_r adds
-//   at
-//            most h/2 T_r/2 to the integral over a window, in either run: h T_r/(2 window). Where the loops
+//            at most h/2 T_r/2 to the integral over a window, in either run: h T_r/(2 window). Where the loops
 //            amplify a rounding to another ripple altogether (tests/study/conditioning_test.cpp) this is
 //            all that is left to say, for float too (the last test here shows by how much it is the problem's
 //            own). PWM runs with the samples: its ripple has one phase.
 //   samples  A PI holds its samples, and the mean between them is off by a share of the ripple that moves
-//   with
-//            the duty, which the digits bound: less than one digit.
+//            with the duty, which the digits bound: less than one digit.
 #include <gtest/gtest.h>
 
 #include <cmath>

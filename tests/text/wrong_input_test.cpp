@@ -121,8 +121,7 @@ TEST_F(WrongInput, MissingRequiredKeysPointAtTheirTable) {
       complaints("title = \"x\"\n[[require]]\nmax = 1\n"),
       ElementsAre(
           "x.toml:1:1: motor is missing; write motor = ..: motor file: a path, or a name looked up beside "
-          "the "
-          "scenario, in the data folder and in the built-in list",
+          "the scenario, in the data folder and in the built-in list",
           "x.toml:1:1: duration_s is missing; write duration_s = ..: simulated time, in s",
           "x.toml:2:1: require.metric is missing; write metric = ..: figure that is taken of the signal"));
 }
