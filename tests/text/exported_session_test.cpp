@@ -7,9 +7,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/session/session.hpp"
-#include "files/scenario_on_disk.hpp"
 #include "text/scenario/scenario_text.hpp"
 
 namespace {

@@ -41,9 +41,9 @@ TEST(Sources, AScenarioOfTextsAlone) {
   const std::string motor =
       "name = \"mine\"\npole_pairs = 4\nresistance_ohm = 1\ninductance_mH = 1\n"
       "torque_constant_mNm_A = 30\ninertia_gcm2 = 100\nnominal_voltage_V = 24\n";
-  const auto s = read(
-      "extends = \"../base.toml\"\n[reference]\nshape = \"csv\"\nfile = \"rows.csv\"\n",
-      {{"base.toml", base_text}, {"mine.toml", motor}, {"tried/rows.csv", "0, 0.1\n5e-4, 0.3\n"}});
+  const auto s =
+      read("extends = \"../base.toml\"\n[reference]\nshape = \"csv\"\nfile = \"rows.csv\"\n",
+           {{"base.toml", base_text}, {"mine.toml", motor}, {"tried/rows.csv", "0, 0.1\n5e-4, 0.3\n"}});
   EXPECT_THAT(complaints(s), ElementsAre());
   ASSERT_TRUE(s);
   EXPECT_EQ(s->title, "x");
@@ -60,8 +60,9 @@ TEST(Sources, WhatIsNotAtHandIsTold) {
 }
 
 TEST(Sources, ACircleIsFoundInAnySpelling) {
-  EXPECT_THAT(complaints(read("extends = \"../tried/./x.toml\"\n", {{"tried/x.toml", "extends = \"x.toml\"\n"}})),
-              ElementsAre(HasSubstr("goes round in a circle")));
+  EXPECT_THAT(
+      complaints(read("extends = \"../tried/./x.toml\"\n", {{"tried/x.toml", "extends = \"x.toml\"\n"}})),
+      ElementsAre(HasSubstr("goes round in a circle")));
 }
 
 }  // namespace

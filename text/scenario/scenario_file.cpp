@@ -146,14 +146,13 @@ void read_all_rows(const Document& document, const Resolve& resolve, study::Scen
     const std::string_view of_mode = study::reference_unit(mode);
     return std::string(of_mode == "1" ? "" : of_mode);
   };
-  read_rows(document, "reference", unit(scenario.control.mode), resolve, scenario.reference,
-            complaints, of_other_files);
+  read_rows(document, "reference", unit(scenario.control.mode), resolve, scenario.reference, complaints,
+            of_other_files);
   const std::vector<control::Mode> modes = study::modes_from(scenario);
   for (std::size_t n = 0; n < scenario.at.size(); ++n)
     if (scenario.at[n].reference)
       read_rows(document, fmt::format("at[{}].reference", n), unit(modes[n]), resolve,
-                *scenario.at[n].reference,
-                complaints, of_other_files);
+                *scenario.at[n].reference, complaints, of_other_files);
 }
 
 base::Problems apply_overrides(Document& document, const std::vector<Setting>& overrides) {
