@@ -162,8 +162,9 @@ TEST(Session, ShowsTheInstantAskedForWithoutCuttingASegment) {
     if (row[0] == 0.0) continue;
     ASSERT_NEAR(session.present().t_s, row[0], 1e-12);
     for (std::size_t c = 1; c < row.size(); ++c)
-      if (c != position)
+      if (c != position) {
         ASSERT_EQ(session.present().signals[c], row[c]) << all_columns()[c].name << " at " << row[0];
+      }
   }
 }
 
@@ -186,7 +187,8 @@ TEST(Session, ACopyIsASavedState) {
     load.load.torque_Nm = 0.05;
     told(changed, load);
     session.advance(5e-3);
-    EXPECT_EQ(closed(saved).digest, outcome(saved.scenario()).digest);
+    const std::uint64_t of_saved = closed(saved).digest;
+    EXPECT_EQ(of_saved, outcome(saved.scenario()).digest);
     const auto rest = [](Session& one) {
       one.advance(1.0);
       return closed(one).digest;
@@ -329,7 +331,10 @@ TEST(Session, TheLimitsThatWereFeltStay) {
   At at;
   at.reference = Reference{.value = 6.0};
   EXPECT_FALSE(session.change(at));
-  s.control.limits.current_A = 8.0;
+  At largest;
+  largest.time_s = 19e-3;
+  largest.reference = Reference{.value = 6.0};
+  s.at = {largest};
   Session wide = opened(s);
   wide.advance(3e-3);
   told(wide, at);

@@ -42,7 +42,8 @@ TEST(Tunings, AtTheStartTheyAreTheScenariosOwn) {
       own.control.limits.current_A = at.control.limits.current_A = 8.0;
       own.pwm.chopping = control::Chopping::complementary;
       at.pwm.chopping = AtChopping::complementary;
-      own.bridge.dead_time_s = at.bridge.dead_time_s = 1e-6;
+      own.bridge.dead_time_s = 1e-6;
+      at.bridge.dead_time_s = 1e-6;
       told.at = {at};
       EXPECT_EQ(outcome(told).digest, outcome(own).digest);
       EXPECT_NE(outcome(told).digest, outcome(plain).digest);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "sixstep/study/scenario/at_description.hpp"
 #include "tests/text/scenario_folder.hpp"
 #include "text/scenario/scenario_text.hpp"
 
@@ -14,6 +15,7 @@ namespace text {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 std::vector<std::string> told(const std::string& text, const std::optional<std::string>& column = {}) {
   const base::Result<ReferenceRows> rows = reference_rows("r.csv", text, column, "A");
@@ -93,7 +95,7 @@ TEST_F(ReferenceInAFile, EntersTheScenarioAsNumbersThatStandForThemselves) {
   // Written out, the scenario needs no file any more.
   const std::string text = scenario_text(*s);
   EXPECT_EQ(text.find("r.csv"), std::string::npos);
-  const base::Result<study::Scenario> back = read_scenario_text("elsewhere.toml", text);
+  const base::Result<study::Scenario> back = files::read_scenario_text("elsewhere.toml", text);
   ASSERT_TRUE(back);
   EXPECT_EQ(back->reference.values, s->reference.values);
   EXPECT_EQ(back->reference.interpolation, study::Interpolation::hold);
@@ -128,12 +130,13 @@ TEST_F(ReferenceInAFile, AnEventsOwnFileIsReadToo) {
 }
 
 TEST_F(ReferenceInAFile, WhatCannotChangeDuringARunIsToldWhatCan) {
-  const std::string what =
-      "during a run change only: reference; supply.voltage_V, supply.sinks; "
-      "load.torque_Nm, load.locked; sensors.hall_break; request";
+  const std::string what(study::what_may_change);
+  for (const char* key :
+       {"reference", "load.torque_Nm", "control.mode", "pwm.chopping", "bridge.dead_time_s"})
+    EXPECT_THAT(what, HasSubstr(key));
   EXPECT_THAT(complaints("times_s = [0]\nvalues = [0]\n[[at]]\ntime_s = 0.005\npwm.period_s = 1e-5\n"
                          "supply.resistance_ohm = 1\nload.torque_mNm = 1\n"),
-              ElementsAre("x.toml:11:1: at.pwm is not a key here; " + what,
+              ElementsAre("x.toml:11:5: at.pwm.period_s is not a key here; " + what,
                           "x.toml:12:8: at.supply.resistance_ohm is not a key here; " + what,
                           "x.toml:13:6: at.load.torque_mNm carries the wrong unit; write torque_Nm and give "
                           "the value in that unit: 1 mNm = 0.001 Nm"));

@@ -193,7 +193,9 @@ base::Result<Tuned> tuned(const Scenario& s, const Basis& basis) {
 
 /// What [[at]] makes of it. Sensors stay as they were laid out for the start.
 base::Problems add_later(const Scenario& s, const Basis& basis, Compiled& out) {
-  for (const At* at : in_order(s)) {
+  const std::vector<const At*> order = in_order(s);
+  out.later.reserve(order.size());
+  for (const At* at : order) {
     if (!retunes(*at)) continue;
     const Scenario then = settled(s, at);
     base::Result<Tuned> later = tuned(then, basis);

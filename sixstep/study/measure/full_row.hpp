@@ -6,16 +6,13 @@
 
 namespace sixstep::study {
 
-/// Everything there is to say of the rig at the fraction s of its segment, at time t, whether it applies or
-/// not.
-template <class Rig>
-FullRow full_row(const Rig& rig, double s, double t) {
-  FullRow row;
+/// What moves within a segment: the row at the fraction s of it, at time t.
+inline void set_moving(FullRow& row, const plant::Plant<double>& plant, double s, double t) {
   const auto set = [&](ColumnId id, double v) { row[static_cast<std::size_t>(id)] = v; };
   const auto three = [&](ColumnId first, const plant::PerLeg<double>& v) {
     for (std::size_t k = 0; k < 3; ++k) row[static_cast<std::size_t>(first) + k] = v[k];
   };
-  const plant::Snapshot<double> now = rig.plant().at(s);
+  const plant::Snapshot<double> now = plant.at(s);
   set(ColumnId::t, t);
   three(ColumnId::i_a, now.i);
   three(ColumnId::u_a, now.pole);
@@ -26,9 +23,18 @@ FullRow full_row(const Rig& rig, double s, double t) {
   set(ColumnId::torque, now.torque);
   set(ColumnId::bus_V, now.bus);
   set(ColumnId::bus_A, now.bus_current);
-  set(ColumnId::duty, signed_duty(rig.modulator(), rig.plant().sector()));
-  const plant::PerLeg<double> w = motor_current_weights(rig.plant().sector());
+  const plant::PerLeg<double> w = motor_current_weights(plant.sector());
   set(ColumnId::i_m, w[0] * now.i[0] + w[1] * now.i[1] + w[2] * now.i[2]);
+}
+
+/// Everything there is to say of the rig at the fraction s of its segment, at time t, whether it applies or
+/// not.
+template <class Rig>
+FullRow full_row(const Rig& rig, double s, double t) {
+  FullRow row;
+  const auto set = [&](ColumnId id, double v) { row[static_cast<std::size_t>(id)] = v; };
+  set_moving(row, rig.plant(), s, t);
+  set(ColumnId::duty, signed_duty(rig.modulator(), rig.plant().sector()));
   set(ColumnId::i_ref, rig.current_reference_A());
   set(ColumnId::speed_ref, rig.speed_reference_rad_s());
   set(ColumnId::position_ref, rig.setpoint());

@@ -12,11 +12,24 @@
 
 namespace sixstep::study::detail {
 
+/// The segment that passed the instant asked for last: what lies within it can still be looked at.
+struct LastSegment {
+  plant::Plant<double> plant;
+  sim::Instant from;
+  double part;  ///< of its polynomials' length
+
+  double fraction(const sim::Instant& t) const {
+    const double h = plant.expansion().h;
+    return h > 0 ? std::clamp(sim::seconds_between(from, t) / h, 0.0, part) : 0.0;
+  }
+};
+
 /// The observer of one slice: everybody who watches the run, the row at the instant asked for, and how far
 /// ahead the segments' polynomials looked. It ends the slice behind an event, so that no segment is cut.
 struct Slice {
   Observers& watchers;
   Present& present;
+  std::optional<LastSegment>& last;
   sim::Instant until;   ///< the row is taken here, on the polynomial of the segment that passes it
   sim::Instant& reach;  ///< of segments that skipped ticks: nothing that happens sooner may be news to them
   std::int64_t period_ticks;
@@ -31,8 +44,8 @@ struct Slice {
     if (rig.next_tick().ticks - from.ticks > period_ticks)
       reach = std::max(reach, sim::Instant{from.plus_seconds(h).ticks + 2, 0.0});
     if (taken || sim::seconds_between(from.plus_seconds(h * s), until) > 0.5e-12) return;
-    const double at = h > 0 ? std::clamp(sim::seconds_between(from, until) / h, 0.0, s) : 0.0;
-    take(rig, at, until.seconds());
+    last.emplace(LastSegment{rig.plant(), from, s});
+    take(rig, last->fraction(until), until.seconds());
   }
   template <class Rig>
   bool done(const Rig& rig) {

@@ -22,6 +22,7 @@ struct Session::State {
   Observers watchers;
   AnyRig rig;
   Present present{};
+  std::optional<detail::LastSegment> last{};
   Instant reach{};
   sim::Stop stop = sim::Stop::observer;
   bool over = false;
@@ -30,8 +31,16 @@ struct Session::State {
   Instant now() const {
     return std::visit([](const auto& live) { return live.rig.now(); }, rig);
   }
+  /// Already simulated: the segment that passed it shows it, or it is gone.
+  bool look_back(const Instant& asked) {
+    if (last && !(asked < last->from)) {
+      present.t_s = asked.seconds();
+      set_moving(present.signals, last->plant, last->fraction(asked), present.t_s);
+    }
+    return true;
+  }
   Slice slice(const Instant& until) {
-    return {watchers, present, until, reach, compiled.board.modulator.period_ticks};
+    return {watchers, present, last, until, reach, compiled.board.modulator.period_ticks};
   }
 };
 
@@ -139,13 +148,13 @@ base::Result<Session> Session::open(const Scenario& scenario, const Listeners& l
 
 bool Session::advance(double to_s) {
   State& s = *state_;
-  const Instant until = sim::to_instant(to_s);
-  if (s.over || !(s.now() < until)) return !s.over;
-  const bool to_end = !(until < s.compiled.end);
-  Slice slice = s.slice(to_end ? s.compiled.end : until);
-  if (to_end) slice.until = s.compiled.end;
-  const auto go = [&](auto& live) { return live.advance(s.compiled.end, slice); };
-  s.stop = std::visit(go, s.rig);
+  const Instant asked = sim::to_instant(to_s), end = s.compiled.end;
+  const bool to_end = !(asked < end);
+  if (s.over) return false;
+  if (!to_end && !(s.now() < asked)) return s.look_back(asked);
+  Slice slice = s.slice(to_end ? end : asked);
+  const auto go = [&](auto& live) { return live.advance(end, slice); };
+  s.stop = s.now() < slice.until ? std::visit(go, s.rig) : sim::Stop::observer;
   // The end of the run is an instant too: what is due there is done.
   if (s.stop == sim::Stop::observer && !slice.stopped && to_end) s.stop = std::visit(go, s.rig);
   s.over = s.stop != sim::Stop::observer || slice.stopped;
@@ -168,7 +177,7 @@ base::Result<double> Session::change(At at) {
   if (!compiled) return compiled.problems();
   if (!same_past(s.scenario, s.compiled, *compiled, s.now()))
     return base::Problem{"reference", "", "would have laid out the drive's limits otherwise from the start",
-                         "open the session with control.limits.current_A, for the largest reference to come"};
+                         "let the session's own reference reach as far, by an [[at]] at its end"};
   compiled->board.sensors.decodes_hall = true;
   rig::Timeline timeline = std::move(compiled->timeline);
   if (base::Problems problems =
@@ -195,7 +204,7 @@ base::Result<Outcome> Session::close() {
       if (!same_past(cut, s.compiled, *compiled, s.now()))
         return base::Problem{"duration_s", base::written(end.seconds()),
                              "leaves out a reference that the drive's limits were laid out for",
-                             "open the session with control.limits.current_A"};
+                             "run the session to its end"};
       rig::Timeline timeline = std::move(compiled->timeline);
       if (base::Problems problems =
               std::visit([&](auto& live) { return live.take(cut, *compiled, std::move(timeline)); }, s.rig);
