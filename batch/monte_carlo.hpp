@@ -1,48 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// A series of drives judged together: how each figure strays, and how many drives hold each requirement.
+// A series of drives, run side by side and judged together.
 #pragma once
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <stop_token>
-#include <string>
-#include <vector>
 
 #include "batch/rooms.hpp"
-#include "batch/statistics.hpp"
-#include "sixstep/base/problem.hpp"
-#include "sixstep/study/measure/outcome.hpp"
+#include "sixstep/analysis/series/series.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
 namespace batch {
-
-struct SpreadFigure {
-  std::string figure, unit;
-  bool required = false;                  ///< else only compared
-  std::optional<double> min, max;         ///< the requirement
-  std::size_t holds = 0;                  ///< runs that hold it
-  std::optional<std::size_t> first_miss;  ///< number of the first run that does not
-  Statistics statistics;
-};
-
-/// A run to look at: its number is all that is needed to repeat it (study::varied).
-struct Casualty {
-  std::size_t number = 0;
-  base::Problem problem;
-};
-
-struct Series {
-  std::size_t runs = 0;               ///< that came to an end or a fault, or could not start
-  std::size_t passed = 0;             ///< hold every requirement
-  std::vector<SpreadFigure> figures;  ///< requirements first, in the scenario's order
-  std::vector<Casualty> faults;       ///< stopped by a fault
-  std::vector<Casualty> refused;      ///< could not start
-  std::uint64_t digest = 0;           ///< of all runs' digests, in order
-};
-
-/// One result more. Figures of runs that a fault stopped count as they were when it stopped.
-void add(Series& series, const base::Result<study::Outcome>& result);
 
 struct SeriesOptions {
   std::size_t runs = 0;
@@ -55,6 +23,6 @@ struct SeriesOptions {
 };
 
 /// Runs 0 .. runs - 1 of the series (study::varied). Memory: eight bytes per run and figure.
-Series monte_carlo(const study::Scenario& scenario, const SeriesOptions& options);
+analysis::Series monte_carlo(const study::Scenario& scenario, const SeriesOptions& options);
 
 }  // namespace batch

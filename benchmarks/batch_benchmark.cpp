@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "batch/monte_carlo.hpp"
-#include "text/scenario/scenario_file.hpp"
+#include "files/scenario_on_disk.hpp"
 
 namespace {
 
@@ -24,7 +24,7 @@ constexpr std::size_t drives = 1000;
 
 sixstep::study::Scenario series() {
   const auto scenario =
-      text::read_scenario(SIXSTEP_SOURCE_DIR "/data/scenarios/current-square-series.toml", {});
+      files::read_scenario(SIXSTEP_SOURCE_DIR "/data/scenarios/current-square-series.toml", {});
   if (!scenario) std::abort();
   return *scenario;
 }

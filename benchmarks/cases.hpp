@@ -5,9 +5,9 @@
 #include <string>
 
 #include "benchmarks/yardstick.hpp"
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/sim/run.hpp"
 #include "sixstep/study/compile/compile.hpp"
-#include "text/scenario/scenario_file.hpp"
 
 namespace benchmarks {
 
@@ -42,7 +42,7 @@ class Prepared {
 
   /// Empty where the files cannot be read; a duration above zero replaces the scenario's.
   static std::optional<Prepared> of(const Case& c, double duration_s = 0.0) {
-    auto scenario = text::read_scenario(std::string(SIXSTEP_SOURCE_DIR "/data/scenarios/") + c.scenario, {});
+    auto scenario = files::read_scenario(std::string(SIXSTEP_SOURCE_DIR "/data/scenarios/") + c.scenario, {});
     if (!scenario) return std::nullopt;
     if (duration_s > 0) scenario->duration_s = duration_s;
     auto compiled = sixstep::study::compile(*scenario);

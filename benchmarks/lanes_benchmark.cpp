@@ -79,8 +79,8 @@ struct Motor {
     using namespace plant::detail;
     y.x[0] = Real(0.3);  // every segment begins at the same place of the sector
     const plant::LegsLaw<Real> law = plant::legs_law(segment.mode.legs, {}, constants.R, constants.inv_L);
-    Currents currents(constants, segment.mode, law, ShapeLine<false, Real>(segment.emf<Real>(), y.x[0]));
     const Rotor<Real> rotor(constants, segment.mode.motion);
+    Currents currents(rotor, constants, law, ShapeLine<false, Real>(segment.emf<Real>(), y.x[0]));
     Growing<Real> growing;
     growing.w[0] = y.w[0];
     growing.x[0] = y.x[0];

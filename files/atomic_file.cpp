@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "files/own_file.hpp"
-#include "text/toml/text_file.hpp"
+#include "files/text_file.hpp"
 
 namespace files {
 namespace {
@@ -67,7 +67,7 @@ std::string random_name() {
 /// Why no file may be put there, though the folder could be written. `partial`: what an interrupted run
 /// leaves.
 base::Problems refused(const Destination& to, const std::string& partial) {
-  if (text::ReadLog::has(to.path))
+  if (ReadLog::has(to.path))
     return {{.where = to.path + ":",
              .limit = "is read here: what is written would take its place",
              .cure = "name another file"}};

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "files/text_file.hpp"
 #include "sixstep/base/written.hpp"
 #include "text/escape/escape.hpp"
-#include "text/toml/text_file.hpp"
 
 namespace files {
 namespace {
@@ -38,7 +38,7 @@ bool begins_as(const Mark& mark, std::string_view text) {
 constexpr Mark text_mark{"", "# Made by sixstep "};
 
 std::string digest_words(std::string_view text) {
-  return fmt::format(", digest {}: ", base::written_hex(text::text_digest(std::string(text))));
+  return fmt::format(", digest {}: ", base::written_hex(text_digest(std::string(text))));
 }
 
 /// Below its first line the text has the digest that stands there.

@@ -41,8 +41,7 @@ std::string run_rows(const std::vector<ComparedRun>& runs) {
     const Standing verdict = standing(runs[k].outcome);
     html += fmt::format(
         "<tr><td>{}</td><th scope=\"row\">{}<small class=\"aside\">{}</small></th><td><span class=\"chip "
-        "{}\">{}</span></td>"
-        "<td>{}</td></tr>\n",
+        "{}\">{}</span></td><td>{}</td></tr>\n",
         number(k), escaped(runs[k].name), escaped(runs[k].scenario.title), verdict.css, verdict.word,
         verdict.line);
   }

@@ -168,8 +168,8 @@ std::string tolerances(const DesignStudy& s) {
   if (!s.robustness) return "";
   std::string out = fmt::format(
       "<h2>Tolerances</h2><p class=\"origin\">{} motors, the controller as designed; phase margins one "
-      "period "
-      "late</p>\n<table>{}<tbody>\n",
+      "period late</p>\n"
+      "<table>{}<tbody>\n",
       s.robustness->runs, head({"Figure", "#Nominal", "#Worst", "Where", "Chiefly, alone"}));
   for (const RobustFigure& f : s.robustness->figures) out += robust_row(f);
   for (const RobustFigure& f : s.robustness->phases) out += robust_row(f);

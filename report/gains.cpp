@@ -17,8 +17,7 @@ std::string gain_table(const LoopGains& g) {
   if (g.loop == "position")
     return fmt::format(
         "<table class=\"gains\"><tbody><tr><th scope=\"row\">gain</th><td class=\"num strong\">{} rad/s per "
-        "degree"
-        "</td></tr></tbody></table>\n",
+        "degree</td></tr></tbody></table>\n",
         plain(g.d1, 6, true));
   const auto row = [&](const char* symbol, double used, double exact) {
     std::string html =

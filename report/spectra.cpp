@@ -20,8 +20,7 @@ std::string how(const Spectra& s) {
                                                : std::string("stretch of one setpoint");
   return fmt::format(
       "<p class=\"origin\">Amplitudes over the last {}, from {} to {}: Hann window, one line every {}, from "
-      "means of the "
-      "recorded curve over {}. The mean itself is left out.</p>\n",
+      "means of the recorded curve over {}. The mean itself is left out.</p>\n",
       part, escaped(given(s.stretch.time.from, "s")), escaped(given(s.stretch.time.to, "s")),
       escaped(computed(lines.spacing_Hz, "Hz")), escaped(computed(lines.cell_s, "s")));
 }

@@ -80,8 +80,7 @@ std::string grid(const Axis& x, const Axis& y, const SvgChart& chart) {
   for (const double v : y.ticks(chart.y_tick))
     out += fmt::format(
         "<line class=\"grid\" x1=\"{1}\" x2=\"{2}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\"/><text x=\"{3}\" "
-        "y=\"{4:.1f}\" "
-        "text-anchor=\"end\">{5}</text>\n",
+        "y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n",
         y.at(v), left, width - right, left - 6, y.at(v) + 4, label(v));
   for (const double v : chart.levels)
     out += fmt::format("<line class=\"level\" x1=\"{1}\" x2=\"{2}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\"/>\n",

@@ -6,6 +6,9 @@
 #                        the sanitizers; a compiler whose -O3 agrees has not yet differed at -O1
 # check_bits.sh --renew  writes expected.txt anew from g++ -O3: after a change that is meant to change bits
 #
+# In WebAssembly text/ is compiled too, and the scenarios of tests/digest/scenarios.txt are read from their texts there:
+# the digests are those of the command line (tests/digest/cli_digests.py renews that table).
+#
 # tools/install.sh faces installs all toolchains.
 set -eu
 cd "$(dirname "$0")/.."
@@ -17,7 +20,13 @@ golden=tests/digest/expected.txt
 out=build/bits
 mkdir -p "$out"
 
-mapfile -t sources < <(find sixstep tests/digest -name '*.cpp' | LC_ALL=C sort)
+mapfile -t library < <(find sixstep -name '*.cpp' | LC_ALL=C sort)
+table=(tests/digest/main.cpp tests/digest/cases.cpp tests/digest/sessions.cpp)
+sources=("${library[@]}" "${table[@]}")
+# What reads a scenario, and what of text/ has only to compile.
+mapfile -t reader < <(find text/sources.cpp text/keys text/toml text/motor/motor_library.cpp \
+  text/scenario/{scenario_file,scenario_family,reference_file}.cpp -name '*.cpp' | LC_ALL=C sort)
+mapfile -t rest < <(find text -name '*.cpp' | LC_ALL=C sort | grep -vxF "$(printf '%s\n' "${reader[@]}")")
 # What decides about bits is what CMakeLists.txt gives the product. The rest shows that no exception is needed.
 flags=(-std=c++20 -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti -I.)
 
@@ -42,13 +51,56 @@ ask() {
   while [ "$1" != -- ]; do compile+=("$1"); shift; done
   shift
   compile+=("${flags[@]}" "${sources[@]}" -o "$file")
-  # Seconds, even in an emulator; what runs for minutes will never end.
-  if ! { "${compile[@]}" && timeout 300 "$@" "$file" >"$file.txt"; } >"$file.log" 2>&1; then
+  if "${compile[@]}" >"$file.log" 2>&1; then
+    answer "$file" "$golden" "$@" "$file"
+  else
     { echo failed; head -n 20 "$file.log"; } >"$file.answer"
-  elif python3 tests/digest/compare.py "$golden" "$file.txt" >"$file.log" 2>&1; then
+  fi
+}
+
+# answer FILE EXPECTED PROGRAM..: what the program prints, compared with a table. It takes seconds, even in an
+# emulator; what runs for minutes will never end.
+answer() {
+  local file=$1 expected=$2
+  shift 2
+  if ! timeout 300 "$@" >"$file.txt" 2>"$file.log"; then
+    { echo failed; head -n 20 "$file.log"; } >"$file.answer"
+  elif python3 tests/digest/compare.py "$expected" "$file.txt" >"$file.log" 2>&1; then
     { echo same; cat "$file.log"; } >"$file.answer"
   else
     { echo differs; cat "$file.log"; } >"$file.answer"
+  fi
+}
+
+# The third-party headers of text/ are no part of a target: only these may be seen of the host's.
+text_headers() {
+  local name
+  mkdir -p "$out/include" "$out/text"
+  for name in fmt toml++ nlohmann; do ln -sfn "/usr/include/$name" "$out/include/$name"; done
+  python3 tools/embed.py --namespace text::motors --out "$out/text/motors.hpp" data/motors/*.toml
+}
+
+# ask_wasm TABLE READER: the library once, then the table's program and the one that reads texts
+ask_wasm() {
+  local name log=$out/$1.log
+  # node 18 asks for the switch, later ones know it. A run keeps its plant and series on the stack, of which wasm-ld
+  # gives 64 KiB: too little, and an overflow there is silent.
+  local node=(node --no-warnings --experimental-wasi-unstable-preview1 tests/digest/wasi.mjs)
+  local cxx=(clang++-14 --target=wasm32-wasi "${flags[@]}") link=(-Wl,-z,stack-size=1048576)
+  local text=(-O1 -I"$out" -isystem "$out/include" -DFMT_HEADER_ONLY -DSIXSTEP_VERSION='"0"')
+  local scenarios
+  mapfile -t scenarios < <(grep -v '^#' tests/digest/scenarios.txt | cut -d' ' -f1)
+  if { text_headers && "${cxx[@]}" -O2 "${library[@]}" -nostdlib -Wl,--relocatable -o "$out/$1.o" &&
+       "${cxx[@]}" -O2 "${link[@]}" "${table[@]}" "$out/$1.o" -o "$out/$1"; } >"$log" 2>&1; then
+    answer "$out/$1" "$golden" "${node[@]}" "$out/$1"
+  else
+    { echo failed; head -n 20 "$log"; } >"$out/$1.answer"
+  fi
+  if { "${cxx[@]}" "${text[@]}" "${link[@]}" "${reader[@]}" tests/digest/read_scenarios.cpp "$out/$1.o" -o "$out/$2" &&
+       printf '%s\0' "${rest[@]}" | xargs -0 -n 1 "${cxx[@]}" "${text[@]}" -fsyntax-only; } >"$log" 2>&1; then
+    answer "$out/$2" tests/digest/scenarios.txt "${node[@]}" "$out/$2" "${scenarios[@]}"
+  else
+    { echo failed; head -n 20 "$log"; } >"$out/$2.answer"
   fi
 }
 
@@ -67,7 +119,7 @@ platform() {
     fi
   done
   while [ "$(jobs -rp | wc -l)" -ge 2 ]; do wait -n || true; done
-  ask "$name" "$@" &
+  if [ "$1" = ask_wasm ]; then ask_wasm "$name" "$2" & else ask "$name" "$@" & fi
 }
 
 native=$(uname -m)
@@ -78,15 +130,17 @@ if [ "$task" != --gate ]; then
   platform "$native clang++-14 -O1" clang++-14 clang++-14 -O1 -- env
 fi
 platform "$native clang++-14 -O3" clang++-14 clang++-14 -O3 -- env
-# node 18 asks for the switch, later ones know it. A run keeps its plant and series on the stack, of which wasm-ld
-# gives 64 KiB: too little, and an overflow there is silent.
-platform "wasm32 clang++-14 -O2 in node" \
-  "clang++-14 wasm-ld-14 /usr/include/wasm32-wasi /usr/include/wasm32-wasi/c++/v1 $wasm_runtime node" \
-  clang++-14 --target=wasm32-wasi -O2 -Wl,-z,stack-size=1048576 -- \
-  node --no-warnings --experimental-wasi-unstable-preview1 tests/digest/wasi.mjs
+rm -f "$out"/scenarios-from-*.answer
+wasm="wasm32 clang++-14 -O2 in node" wasm_text="scenarios from their text in node"
+platform "$wasm" \
+  "clang++-14 wasm-ld-14 /usr/include/wasm32-wasi /usr/include/wasm32-wasi/c++/v1 $wasm_runtime node \
+   /usr/include/fmt /usr/include/toml++ /usr/include/nlohmann" \
+  ask_wasm "${wasm_text//[^A-Za-z0-9+]/-}"
 platform "aarch64 g++ -O2 in qemu" "aarch64-linux-gnu-g++ qemu-aarch64-static" \
   aarch64-linux-gnu-g++ -O2 -static -- qemu-aarch64-static
 wait
+# Two answers of one compiler.
+if [ -e "$out/${wasm_text//[^A-Za-z0-9+]/-}.answer" ]; then platforms+=("$wasm_text"); fi
 
 same=0 other=0 left_out=0
 for words in "${platforms[@]}"; do

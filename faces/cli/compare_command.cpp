@@ -86,8 +86,8 @@ void print_table(const std::vector<Job>& jobs, const std::vector<Compared>& runs
 }  // namespace
 
 bool compares(const RunArguments& a) {
-  return a.files.size() > 1 && !a.paths.html.empty() && a.paths.files().size() == 1 && a.paths.json.empty() &&
-         a.out.empty();
+  return a.files.size() > 1 && !a.paths.of(page_option).empty() && a.paths.files().size() == 1 &&
+         !a.paths.prints() && a.out.empty();
 }
 
 base::Problems check_comparison(const RunArguments& arguments) {
@@ -100,7 +100,7 @@ base::Problems check_comparison(const RunArguments& arguments) {
 
 Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs) {
   base::Result<files::AtomicFile> file =
-      files::AtomicFile::create({arguments.paths.html, arguments.paths.force});
+      files::AtomicFile::create({arguments.paths.of(page_option), arguments.paths.force});
   if (!file) return refused(file.problems());
   std::vector<Compared> runs = on_one_grid(jobs);
   {

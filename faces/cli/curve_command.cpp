@@ -12,6 +12,7 @@
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
+#include "files/scenario_on_disk.hpp"
 #include "files/trace/csv_writer.hpp"
 #include "report/curve_page.hpp"
 #include "sixstep/study/check/check.hpp"
@@ -22,7 +23,6 @@
 #include "text/results/curve_columns.hpp"
 #include "text/results/curve_json.hpp"
 #include "text/results/curve_table.hpp"
-#include "text/scenario/scenario_file.hpp"
 
 namespace cli {
 namespace {
@@ -110,7 +110,7 @@ std::string option_of(std::string member) {
 }
 
 base::Result<analysis::CurveRequest> request_of(const CurveArguments& a) {
-  const base::Result<design::Sheet> sheet = text::read_sheet(a.motor, a.data_dir);
+  const base::Result<design::Sheet> sheet = files::read_sheet(a.motor, a.data_dir);
   if (!sheet) return sheet.problems();
   base::Result<design::MotorModel> motor = design::motor_model(*sheet);
   if (!motor) {

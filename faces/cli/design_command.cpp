@@ -14,6 +14,7 @@
 #include "faces/cli/written_twice.hpp"
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
+#include "files/scenario_on_disk.hpp"
 #include "files/trace/model_export.hpp"
 #include "report/design_page.hpp"
 #include "sixstep/analysis/verify/design_study.hpp"
@@ -24,7 +25,6 @@
 #include "text/keys/key_advice.hpp"
 #include "text/results/design_json.hpp"
 #include "text/results/design_text.hpp"
-#include "text/scenario/scenario_file.hpp"
 #include "text/scenario/scenario_text.hpp"
 
 namespace cli {
@@ -140,7 +140,7 @@ base::Problems write(const analysis::DesignStudy& s, const DesignArguments& a, D
 /// The scenario that --scenario names.
 std::optional<study::Scenario> board_of(const DesignArguments& a, base::Problems& found) {
   if (a.scenario.empty()) return std::nullopt;
-  const base::Result<study::Scenario> scenario = text::read_scenario(a.scenario, {.data_dir = a.data_dir});
+  const base::Result<study::Scenario> scenario = files::read_scenario(a.scenario, {.data_dir = a.data_dir});
   if (scenario) return *scenario;
   found = scenario.problems();
   return std::nullopt;
@@ -166,7 +166,7 @@ base::Result<analysis::DesignSubject> subject_of(const DesignArguments& a,
     found.push_back({"MOTOR", "", "is missing", "name a motor or its file, or a scenario with --scenario"});
     return found;
   }
-  const base::Result<design::Sheet> sheet = text::read_sheet(a.motor, a.data_dir);
+  const base::Result<design::Sheet> sheet = files::read_sheet(a.motor, a.data_dir);
   if (sheet)
     subject.sheet = *sheet;
   else

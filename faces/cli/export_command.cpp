@@ -96,12 +96,12 @@ design::OperatingRange range_of(const ExportArguments& a, base::Problems& proble
 base::Result<study::Scenario> scenario_of(const ExportArguments& a) {
   base::Problems problems;
   const std::optional<study::Arithmetic> arithmetic = arithmetic_of(a.arithmetic, problems);
-  const text::ReadOptions options = read_options(a.data_dir, a.sets, problems);
+  const files::ReadOptions options = read_options(a.data_dir, a.sets, problems);
   if (a.despite && a.despite->find_first_not_of(" \t\r\n") == std::string::npos)
     problems.push_back({"--despite", "", "gives no reason",
                         "say why the header is written all the same: whoever flashes it reads that"});
   if (!problems.empty()) return problems;
-  base::Result<study::Scenario> scenario = text::read_scenario(a.file, options);
+  base::Result<study::Scenario> scenario = files::read_scenario(a.file, options);
   if (!scenario) return scenario;
   if (arithmetic) scenario->control.arithmetic = *arithmetic;
   const study::Arithmetic number = scenario->control.arithmetic;

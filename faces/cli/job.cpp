@@ -15,7 +15,7 @@ std::string Job::name() const { return std::filesystem::path(origin_.scenario).s
 
 void Job::run(const std::function<void(double t_s)>& reached) {
   study::Listeners listeners;
-  outputs_.listen(scenario_, listeners);
+  outputs_.listen(listeners);
   listeners.keep_going = [&](double t_s) {
     reached(t_s);
     interrupted_ = interrupted_ || cli::interrupted();
@@ -33,13 +33,12 @@ void Job::run(const std::function<void(double t_s)>& reached) {
   reader_gone_ = broken_ && !interrupted_ && problems_.empty();
 }
 
-std::string Job::report_told() const {
-  return outputs_.rows_told().empty() ? "" : fmt::format("{}: {}\n", name(), outputs_.rows_told());
+std::string Job::left_out() const {
+  return outputs_.left_out().empty() ? "" : fmt::format("{}: {}\n", name(), outputs_.left_out());
 }
 
-std::string Job::report_foretold() const {
-  const std::string told = reports_ ? report::rows_foretold(scenario_) : std::string();
-  return told.empty() ? "" : fmt::format("{}: {}\n", name(), told);
+std::string Job::foretold() const {
+  return foretold_.empty() ? "" : fmt::format("{}: {}\n", name(), foretold_);
 }
 
 std::string Job::cut_short() const {

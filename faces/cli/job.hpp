@@ -17,7 +17,7 @@ class Job {
 
   /// Opens every output; Problems mean that nothing was written and nothing must run.
   base::Problems prepare(const OutputPaths& paths) {
-    reports_ = !paths.html.empty();
+    foretold_ = Outputs::foretold(paths, scenario_);
     return outputs_.open(paths, scenario_, origin_);
   }
 
@@ -30,12 +30,12 @@ class Job {
   const study::Outcome* outcome() const { return outcome_ ? &*outcome_ : nullptr; }
   /// It ran to its end, or to a fault.
   bool finished() const { return outcome_ && !interrupted_ && !broken_; }
-  /// The path of its report, or of what a run that was cut short left of one; empty where there is none.
-  const std::string& report() const { return outputs_.report(); }
+  /// The path of its page, or of what a run that was cut short left of one; empty where there is none.
+  const std::string& page() const { return outputs_.page(); }
   const base::Problems& problems() const { return problems_; }
-  /// Where its events are more than its report keeps: said before it runs, about, and after it. Empty else.
-  std::string report_foretold() const;
-  std::string report_told() const;
+  /// Where an output does not hold all of it: said before it runs, about, and after it. Empty else.
+  std::string foretold() const;
+  std::string left_out() const;
   /// Of a run that was ended before its time: when, and what stands where. Empty else.
   std::string cut_short() const;
 
@@ -45,7 +45,7 @@ class Job {
   Outputs outputs_;
   std::optional<study::Outcome> outcome_;
   base::Problems problems_;
-  bool reports_ = false;
+  std::string foretold_;
   bool interrupted_ = false;
   bool broken_ = false;       // an output could be written no longer
   bool reader_gone_ = false;  // a pipe was closed at its other end

@@ -21,8 +21,8 @@
 #include "faces/cli/run_command.hpp"
 #include "faces/cli/schema_command.hpp"
 #include "faces/cli/terminal.hpp"
+#include "files/text_file.hpp"
 #include "text/escape/escape.hpp"
-#include "text/toml/text_file.hpp"
 
 namespace cli {
 namespace {
@@ -59,7 +59,7 @@ Exit run_program(int count, const char* const* words) {
   } catch (const CLI::ParseError& error) {
     return not_called(app, error, count > 1 ? words[count - 1] : "");
   }
-  const text::ReadLog inputs;  // no output takes the place of an input
+  const files::ReadLog inputs;  // no output takes the place of an input
   const auto chosen =
       std::find_if(std::begin(verbs), std::end(verbs), [](const Verb& v) { return v.app->parsed(); });
   return chosen->call(retyped(count, words));

@@ -9,11 +9,11 @@
 
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/terminal.hpp"
+#include "files/scenario_on_disk.hpp"
 #include "text/escape/escape.hpp"
 #include "text/motor/motor_library.hpp"
 #include "text/motor/motor_template.hpp"
 #include "text/motor/motor_text.hpp"
-#include "text/scenario/scenario_file.hpp"
 
 namespace cli {
 namespace {
@@ -32,7 +32,7 @@ struct Checked {
 
 /// Nothing where the sheet cannot be read or judged, which has been told.
 std::optional<Checked> checked(const MotorArguments& a) {
-  base::Result<design::Sheet> sheet = text::read_sheet(a.name, a.data_dir);
+  base::Result<design::Sheet> sheet = files::read_sheet(a.name, a.data_dir);
   if (!sheet) {
     complain(sheet.problems());
     return {};
@@ -50,7 +50,7 @@ Exit list_motors(const MotorArguments& a) {
   std::size_t width = 0;
   std::vector<text::NamedSheet> motors;
   for (const std::string& name : text::built_in_motors()) {
-    const base::Result<design::Sheet> sheet = text::read_sheet(name);
+    const base::Result<design::Sheet> sheet = files::read_sheet(name);
     if (!sheet) {
       complain(sheet.problems());
       return Exit::internal;

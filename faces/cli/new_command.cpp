@@ -12,11 +12,11 @@
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/spec_words.hpp"
 #include "faces/cli/terminal.hpp"
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/analysis/verify/first_scenario.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
 #include "text/scenario/json_schema.hpp"
-#include "text/scenario/scenario_file.hpp"
 #include "text/scenario/starter_scenario.hpp"
 
 namespace cli {
@@ -38,7 +38,7 @@ base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::stri
   constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[3], study::mode_choices[2],
                                                             study::mode_choices[4], study::mode_choices[1]};
   choose("--mode", a.mode, modes, spec.mode, found);
-  const base::Result<design::Sheet> sheet = text::read_sheet(a.motor, a.data_dir);
+  const base::Result<design::Sheet> sheet = files::read_sheet(a.motor, a.data_dir);
   if (!sheet) found.insert(found.end(), sheet.problems().begin(), sheet.problems().end());
   if (!found.empty()) return found;
   spec.motor = motor_beside(a.motor, path);

@@ -1,102 +1,116 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/cli/outputs.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <utility>
 
-#include "faces/cli/keep.hpp"
-#include "faces/cli/report_page.hpp"
 #include "faces/cli/terminal.hpp"
-#include "sixstep/study/measure/columns.hpp"
-#include "text/results/json_summary.hpp"
 
 namespace cli {
+namespace {
+
+bool is_stdout(const Format& format, const std::string& path) { return format.printed && path == "-"; }
+
+files::Sink stdout_sink(const Format& format) {
+  files::Sink sink;
+  sink.finish = [printed = format.printed](const files::RunStory& story, bool whole) {
+    if (whole) print(printed(story));
+    return base::Problems{};
+  };
+  return sink;
+}
+
+/// One function for all that are not empty; itself empty where none is.
+template <class... Arguments>
+std::function<void(Arguments...)> one_of_all(std::vector<std::function<void(Arguments...)>> all) {
+  std::erase_if(all, [](const auto& function) { return !function; });
+  if (all.size() < 2) return all.empty() ? nullptr : all.front();
+  return [all = std::move(all)](Arguments... arguments) {
+    for (const auto& function : all) function(arguments...);
+  };
+}
+
+}  // namespace
+
+const std::string& OutputPaths::of(std::string_view option) const {
+  const auto found = std::ranges::find(formats(), option, &Format::option);
+  return of_formats[static_cast<std::size_t>(found - formats().begin())];
+}
 
 std::vector<std::pair<std::string, std::string>> OutputPaths::files() const {
   std::vector<std::pair<std::string, std::string>> wanted;
-  for (const auto& [option, path] : {std::pair{"--csv", &csv},
-                                     {"--mat", &mat},
-                                     {"--mat73", &mat73},
-                                     {"--vcd", &vcd},
-                                     {"--json", &json},
-                                     {"--html", &html}})
-    if (!path->empty() && *path != "-") wanted.emplace_back(option, *path);
+  for (std::size_t n = 0; n < of_formats.size(); ++n)
+    if (!of_formats[n].empty() && !is_stdout(formats()[n], of_formats[n]))
+      wanted.emplace_back(formats()[n].option, of_formats[n]);
   return wanted;
+}
+
+bool OutputPaths::prints() const {
+  for (std::size_t n = 0; n < of_formats.size(); ++n)
+    if (is_stdout(formats()[n], of_formats[n])) return true;
+  return false;
 }
 
 base::Problems Outputs::open(const OutputPaths& paths, const study::Scenario& scenario,
                              const files::TraceOrigin& origin) {
-  paths_ = paths;
-  const auto to = [&](const std::string& path) { return files::Destination(path, paths.force); };
   base::Problems problems;
-  base::Result<std::vector<study::Column>> columns = study::record_columns(scenario);
-  if (!columns) return columns.problems();
-  if (!paths.csv.empty())
-    keep(csv_, files::CsvWriter::create(to(paths.csv), *columns, files::origin_lines(origin)), problems);
-  if (!paths.mat.empty())
-    keep(mat_, files::MatWriter::create(to(paths.mat), *columns, files::MatVersion::v5, origin), problems);
-  if (!paths.mat73.empty())
-    keep(mat73_, files::MatWriter::create(to(paths.mat73), *columns, files::MatVersion::v7_3, origin),
-         problems);
-  if (!paths.vcd.empty())
-    keep(vcd_, files::VcdWriter::create(to(paths.vcd), study::logic_signals(), origin), problems);
-  if (!paths.json.empty() && paths.json != "-")
-    keep(json_, files::AtomicFile::create(to(paths.json)), problems);
-  if (!paths.html.empty()) keep(html_, files::AtomicFile::create(to(paths.html)), problems);
+  for (std::size_t n = 0; n < paths.of_formats.size(); ++n) {
+    const Format& format = formats()[n];
+    const std::string& path = paths.of_formats[n];
+    if (path.empty()) continue;
+    base::Result<files::Sink> sink =
+        is_stdout(format, path) ? stdout_sink(format)
+                                : format.open(files::Destination(path, paths.force), scenario, origin);
+    if (sink)
+      open_.push_back({format.option, is_stdout(format, path) ? "" : path, std::move(*sink)});
+    else
+      problems.insert(problems.end(), sink.problems().begin(), sink.problems().end());
+  }
   return problems;
 }
 
-void Outputs::listen(const study::Scenario& scenario, study::Listeners& listeners) {
-  if (csv_ || mat_ || mat73_)
-    listeners.on_record = [this](study::Row row) {
-      if (csv_) csv_->row(row);
-      if (mat_) mat_->row(row);
-      if (mat73_) mat73_->row(row);
-    };
-  if (vcd_)
-    listeners.on_logic = [this](std::int64_t ps, std::span<const std::uint32_t> row) {
-      vcd_->change(ps, row);
-    };
-  if (!html_) return;
-  events_.emplace(scenario);
-  listeners.on_event = [this](study::Row row) { events_->add(row); };
+void Outputs::listen(study::Listeners& listeners) const {
+  std::vector<std::function<void(study::Row)>> on_record, on_event;
+  std::vector<study::LogicSink> on_logic;
+  for (const Open& output : open_) {
+    on_record.push_back(output.sink.on_record);
+    on_event.push_back(output.sink.on_event);
+    on_logic.push_back(output.sink.on_logic);
+  }
+  listeners.on_record = one_of_all(std::move(on_record));
+  listeners.on_event = one_of_all(std::move(on_event));
+  listeners.on_logic = one_of_all(std::move(on_logic));
+}
+
+std::string Outputs::foretold(const OutputPaths& paths, const study::Scenario& scenario) {
+  std::string text;
+  for (std::size_t n = 0; n < paths.of_formats.size(); ++n)
+    if (formats()[n].foretold && !paths.of_formats[n].empty()) text += formats()[n].foretold(scenario);
+  return text;
 }
 
 bool Outputs::failed() const {
-  return (csv_ && csv_->failed()) || (mat_ && mat_->failed()) || (mat73_ && mat73_->failed()) ||
-         (vcd_ && vcd_->failed());
+  return std::ranges::any_of(open_,
+                             [](const Open& output) { return output.sink.failed && output.sink.failed(); });
 }
 
-/// Put in place and closed: under which name, if so. A file that was not put in place takes its temporary
-/// name with it.
-template <class File, class... Facts>
-std::string Outputs::put(std::optional<File>& file, const std::string& path, bool whole, Facts... facts) {
-  if (!file) return {};
-  const base::Problems problems = whole ? file->commit(facts...) : file->commit_partial(facts...);
-  problems_.insert(problems_.end(), problems.begin(), problems.end());
-  file.reset();
-  if (!problems.empty()) return {};
-  // What is no regular file has no such name.
-  std::string partial = files::partial_name(path);
-  if (whole || !std::filesystem::exists(partial)) return path;
-  partial_files_.push_back(partial);
-  return partial;
-}
-
-base::Problems Outputs::publish(const RunStory& s, bool whole) {
-  put(csv_, paths_.csv, whole);
-  put(mat_, paths_.mat, whole, s.outcome.digest);
-  put(mat73_, paths_.mat73, whole, s.outcome.digest);
-  put(vcd_, paths_.vcd, whole);
-  if (json_) json_->write(text::json_summary(s.scenario, s.outcome));
-  put(json_, paths_.json, whole);
-  if (html_) rows_told_ = report::rows_told(events_->trace());
-  if (html_)
-    html_->write(report_page({s.scenario, s.outcome, events_->trace(), s.origin.text, s.origin.command}));
-  report_ = put(html_, paths_.html, whole);
-  if (paths_.json == "-" && whole) print(text::json_summary(s.scenario, s.outcome));
-  events_.reset();
-  return std::exchange(problems_, {});
+base::Problems Outputs::publish(const files::RunStory& story, bool whole) {
+  base::Problems problems;
+  for (const Open& output : open_) {
+    const base::Problems failed = output.sink.finish(story, whole);
+    problems.insert(problems.end(), failed.begin(), failed.end());
+    if (output.sink.left_out) left_out_ += output.sink.left_out();
+    if (!failed.empty() || output.path.empty()) continue;
+    // What is no regular file has no such name.
+    const std::string partial = files::partial_name(output.path);
+    const bool is_partial = !whole && std::filesystem::exists(partial);
+    if (is_partial) partial_files_.push_back(partial);
+    if (output.option == page_option) page_ = is_partial ? partial : output.path;
+  }
+  open_.clear();
+  return problems;
 }
 
 }  // namespace cli

@@ -1,32 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of one run: opened before it begins, filled while it goes on, put in place at its end.
+// The outputs of one run in every format that was asked for: opened before it begins, filled while it goes
+// on, put in place at its end.
 #pragma once
-#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "faces/cli/formats.hpp"
 #include "faces/cli/rooms.hpp"
-#include "files/trace/csv_writer.hpp"
-#include "files/trace/mat_writer.hpp"
-#include "files/trace/vcd_writer.hpp"
-#include "report/kept_rows.hpp"
-#include "sixstep/study/run/run.hpp"
 
 namespace cli {
 
 struct OutputPaths {
-  std::string csv, mat, mat73, vcd, json, html;  ///< empty: not wanted; json "-": standard output
-  bool force = false;                            ///< over whatever is there
+  std::vector<std::string> of_formats = std::vector<std::string>(formats().size());  ///< empty: not wanted
+  bool force = false;  ///< over whatever is there
 
+  const std::string& of(std::string_view option) const;
   /// Each that is wanted with its option, standard output left out.
   std::vector<std::pair<std::string, std::string>> files() const;
-};
-
-/// A run and what it came to, as the summary and the report tell it.
-struct RunStory {
-  const study::Scenario& scenario;
-  const study::Outcome& outcome;
-  const files::TraceOrigin& origin;
+  /// Standard output is that of a format alone.
+  bool prints() const;
+  bool any() const { return prints() || !files().empty(); }
 };
 
 class Outputs {
@@ -35,36 +30,33 @@ class Outputs {
   base::Problems open(const OutputPaths& paths, const study::Scenario& scenario,
                       const files::TraceOrigin& origin);
 
-  /// The scenario must live as long as the run.
-  void listen(const study::Scenario& scenario, study::Listeners& listeners);
+  void listen(study::Listeners& listeners) const;
 
-  /// What the report has of the run, where it has not all; known once it is published.
-  const std::string& rows_told() const { return rows_told_; }
+  /// What of the run will not fit into one of them, and what did not, once it is published.
+  static std::string foretold(const OutputPaths& paths, const study::Scenario& scenario);
+  const std::string& left_out() const { return left_out_; }
 
   /// One of them can be written no longer: a disk is full, or the reader of a pipe has gone.
   bool failed() const;
 
   /// A run that was cut short leaves NAME.partial.EXT of each, and nothing on standard output.
-  base::Problems publish(const RunStory& story, bool whole);
+  base::Problems publish(const files::RunStory& story, bool whole);
 
-  /// Where the report stands in the end; empty where there is none.
-  const std::string& report() const { return report_; }
+  /// Where the page for people stands in the end; empty where there is none.
+  const std::string& page() const { return page_; }
 
   /// The names under which a cut run's files stand.
   const std::vector<std::string>& partial_files() const { return partial_files_; }
 
  private:
-  template <class File, class... Facts>
-  std::string put(std::optional<File>& file, const std::string& path, bool whole, Facts... facts);
+  struct Open {
+    std::string_view option;
+    std::string path;
+    files::Sink sink;
+  };
 
-  OutputPaths paths_;
-  std::optional<files::CsvWriter> csv_;
-  std::optional<files::MatWriter> mat_, mat73_;
-  std::optional<files::VcdWriter> vcd_;
-  std::optional<files::AtomicFile> json_, html_;
-  std::optional<report::KeptRows> events_;  // for the report only
-  base::Problems problems_;
-  std::string report_, rows_told_;
+  std::vector<Open> open_;
+  std::string page_, left_out_;
   std::vector<std::string> partial_files_;
 };
 

@@ -29,14 +29,12 @@ void append(base::Problems& to, const base::Problems& more) { to.insert(to.end()
 
 OutputPaths paths_of(const RunArguments& arguments, const Job& job) {
   if (arguments.out.empty()) return arguments.paths;
+  OutputPaths paths;
+  paths.force = arguments.paths.force;
   const std::string base = (fs::path(arguments.out) / job.name()).string();
-  return {.csv = base + ".csv",
-          .mat = {},
-          .mat73 = {},
-          .vcd = {},
-          .json = base + ".json",
-          .html = base + ".html",
-          .force = arguments.paths.force};
+  for (std::size_t n = 0; n < formats().size(); ++n)
+    if (!formats()[n].in_folder.empty()) paths.of_formats[n] = base + std::string(formats()[n].in_folder);
+  return paths;
 }
 
 /// Opens all outputs before anything runs. The index is the last to be written and proves the folder now.
@@ -61,7 +59,7 @@ base::Problems prepare(const RunArguments& arguments, std::vector<Job>& jobs,
 
 void run_all(std::vector<Job>& jobs, const RunArguments& arguments) {
   for (const Job& job : jobs)
-    if (!arguments.quiet) print(job.report_foretold(), stderr);
+    if (!arguments.quiet) print(job.foretold(), stderr);
   Work work;
   for (const Job& job : jobs) work.seconds.push_back(job.scenario().duration_s);
   Progress progress(std::move(work), arguments.quiet);
@@ -78,7 +76,7 @@ base::Problems write_index(const RunArguments& arguments, const std::vector<Job>
   std::size_t finished = 0;
   for (const Job& job : jobs) {
     entries.push_back(
-        {job.scenario().title, fs::path(job.report()).filename().string(), job.outcome(), job.finished()});
+        {job.scenario().title, fs::path(job.page()).filename().string(), job.outcome(), job.finished()});
     finished += job.finished() ? 1 : 0;
   }
   index.write(report_index(entries, arguments.command));
@@ -95,7 +93,7 @@ void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
   std::vector<text::TableEntry> entries;
   for (const Job& job : jobs)  // what was cut short has met or missed nothing yet
     if (job.finished()) entries.push_back({job.name(), job.outcome()});
-  std::FILE* to = arguments.paths.json == "-" ? stderr : stdout;  // standard output is the JSON's alone
+  std::FILE* to = arguments.paths.prints() ? stderr : stdout;  // standard output is that format's alone
   if (entries.empty()) return;
   std::string text = text::verdict_table(entries, may_colour(to));
   // Of runs that were cut short or never began no sum is drawn.
@@ -111,7 +109,7 @@ Exit tell(const std::vector<Job>& jobs, const RunArguments& arguments,
     if (!interrupted()) exit = graver(exit, job.exit_code());
     complain(job.problems());
     print(job.cut_short(), stderr);
-    if (!arguments.quiet) print(job.report_told(), stderr);
+    if (!arguments.quiet) print(job.left_out(), stderr);
   }
   if (!arguments.quiet) print_table(jobs, arguments);
   if (index) {
@@ -152,15 +150,22 @@ Exit run_command(const RunArguments& arguments) {
   return run_jobs(arguments, read);
 }
 
+/// "NAME.csv, NAME.json, .."
+std::string names_in_folder() {
+  std::string text;
+  for (const Format& format : formats())
+    if (!format.in_folder.empty())
+      text += fmt::format("{}NAME{}", text.empty() ? "" : ", ", format.in_folder);
+  return text;
+}
+
 void declare_options(CLI::App& run, RunArguments& a) {
   run.add_option("FILE", a.files, "scenario files")->required();
-  run.add_option("--out", a.out, "folder for NAME.csv, NAME.json, NAME.html of each scenario and index.html");
-  run.add_option("--csv", a.paths.csv, "write the recorded trace");
-  run.add_option("--mat", a.paths.mat, "write the trace for MATLAB, Octave and scipy: MAT 5");
-  run.add_option("--mat73", a.paths.mat73, "write the trace as MAT 7.3, which is HDF5");
-  run.add_option("--vcd", a.paths.vcd, "write gates, Hall lines, timer and faults for a waveform viewer");
-  run.add_option("--json", a.paths.json, "write verdicts and figures; - for standard output");
-  run.add_option("--html", a.paths.html, "write the report; of several files, one that compares them");
+  run.add_option("--out", a.out,
+                 fmt::format("folder for {} of each scenario and index.html", names_in_folder()));
+  for (std::size_t n = 0; n < formats().size(); ++n)
+    run.add_option(std::string(formats()[n].option), a.paths.of_formats[n],
+                   std::string(formats()[n].meaning));
   take_force(run, a.paths.force);
   take_sets(run, a.sets);
   take_data(run, a.data_dir);

@@ -10,9 +10,9 @@
 #include "faces/cli/compare_command.hpp"
 #include "faces/cli/settings.hpp"
 #include "faces/cli/written_twice.hpp"
+#include "files/scenario_on_disk.hpp"
+#include "files/text_file.hpp"
 #include "sixstep/study/scenario/spread.hpp"
-#include "text/scenario/scenario_file.hpp"
-#include "text/toml/text_file.hpp"
 
 namespace cli {
 namespace {
@@ -22,16 +22,16 @@ void append(base::Problems& to, const base::Problems& more) { to.insert(to.end()
 std::string place(const std::string& file) { return fmt::format("{}:", file); }
 
 /// Of what is read for a scenario and of what the command line sets in it.
-std::uint64_t inputs_digest(const text::ReadLog& log, const RunArguments& a) {
+std::uint64_t inputs_digest(const files::ReadLog& log, const RunArguments& a) {
   std::uint64_t digest = log.digest();
-  for (const std::string& set : a.sets) digest = text::text_digest(set, digest);
-  return a.drive ? text::text_digest(fmt::format("seed {} drive {}", a.seed, *a.drive), digest) : digest;
+  for (const std::string& set : a.sets) digest = files::text_digest(set, digest);
+  return a.drive ? files::text_digest(fmt::format("seed {} drive {}", a.seed, *a.drive), digest) : digest;
 }
 
 std::optional<Job> read_job(const std::string& file, const RunArguments& arguments,
-                            const text::ReadOptions& options, JobsRead& into) {
-  const text::ReadLog log;
-  base::Result<study::Scenario> scenario = text::read_scenario(file, options);
+                            const files::ReadOptions& options, JobsRead& into) {
+  const files::ReadLog log;
+  base::Result<study::Scenario> scenario = files::read_scenario(file, options);
   into.files.insert(into.files.end(), log.paths().begin(), log.paths().end());
   if (!scenario) {
     append(into.problems, scenario.problems());
@@ -74,12 +74,12 @@ base::Problems same_outputs(const RunArguments& arguments) {
 
 base::Problems contradictions(const RunArguments& arguments) {
   base::Problems problems;
-  const bool single = !arguments.paths.files().empty() || !arguments.paths.json.empty();
+  const bool single = arguments.paths.any();
   if (compares(arguments))
     append(problems, check_comparison(arguments));
   else if (single && (arguments.files.size() > 1 || !arguments.out.empty()))
     problems.push_back(
-        {.where = "--csv, --mat, --mat73, --vcd, --json, --html",
+        {.where = all_options(),
          .limit = "name the outputs of one scenario",
          .cure = "with several files or --out use --out DIR alone; --html alone compares the files"});
   if (arguments.runs > 0 && (single || !arguments.out.empty()))
@@ -92,7 +92,7 @@ base::Problems contradictions(const RunArguments& arguments) {
 
 JobsRead read_jobs(const RunArguments& arguments) {
   JobsRead read;
-  const text::ReadOptions options = read_options(arguments.data_dir, arguments.sets, read.problems);
+  const files::ReadOptions options = read_options(arguments.data_dir, arguments.sets, read.problems);
   if (!read.problems.empty()) return read;
   for (const std::string& file : arguments.files)
     if (std::optional<Job> job = read_job(file, arguments, options, read))

@@ -29,7 +29,7 @@ class Interrupter {
   }};
 };
 
-Exit exit_of(const batch::Series& series) {
+Exit exit_of(const analysis::Series& series) {
   Exit exit = series.passed == series.runs ? Exit::ok : Exit::failed;
   if (!series.refused.empty()) exit = graver(exit, Exit::bad_input);
   if (!series.faults.empty()) exit = graver(exit, Exit::fault);
@@ -45,7 +45,7 @@ Exit series_command(const RunArguments& arguments, const std::vector<Job>& jobs)
   for (const Job& job : jobs) {
     std::optional<Progress> progress;
     progress.emplace(Work{.seconds = {}, .pieces = arguments.runs}, arguments.quiet);
-    const batch::Series series = batch::monte_carlo(
+    const analysis::Series series = batch::monte_carlo(
         job.scenario(), {.runs = arguments.runs,
                          .seed = arguments.seed,
                          .jobs = arguments.jobs,

@@ -5,9 +5,9 @@
 
 namespace cli {
 
-text::ReadOptions read_options(const std::string& data_dir, const std::vector<std::string>& sets,
-                               base::Problems& problems) {
-  text::ReadOptions options{.data_dir = data_dir, .overrides = {}};
+files::ReadOptions read_options(const std::string& data_dir, const std::vector<std::string>& sets,
+                                base::Problems& problems) {
+  files::ReadOptions options{.data_dir = data_dir, .overrides = {}};
   for (const std::string& set : sets) {
     const std::size_t cut = set.find('=');
     if (cut == std::string::npos || cut == 0)

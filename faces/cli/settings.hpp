@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "faces/cli/rooms.hpp"
-#include "text/scenario/scenario_file.hpp"
+#include "files/scenario_on_disk.hpp"
 
 namespace cli {
 
 /// "--set table.key=value" for each word; what is none is a Problem.
-text::ReadOptions read_options(const std::string& data_dir, const std::vector<std::string>& sets,
-                               base::Problems& problems);
+files::ReadOptions read_options(const std::string& data_dir, const std::vector<std::string>& sets,
+                                base::Problems& problems);
 
 }  // namespace cli

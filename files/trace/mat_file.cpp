@@ -24,31 +24,32 @@ std::vector<std::uint16_t> utf16(const std::string& text) {
   return units;
 }
 
-matvar_t* text_variable(const char* name, const std::string& words) {
-  std::vector<std::uint16_t> units = utf16(words);
-  std::size_t size[] = {units.empty() ? std::size_t{0} : std::size_t{1}, units.size()};
-  return Mat_VarCreate(name, MAT_C_CHAR, MAT_T_UTF16, 2, size, units.data(), 0);
-}
-
 }  // namespace
 
-MatFile::MatFile(const std::string& path, MatVersion version)
-    : file_(Mat_CreateVer(path.c_str(),
-                          version == MatVersion::v5 ? "MATLAB 5.0 MAT-file, sixstep " SIXSTEP_VERSION
-                                                    : "MATLAB 7.3 MAT-file, sixstep " SIXSTEP_VERSION,
-                          version == MatVersion::v5 ? MAT_FT_MAT5 : MAT_FT_MAT73),
-            &Mat_Close),
+MatFile::MatFile(const Matio& library, const std::string& path, MatVersion version)
+    : matio_(library),
+      file_(matio_.CreateVer(path.c_str(),
+                             version == MatVersion::v5 ? "MATLAB 5.0 MAT-file, sixstep " SIXSTEP_VERSION
+                                                       : "MATLAB 7.3 MAT-file, sixstep " SIXSTEP_VERSION,
+                             version == MatVersion::v5 ? MAT_FT_MAT5 : MAT_FT_MAT73),
+            matio_.Close),
       good_(file_ != nullptr) {}
 
+matvar_t* MatFile::text_variable(const char* name, const std::string& words) const {
+  std::vector<std::uint16_t> units = utf16(words);
+  std::size_t size[] = {units.empty() ? std::size_t{0} : std::size_t{1}, units.size()};
+  return matio_.VarCreate(name, MAT_C_CHAR, MAT_T_UTF16, 2, size, units.data(), 0);
+}
+
 void MatFile::put(matvar_t* variable) {
-  good_ = good_ && variable && Mat_VarWrite(file_.get(), variable, MAT_COMPRESSION_NONE) == 0;
-  if (variable) Mat_VarFree(variable);
+  good_ = good_ && variable && matio_.VarWrite(file_.get(), variable, MAT_COMPRESSION_NONE) == 0;
+  if (variable) matio_.VarFree(variable);
 }
 
 void MatFile::numbers(const std::string& name, std::vector<double> values, std::size_t rows,
                       std::size_t columns) {
   std::size_t size[] = {rows, columns};
-  put(Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size, values.data(), 0));
+  put(matio_.VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size, values.data(), 0));
 }
 
 void MatFile::text(const std::string& name, const std::string& words) {
@@ -61,12 +62,12 @@ void MatFile::texts(const std::string& name, const std::vector<std::pair<std::st
   for (const auto& field : fields) names.push_back(field.first.c_str());
   std::size_t size[] = {1, 1};
   matvar_t* structure =
-      Mat_VarCreateStruct(name.c_str(), 2, size, names.data(), static_cast<unsigned>(names.size()));
+      matio_.VarCreateStruct(name.c_str(), 2, size, names.data(), static_cast<unsigned>(names.size()));
   good_ = good_ && structure;
   if (!structure) return;
   // What is put into the structure belongs to it, and goes with it.
   for (const auto& [key, words] : fields)
-    Mat_VarSetStructFieldByName(structure, key.c_str(), 0, text_variable(nullptr, words));
+    matio_.VarSetStructFieldByName(structure, key.c_str(), 0, text_variable(nullptr, words));
   put(structure);
 }
 
@@ -75,13 +76,13 @@ void MatFile::append(const std::string& column, std::span<const double> values) 
   // The library only reads what it is told not to own.
   void* data = const_cast<double*>(values.data());
   matvar_t* piece =
-      Mat_VarCreate(column.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size, data, MAT_F_DONT_COPY_DATA);
-  good_ = good_ && piece && Mat_VarWriteAppend(file_.get(), piece, MAT_COMPRESSION_NONE, 1) == 0;
-  if (piece) Mat_VarFree(piece);
+      matio_.VarCreate(column.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size, data, MAT_F_DONT_COPY_DATA);
+  good_ = good_ && piece && matio_.VarWriteAppend(file_.get(), piece, MAT_COMPRESSION_NONE, 1) == 0;
+  if (piece) matio_.VarFree(piece);
 }
 
 bool MatFile::close() {
-  const bool closed = file_ && Mat_Close(file_.release()) == 0;
+  const bool closed = file_ && matio_.Close(file_.release()) == 0;
   return std::exchange(good_, false) && closed;
 }
 

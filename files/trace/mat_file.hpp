@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Variables in a MAT file, written by libmatio.
 #pragma once
-#include <matio.h>
-
 #include <memory>
 #include <span>
 #include <string>
@@ -10,13 +8,14 @@
 #include <vector>
 
 #include "files/trace/mat_version.hpp"
+#include "files/trace/matio.hpp"
 
 namespace files {
 
 /// Writes one variable after the other; remembers whether all went well.
 class MatFile {
  public:
-  MatFile(const std::string& path, MatVersion version);
+  MatFile(const Matio& library, const std::string& path, MatVersion version);
 
   /// Columns one after the other, as MATLAB has them.
   void numbers(const std::string& name, std::vector<double> values, std::size_t rows, std::size_t columns);
@@ -31,7 +30,10 @@ class MatFile {
 
  private:
   void put(matvar_t* variable);
-  std::unique_ptr<mat_t, int (*)(mat_t*)> file_;
+  matvar_t* text_variable(const char* name, const std::string& words) const;
+
+  const Matio& matio_;
+  std::unique_ptr<mat_t, decltype(Matio::Close)> file_;
   bool good_;
 };
 

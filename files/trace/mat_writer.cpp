@@ -6,10 +6,10 @@
 #include <array>
 #include <cerrno>
 
+#include "files/text_file.hpp"
 #include "files/trace/mat_file.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/measure/trace.hpp"
-#include "text/toml/text_file.hpp"
 
 namespace files {
 namespace {
@@ -43,11 +43,17 @@ std::string_view bytes_of(std::span<const double> numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};
 }
 
+base::Problem told_of(const std::string& path, base::Problem problem) {
+  problem.where = path + ":";
+  return problem;
+}
+
 }  // namespace
 
 base::Result<MatWriter> MatWriter::create(const Destination& to, std::span<const study::Column> columns,
                                           MatVersion version, TraceOrigin origin,
                                           std::size_t most_rows_of_v5) {
+  if (!matio()) return told_of(to.path, matio().problems().front());
   base::Result<AtomicFile> file = AtomicFile::create(to);
   if (!file) return file.problems();
   if (version == MatVersion::v7_3 && file->temporary().empty())
@@ -103,9 +109,9 @@ void MatWriter::describe_trace(MatFile& mat, std::uint64_t digest) const {
 /// libmatio cannot append to a column of version 5: it writes what is small, the columns follow it.
 bool MatWriter::assemble_v5(std::uint64_t digest) {
   const Scratch scratch;
-  MatFile mat(scratch.path(), version_);
+  MatFile mat(*matio(), scratch.path(), version_);
   describe_trace(mat, digest);
-  base::Result<std::string> small = mat.close() ? text::read_text(scratch.path()) : base::Problem{};
+  base::Result<std::string> small = mat.close() ? read_text(scratch.path()) : base::Problem{};
   if (!small) return false;
   file_.write(*small);
   for (std::size_t c = 0; c < columns_.size(); ++c) {
@@ -120,7 +126,7 @@ bool MatWriter::assemble_v5(std::uint64_t digest) {
 }
 
 bool MatWriter::assemble_v7_3(std::uint64_t digest) {
-  MatFile mat(file_.temporary(), version_);
+  MatFile mat(*matio(), file_.temporary(), version_);
   describe_trace(mat, digest);
   bool read = true;
   for (std::size_t c = 0; c < columns_.size(); ++c) {

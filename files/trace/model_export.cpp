@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "files/text_file.hpp"
 #include "files/trace/mat_file.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/thesis/thesis_models.hpp"
-#include "text/toml/text_file.hpp"
 
 namespace files {
 namespace {
@@ -73,11 +73,12 @@ std::string models_json(const ModelPoint& p) {
 }
 
 base::Result<std::string> models_mat(const ModelPoint& p) {
+  if (!matio()) return base::Problem{"--models", "", matio().problems().front().limit, "name a .json file"};
   const base::Problem no_room{"--models", "", "cannot be made: no temporary file", "make room in TMPDIR"};
   const Scratch scratch;
   if (!scratch.made()) return no_room;
   {
-    MatFile file(scratch.path(), MatVersion::v5);
+    MatFile file(*matio(), scratch.path(), MatVersion::v5);
     const auto phase = sixstep::design::phase_voltage_model(p.motor.machine, p.motor.shaft, angle_of(p));
     const auto terminal =
         sixstep::design::terminal_voltage_model(p.motor.machine, p.motor.shaft, angle_of(p));
@@ -92,7 +93,7 @@ base::Result<std::string> models_mat(const ModelPoint& p) {
     for (const auto& [name, value] : parameters(p)) file.numbers(name, {value}, 1, 1);
     if (!file.close()) return no_room;
   }
-  return text::read_text(scratch.path());
+  return read_text(scratch.path());
 }
 
 }  // namespace files

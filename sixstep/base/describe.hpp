@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// One description of a parameter feeds every face: TOML reading and its checks, `sixstep help KEY`, and later
-// the web form, the schema, Python and FMU. For each parameter struct S there is one free function template
+// One description of a parameter feeds every face: TOML reading and its checks, help and the schema, and later
+// the web form, Python and FMU. For each parameter struct S there is one free function template
 //
 //   template <class Visitor> void describe(Visitor& v, S& s);
 //
 // that walks the members in reading order and calls on the visitor, per member,
 //   v.value(key, member, about)            double, int, std::int64_t, bool, std::string,
-//   std::optional<double>,
-//                                          std::vector<double>, std::vector<std::string>
+//                                          std::optional<double>, std::vector<double>, std::vector<std::string>
 //   v.choice(key, member, choices, about)  an enum, by its words: choices is an array of Choice
 //   v.quantity(key, member, about)         Quantity: a number with frame and source
 //   v.table(key, member, about)            a described struct, or a std::optional of one

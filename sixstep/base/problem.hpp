@@ -9,10 +9,10 @@ namespace sixstep::base {
 
 /// One mistake, told so that the reader alone can mend it.
 struct Problem {
-  std::string where;  ///< the key or place, e.g. "supply.voltage_V"; text adds file, line and column
-  std::string value;  ///< what stood there, as written; empty where nothing did
-  std::string limit;  ///< what is allowed or what rule is broken, as a clause: "must be above 0"
-  std::string cure;   ///< what to do: "give the bus voltage in volts"
+  std::string where{};  ///< the key or place, e.g. "supply.voltage_V"; text adds file, line and column
+  std::string value{};  ///< what stood there, as written; empty where nothing did
+  std::string limit{};  ///< what is allowed or what rule is broken, as a clause: "must be above 0"
+  std::string cure{};   ///< what to do: "give the bus voltage in volts"
 
   bool operator==(const Problem&) const = default;
 };

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Another configuration while the drive runs, taken over between two ticks: gains, limits, chopping, mode.
 //
-//   same mode   every state stays. A PI in velocity form goes on from its last output and its last error:
-//   with the
-//               new gains the next tick adds d1 (e[n] - e[n-1]) + K_i e[n-1], so that at no error nothing
+//   same mode   every state stays. A PI in velocity form goes on from its last output and its last error: with
+//               the new gains the next tick adds d1 (e[n] - e[n-1]) + K_i e[n-1], so that at no error nothing
 //               moves. The positional form keeps its integral; its output moves by the change of K times the
 //               error.
 //   other mode  a loop that both modes run keeps its state; one that only the new mode runs begins at rest,
-//   its
-//               output 0. A setpoint that slews starts at what is measured (drive_extras.hpp). The bridge
+//               its output 0. A setpoint that slews starts at what is measured (drive_extras.hpp). The bridge
 //               keeps the last command until the next tick.
 #pragma once
 #include "sixstep/control/protected_drive.hpp"

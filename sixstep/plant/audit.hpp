@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Watches a run against the laws that hold for every one (model.md 5): energy in = energy out, currents sum
-// to zero, no diode conducts backwards. Integrals of the segments' own polynomials, to rounding.
+// The audit holds a run to the laws of every run (model.md 5): energy balances, currents sum to zero, no
+// diode conducts backwards. It integrates the segments' own polynomials, so its residuals are rounding.
 #pragma once
 #include "sixstep/plant/segment_energy.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The circuit law of the three-leg bridge on a star winding (model.md 2): what each leg is connected to, its
-// pole voltage against the negative rail, and the star point's voltage. Pure functions; who decides the
-// connections is elsewhere.
+// These pure functions are the circuit law of the three-leg bridge on a star winding (model.md 2): the
+// connection of each leg, its pole voltage against the negative rail, and the star point's voltage.
+// settle.hpp decides the connections.
 #pragma once
 #include <algorithm>
 #include <array>

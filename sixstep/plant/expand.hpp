@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Taylor kernel: all coefficients of a segment, order by order, until rounding level is reached.
+// The Taylor kernel computes all coefficients of a segment, order by order, until rounding level is reached.
 #pragma once
 #include <type_traits>
 #include <utility>

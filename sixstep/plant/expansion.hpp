@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the plant is made of in numbers, and the polynomials of one segment: between events the right-hand
-// side is polynomial in the state, so guards, dense output and energy all read the same series (model.md 12).
+// Constants holds the plant's numbers, Expansion the polynomials of one segment. Guards, recorded values and
+// energy read the same series, because the right-hand side is polynomial in the state between events
+// (model.md 12).
 #pragma once
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must stay >= 0 for the present mode to hold. Each guard is a polynomial made of the same series as the
-// dynamics, with the rounding level below which its coefficients say nothing. In order of what wins a tie:
+// A guard stays >= 0 as long as the present mode holds. Each is a polynomial of the same series as the
+// dynamics, with the rounding level below which its coefficients say nothing. The order is that of ties:
 // current zero, standstill, sector edge, then rails and the rest (model.md 4b).
 #pragma once
 #include "sixstep/plant/expand.hpp"

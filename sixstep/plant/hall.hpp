@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What leaves the Hall probes, 120 electrical degrees apart: each is high over half a turn. The controller's
-// decoding is its own table, so that a wrong entry cannot cancel itself.
+// The Hall probes stand 120 electrical degrees apart; each is high over half a turn. The controller decodes
+// them by a table of its own, so that a wrong entry cannot cancel itself.
 #pragma once
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each set of connections says about the currents and the star point, multiplied out once per plant: the
-// electrical half of model.md 1 and 2, the back-EMF apart.
+// A LegsLaw says for one set of connections how currents and star point follow: the electrical half of
+// model.md 1 and 2 without the back-EMF, multiplied out once per plant.
 #pragma once
 #include "sixstep/plant/circuit.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast a motor, its bridge and its bus answer, and how fast its field turns: what decides how many steps
-// a simulated second takes. Beyond these bounds, each well above what is built, a number has slipped.
+// These rates say how fast a motor, its bridge and its bus answer and how fast its field turns, and with that
+// how many steps a simulated second takes. The bounds lie well above what is built: a number beyond them has
+// slipped.
 #pragma once
 #include <algorithm>
 

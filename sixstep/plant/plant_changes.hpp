@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What may change while a plant runs: the clamp on its shaft and its source; and the scales that follow from
+// A plant that runs can be changed: the clamp on its shaft and its source, with the scales that follow from
 // them. Part of plant.hpp.
 #pragma once
 #include "sixstep/plant/plant.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moves through bridge, winding and shaft over one segment, integrated from the segment's own series:
-// the terms of the energy balance (model.md 5). Where nothing can flow, nothing is computed.
+// SegmentEnergy integrates what moves through bridge, winding and shaft over one segment, from the segment's
+// own series: the terms of the energy balance (model.md 5). Where nothing can flow, it computes nothing.
 #pragma once
 #include "sixstep/plant/plant.hpp"
 #include "sixstep/series/quadrature.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which mode is consistent now? Switches and nonzero currents name most connections; legs without gate and
-// current, the rotor at rest and the bus at the source's voltage are enumerated: exactly one combination is
-// right, and where rounding makes several look right, the one with most legs off (model.md 2, 4b). Plain
-// values first, series only for ties.
+// settle() finds the consistent mode. Switches and nonzero currents name most connections; legs without gate
+// and current, the rotor at rest and the bus at the source's voltage are enumerated. Exactly one combination
+// is right; where rounding makes several look right, it is the one with most legs off (model.md 2, 4b). Plain
+// values decide first, series only ties.
 #pragma once
 #include <span>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mode where nothing has to be tried (model.md 2): gates and currents name the connections, and what they
-// leave open stands clear of the rails. Nearly every event is of this kind; settle.hpp answers the rest.
+// settle_plainly() answers where nothing has to be tried (model.md 2): gates and currents name the
+// connections, and what they leave open stands clear of the rails. Nearly every event is of this kind;
+// settle.hpp answers the rest.
 #pragma once
 #include "sixstep/plant/guards.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the plant remembers: continuous state with the rounding errors of its running sums, and the discrete
+// The plant's memory: the continuous state with the rounding errors of its running sums, and the discrete
 // mode.
 #pragma once
 #include <bitset>

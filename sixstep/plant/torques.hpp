@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The torques against the rotor's turning, each once (model.md (4)). The recurrences, the guards, the
+// The torques that act on the rotor stand here, each once (model.md (4)). The recurrences, the guards, the
 // energy balance and the figures of merit take them from here.
 #pragma once
 #include "sixstep/plant/expansion.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where SI meets the controller's number: floating point computes in SI, fixed point in parts of a base.
+// Conversion between SI and the controller's number: floating point computes in SI, fixed point in parts of a
+// base.
 #pragma once
 #include <type_traits>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual board's configuration, and what is true of it as it wakes.
+// BoardConfig configures the virtual board; PowerUp is what a firmware may know before its first sample.
 #pragma once
 #include "sixstep/rig/bases.hpp"
 #include "sixstep/rig/pulse.hpp"

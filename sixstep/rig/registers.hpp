@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a board's converters and its capture timer make of the plant, and when: the counts that a firmware
-// finds in the registers of its chip.
+// Registers are the counts that a firmware finds in its chip: converters and capture timer make them of the
+// plant.
 #pragma once
 #include "sixstep/rig/adc.hpp"
 #include "sixstep/rig/capture_clock.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the controller's own blocks make of the registers, before the lean drive: phase currents or one shunt
-// in the DC link, the bus, speed and position by captured Hall edges. Every input is ideal until its part is
-// switched on.
+// Sensors measure for the lean drive by the controller's own blocks: phase currents or one shunt in the DC
+// link, the bus, speed and position by captured Hall edges. Every input is ideal until its part is switched
+// on.
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/adc.hpp"

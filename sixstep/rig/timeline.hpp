@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the scenario does to a run, as one sorted list of typed actions at known instants.
+// The timeline is all that a scenario does to a run: one sorted list of typed actions at known instants.
 #pragma once
 #include <cmath>
 #include <cstddef>

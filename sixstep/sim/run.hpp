@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens at an instant, on one page. Known instants are scheduled, only unknown ones are searched.
+// The run loop, on one page. Known instants are scheduled, only unknown ones are searched.
 //
-//   act on all that is due -> settle and expand (Taylor) -> first root of all guards -> observe -> advance ->
-//   apply ONE
+//   act on all that is due -> settle and expand (Taylor) -> first root of all guards -> observe -> advance -> apply ONE event
 //
 // A System provides
 //   Instant now() const                    where it stands
 //   Instant next_known() const             the next instant it has scheduled, > now once act() is done
-//   bool act()                             does all that is due now, by its own clocks (never by what a step
-//   aimed at);
+//   bool act()                             does all that is due now, by its own clocks (never by what a step aimed at);
 //                                          false where a fault stops the run
-//   double expand(double h)                makes its discrete state consistent and its polynomials valid over
-//   the length it
-//                                          returns, <= h; negative where no consistent state exists
-//   void guards(Visit&&) const             calls visit(id, coefficients, degree, noise) for each guard that
-//   must stay
+//   double expand(double h)                makes its discrete state consistent and its polynomials valid over the length
+//                                          it returns, <= h; negative where no consistent state exists
+//   void guards(Visit&&) const             calls visit(id, coefficients, degree, noise) for each guard that must stay
 //                                          >= 0, those that snap a state first (they win a tie)
 //   void advance(Real s, Instant to)       takes the state to the fraction s of the expanded length
 //   void apply(id)                         the one located event
-// An Observer provides segment(system, s), called before the system advances over [0, s] of its expansion,
-// and may provide done(): true ends the run after the event at hand.
+// An Observer provides segment(system, s), called before the system advances over [0, s] of its expansion, and may
+// provide done(): true ends the run after the event at hand.
 #pragma once
 #include <cstdint>
 

@@ -145,7 +145,7 @@ TEST(Curve, ContinuousTorqueWarmsTheWindingToItsLimit) {
     double before = 1e9;
     for (const double speed : {0.0, 300.0, 700.0}) {
       const analysis::ThermalLimits limits = analysis::thermal_limits(model, r, speed);
-      const double friction = analysis::friction_Nm(r.bench.motor.shaft, speed);
+      const double friction = plant::friction_Nm(r.bench.motor.shaft, speed);
       const design::Heating heating{limits.continuous_A * limits.continuous_A * 1.03, friction * speed, 40};
       EXPECT_NEAR(design::steady_temperatures(model, heating)->winding_degC, 125, 1e-10) << speed;
       EXPECT_NEAR(limits.continuous_Nm, 0.0335 * limits.continuous_A - friction, 1e-15);

@@ -41,12 +41,12 @@ TEST(MonteCarlo, GivesTheSpreadThatTheCircuitsLawGives) {
   s.spread = {spread("motor_override.resistance_ohm", 0.1)};
   ASSERT_EQ(study::check(s), base::Problems{});
   constexpr std::size_t count = 200;
-  const Series series = monte_carlo(s, {.runs = count, .seed = 11});
+  const analysis::Series series = monte_carlo(s, {.runs = count, .seed = 11});
   ASSERT_EQ(series.runs, count);
   ASSERT_EQ(series.figures.size(), 2u);
-  const SpreadFigure& current = series.figures[0];
+  const analysis::SpreadFigure& current = series.figures[0];
   std::size_t holds = 0;
-  Statistics expected;
+  analysis::Statistics expected;
   for (std::size_t n = 0; n < count; ++n) {
     const study::Scenario one = study::varied(s, 11, n);
     const double R = one.sheet.resistance_ohm->value, tau_s = 0.572e-3 / R;
@@ -71,7 +71,7 @@ TEST(MonteCarlo, DoesNotDependOnTheNumberOfThreadsOrOfRuns) {
   s.spread = {spread("motor_override.inductance_mH", 0.2), spread("supply.voltage_V", 0.1)};
   const auto digests = [&](std::size_t count, unsigned jobs) {
     std::vector<std::uint64_t> found;
-    const Series series =
+    const analysis::Series series =
         monte_carlo(s, {.runs = count, .seed = 3, .jobs = jobs, .each = [&](std::size_t, const auto& result) {
                           found.push_back(result ? result->digest : 0);
                         }});
@@ -89,7 +89,7 @@ TEST(MonteCarlo, DoesNotDependOnTheNumberOfThreadsOrOfRuns) {
 
 /// Limits of value by value cannot foresee this: with friction as printed some sheets contradict themselves.
 TEST(MonteCarlo, CountsWhatCouldNotStartAndGoesOn) {
-  Series series;
+  analysis::Series series;
   study::Scenario good = stall(100.0), bad = good;
   bad.sheet.resistance_ohm->value = 0.0;
   for (const study::Scenario* s : {&bad, &good, &bad, &good}) add(series, study::run(*s));
@@ -105,7 +105,7 @@ TEST(MonteCarlo, CountsWhatCouldNotStartAndGoesOn) {
 }
 
 TEST(MonteCarlo, CountsAFaultAsAMiss) {
-  Series series;
+  analysis::Series series;
   const base::Result<study::Outcome> whole = study::run(stall(100.0));
   study::Outcome stopped = *whole;
   stopped.fault = base::Problem{"t = 0.1 s", "", "shoot-through", ""};

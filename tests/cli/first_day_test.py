@@ -57,7 +57,7 @@ class FirstDay(ProgramTest):
         header = (self.path / "drive_config.hpp").read_text()
         self.assertIn("// Cleared by its run:", header)
         (self.path / "use.cpp").write_text(USE)
-        built = subprocess.run(["g++", "-std=c++20", "-Wall", "-Wextra", "-Wno-missing-field-initializers", "-Werror", f"-I{SOURCE}", "use.cpp", "-o", "use"],
+        built = subprocess.run(["g++", "-std=c++20", "-Wall", "-Wextra", "-Werror", f"-I{SOURCE}", "use.cpp", "-o", "use"],
                                cwd=self.path, capture_output=True, text=True, timeout=120, check=False)
         self.assertEqual(built.returncode, 0, built.stderr)
         self.assertEqual(subprocess.run([self.path / "use"], check=False).returncode, 0)

@@ -151,9 +151,9 @@ TEST(MotorModel, AMotorTooFastToBeOneHasASlipInAUnit) {
   Sheet kilograms = maxon();
   kilograms.inertia_gcm2->value = 1.35e-5;
   EXPECT_EQ(problems_of(kilograms),
-            "inertia_gcm2 = 1.35e-05 makes rotor and winding swing at K_t/sqrt(L J) = 1.21e+06 rad/s, and no "
-            "motor is "
-            "above 1e5; look at the unit of the inertia, then at those of inductance and torque constant\n");
+            "inertia_gcm2 = 1.35e-05 makes rotor and winding swing at K_t/sqrt(L J) = 1.21e+06 rad/s, and "
+            "no motor is above 1e5; look at the unit of the inertia, then at those of inductance and "
+            "torque constant\n");
 }
 
 TEST(MotorModel, EveryProblemIsReportedAtOnce) {

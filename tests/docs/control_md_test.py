@@ -13,7 +13,7 @@ from page import REPOSITORY, Page
 PAGE = Page("docs/control.md")
 COMPILER, PROGRAM = "c++", REPOSITORY / "build/dev/sixstep"
 WARNINGS = ["-std=c++20", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wno-sign-conversion", "-Wdouble-promotion",
-            "-Wno-missing-field-initializers", "-Werror"]
+            "-Werror"]
 
 
 class ControlPage(unittest.TestCase):

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""manual_md_test.py PROGRAM [--renew]: what the pages in docs/manual say is so. The gallery has its own script."""
+"""manual_md_test.py PROGRAM [--renew]: what the pages in docs/manual say is so, and two pages link to what is there.
+The gallery has its own script."""
 import page
 
 
@@ -22,6 +23,14 @@ class Questions(page.PageTest):
 
 class Gallery(page.LinkTest):
     NAME = "docs/manual/gallery.md"
+
+
+class Model(page.LinkTest):
+    NAME = "docs/model.md"
+
+
+class Contributing(page.LinkTest):
+    NAME = "docs/contributing.md"
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ def unresolved(text):
     missing = [f"model.md {place}" for place in cited if place not in PLACES]
     missing += [f"pitfall {n}" for n in re.findall(r"\bpitfall (\d+)", text) if n not in PITFALLS]
     missing += [name for name in re.findall(r"\b([A-Za-z][\w-]*\.md)\b", text) if name not in PAGES]
-    return missing + re.findall(r"\b(?:MODEL2? \d\w*|THESIS\b|ENGINE, pitfall)", text), len(cited)
+    return missing + re.findall(r"\b(?:MODEL2? \d\w*|THESIS\b|ENGINE, pitfall|DESIGN (?=\"))", text), len(cited)
 
 
 class Citations(unittest.TestCase):

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/design/loops/pole_placement.hpp"
 #include "sixstep/design/scaling/product_scaling.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
@@ -18,7 +19,6 @@
 #include "tests/export/headers.hpp"
 #include "text/export/config_header.hpp"
 #include "text/export/config_text.hpp"
-#include "text/scenario/scenario_file.hpp"
 
 namespace {
 
@@ -27,7 +27,7 @@ using namespace sixstep::control;
 
 study::Scenario shipped(const std::string& name) {
   const std::string path = std::string(SIXSTEP_SOURCE_DIR) + "/data/scenarios/" + name + ".toml";
-  const auto scenario = text::read_scenario(path);
+  const auto scenario = files::read_scenario(path);
   if (!scenario) ADD_FAILURE() << to_string(scenario.problems()[0]);
   return scenario ? *scenario : study::Scenario{};
 }

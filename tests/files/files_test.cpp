@@ -11,10 +11,10 @@
 #include <sstream>
 
 #include "files/atomic_file.hpp"
+#include "files/text_file.hpp"
 #include "files/trace/csv_writer.hpp"
 #include "files/trace/mat_writer.hpp"
 #include "sixstep/study/measure/trace.hpp"
-#include "text/toml/text_file.hpp"
 
 namespace files {
 namespace {
@@ -45,7 +45,7 @@ TEST_F(Files, NothingUnderTheNameBeforeCommit) {
   file->write("whole");
   EXPECT_FALSE(fs::exists(at("a.txt")));
   EXPECT_TRUE(file->commit().empty());
-  EXPECT_EQ(*text::read_text(at("a.txt")), "whole");
+  EXPECT_EQ(*read_text(at("a.txt")), "whole");
   EXPECT_EQ(entries(), 1U);
 }
 
@@ -56,7 +56,7 @@ TEST_F(Files, WithoutCommitNothingIsLeftAndTheOldFileStays) {
     ASSERT_TRUE(file);
     file->write("half");
   }
-  EXPECT_EQ(*text::read_text(at("a.txt")), ours);
+  EXPECT_EQ(*read_text(at("a.txt")), ours);
   EXPECT_EQ(entries(), 1U);
 }
 
@@ -65,7 +65,7 @@ TEST_F(Files, AnInterruptedWorkLeavesAPartialFile) {
   ASSERT_TRUE(file);
   file->write("some");
   EXPECT_TRUE(file->commit_partial().empty());
-  EXPECT_EQ(*text::read_text(at("a.partial.csv")), "some");
+  EXPECT_EQ(*read_text(at("a.partial.csv")), "some");
   EXPECT_EQ(entries(), 1U);
 }
 
@@ -77,7 +77,7 @@ TEST_F(Files, ALinkKeepsItsPlace) {
   file->write("new");
   EXPECT_TRUE(file->commit().empty());
   EXPECT_TRUE(fs::is_symlink(at("link.txt")));
-  EXPECT_EQ(*text::read_text(at("real.txt")), "new");
+  EXPECT_EQ(*read_text(at("real.txt")), "new");
 }
 
 TEST_F(Files, UnwritableOutputIsToldWhenCreated) {
@@ -85,8 +85,7 @@ TEST_F(Files, UnwritableOutputIsToldWhenCreated) {
   ASSERT_FALSE(missing);
   EXPECT_EQ(to_string(missing.problems().at(0)),
             "no/such/folder/a.csv: cannot be written: No such file or directory; check that the folder "
-            "exists and may "
-            "be written, and that the disk has room");
+            "exists and may be written, and that the disk has room");
   const base::Result<AtomicFile> folder = AtomicFile::create(folder_.string());
   ASSERT_FALSE(folder);
   EXPECT_EQ(folder.problems().at(0).limit, "cannot be written: Is a directory");
@@ -116,7 +115,7 @@ TEST_F(Files, CsvStartsWithItsColumnsAndNumbersComeBackBitForBit) {
   }
   for (std::size_t n = 0; n < numbers.size(); n += 2) csv->row(std::span(numbers).subspan(n, 2));
   ASSERT_TRUE(csv->commit().empty());
-  std::istringstream text(*text::read_text(at("a.csv")));
+  std::istringstream text(*read_text(at("a.csv")));
   std::string line;
   std::getline(text, line);
   EXPECT_EQ(line, "# from here");

@@ -15,7 +15,7 @@
 
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
-#include "text/toml/text_file.hpp"
+#include "files/text_file.hpp"
 
 namespace files {
 namespace {
@@ -65,10 +65,10 @@ TEST_F(ReplacedFiles, WhatSixstepHasNotWrittenIsRefusedUnlessForced) {
               path +
                   ": holds what sixstep has not written; name another file, or add --force to lose "
                   "that one");
-    EXPECT_EQ(*text::read_text(path), foreign);
+    EXPECT_EQ(*read_text(path), foreign);
     EXPECT_EQ(entries(), 1U);
     EXPECT_EQ(told_writing({path, true}, "new"), "");
-    EXPECT_EQ(*text::read_text(path), "new");
+    EXPECT_EQ(*read_text(path), "new");
   }
 }
 
@@ -76,7 +76,7 @@ TEST_F(ReplacedFiles, OursAndEmptyOnesAreReplaced) {
   for (const char* own : {ours, "", "// clang-format off\n// Made by sixstep 0.1.0. Change the scenario"}) {
     const std::string path = with("a.csv", own);
     EXPECT_EQ(told_writing(path, "new"), "") << own;
-    EXPECT_EQ(*text::read_text(path), "new");
+    EXPECT_EQ(*read_text(path), "new");
   }
 }
 
@@ -134,7 +134,7 @@ TEST_F(ReplacedFiles, WhatAKilledProgramLeftIsInNobodysWay) {
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   EXPECT_EQ(entries(), 64U + 1 + 1) << "it has left its temporary file";
   EXPECT_EQ(told_writing(at("a.csv"), "new"), "");
-  EXPECT_EQ(*text::read_text(at("a.csv")), "new");
+  EXPECT_EQ(*read_text(at("a.csv")), "new");
 }
 
 TEST_F(ReplacedFiles, ALinkThatLeadsNowhereMakesTheFileItNames) {
@@ -142,7 +142,7 @@ TEST_F(ReplacedFiles, ALinkThatLeadsNowhereMakesTheFileItNames) {
   fs::create_symlink("deep/real.csv", at("link.csv"));
   EXPECT_EQ(told_writing(at("link.csv"), "new"), "");
   EXPECT_TRUE(fs::is_symlink(at("link.csv")));
-  EXPECT_EQ(*text::read_text(at("deep/real.csv")), "new");
+  EXPECT_EQ(*read_text(at("deep/real.csv")), "new");
   fs::create_symlink("absent/real.csv", at("astray.csv"));
   EXPECT_THAT(told_writing(at("astray.csv"), "new"),
               HasSubstr("astray.csv: cannot be written: No such file"));
@@ -156,8 +156,8 @@ TEST_F(ReplacedFiles, OtherNamesOfAFileKeepTheOldOne) {
   with("a.csv", ours);
   fs::create_hard_link(at("a.csv"), at("backup.csv"));
   EXPECT_EQ(told_writing(at("a.csv"), "new"), "");
-  EXPECT_EQ(*text::read_text(at("a.csv")), "new");
-  EXPECT_EQ(*text::read_text(at("backup.csv")), ours);
+  EXPECT_EQ(*read_text(at("a.csv")), "new");
+  EXPECT_EQ(*read_text(at("backup.csv")), ours);
 }
 
 TEST_F(ReplacedFiles, ANameMayBeAsLongAsLeavesRoomForItsPartial) {
@@ -200,7 +200,7 @@ TEST_F(ReplacedFiles, WhoWaitsForAPipesOtherEndHearsASignal) {
   signalled(
       [&] { EXPECT_THAT(told_writing(pipe, "x"), HasSubstr("Interrupted system call")) << "no reader"; });
   signalled([&] {
-    EXPECT_THAT(to_string(text::read_text(pipe).problems().at(0)), HasSubstr("Interrupted")) << "no writer";
+    EXPECT_THAT(to_string(read_text(pipe).problems().at(0)), HasSubstr("Interrupted")) << "no writer";
   });
   const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
   base::Result<AtomicFile> file = AtomicFile::create(pipe);

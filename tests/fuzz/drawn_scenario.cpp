@@ -3,13 +3,13 @@
 
 #include <map>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "tests/fuzz/draw.hpp"
 #include "tests/fuzz/drawn_parts.hpp"
 #include "text/motor/motor_library.hpp"
-#include "text/scenario/scenario_file.hpp"
 #include "text/scenario/scenario_text.hpp"
 
 namespace sixstep::testing {
@@ -28,7 +28,7 @@ const std::vector<Motor>& library() {
   static const std::vector<Motor> motors = [] {
     std::vector<Motor> all;
     for (const std::string& name : text::built_in_motors()) {
-      const auto sheet = text::read_sheet(name);
+      const auto sheet = files::read_sheet(name);
       if (!sheet) continue;
       const auto model = design::motor_model(*sheet);
       if (model && model->nominal_voltage_V > 0 && model->K_t_Nm_A > 0) all.push_back({name, *sheet});

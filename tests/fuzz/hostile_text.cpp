@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "files/text_file.hpp"
 #include "tests/fuzz/draw.hpp"
 #include "tests/fuzz/drawn_scenario.hpp"
 #include "tests/fuzz/hostile_literals.hpp"
 #include "text/keys/key_catalog.hpp"
-#include "text/toml/text_file.hpp"
 
 namespace sixstep::testing {
 namespace {
@@ -29,7 +29,7 @@ const std::vector<std::string>& shipped() {
     std::sort(files.begin(), files.end());  // a folder has no order
     std::vector<std::string> all;
     for (const fs::path& file : files)
-      if (const auto text = text::read_text(file.string())) all.push_back(*text);
+      if (const auto text = files::read_text(file.string())) all.push_back(*text);
     return all;
   }();
   return texts;

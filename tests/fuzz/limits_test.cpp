@@ -9,11 +9,11 @@
 #include <cstdio>
 #include <vector>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "tests/fuzz/draw.hpp"
 #include "text/motor/motor_library.hpp"
-#include "text/scenario/scenario_file.hpp"
 
 namespace {
 
@@ -31,7 +31,7 @@ const std::vector<design::Sheet>& motors() {
   static const std::vector<design::Sheet> all = [] {
     std::vector<design::Sheet> out;
     for (const std::string& name : text::built_in_motors())
-      if (const auto sheet = text::read_sheet(name))
+      if (const auto sheet = files::read_sheet(name))
         if (const auto model = design::motor_model(*sheet); model && model->shaft.J_kg_m2 > 0)
           out.push_back(*sheet);
     return out;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// drawn_scenarios [--valid N] [--hostile N] [--seed S|new] [--threads T]   cases from seed S on; new: from
-// the system's
-//                                                                          random numbers
+// drawn_scenarios [--valid N] [--hostile N] [--seed S|new] [--threads T]   cases from seed S on; new: drawn by the
+//                                                                          system
 // drawn_scenarios --show valid|hostile S                                   the text of one
 // What it did, as Markdown; the exit code is 1 where a law was broken.
 #include <fmt/format.h>

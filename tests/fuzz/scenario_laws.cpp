@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/run/run.hpp"
@@ -15,7 +16,6 @@
 #include "tests/fuzz/drawn_scenario.hpp"
 #include "tests/fuzz/hostile_text.hpp"
 #include "tests/support/scenario_walk.hpp"
-#include "text/scenario/scenario_file.hpp"
 #include "text/scenario/scenario_text.hpp"
 
 namespace sixstep::testing {
@@ -215,7 +215,7 @@ Examined examine_drawn(std::uint64_t seed) {
   const DrawnScenario drawn = drawn_scenario(seed);
   Examined out;
   out.kind = kind_of(drawn.scenario);
-  const auto scenario = text::read_scenario_text(beside_scenarios("drawn.toml"), drawn.text);
+  const auto scenario = files::read_scenario_text(beside_scenarios("drawn.toml"), drawn.text);
   if (!scenario) {
     refuse(scenario.problems(), began_s, out);
     return out;
@@ -256,7 +256,7 @@ Examined examine_hostile(std::uint64_t seed) {
   const BrokenText broken = broken_text(seed);
   Examined out;
   out.kind = broken.kind;
-  const auto scenario = text::read_scenario_text(beside_scenarios("hostile.toml"), broken.text);
+  const auto scenario = files::read_scenario_text(beside_scenarios("hostile.toml"), broken.text);
   if (!scenario) {
     refuse(scenario.problems(), began_s, out);
     return out;

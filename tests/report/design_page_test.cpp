@@ -7,9 +7,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "files/scenario_on_disk.hpp"
 #include "report/svg_chart.hpp"
 #include "text/results/design_text.hpp"
-#include "text/scenario/scenario_file.hpp"
 
 namespace report {
 namespace {
@@ -21,7 +21,7 @@ using testing::Not;
 
 analysis::DesignStudy studied(Mode mode, const std::string& name = "") {
   const auto file = std::filesystem::path(SIXSTEP_SOURCE_DIR) / "data/motors/maxon-251601.toml";
-  auto sheet = text::read_sheet(file.string());
+  auto sheet = files::read_sheet(file.string());
   if (!name.empty()) sheet->name = name;
   const auto s = analysis::study_design({.subject = {"maxon-251601", *sheet, {}},
                                          .spec = {.mode = mode, .torque_limit_Nm = 0.78},
@@ -73,7 +73,7 @@ TEST(DesignPage, ShowsWhatDecidesFirstAndFoldsTheRest) {
 }
 
 TEST(Design, ANominalCurrentThatNobodyNamedIsNotCalledSo) {
-  auto sheet = text::read_sheet(
+  auto sheet = files::read_sheet(
       (std::filesystem::path(SIXSTEP_SOURCE_DIR) / "data/motors/maxon-251601.toml").string());
   sheet->nominal_current_A.reset();
   const auto s = analysis::study_design(

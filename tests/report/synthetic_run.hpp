@@ -255,8 +255,7 @@ inline sixstep::study::Scenario synthetic_scenario(double duration_s) {
   s.duration_s = duration_s;
   s.notes =
       "The current settles within the settling time of the design; at each reversal the rotor's speed "
-      "decides "
-      "how much voltage is left.";
+      "decides how much voltage is left.";
   s.control.mode = sixstep::control::Mode::current;
   s.reference = {.shape = sixstep::study::Shape::square, .high = 5, .low = -5, .period_s = 0.01};
   s.sheet.name = "EC 45 flat 251601";

@@ -44,7 +44,6 @@ std::vector<std::vector<double>> cascade(double K_e_factor) {
                            c->timeline);
   Rows rows_of{{100'000'000,
                 c->end,
-                s.control.mode,
                 {0, 1, 2, 3, static_cast<std::size_t>(ColumnId::speed)},
                 [&](Row row) { rows.emplace_back(row.begin(), row.end()); }},
                rows};

@@ -218,25 +218,25 @@ Gauge seen(MetricKind kind, double level = 0.0) {
 
 TEST(GaugeHolds, OnlyOnTheSideThatCounts) {
   const series::Extremes<double> above{2.0, 4.0}, below{0.0, 2.0}, inside{1.0, 3.0};
-  EXPECT_TRUE(seen(MetricKind::maximum).holds(below));
-  EXPECT_FALSE(seen(MetricKind::maximum).holds(above));
-  EXPECT_TRUE(seen(MetricKind::minimum).holds(above));
-  EXPECT_FALSE(seen(MetricKind::minimum).holds(below));
-  EXPECT_TRUE(seen(MetricKind::peak_to_peak).holds(inside));
-  EXPECT_FALSE(seen(MetricKind::peak_to_peak).holds(above));
-  EXPECT_FALSE(seen(MetricKind::peak_to_peak).holds(below));
-  EXPECT_TRUE(seen(MetricKind::overshoot, 5.0).holds(below));
-  EXPECT_FALSE(seen(MetricKind::overshoot, 5.0).holds(above));
-  EXPECT_TRUE(seen(MetricKind::overshoot, -5.0).holds(above));
-  EXPECT_FALSE(seen(MetricKind::overshoot, -5.0).holds(below));
+  EXPECT_TRUE(seen(MetricKind::maximum).holds([&] { return below; }));
+  EXPECT_FALSE(seen(MetricKind::maximum).holds([&] { return above; }));
+  EXPECT_TRUE(seen(MetricKind::minimum).holds([&] { return above; }));
+  EXPECT_FALSE(seen(MetricKind::minimum).holds([&] { return below; }));
+  EXPECT_TRUE(seen(MetricKind::peak_to_peak).holds([&] { return inside; }));
+  EXPECT_FALSE(seen(MetricKind::peak_to_peak).holds([&] { return above; }));
+  EXPECT_FALSE(seen(MetricKind::peak_to_peak).holds([&] { return below; }));
+  EXPECT_TRUE(seen(MetricKind::overshoot, 5.0).holds([&] { return below; }));
+  EXPECT_FALSE(seen(MetricKind::overshoot, 5.0).holds([&] { return above; }));
+  EXPECT_TRUE(seen(MetricKind::overshoot, -5.0).holds([&] { return above; }));
+  EXPECT_FALSE(seen(MetricKind::overshoot, -5.0).holds([&] { return below; }));
 }
 
 TEST(GaugeHolds, NeverBeforeTheFirstPartNorForOtherMetrics) {
   Measure m;
   m.metric = MetricKind::maximum;
-  EXPECT_FALSE(Gauge(m, {0.0, 1.0}, 0.0, {}).holds({0.0, 0.0}));
-  EXPECT_FALSE(seen(MetricKind::mean).holds({2.0, 2.0}));
-  EXPECT_FALSE(seen(MetricKind::final_value).holds({2.0, 2.0}));
+  EXPECT_FALSE(Gauge(m, {0.0, 1.0}, 0.0, {}).holds([] { return series::Extremes<double>{0.0, 0.0}; }));
+  EXPECT_FALSE(seen(MetricKind::mean).holds([] { return series::Extremes<double>{2.0, 2.0}; }));
+  EXPECT_FALSE(seen(MetricKind::final_value).holds([] { return series::Extremes<double>{2.0, 2.0}; }));
 }
 
 }  // namespace

@@ -23,9 +23,9 @@ class ThreeLegFirmware {
     return controller_(instant, setpoint);
   }
   void captured(std::uint8_t, const sim::Instant&) {}
+  void retune(const rig::Tuning<Config>& tuning) { controller_ = tuning.config; }
   void request_run(bool) {}
   void request_clear() {}
-  void retune(const rig::Tuning<Config>&) {}
   bool open_loop() const { return false; }
   bool follows_setpoint_at_once() const { return false; }
 
@@ -36,7 +36,6 @@ class ThreeLegFirmware {
 template <class Controller>
 using ThreeLegRig = rig::Rig<double, ThreeLegFirmware<Controller>>;
 
-/// The timeline lives in `b`.
 template <class Controller>
 ThreeLegRig<Controller> three_leg_rig(const Board& b, const Controller& controller) {
   return ThreeLegRig<Controller>(b.plant(), controller, b.board, b.timeline);

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/session/session.hpp"
-#include "text/scenario/scenario_file.hpp"
 #include "text/scenario/scenario_text.hpp"
 
 namespace {
@@ -65,7 +65,7 @@ TEST(ExportedSession, TheFileIsWhatTheSessionWrites) {
 }
 
 TEST(ExportedSession, TheFileRunsToItsDigest) {
-  const auto scenario = text::read_scenario(source + "/tests/session/exported.toml");
+  const auto scenario = files::read_scenario(source + "/tests/session/exported.toml");
   ASSERT_TRUE(scenario) << to_string(scenario.problems().at(0));
   const auto out = run(*scenario);
   ASSERT_TRUE(out) << to_string(out.problems().at(0));

@@ -69,7 +69,7 @@ Field field_of(const DesignSubject& subject, const design::DesignSpec& spec, boo
 class HallDesign : public testing::TestWithParam<Drawn> {
  protected:
   void SetUp() override {
-    const auto sheet = text::read_sheet(GetParam().motor, "");
+    const auto sheet = text::read_sheet(GetParam().motor);
     ASSERT_TRUE(sheet);
     subject_.motor = GetParam().motor;
     subject_.sheet = *sheet;
@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(SixMotors, HallDesign,
                                          Drawn{"hoverboard-hub", 36, 6}));
 
 TEST(HallTable, EachOfItsEntriesHoldsAtEveryCorner) {
-  const DesignSubject subject{.motor = "maxon-251601", .sheet = *text::read_sheet("maxon-251601", "")};
+  const DesignSubject subject{.motor = "maxon-251601", .sheet = *text::read_sheet("maxon-251601")};
   const auto d = design::design_drive(*design::motor_model(subject.sheet), spec_of({"maxon-251601", 24, 0}));
   ASSERT_TRUE(d);
   ASSERT_EQ(d->limits.size(), 9u);
@@ -123,7 +123,7 @@ TEST(HallTable, EachOfItsEntriesHoldsAtEveryCorner) {
 
 TEST(HallDesigned, DefaultEdgesHoldWhereSixWouldNot) {
   // The speed loop that design names for adaptive edges, on the same drive with six at every speed.
-  const DesignSubject subject{.motor = "maxon-251601", .sheet = *text::read_sheet("maxon-251601", "")};
+  const DesignSubject subject{.motor = "maxon-251601", .sheet = *text::read_sheet("maxon-251601")};
   const auto adaptive = study_design({.subject = subject, .spec = spec_of({"maxon-251601", 24, 0})});
   ASSERT_TRUE(adaptive);
   EXPECT_TRUE(adaptive->usable());

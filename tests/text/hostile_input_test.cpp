@@ -18,7 +18,7 @@ using testing::SizeIs;
 const std::string head = "motor = \"maxon-251601\"\nduration_s = 0.001\n";
 
 std::vector<std::string> told(const std::string& text, const std::vector<Setting>& settings = {}) {
-  const auto scenario = read_scenario_text("x.toml", text, {.data_dir = {}, .overrides = settings});
+  const auto scenario = read_scenario_text("x.toml", text, {.overrides = settings, .resolve = {}});
   std::vector<std::string> lines;
   if (!scenario)
     for (const base::Problem& p : scenario.problems()) lines.push_back(to_string(p));

@@ -146,7 +146,7 @@ void expect_sound_run(const study::Scenario& s) {
 
 void expect_refused_or_sound(const std::string& text, const Setting& setting) {
   SCOPED_TRACE(setting.path + " = " + setting.text);
-  const auto scenario = read_scenario_text("x.toml", text, {.data_dir = {}, .overrides = {setting}});
+  const auto scenario = read_scenario_text("x.toml", text, {.overrides = {setting}, .resolve = {}});
   if (!scenario) return expect_told(scenario.problems());
   expect_sound_run(*scenario);
 }
@@ -232,7 +232,7 @@ TEST(HostileNumbers, NoKeyTakesWhatIsNoNumberOrOverflows) {
   for (const KeyEntry& key : keys_of_scenarios_and_motors())
     for (const char* number : {"nan", "inf", "-inf", "1e308", "-1e308", "5e-324"}) {
       const auto scenario = read_scenario_text(
-          "x.toml", current_loop, {.data_dir = {}, .overrides = {{path_in_file(key), in_key(key, number)}}});
+          "x.toml", current_loop, {.overrides = {{path_in_file(key), in_key(key, number)}}, .resolve = {}});
       EXPECT_FALSE(scenario) << key.path << " = " << number;
     }
 }
@@ -245,7 +245,7 @@ TEST(HostileNumbers, AMotorAtTheEndsOfItsKeysIsCheckedAndDesignedForInNumbers) {
       const std::string path = "motor_override." + key.path;
       SCOPED_TRACE(path + " = " + number);
       const auto scenario = read_scenario_text("x.toml", current_loop,
-                                               {.data_dir = {}, .overrides = {{path, in_key(key, number)}}});
+                                               {.overrides = {{path, in_key(key, number)}}, .resolve = {}});
       if (!scenario) {
         expect_told(scenario.problems());
         continue;
@@ -293,7 +293,7 @@ TEST(HostileNumbers, PairsOfExtremesAreRefusedOrRunToNumbers) {
       const std::string* text = (a + b) % 3 == 0 ? &off : (a + b) % 3 == 1 ? &hysteresis : &current_loop;
       SCOPED_TRACE(ends[b].path + " = " + ends[b].text);
       const auto scenario =
-          read_scenario_text("x.toml", *text, {.data_dir = {}, .overrides = {ends[a], ends[b]}});
+          read_scenario_text("x.toml", *text, {.overrides = {ends[a], ends[b]}, .resolve = {}});
       if (!scenario)
         expect_told(scenario.problems());
       else

@@ -10,13 +10,13 @@
 #include <sstream>
 #include <string>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/design/sheet/sheet_check.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "text/keys/key_catalog.hpp"
 #include "text/motor/motor_template.hpp"
-#include "text/scenario/scenario_file.hpp"
 #include "text/toml/table_reader.hpp"
 
 namespace text {
@@ -33,7 +33,7 @@ class MotorFile : public testing::Test {
   }
   base::Result<design::Sheet> read(const std::string& text) {
     std::ofstream(folder_ / "m.toml") << text;
-    return read_sheet((folder_ / "m.toml").string());
+    return files::read_sheet((folder_ / "m.toml").string());
   }
   std::vector<std::string> told(const std::string& text) {
     const base::Result<design::Sheet> sheet = read(text);
@@ -113,10 +113,10 @@ TEST_F(MotorFile, AValueInAnotherSpellingIsToldAsItStands) {
                             "0.0585 ohm; \"phase\" means R_s = 0.117 ohm; write frame = \"terminal\" or "
                             "\"phase\""));
   const auto scenario =
-      read_scenario_text("x.toml",
-                         "motor = \"tmotor-4004-300kv\"\nduration_s = 0.01\n[motor_override]\n"
-                         "simulatable = true\nnot_simulatable_because = \"\"\n"
-                         "inertia_kgm2 = 6e-6\ninertia_with_brake_kgm2 = 6e-7\n");
+      files::read_scenario_text("x.toml",
+                                "motor = \"tmotor-4004-300kv\"\nduration_s = 0.01\n[motor_override]\n"
+                                "simulatable = true\nnot_simulatable_because = \"\"\n"
+                                "inertia_kgm2 = 6e-6\ninertia_with_brake_kgm2 = 6e-7\n");
   ASSERT_FALSE(scenario);
   EXPECT_EQ(to_string(scenario.problems().front()),
             "x.toml:7:27: motor_override.inertia_with_brake_kgm2 = 6e-7 is less than the rotor's own, "
@@ -167,7 +167,7 @@ TEST_F(MotorFile, EverySpellingIsTheKeyInItsUnit) {
 
 TEST_F(MotorFile, AnOverrideInAnotherSpellingOrWayReplacesTheSheets) {
   const auto model = [](const std::string& override) {
-    const auto scenario = read_scenario_text(
+    const auto scenario = files::read_scenario_text(
         "x.toml", "motor = \"maxon-251601\"\nduration_s = 0.01\n[motor_override]\n" + override + "\n");
     if (!scenario) ADD_FAILURE() << to_string(scenario.problems().front());
     return *design::motor_model(scenario->sheet);

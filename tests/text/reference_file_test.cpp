@@ -95,7 +95,7 @@ TEST_F(ReferenceInAFile, EntersTheScenarioAsNumbersThatStandForThemselves) {
   // Written out, the scenario needs no file any more.
   const std::string text = scenario_text(*s);
   EXPECT_EQ(text.find("r.csv"), std::string::npos);
-  const base::Result<study::Scenario> back = read_scenario_text("elsewhere.toml", text);
+  const base::Result<study::Scenario> back = files::read_scenario_text("elsewhere.toml", text);
   ASSERT_TRUE(back);
   EXPECT_EQ(back->reference.values, s->reference.values);
   EXPECT_EQ(back->reference.interpolation, study::Interpolation::hold);

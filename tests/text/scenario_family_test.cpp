@@ -100,7 +100,7 @@ TEST_F(Family, NamesInABaseAreLookedForBesideIt) {
   ASSERT_TRUE(s) << to_string(s.problems()[0]);
   EXPECT_THAT(s->reference.values, ElementsAre(1.0, 2.0));
   // What was run stands for itself: no base and no file is needed to read it again.
-  const auto again = read_scenario_text("elsewhere.toml", scenario_text(*s));
+  const auto again = files::read_scenario_text("elsewhere.toml", scenario_text(*s));
   ASSERT_TRUE(again);
   EXPECT_EQ(scenario_text(*again), scenario_text(*s));
 }

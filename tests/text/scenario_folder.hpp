@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "text/scenario/scenario_file.hpp"
+#include "files/scenario_on_disk.hpp"
 
 namespace text {
 
@@ -20,11 +20,11 @@ class ScenarioFolder : public testing::Test {
     std::filesystem::create_directories(folder_ / "bases");
   }
   void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
-  base::Result<study::Scenario> read(const std::string& text, const ReadOptions& options = {}) {
-    return read_scenario_text((folder_ / "x.toml").string(), text, options);
+  base::Result<study::Scenario> read(const std::string& text, const files::ReadOptions& options = {}) {
+    return files::read_scenario_text((folder_ / "x.toml").string(), text, options);
   }
   /// Files are told by their names within the folder.
-  std::vector<std::string> complaints(const std::string& text, const ReadOptions& options = {}) {
+  std::vector<std::string> complaints(const std::string& text, const files::ReadOptions& options = {}) {
     const base::Result<study::Scenario> s = read(text, options);
     std::vector<std::string> lines;
     if (s) return lines;

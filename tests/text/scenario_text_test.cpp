@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-#include "text/scenario/scenario_file.hpp"
+#include "files/scenario_on_disk.hpp"
 #include "text/scenario/starter_scenario.hpp"
 
 namespace text {
@@ -18,7 +18,7 @@ const fs::path data = fs::path(SIXSTEP_SOURCE_DIR) / "data";
 
 study::Scenario read_back(const std::string& text) {
   base::Result<study::Scenario> result =
-      read_scenario_text((data / "scenarios" / "written.toml").string(), text);
+      files::read_scenario_text((data / "scenarios" / "written.toml").string(), text);
   if (result) return *result;
   for (const base::Problem& p : result.problems()) ADD_FAILURE() << to_string(p);
   return {};
@@ -29,7 +29,7 @@ TEST(ScenarioText, EveryShippedScenarioComesBackToTheBit) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(data / "scenarios")) {
     if (!entry.is_regular_file()) continue;
     SCOPED_TRACE(entry.path().string());
-    const base::Result<study::Scenario> scenario = read_scenario(entry.path().string());
+    const base::Result<study::Scenario> scenario = files::read_scenario(entry.path().string());
     ASSERT_TRUE(scenario);
     const std::string text = scenario_text(*scenario);
     EXPECT_EQ(scenario_text(read_back(text)), text);

@@ -7,24 +7,22 @@
 //            error of one digit (design/scaling): two digits of the loop's own signal. Hysteresis has no
 //            integral, but each threshold is the difference of two rounded numbers: two digits as well.
 //   phase    Another rounding moves the ripple against the window. A ripple of height h and period T_r adds
-//   at
-//            most h/2 T_r/2 to the integral over a window, in either run: h T_r/(2 window). Where the loops
+//            at most h/2 T_r/2 to the integral over a window, in either run: h T_r/(2 window). Where the loops
 //            amplify a rounding to another ripple altogether (tests/study/conditioning_test.cpp) this is
 //            all that is left to say, for float too (the last test here shows by how much it is the problem's
 //            own). PWM runs with the samples: its ripple has one phase.
 //   samples  A PI holds its samples, and the mean between them is off by a share of the ripple that moves
-//   with
-//            the duty, which the digits bound: less than one digit.
+//            with the duty, which the digits bound: less than one digit.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
 #include "sixstep/study/run/run.hpp"
-#include "text/scenario/scenario_file.hpp"
 
 namespace text {
 namespace {
@@ -114,7 +112,7 @@ TEST_P(ArithmeticOf, DiffersByItsResolution) {
   const Case& c = GetParam();
   const auto path = std::filesystem::path(SIXSTEP_SOURCE_DIR) / "data" / "scenarios" / "thesis" /
                     (std::string(c.file) + ".toml");
-  const auto s = read_scenario(path.string());
+  const auto s = files::read_scenario(path.string());
   ASSERT_TRUE(s);
   const Figures wide = figures(*s, c, Arithmetic::float64);
   for (const Format& f : formats) {
@@ -162,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Arithmetic, TheSpeedCascadeStraysAsFarByADigitOfItsInertia) {
   const auto path =
       std::filesystem::path(SIXSTEP_SOURCE_DIR) / "data/scenarios/thesis/7.4-speed-exact-design.toml";
-  auto s = read_scenario(path.string());
+  auto s = files::read_scenario(path.string());
   ASSERT_TRUE(s);
   const Case c{"", Signal::speed, 0, levels};
   const std::vector<double> wide = figures(*s, c, Arithmetic::float64).means;

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
+#include "files/scenario_on_disk.hpp"
 #include "text/motor/motor_library.hpp"
-#include "text/scenario/scenario_file.hpp"
 
 namespace text {
 namespace {
@@ -16,7 +16,8 @@ using testing::Contains;
 const fs::path data = fs::path(SIXSTEP_SOURCE_DIR) / "data";
 
 study::Scenario shipped(const std::string& name) {
-  base::Result<study::Scenario> result = read_scenario((data / "scenarios" / (name + ".toml")).string());
+  base::Result<study::Scenario> result =
+      files::read_scenario((data / "scenarios" / (name + ".toml")).string());
   if (!result) {
     for (const base::Problem& problem : result.problems()) ADD_FAILURE() << to_string(problem);
     return {};
@@ -62,7 +63,8 @@ TEST(ShippedFiles, ReferenceCasesHaveTheirTrajectory) {
 }
 
 TEST(ShippedFiles, TheReferenceMotorSaysValueFrameAndSource) {
-  const base::Result<design::Sheet> sheet = read_sheet((data / "motors" / "maxon-251601.toml").string());
+  const base::Result<design::Sheet> sheet =
+      files::read_sheet((data / "motors" / "maxon-251601.toml").string());
   ASSERT_TRUE(sheet);
   EXPECT_EQ(sheet->pole_pairs, 8);
   EXPECT_EQ(sheet->resistance_ohm->value, 1.03);
@@ -77,7 +79,7 @@ TEST(ShippedFiles, TheReferenceMotorSaysValueFrameAndSource) {
 
 TEST(ShippedFiles, TheMotorIsCompiledIn) {
   EXPECT_THAT(built_in_motors(), Contains("maxon-251601"));
-  EXPECT_TRUE(read_sheet("maxon-251601"));
+  EXPECT_TRUE(files::read_sheet("maxon-251601"));
 }
 
 TEST(ShippedFiles, AnOverriddenConstantDropsTheOneItContradicts) {
@@ -91,10 +93,10 @@ TEST(ShippedFiles, AnOverriddenConstantDropsTheOneItContradicts) {
 }
 
 TEST(ShippedFiles, AnOverrideKeepsTheFrameOfTheValueItReplaces) {
-  const ReadOptions options{
+  const files::ReadOptions options{
       .overrides = {{"motor_override.resistance_ohm", "1.2"}, {"pwm.chopping", "hard"}}};
   const base::Result<study::Scenario> scenario =
-      read_scenario((data / "scenarios" / "reference" / "R1.toml").string(), options);
+      files::read_scenario((data / "scenarios" / "reference" / "R1.toml").string(), options);
   ASSERT_TRUE(scenario);
   EXPECT_EQ(scenario->sheet.resistance_ohm->value, 1.2);
   EXPECT_EQ(scenario->sheet.resistance_ohm->frame, "terminal");

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/study/run/run.hpp"
-#include "text/scenario/scenario_file.hpp"
 
 namespace text {
 namespace {
@@ -26,7 +26,7 @@ std::vector<std::string> shipped_scenarios() {
 class EveryShippedRun : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryShippedRun, ObeysTheStandingLaws) {
-  const auto scenario = read_scenario(GetParam());
+  const auto scenario = files::read_scenario(GetParam());
   ASSERT_TRUE(scenario);
   double last_s = 0.0;
   bool time_holds = true, complete = true;

@@ -147,8 +147,7 @@ TEST(Units, OfAReferenceFollowTheMode) {
       "that fit: A or mA");
   EXPECT_EQ(told(duration + "reference.value = \"955 rpm\"\n"),
             "x.toml:3:19: reference.value = \"955 rpm\" is in the unit of control.mode, and this mode has "
-            "none; set "
-            "control.mode, or write a number without quotes");
+            "none; set control.mode, or write a number without quotes");
   EXPECT_EQ(told("duration_s = \"-20 ms\"\n"),
             "x.toml:2:14: duration_s = \"-20 ms\" must be above 0 and at most 9000000000, in ms; it means: "
             "simulated time, in s");
@@ -208,9 +207,8 @@ TEST(Units, OfALimitAreRefusedByMetricAndSignal) {
       "x.toml:5:7: require.max = \"20 ms\" carries the unit ms, which is not of the kind of A; units that "
       "fit: A or mA\n");
   EXPECT_EQ(told("metric = \"settling_time_s\"\nlevel = \"2 A\"\nmax = \"2 A\"\n"),
-            "x.toml:6:7: require.max = \"2 A\" carries the unit A, which is not of the kind of s; units that "
-            "fit: s, "
-            "ms, us or min\n");
+            "x.toml:6:7: require.max = \"2 A\" carries the unit A, which is not of the kind of s; units "
+            "that fit: s, ms, us or min\n");
   EXPECT_EQ(told("metric = \"efficiency\"\nmin = \"8 W\"\n"),
             "x.toml:5:7: require.min = \"8 W\" carries the unit W, and this key is a plain number; write the "
             "number alone, or in %\n");

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "text/scenario/scenario_file.hpp"
+#include "files/scenario_on_disk.hpp"
 
 namespace text {
 namespace {
@@ -25,8 +25,8 @@ class WrongInput : public testing::Test {
     return (folder_ / name).string();
   }
   /// The complaints about a file, each without the folder in front.
-  std::vector<std::string> complaints(const std::string& text, const ReadOptions& options = {}) {
-    const base::Result<study::Scenario> result = read_scenario(write("x.toml", text), options);
+  std::vector<std::string> complaints(const std::string& text, const files::ReadOptions& options = {}) {
+    const base::Result<study::Scenario> result = files::read_scenario(write("x.toml", text), options);
     if (result) return {};
     std::vector<std::string> told;
     for (const base::Problem& problem : result.problems()) {
@@ -121,8 +121,7 @@ TEST_F(WrongInput, MissingRequiredKeysPointAtTheirTable) {
       complaints("title = \"x\"\n[[require]]\nmax = 1\n"),
       ElementsAre(
           "x.toml:1:1: motor is missing; write motor = ..: motor file: a path, or a name looked up beside "
-          "the "
-          "scenario, in the data folder and in the built-in list",
+          "the scenario, in the data folder and in the built-in list",
           "x.toml:1:1: duration_s is missing; write duration_s = ..: simulated time, in s",
           "x.toml:2:1: require.metric is missing; write metric = ..: figure that is taken of the signal"));
 }
@@ -298,14 +297,14 @@ TEST_F(WrongInput, ValuesOfTheCommandLineAreNamedAsSuch) {
 }
 
 TEST_F(WrongInput, UnreadableFile) {
-  const base::Result<study::Scenario> result = read_scenario("no/such/file.toml");
+  const base::Result<study::Scenario> result = files::read_scenario("no/such/file.toml");
   ASSERT_FALSE(result);
   EXPECT_EQ(to_string(result.problems().at(0)),
             "no/such/file.toml: cannot be read: No such file or directory; check the path and the permission "
             "to read it");
   for (const char* name : {"hill.tml", "hill"}) {
     const std::string near = write("hill.toml", head), path = (folder_ / name).string();
-    const base::Result<study::Scenario> misspelt = read_scenario(path);
+    const base::Result<study::Scenario> misspelt = files::read_scenario(path);
     ASSERT_FALSE(misspelt);
     EXPECT_EQ(to_string(misspelt.problems().at(0)),
               path + ": cannot be read: No such file or directory; did you mean " + near + "?");
@@ -313,7 +312,7 @@ TEST_F(WrongInput, UnreadableFile) {
 }
 
 TEST_F(WrongInput, AFolderIsNoFile) {
-  const base::Result<study::Scenario> result = read_scenario(folder_.string());
+  const base::Result<study::Scenario> result = files::read_scenario(folder_.string());
   ASSERT_FALSE(result);
   EXPECT_THAT(to_string(result.problems().at(0)),
               HasSubstr("cannot be read: Is a directory; name a file in it"));

@@ -14,7 +14,7 @@ import single_header  # noqa: E402
 
 COMPILER = "c++"
 FLAGS = ["-std=c++20", "-ffreestanding", "-fno-exceptions", "-fno-rtti", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion",
-         "-Wno-sign-conversion", "-Wdouble-promotion", "-Wno-missing-field-initializers", "-Werror"]
+         "-Wno-sign-conversion", "-Wdouble-promotion", "-Werror"]
 
 
 class SingleHeader(unittest.TestCase):

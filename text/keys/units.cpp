@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "sixstep/base/angle.hpp"
+#include "text/keys/decimal_number.hpp"
 #include "text/keys/key_advice.hpp"
 
 namespace text {
@@ -190,9 +191,8 @@ std::optional<double> shifted(const std::string& number, int ten) {
     if (std::from_chars(digits, number.data() + number.size(), exponent).ec != std::errc()) return {};
   }
   const std::string text = fmt::format("{}e{}", number.substr(0, e), static_cast<long>(exponent) + ten);
-  double x = 0.0;
-  if (std::from_chars(text.data(), text.data() + text.size(), x).ec != std::errc()) return {};
-  return x;
+  const DecimalNumber x = decimal_number(text);
+  return x.kind == DecimalNumber::Kind::number ? std::optional(x.value) : std::nullopt;
 }
 
 std::string plain_number(std::string_view wanted) {
@@ -260,11 +260,10 @@ std::optional<Written> split_number(std::string_view text) {
   while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
   if (text.empty() || !begins_a_number(text)) return {};
   if (text.front() == '+') text.remove_prefix(1);
-  double ignored = 0.0;
-  const std::from_chars_result read = std::from_chars(text.data(), text.data() + text.size(), ignored);
-  if (read.ec == std::errc::invalid_argument) return {};
-  std::string_view rest(read.ptr, static_cast<std::size_t>(text.data() + text.size() - read.ptr));
-  const std::string number(text.data(), read.ptr);
+  const std::size_t size = decimal_number(text).size;
+  if (size == 0) return {};
+  std::string_view rest = text.substr(size);
+  const std::string number(text.substr(0, size));
   while (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
   return Written{number, std::string(rest)};
 }

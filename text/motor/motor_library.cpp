@@ -3,33 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "text/keys/key_advice.hpp"
 #include "text/motors.hpp"
-#include "text/toml/text_file.hpp"
 
 namespace text {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// Where the motor may lie, in the order of precedence.
-std::vector<std::string> candidates(const MotorQuery& query) {
-  const fs::path folder(query.folder);
-  const std::string file = query.name.ends_with(".toml") ? query.name : query.name + ".toml";
-  std::vector<std::string> paths{(folder / query.name).string()};
-  if (file != query.name) paths.push_back((folder / file).string());
-  if (!query.data_dir.empty()) paths.push_back((fs::path(query.data_dir) / "motors" / file).string());
-  return paths;
-}
 
 /// A slip of the pen means one motor; a maker's name or an order number all that contain it.
 std::string motor_meant(const std::string& name) {
   const std::vector<std::string> all = built_in_motors();
   if (const std::string near = nearest(name, all); !near.empty())
     return fmt::format("did you mean \"{}\"?", near);
-  std::string word = fs::path(name).stem().string();
+  std::string word = stem_of(name);
   for (char& c : word)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   std::vector<std::string> holding;
@@ -50,23 +35,22 @@ std::vector<std::string> built_in_motors() {
   return names;
 }
 
-base::Result<Document> find_motor(const MotorQuery& query) {
-  if (query.name.empty())
+base::Result<Document> find_motor(const std::string& name, const std::string& from, const Resolve& resolve) {
+  if (name.empty())
     return base::Problem{.limit = "names no motor",
                          .cure = "give a motor file's path or a built-in motor's name"};
-  const std::vector<std::string> paths = candidates(query);
-  for (const std::string& path : paths) {
-    std::error_code ignored;
-    if (!fs::exists(path, ignored) || fs::is_directory(path, ignored)) continue;
-    base::Result<std::string> text = read_text(path);
-    if (!text) return text.problems();
-    return Document::parse(path, std::move(*text));
-  }
+  base::Result<NamedText> found = base::Problem{};
+  if (resolve) found = resolve({Naming::Kind::motor, name, from});
+  if (found) return Document::parse(std::move(found->name), std::move(found->text));
+  const base::Problem& missing = found.problems().front();
+  if (!missing.limit.empty()) return missing;
   for (const motors::File& file : motors::all)
-    if (file.name == query.name)
+    if (file.name == name)
       return Document::parse(fmt::format("built-in {}", file.name), std::string(file.text));
-  return base::Problem{.limit = fmt::format("is neither {} nor a built-in motor", fmt::join(paths, " nor ")),
-                       .cure = motor_meant(query.name)};
+  return base::Problem{.limit = missing.where.empty()
+                                    ? "is no built-in motor"
+                                    : fmt::format("is neither {} nor a built-in motor", missing.where),
+                       .cure = motor_meant(name)};
 }
 
 }  // namespace text

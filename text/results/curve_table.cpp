@@ -227,9 +227,7 @@ std::string thermal(const analysis::CurveRequest& r, const analysis::Curve& curv
   const analysis::ThermalLimits still = analysis::thermal_limits(*curve.thermal, r, 0.0);
   std::string text = fmt::format(
       "At {:g} degC ambient the winding stays below {:g} degC with {} A ({} {} at standstill) for ever, {} "
-      "A "
-      "for "
-      "{} s, {} A for {} s.\n",
+      "A for {} s, {} A for {} s.\n",
       r.ambient_degC, curve.thermal->max_winding_degC, significant(still.continuous_A, 3),
       significant(still.continuous_Nm * unit.factor, 4), unit.name, significant(still.short_A[1], 3),
       analysis::short_times_s[1], significant(still.short_A[0], 3), analysis::short_times_s[0]);

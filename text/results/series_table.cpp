@@ -21,14 +21,14 @@ std::string cell(const std::optional<double>& x, const std::string& unit) {
   return x ? quantity_text(*x, unit, digits) : "-";
 }
 
-std::string required(const batch::SpreadFigure& f) {
+std::string required(const analysis::SpreadFigure& f) {
   if (f.min && f.max) return quantity_text(*f.min, f.unit) + " .. " + quantity_text(*f.max, f.unit);
   if (f.min) return ">= " + quantity_text(*f.min, f.unit);
   return f.max ? "<= " + quantity_text(*f.max, f.unit) : "";
 }
 
-Row row_of(const batch::SpreadFigure& f, std::size_t runs) {
-  const batch::Statistics& s = f.statistics;
+Row row_of(const analysis::SpreadFigure& f, std::size_t runs) {
+  const analysis::Statistics& s = f.statistics;
   return {"  " + f.figure,
           required(f),
           cell(s.min(), f.unit),
@@ -58,14 +58,14 @@ std::string aligned(std::vector<Row> rows) {
   return text;
 }
 
-std::string casualties(const std::vector<batch::Casualty>& which, const char* what) {
+std::string casualties(const std::vector<analysis::Casualty>& which, const char* what) {
   if (which.empty()) return "";
   return fmt::format("  {} {}, the first of them drive {}: {}\n", which.size(), what, which[0].number,
                      visible(to_string(which[0].problem)));
 }
 
 /// Of those that were run; what an interrupted series would have come to, nobody knows.
-std::string sum(const batch::Series& series, std::uint64_t seed, std::size_t wanted) {
+std::string sum(const analysis::Series& series, std::uint64_t seed, std::size_t wanted) {
   if (series.runs == 0) return fmt::format("interrupted before the first of {} drives ended\n", wanted);
   const bool all = series.runs == wanted;
   const std::string begin =
@@ -76,22 +76,22 @@ std::string sum(const batch::Series& series, std::uint64_t seed, std::size_t wan
     return begin + of_these +
            fmt::format("{} hold every requirement, {} do NOT\n", series.passed, series.runs - series.passed);
   const bool asks = std::any_of(series.figures.begin(), series.figures.end(),
-                                [](const batch::SpreadFigure& f) { return f.required; });
+                                [](const analysis::SpreadFigure& f) { return f.required; });
   return begin + (asks ? of_these + "all hold every requirement\n" : "nothing required\n");
 }
 
 }  // namespace
 
-std::string series_table(const std::string& name, const batch::Series& series, std::uint64_t seed,
+std::string series_table(const std::string& name, const analysis::Series& series, std::uint64_t seed,
                          std::size_t wanted) {
   if (series.runs == 0) return sum(series, seed, wanted);
   std::vector<Row> rows = {
       {name, "required", "min", "5 %", "median", "95 %", "max", "mean", "deviation", "holds"}};
-  for (const batch::SpreadFigure& figure : series.figures) rows.push_back(row_of(figure, series.runs));
+  for (const analysis::SpreadFigure& figure : series.figures) rows.push_back(row_of(figure, series.runs));
   std::string text = aligned(std::move(rows));
   text += casualties(series.faults, "stopped by a fault");
   text += casualties(series.refused, "could not run");
-  for (const batch::SpreadFigure& f : series.figures)
+  for (const analysis::SpreadFigure& f : series.figures)
     if (f.first_miss)
       text += fmt::format("  {}: the first miss is drive {} (--seed {} --drive {})\n", visible(f.figure),
                           *f.first_miss, seed, *f.first_miss);

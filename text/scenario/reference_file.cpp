@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "sixstep/base/plausible.hpp"
 #include "text/keys/bounded.hpp"
+#include "text/keys/decimal_number.hpp"
 #include "text/keys/key_advice.hpp"
 #include "text/keys/units.hpp"
 
@@ -51,11 +51,10 @@ std::vector<std::string_view> cells_of(std::string_view line, char separator) {
 std::optional<double> number_of(std::string_view text, char separator) {
   std::string cell(text);
   if (separator == ';') std::replace(cell.begin(), cell.end(), ',', '.');
-  const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
-  double x = 0.0;
-  const std::from_chars_result read = std::from_chars(begin, cell.data() + cell.size(), x);
-  if (read.ec != std::errc() || read.ptr != cell.data() + cell.size() || x - x != 0.0) return {};
-  return x;
+  if (cell.starts_with('+')) cell.erase(0, 1);
+  const DecimalNumber x = decimal_number(cell);
+  if (x.kind != DecimalNumber::Kind::number || x.size != cell.size()) return {};
+  return x.value;
 }
 
 /// "ms" of "time [ms]", "time (ms)" and "t_ms"; "rad/s" of "speed_rad_s". Empty where there is none.

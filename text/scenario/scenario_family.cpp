@@ -4,24 +4,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "text/toml/complaints.hpp"
-#include "text/toml/text_file.hpp"
 
 namespace text {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::size_t most_files = 64;
 
 class Family {
  public:
+  explicit Family(const Resolve& resolve) : resolve_(resolve) {}
+
   base::Result<Document> read(const std::string& name, std::string text) {
     base::Result<Document> document = Document::parse(name, std::move(text));
     if (!document) return document.problems();
-    chain_.push_back(identity(name));
+    chain_.push_back(beside("", name));
     Complaints complaints(*document);
     std::vector<Document> bases;
     base::Problems of_bases;
@@ -46,12 +44,6 @@ class Family {
     std::string path, file;
   };
 
-  static std::string identity(const std::string& name) {
-    std::error_code failed;
-    const fs::path canonical = fs::weakly_canonical(name, failed);
-    return failed ? name : canonical.string();
-  }
-
   /// A value of another type is told by the scenario's description.
   static std::vector<Named> named(const Document& document) {
     std::vector<Named> all;
@@ -71,29 +63,27 @@ class Family {
       complaints.value(*base.node, base.path, {.limit = std::move(limit), .cure = std::move(cure)});
       return base::Problems{};
     };
-    const std::string name = (fs::path(from).parent_path() / base.file).string();
-    if (std::find(chain_.begin(), chain_.end(), identity(name)) != chain_.end())
-      return refuse("goes round in a circle: that file extends this one",
-                    "take the common keys into a third");
     if (++files_ > most_files)
       return refuse(fmt::format("makes the family larger than {} files", most_files), "join some of them");
-    base::Result<std::string> text = read_regular_text(name);
-    if (!text)
-      return refuse(fmt::format("names {}, which {}", name, text.problems().at(0).limit),
-                    text.problems().at(0).cure);
-    base::Result<Document> read_base = read(name, std::move(*text));
+    base::Result<NamedText> found = find_text(resolve_, {Naming::Kind::scenario, base.file, from});
+    if (!found) return refuse(found.problems().front().limit, found.problems().front().cure);
+    if (std::find(chain_.begin(), chain_.end(), beside("", found->name)) != chain_.end())
+      return refuse("goes round in a circle: that file extends this one",
+                    "take the common keys into a third");
+    base::Result<Document> read_base = read(found->name, std::move(found->text));
     if (read_base) read_base->root().erase("extends");
     return read_base;
   }
 
+  const Resolve& resolve_;
   std::vector<std::string> chain_;  ///< the files that are being read, each named by the one before
   std::size_t files_ = 1;
 };
 
 }  // namespace
 
-base::Result<Document> read_family(const std::string& name, std::string text) {
-  return Family().read(name, std::move(text));
+base::Result<Document> read_family(const std::string& name, std::string text, const Resolve& resolve) {
+  return Family(resolve).read(name, std::move(text));
 }
 
 }  // namespace text

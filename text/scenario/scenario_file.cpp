@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 
 #include "sixstep/design/sheet/sheet_constants.hpp"
@@ -20,7 +19,6 @@
 #include "text/scenario/scenario_family.hpp"
 #include "text/toml/file_kind.hpp"
 #include "text/toml/table_reader.hpp"
-#include "text/toml/text_file.hpp"
 
 namespace text {
 namespace {
@@ -39,19 +37,14 @@ base::Result<SheetSource> sheet_of(Document document) {
   return complaints.in_order();
 }
 
-/// A file that a value names is looked for beside the file in which the value stands.
-std::string folder_of(const Document& document, const toml::node& node, std::string_view path) {
-  return std::filesystem::path(document.file_of(node, path)).parent_path().string();
-}
-
 /// The sheet that the scenario's `motor` names. What is wrong in the motor's own file is told of that file,
 /// what is wrong with the name at the name.
-std::optional<SheetSource> named_sheet(const Document& scenario, const ReadOptions& options,
+std::optional<SheetSource> named_sheet(const Document& scenario, const Resolve& resolve,
                                        Complaints& complaints, base::Problems& of_other_files) {
   const toml::node* name = scenario.find("motor");
   if (!name || !name->is_string()) return {};  // told by the description
   base::Result<Document> document =
-      find_motor({name->as_string()->get(), folder_of(scenario, *name, "motor"), options.data_dir});
+      find_motor(name->as_string()->get(), scenario.file_of(*name, "motor"), resolve);
   if (!document) {
     for (const base::Problem& problem : document.problems())
       problem.where.empty() ? complaints.value(*name, "motor", problem) : of_other_files.push_back(problem);
@@ -121,7 +114,8 @@ void run_checks(const Document& document, const SheetSource& source, const study
 
 /// The rows of a csv reference, from the file that it names.
 void read_rows(const Document& document, const std::string& path, const std::string& unit,
-               study::Reference& r, Complaints& complaints, base::Problems& of_other_files) {
+               const Resolve& resolve, study::Reference& r, Complaints& complaints,
+               base::Problems& of_other_files) {
   if (r.file.empty() || r.shape != study::Shape::csv) return;
   const std::string key = path + ".file";
   const auto complain = [&](base::Problem problem) {
@@ -133,12 +127,10 @@ void read_rows(const Document& document, const std::string& path, const std::str
         {.limit = "contradicts times_s and values: the rows are given twice", .cure = "keep one of the two"});
   const toml::node* node = document.find(key);
   if (!node) return;
-  const std::string name = (std::filesystem::path(folder_of(document, *node, key)) / r.file).string();
-  const base::Result<std::string> text = read_regular_text(name);
-  if (!text)
-    return complain({.limit = fmt::format("names {}, which {}", name, text.problems().at(0).limit),
-                     .cure = text.problems().at(0).cure});
-  base::Result<ReferenceRows> rows = reference_rows(name, *text, r.column, unit);
+  const base::Result<NamedText> file =
+      find_text(resolve, {Naming::Kind::rows, r.file, document.file_of(*node, key)});
+  if (!file) return complain(file.problems().front());
+  base::Result<ReferenceRows> rows = reference_rows(file->name, file->text, r.column, unit);
   if (!rows) {
     of_other_files.insert(of_other_files.end(), rows.problems().begin(), rows.problems().end());
     return complaints.told_elsewhere(key);
@@ -147,20 +139,20 @@ void read_rows(const Document& document, const std::string& path, const std::str
   r.values = std::move(rows->values);
 }
 
-void read_all_rows(const Document& document, study::Scenario& scenario, Complaints& complaints,
-                   base::Problems& of_other_files) {
+void read_all_rows(const Document& document, const Resolve& resolve, study::Scenario& scenario,
+                   Complaints& complaints, base::Problems& of_other_files) {
   // A duty is a plain number.
-  const auto unit = [](control::Mode mode) {
+  const auto unit = [](sixstep::control::Mode mode) {
     const std::string_view of_mode = study::reference_unit(mode);
     return std::string(of_mode == "1" ? "" : of_mode);
   };
-  read_rows(document, "reference", unit(scenario.control.mode), scenario.reference, complaints,
+  read_rows(document, "reference", unit(scenario.control.mode), resolve, scenario.reference, complaints,
             of_other_files);
-  const std::vector<control::Mode> modes = study::modes_from(scenario);
+  const std::vector<sixstep::control::Mode> modes = study::modes_from(scenario);
   for (std::size_t n = 0; n < scenario.at.size(); ++n)
     if (scenario.at[n].reference)
-      read_rows(document, fmt::format("at[{}].reference", n), unit(modes[n]), *scenario.at[n].reference,
-                complaints, of_other_files);
+      read_rows(document, fmt::format("at[{}].reference", n), unit(modes[n]), resolve,
+                *scenario.at[n].reference, complaints, of_other_files);
 }
 
 base::Problems apply_overrides(Document& document, const std::vector<Setting>& overrides) {
@@ -175,8 +167,8 @@ base::Problems apply_overrides(Document& document, const std::vector<Setting>& o
 
 }  // namespace
 
-base::Result<design::Sheet> read_sheet(const std::string& name, const std::string& data_dir) {
-  base::Result<Document> document = find_motor({name, "", data_dir});
+base::Result<design::Sheet> read_sheet(const std::string& name, const Resolve& resolve) {
+  base::Result<Document> document = find_motor(name, "", resolve);
   if (!document) {
     base::Problems problems = document.problems();
     for (base::Problem& problem : problems)
@@ -192,15 +184,9 @@ base::Result<design::Sheet> read_sheet(const std::string& name, const std::strin
   return std::move(source->sheet);
 }
 
-base::Result<study::Scenario> read_scenario(const std::string& path, const ReadOptions& options) {
-  base::Result<std::string> text = read_text(path);
-  if (!text) return text.problems();
-  return read_scenario_text(path, std::move(*text), options);
-}
-
-base::Result<study::Scenario> read_scenario_text(const std::string& path, std::string text,
+base::Result<study::Scenario> read_scenario_text(const std::string& name, std::string text,
                                                  const ReadOptions& options) {
-  base::Result<Document> parsed = read_family(path, std::move(text));
+  base::Result<Document> parsed = read_family(name, std::move(text), options.resolve);
   if (!parsed) return parsed.problems();
   Document& document = *parsed;
   if (base::Problems problems = apply_overrides(document, options.overrides); !problems.empty())
@@ -208,14 +194,14 @@ base::Result<study::Scenario> read_scenario_text(const std::string& path, std::s
 
   Complaints complaints(document);
   base::Problems of_other_files;
-  std::optional<SheetSource> source = named_sheet(document, options, complaints, of_other_files);
+  std::optional<SheetSource> source = named_sheet(document, options.resolve, complaints, of_other_files);
   study::Scenario scenario;
   if (source) scenario.sheet = source->sheet;
   read_root(document, scenario, complaints);
   drop_stale(scenario.sheet, [&](std::string_view key) { return overridden(document, key); });
   // A duration that is wrong has been told: nothing shall lie behind its end besides.
   if (!(scenario.duration_s > 0.0)) scenario.duration_s = study::longest_s;
-  read_all_rows(document, scenario, complaints, of_other_files);
+  read_all_rows(document, options.resolve, scenario, complaints, of_other_files);
   if (source) run_checks(document, *source, scenario, complaints, of_other_files);
 
   base::Problems problems = complaints.in_order();
@@ -224,7 +210,7 @@ base::Result<study::Scenario> read_scenario_text(const std::string& path, std::s
     if (std::optional<base::Problem> problem = taken_for(FileKind::scenario, document)) return *problem;
     return problems;
   }
-  if (scenario.title.empty()) scenario.title = std::filesystem::path(path).stem().string();
+  if (scenario.title.empty()) scenario.title = stem_of(name);
   return scenario;
 }
 

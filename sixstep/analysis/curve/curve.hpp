@@ -33,10 +33,10 @@ struct NominalPoint {
 
 /// How much speed a torque costs, rad/s per N m, from no load to the nominal point.
 struct SpeedDrop {
-  double ideal = 0.0;             ///< R_tt/K_t^2: what a sheet's speed-torque gradient is
-  std::optional<double> printed;  ///< that gradient as printed
-  std::optional<double> sheet;    ///< between the sheet's own two points
-  std::optional<double> curve;    ///< between the same torques of the curve
+  double ideal = 0.0;               ///< R_tt/K_t^2: what a sheet's speed-torque gradient is
+  std::optional<double> printed{};  ///< that gradient as printed
+  std::optional<double> sheet{};    ///< between the sheet's own two points
+  std::optional<double> curve{};    ///< between the same torques of the curve
 };
 
 /// Times for which short-time limits are given, s.
@@ -57,14 +57,14 @@ struct Warming {
 };
 
 struct Curve {
-  std::vector<OperatingPoint> points;
-  NoLoad no_load;
-  Marks marks;
-  std::optional<NominalPoint> nominal;
-  std::optional<design::ThermalModel> thermal;
-  std::vector<ThermalLimits> limits;  ///< one per point; empty without thermal lines
-  std::vector<Warming> warming;       ///< likewise
-  base::Problems thermal_missing;     ///< why there are none
+  std::vector<OperatingPoint> points{};
+  NoLoad no_load{};
+  Marks marks{};
+  std::optional<NominalPoint> nominal{};
+  std::optional<design::ThermalModel> thermal{};
+  std::vector<ThermalLimits> limits{};  ///< one per point; empty without thermal lines
+  std::vector<Warming> warming{};       ///< likewise
+  base::Problems thermal_missing{};     ///< why there are none
 };
 
 /// What comes first: the no-load point, and the speeds that are then independent of each other: those of the

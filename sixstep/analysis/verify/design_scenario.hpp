@@ -12,15 +12,15 @@
 namespace sixstep::analysis {
 
 struct DesignSubject {
-  std::string motor;    ///< name or path, as a scenario is to have it
-  design::Sheet sheet;  ///< of that motor
+  std::string motor{};    ///< name or path, as a scenario is to have it
+  design::Sheet sheet{};  ///< of that motor
   /// The board it is run on: supply, bridge, PWM and sensors of this scenario. Else a stiff supply, ideal
   /// devices, and the sensors that board_sensors() puts on a board.
   std::optional<study::Scenario> board{};
   std::optional<rig::CurrentMeasurement> currents{};  ///< instead of what that board has
   /// Height of the step in the unit of the mode; else one at which no limit acts (current, speed), or the
   /// thesis's 1000 degrees.
-  std::optional<double> step;
+  std::optional<double> step{};
 };
 
 /// - current: rotor held in the middle of a sector, a step of the setpoint; settling and overshoot at the

@@ -24,10 +24,11 @@ const study::ComparisonResult* find(const study::Outcome& outcome, const std::st
 }
 
 std::string cure_of_settling(const design::DriveDesign& d) {
-  return d.spec.chopping == control::Chopping::soft ? "try chopping = complementary: soft chopping puts the "
-                                                      "whole bus against the current as soon as "
-                                                      "the duty turns negative; or design slower (settle_s)"
-                                                    : "design slower (settle_s)";
+  const std::string slower = "design slower (settle_s)";
+  if (d.spec.chopping != control::Chopping::soft) return slower;
+  return "try chopping = complementary: soft chopping puts the whole bus against the current as soon as the duty "
+         "turns negative; or " +
+         slower;
 }
 
 /// The torque ripple of the commutations can be wider than the band of a small step: then settling times say

@@ -30,11 +30,11 @@ struct DesignStudy {
 };
 
 struct DesignOrder {
-  DesignSubject subject;
-  design::DesignSpec spec;
-  std::vector<Tolerance> tolerances;  ///< empty: not looked at
+  DesignSubject subject{};
+  design::DesignSpec spec{};
+  std::vector<Tolerance> tolerances{};  ///< empty: not looked at
   ForEach for_each = one_after_the_other;
-  std::function<bool()> keep_going;  ///< false ends it early: what comes out then means nothing
+  std::function<bool()> keep_going{};  ///< false ends it early: what comes out then means nothing
 };
 
 /// Problems are those of sheet, spec and scenario.

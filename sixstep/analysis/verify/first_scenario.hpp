@@ -20,9 +20,8 @@ struct FirstScenarioSpec {
 };
 
 /// - current, speed, position: the design's own test (design_scenario.hpp) on a board's sensors, with the
-/// settling
-///   time that the design chooses; where that is not usable over the sheet's tolerances, the shortest of 2,
-///   5, 10 .. times as long that is.
+///   settling time that the design chooses; where that is not usable over the sheet's tolerances, the shortest
+///   of 2, 5, 10 .. times as long that is.
 /// - duty: a run-up from rest at half the voltage, complementary chopping, so that the current flows without
 ///   gaps and the sheet's straight line foretells the speed: 0 = K_t (d U - K_t w)/R_tt - B w - T_c.
 /// Problems are those of the sheet, or that no design suits.

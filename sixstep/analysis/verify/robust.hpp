@@ -47,12 +47,12 @@ study::Scenario varied_scenario(const study::Scenario& nominal, const design::Mo
                                 const std::vector<Tolerance>& tolerances, const Variation& variation);
 
 struct RobustFigure {
-  std::string figure, unit;
+  std::string figure{}, unit{};
   double nominal = 0.0;
-  double worst = 0.0;   ///< the largest: infinite where it never settles, or a fault ended the run
-  std::string at;       ///< the variation, in words; empty where none is worse than nominal
-  std::string culprit;  ///< the one level that alone makes most of it
-  double alone = 0.0;   ///< the figure with the culprit alone
+  double worst = 0.0;     ///< the largest: infinite where it never settles, or a fault ended the run
+  std::string at{};       ///< the variation, in words; empty where none is worse than nominal
+  std::string culprit{};  ///< the one level that alone makes most of it
+  double alone = 0.0;     ///< the figure with the culprit alone
 };
 
 struct Robustness {

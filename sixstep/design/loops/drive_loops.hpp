@@ -12,8 +12,8 @@ struct DriveLoops {
   MotorModel motor;
   double period_s = 0.0;
   int delay_periods = 0;
-  PiGains current;
-  PiGains speed;
+  PiGains current{};
+  PiGains speed{};
   double current_at_full_torque_A = 0.0;
   double position_gain_rad_s_per_deg = 0.0;
 };

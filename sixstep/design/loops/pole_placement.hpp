@@ -40,9 +40,9 @@ struct PolePlacement {
   double w0_rad_s = 0.0;          // 4.6/(xi T_reg)
   double s_re = 0.0, s_im = 0.0;  // -xi w0 +- j w0 sqrt(1 - xi^2)
   double z_re = 0.0, z_im = 0.0;  // exp(s T_s)
-  ZohPlant plant;
-  PiGains gains;
-  std::vector<DerivationStep> steps;  // the same, for a reader
+  ZohPlant plant{};
+  PiGains gains{};
+  std::vector<DerivationStep> steps{};  // the same, for a reader
 };
 
 /// Current loop plant 1/(L s + R), terminal R and L: a0 = -exp(-R T/L), b0 = (1 - exp(-R T/L))/R.

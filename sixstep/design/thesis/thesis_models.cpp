@@ -61,8 +61,8 @@ StateSpace<5, 4> phase_voltage_model(const plant::Machine& m, const plant::Shaft
   return model;
 }
 
-// Thesis 3.15 and 3.16, corrected: u_bc - e_bc = R (2 i_b + i_a) + L (2 i_b' + i_a') since i_c = -i_a - i_b;
-// solved,
+// Thesis 3.15 and 3.16, corrected: u_bc - e_bc = R (2 i_b + i_a) + L (2 i_b' + i_a') since
+// i_c = -i_a - i_b; solved,
 //   i_a' = -R/L i_a + (2 (u_ab - e_ab) + (u_bc - e_bc))/(3 L)
 //   i_b' = -R/L i_b + ((u_bc - e_bc) - (u_ab - e_ab))/(3 L)
 // with e_ab = K_e (f_a - f_b) w, e_bc = K_e (f_b - f_c) w, and T_e = K_e ((f_a - f_c) i_a + (f_b - f_c) i_b).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a scenario can be run, before it is.
+// check() says whether a scenario can be run, before it is.
 #pragma once
 #include "sixstep/base/problem.hpp"
 #include "sixstep/study/scenario/scenario.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers each of which may be, and which together are too fast to be a drive: its run would crawl.
+// check_pace() refuses numbers each of which may be, and which together make a drive so fast that its run
+// would crawl.
 #pragma once
 #include "sixstep/base/problem.hpp"
 #include "sixstep/design/sheet/parameters.hpp"

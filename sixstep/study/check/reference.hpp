@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong with a scenario's references beyond the range of single values.
+// check_references() finds what is wrong with a scenario's references beyond the range of single values.
 #pragma once
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong with the scenario's sensors beyond the range of single values.
+// check_sensors() finds what is wrong with a scenario's sensors beyond the range of single values.
 #pragma once
 #include "sixstep/base/problem.hpp"
 #include "sixstep/study/scenario/scenario.hpp"

@@ -10,8 +10,8 @@ namespace sixstep::study {
 
 /// What the loops may meet in this scenario, in magnitude:
 ///   current   twice the largest reference or limit, which leaves room for the overshoot of a reversal whose
-///             error would saturate (7.3.1 turning shows it), at most the bus and a back-EMF against it over
-///             R
+///             error would saturate (7.3.1 turning shows it), at most the bus and a back-EMF against it
+///             over R
 ///   speed     what the bus reaches without load and loss, U/K_t, and the speed of the start
 ///   position  the largest reference and the start
 ///   bus       the source, and the bus of the start

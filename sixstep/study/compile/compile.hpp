@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenario -> what a run is made of: plant parameters, controller configuration, board, timeline, gains with
-// their origin.
+// compile() turns a scenario into what a run is made of: plant parameters, controller configuration, board,
+// timeline, gains with their origin.
 #pragma once
 #include "sixstep/base/result.hpp"
 #include "sixstep/control/protected_drive.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reference, load steps, broken lines, requests and [[at]] events as the one sorted timeline of a run.
+// timeline_of() sorts reference, load steps, broken lines, requests and [[at]] events into the one timeline
+// of a run.
 #pragma once
 #include "sixstep/rig/timeline.hpp"
 #include "sixstep/study/scenario/scenario.hpp"

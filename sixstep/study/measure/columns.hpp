@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trace's columns: one table says name, unit, frame and meaning (DESIGN "Trace columns").
+// One table names the trace's columns with unit, frame and meaning.
 #pragma once
 #include <array>
 #include <vector>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole trajectory in 64 bits: two runs with the same digest went through the same bits at every event.
+// A digest is a whole trajectory in 64 bits: two runs with the same digest went through the same bits at
+// every event.
 #pragma once
 #include <cstdint>
 

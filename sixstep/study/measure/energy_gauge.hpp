@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Energies over a window and the efficiency they make: integrals of the same series as the energy book's
-// (plant/segment_energy.hpp).
+// An EnergyGauge integrates energies over a window and the efficiency they make, from the same series as the
+// energy book (plant/segment_energy.hpp).
 #pragma once
 #include <optional>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All figures of merit of a run: what takes each, fed segment by segment; then verdicts.
+// Figures takes all figures of merit of a run, fed segment by segment, and then the verdicts.
 #pragma once
 #include <string>
 #include <variant>

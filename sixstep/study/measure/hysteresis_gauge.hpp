@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well an event hysteresis keeps its band: excess above the upper limit, shortfall below the lower one
-// outside of the recovery from a commutation or a new reference, and the switching frequency.
+// A HysteresisGauge measures how well an event hysteresis keeps its band: excess above the upper limit,
+// shortfall below the lower one outside of the recovery from a commutation or a new reference, and the
+// switching frequency.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a logic analyser on the board would show: gates, Hall lines, timer, comparators, faults, at the rig's
-// own integer picoseconds.
+// The logic signals are what a logic analyser on the board would show: gates, Hall lines, timer, comparators,
+// faults, at the rig's own integer picoseconds.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The observer that tells the logic signals. It reads the rig and cannot change the run by a bit.
+// This observer tells the logic signals. It reads the rig and cannot change the run by a bit.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/study/measure/logic.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All who watch a run, in one observer: books, digest, figures of merit, recorders of rows and of logic.
+// Observers joins all observers of a run in one: energy book, digest, figures of merit, recorders of rows and
+// of logic.
 #pragma once
 #include <functional>
 #include <optional>
@@ -13,13 +14,13 @@
 namespace sixstep::study {
 
 struct Observers {
-  std::optional<plant::Audit<double>> audit;
-  Digest digest;
+  std::optional<plant::Audit<double>> audit{};
+  Digest digest{};
   Figures figures;
-  std::optional<GridRecorder> grid;
-  std::optional<EventRecorder> events, report;
-  std::optional<LogicRecorder> logic;
-  std::function<bool(double)> keep_going;
+  std::optional<GridRecorder> grid{};
+  std::optional<EventRecorder> events{}, report{};
+  std::optional<LogicRecorder> logic{};
+  std::function<bool(double)> keep_going{};
   std::int64_t segments = 0;
   sim::Instant looked{};  ///< when done() last looked
   bool crowded = false;   ///< events crowd so closely that time hardly goes on

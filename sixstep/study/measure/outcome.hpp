@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run leaves behind: numbers and verdicts.
+// An Outcome holds what a run leaves behind: numbers and verdicts.
 #pragma once
 #include <cstdint>
 #include <optional>

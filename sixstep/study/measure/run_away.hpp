@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a run still is one of a motor. No single number of a scenario can do it, but a torque without
-// measure on a small rotor can: then there is nothing left to simulate.
+// has_run_away() says whether a run has left all bounds of a motor. No single number of a scenario can do
+// that, but a torque without measure on a small rotor can: then there is nothing left to simulate.
 #pragma once
 #include <cmath>
 

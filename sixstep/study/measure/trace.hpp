@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a recorded run looks like.
+// A Trace is a recorded run.
 #pragma once
 #include <cstddef>
 #include <string>

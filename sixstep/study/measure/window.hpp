@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stretch of time that a figure looks at.
+// A Window is the stretch of time that a figure looks at.
 #pragma once
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands between a scenario and the chip of a real bridge: nothing is taken there that the run has not
-// shown to hold, or that the run was spared and a board is not.
+// The export gate keeps from a real bridge's chip what a run has not shown to hold, and what the run was
+// spared and a board is not.
 #pragma once
 #include "sixstep/base/result.hpp"
 #include "sixstep/study/measure/outcome.hpp"

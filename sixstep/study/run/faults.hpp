@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stopped a run, or a drive within a run, in words.
+// Words for what stopped a run, or a drive within a run.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/study/measure/outcome.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenario in, outcome out: compiles the scenario to a timeline and a rig, runs it, takes the figures of
-// merit.
+// run() compiles a scenario to a timeline and a rig, runs it and takes the figures of merit.
 #pragma once
 #include <functional>
 #include <span>
@@ -18,10 +17,10 @@ using Row = std::span<const double>;
 
 /// Who listens to a run. Each may be empty. None of them can change the run's result by a bit.
 struct Listeners {
-  std::function<void(Row)> on_record;  ///< the scenario's [record]: columns record_columns(scenario)
-  std::function<void(Row)> on_event;   ///< every event, both sides of each jump: columns all_columns()
-  LogicSink on_logic;  ///< gates, Hall lines, timer and the like, as logic_signals() names them
-  std::function<bool(double t_s)> keep_going;  ///< now and then; false ends the run early
+  std::function<void(Row)> on_record{};  ///< the scenario's [record]: columns record_columns(scenario)
+  std::function<void(Row)> on_event{};   ///< every event, both sides of each jump: columns all_columns()
+  LogicSink on_logic{};  ///< gates, Hall lines, timer and the like, as logic_signals() names them
+  std::function<bool(double t_s)> keep_going{};  ///< now and then; false ends the run early
   bool keep_books = true;  ///< energy and standing laws: about half the time of a run with a few figures
 };
 

@@ -11,8 +11,7 @@ namespace sixstep::study {
 inline constexpr std::string_view what_may_change =
     "during a run change only: reference; supply.voltage_V, supply.sinks; load.torque_Nm, load.locked; "
     "sensors.hall_break; request; control.mode, .slew, .current (its gains, band_A, limit_A), .speed (its "
-    "gains, "
-    "torque_limit_Nm), .position, .limits (current_A, torque_Nm, speed_rad_s); pwm.chopping; "
+    "gains, torque_limit_Nm), .position, .limits (current_A, torque_Nm, speed_rad_s); pwm.chopping; "
     "bridge.dead_time_s";
 
 template <class Visitor>

@@ -22,7 +22,7 @@ struct Session::State {
   Observers watchers;
   AnyRig rig;
   Present present{};
-  std::optional<detail::LastSegment> last;
+  std::optional<detail::LastSegment> last{};
   Instant reach{};
   sim::Stop stop = sim::Stop::observer;
   bool over = false;

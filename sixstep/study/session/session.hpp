@@ -2,10 +2,9 @@
 // A run that is lived: it goes on in slices, is looked at, changed, saved and taken up again, and in the end
 // is a scenario that anybody can run again. What a bench with knobs, a co-simulation or a script stands on.
 //
-//   bits     however it is sliced and looked at, it has the bits of the uncut run: a slice ends behind an
-//   event change   what [[at]] can say, at the next control tick. The session writes it into its scenario;
-//   what cannot
-//            be so is refused as a file would be, and then nothing has changed
+//   bits     however it is sliced and looked at, it has the bits of the uncut run: a slice ends behind an event
+//   change   what [[at]] can say, at the next control tick. The session writes it into its scenario; what
+//            cannot be so is refused as a file would be, and then nothing has changed
 //   copy     a session is a value: a copy is a saved state, and goes on alone
 //   replay   run(session.scenario()) has the digest of the session that was run to its end, or closed
 #pragma once

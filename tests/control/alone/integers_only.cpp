@@ -7,6 +7,7 @@
 #include "sixstep/control/pi_positional.hpp"
 #include "sixstep/control/profile.hpp"
 #include "sixstep/control/protected_drive.hpp"
+#include "sixstep/control/three_phase_pwm.hpp"
 
 namespace firmware {
 
@@ -36,6 +37,15 @@ struct Entries {
   }
   static std::uint8_t pins(const BridgeCommand<Scalar>& command, bool on_time) {
     return gates(command, on_time);
+  }
+  static Dq<Scalar> currents(const Abc<Scalar>& i, const Direction<Scalar>& d_axis) {
+    return park(clarke(i), d_axis);
+  }
+  static LegCommands<Scalar> legs(const Dq<Scalar>& v, const Direction<Scalar>& d_axis, Scalar bus_V) {
+    return space_vector(inverse_clarke(inverse_park(v, d_axis)), bus_V);
+  }
+  static std::uint8_t pins_of_leg(const LegCommand<Scalar>& command, Leg leg, bool pulse) {
+    return gates(command, leg, pulse);
   }
 };
 

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <map>
 
+#include "files/scenario_on_disk.hpp"
 #include "tests/fuzz/libfuzzer/complaints.hpp"
-#include "text/scenario/scenario_file.hpp"
 
 namespace {
 
@@ -50,7 +50,7 @@ std::map<std::string, std::string> parted(std::string text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   for (const auto& [name, text] : parted(std::string(reinterpret_cast<const char*>(data), size)))
     std::ofstream(folder() / name, std::ios::binary) << text;
-  const auto scenario = text::read_scenario((folder() / "x.toml").string());
+  const auto scenario = files::read_scenario((folder() / "x.toml").string());
   if (scenario)
     fuzzing::must_compile(*scenario);
   else

@@ -6,16 +6,16 @@
 #include <cstdint>
 #include <fstream>
 
+#include "files/scenario_on_disk.hpp"
 #include "sixstep/design/loops/drive_design.hpp"
 #include "tests/fuzz/libfuzzer/complaints.hpp"
 #include "text/motor/motor_text.hpp"
-#include "text/scenario/scenario_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::string file = "/dev/shm/motor." + std::to_string(::getpid()) + ".toml";
   std::ofstream(file, std::ios::binary)
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
-  const auto sheet = text::read_sheet(file);
+  const auto sheet = files::read_sheet(file);
   if (!sheet) {
     fuzzing::must_say_something(sheet.problems());
     return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "text/toml/text_file.hpp"
+#include "files/text_file.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -12,7 +12,7 @@
 #include "sixstep/base/hash.hpp"
 #include "text/keys/key_advice.hpp"
 
-namespace text {
+namespace files {
 namespace {
 
 /// Of the files beside it the one whose name is meant: misspelt, or without its .toml.
@@ -26,7 +26,7 @@ std::string meant(const std::string& path) {
   std::sort(names.begin(), names.end());
   const std::string name = fs::path(path).filename().string();
   if (std::find(names.begin(), names.end(), name + ".toml") != names.end()) return path + ".toml";
-  const std::string near = nearest(name, names);
+  const std::string near = text::nearest(name, names);
   return near.empty() ? "" : (folder / near).string();
 }
 
@@ -111,4 +111,4 @@ base::Result<std::string> read_regular_text(const std::string& path) {
   return read_text(path);
 }
 
-}  // namespace text
+}  // namespace files

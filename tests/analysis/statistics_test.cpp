@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "batch/statistics.hpp"
+#include "sixstep/analysis/series/statistics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace batch {
+namespace sixstep::analysis {
 namespace {
 
 Statistics of(std::initializer_list<double> values) {
@@ -69,4 +69,4 @@ TEST(Statistics, KeepsTheDigitsOfFiguresThatHardlyDiffer) {
 }
 
 }  // namespace
-}  // namespace batch
+}  // namespace sixstep::analysis

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-namespace batch {
+namespace sixstep::analysis {
 
 /// Values are added in the order of the runs, so that the sums have the same bits however many threads there
 /// were. A figure without a value (NaN) is counted apart; one that never comes (infinity) is a value, and
@@ -31,4 +31,4 @@ class Statistics {
   std::size_t missing_ = 0;
 };
 
-}  // namespace batch
+}  // namespace sixstep::analysis

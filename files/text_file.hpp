@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "files/rooms.hpp"
 #include "sixstep/base/result.hpp"
-#include "text/rooms.hpp"
 
-namespace text {
+namespace files {
 
 /// The whole file, byte for byte.
 base::Result<std::string> read_text(const std::string& path);
@@ -45,4 +45,4 @@ std::uint64_t text_digest(const std::string& text, std::uint64_t before = 0);
 /// The same of a file that another file names: it must be one, for a device or a pipe need not end.
 base::Result<std::string> read_regular_text(const std::string& path);
 
-}  // namespace text
+}  // namespace files

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "batch/statistics.hpp"
+#include "sixstep/analysis/series/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace batch {
+namespace sixstep::analysis {
 
 void Statistics::add(double x) {
   if (std::isnan(x))
@@ -43,4 +43,4 @@ std::optional<double> Statistics::quantile(double p) const {
   return *place;
 }
 
-}  // namespace batch
+}  // namespace sixstep::analysis

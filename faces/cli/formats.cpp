@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/formats.hpp"
+
+#include <memory>
+
+#include "faces/cli/report_page.hpp"
+#include "files/trace/sinks.hpp"
+#include "report/kept_rows.hpp"
+#include "text/results/json_summary.hpp"
+
+namespace cli {
+namespace {
+
+std::string json_text(const files::RunStory& s) { return text::json_summary(s.scenario, s.outcome); }
+
+/// The rows look into a scenario that stays where it is.
+struct Kept {
+  explicit Kept(const study::Scenario& s) : scenario(s), events(scenario) {}
+  study::Scenario scenario;
+  report::KeptRows events;
+};
+
+base::Result<files::Sink> report_sink(const files::Destination& to, const study::Scenario& scenario,
+                                      const files::TraceOrigin&) {
+  const auto kept = std::make_shared<Kept>(scenario);
+  base::Result<files::Sink> sink = files::page_sink(to, [kept](const files::RunStory& s) {
+    return report_page({s.scenario, s.outcome, kept->events.trace(), s.origin.text, s.origin.command});
+  });
+  if (!sink) return sink;
+  sink->on_event = [kept](study::Row row) { kept->events.add(row); };
+  sink->left_out = [kept] { return report::rows_told(kept->events.trace()); };
+  return sink;
+}
+
+std::string report_foretold(const study::Scenario& scenario) { return report::rows_foretold(scenario); }
+
+constexpr Format list[] = {
+    {.option = "--csv", .meaning = "write the recorded trace", .open = files::csv_sink, .in_folder = ".csv"},
+    {.option = "--mat",
+     .meaning = "write the trace for MATLAB, Octave and scipy: MAT 5",
+     .open = files::mat_sink,
+     .in_folder = ""},
+    {.option = "--mat73",
+     .meaning = "write the trace as MAT 7.3, which is HDF5",
+     .open = files::mat73_sink,
+     .in_folder = ""},
+    {.option = "--vcd",
+     .meaning = "write gates, Hall lines, timer and faults for a waveform viewer",
+     .open = files::vcd_sink,
+     .in_folder = ""},
+    {.option = "--json",
+     .meaning = "write verdicts and figures; - for standard output",
+     .open = files::json_sink,
+     .in_folder = ".json",
+     .printed = json_text},
+    {.option = page_option,
+     .meaning = "write the report; of several files, one that compares them",
+     .open = report_sink,
+     .in_folder = ".html",
+     .foretold = report_foretold},
+};
+
+}  // namespace
+
+std::span<const Format> formats() { return list; }
+
+std::string all_options() {
+  std::string text;
+  for (const Format& format : list) text.append(text.empty() ? "" : ", ").append(format.option);
+  return text;
+}
+
+}  // namespace cli

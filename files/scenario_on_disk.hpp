@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenarios and motors by path, with the files that they name.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "files/rooms.hpp"
+#include "text/scenario/scenario_file.hpp"
+
+namespace files {
+
+/// What a file names lies beside it; a motor also in the data folder, as motors/NAME.toml.
+text::Resolve on_disk(const std::string& data_dir = {});
+
+struct ReadOptions {
+  std::string data_dir;                  ///< holds motors/; empty: none
+  std::vector<text::Setting> overrides;  ///< from the command line, stronger than the file
+};
+
+/// text::read_scenario_text() of the file.
+base::Result<study::Scenario> read_scenario(const std::string& path, const ReadOptions& options = {});
+
+/// The same from a text at hand; messages call it `path`, and what it names is looked for beside that.
+base::Result<study::Scenario> read_scenario_text(const std::string& path, std::string text,
+                                                 const ReadOptions& options = {});
+
+/// A motor by path or name.
+base::Result<design::Sheet> read_sheet(const std::string& name, const std::string& data_dir = {});
+
+}  // namespace files

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The formats that a run is written in, each as an OpenSink.
+#pragma once
+#include "files/trace/sink.hpp"
+
+namespace files {
+
+base::Result<Sink> csv_sink(const Destination& to, const study::Scenario& scenario,
+                            const TraceOrigin& origin);
+/// MAT 5.
+base::Result<Sink> mat_sink(const Destination& to, const study::Scenario& scenario,
+                            const TraceOrigin& origin);
+/// MAT 7.3, which is HDF5.
+base::Result<Sink> mat73_sink(const Destination& to, const study::Scenario& scenario,
+                              const TraceOrigin& origin);
+base::Result<Sink> vcd_sink(const Destination& to, const study::Scenario& scenario,
+                            const TraceOrigin& origin);
+/// Verdicts and figures, no trace.
+base::Result<Sink> json_sink(const Destination& to, const study::Scenario& scenario,
+                             const TraceOrigin& origin);
+
+/// A file that is written as a whole once the run is over.
+base::Result<Sink> page_sink(const Destination& to, std::function<std::string(const RunStory&)> page);
+
+}  // namespace files
