@@ -161,7 +161,12 @@ bool examine(std::uint64_t seed, Told& told) {
   EXPECT_TRUE(uncut && uncut->digest == whole->digest) << "sliced";
   live(draw, *session, told);
   if (draw.chance(0.6)) session->advance(1e6);
-  const auto out = session->close();
+  auto out = session->close();
+  // Cut short it would have been another drive from the start: that is refused, and it goes on.
+  if (!out && out.problems()[0].where == "duration_s") {
+    session->advance(1e6);
+    out = session->close();
+  }
   if (!out) {
     ADD_FAILURE() << to_string(out.problems()[0]);
     return false;
