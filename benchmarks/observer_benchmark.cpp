@@ -129,7 +129,7 @@ void register_all(const Case& c) {
     add(c, row.name, [measure = row.measure](const Prepared& p) { return figure(p, measure); });
   add(c, "rows on a grid, one per PWM period",
       [](const Prepared& p) { return study::GridRecorder(grid_ticks, p.end(), first_columns(7), nowhere); });
-  add(c, "rows at every event", [](const Prepared& p) {
+  add(c, "rows at every event", [](const Prepared&) {
     return study::EventRecorder(gap_s, first_columns(study::column_count), nowhere);
   });
   benchmark::RegisterBenchmark((std::string(c.name) + "/rows on a grid to a CSV file").c_str(),

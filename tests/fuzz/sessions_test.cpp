@@ -168,8 +168,7 @@ bool examine(std::uint64_t seed, Told& told) {
   }
   EXPECT_EQ(digest_of(session->scenario(), seed), out->digest) << "replayed";
   const std::string file = text::scenario_text(session->scenario()) + overrides_of(drawn);
-  const auto read =
-      text::read_scenario_text(std::string(SIXSTEP_SOURCE_DIR) + "/data/scenarios/x.toml", file, {});
+  const auto read = text::read_scenario_text(SIXSTEP_SOURCE_DIR "/data/scenarios/x.toml", file, {});
   if (!read) {
     ADD_FAILURE() << to_string(read.problems()[0]) << "\n" << file;
     return false;

@@ -142,13 +142,13 @@ void read_rows(const Document& document, const std::string& path, const std::str
 void read_all_rows(const Document& document, const Resolve& resolve, study::Scenario& scenario,
                    Complaints& complaints, base::Problems& of_other_files) {
   // A duty is a plain number.
-  const auto unit = [](control::Mode mode) {
+  const auto unit = [](sixstep::control::Mode mode) {
     const std::string_view of_mode = study::reference_unit(mode);
     return std::string(of_mode == "1" ? "" : of_mode);
   };
   read_rows(document, "reference", unit(scenario.control.mode), resolve, scenario.reference, complaints,
             of_other_files);
-  const std::vector<control::Mode> modes = study::modes_from(scenario);
+  const std::vector<sixstep::control::Mode> modes = study::modes_from(scenario);
   for (std::size_t n = 0; n < scenario.at.size(); ++n)
     if (scenario.at[n].reference)
       read_rows(document, fmt::format("at[{}].reference", n), unit(modes[n]), resolve,
