@@ -77,7 +77,8 @@ std::string shell_word(std::string_view word) {
     return is_ascii_word(c) || harmless.find(static_cast<char>(c)) != std::string_view::npos;
   };
   // zsh looks up what begins with =.
-  if (!word.empty() && word.front() != '=' && std::ranges::all_of(word, plain)) return std::string(word);
+  if (!word.empty() && word.front() != '=' && std::all_of(word.begin(), word.end(), plain))
+    return std::string(word);
   std::string out;
   if (visible(word) == word) {
     for (const char c : word) c == '\'' ? out += "'\\''" : out += c;

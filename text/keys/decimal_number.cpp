@@ -18,7 +18,7 @@ std::size_t end_of_digits(std::string_view text, std::size_t at) {
 
 /// A number as it is written: whether it is negative, its digits without the point, the power of ten of the
 /// last one.
-struct Written {
+struct Decimal {
   bool negative = false;
   std::string digits;
   long power = 0;
@@ -37,9 +37,9 @@ std::pair<long, std::size_t> exponent(std::string_view text, std::size_t at) {
   return {text[sign] == '-' ? -power : power, end};
 }
 
-Written written_in(std::string_view text) {
+Decimal decimal_in(std::string_view text) {
   const std::size_t first = text.starts_with('-') ? 1 : 0, point = end_of_digits(text, first);
-  Written w{.negative = first == 1, .digits = std::string(text.substr(first, point - first)), .size = point};
+  Decimal w{.negative = first == 1, .digits = std::string(text.substr(first, point - first)), .size = point};
   if (point < text.size() && text[point] == '.') {
     w.size = end_of_digits(text, point + 1);
     w.digits += text.substr(point + 1, w.size - point - 1);
@@ -52,7 +52,7 @@ Written written_in(std::string_view text) {
   return w;
 }
 
-double magnitude([[maybe_unused]] std::string_view text, const Written& w) {
+double magnitude([[maybe_unused]] std::string_view text, const Decimal& w) {
 #ifdef __cpp_lib_to_chars  // many times as fast
   double x = 0.0;
   if (std::from_chars(text.data(), text.data() + w.size, x).ec == std::errc()) return std::fabs(x);
@@ -63,7 +63,7 @@ double magnitude([[maybe_unused]] std::string_view text, const Written& w) {
 }  // namespace
 
 DecimalNumber decimal_number(std::string_view text) {
-  const Written w = written_in(text);
+  const Decimal w = decimal_in(text);
   if (w.digits.empty()) return {};
   const bool zero = w.digits.find_first_not_of('0') == std::string::npos;
   const double x = magnitude(text, w);
