@@ -43,8 +43,7 @@ struct Slice {
     const sim::Instant from = rig.now();
     if (rig.next_tick().ticks - from.ticks > period_ticks) {
       // What it wanted, not what came of it: a series that did not converge over all of that is shorter.
-      const plant::Plant<double>& plant = rig.plant();
-      const double wanted = plant::useful_length(plant.constants(), plant.state(), longest_s);
+      const double wanted = plant::useful_length(rig.plant().constants(), rig.plant().state(), 1e6);
       reach = std::max(reach, sim::Instant{from.plus_seconds(wanted).ticks + 2, 0.0});
     }
     if (taken || sim::seconds_between(from.plus_seconds(h * s), until) > 0.5e-12) return;
