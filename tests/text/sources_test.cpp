@@ -39,7 +39,8 @@ std::vector<std::string> complaints(const base::Result<study::Scenario>& s) {
 
 TEST(Sources, AScenarioOfTextsAlone) {
   const std::string motor =
-      "name = \"mine\"\npole_pairs = 4\nresistance_ohm = 1\ninductance_mH = 1\n"
+      "name = \"mine\"\npole_pairs = 4\nresistance_ohm = { value = 1, frame = \"terminal\" }\n"
+      "inductance_mH = { value = 1, frame = \"terminal\" }\n"
       "torque_constant_mNm_A = 30\ninertia_gcm2 = 100\nnominal_voltage_V = 24\n";
   const auto s =
       read("extends = \"../base.toml\"\n[reference]\nshape = \"csv\"\nfile = \"rows.csv\"\n",

@@ -63,13 +63,13 @@ class Family {
       complaints.value(*base.node, base.path, {.limit = std::move(limit), .cure = std::move(cure)});
       return base::Problems{};
     };
+    if (std::find(chain_.begin(), chain_.end(), beside(from, base.file)) != chain_.end())
+      return refuse("goes round in a circle: that file extends this one",
+                    "take the common keys into a third");
     if (++files_ > most_files)
       return refuse(fmt::format("makes the family larger than {} files", most_files), "join some of them");
     base::Result<NamedText> found = find_text(resolve_, {Naming::Kind::scenario, base.file, from});
     if (!found) return refuse(found.problems().front().limit, found.problems().front().cure);
-    if (std::find(chain_.begin(), chain_.end(), beside("", found->name)) != chain_.end())
-      return refuse("goes round in a circle: that file extends this one",
-                    "take the common keys into a third");
     base::Result<Document> read_base = read(found->name, std::move(found->text));
     if (read_base) read_base->root().erase("extends");
     return read_base;

@@ -202,6 +202,7 @@ base::Result<study::Scenario> read_scenario_text(const std::string& name, std::s
   // A duration that is wrong has been told: nothing shall lie behind its end besides.
   if (!(scenario.duration_s > 0.0)) scenario.duration_s = study::longest_s;
   read_all_rows(document, options.resolve, scenario, complaints, of_other_files);
+  for (base::Problem& problem : study::check_columns(scenario)) complaints.later(std::move(problem));
   if (source) run_checks(document, *source, scenario, complaints, of_other_files);
 
   base::Problems problems = complaints.in_order();

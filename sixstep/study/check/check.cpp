@@ -150,18 +150,6 @@ void check_torque_limit(const Scenario& s, const design::MotorModel& motor, base
                    "give the torque that the drive may ask for"});
 }
 
-/// What the mode does not have would be recorded as no number.
-void check_columns(const Scenario& s, base::Problems& out) {
-  const auto columns = record_indices(s);
-  if (!columns) return void(out.insert(out.end(), columns.problems().begin(), columns.problems().end()));
-  if (s.record.columns.empty()) return;
-  for (const std::size_t n : *columns)
-    if (!applies(static_cast<ColumnId>(n), s))
-      out.push_back({"record.columns", "\"" + all_columns()[n].name + "\"",
-                     "has no value in this control.mode",
-                     "remove it, or control what it is the reference of"});
-}
-
 /// What a controller can be wrong in, as an event leaves it: what was so from the start has been told.
 void check_tunings(const Scenario& s, const std::optional<design::MotorModel>& motor, base::Problems& out) {
   const auto wrong = [&motor](const Scenario& then) {
@@ -224,7 +212,8 @@ base::Problems check(const Scenario& s) {
                    "set it to 0 or unlock the rotor"});
   if (const base::Problems spread = check_spread(s); !spread.empty())
     out.insert(out.end(), spread.begin(), spread.end());
-  check_columns(s, out);
+  if (const auto columns = record_indices(s); !columns)
+    out.insert(out.end(), columns.problems().begin(), columns.problems().end());
   return out;
 }
 

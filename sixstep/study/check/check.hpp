@@ -11,4 +11,8 @@ namespace sixstep::study {
 /// "control.current.d1".
 base::Problems check(const Scenario& scenario);
 
+/// Columns asked for by name that the mode does not have: a file would hold no number there. A program that
+/// records all columns may leave them so.
+base::Problems check_columns(const Scenario& scenario);
+
 }  // namespace sixstep::study
