@@ -146,14 +146,17 @@ template <class Real>
 void Plant<Real>::snap() {
   // mutant: constants_.amp_noise => 1000 * constants_.amp_noise
   const Real amp_noise = constants_.amp_noise;
-  bool snapped = false;
-  for (unsigned k = 0; k < 3; ++k) {
-    Real& i = state_.i[k];
-    if (gates_.high[k] || gates_.low[k] || i == 0 || detail::abs(i) > amp_noise) continue;
-    i = state_.i_low[k] = 0;
-    snapped = true;
+  // Balancing may bring another one below the noise: of 1.1, 1.2 and -2.3 where 1.2 is noise, all are zero.
+  for (bool snapped = true; snapped;) {
+    snapped = false;
+    for (unsigned k = 0; k < 3; ++k) {
+      Real& i = state_.i[k];
+      if (gates_.high[k] || gates_.low[k] || i == 0 || detail::abs(i) > amp_noise) continue;
+      i = state_.i_low[k] = 0;
+      snapped = true;
+    }
+    if (snapped) balance();
   }
-  if (snapped) balance();
   if (constants_.dry_friction && detail::abs(state_.w) <= constants_.speed_noise) state_.w = state_.w_low = 0;
 }
 

@@ -191,6 +191,19 @@ TEST(Tunings, WhatCannotBeIsRefusedAtItsKey) {
   EXPECT_EQ(with([](Scenario&, At&) {}), "at[0].time_s");
 }
 
+/// What aligns and brakes needs a current loop in every mode that the run comes to.
+TEST(Tunings, AProductThatAlignsKeepsACurrentLoop) {
+  Scenario s = product_scenario(Mode::speed, 100.0);
+  s.protection.align.current_A = 3.0;
+  EXPECT_EQ(refused_at(s), "");
+  At at;
+  at.time_s = 1e-3;
+  at.control.mode = AtMode::duty;
+  at.reference = Reference{.value = 0.2};
+  s.at = {at};
+  EXPECT_EQ(refused_at(s), "protection.align.current_A");
+}
+
 /// In which mode a reference stands decides its unit and what it may be.
 TEST(Tunings, AReferenceIsOfTheModeThatItStandsIn) {
   Scenario s = maxon_scenario(Mode::duty, 0.5);

@@ -224,4 +224,67 @@ TEST(HostileInput, CellsOfTenMillionDigitsAreReadOrToldInAFewWords) {
 }
 
 }  // namespace
+/// Two currents at the noise and one of twice it: the small one is zero, balancing brings the large one down
+/// to the noise, where it is zero too. It was left on a diode that no mode could have.
+TEST(HostileInput, CurrentsThatBalancingBringsToTheNoiseAreZero) {
+  const auto scenario = read_scenario_text("x.toml", R"(title = "drawn"
+motor = "maxon-488607"
+duration_s = 0.15245299297354073
+
+[supply]
+voltage_V = 42.621247246624925
+resistance_ohm = 0.005244680290205802
+capacitance_F = 0.3742704240544477
+sinks = false
+
+[bridge]
+dead_time_s = 1.272907669941043e-05
+
+[pwm]
+period_s = 0.0004450754107405259
+alignment = "centre"
+chopping = "complementary"
+
+[control]
+drive = "product"
+mode = "current"
+arithmetic = "q15"
+
+[control.current]
+kp = 1.226576482958033
+ki = 0.4089179279515821
+
+[sensors]
+currents = "phases"
+adc_bits = 8
+current_range_A = 21.04834773989199
+current_offset_A = 0.2060971029173483
+current_noise_A = 0.004301555225281082
+shunt_settle_s = 4.821772952771076e-06
+bus = "adc"
+bus_range_V = 106.21760330851212
+rotor = "hall"
+capture_Hz = 71432.11005162136
+speed_edges = 2
+timeout_s = 0.006492255042322115
+seed = 547
+
+[protection]
+over_current_A = 17.744763026670924
+over_voltage_V = 63.931870869937384
+under_voltage_V = 21.532460545660925
+over_speed_rad_s = 378.6255750016287
+voltage_samples = 6
+brake_current_A = 0.8893227176589533
+off_at_s = 0.1417558859068423
+
+[protection.align]
+current_A = 1.0679936
+)",
+                                           {.resolve = {}});
+  ASSERT_TRUE(scenario);
+  const auto outcome = study::run(*scenario);
+  EXPECT_TRUE(outcome) << to_string(outcome.problems()[0]);
+}
+
 }  // namespace text

@@ -24,7 +24,7 @@ const study::ComparisonResult* find(const study::Outcome& outcome, const std::st
 }
 
 std::string cure_of_settling(const design::DriveDesign& d) {
-  const std::string slower = "design slower (settle_s)";
+  std::string slower = "design slower (settle_s)";
   if (d.spec.chopping != control::Chopping::soft) return slower;
   return "try chopping = complementary: soft chopping puts the whole bus against the current as soon as the duty "
          "turns negative; or " +

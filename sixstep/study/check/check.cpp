@@ -156,6 +156,7 @@ void check_tunings(const Scenario& s, const std::optional<design::MotorModel>& m
     base::Problems found;
     check_control(then, found);
     check_extras(then, found);
+    check_product(then, std::nullopt, found);
     if (motor) check_torque_limit(then, *motor, found);
     return found;
   };

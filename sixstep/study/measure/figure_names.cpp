@@ -6,7 +6,8 @@ namespace sixstep::study {
 std::string figure_name(const Measure& m) {
   if (!m.label.empty()) return m.label;
   const MetricFact& fact = fact_of(m.metric);
-  const std::string words(fact.phrase), phrase(fact_of(m.signal).phrase);
+  std::string words(fact.phrase);
+  const std::string phrase(fact_of(m.signal).phrase);
   constexpr std::string_view power = "power ";  // "power from the bus" is "energy from the bus" over time
   switch (fact.of) {
     case TakenOf::energies:

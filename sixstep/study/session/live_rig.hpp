@@ -41,8 +41,11 @@ struct Slice {
     watchers.segment(rig, s);
     const double h = rig.plant().expansion().h;
     const sim::Instant from = rig.now();
-    if (rig.next_tick().ticks - from.ticks > period_ticks)
-      reach = std::max(reach, sim::Instant{from.plus_seconds(h).ticks + 2, 0.0});
+    if (rig.next_tick().ticks - from.ticks > period_ticks) {
+      // What it wanted, not what came of it: a series that did not converge over all of that is shorter.
+      const double wanted = plant::useful_length(rig.plant().constants(), rig.plant().state(), 1e6);
+      reach = std::max(reach, sim::Instant{from.plus_seconds(wanted).ticks + 2, 0.0});
+    }
     if (taken || sim::seconds_between(from.plus_seconds(h * s), until) > 0.5e-12) return;
     last.emplace(LastSegment{rig.plant(), from, s});
     take(rig, last->fraction(until), until.seconds());

@@ -200,8 +200,7 @@ base::Result<Outcome> Session::close() {
     if (end < s.compiled.end) {
       Scenario cut = shortened(s.scenario, end.seconds());
       base::Result<Compiled> compiled = compile(cut);
-      if (!compiled) return compiled.problems();
-      if (!same_past(cut, s.compiled, *compiled, s.now()))
+      if (!compiled || !same_past(cut, s.compiled, *compiled, s.now()))
         return base::Problem{"duration_s", base::written(end.seconds()),
                              "leaves out a reference that the drive's limits were laid out for",
                              "run the session to its end"};
