@@ -82,7 +82,7 @@ text_headers() {
 
 # ask_wasm TABLE READER: the library once, then the table's program and the one that reads texts
 ask_wasm() {
-  local name log=$out/$1.log
+  local log=$out/$1.log
   # node 18 asks for the switch, later ones know it. A run keeps its plant and series on the stack, of which wasm-ld
   # gives 64 KiB: too little, and an overflow there is silent.
   local node=(node --no-warnings --experimental-wasi-unstable-preview1 tests/digest/wasi.mjs)
