@@ -6,10 +6,10 @@ import {allEqual, close, drag, eventually, opened, scales} from './page.mjs';
 
 test('the table reads every curve at the cursor and at two marks, with the difference and its frequency', async () => {
   const page = await opened('short.html', {hash: '#t=0.004,0.006'});
+  await eventually(async () => assert.match(await page.locator('#between').textContent(), /^Point at a chart/));
   assert.ok(await page.locator('#readout').isHidden(), 'without an instant there is nothing to read');
-  assert.match(await page.locator('#between').textContent(), /^Point at a chart/);
   await page.evaluate(() => sixstep.pointAt(0.0045));
-  assert.ok(await page.locator('#readout').isVisible());
+  await eventually(async () => assert.ok(await page.locator('#readout').isVisible()));
   await page.locator('#plots').press('a');
   await page.evaluate(() => sixstep.pointAt(0.005));
   await page.click('#mark-B');

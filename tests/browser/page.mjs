@@ -22,6 +22,11 @@ after(() => browser?.close());
 /** A page on which any complaint or attempt to reach a network fails the test. */
 export async function opened(name, {theme = 'light', hash = ''} = {}) {
   const page = await browser.newPage({viewport: {width: 1280, height: 900}, colorScheme: theme});
+  // On a busy machine frames come late. Here they always do, so that a test that does not wait for one fails anywhere.
+  await page.addInitScript(() => {
+    const soon = requestAnimationFrame;
+    globalThis.requestAnimationFrame = (draw) => setTimeout(() => soon(draw), 60);
+  });
   page.complaints = [];
   page.on('console', (m) => ['error', 'warning'].includes(m.type()) && page.complaints.push(m.text()));
   page.on('pageerror', (e) => page.complaints.push(e.message));
