@@ -77,6 +77,7 @@ class Plant {
   bool resettle(Real wanted, bool& expanded);
   bool settle_fully(Real wanted, bool& expanded);
   bool pass_edge(bool ahead);
+  void leave_edge(bool ahead);
   void balance();
   void set_scales(Real volt_scale);
   void set_steady_rate();
@@ -90,6 +91,7 @@ class Plant {
   std::int64_t diodes_started_ = 0;
   bool stale_ = true;
   bool doubted_ = false;  ///< the last located event came without progress: settle by series only
+  int last_event_ = -1;
 };
 
 template <class Real>
@@ -138,43 +140,6 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   // 4b).
   // mutant: on_edge && state_.w < 0 => false
   if (on_edge && state_.w < 0) pass_edge(false);
-}
-
-/// Currents within rounding of zero in legs without gate, and speeds within rounding of rest where friction
-/// may hold the rotor, are zero: what is consistent there is decided by settle(), not by a rounding error.
-template <class Real>
-void Plant<Real>::snap() {
-  // mutant: constants_.amp_noise => 1000 * constants_.amp_noise
-  const Real amp_noise = constants_.amp_noise;
-  // Balancing may bring another one below the noise: of 1.1, 1.2 and -2.3 where 1.2 is noise, all are zero.
-  for (bool snapped = true; snapped;) {
-    snapped = false;
-    for (unsigned k = 0; k < 3; ++k) {
-      Real& i = state_.i[k];
-      if (gates_.high[k] || gates_.low[k] || i == 0 || detail::abs(i) > amp_noise) continue;
-      i = state_.i_low[k] = 0;
-      snapped = true;
-    }
-    if (snapped) balance();
-  }
-  if (constants_.dry_friction && detail::abs(state_.w) <= constants_.speed_noise) state_.w = state_.w_low = 0;
-}
-
-/// After a current was set to zero: one left alone is zero too, two left are one current.
-template <class Real>
-void Plant<Real>::balance() {
-  PerLeg<Real>& i = state_.i;
-  const int zeros = int{i[0] == 0} + int{i[1] == 0} + int{i[2] == 0};
-  if (zeros == 2) {
-    i = {};
-    state_.i_low = {};
-  } else if (zeros == 1) {
-    const int zero = i[0] == 0 ? 0 : i[1] == 0 ? 1 : 2;
-    const int j = (zero + 1) % 3, k = (zero + 2) % 3;
-    i[k] = -i[j];
-    // mutant: -state_.i_low[j] => Real(0)
-    state_.i_low[k] = -state_.i_low[j];
-  }
 }
 
 template <class Real>
@@ -241,39 +206,6 @@ void Plant<Real>::advance(Real s) {
 }
 
 template <class Real>
-bool Plant<Real>::pass_edge(bool ahead) {
-  const auto pieces = [this] { return constants_.emf[sector()].count; };
-  const bool leaves = ahead ? mode_.piece + 1 == pieces() : mode_.piece == 0;
-  if (leaves) {
-    state_.sector += ahead ? 1 : -1;
-    mode_.sector = static_cast<std::uint8_t>(sector_in_turn(state_.sector));
-    mode_.piece = static_cast<std::uint8_t>(ahead ? 0 : pieces() - 1);
-  } else {
-    mode_.piece = static_cast<std::uint8_t>(mode_.piece + (ahead ? 1 : -1));
-  }
-  const EmfPiece<Real>& piece = constants_.emf[sector()].piece[mode_.piece];
-  // mutant: piece.from => Real(0)
-  state_.x = ahead ? piece.from : piece.to;
-  // mutant: state_.x_low = 0; => nothing
-  state_.x_low = 0;
-  return leaves;
-}
-
-template <class Real>
-bool Plant<Real>::apply(int id) {
-  if (id == guard::edge_ahead || id == guard::edge_behind) return pass_edge(id == guard::edge_ahead);
-  if (id < guard::standstill) {
-    // Two legs share one current and reach zero together; of three, the other two then carry one current.
-    state_.i[id] = state_.i_low[id] = 0;
-    if (connected_count(mode_.legs) == 2) state_.i = state_.i_low = {};
-    balance();
-  }
-  if (id == guard::standstill) state_.w = state_.w_low = 0;
-  stale_ = true;
-  return false;
-}
-
-template <class Real>
 Snapshot<Real> Plant<Real>::at(Real s) const {
   using series::evaluate;
   Snapshot<Real> now;
@@ -305,3 +237,4 @@ Snapshot<Real> Plant<Real>::at(Real s) const {
 }  // namespace sixstep::plant
 
 #include "sixstep/plant/plant_changes.hpp"
+#include "sixstep/plant/plant_events.hpp"

@@ -52,6 +52,39 @@ TEST(Pitfall04_TangentialStart, ADiodeThatStartsTangentiallyGoesOnWithoutChatter
   }
 }
 
+/// Six-step that follows the sectors at once, and in each of them wants the rotor back in the other.
+struct TornAtAnEdge : Held<> {
+  explicit TornAtAnEdge(const Drivetrain& setup) : Held<>(setup, all_off()) { drive(); }
+  void apply(int id) {
+    Held<>::apply(id);
+    drive();
+  }
+  void drive() {
+    const bool ahead = plant().state().sector >= 0;  // torque of a to b: positive on either side of the edge
+    plant().set_gates(ahead ? gates({false, true, false}, {true, false, false}) : a_to_b());
+  }
+};
+
+/// At rest on the edge torque is zero on both sides, and the third derivative of the angle points to the edge
+/// from either: without friction nothing makes the rotor leave, and time must go on all the same.
+TEST(Pitfall07_NoProgress, ARotorAtRestOnAnEdgeThatIsDrivenBackFromEitherSideGoesOnInTime) {
+  for (const double C_F : {0.0, 1e-3}) {
+    Drivetrain setup;
+    setup.devices.V_f_V = 0.7;
+    setup.shaft.B_Nm_s = 0;
+    setup.supply = {.V_0_V = 24.0, .R_b_ohm = 0.1, .C_F = C_F};
+    TornAtAnEdge bench(setup);
+    LawChecker<> laws;
+    ASSERT_EQ(sim::run(bench, sim::to_instant(2e-3), laws).stop, sim::Stop::end) << C_F;
+    std::size_t passes = 0;
+    for (const auto& e : bench.events) passes += e.id == guard::edge_ahead || e.id == guard::edge_behind;
+    EXPECT_GE(passes, 4u) << "it was torn";
+    EXPECT_LE(passes, 4000u);
+    EXPECT_LT(std::fabs(bench.angle()), base::sector_rad / 8) << "and got nowhere";
+    laws.expect_all();
+  }
+}
+
 /// In what order the guards of a mode are asked: at one instant the first one wins.
 struct Order {
   bool snap_after_another = false;
