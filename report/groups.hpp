@@ -20,10 +20,10 @@ struct Curve {
 struct Group {
   std::string id, title, unit;
   int height_px = 180;
-  bool logic = false;    ///< strips of zeros and ones, one below the other
-  bool lanes = false;    ///< one curve above the other, each around its own zero: what would hide each other
-  std::string quantity;  ///< "speed", "angle", "torque", "current": what the reader may choose the unit of
-  std::vector<Curve> curves;
+  bool logic = false;  ///< strips of zeros and ones, one below the other
+  bool lanes = false;  ///< one curve above the other, each around its own zero: what would hide each other
+  std::string quantity{};  ///< "speed", "angle", "torque", "current": what the reader may choose the unit of
+  std::vector<Curve> curves{};
 };
 
 struct Groups {

@@ -33,9 +33,9 @@ std::optional<double> last_setpoint_s(const sixstep::study::Trace& trace,
 /// The motor current i_m during a step; empty where an envelope stands for it.
 struct StepCurrent {
   double peak_A = 0.0, peak_after_s = 0.0;
-  std::optional<double> asked_A;                   ///< largest reference, where there is a current loop
-  double rms_A = 0.0;                              ///< over the window
-  std::optional<double> then_mean_A, then_span_A;  ///< from the window's end to the next change
+  std::optional<double> asked_A{};                     ///< largest reference, where there is a current loop
+  double rms_A = 0.0;                                  ///< over the window
+  std::optional<double> then_mean_A{}, then_span_A{};  ///< from the window's end to the next change
 };
 std::optional<StepCurrent> step_current(const sixstep::study::Trace& trace, const Step& step);
 

@@ -15,8 +15,8 @@ struct PackedRows {
   };
   std::size_t rows = 0;
   double start_s = 0.0, tick_s = 0.0;
-  std::vector<Column> columns;
-  std::string bytes;  ///< compressed: 4 planes of the times, then 2 of each column
+  std::vector<Column> columns{};
+  std::string bytes{};  ///< compressed: 4 planes of the times, then 2 of each column
 };
 
 /// Empty where the compressed rows are larger than `most_bytes`, or nothing can be compressed.

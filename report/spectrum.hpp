@@ -27,7 +27,7 @@ std::optional<Stretch> steady_stretch(const sixstep::study::Trace& trace,
 /// middle one has its amplitude where it lies on a line, and at worst 15 % less between two.
 struct Lines {
   double spacing_Hz = 0.0, cell_s = 0.0;
-  std::vector<double> amplitude;  ///< up to an eighth of the cells' frequency; [0], the mean, is 0
+  std::vector<double> amplitude{};  ///< up to an eighth of the cells' frequency; [0], the mean, is 0
 };
 /// Of the straight lines between the rows, averaged exactly over equal cells no longer than `cell_s` (which
 /// damps what lies above their frequency instead of folding it down; the damping below is divided out again).

@@ -8,17 +8,18 @@ namespace report {
 
 struct SvgCurve {
   std::string label;
-  std::string style;         ///< a colour of the style sheet: "a", "b", "c", "main", "reference" (dashed)
-  std::vector<double> x, y;  ///< points that are not finite, or not positive on a logarithmic axis, break it
+  std::string style;  ///< a colour of the style sheet: "a", "b", "c", "main", "reference" (dashed)
+  std::vector<double> x{},
+      y{};  ///< points that are not finite, or not positive on a logarithmic axis, break it
 };
 
 struct SvgChart {
-  std::string title, x_label, y_label;
+  std::string title, x_label, y_label{};
   bool log_x = false, log_y = false;
   double y_tick = 0.0;   ///< distance of the lines; 0: round numbers
   bool compact = false;  ///< half as large, for a place beside others
-  std::vector<SvgCurve> curves;
-  std::vector<double> levels;  ///< horizontal lines
+  std::vector<SvgCurve> curves{};
+  std::vector<double> levels{};  ///< horizontal lines
 };
 
 /// A <figure> with caption, legend and drawing; empty where no curve has a point.

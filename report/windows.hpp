@@ -20,8 +20,8 @@ double whole_from_s(const sixstep::study::Trace& trace);
 struct Windows {
   std::optional<Interval> periods;  ///< three PWM periods in which the bridge switches, as late as possible
   std::optional<Interval>
-      commutation;               ///< around a Hall edge under considerable current, as late as possible
-  std::optional<Interval> step;  ///< the largest change of what is asked for
+      commutation;                 ///< around a Hall edge under considerable current, as late as possible
+  std::optional<Interval> step{};  ///< the largest change of what is asked for
 };
 
 Windows choose_windows(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario);

@@ -40,13 +40,6 @@ Scenario rich() {
   return s;
 }
 
-Scenario hysteresis() {
-  Scenario s = current_square();
-  s.control.current = {.type = CurrentLoopType::hysteresis, .band_A = 0.2};
-  s.duration_s = 8e-3;
-  return s;
-}
-
 Scenario late_chip() {
   Scenario s = maxon_scenario(Mode::speed, 80.0);
   s.pwm.delay_periods = 1;

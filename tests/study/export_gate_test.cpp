@@ -91,6 +91,18 @@ TEST(ExportGate, ComplementarySwitchesWithoutDeadTimeAreRefused) {
   EXPECT_THAT(unmeasured(s), ElementsAre("bridge.dead_time_s"));
 }
 
+TEST(ExportGate, WhatTheRunChangedOfTheDriveIsNotWhatIsWritten) {
+  Scenario s = on_a_board(Mode::current);
+  s.at = {{.time_s = 1e-3, .reference = study::Reference{.value = 2.0}}, {.time_s = 2e-3}};
+  s.at[1].load.torque_Nm = 0.01;
+  EXPECT_THAT(unmeasured(s), IsEmpty()) << "setpoints and loads come from outside";
+  s.at[0].control.current.settle_s = 3e-3;
+  EXPECT_THAT(unmeasured(s), ElementsAre("at[0]"));
+  s.at[1].pwm.chopping = study::AtChopping::soft;
+  s.at[1].bridge.dead_time_s = 0.0;
+  EXPECT_THAT(unmeasured(s), ElementsAre("at[0]", "at[1]", "at[1]"));
+}
+
 TEST(ExportGate, ARunOfWhichNothingIsAskedHasShownNothing) {
   Scenario s = on_a_board(Mode::current);
   s.require.clear();

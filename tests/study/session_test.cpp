@@ -16,21 +16,6 @@ using namespace sixstep::testing;
 using namespace sixstep::study;
 using control::Mode;
 
-Scenario hysteresis() {
-  Scenario s = current_square();
-  s.control.current = {.type = CurrentLoopType::hysteresis, .band_A = 0.2};
-  s.duration_s = 8e-3;
-  return s;
-}
-
-Scenario cascade() {
-  Scenario s = maxon_scenario(Mode::speed, 100.0);
-  s.control.current.settle_s = 1e-3;
-  s.control.speed.settle_s = 10e-3;
-  s.duration_s = 8e-3;
-  return s;
-}
-
 Scenario late_and_sampled_in_the_middle() {
   Scenario s = cascade();
   s.pwm.sample = SampleAt::middle;

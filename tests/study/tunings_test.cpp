@@ -22,18 +22,10 @@ Outcome outcome(const Scenario& s) {
   return out ? *out : Outcome{};
 }
 
-Scenario cascade() {
-  Scenario s = maxon_scenario(Mode::speed, 100.0);
-  s.control.current.settle_s = 1e-3;
-  s.control.speed.settle_s = 10e-3;
-  s.duration_s = 12e-3;
-  return s;
-}
-
 /// Changed at once, the run is that of a scenario that had it so from the start.
 TEST(Tunings, AtTheStartTheyAreTheScenariosOwn) {
   for (const Arithmetic arithmetic : {Arithmetic::float64, Arithmetic::float32})
-    for (Scenario plain : {cascade(), product_scenario(Mode::speed, 100.0)}) {
+    for (Scenario plain : {cascade(12e-3), product_scenario(Mode::speed, 100.0)}) {
       plain.control.arithmetic = arithmetic;
       Scenario own = plain, told = plain;
       At at;
@@ -51,7 +43,7 @@ TEST(Tunings, AtTheStartTheyAreTheScenariosOwn) {
 }
 
 TEST(Tunings, AModeAtTheStartIsTheScenariosOwn) {
-  Scenario own = cascade(), told = own;
+  Scenario own = cascade(12e-3), told = own;
   told.control.mode = Mode::duty;
   told.reference.value = 0.3;
   At at;
@@ -64,7 +56,7 @@ TEST(Tunings, AModeAtTheStartIsTheScenariosOwn) {
 /// Between two samples nobody looks: the change is that of the next one. In the middle of a period too.
 TEST(Tunings, ActFromTheNextSampleOn) {
   for (const SampleAt sample : {SampleAt::start, SampleAt::middle}) {
-    Scenario s = cascade();
+    Scenario s = cascade(12e-3);
     s.pwm.sample = sample;
     At at;
     at.control.current.settle_s = 2e-3;
@@ -99,7 +91,7 @@ TEST(Tunings, EveryModeIsReachedFromEveryOther) {
   for (const auto& from : goals)
     for (const auto& to : goals) {
       if (from.mode == to.mode) continue;
-      Scenario s = cascade();
+      Scenario s = cascade(12e-3);
       s.load.viscous_Nm_s = 2e-4;  // a held current ends at a speed below the bus's
       s.control.mode = static_cast<Mode>(static_cast<int>(from.mode) - 1);
       s.reference.value = from.reference;
@@ -122,7 +114,7 @@ TEST(Tunings, EveryModeIsReachedFromEveryOther) {
 }
 
 TEST(Tunings, ALowerLimitHoldsFromThereOn) {
-  Scenario s = cascade();
+  Scenario s = cascade(12e-3);
   s.control.limits.current_A = 10.0;
   At at;
   at.time_s = 2e-3;
@@ -147,7 +139,7 @@ std::string refused_at(const Scenario& s) {
 
 TEST(Tunings, WhatCannotBeIsRefusedAtItsKey) {
   const auto with = [](const auto& fill) {
-    Scenario s = cascade();
+    Scenario s = cascade(12e-3);
     At at;
     at.time_s = 1e-3;
     fill(s, at);

@@ -42,6 +42,23 @@ inline study::Scenario current_square() {
   return s;
 }
 
+/// The same current by a band of 0.2 A.
+inline study::Scenario hysteresis() {
+  study::Scenario s = current_square();
+  s.control.current = {.type = study::CurrentLoopType::hysteresis, .band_A = 0.2};
+  s.duration_s = 8e-3;
+  return s;
+}
+
+/// Speed over current, both from their settling times.
+inline study::Scenario cascade(double duration_s = 8e-3) {
+  study::Scenario s = maxon_scenario(control::Mode::speed, 100.0);
+  s.control.current.settle_s = 1e-3;
+  s.control.speed.settle_s = 10e-3;
+  s.duration_s = duration_s;
+  return s;
+}
+
 inline study::Measure measure(study::MetricKind metric, study::Signal signal) {
   study::Measure m;
   m.metric = metric;

@@ -222,6 +222,12 @@ TEST_F(WrongInput, SyntaxIsToldWithItsPlace) {
                   "'m'; end the line behind the value: its unit is in the key"));
 }
 
+/// Where a name must begin the parser took for granted that one does.
+TEST_F(WrongInput, ABracketWithoutANameIsToldAsSyntax) {
+  for (const char* line : {"[# no name", "[", "[[", "[=", "a = {# no name", "a = {,"})
+    EXPECT_THAT(complaints(head + line), ElementsAre(HasSubstr("x.toml:3:"))) << line;
+}
+
 TEST_F(WrongInput, AWrongDurationIsToldAlone) {
   EXPECT_THAT(
       complaints("motor = \"maxon-251601\"\nduration_s = \"long\"\n[reference]\nshape = \"steps\"\n"

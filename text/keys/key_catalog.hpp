@@ -17,9 +17,9 @@ struct KeyEntry {
   std::string path;  ///< "supply.voltage_V"; keys of lists as "require.metric"
   KeyType type = KeyType::number;
   base::About about;
-  bool optional = false;      ///< may be left out, and then nothing stands in its place
-  std::string default_value;  ///< as TOML; empty where there is none
-  std::vector<std::pair<std::string, std::string>> choices;  ///< words and meanings
+  bool optional = false;        ///< may be left out, and then nothing stands in its place
+  std::string default_value{};  ///< as TOML; empty where there is none
+  std::vector<std::pair<std::string, std::string>> choices{};  ///< words and meanings
 };
 
 std::vector<KeyEntry> scenario_keys();

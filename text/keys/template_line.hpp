@@ -15,10 +15,10 @@ inline constexpr std::size_t template_width = 110;
 
 struct TemplateLine {
   std::string_view key;
-  std::string_view value;  ///< as TOML
-  bool open = true;        ///< else behind a #, not to count yet
-  bool explained = true;   ///< else the line alone: its meaning stands elsewhere
-  std::string_view more;   ///< to be said behind meaning, unit and range
+  std::string_view value;   ///< as TOML
+  bool open = true;         ///< else behind a #, not to count yet
+  bool explained = true;    ///< else the line alone: its meaning stands elsewhere
+  std::string_view more{};  ///< to be said behind meaning, unit and range
 };
 
 /// "key = value  # meaning [unit], range"; what does not fit into one line, and the words of an enumeration,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/scenario/changes.hpp"
 
 namespace sixstep::study {
 namespace {
@@ -70,6 +71,20 @@ void look_at_dead_time(const Scenario& s, base::Problems& out) {
                    "give what the gate drivers need, as 500e-9"});
 }
 
+/// A chip keeps the constants that were written for it, and the bridge its dead time.
+void look_at_changes(const Scenario& s, base::Problems& out) {
+  for (std::size_t n = 0; n < s.at.size(); ++n) {
+    const auto changes = [&](const char* what) {
+      out.push_back(
+          {"at[" + std::to_string(n) + "]", "at " + written(s.at[n].time_s) + " s",
+           std::string("changes ") + what + ", and what is written is the configuration of the start",
+           "take the change out, or run a scenario that begins with it and export that"});
+    };
+    if (retunes(s.at[n])) changes("how the drive is set");
+    if (s.at[n].bridge.dead_time_s) changes("the dead time");
+  }
+}
+
 std::string required(const Verdict& v) {
   const std::string unit = v.unit.empty() ? "" : " " + v.unit;
   if (v.min && v.max) return written(*v.min) + " .. " + written(*v.max) + unit;
@@ -98,6 +113,7 @@ base::Problems never_measured(const Scenario& s) {
   look_at_sensors(s, out);
   look_at_delay(s, out);
   look_at_dead_time(s, out);
+  look_at_changes(s, out);
   if (s.require.empty())
     out.push_back({"require", "", "is missing: where nothing is asked of a run, nothing has been shown",
                    "say in [[require]] what the drive must do; see the help on require"});

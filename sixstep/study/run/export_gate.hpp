@@ -10,8 +10,8 @@
 namespace sixstep::study {
 
 /// What a run of this scenario leaves unmeasured, each with its cure: sensors that the drive reads and no
-/// board has, an answer that takes no time, switches that need none, a run of which nothing is asked. What
-/// the drive does not read may stay ideal.
+/// board has, an answer that takes no time, switches that need none, constants that the run changed on its way,
+/// a run of which nothing is asked. What the drive does not read may stay ideal.
 base::Problems never_measured(const Scenario& scenario);
 
 /// What a run of it has shown against it: each requirement missed, and the fault that stopped it.

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+// When six-step's switches wait for each other, edge by edge, and what a Hall edge hands over (model.md 3, 11). Ticks
+// are picoseconds, the period is 30 us.
+#include <gtest/gtest.h>
+
+#include "tests/support/maxon.hpp"
+#include "tests/support/modulating.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+
+TEST(Modulator, DeadTimeDelaysEachTurnOnTheFirstToo) {
+  SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  m.start_period(at(0), command(0.5, Chopping::complementary));
+  EXPECT_EQ(on(m), "");
+  EXPECT_EQ(do_next(m), at(1'000'000));
+  EXPECT_EQ(on(m), "a+b-");
+  EXPECT_EQ(do_next(m), at(period / 2));
+  EXPECT_EQ(on(m), "b-");
+  EXPECT_EQ(do_next(m), at(period / 2 + 1'000'000));
+  EXPECT_EQ(on(m), "a-b-");
+  m.start_period(at(period), command(0.5, Chopping::complementary));
+  EXPECT_EQ(on(m), "b-");
+  EXPECT_EQ(do_next(m), at(period + 1'000'000));
+  EXPECT_EQ(on(m), "a+b-");
+}
+
+TEST(Modulator, APulseShorterThanTheDeadTimeNeverTurnsOn) {
+  SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  m.start_period(at(0), command(0.01, Chopping::complementary));  // 0.3 us
+  EXPECT_EQ(do_next(m), at(300'000));
+  EXPECT_EQ(do_next(m), at(1'000'000));
+  EXPECT_EQ(on(m), "b-");
+  EXPECT_EQ(do_next(m), at(1'300'000)) << "the lower switch waits from the upper one's turn-off command";
+  EXPECT_EQ(on(m), "a-b-");
+}
+
+/// model.md 11: the first command of a run is a change, of every leg, whatever gave it.
+TEST(Modulator, TheFirstTurnOnOfARunWaitsInEveryChoppingForDutyAndHysteresis) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
+    for (const double duty : {0.5, 1.0})
+      for (const Watch watch : {Watch::none, Watch::motor, Watch::phase}) {
+        SCOPED_TRACE(::testing::Message() << int(chopping) << " " << duty << " " << int(watch));
+        SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
+        m.start_period(at(0),
+                       watch == Watch::none ? command(duty, chopping) : compared(watch, chopping, 5.0));
+        EXPECT_EQ(on(m), "");
+        EXPECT_EQ(do_next(m), at(1'000'000));
+        EXPECT_EQ(on(m), "a+b-");
+      }
+}
+
+/// Nothing within the leg was told to turn off.
+TEST(Modulator, LaterTurnOnsOfSoftAndHardChoppingNeedNoDeadTime) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard}) {
+    SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
+    m.start_period(at(0), command(0.5, chopping));
+    while (m.next_edge() < at(period)) do_next(m);
+    m.start_period(at(period), command(0.5, chopping));
+    EXPECT_EQ(on(m), "a+b-");
+  }
+}
+
+TEST(Modulator, WithoutAChangeOfTheLegsCommandThereIsNoDeadTime) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
+    for (const double duty : {0.0, 1.0}) {
+      SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
+      m.start_period(at(0), command(duty, chopping));
+      m.act(at(1'000'000));
+      const std::string before = on(m);
+      for (int n = 1; n < 4; ++n) {
+        m.start_period(at(n * period), command(duty, chopping));
+        EXPECT_EQ(on(m), before) << int(chopping) << " " << duty;
+        EXPECT_TRUE(m.steady());
+      }
+    }
+}
+
+/// 0.3 us of gap: the lower switch, told to turn on and off again, never came on; its turn-off counts all the
+/// same.
+TEST(Modulator, AGapShorterThanTheDeadTimeKeepsTheUpperSwitchWaitingForAllOfIt) {
+  SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  m.start_period(at(0), command(0.99, Chopping::complementary));
+  EXPECT_EQ(do_next(m), at(1'000'000));
+  EXPECT_EQ(do_next(m), at(29'700'000));
+  EXPECT_EQ(on(m), "b-");
+  m.start_period(at(period), command(1.0, Chopping::complementary));
+  EXPECT_EQ(on(m), "b-");
+  EXPECT_EQ(do_next(m), at(period + 1'000'000));
+  EXPECT_EQ(on(m), "a+b-");
+}
+
+TEST(Modulator, AReversalWaitsWhereTheSourceWasTheSink) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary}) {
+    SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
+    m.start_period(at(0), command(1.0, chopping));
+    m.act(at(1'000'000));
+    m.start_period(at(period), command(1.0, chopping, {Leg::b, Leg::a}));
+    EXPECT_FALSE(m.gates().high[1]) << int(chopping);
+    EXPECT_EQ(do_next(m), at(period + 1'000'000));
+    EXPECT_EQ(on(m), "a-b+");
+  }
+}
+
+/// On-time of 98 % around the middle begins 0.3 us into the period, within the dead time of 1 us.
+TEST(Modulator, ACentredOnTimeWaitsAtAReversalToo) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard}) {
+    SixStepModulator m{ModulatorConfig{.centre_aligned = true, .dead_ticks = 1e6}};
+    m.start_period(at(0), command(1.0, chopping));
+    m.start_period(at(period), command(0.98, chopping, {Leg::b, Leg::a}));
+    EXPECT_EQ(do_next(m), at(period + 300'000)) << int(chopping);
+    EXPECT_FALSE(m.gates().high[1]) << int(chopping);
+    EXPECT_EQ(do_next(m), at(period + 1'000'000)) << int(chopping);
+    EXPECT_EQ(on(m), "a-b+") << int(chopping);
+  }
+}
+
+/// The lower switch of complementary chopping turns off with the command; the upper one of soft chopping
+/// waits.
+TEST(Modulator, AnotherChoppingWaitsForTheLowerSwitch) {
+  for (const bool centred : {false, true}) {
+    SixStepModulator m{ModulatorConfig{.centre_aligned = centred, .dead_ticks = 1e6}};
+    m.start_period(at(0), command(0.5, Chopping::complementary));
+    while (m.next_edge() < at(period)) do_next(m);
+    EXPECT_EQ(on(m), "a-b-") << centred;
+    m.start_period(at(period), command(0.98, Chopping::soft));
+    EXPECT_EQ(on(m), "b-") << centred;
+    while (!m.gates().high[0] && m.next_edge() < at(2 * period)) m.act(m.next_edge());
+    EXPECT_EQ(m.next_edge(), centred ? at(period + 29'700'000) : at(period + 29'400'000)) << centred;
+    EXPECT_EQ(on(m), "a+b-") << centred;
+  }
+}
+
+/// The current of a passes from its upper to its lower switch: that is a change of a's command too.
+TEST(Modulator, AReversalWaitsWhereTheSinkWasTheSource) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
+    for (const double duty : {0.98, 1.0}) {
+      SCOPED_TRACE(::testing::Message() << int(chopping) << " " << duty);
+      SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
+      m.start_period(at(0), command(duty, chopping));
+      while (m.next_edge() < at(period)) do_next(m);
+      m.start_period(at(period), command(1.0, chopping, {Leg::b, Leg::a}));
+      EXPECT_FALSE(m.gates().low[0]);
+      const std::int64_t off =
+          duty < 1.0 ? 29'400'000 : period;  // when a's upper switch was told to turn off
+      Instant now{};
+      while (!m.gates().low[0]) now = do_next(m);
+      EXPECT_EQ(now, at(off + 1'000'000));
+    }
+}
+
+/// Both switches of the pair have been off since the middle of the period.
+TEST(Modulator, AHardSignFlipDoesNotWaitWhereTheOtherSwitchIsLongOff) {
+  SixStepModulator m{ModulatorConfig{.dead_ticks = 2e6}};
+  m.start_period(at(0), command(0.5, Chopping::hard));
+  while (m.next_edge() < at(period)) do_next(m);
+  EXPECT_EQ(on(m), "");
+  m.start_period(at(period), command(0.5, Chopping::hard, {Leg::b, Leg::a}));
+  EXPECT_EQ(on(m), "a-b+");
+  EXPECT_EQ(do_next(m), at(period + period / 2)) << "and nothing ends at 32 us";
+}
+
+TEST(Modulator, AHardSinkWaitsWithItsSourceAtAReversal) {
+  SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  m.start_period(at(0), command(1.0, Chopping::hard));
+  m.act(at(1'000'000));
+  m.start_period(at(period), command(1.0, Chopping::hard, {Leg::b, Leg::a}));
+  EXPECT_EQ(on(m), "") << "both switches of the pair are one";
+}
+
+TEST(Modulator, TheFirstTurnOnOfTheLowerSwitchWaitsToo) {
+  for (const bool centred : {false, true}) {
+    SixStepModulator m{ModulatorConfig{.centre_aligned = centred, .dead_ticks = 1e6}};
+    m.start_period(at(0), command(centred ? 0.5 : 0.0, Chopping::complementary));
+    EXPECT_EQ(on(m), "") << centred;
+    EXPECT_EQ(do_next(m), at(1'000'000)) << centred;
+    EXPECT_EQ(on(m), "a-b-") << centred;
+  }
+}
+
+TEST(Modulator, AHysteresisThatWasOffWakesOn) {
+  SixStepModulator m{ModulatorConfig{}};
+  m.start_period(at(0), compared(Watch::motor, Chopping::soft, 5.0));
+  m.comparator_tripped(at(1'000), 0);
+  EXPECT_EQ(on(m), "b-");
+  m.start_period(at(period), {});
+  EXPECT_EQ(on(m), "");
+  m.start_period(at(2 * period), compared(Watch::motor, Chopping::soft, 5.0));
+  EXPECT_EQ(on(m), "a+b-");
+}
+
+TEST(Modulator, AHallEdgeMovesTheStateAsItIs) {
+  SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
+  m.start_period(at(0), command(0.5, Chopping::complementary));
+  m.commutate(at(500'000), {Leg::a, Leg::c});  // dead
+  EXPECT_EQ(on(m), "");
+  EXPECT_EQ(do_next(m), at(1'000'000));
+  EXPECT_EQ(on(m), "a+c-");
+  m.commutate(at(2'000'000), {Leg::b, Leg::c});  // on
+  EXPECT_EQ(on(m), "b+c-") << "no dead time of its own";
+  EXPECT_EQ(do_next(m), at(period / 2)) << "PWM is not restarted";
+  m.commutate(at(15'500'000), {Leg::a, Leg::c});  // dead
+  EXPECT_EQ(on(m), "c-");
+  EXPECT_EQ(do_next(m), at(16'000'000)) << "nor is the dead time";
+  EXPECT_EQ(on(m), "a-c-");
+  m.commutate(at(20'000'000), {Leg::b, Leg::c});  // low
+  EXPECT_EQ(on(m), "b-c-");
+  EXPECT_EQ(m.turn_ons(), 1);
+}
+
+TEST(Modulator, DeadTimeAtCommutationDelaysTheNewTurnOnsOnly) {
+  SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6, .dead_time_at_commutation = true}};
+  m.start_period(at(0), command(0.5));
+  EXPECT_EQ(do_next(m), at(1'000'000));
+  EXPECT_EQ(on(m), "a+b-");
+  m.commutate(at(5'000'000), {Leg::a, Leg::c});
+  EXPECT_EQ(on(m), "a+");
+  EXPECT_EQ(do_next(m), at(6'000'000));
+  EXPECT_EQ(on(m), "a+c-");
+  m.commutate(at(7'000'000), {Leg::b, Leg::c});
+  EXPECT_EQ(on(m), "c-");
+  EXPECT_EQ(do_next(m), at(8'000'000));
+  EXPECT_EQ(on(m), "b+c-");
+}
+
+/// commutation = "sample": the pair moves on with a period's command. Leg a hands its state to b, c goes on.
+TEST(Modulator, ACommutationAtTheSampleMovesTheStateAsItIs) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
+    for (const double duty : {0.5, 1.0}) {
+      SCOPED_TRACE(::testing::Message() << int(chopping) << " " << duty);
+      SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
+      m.start_period(at(0), command(duty, chopping, {Leg::a, Leg::c}));
+      while (m.next_edge() < at(period)) do_next(m);
+      m.start_period(at(period), command(duty, chopping, {Leg::b, Leg::c}));
+      // Low until now, as in any period of complementary chopping: that is a change within the leg.
+      const bool waits = chopping == Chopping::complementary && duty < 1.0;
+      EXPECT_EQ(on(m), waits ? "c-" : "b+c-");
+      if (waits) {
+        EXPECT_EQ(do_next(m), at(period + 1'000'000));
+      }
+      EXPECT_EQ(on(m), "b+c-");
+    }
+}
+
+TEST(Modulator, DeadTimeAtCommutationDelaysSourceAndSinkAtTheSampleToo) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary}) {
+    SCOPED_TRACE(int(chopping));
+    SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6, .dead_time_at_commutation = true}};
+    m.start_period(at(0), command(1.0, chopping));
+    m.act(at(1'000'000));
+    m.start_period(at(period), command(1.0, chopping, {Leg::a, Leg::c}));
+    EXPECT_EQ(on(m), "a+") << "the sink";
+    EXPECT_EQ(do_next(m), at(period + 1'000'000));
+    EXPECT_EQ(on(m), "a+c-");
+    m.start_period(at(2 * period), command(1.0, chopping, {Leg::b, Leg::c}));
+    EXPECT_EQ(on(m), "c-") << "the source";
+    EXPECT_EQ(do_next(m), at(2 * period + 1'000'000));
+    EXPECT_EQ(on(m), "b+c-");
+  }
+}
+
+}  // namespace
