@@ -12,11 +12,13 @@ using control::LegSide;
 
 class LegChannel {
  public:
-  /// The turn-off command counts, not whether that switch had come on: after a gap shorter than the dead time
-  /// the upper switch waits for the whole of it.
+  LegChannel() = default;
+  /// One that has been told this long ago.
+  explicit LegChannel(LegSide side) : side_(side) {}
+
+  /// Another command than before. The turn-off command counts, not whether that switch had come on: after a gap
+  /// shorter than the dead time the upper switch waits for the whole of it.
   void tell(const sim::Instant& t, LegSide side, double dead_ticks) {
-    // mutant: side == side_ => false
-    if (side == side_) return;
     // mutant: side_ == LegSide::high => side_ != LegSide::high
     if (side_ != LegSide::none) (side_ == LegSide::high ? low_from_ : high_from_) = t.plus_ticks(dead_ticks);
     side_ = side;
@@ -37,7 +39,6 @@ class LegChannel {
   bool waits() const { return waits_; }
   /// When the wait is over.
   const sim::Instant& from() const { return side_ == LegSide::high ? high_from_ : low_from_; }
-  bool is_on(LegSide side) const { return side_ == side && !waits_; }
 
  private:
   sim::Instant low_from_{}, high_from_{};  ///< no earlier than this may the switch come on

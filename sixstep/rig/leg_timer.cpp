@@ -35,33 +35,73 @@ void LegTimer::hand_over(unsigned from, unsigned to) {
   // mutant: legs_[to] = legs_[from]; => nothing
   legs_[to] = legs_[from];
   legs_[from] = {};
+  for (std::uint8_t* bits : {&told_, &waiting_}) {
+    const unsigned others = *bits & ~(of_leg << from | of_leg << to), handed = *bits >> from & of_leg;
+    *bits = static_cast<std::uint8_t>(others | handed << to);
+  }
+}
+
+LegTimer::Switches LegTimer::asked() const {
+  unsigned switches = 0;
+  for (unsigned p = 0; p < 3; ++p) switches |= pulses_[p].on ? outputs_[p].in_pulse : outputs_[p].in_rest;
+  return static_cast<Switches>(switches);
+}
+
+void LegTimer::set_dead_time(double ticks) {
+  dead_ticks_ = config_.in_counts(ticks);
+  if (waits_ || !(dead_ticks_ > 0)) return;
+  waits_ = true;  // from now on: what was turned off before has waited for nothing
+  for (unsigned k = 0; k < 3; ++k) legs_[k] = LegChannel(side_of(told_, k));
 }
 
 void LegTimer::update(const Instant& t, int late) {
-  for (unsigned k = 0; k < 3; ++k) {
-    const Output& output = outputs_[k];
-    legs_[k].tell(t, pulses_[output.pulse].on ? output.sides.pulse : output.sides.rest, dead_ticks_);
+  const Switches wanted = asked();
+  if (!waits_) {
+    told_ = wanted;
+    set_gates(wanted);
+    next_edge_ = first_edge();
+    return;
+  }
+  const unsigned changed = unsigned{wanted} ^ told_;
+  // mutant: changed >> 3 => 0u
+  unsigned touched = (changed | changed >> 3) & 0b111;
+  told_ = wanted;
+  for (unsigned left = touched; left != 0; left &= left - 1) {
+    const auto k = static_cast<unsigned>(std::countr_zero(left));
+    legs_[k].tell(t, side_of(wanted, k), dead_ticks_);
   }
   // mutant: late != none_late => false
-  if (late != none_late) legs_[static_cast<unsigned>(late)].delay(t, dead_ticks_);
-  look_at_legs();
+  if (late != none_late) {
+    legs_[static_cast<unsigned>(late)].delay(t, dead_ticks_);
+    touched |= 1u << late;
+  }
+  if ((touched | waiting_) != 0) look_at_legs();
+  set_gates(told_ & ~(waiting_ * of_leg));
+  next_edge_ = first_edge();
 }
 
+/// Which of them wait, and until when the first one does.
 void LegTimer::look_at_legs() {
-  unsigned high = 0, low = 0;
-  wait_end_ = Instant::never();
+  static constexpr Instant never = Instant::never();
+  const Instant* end = &never;
+  unsigned waiting = 0;
   for (unsigned k = 0; k < 3; ++k) {
-    const LegChannel& leg = legs_[k];
-    high |= unsigned{leg.is_on(LegSide::high)} << k;
-    low |= unsigned{leg.is_on(LegSide::low)} << k;
-    if (leg.waits() && leg.from() < wait_end_) wait_end_ = leg.from();
+    if (!legs_[k].waits()) continue;
+    waiting |= 1u << k;
+    if (legs_[k].from() < *end) end = &legs_[k].from();
   }
-  gates_ = {high, low};
-  next_edge_ = wait_end_;
+  waiting_ = static_cast<std::uint8_t>(waiting);
+  wait_end_ = *end;
+}
+
+/// By its place: one that was just written and is copied would wait until both halves have left for memory.
+const Instant& LegTimer::first_edge() const {
+  const Instant* first = &wait_end_;
   for (unsigned left = chopping_; left != 0; left &= left - 1) {
     const Instant& edge = pulses_[static_cast<unsigned>(std::countr_zero(left))].next();
-    if (edge < next_edge_) next_edge_ = edge;
+    if (edge < *first) first = &edge;
   }
+  return *first;
 }
 
 bool LegTimer::act(const Instant& now) {

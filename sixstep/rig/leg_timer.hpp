@@ -5,6 +5,7 @@
 // three_leg_modulator.hpp from three commands.
 #pragma once
 #include <array>
+#include <cstdint>
 
 #include "sixstep/plant/state.hpp"
 #include "sixstep/rig/leg_channel.hpp"
@@ -15,7 +16,7 @@ namespace sixstep::rig {
 class LegTimer {
  public:
   explicit LegTimer(const ModulatorConfig& config)
-      : config_(config), dead_ticks_(config.in_counts(config.dead_ticks)) {}
+      : config_(config), dead_ticks_(config.in_counts(config.dead_ticks)), waits_(dead_ticks_ > 0) {}
 
   /// Nobody knows what the legs did before: whatever turns on waits. No pulse is on.
   void wake(const sim::Instant& t);
@@ -28,12 +29,15 @@ class LegTimer {
   void preset_pulse(unsigned pulse, bool on) { pulses_[pulse].on = on; }
 
   /// Of the changes from now on; what waits already waits as long as it was told.
-  void set_dead_time(double ticks) { dead_ticks_ = config_.in_counts(ticks); }
+  void set_dead_time(double ticks);
 
   /// All legs off; the pulses go on.
   void disconnect() { outputs_ = {}; }
+  /// A leg that is not connected yet.
   void connect(unsigned leg, control::LegSides sides, unsigned pulse) {
-    outputs_[leg] = {sides, static_cast<std::uint8_t>(pulse)};
+    Output& output = outputs_[pulse];
+    output.in_pulse = static_cast<Switches>(output.in_pulse | switch_of(leg, sides.pulse));
+    output.in_rest = static_cast<Switches>(output.in_rest | switch_of(leg, sides.rest));
   }
   /// What a leg does, waits and all, goes on in another one (model.md 3).
   void hand_over(unsigned from, unsigned to);
@@ -54,17 +58,34 @@ class LegTimer {
   bool dead_time_at_commutation() const { return config_.dead_time_at_commutation; }
 
  private:
+  /// Switches that are to be on, upper ones in bits 0 to 2, lower ones in bits 3 to 5: what all legs are told
+  /// is known without asking one by one.
+  using Switches = std::uint8_t;
+  static constexpr unsigned of_leg = 0b001'001;
+  static Switches switch_of(unsigned leg, LegSide side) {
+    const unsigned low = side == LegSide::low, high = side == LegSide::high;
+    return static_cast<Switches>((low << 3 | high) << leg);
+  }
+  static LegSide side_of(Switches switches, unsigned leg) {
+    return switches >> leg & 1 ? LegSide::high : switches >> leg & 0b1000 ? LegSide::low : LegSide::none;
+  }
+  /// Of the legs that follow a pulse.
   struct Output {
-    control::LegSides sides{};
-    std::uint8_t pulse = 0;
+    Switches in_pulse = 0, in_rest = 0;
   };
+  Switches asked() const;
   void look_at_legs();
+  void set_gates(unsigned switches) { gates_ = {switches & 0b111, switches >> 3}; }
+  const sim::Instant& first_edge() const;
 
   ModulatorConfig config_;
   double dead_ticks_ = 0.0;  ///< as the timer has it
+  bool waits_ = false;       ///< it has or had a dead time; else the legs' own times are not asked
   std::array<Pulse, 3> pulses_{};
   std::array<LegChannel, 3> legs_{};
-  std::array<Output, 3> outputs_{};
+  std::array<Output, 3> outputs_{};                 ///< of each pulse
+  Switches told_{};                                 ///< what the legs were told
+  std::uint8_t waiting_ = 0;                        ///< the legs that wait, as bits
   unsigned chopping_ = 0;                           ///< the pulses that have edges to come, as bits
   sim::Instant wait_end_ = sim::Instant::never();   ///< the first one of a leg
   sim::Instant next_edge_ = sim::Instant::never();  ///< of pulses and legs

@@ -29,7 +29,11 @@ struct Pulse {
   sim::Instant on_edge = sim::Instant::never(), off_edge = sim::Instant::never();
 
   const sim::Instant& next() const { return on_edge < off_edge ? on_edge : off_edge; }
-  void cancel() { on_edge = off_edge = sim::Instant::never(); }
+  // Each by itself: a copy of the one just written would wait until both its halves have left for memory.
+  void cancel() {
+    on_edge = sim::Instant::never();
+    off_edge = sim::Instant::never();
+  }
   /// Whether it is on as the period begins, and the edges to come. |duty| = 1 has no gap, 0 no pulse. One
   /// that is too short for the gate drivers does not come; a gap that is too short closes.
   bool begin(const sim::Instant& t, double duty, const ModulatorConfig& c) {

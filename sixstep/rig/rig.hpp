@@ -100,6 +100,8 @@ class Rig {
     if constexpr (six_step) return watching() && compare();
     return false;
   }
+  /// By itself, so that the run loop around act() keeps its registers.
+  [[gnu::noinline]] bool act_on_due();
   bool compare();
   bool do_timeline();
   void do_action(const Action& action);
@@ -161,6 +163,11 @@ bool Rig<Real, Firmware>::act() {
   ticked_ = false;
   // mutant: now_ < due_ && !moved_ && !watching() => now_ < due_ && !watching()
   if (now_ < due_ && !moved_ && !watching()) return true;
+  return act_on_due();
+}
+
+template <class Real, class Firmware>
+bool Rig<Real, Firmware>::act_on_due() {
   if (moved_) due_ = next_due();
   moved_ = false;
   do {

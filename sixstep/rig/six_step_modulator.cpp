@@ -75,7 +75,8 @@ void SixStepModulator::fill_legs(const Instant& t, int entered) {
     const Chopping chopping = command_.chopping;
     // mutant: sink_pulse => source_pulse
     const unsigned sink = command_.watch == Watch::phase ? sink_pulse : source_pulse;
-    timer_.connect(index(command_.pair.source), sides_of(control::source_leg(chopping, 0.0)), source_pulse);
+    if (command_.pair.source != command_.pair.sink)  // else gates() says what is asked
+      timer_.connect(index(command_.pair.source), sides_of(control::source_leg(chopping, 0.0)), source_pulse);
     timer_.connect(index(command_.pair.sink), sides_of(control::sink_leg(chopping, 0.0)), sink);
   }
   timer_.update(t, timer_.dead_time_at_commutation() ? entered : LegTimer::none_late);
