@@ -10,7 +10,10 @@ reset:
   .option pop
   la sp, stack_top
   la t0, fault
+  .option push
+  .option arch, +zicsr
   csrw mtvec, t0
+  .option pop
   j begin
 
   .text
