@@ -18,10 +18,10 @@ class Failed(Exception):
     """With words for the terminal."""
 
 
-def told(command, limit_s=300, **more):
+def told(command, limit_s=600, cwd=REPOSITORY):
     """What a command prints; where it fails, its last words."""
     try:
-        done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=limit_s, cwd=REPOSITORY, check=False, **more)
+        done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=limit_s, cwd=cwd, check=False)
     except subprocess.TimeoutExpired:
         raise Failed(f"{command[0]} took more than {limit_s} s") from None
     if done.returncode != 0:
@@ -85,4 +85,5 @@ def run(core, file, *arguments, limit_s=300):
 
 
 def build_board():
-    told(["g++", "-std=c++20", "-O2", "-Wall", "-Wextra", "-Werror", HERE / "platform/avr_board.cpp", "-o", OUT / "avr_board", "-lsimavr", "-lelf"])
+    told(["g++", "-std=c++20", "-O2", "-Wall", "-Wextra", "-Werror", f"-I{REPOSITORY}",
+          HERE / "platform/avr_board.cpp", "-o", OUT / "avr_board", "-lsimavr", "-lelf"])

@@ -27,6 +27,7 @@ class Core:
     link: tuple = ()            # linker with its flags where it is not the compiler
     libraries: tuple = ()
     scalars: tuple = ("q15", "q14", "q31", "q30", "float")
+    parts: dict = dataclasses.field(default_factory=dict, hash=False)  # scalars whose walk does not fit in one program
     unit: str = ""              # what is counted
     costs: tuple = ()           # scalars whose cost is measured
     nm: str = "nm"
@@ -72,7 +73,8 @@ CHIPS = (
          unit="instructions", costs=("q15",), nm="riscv64-unknown-elf-nm", size="riscv64-unknown-elf-size"),
     # clang 14 to 16 miscompile for the AVR: proof.py. The threshold folds constexpr configurations into the entries.
     Core("ATmega2560", ("clang++-19", "--target=avr", "-mmcu=atmega2560", "-mllvm", "-inline-threshold=5000"),
-         (str(OUT / "avr_board"),), ("avr.cpp",), link=("avr-gcc", "-mmcu=atmega2560"), unit="cycles", costs=("q15",),
+         (str(OUT / "avr_board"),), ("avr.cpp",), link=("avr-gcc", "-mmcu=atmega2560"),
+         parts={scalar: ("BLOCKS", "DRIVES") for scalar in ("q31", "q30")}, unit="cycles", costs=("q15",),
          nm="avr-nm", size="avr-size"),
 )
 BY_NAME = {core.name: core for core in (*HOSTS, *CHIPS)}

@@ -20,8 +20,11 @@ def programs(core):
 
 def printed(core, scalar, steps=SHORT, defines=()):
     """{(block, scalar, steps): digest} of one program; its other lines begin with #."""
-    file = build.build(core, f"walk-{scalar}" + ("-sights" if defines else ""), [cores.HERE / "walk" / "main.cpp"], scalar, defines)
-    text = build.run(core, file, *([str(steps)] if core.is_host else []))
+    text = ""
+    for part in core.parts.get(scalar, ("",)):
+        more = (*defines, *([f"-DTARGET_{part}_ALONE"] if part else []))
+        file = build.build(core, "-".join(["walk", scalar, *(d.strip("-D") for d in more)]), [cores.HERE / "walk" / "main.cpp"], scalar, more)
+        text += build.run(core, file, *([str(steps)] if core.is_host else []))
     found = re.findall(r"^(\S+) (\S+) (\d+) ([0-9a-f]{8})$", text, re.M)
     return {(block, scalar_, int(n)): digest for block, scalar_, n, digest in found}, text
 

@@ -68,6 +68,14 @@ void* memset(void* to, int value, Size n) {
 namespace target {
 
 void put(char c) { write_character(c); }
+std::uint16_t refill(const char* name, std::uint8_t* to, std::uint16_t bytes) {
+  static Word file = 0;
+  Word length = 0;
+  while (name[length] != 0) ++length;
+  if (file == 0) file = open_to_read(name, length);
+  return file == 0 ? std::uint16_t{0} : static_cast<std::uint16_t>(read_file(file, to, bytes));
+}
+void call_entry(bool, void (*entry)()) { entry(); }
 std::uint32_t steps_wanted() { return 10000; }
 
 }  // namespace target

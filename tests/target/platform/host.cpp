@@ -17,6 +17,11 @@ std::uint32_t steps = 10000;
 
 void put(char c) { std::putchar(c); }
 std::uint32_t steps_wanted() { return steps; }
+std::uint16_t refill(const char* name, std::uint8_t* to, std::uint16_t bytes) {
+  static std::FILE* const file = std::fopen(name, "rb");
+  return file ? static_cast<std::uint16_t>(std::fread(to, 1, bytes, file)) : std::uint16_t{0};
+}
+void call_entry(bool, void (*entry)()) { entry(); }
 
 #ifdef TARGET_SIGHTS
 namespace {

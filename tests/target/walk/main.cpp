@@ -2,7 +2,7 @@
 // Walks every block of sixstep/control, and the drives that scenarios export, through drawn inputs, and
 // prints a digest of all their outputs: the same source for every processor. One program per scalar:
 // TARGET_SCALAR q15, q14, q31, q30, float, or whole for the blocks without one.
-#include "tests/target/platform/platform.hpp"
+#include "tests/target/platform/print.hpp"
 #include "tests/target/walk/names.hpp"
 
 #if TARGET_IS_WHOLE
@@ -25,20 +25,6 @@ namespace {
 
 constexpr std::uint32_t short_walk = 10000;
 
-void print(const char* text) {
-  for (; *text != 0; ++text) put(*text);
-}
-void print_number(std::uint32_t n) {
-  char digits[11];
-  char* p = digits + 10;
-  *p = 0;
-  do *--p = static_cast<char>('0' + n % 10);
-  while ((n /= 10) != 0);
-  print(p);
-}
-void print_hex(std::uint32_t n) {
-  for (int shift = 28; shift >= 0; shift -= 4) put("0123456789abcdef"[(n >> shift) & 15]);
-}
 void tell(const char* block, std::uint32_t steps, std::uint32_t digest) {
   print(block);
   print(" " TARGET_SCALAR_NAME " ");
@@ -71,7 +57,7 @@ void walk_all() {
 #else
 using Scalar = TARGET_SCALAR;
 
-void walk_blocks() {
+[[maybe_unused]] void walk_blocks() {
   walk<ArithmeticWalk<Scalar>>("arithmetic");
   walk<PiWalk<Scalar>>("pi");
   walk<PiPositionalWalk<Scalar>>("pi_positional");
@@ -92,7 +78,7 @@ void walk_blocks() {
   walk<ThreePhasePwmWalk<Scalar>>("three_phase_pwm");
 }
 
-void walk_drives() {
+[[maybe_unused]] void walk_drives() {
   walk<DrawnDriveWalk<Scalar>>("drive+retune");
   walk<LeanWalk<Scalar, current::drive>>("drive:current");
   walk<LeanWalk<Scalar, hysteresis::drive>>("drive:hysteresis");
@@ -103,9 +89,14 @@ void walk_drives() {
   walk<ProductWalk<Scalar, one_shunt::product>>("product:one_shunt");
 }
 
+/// A chip whose memory does not hold both at once is given one after the other.
 void walk_all() {
+#ifndef TARGET_DRIVES_ALONE
   walk_blocks();
+#endif
+#ifndef TARGET_BLOCKS_ALONE
   walk_drives();
+#endif
 }
 #endif
 
