@@ -12,8 +12,9 @@ OUT = REPOSITORY / "build" / "target"
 # Everywhere. What decides about bits is -ffp-contract=off; the rest shows what the code keeps to.
 COMMON = ["-std=c++20", "-fno-exceptions", "-fno-rtti", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion",
           "-Wno-sign-conversion", "-Werror", "-ffp-contract=off", "-O2", f"-I{REPOSITORY}"]
-# <cstdint> is the shim of tests/control/sixteen_bit: no chip's C++ library is asked for.
-BARE = ["-ffreestanding", "-nostdinc++", f"-I{REPOSITORY}/tests/control/sixteen_bit"]
+# <cstdint> is the shim of tests/control/sixteen_bit: no chip's C++ library is asked for. Nothing is thrown, so nothing needs
+# tables to unwind by.
+BARE = ["-ffreestanding", "-nostdinc++", "-fno-unwind-tables", "-fno-asynchronous-unwind-tables", f"-I{REPOSITORY}/tests/control/sixteen_bit"]
 SEMIHOSTING = ["-nographic", "-monitor", "none", "-serial", "none", "-chardev", "stdio,id=told", "-semihosting-config",
                "enable=on,target=native,chardev=told"]
 
@@ -51,7 +52,7 @@ def host(name, *compile_, run=(), static=True):
 
 def cortex(name, cpu, board, *more, costs):
     return Core(name, ("arm-none-eabi-g++", f"-mcpu={cpu}", "-mthumb", "-Wno-psabi", *more),
-                ("qemu-system-arm", "-M", board, *SEMIHOSTING), ("bare.cpp", "cortex_m.S"),
+                ("qemu-system-arm", "-M", board, *SEMIHOSTING), ("bare.cpp", "memory.cpp", "cortex_m.S"),
                 libraries=("-nostdlib", "-T", str(HERE / "platform/cortex_m.ld"), "-lgcc"), unit="instructions", costs=costs,
                 nm="arm-none-eabi-nm", size="arm-none-eabi-size")
 
@@ -68,7 +69,7 @@ CHIPS = (
     cortex("Cortex-M3", "cortex-m3", "mps2-an385", costs=("q15", "q31")),
     cortex("Cortex-M4F", "cortex-m4", "mps2-an386", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard", costs=("float", "q15", "q31")),
     Core("RV32IMC", ("riscv64-unknown-elf-g++", "-march=rv32imc", "-mabi=ilp32"),
-         ("qemu-system-riscv32", "-M", "virt", "-bios", "none", *SEMIHOSTING), ("bare.cpp", "riscv.S"),
+         ("qemu-system-riscv32", "-M", "virt", "-bios", "none", *SEMIHOSTING), ("bare.cpp", "memory.cpp", "riscv.S"),
          libraries=("-nostdlib", "-T", str(HERE / "platform/riscv.ld"), "-Wl,--no-warn-rwx-segments", "-lgcc"),
          unit="instructions", costs=("q15",), nm="riscv64-unknown-elf-nm", size="riscv64-unknown-elf-size"),
     # clang 14 to 16 miscompile for the AVR: proof.py. The threshold folds constexpr configurations into the entries.

@@ -18,6 +18,11 @@ def programs(core):
     return (*core.scalars, "whole")
 
 
+def digests(text):
+    found = re.findall(r"^(\S+) (\S+) (\d+) ([0-9a-f]{8})$", text, re.M)
+    return {(block, scalar, int(n)): digest for block, scalar, n, digest in found}
+
+
 def printed(core, scalar, steps=SHORT, defines=()):
     """{(block, scalar, steps): digest} of one program; its other lines begin with #."""
     text = ""
@@ -25,8 +30,7 @@ def printed(core, scalar, steps=SHORT, defines=()):
         more = (*defines, *([f"-DTARGET_{part}_ALONE"] if part else []))
         file = build.build(core, "-".join(["walk", scalar, *(d.strip("-D") for d in more)]), [cores.HERE / "walk" / "main.cpp"], scalar, more)
         text += build.run(core, file, *([str(steps)] if core.is_host else []))
-    found = re.findall(r"^(\S+) (\S+) (\d+) ([0-9a-f]{8})$", text, re.M)
-    return {(block, scalar_, int(n)): digest for block, scalar_, n, digest in found}, text
+    return digests(text), text
 
 
 def expected():
@@ -42,8 +46,8 @@ def renew():
     core = cores.HOSTS[0]
     rows = []
     for scalar in programs(core):
-        digests, _ = printed(core, scalar, LONG)
-        rows += [f"{block} {s} {digest} {digests[block, s, LONG]}" for (block, s, n), digest in digests.items() if n == SHORT]
+        found, _ = printed(core, scalar, LONG)
+        rows += [f"{block} {s} {digest} {found[block, s, LONG]}" for (block, s, n), digest in found.items() if n == SHORT]
     TABLE.write_text(HEAD + "\n".join(rows) + "\n")
 
 
@@ -61,12 +65,12 @@ def check_sights():
 def difference(core, scalar, table):
     """Lines of trouble of one program, and how many digests were the same."""
     steps = LONG if core.is_host else SHORT
-    digests, _ = printed(core, scalar, steps)
+    found, _ = printed(core, scalar, steps)
     wanted = {key: digest for key, digest in table.items() if key[1] == scalar and (core.is_host or key[2] == SHORT)}
     trouble = [f"{core.name}: {block} {s}, {n} steps: {wanted.get((block, s, n), 'not in the table')} expected, "
-               f"{digests.get((block, s, n), 'not printed')} found"
-               for block, s, n in sorted(wanted.keys() | digests.keys()) if wanted.get((block, s, n)) != digests.get((block, s, n))]
-    return trouble, len(digests) - len(trouble)
+               f"{found.get((block, s, n), 'not printed')} found"
+               for block, s, n in sorted(wanted.keys() | found.keys()) if wanted.get((block, s, n)) != found.get((block, s, n))]
+    return trouble, len(found) - len(trouble)
 
 
 def check(of=None):

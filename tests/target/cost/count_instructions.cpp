@@ -67,7 +67,8 @@ void at_exit(Id, void*) {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) int qemu_plugin_install(Id id, const void*, int argc, char** argv) {
+extern "C" __attribute__((visibility("default"))) int qemu_plugin_install(Id id, const void*, int argc,
+                                                                          char** argv) {
   for (int n = 0; n < argc; ++n) {
     const std::string word = argv[n];
     const std::size_t equals = word.find('=');

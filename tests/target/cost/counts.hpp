@@ -18,7 +18,8 @@ class Counts {
     std::uint64_t sum = 0;
     for (const std::uint64_t x : all_) sum += x;
     const std::size_t n = all_.size(), within = (n * 999 + 999) / 1000 - 1;
-    std::fprintf(to, "cost %s %zu %llu %llu %llu\n", name, n, static_cast<unsigned long long>((sum + n / 2) / n),
+    std::fprintf(to, "cost %s %zu %llu %llu %llu\n", name, n,
+                 static_cast<unsigned long long>((sum + n / 2) / n),
                  static_cast<unsigned long long>(all_[within]), static_cast<unsigned long long>(all_.back()));
   }
 

@@ -13,9 +13,7 @@ ProtectedTelemetry<Scalar> telemetry;
 BoardInput input;
 Request request;
 
-inline void tick() {
-  answer = protected_step(exported::product, state, input, request, setpoint, telemetry);
-}
+inline void tick() { answer = protected_step(exported::product, state, input, request, setpoint, telemetry); }
 inline void hall() { answer = protected_on_hall(exported::product, state, input.hall_pins, input.now); }
 #else
 DriveState<Scalar> state;
@@ -51,7 +49,7 @@ extern "C" {
 __attribute__((noinline, used)) void entry_tick() { target::tick(); }
 __attribute__((noinline, used)) void entry_hall() { target::hall(); }
 
-#ifdef __AVR__
+#if defined __AVR__ && !defined TARGET_NO_INTERRUPTS
 // The same as interrupts, saving what they use: INT0 is vector 1 of the ATmega2560, INT1 vector 2.
 void __vector_1() __attribute__((signal, used));
 void __vector_2() __attribute__((signal, used));

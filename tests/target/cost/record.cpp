@@ -46,7 +46,9 @@ class LeanRecorder {
   static constexpr bool fault_ends_run = true;
 
   LeanRecorder(const Config& config, const rig::BoardConfig& board, const rig::PowerUp& up)
-      : drive_(config, board, up), sensors_(board.sensors, board.bases, up.pole_pairs, up.sector, up.pins), bases_(board.bases) {}
+      : drive_(config, board, up),
+        sensors_(board.sensors, board.bases, up.pole_pairs, up.sector, up.pins),
+        bases_(board.bases) {}
 
   template <class Real>
   Command tick(const rig::SampleInstant<Real>& instant, double setpoint) {
@@ -101,11 +103,14 @@ class ProductRecorder {
   Command tick(const rig::SampleInstant<Real>& instant, double setpoint) {
     const rig::Sample s = rig::sample_of(instant);
     ProductRecord<Scalar> record{};
-    record.input = {.bus_counts = registers_.bus_counts(s), .hall_pins = instant.pins, .now = registers_.counter(s.at)};
-    for (std::size_t k = 0; k < 3; ++k) record.input.current_counts[k] = registers_.current_counts(k, s.i_A[k], s.number);
+    record.input = {
+        .bus_counts = registers_.bus_counts(s), .hall_pins = instant.pins, .now = registers_.counter(s.at)};
+    for (std::size_t k = 0; k < 3; ++k)
+      record.input.current_counts[k] = registers_.current_counts(k, s.i_A[k], s.number);
     record.request = request_;
     record.setpoint.value = rig::from_si<Scalar>(setpoint, bases_.setpoint);
-    const Command answer = protected_step(config_, state_, record.input, request_, record.setpoint, telemetry_);
+    const Command answer =
+        protected_step(config_, state_, record.input, request_, record.setpoint, telemetry_);
     request_.clear = false;
     tape.note(record, answer);
     return answer;
@@ -141,9 +146,13 @@ class ProductRecorder {
 struct Watch {
   study::Digest digest;
   template <class Rig>
-  void segment(const Rig& rig, double s) { digest.segment(rig, s); }
+  void segment(const Rig& rig, double s) {
+    digest.segment(rig, s);
+  }
   template <class Rig>
-  bool done(const Rig&) { return false; }
+  bool done(const Rig&) {
+    return false;
+  }
 };
 
 template <class Recorder, class Firmware>
@@ -166,21 +175,26 @@ std::uint64_t digest_in(const study::Scenario& s, const study::Compiled& c) {
 
 std::uint64_t digest_of_run(const study::Scenario& s, const study::Compiled& c) {
   switch (s.control.arithmetic) {
-    case study::Arithmetic::q15: return digest_in<Q15>(s, c);
-    case study::Arithmetic::q31: return digest_in<Q31>(s, c);
-    case study::Arithmetic::float32: return digest_in<float>(s, c);
-    default: return 0;
+    case study::Arithmetic::q15:
+      return digest_in<Q15>(s, c);
+    case study::Arithmetic::q31:
+      return digest_in<Q31>(s, c);
+    case study::Arithmetic::float32:
+      return digest_in<float>(s, c);
+    default:
+      return 0;
   }
 }
 
 int complain(const base::Problems& problems) {
-  for (const base::Problem& p : problems) std::fprintf(stderr, "%s %s: %s\n", p.where.c_str(), p.value.c_str(), p.limit.c_str());
+  for (const base::Problem& p : problems)
+    std::fprintf(stderr, "%s %s: %s\n", p.where.c_str(), p.value.c_str(), p.limit.c_str());
   return 2;
 }
 
 int record(const char* file, const char* arithmetic, const char* out) {
-  const auto scenario =
-      files::read_scenario(file, {.data_dir = TARGET_DATA, .overrides = {{"control.arithmetic", arithmetic}}});
+  const auto scenario = files::read_scenario(
+      file, {.data_dir = TARGET_DATA, .overrides = {{"control.arithmetic", arithmetic}}});
   if (!scenario) return complain(scenario.problems());
   const auto compiled = study::compile(*scenario);
   if (!compiled) return complain(compiled.problems());
@@ -192,8 +206,11 @@ int record(const char* file, const char* arithmetic, const char* out) {
     return 3;
   }
   std::FILE* to = std::fopen(out, "wb");
-  if (!to || std::fwrite(tape.bytes.data(), 1, tape.bytes.size(), to) != tape.bytes.size() || std::fclose(to) != 0) return 4;
-  std::printf("run %016" PRIx64 "\nanswers %" PRIu32 " %08" PRIx32 "\n", digest, tape.calls, tape.answers.value());
+  if (!to || std::fwrite(tape.bytes.data(), 1, tape.bytes.size(), to) != tape.bytes.size() ||
+      std::fclose(to) != 0)
+    return 4;
+  std::printf("run %016" PRIx64 "\nanswers %" PRIu32 " %08" PRIx32 "\n", digest, tape.calls,
+              tape.answers.value());
   return 0;
 }
 

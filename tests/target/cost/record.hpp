@@ -27,18 +27,14 @@ struct Bits<Fixed<std::int16_t, FractionBits>> {
   using Scalar = Fixed<std::int16_t, FractionBits>;
   using Unsigned = std::uint16_t;
   static constexpr Unsigned of(Scalar x) { return static_cast<Unsigned>(x.raw); }
-  static constexpr Scalar from(Unsigned bits) {
-    return Scalar::from_raw(static_cast<std::int16_t>(bits));
-  }
+  static constexpr Scalar from(Unsigned bits) { return Scalar::from_raw(static_cast<std::int16_t>(bits)); }
 };
 template <int FractionBits>
 struct Bits<Fixed<std::int32_t, FractionBits>> {
   using Scalar = Fixed<std::int32_t, FractionBits>;
   using Unsigned = std::uint32_t;
   static constexpr Unsigned of(Scalar x) { return static_cast<Unsigned>(x.raw); }
-  static constexpr Scalar from(Unsigned bits) {
-    return Scalar::from_raw(static_cast<std::int32_t>(bits));
-  }
+  static constexpr Scalar from(Unsigned bits) { return Scalar::from_raw(static_cast<std::int32_t>(bits)); }
 };
 
 /// Moves a field between a record and its bytes, both ways by one list of fields.

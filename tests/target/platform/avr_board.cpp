@@ -45,7 +45,8 @@ std::uint16_t word(const avr_t* avr, std::uint16_t at) {
 
 void refill(avr_t* avr, avr_io_addr_t, std::uint8_t, void* board) {
   const Board& b = *static_cast<Board*>(board);
-  const std::uint16_t to = word(avr, b.request), wanted = word(avr, static_cast<std::uint16_t>(b.request + 2));
+  const std::uint16_t to = word(avr, b.request),
+                      wanted = word(avr, static_cast<std::uint16_t>(b.request + 2));
   const std::size_t came = b.records ? std::fread(avr->data + to, 1, wanted, b.records) : 0;
   avr->data[b.request + 2] = static_cast<std::uint8_t>(came);
   avr->data[b.request + 3] = static_cast<std::uint8_t>(came >> 8);
@@ -63,8 +64,8 @@ bool power_up(Board& board, const char* file, bool interrupts) {
   avr_register_io_write(
       board.avr, 0x3E, [](avr_t*, avr_io_addr_t, std::uint8_t c, void*) { std::putchar(c); }, nullptr);
   avr_register_io_write(
-      board.avr, 0x4A, [](avr_t*, avr_io_addr_t, std::uint8_t, void* to) { static_cast<Board*>(to)->done = true; },
-      &board);
+      board.avr, 0x4A,
+      [](avr_t*, avr_io_addr_t, std::uint8_t, void* to) { static_cast<Board*>(to)->done = true; }, &board);
   avr_register_io_write(board.avr, 0x4B, refill, &board);
   return true;
 }

@@ -65,7 +65,8 @@ struct Number<Fixed<Storage, FractionBits>> {
   }
   static constexpr TickRatio<Scalar> ratio(std::uint16_t n) {
     using Wide = typename Scalar::WideInt;
-    return TickRatio<Scalar>::from_raw(static_cast<Wide>(static_cast<Wide>(n) * (wide ? std::int32_t{1} << 22 : 64)));
+    return TickRatio<Scalar>::from_raw(
+        static_cast<Wide>(static_cast<Wide>(n) * (wide ? std::int32_t{1} << 22 : 64)));
   }
 };
 

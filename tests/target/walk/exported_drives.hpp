@@ -116,8 +116,7 @@ struct ProductWalk {
     read(r);
     turn(r, mix);
     in.hall_pins = pins(r);
-    const BridgeCommand<Scalar> answer =
-        protected_step(config, state, in, request, setpoint, telemetry);
+    const BridgeCommand<Scalar> answer = protected_step(config, state, in, request, setpoint, telemetry);
     mix_command(mix, answer);
     mix(telemetry.drive.current_reference_A, telemetry.drive.duty, telemetry.measured.speed_rad_s,
         telemetry.measured.position_deg, telemetry.measured.bus_V, telemetry.measured.i_a_A,

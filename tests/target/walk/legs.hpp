@@ -23,9 +23,8 @@ void mix_legs(Digest& mix, const LegCommands<Scalar>& legs) {
 template <class Scalar>
 void mix_command(Digest& mix, const BridgeCommand<Scalar>& command) {
   mix(command.enabled, static_cast<std::uint8_t>(command.pair.source),
-      static_cast<std::uint8_t>(command.pair.sink), command.duty,
-      static_cast<std::uint8_t>(command.chopping), static_cast<std::uint8_t>(command.watch),
-      command.on_below_A, command.off_above_A, command.fault);
+      static_cast<std::uint8_t>(command.pair.sink), command.duty, static_cast<std::uint8_t>(command.chopping),
+      static_cast<std::uint8_t>(command.watch), command.on_below_A, command.off_above_A, command.fault);
 }
 
 template <class Scalar>
@@ -61,7 +60,8 @@ struct FramesWalk {
     const Dq<Scalar> w = park(v, axis);
     const Abc<Scalar> phases = inverse_clarke(back);
     mix(v.alpha, v.beta, w.d, w.q, back.alpha, back.beta, phases.a, phases.b, phases.c);
-    saw("a vector that saturates", v.beta == Number<Scalar>::end(false) || v.beta > Number<Scalar>::end(false));
+    saw("a vector that saturates",
+        v.beta == Number<Scalar>::end(false) || v.beta > Number<Scalar>::end(false));
   }
 };
 

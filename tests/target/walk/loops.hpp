@@ -32,7 +32,8 @@ struct ArithmeticWalk {
     const Accumulator<Scalar> sum = T::accumulated(T::wide(x) - T::wide(y), factor);
     mix(sum, T::signal(sum), T::share(sum, factor), -sum);
     const std::uint32_t whole = r.long_bits();
-    mix(clamped(x, magnitude(y)), between(x, -magnitude(y), Scalar{}), T::fraction(r.long_bits() >> 2, whole));
+    mix(clamped(x, magnitude(y)), between(x, -magnitude(y), Scalar{}),
+        T::fraction(r.long_bits() >> 2, whole));
     mix(T::counts(static_cast<std::int32_t>(r.long_bits()) / 65536, factor));
     if constexpr (!__is_same(Scalar, float)) {
       saw("a product that saturates", T::product(x, factor) == Number<Scalar>::end(false));
@@ -46,13 +47,10 @@ struct PiWalk {
   PiConfig<Scalar> config{};
   PiState<Scalar> state{};
 
-  void draw(Random& r) {
-    config = {gain<Scalar>(r, -3), gain<Scalar>(r, 2), positive<Scalar>(r)};
-  }
+  void draw(Random& r) { config = {gain<Scalar>(r, -3), gain<Scalar>(r, 2), positive<Scalar>(r)}; }
   void step(Random& r, Digest& mix) {
     const Scalar error = signal<Scalar>(r), low = -positive<Scalar>(r), high = positive<Scalar>(r);
-    const Scalar u =
-        r.one_in(2) ? pi_step(config, state, error) : pi_step(config, state, error, low, high);
+    const Scalar u = r.one_in(2) ? pi_step(config, state, error) : pi_step(config, state, error, low, high);
     mix(u, state.u, state.e);
     saw("at the upper limit", u == config.limit);
     saw("at the lower limit", u == -config.limit);
@@ -102,7 +100,9 @@ struct SlewWalk {
   SlewState<Scalar> state{};
   Scalar target{};
 
-  void draw(Random& r) { config = {Number<Scalar>::sum(static_cast<std::int32_t>(r.long_bits() >> 4) >> r.below(14))}; }
+  void draw(Random& r) {
+    config = {Number<Scalar>::sum(static_cast<std::int32_t>(r.long_bits() >> 4) >> r.below(14))};
+  }
   void step(Random& r, Digest& mix) {
     if (r.one_in(16)) target = signal<Scalar>(r);
     const Scalar y = slew_step(config, state, target);

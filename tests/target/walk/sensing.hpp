@@ -131,8 +131,9 @@ struct LimitsWalk {
   LimitsConfig<Scalar> config{};
 
   void draw(Random& r) {
-    config = {positive<Scalar>(r, 26000),      !r.one_in(4), positive<Scalar>(r), positive_gain<Scalar>(r, -4),
-              !r.one_in(4), positive<Scalar>(r), positive_gain<Scalar>(r, -4)};
+    config = {positive<Scalar>(r, 26000),   !r.one_in(4), positive<Scalar>(r),
+              positive_gain<Scalar>(r, -4), !r.one_in(4), positive<Scalar>(r),
+              positive_gain<Scalar>(r, -4)};
   }
   void step(Random& r, Digest& mix) {
     const Measurement<Scalar> m = drawn_measurement<Scalar>(r);
@@ -154,9 +155,13 @@ struct FaultsWalk {
 
   void draw(Random& r) {
     const Scalar far = Number<Scalar>::part(0x50000000);
-    config = {far + positive<Scalar>(r, 12000), far + positive<Scalar>(r, 12000), positive<Scalar>(r, 2000),
-              far + positive<Scalar>(r, 12000), positive<Scalar>(r, 12000),
-              static_cast<std::uint32_t>(r.below(8)), r.below(4)};
+    config = {far + positive<Scalar>(r, 12000),
+              far + positive<Scalar>(r, 12000),
+              positive<Scalar>(r, 2000),
+              far + positive<Scalar>(r, 12000),
+              positive<Scalar>(r, 12000),
+              static_cast<std::uint32_t>(r.below(8)),
+              r.below(4)};
     fault_clear(state);
   }
   void step(Random& r, Digest& mix) {
