@@ -94,6 +94,7 @@ void walk_all() {
 #ifdef TARGET_PROOF_ALONE
   walk<ArithmeticWalk<Scalar> >("arithmetic");
   walk<PiWalk<Scalar> >("pi");
+  walk<DrawnDriveWalk<Scalar> >("drive+retune");
 #else
 #ifndef TARGET_DRIVES_ALONE
   walk_blocks();
