@@ -45,7 +45,7 @@ def record():
 
 def defines(core, drive):
     marked = core.unit == "instructions"
-    return (f"-DTARGET_DRIVE={drive}", f"-DTARGET_PRODUCT={int(drive == 'product')}", *(["-DTARGET_CALLS_ARE_MARKED"] if marked else []))
+    return (*core.for_entries, f"-DTARGET_DRIVE={drive}", f"-DTARGET_PRODUCT={int(drive == 'product')}", *(["-DTARGET_CALLS_ARE_MARKED"] if marked else []))
 
 
 def addresses(core, file):

@@ -21,7 +21,7 @@ def wrong(core, limit_s=LIMIT_S):
     """In words how its arithmetic differs; empty where it does not."""
     table = {key: digest for key, digest in walk.expected().items() if key[0] in BLOCKS and key[1:] == ("q15", walk.SHORT)}
     try:
-        file = build.build(core, "proof", [cores.HERE / "walk" / "main.cpp"], "q15", ("-DTARGET_PROOF_ALONE",))
+        file = build.build(core, "proof", [cores.HERE / "walk" / "main.cpp"], "q15", (*core.for_walk, "-DTARGET_PROOF_ALONE"))
         text = build.run(core, file, limit_s=limit_s)
     except Failed as failed:
         return str(failed).splitlines()[-1]
@@ -38,7 +38,7 @@ def check():
     print(f"{AVR.compile[0]} for the AVR: " + (f"WRONG, nothing that it compiles is to be believed: {trouble}" if trouble else "its arithmetic is right"), flush=True)
     well = not trouble
     for compiler in filter(shutil.which, KNOWN_WRONG):
-        other = dataclasses.replace(AVR, name=f"proof-{compiler}", compile=(compiler, *AVR.compile[1:3]))
+        other = dataclasses.replace(AVR, name=f"proof-{compiler}", compile=(compiler, *AVR.compile[1:]), for_walk=())
         trouble = wrong(other)
         print(f"{compiler} for the AVR: " + (f"is wrong, as it is known to be: {trouble}" if trouble else "passes, though it is known to be wrong: the proof is too weak"), flush=True)
         well = well and bool(trouble)

@@ -28,7 +28,8 @@ def printed(core, scalar, steps=SHORT, defines=()):
     text = ""
     for part in core.parts.get(scalar, ("",)):
         more = (*defines, *([f"-DTARGET_{part}_ALONE"] if part else []))
-        file = build.build(core, "-".join(["walk", scalar, *(d.strip("-D") for d in more)]), [cores.HERE / "walk" / "main.cpp"], scalar, more)
+        name = "-".join(["walk", scalar, *(define.removeprefix("-D") for define in more)])
+        file = build.build(core, name, [cores.HERE / "walk" / "main.cpp"], scalar, (*core.for_walk, *more))
         text += build.run(core, file, *([str(steps)] if core.is_host else []))
     return digests(text), text
 
