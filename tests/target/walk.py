@@ -25,12 +25,9 @@ def digests(text):
 
 def printed(core, scalar, steps=SHORT, defines=()):
     """{(block, scalar, steps): digest} of one program; its other lines begin with #."""
-    text = ""
-    for part in core.parts.get(scalar, ("",)):
-        more = (*defines, *([f"-DTARGET_{part}_ALONE"] if part else []))
-        name = "-".join(["walk", scalar, *(define.removeprefix("-D") for define in more)])
-        file = build.build(core, name, [cores.HERE / "walk" / "main.cpp"], scalar, (*core.for_walk, *more))
-        text += build.run(core, file, *([str(steps)] if core.is_host else []))
+    name = "-".join(["walk", scalar, *(define.removeprefix("-D") for define in defines)])
+    file = build.build(core, name, [cores.HERE / "walk" / "main.cpp"], scalar, (*core.for_walk, *defines))
+    text = build.run(core, file, *([str(steps)] if core.is_host else []))
     return digests(text), text
 
 

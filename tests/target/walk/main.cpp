@@ -89,19 +89,14 @@ using Scalar = TARGET_SCALAR;
   walk<ProductWalk<Scalar, one_shunt::product> >("product:one_shunt");
 }
 
-/// A chip whose memory does not hold both at once is given one after the other.
 void walk_all() {
 #ifdef TARGET_PROOF_ALONE
   walk<ArithmeticWalk<Scalar> >("arithmetic");
   walk<PiWalk<Scalar> >("pi");
   walk<DrawnDriveWalk<Scalar> >("drive+retune");
 #else
-#ifndef TARGET_DRIVES_ALONE
   walk_blocks();
-#endif
-#ifndef TARGET_BLOCKS_ALONE
   walk_drives();
-#endif
 #endif
 }
 #endif
