@@ -15,6 +15,8 @@ COMMON = ["-std=c++20", "-fno-exceptions", "-fno-rtti", "-Wall", "-Wextra", "-Wp
 # <cstdint> is the shim of tests/control/sixteen_bit: no chip's C++ library is asked for. Nothing is thrown, so nothing needs
 # tables to unwind by.
 BARE = ["-ffreestanding", "-nostdinc++", "-fno-unwind-tables", "-fno-asynchronous-unwind-tables", f"-I{REPOSITORY}/tests/control/sixteen_bit"]
+# A drive is flashed with its constexpr configuration: what is inlined is folded. g++ does so at -O3.
+INLINED = ("-O3",)
 SEMIHOSTING = ["-nographic", "-monitor", "none", "-serial", "none", "-chardev", "stdio,id=told", "-semihosting-config",
                "enable=on,target=native,chardev=told"]
 
@@ -54,7 +56,8 @@ def host(name, *compile_, run=(), static=True):
 def cortex(name, cpu, board, *more, costs):
     return Core(name, ("arm-none-eabi-g++", f"-mcpu={cpu}", "-mthumb", "-Wno-psabi", *more),
                 ("qemu-system-arm", "-M", board, *SEMIHOSTING), ("bare.cpp", "memory.cpp", "cortex_m.S"),
-                libraries=("-nostdlib", "-T", str(HERE / "platform/cortex_m.ld"), "-lgcc"), unit="instructions", costs=costs,
+                libraries=("-nostdlib", "-T", str(HERE / "platform/cortex_m.ld"), "-lgcc"), for_entries=INLINED,
+                unit="instructions", costs=costs,
                 nm="arm-none-eabi-nm", size="arm-none-eabi-size")
 
 
@@ -71,7 +74,7 @@ CHIPS = (
     cortex("Cortex-M4F", "cortex-m4", "mps2-an386", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard", costs=("float", "q15", "q31")),
     Core("RV32IMC", ("riscv64-unknown-elf-g++", "-march=rv32imc", "-mabi=ilp32"),
          ("qemu-system-riscv32", "-M", "virt", "-bios", "none", *SEMIHOSTING), ("bare.cpp", "memory.cpp", "riscv.S"),
-         libraries=("-nostdlib", "-T", str(HERE / "platform/riscv.ld"), "-Wl,--no-warn-rwx-segments", "-lgcc"),
+         libraries=("-nostdlib", "-T", str(HERE / "platform/riscv.ld"), "-Wl,--no-warn-rwx-segments", "-lgcc"), for_entries=INLINED,
          unit="instructions", costs=("q15",), nm="riscv64-unknown-elf-nm", size="riscv64-unknown-elf-size"),
     # clang 14 to 16 miscompile for the AVR: proof.py. Only what is inlined takes up a constexpr configuration: at 5000 the
     # product drive is five times as large and more than twice as slow as at 100000. All blocks at once would not fit so.

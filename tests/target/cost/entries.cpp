@@ -3,7 +3,7 @@
 
 namespace target {
 
-BridgeCommand<Scalar> answer;
+const BridgeCommand<Scalar>* answer;
 namespace {
 
 Setpoint<Scalar> setpoint;
@@ -13,15 +13,17 @@ ProtectedTelemetry<Scalar> telemetry;
 BoardInput input;
 Request request;
 
-inline void tick() { answer = protected_step(exported::product, state, input, request, setpoint, telemetry); }
-inline void hall() { answer = protected_on_hall(exported::product, state, input.hall_pins, input.now); }
+inline void tick() {
+  answer = &protected_step(exported::product, state, input, request, setpoint, telemetry);
+}
+inline void hall() { answer = &protected_on_hall(exported::product, state, input.hall_pins, input.now); }
 #else
 DriveState<Scalar> state;
 Telemetry<Scalar> telemetry;
 Measurement<Scalar> measured;
 
-inline void tick() { answer = step(exported::drive, state, measured, setpoint, telemetry); }
-inline void hall() { answer = on_hall(exported::drive, state, measured.hall); }
+inline void tick() { answer = &step(exported::drive, state, measured, setpoint, telemetry); }
+inline void hall() { answer = &on_hall(exported::drive, state, measured.hall); }
 #endif
 
 }  // namespace

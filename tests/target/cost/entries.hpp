@@ -15,7 +15,7 @@ namespace target {
 using Scalar = TARGET_SCALAR;
 namespace exported = ::TARGET_DRIVE;
 
-extern BridgeCommand<Scalar> answer;  ///< what the last entry told the bridge
+extern const BridgeCommand<Scalar>* answer;  ///< what the last entry told the bridge
 
 #if TARGET_PRODUCT
 using Record = ProductRecord<Scalar>;

@@ -28,7 +28,7 @@ void run() {
       record.fields(Reader{chunk + n});
       give(record);
       record.kind != 0 ? call_hall() : call_tick();
-      mix_command(digest, answer);
+      mix_command(digest, *answer);
       ++calls;
     }
   }
