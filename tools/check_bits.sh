@@ -98,8 +98,11 @@ ask_wasm() {
   else
     { echo failed; head -n 20 "$log"; } >"$out/$1.answer"
   fi
+  # That the rest of text/ compiles there too has its place in the long run: it hardly ever does not.
+  [ "$task" != --gate ] || rest=()
   if { "${cxx[@]}" "${text[@]}" "${link[@]}" "${reader[@]}" tests/digest/read_scenarios.cpp "$out/$1.o" -o "$out/$2" &&
-       printf '%s\0' "${rest[@]}" | xargs -0 -n 1 "${cxx[@]}" "${text[@]}" -fsyntax-only; } >"$log" 2>&1; then
+       { [ ${#rest[@]} = 0 ] || printf '%s\0' "${rest[@]}" | xargs -0 -n 1 "${cxx[@]}" "${text[@]}" -fsyntax-only; }; } \
+       >"$log" 2>&1; then
     answer "$out/$2" tests/digest/scenarios.txt "${node[@]}" "$out/$2" "${scenarios[@]}"
   else
     { echo failed; head -n 20 "$log"; } >"$out/$2.answer"
