@@ -176,11 +176,13 @@ constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveStat
 }  // namespace detail
 
 /// One control tick in a mode that may differ from the configured one (braking, say). A cascade runs outer to
-/// inner from one sample (model.md 4). An impossible Hall code turns the bridge off and reports a fault.
+/// inner from one sample (model.md 4). An impossible Hall code turns the bridge off and reports a fault. The answer
+/// lies in `state`, up to the next call: on a chip a copy would cost as much as the current loop.
 template <class Scalar>
-constexpr BridgeCommand<Scalar> step_in(Mode mode, const DriveConfig<Scalar>& config,
-                                        DriveState<Scalar>& state, const Measurement<Scalar>& measured,
-                                        const Setpoint<Scalar>& setpoint, Telemetry<Scalar>& telemetry) {
+constexpr const BridgeCommand<Scalar>& step_in(Mode mode, const DriveConfig<Scalar>& config,
+                                               DriveState<Scalar>& state, const Measurement<Scalar>& measured,
+                                               const Setpoint<Scalar>& setpoint,
+                                               Telemetry<Scalar>& telemetry) {
   const std::uint8_t sector = sector_of_hall(measured.hall);
   if (mode == Mode::off || sector == no_sector) {
     state.command = detail::bridge_off<Scalar>(sector == no_sector);
@@ -207,16 +209,16 @@ constexpr BridgeCommand<Scalar> step_in(Mode mode, const DriveConfig<Scalar>& co
 
 /// One control tick: once per PWM period.
 template <class Scalar>
-constexpr BridgeCommand<Scalar> step(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
-                                     const Measurement<Scalar>& measured, const Setpoint<Scalar>& setpoint,
-                                     Telemetry<Scalar>& telemetry) {
+constexpr const BridgeCommand<Scalar>& step(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
+                                            const Measurement<Scalar>& measured,
+                                            const Setpoint<Scalar>& setpoint, Telemetry<Scalar>& telemetry) {
   return step_in(config.mode, config, state, measured, setpoint, telemetry);
 }
 
 /// The Hall interrupt: the present state moves to the new pair at once; duty and sign stay (model.md 3).
 template <class Scalar>
-constexpr BridgeCommand<Scalar> on_hall(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
-                                        std::uint8_t code) {
+constexpr const BridgeCommand<Scalar>& on_hall(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
+                                               std::uint8_t code) {
   const std::uint8_t sector = sector_of_hall(code);
   if (config.mode == Mode::off || sector == no_sector) {
     state.command = detail::bridge_off<Scalar>(sector == no_sector);

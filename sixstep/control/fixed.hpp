@@ -186,18 +186,24 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
     return narrow(detail::shifted_down(static_cast<Wide>(wide(a) - wide(b)), 1));
   }
   static constexpr Scalar product(Scalar x, Gain gain) {
-    return narrow(
-        detail::shifted_down(static_cast<Wide>(wide(x) * static_cast<Wide>(gain.mantissa)), gain.right));
+    const auto p = detail::product<Storage>(wide(x), gain.mantissa);
+    return Scalar::from_raw(
+        detail::narrow_with_sign<Storage>(detail::magnitude_down(p.size, gain.right), p.negative));
   }
   static constexpr Scalar quotient(Scalar x, Divisor divisor) { return product(x, divisor.reciprocal); }
   /// `difference` may be a difference of two signals: one bit more than a signal, and it still fits, since a
   /// mantissa never is the least number.
   static constexpr Accumulator accumulated(Wide difference, Gain gain) {
-    const Wide p = static_cast<Wide>(difference * static_cast<Wide>(gain.mantissa));
-    const int down = gain.right - Accumulator::guard_bits;
-    return Accumulator::from_raw(down >= 0 ? detail::shifted_down(p, down) : detail::shifted_up(p, -down));
+    const auto p = detail::product<Storage>(difference, gain.mantissa);
+    return accumulated(p.size, p.negative, gain.right);
   }
   static constexpr Accumulator accumulated(Scalar x, Gain gain) { return accumulated(wide(x), gain); }
+  /// A product that was taken already.
+  static constexpr Accumulator accumulated(detail::UnsignedOf<Wide> size, bool negative, int right) {
+    const int down = right - Accumulator::guard_bits;
+    return Accumulator::from_raw(down >= 0 ? detail::with_sign(detail::magnitude_down(size, down), negative)
+                                           : detail::magnitude_up<Wide>(size, negative, -down));
+  }
   static constexpr Accumulator accumulator(Scalar x) {
     return Accumulator::from_raw(static_cast<Wide>(wide(x) * detail::two_to<Wide>(Accumulator::guard_bits)));
   }
@@ -209,7 +215,10 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
     constexpr Wide end = static_cast<Wide>(detail::two_to<Wide>(detail::Widths<Storage>::bits) - 1);
     const Wide digits = detail::shifted_down(sum.raw, Accumulator::guard_bits);
     if (digits <= end && digits >= -end) return accumulated(digits, part);
-    const Accumulator eighth = accumulated(detail::shifted_down(sum.raw, Accumulator::guard_bits + 3), part);
+    // The greatest sum rounds up to one more than a difference of signals has.
+    const Wide p = static_cast<Wide>(detail::shifted_down(sum.raw, Accumulator::guard_bits + 3) *
+                                     static_cast<Wide>(part.mantissa));
+    const Accumulator eighth = accumulated(detail::absolute(p), p < 0, part.right);
     return Accumulator::from_raw(detail::shifted_up(eighth.raw, 3));
   }
   static constexpr TickRatio times(TickRatio ratio, std::uint8_t n) {

@@ -80,24 +80,71 @@ constexpr Narrow saturated(Wide x) {
   return static_cast<Narrow>(x);
 }
 
-/// x/2^n, 0 <= n; at n = 2 bits - 2 of a product nothing but a rounded last digit is left.
-template <class Int>
-constexpr Int shifted_down(Int x, int n) {
-  using Unsigned = UnsignedOf<Int>;
-  if (n == 0) return x;
-  const Unsigned u = absolute(x);
-  const Unsigned half = static_cast<Unsigned>(u >> (n - 1));  // in units of half a digit: never overflows
-  return with_sign(static_cast<Unsigned>((half >> 1) + (half & 1u)), x < 0);
+/// The same in half the width.
+template <class Narrow, class Unsigned>
+constexpr Narrow narrow_with_sign(Unsigned magnitude, bool negative) {
+  if (magnitude > static_cast<Unsigned>(greatest<Narrow>)) return negative ? least<Narrow> : greatest<Narrow>;
+  const auto x = static_cast<Narrow>(magnitude);
+  return negative ? static_cast<Narrow>(-x) : x;
 }
 
-/// x 2^n, saturated.
+/// A number with its sign taken off.
+template <class Unsigned>
+struct Magnitude {
+  Unsigned size = 0;
+  bool negative = false;
+};
+
+/// Of 16 bits by 16, where int has no more: a product of 32-bit factors would be a library call, and these four
+/// of 8 bits are a quarter of it.
+constexpr std::uint32_t product_by_bytes(std::uint16_t a, std::uint16_t b) {
+  const auto part = [](std::uint16_t x, std::uint16_t y) {
+    return static_cast<std::uint16_t>(static_cast<std::uint16_t>(x & 0xffu) *
+                                      static_cast<std::uint16_t>(y & 0xffu));
+  };
+  const auto a_high = static_cast<std::uint16_t>(a >> 8), b_high = static_cast<std::uint16_t>(b >> 8);
+  const std::uint32_t outer = static_cast<std::uint32_t>(part(a_high, b_high)) << 16 | part(a, b);
+  return outer + (static_cast<std::uint32_t>(part(a_high, b)) << 8) +
+         (static_cast<std::uint32_t>(part(a, b_high)) << 8);
+}
+
+/// a b, where |a| has no more bits than Storage without its sign, and one.
+template <class Storage>
+constexpr auto product(typename Widths<Storage>::Wide a, Storage b) {
+  using Wide = typename Widths<Storage>::Wide;
+  if constexpr (sizeof(Storage) == 2 && sizeof(int) == 2) {
+    const std::uint32_t size = product_by_bytes(static_cast<std::uint16_t>(absolute(a)), absolute(b));
+    return Magnitude<std::uint32_t>{size, (a < 0) != (b < 0)};
+  } else {
+    const Wide p = static_cast<Wide>(a * static_cast<Wide>(b));
+    return Magnitude<UnsignedOf<Wide>>{absolute(p), p < 0};
+  }
+}
+
+/// u/2^n, 0 <= n; at n = 2 bits - 2 of a product nothing but a rounded last digit is left.
+template <class Unsigned>
+constexpr Unsigned magnitude_down(Unsigned u, int n) {
+  if (n == 0) return u;
+  const Unsigned half = static_cast<Unsigned>(u >> (n - 1));  // in units of half a digit: never overflows
+  return static_cast<Unsigned>((half >> 1) + (half & 1u));
+}
+template <class Int>
+constexpr Int shifted_down(Int x, int n) {
+  if (n == 0) return x;
+  return with_sign(magnitude_down(absolute(x), n), x < 0);
+}
+
+/// u 2^n with a sign, saturated.
+template <class Int>
+constexpr Int magnitude_up(UnsignedOf<Int> u, bool negative, int n) {
+  using Unsigned = UnsignedOf<Int>;
+  if (u > static_cast<Unsigned>(static_cast<Unsigned>(greatest<Int>) >> n))
+    return negative ? least<Int> : greatest<Int>;
+  return with_sign(static_cast<Unsigned>(u << n), negative);
+}
 template <class Int>
 constexpr Int shifted_up(Int x, int n) {
-  using Unsigned = UnsignedOf<Int>;
-  const Unsigned u = absolute(x);
-  if (u > static_cast<Unsigned>(static_cast<Unsigned>(greatest<Int>) >> n))
-    return x < 0 ? least<Int> : greatest<Int>;
-  return with_sign(static_cast<Unsigned>(u << n), x < 0);
+  return magnitude_up<Int>(absolute(x), x < 0, n);
 }
 
 /// a/b to nearest, ties up; a at most 2^(width-1), b below that or a + b/2 does not fit.

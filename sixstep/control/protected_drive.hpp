@@ -192,15 +192,15 @@ constexpr Scalar limited_setpoint(Scalar x, Scalar limit) {
 /// Against the turning with a held current; slow, where Hall edges come too seldom to tell when it stands, by
 /// shorting the driven pair (both lower switches), whose torque vanishes with the speed and never reverses.
 template <class Scalar>
-constexpr BridgeCommand<Scalar> brake(const ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state,
-                                      const Measurement<Scalar>& m, Telemetry<Scalar>& telemetry) {
+constexpr const BridgeCommand<Scalar>& brake(const ProtectedConfig<Scalar>& config,
+                                             ProtectedState<Scalar>& state, const Measurement<Scalar>& m,
+                                             Telemetry<Scalar>& telemetry) {
   const Scalar slow = config.short_below_rad_s;
   telemetry = {};  // of the loops that ran before
   if (slow > Scalar{} && magnitude(m.speed_rad_s) <= slow) {
-    const BridgeCommand<Scalar> command =
-        step_in(Mode::duty, config.drive, state.drive, m, Setpoint<Scalar>{}, telemetry);
+    step_in(Mode::duty, config.drive, state.drive, m, Setpoint<Scalar>{}, telemetry);
     state.drive.command.duty = Scalar{};
-    if (command.enabled) state.drive.command.chopping = Chopping::complementary;
+    if (state.drive.command.enabled) state.drive.command.chopping = Chopping::complementary;
     return state.drive.command;
   }
   if (!(config.brake_current_A > Scalar{})) return state.drive.command = bridge_off<Scalar>(false);
@@ -210,9 +210,10 @@ constexpr BridgeCommand<Scalar> brake(const ProtectedConfig<Scalar>& config, Pro
 }
 
 template <class Scalar>
-constexpr BridgeCommand<Scalar> act(const ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state,
-                                    Activity activity, Measurement<Scalar>& m, Scalar setpoint,
-                                    Telemetry<Scalar>& telemetry) {
+constexpr const BridgeCommand<Scalar>& act(const ProtectedConfig<Scalar>& config,
+                                           ProtectedState<Scalar>& state, Activity activity,
+                                           Measurement<Scalar>& m, Scalar setpoint,
+                                           Telemetry<Scalar>& telemetry) {
   const DriveConfig<Scalar>& drive = config.drive;
   switch (activity) {
     case Activity::run:
@@ -222,7 +223,7 @@ constexpr BridgeCommand<Scalar> act(const ProtectedConfig<Scalar>& config, Prote
       return brake(config, state, m, telemetry);
     case Activity::align:
       telemetry = {};
-      if (config.align.ticks == 0) return bridge_off<Scalar>(false);
+      if (config.align.ticks == 0) return state.drive.command = bridge_off<Scalar>(false);
       m.hall = hall_of_sector(config.align.sector);
       return step_in(Mode::current, drive, state.drive, m, Setpoint<Scalar>{config.align.current_A},
                      telemetry);
@@ -236,12 +237,14 @@ constexpr BridgeCommand<Scalar> act(const ProtectedConfig<Scalar>& config, Prote
 
 }  // namespace detail
 
-/// One control tick. Any fault turns the bridge off in this very tick and is kept until cleared.
+/// One control tick. Any fault turns the bridge off in this very tick and is kept until cleared. The answer lies in
+/// `state`, up to the next call.
 template <class Scalar>
-constexpr BridgeCommand<Scalar> protected_step(const ProtectedConfig<Scalar>& config,
-                                               ProtectedState<Scalar>& state, const BoardInput& input,
-                                               const Request& request, const Setpoint<Scalar>& setpoint,
-                                               ProtectedTelemetry<Scalar>& telemetry) {
+constexpr const BridgeCommand<Scalar>& protected_step(const ProtectedConfig<Scalar>& config,
+                                                      ProtectedState<Scalar>& state, const BoardInput& input,
+                                                      const Request& request,
+                                                      const Setpoint<Scalar>& setpoint,
+                                                      ProtectedTelemetry<Scalar>& telemetry) {
   detail::take_hall(config, state, input.hall_pins, input.now);
   if (state.activity.activity == Activity::calibrate) detail::calibrate(config, state, input);
   Measurement<Scalar> m = detail::measure(config, state, input);
@@ -257,9 +260,9 @@ constexpr BridgeCommand<Scalar> protected_step(const ProtectedConfig<Scalar>& co
 /// The Hall interrupt: the pins after the edge and the counter captured at it. Moves the running bridge to
 /// the new pair; a bad code or a jump turns it off at once, and the next tick reports it.
 template <class Scalar>
-constexpr BridgeCommand<Scalar> protected_on_hall(const ProtectedConfig<Scalar>& config,
-                                                  ProtectedState<Scalar>& state, std::uint8_t pins,
-                                                  std::uint32_t captured) {
+constexpr const BridgeCommand<Scalar>& protected_on_hall(const ProtectedConfig<Scalar>& config,
+                                                         ProtectedState<Scalar>& state, std::uint8_t pins,
+                                                         std::uint32_t captured) {
   if (config.hall.stable_samples > 1) return state.drive.command;
   detail::take_hall(config, state, pins, captured);
   if (state.events.hall) {

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What each block costs on each core, called with drawn inputs: counted call by call over the walk's 10 000 steps, against
+data/cores/blocks.txt. A block that gets dearer is told here by its name; what a drive makes of it, where configurations are
+constants and calls are inlined, cost.py counts."""
+import re
+
+import build
+import cores
+import cost
+from build import Failed
+
+TABLE = cores.TABLES / "blocks.txt"
+SLOTS = ("slot0", "slot1", "slot2")
+HEAD = """# SPDX-License-Identifier: Apache-2.0
+# core, block, scalar, function, calls, and of what each executed: mean, what 99.9 % do not pass, worst; written by
+# tools/check_target.sh --renew blocks. ATmega2560: cycles; the others: instructions. Called as functions with configurations
+# in memory; the call's own cost is taken off.
+"""
+
+
+def cases():
+    return [(core, scalar) for core in cores.CHIPS for scalar in (*core.costs, "whole") if scalar in (*core.scalars, "whole")]
+
+
+def counted(core, scalar):
+    """What the program prints, and a line `cost SLOT CALLS MEAN WITHIN WORST` for each function, `next` after each block."""
+    sources = [cores.HERE / "walk" / "main.cpp", cores.HERE / "platform" / "marks.S"]
+    file = build.build(core, f"blocks-{scalar}", sources, scalar, (*core.for_walk, "-DTARGET_COUNTED"))
+    at = cost.addresses(core, file)
+    begins = [at[f"count_begins_{n}"] for n in range(3)]
+    if core.unit == "cycles":
+        return build.run(core, file, at["count_next"], at["count_ends"], *begins)
+    told = file.with_suffix(".counts")
+    marks = ",".join(f"{slot}={begin}-{at['count_ends']}" for slot, begin in zip(SLOTS, begins))
+    text = build.told([*core.run, "-plugin", f"{cost.PLUGIN},told={told},{marks},next={at['count_next']}", "-kernel", file])
+    return text + told.read_text()
+
+
+def measured(case):
+    """{(core, block, scalar, function): (calls, mean, within, worst)}"""
+    core, scalar = case
+    text = counted(core, scalar)
+    counts = [dict(re.findall(r"^cost slot(\d) (.*)$", part, re.M)) for part in text.split("next\n")]
+    names = re.findall(r"^counted (\S+) (\d) (\S+)$", text, re.M)
+    order = re.findall(rf"^(\S+) {scalar} \d+ [0-9a-f]{{8}}$", text, re.M)
+    rows = {}
+    for block, slot, function in names:
+        rows[core.name, block, scalar, function] = tuple(map(int, counts[order.index(block)][slot].split()))
+    call = rows.pop((core.name, "nothing", scalar, "nothing"))
+    return {key: (row[0], *(n - call[3] for n in row[1:])) for key, row in rows.items()}
+
+
+def take():
+    rows, trouble = {}, []
+    for case, answer in zip(cases(), build.side_by_side(measured, cases())):
+        if isinstance(answer, Failed):
+            trouble.append(f"{case[0].name}, blocks in {case[1]}: {answer}")
+        else:
+            rows |= answer
+    return rows, trouble
+
+
+def renew():
+    cost.write(TABLE, HEAD, *take())
+
+
+def check():
+    return cost.compare("costs of blocks", cost.expected(TABLE), *take())

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Headers of drives from their scenarios, programs for a core, and what they print when run."""
+import concurrent.futures
+import os
+import pathlib
+import re
+import subprocess
+
+from cores import HERE, OUT, REPOSITORY
+
+PROGRAM = REPOSITORY / "build" / "dev" / "sixstep"
+SCALARS = ("q15", "q14", "q31", "q30", "float")
+DRIVES = ("current", "hysteresis", "speed", "position", "product", "guarded", "one_shunt")
+JOBS = int(os.environ.get("SIXSTEP_JOBS", "2"))
+
+
+class Failed(Exception):
+    """With words for the terminal."""
+
+
+def told(command, limit_s=600, cwd=REPOSITORY):
+    """What a command prints; where it fails, its last words."""
+    try:
+        done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=limit_s, cwd=cwd, check=False)
+    except subprocess.TimeoutExpired:
+        raise Failed(f"{command[0]} took more than {limit_s} s") from None
+    if done.returncode != 0:
+        raise Failed("\n".join((done.stdout + done.stderr).strip().splitlines()[-20:]) or f"{command[0]} returned {done.returncode}")
+    return done.stdout
+
+
+def side_by_side(function, items):
+    """As many at a time as there are jobs, in the order of the items; an item that fails gives its Failed."""
+    def one(item):
+        try:
+            return function(item)
+        except Failed as failed:
+            return failed
+    with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
+        return list(pool.map(one, items))
+
+
+def scenario(drive):
+    return HERE / "scenarios" / f"{drive}.toml"
+
+
+def export_headers():
+    """build/target/headers/SCALAR/DRIVE.hpp, constants from_raw: the same bits for every compiler."""
+    def export(pair):
+        scalar, drive = pair
+        folder = OUT / "headers" / scalar
+        folder.mkdir(parents=True, exist_ok=True)
+        told([PROGRAM, "export", "header", scenario(drive), "--arithmetic", scalar, "--set", f"control.arithmetic={scalar}",
+              "--namespace", drive, "--despite", "measured on emulated cores, never flashed", "--out", folder / f"{drive}.hpp"])
+    for answer in side_by_side(export, [(s, d) for s in SCALARS for d in DRIVES]):
+        if isinstance(answer, Failed):
+            raise answer
+
+
+def file_name(words):
+    return re.sub(r"[^A-Za-z0-9+_]", "-", words)
+
+
+def build(core, name, sources, scalar, defines=()):
+    """The program's file. AVR's linker is not its compiler, so that it goes by objects."""
+    folder = OUT / file_name(core.name)
+    folder.mkdir(parents=True, exist_ok=True)
+    file = folder / f"{name}.elf"
+    sources = [pathlib.Path(s) for s in (*sources, *(HERE / "platform" / p for p in core.platform))]
+    flags = [*core.flags(), *defines, f"-DTARGET_SCALAR_{scalar}", f"-I{OUT}/headers/{scalar}"]
+    if not core.link:
+        told([*flags, *sources, "-o", file, *core.libraries])
+        return file
+    objects = []
+    for source in sources:
+        objects.append(folder / f"{name}-{source.stem}.o")
+        told([*flags, "-c", source, "-o", objects[-1]])
+    told([*core.link, *objects, "-o", file, *core.libraries])
+    return file
+
+
+def run(core, file, *arguments, limit_s=300):
+    program = [*core.run, *(["-kernel"] if core.run and "qemu-system" in core.run[0] else []), file]
+    return told([*program, *arguments], limit_s)
+
+
+def build_board():
+    told(["g++", "-std=c++20", "-O2", "-Wall", "-Wextra", "-Werror", f"-I{REPOSITORY}",
+          HERE / "platform/avr_board.cpp", "-o", OUT / "avr_board", "-lsimavr", "-lelf"])

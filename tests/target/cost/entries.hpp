@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two entries of a drive as firmware has them: a configuration that is constant while compiling, state
+// and inputs in static memory. TARGET_DRIVE names the exported header and its namespace.
+#pragma once
+#include "tests/target/cost/record.hpp"
+#include "tests/target/walk/names.hpp"
+
+#define TARGET_TEXT_OF(x) #x
+#define TARGET_TEXT(x) TARGET_TEXT_OF(x)
+#define TARGET_HEADER_OF(x) TARGET_TEXT(x.hpp)
+#include TARGET_HEADER_OF(TARGET_DRIVE)
+
+namespace target {
+
+using Scalar = TARGET_SCALAR;
+namespace exported = ::TARGET_DRIVE;
+
+extern const BridgeCommand<Scalar>* answer;  ///< what the last entry told the bridge
+
+#if TARGET_PRODUCT
+using Record = ProductRecord<Scalar>;
+#else
+using Record = LeanRecord<Scalar>;
+#endif
+
+void give(const Record& record);  ///< puts into the inputs what the next entry finds there
+
+}  // namespace target
+
+extern "C" {
+void entry_tick();
+void entry_hall();
+}

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The same bits on every core: digests of the walk against tests/target/digests.txt, and what its inputs reach."""
+import re
+
+import build
+import cores
+from build import Failed
+
+TABLE = cores.HERE / "digests.txt"
+SHORT, LONG = 10_000, 1_000_000
+LEAST_SIGHTS = 5  # of 10 000 steps
+HEAD = """# SPDX-License-Identifier: Apache-2.0
+# block, scalar, digest of its first 10 000 steps and of 1 000 000; written by tools/check_target.sh --renew
+"""
+
+
+def programs(core):
+    return (*core.scalars, "whole")
+
+
+def digests(text):
+    found = re.findall(r"^(\S+) (\S+) (\d+) ([0-9a-f]{8})$", text, re.M)
+    return {(block, scalar, int(n)): digest for block, scalar, n, digest in found}
+
+
+def printed(core, scalar, steps=SHORT, defines=()):
+    """{(block, scalar, steps): digest} of one program; its other lines begin with #."""
+    name = "-".join(["walk", scalar, *(define.removeprefix("-D") for define in defines)])
+    file = build.build(core, name, [cores.HERE / "walk" / "main.cpp"], scalar, (*core.for_walk, *defines))
+    text = build.run(core, file, *([str(steps)] if core.is_host else []))
+    return digests(text), text
+
+
+def expected():
+    table = {}
+    for line in TABLE.read_text().splitlines() if TABLE.exists() else []:
+        if line and not line.startswith("#"):
+            block, scalar, short, long = line.split()
+            table |= {(block, scalar, SHORT): short, (block, scalar, LONG): long}
+    return table
+
+
+def renew():
+    core = cores.HOSTS[0]
+    rows = []
+    for scalar in programs(core):
+        found, _ = printed(core, scalar, LONG)
+        rows += [f"{block} {s} {digest} {found[block, s, LONG]}" for (block, s, n), digest in found.items() if n == SHORT]
+    TABLE.write_text(HEAD + "\n".join(rows) + "\n")
+
+
+def check_sights():
+    """Lines of trouble: an input that the walk is meant to reach and does not."""
+    core, trouble = cores.HOSTS[0], []
+    for scalar in ("q15", "float", "whole"):
+        _, text = printed(core, scalar, defines=("-DTARGET_SIGHTS",))
+        for times, what in re.findall(r"^# (\d+) (.*)$", text, re.M):
+            if int(times) < LEAST_SIGHTS:
+                trouble.append(f"{scalar} {what}: reached in {times} of {SHORT} steps, too seldom")
+    return trouble
+
+
+def difference(core, scalar, table):
+    """Lines of trouble of one program, and how many digests were the same."""
+    steps = LONG if core.is_host else SHORT
+    found, _ = printed(core, scalar, steps)
+    wanted = {key: digest for key, digest in table.items() if key[1] == scalar and (core.is_host or key[2] == SHORT)}
+    trouble = [f"{core.name}: {block} {s}, {n} steps: {wanted.get((block, s, n), 'not in the table')} expected, "
+               f"{found.get((block, s, n), 'not printed')} found"
+               for block, s, n in sorted(wanted.keys() | found.keys()) if wanted.get((block, s, n)) != found.get((block, s, n))]
+    return trouble, len(found) - len(trouble)
+
+
+def check(of=None):
+    """All cores, or those named; prints a line each. True where all is well."""
+    table, well = expected(), True
+    chosen = [c for c in (*cores.HOSTS, *cores.CHIPS) if of is None or c.name in of]
+    pairs = [(core, scalar) for core in chosen for scalar in programs(core)]
+    answers = dict(zip(pairs, build.side_by_side(lambda pair: difference(*pair, table), pairs)))
+    for core in chosen:
+        trouble, same = [], 0
+        for scalar in programs(core):
+            answer = answers[core, scalar]
+            if isinstance(answer, Failed):
+                trouble.append(f"{core.name}, {scalar}: {answer}")
+            else:
+                trouble += answer[0]
+                same += answer[1]
+        steps = f"{LONG if core.is_host else SHORT:,}".replace(",", " ")
+        print(f"{core.name:<16} {same} digests of {steps} steps are the table's" + (f", {len(trouble)} are not" if trouble else ""), flush=True)
+        for line in trouble:
+            print(f"  {line}")
+        well = well and not trouble
+    return well

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Inputs drawn as whole numbers, so that every processor gets the same bits: signals over their whole range,
+// often at an end of it or near 0, gains, sums and ratios. Floating point gets the dyadic numbers that the
+// fixed formats hold. No call draws two of its arguments: their order is the compiler's.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace target {
+
+using namespace sixstep::control;
+
+/// A linear congruence (Knuth, Numerical Recipes), of which only the better upper half is used.
+struct Random {
+  std::uint32_t state = 12345;
+
+  constexpr std::uint16_t bits() {
+    state = state * std::uint32_t{1664525} + std::uint32_t{1013904223};
+    return static_cast<std::uint16_t>(state >> 16);
+  }
+  constexpr std::uint32_t long_bits() {
+    const std::uint32_t high = bits();
+    return high << 16 | bits();
+  }
+  /// 0..n-1
+  constexpr std::uint8_t below(std::uint8_t n) { return static_cast<std::uint8_t>(bits() % n); }
+  constexpr bool one_in(std::uint16_t n) { return bits() % n == 0; }
+};
+
+template <class Scalar>
+struct Number;  // how a format is drawn
+
+template <class Storage, int FractionBits>
+struct Number<Fixed<Storage, FractionBits>> {
+  using Scalar = Fixed<Storage, FractionBits>;
+  static constexpr bool wide = sizeof(Storage) == 4;
+
+  static constexpr Scalar end(bool low) { return low ? Scalar::min() : Scalar::max(); }
+  static constexpr Scalar digit(bool low) { return Scalar::from_raw(low ? Storage{-1} : Storage{1}); }
+  /// n/2^31 of the range
+  static constexpr Scalar part(std::int32_t n) {
+    if constexpr (wide)
+      return Scalar::from_raw(n);
+    else
+      return Scalar::from_raw(static_cast<Storage>(n / (std::int32_t{1} << 16)));
+  }
+  /// m/2^right, m of 16 bits
+  static constexpr Gain<Scalar> gain(std::int16_t m, std::int8_t right) {
+    if constexpr (wide)
+      return Gain<Scalar>::from_raw(static_cast<std::int32_t>(m) * (std::int32_t{1} << 16),
+                                    static_cast<std::int8_t>(right + 16));
+    else
+      return Gain<Scalar>::from_raw(m, right);
+  }
+  static constexpr Divisor<Scalar> divisor(std::int16_t m, std::int8_t right) {
+    return Divisor<Scalar>::from_reciprocal(gain(m, right));
+  }
+  /// n/2^27 of the range
+  static constexpr Accumulator<Scalar> sum(std::int32_t n) {
+    using Wide = typename Scalar::WideInt;
+    return Accumulator<Scalar>::from_raw(
+        static_cast<Wide>(static_cast<Wide>(n) * (wide ? std::int64_t{1} << 32 : 1)));
+  }
+  static constexpr TickRatio<Scalar> ratio(std::uint16_t n) {
+    using Wide = typename Scalar::WideInt;
+    return TickRatio<Scalar>::from_raw(
+        static_cast<Wide>(static_cast<Wide>(n) * (wide ? std::int32_t{1} << 22 : 64)));
+  }
+};
+
+template <>
+struct Number<float> {
+  static constexpr float two_to(int n) {
+    float x = 1;
+    for (; n > 0; --n) x *= 2;
+    for (; n < 0; ++n) x *= 0.5f;
+    return x;
+  }
+  static constexpr float end(bool low) { return low ? -1.0f : 1.0f; }
+  static constexpr float digit(bool low) { return low ? -two_to(-23) : two_to(-23); }
+  static constexpr float part(std::int32_t n) { return static_cast<float>(n / 256) * two_to(-23); }
+  static constexpr float gain(std::int16_t m, std::int8_t right) {
+    return static_cast<float>(m) * two_to(-right);
+  }
+  static constexpr float divisor(std::int16_t m, std::int8_t right) {
+    return m == 0 ? 0.0f : two_to(right) / static_cast<float>(m);
+  }
+  static constexpr float sum(std::int32_t n) { return static_cast<float>(n) * two_to(-27); }
+  static constexpr float ratio(std::uint16_t n) { return static_cast<float>(n) * two_to(-9); }
+};
+
+/// A signal: an end, 0, one digit, something small, anything.
+template <class Scalar>
+constexpr Scalar signal(Random& random) {
+  const std::uint8_t kind = random.below(16);
+  const auto any = static_cast<std::int32_t>(random.long_bits());
+  if (kind == 0) return Scalar{};
+  if (kind == 1) return Number<Scalar>::end((any & 1) != 0);
+  if (kind == 2) return Number<Scalar>::digit((any & 1) != 0);
+  if (kind < 8) return Number<Scalar>::part(any / (std::int32_t{1} << (any & 15)));
+  return Number<Scalar>::part(any);
+}
+
+/// A part of the range as a quantity of an exported drive, which floating point has in SI.
+template <class Scalar>
+constexpr Scalar in_si(Scalar part, [[maybe_unused]] std::uint16_t whole) {
+  if constexpr (__is_same(Scalar, float))
+    return part * static_cast<float>(whole);
+  else
+    return part;
+}
+
+/// One that is not negative, at most `most` 32767ths of the range.
+template <class Scalar>
+constexpr Scalar positive(Random& random, std::uint16_t most = 32767) {
+  const std::uint32_t n = static_cast<std::uint32_t>(random.bits()) * most >> 16;
+  return Number<Scalar>::part(static_cast<std::int32_t>(n << 16));
+}
+
+/// Up to 2^-least, either sign: a mantissa is never the least number (fixed.hpp).
+template <class Scalar>
+constexpr Gain<Scalar> gain(Random& random, std::int8_t least, std::uint8_t spread = 8) {
+  const auto m = static_cast<std::int16_t>(random.bits() & 0x7fff);
+  const bool negative = random.one_in(4);
+  const auto right = static_cast<std::int8_t>(15 + least + random.below(spread));
+  return Number<Scalar>::gain(static_cast<std::int16_t>(negative ? -m : m), right);
+}
+template <class Scalar>
+constexpr Gain<Scalar> positive_gain(Random& random, std::int8_t least, std::uint8_t spread = 8) {
+  const auto m = static_cast<std::int16_t>(random.bits() & 0x7fff);
+  return Number<Scalar>::gain(m, static_cast<std::int8_t>(15 + least + random.below(spread)));
+}
+
+}  // namespace target

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// The blocks of the loops: arithmetic, controllers, setpoints. A walk draws a configuration and then steps
+// it; its state goes on between draws.
+#pragma once
+#include "sixstep/control/derivative.hpp"
+#include "sixstep/control/feed_forward.hpp"
+#include "sixstep/control/hysteresis.hpp"
+#include "sixstep/control/pi.hpp"
+#include "sixstep/control/pi_positional.hpp"
+#include "sixstep/control/profile.hpp"
+#include "sixstep/control/slew.hpp"
+#include "sixstep/control/smooth_chopping.hpp"
+#include "tests/target/walk/counted.hpp"
+#include "tests/target/walk/digest.hpp"
+#include "tests/target/walk/draw.hpp"
+
+namespace target {
+
+template <class Scalar>
+struct ArithmeticWalk {
+  Gain<Scalar> factor{};
+  Divisor<Scalar> divisor{};
+
+  void draw(Random& r) {
+    factor = gain<Scalar>(r, -6, 24);
+    divisor = Number<Scalar>::divisor(static_cast<std::int16_t>(1 + (r.bits() & 0x3fff)), 14);
+  }
+  void step(Random& r, Digest& mix) {
+    using T = ScalarTraits<Scalar>;
+    const Scalar x = signal<Scalar>(r), y = signal<Scalar>(r);
+    mix(x + y, x - y, x * y, -x, T::half_difference(x, y), T::product(x, factor), T::quotient(x, divisor));
+    if (y != Scalar{} || !__is_same(Scalar, float)) mix(x / y);
+    const Accumulator<Scalar> sum = T::accumulated(T::wide(x) - T::wide(y), factor);
+    mix(sum, T::signal(sum), T::share(sum, factor), -sum);
+    const std::uint32_t whole = r.long_bits();
+    mix(clamped(x, magnitude(y)), between(x, -magnitude(y), Scalar{}),
+        T::fraction(r.long_bits() >> 2, whole));
+    mix(T::counts(static_cast<std::int32_t>(r.long_bits()) / 65536, factor));
+    if constexpr (!__is_same(Scalar, float)) {
+      saw("a product that saturates", T::product(x, factor) == Number<Scalar>::end(false));
+      saw("a sum that saturates", x + y == Number<Scalar>::end(true));
+    }
+  }
+};
+
+template <class Scalar>
+struct PiWalk {
+  PiConfig<Scalar> config{};
+  PiState<Scalar> state{};
+
+  void draw(Random& r) { config = {gain<Scalar>(r, -3), gain<Scalar>(r, 2), positive<Scalar>(r)}; }
+  void step(Random& r, Digest& mix) {
+    const Scalar error = signal<Scalar>(r), low = -positive<Scalar>(r), high = positive<Scalar>(r);
+    const bool own_limits = r.one_in(2);
+    const Scalar u = counted<0>("pi_step", [&] {
+      return own_limits ? pi_step(config, state, error) : pi_step(config, state, error, low, high);
+    });
+    mix(u, state.u, state.e);
+    saw("at the upper limit", u == config.limit);
+    saw("at the lower limit", u == -config.limit);
+    saw("within the limits", u < config.limit && u > -config.limit);
+  }
+};
+
+template <class Scalar>
+struct PiPositionalWalk {
+  PiPositionalConfig<Scalar> config{};
+  PiPositionalState<Scalar> state{};
+
+  void draw(Random& r) {
+    config = {gain<Scalar>(r, -3), gain<Scalar>(r, 2), positive_gain<Scalar>(r, 0, 4), positive<Scalar>(r),
+              gain<Scalar>(r, 3)};
+    if (r.one_in(4)) state = {};
+  }
+  void step(Random& r, Digest& mix) {
+    const Scalar error = signal<Scalar>(r), more = signal<Scalar>(r);
+    const Scalar u =
+        counted<0>("pi_positional_step", [&] { return pi_positional_step(config, state, error, more); });
+    mix(u, state.integral);
+    saw("cut by the limit", u == config.limit || u == -config.limit);
+    saw("within the limit", u < config.limit && u > -config.limit);
+  }
+};
+
+template <class Scalar>
+struct DerivativeWalk {
+  DerivativeConfig<Scalar> config{};
+  DerivativeState<Scalar> state{};
+
+  void draw(Random& r) {
+    config = {gain<Scalar>(r, -3), positive_gain<Scalar>(r, 0, 4)};
+    if (r.one_in(4)) state = {};
+  }
+  void step(Random& r, Digest& mix) {
+    const Scalar x = signal<Scalar>(r);
+    const Accumulator<Scalar> y =
+        counted<0>("derivative_step", [&] { return derivative_step(config, state, x); });
+    mix(y, state.x, state.started, ScalarTraits<Scalar>::signal(y));
+    if constexpr (!__is_same(Scalar, float))
+      saw("beyond a signal", ScalarTraits<Scalar>::accumulator(ScalarTraits<Scalar>::signal(y)) < y);
+  }
+};
+
+template <class Scalar>
+struct SlewWalk {
+  SlewConfig<Scalar> config{};
+  SlewState<Scalar> state{};
+  Scalar target{};
+
+  void draw(Random& r) {
+    config = {Number<Scalar>::sum(static_cast<std::int32_t>(r.long_bits() >> 4) >> r.below(14))};
+  }
+  void step(Random& r, Digest& mix) {
+    if (r.one_in(16)) target = signal<Scalar>(r);
+    const Scalar y = counted<0>("slew_step", [&] { return slew_step(config, state, target); });
+    mix(y, state.y);
+    saw("on its target", y == target);
+    saw("on its way", y < target);
+  }
+};
+
+template <class Scalar>
+struct HysteresisWalk {
+  HysteresisConfig<Scalar> config{};
+  HysteresisState<Scalar> state{};
+
+  void draw(Random& r) { config = {positive<Scalar>(r, 8000), Watch::none}; }
+  void step(Random& r, Digest& mix) {
+    const bool was = state.on;
+    const Scalar current = positive<Scalar>(r), reference = positive<Scalar>(r);
+    mix(counted<0>("hysteresis_step", [&] { return hysteresis_step(config, state, current, reference); }));
+    saw("switched on", state.on && !was);
+    saw("switched off", !state.on && was);
+  }
+};
+
+template <class Scalar>
+struct FeedForwardWalk {
+  FeedForwardConfig<Scalar> config{};
+  BusCompensationConfig<Scalar> bus{};
+
+  void draw(Random& r) {
+    config = {positive_gain<Scalar>(r, -2)};
+    bus = {positive<Scalar>(r) + Number<Scalar>::digit(false)};
+  }
+  void step(Random& r, Digest& mix) {
+    const Scalar measured = signal<Scalar>(r), u = signal<Scalar>(r), speed = signal<Scalar>(r);
+    const Scalar duty = counted<0>("compensated_duty", [&] { return compensated_duty(bus, u, measured); });
+    mix(counted<1>("back_emf_voltage", [&] { return back_emf_voltage(config, speed); }), duty);
+    saw("a bus that has been lost", measured < bus.lowest_bus_V);
+    saw("all the bus", duty == one<Scalar>);
+  }
+};
+
+template <class Scalar>
+struct SmoothChoppingWalk {
+  SmoothChoppingConfig<Scalar> config{};
+  SmoothChoppingState<Scalar> state{};
+
+  void draw(Random& r) {
+    config.complementary_below_A = positive<Scalar>(r, 8000);
+    config.soft_above_A = config.complementary_below_A + positive<Scalar>(r, 8000);
+  }
+  void step(Random& r, Digest& mix) {
+    const Chopping was = state.chopping;
+    const Scalar i_m = signal<Scalar>(r);
+    const bool reversed = r.one_in(4);
+    mix(static_cast<std::uint8_t>(counted<0>(
+        "smooth_chopping_step", [&] { return smooth_chopping_step(config, state, reversed, i_m); })));
+    saw("became soft", was != Chopping::soft && state.chopping == Chopping::soft);
+    saw("became complementary", was == Chopping::soft && state.chopping != Chopping::soft);
+  }
+};
+
+template <class Scalar>
+struct ProfileWalk {
+  ProfileConfig<Scalar> config{};
+  ProfileState<Scalar> state{};
+  Scalar target{};
+
+  void draw(Random& r) {
+    config = {positive<Scalar>(r, 4000), positive<Scalar>(r, 300)};
+    if (r.one_in(4)) state = {};
+  }
+  void step(Random& r, Digest& mix) {
+    if (r.one_in(64)) target = signal<Scalar>(r);
+    const Scalar position = counted<0>("profile_step", [&] { return profile_step(config, state, target); });
+    mix(position, state.velocity);
+    saw("cruises", state.velocity == config.speed && config.speed > Scalar{});
+    saw("stands on its target", state.position == target && state.velocity == Scalar{});
+    saw("goes back", state.velocity < Scalar{});
+  }
+};
+
+}  // namespace target

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Walks every block of sixstep/control, and the drives that scenarios export, through drawn inputs, and
+// prints a digest of all their outputs: the same source for every processor. One program per scalar:
+// TARGET_SCALAR q15, q14, q31, q30, float, or whole for the blocks without one.
+#include "tests/target/platform/print.hpp"
+#include "tests/target/walk/names.hpp"
+
+#if TARGET_IS_WHOLE
+#include "tests/target/walk/whole.hpp"
+#else
+#include "tests/target/walk/loops.hpp"
+#ifndef TARGET_COUNTED
+#include "current.hpp"
+#include "guarded.hpp"
+#include "hysteresis.hpp"
+#include "one_shunt.hpp"
+#include "position.hpp"
+#include "product.hpp"
+#include "speed.hpp"
+#include "tests/target/walk/drawn_drive.hpp"
+#include "tests/target/walk/exported_drives.hpp"
+#else
+#include "tests/target/walk/legs.hpp"
+#include "tests/target/walk/sensing.hpp"
+#endif
+#endif
+
+namespace target {
+namespace {
+
+constexpr std::uint32_t short_walk = 10000;
+
+void tell(const char* block, std::uint32_t steps, std::uint32_t digest) {
+  print(block);
+  print(" " TARGET_SCALAR_NAME " ");
+  print_number(steps);
+  print(" ");
+  print_hex(digest);
+  print("\n");
+}
+
+/// A new configuration every 64 steps. A long walk begins with the short one.
+template <class Block>
+__attribute__((noinline)) void walk(const char* name) {
+  static Block block{};
+  Random random{};
+  Digest digest{};
+  const std::uint32_t steps = steps_wanted();
+  begins(name);
+  for (std::uint32_t n = 0; n < steps;) {
+    if (n % 64 == 0) block.draw(random);
+    block.step(random, digest);
+    if (++n == short_walk || n == steps) tell(name, n, digest.value());
+  }
+  tell_counted(name);
+}
+
+/// What the marks and the call themselves take.
+struct NothingWalk {
+  void draw(Random&) {}
+  void step(Random&, Digest&) {
+    counted<0>("nothing", [] {});
+  }
+};
+
+#if TARGET_IS_WHOLE
+void walk_all() {
+#ifdef TARGET_COUNTED
+  walk<NothingWalk>("nothing");
+#endif
+  walk<HallWalk>("hall");
+  walk<StateMachineWalk>("state_machine");
+}
+#else
+using Scalar = TARGET_SCALAR;
+
+[[maybe_unused]] void walk_blocks() {
+  walk<ArithmeticWalk<Scalar> >("arithmetic");
+  walk<PiWalk<Scalar> >("pi");
+  walk<PiPositionalWalk<Scalar> >("pi_positional");
+  walk<DerivativeWalk<Scalar> >("derivative");
+  walk<SlewWalk<Scalar> >("slew");
+  walk<HysteresisWalk<Scalar> >("hysteresis");
+  walk<FeedForwardWalk<Scalar> >("feed_forward");
+  walk<SmoothChoppingWalk<Scalar> >("smooth_chopping");
+  walk<ProfileWalk<Scalar> >("profile");
+  walk<AdcWalk<Scalar> >("adc");
+  walk<OneShuntWalk<Scalar> >("one_shunt");
+  walk<HallSpeedWalk<Scalar> >("hall_speed");
+  walk<AdvanceWalk<Scalar> >("advance");
+  walk<LimitsWalk<Scalar> >("limits");
+  walk<FaultsWalk<Scalar> >("faults");
+  walk<CommutationWalk<Scalar> >("commutation");
+  walk<FramesWalk<Scalar> >("frames");
+  walk<ThreePhasePwmWalk<Scalar> >("three_phase_pwm");
+}
+
+#ifndef TARGET_COUNTED
+[[maybe_unused]] void walk_drives() {
+  walk<DrawnDriveWalk<Scalar> >("drive+retune");
+  walk<LeanWalk<Scalar, current::drive> >("drive:current");
+  walk<LeanWalk<Scalar, hysteresis::drive> >("drive:hysteresis");
+  walk<LeanWalk<Scalar, speed::drive> >("drive:speed");
+  walk<LeanWalk<Scalar, position::drive> >("drive:position");
+  walk<ProductWalk<Scalar, product::product> >("product:speed");
+  walk<ProductWalk<Scalar, guarded::product> >("product:guarded");
+  walk<ProductWalk<Scalar, one_shunt::product> >("product:one_shunt");
+}
+#endif
+
+void walk_all() {
+#if defined TARGET_COUNTED
+  walk<NothingWalk>("nothing");
+  walk_blocks();
+#elif defined TARGET_PROOF_ALONE
+  walk<ArithmeticWalk<Scalar> >("arithmetic");
+  walk<PiWalk<Scalar> >("pi");
+  walk<DrawnDriveWalk<Scalar> >("drive+retune");
+#else
+  walk_blocks();
+  walk_drives();
+#endif
+}
+#endif
+
+}  // namespace
+
+void run() { walk_all(); }
+
+}  // namespace target

@@ -1,0 +1,24 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# check_target.sh          the controller on real cores, emulated: the same bits (tests/target/digests.txt), what drives and
+#                          blocks cost, their flash, RAM and library calls (data/cores/)
+# check_target.sh PART..   of proof, sights, bits, costs, blocks, sizes only these
+# check_target.sh --renew [PART..]  writes those tables anew: after a change that is meant to change them
+#
+# Processors, compilers and flags: tests/target/cores.py. tools/install.sh target installs them.
+set -eu
+cd "$(dirname "$0")/.."
+. tools/parts.sh
+tools/configure.sh dev
+cmake --build build/dev --target sixstep_cli target_record >build/target.log 2>&1 || { tail -n 40 build/target.log; exit 1; }
+export PYTHONDONTWRITEBYTECODE=1
+renew=
+if [ "${1:-}" = --renew ]; then
+  renew=--renew
+  shift
+fi
+status=0
+for part in ${*:-proof sights bits costs blocks sizes}; do
+  part "on chips: $part" python3 tests/target/check.py $renew "$part" || status=1
+done
+exit $status
