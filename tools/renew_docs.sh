@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # tools/renew_docs.sh [PROGRAM] [--screenshots]   writes anew what the documents show of the program: the page of all keys,
-# the gallery with its pictures, and the printed blocks of every page. With --screenshots also the photographed pages, which
+# the gallery with its pictures, the tables of the cores, the example's headers, and the printed blocks of every page. With --screenshots also the photographed pages, which
 # need Chromium (tools/install.sh test). Look at `git diff` afterwards: what changed must be what was meant to change.
 set -eu
 cd "$(dirname "$0")/.."
@@ -11,6 +11,12 @@ if [ $# -gt 0 ] && [ "$1" != --screenshots ]; then
   shift
 fi
 tools/scenario_reference.py "$program"
+tools/core_tables.py
+for header in faces/firmware/example/*/drive_config.hpp; do
+  arguments=$(sed -n 's|^//   sixstep ||p' "$header")
+  eval "$program $arguments" >/dev/null
+  sed -i '1i // SPDX-License-Identifier: Apache-2.0' "$header"
+done
 tools/gallery.py "$program"
 for page in readme motors curve design figures manual; do
   "tests/docs/${page}_md_test.py" "$program" --renew

@@ -10,7 +10,7 @@ from cores import HERE, OUT, REPOSITORY
 
 PROGRAM = REPOSITORY / "build" / "dev" / "sixstep"
 SCALARS = ("q15", "q14", "q31", "q30", "float")
-DRIVES = ("current", "hysteresis", "speed", "position", "product", "guarded", "one_shunt")
+DRIVES = ("duty", "current", "hysteresis", "speed", "position", "product", "guarded", "one_shunt")
 JOBS = int(os.environ.get("SIXSTEP_JOBS", "2"))
 
 

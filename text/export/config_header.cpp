@@ -9,6 +9,7 @@
 #include "text/escape/escape.hpp"
 #include "text/export/clearance_lines.hpp"
 #include "text/export/config_text.hpp"
+#include "text/export/core_costs.hpp"
 
 namespace text {
 namespace {
@@ -121,6 +122,7 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
                    const std::vector<design::Headroom>& rows) {
   std::string text = head(w, c);
   if (!rows.empty()) text += proof(rows);
+  text += core_cost_lines(c);
   text += "#pragma once\n#include <cstdint>\n\n";
   text += includes(w, c.product.has_value());
   text += fmt::format("\nnamespace {} {{\n\nusing Scalar = {};\n\n", w.name_space, type);

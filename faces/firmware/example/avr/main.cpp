@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Both entries of the lean drive on an ATmega2560 (16 MHz), a current loop in Q15. One shunt in the DC link
 // on ADC0, upper gates on OC1A..OC1C (timer 1), lower gates on PA0..PA2, Hall pins on PK0..PK2. The protected
-// drive takes four times as long here (README): what it would watch is the two lines that set `fault`.
+// drive takes five times as long here (docs/firmware.md): what it would watch is the two lines that set `fault`.
 #include "faces/firmware/example/avr/bridge.hpp"
 #include "faces/firmware/example/avr/drive_config.hpp"
 #include "faces/firmware/example/avr/registers.hpp"

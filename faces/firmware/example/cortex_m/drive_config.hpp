@@ -25,6 +25,20 @@
 //   bus       12 bits over 52.8 V
 //   rotor     Hall edges exactly at the sectors' ends, captured at 7.2e+07 Hz, speed over six edges where the loop stands their delay, else one
 //   load      0.02 N m, 0 kg m2 beside the rotor's
+//
+// On a core, the product drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a
+// control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/firmware.md):
+//                               tick    Hall                   flash     RAM
+//   Cortex-M0   q15             1884     286 instructions      18888     240 bytes
+//   Cortex-M3   q15             1045     172 instructions      16638     240 bytes
+//   Cortex-M3   q31             1499     173 instructions      26288     320 bytes
+//   Cortex-M4F  float            628     173 instructions       8900     280 bytes
+//   Cortex-M4F  q15             1045     172 instructions      16626     240 bytes
+//   Cortex-M4F  q31             1496     173 instructions      26172     320 bytes
+//   RV32IMC     q15             1012     172 instructions      16846     240 bytes
+//   ATmega2560  q15             5358     979 cycles            14294     197 bytes
+//   ATmega2560  q31            11569     979 cycles            20030     235 bytes
+//   ATmega2560  float           9497     980 cycles            11314     215 bytes
 #pragma once
 #include <cstdint>
 

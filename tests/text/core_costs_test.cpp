@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a header says of cycles and memory: the counted rows of the drive of its kind, and what it has beside that drive.
+#include "text/export/core_costs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+using namespace sixstep;
+
+namespace {
+
+study::Compiled drive_of(control::Mode mode) {
+  study::Compiled c;
+  c.drive.mode = mode;
+  return c;
+}
+
+/// Worst tick and Hall interrupt of a drive, from the table itself.
+std::pair<std::string, std::string> counted(const std::string& begin) {
+  std::ifstream table(SIXSTEP_SOURCE_DIR "/data/cores/drives.txt");
+  std::pair<std::string, std::string> worst;
+  for (std::string line; std::getline(table, line);) {
+    const std::string last = line.substr(line.rfind(' ') + 1);
+    if (line.starts_with(begin + " tick ")) worst.first = last;
+    if (line.starts_with(begin + " hall ")) worst.second = last;
+  }
+  return worst;
+}
+
+std::vector<std::string> words_of_row(const std::string& text, const std::string& core,
+                                      const std::string& scalar) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream in(line);
+    std::vector<std::string> words(std::istream_iterator<std::string>(in), {});
+    if (words.size() > 3 && words[1] == core && words[2] == scalar) return words;
+  }
+  return {};
+}
+
+TEST(CoreCosts, AreThoseCountedOfTheDriveOfItsKind) {
+  auto product = drive_of(control::Mode::speed);
+  product.product.emplace();
+  auto hysteresis = drive_of(control::Mode::current);
+  hysteresis.drive.current_control = control::CurrentControl::hysteresis;
+  const std::pair<const char*, study::Compiled> drives[] = {
+      {"duty", drive_of(control::Mode::duty)},         {"current", drive_of(control::Mode::current)},
+      {"speed", drive_of(control::Mode::speed)},       {"hysteresis", hysteresis},
+      {"position", drive_of(control::Mode::position)}, {"product", product},
+  };
+  for (const auto& [name, compiled] : drives) {
+    const std::string text = text::core_cost_lines(compiled);
+    for (const auto& [core, scalar] :
+         {std::pair{"Cortex-M0", "q15"}, {"Cortex-M4F", "float"}, {"ATmega2560", "q31"}}) {
+      const auto [tick, hall] = counted(std::string(core) + " " + name + " " + scalar);
+      ASSERT_FALSE(tick.empty()) << name;
+      const auto row = words_of_row(text, core, scalar);
+      ASSERT_EQ(row.size(), 9u) << text;
+      EXPECT_EQ(row[3], tick) << name;
+      EXPECT_EQ(row[4], hall) << name;
+      EXPECT_EQ(row[5], std::string(core) == "ATmega2560" ? "cycles" : "instructions");
+    }
+  }
+}
+
+TEST(CoreCosts, EveryLineIsAComment) {
+  std::istringstream lines(text::core_cost_lines(drive_of(control::Mode::speed)));
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) EXPECT_TRUE(line.starts_with("//")) << line;
+  EXPECT_EQ(count, 14);
+}
+
+TEST(CoreCosts, WhatComesToItIsNamed) {
+  auto c = drive_of(control::Mode::speed);
+  EXPECT_EQ(text::core_cost_lines(c).find("has more"), std::string::npos);
+  c.drive.extras.slews_setpoint = true;
+  EXPECT_EQ(text::core_cost_lines(c).find("has more"), std::string::npos) << "the extras are off";
+  c.drive.extras.on = true;
+  c.product.emplace();
+  c.product->advance.fixed = 0.1;
+  EXPECT_NE(text::core_cost_lines(c).find("This drive has more, which comes to it: slew, advance.\n"),
+            std::string::npos);
+}
+
+}  // namespace

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/export/core_costs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "text/cores.hpp"
+
+namespace text {
+namespace {
+
+namespace control = sixstep::control;
+
+/// The reference drive, by the name that the tables have for it.
+std::string_view kind(const study::Compiled& c) {
+  if (c.product) return "product";
+  switch (c.drive.mode) {
+    case control::Mode::duty:
+      return "duty";
+    case control::Mode::current:
+      return c.drive.current_control == control::CurrentControl::hysteresis ? "hysteresis" : "current";
+    case control::Mode::position:
+      return "position";
+    case control::Mode::speed:
+    case control::Mode::off:
+      break;
+  }
+  return "speed";
+}
+
+using Words = std::vector<std::string_view>;
+
+/// Lines of words; those that begin with # are left out.
+std::vector<Words> rows(std::string_view table) {
+  std::vector<Words> all;
+  while (!table.empty()) {
+    std::string_view line = table.substr(0, table.find('\n'));
+    table.remove_prefix(line.size() < table.size() ? line.size() + 1 : line.size());
+    if (line.starts_with('#')) continue;
+    Words words;
+    while (!line.empty()) {
+      const std::string_view word = line.substr(0, line.find(' '));
+      line.remove_prefix(word.size() < line.size() ? word.size() + 1 : word.size());
+      words.push_back(word);
+    }
+    all.push_back(words);
+  }
+  return all;
+}
+
+/// The row that begins so: core, drive, arithmetic; of a count its entry too.
+const Words* row_of(const std::vector<Words>& all, const Words& key) {
+  for (const Words& row : all)
+    if (row.size() > key.size() && std::equal(key.begin(), key.end(), row.begin())) return &row;
+  return nullptr;
+}
+
+/// Blocks that no reference drive has, by the names of their headers.
+std::string blocks_beside(const study::Compiled& c) {
+  const auto& e = c.drive.extras;
+  const bool advances = c.product && (c.product->advance.fixed != 0 || c.product->advance.per_speed != 0);
+  const std::array<std::pair<bool, std::string_view>, 8> blocks{{
+      {e.on && e.slews_setpoint, "slew"},
+      {e.on && e.limits_current, "limits"},
+      {e.on && (e.feed_forward.K_t_V_s != 0 || e.bus.lowest_bus_V != 0), "feed_forward"},
+      {e.on && e.smooth_chopping, "smooth_chopping"},
+      {e.on && e.positional_speed, "pi_positional"},
+      {e.on && e.speed_derivative.g != 0, "derivative"},
+      {advances, "advance"},
+      {c.product && c.product->sensing == control::CurrentSensing::one_shunt, "one_shunt"},
+  }};
+  std::string names;
+  for (const auto& [has, name] : blocks)
+    if (has) names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
+}
+
+}  // namespace
+
+std::string core_cost_lines(const study::Compiled& c) {
+  const std::vector<Words> counts = rows(cores::drives_txt), sizes = rows(cores::sizes_txt);
+  std::string text = fmt::format(
+      "//\n// On a core, the {} drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a\n"
+      "// control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/firmware.md):\n"
+      "//   {:<12}{:<12}{:>8}{:>8}{:<16}{:>8}{:>8}\n",
+      kind(c), "", "", "tick", "Hall", "", "flash", "RAM");
+  for (const Words& size : sizes) {
+    if (size.size() != 5 || size[1] != kind(c)) continue;
+    const Words* tick = row_of(counts, {size[0], size[1], size[2], "tick"});
+    const Words* hall = row_of(counts, {size[0], size[1], size[2], "hall"});
+    if (!tick || !hall) continue;
+    text +=
+        fmt::format("//   {:<12}{:<12}{:>8}{:>8}{:<16}{:>8}{:>8} bytes\n", size[0], size[2], tick->back(),
+                    hall->back(), size[0].starts_with("AT") ? " cycles" : " instructions", size[3], size[4]);
+  }
+  if (const std::string more = blocks_beside(c); !more.empty())
+    text += fmt::format("// This drive has more, which comes to it: {}.\n", more);
+  return text;
+}
+
+}  // namespace text

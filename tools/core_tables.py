@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""core_tables.py [--check]: writes the tables of docs/firmware.md from what was counted on the cores (data/cores/,
+tests/target/digests.txt; tools/check_target.sh counts); with --check it tells whether they stand there."""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+PAGE = ROOT / "docs" / "firmware.md"
+CORES = ROOT / "data" / "cores"
+DRIVES = ("duty", "hysteresis", "current", "speed", "position", "product")
+
+
+def rows(file):
+    lines = [line for line in file.read_text(encoding="utf-8").splitlines() if line and line[0] != "#"]
+    return [line.split() for line in lines]
+
+
+def keyed(file, width):
+    return {tuple(row[:width]): row[width:] for row in rows(file)}
+
+
+def table(head, lines):
+    return "\n".join(["| " + " | ".join(line) + " |" for line in (head, ["---"] * len(head), *lines)])
+
+
+def places(found):
+    """Core and arithmetic in the order of the table."""
+    return list(dict.fromkeys((key[0], key[2]) for key in found))
+
+
+def of_entry(entry, cell):
+    found = keyed(CORES / "drives.txt", 4)
+    lines = []
+    for core, scalar in places(found):
+        cells = [found.get((core, drive, scalar, entry)) for drive in DRIVES]
+        if all(cells):
+            lines.append([core, scalar, *map(cell, cells)])
+    return table(["core", "arithmetic", *DRIVES], lines)
+
+
+def blocks():
+    found = keyed(CORES / "blocks.txt", 4)
+    where = [place for place in places(found) if place[1] != "whole"]
+    lines = []
+    for block, function in dict.fromkeys((key[1], key[3]) for key in found):
+        def worst(core, scalar):
+            row = found.get((core, block, scalar, function)) or found.get((core, block, "whole", function))
+            return row[3] if row else ""
+        lines.append([f"`{block}.hpp`", ", ".join(f"`{name}`" for name in function.split("+")), *(worst(*place) for place in where)])
+    return table(["block", "function", *(f"{core} {scalar}" for core, scalar in where)], lines)
+
+
+def sizes():
+    found = keyed(CORES / "sizes.txt", 3)
+    lines = [[core, scalar, *(" + ".join(found[core, drive, scalar]) for drive in DRIVES)] for core, scalar in places(found)]
+    return table(["core", "arithmetic", *DRIVES], lines)
+
+
+def digests():
+    found = rows(ROOT / "tests" / "target" / "digests.txt")
+    scalars = list(dict.fromkeys(row[1] for row in found))
+    counted = [[scalar, str(sum(row[1] == scalar for row in found))] for scalar in scalars]
+    return table(["arithmetic", "digests"], counted)
+
+
+TABLES = {"ticks": lambda: of_entry("tick", lambda c: f"{c[2]} / {c[3]}"), "edges": lambda: of_entry("hall", lambda c: c[3]),
+          "interrupts": lambda: of_entry("tick_interrupt", lambda c: c[3]),
+          "edge interrupts": lambda: of_entry("hall_interrupt", lambda c: c[3]),
+          "blocks": blocks, "sizes": sizes, "digests": digests}
+
+
+def written(text):
+    def place(found):
+        return f"<!-- table: {found[1]} -->\n{TABLES[found[1]]()}\n<!-- end -->"
+    return re.sub(r"<!-- table: ([a-z ]+) -->\n.*?<!-- end -->", place, text, flags=re.S)
+
+
+def main():
+    text = PAGE.read_text(encoding="utf-8")
+    missing = [name for name in TABLES if f"<!-- table: {name} -->" not in text]
+    if missing:
+        print(f"{PAGE.name} has no place for: {', '.join(missing)}")
+        return 1
+    if "--check" not in sys.argv:
+        PAGE.write_text(written(text), encoding="utf-8")
+        return 0
+    if written(text) == text:
+        return 0
+    print(f"{PAGE.name}: its tables are not what was counted: tools/core_tables.py writes them")
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
