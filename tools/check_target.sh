@@ -10,7 +10,7 @@ set -eu
 cd "$(dirname "$0")/.."
 . tools/parts.sh
 tools/configure.sh dev
-cmake --build build/dev --target sixstep_cli target_record >build/target.log 2>&1 || { tail -n 40 build/target.log; exit 1; }
+part "on chips: building" cmake --build build/dev --target sixstep_cli target_record
 export PYTHONDONTWRITEBYTECODE=1
 renew=
 if [ "${1:-}" = --renew ]; then
