@@ -21,7 +21,9 @@ inline constexpr int free_star = 12;  // + 3 j + k: e_j - e_k against the rails
 inline constexpr int breakaway_forward = 21;
 inline constexpr int breakaway_backward = 22;
 inline constexpr int source = 23;
-inline constexpr int first_free = 24;
+inline constexpr int brake = 24;       // of the general kernel, and the next
+inline constexpr int load_turns = 25;  // the load's speed changes its sign
+inline constexpr int first_free = 26;
 }  // namespace guard
 
 /// Noise = 64 eps x natural scale (pitfall 6), widened by `slack` where rounding left no mode

@@ -25,7 +25,9 @@ namespace sixstep::rig {
 /// The instant that a firmware's tick looks at.
 template <class Real>
 struct SampleInstant {
-  const plant::Plant<Real>& plant;
+  const plant::State<Real>& state;
+  const plant::Legs& legs;
+  Real pole_pairs{};
   sim::Instant at{};
   std::uint64_t number = 0;  ///< of the sample
   std::uint8_t pins = 0;
@@ -50,14 +52,14 @@ struct Tuning {
 /// Everything as it is.
 template <class Scalar, class Real>
 control::Measurement<Scalar> ideal_measurement(const SampleInstant<Real>& instant, const Bases& u) {
-  const plant::State<Real>& s = instant.plant.state();
+  const plant::State<Real>& s = instant.state;
   // mutant: s.x * Real(180) / Real(base::pi) => s.x
   const Real sector_deg = static_cast<Real>(s.sector) * 60 + s.x * Real(180) / Real(base::pi);
   return {.i_a_A = from_si<Scalar>(s.i[0], u.current_A),
           .i_b_A = from_si<Scalar>(s.i[1], u.current_A),
           .i_c_A = from_si<Scalar>(s.i[2], u.current_A),
           .speed_rad_s = from_si<Scalar>(s.w, u.speed_rad_s),
-          .position_deg = from_si<Scalar>(sector_deg / instant.plant.constants().pole_pairs, u.position_deg),
+          .position_deg = from_si<Scalar>(sector_deg / instant.pole_pairs, u.position_deg),
           .bus_V = from_si<Scalar>(s.bus, u.voltage_V),
           .hall = instant.pins};
 }
@@ -65,7 +67,7 @@ control::Measurement<Scalar> ideal_measurement(const SampleInstant<Real>& instan
 /// What converters and shunt are exposed to.
 template <class Real>
 Sample sample_of(const SampleInstant<Real>& instant) {
-  const plant::State<Real>& s = instant.plant.state();
+  const plant::State<Real>& s = instant.state;
   Sample sample{.bus_V = static_cast<double>(s.bus),
                 .at = instant.at,
                 .number = instant.number,
@@ -73,7 +75,7 @@ Sample sample_of(const SampleInstant<Real>& instant) {
                 .reversed = instant.reversed};
   for (std::size_t k = 0; k < 3; ++k) {
     sample.i_A[k] = static_cast<double>(s.i[k]);
-    if (plant::is_high(instant.plant.mode().legs[k])) sample.dc_link_A += sample.i_A[k];
+    if (plant::is_high(instant.legs[k])) sample.dc_link_A += sample.i_A[k];
   }
   return sample;
 }

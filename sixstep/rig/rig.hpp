@@ -28,16 +28,17 @@ enum class EventKind : std::uint8_t {
   count
 };
 
-template <class RealType, class Firmware>
+template <class RealType, class Firmware, class PlantType = plant::Plant<RealType>>
 class Rig {
  public:
   using Real = RealType;
+  using Plant = PlantType;
   using Modulator = typename ModulatorFor<typename Firmware::Command>::type;
   using Config = typename Firmware::Config;
   using Tunings = std::vector<Tuning<Config>>;
 
   /// `tunings`: what the timeline's retune actions name. A copy of a rig is its snapshot.
-  Rig(const plant::Plant<Real>& plant, const Config& chip, const BoardConfig& board, Timeline timeline,
+  Rig(const Plant& plant, const Config& chip, const BoardConfig& board, Timeline timeline,
       Tunings tunings = {})
       : plant_(plant),
         timeline_(std::move(timeline)),
@@ -64,7 +65,10 @@ class Rig {
   /// configuration in effect may differ in nothing that has been felt.
   void replace_future(Timeline timeline, const Tuning<Config>& first, Tunings tunings);
 
-  const plant::Plant<Real>& plant() const { return plant_; }
+  /// The wire of leg k breaks at its current's next zero; where the plant has such faults.
+  void break_wire(int k) { plant_.break_wire(k); }
+
+  const Plant& plant() const { return plant_; }
   const Modulator& modulator() const { return modulator_; }
   const Firmware& firmware() const { return firmware_; }
   const auto& telemetry() const { return firmware_.telemetry(); }
@@ -122,7 +126,7 @@ class Rig {
   void count(EventKind what) { ++event_counts_[static_cast<std::size_t>(what)]; }
 
   // Small fields last: the plant begins on a cache line, and each gap might cost a whole one.
-  plant::Plant<Real> plant_;
+  Plant plant_;
   Timeline timeline_;
   Tunings tunings_;
   BoardConfig board_;
@@ -147,8 +151,8 @@ class Rig {
   std::uint8_t stuck_high_ = 0, stuck_low_ = 0;  ///< Hall lines, as bits of a code
 };
 
-template <class Real, class Firmware>
-sim::Instant Rig<Real, Firmware>::next_due() const {
+template <class Real, class Firmware, class Plant>
+sim::Instant Rig<Real, Firmware, Plant>::next_due() const {
   sim::Instant next = modulator_.next_edge();
   if (next_tick_ < next) next = next_tick_;
   if (next_action_ < timeline_.size() && timeline_[next_action_].at < next) next = timeline_[next_action_].at;
@@ -158,16 +162,16 @@ sim::Instant Rig<Real, Firmware>::next_due() const {
 /// All that is due now, decided by the clocks alone: scenario step, control tick, PWM edge, comparator,
 /// repeated until nothing is due. The gates follow at the end, so that a leg never sees an order of things at
 /// one instant.
-template <class Real, class Firmware>
-bool Rig<Real, Firmware>::act() {
+template <class Real, class Firmware, class Plant>
+bool Rig<Real, Firmware, Plant>::act() {
   ticked_ = false;
   // mutant: now_ < due_ && !moved_ && !watching() => now_ < due_ && !watching()
   if (now_ < due_ && !moved_ && !watching()) return true;
   return act_on_due();
 }
 
-template <class Real, class Firmware>
-bool Rig<Real, Firmware>::act_on_due() {
+template <class Real, class Firmware, class Plant>
+bool Rig<Real, Firmware, Plant>::act_on_due() {
   if (moved_) due_ = next_due();
   moved_ = false;
   do {
@@ -181,8 +185,8 @@ bool Rig<Real, Firmware>::act_on_due() {
   return fault_ == Fault::none;
 }
 
-template <class Real, class Firmware>
-bool Rig<Real, Firmware>::do_tick() {
+template <class Real, class Firmware, class Plant>
+bool Rig<Real, Firmware, Plant>::do_tick() {
   if (now_ < next_tick_) return false;
   if (board_.sampled_in_middle) return do_half_tick();
   next_tick_.ticks += board_.modulator.period_ticks;
@@ -192,10 +196,15 @@ bool Rig<Real, Firmware>::do_tick() {
   return ticked_ = true;
 }
 
-template <class Real, class Firmware>
-void Rig<Real, Firmware>::control_step(bool starts_period) {
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::control_step(bool starts_period) {
   if (moving_) follow_waveform();
-  SampleInstant<Real> instant{plant_, now_, static_cast<std::uint64_t>(event_count(EventKind::tick)), pins(),
+  SampleInstant<Real> instant{plant_.state(),
+                              plant_.mode().legs,
+                              plant_.constants().pole_pairs,
+                              now_,
+                              static_cast<std::uint64_t>(event_count(EventKind::tick)),
+                              pins(),
                               reversed_};
   if constexpr (six_step) instant.duty = modulator_.command().duty;
   const auto& answer = firmware_.tick(instant, setpoint_);
@@ -221,15 +230,15 @@ void Rig<Real, Firmware>::control_step(bool starts_period) {
 }
 
 /// Turning off waits for no register: neither for a delayed command nor for one that the timer has loaded.
-template <class Real, class Firmware>
-void Rig<Real, Firmware>::let_go() {
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::let_go() {
   modulator_.turn_off(now_);
   pending_.enabled = loaded_.enabled = false;
 }
 
 /// The tick that sees the next action which is the chip's: a setpoint or a tuning; never where none is left.
-template <class Real, class Firmware>
-sim::Instant Rig<Real, Firmware>::told_next() const {
+template <class Real, class Firmware, class Plant>
+sim::Instant Rig<Real, Firmware, Plant>::told_next() const {
   const std::int64_t period = board_.modulator.period_ticks;
   for (std::size_t n = next_action_; n < timeline_.size(); ++n)
     if (timeline_[n].kind == ActionKind::setpoint || timeline_[n].kind == ActionKind::retune)
@@ -240,8 +249,8 @@ sim::Instant Rig<Real, Firmware>::told_next() const {
 
 /// Open loop with a steady bridge asks nothing of the coming ticks until the chip is told something: they are
 /// not simulated.
-template <class Real, class Firmware>
-void Rig<Real, Firmware>::skip_idle_ticks() {
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::skip_idle_ticks() {
   // mutant: moving_ => false
   if (!firmware_.open_loop() || moving_ || board_.delayed || board_.commutate_at_sample ||
       !modulator_.steady())
@@ -249,23 +258,23 @@ void Rig<Real, Firmware>::skip_idle_ticks() {
   if (const sim::Instant told = told_next(); told > now_) next_tick_ = told;
 }
 
-template <class Real, class Firmware>
-void Rig<Real, Firmware>::hall_edge() {
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::hall_edge() {
   firmware_.captured(pins(), now_);
   if constexpr (six_step)
     if (!board_.commutate_at_sample) commutate();
 }
 
-template <class Real, class Firmware>
+template <class Real, class Firmware, class Plant>
 template <class Visit>
-void Rig<Real, Firmware>::guards(Visit&& visit) const {
+void Rig<Real, Firmware, Plant>::guards(Visit&& visit) const {
   plant_.guards(visit);
   if constexpr (six_step)
     if (watching()) comparator_guards(visit);
 }
 
-template <class Real, class Firmware>
-void Rig<Real, Firmware>::apply(int id) {
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::apply(int id) {
   using namespace plant;
   if (id >= guard::first_free) {
     count(EventKind::comparator);

@@ -6,15 +6,15 @@
 
 namespace sixstep::rig {
 
-template <class Real, class Firmware>
-bool Rig<Real, Firmware>::do_timeline() {
+template <class Real, class Firmware, class Plant>
+bool Rig<Real, Firmware, Plant>::do_timeline() {
   if (next_action_ >= timeline_.size() || now_ < timeline_[next_action_].at) return false;
   do_action(timeline_[next_action_++]);
   return true;
 }
 
-template <class Real, class Firmware>
-void Rig<Real, Firmware>::do_action(const Action& action) {
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::do_action(const Action& action) {
   switch (action.kind) {
     case ActionKind::load_torque:
       return plant_.set_load(action.value);
@@ -47,8 +47,9 @@ void Rig<Real, Firmware>::do_action(const Action& action) {
 }
 
 /// Ticks that were skipped since nothing was to come are due again where something is.
-template <class Real, class Firmware>
-void Rig<Real, Firmware>::replace_future(Timeline timeline, const Tuning<Config>& first, Tunings tunings) {
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::replace_future(Timeline timeline, const Tuning<Config>& first,
+                                                Tunings tunings) {
   timeline_ = std::move(timeline);
   tunings_ = std::move(tunings);
   const Tuning<Config>* in_effect = &first;
@@ -61,15 +62,15 @@ void Rig<Real, Firmware>::replace_future(Timeline timeline, const Tuning<Config>
 }
 
 /// Where the setpoint stands at this tick.
-template <class Real, class Firmware>
-void Rig<Real, Firmware>::follow_waveform() {
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::follow_waveform() {
   // mutant: waveform_ => 0
   const Action& from = timeline_[waveform_];
   setpoint_ = from.waveform.after(from.value, sim::seconds_between(from.at, now_));
 }
 
-template <class Real, class Firmware>
-void Rig<Real, Firmware>::sector_edge() {
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::sector_edge() {
   count(EventKind::sector_edge);
   const std::uint8_t stuck = stuck_high_ | stuck_low_;
   // The one line that changes between this sector and its neighbour behind is stuck: no edge on the pins.
@@ -79,8 +80,8 @@ void Rig<Real, Firmware>::sector_edge() {
 }
 
 /// A line breaks or is whole again: where it stood the other way, that is an edge on the pins.
-template <class Real, class Firmware>
-void Rig<Real, Firmware>::set_hall_line(double line, bool stuck_high, bool stuck_low) {
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::set_hall_line(double line, bool stuck_high, bool stuck_low) {
   const std::uint8_t before = pins(), bit = static_cast<std::uint8_t>(8 >> static_cast<int>(line));
   const auto set = [bit](std::uint8_t& lines, bool on) {
     lines = static_cast<std::uint8_t>(on ? lines | bit : lines & ~bit);
@@ -91,8 +92,8 @@ void Rig<Real, Firmware>::set_hall_line(double line, bool stuck_high, bool stuck
 }
 
 /// Sampled in the middle of a period: the answer waits in the timer's buffer for the next start.
-template <class Real, class Firmware>
-bool Rig<Real, Firmware>::do_half_tick() {
+template <class Real, class Firmware, class Plant>
+bool Rig<Real, Firmware, Plant>::do_half_tick() {
   const std::int64_t period = board_.modulator.period_ticks, first = period / 2;
   half_ = !half_;
   next_tick_.ticks += half_ ? first : period - first;

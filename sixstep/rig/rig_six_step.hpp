@@ -7,8 +7,8 @@
 namespace sixstep::rig {
 
 /// The Hall interrupt of six-step: the pair moves on, in what is in effect and in what waits.
-template <class Real, class Firmware>
-void Rig<Real, Firmware>::commutate() {
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::commutate() {
   const auto answer = firmware_.hall_interrupt(pins(), now_);
   if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
   if (!answer.enabled) return let_go();
@@ -22,8 +22,8 @@ void Rig<Real, Firmware>::commutate() {
 }
 
 /// Comparators beyond their level; true where one switched.
-template <class Real, class Firmware>
-bool Rig<Real, Firmware>::compare() {
+template <class Real, class Firmware, class Plant>
+bool Rig<Real, Firmware, Plant>::compare() {
   const int switched = modulator_.compare(now_, plant_.state().i);
   event_counts_[static_cast<std::size_t>(EventKind::comparator)] += switched;
   due_ = next_due();
@@ -32,8 +32,8 @@ bool Rig<Real, Firmware>::compare() {
 
 /// With two legs conducting, both phases carry one current and two comparators reach their levels together:
 /// whether the second one switches too must not be left to a rounding error.
-template <class Real, class Firmware>
-void Rig<Real, Firmware>::trip(int which) {
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::trip(int which) {
   const ArmedComparator other = modulator_.comparator(1 - which);
   const bool same_level = other.armed && other.switches_off == modulator_.comparator(which).switches_off;
   modulator_.comparator_tripped(now_, which);
@@ -46,9 +46,9 @@ void Rig<Real, Firmware>::trip(int which) {
   modulator_.comparator_tripped(now_, 1 - which);
 }
 
-template <class Real, class Firmware>
+template <class Real, class Firmware, class Plant>
 template <class Visit>
-void Rig<Real, Firmware>::comparator_guards(Visit&& visit) const {
+void Rig<Real, Firmware, Plant>::comparator_guards(Visit&& visit) const {
   for (int which = 0; which < 2; ++which) {
     const ArmedComparator c = modulator_.comparator(which);
     if (!c.armed) continue;

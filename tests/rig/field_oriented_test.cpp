@@ -36,8 +36,8 @@ struct FieldOriented {
 
   template <class Real>
   control::LegCommands<double> operator()(const rig::SampleInstant<Real>& instant, double i_q) {
-    const plant::State<Real>& s = instant.plant.state();
-    const double w_e = instant.plant.constants().pole_pairs * s.w;
+    const plant::State<Real>& s = instant.state;
+    const double w_e = instant.pole_pairs * s.w;
     const double theta_d = plant::sector_in_turn(s.sector) * base::sector_rad + s.x - 5 * base::pi / 6;
     const control::Dq<double> i =
         park(control::clarke(control::Abc<double>{s.i[0], s.i[1], s.i[2]}), direction(theta_d));
