@@ -19,7 +19,7 @@ for header in faces/firmware/example/*/drive_config.hpp; do
 done
 tools/gallery.py "$program"
 for page in readme motors curve design figures manual; do
-  "tests/docs/${page}_md_test.py" "$program" --renew
+  python3 "tests/docs/${page}_md_test.py" "$program" --renew
 done
 if [ "${1:-}" = --screenshots ]; then
   node tools/picture.mjs "$program"

@@ -7,10 +7,12 @@
 
 namespace sixstep::plant {
 
-/// J over one segment; friction is viscous and dry. `travel` is the shaft's way in rad.
+/// J over one segment; friction is viscous and dry. `travel` is the shaft's way in rad; `load_viscous` what of `viscous`
+/// acts at a load's side of its own.
 template <class Real>
 struct SegmentEnergy {
-  Real supplied = 0, copper = 0, devices = 0, air_gap = 0, viscous = 0, dry = 0, load = 0, travel = 0;
+  Real supplied = 0, copper = 0, devices = 0, air_gap = 0, viscous = 0, dry = 0, load = 0, travel = 0,
+       load_viscous = 0;
 };
 
 namespace detail {

@@ -65,9 +65,6 @@ class Rig {
   /// configuration in effect may differ in nothing that has been felt.
   void replace_future(Timeline timeline, const Tuning<Config>& first, Tunings tunings);
 
-  /// The wire of leg k breaks at its current's next zero; where the plant has such faults.
-  void break_wire(int k) { plant_.break_wire(k); }
-
   const Plant& plant() const { return plant_; }
   const Modulator& modulator() const { return modulator_; }
   const Firmware& firmware() const { return firmware_; }

@@ -36,6 +36,9 @@ void Rig<Real, Firmware, Plant>::do_action(const Action& action) {
       return firmware_.retune(tunings_[static_cast<std::size_t>(action.value)]);
     case ActionKind::dead_time:
       return modulator_.set_dead_time(action.value);
+    case ActionKind::wire_break:
+      if constexpr (requires { plant_.break_wire(0); }) plant_.break_wire(static_cast<int>(action.value));
+      return;
     case ActionKind::setpoint:
       break;
   }

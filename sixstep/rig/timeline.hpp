@@ -22,7 +22,8 @@ enum class ActionKind : std::uint8_t {
   source_sinks,
   hall_whole,
   retune,
-  dead_time
+  dead_time,
+  wire_break
 };
 
 /// How a setpoint moves from its action on: t seconds later it stands at
@@ -52,7 +53,7 @@ struct Action {
   ActionKind kind = ActionKind::setpoint;
   double value = 0.0;   ///< setpoint in the mode's unit; N m; Hall line 1 to 3, stuck low where negative;
                         ///< V; a request to run, a clamp on the shaft, a sinking source: 1 or 0; which of
-                        ///< the rig's tunings; ps
+                        ///< the rig's tunings; ps; the leg, 0 to 2
   Waveform waveform{};  ///< of a setpoint
 };
 

@@ -206,7 +206,13 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                                          "line",
                                          "poles",
                                          "sector",
-                                         "turns_in_series"};
+                                         "turns_in_series",
+                                         "harmonic_orders",
+                                         "harmonic_sizes",
+                                         "phase_resistance_deviation",
+                                         "phase_back_emf_deviation",
+                                         "cogging_orders",
+                                         "gear"};
   for (const KeyEntry& key : all_keys()) {
     const bool number = key.type == KeyType::number || key.type == KeyType::whole_number ||
                         key.type == KeyType::numbers || key.type == KeyType::quantity;

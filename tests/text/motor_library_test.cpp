@@ -88,7 +88,7 @@ TEST_P(MotorLibrary, WhatIsNotSimulatableLacksSomethingOrSaysItsDoubt) {
   if (sheet_.simulatable) return;
   // A value in doubt is no missing value: these say in words what is doubted.
   const std::set<std::string> doubted = {"anaheim-blws235d", "anaheim-blz362s", "drone-blk2blade",
-                                         "jk42bls01"};
+                                         "jk42bls01",        "gmcc-ksk89d53u",  "qs138-70h"};
   sheet_.simulatable = true;
   sheet_.not_simulatable_because.clear();
   EXPECT_EQ(static_cast<bool>(design::motor_model(sheet_)), doubted.contains(GetParam()));

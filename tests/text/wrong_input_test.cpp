@@ -210,7 +210,7 @@ TEST_F(WrongInput, ContradictoryGainsAreToldOnceAndWhere) {
 
 TEST_F(WrongInput, EverythingAtOnceInTheOrderOfTheLines) {
   EXPECT_THAT(complaints("motor = 3\nduration_s = -1\n[pwm]\nperiod_s = 0\n[load]\nlocked = 1\ntimes_s = "
-                         "3\n[bridge]\ndevice = \"igbt\"\n")
+                         "3\n[bridge]\ndevice = \"thyristor\"\n")
                   .size(),
               6U);
 }

@@ -40,7 +40,11 @@ class SheetRows {
   void value(std::string_view key, const bool& member, const base::About&) {
     if (member != (key == "simulatable")) add(key, member ? "true" : "false", "", "", "");
   }
-  void value(std::string_view key, const std::vector<std::string>& member, const base::About&) {
+  void value(std::string_view key, const double& member, const base::About& about) {
+    if (member != 0) add(key, fmt::format("{}", member), about.unit, "", "");
+  }
+  template <class T>
+  void value(std::string_view key, const std::vector<T>& member, const base::About&) {
     if (!member.empty()) add(key, fmt::format("{}", fmt::join(member, ", ")), "", "", "");
   }
   template <class T>
@@ -49,7 +53,7 @@ class SheetRows {
   }
   template <class Enum, class Choices>
   void choice(std::string_view key, const Enum& member, const Choices& choices, const base::About&) {
-    add(key, base::word(choices, member), "", "", "");
+    if (key != "connection" || member != Enum{}) add(key, base::word(choices, member), "", "", "");
   }
   /// As printed: in the unit of the key that the file uses.
   void quantity(std::string_view key, const std::optional<base::Quantity>& q, const base::About& about) {
@@ -92,9 +96,12 @@ std::string model_row(std::string_view symbol, const std::optional<Constant>& co
 }
 
 std::string shape_words(const design::Sheet& sheet) {
-  return sheet.back_emf == design::BackEmfShape::sine
-             ? "sine"
-             : fmt::format("trapezoid, {:g} deg flat", sheet.flat_deg);
+  std::string words = sheet.back_emf == design::BackEmfShape::sine
+                          ? "sine"
+                          : fmt::format("trapezoid, {:g} deg flat", sheet.flat_deg);
+  for (std::size_t n = 0; n < sheet.harmonic_orders.size() && n < sheet.harmonic_sizes.size(); ++n)
+    words += fmt::format(", {:+g} of order {:g}", sheet.harmonic_sizes[n], sheet.harmonic_orders[n]);
+  return words + (sheet.connection == design::WindingConnection::delta ? ", delta" : "");
 }
 
 std::string friction_rows(const design::Friction& f) {

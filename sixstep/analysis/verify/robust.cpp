@@ -43,9 +43,25 @@ design::Sheet sheet_of(const design::Sheet& from, const design::MotorModel& m) {
   s.pole_pairs = m.machine.pole_pairs;
   s.back_emf = from.back_emf;
   s.flat_deg = from.flat_deg;
+  s.harmonic_orders = from.harmonic_orders;
+  s.harmonic_sizes = from.harmonic_sizes;
+  s.connection = from.connection;
+  s.mutual_inductance_mH = from.mutual_inductance_mH;
+  s.phase_resistance_deviation = from.phase_resistance_deviation;
+  s.phase_back_emf_deviation = from.phase_back_emf_deviation;
+  s.cogging_orders = from.cogging_orders;
+  s.cogging_mNm = from.cogging_mNm;
+  s.cogging_phase_deg = from.cogging_phase_deg;
   if (m.nominal_voltage_V > 0) s.nominal_voltage_V = {m.nominal_voltage_V, "", ""};
   s.resistance_ohm = {2 * m.machine.R_ohm, "terminal", ""};
-  s.inductance_mH = {2e3 * m.machine.L_H, "terminal", ""};
+  if (from.d_axis_inductance_mH && from.q_axis_inductance_mH && !from.inductance_mH) {  // both stray alike
+    const double d = from.d_axis_inductance_mH->value, q = from.q_axis_inductance_mH->value;
+    const double by = 2e3 * m.machine.L_H / (d + q);
+    s.d_axis_inductance_mH = base::Quantity{d * by, "phase", ""};
+    s.q_axis_inductance_mH = base::Quantity{q * by, "phase", ""};
+  } else {
+    s.inductance_mH = {2e3 * m.machine.L_H, "terminal", ""};
+  }
   s.torque_constant_mNm_A = base::Quantity{1e3 * m.K_t_Nm_A, "", ""};
   s.inertia_gcm2 = {1e7 * m.shaft.J_kg_m2, "", ""};
   s.viscous_friction_Nm_s = base::Quantity{m.shaft.B_Nm_s, "", ""};

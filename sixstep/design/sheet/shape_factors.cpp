@@ -72,4 +72,27 @@ ShapeFactors shape_factors(BackEmfShape shape, double flat_deg) {
   return out;
 }
 
+ShapeFactors harmonic_factors(std::span<const double> orders, std::span<const double> sizes) {
+  ShapeFactors out = shape_factors(BackEmfShape::sine, 120.0);
+  double phase_square = 0.5, line_square = 1.5;
+  for (std::size_t n = 0; n < orders.size(); ++n) {
+    const double order = orders[n], c = sizes[n], third = order * base::pi / 3.0;
+    out.sector_mean += c * (base::sin(third) + base::sin(2.0 * third)) / third;
+    phase_square += c * c / 2.0;
+    if (std::fmod(order, 3.0) != 0.0) line_square += 1.5 * c * c;
+  }
+  out.phase_rms = std::sqrt(phase_square);
+  out.line_rms = std::sqrt(line_square);
+  // The peak of f_a - f_b, which is even about its middle, by looking at half a turn in steps of a 4096th.
+  const auto line = [&](double x) {
+    double v = base::cos(x) - base::cos(x - 2.0 * base::pi / 3.0);
+    for (std::size_t n = 0; n < orders.size(); ++n)
+      v += sizes[n] * (base::cos(orders[n] * x) - base::cos(orders[n] * (x - 2.0 * base::pi / 3.0)));
+    return std::abs(v);
+  };
+  out.line_peak = 0.0;
+  for (int n = 0; n < 4096; ++n) out.line_peak = std::max(out.line_peak, line(base::pi * n / 4096.0));
+  return out;
+}
+
 }  // namespace sixstep::design

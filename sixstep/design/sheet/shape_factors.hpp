@@ -2,6 +2,8 @@
 // What one phase's back-EMF of peak 1 looks like between terminals, as a mean and as a fundamental: the
 // numbers that turn a printed constant of any convention into K_e.
 #pragma once
+#include <span>
+
 #include "sixstep/design/sheet/sheet.hpp"
 
 namespace sixstep::design {
@@ -20,6 +22,9 @@ struct ShapeFactors {
 
 /// flat_deg in (0, 180); a sine has no flat top and does not look at it.
 ShapeFactors shape_factors(BackEmfShape shape, double flat_deg);
+
+/// Of a sine with odd harmonics beside it: orders and sizes alike in number, sizes as parts of the sine's.
+ShapeFactors harmonic_factors(std::span<const double> orders, std::span<const double> sizes);
 
 /// Torque per ampere rms of a sine in each phase, in line with the EMF: (3/2) sqrt 2 of the fundamental.
 inline double torque_per_rms_A(double K_e_V_s, const ShapeFactors& f) {

@@ -14,6 +14,8 @@ namespace sixstep::design {
 
 enum class BackEmfShape : std::uint8_t { trapezoid, sine };
 
+enum class WindingConnection : std::uint8_t { star, delta };
+
 struct Sheet {
   std::string name;
   std::string maker;
@@ -26,7 +28,13 @@ struct Sheet {
   std::optional<int> poles;
   std::string winding;  // "12N14P": 12 teeth, 14 poles
   BackEmfShape back_emf = BackEmfShape::trapezoid;
-  double flat_deg = 120.0;  // width of the trapezoid's flat top, electrical
+  double flat_deg = 120.0;                              // width of the trapezoid's flat top, electrical
+  std::vector<double> harmonic_orders, harmonic_sizes;  // odd ones beside the sine's 1, by the sine's peak
+  WindingConnection connection = WindingConnection::star;
+  double mutual_inductance_mH = 0.0;  // delta: between two branches
+  std::vector<double> phase_resistance_deviation,
+      phase_back_emf_deviation;                                        // of a, b, c from the mean, as a part
+  std::vector<double> cogging_orders, cogging_mNm, cogging_phase_deg;  // periods per turn of the shaft
 
   std::optional<base::Quantity> nominal_voltage_V;
   std::optional<base::Quantity> resistance_ohm;                              // frame terminal or phase

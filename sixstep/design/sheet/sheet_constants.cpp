@@ -59,15 +59,10 @@ void read_axes(SheetReader& reader) {
   const std::optional<double> L_d = SheetReader::positive(*d, -3), L_q = SheetReader::positive(*q, -3);
   if (!L_d || !L_q) return;
   if (*L_d != *L_q) {
-    const std::string mean = rounded((d->value + q->value) / 2.0);
-    reader.out.missing.push_back(
-        {"q_axis_inductance_mH", base::written(q->value),
-         "differs from d_axis_inductance_mH = " + base::written(d->value) +
-             ": the rotor is salient, which the model is not",
-         "to go without saliency give inductance_mH = { value = " + mean + ", frame = \"phase\" } instead"});
-    return;
+    reader.out.L_H = Constant{(*L_d + *L_q) / 2.0, "L_d and L_q, phase: their mean; a run has both"};
+  } else {
+    reader.out.L_H = Constant{*L_d, "L_d = L_q, phase: as it is"};
   }
-  reader.out.L_H = Constant{*L_d, "L_d = L_q, phase: as it is"};
   reader.use("d_axis_inductance_mH");
   reader.use("q_axis_inductance_mH");
 }
@@ -166,11 +161,14 @@ SheetConstants sheet_constants(const Sheet& sheet) {
   if (!flat)
     reader.problem("flat_deg", base::written(sheet.flat_deg), "must lie between 0 and 180",
                    "give the flat top's width in electrical degrees, usually 120");
-  out.shape = shape_factors(sheet.back_emf, flat ? sheet.flat_deg : 120.0);
+  out.shape = sheet.harmonic_orders.empty() || sheet.harmonic_orders.size() != sheet.harmonic_sizes.size()
+                  ? shape_factors(sheet.back_emf, flat ? sheet.flat_deg : 120.0)
+                  : harmonic_factors(sheet.harmonic_orders, sheet.harmonic_sizes);
   const std::size_t told = out.problems.size();
   out.pole_pairs = read_pole_pairs(reader);
   if (!out.pole_pairs && out.problems.size() == told)
     reader.missing("pole_pairs", "give it, or poles, or the winding's code as \"12N14P\"");
+  read_details(reader);
   if (sheet.nominal_voltage_V) out.nominal_voltage_V = SheetReader::positive(*sheet.nominal_voltage_V);
   read_resistance(reader);
   read_inductance(reader);
@@ -195,8 +193,10 @@ Sheet in_standard_keys(Sheet s) {
     key->source = "from " + constant->from;
     key->kind = base::Trust::derived;
   };
-  if (c.L_H) fill(s.inductance_mH, c.L_H, c.L_H->value * 1e3, "phase");
-  if (c.L_H) s.d_axis_inductance_mH = s.q_axis_inductance_mH = std::nullopt;
+  const bool salient = s.d_axis_inductance_mH && s.q_axis_inductance_mH && !s.inductance_mH &&
+                       s.d_axis_inductance_mH->value != s.q_axis_inductance_mH->value;
+  if (c.L_H && !salient) fill(s.inductance_mH, c.L_H, c.L_H->value * 1e3, "phase");
+  if (c.L_H && !salient) s.d_axis_inductance_mH = s.q_axis_inductance_mH = std::nullopt;
   if (c.K_t_Nm_A && !s.back_emf_mV_s)
     fill(s.torque_constant_mNm_A, c.K_t_Nm_A, c.K_t_Nm_A->value * 1e3, "terminal");
   if (c.J_kg_m2 && s.with_brake && s.inertia_with_brake_gcm2) {

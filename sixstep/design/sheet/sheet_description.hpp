@@ -10,9 +10,17 @@ namespace sixstep::design {
 /// The ring motors of telescopes have a hundred pole pairs.
 inline constexpr int most_pole_pairs = 500, most_turns = 100'000;
 
+/// Of the back-EMF; what lies above is noise of a measurement.
+inline constexpr int highest_order = 23;
+
 inline constexpr base::Choice<BackEmfShape> back_emf_choices[] = {
     {"trapezoid", BackEmfShape::trapezoid, "flat top of width flat_deg, linear ramps between"},
     {"sine", BackEmfShape::sine, "one sine per electrical turn"},
+};
+
+inline constexpr base::Choice<WindingConnection> connection_choices[] = {
+    {"star", WindingConnection::star, "the phases meet in a point that is not led out"},
+    {"delta", WindingConnection::delta, "the phases lie between the terminals, and a current may run round"},
 };
 
 template <class Visitor>
@@ -45,6 +53,31 @@ void describe_winding(Visitor& v, Sheet& s) {
            .unit = "deg",
            .range = base::strictly_between(0, 180),
            .cure = "an ideal six-step motor has 120"});
+  v.value(
+      "harmonic_orders", s.harmonic_orders,
+      {.meaning =
+           "odd harmonics of the back-EMF beside the sine, 3 to 23, with harmonic_sizes; back_emf = \"sine\""});
+  v.value("harmonic_sizes", s.harmonic_sizes,
+          {.meaning = "their amplitudes as parts of the sine's, cos n (theta - 60 deg)",
+           .range = base::between(-1, 1)});
+  v.choice("connection", s.connection, connection_choices, {.meaning = "how the three phases are connected"});
+  v.value("mutual_inductance_mH", s.mutual_inductance_mH,
+          {.meaning = "delta: mutual inductance of two branches, negative as a rule",
+           .unit = "mH",
+           .range = base::between(-1e3, 1e3)});
+  v.value("phase_resistance_deviation", s.phase_resistance_deviation,
+          {.meaning = "star: by how much the resistances of phases a, b, c stray, as parts of the mean",
+           .range = base::strictly_between(-1, 1)});
+  v.value("phase_back_emf_deviation", s.phase_back_emf_deviation,
+          {.meaning = "star: by how much the back-EMF constants of a, b, c stray, as parts of the mean",
+           .range = base::strictly_between(-1, 1)});
+  v.value("cogging_orders", s.cogging_orders,
+          {.meaning =
+               "periods of the cogging torque per turn of the shaft: the least common multiple of slots and "
+               "poles, and its multiples"});
+  v.value("cogging_mNm", s.cogging_mNm, {.meaning = "amplitudes of the cogging torque", .unit = "mNm"});
+  v.value("cogging_phase_deg", s.cogging_phase_deg,
+          {.meaning = "their phases, sin(order theta + phase); without it 0", .unit = "deg"});
   v.quantity("nominal_voltage_V", s.nominal_voltage_V,
              {.meaning = "voltage the sheet's other values belong to",
               .unit = "V",

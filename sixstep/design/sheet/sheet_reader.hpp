@@ -56,5 +56,6 @@ void unknown_frame(SheetReader& reader, std::string_view key, const base::Quanti
 std::optional<int> read_pole_pairs(SheetReader& reader);
 void read_torque_constant(SheetReader& reader);
 void read_friction(SheetReader& reader);
+void read_details(SheetReader& reader);
 
 }  // namespace sixstep::design

@@ -64,7 +64,9 @@ struct Series {
   using Coefficients = series::Coefficients<Real>;
   PerLeg<Coefficients>
       pole;  ///< u_k against the negative rail; fewer than two legs connected: e_k for those that float
+  PerLeg<Coefficients> emf;
   Coefficients loop, source, load_w, twist;
+  Coefficients load, cogging;       ///< torques: the load's at its side, the cogging one at the motor's
   Coefficients shaft;               ///< torque that holds against the breakaway one, at rest
   Coefficients turn_cos, turn_sin;  ///< of the load's angle, for gravity
   std::array<Coefficients, most_rotations> cos, sin;

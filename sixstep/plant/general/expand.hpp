@@ -63,9 +63,9 @@ Real size_of(const Constants<Real>& c, const Expansion<Real>& y, const Series<Re
 
 template <class Real, class Visit>
 void for_each_series(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z, Visit&& visit) {
-  for (int k = 0; k < 3; ++k) visit(y.i[k]), visit(z.pole[k]);
-  for (auto* of : {&y.w, &y.x, &y.bus, &y.torque, &z.shaft, &z.loop, &z.source, &z.load_w, &z.twist,
-                   &z.turn_cos, &z.turn_sin})
+  for (int k = 0; k < 3; ++k) visit(y.i[k]), visit(z.pole[k]), visit(z.emf[k]);
+  for (auto* of : {&y.w, &y.x, &y.bus, &y.torque, &z.shaft, &z.loop, &z.source, &z.load_w, &z.twist, &z.load,
+                   &z.cogging, &z.turn_cos, &z.turn_sin})
     visit(*of);
   for (std::size_t r = 0; r < c.rotations; ++r) visit(z.cos[r]), visit(z.sin[r]);
 }
@@ -128,8 +128,8 @@ void expand(const Constants<Real>& c, const State<Real>& s, const More<Real>& m,
     reached = n >= 5 && last < 8 && before < 4096 && !from_nothing;
     if (reached) y.degree = n + 1;
   }
-  y.torque[y.degree] = z.shaft[y.degree] = 0;
-  for (int k = 0; k < 3; ++k) z.pole[k][y.degree] = 0;
+  y.torque[y.degree] = z.shaft[y.degree] = z.load[y.degree] = z.cogging[y.degree] = 0;
+  for (int k = 0; k < 3; ++k) z.pole[k][y.degree] = z.emf[k][y.degree] = 0;
   if (!(c.inv_L_b > 0)) z.source[y.degree] = 0;
   if (!c.elastic) z.load_w[y.degree] = c.inv_gear * y.w[y.degree];
   if (!reached) detail::shorten(c, y, z);

@@ -23,9 +23,9 @@ struct ShapePoint {
 
 /// The shape f of the back-EMF over the electrical angle (model.md 7): one of trapezoid, harmonics, table.
 struct Shape {
-  double flat_deg = 120.0;          ///< of the trapezoid, where the two below are empty
-  std::vector<Harmonic> harmonics;  ///< a sine is {1, 1.0}
-  std::vector<ShapePoint> table;
+  double flat_deg = 120.0;            ///< of the trapezoid, where the two below are empty
+  std::vector<Harmonic> harmonics{};  ///< a sine is {1, 1.0}
+  std::vector<ShapePoint> table{};
 };
 
 /// C sin(order theta_m + phase), N m. order: per mechanical turn, a multiple of the pole pairs.
@@ -45,8 +45,8 @@ struct Machine {
   double M_H = 0.0;                 ///< delta: between branches
   double L_d_H = 0.0, L_q_H = 0.0;  ///< star, in place of L_H where both are given
   int pole_pairs = 1;
-  Shape shape;
-  std::vector<Cogging> cogging;
+  Shape shape{};
+  std::vector<Cogging> cogging{};
 
   bool salient() const { return L_d_H > 0.0 && L_q_H > 0.0 && L_d_H != L_q_H; }
 };
@@ -66,7 +66,7 @@ struct Shaft {
   double load_J_kg_m2 = 0.0, load_B_Nm_s = 0.0;
   double stiffness_Nm = 0.0;  ///< N m/rad at the load's side; 0: rigid
   double damping_Nm_s = 0.0;
-  Load load;
+  Load load{};
   bool locked = false;
 
   bool elastic() const { return stiffness_Nm > 0.0; }

@@ -72,7 +72,7 @@ class Recurrence {
     PerLeg<Real> drive{}, e{};  // u_k, u_k - R_k i_k - e_k
     Real mean = 0;
     for (int k = 0; k < 3; ++k) {
-      e[k] = emf(k, n);
+      z_.emf[k][n] = e[k] = emf(k, n);
       if (is_floating(mode_.legs[k])) continue;
       const PoleTerms<Real>& terms = c_.poles[static_cast<std::size_t>(mode_.legs[k])];
       Real u = terms.bus_share * y_.bus[n] - terms.r_ohm * y_.i[k][n];
@@ -184,7 +184,7 @@ class Recurrence {
     if (c_.salient)
       torque += Real(1.5) * c_.pole_pairs * (product(flux_alpha_, beta_, n) - product(flux_beta_, alpha_, n));
     y_.torque[n] = torque;
-    cogging_ = cogging;
+    z_.cogging[n] = cogging;
   }
 
   void move(int n, Real f) {
@@ -197,6 +197,7 @@ class Recurrence {
       z_.turn_sin[n + 1] = f * product(z_.load_w, z_.turn_cos, n);
       z_.turn_cos[n + 1] = -f * product(z_.load_w, z_.turn_sin, n);
     }
+    z_.load[n] = load;
     Real against_rotor = load;
     if (c_.elastic) {
       const Real shaft = c_.stiffness * z_.twist[n] + c_.damping * (c_.inv_gear * y_.w[n] - load_w);
@@ -204,7 +205,7 @@ class Recurrence {
       z_.twist[n + 1] = f * (c_.inv_gear * y_.w[n] - load_w);
       against_rotor = shaft;
     }
-    z_.shaft[n] = y_.torque[n] + cogging_ - c_.inv_gear * against_rotor;
+    z_.shaft[n] = y_.torque[n] + z_.cogging[n] - c_.inv_gear * against_rotor;
     Real sum = z_.shaft[n] - c_.B * y_.w[n];
     if (n == 0) sum -= against(mode_.motion, c_.coulomb);
     y_.w[n + 1] = turns(mode_.motion) ? f * c_.inv_J * sum : Real(0);
@@ -241,7 +242,7 @@ class Recurrence {
   std::array<int, 3> leg_{};
   PerLeg<Real> share_{};
   PerWay<Real> now_{};
-  Real wx_ = 0, cogging_ = 0;
+  Real wx_ = 0;
   std::array<Real, most_rotations> w_cos_, w_sin_;
   std::array<Coefficients, most_rotations> by_cos_, by_sin_;
   Coefficients along_, alpha_, beta_, flux_alpha_, flux_beta_, turned_cos_, turned_sin_;

@@ -174,4 +174,19 @@ ShapeTable<Real> shape_table(const Machine& m) {
   return table;
 }
 
+/// Torque per ampere through the driven pair for K_e = 1, mean over a sector, without loop current: K_t/K_e (model.md 1).
+inline double sector_mean(const Machine& m) {
+  const ShapeTable<double> table = shape_table<double>(m);
+  double sum = 0;
+  for (const Piece<double>& p : table.sector[0]) {
+    const double now = p.now[0] - p.now[1], rise = p.rise[0] - p.rise[1];
+    sum += now * (p.to - p.from) + rise * (p.to * p.to - p.from * p.from) / 2;
+  }
+  for (const Rotation<double>& r : table.rotations) {
+    const base::SinCos end = base::sin_cos(r.order * base::sector_rad);
+    sum += ((r.cos[0] - r.cos[1]) * end.sin + (r.sin[0] - r.sin[1]) * (1 - end.cos)) / r.order;
+  }
+  return sum / base::sector_rad;
+}
+
 }  // namespace sixstep::plant::general

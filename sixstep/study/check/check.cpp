@@ -27,6 +27,46 @@ namespace {
 
 std::string number(double v) { return base::rounded(v, 6); }
 
+void check_brake(const Supply& s, bool has_capacitor, base::Problems& out) {
+  const double R = s.brake_resistance_ohm;
+  if (!(R > 0)) {
+    if (s.brake_on_V > 0 || s.brake_off_V > 0)
+      out.push_back({s.brake_on_V > 0 ? "supply.brake_on_V" : "supply.brake_off_V",
+                     number(s.brake_on_V > 0 ? s.brake_on_V : s.brake_off_V),
+                     "has no brake resistor to switch", "give supply.brake_resistance_ohm"});
+    return;
+  }
+  if (!has_capacitor)
+    out.push_back({"supply.brake_resistance_ohm", number(R), "needs a bus whose voltage can rise",
+                   "give supply.resistance_ohm and supply.capacitance_F"});
+  if (!(s.brake_on_V > s.brake_off_V) || !(s.brake_off_V > 0))
+    out.push_back({"supply.brake_on_V", number(s.brake_on_V),
+                   "must be above supply.brake_off_V = " + number(s.brake_off_V) + ", and that above 0",
+                   "give both, as brake_on_V = 30, brake_off_V = 28"});
+  else if (!(s.brake_off_V > s.voltage_V))
+    out.push_back({"supply.brake_off_V", number(s.brake_off_V),
+                   "must be above supply.voltage_V = " + number(s.voltage_V),
+                   "the resistor would never be off again"});
+}
+
+void check_shaft(const Scenario& s, base::Problems& out) {
+  const Load& l = s.load;
+  if (l.stiffness_Nm_rad > 0 && !(l.inertia_kg_m2 > 0))
+    out.push_back({"load.stiffness_Nm_rad", number(l.stiffness_Nm_rad),
+                   "has no mass behind it that could swing", "give load.inertia_kg_m2"});
+  if (l.damping_Nm_s_rad > 0 && !(l.stiffness_Nm_rad > 0))
+    out.push_back({"load.damping_Nm_s_rad", number(l.damping_Nm_s_rad),
+                   "is of an elastic shaft, and this one is rigid",
+                   "give load.stiffness_Nm_rad, or leave it away"});
+  if (l.gravity_angle_deg != 0 && l.gravity_Nm == 0)
+    out.push_back({"load.gravity_angle_deg", number(l.gravity_angle_deg), "is of a weight that is not there",
+                   "give load.gravity_Nm"});
+  if (s.bridge.saturation_V > 0 && s.bridge.device != Device::igbt)
+    out.push_back({"bridge.saturation_V", number(s.bridge.saturation_V),
+                   "is of an IGBT, and bridge.device is \"mosfet\"",
+                   "write device = \"igbt\", or give on_resistance_ohm alone"});
+}
+
 void check_supply(const Scenario& s, base::Problems& out) {
   const bool R = s.supply.resistance_ohm > 0, C = s.supply.capacitance_F > 0;
   if (R && !C)
@@ -39,6 +79,10 @@ void check_supply(const Scenario& s, base::Problems& out) {
   if (!s.supply.sinks && !(R && C))
     out.push_back({"supply.sinks", "false", "needs a bus whose voltage can rise",
                    "give supply.resistance_ohm and supply.capacitance_F"});
+  if (s.supply.inductance_H > 0 && !(R && C))
+    out.push_back({"supply.inductance_H", number(s.supply.inductance_H), "needs a bus capacitor behind it",
+                   "give supply.resistance_ohm and supply.capacitance_F"});
+  check_brake(s.supply, C, out);
   if (s.initial.bus_V && !C)
     out.push_back({"initial.bus_V", number(*s.initial.bus_V), "has no meaning on a stiff bus",
                    "leave it away, or give supply.resistance_ohm and supply.capacitance_F"});
@@ -193,6 +237,7 @@ base::Problems check(const Scenario& s) {
     out = motor.problems();
   }
   check_supply(s, out);
+  check_shaft(s, out);
   const std::size_t before = out.size();
   check_references(s, out);
   check_events(s, out);

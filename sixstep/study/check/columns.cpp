@@ -9,7 +9,8 @@ base::Problems check_columns(const Scenario& s) {
   const auto columns = record_indices(s);
   if (!columns || s.record.columns.empty()) return out;  // unknown ones are told by check()
   for (const std::size_t n : *columns)
-    if (!applies(static_cast<ColumnId>(n), s))
+    if (!applies(static_cast<ColumnId>(n), s) &&
+        static_cast<ColumnId>(n) != ColumnId::loop_A)  // a star's is 0
       out.push_back({"record.columns", "\"" + all_columns()[n].name + "\"",
                      "has no value in this control.mode",
                      "remove it, or control what it is the reference of"});

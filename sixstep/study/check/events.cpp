@@ -13,7 +13,8 @@ using base::written;
 
 bool changes_nothing(const At& at) {
   return !at.reference && !at.supply.voltage_V && !at.supply.sinks && !at.load.torque_Nm && !at.load.locked &&
-         !at.sensors.hall_break && at.request == DriveRequest::none && !retunes(at) && !at.bridge.dead_time_s;
+         !at.sensors.hall_break && at.request == DriveRequest::none && !retunes(at) &&
+         !at.bridge.dead_time_s && at.motor.broken_wire == Wire::none;
 }
 
 /// A reference that goes on from where it stood can not do so in another unit.
@@ -78,8 +79,8 @@ void check_event(const Event& e) {
   if (changes_nothing(at))
     out.push_back(
         {where + ".time_s", written(at.time_s), "is when nothing changes",
-         "give a reference, a value of supply or load, sensors.hall_break, request, or what changes of "
-         "control, pwm or bridge"});
+         "give a reference, a value of supply or load, sensors.hall_break, motor.broken_wire, request, or what "
+         "changes of control, pwm or bridge"});
   if (at.supply.sinks == false && !(s.supply.capacitance_F > 0))
     out.push_back({where + ".supply.sinks", "false", "needs a bus whose voltage can rise",
                    "give supply.resistance_ohm and supply.capacitance_F"});

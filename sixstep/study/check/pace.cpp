@@ -58,10 +58,49 @@ void check_friction(const Scenario& s, const design::MotorModel& motor, base::Pr
                    "look at its unit, or set load.locked = true to hold the rotor"});
 }
 
+/// Inductance and capacitor of the source, and the brake resistor on it.
+void check_source(const Scenario& s, base::Problems& out) {
+  const Supply& from = s.supply;
+  if (!(from.capacitance_F > 0)) return;  // check_supply tells
+  if (from.inductance_H > 0) {
+    const double rate =
+        from.resistance_ohm / from.inductance_H + 1 / std::sqrt(from.inductance_H * from.capacitance_F);
+    if (rate > fastest_answer_1_s)
+      out.push_back({"supply.inductance_H", written(from.inductance_H),
+                     "makes the source's time constant " + too_short(rate),
+                     "look at its unit: a cable has microhenries; or leave it away"});
+  }
+  if (from.brake_resistance_ohm > 0) {
+    const double rate = 1 / (from.brake_resistance_ohm * from.capacitance_F);
+    if (rate > fastest_answer_1_s)
+      out.push_back({"supply.brake_resistance_ohm", written(from.brake_resistance_ohm),
+                     "empties the bus within " + too_short(rate), "look at its unit"});
+  }
+}
+
+/// An elastic shaft's swing, and what grows with the square of the speed.
+void check_coupling(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
+  const Load& l = s.load;
+  const double square = l.gear * l.gear, J_1 = motor.shaft.J_kg_m2 * square, J_2 = l.inertia_kg_m2;
+  const auto look = [&](const char* key, double value, double rate) {
+    if (rate > fastest_answer_1_s)
+      out.push_back({key, written(value), "makes the shaft's time constant " + too_short(rate),
+                     "look at its unit and at those of load.gear and the inertias"});
+  };
+  const bool elastic = l.stiffness_Nm_rad > 0 && J_2 > 0;
+  if (elastic) {
+    const double both = 1 / J_1 + 1 / J_2;
+    look("load.stiffness_Nm_rad", l.stiffness_Nm_rad, std::sqrt(l.stiffness_Nm_rad * both));
+    look("load.damping_Nm_s_rad", l.damping_Nm_s_rad, l.damping_Nm_s_rad * both);
+  }
+  const double fastest_load = fastest_field_rad_s / motor.machine.pole_pairs / l.gear;
+  look("load.fan_Nm_s2", l.fan_Nm_s2, l.fan_Nm_s2 * fastest_load / (elastic ? J_2 : J_1 + J_2));
+}
+
 /// A torque that throws the rotor out of all bounds within a few PWM periods.
 void check_torque(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
   if (s.load.locked) return;
-  const double J = motor.shaft.J_kg_m2 + s.load.inertia_kg_m2;
+  const double J = motor.shaft.J_kg_m2 + s.load.inertia_kg_m2 / (s.load.gear * s.load.gear);
   const double most_Nm = plant::fastest_field_rad_s2 / motor.machine.pole_pairs * J;
   const auto look = [&](const std::string& key, double torque_Nm) {
     if (std::fabs(torque_Nm) > most_Nm)
@@ -71,6 +110,9 @@ void check_torque(const Scenario& s, const design::MotorModel& motor, base::Prob
                      "look at its unit and at that of the inertia"});
   };
   look("load.torque_Nm", s.load.torque_Nm);
+  look("load.gravity_Nm", s.load.gravity_Nm);
+  for (std::size_t n = 0; n < s.sheet.cogging_mNm.size(); ++n)
+    look("motor_override.cogging_mNm[" + std::to_string(n) + "]", 1e-3 * s.sheet.cogging_mNm[n]);
   for (std::size_t n = 0; n < s.load.torques_Nm.size(); ++n)
     if (std::fabs(s.load.torques_Nm[n]) > most_Nm) {
       look("load.torques_Nm[" + std::to_string(n) + "]", s.load.torques_Nm[n]);
@@ -132,7 +174,9 @@ void check_minimum_pulse(const Scenario& s, base::Problems& out) {
 void check_pace(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
   check_bridge(s, motor.machine, out);
   check_bus(s, motor.machine, out);
+  check_source(s, out);
   check_friction(s, motor, out);
+  check_coupling(s, motor, out);
   check_torque(s, motor, out);
   check_field(s, motor.machine, out);
   check_band(s, motor.machine, out);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "sixstep/plant/general/plant.hpp"
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
 #include "sixstep/study/compile/basis.hpp"
@@ -80,6 +81,18 @@ base::Result<Chip<Firmware>> chip_of(const Scenario& s, const Compiled& c) {
 template <class Firmware>
 rig::Rig<double, Firmware> rig_of(const Compiled& c, const Chip<Firmware>& chip, rig::Timeline timeline) {
   const plant::Plant<double> plant(c.motor.machine, c.shaft, c.devices, c.supply, c.start);
+  rig::BoardConfig board = c.board;
+  board.bases = chip.bases;
+  return {plant, chip.config, board, std::move(timeline), chip.later};
+}
+
+/// Of a scenario that the general kernel runs.
+template <class Firmware>
+using GeneralRig = rig::Rig<double, Firmware, plant::general::Plant<double>>;
+template <class Firmware>
+GeneralRig<Firmware> general_rig_of(const Compiled& c, const Chip<Firmware>& chip, rig::Timeline timeline) {
+  const GeneralPlant& g = *c.general;
+  const plant::general::Plant<double> plant(g.machine, g.shaft, g.devices, g.supply, g.start);
   rig::BoardConfig board = c.board;
   board.bases = chip.bases;
   return {plant, chip.config, board, std::move(timeline), chip.later};

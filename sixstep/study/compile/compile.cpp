@@ -8,6 +8,7 @@
 #include "sixstep/design/loops/operating_limits.hpp"
 #include "sixstep/design/loops/rotor_sensing.hpp"
 #include "sixstep/study/compile/basis.hpp"
+#include "sixstep/study/compile/general_plant.hpp"
 #include "sixstep/study/compile/timeline.hpp"
 #include "sixstep/study/scenario/changes.hpp"
 
@@ -36,10 +37,11 @@ base::Result<LoopGains> loop_gains(const Loop& loop, const std::string& name, co
 
 plant::Shaft shaft_of(const design::MotorModel& motor, const Load& load) {
   plant::Shaft shaft = motor.shaft;
-  shaft.J_kg_m2 += load.inertia_kg_m2;
-  shaft.B_Nm_s += load.viscous_Nm_s;
-  shaft.coulomb_Nm += load.coulomb_Nm;
-  shaft.static_Nm = load.static_Nm;
+  // At the motor's side of the gear, as if the shaft were rigid.
+  shaft.J_kg_m2 += load.inertia_kg_m2 / (load.gear * load.gear);
+  shaft.B_Nm_s += load.viscous_Nm_s / (load.gear * load.gear);
+  shaft.coulomb_Nm += load.coulomb_Nm / load.gear;
+  shaft.static_Nm = load.static_Nm / load.gear;
   shaft.locked = load.locked;
   return shaft;
 }
@@ -265,6 +267,7 @@ base::Result<Compiled> compile(const Scenario& s) {
   out.devices = {s.bridge.on_resistance_ohm, s.bridge.diode_drop_V, s.bridge.diode_resistance_ohm};
   out.supply = {s.supply.voltage_V, s.supply.resistance_ohm, s.supply.capacitance_F, s.supply.sinks};
   out.start = {s.initial.speed_rad_s, s.initial.angle_rad, s.initial.bus_V.value_or(s.supply.voltage_V)};
+  out.general = general_plant(s, out);
   out.board = board_of(s, basis.motor.machine.L_H / basis.motor.machine.R_ohm);
   out.timeline = timeline_of(s);
   out.end = sim::to_instant(s.duration_s);

@@ -4,6 +4,7 @@
 #pragma once
 #include "sixstep/base/result.hpp"
 #include "sixstep/control/protected_drive.hpp"
+#include "sixstep/plant/general/machine.hpp"
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
@@ -18,6 +19,15 @@ struct Tuned {
   std::optional<control::ProtectedConfig<double>> product;  ///< around the drive, where the chip runs it
 };
 
+/// What the general kernel is given, where the scenario asks for what the lean one lacks (plant/general/).
+struct GeneralPlant {
+  plant::general::Machine machine;
+  plant::general::Shaft shaft;
+  plant::general::Devices devices;
+  plant::general::Supply supply;
+  plant::general::Start start;
+};
+
 struct Compiled {
   design::MotorModel motor;
   plant::Shaft shaft;  ///< the motor's with the load's share added
@@ -29,7 +39,8 @@ struct Compiled {
   control::DriveConfig<double> drive;
   std::optional<control::ProtectedConfig<double>> product;  ///< around the drive, where the chip runs it
   std::vector<LoopGains> gains;
-  std::vector<Tuned> later;  ///< what the timeline's retune actions name
+  std::vector<Tuned> later;             ///< what the timeline's retune actions name
+  std::optional<GeneralPlant> general;  ///< runs in the place of motor, shaft, devices and supply
   sim::Instant end;
 };
 

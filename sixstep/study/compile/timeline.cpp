@@ -30,6 +30,8 @@ void add_event(const At& at, rig::Timeline& timeline) {
   }
   if (at.bridge.dead_time_s)
     add(ActionKind::dead_time, static_cast<double>(sim::to_instant(*at.bridge.dead_time_s).ticks));
+  if (at.motor.broken_wire != Wire::none)
+    add(ActionKind::wire_break, static_cast<double>(at.motor.broken_wire) - 1.0);
   if (at.request == DriveRequest::on) add(ActionKind::run_request, 1.0);
   if (at.request == DriveRequest::off) add(ActionKind::run_request, 0.0);
   if (at.request == DriveRequest::clear) add(ActionKind::clear_request, 1.0);
@@ -72,6 +74,11 @@ bool breaks_a_hall_line(const Scenario& s) {
   return s.sensors.hall_break.at_s.has_value() || std::any_of(s.at.begin(), s.at.end(), [](const At& at) {
            return at.sensors.hall_break.has_value();
          });
+}
+
+bool breaks_a_wire(const Scenario& s) {
+  return std::any_of(s.at.begin(), s.at.end(),
+                     [](const At& at) { return at.motor.broken_wire != Wire::none; });
 }
 
 double highest_supply_V(const Scenario& s) {

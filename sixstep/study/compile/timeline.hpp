@@ -12,6 +12,8 @@ rig::Timeline timeline_of(const Scenario& scenario);
 
 /// Whether a Hall line breaks anywhere in the run.
 bool breaks_a_hall_line(const Scenario& scenario);
+/// Whether a wire of the motor breaks during the run.
+bool breaks_a_wire(const Scenario& scenario);
 
 /// The highest voltage of the source during the run.
 double highest_supply_V(const Scenario& scenario);

@@ -53,6 +53,10 @@ const std::vector<Column>& all_columns() {
       of(Signal::gate_T6, "", "lower gate of c"),
       {"hall", "1", "", "Hall code, H1 H2 H3 as bits 2, 1, 0"},
       {"sector", "1", "electrical", "sector 0 to 5"},
+      {"load_speed_rad_s", "rad/s", "mechanical, of the load", "speed behind gear and elastic shaft"},
+      {"load_angle_rad", "rad", "mechanical, of the load", "angle behind gear and elastic shaft, over turns"},
+      {"source_A", "A", "out of the source", "current through the supply's inductance"},
+      {"loop_A", "A", "delta", "loop current, the sum of the branch currents"},
   };
   return columns;
 }
@@ -67,6 +71,10 @@ bool applies(ColumnId id, control::Mode mode) {
 
 bool applies(ColumnId id, const Scenario& s) {
   using control::Mode;
+  if (id == ColumnId::load_speed || id == ColumnId::load_angle)
+    return s.load.gear != 1 || s.load.stiffness_Nm_rad > 0;
+  if (id == ColumnId::source_A) return s.supply.inductance_H > 0;
+  if (id == ColumnId::loop_A) return s.sheet.connection == design::WindingConnection::delta;
   for (const Mode mode : {Mode::off, Mode::duty, Mode::current, Mode::speed, Mode::position})
     if (comes_into(s, mode) && applies(id, mode)) return true;
   return false;

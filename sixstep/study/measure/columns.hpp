@@ -43,6 +43,10 @@ enum class ColumnId : std::uint8_t {
   gate_T6,
   hall,
   sector,
+  load_speed,  // from here on: what only the general kernel has
+  load_angle,
+  source_A,
+  loop_A,
   count
 };
 inline constexpr std::size_t column_count = static_cast<std::size_t>(ColumnId::count);
@@ -50,7 +54,7 @@ using FullRow = std::array<double, column_count>;
 
 /// Whether a column means anything in a mode (a duty run has no current reference): rows hold NaN in others.
 bool applies(ColumnId id, control::Mode mode);
-/// In a mode that comes into the run.
+/// In a mode that comes into the run, and to the machine and supply at hand.
 bool applies(ColumnId id, const Scenario& scenario);
 
 /// Every column there is: t_s i_a_A i_b_A i_c_A u_a_V .. hall.

@@ -27,6 +27,10 @@ class Digest {
     const auto& s = rig.plant().state();
     for (const auto& low : s.i_low) whole.hash_.number(static_cast<double>(low));
     for (const auto& low : {s.w_low, s.x_low, s.bus_low}) whole.hash_.number(static_cast<double>(low));
+    if constexpr (requires { rig.plant().more(); }) {
+      const auto& m = rig.plant().more();
+      for (const auto& low : {m.loop_low, m.source_low, m.load_w_low, m.twist_low}) whole.hash_.number(low);
+    }
     return whole.hash_.value();
   }
 
@@ -42,6 +46,10 @@ class Digest {
     hash_.word(static_cast<std::uint64_t>(s.sector));
     hash_.number(static_cast<double>(s.x));
     hash_.number(static_cast<double>(s.bus));
+    if constexpr (requires { rig.plant().more(); }) {
+      const auto& m = rig.plant().more();
+      for (const auto& v : {m.loop, m.source, m.load_w, m.twist}) hash_.number(v);
+    }
   }
 
   base::Hash hash_;

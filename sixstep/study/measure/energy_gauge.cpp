@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/measure/energy_gauge.hpp"
 
-#include "sixstep/plant/segment_energy.hpp"
+#include "sixstep/plant/view.hpp"
 
 namespace sixstep::study {
 
@@ -15,18 +15,18 @@ void EnergyGauge::segment(const SegmentView& g, double s) {
 
 /// The segment's energies from its begin to s, times `sign`.
 void EnergyGauge::add_up_to(const SegmentView& g, double s, double sign) {
-  const plant::SegmentEnergy<double> e = plant::segment_energy(g.plant, s);
-  const plant::Motion motion = g.plant.mode().motion;
-  const auto [load, dry, B] = plant::torques(g.plant.constants(), motion);
+  const plant::SegmentEnergy<double> e = g.plant.energy(s);
+  const plant::Motion motion = g.plant.motion();
+  const double B = g.plant.lean ? g.plant.lean->constants().B : g.plant.general->constants().B;
   sum_.supplied.add(sign * e.supplied);
   sum_.copper.add(sign * e.copper);
   sum_.devices.add(sign * e.devices);
   sum_.air_gap.add(sign * e.air_gap);
   sum_.friction.add(sign * (e.viscous + e.dry));
   sum_.load.add(sign * e.load);
-  const double squares = B > 0 ? e.viscous / B : 0.0;  // integral of w^2
-  sum_.load_friction.add(
-      sign * (load_.viscous_Nm_s * squares + load_.coulomb_Nm * plant::against(motion, e.travel)));
+  const double squares = B > 0 && g.plant.lean ? e.viscous / B : 0.0;  // integral of w^2
+  sum_.load_friction.add(sign * (e.load_viscous + load_.viscous_Nm_s * squares +
+                                 load_.coulomb_Nm * plant::against(motion, e.travel)));
 }
 
 namespace {

@@ -100,7 +100,7 @@ void HarmonicGauge::turn(const SegmentView& g, const Piece& y, double from, doub
 /// bound is then (pi/2) (3/4)^n e^(3 x) u M^3 for degree n, below u M^3/5 where n is 8 or more.
 void HarmonicGauge::turn_part(const SegmentView& g, const Piece& y, double from, double to) {
   const plant::Expansion<double>& e = g.plant.expansion();
-  const double per_s = direction_ * g.plant.constants().pole_pairs * e.h * (to - from);
+  const double per_s = direction_ * g.plant.pole_pairs() * e.h * (to - from);
   const double sector = static_cast<double>(g.plant.sector()) * base::sector_rad;
   series::with_points_for(std::max(e.degree, 8), [&]<int points>() {
     for (int k = 0; k < points; ++k) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "sixstep/plant/general/audit.hpp"
 #include "sixstep/study/measure/digest.hpp"
 #include "sixstep/study/measure/figures.hpp"
 #include "sixstep/study/measure/logic_recorder.hpp"
@@ -13,8 +14,16 @@
 
 namespace sixstep::study {
 
+/// The books of whichever kernel runs.
+struct Audits {
+  plant::Audit<double> lean;
+  plant::general::Audit<double> general;
+  void segment(const plant::Plant<double>& plant, double s) { lean.segment(plant, s); }
+  void segment(const plant::general::Plant<double>& plant, double s) { general.segment(plant, s); }
+};
+
 struct Observers {
-  std::optional<plant::Audit<double>> audit{};
+  std::optional<Audits> audit{};
   Digest digest{};
   Figures figures;
   std::optional<GridRecorder> grid{};

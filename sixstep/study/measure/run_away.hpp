@@ -9,8 +9,9 @@
 
 namespace sixstep::study {
 
-template <class Real>
-bool has_run_away(const plant::Plant<Real>& plant) {
+template <class Plant>
+bool has_run_away(const Plant& plant) {
+  using Real = typename Plant::Real;
   const plant::State<Real>& s = plant.state();
   const Real all = s.i[0] + s.i[1] + s.i[2] + s.w + s.x + s.bus;
   const bool numbers = all - all == 0;  // of what is infinite or no number it is none

@@ -13,9 +13,9 @@ Series weighted_current(const PerLeg<double>& w, const plant::Expansion<double>&
   return c;
 }
 
-PerLeg<double> bus_current_weights(const plant::Plant<double>& plant) {
+PerLeg<double> bus_current_weights(const plant::View& plant) {
   PerLeg<double> w{};
-  for (int k = 0; k < 3; ++k) w[k] = plant::is_high(plant.mode().legs[k]) ? 1.0 : 0.0;
+  for (int k = 0; k < 3; ++k) w[k] = plant::is_high(plant.legs()[k]) ? 1.0 : 0.0;
   return w;
 }
 
@@ -51,7 +51,7 @@ struct SpeedShapes {
 SpeedShapes speed_shapes(const Stretch& part) {
   const auto& y = part.g.plant.expansion();
   const Series w = part.of(y.w);
-  if (part.g.plant.constants().sine)
+  if (part.g.plant.lean->constants().sine)
     return {part.product(w, part.of(y.phi0)), part.product(w, part.of(y.phi1))};
   return {w, part.product(w, part.of(y.x))};
 }
@@ -61,8 +61,9 @@ const plant::EmfPiece<double>& emf_piece(const plant::Plant<double>& plant) {
 }
 
 Series emf_series(const Stretch& part, int k) {
+  if (part.g.plant.general) return part.of(part.g.plant.general->series().emf[k]);
   const SpeedShapes shapes = speed_shapes(part);
-  const plant::EmfPiece<double>& p = emf_piece(part.g.plant);
+  const plant::EmfPiece<double>& p = emf_piece(*part.g.plant.lean);
   Series e{};
   add(e, p.alpha[k], shapes.w0);
   add(e, p.beta[k], shapes.w1);
@@ -73,7 +74,7 @@ Series emf_series(const Stretch& part, int k) {
 /// legs are highest and lowest changes at edges of sectors and pieces only: the shapes are even about their
 /// tops and cross there. Where the rotor turns backwards the two change places, which changes no sum.
 void add_free_star(const Stretch& part, const SpeedShapes& shapes, Series& u) {
-  const plant::Plant<double>& plant = part.g.plant;
+  const plant::Plant<double>& plant = *part.g.plant.lean;
   const plant::EmfPiece<double>& p = emf_piece(plant);
   const double x = (p.from + p.to) / 2;
   const base::SinCos turn = plant.constants().sine ? base::sin_cos(x) : base::SinCos{x, 1.0};
@@ -88,19 +89,33 @@ void add_free_star(const Stretch& part, const SpeedShapes& shapes, Series& u) {
   add(u, -(p.beta[high] + p.beta[low]) / 2, shapes.w1);
 }
 
-/// u_k by the leg's device, or u_n + e_k of a floating one (model.md 2).
-Series pole_series(const Stretch& part, int k) {
-  const plant::Plant<double>& plant = part.g.plant;
-  const auto& y = plant.expansion();
-  const plant::Mode& mode = plant.mode();
+/// The same of the general kernel, which has e_k in the place of the pole voltages then: by the ends of the stretch.
+void add_general_free_star(const Stretch& part, Series& u) {
+  const auto& emf = part.g.plant.general->series().emf;
+  const int degree = part.g.plant.expansion().degree;
+  const auto middle = [&](int k) { return series::evaluate(emf[k], degree, (part.from + part.to) / 2); };
+  int high = 0, low = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (middle(k) > middle(high)) high = k;
+    if (middle(k) < middle(low)) low = k;
+  }
+  add(u, 0.5, part.of(part.g.plant.expansion().bus));
+  add(u, -0.5, part.of(emf[high]));
+  add(u, -0.5, part.of(emf[low]));
+}
+
+/// u_n + e_k of a leg that floats (model.md 2).
+Series floating_series(const Stretch& part, int k) {
+  const bool free = plant::connected_count(part.g.plant.legs()) == 0;
   Series u{};
-  if (!plant::is_floating(mode.legs[k])) {
-    const auto& terms = plant.constants().poles[static_cast<std::size_t>(mode.legs[k])];
-    add(u, terms.bus_share, part.of(y.bus));
-    add(u, -terms.r_ohm, part.of(y.i[k]));
-    u[0] += terms.offset_V;
+  if (part.g.plant.general) {
+    u = part.of(part.g.plant.general->series().pole[k]);
+    if (free) add_general_free_star(part, u);
     return u;
   }
+  const plant::Plant<double>& plant = *part.g.plant.lean;
+  const auto& y = plant.expansion();
+  const plant::Mode& mode = plant.mode();
   const plant::Constants<double>& c = plant.constants();
   const plant::PoleLaw<double> law = plant::pole_law(c.emf[mode.sector].piece[mode.piece],
                                                      c.legs[legs_index(mode.legs)], static_cast<unsigned>(k));
@@ -110,7 +125,19 @@ Series pole_series(const Stretch& part, int k) {
   if (law.bus != 0) add(u, law.bus, part.of(y.bus));
   if (law.i != 0) add(u, law.i, part.of(y.i[law.leg]));
   u[0] += law.offset;
-  if (plant::connected_count(mode.legs) == 0) add_free_star(part, shapes, u);
+  if (free) add_free_star(part, shapes, u);
+  return u;
+}
+
+/// u_k by the leg's device (model.md 2).
+Series pole_series(const Stretch& part, int k) {
+  const plant::View& plant = part.g.plant;
+  if (plant::is_floating(plant.legs()[k])) return floating_series(part, k);
+  const auto& terms = plant.terms(k);
+  Series u{};
+  add(u, terms.bus_share, part.of(plant.expansion().bus));
+  add(u, -terms.r_ohm, part.of(plant.expansion().i[k]));
+  u[0] += terms.offset_V;
   return u;
 }
 
@@ -122,11 +149,10 @@ Series line_series(const Stretch& part, int from_leg, int to_leg) {
 
 /// sum_k r_k i_k^2 - offset_k i_k: what the devices keep of u_k i_k (plant/circuit.hpp).
 Series device_loss(const Stretch& part) {
-  const plant::Plant<double>& plant = part.g.plant;
   Series loss{};
   for (int k = 0; k < 3; ++k) {
-    const auto& terms = plant.constants().poles[static_cast<std::size_t>(plant.mode().legs[k])];
-    const Series i = part.of(plant.expansion().i[k]);
+    const auto& terms = part.g.plant.terms(k);
+    const Series i = part.of(part.g.plant.expansion().i[k]);
     if (terms.r_ohm != 0) add(loss, terms.r_ohm, part.product(i, i));
     add(loss, -terms.offset_V, i);
   }
@@ -134,23 +160,51 @@ Series device_loss(const Stretch& part) {
 }
 
 Series copper_loss(const Stretch& part) {
+  const plant::View& plant = part.g.plant;
   Series loss{};
-  for (const Series& current : part.g.plant.expansion().i) {
-    const Series i = part.of(current);
-    add(loss, part.g.plant.constants().R, part.product(i, i));
+  for (int k = 0; k < 3; ++k) {
+    const Series i = part.of(plant.expansion().i[k]);
+    add(loss, plant.lean ? plant.lean->constants().R : plant.general->constants().R[k], part.product(i, i));
+  }
+  if (plant.general && plant.general->constants().has_loop) {
+    const Series loop = part.of(plant.general->series().loop);
+    add(loss, plant.general->constants().loop_R / 3, part.product(loop, loop));
   }
   return loss;
 }
 
-/// B w^2 + T_c |w|: of the torques against the turning all but the load's.
+/// B w^2 + T_c |w|, and what an elastic shaft keeps: of the torques against the turning all but the load's.
 Series friction_loss(const Stretch& part) {
-  const plant::Plant<double>& plant = part.g.plant;
+  const plant::View& plant = part.g.plant;
   const Series w = part.of(plant.expansion().w);
-  const auto [load, dry, per_speed] = plant::torques(plant.constants(), plant.mode().motion);
   Series loss{};
-  add(loss, per_speed, part.product(w, w));
-  add(loss, dry, w);
+  if (plant.lean) {
+    const auto [load, dry, per_speed] = plant::torques(plant.lean->constants(), plant.motion());
+    add(loss, per_speed, part.product(w, w));
+    add(loss, dry, w);
+    return loss;
+  }
+  const auto& c = plant.general->constants();
+  add(loss, c.B, part.product(w, w));
+  add(loss, plant::against(plant.motion(), c.coulomb), w);
+  if (!c.elastic) return loss;
+  const Series load_w = part.of(plant.general->series().load_w);
+  Series slip = load_w;
+  for (std::size_t n = 0; n < slip.size(); ++n) slip[n] = c.inv_gear * w[n] - load_w[n];
+  add(loss, c.load_B, part.product(load_w, load_w));
+  add(loss, c.damping, part.product(slip, slip));
   return loss;
+}
+
+/// At the load's side of gear and coupling.
+Series load_power(const Stretch& part) {
+  const plant::View& plant = part.g.plant;
+  if (plant.general)
+    return part.product(part.of(plant.general->series().load), part.of(plant.general->series().load_w));
+  const auto [load, dry, per_speed] = plant::torques(plant.lean->constants(), plant.motion());
+  Series power{};
+  add(power, load, part.of(plant.expansion().w));
+  return power;
 }
 
 Series supply_power(const Stretch& part) {
@@ -202,6 +256,7 @@ constexpr ProductSignal product_signals[] = {
     {Signal::copper_loss, copper_loss},
     {Signal::device_loss, device_loss},
     {Signal::friction_loss, friction_loss},
+    {Signal::load_power, load_power},
 };
 
 constexpr const ProductSignal* product_signal(Signal signal) {

@@ -17,6 +17,6 @@ Piece product_piece(const SegmentView& g, Signal signal, double from, double to)
 Series weighted_current(const plant::PerLeg<double>& w, const plant::Expansion<double>& y);
 
 /// The bus current as weights of i_a, i_b, i_c.
-plant::PerLeg<double> bus_current_weights(const plant::Plant<double>& plant);
+plant::PerLeg<double> bus_current_weights(const plant::View& plant);
 
 }  // namespace sixstep::study

@@ -23,7 +23,7 @@ Series angle_series(const SegmentView& g, double per_electrical_rad, double per_
 }
 
 Series position_series(const SegmentView& g) {
-  const double p = g.plant.constants().pole_pairs;
+  const double p = g.plant.pole_pairs();
   return angle_series(g, 180.0 / base::pi / p, 60.0 / p);
 }
 
@@ -34,9 +34,10 @@ Series less(double reference, Series c, int degree) {
   return c;
 }
 
-double load_torque(const SegmentView& g) {
-  const auto [load, dry, per_speed] = plant::torques(g.plant.constants(), g.plant.mode().motion);
-  return load;
+Series load_torque(const SegmentView& g) {
+  if (g.plant.general) return g.plant.general->series().load;
+  const auto [load, dry, per_speed] = plant::torques(g.plant.lean->constants(), g.plant.motion());
+  return Series{load};
 }
 
 /// Sums of up to 16 terms and of three series: rounding is below 32 * 2^-53 of their magnitudes.
@@ -60,15 +61,8 @@ Series motor_current(const SegmentView& g) {
 }
 
 Series mechanical_angle(const SegmentView& g) {
-  const double p = g.plant.constants().pole_pairs;
+  const double p = g.plant.pole_pairs();
   return angle_series(g, 1.0 / p, base::sector_rad / p);
-}
-
-Series load_power(const SegmentView& g) {
-  const auto& y = g.plant.expansion();
-  Series c{};
-  for (int j = 0; j <= y.degree; ++j) c[j] = load_torque(g) * y.w[j];
-  return c;
 }
 
 template <unsigned n>
@@ -124,14 +118,13 @@ constexpr PlainSignal plain_signals[] = {
      }},
     {Signal::position_error,
      [](const SegmentView& g) { return less(g.setpoint, position_series(g), g.plant.expansion().degree); }},
-    {Signal::load_torque, [](const SegmentView& g) { return Series{load_torque(g)}; }},
+    {Signal::load_torque, load_torque},
     {Signal::gate_T1, gate<0>},
     {Signal::gate_T2, gate<1>},
     {Signal::gate_T3, gate<2>},
     {Signal::gate_T4, gate<3>},
     {Signal::gate_T5, gate<4>},
     {Signal::gate_T6, gate<5>},
-    {Signal::load_power, load_power},
 };
 
 /// nullptr where it is none of them.

@@ -3,6 +3,7 @@
 #pragma once
 #include <vector>
 
+#include "sixstep/plant/view.hpp"
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/series/extremes.hpp"
 #include "sixstep/study/scenario/measure_choices.hpp"
@@ -13,7 +14,7 @@ using Series = series::Coefficients<double>;
 
 /// What figures see of a segment: all that they need is the same for every firmware, and compiled once.
 struct SegmentView {
-  const plant::Plant<double>& plant;
+  plant::View plant;
   const rig::SixStepModulator& modulator;
   double t_s = 0.0;  ///< where the segment begins
   double current_reference_A = 0.0, speed_reference_rad_s = 0.0, setpoint = 0.0;
@@ -21,7 +22,7 @@ struct SegmentView {
 };
 template <class Rig>
 SegmentView segment_view(const Rig& rig) {
-  return {.plant = rig.plant(),
+  return {.plant = plant::View(rig.plant()),
           .modulator = rig.modulator(),
           .t_s = rig.now().seconds(),
           .current_reference_A = rig.current_reference_A(),

@@ -25,8 +25,7 @@ base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t
   return {at(t_s), "", text + ": " + line_to_blame(found.hall_line), "look at its probe and its wire"};
 }
 
-base::Problem ran_away(const plant::Plant<double>& plant, double t_s) {
-  const plant::State<double>& s = plant.state();
+base::Problem ran_away(const plant::State<double>& s, double t_s) {
   const auto [name, value] = [&s]() -> std::pair<const char*, double> {
     for (const double i : s.i)
       if (!(i - i == 0.0)) return {"a current", i};

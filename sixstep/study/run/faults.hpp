@@ -11,7 +11,7 @@ namespace sixstep::study {
 base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t_s);
 
 /// The state holds numbers that no motor's has (run_away.hpp).
-base::Problem ran_away(const plant::Plant<double>& plant, double t_s);
+base::Problem ran_away(const plant::State<double>& state, double t_s);
 
 /// Notes in the outcome what the product drive has latched, if it has.
 void note_trip(const rig::Diagnosis& found, Outcome& out);

@@ -12,6 +12,9 @@ namespace {
 
 /// A run pays for what its firmware does, and for nothing else.
 base::Problems run_on_board(const Scenario& s, Compiled compiled, Observers& w, Outcome& out) {
+  if (compiled.general)
+    return s.control.drive == FirmwareKind::product ? run_product_on_general(s, std::move(compiled), w, out)
+                                                    : run_sensed_on_general(s, std::move(compiled), w, out);
   if (s.control.drive == FirmwareKind::product) return run_product(s, std::move(compiled), w, out);
   const bool ideal = compiled.board.sensors.ideal();
   return ideal ? run_lean(s, std::move(compiled), w, out) : run_sensed(s, std::move(compiled), w, out);
@@ -30,12 +33,14 @@ base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners) 
   out.motor = compiled->motor;
   out.gains = compiled->gains;
   Observers w = observers_of(scenario, listeners, *indices);
+  const bool on_general = compiled->general.has_value();
   const base::Problems problems = run_on_board(scenario, std::move(*compiled), w, out);
   if (!problems.empty()) return problems;
-  if (w.audit) {
-    out.energy = w.audit->energy();
-    out.laws = w.audit->laws();
-  }
+  const auto note_books = [&out](const auto& audit) {
+    out.energy = audit.energy();
+    out.laws = audit.laws();
+  };
+  if (w.audit) on_general ? note_books(w.audit->general) : note_books(w.audit->lean);
   w.figures.judge(scenario, out);
   return out;
 }

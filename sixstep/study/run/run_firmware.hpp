@@ -14,4 +14,9 @@ base::Problems run_lean(const Scenario& scenario, Compiled compiled, Observers& 
 base::Problems run_sensed(const Scenario& scenario, Compiled compiled, Observers& w, Outcome& out);
 base::Problems run_product(const Scenario& scenario, Compiled compiled, Observers& w, Outcome& out);
 
+/// The same on the general kernel: the lean firmware is the sensed one whose sensors are ideal.
+base::Problems run_sensed_on_general(const Scenario& scenario, Compiled compiled, Observers& w, Outcome& out);
+base::Problems run_product_on_general(const Scenario& scenario, Compiled compiled, Observers& w,
+                                      Outcome& out);
+
 }  // namespace sixstep::study

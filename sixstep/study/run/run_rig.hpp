@@ -37,7 +37,7 @@ base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& o
                                           : "events repeat without time going on",
              "this is a defect of sixstep: please report it with the scenario file"}};
   if (away)
-    out.fault = ran_away(rig.plant(), t_s);
+    out.fault = ran_away(rig.plant().state(), t_s);
   else if (stop == sim::Stop::fault)
     out.fault = stopped_by(rig.fault(), rig.firmware().diagnosis(), t_s);
   else
@@ -50,32 +50,46 @@ base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& o
   return {};
 }
 
-template <class Firmware>
+/// The two kernels, for run_chosen().
+struct OnLeanPlant {
+  template <class Firmware>
+  static auto rig(const Compiled& c, const Chip<Firmware>& chip, rig::Timeline timeline) {
+    return rig_of<Firmware>(c, chip, std::move(timeline));
+  }
+};
+struct OnGeneralPlant {
+  template <class Firmware>
+  static auto rig(const Compiled& c, const Chip<Firmware>& chip, rig::Timeline timeline) {
+    return general_rig_of<Firmware>(c, chip, std::move(timeline));
+  }
+};
+
+template <class Kernel, class Firmware>
 base::Problems run_in(const Scenario& scenario, Compiled compiled, Observers& w, Outcome& out) {
   const base::Result<Chip<Firmware>> chip = chip_of<Firmware>(scenario, compiled);
   if (!chip) return chip.problems();
-  rig::Rig<double, Firmware> rig = rig_of<Firmware>(compiled, *chip, std::move(compiled.timeline));
+  auto rig = Kernel::template rig<Firmware>(compiled, *chip, std::move(compiled.timeline));
   const sim::Run run = sim::run(rig, compiled.end, w);
   out.segments = run.segments;
   return note_end(rig, run.stop, w, out);
 }
 
 /// Which arithmetic runs is decided here, once.
-template <template <class> class Firmware>
+template <template <class> class Firmware, class Kernel = OnLeanPlant>
 base::Problems run_chosen(const Scenario& s, Compiled compiled, Observers& w, Outcome& out) {
   switch (s.control.arithmetic) {
     case Arithmetic::float64:
-      return run_in<Firmware<double>>(s, std::move(compiled), w, out);
+      return run_in<Kernel, Firmware<double>>(s, std::move(compiled), w, out);
     case Arithmetic::float32:
-      return run_in<Firmware<float>>(s, std::move(compiled), w, out);
+      return run_in<Kernel, Firmware<float>>(s, std::move(compiled), w, out);
     case Arithmetic::q15:
-      return run_in<Firmware<control::Q15>>(s, std::move(compiled), w, out);
+      return run_in<Kernel, Firmware<control::Q15>>(s, std::move(compiled), w, out);
     case Arithmetic::q14:
-      return run_in<Firmware<control::Q14>>(s, std::move(compiled), w, out);
+      return run_in<Kernel, Firmware<control::Q14>>(s, std::move(compiled), w, out);
     case Arithmetic::q31:
-      return run_in<Firmware<control::Q31>>(s, std::move(compiled), w, out);
+      return run_in<Kernel, Firmware<control::Q31>>(s, std::move(compiled), w, out);
     case Arithmetic::q30:
-      return run_in<Firmware<control::Q30>>(s, std::move(compiled), w, out);
+      return run_in<Kernel, Firmware<control::Q30>>(s, std::move(compiled), w, out);
   }
   return {};
 }

@@ -80,6 +80,13 @@ struct AtPwm {
   bool operator==(const AtPwm&) const = default;
 };
 
+/// A motor's wire, by its terminal.
+enum class Wire : std::uint8_t { none, a, b, c };
+
+struct AtMotor {
+  Wire broken_wire = Wire::none;
+};
+
 struct AtBridge {
   std::optional<double> dead_time_s;
 };
@@ -94,6 +101,7 @@ struct At {
   AtControl control;
   AtPwm pwm;
   AtBridge bridge;
+  AtMotor motor;
 };
 
 }  // namespace sixstep::study

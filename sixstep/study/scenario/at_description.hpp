@@ -12,7 +12,7 @@ inline constexpr std::string_view what_may_change =
     "during a run change only: reference; supply.voltage_V, supply.sinks; load.torque_Nm, load.locked; "
     "sensors.hall_break; request; control.mode, .slew, .current (its gains, band_A, limit_A), .speed (its "
     "gains, torque_limit_Nm), .position, .limits (current_A, torque_Nm, speed_rad_s); pwm.chopping; "
-    "bridge.dead_time_s";
+    "bridge.dead_time_s; motor.broken_wire";
 
 template <class Visitor>
 void describe(Visitor& v, AtSupply& s) {
@@ -136,6 +136,19 @@ void describe(Visitor& v, AtBridge& s) {
            .range = from(0)});
 }
 
+inline constexpr base::Choice<Wire> wire_choices[] = {
+    {"none", Wire::none, "all three are whole"},
+    {"a", Wire::a, "the wire of terminal a"},
+    {"b", Wire::b, "the wire of terminal b"},
+    {"c", Wire::c, "the wire of terminal c"},
+};
+
+template <class Visitor>
+void describe(Visitor& v, AtMotor& s) {
+  v.choice("broken_wire", s.broken_wire, wire_choices,
+           {.meaning = "a wire that breaks then: it opens at its current's next zero, and stays open"});
+}
+
 template <class Visitor>
 void describe(Visitor& v, At& s) {
   v.value("time_s", s.time_s,
@@ -151,6 +164,7 @@ void describe(Visitor& v, At& s) {
            .cure = what_may_change});
   v.table("pwm", s.pwm, {.meaning = "the modulation from then on", .cure = what_may_change});
   v.table("bridge", s.bridge, {.meaning = "the bridge from then on", .cure = what_may_change});
+  v.table("motor", s.motor, {.meaning = "what happens to the motor", .cure = what_may_change});
 }
 
 }  // namespace sixstep::study

@@ -122,7 +122,8 @@ Scenario settled(const Scenario& s, const At* event) {
     kept.bridge = {};
     // Where another mode's reference takes over, this one's does not go on.
     if (mode != out.control.mode && (kept.reference || other_mode)) kept.reference = Reference{};
-    if (kept.reference || kept.supply.voltage_V || kept.load.torque_Nm || kept.sensors.hall_break)
+    if (kept.reference || kept.supply.voltage_V || kept.load.torque_Nm || kept.sensors.hall_break ||
+        kept.motor.broken_wire != Wire::none)
       out.at.push_back(kept);
   }
   return out;

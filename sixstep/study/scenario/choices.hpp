@@ -10,6 +10,7 @@ using base::Choice;
 
 inline constexpr Choice<Device> device_choices[] = {
     {"mosfet", Device::mosfet, "a gated channel carries both directions, its diode takes no share"},
+    {"igbt", Device::igbt, "a gated transistor carries one direction, its diode the other"},
 };
 inline constexpr Choice<Alignment> alignment_choices[] = {
     {"edge", Alignment::edge, "on-time starts with the period"},

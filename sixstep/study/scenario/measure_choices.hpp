@@ -107,8 +107,7 @@ enum class SignalKind : std::uint8_t {
   held,  ///< stands from one control sample to the next
   duty,  ///< stands from one event to the next
   gate,
-  power,
-  series_power  ///< a power, and a series as the engine has it
+  power
 };
 
 /// One row per signal. `phrase` stands behind a figure's name: "mean line voltage a to b".
@@ -179,7 +178,7 @@ inline constexpr SignalFact signal_facts[] = {
     {Signal::mechanical_power, "mechanical_power_W", "mechanical power", "W",
      "torque times speed: power that the air gap converts", SignalKind::power},
     {Signal::load_power, "load_power_W", "power to the load torque", "W", "load torque times speed",
-     SignalKind::series_power},
+     SignalKind::power},
     {Signal::copper_loss, "copper_loss_W", "copper loss", "W", "R_s (i_a^2 + i_b^2 + i_c^2)",
      SignalKind::power},
     {Signal::device_loss, "device_loss_W", "device loss", "W", "conduction loss of switches and diodes",
@@ -226,10 +225,7 @@ constexpr std::string_view figure_unit(const Measure& m) {
 }
 
 constexpr bool is_gate(Signal signal) { return fact_of(signal).kind == SignalKind::gate; }
-constexpr bool is_power(Signal signal) {
-  const SignalKind kind = fact_of(signal).kind;
-  return kind == SignalKind::power || kind == SignalKind::series_power;
-}
+constexpr bool is_power(Signal signal) { return fact_of(signal).kind == SignalKind::power; }
 /// A product of two of the engine's series (signal_products.hpp).
 constexpr bool is_product(Signal signal) {
   const SignalKind kind = fact_of(signal).kind;

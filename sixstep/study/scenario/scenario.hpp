@@ -22,13 +22,17 @@ struct Supply {
   double resistance_ohm = 0.0;  // with capacitance_F > 0: source behind R feeding C; else a stiff bus
   double capacitance_F = 0.0;
   bool sinks = true;
+  double inductance_H = 0.0;          // in series with resistance_ohm
+  double brake_resistance_ohm = 0.0;  // across the bus from brake_on_V until brake_off_V; 0: no chopper
+  double brake_on_V = 0.0, brake_off_V = 0.0;
 };
 
-enum class Device : std::uint8_t { mosfet };
+enum class Device : std::uint8_t { mosfet, igbt };
 
 struct Bridge {
   Device device = Device::mosfet;
   double on_resistance_ohm = 0.0;
+  double saturation_V = 0.0;  // igbt
   double diode_drop_V = 0.0;
   double diode_resistance_ohm = 0.0;
   double dead_time_s = 0.0;
@@ -58,6 +62,12 @@ struct Load {
   double coulomb_Nm = 0.0;
   double static_Nm = 0.0;  // breakaway torque where larger than coulomb
   double inertia_kg_m2 = 0.0;
+  double gear = 1.0;              // motor turns per load turn; what the load is given in is at its own side
+  double stiffness_Nm_rad = 0.0;  // of the shaft to the load; 0: rigid
+  double damping_Nm_s_rad = 0.0;
+  double fan_Nm_s2 = 0.0;  // torque per square of the load's speed
+  double gravity_Nm = 0.0;
+  double gravity_angle_deg = 0.0;
   bool locked = false;
 };
 

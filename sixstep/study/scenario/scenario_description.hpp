@@ -27,13 +27,31 @@ void describe(Visitor& v, Supply& s) {
           {.meaning = "bus capacitor behind resistance_ohm; 0: stiff bus", .unit = "F", .range = from(0)});
   v.value("sinks", s.sinks,
           {.meaning = "whether the source takes current back; false: regeneration lifts the bus"});
+  v.value("inductance_H", s.inductance_H,
+          {.meaning = "inductance between source and bus capacitor, in series with resistance_ohm",
+           .unit = "H",
+           .range = from(0)});
+  v.value("brake_resistance_ohm", s.brake_resistance_ohm,
+          {.meaning = "brake chopper: resistor across the bus from brake_on_V until brake_off_V; 0: none",
+           .unit = "ohm",
+           .range = from(0)});
+  v.value("brake_on_V", s.brake_on_V,
+          {.meaning = "bus voltage above which the brake resistor is on", .unit = "V", .range = from(0)});
+  v.value("brake_off_V", s.brake_off_V,
+          {.meaning = "bus voltage below which it is off again", .unit = "V", .range = from(0)});
 }
 
 template <class Visitor>
 void describe(Visitor& v, Bridge& s) {
   v.choice("device", s.device, device_choices, {.meaning = "kind of the six switches"});
   v.value("on_resistance_ohm", s.on_resistance_ohm,
-          {.meaning = "resistance of a switch that is on", .unit = "ohm", .range = from(0)});
+          {.meaning = "resistance of a switch that is on; of an IGBT beside saturation_V",
+           .unit = "ohm",
+           .range = from(0)});
+  v.value("saturation_V", s.saturation_V,
+          {.meaning = "igbt: voltage across a transistor that is on, at no current",
+           .unit = "V",
+           .range = from(0)});
   v.value("diode_drop_V", s.diode_drop_V,
           {.meaning = "forward drop of a diode at no current", .unit = "V", .range = from(0)});
   v.value("diode_resistance_ohm", s.diode_resistance_ohm,
@@ -92,6 +110,27 @@ void describe(Visitor& v, Load& s) {
   v.value(
       "inertia_kg_m2", s.inertia_kg_m2,
       {.meaning = "moment of inertia on the shaft, added to the rotor's", .unit = "kg m2", .range = from(0)});
+  v.value(
+      "gear", s.gear,
+      {.meaning =
+           "motor turns per turn of the load; torque, inertia and friction of the load are then at its side",
+       .range = between(1e-3, 1e5)});
+  v.value("stiffness_Nm_rad", s.stiffness_Nm_rad,
+          {.meaning = "torsional stiffness of shaft and coupling at the load's side; 0: rigid",
+           .unit = "N m/rad",
+           .range = from(0)});
+  v.value("damping_Nm_s_rad", s.damping_Nm_s_rad,
+          {.meaning = "damping of the elastic shaft", .unit = "N m s/rad", .range = from(0)});
+  v.value("fan_Nm_s2", s.fan_Nm_s2,
+          {.meaning = "fan or propeller: torque per square of the load's speed, against it",
+           .unit = "N m s2",
+           .range = from(0)});
+  v.value("gravity_Nm", s.gravity_Nm,
+          {.meaning =
+               "weight on an arm: torque at its horizontal, gravity_Nm sin(load angle - gravity_angle_deg)",
+           .unit = "N m"});
+  v.value("gravity_angle_deg", s.gravity_angle_deg,
+          {.meaning = "load angle at which the weight pulls neither way", .unit = "deg"});
   v.value("locked", s.locked, {.meaning = "whether the rotor is held"});
 }
 

@@ -125,6 +125,10 @@ base::Result<Session> Session::open(const Scenario& scenario, const Listeners& l
   if (base::Problems problems = check(scenario); !problems.empty()) return problems;
   base::Result<Compiled> compiled = compile(scenario);
   if (!compiled) return compiled.problems();
+  if (compiled->general)
+    return base::Problem{"scenario", "",
+                         "asks for a machine, shaft, bridge or supply that no session runs yet",
+                         "run it as a whole"};
   const base::Result<std::vector<std::size_t>> indices = record_indices(scenario);
   if (!indices) return indices.problems();
   compiled->board.sensors.decodes_hall = true;  // a line may break at any time
@@ -224,8 +228,8 @@ base::Result<Outcome> Session::close() {
     return problems;
   out.segments = s.watchers.segments;
   if (s.watchers.audit) {
-    out.energy = s.watchers.audit->energy();
-    out.laws = s.watchers.audit->laws();
+    out.energy = s.watchers.audit->lean.energy();
+    out.laws = s.watchers.audit->lean.laws();
   }
   if (!s.figures_moved || (s.scenario.require.empty() && s.scenario.compare.empty())) {
     s.watchers.figures.judge(s.scenario, out);

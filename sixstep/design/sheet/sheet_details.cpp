@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a sheet says of its winding beside R, L and K_t: harmonics, delta, phases that stray, cogging.
+#include <cmath>
+
+#include "sixstep/design/sheet/sheet_description.hpp"
+#include "sixstep/design/sheet/sheet_reader.hpp"
+
+namespace sixstep::design {
+namespace {
+
+bool is_whole(double x) { return std::floor(x) == x; }
+
+/// The rotations that the general kernel has room for (plant/general/constants.hpp), the sine and a salient rotor's counted.
+constexpr std::size_t most_harmonics = 5, most_cogging = 4;
+
+void read_harmonics(SheetReader& reader) {
+  const Sheet& s = reader.sheet;
+  if (s.harmonic_orders.size() != s.harmonic_sizes.size())
+    reader.problem(
+        "harmonic_sizes", std::to_string(s.harmonic_sizes.size()) + " values",
+        "needs one for each of the " + std::to_string(s.harmonic_orders.size()) + " harmonic_orders",
+        "write harmonic_orders = [3, 5] and harmonic_sizes = [0.12, -0.05]");
+  if (s.harmonic_orders.empty()) return;
+  if (s.back_emf != BackEmfShape::sine)
+    reader.problem("harmonic_orders", "", "go beside a sine, and back_emf is a trapezoid",
+                   "write back_emf = \"sine\"");
+  if (s.harmonic_orders.size() > most_harmonics)
+    reader.problem("harmonic_orders", std::to_string(s.harmonic_orders.size()) + " values",
+                   "must be at most " + std::to_string(most_harmonics), "keep the largest");
+  for (const double order : s.harmonic_orders)
+    if (!is_whole(order) || std::fmod(order, 2.0) != 1.0 || order < 3 || order > highest_order) {
+      reader.problem("harmonic_orders", base::written(order), "must be an odd number from 3 to 23",
+                     "even ones are not there where north and south poles are alike");
+      return;
+    }
+}
+
+void read_deviations(SheetReader& reader) {
+  const Sheet& s = reader.sheet;
+  const auto look = [&](const char* key, const std::vector<double>& values) {
+    if (values.empty()) return;
+    if (values.size() != 3)
+      reader.problem(key, std::to_string(values.size()) + " values",
+                     "needs one for each of the phases a, b, c",
+                     std::string("write ") + key + " = [0.05, -0.03, 0]");
+    if (s.connection == WindingConnection::delta)
+      reader.problem(key, "", "is of a star's phases, and connection is \"delta\"", "leave it away");
+  };
+  look("phase_resistance_deviation", s.phase_resistance_deviation);
+  look("phase_back_emf_deviation", s.phase_back_emf_deviation);
+}
+
+void read_delta(SheetReader& reader) {
+  const Sheet& s = reader.sheet;
+  if (s.connection == WindingConnection::star) {
+    if (s.mutual_inductance_mH != 0)
+      reader.problem("mutual_inductance_mH", base::written(s.mutual_inductance_mH),
+                     "is of a delta's branches; a star's inductance_mH has it in it", "leave it away");
+    return;
+  }
+  const auto look = [&](const char* key, const std::optional<base::Quantity>& q) {
+    if (q && q->frame == "phase")
+      reader.problem(SheetReader::key_of(key, *q), base::written(q->value),
+                     "is given for a phase, and of a delta only what lies between two terminals is read",
+                     "give it with frame = \"terminal\": a branch has 3/2 of that");
+  };
+  look("resistance_ohm", s.resistance_ohm);
+  look("inductance_mH", s.inductance_mH);
+  look("back_emf_mV_s", s.back_emf_mV_s);
+  if (s.d_axis_inductance_mH || s.q_axis_inductance_mH)
+    reader.problem("d_axis_inductance_mH", "", "is of a star's phases, and connection is \"delta\"",
+                   "give inductance_mH between two terminals");
+}
+
+void read_cogging(SheetReader& reader, std::optional<int> pole_pairs) {
+  const Sheet& s = reader.sheet;
+  const std::string count = std::to_string(s.cogging_orders.size());
+  if (s.cogging_mNm.size() != s.cogging_orders.size())
+    reader.problem("cogging_mNm", std::to_string(s.cogging_mNm.size()) + " values",
+                   "needs one for each of the " + count + " cogging_orders",
+                   "write cogging_orders = [48] and cogging_mNm = [8]");
+  if (!s.cogging_phase_deg.empty() && s.cogging_phase_deg.size() != s.cogging_orders.size())
+    reader.problem("cogging_phase_deg", std::to_string(s.cogging_phase_deg.size()) + " values",
+                   "needs one for each of the " + count + " cogging_orders",
+                   "or leave it away: all begin at 0");
+  if (s.cogging_orders.size() > most_cogging)
+    reader.problem("cogging_orders", count + " values", "must be at most " + std::to_string(most_cogging),
+                   "keep the largest");
+  for (const double order : s.cogging_orders)
+    if (!is_whole(order) || (pole_pairs && std::fmod(order, 2.0 * *pole_pairs) != 0.0)) {
+      reader.problem("cogging_orders", base::written(order),
+                     "must be a multiple of the number of poles" +
+                         (pole_pairs ? ", " + std::to_string(2 * *pole_pairs) : std::string()),
+                     "it is the least common multiple of slots and poles, or a multiple of that");
+      return;
+    }
+}
+
+}  // namespace
+
+void read_details(SheetReader& reader) {
+  read_harmonics(reader);
+  read_deviations(reader);
+  read_delta(reader);
+  read_cogging(reader, reader.out.pole_pairs);
+}
+
+}  // namespace sixstep::design

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// The laws of every run (model.md 5) of the general plant: plant/audit.hpp's books, with what this kernel stores besides.
+#pragma once
+#include "sixstep/plant/audit.hpp"
+#include "sixstep/plant/general/segment_energy.hpp"
+
+namespace sixstep::plant::general {
+
+template <class Real>
+class Audit {
+ public:
+  void segment(const Plant<Real>& plant, Real s);
+  EnergyBook energy() const;
+  const Laws& laws() const { return laws_; }
+
+ private:
+  struct Sum {
+    Real value = 0, low = 0;
+    void add(Real by) { series::add_compensated(value, low, by); }
+  };
+  struct Stored {
+    Real field = 0, moving = 0;
+  };
+  static Stored stored(const Plant<Real>& plant, Real s) {
+    return {field_energy(plant, s), moving_energy(plant, s)};
+  }
+  void check_laws(const Plant<Real>& plant, Real s);
+
+  bool begun_ = false;
+  Real noise_ = 0, moved_ = 0;
+  Stored start_, end_;
+  Sum supplied_, copper_, devices_, air_gap_, friction_, load_, cogging_;
+  Laws laws_;
+};
+
+template <class Real>
+void Audit<Real>::check_laws(const Plant<Real>& plant, Real s) {
+  const auto raise = [](double& worst, Real v) { worst = std::max(worst, static_cast<double>(v)); };
+  const auto& y = plant.expansion();
+  Real sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Real i = series::evaluate(y.i[k], y.degree, s);
+    const Connection leg = plant.mode().legs[k];
+    sum += i;
+    if (const int direction = direction_of(plant.constants().devices, leg); direction != 0)
+      raise(laws_.reverse_diode_A, -Real(direction) * i);
+    if (is_floating(leg)) raise(laws_.floating_current_A, plant::detail::abs(i));
+  }
+  raise(laws_.current_sum_A, plant::detail::abs(sum));
+}
+
+template <class Real>
+void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
+  const auto& c = plant.constants();
+  const Stored begins = stored(plant, Real(0));
+  if (!begun_) {
+    begun_ = true;
+    start_ = end_ = begins;
+    noise_ = c.amp_noise * c.amp_noise / c.inv_L + c.speed_noise * c.speed_noise / c.inv_J;
+  }
+  // A clamp that stopped the shaft has taken its energy (plant/audit.hpp).
+  if (c.locked && end_.moving > begins.moving) friction_.add(end_.moving - begins.moving);
+  end_ = stored(plant, s);
+  check_laws(plant, Real(0));
+  check_laws(plant, s);
+  const SegmentEnergy<Real> e = segment_energy(plant, s);
+  supplied_.add(e.supplied);
+  copper_.add(e.copper);
+  devices_.add(e.devices);
+  air_gap_.add(e.air_gap);
+  friction_.add(e.viscous + e.dry);
+  load_.add(e.load);
+  cogging_.add(cogging_energy(plant, s));
+  moved_ += plant::detail::abs(e.supplied) + plant::detail::abs(e.air_gap) + plant::detail::abs(e.load);
+}
+
+template <class Real>
+EnergyBook Audit<Real>::energy() const {
+  const Real magnetic = end_.field - start_.field, kinetic = end_.moving - start_.moving - cogging_.value;
+  const Real scale =
+      std::max({moved_, start_.field + start_.moving, end_.field + end_.moving, noise_, Real(1e-300)});
+  const auto d = [](Real v) { return static_cast<double>(v); };
+  return {.supplied = d(supplied_.value),
+          .copper = d(copper_.value),
+          .devices = d(devices_.value),
+          .magnetic = d(magnetic),
+          .air_gap = d(air_gap_.value),
+          .friction = d(friction_.value),
+          .load = d(load_.value),
+          .kinetic = d(kinetic),
+          .moved = d(moved_),
+          .scale = d(scale),
+          .electrical_residual =
+              d((supplied_.value - copper_.value - devices_.value - air_gap_.value - magnetic) / scale),
+          .mechanical_residual = d((air_gap_.value - friction_.value - load_.value - kinetic) / scale)};
+}
+
+}  // namespace sixstep::plant::general

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What observers see of a plant, whichever kernel it is: most is the same for both; what is not has its kernel's plant beside
+// it. One type, so that figures and recorders are compiled once.
+#pragma once
+#include "sixstep/plant/general/segment_energy.hpp"
+#include "sixstep/plant/segment_energy.hpp"
+
+namespace sixstep::plant {
+
+class View {
+ public:
+  View(const Plant<double>& plant)  // NOLINT(google-explicit-constructor): a plant is its own view
+      : common_{&plant.expansion(),           &plant.state(),          &plant.gates(),
+                &plant.mode().legs,           plant.mode().motion,     plant.sector(),
+                plant.constants().pole_pairs, &plant.constants().poles},
+        lean(&plant) {}
+  View(const general::Plant<double>& plant)  // NOLINT(google-explicit-constructor)
+      : common_{&plant.expansion(),           &plant.state(),          &plant.gates(),
+                &plant.mode().legs,           plant.mode().motion,     plant.sector(),
+                plant.constants().pole_pairs, &plant.constants().poles},
+        general(&plant) {}
+
+  const Expansion<double>& expansion() const { return *common_.y; }
+  const State<double>& state() const { return *common_.state; }
+  const Gates& gates() const { return *common_.gates; }
+  const Legs& legs() const { return *common_.legs; }
+  Motion motion() const { return common_.motion; }
+  int sector() const { return common_.sector; }
+  double pole_pairs() const { return common_.pole_pairs; }
+  /// Of a connected leg.
+  const PoleTerms<double>& terms(int k) const {
+    return (*common_.poles)[static_cast<std::size_t>(legs()[k])];
+  }
+  SegmentEnergy<double> energy(double to) const {
+    return lean ? segment_energy(*lean, to) : general::segment_energy(*general, to);
+  }
+
+ private:
+  struct Common {
+    const Expansion<double>* y;
+    const State<double>* state;
+    const Gates* gates;
+    const Legs* legs;
+    Motion motion;
+    int sector;
+    double pole_pairs;
+    const PoleTable<double>* poles;
+  };
+  Common common_;
+
+ public:
+  const Plant<double>* lean = nullptr;  ///< exactly one of the two
+  const general::Plant<double>* general = nullptr;
+};
+
+/// Of the load's side: what a scenario's load asks for at this instant of the segment, N m.
+inline double load_torque(const Plant<double>& plant, double) { return plant.constants().load; }
+inline double load_torque(const general::Plant<double>& plant, double s) {
+  return series::evaluate(plant.series().load, plant.expansion().degree, s);
+}
+
+}  // namespace sixstep::plant

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which scenarios the general kernel runs, and what it is given: a delta, harmonics, a salient rotor, phases that
+// stray, cogging, a gear, an elastic shaft, a fan, a weight, IGBTs, an inductance before the bus, a brake chopper, a wire that
+// breaks. All others run on the lean one.
+#pragma once
+#include "sixstep/study/compile/compile.hpp"
+
+namespace sixstep::study {
+
+/// Whether a scenario asks for what the lean kernel lacks.
+bool needs_general_plant(const Scenario& scenario);
+
+/// Empty where the lean kernel runs it. `compiled` has the motor's model, the lean shaft and the start.
+std::optional<GeneralPlant> general_plant(const Scenario& scenario, const Compiled& compiled);
+
+}  // namespace sixstep::study
