@@ -205,6 +205,45 @@ Scenario with_extras(Scenario s) {
   return s;
 }
 
+// What the general kernel runs.
+Scenario delta() {
+  Scenario s = duty(0.5, 50e-3);
+  s.sheet.connection = design::WindingConnection::delta;
+  s.sheet.cogging_orders = {48};
+  s.sheet.cogging_mNm = {8};
+  return s;
+}
+Scenario salient_harmonics() {
+  Scenario s = with_sine(duty(0.5, 50e-3));
+  s.sheet.inductance_mH.reset();
+  s.sheet.d_axis_inductance_mH = base::Quantity{0.24, "phase", ""};
+  s.sheet.q_axis_inductance_mH = base::Quantity{0.34, "phase", ""};
+  s.sheet.harmonic_orders = {3, 5};
+  s.sheet.harmonic_sizes = {0.12, -0.05};
+  s.sheet.phase_resistance_deviation = {0.05, -0.03, 0};
+  return s;
+}
+Scenario elastic_gear(Scenario s) {
+  s.load.gear = 2;
+  s.load.inertia_kg_m2 = 5e-5;
+  s.load.stiffness_Nm_rad = 2;
+  s.load.damping_Nm_s_rad = 1e-4;
+  s.load.fan_Nm_s2 = 1e-6;
+  s.load.gravity_Nm = 0.01;
+  s.load.coulomb_Nm = 0.003;
+  return s;
+}
+Scenario igbts_and_chopper() {
+  Scenario s = regeneration(false);
+  s.bridge.device = Device::igbt;
+  s.bridge.saturation_V = 0.9;
+  s.supply.inductance_H = 5e-6;
+  s.supply.brake_resistance_ohm = 2;
+  s.supply.brake_on_V = 30;
+  s.supply.brake_off_V = 28;
+  return s;
+}
+
 }  // namespace
 
 std::vector<Case> digest_cases() {
@@ -246,6 +285,11 @@ std::vector<Case> digest_cases() {
       {"product", product(Arithmetic::float64)},
       {"product-q31", product(Arithmetic::q31)},
       {"extras-cascade", with_extras(designed_cascade())},
+      {"general-delta", delta()},
+      {"general-salient", salient_harmonics()},
+      {"general-elastic-cascade", elastic_gear(designed_cascade())},
+      {"general-igbt-chopper", igbts_and_chopper()},
+      {"general-product", elastic_gear(product(Arithmetic::q31))},
   };
   for (Case& c : cases) c.scenario = judged(std::move(c.scenario));
   return cases;
