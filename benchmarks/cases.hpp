@@ -7,6 +7,7 @@
 #include "benchmarks/yardstick.hpp"
 #include "files/scenario_on_disk.hpp"
 #include "sixstep/sim/run.hpp"
+#include "sixstep/study/compile/chip.hpp"
 #include "sixstep/study/compile/compile.hpp"
 
 namespace benchmarks {
@@ -31,6 +32,13 @@ inline constexpr Case cases[] = {
     {"7.4 speed cascade", "thesis/7.4-speed-thesis-gains.toml", "", YardstickMode::speed, 100.0, 0.0, 0.0},
 };
 
+/// What the general kernel alone runs: no yardstick has it.
+inline constexpr Case wider_cases[] = {
+    {"G1 delta", "reference/G1.toml", "G1.csv", YardstickMode::duty, 0.0, 0.0, 1.0},
+    {"G6 salient rotor", "reference/G6.toml", "G6.csv", YardstickMode::duty, 0.0, 0.0, 1.0},
+    {"G9 elastic shaft", "reference/G9.toml", "G9.csv", YardstickMode::duty, 0.0, 0.0, 1.0},
+};
+
 inline std::string trajectory_file(const Case& c) {
   return std::string(SIXSTEP_SOURCE_DIR "/tests/reference/") + c.trajectory;
 }
@@ -40,24 +48,39 @@ class Prepared {
  public:
   using Rig = sixstep::rig::LeanRig<double>;
 
+  using GeneralRig = sixstep::study::GeneralRig<sixstep::rig::LeanDrive<double>>;
+
   /// Empty where the files cannot be read; a duration above zero replaces the scenario's.
   static std::optional<Prepared> of(const Case& c, double duration_s = 0.0) {
-    auto scenario = files::read_scenario(std::string(SIXSTEP_SOURCE_DIR "/data/scenarios/") + c.scenario, {});
-    if (!scenario) return std::nullopt;
-    if (duration_s > 0) scenario->duration_s = duration_s;
-    auto compiled = sixstep::study::compile(*scenario);
-    if (!compiled) return std::nullopt;
-    return Prepared(std::move(*scenario), std::move(*compiled));
+    return of(c, duration_s, false);
   }
-
+  /// The same for general_rig().
+  static std::optional<Prepared> on_general(const Case& c) { return of(c, 0.0, true); }
   Rig rig() const {
     const auto& c = compiled_;
     return {{c.motor.machine, c.shaft, c.devices, c.supply, c.start}, c.drive, c.board, c.timeline};
+  }
+  GeneralRig general_rig() const {
+    return sixstep::study::general_rig_of<sixstep::rig::LeanDrive<double>>(
+        compiled_, {compiled_.drive, {}, {}}, compiled_.timeline);
   }
   sixstep::sim::Instant end() const { return compiled_.end; }
   const sixstep::study::Scenario& scenario() const { return scenario_; }
 
  private:
+  static std::optional<Prepared> of(const Case& c, double duration_s, bool on_general) {
+    auto scenario = files::read_scenario(std::string(SIXSTEP_SOURCE_DIR "/data/scenarios/") + c.scenario, {});
+    if (!scenario) return std::nullopt;
+    if (duration_s > 0) scenario->duration_s = duration_s;
+    if (on_general) {  // straight wires, asked for in an event: only the general kernel can cross them
+      sixstep::study::At straight;
+      straight.bridge.phases = sixstep::study::AtOrder::abc;
+      scenario->at.push_back(straight);
+    }
+    auto compiled = sixstep::study::compile(*scenario);
+    if (!compiled || compiled->general.has_value() != on_general) return std::nullopt;
+    return Prepared(std::move(*scenario), std::move(*compiled));
+  }
   Prepared(sixstep::study::Scenario scenario, sixstep::study::Compiled compiled)
       : scenario_(std::move(scenario)), compiled_(std::move(compiled)) {}
 

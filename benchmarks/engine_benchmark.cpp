@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine beside two textbook programs on the same cases, in one binary, in CPU time, without observers;
-// and the engine over ten times the time. Counters: seconds per PWM period, simulated seconds per second, and
+// The engine, on either kernel, beside two textbook programs on the same cases, in one binary, in CPU time, without
+// observers; and the engine over ten times the time. Counters: seconds per PWM period, simulated seconds per second, and
 // the largest error of a phase current as a share of its peak. tools/performance.py makes the README's table
 // of it.
 //
@@ -38,8 +38,8 @@ void report_error(benchmark::State& state, const Case& c, const std::string& nam
   state.counters["error"] = known[name];
 }
 
-Errors engine_errors(const Prepared& prepared, const Case& c) {
-  auto rig = prepared.rig();
+template <class Rig>
+Errors engine_errors(Rig rig, const Case& c) {
   sixstep::sim::NoObserver nobody;
   return errors_against(
       trajectory_file(c),
@@ -51,17 +51,30 @@ Errors engine_errors(const Prepared& prepared, const Case& c) {
       c.judged_s);
 }
 
-void run_engine(benchmark::State& state, const Case& c, double duration_s) {
-  const auto prepared = Prepared::of(c, duration_s);
+/// `rig_of` takes one of Prepared, at rest.
+template <class RigOf>
+void run_engine(benchmark::State& state, const std::optional<Prepared>& prepared, RigOf&& rig_of) {
   if (!prepared) return state.SkipWithError("the scenario cannot be read");
   sixstep::sim::NoObserver nobody;
   for (auto _ : state) {
-    auto rig = prepared->rig();
+    auto rig = rig_of(*prepared);
     benchmark::DoNotOptimize(sixstep::sim::run(rig, prepared->end(), nobody));
   }
   report(state, prepared->end().seconds());
-  if (duration_s == 0)
-    report_error(state, c, label(c, "engine"), [&] { return engine_errors(*prepared, c); });
+}
+
+void run_lean(benchmark::State& state, const Case& c, double duration_s) {
+  const auto prepared = Prepared::of(c, duration_s);
+  run_engine(state, prepared, [](const Prepared& p) { return p.rig(); });
+  if (prepared && duration_s == 0)
+    report_error(state, c, label(c, "lean"), [&] { return engine_errors(prepared->rig(), c); });
+}
+
+void run_general(benchmark::State& state, const Case& c) {
+  const auto prepared = Prepared::on_general(c);
+  run_engine(state, prepared, [](const Prepared& p) { return p.general_rig(); });
+  if (prepared)
+    report_error(state, c, label(c, "general"), [&] { return engine_errors(prepared->general_rig(), c); });
 }
 
 template <class Solver>
@@ -97,16 +110,18 @@ void register_yardstick(const Case& c, const char* name, std::int64_t step_ns) {
 
 int main(int argc, char** argv) {
   for (const Case& c : cases) {
-    benchmark::RegisterBenchmark(label(c, "engine").c_str(), run_engine, c, 0.0);
+    benchmark::RegisterBenchmark(label(c, "lean").c_str(), run_lean, c, 0.0);
+    benchmark::RegisterBenchmark(label(c, "general").c_str(), run_general, c);
     register_yardstick<Rk4Textbook>(c, "textbook 1 us", 1000);
     register_yardstick<Rk4Textbook>(c, "textbook 0.1 us", 100);
     register_yardstick<Rk4Tuned>(c, "tuned 1 us", 1000);
     register_yardstick<Rk4Tuned>(c, "tuned 0.1 us", 100);
   }
+  for (const Case& c : wider_cases) benchmark::RegisterBenchmark(label(c, "general").c_str(), run_general, c);
   // Longer by ten: the cost per period must not know.
   for (const Case& c : {cases[0], cases[1]}) {
-    benchmark::RegisterBenchmark(label(c, "1 s").c_str(), run_engine, c, 1.0);
-    benchmark::RegisterBenchmark(label(c, "10 s").c_str(), run_engine, c, 10.0);
+    benchmark::RegisterBenchmark(label(c, "1 s").c_str(), run_lean, c, 1.0);
+    benchmark::RegisterBenchmark(label(c, "10 s").c_str(), run_lean, c, 10.0);
   }
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

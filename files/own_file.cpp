@@ -25,6 +25,7 @@ constexpr Mark marks[] = {{"", "# sixstep "},  // CSV
                           {"", "MATLAB 5.0 MAT-file, sixstep "},
                           {"", "MATLAB 7.3 MAT-file, sixstep "},
                           {"", "{\n  \"sixstep\": \""},
+                          {"<svg ", "<desc>Made by sixstep "},
                           {"<!doctype html>", "<meta name=\"generator\" content=\"sixstep "}};
 
 bool begins_as(const Mark& mark, std::string_view text) {

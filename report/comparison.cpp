@@ -127,17 +127,20 @@ std::string named_figures(const std::vector<ComparedRun>& runs) {
 std::string energy_rows(const std::vector<ComparedRun>& runs) {
   using Book = sixstep::study::EnergyBook;
   static constexpr std::pair<const char*, double Book::*> entries[] = {
-      {"energy supplied", &Book::supplied},
-      {"of it in copper", &Book::copper},
-      {"in switches and diodes", &Book::devices},
-      {"in friction", &Book::friction},
-      {"in the load", &Book::load}};
+      {"energy supplied", &Book::supplied},       {"of it in copper", &Book::copper},
+      {"in switches and diodes", &Book::devices}, {"in friction", &Book::friction},
+      {"of friction in the iron", &Book::iron},   {"in the load", &Book::load}};
+  const bool iron = std::any_of(runs.begin(), runs.end(), [](const ComparedRun& run) {
+    return run.outcome.energy && run.outcome.energy->iron != 0.0;
+  });
   std::string rows;
-  for (const auto& [name, entry] : entries)
+  for (const auto& [name, entry] : entries) {
+    if (entry == &Book::iron && !iron) continue;
     rows += figure_row(name, "J", runs, [entry = entry](const ComparedRun& run) -> std::optional<Measured> {
       if (!run.outcome.energy) return std::nullopt;
       return Measured{*run.outcome.energy.*entry, ""};
     });
+  }
   return rows;
 }
 

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <span>
 
 #include "report/chart_json.hpp"
 #include "report/plots.hpp"
+#include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/measure/trace.hpp"
 
 namespace report {
@@ -20,9 +22,10 @@ constexpr std::size_t difference_rows = 15000;  // drawn without an envelope: be
 
 struct Compared {
   const char *id, *title, *unit, *quantity, *column;
+  double factor = 1.0;  ///< of the column's number
 };
-constexpr Compared compared[] = {
-    {"position", "Position", "°", "angle", "angle_rad"},
+constexpr Compared of_turning_motors[] = {
+    {"position", "Position", "°", "angle", "angle_rad", 180.0 / 3.14159265358979323846},
     {"speed", "Speed", "rad/s", "speed", "speed_rad_s"},
     {"motor-current", "Motor current", "A", "current", "i_m_A"},
     {"torque", "Torque", "Nm", "torque", "torque_Nm"},
@@ -31,12 +34,30 @@ constexpr Compared compared[] = {
     {"bus", "Bus voltage", "V", "", "bus_V"},
 };
 
+constexpr Compared of_linear_motors[] = {
+    {"position", "Position", "mm", "", "angle_rad", 1e3},
+    {"speed", "Speed", "m/s", "", "speed_rad_s"},
+    {"motor-current", "Motor current", "A", "current", "i_m_A"},
+    {"force", "Force", "N", "", "torque_Nm"},
+    {"current-a", "Current of phase a", "A", "current", "i_a_A"},
+    {"duty", "Duty", "", "", "duty"},
+    {"bus", "Bus voltage", "V", "", "bus_V"},
+};
+
+/// In metres where all motors are linear.
+std::span<const Compared> compared_of(const std::vector<ComparedRun>& runs) {
+  const bool linear =
+      std::ranges::all_of(runs, [](const ComparedRun& r) { return motion_of(r.scenario.sheet).linear; });
+  if (linear) return of_linear_motors;
+  return of_turning_motors;
+}
+
 /// A column in the unit of its chart; empty where the trace has none.
 Values column_of(const sixstep::study::Trace& trace, const Compared& what) {
   const auto* found = find_column(trace, what.column);
   Values out = found ? *found : Values();
-  if (std::string_view(what.unit) == "°")
-    for (double& v : out) v *= 180.0 / 3.14159265358979323846;
+  if (what.factor != 1.0)
+    for (double& v : out) v *= what.factor;
   return out;
 }
 
@@ -151,7 +172,7 @@ std::string comparison_data(const std::vector<ComparedRun>& runs) {
   out["pole_pairs"] = runs[0].outcome.motor.machine.pole_pairs;
   Axes axes(out);
   std::deque<std::vector<Values>> drawn;  // by overlay, by run
-  for (const Compared& what : compared) {
+  for (const Compared& what : compared_of(runs)) {
     std::vector<Values> columns;
     columns.reserve(runs.size());
     for (const ComparedRun& run : runs) columns.push_back(column_of(run.events, what));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What conducts in each leg of the bridge, from gates and currents of the rows.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,7 +17,10 @@ struct Conduction {
   double end_s = 0.0;
 };
 
-/// Every change of the run; empty where the trace has no gates or currents.
-Conduction conduction(const sixstep::study::Trace& trace);
+/// Every change of the run; empty where the trace has no gates or currents. An IGBT that is on carries one direction, its
+/// diode the other. Leg k carries the current of the phase
+/// phase_at[k] that hangs at it.
+Conduction conduction(const sixstep::study::Trace& trace, bool igbt = false,
+                      const std::array<std::uint8_t, 3>& phase_at = {0, 1, 2});
 
 }  // namespace report

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "report/curve_units.hpp"
 #include "report/html.hpp"
-#include "sixstep/base/angle.hpp"
 
 namespace report {
 namespace {
@@ -18,7 +18,6 @@ using json = nlohmann::ordered_json;
 namespace analysis = sixstep::analysis;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double rpm_per_rad_s = 30 / sixstep::base::pi, milli = 1e3;
 
 /// One place on the axis.
 struct Place {
@@ -42,7 +41,7 @@ Of of(double factor) {
 class Charts {
  public:
   Charts(const analysis::CurveRequest& request, const analysis::Curve& curve)
-      : request_(request), curve_(curve) {
+      : request_(request), curve_(curve), units_(curve_units(request)) {
     for (const analysis::OperatingPoint& p : curve.points) places_.push_back({&p});
     if (curve.marks.best_efficiency) places_.push_back({&*curve.marks.best_efficiency});
     if (curve.marks.for_ever) places_.push_back({&*curve.marks.for_ever});
@@ -52,15 +51,18 @@ class Charts {
     std::stable_sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
       return a.point->speed_rad_s < b.point->speed_rad_s;
     });
-    std::vector<double> rpm;
-    for (const Place& place : places_) rpm.push_back(place.point->speed_rad_s * rpm_per_rad_s);
-    out_["axis"] = base64(std::span<const double>(rpm));
+    std::vector<double> speeds;
+    for (const Place& place : places_) speeds.push_back(place.point->speed_rad_s * units_.per_rad_s);
+    out_["axis"] = base64(std::span<const double>(speeds));
+    if (units_.motion.linear) out_["speed"] = units_.speed;
     out_["charts"] = json::array();
     corner_Nm_ = corner_Nm();
   }
 
   void add(const char* id, const char* title, const char* unit, int height, const std::vector<Line>& lines) {
-    json chart = {{"id", id}, {"title", title}, {"unit", unit}, {"height", height}};
+    const auto& motion = units_.motion;
+    json chart = {
+        {"id", motion.words(id)}, {"title", motion.words(title)}, {"unit", unit}, {"height", height}};
     double corner = 0.0;
     for (const Line& line : lines) {
       std::vector<float> values;
@@ -69,9 +71,9 @@ class Charts {
         values.push_back(static_cast<float>(v));
         if (place.point->shaft_torque_Nm <= corner_Nm_) corner = std::fmax(corner, v);
       }
-      chart["curves"].push_back({{"label", line.label},
+      chart["curves"].push_back({{"label", motion.words(line.label)},
                                  {"style", line.style},
-                                 {"meaning", line.meaning},
+                                 {"meaning", motion.words(line.meaning)},
                                  {"points", line.drawn == Line::Drawn::points},
                                  {"region", line.drawn == Line::Drawn::region},
                                  {"data", base64(std::span<const float>(values))}});
@@ -82,28 +84,29 @@ class Charts {
 
   void torque() {
     std::vector<Line> lines = regions();
-    lines.insert(
-        lines.end(),
-        {{"shaft", "main", "mean torque on the shaft", of<&analysis::OperatingPoint::shaft_torque_Nm>(milli)},
-         {"ideal", "reference", "straight line without commutation time and friction",
-          [this](const Place& p) {
-            return milli * analysis::ideal_torque_Nm(request_.bench, p.point->speed_rad_s);
-          }}});
+    const double per_Nm = units_.per_Nm;
+    lines.insert(lines.end(), {{"shaft", "main", "mean torque on the shaft",
+                                of<&analysis::OperatingPoint::shaft_torque_Nm>(per_Nm)},
+                               {"ideal", "reference", "straight line without commutation time and friction",
+                                [this, per_Nm](const Place& p) {
+                                  return per_Nm *
+                                         analysis::ideal_torque_Nm(request_.bench, p.point->speed_rad_s);
+                                }}});
     if (curve_.thermal) {
       const auto limit = limits();
       lines.push_back({"for ever", "c", "what the winding stands for ever",
-                       [limit](const Place& p) { return milli * limit(p).continuous_Nm; }});
+                       [limit, per_Nm](const Place& p) { return per_Nm * limit(p).continuous_Nm; }});
       lines.push_back({"60 s", "a", "what it stands for 60 s from ambient temperature",
-                       [limit](const Place& p) { return milli * limit(p).short_Nm[1]; }});
+                       [limit, per_Nm](const Place& p) { return per_Nm * limit(p).short_Nm[1]; }});
       lines.push_back({"10 s", "b", "what it stands for 10 s from ambient temperature",
-                       [limit](const Place& p) { return milli * limit(p).short_Nm[0]; }});
+                       [limit, per_Nm](const Place& p) { return per_Nm * limit(p).short_Nm[0]; }});
     }
     if (curve_.nominal && curve_.nominal->torque_Nm)
       lines.push_back({"nominal point", "b", "as the sheet prints it",
-                       [](const Place& p) { return p.nominal ? milli * *p.nominal->torque_Nm : none; },
+                       [per_Nm](const Place& p) { return p.nominal ? per_Nm * *p.nominal->torque_Nm : none; },
                        Line::Drawn::points});
-    add("torque", "Torque", "mNm", 320, lines);
-    if (corner_Nm_ > 0.0) out_["charts"].back()["corner"] = milli * corner_Nm_;
+    add("torque", "Torque", units_.torque, 320, lines);
+    if (corner_Nm_ > 0.0) out_["charts"].back()["corner"] = per_Nm * corner_Nm_;
   }
 
   void currents() {
@@ -132,8 +135,8 @@ class Charts {
   /// What bus and winding allow together: for ever, and for ten seconds.
   std::vector<Line> regions() const {
     if (!curve_.thermal) return {};
-    const auto below = [](double allowed_Nm, const Place& p) {
-      return milli * std::fmax(0.0, std::fmin(allowed_Nm, p.point->shaft_torque_Nm));
+    const auto below = [per_Nm = units_.per_Nm](double allowed_Nm, const Place& p) {
+      return per_Nm * std::fmax(0.0, std::fmin(allowed_Nm, p.point->shaft_torque_Nm));
     };
     const auto limit = limits();
     return {{"short-time", "b", "what bus and winding allow together for 10 s from ambient temperature",
@@ -156,6 +159,7 @@ class Charts {
 
   const analysis::CurveRequest& request_;
   const analysis::Curve& curve_;
+  CurveUnits units_;
   std::vector<Place> places_;
   json out_;
   double corner_Nm_ = 0.0;
@@ -179,9 +183,10 @@ std::string curve_charts(const analysis::CurveRequest& request, const analysis::
   if (devices.R_on_ohm > 0 || devices.V_f_V > 0 || devices.r_d_ohm > 0)
     power.push_back({"devices", "reference", "loss in switches and diodes", of<&P::devices_W>(1)});
   charts.add("power", "Power", "W", 220, power);
-  charts.add("ripple", "Torque ripple", "mNm", 180,
-             {{"peak to peak", "main", "electromagnetic torque", of<&P::ripple_Nm>(milli)},
-              {"rms", "a", "about the mean", of<&P::ripple_rms_Nm>(milli)}});
+  const CurveUnits u = curve_units(request);
+  charts.add("ripple", "Torque ripple", u.torque, 180,
+             {{"peak to peak", "main", "electromagnetic torque", of<&P::ripple_Nm>(u.per_Nm)},
+              {"rms", "a", "about the mean", of<&P::ripple_rms_Nm>(u.per_Nm)}});
   return charts.text();
 }
 

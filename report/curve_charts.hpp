@@ -7,7 +7,7 @@
 
 namespace report {
 
-/// {"axis": base64 float64 of rpm, "charts":[{.., "curves":[{.., "data": base64
+/// {"axis": base64 float64 of rpm, of a linear motor with "speed": its unit, "charts":[{.., "curves":[{.., "data": base64
 /// float32}]}]}: the curve's points and, in its place among them, the sheet's nominal speed.
 std::string curve_charts(const sixstep::analysis::CurveRequest& request,
                          const sixstep::analysis::Curve& curve);

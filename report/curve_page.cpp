@@ -8,23 +8,20 @@
 #include <report_assets.hpp>
 
 #include "report/curve_charts.hpp"
+#include "report/curve_units.hpp"
 #include "report/figures.hpp"
 #include "report/html.hpp"
 #include "report/parameters.hpp"
 #include "report/shell.hpp"
-#include "sixstep/base/angle.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
 namespace report {
 namespace {
 
 namespace analysis = sixstep::analysis;
+namespace base = sixstep::base;
 namespace study = sixstep::study;
 
-constexpr double rpm_per_rad_s = 30 / sixstep::base::pi, milli = 1e3;
-
-std::string rpm(double rad_s) { return plain(rad_s * rpm_per_rad_s, 5) + "\u00a0rpm"; }
-std::string mNm(double Nm) { return plain(Nm * milli, 4) + "\u00a0mNm"; }
 std::string amperes(double A) { return plain(A, 4) + "\u00a0A"; }
 
 std::string fact(std::string_view name, const std::string& value) {
@@ -40,7 +37,7 @@ std::string subtitle(const analysis::CurveRequest& r) {
                             given(1 / b.pwm_period_s, "Hz"));
 }
 
-std::string certainty(const analysis::Curve& curve) {
+std::string certainty(const analysis::Curve& curve, const CurveUnits& u) {
   double bound = 0.0, residual = 0.0, width = 0.0;
   for (const analysis::OperatingPoint& p : curve.points) {
     bound = std::max(bound, p.error_bound_A);
@@ -48,68 +45,81 @@ std::string certainty(const analysis::Curve& curve) {
     residual = std::max(residual, p.energy_residual < 0 ? -p.energy_residual : p.energy_residual);
   }
   return fmt::format("{}, energy balance to {}",
-                     width > 0 ? fmt::format("mean torque ± {} at 99\u00a0%", mNm(width))
+                     width > 0 ? fmt::format("mean torque ± {} at 99\u00a0%", u.torque_text(width))
                                : fmt::format("steady currents within {}", computed(bound, "A")),
                      plain(residual, 2));
 }
 
-std::string nominal_fact(const analysis::CurveRequest& r, const analysis::NominalPoint& n) {
+std::string nominal_fact(const analysis::CurveRequest& r, const analysis::NominalPoint& n,
+                         const CurveUnits& u) {
   std::string text;
   const auto item = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
-  if (n.torque_Nm) item(mNm(*n.torque_Nm));
-  if (n.speed_rad_s) item(rpm(*n.speed_rad_s));
+  if (n.torque_Nm) item(u.torque_text(*n.torque_Nm));
+  if (n.speed_rad_s) item(u.speed_text(*n.speed_rad_s));
   if (n.current_A) item(amperes(*n.current_A));
   if (r.bench.duty != 1 || r.bench.voltage_V != r.bench.motor.nominal_voltage_V || !n.at_torque) return text;
-  text += "; at that torque the curve has " + rpm(n.at_torque->speed_rad_s);
+  text += "; at that torque the curve has " + u.speed_text(n.at_torque->speed_rad_s);
   if (n.speed_rad_s) text += fmt::format(" ({})", deviation(n.at_torque->speed_rad_s, *n.speed_rad_s, ""));
   return text + ", " + amperes(n.at_torque->winding_current_A);
 }
 
 /// Why a sheet's gradient is not the curve's.
-std::string drop_fact(const analysis::SpeedDrop& d) {
-  const auto per_mNm = [](double x) { return plain(x * rpm_per_rad_s / milli, 3); };
-  std::string text = "curve " + per_mNm(*d.curve);
-  if (d.sheet) text += ", the sheet's two points " + per_mNm(*d.sheet);
-  text += fmt::format("; R/Kₜ² = {}", per_mNm(d.ideal));
-  if (d.printed) text += fmt::format(", printed {},", per_mNm(*d.printed));
+std::string drop_fact(const analysis::SpeedDrop& d, const CurveUnits& u) {
+  const auto per_torque = [&](double x) { return plain(x * u.per_rad_s / u.per_Nm, 3); };
+  std::string text = "curve " + per_torque(*d.curve);
+  if (d.sheet) text += ", the sheet's two points " + per_torque(*d.sheet);
+  text += fmt::format("; R/Kₜ² = {}", per_torque(d.ideal));
+  if (d.printed) text += fmt::format(", printed {},", per_torque(*d.printed));
   return text + " leaves out the time that commutation takes";
 }
 
-std::string locked_fact(const analysis::OperatingPoint& turning) {
+std::string locked_fact(const analysis::OperatingPoint& turning, const CurveUnits& u) {
   const analysis::LockedRotor& l = *turning.locked;
   const bool one = l.greatest_torque_Nm - l.least_torque_Nm <= 1e-9 * l.greatest_torque_Nm;
-  return fmt::format("{} through two phases, {}{}", amperes(l.phase_rms_A), mNm(l.least_torque_Nm),
-                     one ? "" : " … " + mNm(l.greatest_torque_Nm) + " with the angle");
+  return fmt::format("{} through two phases, {}{}", amperes(l.phase_rms_A), u.torque_text(l.least_torque_Nm),
+                     one ? "" : " … " + u.torque_text(l.greatest_torque_Nm) + " with the angle");
 }
 
-std::string lasting_fact(const analysis::Curve& curve) {
+std::string lasting_fact(const analysis::Curve& curve, const CurveUnits& u) {
   if (!curve.marks.for_ever) return "not even without load";
   const analysis::OperatingPoint& from = *curve.marks.for_ever;
-  return fmt::format("from {} ({}) on", rpm(from.speed_rad_s), mNm(from.shaft_torque_Nm));
+  return fmt::format("from {} ({}) on", u.speed_text(from.speed_rad_s), u.torque_text(from.shaft_torque_Nm));
 }
 
-std::string facts(const analysis::CurveRequest& r, const analysis::Curve& curve) {
+std::string thermal_facts(const analysis::CurveRequest& r, const analysis::Curve& curve,
+                          const CurveUnits& u) {
+  if (!curve.thermal) return "";
+  const analysis::ThermalLimits still = analysis::thermal_limits(*curve.thermal, r, 0.0);
+  return fact(fmt::format("Current at {}\u00a0°C ambient", plain(r.ambient_degC, 3, true)),
+              fmt::format("{} for ever, {} for 60\u00a0s, {} for 10\u00a0s", amperes(still.continuous_A),
+                          amperes(still.short_A[1]), amperes(still.short_A[0]))) +
+         fact("The curve itself can be held for ever", lasting_fact(curve, u));
+}
+
+std::string facts(const analysis::CurveRequest& r, const analysis::Curve& curve, const CurveUnits& u) {
   const analysis::NoLoad& n = curve.no_load;
   std::string html =
-      fact("Locked rotor", locked_fact(curve.points.front())) +
-      fact("No load", fmt::format("{}, {}", rpm(n.point.speed_rad_s), amperes(n.point.winding_current_A))) +
-      fact("A rotor let free runs at", rpm(n.free_speed_rad_s)) +
-      fact("Ideal line", fmt::format("{} … {}", mNm(analysis::ideal_torque_Nm(r.bench, 0.0)),
-                                     rpm(analysis::ideal_no_load_rad_s(r.bench))));
+      fact("Locked rotor", locked_fact(curve.points.front(), u)) +
+      fact("No load",
+           fmt::format("{}, {}", u.speed_text(n.point.speed_rad_s), amperes(n.point.winding_current_A))) +
+      fact("A rotor let free runs at", u.speed_text(n.free_speed_rad_s)) +
+      fact("Ideal line", fmt::format("{} … {}", u.torque_text(analysis::ideal_torque_Nm(r.bench, 0.0)),
+                                     u.speed_text(analysis::ideal_no_load_rad_s(r.bench))));
+  if (!r.bench.motor.left_to_a_run.empty())
+    html += fact("Not in this curve, and in a run", r.bench.motor.left_to_a_run);
+  if (sixstep::design::on_R(r.motor_degC) != 1 || sixstep::design::on_K_e(r.sheet, r.motor_degC) != 1)
+    html += fact("Winding and magnets at",
+                 fmt::format("{} and {}\u00a0°C", plain(r.motor_degC.winding_degC, 3, true),
+                             plain(r.motor_degC.housing_degC, 3, true)));
   if (const auto& best = curve.marks.best_efficiency)
-    html += fact("Best efficiency", fmt::format("{}\u00a0% at {}, {}", plain(100 * *best->efficiency, 3),
-                                                rpm(best->speed_rad_s), mNm(best->shaft_torque_Nm)));
-  if (curve.nominal) html += fact("Nominal point of the sheet", nominal_fact(r, *curve.nominal));
+    html += fact("Best efficiency",
+                 fmt::format("{}\u00a0% at {}, {}", plain(100 * *best->efficiency, 3),
+                             u.speed_text(best->speed_rad_s), u.torque_text(best->shaft_torque_Nm)));
+  if (curve.nominal) html += fact("Nominal point of the sheet", nominal_fact(r, *curve.nominal, u));
   if (curve.nominal && curve.nominal->at_torque)
-    html += fact("Speed lost per torque, rpm/mNm", drop_fact(analysis::speed_drop(r, curve)));
-  if (curve.thermal) {
-    const analysis::ThermalLimits still = analysis::thermal_limits(*curve.thermal, r, 0.0);
-    html += fact(fmt::format("Current at {}\u00a0°C ambient", plain(r.ambient_degC, 3, true)),
-                 fmt::format("{} for ever, {} for 60\u00a0s, {} for 10\u00a0s", amperes(still.continuous_A),
-                             amperes(still.short_A[1]), amperes(still.short_A[0]))) +
-            fact("The curve itself can be held for ever", lasting_fact(curve));
-  }
-  return html + fact("Certainty", certainty(curve));
+    html += fact(fmt::format("Speed lost per torque, {}/{}", u.speed, u.torque),
+                 drop_fact(analysis::speed_drop(r, curve), u));
+  return u.motion.words(html + thermal_facts(r, curve, u) + fact("Certainty", certainty(curve, u)));
 }
 
 std::string cell(double x, int digits = 4) {
@@ -117,10 +127,10 @@ std::string cell(double x, int digits = 4) {
   return fmt::format("<td class=\"num\">{}</td>", nothing ? "0" : plain(x, digits));
 }
 
-std::string row(const analysis::CurveRequest& r, const analysis::OperatingPoint& p) {
-  std::string html = "<tr>" + cell(p.speed_rad_s * rpm_per_rad_s, 5) + cell(p.shaft_torque_Nm * milli) +
-                     cell(analysis::ideal_torque_Nm(r.bench, p.speed_rad_s) * milli) +
-                     cell(p.ripple_Nm * milli, 3);
+std::string row(const analysis::CurveRequest& r, const analysis::OperatingPoint& p, const CurveUnits& u) {
+  std::string html = "<tr>" + cell(p.speed_rad_s * u.per_rad_s, 5) + cell(p.shaft_torque_Nm * u.per_Nm) +
+                     cell(analysis::ideal_torque_Nm(r.bench, p.speed_rad_s) * u.per_Nm) +
+                     cell(p.ripple_Nm * u.per_Nm, 3);
   for (const double x : {p.winding_current_A, p.phase_rms_A, p.phase_peak_A, p.bus_current_A, p.supplied_W,
                          p.copper_W, p.devices_W, p.friction_W, p.shaft_W})
     html += cell(x);
@@ -128,38 +138,42 @@ std::string row(const analysis::CurveRequest& r, const analysis::OperatingPoint&
   return html + "</tr>\n";
 }
 
-std::string table(const analysis::CurveRequest& r, const analysis::Curve& curve) {
+std::string table(const analysis::CurveRequest& r, const analysis::Curve& curve, const CurveUnits& u) {
   std::string html = "<table><thead><tr>";
-  for (const char* name : {"Speed<br>rpm", "Torque<br>mNm", "Ideal<br>mNm", "Ripple<br>mNm pp",
-                           "Winding<br>A", "Phase rms<br>A", "Peak<br>A", "Supply<br>A", "In<br>W",
+  html += fmt::format("<th class=\"num\">Speed<br>{}</th><th class=\"num\">{}<br>{}</th>", u.speed,
+                      u.motion.words("Torque"), u.torque);
+  html += fmt::format("<th class=\"num\">Ideal<br>{0}</th><th class=\"num\">Ripple<br>{0} pp</th>", u.torque);
+  for (const char* name : {"Winding<br>A", "Phase rms<br>A", "Peak<br>A", "Supply<br>A", "In<br>W",
                            "Copper<br>W", "Devices<br>W", "Friction<br>W", "Out<br>W", "Efficiency<br>%"})
     html += fmt::format("<th class=\"num\">{}</th>", name);
   html += "</tr></thead><tbody>\n";
-  for (const analysis::OperatingPoint& p : curve.points) html += row(r, p);
+  for (const analysis::OperatingPoint& p : curve.points) html += row(r, p, u);
   return html + "</tbody></table>\n";
 }
 
-std::string alerts(const analysis::Curve& curve) {
+std::string alerts(const analysis::Curve& curve, const base::Motion& motion) {
   if (curve.thermal) return "";
   return fmt::format("<p class=\"notes\">No thermal limits: {}.</p>\n",
-                     escaped(to_string(curve.thermal_missing[0])));
+                     escaped(motion.words(to_string(curve.thermal_missing[0]))));
 }
 
 }  // namespace
 
 std::string render_curve(const CurvePageInput& in) {
   const std::string title = escaped(in.request.sheet.name);
-  const std::string body = filled(assets::curve_html, {{"title", title},
+  const CurveUnits u = curve_units(in.request);
+  const std::string kind = u.motion.words("Torque-speed curve");
+  const std::string body = filled(assets::curve_html, {{"kind", kind},
+                                                       {"title", title},
                                                        {"subtitle", escaped(subtitle(in.request))},
-                                                       {"facts", facts(in.request, in.curve)},
-                                                       {"notes", alerts(in.curve)},
-                                                       {"table", table(in.request, in.curve)},
+                                                       {"facts", facts(in.request, in.curve, u)},
+                                                       {"notes", alerts(in.curve, u.motion)},
+                                                       {"table", table(in.request, in.curve, u)},
                                                        {"sheet", sheet_section(in.request.sheet)},
                                                        {"model", model_section(in.request.bench.motor)}});
-  return in_shell(
-      {.title = "Torque-speed curve · " + title, .body = body, .command = in.command, .version = in.version},
-      curve_charts(in.request, in.curve),
-      {assets::curves_js, assets::chart_js, assets::rows_js, assets::page_js, assets::curve_js});
+  return in_shell({.title = kind + " · " + title, .body = body, .command = in.command, .version = in.version},
+                  curve_charts(in.request, in.curve),
+                  {assets::curves_js, assets::chart_js, assets::rows_js, assets::page_js, assets::curve_js});
 }
 
 }  // namespace report

@@ -5,6 +5,7 @@
 
 #include "report/svg_chart.hpp"
 #include "sixstep/base/angle.hpp"
+#include "sixstep/design/sheet/motion.hpp"
 
 namespace report {
 namespace {
@@ -57,22 +58,26 @@ SvgCurve simulated(const DesignStudy& s, std::string_view name, double begin_s, 
 
 std::string step_charts(const DesignStudy& s) {
   const auto& r = s.scenario.reference;
+  const sixstep::base::Motion motion = motion_of(s.design.motor);
   SvgChart chart{.title = "Step", .x_label = "ms"};
   if (s.design.spec.mode == Mode::current) {
     chart.y_label = "A";
     chart.curves = {simulated(s, "i_m_A", 0, 1), designed(s, 0, 0, r.value)};
     chart.levels = {r.value};
   } else if (s.design.spec.mode == Mode::speed) {
-    chart.y_label = "rad/s";
+    chart.y_label = motion.unit("rad/s").linear;
     const double begin = r.times_s.at(1), from = r.values.at(0), to = r.values.at(1);
-    chart.curves = {simulated(s, "speed_rad_s", begin, 1), designed(s, begin, from, to - from)};
+    chart.curves = {simulated(s, motion.words("speed_rad_s"), begin, 1), designed(s, begin, from, to - from)};
     chart.levels = {to};
   } else {
-    chart.y_label = "deg";
+    const sixstep::base::LinearUnit deg = motion.unit("deg");
+    const double height = r.value * deg.factor;
+    chart.y_label = deg.linear;
     chart.title = "Move";
-    chart.curves = {simulated(s, "angle_rad", 0, degrees), designed(s, 0, 0, r.value)};
+    chart.curves = {motion.linear ? simulated(s, "position_mm", 0, 1) : simulated(s, "angle_rad", 0, degrees),
+                    designed(s, 0, 0, height)};
     chart.curves[1].label = "were there no limits";
-    chart.levels = {r.value};
+    chart.levels = {height};
   }
   if (s.design.spec.mode == Mode::current) return svg_chart(chart);
   const double begin = s.design.spec.mode == Mode::speed ? r.times_s.at(1) : 0.0;
@@ -113,7 +118,10 @@ std::string loop_charts(const DesignStudy& s) {
 
 std::string limit_charts(const DesignStudy& s) {
   const DriveDesign& d = s.design;
-  SvgChart headroom{.title = "Voltage left", .x_label = "rad/s", .y_label = "V", .levels = {0.0}};
+  SvgChart headroom{.title = "Voltage left",
+                    .x_label = std::string(motion_of(d.motor).unit("rad/s").linear),
+                    .y_label = "V",
+                    .levels = {0.0}};
   const double top = d.bus_V / d.motor.K_t_Nm_A;
   std::size_t n = 0;
   const char* const loaded = d.nominal_printed ? "nominal current" : "a tenth of stall";

@@ -11,6 +11,7 @@
 #include "report/html.hpp"
 #include "report/shell.hpp"
 #include "sixstep/base/angle.hpp"
+#include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/design/thesis/thesis_figures.hpp"
 
 namespace report {
@@ -26,16 +27,6 @@ std::string shown(double x, const std::string& unit) {
   return unit == "s" ? "never" : "–";
 }
 
-std::string cell(const std::string& html) { return "<td class=\"num\">" + html + "</td>"; }
-/// A name that begins with # stands over numbers.
-std::string head(std::initializer_list<std::string_view> names) {
-  std::string out = "<thead><tr>";
-  for (const std::string_view name : names)
-    out += name.starts_with('#') ? fmt::format("<th class=\"num\">{}</th>", name.substr(1))
-                                 : fmt::format("<th>{}</th>", name);
-  return out + "</tr></thead>";
-}
-
 std::string warnings(const DesignStudy& s) {
   std::string out;
   for (const auto& w : s.warnings)
@@ -46,26 +37,31 @@ std::string warnings(const DesignStudy& s) {
 
 std::string simulated(const DesignStudy& s) {
   std::string out = "<table class=\"comparisons\">" +
-                    head({"Figure", "#Expected", "#Simulated", "#Deviation", "Expected is"}) + "<tbody>\n";
+                    table_head({"Figure", "#Expected", "#Simulated", "#Deviation", "Expected is"}) +
+                    "<tbody>\n";
   for (const auto& c : s.outcome.comparisons)
-    out += fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}<td class=\"source\">{}</td></tr>\n",
-                       escaped(c.figure), cell(shown(c.value, c.unit)),
-                       cell(shown(sixstep::analysis::as_read(c, s.scenario), c.unit)),
-                       cell(escaped(deviation(sixstep::analysis::as_read(c, s.scenario), c.value, c.unit))),
-                       escaped(c.source));
+    out += fmt::format(
+        "<tr><th scope=\"row\">{}</th>{}{}{}<td class=\"source\">{}</td></tr>\n", escaped(c.figure),
+        number_cell(shown(c.value, c.unit)),
+        number_cell(shown(sixstep::analysis::as_read(c, s.scenario), c.unit)),
+        number_cell(escaped(deviation(sixstep::analysis::as_read(c, s.scenario), c.value, c.unit))),
+        escaped(c.source));
   return out + "</tbody></table>\n";
 }
 
 /// What the steps lead to; a position loop has one gain.
 std::string gain_table(const DesignStudy& s) {
+  const sixstep::base::LinearUnit gain = motion_of(s.design.motor).unit("rad/s per deg");
   std::string rows;
   for (const LoopDesign& loop : s.design.loops) {
     const bool one = loop.name == "position";
-    rows += fmt::format("<tr><th scope=\"row\">{}</th>{}{}<td>{}</td></tr>\n", escaped(loop.name),
-                        cell(plain(loop.gains.d1, 6, true) + (one ? "\u00a0rad/s per deg" : "")),
-                        cell(one ? "–" : plain(loop.gains.d0, 6, true)), escaped(loop.method));
+    rows += fmt::format(
+        "<tr><th scope=\"row\">{}</th>{}{}<td>{}</td></tr>\n", escaped(loop.name),
+        number_cell(one ? plain(loop.gains.d1 * gain.factor, 6, true) + "\u00a0" + std::string(gain.linear)
+                        : plain(loop.gains.d1, 6, true)),
+        number_cell(one ? "–" : plain(loop.gains.d0, 6, true)), escaped(loop.method));
   }
-  return "<table>" + head({"Loop", "#d<sub>1</sub>", "#d<sub>0</sub>", "Method"}) + "<tbody>\n" + rows +
+  return "<table>" + table_head({"Loop", "#d<sub>1</sub>", "#d<sub>0</sub>", "Method"}) + "<tbody>\n" + rows +
          "</tbody></table>\n";
 }
 
@@ -82,15 +78,15 @@ std::string steps(const LoopDesign& loop) {
       }
     rows += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"formula\">{}</td>{}{}</tr>\n",
                         typeset(step.symbol), typeset(step.formula),
-                        cell(plain(step.value * scale.factor, 6, true) +
-                             (scale.unit.empty() ? "" : "\u00a0") + escaped(scale.unit)),
-                        cell(printed));
+                        number_cell(plain(step.value * scale.factor, 6, true) +
+                                    (scale.unit.empty() ? "" : "\u00a0") + escaped(scale.unit)),
+                        number_cell(printed));
   }
   return fmt::format(
       "<div class=\"loop\"><h3>{} loop</h3><p class=\"origin\">{}</p>\n<table class=\"steps\">{}<tbody>{}"
       "</tbody></table></div>\n",
-      escaped(loop.name), escaped(loop.method), head({"Step", "Formula", "#Value", thesis ? "#Thesis" : "#"}),
-      rows);
+      escaped(loop.name), escaped(loop.method),
+      table_head({"Step", "Formula", "#Value", thesis ? "#Thesis" : "#"}), rows);
 }
 
 std::string margins(const DesignStudy& s) {
@@ -100,7 +96,7 @@ std::string margins(const DesignStudy& s) {
   const bool late = s.design.spec.delay_periods == 1;
   const auto row = [&](const char* name, auto value) {
     out += fmt::format("<tr><th scope=\"row\">{}</th>", name);
-    for (const LoopDesign& loop : s.design.loops) out += cell(value(loop));
+    for (const LoopDesign& loop : s.design.loops) out += number_cell(value(loop));
     out += "</tr>\n";
   };
   const auto delayed = [&](const LoopDesign& l) -> const LoopFigures& { return late ? l.figures : l.other; };
@@ -138,12 +134,13 @@ std::string sensing(const DesignStudy& s) {
   if (d.limits.empty()) return "";
   std::vector<std::string> heads{"Sensor"};
   for (std::size_t n = 0; n < 3; ++n)
-    heads.push_back("#down to " + computed(d.limits[n].lowest_speed_rad_s, "rad/s"));
+    heads.push_back("#down to " +
+                    computed(d.limits[n].lowest_speed_rad_s, motion_of(d.motor).unit("rad/s").linear));
   std::string rows;
   for (std::size_t n = 0; n + 3 <= d.limits.size(); n += 3) {
     rows += "<tr><th scope=\"row\">" + escaped(edges_words(d.limits[n].sensing)) + "</th>";
     for (std::size_t k = n; k < n + 3; ++k)
-      rows += cell(d.limits[k].settle_s ? computed(*d.limits[k].settle_s, "s") : "–");
+      rows += number_cell(d.limits[k].settle_s ? computed(*d.limits[k].settle_s, "s") : "–");
     rows += "</tr>\n";
   }
   std::string table = "<table><thead><tr>";
@@ -159,8 +156,8 @@ std::string sensing(const DesignStudy& s) {
 
 std::string robust_row(const RobustFigure& f) {
   return fmt::format("<tr><th scope=\"row\">{}</th>{}{}<td>{}</td><td>{}</td></tr>\n",
-                     with_subscripts(f.figure), cell(shown(f.nominal, f.unit)), cell(shown(f.worst, f.unit)),
-                     with_subscripts(f.at),
+                     with_subscripts(f.figure), number_cell(shown(f.nominal, f.unit)),
+                     number_cell(shown(f.worst, f.unit)), with_subscripts(f.at),
                      f.culprit.empty() ? "" : with_subscripts(f.culprit) + ": " + shown(f.alone, f.unit));
 }
 
@@ -170,7 +167,7 @@ std::string tolerances(const DesignStudy& s) {
       "<h2>Tolerances</h2><p class=\"origin\">{} motors, the controller as designed; phase margins one "
       "period late</p>\n"
       "<table>{}<tbody>\n",
-      s.robustness->runs, head({"Figure", "#Nominal", "#Worst", "Where", "Chiefly, alone"}));
+      s.robustness->runs, table_head({"Figure", "#Nominal", "#Worst", "Where", "Chiefly, alone"}));
   for (const RobustFigure& f : s.robustness->figures) out += robust_row(f);
   for (const RobustFigure& f : s.robustness->phases) out += robust_row(f);
   return out + "</tbody></table>\n";

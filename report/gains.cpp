@@ -7,18 +7,20 @@
 #include "report/figures.hpp"
 #include "report/html.hpp"
 #include "report/parameters.hpp"
+#include "sixstep/base/linear.hpp"
 
 namespace report {
 namespace {
 
 using sixstep::study::LoopGains;
 
-std::string gain_table(const LoopGains& g) {
+std::string gain_table(const LoopGains& g, bool linear) {
+  const double mm_per_deg = sixstep::base::in_linear("deg").factor;
   if (g.loop == "position")
     return fmt::format(
-        "<table class=\"gains\"><tbody><tr><th scope=\"row\">gain</th><td class=\"num strong\">{} rad/s per "
-        "degree</td></tr></tbody></table>\n",
-        plain(g.d1, 6, true));
+        "<table class=\"gains\"><tbody><tr><th scope=\"row\">gain</th><td class=\"num strong\">{} {}"
+        "</td></tr></tbody></table>\n",
+        plain(linear ? g.d1 / mm_per_deg : g.d1, 6, true), linear ? "m/s per mm" : "rad/s per degree");
   const auto row = [&](const char* symbol, double used, double exact) {
     std::string html =
         fmt::format("<tr><th scope=\"row\">{}</th><td class=\"num strong\">{}</td>", symbol, plain(used, 6));
@@ -38,12 +40,13 @@ std::string gain_table(const LoopGains& g) {
   return html + "</tbody></table>\n";
 }
 
-std::string derivation(const sixstep::design::PolePlacement& design) {
+/// Beside a linear motor's m/s a frequency in rad/s would be taken for a speed.
+std::string derivation(const std::vector<sixstep::design::DerivationStep>& steps, bool linear) {
   std::string html =
       "<table class=\"steps\"><thead><tr><th>Step</th><th>Formula</th><th "
       "class=\"num\">Value</th></tr></thead><tbody>\n";
-  for (const auto& step : design.steps) {
-    const Scale scale = scale_for(step.value, step.unit);
+  for (const auto& step : steps) {
+    const Scale scale = scale_for(step.value, linear && step.unit == "rad/s" ? "1/s" : step.unit);
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"formula\">{}</td><td class=\"num\">{}{}{}</td></tr>\n",
         typeset(step.symbol), typeset(step.formula), plain(step.value * scale.factor, 6, true),
@@ -55,15 +58,19 @@ std::string derivation(const sixstep::design::PolePlacement& design) {
 }  // namespace
 
 std::string gains_section(const sixstep::study::Outcome& outcome) {
+  const bool linear = outcome.motor.kind == sixstep::design::MotorKind::linear;
   std::string html;
   for (const LoopGains& g : outcome.gains) {
     html += fmt::format(
         "<div class=\"loop\"><h3>{} loop</h3><p class=\"origin\">{}</p>\n<div "
         "class=\"columns\"><div>{}</div>",
-        escaped(g.loop), escaped(g.origin), gain_table(g));
-    if (g.derivation) html += "<div>" + derivation(*g.derivation) + "</div>";
+        escaped(g.loop), escaped(g.origin), gain_table(g, linear));
+    if (g.derivation) html += "<div>" + derivation(g.derivation->steps, linear) + "</div>";
     html += "</div></div>\n";
   }
+  if (!outcome.sensorless_steps.empty())
+    html += "<div class=\"loop\"><h3>Sensorless drive</h3><p class=\"origin\">designed from the sheet</p>\n" +
+            derivation(outcome.sensorless_steps, linear) + "</div>\n";
   return html.empty() ? "<p class=\"quiet\">No controller: nothing to tune.</p>\n" : html;
 }
 

@@ -12,6 +12,7 @@
 #include "report/svg_chart.hpp"
 #include "report/verdicts.hpp"
 #include "report/windows.hpp"
+#include "sixstep/base/linear.hpp"
 #include "sixstep/study/measure/trace.hpp"
 
 namespace report {
@@ -69,7 +70,10 @@ std::string limits(const Scenario& scenario, const Outcome& outcome, const Trace
   return card("limits", "What limits it", list(text));
 }
 
-std::string loop(const LoopGains& g) {
+std::string loop(const LoopGains& g, bool linear) {
+  if (g.loop == "position" && linear)
+    return plain(g.d1 / sixstep::base::in_linear("deg").factor, 4, true) + "\u00a0m/s per mm, " +
+           escaped(g.origin);
   if (g.loop == "position") return plain(g.d1, 4, true) + "\u00a0rad/s per degree, " + escaped(g.origin);
   std::string text = fmt::format("<b>d<sub>1</sub> {}, d<sub>0</sub> {}</b><br>{}", plain(g.d1, 5, true),
                                  plain(g.d0, 5, true), escaped(g.origin));
@@ -88,7 +92,9 @@ std::string gains(const Scenario& scenario, const Outcome& outcome) {
   std::string text;
   if (scenario.control.mode >= Mode::current && inner.type == sixstep::study::CurrentLoopType::hysteresis)
     text += answer("Current loop", "<b>hysteresis, ±" + computed(inner.band_A, "A") + "</b>");
-  for (const LoopGains& g : outcome.gains) text += answer(escaped(g.loop + " loop"), loop(g));
+  for (const LoopGains& g : outcome.gains)
+    text +=
+        answer(escaped(g.loop + " loop"), loop(g, outcome.motor.kind == sixstep::design::MotorKind::linear));
   if (text.empty())
     text = answer("Controller", scenario.control.mode == Mode::off ? "off" : "none: the duty is given");
   if (!outcome.gains.empty()) text += "<div class=\"more\"><a href=\"#gains\">Derivation</a></div>";
@@ -141,11 +147,15 @@ std::string step(const Scenario& scenario, const Trace& trace) {
   if (current->then_mean_A)
     text += fmt::format("; then {} on average, {} peak to peak", computed(*current->then_mean_A, "A"),
                         computed(*current->then_span_A, "A"));
+  const bool linear = scenario.sheet.kind == sixstep::design::MotorKind::linear;
+  const sixstep::base::LinearUnit unit =
+      linear ? sixstep::base::in_linear(found->unit) : sixstep::base::LinearUnit{found->unit, found->unit};
+  const auto level = [&unit](double x) { return given(x * unit.factor, std::string(unit.linear)); };
   const std::string title = asked
                                 ? fmt::format("{} from {} to {}",
                                               found->of == "current" ? "Current in its step"
                                                                      : "Current in the step of " + found->of,
-                                              given(found->from, found->unit), given(found->to, found->unit))
+                                              level(found->from), level(found->to))
                                 : std::string("Current of the run");
   return card("step", title, "<p>" + text + "</p>" + step_chart(trace, *found));
 }
@@ -161,8 +171,10 @@ std::string energy(const EnergyBook& b) {
         computed(joule, "J"), b.supplied > 0.0 ? percent(share) : "");
   };
   return "<table class=\"plain\"><tbody>" + row("<b>Supplied</b>", b.supplied) + row("Copper", b.copper) +
-         row("Switches, diodes", b.devices) + row("Friction", b.friction) + row("Load", b.load) +
-         row("Stored", b.kinetic + b.magnetic) + "</tbody></table>\n";
+         row("Switches, diodes", b.devices) +
+         row(b.iron != 0.0 ? "Bearing friction" : "Friction", b.friction - b.iron) +
+         row("Iron drag", b.iron) + row("Load", b.load) + row("Stored", b.kinetic + b.magnetic) +
+         "</tbody></table>\n";
 }
 
 std::string cost(const Outcome& outcome, const Trace& trace) {

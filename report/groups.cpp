@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "report/windows.hpp"
+#include "sixstep/base/linear.hpp"
 #include "sixstep/study/measure/trace.hpp"
 
 namespace report {
@@ -28,9 +29,13 @@ void add(Group& group, const Trace& trace, std::string_view name, std::string la
     group.curves.push_back({std::move(label), std::move(style), meaning_of(trace, name), values});
 }
 
+std::vector<double> times(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
 std::vector<double> in_degrees(std::vector<double> angles) {
-  for (double& value : angles) value *= 180.0 / 3.14159265358979323846;
-  return angles;
+  return times(std::move(angles), 180.0 / 3.14159265358979323846);
 }
 
 Group currents(const Trace& trace) {
@@ -80,19 +85,27 @@ Group back_emf(const Trace& trace) {
   return g;
 }
 
-Group speed(const Trace& trace) {
-  Group g{.id = "speed", .title = "Speed", .unit = "rad/s", .height_px = 190, .quantity = "speed"};
-  add(g, trace, "speed_rad_s", "ω", "main");
-  add(g, trace, "speed_ref_rad_s", "ω_ref", "reference");
+Group speed(const Trace& trace, bool linear) {
+  Group g{.id = "speed",
+          .title = "Speed",
+          .unit = linear ? "m/s" : "rad/s",
+          .height_px = 190,
+          .quantity = linear ? "" : "speed"};
+  add(g, trace, "speed_rad_s", linear ? "v" : "ω", "main");
+  add(g, trace, "speed_ref_rad_s", linear ? "v_ref" : "ω_ref", "reference");
   return g;
 }
 
-Group torque(const Trace& trace) {
-  Group g{.id = "torque", .title = "Torque", .unit = "Nm", .height_px = 150, .quantity = "torque"};
-  add(g, trace, "torque_Nm", "T_e", "main");
+Group torque(const Trace& trace, bool linear) {
+  Group g{.id = "torque",
+          .title = linear ? "Force" : "Torque",
+          .unit = linear ? "N" : "Nm",
+          .height_px = 150,
+          .quantity = linear ? "" : "torque"};
+  add(g, trace, "torque_Nm", linear ? "F" : "T_e", "main");
   const auto* load = find_column(trace, "load_Nm");
   if (load && std::ranges::any_of(*load, [](double t) { return t != 0.0; }))
-    add(g, trace, "load_Nm", "T_load", "reference");
+    add(g, trace, "load_Nm", linear ? "F_load" : "T_load", "reference");
   return g;
 }
 
@@ -103,13 +116,22 @@ Group duty(const Trace& trace) {
 }
 
 /// The shaft's angle is of interest where it is controlled; elsewhere it only grows.
-Group position(const Trace& trace, std::deque<std::vector<double>>& derived) {
-  Group g{.id = "position", .title = "Position", .unit = "°", .height_px = 220, .quantity = "angle"};
+Group position(const Trace& trace, std::deque<std::vector<double>>& derived, bool linear) {
+  Group g{.id = "position",
+          .title = "Position",
+          .unit = linear ? "mm" : "°",
+          .height_px = 220,
+          .quantity = linear ? "" : "angle"};
   if (const auto* angle = find_column(trace, "angle_rad")) {
-    derived.push_back(in_degrees(*angle));
-    g.curves.push_back({"θ", "main", meaning_of(trace, "angle_rad"), &derived.back()});
+    derived.push_back(linear ? times(*angle, 1e3) : in_degrees(*angle));
+    g.curves.push_back({linear ? "x" : "θ", "main", meaning_of(trace, "angle_rad"), &derived.back()});
   }
-  add(g, trace, "position_ref_deg", "θ_ref", "reference");
+  const auto* wanted = linear ? find_column(trace, "position_ref_deg") : nullptr;
+  if (!linear) add(g, trace, "position_ref_deg", "θ_ref", "reference");
+  if (wanted) {
+    derived.push_back(times(*wanted, sixstep::base::in_linear("deg").factor));
+    g.curves.push_back({"x_ref", "reference", meaning_of(trace, "position_ref_deg"), &derived.back()});
+  }
   return g;
 }
 
@@ -136,19 +158,23 @@ bool nothing_to_see(const Group& g) {
 
 Groups chart_groups(const Trace& trace, const sixstep::study::Scenario& scenario) {
   const Mode mode = scenario.control.mode;
+  const bool linear = scenario.sheet.kind == sixstep::design::MotorKind::linear;
   Groups out;
   auto& charts = out.charts;
-  if (mode == Mode::position) charts.push_back(position(trace, out.derived));
-  if (mode == Mode::position || mode == Mode::speed) charts.push_back(speed(trace));
+  if (mode == Mode::position) charts.push_back(position(trace, out.derived, linear));
+  if (mode == Mode::position || mode == Mode::speed) charts.push_back(speed(trace, linear));
   charts.push_back(currents(trace));
   charts.push_back(logic(trace, out.derived));
   charts.push_back(line_voltages(trace));
   charts.push_back(back_emf(trace));
-  if (mode != Mode::position && mode != Mode::speed) charts.push_back(speed(trace));
-  charts.push_back(torque(trace));
+  if (mode != Mode::position && mode != Mode::speed) charts.push_back(speed(trace, linear));
+  charts.push_back(torque(trace, linear));
   charts.push_back(duty(trace));
   charts.push_back(bus(trace));
   std::erase_if(charts, nothing_to_see);
+  if (linear)
+    for (Group& chart : charts)
+      for (Curve& curve : chart.curves) curve.meaning = sixstep::base::linear_words(curve.meaning);
   if (const auto* angle = find_column(trace, "angle_rad")) out.angle_deg = in_degrees(*angle);
   return out;
 }

@@ -147,6 +147,16 @@ std::string base64(std::span<const double> values) {
   return base64_bytes(little_endian<std::uint64_t>(values));
 }
 
+std::string number_cell(const std::string& html) { return "<td class=\"num\">" + html + "</td>"; }
+
+std::string table_head(std::initializer_list<std::string_view> names) {
+  std::string out = "<thead><tr>";
+  for (const std::string_view name : names)
+    out += name.starts_with('#') ? fmt::format("<th class=\"num\">{}</th>", name.substr(1))
+                                 : fmt::format("<th>{}</th>", name);
+  return out + "</tr></thead>";
+}
+
 std::string filled(std::string_view page, std::initializer_list<Gap> gaps) {
   std::string out;
   while (true) {

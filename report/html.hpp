@@ -28,6 +28,11 @@ std::string base64(std::span<const std::uint8_t> bytes);
 std::string base64(std::span<const float> values);
 std::string base64(std::span<const double> values);
 
+/// A table's cell with a number in it.
+std::string number_cell(const std::string& html);
+/// Its first row; a name that begins with # stands over numbers.
+std::string table_head(std::initializer_list<std::string_view> names);
+
 using Gap = std::pair<std::string_view, std::string_view>;
 
 /// Replaces each {{name}} of the page once; what is filled in is never searched again, so no content can

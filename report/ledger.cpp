@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "report/figures.hpp"
 #include "report/html.hpp"
@@ -34,8 +35,7 @@ std::string bar(double joule, double largest) {
 }
 
 /// One equation as an account: the entries must add up to the total; what they miss is the residual.
-std::string account(const Entry& total, std::initializer_list<Entry> entries, double residual,
-                    double largest) {
+std::string account(const Entry& total, const std::vector<Entry>& entries, double residual, double largest) {
   const Scale scale = scale_for(largest, "J");
   constexpr int decimals = 4;  // the same in both accounts, so that they add up under the reader's eye
   const auto row = [&](const Entry& e, const char* css) {
@@ -63,9 +63,21 @@ std::string account(const Entry& total, std::initializer_list<Entry> entries, do
   return html;
 }
 
+/// Symbols of a linear motor in the accounts.
+constexpr sixstep::base::LinearWord linear_symbols[] = {{"T<sub>e</sub> ω", "F<sub>e</sub> v"},
+                                                        {"T<sub>load</sub> ω", "F<sub>load</sub> v"},
+                                                        {"½ J ω²", "½ m v²"}};
+
+std::string told_in(const sixstep::base::Motion& motion, std::string html) {
+  if (!motion.linear) return html;
+  for (const sixstep::base::LinearWord& symbol : linear_symbols)
+    sixstep::base::linear_text::replace(html, symbol, false);
+  return sixstep::base::linear_words(html);
+}
+
 }  // namespace
 
-std::string energy_section(const sixstep::study::EnergyBook& b) {
+std::string energy_section(const sixstep::study::EnergyBook& b, const sixstep::base::Motion& motion) {
   // One unit and one length of bar for both accounts: the air gap's energy stands in each.
   double largest = 0.0;
   for (const double joule :
@@ -79,12 +91,32 @@ std::string energy_section(const sixstep::study::EnergyBook& b) {
                    {"Across the air gap", "∫ T<sub>e</sub> ω dt", b.air_gap}},
                   b.electrical_residual, largest);
   html += "</div><div><h3>Mechanical</h3>";
-  html += account({"Across the air gap", "∫ T<sub>e</sub> ω dt", b.air_gap},
-                  {{"Friction", "viscous and Coulomb", b.friction},
-                   {"Load", "∫ T<sub>load</sub> ω dt", b.load},
-                   {"Kinetic energy", "Δ ½ J ω²", b.kinetic}},
-                  b.mechanical_residual, largest);
-  return html + "</div></div>\n";
+  std::vector<Entry> shaft{
+      {b.iron != 0.0 ? "Bearing friction" : "Friction", "viscous and Coulomb", b.friction - b.iron}};
+  if (b.iron != 0.0) shaft.push_back({"Iron drag", "eddy currents and hysteresis", b.iron});
+  shaft.push_back({"Load", "∫ T<sub>load</sub> ω dt", b.load});
+  shaft.push_back({"Kinetic energy", "Δ ½ J ω²", b.kinetic});
+  html += account({"Across the air gap", "∫ T<sub>e</sub> ω dt", b.air_gap}, shaft, b.mechanical_residual,
+                  largest);
+  return told_in(motion, html + "</div></div>\n");
+}
+
+std::string device_section(const std::vector<sixstep::study::DeviceLoss>& devices) {
+  if (devices.empty()) return "";
+  const bool known = devices.front().junction_degC > 0.0;
+  std::string html =
+      "<table class=\"events\"><thead><tr><th>Switch</th><th class=\"num\">conducts</th><th class=\"num\">turns "
+      "on</th><th class=\"num\">turns off</th><th class=\"num\">diode</th><th class=\"num\">recovers</th>";
+  html += known ? "<th class=\"num\">junction</th></tr></thead><tbody>\n" : "</tr></thead><tbody>\n";
+  for (const auto& d : devices) {
+    html += fmt::format("<tr><th scope=\"row\">{}</th>", d.device);
+    for (const double watt : {d.conduction_W, d.turn_on_W, d.turn_off_W, d.diode_W, d.recovery_W})
+      html += fmt::format("<td class=\"num\">{}</td>", watt > 0.0 ? computed(watt, "W") : "");
+    html += known ? fmt::format("<td class=\"num\">{} °C</td></tr>\n", fixed(d.junction_degC, 1)) : "</tr>\n";
+  }
+  return html +
+         "</tbody></table><p class=\"closing\">mean powers over the run; switching is counted in efficiency and "
+         "temperatures, not in the account above</p>\n";
 }
 
 std::string event_section(const sixstep::study::Outcome& outcome) {

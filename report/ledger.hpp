@@ -3,11 +3,16 @@
 #pragma once
 #include <string>
 
+#include "sixstep/base/linear.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 
 namespace report {
 
-std::string energy_section(const sixstep::study::EnergyBook& book);
+/// In the symbols of the motor's kind.
+std::string energy_section(const sixstep::study::EnergyBook& book, const sixstep::base::Motion& motion);
+/// What each switch and diode lost, as a table; nothing where the bridge does not say enough.
+std::string device_section(const std::vector<sixstep::study::DeviceLoss>& devices);
+
 std::string event_section(const sixstep::study::Outcome& outcome);
 
 }  // namespace report

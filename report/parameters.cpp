@@ -5,6 +5,7 @@
 
 #include "report/figures.hpp"
 #include "report/html.hpp"
+#include "sixstep/base/linear.hpp"
 
 namespace report {
 namespace {
@@ -32,9 +33,24 @@ std::string row(std::string_view name, const Quantity& q, std::string_view unit,
              q.source);
 }
 
+/// Where the file has a linear motor's word, in N, m and kg.
 std::string row(std::string_view name, const std::optional<Quantity>& q, std::string_view unit,
                 std::string_view frame = "") {
-  return q ? row(name, *q, unit, frame) : "";
+  if (!q) return "";
+  const sixstep::base::LinearUnit linear = sixstep::base::in_linear(unit);
+  const std::string_view key = q->key;
+  const bool moving = key.ends_with("_N") || key.ends_with("_N_A") || key.ends_with("_m_s") ||
+                      key.ends_with("_kg") || key.ends_with("_N_s_m");
+  if (!moving) return row(name, *q, unit, frame);
+  Quantity shown = *q;
+  shown.value *= linear.factor;
+  return row(sixstep::base::linear_words(std::string(name)), shown, linear.linear, frame);
+}
+
+std::string shape_words(const sixstep::design::MotorModel& m) {
+  if (m.shape_is_table) return "a table; closed forms go by a sine of the same torque constant";
+  if (m.machine.back_emf == sixstep::plant::BackEmf::sine) return "sine";
+  return fmt::format("trapezoid, {}° flat", plain(m.machine.flat_deg, 4, true));
 }
 
 }  // namespace
@@ -42,10 +58,12 @@ std::string row(std::string_view name, const std::optional<Quantity>& q, std::st
 std::string sheet_section(const sixstep::design::Sheet& s) {
   std::string html = sheet_head;
   html += row("Nominal voltage U<sub>N</sub>", s.nominal_voltage_V, "V");
+  html += row("Pole pitch τ", s.pole_pitch_mm, "mm");
   html += row("Resistance R", s.resistance_ohm, "Ω");
   html += row("Inductance L", s.inductance_mH, "mH");
   html += row("Inductance L<sub>d</sub>", s.d_axis_inductance_mH, "mH");
   html += row("Inductance L<sub>q</sub>", s.q_axis_inductance_mH, "mH");
+  html += row("Saturation I<sub>sat</sub>", s.saturation_current_A, "A");
   html += row("Torque constant K<sub>t</sub>", s.torque_constant_mNm_A, "mNm/A", "terminal");
   html += row("Torque constant K<sub>t</sub>", s.torque_constant_Nm_A, "Nm/A");
   html += row("Back-EMF constant", s.back_emf_constant_V_krpm, "V/krpm");
@@ -53,8 +71,14 @@ std::string sheet_section(const sixstep::design::Sheet& s) {
   html += row("Back-EMF constant", s.back_emf_mV_s, "mV s", "phase, mechanical");
   html += row("Rotor inertia J", s.inertia_gcm2, "g cm²");
   html += row("Inertia with brake", s.inertia_with_brake_gcm2, "g cm²");
+  html += row("Rotor, outer radius", s.rotor_radius_mm, "mm");
+  html += row("Rotor, inner radius", s.rotor_inner_radius_mm, "mm");
+  html += row("Rotor, length", s.rotor_length_mm, "mm");
+  html += row("Rotor, density", s.rotor_density_kg_m3, "kg/m³");
   html += row("Viscous friction B", s.viscous_friction_Nm_s, "Nm s", "mechanical");
   html += row("Coulomb friction", s.coulomb_friction_mNm, "mNm");
+  html += row("Iron drag, viscous", s.iron_viscous_Nm_s, "Nm s", "mechanical");
+  html += row("Iron drag, dry", s.iron_coulomb_mNm, "mNm");
   html += row("No-load speed", s.no_load_speed_rpm, "rpm", "mechanical");
   html += row("No-load current", s.no_load_current_mA, "mA", "terminal");
   html += row("Nominal speed", s.nominal_speed_rpm, "rpm", "mechanical");
@@ -68,23 +92,32 @@ std::string sheet_section(const sixstep::design::Sheet& s) {
 }
 
 std::string model_section(const sixstep::design::MotorModel& m) {
-  const bool sine = m.machine.back_emf == sixstep::plant::BackEmf::sine;
   std::string html = model_head;
   html += row("R<sub>s</sub>", given(m.machine.R_ohm, "ohm"), "phase", m.from.R);
   html += row("L<sub>s</sub> = L − M", given(m.machine.L_H, "H"), "phase", m.from.L);
-  html += row("K<sub>e</sub>", given(m.machine.K_e_V_s, "V s"), "phase, peak", m.from.K_e);
-  html += row("K<sub>t</sub>", given(m.K_t_Nm_A, "Nm/A"), "terminal", m.from.K_t);
-  html += row("Pole pairs p", std::to_string(m.machine.pole_pairs), "", "");
-  html += row("Back-EMF shape",
-              sine ? "sine" : fmt::format("trapezoid, {}° flat", plain(m.machine.flat_deg, 4, true)),
-              "electrical", "");
-  html += row("J", given(m.shaft.J_kg_m2, "kg m2"), "mechanical",
+  html +=
+      row("K<sub>e</sub>", given(m.K_e_V_s, m.kind == sixstep::design::MotorKind::linear ? "V s/m" : "V s"),
+          m.shape_is_table ? "phase, times the table" : "phase, peak", m.from.K_e);
+  const bool linear = m.kind == sixstep::design::MotorKind::linear;
+  html += row(linear ? "K<sub>f</sub>" : "K<sub>t</sub>", given(m.K_t_Nm_A, linear ? "N/A" : "Nm/A"),
+              "terminal", m.from.K_t);
+  html += linear ? row("Pole pitch τ", given(sixstep::base::pi / m.machine.pole_pairs, "m"), "", "")
+                 : row("Pole pairs p", plain(m.machine.pole_pairs, 4, true), "", "");
+  html += row("Back-EMF shape", shape_words(m), "electrical", "");
+  html += row(linear ? "m" : "J", given(m.shaft.J_kg_m2, linear ? "kg" : "kg m2"), "mechanical",
               m.from.J.empty() ? "rotor and load" : m.from.J + ", and load");
-  html += row("B", given(m.shaft.B_Nm_s, "Nm s"), "mechanical", m.from.friction);
+  const char *viscous = linear ? "N s/m" : "Nm s", *dry = linear ? "N" : "Nm";
+  html += row("B", given(m.shaft.B_Nm_s, viscous), "mechanical", m.from.friction);
   if (m.shaft.coulomb_Nm != 0.0)
-    html += row("T<sub>c0</sub>", given(m.shaft.coulomb_Nm, "Nm"), "mechanical", "");
+    html += row("T<sub>c0</sub>", given(m.shaft.coulomb_Nm, dry), "mechanical", "");
+  if (m.iron.B_Nm_s != 0.0)
+    html += row("B of the iron", given(m.iron.B_Nm_s, viscous), "mechanical", "iron_viscous_Nm_s, part of B");
+  if (m.iron.coulomb_Nm != 0.0)
+    html += row("T<sub>c0</sub> of the iron", given(m.iron.coulomb_Nm, dry), "mechanical",
+                "iron_coulomb_mNm, part of T_c0");
   if (m.shaft.static_Nm != 0.0)
-    html += row("T<sub>static</sub>", given(m.shaft.static_Nm, "Nm"), "mechanical", "");
+    html += row("T<sub>static</sub>", given(m.shaft.static_Nm, dry), "mechanical", "");
+  if (!m.left_to_a_run.empty()) html += row("Beside it", m.left_to_a_run, "", "motor file; the run has it");
   return html + "</tbody></table>\n";
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/plots.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "report/chart_json.hpp"
@@ -12,6 +13,13 @@ namespace {
 
 /// All changes where they are few enough to carry; a page must stay small enough to send. Where every row
 /// comes along, it says what conducts from there on.
+/// Whether the phases change their legs while the run goes on: then no one drawing is right.
+bool rewires(const sixstep::study::Scenario& s) {
+  return std::any_of(s.at.begin(), s.at.end(), [&](const sixstep::study::At& at) {
+    return at.bridge.phases != sixstep::study::AtOrder::same;
+  });
+}
+
 json conduction_json(const Conduction& c, bool with_rows) {
   constexpr std::size_t most = 400000;
   if (c.code.empty()) return nullptr;
@@ -71,7 +79,7 @@ json spectra_json(const Spectra& spectra, json& page) {
 }  // namespace
 
 std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
-                      int pole_pairs, PlotSize size, const std::optional<Spectra>& found) {
+                      double pole_pairs, PlotSize size, const std::optional<Spectra>& found) {
   json out{
       {"run", json::array()}, {"windows", json::array()}, {"axes", json::array()}, {"charts", json::array()}};
   const auto* time = find_column(trace, "t_s");
@@ -81,7 +89,11 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
   out["windows"] = windows_json(windows, scenario);
   Axes axes(out);
   const Groups groups = chart_groups(trace, scenario);
-  const Conduction conducts = trace.whole.empty() ? conduction(trace) : Conduction();
+  const std::array<std::uint8_t, 3> phase_at = sixstep::rig::ends_of(scenario.bridge.phases);
+  const Conduction conducts =
+      trace.whole.empty() && !rewires(scenario)
+          ? conduction(trace, scenario.bridge.device == sixstep::study::Device::igbt, phase_at)
+          : Conduction();
   const json every = time->size() > size.full && trace.whole.empty()
                          ? every_row(*time, groups, conducts, size.packed_bytes)
                          : json();
@@ -105,6 +117,7 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
                     {"data", packed<float>(groups.angle_deg, rows.rows)}};
   }
   out["conduction"] = conduction_json(conducts, !every.is_null());
+  out["legs"] = phase_at;
   if (found) out["spectra"] = spectra_json(*found, out);  // behind the axes over time
   out["pole_pairs"] = pole_pairs;
   return dumped(out);

@@ -22,7 +22,7 @@ struct PlotSize {
 /// {"run":[t0,t1], "windows":[..], "axes":[base64 float64..], "charts":[{.., "curves":[{.., "data": base64
 /// float32}]}]}
 std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
-                      int pole_pairs, PlotSize size = {},
+                      double pole_pairs, PlotSize size = {},
                       const std::optional<Spectra>& spectra = std::nullopt);
 
 }  // namespace report

@@ -15,6 +15,7 @@
 #include "report/shell.hpp"
 #include "report/spectra.hpp"
 #include "report/verdicts.hpp"
+#include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/run/run.hpp"
 
 namespace report {
@@ -33,6 +34,8 @@ std::string alerts(const ReportInput& in) {
   if (in.outcome.fault)
     html += fmt::format("<p class=\"alert\" role=\"alert\"><b>Fault.</b> {}</p>\n",
                         escaped(sixstep::base::to_string(*in.outcome.fault)));
+  for (const std::string& note : in.outcome.notes)
+    html += fmt::format("<p class=\"alert\" role=\"alert\"><b>Note.</b> {}</p>\n", escaped(note));
   if (sixstep::study::cut_short(in.scenario, in.outcome))
     html +=
         fmt::format("<p class=\"alert\" role=\"alert\"><b>Interrupted</b> at {} of {}.</p>\n",
@@ -71,29 +74,31 @@ std::string render(const ReportInput& in) {
   const std::string title = escaped(in.scenario.title.empty() ? in.scenario.motor : in.scenario.title);
   const std::string notes =
       in.scenario.notes.empty() ? "" : "<p class=\"notes\">" + escaped(in.scenario.notes) + "</p>\n";
-  const int pole_pairs = in.outcome.motor.machine.pole_pairs;
+  const double pole_pairs = in.outcome.motor.machine.pole_pairs;
   const std::optional<Spectra> found = spectra(in.trace, in.scenario, pole_pairs);
-  const std::string body = filled(
-      assets::page_html, {{"title", title},
-                          {"subtitle", subtitle(in)},
-                          {"standing_class", verdict.css},
-                          {"standing", verdict.word},
-                          {"standing_line", verdict.line},
-                          {"notes", notes},
-                          {"alerts", alerts(in)},
-                          {"glance", glance_section(in.scenario, in.outcome, in.trace)},
-                          {"requirements", requirements(in.outcome)},
-                          {"comparisons", comparisons(in.outcome)},
-                          {"setup", setup_section(in.scenario)},
-                          {"sheet", sheet_section(in.scenario.sheet)},
-                          {"model", model_section(in.outcome.motor)},
-                          {"gains", gains_section(in.outcome)},
-                          {"energy", in.outcome.energy ? energy_section(*in.outcome.energy)
-                                                       : "<p class=\"quiet\">No books were kept.</p>\n"},
-                          {"events", event_section(in.outcome)},
-                          {"plots", assets::plots_html},
-                          {"spectra", spectra_section(found)},
-                          {"scenario", escaped(in.scenario_text)}});
+  const std::string body =
+      filled(assets::page_html,
+             {{"title", title},
+              {"subtitle", subtitle(in)},
+              {"standing_class", verdict.css},
+              {"standing", verdict.word},
+              {"standing_line", verdict.line},
+              {"notes", notes},
+              {"alerts", alerts(in)},
+              {"glance", glance_section(in.scenario, in.outcome, in.trace)},
+              {"requirements", requirements(in.outcome)},
+              {"comparisons", comparisons(in.outcome)},
+              {"setup", setup_section(in.scenario)},
+              {"sheet", sheet_section(in.scenario.sheet)},
+              {"model", model_section(in.outcome.motor)},
+              {"gains", gains_section(in.outcome)},
+              {"energy", in.outcome.energy ? energy_section(*in.outcome.energy, motion_of(in.outcome.motor)) +
+                                                 device_section(in.outcome.devices)
+                                           : "<p class=\"quiet\">No books were kept.</p>\n"},
+              {"events", event_section(in.outcome)},
+              {"plots", assets::plots_html},
+              {"spectra", spectra_section(found)},
+              {"scenario", escaped(in.scenario_text)}});
   return in_shell(
       {.title = verdict.word + " · " + title, .body = body, .command = in.command, .version = in.version},
       plot_data(in.trace, in.scenario, pole_pairs, size_of(in), found), run_scripts);

@@ -73,7 +73,8 @@ Node mechanical(const EnergyBook& b) {
   Node node{"rotor and shaft", {}, {}};
   add(node, -b.load, "Driven by the load", "passed", "Load", "passed");
   add(node, -b.kinetic, "From kinetic energy", "kept", "Into kinetic energy", "kept");
-  add(node, -b.friction, "", "", "Friction", "heat");
+  add(node, -(b.friction - b.iron), "", "", b.iron != 0.0 ? "Bearing friction" : "Friction", "heat");
+  add(node, -b.iron, "", "", "Iron drag", "heat");
   return node;
 }
 

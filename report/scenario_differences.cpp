@@ -6,13 +6,17 @@
 #include <utility>
 
 #include "report/figures.hpp"
+#include "sixstep/base/linear.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
+#include "text/scenario/motion_words.hpp"
 
 namespace report {
 namespace {
 
 using sixstep::base::About;
+using sixstep::base::Motion;
 
 constexpr const char* absent = "–";
 
@@ -36,24 +40,41 @@ std::string shown(const std::vector<T>& list, std::string_view unit) {
   return out.empty() ? absent : out + (unit.empty() ? "" : "\u00a0" + std::string(unit));
 }
 
+template <class T>
+constexpr bool is_number =
+    std::same_as<T, double> || std::same_as<T, std::optional<double>> || std::same_as<T, std::vector<double>>;
+
+double spelled_as(double x, const sixstep::base::Spelling& s) { return sixstep::base::as_spelled(x, s); }
+std::optional<double> spelled_as(const std::optional<double>& x, const sixstep::base::Spelling& s) {
+  return x ? std::optional(as_spelled(*x, s)) : x;
+}
+std::vector<double> spelled_as(std::vector<double> list, const sixstep::base::Spelling& s) {
+  for (double& x : list) x = as_spelled(x, s);
+  return list;
+}
+
 /// Every key of a scenario with its value as text, in the order of the descriptions.
 class Flat {
  public:
+  explicit Flat(Motion motion = {}) : motion_(motion) {}
   std::vector<std::pair<std::string, std::string>> rows;
 
   template <class T>
   void value(std::string_view key, const T& member, const About& about) {
-    add(key, shown(member, about.unit));
+    const sixstep::base::Spelling* linear = motion_.linear ? linear_spelling(about) : nullptr;
+    if constexpr (is_number<T>)
+      if (linear) return add(linear->key, shown(spelled_as(member, *linear), linear->unit));
+    add(linear ? linear->key : key, shown(member, linear ? linear->unit : about.unit));
   }
   template <class Enum, class Choices>
   void choice(std::string_view key, const Enum& member, const Choices& choices, const About&) {
-    add(key, std::string(sixstep::base::word(choices, member)));
+    add(key, std::string(word_in(motion_, choices, member)));
   }
   void quantity(std::string_view key, const sixstep::base::Quantity& q, const About& about) {
-    add(key, shown(q.value, about.unit));
+    value(key, q.value, about);
   }
   void quantity(std::string_view key, const std::optional<sixstep::base::Quantity>& q, const About& about) {
-    add(key, q ? shown(q->value, about.unit) : absent);
+    value(key, q ? std::optional(q->value) : std::nullopt, about);
   }
   template <class Struct>
   void table(std::string_view key, Struct& member, const About&) {
@@ -70,10 +91,10 @@ class Flat {
   void list(std::string_view key, std::vector<Item>& items, const About&) {
     if (key != "at") return;
     Item usual;
-    Flat plain;
+    Flat plain(motion_);
     describe(plain, usual);
     for (std::size_t n = 0; n < items.size(); ++n) {
-      Flat event;
+      Flat event(motion_);
       describe(event, items[n]);
       for (auto& row : event.rows)
         if (row.first == "time_s" || std::ranges::find(plain.rows, row) == plain.rows.end())
@@ -90,6 +111,7 @@ class Flat {
   void add(std::string_view key, std::string text) {
     rows.emplace_back(path_ + std::string(key), std::move(text));
   }
+  Motion motion_;
   std::string path_;
 };
 
@@ -110,10 +132,11 @@ std::vector<std::string> keys_of(const std::vector<Flat>& all) {
 }  // namespace
 
 std::vector<KeyDifference> differences(const std::vector<const sixstep::study::Scenario*>& scenarios) {
-  std::vector<Flat> all(scenarios.size());
-  for (std::size_t k = 0; k < scenarios.size(); ++k) {
-    sixstep::study::Scenario copy = *scenarios[k];
-    describe(all[k], copy);
+  std::vector<Flat> all;
+  for (const sixstep::study::Scenario* scenario : scenarios) {
+    sixstep::study::Scenario copy = *scenario;
+    text::in_units_of_its_motor(copy);
+    describe(all.emplace_back(sixstep::design::motion_of(copy.sheet)), copy);
   }
   std::vector<KeyDifference> out;
   for (const std::string& key : keys_of(all)) {

@@ -2,32 +2,21 @@
 // The scenario's circumstances in words: what stands around the motor.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "report/figures.hpp"
 #include "report/html.hpp"
 #include "report/parameters.hpp"
-#include "sixstep/study/scenario/at_description.hpp"
+#include "report/setup_words.hpp"
 #include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/sensorless_description.hpp"
+#include "sixstep/study/scenario/sensors_description.hpp"
+#include "text/scenario/motion_words.hpp"
 
 namespace report {
 namespace {
 
 using namespace sixstep;
-
-std::string supply(const study::Supply& s) {
-  const std::string volts = given(s.voltage_V, "V");
-  if (s.capacitance_F == 0.0) return volts + ", stiff";
-  return fmt::format("{} behind {} on {}{}", volts, given(s.resistance_ohm, "ohm"),
-                     given(s.capacitance_F, "F"), s.sinks ? "" : ", takes no current back");
-}
-
-std::string bridge(const study::Bridge& b) {
-  const bool ideal = b.on_resistance_ohm == 0.0 && b.diode_drop_V == 0.0 && b.diode_resistance_ohm == 0.0;
-  std::string text = ideal ? "ideal switches and diodes"
-                           : fmt::format("switches {}, diodes {} + {}", given(b.on_resistance_ohm, "ohm"),
-                                         given(b.diode_drop_V, "V"), given(b.diode_resistance_ohm, "ohm"));
-  if (b.dead_time_s > 0.0) text += ", dead time " + given(b.dead_time_s, "s");
-  return text;
-}
 
 std::string pwm(const study::Pwm& p) {
   static constexpr const char* choppings[] = {"soft", "hard", "complementary"};
@@ -84,6 +73,58 @@ std::string control(const study::Scenario& s) {
   return text;
 }
 
+std::string listed(const std::vector<double>& values, const char* unit) {
+  std::string text;
+  for (std::size_t n = 0; n < values.size() && n < 8; ++n)
+    text += (n ? ", " : "steps ") + given(values[n], unit);
+  return values.size() > 8 ? text + fmt::format(" … ({} in all)", values.size()) : text;
+}
+
+std::string sensor_alone(const study::Sensors& s) {
+  switch (s.rotor) {
+    case study::RotorSensing::ideal:
+    case study::RotorSensing::hall:
+      return {};
+    case study::RotorSensing::encoder:
+      return fmt::format("; encoder of {} lines{}{}", s.encoder.lines,
+                         s.encoder.referenced ? "" : ", its index not passed yet",
+                         s.encoder.missed_Hz > 0
+                             ? fmt::format(", {} edges missed each second", s.encoder.missed_Hz)
+                             : std::string());
+    case study::RotorSensing::absolute:
+      return fmt::format("; absolute encoder of {} bits, {} late, speed over {} samples", s.absolute.bits,
+                         given(s.absolute.latency_s, "s"), s.absolute.speed_samples);
+    case study::RotorSensing::resolver:
+      if (s.resolver.reading == rig::ResolverReading::tracking)
+        return fmt::format(
+            "; resolver of {} pole pairs, followed within {} by a converter chip of {} bits at {}, {} late",
+            s.resolver.pole_pairs, given(s.resolver.bandwidth_Hz, "Hz"), s.resolver.bits,
+            given(s.resolver.converter_Hz, "Hz"), given(s.resolver.latency_s, "s"));
+      return fmt::format("; resolver of {} pole pairs at {}, followed within {}, {} bits",
+                         s.resolver.pole_pairs, given(s.resolver.excitation_Hz, "Hz"),
+                         given(s.resolver.bandwidth_Hz, "Hz"), s.resolver.bits);
+  }
+  return {};
+}
+
+std::string shaft_sensor(const study::Sensors& s) {
+  const std::string text = sensor_alone(s);
+  return text.empty() || s.shaft == study::SensorShaft::motor ? text : text + ", on the load's shaft";
+}
+
+/// What of the Hall probes is not where the sectors are.
+std::string probes(const study::Sensors& s) {
+  std::string text;
+  if (s.hall_spacing != sixstep::control::HallArrangement::degrees_120) text += "; Hall probes 60° apart";
+  if (s.hall_offset_deg != 0) text += "; Hall edges late by " + given(s.hall_offset_deg, "deg");
+  if (!s.hall_edges_deg.empty()) text += "; each beside that by " + listed(s.hall_edges_deg, "deg");
+  if (s.hall_hysteresis_deg > 0) text += "; Hall hysteresis " + given(s.hall_hysteresis_deg, "deg");
+  if (s.hall_delay_s > 0) text += "; Hall lines late by " + given(s.hall_delay_s, "s");
+  if (s.hall_glitches_Hz > 0)
+    text += fmt::format("; {} glitches of {} each second", s.hall_glitches_Hz, given(s.hall_glitch_s, "s"));
+  return text;
+}
+
 std::string sensors(const study::Sensors& s) {
   using sixstep::rig::CurrentMeasurement;
   std::string text = s.currents == CurrentMeasurement::ideal    ? "ideal currents"
@@ -101,6 +142,14 @@ std::string sensors(const study::Sensors& s) {
                         s.speed_edges == 0   ? "six sectors, at low speed one"
                         : s.speed_edges == 1 ? "one sector"
                                              : fmt::format("{} sectors", s.speed_edges));
+  if (s.rotor == study::RotorSensing::hall && s.hall_angle != rig::HallAngleFrom::sectors)
+    text += fmt::format(", {}", base::word(study::hall_angle_choices, s.hall_angle));
+  if (s.hall_lines != rig::WireOrder::abc)
+    text += fmt::format("; probes {} at H1, H2, H3", base::word(study::hall_order_choices, s.hall_lines));
+  if (s.hall_inverted != study::HallLines::none)
+    text +=
+        fmt::format("; inverted Hall lines: {}", base::word(study::hall_inverted_choices, s.hall_inverted));
+  text += shaft_sensor(s) + probes(s);
   if (s.hall_break.at_s)
     text += fmt::format("; line H{} breaks at {}", s.hall_break.line, given(*s.hall_break.at_s, "s"));
   return text;
@@ -108,7 +157,8 @@ std::string sensors(const study::Sensors& s) {
 
 bool all_ideal(const study::Sensors& s) {
   return s.currents == sixstep::rig::CurrentMeasurement::ideal && s.bus == study::BusSensing::ideal &&
-         s.rotor == study::RotorSensing::ideal && !s.hall_break.at_s;
+         s.rotor == study::RotorSensing::ideal && !s.hall_break.at_s && s.hall_lines == rig::WireOrder::abc &&
+         s.hall_inverted == study::HallLines::none && probes(s).empty();
 }
 
 std::string protection(const study::Protection& p) {
@@ -124,6 +174,20 @@ std::string protection(const study::Protection& p) {
   return text;
 }
 
+std::string sensorless(const study::Sensorless& x) {
+  std::string text = fmt::format(
+      "started against up to {} of the nominal torque with {} times the nominal current, followed from {} of "
+      "the no-load speed on by {}",
+      computed(100 * x.greatest_load, "%"), x.overload, computed(100 * x.lowest_part, "%"),
+      std::ranges::find(study::follow_choices, x.follows, &base::Choice<control::Follow>::value)->meaning);
+  if (x.commutates == study::Commutates::hall) text += ", commutated by its Hall probes while they are whole";
+  if (x.advance_deg > 0) text += ", commutated " + given(x.advance_deg, "deg") + " ahead";
+  if (x.starts_by == study::StartsBy::pulses)
+    text += "; pulses ask how a rotor at rest stands, and where they do not see it, it is aligned";
+  if (!x.catches_spin) text += "; a rotor that turns already is not listened for";
+  return text;
+}
+
 std::string move(const study::Reference& r, const char* unit) {
   const std::string way =
       fmt::format("{}to {}", r.start ? "from " + given(*r.start, unit) + " " : "", given(r.end, unit));
@@ -133,13 +197,6 @@ std::string move(const study::Reference& r, const char* unit) {
                        given(r.acceleration.value_or(0.0), rate + "2"));
   return r.end_s ? fmt::format("ramp {} until {}", way, given(*r.end_s, "s"))
                  : fmt::format("ramp {} at {}", way, given(r.slope.value_or(0.0), rate));
-}
-
-std::string listed(const std::vector<double>& values, const char* unit) {
-  std::string text;
-  for (std::size_t n = 0; n < values.size() && n < 8; ++n)
-    text += (n ? ", " : "steps ") + given(values[n], unit);
-  return values.size() > 8 ? text + fmt::format(" … ({} in all)", values.size()) : text;
 }
 
 std::string reference(const study::Reference& r, const char* unit) {
@@ -164,8 +221,12 @@ std::string reference(const study::Reference& r, const char* unit) {
 }
 
 std::string reference(const study::Scenario& s) {
-  static constexpr const char* units[] = {"", "", "A", "rad/s", "deg"};
-  const auto unit = [](control::Mode mode) { return units[static_cast<int>(mode)]; };
+  static constexpr const char *units[] = {"", "", "A", "rad/s", "deg"},
+                              *moving[] = {"", "", "A", "m/s", "mm"};
+  const bool linear = s.sheet.kind == sixstep::design::MotorKind::linear;
+  const auto unit = [linear](control::Mode mode) {
+    return (linear ? moving : units)[static_cast<int>(mode)];
+  };
   std::string text = reference(s.reference, unit(s.control.mode));
   const std::vector<control::Mode> modes = study::modes_from(s);
   for (std::size_t n = 0; n < s.at.size(); ++n)
@@ -175,56 +236,11 @@ std::string reference(const study::Scenario& s) {
   return text;
 }
 
-/// What of the controller an event changes, in a word or two each.
-std::string tuned(const study::At& at) {
-  std::string text;
-  const auto add = [&text](bool changed, const std::string& words) {
-    if (changed) text += (text.empty() ? "" : ", ") + words;
-  };
-  const study::AtControl& c = at.control;
-  add(c.mode != study::AtMode::same, fmt::format("mode {}", base::word(study::at_mode_choices, c.mode)));
-  add(!(c.current == study::AtCurrentLoop{}), "current controller");
-  add(!(c.speed == study::AtSpeedLoop{}), "speed controller");
-  add(!(c.position == study::AtPositionLoop{}), "position controller");
-  add(!(c.limits == study::AtLimits{}), "limits");
-  add(c.slew.has_value(), "slew");
-  add(at.pwm.chopping != study::AtChopping::same,
-      fmt::format("{} chopping", base::word(study::at_chopping_choices, at.pwm.chopping)));
-  return text;
-}
-
-std::string events(const std::vector<study::At>& events) {
-  std::string text;
-  for (const study::At& at : events) {
-    std::string what;
-    const auto add = [&what](const std::string& words) { what += (what.empty() ? "" : ", ") + words; };
-    if (at.supply.voltage_V) add("supply " + given(*at.supply.voltage_V, "V"));
-    if (at.supply.sinks) add(*at.supply.sinks ? "supply takes current back" : "supply takes none back");
-    if (at.load.torque_Nm) add("load " + given(*at.load.torque_Nm, "Nm"));
-    if (at.load.locked) add(*at.load.locked ? "rotor clamped" : "rotor let go");
-    if (at.sensors.hall_break) add(fmt::format("line H{} breaks", at.sensors.hall_break->line));
-    if (at.bridge.dead_time_s) add("dead time " + given(*at.bridge.dead_time_s, "s"));
-    if (const std::string words = tuned(at); !words.empty()) add(words);
-    if (at.request == study::DriveRequest::on) add("asked to run");
-    if (at.request == study::DriveRequest::off) add("let go");
-    if (at.request == study::DriveRequest::clear) add("fault cleared");
-    if (!what.empty()) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", given(at.time_s, "s"), what);
-  }
-  return text;
-}
-
-std::string shaft(const study::Load& load) {
-  if (load.locked) return "locked";
-  std::string text = "free";
-  if (load.torque_Nm != 0.0) text += ", load " + given(load.torque_Nm, "Nm");
-  if (!load.torques_Nm.empty()) text += fmt::format(", {} load steps", load.torques_Nm.size());
-  if (load.inertia_kg_m2 != 0.0) text += ", load inertia " + given(load.inertia_kg_m2, "kg m2");
-  return text;
-}
-
 }  // namespace
 
-std::string setup_section(const study::Scenario& s) {
+std::string setup_section(const study::Scenario& scenario) {
+  study::Scenario s = scenario;
+  text::in_units_of_its_motor(s);
   std::string html;
   const auto add = [&](const char* name, const std::string& text) {
     html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, escaped(text));
@@ -236,10 +252,14 @@ std::string setup_section(const study::Scenario& s) {
   add("Control", control(s));
   if (!all_ideal(s.sensors)) add("Sensors", sensors(s.sensors));
   if (s.control.drive == study::FirmwareKind::product) add("Product drive", protection(s.protection));
+  if (s.control.drive == study::FirmwareKind::sensorless)
+    add("Sensorless drive", sensorless(s.control.sensorless));
   if (s.control.mode != control::Mode::off) add("Reference", reference(s));
   add("Commutation", at_edge ? "at the Hall edge" : "at the next sample");
-  add("Shaft", shaft(s.load));
-  if (const std::string text = events(s.at); !text.empty()) add("During the run", text);
+  const bool linear = s.sheet.kind == sixstep::design::MotorKind::linear;
+  add(linear ? "Slide" : "Shaft", shaft(s.load, linear));
+  if (const std::string text = heat(s.heat); !text.empty()) add("Heat", text);
+  if (const std::string text = events(s.at, linear); !text.empty()) add("During the run", text);
   return html;
 }
 

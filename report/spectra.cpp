@@ -44,13 +44,17 @@ std::string table(const Spectra& s, const DrawnSpectrum& d) {
 }  // namespace
 
 std::optional<Spectra> spectra(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
-                               int pole_pairs) {
+                               double pole_pairs) {
   struct Wanted {
     const char *id, *title, *quantity, *unit, *label, *style, *column;
   };
-  static constexpr Wanted wanted[] = {
+  static constexpr Wanted turning{"torque-spectrum", "Spectrum of the torque", "torque", "Nm", "T_e", "main",
+                                  "torque_Nm"},
+      moving{"torque-spectrum", "Spectrum of the force", "", "N", "F", "main", "torque_Nm"};
+  const bool linear = scenario.sheet.kind == sixstep::design::MotorKind::linear;
+  const Wanted wanted[] = {
       {"current-spectrum", "Spectrum of the phase current", "current", "A", "i_a", "a", "i_a_A"},
-      {"torque-spectrum", "Spectrum of the torque", "torque", "Nm", "T_e", "main", "torque_Nm"}};
+      linear ? moving : turning};
   const auto stretch = steady_stretch(trace, scenario, pole_pairs);
   if (!stretch) return std::nullopt;
   const bool free_running = scenario.control.current.type == sixstep::study::CurrentLoopType::hysteresis &&

@@ -23,7 +23,7 @@ struct Spectra {
 
 /// Empty where the run has no steady stretch, or nothing moves there.
 std::optional<Spectra> spectra(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
-                               int pole_pairs);
+                               double pole_pairs);
 
 /// How they were taken, in words, and their strongest lines as tables.
 std::string spectra_section(const std::optional<Spectra>& spectra);

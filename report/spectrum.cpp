@@ -66,7 +66,7 @@ Values cell_means(const Values& time, const Values& y, const Interval& stretch, 
 }  // namespace
 
 std::optional<Stretch> steady_stretch(const sixstep::study::Trace& trace,
-                                      const sixstep::study::Scenario& scenario, int pole_pairs) {
+                                      const sixstep::study::Scenario& scenario, double pole_pairs) {
   const auto* time = find_column(trace, "t_s");
   if (!time || time->size() < 2) return std::nullopt;
   const double end = time->back(), begin = last_setpoint_s(trace, scenario).value_or(time->front());

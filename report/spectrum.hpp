@@ -21,7 +21,7 @@ struct Stretch {
 };
 /// Empty where it is shorter than 64 PWM periods: too few to tell frequencies apart.
 std::optional<Stretch> steady_stretch(const sixstep::study::Trace& trace,
-                                      const sixstep::study::Scenario& scenario, int pole_pairs);
+                                      const sixstep::study::Scenario& scenario, double pole_pairs);
 
 /// Amplitude (peak value) of the line k at k/duration. A Hann window widens a pure tone to three lines, whose
 /// middle one has its amplitude where it lies on a line, and at worst 15 % less between two.

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""performance.py: builds the benchmarks, runs them (half a minute), prints the tables of speed as Markdown.
+"""performance.py: builds the benchmarks, runs them (two minutes), prints the tables of speed as Markdown.
 
   --renew   also writes them between their markers in README.md and docs/performance.md
   --check   runs nothing: are the tables there the ones that the benchmarks would fill, row by row and column by column?
             Figures differ between machines and are not compared.
   --programs FOLDER   where the benchmarks lie, already built
 
-CPU time; of five repetitions, shuffled among each other, the fastest counts: what else the machine does only adds.
+CPU time; of fifteen repetitions, shuffled among each other, the fastest counts: what else the machine does only adds.
 """
 import argparse
 import json
@@ -39,7 +39,7 @@ def names_of(program):
 
 def measured(program):
     """{name: {counter: value}} of the fastest repetition."""
-    report = json.loads(said_by(program, "--benchmark_format=json", "--benchmark_repetitions=5", "--benchmark_min_time=0.1",
+    report = json.loads(said_by(program, "--benchmark_format=json", "--benchmark_repetitions=15", "--benchmark_min_time=0.1",
                                 "--benchmark_enable_random_interleaving=true", stderr=subprocess.DEVNULL))
     best = names_of(program)
     for run in report["benchmarks"]:
@@ -69,14 +69,19 @@ def share(error):
 
 
 def speed_table(engine):
-    rows = [["case", "ns per 30 us", "simulated s per s", "error of the current", *(f"RK4 {y}" for y in YARDSTICKS)]]
-    for case, runs in solvers_of(engine).items():
-        own = runs["engine"]
-        cells = [case, f"{ns(own):.0f}", f"{30e3 / (ns(own) or 1):.0f}", share(own.get("error"))]
-        for yardstick in YARDSTICKS:
-            error = share(runs[yardstick].get("error"))
-            cells.append(f"{ns(runs[yardstick]) / (ns(own) or 1):.1f}x" + (f", {error}" if error else ""))
-        rows.append(cells)
+    """A row for each case and kernel that runs it."""
+    rows = [["case", "kernel", "ns per 30 us", "simulated s per s", "error of the current", *(f"RK4 {y}" for y in YARDSTICKS)]]
+    for kernel in ("lean", "general"):
+        for case, runs in solvers_of(engine).items():
+            if kernel not in runs:
+                continue
+            own = runs[kernel]
+            cells = [case, kernel, f"{ns(own):.0f}", f"{30e3 / (ns(own) or 1):.0f}", share(own.get("error"))]
+            for yardstick in YARDSTICKS:
+                error = share(runs[yardstick].get("error")) if yardstick in runs else ""
+                there = f"{ns(runs[yardstick]) / (ns(own) or 1):.1f}x" if yardstick in runs else ""
+                cells.append(there + (f", {error}" if error else ""))
+            rows.append(cells)
     return rows
 
 

@@ -18,7 +18,9 @@ for header in faces/firmware/example/*/drive_config.hpp; do
   sed -i '1i // SPDX-License-Identifier: Apache-2.0' "$header"
 done
 tools/gallery.py "$program"
-for page in readme motors curve design figures manual; do
+tools/position_table.py "$program" --renew
+"$program" motor wiring maxon-251601 --svg docs/images/wiring.svg --quiet --force
+for page in readme motors curve wiring bench design figures manual; do
   python3 "tests/docs/${page}_md_test.py" "$program" --renew
 done
 if [ "${1:-}" = --screenshots ]; then

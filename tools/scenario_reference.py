@@ -42,6 +42,10 @@ the product drive, the dead time; gains, limits, mode and chopping, which the co
 held until the next. Figures that are taken of the reference's steps need one that stands still in their window, or their own
 `level`.
 
+Where the motor is linear, keys in N, m and kg stand in the place of those in N m, rad and kg m2: each is named with the one that it
+stands for, "also as", and is the only word there. References are then in m/s or mm, columns are `speed_m_s`, `position_mm`,
+`force_N`, `load_N`, `speed_ref_m_s`, `position_ref_mm`, and the signal of the torque is `force`.
+
 The file of `shape = "csv"` has the time first and the reference in another column, parted by commas, semicolons (then with
 decimal commas, if you like), tabs or blanks. One line of headings may come first; a heading may bring a unit, `t_ms` or
 `speed [rpm]`. Lines that begin with # are remarks, so that a trace written by `sixstep run --csv` can be followed.

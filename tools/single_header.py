@@ -15,7 +15,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDER = "sixstep/control"
 LICENCE = "// SPDX-License-Identifier: Apache-2.0"
-OWN = re.compile(r'^#include "(sixstep/control/[a-z0-9_]+\.hpp)"\n', re.M)
+OWN = re.compile(r'^#include "(sixstep/control/[a-z0-9_/]+\.hpp)"\n', re.M)
 STANDARD = re.compile(r"^#include (<[a-z0-9_]+>)\n", re.M)
 
 
@@ -30,7 +30,7 @@ def ordered(root: pathlib.Path) -> list[str]:
             visit(other)
         order.append(path)
 
-    for part in sorted((root / FOLDER).glob("*.hpp")):
+    for part in sorted((root / FOLDER).rglob("*.hpp")):
         visit(part.relative_to(root).as_posix())
     return order
 

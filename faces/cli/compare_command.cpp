@@ -28,8 +28,9 @@ study::Trace all_columns() {
   return trace;
 }
 
-void add(study::Trace& trace, study::Row row) {
-  for (std::size_t n = 0; n < row.size(); ++n) trace.values[n].push_back(row[n]);
+/// Under the turning motor's names, whatever the motor: what is drawn and what is subtracted are one.
+void add(study::Trace& trace, study::Row row, const std::vector<study::Column>& columns) {
+  for (std::size_t n = 0; n < row.size(); ++n) trace.values[n].push_back(row[n] / columns[n].per_turning);
 }
 
 /// A run that keeps what is drawn and what is subtracted.
@@ -45,7 +46,7 @@ struct Compared {
     study::Listeners listeners;
     events.emplace(scenario, most_bytes);
     listeners.on_event = [this](study::Row row) { events->add(row); };
-    listeners.on_record = [this](study::Row row) { add(grid, row); };
+    listeners.on_record = [this](study::Row row) { add(grid, row, study::all_columns(scenario.sheet.kind)); };
     listeners.keep_going = [&reached](double t_s) {
       reached(t_s);
       return !interrupted();
@@ -70,7 +71,7 @@ std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
         Compared{.scenario = job.scenario(), .most_bytes = report::most_row_bytes / jobs.size()});
     run.scenario.record = {.grid_s = report::common_grid_s(scenarios)};
     // A column that a mode has no use for is asked for all the same, so that all runs have the same ones.
-    for (const study::Column& column : study::all_columns())
+    for (const study::Column& column : study::all_columns(run.scenario.sheet.kind))
       run.scenario.record.columns.push_back(column.name);
   }
   return runs;

@@ -77,6 +77,7 @@ Candidates settings(const std::string& current) {
   if (!key) return found;
   const std::string start = current.substr(0, equals + 1);
   for (const auto& [word, meaning] : key->choices) found.push_back({start + word, meaning});
+  for (const auto& [turning, word, meaning] : key->linear_choices) found.push_back({start + word, meaning});
   if (key->type == text::KeyType::flag) found = {{start + "true", ""}, {start + "false", ""}};
   if (key->path == "motor")
     for (const std::string& name : text::built_in_motors()) found.push_back({start + name, "built-in"});
@@ -104,6 +105,8 @@ Candidates known_words(const CLI::App& verb, const std::string& name) {
   if (name == "--arithmetic") return words(study::arithmetic_choices);
   if (name == "--method") return words(method_choices);
   if (name == "--style") return styles();
+  if (name == "--between")
+    return {{"lines", "two terminals"}, {"star", "a terminal and one point common to all"}};
   if (name == "KIND") return {{"scenario", "of a scenario file"}, {"motor", "of a motor file"}};
   if (name == "SHELL") return {{"bash", ""}, {"zsh", ""}, {"fish", ""}};
   if (name == "KEY") return keys("", true);

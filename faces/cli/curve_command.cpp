@@ -15,6 +15,7 @@
 #include "files/scenario_on_disk.hpp"
 #include "files/trace/csv_writer.hpp"
 #include "report/curve_page.hpp"
+#include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/scenario/choices.hpp"
@@ -30,7 +31,8 @@ namespace {
 struct CurveArguments {
   std::string motor, data_dir;
   std::optional<double> voltage_V;  ///< without it the sheet's nominal voltage
-  std::optional<double> duty, pwm_period_s, on_resistance_ohm, diode_drop_V, ambient_degC;
+  std::optional<double> duty, pwm_period_s, on_resistance_ohm, diode_drop_V, ambient_degC, winding_degC,
+      housing_degC;
   std::optional<int> points;
   std::string chopping;
   std::string csv, json, html;
@@ -45,11 +47,12 @@ struct CurveFiles {
   std::optional<files::AtomicFile> json, html;
 };
 
-CurveFiles outputs(const CurveArguments& a, base::Problems& problems) {
+CurveFiles outputs(const CurveArguments& a, const design::Sheet& sheet, base::Problems& problems) {
   CurveFiles out;
   if (!a.csv.empty()) {
     std::vector<study::Column> columns;
-    for (const text::CurveColumn& c : text::curve_columns()) columns.push_back(c.column);
+    for (const text::CurveColumn& c : text::curve_columns(design::motion_of(sheet)))
+      columns.push_back(c.column);
     const std::string origin[] = {"sixstep " SIXSTEP_VERSION, "motor: " + text::visible(a.motor),
                                   "command: " + a.command};
     keep(out.csv, files::CsvWriter::create({a.csv, a.force}, columns, origin), problems);
@@ -121,8 +124,11 @@ base::Result<analysis::CurveRequest> request_of(const CurveArguments& a) {
   if (!a.voltage_V && !(motor->nominal_voltage_V > 0))
     return base::Problem{"--voltage", "", "is missing, and the sheet prints no nominal voltage",
                          "give the bus voltage in volts"};
-  analysis::CurveRequest r{.sheet = *sheet, .bench = {.motor = *motor}};
+  analysis::CurveRequest r{.sheet = *sheet, .bench = {}};
+  r.motor_degC.winding_degC = a.winding_degC.value_or(r.motor_degC.winding_degC);
+  r.motor_degC.housing_degC = a.housing_degC.value_or(r.motor_degC.housing_degC);
   analysis::Bench& b = r.bench;
+  b.motor = design::warmed(*motor, *sheet, r.motor_degC);
   b.voltage_V = a.voltage_V.value_or(motor->nominal_voltage_V);
   b.duty = a.duty.value_or(b.duty);
   b.pwm_period_s = a.pwm_period_s.value_or(b.pwm_period_s);
@@ -145,7 +151,7 @@ Exit curve_command(const CurveArguments& a) {
   }
   base::Problems problems = written_twice({{"--csv", a.csv}, {"--json", a.json}, {"--html", a.html}});
   if (!problems.empty()) return refused(problems);
-  CurveFiles out = outputs(a, problems);
+  CurveFiles out = outputs(a, request->sheet, problems);
   if (!problems.empty()) return refused(problems);
   catch_interrupts();
   const base::Result<analysis::Curve> curve = batch::torque_speed_curve(
@@ -170,6 +176,8 @@ void declare_options(CLI::App& curve, CurveArguments& a) {
   curve.add_option("--diode-drop", a.diode_drop_V, "V; without it 0");
   curve.add_option("--points", a.points, "from standstill to no load; without it 41");
   curve.add_option("--ambient", a.ambient_degC, "air around the motor, degC; without it 25");
+  curve.add_option("--winding", a.winding_degC, "how warm the winding is on the curve, degC; without it 25");
+  curve.add_option("--housing", a.housing_degC, "and the housing with its magnets; without it 25");
   curve.add_option("--csv", a.csv, "write all points with all columns");
   curve.add_option("--json", a.json, "write everything; - for standard output instead of the table");
   curve.add_option("--html", a.html, "write a page with charts");
@@ -182,7 +190,8 @@ void declare_options(CLI::App& curve, CurveArguments& a) {
 }  // namespace
 
 Verb declare_curve(CLI::App& app) {
-  CLI::App& curve = *app.add_subcommand("curve", "torque-speed curve of a motor");
+  CLI::App& curve =
+      *app.add_subcommand("curve", "torque-speed curve of a motor, of a linear one force over speed");
   const auto a = std::make_shared<CurveArguments>();
   declare_options(curve, *a);
   return {&curve, calling(curve_command, a)};

@@ -37,6 +37,7 @@ struct DesignArguments {
   std::string method = "pole-placement";
   std::optional<double> settle_s, current_settle_s, damping, bandwidth_rad_s, period_s, voltage_V,
       torque_limit_Nm, load_inertia_kg_m2, lowest_speed_rad_s, step;
+  std::optional<double> force_limit_N, load_mass_kg;  ///< of a linear motor, for torque limit and inertia
   std::optional<int> delay_periods, edges;
   bool quick = false;  ///< without the tolerances
   bool quiet = false, force = false;
@@ -59,7 +60,9 @@ design::DesignSpec spec_of(const DesignArguments& a, const study::Scenario* scen
   choose("--method", a.method, method_choices, w.method, found);
   if (a.chopping) choose("--chopping", *a.chopping, study::chopping_choices, w.chopping, found);
   study::RotorSensing rotor = w.rotor.hall ? study::RotorSensing::hall : study::RotorSensing::ideal;
-  if (a.rotor) choose("--rotor", *a.rotor, study::rotor_sensing_choices, rotor, found);
+  constexpr base::Choice<study::RotorSensing> rotors[] = {study::rotor_sensing_choices[0],
+                                                          study::rotor_sensing_choices[1]};
+  if (a.rotor) choose("--rotor", *a.rotor, rotors, rotor, found);
   w.rotor.hall = rotor == study::RotorSensing::hall;
   w.rotor.edges = a.edges.value_or(w.rotor.edges);
   const auto take = [](std::optional<double>& into, const std::optional<double>& option) {
@@ -68,12 +71,12 @@ design::DesignSpec spec_of(const DesignArguments& a, const study::Scenario* scen
   take(w.settle_s, a.settle_s);
   take(w.current_settle_s, a.current_settle_s);
   take(w.voltage_V, a.voltage_V);
-  take(w.torque_limit_Nm, a.torque_limit_Nm);
+  take(w.torque_limit_Nm, a.force_limit_N ? a.force_limit_N : a.torque_limit_Nm);
   take(w.lowest_speed_rad_s, a.lowest_speed_rad_s);
   w.damping = a.damping.value_or(w.damping);
   w.bandwidth_rad_s = a.bandwidth_rad_s;
   w.period_s = a.period_s.value_or(w.period_s);
-  w.load_inertia_kg_m2 = a.load_inertia_kg_m2.value_or(w.load_inertia_kg_m2);
+  w.load_inertia_kg_m2 = a.load_mass_kg.value_or(a.load_inertia_kg_m2.value_or(w.load_inertia_kg_m2));
   w.delay_periods = a.delay_periods.value_or(w.delay_periods);
   const base::Problems angle =
       base::out_of_range("--angle", a.angle_deg, {}, "deg", "give the rotor's electrical angle in degrees");
@@ -174,22 +177,40 @@ base::Result<analysis::DesignSubject> subject_of(const DesignArguments& a,
   return subject;
 }
 
+/// Options that only the other kind of motor has.
+void refuse_other_motion(const DesignArguments& a, const design::Sheet& sheet, base::Problems& found) {
+  const bool linear = sheet.kind == design::MotorKind::linear;
+  const auto refuse = [&](const std::optional<double>& given, const char* option, const char* instead) {
+    if (given)
+      found.push_back({option, fmt::format("{}", *given),
+                       linear ? "is a turning motor's, and this one is linear"
+                              : "is a linear motor's, and this one turns",
+                       fmt::format("write {}", instead)});
+  };
+  refuse(linear ? a.torque_limit_Nm : a.force_limit_N, linear ? "--torque-limit" : "--force-limit",
+         linear ? "--force-limit" : "--torque-limit");
+  refuse(linear ? a.load_inertia_kg_m2 : a.load_mass_kg, linear ? "--load-inertia" : "--load-mass",
+         linear ? "--load-mass" : "--load-inertia");
+}
+
 Exit design_command(const DesignArguments& a) {
   base::Problems found;
   const std::optional<study::Scenario> board = board_of(a, found);
   if (!found.empty()) return refused(found);
   const design::DesignSpec spec = spec_of(a, board ? &*board : nullptr, found);
   const base::Result<analysis::DesignSubject> subject = subject_of(a, board, found);
+  if (subject) refuse_other_motion(a, subject->sheet, found);
   DesignFiles outputs;
   if (found.empty()) found = outputs.open(a);
   if (!found.empty()) return refused(found);
   catch_interrupts();
-  base::Result<analysis::DesignStudy> s = analysis::study_design(
-      {.subject = *subject,
-       .spec = spec,
-       .tolerances = a.quick ? std::vector<analysis::Tolerance>() : analysis::sheet_tolerances(spec.mode),
-       .for_each = side_by_side(a.jobs, a.quiet, "motors"),
-       .keep_going = [] { return !interrupted(); }});
+  base::Result<analysis::DesignStudy> s =
+      analysis::study_design({.subject = *subject,
+                              .spec = spec,
+                              .tolerances = a.quick ? std::vector<analysis::Tolerance>()
+                                                    : analysis::sheet_tolerances(subject->sheet, spec.mode),
+                              .for_each = side_by_side(a.jobs, a.quiet, "motors"),
+                              .keep_going = [] { return !interrupted(); }});
   if (interrupted()) return told_interrupted("design " + a.motor);
   if (!s) return refused(in_options(s.problems()));
   put_in_options(*s);
@@ -218,16 +239,20 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("--voltage", a.voltage_V, "of the bus in V; the sheet's nominal voltage");
   design.add_option("--torque-limit", a.torque_limit_Nm,
                     "speed, position: in N m; that of 2.5 times the nominal current");
+  design.add_option("--force-limit", a.force_limit_N, "linear motor, for --torque-limit: in N");
   design.add_option("--rotor", a.rotor, "hall, or ideal: as an encoder of very many lines; hall");
   design.add_option("--edges", a.edges,
                     "Hall edges that a speed is taken over, 1 to 6; else 6 or 1, adaptive");
   design.add_option("--lowest-speed", a.lowest_speed_rad_s,
-                    "that is to be held, in rad/s; a tenth of what the bus reaches");
+                    "that is to be held, in rad/s or m/s; a tenth of what the bus reaches");
   design.add_option("--currents", a.currents, "phases, dc-link or ideal; phases");
   design.add_option("--load-inertia", a.load_inertia_kg_m2, "on the shaft, beside the rotor's, in kg m2; 0");
+  design.add_option("--load-mass", a.load_mass_kg,
+                    "linear motor, for --load-inertia: on the slide, in kg; 0");
   design.add_option("--delay", a.delay_periods, "periods until a command counts, 0 or 1; 1");
   design.add_option("--chopping", a.chopping, "soft, hard or complementary; soft");
-  design.add_option("--step", a.step, "what is simulated: a step in A, rad/s or deg as the mode asks");
+  design.add_option("--step", a.step,
+                    "what is simulated: a step in A, rad/s (m/s) or deg (mm) as the mode asks");
   design.add_option("--json", a.json, "write everything as numbers; - for standard output");
   design.add_option("--toml", a.toml, "write the scenario that was simulated, for sixstep run");
   design.add_option("--html", a.html, "write the design as a page");

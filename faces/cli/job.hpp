@@ -28,6 +28,7 @@ class Job {
   std::string name() const;  ///< the file's stem
   const study::Scenario& scenario() const { return scenario_; }
   const study::Outcome* outcome() const { return outcome_ ? &*outcome_ : nullptr; }
+  bool begun() const { return outcome_ || !problems_.empty(); }
   /// It ran to its end, or to a fault.
   bool finished() const { return outcome_ && !interrupted_ && !broken_; }
   /// The path of its page, or of what a run that was cut short left of one; empty where there is none.

@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <optional>
 
+#include "faces/cli/bench_commands.hpp"
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/terminal.hpp"
+#include "faces/cli/wiring_command.hpp"
 #include "files/scenario_on_disk.hpp"
 #include "text/escape/escape.hpp"
 #include "text/motor/motor_library.hpp"
@@ -124,9 +126,12 @@ Verb declare_motor(CLI::App& app) {
   for (CLI::App* const verb : {&list, &show, &check}) verb->add_flag("--json", a->json, "for programs");
   CLI::App& fresh = *motor.add_subcommand("new", "an empty motor file, to be filled in");
   fresh.add_option("NAME", a->name, "the file to write, NAME.toml; without it standard output");
-  fresh.add_option("--style", a->style, "whose sheet it is: maxon, drone, servo or firmware")
+  fresh.add_option("--style", a->style, "whose sheet it is: maxon, drone, servo, linear or firmware")
       ->capture_default_str();
-  return {&motor, [a, &list, &show, &check](const std::string&) {
+  const Verb wiring = declare_wiring(motor), identify = declare_identify(motor), emf = declare_emf(motor);
+  return {&motor, [a, &list, &show, &check, wiring, identify, emf](const std::string& command) {
+            for (const Verb& verb : {wiring, identify, emf})
+              if (*verb.app) return verb.call(command);
             if (list) return list_motors(*a);
             if (show) return show_motor(*a);
             return check ? check_motor(*a) : new_motor(*a);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <CLI/App.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 
@@ -111,6 +112,8 @@ Exit tell(const std::vector<Job>& jobs, const RunArguments& arguments,
     print(job.cut_short(), stderr);
     if (!arguments.quiet) print(job.left_out(), stderr);
   }
+  if (interrupted() && std::ranges::none_of(jobs, &Job::begun))
+    print("interrupted before the first run began\n", stderr);
   if (!arguments.quiet) print_table(jobs, arguments);
   if (index) {
     const base::Problems unwritten = write_index(arguments, jobs, *index);

@@ -8,6 +8,7 @@
 #include "files/text_file.hpp"
 #include "files/trace/mat_file.hpp"
 #include "sixstep/base/angle.hpp"
+#include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/design/thesis/thesis_models.hpp"
 
 namespace files {
@@ -19,6 +20,26 @@ const std::vector<std::string> phase_states{"i_a_A", "i_b_A", "i_c_A", "w_m_rad_
     phase_inputs{"u_an_V", "u_bn_V", "u_cn_V", "T_load_Nm"},
     terminal_states{"i_a_A", "i_b_A", "w_m_rad_s", "theta_m_rad"},
     terminal_inputs{"u_ab_V", "u_bc_V", "T_load_Nm"};
+
+/// Symbols of a linear motor: v for w, x for theta, F for T, m for J.
+constexpr sixstep::base::LinearWord linear_symbols[] = {
+    {"w_m_rad_s", "v_m_s"},    {"theta_m_rad", "x_m"},
+    {"T_load_Nm", "F_load_N"}, {"pole_pairs", "pole_pairs_per_m"},
+    {"K_e_V_s", "K_e_V_s_m"},  {"K_t_Nm_A", "K_f_N_A"},
+    {"J_kg_m2", "m_kg"},       {"B_Nm_s", "B_N_s_m"},
+};
+
+std::string symbol(const ModelPoint& p, const std::string& turning) {
+  if (!sixstep::design::motion_of(p.motor).linear) return turning;
+  for (const sixstep::base::LinearWord& word : linear_symbols)
+    if (word.turning == turning) return std::string(word.linear);
+  return turning;
+}
+
+std::vector<std::string> symbols(const ModelPoint& p, std::vector<std::string> names) {
+  for (std::string& name : names) name = symbol(p, name);
+  return names;
+}
 
 sixstep::base::MechanicalAngle angle_of(const ModelPoint& p) {
   const double rad = p.electrical_deg * sixstep::base::pi / 180;
@@ -64,11 +85,12 @@ std::string models_json(const ModelPoint& p) {
   const sixstep::plant::Machine& machine = p.motor.machine;
   const sixstep::plant::Shaft& shaft = p.motor.shaft;
   Json out{{"sixstep", SIXSTEP_VERSION}, {"parameters", Json::object()}};
-  for (const auto& [name, value] : parameters(p)) out["parameters"][name] = value;
+  for (const auto& [name, value] : parameters(p)) out["parameters"][symbol(p, name)] = value;
+  if (!p.motor.left_to_a_run.empty()) out["left_to_a_run"] = p.motor.left_to_a_run;
   out["phase_voltage"] = space_json(sixstep::design::phase_voltage_model(machine, shaft, angle_of(p)),
-                                    phase_states, phase_inputs);
+                                    symbols(p, phase_states), symbols(p, phase_inputs));
   out["terminal_voltage"] = space_json(sixstep::design::terminal_voltage_model(machine, shaft, angle_of(p)),
-                                       terminal_states, terminal_inputs);
+                                       symbols(p, terminal_states), symbols(p, terminal_inputs));
   return out.dump(2) + "\n";
 }
 
@@ -84,13 +106,14 @@ base::Result<std::string> models_mat(const ModelPoint& p) {
         sixstep::design::terminal_voltage_model(p.motor.machine, p.motor.shaft, angle_of(p));
     put(file, "phase_A", phase.A);
     put(file, "phase_B", phase.B);
-    file.text("phase_states", joined(phase_states));
-    file.text("phase_inputs", joined(phase_inputs));
+    file.text("phase_states", joined(symbols(p, phase_states)));
+    file.text("phase_inputs", joined(symbols(p, phase_inputs)));
     put(file, "terminal_A", terminal.A);
     put(file, "terminal_B", terminal.B);
-    file.text("terminal_states", joined(terminal_states));
-    file.text("terminal_inputs", joined(terminal_inputs));
-    for (const auto& [name, value] : parameters(p)) file.numbers(name, {value}, 1, 1);
+    file.text("terminal_states", joined(symbols(p, terminal_states)));
+    file.text("terminal_inputs", joined(symbols(p, terminal_inputs)));
+    if (!p.motor.left_to_a_run.empty()) file.text("left_to_a_run", p.motor.left_to_a_run);
+    for (const auto& [name, value] : parameters(p)) file.numbers(symbol(p, name), {value}, 1, 1);
     if (!file.close()) return no_room;
   }
   return read_text(scratch.path());

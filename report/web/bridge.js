@@ -23,9 +23,10 @@ function halfLeg(parent, x, top, name) {
   return {device, diode, wire};
 }
 
-/** Draws the bridge into the SVG; returns the function that shows it at an instant. */
-function bridgeDrawing(svg, say) {
-  const legs = ['a', 'b', 'c'].map((phase, k) => {
+/** Draws the bridge into the SVG, each leg with the phase that hangs at it; returns the function that shows it at an instant. */
+function bridgeDrawing(svg, say, phaseAt = [0, 1, 2]) {
+  const names = phaseAt.map((n) => 'abc'[n]);
+  const legs = names.map((phase, k) => {
     const x = 46 + 96 * k, group = svgNode('g', {style: `--leg: var(--${phase})`}, svg);
     const upper = halfLeg(group, x, 14, `T${2 * k + 1}`), lower = halfLeg(group, x, 94, `T${2 * k + 2}`);
     svgNode('path', {d: `M${x} 74V94M${x} 84H${x + 26}`, class: 'terminal'}, group);
@@ -39,7 +40,7 @@ function bridgeDrawing(svg, say) {
   svgNode('text', {x: 4, y: 158}, svg).textContent = '−';
   return (states, currents, unit) => {
     legs.forEach((leg, k) => {
-      const state = states?.[k] ?? 0, i = currents?.[k] ?? 0;
+      const state = states?.[k] ?? 0, i = currents?.[phaseAt[k]] ?? 0;
       leg.upper.device.classList.toggle('lit', state === 1);
       leg.lower.device.classList.toggle('lit', state === 2);
       leg.upper.diode.classList.toggle('lit', state === 3);
@@ -50,7 +51,7 @@ function bridgeDrawing(svg, say) {
       leg.value.textContent = !states ? '' : state ? figure(i) : 'floating';
     });
     say.textContent = !states ? 'Point at a chart: what conducts then is lit.'
-      : ['a', 'b', 'c'].map((phase, k) => `${phase} ${states[k] ? `${figure(currents[k])} ${unit} through its ${LEG_STATES[states[k]]}` : 'floating'}`).join(', ');
+      : names.map((phase, k) => `${phase} ${states[k] ? `${figure(currents[phaseAt[k]])} ${unit} through its ${LEG_STATES[states[k]]}` : 'floating'}`).join(', ');
   };
 }
 

@@ -4,7 +4,7 @@
 const data = JSON.parse(document.getElementById('data').textContent);
 const axis = unpack(data.axis, Float64Array);
 const speed = {
-  name: 'speed', unit: 'rpm',
+  name: 'speed', unit: data.speed ?? 'rpm',
   text(n, step) { return n.toFixed(Math.max(0, -Math.floor(Math.log10(step * 1.0001)))).replace('-', '−'); },
 };
 const whole = [axis[0], axis[axis.length - 1]];
@@ -17,12 +17,12 @@ function show(from, to) {
   linking = false;
 }
 
-function pointed(rpm) {
-  for (const chart of charts) chart.show(rpm);
-  document.getElementById('cursor').textContent = rpm == null ? '' : `${speed.text(rpm, 1)} rpm`;
+function pointed(at) {
+  for (const chart of charts) chart.show(at);
+  document.getElementById('cursor').textContent = at == null ? '' : `${speed.text(at, data.speed ? 0.001 : 1)} ${speed.unit}`;
 }
 
-/** Up to the torque that the motor is used with, or up to what it does at standstill. */
+/** Up to what the motor is used with, or up to what it does at standstill. */
 function showUpTo(stall) {
   for (const [id, on] of [['usable', !stall], ['stall', stall]]) document.getElementById(id).setAttribute('aria-pressed', String(on));
   linking = true;

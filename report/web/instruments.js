@@ -27,7 +27,7 @@ function makeInstruments(axisOf) {
   if (rotor) wearRotorUnit(rotor);
   const logic = charts.filter((c) => c.chart.logic), others = charts.filter((c) => !c.chart.logic);
   const fill = readout(element('readout'), [...others, ...(rotor ? [rotor] : []), ...logic], data.compared);
-  const drawBridge = data.conduction && phases ? bridgeDrawing(element('bridge'), element('conducts')) : null;
+  const drawBridge = data.conduction && phases ? bridgeDrawing(element('bridge'), element('conducts'), data.legs) : null;
   // In a long run it comes with the rows.
   let conduction = drawBridge && data.conduction.time ? {time: unpack(data.conduction.time, Float64Array), code: unpack(data.conduction.code, Uint8Array)} : null;
   const drawPlane = phases ? currentPlane(element('plane'), phases) : null;

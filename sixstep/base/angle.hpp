@@ -16,8 +16,9 @@ struct ElectricalAngle {
   bool operator==(const ElectricalAngle&) const = default;
 };
 
+/// Of a linear motor pi/tau, which need not be whole.
 struct PolePairs {
-  int count = 1;
+  double count = 1;
   constexpr ElectricalAngle electrical(MechanicalAngle m) const { return {m.rad * count}; }
   constexpr MechanicalAngle mechanical(ElectricalAngle e) const { return {e.rad / count}; }
 };

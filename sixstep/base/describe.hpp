@@ -47,6 +47,8 @@ struct Spelling {
   std::string_view unit = "";    ///< of the value written; empty: the key's own
   std::string_view frame = "";   ///< the only frame it can have; empty: as the key
   std::string_view source = "";  ///< what the spelling itself says of the source: "data sheet, line 10"
+  double factor = 1.0;           ///< and times this
+  bool linear = false;           ///< the word where the motor is linear, and only there (base/linear.hpp)
 };
 
 /// What a face must know of one key.
@@ -73,6 +75,7 @@ struct Choice {
   std::string_view word;
   Enum value;
   std::string_view meaning;
+  std::string_view turning = "";  ///< only of a linear motor: the turning one's word that it stands for
 };
 
 /// The word of a value; empty for a value that has none.

@@ -18,16 +18,20 @@ struct Plausible {
 
 /// Between any two lie more than three powers of ten of what has been built.
 inline constexpr Plausible plausible_numbers[] = {
-    {"V", 1e-6, 1e5},        {"A", 1e-9, 1e6},          {"mA", 1e-6, 1e9},        {"ohm", 1e-6, 1e6},
-    {"mH", 1e-6, 1e6},       {"F", 1e-12, 1e4},         {"s", 1e-12, 9e6},        {"ms", 1e-9, 9e9},
-    {"Hz", 1e-6, 1e12},      {"rad/s", 1e-9, 1e6},      {"rpm", 1e-6, 1e7},       {"rad", 1e-9, 1e6},
-    {"deg", 1e-9, 1e9},      {"N m", 1e-12, 1e6},       {"Nm", 1e-12, 1e6},       {"mNm", 1e-9, 1e9},
-    {"N m s", 1e-15, 1e6},   {"kg m2", 1e-15, 1e9},     {"g cm2", 1e-8, 1e16},    {"mNm/A", 1e-6, 1e7},
-    {"Nm/A", 1e-9, 1e4},     {"mV s", 1e-6, 1e7},       {"V/krpm", 1e-6, 1e6},    {"mWb", 1e-6, 1e6},
-    {"rpm/V", 1e-6, 1e7},    {"T", 1e-6, 100},          {"mm", 1e-3, 1e5},        {"rpm/mNm", 1e-9, 1e9},
-    {"K/W", 1e-6, 1e6},      {"degC", 1e-6, 1e4},       {"percent", 1e-6, 100},   {"A/V", 1e-9, 1e9},
-    {"A s/rad", 1e-9, 1e9},  {"deg s/rad", 1e-9, 1e9},  {"rad/s/deg", 1e-9, 1e9}, {"H", 1e-12, 1e4},
-    {"N m/rad", 1e-9, 1e12}, {"N m s/rad", 1e-15, 1e6}, {"N m s2", 1e-18, 1e3},
+    {"V", 1e-6, 1e5},         {"A", 1e-9, 1e6},          {"mA", 1e-6, 1e9},        {"ohm", 1e-6, 1e6},
+    {"mH", 1e-6, 1e6},        {"F", 1e-12, 1e4},         {"s", 1e-12, 9e6},        {"ms", 1e-9, 9e9},
+    {"Hz", 1e-6, 1e12},       {"rad/s", 1e-9, 1e6},      {"rpm", 1e-6, 1e7},       {"rad", 1e-9, 1e6},
+    {"deg", 1e-9, 1e9},       {"N m", 1e-12, 1e6},       {"Nm", 1e-12, 1e6},       {"mNm", 1e-9, 1e9},
+    {"N m s", 1e-15, 1e6},    {"kg m2", 1e-15, 1e9},     {"g cm2", 1e-8, 1e16},    {"mNm/A", 1e-6, 1e7},
+    {"Nm/A", 1e-9, 1e4},      {"mV s", 1e-6, 1e7},       {"V/krpm", 1e-6, 1e6},    {"mWb", 1e-6, 1e6},
+    {"rpm/V", 1e-6, 1e7},     {"T", 1e-6, 100},          {"mm", 1e-3, 1e5},        {"rpm/mNm", 1e-9, 1e9},
+    {"K/W", 1e-6, 1e6},       {"degC", 1e-6, 1e4},       {"percent", 1e-6, 100},   {"A/V", 1e-9, 1e9},
+    {"A s/rad", 1e-9, 1e9},   {"deg s/rad", 1e-9, 1e9},  {"rad/s/deg", 1e-9, 1e9}, {"H", 1e-12, 1e4},
+    {"N m/rad", 1e-9, 1e12},  {"N m s/rad", 1e-15, 1e6}, {"N m s2", 1e-18, 1e3},   {"kg/m3", 1e-3, 1e5},
+    {"N", 1e-12, 1e6},        {"kg", 1e-15, 1e9},        {"m/s", 1e-9, 1e6},       {"m", 1e-9, 1e6},
+    {"N s/m", 1e-15, 1e6},    {"N/m", 1e-9, 1e12},       {"N s2/m2", 1e-18, 1e3},  {"N/A", 1e-9, 1e4},
+    {"V s/m", 1e-9, 1e4},     {"A h", 1e-9, 1e6},        {"J", 1e-15, 1e6},        {"C", 1e-15, 1e6},
+    {"percent/K", 1e-6, 100},
 };
 
 /// Gains, ratios and what is in a unit of its own.

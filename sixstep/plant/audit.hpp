@@ -14,6 +14,8 @@ struct EnergyBook {
   double magnetic = 0.0;  ///< change of (1/2) L_s sum i^2
   double air_gap = 0.0;   ///< integral T_e w dt
   double friction = 0.0;
+  double iron =
+      0.0;  ///< what of friction is the motor's iron, where somebody tells it apart (study/measure/iron_gauge.hpp)
   double load = 0.0;
   double kinetic = 0.0;  ///< change of (1/2) J w^2
   double moved = 0.0;    ///< sum of |U_s i_dc|, |T_e w| and |T_load w|, integrated per segment
@@ -54,9 +56,8 @@ class Audit {
   Real inv_L_ = 1, inv_J_ = 1;
   Real noise_ = 0;  ///< energy of a current and a speed at their noise: less than that cannot be balanced
   Point start_, end_;
-  Real supplied_ = 0, copper_ = 0, devices_ = 0, air_gap_ = 0, friction_ = 0, load_ = 0, moved_ = 0;
-  Real supplied_low_ = 0, copper_low_ = 0, devices_low_ = 0, air_gap_low_ = 0, friction_low_ = 0,
-       load_low_ = 0;
+  series::CompensatedSum<Real> supplied_, copper_, devices_, air_gap_, friction_, load_;
+  Real moved_ = 0;
   Laws laws_;
 };
 
@@ -99,7 +100,6 @@ void Audit<Real>::check_laws(const Mode& mode, const PerLeg<Real>& i) {
 
 template <class Real>
 void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
-  using series::add_compensated;
   const Expansion<Real>& y = plant.expansion();
   const Constants<Real>& c = plant.constants();
   if (!begun_) begin(plant);
@@ -107,17 +107,17 @@ void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
   // go at the same instant. What standstill snaps to zero is noise.
   const bool stopped = y.w[0] == 0 && (c.locked || detail::abs(end_.w) > c.speed_noise);
   // mutant: stopped && end_.w != 0 => false
-  if (stopped && end_.w != 0) add_compensated(friction_, friction_low_, kinetic_energy(end_));
+  if (stopped && end_.w != 0) friction_.add(kinetic_energy(end_));
   end_ = end_of(y, s);
   check_laws(plant.mode(), {y.i[0][0], y.i[1][0], y.i[2][0]});
   check_laws(plant.mode(), end_.i);
   const SegmentEnergy<Real> e = segment_energy(plant, s);
-  add_compensated(supplied_, supplied_low_, e.supplied);
-  add_compensated(copper_, copper_low_, e.copper);
-  add_compensated(devices_, devices_low_, e.devices);
-  add_compensated(air_gap_, air_gap_low_, e.air_gap);
-  add_compensated(friction_, friction_low_, e.viscous + e.dry);
-  add_compensated(load_, load_low_, e.load);
+  supplied_.add(e.supplied);
+  copper_.add(e.copper);
+  devices_.add(e.devices);
+  air_gap_.add(e.air_gap);
+  friction_.add(e.viscous + e.dry);
+  load_.add(e.load);
   moved_ += detail::abs(e.supplied) + detail::abs(e.air_gap) + detail::abs(e.load);
 }
 
@@ -130,18 +130,19 @@ EnergyBook Audit<Real>::energy() const {
   const Real scale =
       std::max({moved_, magnetic_start + kinetic_start, magnetic_end + kinetic_end, noise_, Real(1e-300)});
   const auto d = [](Real v) { return static_cast<double>(v); };
-  return {.supplied = d(supplied_),
-          .copper = d(copper_),
-          .devices = d(devices_),
+  return {.supplied = d(supplied_.value),
+          .copper = d(copper_.value),
+          .devices = d(devices_.value),
           .magnetic = d(magnetic),
-          .air_gap = d(air_gap_),
-          .friction = d(friction_),
-          .load = d(load_),
+          .air_gap = d(air_gap_.value),
+          .friction = d(friction_.value),
+          .load = d(load_.value),
           .kinetic = d(kinetic),
           .moved = d(moved_),
           .scale = d(scale),
-          .electrical_residual = d((supplied_ - copper_ - devices_ - air_gap_ - magnetic) / scale),
-          .mechanical_residual = d((air_gap_ - friction_ - load_ - kinetic) / scale)};
+          .electrical_residual =
+              d((supplied_.value - copper_.value - devices_.value - air_gap_.value - magnetic) / scale),
+          .mechanical_residual = d((air_gap_.value - friction_.value - load_.value - kinetic) / scale)};
 }
 
 }  // namespace sixstep::plant

@@ -11,12 +11,12 @@ template void expand_shape<true, Build::any>(const Constants<double>&, const Mod
 template void expand_shape<false, Build::avx>(const Constants<double>&, const Mode&, Expansion<double>&);
 template void expand_shape<true, Build::avx>(const Constants<double>&, const Mode&, Expansion<double>&);
 
-namespace {
-
 const bool has_avx = [] {
   __builtin_cpu_init();
   return __builtin_cpu_supports("avx") != 0;
 }();
+
+namespace {
 
 template <bool sine>
 void expand_here(const Constants<double>& c, const Mode& mode, Expansion<double>& y) {

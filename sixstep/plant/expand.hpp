@@ -241,6 +241,8 @@ extern template void expand_shape<false, Build::any>(const Constants<double>&, c
 extern template void expand_shape<true, Build::any>(const Constants<double>&, const Mode&,
                                                     Expansion<double>&);
 #ifdef __x86_64__
+/// Of this processor, asked once as the program starts.
+extern const bool has_avx;
 extern template void expand_shape<false, Build::avx>(const Constants<double>&, const Mode&,
                                                      Expansion<double>&);
 extern template void expand_shape<true, Build::avx>(const Constants<double>&, const Mode&,

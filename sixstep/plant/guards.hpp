@@ -23,7 +23,14 @@ inline constexpr int breakaway_backward = 22;
 inline constexpr int source = 23;
 inline constexpr int brake = 24;       // of the general kernel, and the next
 inline constexpr int load_turns = 25;  // the load's speed changes its sign
-inline constexpr int first_free = 26;
+inline constexpr int gear_turns = 26;  // the torque through a lossy gear does
+inline constexpr int faster = 27;      // the load's speed passes a point of its torque's table, and
+inline constexpr int slower = 28;
+inline constexpr int fuller = 29;  // the charge one of its voltage's
+inline constexpr int emptier = 30;
+inline constexpr int pulse = 31;      // the mains' next pulse begins
+inline constexpr int saturated = 32;  // + 1: the current along the magnet's axis is where the model ends
+inline constexpr int first_free = 34;
 }  // namespace guard
 
 /// Noise = 64 eps x natural scale (pitfall 6), widened by `slack` where rounding left no mode

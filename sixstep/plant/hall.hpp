@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Hall probes stand 120 electrical degrees apart; each is high over half a turn. The controller decodes
+// The Hall probes stand 120 electrical degrees apart, or 60; each is high over half a turn. The controller decodes
 // them by a table of its own, so that a wrong entry cannot cancel itself.
 #pragma once
 #include <cstdint>
@@ -12,6 +12,14 @@ constexpr std::uint8_t hall_code(int sector) {
   const bool h1 = sector == 5 || sector == 0 || sector == 1;
   const bool h2 = sector >= 1 && sector <= 3;
   const bool h3 = sector >= 3;
+  return static_cast<std::uint8_t>(h1 << 2 | h2 << 1 | static_cast<int>(h3));
+}
+
+/// Probes 60 degrees apart, each a sector behind the one before: H1 over sectors 5, 0, 1; H2 over 0, 1, 2; H3 over 1, 2, 3.
+constexpr std::uint8_t hall_code_60(int sector) {
+  const bool h1 = sector == 5 || sector == 0 || sector == 1;
+  const bool h2 = sector >= 0 && sector <= 2;
+  const bool h3 = sector >= 1 && sector <= 3;
   return static_cast<std::uint8_t>(h1 << 2 | h2 << 1 | static_cast<int>(h3));
 }
 

@@ -8,10 +8,10 @@ namespace sixstep::plant {
 enum class BackEmf : std::uint8_t { trapezoid, sine };
 
 struct Machine {
-  double R_ohm = 0.0;    ///< phase resistance R_s
-  double L_H = 0.0;      ///< phase inductance L_s = L - M
-  double K_e_V_s = 0.0;  ///< peak phase EMF per mechanical rad/s, also N m/A per phase
-  int pole_pairs = 1;
+  double R_ohm = 0.0;     ///< phase resistance R_s
+  double L_H = 0.0;       ///< phase inductance L_s = L - M
+  double K_e_V_s = 0.0;   ///< peak phase EMF per mechanical rad/s, also N m/A per phase
+  double pole_pairs = 1;  ///< of a linear motor pi/tau, tau its pole pitch in m (model.md 7)
   BackEmf back_emf = BackEmf::trapezoid;
   double flat_deg = 120.0;  ///< flat width of the trapezoid, electrical degrees, in (0, 180)
 };

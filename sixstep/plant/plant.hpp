@@ -4,6 +4,7 @@
 #pragma once
 #include <algorithm>
 
+#include "sixstep/plant/passages.hpp"
 #include "sixstep/plant/settle.hpp"
 
 namespace sixstep::plant {
@@ -77,8 +78,6 @@ class Plant {
   bool resettle(Real wanted, bool& expanded);
   bool settle_fully(Real wanted, bool& expanded);
   bool pass_edge(bool ahead);
-  void leave_edge(bool ahead);
-  void balance();
   void set_scales(Real volt_scale);
   void set_steady_rate();
 
@@ -127,12 +126,7 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   state_.w = Real(start.speed_rad_s);
   set_locked(shaft.locked);
   const double electrical = start.angle_rad * m.pole_pairs;
-  // An edge named in degrees or radians of the shaft has been rounded up to four times on its way here.
-  const double edge = std::floor(electrical / base::sector_rad + 0.5);
-  const bool on_edge = std::fabs(electrical - edge * base::sector_rad) <= 0x1p-50 * std::fabs(electrical);
-  const double sector = on_edge ? edge : std::floor(electrical / base::sector_rad);
-  state_.sector = static_cast<std::int64_t>(sector);
-  state_.x = on_edge ? Real(0) : std::max(Real(0), Real(electrical) - Real(sector) * Real(base::sector_rad));
+  const bool on_edge = detail::put_down(state_, electrical);
   mode_.sector = static_cast<std::uint8_t>(sector_in_turn(state_.sector));
   const EmfSector<Real>& pieces = c.emf[mode_.sector];
   while (mode_.piece + 1 < pieces.count && state_.x >= pieces.piece[mode_.piece].to) ++mode_.piece;

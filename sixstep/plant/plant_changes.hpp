@@ -10,14 +10,7 @@ namespace sixstep::plant {
 template <class Real>
 void Plant<Real>::set_scales(Real volt_scale) {
   Constants<Real>& c = constants_;
-  c.volt_scale = volt_scale;
-  c.amp_scale = c.volt_scale / c.R;
-  c.speed_scale = c.volt_scale / (2 * c.K_e);
-  c.torque_scale = 2 * c.K_e * c.amp_scale;
-  c.volt_noise = noise_of(c.volt_scale, Real(1));
-  c.amp_noise = noise_of(c.amp_scale, Real(1));
-  c.speed_noise = noise_of(c.speed_scale, Real(1));
-  c.torque_noise = noise_of(c.torque_scale, Real(1));
+  detail::set_scales(c, volt_scale, c.R, c.K_e);
   c.amp_limit = terms_per_scale<Real> / c.amp_scale;
   c.speed_limit = terms_per_scale<Real> / c.speed_scale;
   c.volt_limit = terms_per_scale<Real> / c.volt_scale;

@@ -10,14 +10,14 @@ namespace sixstep::plant {
 class View {
  public:
   View(const Plant<double>& plant)  // NOLINT(google-explicit-constructor): a plant is its own view
-      : common_{&plant.expansion(),           &plant.state(),          &plant.gates(),
-                &plant.mode().legs,           plant.mode().motion,     plant.sector(),
-                plant.constants().pole_pairs, &plant.constants().poles},
+      : common_{&plant.expansion(),          &plant.state(),      &plant.gates(),
+                &plant.mode().legs,          plant.mode().motion, plant.sector(),
+                plant.constants().pole_pairs},
         lean(&plant) {}
   View(const general::Plant<double>& plant)  // NOLINT(google-explicit-constructor)
-      : common_{&plant.expansion(),           &plant.state(),          &plant.gates(),
-                &plant.mode().legs,           plant.mode().motion,     plant.sector(),
-                plant.constants().pole_pairs, &plant.constants().poles},
+      : common_{&plant.expansion(),          &plant.state(),      &plant.gates(),
+                &plant.mode().legs,          plant.mode().motion, plant.sector(),
+                plant.constants().pole_pairs},
         general(&plant) {}
 
   const Expansion<double>& expansion() const { return *common_.y; }
@@ -29,7 +29,9 @@ class View {
   double pole_pairs() const { return common_.pole_pairs; }
   /// Of a connected leg.
   const PoleTerms<double>& terms(int k) const {
-    return (*common_.poles)[static_cast<std::size_t>(legs()[k])];
+    const auto leg = static_cast<std::size_t>(k);
+    return lean ? lean->constants().poles[static_cast<std::size_t>(legs()[leg])]
+                : general->constants().terms(leg, legs()[leg]);
   }
   SegmentEnergy<double> energy(double to) const {
     return lean ? segment_energy(*lean, to) : general::segment_energy(*general, to);
@@ -44,7 +46,6 @@ class View {
     Motion motion;
     int sector;
     double pole_pairs;
-    const PoleTable<double>* poles;
   };
   Common common_;
 

@@ -7,12 +7,12 @@
 
 namespace sixstep::rig {
 
-template <class RealType>
+template <class RealType, class Plant = plant::Plant<RealType>>
 class BarePlant {
  public:
   using Real = RealType;
 
-  explicit BarePlant(const plant::Plant<Real>& plant) : plant_(plant) {}
+  explicit BarePlant(const Plant& plant) : plant_(plant) {}
 
   sim::Instant now() const { return now_; }
   sim::Instant next_known() const { return sim::Instant::never(); }
@@ -27,10 +27,10 @@ class BarePlant {
     now_ = to;
   }
 
-  const plant::Plant<Real>& plant() const { return plant_; }
+  const Plant& plant() const { return plant_; }
 
  protected:
-  plant::Plant<Real> plant_;
+  Plant plant_;
   sim::Instant now_{};
 };
 

@@ -16,6 +16,7 @@
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/retune.hpp"
+#include "sixstep/control/sensorless/lock.hpp"
 #include "sixstep/plant/plant.hpp"
 #include "sixstep/rig/board_config.hpp"
 #include "sixstep/rig/sensors.hpp"
@@ -33,13 +34,21 @@ struct SampleInstant {
   std::uint8_t pins = 0;
   bool reversed = false;  ///< sign of the six-step command in effect
   double duty = 0.0;      ///< and its duty: what a shunt in the DC link goes by
+  const FrontEndReading* seen =
+      nullptr;  ///< what the converters' inputs stand at, where the board's front end lags
 };
 
 /// What a firmware has found out about a fault.
 struct Diagnosis {
   std::uint16_t faults = 0;    ///< bits of control::Fault that stopped the drive
   std::uint8_t hall_line = 0;  ///< 1..3: the line that made an impossible code; 0: none, or it cannot be told
-  sim::Instant at{};           ///< the tick that latched them
+  sim::Instant at{};           ///< the tick that latched them, or lost the rotor last
+  int losses = 0;              ///< how often a sensorless drive lost the rotor, or did not get it turning
+  control::LockLoss lost = control::LockLoss::none;  ///< why, the last time
+  bool gave_up = false;                              ///< for good
+  int unseen = 0;                                    ///< how often pulses did not show how the rotor stands
+  double north = 0.0;                                ///< the last time, over its noise
+  double certain = 0.0;                              ///< and what would have been enough
 };
 
 /// What a chip is given while it runs (control/retune.hpp).
@@ -72,11 +81,18 @@ Sample sample_of(const SampleInstant<Real>& instant) {
                 .at = instant.at,
                 .number = instant.number,
                 .duty = instant.duty,
-                .reversed = instant.reversed};
+                .reversed = instant.reversed,
+                .shaft = {s.sector, static_cast<double>(s.x), static_cast<std::int64_t>(instant.pole_pairs)}};
   for (std::size_t k = 0; k < 3; ++k) {
     sample.i_A[k] = static_cast<double>(s.i[k]);
     if (plant::is_high(instant.legs[k])) sample.dc_link_A += sample.i_A[k];
   }
+  if (instant.seen == nullptr) return sample;
+  if (instant.seen->currents) {
+    for (std::size_t k = 0; k < 3; ++k) sample.i_A[k] = instant.seen->i_A[k];
+    sample.dc_link_A = instant.seen->dc_link_A;
+  }
+  if (instant.seen->voltages) sample.bus_V = instant.seen->bus_V;
   return sample;
 }
 
@@ -147,7 +163,7 @@ class SensedDrive {
 
   SensedDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
       : drive_(config, board, power_up),
-        sensors_(board.sensors, board.bases, power_up.pole_pairs, power_up.sector, power_up.pins),
+        sensors_(board.sensors, board.bases, power_up),
         bases_(board.bases) {}
 
   template <class Real>
@@ -172,6 +188,16 @@ class SensedDrive {
   bool follows_setpoint_at_once() const { return drive_.follows_setpoint_at_once(); }
   const control::Telemetry<Scalar>& telemetry() const { return drive_.telemetry(); }
   Diagnosis diagnosis() const { return {.hall_line = sensors_.broken_line()}; }
+  /// What its converters and timers are fed with.
+  Registers& registers() { return sensors_.registers(); }
+  ShaftPorts& shaft_ports() { return sensors_.shaft_ports(); }
+  const Sensors<Scalar>& sensors() const { return sensors_; }
+  /// Whether an encoder's timer counts between samples, or a code is latched there.
+  bool follows_shaft() const { return sensors_.follows_shaft(); }
+  template <class Real>
+  void follow(const ShaftMotion<Real>& motion) {
+    sensors_.follow(motion);
+  }
 
  private:
   LeanDrive<Scalar> drive_;
@@ -187,6 +213,7 @@ class ProductDrive {
   using Command = control::BridgeCommand<Scalar>;
   using Config = control::ProtectedConfig<Scalar>;
   static constexpr bool fault_ends_run = false;
+  static constexpr bool decodes_arrangement = true;  ///< its configuration names that of its probes
 
   /// It knows its turn: position counts on from where the rotor stands.
   ProductDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
@@ -215,6 +242,7 @@ class ProductDrive {
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_.drive; }
   control::Activity activity() const { return telemetry_.activity; }
   const Diagnosis& diagnosis() const { return diagnosis_; }
+  Registers& registers() { return registers_; }
 
  private:
   Config config_;

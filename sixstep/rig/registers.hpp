@@ -4,11 +4,19 @@
 #pragma once
 #include "sixstep/rig/adc.hpp"
 #include "sixstep/rig/capture_clock.hpp"
+#include "sixstep/rig/shaft_ports.hpp"
 #include "sixstep/sim/instant.hpp"
 
 namespace sixstep::rig {
 
 enum class CurrentMeasurement : std::uint8_t { ideal, phases, dc_link };
+
+/// Where speed and position between Hall edges come from.
+enum class HallAngleFrom : std::uint8_t {
+  sectors,        ///< sectors of 60 degrees, passed one by one
+  angle,          ///< an angle that runs on from edge to edge
+  learned_edges,  ///< the same, by edges whose places were learned as the rotor turned
+};
 
 struct SensorsConfig {
   AdcPath current{};  ///< of each phase, or of the shunt
@@ -25,11 +33,20 @@ struct SensorsConfig {
   bool decodes_hall = false;     ///< follow the lines, to name a broken one
   std::uint8_t commutation_samples = 0;
   std::uint8_t edges = 6;  ///< that a speed is taken over
-  double window_s = 0.0;   ///< one edge where these take longer; 0: always `edges`
+  HallAngleFrom hall_angle = HallAngleFrom::sectors;
+  bool commutates_by_angle = false;     ///< at a sample, by the angle seen
+  std::uint8_t learned_edges = 1;       ///< that a speed is taken over once their places are known
+  std::uint16_t calibration_turns = 8;  ///< electrical ones that edges are learned from
+  double hall_delay_s = 0.0;            ///< by which edges are seen late, as the data sheet says
+  double hall_hysteresis_deg = 0.0;
+  double window_s = 0.0;  ///< one edge where these take longer; 0: always `edges`
+  ShaftGiven shaft{};     ///< an encoder or a resolver in the place of the Hall probes
+  double period_s = 0.0;  ///< of the control ticks
 
   /// The controller is told what is.
   bool ideal() const {
-    return currents == CurrentMeasurement::ideal && !measures_bus && !rotor_from_hall && !decodes_hall;
+    return currents == CurrentMeasurement::ideal && !measures_bus && !rotor_from_hall && !decodes_hall &&
+           shaft.kind == ShaftSensor::none;
   }
 };
 
@@ -49,6 +66,7 @@ struct Sample {
   std::uint64_t number = 0;
   double duty = 0.0;
   bool reversed = false;
+  plant::ShaftAngle<double> shaft{};
 };
 
 class Registers {
@@ -64,16 +82,23 @@ class Registers {
   std::uint16_t bus_counts(const Sample& s) const {
     return converted(bus_, s.bus_V, {seed_, stream + bus_input, s.number});
   }
+  /// Of terminal 0 to 2, behind the bus's divider and converter.
+  std::uint16_t terminal_counts(std::size_t leg, double u_V, std::uint64_t sample) const {
+    return converted(bus_, u_V, {seed_, stream + terminals + leg, sample});
+  }
   /// A sample before the run, with the bridge off and no current.
   std::uint16_t calibration_counts(std::size_t input, std::uint64_t sample) const {
     return converted(current_, 0.0, {seed_, stream + calibration + input, sample});
   }
+  /// In the unit of the current, from now on.
+  void set_current_offset(double offset_A) { current_.offset = offset_A; }
+  void set_current_gain_error(double part) { current_.gain_error = part; }
   /// The free-running counter.
   std::uint32_t counter(const sim::Instant& t) const { return capture_.counts(t); }
 
  private:
   // Which input a random number belongs to; far from the streams of a series' spread.
-  static constexpr std::uint64_t stream = std::uint64_t{0x5e5} << 32, calibration = 8;
+  static constexpr std::uint64_t stream = std::uint64_t{0x5e5} << 32, calibration = 8, terminals = 16;
   static constexpr std::size_t bus_input = 3;
 
   AdcPath current_{}, bus_{};

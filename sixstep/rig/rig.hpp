@@ -3,18 +3,23 @@
 // timeline. It is the System that sim::run drives; the order of things at one instant is act()'s (model.md
 // 4b). What its chip runs is a template parameter (firmware.hpp).
 #pragma once
+#include <algorithm>
 #include <array>
 #include <type_traits>
 
-#include "sixstep/plant/hall.hpp"
 #include "sixstep/plant/plant.hpp"
+#include "sixstep/plant/terminals.hpp"
+#include "sixstep/rig/crossing_comparators.hpp"
 #include "sixstep/rig/firmware.hpp"
+#include "sixstep/rig/front_end.hpp"
 #include "sixstep/rig/modulator.hpp"
+#include "sixstep/rig/probes.hpp"
 #include "sixstep/rig/timeline.hpp"
+#include "sixstep/rig/wiring.hpp"
 
 namespace sixstep::rig {
 
-enum class Fault : std::uint8_t { none, shoot_through, impossible_hall };
+enum class Fault : std::uint8_t { none, shoot_through, impossible_hall, beyond_model };
 
 /// Kinds of events, for the run's statistics.
 enum class EventKind : std::uint8_t {
@@ -36,26 +41,47 @@ class Rig {
   using Modulator = typename ModulatorFor<typename Firmware::Command>::type;
   using Config = typename Firmware::Config;
   using Tunings = std::vector<Tuning<Config>>;
+  using Wires = typename WiringFor<Plant>::type;
+  using Probes = typename ProbesFor<Plant>::type;
 
-  /// `tunings`: what the timeline's retune actions name. A copy of a rig is its snapshot.
+  /// `tunings`: what the timeline's retune actions name. `wires`: how the motor hangs at the board at the start. `probes`: how
+  /// its Hall probes are built in. A copy of a rig is its snapshot.
   Rig(const Plant& plant, const Config& chip, const BoardConfig& board, Timeline timeline,
-      Tunings tunings = {})
+      Tunings tunings = {}, const Wires& wires = {}, const ProbeGiven& probes = {})
       : plant_(plant),
         timeline_(std::move(timeline)),
         tunings_(std::move(tunings)),
         board_(board),
         modulator_(board.modulator),
+        wires_(wires),
+        probes_(probes, plant_.state()),
         firmware_(chip, board,
-                  {static_cast<double>(plant_.constants().pole_pairs), plant_.state().sector,
-                   plant::hall_code(plant_.sector())}) {}
+                  {static_cast<double>(plant_.constants().pole_pairs), probes_.sector(plant_.state().sector),
+                   read_by_chip(wires_.at_pins(probes_.code(plant_.sector()))), shaft_angle()}),
+        front_end_(front_end_before(board.front_end)),
+        crossings_(crossings_before(board.front_end)),
+        listens_(listens()) {}
 
   sim::Instant now() const { return now_; }
   sim::Instant next_known() const { return due_; }
   bool act();
-  double expand(double wanted) { return plant_.expand(wanted); }
+  double expand(double wanted) {
+    if constexpr (has_crossings)
+      if (crossings_.fitted()) return plant_.expand(std::min(wanted, crossings_.longest_s()));
+    return plant_.expand(wanted);
+  }
   template <class Visit>
-  void guards(Visit&& visit) const;
+  void guards(Visit&& visit) const {
+    plant_.guards(visit);
+    if constexpr (can_be_askew) probe_guards(visit);
+    if constexpr (six_step)
+      if (watching()) comparator_guards(visit);
+    if constexpr (has_crossings)
+      if (crossings_.fitted()) crossing_guards(visit);
+  }
   void advance(Real s, const sim::Instant& to) {
+    if constexpr (may_listen)
+      if (listens_) show_segment(s, to);
     plant_.advance(s);
     now_ = to;
   }
@@ -68,6 +94,10 @@ class Rig {
   const Plant& plant() const { return plant_; }
   const Modulator& modulator() const { return modulator_; }
   const Firmware& firmware() const { return firmware_; }
+  /// Of a firmware that has converters.
+  const auto& front_end() const { return front_end_; }
+  /// Of a firmware that captures the edges of comparators at the terminals.
+  const auto& crossings() const { return crossings_; }
   const auto& telemetry() const { return firmware_.telemetry(); }
   double current_reference_A() const {
     return to_si(telemetry().current_reference_A, board_.bases.current_A);
@@ -77,9 +107,25 @@ class Rig {
   }
   double setpoint() const { return setpoint_; }
   Fault fault() const { return fault_; }
-  /// H1 H2 H3 as the board's pins have them: the probes', but for a line that is stuck.
+  /// H1 H2 H3 as the board's pins have them: those of the probes that are wired to them, but for a line that is stuck.
   std::uint8_t pins() const {
-    return static_cast<std::uint8_t>((plant::hall_code(plant_.sector()) & ~stuck_low_) | stuck_high_);
+    return static_cast<std::uint8_t>((wires_.at_pins(probes_.code(plant_.sector())) & ~stuck_low_) |
+                                     stuck_high_);
+  }
+  const Wires& wires() const { return wires_; }
+  /// The gates of the board's legs: those of the phases that hang at them.
+  decltype(auto) leg_gates() const { return wires_.at_legs(plant_.gates()); }
+  /// The sector that the board takes the rotor to be in; the rotor's own where the lines show none.
+  int board_sector() const {
+    if constexpr (std::is_same_v<Wires, StraightWiring>) return plant_.sector();
+    const std::uint8_t seen = control::sector_of_hall(
+        control::as_120_degrees(board_.hall_arrangement, wires_.at_pins(probes_.code(plant_.sector()))));
+    return seen == control::no_sector ? plant_.sector() : seen;
+  }
+  /// The sector that the motor's probes show, whatever their wires do to it: by it the motor current is named.
+  int probe_sector() const {
+    if constexpr (can_be_askew) return static_cast<int>((probes_.sector(plant_.state().sector) % 6 + 6) % 6);
+    return plant_.sector();
   }
   std::int64_t event_count(EventKind what) const { return event_counts_[static_cast<std::size_t>(what)]; }
   /// True between a control tick and the segment that follows it.
@@ -91,7 +137,63 @@ class Rig {
   /// What only six-step has: a sign, a pair that moves on at Hall edges, comparators.
   static constexpr bool six_step = std::is_same_v<Modulator, SixStepModulator>;
   using BoardAnswer = typename Modulator::Command;
+  static constexpr bool can_be_askew = requires(Probes probes) { probes.next(); };
+  static constexpr bool has_front_end = requires(Firmware firmware) { firmware.registers(); };
+  static constexpr bool looks_at_terminals = requires(Firmware firmware) {
+    firmware.look_at_terminals(plant::PerLeg<Real>{});
+  };
+  static constexpr bool has_crossings = requires(Firmware firmware) {
+    firmware.captured_crossing(std::uint8_t{}, sim::Instant{});
+  };
+  static constexpr bool may_listen = has_front_end || requires(const Firmware& firmware) {
+    firmware.follows_shaft();
+  };
+  static_assert(!has_crossings || (has_front_end && looks_at_terminals));
+  static constexpr int probe_ahead = plant::guard::first_free + 2, probe_behind = probe_ahead + 1,
+                       crossing = probe_behind + 1;  // + leg
 
+  /// A drive that knows no arrangement is given codes of probes 120 degrees apart.
+  std::uint8_t read_by_chip(std::uint8_t pins) const {
+    if constexpr (can_be_askew && !requires { requires Firmware::decodes_arrangement; })
+      return control::as_120_degrees(board_.hall_arrangement, pins);
+    return pins;
+  }
+  std::uint8_t chip_pins() const { return read_by_chip(pins()); }
+  static constexpr bool has_load_side = requires(const Plant& p) { p.series().load_w; };
+  /// Of the shaft that a sensor stands on, at the start.
+  plant::ShaftAngle<double> shaft_angle() const {
+    if constexpr (has_load_side)
+      if (board_.sensors.shaft.on_load)
+        return in_sixths(static_cast<double>(plant_.constants().inv_gear) *
+                         (static_cast<double>(plant_.state().sector) * base::sector_rad +
+                          static_cast<double>(plant_.state().x)) /
+                         static_cast<double>(plant_.constants().pole_pairs));
+    return {plant_.state().sector, static_cast<double>(plant_.state().x),
+            static_cast<std::int64_t>(plant_.constants().pole_pairs)};
+  }
+  bool listens() const;
+  /// By itself: few boards have anything that looks between two samples.
+  [[gnu::noinline]] void show_segment(Real s, const sim::Instant& to);
+  void show_terminals();
+  void show_signals(Real s, const sim::Instant& to);
+  std::conditional_t<has_front_end, FrontEnd, NoFrontEnd> front_end_before(
+      const FrontEndConfig& config) const;
+  std::conditional_t<has_crossings, Crossings, NoCrossings> crossings_before(
+      const FrontEndConfig& config) const;
+  FrontEndSegment<Real> segment(Real s, const sim::Instant& to) const {
+    return {plant_.expansion(),
+            {wires_.phase(0), wires_.phase(1), wires_.phase(2)},
+            plant_.mode().legs,
+            s,
+            now_,
+            to,
+            next_sample()};
+  }
+  template <class Visit>
+  void crossing_guards(Visit&& visit) const;
+  void pass_crossing(int leg);
+  sim::Instant next_sample() const;
+  ShaftMotion<Real> shaft_motion(Real s, const sim::Instant& to) const;
   sim::Instant next_due() const;
   bool watching() const {
     if constexpr (six_step) return modulator_.watching();
@@ -106,16 +208,39 @@ class Rig {
   bool compare();
   bool do_timeline();
   void do_action(const Action& action);
+  void act_on_general(const Action& action);
   bool do_tick();
   bool do_half_tick();
   void set_hall_line(double line, bool stuck_high, bool stuck_low);
+  void rewire(const Action& action);
+  void drift(const Action& action);
+  void fail_shaft_sensor(const Action& action);
   void control_step(bool starts_period);
   void follow_waveform();
   void skip_idle_ticks();
+  /// Thermal steps end on control ticks.
+  void warm_up() {
+    if constexpr (requires { plant_.take_thermal_step(); })
+      if (plant_.warms()) plant_.take_thermal_step();
+  }
   sim::Instant told_next() const;
   void sector_edge();
-  void hall_edge();
+  template <class Visit>
+  void probe_guards(Visit&& visit) const;
+  void pass_probe_edge(plant::ProbeEdge which);
+  bool show_probes();
+  void glitch(const Action& action);
+  void hall_edge() {
+    firmware_.captured(chip_pins(), now_);
+    if constexpr (six_step)
+      if (!board_.commutate_at_sample) commutate();
+  }
   void commutate();
+  template <class Answer>
+  void move_pair(const Answer& answer);
+  /// A timer's interrupt between two ticks: of a firmware that asks for one.
+  static constexpr bool has_commutation_clock = requires(const Firmware& f) { f.next_commutation(); };
+  bool do_commutation();
   template <class Visit>
   void comparator_guards(Visit&& visit) const;
   void trip(int which);
@@ -128,6 +253,8 @@ class Rig {
   Tunings tunings_;
   BoardConfig board_;
   Modulator modulator_;
+  [[no_unique_address]] Wires wires_;
+  [[no_unique_address]] Probes probes_;
 
   sim::Instant now_{}, next_tick_{};
   sim::Instant due_{};  ///< the earliest of all clocks
@@ -138,7 +265,10 @@ class Rig {
   BoardAnswer loaded_{};                             ///< sampled in the middle: what the timer takes up next
   std::array<std::int64_t, static_cast<std::size_t>(EventKind::count)> event_counts_{};
   Firmware firmware_;
-  bool moved_ = true;  ///< a located event changed what the board drives
+  [[no_unique_address]] std::conditional_t<has_front_end, FrontEnd, NoFrontEnd> front_end_;
+  [[no_unique_address]] std::conditional_t<has_crossings, Crossings, NoCrossings> crossings_;
+  bool listens_ = false;  ///< a port or the front end looks between two samples
+  bool moved_ = true;     ///< a located event changed what the board drives
   bool moving_ = false;
   bool pending_reversed_ = false,
        reversed_ = false;                        ///< sign of the command that waits, and of the one in effect
@@ -148,150 +278,13 @@ class Rig {
   std::uint8_t stuck_high_ = 0, stuck_low_ = 0;  ///< Hall lines, as bits of a code
 };
 
-template <class Real, class Firmware, class Plant>
-sim::Instant Rig<Real, Firmware, Plant>::next_due() const {
-  sim::Instant next = modulator_.next_edge();
-  if (next_tick_ < next) next = next_tick_;
-  if (next_action_ < timeline_.size() && timeline_[next_action_].at < next) next = timeline_[next_action_].at;
-  return next;
-}
-
-/// All that is due now, decided by the clocks alone: scenario step, control tick, PWM edge, comparator,
-/// repeated until nothing is due. The gates follow at the end, so that a leg never sees an order of things at
-/// one instant.
-template <class Real, class Firmware, class Plant>
-bool Rig<Real, Firmware, Plant>::act() {
-  ticked_ = false;
-  // mutant: now_ < due_ && !moved_ && !watching() => now_ < due_ && !watching()
-  if (now_ < due_ && !moved_ && !watching()) return true;
-  return act_on_due();
-}
-
-template <class Real, class Firmware, class Plant>
-bool Rig<Real, Firmware, Plant>::act_on_due() {
-  if (moved_) due_ = next_due();
-  moved_ = false;
-  do {
-    while (fault_ == Fault::none && !(now_ < due_)) {
-      // mutant: !do_timeline() && !do_tick() => !do_tick() && !do_timeline()
-      if (!do_timeline() && !do_tick() && modulator_.act(now_)) count(EventKind::pwm_edge);
-      due_ = next_due();
-    }
-  } while (fault_ == Fault::none && compared());
-  if (fault_ == Fault::none && !plant_.set_gates(modulator_.gates())) fault_ = Fault::shoot_through;
-  return fault_ == Fault::none;
-}
-
-template <class Real, class Firmware, class Plant>
-bool Rig<Real, Firmware, Plant>::do_tick() {
-  if (now_ < next_tick_) return false;
-  if (board_.sampled_in_middle) return do_half_tick();
-  next_tick_.ticks += board_.modulator.period_ticks;
-  control_step(true);
-  skip_idle_ticks();
-  count(EventKind::tick);
-  return ticked_ = true;
-}
-
-template <class Real, class Firmware, class Plant>
-void Rig<Real, Firmware, Plant>::control_step(bool starts_period) {
-  if (moving_) follow_waveform();
-  SampleInstant<Real> instant{plant_.state(),
-                              plant_.mode().legs,
-                              plant_.constants().pole_pairs,
-                              now_,
-                              static_cast<std::uint64_t>(event_count(EventKind::tick)),
-                              pins(),
-                              reversed_};
-  if constexpr (six_step) instant.duty = modulator_.command().duty;
-  const auto& answer = firmware_.tick(instant, setpoint_);
-  if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
-  if (!answer.enabled) let_go();
-  BoardAnswer command = widened(answer, board_.bases);
-  bool reversed = false;
-  if constexpr (six_step) reversed = firmware_.reversed();
-  if (board_.delayed) {
-    std::swap(command, pending_);
-    // mutant: std::swap(reversed, pending_reversed_); => nothing
-    std::swap(reversed, pending_reversed_);
-  }
-  if (board_.sampled_in_middle) {
-    loaded_ = command;
-    loaded_reversed_ = reversed;
-    return;
-  }
-  reversed_ = reversed;
-  if constexpr (six_step)
-    if (!starts_period) return modulator_.rearm(now_, command);
-  modulator_.start_period(now_, command);
-}
-
-/// Turning off waits for no register: neither for a delayed command nor for one that the timer has loaded.
-template <class Real, class Firmware, class Plant>
-void Rig<Real, Firmware, Plant>::let_go() {
-  modulator_.turn_off(now_);
-  pending_.enabled = loaded_.enabled = false;
-}
-
-/// The tick that sees the next action which is the chip's: a setpoint or a tuning; never where none is left.
-template <class Real, class Firmware, class Plant>
-sim::Instant Rig<Real, Firmware, Plant>::told_next() const {
-  const std::int64_t period = board_.modulator.period_ticks;
-  for (std::size_t n = next_action_; n < timeline_.size(); ++n)
-    if (timeline_[n].kind == ActionKind::setpoint || timeline_[n].kind == ActionKind::retune)
-      // mutant: timeline_[n].at.ticks + period - 1 => timeline_[n].at.ticks + period
-      return {(timeline_[n].at.ticks + period - 1) / period * period, 0.0};
-  return sim::Instant::never();
-}
-
-/// Open loop with a steady bridge asks nothing of the coming ticks until the chip is told something: they are
-/// not simulated.
-template <class Real, class Firmware, class Plant>
-void Rig<Real, Firmware, Plant>::skip_idle_ticks() {
-  // mutant: moving_ => false
-  if (!firmware_.open_loop() || moving_ || board_.delayed || board_.commutate_at_sample ||
-      !modulator_.steady())
-    return;
-  if (const sim::Instant told = told_next(); told > now_) next_tick_ = told;
-}
-
-template <class Real, class Firmware, class Plant>
-void Rig<Real, Firmware, Plant>::hall_edge() {
-  firmware_.captured(pins(), now_);
-  if constexpr (six_step)
-    if (!board_.commutate_at_sample) commutate();
-}
-
-template <class Real, class Firmware, class Plant>
-template <class Visit>
-void Rig<Real, Firmware, Plant>::guards(Visit&& visit) const {
-  plant_.guards(visit);
-  if constexpr (six_step)
-    if (watching()) comparator_guards(visit);
-}
-
-template <class Real, class Firmware, class Plant>
-void Rig<Real, Firmware, Plant>::apply(int id) {
-  using namespace plant;
-  if (id >= guard::first_free) {
-    count(EventKind::comparator);
-    moved_ = true;
-    if constexpr (six_step) trip(id - guard::first_free);
-    return;
-  }
-  if (id < guard::standstill) count(EventKind::diode_off);
-  if (id == guard::standstill) count(EventKind::standstill);
-  if (id == guard::breakaway_forward || id == guard::breakaway_backward) count(EventKind::breakaway);
-  if (!plant_.apply(id)) return;
-  sector_edge();
-  moved_ = true;
-}
-
 /// The rig of the thesis's experiments: ideal measurement, the loops alone.
 template <class Real, class Scalar = Real>
 using LeanRig = Rig<Real, LeanDrive<Scalar>>;
 
 }  // namespace sixstep::rig
 
+#include "sixstep/rig/rig_act.hpp"
+#include "sixstep/rig/rig_front_end.hpp"
 #include "sixstep/rig/rig_inputs.hpp"
 #include "sixstep/rig/rig_six_step.hpp"

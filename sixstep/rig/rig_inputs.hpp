@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rig's inputs: the scenario's timeline, the Hall lines and the sample in the middle of a period. Part of
-// rig.hpp.
+// The rig's clocks and inputs: the scenario's timeline, the ticks that it lets be skipped, the Hall lines, wires and amplifiers that
+// change, and the sample in the middle of a period. Part of rig.hpp.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
@@ -13,11 +13,25 @@ bool Rig<Real, Firmware, Plant>::do_timeline() {
   return true;
 }
 
+/// What only the general kernel's plant has.
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::act_on_general(const Action& action) {
+  if constexpr (requires { plant_.fail_switch(0, false, false); }) {
+    if (action.kind == ActionKind::wire_break) return plant_.break_wire(static_cast<int>(action.value));
+    if (action.kind == ActionKind::shaft_speed) return plant_.set_speed(action.value, action.waveform.rate);
+    const int which = static_cast<int>(action.value) - 1;
+    plant_.fail_switch(which / 2, which % 2 == 0, action.kind == ActionKind::switch_short);
+  }
+}
+
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::do_action(const Action& action) {
   switch (action.kind) {
     case ActionKind::load_torque:
-      return plant_.set_load(action.value);
+      if constexpr (requires { plant_.set_load(0.0, 0.0); })
+        return plant_.set_load(action.value, action.waveform.rate);
+      else
+        return plant_.set_load(action.value);
     case ActionKind::shaft_locked:
       return plant_.set_locked(action.value != 0);
     case ActionKind::source_voltage:
@@ -37,8 +51,23 @@ void Rig<Real, Firmware, Plant>::do_action(const Action& action) {
     case ActionKind::dead_time:
       return modulator_.set_dead_time(action.value);
     case ActionKind::wire_break:
-      if constexpr (requires { plant_.break_wire(0); }) plant_.break_wire(static_cast<int>(action.value));
-      return;
+    case ActionKind::switch_open:
+    case ActionKind::switch_short:
+    case ActionKind::shaft_speed:
+      return act_on_general(action);
+    case ActionKind::wire_phases:
+    case ActionKind::wire_probes:
+    case ActionKind::invert_lines:
+      return rewire(action);
+    case ActionKind::current_offset:
+    case ActionKind::current_gain:
+      return drift(action);
+    case ActionKind::hall_glitch:
+      return glitch(action);
+    case ActionKind::encoder_misses:
+    case ActionKind::track_sticks:
+    case ActionKind::winding_breaks:
+      return fail_shaft_sensor(action);
     case ActionKind::setpoint:
       break;
   }
@@ -47,6 +76,30 @@ void Rig<Real, Firmware, Plant>::do_action(const Action& action) {
   waveform_ = next_action_ - 1;
   // mutant: !board_.delayed => true
   if (firmware_.follows_setpoint_at_once() && !board_.delayed) control_step(false);
+}
+
+/// The tick that sees the next action which is the chip's: a setpoint or a tuning; never where none is left.
+template <class Real, class Firmware, class Plant>
+sim::Instant Rig<Real, Firmware, Plant>::told_next() const {
+  const std::int64_t period = board_.modulator.period_ticks;
+  for (std::size_t n = next_action_; n < timeline_.size(); ++n)
+    if (timeline_[n].kind == ActionKind::setpoint || timeline_[n].kind == ActionKind::retune)
+      // mutant: timeline_[n].at.ticks + period - 1 => timeline_[n].at.ticks + period
+      return {(timeline_[n].at.ticks + period - 1) / period * period, 0.0};
+  return sim::Instant::never();
+}
+
+/// Open loop with a steady bridge asks nothing of the coming ticks until the chip is told something: they are
+/// not simulated.
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::skip_idle_ticks() {
+  if constexpr (requires { plant_.warms(); })
+    if (plant_.warms()) return;
+  // mutant: moving_ => false
+  if (!firmware_.open_loop() || moving_ || board_.delayed || board_.commutate_at_sample ||
+      !modulator_.steady())
+    return;
+  if (const sim::Instant told = told_next(); told > now_) next_tick_ = told;
 }
 
 /// Ticks that were skipped since nothing was to come are due again where something is.
@@ -75,11 +128,61 @@ void Rig<Real, Firmware, Plant>::follow_waveform() {
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::sector_edge() {
   count(EventKind::sector_edge);
+  if (probes_.mounted()) return;  // what the lines show has edges of its own
   const std::uint8_t stuck = stuck_high_ | stuck_low_;
   // The one line that changes between this sector and its neighbour behind is stuck: no edge on the pins.
   const int s = plant_.sector(), behind = (s + (plant_.state().w < Real(0) ? 1 : 5)) % 6;
-  if ((plant::hall_code(s) ^ plant::hall_code(behind)) & stuck) return;
+  if ((wires_.at_pins(probes_.code(s)) ^ wires_.at_pins(probes_.code(behind))) & stuck) return;
   hall_edge();
+}
+
+/// The tick that comes next, or the middle behind it.
+template <class Real, class Firmware, class Plant>
+sim::Instant Rig<Real, Firmware, Plant>::next_sample() const {
+  sim::Instant sample = next_tick_;
+  if (board_.sampled_in_middle && !half_) sample.ticks += board_.modulator.period_ticks / 2;
+  return sample;
+}
+
+template <class Real, class Firmware, class Plant>
+template <class Visit>
+void Rig<Real, Firmware, Plant>::probe_guards(Visit&& visit) const {
+  probes_.guards(plant_.expansion(), plant_.state().sector,
+                 [&](plant::ProbeEdge edge, const series::Coefficients<Real>& g, int degree, Real noise) {
+                   visit(edge == plant::ProbeEdge::ahead ? probe_ahead : probe_behind, g, degree, noise);
+                 });
+}
+
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::pass_probe_edge(plant::ProbeEdge which) {
+  if constexpr (can_be_askew) {
+    const std::uint8_t before = pins();
+    probes_.pass(which, now_);
+    moved_ = true;
+    if (pins() != before) hall_edge();
+  }
+}
+
+/// A Hall edge whose delay is over; several may be due at once.
+template <class Real, class Firmware, class Plant>
+bool Rig<Real, Firmware, Plant>::show_probes() {
+  if constexpr (can_be_askew) {
+    const std::uint8_t before = pins();
+    if (!probes_.show(now_)) return false;
+    if (pins() != before) hall_edge();
+    return true;
+  }
+  return false;
+}
+
+/// A glitch begins or ends: the probe's own line, wherever it is wired to.
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::glitch(const Action& action) {
+  if constexpr (can_be_askew) {
+    const std::uint8_t before = pins();
+    probes_.glitch(static_cast<std::uint8_t>(8 >> static_cast<int>(action.value)));
+    if (pins() != before) hall_edge();
+  }
 }
 
 /// A line breaks or is whole again: where it stood the other way, that is an edge on the pins.
@@ -94,6 +197,41 @@ void Rig<Real, Firmware, Plant>::set_hall_line(double line, bool stuck_high, boo
   if (pins() != before) hall_edge();
 }
 
+/// Wires are crossed in no time: each phase keeps its current, through the leg at which it now hangs. Lines that change are
+/// one edge on the pins.
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::rewire(const Action& action) {
+  if constexpr (std::is_same_v<Wires, Wiring>) {
+    const std::uint8_t before = pins();
+    const auto chosen = static_cast<std::uint8_t>(action.value);
+    if (action.kind == ActionKind::wire_phases) wires_.phases = static_cast<WireOrder>(chosen);
+    if (action.kind == ActionKind::wire_probes) wires_.probes = static_cast<WireOrder>(chosen);
+    if (action.kind == ActionKind::invert_lines) wires_.inverted = chosen;
+    if (pins() != before) hall_edge();
+  }
+}
+
+/// The amplifiers show something else from now on. A firmware that is told what is has none.
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::drift(const Action& action) {
+  if constexpr (requires { firmware_.registers(); }) {
+    if (action.kind == ActionKind::current_offset) firmware_.registers().set_current_offset(action.value);
+    if (action.kind == ActionKind::current_gain) firmware_.registers().set_current_gain_error(action.value);
+  }
+}
+
+/// Of a firmware that looks at a shaft.
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::fail_shaft_sensor(const Action& action) {
+  if constexpr (requires { firmware_.shaft_ports(); }) {
+    ShaftPorts& ports = firmware_.shaft_ports();
+    const int which = static_cast<int>(std::fabs(action.value));
+    if (action.kind == ActionKind::encoder_misses) ports.miss(which);
+    if (action.kind == ActionKind::track_sticks) ports.stick_track(which - 1, action.value > 0);
+    if (action.kind == ActionKind::winding_breaks) ports.break_winding(which);
+  }
+}
+
 /// Sampled in the middle of a period: the answer waits in the timer's buffer for the next start.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::do_half_tick() {
@@ -105,9 +243,29 @@ bool Rig<Real, Firmware, Plant>::do_half_tick() {
     modulator_.start_period(now_, loaded_);
     return true;
   }
+  warm_up();
   control_step(true);
   count(EventKind::tick);
   return ticked_ = true;
+}
+
+template <class Real, class Firmware, class Plant>
+sim::Instant Rig<Real, Firmware, Plant>::next_due() const {
+  sim::Instant next = modulator_.next_edge();
+  if (next_tick_ < next) next = next_tick_;
+  if (next_action_ < timeline_.size() && timeline_[next_action_].at < next) next = timeline_[next_action_].at;
+  if constexpr (can_be_askew)
+    if (const sim::Instant shown = probes_.next(); shown < next) next = shown;
+  if constexpr (has_commutation_clock)
+    if (firmware_.next_commutation() < next) next = firmware_.next_commutation();
+  return next;
+}
+
+/// Turning off waits for no register: neither for a delayed command nor for one that the timer has loaded.
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::let_go() {
+  modulator_.turn_off(now_);
+  pending_.enabled = loaded_.enabled = false;
 }
 
 }  // namespace sixstep::rig

@@ -9,7 +9,23 @@ namespace sixstep::rig {
 /// The Hall interrupt of six-step: the pair moves on, in what is in effect and in what waits.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::commutate() {
-  const auto answer = firmware_.hall_interrupt(pins(), now_);
+  move_pair(firmware_.hall_interrupt(chip_pins(), now_));
+}
+
+/// Between two ticks: of a firmware that commutates by a clock of its own.
+template <class Real, class Firmware, class Plant>
+bool Rig<Real, Firmware, Plant>::do_commutation() {
+  if constexpr (has_commutation_clock) {
+    if (now_ < firmware_.next_commutation()) return false;
+    move_pair(firmware_.commutation_interrupt(now_));
+    return true;
+  }
+  return false;
+}
+
+template <class Real, class Firmware, class Plant>
+template <class Answer>
+void Rig<Real, Firmware, Plant>::move_pair(const Answer& answer) {
   if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
   if (!answer.enabled) return let_go();
   // mutant: pending_.pair = answer.pair; => nothing
@@ -24,7 +40,7 @@ void Rig<Real, Firmware, Plant>::commutate() {
 /// Comparators beyond their level; true where one switched.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::compare() {
-  const int switched = modulator_.compare(now_, plant_.state().i);
+  const int switched = modulator_.compare(now_, wires_.at_legs(plant_.state().i));
   event_counts_[static_cast<std::size_t>(EventKind::comparator)] += switched;
   due_ = next_due();
   return switched > 0;
@@ -39,7 +55,7 @@ void Rig<Real, Firmware, Plant>::trip(int which) {
   modulator_.comparator_tripped(now_, which);
   if (!same_level || plant::connected_count(plant_.mode().legs) != 2) return;
   const plant::PerLeg<double> weight = modulator_.comparator_weights(1 - which);
-  const plant::PerLeg<Real>& i = plant_.state().i;
+  const plant::PerLeg<Real>& i = wires_.at_legs(plant_.state().i);
   const Real current = Real(weight[0]) * i[0] + Real(weight[1]) * i[1] + Real(weight[2]) * i[2];
   if (std::fabs(current - Real(other.level_A)) > plant_.constants().amp_noise) return;
   count(EventKind::comparator);
@@ -56,7 +72,8 @@ void Rig<Real, Firmware, Plant>::comparator_guards(Visit&& visit) const {
     const plant::Expansion<Real>& y = plant_.expansion();
     const Real sign = c.switches_off ? Real(-1) : Real(1);
     const auto current = [&](int j) {
-      return sign * (Real(weight[0]) * y.i[0][j] + Real(weight[1]) * y.i[1][j] + Real(weight[2]) * y.i[2][j]);
+      return sign * (Real(weight[0]) * y.i[wires_.phase(0)][j] + Real(weight[1]) * y.i[wires_.phase(1)][j] +
+                     Real(weight[2]) * y.i[wires_.phase(2)][j]);
     };
     series::Coefficients<Real> g;
     g[0] = current(0) - sign * Real(c.level_A);

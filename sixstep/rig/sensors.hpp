@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sensors measure for the lean drive by the controller's own blocks: phase currents or one shunt in the DC
-// link, the bus, speed and position by captured Hall edges. Every input is ideal until its part is switched
+// link, the bus, speed and position by captured Hall edges, an encoder or a resolver. Every input is ideal until its part is switched
 // on.
 #pragma once
 #include "sixstep/base/angle.hpp"
@@ -8,16 +8,17 @@
 #include "sixstep/control/hall.hpp"
 #include "sixstep/control/hall_speed.hpp"
 #include "sixstep/control/one_shunt.hpp"
-#include "sixstep/rig/bases.hpp"
+#include "sixstep/rig/board_config.hpp"
+#include "sixstep/rig/hall_interpolator.hpp"
 #include "sixstep/rig/registers.hpp"
+#include "sixstep/rig/rotor_decoder.hpp"
 
 namespace sixstep::rig {
 
 template <class Scalar>
 class Sensors {
  public:
-  Sensors(const SensorsConfig& config, const Bases& bases, double pole_pairs, std::int64_t sector,
-          std::uint8_t pins);
+  Sensors(const SensorsConfig& config, const Bases& bases, const PowerUp& power_up);
 
   /// A Hall line changed.
   void hall_edge(std::uint8_t pins, const sim::Instant& at);
@@ -28,12 +29,23 @@ class Sensors {
   }
   /// Puts what was sensed in the place of what is.
   void sense(control::Measurement<Scalar>& measured, const Sample& sample);
+  Registers& registers() { return registers_; }
+  ShaftPorts& shaft_ports() { return ports_; }
+  const HallInterpolator<Scalar>& interpolator() const { return interpolator_; }
+  bool follows_shaft() const { return config_.shaft.kind != ShaftSensor::none; }
+  template <class Real>
+  void follow(const ShaftMotion<Real>& motion) {
+    ports_.follow(motion);
+  }
   /// 1..3: the line that made an impossible code; 0: none, or it cannot be told.
   std::uint8_t broken_line() const { return broken_line_; }
 
  private:
   static constexpr std::size_t bus_input = 3;
 
+  bool interpolates() const {
+    return config_.rotor_from_hall && config_.hall_angle != HallAngleFrom::sectors;
+  }
   bool decodes_hall() const { return config_.decodes_hall || config_.rotor_from_hall; }
   Scalar current(std::size_t input, double i_A, const Sample& s) const {
     return control::adc_value(current_adc_, adc_[input], registers_.current_counts(input, i_A, s.number));
@@ -43,6 +55,9 @@ class Sensors {
 
   SensorsConfig config_;
   Registers registers_;
+  ShaftPorts ports_;
+  RotorDecoder<Scalar> rotor_;
+  HallInterpolator<Scalar> interpolator_;
   control::AdcConfig<Scalar> current_adc_{}, bus_adc_{};
   control::AdcState adc_[4]{};
   control::OneShuntConfig<Scalar> shunt_config_{};
@@ -56,20 +71,14 @@ class Sensors {
   std::uint8_t broken_line_ = 0;
 };
 
-/// Of a gain whose output is counted in raw units (adc.hpp, hall_speed.hpp): the last bit of a fixed format.
 template <class Scalar>
-double raw_unit() {
-  if constexpr (std::is_arithmetic_v<Scalar>)
-    return 1.0;
-  else
-    return static_cast<double>(Scalar::from_raw(1));
-}
-
-template <class Scalar>
-Sensors<Scalar>::Sensors(const SensorsConfig& config, const Bases& bases, double pole_pairs,
-                         std::int64_t sector, std::uint8_t pins)
-    : config_(config), registers_(config) {
-  const double sector_rad = base::pi / 3 / pole_pairs, sector_deg = 60.0 / pole_pairs;
+Sensors<Scalar>::Sensors(const SensorsConfig& config, const Bases& bases, const PowerUp& power_up)
+    : config_(config),
+      registers_(config),
+      ports_(config.shaft, config.capture_Hz, config.seed, power_up.shaft),
+      rotor_(config, bases, power_up.shaft),
+      interpolator_(config, bases, power_up) {
+  const double sector_rad = base::pi / 3 / power_up.pole_pairs, sector_deg = 60.0 / power_up.pole_pairs;
   current_adc_ = decoding(config.current, bases.current_A);
   bus_adc_ = decoding(config.bus, bases.voltage_V);
   shunt_config_ = {Scalar(config.least_duty), config.commutation_samples, Scalar(config.fade)};
@@ -80,8 +89,8 @@ Sensors<Scalar>::Sensors(const SensorsConfig& config, const Bases& bases, double
   using Gain = control::Gain<Scalar>;
   position_config_ = {Gain(sector_deg / bases.position_deg / raw_unit<Scalar>()),
                       Gain(sector_deg / bases.position_deg)};
-  position_.sectors = static_cast<std::int32_t>(sector);
-  control::hall_step(hall_config_, hall_, pins);
+  position_.sectors = static_cast<std::int32_t>(power_up.sector);
+  control::hall_step(hall_config_, hall_, power_up.pins);
   if (config.calibrated) calibrate();
 }
 
@@ -111,12 +120,16 @@ void Sensors<Scalar>::hall_edge(std::uint8_t pins, const sim::Instant& at) {
   const control::HallReading reading = control::hall_step(
       hall_config_, hall_, pins, control::sector_time(speed_, speed_config_.grain_ticks, now));
   if (reading.line != 0) broken_line_ = reading.line;
+  if (interpolates()) interpolator_.edge(reading, now);
   control::hall_speed_edge(speed_, now, reading.moved);
   control::hall_position_edge(position_, reading.moved);
 }
 
 template <class Scalar>
 void Sensors<Scalar>::sense(control::Measurement<Scalar>& m, const Sample& s) {
+  // First: one shunt shows the current of the pair that the sector seen stands for.
+  if (follows_shaft()) rotor_.sense(m, s, ports_, registers_.counter(s.at));
+  if (interpolates()) interpolator_.measure(m, registers_.counter(s.at));
   if (config_.currents == CurrentMeasurement::phases) {
     m.i_a_A = current(0, s.i_A[0], s);
     m.i_b_A = current(1, s.i_A[1], s);
@@ -128,7 +141,7 @@ void Sensors<Scalar>::sense(control::Measurement<Scalar>& m, const Sample& s) {
     control::set_phase_currents(m, control::positive_pair(control::sector_of_hall(m.hall)), i_m);
   }
   if (config_.measures_bus) m.bus_V = control::adc_value(bus_adc_, adc_[bus_input], registers_.bus_counts(s));
-  if (!config_.rotor_from_hall) return;
+  if (!config_.rotor_from_hall || interpolates()) return;
   const std::uint32_t now = registers_.counter(s.at);
   m.speed_rad_s = control::hall_speed(speed_config_, speed_, now);
   m.position_deg = control::hall_position(position_config_, position_, speed_.direction,

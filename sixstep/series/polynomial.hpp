@@ -125,4 +125,12 @@ inline void add_compensated(Real& y, Real& low, Real dy) {
   y = sum;
 }
 
+/// A running sum with what its rounding has left.
+template <class Real>
+struct CompensatedSum {
+  Real value = 0, low = 0;
+  void add(Real by) { add_compensated(value, low, by); }
+  void set(Real to) { value = to, low = 0; }
+};
+
 }  // namespace sixstep::series

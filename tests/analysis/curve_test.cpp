@@ -148,7 +148,10 @@ TEST(Curve, ContinuousTorqueWarmsTheWindingToItsLimit) {
       const double friction = plant::friction_Nm(r.bench.motor.shaft, speed);
       const design::Heating heating{limits.continuous_A * limits.continuous_A * 1.03, friction * speed, 40};
       EXPECT_NEAR(design::steady_temperatures(model, heating)->winding_degC, 125, 1e-10) << speed;
-      EXPECT_NEAR(limits.continuous_Nm, 0.0335 * limits.continuous_A - friction, 1e-15);
+      // K_t of magnets as warm as the housing: 0.12 % less for each kelvin above 25 degC.
+      const double housing = design::steady_temperatures(model, heating)->housing_degC;
+      const double K_t = 0.0335 * (1 - 0.0012 * (housing - 25));
+      EXPECT_NEAR(limits.continuous_Nm, K_t * limits.continuous_A - friction, 1e-14);
       EXPECT_LT(limits.continuous_Nm, before);
       for (std::size_t n = 0; n < analysis::short_times_s.size(); ++n) {
         const design::Heating brief{limits.short_A[n] * limits.short_A[n] * 1.03, friction * speed, 40};
@@ -160,6 +163,30 @@ TEST(Curve, ContinuousTorqueWarmsTheWindingToItsLimit) {
       before = limits.continuous_Nm;
     }
   }
+}
+
+TEST(Curve, AWarmMotorTurnsFasterAndPullsLess) {
+  const CurveRequest cold = request(3);
+  CurveRequest warm = cold;
+  warm.motor_degC = {.winding_degC = 125, .housing_degC = 75};
+  warm.bench.motor = design::warmed(cold.bench.motor, cold.sheet, warm.motor_degC);
+  const double on_R = 1.393, on_K = 0.94;
+  EXPECT_NEAR(analysis::ideal_torque_Nm(warm.bench, 0),
+              analysis::ideal_torque_Nm(cold.bench, 0) * on_K / on_R, 1e-15);
+  const Curve here = whole(warm), there = whole(cold);
+  EXPECT_NEAR(here.points.front().shaft_torque_Nm / there.points.front().shaft_torque_Nm, on_K / on_R, 1e-9);
+  EXPECT_GT(here.no_load.point.speed_rad_s, there.no_load.point.speed_rad_s / on_K * 0.98);
+  // What the winding stands is the motor's, whatever temperature the curve was asked for.
+  const analysis::ThermalLimits a = analysis::thermal_limits(*here.thermal, warm, 300),
+                                b = analysis::thermal_limits(*there.thermal, cold, 300);
+  EXPECT_NEAR(a.continuous_A, b.continuous_A, 1e-12);
+  EXPECT_NEAR(a.continuous_Nm, b.continuous_Nm, 1e-14);
+  EXPECT_NEAR(a.short_Nm[0], b.short_Nm[0], 1e-14);
+  // The same current warms it to the same end.
+  const analysis::OperatingPoint& p = here.points.front();
+  const design::Heating heating{p.winding_current_A * p.winding_current_A * 1.03, 0, 25};
+  EXPECT_NEAR(*here.warming.front().permissible_s, *design::permissible_seconds(*here.thermal, heating),
+              1e-6);
 }
 
 TEST(Curve, APointHeldTooLongOverheats) {
@@ -188,6 +215,12 @@ TEST(Curve, RefusesWhatMakesNone) {
   refused([](CurveRequest& r) { r.points = 1; }, "points = 1 must be at least 2");
   refused([](CurveRequest& r) { r.bench.duty = -0.5; }, "duty = -0.5 must be in (0, 1]");
   refused([](CurveRequest& r) { r.ambient_degC = -300; }, "ambient_degC = -300");
+  refused([](CurveRequest& r) { r.motor_degC.winding_degC = 600; }, "winding_degC = 600");
+  const auto boil = [](CurveRequest& r) {
+    r.sheet.magnet_loss_percent_K = 1;
+    r.motor_degC.housing_degC = 120;
+  };
+  refused(boil, "housing_degC = 120 leaves the magnets");
   refused([](CurveRequest& r) { r.bench.voltage_V = 0; }, "voltage_V = 0 must be above 0");
   refused([](CurveRequest& r) { r.bench.motor.shaft.coulomb_Nm = 9; }, "duty = 1 gives no torque beyond");
 }

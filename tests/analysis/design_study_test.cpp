@@ -13,6 +13,7 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "tests/support/bench.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace {
@@ -137,7 +138,7 @@ TEST(PositionGain, IsTheThesissForItsMove) {
 }
 
 TEST(Variations, AreTheNominalMotorEachLevelAloneAndTheCorners) {
-  const std::vector<Variation> all = variations(sheet_tolerances(Mode::speed));
+  const std::vector<Variation> all = variations(sheet_tolerances(subject.sheet, Mode::speed));
   EXPECT_EQ(all.size(), 1u + 8u + 16u);
   EXPECT_EQ(all[0].words, "");
   EXPECT_EQ(all[3].words, "R at 120 degC");
@@ -145,10 +146,21 @@ TEST(Variations, AreTheNominalMotorEachLevelAloneAndTheCorners) {
   EXPECT_NEAR(all.back().factors[0], 1.37335, 1e-12);
 }
 
+TEST(Variations, AreAsWarmAsTheSheetLetsTheMotorBe) {
+  const std::vector<Variation> all =
+      variations(sheet_tolerances(sixstep::testing::curve_sheet(), Mode::speed));
+  EXPECT_EQ(all.size(), 1u + 9u + 16u);
+  EXPECT_EQ(all[3].words, "R at 125 degC");
+  EXPECT_NEAR(all[3].factors[0], 1.393, 1e-12);
+  // 4.5 and 4.25 K/W, 125 degC: the housing comes to 25 + 100 4.25/8.75.
+  EXPECT_EQ(all[8].words, "K_t at 74 degC");
+  EXPECT_NEAR(all[8].factors[2], 1 - 0.0012 * 100 * 4.25 / 8.75, 1e-12);
+}
+
 TEST(Variations, ChangeTheMotorAndNotTheController) {
   const DriveDesign d = designed({.mode = Mode::speed});
   const Scenario nominal = design_scenario(d, subject);
-  const std::vector<Tolerance> tolerances = sheet_tolerances(Mode::speed);
+  const std::vector<Tolerance> tolerances = sheet_tolerances(subject.sheet, Mode::speed);
   const std::vector<Variation> all = variations(tolerances);
   const Outcome o = ran(varied_scenario(nominal, d.motor, tolerances, all.back()));
   EXPECT_NEAR(o.motor.machine.R_ohm, 0.515 * 1.37335, 1e-12);
@@ -272,8 +284,9 @@ TEST(DesignStudy, SaysWhatOnlyTheRunCouldShow) {
 }
 
 TEST(DesignStudy, ItsPositionGainStandsTheTolerances) {
-  const auto moved = study_design(
-      {.subject = subject, .spec = {.mode = Mode::position}, .tolerances = sheet_tolerances(Mode::position)});
+  const auto moved = study_design({.subject = subject,
+                                   .spec = {.mode = Mode::position},
+                                   .tolerances = sheet_tolerances(subject.sheet, Mode::position)});
   ASSERT_TRUE(moved && moved->robustness && moved->position);
   EXPECT_TRUE(moved->usable());
   // The sheet's motor alone would stand more: with twice its inertia it would overshoot.

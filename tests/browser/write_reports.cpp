@@ -7,9 +7,11 @@
 #include "report/comparison.hpp"
 #include "report/curve_page.hpp"
 #include "report/report.hpp"
+#include "report/wiring_page.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "tests/report/synthetic_run.hpp"
 #include "tests/support/bench.hpp"
+#include "tests/support/wirings.hpp"
 
 namespace {
 
@@ -76,6 +78,10 @@ int main(int argc, char** argv) {
   bad.scenario.control.mode = sixstep::control::Mode::speed;
   write(folder / "long.html", page(bad));
   write(folder / "curve.html", curve());
+  const auto wirings = sixstep::testing::made_up_wirings();
+  write(folder / "wirings.html",
+        report::render_wiring(
+            {wirings, scenario_text, "sixstep motor wiring maxon-251601 --html wirings.html", "0.1.0"}));
   const auto other = sixstep_tests::synthetic_run(0.02, 40.0);
   write(folder / "compare.html",
         report::render_comparison(

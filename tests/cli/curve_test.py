@@ -24,6 +24,17 @@ class Curve(ProgramTest):
         self.assertEqual(self.run_program("curve", "maxon-251601", "--quiet").stdout, "")
         self.assertEqual(json.loads(self.run_program("curve", "maxon-251601", "--json", "-").stdout), curve)
 
+    def test_a_linear_motors_curve_is_in_newtons(self):
+        self.run_program("curve", "example-linear", "--points", "5", "--csv", "a.csv", "--json", "a.json", "--html", "a.html", "--quiet")
+        rows = [row for row in (self.path / "a.csv").read_text().splitlines() if not row.startswith("#")]
+        self.assertTrue(rows[0].startswith("speed_m_s,force_N,air_gap_force_N,ideal_force_N,"))
+        linear = json.loads((self.path / "a.json").read_text())
+        turning = json.loads(self.run_program("curve", "maxon-251601", "--points", "5", "--json", "-").stdout)
+        for a, b in zip(linear["points"], turning["points"]):  # the 251601 unrolled at 20 mm
+            self.assertAlmostEqual(a["force_N"], b["torque_Nm"] / 0.02, 9)
+            self.assertAlmostEqual(a["speed_m_s"], b["speed_rad_s"] * 0.02, 10)
+        self.assertIn("Force-speed curve of Example", (self.path / "a.html").read_text())
+
     def test_curve_is_the_same_on_any_number_of_threads(self):
         words = ["curve", "maxon-251601", "--duty", "0.6", "--chopping", "hard", "--points", "7", "--json", "-"]
         self.assertEqual(self.run_program(*words, "--jobs", "1").stdout, self.run_program(*words, "--jobs", "3").stdout)

@@ -79,7 +79,7 @@ class Design(ProgramTest):
                                   "--torque-limit", "0.78", "--json", "-", "--quiet")
         d = json.loads(result.stdout)
         self.assertEqual([loop["name"] for loop in d["loops"]], ["current", "speed"])
-        self.assertEqual(d["tolerances"]["motors"], 25)
+        self.assertEqual(d["tolerances"]["motors"], 26)
         for loop in d["loops"]:
             self.assertTrue(loop["margins"]["one_period_late"]["stable"])
             w, gain, crossover = loop["bode"]["w_rad_s"], loop["bode"]["gain"], loop["margins"]["at_once"]["crossover_rad_s"]
@@ -89,6 +89,21 @@ class Design(ProgramTest):
         steps = {s["symbol"]: s for s in d["loops"][1]["steps"]}
         self.assertAlmostEqual(steps["d1"]["value"], 0.0158299, 7)
         self.assertEqual(steps["d1"]["thesis"], 0.017225)
+
+    def test_a_linear_motor_has_options_of_its_own(self):
+        result = self.run_program("design", "example-linear", "--mode", "speed", "--quick", "--force-limit", "15", "--load-mass", "0.1",
+                                  "--json", "-", "--quiet", "--toml", "d.toml", "--models", "m.json")
+        d = json.loads(result.stdout)
+        self.assertAlmostEqual(d["limits"]["force_limit_N"], 15)
+        self.assertAlmostEqual(d["model"]["mass_kg"], 0.13375)
+        self.assertIn("v_m_s", json.loads((self.path / "m.json").read_text())["phase_voltage"]["states"])
+        self.assertIn("force_limit_N = 15", (self.path / "d.toml").read_text())
+        ran = json.loads(self.run_program("run", "d.toml", "--json", "-", "--quiet").stdout)
+        self.assertEqual(ran["gains"][1]["d1"], d["loops"][1]["gains"]["d1"])
+        told = self.run_program("design", "example-linear", "--torque-limit", "1", code=2).stderr
+        self.assertEqual(told, "--torque-limit = 1 is a turning motor's, and this one is linear; write --force-limit\n")
+        told = self.run_program("design", "maxon-251601", "--load-mass", "1", code=2).stderr
+        self.assertEqual(told, "--load-mass = 1 is a linear motor's, and this one turns; write --load-inertia\n")
 
     def test_design_writes_a_page_that_needs_nothing(self):
         self.run_program("design", "maxon-251601", "--mode", "speed", "--quiet", "--html", "d.html")

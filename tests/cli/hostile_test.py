@@ -12,7 +12,7 @@ import unittest
 import urllib.parse
 
 from hostile import FILES, TEXTS, is_visible
-from program import PROGRAM, SHORT, SOURCE, ProgramTest
+from program import PROGRAM, SHORT, SOURCE, ProgramTest, hall_log
 
 if os.path.isdir("/dev/shm"):  # hundreds of files, each made safe on its disk
     tempfile.tempdir = "/dev/shm"
@@ -140,10 +140,36 @@ class Hostile(ProgramTest):
                 self.check_shown(shown.stdout + shown.stderr)
             plain = self.run_bytes("motor", "show", "maxon-251601").stdout.count(b"\n")
             self.assertEqual(self.run_bytes("motor", "show", "own").stdout.count(b"\n"), plain)
-        for words in (["curve", "own", "--points", "2"], ["curve", "own", "--points", "2", "--json", "-"], ["curve", "own", "--points", "2", "--csv", "/dev/stdout"],
+        for words in (["motor", "wiring", "own"], ["motor", "wiring", "own", "--svg", "/dev/stdout", "--quiet"], ["curve", "own", "--points", "2"], ["curve", "own", "--points", "2", "--json", "-"], ["curve", "own", "--points", "2", "--csv", "/dev/stdout"],
                       ["design", "own", "--quick"], ["design", "own", "--quick", "--toml", "/dev/stdout", "--quiet"]):
             shown = self.run_bytes(*words)
             self.check_shown(shown.stdout + shown.stderr)
+
+    def test_a_recording_of_any_name_and_headings_is_shown_harmless(self):
+        scope = (SOURCE / "data/recordings/bly172s-emf.csv").read_bytes().partition(b"time [s],u_ab [V]\n")[2]
+        scope = b"".join(scope.splitlines(True)[::10])
+        for name in FILES:
+            path = b"./" + name + b".csv"
+            with open(os.path.join(os.fsencode(self.path), path), "wb") as file:
+                file.write(hall_log(turns=6).encode())
+            for words in (["identify", path, "--html", "/dev/stdout"], ["identify", path, "--json", "--write", "/dev/stdout"]):
+                self.check_shown(self.run_bytes("motor", *words).stdout)
+            shown = self.run_bytes("motor", "identify", path, b"--hall=" + name, codes=[2])
+            self.check_shown(shown.stderr)
+            self.assertEqual(shown.stderr.count(b"\n"), 1, shown.stderr)
+            shown = self.run_bytes("motor", "emf", path, codes=[2])
+            self.check_shown(shown.stderr)
+            os.unlink(os.path.join(os.fsencode(self.path), path))
+        for text in TEXTS:
+            heading = text.replace(b"\n", b" ").replace(b"\r", b" ").replace(b",", b" ").replace(b";", b" ").replace(b"\t", b" ")
+            with open(self.path / "a.csv", "wb") as file:
+                file.write(b"time [s],x" + heading + b" [V]\n" + scope)
+            for words in (["--html", "/dev/stdout"], ["--json", "--write", "/dev/stdout"]):
+                self.check_shown(self.run_bytes("motor", "emf", "a.csv", "--between", "lines", "--pole-pairs", "4", *words).stdout)
+            for words in (["emf", "a.csv"], ["identify", "a.csv"]):
+                shown = self.run_bytes("motor", *words, codes=[2])
+                self.check_shown(shown.stderr)
+                self.assertEqual(shown.stderr.count(b"\n"), 1, shown.stderr)
 
     def test_an_exported_header_compiles_without_a_word(self):
         base = (SOURCE / "data/scenarios/current-square.toml").read_text()

@@ -4,6 +4,7 @@
 
 Each verb is given work for far longer than the test, and is stopped at random instants; the seed is printed, and
 SIXSTEP_SEED repeats it. `-v` shows how long each took to end."""
+import math
 import os
 import random
 import re
@@ -13,7 +14,7 @@ import sys
 import time
 import unittest
 
-from program import SOURCE, Started
+from program import SOURCE, Started, hall_log
 
 SEED = int(os.environ.get("SIXSTEP_SEED", random.randrange(1 << 30)))
 R3 = str(SOURCE / "data/scenarios/reference/R3.toml")
@@ -22,6 +23,8 @@ LONG = ["--set", "duration_s=1e4", "--set", "record.grid_s=1e-3"]
 # A fifth of a second where the machine is ours: a computer that runs other tests beside these takes longer.
 BOUND_S = 5.0
 TOLD = {signal.SIGINT: 130, signal.SIGTERM: 143}
+
+BEGUN_OR_NOT = r"^(long: interrupted at [\d.e-]+ s of 10000 s|interrupted before the first run began)\n$"
 
 # Nobody waits for the end of any of these. The rotor is held, so nothing but its length makes it long.
 ENDLESS = """
@@ -93,7 +96,13 @@ class Ends(Started):
         for _ in range(4):
             heard, said = self.stopped("run", "long.toml")
             if heard:
-                self.assertRegex(said, r"^long: interrupted at [\d.e-]+ s of 10000 s\n$")
+                self.assertRegex(said, BEGUN_OR_NOT, SEED)
+
+    def test_run_while_it_starts(self):
+        """The signal may come when it is listened to and nothing runs yet."""
+        for _ in range(20):
+            heard, said = self.stopped("run", "long.toml", after=(0.0, 0.08))
+            self.assertRegex(said, BEGUN_OR_NOT if heard else "^$", SEED)
 
     def test_run_with_every_file(self):
         for _ in range(2):
@@ -127,6 +136,20 @@ class Ends(Started):
         """Chopping far faster than the rotor: one point of this curve takes minutes."""
         self.nothing_is_left("curve", "maxon-251601", "--duty", "0.5", "--points", "2", "--pwm-period", "1e-9",
                              told="curve maxon-251601: interrupted; nothing was written", after=(0.1, 0.8))
+
+    def test_wirings(self):
+        heard = self.nothing_is_left("motor", "wiring", "baldor-bsm90n-175", "--jobs", "1", "--svg", "w.svg", after=(0.1, 0.8), rounds=2,
+                                     told="motor wiring baldor-bsm90n-175: interrupted; nothing was written")
+        self.assertGreater(heard, 0)
+
+    def test_an_identification(self):
+        """Twenty thousand edges with voltages beside them: ten seconds of work."""
+        lines = hall_log(turns=3400, rows=30).splitlines()
+        wave = [f",{math.cos(math.radians(12 * n - 30)):.3f},{math.cos(math.radians(12 * n - 150)):.3f}" for n in range(30)]
+        (self.path / "log.csv").write_text(lines[0] + ",u_ab,u_bc\n" + "".join(line + wave[n % 30] + "\n" for n, line in enumerate(lines[1:])))
+        heard = self.nothing_is_left("motor", "identify", "log.csv", "--html", "a.html", "--write", "a.toml", after=(0.5, 2.5), rounds=4,
+                                     told="motor identify log.csv: interrupted; nothing was written")
+        self.assertGreater(heard, 0)
 
     def test_a_design(self):
         slow = ["design", "maxon-251601", "--mode", "position", "--settle", "1", "--jobs", "1", "--toml", "d.toml"]

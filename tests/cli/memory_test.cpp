@@ -5,32 +5,19 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
 
-constexpr long KiB_per_MiB = 1024;
+constexpr long KiB_per_MiB = 1024, bound_KiB = 2 * KiB_per_MiB;
 
-long own_peak_KiB() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss;
-}
-
-/// Peak resident memory of a run of R3 (soft chopping) with a row per PWM period.
-long peak_KiB(const std::string& duration_s, std::vector<std::string> more) {
-  std::vector<std::string> words = {SIXSTEP_PROGRAM,
-                                    "run",
-                                    SIXSTEP_SOURCE_DIR "/data/scenarios/reference/R3.toml",
-                                    "--quiet",
-                                    "--set",
-                                    "duration_s=" + duration_s,
-                                    "--set",
-                                    "record.grid_s=30e-6"};
-  words.insert(words.end(), more.begin(), more.end());
+/// Peak resident memory of a program.
+long peak_of_KiB(std::vector<std::string> words) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -42,8 +29,22 @@ long peak_KiB(const std::string& duration_s, std::vector<std::string> more) {
   int status = -1;
   rusage usage{};
   EXPECT_EQ(wait4(child, &status, 0, &usage), child);
-  EXPECT_EQ(status, 0);
+  EXPECT_EQ(status, 0) << "of " << words[0];
   return usage.ru_maxrss;
+}
+
+/// Of a run of R3 (soft chopping) with a row per PWM period.
+long peak_KiB(const std::string& duration_s, std::vector<std::string> more) {
+  std::vector<std::string> words = {SIXSTEP_PROGRAM,
+                                    "run",
+                                    SIXSTEP_SOURCE_DIR "/data/scenarios/reference/R3.toml",
+                                    "--quiet",
+                                    "--set",
+                                    "duration_s=" + duration_s,
+                                    "--set",
+                                    "record.grid_s=30e-6"};
+  words.insert(words.end(), more.begin(), more.end());
+  return peak_of_KiB(std::move(words));
 }
 
 class Memory : public ::testing::Test {
@@ -54,16 +55,24 @@ class Memory : public ::testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
-  /// Ten times the time against once: KiB more at the peak.
+  /// Ten times the time against once: KiB more at the peak. Pages of the program's own files count too, and which of them
+  /// the kernel maps beside those asked for changes from run to run: what grows with time does so in each of three tries.
   long growth_KiB(const std::vector<std::string>& more) {
-    const long once = peak_KiB("0.4", more), tenfold = peak_KiB("4", more);
-    std::printf("peak %ld KiB for 0.4 s, %ld KiB for 4 s\n", once, tenfold);
-    // A child begins with its parent's peak: ours must not hide the program's.
-    EXPECT_GT(once, own_peak_KiB());
-    return tenfold - once;
+    long least = growth_in_one_try_KiB(more);
+    for (int n = 1; n < 3 && least > bound_KiB; ++n) least = std::min(least, growth_in_one_try_KiB(more));
+    return least;
   }
 
  private:
+  // The writer holds 64 KiB of text; the rest is the steps of an allocator. Kept in memory, 120'000 rows of
+  // seven columns would be 6.5 MiB more, and all columns of each event far more.
+  long growth_in_one_try_KiB(const std::vector<std::string>& more) {
+    const long once = peak_KiB("0.4", more), tenfold = peak_KiB("4", more);
+    std::printf("peak %ld KiB for 0.4 s, %ld KiB for 4 s\n", once, tenfold);
+    // A child begins with what its parent's fork gave it, which a program that needs nothing shows: this must not hide ours.
+    EXPECT_GT(once, peak_of_KiB({"/bin/true"}));
+    return tenfold - once;
+  }
   static std::filesystem::path made_folder() {
     std::string name = (std::filesystem::temp_directory_path() / "sixstep-memory-XXXXXX").string();
     if (!mkdtemp(name.data())) ADD_FAILURE() << "no folder for the outputs";
@@ -71,10 +80,6 @@ class Memory : public ::testing::Test {
   }
   std::filesystem::path folder_ = made_folder();
 };
-
-// The writer holds 64 KiB of text; the rest is the steps of an allocator. Kept in memory, 120'000 rows of
-// seven columns would be 6.5 MiB more, and all columns of each event far more.
-constexpr long bound_KiB = 2 * KiB_per_MiB;
 
 TEST_F(Memory, DoesNotGrowWhileRowsOnAGridStreamToAFile) {
   EXPECT_LE(growth_KiB({"--csv", file("grid.csv"), "--json", file("grid.json")}), bound_KiB);

@@ -7,9 +7,10 @@ import stat
 import time
 import unittest
 
-from program import SHORT, Started
+from program import SHORT, SOURCE, Started, hall_log
 
 LETTER = "Dear reader,\nthis is nobody's trace.\n"
+EMF = f"motor emf {SOURCE}/data/recordings/bly172s-emf.csv --pole-pairs 4"
 # Each output of each verb; {} is the file. A trace of minutes shows that the refusal comes first.
 OUTPUTS = {"run --csv": "run slow.toml --csv {}", "run --mat": "run slow.toml --mat {}", "run --mat73": "run slow.toml --mat73 {}",
            "run --vcd": "run slow.toml --vcd {}", "run --json": "run slow.toml --json {}", "run --html": "run slow.toml --html {}",
@@ -18,14 +19,20 @@ OUTPUTS = {"run --csv": "run slow.toml --csv {}", "run --mat": "run slow.toml --
            "design --html": "design maxon-251601 --html {}",
            "design --models as JSON": "design maxon-251601 --models {}.json", "design --models as MAT": "design maxon-251601 --models {}.mat",
            "curve --csv": "curve maxon-251601 --csv {}", "curve --json": "curve maxon-251601 --json {}", "curve --html": "curve maxon-251601 --html {}",
+           "motor wiring --svg": "motor wiring maxon-251601 --svg {}", "motor wiring --html": "motor wiring maxon-251601 --html {}",
+           "motor wiring --toml": "motor wiring maxon-251601 --toml {}",
+           "motor identify --html": "motor identify log.csv --html {}", "motor identify --write": "motor identify log.csv --write {}",
+           "motor emf --html": EMF + " --html {}", "motor emf --write": EMF + " --write {}", "motor emf --shape": EMF + " --shape {}",
            "export header": "export header slow.toml --out {}"}
-QUICK = {"run": ["--set", "duration_s=1e-4", "--quiet"], "export": ["--despite", "nobody flashes it", "--set", "duration_s=1e-4"], "design": ["--quick", "--quiet"], "curve": ["--points", "2", "--quiet"]}
+QUICK = {"run": ["--set", "duration_s=1e-4", "--quiet"], "export": ["--despite", "nobody flashes it", "--set", "duration_s=1e-4"], "design": ["--quick", "--quiet"], "curve": ["--points", "2", "--quiet"],
+         "motor": ["--quiet"]}
 
 
 class Overwriting(Started):
     def setUp(self):
         super().setUp()
         (self.path / "slow.toml").write_text(SHORT.format(limit=1000).replace("1e-4", "1e6"))
+        (self.path / "log.csv").write_text(hall_log(turns=6))
 
     def test_a_file_of_somebody_else_stays_and_is_told_before_the_work(self):
         for what, command in OUTPUTS.items():
@@ -36,7 +43,7 @@ class Overwriting(Started):
                 told = self.run_program(*words, code=2).stderr
                 self.assertEqual(told, f"{name}: holds what sixstep has not written; name another file, or add --force to lose that one\n")
                 self.assertEqual((self.path / name).read_text(), LETTER)
-        self.assertEqual(self.names(), ["letter", "letter.json", "letter.mat", "slow.toml"])
+        self.assertEqual(self.names(), ["letter", "letter.json", "letter.mat", "log.csv", "slow.toml"])
 
     def test_with_force_it_is_replaced_and_our_own_need_none(self):
         for what, command in OUTPUTS.items():
@@ -74,7 +81,7 @@ class Overwriting(Started):
                 time.sleep(0.2)
                 program.send_signal(signal.SIGINT)
                 self.assertEqual(program.wait(timeout=20), 130)
-            self.assertEqual(self.names(), ["a.partial.csv", "slow.toml"])
+            self.assertEqual(self.names(), ["a.partial.csv", "log.csv", "slow.toml"])
 
     def test_what_a_killed_run_left_is_in_nobodys_way(self):
         with self.started("run", "slow.toml", "--csv", "a.csv", "--html", "a.html") as program:

@@ -12,6 +12,9 @@ namespace sixstep::control {
 
 using Scalars = testing::Types<double, float, Q14, Q30>;
 
+/// With those whose largest number is below 1: decoders reach it, at half a turn and at a quarter's sine.
+using SensingScalars = testing::Types<double, float, Q15, Q14, Q31, Q30>;
+
 template <class Scalar>
 constexpr bool is_fixed = !std::is_floating_point_v<Scalar>;
 

@@ -62,7 +62,7 @@ Sheet common(const Drawn& d) {
 Sheet maxon(const Drawn& d) {
   const plant::Machine& m = d.model.machine;
   Sheet s = common(d);
-  s.pole_pairs = m.pole_pairs;
+  s.pole_pairs = static_cast<int>(m.pole_pairs);
   s.resistance_ohm = print(2 * m.R_ohm, "terminal");
   s.inductance_mH = print(2e3 * m.L_H, "terminal");
   s.torque_constant_mNm_A = print(1e3 * d.model.K_t_Nm_A);
@@ -75,7 +75,7 @@ Sheet drone(const Drawn& d) {
   const plant::Machine& m = d.model.machine;
   Sheet s = maxon(d);
   s.pole_pairs.reset();
-  s.winding = "12N" + std::to_string(2 * m.pole_pairs) + "P";
+  s.winding = "12N" + std::to_string(2 * static_cast<int>(m.pole_pairs)) + "P";
   s.torque_constant_mNm_A.reset();
   const double line = shape_factors(d.shape, m.flat_deg).line_peak;
   s.speed_constant_rpm_V = print(30 / base::pi / (m.K_e_V_s * line), "line-peak");
@@ -92,7 +92,7 @@ Sheet servo(const Drawn& d) {
   const plant::Machine& m = d.model.machine;
   Sheet s = maxon(d);
   s.pole_pairs.reset();
-  s.poles = 2 * m.pole_pairs;
+  s.poles = 2 * static_cast<int>(m.pole_pairs);
   s.torque_constant_mNm_A.reset();
   s.torque_constant_Nm_A = print(torque_per_rms_A(m.K_e_V_s, shape_factors(d.shape, m.flat_deg)), "rms");
   s.inertia_with_brake_gcm2 = s.inertia_gcm2;
@@ -113,7 +113,7 @@ Sheet back_emf(const Drawn& d) {
 Sheet firmware(const Drawn& d) {
   const plant::Machine& m = d.model.machine;
   Sheet s = common(d);
-  s.pole_pairs = m.pole_pairs;
+  s.pole_pairs = static_cast<int>(m.pole_pairs);
   s.resistance_ohm = print(m.R_ohm, "phase");
   s.d_axis_inductance_mH = s.q_axis_inductance_mH = print(1e3 * m.L_H);
   s.flux_linkage_mWb = print(1e3 * m.K_e_V_s * shape_factors(d.shape, m.flat_deg).fundamental / m.pole_pairs);

@@ -71,8 +71,26 @@ LivedCase product_q31() {
   return lived("session-product-q31", std::move(session), 17e-3);
 }
 
+LivedCase on_general() {
+  Scenario s = current_square();
+  s.load.gear = 2;
+  s.load.inertia_kg_m2 = 1e-5;
+  s.load.stiffness_Nm_rad = 2;
+  base::Result<Session> session = Session::open(s);
+  if (session) {
+    At crossed, broken;
+    crossed.bridge.phases = AtOrder::bac;
+    crossed.sensors.hall_lines = AtOrder::acb;
+    broken.motor.broken_wire = Wire::b;
+    tell(*session, 2.3e-3, crossed);
+    *session = Session(*session);
+    tell(*session, 7.77e-3, broken);
+  }
+  return lived("session-on-general", std::move(session), 12.3e-3);
+}
+
 }  // namespace
 
-std::vector<LivedCase> lived_cases() { return {current(), steady_duty(), product_q31()}; }
+std::vector<LivedCase> lived_cases() { return {current(), steady_duty(), product_q31(), on_general()}; }
 
 }  // namespace sixstep::testing

@@ -56,8 +56,8 @@ class ControlPage(unittest.TestCase):
     def test_every_snippet_is_tested_and_every_block_named(self):
         self.assertLessEqual({b.word for b in PAGE.blocks}, {"chip", "host", "shell", "export", "exported", "trips"})
         table = PAGE.text.split("<!-- test: blocks -->")[1]
-        named = sorted(re.findall(r"`(\w+\.hpp)`", table))
-        self.assertEqual(named, sorted(p.name for p in (REPOSITORY / "sixstep/control").glob("*.hpp")))
+        named = sorted(re.findall(r"`([\w/]+\.hpp)`", table))
+        self.assertEqual(named, sorted(p.relative_to(REPOSITORY / "sixstep/control").as_posix() for p in (REPOSITORY / "sixstep/control").rglob("*.hpp")))
 
 
 if __name__ == "__main__":

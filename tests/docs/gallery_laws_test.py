@@ -9,7 +9,7 @@ import cmath
 import decimal
 import tomllib
 import unittest
-from math import cos, exp, log, pi, sqrt
+from math import acos, atan2, cos, cosh, degrees, exp, hypot, log, pi, radians, sinh, sqrt
 
 from page import REPOSITORY
 
@@ -44,6 +44,27 @@ def foot_duty(foot):
         a, b = halves(middle)
         low, high = (middle, high) if STALL * (b - a * b) / (1 - a * b) < foot else (low, middle)
     return low
+
+
+def lagged(x, final, start, lag, t):
+    """Behind a first-order lag at x, what goes from `start` to `final` with L/R, after t."""
+    bent = (start - final) / (1 - lag / TAU)
+    return final + bent * exp(-t / TAU) + (x - final - bent) * exp(-t / lag)
+
+
+def read_late(reading, lag, delay):
+    """Mean current of a centred pulse that reads this in its middle, behind lag and delay, by halving of its duty."""
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        a, b = halves(middle)
+        top, x = STALL * (1 - a) / (1 - a * b), 0.0
+        for _ in range(100):  # periods, each so many lags long that the first are forgotten
+            x = lagged(x, STALL, top * b, lag, middle * T)
+            x = lagged(x, 0, top, lag, (1 - middle) * T)
+        late = lagged(x, STALL, top * b, lag, middle * T / 2 - delay)
+        low, high = (middle, high) if late < reading else (low, middle)
+    return low * STALL
 
 
 def overshoot(kp, ki, reference):
@@ -82,9 +103,131 @@ SECTOR = pi / 3 / PAIRS / 100
 BURST = (K_T * 1.25 - 0.02) * 0.02 / J
 BRAKE = (K_T * 100 - 2 * R) / U  # duty that holds 2 A of braking current at 100 rad/s
 IN_BAND = 1e-9 / 0.4
+AMPLIFIED = read_late(5, 1 / (2 * pi * 160e3), 1e-6)
 DIP = 3 * L / (U - 2 * K_T * 200) / (pi / 3 / PAIRS / 200)  # part of a sector that a commutation takes at 200 rad/s
 
+def fifth(x):
+    """Torque of two phases over K_e I, x from the middle of their sector, with 7 % of fifth harmonic."""
+    return sqrt(3) * (cos(x) - 0.07 * cos(5 * x))
+
+
+def largest_fifth():
+    return max(fifth(n * pi / 6 / 20000) for n in range(20001))
+
+
+def salient_tau(electrical_deg):
+    """Time constant of a and b on a held salient rotor, by model.md (7)."""
+    return 2 * (0.29e-3 + 0.05e-3 * cos(radians(2 * (electrical_deg - 150) - 120))) / R
+
+
+TURN_W = 100 * pi / 3  # 1000 rpm
+LOOP = 3 * 0.2 * pi / 3 * K_T * TURN_W / hypot(1.5 * R, 3 * PAIRS * TURN_W * 1.5 * L)
+LOOP_LOSS = 1.5 * R * LOOP**2 / 6
+K_E_FIFTH = K_T / (3 / pi * sqrt(3) * (1 - 0.07 / 5))
+IGBT = (U - 2 * 1.2) / (R + 2 * 0.02)
+FADES = 0.02 / 2 / 2e-6
+RINGS = sqrt(1 / (2e-6 * 470e-6) - FADES**2)
+LOAD_J = 4e-5
+SHAFT = sqrt(2 * (1 / J + 1 / LOAD_J))
+GEARED = K_T * 5 / (J + 1.215e-4 / 9) * 5e-3
+RADIUS = 0.02  # at which the linear motor is the 251601 unrolled
+MASS = J / RADIUS**2
+
+R_B, R_1, C_1, C_BUS = 0.08, 0.05, 0.4, 470e-6  # of the battery and its capacitor
+SAG = U / (R + R_B + R_1)
+TAKEN = (0.3 * U + R_1 * C_1 * SAG * R_1 + R * C_BUS * (SAG * R - U) - L * SAG) / (R + R_B + R_1)  # in 0.3 s, A s
+
+
+def recovered(t):
+    """Bus after the stall: y = (U_0 - u, v_1) falls by y' = A y, exp(A t) in closed form for two by two."""
+    a, b = 1 / (R_B * C_BUS), 1 / (R_B * C_1)
+    middle, det = -(a + b + 1 / (R_1 * C_1)) / 2, a / (R_1 * C_1)
+    root = sqrt(middle**2 - det)
+    lacks, v_1 = U - SAG * R, SAG * R_1
+    return U - exp(middle * t) * (cosh(root * t) * lacks + sinh(root * t) / root * (a * (v_1 - lacks) - middle * lacks))
+
+
+TOPS = sqrt(2) * 18 - 2 * 0.8
+
+
+def mains(pulses):
+    """Limits behind a rectifier of so many pulses per period, duty 0.2 on the held rotor, 4.7 mF."""
+    d, period = 0.2, 1 / 50 / pulses
+    fall = (d**2 * TOPS / R * period + d * (1 - d) * d * TOPS / R * T) / 4.7e-3
+    feeds = acos((TOPS - fall + 2 * 0.8) / (sqrt(2) * 18)) / pi / 50  # at most so long
+    off, least = period - feeds, d * (TOPS - fall) / R
+    return [(None, TOPS), (d * least * off / 4.7e-3, fall), (least * sqrt(d * off / period * (1 + d * off / feeds)), None)]
+
+
+FALLS, SLOWS = 0.6 * 0.67 / 20 / (J + 0.6 * 1e-3 / 400), B / (J + 0.6 * 1e-3 / 400)
+
+
+def falling(begin):
+    """Speed gained from 70 to 100 ms by what began to fall at an instant."""
+    return FALLS / SLOWS * (exp(-SLOWS * (0.07 - begin)) - exp(-SLOWS * (0.1 - begin)))
+
+
+PUMP_J = J + 3e-5
+WATER, CHURN = 0.056 / 200 + B, 0.004 / 100 + B
+CLOSES = PUMP_J / WATER * log((0.06 + 300 * B) / (0.004 + 100 * B))
+C_W, C_H, R_WH = 17.7 / 4.5, 212 / 4.25, 4.5
+HOT = C_W * (100 + 0.00393 * 100**2 / 2) * R / 12**2
+BUILD = 2 * L / (U - K_T * 20) / (pi / 3 / PAIRS / 20)  # part of a sector in which 2 A come up at 20 rad/s
+PASSES = 1.5 * 2 * L / U / (pi / 3 / PAIRS / 20)  # and in which they go to another phase
+
+
+def pulse(sign):
+    """Time to 10 A along the axis of a magnet that saturates, or against it, by (7) and what bends it."""
+    a, ends = sign * 2 / sqrt(3) / 40, log(1 - R * 10 / U)
+    return 2 * 0.24e-3 * (-ends / R + a * (10 / R + U * ends / R**2))
+
+
+def losses(period):
+    """Switching and conduction of a chopped duty of 0.2 with 10 mohm in each device, and the junction that has all of it."""
+    d, tau, stall = 0.2, L / (R + 0.02), U / (R + 0.02)
+    a, b = exp(-d * period / tau), exp(-(1 - d) * period / tau)
+    high = stall * (1 - a) / (1 - a * b)
+    low, lacks = high * b, stall - high * b
+    on = stall**2 * d * period - 2 * stall * lacks * tau * (1 - a) + lacks**2 * tau / 2 * (1 - a**2)  # of i^2
+    off = high**2 * tau / 2 * (1 - b**2)
+    switching = U / 2 * (low + high) * 20e-9 / 0.1 / period
+    return [near(switching), near(0.02 * (on + off) / period), near(25 + 40 * (switching + 0.01 * on / period))]
+
+
 # (min, max) of each requirement; None: the file has none.
+def late(degrees):
+    """Mean torque of a current whose pair is driven so many degrees late, as a part of K_t i."""
+    return 1 - degrees**2 / 7200
+
+
+SEEN_LATE = PAIRS * 300 * 100e-6 * 180 / pi  # an edge behind a filter of 100 us
+PASSED_LATE = PAIRS * 300 * 3 * 2 * L_S / (U + 2 * K_E * 300) * 180 / pi  # until the current has passed to the next phase
+I_N = SHEET["nominal_current_A"]["value"]
+SWING = 2 * pi * sqrt(J / (PAIRS * K_T * 1.5 * I_N))  # about a pair's pull
+SLOWEST, RAMP = 0.05 * U / K_T, (K_T * I_N * (1.5 - 0.5) - 0.01) / (2 * J)  # rad/s handed over, rad/s^2
+LONGEST_RAMP = 2 * 2 * SLOWEST / RAMP + 12 * pi / 3 / PAIRS / SLOWEST
+LISTENED = 6 * L_S * 2.5 * I_N / U + 2 * T + 2 * pi / 3 / PAIRS / SLOWEST  # for a rotor that turns already
+
+
+def two_period_pulses():
+    """Seconds that they take, and degrees of the shaft by which they turn it at most (design/loops/pulse_start.hpp)."""
+    apart, t, l_d, l_q, i_sat, most = 5 * T, 1.5 * T, 0.24e-3, 0.34e-3, 40, 1.5 * I_N
+    i = STALL * (1 - exp(-R * t / 2 / (l_d * (1 - 2 / sqrt(3) * most / 2 / i_sat))))
+    p = pi / 3 * K_T * i * t
+    depth = 2 / sqrt(3) * l_d * i / (2 * i_sat * (l_d + l_q) / 2)
+    uneven = PAIRS * (l_q - l_d) * i**2 * 2 / 3 * t + 6 * sqrt(3) / 16 * depth * p
+    return 64 * T + 48 * apart, degrees(8 * apart / J * (2 * p + 12 * uneven))
+
+
+PULSED, TURNED = two_period_pulses()
+LOOP_GAIN = 1.582e-3 * 0.78 / K_T  # A per rad/s
+
+
+def closed_loop_peak(damping):
+    """Of (2 D w s + w^2)/(s^2 + 2 D w s + w^2)."""
+    return max(abs((1 + 2j * damping * x) / (1 - x * x + 2j * damping * x)) for x in (n / 1000 for n in range(1, 3000)))
+
+
 LAWS = {
     "chopping-soft": [near(0.5 * STALL), near(ripple(0.5)), (0, 0)],
     "chopping-hard": [near((2 * 0.75 - 1) * STALL), near(2 * ripple(0.75)),
@@ -108,9 +251,60 @@ LAWS = {
     "wind-up": [made_up(0.02, 0.9, 0.1, [(0, 900), (0.25, 300)], 0.8), near(300, 1e-3)],
     "hall-glitch": [near(100, T / SECTOR + 0.004)],
     "one-shunt": [(5 - 0.005 - 0.22 * T / TAU / 24, 5 + 0.005 + 0.22 * T / TAU / 24), (None, 2e-6 / T * STALL)],
+    "slow-amplifier": [(AMPLIFIED - 20.48 / 2**16, AMPLIFIED + 20.48 / 2**16)],
+    "hall-60": [near(100, T / SECTOR + 0.004)],
+    "hall-offset": [(2 * K_T * late(15) * (1 - (2 * L / (U - K_T * 20) + 3 * 1.5 * 2 * L / U) / (2 * pi / PAIRS / 20)), 2 * K_T * late(15)),
+                    (K_T * 1.99 * 3 / 4, K_T * 2.01 * 3 / 4)],
+    "hall-delay": [(2 * K_T * late(SEEN_LATE + PASSED_LATE), 2 * K_T * late(SEEN_LATE))],
+    "hall-misplaced": [(LOOP_GAIN * 100 * (60 / 55 - 60 / 66), None),
+                       (None, K_T / J * LOOP_GAIN * 100 * (60 / 55 - 60 / 66) * SECTOR)],
+    "hall-misplaced-six": [(None, K_T / J * (LOOP_GAIN * 100 * (1 - 60 / 66) * SECTOR / 10 + 0.6 * 2 * T)), near(100, T / SECTOR + 0.004)],
+    # Places to two ticks of 1 us, times to one more, at either end of the narrowest sector, and both ways; believed for the widest.
+    "hall-calibrated": [(None, K_T / J * (LOOP_GAIN * 100 * 4 * 3e-6 / (SECTOR * 55 / 60) * SECTOR * 66 / 60 + 0.6 * 2 * T)), near(100, T / SECTOR + 0.004)],
+    "encoder": [(450 - 2 * 360 / 4096, 450 + 2 * 360 / 4096)],
+    "absolute-encoder": [(1000 - 2 * 360 / 2**14, 1000 + 2 * 360 / 2**14), (None, 2 * 360 / 2**14)],
+    "encoder-missed": [(180 + 38 * 360 / 4096, 180 + 42 * 360 / 4096), (450 - 2 * 360 / 4096, 450 + 2 * 360 / 4096)],
+    "absolute-bad-track": [(K_T * 1.99, K_T * 2.01), (-K_T * 2.01, -K_T * 1.99)],
+    "resolver-broken-winding": [(K_T * 1.99, K_T * 2.01), (K_T * 1.99 / 2, K_T * 2.01 / 2)],
+    "load-side-encoder": [(90 + degrees(2 * 0.1 / 40) - 4 * 360 / 2**16, 90 + degrees(2 * 0.1 / 40) + 4 * 360 / 2**16)],
+    "resolver": [(2 * 0.02 * 100, 2 * 0.02 * 100 * closed_loop_peak(0.7))],
+    "sensorless-start": [(12 * SWING, 12 * SWING + LONGEST_RAMP + 0.1), (None, 100 * PAIRS * T * 180 / pi), near(100, T / SECTOR + 0.004)],
+    "sensorless-pulses": [(PULSED + 95 * J / (K_T * 1.5 * I_N), LISTENED + PULSED + LONGEST_RAMP + 0.1), (degrees(0.3) - TURNED, None)],
+    "sensorless-held": [(None, 0)],
+    "sensorless-fallback": [(None, 1e-6), (None, 100 * PAIRS * T * 180 / pi), near(100, T / SECTOR + 0.004)],
     "wrong-gains": [near(overshoot(4.1, 4.0, 2.0))],
     "sampled-too-slowly": [(0.02 - 2 * 500e-6, None)],
     "reversal": [(J * 392 / (K_T * (3 + U * T / 4 / L) + B * 200), J * 392 / (K_T * 3) / (1 - DIP / 2)), (None, -2)],
+    "delta-loop": [near(LOOP_LOSS, 1e-5), near(-LOOP_LOSS / TURN_W, 1e-5)[::-1], (0, 0)],
+    "salient-q": [near(salient_tau(30), 1e-5)],
+    "salient-beside": [near(salient_tau(0), 1e-5)],
+    "machine-fifth": [(K_E_FIFTH * largest_fifth() * 4.99, K_E_FIFTH * largest_fifth() * 5.01),
+                      (K_E_FIFTH * fifth(PAIRS * 20 * 6.5e-3 - pi / 6) * 4.99, K_E_FIFTH * fifth(PAIRS * 20 * 6.5e-3 - pi / 6) * 5.01)],
+    "cogging": [near(sqrt(2 * 5e-3 / (48 * J))), near(180 / 48)],
+    "phases-stray": [(K_E * 2.04 * 4.99, K_E * 2.04 * 5.01), (K_E * 1.96 * 4.99, K_E * 1.96 * 5.01)],
+    "igbt": [near(IGBT), near(2 * IGBT * (1.2 + 0.02 * IGBT), 1e-5)],
+    "hot-plug": [near(U + 23.5 * exp(-pi * FADES / RINGS)), near((pi - atan2(RINGS, FADES)) / RINGS, 1e-5)],
+    "braking-chopper": [near(28, 1e-9), near(27, 1e-9)],
+    "elastic-shaft": [near(3 * (J - LOAD_J) / (J + LOAD_J))[::-1], near(pi / 2 / SHAFT)],
+    "gear": [near(GEARED, 0.01 / 5)],
+    "fan": [near(J / 4e-7 / 300), near(300 / (1 + 4e-7 * 300 * 0.5 / J))],
+    "weight": [near(-sqrt(2 * 0.05 / (J + 1e-3)))[::-1], near(180)],
+    "broken-wire": [(0, 0), (K_T * 1.99, K_T * 2.01), (0, 0)],
+    "wires-swapped": [(None, 360 / PAIRS), (-2 * pi / PAIRS / 0.05, 2 * pi / PAIRS / 0.05)],
+    "wires-mirrored": [near(-K_T * STALL)[::-1], near(STALL)],
+    "linear-motor": [(0.9 * 2 * (MASS + 0.1) / 15, None), near(5 + B / RADIUS**2 * 2, 2e-3)],
+    "battery-sag": [near(SAG), near(SAG * R), near(recovered(0.5e-3)), near(recovered(20e-3)), near(1 - TAKEN / 7200, 1e-8)],
+    "mains-single-phase": mains(2),
+    "mains-three-phase": mains(6),
+    "gear-losses": [(None, 0), (None, 0), (falling(0.06), falling(0.061))],
+    "dynamometer": [near(-(2e-3 + B * w + J * dw))[::-1] for w, dw in [(125, 250), (375, 250), (375, -250)]],
+    "pump": [near(CLOSES), near(CLOSES + PUMP_J / CHURN * log(2))],
+    "hot-winding": [(HOT, HOT / (1 - 100 / R_WH * R * 1.393 / 12**2)), (None, 25 + 12**2 / R * 12 / C_H)],
+    "open-switch": [(0, 0), (K_T * 1.99, K_T * 2.01), (2 / 3 * K_T * 1.99 * (1 - BUILD / 4), 2 / 3 * K_T * 2.01 * (1 + 3 / 8 * PASSES))],
+    "pulse-north": [near(pulse(1))],
+    "pulse-south": [near(pulse(-1))],
+    "losses-20-khz": losses(50e-6),
+    "losses-100-khz": losses(10e-6),
     "fixed-point-coarse": [(5 - 2 * 2000 / 2**15, 5 + 2 * 2000 / 2**15), (None, 5 * exp(-8e-3 / TAU))],
 }
 

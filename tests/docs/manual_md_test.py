@@ -25,6 +25,10 @@ class Gallery(page.LinkTest):
     NAME = "docs/manual/gallery.md"
 
 
+class Position(page.LinkTest):
+    NAME = "docs/manual/position.md"
+
+
 class Model(page.LinkTest):
     NAME = "docs/model.md"
 

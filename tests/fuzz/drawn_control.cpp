@@ -69,6 +69,24 @@ void draw_speed_loop(Draw& draw, Scenario& s, const Scales& of) {
   if (loop.derivative_s && draw.chance(0.5)) loop.derivative_filter_s = *loop.derivative_s * draw.unit();
 }
 
+/// A start and what follows it, with or without probes beside it.
+void draw_sensorless(Draw& draw, Scenario& s) {
+  s.control.drive = FirmwareKind::sensorless;
+  s.pwm.alignment = Alignment::centre;
+  s.pwm.sample = SampleAt::middle;
+  Sensorless& x = s.control.sensorless;
+  x.greatest_load = draw.between(0.0, 0.6);
+  x.overload = draw.between(1.0, 3.0);
+  x.lowest_part = draw.between(0.02, 0.2);
+  if (draw.chance(0.3)) x.advance_deg = draw.between(0.0, 20.0);
+  if (draw.chance(0.3)) x.blanking_s = draw.unit() * s.pwm.period_s;
+  x.follows = static_cast<control::Follow>(draw.one_of(4));
+  x.catches_spin = draw.chance(0.7);
+  if (draw.chance(0.3)) x.starts_by = StartsBy::pulses;
+  x.falls_back = draw.chance(0.7);
+  if (draw.chance(0.3)) x.commutates = Commutates::hall;
+}
+
 }  // namespace
 
 void draw_control(Draw& draw, Scenario& s, Scales& of) {
@@ -96,25 +114,32 @@ void draw_control(Draw& draw, Scenario& s, Scales& of) {
                                                   : 90.0;
     c.slew = unit / (s.pwm.period_s * draw.decades(1.0, 200.0));
   }
+  if (c.drive == FirmwareKind::lean && c.mode != Mode::position && c.current.type == CurrentLoopType::pi &&
+      draw.chance(0.15))
+    draw_sensorless(draw, s);
   c.smooth_chopping.on = current && c.current.type == CurrentLoopType::pi && draw.chance(0.15);
 }
 
 void draw_sensors(Draw& draw, Scenario& s, const Scales& of) {
   Sensors& sensors = s.sensors;
   const bool product = s.control.drive == FirmwareKind::product;
-  if (!product && draw.chance(0.5)) return;
+  const bool by_hall = s.control.sensorless.commutates == Commutates::hall;
+  const bool by_pulses = s.control.sensorless.starts_by == StartsBy::pulses;
+  if (!product && !by_hall && !by_pulses && draw.chance(0.5)) return;
   const bool narrow = s.control.arithmetic == Arithmetic::q15 || s.control.arithmetic == Arithmetic::q14;
   sensors.adc_bits = narrow ? 8 + draw.one_of(5) : 8 + draw.one_of(9);
   sensors.seed = draw.one_of(1000);
-  if (product || draw.chance(0.6)) {
+  if (product || by_pulses || draw.chance(0.6)) {
     const bool late = product && s.pwm.delay_periods > 0;
-    sensors.currents = s.pwm.sample == SampleAt::middle && !late && draw.chance(0.5)
+    sensors.currents = s.pwm.sample == SampleAt::middle && !late && !by_pulses && draw.chance(0.5)
                            ? rig::CurrentMeasurement::dc_link
                            : rig::CurrentMeasurement::phases;
     sensors.current_range_A = of.kept_A * draw.decades(1.5, 6.0);
     if (draw.chance(0.5)) sensors.current_offset_A = draw.between(-0.01, 0.01) * *sensors.current_range_A;
     if (draw.chance(0.5)) sensors.current_gain_error = draw.between(-0.05, 0.05);
     if (draw.chance(0.5)) sensors.current_noise_A = draw.decades(1e-4, 1e-2) * *sensors.current_range_A;
+    if (draw.chance(0.3)) sensors.current_bandwidth_Hz = draw.decades(0.5, 500.0) / s.pwm.period_s;
+    if (draw.chance(0.2)) sensors.current_delay_s = draw.between(0.0, 0.99) * s.pwm.period_s;
     sensors.calibrated = draw.chance(0.7);
     sensors.shunt_settle_s = draw.decades(1e-3, 0.1) * s.pwm.period_s;
   }
@@ -123,9 +148,10 @@ void draw_sensors(Draw& draw, Scenario& s, const Scales& of) {
     sensors.bus_range_V = of.U_V * draw.between(1.6, 3.0);
     if (draw.chance(0.5)) sensors.bus_offset_V = draw.between(-0.02, 0.02) * of.U_V;
     if (draw.chance(0.5)) sensors.bus_gain_error = draw.between(-0.03, 0.03);
+    if (draw.chance(0.3)) sensors.bus_bandwidth_Hz = draw.decades(0.01, 100.0) / s.pwm.period_s;
     if (draw.chance(0.5)) sensors.bus_noise_V = draw.decades(1e-4, 1e-2) * of.U_V;
   }
-  if (product || draw.chance(0.6)) {
+  if (product || by_hall || draw.chance(0.6)) {
     sensors.rotor = RotorSensing::hall;
     sensors.speed_edges = 1 + draw.one_of(6);
     sensors.capture_Hz = narrow ? draw.decades(1e4, 1e6) : draw.decades(1e5, 1e8);

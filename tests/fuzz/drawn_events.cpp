@@ -90,6 +90,13 @@ Reference drawn_reference(Draw& draw, const Scenario& s, const Scales& of, doubl
 }
 
 void draw_events(Draw& draw, Scenario& s, const Scales& of) {
+  if (s.control.drive == FirmwareKind::sensorless && s.sensors.rotor == RotorSensing::hall &&
+      draw.chance(0.4)) {
+    At at;
+    at.time_s = instant(draw, s);
+    at.control.sensorless.commutates = static_cast<AtCommutates>(1 + draw.one_of(2));
+    s.at.push_back(at);
+  }
   for (int n = draw.chance(0.5) ? draw.one_of(4) + 1 : 0; n > 0; --n) {
     At at;
     at.time_s = instant(draw, s);

@@ -22,5 +22,7 @@ void draw_protection(Draw& draw, study::Scenario& s, const Scales& of);
 study::Reference drawn_reference(Draw& draw, const study::Scenario& s, const Scales& of, double left_s);
 void draw_events(Draw& draw, study::Scenario& s, const Scales& of);
 void draw_measures(Draw& draw, study::Scenario& s);
+/// What needs the general kernel, of some.
+void draw_general(Draw& draw, study::Scenario& s, const Scales& of);
 
 }  // namespace sixstep::testing

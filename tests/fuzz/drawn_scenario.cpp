@@ -5,7 +5,6 @@
 
 #include "files/scenario_on_disk.hpp"
 #include "sixstep/base/angle.hpp"
-#include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "tests/fuzz/draw.hpp"
 #include "tests/fuzz/drawn_parts.hpp"
@@ -16,7 +15,6 @@ namespace sixstep::testing {
 namespace {
 
 using namespace study;
-using base::written;
 
 struct Motor {
   std::string name;
@@ -38,36 +36,23 @@ const std::vector<Motor>& library() {
   return motors;
 }
 
-std::string quantity(const char* key, double value, const char* frame = "") {
-  const std::string framed = *frame ? ", frame = \"" + std::string(frame) + "\"" : "";
-  return std::string(key) + " = { value = " + written(value) + framed + " }\n";
-}
-
-/// Values of another motor over those of the sheet, and the lines that say so.
-std::string redraw(Draw& draw, design::Sheet& sheet) {
+/// Values of another motor over those of the sheet.
+void redraw(Draw& draw, design::Sheet& sheet) {
   const double U = draw.decades(6.0, 400.0), R = draw.decades(5e-3, 20.0), top = draw.decades(30.0, 3000.0);
   const double L = 1e3 * R * draw.decades(1e-4, 1e-2), K_t = 1e3 * U / top;
   const double J = draw.decades(1e-2, 3.0) * K_t * K_t * 1e-6 / R * 1e7;
-  const int pole_pairs = 1 + draw.one_of(14);
-  sheet.pole_pairs = pole_pairs;
+  sheet.pole_pairs = 1 + draw.one_of(14);
   sheet.nominal_voltage_V = {U, "", ""};
   sheet.resistance_ohm = {R, "terminal", ""};
   sheet.inductance_mH = {L, "terminal", ""};
   sheet.torque_constant_mNm_A = base::Quantity{K_t, "terminal", ""};
   sheet.inertia_gcm2 = {J, "", ""};
   sheet.stall_torque_mNm = base::Quantity{K_t * U / R, "", ""};
-  std::string text = "\n[motor_override]\npole_pairs = " + std::to_string(pole_pairs) + "\n";
-  text += quantity("nominal_voltage_V", U) + quantity("resistance_ohm", R, "terminal") +
-          quantity("inductance_mH", L, "terminal") + quantity("torque_constant_mNm_A", K_t) +
-          quantity("inertia_gcm2", J) + quantity("stall_torque_mNm", K_t * U / R);
   if (draw.chance(0.3)) {
     sheet.back_emf = design::BackEmfShape::sine;
-    text += "back_emf = \"sine\"\n";
   } else if (draw.chance(0.5)) {
     sheet.flat_deg = draw.between(5.0, 178.0);
-    text += "flat_deg = " + written(sheet.flat_deg) + "\n";
   }
-  return text;
 }
 
 }  // namespace
@@ -79,16 +64,17 @@ DrawnScenario drawn_scenario(std::uint64_t seed) {
   const bool own = draw.chance(0.4);
   const Motor& motor = library()[static_cast<std::size_t>(draw.one_of(static_cast<int>(library().size())))];
   s.motor = own ? "maxon-251601" : motor.name;
-  std::string overrides;
   s.sheet = motor.sheet;
   if (own) {
     for (const Motor& m : library())
       if (m.name == s.motor) s.sheet = m.sheet;
-    overrides = redraw(draw, s.sheet);
+    s.motor_sheet = s.sheet;
+    redraw(draw, s.sheet);
   }
+  if (!s.motor_sheet) s.motor_sheet = s.sheet;
   draw_parts(draw, s);
   s.title = "drawn with seed " + std::to_string(seed);
-  out.text = text::scenario_text(s) + overrides;
+  out.text = text::scenario_text(s);
   return out;
 }
 

@@ -68,6 +68,7 @@ struct Evidence {
   bool read_back_equal = true;
   bool breaks_a_hall_line = false;
   bool clamps = false;
+  bool shorts = false;
   bool strayed_compiles = true;
   double seconds = 0.0;
 };
@@ -112,7 +113,7 @@ constexpr Law always[] = {
     {"what holds is a number",
      [](const Evidence& e) { return yes_no(!e.outcome || sound_figures(*e.outcome)); }},
     {"no switch shorts the bus",
-     [](const Evidence& e) { return yes_no(!e.outcome || !says(*e.outcome, "shoot-through")); }},
+     [](const Evidence& e) { return yes_no(!e.outcome || e.shorts || !says(*e.outcome, "shoot-through")); }},
 };
 
 /// Of a drawn one that was accepted: it has an outcome, a watched outcome and a walk.
@@ -154,9 +155,10 @@ void keep_words(const base::Problems& problems, Examined& out) {
 std::string kind_of(const Scenario& s) {
   const bool sensed = s.sensors.currents != rig::CurrentMeasurement::ideal ||
                       s.sensors.bus != BusSensing::ideal || s.sensors.rotor != RotorSensing::ideal;
-  const std::string firmware = s.control.drive == FirmwareKind::product ? "product"
-                               : sensed                                 ? "sensed"
-                                                                        : "lean";
+  const std::string firmware = s.control.drive == FirmwareKind::product      ? "product"
+                               : s.control.drive == FirmwareKind::sensorless ? "sensorless"
+                               : sensed                                      ? "sensed"
+                                                                             : "lean";
   return firmware + ", " + std::string(base::word(arithmetic_choices, s.control.arithmetic));
 }
 
@@ -178,8 +180,13 @@ bool clamps(const Scenario& s) {
   return std::any_of(s.at.begin(), s.at.end(), [](const At& at) { return at.load.locked.has_value(); });
 }
 
+bool shorts(const Scenario& s) {
+  return std::any_of(s.at.begin(), s.at.end(),
+                     [](const At& at) { return at.bridge.shorted_switch != Switch::none; });
+}
+
 bool breaks_hall(const Scenario& s) {
-  bool breaks = s.sensors.hall_break.at_s.has_value();
+  bool breaks = s.sensors.hall_break.at_s.has_value() || s.sensors.hall_glitches_Hz > 0;
   for (const At& at : s.at) breaks = breaks || at.sensors.hall_break.has_value();
   return breaks;
 }
@@ -209,6 +216,22 @@ Listeners all_ears(Rows& rows, control::Mode mode) {
 
 std::string drawn_text(std::uint64_t seed) { return drawn_scenario(seed).text; }
 std::string hostile_text(std::uint64_t seed) { return broken_text(seed).text; }
+
+/// What was read is what was drawn (of a sheet what was drawn over it), and what it writes reads back as it.
+bool reads_back(const Scenario& read, const Scenario& drawn) {
+  Scenario plain = read;
+  plain.sheet = drawn.sheet;
+  plain.motor_sheet = drawn.motor_sheet;
+  const design::Sheet &a = read.sheet, &b = drawn.sheet;
+  const bool same_sheet = a.resistance_ohm->value == b.resistance_ohm->value &&
+                          a.cogging_mNm == b.cogging_mNm && a.harmonic_sizes == b.harmonic_sizes &&
+                          a.phase_resistance_deviation == b.phase_resistance_deviation;
+  const std::string written = text::scenario_text(read);
+  const auto again = files::read_scenario_text(beside_scenarios("drawn.toml"), written);
+  return same_sheet && text::scenario_text(plain) == text::scenario_text(drawn) && again &&
+         text::scenario_text(*again) == written &&
+         again->sheet.resistance_ohm->value == read.sheet.resistance_ohm->value;
+}
 
 Examined examine_drawn(std::uint64_t seed) {
   const double began_s = cpu_s();
@@ -241,10 +264,10 @@ Examined examine_drawn(std::uint64_t seed) {
        .watched = watched ? &*watched : &*outcome,
        .rows = &rows,
        .walk = &walked,
-       .read_back_equal = text::scenario_text(*scenario) == text::scenario_text(drawn.scenario) &&
-                          scenario->sheet.resistance_ohm->value == drawn.scenario.sheet.resistance_ohm->value,
+       .read_back_equal = reads_back(*scenario, drawn.scenario),
        .breaks_a_hall_line = breaks_hall(*scenario),
        .clamps = clamps(*scenario),
+       .shorts = shorts(*scenario),
        .strayed_compiles = strayed_compiles(*scenario),
        .seconds = cpu_s() - began_s},
       out);
@@ -274,7 +297,12 @@ Examined examine_hostile(std::uint64_t seed) {
   out.accepted = true;
   out.ended = cut_short(*scenario, *outcome) ? "cut" : end_of(*outcome);
   keep_strange_figures(*outcome, out);
-  ask({.examined = out, .problems = {}, .outcome = &*outcome, .rows = &rows, .seconds = cpu_s() - began_s},
+  ask({.examined = out,
+       .problems = {},
+       .outcome = &*outcome,
+       .rows = &rows,
+       .shorts = shorts(*scenario),
+       .seconds = cpu_s() - began_s},
       out);
   return out;
 }

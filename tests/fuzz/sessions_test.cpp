@@ -136,11 +136,6 @@ void live(Draw& draw, Session& session, Told& told) {
   }
 }
 
-/// The drawn motor's values, which a session does not write.
-std::string overrides_of(const DrawnScenario& drawn) {
-  return drawn.text.substr(text::scenario_text(drawn.scenario).size());
-}
-
 std::uint64_t digest_of(const Scenario& s, std::uint64_t seed) {
   const auto out = run(s, {.keep_books = false});
   if (!out) ADD_FAILURE() << "SIXSTEP_FUZZ_SEED=" << seed << ": " << to_string(out.problems()[0]);
@@ -172,7 +167,7 @@ bool examine(std::uint64_t seed, Told& told) {
     return false;
   }
   EXPECT_EQ(digest_of(session->scenario(), seed), out->digest) << "replayed";
-  const std::string file = text::scenario_text(session->scenario()) + overrides_of(drawn);
+  const std::string file = text::scenario_text(session->scenario());
   const auto read = text::read_scenario_text(SIXSTEP_SOURCE_DIR "/data/scenarios/x.toml", file, {});
   if (!read) {
     ADD_FAILURE() << to_string(read.problems()[0]) << "\n" << file;

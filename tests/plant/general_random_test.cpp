@@ -30,8 +30,10 @@ class Draw {
 
 general::Machine drawn_machine(Draw& d) {
   const double R = d.decades(0.05, 3), L = R * d.decades(0.1e-3, 2e-3), K = d.decades(0.005, 0.05);
-  general::Machine m{
-      .R_ohm = {R, R, R}, .K_e_V_s = {K, K, K}, .L_H = L, .pole_pairs = 1 + static_cast<int>(d.below(10))};
+  general::Machine m{.R_ohm = {R, R, R},
+                     .K_e_V_s = {K, K, K},
+                     .L_H = L,
+                     .pole_pairs = 1.0 + static_cast<double>(d.below(10))};
   if (d.one_in(2)) m.shape.harmonics = {{1, 1.0}};
   if (!m.shape.harmonics.empty() && d.one_in(2)) m.shape.harmonics.push_back({3, d.between(-0.2, 0.2)});
   if (!m.shape.harmonics.empty() && d.one_in(3)) m.shape.harmonics.push_back({5, d.between(-0.1, 0.1)});

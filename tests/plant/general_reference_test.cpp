@@ -48,10 +48,10 @@ double value_of(const std::string& column, const GeneralRig& rig) {
   if (column == "w_m") return s.w;
   if (column == "theta_m") return angle;
   if (column == "U_s") return s.bus;
-  if (column == "i_src") return plant.more().source;
-  if (column == "j_sum") return plant.more().loop;
-  if (column == "w_2") return plant.more().load_w;
-  if (column == "theta_2") return plant.constants().inv_gear * angle - plant.more().twist;
+  if (column == "i_src") return plant.more().source.value;
+  if (column == "j_sum") return plant.more().loop.value;
+  if (column == "w_2") return plant.more().load_w.value;
+  if (column == "theta_2") return plant.constants().inv_gear * angle - plant.more().twist.value;
   return NAN;
 }
 
@@ -172,6 +172,13 @@ TEST(GeneralReference, AWireThatBreaks) {
   Case c;
   c.board.timeline.push_back({{10'000'000'000, 0.0}, rig::ActionKind::wire_break, 1.0});
   matches("G13", c);
+}
+
+TEST(GeneralReference, ProbesThatAreMountedAskew) {
+  Case c;
+  c.setup.probes.placement = {
+      .offset_deg = 4, .hysteresis_deg = 2, .own_deg = {0.0, 3.0, -2.0, 1.0, -4.0, 2.0}};
+  matches("G14", c);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ analysis::DesignStudy studied(Mode mode, const std::string& name = "") {
   if (!name.empty()) sheet->name = name;
   const auto s = analysis::study_design({.subject = {"maxon-251601", *sheet, {}},
                                          .spec = {.mode = mode, .torque_limit_Nm = 0.78},
-                                         .tolerances = analysis::sheet_tolerances(mode)});
+                                         .tolerances = analysis::sheet_tolerances(*sheet, mode)});
   EXPECT_TRUE(s);
   return *s;
 }

@@ -100,6 +100,29 @@ TEST(Conduction, a_leg_without_a_gate_carries_by_the_diode_its_current_opens) {
   EXPECT_EQ(found.end_s, 4.0);
 }
 
+TEST(Conduction, an_igbt_that_is_on_carries_one_direction_and_its_diode_the_other) {
+  sixstep::study::Trace trace;
+  for (const char* name :
+       {"t_s", "i_a_A", "i_b_A", "i_c_A", "gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"})
+    trace.columns.push_back({name, "", "", ""});
+  // T1, T4 and T6 are on: a feeds, b returns through its transistor, c through its lower diode; then none flows.
+  trace.values = {{0, 1, 1, 2}, {2, 2, 0, 0}, {-3, -3, 0, 0}, {1, 1, 0, 0}, {1, 1, 1, 1},
+                  {0, 0, 0, 0}, {0, 0, 0, 0}, {1, 1, 1, 1},   {0, 0, 0, 0}, {1, 1, 1, 1}};
+  EXPECT_THAT(conduction(trace, true).code, testing::ElementsAre(1 + 5 * 2 + 25 * 4, 0));
+  EXPECT_THAT(conduction(trace).code, testing::ElementsAre(1 + 5 * 2 + 25 * 2));
+}
+
+TEST(Conduction, a_leg_carries_the_current_of_the_phase_that_hangs_at_it) {
+  sixstep::study::Trace trace;
+  for (const char* name :
+       {"t_s", "i_a_A", "i_b_A", "i_c_A", "gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"})
+    trace.columns.push_back({name, "", "", ""});
+  // No gate. Phase a feeds and b returns; phases b, c, a hang at legs a, b, c: leg a carries b's by its upper diode, c a's.
+  trace.values = {{0, 1}, {2, 2}, {-2, -2}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
+  EXPECT_THAT(conduction(trace).code, testing::ElementsAre(4 + 5 * 3));
+  EXPECT_THAT(conduction(trace, false, {1, 2, 0}).code, testing::ElementsAre(3 + 25 * 4));
+}
+
 TEST(Glance, answers_what_a_reader_asks_first) {
   SyntheticRun run = synthetic_run(0.02);
   std::string html = page(run);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/support/figures.hpp"
 #include "tests/support/product_scenarios.hpp"
 
 namespace {
@@ -14,12 +15,6 @@ using control::Mode;
 using study::At;
 using study::Scenario;
 using study::Shape;
-
-study::Outcome outcome(const Scenario& s) {
-  const auto out = study::run(s);
-  if (!out) ADD_FAILURE() << to_string(out.problems()[0]);
-  return out ? *out : study::Outcome{};
-}
 
 /// Rows of t and one column on a grid.
 std::vector<std::pair<double, double>> curve(Scenario s, const char* column, double grid_s) {
@@ -43,11 +38,11 @@ TEST(Events, WhatHasAKeyOfItsOwnIsTheSameEventToTheBit) {
                   {.time_s = 0.14, .sensors = {.hall_break = study::AtHallBreak{2, study::PinLevel::high}}},
                   {.time_s = 0.05, .reference = study::Reference{.value = 110.0}},
                   {.time_s = 0.06, .load = {.torque_Nm = 0.01}}};
-  const std::uint64_t digest = outcome(by_keys).digest;
-  EXPECT_EQ(outcome(by_events).digest, digest);
+  const std::uint64_t digest = outcome_of(by_keys).digest;
+  EXPECT_EQ(outcome_of(by_events).digest, digest);
   while (!by_events.at.empty()) {  // and each of them counts
     by_events.at.pop_back();
-    EXPECT_NE(outcome(by_events).digest, digest) << by_events.at.size();
+    EXPECT_NE(outcome_of(by_events).digest, digest) << by_events.at.size();
   }
 }
 
@@ -104,7 +99,7 @@ TEST(Events, AClampTakesTheKineticEnergyAndLetsGoFromRest) {
     const double expected = t < 0.1 ? speed(200.0, -c, t) : t <= 0.2 ? 0.0 : speed(0.0, 0.01 - c, t - 0.2);
     EXPECT_NEAR(w, expected, 1e-12 * 700.0) << t;
   }
-  const study::Outcome out = outcome(s);
+  const study::Outcome out = outcome_of(s);
   ASSERT_TRUE(out.energy);
   EXPECT_LT(std::fabs(out.energy->mechanical_residual), 1e-12);
   // What the load gave and what was stored has gone into friction and clamp, all but what turns at the end.

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which scenarios the general kernel runs, what it is given, and that everything around a run knows it: books, figures,
-// columns, sessions, checks.
+// columns, checks.
 #include "sixstep/study/compile/general_plant.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <span>
+#include <vector>
 
+#include "sixstep/design/sheet/thermal.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/run/run.hpp"
-#include "sixstep/study/session/session.hpp"
-#include "tests/support/scenarios.hpp"
+#include "tests/support/general_scenarios.hpp"
 
 namespace {
 
@@ -21,68 +23,9 @@ using study::Scenario;
 
 Scenario duty() { return maxon_scenario(control::Mode::duty, 0.5); }
 
-struct Asks {
-  const char* what;
-  std::function<void(Scenario&)> make;
-};
-const Asks asks[] = {
-    {"gear", [](Scenario& s) { s.load.gear = 2; }},
-    {"elastic shaft",
-     [](Scenario& s) {
-       s.load.stiffness_Nm_rad = 2;
-       s.load.inertia_kg_m2 = 1e-5;
-     }},
-    {"fan", [](Scenario& s) { s.load.fan_Nm_s2 = 1e-8; }},
-    {"weight", [](Scenario& s) { s.load.gravity_Nm = 0.01; }},
-    {"IGBT", [](Scenario& s) { s.bridge.device = study::Device::igbt; }},
-    {"bus inductance",
-     [](Scenario& s) {
-       s.supply.resistance_ohm = 0.1;
-       s.supply.capacitance_F = 1e-3;
-       s.supply.inductance_H = 1e-6;
-     }},
-    {"brake chopper",
-     [](Scenario& s) {
-       s.supply.resistance_ohm = 0.1;
-       s.supply.capacitance_F = 1e-3;
-       s.supply.brake_resistance_ohm = 2;
-       s.supply.brake_on_V = 30;
-       s.supply.brake_off_V = 28;
-     }},
-    {"delta", [](Scenario& s) { s.sheet.connection = design::WindingConnection::delta; }},
-    {"harmonics",
-     [](Scenario& s) {
-       s.sheet.back_emf = design::BackEmfShape::sine;
-       s.sheet.harmonic_orders = {3, 5};
-       s.sheet.harmonic_sizes = {0.1, 0.05};
-     }},
-    {"phases that stray",
-     [](Scenario& s) {
-       s.sheet.phase_resistance_deviation = {0.05, -0.05, 0};
-     }},
-    {"cogging",
-     [](Scenario& s) {
-       s.sheet.cogging_orders = {48};
-       s.sheet.cogging_mNm = {5};
-     }},
-    {"saliency",
-     [](Scenario& s) {
-       s.sheet.inductance_mH.reset();
-       s.sheet.d_axis_inductance_mH = base::Quantity{0.24, "phase", ""};
-       s.sheet.q_axis_inductance_mH = base::Quantity{0.34, "phase", ""};
-     }},
-    {"broken wire",
-     [](Scenario& s) {
-       study::At at;
-       at.time_s = 0.01;
-       at.motor.broken_wire = study::Wire::b;
-       s.at.push_back(at);
-     }},
-};
-
 TEST(GeneralPlant, IsChosenByWhatOnlyItHas) {
   EXPECT_FALSE(study::needs_general_plant(duty()));
-  for (const Asks& ask : asks) {
+  for (const AsksForGeneral& ask : asks_for_general) {
     Scenario s = duty();
     ask.make(s);
     EXPECT_TRUE(study::needs_general_plant(s)) << ask.what;
@@ -90,7 +33,7 @@ TEST(GeneralPlant, IsChosenByWhatOnlyItHas) {
 }
 
 TEST(GeneralPlant, RunsAllOfThemWithBooksThatClose) {
-  for (const Asks& ask : asks) {
+  for (const AsksForGeneral& ask : asks_for_general) {
     Scenario s = duty();
     s.duration_s = 0.02;
     ask.make(s);
@@ -101,6 +44,74 @@ TEST(GeneralPlant, RunsAllOfThemWithBooksThatClose) {
     EXPECT_LT(std::fabs(out->energy->electrical_residual), 1e-13) << ask.what;
     EXPECT_LT(std::fabs(out->energy->mechanical_residual), 1e-13) << ask.what;
   }
+}
+
+/// U through 2 R: what it begins with, before anything flows on to the housing, and the current as R follows.
+TEST(GeneralPlant, ALockedRotorWarmsUpAsTheSheetSays) {
+  Scenario s = maxon_scenario(control::Mode::duty, 1.0);
+  s.supply.voltage_V = 3;
+  s.duration_s = 2;
+  s.load.locked = true;
+  give_thermal_lines(s);
+  s.heat.motor = true;
+  s.heat.ambient_degC = 30;
+  s.record.columns = {"winding_degC", "housing_degC", "i_a_A"};
+  s.record.grid_s = 0.5;
+  std::vector<double> row;
+  study::Listeners listeners;
+  listeners.on_record = [&](std::span<const double> r) { row.assign(r.begin(), r.end()); };
+  const auto out = study::run(s, listeners);
+  ASSERT_TRUE(out) << base::to_string(out.problems()[0]);
+  const auto model = design::thermal_model(s.sheet);
+  ASSERT_TRUE(model);
+  const double R = 2 * out->motor.machine.R_ohm, hot = 1 + design::copper_per_K * 5;
+  const double I = 3 / (R * hot), P = I * I * R * hot, C_w = model->winding_s / model->winding_housing_K_W;
+  const double rise = P / C_w * 2;  // at once, before anything flows on
+  ASSERT_EQ(row.size(), 4u);
+  EXPECT_NEAR(row[1] - 30, rise, 0.1 * rise);
+  EXPECT_GT(row[1], 30.5);
+  EXPECT_NEAR(row[3], 3 / (R * (1 + design::copper_per_K * (row[1] - 25))), 1e-4 * row[3]) << "R follows";
+}
+
+TEST(GeneralPlant, TellsWhatTheSwitchesLose) {
+  Scenario s = maxon_scenario(control::Mode::duty, 0.5);
+  s.load.locked = true;
+  s.duration_s = 0.03;
+  s.bridge = {.on_resistance_ohm = 0.02,
+              .diode_drop_V = 0.7,
+              .turn_on_J = 30e-6,
+              .turn_off_J = 20e-6,
+              .recovery_J = 5e-6,
+              .energies_at_V = 48,
+              .energies_at_A = 10,
+              .junction_K_W = 2};
+  study::Requirement r;
+  r.measure = {.metric = study::MetricKind::switching_loss, .from_s = 0.024, .to_s = 0.027};
+  r.min = 0;
+  s.require = {r};
+  std::vector<double> extremes;
+  study::Requirement low = r, high = r;
+  low.measure = {
+      .metric = study::MetricKind::minimum, .signal = study::Signal::phase_a, .from_s = 0.024, .to_s = 0.027};
+  high.measure = {
+      .metric = study::MetricKind::maximum, .signal = study::Signal::phase_a, .from_s = 0.024, .to_s = 0.027};
+  s.require.push_back(low);
+  s.require.push_back(high);
+  const auto out = study::run(s);
+  ASSERT_TRUE(out) << base::to_string(out.problems()[0]);
+  // Locked in sector 0, a is chopped softly: on at the ripple's bottom, off at its top, once a period.
+  const double bottom = out->verdicts[1].measured, top = out->verdicts[2].measured, per = 24.0 / 48 / 10;
+  EXPECT_NEAR(out->verdicts[0].measured, (35e-6 * bottom + 20e-6 * top) * per / 30e-6, 1e-9);
+  ASSERT_EQ(out->devices.size(), 6u);
+  EXPECT_GT(out->devices[0].conduction_W, 0.5);
+  EXPECT_GT(out->devices[1].diode_W, 1) << "a freewheels on its lower diode";
+  EXPECT_GT(out->devices[1].recovery_W, 0);
+  EXPECT_EQ(out->devices[1].turn_on_W, 0);
+  const study::DeviceLoss& lower = out->devices[1];  // its diode is in the same crystal
+  EXPECT_NEAR(lower.junction_degC, 25 + 2 * (lower.conduction_W + lower.diode_W + lower.recovery_W), 1e-9);
+  double all = 0;
+  for (const auto& d : out->devices) all += (d.conduction_W + d.diode_W) * 0.03;
+  EXPECT_NEAR(all, out->energy->devices, 1e-12);
 }
 
 TEST(GeneralPlant, IsGivenTheLeanOnesNumbersWhereItHasNoOthers) {
@@ -140,14 +151,6 @@ TEST(GeneralPlant, FiguresOfTheLoadAreThoseOfItsOwnSide) {
   const auto out = study::run(s);
   ASSERT_TRUE(out);
   EXPECT_NEAR(out->verdicts[0].measured, 0.06 * out->verdicts[1].measured / 2, 1e-9);
-}
-
-TEST(GeneralPlant, NoSessionRunsItYetAndSaysSo) {
-  Scenario s = duty();
-  s.load.gear = 2;
-  const auto session = study::Session::open(s);
-  ASSERT_FALSE(session);
-  EXPECT_THAT(base::to_string(session.problems()[0]), ::testing::HasSubstr("no session runs yet"));
 }
 
 TEST(GeneralPlant, WhatContradictsIsNamed) {

@@ -302,7 +302,7 @@ TEST(Measures, WhatMakesNoSenseIsRefused) {
 }
 
 TEST(Measures, EachHasANameAndAUnit) {
-  for (const auto& [word, kind, meaning] : metric_choices) {
+  for (const auto& [word, kind, meaning, turning] : metric_choices) {
     const Measure m = measure(kind, Signal::copper_loss);
     EXPECT_GT(figure_name(m).size(), 9u) << word;
     EXPECT_FALSE(figure_unit(m).empty()) << word;

@@ -7,7 +7,7 @@
 
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/run/run.hpp"
-#include "tests/support/scenarios.hpp"
+#include "tests/support/product_scenarios.hpp"
 
 namespace {
 
@@ -78,6 +78,65 @@ Scenario with_shunt(Scenario s) {
   s.sensors.currents = CurrentMeasurement::dc_link;
   s.sensors.current_range_A = 40.96;
   return s;
+}
+
+study::At drifts(double at_s, std::optional<double> offset_A, std::optional<double> gain_error) {
+  study::At at;
+  at.time_s = at_s;
+  at.sensors.current_offset_A = offset_A;
+  at.sensors.current_gain_error = gain_error;
+  return at;
+}
+
+/// The drive measured its zero before. So amplifiers that drift behind that read as those do whose zero nobody measured.
+TEST(Sensors, AnAmplifierThatDriftsShiftsEverySampleByJustThat) {
+  for (Scenario drifted : {with_phases(held_at_5_A()), with_shunt(held_at_5_A())}) {
+    Scenario never_measured = drifted;
+    never_measured.sensors.current_offset_A = 0.31;
+    never_measured.sensors.current_gain_error = -0.07;
+    never_measured.sensors.calibrated = false;
+    const auto usual = study::run(drifted);
+    drifted.at.push_back(drifts(0.0, 0.31, -0.07));
+    const auto a = study::run(drifted), b = study::run(never_measured);
+    ASSERT_TRUE(a && b && usual);
+    EXPECT_EQ(a->digest, b->digest);
+    EXPECT_NE(a->digest, usual->digest);
+  }
+}
+
+TEST(Sensors, AnOffsetThatJumpsDuringTheRunMovesTheShuntsCurrentByIt) {
+  Scenario s = with_shunt(held_at_5_A());
+  s.sensors.adc_bits = 16;
+  s.sensors.current_offset_A = 0.2;  // this one it knows
+  const double before = mean_of(s);
+  s.at.push_back(drifts(4e-3, 0.2 + 0.5, {}));  // and of this one 0.2 A
+  EXPECT_NEAR(mean_of(s), before - 0.5, 2 * 20.48 / (1 << 15));
+  s.at.push_back(drifts(7e-3, 0.2, {}));
+  EXPECT_NEAR(mean_of(s), before, 2 * 20.48 / (1 << 15));
+}
+
+TEST(Sensors, AProductDriveDoesNotKnowEither) {
+  Scenario s = product_scenario(Mode::current, 3.0);
+  s.duration_s = 30e-3;
+  s.load.locked = true;
+  s.sensors.adc_bits = 12;
+  study::Measure m = measure(MetricKind::mean, Signal::current);
+  m.from_s = 20e-3;
+  ask(s, m);
+  const double before = mean_of(s);
+  s.at.push_back(drifts(12e-3, {}, 0.25));
+  EXPECT_NEAR(mean_of(s) / before, 1 / 1.25, 0.01);
+}
+
+TEST(Sensors, WhatDriftsMustBeThere) {
+  const auto told = [](Scenario s, const study::At& at) {
+    s.at.push_back(at);
+    const auto out = study::run(s);
+    return out ? std::string() : to_string(out.problems()[0]);
+  };
+  EXPECT_THAT(told(held_at_5_A(), drifts(1e-3, 0.1, {})), HasSubstr("at[0].sensors.current_offset_A = 0.1"));
+  EXPECT_THAT(told(held_at_5_A(), drifts(1e-3, {}, 0.1)), HasSubstr("sensors.currents = \"ideal\""));
+  EXPECT_THAT(told(with_phases(held_at_5_A()), drifts(1e-3, -30.0, {})), HasSubstr("leaves nothing of"));
 }
 
 TEST(Sensors, ShuntsOffsetShowsUntilItIsCalibrated) {

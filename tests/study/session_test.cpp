@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A session: slices, looks and copies cost no bit; what it was told replays from its scenario.
-#include "sixstep/study/session/session.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "sixstep/study/scenario/choices.hpp"
 #include "tests/support/product_scenarios.hpp"
+#include "tests/support/sessions.hpp"
 
 namespace {
 
@@ -44,24 +43,6 @@ std::vector<Scenario> each() {
   return {hysteresis(), cascade(), late_and_sampled_in_the_middle(), flashed(), full_duty()};
 }
 
-Outcome outcome(const Scenario& s, const Listeners& listeners = {}) {
-  const auto out = run(s, listeners);
-  if (!out) ADD_FAILURE() << to_string(out.problems()[0]);
-  return out ? *out : Outcome{};
-}
-
-Session opened(const Scenario& s, const Listeners& listeners = {}) {
-  auto session = Session::open(s, listeners);
-  EXPECT_TRUE(session) << to_string(session.problems()[0]);
-  return *session;
-}
-
-Outcome closed(Session& session) {
-  const auto out = session.close();
-  if (!out) ADD_FAILURE() << to_string(out.problems()[0]);
-  return out ? *out : Outcome{};
-}
-
 double told(Session& session, const At& at) {
   const auto when = session.change(at);
   if (!when) ADD_FAILURE() << to_string(when.problems()[0]);
@@ -72,18 +53,6 @@ At gains(double settle_s) {
   At at;
   at.control.current.settle_s = settle_s;
   return at;
-}
-
-/// Slices of awkward lengths, each looked at and continued in a copy.
-Outcome sliced(const Scenario& s, const Listeners& listeners = {}) {
-  Session session = opened(s, listeners);
-  double t_s = 0.0;
-  for (int n = 0; session.advance(t_s); ++n) {
-    t_s += s.pwm.period_s * (n % 3 == 0 ? 0.37 : n % 3 == 1 ? 5.0 : 1.0 / 3);
-    EXPECT_GE(session.now_s(), session.present().t_s);
-    if (n % 7 == 0) session = Session(session);
-  }
-  return closed(session);
 }
 
 /// A drive that its arithmetic cannot hold is refused by a run and a session alike.

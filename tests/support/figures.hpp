@@ -14,13 +14,20 @@ inline study::Measure over(study::MetricKind metric, study::Signal signal, doubl
   return m;
 }
 
-/// What was asked, in that order; nothing, and a failure, where the run could not start.
-inline std::vector<double> figures_of(const study::Scenario& s) {
+/// A failure, and as many figures of nothing as were asked for, where the run could not start.
+inline study::Outcome outcome_of(const study::Scenario& s) {
   const auto out = study::run(s);
-  EXPECT_TRUE(out) << (out ? "" : base::to_string(out.problems().front()));
+  if (out) return *out;
+  ADD_FAILURE() << base::to_string(out.problems().front());
+  study::Outcome none;
+  none.comparisons.resize(s.compare.size());
+  return none;
+}
+
+/// What was asked, in that order.
+inline std::vector<double> figures_of(const study::Scenario& s) {
   std::vector<double> figures;
-  if (out)
-    for (const study::ComparisonResult& c : out->comparisons) figures.push_back(c.measured);
+  for (const study::ComparisonResult& c : outcome_of(s).comparisons) figures.push_back(c.measured);
   return figures;
 }
 

@@ -18,6 +18,7 @@ struct GeneralSetup {
   general::Devices devices{};
   general::Supply supply{.V_0_V = 24};
   general::Start start{.bus_V = 24};
+  rig::ProbeGiven probes{};
 
   general::Plant<double> plant() const { return {machine, shaft, devices, supply, start}; }
 };
@@ -27,35 +28,18 @@ using GeneralRigOf = rig::Rig<double, Firmware, general::Plant<double>>;
 using GeneralRig = GeneralRigOf<rig::LeanDrive<double>>;
 
 inline GeneralRig general_rig(const GeneralSetup& setup, const Board& board) {
-  return GeneralRig(setup.plant(), board.drive, board.board, board.timeline);
+  return GeneralRig(setup.plant(), board.drive, board.board, board.timeline, {}, {}, setup.probes);
 }
 
 /// The general plant alone with gates held, as a System for sim::run.
-class HeldGeneral {
+class HeldGeneral : public rig::BarePlant<double, general::Plant<double>> {
  public:
-  using Real = double;
-  explicit HeldGeneral(const GeneralSetup& setup, const plant::Gates& gates = {}) : plant_(setup.plant()) {
+  explicit HeldGeneral(const GeneralSetup& setup, const plant::Gates& gates = {}) : BarePlant(setup.plant()) {
     plant_.set_gates(gates);
   }
-  sim::Instant now() const { return now_; }
-  sim::Instant next_known() const { return sim::Instant::never(); }
-  bool act() { return true; }
-  double expand(double h) { return plant_.expand(h); }
-  template <class Visit>
-  void guards(Visit&& visit) const {
-    plant_.guards(visit);
-  }
-  void advance(double s, const sim::Instant& to) {
-    plant_.advance(s);
-    now_ = to;
-  }
   void apply(int id) { plant_.apply(id); }
-  const general::Plant<double>& plant() const { return plant_; }
+  using BarePlant::plant;
   general::Plant<double>& plant() { return plant_; }
-
- private:
-  general::Plant<double> plant_;
-  sim::Instant now_{};
 };
 
 }  // namespace sixstep::testing

@@ -13,6 +13,10 @@ namespace sixstep::testing {
 Walk walk_lean(const study::Scenario& scenario, const study::Compiled& compiled, const WalkPlan& plan);
 Walk walk_sensed(const study::Scenario& scenario, const study::Compiled& compiled, const WalkPlan& plan);
 Walk walk_product(const study::Scenario& scenario, const study::Compiled& compiled, const WalkPlan& plan);
+Walk walk_sensed_on_general(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan);
+Walk walk_product_on_general(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan);
+Walk walk_sensorless(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan);
+Walk walk_sensorless_on_general(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan);
 
 namespace detail {
 
@@ -69,29 +73,32 @@ Walk walk_rig(Rig rig, sim::Instant end, const WalkPlan& plan) {
   return out;
 }
 
-template <class Firmware>
+template <class Firmware, bool on_general>
 Walk walk_in(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan) {
   const auto chip = study::chip_of<Firmware>(s, c);
   if (!chip) return {.problems = chip.problems()};
-  return walk_rig(study::rig_of<Firmware>(c, *chip, c.timeline), c.end, plan);
+  if constexpr (on_general)
+    return walk_rig(study::general_rig_of<Firmware>(c, *chip, c.timeline), c.end, plan);
+  else
+    return walk_rig(study::rig_of<Firmware>(c, *chip, c.timeline), c.end, plan);
 }
 
-template <template <class> class Firmware>
+template <template <class> class Firmware, bool on_general = false>
 Walk walk_chosen(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan) {
   using enum study::Arithmetic;
   switch (s.control.arithmetic) {
     case float64:
-      return walk_in<Firmware<double>>(s, c, plan);
+      return walk_in<Firmware<double>, on_general>(s, c, plan);
     case float32:
-      return walk_in<Firmware<float>>(s, c, plan);
+      return walk_in<Firmware<float>, on_general>(s, c, plan);
     case q15:
-      return walk_in<Firmware<control::Q15>>(s, c, plan);
+      return walk_in<Firmware<control::Q15>, on_general>(s, c, plan);
     case q14:
-      return walk_in<Firmware<control::Q14>>(s, c, plan);
+      return walk_in<Firmware<control::Q14>, on_general>(s, c, plan);
     case q31:
-      return walk_in<Firmware<control::Q31>>(s, c, plan);
+      return walk_in<Firmware<control::Q31>, on_general>(s, c, plan);
     case q30:
-      return walk_in<Firmware<control::Q30>>(s, c, plan);
+      return walk_in<Firmware<control::Q30>, on_general>(s, c, plan);
   }
   return {};
 }

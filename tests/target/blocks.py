@@ -7,6 +7,7 @@ import re
 import build
 import cores
 import cost
+import walk
 from build import Failed
 
 TABLE = cores.TABLES / "blocks.txt"
@@ -19,13 +20,15 @@ HEAD = """# SPDX-License-Identifier: Apache-2.0
 
 
 def cases():
-    return [(core, scalar) for core in cores.CHIPS for scalar in (*core.costs, "whole") if scalar in (*core.scalars, "whole")]
+    return [(core, scalar, part) for core in cores.CHIPS for part in walk.PARTS for scalar in (*core.costs, "whole")
+            if scalar in (*core.scalars, "whole")]
 
 
-def counted(core, scalar):
+def counted(core, scalar, part):
     """What the program prints, and a line `cost SLOT CALLS MEAN WITHIN WORST` for each function, `next` after each block."""
     sources = [cores.HERE / "walk" / "main.cpp", cores.HERE / "platform" / "marks.S"]
-    file = build.build(core, f"blocks-{scalar}", sources, scalar, (*core.for_walk, "-DTARGET_COUNTED"))
+    file = build.build(core, "-".join(filter(None, ["blocks", scalar, part])), sources, scalar,
+                       (*core.flags_of_walk(part), "-DTARGET_COUNTED", *walk.PARTS[part]))
     at = cost.addresses(core, file)
     begins = [at[f"count_begins_{n}"] for n in range(3)]
     if core.unit == "cycles":
@@ -38,8 +41,8 @@ def counted(core, scalar):
 
 def measured(case):
     """{(core, block, scalar, function): (calls, mean, within, worst)}"""
-    core, scalar = case
-    text = counted(core, scalar)
+    core, scalar, part = case
+    text = counted(core, scalar, part)
     counts = [dict(re.findall(r"^cost slot(\d) (.*)$", part, re.M)) for part in text.split("next\n")]
     names = re.findall(r"^counted (\S+) (\d) (\S+)$", text, re.M)
     order = re.findall(rf"^(\S+) {scalar} \d+ [0-9a-f]{{8}}$", text, re.M)
@@ -50,11 +53,12 @@ def measured(case):
     return {key: (row[0], *(n - call[3] for n in row[1:])) for key, row in rows.items()}
 
 
-def take():
+def take(of=None):
     rows, trouble = {}, []
-    for case, answer in zip(cases(), build.side_by_side(measured, cases())):
+    chosen = cases() if of is None else of
+    for case, answer in zip(chosen, build.side_by_side(measured, chosen)):
         if isinstance(answer, Failed):
-            trouble.append(f"{case[0].name}, blocks in {case[1]}: {answer}")
+            trouble.append(f"{case[0].name}, blocks in {case[1]} {case[2]}: {answer}")
         else:
             rows |= answer
     return rows, trouble

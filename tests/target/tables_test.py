@@ -38,11 +38,17 @@ class Tables(unittest.TestCase):
         self.assertEqual(set(sizes.expected()), cases)
 
     def test_every_block_of_the_walk_has_its_rows_on_every_core(self):
-        cases = {(core.name, scalar) for core, scalar in blocks.cases()}
+        cases = {(core.name, scalar) for core, scalar, _ in blocks.cases()}
         found = cost.expected(blocks.TABLE)
         self.assertEqual({(key[0], key[2]) for key in found}, cases)
         walked = {block for block, scalar, _ in walk.expected() if ":" not in block and "+" not in block}
         self.assertEqual({key[1] for key in found}, walked - {"arithmetic"})
+
+    def test_every_part_of_the_walk_has_blocks_and_observers_are_not_the_rotors(self):
+        blocks_of = {block for block, _, _ in walk.expected()}
+        self.assertEqual({walk.part_of(block) for block in blocks_of}, set(walk.PARTS))
+        self.assertEqual([walk.part_of(block) for block in ("pi", "sensorless/lock", "sensorless/observer", "commissioning/pulse_start")],
+                         ["", "rotor", "observers", "pulses"])
 
     def test_a_block_that_got_dearer_is_told_with_block_and_core(self):
         told = cost.judge(("ATmega2560", "pi", "q15", "pi_step"), (10000, 1005, 1086, 1086), (10000, 1060, 1086, 1086))

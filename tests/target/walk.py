@@ -14,8 +14,21 @@ HEAD = """# SPDX-License-Identifier: Apache-2.0
 """
 
 
+# Programs of their own: all at once would not fit, and a block's count would move with its neighbours. A block is in the part
+# that names it most exactly.
+PARTS = {"": (), "rotor": ("-DTARGET_OF_ROTOR",), "observers": ("-DTARGET_OF_OBSERVERS",),
+         "commissioning": ("-DTARGET_OF_COMMISSIONING",), "pulses": ("-DTARGET_OF_PULSES",)}
+BLOCKS = {"": "", "sensing/": "rotor", "sensorless/": "rotor", "commissioning/": "commissioning",
+          "commissioning/pulse": "pulses",
+          **{f"sensorless/{observer}": "observers" for observer in ("luenberger", "sliding_mode", "flux_linkage", "observer")}}
+
+
 def programs(core):
     return (*core.scalars, "whole")
+
+
+def part_of(block):
+    return BLOCKS[max(filter(block.startswith, BLOCKS), key=len)]
 
 
 def digests(text):
@@ -23,10 +36,11 @@ def digests(text):
     return {(block, scalar, int(n)): digest for block, scalar, n, digest in found}
 
 
-def printed(core, scalar, steps=SHORT, defines=()):
+def printed(core, scalar, part, steps=SHORT, defines=()):
     """{(block, scalar, steps): digest} of one program; its other lines begin with #."""
+    defines = (*PARTS[part], *defines)
     name = "-".join(["walk", scalar, *(define.removeprefix("-D") for define in defines)])
-    file = build.build(core, name, [cores.HERE / "walk" / "main.cpp"], scalar, (*core.for_walk, *defines))
+    file = build.build(core, name, [cores.HERE / "walk" / "main.cpp"], scalar, (*core.flags_of_walk(part), *defines))
     text = build.run(core, file, *([str(steps)] if core.is_host else []))
     return digests(text), text
 
@@ -43,44 +57,46 @@ def expected():
 def renew():
     core = cores.HOSTS[0]
     rows = []
-    for scalar in programs(core):
-        found, _ = printed(core, scalar, LONG)
-        rows += [f"{block} {s} {digest} {found[block, s, LONG]}" for (block, s, n), digest in found.items() if n == SHORT]
+    for part in PARTS:
+        for scalar in programs(core):
+            found, _ = printed(core, scalar, part, LONG)
+            rows += [f"{block} {s} {digest} {found[block, s, LONG]}" for (block, s, n), digest in found.items() if n == SHORT]
     TABLE.write_text(HEAD + "\n".join(rows) + "\n")
 
 
 def check_sights():
     """Lines of trouble: an input that the walk is meant to reach and does not."""
     core, trouble = cores.HOSTS[0], []
-    for scalar in ("q15", "float", "whole"):
-        _, text = printed(core, scalar, defines=("-DTARGET_SIGHTS",))
+    for scalar, part in [(scalar, part) for part in PARTS for scalar in ("q15", "float", "whole")]:
+        _, text = printed(core, scalar, part, defines=("-DTARGET_SIGHTS",))
         for times, what in re.findall(r"^# (\d+) (.*)$", text, re.M):
             if int(times) < LEAST_SIGHTS:
                 trouble.append(f"{scalar} {what}: reached in {times} of {SHORT} steps, too seldom")
     return trouble
 
 
-def difference(core, scalar, table):
+def difference(core, scalar, part, table):
     """Lines of trouble of one program, and how many digests were the same."""
     steps = LONG if core.is_host else SHORT
-    found, _ = printed(core, scalar, steps)
-    wanted = {key: digest for key, digest in table.items() if key[1] == scalar and (core.is_host or key[2] == SHORT)}
+    found, _ = printed(core, scalar, part, steps)
+    wanted = {key: digest for key, digest in table.items()
+              if key[1] == scalar and part_of(key[0]) == part and (core.is_host or key[2] == SHORT)}
     trouble = [f"{core.name}: {block} {s}, {n} steps: {wanted.get((block, s, n), 'not in the table')} expected, "
                f"{found.get((block, s, n), 'not printed')} found"
                for block, s, n in sorted(wanted.keys() | found.keys()) if wanted.get((block, s, n)) != found.get((block, s, n))]
     return trouble, len(found) - len(trouble)
 
 
-def check(of=None):
-    """All cores, or those named; prints a line each. True where all is well."""
+def check(of=None, parts=tuple(PARTS)):
+    """All cores and programs, or those named; prints a line for each core. True where all is well."""
     table, well = expected(), True
     chosen = [c for c in (*cores.HOSTS, *cores.CHIPS) if of is None or c.name in of]
-    pairs = [(core, scalar) for core in chosen for scalar in programs(core)]
-    answers = dict(zip(pairs, build.side_by_side(lambda pair: difference(*pair, table), pairs)))
+    cases = [(core, scalar, part) for core in chosen for scalar in programs(core) for part in parts]
+    answers = dict(zip(cases, build.side_by_side(lambda case: difference(*case, table), cases)))
     for core in chosen:
         trouble, same = [], 0
-        for scalar in programs(core):
-            answer = answers[core, scalar]
+        for scalar, part in [case[1:] for case in cases if case[0] is core]:
+            answer = answers[core, scalar, part]
             if isinstance(answer, Failed):
                 trouble.append(f"{core.name}, {scalar}: {answer}")
             else:

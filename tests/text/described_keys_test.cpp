@@ -26,7 +26,7 @@ class Dump {
     emit(key, fmt::format("{}", x));
   }
   void value(std::string_view key, int& x, const base::About& about) {
-    if (change_) x = about.range.holds(7) ? 7 : about.range.high < 2 ? 1 : 3;
+    if (change_) x = about.range.holds(7) ? 7 : about.range.high < 2 ? 1 : about.range.holds(3) ? 3 : 12;
     emit(key, fmt::format("{}", x));
   }
   void value(std::string_view key, bool& x, const base::About&) {
@@ -99,7 +99,8 @@ class Dump {
  private:
   static double inside(const base::Range& range, double present) {
     const double tried = 0.375;
-    return range.holds(tried) && tried != present ? tried : range.holds(5.5) ? 5.5 : 1.0;
+    if (range.holds(tried) && tried != present) return tried;
+    return range.holds(5.5) ? 5.5 : range.holds(1.0) ? 1.0 : (range.low + range.high) / 2;
   }
   void emit(std::string_view key, const std::string& toml) {
     text += fmt::format("{}{} = {}\n", prefix_, key, toml);
@@ -209,10 +210,26 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                                          "turns_in_series",
                                          "harmonic_orders",
                                          "harmonic_sizes",
+                                         "back_emf_shape",
                                          "phase_resistance_deviation",
                                          "phase_back_emf_deviation",
                                          "cogging_orders",
-                                         "gear"};
+                                         "gear",
+                                         "gear_efficiency",
+                                         "battery_charges",
+                                         "battery_charge",
+                                         "lines",
+                                         "bits",
+                                         "speed_samples",
+                                         "pole_pairs",
+                                         "imbalance",
+                                         "greatest_load",
+                                         "overload",
+                                         "lowest_part",
+                                         "mismatch",
+                                         "hall_calibration_turns",
+                                         "missed_edges",
+                                         "track"};
   for (const KeyEntry& key : all_keys()) {
     const bool number = key.type == KeyType::number || key.type == KeyType::whole_number ||
                         key.type == KeyType::numbers || key.type == KeyType::quantity;

@@ -152,8 +152,8 @@ TEST_F(MotorFile, EverySpellingIsTheKeyInItsUnit) {
       Find find{key.path, {}};
       describe(find, sheet);
       ASSERT_TRUE(find.found);
-      EXPECT_EQ(find.found->value, base::times_ten_to(2.5, spelling.ten));
-      EXPECT_EQ(find.found->last_digit, base::times_ten_to(1.0, spelling.ten - 2));
+      EXPECT_EQ(find.found->value, base::times_ten_to(2.5, spelling.ten) * spelling.factor);
+      EXPECT_EQ(find.found->last_digit, base::times_ten_to(1.0, spelling.ten - 2) * spelling.factor);
       EXPECT_EQ(find.found->key, spelling.key);
       EXPECT_EQ(find.found->source, spelling.source);
       if (!spelling.frame.empty()) {
@@ -203,9 +203,10 @@ TEST_F(MotorFile, AFreshTemplateAsksForEachNumber) {
     EXPECT_GE(lines.size(), 4u) << style;
     for (const std::string& line : lines) EXPECT_THAT(line, testing::HasSubstr(" must ")) << style;
   }
-  EXPECT_EQ(to_string(motor_template("servos", "x").problems().front()),
-            "--style = servos is none of maxon, drone, servo, firmware; choose the one whose sheet looks "
-            "like yours");
+  EXPECT_EQ(
+      to_string(motor_template("servos", "x").problems().front()),
+      "--style = servos is none of maxon, drone, servo, linear, firmware; choose the one whose sheet looks "
+      "like yours");
 }
 
 TEST_F(MotorFile, TheTemplatesFilledInAreTheReferenceMotor) {

@@ -2,11 +2,15 @@
 // What is written reads back as the same scenario: every shipped one, and strings that TOML must escape.
 #include "text/scenario/scenario_text.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "files/scenario_on_disk.hpp"
+#include "sixstep/study/scenario/scenario_description.hpp"
 #include "text/scenario/starter_scenario.hpp"
 
 namespace text {
@@ -24,6 +28,76 @@ study::Scenario read_back(const std::string& text) {
   return {};
 }
 
+/// Every described key of a scenario as text, the motor's sheet and what stands in tables and lists included.
+struct EveryKey {
+  std::vector<std::string> rows{};
+  std::string path{};
+
+  template <class T>
+  void value(std::string_view key, const T& member, const base::About&) {
+    add(key, fmt::format("{}", member));
+  }
+  template <class T>
+  void value(std::string_view key, const std::optional<T>& member, const base::About& about) {
+    if (member) value(key, *member, about);
+  }
+  template <class T>
+  void value(std::string_view key, const std::vector<T>& member, const base::About&) {
+    add(key, fmt::format("{}", fmt::join(member, ", ")));
+  }
+  template <class Enum, class Choices>
+  void choice(std::string_view key, const Enum& member, const Choices& choices, const base::About&) {
+    add(key, std::string(base::word(choices, member)));
+  }
+  void quantity(std::string_view key, const std::optional<base::Quantity>& q, const base::About&) {
+    if (!q) return;
+    const base::Interval range = q->range.value_or(base::Interval{});
+    add(key, fmt::format("{} {} {} {} {} {} {}", q->value, q->frame, q->source, static_cast<int>(q->kind),
+                         range.low, range.high, q->last_digit.value_or(0)));
+  }
+  template <class Struct>
+  void table(std::string_view key, Struct& member, const base::About&) {
+    within(key, member);
+  }
+  template <class Struct>
+  void table(std::string_view key, std::optional<Struct>& member, const base::About&) {
+    if (member) within(key, *member);
+  }
+  template <class Item>
+  void list(std::string_view key, std::vector<Item>& items, const base::About&) {
+    for (Item& item : items) within(key, item);
+  }
+
+ private:
+  template <class Struct>
+  void within(std::string_view key, Struct& member) {
+    const std::string outer = path;
+    path += std::string(key) + ".";
+    describe(*this, member);
+    path = outer;
+  }
+  void add(std::string_view key, const std::string& text) {
+    rows.push_back(path + std::string(key) + " " + text);
+  }
+};
+
+std::vector<std::string> every_key(study::Scenario s) {
+  EveryKey keys;
+  describe(keys, s);
+  return keys.rows;
+}
+
+/// What was read from other files stands in what is written.
+void detach(study::Scenario& s) {
+  const auto leave = [](study::Reference& r) {
+    r.file.clear();
+    r.column.reset();
+  };
+  leave(s.reference);
+  for (study::At& at : s.at)
+    if (at.reference) leave(*at.reference);
+}
+
 TEST(ScenarioText, EveryShippedScenarioComesBackToTheBit) {
   int count = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(data / "scenarios")) {
@@ -33,11 +107,53 @@ TEST(ScenarioText, EveryShippedScenarioComesBackToTheBit) {
     ASSERT_TRUE(scenario);
     const std::string text = scenario_text(*scenario);
     EXPECT_EQ(scenario_text(read_back(text)), text);
+    study::Scenario alone = *scenario;
+    alone.extends.clear();
+    detach(alone);
+    EXPECT_EQ(every_key(read_back(text)), every_key(alone));
     for (const bool full : {false, true})  // explained line by line it is the same scenario
       EXPECT_EQ(scenario_text(read_back(starter_text(*scenario, {.file = "x.toml", .full = full}))), text);
     ++count;
   }
   EXPECT_GE(count, 30);
+}
+
+study::Scenario with(const std::string& more) {
+  return read_back("motor = \"maxon-251601\"\nduration_s = 0.1\n" + more);
+}
+
+TEST(ScenarioText, WritesWhatOverridesTheMotorsSheet) {
+  const char* overrides[] = {
+      "motor_override.resistance_ohm = { value = 0.50, frame = \"phase\", source = \"a meter\", kind = \"measured\" }",
+      "motor_override.resistance_ohm = { value = 1.20, frame = \"terminal\", range = [1.1, 1.3] }",
+      "motor_override = { line_16_rotor_inertia_gcm2 = 140.0, flat_deg = 100 }",
+      "motor_override = { back_emf = \"sine\", harmonic_orders = [3, 5], harmonic_sizes = [0.1, -0.05] }",
+      "motor_override = { connection = \"delta\", mutual_inductance_mH = 0.01 }",
+      "motor_override.phase_resistance_deviation = [0.1, -0.05, -0.05]",
+      "motor_override = { d_axis_inductance_mH = 0.2, q_axis_inductance_mH = 0.3 }",  // drops inductance_mH
+      "motor_override = { cogging_orders = [48], cogging_mNm = [2], cogging_phase_deg = [30] }",
+      "motor_override.back_emf_mV_s = 16.75",  // drops the torque constant
+      "motor_override.torque_constant_mNm_A = { value = 33.5, frame = \"terminal\", source = \"data sheet, line 12\" }",
+      "motor_override = { name = \"another \\\"name\\\"\", winding = \"24N16P\", viscous_friction_Nm_s = 1e-5 }",
+  };
+  for (const char* text : overrides) {
+    SCOPED_TRACE(text);
+    const study::Scenario s = with(text);
+    const std::string written = scenario_text(s);
+    EXPECT_THAT(written, ::testing::HasSubstr("[motor_override]"));
+    EXPECT_EQ(every_key(read_back(written)), every_key(s)) << written;
+    for (const bool full : {false, true})
+      EXPECT_EQ(every_key(read_back(starter_text(s, {.file = "x.toml", .full = full}))), every_key(s));
+  }
+  EXPECT_THAT(scenario_text(with("")), ::testing::Not(::testing::HasSubstr("motor_override")));
+}
+
+/// TOML takes 132 for a number, and so does --set sensors.hall_lines=132.
+TEST(ScenarioText, AWordOfDigitsNeedsNoQuotes) {
+  const study::Scenario s = with("sensors = { hall_lines = 132, hall_inverted = 3 }");
+  EXPECT_EQ(s.sensors.hall_lines, sixstep::rig::WireOrder::acb);
+  EXPECT_EQ(s.sensors.hall_inverted, study::HallLines::line_3);
+  EXPECT_THAT(scenario_text(s), ::testing::HasSubstr("hall_lines = \"132\""));
 }
 
 TEST(ScenarioText, WritesWhatDiffersFromTheDefaultsAlone) {

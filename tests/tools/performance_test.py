@@ -9,7 +9,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
 sys.dont_write_bytecode = True
 import performance  # noqa: E402
 
-ENGINE = {"R/engine": {"per_period": 200e-9, "error": 5e-14}, "R/textbook 1 us": {"per_period": 2e-6, "error": 0.0566},
+ENGINE = {"R/lean": {"per_period": 200e-9, "error": 5e-14},
+          "R/general": {"per_period": 500e-9, "error": 6e-14}, "G/general": {"per_period": 600e-9, "error": 1e-14},
+          "R/textbook 1 us": {"per_period": 2e-6, "error": 0.0566},
           "R/textbook 0.1 us": {"per_period": 20e-6, "error": 2.9e-3}, "R/tuned 1 us": {"per_period": 1.5e-6},
           "R/tuned 0.1 us": {"per_period": 15e-6}, "R/1 s": {"per_period": 200e-9}, "R/10 s": {"per_period": 220e-9}}
 OBSERVERS = {"R/none": {"per_period": 200e-9}, "R/digest": {"per_period": 210e-9}}
@@ -27,7 +29,9 @@ class Performance(unittest.TestCase):
         return performance.differences(self.tables, {**self.pages, place: self.pages[place].replace(old, new)}.get)
 
     def test_figures(self):
-        self.assertEqual(self.tables["speed"][1], ["R", "200", "150", "5e-14", "10.0x, 5.7 %", "100.0x, 0.29 %", "7.5x", "75.0x"])
+        self.assertEqual(self.tables["speed"][1], ["R", "lean", "200", "150", "5e-14", "10.0x, 5.7 %", "100.0x, 0.29 %", "7.5x", "75.0x"])
+        self.assertEqual(self.tables["speed"][2], ["R", "general", "500", "60", "6e-14", "4.0x, 5.7 %", "40.0x, 0.29 %", "3.0x", "30.0x"])
+        self.assertEqual(self.tables["speed"][3], ["G", "general", "600", "50", "1e-14", "", "", "", ""])
         self.assertEqual(self.tables["growth"][1], ["R", "200", "220", "11.00x"])
         self.assertEqual(self.tables["observers"][1:], [["none", "200", ""], ["digest", "210", "5 %"]])
 
@@ -35,7 +39,7 @@ class Performance(unittest.TestCase):
         self.assertEqual(self.wrong("README.md", "| 200 |", "| 199 |"), [])
 
     def test_other_rows_columns_or_markers_are(self):
-        for place, old, new in [("README.md", "| R |", "| S |"), ("README.md", "simulated s per s", "speed"),
+        for place, old, new in [("README.md", "| R | lean |", "| S | lean |"), ("README.md", "simulated s per s", "speed"),
                                 ("docs/performance.md", "| digest | 210 | 5 % |\n", ""),
                                 ("docs/performance.md", "performance: growth", "performance: grown")]:
             self.assertEqual(len(self.wrong(place, old, new)), 1, old)

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/thermal.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 #include "text/escape/escape.hpp"
+#include "text/results/source_words.hpp"
 
 namespace text {
 namespace {
@@ -32,16 +34,27 @@ std::string flaw(std::string_view name, double x, std::string_view unit) {
   return x != 0 ? fmt::format("; {} {:.6g}{}{}", name, x, unit.empty() ? "" : " ", unit) : "";
 }
 
-std::string source(const study::Supply& s) {
-  std::string text = fmt::format("{:.6g} V", s.voltage_V);
+std::string plain(double x, std::string_view unit) { return fmt::format("{:.6g} {}", x, unit); }
+
+std::string supply(const study::Supply& s) {
+  std::string text = source_words(s, plain);
   text += s.capacitance_F > 0
               ? fmt::format(" behind {:.6g} ohm, {:.6g} F at the bridge", s.resistance_ohm, s.capacitance_F)
               : ", stiff";
-  return text + (s.sinks ? ", takes current back" : ", takes no current back");
+  text += s.sinks ? ", takes current back" : ", takes no current back";
+  text += flaw("up to", s.sink_limit_A, "A") + flaw("inductance", s.inductance_H, "H") +
+          flaw("capacitor's resistance", s.capacitor_resistance_ohm, "ohm");
+  if (s.brake_resistance_ohm > 0)
+    text += fmt::format("; brake resistor {:.6g} ohm from {:.6g} V until {:.6g} V", s.brake_resistance_ohm,
+                        s.brake_on_V, s.brake_off_V);
+  return text;
 }
 
 std::string bridge(const study::Scenario& s) {
-  return fmt::format("switches of {:.6g} ohm, diodes of {:.6g} V and {:.6g} ohm, dead time {:.6g} s",
+  const std::string drop = s.bridge.device == study::Device::igbt
+                               ? fmt::format("IGBTs of {:.6g} V and", s.bridge.saturation_V)
+                               : "switches of";
+  return fmt::format("{} {:.6g} ohm, diodes of {:.6g} V and {:.6g} ohm, dead time {:.6g} s", drop,
                      s.bridge.on_resistance_ohm, s.bridge.diode_drop_V, s.bridge.diode_resistance_ohm,
                      s.bridge.dead_time_s);
 }
@@ -64,14 +77,16 @@ std::string currents(const study::Sensors& s) {
                      sixstep::base::word(study::current_sensing_choices, s.currents), s.adc_bits,
                      s.current_range_A.value_or(0.0)) +
          flaw("offset", s.current_offset_A, "A") + flaw("gain error", s.current_gain_error, "") +
-         flaw("noise", s.current_noise_A, "A rms");
+         flaw("noise", s.current_noise_A, "A rms") +
+         flaw("bandwidth", s.current_bandwidth_Hz.value_or(0.0), "Hz") +
+         flaw("delay", s.current_delay_s, "s");
 }
 
 std::string bus(const study::Sensors& s) {
   if (s.bus == study::BusSensing::ideal) return "as it is";
   return fmt::format("{} bits over {:.6g} V", s.adc_bits, s.bus_range_V.value_or(0.0)) +
          flaw("offset", s.bus_offset_V, "V") + flaw("gain error", s.bus_gain_error, "") +
-         flaw("noise", s.bus_noise_V, "V rms");
+         flaw("noise", s.bus_noise_V, "V rms") + flaw("bandwidth", s.bus_bandwidth_Hz.value_or(0.0), "Hz");
 }
 
 std::string rotor(const study::Sensors& s) {
@@ -79,24 +94,41 @@ std::string rotor(const study::Sensors& s) {
   const std::string over = s.speed_edges > 0
                                ? fmt::format("speed over {} edges", s.speed_edges)
                                : "speed over six edges where the loop stands their delay, else one";
-  return fmt::format("Hall edges exactly at the sectors' ends, captured at {:.6g} Hz, {}", s.capture_Hz,
-                     over);
+  const bool in_place = s.hall_offset_deg == 0 && s.hall_edges_deg.empty() && s.hall_hysteresis_deg == 0 &&
+                        s.hall_delay_s == 0 && s.hall_glitches_Hz == 0;
+  return fmt::format("Hall edges {}, captured at {:.6g} Hz, {}",
+                     in_place ? "exactly at the sectors' ends" : "off their places as [sensors] says",
+                     s.capture_Hz, over);
 }
 
 std::string load(const study::Load& l) {
   if (l.locked) return "rotor held";
   std::string text = fmt::format("{:.6g} N m, {:.6g} kg m2 beside the rotor's", l.torque_Nm, l.inertia_kg_m2);
+  if (l.gear != 1) text += fmt::format("; behind a gear of {:.6g}", l.gear);
+  if (l.gear_efficiency < 1) text += fmt::format(" with an efficiency of {:.6g}", l.gear_efficiency);
+  if (!l.at_speeds_Nm.empty()) text += fmt::format("; torque over speed in {} points", l.at_speeds_Nm.size());
+  if (!l.dynamometer_rad_s.empty()) text += "; turned by a dynamometer";
+  text += flaw("elastic shaft", l.stiffness_Nm_rad, "N m/rad") + flaw("fan", l.fan_Nm_s2, "N m s2") +
+          flaw("weight", l.gravity_Nm, "N m");
   return text + flaw("friction", l.coulomb_Nm, "N m") + flaw("viscous friction", l.viscous_Nm_s, "N m s") +
          (l.times_s.empty() ? "" : "; steps of torque");
+}
+
+std::string heat(const study::Heat& h) {
+  if (!h.motor)
+    return fmt::format("winding and magnets at {:.6g} degC all along", sixstep::design::sheet_degC);
+  return fmt::format("winding from {:.6g} degC, housing from {:.6g} degC, air of {:.6g} degC",
+                     h.winding_degC.value_or(h.ambient_degC), h.housing_degC.value_or(h.ambient_degC),
+                     h.ambient_degC);
 }
 
 /// What a board may have otherwise: then this run says nothing of it.
 std::string assumptions(const ClearanceText& t) {
   const study::Scenario& s = t.scenario;
   std::string text = "// That run took for granted:\n";
-  text += entry("supply", source(s.supply)) + entry("bridge", bridge(s)) + entry("timing", timing(s.pwm));
+  text += entry("supply", supply(s.supply)) + entry("bridge", bridge(s)) + entry("timing", timing(s.pwm));
   text += entry("currents", currents(s.sensors)) + entry("bus", bus(s.sensors)) +
-          entry("rotor", rotor(s.sensors)) + entry("load", load(s.load));
+          entry("rotor", rotor(s.sensors)) + entry("load", load(s.load)) + entry("heat", heat(s.heat));
   if (t.other_scale) text += entry("scale", "the scenario's own; that of --range below was proved, not run");
   return text;
 }

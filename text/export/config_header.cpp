@@ -59,8 +59,8 @@ std::string head(const ConfigHeader& w, const study::Compiled& c) {
   text += comment("scenario", w.scenario.title.empty() ? "(no title)" : w.scenario.title);
   text += comment(
       "motor", fmt::format("{}: {} pole pairs, terminal R = {} ohm, L = {} H, K_t = {} N m/A; J = {} kg m2",
-                           w.scenario.sheet.name, m.pole_pairs, number(2 * m.R_ohm), number(2 * m.L_H),
-                           number(c.motor.K_t_Nm_A), number(c.shaft.J_kg_m2)));
+                           w.scenario.sheet.name, static_cast<int>(m.pole_pairs), number(2 * m.R_ohm),
+                           number(2 * m.L_H), number(c.motor.K_t_Nm_A), number(c.shaft.J_kg_m2)));
   for (const study::LoopGains& g : c.gains) text += comment(g.loop, derivation(g));
   text +=
       "// Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the "
@@ -87,7 +87,7 @@ std::string timing(const study::Compiled& c) {
   const auto flag = [](bool on) { return std::string(on ? "true" : "false"); };
   const auto us = [](double ps) { return fmt::format("{:.9g} us", ps / 1e6); };
   const double dead = m.dead_ticks;
-  return constant("std::uint8_t", "pole_pairs", std::to_string(c.motor.machine.pole_pairs),
+  return constant("std::uint8_t", "pole_pairs", std::to_string(static_cast<int>(c.motor.machine.pole_pairs)),
                   "electrical turns per mechanical one") +
          constant("std::uint64_t", "pwm_period_ps", std::to_string(m.period_ticks),
                   us(static_cast<double>(m.period_ticks)) + ", and the period of the control tick") +

@@ -44,7 +44,12 @@ class Catalog {
   void choice(std::string_view key, Enum& member, const Choices& choices, const base::About& about) {
     KeyEntry& entry = add(key, KeyType::word, about);
     if (!about.required) entry.default_value = fmt::format("\"{}\"", base::word(choices, member));
-    for (const auto& choice : choices) entry.choices.emplace_back(choice.word, choice.meaning);
+    for (const auto& choice : choices)
+      if (choice.turning.empty())
+        entry.choices.emplace_back(choice.word, choice.meaning);
+      else
+        entry.linear_choices.push_back(
+            {std::string(choice.turning), std::string(choice.word), std::string(choice.meaning)});
   }
   void quantity(std::string_view key, base::Quantity&, const base::About& about) {
     add(key, KeyType::quantity, about);
@@ -149,6 +154,8 @@ std::string help_text(const KeyEntry& entry) {
   std::size_t width = 12;
   for (const auto& [word, meaning] : entry.choices) width = std::max(width, word.size());
   for (const auto& [word, meaning] : entry.choices)
+    text += fmt::format("\n    {:<{}}  {}", word, width, meaning);
+  for (const auto& [turning, word, meaning] : entry.linear_choices)
     text += fmt::format("\n    {:<{}}  {}", word, width, meaning);
   for (const base::Spelling& spelling : about.also) text += fmt::format("\n  or as {}", spelling.key);
   return text + "\n";

@@ -20,6 +20,11 @@ struct KeyEntry {
   bool optional = false;        ///< may be left out, and then nothing stands in its place
   std::string default_value{};  ///< as TOML; empty where there is none
   std::vector<std::pair<std::string, std::string>> choices{};  ///< words and meanings
+  struct LinearChoice {
+    std::string turning, word, meaning;
+  };
+  std::vector<LinearChoice> linear_choices{};  ///< words of a linear motor for some of these
+  std::string meaning{};                       ///< in the words of a linear motor; empty: about.meaning
 };
 
 std::vector<KeyEntry> scenario_keys();

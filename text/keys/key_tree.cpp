@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "text/keys/key_tree.hpp"
 
+#include "sixstep/base/linear.hpp"
+
 #include <algorithm>
 
 namespace text {
@@ -38,8 +40,23 @@ KeyEntry spelled(const KeyEntry& entry, const base::Spelling& spelling) {
   other.path = (dot == std::string::npos ? "" : entry.path.substr(0, dot + 1)) + std::string(spelling.key);
   if (!spelling.unit.empty()) other.about.unit = spelling.unit;
   if (!spelling.frame.empty()) other.about.frame = spelling.frame;
+  for (double* end : {&other.about.range.low, &other.about.range.high})
+    if (spelling.linear && *end - *end == 0.0) *end = base::as_spelled(*end, spelling);
   other.about.also = {};
   return other;
+}
+
+std::vector<KeyEntry> in_linear_words(std::vector<KeyEntry> keys) {
+  for (KeyEntry& key : keys) {
+    if (const base::Spelling* linear = base::linear_spelling(key.about)) key = spelled(key, *linear);
+    key.meaning = base::linear_words(std::string(key.about.meaning));
+    for (auto& [word, meaning] : key.choices) {
+      for (const KeyEntry::LinearChoice& own : key.linear_choices)
+        if (own.turning == word) word = own.word;
+      meaning = base::linear_words(meaning);
+    }
+  }
+  return keys;
 }
 
 }  // namespace text

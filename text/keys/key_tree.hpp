@@ -16,6 +16,11 @@ std::vector<const KeyEntry*> keys_in(const std::vector<KeyEntry>& keys, std::str
 /// The last word of the path: "period_s" of "pwm.period_s".
 std::string_view name_of(const KeyEntry& entry);
 
+/// In the words of the motor whose file it is.
+inline std::string_view meaning_of(const KeyEntry& entry) {
+  return entry.meaning.empty() ? entry.about.meaning : std::string_view(entry.meaning);
+}
+
 inline bool is_table(const KeyEntry& entry) {
   return entry.type == KeyType::table || entry.type == KeyType::list;
 }
@@ -25,5 +30,8 @@ std::vector<std::string> frames_of(std::string_view frame);
 
 /// The key with another spelling's unit and frame in place of its own.
 KeyEntry spelled(const KeyEntry& entry, const base::Spelling& spelling);
+
+/// The keys as a linear motor's file has them: its words, units and meanings.
+std::vector<KeyEntry> in_linear_words(std::vector<KeyEntry> keys);
 
 }  // namespace text

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "text/keys/key_advice.hpp"
+#include "text/keys/key_tree.hpp"
 
 namespace text {
 namespace {
@@ -24,8 +25,8 @@ std::string range_text(const KeyEntry& entry) {
   return std::string(rest);
 }
 
-std::string meaning_of(const KeyEntry& entry, std::string_view more) {
-  std::string text(entry.about.meaning);
+std::string explanation(const KeyEntry& entry, std::string_view more) {
+  std::string text(meaning_of(entry));
   if (!entry.about.unit.empty()) text.append(fmt::format(" [{}]", entry.about.unit));
   if (const std::string range = range_text(entry); !range.empty()) text.append(", ").append(range);
   if (!more.empty()) text.append("; ").append(more);
@@ -70,7 +71,7 @@ std::string wrapped_comment(std::string_view text, std::size_t indent) {
 std::string template_line(const KeyEntry& entry, const TemplateLine& line) {
   const std::string text = fmt::format("{}{} = {}", line.open ? "" : "# ", line.key, line.value);
   if (!line.explained) return text + "\n";
-  const std::string meaning = meaning_of(entry, line.more);
+  const std::string meaning = explanation(entry, line.more);
   std::string beside = fmt::format("{:<{}}  # {}\n", text, comment_column, meaning);
   if (entry.choices.size() < 2 && beside.size() <= template_width + 1) return beside;
   return wrapped_comment(meaning) + words_comment(entry) + text + "\n";

@@ -26,6 +26,9 @@ struct Unit {
 /// "mNm/A", "kg m2", "Nm/(rad/s)", "1/min", "%"; empty for what is no unit, the plain number 1 for "".
 std::optional<Unit> unit_of(std::string_view text);
 
+/// The same with the signs that few keyboards have and a data sheet's names of rpm as the tables spell them.
+std::string plain_spelling(std::string_view unit);
+
 /// Whether values convert. An angle is a number wherever torque or energy is involved (N m is J per rad); a
 /// frequency is no speed.
 bool same_kind(const Unit& a, const Unit& b);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
+#include "sixstep/base/linear.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "text/escape/escape.hpp"
 #include "text/motor/motor_text.hpp"
@@ -27,14 +28,18 @@ class SheetJson {
   void choice(std::string_view key, const Enum& member, const Choices& choices, const base::About&) {
     object[std::string(key)] = base::word(choices, member);
   }
-  void quantity(std::string_view key, const std::optional<base::Quantity>& q, const base::About& about) {
+  void quantity(std::string_view given, const std::optional<base::Quantity>& q, const base::About& about) {
     if (!q) return;
-    Json entry = {{"value", q->value}, {"unit", about.unit}};
+    const base::Spelling* linear = base::linear_spelling(about);
+    if (!linear || linear->key != q->key) linear = nullptr;  // a linear motor's is told in its own words
+    const std::string_view key = linear ? linear->key : given;
+    const auto told = [linear](double x) { return linear ? base::as_spelled(x, *linear) : x; };
+    Json entry = {{"value", told(q->value)}, {"unit", linear ? linear->unit : about.unit}};
     if (!q->frame.empty()) entry["frame"] = q->frame;
     if (!q->source.empty()) entry["source"] = q->source;
     if (q->kind != base::Trust::unstated) entry["kind"] = base::word(base::trust_choices, q->kind);
-    if (q->range) entry["range"] = {q->range->low, q->range->high};
-    if (!q->key.empty()) entry["printed_as"] = q->key;
+    if (q->range) entry["range"] = {told(q->range->low), told(q->range->high)};
+    if (!q->key.empty() && !linear) entry["printed_as"] = q->key;
     object[std::string(key)] = std::move(entry);
   }
 };
@@ -45,29 +50,38 @@ Json constant(const std::optional<design::Constant>& c) {
   return c ? Json({{"value", c->value}, {"from", c->from}}) : Json(nullptr);
 }
 
+/// Under the names of a linear motor's SI units, where it is one.
+Json friction(const design::Friction& f, bool linear) {
+  const auto name = [linear](const char* turning, const char* moving) { return linear ? moving : turning; };
+  return {{name("viscous_Nm_s", "viscous_N_s_m"), f.B_Nm_s},
+          {name("coulomb_Nm", "coulomb_N"), f.coulomb_Nm},
+          {name("iron_viscous_Nm_s", "iron_viscous_N_s_m"), f.iron.B_Nm_s},
+          {name("iron_coulomb_Nm", "iron_coulomb_N"), f.iron.coulomb_Nm},
+          {"from", f.from},
+          {name("all_viscous_Nm_s", "all_viscous_N_s_m"), or_null(f.all_viscous_Nm_s)},
+          {name("all_coulomb_Nm", "all_coulomb_N"), or_null(f.all_coulomb_Nm)},
+          {name("split_viscous_Nm_s", "split_viscous_N_s_m"), or_null(f.split_viscous_Nm_s)},
+          {name("split_coulomb_Nm", "split_coulomb_N"), or_null(f.split_coulomb_Nm)}};
+}
+
 Json model(const design::Sheet& sheet, const design::SheetCheck& check) {
   const design::SheetConstants& c = check.constants;
+  const bool linear = sheet.kind == design::MotorKind::linear;
   Json missing = Json::array();
   for (const base::Problem& problem : c.missing) missing.push_back(base::to_string(problem));
-  return {{"simulatable", sheet.simulatable && c.missing.empty()},
-          {"missing", missing},
-          {"pole_pairs", c.pole_pairs ? Json(*c.pole_pairs) : Json(nullptr)},
-          {"R_ohm", constant(c.R_ohm)},
-          {"L_H", constant(c.L_H)},
-          {"K_e_V_s", constant(c.K_e_V_s)},
-          {"K_t_Nm_A", constant(c.K_t_Nm_A)},
-          {"J_kg_m2", constant(c.J_kg_m2)},
-          {"electrical_time_constant_s", or_null(check.electrical_time_constant_s)},
-          {"mechanical_time_constant_s", or_null(check.mechanical_time_constant_s)},
-          {"stall_current_A", or_null(check.stall_current_A)},
-          {"friction",
-           {{"viscous_Nm_s", c.friction.B_Nm_s},
-            {"coulomb_Nm", c.friction.coulomb_Nm},
-            {"from", c.friction.from},
-            {"all_viscous_Nm_s", or_null(c.friction.all_viscous_Nm_s)},
-            {"all_coulomb_Nm", or_null(c.friction.all_coulomb_Nm)},
-            {"split_viscous_Nm_s", or_null(c.friction.split_viscous_Nm_s)},
-            {"split_coulomb_Nm", or_null(c.friction.split_coulomb_Nm)}}}};
+  Json out = {{"simulatable", sheet.simulatable && c.missing.empty()}, {"missing", missing}};
+  out["pole_pairs"] = c.pole_pairs ? Json(*c.pole_pairs) : Json(nullptr);
+  if (linear) out["pole_pitch_m"] = or_null(c.pole_pitch_m);
+  out["R_ohm"] = constant(c.R_ohm);
+  out["L_H"] = constant(c.L_H);
+  out[linear ? "K_e_V_s_m" : "K_e_V_s"] = constant(c.K_e_V_s);
+  out[linear ? "K_f_N_A" : "K_t_Nm_A"] = constant(c.K_t_Nm_A);
+  out[linear ? "m_kg" : "J_kg_m2"] = constant(c.J_kg_m2);
+  out["electrical_time_constant_s"] = or_null(check.electrical_time_constant_s);
+  out["mechanical_time_constant_s"] = or_null(check.mechanical_time_constant_s);
+  out["stall_current_A"] = or_null(check.stall_current_A);
+  out["friction"] = friction(c.friction, linear);
+  return out;
 }
 
 Json relations(const design::SheetCheck& check) {
@@ -117,14 +131,15 @@ std::string motor_list_json(const std::vector<NamedSheet>& motors) {
     const auto value = [](const auto& constant, double times) {
       return constant ? Json(constant->value * times) : Json();
     };
+    const bool linear = motor.sheet.kind == design::MotorKind::linear;
     list.push_back({{"name", motor.name},
                     {"title", motor.sheet.name},
                     {"maker", motor.sheet.maker},
                     {"pole_pairs", c.pole_pairs ? Json(*c.pole_pairs) : Json()},
                     {"nominal_voltage_V", c.nominal_voltage_V ? Json(*c.nominal_voltage_V) : Json()},
                     {"terminal_resistance_ohm", value(c.R_ohm, 2.0)},
-                    {"torque_constant_Nm_A", value(c.K_t_Nm_A, 1.0)},
-                    {"inertia_kg_m2", value(c.J_kg_m2, 1.0)},
+                    {linear ? "force_constant_N_A" : "torque_constant_Nm_A", value(c.K_t_Nm_A, 1.0)},
+                    {linear ? "mass_kg" : "inertia_kg_m2", value(c.J_kg_m2, 1.0)},
                     {"simulatable", motor.sheet.simulatable},
                     {"not_simulatable_because", motor.sheet.not_simulatable_because}});
   }

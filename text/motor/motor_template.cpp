@@ -20,6 +20,7 @@ struct Style {
   std::string_view shape;                  ///< the back-EMF that such a sheet means, to be looked at
   std::vector<std::string_view> needed;    ///< a model needs them
   std::vector<std::string_view> optional;  ///< worth typing in: they are checked against the others
+  bool linear = false;
 };
 
 const std::vector<Style>& styles() {
@@ -49,6 +50,17 @@ const std::vector<Style>& styles() {
         "inertia_kgcm2"},
        {"back_emf_constant_V_krpm", "inertia_with_brake_kgcm2", "with_brake", "nominal_torque_Nm",
         "nominal_current_A", "nominal_speed_rpm", "max_speed_rpm"}},
+      {"linear",
+       "force per ampere, pole pitch, moving mass",
+       "sine",
+       {"pole_pitch_mm", "nominal_voltage_V", "resistance_ohm", "inductance_mH", "force_constant_N_A",
+        "mass_kg"},
+       {"back_emf_V_s_m", "nominal_force_N", "nominal_current_A", "nominal_speed_m_s", "stall_force_N",
+        "stall_current_A", "no_load_speed_m_s", "no_load_current_mA", "viscous_friction_N_s_m",
+        "coulomb_friction_N", "max_speed_m_s", "thermal_resistance_winding_housing_K_W",
+        "thermal_resistance_housing_ambient_K_W", "thermal_time_constant_winding_s",
+        "thermal_time_constant_motor_s", "max_winding_temperature_degC"},
+       true},
       {"firmware",
        "what a drive identifies: R, L and flux linkage of one phase",
        "sine",
@@ -58,6 +70,7 @@ const std::vector<Style>& styles() {
   return all;
 }
 
+/// Another spelling is told in its own unit; a linear motor's has become the key's own.
 KeyEntry as_spelled(const KeyEntry& entry, std::string_view key) {
   for (const base::Spelling& spelling : entry.about.also)
     if (spelling.key == key) return spelled(entry, spelling);
@@ -98,16 +111,17 @@ base::Result<std::string> motor_template(std::string_view style_name, const std:
                          .value = std::string(style_name),
                          .limit = fmt::format("is none of {}", fmt::join(template_styles(), ", ")),
                          .cure = "choose the one whose sheet looks like yours"};
-  const std::vector<KeyEntry> keys = sheet_keys();
+  const std::vector<KeyEntry> keys = style->linear ? in_linear_words(sheet_keys()) : sheet_keys();
   std::string text = fmt::format(
       "# A motor, to be filled in from its sheet: {}.\n"
       "# Each nan wants a number; take the # away from other lines that the sheet has. sixstep help KEY says "
       "more\n"
       "# of each, and sixstep motor check FILE holds the sheet against itself.\n"
-      "name = {}\nmaker = \"\"\n\n"
+      "name = {}\nmaker = \"\"\n{}\n"
       "# shape of the back-EMF over the electrical angle, trapezoid or sine: sheets rarely say it\n"
       "back_emf = \"{}\"\n\n",
-      style->what, toml_text(name), style->shape);
+      style->what, toml_text(name), style->linear ? "kind = \"linear\"  # it moves along a line\n" : "",
+      style->shape);
   for (const std::string_view key : style->needed)
     if (const KeyEntry* entry = find_key(keys, key)) text += line(*entry, key, true);
   text += "\n";

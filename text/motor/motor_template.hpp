@@ -10,7 +10,7 @@
 
 namespace text {
 
-/// The trades whose sheets have a template: maxon, drone, servo, firmware.
+/// The trades whose sheets have a template: maxon, drone, servo, linear, firmware.
 std::vector<std::string> template_styles();
 
 /// The file's text; every line's meaning, unit and frames come from the keys' one description. Lines that a

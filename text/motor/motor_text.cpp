@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "sixstep/base/decimal.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "text/escape/escape.hpp"
 #include "text/keys/key_advice.hpp"
@@ -43,9 +44,15 @@ class SheetRows {
   void value(std::string_view key, const double& member, const base::About& about) {
     if (member != 0) add(key, fmt::format("{}", member), about.unit, "", "");
   }
+  /// A long list is told of by its ends.
   template <class T>
-  void value(std::string_view key, const std::vector<T>& member, const base::About&) {
-    if (!member.empty()) add(key, fmt::format("{}", fmt::join(member, ", ")), "", "", "");
+  void value(std::string_view key, const std::vector<T>& member, const base::About& about) {
+    constexpr std::size_t read_at_a_glance = 12;
+    if (member.empty()) return;
+    if (member.size() <= read_at_a_glance)
+      return add(key, fmt::format("{}", fmt::join(member, ", ")), "", "", "");
+    add(key, fmt::format("{} values, {} to {}", member.size(), member.front(), member.back()), about.unit, "",
+        "");
   }
   template <class T>
   void value(std::string_view key, const std::optional<T>& member, const base::About& about) {
@@ -53,7 +60,8 @@ class SheetRows {
   }
   template <class Enum, class Choices>
   void choice(std::string_view key, const Enum& member, const Choices& choices, const base::About&) {
-    if (key != "connection" || member != Enum{}) add(key, base::word(choices, member), "", "", "");
+    if ((key != "connection" && key != "rotor" && key != "kind") || member != Enum{})
+      add(key, base::word(choices, member), "", "", "");
   }
   /// As printed: in the unit of the key that the file uses.
   void quantity(std::string_view key, const std::optional<base::Quantity>& q, const base::About& about) {
@@ -64,6 +72,7 @@ class SheetRows {
         std::find_if(about.also.begin(), about.also.end(), [&](const auto& s) { return s.key == q->key; });
     const int ten = spelling == about.also.end() ? 0 : -spelling->ten;
     if (spelling != about.also.end() && !spelling->unit.empty()) unit = spelling->unit;
+    if (spelling != about.also.end() && spelling->factor != 1.0) value /= spelling->factor;
     value = base::times_ten_to(value, ten);
     std::string source = q->source;
     if (q->kind != base::Trust::unstated)
@@ -72,7 +81,10 @@ class SheetRows {
     if (q->range)
       source += fmt::format(" (sources: {} to {})", shortest(base::times_ten_to(q->range->low, ten)),
                             shortest(base::times_ten_to(q->range->high, ten)));
-    add(q->key.empty() ? key : std::string_view(q->key), shortest(value), unit, q->frame, source);
+    const bool converted =
+        spelling != about.also.end() && spelling->factor != 1.0;  // a last digit may have gone
+    add(q->key.empty() ? key : std::string_view(q->key),
+        converted ? fmt::format("{:.12g}", value) : shortest(value), unit, q->frame, source);
   }
   const std::string& text() const { return text_; }
 
@@ -96,25 +108,37 @@ std::string model_row(std::string_view symbol, const std::optional<Constant>& co
 }
 
 std::string shape_words(const design::Sheet& sheet) {
-  std::string words = sheet.back_emf == design::BackEmfShape::sine
-                          ? "sine"
+  std::string words = sheet.back_emf == design::BackEmfShape::sine ? "sine"
+                      : sheet.back_emf == design::BackEmfShape::table
+                          ? fmt::format("table of {} points", sheet.back_emf_shape.size())
                           : fmt::format("trapezoid, {:g} deg flat", sheet.flat_deg);
   for (std::size_t n = 0; n < sheet.harmonic_orders.size() && n < sheet.harmonic_sizes.size(); ++n)
     words += fmt::format(", {:+g} of order {:g}", sheet.harmonic_sizes[n], sheet.harmonic_orders[n]);
   return words + (sheet.connection == design::WindingConnection::delta ? ", delta" : "");
 }
 
-std::string friction_rows(const design::Friction& f) {
-  std::string text = model_row("B", short_number(f.B_Nm_s) + " Nm s", f.from);
-  if (f.coulomb_Nm > 0.0) text += model_row("T_c", short_number(f.coulomb_Nm * 1e3) + " mNm", "");
+/// "6.197 mNm", or in N where the motor is linear.
+std::string torque_text(double torque_Nm, bool linear) {
+  return linear ? short_number(torque_Nm) + " N" : short_number(torque_Nm * 1e3) + " mNm";
+}
+
+std::string friction_rows(const design::Friction& f, bool linear) {
+  const char *unit = linear ? "N s/m" : "Nm s", *dry = linear ? "F_c" : "T_c";
+  std::string text = model_row("B", fmt::format("{} {}", short_number(f.B_Nm_s), unit), f.from);
+  if (f.coulomb_Nm > 0.0) text += model_row(dry, torque_text(f.coulomb_Nm, linear), "");
+  if (f.iron.B_Nm_s > 0.0 || f.iron.coulomb_Nm > 0.0)
+    text += fmt::format("         of it the iron's: B = {} {}, {} = {}\n", short_number(f.iron.B_Nm_s), unit,
+                        dry, torque_text(f.iron.coulomb_Nm, linear));
   if (f.all_viscous_Nm_s) {
-    text += fmt::format("         no-load point at {} rad/s: B = {} Nm s if all of it is viscous,\n",
-                        short_number(f.no_load_speed_rad_s), short_number(*f.all_viscous_Nm_s));
-    text += fmt::format("         T_c = {} mNm if none of it is\n", short_number(*f.all_coulomb_Nm * 1e3));
+    text += fmt::format("         no-load point at {} {}: B = {} {} if all of it is viscous,\n",
+                        short_number(f.no_load_speed_rad_s), linear ? "m/s" : "rad/s",
+                        short_number(*f.all_viscous_Nm_s), unit);
+    text += fmt::format("         {} = {} if none of it is\n", dry, torque_text(*f.all_coulomb_Nm, linear));
   }
   if (f.split_viscous_Nm_s)
-    text += fmt::format("         with the second point: B = {} Nm s and T_c = {} mNm\n",
-                        short_number(*f.split_viscous_Nm_s), short_number(*f.split_coulomb_Nm * 1e3));
+    text +=
+        fmt::format("         with the second point: B = {} {} and {} = {}\n",
+                    short_number(*f.split_viscous_Nm_s), unit, dry, torque_text(*f.split_coulomb_Nm, linear));
   return text;
 }
 
@@ -158,20 +182,31 @@ std::string model_table(const design::Sheet& sheet, const SheetCheck& check) {
   std::string text = "Model, per phase of the star\n";
   if (!sheet.simulatable) text += trimmed("  not simulatable: " + sheet.not_simulatable_because);
   for (const base::Problem& p : c.missing) text += trimmed("  " + base::to_string(p));
-  text += model_row("p", c.pole_pairs ? fmt::format("{}", *c.pole_pairs) : "not given", "pole pairs");
+  const bool linear = sheet.kind == design::MotorKind::linear;
+  if (linear)
+    text += model_row("tau", c.pole_pitch_m ? fmt::format("{:.4g} mm", *c.pole_pitch_m * 1e3) : "not given",
+                      "pole pitch; pi/tau stands for the pole pairs");
+  else
+    text += model_row("p", c.pole_pairs ? fmt::format("{}", *c.pole_pairs) : "not given", "pole pairs");
   text += model_row("R_s", c.R_ohm, 1.0, "ohm");
   text += model_row("L_s", c.L_H, 1e3, "mH");
-  const std::string peak = fmt::format("a phase's peak per rad/s; {}", shape_words(sheet));
-  text += model_row("K_e", c.K_e_V_s, 1e3, "mV s", peak);
-  text += model_row("K_t", c.K_t_Nm_A, 1e3, "mNm/A");
-  text += model_row("J", c.J_kg_m2, 1e7, "g cm2");
+  const bool table = sheet.back_emf == design::BackEmfShape::table;
+  const std::string peak = fmt::format("{} per {}; {}", table ? "times the table" : "a phase's peak",
+                                       linear ? "m/s" : "rad/s", shape_words(sheet));
+  text +=
+      linear ? model_row("K_e", c.K_e_V_s, 1, "V s/m", peak) : model_row("K_e", c.K_e_V_s, 1e3, "mV s", peak);
+  text += linear ? model_row("K_f", c.K_t_Nm_A, 1, "N/A") : model_row("K_t", c.K_t_Nm_A, 1e3, "mNm/A");
+  text += linear ? model_row("m", c.J_kg_m2, 1, "kg") : model_row("J", c.J_kg_m2, 1e7, "g cm2");
   if (check.electrical_time_constant_s)
     text += model_row("tau_e", short_number(*check.electrical_time_constant_s * 1e3) + " ms", "L / R");
   if (check.mechanical_time_constant_s)
     text += model_row("tau_m", short_number(*check.mechanical_time_constant_s * 1e3) + " ms",
-                      "R J / K_t^2, between two terminals");
+                      linear ? "R m / K_f^2, between two terminals" : "R J / K_t^2, between two terminals");
   if (check.stall_current_A) text += model_row("I_st", short_number(*check.stall_current_A) + " A", "U / R");
-  return text + friction_rows(c.friction);
+  text += friction_rows(c.friction, linear);
+  if (const std::string more = design::left_to_a_run(sheet); !more.empty())
+    text += trimmed("  A run has besides: " + more);
+  return text;
 }
 
 std::string check_report(const design::Sheet& sheet, const SheetCheck& check) {
@@ -198,6 +233,15 @@ std::string motor_line(const std::string& name, const design::Sheet& sheet, std:
   const auto number = [](const auto& constant, double unit) {
     return constant ? short_number(constant->value * unit) : std::string("-");
   };
+  const auto with_unit = [](const auto& constant, const char* unit) {
+    return constant ? short_number(constant->value) + unit : std::string("-");
+  };
+  if (sheet.kind == design::MotorKind::linear)  // in units of its own
+    return trimmed(fmt::format(
+        "{:<{}} {:>2} {:>6} {:>10} {:>10} {:>10}  {}", name, width, "-",
+        c.nominal_voltage_V ? short_number(*c.nominal_voltage_V) : "-", number(c.R_ohm, 2.0),
+        with_unit(c.K_t_Nm_A, " N/A"), with_unit(c.J_kg_m2, " kg"),
+        sheet.simulatable ? "linear" : fmt::format("not simulatable: {}", sheet.not_simulatable_because)));
   return trimmed(fmt::format(
       "{:<{}} {:>2} {:>6} {:>10} {:>10} {:>10}  {}", name, width,
       c.pole_pairs ? fmt::format("{}", *c.pole_pairs) : "-",

@@ -70,9 +70,24 @@ const std::array<CurveColumn, 25> columns = {{
      }},
 }};
 
+std::vector<CurveColumn> linear_columns() {
+  std::vector<CurveColumn> out(columns.begin(), columns.end());
+  for (CurveColumn& c : out) {
+    c.column.name = base::linear_words(c.column.name);
+    c.column.unit = std::string(base::in_linear(c.column.unit).linear);
+    c.column.frame = base::linear_words(c.column.frame);
+    c.column.meaning = base::linear_words(c.column.meaning);
+  }
+  return out;
+}
+
 }  // namespace
 
-std::span<const CurveColumn> curve_columns() { return columns; }
+std::span<const CurveColumn> curve_columns(const base::Motion& motion) {
+  static const std::vector<CurveColumn> linear = linear_columns();
+  if (motion.linear) return linear;
+  return columns;
+}
 
 std::vector<CurveRow> curve_rows(const analysis::CurveRequest& request, const analysis::Curve& curve) {
   std::vector<CurveRow> rows;

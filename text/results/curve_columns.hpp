@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sixstep/analysis/curve/curve.hpp"
+#include "sixstep/base/linear.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "text/rooms.hpp"
 
@@ -23,8 +24,8 @@ struct CurveColumn {
   double (*value)(const CurveRow&);  ///< NaN: there is none
 };
 
-/// SI units, mechanical speed, phase currents; speed first.
-std::span<const CurveColumn> curve_columns();
+/// SI units, mechanical speed, phase currents; speed first. Of a linear motor by their names there, with the same values.
+std::span<const CurveColumn> curve_columns(const base::Motion& motion = {});
 
 /// The rows of the curve's points, from standstill to no load.
 std::vector<CurveRow> curve_rows(const analysis::CurveRequest& request, const analysis::Curve& curve);

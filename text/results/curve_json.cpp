@@ -4,8 +4,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
+#include "text/results/json_words.hpp"
 
 namespace text {
 namespace {
@@ -29,7 +31,9 @@ Json bench(const analysis::CurveRequest& r) {
           {"pwm_period_s", b.pwm_period_s},
           {"on_resistance_ohm", b.devices.R_on_ohm},
           {"diode_drop_V", b.devices.V_f_V},
-          {"ambient_degC", r.ambient_degC}};
+          {"ambient_degC", r.ambient_degC},
+          {"winding_degC", r.motor_degC.winding_degC},
+          {"housing_degC", r.motor_degC.housing_degC}};
 }
 
 /// A point that lies between those of the curve.
@@ -90,6 +94,7 @@ Json thermal(const analysis::Curve& curve) {
 }  // namespace
 
 std::string curve_json(const analysis::CurveRequest& r, const analysis::Curve& curve) {
+  const base::Motion motion = design::motion_of(r.sheet);
   Json out = {{"sixstep", SIXSTEP_VERSION}, {"motor", r.sheet.name}, {"bench", bench(r)}};
   out["confidence_level"] = analysis::confidence_level;
   out["ideal"] = {{"stall_torque_Nm", analysis::ideal_torque_Nm(r.bench, 0.0)},
@@ -100,9 +105,12 @@ std::string curve_json(const analysis::CurveRequest& r, const analysis::Curve& c
   out["for_ever_from"] = loose(r, curve, curve.marks.for_ever);
   out["nominal"] = nominal(r, curve);
   out["thermal"] = thermal(curve);
-  out["thermal_missing"] = curve.thermal ? Json(nullptr) : Json(to_string(curve.thermal_missing[0]));
+  out["thermal_missing"] =
+      curve.thermal ? Json(nullptr) : Json(motion.words(to_string(curve.thermal_missing[0])));
+  if (!r.bench.motor.left_to_a_run.empty()) out["left_to_a_run"] = motion.words(r.bench.motor.left_to_a_run);
   out["points"] = Json::array();
   for (const CurveRow& row : curve_rows(r, curve)) out["points"].push_back(point(row));
+  out = under_names_of(motion, out);
   return visible(out.dump(2, ' ', false, Json::error_handler_t::replace), Lines::kept) + "\n";
 }
 

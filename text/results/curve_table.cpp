@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
 
@@ -16,16 +17,26 @@ namespace text {
 namespace {
 
 constexpr std::size_t shown_points = 11;
-constexpr double rpm_per_rad_s = 30 / base::pi, per_cent = 100;
+constexpr double per_cent = 100;
+
+/// What speeds and torques are read in, and how many of that one rad/s or N m is.
+struct Units {
+  struct Unit {
+    double factor;
+    const char* name;
+    int decimals;  ///< of a speed in a column
+  };
+  Unit speed, torque;
+  base::Motion motion;
+};
 
 /// Small motors are read in mNm, from 10 Nm of stall torque on in Nm.
-struct TorqueUnit {
-  double factor;
-  const char* name;
-};
-TorqueUnit torque_unit(const analysis::Curve& curve) {
+Units units_of(const analysis::CurveRequest& r, const analysis::Curve& curve) {
   constexpr double large_Nm = 10.0;
-  return curve.points.front().shaft_torque_Nm < large_Nm ? TorqueUnit{1e3, "mNm"} : TorqueUnit{1.0, "Nm"};
+  const base::Motion motion = design::motion_of(r.sheet);
+  if (motion.linear) return {{1.0, "m/s", 3}, {1.0, "N", 0}, motion};
+  const bool small = curve.points.front().shaft_torque_Nm < large_Nm;
+  return {{30 / base::pi, "rpm", 0}, small ? Units::Unit{1e3, "mNm", 0} : Units::Unit{1.0, "Nm", 0}, motion};
 }
 
 using Row = std::vector<std::string>;
@@ -43,7 +54,14 @@ std::string significant(double x, int digits = 5) {
   return fixed(x, std::clamp(digits - before, 0, digits));
 }
 
-std::string rpm(double rad_s) { return fixed(rad_s * rpm_per_rad_s, 0); }
+std::string speed(double rad_s, const Units& u) { return fixed(rad_s * u.speed.factor, u.speed.decimals); }
+/// With its unit: "5016 rpm".
+std::string speed_text(double rad_s, const Units& u) {
+  return fmt::format("{} {}", speed(rad_s, u), u.speed.name);
+}
+std::string torque_text(double Nm, const Units& u, int digits = 4) {
+  return fmt::format("{} {}", significant(Nm * u.torque.factor, digits), u.torque.name);
+}
 
 /// What the winding does, were the point held: a temperature, or a time.
 std::string warming(const analysis::Warming& w) {
@@ -52,16 +70,18 @@ std::string warming(const analysis::Warming& w) {
   return s < 100 ? fmt::format("{} s", significant(s, 3)) : fmt::format("{} min", fixed(s / 60, 1));
 }
 
-Row head(bool thermal, bool devices) {
-  Row row = {"", "speed", "torque", "ideal", "ripple", "current", "rms", "peak", "supply", "in", "copper"};
+Row head(bool thermal, bool devices, const base::Motion& motion) {
+  Row row = {"",   "speed", motion.words("torque"), "ideal", "ripple", "current", "rms", "peak", "supply",
+             "in", "copper"};
   if (devices) row.emplace_back("devices");
   row.insert(row.end(), {"frict.", "out", "eff."});
   if (thermal) row.insert(row.end(), {"cont.", "held"});
   return row;
 }
 
-Row units(bool thermal, bool devices, const char* torque) {
-  Row row = {"", "rpm", torque, torque, torque, "A", "A", "A", "A", "W", "W"};
+Row units(bool thermal, bool devices, const Units& u) {
+  const char* const torque = u.torque.name;
+  Row row = {"", u.speed.name, torque, torque, torque, "A", "A", "A", "A", "W", "W"};
   if (devices) row.emplace_back("W");
   row.insert(row.end(), {"W", "W", "%"});
   if (thermal) row.insert(row.end(), {torque, "winding"});
@@ -71,18 +91,19 @@ Row units(bool thermal, bool devices, const char* torque) {
 class Table {
  public:
   Table(const analysis::CurveRequest& request, const analysis::Curve& curve)
-      : request_(request), curve_(curve), unit_(torque_unit(curve)) {
+      : request_(request), curve_(curve), units_(units_of(request, curve)) {
     for (const analysis::OperatingPoint& p : curve.points) devices_ = devices_ || p.devices_W != 0;
-    rows_ = {head(curve.thermal.has_value(), devices_),
-             units(curve.thermal.has_value(), devices_, unit_.name)};
+    rows_ = {head(curve.thermal.has_value(), devices_, units_.motion),
+             units(curve.thermal.has_value(), devices_, units_)};
   }
 
   void add(const std::string& name, const analysis::OperatingPoint& p) {
-    Row row = {name,
-               rpm(p.speed_rad_s),
-               significant(p.shaft_torque_Nm * unit_.factor, 4),
-               significant(analysis::ideal_torque_Nm(request_.bench, p.speed_rad_s) * unit_.factor, 4),
-               significant(p.ripple_Nm * unit_.factor, 3),
+    const double torque = units_.torque.factor;
+    Row row = {units_.motion.words(name),
+               speed(p.speed_rad_s, units_),
+               significant(p.shaft_torque_Nm * torque, 4),
+               significant(analysis::ideal_torque_Nm(request_.bench, p.speed_rad_s) * torque, 4),
+               significant(p.ripple_Nm * torque, 3),
                significant(p.winding_current_A, 4),
                significant(p.phase_rms_A, 4),
                significant(p.phase_peak_A, 4),
@@ -95,8 +116,7 @@ class Table {
     row.push_back(p.efficiency ? fixed(*p.efficiency * per_cent, 1) : "-");
     if (curve_.thermal) {
       row.push_back(significant(
-          analysis::thermal_limits(*curve_.thermal, request_, p.speed_rad_s).continuous_Nm * unit_.factor,
-          4));
+          analysis::thermal_limits(*curve_.thermal, request_, p.speed_rad_s).continuous_Nm * torque, 4));
       row.push_back(warming(analysis::warming(*curve_.thermal, request_, p)));
     }
     rows_.push_back(std::move(row));
@@ -119,7 +139,7 @@ class Table {
  private:
   const analysis::CurveRequest& request_;
   const analysis::Curve& curve_;
-  TorqueUnit unit_;
+  Units units_;
   bool devices_ = false;
   std::vector<Row> rows_;
 };
@@ -147,32 +167,40 @@ std::string points(const analysis::CurveRequest& request, const analysis::Curve&
 }
 
 /// Where the angle decides the torque of a held rotor, between what.
-std::string locked(const analysis::OperatingPoint& turning, TorqueUnit unit) {
+std::string locked(const analysis::OperatingPoint& turning, const Units& u) {
   const analysis::LockedRotor& l = *turning.locked;
   if (l.greatest_torque_Nm - l.least_torque_Nm <= 1e-9 * l.greatest_torque_Nm) return "";
   return fmt::format("Locked, the angle decides: {} to {} {}; the row above has the least.\n",
-                     significant(l.least_torque_Nm * unit.factor, 4),
-                     significant(l.greatest_torque_Nm * unit.factor, 4), unit.name);
+                     significant(l.least_torque_Nm * u.torque.factor, 4),
+                     significant(l.greatest_torque_Nm * u.torque.factor, 4), u.torque.name);
 }
 
-std::string no_load(const analysis::NoLoad& n) {
+std::string left_out(const analysis::Bench& b) {
+  const std::string& words = b.motor.left_to_a_run;
+  return words.empty() ? "" : fmt::format("Not in this curve, and in a run: {}.\n", words);
+}
+
+std::string no_load(const analysis::NoLoad& n, const Units& u) {
+  const double per_rad_s = u.speed.factor;
   const std::string unsure =
-      n.half_width_rad_s > 0 ? fmt::format(" +- {}", significant(n.half_width_rad_s * rpm_per_rad_s, 2)) : "";
+      n.half_width_rad_s > 0 ? fmt::format(" +- {}", significant(n.half_width_rad_s * per_rad_s, 2)) : "";
+  const std::string in_si =
+      u.motion.linear ? "" : fmt::format(" ({} rad/s)", significant(n.point.speed_rad_s, 6));
   return fmt::format(
-      "No load: {}{} rpm ({} rad/s) with {} A through the winding, {} A from the supply; a rotor let free "
-      "ran at {} rpm ({} s simulated{}).\n",
-      significant(n.point.speed_rad_s * rpm_per_rad_s), unsure, significant(n.point.speed_rad_s, 6),
+      "No load: {}{} {}{} with {} A through the winding, {} A from the supply; a rotor let free "
+      "ran at {} {} ({} s simulated{}).\n",
+      significant(n.point.speed_rad_s * per_rad_s), unsure, u.speed.name, in_si,
       significant(n.point.winding_current_A, 4), significant(n.point.bus_current_A, 4),
-      significant(n.free_speed_rad_s * rpm_per_rad_s), significant(n.free_s, 2),
+      significant(n.free_speed_rad_s * per_rad_s), u.speed.name, significant(n.free_s, 2),
       n.settled ? ""
                 : fmt::format(", short of 20 time constants of {} s", significant(n.time_constant_s, 2)));
 }
 
-std::string ideal(const analysis::Bench& b, TorqueUnit unit) {
+std::string ideal(const analysis::Bench& b, const Units& u) {
   return fmt::format(
-      "Ideal line, without commutation time and friction: {} {} at standstill, {} rpm without load.\n",
-      significant(analysis::ideal_torque_Nm(b, 0.0) * unit.factor), unit.name,
-      significant(analysis::ideal_no_load_rad_s(b) * rpm_per_rad_s));
+      "Ideal line, without commutation time and friction: {} at standstill, {} {} without load.\n",
+      torque_text(analysis::ideal_torque_Nm(b, 0.0), u, 5),
+      significant(analysis::ideal_no_load_rad_s(b) * u.speed.factor), u.speed.name);
 }
 
 /// "-12.0 %": how far from what the sheet prints.
@@ -181,11 +209,11 @@ std::string against(double here, double sheet) {
 }
 
 /// What the sheet's gradient does not say: it is the ideal line's.
-std::string drop(const analysis::CurveRequest& r, const analysis::Curve& curve, TorqueUnit unit) {
+std::string drop(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   const analysis::SpeedDrop d = analysis::speed_drop(r, curve);
-  const auto per_torque = [&](double x) { return significant(x * rpm_per_rad_s / unit.factor, 3); };
-  std::string text = fmt::format("From no load to that torque the curve falls by {} rpm/{}",
-                                 per_torque(*d.curve), unit.name);
+  const auto per_torque = [&](double x) { return significant(x * u.speed.factor / u.torque.factor, 3); };
+  std::string text = fmt::format("From no load to that torque the curve falls by {} {}/{}",
+                                 per_torque(*d.curve), u.speed.name, u.torque.name);
   if (d.sheet) text += fmt::format(", the sheet's own two points by {}", per_torque(*d.sheet));
   text += fmt::format("; R/K_t^2 is {}", per_torque(d.ideal));
   if (d.printed) text += fmt::format(" (printed as gradient: {})", per_torque(*d.printed));
@@ -194,12 +222,12 @@ std::string drop(const analysis::CurveRequest& r, const analysis::Curve& curve, 
 
 /// Compared only where the curve is of the voltage that the sheet's point belongs to, and at the torque: the
 /// load asks for that, the speed is the motor's answer.
-std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curve, TorqueUnit unit) {
+std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   const analysis::NominalPoint& n = *curve.nominal;
   std::string text = "Nominal point of the sheet:";
   const auto item = [&](const std::string& what) { text += (text.back() == ':' ? " " : ", ") + what; };
-  if (n.torque_Nm) item(fmt::format("{} {}", significant(*n.torque_Nm * unit.factor, 4), unit.name));
-  if (n.speed_rad_s) item(rpm(*n.speed_rad_s) + " rpm");
+  if (n.torque_Nm) item(torque_text(*n.torque_Nm, u));
+  if (n.speed_rad_s) item(speed_text(*n.speed_rad_s, u));
   if (n.current_A) item(significant(*n.current_A, 4) + " A");
   const double sheet_V = r.bench.motor.nominal_voltage_V;
   if (r.bench.duty != 1 || r.bench.voltage_V != sheet_V)
@@ -207,34 +235,34 @@ std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curv
   if (!n.torque_Nm) return text + "; without a torque it is no point of the curve.\n";
   if (!n.at_torque) return text + "; the curve never has that torque.\n";
   const analysis::OperatingPoint& p = *n.at_torque;
-  text += fmt::format("; at that torque the curve has {} rpm", rpm(p.speed_rad_s));
+  text += fmt::format("; at that torque the curve has {}", speed_text(p.speed_rad_s, u));
   if (n.speed_rad_s) text += fmt::format(" ({})", against(p.speed_rad_s, *n.speed_rad_s));
   text += fmt::format(" and {} A", significant(p.winding_current_A, 4));
   if (n.current_A) text += fmt::format(" ({})", against(p.winding_current_A, *n.current_A));
-  return text + ".\n" + drop(r, curve, unit);
+  return text + ".\n" + drop(r, curve, u);
 }
 
 /// Where the winding stands the curve itself.
-std::string lasting(const analysis::Curve& curve, TorqueUnit unit) {
+std::string lasting(const analysis::Curve& curve, const Units& u) {
   if (!curve.marks.for_ever) return "Not even no load can be held for ever.\n";
   const analysis::OperatingPoint& from = *curve.marks.for_ever;
-  return fmt::format("The curve itself can be held for ever from {} rpm ({} {}) on.\n", rpm(from.speed_rad_s),
-                     significant(from.shaft_torque_Nm * unit.factor, 4), unit.name);
+  return fmt::format("The curve itself can be held for ever from {} ({}) on.\n",
+                     speed_text(from.speed_rad_s, u), torque_text(from.shaft_torque_Nm, u));
 }
 
-std::string thermal(const analysis::CurveRequest& r, const analysis::Curve& curve, TorqueUnit unit) {
+std::string thermal(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   if (!curve.thermal) return fmt::format("No thermal limits: {}.\n", to_string(curve.thermal_missing[0]));
   const analysis::ThermalLimits still = analysis::thermal_limits(*curve.thermal, r, 0.0);
   std::string text = fmt::format(
-      "At {:g} degC ambient the winding stays below {:g} degC with {} A ({} {} at standstill) for ever, {} "
+      "At {:g} degC ambient the winding stays below {:g} degC with {} A ({} at standstill) for ever, {} "
       "A for {} s, {} A for {} s.\n",
       r.ambient_degC, curve.thermal->max_winding_degC, significant(still.continuous_A, 3),
-      significant(still.continuous_Nm * unit.factor, 4), unit.name, significant(still.short_A[1], 3),
-      analysis::short_times_s[1], significant(still.short_A[0], 3), analysis::short_times_s[0]);
-  return text + lasting(curve, unit);
+      torque_text(still.continuous_Nm, u), significant(still.short_A[1], 3), analysis::short_times_s[1],
+      significant(still.short_A[0], 3), analysis::short_times_s[0]);
+  return text + lasting(curve, u);
 }
 
-std::string certainty(const analysis::Curve& curve, TorqueUnit unit) {
+std::string certainty(const analysis::Curve& curve, const Units& u) {
   double bound = 0.0, residual = 0.0, width = 0.0;
   bool precise = true;
   for (const analysis::OperatingPoint& p : curve.points) {
@@ -243,11 +271,11 @@ std::string certainty(const analysis::Curve& curve, TorqueUnit unit) {
     width = std::max(width, p.half_width_Nm);
     precise = precise && p.precise;
   }
-  std::string text = curve.no_load.point.orbit == analysis::Orbit::quasi_periodic
-                         ? fmt::format("Mean torque within +- {} {} at {} % ({} batches)",
-                                       significant(width * unit.factor, 2), unit.name,
-                                       per_cent * analysis::confidence_level, analysis::batches)
-                         : fmt::format("Steady currents within {:.1g} A", bound);
+  std::string text =
+      curve.no_load.point.orbit == analysis::Orbit::quasi_periodic
+          ? fmt::format("Mean torque within +- {} at {} % ({} batches)", torque_text(width, u, 2),
+                        per_cent * analysis::confidence_level, analysis::batches)
+          : fmt::format("Steady currents within {:.1g} A", bound);
   if (!precise) text += ", at some points less narrow than wanted";
   return text + fmt::format("; the energy balance closes to {:.1g}.\n", residual);
 }
@@ -260,11 +288,15 @@ std::string curve_table(const analysis::CurveRequest& r, const analysis::Curve& 
   if (std::fabs(b.duty) != 1)
     text += fmt::format(", duty {:g}, {} chopping, PWM period {:g} us", b.duty,
                         base::word(study::chopping_choices, b.chopping), b.pwm_period_s * 1e6);
+  if (design::on_R(r.motor_degC) != 1 || design::on_K_e(r.sheet, r.motor_degC) != 1)
+    text += fmt::format(", winding at {:g} degC, magnets at {:g} degC", r.motor_degC.winding_degC,
+                        r.motor_degC.housing_degC);
   text += "\n";
-  const TorqueUnit unit = torque_unit(curve);
-  text += points(r, curve) + locked(curve.points.front(), unit) + ideal(b, unit) + no_load(curve.no_load);
-  if (curve.nominal) text += nominal(r, curve, unit);
-  return text + thermal(r, curve, unit) + certainty(curve, unit);
+  const Units u = units_of(r, curve);
+  std::string words = locked(curve.points.front(), u) + ideal(b, u) + no_load(curve.no_load, u);
+  if (curve.nominal) words += nominal(r, curve, u);
+  words += thermal(r, curve, u) + certainty(curve, u) + left_out(b);
+  return text + points(r, curve) + u.motion.words(words);
 }
 
 }  // namespace text

@@ -7,16 +7,19 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/design/thesis/thesis_figures.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
 #include "text/results/design_text.hpp"
+#include "text/results/json_words.hpp"
 
 namespace text {
 namespace {
 
 using Json = nlohmann::ordered_json;
 using sixstep::analysis::RobustFigure;
+using sixstep::base::Motion;
 using sixstep::design::DriveDesign;
 using sixstep::design::LoopDesign;
 using sixstep::design::LoopFigures;
@@ -66,8 +69,10 @@ Json step(const LoopDesign& loop, double period_s) {
 
 Json loop_json(const LoopDesign& loop, const DriveDesign& d) {
   Json out{{"name", loop.name}, {"method", loop.method}};
+  const Motion motion = sixstep::design::motion_of(d.motor);
   if (loop.name == "position")
-    out["gain_rad_s_per_deg"] = loop.gains.d1;
+    out[motion.linear ? "gain_m_s_per_mm" : "gain_rad_s_per_deg"] =
+        loop.gains.d1 * motion.unit("rad/s/deg").factor;
   else
     out["gains"] = {{"d1", loop.gains.d1}, {"d0", loop.gains.d0}, {"K_i", loop.gains.d1 + loop.gains.d0}};
   out["steps"] = Json::array();
@@ -159,20 +164,23 @@ std::string design_json(const analysis::DesignStudy& s) {
            {"delay_periods", d.spec.delay_periods},
            {"chopping", sixstep::base::word(sixstep::study::chopping_choices, d.spec.chopping)}};
   const auto& m = d.motor;
-  out["model"] = {{"terminal_resistance_ohm", 2 * m.machine.R_ohm},
-                  {"terminal_inductance_H", 2 * m.machine.L_H},
-                  {"torque_constant_Nm_A", m.K_t_Nm_A},
-                  {"back_emf_peak_phase_V_s", m.machine.K_e_V_s},
-                  {"inertia_kg_m2", m.shaft.J_kg_m2},
-                  {"viscous_friction_Nm_s", m.shaft.B_Nm_s}};
+  const Motion motion = sixstep::design::motion_of(m);
+  const auto own = [&](const Json& json) { return under_names_of(motion, json); };
+  out["model"] = own({{"terminal_resistance_ohm", 2 * m.machine.R_ohm},
+                      {"terminal_inductance_H", 2 * m.machine.L_H},
+                      {"torque_constant_Nm_A", m.K_t_Nm_A},
+                      {"back_emf_peak_phase_V_s", m.K_e_V_s},
+                      {"inertia_kg_m2", m.shaft.J_kg_m2},
+                      {"viscous_friction_Nm_s", m.shaft.B_Nm_s}});
   out["loops"] = Json::array();
   for (const LoopDesign& loop : d.loops) out["loops"].push_back(loop_json(loop, d));
-  out["limits"] = limits(d);
-  if (!d.sensing.empty()) out["sensing"] = sensing(d);
+  out["limits"] = own(limits(d));
+  if (!d.sensing.empty()) out["sensing"] = own(sensing(d));
+  const double of_gain = motion.unit("rad/s/deg").factor;
   if (s.position)
-    out["position_gain"] = {{"estimate", s.position->estimate},
-                            {"linear", s.position->linear},
-                            {"overshoots_at", s.position->overshoots},
+    out["position_gain"] = {{"estimate", s.position->estimate * of_gain},
+                            {"linear", s.position->linear * of_gain},
+                            {"overshoots_at", s.position->overshoots * of_gain},
                             {"runs", s.position->runs}};
   out["simulated"] = simulated(s);
   out["digest"] = sixstep::base::written_hex(s.outcome.digest);

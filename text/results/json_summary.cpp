@@ -46,6 +46,19 @@ Json gains(const study::Outcome& outcome) {
   return list;
 }
 
+Json devices(const study::Outcome& outcome) {
+  Json list = Json::array();
+  for (const study::DeviceLoss& d : outcome.devices)
+    list.push_back({{"device", d.device},
+                    {"conduction_W", d.conduction_W},
+                    {"turn_on_W", d.turn_on_W},
+                    {"turn_off_W", d.turn_off_W},
+                    {"diode_W", d.diode_W},
+                    {"recovery_W", d.recovery_W},
+                    {"junction_degC", d.junction_degC > 0 ? Json(d.junction_degC) : Json(nullptr)}});
+  return list;
+}
+
 Json energy(const sixstep::plant::EnergyBook& e) {
   return {{"supplied_J", e.supplied},
           {"copper_J", e.copper},
@@ -53,6 +66,7 @@ Json energy(const sixstep::plant::EnergyBook& e) {
           {"magnetic_J", e.magnetic},
           {"air_gap_J", e.air_gap},
           {"friction_J", e.friction},
+          {"iron_J", e.iron},
           {"load_J", e.load},
           {"kinetic_J", e.kinetic},
           {"moved_J", e.moved},
@@ -92,10 +106,12 @@ std::string json_summary(const study::Scenario& scenario, const study::Outcome& 
                   {"simulated_s", outcome.simulated_s},
                   {"segments", outcome.segments},
                   {"digest", base::written_hex(outcome.digest)}};
+  if (!outcome.notes.empty()) summary["notes"] = outcome.notes;
   summary["require"] = verdicts(outcome);
   summary["compare"] = comparisons(outcome);
   summary["gains"] = gains(outcome);
   summary["energy"] = outcome.energy ? energy(*outcome.energy) : Json(nullptr);
+  summary["devices"] = devices(outcome);
   summary["laws"] = outcome.laws ? laws(*outcome.laws) : Json(nullptr);
   summary["events"] = events(outcome);
   // A title may hold bytes that are no UTF-8: shown as such, never thrown over.

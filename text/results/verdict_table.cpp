@@ -79,6 +79,7 @@ void add_entry(std::vector<Line>& lines, const TableEntry& entry) {
   for (const study::ComparisonResult& c : entry.outcome->comparisons) lines.push_back(comparison_line(c));
   if (entry.outcome->fault)
     lines.push_back({Kind::note, {"  STOPPED by a fault: " + base::to_string(*entry.outcome->fault)}});
+  for (const std::string& note : entry.outcome->notes) lines.push_back({Kind::note, {"  note: " + note}});
   if (lines.size() == before) lines.push_back({Kind::note, {"  requires nothing"}});
 }
 

@@ -91,8 +91,17 @@ Json words_or_one(const Json& word) { return {{"anyOf", {list_of(word), word}}};
 
 Json column_names() {
   std::vector<std::pair<std::string, std::string>> names;
+  const auto& linear = study::all_columns(design::MotorKind::linear);
   for (const study::Column& column : study::all_columns()) names.emplace_back(column.name, column.meaning);
+  for (std::size_t n = 0; n < linear.size(); ++n)
+    if (linear[n].name != names[n].first) names.emplace_back(linear[n].name, linear[n].meaning);
   return one_of(names);
+}
+
+std::vector<std::pair<std::string, std::string>> all_words(const KeyEntry& entry) {
+  std::vector<std::pair<std::string, std::string>> words = entry.choices;
+  for (const KeyEntry::LinearChoice& own : entry.linear_choices) words.emplace_back(own.word, own.meaning);
+  return words;
 }
 
 /// Built-in names are offered, any path is taken.
@@ -117,7 +126,7 @@ Json value_of(const KeyEntry& entry, const Place& place) {
     case KeyType::texts:
       return words_or_one(entry.path == "record.columns" ? column_names() : Json{{"type", "string"}});
     case KeyType::word:
-      return one_of(entry.choices);
+      return one_of(all_words(entry));
     case KeyType::quantity:
       return quantity(entry, place);
     case KeyType::table:

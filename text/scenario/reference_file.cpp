@@ -71,10 +71,18 @@ std::string unit_in(std::string_view heading) {
   return unit_of(unit) ? unit : std::string();
 }
 
+/// What the first column is: its unit, and how messages speak of it.
+struct FirstColumn {
+  const char *unit, *word, *row;
+};
+constexpr FirstColumn time_column{"s", "time", "a time in s and a value"},
+    angle_column{"deg", "angle", "an angle in degrees and a value"};
+
 class RowsReader {
  public:
-  RowsReader(const std::string& name, const std::optional<std::string>& column, const std::string& unit)
-      : name_(name), column_(column), value_{unit, {}} {}
+  RowsReader(const std::string& name, const FirstColumn& first, const std::optional<std::string>& column,
+             const std::string& unit)
+      : name_(name), first_(first), column_(column), value_{unit, {}} {}
 
   void line(std::string_view text) {
     ++number_;
@@ -93,11 +101,12 @@ class RowsReader {
   }
 
   base::Result<ReferenceRows> result() {
-    if (rows_.times_s.empty() && told_.empty()) say("holds no row of numbers", "give rows of time and value");
+    if (rows_.times_s.empty() && told_.empty())
+      say("holds no row of numbers", fmt::format("give rows of {} and value", first_.word));
     if (skipped_ > 0)
       told_.push_back({.where = name_ + ":",
                        .limit = fmt::format("is wrong in {} more lines", skipped_),
-                       .cure = "each row is a time in s and a value"});
+                       .cure = fmt::format("each row is {}", first_.row)});
     if (!told_.empty()) return told_;
     return std::move(rows_);
   }
@@ -146,7 +155,7 @@ class RowsReader {
 
   void row(const std::vector<std::string_view>& cells) {
     if (cells.size() <= value_at_)
-      return say(fmt::format("has {} cells", cells.size()), "each row is a time in s and a value");
+      return say(fmt::format("has {} cells", cells.size()), fmt::format("each row is {}", first_.row));
     const std::optional<double> t = value_of(cells[0], time_), y = value_of(cells[value_at_], value_);
     if (!t || !y)
       return say(fmt::format("\"{}\" is no number", cells[t ? value_at_ : 0]),
@@ -154,7 +163,9 @@ class RowsReader {
     if (!allowed(*t, time_, cells[0]) || !allowed(*y, value_, cells[value_at_])) return;
     const double at = not_nearly(*t);
     const bool rises = rows_.times_s.empty() ? at >= 0.0 : at > rows_.times_s.back();
-    if (!rises) return say(fmt::format("time {} does not rise", cells[0]), "sort the rows, from 0 s on");
+    if (!rises)
+      return say(fmt::format("{} {} does not rise", first_.word, cells[0]),
+                 fmt::format("sort the rows, from 0 {} on", first_.unit));
     rows_.times_s.push_back(at);
     rows_.values.push_back(not_nearly(*y));
   }
@@ -182,8 +193,9 @@ class RowsReader {
   }
 
   const std::string& name_;
+  const FirstColumn& first_;
   const std::optional<std::string>& column_;
-  Column time_{"s", {}}, value_;
+  Column time_{first_.unit, {}}, value_;
   char separator_ = 0;
   bool begun_ = false;
   std::size_t number_ = 0, value_at_ = 1, skipped_ = 0;
@@ -193,11 +205,9 @@ class RowsReader {
 
 }  // namespace
 
-base::Result<ReferenceRows> reference_rows(const std::string& name, const std::string& text,
-                                           const std::optional<std::string>& column,
-                                           const std::string& unit) {
-  RowsReader reader(name, column, unit);
-  std::string_view rest = text;
+namespace {
+
+base::Result<ReferenceRows> read_lines(RowsReader reader, std::string_view rest) {
   if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);  // some editors begin a file with it
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
@@ -205,6 +215,21 @@ base::Result<ReferenceRows> reference_rows(const std::string& name, const std::s
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return reader.result();
+}
+
+}  // namespace
+
+base::Result<ReferenceRows> reference_rows(const std::string& name, const std::string& text,
+                                           const std::optional<std::string>& column,
+                                           const std::string& unit) {
+  return read_lines(RowsReader(name, time_column, column, unit), text);
+}
+
+base::Result<ShapeRows> shape_rows(const std::string& name, const std::string& text) {
+  const std::optional<std::string> second;
+  base::Result<ReferenceRows> rows = read_lines(RowsReader(name, angle_column, second, ""), text);
+  if (!rows) return rows.problems();
+  return ShapeRows{std::move(rows->times_s), std::move(rows->values)};
 }
 
 }  // namespace text

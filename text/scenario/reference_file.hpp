@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A reference from a table of numbers: time in seconds in the first column, the reference in another.
+// A reference from a table of numbers: time in seconds in the first column, the reference in another. A back-EMF's shape
+// likewise: the electrical angle in degrees, then the value.
 #pragma once
 #include <optional>
 #include <string>
@@ -21,5 +22,13 @@ struct ReferenceRows {
 /// of `unit`, which the values are wanted in. Times rise from 0 on.
 base::Result<ReferenceRows> reference_rows(const std::string& name, const std::string& text,
                                            const std::optional<std::string>& column, const std::string& unit);
+
+struct ShapeRows {
+  std::vector<double> angles_deg, values;
+};
+
+/// Two columns, read as those of a reference: what is wrong with a line is told with its number, what is wrong with the
+/// shape by design::sheet_constants().
+base::Result<ShapeRows> shape_rows(const std::string& name, const std::string& text);
 
 }  // namespace text

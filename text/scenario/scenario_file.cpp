@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "sixstep/base/linear.hpp"
 #include "sixstep/design/sheet/sheet_constants.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/design/sheet/sheet_override.hpp"
@@ -15,6 +16,7 @@
 #include "sixstep/study/scenario/scenario_description.hpp"
 #include "text/keys/key_catalog.hpp"
 #include "text/motor/motor_library.hpp"
+#include "text/scenario/motion_words.hpp"
 #include "text/scenario/reference_file.hpp"
 #include "text/scenario/scenario_family.hpp"
 #include "text/toml/file_kind.hpp"
@@ -28,10 +30,40 @@ struct SheetSource {
   design::Sheet sheet;
 };
 
-base::Result<SheetSource> sheet_of(Document document) {
+/// The points of a back-EMF, from the file that the text at `path` names.
+void read_shape(const Document& document, const std::string& path, const Resolve& resolve,
+                design::Sheet& sheet, Complaints& complaints, base::Problems& of_other_files) {
+  const toml::node* node = document.find(path);
+  if (!node || sheet.back_emf_file.empty()) return;
+  const auto complain = [&](base::Problem problem) {
+    problem.where = path;
+    complaints.later(std::move(problem));
+    complaints.told_elsewhere(path);
+  };
+  if (!sheet.back_emf_angle_deg.empty() || !sheet.back_emf_shape.empty())
+    return complain({.limit = "contradicts back_emf_angle_deg and back_emf_shape: the points are given twice",
+                     .cure = "keep one of the two"});
+  const base::Result<NamedText> file =
+      find_text(resolve, {Naming::Kind::rows, sheet.back_emf_file, document.file_of(*node, path)});
+  if (!file) return complain(file.problems().front());
+  base::Result<ShapeRows> rows = shape_rows(file->name, file->text);
+  if (!rows) {
+    of_other_files.insert(of_other_files.end(), rows.problems().begin(), rows.problems().end());
+    return complaints.told_elsewhere(path);
+  }
+  sheet.back_emf_angle_deg = std::move(rows->angles_deg);
+  sheet.back_emf_shape = std::move(rows->values);
+}
+
+base::Result<SheetSource> sheet_of(Document document, const Resolve& resolve) {
   Complaints complaints(document);
+  base::Problems of_other_files;
   design::Sheet sheet;
   read_root(document, sheet, complaints);
+  complaints.set_linear_motor(sheet.kind == design::MotorKind::linear);
+  refuse_other_motion(sheet_keys(), complaints);
+  read_shape(document, "back_emf_file", resolve, sheet, complaints, of_other_files);
+  if (complaints.empty() && !of_other_files.empty()) return of_other_files;
   if (complaints.empty()) return SheetSource{std::move(document), std::move(sheet)};
   if (std::optional<base::Problem> problem = taken_for(FileKind::motor, document)) return *problem;
   return complaints.in_order();
@@ -50,7 +82,7 @@ std::optional<SheetSource> named_sheet(const Document& scenario, const Resolve& 
       problem.where.empty() ? complaints.value(*name, "motor", problem) : of_other_files.push_back(problem);
     return {};
   }
-  base::Result<SheetSource> source = sheet_of(std::move(*document));
+  base::Result<SheetSource> source = sheet_of(std::move(*document), resolve);
   if (!source) {
     of_other_files.insert(of_other_files.end(), source.problems().begin(), source.problems().end());
     return {};
@@ -113,7 +145,7 @@ void run_checks(const Document& document, const SheetSource& source, const study
 }
 
 /// The rows of a csv reference, from the file that it names.
-void read_rows(const Document& document, const std::string& path, const std::string& unit,
+void read_rows(const Document& document, const std::string& path, sixstep::control::Mode mode,
                const Resolve& resolve, study::Reference& r, Complaints& complaints,
                base::Problems& of_other_files) {
   if (r.file.empty() || r.shape != study::Shape::csv) return;
@@ -130,29 +162,37 @@ void read_rows(const Document& document, const std::string& path, const std::str
   const base::Result<NamedText> file =
       find_text(resolve, {Naming::Kind::rows, r.file, document.file_of(*node, key)});
   if (!file) return complain(file.problems().front());
-  base::Result<ReferenceRows> rows = reference_rows(file->name, file->text, r.column, unit);
+  const std::string_view of_mode = study::reference_unit(mode);
+  const base::LinearUnit unit =
+      complaints.linear_motor() ? base::in_linear(of_mode) : base::LinearUnit{of_mode, of_mode};
+  // A duty is a plain number.
+  base::Result<ReferenceRows> rows =
+      reference_rows(file->name, file->text, r.column, unit.linear == "1" ? "" : std::string(unit.linear));
   if (!rows) {
     of_other_files.insert(of_other_files.end(), rows.problems().begin(), rows.problems().end());
     return complaints.told_elsewhere(key);
   }
   r.times_s = std::move(rows->times_s);
   r.values = std::move(rows->values);
+  for (double& value : r.values) value /= unit.factor;
 }
 
 void read_all_rows(const Document& document, const Resolve& resolve, study::Scenario& scenario,
                    Complaints& complaints, base::Problems& of_other_files) {
-  // A duty is a plain number.
-  const auto unit = [](sixstep::control::Mode mode) {
-    const std::string_view of_mode = study::reference_unit(mode);
-    return std::string(of_mode == "1" ? "" : of_mode);
-  };
-  read_rows(document, "reference", unit(scenario.control.mode), resolve, scenario.reference, complaints,
+  read_rows(document, "reference", scenario.control.mode, resolve, scenario.reference, complaints,
             of_other_files);
   const std::vector<sixstep::control::Mode> modes = study::modes_from(scenario);
   for (std::size_t n = 0; n < scenario.at.size(); ++n)
     if (scenario.at[n].reference)
-      read_rows(document, fmt::format("at[{}].reference", n), unit(modes[n]), resolve,
-                *scenario.at[n].reference, complaints, of_other_files);
+      read_rows(document, fmt::format("at[{}].reference", n), modes[n], resolve, *scenario.at[n].reference,
+                complaints, of_other_files);
+}
+
+/// The sheet's kind, or the one that [motor_override] makes of it.
+bool is_linear(const Document& document, const design::Sheet& sheet) {
+  const toml::node* kind = document.find("motor_override.kind");
+  const std::optional<std::string> word = kind ? kind->value<std::string>() : std::nullopt;
+  return word.value_or(std::string(base::word(design::kind_choices, sheet.kind))) == "linear";
 }
 
 base::Problems apply_overrides(Document& document, const std::vector<Setting>& overrides) {
@@ -175,7 +215,7 @@ base::Result<design::Sheet> read_sheet(const std::string& name, const Resolve& r
       if (problem.where.empty()) problem.where = name;
     return problems;
   }
-  base::Result<SheetSource> source = sheet_of(std::move(*document));
+  base::Result<SheetSource> source = sheet_of(std::move(*document), resolve);
   if (!source) return source.problems();
   Complaints complaints(source->document);
   for (base::Problem& problem : design::sheet_constants(source->sheet).problems)
@@ -196,9 +236,17 @@ base::Result<study::Scenario> read_scenario_text(const std::string& name, std::s
   base::Problems of_other_files;
   std::optional<SheetSource> source = named_sheet(document, options.resolve, complaints, of_other_files);
   study::Scenario scenario;
-  if (source) scenario.sheet = source->sheet;
+  if (source) {
+    scenario.sheet = source->sheet;
+    scenario.motor_sheet = source->sheet;
+  }
+  complaints.set_linear_motor(is_linear(document, scenario.sheet));
   read_root(document, scenario, complaints);
+  refuse_other_motion(scenario_keys(), complaints);
+  read_spread_keys(scenario, complaints);
   drop_stale(scenario.sheet, [&](std::string_view key) { return overridden(document, key); });
+  read_shape(document, "motor_override.back_emf_file", options.resolve, scenario.sheet, complaints,
+             of_other_files);
   // A duration that is wrong has been told: nothing shall lie behind its end besides.
   if (!(scenario.duration_s > 0.0)) scenario.duration_s = study::longest_s;
   read_all_rows(document, options.resolve, scenario, complaints, of_other_files);

@@ -4,11 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <type_traits>
 
+#include "sixstep/base/linear.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
 #include "text/escape/escape.hpp"
+#include "text/scenario/motion_words.hpp"
 
 namespace text {
 namespace {
@@ -24,11 +28,53 @@ std::string toml(const std::vector<T>& list) {
   return out + "]";
 }
 
-/// One table's keys as they would be written, tables within it and lists behind them.
+/// A number with as many digits behind the point as its file had: what they are worth is read from them.
+std::string with_last_digit(const sixstep::base::Quantity& q) {
+  std::string text = toml(q.value);
+  if (!q.last_digit || text.find_first_not_of("-.0123456789") != std::string::npos) return text;
+  const std::size_t point = text.find('.'), there = point == std::string::npos ? 0 : text.size() - point - 1;
+  std::size_t wanted = 0;
+  for (double digit = *q.last_digit; digit < 0.5 && wanted < 22; digit *= 10) ++wanted;
+  if (wanted > there && point == std::string::npos) text += '.';
+  return wanted > there ? text + std::string(wanted - there, '0') : text;
+}
+
+std::string toml(const sixstep::base::Quantity& q) {
+  std::string number = with_last_digit(q);
+  if (q.frame.empty() && q.source.empty() && q.kind == sixstep::base::Trust::unstated && !q.range)
+    return number;
+  std::string out = "{ value = " + number;
+  if (!q.frame.empty()) out += ", frame = " + toml_text(q.frame);
+  if (!q.source.empty()) out += ", source = " + toml_text(q.source);
+  if (q.kind != sixstep::base::Trust::unstated)
+    out += fmt::format(", kind = \"{}\"", sixstep::base::word(sixstep::base::trust_choices, q.kind));
+  if (q.range) out += fmt::format(", range = [{}, {}]", toml(q.range->low), toml(q.range->high));
+  return out + " }";
+}
+
+/// A number as another spelling has it, such that reading gives back the same double where there is one that does.
+double spelled_as(double own, const sixstep::base::Spelling& spelling) {
+  using sixstep::base::in_own_unit;
+  double x = sixstep::base::as_spelled(own, spelling);
+  for (int n = 0; n < 4 && in_own_unit(x, spelling) != own; ++n)
+    x = std::nextafter(x, in_own_unit(x, spelling) < own ? HUGE_VAL : -HUGE_VAL);
+  return x;
+}
+std::vector<double> spelled_as(std::vector<double> list, const sixstep::base::Spelling& spelling) {
+  for (double& x : list) x = spelled_as(x, spelling);
+  return list;
+}
+
+/// One table's keys as they would be written, tables within it and lists behind them: of a linear motor in its words.
 class TableText {
  public:
+  explicit TableText(bool linear_motor = false) : linear_motor_(linear_motor) {}
+
   template <class T>
   void value(std::string_view key, const T& member, const sixstep::base::About& about) {
+    if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::vector<double>>)
+      if (const auto* linear = linear_motor_ ? sixstep::base::linear_spelling(about) : nullptr)
+        return rows_.push_back({std::string(linear->key), toml(spelled_as(member, *linear)), about.required});
     rows_.push_back({std::string(key), toml(member), about.required});
   }
   template <class T>
@@ -38,14 +84,15 @@ class TableText {
   template <class Enum, class Choices>
   void choice(std::string_view key, const Enum& member, const Choices& choices,
               const sixstep::base::About& about) {
-    value(key, std::string(sixstep::base::word(choices, member)), about);
+    value(key, std::string(sixstep::base::word_in({linear_motor_}, choices, member)), about);
   }
   template <class Quantity>
-  void quantity(std::string_view, const Quantity&, const sixstep::base::About&) {}
+  void quantity(std::string_view key, const Quantity& member, const sixstep::base::About& about) {
+    value(key, member, about);
+  }
   template <class Struct>
   void table(std::string_view key, Struct& member, const sixstep::base::About& about) {
-    if (about.partial) return;  // the motor's sheet
-    add(key, member, Shown::where_it_differs);
+    add(key, member, about.partial ? Shown::partly : Shown::where_it_differs);
   }
   /// One that may be left out is told by its heading, even where every row is the default.
   template <class Struct>
@@ -56,10 +103,10 @@ class TableText {
   template <class Item>
   void list(std::string_view key, std::vector<Item>& items, const sixstep::base::About&) {
     Item usual;
-    TableText plain;
+    TableText plain(linear_motor_);
     describe(plain, usual);
     for (Item& item : items) {
-      TableText inner;
+      TableText inner(linear_motor_);
       describe(inner, item);
       lists_.emplace_back(key, inner.text(plain, std::string(key), Heading::none));
       inner.add_values(plain, fmt::format("{}[{}].", key, &item - items.data()), listed_);
@@ -75,7 +122,7 @@ class TableText {
     std::string out;
     for (const Row& row : rows_) {
       const auto same = other.find(row.key);
-      if (row.required || same == other.end() || same->second != row.value)
+      if ((row.required && shown_ != Shown::partly) || same == other.end() || same->second != row.value)
         out += fmt::format("{} = {}\n", row.key, row.value);
     }
     if (heading == Heading::always || (heading == Heading::with_rows && !out.empty()))
@@ -96,6 +143,7 @@ class TableText {
       const bool same = std::any_of(usual.rows_.begin(), usual.rows_.end(), [&](const Row& other) {
         return other.key == row.key && other.value == row.value;
       });
+      if (shown_ == Shown::partly && same) continue;
       out.push_back({path + row.key, row.value, same && !row.required});
     }
     for (std::size_t n = 0; n < tables_.size(); ++n)
@@ -105,7 +153,7 @@ class TableText {
   }
 
  private:
-  enum class Shown { where_it_differs, always, never };
+  enum class Shown { where_it_differs, always, never, partly };  ///< partly: none of its keys need be there
   struct Row {
     std::string key, value;
     bool required;
@@ -113,13 +161,14 @@ class TableText {
 
   template <class Struct>
   void add(std::string_view key, Struct& member, Shown shown) {
-    TableText inner;
+    TableText inner(linear_motor_);
     describe(inner, member);
     inner.key_ = std::string(key);
     inner.shown_ = shown;
     tables_.push_back(std::move(inner));
   }
 
+  bool linear_motor_;
   std::string key_;
   Shown shown_ = Shown::where_it_differs;
   std::vector<Row> rows_;
@@ -127,6 +176,38 @@ class TableText {
   std::vector<TableText> tables_;
   std::vector<WrittenValue> listed_;  ///< of the lists' items
 };
+
+/// The quantities, counts and texts that a sheet gives.
+struct KeysGiven {
+  std::vector<std::string_view> keys;
+  template <class T>
+  void quantity(std::string_view key, const std::optional<T>& member, const sixstep::base::About&) {
+    if (member) keys.push_back(key);
+  }
+  void value(std::string_view key, const std::optional<int>& member, const sixstep::base::About&) {
+    if (member) keys.push_back(key);
+  }
+  void value(std::string_view key, const std::string& member, const sixstep::base::About&) {
+    if (!member.empty()) keys.push_back(key);
+  }
+  template <class T>
+  void value(std::string_view, const T&, const sixstep::base::About&) {}
+  template <class Enum, class Choices>
+  void choice(std::string_view, const Enum&, const Choices&, const sixstep::base::About&) {}
+};
+
+/// What is given where nothing is overridden: the motor's own sheet. A key that it has and the run has not was dropped with the
+/// override of another that means the same; where that one says what the sheet says too, all of them are written.
+design::Sheet usual_sheet(const study::Scenario& s) {
+  if (!s.motor_sheet) return s.sheet;
+  design::Sheet own = *s.motor_sheet, used = s.sheet;
+  KeysGiven before, now;
+  describe(before, own);
+  describe(now, used);
+  for (const std::string_view key : before.keys)
+    if (std::find(now.keys.begin(), now.keys.end(), key) == now.keys.end()) return {};
+  return own;
+}
 
 }  // namespace
 
@@ -141,7 +222,10 @@ std::string scenario_text(const study::Scenario& scenario, const std::vector<std
   detach(copy.reference);
   for (study::At& at : copy.at)
     if (at.reference) detach(*at.reference);
-  TableText text, defaults;
+  usual.sheet = usual_sheet(scenario);
+  const bool linear = copy.sheet.kind == design::MotorKind::linear;
+  in_units_of_its_motor(copy);
+  TableText text(linear), defaults(linear);
   describe(text, copy);
   describe(defaults, usual);
   std::string out;
@@ -151,7 +235,10 @@ std::string scenario_text(const study::Scenario& scenario, const std::vector<std
 
 std::vector<WrittenValue> scenario_values(const study::Scenario& scenario) {
   study::Scenario copy = scenario, usual;
-  TableText text, defaults;
+  usual.sheet = usual_sheet(scenario);
+  const bool linear = copy.sheet.kind == design::MotorKind::linear;
+  in_units_of_its_motor(copy);
+  TableText text(linear), defaults(linear);
   describe(text, copy);
   describe(defaults, usual);
   std::vector<WrittenValue> values;

@@ -10,7 +10,7 @@
 namespace text {
 
 /// TOML that reads back as the same scenario, to the bit: what differs from the defaults, in the order of the
-/// descriptions. The motor is named, its sheet is not written: overrides of single values are lost. Each of
+/// descriptions. The motor is named; of its sheet the values are written that are not those of its file (motor_sheet). Each of
 /// `comments` becomes a line of its own above it.
 std::string scenario_text(const study::Scenario& scenario, const std::vector<std::string>& comments = {});
 
@@ -21,7 +21,7 @@ struct WrittenValue {
   bool usual;        ///< what holds too where the key is left out
 };
 
-/// Every key that has a value, those of the motor's sheet left out.
+/// Every key that has a value; of the motor's sheet those that are not its file's.
 std::vector<WrittenValue> scenario_values(const study::Scenario& scenario);
 
 }  // namespace text

@@ -21,7 +21,7 @@ namespace {
 using sixstep::control::Mode;
 
 struct Wanted {
-  std::string_view path;
+  std::string path;
   bool open = false;  ///< as it stands, even where it says only what holds anyhow
 };
 
@@ -91,12 +91,30 @@ study::Scenario alone(study::Scenario scenario) {
   return scenario;
 }
 
+/// The keys under the words of the scenario's motor.
+std::vector<KeyEntry> keys_for(const study::Scenario& scenario) {
+  return scenario.sheet.kind == design::MotorKind::rotary ? scenario_keys()
+                                                          : in_linear_words(scenario_keys());
+}
+
+std::vector<Wanted> wanted_for(const study::Scenario& scenario) {
+  std::vector<Wanted> wanted = wanted_keys(scenario.control.mode);
+  const std::vector<KeyEntry> turning = scenario_keys(), own = keys_for(scenario);
+  for (Wanted& key : wanted)
+    for (std::size_t n = 0; n < turning.size(); ++n)
+      if (turning[n].path == key.path) {
+        key.path = own[n].path;
+        break;
+      }
+  return wanted;
+}
+
 class Starter {
  public:
   Starter(const study::Scenario& scenario, bool full)
-      : keys_(scenario_keys()),
+      : keys_(keys_for(scenario)),
         values_(scenario_values(alone(scenario))),
-        wanted_(wanted_keys(scenario.control.mode)),
+        wanted_(wanted_for(scenario)),
         full_(full) {}
 
   std::string text() { return table("", ""); }
@@ -122,6 +140,11 @@ class Starter {
                        [&](const WrittenValue& value) { return value.path.starts_with(at + "."); });
   }
 
+  bool says_just(const std::string& path) const {
+    return std::any_of(values_.begin(), values_.end(),
+                       [&](const WrittenValue& value) { return value.path == path; });
+  }
+
   std::string inner_table(const KeyEntry& entry, const std::string& outer) {
     const std::string at =
         outer.empty() ? std::string(name_of(entry)) : fmt::format("{}.{}", outer, name_of(entry));
@@ -133,7 +156,7 @@ class Starter {
   static std::string headed(const KeyEntry& table, const std::string& lines, bool open) {
     // Tables within need no header of their own above them: TOML makes it.
     if (lines.empty() || lines.front() == '\n') return lines;
-    return fmt::format("\n{}{}[{}]\n{}", wrapped_comment(table.about.meaning), open ? "" : "# ", table.path,
+    return fmt::format("\n{}{}[{}]\n{}", wrapped_comment(meaning_of(table)), open ? "" : "# ", table.path,
                        lines);
   }
 
@@ -143,17 +166,18 @@ class Starter {
       const std::string at = fmt::format("{}[{}]", entry.path, n);
       const bool there = says(at);
       if (!there && (n > 0 || !full_)) return text;
-      text += fmt::format("\n{}{}[[{}]]\n{}", n == 0 ? wrapped_comment(entry.about.meaning) : "",
+      text += fmt::format("\n{}{}[[{}]]\n{}", n == 0 ? wrapped_comment(meaning_of(entry)) : "",
                           there ? "" : "# ", entry.path, table(entry.path, at));
     }
   }
 
-  /// The motor's own keys: their file explains them.
+  /// The motor's own keys, where they are not its file's: it explains them.
   std::string override_table(const KeyEntry& entry) {
-    if (!full_) return "";
     std::string text;
     for (const KeyEntry* key : keys_in(keys_, entry.path))
-      if (key->type == KeyType::quantity)
+      if (says_just(key->path))
+        text += line(*key, entry.path);
+      else if (full_ && key->type == KeyType::quantity)
         text += template_line(*key, {.key = name_of(*key), .value = "nan", .open = false});
     return headed(entry, text, true);
   }

@@ -15,6 +15,10 @@ class Complaints {
  public:
   explicit Complaints(const Document& document) : document_(document) {}
 
+  /// Whether the document speaks of a motor that moves along a line: units that follow from others are then its own.
+  bool linear_motor() const { return linear_motor_; }
+  void set_linear_motor(bool linear) { linear_motor_ = linear; }
+
   /// About the value at `path`, which is quoted.
   void value(const toml::node& node, std::string_view path, base::Problem problem);
   /// About the key itself.
@@ -23,6 +27,14 @@ class Complaints {
   void missing(std::string_view path, base::Problem problem);
   /// About a path that a later check names; it stands at the value, else at the nearest table.
   void later(base::Problem problem);
+
+  /// A key or a word at `path` that only the other kind of motor has.
+  void other_motion(std::string_view path, const std::string& instead) {
+    later({.where = std::string(path),
+           .limit = linear_motor_ ? "is a turning motor's, and this one is linear"
+                                  : "is a linear motor's, and this one turns",
+           .cure = "write " + instead});
+  }
 
   /// The table that `path` lies in is told of elsewhere, in a file that it names.
   void told_elsewhere(std::string_view path);
@@ -50,6 +62,7 @@ class Complaints {
   bool left_out(std::string_view path);
 
   const Document& document_;
+  bool linear_motor_ = false;
   std::size_t left_out_ = 0;
   std::vector<Found> found_;
   std::set<std::string> tables_;

@@ -5,11 +5,9 @@
 
 #include <algorithm>
 
+#include "sixstep/base/linear.hpp"
 #include "sixstep/base/plausible.hpp"
-#include "sixstep/study/scenario/choices.hpp"
 #include "text/keys/key_advice.hpp"
-#include "text/keys/key_catalog.hpp"
-#include "text/keys/units.hpp"
 
 namespace text {
 namespace {
@@ -27,52 +25,6 @@ std::string in_unit_words(const base::About& about) {
 std::string cure_of(const base::About& about) {
   if (!about.cure.empty()) return std::string(about.cure);
   return fmt::format("it means: {}{}", about.meaning, in_unit_words(about));
-}
-
-std::optional<std::string> word_at(const Document& document, const std::string& path) {
-  const toml::node* node = document.find(path);
-  return node ? node->value<std::string>() : std::nullopt;
-}
-
-/// The control mode in the table at `path`: in one of [[at]] that of the last event up to it that changes it.
-std::optional<std::string> mode_at(const Document& document, const std::string& path) {
-  std::optional<std::string> mode = word_at(document, "control.mode");
-  if (!path.starts_with("at[")) return mode;
-  const std::string own = path.substr(0, path.find(']') + 1);
-  const auto time_of = [&](const std::string& event) {
-    const toml::node* node = document.find(event + ".time_s");
-    return node ? node->value<double>().value_or(0.0) : 0.0;
-  };
-  const toml::node* events = document.find("at");
-  const std::size_t count = events && events->is_array() ? events->as_array()->size() : 0;
-  const double own_s = time_of(own);
-  double last_s = -1.0;
-  for (std::size_t n = 0; n < count; ++n) {
-    const std::string event = fmt::format("at[{}]", n);
-    const double time_s = time_of(event);
-    if (time_s > own_s || time_s < last_s) continue;
-    const std::optional<std::string> changed = word_at(document, event + ".control.mode");
-    if (!changed || *changed == "same") continue;
-    mode = changed;
-    last_s = time_s;
-  }
-  return mode;
-}
-
-/// The unit that a reference has in its control mode; empty where the mode has none or is not known.
-std::string mode_unit(const Document& document, const std::string& path) {
-  const std::optional<std::string> word = mode_at(document, path);
-  for (const auto& choice : study::mode_choices)
-    if (word == choice.word) return std::string(study::reference_unit(choice.value));
-  return {};
-}
-
-/// The unit of the number at a scenario's key.
-std::optional<std::string> unit_at(std::string_view path) {
-  for (const KeyEntry& entry : scenario_keys())
-    if (entry.path == path && (entry.type == KeyType::number || entry.type == KeyType::quantity))
-      return std::string(entry.about.unit);
-  return {};
 }
 
 }  // namespace
@@ -119,56 +71,6 @@ double TableReader::within(const base::About& about) {
   return range.high_included ? range.high : range.low;
 }
 
-/// Empty for a plain number; nothing where it follows from a control mode that has no unit.
-std::optional<std::string> TableReader::unit_of_key(const base::About& about) const {
-  if (about.unit_here == "1") return std::string();
-  if (!about.unit_here.empty()) return std::string(about.unit_here);
-  if (!about.unit_of.empty()) return unit_at(about.unit_of);
-  if (about.mode_unit.empty()) return std::string(about.unit);
-  const std::string unit = mode_unit(complaints_.document(), path_);
-  if (unit.empty()) return {};
-  // "1" stands for a duty.
-  const std::string whole = unit + std::string(about.mode_unit.substr(1));
-  return whole == "1" ? std::string() : whole;
-}
-
-base::Result<double> TableReader::number_of(const toml::node& node, const base::About& about) const {
-  if (const toml::value<std::string>* text = node.as_string()) {
-    const std::optional<std::string> unit = unit_of_key(about);
-    if (unit) return in_unit(text->get(), *unit);
-    if (!about.unit_of.empty())
-      return base::Problem{
-          .limit = fmt::format("is in the unit of {}, which is no number here", about.unit_of),
-          .cure = "name a number of the scenario, as supply.voltage_V"};
-    return base::Problem{.limit = "is in the unit of control.mode, and this mode has none",
-                         .cure = "set control.mode, or write a number without quotes"};
-  }
-  if (node.is_integer()) return static_cast<double>(node.as_integer()->get());
-  if (node.is_floating_point()) return node.as_floating_point()->get();
-  return base::Problem{.limit = "must be a number"};
-}
-
-/// A limit is told in the unit in which the value was written.
-std::string TableReader::limit_as_written(const toml::node& node, const base::About& about, double x) const {
-  const base::Range allowed = base::allowed(about);
-  const toml::value<std::string>* text = node.as_string();
-  const std::optional<std::string> own = text ? unit_of_key(about) : std::nullopt;
-  const std::optional<Written> written = text ? split_number(text->get()) : std::nullopt;
-  if (!own || own->empty() || !written || written->unit.empty()) return limit_of(about.range, allowed, x);
-  const auto there = [&](double value) {
-    const auto found = in_unit(fmt::format("{} {}", value, *own), written->unit);
-    return found ? *found : value;
-  };
-  const auto in_its_unit = [&](base::Range range) {
-    range.low = there(range.low);
-    range.high = there(range.high);
-    if (range.least != 0.0) range.least = there(range.least);
-    return range;
-  };
-  return fmt::format("{}, in {}", limit_of(in_its_unit(about.range), in_its_unit(allowed), there(x)),
-                     written->unit);
-}
-
 bool TableReader::number(const toml::node& node, const std::string& path, const base::About& about,
                          double& out) {
   const base::Result<double> x = number_of(node, about);
@@ -198,8 +100,29 @@ bool TableReader::word(const toml::node& node, const std::string& path, const ba
   return false;
 }
 
+namespace {
+
+/// The key as another spelling has it: its unit, and bounds in that.
+base::About in_spelling(base::About about, const base::Spelling& spelling) {
+  if (!spelling.unit.empty()) about.unit = spelling.unit;
+  for (double* end : {&about.range.low, &about.range.high})
+    if (*end - *end == 0.0) *end = base::as_spelled(*end, spelling);
+  about.also = {};
+  return about;
+}
+
+}  // namespace
+
 void TableReader::value(std::string_view key, double& member, const base::About& about) {
-  if (const toml::node* node = find(key, about)) number(*node, at(key), about, member);
+  const std::optional<base::Spelling> spelling =
+      about.also.empty() ? std::nullopt : spelling_in_file(key, about);
+  if (!spelling || spelling->key == key) {
+    if (const toml::node* node = find(key, about)) number(*node, at(key), about, member);
+    return;
+  }
+  double written = 0.0;
+  if (number(*table_.get(spelling->key), at(spelling->key), in_spelling(about, *spelling), written))
+    member = base::in_own_unit(written, *spelling);
 }
 
 void TableReader::value(std::string_view key, std::int64_t& member, const base::About& about) {
@@ -235,7 +158,12 @@ void TableReader::value(std::string_view key, std::string& member, const base::A
   if (const toml::node* node = find(key, about)) word(*node, at(key), about, member);
 }
 
-void TableReader::value(std::string_view key, std::vector<double>& member, const base::About& about) {
+void TableReader::value(std::string_view given, std::vector<double>& member, const base::About& own) {
+  const std::optional<base::Spelling> spelling =
+      own.also.empty() ? std::nullopt : spelling_in_file(given, own);
+  const bool other = spelling && spelling->key != given;
+  const std::string_view key = other ? spelling->key : given;
+  const base::About about = other ? in_spelling(own, *spelling) : own;
   const toml::node* node = find(key, about);
   if (!node) return;
   const toml::array* items = node->as_array();
@@ -250,6 +178,8 @@ void TableReader::value(std::string_view key, std::vector<double>& member, const
   std::size_t wrong = 0;
   for (std::size_t n = 0; n < items->size() && wrong <= most_told_of_a_list; ++n)
     wrong += !number(*items->get(n), fmt::format("{}[{}]", at(key), n), item, member.emplace_back());
+  if (other)
+    for (double& x : member) x = base::in_own_unit(x, *spelling);
 }
 
 void TableReader::value(std::string_view key, std::vector<std::string>& member, const base::About& about) {
@@ -289,7 +219,13 @@ void TableReader::refuse_unknown_keys() {
   for (const auto& [key, node] : table_) {
     if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
     base::Problem problem;
-    if (!complaints_.full()) problem = unknown_key(key.str(), known_, advice_);
+    if (!complaints_.full()) {
+      std::vector<std::string> advised = known_;
+      std::erase_if(advised, [this](const std::string& word) {
+        return std::find(other_motion_.begin(), other_motion_.end(), word) != other_motion_.end();
+      });
+      problem = unknown_key(key.str(), advised, advice_);
+    }
     complaints_.key(key, node, at(key.str()), std::move(problem));
   }
 }

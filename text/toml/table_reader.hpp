@@ -38,7 +38,10 @@ class TableReader {
     if (!any_spelling_in_file(key, about)) return absent(key, about);
     T present{};
     refused_ = false;
-    value(spelling_in_file(key, about)->key, present, about);
+    if constexpr (std::is_same_v<T, double>)
+      value(key, present, about);  // which looks for its spellings itself
+    else
+      value(spelling_in_file(key, about)->key, present, about);
     if constexpr (std::is_arithmetic_v<T>)
       if (refused_) present = static_cast<T>(within(about));  // it is told of; what follows sees it as given
     member = std::move(present);
@@ -55,13 +58,19 @@ class TableReader {
     const toml::node* node = find(key, about);
     lost_word_ = lost_word_ || (!node && about.required);
     if (!node) return;
+    // A word of digits is a number to TOML where it has no quotes, as behind --set.
+    const toml::value<std::int64_t>* digits = node->as_integer();
+    const std::optional<std::string> said =
+        digits ? std::to_string(digits->get()) : node->value<std::string>();
     std::vector<std::string> words;
     for (const auto& choice : choices) {
-      if (node->value<std::string>() == choice.word) {
+      const std::string_view instead = of_other_motion(choice, choices);
+      if (said == choice.word) {
         member = choice.value;
+        if (!instead.empty()) complaints_.other_motion(at(key), "\"" + std::string(instead) + "\"");
         return;
       }
-      words.emplace_back(choice.word);
+      if (instead.empty()) words.emplace_back(choice.word);
     }
     lost_word_ = true;
     no_such_word(*node, key, words);
@@ -106,7 +115,10 @@ class TableReader {
   const toml::node* find(std::string_view key, const base::About& about);
   void absent(std::string_view key, const base::About& about) {
     find(key, about);
-    for (const base::Spelling& spelling : about.also) known_.emplace_back(spelling.key);
+    for (const base::Spelling& spelling : about.also) {
+      known_.emplace_back(spelling.key);
+      if (spelling.linear && !complaints_.linear_motor()) other_motion_.emplace_back(spelling.key);
+    }
   }
   bool any_spelling_in_file(std::string_view key, const base::About& about) const {
     return given(key) || std::any_of(about.also.begin(), about.also.end(),
@@ -120,11 +132,25 @@ class TableReader {
                 base::Quantity& out);
   std::optional<double> last_digit(const toml::node& node, const std::string& path, const base::About& about,
                                    int ten) const;
+  /// The word of this motor for one that is the other kind's; empty for one of this or of both.
+  template <class Choice, class Choices>
+  std::string_view of_other_motion(const Choice& choice, const Choices& choices) const {
+    if (!complaints_.linear_motor()) return choice.turning;
+    for (const auto& other : choices)
+      if (other.turning == choice.word) return other.word;
+    return {};
+  }
   const toml::table* find_table(std::string_view key, const base::About& about);
   const toml::array* find_tables(std::string_view key, const base::About& about);
   /// A number that the key may have.
   static double within(const base::About& about);
-  std::optional<std::string> unit_of_key(const base::About& about) const;
+  /// In which unit a key's number is written, and how much of that is one of the key's own: they differ where the
+  /// motor is linear, and under another spelling.
+  struct WrittenIn {
+    std::string unit;
+    double factor = 1.0;
+  };
+  std::optional<WrittenIn> unit_of_key(const base::About& about) const;
   base::Result<double> number_of(const toml::node& node, const base::About& about) const;
   std::string limit_as_written(const toml::node& node, const base::About& about, double x) const;
   bool number(const toml::node& node, const std::string& path, const base::About& about, double& out);
@@ -139,7 +165,9 @@ class TableReader {
   bool partial_;
   std::string_view advice_;
   std::vector<std::string> known_;
-  bool refused_ = false;    ///< a number was out of its range
+  std::vector<std::string>
+      other_motion_;      ///< of these, the words of the other kind of motor: nobody is advised to write them
+  bool refused_ = false;  ///< a number was out of its range
   bool lost_word_ = false;  ///< a choice could not be read: what unit it decides is not known
 };
 

@@ -17,6 +17,7 @@ std::optional<base::Spelling> TableReader::spelling_in_file(std::string_view key
   std::optional<base::Spelling> used;
   const auto look = [&](const base::Spelling& spelling) {
     known_.emplace_back(spelling.key);
+    if (spelling.linear && !complaints_.linear_motor()) other_motion_.emplace_back(spelling.key);
     const toml::node* node = table_.get(spelling.key);
     if (!node) return;
     if (used)
@@ -128,7 +129,10 @@ void TableReader::quantity(std::string_view key, base::Quantity& member, const b
     frame(node, path, spelled, read);
     read.last_digit = last_digit(node, path, spelled, spelling->ten);
   }
-  read.value = base::times_ten_to(read.value, spelling->ten);
+  read.value = base::times_ten_to(read.value, spelling->ten) * spelling->factor;
+  if (read.range)
+    read.range = base::Interval{read.range->low * spelling->factor, read.range->high * spelling->factor};
+  if (read.last_digit) *read.last_digit *= spelling->factor;
   member = std::move(read);
 }
 

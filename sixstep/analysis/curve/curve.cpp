@@ -2,6 +2,7 @@
 #include "sixstep/analysis/curve/curve.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
@@ -15,10 +16,30 @@ std::optional<double> scaled(const std::optional<base::Quantity>& q, double fact
   return q ? std::optional(q->value * factor) : std::nullopt;
 }
 
+/// How warm motor and air are.
+base::Problems check_temperatures(const CurveRequest& r) {
+  base::Problems problems;
+  const std::pair<const char*, double> temperatures[] = {{"ambient_degC", r.ambient_degC},
+                                                         {"winding_degC", r.motor_degC.winding_degC},
+                                                         {"housing_degC", r.motor_degC.housing_degC}};
+  for (const auto& [name, degC] : temperatures)  // above absolute zero, and below what no winding sees
+    if (!base::between(-200, 500).holds(degC))
+      problems.push_back({name, base::written(degC), "must be a temperature, -200 to 500 degC",
+                          "25 is what data sheets mean"});
+  if (problems.empty() && design::on_K_e(r.sheet, r.motor_degC) < 0.1)
+    problems.push_back({"housing_degC", base::written(r.motor_degC.housing_degC),
+                        "leaves the magnets less than a tenth by magnet_loss_percent_K = " +
+                            base::written(r.sheet.magnet_loss_percent_K),
+                        "look at both"});
+  return problems;
+}
+
 }  // namespace
 
 base::Problems check(const CurveRequest& r) {
-  base::Problems problems = check(r.bench);
+  base::Problems problems = check_temperatures(r);
+  if (problems.empty() || design::on_K_e(r.sheet, r.motor_degC) >= 0.1)  // else there is no model to look at
+    for (base::Problem& p : check(r.bench)) problems.push_back(std::move(p));
   if (r.bench.duty < 0)
     problems.push_back({"duty", base::written(r.bench.duty), "must be in (0, 1]",
                         "a curve is taken forwards: backwards it is the same"});
@@ -28,10 +49,6 @@ base::Problems check(const CurveRequest& r) {
   if (r.points > most_points)
     problems.push_back({"points", std::to_string(r.points), "must be at most " + std::to_string(most_points),
                         "a page shows some hundred; each is simulated and kept"});
-  // -273.15 degC, and what no winding sees.
-  if (!base::between(-273.15, 1000).holds(r.ambient_degC))
-    problems.push_back({"ambient_degC", base::written(r.ambient_degC), "must be a temperature in degC",
-                        "25 is what data sheets mean"});
   return problems;
 }
 
@@ -50,23 +67,28 @@ base::Result<CurvePlan> plan_curve(const CurveRequest& r) {
 }
 
 ThermalLimits thermal_limits(const design::ThermalModel& model, const CurveRequest& r, double speed) {
-  const double R_tt = 2 * r.bench.motor.machine.R_ohm, K_t = r.bench.motor.K_t_Nm_A;
+  const double R_tt = 2 * r.bench.motor.machine.R_ohm / design::on_R(r.motor_degC);
+  const double K_t = r.bench.motor.K_t_Nm_A / design::on_K_e(r.sheet, r.motor_degC);
   const double friction = std::fabs(friction_Nm(r.bench.motor.shaft, speed));
   const double heat = friction * std::fabs(speed), sign = r.bench.duty < 0 ? -1 : 1;
-  const auto torque = [&](double current) { return sign * (K_t * current - friction); };
+  const auto torque = [&](double current, const design::Temperatures& at) {
+    return sign * (design::on_K_e(r.sheet, at) * K_t * current - friction);
+  };
   ThermalLimits out;
   out.continuous_A = std::sqrt(design::continuous_copper_W(model, heat, r.ambient_degC) / R_tt);
-  out.continuous_Nm = torque(out.continuous_A);
+  out.continuous_Nm = torque(out.continuous_A, design::at_the_limit(model, heat, r.ambient_degC));
   for (std::size_t n = 0; n < short_times_s.size(); ++n) {
-    out.short_A[n] =
-        std::sqrt(design::short_time_copper_W(model, heat, r.ambient_degC, short_times_s[n]) / R_tt);
-    out.short_Nm[n] = torque(out.short_A[n]);
+    const double copper = design::short_time_copper_W(model, heat, r.ambient_degC, short_times_s[n]);
+    out.short_A[n] = std::sqrt(copper / R_tt);
+    out.short_Nm[n] = torque(out.short_A[n],
+                             design::temperatures_after(model, {copper, heat, r.ambient_degC},
+                                                        {r.ambient_degC, r.ambient_degC}, short_times_s[n]));
   }
   return out;
 }
 
 Warming warming(const design::ThermalModel& model, const CurveRequest& r, const OperatingPoint& p) {
-  const design::Heating heating{p.copper_W, p.friction_W, r.ambient_degC};
+  const design::Heating heating{p.copper_W / design::on_R(r.motor_degC), p.friction_W, r.ambient_degC};
   Warming out;
   if (const auto rest = design::steady_temperatures(model, heating)) out.winding_degC = rest->winding_degC;
   out.permissible_s = design::permissible_seconds(model, heating);
@@ -103,7 +125,9 @@ base::Result<Curve> curve_of(const CurveRequest& r, const CurvePlan& plan,
   else
     out.thermal_missing = model.problems();
   base::Result<Marks> marks = find_marks(
-      r.bench, {out.thermal, r.ambient_degC, scaled(r.sheet.nominal_torque_mNm, 1e-3)}, sweep, for_each);
+      r.bench,
+      {out.thermal, r.ambient_degC, design::on_R(r.motor_degC), scaled(r.sheet.nominal_torque_mNm, 1e-3)},
+      sweep, for_each);
   if (!marks) return marks.problems();
   out.marks = *marks;
   out.nominal = nominal_point(r, out.marks, found.back());

@@ -17,7 +17,8 @@ inline constexpr int most_points = 200'000;
 
 struct CurveRequest {
   design::Sheet sheet;
-  Bench bench;
+  Bench bench;  ///< its motor as warm as `motor_degC` (design::warmed)
+  design::Temperatures motor_degC{};
   int points = 41;  ///< from standstill to no load, both included
   double ambient_degC = design::sheet_degC;
 };
@@ -43,7 +44,8 @@ struct SpeedDrop {
 inline constexpr std::array<double, 2> short_times_s = {10.0, 60.0};
 
 /// What the winding stands at one speed, as shaft torque of a drive that holds the current constant: block
-/// current through two phases, P = I^2 R_tt, and K_t I less friction. Friction warms the housing.
+/// current through two phases, P = I^2 R_tt, and K_t I less friction, with K_t of the magnets as warm as they then
+/// are. Friction warms the housing. None of it depends on how warm the curve's own motor is.
 struct ThermalLimits {
   double continuous_A = 0.0, continuous_Nm = 0.0;
   std::array<double, short_times_s.size()> short_A{}, short_Nm{};  ///< from ambient temperature

@@ -104,7 +104,8 @@ std::optional<OperatingPoint> at_torque(Search& search, const Sweep& sweep, doub
 
 std::optional<OperatingPoint> for_ever(Search& search, const Sweep& sweep, const MarksWanted& wanted) {
   const auto left_W = [&](const OperatingPoint& p) {
-    return design::continuous_copper_W(*wanted.thermal, p.friction_W, wanted.ambient_degC) - p.copper_W;
+    return design::continuous_copper_W(*wanted.thermal, p.friction_W, wanted.ambient_degC) -
+           p.copper_W / wanted.on_R;
   };
   if (!(left_W(sweep.back()) > 0)) return {};
   return crossing(search, sweep, left_W);

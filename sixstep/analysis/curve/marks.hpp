@@ -23,6 +23,7 @@ struct Marks {
 struct MarksWanted {
   std::optional<design::ThermalModel> thermal;
   double ambient_degC = design::sheet_degC;
+  double on_R = 1.0;  ///< of the bench's winding, against the sheet's
   std::optional<double> torque_Nm;
 };
 

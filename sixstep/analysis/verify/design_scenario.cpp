@@ -5,8 +5,12 @@
 #include <cmath>
 
 #include "sixstep/analysis/verify/board.hpp"
+#include "sixstep/analysis/verify/linear_study.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/decimal.hpp"
+#include "sixstep/design/sheet/motion.hpp"
+#include "sixstep/study/measure/figures.hpp"
+#include "sixstep/study/scenario/choices.hpp"
 
 namespace sixstep::analysis {
 namespace {
@@ -59,6 +63,7 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
   study::Scenario s;
   s.motor = subject.motor;
   s.sheet = subject.sheet;
+  if (subject.board && subject.board->motor == subject.motor) s.motor_sheet = subject.board->motor_sheet;
   if (subject.board) {
     s.supply = subject.board->supply;
     s.bridge = subject.board->bridge;
@@ -204,13 +209,21 @@ void add_speed(const DriveDesign& d, const DesignSubject& subject, study::Scenar
   s.reference.shape = study::Shape::steps;
   s.reference.times_s = {0, t.begin};
   s.reference.values = {t.first, t.first + t.step};
-  s.reference.unit.emplace("rad/s");
+  s.reference.unit.emplace(design::motion_of(d.motor).unit("rad/s").linear);
   add_speed_figures(d, t, s);
+}
+
+/// The thesis's, in degrees; in mm twenty pole pitches, which is as many commutations.
+double usual_move(const DriveDesign& d) {
+  if (!design::motion_of(d.motor).linear) return 1000.0;
+  return plain_number(20 * 1e3 * base::pi / d.motor.machine.pole_pairs);
 }
 
 void add_position(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
   const LoopDesign& loop = d.loop("position");
-  const double step = subject.step.value_or(1000.0), height = std::fabs(step) * base::pi / 180;
+  const base::LinearUnit unit = design::motion_of(d.motor).unit("deg");
+  const double step = subject.step.value_or(usual_move(d)) / unit.factor;
+  const double height = std::fabs(step) * base::pi / 180;
   const double J = d.motor.shaft.J_kg_m2, K = d.motor.K_t_Nm_A;
   // Full torque half of the way forth, half of it back; the bus ends the acceleration at U/K_t, and a third
   // of that is what a bus-limited start reaches soon. Then the P loop's exponential down to 1e-9 of the step.
@@ -220,7 +233,7 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
   s.title = "Position cascade as designed, one move";
   s.duration_s = end;
   s.reference.value = step;
-  s.reference.unit.emplace("deg");
+  s.reference.unit.emplace(unit.linear);
   study::Measure settling = step_measure(study::MetricKind::settling_time, study::Signal::position, 0, end, 0,
                                          step, "settling time");
   const bool counts = d.spec.rotor.hall;  // edges: it rests within steps, if at all
@@ -259,11 +272,14 @@ study::Scenario design_scenario(const DriveDesign& design, const DesignSubject& 
   if (periods > 1) s.record.grid_s = periods * s.pwm.period_s;
   // Of an unstable loop the design foretells nothing.
   std::erase_if(s.compare, [](const study::Comparison& c) { return !std::isfinite(c.value); });
+  say_in_metres(s);
   return s;
 }
 
 double as_read(const study::ComparisonResult& c, const study::Scenario& scenario) {
-  const bool rounding = c.value == 0.0 && std::fabs(c.measured) <= 1e-9 * std::fabs(scenario.reference.value);
+  const double height = scenario.reference.value *
+                        study::unit_in(scenario, study::reference_unit(scenario.control.mode)).factor;
+  const bool rounding = c.value == 0.0 && std::fabs(c.measured) <= 1e-9 * std::fabs(height);
   return rounding ? 0.0 : c.measured;
 }
 

@@ -18,8 +18,8 @@ struct DesignSubject {
   /// devices, and the sensors that board_sensors() puts on a board.
   std::optional<study::Scenario> board{};
   std::optional<rig::CurrentMeasurement> currents{};  ///< instead of what that board has
-  /// Height of the step in the unit of the mode; else one at which no limit acts (current, speed), or the
-  /// thesis's 1000 degrees.
+  /// Height of the step in the unit of the mode, as the motor's kind has it: of a linear one m/s and mm. Else one at which
+  /// no limit acts (current, speed), the thesis's 1000 degrees, or twenty pole pitches.
   std::optional<double> step{};
 };
 

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "sixstep/analysis/verify/board.hpp"
+#include "sixstep/analysis/verify/linear_study.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/trace.hpp"
@@ -97,9 +99,11 @@ void look_at_tolerances(DesignStudy& s) {
       s.warnings.push_back(
           {"out of tolerance it never settles: " + f.at, chiefly(f, "design slower (settle_s)"), true});
     const bool position = s.design.spec.mode == control::Mode::position;
+    const base::LinearUnit unit = design::motion_of(s.scenario.sheet).unit("deg");
     if (position && f.figure == "overshoot" &&
-        f.worst > allowed_overshoot_deg(s.design, s.scenario.reference.value))
-      s.warnings.push_back({"out of tolerance it overshoots by " + rounded(f.worst) + " deg: " + f.at,
+        f.worst > unit.factor * allowed_overshoot_deg(s.design, s.scenario.reference.value))
+      s.warnings.push_back({"out of tolerance it overshoots by " + rounded(f.worst) + " " +
+                                std::string(unit.linear) + ": " + f.at,
                             chiefly(f, "lower the gain, or torque_limit_Nm so that braking keeps a reserve"),
                             true});
   }
@@ -151,13 +155,8 @@ std::optional<double> ideal_swing(const DesignStudy& s, const std::function<bool
   return found ? std::optional(found->measured) : std::nullopt;
 }
 
-}  // namespace
-
-bool DesignStudy::usable() const {
-  return std::none_of(warnings.begin(), warnings.end(), [](const design::Warning& w) { return w.grave; });
-}
-
-base::Result<DesignStudy> study_design(const DesignOrder& order) {
+/// As of a turning motor, but for the numbers of the outcome: those are told in the units of its kind.
+base::Result<DesignStudy> studied(const DesignOrder& order) {
   const std::optional<double>& step = order.subject.step;
   if (step && !(std::isfinite(*step) && *step != 0.0))
     return base::Problem{"step", rounded(*step), "must be a number other than 0",
@@ -198,6 +197,20 @@ base::Result<DesignStudy> study_design(const DesignOrder& order) {
   s.warnings = s.design.warnings;
   look_at_run(s);
   look_at_tolerances(s);
+  return s;
+}
+
+}  // namespace
+
+bool DesignStudy::usable() const {
+  return std::none_of(warnings.begin(), warnings.end(), [](const design::Warning& w) { return w.grave; });
+}
+
+base::Result<DesignStudy> study_design(const DesignOrder& order) {
+  base::Result<DesignStudy> s = studied(order);
+  const bool linear = order.subject.sheet.kind == design::MotorKind::linear;
+  if (!s) return linear ? told_in_metres(s.problems()) : s.problems();
+  tell_in_metres(*s);
   return s;
 }
 

@@ -5,9 +5,12 @@
 #include <cmath>
 
 #include "sixstep/analysis/verify/design_study.hpp"
+#include "sixstep/analysis/verify/linear_study.hpp"
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/base/range_text.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/motion.hpp"
+#include "sixstep/study/measure/figures.hpp"
 #include "sixstep/study/run/run.hpp"
 
 namespace sixstep::analysis {
@@ -81,7 +84,7 @@ base::Result<DesignStudy> usable_design(const FirstScenarioSpec& spec) {
   for (const double times : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
     DesignOrder order{.subject = {.motor = spec.motor, .sheet = spec.sheet},
                       .spec = design::on_a_board(),
-                      .tolerances = sheet_tolerances(spec.mode),
+                      .tolerances = sheet_tolerances(spec.sheet, spec.mode),
                       .for_each = spec.for_each};
     order.spec.mode = spec.mode;
     order.spec.voltage_V = spec.voltage_V;
@@ -101,6 +104,11 @@ base::Result<DesignStudy> usable_design(const FirstScenarioSpec& spec) {
   return told;
 }
 
+/// Few digits as they are told: of a linear motor in mm for degrees.
+double shortened(double x, double factor, int digits, base::Towards towards) {
+  return base::shortened(x * factor, digits, towards) / factor;
+}
+
 /// Times move on together: their order stays, and so do windows that meet. What a window holds anyhow is left
 /// out.
 void shorten(study::Measure& m, double duration_s) {
@@ -115,19 +123,22 @@ void shorten(study::Scenario& s) {
   for (double& time : s.reference.times_s) time = base::shortened(time, 3, base::Towards::up);
   for (study::Requirement& r : s.require) {
     shorten(r.measure, s.duration_s);
-    if (r.min) r.min = base::shortened(*r.min, 4, base::Towards::down);
-    if (r.max) r.max = base::shortened(*r.max, 4, base::Towards::up);
+    const double factor = unit_in(s, figure_unit(r.measure)).factor;
+    if (r.min) r.min = shortened(*r.min, factor, 4, base::Towards::down);
+    if (r.max) r.max = shortened(*r.max, factor, 4, base::Towards::up);
   }
   for (study::Comparison& c : s.compare) {
     shorten(c.measure, s.duration_s);
-    c.value = base::shortened(c.value, 4, base::Towards::down);
+    c.value = shortened(c.value, unit_in(s, figure_unit(c.measure)).factor, 4, base::Towards::down);
   }
   s.load.torque_Nm = base::shortened(s.load.torque_Nm, 2, base::Towards::down);
   s.initial.angle_rad = base::shortened(s.initial.angle_rad, 4, base::Towards::down);
   if (std::optional<double>& limit = s.control.speed.torque_limit_Nm)
     limit = base::shortened(*limit, 3, base::Towards::down);
+  if (s.control.mode != Mode::position) return;
   double& gain = s.control.position.gain_rad_s_per_deg;
-  gain = base::shortened(gain, 2, base::Towards::down);  // a lower one overshoots less
+  const double of_gain = design::motion_of(s.sheet).unit("rad/s/deg").factor;
+  gain = shortened(gain, of_gain, 2, base::Towards::down);  // a lower one overshoots less
 }
 
 /// The design's test as a scenario of one's own.
@@ -147,9 +158,7 @@ base::Result<study::Scenario> designed(const FirstScenarioSpec& spec) {
   return s;
 }
 
-}  // namespace
-
-base::Result<study::Scenario> first_scenario(const FirstScenarioSpec& spec) {
+base::Result<study::Scenario> begun(const FirstScenarioSpec& spec) {
   const base::Result<design::MotorModel> motor = design::motor_model(spec.sheet);
   if (!motor) return motor.problems();
   if (spec.voltage_V)
@@ -166,6 +175,14 @@ base::Result<study::Scenario> first_scenario(const FirstScenarioSpec& spec) {
     return base::Problem{"the motor", spec.motor, "does not do what its sheet foretells",
                          "hold its sheet against itself; or start with another mode"};
   return s;
+}
+
+}  // namespace
+
+base::Result<study::Scenario> first_scenario(const FirstScenarioSpec& spec) {
+  base::Result<study::Scenario> s = begun(spec);
+  if (s || spec.sheet.kind == design::MotorKind::rotary) return s;
+  return told_in_metres(s.problems());
 }
 
 }  // namespace sixstep::analysis

@@ -7,6 +7,7 @@
 
 #include "sixstep/analysis/verify/design_scenario.hpp"
 #include "sixstep/base/angle.hpp"
+#include "sixstep/design/sheet/thermal.hpp"
 #include "sixstep/study/measure/figures.hpp"
 #include "sixstep/study/run/keep_going.hpp"
 #include "sixstep/study/run/run.hpp"
@@ -40,11 +41,15 @@ design::Sheet sheet_of(const design::Sheet& from, const design::MotorModel& m) {
   design::Sheet s;
   s.name = from.name;
   s.maker = from.maker;
-  s.pole_pairs = m.machine.pole_pairs;
+  s.kind = from.kind;
+  s.pole_pitch_mm = from.pole_pitch_mm;
+  if (from.kind == design::MotorKind::rotary) s.pole_pairs = static_cast<int>(m.machine.pole_pairs);
   s.back_emf = from.back_emf;
   s.flat_deg = from.flat_deg;
   s.harmonic_orders = from.harmonic_orders;
   s.harmonic_sizes = from.harmonic_sizes;
+  s.back_emf_angle_deg = from.back_emf_angle_deg;
+  s.back_emf_shape = from.back_emf_shape;
   s.connection = from.connection;
   s.mutual_inductance_mH = from.mutual_inductance_mH;
   s.phase_resistance_deviation = from.phase_resistance_deviation;
@@ -54,7 +59,7 @@ design::Sheet sheet_of(const design::Sheet& from, const design::MotorModel& m) {
   s.cogging_phase_deg = from.cogging_phase_deg;
   if (m.nominal_voltage_V > 0) s.nominal_voltage_V = {m.nominal_voltage_V, "", ""};
   s.resistance_ohm = {2 * m.machine.R_ohm, "terminal", ""};
-  if (from.d_axis_inductance_mH && from.q_axis_inductance_mH && !from.inductance_mH) {  // both stray alike
+  if (design::is_salient(from)) {  // both stray alike
     const double d = from.d_axis_inductance_mH->value, q = from.q_axis_inductance_mH->value;
     const double by = 2e3 * m.machine.L_H / (d + q);
     s.d_axis_inductance_mH = base::Quantity{d * by, "phase", ""};
@@ -62,8 +67,11 @@ design::Sheet sheet_of(const design::Sheet& from, const design::MotorModel& m) {
   } else {
     s.inductance_mH = {2e3 * m.machine.L_H, "terminal", ""};
   }
+  s.magnet_loss_percent_K = from.magnet_loss_percent_K;
+  s.saturation_current_A = from.saturation_current_A;
   s.torque_constant_mNm_A = base::Quantity{1e3 * m.K_t_Nm_A, "", ""};
   s.inertia_gcm2 = {1e7 * m.shaft.J_kg_m2, "", ""};
+  // Bearings and iron as one: no figure of merit tells them apart.
   s.viscous_friction_Nm_s = base::Quantity{m.shaft.B_Nm_s, "", ""};
   s.coulomb_friction_mNm = base::Quantity{1e3 * m.shaft.coulomb_Nm, "", ""};
   return s;
@@ -151,16 +159,30 @@ std::vector<double> measured(const study::Scenario& scenario, const std::functio
   return values;
 }
 
+/// Of a winding whose sheet names no limit: insulation class E.
+constexpr double hot_winding_degC = 120;
+
+std::string at_degC(const char* quantity, double degC) {
+  return quantity + (" at " + std::to_string(std::lround(degC))) + " degC";
+}
+
 }  // namespace
 
-std::vector<Tolerance> sheet_tolerances(control::Mode mode) {
+std::vector<Tolerance> sheet_tolerances(const design::Sheet& sheet, control::Mode mode) {
+  const base::Result<design::ThermalModel> model = design::thermal_model(sheet);
+  design::Temperatures hot{.winding_degC = hot_winding_degC};
+  if (sheet.max_winding_temperature_degC) hot.winding_degC = sheet.max_winding_temperature_degC->value;
   std::vector<Tolerance> out{
-      {Strays::resistance,
-       {{"R -10 %", 0.9}, {"R +10 %", 1.1}, {"R at 120 degC", 1.0 + 0.00393 * (120 - 25)}}},
+      {Strays::resistance, {{"R -10 %", 0.9}, {"R +10 %", 1.1}, {at_degC("R", hot.winding_degC), on_R(hot)}}},
       {Strays::inductance, {{"L -20 %", 0.8}, {"L +20 %", 1.2}}},
   };
   if (mode == control::Mode::current) return out;
-  out.push_back({Strays::torque_constant, {{"K_t -8 %", 0.92}, {"K_t +8 %", 1.08}}});
+  Tolerance torque{Strays::torque_constant, {{"K_t -8 %", 0.92}, {"K_t +8 %", 1.08}}};
+  if (model) {
+    hot = design::at_the_limit(*model, 0.0, design::sheet_degC);
+    torque.levels.push_back({at_degC("K_t", hot.housing_degC), on_K_e(sheet, hot)});
+  }
+  out.push_back(std::move(torque));
   out.push_back({Strays::inertia, {{"J doubled", 2.0}}});
   return out;
 }
@@ -200,8 +222,9 @@ Robustness robustness(const design::DriveDesign& design, const study::Scenario& 
   Robustness out;
   out.runs = all.size();
   for (std::size_t k = 0; k < scenario.compare.size(); ++k) {
-    RobustFigure figure{.figure = figure_name(scenario.compare[k].measure),
-                        .unit = std::string(figure_unit(scenario.compare[k].measure))};
+    const study::Measure& measure = scenario.compare[k].measure;
+    RobustFigure figure{.figure = figure_name(scenario, measure),
+                        .unit = std::string(unit_in(scenario, figure_unit(measure)).linear)};
     std::vector<double> values;
     values.reserve(all.size());
     for (const std::vector<double>& v : by_variation) values.push_back(v[k]);

@@ -26,14 +26,14 @@ struct Tolerance {
   std::vector<Level> levels;
 };
 
-/// R +-10 % and copper at 120 degC (1 + 0.00393 (120 - 25) = 1.373), L +-20 %, K_t +-8 %: the tolerances that
-/// makers print or admit. J doubled: a load that nobody told of. With the rotor held, in current mode, only
-/// R and L matter.
-std::vector<Tolerance> sheet_tolerances(control::Mode mode);
+/// R +-10 %, L +-20 %, K_t +-8 %: the tolerances that makers print or admit. R with the winding at its limit (design/sheet/
+/// thermal.hpp; without one 120 degC), K_t with the magnets as warm as the housing then is, where the sheet has the
+/// thermal lines. J doubled: a load that nobody told of. With the rotor held, in current mode, only R and L matter.
+std::vector<Tolerance> sheet_tolerances(const design::Sheet& sheet, control::Mode mode);
 
 /// A motor out of tolerance.
 struct Variation {
-  std::string words;            ///< "R at 120 degC, L -20 %"; empty: nominal
+  std::string words;            ///< "R at 125 degC, L -20 %"; empty: nominal
   std::vector<double> factors;  ///< one per tolerance
   bool single = false;          ///< only one tolerance strays
 };

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sixstep/base/angle.hpp"
+#include "sixstep/design/loops/tracking_loop.hpp"
+#include "sixstep/study/compile/shaft_sensor.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
 namespace sixstep::analysis {
@@ -18,6 +21,48 @@ std::optional<double> lowest_speed(const study::Scenario& s) {
   for (const study::Level& level : study::reference_levels(s))
     if (level.value != 0.0) least = std::min(std::fabs(level.value), least.value_or(std::fabs(level.value)));
   return least;
+}
+
+/// The loop that follows a resolver, by bandwidth and damping.
+void take_resolver(const study::Scenario& s, design::ShaftSensing& to) {
+  const study::Resolver& r = s.sensors.resolver;
+  const bool sampled = r.reading == rig::ResolverReading::sampled;
+  to.pole_pairs = r.pole_pairs;
+  to.damping = r.damping;
+  to.step_s = study::tracking_period_s(s);
+  if (const auto loop = design::tracking_loop({2 * base::pi * r.bandwidth_Hz, r.damping, to.step_s}))
+    to.natural_rad_s = loop->natural_rad_s;
+  // Two samples, a step apart, make one: their middle is half a step ago, and half of their noise's power is left.
+  to.latency_s = sampled ? to.step_s / 2 : r.latency_s;
+  to.noise_rad = r.noise_V / r.amplitude_V / (sampled ? std::sqrt(2.0) : 1.0);
+}
+
+design::ShaftSensing shaft_sensing(const study::Scenario& s) {
+  const study::Sensors& x = s.sensors;
+  design::ShaftSensing to{.gear = x.shaft == study::SensorShaft::load ? s.load.gear : 1.0,
+                          .period_s = s.pwm.period_s};
+  switch (x.rotor) {
+    case study::RotorSensing::ideal:
+    case study::RotorSensing::hall:
+      break;
+    case study::RotorSensing::encoder:
+      to.kind = design::ShaftSensorKind::encoder;
+      to.lines = x.encoder.lines;
+      to.capture_Hz = x.capture_Hz;
+      to.timeout_s = x.timeout_s;
+      break;
+    case study::RotorSensing::absolute:
+      to.kind = design::ShaftSensorKind::absolute;
+      to.bits = x.absolute.bits;
+      to.samples = x.absolute.speed_samples;
+      to.latency_s = x.absolute.latency_s;
+      break;
+    case study::RotorSensing::resolver:
+      to.kind = design::ShaftSensorKind::resolver;
+      take_resolver(s, to);
+      break;
+  }
+  return to;
 }
 
 }  // namespace
@@ -38,10 +83,12 @@ design::DesignSpec spec_of(const study::Scenario& s) {
   w.load_inertia_kg_m2 = s.load.inertia_kg_m2;
   w.delay_periods = s.pwm.delay_periods;
   w.chopping = s.pwm.chopping;
-  // The product drive has no other sensor than its Hall probes.
-  w.rotor.hall =
-      s.sensors.rotor == study::RotorSensing::hall || s.control.drive == study::FirmwareKind::product;
+  // The product drive has no other sensor than its Hall probes, and the sensorless one takes crossings as their edges.
+  w.rotor.hall = s.sensors.rotor == study::RotorSensing::hall || s.control.drive != study::FirmwareKind::lean;
   w.rotor.edges = s.sensors.speed_edges;
+  // Edges whose places are known need no turn for their faults to cancel.
+  if (s.sensors.hall_angle == rig::HallAngleFrom::learned_edges) w.rotor.edges = std::max(w.rotor.edges, 1);
+  if (!w.rotor.hall) w.rotor.shaft = shaft_sensing(s);
   w.lowest_speed_rad_s = lowest_speed(s);
   return w;
 }

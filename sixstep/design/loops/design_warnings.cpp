@@ -7,6 +7,7 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/motion.hpp"
 
 namespace sixstep::design {
 namespace {
@@ -62,8 +63,10 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
   if (d.loops.size() < 2 || !(d.lag.delay_s() > 0.0)) return;
   const LoopDesign& speed = d.loops[1];
   if (!speed.figures.stable) return;  // told already
-  const std::string at = " at " + rounded(d.lowest_speed_rad_s) +
-                         " rad/s, where a speed from Hall edges is " + milliseconds(d.lag.delay_s()) + " old";
+  const bool shaft = d.spec.rotor.shaft.kind != ShaftSensorKind::none;
+  const std::string at = " at " + rounded(d.lowest_speed_rad_s) + " rad/s, where a speed from " +
+                         (shaft ? "the " + edges_words(d.spec.rotor) : std::string("Hall edges")) + " is " +
+                         milliseconds(d.lag.delay_s()) + " old";
   std::string cure = "design the speed loop slower (settle_s";
   for (const SettlingLimit& limit : d.limits)
     if (limit.sensing.edges == d.spec.rotor.edges && limit.lowest_speed_rad_s == d.lowest_speed_rad_s &&
@@ -83,11 +86,12 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
 void look_at_steps(const DriveDesign& d, Collector& out) {
   if (d.spec.mode != control::Mode::position || !d.spec.rotor.hall || d.loops.size() < 3) return;
   const double blind_s = 1.0 / (d.loops[2].gains.d1 * 180.0 / base::pi);
-  const double step_deg = 60.0 / d.motor.machine.pole_pairs;
+  const base::LinearUnit deg = motion_of(d.motor).unit("deg");
+  const std::string step = rounded(60.0 / d.motor.machine.pole_pairs * deg.factor) +
+                           (d.motor.kind == MotorKind::linear ? " mm" : " degrees");
   if (const std::optional<double> stands = d.loops[1].figures.delay_s; stands && blind_s > *stands)
-    out.add("within a Hall step of " + rounded(step_deg) +
-                " degrees of its target the drive learns its speed every " + milliseconds(blind_s) +
-                " (1/K_p), and the speed loop stands " + milliseconds(*stands) +
+    out.add("within a Hall step of " + step + " of its target the drive learns its speed every " +
+                milliseconds(blind_s) + " (1/K_p), and the speed loop stands " + milliseconds(*stands) +
                 ": it comes to within a few steps and never rests",
             "take an encoder where the shaft is to rest; or turn the drive off once it is there");
 }
@@ -192,6 +196,9 @@ std::vector<Warning> warnings_of(const DriveDesign& d) {
   look_at_ripple(d, out);
   look_at_braking(d, out);
   look_at_heat(d, out);
+  if (!d.motor.left_to_a_run.empty())
+    out.add("this design leaves out " + d.motor.left_to_a_run + ", which a run has",
+            "hold it to a run of your scenario");
   return out.found;
 }
 

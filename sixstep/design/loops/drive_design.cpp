@@ -198,18 +198,18 @@ SettlingQuestion settling_question(const DriveDesign& d) {
 void choose_settling(DriveDesign& d) {
   if (d.spec.settle_s || d.spec.mode == Mode::current) return;
   d.spec.settle_s = usual_speed_settle_s;
-  if (!d.spec.rotor.hall) return;
+  if (!d.spec.rotor.lags()) return;
   const std::optional<double> least =
       fastest_settling_s(settling_question(d), d.spec.rotor, d.lowest_speed_rad_s);
   if (least && *least > usual_speed_settle_s) d.spec.settle_s = base::shortened(*least, 2, base::Towards::up);
 }
 
 void add_sensing(DriveDesign& d) {
-  if (!d.spec.rotor.hall || d.loops.size() < 2) return;
+  if (!d.spec.rotor.lags() || d.loops.size() < 2) return;
   const double pole_pairs = d.motor.machine.pole_pairs, crossover = crossover_of(d);
   d.lag = speed_lag(d.spec.rotor, pole_pairs, d.lowest_speed_rad_s, crossover);
   d.sensing = lag_steps(d.spec.rotor, pole_pairs, d.lowest_speed_rad_s, crossover);
-  d.limits = settling_limits(settling_question(d), d.lowest_speed_rad_s);
+  d.limits = settling_limits(settling_question(d), d.spec.rotor, d.lowest_speed_rad_s);
 }
 
 /// A P loop that counts edges: one step away from its target it asks for K_p steps per second.
@@ -236,7 +236,7 @@ void finish(DriveDesign& d) {
 
 }  // namespace
 
-double settling_band(const DriveDesign& d) { return d.lag.delay_s() > 0.0 ? 0.1 : 0.02; }
+double settling_band(const DriveDesign& d) { return d.spec.rotor.hall && d.lag.delay_s() > 0.0 ? 0.1 : 0.02; }
 
 const LoopDesign& DriveDesign::loop(std::string_view name) const {
   for (const LoopDesign& l : loops)

@@ -208,6 +208,22 @@ class Mean {
   double sum_ = 0.0;
 };
 
+/// So many samples late, to the nearest whole one.
+class Late {
+ public:
+  explicit Late(double samples) : held_(static_cast<std::size_t>(std::floor(samples + 0.5))) {}
+  double next(double x) {
+    if (held_.empty()) return x;
+    std::swap(x, held_[at_]);
+    at_ = (at_ + 1) % held_.size();
+    return x;
+  }
+
+ private:
+  std::vector<double> held_;
+  std::size_t at_ = 0;
+};
+
 /// What is told of a step whose samples `next` gives.
 template <class Next>
 StepResponse response(const Next& next, double period_s, double seconds, double band) {
@@ -238,9 +254,10 @@ StepResponse step_response(const Transfer& closed_loop, double period_s, double 
 StepResponse sensed_step(const SensedLoop& s, double period_s, double seconds, double band) {
   Recursion recursion(s.loop);
   Mean mean(s.lag.mean_s / period_s), hold(s.lag.hold_s / period_s);
+  Late late(s.lag.late_s / period_s);
   const auto next = [&] {
     const double y = recursion.output();
-    recursion.next(1.0 - hold.next(mean.next(y)));
+    recursion.next(1.0 - late.next(hold.next(mean.next(y))));
     return y;
   };
   return response(next, period_s, seconds, band);

@@ -18,6 +18,7 @@ constexpr int one_turn = 6;  // sectors of an electrical turn
 }  // namespace
 
 std::string edges_words(const RotorSensing& sensing) {
+  if (sensing.shaft.kind != ShaftSensorKind::none) return sensor_words(sensing.shaft);
   if (sensing.edges == 0) return "Hall, 6 edges or 1";
   return "Hall, " + std::to_string(sensing.edges) + (sensing.edges == 1 ? " edge" : " edges");
 }
@@ -38,6 +39,10 @@ Complex SpeedLag::at(double v_rad_s) const {
 
 SpeedLag speed_lag(const RotorSensing& sensing, double pole_pairs, double speed_rad_s,
                    double crossover_rad_s) {
+  if (sensing.shaft.kind != ShaftSensorKind::none) {
+    const ShaftSpeedAge age = speed_age(sensing.shaft, speed_rad_s);
+    return {age.mean_s, age.hold_s, age.late_s};
+  }
   if (!sensing.hall) return {};
   const double T = sector_s(pole_pairs, speed_rad_s);
   if (sensing.edges > 0) return {sensing.edges * T, T};
@@ -49,10 +54,29 @@ SpeedLag speed_lag(const RotorSensing& sensing, double pole_pairs, double speed_
   return six.delay_s() > one.delay_s() || one_turn * T <= window ? six : one;
 }
 
+namespace {
+
+/// What a sensor costs, for a reader.
+void add_cost(const SpeedLag& lag, const char* formula, double crossover_rad_s,
+              std::vector<DerivationStep>& steps) {
+  steps.push_back({"delay", formula, lag.delay_s(), "s"});
+  steps.push_back({"phase", "w_c times it, what the sensor costs",
+                   crossover_rad_s * lag.delay_s() * 180 / base::pi, "deg"});
+}
+
+}  // namespace
+
 std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_pairs, double speed_rad_s,
                                       double crossover_rad_s) {
-  if (!sensing.hall) return {};
+  if (!sensing.lags()) return {};
   const SpeedLag lag = speed_lag(sensing, pole_pairs, speed_rad_s, crossover_rad_s);
+  if (sensing.shaft.kind != ShaftSensorKind::none) {
+    std::vector<DerivationStep> steps{{"w_low", "lowest speed asked for", speed_rad_s, "rad/s"}};
+    for (const DerivationStep& step : shaft_sensing_steps(sensing.shaft, speed_rad_s)) steps.push_back(step);
+    add_cost(lag, "half of what it is the mean over and stands for, and what it is late", crossover_rad_s,
+             steps);
+    return steps;
+  }
   std::vector<DerivationStep> steps{
       {"w_low", "lowest speed asked for", speed_rad_s, "rad/s"},
       {"T", "(pi/3)/(p w_low), a sector at that speed", sector_s(pole_pairs, speed_rad_s), "s"}};
@@ -61,9 +85,7 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
                      hall_window_s(crossover_rad_s), "s"});
   else
     steps.push_back({"k", "edges that a speed is taken over", static_cast<double>(sensing.edges), ""});
-  steps.push_back({"delay", "(k + 1)/2 sectors, the most from w_low up", lag.delay_s(), "s"});
-  steps.push_back({"phase", "w_c times it, what the sensor costs",
-                   crossover_rad_s * lag.delay_s() * 180 / base::pi, "deg"});
+  add_cost(lag, "(k + 1)/2 sectors, the most from w_low up", crossover_rad_s, steps);
   return steps;
 }
 

@@ -7,12 +7,13 @@
 //
 // the mean over k T and the hold over T (its mean over where in the sector a control tick falls): a delay of
 // (k + 1)/2 T and little else. It grows as the rotor slows down: what a loop can do is said for the lowest
-// speed that is asked for.
+// speed that is asked for. Encoders and resolvers have shaft_sensing.hpp, whose angle may be late beside that.
 #pragma once
 #include <string>
 #include <vector>
 
 #include "sixstep/design/loops/pole_placement.hpp"
+#include "sixstep/design/loops/shaft_sensing.hpp"
 #include "sixstep/design/loops/transfer.hpp"
 
 namespace sixstep::design {
@@ -21,9 +22,13 @@ namespace sixstep::design {
 struct RotorSensing {
   bool hall = true;  ///< Hall probes; else ideal, as an encoder of very many lines
   int edges = 0;     ///< that a speed is taken over, 1..6; 0: six where they cost the loop little, else one
+  ShaftSensing shaft{};  ///< an encoder or a resolver in the place of both
+
+  /// Whether the speed is any older than the sample.
+  bool lags() const { return hall || shaft.kind != ShaftSensorKind::none; }
 };
 
-/// "Hall, 1 edge", "Hall, 6 edges or 1"
+/// "Hall, 1 edge", "Hall, 6 edges or 1"; sensor_words() of an encoder or a resolver
 std::string edges_words(const RotorSensing& sensing);
 
 /// Phase in rad that six edges may cost a speed loop at its crossover before one edge is taken instead:
@@ -42,8 +47,9 @@ double speed_crossover_rad_s(double d1, double full_acceleration_rad_s2);
 struct SpeedLag {
   double mean_s = 0.0;  ///< the speed is the mean over so long
   double hold_s = 0.0;  ///< and stands for so long
+  double late_s = 0.0;  ///< and is told so late
 
-  double delay_s() const { return (mean_s + hold_s) / 2; }
+  double delay_s() const { return (mean_s + hold_s) / 2 + late_s; }
   /// At angular frequency v.
   Complex at(double v_rad_s) const;
 };

@@ -42,11 +42,13 @@ std::optional<double> fastest_settling_s(const SettlingQuestion& q, const RotorS
   return high;
 }
 
-std::vector<SettlingLimit> settling_limits(const SettlingQuestion& question, double lowest_speed_rad_s) {
+std::vector<SettlingLimit> settling_limits(const SettlingQuestion& question, const RotorSensing& rotor,
+                                           double lowest_speed_rad_s) {
+  std::vector<RotorSensing> ways{rotor};
+  if (rotor.shaft.kind == ShaftSensorKind::none) ways = {{true, 1}, {true, 6}, {true, 0}};
   std::vector<SettlingLimit> out;
-  for (const int edges : {1, 6, 0})
+  for (const RotorSensing& sensing : ways)
     for (const double times : {1.0, 2.0, 5.0}) {
-      const RotorSensing sensing{.hall = true, .edges = edges};
       const double speed = times * lowest_speed_rad_s;
       out.push_back({sensing, speed, fastest_settling_s(question, sensing, speed)});
     }

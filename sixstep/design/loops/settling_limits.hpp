@@ -26,8 +26,9 @@ struct SettlingLimit {
   double lowest_speed_rad_s = 0.0;
   std::optional<double> settle_s;
 };
-/// For Hall probes with one edge, with six and adaptive, down to the lowest speed and to twice and five times
-/// it.
-std::vector<SettlingLimit> settling_limits(const SettlingQuestion& question, double lowest_speed_rad_s);
+/// For Hall probes with one edge, with six and adaptive, or for the encoder or resolver that there is, down to the
+/// lowest speed and to twice and five times it.
+std::vector<SettlingLimit> settling_limits(const SettlingQuestion& question, const RotorSensing& rotor,
+                                           double lowest_speed_rad_s);
 
 }  // namespace sixstep::design

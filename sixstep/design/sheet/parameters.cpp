@@ -19,7 +19,7 @@ void read_printed_points(SheetReader& reader, MotorModel& m) {
     m.no_load_current_A = SheetReader::not_negative(*sheet.no_load_current_mA, -3).value_or(0.0);
   if (const std::optional<base::Quantity>& printed = sheet.nominal_current_A) {
     const bool rms = printed->frame == "rms";
-    const double per_A = rms ? torque_per_rms_A(m.machine.K_e_V_s, reader.out.shape) / m.K_t_Nm_A : 1.0;
+    const double per_A = rms ? torque_per_rms_A(m.K_e_V_s, reader.out.shape) / m.K_t_Nm_A : 1.0;
     m.nominal_current_A = per_A * printed->value;
   }
   m.stall_torque_Nm = m.K_t_Nm_A * m.nominal_voltage_V / (2.0 * m.machine.R_ohm);
@@ -71,7 +71,7 @@ void check_pace(SheetReader& reader, const MotorModel& m) {
   } else if (swing > fastest_swing_rad_s) {
     const std::optional<base::Quantity>& q =
         sheet.with_brake ? sheet.inertia_with_brake_gcm2 : sheet.inertia_gcm2;
-    reader.problem(m.from.J, written(q),
+    reader.problem(m.from.J.substr(0, m.from.J.find(',')), written(q),
                    "makes rotor and winding swing at K_t/sqrt(L J) = " + rounded(swing, 3) +
                        " rad/s, and no motor is above 1e5",
                    "look at the unit of the inertia, then at those of inductance and torque constant");
@@ -95,19 +95,26 @@ base::Result<MotorModel> motor_model(const Sheet& sheet) {
   if (!problems.empty()) return problems;
 
   MotorModel m;
-  m.machine.pole_pairs = *c.pole_pairs;
+  m.kind = sheet.kind;
+  m.machine.pole_pairs = *c.electrical_per_mechanical();
+  m.shape_is_table = sheet.back_emf == BackEmfShape::table;
   m.machine.back_emf =
-      sheet.back_emf == BackEmfShape::sine ? plant::BackEmf::sine : plant::BackEmf::trapezoid;
+      sheet.back_emf == BackEmfShape::trapezoid ? plant::BackEmf::trapezoid : plant::BackEmf::sine;
   m.machine.flat_deg = sheet.flat_deg;
   m.machine.R_ohm = c.R_ohm->value;
   m.machine.L_H = c.L_H->value;
-  m.machine.K_e_V_s = c.K_e_V_s->value;
+  m.K_e_V_s = c.K_e_V_s->value;
   m.K_t_Nm_A = c.K_t_Nm_A->value;
+  m.machine.K_e_V_s = m.shape_is_table
+                          ? m.K_t_Nm_A / shape_factors(BackEmfShape::sine, sheet.flat_deg).sector_mean
+                          : m.K_e_V_s;
   m.nominal_voltage_V = c.nominal_voltage_V.value_or(0.0);
   m.shaft.J_kg_m2 = c.J_kg_m2->value;
   m.shaft.B_Nm_s = c.friction.B_Nm_s;
   m.shaft.coulomb_Nm = c.friction.coulomb_Nm;
+  m.iron = c.friction.iron;
   m.from = {c.R_ohm->from, c.L_H->from, c.K_e_V_s->from, c.K_t_Nm_A->from, c.J_kg_m2->from, c.friction.from};
+  m.left_to_a_run = left_to_a_run(sheet);
   SheetReader reader{sheet, c};
   read_printed_points(reader, m);
   check_constants(reader, m);

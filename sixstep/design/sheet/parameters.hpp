@@ -4,7 +4,7 @@
 #include <string>
 
 #include "sixstep/base/result.hpp"
-#include "sixstep/design/sheet/sheet.hpp"
+#include "sixstep/design/sheet/sheet_constants.hpp"
 #include "sixstep/plant/machine.hpp"
 
 namespace sixstep::design {
@@ -15,8 +15,14 @@ struct Origins {
 };
 
 struct MotorModel {
-  plant::Machine machine;
+  MotorKind kind = MotorKind::rotary;  ///< linear: every rad below is a m, every N m an N, every kg m2 a kg
+  plant::Machine
+      machine;  ///< of a back-EMF given as a table: the sine of the same K_t, for what goes by closed forms
   plant::Shaft shaft;
+  double K_e_V_s =
+      0.0;  ///< what the shape that the sheet gives is multiplied with: machine's, unless that is a table
+  bool shape_is_table = false;
+  IronDrag iron;  ///< the iron's part of the shaft's friction, where the sheet tells it apart
   double K_t_Nm_A =
       0.0;  ///< terminal torque constant: torque per ampere through the driven pair, sector mean
   double nominal_voltage_V = 0.0;    ///< as printed; 0 where the sheet is silent
@@ -25,6 +31,9 @@ struct MotorModel {
   double nominal_current_A = 0.0;  ///< through the driven pair, as printed or of equal torque; 0: silent
   double stall_torque_Nm = 0.0;    ///< as printed, else K_t U/R_tt; 0 where the sheet has no voltage either
   Origins from;
+  /// What the sheet has and this model of equal phases has not, in words: "cogging and a delta's loop current". A run has it;
+  /// design, curve and the exported model go by their means. Empty where nothing is left out.
+  std::string left_to_a_run;
 };
 
 /// The constants of sheet_constants.hpp as a model: R_s = R_tt/2, L_s = L_tt/2, K_e from K_t by the shape's
@@ -32,5 +41,11 @@ struct MotorModel {
 /// coefficient the no-load point pays for all friction: B = (K_t I_0 - T_c)/w_0; a sheet that has neither
 /// turns without loss. All Problems come at once; each names the key, its value and the rule that is broken.
 base::Result<MotorModel> motor_model(const Sheet& sheet);
+
+/// MotorModel::left_to_a_run of a sheet.
+std::string left_to_a_run(const Sheet& sheet);
+
+/// L_d and L_q are given in the place of one inductance, and differ.
+bool is_salient(const Sheet& sheet);
 
 }  // namespace sixstep::design

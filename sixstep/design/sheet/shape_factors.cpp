@@ -61,6 +61,7 @@ ShapeFactors shape_factors(BackEmfShape shape, double flat_deg) {
     out.line_peak = std::sqrt(3.0);
     out.line_rms = std::sqrt(1.5);
     out.phase_rms = std::sqrt(0.5);
+    out.phase_peak = 1.0;
     out.fundamental = 1.0;
     return out;
   }
@@ -68,6 +69,7 @@ ShapeFactors shape_factors(BackEmfShape shape, double flat_deg) {
   // A ramp from 0 to 1 over h has mean square 1/3: per quarter turn (w/2 + h/3)/90 with h = 90 - w/2.
   const double half_flat = flat_deg / 2.0, h_deg = 90.0 - half_flat, h = h_deg / 180.0 * base::pi;
   out.phase_rms = std::sqrt((half_flat + h_deg / 3.0) / 90.0);
+  out.phase_peak = 1.0;
   out.fundamental = 4.0 / base::pi * base::sin(h) / h;
   return out;
 }
@@ -83,15 +85,18 @@ ShapeFactors harmonic_factors(std::span<const double> orders, std::span<const do
   }
   out.phase_rms = std::sqrt(phase_square);
   out.line_rms = std::sqrt(line_square);
-  // The peak of f_a - f_b, which is even about its middle, by looking at half a turn in steps of a 4096th.
-  const auto line = [&](double x) {
-    double v = base::cos(x) - base::cos(x - 2.0 * base::pi / 3.0);
-    for (std::size_t n = 0; n < orders.size(); ++n)
-      v += sizes[n] * (base::cos(orders[n] * x) - base::cos(orders[n] * (x - 2.0 * base::pi / 3.0)));
-    return std::abs(v);
+  // The peaks, each even about its middle, by looking at half a turn in steps of a 4096th.
+  const auto phase = [&](double x) {
+    double v = base::cos(x);
+    for (std::size_t n = 0; n < orders.size(); ++n) v += sizes[n] * base::cos(orders[n] * x);
+    return v;
   };
-  out.line_peak = 0.0;
-  for (int n = 0; n < 4096; ++n) out.line_peak = std::max(out.line_peak, line(base::pi * n / 4096.0));
+  out.line_peak = out.phase_peak = 0.0;
+  for (int n = 0; n < 4096; ++n) {
+    const double x = base::pi * n / 4096.0;
+    out.line_peak = std::max(out.line_peak, std::abs(phase(x) - phase(x - 2.0 * base::pi / 3.0)));
+    out.phase_peak = std::max(out.phase_peak, std::abs(phase(x)));
+  }
   return out;
 }
 

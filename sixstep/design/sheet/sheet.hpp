@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A motor's data sheet, as printed: the sheet's own units and frames, each value with its source. Sheets of
 // different trades print one constant in different ways; a sheet gives each constant in one of them, or in
-// several that then are held against each other (sheet_constants.hpp, sheet_check.hpp).
+// several that then are held against each other (sheet_constants.hpp, sheet_check.hpp). A linear motor's sheet fills the members
+// of the turning one, 1 rad for 1 m, under words of its own (base/linear.hpp, sheet_spellings.hpp).
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -12,9 +13,16 @@
 
 namespace sixstep::design {
 
-enum class BackEmfShape : std::uint8_t { trapezoid, sine };
+enum class BackEmfShape : std::uint8_t { trapezoid, sine, table };
 
 enum class WindingConnection : std::uint8_t { star, delta };
+
+enum class MotorKind : std::uint8_t { rotary, linear };
+
+enum class RotorPlace : std::uint8_t { inner, outer };
+
+/// What a rotor is made of whose sheet does not say it.
+inline constexpr double steel_kg_m3 = 7850.0;
 
 struct Sheet {
   std::string name;
@@ -24,12 +32,16 @@ struct Sheet {
   std::string not_simulatable_because;
   std::vector<std::string> known_deviation;  // names of the check's relations that this sheet breaks
 
-  std::optional<int> pole_pairs;  // or poles, or the winding's code
+  MotorKind kind = MotorKind::rotary;
+  std::optional<base::Quantity> pole_pitch_mm;  // linear: tau, in place of the pole pairs
+  std::optional<int> pole_pairs;                // or poles, or the winding's code
   std::optional<int> poles;
   std::string winding;  // "12N14P": 12 teeth, 14 poles
   BackEmfShape back_emf = BackEmfShape::trapezoid;
-  double flat_deg = 120.0;                              // width of the trapezoid's flat top, electrical
-  std::vector<double> harmonic_orders, harmonic_sizes;  // odd ones beside the sine's 1, by the sine's peak
+  double flat_deg = 120.0;                                 // width of the trapezoid's flat top, electrical
+  std::vector<double> harmonic_orders, harmonic_sizes;     // odd ones beside the sine's 1, by the sine's peak
+  std::vector<double> back_emf_angle_deg, back_emf_shape;  // table: points of phase a over an electrical turn
+  std::string back_emf_file;  // table: where text reads the two lists from, as written
   WindingConnection connection = WindingConnection::star;
   double mutual_inductance_mH = 0.0;  // delta: between two branches
   std::vector<double> phase_resistance_deviation,
@@ -40,6 +52,9 @@ struct Sheet {
   std::optional<base::Quantity> resistance_ohm;                              // frame terminal or phase
   std::optional<base::Quantity> inductance_mH;                               // frame terminal or phase
   std::optional<base::Quantity> d_axis_inductance_mH, q_axis_inductance_mH;  // phase; instead of the above
+
+  std::optional<base::Quantity>
+      saturation_current_A;  // of a phase along the magnet: L_d i_d (1 - i_d/(2 I_sat))
 
   // The torque constant and its other faces. The first given is used, in this order.
   std::optional<base::Quantity> torque_constant_mNm_A;  // terminal: torque per ampere through the driven pair
@@ -54,8 +69,12 @@ struct Sheet {
   std::optional<base::Quantity> inertia_gcm2;
   std::optional<base::Quantity> inertia_with_brake_gcm2;
   bool with_brake = false;
+  RotorPlace rotor = RotorPlace::inner;
+  std::optional<base::Quantity> rotor_radius_mm, rotor_inner_radius_mm, rotor_length_mm;
+  std::optional<base::Quantity> rotor_density_kg_m3;  // without it steel_kg_m3
   std::optional<base::Quantity> viscous_friction_Nm_s;
   std::optional<base::Quantity> coulomb_friction_mNm;
+  std::optional<base::Quantity> iron_viscous_Nm_s, iron_coulomb_mNm;  // eddy currents, hysteresis
 
   std::optional<base::Quantity> no_load_voltage_V;  // of the no-load point; without it the nominal voltage
   std::optional<base::Quantity> no_load_speed_rpm, no_load_current_mA;
@@ -71,6 +90,7 @@ struct Sheet {
   std::optional<base::Quantity> thermal_resistance_housing_ambient_K_W;
   std::optional<base::Quantity> thermal_time_constant_winding_s, thermal_time_constant_motor_s;
   std::optional<base::Quantity> max_winding_temperature_degC;
+  double magnet_loss_percent_K = 0.12;  // of K_e, above 25 degC: NdFeB
 };
 
 }  // namespace sixstep::design

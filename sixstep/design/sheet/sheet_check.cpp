@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "sixstep/base/linear.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/design/sheet/sheet_reader.hpp"
 #include "sixstep/design/sheet/sheet_relations.hpp"
@@ -36,6 +37,10 @@ constexpr Reason reasons[] = {
     {"speed_torque_gradient_rpm_mNm", "follows from R and K_t"},
     {"mechanical_time_constant_ms", "follows from R, J and K_t"},
     {"max_speed_rpm", "a limit of the mechanics"},
+    {"rotor_radius_mm", "the inertia is printed, and counts"},
+    {"rotor_inner_radius_mm", "the inertia is printed, and counts"},
+    {"rotor_length_mm", "the inertia is printed, and counts"},
+    {"rotor_density_kg_m3", "the inertia is printed, and counts"},
     {"inertia_gcm2", "the motor carries its brake: inertia_with_brake_gcm2 counts"},
     {"inertia_with_brake_gcm2", "the motor carries no brake: inertia_gcm2 counts"},
     {"thermal_resistance_winding_housing_K_W", "the windings of the model stay at the sheet's temperature"},
@@ -52,7 +57,10 @@ class Lines {
   void quantity(std::string_view key, std::optional<Quantity>& q, const base::About& about) {
     if (!q) return;
     const bool geometry = key == "active_length_mm" || key == "air_gap_radius_mm";
-    const std::string_view judged = geometry ? std::string_view("flux_density_T") : key;
+    const bool body = key.starts_with("rotor_");
+    const std::string_view judged = geometry ? std::string_view("flux_density_T")
+                                    : body   ? std::string_view("rotor_radius_mm")
+                                             : key;
     const auto& used = constants_.used;
     LineUse line{SheetReader::key_of(key, *q), q->value, std::string(about.unit), false, ""};
     line.used = std::find(used.begin(), used.end(), judged) != used.end();
@@ -111,6 +119,8 @@ base::Result<SheetCheck> check_sheet(const Sheet& sheet) {
   Sheet copy = sheet;
   describe(lines, copy);
   check.lines = std::move(lines.lines);
+  if (sheet.kind == MotorKind::linear)
+    for (LineUse& line : check.lines) line.why = base::linear_words(line.why);
   if (c.R_ohm && c.L_H) check.electrical_time_constant_s = c.L_H->value / c.R_ohm->value;
   if (c.R_ohm && c.J_kg_m2 && c.K_t_Nm_A)
     check.mechanical_time_constant_s =

@@ -58,4 +58,8 @@ base::Result<SheetCheck> check_sheet(const Sheet& sheet);
 /// its steady state turns at 702.6 rad/s, 1.3 % below (U - R I)/K_t.
 inline constexpr double no_load_margin = 0.02;
 
+/// What a rotor is beside the cylinder or ring of its measures: shaft, magnets, hub, bores. A radius taken for a diameter is a
+/// factor of 16.
+inline constexpr double body_margin = 0.3;
+
 }  // namespace sixstep::design

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/design/sheet/sheet_constants.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
 
 #include <algorithm>
 #include <array>
@@ -95,27 +96,6 @@ void read_inductance(SheetReader& reader) {
   unknown_frame(reader, "inductance_mH", *q, candidates);
 }
 
-void read_inertia(SheetReader& reader) {
-  const Sheet& s = reader.sheet;
-  const std::optional<Quantity>&rotor = s.inertia_gcm2, &braked = s.inertia_with_brake_gcm2;
-  std::optional<double> J, J_b;
-  if (rotor) J = SheetReader::positive(*rotor, -7);
-  if (braked) J_b = SheetReader::positive(*braked, -7);
-  if (J && J_b && *J_b < *J)
-    reader.problem(SheetReader::key_of("inertia_with_brake_gcm2", *braked), base::written(braked->value),
-                   "is less than the rotor's own, inertia_gcm2 = " + base::written(rotor->value),
-                   "the brake only adds: swap the two");
-  const std::string_view key = s.with_brake ? "inertia_with_brake_gcm2" : "inertia_gcm2";
-  if (s.with_brake ? !braked : !rotor)
-    return reader.missing(key, s.with_brake || !braked
-                                   ? "give the rotor's moment of inertia"
-                                   : "the sheet gives it with brake only: write with_brake = true");
-  const Quantity& printed = s.with_brake ? *braked : *rotor;
-  if (s.with_brake ? !J_b : !J) return;
-  reader.out.J_kg_m2 = Constant{base::times_ten_to(printed.value, -7), SheetReader::key_of(key, printed)};
-  reader.use(key);
-}
-
 /// Not part of the model, but its frame must be known before it is compared with the nominal torque.
 void read_nominal_current(SheetReader& reader) {
   const std::optional<Quantity>& q = reader.sheet.nominal_current_A;
@@ -128,6 +108,20 @@ void read_nominal_current(SheetReader& reader) {
       {{"terminal", means(c.K_t_Nm_A ? c.K_t_Nm_A->value : 0.0)},
        {"rms", means(c.K_e_V_s ? torque_per_rms_A(c.K_e_V_s->value, c.shape) : 0.0)}}};
   unknown_frame(reader, "nominal_current_A", *q, candidates);
+}
+
+/// What is wrong has been told: the factors are then those of some shape, for what else can be read.
+ShapeFactors read_shape(SheetReader& reader) {
+  const Sheet& s = reader.sheet;
+  const bool flat = base::strictly_between(0.0, 180.0).holds(s.flat_deg);
+  if (!flat)
+    reader.problem("flat_deg", base::written(s.flat_deg), "must lie between 0 and 180",
+                   "give the flat top's width in electrical degrees, usually 120");
+  if (s.back_emf == BackEmfShape::table)
+    return read_shape_table(reader).value_or(shape_factors(BackEmfShape::sine, 120.0));
+  if (!s.harmonic_orders.empty() && s.harmonic_orders.size() == s.harmonic_sizes.size())
+    return harmonic_factors(s.harmonic_orders, s.harmonic_sizes);
+  return shape_factors(s.back_emf, flat ? s.flat_deg : 120.0);
 }
 
 void read_trust(SheetReader& reader) {
@@ -157,16 +151,12 @@ SheetConstants sheet_constants(const Sheet& sheet) {
   SheetReader reader{sheet, out};
   read_trust(reader);
   note_implausible(reader);
-  const bool flat = base::strictly_between(0.0, 180.0).holds(sheet.flat_deg);
-  if (!flat)
-    reader.problem("flat_deg", base::written(sheet.flat_deg), "must lie between 0 and 180",
-                   "give the flat top's width in electrical degrees, usually 120");
-  out.shape = sheet.harmonic_orders.empty() || sheet.harmonic_orders.size() != sheet.harmonic_sizes.size()
-                  ? shape_factors(sheet.back_emf, flat ? sheet.flat_deg : 120.0)
-                  : harmonic_factors(sheet.harmonic_orders, sheet.harmonic_sizes);
+  out.shape = read_shape(reader);
   const std::size_t told = out.problems.size();
+  out.pole_pitch_m = read_pole_pitch(reader);
   out.pole_pairs = read_pole_pairs(reader);
-  if (!out.pole_pairs && out.problems.size() == told)
+  const bool turns = sheet.kind == MotorKind::rotary;
+  if (turns && !out.pole_pairs && out.problems.size() == told)
     reader.missing("pole_pairs", "give it, or poles, or the winding's code as \"12N14P\"");
   read_details(reader);
   if (sheet.nominal_voltage_V) out.nominal_voltage_V = SheetReader::positive(*sheet.nominal_voltage_V);
@@ -181,7 +171,7 @@ SheetConstants sheet_constants(const Sheet& sheet) {
 
 Sheet in_standard_keys(Sheet s) {
   const bool all_there = s.inductance_mH && (s.torque_constant_mNm_A || s.back_emf_mV_s) &&
-                         s.viscous_friction_Nm_s && !s.with_brake;
+                         s.viscous_friction_Nm_s && s.inertia_gcm2 && !s.with_brake;
   if (all_there) return s;
   const SheetConstants c = sheet_constants(s);
   const auto fill = [](std::optional<Quantity>& key, const std::optional<Constant>& constant, double value,
@@ -193,8 +183,7 @@ Sheet in_standard_keys(Sheet s) {
     key->source = "from " + constant->from;
     key->kind = base::Trust::derived;
   };
-  const bool salient = s.d_axis_inductance_mH && s.q_axis_inductance_mH && !s.inductance_mH &&
-                       s.d_axis_inductance_mH->value != s.q_axis_inductance_mH->value;
+  const bool salient = is_salient(s);
   if (c.L_H && !salient) fill(s.inductance_mH, c.L_H, c.L_H->value * 1e3, "phase");
   if (c.L_H && !salient) s.d_axis_inductance_mH = s.q_axis_inductance_mH = std::nullopt;
   if (c.K_t_Nm_A && !s.back_emf_mV_s)
@@ -205,11 +194,13 @@ Sheet in_standard_keys(Sheet s) {
     s.inertia_with_brake_gcm2.reset();
     s.with_brake = false;
   }
-  if (!s.viscous_friction_Nm_s) {
-    const Constant B{c.friction.B_Nm_s, c.friction.from};
+  if (c.J_kg_m2) fill(s.inertia_gcm2, c.J_kg_m2, c.J_kg_m2->value * 1e7, "");
+  if (!s.viscous_friction_Nm_s) {  // the iron's part keeps its own keys
+    const Friction& f = c.friction;
+    const Constant B{f.B_Nm_s - f.iron.B_Nm_s, f.from};
     fill(s.viscous_friction_Nm_s, B, B.value, "");
-    if (c.friction.coulomb_Nm > 0.0 && !s.coulomb_friction_mNm)
-      fill(s.coulomb_friction_mNm, B, c.friction.coulomb_Nm * 1e3, "");
+    if (f.coulomb_Nm > f.iron.coulomb_Nm && !s.coulomb_friction_mNm)
+      fill(s.coulomb_friction_mNm, B, (f.coulomb_Nm - f.iron.coulomb_Nm) * 1e3, "");
   }
   return s;
 }

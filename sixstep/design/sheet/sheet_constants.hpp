@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sixstep/base/angle.hpp"
 #include "sixstep/base/problem.hpp"
 #include "sixstep/design/sheet/shape_factors.hpp"
 #include "sixstep/design/sheet/sheet.hpp"
@@ -26,10 +27,17 @@ struct OtherWay {
   double relative_doubt = 0.0;  ///< of its print
 };
 
-/// Friction: T = B w + T_c. One no-load point fixes only K_t I_0 = B w_0 + T_c.
+/// What the iron takes of the friction: hysteresis does not depend on speed, eddy currents grow with it (model.md 7).
+struct IronDrag {
+  double B_Nm_s = 0.0;
+  double coulomb_Nm = 0.0;
+};
+
+/// Friction: T = B w + T_c, of bearings and iron together. One no-load point fixes only K_t I_0 = B w_0 + T_c.
 struct Friction {
   double B_Nm_s = 0.0;  ///< what the model uses
   double coulomb_Nm = 0.0;
+  IronDrag iron;  ///< its part in both, where the sheet tells it apart
   std::string from;
   double no_load_speed_rad_s = 0.0;          ///< of the point used; 0: no point
   std::optional<double> all_viscous_Nm_s;    ///< one extreme of one point: B = K_t I_0/w_0
@@ -40,13 +48,21 @@ struct Friction {
 
 struct SheetConstants {
   ShapeFactors shape;
-  std::optional<int> pole_pairs;
+  std::optional<int> pole_pairs;       ///< of a turning motor
+  std::optional<double> pole_pitch_m;  ///< of a linear one
+  /// Electrical radians per mechanical one, or per metre: p, pi/tau.
+  std::optional<double> electrical_per_mechanical() const {
+    if (pole_pitch_m) return base::pi / *pole_pitch_m;
+    return pole_pairs ? std::optional<double>(*pole_pairs) : std::nullopt;
+  }
   std::optional<double> nominal_voltage_V;
   std::optional<Constant> R_ohm;     ///< per phase
   std::optional<Constant> L_H;       ///< per phase, L - M
   std::optional<Constant> K_e_V_s;   ///< peak phase EMF per mechanical rad/s
   std::optional<Constant> K_t_Nm_A;  ///< terminal, sector mean
   std::optional<Constant> J_kg_m2;
+  std::optional<Constant>
+      J_of_body_kg_m2;  ///< by the rotor's measures, given beside a printed one or in its place
   double K_e_relative_doubt = 0.0;
   std::vector<OtherWay> other_ways;
   Friction friction;

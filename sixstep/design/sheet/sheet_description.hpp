@@ -4,24 +4,9 @@
 #include "sixstep/base/describe.hpp"
 #include "sixstep/design/sheet/sheet.hpp"
 #include "sixstep/design/sheet/sheet_spellings.hpp"
+#include "sixstep/design/sheet/winding_description.hpp"
 
 namespace sixstep::design {
-
-/// The ring motors of telescopes have a hundred pole pairs.
-inline constexpr int most_pole_pairs = 500, most_turns = 100'000;
-
-/// Of the back-EMF; what lies above is noise of a measurement.
-inline constexpr int highest_order = 23;
-
-inline constexpr base::Choice<BackEmfShape> back_emf_choices[] = {
-    {"trapezoid", BackEmfShape::trapezoid, "flat top of width flat_deg, linear ramps between"},
-    {"sine", BackEmfShape::sine, "one sine per electrical turn"},
-};
-
-inline constexpr base::Choice<WindingConnection> connection_choices[] = {
-    {"star", WindingConnection::star, "the phases meet in a point that is not led out"},
-    {"delta", WindingConnection::delta, "the phases lie between the terminals, and a current may run round"},
-};
 
 template <class Visitor>
 void describe_words(Visitor& v, Sheet& s) {
@@ -37,81 +22,6 @@ void describe_words(Visitor& v, Sheet& s) {
 }
 
 template <class Visitor>
-void describe_winding(Visitor& v, Sheet& s) {
-  v.value("pole_pairs", s.pole_pairs,
-          {.meaning = "electrical turns per turn of the shaft: half the number of magnet poles",
-           .range = base::between(1, most_pole_pairs),
-           .also = spellings::pole_pairs});
-  v.value("poles", s.poles,
-          {.meaning = "number of magnet poles, instead of pole_pairs",
-           .range = base::between(2, 2 * most_pole_pairs)});
-  v.value("winding", s.winding, {.meaning = "teeth and magnet poles as 12N14P, instead of pole_pairs"});
-  v.choice("back_emf", s.back_emf, back_emf_choices,
-           {.meaning = "shape of the back-EMF over the electrical angle"});
-  v.value("flat_deg", s.flat_deg,
-          {.meaning = "width of the trapezoid's flat top, electrical",
-           .unit = "deg",
-           .range = base::strictly_between(0, 180),
-           .cure = "an ideal six-step motor has 120"});
-  v.value(
-      "harmonic_orders", s.harmonic_orders,
-      {.meaning =
-           "odd harmonics of the back-EMF beside the sine, 3 to 23, with harmonic_sizes; back_emf = \"sine\""});
-  v.value("harmonic_sizes", s.harmonic_sizes,
-          {.meaning = "their amplitudes as parts of the sine's, cos n (theta - 60 deg)",
-           .range = base::between(-1, 1)});
-  v.choice("connection", s.connection, connection_choices, {.meaning = "how the three phases are connected"});
-  v.value("mutual_inductance_mH", s.mutual_inductance_mH,
-          {.meaning = "delta: mutual inductance of two branches, negative as a rule",
-           .unit = "mH",
-           .range = base::between(-1e3, 1e3)});
-  v.value("phase_resistance_deviation", s.phase_resistance_deviation,
-          {.meaning = "star: by how much the resistances of phases a, b, c stray, as parts of the mean",
-           .range = base::strictly_between(-1, 1)});
-  v.value("phase_back_emf_deviation", s.phase_back_emf_deviation,
-          {.meaning = "star: by how much the back-EMF constants of a, b, c stray, as parts of the mean",
-           .range = base::strictly_between(-1, 1)});
-  v.value("cogging_orders", s.cogging_orders,
-          {.meaning =
-               "periods of the cogging torque per turn of the shaft: the least common multiple of slots and "
-               "poles, and its multiples"});
-  v.value("cogging_mNm", s.cogging_mNm, {.meaning = "amplitudes of the cogging torque", .unit = "mNm"});
-  v.value("cogging_phase_deg", s.cogging_phase_deg,
-          {.meaning = "their phases, sin(order theta + phase); without it 0", .unit = "deg"});
-  v.quantity("nominal_voltage_V", s.nominal_voltage_V,
-             {.meaning = "voltage the sheet's other values belong to",
-              .unit = "V",
-              .frame = "terminal",
-              .range = base::above(0),
-              .also = spellings::nominal_voltage});
-  v.quantity("resistance_ohm", s.resistance_ohm,
-             {.meaning = "winding resistance, between two terminals or of one phase of the star",
-              .unit = "ohm",
-              .frame = "terminal|phase",
-              .range = base::above(0),
-              .also = spellings::resistance});
-  v.quantity("inductance_mH", s.inductance_mH,
-             {.meaning = "winding inductance, between two terminals or of one phase of the star (L - M)",
-              .unit = "mH",
-              .frame = "terminal|phase",
-              .range = base::above(0),
-              .also = spellings::inductance});
-  v.quantity("d_axis_inductance_mH", s.d_axis_inductance_mH,
-             {.meaning = "inductance of one phase along the magnets, L_d; with q_axis_inductance_mH instead "
-                         "of inductance_mH",
-              .unit = "mH",
-              .frame = "phase",
-              .range = base::above(0),
-              .also = spellings::d_axis_inductance});
-  v.quantity("q_axis_inductance_mH", s.q_axis_inductance_mH,
-             {.meaning = "inductance of one phase across the magnets, L_q",
-              .unit = "mH",
-              .frame = "phase",
-              .range = base::above(0),
-              .also = spellings::q_axis_inductance});
-}
-
-template <class Visitor>
 void describe_torque_constant(Visitor& v, Sheet& s) {
   v.quantity("torque_constant_mNm_A", s.torque_constant_mNm_A,
              {.meaning = "torque per ampere through the driven pair, mean over a sector",
@@ -119,22 +29,26 @@ void describe_torque_constant(Visitor& v, Sheet& s) {
               .frame = "terminal",
               .range = base::above(0),
               .also = spellings::torque_constant});
-  v.quantity("back_emf_mV_s", s.back_emf_mV_s,
-             {.meaning = "peak of one phase's back-EMF per mechanical rad/s, instead of the torque constant",
-              .unit = "mV s",
-              .frame = "phase",
-              .range = base::above(0)});
+  v.quantity(
+      "back_emf_mV_s", s.back_emf_mV_s,
+      {.meaning = "peak of one phase's back-EMF per mechanical rad/s, instead of the torque constant; of a "
+                  "table what its values are multiplied with",
+       .unit = "mV s",
+       .frame = "phase",
+       .range = base::above(0)});
   v.quantity("torque_constant_Nm_A", s.torque_constant_Nm_A,
              {.meaning = "torque per ampere: through the driven pair (terminal), of the q axis (peak), or of "
                          "a sine in each phase (rms)",
               .unit = "Nm/A",
               .frame = "terminal|peak|rms",
-              .range = base::above(0)});
+              .range = base::above(0),
+              .also = spellings::torque_per_A});
   v.quantity("back_emf_constant_V_krpm", s.back_emf_constant_V_krpm,
              {.meaning = "back-EMF per 1000 rpm, between two terminals or of one phase, peak or rms",
               .unit = "V/krpm",
               .frame = "line-peak|line-rms|phase-peak|phase-rms",
-              .range = base::above(0)});
+              .range = base::above(0),
+              .also = spellings::back_emf_per_speed});
   v.quantity("flux_linkage_mWb", s.flux_linkage_mWb,
              {.meaning = "flux of the magnets through one phase, peak of its fundamental, as a drive's "
                          "set-up identifies it",
@@ -177,13 +91,45 @@ void describe_mechanics(Visitor& v, Sheet& s) {
               .also = spellings::inertia_with_brake});
   v.value("with_brake", s.with_brake,
           {.meaning = "whether the motor carries the holding brake, so that inertia_with_brake_gcm2 counts"});
+  v.choice("rotor", s.rotor, rotor_choices,
+           {.meaning = "what turns, for an inertia from the rotor's measures: J = pi/2 rho l (r^4 - r_i^4)"});
+  v.quantity("rotor_radius_mm", s.rotor_radius_mm,
+             {.meaning = "outer radius r of what turns; with rotor_length_mm the inertia where none is given",
+              .unit = "mm",
+              .range = base::above(0)});
+  v.quantity("rotor_inner_radius_mm", s.rotor_inner_radius_mm,
+             {.meaning = "inner radius r_i of what turns: an outer rotor's, or a hollow inner one's",
+              .unit = "mm",
+              .range = base::above(0)});
+  v.quantity("rotor_length_mm", s.rotor_length_mm,
+             {.meaning = "length l of what turns, along the shaft", .unit = "mm", .range = base::above(0)});
+  v.quantity("rotor_density_kg_m3", s.rotor_density_kg_m3,
+             {.meaning = "density rho of what turns; without it 7850, as steel has",
+              .unit = "kg/m3",
+              .range = base::above(0)});
   v.quantity("viscous_friction_Nm_s", s.viscous_friction_Nm_s,
              {.meaning = "friction torque per rad/s; without it all of the no-load loss is taken as viscous",
               .unit = "N m s",
-              .range = base::from(0)});
+              .range = base::from(0),
+              .also = spellings::viscous});
+  v.quantity("coulomb_friction_mNm", s.coulomb_friction_mNm,
+             {.meaning = "friction torque that does not depend on speed",
+              .unit = "mNm",
+              .range = base::from(0),
+              .also = spellings::coulomb});
   v.quantity(
-      "coulomb_friction_mNm", s.coulomb_friction_mNm,
-      {.meaning = "friction torque that does not depend on speed", .unit = "mNm", .range = base::from(0)});
+      "iron_viscous_Nm_s", s.iron_viscous_Nm_s,
+      {.meaning = "drag of the iron per rad/s, its eddy currents, beside the bearings' viscous_friction_Nm_s",
+       .unit = "N m s",
+       .range = base::from(0),
+       .also = spellings::iron_viscous});
+  v.quantity(
+      "iron_coulomb_mNm", s.iron_coulomb_mNm,
+      {.meaning = "drag of the iron that does not depend on speed, its hysteresis, beside the bearings' "
+                  "coulomb_friction_mNm",
+       .unit = "mNm",
+       .range = base::from(0),
+       .also = spellings::iron_coulomb});
 }
 
 template <class Visitor>
@@ -213,7 +159,10 @@ void describe_no_load(Visitor& v, Sheet& s) {
        .frame = "terminal",
        .range = base::above(0)});
   v.quantity("second_no_load_speed_rpm", s.second_no_load_speed_rpm,
-             {.meaning = "speed without load at the second voltage", .unit = "rpm", .range = base::above(0)});
+             {.meaning = "speed without load at the second voltage",
+              .unit = "rpm",
+              .range = base::above(0),
+              .also = spellings::second_no_load_speed});
   v.quantity("second_no_load_current_mA", s.second_no_load_current_mA,
              {.meaning = "current drawn without load at the second voltage",
               .unit = "mA",
@@ -301,6 +250,11 @@ void describe_thermal(Visitor& v, Sheet& s) {
               .unit = "degC",
               .range = base::above(0),
               .also = spellings::winding_temperature});
+  v.value("magnet_loss_percent_K", s.magnet_loss_percent_K,
+          {.meaning =
+               "back-EMF that the magnets lose per kelvin above 25 degC: NdFeB 0.12, SmCo 0.04, ferrite 0.2",
+           .unit = "percent/K",
+           .range = base::between(0, 1)});
 }
 
 template <class Visitor>

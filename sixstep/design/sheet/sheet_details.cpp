@@ -2,6 +2,7 @@
 // What a sheet says of its winding beside R, L and K_t: harmonics, delta, phases that stray, cogging.
 #include <cmath>
 
+#include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/design/sheet/sheet_reader.hpp"
 
@@ -22,7 +23,9 @@ void read_harmonics(SheetReader& reader) {
         "write harmonic_orders = [3, 5] and harmonic_sizes = [0.12, -0.05]");
   if (s.harmonic_orders.empty()) return;
   if (s.back_emf != BackEmfShape::sine)
-    reader.problem("harmonic_orders", "", "go beside a sine, and back_emf is a trapezoid",
+    reader.problem("harmonic_orders", "",
+                   s.back_emf == BackEmfShape::table ? "go beside a sine, and back_emf is a table"
+                                                     : "go beside a sine, and back_emf is a trapezoid",
                    "write back_emf = \"sine\"");
   if (s.harmonic_orders.size() > most_harmonics)
     reader.problem("harmonic_orders", std::to_string(s.harmonic_orders.size()) + " values",
@@ -33,6 +36,17 @@ void read_harmonics(SheetReader& reader) {
                      "even ones are not there where north and south poles are alike");
       return;
     }
+}
+
+/// The lists of a table, where there is to be none.
+void read_table_keys(SheetReader& reader) {
+  const Sheet& s = reader.sheet;
+  if (s.back_emf == BackEmfShape::table) return;  // read_shape_table() has looked
+  const char* key = !s.back_emf_file.empty()        ? "back_emf_file"
+                    : !s.back_emf_angle_deg.empty() ? "back_emf_angle_deg"
+                    : !s.back_emf_shape.empty()     ? "back_emf_shape"
+                                                    : nullptr;
+  if (key) reader.problem(key, "", "is of a table, and back_emf is none", "write back_emf = \"table\"");
 }
 
 void read_deviations(SheetReader& reader) {
@@ -70,6 +84,9 @@ void read_delta(SheetReader& reader) {
   if (s.d_axis_inductance_mH || s.q_axis_inductance_mH)
     reader.problem("d_axis_inductance_mH", "", "is of a star's phases, and connection is \"delta\"",
                    "give inductance_mH between two terminals");
+  if (s.saturation_current_A)
+    reader.problem("saturation_current_A", base::written(s.saturation_current_A->value),
+                   "is of a star's phases, and connection is \"delta\"", "leave it away");
 }
 
 void read_cogging(SheetReader& reader, std::optional<int> pole_pairs) {
@@ -87,7 +104,12 @@ void read_cogging(SheetReader& reader, std::optional<int> pole_pairs) {
     reader.problem("cogging_orders", count + " values", "must be at most " + std::to_string(most_cogging),
                    "keep the largest");
   for (const double order : s.cogging_orders)
-    if (!is_whole(order) || (pole_pairs && std::fmod(order, 2.0 * *pole_pairs) != 0.0)) {
+    if (s.kind == MotorKind::linear && (!is_whole(order) || std::fmod(order, 2.0) != 0.0)) {
+      reader.problem("cogging_orders", base::written(order),
+                     "must be an even number: periods per two pole pitches",
+                     "the magnets' pull is alike under north and south");
+      return;
+    } else if (!is_whole(order) || (pole_pairs && std::fmod(order, 2.0 * *pole_pairs) != 0.0)) {
       reader.problem("cogging_orders", base::written(order),
                      "must be a multiple of the number of poles" +
                          (pole_pairs ? ", " + std::to_string(2 * *pole_pairs) : std::string()),
@@ -98,8 +120,31 @@ void read_cogging(SheetReader& reader, std::optional<int> pole_pairs) {
 
 }  // namespace
 
+bool is_salient(const Sheet& s) {
+  return s.d_axis_inductance_mH && s.q_axis_inductance_mH && !s.inductance_mH &&
+         s.d_axis_inductance_mH->value != s.q_axis_inductance_mH->value;
+}
+
+std::string left_to_a_run(const Sheet& s) {
+  std::vector<std::string> parts;
+  if (s.back_emf == BackEmfShape::table) parts.push_back("the back-EMF as a table");
+  if (!s.harmonic_orders.empty()) parts.push_back("the harmonics of the back-EMF");
+  if (s.connection == WindingConnection::delta) parts.push_back("the loop current of the delta");
+  if (is_salient(s)) parts.push_back("the saliency of the rotor");
+  if (s.saturation_current_A) parts.push_back("the saturation along the magnets");
+  if (!s.phase_resistance_deviation.empty() || !s.phase_back_emf_deviation.empty())
+    parts.push_back("phases that stray");
+  if (!s.cogging_orders.empty()) parts.push_back("cogging");
+  std::string text;
+  for (std::size_t n = 0; n < parts.size(); ++n)
+    text += (n == 0 ? "" : n + 1 == parts.size() ? " and " : ", ") + parts[n];
+  return text;
+}
+
 void read_details(SheetReader& reader) {
+  if (reader.sheet.saturation_current_A) reader.use("saturation_current_A");
   read_harmonics(reader);
+  read_table_keys(reader);
   read_deviations(reader);
   read_delta(reader);
   read_cogging(reader, reader.out.pole_pairs);

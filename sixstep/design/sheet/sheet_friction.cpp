@@ -56,22 +56,36 @@ void read_split(SheetReader& reader, const Point& first) {
   f.split_coulomb_Nm = T_c;
 }
 
-/// What is given stands; the rest is left to the no-load loss.
-void choose(SheetReader& reader, const std::optional<Point>& point) {
+/// The iron's own keys, and the bearings' dry friction: given, and part of the sum whatever the rest is.
+void add_given(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   Friction& f = reader.out.friction;
-  if (s.coulomb_friction_mNm)
-    f.coulomb_Nm = SheetReader::not_negative(*s.coulomb_friction_mNm, -3).value_or(0.0);
-  if (s.coulomb_friction_mNm) reader.use("coulomb_friction_mNm");
-  if (s.viscous_friction_Nm_s) {
-    f.B_Nm_s = SheetReader::not_negative(*s.viscous_friction_Nm_s).value_or(0.0);
-    f.from = "viscous_friction_Nm_s as written";
-    return reader.use("viscous_friction_Nm_s");
-  }
-  if (!point) {
-    f.from = s.coulomb_friction_mNm ? "coulomb_friction_mNm alone" : "no friction: the sheet is silent";
-    return;
-  }
+  const auto take = [&reader](const std::optional<Quantity>& q, std::string_view key, int ten) {
+    if (q) reader.use(key);
+    return q ? SheetReader::not_negative(*q, ten).value_or(0.0) : 0.0;
+  };
+  f.iron.coulomb_Nm = take(s.iron_coulomb_mNm, "iron_coulomb_mNm", -3);
+  f.iron.B_Nm_s = take(s.iron_viscous_Nm_s, "iron_viscous_Nm_s", 0);
+  f.coulomb_Nm = take(s.coulomb_friction_mNm, "coulomb_friction_mNm", -3) + f.iron.coulomb_Nm;
+}
+
+/// Nothing is negative: what the iron takes of a sum that was measured is at most the sum.
+void check_iron(SheetReader& reader) {
+  const Friction& f = reader.out.friction;
+  const auto beyond = [&](const char* key, double part, double sum, const char* unit) {
+    if (part <= sum * (1 + 1e-12)) return;
+    reader.problem(key, base::written(part),
+                   "exceeds the friction that the no-load points leave for it, " + rounded(sum) + " " + unit,
+                   "lower it, or give viscous_friction_Nm_s of the bearings");
+  };
+  beyond("iron_coulomb_mNm", f.iron.coulomb_Nm * 1e3, f.coulomb_Nm * 1e3, "mNm");
+  beyond("iron_viscous_Nm_s", f.iron.B_Nm_s, f.B_Nm_s, "Nm s");
+}
+
+/// B = (K_t I_0 - T_c)/w_0 of the one point, or both by two.
+void take_from_points(SheetReader& reader, const Point& point) {
+  const Sheet& s = reader.sheet;
+  Friction& f = reader.out.friction;
   reader.use("no_load_current_mA");
   if (s.no_load_speed_rpm) reader.use("no_load_speed_rpm");
   if (f.split_viscous_Nm_s && !s.coulomb_friction_mNm) {
@@ -81,14 +95,37 @@ void choose(SheetReader& reader, const std::optional<Point>& point) {
     reader.use("second_no_load_current_mA");
     return reader.use(s.second_no_load_speed_rpm ? "second_no_load_speed_rpm" : "second_no_load_voltage_V");
   }
-  if (f.coulomb_Nm > point->loss_Nm && point->loss_Nm > 0.0)
+  if (f.coulomb_Nm > point.loss_Nm && point.loss_Nm > 0.0)
     return reader.problem(
-        "coulomb_friction_mNm", base::written(f.coulomb_Nm * 1e3),
-        "exceeds the loss at no load, K_t I_0 = " + base::written(point->loss_Nm * 1e3) + " mNm",
+        s.coulomb_friction_mNm ? "coulomb_friction_mNm" : "iron_coulomb_mNm",
+        base::written(f.coulomb_Nm * 1e3),
+        "exceeds the loss at no load, K_t I_0 = " + base::written(point.loss_Nm * 1e3) + " mNm",
         "lower it, or give viscous_friction_Nm_s");
-  if (point->loss_Nm > 0.0) f.B_Nm_s = (point->loss_Nm - f.coulomb_Nm) / point->speed_rad_s;
-  f.from = point->printed_speed ? "the no-load point, B = (K_t I_0 - T_c)/w_0"
-                                : "the no-load current, B = (K_t I_0 - T_c)/w_0 with w_0 = (U - R I_0)/K_t";
+  if (point.loss_Nm > 0.0) f.B_Nm_s = (point.loss_Nm - f.coulomb_Nm) / point.speed_rad_s;
+  f.from = point.printed_speed ? "the no-load point, B = (K_t I_0 - T_c)/w_0"
+                               : "the no-load current, B = (K_t I_0 - T_c)/w_0 with w_0 = (U - R I_0)/K_t";
+}
+
+/// What is given stands; the rest is left to the no-load loss.
+void choose(SheetReader& reader, const std::optional<Point>& point) {
+  const Sheet& s = reader.sheet;
+  Friction& f = reader.out.friction;
+  const bool iron = f.iron.B_Nm_s > 0.0 || f.iron.coulomb_Nm > 0.0;
+  if (s.viscous_friction_Nm_s) {
+    f.B_Nm_s = SheetReader::not_negative(*s.viscous_friction_Nm_s).value_or(0.0) + f.iron.B_Nm_s;
+    f.from = SheetReader::key_of("viscous_friction_Nm_s", *s.viscous_friction_Nm_s) + " as written" +
+             (iron ? ", and the iron's" : "");
+    return reader.use("viscous_friction_Nm_s");
+  }
+  if (point) {
+    take_from_points(reader, *point);
+    return check_iron(reader);
+  }
+  f.B_Nm_s = f.iron.B_Nm_s;
+  f.from = iron ? "the iron's alone" : "no friction: the sheet is silent";
+  if (s.coulomb_friction_mNm)
+    f.from = SheetReader::key_of("coulomb_friction_mNm", *s.coulomb_friction_mNm) +
+             (iron ? " and the iron's" : " alone");
 }
 
 }  // namespace
@@ -105,6 +142,7 @@ void read_friction(SheetReader& reader) {
     f.all_coulomb_Nm = point->loss_Nm;
     read_split(reader, *point);
   }
+  add_given(reader);
   choose(reader, point);
 }
 

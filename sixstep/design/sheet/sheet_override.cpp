@@ -22,6 +22,11 @@ constexpr std::array<std::string_view, 3> inductance_keys = {"inductance_mH", "d
                                                              "q_axis_inductance_mH"};
 constexpr std::array<std::string_view, 4> geometry_keys = {"flux_density_T", "active_length_mm",
                                                            "air_gap_radius_mm", "turns_in_series"};
+constexpr std::array<std::string_view, 2> inertia_keys = {"inertia_gcm2", "inertia_with_brake_gcm2"};
+constexpr std::array<std::string_view, 4> body_keys = {"rotor_radius_mm", "rotor_inner_radius_mm",
+                                                       "rotor_length_mm", "rotor_density_kg_m3"};
+constexpr std::array<std::string_view, 2> shape_lists = {"back_emf_angle_deg", "back_emf_shape"};
+constexpr std::array<std::string_view, 1> shape_file = {"back_emf_file"};
 constexpr std::array<std::string_view, 3> pole_keys = {"pole_pairs", "poles", "winding"};
 
 /// Visits a sheet and clears those of the keys that the override leaves alone.
@@ -37,6 +42,9 @@ class Forget {
     if (stale(key)) member.reset();
   }
   void value(std::string_view key, std::string& member, const base::About&) {
+    if (stale(key)) member.clear();
+  }
+  void value(std::string_view key, std::vector<double>& member, const base::About&) {
     if (stale(key)) member.clear();
   }
   template <class T>
@@ -65,6 +73,11 @@ void drop_stale(Sheet& sheet, const std::function<bool(std::string_view key)>& o
   if (!geometry && any(torque_keys)) forget(geometry_keys);
   if (any(inductance_keys)) forget(inductance_keys);
   if (any(pole_keys)) forget(pole_keys);
+  const bool body = any(body_keys);
+  if (body) forget(inertia_keys);
+  if (!body && any(inertia_keys)) forget(body_keys);
+  if (any(shape_file)) forget(shape_lists);
+  if (any(shape_lists)) forget(shape_file);
 }
 
 }  // namespace sixstep::design

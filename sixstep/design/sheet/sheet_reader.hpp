@@ -53,7 +53,13 @@ struct FrameMeaning {
 void unknown_frame(SheetReader& reader, std::string_view key, const base::Quantity& q,
                    std::span<const FrameMeaning> candidates, const std::string& hint = "");
 
+/// The factors of back_emf = "table"; nothing where the lists make none, which is noted.
+std::optional<ShapeFactors> read_shape_table(SheetReader& reader);
+
+/// tau of a linear motor, m; of a turning one its pole pairs. What is of the other kind is noted.
+std::optional<double> read_pole_pitch(SheetReader& reader);
 std::optional<int> read_pole_pairs(SheetReader& reader);
+void read_inertia(SheetReader& reader);
 void read_torque_constant(SheetReader& reader);
 void read_friction(SheetReader& reader);
 void read_details(SheetReader& reader);

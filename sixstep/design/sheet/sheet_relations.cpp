@@ -5,6 +5,8 @@
 #include <string_view>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/linear.hpp"
+#include "sixstep/design/sheet/sheet_check.hpp"
 
 namespace sixstep::design {
 namespace {
@@ -49,9 +51,8 @@ class Relations {
     if (c_.R_ohm && s_.resistance_ohm) R_ = Term{2.0 * c_.R_ohm->value, relative_doubt(*s_.resistance_ohm)};
     if (c_.K_t_Nm_A) K_t_ = Term{c_.K_t_Nm_A->value, c_.K_e_relative_doubt};
     if (c_.nominal_voltage_V) U_ = exact(*c_.nominal_voltage_V);
-    if (c_.J_kg_m2)
-      J_ = Term{c_.J_kg_m2->value,
-                relative_doubt(s_.with_brake ? *s_.inertia_with_brake_gcm2 : *s_.inertia_gcm2)};
+    const std::optional<Quantity>& inertia = s_.with_brake ? s_.inertia_with_brake_gcm2 : s_.inertia_gcm2;
+    if (c_.J_kg_m2) J_ = Term{c_.J_kg_m2->value, inertia ? relative_doubt(*inertia) : body_doubt()};
     stall_ = term(s_.stall_current_A);
     if (!stall_ && U_ && R_) stall_ = *U_ / *R_;
     idle_ = term(s_.no_load_current_mA, 1e-3);
@@ -64,6 +65,9 @@ class Relations {
     nominal();
     dynamics();
     winding();
+    body();
+    if (s_.kind == MotorKind::linear)
+      for (Relation& r : found_) in_metres(r);
     return std::move(found_);
   }
 
@@ -71,6 +75,17 @@ class Relations {
   static std::optional<Term> term(const std::optional<Quantity>& q, double unit = 1.0) {
     if (!q || !(q->value > 0.0)) return {};
     return Term{q->value * unit, relative_doubt(*q)};
+  }
+
+  /// In the words and units of a linear motor; the deviation is what it was.
+  static void in_metres(Relation& r) {
+    const base::LinearUnit unit = base::in_linear(r.unit);
+    r.name = base::linear_words(r.name);
+    r.left_words = base::linear_words(r.left_words);
+    r.right_words = base::linear_words(r.right_words);
+    r.unit = unit.linear;
+    r.left *= unit.factor;
+    r.right *= unit.factor;
   }
 
   /// `below` and `above` widen what rounding allows.
@@ -178,6 +193,29 @@ class Relations {
     if (const std::optional<Term> printed = term(s_.speed_torque_gradient_rpm_mNm))
       add("speed/torque gradient", "R / k_M^2", "speed/torque gradient", steepness * (rpm_per_rad_s * 1e-3),
           *printed, "rpm/mNm");
+  }
+
+  /// Of the rotor's measures, as r^4 - r_i^4 has them.
+  double body_doubt() const {
+    const auto doubt = [](const std::optional<Quantity>& q) { return q ? relative_doubt(*q) : 0.0; };
+    const double r = s_.rotor_radius_mm ? s_.rotor_radius_mm->value : 0.0;
+    const double r_i = s_.rotor_inner_radius_mm ? s_.rotor_inner_radius_mm->value : 0.0;
+    const double part = r > 0.0 ? r_i * r_i * r_i * r_i / (r * r * r * r) : 0.0;
+    const double radii =
+        part < 1.0 ? 4 * (doubt(s_.rotor_radius_mm) + part * doubt(s_.rotor_inner_radius_mm)) / (1 - part)
+                   : 0.0;
+    return radii + doubt(s_.rotor_length_mm) + doubt(s_.rotor_density_kg_m3);
+  }
+
+  /// The printed inertia against that of the measures.
+  void body() {
+    if (!c_.J_of_body_kg_m2 || !s_.inertia_gcm2 || !J_) return;
+    const Term printed{s_.inertia_gcm2->value, relative_doubt(*s_.inertia_gcm2)};
+    Relation& r =
+        add("inertia", s_.rotor_inner_radius_mm ? "pi/2 rho l (r^4 - r_i^4)" : "pi/2 rho l r^4", "inertia",
+            Term{c_.J_of_body_kg_m2->value * 1e7, body_doubt()}, printed, "g cm2", body_margin, body_margin);
+    if (r.verdict == RelationVerdict::broken && std::abs(r.left / r.right / 16.0 - 1.0) < 0.3)
+      r.remark = "a factor 16: a diameter for the radius?";
   }
 
   /// A contradiction is a Problem long before; that both agree is worth a line.

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The other keys of a motor file: the numbered lines of maxon's sheets, and the same value in another unit.
 #pragma once
+#include "sixstep/base/angle.hpp"
 #include "sixstep/base/describe.hpp"
 
 namespace sixstep::design::spellings {
 
 using base::Spelling;
+
+/// A linear motor's word.
+constexpr Spelling linear(std::string_view key, std::string_view unit, int ten = 0, double factor = 1.0) {
+  return {.key = key, .ten = ten, .unit = unit, .factor = factor, .linear = true};
+}
+constexpr double rpm_per_rad_s = 30.0 / base::pi;
 
 /// A line of maxon's sheets, whose numbers and frames have stayed the same over the years.
 constexpr Spelling line(std::string_view key, std::string_view source, std::string_view frame = "") {
@@ -13,23 +20,23 @@ constexpr Spelling line(std::string_view key, std::string_view source, std::stri
 }
 
 inline constexpr Spelling nominal_voltage[] = {line("line_1_nominal_voltage_V", "data sheet, line 1")};
-inline constexpr Spelling no_load_speed[] = {line("line_2_no_load_speed_rpm", "data sheet, line 2")};
+inline constexpr Spelling no_load_speed[] = {line("line_2_no_load_speed_rpm", "data sheet, line 2"),
+                                             linear("no_load_speed_m_s", "m/s", 0, rpm_per_rad_s)};
 inline constexpr Spelling no_load_current[] = {
     line("line_3_no_load_current_mA", "data sheet, line 3"),
     {.key = "idle_current_A", .ten = 3, .unit = "A"},
 };
 inline constexpr Spelling no_load_voltage[] = {{.key = "idle_voltage_V"}};
-inline constexpr Spelling nominal_speed[] = {line("line_4_nominal_speed_rpm", "data sheet, line 4")};
-inline constexpr Spelling nominal_torque[] = {
-    line("line_5_nominal_torque_mNm", "data sheet, line 5"),
-    {.key = "nominal_torque_Nm", .ten = 3, .unit = "Nm"},
-};
+inline constexpr Spelling nominal_speed[] = {line("line_4_nominal_speed_rpm", "data sheet, line 4"),
+                                             linear("nominal_speed_m_s", "m/s", 0, rpm_per_rad_s)};
+inline constexpr Spelling nominal_torque[] = {line("line_5_nominal_torque_mNm", "data sheet, line 5"),
+                                              {.key = "nominal_torque_Nm", .ten = 3, .unit = "Nm"},
+                                              linear("nominal_force_N", "N", 3)};
 inline constexpr Spelling nominal_current[] = {
     line("line_6_nominal_current_A", "data sheet, line 6", "terminal")};
-inline constexpr Spelling stall_torque[] = {
-    line("line_7_stall_torque_mNm", "data sheet, line 7"),
-    {.key = "stall_torque_Nm", .ten = 3, .unit = "Nm"},
-};
+inline constexpr Spelling stall_torque[] = {line("line_7_stall_torque_mNm", "data sheet, line 7"),
+                                            {.key = "stall_torque_Nm", .ten = 3, .unit = "Nm"},
+                                            linear("stall_force_N", "N", 3)};
 inline constexpr Spelling stall_current[] = {line("line_8_stall_current_A", "data sheet, line 8")};
 inline constexpr Spelling max_efficiency[] = {line("line_9_max_efficiency_percent", "data sheet, line 9")};
 inline constexpr Spelling resistance[] = {
@@ -50,11 +57,10 @@ inline constexpr Spelling speed_torque_gradient[] = {
     line("line_14_speed_torque_gradient_rpm_mNm", "data sheet, line 14")};
 inline constexpr Spelling mechanical_time_constant[] = {
     line("line_15_mechanical_time_constant_ms", "data sheet, line 15")};
-inline constexpr Spelling inertia[] = {
-    line("line_16_rotor_inertia_gcm2", "data sheet, line 16"),
-    {.key = "inertia_kgcm2", .ten = 3, .unit = "kg cm2"},
-    {.key = "inertia_kgm2", .ten = 7, .unit = "kg m2"},
-};
+inline constexpr Spelling inertia[] = {line("line_16_rotor_inertia_gcm2", "data sheet, line 16"),
+                                       {.key = "inertia_kgcm2", .ten = 3, .unit = "kg cm2"},
+                                       {.key = "inertia_kgm2", .ten = 7, .unit = "kg m2"},
+                                       linear("mass_kg", "kg", 7)};
 inline constexpr Spelling inertia_with_brake[] = {
     {.key = "inertia_with_brake_kgcm2", .ten = 3, .unit = "kg cm2"},
     {.key = "inertia_with_brake_kgm2", .ten = 7, .unit = "kg m2"},
@@ -70,7 +76,18 @@ inline constexpr Spelling motor_time[] = {
     line("line_20_thermal_time_constant_motor_s", "data sheet, line 20")};
 inline constexpr Spelling winding_temperature[] = {
     line("line_22_max_winding_temperature_degC", "data sheet, line 22")};
-inline constexpr Spelling max_speed[] = {line("line_23_max_speed_rpm", "data sheet, line 23")};
+inline constexpr Spelling max_speed[] = {line("line_23_max_speed_rpm", "data sheet, line 23"),
+                                         linear("max_speed_m_s", "m/s", 0, rpm_per_rad_s)};
+
+inline constexpr Spelling second_no_load_speed[] = {
+    linear("second_no_load_speed_m_s", "m/s", 0, rpm_per_rad_s)};
+inline constexpr Spelling torque_per_A[] = {linear("force_constant_N_A", "N/A")};
+inline constexpr Spelling back_emf_per_speed[] = {linear("back_emf_V_s_m", "V s/m", 0, 1e3 / rpm_per_rad_s)};
+inline constexpr Spelling viscous[] = {linear("viscous_friction_N_s_m", "N s/m")};
+inline constexpr Spelling coulomb[] = {linear("coulomb_friction_N", "N", 3)};
+inline constexpr Spelling iron_viscous[] = {linear("iron_viscous_N_s_m", "N s/m")};
+inline constexpr Spelling iron_coulomb[] = {linear("iron_coulomb_N", "N", 3)};
+inline constexpr Spelling cogging[] = {linear("cogging_N", "N", 3)};
 
 inline constexpr Spelling pole_pairs[] = {line("line_29_number_of_pole_pairs", "data sheet, line 29")};
 

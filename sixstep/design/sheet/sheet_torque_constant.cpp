@@ -28,30 +28,30 @@ struct Way {
   std::string_view key;
   const std::optional<Quantity> Sheet::*member;
   std::array<std::string_view, 4> frames;  // empty ones at the end
-  Constants (*read)(double value, std::string_view frame, const ShapeFactors& f, int pole_pairs);
+  Constants (*read)(double value, std::string_view frame, const ShapeFactors& f, double pole_pairs);
 };
 
 Constants by_K_t(double K_t, const ShapeFactors& f) { return {K_t / f.sector_mean, K_t}; }
 Constants by_K_e(double K_e, const ShapeFactors& f) { return {K_e, K_e * f.sector_mean}; }
 
 /// A q-axis current of peak I makes the torque (3/2) K_e1 I, K_e1 the fundamental's peak; rms is peak/sqrt 2.
-Constants by_torque(double value, std::string_view frame, const ShapeFactors& f, int) {
+Constants by_torque(double value, std::string_view frame, const ShapeFactors& f, double) {
   if (frame == "terminal") return by_K_t(value, f);
   const double peak = frame == "rms" ? value / std::sqrt(2.0) : value;
   return by_K_e(2.0 * peak / (3.0 * f.fundamental), f);
 }
 
 /// 1000 rpm are 104.72 rad/s.
-Constants by_volts(double value, std::string_view frame, const ShapeFactors& f, int) {
+Constants by_volts(double value, std::string_view frame, const ShapeFactors& f, double) {
   const double factor = frame == "line-peak"   ? f.line_peak
                         : frame == "line-rms"  ? f.line_rms
                         : frame == "phase-rms" ? f.phase_rms
-                                               : 1.0;
+                                               : f.phase_peak;
   return by_K_e(value / (1000.0 * base::pi / 30.0) / factor, f);
 }
 
 /// Six-step: the mean voltage of the driven pair, K_t = 9.5493/KV. Line-peak: the crest between terminals.
-Constants by_speed(double value, std::string_view frame, const ShapeFactors& f, int) {
+Constants by_speed(double value, std::string_view frame, const ShapeFactors& f, double) {
   const double V_s = 30.0 / base::pi / value;
   return frame == "six-step" ? by_K_t(V_s, f) : by_K_e(V_s / f.line_peak, f);
 }
@@ -60,13 +60,13 @@ constexpr Way ways[] = {
     {"torque_constant_mNm_A",
      &Sheet::torque_constant_mNm_A,
      {"terminal"},
-     [](double v, std::string_view, const ShapeFactors& f, int) {
+     [](double v, std::string_view, const ShapeFactors& f, double) {
        return by_K_t(base::times_ten_to(v, milli), f);
      }},
     {"back_emf_mV_s",
      &Sheet::back_emf_mV_s,
      {"phase"},
-     [](double v, std::string_view, const ShapeFactors& f, int) {
+     [](double v, std::string_view, const ShapeFactors& f, double) {
        return by_K_e(base::times_ten_to(v, milli), f);
      }},
     {"torque_constant_Nm_A", &Sheet::torque_constant_Nm_A, {"terminal", "peak", "rms"}, by_torque},
@@ -77,7 +77,7 @@ constexpr Way ways[] = {
     {"flux_linkage_mWb",
      &Sheet::flux_linkage_mWb,
      {"phase"},
-     [](double v, std::string_view, const ShapeFactors& f, int p) {
+     [](double v, std::string_view, const ShapeFactors& f, double p) {
        return by_K_e(p * base::times_ten_to(v, milli) / f.fundamental, f);
      }},
     {"speed_constant_rpm_V", &Sheet::speed_constant_rpm_V, {"six-step", "line-peak"}, by_speed},
@@ -85,7 +85,7 @@ constexpr Way ways[] = {
 
 /// The frame to read in; nothing where it is missing or wrong, which is noted.
 std::optional<std::string_view> frame_of(SheetReader& reader, const Way& way, const Quantity& q,
-                                         int pole_pairs) {
+                                         double pole_pairs) {
   if (way.frames[1].empty()) {
     if (q.frame.empty() || q.frame == way.frames[0]) return way.frames[0];
     reader.problem(SheetReader::key_of(way.key, q), "frame \"" + q.frame + "\"",
@@ -156,8 +156,9 @@ std::vector<Read> read_all(SheetReader& reader) {
     const std::optional<Quantity>& q = reader.sheet.*way.member;
     if (!q || !SheetReader::positive(*q)) continue;
     const bool by_flux = way.key == "flux_linkage_mWb";
-    if (by_flux && !reader.out.pole_pairs) continue;
-    const int p = reader.out.pole_pairs.value_or(1);
+    const std::optional<double> pairs = reader.out.electrical_per_mechanical();
+    if (by_flux && !pairs) continue;
+    const double p = pairs.value_or(1.0);
     const std::optional<std::string_view> frame = frame_of(reader, way, *q, p);
     if (!frame) continue;
     reads.push_back({way.key, way.read(q->value, *frame, reader.out.shape, p), relative_doubt(*q),

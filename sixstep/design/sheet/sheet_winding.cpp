@@ -81,8 +81,30 @@ void compare(SheetReader& reader, int pole_pairs, int other, const std::string& 
 
 }  // namespace
 
+std::optional<double> read_pole_pitch(SheetReader& reader) {
+  const Sheet& s = reader.sheet;
+  if (s.kind == MotorKind::rotary) {
+    if (s.pole_pitch_mm)
+      reader.problem("pole_pitch_mm", base::written(s.pole_pitch_mm->value),
+                     "is a linear motor's, and kind is \"rotary\"", "write kind = \"linear\", or pole_pairs");
+    return {};
+  }
+  for (const auto& [key, given] : {std::pair{"pole_pairs", s.pole_pairs.has_value()},
+                                   {"poles", s.poles.has_value()},
+                                   {"winding", !s.winding.empty()}})
+    if (given)
+      reader.problem(key, "", "is a turning motor's, and kind is \"linear\"", "give pole_pitch_mm instead");
+  if (!s.pole_pitch_mm) {
+    reader.missing("pole_pitch_mm", "give the way from one pole of the magnets to the next");
+    return {};
+  }
+  reader.use("pole_pitch_mm");
+  return SheetReader::positive(*s.pole_pitch_mm, -3);
+}
+
 std::optional<int> read_pole_pairs(SheetReader& reader) {
   const Sheet& s = reader.sheet;
+  if (s.kind == MotorKind::linear) return {};
   if (s.pole_pairs && (*s.pole_pairs < 1 || *s.pole_pairs > most_pole_pairs)) {
     reader.problem("pole_pairs", std::to_string(*s.pole_pairs),
                    *s.pole_pairs < 1 ? "must be at least 1" : too_many,

@@ -5,20 +5,12 @@
 #include <cmath>
 #include <string>
 
-#include "sixstep/base/elementary.hpp"
+#include "sixstep/plant/two_bodies.hpp"
 
 namespace sixstep::design {
 namespace {
 
-/// x' = A x + b for the temperatures above ambient, x = (winding, housing).
-struct Network {
-  double a_ww, a_wh, a_hw, a_hh;  ///< 1/s; a_wh and a_hw are positive
-  double b_w, b_h;                ///< K/s
-
-  double determinant() const { return a_ww * a_hh - a_wh * a_hw; }
-};
-
-Network network(const ThermalModel& m, const Heating& h) {
+plant::TwoBodies network(const ThermalModel& m, const Heating& h) {
   const double per_C_w = m.winding_housing_K_W / m.winding_s, per_C_h = m.housing_ambient_K_W / m.motor_s;
   const double across = 1 / m.winding_housing_K_W, out = 1 / m.housing_ambient_K_W;
   const double cold = h.copper_W * (1 + copper_per_K * (h.ambient_degC - sheet_degC));
@@ -28,12 +20,6 @@ Network network(const ThermalModel& m, const Heating& h) {
           -(across + out) * per_C_h,
           cold * per_C_w,
           h.housing_W * per_C_h};
-}
-
-/// (exp(x) - 1)/x; below 2^-7 by its series, whose seventh term is below 2^-53 there.
-double grown(double x) {
-  if (std::fabs(x) >= 0x1p-7) return (base::exp(x) - 1) / x;
-  return 1 + x / 2 * (1 + x / 3 * (1 + x / 4 * (1 + x / 5 * (1 + x / 6 * (1 + x / 7)))));
 }
 
 double winding_after(const ThermalModel& m, const Heating& h, double seconds) {
@@ -53,6 +39,15 @@ double threshold(double low, double high, Reached&& reached) {
 }
 
 }  // namespace
+
+MotorModel warmed(MotorModel m, const Sheet& s, const Temperatures& t) {
+  const double emf = on_K_e(s, t);
+  m.machine.R_ohm *= on_R(t);
+  m.machine.K_e_V_s *= emf;
+  m.K_e_V_s *= emf;
+  m.K_t_Nm_A *= emf;
+  return m;
+}
 
 base::Result<ThermalModel> thermal_model(const Sheet& s) {
   ThermalModel m;
@@ -81,32 +76,20 @@ base::Result<ThermalModel> thermal_model(const Sheet& s) {
 }
 
 std::optional<Temperatures> steady_temperatures(const ThermalModel& m, const Heating& h) {
-  const Network n = network(m, h);
-  // Both eigenvalues are real (a_wh a_hw > 0) and negative just where the determinant is positive and the
+  const plant::TwoBodies n = network(m, h);
+  // Both eigenvalues are real (wh hw > 0) and negative just where the determinant is positive and the
   // trace is not: otherwise heat grows faster with temperature than it leaves.
-  if (!(n.determinant() > 0 && n.a_ww + n.a_hh < 0)) return {};
-  const double winding = (n.a_wh * n.b_h - n.a_hh * n.b_w) / n.determinant();
-  const double housing = (n.a_hw * n.b_w - n.a_ww * n.b_h) / n.determinant();
+  if (!(n.determinant() > 0 && n.ww + n.hh < 0)) return {};
+  const double winding = (n.wh * n.b_h - n.hh * n.b_w) / n.determinant();
+  const double housing = (n.hw * n.b_w - n.ww * n.b_h) / n.determinant();
   return Temperatures{h.ambient_degC + winding, h.ambient_degC + housing};
 }
 
-/// x(t) = x_0 + (integral of exp(A s) over 0..t) (A x_0 + b): the initial slope split into the eigenvectors
-/// (a_wh, lambda - a_ww), each grown by (exp(lambda t) - 1)/lambda. Holds for every sign of lambda.
 Temperatures temperatures_after(const ThermalModel& m, const Heating& h, const Temperatures& start,
                                 double t) {
-  const Network n = network(m, h);
-  const double w = start.winding_degC - h.ambient_degC, v = start.housing_degC - h.ambient_degC;
-  const double slope_w = n.a_ww * w + n.a_wh * v + n.b_w, slope_h = n.a_hw * w + n.a_hh * v + n.b_h;
-  const double half = (n.a_ww - n.a_hh) / 2, root = std::sqrt(half * half + n.a_wh * n.a_hw);
-  const double mean = (n.a_ww + n.a_hh) / 2;
-  // lambda - a_ww = -half +- root; of the two the one without cancellation gives the other by their product.
-  const double steep = half > 0 ? -half - root : -half + root, other = -n.a_wh * n.a_hw / steep;
-  const double up = half > 0 ? other : steep, down = half > 0 ? steep : other;
-  const double part_up = (slope_h - slope_w / n.a_wh * down) / (up - down);
-  const double part_down = slope_w / n.a_wh - part_up;
-  const double grown_up = t * grown((mean + root) * t), grown_down = t * grown((mean - root) * t);
-  return {start.winding_degC + n.a_wh * (part_up * grown_up + part_down * grown_down),
-          start.housing_degC + up * part_up * grown_up + down * part_down * grown_down};
+  const plant::BodyTemperatures end = plant::after(
+      network(m, h), {start.winding_degC - h.ambient_degC, start.housing_degC - h.ambient_degC}, t);
+  return {h.ambient_degC + end.winding, h.ambient_degC + end.housing};
 }
 
 std::optional<double> permissible_seconds(const ThermalModel& m, const Heating& h) {
@@ -120,11 +103,15 @@ std::optional<double> permissible_seconds(const ThermalModel& m, const Heating& 
   return threshold(0.0, late, [&](double t) { return winding_after(m, h, t) >= m.max_winding_degC; });
 }
 
-double continuous_copper_W(const ThermalModel& m, double housing_W, double ambient_degC) {
+Temperatures at_the_limit(const ThermalModel& m, double housing_W, double ambient_degC) {
   const double above = m.max_winding_degC - ambient_degC;
   const double across = 1 / m.winding_housing_K_W, out = 1 / m.housing_ambient_K_W;
-  const double housing = (above * across + housing_W) / (across + out);
-  const double hot = (above - housing) * across;
+  return {m.max_winding_degC, ambient_degC + (above * across + housing_W) / (across + out)};
+}
+
+double continuous_copper_W(const ThermalModel& m, double housing_W, double ambient_degC) {
+  const Temperatures limit = at_the_limit(m, housing_W, ambient_degC);
+  const double hot = (limit.winding_degC - limit.housing_degC) / m.winding_housing_K_W;
   return hot > 0 ? hot / (1 + copper_per_K * (m.max_winding_degC - sheet_degC)) : 0.0;
 }
 

@@ -7,13 +7,14 @@
 //
 // A given current heats more the warmer its copper is; the equations stay linear all the same, so that the
 // balance needs no iteration and the answer is two exponentials, also where the current is so high that it
-// never comes to rest. Left out: magnets weaken with temperature, iron losses, and a stator that is cooled by
-// its mounting plate better than the sheet's R_ha says.
+// never comes to rest. The magnets are as warm as the housing, K_e(T_h) = K_e (1 - b (T_h - 25)). Left out: a stator that is cooled
+// by its mounting plate better than the sheet's R_ha says.
 #pragma once
+#include <cmath>
 #include <optional>
 
 #include "sixstep/base/result.hpp"
-#include "sixstep/design/sheet/sheet.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
 
 namespace sixstep::design {
 
@@ -30,8 +31,16 @@ struct ThermalModel {
 base::Result<ThermalModel> thermal_model(const Sheet& sheet);
 
 struct Temperatures {
-  double winding_degC = 0.0, housing_degC = 0.0;
+  double winding_degC = sheet_degC, housing_degC = sheet_degC;
 };
+
+/// What temperatures make of a winding's R and of the magnets' K_e and K_t: factors on what the sheet gives at sheet_degC.
+inline double on_R(const Temperatures& t) { return 1 + copper_per_K * (t.winding_degC - sheet_degC); }
+/// Magnets have no less than nothing left.
+inline double on_K_e(const Sheet& s, const Temperatures& t) {
+  return std::fmax(0.0, 1 - 1e-2 * s.magnet_loss_percent_K * (t.housing_degC - sheet_degC));
+}
+MotorModel warmed(MotorModel motor, const Sheet& sheet, const Temperatures& t);
 
 /// What heats, constant over time, and the air around.
 struct Heating {
@@ -50,6 +59,9 @@ Temperatures temperatures_after(const ThermalModel& model, const Heating& heatin
 /// How long a motor at ambient temperature may be heated so until its winding reaches the limit, s: empty for
 /// ever, 0 where the air is that warm already.
 std::optional<double> permissible_seconds(const ThermalModel& model, const Heating& heating);
+
+/// Where the motor is that its winding takes to its limit in the end: the housing's own heat beside it.
+Temperatures at_the_limit(const ThermalModel& model, double housing_W, double ambient_degC);
 
 /// The copper loss at sheet_degC, W, that takes the winding to its limit: for ever, or from ambient
 /// temperature just after `seconds`. 0 where the housing's heat alone does.

@@ -14,10 +14,6 @@ class Audit {
   const Laws& laws() const { return laws_; }
 
  private:
-  struct Sum {
-    Real value = 0, low = 0;
-    void add(Real by) { series::add_compensated(value, low, by); }
-  };
   struct Stored {
     Real field = 0, moving = 0;
   };
@@ -29,7 +25,7 @@ class Audit {
   bool begun_ = false;
   Real noise_ = 0, moved_ = 0;
   Stored start_, end_;
-  Sum supplied_, copper_, devices_, air_gap_, friction_, load_, cogging_;
+  series::CompensatedSum<Real> supplied_, copper_, devices_, air_gap_, friction_, load_, cogging_;
   Laws laws_;
 };
 

@@ -9,52 +9,107 @@ namespace sixstep::plant::general {
 
 inline constexpr std::size_t most_rotations = 12;
 
+/// A torque over the load's speed between two of its points: now + rise w, N m.
+template <class Real>
+struct TorquePiece {
+  Real from = 0, to = 0;  ///< rad/s of the load
+  Real now = 0, rise = 0;
+};
+
+/// The open-circuit voltage over the charge between two of its points: now + rise q, V.
+template <class Real>
+struct ChargePiece {
+  Real from = 0, to = 0;
+  Real now = 0, rise = 0;
+};
+
+/// lambda_d = L_d i_d (1 - i_d/(2 I_sat)), lambda_q = L_q i_q.
+template <class Real>
+struct Axes {
+  Real L_d = 0, L_q = 0, inv_I_sat = 0;
+  std::size_t rotation = 0;  ///< that of order 1
+};
+
 template <class Real>
 struct Constants {
   // Star equivalent: phases of R and L; the delta's loop has its own.
   PerLeg<Real> R{};
-  Real L = 0, inv_L = 0, L_D = 0;  ///< L_S of the salient machine, (L_d - L_q)/2
-  bool salient = false, has_loop = false;
+  Real L = 0, inv_L = 0;
+  bool has_axes = false, has_loop = false;
+  Axes<Real> axes;
   Real loop_R = 0, loop_inv_L = 0;
   ShapeTable<Real> shape;
-  std::size_t rotations = 0, salient_rotation = 0;
+  std::size_t rotations = 0;
   Real pole_pairs = 1;
-  // Shaft; elastic: the motor's side alone.
-  Real inv_J = 0, B = 0, coulomb = 0, breakaway = 0, inv_gear = 1;
-  bool elastic = false, dry_friction = false, locked = false;
-  Real load_inv_J = 0, load_B = 0, stiffness = 0, damping = 0;
-  Real load = 0, fan = 0, gravity = 0, gravity_angle = 0;
+  // Shaft; inv_J and B: rigid with the load's, elastic the motor's side alone.
+  Real inv_J = 0, B = 0, coulomb = 0, breakaway = 0, gear = 1, inv_gear = 1;
+  Real J_1 = 0, B_1 = 0, efficiency = 1;
+  bool elastic = false, dry_friction = false, locked = false, imposed = false;
+  Real load_J = 0, load_inv_J = 0, load_B = 0, stiffness = 0, damping = 0;
+  Real load_rate = 0, speed_rate = 0;  ///< of the load's torque and of an imposed speed, per s
+  Real fan = 0, gravity = 0, gravity_angle = 0;
+  std::vector<TorquePiece<Real>> over_speed;
   // Bridge.
   general::Devices devices;
-  PoleTable<Real> poles;
+  PerLeg<PoleTable<Real>> poles;  ///< channels that are not equally warm are not alike
+
+  const PoleTerms<Real>& terms(std::size_t leg, Connection at) const {
+    return poles[leg][static_cast<std::size_t>(at)];
+  }
 
   // Supply.
-  Real V_0 = 0, R_b = 0, inv_R_b = 0, inv_L_b = 0, inv_C = 0;
+  Source source = Source::steady;
+  Real V_0 = 0, R_b = 0, inv_R_b = 0, inv_L_b = 0, inv_C = 0, R_C = 0;
   bool source_sinks = true;
+  Real sink = 0;  ///< what it takes back at most where it does not sink without bound, A
   Real brake_conductance = 0, brake_on = 0, brake_off = 0;
+  std::vector<ChargePiece<Real>> open_circuit;
+  Real inv_capacity = 0, inv_R_1 = 0, inv_C_1 = 0;
+  Real mains_peak = 0, mains_drop = 0, mains_rate = 0,
+       mains_edge = 0;  ///< rate: rad/s; edge: of a pulse, rad
   // What rounding is.
   Real volt_scale = 0, amp_scale = 0, speed_scale = 0, torque_scale = 0;
+  Real per_amp = 0, per_speed = 0;  ///< of their scales
   Real volt_noise = 0, amp_noise = 0, speed_noise = 0, torque_noise = 0;
   Real steady_rate = 0, turning_rate = 0;  ///< 1/s, and 1/s per mechanical rad/s
+
+  bool lossy_gear() const { return efficiency < 1; }
+  bool speed_is_given() const { return imposed && !elastic; }
 };
 
-/// Beside plant::State: the delta's loop, the source's current, the load's side.
+/// Beside plant::State, whose bus is U_s: the delta's loop, the source, the load's side.
 template <class Real>
 struct More {
-  Real loop = 0, loop_low = 0;      ///< j_ab + j_bc + j_ca, A
-  Real source = 0, source_low = 0;  ///< through L_b, A
-  Real load_w = 0, load_w_low = 0;  ///< elastic: rad/s
-  Real twist = 0, twist_low = 0;    ///< elastic: theta_m/n - theta_load, rad
+  using Kept = series::CompensatedSum<Real>;
+  Kept loop;       ///< j_ab + j_bc + j_ca, A
+  Kept source;     ///< through L_b, A
+  Kept load_w;     ///< elastic: rad/s
+  Kept twist;      ///< elastic: theta_m/n - theta_load, rad
+  Kept load;       ///< the torque that the load's constant, steps and ramps ask for at present, N m
+  Kept capacitor;  ///< v_C where the capacitor has a resistance, V
+  Kept charge;     ///< of a battery, of the whole
+  Kept slow;       ///< v_1 of a battery, V
+  Kept phase;      ///< of the mains, from the top of its present pulse, rad
 };
+
+template <class Real, class Visit>
+void for_each_kept(const More<Real>& m, Visit&& visit) {
+  for (const typename More<Real>::Kept* kept :
+       {&m.loop, &m.source, &m.load_w, &m.twist, &m.load, &m.capacitor, &m.charge, &m.slow, &m.phase})
+    visit(*kept);
+}
 
 /// plant::Mode's members, and what only this kernel decides.
 struct Mode {
   Legs legs{};
   Motion motion = Motion::free;
-  bool source_feeds = true;
-  std::uint8_t sector = 0, piece = 0;
-  bool braking = false;       ///< the brake resistor is on
-  std::int8_t load_sign = 1;  ///< of the load's speed, for what grows with w|w|
+  bool source_feeds = true;  ///< false: at the limit of what it takes back
+  std::uint8_t sector = 0;
+  std::uint16_t piece = 0;       ///< of a table there are many
+  bool braking = false;          ///< the brake resistor is on
+  std::int8_t load_sign = 1;     ///< of the load's speed, for what grows with w|w|
+  std::int8_t through_sign = 1;  ///< of the torque through a lossy gear
+  std::uint8_t load_piece = 0, charge_piece = 0;
   bool operator==(const Mode&) const = default;
 };
 
@@ -67,8 +122,12 @@ struct Series {
   PerLeg<Coefficients> emf;
   Coefficients loop, source, load_w, twist;
   Coefficients load, cogging;       ///< torques: the load's at its side, the cogging one at the motor's
-  Coefficients shaft;               ///< torque that holds against the breakaway one, at rest
+  Coefficients through;             ///< lossy gear: the torque that it hands on, at the load's side
+  Coefficients forward, backward;   ///< torque that pushes against what holds at rest, either way
   Coefficients turn_cos, turn_sin;  ///< of the load's angle, for gravity
+  Coefficients open;                ///< the source's V_0
+  Coefficients capacitor, capacitor_A, charge, slow, phase, mains_cos, mains_sin;
+  Coefficients d, q;  ///< currents along the magnet's axes, where those have laws of their own
   std::array<Coefficients, most_rotations> cos, sin;
 };
 

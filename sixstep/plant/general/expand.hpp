@@ -24,7 +24,19 @@ void rotation_at(int order, const State<Real>& s, int sector, Real& cos, Real& s
 template <class Real>
 Real load_angle(const Constants<Real>& c, const State<Real>& s, const More<Real>& m) {
   const Real rotor = (Real(s.sector) * Real(base::sector_rad) + s.x) / c.pole_pairs;
-  return c.inv_gear * rotor - m.twist;
+  return c.inv_gear * rotor - m.twist.value;
+}
+
+template <class Real>
+void begin_supply(const Constants<Real>& c, const More<Real>& m, Series<Real>& z) {
+  z.capacitor[0] = m.capacitor.value;
+  z.charge[0] = m.charge.value;
+  z.slow[0] = m.slow.value;
+  if (c.source != Source::single_phase && c.source != Source::three_phase) return;
+  const base::SinCos at = base::sin_cos(static_cast<double>(m.phase.value));
+  z.phase[0] = m.phase.value;
+  z.mains_cos[0] = Real(at.cos);
+  z.mains_sin[0] = Real(at.sin);
 }
 
 template <class Real>
@@ -34,10 +46,11 @@ void begin(const Constants<Real>& c, const State<Real>& s, const More<Real>& m, 
   y.w[0] = turns(mode.motion) ? s.w : Real(0);
   y.x[0] = s.x;
   y.bus[0] = s.bus;
-  z.loop[0] = m.loop;
-  z.source[0] = mode.source_feeds ? m.source : Real(0);
-  z.load_w[0] = m.load_w;
-  z.twist[0] = m.twist;
+  z.loop[0] = m.loop.value;
+  z.source[0] = mode.source_feeds ? m.source.value : -c.sink;
+  z.load_w[0] = m.load_w.value;
+  z.twist[0] = m.twist.value;
+  begin_supply(c, m, z);
   for (std::size_t r = 0; r < c.rotations; ++r)
     rotation_at(c.shape.rotations[r].order, s, mode.sector, z.cos[r][0], z.sin[r][0]);
   if (c.gravity != 0) {
@@ -47,25 +60,61 @@ void begin(const Constants<Real>& c, const State<Real>& s, const More<Real>& m, 
   }
 }
 
-/// How far term n stands above the rounding level of its state, all together; 1 = at it.
+/// What follows from the states has no term of the last order.
 template <class Real>
-Real size_of(const Constants<Real>& c, const Expansion<Real>& y, const Series<Real>& z, int n) {
+void end(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
+  const int n = y.degree;
+  for (auto* of :
+       {&y.torque, &z.forward, &z.backward, &z.through, &z.load, &z.cogging, &z.open, &z.capacitor_A})
+    (*of)[n] = 0;
+  for (int k = 0; k < 3; ++k) z.pole[k][n] = z.emf[k][n] = 0;
+  if (!(c.inv_L_b > 0)) z.source[n] = 0;
+  if (c.R_C > 0) y.bus[n] = 0;
+  if (!c.elastic) z.load_w[n] = c.inv_gear * y.w[n];
+}
+
+/// Of a plain star on a stiff bus, with a trapezoid and a rigid shaft, currents and speed are all that moves.
+template <class Real>
+bool moves_more(const Constants<Real>& c) {
+  return c.inv_C > 0 || c.inv_L_b > 0 || c.has_loop || c.elastic || c.mains_peak > 0 || c.rotations > 0 ||
+         c.gravity != 0;
+}
+
+/// What size_of() adds for all else.
+template <class Real>
+[[gnu::noinline]] Real size_of_more(const Constants<Real>& c, const Expansion<Real>& y, const Series<Real>& z,
+                                    int n) {
   using plant::detail::abs;
-  Real size = (abs(y.i[0][n]) + abs(y.i[1][n]) + abs(y.i[2][n])) / c.amp_scale + abs(y.w[n]) / c.speed_scale;
-  if (c.inv_C > 0) size += abs(y.bus[n]) / c.volt_scale;
+  Real size = 0;
+  if (c.inv_C > 0) size += abs((c.R_C > 0 ? z.capacitor : y.bus)[n]) / c.volt_scale;
   if (c.inv_L_b > 0) size += abs(z.source[n]) / c.amp_scale;
   if (c.has_loop) size += abs(z.loop[n]) / c.amp_scale;
   if (c.elastic) size += abs(z.load_w[n]) / c.speed_scale + abs(z.twist[n]) * c.stiffness / c.torque_scale;
+  if (c.source == Source::battery) size += abs(z.charge[n]) + abs(z.slow[n]) / c.volt_scale;
+  if (c.mains_peak > 0) size += abs(z.mains_cos[n]) + abs(z.mains_sin[n]);
   for (std::size_t r = 0; r < c.rotations; ++r) size += abs(z.cos[r][n]) + abs(z.sin[r][n]);
   if (c.gravity != 0) size += abs(z.turn_cos[n]) + abs(z.turn_sin[n]);
+  return size;
+}
+
+/// How far term n stands above the rounding level of its state, all together; 1 = at it. `more`: of moves_more().
+template <class Real>
+[[gnu::always_inline]] inline Real size_of(const Constants<Real>& c, const Expansion<Real>& y,
+                                           const Series<Real>& z, int n, bool more) {
+  using plant::detail::abs;
+  Real size = (abs(y.i[0][n]) + abs(y.i[1][n]) + abs(y.i[2][n])) * c.per_amp + abs(y.w[n]) * c.per_speed;
+  if (more) size += size_of_more(c, y, z, n);
   return size * terms_per_scale<Real>;
 }
 
 template <class Real, class Visit>
 void for_each_series(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z, Visit&& visit) {
   for (int k = 0; k < 3; ++k) visit(y.i[k]), visit(z.pole[k]), visit(z.emf[k]);
-  for (auto* of : {&y.w, &y.x, &y.bus, &y.torque, &z.shaft, &z.loop, &z.source, &z.load_w, &z.twist, &z.load,
-                   &z.cogging, &z.turn_cos, &z.turn_sin})
+  for (auto* of :
+       {&y.w,         &y.x,           &y.bus,    &y.torque, &z.forward, &z.backward,  &z.through,   &z.loop,
+        &z.source,    &z.load_w,      &z.twist,  &z.load,   &z.cogging, &z.turn_cos,  &z.turn_sin,  &z.open,
+        &z.capacitor, &z.capacitor_A, &z.charge, &z.slow,   &z.phase,   &z.mains_cos, &z.mains_sin, &z.d,
+        &z.q})
     visit(*of);
   for (std::size_t r = 0; r < c.rotations; ++r) visit(z.cos[r]), visit(z.sin[r]);
 }
@@ -74,7 +123,8 @@ void for_each_series(const Constants<Real>& c, Expansion<Real>& y, Series<Real>&
 template <class Real>
 void shorten(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
   int halvings = 0;
-  Real last = size_of(c, y, z, y.degree), before = size_of(c, y, z, y.degree - 1);
+  const bool more = moves_more(c);
+  Real last = size_of(c, y, z, y.degree, more), before = size_of(c, y, z, y.degree - 1, more);
   for (; (last > 1 || before > 1) && halvings < plant::detail::most_halvings; ++halvings) {
     for (int j = 0; j < y.degree; ++j) last /= 2;
     for (int j = 0; j < y.degree - 1; ++j) before /= 2;
@@ -88,53 +138,65 @@ void shorten(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
   y.h *= half;
 }
 
+/// x_(n+1) = p h w_n/(n + 1): behind its first term at most half of p h times the speed's own way.
 template <class Real>
-void note_reach(Expansion<Real>& y) {
-  for (int k = 0; k < 3; ++k) y.reach_i[k] = series::tail_bound(y.i[k], y.degree);
+[[gnu::always_inline]] inline void note_reach(const Constants<Real>& c, const Mode& mode,
+                                              Expansion<Real>& y) {
+  for (std::size_t k = 0; k < 3; ++k)
+    y.reach_i[k] = is_floating(mode.legs[k]) ? Real(0) : series::tail_bound(y.i[k], y.degree);
   y.reach_w = series::tail_bound(y.w, y.degree);
-  y.reach_x = series::tail_bound(y.x, y.degree);
-  y.later_x = y.reach_x - plant::detail::abs(y.x[1]);
+  y.later_x = c.pole_pairs * y.h * y.reach_w / 2;
+  y.reach_x = plant::detail::abs(y.x[1]) + y.later_x;
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void grow(const Constants<Real>& c, const State<Real>& s, const More<Real>& m,
+                                        Mode& mode, Real wanted, Expansion<Real>& y, Series<Real>& z) {
+  y.h = wanted;
+  y.degree = series::max_degree;
+  begin(c, s, m, mode, y, z);
+  ShaftTerms<Real> shaft(c, mode, m.load.value, y, z);
+  Recurrence<Real> recurrence(c, mode, y, z);
+  const bool more = moves_more(c);
+  // From rest and without current some terms are a symmetry's zeros: they say nothing then.
+  const bool from_nothing = s.w == 0 && s.i[0] == 0 && s.i[1] == 0;
+  Real last = 0, before = 0;
+  bool reached = false;
+  for (int n = 0; n < series::max_degree && !reached; ++n) {
+    recurrence.take_order(n, shaft);
+    if (n < 3) continue;
+    before = last;
+    last = size_of(c, y, z, n + 1, more);
+    reached = n >= 5 && last < 8 && before < 4096 && !from_nothing;
+    if (reached) y.degree = n + 1;
+  }
+  end(c, y, z);
+  if (!reached) shorten(c, y, z);
+  note_reach(c, mode, y);
 }
 
 }  // namespace detail
 
 /// Only what begins: terms 0 of voltages and torques, terms 1 of the states.
 template <class Real>
-void expand_first(const Constants<Real>& c, const State<Real>& s, const More<Real>& m, const Mode& mode,
-                  Real h, Expansion<Real>& y, Series<Real>& z) {
+void expand_first(const Constants<Real>& c, const State<Real>& s, const More<Real>& m, Mode& mode, Real h,
+                  Expansion<Real>& y, Series<Real>& z) {
   y.h = h;
   y.degree = 1;
   detail::begin(c, s, m, mode, y, z);
-  Recurrence<Real>(c, mode, y, z).take_order(0);
+  ShaftTerms<Real> shaft(c, mode, m.load.value, y, z);
+  Recurrence<Real>(c, mode, y, z).take_order(0, shaft);
 }
 
 /// The state in the given mode over `wanted` seconds, or over as much of it as full accuracy allows.
 template <class Real>
-void expand(const Constants<Real>& c, const State<Real>& s, const More<Real>& m, const Mode& mode,
-            Real wanted, Expansion<Real>& y, Series<Real>& z) {
-  y.h = wanted;
-  y.degree = series::max_degree;
-  detail::begin(c, s, m, mode, y, z);
-  Recurrence<Real> recurrence(c, mode, y, z);
-  // From rest and without current some terms are a symmetry's zeros: they say nothing then.
-  const bool from_nothing = s.w == 0 && s.i[0] == 0 && s.i[1] == 0;
-  Real last = 0, before = 0;
-  bool reached = false;
-  for (int n = 0; n < series::max_degree && !reached; ++n) {
-    recurrence.take_order(n);
-    if (n < 3) continue;
-    before = last;
-    last = detail::size_of(c, y, z, n + 1);
-    reached = n >= 5 && last < 8 && before < 4096 && !from_nothing;
-    if (reached) y.degree = n + 1;
-  }
-  y.torque[y.degree] = z.shaft[y.degree] = z.load[y.degree] = z.cogging[y.degree] = 0;
-  for (int k = 0; k < 3; ++k) z.pole[k][y.degree] = z.emf[k][y.degree] = 0;
-  if (!(c.inv_L_b > 0)) z.source[y.degree] = 0;
-  if (!c.elastic) z.load_w[y.degree] = c.inv_gear * y.w[y.degree];
-  if (!reached) detail::shorten(c, y, z);
-  detail::note_reach(y);
+void expand(const Constants<Real>& c, const State<Real>& s, const More<Real>& m, Mode& mode, Real wanted,
+            Expansion<Real>& y, Series<Real>& z) {
+  detail::grow(c, s, m, mode, wanted, y, z);
 }
+/// For double it is compiled once, for any x86-64 and for those with AVX (plant/expand.hpp): the same bits.
+void expand(const Constants<double>& c, const State<double>& s, const More<double>& m, Mode& mode,
+            double wanted, Expansion<double>& y, Series<double>& z);
 
 /// `wanted`, or half of the fastest time constant present.
 template <class Real>

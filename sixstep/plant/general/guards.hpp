@@ -4,28 +4,10 @@
 // diodes, for an IGBT with one that of its transistor too (model.md 2).
 #pragma once
 #include "sixstep/plant/general/expand.hpp"
+#include "sixstep/plant/general/leg_ways.hpp"
 #include "sixstep/plant/guards.hpp"
 
 namespace sixstep::plant::general {
-
-/// What a leg without current may become, by its gates: the connection that carries a positive current and the one that
-/// carries a negative one.
-struct Ways {
-  Connection positive = Connection::low_diode, negative = Connection::high_diode;
-};
-inline Ways ways_of(const Devices& devices, bool gate_high, bool gate_low) {
-  if (devices.igbt && gate_high) return {Connection::high_switch, Connection::high_diode};
-  if (devices.igbt && gate_low) return {Connection::low_diode, Connection::low_switch};
-  return {};
-}
-
-/// Whether a connection carries one direction only, and which: 1, -1; 0 for a MOSFET's channel.
-inline int direction_of(const Devices& devices, Connection c) {
-  if (c == Connection::low_diode) return 1;
-  if (c == Connection::high_diode) return -1;
-  if (!devices.igbt || is_floating(c)) return 0;
-  return c == Connection::high_switch ? 1 : -1;
-}
 
 namespace detail {
 
@@ -44,9 +26,6 @@ void leg_guards(const Constants<Real>& c, const Gates& gates, const Mode& mode, 
                 const Expansion<Real>& y, const Series<Real>& z, Real slack, Visit&& visit) {
   const Real noise = c.volt_noise * slack;
   const int connected = connected_count(mode.legs);
-  const auto terms = [&](Connection at) -> const PoleTerms<Real>& {
-    return c.poles[static_cast<std::size_t>(at)];
-  };
   PerLeg<Ways> ways;
   for (unsigned k = 0; k < 3; ++k) ways[k] = ways_of(c.devices, gates.high[k], gates.low[k]);
   if (connected == 0) {
@@ -54,60 +33,109 @@ void leg_guards(const Constants<Real>& c, const Gates& gates, const Mode& mode, 
       for (unsigned k = 0; k < 3; ++k) {
         if (j == k || (dead >> j & 1) != 0 || (dead >> k & 1) != 0) continue;
         // e_j - e_k at most what j's negative way stands above k's positive one.
-        series::Coefficients<Real> g = beyond(terms(ways[j].negative), y, z.pole[j], Real(1));
-        const series::Coefficients<Real> low = beyond(terms(ways[k].positive), y, z.pole[k], Real(-1));
+        series::Coefficients<Real> g = beyond(c.terms(j, ways[j].negative), y, z.pole[j], Real(1));
+        const series::Coefficients<Real> low = beyond(c.terms(k, ways[k].positive), y, z.pole[k], Real(-1));
         for (int n = 0; n <= y.degree; ++n) g[n] += low[n];
         visit(guard::free_star + 3 * static_cast<int>(j) + static_cast<int>(k), g, y.degree, noise);
       }
     return;
   }
+  const auto later = [&](const series::Coefficients<Real>& of) {
+    return series::tail_bound(of, y.degree) - plant::detail::abs(of[1]);
+  };
+  const Real bus_rest = c.inv_C > 0 ? later(y.bus) : Real(0);
   for (unsigned k = 0; k < 3; ++k) {
     if (!is_floating(mode.legs[k]) || (dead >> k & 1) != 0) continue;
-    const int id = static_cast<int>(k);
-    visit(guard::low_rail + id, beyond(terms(ways[k].positive), y, z.pole[k], Real(-1)), y.degree, noise);
-    visit(guard::high_rail + id, beyond(terms(ways[k].negative), y, z.pole[k], Real(1)), y.degree, noise);
+    const auto& u = z.pole[k];
+    const Real rest = later(u) + bus_rest;
+    const auto rail = [&](int id, const PoleTerms<Real>& at, Real sign) {
+      const Real start = sign * (at.bus_share * y.bus[0] + at.offset_V - u[0]),
+                 slope = sign * (at.bus_share * y.bus[1] - u[1]);
+      if (!series::stays_above(start, slope, rest, noise))
+        visit(id + static_cast<int>(k), beyond(at, y, u, sign), y.degree, noise);
+    };
+    rail(guard::low_rail, c.terms(k, ways[k].positive), Real(-1));
+    rail(guard::high_rail, c.terms(k, ways[k].negative), Real(1));
   }
+}
+
+template <class Real, class Visit>
+void friction_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y,
+                     const Series<Real>& z, Real slack, Visit&& visit) {
+  using plant::detail::affine;
+  const Real speed_noise = c.speed_noise * plant::detail::doubt(y.w, slack);
+  if (mode.motion == Motion::forward) visit(guard::standstill, y.w, y.degree, speed_noise);
+  if (mode.motion == Motion::backward)
+    visit(guard::standstill, affine(y.w, y.degree, Real(-1), Real(0)), y.degree, speed_noise);
+  if (mode.motion != Motion::stuck) return;
+  const Real noise = c.torque_noise * slack;
+  visit(guard::breakaway_forward, affine(z.forward, y.degree, Real(-1), c.breakaway), y.degree, noise);
+  visit(guard::breakaway_backward, affine(z.backward, y.degree, Real(1), c.breakaway), y.degree, noise);
+}
+
+/// from <= of <= to, but for the ends of all pieces.
+template <class Real, class Pieces, class Visit>
+void piece_guards(const Pieces& pieces, std::size_t at, const series::Coefficients<Real>& of, int degree,
+                  int up, int down, Real noise, Visit&& visit) {
+  if (at + 1 < pieces.size())
+    visit(up, plant::detail::affine(of, degree, Real(-1), pieces[at].to), degree, noise);
+  if (at > 0) visit(down, plant::detail::affine(of, degree, Real(1), -pieces[at].from), degree, noise);
 }
 
 template <class Real, class Visit>
 void shaft_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, const Series<Real>& z,
                   Real slack, Visit&& visit) {
-  if (c.dry_friction) {
-    const Real speed_noise = c.speed_noise * plant::detail::doubt(y.w, slack);
-    if (mode.motion == Motion::forward) visit(guard::standstill, y.w, y.degree, speed_noise);
-    if (mode.motion == Motion::backward)
-      visit(guard::standstill, plant::detail::affine(y.w, y.degree, Real(-1), Real(0)), y.degree,
-            speed_noise);
-    if (mode.motion == Motion::stuck) {
-      const Real noise = c.torque_noise * slack;
-      visit(guard::breakaway_forward, plant::detail::affine(z.shaft, y.degree, Real(-1), c.breakaway),
-            y.degree, noise);
-      visit(guard::breakaway_backward, plant::detail::affine(z.shaft, y.degree, Real(1), c.breakaway),
-            y.degree, noise);
-    }
-  }
+  using plant::detail::affine;
+  if (c.dry_friction) friction_guards(c, mode, y, z, slack, visit);
+  const Real load_noise = c.speed_noise * c.inv_gear * plant::detail::doubt(z.load_w, slack);
   if (c.fan != 0)
-    visit(guard::load_turns, plant::detail::affine(z.load_w, y.degree, Real(mode.load_sign), Real(0)),
-          y.degree, c.speed_noise * c.inv_gear * plant::detail::doubt(z.load_w, slack));
+    visit(guard::load_turns, affine(z.load_w, y.degree, Real(mode.load_sign), Real(0)), y.degree, load_noise);
+  if (c.lossy_gear())
+    visit(guard::gear_turns, affine(z.through, y.degree, Real(mode.through_sign), Real(0)), y.degree,
+          c.torque_noise * c.gear * slack);
+  if (!c.over_speed.empty())
+    piece_guards(c.over_speed, mode.load_piece, z.load_w, y.degree, guard::faster, guard::slower, load_noise,
+                 visit);
+}
+
+/// Without L_b the current's limit is one of the voltage: V_0 + R_b I_sink.
+template <class Real, class Visit>
+void source_guard(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, const Series<Real>& z,
+                  Real slack, Visit&& visit) {
+  if (mode.source_feeds && c.inv_L_b > 0)
+    return visit(guard::source, plant::detail::affine(z.source, y.degree, Real(1), c.sink), y.degree,
+                 c.amp_noise * plant::detail::doubt(z.source, slack));
+  const Real sign = mode.source_feeds ? 1 : -1;
+  series::Coefficients<Real> above;
+  for (int n = 0; n <= y.degree; ++n) above[n] = sign * (z.open[n] - y.bus[n]);
+  above[0] += sign * c.R_b * c.sink;
+  visit(guard::source, above, y.degree, c.volt_noise * slack);
 }
 
 template <class Real, class Visit>
 void supply_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y,
                    const Series<Real>& z, Real slack, Visit&& visit) {
-  if (!c.source_sinks) {
-    if (mode.source_feeds && c.inv_L_b > 0)
-      visit(guard::source, z.source, y.degree, c.amp_noise * plant::detail::doubt(z.source, slack));
-    else
-      visit(guard::source,
-            mode.source_feeds ? plant::detail::affine(y.bus, y.degree, Real(-1), c.V_0)
-                              : plant::detail::affine(y.bus, y.degree, Real(1), -c.V_0),
-            y.degree, c.volt_noise * slack);
-  }
+  using plant::detail::affine;
+  if (!c.source_sinks) source_guard(c, mode, y, z, slack, visit);
   if (c.brake_conductance > 0)
     visit(guard::brake,
-          mode.braking ? plant::detail::affine(y.bus, y.degree, Real(1), -c.brake_off)
-                       : plant::detail::affine(y.bus, y.degree, Real(-1), c.brake_on),
+          mode.braking ? affine(y.bus, y.degree, Real(1), -c.brake_off)
+                       : affine(y.bus, y.degree, Real(-1), c.brake_on),
           y.degree, c.volt_noise);
+  piece_guards(c.open_circuit, mode.charge_piece, z.charge, y.degree, guard::fuller, guard::emptier,
+               noise_of(Real(1), Real(1)), visit);
+  if (c.mains_peak > 0)
+    visit(guard::pulse, affine(z.phase, y.degree, Real(-1), c.mains_edge), y.degree,
+          noise_of(Real(1), Real(1)));
+}
+
+/// |i_d| <= I_sat/2, beyond which the law of its flux says nothing.
+template <class Real, class Visit>
+void saturation_guards(const Constants<Real>& c, const Expansion<Real>& y, const Series<Real>& z,
+                       Visit&& visit) {
+  const Real most = 1 / (2 * c.axes.inv_I_sat);
+  visit(guard::saturated, plant::detail::affine(z.d, y.degree, Real(-1), most), y.degree, c.amp_noise);
+  visit(guard::saturated + 1, plant::detail::affine(z.d, y.degree, Real(1), most), y.degree, c.amp_noise);
 }
 
 }  // namespace detail
@@ -132,14 +160,17 @@ void mode_guards(const Constants<Real>& c, const Gates& gates, const Mode& mode,
   detail::shaft_guards(c, mode, y, z, slack, visit);
   detail::leg_guards(c, gates, mode, dead, y, z, slack, visit);
   detail::supply_guards(c, mode, y, z, slack, visit);
+  if (c.axes.inv_I_sat > 0) detail::saturation_guards(c, y, z, visit);
 }
 
 /// The rotor stays within the present piece of the back-EMF.
 template <class Real, class Visit>
 void edge_guards(const Piece<Real>& piece, const Expansion<Real>& y, Visit&& visit) {
   const Real noise = noise_of(Real(base::sector_rad), Real(1));
-  visit(guard::edge_ahead, plant::detail::affine(y.x, y.degree, Real(-1), piece.to), y.degree, noise);
-  visit(guard::edge_behind, plant::detail::affine(y.x, y.degree, Real(1), -piece.from), y.degree, noise);
+  if (!series::stays_above(piece.to - y.x[0], -y.x[1], y.later_x, noise))
+    visit(guard::edge_ahead, plant::detail::affine(y.x, y.degree, Real(-1), piece.to), y.degree, noise);
+  if (!series::stays_above(y.x[0] - piece.from, y.x[1], y.later_x, noise))
+    visit(guard::edge_behind, plant::detail::affine(y.x, y.degree, Real(1), -piece.from), y.degree, noise);
 }
 
 }  // namespace sixstep::plant::general

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the general kernel is given (model.md 7 to 9): windings that are not alike, delta, saliency, back-EMF by
-// harmonics or as a table, cogging, an elastic shaft with a load of its own, IGBTs, a supply with an inductance and a brake
-// chopper. SI units. What has its default is not there.
+// What the general kernel is given (model.md 7 to 9): windings that are not alike, delta, saliency, saturation, back-EMF by
+// harmonics or as a table, cogging, gear and elastic shaft with a load of its own, IGBTs, a battery, mains or a source with an
+// inductance, a brake chopper. SI units. What has its default is not there.
 #pragma once
 #include <vector>
 
@@ -28,9 +28,9 @@ struct Shape {
   std::vector<ShapePoint> table{};
 };
 
-/// C sin(order theta_m + phase), N m. order: per mechanical turn, a multiple of the pole pairs.
+/// C sin(order theta_m + phase), N m. order: per mechanical turn, a whole multiple of the pole pairs.
 struct Cogging {
-  int order = 0;
+  double order = 0;
   double torque_Nm = 0.0;
   double phase_rad = 0.0;
 };
@@ -44,11 +44,19 @@ struct Machine {
   double L_H = 0.0;                 ///< star: L_s = L - M; delta: L_x of a branch
   double M_H = 0.0;                 ///< delta: between branches
   double L_d_H = 0.0, L_q_H = 0.0;  ///< star, in place of L_H where both are given
-  int pole_pairs = 1;
+  double saturation_A = 0.0;        ///< I_sat: lambda_d = L_d i_d (1 - i_d/(2 I_sat)); 0: none
+  double pole_pairs = 1;            ///< of a linear motor pi/tau
   Shape shape{};
   std::vector<Cogging> cogging{};
 
-  bool salient() const { return L_d_H > 0.0 && L_q_H > 0.0 && L_d_H != L_q_H; }
+  /// Whether the fluxes of the magnet's two axes follow laws of their own.
+  bool has_axes() const { return L_d_H > 0.0 && L_q_H > 0.0 && (L_d_H != L_q_H || saturation_A > 0.0); }
+};
+
+/// A point of a torque over the load's speed: piecewise linear between, level beyond the ends.
+struct TorquePoint {
+  double speed_rad_s = 0.0;  ///< rising
+  double torque_Nm = 0.0;    ///< positive against forward motion
 };
 
 /// At the load's side of gear and coupling.
@@ -57,17 +65,21 @@ struct Load {
   double fan_Nm_s2 = 0.0;   ///< k w|w|
   double gravity_Nm = 0.0;  ///< k sin(theta - angle)
   double gravity_angle_rad = 0.0;
+  std::vector<TorquePoint> over_speed{};
 };
 
 struct Shaft {
   double J_kg_m2 = 0.0, B_Nm_s = 0.0;  ///< the motor's side
   double coulomb_Nm = 0.0, static_Nm = 0.0;
   double gear = 1.0;  ///< motor turns per load turn
+  double efficiency =
+      1.0;  ///< of the gear, in (0, 1]: the driven side has this part of the driving side's torque
   double load_J_kg_m2 = 0.0, load_B_Nm_s = 0.0;
   double stiffness_Nm = 0.0;  ///< N m/rad at the load's side; 0: rigid
   double damping_Nm_s = 0.0;
   Load load{};
   bool locked = false;
+  bool dynamometer = false;  ///< the load's speed is imposed (set_speed()), its torque a result
 
   bool elastic() const { return stiffness_Nm > 0.0; }
 };
@@ -80,17 +92,43 @@ struct Devices {
   double V_f_V = 0.0, r_d_ohm = 0.0;  ///< diodes
 };
 
-/// source -> R_b (+ L_b) -> C -> bridge; a stiff bus where C is 0.
+/// What the source's open voltage V_0 is over time and charge (model.md 9).
+enum class Source : std::uint8_t { steady, battery, single_phase, three_phase };
+
+/// A point of the open-circuit voltage over the charge: piecewise linear between, its last lines beyond the ends.
+struct ChargePoint {
+  double charge = 0.0;  ///< of the whole, rising
+  double voltage_V = 0.0;
+};
+
+struct Battery {
+  std::vector<ChargePoint> open_circuit{};
+  double capacity_C = 0.0;            ///< the whole charge, A s
+  double R_1_ohm = 0.0, C_1_F = 0.0;  ///< what recovers slowly, in series; 0: none
+  double charge = 1.0;                ///< at the start
+};
+
+/// Behind a bridge of diodes; never sinking.
+struct Mains {
+  double peak_V = 0.0;  ///< single phase: of the line; three: between lines
+  double frequency_Hz = 50.0, diode_drop_V = 0.0;
+};
+
+/// source -> R_b (+ L_b) -> C (+ R_C) -> bridge; a stiff bus where C is 0.
 struct Supply {
-  double V_0_V = 0.0, R_b_ohm = 0.0, L_b_H = 0.0, C_F = 0.0;
+  double V_0_V = 0.0, R_b_ohm = 0.0, L_b_H = 0.0, C_F = 0.0, R_C_ohm = 0.0;
   bool sinks = true;
+  double sink_A = 0.0;     ///< where it does not sink without bound: up to this
   double brake_ohm = 0.0;  ///< across the bus from on_V until off_V; 0: none
   double brake_on_V = 0.0, brake_off_V = 0.0;
+  Source source = Source::steady;
+  Battery battery{};
+  Mains mains{};
 };
 
 /// At rest currents are zero; the load's side begins without twist.
 struct Start {
-  double speed_rad_s = 0.0, angle_rad = 0.0, bus_V = 0.0, source_A = 0.0;
+  double speed_rad_s = 0.0, angle_rad = 0.0, bus_V = 0.0;
 };
 
 }  // namespace sixstep::plant::general

@@ -4,6 +4,7 @@
 #pragma once
 #include <utility>
 
+#include "sixstep/plant/general/heat.hpp"
 #include "sixstep/plant/general/settle.hpp"
 #include "sixstep/plant/plant.hpp"
 
@@ -15,29 +16,53 @@ class Plant {
   using Real = RealType;
 
   Plant(const Machine& machine, const Shaft& shaft, const Devices& devices, const Supply& supply,
-        const Start& start);
+        const Start& start, const HeatGiven& heat = {});
 
-  /// False: both switches of a leg on, a shoot-through; nothing is changed then.
-  bool set_gates(const Gates& gates) {
+  /// False: both switches of a leg would be on, a shoot-through; nothing is changed then.
+  bool set_gates(const Gates& wanted) {
+    const Gates gates{(wanted.high & ~failed_.open.high) | failed_.shorted.high,
+                      (wanted.low & ~failed_.open.low) | failed_.shorted.low};
     if (shoots_through(gates)) return false;
     if (gates == gates_) return true;
     gates_ = gates;
     stale_ = true;
     return true;
   }
-  /// At the load's side.
-  void set_load(double torque_Nm) {
-    constants_.load = static_cast<Real>(torque_Nm);
+  /// At the load's side, growing by `rate` a second.
+  void set_load(double torque_Nm, double rate_Nm_s = 0.0) {
+    more_.load.set(static_cast<Real>(torque_Nm));
+    constants_.load_rate = static_cast<Real>(rate_Nm_s);
     stale_ = true;
   }
+  /// Of a dynamometer, at the load's side, growing by `rate` a second.
+  void set_speed(double speed_rad_s, double rate_rad_s2);
   void set_locked(bool locked);
+  /// Of a steady source.
   void set_source_voltage(double V_0_V);
   void set_source_sinks(bool sinks);
+  /// Copper and magnets at a temperature: factors on what R and K_e were given as. Currents and speed go on.
+  void set_warmth(double on_R, double on_K_e);
+  /// Whether temperatures are simulated: then a control tick that ends a thermal step changes R, K_e and R_on.
+  bool warms() const { return heat_.on(); }
+  void take_thermal_step();
+  const Heat& heat() const { return heat_; }
   /// The wire of leg k breaks: it opens at its current's next zero.
   void break_wire(int k) {
     breaking_ |= 1U << k;
     stale_ = true;
   }
+  /// The switch of leg k, upper or lower, obeys its gate no more: open for ever, its diode staying, or on for ever. The gates
+  /// follow with the next set_gates().
+  void fail_switch(int k, bool high, bool shorted) {
+    Gates& gates = shorted ? failed_.shorted : failed_.open;
+    (high ? gates.high : gates.low).set(static_cast<std::size_t>(k));
+  }
+  /// Wires that are to open and have not yet, as a mask.
+  unsigned breaking() const { return breaking_; }
+  /// Legs whose wire is open, as a mask.
+  unsigned dead() const { return dead_; }
+  /// A current went where the law of saturation says nothing.
+  bool beyond_model() const { return beyond_model_; }
 
   double expand(double wanted);
   template <class Visit>
@@ -64,16 +89,20 @@ class Plant {
   const Piece<Real>& piece() const { return constants_.shape.sector[mode_.sector][mode_.piece]; }
   void set_winding(const Machine& machine);
   void set_shaft(const Shaft& shaft);
+  void set_bridge();
+  void set_load_laws(const Load& load);
   void set_supply(const Supply& supply);
+  void set_source(const Supply& supply);
   void set_scales(Real volt_scale);
   void set_rates();
   void place(const Start& start);
+  void find_pieces();
+  void mode_event(int id);
+  void note_losses(Real s);
   bool resettle(Real wanted, bool& expanded);
   bool settle_fully(Real wanted, bool& expanded);
   void snap();
-  void balance();
   bool pass_edge(bool ahead);
-  void leave_edge(bool ahead);
 
   Constants<Real> constants_;
   State<Real> state_;
@@ -84,12 +113,19 @@ class Plant {
   Series<Real> z_;
   Real slack_ = 1, K_e_ = 0, stiffest_L_ = 0;
   std::int64_t diodes_started_ = 0;
+  struct Failed {
+    Gates open, shorted;
+  };
+  Failed failed_{};
+  Heat heat_;
+  Real cold_R_ = 1, cold_K_e_ = 1;    ///< the factors of set_warmth()
   unsigned dead_ = 0, breaking_ = 0;  ///< legs as masks: the wire is open, and opens at the next zero
-  bool stale_ = true, doubted_ = false;
+  bool stale_ = true, doubted_ = false, beyond_model_ = false;
   int last_event_ = -1;
 };
 
 }  // namespace sixstep::plant::general
 
 #include "sixstep/plant/general/plant_events.hpp"
+#include "sixstep/plant/general/plant_heat.hpp"
 #include "sixstep/plant/general/plant_set_up.hpp"

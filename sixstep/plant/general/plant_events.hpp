@@ -23,7 +23,7 @@ bool Plant<Real>::resettle(Real wanted, bool& expanded) {
       state_.i[k] = state_.i_low[k] = 0;
       dead_ |= 1U << k;
       breaking_ &= ~(1U << k);
-      balance();
+      plant::detail::balance(state_);
     }
   const Question<Real> question{constants_, state_, more_,    gates_, dead_,
                                 breaking_,  wanted, doubted_, slack_};
@@ -59,29 +59,17 @@ void Plant<Real>::snap() {
       i = state_.i_low[k] = 0;
       snapped = true;
     }
-    if (snapped) balance();
+    if (snapped) plant::detail::balance(state_);
   }
   if (c.dry_friction && plant::detail::abs(state_.w) <= c.speed_noise) state_.w = state_.w_low = 0;
-  if (!c.source_sinks && more_.source <= c.amp_noise) more_.source = more_.source_low = 0;
-}
-
-/// After a current was set to zero: one left alone is zero too, two left are one current.
-template <class Real>
-void Plant<Real>::balance() {
-  PerLeg<Real>& i = state_.i;
-  const int zeros = int{i[0] == 0} + int{i[1] == 0} + int{i[2] == 0};
-  if (zeros == 2) i = state_.i_low = {};
-  if (zeros != 1) return;
-  const int zero = i[0] == 0 ? 0 : i[1] == 0 ? 1 : 2;
-  const int j = (zero + 1) % 3, k = (zero + 2) % 3;
-  i[k] = -i[j];
-  state_.i_low[k] = -state_.i_low[j];
+  if (!c.source_sinks && more_.source.value + c.sink <= c.amp_noise) more_.source.set(-c.sink);
 }
 
 template <class Real>
 void Plant<Real>::advance(Real s) {
   using series::add_compensated;
   const auto by = [&](const series::Coefficients<Real>& of) { return series::increment(of, y_.degree, s); };
+  if (heat_.on()) note_losses(s);
   State<Real>& q = state_;
   std::array<int, 3> leg{};
   int connected = 0;
@@ -100,37 +88,73 @@ void Plant<Real>::advance(Real s) {
     add_compensated(q.w, q.w_low, by(y_.w));
     add_compensated(q.x, q.x_low, by(y_.x));
   }
-  if (constants_.inv_C > 0) add_compensated(q.bus, q.bus_low, by(y_.bus));
-  if (constants_.inv_L_b > 0) add_compensated(more_.source, more_.source_low, by(z_.source));
-  if (constants_.has_loop) add_compensated(more_.loop, more_.loop_low, by(z_.loop));
-  if (constants_.elastic) {
-    add_compensated(more_.load_w, more_.load_w_low, by(z_.load_w));
-    add_compensated(more_.twist, more_.twist_low, by(z_.twist));
+  const Constants<Real>& c = constants_;
+  if (c.inv_C > 0 && c.R_C == 0) add_compensated(q.bus, q.bus_low, by(y_.bus));
+  if (c.R_C > 0) {
+    more_.capacitor.add(by(z_.capacitor));
+    q.bus = series::evaluate(y_.bus, y_.degree, s);
   }
+  if (c.inv_L_b > 0) more_.source.add(by(z_.source));
+  if (c.has_loop) more_.loop.add(by(z_.loop));
+  if (c.elastic) {
+    more_.load_w.add(by(z_.load_w));
+    more_.twist.add(by(z_.twist));
+  }
+  if (c.load_rate != 0) more_.load.add(c.load_rate * (y_.h * s));
+  if (c.source == Source::battery) {
+    more_.charge.add(by(z_.charge));
+    more_.slow.add(by(z_.slow));
+  }
+  if (c.mains_peak > 0) more_.phase.add(c.mains_rate * (y_.h * s));
   doubted_ = s == 0;
 }
 
 template <class Real>
 bool Plant<Real>::pass_edge(bool ahead) {
-  const auto pieces = [this] { return constants_.shape.sector[mode_.sector].size(); };
-  const bool leaves = ahead ? mode_.piece + 1u == pieces() : mode_.piece == 0;
-  if (leaves) {
-    state_.sector += ahead ? 1 : -1;
-    mode_.sector = static_cast<std::uint8_t>(sector_in_turn(state_.sector));
-    mode_.piece = static_cast<std::uint8_t>(ahead ? 0 : pieces() - 1);
-  } else {
-    mode_.piece = static_cast<std::uint8_t>(mode_.piece + (ahead ? 1 : -1));
-  }
-  state_.x = ahead ? piece().from : piece().to;
-  state_.x_low = 0;
-  return leaves;
+  const auto& sectors = constants_.shape.sector;
+  return plant::detail::pass_edge(
+      state_, mode_, ahead, [&](std::size_t sector) { return sectors[sector].data(); },
+      [&](std::size_t sector) { return sectors[sector].size(); });
 }
 
-/// plant/plant_events.hpp says why.
+/// What settle() does not seek, and what a source at its limit leaves.
 template <class Real>
-void Plant<Real>::leave_edge(bool ahead) {
-  const Real inside = 4 * noise_of(Real(base::sector_rad), Real(1));
-  state_.x += ahead ? inside : -inside;
+void Plant<Real>::mode_event(int id) {
+  switch (id) {
+    case guard::source:
+      if (constants_.inv_L_b > 0 && mode_.source_feeds) more_.source.set(-constants_.sink);
+      return;
+    case guard::brake:
+      mode_.braking = !mode_.braking;
+      return;
+    case guard::load_turns:
+      mode_.load_sign = static_cast<std::int8_t>(-mode_.load_sign);
+      return;
+    case guard::gear_turns:
+      mode_.through_sign = static_cast<std::int8_t>(-mode_.through_sign);
+      return;
+    case guard::faster:
+      ++mode_.load_piece;
+      return;
+    case guard::slower:
+      --mode_.load_piece;
+      return;
+    case guard::fuller:
+      ++mode_.charge_piece;
+      return;
+    case guard::emptier:
+      --mode_.charge_piece;
+      return;
+    case guard::pulse:
+      more_.phase.set(-constants_.mains_edge);
+      return;
+    case guard::saturated:
+    case guard::saturated + 1:
+      beyond_model_ = true;
+      return;
+    default:
+      return;
+  }
 }
 
 template <class Real>
@@ -138,19 +162,17 @@ bool Plant<Real>::apply(int id) {
   const int before = std::exchange(last_event_, id);
   if (id == guard::edge_ahead || id == guard::edge_behind) {
     const bool ahead = id == guard::edge_ahead, leaves = pass_edge(ahead);
-    if (doubted_ && before == (ahead ? guard::edge_behind : guard::edge_ahead)) leave_edge(ahead);
+    if (doubted_ && before == (ahead ? guard::edge_behind : guard::edge_ahead))
+      plant::detail::leave_edge(state_, ahead);
     return leaves;
   }
   if (id < guard::standstill) {
     state_.i[id] = state_.i_low[id] = 0;
     if (connected_count(mode_.legs) == 2) state_.i = state_.i_low = {};
-    balance();
+    plant::detail::balance(state_);
   }
   if (id == guard::standstill) state_.w = state_.w_low = 0;
-  if (id == guard::source && constants_.inv_L_b > 0 && mode_.source_feeds)
-    more_.source = more_.source_low = 0;
-  if (id == guard::brake) mode_.braking = !mode_.braking;
-  if (id == guard::load_turns) mode_.load_sign = static_cast<std::int8_t>(-mode_.load_sign);
+  mode_event(id);
   stale_ = true;
   return false;
 }
@@ -174,10 +196,9 @@ Snapshot<Real> Plant<Real>::at(Real s) const {
   now.torque = value(y_.torque);
   now.angle = (static_cast<Real>(state_.sector) * Real(base::sector_rad) + x) / constants_.pole_pairs;
   for (int k = 0; k < 3; ++k)
-    now.pole[k] =
-        is_floating(mode_.legs[k])
-            ? value(z_.pole[k])
-            : pole_voltage(constants_.poles[static_cast<std::size_t>(mode_.legs[k])], now.bus, now.i[k]);
+    now.pole[k] = is_floating(mode_.legs[k])
+                      ? value(z_.pole[k])
+                      : pole_voltage(constants_.terms(k, mode_.legs[k]), now.bus, now.i[k]);
   if (connected_count(mode_.legs) == 0) {
     const Real highest = std::max({now.pole[0], now.pole[1], now.pole[2]});
     const Real lowest = std::min({now.pole[0], now.pole[1], now.pole[2]});

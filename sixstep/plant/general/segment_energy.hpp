@@ -2,6 +2,7 @@
 // What moves through bridge, winding and shaft of the general plant over one segment (plant/segment_energy.hpp), and what is
 // stored at an instant: fields, masses, an elastic shaft. Cogging takes and gives back: what it gave comes beside.
 #pragma once
+#include "sixstep/plant/general/energy_nodes.hpp"
 #include "sixstep/plant/general/plant.hpp"
 #include "sixstep/plant/segment_energy.hpp"
 
@@ -10,41 +11,20 @@ namespace sixstep::plant::general {
 namespace detail {
 
 template <int points, class Real>
-struct AtNodes {
-  const Plant<Real>& plant;
-  series::Nodes<points, Real> s;
-  Real dt;
-
-  series::Nodes<points, Real> of(const series::Coefficients<Real>& c) const {
-    return series::values_at<points>(c, plant.expansion().degree, s);
-  }
-  Real integral(const series::Nodes<points, Real>& a) const { return dt * series::weighted_sum<points>(a); }
-  Real integral(const series::Nodes<points, Real>& a, const series::Nodes<points, Real>& b) const {
-    return dt * series::weighted_sum<points>(a, b);
-  }
-};
-
-template <int points, class Real>
 void electrical_energy(const AtNodes<points, Real>& at, SegmentEnergy<Real>& out) {
   const auto& c = at.plant.constants();
   const auto& y = at.plant.expansion();
   const auto& mode = at.plant.mode();
+  out.copper = copper_energy<points>(at);
   series::Nodes<points, Real> dc{};
-  if (connected_count(mode.legs) >= 2)
-    for (int k = 0; k < 3; ++k) {
-      if (is_floating(mode.legs[k])) continue;
-      const PoleTerms<Real>& terms = c.poles[static_cast<std::size_t>(mode.legs[k])];
-      const auto i = at.of(y.i[k]);
-      const Real square = at.integral(i, i);
-      out.copper += c.R[k] * square;
-      out.devices += terms.r_ohm * square - terms.offset_V * at.integral(i);
-      for (int n = 0; n < points; ++n) dc[n] += terms.bus_share * i[n];
-    }
-  out.supplied = at.integral(at.of(y.bus), dc);
-  if (c.has_loop) {
-    const auto loop = at.of(at.plant.series().loop);
-    out.copper += c.loop_R / 3 * at.integral(loop, loop);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (is_floating(mode.legs[k])) continue;
+    out.devices += device_energy<points>(at, k);
+    const Real share = c.terms(k, mode.legs[k]).bus_share;
+    const auto i = at.of(y.i[k]);
+    for (int n = 0; n < points; ++n) dc[n] += share * i[n];
   }
+  out.supplied = at.integral(at.of(y.bus), dc);
 }
 
 template <int points, class Real>
@@ -61,6 +41,10 @@ void shaft_energy(const AtNodes<points, Real>& at, SegmentEnergy<Real>& out) {
     auto slip = load_w;
     for (int n = 0; n < points; ++n) slip[n] = c.inv_gear * w[n] - load_w[n];
     out.viscous += out.load_viscous + c.damping * at.integral(slip, slip);
+  }
+  if (c.lossy_gear() && turns(at.plant.mode().motion)) {
+    const bool drives = (at.plant.mode().through_sign > 0) == (at.plant.mode().motion == Motion::forward);
+    out.viscous += (gear_factor(c.efficiency, drives) - 1) * c.inv_gear * at.integral(at.of(z.through), w);
   }
   out.load = at.integral(at.of(z.load), load_w);
   out.air_gap = at.integral(at.of(y.torque), w);
@@ -101,16 +85,10 @@ Real field_energy(const Plant<Real>& plant, Real s) {
   const auto& y = plant.expansion();
   const Real a = value(y.i[0]), b = value(y.i[1]), third = value(y.i[2]);
   Real energy = c.L * (a * a + b * b + third * third) / 2;
-  if (c.salient) {
-    const Real alpha = (2 * a - b - third) / 3,
-               beta = (b - third) * Real(0.57735026918962576450914878050195746L);
-    const Real cos = value(plant.series().cos[c.salient_rotation]),
-               sin = value(plant.series().sin[c.salient_rotation]);
-    constexpr Real half_root3 = Real(0.86602540378443864676372317075293618L);
-    const Real turned_cos = cos / 2 - half_root3 * sin,
-               turned_sin = sin / 2 + half_root3 * cos;  // of 2 theta_d
-    energy +=
-        Real(0.75) * c.L_D * (turned_cos * (alpha * alpha - beta * beta) + 2 * turned_sin * alpha * beta);
+  if (c.has_axes) {  // the integral of i dlambda, over the three phases
+    const Real d = value(plant.series().d), q = value(plant.series().q);
+    energy =
+        Real(0.75) * (c.axes.L_d * d * d * (1 - d * c.axes.inv_I_sat * Real(2.0L / 3)) + c.axes.L_q * q * q);
   }
   if (c.has_loop) {
     const Real loop = value(plant.series().loop);

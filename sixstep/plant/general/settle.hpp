@@ -56,15 +56,15 @@ Judgement judge_legs(const Question<Real>& q, const Mode& mode, const Expansion<
                      const Series<Real>& z) {
   const Constants<Real>& c = q.constants;
   const Real noise = c.volt_noise * q.slack;
-  const auto at = [&](Connection to) {
-    const PoleTerms<Real>& terms = c.poles[static_cast<std::size_t>(to)];
+  const auto at = [&](unsigned k, Connection to) {
+    const PoleTerms<Real>& terms = c.terms(k, to);
     return terms.bus_share * y.bus[0] + terms.offset_V;
   };
   PerLeg<Real> up{}, down{};  // where it would begin to carry a negative and a positive current
   for (unsigned k = 0; k < 3; ++k) {
     const Ways ways = ways_of(c.devices, q.gates.high[k], q.gates.low[k]);
-    up[k] = at(ways.negative);
-    down[k] = at(ways.positive);
+    up[k] = at(k, ways.negative);
+    down[k] = at(k, ways.positive);
   }
   Judgement all = Judgement::holds;
   if (connected_count(mode.legs) == 0) {
@@ -91,34 +91,36 @@ Judgement judge_rest(const Question<Real>& q, const Mode& mode, const Expansion<
                      const Series<Real>& z) {
   const Constants<Real>& c = q.constants;
   Judgement all = Judgement::holds;
-  if (c.dry_friction && q.state.w == 0 && mode.motion != Motion::locked) {
-    const Real push = z.shaft[0], noise = c.torque_noise * q.slack;
+  if (c.dry_friction && q.state.w == 0 && mode.motion != Motion::locked && !c.speed_is_given()) {
+    const Real noise = c.torque_noise * q.slack;
     if (mode.motion == Motion::stuck)
-      all = judge(c.breakaway - plant::detail::abs(push), noise);
+      all = both(judge(c.breakaway - z.forward[0], noise), judge(c.breakaway + z.backward[0], noise));
     else
-      all = judge((mode.motion == Motion::forward ? push : -push) - c.breakaway, noise);
+      all = judge((mode.motion == Motion::forward ? z.forward[0] : -z.backward[0]) - c.breakaway, noise);
   }
-  if (c.source_sinks || (c.inv_L_b > 0 && mode.source_feeds && z.source[0] > 0)) return all;
-  const Real above = y.bus[0] - c.V_0;
-  return both(all, judge(mode.source_feeds ? -above : above, c.volt_noise * q.slack));
+  if (c.source_sinks || (c.inv_L_b > 0 && mode.source_feeds && z.source[0] > -c.sink)) return all;
+  const Real below = z.open[0] + c.R_b * c.sink - y.bus[0];
+  return both(all, judge(mode.source_feeds ? below : -below, c.volt_noise * q.slack));
 }
 
-/// Lexicographic (plant/settle.hpp). The load's sign and the brake resistor are not sought: their events turn them over.
+/// What settle() does not seek: events turn it over.
+constexpr bool is_sought(int id) { return id < guard::brake; }
+
+/// Lexicographic (plant/settle.hpp).
 template <class Real>
 bool holds_in_series(const Question<Real>& q, const Mode& mode, const Expansion<Real>& y,
                      const Series<Real>& z) {
   bool ok = true;
   mode_guards(q.constants, q.gates, mode, q.dead, q.breaking, y, z, q.slack,
               [&](int id, const series::Coefficients<Real>& g, int degree, Real noise) {
-                const bool sought = id != guard::load_turns && id != guard::brake;
-                ok = ok && (!sought || series::leading(g, degree, noise).sign >= 0);
+                ok = ok && (!is_sought(id) || series::leading(g, degree, noise).sign >= 0);
               });
   return ok;
 }
 
 /// `expanded`: whether y and z hold the accepted mode's whole expansion.
 template <class Real>
-bool accepts(const Question<Real>& q, const Mode& mode, Expansion<Real>& y, Series<Real>& z, bool& expanded) {
+bool accepts(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z, bool& expanded) {
   expand_first(q.constants, q.state, q.more, mode, q.h, y, z);
   Judgement all = both(judge_legs(q, mode, y, z), judge_rest(q, mode, y, z));
   if (q.series_only && all == Judgement::holds) all = Judgement::tie;
@@ -150,11 +152,11 @@ bool settle_legs(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series
   return false;
 }
 
-/// A source that cannot sink feeds where current flows, and at no current where the bus stands below it.
+/// A source at the limit of what it takes back feeds again where the bus stands below it.
 template <class Real>
 bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z, bool& expanded) {
   const Constants<Real>& c = q.constants;
-  if (c.source_sinks || (c.inv_L_b > 0 && q.more.source > 0)) {
+  if (c.source_sinks || (c.inv_L_b > 0 && q.more.source.value > -c.sink)) {
     mode.source_feeds = true;
     return settle_legs(q, mode, y, z, expanded);
   }
@@ -177,7 +179,10 @@ bool settle_plainly(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Ser
   for (int k = 0; k < 3; ++k)
     if (s.i[k] != 0 && plant::detail::abs(s.i[k]) <= c.amp_noise) return false;
   mode.motion = c.locked ? Motion::locked : c.dry_friction ? motion_at(s.w) : Motion::free;
-  mode.source_feeds = c.source_sinks || (c.inv_L_b > 0 && q.more.source > 0) || s.bus < c.V_0;
+  // Whether such a source feeds may hang on the current that it feeds: guessed by what the bus was, and judged.
+  const Real open_V = c.source == Source::steady ? c.V_0 : z.open[0];
+  mode.source_feeds =
+      c.source_sinks || (c.inv_L_b > 0 && q.more.source.value > -c.sink) || s.bus < open_V + c.R_b * c.sink;
   const unsigned open = detail::named_legs(q, mode.legs);
   if (open == 0 && c.source_sinks) return true;
   expand_first(c, s, q.more, mode, q.h, y, z);
@@ -191,7 +196,7 @@ bool settle_plainly(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Ser
   const unsigned k = open >> 1;
   const Ways ways = ways_of(c.devices, q.gates.high[k], q.gates.low[k]);
   const auto stands = [&](Connection to) {
-    const PoleTerms<Real>& terms = c.poles[static_cast<std::size_t>(to)];
+    const PoleTerms<Real>& terms = c.terms(k, to);
     return z.pole[k][0] - (terms.bus_share * y.bus[0] + terms.offset_V);
   };
   if (stands(ways.positive) < -2 * c.volt_noise)
@@ -207,6 +212,11 @@ template <class Real>
 bool settle(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z, bool& expanded) {
   using enum Motion;
   const Constants<Real>& c = q.constants;
+  if (c.speed_is_given() && !c.locked) {
+    const Real along = q.state.w != 0 ? q.state.w : c.speed_rate;
+    mode.motion = along > 0 ? forward : along < 0 ? backward : locked;
+    return detail::settle_source(q, mode, y, z, expanded);
+  }
   if (c.locked || !c.dry_friction || q.state.w != 0) {
     mode.motion = c.locked ? locked : !c.dry_friction ? free : motion_at(q.state.w);
     return detail::settle_source(q, mode, y, z, expanded);

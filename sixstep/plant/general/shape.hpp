@@ -166,22 +166,29 @@ ShapeTable<Real> shape_table(const Machine& m) {
     for (auto& pieces : table.sector) pieces.push_back({.to = Real(base::sector_rad)});
   for (const Cogging& c : m.cogging) {
     const base::SinCos phase = base::sin_cos(c.phase_rad);
-    Rotation<Real>& r = table.rotation(c.order / m.pole_pairs);
+    Rotation<Real>& r = table.rotation(static_cast<int>(std::floor(c.order / m.pole_pairs + 0.5)));
     r.cogging_cos += Real(c.torque_Nm) * Real(phase.sin);
     r.cogging_sin += Real(c.torque_Nm) * Real(phase.cos);
   }
-  if (m.salient()) table.rotation(2);
+  if (m.has_axes()) table.rotation(1);
   return table;
 }
 
-/// Torque per ampere through the driven pair for K_e = 1, mean over a sector, without loop current: K_t/K_e (model.md 1).
+/// Torque per ampere through the driven pair for K_e = 1, mean over a sector, without loop current: K_t/K_e (model.md 1). The
+/// sectors of a table need not be alike: there the mean of all six, each with its own pair.
 inline double sector_mean(const Machine& m) {
   const ShapeTable<double> table = shape_table<double>(m);
+  constexpr std::array<std::pair<std::size_t, std::size_t>, 6> pairs{
+      {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}}};
+  const std::size_t sectors = m.shape.table.empty() ? 1 : pairs.size();
   double sum = 0;
-  for (const Piece<double>& p : table.sector[0]) {
-    const double now = p.now[0] - p.now[1], rise = p.rise[0] - p.rise[1];
-    sum += now * (p.to - p.from) + rise * (p.to * p.to - p.from * p.from) / 2;
-  }
+  for (std::size_t s = 0; s < sectors; ++s)
+    for (const Piece<double>& p : table.sector[s]) {
+      const auto [source, sink] = pairs[s];
+      const double now = p.now[source] - p.now[sink], rise = p.rise[source] - p.rise[sink];
+      sum += now * (p.to - p.from) + rise * (p.to * p.to - p.from * p.from) / 2;
+    }
+  sum /= static_cast<double>(sectors);
   for (const Rotation<double>& r : table.rotations) {
     const base::SinCos end = base::sin_cos(r.order * base::sector_rad);
     sum += ((r.cos[0] - r.cos[1]) * end.sin + (r.sin[0] - r.sin[1]) * (1 - end.cos)) / r.order;

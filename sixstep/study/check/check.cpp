@@ -8,12 +8,17 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/check/heat.hpp"
 #include "sixstep/study/check/measures.hpp"
 #include "sixstep/study/check/numbers.hpp"
 #include "sixstep/study/check/pace.hpp"
 #include "sixstep/study/check/product.hpp"
 #include "sixstep/study/check/reference.hpp"
+#include "sixstep/study/check/sensorless.hpp"
 #include "sixstep/study/check/sensors.hpp"
+#include "sixstep/study/check/shaft.hpp"
+#include "sixstep/study/check/shaft_sensor.hpp"
+#include "sixstep/study/check/supply.hpp"
 #include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/compile/compile.hpp"
 #include "sixstep/study/measure/columns.hpp"
@@ -27,65 +32,15 @@ namespace {
 
 std::string number(double v) { return base::rounded(v, 6); }
 
-void check_brake(const Supply& s, bool has_capacitor, base::Problems& out) {
-  const double R = s.brake_resistance_ohm;
-  if (!(R > 0)) {
-    if (s.brake_on_V > 0 || s.brake_off_V > 0)
-      out.push_back({s.brake_on_V > 0 ? "supply.brake_on_V" : "supply.brake_off_V",
-                     number(s.brake_on_V > 0 ? s.brake_on_V : s.brake_off_V),
-                     "has no brake resistor to switch", "give supply.brake_resistance_ohm"});
-    return;
-  }
-  if (!has_capacitor)
-    out.push_back({"supply.brake_resistance_ohm", number(R), "needs a bus whose voltage can rise",
-                   "give supply.resistance_ohm and supply.capacitance_F"});
-  if (!(s.brake_on_V > s.brake_off_V) || !(s.brake_off_V > 0))
-    out.push_back({"supply.brake_on_V", number(s.brake_on_V),
-                   "must be above supply.brake_off_V = " + number(s.brake_off_V) + ", and that above 0",
-                   "give both, as brake_on_V = 30, brake_off_V = 28"});
-  else if (!(s.brake_off_V > s.voltage_V))
-    out.push_back({"supply.brake_off_V", number(s.brake_off_V),
-                   "must be above supply.voltage_V = " + number(s.voltage_V),
-                   "the resistor would never be off again"});
-}
-
-void check_shaft(const Scenario& s, base::Problems& out) {
-  const Load& l = s.load;
-  if (l.stiffness_Nm_rad > 0 && !(l.inertia_kg_m2 > 0))
-    out.push_back({"load.stiffness_Nm_rad", number(l.stiffness_Nm_rad),
-                   "has no mass behind it that could swing", "give load.inertia_kg_m2"});
-  if (l.damping_Nm_s_rad > 0 && !(l.stiffness_Nm_rad > 0))
-    out.push_back({"load.damping_Nm_s_rad", number(l.damping_Nm_s_rad),
-                   "is of an elastic shaft, and this one is rigid",
-                   "give load.stiffness_Nm_rad, or leave it away"});
-  if (l.gravity_angle_deg != 0 && l.gravity_Nm == 0)
-    out.push_back({"load.gravity_angle_deg", number(l.gravity_angle_deg), "is of a weight that is not there",
-                   "give load.gravity_Nm"});
+void check_bridge(const Scenario& s, base::Problems& out) {
   if (s.bridge.saturation_V > 0 && s.bridge.device != Device::igbt)
     out.push_back({"bridge.saturation_V", number(s.bridge.saturation_V),
                    "is of an IGBT, and bridge.device is \"mosfet\"",
                    "write device = \"igbt\", or give on_resistance_ohm alone"});
-}
-
-void check_supply(const Scenario& s, base::Problems& out) {
-  const bool R = s.supply.resistance_ohm > 0, C = s.supply.capacitance_F > 0;
-  if (R && !C)
-    out.push_back({"supply.resistance_ohm", number(s.supply.resistance_ohm),
-                   "needs a bus capacitor behind it",
-                   "give supply.capacitance_F too, or leave both away for a stiff bus"});
-  if (C && !R)
-    out.push_back({"supply.capacitance_F", number(s.supply.capacitance_F), "needs the source's resistance",
-                   "give supply.resistance_ohm too, or leave both away for a stiff bus"});
-  if (!s.supply.sinks && !(R && C))
-    out.push_back({"supply.sinks", "false", "needs a bus whose voltage can rise",
-                   "give supply.resistance_ohm and supply.capacitance_F"});
-  if (s.supply.inductance_H > 0 && !(R && C))
-    out.push_back({"supply.inductance_H", number(s.supply.inductance_H), "needs a bus capacitor behind it",
-                   "give supply.resistance_ohm and supply.capacitance_F"});
-  check_brake(s.supply, C, out);
-  if (s.initial.bus_V && !C)
-    out.push_back({"initial.bus_V", number(*s.initial.bus_V), "has no meaning on a stiff bus",
-                   "leave it away, or give supply.resistance_ohm and supply.capacitance_F"});
+  if (!(s.bridge.dead_time_s < s.pwm.period_s))
+    out.push_back({"bridge.dead_time_s", number(s.bridge.dead_time_s),
+                   "must be shorter than pwm.period_s = " + number(s.pwm.period_s),
+                   "a leg would never turn on"});
 }
 
 void check_regeneration(const Scenario& s, base::Problems& out) {
@@ -201,6 +156,7 @@ void check_tunings(const Scenario& s, const std::optional<design::MotorModel>& m
     check_control(then, found);
     check_extras(then, found);
     check_product(then, std::nullopt, found);
+    check_sensorless(then, found);
     if (motor) check_torque_limit(then, *motor, found);
     return found;
   };
@@ -222,6 +178,18 @@ void check_tunings(const Scenario& s, const std::optional<design::MotorModel>& m
 
 }  // namespace
 
+/// What turns has no place on a line.
+void check_linear(const Scenario& s, base::Problems& out) {
+  if (s.sheet.kind != design::MotorKind::linear) return;
+  if (s.load.gravity_Nm != 0)
+    out.push_back({"load.gravity_Nm", number(s.load.gravity_Nm),
+                   "is of a weight on an arm, and the motor is linear",
+                   "give an incline's force as load.force_N"});
+  if (s.load.gear != 1)
+    out.push_back({"load.gear", number(s.load.gear), "is of a turning motor, and this one is linear",
+                   "give the load as the motor's slide feels it"});
+}
+
 base::Problems check(const Scenario& s) {
   // What follows computes with the numbers: an absurd one makes no sense of it.
   if (base::Problems absurd = check_numbers(s); !absurd.empty()) return absurd;
@@ -237,25 +205,22 @@ base::Problems check(const Scenario& s) {
     out = motor.problems();
   }
   check_supply(s, out);
+  check_bridge(s, out);
+  check_heat(s, out);
   check_shaft(s, out);
+  check_linear(s, out);
   const std::size_t before = out.size();
   check_references(s, out);
   check_events(s, out);
   const bool sound_reference = out.size() == before;
-  check_steps(s.load.times_s, s.load.torques_Nm, "load", "torques_Nm", s.duration_s, out);
   check_control(s, out);
   check_tunings(s, model, out);
-  check_sensors(s, out);
+  check_sensors(s, model, out);
+  check_shaft_sensor(s, model, out);
   check_product(s, sector_rad, out);
+  check_sensorless(s, out);
   check_extras(s, out);
   check_measures(s, sound_reference, out);
-  if (!(s.bridge.dead_time_s < s.pwm.period_s))
-    out.push_back({"bridge.dead_time_s", number(s.bridge.dead_time_s),
-                   "must be shorter than pwm.period_s = " + number(s.pwm.period_s),
-                   "a leg would never turn on"});
-  if (s.load.locked && s.initial.speed_rad_s != 0)
-    out.push_back({"initial.speed_rad_s", number(s.initial.speed_rad_s), "contradicts load.locked = true",
-                   "set it to 0 or unlock the rotor"});
   if (const base::Problems spread = check_spread(s); !spread.empty())
     out.insert(out.end(), spread.begin(), spread.end());
   if (const auto columns = record_indices(s); !columns)

@@ -11,7 +11,7 @@ base::Problems check_columns(const Scenario& s) {
   for (const std::size_t n : *columns)
     if (!applies(static_cast<ColumnId>(n), s) &&
         static_cast<ColumnId>(n) != ColumnId::loop_A)  // a star's is 0
-      out.push_back({"record.columns", "\"" + all_columns()[n].name + "\"",
+      out.push_back({"record.columns", "\"" + all_columns(s.sheet.kind)[n].name + "\"",
                      "has no value in this control.mode",
                      "remove it, or control what it is the reference of"});
   return out;

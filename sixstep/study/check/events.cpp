@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What [[at]] asks for that the run at hand cannot do.
+#include <cmath>
+
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/check/reference.hpp"
 #include "sixstep/study/scenario/changes.hpp"
@@ -11,10 +13,23 @@ namespace {
 
 using base::written;
 
+bool changes_no_wire(const At& at) {
+  return at.bridge.phases == AtOrder::same && at.sensors.hall_lines == AtOrder::same &&
+         at.sensors.hall_inverted == AtHallLines::same;
+}
+
+bool drifts(const At& at) { return at.sensors.current_offset_A || at.sensors.current_gain_error; }
+
+bool fails_shaft_sensor(const At& at) {
+  return at.sensors.missed_edges || at.sensors.bad_track || at.sensors.broken_winding != Winding::none;
+}
+
 bool changes_nothing(const At& at) {
   return !at.reference && !at.supply.voltage_V && !at.supply.sinks && !at.load.torque_Nm && !at.load.locked &&
-         !at.sensors.hall_break && at.request == DriveRequest::none && !retunes(at) &&
-         !at.bridge.dead_time_s && at.motor.broken_wire == Wire::none;
+         !at.sensors.hall_break && changes_no_wire(at) && !drifts(at) && !fails_shaft_sensor(at) &&
+         at.request == DriveRequest::none && !retunes(at) && !at.bridge.dead_time_s &&
+         at.bridge.open_switch == Switch::none && at.bridge.shorted_switch == Switch::none &&
+         at.motor.broken_wire == Wire::none;
 }
 
 /// A reference that goes on from where it stood can not do so in another unit.
@@ -68,10 +83,26 @@ void check_chip(const Event& e) {
           "must be shorter than pwm.period_s = " + written(e.s.pwm.period_s), "a leg would never turn on");
 }
 
+/// Amplifiers that drift are between the bridge and a converter.
+void check_drift(const Event& e) {
+  const Sensors& sensors = e.s.sensors;
+  if (!drifts(e.at)) return;
+  const std::optional<double>& offset = e.at.sensors.current_offset_A;
+  const char* key = offset ? ".sensors.current_offset_A" : ".sensors.current_gain_error";
+  const std::string value = written(offset ? *offset : *e.at.sensors.current_gain_error);
+  if (sensors.currents == rig::CurrentMeasurement::ideal)
+    return e.say(key, value, "is of an amplifier, and sensors.currents = \"ideal\"",
+                 "set sensors.currents = \"phases\" or \"dc-link\", and current_range_A");
+  if (offset && sensors.current_range_A && std::fabs(*offset) >= *sensors.current_range_A)
+    e.say(key, value, "leaves nothing of sensors.current_range_A = " + written(*sensors.current_range_A),
+          "lower it or widen the range");
+}
+
 void check_event(const Event& e) {
   const auto& [at, where, before, mode, s, out] = e;
   check_mode(e);
   check_chip(e);
+  check_drift(e);
   if (!(at.time_s < s.duration_s))
     out.push_back({where + ".time_s", written(at.time_s),
                    "lies behind the end of the run (duration_s = " + written(s.duration_s) + ")",
@@ -79,8 +110,16 @@ void check_event(const Event& e) {
   if (changes_nothing(at))
     out.push_back(
         {where + ".time_s", written(at.time_s), "is when nothing changes",
-         "give a reference, a value of supply or load, sensors.hall_break, motor.broken_wire, request, or what "
-         "changes of control, pwm or bridge"});
+         "give a reference, a value of supply or load, what changes of sensors, motor.broken_wire, request, or "
+         "what changes of control, pwm or bridge"});
+  if (at.supply.voltage_V && s.supply.source != SourceKind::steady)
+    out.push_back({where + ".supply.voltage_V", written(*at.supply.voltage_V),
+                   "is of a steady source, and supply.source is a battery or mains",
+                   "leave it away, or set supply.source = \"steady\""});
+  if (at.load.torque_Nm && !s.load.dynamometer_rad_s.empty())
+    out.push_back({where + ".load.torque_Nm", written(*at.load.torque_Nm),
+                   "is of a load that does not impose its speed",
+                   "leave it away: a dynamometer's torque is a result"});
   if (at.supply.sinks == false && !(s.supply.capacitance_F > 0))
     out.push_back({where + ".supply.sinks", "false", "needs a bus whose voltage can rise",
                    "give supply.resistance_ohm and supply.capacitance_F"});

@@ -7,6 +7,7 @@
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/measure_choices.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
+#include "sixstep/study/scenario/switching_law.hpp"
 
 namespace sixstep::study {
 
@@ -66,6 +67,12 @@ void check_signal(const Asked& a) {
     case TakenOf::signal:
     case TakenOf::fundamental:
       return;
+    case TakenOf::transitions:
+      if (!switching_law(a.s.bridge).any())
+        a.refuse("metric", quoted(a.m.metric), "needs the switches' energies, and [bridge] has none",
+                 "give bridge.turn_on_J and its like, or gate_current_A and the gate's charges");
+      [[fallthrough]];
+    case TakenOf::commutations:
     case TakenOf::band:
     case TakenOf::energies:
       if (given)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/check/pace.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -59,9 +60,14 @@ void check_friction(const Scenario& s, const design::MotorModel& motor, base::Pr
 }
 
 /// Inductance and capacitor of the source, and the brake resistor on it.
-void check_source(const Scenario& s, base::Problems& out) {
+void check_source(const Scenario& s, const plant::Machine& m, base::Problems& out) {
   const Supply& from = s.supply;
   if (!(from.capacitance_F > 0)) return;  // check_supply tells
+  const double L = std::min(2 * m.L_H, from.inductance_H > 0 ? from.inductance_H : 2 * m.L_H);
+  if (const double rate = from.capacitor_resistance_ohm / L; rate > fastest_answer_1_s)
+    out.push_back({"supply.capacitor_resistance_ohm", written(from.capacitor_resistance_ohm),
+                   "makes its time constant with the inductances around it " + too_short(rate),
+                   "look at its unit: a bus capacitor has milliohms"});
   if (from.inductance_H > 0) {
     const double rate =
         from.resistance_ohm / from.inductance_H + 1 / std::sqrt(from.inductance_H * from.capacitance_F);
@@ -174,7 +180,7 @@ void check_minimum_pulse(const Scenario& s, base::Problems& out) {
 void check_pace(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
   check_bridge(s, motor.machine, out);
   check_bus(s, motor.machine, out);
-  check_source(s, out);
+  check_source(s, motor.machine, out);
   check_friction(s, motor, out);
   check_coupling(s, motor, out);
   check_torque(s, motor, out);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/scenario/sensors_description.hpp"
 
 namespace sixstep::study {
 
@@ -24,6 +25,10 @@ void check_registers(const Scenario& s, base::Problems& out) {
     out.push_back({"sensors.bus", "\"ideal\"", asks, "set bus = \"adc\" and bus_range_V"});
   if (s.sensors.rotor == RotorSensing::ideal)
     out.push_back({"sensors.rotor", "\"ideal\"", asks, "set rotor = \"hall\""});
+  else if (s.sensors.rotor != RotorSensing::hall)
+    out.push_back({"sensors.rotor", std::string(base::word(rotor_sensing_choices, s.sensors.rotor)),
+                   "is nothing that the product drive decodes: it reads Hall probes",
+                   "set rotor = \"hall\", or control.drive = \"lean\""});
   if (s.sensors.currents == rig::CurrentMeasurement::dc_link && s.pwm.delay_periods > 0)
     out.push_back({"pwm.delay_periods", std::to_string(s.pwm.delay_periods),
                    "leaves the product drive with the duty of another period than its shunt's sample",

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/check/reference_cures.hpp"
 #include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/choices.hpp"
@@ -37,10 +38,12 @@ struct Place {
 
 void check_unit(const Place& p) {
   const control::Mode mode = p.mode;
-  if (p.r.unit && mode != control::Mode::off && *p.r.unit != reference_unit(mode))
+  const base::Motion motion = design::motion_of(p.s.sheet);
+  const std::string_view unit = motion.unit(reference_unit(mode)).linear;
+  if (p.r.unit && mode != control::Mode::off && *p.r.unit != unit)
     p.say("unit", "\"" + *p.r.unit + "\"",
           "is not the unit of mode \"" + std::string(base::word(mode_choices, mode)) + "\"",
-          cure_of_unit(*p.r.unit, mode));
+          cure_of_unit(*p.r.unit, mode, motion));
 }
 
 /// A key that only another shape reads was meant to do something.
@@ -172,18 +175,20 @@ void check_one(const Place& p) {
 }  // namespace
 
 void check_steps(const std::vector<double>& times, const std::vector<double>& values,
-                 const std::string& table, const char* value_key, double duration_s, base::Problems& out) {
+                 const std::string& table, const char* value_key, double duration_s, base::Problems& out,
+                 const char* times_key) {
   if (times.size() != values.size())
-    out.push_back({table + "." + value_key, std::to_string(values.size()) + " entries",
-                   "must be as many as times_s, which has " + std::to_string(times.size()),
-                   "give one value per time"});
+    out.push_back(
+        {table + "." + value_key, std::to_string(values.size()) + " entries",
+         std::string("must be as many as ") + times_key + ", which has " + std::to_string(times.size()),
+         "give one value per time"});
   constexpr std::size_t most_told = 5;  // of a list that falls each entry would be
   for (std::size_t n = 0, before = out.size(); n < times.size() && out.size() < before + most_told; ++n) {
     if (times[n] < 0 || (n > 0 && !(times[n] > times[n - 1])))
-      out.push_back({table + ".times_s", written(times[n]), "must rise from entry to entry, from 0 on",
+      out.push_back({table + "." + times_key, written(times[n]), "must rise from entry to entry, from 0 on",
                      "sort the times"});
     else if (!(times[n] < duration_s))
-      out.push_back({table + ".times_s", written(times[n]),
+      out.push_back({table + "." + times_key, written(times[n]),
                      "lies behind the end of the run (duration_s = " + written(duration_s) + ")",
                      "lengthen duration_s or drop the entry"});
   }

@@ -11,7 +11,8 @@ namespace sixstep::study {
 
 /// Times and values of steps: as many of both, rising, within the run. `what` is where they end, in words.
 void check_steps(const std::vector<double>& times, const std::vector<double>& values,
-                 const std::string& table, const char* value_key, double duration_s, base::Problems& out);
+                 const std::string& table, const char* value_key, double duration_s, base::Problems& out,
+                 const char* times_key = "times_s");
 
 /// [reference] and those of [[at]].
 void check_references(const Scenario& scenario, base::Problems& out);

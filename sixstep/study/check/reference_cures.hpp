@@ -5,16 +5,18 @@
 #include <string>
 #include <string_view>
 
+#include "sixstep/base/linear.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
 namespace sixstep::study {
 
 /// Who gave a unit knows what the reference is: the mode that has it was probably meant.
-inline std::string cure_of_unit(std::string_view unit, control::Mode mode) {
-  const std::string in_mode = "give the reference in \"" + std::string(reference_unit(mode)) + "\"";
+inline std::string cure_of_unit(std::string_view unit, control::Mode mode, const base::Motion& motion) {
+  const auto own = [&](control::Mode of) { return std::string(motion.unit(reference_unit(of)).linear); };
+  const std::string in_mode = "give the reference in \"" + own(mode) + "\"";
   for (const auto& choice : mode_choices)
-    if (!unit.empty() && reference_unit(choice.value) == unit)
+    if (!unit.empty() && own(choice.value) == unit)
       return "set control.mode = \"" + std::string(choice.word) + "\", or " + in_mode;
   return in_mode + " or change control.mode";
 }

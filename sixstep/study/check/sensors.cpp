@@ -28,6 +28,14 @@ void check_currents(const Scenario& s, base::Problems& out) {
                    "set pwm.sample = \"middle\", best with pwm.alignment = \"centre\""});
 }
 
+/// The converter's sample and hold sees one instant of the period before.
+void check_front_end(const Scenario& s, base::Problems& out) {
+  if (s.sensors.current_delay_s >= s.pwm.period_s)
+    out.push_back({"sensors.current_delay_s", base::written(s.sensors.current_delay_s),
+                   "must be below pwm.period_s = " + base::written(s.pwm.period_s),
+                   "lower it, or sample less often"});
+}
+
 void check_bits(const Scenario& s, base::Problems& out) {
   const bool used = s.sensors.currents != CurrentMeasurement::ideal || s.sensors.bus == BusSensing::adc;
   const Arithmetic a = s.control.arithmetic;
@@ -49,12 +57,47 @@ void check_hall(const Scenario& s, base::Problems& out) {
                    "lengthen duration_s or break the line earlier"});
 }
 
+/// Room between neighbouring Hall edges, of which one may not be there before the other has been passed.
+constexpr double least_gap_deg = 1.0;
+constexpr double most_glitches = 1e5;
+
+void check_probe_edges(const Scenario& s, const std::optional<design::MotorModel>& motor,
+                       base::Problems& out) {
+  const Sensors& x = s.sensors;
+  const std::vector<double>& own = x.hall_edges_deg;
+  const std::size_t all = motor ? 6 * static_cast<std::size_t>(motor->machine.pole_pairs) : own.size();
+  if (!own.empty() && own.size() != 6 && own.size() != all)
+    return out.push_back(
+        {"sensors.hall_edges_deg", std::to_string(own.size()) + " values",
+         "is neither 6, an electrical turn's edges, nor " + std::to_string(all) + ", a mechanical turn's",
+         "give one of them"});
+  for (std::size_t n = 0; n < own.size(); ++n) {
+    const std::size_t next = (n + 1) % own.size();
+    const double gap = 60 + own[next] - own[n] - x.hall_hysteresis_deg;
+    if (gap < least_gap_deg)
+      return out.push_back({"sensors.hall_edges_deg[" + std::to_string(next) + "]", base::written(own[next]),
+                            "leaves " + base::written(gap) + " deg, less than 1, to the edge before, the " +
+                                "hysteresis taken off",
+                            "give edges that stay in their order"});
+  }
+}
+
+void check_probes(const Scenario& s, const std::optional<design::MotorModel>& motor, base::Problems& out) {
+  check_probe_edges(s, motor, out);
+  if (s.sensors.hall_glitches_Hz * s.duration_s > most_glitches)
+    out.push_back({"sensors.hall_glitches_Hz", base::written(s.sensors.hall_glitches_Hz),
+                   "makes more than 100000 glitches in duration_s = " + base::written(s.duration_s),
+                   "lower one of them"});
+}
+
 }  // namespace
 
-void check_sensors(const Scenario& s, base::Problems& out) {
+void check_sensors(const Scenario& s, const std::optional<design::MotorModel>& motor, base::Problems& out) {
   check_currents(s, out);
+  check_front_end(s, out);
   check_bits(s, out);
   check_hall(s, out);
+  check_probes(s, motor, out);
   if (s.sensors.bus == BusSensing::adc && !s.sensors.bus_range_V)
     out.push_back({"sensors.bus_range_V", "", "is missing, and the bus goes through a converter",
                    "give the voltage at its upper end, or bus = \"ideal\""});

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // check_sensors() finds what is wrong with a scenario's sensors beyond the range of single values.
 #pragma once
+#include <optional>
+
 #include "sixstep/base/problem.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
 namespace sixstep::study {
 
-void check_sensors(const Scenario& scenario, base::Problems& out);
+/// `motor`: the sheet's, where it says enough.
+void check_sensors(const Scenario& scenario, const std::optional<design::MotorModel>& motor,
+                   base::Problems& out);
 
 }  // namespace sixstep::study

@@ -8,7 +8,10 @@
 #include "sixstep/base/written.hpp"
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/design/fields/product_fields.hpp"
+#include "sixstep/design/fields/sensorless_fields.hpp"
 #include "sixstep/design/loops/limit_bounds.hpp"
+#include "sixstep/design/scaling/observer_scaling.hpp"
+#include "sixstep/design/scaling/sensorless_scaling.hpp"
 #include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/compile/timeline.hpp"
 #include "sixstep/study/scenario/choices.hpp"
@@ -24,7 +27,9 @@ template <class Scalar>
 design::Bases bases_of(const Scenario& s, const Compiled& c, const design::OperatingRange& range) {
   constexpr int before_the_point =
       control::detail::Widths<typename Scalar::Storage>::bits - 1 - Scalar::fraction_bits;
-  design::Bases bases = design::bases_for(c.drive, range, static_cast<double>(Scalar::max()));
+  const double greatest = static_cast<double>(Scalar::max());
+  design::Bases bases = c.sensorless ? design::bases_for(c.sensorless->drive, range, greatest)
+                                     : design::bases_for(c.drive, range, greatest);
   const FullScale& chosen = s.control.full_scale;
   const auto take = [](double& base, const std::optional<double>& full_scale) {
     if (full_scale) base = std::ldexp(*full_scale, -before_the_point);
@@ -53,8 +58,9 @@ base::Problems unheld_speed(const Scenario& s, const Compiled& c, const design::
   if (s.sensors.rotor != RotorSensing::hall) return {};
   using Wide = typename Scalar::WideInt;
   const double ratio = base::pi / 3 / c.motor.machine.pole_pairs * s.sensors.capture_Hz;
-  const double digits =
-      ratio * c.board.sensors.edges / b.speed_rad_s / static_cast<double>(Scalar::from_raw(1));
+  // An angle that runs on counts in electrical turns, whatever it is taken over.
+  const int sectors = s.sensors.hall_angle == rig::HallAngleFrom::sectors ? c.board.sensors.edges : 6;
+  const double digits = ratio * sectors / b.speed_rad_s / static_cast<double>(Scalar::from_raw(1));
   const double most = static_cast<double>(control::detail::greatest<Wide>);
   if (digits <= most) return {};
   return {{"sensors.capture_Hz", base::written(s.sensors.capture_Hz),
@@ -69,7 +75,7 @@ rig::Bases units_of(Mode mode, const design::Bases& b) {
 /// Per sample, by all torques there are at once. Hall edges tell of a speed as late and as suddenly as they
 /// come.
 double fastest_change_of_speed(const Scenario& s, const Compiled& c, const design::OperatingRange& range) {
-  if (s.sensors.rotor == RotorSensing::hall) return 0.0;
+  if (s.sensors.rotor != RotorSensing::ideal || c.sensorless) return 0.0;
   double load = std::fabs(s.load.torque_Nm);
   for (const double torque : s.load.torques_Nm) load = std::max(load, std::fabs(torque));
   for (const At& at : s.at) load = std::max(load, std::fabs(at.load.torque_Nm.value_or(0.0)));
@@ -82,6 +88,15 @@ template <class Scalar>
 control::ProtectedConfig<Scalar> product_in_float(const control::ProtectedConfig<double>& c) {
   control::ProtectedConfig<Scalar> out;
   out.drive = in_arithmetic<Scalar>(c.drive);
+  design::fields(design::AsFloat{}, c, out);
+  return out;
+}
+
+template <class Scalar>
+control::SensorlessDriveConfig<Scalar> sensorless_in_float(const control::SensorlessDriveConfig<double>& c) {
+  control::SensorlessDriveConfig<Scalar> out;
+  out.drive = in_arithmetic<Scalar>(c.drive);
+  out.observer = design::observer_in<Scalar>(c.observer, {});
   design::fields(design::AsFloat{}, c, out);
   return out;
 }
@@ -110,6 +125,9 @@ design::OperatingRange operating_range(const Scenario& s, const Compiled& c) {
   const bool has_reference = mode == Mode::current || mode == Mode::speed || mode == Mode::position;
   const double reference = mode == Mode::current ? asked : c.drive.current_limit_A;
   range.current_A = has_reference && reference > 0 ? std::min(2 * reference, drivable) : drivable;
+  if (c.sensorless)
+    range.current_A =
+        std::min(std::max(range.current_A, 2 * c.sensorless->drive.sensorless.start.current_A), drivable);
   range.speed_change_rad_s = fastest_change_of_speed(s, c, range);
   if (!c.product) return range;
   range.current_A = c.board.sensors.current.range;
@@ -145,6 +163,28 @@ base::Result<ProductIn<Scalar>> product_in(const Scenario& s, const Compiled& c)
   }
 }
 
+template <class Scalar>
+base::Result<SensorlessIn<Scalar>> sensorless_in(const Scenario& s, const Compiled& c) {
+  if constexpr (std::is_arithmetic_v<Scalar>) {
+    return SensorlessIn<Scalar>{{sensorless_in_float<Scalar>(c.sensorless->drive), c.sensorless->pulses}, {}};
+  } else {
+    const design::OperatingRange range = operating_range(s, c);
+    const auto scaled =
+        design::scaled_sensorless<Scalar>(c.sensorless->drive, range, bases_of<Scalar>(s, c, range));
+    if (!scaled) return under_the_key(s, scaled.problems());
+    if (base::Problems problems = unheld_speed<Scalar>(s, c, scaled->bases); !problems.empty())
+      return problems;
+    return SensorlessIn<Scalar>{{scaled->config, c.sensorless->pulses},
+                                units_of(s.control.mode, scaled->bases)};
+  }
+}
+
+template base::Result<SensorlessIn<double>> sensorless_in(const Scenario&, const Compiled&);
+template base::Result<SensorlessIn<float>> sensorless_in(const Scenario&, const Compiled&);
+template base::Result<SensorlessIn<control::Q15>> sensorless_in(const Scenario&, const Compiled&);
+template base::Result<SensorlessIn<control::Q31>> sensorless_in(const Scenario&, const Compiled&);
+template base::Result<SensorlessIn<control::Q14>> sensorless_in(const Scenario&, const Compiled&);
+template base::Result<SensorlessIn<control::Q30>> sensorless_in(const Scenario&, const Compiled&);
 template base::Result<ProductIn<double>> product_in(const Scenario&, const Compiled&);
 template base::Result<ProductIn<float>> product_in(const Scenario&, const Compiled&);
 template base::Result<ProductIn<control::Q15>> product_in(const Scenario&, const Compiled&);

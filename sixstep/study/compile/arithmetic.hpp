@@ -2,6 +2,7 @@
 // The drive that was designed in double, in the number its chip computes in: the same figures as float, or
 // scaled to fixed point with a proof that they fit.
 #pragma once
+#include "sixstep/control/commissioning/pulse_start.hpp"
 #include "sixstep/design/scaling/product_scaling.hpp"
 #include "sixstep/rig/bases.hpp"
 #include "sixstep/study/compile/compile.hpp"
@@ -41,5 +42,14 @@ struct ProductIn {
 };
 template <class Scalar>
 base::Result<ProductIn<Scalar>> product_in(const Scenario& scenario, const Compiled& compiled);
+
+/// And the sensorless one; its pulses are whole numbers in every arithmetic.
+template <class Scalar>
+struct SensorlessIn {
+  control::PulsedDriveConfig<Scalar> config;
+  rig::Bases bases;
+};
+template <class Scalar>
+base::Result<SensorlessIn<Scalar>> sensorless_in(const Scenario& scenario, const Compiled& compiled);
 
 }  // namespace sixstep::study

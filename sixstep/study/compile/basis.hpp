@@ -34,4 +34,18 @@ control::ProtectedConfig<double> product_around(const Scenario& scenario, const 
                                                 const control::DriveConfig<double>& drive,
                                                 const rig::SensorsConfig& sensors);
 
+struct SensorlessAround {
+  control::PulsedDriveConfig<double> config;  ///< SI
+  std::vector<design::DerivationStep> steps;  ///< how its numbers came about
+};
+/// The sensorless drive around `drive`, as design/loops/sensorless_start.hpp makes it, and its pulses, where it starts by them,
+/// as pulse_start.hpp does. Problems: a load that it cannot start, a back-EMF that its converter does not see, pulses too strong.
+base::Result<SensorlessAround> sensorless_around(const Scenario& scenario, const Basis& basis,
+                                                 const control::DriveConfig<double>& drive);
+
+/// A speed that a board learns of by six sectors where the loop stands their delay (design/loops/rotor_sensing.hpp), s; 0
+/// without a speed loop.
+double speed_window_s(const Scenario& scenario, const Basis& basis,
+                      const control::DriveConfig<double>& drive);
+
 }  // namespace sixstep::study

@@ -7,6 +7,7 @@
 
 #include "sixstep/plant/general/plant.hpp"
 #include "sixstep/rig/rig.hpp"
+#include "sixstep/rig/sensorless_drive.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
 #include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/scenario/changes.hpp"
@@ -39,6 +40,10 @@ template <class Scalar>
 auto given_to(std::type_identity<rig::ProductDrive<Scalar>>, const Scenario& s, const Compiled& c) {
   return product_in<Scalar>(s, c);
 }
+template <class Scalar>
+auto given_to(std::type_identity<rig::SensorlessDrive<Scalar>>, const Scenario& s, const Compiled& c) {
+  return sensorless_in<Scalar>(s, c);
+}
 template <class Firmware>
 auto given_to(std::type_identity<Firmware>, const Scenario& s, const Compiled& c) {
   return drive_in<typename Firmware::Number>(s, c);
@@ -56,6 +61,7 @@ base::Problems add_later(const Scenario& s, const Compiled& c, Chip<Firmware>& o
       settled_s.control.full_scale = full_scale_of<typename Firmware::Number>(out.bases);
     then.drive = c.later[number].drive;
     then.product = c.later[number].product;
+    then.sensorless = c.later[number].sensorless;
     const auto chip = given_to(std::type_identity<Firmware>{}, settled_s, then);
     if (!chip) return told_of_event(s, *at, chip.problems());
     out.later.push_back({chip->config, chip->bases.setpoint});
@@ -92,10 +98,10 @@ using GeneralRig = rig::Rig<double, Firmware, plant::general::Plant<double>>;
 template <class Firmware>
 GeneralRig<Firmware> general_rig_of(const Compiled& c, const Chip<Firmware>& chip, rig::Timeline timeline) {
   const GeneralPlant& g = *c.general;
-  const plant::general::Plant<double> plant(g.machine, g.shaft, g.devices, g.supply, g.start);
+  const plant::general::Plant<double> plant(g.machine, g.shaft, g.devices, g.supply, g.start, g.heat);
   rig::BoardConfig board = c.board;
   board.bases = chip.bases;
-  return {plant, chip.config, board, std::move(timeline), chip.later};
+  return {plant, chip.config, board, std::move(timeline), chip.later, c.wiring, c.probes};
 }
 
 }  // namespace sixstep::study

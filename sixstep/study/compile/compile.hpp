@@ -3,6 +3,7 @@
 // timeline, gains with their origin.
 #pragma once
 #include "sixstep/base/result.hpp"
+#include "sixstep/control/commissioning/pulse_start.hpp"
 #include "sixstep/control/protected_drive.hpp"
 #include "sixstep/plant/general/machine.hpp"
 #include "sixstep/rig/rig.hpp"
@@ -16,7 +17,8 @@ namespace sixstep::study {
 struct Tuned {
   control::DriveConfig<double> drive;
   std::vector<LoopGains> gains;
-  std::optional<control::ProtectedConfig<double>> product;  ///< around the drive, where the chip runs it
+  std::optional<control::ProtectedConfig<double>> product;       ///< around the drive, where the chip runs it
+  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< alike
 };
 
 /// What the general kernel is given, where the scenario asks for what the lean one lacks (plant/general/).
@@ -26,6 +28,7 @@ struct GeneralPlant {
   plant::general::Devices devices;
   plant::general::Supply supply;
   plant::general::Start start;
+  plant::general::HeatGiven heat;
 };
 
 struct Compiled {
@@ -35,11 +38,15 @@ struct Compiled {
   plant::Supply supply;
   plant::Start start;
   rig::BoardConfig board;
+  rig::Wiring wiring;      ///< at the start; straight where the lean kernel runs
+  rig::ProbeGiven probes;  ///< as the sectors are where the lean kernel runs
   rig::Timeline timeline;
   control::DriveConfig<double> drive;
-  std::optional<control::ProtectedConfig<double>> product;  ///< around the drive, where the chip runs it
+  std::optional<control::ProtectedConfig<double>> product;       ///< around the drive, where the chip runs it
+  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< alike
   std::vector<LoopGains> gains;
-  std::vector<Tuned> later;             ///< what the timeline's retune actions name
+  std::vector<design::DerivationStep> sensorless_steps;  ///< of the sensorless drive's numbers
+  std::vector<Tuned> later;                              ///< what the timeline's retune actions name
   std::optional<GeneralPlant> general;  ///< runs in the place of motor, shaft, devices and supply
   sim::Instant end;
 };

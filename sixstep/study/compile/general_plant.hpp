@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which scenarios the general kernel runs, and what it is given: a delta, harmonics, a salient rotor, phases that
 // stray, cogging, a gear, an elastic shaft, a fan, a weight, IGBTs, an inductance before the bus, a brake chopper, a wire that
-// breaks. All others run on the lean one.
+// breaks, wires that are crossed, Hall probes that are not where the sectors are. All others run on the lean one.
 #pragma once
 #include "sixstep/study/compile/compile.hpp"
 

@@ -70,10 +70,14 @@ void check_current(const Scenario& s, const design::LimitSetting& setting, base:
 }
 
 /// Mechanical angle in which the drive does not learn of a speed: k sectors that it is the mean of and the
-/// one that has not ended, and what the filter holds edges back.
+/// one that has not ended, and what the filter holds edges back. A sensorless drive takes six crossings as edges.
 double late_rad(const Scenario& s, const plant::Machine& machine, double speed_rad_s) {
+  const bool crossings = s.control.drive == FirmwareKind::sensorless;
+  if (crossings) return 7 * base::pi / 3 / machine.pole_pairs;
   if (s.sensors.rotor != RotorSensing::hall) return 0.0;
-  return (s.sensors.speed_edges + 1) * base::pi / 3 / machine.pole_pairs +
+  const bool learns = s.sensors.hall_angle == rig::HallAngleFrom::learned_edges;
+  const int edges = learns ? 6 : s.sensors.speed_edges;  // six until they are learned
+  return (edges + 1) * base::pi / 3 / machine.pole_pairs +
          (s.sensors.hall_stable_samples - 1) * s.pwm.period_s * speed_rad_s;
 }
 

@@ -70,6 +70,7 @@ control::ProtectedConfig<double> product_around(const Scenario& s, const Basis& 
              static_cast<std::uint32_t>(sensors.timeout_s * sensors.capture_Hz), sensors.edges,
              rig::window_ticks(sensors), edge_grain(s)};
   c.position = {sector_deg, sector_deg};
+  c.hall.arrangement = s.sensors.hall_spacing;
   c.hall.stable_samples = static_cast<std::uint8_t>(s.sensors.hall_stable_samples);
   c.advance = advance_of(s.control.advance);
   c.faults = faults_of(s);

@@ -12,8 +12,14 @@ rig::Timeline timeline_of(const Scenario& scenario);
 
 /// Whether a Hall line breaks anywhere in the run.
 bool breaks_a_hall_line(const Scenario& scenario);
-/// Whether a wire of the motor breaks during the run.
-bool breaks_a_wire(const Scenario& scenario);
+/// Whether a wire of the motor breaks or a switch fails during the run.
+bool breaks_wire_or_switch(const Scenario& scenario);
+/// Whether any wire between board and motor or probes is not straight, at the start or later.
+bool crosses_wires(const Scenario& scenario);
+/// Whether a Hall line reads its probe inverted at any time.
+bool inverts_a_hall_line(const Scenario& scenario);
+/// Whether the Hall probes show anything but the sectors of the back-EMF at once, 120 degrees apart.
+bool displaces_probes(const Scenario& scenario);
 
 /// The highest voltage of the source during the run.
 double highest_supply_V(const Scenario& scenario);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sixstep/base/linear.hpp"
+
 #include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/measure_choices.hpp"
 
@@ -17,10 +19,8 @@ Column of(Signal signal, const char* frame, const char* meaning) {
           meaning};
 }
 
-}  // namespace
-
-const std::vector<Column>& all_columns() {
-  static const std::vector<Column> columns = {
+std::vector<Column> turning_columns() {
+  return {
       {"t_s", "s", "", "time"},
       of(Signal::phase_a, "phase, into the motor", "current of phase a"),
       of(Signal::phase_b, "phase, into the motor", "current of phase b"),
@@ -53,12 +53,60 @@ const std::vector<Column>& all_columns() {
       of(Signal::gate_T6, "", "lower gate of c"),
       {"hall", "1", "", "Hall code, H1 H2 H3 as bits 2, 1, 0"},
       {"sector", "1", "electrical", "sector 0 to 5"},
-      {"load_speed_rad_s", "rad/s", "mechanical, of the load", "speed behind gear and elastic shaft"},
-      {"load_angle_rad", "rad", "mechanical, of the load", "angle behind gear and elastic shaft, over turns"},
-      {"source_A", "A", "out of the source", "current through the supply's inductance"},
-      {"loop_A", "A", "delta", "loop current, the sum of the branch currents"},
+      of(Signal::load_speed, "mechanical, of the load", "speed behind gear and elastic shaft"),
+      of(Signal::load_angle, "mechanical, of the load", "angle behind gear and elastic shaft, over turns"),
+      of(Signal::source_current, "out of the source", "current of the source"),
+      of(Signal::loop_current, "delta", "loop current, the sum of the branch currents"),
+      of(Signal::capacitor_current, "into the capacitor", "current of the bus capacitor"),
+      of(Signal::battery_charge, "", "charge of the battery, of the whole"),
+      of(Signal::winding_temperature, "", "temperature of the winding"),
+      of(Signal::housing_temperature, "", "temperature of housing and magnets"),
+      of(Signal::junction_temperature, "", "temperature of the hottest switch's junction"),
   };
+}
+
+/// The same columns for a motor that moves along a line, by their names there.
+struct LinearColumn {
+  std::string_view turning, linear, unit;
+  double factor = 1.0;
+};
+constexpr LinearColumn linear_names[] = {
+    {"speed_rad_s", "speed_m_s", "m/s"},
+    {"angle_rad", "position_mm", "mm", 1e3},
+    {"torque_Nm", "force_N", "N"},
+    {"speed_ref_rad_s", "speed_ref_m_s", "m/s"},
+    {"position_ref_deg", "position_ref_mm", "mm", base::in_linear("deg").factor},
+    {"load_Nm", "load_N", "N"},
+    {"load_speed_rad_s", "load_speed_m_s", "m/s"},
+    {"load_angle_rad", "load_position_mm", "mm", 1e3},
+};
+
+std::vector<Column> linear_columns() {
+  std::vector<Column> columns = turning_columns();
+  for (Column& column : columns) {
+    for (const LinearColumn& row : linear_names)
+      if (column.name == row.turning) {
+        column.name = row.linear;
+        column.unit = row.unit;
+        column.per_turning = row.factor;
+        column.meaning =
+            column.meaning.starts_with("angle") ? "position" : base::linear_words(column.meaning);
+        break;
+      }
+  }
   return columns;
+}
+
+}  // namespace
+
+const std::vector<Column>& all_columns() {
+  static const std::vector<Column> columns = turning_columns();
+  return columns;
+}
+
+const std::vector<Column>& all_columns(design::MotorKind kind) {
+  static const std::vector<Column> linear = linear_columns();
+  return kind == design::MotorKind::linear ? linear : all_columns();
 }
 
 bool applies(ColumnId id, control::Mode mode) {
@@ -73,7 +121,11 @@ bool applies(ColumnId id, const Scenario& s) {
   using control::Mode;
   if (id == ColumnId::load_speed || id == ColumnId::load_angle)
     return s.load.gear != 1 || s.load.stiffness_Nm_rad > 0;
-  if (id == ColumnId::source_A) return s.supply.inductance_H > 0;
+  if (id == ColumnId::source_A) return s.supply.inductance_H > 0 || s.supply.source != SourceKind::steady;
+  if (id == ColumnId::capacitor_A) return s.supply.capacitor_resistance_ohm > 0;
+  if (id == ColumnId::winding_degC || id == ColumnId::housing_degC) return s.heat.motor;
+  if (id == ColumnId::junction_degC) return s.heat.devices;
+  if (id == ColumnId::battery_charge) return s.supply.source == SourceKind::battery;
   if (id == ColumnId::loop_A) return s.sheet.connection == design::WindingConnection::delta;
   for (const Mode mode : {Mode::off, Mode::duty, Mode::current, Mode::speed, Mode::position})
     if (comes_into(s, mode) && applies(id, mode)) return true;
@@ -82,7 +134,7 @@ bool applies(ColumnId id, const Scenario& s) {
 
 base::Result<std::vector<std::size_t>> record_indices(const Scenario& scenario) {
   std::vector<std::size_t> indices = {0};
-  const std::vector<Column>& columns = all_columns();
+  const std::vector<Column>& columns = all_columns(scenario.sheet.kind);
   if (scenario.record.columns.empty()) {
     for (std::size_t c = 1; c < column_count; ++c)
       if (applies(static_cast<ColumnId>(c), scenario)) indices.push_back(c);
@@ -106,7 +158,7 @@ base::Result<std::vector<Column>> record_columns(const Scenario& scenario) {
   const base::Result<std::vector<std::size_t>> indices = record_indices(scenario);
   if (!indices) return indices.problems();
   std::vector<Column> chosen;
-  for (const std::size_t c : *indices) chosen.push_back(all_columns()[c]);
+  for (const std::size_t c : *indices) chosen.push_back(all_columns(scenario.sheet.kind)[c]);
   return chosen;
 }
 

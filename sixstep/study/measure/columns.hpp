@@ -47,6 +47,11 @@ enum class ColumnId : std::uint8_t {
   load_angle,
   source_A,
   loop_A,
+  capacitor_A,
+  battery_charge,
+  winding_degC,
+  housing_degC,
+  junction_degC,
   count
 };
 inline constexpr std::size_t column_count = static_cast<std::size_t>(ColumnId::count);
@@ -59,6 +64,9 @@ bool applies(ColumnId id, const Scenario& scenario);
 
 /// Every column there is: t_s i_a_A i_b_A i_c_A u_a_V .. hall.
 const std::vector<Column>& all_columns();
+/// The same by their names where the motor is linear: speed_m_s, position_mm, force_N (base/linear.hpp). Rows that a scenario
+/// records are in these units; those of events stay as the turning motor's.
+const std::vector<Column>& all_columns(design::MotorKind kind);
 
 /// Those the scenario's record.columns asks for, t_s always first; Problems name unknown ones.
 base::Result<std::vector<Column>> record_columns(const Scenario& scenario);

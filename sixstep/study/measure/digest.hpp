@@ -29,7 +29,7 @@ class Digest {
     for (const auto& low : {s.w_low, s.x_low, s.bus_low}) whole.hash_.number(static_cast<double>(low));
     if constexpr (requires { rig.plant().more(); }) {
       const auto& m = rig.plant().more();
-      for (const auto& low : {m.loop_low, m.source_low, m.load_w_low, m.twist_low}) whole.hash_.number(low);
+      for_each_kept(m, [&](const auto& kept) { whole.hash_.number(kept.low); });
     }
     return whole.hash_.value();
   }
@@ -48,7 +48,7 @@ class Digest {
     hash_.number(static_cast<double>(s.bus));
     if constexpr (requires { rig.plant().more(); }) {
       const auto& m = rig.plant().more();
-      for (const auto& v : {m.loop, m.source, m.load_w, m.twist}) hash_.number(v);
+      for_each_kept(m, [&](const auto& kept) { hash_.number(kept.value); });
     }
   }
 

@@ -6,6 +6,7 @@
 namespace sixstep::study {
 
 void EnergyGauge::segment(const SegmentView& g, double s) {
+  if (switches_) begin_segment(losses_, g, window_);
   const Clip seen = clipped(window_, g.t_s, g.plant.expansion().h, s);
   if (seen.empty()) return;
   seen_ = true;
@@ -65,7 +66,7 @@ std::optional<double> EnergyGauge::energy(Signal signal) const {
 
 std::optional<double> EnergyGauge::efficiency() const {
   if (!seen_) return std::nullopt;
-  const double electrical = sum_.supplied.value;
+  const double electrical = sum_.supplied.value + losses_.switching();
   const double mechanical = sum_.air_gap.value - (sum_.friction.value - sum_.load_friction.value);
   if (electrical > 0.0) return mechanical > 0.0 ? mechanical / electrical : 0.0;
   if (mechanical < 0.0) return electrical < 0.0 ? electrical / mechanical : 0.0;

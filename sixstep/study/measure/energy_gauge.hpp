@@ -4,6 +4,7 @@
 #pragma once
 #include <optional>
 
+#include "sixstep/study/measure/loss_gauge.hpp"
 #include "sixstep/study/measure/signals.hpp"
 #include "sixstep/study/measure/window.hpp"
 
@@ -16,17 +17,15 @@ struct LoadFriction {
 
 /// J over a window, in sums that keep what they round away.
 struct Energies {
-  struct Sum {
-    double value = 0.0, low = 0.0;
-    void add(double x) { series::add_compensated(value, low, x); }
-  };
-  Sum supplied, copper, devices, air_gap, friction, load;
-  Sum load_friction;  ///< the load's share of friction
+  series::CompensatedSum<double> supplied, copper, devices, air_gap, friction, load;
+  series::CompensatedSum<double> load_friction;  ///< the load's share of friction
 };
 
 class EnergyGauge {
  public:
-  EnergyGauge(const Window& window, const LoadFriction& load) : window_(window), load_(load) {}
+  /// switching: what comes to the bus's energy where an efficiency is asked for.
+  EnergyGauge(const Window& window, const LoadFriction& load, const plant::SwitchingLaw& switching = {})
+      : window_(window), load_(load), switches_(switching.any()), losses_(switching) {}
 
   void segment(const SegmentView& g, double s);
   /// J, of a signal that is a power; empty where the window saw nothing.
@@ -41,7 +40,8 @@ class EnergyGauge {
 
   Window window_;
   LoadFriction load_;
-  bool seen_ = false;
+  bool seen_ = false, switches_ = false;
+  plant::DeviceLosses losses_;
   Energies sum_;
 };
 

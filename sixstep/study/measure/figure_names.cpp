@@ -11,6 +11,8 @@ std::string figure_name(const Measure& m) {
   constexpr std::string_view power = "power ";  // "power from the bus" is "energy from the bus" over time
   switch (fact.of) {
     case TakenOf::energies:
+    case TakenOf::transitions:
+    case TakenOf::commutations:
       return words;
     case TakenOf::switching:
       return is_gate(m.signal) ? words + " of " + phrase : words;
@@ -23,6 +25,12 @@ std::string figure_name(const Measure& m) {
       break;
   }
   return words + " " + phrase;
+}
+
+std::string figure_name(const Scenario& scenario, const Measure& m) {
+  const std::string name = figure_name(m);
+  return scenario.sheet.kind == design::MotorKind::linear && m.label.empty() ? base::linear_words(name)
+                                                                             : name;
 }
 
 }  // namespace sixstep::study

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sixstep/study/scenario/switching_law.hpp"
+
 namespace sixstep::study {
 
 namespace {
@@ -89,7 +91,8 @@ double value_of(const auto& taken, const Measure&) { return taken.value(); }
 
 Taken taken_by(const Measure& m, const Scenario& scenario, const std::vector<Level>& levels) {
   const Window all{m.from_s.value_or(0.0), m.to_s.value_or(std::numeric_limits<double>::infinity())};
-  const EnergyGauge energies(all, {scenario.load.viscous_Nm_s, scenario.load.coulomb_Nm});
+  const EnergyGauge energies(all, {scenario.load.viscous_Nm_s, scenario.load.coulomb_Nm},
+                             switching_law(scenario.bridge));
   switch (fact_of(m.metric).of) {
     case TakenOf::signal:
       break;
@@ -104,6 +107,10 @@ Taken taken_by(const Measure& m, const Scenario& scenario, const std::vector<Lev
       return BandDeficit{HysteresisGauge(all)};
     case TakenOf::switching:
       return SwitchingGauge(all, m.signal);
+    case TakenOf::transitions:
+      return SwitchingLossGauge(all, switching_law(scenario.bridge));
+    case TakenOf::commutations:
+      return CommutationError{CommutationGauge(all), m.metric == MetricKind::commutation_error_rms};
   }
   return gauges_for(m, scenario, levels);
 }
@@ -139,12 +146,18 @@ void Figures::judge(const Scenario& scenario, Outcome& outcome) const {
   for (const Requirement& r : scenario.require) {
     const double v = next();
     const bool ok = v == v && (!r.min || v >= *r.min) && (!r.max || v <= *r.max);
-    outcome.verdicts.push_back(
-        {figure_name(r.measure), std::string(figure_unit(r.measure)), v, r.min, r.max, ok});
+    const base::LinearUnit unit = unit_in(scenario, figure_unit(r.measure));
+    const auto shown = [&](const std::optional<double>& x) {
+      return x ? std::optional(*x * unit.factor) : std::nullopt;
+    };
+    outcome.verdicts.push_back({figure_name(scenario, r.measure), std::string(unit.linear), v * unit.factor,
+                                shown(r.min), shown(r.max), ok});
   }
-  for (const Comparison& c : scenario.compare)
-    outcome.comparisons.push_back(
-        {figure_name(c.measure), std::string(figure_unit(c.measure)), next(), c.value, c.source});
+  for (const Comparison& c : scenario.compare) {
+    const base::LinearUnit unit = unit_in(scenario, figure_unit(c.measure));
+    outcome.comparisons.push_back({figure_name(scenario, c.measure), std::string(unit.linear),
+                                   next() * unit.factor, c.value * unit.factor, c.source});
+  }
 }
 
 }  // namespace sixstep::study

@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "sixstep/base/linear.hpp"
+#include "sixstep/study/measure/commutation_gauge.hpp"
 #include "sixstep/study/measure/energy_gauge.hpp"
 #include "sixstep/study/measure/gauge.hpp"
 #include "sixstep/study/measure/harmonic_gauge.hpp"
@@ -46,7 +48,14 @@ struct Distortion {
   void segment(const SegmentView& g, double s) { gauge.segment(g, s); }
   double value() const;
 };
-using Taken = std::variant<Gauges, BandExcess, BandDeficit, SwitchingGauge, Energy, Efficiency, Distortion>;
+struct CommutationError {
+  CommutationGauge gauge;
+  bool rms = false;
+  void segment(const SegmentView& g, double s) { gauge.segment(g, s); }
+  double value() const { return rms ? gauge.rms_deg() : gauge.worst_deg(); }
+};
+using Taken = std::variant<Gauges, BandExcess, BandDeficit, SwitchingGauge, SwitchingLossGauge, Energy,
+                           Efficiency, Distortion, CommutationError>;
 
 class Figures {
  public:
@@ -73,5 +82,13 @@ class Figures {
 
 /// Shown for a measure without a label: "settling time of motor current".
 std::string figure_name(const Measure& measure);
+/// In the words of the scenario's motor: "final force".
+std::string figure_name(const Scenario& scenario, const Measure& measure);
+
+/// How results show a unit of measure_choices.hpp: of a linear motor the one that stands for it, with its factor.
+inline base::LinearUnit unit_in(const Scenario& scenario, std::string_view unit) {
+  return scenario.sheet.kind == design::MotorKind::linear ? base::in_linear(unit)
+                                                          : base::LinearUnit{unit, unit, 1.0};
+}
 
 }  // namespace sixstep::study

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // One instant of a run as a row of all columns.
 #pragma once
+#include "sixstep/design/sheet/thermal.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/signals.hpp"
 
 namespace sixstep::study {
 
-/// What moves within a segment: the row at the fraction s of it, at time t.
+/// What moves within a segment: the row at the fraction s of it, at time t. `sector`: that the probes show.
 template <class Plant>
-void set_moving(FullRow& row, const Plant& plant, double s, double t) {
+void set_moving(FullRow& row, const Plant& plant, int sector, double s, double t) {
   const auto set = [&](ColumnId id, double v) { row[static_cast<std::size_t>(id)] = v; };
   const auto three = [&](ColumnId first, const plant::PerLeg<double>& v) {
     for (std::size_t k = 0; k < 3; ++k) row[static_cast<std::size_t>(first) + k] = v[k];
@@ -24,12 +25,24 @@ void set_moving(FullRow& row, const Plant& plant, double s, double t) {
   set(ColumnId::torque, now.torque);
   set(ColumnId::bus_V, now.bus);
   set(ColumnId::bus_A, now.bus_current);
-  const plant::PerLeg<double> w = motor_current_weights(plant.sector());
+  const plant::PerLeg<double> w = motor_current_weights(sector);
   set(ColumnId::i_m, w[0] * now.i[0] + w[1] * now.i[1] + w[2] * now.i[2]);
 }
 
 /// Beside that, what only the general kernel has.
-inline void set_load_side(FullRow&, const plant::Plant<double>&, double) {}
+inline void set_load_side(FullRow& row, const plant::Plant<double>& plant, double s) {
+  const auto& c = plant.constants();
+  const auto& bus = plant.expansion().bus;
+  const auto of = [&row](ColumnId id) -> double& { return row[static_cast<std::size_t>(id)]; };
+  of(ColumnId::winding_degC) = of(ColumnId::housing_degC) = of(ColumnId::junction_degC) = design::sheet_degC;
+  of(ColumnId::load_speed) = of(ColumnId::speed);
+  of(ColumnId::load_angle) = of(ColumnId::angle);
+  of(ColumnId::source_A) = of(ColumnId::bus_A);  // a stiff bus is all source
+  if (!(c.inv_C > 0)) return;
+  const double above = c.V_0 - series::evaluate(bus, plant.expansion().degree, s);
+  of(ColumnId::source_A) = plant.mode().source_feeds ? above * c.inv_R_b : 0.0;
+  of(ColumnId::capacitor_A) = of(ColumnId::source_A) - of(ColumnId::bus_A);
+}
 inline void set_load_side(FullRow& row, const plant::general::Plant<double>& plant, double s) {
   const auto value = [&](const Series& of) { return series::evaluate(of, plant.expansion().degree, s); };
   const auto set = [&](ColumnId id, double v) { row[static_cast<std::size_t>(id)] = v; };
@@ -37,7 +50,14 @@ inline void set_load_side(FullRow& row, const plant::general::Plant<double>& pla
   const double angle = row[static_cast<std::size_t>(ColumnId::angle)];
   set(ColumnId::load_speed, value(plant.series().load_w));
   set(ColumnId::load_angle, c.inv_gear * angle - (c.elastic ? value(plant.series().twist) : 0.0));
-  if (c.inv_L_b > 0) set(ColumnId::source_A, value(plant.series().source));
+  set(ColumnId::source_A,
+      c.inv_C > 0 ? value(plant.series().source) : row[static_cast<std::size_t>(ColumnId::bus_A)]);
+  if (c.inv_C > 0) set(ColumnId::capacitor_A, value(plant.series().capacitor_A));
+  if (c.source == plant::general::Source::battery)
+    set(ColumnId::battery_charge, value(plant.series().charge));
+  set(ColumnId::winding_degC, plant.heat().winding_degC());
+  set(ColumnId::housing_degC, plant.heat().housing_degC());
+  set(ColumnId::junction_degC, plant.heat().hottest_junction_degC());
   if (c.has_loop) set(ColumnId::loop_A, value(plant.series().loop));
 }
 
@@ -47,13 +67,13 @@ template <class Rig>
 FullRow full_row(const Rig& rig, double s, double t) {
   FullRow row{};
   const auto set = [&](ColumnId id, double v) { row[static_cast<std::size_t>(id)] = v; };
-  set_moving(row, rig.plant(), s, t);
-  set(ColumnId::duty, signed_duty(rig.modulator(), rig.plant().sector()));
+  set_moving(row, rig.plant(), rig.probe_sector(), s, t);
+  set(ColumnId::duty, signed_duty(rig.modulator(), rig.board_sector()));
   set(ColumnId::i_ref, rig.current_reference_A());
   set(ColumnId::speed_ref, rig.speed_reference_rad_s());
   set(ColumnId::position_ref, rig.setpoint());
   set(ColumnId::load, plant::load_torque(rig.plant(), s));
-  const plant::Gates& gates = rig.plant().gates();
+  const plant::Gates& gates = rig.leg_gates();
   for (std::size_t k = 0; k < 3; ++k) {
     row[static_cast<std::size_t>(ColumnId::gate_T1) + 2 * k] = gates.high[k];
     row[static_cast<std::size_t>(ColumnId::gate_T2) + 2 * k] = gates.low[k];

@@ -39,6 +39,9 @@ AnyGauge gauge_for(const Measure& m, const Step& step) {
     case MetricKind::band_excess:
     case MetricKind::band_deficit:
     case MetricKind::switching_frequency:
+    case MetricKind::switching_loss:
+    case MetricKind::commutation_error:
+    case MetricKind::commutation_error_rms:
       break;
   }
   return NoGauge();

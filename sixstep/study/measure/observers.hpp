@@ -6,8 +6,10 @@
 #include <optional>
 
 #include "sixstep/plant/general/audit.hpp"
+#include "sixstep/study/measure/device_watch.hpp"
 #include "sixstep/study/measure/digest.hpp"
 #include "sixstep/study/measure/figures.hpp"
+#include "sixstep/study/measure/iron_gauge.hpp"
 #include "sixstep/study/measure/logic_recorder.hpp"
 #include "sixstep/study/measure/recorder.hpp"
 #include "sixstep/study/measure/run_away.hpp"
@@ -24,6 +26,8 @@ struct Audits {
 
 struct Observers {
   std::optional<Audits> audit{};
+  std::optional<DeviceWatch> devices{};
+  std::optional<IronGauge> iron{};
   Digest digest{};
   Figures figures;
   std::optional<GridRecorder> grid{};
@@ -37,6 +41,8 @@ struct Observers {
   template <class Rig>
   void segment(const Rig& rig, double s) {
     if (audit) audit->segment(rig.plant(), s);
+    if (devices) devices->segment(segment_view(rig), s);
+    if (iron) iron->segment(rig.plant(), s);
     digest.segment(rig, s);
     figures.segment(rig, s);
     if (grid) grid->segment(rig, s);

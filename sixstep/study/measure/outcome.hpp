@@ -10,6 +10,7 @@
 #include "sixstep/design/loops/pole_placement.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/plant/audit.hpp"
+#include "sixstep/study/measure/device_watch.hpp"
 
 namespace sixstep::study {
 
@@ -57,12 +58,15 @@ struct Outcome {
   std::vector<ComparisonResult> comparisons;
   std::optional<plant::EnergyBook> energy;  // empty where nobody kept books (Listeners::keep_books)
   std::optional<plant::Laws> laws;
+  std::vector<DeviceLoss> devices;  // empty where the bridge does not say enough (tells_losses)
   std::vector<EventCount> events;
   std::vector<LoopGains> gains;
+  std::vector<design::DerivationStep> sensorless_steps;  // how a sensorless drive's numbers came about
   design::MotorModel motor;
   std::optional<base::Problem>
-      fault;                 // what stopped the run (shoot-through, impossible Hall code) or the drive
-  std::optional<Trip> trip;  // the same in parts, where it was the drive that stopped
+      fault;                       // what stopped the run (shoot-through, impossible Hall code) or the drive
+  std::optional<Trip> trip;        // the same in parts, where it was the drive that stopped
+  std::vector<std::string> notes;  // what was asked for and did not come about, a sentence each
   double simulated_s = 0.0;
   std::int64_t segments = 0;
   std::int64_t turn_ons = 0;  // of the role that is chopped, wherever commutation puts it

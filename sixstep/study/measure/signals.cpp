@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sixstep/design/sheet/thermal.hpp"
 #include "sixstep/study/measure/signal_products.hpp"
 
 namespace sixstep::study {
@@ -57,7 +58,7 @@ Extremes bounds_of_currents(const SegmentView& g, const PerLeg<double>& w) {
 }
 
 Series motor_current(const SegmentView& g) {
-  return weighted_current(motor_current_weights(g.plant.sector()), g.plant.expansion());
+  return weighted_current(motor_current_weights(g.probe_sector), g.plant.expansion());
 }
 
 Series mechanical_angle(const SegmentView& g) {
@@ -65,10 +66,58 @@ Series mechanical_angle(const SegmentView& g) {
   return angle_series(g, 1.0 / p, base::sector_rad / p);
 }
 
+using General = plant::general::Series<double>;
+
+/// 0 of what the lean kernel's plants do not have.
+Series of_general(const SegmentView& g, Series General::*which) {
+  return g.plant.general ? g.plant.general->series().*which : Series{};
+}
+
+/// Where none is simulated it is what the sheet's numbers belong to.
+Series temperature(const SegmentView& g, double (plant::general::Heat::*which)() const) {
+  return {g.plant.general ? (g.plant.general->heat().*which)() : design::sheet_degC};
+}
+
+Series load_speed(const SegmentView& g) {
+  return g.plant.general ? g.plant.general->series().load_w : g.plant.expansion().w;
+}
+
+Series load_angle(const SegmentView& g) {
+  if (!g.plant.general) return mechanical_angle(g);
+  const auto& c = g.plant.general->constants();
+  const double p = g.plant.pole_pairs() * c.gear;
+  Series angle = angle_series(g, 1.0 / p, base::sector_rad / p);
+  for (int j = 0; c.elastic && j <= g.plant.expansion().degree; ++j)
+    angle[j] -= g.plant.general->series().twist[j];
+  return angle;
+}
+
+/// (V_0 - U_s)/R_b; a stiff bus is all source.
+Series source_current(const SegmentView& g) {
+  const auto& y = g.plant.expansion();
+  const bool has_capacitor =
+      g.plant.lean ? g.plant.lean->constants().inv_C > 0 : g.plant.general->constants().inv_C > 0;
+  if (!has_capacitor) return weighted_current(bus_current_weights(g.plant), y);
+  if (g.plant.general) return g.plant.general->series().source;
+  const auto& c = g.plant.lean->constants();
+  if (!g.plant.lean->mode().source_feeds) return {};
+  Series out = less(c.V_0, y.bus, y.degree);
+  for (int j = 0; j <= y.degree; ++j) out[j] *= c.inv_R_b;
+  return out;
+}
+
+Series capacitor_current(const SegmentView& g) {
+  if (g.plant.general && g.plant.general->constants().inv_C > 0) return g.plant.general->series().capacitor_A;
+  const auto& y = g.plant.expansion();
+  Series out = source_current(g);
+  const Series drawn = weighted_current(bus_current_weights(g.plant), y);
+  for (int j = 0; j <= y.degree; ++j) out[j] -= drawn[j];
+  return out;
+}
+
 template <unsigned n>
 Series gate(const SegmentView& g) {
-  const plant::Gates& gates = g.plant.gates();
-  return {(n % 2 == 0 ? gates.high : gates.low)[n / 2] ? 1.0 : 0.0};
+  return {(n % 2 == 0 ? g.gates.high : g.gates.low)[n / 2] ? 1.0 : 0.0};
 }
 
 template <int k>
@@ -91,7 +140,7 @@ struct PlainSignal {
 };
 constexpr PlainSignal plain_signals[] = {
     {Signal::current, motor_current,
-     [](const SegmentView& g) { return bounds_of_currents(g, motor_current_weights(g.plant.sector())); }},
+     [](const SegmentView& g) { return bounds_of_currents(g, motor_current_weights(g.probe_sector)); }},
     {Signal::phase_a, phase<0>, phase_bounds<0>},
     {Signal::phase_b, phase<1>, phase_bounds<1>},
     {Signal::phase_c, phase<2>, phase_bounds<2>},
@@ -104,7 +153,7 @@ constexpr PlainSignal plain_signals[] = {
      [](const SegmentView& g) { return weighted_current(bus_current_weights(g.plant), g.plant.expansion()); },
      [](const SegmentView& g) { return bounds_of_currents(g, bus_current_weights(g.plant)); }},
     {Signal::angle, mechanical_angle},
-    {Signal::duty, [](const SegmentView& g) { return Series{signed_duty(g.modulator, g.plant.sector())}; }},
+    {Signal::duty, [](const SegmentView& g) { return Series{signed_duty(g.modulator, g.board_sector)}; }},
     {Signal::current_reference, [](const SegmentView& g) { return Series{g.current_reference_A}; }},
     {Signal::speed_reference, [](const SegmentView& g) { return Series{g.speed_reference_rad_s}; }},
     {Signal::position_reference, [](const SegmentView& g) { return Series{g.setpoint}; }},
@@ -119,6 +168,18 @@ constexpr PlainSignal plain_signals[] = {
     {Signal::position_error,
      [](const SegmentView& g) { return less(g.setpoint, position_series(g), g.plant.expansion().degree); }},
     {Signal::load_torque, load_torque},
+    {Signal::load_speed, load_speed},
+    {Signal::load_angle, load_angle},
+    {Signal::source_current, source_current},
+    {Signal::capacitor_current, capacitor_current},
+    {Signal::battery_charge, [](const SegmentView& g) { return of_general(g, &General::charge); }},
+    {Signal::loop_current, [](const SegmentView& g) { return of_general(g, &General::loop); }},
+    {Signal::winding_temperature,
+     [](const SegmentView& g) { return temperature(g, &plant::general::Heat::winding_degC); }},
+    {Signal::housing_temperature,
+     [](const SegmentView& g) { return temperature(g, &plant::general::Heat::housing_degC); }},
+    {Signal::junction_temperature,
+     [](const SegmentView& g) { return temperature(g, &plant::general::Heat::hottest_junction_degC); }},
     {Signal::gate_T1, gate<0>},
     {Signal::gate_T2, gate<1>},
     {Signal::gate_T3, gate<2>},

@@ -18,7 +18,10 @@ struct SegmentView {
   const rig::SixStepModulator& modulator;
   double t_s = 0.0;  ///< where the segment begins
   double current_reference_A = 0.0, speed_reference_rad_s = 0.0, setpoint = 0.0;
-  bool ticked = false;  ///< a control sample was taken where the segment begins
+  plant::Gates gates{};  ///< of the board's legs
+  int board_sector = 0;  ///< that the board takes the rotor to be in
+  int probe_sector = 0;  ///< that the motor's probes show
+  bool ticked = false;   ///< a control sample was taken where the segment begins
 };
 template <class Rig>
 SegmentView segment_view(const Rig& rig) {
@@ -28,6 +31,9 @@ SegmentView segment_view(const Rig& rig) {
           .current_reference_A = rig.current_reference_A(),
           .speed_reference_rad_s = rig.speed_reference_rad_s(),
           .setpoint = rig.setpoint(),
+          .gates = rig.leg_gates(),
+          .board_sector = rig.board_sector(),
+          .probe_sector = rig.probe_sector(),
           .ticked = rig.ticked()};
 }
 
@@ -41,7 +47,7 @@ inline plant::PerLeg<double> motor_current_weights(int sector) {
   return w;
 }
 
-/// The duty in effect, negative where the source is not that of the sector's positive pair; with armed
+/// The duty in effect, negative where the source is not that of the board's sector's positive pair; with armed
 /// comparators whether the upper switch is on.
 double signed_duty(const rig::SixStepModulator& modulator, int sector);
 

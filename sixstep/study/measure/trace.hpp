@@ -13,6 +13,8 @@ struct Column {
   std::string unit;   // "A"
   std::string frame;  // "phase, into the motor"
   std::string meaning;
+  double per_turning =
+      1.0;  // of a linear motor's column: its number over the turning motor's, 1000 mm for a rad
 };
 
 struct TimeSpan {

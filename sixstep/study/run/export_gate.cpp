@@ -5,6 +5,7 @@
 
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/sensors_description.hpp"
 
 namespace sixstep::study {
 namespace {
@@ -46,12 +47,23 @@ void look_at_sensors(const Scenario& s, base::Problems& out) {
   if (reads_rotor(s) && s.sensors.rotor == RotorSensing::ideal)
     ideal("sensors.rotor", "speed and position at every instant, and a board has the Hall edges",
           "set rotor = \"hall\"");
+  if (s.sensors.rotor != RotorSensing::ideal && s.sensors.rotor != RotorSensing::hall)
+    out.push_back({"sensors.rotor", std::string(base::word(rotor_sensing_choices, s.sensors.rotor)),
+                   "has no decoder in the header's drive, which reads Hall probes", "set rotor = \"hall\""});
   if (reads_currents(s) && s.sensors.currents == rig::CurrentMeasurement::ideal)
     ideal("sensors.currents", "currents that no amplifier and converter have been through",
           "set currents = \"phases\" or \"dc-link\", and current_range_A");
   if (reads_bus(s) && s.sensors.bus == BusSensing::ideal)
     ideal("sensors.bus", "a bus voltage that no converter has been through",
           "set bus = \"adc\" and bus_range_V");
+}
+
+/// The header's drive is the lean one or the product.
+void look_at_drive(const Scenario& s, base::Problems& out) {
+  if (s.control.drive == FirmwareKind::sensorless)
+    out.push_back(
+        {"control.drive", "\"sensorless\"", "has no header yet",
+         "set drive = \"lean\" or \"product\", or write its configuration by design::sensorless_drive"});
 }
 
 /// What is sampled in the middle of a period is answered at the next one's start: that is a delay.
@@ -110,6 +122,7 @@ std::string measured(const Verdict& v) {
 
 base::Problems never_measured(const Scenario& s) {
   base::Problems out;
+  look_at_drive(s, out);
   look_at_sensors(s, out);
   look_at_delay(s, out);
   look_at_dead_time(s, out);
@@ -131,6 +144,10 @@ base::Problems not_held(const Outcome& outcome) {
 }
 
 base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listeners& listeners) {
+  if (scenario.sheet.kind == design::MotorKind::linear)
+    return base::Problem{"motor", "\"" + scenario.motor + "\"",
+                         "is linear, and a header speaks of turning motors only",
+                         "take the gains from the run's report"};
   base::Result<Outcome> outcome = run(scenario, listeners);
   if (!outcome) return outcome.problems();
   Clearance c{.outcome = std::move(*outcome), .unmeasured = never_measured(scenario), .unheld = {}};

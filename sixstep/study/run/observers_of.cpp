@@ -10,6 +10,18 @@ namespace {
 /// Curves drawn from row to row need about this many points over a run.
 constexpr double drawn_points = 2000.0;
 
+/// Rows in the units of their columns, where the motor is linear.
+std::function<void(Row)> in_metres(const Scenario& s, const std::vector<std::size_t>& indices,
+                                   const std::function<void(Row)>& to) {
+  if (!to || s.sheet.kind == design::MotorKind::rotary) return to;
+  std::vector<double> factors, row(indices.size());
+  for (const std::size_t c : indices) factors.push_back(all_columns(s.sheet.kind)[c].per_turning);
+  return [factors, row, to](Row values) mutable {
+    for (std::size_t n = 0; n < row.size(); ++n) row[n] = values[n] * factors[n];
+    to(row);
+  };
+}
+
 }  // namespace
 
 Observers observers_of(const Scenario& s, const Listeners& listeners,
@@ -17,11 +29,15 @@ Observers observers_of(const Scenario& s, const Listeners& listeners,
   const double gap_s = s.duration_s / drawn_points;
   Observers w{.figures = Figures(s, reference_levels(s)), .keep_going = listeners.keep_going};
   if (listeners.keep_books) w.audit.emplace();
-  if (listeners.on_record && s.record.events)
-    w.events.emplace(gap_s, indices, listeners.on_record);
-  else if (listeners.on_record)
+  if (listeners.keep_books && tells_losses(s.bridge)) w.devices.emplace(s.bridge);
+  const design::IronDrag iron = design::sheet_constants(s.sheet).friction.iron;
+  if (listeners.keep_books && (iron.B_Nm_s > 0 || iron.coulomb_Nm > 0)) w.iron.emplace(iron);
+  const std::function<void(Row)> on_record = in_metres(s, indices, listeners.on_record);
+  if (on_record && s.record.events)
+    w.events.emplace(gap_s, indices, on_record);
+  else if (on_record)
     w.grid.emplace(sim::to_instant(s.record.grid_s.value_or(s.pwm.period_s)).ticks,
-                   sim::to_instant(s.duration_s), indices, listeners.on_record);
+                   sim::to_instant(s.duration_s), indices, on_record);
   std::vector<std::size_t> every(column_count);
   for (std::size_t c = 0; c < column_count; ++c) every[c] = c;
   if (listeners.on_event) w.report.emplace(gap_s, every, listeners.on_event);

@@ -1,23 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/run/run.hpp"
 
+#include <optional>
+#include <utility>
+#include <variant>
+
 #include "sixstep/study/check/check.hpp"
+#include "sixstep/study/live/any_rig.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/run/observers_of.hpp"
-#include "sixstep/study/run/run_firmware.hpp"
 
 namespace sixstep::study {
 
 namespace {
 
-/// A run pays for what its firmware does, and for nothing else.
+/// The whole run in one slice, and what it leaves behind.
 base::Problems run_on_board(const Scenario& s, Compiled compiled, Observers& w, Outcome& out) {
-  if (compiled.general)
-    return s.control.drive == FirmwareKind::product ? run_product_on_general(s, std::move(compiled), w, out)
-                                                    : run_sensed_on_general(s, std::move(compiled), w, out);
-  if (s.control.drive == FirmwareKind::product) return run_product(s, std::move(compiled), w, out);
-  const bool ideal = compiled.board.sensors.ideal();
-  return ideal ? run_lean(s, std::move(compiled), w, out) : run_sensed(s, std::move(compiled), w, out);
+  base::Result<detail::AnyRig> rig = detail::made_by(s, compiled, std::move(compiled.timeline));
+  if (!rig) return rig.problems();
+  Present present;
+  std::optional<detail::LastSegment> last;
+  sim::Instant reach;
+  detail::Slice slice{w, present, last, compiled.end, reach, compiled.board.modulator.period_ticks, true};
+  return std::visit([&](auto& live) { return live.end(live.advance(compiled.end, slice), w, out); }, *rig);
 }
 
 }  // namespace
@@ -32,15 +37,19 @@ base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners) 
   Outcome out;
   out.motor = compiled->motor;
   out.gains = compiled->gains;
+  out.sensorless_steps = compiled->sensorless_steps;
   Observers w = observers_of(scenario, listeners, *indices);
   const bool on_general = compiled->general.has_value();
   const base::Problems problems = run_on_board(scenario, std::move(*compiled), w, out);
   if (!problems.empty()) return problems;
-  const auto note_books = [&out](const auto& audit) {
+  out.segments = w.segments;
+  const auto note_books = [&out, &w](const auto& audit) {
     out.energy = audit.energy();
+    if (w.iron) out.energy->iron = w.iron->energy_J();
     out.laws = audit.laws();
   };
   if (w.audit) on_general ? note_books(w.audit->general) : note_books(w.audit->lean);
+  if (w.devices) out.devices = w.devices->losses();
   w.figures.judge(scenario, out);
   return out;
 }

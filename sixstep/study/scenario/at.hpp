@@ -26,8 +26,38 @@ struct AtHallBreak {
   PinLevel level = PinLevel::low;
 };
 
+/// rig::WireOrder, or as before.
+enum class AtOrder : std::uint8_t { same, abc, bca, cab, acb, cba, bac };
+/// HallLines one further on, or as before.
+enum class AtHallLines : std::uint8_t {
+  same,
+  none,
+  line_3,
+  line_2,
+  lines_23,
+  line_1,
+  lines_13,
+  lines_12,
+  all
+};
+
+/// A track of an absolute encoder that shows one level from then on, 1 the finest.
+struct AtTrack {
+  int track = 1;
+  Level01 level = Level01::low;
+};
+
+/// A resolver's winding whose line breaks.
+enum class Winding : std::uint8_t { none, cosine, sine };
+
 struct AtSensors {
   std::optional<AtHallBreak> hall_break;
+  AtOrder hall_lines = AtOrder::same;
+  AtHallLines hall_inverted = AtHallLines::same;
+  std::optional<double> current_offset_A, current_gain_error;
+  std::optional<int> missed_edges;
+  std::optional<AtTrack> bad_track;
+  Winding broken_winding = Winding::none;
 };
 
 /// What the product drive is asked for.
@@ -65,6 +95,14 @@ struct AtLimits {
 enum class AtMode : std::uint8_t { same, off, duty, current, speed, position };
 enum class AtChopping : std::uint8_t { same, soft, hard, complementary };
 
+/// Commutates, or as before.
+enum class AtCommutates : std::uint8_t { same, back_emf, hall };
+
+struct AtSensorless {
+  AtCommutates commutates = AtCommutates::same;
+  bool operator==(const AtSensorless&) const = default;
+};
+
 struct AtControl {
   AtMode mode = AtMode::same;
   AtCurrentLoop current;
@@ -72,6 +110,7 @@ struct AtControl {
   AtPositionLoop position;
   std::optional<double> slew;
   AtLimits limits;
+  AtSensorless sensorless;
   bool operator==(const AtControl&) const = default;
 };
 
@@ -87,7 +126,12 @@ struct AtMotor {
   Wire broken_wire = Wire::none;
 };
 
+/// A switch of the bridge: T1/T2 upper and lower of leg a, T3/T4 of b, T5/T6 of c.
+enum class Switch : std::uint8_t { none, T1, T2, T3, T4, T5, T6 };
+
 struct AtBridge {
+  Switch open_switch = Switch::none, shorted_switch = Switch::none;
+  AtOrder phases = AtOrder::same;
   std::optional<double> dead_time_s;
 };
 

@@ -2,6 +2,7 @@
 // The keys of [[at]]: what may change while a run goes on.
 #pragma once
 #include "sixstep/study/scenario/control_description.hpp"
+#include "sixstep/study/scenario/linear_words.hpp"
 #include "sixstep/study/scenario/reference_description.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 
@@ -10,9 +11,11 @@ namespace sixstep::study {
 /// What is told to whoever asks for anything else.
 inline constexpr std::string_view what_may_change =
     "during a run change only: reference; supply.voltage_V, supply.sinks; load.torque_Nm, load.locked; "
-    "sensors.hall_break; request; control.mode, .slew, .current (its gains, band_A, limit_A), .speed (its "
-    "gains, torque_limit_Nm), .position, .limits (current_A, torque_Nm, speed_rad_s); pwm.chopping; "
-    "bridge.dead_time_s; motor.broken_wire";
+    "sensors.hall_break, .hall_lines, .hall_inverted, .current_offset_A, .current_gain_error, .missed_edges, "
+    ".bad_track, .broken_winding; request; control.mode, .slew, .current (its gains, band_A, limit_A), .speed (its "
+    "gains, torque_limit_Nm), .position, .limits (current_A, torque_Nm, speed_rad_s), .sensorless.commutates; "
+    "pwm.chopping; "
+    "bridge.dead_time_s, .phases, .open_switch, .shorted_switch; motor.broken_wire";
 
 template <class Visitor>
 void describe(Visitor& v, AtSupply& s) {
@@ -26,7 +29,9 @@ void describe(Visitor& v, AtSupply& s) {
 template <class Visitor>
 void describe(Visitor& v, AtLoad& s) {
   v.value("torque_Nm", s.torque_Nm,
-          {.meaning = "load torque from then on, until the next of load.times_s", .unit = "N m"});
+          {.meaning = "load torque from then on, until the next of load.times_s",
+           .unit = "N m",
+           .also = words::force});
   v.value("locked", s.locked,
           {.meaning = "true: a clamp stops the rotor at once and holds it; false: it is let go"});
 }
@@ -43,9 +48,61 @@ void describe(Visitor& v, AtHallBreak& s) {
   v.choice("level", s.level, pin_level_choices, {.meaning = "what the pin reads from then on"});
 }
 
+inline constexpr base::Choice<AtOrder> at_hall_order_choices[] = {
+    {"same", AtOrder::same, "as before"},
+    {"123", AtOrder::abc, hall_order_choices[0].meaning},
+    {"231", AtOrder::bca, hall_order_choices[1].meaning},
+    {"312", AtOrder::cab, hall_order_choices[2].meaning},
+    {"132", AtOrder::acb, hall_order_choices[3].meaning},
+    {"321", AtOrder::cba, hall_order_choices[4].meaning},
+    {"213", AtOrder::bac, hall_order_choices[5].meaning},
+};
+inline constexpr base::Choice<AtHallLines> at_hall_inverted_choices[] = {
+    {"same", AtHallLines::same, "as before"},
+    {"none", AtHallLines::none, hall_inverted_choices[0].meaning},
+    {"1", AtHallLines::line_1, hall_inverted_choices[1].meaning},
+    {"2", AtHallLines::line_2, hall_inverted_choices[2].meaning},
+    {"3", AtHallLines::line_3, hall_inverted_choices[3].meaning},
+    {"12", AtHallLines::lines_12, hall_inverted_choices[4].meaning},
+    {"13", AtHallLines::lines_13, hall_inverted_choices[5].meaning},
+    {"23", AtHallLines::lines_23, hall_inverted_choices[6].meaning},
+    {"123", AtHallLines::all, hall_inverted_choices[7].meaning},
+};
+
+template <class Visitor>
+void describe(Visitor& v, AtTrack& s) {
+  v.value("track", s.track,
+          {.meaning = "which, 1 the finest, up to sensors.absolute.bits", .range = base::between(1, 20)});
+  v.choice("level", s.level, level_choices, {.meaning = "what it shows from then on"});
+}
+
+inline constexpr base::Choice<Winding> winding_choices[] = {
+    {"none", Winding::none, "both are whole"},
+    {"cosine", Winding::cosine, "the winding of the cosine"},
+    {"sine", Winding::sine, "the winding of the sine"},
+};
+
 template <class Visitor>
 void describe(Visitor& v, AtSensors& s) {
   v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks then, or is whole again"});
+  v.choice("hall_lines", s.hall_lines, at_hall_order_choices,
+           {.meaning = "which Hall probe is wired to pins H1, H2, H3 of the board from then on"});
+  v.choice("hall_inverted", s.hall_inverted, at_hall_inverted_choices,
+           {.meaning = "which pins H1, H2, H3 read their probe inverted from then on"});
+  v.value("current_offset_A", s.current_offset_A,
+          {.meaning =
+               "what the amplifiers show at no current from then on; the drive measured its offsets before",
+           .unit = "A"});
+  v.value("current_gain_error", s.current_gain_error,
+          {.meaning = "how much too large a current reads from then on, as a part of it",
+           .range = base::Range{-1, 1, false, true}});
+  v.value("missed_edges", s.missed_edges,
+          {.meaning = "so many of the encoder's next edges are not counted; its next index mends the count",
+           .range = base::between(1, 1000000)});
+  v.table("bad_track", s.bad_track,
+          {.meaning = "a track of the absolute encoder that sticks from then on", .cure = what_may_change});
+  v.choice("broken_winding", s.broken_winding, winding_choices,
+           {.meaning = "a winding of the resolver that gives nothing from then on"});
 }
 
 inline constexpr base::Choice<AtMode> at_mode_choices[] = {
@@ -80,7 +137,8 @@ void describe(Visitor& v, AtSpeedLoop& s) {
   v.value("torque_limit_Nm", s.torque_limit_Nm,
           {.meaning = "torque at the speed controller's full output from then on",
            .unit = "N m",
-           .range = above(0)});
+           .range = above(0),
+           .also = words::force_limit});
 }
 
 template <class Visitor>
@@ -88,23 +146,39 @@ void describe(Visitor& v, AtPositionLoop& s) {
   v.value("gain_rad_s_per_deg", s.gain_rad_s_per_deg,
           {.meaning = "speed asked for per degree of position error from then on",
            .unit = "rad/s/deg",
-           .range = above(0)});
+           .range = above(0),
+           .also = words::position_gain});
   v.value("speed_limit_rad_s", s.speed_limit_rad_s,
           {.meaning = "bound on the speed that the position loop asks for from then on",
            .unit = "rad/s",
-           .range = above(0)});
+           .range = above(0),
+           .also = words::speed_limit});
 }
 
 template <class Visitor>
 void describe(Visitor& v, AtLimits& s) {
   v.value("current_A", s.current_A,
           {.meaning = "bound on the current reference from then on", .unit = "A", .range = above(0)});
-  v.value("torque_Nm", s.torque_Nm,
-          {.meaning = "the same as a torque, over K_t", .unit = "N m", .range = above(0)});
+  v.value(
+      "torque_Nm", s.torque_Nm,
+      {.meaning = "the same as a torque, over K_t", .unit = "N m", .range = above(0), .also = words::force});
   v.value("speed_rad_s", s.speed_rad_s,
           {.meaning = "speed that the drive's own torque does not pass from then on",
            .unit = "rad/s",
-           .range = above(0)});
+           .range = above(0),
+           .also = words::speed});
+}
+
+inline constexpr base::Choice<AtCommutates> at_commutates_choices[] = {
+    {"same", AtCommutates::same, "as before"},
+    {"back-emf", AtCommutates::back_emf, commutates_choices[0].meaning},
+    {"hall", AtCommutates::hall, commutates_choices[1].meaning},
+};
+
+template <class Visitor>
+void describe(Visitor& v, AtSensorless& s) {
+  v.choice("commutates", s.commutates, at_commutates_choices,
+           {.meaning = "what the pairs are commutated by, once both agree on where the rotor is"});
 }
 
 template <class Visitor>
@@ -119,6 +193,7 @@ void describe(Visitor& v, AtControl& s) {
            .range = above(0),
            .mode_unit = "*/s"});
   v.table("limits", s.limits, {.meaning = "limits of the current reference", .cure = what_may_change});
+  v.table("sensorless", s.sensorless, {.meaning = "the sensorless drive", .cure = what_may_change});
 }
 
 template <class Visitor>
@@ -127,8 +202,31 @@ void describe(Visitor& v, AtPwm& s) {
            {.meaning = "which switches are chopped from the next control sample on"});
 }
 
+inline constexpr base::Choice<Switch> switch_choices[] = {
+    {"none", Switch::none, "none fails"},        {"T1", Switch::T1, "upper switch of leg a"},
+    {"T2", Switch::T2, "lower switch of leg a"}, {"T3", Switch::T3, "upper switch of leg b"},
+    {"T4", Switch::T4, "lower switch of leg b"}, {"T5", Switch::T5, "upper switch of leg c"},
+    {"T6", Switch::T6, "lower switch of leg c"},
+};
+inline constexpr base::Choice<AtOrder> at_phase_order_choices[] = {
+    {"same", AtOrder::same, "as before"},
+    {"abc", AtOrder::abc, phase_order_choices[0].meaning},
+    {"bca", AtOrder::bca, phase_order_choices[1].meaning},
+    {"cab", AtOrder::cab, phase_order_choices[2].meaning},
+    {"acb", AtOrder::acb, phase_order_choices[3].meaning},
+    {"cba", AtOrder::cba, phase_order_choices[4].meaning},
+    {"bac", AtOrder::bac, phase_order_choices[5].meaning},
+};
+
 template <class Visitor>
 void describe(Visitor& v, AtBridge& s) {
+  v.choice("open_switch", s.open_switch, switch_choices,
+           {.meaning = "a switch whose gate no longer acts from then on: it is off, its diode stays"});
+  v.choice(
+      "shorted_switch", s.shorted_switch, switch_choices,
+      {.meaning = "a switch that is on for ever from then on: the other gate of its leg shoots through"});
+  v.choice("phases", s.phases, at_phase_order_choices,
+           {.meaning = "which phase of the motor is wired to legs a, b, c of the bridge from then on"});
   v.value("dead_time_s", s.dead_time_s,
           {.meaning =
                "pause between turning one switch of a leg off and the other on, of the changes from then on",

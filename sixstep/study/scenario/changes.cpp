@@ -25,6 +25,12 @@ static_assert(static_cast<int>(AtChopping::soft) - 1 == static_cast<int>(control
               static_cast<int>(AtChopping::complementary) - 1 ==
                   static_cast<int>(control::Chopping::complementary));
 
+Commutates commutates_by(AtCommutates given, Commutates before) {
+  return given == AtCommutates::same ? before : static_cast<Commutates>(static_cast<int>(given) - 1);
+}
+static_assert(static_cast<int>(AtCommutates::back_emf) - 1 == static_cast<int>(Commutates::back_emf) &&
+              static_cast<int>(AtCommutates::hall) - 1 == static_cast<int>(Commutates::hall));
+
 template <class T>
 void take(T& member, const std::optional<double>& given) {
   if (given) member = *given;
@@ -57,6 +63,7 @@ void take_control(Control& control, const AtControl& given) {
   take(control.limits.current_A, given.limits.current_A);
   take(control.limits.torque_Nm, given.limits.torque_Nm);
   take(control.limits.speed_rad_s, given.limits.speed_rad_s);
+  control.sensorless.commutates = commutates_by(given.sensorless.commutates, control.sensorless.commutates);
 }
 
 }  // namespace
@@ -119,11 +126,12 @@ Scenario settled(const Scenario& s, const At* event) {
     At kept = *at;
     kept.control = {};
     kept.pwm = {};
-    kept.bridge = {};
+    kept.bridge.dead_time_s = std::nullopt;
     // Where another mode's reference takes over, this one's does not go on.
     if (mode != out.control.mode && (kept.reference || other_mode)) kept.reference = Reference{};
     if (kept.reference || kept.supply.voltage_V || kept.load.torque_Nm || kept.sensors.hall_break ||
-        kept.motor.broken_wire != Wire::none)
+        kept.motor.broken_wire != Wire::none || kept.bridge.open_switch != Switch::none ||
+        kept.bridge.shorted_switch != Switch::none)
       out.at.push_back(kept);
   }
   return out;

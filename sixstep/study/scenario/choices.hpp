@@ -12,6 +12,24 @@ inline constexpr Choice<Device> device_choices[] = {
     {"mosfet", Device::mosfet, "a gated channel carries both directions, its diode takes no share"},
     {"igbt", Device::igbt, "a gated transistor carries one direction, its diode the other"},
 };
+inline constexpr Choice<SourceKind> source_choices[] = {
+    {"steady", SourceKind::steady, "a voltage behind resistance_ohm"},
+    {"battery", SourceKind::battery, "a voltage over its charge, and what recovers slowly"},
+    {"single-phase", SourceKind::single_phase, "mains of one phase behind a bridge of four diodes"},
+    {"three-phase", SourceKind::three_phase, "mains of three phases behind a bridge of six diodes"},
+};
+inline constexpr Choice<Between> between_choices[] = {
+    {"steps", Between::steps, "each holds until the next"},
+    {"lines", Between::lines, "along a line"},
+};
+inline constexpr Choice<rig::WireOrder> phase_order_choices[] = {
+    {"abc", rig::WireOrder::abc, "each phase at its own leg"},
+    {"bca", rig::WireOrder::bca, "phases b, c, a at legs a, b, c: all three have moved on"},
+    {"cab", rig::WireOrder::cab, "phases c, a, b: all three have moved back"},
+    {"acb", rig::WireOrder::acb, "phases b and c swapped"},
+    {"cba", rig::WireOrder::cba, "phases a and c swapped"},
+    {"bac", rig::WireOrder::bac, "phases a and b swapped"},
+};
 inline constexpr Choice<Alignment> alignment_choices[] = {
     {"edge", Alignment::edge, "on-time starts with the period"},
     {"centre", Alignment::centre, "on-time lies in the middle of the period"},
@@ -35,6 +53,9 @@ inline constexpr Choice<FirmwareKind> drive_choices[] = {
     {"product", FirmwareKind::product,
      "what is flashed: offset calibration, Hall decoding, fault monitor and state machine around the loops; "
      "needs converters in [sensors] and thresholds in [protection]"},
+    {"sensorless", FirmwareKind::sensorless,
+     "the loops on a rotor that is started blindly and followed by its back-EMF, by [control.sensorless]; "
+     "needs pwm.alignment = \"centre\" and pwm.sample = \"middle\""},
 };
 inline constexpr Choice<control::Mode> mode_choices[] = {
     {"off", control::Mode::off, "all six gates off"},

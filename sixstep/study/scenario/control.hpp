@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "sixstep/control/bridge_command.hpp"
+#include "sixstep/study/scenario/sensorless.hpp"
 
 namespace sixstep::study {
 
@@ -85,8 +86,8 @@ struct Advance {
 };
 constexpr bool advances(const Advance& a) { return a.angle_deg > 0 || a.gain_deg_s_per_rad > 0; }
 
-/// What the chip runs (rig/firmware.hpp).
-enum class FirmwareKind : std::uint8_t { lean, product };
+/// What the chip runs (rig/firmware.hpp, rig/sensorless_drive.hpp).
+enum class FirmwareKind : std::uint8_t { lean, product, sensorless };
 
 struct Control {
   FirmwareKind drive = FirmwareKind::lean;
@@ -101,6 +102,7 @@ struct Control {
   Regeneration regeneration;
   SmoothChopping smooth_chopping;
   Advance advance;
+  Sensorless sensorless;
 };
 
 }  // namespace sixstep::study

@@ -4,6 +4,8 @@
 #include "sixstep/base/describe.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/control.hpp"
+#include "sixstep/study/scenario/linear_words.hpp"
+#include "sixstep/study/scenario/sensorless_description.hpp"
 
 namespace sixstep::study {
 
@@ -59,7 +61,8 @@ void describe(Visitor& v, SpeedLoop& s) {
           {.meaning = "torque at the speed controller's full output; without it that of 2.5 times the "
                       "sheet's nominal current",
            .unit = "N m",
-           .range = above(0)});
+           .range = above(0),
+           .also = words::force_limit});
   v.value(
       "anti_windup", s.anti_windup,
       {.meaning = "positional: part of what the limit cuts off that each sample takes off the integral; 0 "
@@ -79,14 +82,17 @@ void describe(Visitor& v, SpeedLoop& s) {
 
 template <class Visitor>
 void describe(Visitor& v, PositionLoop& s) {
-  v.value(
-      "gain_rad_s_per_deg", s.gain_rad_s_per_deg,
-      {.meaning = "speed asked for per degree of position error", .unit = "rad/s/deg", .range = above(0)});
+  v.value("gain_rad_s_per_deg", s.gain_rad_s_per_deg,
+          {.meaning = "speed asked for per degree of position error",
+           .unit = "rad/s/deg",
+           .range = above(0),
+           .also = words::position_gain});
   v.value("speed_limit_rad_s", s.speed_limit_rad_s,
           {.meaning = "bound on the speed that the position loop asks for; without it supply.voltage_V over "
                       "K_t, which the motor could not pass",
            .unit = "rad/s",
-           .range = above(0)});
+           .range = above(0),
+           .also = words::speed_limit});
 }
 
 template <class Visitor>
@@ -103,11 +109,13 @@ void describe(Visitor& v, FullScale& s) {
       {.meaning = "largest speed and difference of speeds; without it that of no load and no loss, and the "
                   "largest reference",
        .unit = "rad/s",
-       .range = above(0)});
+       .range = above(0),
+       .also = words::speed});
   v.value("position_deg", s.position_deg,
           {.meaning = "largest position and difference of positions; without it twice the largest reference",
            .unit = "deg",
-           .range = above(0)});
+           .range = above(0),
+           .also = words::full_position});
 }
 
 template <class Visitor>
@@ -132,20 +140,24 @@ void describe(Visitor& v, Limits& s) {
                       "where a phase is a quarter above it",
            .unit = "A",
            .range = above(0)});
-  v.value(
-      "torque_Nm", s.torque_Nm,
-      {.meaning = "the same as a torque, over K_t; the lower one counts", .unit = "N m", .range = above(0)});
+  v.value("torque_Nm", s.torque_Nm,
+          {.meaning = "the same as a torque, over K_t; the lower one counts",
+           .unit = "N m",
+           .range = above(0),
+           .also = words::force});
   v.value(
       "speed_rad_s", s.speed_rad_s,
       {.meaning = "speed that the drive's own torque does not pass: above it all gates are off, unless the "
                   "drive brakes",
        .unit = "rad/s",
-       .range = above(0)});
+       .range = above(0),
+       .also = words::speed});
   v.value("gain_A_s_per_rad", s.gain_A_s_per_rad,
           {.meaning = "current per rad/s below limits.speed_rad_s; without it J/(K_t settling time of the "
                       "current loop)",
            .unit = "A s/rad",
-           .range = above(0)});
+           .range = above(0),
+           .also = words::speed_limit_gain});
 }
 
 template <class Visitor>
@@ -202,6 +214,9 @@ void describe(Visitor& v, Control& s) {
   v.table("advance", s.advance,
           {.meaning =
                "product drive: commutation ahead of the Hall edge, at the control tick; 0 is at the edge"});
+  v.table(
+      "sensorless", s.sensorless,
+      {.meaning = "sensorless drive: how it starts and what it follows; designed from the motor's sheet"});
 }
 
 }  // namespace sixstep::study

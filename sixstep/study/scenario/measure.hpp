@@ -28,7 +28,10 @@ enum class MetricKind : std::uint8_t {
   efficiency,
   band_excess,
   band_deficit,
-  switching_frequency
+  switching_frequency,
+  switching_loss,
+  commutation_error,
+  commutation_error_rms
 };
 
 /// What a figure is taken of; signal_facts (measure_choices.hpp) has word, unit and meaning of each.
@@ -73,7 +76,16 @@ enum class Signal : std::uint8_t {
   load_power,
   copper_loss,
   device_loss,
-  friction_loss
+  friction_loss,
+  load_speed,
+  load_angle,
+  source_current,
+  capacitor_current,
+  battery_charge,
+  loop_current,
+  winding_temperature,
+  housing_temperature,
+  junction_temperature
 };
 
 struct Measure {

@@ -12,7 +12,16 @@
 namespace sixstep::study {
 
 /// What a figure looks at.
-enum class TakenOf : std::uint8_t { signal, fundamental, power, energies, band, switching };
+enum class TakenOf : std::uint8_t {
+  signal,
+  fundamental,
+  power,
+  energies,
+  band,
+  switching,
+  transitions,
+  commutations
+};
 
 /// Over which stretches of its window, where no level is given: all of it, each step or each level of the
 /// reference, of which the worst counts.
@@ -80,6 +89,14 @@ inline constexpr MetricFact metric_facts[] = {
     {MetricKind::switching_frequency, "switching_frequency_Hz", "switching frequency", "Hz",
      "turn-ons per second in the window: of what is chopped, or of one switch with signal = \"gate_T1\"",
      TakenOf::switching},
+    {MetricKind::switching_loss, "switching_loss_W", "switching loss", "W",
+     "mean power over the window that turning on, turning off and reverse recovery cost, by the bridge's energies",
+     TakenOf::transitions},
+    {MetricKind::commutation_error, "commutation_error_deg", "commutation error", "deg",
+     "largest electrical angle by which the pair changed before or behind the edge of its sector",
+     TakenOf::commutations},
+    {MetricKind::commutation_error_rms, "commutation_error_rms_deg", "rms commutation error", "deg",
+     "root of the mean square of that angle over all commutations in the window", TakenOf::commutations},
 };
 
 inline constexpr auto metric_choices = [] {
@@ -94,7 +111,7 @@ constexpr const MetricFact& fact_of(MetricKind kind) { return metric_facts[stati
 static_assert([] {
   for (std::size_t n = 0; n < std::size(metric_facts); ++n)
     if (static_cast<std::size_t>(metric_facts[n].kind) != n) return false;
-  return std::size(metric_facts) == static_cast<std::size_t>(MetricKind::switching_frequency) + 1;
+  return std::size(metric_facts) == static_cast<std::size_t>(MetricKind::commutation_error_rms) + 1;
 }());
 
 /// What a signal is, which says what can be asked of it.
@@ -185,6 +202,24 @@ inline constexpr SignalFact signal_facts[] = {
      SignalKind::power},
     {Signal::friction_loss, "friction_loss_W", "friction loss", "W",
      "viscous and dry friction of motor and load together", SignalKind::power},
+    {Signal::load_speed, "load_speed_rad_s", "speed of the load", "rad/s",
+     "speed behind gear and elastic shaft", SignalKind::series},
+    {Signal::load_angle, "load_angle_rad", "angle of the load", "rad",
+     "angle behind gear and elastic shaft, over turns", SignalKind::series},
+    {Signal::source_current, "source_A", "current of the source", "A",
+     "current out of the source into capacitor and bridge", SignalKind::series},
+    {Signal::capacitor_current, "capacitor_A", "current of the bus capacitor", "A",
+     "current into the bus capacitor: its rms is what heats it", SignalKind::series},
+    {Signal::battery_charge, "battery_charge", "charge of the battery", "1",
+     "charge of the battery, of the whole", SignalKind::series},
+    {Signal::loop_current, "loop_A", "loop current of the delta", "A",
+     "sum of a delta's branch currents, which no terminal sees", SignalKind::series},
+    {Signal::winding_temperature, "winding_degC", "temperature of the winding", "degC",
+     "temperature of the winding, with heat.motor", SignalKind::held},
+    {Signal::housing_temperature, "housing_degC", "temperature of the housing", "degC",
+     "temperature of housing and magnets, with heat.motor", SignalKind::held},
+    {Signal::junction_temperature, "junction_degC", "temperature of the hottest junction", "degC",
+     "temperature of the hottest switch's junction, with heat.devices", SignalKind::held},
 };
 
 /// Columns of the trace that have an older word.
@@ -199,11 +234,33 @@ inline constexpr base::Choice<Signal> column_words[] = {
     {"bus_A", Signal::bus_current, "the same as bus_current"},
 };
 
+/// Of a linear motor (base/linear.hpp), each beside the turning motor's word.
+inline constexpr base::Choice<Signal> linear_signal_words[] = {
+    {"force", Signal::torque, "linear motor: electromagnetic force, N", "torque"},
+    {"force_N", Signal::torque, "linear motor: the same as force", "torque_Nm"},
+    {"speed_m_s", Signal::speed, "linear motor: the same as speed, m/s", "speed_rad_s"},
+    {"position_m", Signal::angle, "linear motor: the same as position, in m", "angle_rad"},
+    {"speed_ref_m_s", Signal::speed_reference, "linear motor: speed reference at the last sample",
+     "speed_ref_rad_s"},
+    {"position_ref_mm", Signal::position_reference, "linear motor: position setpoint", "position_ref_deg"},
+    {"speed_error_m_s", Signal::speed_error, "linear motor: speed reference less speed", "speed_error_rad_s"},
+    {"position_error_mm", Signal::position_error, "linear motor: position setpoint less position",
+     "position_error_deg"},
+    {"load_N", Signal::load_torque, "linear motor: load force", "load_Nm"},
+    {"load_speed_m_s", Signal::load_speed, "linear motor: speed behind an elastic coupling",
+     "load_speed_rad_s"},
+    {"load_position_m", Signal::load_angle, "linear motor: position behind an elastic coupling",
+     "load_angle_rad"},
+};
+
 inline constexpr auto signal_choices = [] {
-  std::array<base::Choice<Signal>, std::size(signal_facts) + std::size(column_words)> all{};
+  std::array<base::Choice<Signal>,
+             std::size(signal_facts) + std::size(column_words) + std::size(linear_signal_words)>
+      all{};
   std::size_t n = 0;
   for (const SignalFact& fact : signal_facts) all[n++] = {fact.word, fact.signal, fact.meaning};
   for (const base::Choice<Signal>& column : column_words) all[n++] = column;
+  for (const base::Choice<Signal>& word : linear_signal_words) all[n++] = word;
   return all;
 }();
 
@@ -212,7 +269,7 @@ constexpr const SignalFact& fact_of(Signal signal) { return signal_facts[static_
 static_assert([] {
   for (std::size_t n = 0; n < std::size(signal_facts); ++n)
     if (static_cast<std::size_t>(signal_facts[n].signal) != n) return false;
-  return std::size(signal_facts) == static_cast<std::size_t>(Signal::friction_loss) + 1;
+  return std::size(signal_facts) == static_cast<std::size_t>(Signal::junction_temperature) + 1;
 }());
 
 /// Unit of a signal, as shown behind a figure.

@@ -2,6 +2,7 @@
 // The keys of [protection]: names, units, ranges and meanings.
 #pragma once
 #include "sixstep/base/describe.hpp"
+#include "sixstep/study/scenario/linear_words.hpp"
 #include "sixstep/study/scenario/protection.hpp"
 
 namespace sixstep::study {
@@ -35,7 +36,10 @@ void describe_thresholds(Visitor& v, Protection& s) {
   v.value("under_voltage_V", s.under_voltage_V,
           {.meaning = "a bus voltage below it is a fault", .unit = "V", .range = from(0)});
   v.value("over_speed_rad_s", s.over_speed_rad_s,
-          {.meaning = "a speed above it is a fault", .unit = "rad/s", .range = above(0)});
+          {.meaning = "a speed above it is a fault",
+           .unit = "rad/s",
+           .range = above(0),
+           .also = words::over_speed});
   v.value("voltage_samples", s.voltage_samples,
           {.meaning = "samples in a row that a voltage must be wrong", .range = base::between(1, 255)});
   v.value("stall_current_A", s.stall_current_A,
@@ -64,12 +68,14 @@ void describe(Visitor& v, Protection& s) {
           {.meaning = "speed below which braking shorts the driven windings; without it the one at which "
                       "the short circuit carries brake_current_A",
            .unit = "rad/s",
-           .range = from(0)});
+           .range = from(0),
+           .also = words::short_below});
   v.value("standing_rad_s", s.standing_rad_s,
           {.meaning = "speed at which braking ends and the bridge is let go; 0: no Hall edge for "
                       "sensors.timeout_s",
            .unit = "rad/s",
-           .range = from(0)});
+           .range = from(0),
+           .also = words::standing});
   v.value("off_at_s", s.off_at_s,
           {.meaning = "when the request to run is let go; without it never. It is raised at 0",
            .unit = "s",

@@ -17,7 +17,11 @@
 
 namespace sixstep::study {
 
+/// What the source's open voltage does by itself; voltage_V is then what the bus is nominally.
+enum class SourceKind : std::uint8_t { steady, battery, single_phase, three_phase };
+
 struct Supply {
+  SourceKind source = SourceKind::steady;
   double voltage_V = 24.0;
   double resistance_ohm = 0.0;  // with capacitance_F > 0: source behind R feeding C; else a stiff bus
   double capacitance_F = 0.0;
@@ -25,11 +29,22 @@ struct Supply {
   double inductance_H = 0.0;          // in series with resistance_ohm
   double brake_resistance_ohm = 0.0;  // across the bus from brake_on_V until brake_off_V; 0: no chopper
   double brake_on_V = 0.0, brake_off_V = 0.0;
+  double sink_limit_A = 0.0;              // sinks = false: what the source takes back all the same
+  double capacitor_resistance_ohm = 0.0;  // of the bus capacitor
+  std::vector<double> battery_charges,
+      battery_voltages_V;  // open-circuit voltage over the charge, of the whole
+  double battery_capacity_Ah = 0.0;
+  double battery_charge = 1.0;  // at the start
+  double battery_recovery_ohm = 0.0, battery_recovery_F = 0.0;
+  double mains_rms_V = 0.0;  // single phase: of the line; three phases: between lines
+  double mains_Hz = 50.0;
+  double rectifier_drop_V = 0.0;  // of each of the two diodes in the way
 };
 
 enum class Device : std::uint8_t { mosfet, igbt };
 
 struct Bridge {
+  rig::WireOrder phases = rig::WireOrder::abc;  // of the motor, at legs a, b, c
   Device device = Device::mosfet;
   double on_resistance_ohm = 0.0;
   double saturation_V = 0.0;  // igbt
@@ -37,6 +52,19 @@ struct Bridge {
   double diode_resistance_ohm = 0.0;
   double dead_time_s = 0.0;
   bool dead_time_at_commutation = false;
+  // Switching energies as an IGBT's sheet gives them, at a voltage and a current; or a MOSFET's charges over a gate current.
+  double turn_on_J = 0.0, turn_off_J = 0.0, recovery_J = 0.0, energies_at_V = 0.0, energies_at_A = 0.0;
+  double gate_current_A = 0.0, gate_source_charge_C = 0.0, gate_drain_charge_C = 0.0, recovery_charge_C = 0.0;
+  double sink_degC = 25.0, junction_K_W = 0.0;  // of each switch, from junction to heat sink
+  double on_resistance_percent_K = 0.0;         // of on_resistance_ohm, which is given at 25 degC
+};
+
+/// Which temperatures a run simulates, and where they begin.
+struct Heat {
+  bool motor = false, devices = false;
+  double ambient_degC = 25.0;
+  std::optional<double> winding_degC, housing_degC;  // default: ambient_degC
+  double step_s = 1e-3;
 };
 
 enum class Alignment : std::uint8_t { edge, centre };
@@ -54,14 +82,21 @@ struct Pwm {
   double minimum_pulse_s = 0.0;  // a shorter pulse does not come, a shorter gap closes
 };
 
+/// How a table over time goes from one of its points to the next.
+enum class Between : std::uint8_t { steps, lines };
+
 struct Load {
   double torque_Nm = 0.0;
   std::vector<double> times_s;  // steps: torques_Nm[n] holds from times_s[n] on
   std::vector<double> torques_Nm;
-  double viscous_Nm_s = 0.0;  // added to the motor's own friction
+  Between between = Between::steps;
+  std::vector<double> at_speeds_rad_s, at_speeds_Nm;           // torque over the load's speed
+  std::vector<double> dynamometer_times_s, dynamometer_rad_s;  // the load's speed, imposed
+  double viscous_Nm_s = 0.0;                                   // added to the motor's own friction
   double coulomb_Nm = 0.0;
   double static_Nm = 0.0;  // breakaway torque where larger than coulomb
   double inertia_kg_m2 = 0.0;
+  double gear_efficiency = 1.0;
   double gear = 1.0;              // motor turns per load turn; what the load is given in is at its own side
   double stiffness_Nm_rad = 0.0;  // of the shaft to the load; 0: rigid
   double damping_Nm_s_rad = 0.0;
@@ -122,8 +157,11 @@ struct Scenario {
   double duration_s = 0.0;
   std::string notes;    // what the run teaches, shown in the report
   design::Sheet sheet;  // the motor's sheet with overrides applied (filled by text)
+  std::optional<design::Sheet>
+      motor_sheet;  // the same without overrides (filled by text); not given: it has none
   Supply supply;
   Bridge bridge;
+  Heat heat;
   Pwm pwm;
   Control control;
   Sensors sensors;

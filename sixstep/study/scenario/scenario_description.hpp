@@ -4,65 +4,21 @@
 #pragma once
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/study/scenario/at_description.hpp"
+#include "sixstep/study/scenario/bridge_description.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/control_description.hpp"
+#include "sixstep/study/scenario/linear_words.hpp"
+#include "sixstep/study/scenario/load_description.hpp"
 #include "sixstep/study/scenario/measure_description.hpp"
 #include "sixstep/study/scenario/protection_description.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
+#include "sixstep/study/scenario/supply_description.hpp"
 
 namespace sixstep::study {
 
 using base::above;
 using base::between;
 using base::from;
-
-template <class Visitor>
-void describe(Visitor& v, Supply& s) {
-  v.value("voltage_V", s.voltage_V, {.meaning = "voltage of the source", .unit = "V", .range = above(0)});
-  v.value("resistance_ohm", s.resistance_ohm,
-          {.meaning = "resistance of the source, feeding capacitance_F; 0 with no capacitance is a stiff bus",
-           .unit = "ohm",
-           .range = from(0)});
-  v.value("capacitance_F", s.capacitance_F,
-          {.meaning = "bus capacitor behind resistance_ohm; 0: stiff bus", .unit = "F", .range = from(0)});
-  v.value("sinks", s.sinks,
-          {.meaning = "whether the source takes current back; false: regeneration lifts the bus"});
-  v.value("inductance_H", s.inductance_H,
-          {.meaning = "inductance between source and bus capacitor, in series with resistance_ohm",
-           .unit = "H",
-           .range = from(0)});
-  v.value("brake_resistance_ohm", s.brake_resistance_ohm,
-          {.meaning = "brake chopper: resistor across the bus from brake_on_V until brake_off_V; 0: none",
-           .unit = "ohm",
-           .range = from(0)});
-  v.value("brake_on_V", s.brake_on_V,
-          {.meaning = "bus voltage above which the brake resistor is on", .unit = "V", .range = from(0)});
-  v.value("brake_off_V", s.brake_off_V,
-          {.meaning = "bus voltage below which it is off again", .unit = "V", .range = from(0)});
-}
-
-template <class Visitor>
-void describe(Visitor& v, Bridge& s) {
-  v.choice("device", s.device, device_choices, {.meaning = "kind of the six switches"});
-  v.value("on_resistance_ohm", s.on_resistance_ohm,
-          {.meaning = "resistance of a switch that is on; of an IGBT beside saturation_V",
-           .unit = "ohm",
-           .range = from(0)});
-  v.value("saturation_V", s.saturation_V,
-          {.meaning = "igbt: voltage across a transistor that is on, at no current",
-           .unit = "V",
-           .range = from(0)});
-  v.value("diode_drop_V", s.diode_drop_V,
-          {.meaning = "forward drop of a diode at no current", .unit = "V", .range = from(0)});
-  v.value("diode_resistance_ohm", s.diode_resistance_ohm,
-          {.meaning = "differential resistance of a diode", .unit = "ohm", .range = from(0)});
-  v.value("dead_time_s", s.dead_time_s,
-          {.meaning = "pause between turning one switch of a leg off and the other on",
-           .unit = "s",
-           .range = from(0)});
-  v.value("dead_time_at_commutation", s.dead_time_at_commutation,
-          {.meaning = "whether the dead time also delays the turn-ons of a commutation"});
-}
 
 template <class Visitor>
 void describe(Visitor& v, Pwm& s) {
@@ -89,55 +45,11 @@ void describe(Visitor& v, Pwm& s) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, Load& s) {
-  v.value("torque_Nm", s.torque_Nm,
-          {.meaning = "constant load torque, positive against forward motion", .unit = "N m"});
-  v.value("times_s", s.times_s,
-          {.meaning = "when each of torques_Nm begins, rising", .unit = "s", .range = from(0)});
-  v.value("torques_Nm", s.torques_Nm,
-          {.meaning = "load torques, each from its time on, instead of torque_Nm", .unit = "N m"});
-  v.value(
-      "viscous_Nm_s", s.viscous_Nm_s,
-      {.meaning = "friction torque per rad/s, added to the motor's own", .unit = "N m s", .range = from(0)});
-  v.value("coulomb_Nm", s.coulomb_Nm,
-          {.meaning = "friction torque that does not depend on speed, added to the motor's own",
-           .unit = "N m",
-           .range = from(0)});
-  v.value("static_Nm", s.static_Nm,
-          {.meaning = "torque that breaks the shaft loose, where larger than the Coulomb friction",
-           .unit = "N m",
-           .range = from(0)});
-  v.value(
-      "inertia_kg_m2", s.inertia_kg_m2,
-      {.meaning = "moment of inertia on the shaft, added to the rotor's", .unit = "kg m2", .range = from(0)});
-  v.value(
-      "gear", s.gear,
-      {.meaning =
-           "motor turns per turn of the load; torque, inertia and friction of the load are then at its side",
-       .range = between(1e-3, 1e5)});
-  v.value("stiffness_Nm_rad", s.stiffness_Nm_rad,
-          {.meaning = "torsional stiffness of shaft and coupling at the load's side; 0: rigid",
-           .unit = "N m/rad",
-           .range = from(0)});
-  v.value("damping_Nm_s_rad", s.damping_Nm_s_rad,
-          {.meaning = "damping of the elastic shaft", .unit = "N m s/rad", .range = from(0)});
-  v.value("fan_Nm_s2", s.fan_Nm_s2,
-          {.meaning = "fan or propeller: torque per square of the load's speed, against it",
-           .unit = "N m s2",
-           .range = from(0)});
-  v.value("gravity_Nm", s.gravity_Nm,
-          {.meaning =
-               "weight on an arm: torque at its horizontal, gravity_Nm sin(load angle - gravity_angle_deg)",
-           .unit = "N m"});
-  v.value("gravity_angle_deg", s.gravity_angle_deg,
-          {.meaning = "load angle at which the weight pulls neither way", .unit = "deg"});
-  v.value("locked", s.locked, {.meaning = "whether the rotor is held"});
-}
-
-template <class Visitor>
 void describe(Visitor& v, Initial& s) {
-  v.value("speed_rad_s", s.speed_rad_s, {.meaning = "mechanical speed at the start", .unit = "rad/s"});
-  v.value("angle_rad", s.angle_rad, {.meaning = "mechanical angle at the start", .unit = "rad"});
+  v.value("speed_rad_s", s.speed_rad_s,
+          {.meaning = "mechanical speed at the start", .unit = "rad/s", .also = words::speed});
+  v.value("angle_rad", s.angle_rad,
+          {.meaning = "mechanical angle at the start", .unit = "rad", .also = words::position});
   v.value(
       "bus_V", s.bus_V,
       {.meaning = "bus voltage at the start; without it supply.voltage_V", .unit = "V", .range = above(0)});
@@ -156,12 +68,13 @@ void describe(Visitor& v, Record& s) {
 
 template <class Visitor>
 void describe(Visitor& v, Spread& s) {
-  v.value("key", s.key,
-          {.meaning =
-               "number that differs from run to run, as supply.voltage_V: of motor_override (resistance_ohm, "
-               "inductance_mH, torque_constant_mNm_A or back_emf_mV_s, inertia_gcm2, viscous_friction_Nm_s, "
-               "coulomb_friction_mNm, flat_deg), supply, bridge, load or initial",
-           .required = true});
+  v.value(
+      "key", s.key,
+      {.meaning =
+           "number that differs from run to run, as supply.voltage_V: of motor_override (resistance_ohm, "
+           "inductance_mH, torque_constant_mNm_A or back_emf_mV_s, inertia_gcm2, viscous_friction_Nm_s, "
+           "coulomb_friction_mNm, iron_viscous_Nm_s, iron_coulomb_mNm, flat_deg), supply, bridge, load or initial",
+       .required = true});
   v.choice("distribution", s.distribution, distribution_choices, {.meaning = "how likely each value is"});
   v.value("relative", s.relative,
           {.meaning = "half width (uniform) or standard deviation (normal), as a part of the key's value",
@@ -197,6 +110,7 @@ void describe(Visitor& v, Scenario& s) {
           {.meaning = "single values that replace those of the motor file", .partial = true});
   v.table("supply", s.supply, {.meaning = "what feeds the bus"});
   v.table("bridge", s.bridge, {.meaning = "six switches with antiparallel diodes"});
+  v.table("heat", s.heat, {.meaning = "temperatures that the run simulates; none by default"});
   v.table("pwm", s.pwm, {.meaning = "modulation, sampling and commutation"});
   v.table("control", s.control, {.meaning = "what is controlled and how"});
   v.table("sensors", s.sensors, {.meaning = "what the controller measures with; ideal by default"});

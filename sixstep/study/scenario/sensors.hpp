@@ -4,20 +4,65 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <vector>
 
+#include "sixstep/control/hall.hpp"
 #include "sixstep/rig/sensors.hpp"
+#include "sixstep/rig/wiring.hpp"
 
 namespace sixstep::study {
 
 enum class BusSensing : std::uint8_t { ideal, adc };
-enum class RotorSensing : std::uint8_t { ideal, hall };
+enum class RotorSensing : std::uint8_t { ideal, hall, encoder, absolute, resolver };
 enum class Level01 : std::uint8_t { low, high };
+
+/// On which shaft an encoder or a resolver stands.
+enum class SensorShaft : std::uint8_t { motor, load };
+
+/// Hall lines whose pins read their probe inverted, as bits of a Hall code.
+enum class HallLines : std::uint8_t {
+  none = 0,
+  line_1 = 4,
+  line_2 = 2,
+  line_3 = 1,
+  lines_12 = 6,
+  lines_13 = 5,
+  lines_23 = 3,
+  all = 7
+};
 
 /// A Hall line that breaks.
 struct HallBreak {
   std::optional<double> at_s;
   int line = 1;
   Level01 level = Level01::low;
+};
+
+/// What stands on the shaft in the place of Hall probes; only that of `rotor` counts.
+struct Encoder {
+  int lines = 1024;
+  bool referenced = true;
+  double missed_Hz = 0.0;
+};
+struct AbsoluteEncoder {
+  int bits = 14;
+  double latency_s = 0.0;
+  int speed_samples = 8;
+};
+struct Resolver {
+  int pole_pairs = 1;
+  double amplitude_V = 2.0;
+  double excitation_Hz = 10e3;
+  double imbalance = 0.0;
+  double quadrature_deg = 0.0;
+  double phase_deg = 0.0;
+  double noise_V = 0.0;
+  double bandwidth_Hz = 1000.0;
+  double damping = 1.0;
+  int bits = 16;
+  rig::ResolverReading reading = rig::ResolverReading::sampled;
+  double converter_Hz = 500e3;
+  double latency_s = 0.0;
 };
 
 struct Sensors {
@@ -27,6 +72,8 @@ struct Sensors {
   double current_offset_A = 0.0;
   double current_gain_error = 0.0;
   double current_noise_A = 0.0;
+  std::optional<double> current_bandwidth_Hz;
+  double current_delay_s = 0.0;
   bool calibrated = true;
   double shunt_settle_s = 1e-6;
   int commutation_samples = 4;
@@ -35,12 +82,27 @@ struct Sensors {
   double bus_offset_V = 0.0;
   double bus_gain_error = 0.0;
   double bus_noise_V = 0.0;
+  std::optional<double> bus_bandwidth_Hz;
   RotorSensing rotor = RotorSensing::ideal;
   double capture_Hz = 1e6;
   int speed_edges = 0;  // 0: six where the speed loop stands their delay, else one
+  rig::HallAngleFrom hall_angle = rig::HallAngleFrom::sectors;
+  int hall_calibration_turns = 8;
   double timeout_s = 0.05;
   int hall_stable_samples = 1;
   int seed = 0;
+  rig::WireOrder hall_lines = rig::WireOrder::abc;  // probes at pins H1, H2, H3
+  HallLines hall_inverted = HallLines::none;
+  control::HallArrangement hall_spacing = control::HallArrangement::degrees_120;
+  double hall_offset_deg = 0.0;
+  std::vector<double> hall_edges_deg{};  // 6 or 6 p
+  double hall_hysteresis_deg = 0.0;
+  double hall_delay_s = 0.0;
+  double hall_glitches_Hz = 0.0, hall_glitch_s = 1e-6;
+  SensorShaft shaft = SensorShaft::motor;
+  Encoder encoder;
+  AbsoluteEncoder absolute;
+  Resolver resolver;
   HallBreak hall_break;
 };
 

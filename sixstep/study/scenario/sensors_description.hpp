@@ -10,19 +10,68 @@ inline constexpr base::Choice<rig::CurrentMeasurement> current_sensing_choices[]
     {"ideal", rig::CurrentMeasurement::ideal, "the phase currents as they are"},
     {"phases", rig::CurrentMeasurement::phases, "an amplifier and a converter per phase"},
     {"dc-link", rig::CurrentMeasurement::dc_link,
-     "one shunt in the DC link, which shows the motor current within the on-time only"},
+     "one shunt or Hall transducer in the DC link, which shows the motor current within the on-time only"},
 };
 inline constexpr base::Choice<BusSensing> bus_sensing_choices[] = {
     {"ideal", BusSensing::ideal, "the bus voltage as it is"},
     {"adc", BusSensing::adc, "through the converter, from 0 to bus_range_V"},
 };
 inline constexpr base::Choice<RotorSensing> rotor_sensing_choices[] = {
-    {"ideal", RotorSensing::ideal, "speed and position as they are"},
+    {"ideal", RotorSensing::ideal, "speed and position as they are; the sensorless drive: no probes"},
     {"hall", RotorSensing::hall, "from the times of the Hall edges, by the controller's own blocks"},
+    {"encoder", RotorSensing::encoder,
+     "from an incremental encoder on a shaft; on the motor's, commutation too"},
+    {"absolute", RotorSensing::absolute,
+     "from an absolute encoder in Gray code; on the motor's shaft, commutation too"},
+    {"resolver", RotorSensing::resolver,
+     "from a resolver and a tracking loop; on the motor's shaft, commutation too"},
+};
+inline constexpr base::Choice<rig::HallAngleFrom> hall_angle_choices[] = {
+    {"sectors", rig::HallAngleFrom::sectors, "by sectors of 60 degrees, as they are passed"},
+    {"interpolated", rig::HallAngleFrom::angle,
+     "by an angle that runs on between edges, less the probes' known delay and hysteresis; with "
+     "pwm.commutation = \"sample\" it commutates, too"},
+    {"calibrated", rig::HallAngleFrom::learned_edges,
+     "the same by edges whose places are learned from the first steady turns; their common offset is not"},
+};
+inline constexpr base::Choice<SensorShaft> sensor_shaft_choices[] = {
+    {"motor", SensorShaft::motor, "the motor's: it commutates"},
+    {"load", SensorShaft::load,
+     "the load's, behind gear and coupling: the Hall probes commutate, speed and position count times the gear"},
+};
+inline constexpr base::Choice<rig::ResolverReading> resolver_reading_choices[] = {
+    {"sampled", rig::ResolverReading::sampled,
+     "the drive samples both windings at the excitation's peaks and follows them by itself"},
+    {"tracking", rig::ResolverReading::tracking,
+     "a converter chip follows them at its own clock, and gives out angle and speed"},
 };
 inline constexpr base::Choice<Level01> level_choices[] = {
     {"low", Level01::low, "0, as a line that is shorted to ground"},
     {"high", Level01::high, "1, as a line that is cut before its pull-up"},
+};
+
+inline constexpr base::Choice<rig::WireOrder> hall_order_choices[] = {
+    {"123", rig::WireOrder::abc, "each probe at its own pin"},
+    {"231", rig::WireOrder::bca, "probes 2, 3, 1 at H1, H2, H3: all three have moved on"},
+    {"312", rig::WireOrder::cab, "probes 3, 1, 2: all three have moved back"},
+    {"132", rig::WireOrder::acb, "probes 2 and 3 swapped"},
+    {"321", rig::WireOrder::cba, "probes 1 and 3 swapped"},
+    {"213", rig::WireOrder::bac, "probes 1 and 2 swapped"},
+};
+inline constexpr base::Choice<HallLines> hall_inverted_choices[] = {
+    {"none", HallLines::none, "each pin reads its probe as it is"},
+    {"1", HallLines::line_1, "H1 reads its probe inverted"},
+    {"2", HallLines::line_2, "H2 reads its probe inverted"},
+    {"3", HallLines::line_3, "H3 reads its probe inverted"},
+    {"12", HallLines::lines_12, "H1 and H2"},
+    {"13", HallLines::lines_13, "H1 and H3"},
+    {"23", HallLines::lines_23, "H2 and H3"},
+    {"123", HallLines::all, "all three: the code of the sector three further on"},
+};
+
+inline constexpr base::Choice<control::HallArrangement> hall_spacing_choices[] = {
+    {"120", control::HallArrangement::degrees_120, "codes 000 and 111 are impossible"},
+    {"60", control::HallArrangement::degrees_60, "codes 010 and 101 are impossible"},
 };
 
 template <class Visitor>
@@ -49,6 +98,15 @@ void describe_currents(Visitor& v, Sensors& s) {
            .range = base::Range{-1, 1, false, true}});
   v.value("current_noise_A", s.current_noise_A,
           {.meaning = "root mean square of the noise of a sample", .unit = "A", .range = base::from(0)});
+  v.value(
+      "current_bandwidth_Hz", s.current_bandwidth_Hz,
+      {.meaning = "of each amplifier in front of the converter, a first-order lag; without it there is none",
+       .unit = "Hz",
+       .range = base::between(1, 1e9)});
+  v.value("current_delay_s", s.current_delay_s,
+          {.meaning = "how long before a sample the current was that it shows, beside that lag",
+           .unit = "s",
+           .range = base::from(0)});
   v.value("calibrated", s.calibrated,
           {.meaning = "whether the controller measured the offset before the run, in 64 noisy samples"});
   v.value("shunt_settle_s", s.shunt_settle_s,
@@ -58,6 +116,102 @@ void describe_currents(Visitor& v, Sensors& s) {
   v.value("commutation_samples", s.commutation_samples,
           {.meaning = "dc-link: samples after a Hall edge that are taken for the incoming phase",
            .range = base::between(0, 255)});
+}
+
+template <class Visitor>
+void describe(Visitor& v, Encoder& s) {
+  v.value("lines", s.lines,
+          {.meaning = "of a turn; the timer counts four edges of each", .range = base::between(1, 1000000)});
+  v.value(
+      "referenced", s.referenced,
+      {.meaning = "whether the index was passed before the run; else the Hall probes commutate until it is"});
+  v.value(
+      "missed_Hz", s.missed_Hz,
+      {.meaning = "how often an edge is not counted, in the mean, at instants drawn by seed; the next index "
+                  "mends the count",
+       .unit = "Hz",
+       .range = base::from(0)});
+}
+
+template <class Visitor>
+void describe(Visitor& v, AbsoluteEncoder& s) {
+  v.value("bits", s.bits, {.meaning = "of its Gray code", .range = base::between(4, 20)});
+  v.value("latency_s", s.latency_s,
+          {.meaning = "how long before a sample the code that it reads was latched",
+           .unit = "s",
+           .range = base::from(0)});
+  v.value("speed_samples", s.speed_samples,
+          {.meaning = "control periods that the speed is taken over", .range = base::between(1, 8)});
+}
+
+template <class Visitor>
+void describe(Visitor& v, Resolver& s) {
+  v.value("pole_pairs", s.pole_pairs,
+          {.meaning = "of the resolver itself; those of the motor are a multiple of them",
+           .range = base::between(1, 32)});
+  v.value("amplitude_V", s.amplitude_V,
+          {.meaning = "peak of either winding at the converter", .unit = "V", .range = base::above(0)});
+  v.value("excitation_Hz", s.excitation_Hz,
+          {.meaning = "of its excitation; sampled, its half period is a whole number of control periods",
+           .unit = "Hz",
+           .range = base::between(100, 1e6)});
+  v.value("imbalance", s.imbalance,
+          {.meaning = "how much larger the sine's winding is, as a part", .range = base::between(-0.5, 0.5)});
+  v.value("quadrature_deg", s.quadrature_deg,
+          {.meaning = "by how much the windings miss a right angle, of the resolver's own turn",
+           .unit = "deg",
+           .range = base::between(-45, 45)});
+  v.value("phase_deg", s.phase_deg,
+          {.meaning = "how far the windings' voltages lead the excitation",
+           .unit = "deg",
+           .range = base::between(-60, 60)});
+  v.value("noise_V", s.noise_V,
+          {.meaning = "root mean square of the noise of a sample", .unit = "V", .range = base::from(0)});
+  v.value("bandwidth_Hz", s.bandwidth_Hz,
+          {.meaning = "of the loop that follows the angle, and so finds the speed",
+           .unit = "Hz",
+           .range = base::above(0)});
+  v.value("damping", s.damping, {.meaning = "of that loop", .range = base::between(0.1, 10)});
+  v.value("bits", s.bits, {.meaning = "of the angle that it gives out", .range = base::between(8, 16)});
+  v.choice("reading", s.reading, resolver_reading_choices, {.meaning = "who makes an angle of the windings"});
+  v.value("converter_Hz", s.converter_Hz,
+          {.meaning = "tracking: clock of the chip's loop", .unit = "Hz", .range = base::between(1e3, 1e7)});
+  v.value("latency_s", s.latency_s,
+          {.meaning = "tracking: how long before a sample the angle that it reads was latched",
+           .unit = "s",
+           .range = base::from(0)});
+}
+
+/// How the probes are built in, of the motor's angle in electrical degrees.
+template <class Visitor>
+void describe_probes(Visitor& v, Sensors& s) {
+  v.choice("hall_spacing", s.hall_spacing, hall_spacing_choices,
+           {.meaning = "how many electrical degrees the Hall probes stand apart"});
+  v.value("hall_offset_deg", s.hall_offset_deg,
+          {.meaning = "how far behind their places all Hall edges lie",
+           .unit = "deg",
+           .range = base::between(-180, 180)});
+  v.value(
+      "hall_edges_deg", s.hall_edges_deg,
+      {.meaning = "how far each Hall edge lies behind that, the edge at 0 degrees first: 6 values for those "
+                  "of an electrical turn, or 6 per pole pair for those of a mechanical one, whose magnets "
+                  "stray",
+       .unit = "deg",
+       .range = base::between(-60, 60)});
+  v.value("hall_hysteresis_deg", s.hall_hysteresis_deg,
+          {.meaning = "between the places of a Hall edge forward and backward",
+           .unit = "deg",
+           .range = base::between(0, 59)});
+  v.value("hall_delay_s", s.hall_delay_s,
+          {.meaning = "from the place of a Hall edge to the edge of its line, as a filter makes it",
+           .unit = "s",
+           .range = base::between(0, 2e-4)});
+  v.value("hall_glitches_Hz", s.hall_glitches_Hz,
+          {.meaning = "how often a Hall line turns over for a moment, in the mean, at instants drawn by seed",
+           .unit = "Hz",
+           .range = base::from(0)});
+  v.value("hall_glitch_s", s.hall_glitch_s,
+          {.meaning = "how long", .unit = "s", .range = base::between(1e-9, 1e-3)});
 }
 
 template <class Visitor>
@@ -73,6 +227,12 @@ void describe(Visitor& v, Sensors& s) {
            .range = base::Range{-1, 1, false, true}});
   v.value("bus_noise_V", s.bus_noise_V,
           {.meaning = "root mean square of the noise of a sample", .unit = "V", .range = base::from(0)});
+  v.value(
+      "bus_bandwidth_Hz", s.bus_bandwidth_Hz,
+      {.meaning = "of the divider in front of the converter with the capacitor across it, a first-order lag; "
+                  "without it there is none",
+       .unit = "Hz",
+       .range = base::between(1, 1e9)});
   v.choice("rotor", s.rotor, rotor_sensing_choices,
            {.meaning = "how the controller gets speed and position"});
   v.value("capture_Hz", s.capture_Hz,
@@ -84,6 +244,13 @@ void describe(Visitor& v, Sensors& s) {
                       "the probes cancel, and 3.5 sectors old; 0: 6 where they cost the speed loop at most "
                       "22.5 degrees of phase, else 1",
            .range = base::between(0, 6)});
+  v.choice("hall_angle", s.hall_angle, hall_angle_choices,
+           {.meaning = "how speed and position between Hall edges are found, where rotor is \"hall\""});
+  v.value(
+      "hall_calibration_turns", s.hall_calibration_turns,
+      {.meaning = "calibrated: electrical turns, each as long as the first to 1/64, that edges are learned "
+                  "from; a multiple of the pole pairs where the magnets stray",
+       .range = base::between(1, 1024)});
   v.value("timeout_s", s.timeout_s,
           {.meaning = "time without a Hall edge that counts as standstill",
            .unit = "s",
@@ -95,6 +262,18 @@ void describe(Visitor& v, Sensors& s) {
            .range = base::between(1, 255)});
   v.value("seed", s.seed,
           {.meaning = "of the noise: the same seed, the same run", .range = base::between(0, 2147483647)});
+  v.choice("hall_lines", s.hall_lines, hall_order_choices,
+           {.meaning = "which Hall probe is wired to pins H1, H2, H3 of the board"});
+  v.choice(
+      "hall_inverted", s.hall_inverted, hall_inverted_choices,
+      {.meaning = "which pins H1, H2, H3 read their probe inverted, as where its output is another kind's"});
+  describe_probes(v, s);
+  v.choice("shaft", s.shaft, sensor_shaft_choices,
+           {.meaning = "on which shaft the encoder or the resolver stands"});
+  v.table("encoder", s.encoder, {.meaning = "lines A, B and Z, where rotor is \"encoder\""});
+  v.table("absolute", s.absolute,
+          {.meaning = "a code for every angle of the shaft, where rotor is \"absolute\""});
+  v.table("resolver", s.resolver, {.meaning = "two windings at right angles, where rotor is \"resolver\""});
   v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks during the run"});
 }
 

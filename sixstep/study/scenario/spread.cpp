@@ -27,6 +27,8 @@ constexpr std::string_view motor_keys[] = {"motor_override.resistance_ohm",
                                            "motor_override.inertia_gcm2",
                                            "motor_override.viscous_friction_Nm_s",
                                            "motor_override.coulomb_friction_mNm",
+                                           "motor_override.iron_viscous_Nm_s",
+                                           "motor_override.iron_coulomb_mNm",
                                            "motor_override.flat_deg"};
 constexpr std::string_view tables[] = {"supply.", "bridge.", "load.", "initial."};
 

@@ -5,14 +5,14 @@
 
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/check/check.hpp"
+#include "sixstep/study/compile/general_plant.hpp"
+#include "sixstep/study/live/any_rig.hpp"
 #include "sixstep/study/run/observers_of.hpp"
-#include "sixstep/study/session/live_rig.hpp"
 #include "sixstep/study/session/shortened.hpp"
 
 namespace sixstep::study {
 
 using detail::AnyRig;
-using detail::LiveRig;
 using detail::Slice;
 using sim::Instant;
 
@@ -35,7 +35,7 @@ struct Session::State {
   bool look_back(const Instant& asked) {
     if (last && !(asked < last->from)) {
       present.t_s = asked.seconds();
-      set_moving(present.signals, last->plant, last->fraction(asked), present.t_s);
+      last->look(present.signals, asked);
     }
     return true;
   }
@@ -46,35 +46,10 @@ struct Session::State {
 
 namespace {
 
-template <class Firmware>
-base::Result<AnyRig> made(const Scenario& s, const Compiled& c, rig::Timeline timeline) {
-  base::Result<LiveRig<Firmware>> live = LiveRig<Firmware>::made(s, c, std::move(timeline));
-  if (!live) return live.problems();
-  return AnyRig(std::move(*live));
-}
-
-template <template <class> class Firmware>
-base::Result<AnyRig> made_in(const Scenario& s, const Compiled& c, rig::Timeline timeline) {
-  switch (s.control.arithmetic) {
-    case Arithmetic::float64:
-      return made<Firmware<double>>(s, c, std::move(timeline));
-    case Arithmetic::float32:
-      return made<Firmware<float>>(s, c, std::move(timeline));
-    case Arithmetic::q15:
-      return made<Firmware<control::Q15>>(s, c, std::move(timeline));
-    case Arithmetic::q14:
-      return made<Firmware<control::Q14>>(s, c, std::move(timeline));
-    case Arithmetic::q31:
-      return made<Firmware<control::Q31>>(s, c, std::move(timeline));
-    case Arithmetic::q30:
-      return made<Firmware<control::Q30>>(s, c, std::move(timeline));
-  }
-  return base::Problem{"control.arithmetic", "", "is none that there is", "see control.arithmetic"};
-}
-
 /// The chip as the run has felt it. How far a setpoint may go is felt by none that stays within.
 bool same_chip(const Tuned& a, const Tuned& b) {
   if (!(a.drive == b.drive) || a.product.has_value() != b.product.has_value()) return false;
+  if (!(a.sensorless == b.sensorless)) return false;
   if (!a.product) return true;
   control::ProtectedConfig<double> one = *a.product, other = *b.product;
   one.setpoint_limit = other.setpoint_limit = 0.0;
@@ -83,7 +58,9 @@ bool same_chip(const Tuned& a, const Tuned& b) {
 
 /// Whether what was compiled anew had been the same run up to now.
 bool same_past(const Scenario& s, const Compiled& before, const Compiled& anew, const Instant& now) {
-  if (!same_chip({before.drive, {}, before.product}, {anew.drive, {}, anew.product})) return false;
+  if (!same_chip({before.drive, {}, before.product, before.sensorless},
+                 {anew.drive, {}, anew.product, anew.sensorless}))
+    return false;
   std::size_t number = 0;
   for (const At* at : in_order(s)) {
     if (!retunes(*at)) continue;
@@ -101,6 +78,16 @@ Instant next_change(const Instant& now, const Instant& next_tick, const Instant&
   std::int64_t tick = (from + period - 1) / period * period;
   while (sim::to_instant(Instant{tick, 0.0}.seconds()).ticks < from) tick += period;
   return {tick, 0.0};
+}
+
+/// What asked for the general kernel may have lain behind the end. It asks for it again: wires that are as they are at the
+/// start are no event.
+Scenario on_same_kernel(Scenario s, const Compiled& before) {
+  if (!before.general || needs_general_plant(s)) return s;
+  At straight;
+  straight.bridge.phases = AtOrder::abc;
+  s.at.insert(s.at.begin(), straight);
+  return s;
 }
 
 }  // namespace
@@ -125,17 +112,11 @@ base::Result<Session> Session::open(const Scenario& scenario, const Listeners& l
   if (base::Problems problems = check(scenario); !problems.empty()) return problems;
   base::Result<Compiled> compiled = compile(scenario);
   if (!compiled) return compiled.problems();
-  if (compiled->general)
-    return base::Problem{"scenario", "",
-                         "asks for a machine, shaft, bridge or supply that no session runs yet",
-                         "run it as a whole"};
   const base::Result<std::vector<std::size_t>> indices = record_indices(scenario);
   if (!indices) return indices.problems();
   compiled->board.sensors.decodes_hall = true;  // a line may break at any time
   rig::Timeline timeline = std::move(compiled->timeline);
-  base::Result<AnyRig> rig = scenario.control.drive == FirmwareKind::product
-                                 ? made_in<rig::ProductDrive>(scenario, *compiled, std::move(timeline))
-                                 : made_in<rig::SensedDrive>(scenario, *compiled, std::move(timeline));
+  base::Result<AnyRig> rig = detail::made_by(scenario, *compiled, std::move(timeline));
   if (!rig) return rig.problems();
   auto state = std::make_unique<State>(State{.scenario = scenario,
                                              .compiled = std::move(*compiled),
@@ -179,6 +160,11 @@ base::Result<double> Session::change(At at) {
   if (base::Problems problems = check(candidate); !problems.empty()) return problems;
   base::Result<Compiled> compiled = compile(candidate);
   if (!compiled) return compiled.problems();
+  if (compiled->general && !s.compiled.general)
+    return base::Problem{
+        "at", "", "asks for what the kernel that the session began on does not have",
+        "begin with an [[at]] at time_s = 0 that says bridge.phases = \"abc\": it changes nothing, and "
+        "the general kernel runs it"};
   if (!same_past(s.scenario, s.compiled, *compiled, s.now()))
     return base::Problem{"reference", "", "would have laid out the drive's limits otherwise from the start",
                          "let the session's own reference reach as far, by an [[at]] at its end"};
@@ -202,7 +188,7 @@ base::Result<Outcome> Session::close() {
     Instant end = next_change(s.now(), next_tick, s.reach, period);
     if (end.ticks == 0) end.ticks = period;
     if (end < s.compiled.end) {
-      Scenario cut = shortened(s.scenario, end.seconds());
+      Scenario cut = on_same_kernel(shortened(s.scenario, end.seconds()), s.compiled);
       base::Result<Compiled> compiled = compile(cut);
       if (!compiled || !same_past(cut, s.compiled, *compiled, s.now()))
         return base::Problem{"duration_s", base::written(end.seconds()),
@@ -222,15 +208,19 @@ base::Result<Outcome> Session::close() {
   Outcome out;
   out.motor = s.compiled.motor;
   out.gains = s.compiled.gains;
+  out.sensorless_steps = s.compiled.sensorless_steps;
   if (base::Problems problems =
           std::visit([&](const auto& live) { return live.end(s.stop, s.watchers, out); }, s.rig);
       !problems.empty())
     return problems;
   out.segments = s.watchers.segments;
-  if (s.watchers.audit) {
-    out.energy = s.watchers.audit->lean.energy();
-    out.laws = s.watchers.audit->lean.laws();
-  }
+  const auto note_books = [&out](const auto& audit) {
+    out.energy = audit.energy();
+    out.laws = audit.laws();
+  };
+  if (s.watchers.audit)
+    s.compiled.general ? note_books(s.watchers.audit->general) : note_books(s.watchers.audit->lean);
+  if (s.watchers.iron && out.energy) out.energy->iron = s.watchers.iron->energy_J();
   if (!s.figures_moved || (s.scenario.require.empty() && s.scenario.compare.empty())) {
     s.watchers.figures.judge(s.scenario, out);
     return out;

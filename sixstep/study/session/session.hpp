@@ -10,18 +10,10 @@
 #pragma once
 #include <memory>
 
-#include "sixstep/study/measure/columns.hpp"
+#include "sixstep/study/measure/present.hpp"
 #include "sixstep/study/run/run.hpp"
 
 namespace sixstep::study {
-
-/// One instant: each signal in the order of all_columns(), whether it applies or not, and of logic_signals().
-struct Present {
-  double t_s = 0.0;
-  FullRow signals{};
-  LogicRow logic{};
-  control::Mode mode = control::Mode::off;
-};
 
 class Session {
  public:

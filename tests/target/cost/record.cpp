@@ -46,9 +46,7 @@ class LeanRecorder {
   static constexpr bool fault_ends_run = true;
 
   LeanRecorder(const Config& config, const rig::BoardConfig& board, const rig::PowerUp& up)
-      : drive_(config, board, up),
-        sensors_(board.sensors, board.bases, up.pole_pairs, up.sector, up.pins),
-        bases_(board.bases) {}
+      : drive_(config, board, up), sensors_(board.sensors, board.bases, up), bases_(board.bases) {}
 
   template <class Real>
   Command tick(const rig::SampleInstant<Real>& instant, double setpoint) {

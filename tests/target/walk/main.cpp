@@ -1,11 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // Walks every block of sixstep/control, and the drives that scenarios export, through drawn inputs, and
 // prints a digest of all their outputs: the same source for every processor. One program per scalar:
-// TARGET_SCALAR q15, q14, q31, q30, float, or whole for the blocks without one.
+// TARGET_SCALAR q15, q14, q31, q30, float, or whole for the blocks without one. With TARGET_OF_ROTOR it is the blocks of
+// sensing/ and sensorless/ instead, with TARGET_OF_OBSERVERS the back-EMF observers, with TARGET_OF_COMMISSIONING those of
+// commissioning/ but for the pulses, which TARGET_OF_PULSES has: programs of their own, so that the rest is compiled alike
+// with them and without.
 #include "tests/target/platform/print.hpp"
 #include "tests/target/walk/names.hpp"
 
-#if TARGET_IS_WHOLE
+#if defined TARGET_OF_ROTOR && TARGET_IS_WHOLE
+#include "tests/target/walk/crossings.hpp"
+#include "tests/target/walk/encoders.hpp"
+#elif defined TARGET_OF_ROTOR
+#include "tests/target/walk/angles.hpp"
+#include "tests/target/walk/sensorless.hpp"
+#elif defined TARGET_OF_OBSERVERS
+#include "tests/target/walk/observers.hpp"
+#elif defined TARGET_OF_COMMISSIONING && TARGET_IS_WHOLE
+#include "tests/target/walk/surveys.hpp"
+#elif defined TARGET_OF_COMMISSIONING
+#include "tests/target/walk/commissioning.hpp"
+#elif defined TARGET_OF_PULSES
+#include "tests/target/walk/pulses.hpp"
+#elif TARGET_IS_WHOLE
 #include "tests/target/walk/whole.hpp"
 #else
 #include "tests/target/walk/loops.hpp"
@@ -63,7 +80,76 @@ struct NothingWalk {
   }
 };
 
+#if defined TARGET_OF_ROTOR
+void walk_all() {
+#ifdef TARGET_COUNTED
+  walk<NothingWalk>("nothing");
+#endif
 #if TARGET_IS_WHOLE
+  walk<HallCalibrationWalk>("sensing/hall_calibration");
+  walk<QuadratureWalk>("sensing/quadrature");
+  walk<TrackingWalk>("sensing/tracking");
+  walk<ZeroCrossingWalk>("sensorless/zero_crossing");
+  walk<CommutationClockWalk>("sensorless/commutation_clock");
+  walk<SpinWalk>("sensorless/spin");
+  walk<LockWalk>("sensorless/lock");
+#else
+  using Scalar = TARGET_SCALAR;
+  walk<HallAngleWalk<Scalar> >("sensing/hall_angle");
+  walk<PulseSpeedWalk<Scalar> >("sensing/pulse_speed");
+  walk<GrayWalk<Scalar> >("sensing/gray");
+  walk<SineWalk<Scalar> >("sensing/sine");
+  walk<ResolverWalk<Scalar> >("sensing/resolver");
+  walk<StartUpWalk<Scalar> >("sensorless/start_up");
+  walk<SensorlessWalk<Scalar> >("sensorless/sensorless");
+  walk<SensorlessDriveWalk<Scalar> >("sensorless/sensorless_drive");
+#endif
+}
+#elif defined TARGET_OF_OBSERVERS
+void walk_all() {
+#ifdef TARGET_COUNTED
+  walk<NothingWalk>("nothing");
+#endif
+#if TARGET_IS_WHOLE
+  walk<ObservedCrossingWalk>("sensorless/observer");
+#else
+  using Scalar = TARGET_SCALAR;
+  walk<LuenbergerWalk<Scalar> >("sensorless/luenberger");
+  walk<SlidingModeWalk<Scalar> >("sensorless/sliding_mode");
+  walk<FluxLinkageWalk<Scalar> >("sensorless/flux_linkage");
+  walk<ObserverWalk<Scalar> >("sensorless/observer");
+#endif
+}
+#elif defined TARGET_OF_COMMISSIONING
+void walk_all() {
+#ifdef TARGET_COUNTED
+  walk<NothingWalk>("nothing");
+#endif
+#if TARGET_IS_WHOLE
+  walk<VectorAngleWalk>("commissioning/vector_angle");
+  walk<SeenVectorWalk>("commissioning/field_vector");
+  walk<LevelStepsWalk>("commissioning/level_steps");
+  walk<FluxTurnWalk>("commissioning/flux_turn");
+  walk<HallSurveyWalk>("commissioning/hall_survey");
+#else
+  using Scalar = TARGET_SCALAR;
+  walk<FieldVectorWalk<Scalar> >("commissioning/field_vector");
+  walk<CommissioningResultWalk<Scalar> >("commissioning/commissioning_result");
+  walk<CommissioningWalk<Scalar> >("commissioning/commissioning");
+#endif
+}
+#elif defined TARGET_OF_PULSES
+void walk_all() {
+#ifdef TARGET_COUNTED
+  walk<NothingWalk>("nothing");
+#endif
+#if TARGET_IS_WHOLE
+  walk<PulsePositionWalk>("commissioning/pulse_position");
+#else
+  walk<PulsedDriveWalk<TARGET_SCALAR> >("commissioning/pulse_start");
+#endif
+}
+#elif TARGET_IS_WHOLE
 void walk_all() {
 #ifdef TARGET_COUNTED
   walk<NothingWalk>("nothing");

@@ -20,6 +20,7 @@
 //   bus       as it is
 //   rotor     Hall edges exactly at the sectors' ends, captured at 1e+06 Hz, speed over six edges where the loop stands their delay, else one
 //   load      0 N m, 0.0001 kg m2 beside the rotor's; viscous friction 0.0004 N m s
+//   heat      winding and magnets at 25 degC all along
 //   scale     the scenario's own; that of --range below was proved, not run
 //
 // Fixed point: what each quantity may reach and where the format ends, in SI

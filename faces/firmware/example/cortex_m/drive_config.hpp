@@ -25,6 +25,7 @@
 //   bus       12 bits over 52.8 V
 //   rotor     Hall edges exactly at the sectors' ends, captured at 7.2e+07 Hz, speed over six edges where the loop stands their delay, else one
 //   load      0.02 N m, 0 kg m2 beside the rotor's
+//   heat      winding and magnets at 25 degC all along
 //
 // On a core, the product drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a
 // control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/firmware.md):

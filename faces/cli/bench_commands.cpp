@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/bench_commands.hpp"
+
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <numbers>
+#include <utility>
+
+#include "faces/cli/keep.hpp"
+#include "faces/cli/terminal.hpp"
+#include "faces/cli/written_twice.hpp"
+#include "files/atomic_file.hpp"
+#include "files/own_file.hpp"
+#include "files/scenario_on_disk.hpp"
+#include "files/text_file.hpp"
+#include "report/emf_page.hpp"
+#include "report/identify_page.hpp"
+#include "sixstep/base/plausible.hpp"
+#include "sixstep/base/range_text.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/sheet_constants.hpp"
+#include "sixstep/design/sheet/winding_description.hpp"
+#include "text/escape/escape.hpp"
+#include "text/recording/bench_recordings.hpp"
+#include "text/results/identify_text.hpp"
+
+namespace cli {
+namespace {
+
+/// What both verbs take.
+struct BenchArguments {
+  std::string path;
+  text::BenchColumns columns;
+  std::string between;
+  std::optional<double> interval_s;
+  std::optional<int> pole_pairs;
+  bool json = false, quiet = false, force = false;
+  std::string write, html;
+  std::string command;  ///< what makes the files again
+};
+
+struct EmfArguments : BenchArguments {
+  std::string motor, data_dir, shape;
+  std::optional<double> speed_rpm, tolerance_percent;
+};
+
+/// An option's number within its range, told otherwise.
+void hold(base::Problems& problems, const char* option, const std::optional<double>& x, base::Range range,
+          const char* cure) {
+  if (x && !range.holds(*x)) problems.push_back({option, base::written(*x), base::limit_of(range), cure});
+}
+
+base::Problems check(BenchArguments& a) {
+  base::Problems problems;
+  hold(problems, "--interval", a.interval_s, base::allowed(base::above(0.0), "s"),
+       "give the time from one row to the next in seconds");
+  if (a.pole_pairs)
+    hold(problems, "--pole-pairs", *a.pole_pairs, base::between(1, design::most_pole_pairs),
+         "half the number of magnet poles");
+  if (a.between == "lines") a.columns.between = analysis::EmfBetween::lines;
+  if (a.between == "star") a.columns.between = analysis::EmfBetween::star;
+  if (!a.between.empty() && !a.columns.between)
+    problems.push_back({"--between", text::visible(a.between), "must be lines or star",
+                        "lines: two terminals; star: a terminal and one point common to all"});
+  a.columns.interval_s = a.interval_s;
+  return problems;
+}
+
+/// What the library and the recording's headings name, as options; the rest belongs to the recording.
+base::Problems of_recording(base::Problems problems, const std::string& path) {
+  constexpr std::pair<std::string_view, std::string_view> options[] = {
+      {"between", "--between"}, {"pole_pairs", "--pole-pairs"}, {"speed", "--speed"}};
+  for (base::Problem& p : problems) {
+    const auto* const option = std::find_if(std::begin(options), std::end(options),
+                                            [&](const auto& o) { return o.first == p.where; });
+    if (option != std::end(options))
+      p.where = option->second;
+    else if (!p.where.starts_with(path + ":"))
+      p.where = path + ": " + p.where;
+  }
+  return problems;
+}
+
+base::Result<text::Recording> recording_of(const BenchArguments& a) {
+  const base::Result<std::string> text = files::read_text(a.path);
+  if (!text) return text.problems();
+  return text::read_recording(a.path, *text);
+}
+
+/// Files are made before the work begins: one that cannot be written is told at once.
+struct Outputs {
+  std::optional<files::AtomicFile> write, html, shape;
+
+  base::Problems open(const BenchArguments& a, const std::string& shape_path) {
+    base::Problems problems =
+        written_twice({{"--write", a.write}, {"--html", a.html}, {"--shape", shape_path}});
+    if (!problems.empty()) return problems;
+    if (!a.write.empty()) keep(write, files::AtomicFile::create({a.write, a.force}), problems);
+    if (!a.html.empty()) keep(html, files::AtomicFile::create({a.html, a.force}), problems);
+    if (!shape_path.empty()) keep(shape, files::AtomicFile::create({shape_path, a.force}), problems);
+    return problems;
+  }
+};
+
+void put(std::optional<files::AtomicFile>& file, const std::string& text, base::Problems& problems) {
+  file->write(text);
+  const base::Problems failed = file->commit();
+  problems.insert(problems.end(), failed.begin(), failed.end());
+}
+
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+Exit identify_command(const BenchArguments& arguments) {
+  BenchArguments a = arguments;
+  if (const base::Problems wrong = check(a); !wrong.empty()) return refused(wrong);
+  const base::Result<text::Recording> recording = recording_of(a);
+  if (!recording) return refused(recording.problems());
+  const base::Result<analysis::HallLog> log = text::hall_log_of(*recording, a.columns);
+  if (!log) return refused(of_recording(log.problems(), a.path));
+  catch_interrupts();
+  Outputs out;
+  base::Problems problems = out.open(a, "");
+  if (!problems.empty()) return refused(problems);
+  const base::Result<analysis::HallIdentity> found =
+      analysis::identify(*log, a.pole_pairs.value_or(1), [] { return !interrupted(); });
+  if (interrupted()) return told_interrupted("motor identify " + text::visible(a.path));
+  if (!found) return refused(of_recording(found.problems(), a.path));
+  const std::string name = file_name(a.path);
+  if (out.write) put(out.write, files::with_own_mark(a.command, text::identify_toml(name, *found)), problems);
+  if (out.html) put(out.html, report::render_identify({name, *found, a.command, SIXSTEP_VERSION}), problems);
+  if (a.json)
+    print(text::identify_json(name, *found));
+  else if (!a.quiet)
+    print(text::identify_text(name, *found));
+  complain(problems);
+  return problems.empty() ? Exit::ok : Exit::bad_input;
+}
+
+/// A sheet's pole pairs, where nobody has given others.
+base::Result<std::optional<design::Sheet>> sheet_of(EmfArguments& a) {
+  if (a.motor.empty()) return std::optional<design::Sheet>();
+  const base::Result<design::Sheet> sheet = files::read_sheet(a.motor, a.data_dir);
+  if (!sheet) return sheet.problems();
+  if (!a.pole_pairs) a.pole_pairs = design::sheet_constants(*sheet).pole_pairs;
+  return std::optional(*sheet);
+}
+
+/// The name by which the motor's file finds the table: beside it.
+std::string shape_beside(const EmfArguments& a) {
+  if (a.shape.empty() || a.write.empty()) return file_name(a.shape);
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::absolute(a.write, error).parent_path();
+  const std::filesystem::path relative = std::filesystem::relative(a.shape, folder, error);
+  return relative.empty() ? a.shape : relative.generic_string();
+}
+
+void write_emf(const EmfArguments& a, const text::MeasuredEmf& measured, const analysis::EmfRecord& record,
+               Outputs& out, base::Problems& problems) {
+  if (out.shape)
+    put(out.shape,
+        fmt::format("# sixstep {}\n# command: {}\n", SIXSTEP_VERSION, text::visible(a.command)) +
+            text::emf_shape_csv(measured),
+        problems);
+  if (out.write)
+    put(out.write, files::with_own_mark(a.command, text::emf_motor_lines(measured, shape_beside(a))),
+        problems);
+  if (out.html) put(out.html, report::render_emf({measured, record, a.command, SIXSTEP_VERSION}), problems);
+  if (a.json)
+    print(text::emf_json(measured));
+  else if (!a.quiet)
+    print(text::emf_text(measured));
+}
+
+Exit emf_command(const EmfArguments& arguments) {
+  EmfArguments a = arguments;
+  base::Problems problems = check(a);
+  hold(problems, "--speed", a.speed_rpm, base::allowed(base::above(0.0), "rpm"),
+       "give the shaft's speed in rpm");
+  hold(problems, "--tolerance", a.tolerance_percent, base::strictly_between(0, 100),
+       "5 is usual: magnets differ by so much");
+  if (!problems.empty()) return refused(problems);
+  const base::Result<std::optional<design::Sheet>> sheet = sheet_of(a);
+  if (!sheet) return refused(sheet.problems());
+  const base::Result<text::Recording> recording = recording_of(a);
+  if (!recording) return refused(recording.problems());
+  const base::Result<analysis::EmfRecord> record = text::emf_record_of(*recording, a.columns);
+  if (!record) return refused(of_recording(record.problems(), a.path));
+  catch_interrupts();
+  Outputs out;
+  problems = out.open(a, a.shape);
+  if (!problems.empty()) return refused(problems);
+  const std::optional<double> speed_rad_s =
+      a.speed_rpm ? std::optional(*a.speed_rpm * std::numbers::pi / 30.0) : std::nullopt;
+  const base::Result<analysis::EmfResult> found = analysis::measure_emf({*record, a.pole_pairs, speed_rad_s});
+  if (interrupted()) return told_interrupted("motor emf " + text::visible(a.path));
+  if (!found) return refused(of_recording(found.problems(), a.path));
+  text::MeasuredEmf measured{file_name(a.path), *found};
+  measured.tolerance = a.tolerance_percent ? *a.tolerance_percent / 100.0 : analysis::usual_emf_tolerance;
+  if (*sheet) {
+    measured.sheet = (*sheet)->name;
+    measured.checks = analysis::check_frames(*found, **sheet, measured.tolerance);
+  }
+  write_emf(a, measured, *record, out, problems);
+  complain(problems);
+  if (!problems.empty()) return Exit::bad_input;
+  const bool holds =
+      std::all_of(measured.checks.begin(), measured.checks.end(), [](const auto& c) { return c.holds(); });
+  return holds ? Exit::ok : Exit::failed;
+}
+
+void declare_common(CLI::App& verb, BenchArguments& a, const char* voltages) {
+  verb.add_option("--voltages", a.columns.voltages, voltages)->delimiter(',');
+  verb.add_option(
+      "--between", a.between,
+      "what the probes hung between: lines, two terminals; or star, a terminal and one common point");
+  verb.add_option("--interval", a.interval_s, "time from row to row, s, where no column is the time");
+  verb.add_flag("--json", a.json, "for programs");
+  verb.add_option("--html", a.html, "write a page with charts");
+  take_force(verb, a.force);
+  verb.add_flag("--quiet", a.quiet, "no text, only files and errors");
+}
+
+}  // namespace
+
+Verb declare_identify(CLI::App& motor) {
+  CLI::App& identify = *motor.add_subcommand(
+      "identify", "wires, spacing, places and jitter of Hall probes, from a log of a motor that is turned");
+  const auto a = std::make_shared<BenchArguments>();
+  identify
+      .add_option("LOG", a->path,
+                  "a CSV file: time, hall1, hall2, hall3 or hall, and u_ab, u_bc, u_ca or u_a, u_b, u_c")
+      ->required();
+  identify
+      .add_option("--hall", a->columns.hall,
+                  "headings of the Hall lines, as CH1,CH2,CH3, or of one column of codes")
+      ->delimiter(',');
+  declare_common(identify, *a, "headings of the voltages, as CH4,CH5,CH6");
+  identify.add_option("--pole-pairs", a->pole_pairs,
+                      "place every edge of the shaft's turn apart; without it the six that repeat");
+  identify.add_option("--write", a->write,
+                      "write the lines of a scenario, and the table for a firmware of one's own");
+  return {&identify, calling(identify_command, a)};
+}
+
+Verb declare_emf(CLI::App& motor) {
+  CLI::App& emf = *motor.add_subcommand(
+      "emf", "constants, harmonics and shape of the back-EMF, from a recording of open terminals");
+  const auto a = std::make_shared<EmfArguments>();
+  emf.add_option("SCOPE", a->path, "a CSV file: time and one to three voltages")->required();
+  declare_common(emf, *a, "headings of the voltages, as CH1,CH2");
+  emf.add_option("--pole-pairs", a->pole_pairs, "electrical turns per turn of the shaft");
+  emf.add_option("--speed", a->speed_rpm, "of the shaft, rpm: with the frequency it gives the pole pairs");
+  emf.add_option("--motor", a->motor, "hold it against this sheet, which gives the pole pairs too");
+  emf.add_option("--tolerance", a->tolerance_percent, "how far a sheet may be off, percent; without it 5");
+  take_data(emf, a->data_dir);
+  emf.add_option("--write", a->write, "write the lines of a motor's file");
+  emf.add_option("--shape", a->shape, "write the shape as a table that back_emf_file reads");
+  return {&emf, [a](const std::string& command) {
+            a->command = command;
+            return emf_command(*a);
+          }};
+}
+
+}  // namespace cli

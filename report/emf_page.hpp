@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// A measured back-EMF as one HTML file: the recording with its fit, what is left over, harmonics and shape.
+#pragma once
+#include <string>
+
+#include "text/results/emf_text.hpp"
+
+namespace report {
+
+struct EmfPage {
+  const text::MeasuredEmf& measured;
+  const sixstep::analysis::EmfRecord& record;
+  std::string command;  ///< what makes this page again
+  std::string version;
+};
+
+/// The same input gives the same bytes.
+std::string render_emf(const EmfPage& page);
+
+}  // namespace report

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Identified Hall probes as one HTML file: where each edge was passed, and how the rotor turned.
+#pragma once
+#include <string>
+
+#include "sixstep/analysis/bench/hall/identify.hpp"
+
+namespace report {
+
+struct IdentifyPage {
+  std::string name;  ///< of the log
+  const sixstep::analysis::HallIdentity& found;
+  std::string command;  ///< what makes this page again
+  std::string version;
+};
+
+/// The same input gives the same bytes.
+std::string render_identify(const IdentifyPage& page);
+
+}  // namespace report

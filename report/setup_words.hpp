@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scenario's circumstances in words, a line each: what stands around the motor, and what changes during the run.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace report {
+
+std::string supply(const sixstep::study::Supply& s);
+std::string bridge(const sixstep::study::Bridge& b);
+std::string shaft(const sixstep::study::Load& load, bool linear);
+/// Empty where no temperature is simulated.
+std::string heat(const sixstep::study::Heat& h);
+std::string events(const std::vector<sixstep::study::At>& events, bool linear);
+
+}  // namespace report

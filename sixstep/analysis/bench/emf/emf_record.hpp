@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Open-circuit voltages of a motor that something else turns, as an oscilloscope records them.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sixstep/base/problem.hpp"
+
+namespace sixstep::analysis {
+
+/// What a probe hung between.
+enum class EmfBetween : std::uint8_t {
+  lines,  ///< two terminals: u_ab, u_bc, u_ca
+  star    ///< a terminal and the star point, real or made of three equal resistors
+};
+
+struct EmfChannel {
+  std::string name;  ///< of its column
+  std::vector<double> u_V;
+};
+
+struct EmfRecord {
+  std::vector<double> t_s;  ///< rising
+  std::vector<EmfChannel> channels;
+  EmfBetween between = EmfBetween::lines;
+};
+
+/// What no reader of a file lets through.
+base::Problems check(const EmfRecord& record);
+
+inline constexpr std::size_t most_emf_channels = 3;
+/// Periods that a recording must hold at the least: with fewer, harmonics and an offset cannot be told apart.
+inline constexpr double least_periods = 1.5;
+
+}  // namespace sixstep::analysis

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// How noisy a fit's residual is beside each harmonic.
+#pragma once
+#include <cstddef>
+#include <vector>
+
+namespace sixstep::analysis {
+
+/// Power of the residual at a few orders beside each harmonic, which the fit did not touch.
+class ResidualSpectrum {
+ public:
+  static constexpr std::size_t ordinates = 6;  ///< on each side, one over the recording's periods apart
+
+  ResidualSpectrum(std::size_t harmonics, double periods)
+      : periods_(periods), sums_(harmonics * 2 * ordinates), harmonics_(harmonics) {}
+
+  /// One residual and the fundamental's phase there.
+  void take(double phase, double residual);
+
+  /// The variance that white noise of as much power beside the harmonic (0 is the fundamental) would have.
+  double variance(std::size_t harmonic) const;
+  double degrees_of_freedom(std::size_t harmonic) const;
+
+ private:
+  struct Sum {
+    double re = 0.0, im = 0.0;
+  };
+  /// The fit has taken its own part out of the ordinates, one in so many as there are periods.
+  double left_part() const { return 1.0 - 1.0 / periods_; }
+  /// Below the fundamental the ordinates end at the offset.
+  bool counts(std::size_t harmonic, std::size_t ordinate) const;
+
+  double periods_;
+  std::vector<Sum> sums_;  // of each harmonic those above, then those below
+  std::size_t harmonics_, points_ = 0;
+};
+
+}  // namespace sixstep::analysis

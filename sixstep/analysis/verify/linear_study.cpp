@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/analysis/verify/linear_study.hpp"
+
+#include <string_view>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/design/sheet/motion.hpp"
+#include "sixstep/study/measure/columns.hpp"
+
+namespace sixstep::analysis {
+namespace {
+
+/// A step that is told otherwise: by its symbol, and in another unit times a factor.
+struct LinearStep {
+  std::string_view symbol, told_symbol, formula;
+};
+
+/// What the words of base/linear.hpp do not make of it. An empty formula stays.
+constexpr LinearStep linear_steps[] = {
+    {"w_low", "v_low", ""},
+    {"T", "T", "(tau/3)/v_low, a sector at that speed"},
+    {"delay", "delay", "(k + 1)/2 sectors, the most from v_low up"},
+    {"q", "q", "tau/3, a Hall step"},
+};
+
+void tell(std::vector<design::DerivationStep>& steps) {
+  for (design::DerivationStep& s : steps) {
+    for (const LinearStep& row : linear_steps)
+      if (s.symbol == row.symbol) {
+        s.symbol = row.told_symbol;
+        if (!row.formula.empty()) s.formula = row.formula;
+        break;
+      }
+    s.formula = base::linear_words(s.formula);
+  }
+}
+
+/// Of the steps of a loop rad/s is a frequency; a gain of the position is not.
+void tell_loop(design::LoopDesign& loop) {
+  for (design::DerivationStep& s : loop.steps) {
+    if (s.formula == "J w_c / T_max") s.formula = "m w_c / F_max";
+    if (s.formula == "the same in radians") s.formula = "the same in metres";
+    if (s.unit == "rad/s") s.unit = "1/s";
+    if (loop.name != "position") continue;
+    const base::LinearUnit unit = base::in_linear(s.unit);
+    s.value *= unit.factor;
+    s.unit = std::string(unit.linear);
+  }
+  tell(loop.steps);
+}
+
+void tell_sensing(std::vector<design::DerivationStep>& steps) {
+  for (design::DerivationStep& s : steps) {
+    if (s.symbol != "w_low" && s.symbol != "q") continue;  // the phase of a loop stays in degrees
+    const base::LinearUnit unit = base::in_linear(s.unit);
+    s.value *= unit.factor;
+    s.unit = std::string(unit.linear);
+  }
+  tell(steps);
+}
+
+void tell(std::vector<RobustFigure>& figures) {
+  for (RobustFigure& f : figures)
+    for (std::string* text : {&f.at, &f.culprit}) *text = base::linear_words(*text);
+}
+
+}  // namespace
+
+void say_in_metres(study::Scenario& s) {
+  if (s.sheet.kind == design::MotorKind::rotary) return;
+  s.title = base::linear_words(s.title);
+  for (study::Comparison& c : s.compare) c.source = base::linear_words(c.source);
+  const std::vector<study::Column>&turning = study::all_columns(), &linear = study::all_columns(s.sheet.kind);
+  for (std::string& name : s.record.columns)
+    for (std::size_t n = 0; n < turning.size(); ++n)
+      if (turning[n].name == name) {
+        name = linear[n].name;
+        break;
+      }
+}
+
+void tell_in_metres(DesignStudy& study) {
+  if (!design::motion_of(study.scenario.sheet).linear) return;
+  for (design::LoopDesign& loop : study.design.loops) tell_loop(loop);
+  tell_sensing(study.design.sensing);
+  for (std::vector<design::Warning>* warnings : {&study.warnings, &study.design.warnings})
+    for (design::Warning& w : *warnings) {
+      w.what = base::linear_words(w.what);
+      w.cure = base::linear_words(w.cure);
+    }
+  if (!study.robustness) return;
+  tell(study.robustness->figures);
+  tell(study.robustness->phases);
+}
+
+base::Problems told_in_metres(base::Problems problems) {
+  for (base::Problem& p : problems) {
+    if (p.where == "bandwidth_rad_s") continue;  // a frequency
+    p.where = base::linear_words(p.where);
+    p.limit = base::linear_words(p.limit);
+    p.cure = base::linear_words(p.cure);
+  }
+  return problems;
+}
+
+}  // namespace sixstep::analysis

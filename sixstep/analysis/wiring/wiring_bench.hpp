@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bench on which all 36 wirings are tried: what is on it is chosen from the motor's sheet so that a motor that is plugged in
+// wrongly, and stands, takes no harm.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "sixstep/base/result.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
+#include "sixstep/rig/wiring.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::analysis {
+
+struct WiringSubject {
+  std::string motor{};                ///< name or path, as a scenario is to have it
+  design::Sheet sheet{};              ///< of that motor
+  std::optional<double> voltage_V{};  ///< of the bus; else the sheet's nominal voltage
+  std::optional<double>
+      current_A{};  ///< that the stalled motor draws; else nominal, or a tenth of what the bus could drive
+};
+
+enum class BenchCurrent : std::uint8_t { asked_for, nominal, tenth_of_stall };
+
+/// A stiff bus, ideal switches, soft chopping, no load. Two tests: the motor let free from rest, and turned slowly from outside.
+struct WiringBench {
+  design::MotorModel motor;
+  double voltage_V = 0.0, current_A = 0.0, duty = 0.0;  ///< current_A = duty voltage_V/R_tt
+  BenchCurrent from = BenchCurrent::nominal;
+  double ideal_rad_s = 0.0;  ///< duty voltage_V/K_t: no load, current without gaps
+  double free_s = 0.0;       ///< a free run: ten mechanical time constants, then what is watched
+  double watched_from_s = 0.0;
+  double row_s = 0.0;         ///< between two recorded rows of a free run
+  double turned_rad_s = 0.0;  ///< slow: the back-EMF takes a twentieth of the bench's current, or less
+  double turned_from_s = 0.0,
+         turned_s = 0.0;  ///< a sector to forget the start, then one electrical turn, 0 to 360 degrees
+};
+
+/// Problems name `voltage_V` or `current_A`, or are the sheet's.
+base::Result<WiringBench> wiring_bench(const WiringSubject& subject);
+
+/// Let free from rest at an electrical angle.
+study::Scenario free_run(const WiringBench& bench, const WiringSubject& subject, const rig::Wiring& wiring,
+                         double electrical_deg);
+
+/// Turned by a dynamometer through one electrical turn, `turned_rows` rows of torque on the way.
+inline constexpr int turned_rows = 180;
+study::Scenario turned_run(const WiringBench& bench, const WiringSubject& subject, const rig::Wiring& wiring);
+
+}  // namespace sixstep::analysis

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// All 36 ways to plug a motor in: what theory says of each, what the simulation measures, and what puts it right.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "sixstep/analysis/for_each.hpp"
+#include "sixstep/analysis/wiring/cures.hpp"
+#include "sixstep/analysis/wiring/wiring_bench.hpp"
+
+namespace sixstep::analysis {
+
+/// The middles of the six sectors: the rotor begins at rest at each of them.
+inline constexpr std::size_t starts = 6;
+constexpr double start_deg(std::size_t n) { return 60.0 * static_cast<double>(n) + 30; }
+
+/// What the end of a free run shows (WiringBench::watched_from_s), and the way since its start.
+struct FreeRun {
+  double speed_rad_s = 0.0;        ///< mean
+  double turns = 0.0;              ///< electrical, of the watched time, signed
+  double way_turns = 0.0;          ///< electrical, from the start to the end, signed
+  double phase_rms_A = 0.0;        ///< root of the mean square of all three phases
+  double peak_A = 0.0;             ///< of half the sum of the phase currents' magnitudes
+  double supply_A = 0.0;           ///< mean
+  double swing_deg = 0.0;          ///< electrical, from lowest to highest angle
+  double rest_deg = 0.0;           ///< electrical, in [0, 360): mean angle
+  double swing_Hz = 0.0;           ///< of the whole run: changes of direction, two a period
+  std::vector<float> turned{};     ///< electrical turns since the start, one a row
+  std::vector<float> current_A{};  ///< half the sum of the phase currents' magnitudes, one a row
+};
+
+/// Seen in runs alone: no theory has a part in it.
+struct WiringMeasured {
+  WiringDoes does = WiringDoes::unclear;
+  std::array<FreeRun, starts> runs{};
+  double torque_Nm_A = 0.0;  ///< per ampere of half the sum of magnitudes, mean over a slow electrical turn
+  double part = 0.0;         ///< of that of straight wires
+  std::vector<float> torque_over_turn{};  ///< the same, turned_rows of them, at 1, 3, 5 .. degrees
+  std::uint64_t digest = 0;               ///< of all seven runs
+};
+
+struct WiringCase {
+  rig::Wiring wiring;
+  WiringTheory theory;
+  WiringMeasured measured;
+  std::vector<Cure> cures;
+  bool agrees() const { return theory.does == measured.does; }
+};
+
+/// What the runs of all wirings that do the same show, in the mean over ways and starts; of the peaks the largest.
+struct Symptom {
+  std::size_t ways = 0;
+  double part = 0.0, speed_rad_s = 0.0, phase_rms_A = 0.0, peak_A = 0.0, supply_A = 0.0, swing_deg = 0.0,
+         swing_Hz = 0.0;
+};
+
+struct WiringStudy {
+  WiringSubject subject;
+  WiringBench bench;
+  plant::general::Machine machine;  ///< whose torque the theory is of
+  std::vector<WiringCase> cases;    ///< in the order of all_wirings()
+
+  std::size_t agreeing() const;
+  const WiringCase& at(const rig::Wiring& wiring) const;
+  /// Of all that are seen to do this; of straight wires.
+  Symptom symptom(WiringDoes does) const;
+  Symptom straight() const;
+  /// The first that is seen to do this; null where none does.
+  const WiringCase* example(WiringDoes does) const;
+};
+
+struct WiringOrder {
+  WiringSubject subject{};
+  ForEach for_each = one_after_the_other;
+  std::function<bool()> keep_going{};  ///< false ends it early: a Problem "was interrupted"
+};
+
+/// Problems are those of sheet and bench.
+base::Result<WiringStudy> study_wiring(const WiringOrder& order);
+
+/// What the runs of one wiring show; `straight_Nm_A` is the measured torque per ampere of straight wires.
+WiringDoes seen_in(const WiringMeasured& measured, double straight_Nm_A);
+
+}  // namespace sixstep::analysis

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// What commissioning found, in SI, by what the board is built of; and its configuration, of the same.
+//
+//   R = r u/i,   L = R tau T,   psi = f u T/(2 pi)      u V and i A to a count, T the control period
+//
+// R is that of a phase and of a switch. L is the one along the magnet's axis, psi the fundamental's: the peak of a phase's
+// back-EMF over the electrical speed, K_e/p of a sine, 1.2159 K_e/p of the trapezoid of 120 degrees.
+#pragma once
+#include "sixstep/control/commissioning/commissioning.hpp"
+#include "sixstep/control/units.hpp"
+
+namespace sixstep::control {
+
+/// SI over the unit of a reading; in fixed point both over the format's base and digit.
+template <class Scalar>
+struct CommissioningScale {
+  Gain<Scalar> ohm{};        ///< to 2^-20 counts of the bus over a count of current
+  Gain<Scalar> henry{};      ///< to 2^-12 of them times ticks
+  Gain<Scalar> weber{};      ///< to 2^-4 counts of the bus times ticks in a turn
+  Gain<Scalar> half_turn{};  ///< degrees over the base of positions
+};
+
+template <class Scalar>
+struct Commissioned {
+  Scalar R_ohm{}, L_H{}, flux_linkage_Vs{};
+  Scalar hall_offset_deg{};  ///< electrical: the edges' mean ahead of 60 n
+  Scalar hall_lag_deg{};     ///< by which they came later, each way
+};
+
+/// What the makers of the board know.
+struct CommissioningBoard {
+  double V_per_count = 0.0, A_per_count = 0.0;
+  std::uint16_t zero_counts = 2048;
+  double period_s = 0.0;  ///< of control ticks
+  double timer_Hz = 1e6;  ///< of the counter that captures Hall edges
+  std::uint8_t late_half_ticks = 1;
+};
+
+/// What may be asked of motor and bench.
+struct CommissioningWish {
+  double test_A = 0.0;             ///< that the motor stands for seconds
+  double settle_s = 0.2;           ///< for the rotor to come to rest
+  double step_s = 0.02;            ///< ten electrical time constants
+  double slow_turns_s = 10.0;      ///< electrical
+  double fastest_turns_s = 500.0;  ///< and at most
+  double spin_up_s = 1.0;          ///< to the fastest, at the first try
+  std::uint8_t tries = 4;          ///< each a quarter as fast as the one before
+};
+
+constexpr CommissioningConfig commissioning_config(const CommissioningBoard& board,
+                                                   const CommissioningWish& wish) {
+  const auto whole = [](double x) { return static_cast<std::uint32_t>(detail::nearest<std::int64_t>(x)); };
+  const auto ticks = [&](double s) { return whole(s / board.period_s); };
+  const double turn = 4294967296.0 * board.period_s;
+  CommissioningConfig config{};
+  config.current.offset_counts = board.zero_counts;
+  config.current.offset_tolerance = board.zero_counts / 8;
+  config.test_counts = detail::nearest<std::int32_t>(wish.test_A / board.A_per_count);
+  config.settle_ticks = ticks(wish.settle_s);
+  const std::uint32_t step = ticks(wish.step_s / 4) * 4;
+  config.steps.ticks = static_cast<std::uint16_t>(step < 8 ? 8u : step > 65532u ? 65532u : step);
+  config.steps.late_half_ticks = board.late_half_ticks;
+  config.slow_speed = whole(wish.slow_turns_s * turn);
+  const double fastest =
+      wish.fastest_turns_s * turn;  // a sixteenth of a turn a tick is as fast as makes sense
+  config.fastest_speed = static_cast<std::uint32_t>(fastest < 268435456.0 ? fastest : 268435456.0);
+  const double spin_up_ticks = wish.spin_up_s / board.period_s;
+  config.acceleration =
+      static_cast<std::uint32_t>(static_cast<double>(config.fastest_speed) / spin_up_ticks) + 1;
+  config.tries = wish.tries;
+  config.timer_ticks = whole(board.timer_Hz * board.period_s);
+  return config;
+}
+
+/// `base`: what 1.0 of a resistance, an inductance, a flux linkage and a position means, 1 each in floating point.
+template <class Scalar>
+constexpr CommissioningScale<Scalar> commissioning_scale(const CommissioningBoard& board,
+                                                         double ohm_base = 1.0, double henry_base = 1.0,
+                                                         double weber_base = 1.0, double deg_base = 1.0) {
+  constexpr double two_pi = 6.28318530717958647692;
+  const double digit = detail::FormatEnds<Scalar>::digit;
+  const double ohm = board.V_per_count / board.A_per_count;
+  return {Gain<Scalar>(ohm / 1048576.0 / ohm_base / digit),
+          Gain<Scalar>(ohm * board.period_s / 4096.0 / henry_base / digit),
+          Gain<Scalar>(board.V_per_count * board.period_s / 16.0 / two_pi / weber_base / digit),
+          Gain<Scalar>(180.0 / deg_base)};
+}
+
+/// 2^-12 of what the resistance is in, times ticks.
+constexpr std::int32_t inductance_of(const LevelStepsReading& winding) {
+  return detail::held_to_32(
+      detail::shifted_down(static_cast<std::int64_t>(winding.resistance) * winding.tau, 24));
+}
+
+template <class Scalar>
+constexpr Commissioned<Scalar> commissioned(const CommissioningScale<Scalar>& scale,
+                                            const CommissioningState& state) {
+  using Angle = AngleTraits<Scalar>;
+  return {Angle::scaled(state.winding.resistance, scale.ohm),
+          Angle::scaled(inductance_of(state.winding), scale.henry),
+          Angle::scaled(state.magnet.flux, scale.weber),
+          angle_signal<Scalar>(state.probes.offset, scale.half_turn),
+          angle_signal<Scalar>(state.probes.lag, scale.half_turn)};
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The magnet's flux linkage from a rotor that follows a turning voltage vector without a load, in the vector's frame and
+// in means over whole electrical turns, which leave the fundamental alone:
+//
+//   e = v - R i - j w L i - (3/4) lost s,    psi = |e|/w
+//
+// `lost` is what dead time and diodes take of a vector along a phase (level_steps.hpp), 4/3 of a leg's part; s the vector of
+// the legs' signs of current. The rotor's lag behind the vector does not
+// matter. An error of R counts by R i/e: at e = v/2 by less than twice itself.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/commissioning/level_steps.hpp"
+
+namespace sixstep::control {
+
+/// A tick's currents and their signs, in the vector's frame.
+struct FieldCurrent {
+  FieldVector current{}, signs{};
+};
+
+/// Sums over the ticks of whole turns.
+struct FluxTurnState {
+  std::int64_t along = 0, across = 0;              ///< currents, 24ths of a count
+  std::int64_t signs_along = 0, signs_across = 0;  ///< of currents, 24 to a leg's
+  std::int64_t bus = 0;                            ///< counts
+  std::uint32_t ticks = 0;
+};
+
+/// In 2^-8 counts of the bus, and 2^-4 of them times ticks in a turn.
+struct FluxTurnReading {
+  std::int32_t applied = 0;  ///< v
+  std::int32_t emf = 0;      ///< |e|
+  std::int32_t flux = 0;     ///< |e| over turns a tick
+};
+
+constexpr void flux_turn_tick(FluxTurnState& state, const FieldCurrent& seen, std::uint16_t bus_counts) {
+  state.along += seen.current.along;
+  state.across += seen.current.across;
+  state.signs_along += seen.signs.along;
+  state.signs_across += seen.signs.across;
+  state.bus += bus_counts;
+  ++state.ticks;
+}
+
+/// w L, as the resistance is given; speed in 2^-32 turns a tick.
+constexpr std::int64_t reactance_of(const LevelStepsReading& winding, std::uint32_t speed) {
+  constexpr std::int64_t two_pi_16 = 411775;
+  const std::int64_t turns_32 = detail::shifted_down(static_cast<std::int64_t>(winding.tau) * speed, 16);
+  return detail::shifted_down(detail::shifted_down(turns_32 * two_pi_16, 16) * winding.resistance, 32);
+}
+
+/// Of a vector of v parts of the bus.
+constexpr FluxTurnReading flux_turn_reading(const LevelStepsReading& winding, const FluxTurnState& state,
+                                            std::int32_t v, std::uint32_t speed) {
+  FluxTurnReading reading{};
+  if (state.ticks == 0 || speed == 0) return reading;
+  const std::int64_t R = winding.resistance, X = reactance_of(winding, speed);
+  const std::int64_t applied = detail::ratio_of(v * state.bus, std::int64_t{4096} * state.ticks);
+  const std::int64_t d = detail::ratio_of(state.along * 256, std::int64_t{24} * state.ticks);
+  const std::int64_t q = detail::ratio_of(state.across * 256, std::int64_t{24} * state.ticks);
+  const std::int64_t of_legs = std::int64_t{4} * 8 * state.ticks;  // 3/4 of 24ths
+  const std::int64_t lost_d = detail::ratio_of(winding.lost * state.signs_along, of_legs);
+  const std::int64_t lost_q = detail::ratio_of(winding.lost * state.signs_across, of_legs);
+  const std::int64_t along = applied - detail::shifted_down(R * d - X * q, 20) - lost_d;
+  const std::int64_t across = -detail::shifted_down(R * q + X * d, 20) - lost_q;
+  reading.applied = detail::held_to_32(applied);
+  reading.emf = static_cast<std::int32_t>(length_of(detail::held_to_32(along), detail::held_to_32(across)));
+  reading.flux = detail::held_to_32(
+      detail::ratio_of(static_cast<std::int64_t>(reading.emf) << 28, static_cast<std::int64_t>(speed)));
+  return reading;
+}
+
+}  // namespace sixstep::control

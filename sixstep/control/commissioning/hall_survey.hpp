@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which code of the Hall pins stands where: from edges and the field's angle at them, while a field turns the rotor
+// slowly, forward and then backward. Nothing is known before: not which line hangs at which pin, not which are inverted,
+// nor whether probes stand 120 or 60 degrees apart, nor by how much they are off.
+//
+// The rotor's d axis lies in the field but for a lag: friction over the torque of the current, the field's own lateness
+// and half of the probes' hysteresis. All three change sides with the direction, and the mean of both ways is free of
+// them:
+//
+//   edge = (forward + backward)/2,   lag = (forward - backward)/2          theta_e = theta_d + 150 degrees (model.md 7)
+//
+// Cogging does not change sides, nor does a back-EMF that is no sine: a standing field holds the rotor of a trapezoid of
+// 120 degrees up to 1.12 degrees beside it, by 0 at each multiple of 30. A rotor that is turned so fast that six times the
+// turn comes near its swing in the field, sqrt(1.5 p^2 psi I/J), shows more.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/commutation.hpp"
+#include "sixstep/control/hall.hpp"
+#include "sixstep/control/sensing/hall_angle.hpp"
+
+namespace sixstep::control {
+
+/// theta_e of the field's angle: that of the d axis.
+inline constexpr BinaryAngle electrical_ahead = 1789569707u;  // 150 degrees
+
+struct HallSurveyConfig {
+  std::uint8_t turns = 2;                   ///< electrical ones each way that are noted
+  BinaryAngle widest = binary_degrees(15);  ///< that edges of one kind may lie apart
+  bool operator==(const HallSurveyConfig&) const = default;
+};
+
+/// The edge into a code, forward; out of it, backward.
+struct SurveyedEdge {
+  BinaryAngle first[2]{};  ///< theta_e of the first one, forward and backward
+  std::int64_t sum[2]{};   ///< of what the others lie ahead of it
+  std::uint8_t count[2]{};
+  std::uint8_t before = 0xff;  ///< the code behind it
+};
+
+struct HallSurveyState {
+  SurveyedEdge edge[8]{};  ///< by the code ahead of it
+  std::uint8_t pins = 0xff;
+  bool torn = false;  ///< edges of one kind lay too far apart, or another code lay behind one
+};
+
+enum class HallSurvey : std::uint8_t {
+  good,
+  dead_line,    ///< a pin never changed
+  other_codes,  ///< not six codes, in one order there and back: a shorted line, or probes of another kind
+  not_steady    ///< edges of one kind lay too far apart, or were missed: the rotor does not follow
+};
+
+/// What each pin carries, in the words of probes 120 degrees apart.
+struct HallLines {
+  std::uint8_t sector[8] = {no_sector, no_sector, no_sector, no_sector,
+                            no_sector, no_sector, no_sector, no_sector};  ///< of each code of the pins
+  std::uint8_t probe[3]{};                                                ///< 1..3 at pin H1, H2, H3
+  std::uint8_t inverted = 0;  ///< pins that read their probe inverted, as bits of a code
+  bool operator==(const HallLines&) const = default;
+};
+
+struct HallSurveyReading {
+  HallSurvey verdict = HallSurvey::not_steady;
+  std::uint8_t dead_pins = 0;  ///< as bits of a code
+  HallLines lines{};
+  /// The lines hang straight, and this is all that hall.hpp must be told.
+  bool plain = false;
+  HallConfig config{};
+  HallEdges edges{};        ///< where each stands
+  std::int32_t offset = 0;  ///< mean of what they lie ahead of 60 n degrees, signed angle
+  std::int32_t lag = 0;     ///< mean of what they came later, each way
+};
+
+/// The code that straight probes 120 degrees apart would give; 000 where there is none.
+constexpr std::uint8_t as_wired(const HallLines& lines, std::uint8_t pins) {
+  return hall_of_sector(lines.sector[pins & 7u]);
+}
+
+/// Pins changed while the field stood at `field`, turning in `direction`. The first call tells the code at rest.
+constexpr void hall_survey_edge(const HallSurveyConfig& config, HallSurveyState& state, std::uint8_t pins,
+                                std::int8_t direction, BinaryAngle field) {
+  const std::uint8_t before = state.pins, now = pins & 7u;
+  state.pins = now;
+  if (before == 0xff || before == now || direction == 0) return;
+  SurveyedEdge& edge = state.edge[direction > 0 ? now : before];
+  const std::uint8_t behind = direction > 0 ? before : now;
+  if (edge.before != 0xff && edge.before != behind) state.torn = true;
+  edge.before = behind;
+  const std::uint8_t way = direction > 0 ? 0 : 1;
+  const BinaryAngle at = field + electrical_ahead;
+  if (edge.count[way] == 0) edge.first[way] = at;
+  const std::int32_t ahead = way_between(edge.first[way], at);
+  if (ahead > static_cast<std::int32_t>(config.widest) || ahead < -static_cast<std::int32_t>(config.widest))
+    state.torn = true;
+  edge.sum[way] += ahead;
+  if (edge.count[way] < 255) ++edge.count[way];
+}
+
+namespace detail {
+
+constexpr BinaryAngle surveyed(const SurveyedEdge& edge, int way) {
+  return edge.first[way] + static_cast<BinaryAngle>(edge.sum[way] / edge.count[way]);
+}
+
+/// Six codes in one ring, each edge seen both ways.
+constexpr HallSurvey survey_verdict(const HallSurveyConfig& config, const HallSurveyState& state,
+                                    std::uint8_t& dead_pins) {
+  unsigned seen = 0, ones = 0, zeros = 0;
+  bool missed = state.torn;
+  for (unsigned code = 0; code < 8; ++code) {
+    const SurveyedEdge& edge = state.edge[code];
+    if (edge.count[0] == 0 && edge.count[1] == 0) continue;
+    ++seen;
+    ones |= code;
+    zeros |= ~code & 7u;
+    for (const std::uint8_t count : edge.count)
+      missed = missed || count + 1 < config.turns || count > config.turns + 1 || count == 0;
+  }
+  dead_pins = static_cast<std::uint8_t>(~(ones & zeros) & 7u);
+  if (dead_pins != 0) return HallSurvey::dead_line;
+  if (missed) return HallSurvey::not_steady;
+  std::uint8_t code = state.pins, steps = 0;
+  do {
+    code = state.edge[code].before;
+    ++steps;
+  } while (code < 8 && code != state.pins && steps < 8);
+  return seen == 6 && steps == 6 && code == state.pins ? HallSurvey::good : HallSurvey::other_codes;
+}
+
+/// Which probe changes its line where: probe 1, 2, 3 rises into sector 5, 1, 3 and falls into 2, 4, 0.
+constexpr void name_lines(HallLines& lines) {
+  for (unsigned pin = 0; pin < 3; ++pin) {
+    const unsigned bit = 4u >> pin;
+    unsigned high = 0;  // sectors in which the pin is high
+    for (unsigned code = 0; code < 8; ++code)
+      if ((code & bit) != 0 && lines.sector[code] < 6) high |= 1u << lines.sector[code];
+    for (unsigned probe = 0; probe < 3; ++probe) {
+      unsigned due = 0;
+      for (std::uint8_t sector = 0; sector < 6; ++sector)
+        if ((hall_of_sector(sector) & (4u >> probe)) != 0) due |= 1u << sector;
+      if (high == due || high == (~due & 0x3fu)) lines.probe[pin] = static_cast<std::uint8_t>(probe + 1);
+      if (high == (~due & 0x3fu)) lines.inverted = static_cast<std::uint8_t>(lines.inverted | bit);
+    }
+  }
+}
+
+/// Straight lines of either arrangement need no table.
+constexpr void name_arrangement(HallSurveyReading& reading) {
+  constexpr HallArrangement arrangements[] = {HallArrangement::degrees_120, HallArrangement::degrees_60};
+  for (const HallArrangement arrangement : arrangements) {
+    bool same = true;
+    for (std::uint8_t pins = 0; pins < 8; ++pins)
+      if (reading.lines.sector[pins] < 6)
+        same = same && as_120_degrees(arrangement, pins) == as_wired(reading.lines, pins);
+    if (!same) continue;
+    reading.plain = true;
+    reading.config.arrangement = arrangement;
+    return;
+  }
+}
+
+/// Each edge, from the one that is nearest to n = 0 in the mean of all six.
+constexpr void place_edges(const HallSurveyState& state, HallSurveyReading& reading) {
+  std::uint8_t ring[6]{};
+  BinaryAngle at[6]{};
+  std::int64_t lag = 0, ahead = 0;
+  std::uint8_t code = state.pins;
+  for (std::uint8_t n = 6; n-- > 0; code = state.edge[code].before) {
+    const SurveyedEdge& edge = state.edge[code];
+    const BinaryAngle forward = surveyed(edge, 0);
+    const std::int32_t apart = way_between(surveyed(edge, 1), forward);
+    ring[n] = code;
+    at[n] = forward - static_cast<BinaryAngle>(apart / 2);
+    lag += apart / 2;
+  }
+  for (std::uint8_t n = 0; n < 6; ++n) ahead += way_between(at[0] + sector_angle(n), at[n]);
+  const BinaryAngle mean = at[0] + static_cast<BinaryAngle>(ahead / 6);  // of ring[0]'s edge
+  const std::uint8_t first = sector_of_angle(mean + sector_angle(1) / 2);
+  reading.offset = way_between(sector_angle(first), mean);
+  for (std::uint8_t n = 0; n < 6; ++n) {
+    const auto sector = static_cast<std::uint8_t>((first + n) % 6);
+    reading.lines.sector[ring[n]] = sector;
+    reading.edges.at[sector] = at[n];
+  }
+  reading.lag = static_cast<std::int32_t>(lag / 6);
+}
+
+}  // namespace detail
+
+/// Of whole turns both ways.
+constexpr HallSurveyReading hall_survey_reading(const HallSurveyConfig& config,
+                                                const HallSurveyState& state) {
+  HallSurveyReading reading{};
+  reading.verdict = detail::survey_verdict(config, state, reading.dead_pins);
+  if (reading.verdict != HallSurvey::good) return reading;
+  detail::place_edges(state, reading);
+  detail::name_lines(reading.lines);
+  detail::name_arrangement(reading);
+  return reading;
+}
+
+}  // namespace sixstep::control

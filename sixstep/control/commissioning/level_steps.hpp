@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Resistance and time constant of a phase, from steps between two levels of a voltage along one direction, with the
+// rotor at rest in it. Both levels have one sign of the currents, so that what dead time and diodes take is the same on
+// both, and falls out of the differences:
+//
+//   R = (V_2 - V_1)/(I_2 - I_1),     what is lost: V_2 - R I_2
+//
+// with V = the vector times the bus and I the means of each level's last quarter. Of a step the area that the current
+// stays behind is tau (I_2 - I_1), whatever the rotor or the drop:
+//
+//   S = sum (I_end - i_k)/(I_2 - I_1) over the ticks of a step, less the lateness of the voltage behind the sample
+//   S = coth(x/2)/2 where samples lie at the periods' ends, 1/(2 sinh(x/2)) where in their middles,  x = T/tau
+//   tau/T = S - 1/(12 S)  or  S + 1/(24 S),                              to x^4/720 and x^4/640
+//
+// Steps up and down alternate, and their areas are added. What converters round: I_2 - I_1 is off by at most 4/3 of a
+// count (2/3 in each, by 2 i_a - i_b - i_c), S by ln(2 n)/n parts where it has n counts.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/commissioning/field_vector.hpp"
+
+namespace sixstep::control {
+
+struct LevelStepsConfig {
+  std::uint16_t ticks =
+      1024;  ///< of a level, a multiple of 4: ten time constants, so that its last quarter is steady
+  std::uint16_t pairs = 4;           ///< of steps, up and down
+  std::uint8_t late_half_ticks = 1;  ///< from a sample until what it answers is at the legs: 0, 1, 2
+  bool operator==(const LevelStepsConfig&) const = default;
+};
+
+/// Of one level: sums over its steps.
+struct LevelSums {
+  std::int64_t all = 0;   ///< currents of the step's ticks
+  std::int64_t tail = 0;  ///< of its last quarter
+  std::int64_t bus = 0;   ///< counts, in the last quarter
+};
+
+struct LevelStepsState {
+  LevelSums level[2]{};     ///< the lower one, the higher one
+  std::uint16_t tick = 0;   ///< in the step
+  std::uint16_t steps = 0;  ///< that are over; the first two are not counted
+  bool high = false;
+};
+
+/// What came out, in whole numbers: parts of the bus times its counts over 24ths of a count of current.
+struct LevelStepsReading {
+  bool usable = false;          ///< the levels differ by 64 counts or more, and time passes between them
+  std::int32_t resistance = 0;  ///< 2^-20 counts of the bus to a count of current
+  std::int32_t tau = 0;         ///< 2^-16 ticks
+  std::int32_t lost = 0;        ///< 2^-8 counts of the bus: what the drop takes of the vector
+  std::int32_t higher = 0, lower = 0;  ///< currents, 24ths of a count
+};
+
+/// A tick's sample of the current along; `true` once the last step is over.
+constexpr bool level_steps_tick(const LevelStepsConfig& config, LevelStepsState& state, std::int32_t along,
+                                std::uint16_t bus_counts) {
+  const auto quarter = static_cast<std::uint16_t>(config.ticks / 4);
+  if (state.steps >= 2) {
+    LevelSums& sums = state.level[state.high ? 1 : 0];
+    sums.all += along;
+    if (state.tick >= static_cast<std::uint16_t>(3 * quarter)) {
+      sums.tail += along;
+      sums.bus += bus_counts;
+    }
+  }
+  if (++state.tick < 4 * quarter) return false;
+  state.tick = 0;
+  state.high = !state.high;
+  return ++state.steps >= static_cast<std::uint16_t>(2 * config.pairs + 2);
+}
+
+namespace detail {
+
+/// x/y, to nearest; 0 for y = 0.
+constexpr std::int64_t ratio_of(std::int64_t x, std::int64_t y) {
+  return y == 0 ? 0 : divided<std::int64_t>(x, y);
+}
+
+constexpr std::int32_t held_to_32(std::int64_t x) { return saturated<std::int32_t>(x); }
+
+/// 2^-16 ticks, of the area of a step over its height, likewise. The sample that commands a step belongs to the one before.
+constexpr std::int64_t tau_of_area(std::int64_t area, std::uint8_t late_half_ticks) {
+  constexpr std::int64_t tick = std::int64_t{1} << 16;
+  const std::int64_t S = area + (1 - late_half_ticks) * (tick / 2);
+  if (S <= 0) return 0;
+  return late_half_ticks % 2 == 0 ? S - ratio_of(tick * tick, 12 * S) : S + ratio_of(tick * tick, 24 * S);
+}
+
+}  // namespace detail
+
+/// Of two vectors of `low` and `high` parts of the bus.
+constexpr LevelStepsReading level_steps_reading(const LevelStepsConfig& config, const LevelStepsState& state,
+                                                std::int32_t low, std::int32_t high) {
+  const LevelSums &lower = state.level[0], &higher = state.level[1];
+  const std::int64_t quarter = config.ticks / 4, tails = quarter * config.pairs;
+  const std::int64_t apart = higher.tail - lower.tail;
+  LevelStepsReading reading{};
+  reading.higher = detail::held_to_32(detail::ratio_of(higher.tail, tails));
+  reading.lower = detail::held_to_32(detail::ratio_of(lower.tail, tails));
+  if (reading.higher - reading.lower < 64 * 24) return reading;
+  const std::int64_t R = detail::ratio_of((high * higher.bus - low * lower.bus) * 24, apart);
+  reading.resistance = detail::held_to_32(R);
+  const std::int64_t behind = 4 * apart - (higher.all - lower.all);
+  const std::int64_t area = detail::ratio_of(behind * quarter * 32768, apart);
+  reading.tau = detail::held_to_32(detail::tau_of_area(area, config.late_half_ticks));
+  const std::int64_t at_legs = detail::ratio_of(high * higher.bus, tails * 4096);
+  const std::int64_t in_winding = detail::ratio_of(R * reading.higher, std::int64_t{24} * 4096);
+  reading.lost = detail::held_to_32(at_legs - in_winding);
+  reading.usable = R > 0 && reading.tau > 0;
+  return reading;
+}
+
+}  // namespace sixstep::control

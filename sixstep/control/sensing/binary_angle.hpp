@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// Angles as whole numbers, 2^32 to a turn: sums wrap exactly at the turn's end, differences taken as signed are
+// the shorter way, and every core has the same bits. One unit is 8.4e-8 degrees. Names tell electrical from
+// mechanical angles; a mechanical one times the pole pairs is the electrical one, and wraps rightly too.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+using BinaryAngle = std::uint32_t;
+
+inline constexpr BinaryAngle quarter_turn = 0x40000000u, half_turn = 0x80000000u;
+
+/// The shorter way, -2^31 to 2^31 - 1; of half a turn the way back.
+constexpr std::int32_t way_between(BinaryAngle from, BinaryAngle to) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(to - from));
+}
+
+/// theta_e = p theta_m + offset (model.md 1).
+constexpr BinaryAngle electrical_angle(BinaryAngle mechanical, std::uint8_t pole_pairs,
+                                       BinaryAngle offset = 0) {
+  return static_cast<BinaryAngle>(mechanical * pole_pairs + offset);
+}
+
+/// For constants and for the host, |degrees| below 2^22: to nearest where double has 64 bits; where it has 32
+/// (AVR) to 2^-24 of itself.
+constexpr BinaryAngle binary_degrees(double degrees) {
+  const double turns = degrees / 360.0;
+  const auto whole = static_cast<std::int32_t>(turns);
+  double rest = turns - static_cast<double>(whole);
+  if (rest < 0) rest += 1.0;
+  return static_cast<BinaryAngle>(
+      static_cast<std::uint64_t>(detail::nearest<std::int64_t>(rest * 4294967296.0)));
+}
+
+/// Where electrical sector n = 0..5 begins: the first whole angle at or behind 60 n degrees (model.md 3).
+constexpr BinaryAngle sector_angle(std::uint8_t n) {
+  constexpr BinaryAngle begins[6] = {0u, 715827883u, 1431655766u, 2147483648u, 2863311531u, 3579139414u};
+  return begins[n % 6];
+}
+
+/// The sector [60 n, 60 n + 60) degrees that an electrical angle lies in. By comparing: nothing is rounded.
+constexpr std::uint8_t sector_of_angle(BinaryAngle electrical) {
+  const bool upper = electrical >= half_turn;
+  const BinaryAngle rest = upper ? electrical - half_turn : electrical;
+  const std::uint8_t third = rest >= sector_angle(2) ? 2 : rest >= sector_angle(1) ? 1 : 0;
+  return upper ? static_cast<std::uint8_t>(third + 3) : third;
+}
+
+/// What a converter of so many bits, 1..32, says: rounded down.
+constexpr BinaryAngle quantised(BinaryAngle angle, std::uint8_t bits) {
+  const std::uint8_t drop = bits >= 32 || bits == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(32 - bits);
+  return (angle >> drop) << drop;
+}
+
+/// Full turns and the angle in the last one, which together pass the turn's end.
+struct UnwrappedAngle {
+  BinaryAngle angle = 0;
+  std::int32_t turns = 0;
+  bool operator==(const UnwrappedAngle&) const = default;
+};
+
+/// Goes on to an angle by the shorter way.
+constexpr void unwrap(UnwrappedAngle& state, BinaryAngle angle) {
+  const std::int32_t way = way_between(state.angle, angle);
+  if (way >= 0 && angle < state.angle) ++state.turns;
+  if (way < 0 && angle > state.angle) --state.turns;
+  state.angle = angle;
+}
+
+namespace detail {
+
+/// How many bits a number has. By halves: a loop bit by bit becomes a library call where the processor does not
+/// count zeros.
+constexpr std::uint8_t bit_width(std::uint32_t x) {
+  std::uint8_t bits = 0;
+  for (std::uint8_t half = 16; half != 0; half = static_cast<std::uint8_t>(half >> 1)) {
+    if ((x >> half) == 0) continue;
+    x >>= half;
+    bits = static_cast<std::uint8_t>(bits + half);
+  }
+  return static_cast<std::uint8_t>(bits + x);
+}
+
+}  // namespace detail
+
+/// A turn divided into whole parts, by multiplication: part 2^32/whole, to nearest and 2 units.
+struct TurnParts {
+  std::uint32_t mantissa = 0;  ///< 2^(30+n)/whole where whole has n bits; exact where it is a power of two
+  std::uint8_t right = 0;      ///< n - 2
+  bool operator==(const TurnParts&) const = default;
+};
+
+/// One division of 64 bits: once per Hall edge, or while compiling. Of fewer than two parts none is left.
+constexpr TurnParts turn_in_parts(std::uint32_t whole) {
+  if (whole < 2) return {};
+  const std::uint8_t bits = detail::bit_width(whole);
+  const std::uint64_t scaled = std::uint64_t{1} << (30 + bits);
+  return {static_cast<std::uint32_t>((scaled + whole / 2) / whole), static_cast<std::uint8_t>(bits - 2)};
+}
+
+/// The angle of so many parts; what is more than a turn wraps.
+constexpr BinaryAngle angle_of_parts(const TurnParts& turn, std::uint32_t part) {
+  const std::uint64_t product = static_cast<std::uint64_t>(part) * turn.mantissa;
+  if (turn.right == 0) return static_cast<BinaryAngle>(product);
+  return static_cast<BinaryAngle>(((product >> (turn.right - 1)) + 1) >> 1);
+}
+
+/// What a decoder must know about its scalar, beside ScalarTraits. This is the one for floating point.
+template <class Scalar>
+struct AngleTraits {
+  /// mantissa/2^right, the mantissa of 31 bits: the same constant where double has 32 bits.
+  static constexpr Gain<Scalar> constant(std::int32_t mantissa, std::int8_t right) {
+    return static_cast<Scalar>(static_cast<double>(mantissa) /
+                               static_cast<double>(detail::two_to<std::int64_t>(right)));
+  }
+  /// A signed angle as a part of half a turn, -1..1.
+  static constexpr Scalar half_turns(std::int32_t angle) {
+    return static_cast<Scalar>(angle) * static_cast<Scalar>(0x1p-31);
+  }
+  /// A signed whole number of up to 32 bits as a signal; fixed: the gain in raw digits.
+  static constexpr Scalar scaled(std::int32_t x, Gain<Scalar> per_unit) {
+    return static_cast<Scalar>(x) * per_unit;
+  }
+  /// A signal times timer counts, n times.
+  static constexpr TickRatio<Scalar> counted(TickRatio<Scalar> ratio, std::uint32_t n) {
+    return ratio * static_cast<Scalar>(n);
+  }
+  /// -1..1 as 31 bits behind the point, saturated, rounded towards 0.
+  static constexpr std::int32_t bits_31(Scalar x) {
+    if (x >= Scalar(1)) return detail::greatest<std::int32_t>;
+    if (x <= Scalar(-1)) return -detail::greatest<std::int32_t>;
+    return static_cast<std::int32_t>(x * static_cast<Scalar>(2147483648.0));
+  }
+};
+
+template <class Storage, int FractionBits>
+struct AngleTraits<Fixed<Storage, FractionBits>> {
+  using Scalar = Fixed<Storage, FractionBits>;
+
+  static constexpr Gain<Scalar> constant(std::int32_t mantissa, std::int8_t right) {
+    constexpr std::int8_t drop = 32 - detail::Widths<Storage>::bits;
+    return Gain<Scalar>::from_raw(detail::saturated<Storage>(detail::shifted_down(mantissa, drop)),
+                                  static_cast<std::int8_t>(right - drop));
+  }
+  static constexpr Scalar half_turns(std::int32_t angle) {
+    return Scalar::from_raw(detail::saturated<Storage>(detail::shifted_down(angle, 31 - FractionBits)));
+  }
+  /// Of the number as many leading bits as a signal has: 2^-15 of itself in 16 bits, all in 32.
+  static constexpr Scalar scaled(std::int32_t x, Gain<Scalar> per_unit) {
+    const std::uint32_t whole = detail::absolute(x);
+    constexpr int kept = detail::Widths<Storage>::bits - 1;
+    const int bits = detail::bit_width(whole), left = bits > kept ? bits - kept : 0;
+    const std::uint32_t size = detail::magnitude_down(whole, left);
+    using Wide = typename Scalar::WideInt;
+    const Wide part = x < 0 ? static_cast<Wide>(-static_cast<Wide>(size)) : static_cast<Wide>(size);
+    const auto p = detail::product<Storage>(part, per_unit.mantissa);
+    const int down = per_unit.right - left;
+    return ScalarTraits<Scalar>::narrow(
+        down >= 0 ? detail::with_sign(detail::magnitude_down(p.size, down), p.negative)
+                  : detail::magnitude_up<Wide>(p.size, p.negative, -down));
+  }
+  /// Doubled as often as n has bits: a product would want a library's overflow check.
+  static constexpr TickRatio<Scalar> counted(TickRatio<Scalar> ratio, std::uint32_t n) {
+    TickRatio<Scalar> sum{};
+    for (; n != 0; n >>= 1) {
+      if ((n & 1u) != 0) sum.raw = detail::sum_saturated(sum.raw, ratio.raw);
+      ratio.raw = detail::sum_saturated(ratio.raw, ratio.raw);
+    }
+    return sum;
+  }
+  static constexpr std::int32_t bits_31(Scalar x) {
+    const std::int32_t bits = detail::shifted_up(static_cast<std::int32_t>(x.raw), 31 - FractionBits);
+    return bits == detail::least<std::int32_t> ? -detail::greatest<std::int32_t> : bits;
+  }
+};
+
+/// A signed angle as a signal: `per_half_turn` of it to half a turn, 180 degrees over the base of positions.
+template <class Scalar>
+constexpr Scalar angle_signal(std::int32_t angle, Gain<Scalar> per_half_turn) {
+  return ScalarTraits<Scalar>::product(AngleTraits<Scalar>::half_turns(angle), per_half_turn);
+}
+
+/// A small angle given as a number in rad, -1..1, as a signed angle: 2^32/(2 pi) units to 1.
+template <class Scalar>
+constexpr std::int32_t angle_of_rad(Scalar rad) {
+  constexpr std::int32_t by_pi = 1367130551;  // 2^32/pi
+  const auto p = detail::product<std::int32_t>(AngleTraits<Scalar>::bits_31(rad), by_pi);
+  return detail::narrow_with_sign<std::int32_t>(detail::magnitude_down(p.size, 32), p.negative);
+}
+
+}  // namespace sixstep::control

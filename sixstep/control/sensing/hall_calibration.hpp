@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// Learns where the six Hall edges stand, from their times while the rotor turns steadily.
+//
+//   part of the turn at edge j = sum over n turns of (t_j - t_0)/sum of the turns' times
+//   deviation[j] = its angle - 60 j degrees,   their mean taken as 0
+//
+// Times alone tell no angle that all edges are off by together: neither a common offset of the probes, nor the
+// hysteresis and delay that all have in common, since they turn all edges alike. That mean is an input, found by
+// the back-EMF or by aligning the rotor (hall_edges): one for each direction, of edges as seen:
+//
+//   forward = offset + h + w t_d,   backward = offset - (h + w t_d)
+//
+// With a run in each direction offset and h + w t_d part; what the edges' own hystereses differ by cancels in
+// the mean of both runs. h holds w t_d of the speed of that run: run slowly, or give hall_angle no delay.
+//
+// What it asks of the rotor: each turn takes as long as the first to 1/steady of it, or the run is refused. A
+// drift d of the turn's time over the run bends the angles by at most d/(8 n) turns (steady 64, n 32: 0.022
+// degrees). Ripple in step with the edges looks like misplacement: let the rotor coast, or run it fast enough.
+// With magnets that differ from pole to pole let n be a multiple of the pole pairs.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/sensing/hall_angle.hpp"
+
+namespace sixstep::control {
+
+struct HallCalibrationConfig {
+  std::uint16_t turns = 32;   ///< n, electrical
+  std::uint16_t steady = 64;  ///< a turn's time may differ by this part from the first one's
+  bool operator==(const HallCalibrationConfig&) const = default;
+};
+
+enum class HallCalibration : std::uint8_t {
+  running,
+  done,
+  unsteady,   ///< a turn took too long or too short
+  disturbed,  ///< the rotor turned back, or an edge was missed
+};
+
+struct HallCalibrationState {
+  std::uint64_t after[6]{};  ///< ticks from the first edge of a turn to the j-th after it, summed; [0]: turns
+  std::uint32_t began = 0;   ///< time of this turn's first edge
+  std::uint32_t first = 0;   ///< ticks of the first turn
+  std::uint16_t turns = 0;   ///< whole ones so far
+  std::uint8_t start = no_sector;  ///< the edge that turns begin with
+  std::uint8_t passed = 0;         ///< edges of this turn
+  std::int8_t direction = 0;
+  HallCalibration result = HallCalibration::running;
+};
+
+/// Signed angles by which edges stand ahead of 60 n degrees; their mean is 0 to a unit.
+struct HallDeviations {
+  std::int32_t at[6]{};
+};
+
+/// An edge passed in `direction` (+1, -1) at counter reading `time`; its number is that of hall_angle.hpp.
+/// After `done` or a refusal nothing changes any more; begin again with a new state.
+constexpr HallCalibration hall_calibrate(const HallCalibrationConfig& config, HallCalibrationState& state,
+                                         std::uint8_t edge, std::int8_t direction, std::uint32_t time) {
+  if (state.result != HallCalibration::running || edge > 5) return state.result;
+  if (state.start == no_sector) {
+    state.start = edge;
+    state.direction = direction;
+    state.began = time;
+    return state.result;
+  }
+  ++state.passed;
+  const int due = state.start + (state.direction < 0 ? 6 - state.passed : state.passed);
+  if (direction != state.direction || edge != due % 6) return state.result = HallCalibration::disturbed;
+  const std::uint32_t ticks = static_cast<std::uint32_t>(time - state.began);
+  if (state.passed < 6) {
+    state.after[state.passed] += ticks;
+    return state.result;
+  }
+  state.after[0] += ticks;
+  state.passed = 0;
+  state.began = time;
+  if (state.turns == 0) state.first = ticks;
+  const std::uint32_t off = ticks > state.first ? ticks - state.first : state.first - ticks;
+  const std::uint16_t parts = config.steady == 0 ? std::uint16_t{1} : config.steady;
+  if (off > state.first / parts) return state.result = HallCalibration::unsteady;
+  ++state.turns;
+  if (state.turns >= config.turns) state.result = HallCalibration::done;
+  return state.result;
+}
+
+/// Of a run that is done; of any other all 0.
+constexpr HallDeviations hall_deviations(const HallCalibrationState& state) {
+  HallDeviations deviations{};
+  if (state.result != HallCalibration::done || state.after[0] == 0) return deviations;
+  std::uint8_t down = 0;  // until a turn has 32 bits
+  while ((state.after[0] >> down) > 0xffffffffu) ++down;
+  std::int64_t sum = 0;
+  for (std::uint8_t j = 1; j < 6; ++j) {
+    const auto part = static_cast<BinaryAngle>(((state.after[j] >> down) << 32) / (state.after[0] >> down));
+    const std::int32_t ahead = way_between(sector_angle(j), part);
+    const int edge = (state.start + (state.direction < 0 ? 6 - j : j)) % 6;
+    deviations.at[edge] = state.direction < 0 ? -ahead : ahead;
+    sum += deviations.at[edge];
+  }
+  const std::int32_t mean = static_cast<std::int32_t>(sum / 6);
+  for (std::int32_t& at : deviations.at) at -= mean;
+  return deviations;
+}
+
+/// One direction only: `offset` is the mean of what the six edges, at rest between both directions, are ahead
+/// of 60 n degrees; hysteresis is what the data sheet says.
+constexpr HallEdges hall_edges(const HallDeviations& deviations, std::int32_t offset,
+                               BinaryAngle half_hysteresis) {
+  HallEdges edges{};
+  for (std::uint8_t n = 0; n < 6; ++n)
+    edges.at[n] =
+        sector_angle(n) + static_cast<BinaryAngle>(offset) + static_cast<BinaryAngle>(deviations.at[n]);
+  edges.half_hysteresis = half_hysteresis;
+  return edges;
+}
+
+/// A run in each direction at one speed, and where each saw the edges in the mean.
+constexpr HallEdges hall_edges(const HallDeviations& forward, const HallDeviations& backward,
+                               std::int32_t seen_forward, std::int32_t seen_backward) {
+  HallDeviations mean{};
+  for (std::uint8_t n = 0; n < 6; ++n) mean.at[n] = forward.at[n] / 2 + backward.at[n] / 2;
+  const std::int32_t apart = seen_forward / 2 - seen_backward / 2;
+  return hall_edges(mean, seen_forward / 2 + seen_backward / 2,
+                    apart > 0 ? static_cast<BinaryAngle>(apart) : BinaryAngle{0});
+}
+
+}  // namespace sixstep::control

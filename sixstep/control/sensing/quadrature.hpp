@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Incremental encoder: the lines A, B and Z to a count of four per line, direction and angle.
+//
+//   A = [frac(N theta_m/2 pi) < 1/2], B a quarter of a line later (model.md 10): AB = 10, 11, 01, 00 forward
+//
+// Both lines changing at once is illegal: one step was missed, or a line is disturbed. Then two counts in the
+// last direction are taken, which keeps the count in step with the lines, and `illegal` tells.
+//
+// Z is high over one line from theta_m = 0 on. It is judged in one of the quarters within, by default the third:
+// there an edge of Z may be nearly two counts early or late. The first index says where zero is, each later one whether
+// counts were missed, and mends them.
+//
+// A chip whose timer counts by itself calls quadrature_moved and quadrature_index.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/sensing/binary_angle.hpp"
+
+namespace sixstep::control {
+
+/// The default counts nothing; quadrature_of_lines makes one.
+struct QuadratureConfig {
+  std::uint32_t counts = 0;        ///< of a turn, 4 N
+  TurnParts turn{};                ///< turn_in_parts(counts)
+  std::uint8_t index_quarter = 2;  ///< of the line in which Z is high, 0..3: where it is judged
+  bool operator==(const QuadratureConfig&) const = default;
+};
+
+/// N up to 2^28.
+constexpr QuadratureConfig quadrature_of_lines(std::uint32_t lines) {
+  return {4 * lines, turn_in_parts(4 * lines)};
+}
+
+struct QuadratureState {
+  std::uint32_t in_turn = 0;  ///< 0..counts-1, from where it started, from the index on from zero
+  std::int32_t turns = 0;
+  std::uint8_t quarter = 0xff;    ///< of the line, 0..3; 0xff before the first reading
+  std::int8_t direction = 0;      ///< of the last step
+  bool referenced = false;        ///< an index was seen
+  std::uint32_t illegal = 0;      ///< transitions of both lines at once
+  std::uint32_t corrections = 0;  ///< indexes that found counts missing
+  std::int32_t missed = 0;        ///< counts that the last index found missing: true ones less counted ones
+};
+
+/// So many counts, by less than a turn.
+constexpr void quadrature_moved(const QuadratureConfig& config, QuadratureState& state, std::int32_t moved) {
+  if (config.counts == 0 || moved == 0) return;
+  state.direction = moved > 0 ? std::int8_t{1} : std::int8_t{-1};
+  const std::uint32_t way = detail::absolute(moved) % config.counts;
+  if (moved > 0) {
+    const std::uint32_t to_end = config.counts - state.in_turn;
+    if (way >= to_end) ++state.turns;
+    state.in_turn = way >= to_end ? way - to_end : state.in_turn + way;
+  } else {
+    if (way > state.in_turn) --state.turns;
+    state.in_turn = way > state.in_turn ? state.in_turn + (config.counts - way) : state.in_turn - way;
+  }
+}
+
+/// The rotor is at this count of its turn, says the index.
+constexpr void quadrature_index(const QuadratureConfig& config, QuadratureState& state, std::uint32_t at) {
+  if (config.counts == 0) return;
+  if (!state.referenced) {
+    state.referenced = true;
+    state.in_turn = at;
+    state.turns = 0;
+    return;
+  }
+  const std::uint32_t ahead = at >= state.in_turn ? at - state.in_turn : at + (config.counts - state.in_turn);
+  state.missed = ahead <= config.counts / 2 ? static_cast<std::int32_t>(ahead)
+                                            : -static_cast<std::int32_t>(config.counts - ahead);
+  if (state.missed == 0) return;
+  ++state.corrections;
+  const std::int8_t direction = state.direction;
+  quadrature_moved(config, state, state.missed);
+  state.direction = direction;
+}
+
+/// The quarter of a line, 0..3 forward, of the levels.
+constexpr std::uint8_t quarter_of_line(bool a, bool b) {
+  return a ? (b ? std::uint8_t{1} : std::uint8_t{0}) : (b ? std::uint8_t{2} : std::uint8_t{3});
+}
+
+/// One reading of the lines: at each of their edges, or so often that no two edges come between. Returns the
+/// counts passed, -2..2; the first reading passes none.
+constexpr std::int8_t quadrature_step(const QuadratureConfig& config, QuadratureState& state, bool a, bool b,
+                                      bool z) {
+  const std::uint8_t quarter = quarter_of_line(a, b);
+  const std::uint8_t ahead = static_cast<std::uint8_t>((quarter + 4 - state.quarter) & 3);
+  const bool first = state.quarter > 3;
+  state.quarter = quarter;
+  if (first || ahead == 0) return 0;
+  if (ahead == 2) ++state.illegal;
+  const std::int8_t moved = ahead == 1   ? std::int8_t{1}
+                            : ahead == 3 ? std::int8_t{-1}
+                                         : static_cast<std::int8_t>(state.direction < 0 ? -2 : 2);
+  quadrature_moved(config, state, moved);
+  if (z && quarter == config.index_quarter) quadrature_index(config, state, quarter);
+  return moved;
+}
+
+/// Mechanical; from the first index on from theta_m = 0, at the count's beginning.
+constexpr BinaryAngle quadrature_angle(const QuadratureConfig& config, const QuadratureState& state) {
+  return angle_of_parts(config.turn, state.in_turn);
+}
+
+}  // namespace sixstep::control

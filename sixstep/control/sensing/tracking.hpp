@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// A tracking loop of type 2: follows an angle and so finds its speed, without a lag at constant speed. It
+// serves a resolver, and any angle that comes in steps or with noise.
+//
+//   e[n]     = measured[n] - angle[n]                      the shorter way, or a phase detector's
+//   w[n+1]   = w[n] + K_i e[n]
+//   angle[n+1] = angle[n] + w[n+1] + K_p e[n]              the angle due at the next tick
+//
+//   characteristic polynomial   z^2 + (K_p + K_i - 2) z + 1 - K_p
+//   stable (Jury)               0 < K_p < 2,  K_i > 0,  2 K_p + K_i < 4
+//   constant acceleration       e = a T^2/K_i = a/K_a,  K_a = K_i/T^2, for good
+//
+// design/loops/tracking_loop.hpp finds K_p and K_i from bandwidth and damping. All whole numbers: the same bits
+// on every core; rounding moves the angle by a unit of 2^-32 turn, the speed by 2^-48 turn per tick.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/sensing/binary_angle.hpp"
+
+namespace sixstep::control {
+
+/// The default stands at 0.
+struct TrackingConfig {
+  FixedGain<std::int32_t> K_p{};  ///< angle per angle and tick
+  FixedGain<std::int32_t> K_i{};  ///< speed per angle and tick
+  bool operator==(const TrackingConfig&) const = default;
+};
+
+struct TrackingState {
+  BinaryAngle angle = 0;   ///< for the tick to come
+  std::int64_t speed = 0;  ///< 2^-48 turn per tick
+  std::int32_t error = 0;  ///< of the last tick, to look at
+};
+
+namespace detail {
+
+/// gain times a signed angle, with `more` bits behind the unit.
+constexpr std::int64_t angle_times(std::int32_t angle, const FixedGain<std::int32_t>& gain, int more) {
+  const auto p = product<std::int32_t>(angle, gain.mantissa);
+  const int down = gain.right - more;
+  return down >= 0 ? with_sign(magnitude_down(p.size, down), p.negative)
+                   : magnitude_up<std::int64_t>(p.size, p.negative, -down);
+}
+
+}  // namespace detail
+
+/// Units of 2^-32 turn per tick. No speed beyond half a turn per tick can be told from a slower one.
+constexpr std::int32_t tracking_speed(const TrackingState& state) {
+  return detail::saturated<std::int32_t>(detail::shifted_down(state.speed, 16));
+}
+
+constexpr void tracking_step(const TrackingConfig& config, TrackingState& state, std::int32_t error) {
+  constexpr std::int64_t most = std::int64_t{1} << 47;  // half a turn per tick
+  const std::int64_t speed = detail::sum_saturated(state.speed, detail::angle_times(error, config.K_i, 16));
+  state.speed = between(speed, -most, most);
+  const std::int64_t step = detail::shifted_down(state.speed, 16) + detail::angle_times(error, config.K_p, 0);
+  state.angle = static_cast<BinaryAngle>(state.angle + static_cast<std::uint32_t>(step));
+  state.error = error;
+}
+
+/// Of an angle that was measured; `state.angle` before the call is what was foretold of it.
+constexpr void tracking_follow(const TrackingConfig& config, TrackingState& state, BinaryAngle measured) {
+  tracking_step(config, state, way_between(state.angle, measured));
+}
+
+/// Speed as a signal: `per_unit` is 2 pi/(2^32 T) over the base, fixed: in raw digits.
+template <class Scalar>
+constexpr Scalar tracked_speed(const TrackingState& state, Gain<Scalar> per_unit) {
+  return AngleTraits<Scalar>::scaled(tracking_speed(state), per_unit);
+}
+
+}  // namespace sixstep::control

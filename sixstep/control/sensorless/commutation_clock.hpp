@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// When to commutate next, from the times of the zero crossings (zero_crossing.hpp):
+//
+//   T = mean of the last k intervals between crossings, the last one alone where the two differ by more than a quarter
+//   t = crossing + T (1/2 - advance) - lead,     not before the crossing itself
+//
+// A crossing that nobody saw is put where it was due, and halfway between its neighbours once the next one is seen: what
+// is guessed changes T no more than what is measured.
+//
+// A crossing lies in the middle of its sector, the commutation 30 degrees behind it. The advance is an angle; the lead is
+// a time, which is an angle that grows with the speed: a phase's L/R, and what filters and converters are late. Times
+// are readings of a free-running 32-bit counter, finer than the control tick: the commutation is a compare match of it.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/hall_speed.hpp"
+
+namespace sixstep::control {
+
+struct CommutationClockConfig {
+  std::uint8_t crossings = 2;    ///< k, 1..6
+  std::uint16_t advance = 0;     ///< in 1/65536 of a sector (60 degrees): 32768 is 30 degrees
+  std::uint32_t lead_ticks = 0;  ///< ticks of the timer
+  bool operator==(const CommutationClockConfig&) const = default;
+};
+
+struct CommutationClockState {
+  HallSpeedState crossings{};  ///< their times, as those of edges
+  std::uint32_t next = 0;      ///< the commutation to come
+  bool scheduled = false;      ///< there is one
+  bool guessed = false;        ///< the last crossing was not seen
+};
+
+/// Whether counter reading `a` lies before `b`, by less than half the counter's range.
+constexpr bool comes_before(std::uint32_t a, std::uint32_t b) {
+  return a != b && static_cast<std::uint32_t>(b - a) < 0x80000000u;
+}
+
+/// A crossing that was seen.
+constexpr void commutation_clock_crossing(CommutationClockState& state, std::uint32_t at,
+                                          std::int8_t direction) {
+  HallSpeedState& c = state.crossings;
+  if (state.guessed && c.known > 1) c.times[0] = c.times[1] + static_cast<std::uint32_t>(at - c.times[1]) / 2;
+  state.guessed = false;
+  hall_speed_edge(c, at, direction);
+}
+
+/// One that was not, in sectors of T ticks: no later than now.
+constexpr void commutation_clock_guess(CommutationClockState& state, std::uint32_t T, std::int8_t direction,
+                                       std::uint32_t now) {
+  const std::uint32_t due = state.crossings.times[0] + T;
+  hall_speed_edge(state.crossings, comes_before(now, due) ? now : due, direction);
+  state.guessed = true;
+}
+
+/// The last interval between two crossings in one direction; 0: there were none.
+constexpr std::uint32_t last_interval(const CommutationClockState& state) {
+  return state.crossings.known < 2
+             ? 0
+             : static_cast<std::uint32_t>(state.crossings.times[0] - state.crossings.times[1]);
+}
+
+/// T in ticks; 0: not known yet.
+constexpr std::uint32_t sector_ticks(const CommutationClockConfig& config,
+                                     const CommutationClockState& state) {
+  const std::uint8_t k = hall_speed_edges(config.crossings, state.crossings.known);
+  if (k == 0) return 0;
+  const std::uint32_t last = last_interval(state);
+  const std::uint32_t mean =
+      static_cast<std::uint32_t>(state.crossings.times[0] - state.crossings.times[k]) / k;
+  return alike(last, mean) ? mean : last;
+}
+
+/// From a crossing to its commutation, of sectors of T ticks.
+constexpr std::uint32_t delay_ticks(const CommutationClockConfig& config, std::uint32_t T) {
+  const std::uint32_t ahead = (T >> 16) * config.advance + (((T & 0xffffu) * config.advance) >> 16);
+  const std::uint32_t early = ahead + config.lead_ticks;
+  return T / 2 > early ? T / 2 - early : 0;
+}
+
+constexpr void schedule_commutation(CommutationClockState& state, std::uint32_t at) {
+  state.next = at;
+  state.scheduled = true;
+}
+
+}  // namespace sixstep::control

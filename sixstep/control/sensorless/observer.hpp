@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whose back-EMF the drive follows: the terminal's own (zero_crossing.hpp), or an observer's, which averages the converters'
+// noise and knows how late it is. Once per control tick from terminals, currents and the command in effect: the floating
+// leg's estimate, as counts of y = 2 e_f - e_s - e_k like those that zero_crossing.hpp reads off the terminal, so that lock,
+// clock and thresholds are the same. While the leg's old current runs out the observer is blind; the first sample behind that
+// sets the estimate, and what has crossed meanwhile is told as passed, like the terminal's.
+//
+//   luenberger     crossing of the estimate, less its lag; commutation half a sector later by the clock
+//   sliding mode   the same
+//   flux           crossing of the mean back-EMF; commutation where the flux linkage has fallen by its level
+//
+// One observer rides with the leg that floats: its estimate goes over from leg to leg. Samples lie in the middle of a
+// centred pulse and answers take effect half a period later, so that the mean from sample to sample is that of the two.
+// A period in which the pair moved on or the diode let go has no known mean, and leaves the estimate as it is.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/commutation.hpp"
+#include "sixstep/control/sensorless/floating_voltage.hpp"
+#include "sixstep/control/sensorless/flux_linkage.hpp"
+#include "sixstep/control/sensorless/luenberger.hpp"
+#include "sixstep/control/sensorless/sliding_mode.hpp"
+
+namespace sixstep::control {
+
+enum class Follow : std::uint8_t { crossings, luenberger, sliding_mode, flux };
+
+/// The default follows the terminal's crossings, and costs a branch.
+template <class Scalar>
+struct ObserverConfig {
+  Follow follow = Follow::crossings;
+  FloatingVoltageConfig<Scalar> voltage{};
+  LuenbergerConfig<Scalar> luenberger{};
+  SlidingModeConfig<Scalar> sliding_mode{};
+  FluxLinkageConfig<Scalar> flux{};
+  Gain<Scalar> counts_per_V{};  ///< 3 counts of the converter per V; fixed: raw units
+  std::uint32_t lag_ticks = 0;  ///< of the timer, that the estimate is late
+  bool operator==(const ObserverConfig&) const = default;
+};
+
+template <class Scalar>
+struct ObserverState {
+  FloatingVoltage<Scalar> before{};  ///< at the last sample
+  LuenbergerState<Scalar> luenberger{};
+  SlidingModeState<Scalar> sliding_mode{};
+  FluxLinkageState<Scalar> flux{};
+  std::uint32_t at = 0;  ///< of the last sample
+  std::uint8_t sector = no_sector;
+  bool runs_out = false;  ///< the old current of this sector's leg
+  bool crossed = false;   ///< the estimate is below zero
+};
+
+/// What the drive is told of an estimate.
+struct Observed {
+  bool follows = false;         ///< else the terminal's own crossing counts
+  bool blind = false;           ///< the old current still hides the back-EMF
+  std::int32_t y = 0;           ///< counts, in the sense in which it falls
+  std::uint32_t lag_ticks = 0;  ///< y is what it was so long ago
+  bool by_level = false;        ///< flux linkage says when to commutate
+  bool due = false;             ///< within the next period
+  std::uint32_t due_ticks =
+      0;  ///< from now, at least 1: a compare match moves the pair at once, an answer later
+};
+
+namespace detail {
+
+/// The whole number nearest to zero; of fixed point its digits.
+template <class Scalar>
+constexpr std::int32_t as_counts(Scalar x) {
+  if constexpr (requires { x.raw; })
+    return static_cast<std::int32_t>(x.raw);
+  else
+    return static_cast<std::int32_t>(x);
+}
+
+/// part whole, 0 <= part <= 1.
+template <class Scalar>
+constexpr std::uint32_t part_of_ticks(Scalar part, std::uint32_t whole) {
+  if constexpr (requires { part.raw; }) {
+    constexpr int bits = Scalar::fraction_bits;  // 15 of them do for one period
+    const auto raw = static_cast<std::uint32_t>(part.raw);
+    const std::uint32_t digits =
+        bits > 15 ? raw >> (bits > 15 ? bits - 15 : 0) : raw << (bits < 15 ? 15 - bits : 0);
+    return (whole >> 15) * digits + ((whole & 0x7fffu) * digits >> 15);
+  } else {
+    return static_cast<std::uint32_t>(static_cast<Scalar>(whole) * part);
+  }
+}
+
+/// The next leg floats.
+template <class Scalar>
+constexpr void observer_begin(Follow follow, ObserverState<Scalar>& state, std::uint8_t sector) {
+  if (follow == Follow::luenberger) luenberger_begin(state.luenberger);
+  if (follow == Follow::sliding_mode) sliding_mode_begin(state.sliding_mode);
+  if (follow == Follow::flux) flux_linkage_begin(state.flux);
+  state.sector = sector;
+  state.runs_out = true;
+  state.crossed = false;
+}
+
+/// The old current has run out.
+template <class Scalar>
+constexpr void observer_set(const ObserverConfig<Scalar>& config, ObserverState<Scalar>& state, Scalar e_V,
+                            Scalar i_A) {
+  luenberger_set(state.luenberger, e_V, i_A);
+  sliding_mode_set(config.sliding_mode, state.sliding_mode, e_V, i_A);
+  state.flux.i_A = i_A;
+  state.flux.g_V = e_V;
+}
+
+/// One period; its estimate, V.
+template <class Scalar>
+constexpr Scalar observed_voltage(const ObserverConfig<Scalar>& config, ObserverState<Scalar>& state,
+                                  bool known, Scalar w_V, Scalar i_A) {
+  switch (config.follow) {
+    case Follow::luenberger:
+      return known ? luenberger_step(config.luenberger, state.luenberger, w_V, i_A)
+                   : luenberger_hold(state.luenberger, i_A);
+    case Follow::sliding_mode:
+      return known ? sliding_mode_step(config.sliding_mode, state.sliding_mode, w_V, i_A)
+                   : sliding_mode_hold(state.sliding_mode, i_A);
+    case Follow::flux:
+      return known ? flux_linkage_step(config.flux, state.flux, w_V, i_A)
+                   : flux_linkage_hold(state.flux, i_A);
+    case Follow::crossings:
+      break;
+  }
+  return Scalar{};
+}
+
+}  // namespace detail
+
+/// One control tick in `sector`. `command`: in effect since the last tick, the pair as the last commutation left it.
+template <class Scalar>
+constexpr Observed observer_step(const ObserverConfig<Scalar>& config, ObserverState<Scalar>& state,
+                                 const TerminalSample& s, const BridgeCommand<Scalar>& command,
+                                 const Measurement<Scalar>& measured, std::uint8_t sector) {
+  using T = ScalarTraits<Scalar>;
+  if (config.follow == Follow::crossings || sector > 5) return {};
+  const bool falls = sector % 2 == 0, moved = sector != state.sector;
+  const std::uint8_t leg = floating_leg(sector);
+  FloatingVoltage<Scalar> now = floating_voltage(config.voltage, s, leg, falls, command, measured.bus_V);
+  Scalar i = phase_current(measured, static_cast<Leg>(leg));
+  if (!falls) {
+    now.w_V = -now.w_V;
+    i = -i;
+  }
+  if (moved) detail::observer_begin(config.follow, state, sector);
+  const bool blind = state.runs_out && now.held && !config.voltage.through_freewheel;
+  const bool released = state.runs_out && !now.held && now.known && state.before.held && !moved;
+  if (now.known && !now.held) state.runs_out = false;
+  // Behind the crossing what holds the leg at that rail is soft chopping's freewheel again, and tells no voltage.
+  const bool known = !moved && !blind && now.known && state.before.known && now.held == state.before.held &&
+                     !(now.held && state.crossed);
+  const Scalar w = T::half_difference(state.before.w_V, -now.w_V);
+  const std::uint32_t period = s.at - state.at;
+  state.before = now;
+  state.at = s.at;
+  if (released) detail::observer_set(config, state, now.w_V, i);
+  const Scalar e = detail::observed_voltage(config, state, known, w, i);
+  state.crossed = e < Scalar{};
+  Observed observed{.follows = true,
+                    .blind = blind,
+                    .y = detail::as_counts(T::product(e, config.counts_per_V)),
+                    .lag_ticks = config.lag_ticks,
+                    .by_level = config.follow == Follow::flux};
+  if (!observed.by_level) return observed;
+  Scalar part{};
+  observed.due = flux_level_comes(config.flux, state.flux, part);
+  const std::uint32_t ticks = detail::part_of_ticks(part, period);
+  observed.due_ticks = ticks == 0 ? 1 : ticks;
+  return observed;
+}
+
+/// y of an observer in place of the terminal's.
+constexpr CrossingReading observed_crossing_step(const ZeroCrossingConfig& config, ZeroCrossingState& state,
+                                                 const TerminalSample& s, const Observed& observed, bool on) {
+  if (state.sector > 5) return {};
+  if (!on || detail::neutral_visible(config, s, floating_leg(state.sector)))
+    state.unlike = 0;
+  else if (state.unlike < 255)
+    ++state.unlike;
+  if (state.done) return {Crossing::none, s.at, true, true, observed.y};
+  if (observed.blind) {
+    state.hidden = true;
+    return {Crossing::none, s.at, true, false, observed.y};
+  }
+  state.freewheels = false;
+  CrossingReading reading = detail::look(config, state, s.at, observed.y, false);
+  if (reading.crossing == Crossing::seen) reading.at -= observed.lag_ticks;
+  return reading;
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// A position without a sensor: from terminal voltages to the code that Hall probes would give, speed and position. The
+// drive (drive.hpp) takes the code as if probes were there; its Hall interrupt becomes the timer's compare match.
+//
+//   off -> catching -> aligning -> ramping -> running        wanted: a direction
+//           |  ^-------------------------------- lost         (lock.hpp), so many times in a row; then gave_up
+//           '-> running                                        the rotor spins already (spin.hpp)
+//
+// `following`: another source commutates, this one only watches, so that it can take over in flight.
+//
+// Call sensorless_step once per control tick with the samples of that tick, and sensorless_commutate where the timer
+// reaches state.clock.next while state.clock.scheduled. What is late already when it is found is done in the step.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/sensorless/sensorless_phases.hpp"
+
+namespace sixstep::control {
+
+/// What the drive is to do with it.
+template <class Scalar>
+struct SensorlessAnswer {
+  bool drives = false;    ///< else the bridge is off
+  bool by_start = false;  ///< the loops within are held to start_A, whatever is wanted
+  Scalar start_A{};       ///< signed
+};
+
+/// The timer's interrupt: the next sector begins.
+template <class Scalar>
+constexpr void sensorless_commutate(const SensorlessConfig<Scalar>& config, SensorlessState& state,
+                                    std::uint32_t now) {
+  detail::begin_sector(config, state, state.direction, now);
+  if (state.phase == SensorlessPhase::ramping) ramp_commutated(state.start);
+}
+
+/// One control tick.
+template <class Scalar>
+constexpr void sensorless_step(const SensorlessConfig<Scalar>& config, SensorlessState& state,
+                               const SensorlessInput& input) {
+  const std::uint32_t now = input.terminals.at;
+  switch (state.phase) {
+    case SensorlessPhase::gave_up:
+      if (input.wanted == 0) {
+        state.lock = LockState{};
+        state.phase = SensorlessPhase::off;
+      }
+      return;
+    case SensorlessPhase::off:
+      if (input.wanted == 0) return;
+      if (config.spin.listen_ticks > 0) return detail::catch_spin(state, now);
+      return detail::begin_alignment(config, state, input.wanted, now);
+    case SensorlessPhase::catching:
+      detail::catching_step(config, state, input);
+      break;
+    case SensorlessPhase::aligning:
+      return detail::aligning_step(config, state, input);
+    case SensorlessPhase::ramping:
+      detail::ramping_step(config, state, input);
+      break;
+    case SensorlessPhase::running:
+      detail::running_step(config, state, input);
+      detail::commutate_by_level(state, input);
+      break;
+    case SensorlessPhase::following:
+      return;
+  }
+  if (state.clock.scheduled && !comes_before(now, state.clock.next)) sensorless_commutate(config, state, now);
+}
+
+/// Another source commutates: its edge, into `sector`.
+template <class Scalar>
+constexpr void sensorless_follow_edge(const SensorlessConfig<Scalar>& config, SensorlessState& state,
+                                      std::uint8_t sector, std::int8_t moved, std::uint32_t now) {
+  if (moved != 0 && moved != state.direction) state.clock = CommutationClockState{};
+  if (moved != 0) state.direction = moved;
+  state.sector = sector;
+  detail::begin_sector(config, state, 0, now);
+  state.position.sectors += moved;
+}
+
+/// And its control tick: crossings are watched, and scheduled as if it mattered.
+template <class Scalar>
+constexpr void sensorless_follow(const SensorlessConfig<Scalar>& config, SensorlessState& state,
+                                 const SensorlessInput& input) {
+  state.phase = SensorlessPhase::following;
+  const CrossingReading reading =
+      zero_crossing_step(config.crossing, state.crossing, input.terminals, input.on);
+  if (reading.crossing == Crossing::seen) detail::take_crossing(config, state, reading.at);
+}
+
+/// What the drive is to do now.
+template <class Scalar>
+constexpr SensorlessAnswer<Scalar> sensorless_answer(const SensorlessConfig<Scalar>& config,
+                                                     const SensorlessState& state, std::int8_t wanted) {
+  const StartUpConfig<Scalar>& start = config.start;
+  const auto in_direction = [](Scalar x, std::int8_t direction) { return direction < 0 ? -x : x; };
+  switch (state.phase) {
+    case SensorlessPhase::aligning:
+      return {true, true,
+              in_direction(state.start.falls ? start.falling_A : start.current_A, state.direction)};
+    case SensorlessPhase::ramping:
+      return {true, true, in_direction(start.current_A, state.direction)};
+    case SensorlessPhase::running:
+      // Caught while it turned the other way: braked first.
+      return {true, wanted == -state.direction, in_direction(start.current_A, wanted)};
+    default:
+      return {};
+  }
+}
+
+/// Mechanical speed by the crossings; 0 where the rotor is not followed.
+template <class Scalar>
+constexpr Scalar sensorless_speed(const SensorlessConfig<Scalar>& config, SensorlessState& state,
+                                  std::uint32_t now) {
+  return hall_speed(config.speed, state.clock.crossings, now);
+}
+
+/// Mechanical position, counted in sectors from where the drive began.
+template <class Scalar>
+constexpr Scalar sensorless_position(const SensorlessConfig<Scalar>& config, const SensorlessState& state,
+                                     std::uint32_t now) {
+  const std::uint32_t T = sector_ticks(config.clock, state.clock);
+  const Scalar way =
+      T == 0 ? ScalarTraits<Scalar>::fraction(1, 2)
+             : ScalarTraits<Scalar>::fraction(static_cast<std::uint32_t>(now - state.commutated_at), T);
+  return hall_position(config.position, state.position, state.direction, way);
+}
+
+}  // namespace sixstep::control

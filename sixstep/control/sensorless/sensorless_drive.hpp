@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// The drive of drive.hpp around a position without a sensor: what firmware calls. Three entries: sensorless_drive_step once
+// per control tick, sensorless_drive_commutate where the timer reaches next_commutation, and sensorless_drive_hall in the
+// Hall interrupt of a motor that has probes, too.
+//
+// While the start has the word the current loop is held to the start's current, whatever the mode. At the hand-over the
+// loops go on from there: a speed loop's output begins as what the ramp takes of that current, which holds more in reserve;
+// a current or a duty that was asked for is approached by so much a tick. The same limit of a throttle keeps a step of it from a current that would hide the
+// crossings.
+#pragma once
+#include "sixstep/control/drive.hpp"
+#include "sixstep/control/retune.hpp"
+#include "sixstep/control/sensorless/position_source.hpp"
+
+namespace sixstep::control {
+
+template <class Scalar>
+struct SensorlessDriveConfig {
+  DriveConfig<Scalar> drive{};
+  SensorlessConfig<Scalar> sensorless{};
+  PositionSourceConfig source{};
+  ObserverConfig<Scalar> observer{};  ///< whose back-EMF is followed
+  Scalar start_output{};              ///< the speed loop's, at the hand-over: of the ramp's torque
+  SlewConfig<Scalar> duty{};          ///< of a duty that is asked for, per tick; the default: at once
+  SlewConfig<Scalar> current{};       ///< of a current
+  Scalar least_duty{};  ///< while the rotor is followed: without an on-time there is nothing to be seen
+  bool operator==(const SensorlessDriveConfig&) const = default;
+};
+
+template <class Scalar>
+struct SensorlessDriveState {
+  DriveState<Scalar> drive{};
+  SensorlessState sensorless{};
+  PositionSourceState source{};
+  ObserverState<Scalar> observer{};
+  SlewState<Scalar> setpoint{};
+  bool by_start = true;  ///< the start had the word at the last tick
+};
+
+/// What the chip finds in its registers at a tick; `measured` holds currents and bus, and with probes speed and position.
+template <class Scalar>
+struct SensorlessDriveInput {
+  Measurement<Scalar> measured{};
+  TerminalSample terminals{};
+  std::uint8_t hall_pins = 0;
+  bool on = false;  ///< the pair's switches are on at the sample
+};
+
+namespace detail {
+
+/// The way that is asked for.
+template <class Scalar>
+constexpr std::int8_t wanted_direction(const DriveConfig<Scalar>& config, Scalar setpoint, Scalar position) {
+  if (config.mode == Mode::off) return 0;
+  const Scalar zero{};
+  const Scalar way = config.mode == Mode::position ? setpoint - position : setpoint;
+  return way > zero ? std::int8_t{1} : way < zero ? std::int8_t{-1} : std::int8_t{0};
+}
+
+/// The loops begin where the start ends.
+template <class Scalar>
+constexpr void hand_over(const SensorlessDriveConfig<Scalar>& config, SensorlessDriveState<Scalar>& state,
+                         const Measurement<Scalar>& measured, Scalar setpoint, bool forward, bool caught) {
+  using T = ScalarTraits<Scalar>;
+  const DriveConfig<Scalar>& drive = config.drive;
+  const Scalar duty = caught                 ? Scalar{}
+                      : state.drive.reversed ? -state.drive.command.duty
+                                             : state.drive.command.duty;
+  const Scalar current = caught    ? Scalar{}
+                         : forward ? config.sensorless.start.current_A
+                                   : -config.sensorless.start.current_A;
+  state.setpoint.y = T::accumulator(drive.mode == Mode::duty ? duty : current);
+  const Scalar output = caught ? Scalar{} : forward ? config.start_output : -config.start_output;
+  state.drive.speed.u = T::accumulator(drive.speed_control == SpeedControl::duty ? duty : output);
+  state.drive.speed.e = speed_reference(drive, drive.mode, setpoint, measured) - measured.speed_rad_s;
+}
+
+/// A pulse that a sample fits into.
+template <class Scalar>
+constexpr void keep_visible(Scalar least_duty, BridgeCommand<Scalar>& command) {
+  if (command.enabled && command.watch == Watch::none && command.duty < least_duty) command.duty = least_duty;
+}
+
+/// A duty or a current that is asked for, no faster than the crossings stand it.
+template <class Scalar>
+constexpr Scalar approached(const SensorlessDriveConfig<Scalar>& config, SensorlessDriveState<Scalar>& state,
+                            Scalar setpoint) {
+  const Mode mode = config.drive.mode;
+  if (mode != Mode::duty && mode != Mode::current) return setpoint;
+  const SlewConfig<Scalar>& slew = mode == Mode::duty ? config.duty : config.current;
+  if (slew.step == Accumulator<Scalar>{}) return setpoint;
+  return slew_step(slew, state.setpoint, setpoint);
+}
+
+}  // namespace detail
+
+/// One control tick. The answer lies in state.drive.command, up to the next call.
+template <class Scalar>
+constexpr const BridgeCommand<Scalar>& sensorless_drive_step(const SensorlessDriveConfig<Scalar>& config,
+                                                             SensorlessDriveState<Scalar>& state,
+                                                             const SensorlessDriveInput<Scalar>& input,
+                                                             const Setpoint<Scalar>& setpoint,
+                                                             Telemetry<Scalar>& telemetry) {
+  SensorlessState& rotor = state.sensorless;
+  Measurement<Scalar> measured = input.measured;
+  const std::uint32_t now = input.terminals.at;
+  source_step(config.source, config.sensorless, state.source, rotor, input.hall_pins, now);
+  const Observed observed = observer_step(config.observer, state.observer, input.terminals,
+                                          state.drive.command, measured, rotor.sector);
+  if (state.source.source == RotorSource::hall) {
+    sensorless_follow(config.sensorless, rotor, {input.terminals, 0, input.on});
+    state.by_start = false;
+    measured.hall = state.source.broken ? std::uint8_t{0}
+                                        : as_120_degrees(config.source.hall.arrangement, input.hall_pins);
+    return step(config.drive, state.drive, measured, setpoint, telemetry);
+  }
+  const std::int8_t wanted = detail::wanted_direction(config.drive, setpoint.value,
+                                                      sensorless_position(config.sensorless, rotor, now));
+  const bool from_ramp = rotor.phase == SensorlessPhase::ramping;
+  sensorless_step(config.sensorless, rotor, {input.terminals, wanted, input.on, observed});
+  const SensorlessAnswer<Scalar> answer = sensorless_answer(config.sensorless, rotor, wanted);
+  measured.hall = hall_of_sector(rotor.sector);
+  // An estimate tells of an instant that has passed: a crossing behind that is not missing yet.
+  const std::uint32_t told = now - observed.lag_ticks, last = rotor.clock.crossings.times[0];
+  measured.speed_rad_s = sensorless_speed(config.sensorless, rotor, comes_before(told, last) ? last : told);
+  measured.position_deg = sensorless_position(config.sensorless, rotor, now);
+  if (!answer.drives) {
+    state.drive = DriveState<Scalar>{};
+    state.drive.command.fault = rotor.phase == SensorlessPhase::gave_up;
+    state.by_start = true;
+    return state.drive.command;
+  }
+  if (answer.by_start) {
+    step_in(Mode::current, config.drive, state.drive, measured, {answer.start_A}, telemetry);
+  } else {
+    if (state.by_start)
+      detail::hand_over(config, state, measured, setpoint.value, rotor.direction > 0, !from_ramp);
+    step(config.drive, state.drive, measured, {detail::approached(config, state, setpoint.value)}, telemetry);
+  }
+  state.by_start = answer.by_start;
+  if (rotor.phase == SensorlessPhase::running) detail::keep_visible(config.least_duty, state.drive.command);
+  return state.drive.command;
+}
+
+/// The timer has reached next_commutation: the pair moves on.
+template <class Scalar>
+constexpr const BridgeCommand<Scalar>& sensorless_drive_commutate(const SensorlessDriveConfig<Scalar>& config,
+                                                                  SensorlessDriveState<Scalar>& state,
+                                                                  std::uint32_t now) {
+  sensorless_commutate(config.sensorless, state.sensorless, now);
+  if (!state.drive.command.enabled) return state.drive.command;
+  const Pair positive = positive_pair(state.sensorless.sector);
+  state.drive.command.pair = state.drive.reversed ? swapped(positive) : positive;
+  return state.drive.command;
+}
+
+/// Whether a commutation is to come, and at which reading of the timer.
+template <class Scalar>
+constexpr bool next_commutation(const SensorlessDriveState<Scalar>& state, std::uint32_t& at) {
+  const SensorlessPhase phase = state.sensorless.phase;
+  at = state.sensorless.clock.next;
+  return state.sensorless.clock.scheduled &&
+         (phase == SensorlessPhase::ramping || phase == SensorlessPhase::running);
+}
+
+/// The Hall interrupt: true where the pair moved on by it.
+template <class Scalar>
+constexpr bool sensorless_drive_hall(const SensorlessDriveConfig<Scalar>& config,
+                                     SensorlessDriveState<Scalar>& state, std::uint8_t pins,
+                                     std::uint32_t captured) {
+  if (!source_hall_edge(config.source, config.sensorless, state.source, state.sensorless, pins, captured))
+    return false;
+  on_hall(config.drive, state.drive, as_120_degrees(config.source.hall.arrangement, pins));
+  return true;
+}
+
+/// Another configuration between two ticks (retune.hpp): the rotor is followed on.
+template <class Scalar>
+constexpr void retune(SensorlessDriveConfig<Scalar>& config, SensorlessDriveState<Scalar>& state,
+                      const SensorlessDriveConfig<Scalar>& next) {
+  if (next.drive.mode != config.drive.mode) detail::rest_idle_loops(config.drive, state.drive);
+  config = next;
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sliding-mode observer of the back-EMF of the phase whose leg floats, from its voltage, which has no star point in it
+// (floating_voltage.hpp), and its current:
+//
+//   L di^/dt = w - R i^ - z,   z = k sat((i^ - i)/phi)          sat: the sign, but for a layer of width phi
+//   discretised exactly:   i^[n+1] = a i^[n] + b (w - z[n]),   a = exp(-R T/L),   b = (1 - a)/R
+//   e^[n+1] = e^[n] + c (z[n+1]/a - e^[n])                      the low-pass that takes the equivalent control out of z
+//
+// While k is above every back-EMF the error i^ - i is driven into the layer; inside of it
+// error[n+1] = (a - b k/phi) error[n] + b e. A chip switches z once a period: with the sign alone the error would jump
+// to and fro over 2 b k. phi = k b/a is the narrowest layer without that: the error is at rest after one period, z = a e
+// of the period that has just ended. The low-pass is (1 - c)/c periods late, and the mean half of one: a time, that the
+// follower takes off (observer.hpp), which is the phase lag compensated at every speed.
+//
+// V. I. Utkin, Variable structure systems with sliding modes, IEEE Trans. Automatic Control 22 (1977) 212; the layer:
+// J.-J. Slotine, S. S. Sastry, Int. J. Control 38 (1983) 465.
+#pragma once
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+/// The default estimates nothing.
+template <class Scalar>
+struct SlidingModeConfig {
+  Gain<Scalar> decay{};  ///< a
+  Gain<Scalar> drive{};  ///< b, A per V
+  Gain<Scalar> slope{};  ///< k/phi = a/b, V per A
+  Scalar limit_V{};      ///< k
+  Gain<Scalar> raise{};  ///< 1/a
+  Gain<Scalar> share{};  ///< c
+  bool operator==(const SlidingModeConfig&) const = default;
+};
+
+template <class Scalar>
+struct SlidingModeState {
+  Scalar i_A{};      ///< the last sample
+  Scalar error_A{};  ///< i^ - i
+  Scalar z_V{};
+  Accumulator<Scalar> e_V{};  ///< e^
+};
+
+/// One period: its mean voltage, and the current at its end. The estimate of e, V.
+template <class Scalar>
+constexpr Scalar sliding_mode_step(const SlidingModeConfig<Scalar>& config, SlidingModeState<Scalar>& state,
+                                   Scalar w_V, Scalar i_A) {
+  using T = ScalarTraits<Scalar>;
+  const Scalar predicted =
+      T::product(state.i_A + state.error_A, config.decay) + T::product(w_V - state.z_V, config.drive);
+  state.error_A = predicted - i_A;
+  state.i_A = i_A;
+  state.z_V = clamped(T::product(state.error_A, config.slope), config.limit_V);
+  const Scalar z = T::product(state.z_V, config.raise);
+  state.e_V = state.e_V + T::accumulated(z - T::signal(state.e_V), config.share);
+  return T::signal(state.e_V);
+}
+
+/// The next leg floats: in the sense in which it falls its back-EMF begins where that of the last one ended, negative.
+template <class Scalar>
+constexpr void sliding_mode_begin(SlidingModeState<Scalar>& state) {
+  state.error_A = -state.error_A;
+  state.z_V = -state.z_V;
+  state.e_V = -state.e_V;
+}
+
+/// The leg has just come free, and shows its back-EMF: the equivalent control is a e, at an error of b e.
+template <class Scalar>
+constexpr void sliding_mode_set(const SlidingModeConfig<Scalar>& config, SlidingModeState<Scalar>& state,
+                                Scalar e_V, Scalar i_A) {
+  using T = ScalarTraits<Scalar>;
+  state.i_A = i_A;
+  state.error_A = T::product(e_V, config.drive);
+  state.z_V = T::product(e_V, config.decay);
+  state.e_V = T::accumulator(e_V);
+}
+
+/// A period whose voltage is not known: error and estimate stand.
+template <class Scalar>
+constexpr Scalar sliding_mode_hold(SlidingModeState<Scalar>& state, Scalar i_A) {
+  state.i_A = i_A;
+  return ScalarTraits<Scalar>::signal(state.e_V);
+}
+
+}  // namespace sixstep::control

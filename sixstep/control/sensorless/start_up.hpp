@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// From standstill to crossings that can be trusted: align, then a ramp.
+//
+// Align. A pair pulls the rotor to where its torque ends, two sectors ahead of the pair's own: 60 (s + 2) degrees forward.
+// From the point opposite no torque leads away; a second pair, one sector on, has no dead point there. The rotor swings
+// about its place with sqrt(p K_t I/J), and without friction for ever: the pair's own back-EMF is nothing there. The
+// floating leg shows the swing's speed, though. While that grows the rotor falls towards its place, and the current is
+// low; while it shrinks the rotor climbs away against the full one. Each half swing so loses the ratio of the two
+// currents in energy.
+//
+// Ramp. The pair two sectors on is the one that drives the rotor from there. The field turns by a law of its own,
+//
+//   w(t) = a t  (+ j t^2/2),    a commutation each 60 degrees
+//
+// and only where the back-EMF shows nothing: a crossing that is seen sets the next commutation half a sector behind it;
+// one that is still to come is waited for, up to a whole sector; one that had passed twice brings the commutation at once.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/sensorless/commutation_clock.hpp"
+#include "sixstep/control/sensorless/zero_crossing.hpp"
+
+namespace sixstep::control {
+
+/// The default does not start. The ramp is counted in control ticks: 2^32 is one sector.
+template <class Scalar>
+struct StartUpConfig {
+  Scalar current_A{};                ///< of ramp and alignment, of the pair
+  Scalar falling_A{};                ///< of the alignment while the swing's speed grows
+  std::uint32_t align_ticks = 0;     ///< of the timer, each of the two steps
+  std::uint8_t swing_shift = 4;      ///< 2^n control ticks is the time constant of the swing's mean
+  std::int32_t swing_threshold = 0;  ///< counts of y that are a swing
+  std::uint32_t first_speed = 0;     ///< 2^-32 sectors a control tick, as the ramp begins
+  std::uint32_t acceleration = 0;    ///< 2^-32 sectors a tick, each tick
+  std::uint32_t jerk = 0;  ///< 2^-48 sectors a tick, each tick and tick: the law t^2; adds up to 65535 of
+                           ///< the acceleration's units
+  std::uint32_t last_speed = 0;     ///< 2^-32 sectors a tick, where the ramp ends
+  std::uint32_t longest_ticks = 0;  ///< of the timer, the whole ramp
+  std::uint8_t trusted = 6;         ///< crossings in a row, at like distances, that are trusted
+  std::uint32_t trusted_ticks =
+      0;  ///< of the timer, the longest sector that may be handed over: 5 % of rated speed
+  bool operator==(const StartUpConfig&) const = default;
+};
+
+struct StartUpState {
+  std::uint32_t since = 0;   ///< of step or ramp
+  std::uint8_t step = 0;     ///< of the alignment
+  std::int32_t swing = 0;    ///< mean of |y|, in 2^swing_shift
+  bool falls = false;        ///< the swing's speed grows
+  std::uint32_t angle = 0;   ///< of the field in its sector
+  std::uint32_t speed = 0;   ///< of the field
+  std::uint32_t faster = 0;  ///< its acceleration, less the configured one, in 1/65536
+  std::uint16_t ticks = 0;   ///< control ticks in this sector
+  std::uint8_t waited = 0;   ///< whole sectors that a crossing was waited for
+  std::uint8_t trusted = 0;  ///< crossings in a row
+  std::uint8_t passed = 0;   ///< sectors in a row whose crossing had passed
+};
+
+constexpr void align_begin(StartUpState& state, std::uint32_t now) {
+  state = StartUpState{};
+  state.since = now;
+}
+
+/// The swing as the floating leg shows it. Call once per control tick.
+template <class Scalar>
+constexpr void align_swing(const StartUpConfig<Scalar>& config, StartUpState& state,
+                           const CrossingReading& seen) {
+  if (!seen.visible) return;
+  const std::int32_t size = seen.y < 0 ? -seen.y : seen.y;
+  const std::int32_t mean = state.swing / static_cast<std::int32_t>(std::int32_t{1} << config.swing_shift);
+  state.falls = size > config.swing_threshold && size > mean;
+  state.swing += size - mean;
+}
+
+/// True as a step of the alignment ends; the second one ends the alignment.
+template <class Scalar>
+constexpr bool align_step_ends(const StartUpConfig<Scalar>& config, StartUpState& state, std::uint32_t now) {
+  if (static_cast<std::uint32_t>(now - state.since) < config.align_ticks) return false;
+  const std::uint8_t step = static_cast<std::uint8_t>(state.step + 1);
+  align_begin(state, now);
+  state.step = step;
+  return true;
+}
+
+template <class Scalar>
+constexpr void ramp_begin(const StartUpConfig<Scalar>& config, StartUpState& state, std::uint32_t now) {
+  state = StartUpState{};
+  state.since = now;
+  state.speed = config.first_speed;
+}
+
+/// A sector of the ramp begins.
+constexpr void ramp_commutated(StartUpState& state) {
+  state.angle = 0;
+  state.ticks = 0;
+  state.waited = 0;
+}
+
+namespace detail {
+
+/// The field's speed and angle, a tick on; true where it has turned by a sector.
+template <class Scalar>
+constexpr bool ramp_turns(const StartUpConfig<Scalar>& config, StartUpState& state) {
+  const std::uint32_t acceleration = config.acceleration + (state.faster >> 16);
+  state.faster = state.faster + config.jerk < state.faster ? 0xffffffffu : state.faster + config.jerk;
+  if (state.speed < config.last_speed)
+    state.speed =
+        config.last_speed - state.speed > acceleration ? state.speed + acceleration : config.last_speed;
+  const std::uint32_t before = state.angle;
+  state.angle += state.speed;
+  if (state.ticks < 0xffff) ++state.ticks;
+  return state.angle < before;
+}
+
+}  // namespace detail
+
+/// One control tick of the ramp: true where the field goes on by itself, now. A crossing that was seen has its commutation
+/// scheduled, `scheduled`.
+template <class Scalar>
+constexpr bool ramp_step(const StartUpConfig<Scalar>& config, StartUpState& state,
+                         const CrossingReading& reading, bool waits_for_crossing, bool scheduled) {
+  const bool turned = detail::ramp_turns(config, state);
+  if (reading.crossing == Crossing::seen) {
+    state.passed = 0;
+    if (state.trusted < 255) ++state.trusted;
+    // The field goes on at the speed that half a sector took.
+    const std::uint32_t seen =
+        0x80000000u / (state.ticks == 0 ? 1u : static_cast<std::uint32_t>(state.ticks));
+    if (seen > state.speed) state.speed = seen < config.last_speed ? seen : config.last_speed;
+    return false;
+  }
+  if (scheduled) return false;
+  if (reading.crossing == Crossing::passed_before) {
+    if (state.passed < 255) ++state.passed;
+    if (state.passed > 1 || state.trusted > 1) {
+      state.trusted = 0;
+      return true;
+    }
+    state.trusted = 0;
+  }
+  if (!turned) return false;
+  if (waits_for_crossing && state.waited < 1) {
+    ++state.waited;
+    return false;
+  }
+  state.trusted = 0;
+  return true;
+}
+
+}  // namespace sixstep::control

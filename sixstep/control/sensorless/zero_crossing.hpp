@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// The back-EMF's zero crossing in the leg that floats, from the three terminal voltages.
+//
+//   2 u_f - u_s - u_k = 2 e_f (trapezoid), 3 e_f (sine)      both other legs connected, no current in f (model.md 2)
+//
+// The star point drops out, and so does the bus: with switches, or with diodes at both rails, u_s + u_k is the bus, in a
+// freewheel through two lower switches or diodes it is about nothing. The crossing lies in the middle of a sector; it
+// falls in sectors 0, 2, 4 and rises in 1, 3, 5, whichever way the rotor turns. Here the sum is counted in the sense in
+// which it falls: y > 0 before the crossing, y < 0 after it.
+//
+// After a commutation the leg's old current runs out through a diode, and its terminal stands at a rail. Where the drive
+// motors it is the one that looks like "crossed already": until then the sum says nothing (blanking), and how long that
+// took is measured. Where it brakes it is the other one, which looks like "not yet": nothing needs to be blanked.
+// Soft chopping at a small duty also lets a negative e_f drive a current through the leg's lower diode, which the on-time
+// is too short to end; that rail has the sign of e_f, too. A crossing is taken between the last sample with y > 0 and the first with
+// y <= 0, by a straight line; halfway, where the former stood at the rail and tells no voltage.
+//
+// All numbers are whole: counts of the converter, which terminals and bus share, and of the timer. The same in every
+// arithmetic of the drive, so that there is no Scalar here.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/commutation.hpp"
+
+namespace sixstep::control {
+
+/// In which part of the PWM period the samples are taken. Soft chopping shows the star point in both, in the freewheel only
+/// the back-EMF's positive half; hard chopping in the on-time, and in the freewheel as long as current flows.
+enum class NeutralSeen : std::uint8_t { on_time, freewheel };
+
+/// Terminals and bus at one instant, through like dividers.
+struct TerminalSample {
+  std::uint16_t u[3]{};   ///< a, b, c, counts
+  std::uint16_t bus = 0;  ///< counts
+  std::uint32_t at = 0;   ///< the timer's reading
+};
+
+/// The default never sees a crossing.
+struct ZeroCrossingConfig {
+  NeutralSeen seen = NeutralSeen::on_time;
+  std::uint16_t rail_counts = 0;        ///< a terminal so near to a rail hangs on a diode or a switch
+  std::int32_t threshold = 0x7fffffff;  ///< counts of y that are a voltage and no noise
+  std::int32_t below = 0x7fffffff;      ///< the same downwards; in a freewheel less: a diode holds u_f there
+  std::uint32_t margin_ticks = 0;       ///< blanking after the freewheel's end
+  bool operator==(const ZeroCrossingConfig&) const = default;
+};
+
+struct ZeroCrossingState {
+  std::uint8_t sector = no_sector;
+  bool freewheels = false;      ///< the leg's old current may still run
+  bool hidden = false;          ///< it was seen to, in this sector
+  bool armed = false;           ///< y was above the threshold in this sector
+  bool done = false;            ///< crossed
+  std::uint8_t unlike = 0;      ///< samples in a row that contradict the command
+  std::uint32_t began = 0;      ///< the commutation
+  std::uint32_t earliest = 0;   ///< ticks since then, before which nothing can have crossed
+  std::uint32_t blank = 0;      ///< ticks since then, up to which nothing is looked at
+  std::uint32_t freewheel = 0;  ///< ticks the last freewheel took, as far as samples show it
+  bool held = false;            ///< at the last sample a diode held the terminal
+  std::uint32_t at = 0;         ///< of the last y
+  std::int32_t y = 0;           ///< the last one looked at
+};
+
+enum class Crossing : std::uint8_t {
+  none,
+  seen,          ///< at a known time
+  passed_before  ///< before anybody could look: it lies between the commutation and `at`
+};
+
+struct CrossingReading {
+  Crossing crossing = Crossing::none;
+  std::uint32_t at = 0;
+  bool visible = false;  ///< the sample showed the star point
+  bool free = false;     ///< and no diode held the terminal: y is the back-EMF
+  std::int32_t y = 0;    ///< where visible, blanked or not
+};
+
+/// 0..2: the leg that floats in a sector.
+constexpr std::uint8_t floating_leg(std::uint8_t sector) { return static_cast<std::uint8_t>(2 - sector % 3); }
+
+/// y of a leg against the two others.
+constexpr std::int32_t above_neutral(const TerminalSample& s, std::uint8_t leg) {
+  const std::int32_t u = s.u[leg];
+  return u + u + u - static_cast<std::int32_t>(s.u[0]) - static_cast<std::int32_t>(s.u[1]) -
+         static_cast<std::int32_t>(s.u[2]);
+}
+
+/// A sector begins. `earliest_ticks`: from now, before which no rotor can have crossed.
+constexpr void zero_crossing_begin(ZeroCrossingState& state, std::uint8_t sector,
+                                   std::uint32_t earliest_ticks, std::uint32_t now) {
+  state.sector = sector;
+  state.freewheels = true;
+  state.hidden = false;
+  state.armed = false;
+  state.done = false;
+  state.began = now;
+  state.earliest = earliest_ticks;
+  state.blank = 0;
+  state.y = 0;
+}
+
+namespace detail {
+
+/// Whether the two driven legs stand where their neutral is the star point's.
+constexpr bool neutral_visible(const ZeroCrossingConfig& config, const TerminalSample& s, std::uint8_t leg) {
+  const std::int32_t first = s.u[(leg + 1) % 3], second = s.u[(leg + 2) % 3], bus = s.bus;
+  const std::int32_t apart = first > second ? first - second : second - first;
+  const bool at_both_rails = apart + apart > bus;
+  if (config.seen == NeutralSeen::on_time) return at_both_rails;
+  const std::int32_t rail = config.rail_counts;
+  return at_both_rails || (first <= rail && second <= rail) || (first + rail >= bus && second + rail >= bus);
+}
+
+constexpr bool at_rail(const ZeroCrossingConfig& config, const TerminalSample& s, std::uint8_t leg,
+                       bool low) {
+  const std::int32_t u = s.u[leg], rail = config.rail_counts, bus = s.bus;
+  return low ? u <= rail : u + rail >= bus;
+}
+
+/// Of the straight line from (from, y > 0) to (to, y <= 0).
+constexpr std::uint32_t crossed_at(std::uint32_t from, std::int32_t y_from, std::uint32_t to,
+                                   std::int32_t y_to) {
+  std::uint32_t before = static_cast<std::uint32_t>(y_from);
+  std::uint32_t sum = before + static_cast<std::uint32_t>(-y_to);
+  const std::uint32_t ticks = to - from;
+  while (before >
+         (ticks == 0 ? 0xffffffffu : 0xffffffffu / ticks)) {  // one factor loses digits, the product none
+    before >>= 1;
+    sum >>= 1;
+  }
+  return sum == 0 ? to : from + ticks * before / sum;
+}
+
+constexpr CrossingReading look(const ZeroCrossingConfig& config, ZeroCrossingState& state, std::uint32_t now,
+                               std::int32_t y, bool held) {
+  CrossingReading reading{Crossing::none, now, true, !held, y};
+  const bool falls = state.sector % 2 == 0;
+  const bool early = static_cast<std::uint32_t>(now - state.began) < state.earliest;
+  // Downwards as the terminal goes: a freewheel shows less of it.
+  const std::int32_t before = falls ? config.threshold : config.below,
+                     after = falls ? config.below : config.threshold;
+  if (y > before) state.armed = true;
+  if (!early && state.armed && y <= 0) {
+    reading.crossing = Crossing::seen;
+    if (state.y > 0) reading.at = crossed_at(state.at, state.held ? -y : state.y, now, y);
+  } else if (!early && !state.armed && y < -after) {
+    reading.crossing = Crossing::passed_before;
+  }
+  state.done = reading.crossing != Crossing::none;
+  state.y = y;
+  state.held = held;
+  state.at = now;
+  return reading;
+}
+
+}  // namespace detail
+
+/// One sample. `on`: the chip has the pair's switches on now, so that the driven legs must stand at the rails.
+constexpr CrossingReading zero_crossing_step(const ZeroCrossingConfig& config, ZeroCrossingState& state,
+                                             const TerminalSample& s, bool on) {
+  if (state.sector > 5) return {};
+  const std::uint8_t leg = floating_leg(state.sector);
+  const bool visible = detail::neutral_visible(config, s, leg);
+  if (visible || !on)
+    state.unlike = 0;
+  else if (state.unlike < 255)
+    ++state.unlike;
+  if (!visible) return {};
+  const std::int32_t sum = above_neutral(s, leg);
+  const bool falls = state.sector % 2 == 0;
+  const std::int32_t y = falls ? sum : -sum;
+  const std::uint32_t since = s.at - state.began;
+  if (state.freewheels) {
+    state.freewheel = since;
+    if (detail::at_rail(config, s, leg, falls)) {
+      state.hidden = true;
+      return {Crossing::none, s.at, true, false, y};
+    }
+    state.freewheels = false;
+    state.blank = since + config.margin_ticks;
+  }
+  if (since < state.blank) return {Crossing::none, s.at, true, false, y};
+  const bool held = detail::at_rail(config, s, leg, !falls);
+  if (state.done) return {Crossing::none, s.at, true, !held && !detail::at_rail(config, s, leg, falls), y};
+  return detail::look(config, state, s.at, y, held);
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a speed loop loses to an encoder or a resolver, how much its speed jitters, and the slowest speed that it tells.
+//
+//   encoder    M/T (control/sensing/pulse_speed.hpp): the mean over T between two edges that control ticks saw, held until the
+//              next one, c = (2 pi/4N)/w apart;  T = max(T_s, c).  A tick of the timer in T is 1/(f T) of the speed; a count
+//              per time-out is the slowest
+//   absolute   the mean over k samples, late by the code's latency; a count in k T_s is (2 pi/2^n)/(k T_s), and below it the
+//              speed reads as nothing or as that
+//   resolver   the integrator of a loop of type 2, w_n^2/(s^2 + 2 D w_n s + w_n^2): 2 D/w_n late as far below w_n as a loop
+//              should be; beside that what its angle is late. Windings with noise of s rad in each step of T_l jitter by
+//              s sqrt(T_l w_n^3/(4 D)); it tells every speed
+//
+// All of the mechanical speed; on the load's side of a gear n turns of the motor make one of the sensor.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sixstep/design/loops/pole_placement.hpp"
+
+namespace sixstep::design {
+
+enum class ShaftSensorKind : std::uint8_t { none, encoder, absolute, resolver };
+
+struct ShaftSensing {
+  ShaftSensorKind kind = ShaftSensorKind::none;
+  double gear = 1.0;      ///< n
+  double period_s = 0.0;  ///< T_s, of the control ticks
+  // incremental encoder
+  int lines = 0;            ///< N
+  double capture_Hz = 0.0;  ///< f
+  double timeout_s = 0.0;
+  // absolute encoder
+  int bits = 0;            ///< n
+  int samples = 1;         ///< k
+  double latency_s = 0.0;  ///< of the code, or of a resolver's angle
+  // resolver
+  int pole_pairs = 1;          ///< of its own
+  double natural_rad_s = 0.0;  ///< w_n of its tracking loop
+  double damping = 1.0;        ///< D
+  double step_s = 0.0;         ///< T_l, of that loop
+  double noise_rad = 0.0;      ///< s, root mean square, of its own turn
+};
+
+/// "encoder, 1024 lines", "absolute encoder, 14 bits", "resolver, followed within 1 kHz"
+std::string sensor_words(const ShaftSensing& sensing);
+
+/// The speed is the mean over `mean_s`, stands for `hold_s`, and is `late_s` late.
+struct ShaftSpeedAge {
+  double mean_s = 0.0, hold_s = 0.0, late_s = 0.0;
+};
+ShaftSpeedAge speed_age(const ShaftSensing& sensing, double speed_rad_s);
+
+/// Of a speed that is told: one step of an encoder's, the root mean square of a resolver's.
+double speed_jitter_rad_s(const ShaftSensing& sensing, double speed_rad_s);
+
+/// Below it the speed reads as 0 now and then; 0: it tells every speed.
+double lowest_told_rad_s(const ShaftSensing& sensing);
+
+/// How these come about, for a reader.
+std::vector<DerivationStep> shaft_sensing_steps(const ShaftSensing& sensing, double speed_rad_s);
+
+}  // namespace sixstep::design

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of a motor file that speak of poles and windings: the only place of their names, units, frames and meanings.
+#pragma once
+#include "sixstep/base/describe.hpp"
+#include "sixstep/design/sheet/sheet.hpp"
+#include "sixstep/design/sheet/sheet_spellings.hpp"
+
+namespace sixstep::design {
+
+/// The ring motors of telescopes have a hundred pole pairs.
+inline constexpr int most_pole_pairs = 500, most_turns = 100'000;
+
+/// Of the back-EMF; what lies above is noise of a measurement.
+inline constexpr int highest_order = 23;
+
+/// Of a back-EMF given as a table: points, how close two may lie, what its mean over the turn may be as a part of its peak to
+/// peak, and the least torque of the sectors' pairs as a part of the line's peak (a sine has 0.955).
+inline constexpr std::size_t most_shape_points = 1000;
+inline constexpr double least_shape_step_deg = 0.01, most_shape_mean = 1e-3, least_shape_torque = 0.2;
+
+inline constexpr base::Choice<BackEmfShape> back_emf_choices[] = {
+    {"trapezoid", BackEmfShape::trapezoid, "flat top of width flat_deg, linear ramps between"},
+    {"sine", BackEmfShape::sine, "one sine per electrical turn"},
+    {"table", BackEmfShape::table,
+     "straight lines between the points of back_emf_angle_deg and back_emf_shape, or of back_emf_file"},
+};
+
+inline constexpr base::Choice<MotorKind> kind_choices[] = {
+    {"rotary", MotorKind::rotary, "it turns"},
+    {"linear", MotorKind::linear,
+     "it moves along a line: a pole pitch for the pole pairs, and the keys that are in N and m"},
+};
+
+inline constexpr base::Choice<RotorPlace> rotor_choices[] = {
+    {"inner", RotorPlace::inner, "a cylinder within the stator, hollow where rotor_inner_radius_mm says so"},
+    {"outer", RotorPlace::outer, "a ring around the stator"},
+};
+
+inline constexpr base::Choice<WindingConnection> connection_choices[] = {
+    {"star", WindingConnection::star, "the phases meet in a point that is not led out"},
+    {"delta", WindingConnection::delta, "the phases lie between the terminals, and a current may run round"},
+};
+
+template <class Visitor>
+void describe_winding(Visitor& v, Sheet& s) {
+  v.choice("kind", s.kind, kind_choices, {.meaning = "whether the motor turns or moves along a line"});
+  v.quantity(
+      "pole_pitch_mm", s.pole_pitch_mm,
+      {.meaning = "linear: way from one pole to the next, half an electrical turn, instead of pole_pairs",
+       .unit = "mm",
+       .range = base::above(0)});
+  v.value("pole_pairs", s.pole_pairs,
+          {.meaning = "electrical turns per turn of the shaft: half the number of magnet poles",
+           .range = base::between(1, most_pole_pairs),
+           .also = spellings::pole_pairs});
+  v.value("poles", s.poles,
+          {.meaning = "number of magnet poles, instead of pole_pairs",
+           .range = base::between(2, 2 * most_pole_pairs)});
+  v.value("winding", s.winding, {.meaning = "teeth and magnet poles as 12N14P, instead of pole_pairs"});
+  v.choice("back_emf", s.back_emf, back_emf_choices,
+           {.meaning = "shape of the back-EMF over the electrical angle"});
+  v.value("flat_deg", s.flat_deg,
+          {.meaning = "width of the trapezoid's flat top, electrical",
+           .unit = "deg",
+           .range = base::strictly_between(0, 180),
+           .cure = "an ideal six-step motor has 120"});
+  v.value(
+      "harmonic_orders", s.harmonic_orders,
+      {.meaning =
+           "odd harmonics of the back-EMF beside the sine, 3 to 23, with harmonic_sizes; back_emf = \"sine\""});
+  v.value("harmonic_sizes", s.harmonic_sizes,
+          {.meaning = "their amplitudes as parts of the sine's, cos n (theta - 60 deg)",
+           .range = base::between(-1, 1)});
+  v.value("back_emf_angle_deg", s.back_emf_angle_deg,
+          {.meaning =
+               "table: electrical angles of back_emf_shape, rising; phase b sees the shape 120 degrees later",
+           .unit = "deg",
+           .range = {0, 360, true, false}});
+  v.value(
+      "back_emf_shape", s.back_emf_shape,
+      {.meaning =
+           "table: phase a's back-EMF at these angles; the back-EMF constant scales it as it stands, and its "
+           "mean over the turn is zero",
+       .range = base::between(-1e6, 1e6)});
+  v.value(
+      "back_emf_file", s.back_emf_file,
+      {.meaning =
+           "table: a file beside this one with a line of headings and rows of angle and value, instead of the "
+           "two lists"});
+  v.choice("connection", s.connection, connection_choices, {.meaning = "how the three phases are connected"});
+  v.value("mutual_inductance_mH", s.mutual_inductance_mH,
+          {.meaning = "delta: mutual inductance of two branches, negative as a rule",
+           .unit = "mH",
+           .range = base::between(-1e3, 1e3)});
+  v.value("phase_resistance_deviation", s.phase_resistance_deviation,
+          {.meaning = "star: by how much the resistances of phases a, b, c stray, as parts of the mean",
+           .range = base::strictly_between(-1, 1)});
+  v.value("phase_back_emf_deviation", s.phase_back_emf_deviation,
+          {.meaning = "star: by how much the back-EMF constants of a, b, c stray, as parts of the mean",
+           .range = base::strictly_between(-1, 1)});
+  v.value("cogging_orders", s.cogging_orders,
+          {.meaning =
+               "periods of the cogging torque per turn of the shaft: the least common multiple of slots and "
+               "poles, and its multiples; linear: per two pole pitches"});
+  v.value("cogging_mNm", s.cogging_mNm,
+          {.meaning = "amplitudes of the cogging torque", .unit = "mNm", .also = spellings::cogging});
+  v.value("cogging_phase_deg", s.cogging_phase_deg,
+          {.meaning = "their phases, sin(order theta + phase); without it 0", .unit = "deg"});
+  v.quantity("nominal_voltage_V", s.nominal_voltage_V,
+             {.meaning = "voltage the sheet's other values belong to",
+              .unit = "V",
+              .frame = "terminal",
+              .range = base::above(0),
+              .also = spellings::nominal_voltage});
+  v.quantity("resistance_ohm", s.resistance_ohm,
+             {.meaning = "winding resistance, between two terminals or of one phase of the star",
+              .unit = "ohm",
+              .frame = "terminal|phase",
+              .range = base::above(0),
+              .also = spellings::resistance});
+  v.quantity("inductance_mH", s.inductance_mH,
+             {.meaning = "winding inductance, between two terminals or of one phase of the star (L - M)",
+              .unit = "mH",
+              .frame = "terminal|phase",
+              .range = base::above(0),
+              .also = spellings::inductance});
+  v.quantity("d_axis_inductance_mH", s.d_axis_inductance_mH,
+             {.meaning = "inductance of one phase along the magnets, L_d; with q_axis_inductance_mH instead "
+                         "of inductance_mH",
+              .unit = "mH",
+              .frame = "phase",
+              .range = base::above(0),
+              .also = spellings::d_axis_inductance});
+  v.quantity("q_axis_inductance_mH", s.q_axis_inductance_mH,
+             {.meaning = "inductance of one phase across the magnets, L_q",
+              .unit = "mH",
+              .frame = "phase",
+              .range = base::above(0),
+              .also = spellings::q_axis_inductance});
+  v.quantity(
+      "saturation_current_A", s.saturation_current_A,
+      {.meaning = "I_sat of lambda_d = L_d i_d (1 - i_d/(2 I_sat)), i_d along the magnets: what lets a "
+                  "pulse tell north from south; holds for |i_d| < I_sat/2",
+       .unit = "A",
+       .range = base::above(0)});
+}
+
+}  // namespace sixstep::design

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// What each of the six switches and six diodes loses (model.md 8): conduction from the segment's series, and the energies of
+// switching, which act on nothing but temperatures and efficiency. Seen from outside, segment by segment, of either kernel.
+//
+// A switch that takes over a current from the other switch's diode costs E_on, and that diode E_rr; one that turns off a
+// current costs E_off; nothing at no current, or where the current runs in the switch's own diode's direction. A channel
+// that carries its diode's direction counts as that diode: any pause between the two leaves the current there.
+#pragma once
+#include <array>
+
+#include "sixstep/plant/circuit.hpp"
+
+namespace sixstep::plant {
+
+/// J per volt of the bus and ampere of the current, and J per volt whatever the current.
+struct SwitchingLaw {
+  double on_J_VA = 0.0, off_J_VA = 0.0, recovery_J_VA = 0.0, on_J_V = 0.0;
+  bool any() const { return on_J_VA > 0 || off_J_VA > 0 || recovery_J_VA > 0 || on_J_V > 0; }
+};
+
+/// J, of one switch with its diode.
+struct DeviceEnergy {
+  double conduction = 0.0, turn_on = 0.0, turn_off = 0.0;  ///< the transistor's
+  double diode = 0.0, recovery = 0.0;                      ///< its antiparallel diode's
+
+  double switching() const { return turn_on + turn_off + recovery; }
+  /// What warms the switch's junction: a MOSFET's body diode is in the same crystal, an IGBT's diode is not.
+  double in_crystal(bool igbt) const {
+    return conduction + turn_on + turn_off + (igbt ? 0.0 : diode + recovery);
+  }
+};
+
+/// By leg; T1, T3, T5 are the upper ones.
+struct LegDevices {
+  DeviceEnergy upper{}, lower{};
+};
+using DeviceEnergies = std::array<LegDevices, 3>;
+
+class DeviceLosses {
+ public:
+  explicit DeviceLosses(const SwitchingLaw& law = {}) : law_(law) {}
+
+  /// A segment begins: what changed of the legs since the one before has switched `i` at the bus voltage U. With `counts` false
+  /// nothing is counted, and the legs are noted.
+  template <class Real>
+  void begin(const Legs& legs, const PerLeg<Real>& i, Real U, bool counts = true) {
+    if (known_ && counts)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (legs[k] != legs_[k])
+          switched(legs_[k], legs[k], static_cast<double>(i[k]), static_cast<double>(U), energies_[k]);
+    legs_ = legs;
+    known_ = true;
+  }
+  /// What leg k lost over a segment in its device, J.
+  void conducted(std::size_t k, Connection by, double energy) {
+    LegDevices& leg = energies_[k];
+    if (is_floating(by)) return;
+    DeviceEnergy& device = is_high(by) ? leg.upper : leg.lower;
+    (is_diode(by) ? device.diode : device.conduction) += energy;
+  }
+
+  const DeviceEnergies& energies() const { return energies_; }
+  double switching() const {
+    double sum = 0.0;
+    for (const LegDevices& leg : energies_) sum += leg.upper.switching() + leg.lower.switching();
+    return sum;
+  }
+  void clear() { energies_ = {}; }
+
+ private:
+  /// Which rail the current hangs on: where it goes from `before` to `after`, the upper switch carries a positive one forward.
+  void switched(Connection before, Connection after, double i, double U, LegDevices& leg) const {
+    if (i == 0.0) return;
+    const bool from_high = is_high(before), to_high = is_high(after), positive = i > 0;
+    DeviceEnergy& forward =
+        positive ? leg.upper : leg.lower;  // whose transistor carries this current forward
+    DeviceEnergy& backward = positive ? leg.lower : leg.upper;  // whose diode carries it
+    const double VA = U * (positive ? i : -i);
+    const bool carried = !is_floating(before) && from_high == positive && !is_diode(before);
+    const bool carries = !is_floating(after) && to_high == positive && !is_diode(after);
+    if (carries && !carried) {
+      forward.turn_on += law_.on_J_VA * VA + law_.on_J_V * U;
+      backward.recovery += law_.recovery_J_VA * VA;
+    } else if (carried && !carries) {
+      forward.turn_off += law_.off_J_VA * VA;
+    }
+  }
+
+  SwitchingLaw law_;
+  DeviceEnergies energies_{};
+  Legs legs_{};
+  bool known_ = false;
+};
+
+}  // namespace sixstep::plant

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Encoders on a shaft (model.md 10), of an angle that is counted in sectors so that no turn is ever too many.
+//
+//   A = [frac(N theta/2 pi) < 1/2], B the same a quarter of a line later, Z over the first line of a turn
+//   counted x4: floor(4 N theta/2 pi);   absolute: the Gray code of floor(2^n frac(theta/2 pi))
+#pragma once
+#include <cmath>
+#include <cstdint>
+
+#include "sixstep/base/angle.hpp"
+
+namespace sixstep::plant {
+
+/// theta = (60 deg sector + x)/p, mechanical: of a State its sector, x and the machine's pole pairs.
+template <class Real>
+struct ShaftAngle {
+  std::int64_t sector = 0;
+  Real x = 0;
+  std::int64_t pole_pairs = 1;
+};
+
+/// floor(parts theta/2 pi): in which of equal parts of a turn a shaft stands, counted over all turns.
+template <class Real>
+std::int64_t parts_of_turn(const ShaftAngle<Real>& at, std::int64_t parts) {
+  // Whole sectors in whole numbers: theta/2 pi = (sector + x/60 deg)/(6 p), and x adds less than two parts' worth of sectors.
+  const std::int64_t per_turn = 6 * at.pole_pairs, turns = at.sector / per_turn, rest = at.sector % per_turn;
+  const std::int64_t whole = parts * rest / per_turn, left = parts * rest % per_turn;
+  const Real more = (static_cast<Real>(left) + static_cast<Real>(parts) * (at.x / Real(base::sector_rad))) /
+                    static_cast<Real>(per_turn);
+  return turns * parts + whole + static_cast<std::int64_t>(std::floor(more));
+}
+
+/// The three lines of an incremental encoder of N lines, as bits A 4, B 2, Z 1.
+template <class Real>
+std::uint8_t encoder_lines(const ShaftAngle<Real>& at, std::int64_t lines) {
+  const std::int64_t quarters = parts_of_turn(at, 4 * lines),
+                     in_turn = ((quarters % (4 * lines)) + 4 * lines) % (4 * lines);
+  const std::int64_t in_line = in_turn % 4;
+  const bool a = in_line < 2, b = in_line == 1 || in_line == 2, z = in_turn < 4;
+  return static_cast<std::uint8_t>(a << 2 | b << 1 | static_cast<int>(z));
+}
+
+/// What an absolute encoder of `bits` shows.
+template <class Real>
+std::uint32_t gray_code(const ShaftAngle<Real>& at, int bits) {
+  const std::int64_t parts = std::int64_t{1} << bits;
+  const auto n = static_cast<std::uint32_t>(((parts_of_turn(at, parts) % parts) + parts) % parts);
+  return n ^ n >> 1;
+}
+
+}  // namespace sixstep::plant

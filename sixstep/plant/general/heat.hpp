@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Warm copper, weak magnets, warm channels (model.md 8): what the run loses is summed up over thermal steps; at the end of
+// each the two bodies are solved exactly with the step's mean powers, and R, K_e and R_on follow.
+#pragma once
+#include "sixstep/plant/device_losses.hpp"
+#include "sixstep/plant/two_bodies.hpp"
+#include "sixstep/series/polynomial.hpp"
+
+namespace sixstep::plant::general {
+
+struct HeatGiven {
+  bool motor = false, devices = false;  ///< whether either is simulated
+  double step_s = 1e-3;
+  // The motor: resistances K/W, time constants s, temperatures degC.
+  double winding_housing_K_W = 0.0, housing_ambient_K_W = 0.0, winding_s = 0.0, motor_s = 0.0;
+  double ambient_degC = 25.0, winding_degC = 25.0, housing_degC = 25.0;
+  double copper_per_K = 0.0, magnet_per_K = 0.0, given_at_degC = 25.0;  ///< R and K_e are given at
+  double own_coulomb_Nm = 0.0,
+         own_B_Nm_s = 0.0;  ///< the motor's part of the friction, which warms its housing
+  // The devices.
+  bool igbt = false;
+  SwitchingLaw switching{};
+  double sink_degC = 25.0, junction_K_W = 0.0, on_per_K = 0.0;
+};
+
+class Heat {
+ public:
+  explicit Heat(const HeatGiven& given = {})
+      : given_(given), losses_(given.switching), winding_(given.winding_degC), housing_(given.housing_degC) {
+    for (auto& leg : junction_) leg = {given.sink_degC, given.sink_degC};
+  }
+
+  bool on() const { return given_.motor || given_.devices; }
+  const HeatGiven& given() const { return given_; }
+  DeviceLosses& losses() { return losses_; }
+  /// Of a segment of dt: the winding's loss, the integral of w^2, the way.
+  void add(double dt, double copper_J, double square, double travel) {
+    elapsed_.add(dt);
+    copper_.add(copper_J);
+    friction_.add(given_.own_B_Nm_s * square + given_.own_coulomb_Nm * std::fabs(travel));
+  }
+  /// Whether a thermal step is over; instants are whole ps, and sums of them nearly so.
+  bool due() const { return on() && elapsed_.value > given_.step_s - 1e-9; }
+  void take_step();
+
+  double on_R() const { return 1 + given_.copper_per_K * (winding_ - given_.given_at_degC); }
+  double on_K_e() const { return 1 + given_.magnet_per_K * (housing_ - given_.given_at_degC); }
+  double on_R_on(std::size_t leg, bool upper) const {
+    return 1 + given_.on_per_K * (junction_[leg][upper ? 0 : 1] - given_.given_at_degC);
+  }
+  double winding_degC() const { return winding_; }
+  double housing_degC() const { return housing_; }
+  double hottest_junction_degC() const {
+    double hottest = junction_[0][0];
+    for (const auto& leg : junction_)
+      for (const double T : leg) hottest = T > hottest ? T : hottest;
+    return hottest;
+  }
+
+ private:
+  HeatGiven given_;
+  DeviceLosses losses_;
+  double winding_ = 25.0, housing_ = 25.0;
+  std::array<std::array<double, 2>, 3> junction_{};  ///< upper, lower
+  series::CompensatedSum<double> elapsed_, copper_, friction_;
+};
+
+inline void Heat::take_step() {
+  const double t = elapsed_.value;
+  if (given_.motor) {
+    const double per_C_w = given_.winding_housing_K_W / given_.winding_s,
+                 per_C_h = given_.housing_ambient_K_W / given_.motor_s;
+    const double across = 1 / given_.winding_housing_K_W, out = 1 / given_.housing_ambient_K_W;
+    const TwoBodies bodies{-across * per_C_w,
+                           across * per_C_w,
+                           across * per_C_h,
+                           -(across + out) * per_C_h,
+                           copper_.value / t * per_C_w,
+                           friction_.value / t * per_C_h};
+    const BodyTemperatures end =
+        after(bodies, {winding_ - given_.ambient_degC, housing_ - given_.ambient_degC}, t);
+    winding_ = given_.ambient_degC + end.winding;
+    housing_ = given_.ambient_degC + end.housing;
+  }
+  if (given_.devices) {
+    const DeviceEnergies& lost = losses_.energies();
+    for (std::size_t k = 0; k < 3; ++k) {
+      junction_[k][0] = given_.sink_degC + given_.junction_K_W * lost[k].upper.in_crystal(given_.igbt) / t;
+      junction_[k][1] = given_.sink_degC + given_.junction_K_W * lost[k].lower.in_crystal(given_.igbt) / t;
+    }
+  }
+  losses_.clear();
+  elapsed_ = copper_ = friction_ = {};
+}
+
+}  // namespace sixstep::plant::general

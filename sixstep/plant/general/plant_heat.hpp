@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a warm plant sums up while it runs, and what it becomes at the end of a thermal step: part of general/plant.hpp.
+#pragma once
+#include "sixstep/plant/general/energy_nodes.hpp"
+#include "sixstep/plant/general/plant.hpp"
+
+namespace sixstep::plant::general {
+
+template <class Real>
+void Plant<Real>::note_losses(Real s) {
+  series::with_points_for(y_.degree, [&]<int points>() {
+    const detail::AtNodes<points, Real> at{*this, series::nodes_up_to<points>(s), y_.h * s};
+    const auto w = at.of(y_.w);
+    const double copper = static_cast<double>(detail::copper_energy<points>(at));
+    heat_.add(static_cast<double>(y_.h * s), copper, static_cast<double>(at.integral(w, w)),
+              static_cast<double>(at.integral(w)));
+    if (!heat_.given().devices) return;
+    DeviceLosses& losses = heat_.losses();
+    losses.begin(mode_.legs, state_.i, y_.bus[0]);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!is_floating(mode_.legs[k]))
+        losses.conducted(k, mode_.legs[k], static_cast<double>(detail::device_energy<points>(at, k)));
+  });
+}
+
+template <class Real>
+void Plant<Real>::take_thermal_step() {
+  if (!heat_.due()) return;
+  heat_.take_step();
+  if (heat_.given().motor) set_warmth(heat_.on_R(), heat_.on_K_e());
+  if (heat_.given().devices) set_bridge();
+  stale_ = true;
+}
+
+}  // namespace sixstep::plant::general

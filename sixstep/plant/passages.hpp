@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// What both kernels do to a state at an instant, each once: where a rotor is put down, how it passes an edge of a sector or of
+// a piece of the back-EMF, which currents are left where one has gone, and what rounding is.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/plant/expansion.hpp"
+#include "sixstep/plant/guards.hpp"
+
+namespace sixstep::plant::detail {
+
+/// After a current was set to zero: one left alone is zero too, two left are one current.
+template <class Real>
+void balance(State<Real>& state) {
+  PerLeg<Real>& i = state.i;
+  const int zeros = int{i[0] == 0} + int{i[1] == 0} + int{i[2] == 0};
+  if (zeros == 2) {
+    i = {};
+    state.i_low = {};
+  } else if (zeros == 1) {
+    const int zero = i[0] == 0 ? 0 : i[1] == 0 ? 1 : 2;
+    const int j = (zero + 1) % 3, k = (zero + 2) % 3;
+    i[k] = -i[j];
+    // mutant: -state.i_low[j] => Real(0)
+    state.i_low[k] = -state.i_low[j];
+  }
+}
+
+/// Puts the state on the far side of the edge of its piece; true where the rotor leaves its sector. pieces(sector) are those
+/// of a sector in order of x, as many as count(sector).
+template <class Real, class Mode, class Pieces, class Count>
+bool pass_edge(State<Real>& state, Mode& mode, bool ahead, Pieces&& pieces, Count&& count) {
+  const int before = static_cast<int>(count(mode.sector));
+  const bool leaves = ahead ? mode.piece + 1 == before : mode.piece == 0;
+  using Index = decltype(mode.piece);
+  if (leaves) {
+    state.sector += ahead ? 1 : -1;
+    mode.sector = static_cast<std::uint8_t>(sector_in_turn(state.sector));
+    mode.piece = static_cast<Index>(ahead ? 0 : static_cast<int>(count(mode.sector)) - 1);
+  } else {
+    mode.piece = static_cast<Index>(mode.piece + (ahead ? 1 : -1));
+  }
+  const auto& piece = pieces(mode.sector)[mode.piece];
+  // mutant: piece.from => Real(0)
+  state.x = ahead ? piece.from : piece.to;
+  // mutant: state.x_low = 0; => nothing
+  state.x_low = 0;
+  return leaves;
+}
+
+/// A rotor at rest on an edge, which a bridge that follows the sectors drives back from either side, would pass
+/// it for ever at one instant. It is put down inside, by what rounding may have moved it: then time goes on.
+template <class Real>
+void leave_edge(State<Real>& state, bool ahead) {
+  const Real inside =
+      4 * noise_of(Real(base::sector_rad), Real(1));  // beyond what edge_guards() take for the edge
+  state.x += ahead ? inside : -inside;
+}
+
+/// Puts the rotor to a mechanical angle; true where that is the edge of a sector. An edge named in degrees or radians of the
+/// shaft has been rounded up to four times on its way here.
+template <class Real>
+bool put_down(State<Real>& state, double electrical_rad) {
+  const double edge = std::floor(electrical_rad / base::sector_rad + 0.5);
+  const bool on_edge =
+      std::fabs(electrical_rad - edge * base::sector_rad) <= 0x1p-50 * std::fabs(electrical_rad);
+  const double sector = on_edge ? edge : std::floor(electrical_rad / base::sector_rad);
+  state.sector = static_cast<std::int64_t>(sector);
+  state.x =
+      on_edge ? Real(0) : std::max(Real(0), Real(electrical_rad) - Real(sector) * Real(base::sector_rad));
+  return on_edge;
+}
+
+/// The scales by which rounding noise is told from a signal, in the constants of either kernel.
+template <class Real, class Constants>
+void set_scales(Constants& c, Real volt_scale, Real R, Real K_e) {
+  c.volt_scale = volt_scale;
+  c.amp_scale = c.volt_scale / R;
+  c.speed_scale = c.volt_scale / (2 * K_e);
+  c.torque_scale = 2 * K_e * c.amp_scale;
+  c.volt_noise = noise_of(c.volt_scale, Real(1));
+  c.amp_noise = noise_of(c.amp_scale, Real(1));
+  c.speed_noise = noise_of(c.speed_scale, Real(1));
+  c.torque_noise = noise_of(c.torque_scale, Real(1));
+}
+
+}  // namespace sixstep::plant::detail

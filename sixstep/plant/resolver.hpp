@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// A resolver of p_r pole pairs (model.md 10), at an instant t:
+//
+//   V_1 = k V_R sin(w_x t + d_1) cos(p_r theta)
+//   V_2 = k (1 + a) V_R sin(w_x t + d_2) sin(p_r theta + q) + noise on both
+#pragma once
+#include <array>
+
+#include "sixstep/base/elementary.hpp"
+#include "sixstep/plant/encoder.hpp"
+
+namespace sixstep::plant {
+
+struct Resolver {
+  double amplitude_V = 1.0;  ///< k V_R
+  double excitation_Hz = 10e3;
+  int pole_pairs = 1;                           ///< p_r
+  double imbalance = 0.0;                       ///< a
+  double quadrature_rad = 0.0;                  ///< q
+  double phase_1_rad = 0.0, phase_2_rad = 0.0;  ///< d_1, d_2: the windings lag, or the cable
+};
+
+namespace detail {
+
+/// p_r theta, rad, of the resolver's own turn: whole turns are left away.
+template <class Real>
+double resolver_angle_rad(const Resolver& r, const ShaftAngle<Real>& at) {
+  const std::int64_t per_turn = 6 * at.pole_pairs;
+  const std::int64_t rest = ((at.sector % per_turn) + per_turn) % per_turn;
+  const double turns = (static_cast<double>(rest) + static_cast<double>(at.x) / base::sector_rad) /
+                       static_cast<double>(per_turn) * r.pole_pairs;
+  return 2 * base::pi * (turns - std::floor(turns));
+}
+
+}  // namespace detail
+
+/// Both windings behind an ideal demodulator, over the cosine's amplitude: cos(p_r theta), (1 + a) sin(p_r theta + q).
+template <class Real>
+std::array<double, 2> resolver_envelope(const Resolver& r, const ShaftAngle<Real>& at) {
+  const double angle = detail::resolver_angle_rad(r, at);
+  return {base::cos(angle), (1 + r.imbalance) * base::sin(angle + r.quadrature_rad)};
+}
+
+/// V_1 and V_2 in V, without noise. Turns of the excitation are counted: only their fraction goes into a sine.
+template <class Real>
+std::array<double, 2> resolver_V(const Resolver& r, const ShaftAngle<Real>& at, std::int64_t t_ps) {
+  const double angle = detail::resolver_angle_rad(r, at);
+  const double cycles = r.excitation_Hz * (static_cast<double>(t_ps) * 1e-12);
+  const double carrier = 2 * base::pi * (cycles - std::floor(cycles));
+  return {r.amplitude_V * base::sin(carrier + r.phase_1_rad) * base::cos(angle),
+          r.amplitude_V * (1 + r.imbalance) * base::sin(carrier + r.phase_2_rad) *
+              base::sin(angle + r.quadrature_rad)};
+}
+
+}  // namespace sixstep::plant

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// The three terminals' voltages against the negative rail, floating ones included: what a board's dividers hang at. With all
+// legs floating centred between the rails (circuit.hpp).
+#pragma once
+#include <algorithm>
+
+#include "sixstep/plant/general/plant.hpp"
+#include "sixstep/plant/plant.hpp"
+
+namespace sixstep::plant {
+
+/// As the plant stands now, before the gates of this instant follow.
+template <class Real>
+PerLeg<Real> terminal_voltages(const Plant<Real>& plant) {
+  const State<Real>& now = plant.state();
+  const PerLeg<Real> e = detail::back_emf(plant.constants(), now, plant.mode());
+  return pole_voltages(plant.mode().legs, plant.constants().poles, now.bus, now.i, e);
+}
+
+/// Saliency and harmonics put the star point where only the series know: a copy is expanded. Whoever looks at terminals
+/// once per control tick pays for it.
+template <class Real>
+PerLeg<Real> terminal_voltages(const general::Plant<Real>& plant) {
+  general::Plant<Real> now = plant;
+  constexpr double moment_s = 1e-9;
+  if (now.expand(moment_s) < 0) return {};
+  return now.at(0).pole;
+}
+
+template <class Real>
+using TerminalSeries = PerLeg<series::Coefficients<Real>>;
+
+namespace detail {
+
+/// u[k] = e_k of a star that hangs at nothing: which are the highest and the lowest is judged in the middle of [0, s].
+template <class Real>
+void centre(const Expansion<Real>& y, Real s, TerminalSeries<Real>& u) {
+  PerLeg<Real> middle;
+  for (std::size_t k = 0; k < 3; ++k) middle[k] = series::evaluate(u[k], y.degree, s / 2);
+  const auto high = static_cast<std::size_t>(std::max_element(middle.begin(), middle.end()) - middle.begin());
+  const auto low = static_cast<std::size_t>(std::min_element(middle.begin(), middle.end()) - middle.begin());
+  for (int n = 0; n <= y.degree; ++n) {
+    const Real star = (y.bus[n] - u[high][n] - u[low][n]) / 2;
+    for (std::size_t k = 0; k < 3; ++k) u[k][n] += star;
+  }
+}
+
+}  // namespace detail
+
+/// Over the part s of the segment that was expanded last: behind it the star may be another one.
+template <class Real>
+TerminalSeries<Real> terminal_series(const Plant<Real>& plant, Real s) {
+  const Constants<Real>& c = plant.constants();
+  const Expansion<Real>& y = plant.expansion();
+  const Mode& mode = plant.mode();
+  const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
+  const EmfPiece<Real>& piece = c.emf[mode.sector].piece[mode.piece];
+  TerminalSeries<Real> u;
+  for (unsigned k = 0; k < 3; ++k) {
+    if (is_floating(mode.legs[k])) {
+      u[k] = pole_series(c, y, pole_law(piece, law, k));
+      continue;
+    }
+    const PoleTerms<Real>& terms = c.poles[static_cast<std::size_t>(mode.legs[k])];
+    for (int n = 0; n <= y.degree; ++n) u[k][n] = terms.bus_share * y.bus[n] - terms.r_ohm * y.i[k][n];
+    u[k][0] += terms.offset_V;
+  }
+  if (law.connected == 0) detail::centre(y, s, u);
+  return u;
+}
+
+template <class Real>
+TerminalSeries<Real> terminal_series(const general::Plant<Real>& plant, Real s) {
+  TerminalSeries<Real> u = plant.series().pole;
+  if (connected_count(plant.mode().legs) == 0) detail::centre(plant.expansion(), s, u);
+  return u;
+}
+
+}  // namespace sixstep::plant

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Comparators that hold each filtered terminal against a virtual star point or half the bus (model.md 4). Between two events
+// the filtered voltages are polynomials as the circuit's are, so that an edge is an event like any other:
+//
+//   dx/dt = (u - x)/tau:   x_(n+1) = (h/tau) (u_n - x_n)/(n + 1),   h <= tau/2
+//
+// line k rises where x_k - reference passes offset_k + hysteresis/2, and falls where it passes offset_k - hysteresis/2.
+#pragma once
+#include <algorithm>
+
+#include "sixstep/rig/front_end.hpp"
+
+namespace sixstep::rig {
+
+class Crossings {
+ public:
+  /// As the lines stand where the run begins; on its very level a line is low.
+  Crossings(const FrontEndConfig& config, const FrontEndReading& at) : config_(config) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (at.terminal_V[k] - reference(at.terminal_V, at.bus_V) > config.comparators.offset_V[k])
+        turn_over(k);
+  }
+
+  bool fitted() const { return config_.comparators.fitted && config_.lags_voltages(); }
+  /// No segment may be longer: behind it 16 orders of the lag do not reach rounding.
+  double longest_s() const { return config_.divider_s / 2; }
+  /// Of legs a, b, c as bits 2, 1, 0, as a Hall code has its lines.
+  std::uint8_t lines() const { return lines_; }
+  void turn_over(std::size_t leg) { lines_ ^= static_cast<std::uint8_t>(4U >> leg); }
+
+  /// visit(leg, series, degree, noise): each falls through zero where its line turns over. `of` is to be expanded, not passed.
+  template <class Real, class Visit>
+  void guards(const FrontEndSegment<Real>& of, const plant::TerminalSeries<Real>& u,
+              const FrontEndReading& now, Real volt_scale, Visit&& visit) const {
+    plant::TerminalSeries<Real> x;
+    for (std::size_t k = 0; k < 3; ++k) x[k] = lagged(of, u[of.phase[k]], now.terminal_V[k]);
+    const Coefficients<Real> bus = lagged(of, of.y.bus, now.bus_V);
+    const Real noise = plant::noise_of(volt_scale, Real(1));
+    // Behind an edge the line must stand clear of it by more than rounding.
+    const Real half = std::max(Real(config_.comparators.hysteresis_V) / 2, 4 * noise);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Real sign = (lines_ & (4U >> k)) != 0 ? Real(1) : Real(-1);
+      Coefficients<Real> g;
+      for (int n = 0; n <= series::max_degree; ++n)
+        g[n] = sign * (x[k][n] - reference(plant::PerLeg<Real>{x[0][n], x[1][n], x[2][n]}, bus[n]));
+      g[0] += half - sign * Real(config_.comparators.offset_V[k]);
+      visit(k, g, series::max_degree, noise);
+    }
+  }
+
+ private:
+  template <class Real>
+  using Coefficients = series::Coefficients<Real>;
+
+  template <class Real>
+  Real reference(const plant::PerLeg<Real>& x, Real bus) const {
+    if (config_.comparators.against == CrossingReference::half_bus) return bus / 2;
+    return (x[0] + x[1] + x[2]) / 3;
+  }
+  template <class Real>
+  Coefficients<Real> lagged(const FrontEndSegment<Real>& of, const Coefficients<Real>& u, double from) const {
+    const Real rate = of.y.h / Real(config_.divider_s);
+    Coefficients<Real> x;
+    x[0] = Real(from);
+    for (int n = 0; n < series::max_degree; ++n) {
+      const Real input = n <= of.y.degree ? u[n] : Real(0);
+      x[n + 1] = rate * (input - x[n]) / Real(n + 1);
+    }
+    return x;
+  }
+
+  FrontEndConfig config_;
+  std::uint8_t lines_ = 0;
+};
+
+/// Of a firmware that captures none.
+struct NoCrossings {};
+
+}  // namespace sixstep::rig

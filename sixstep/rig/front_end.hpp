@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// The analogue front end between circuit and converters (model.md 4): amplifiers of the currents with a bandwidth and a delay,
+// dividers of bus and terminals with a capacitor across. Each is a first-order lag that is taken along every segment exactly,
+// so that a sample shows all switching before it. A board without any of these pays one branch per segment.
+#pragma once
+#include <limits>
+
+#include "sixstep/plant/terminals.hpp"
+#include "sixstep/rig/front_end_config.hpp"
+#include "sixstep/series/first_order_lag.hpp"
+#include "sixstep/sim/instant.hpp"
+
+namespace sixstep::rig {
+
+/// The inputs over one segment of length h, of which s in (0, 1] passes.
+template <class Real>
+struct FrontEndSegment {
+  const plant::Expansion<Real>& y;
+  plant::PerLeg<std::size_t> phase{0, 1, 2};  ///< at each leg
+  plant::Legs legs{};                         ///< of the phases
+  Real s = 1;
+  sim::Instant from{}, to{}, next_sample{};
+};
+
+class FrontEnd {
+ public:
+  /// It stood for long at these before the run, without current.
+  FrontEnd(const FrontEndConfig& config, double bus_V, const plant::PerLeg<double>& terminal_V)
+      : config_(config),
+        reading_{.terminal_V = terminal_V,
+                 .bus_V = bus_V,
+                 .currents = config.lags_currents(),
+                 .voltages = config.lags_voltages()} {
+    bus_.set(bus_V);
+    for (std::size_t k = 0; k < 3; ++k) terminal_[k].set(terminal_V[k]);
+  }
+
+  bool follows() const { return reading_.currents || reading_.voltages; }
+  const FrontEndReading& reading() const { return reading_; }
+
+  template <class Real>
+  void follow(const FrontEndSegment<Real>& of) {
+    if (reading_.currents) follow_currents(of);
+    if (reading_.voltages) {
+      bus_.add(by(config_.divider_s, of, of.y.bus, bus_));
+      reading_.bus_V = bus_.value;
+    }
+  }
+  /// Where voltages lag: the terminals' series, by phases.
+  template <class Real>
+  void follow_terminals(const FrontEndSegment<Real>& of, const plant::TerminalSeries<Real>& u);
+
+ private:
+  using Kept = series::CompensatedSum<double>;
+
+  /// Weights of a lag over the part s of the segment.
+  template <class Real>
+  static series::LagWeights weights(double lag_s, const FrontEndSegment<Real>& of, double s) {
+    const double z =
+        lag_s > 0 ? s * static_cast<double>(of.y.h) / lag_s : std::numeric_limits<double>::infinity();
+    return series::lag_weights(z, of.y.degree);
+  }
+  template <class Real>
+  static series::Coefficients<Real> dc_link(const FrontEndSegment<Real>& of) {
+    series::Coefficients<Real> sum{};
+    for (std::size_t k = 0; k < 3; ++k)
+      if (plant::is_high(of.legs[k]))
+        for (int n = 0; n <= of.y.degree; ++n) sum[n] += of.y.i[k][n];
+    return sum;
+  }
+  template <class Real>
+  static double by(double lag_s, const FrontEndSegment<Real>& of, const series::Coefficients<Real>& u,
+                   const Kept& x) {
+    const auto s = static_cast<double>(of.s);
+    return series::lag_increment(u, of.y.degree, s, weights(lag_s, of, s), x.value);
+  }
+  template <class Real>
+  void follow_currents(const FrontEndSegment<Real>& of);
+
+  FrontEndConfig config_;
+  plant::PerLeg<Kept> i_{}, terminal_{};
+  Kept dc_link_{}, bus_{};
+  FrontEndReading reading_{};
+};
+
+/// With a delay the converters see what the amplifiers stood at so long before the sample, on the left side of a jump.
+template <class Real>
+void FrontEnd::follow_currents(const FrontEndSegment<Real>& of) {
+  const series::Coefficients<Real> link = dc_link(of);
+  const int degree = of.y.degree;
+  const auto show = [&](double s) {
+    const series::LagWeights w = weights(config_.amplifier_s, of, s);
+    const auto at = [&](const series::Coefficients<Real>& u, const Kept& x) {
+      return x.value + series::lag_increment(u, degree, s, w, x.value);
+    };
+    for (std::size_t k = 0; k < 3; ++k) reading_.i_A[k] = at(of.y.i[of.phase[k]], i_[k]);
+    reading_.dc_link_A = at(link, dc_link_);
+  };
+  const sim::Instant seen{of.next_sample.ticks - config_.amplifier_delay_ticks, of.next_sample.offset};
+  const bool delayed = config_.amplifier_delay_ticks > 0;
+  if (delayed && of.from < seen && seen <= of.to && of.y.h > 0)
+    show(sim::seconds_between(of.from, seen) / static_cast<double>(of.y.h));
+  const auto s = static_cast<double>(of.s);
+  const series::LagWeights w = weights(config_.amplifier_s, of, s);
+  for (std::size_t k = 0; k < 3; ++k)
+    i_[k].add(series::lag_increment(of.y.i[of.phase[k]], degree, s, w, i_[k].value));
+  dc_link_.add(series::lag_increment(link, degree, s, w, dc_link_.value));
+  if (delayed) return;
+  for (std::size_t k = 0; k < 3; ++k) reading_.i_A[k] = i_[k].value;
+  reading_.dc_link_A = dc_link_.value;
+}
+
+template <class Real>
+void FrontEnd::follow_terminals(const FrontEndSegment<Real>& of, const plant::TerminalSeries<Real>& u) {
+  const auto s = static_cast<double>(of.s);
+  const series::LagWeights w = weights(config_.divider_s, of, s);
+  for (std::size_t k = 0; k < 3; ++k) {
+    terminal_[k].add(series::lag_increment(u[of.phase[k]], of.y.degree, s, w, terminal_[k].value));
+    reading_.terminal_V[k] = terminal_[k].value;
+  }
+}
+
+/// Of a firmware that is told what is.
+struct NoFrontEnd {};
+
+}  // namespace sixstep::rig

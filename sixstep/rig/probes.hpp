@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Hall probes between rotor and wires (model.md 10): which code their lines carry now. On the general kernel they can be
+// mounted askew, stand 60 degrees apart, answer late and glitch; on the lean one they show the rotor's own sector, and cost
+// nothing.
+#pragma once
+#include <array>
+#include <optional>
+
+#include "sixstep/plant/hall.hpp"
+#include "sixstep/plant/hall_probes.hpp"
+#include "sixstep/sim/instant.hpp"
+
+namespace sixstep::plant::general {
+template <class Real>
+class Plant;
+}  // namespace sixstep::plant::general
+
+namespace sixstep::rig {
+
+/// How the probes of a motor are built in.
+struct ProbeGiven {
+  plant::HallPlacement placement{};
+  bool spaced_60 = false;
+  std::int64_t delay_ticks = 0;  ///< of each edge, ps
+};
+
+/// Exactly where the sectors are.
+template <class Real>
+class SectorProbes {
+ public:
+  SectorProbes() = default;
+  SectorProbes(const ProbeGiven&, const plant::State<Real>&) {}
+  static constexpr bool mounted() { return false; }
+  /// H1 H2 H3 of the rotor's sector.
+  static constexpr std::uint8_t code(int sector) { return plant::hall_code(sector); }
+  static constexpr std::int64_t sector(std::int64_t own) { return own; }
+};
+
+template <class Real>
+class MountedProbes {
+ public:
+  /// Mounted where anything about them differs from the sectors.
+  MountedProbes(const ProbeGiven& given, const plant::State<Real>& at)
+      : delay_ticks_(given.delay_ticks), spaced_60_(given.spaced_60) {
+    if (given.placement.as_sectors() && given.delay_ticks == 0) return;
+    probes_.emplace(given.placement, at);
+    shown_ = probes_->shown();
+  }
+
+  /// Their edges are their own, not the sectors'.
+  bool mounted() const { return probes_.has_value(); }
+  /// What the lines carry while the rotor is in `sector`, 0 to 5.
+  std::uint8_t code(int sector) const {
+    const int shown = mounted() ? static_cast<int>((shown_ % 6 + 6) % 6) : sector;
+    const std::uint8_t code = spaced_60_ ? plant::hall_code_60(shown) : plant::hall_code(shown);
+    return code ^ glitch_;
+  }
+  /// What they show of the rotor's sector, both counted over all turns.
+  std::int64_t sector(std::int64_t own) const { return mounted() ? shown_ : own; }
+
+  template <class Visit>
+  void guards(const plant::Expansion<Real>& y, std::int64_t sector, Visit&& visit) const {
+    if (mounted()) probes_->guards(y, sector, visit);
+  }
+  /// An edge was passed; its lines change now, or when its delay is over.
+  void pass(plant::ProbeEdge which, const sim::Instant& now) {
+    probes_->pass(which);
+    if (delay_ticks_ == 0 || count_ == late_.size()) {
+      shown_ = probes_->shown();
+      return;
+    }
+    late_[(first_ + count_++) % late_.size()] = {{now.ticks + delay_ticks_, now.offset}, probes_->shown()};
+  }
+  /// When the lines change next by an edge that is on its way.
+  sim::Instant next() const { return count_ == 0 ? sim::Instant::never() : late_[first_].at; }
+  /// Shows what is due; false where nothing was.
+  bool show(const sim::Instant& now) {
+    if (count_ == 0 || now < late_[first_].at) return false;
+    shown_ = late_[first_].sector;
+    first_ = (first_ + 1) % late_.size();
+    --count_;
+    return true;
+  }
+  /// Turns lines over, as bits of a code: a glitch begins, or ends.
+  void glitch(std::uint8_t lines) { glitch_ ^= lines; }
+
+ private:
+  struct Late {
+    sim::Instant at;
+    std::int64_t sector = 0;
+  };
+
+  std::optional<plant::HallProbes<Real>> probes_;
+  std::array<Late, 64> late_{};  ///< a ring: more edges than any delay holds
+  std::size_t first_ = 0, count_ = 0;
+  std::int64_t shown_ = 0, delay_ticks_ = 0;
+  bool spaced_60_ = false;
+  std::uint8_t glitch_ = 0;
+};
+
+/// The probes of a rig, by its plant.
+template <class Plant>
+struct ProbesFor {
+  using type = SectorProbes<typename Plant::Real>;
+};
+template <class Real>
+struct ProbesFor<plant::general::Plant<Real>> {
+  using type = MountedProbes<Real>;
+};
+
+}  // namespace sixstep::rig

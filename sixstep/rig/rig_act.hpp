@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the rig does at one instant, in the order of model.md 4b: late Hall edge, scenario step, control tick, PWM edge,
+// comparator. Part of rig.hpp.
+#pragma once
+#include "sixstep/rig/rig.hpp"
+
+namespace sixstep::rig {
+
+/// All that is due now, decided by the clocks alone: late Hall edge, scenario step, control tick, PWM edge, comparator,
+/// repeated until nothing is due. The gates follow at the end, so that a leg never sees an order of things at
+/// one instant.
+template <class Real, class Firmware, class Plant>
+bool Rig<Real, Firmware, Plant>::act() {
+  ticked_ = false;
+  // mutant: now_ < due_ && !moved_ && !watching() => now_ < due_ && !watching()
+  if (now_ < due_ && !moved_ && !watching()) return true;
+  return act_on_due();
+}
+
+template <class Real, class Firmware, class Plant>
+bool Rig<Real, Firmware, Plant>::act_on_due() {
+  if (moved_) due_ = next_due();
+  moved_ = false;
+  do {
+    while (fault_ == Fault::none && !(now_ < due_)) {
+      // mutant: !do_timeline() && !do_tick() => !do_tick() && !do_timeline()
+      if (!show_probes() && !do_timeline() && !do_tick() && !do_commutation() && modulator_.act(now_))
+        count(EventKind::pwm_edge);
+      due_ = next_due();
+    }
+  } while (fault_ == Fault::none && compared());
+  if (fault_ == Fault::none && !plant_.set_gates(wires_.at_phases(modulator_.gates())))
+    fault_ = Fault::shoot_through;
+  return fault_ == Fault::none;
+}
+
+template <class Real, class Firmware, class Plant>
+bool Rig<Real, Firmware, Plant>::do_tick() {
+  if (now_ < next_tick_) return false;
+  if (board_.sampled_in_middle) return do_half_tick();
+  next_tick_.ticks += board_.modulator.period_ticks;
+  warm_up();
+  control_step(true);
+  skip_idle_ticks();
+  count(EventKind::tick);
+  return ticked_ = true;
+}
+
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::control_step(bool starts_period) {
+  if (moving_) follow_waveform();
+  const plant::State<Real>& state = wires_.at_legs(plant_.state());
+  const plant::Legs& legs = wires_.at_legs(plant_.mode().legs);
+  SampleInstant<Real> instant{state,
+                              legs,
+                              plant_.constants().pole_pairs,
+                              now_,
+                              static_cast<std::uint64_t>(event_count(EventKind::tick)),
+                              chip_pins(),
+                              reversed_};
+  if constexpr (six_step) instant.duty = modulator_.command().duty;
+  if constexpr (has_front_end)
+    if (front_end_.follows()) instant.seen = &front_end_.reading();
+  if constexpr (looks_at_terminals) show_terminals();
+  const auto& answer = firmware_.tick(instant, setpoint_);
+  if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
+  if (!answer.enabled) let_go();
+  BoardAnswer command = widened(answer, board_.bases);
+  bool reversed = false;
+  if constexpr (six_step) reversed = firmware_.reversed();
+  if (board_.delayed) {
+    std::swap(command, pending_);
+    // mutant: std::swap(reversed, pending_reversed_); => nothing
+    std::swap(reversed, pending_reversed_);
+  }
+  if (board_.sampled_in_middle) {
+    loaded_ = command;
+    loaded_reversed_ = reversed;
+    return;
+  }
+  reversed_ = reversed;
+  if constexpr (six_step)
+    if (!starts_period) return modulator_.rearm(now_, command);
+  modulator_.start_period(now_, command);
+}
+
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::apply(int id) {
+  using namespace plant;
+  if constexpr (has_crossings)
+    if (id >= crossing) return pass_crossing(id - crossing);
+  if constexpr (can_be_askew)
+    if (id >= probe_ahead)
+      return pass_probe_edge(id == probe_ahead ? plant::ProbeEdge::ahead : plant::ProbeEdge::behind);
+  if (id >= guard::first_free) {
+    count(EventKind::comparator);
+    moved_ = true;
+    if constexpr (six_step) trip(id - guard::first_free);
+    return;
+  }
+  if (id < guard::standstill) count(EventKind::diode_off);
+  if (id == guard::standstill) count(EventKind::standstill);
+  if (id == guard::breakaway_forward || id == guard::breakaway_backward) count(EventKind::breakaway);
+  if (!plant_.apply(id)) {
+    if constexpr (requires { plant_.beyond_model(); })
+      if (plant_.beyond_model()) {
+        fault_ = Fault::beyond_model;
+        moved_ = true;
+      }
+    return;
+  }
+  sector_edge();
+  moved_ = true;
+}
+
+}  // namespace sixstep::rig

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a chip makes of an encoder or a resolver by the controller's own blocks (control/sensing/): speed, position, and the
+// Hall code of the sector that it takes the rotor to be in. What is commutated is what is seen; of a sensor on the load's side
+// that is what the Hall probes show, and speed and position are told times the gear, as those of the motor's shaft.
+#pragma once
+#include "sixstep/base/angle.hpp"
+#include "sixstep/control/commutation.hpp"
+#include "sixstep/control/drive.hpp"
+#include "sixstep/control/sensing/gray.hpp"
+#include "sixstep/control/sensing/pulse_speed.hpp"
+#include "sixstep/control/sensing/quadrature.hpp"
+#include "sixstep/control/sensing/resolver.hpp"
+#include "sixstep/rig/bases.hpp"
+#include "sixstep/rig/raw_unit.hpp"
+#include "sixstep/rig/registers.hpp"
+
+namespace sixstep::rig {
+
+template <class Scalar>
+class RotorDecoder {
+ public:
+  RotorDecoder(const SensorsConfig& config, const Bases& bases, const plant::ShaftAngle<double>& at);
+
+  /// `now` is the capturing timer's count.
+  void sense(control::Measurement<Scalar>& m, const Sample& s, ShaftPorts& ports, std::uint32_t now);
+
+ private:
+  void of_encoder(control::Measurement<Scalar>& m, ShaftPorts& ports, std::uint32_t now);
+  void of_absolute(control::Measurement<Scalar>& m, const ShaftPorts& ports);
+  void of_resolver(control::Measurement<Scalar>& m, const Sample& s, ShaftPorts& ports);
+  void of_converter(control::Measurement<Scalar>& m, const TrackingConverter& converter);
+  /// Of turns and the angle in the last one: 2^-16 turn to a unit.
+  void place(control::Measurement<Scalar>& m, const control::UnwrappedAngle& at);
+  void commutate_at(control::Measurement<Scalar>& m, control::BinaryAngle electrical) const {
+    if (!on_load_) m.hall = control::hall_of_sector(control::sector_of_angle(electrical));
+  }
+  void set_speeds(const SensorsConfig& config, const Bases& bases);
+  void set_resolver(const SensorsConfig& config, const Bases& bases, const control::UnwrappedAngle& at);
+
+  std::uint8_t pole_pairs_ = 1;
+  bool on_load_ = false;
+  control::Gain<Scalar> deg_per_unit_{};
+  control::QuadratureConfig quadrature_{};
+  control::QuadratureState quarters_{};
+  control::PulseSpeedConfig<Scalar> pulse_config_{};
+  control::PulseSpeedState pulses_{};
+  std::int64_t counted_ = 0;
+  control::GrayConfig<Scalar> gray_config_{};
+  control::GrayState gray_{};
+  control::ResolverConfig<Scalar> resolver_config_{};
+  control::ResolverState resolver_{};
+  control::Gain<Scalar> resolver_speed_{};
+  control::UnwrappedAngle seen_{};
+  std::int32_t per_peak_ = 0;  ///< of the resolver's angle, in units of 2^-32 turn
+  std::uint8_t per_turn_ = 1, bits_ = 32;
+  std::int64_t samples_per_peak_ = 1, period_ticks_ = 1;
+  std::int64_t first_ticks_ = -1, last_peak_ = -1;  ///< -1: none yet
+  bool positive_peak_ = true;
+};
+
+namespace detail {
+
+/// A turn's beginnings and the angle in it of a shaft, `times` of which make one turn of the shaft.
+inline control::UnwrappedAngle unwrapped(const plant::ShaftAngle<double>& at, std::int64_t times) {
+  const std::int64_t fine = plant::parts_of_turn(at, std::int64_t{1} << 32);
+  const std::int64_t all = fine * times;
+  return {static_cast<control::BinaryAngle>(static_cast<std::uint64_t>(all)),
+          static_cast<std::int32_t>(all >> 32)};
+}
+
+}  // namespace detail
+
+template <class Scalar>
+RotorDecoder<Scalar>::RotorDecoder(const SensorsConfig& config, const Bases& bases,
+                                   const plant::ShaftAngle<double>& at)
+    : pole_pairs_(static_cast<std::uint8_t>(at.pole_pairs)), on_load_(config.shaft.on_load) {
+  const ShaftGiven& given = config.shaft;
+  per_turn_ = given.kind == ShaftSensor::resolver ? static_cast<std::uint8_t>(given.resolver.pole_pairs)
+                                                  : std::uint8_t{1};
+  deg_per_unit_ =
+      control::Gain<Scalar>(360.0 / 65536 / per_turn_ * given.gear / bases.position_deg / raw_unit<Scalar>());
+  seen_ = detail::unwrapped(at, per_turn_);
+  set_speeds(config, bases);
+  if (given.kind == ShaftSensor::encoder) {
+    quadrature_ = control::quadrature_of_lines(static_cast<std::uint32_t>(given.lines));
+    counted_ = plant::parts_of_turn(at, 4 * given.lines);
+    quarters_.referenced = given.referenced;
+    if (given.referenced) {
+      const std::int64_t turn = 4 * given.lines;
+      quarters_.in_turn = static_cast<std::uint32_t>((counted_ % turn + turn) % turn);
+      quarters_.turns = seen_.turns;
+    }
+  }
+  if (given.kind == ShaftSensor::absolute) gray_.position.turns = seen_.turns;
+  if (given.kind == ShaftSensor::resolver) set_resolver(config, bases, seen_);
+}
+
+template <class Scalar>
+void RotorDecoder<Scalar>::set_speeds(const SensorsConfig& config, const Bases& bases) {
+  const ShaftGiven& given = config.shaft;
+  const double turn_rad = 2 * base::pi * given.gear, unit_rad = turn_rad / 0x1p32;
+  if (given.kind == ShaftSensor::encoder)
+    pulse_config_ = {control::TickRatio<Scalar>(turn_rad / static_cast<double>(4 * given.lines) *
+                                                config.capture_Hz / bases.speed_rad_s),
+                     static_cast<std::uint32_t>(config.timeout_s * config.capture_Hz)};
+  if (given.kind == ShaftSensor::absolute) {
+    gray_config_.bits = static_cast<std::uint8_t>(given.bits);
+    gray_config_.span = static_cast<std::uint8_t>(given.speed_samples);
+    gray_config_.speed_per_unit = control::Gain<Scalar>(unit_rad / (given.speed_samples * config.period_s) /
+                                                        bases.speed_rad_s / raw_unit<Scalar>());
+  }
+  if (given.kind != ShaftSensor::resolver) return;
+  const double step_s = given.reading == ResolverReading::tracking ? 1.0 / given.converter_Hz
+                                                                   : given.samples_per_peak * config.period_s;
+  resolver_speed_ =
+      control::Gain<Scalar>(unit_rad / step_s / per_turn_ / bases.speed_rad_s / raw_unit<Scalar>());
+}
+
+/// The loop has followed the shaft before the run. At the amplitude expected both signals are 0.6.
+template <class Scalar>
+void RotorDecoder<Scalar>::set_resolver(const SensorsConfig& config, const Bases&,
+                                        const control::UnwrappedAngle& at) {
+  const ShaftGiven& given = config.shaft;
+  const AdcPath adc{.bits = 12, .range = 1.25 * given.resolver.amplitude_V};
+  const double per_count = 0.6 * adc.lsb() / (2 * given.resolver.amplitude_V);
+  resolver_config_.cos_per_count = resolver_config_.sin_per_count =
+      control::Gain<Scalar>(per_count / raw_unit<Scalar>());
+  resolver_config_.loop = given.tracking;
+  resolver_.loop.angle = at.angle;
+  bits_ = static_cast<std::uint8_t>(given.bits);
+  samples_per_peak_ = given.samples_per_peak;
+  period_ticks_ = sim::to_instant(config.period_s).ticks;
+}
+
+template <class Scalar>
+void RotorDecoder<Scalar>::sense(control::Measurement<Scalar>& m, const Sample& s, ShaftPorts& ports,
+                                 std::uint32_t now) {
+  switch (ports.given().kind) {
+    case ShaftSensor::none:
+      return;
+    case ShaftSensor::encoder:
+      return of_encoder(m, ports, now);
+    case ShaftSensor::absolute:
+      return of_absolute(m, ports);
+    case ShaftSensor::resolver:
+      return ports.given().reading == ResolverReading::tracking ? of_converter(m, ports.converter())
+                                                                : of_resolver(m, s, ports);
+  }
+}
+
+template <class Scalar>
+void RotorDecoder<Scalar>::place(control::Measurement<Scalar>& m, const control::UnwrappedAngle& at) {
+  const auto units = static_cast<std::int32_t>(static_cast<std::uint32_t>(at.turns) << 16 | at.angle >> 16);
+  m.position_deg = control::AngleTraits<Scalar>::scaled(units, deg_per_unit_);
+}
+
+/// Before the index is passed the Hall probes say where the rotor is; each later one mends what was missed.
+template <class Scalar>
+void RotorDecoder<Scalar>::of_encoder(control::Measurement<Scalar>& m, ShaftPorts& ports, std::uint32_t now) {
+  const auto moved = static_cast<std::int32_t>(ports.quarters() - counted_);
+  counted_ = ports.quarters();
+  if (moved != 0) {
+    control::quadrature_moved(quadrature_, quarters_, moved);
+    control::pulse_edge(pulses_, moved, static_cast<std::int8_t>(ports.edge_direction()), ports.edge_time());
+  }
+  if (ports.index_passed()) {
+    const std::int64_t turn = quadrature_.counts;
+    const std::int64_t in_turn = (ports.since_index() % turn + turn) % turn;
+    control::quadrature_index(quadrature_, quarters_, static_cast<std::uint32_t>(in_turn));
+  }
+  m.speed_rad_s = control::pulse_speed(pulse_config_, pulses_, now);
+  const control::BinaryAngle angle = control::quadrature_angle(quadrature_, quarters_);
+  place(m, {angle, quarters_.turns});
+  if (quarters_.referenced) commutate_at(m, control::electrical_angle(angle, pole_pairs_));
+}
+
+template <class Scalar>
+void RotorDecoder<Scalar>::of_absolute(control::Measurement<Scalar>& m, const ShaftPorts& ports) {
+  const control::GrayReading<Scalar> reading = control::gray_step(gray_config_, gray_, ports.code());
+  m.speed_rad_s = reading.speed;
+  place(m, reading.position);
+  commutate_at(m, control::electrical_angle(reading.position.angle, pole_pairs_));
+}
+
+/// The chip's loop has followed the windings up to when it was read.
+template <class Scalar>
+void RotorDecoder<Scalar>::of_converter(control::Measurement<Scalar>& m, const TrackingConverter& converter) {
+  control::unwrap(seen_, converter.angle());
+  m.speed_rad_s = control::AngleTraits<Scalar>::scaled(converter.speed(), resolver_speed_);
+  place(m, seen_);
+  commutate_at(m, control::electrical_angle(seen_.angle, static_cast<std::uint8_t>(pole_pairs_ / per_turn_)));
+}
+
+/// What a peak tells belongs to the middle between it and the peak before: half a step further is now. Between peaks the
+/// angle goes on at its speed. A setpoint that is answered at once, between two samples, is no peak.
+template <class Scalar>
+void RotorDecoder<Scalar>::of_resolver(control::Measurement<Scalar>& m, const Sample& s, ShaftPorts& ports) {
+  if (first_ticks_ < 0) first_ticks_ = s.at.ticks;
+  const std::int64_t passed = s.at.ticks - first_ticks_;
+  if (passed % (samples_per_peak_ * period_ticks_) == 0 && passed != last_peak_) {
+    last_peak_ = passed;
+    const control::ResolverCounts counts = ports.resolver_counts(s.shaft, s.at, s.number);
+    const control::ResolverReading<Scalar> reading =
+        control::resolver_step(resolver_config_, resolver_, counts, positive_peak_);
+    positive_peak_ = !positive_peak_;
+    per_peak_ = reading.speed;
+    control::unwrap(seen_, resolver_.loop.angle);
+  }
+  // loop.angle is that of the next middle, a whole step behind the one just told.
+  const std::int64_t since = passed / period_ticks_ % samples_per_peak_;
+  const std::int32_t on = per_peak_ / static_cast<std::int32_t>(samples_per_peak_);
+  control::UnwrappedAngle at = seen_;
+  control::unwrap(at, seen_.angle + static_cast<control::BinaryAngle>(on * static_cast<std::int32_t>(since) -
+                                                                      per_peak_ / 2));
+  at.angle = control::quantised(at.angle, bits_);
+  m.speed_rad_s = control::AngleTraits<Scalar>::scaled(per_peak_, resolver_speed_);
+  place(m, at);
+  commutate_at(m, control::electrical_angle(at.angle, static_cast<std::uint8_t>(pole_pairs_ / per_turn_)));
+}
+
+}  // namespace sixstep::rig

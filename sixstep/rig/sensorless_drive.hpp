@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// The firmware of a drive without a rotor sensor (control/sensorless/): beside those of firmware.hpp it looks at the three
+// terminals at each sample, and asks the rig for a timer's interrupt between two ticks.
+//
+//                     a tick is given                         a compare match         a fault
+//   SensorlessDrive   terminals and bus as counts, currents   sensorless_drive_       bridge off, starts again; after so
+//                     as SensedDrive                          commutate               many losses in a row off for good
+//
+// Terminals and bus hang at like dividers and converters: sensors.bus says which. The timer is sensors.capture_Hz. Where pulses
+// are to ask how the rotor stands (control/commissioning/pulse_start.hpp), it reads the counts of the currents, too.
+#pragma once
+#include "sixstep/control/commissioning/pulse_start.hpp"
+#include "sixstep/rig/firmware.hpp"
+
+namespace sixstep::rig {
+
+template <class Scalar>
+class SensorlessDrive {
+ public:
+  using Number = Scalar;
+  using Command = control::BridgeCommand<Scalar>;
+  using Config = control::PulsedDriveConfig<Scalar>;
+  static constexpr bool fault_ends_run = false;
+  /// Part of the period that the pair must be on for its terminals to be held against the command.
+  static constexpr double surely_on = 0.05;
+
+  SensorlessDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
+      : config_(config),
+        sensors_(board.sensors, board.bases, power_up),
+        bases_(board.bases),
+        capture_Hz_(board.sensors.capture_Hz) {}
+
+  /// The terminals as they are at the sample that is about to come, V.
+  template <class Real>
+  void look_at_terminals(const plant::PerLeg<Real>& u) {
+    for (std::size_t k = 0; k < 3; ++k) terminal_V_[k] = dead_[k] ? 0.0 : static_cast<double>(u[k]);
+  }
+  /// The divider of a leg breaks: it reads 0 from now on.
+  void break_divider(std::size_t leg) { dead_[leg] = true; }
+
+  template <class Real>
+  const Command& tick(const SampleInstant<Real>& instant, double setpoint) {
+    const Sample sample = sample_of(instant);
+    control::PulsedDriveInput<Scalar> input{};
+    control::SensorlessDriveInput<Scalar>& seen = input.drive;
+    seen.measured = ideal_measurement<Scalar>(instant, bases_);
+    seen.hall_pins = instant.pins;
+    seen.measured.hall = control::hall_of_sector(rotor().sector);
+    sensors_.sense(seen.measured, sample);
+    Registers& registers = sensors_.registers();
+    for (std::size_t k = 0; k < 3; ++k)
+      seen.terminals.u[k] = registers.terminal_counts(k, terminal_V_[k], sample.number);
+    if (config_.pulses.pulse_ticks > 0)
+      for (std::size_t k = 0; k < 3; ++k)
+        input.current_counts[k] = registers.current_counts(k, sample.i_A[k], sample.number);
+    seen.terminals.bus = registers.bus_counts(sample);
+    seen.terminals.at = registers.counter(instant.at);
+    seen.on = config_.drive.sensorless.crossing.seen == control::NeutralSeen::on_time && command().enabled &&
+              instant.duty > surely_on;
+    const bool asks = state_.pulsing;
+    control::pulsed_drive_step(config_, state_, input, {from_si<Scalar>(setpoint, bases_.setpoint)},
+                               telemetry_);
+    if (asks && !state_.pulsing && !state_.found.seen) ++unseen_;
+    note_losses(instant.at);
+    find_next(instant.at);
+    return command();
+  }
+  void captured(std::uint8_t pins, const sim::Instant& at) { sensors_.hall_edge(pins, at); }
+  const Command& hall_interrupt(std::uint8_t pins, const sim::Instant& at) {
+    if (control::sensorless_drive_hall(config_.drive, state_.drive, pins, sensors_.registers().counter(at)))
+      sensors_.commutated();
+    find_next(at);
+    return command();
+  }
+  /// When the timer's compare match comes.
+  const sim::Instant& next_commutation() const { return next_; }
+  const Command& commutation_interrupt(const sim::Instant& at) {
+    control::sensorless_drive_commutate(config_.drive, state_.drive, rotor().clock.next);
+    sensors_.commutated();
+    find_next(at);
+    return command();
+  }
+  void request_run(bool) {}
+  void request_clear() {}
+  void retune(const Tuning<Config>& tuning) {
+    config_.pulses = tuning.config.pulses;
+    control::retune(config_.drive, state_.drive, tuning.config.drive);
+    bases_.setpoint = tuning.setpoint_unit;
+  }
+
+  control::Mode mode() const { return config_.drive.drive.mode; }
+  bool reversed() const { return state_.drive.drive.reversed; }
+  bool open_loop() const { return false; }
+  bool follows_setpoint_at_once() const { return false; }
+  const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
+  Diagnosis diagnosis() const {
+    return {.hall_line = source().line,
+            .at = lost_at_,
+            .losses = losses_,
+            .lost = rotor().lock.last,
+            .gave_up = rotor().phase == control::SensorlessPhase::gave_up,
+            .unseen = unseen_,
+            .north = state_.found.north_16 / 16.0,
+            .certain = static_cast<double>(config_.pulses.certain)};
+  }
+  Registers& registers() { return sensors_.registers(); }
+  /// What it knows of the rotor, and who commutates.
+  const control::SensorlessState& rotor() const { return state_.drive.sensorless; }
+  const control::PositionSourceState& source() const { return state_.drive.source; }
+  /// What the pulses said, and whether they are at work.
+  const control::PulsedDriveState<Scalar>& start() const { return state_; }
+
+ private:
+  const Command& command() const { return state_.drive.drive.command; }
+  /// lock.losses counts those in a row, and begins anew.
+  void note_losses(const sim::Instant& now) {
+    const int in_a_row = rotor().lock.losses;
+    if (in_a_row > in_a_row_) {
+      ++losses_;
+      lost_at_ = now;
+    }
+    in_a_row_ = in_a_row;
+  }
+  void find_next(const sim::Instant& now) {
+    std::uint32_t at = 0;
+    next_ = sim::Instant::never();
+    if (!control::next_commutation(state_.drive, at)) return;
+    const std::uint32_t counts = at - sensors_.registers().counter(now);
+    if (counts >= 0x80000000u)
+      next_ = now;
+    else
+      next_ = now.plus_ticks(static_cast<double>(counts) * (sim::ticks_per_second / capture_Hz_));
+  }
+
+  Config config_;
+  Sensors<Scalar> sensors_;
+  Bases bases_;
+  double capture_Hz_;
+  double terminal_V_[3]{};
+  bool dead_[3]{};
+  sim::Instant next_ = sim::Instant::never(), lost_at_{};
+  int losses_ = 0, in_a_row_ = 0, unseen_ = 0;
+  control::PulsedDriveState<Scalar> state_{};
+  control::Telemetry<Scalar> telemetry_{};
+};
+
+}  // namespace sixstep::rig

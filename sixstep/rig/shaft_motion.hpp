@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the shaft that a sensor stands on turns within one segment: the rotor's own, or the load's behind gear and coupling.
+#pragma once
+#include <cmath>
+
+#include "sixstep/plant/encoder.hpp"
+#include "sixstep/plant/expansion.hpp"
+#include "sixstep/sim/instant.hpp"
+
+namespace sixstep::rig {
+
+/// The load's shaft as the general kernel has it: theta_m/n - twist. Without a speed the sensor is on the rotor.
+template <class Real>
+struct LoadSide {
+  const series::Coefficients<Real>* speed = nullptr;
+  const series::Coefficients<Real>* twist = nullptr;  ///< of an elastic shaft
+  Real inv_gear = 1;
+};
+
+/// One angle in rad, over all turns, as whole sixths and the rest. A double keeps 1e-12 rad over a thousand turns.
+template <class Real>
+plant::ShaftAngle<Real> in_sixths(Real theta_rad) {
+  const Real whole = std::floor(theta_rad / Real(base::sector_rad));
+  return {static_cast<std::int64_t>(whole), theta_rad - whole * Real(base::sector_rad), 1};
+}
+
+/// The shaft over one segment, of which s in (0, 1] passes.
+template <class Real>
+struct ShaftMotion {
+  const plant::Expansion<Real>& y;
+  std::int64_t sector = 0;
+  std::int64_t pole_pairs = 1;
+  Real s = 1;
+  sim::Instant from{}, to{}, next_sample{};
+  LoadSide<Real> load{};
+
+  plant::ShaftAngle<Real> angle(Real at) const {
+    const Real x = series::evaluate(y.x, y.degree, at);
+    if (load.speed == nullptr) return {sector, x, pole_pairs};
+    const Real rotor =
+        (static_cast<Real>(sector) * Real(base::sector_rad) + x) / static_cast<Real>(pole_pairs);
+    const Real twist = load.twist == nullptr ? Real(0) : series::evaluate(*load.twist, y.degree, at);
+    return in_sixths(rotor * load.inv_gear - twist);
+  }
+  Real speed(Real at) const {
+    return series::evaluate(load.speed == nullptr ? y.w : *load.speed, y.degree, at);
+  }
+  /// Which part of the segment an instant within it is.
+  Real part(const sim::Instant& at) const {
+    return y.h > 0 ? static_cast<Real>(sim::seconds_between(from, at)) / y.h : Real(0);
+  }
+};
+
+}  // namespace sixstep::rig

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// A resolver-to-digital converter: a chip whose loop of type 2 follows the windings by itself, at its own clock, and gives out
+// an angle of so many bits and the speed of its integrator (model.md 10).
+//
+//   detected   tan(phi - theta) of both demodulated windings; beyond 45 degrees 1 in the direction of the shorter way
+//   followed   control/sensing/tracking.hpp, per clock of the chip
+//
+// Its demodulator is taken as ideal: the ripple at twice the excitation, which chips filter, is not there, and a phase of the
+// windings against the excitation, which they have in common, cancels.
+#pragma once
+#include "sixstep/base/random.hpp"
+#include "sixstep/control/sensing/resolver.hpp"
+#include "sixstep/rig/shaft_given.hpp"
+#include "sixstep/rig/shaft_motion.hpp"
+
+namespace sixstep::rig {
+
+class TrackingConverter {
+ public:
+  TrackingConverter() = default;
+  /// It has followed the shaft before the run.
+  TrackingConverter(const ShaftGiven& given, std::uint64_t seed, const plant::ShaftAngle<double>& at)
+      : loop_{given.tracking},
+        resolver_(given.resolver),
+        noise_(given.noise_V / given.resolver.amplitude_V),
+        latency_s_(given.latency_s),
+        seed_(seed),
+        period_ticks_(sim::to_instant(1.0 / given.converter_Hz).ticks),
+        bits_(static_cast<std::uint8_t>(given.bits)) {
+    const auto all = static_cast<std::uint64_t>(plant::parts_of_turn(at, std::int64_t{1} << 32));
+    state_.angle = static_cast<control::BinaryAngle>(all * static_cast<std::uint64_t>(resolver_.pole_pairs));
+    next_.ticks = period_ticks_;
+    read_ = state_;
+  }
+
+  template <class Real>
+  void follow(const ShaftMotion<Real>& m, int broken_winding) {
+    const sim::Instant latch = m.next_sample.plus_seconds(-latency_s_);
+    bool latches = !(latch < m.from) && !(m.to < latch);
+    while (!(m.to < next_)) {
+      if (latches && latch < next_) {
+        read_ = state_;
+        latches = false;
+      }
+      step(m.angle(m.part(next_)), broken_winding);
+      next_.ticks += period_ticks_;
+    }
+    if (latches) read_ = state_;
+  }
+
+  /// Of the resolver's own turn, as it was read last.
+  control::BinaryAngle angle() const { return control::quantised(read_.angle, bits_); }
+  /// Units of 2^-32 turn of the resolver per clock of the chip.
+  std::int32_t speed() const { return control::tracking_speed(read_); }
+
+ private:
+  template <class Real>
+  void step(const plant::ShaftAngle<Real>& at, int broken_winding) {
+    const plant::ShaftAngle<double> shaft{at.sector, static_cast<double>(at.x), at.pole_pairs};
+    std::array<double, 2> x = plant::resolver_envelope(resolver_, shaft);
+    if (noise_ > 0) {
+      constexpr std::uint64_t stream = std::uint64_t{0x5e502} << 24;
+      x[0] += noise_ * base::normal({seed_, stream, clock_});
+      x[1] += noise_ * base::normal({seed_, stream + 1, clock_});
+    }
+    ++clock_;
+    if (broken_winding > 0) x[static_cast<std::size_t>(broken_winding - 1)] = 0;
+    const control::ResolverSignals<double> signals{x[0], x[1]};
+    control::tracking_step(loop_, state_, control::resolver_error(signals, state_.angle, true));
+  }
+
+  control::TrackingConfig loop_{};
+  control::TrackingState state_{}, read_{};
+  plant::Resolver resolver_{};
+  sim::Instant next_{};
+  double noise_ = 0.0, latency_s_ = 0.0;
+  std::uint64_t seed_ = 0, clock_ = 0;
+  std::int64_t period_ticks_ = 1;
+  std::uint8_t bits_ = 16;
+};
+
+}  // namespace sixstep::rig

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// The wires between board and motor: which phase hangs at each leg, which Hall probe at each pin (model.md 7).
+// The board names legs a, b, c and pins H1, H2, H3; the motor its phases and probes: crossed wires change neither of them.
+// Only a rig on the general kernel has wires that can be crossed; on the lean one they are straight, and cost nothing.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "sixstep/plant/state.hpp"
+
+namespace sixstep::plant::general {
+template <class Real>
+class Plant;
+}  // namespace sixstep::plant::general
+
+namespace sixstep::rig {
+
+/// Which of three ends hang at the first, the second and the third place: of phases as of probes 1, 2, 3.
+enum class WireOrder : std::uint8_t { abc, bca, cab, acb, cba, bac };
+
+/// The index of the end at each place.
+constexpr std::array<std::uint8_t, 3> ends_of(WireOrder order) {
+  constexpr std::array<std::uint8_t, 3> ends[] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
+                                                  {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+  return ends[static_cast<std::size_t>(order)];
+}
+
+/// What is at phases, as the legs have it, and the other way round; likewise probes and pins.
+struct Wiring {
+  WireOrder phases = WireOrder::abc;  ///< at legs a, b, c
+  WireOrder probes = WireOrder::abc;  ///< at pins H1, H2, H3
+  std::uint8_t inverted = 0;          ///< pins that read their probe inverted, as bits of a Hall code
+
+  bool operator==(const Wiring&) const = default;
+
+  /// Of the motor at this leg.
+  std::size_t phase(std::size_t leg) const { return ends_of(phases)[leg]; }
+
+  /// Quantities of the phases, ordered by legs.
+  template <class T>
+  std::array<T, 3> at_legs(const std::array<T, 3>& of_phases) const {
+    return {of_phases[phase(0)], of_phases[phase(1)], of_phases[phase(2)]};
+  }
+  plant::Gates at_legs(const plant::Gates& of_phases) const {
+    plant::Gates legs;
+    for (std::size_t k = 0; k < 3; ++k) {
+      legs.high[k] = of_phases.high[phase(k)];
+      legs.low[k] = of_phases.low[phase(k)];
+    }
+    return legs;
+  }
+  /// The motor with its currents as the board's legs carry them; speed, angle and bus as they are.
+  template <class Real>
+  plant::State<Real> at_legs(const plant::State<Real>& state) const {
+    plant::State<Real> seen = state;
+    seen.i = at_legs(state.i);
+    seen.i_low = at_legs(state.i_low);
+    return seen;
+  }
+  plant::Gates at_phases(const plant::Gates& of_legs) const {
+    plant::Gates phases_gates;
+    for (std::size_t k = 0; k < 3; ++k) {
+      phases_gates.high[phase(k)] = of_legs.high[k];
+      phases_gates.low[phase(k)] = of_legs.low[k];
+    }
+    return phases_gates;
+  }
+  /// H1 H2 H3 as bits 2, 1, 0, of probes as of pins.
+  std::uint8_t at_pins(std::uint8_t probe_code) const {
+    unsigned pins = 0;
+    for (unsigned pin = 0; pin < 3; ++pin)
+      pins |= (probe_code >> (2U - ends_of(probes)[pin]) & 1U) << (2U - pin);
+    return static_cast<std::uint8_t>(pins ^ inverted);
+  }
+};
+
+/// Each leg at its phase, each pin at its probe: nothing is turned into anything.
+struct StraightWiring {
+  static constexpr std::size_t phase(std::size_t leg) { return leg; }
+  template <class T>
+  static constexpr const T& at_legs(const T& of_phases) {
+    return of_phases;
+  }
+  static constexpr const plant::Gates& at_phases(const plant::Gates& of_legs) { return of_legs; }
+  static constexpr std::uint8_t at_pins(std::uint8_t probe_code) { return probe_code; }
+};
+
+/// The wires of a rig, by its plant.
+template <class Plant>
+struct WiringFor {
+  using type = StraightWiring;
+};
+template <class Real>
+struct WiringFor<plant::general::Plant<Real>> {
+  using type = Wiring;
+};
+
+}  // namespace sixstep::rig

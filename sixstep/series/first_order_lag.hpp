@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// A first-order lag over one segment, exactly: dx/dt = (u - x)/tau with u a polynomial in s (model.md 4).
+//
+//   x(s) - x(0) = w_0 (u_0 - x(0)) + sum_(j >= 1) w_j u_j s^j
+//   w_j = z integral_0^1 exp(-z (1 - r)) r^j dr,   z = s h/tau
+//
+// Each w_j lies in [0, 1], so that nothing cancels, be the segment a billionth of tau or tau one of the segment. One set of
+// weights serves all inputs that share tau.
+#pragma once
+#include "sixstep/base/elementary.hpp"
+#include "sixstep/series/polynomial.hpp"
+
+namespace sixstep::series {
+
+using LagWeights = Coefficients<double>;
+
+/// By parts w_j = 1 - (j/z) w_(j-1), which damps its error where j <= z; the other way round it does so where j > z. So it
+/// is taken up to z, and down from an order that no error comes through from. z may be infinite: no lag, all weights 1.
+inline LagWeights lag_weights(double z, int degree) {
+  LagWeights w{};
+  const int up = z < degree ? static_cast<int>(z) : degree;
+  int last = -1;  // of the orders found from below
+  if (up > 0) {
+    w[0] = 1 - base::exp(-z);
+    for (int j = 1; j <= up; ++j) w[j] = 1 - j / z * w[j - 1];
+    last = up;
+  }
+  if (last == degree) return w;
+  // The first guess is right to 1e-3 of itself; z^n/((d + 1)...(d + n)) of that is left, below 1e-18 for all z < d <= 16.
+  const int from = max_degree + 10 + static_cast<int>(2.5 * z);
+  double next = z / (z + from + 1);
+  for (int j = from; j > last + 1; --j) {
+    if (j <= degree) w[j] = next;
+    next = z / j * (1 - next);
+  }
+  w[last + 1] = next;
+  return w;
+}
+
+/// How far a lag that stands at x moves while its input runs over [0, s]; the weights are those of z = s h/tau.
+template <class Real>
+inline double lag_increment(const Coefficients<Real>& u, int degree, double s, const LagWeights& w,
+                            double x) {
+  double sum = 0;
+  for (int j = degree; j >= 1; --j) sum = (sum + w[j] * static_cast<double>(u[j])) * s;
+  // mutant: static_cast<double>(u[0]) - x => static_cast<double>(u[0])
+  return w[0] * (static_cast<double>(u[0]) - x) + sum;
+}
+
+}  // namespace sixstep::series

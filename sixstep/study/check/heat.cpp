@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/check/heat.hpp"
+
+#include <string>
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/thermal.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+std::string number(double v) { return base::rounded(v, 6); }
+
+void check_energies(const Bridge& b, base::Problems& out) {
+  const bool energies = b.turn_on_J > 0 || b.turn_off_J > 0 || b.recovery_J > 0;
+  const bool point = b.energies_at_V > 0 && b.energies_at_A > 0;
+  if (energies != point)
+    out.push_back({energies ? "bridge.energies_at_V" : "bridge.turn_on_J", "",
+                   energies
+                       ? "and bridge.energies_at_A are missing: energies are given at a voltage and a current"
+                       : "is missing: energies_at_V and energies_at_A alone say nothing",
+                   "give turn_on_J, turn_off_J, recovery_J, energies_at_V and energies_at_A"});
+  const bool charges = b.gate_source_charge_C > 0 || b.gate_drain_charge_C > 0;
+  if (charges != (b.gate_current_A > 0))
+    out.push_back({"bridge.gate_current_A", number(b.gate_current_A),
+                   "and the gate's charges belong together",
+                   "give gate_current_A and gate_drain_charge_C, or neither"});
+  if (charges && energies)
+    out.push_back({"bridge.gate_drain_charge_C", number(b.gate_drain_charge_C),
+                   "says again what turn_on_J and turn_off_J say", "keep one of the two ways"});
+}
+
+}  // namespace
+
+void check_heat(const Scenario& s, base::Problems& out) {
+  check_energies(s.bridge, out);
+  const Heat& h = s.heat;
+  if (h.motor)
+    if (const auto model = design::thermal_model(s.sheet); !model)
+      for (const base::Problem& p : model.problems())
+        out.push_back({"heat.motor", "true", "needs what the motor's sheet does not have: " + p.where,
+                       "add the sheet's thermal lines to the motor file, or give them in [motor_override]"});
+  if (h.devices && !(s.bridge.junction_K_W > 0))
+    out.push_back(
+        {"heat.devices", "true", "needs bridge.junction_K_W", "give the thermal resistance of a switch"});
+  if (!h.devices && s.bridge.on_resistance_percent_K > 0)
+    out.push_back({"bridge.on_resistance_percent_K", number(s.bridge.on_resistance_percent_K),
+                   "acts where junctions warm up only", "set heat.devices = true"});
+  const auto unused = [&](const char* key, const std::optional<double>& value) {
+    if (value && !h.motor)
+      out.push_back({key, number(*value), "is of a motor that warms up, and heat.motor = false",
+                     "set heat.motor = true, or leave it away"});
+  };
+  unused("heat.winding_degC", h.winding_degC);
+  unused("heat.housing_degC", h.housing_degC);
+  if ((h.motor || h.devices) && h.step_s < s.pwm.period_s)
+    out.push_back({"heat.step_s", number(h.step_s), "must not be shorter than pwm.period_s", "lengthen it"});
+}
+
+}  // namespace sixstep::study

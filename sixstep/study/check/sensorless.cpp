@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/check/sensorless.hpp"
+
+#include <string>
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+#include "sixstep/study/scenario/sensors_description.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+/// In the middle of the on-time the pair puts the star point at half of the bus.
+void check_sample(const Scenario& s, base::Problems& out) {
+  const std::string why =
+      "leaves the sample outside of the on-time, in which the floating terminal shows its back-EMF";
+  if (s.pwm.alignment != Alignment::centre)
+    out.push_back({"pwm.alignment", "\"edge\"", why, "set alignment = \"centre\""});
+  if (s.pwm.sample != SampleAt::middle)
+    out.push_back({"pwm.sample", "\"start\"", why, "set sample = \"middle\""});
+}
+
+void check_loops(const Scenario& s, base::Problems& out) {
+  if (s.control.mode == control::Mode::position)
+    out.push_back({"control.mode", "\"position\"",
+                   "needs a rotor that is seen where it stands, and a back-EMF is not",
+                   "control speed, current or duty, or set control.drive = \"lean\" and sensors.rotor"});
+  if (s.control.current.type == CurrentLoopType::hysteresis)
+    out.push_back({"control.current.type", "\"hysteresis\"",
+                   "switches whenever its band is left, and no sample of the terminals finds an on-time",
+                   "set type = \"pi\""});
+}
+
+void check_source(const Scenario& s, base::Problems& out) {
+  const RotorSensing rotor = s.sensors.rotor;
+  if (rotor != RotorSensing::ideal && rotor != RotorSensing::hall)
+    out.push_back(
+        {"sensors.rotor", std::string(base::word(rotor_sensing_choices, rotor)),
+         "is nothing that the sensorless drive can be handed over from: it reads Hall probes or none",
+         "leave it away, set rotor = \"hall\", or control.drive = \"lean\""});
+  const bool asked = s.control.sensorless.commutates == Commutates::hall;
+  if (asked && rotor != RotorSensing::hall)
+    out.push_back({"control.sensorless.commutates", "\"hall\"",
+                   "asks for probes that the board does not read", "set sensors.rotor = \"hall\""});
+}
+
+/// Each pulse is judged by what runs into its pair and out of it.
+void check_start(const Scenario& s, base::Problems& out) {
+  if (s.control.sensorless.starts_by != StartsBy::pulses) return;
+  if (s.sensors.currents == rig::CurrentMeasurement::phases) return;
+  out.push_back({"sensors.currents", std::string(base::word(current_sensing_choices, s.sensors.currents)),
+                 "has no converter per phase, by whose counts the drive judges the pulses that it starts by",
+                 "set currents = \"phases\" and current_range_A, or "
+                 "control.sensorless.starts_by = \"alignment\""});
+}
+
+void check_others(const Scenario& s, base::Problems& out) {
+  if (s.sensors.bus_bandwidth_Hz)
+    out.push_back(
+        {"sensors.bus_bandwidth_Hz", base::written(*s.sensors.bus_bandwidth_Hz),
+         "is of the terminals' dividers, too, and the drive takes what it reads for what is there now",
+         "leave it away"});
+  if (s.sheet.kind == design::MotorKind::linear)
+    out.push_back({"control.drive", "\"sensorless\"", "starts turning motors, and this one is linear",
+                   "set drive = \"lean\" or \"product\""});
+}
+
+}  // namespace
+
+void check_sensorless(const Scenario& s, base::Problems& out) {
+  if (s.control.drive != FirmwareKind::sensorless) {
+    if (s.control.sensorless != Sensorless{})
+      out.push_back({"control.sensorless", "", "is what the sensorless drive does only",
+                     "set control.drive = \"sensorless\", or leave it away"});
+    return;
+  }
+  check_sample(s, out);
+  check_loops(s, out);
+  check_source(s, out);
+  check_start(s, out);
+  check_others(s, out);
+}
+
+}  // namespace sixstep::study

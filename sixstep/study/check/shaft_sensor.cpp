@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/check/shaft_sensor.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/compile/shaft_sensor.hpp"
+#include "sixstep/study/scenario/sensors_description.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+constexpr int least_converter_bits = 10;
+constexpr double most_clocks = 1e9;
+constexpr double most_missed = 1e5;
+
+void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& motor, base::Problems& out) {
+  const Resolver& r = s.sensors.resolver;
+  const auto wrong = [&out](const char* key, const std::string& value, const std::string& limit,
+                            const std::string& cure) {
+    out.push_back({std::string("sensors.resolver.") + key, value, limit, cure});
+  };
+  const bool sampled = r.reading == rig::ResolverReading::sampled,
+             commutates = s.sensors.shaft == SensorShaft::motor;
+  if (motor && commutates && std::fmod(motor->machine.pole_pairs, r.pole_pairs) != 0)
+    wrong("pole_pairs", std::to_string(r.pole_pairs),
+          "does not divide the motor's " + base::written(motor->machine.pole_pairs) +
+              ": one angle of it would stand for several of the winding",
+          "take 1, or a divisor of them");
+  const double step_s = tracking_period_s(s);
+  if (sampled && std::fabs(2 * step_s * r.excitation_Hz - 1) > 1e-9)
+    wrong("excitation_Hz", base::written(r.excitation_Hz),
+          "has a half period of " + base::written(0.5 / r.excitation_Hz) +
+              " s, not a whole number of control periods: samples would miss its peaks",
+          "take " + base::written(0.5 / step_s) + " Hz, or change pwm.period_s");
+  if (!(r.bandwidth_Hz * step_s < 0.5))
+    wrong("bandwidth_Hz", base::written(r.bandwidth_Hz),
+          std::string("must be below half the rate of ") + (sampled ? "the peaks, " : "the chip's clock, ") +
+              base::written(0.5 / step_s) + " Hz",
+          sampled ? "lower it, or raise excitation_Hz" : "lower it, or raise converter_Hz");
+  if (sampled) return;
+  if (r.bits < least_converter_bits)
+    wrong("bits", std::to_string(r.bits), "is fewer than any converter chip has", "take 10, 12, 14 or 16");
+  if (r.latency_s >= s.pwm.period_s)
+    wrong("latency_s", base::written(r.latency_s),
+          "must be below pwm.period_s = " + base::written(s.pwm.period_s),
+          "read the angle out faster, or sample less often");
+  if (s.duration_s * r.converter_Hz > most_clocks)
+    wrong("converter_Hz", base::written(r.converter_Hz),
+          "makes more than 1e9 steps of the chip's loop in duration_s = " + base::written(s.duration_s),
+          "lower one of them");
+}
+
+/// A drive whose speed and position are not from captured Hall edges has no use for their places.
+void check_hall_angle(const Scenario& s, base::Problems& out) {
+  if (s.sensors.hall_angle == rig::HallAngleFrom::sectors) return;
+  std::string word(1, '"');  // GCC 12 warns of a literal before it
+  word += base::word(hall_angle_choices, s.sensors.hall_angle);
+  word += '"';
+  if (s.sensors.rotor != RotorSensing::hall)
+    out.push_back({"sensors.hall_angle", word, "is of Hall probes, and sensors.rotor is not \"hall\"",
+                   "set rotor = \"hall\", or leave it away"});
+  else if (s.control.drive == FirmwareKind::product)
+    out.push_back({"sensors.hall_angle", word, "is not what the product drive does: it goes by sectors",
+                   "set hall_angle = \"sectors\", or control.drive = \"lean\""});
+}
+
+/// What happens to a sensor that is not there.
+void check_shaft_events(const Scenario& s, base::Problems& out) {
+  for (std::size_t n = 0; n < s.at.size(); ++n) {
+    const AtSensors& at = s.at[n].sensors;
+    const std::string where = "at[" + std::to_string(n) + "].sensors.";
+    const auto of = [&](const char* key, RotorSensing sensor, const char* name) {
+      if (s.sensors.rotor != sensor)
+        out.push_back({where + key, "", std::string("is of ") + name + ", and sensors.rotor is another",
+                       "set sensors.rotor = \"" + std::string(base::word(rotor_sensing_choices, sensor)) +
+                           "\", or leave it away"});
+    };
+    if (at.missed_edges) of("missed_edges", RotorSensing::encoder, "an encoder");
+    if (at.broken_winding != Winding::none) of("broken_winding", RotorSensing::resolver, "a resolver");
+    if (!at.bad_track) continue;
+    of("bad_track", RotorSensing::absolute, "an absolute encoder");
+    if (at.bad_track->track > s.sensors.absolute.bits)
+      out.push_back({where + "bad_track.track", std::to_string(at.bad_track->track),
+                     "is more than sensors.absolute.bits = " + std::to_string(s.sensors.absolute.bits),
+                     "name a track that there is"});
+  }
+}
+
+void check_encoder(const Scenario& s, base::Problems& out) {
+  if (s.sensors.encoder.missed_Hz * s.duration_s > most_missed)
+    out.push_back({"sensors.encoder.missed_Hz", base::written(s.sensors.encoder.missed_Hz),
+                   "misses more than 100000 edges in duration_s = " + base::written(s.duration_s),
+                   "lower one of them"});
+}
+
+}  // namespace
+
+void check_shaft_sensor(const Scenario& s, const std::optional<design::MotorModel>& motor,
+                        base::Problems& out) {
+  const RotorSensing rotor = s.sensors.rotor;
+  check_hall_angle(s, out);
+  check_shaft_events(s, out);
+  const bool on_load = s.sensors.shaft == SensorShaft::load;
+  if (rotor == RotorSensing::ideal || rotor == RotorSensing::hall) {
+    if (on_load)
+      out.push_back({"sensors.shaft", "\"load\"",
+                     "is of an encoder or a resolver, and sensors.rotor is neither",
+                     "set rotor = \"encoder\", \"absolute\" or \"resolver\", or shaft = \"motor\""});
+    return;
+  }
+  const std::string word(base::word(rotor_sensing_choices, rotor));
+  if (s.sheet.kind == design::MotorKind::linear)
+    out.push_back({"sensors.rotor", word, "is on the shaft of a turning motor, and this one is linear",
+                   "set rotor = \"hall\" or \"ideal\""});
+  if (!on_load && s.pwm.commutation != CommutationAt::sample)
+    out.push_back({"pwm.commutation", "\"hall-edge\"",
+                   "waits for an interrupt that sensors.rotor = \"" + word + "\" does not give",
+                   "set commutation = \"sample\""});
+  if (rotor == RotorSensing::encoder) check_encoder(s, out);
+  const double latency_s = s.sensors.absolute.latency_s;
+  if (rotor == RotorSensing::absolute && latency_s >= s.pwm.period_s)
+    out.push_back({"sensors.absolute.latency_s", base::written(latency_s),
+                   "must be below pwm.period_s = " + base::written(s.pwm.period_s),
+                   "read the code out faster, or sample less often"});
+  if (rotor == RotorSensing::resolver) check_resolver(s, motor, out);
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// check_shaft_sensor(): what an encoder or a resolver asks of the chip's clock and of the motor.
+#pragma once
+#include <optional>
+
+#include "sixstep/base/problem.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+void check_shaft_sensor(const Scenario& scenario, const std::optional<design::MotorModel>& motor,
+                        base::Problems& out);
+
+}  // namespace sixstep::study

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loops of a scenario's controller: gains as given, or placed on motor and load.
+#include "sixstep/study/compile/loops.hpp"
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/operating_limits.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+/// The loop's gains as given, else by pole placement; the exact design is derived beside given gains too.
+template <class Loop>
+base::Result<LoopGains> loop_gains(const Loop& loop, const std::string& name, const design::ZohPlant& plant,
+                                   double usual_settle_s, double period_s) {
+  LoopGains out;
+  out.loop = name;
+  const double settle = loop.settle_s.value_or(usual_settle_s),
+               damping = loop.damping.value_or(design::usual_damping);
+  base::Result<design::PolePlacement> placed = design::place_poles(plant, settle, damping, period_s);
+  const GivenGains given = given_gains(loop, "control." + name);
+  if (!given.problems.empty()) return given.problems;
+  if (!placed && !given.gains) return placed.problems();
+  if (placed) out.derivation = *placed;
+  out.d1 = given.gains ? given.gains->d1 : placed->gains.d1;
+  out.d0 = given.gains ? given.gains->d0 : placed->gains.d0;
+  out.origin = given.gains ? given.origin : "pole placement from settle_s and damping";
+  return out;
+}
+
+control::Watch watch_of(const CurrentLoop& loop) {
+  if (loop.comparator == Comparator::sampled) return control::Watch::none;
+  return loop.on == HysteresisOn::motor ? control::Watch::motor : control::Watch::phase;
+}
+
+base::Problems add_current_loop(const Scenario& s, const Basis& basis, Tuned& out) {
+  if (s.control.current.type != CurrentLoopType::pi) return {};
+  const design::ZohPlant plant =
+      design::current_plant(2 * basis.motor.machine.R_ohm, 2 * basis.motor.machine.L_H, s.pwm.period_s);
+  base::Result<LoopGains> gains =
+      loop_gains(s.control.current, "current", plant, design::usual_current_settle_s, s.pwm.period_s);
+  if (!gains) return gains.problems();
+  out.drive.current = {gains->d1, gains->d0, basis.bus_V};
+  out.gains.push_back(*gains);
+  return {};
+}
+
+/// What the speed controller's output does to the speed: torque at once, or the bus through the winding,
+/// whose inductance is too fast to count (thesis 6.2.2): J dw/dt = K_t (d U - K_t w)/R - B w.
+design::ZohPlant speed_plant_of(const Scenario& s, const Basis& basis, double torque_limit_Nm) {
+  const plant::Shaft& shaft = basis.shaft;
+  if (s.control.speed.output == SpeedOutput::current)
+    return design::speed_plant(torque_limit_Nm, shaft.J_kg_m2, shaft.B_Nm_s, s.pwm.period_s);
+  const double K_t = basis.motor.K_t_Nm_A, per_V = K_t / (2 * basis.motor.machine.R_ohm);
+  return design::speed_plant(per_V * basis.bus_V, shaft.J_kg_m2, shaft.B_Nm_s + per_V * K_t, s.pwm.period_s);
+}
+
+base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Tuned& out) {
+  const double torque_limit =
+      s.control.speed.torque_limit_Nm.value_or(design::usual_torque_limit_Nm(basis.motor, basis.bus_V));
+  base::Result<LoopGains> gains = loop_gains(s.control.speed, "speed", speed_plant_of(s, basis, torque_limit),
+                                             design::usual_speed_settle_s, s.pwm.period_s);
+  if (!gains) return gains.problems();
+  out.drive.speed = {gains->d1, gains->d0, 1.0};
+  out.gains.push_back(*gains);
+  if (s.control.speed.output == SpeedOutput::duty) {
+    out.drive.speed_control = control::SpeedControl::duty;
+    return {};
+  }
+  out.drive.current_at_full_torque_A = torque_limit / basis.motor.K_t_Nm_A;
+  out.drive.current_limit_A = s.control.current.limit_A.value_or(out.drive.current_at_full_torque_A);
+  // A bound behind the PI that the PI does not know of would let its integral wind up.
+  if (out.drive.current_limit_A < out.drive.current_at_full_torque_A)
+    out.drive.speed.limit = out.drive.current_limit_A / out.drive.current_at_full_torque_A;
+  return {};
+}
+
+base::Problems add_loops(const Scenario& s, const Basis& basis, Tuned& out) {
+  const control::Mode mode = s.control.mode;
+  // A start without a rotor sensor holds a current, whatever comes behind it.
+  const bool starts_blindly = s.control.drive == FirmwareKind::sensorless;
+  if (mode == control::Mode::off || (mode == control::Mode::duty && !starts_blindly)) return {};
+  const bool has_current_loop = mode == control::Mode::current || mode == control::Mode::duty ||
+                                starts_blindly || s.control.speed.output == SpeedOutput::current;
+  if (has_current_loop)
+    if (base::Problems problems = add_current_loop(s, basis, out); !problems.empty()) return problems;
+  if (mode == control::Mode::current || mode == control::Mode::duty) return {};
+  if (base::Problems problems = add_speed_loop(s, basis, out); !problems.empty()) return problems;
+  if (mode == control::Mode::speed) return {};
+  out.drive.position_gain = s.control.position.gain_rad_s_per_deg;
+  const std::optional<double>& limit = s.control.position.speed_limit_rad_s;
+  out.drive.speed_limit_rad_s = limit.value_or(basis.bus_V / basis.motor.K_t_Nm_A);
+  const bool linear = s.sheet.kind == design::MotorKind::linear;
+  out.gains.push_back(
+      {"position", out.drive.position_gain, 0.0,
+       (linear ? "given as gain_m_s_per_mm, for at most " : "given as gain_rad_s_per_deg, for at most ") +
+           base::rounded(out.drive.speed_limit_rad_s, 4) + (linear ? " m/s, " : " rad/s, ") +
+           (limit ? "as given" : "the bus over K_t"),
+       std::nullopt});
+  return {};
+}
+
+}  // namespace
+
+base::Result<Tuned> tuned(const Scenario& s, const Basis& basis) {
+  Tuned out;
+  out.drive.mode = s.control.mode;
+  out.drive.chopping = s.pwm.chopping;
+  out.drive.nominal_bus_V = basis.bus_V;
+  out.drive.current_control = s.control.current.type == CurrentLoopType::pi
+                                  ? control::CurrentControl::pi
+                                  : control::CurrentControl::hysteresis;
+  out.drive.hysteresis = {s.control.current.band_A, watch_of(s.control.current)};
+  if (base::Problems problems = add_loops(s, basis, out); !problems.empty()) return problems;
+  add_extras(s, basis, out.drive);
+  // What a limit can hold is judged on the drive as designed; one of a series that strays from it is run.
+  if (!s.designed_for)
+    if (base::Problems problems = check_limits(s, basis, out.drive); !problems.empty()) return problems;
+  return out;
+}
+
+double current_settling_s(const Scenario& s) {
+  return s.control.current.settle_s.value_or(design::usual_current_settle_s);
+}
+
+template <class Loop>
+GivenGains given_gains(const Loop& loop, const std::string& where) {
+  GivenGains out;
+  const bool d = loop.d1 || loop.d0, k = loop.kp || loop.ki, rule = loop.settle_s || loop.damping;
+  const auto wrong = [&](const char* key, const char* limit, const char* cure) {
+    out.problems.push_back({where + "." + key, "", limit, cure});
+  };
+  if (d && (k || rule))
+    wrong(loop.d1 ? "d1" : "d0",
+          k ? "contradicts kp, ki: the same gains are given twice"
+            : "contradicts settle_s, damping: gains are either given or designed",
+          "keep one of: d1 and d0 | kp and ki | settle_s and damping");
+  else if (k && rule)
+    wrong(loop.kp ? "kp" : "ki", "contradicts settle_s, damping: gains are either given or designed",
+          "keep one of: d1 and d0 | kp and ki | settle_s and damping");
+  else if (d && !(loop.d1 && loop.d0))
+    wrong(loop.d1 ? "d1" : "d0", "is only half of the gains", loop.d1 ? "give d0 too" : "give d1 too");
+  else if (k && !(loop.kp && loop.ki))
+    wrong(loop.kp ? "kp" : "ki", "is only half of the gains", loop.kp ? "give ki too" : "give kp too");
+  else if (d)
+    out = {design::PiGains{*loop.d1, *loop.d0}, "given as d1, d0", {}};
+  else if (k)
+    out = {design::PiGains{*loop.kp, *loop.ki - *loop.kp}, "given as kp, ki", {}};
+  return out;
+}
+template GivenGains given_gains<CurrentLoop>(const CurrentLoop&, const std::string&);
+template GivenGains given_gains<SpeedLoop>(const SpeedLoop&, const std::string&);
+
+}  // namespace sixstep::study

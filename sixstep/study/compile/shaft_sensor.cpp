@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/compile/shaft_sensor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/design/loops/tracking_loop.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+rig::ShaftGiven resolver_given(const Scenario& s) {
+  const Resolver& r = s.sensors.resolver;
+  constexpr double deg = base::pi / 180;
+  rig::ShaftGiven to{.kind = rig::ShaftSensor::resolver, .bits = r.bits};
+  to.noise_V = r.noise_V;
+  to.reading = r.reading;
+  to.converter_Hz = r.converter_Hz;
+  to.latency_s = r.latency_s;
+  to.resolver = {.amplitude_V = r.amplitude_V,
+                 .excitation_Hz = r.excitation_Hz,
+                 .pole_pairs = r.pole_pairs,
+                 .imbalance = r.imbalance,
+                 .quadrature_rad = r.quadrature_deg * deg,
+                 .phase_1_rad = r.phase_deg * deg,
+                 .phase_2_rad = r.phase_deg * deg};
+  to.samples_per_peak = samples_per_peak(s);
+  // check() has held the bandwidth below half the rate of the loop's steps.
+  if (const auto loop = design::tracking_loop({.bandwidth_rad_s = 2 * base::pi * r.bandwidth_Hz,
+                                               .damping = r.damping,
+                                               .period_s = tracking_period_s(s)}))
+    to.tracking = design::tracking_config(*loop);
+  return to;
+}
+
+rig::ShaftGiven on_the_motor(const Scenario& s) {
+  switch (s.sensors.rotor) {
+    case RotorSensing::ideal:
+    case RotorSensing::hall:
+      break;
+    case RotorSensing::encoder: {
+      rig::ShaftGiven to{.kind = rig::ShaftSensor::encoder};
+      to.lines = s.sensors.encoder.lines;
+      to.referenced = s.sensors.encoder.referenced;
+      return to;
+    }
+    case RotorSensing::absolute: {
+      rig::ShaftGiven to{.kind = rig::ShaftSensor::absolute};
+      to.bits = s.sensors.absolute.bits;
+      to.latency_s = s.sensors.absolute.latency_s;
+      to.speed_samples = s.sensors.absolute.speed_samples;
+      return to;
+    }
+    case RotorSensing::resolver:
+      return resolver_given(s);
+  }
+  return {};
+}
+
+}  // namespace
+
+int samples_per_peak(const Scenario& s) {
+  const double periods = 0.5 / (s.sensors.resolver.excitation_Hz * s.pwm.period_s);
+  return static_cast<int>(std::clamp(std::floor(periods + 0.5), 1.0, 1e6));
+}
+
+double tracking_period_s(const Scenario& s) {
+  return s.sensors.resolver.reading == rig::ResolverReading::tracking ? 1.0 / s.sensors.resolver.converter_Hz
+                                                                      : samples_per_peak(s) * s.pwm.period_s;
+}
+
+void take_hall_angle(const Scenario& s, rig::SensorsConfig& to) {
+  const Sensors& from = s.sensors;
+  to.hall_angle = from.hall_angle;
+  to.commutates_by_angle = s.pwm.commutation == CommutationAt::sample;
+  to.learned_edges = static_cast<std::uint8_t>(std::max(from.speed_edges, 1));
+  to.calibration_turns = static_cast<std::uint16_t>(from.hall_calibration_turns);
+  to.hall_delay_s = from.hall_delay_s;
+  to.hall_hysteresis_deg = from.hall_hysteresis_deg;
+}
+
+rig::ShaftGiven shaft_given(const Scenario& s) {
+  rig::ShaftGiven to = on_the_motor(s);
+  to.on_load = s.sensors.shaft == SensorShaft::load;
+  if (to.on_load) to.gear = s.load.gear;
+  return to;
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/live/any_rig.hpp"
+
+#include <utility>
+
+namespace sixstep::study::detail {
+
+namespace {
+
+template <class Live>
+base::Result<AnyRig> made_of(const Scenario& s, const Compiled& c, rig::Timeline timeline) {
+  base::Result<Live> live = Live::made(s, c, std::move(timeline));
+  if (!live) return live.problems();
+  return AnyRig(std::move(*live));
+}
+
+template <template <class> class Live>
+base::Result<AnyRig> made_in(const Scenario& s, const Compiled& c, rig::Timeline timeline) {
+  switch (s.control.arithmetic) {
+    case Arithmetic::float64:
+      return made_of<Live<double>>(s, c, std::move(timeline));
+    case Arithmetic::float32:
+      return made_of<Live<float>>(s, c, std::move(timeline));
+    case Arithmetic::q15:
+      return made_of<Live<control::Q15>>(s, c, std::move(timeline));
+    case Arithmetic::q14:
+      return made_of<Live<control::Q14>>(s, c, std::move(timeline));
+    case Arithmetic::q31:
+      return made_of<Live<control::Q31>>(s, c, std::move(timeline));
+    case Arithmetic::q30:
+      return made_of<Live<control::Q30>>(s, c, std::move(timeline));
+  }
+  return base::Problem{"control.arithmetic", "", "is none that there is", "see control.arithmetic"};
+}
+
+}  // namespace
+
+base::Result<AnyRig> made_by(const Scenario& s, const Compiled& c, rig::Timeline timeline) {
+  const bool general = c.general.has_value();
+  switch (s.control.drive) {
+    case FirmwareKind::product:
+      return general ? made_in<ProductOnGeneral>(s, c, std::move(timeline))
+                     : made_in<ProductRig>(s, c, std::move(timeline));
+    case FirmwareKind::sensorless:
+      return general ? made_in<SensorlessOnGeneral>(s, c, std::move(timeline))
+                     : made_in<SensorlessRig>(s, c, std::move(timeline));
+    case FirmwareKind::lean:
+      break;
+  }
+  if (general) return made_in<SensedOnGeneral>(s, c, std::move(timeline));
+  return c.board.sensors.ideal() ? made_in<LeanRig>(s, c, std::move(timeline))
+                                 : made_in<SensedRig>(s, c, std::move(timeline));
+}
+
+}  // namespace sixstep::study::detail

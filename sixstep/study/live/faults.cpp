@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/live/faults.hpp"
+
+#include <string>
+#include <utility>
+
+#include "sixstep/base/written.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+std::string at(double t_s) { return "t = " + std::to_string(t_s) + " s"; }
+
+std::string line_to_blame(int line) { return "line H" + std::to_string(line) + " does not follow the rotor"; }
+
+struct LossWords {
+  const char* text;
+  const char* cure;
+};
+
+LossWords words_of(control::LockLoss loss) {
+  using control::LockLoss;
+  switch (loss) {
+    case LockLoss::masked_crossing:
+      return {"a crossing that was expected did not come",
+              "brake or load it less, or look for it at a higher speed"};
+    case LockLoss::long_demagnetisation:
+      return {"the old phase's current hid the crossings", "change the duty or the current more slowly"};
+    case LockLoss::wrong_sector:
+      return {"what the terminals showed does not go with the sector",
+              "change the load or the supply less suddenly"};
+    case LockLoss::terminals:
+      return {"the terminals did not follow the bridge's command",
+              "look at the bridge, the motor's wires and the dividers"};
+    case LockLoss::start:
+      return {
+          "the ramp ended without crossings to be trusted",
+          "see whether the rotor is free; raise control.sensorless.overload, or greatest_load if it starts against more"};
+    case LockLoss::none:
+      break;
+  }
+  return {"the rotor could not be followed", "look at the load"};
+}
+
+void note_unseen(const rig::Diagnosis& found, Outcome& out) {
+  const std::string times = found.unseen == 1 ? "" : " in " + std::to_string(found.unseen) + " starts";
+  out.notes.push_back(
+      "the pulses did not show where the rotor's north is" + times + ": " + base::rounded(found.north, 2) +
+      " times their noise, and " + base::rounded(found.certain, 2) +
+      " are certain; it was aligned. Nothing shows on a motor that does not saturate (its saturation_current_A)");
+}
+
+/// A sensorless drive that lost its rotor: found again it is a note, given up it is a fault.
+void note_losses(const rig::Diagnosis& found, Outcome& out) {
+  const LossWords words = words_of(found.lost);
+  const std::string times = found.losses == 1 ? "once" : std::to_string(found.losses) + " times";
+  if (!found.gave_up) {
+    out.notes.push_back("the drive lost the rotor " + times + ", at last at " + at(found.at.seconds()) +
+                        ": " + words.text + "; it started again");
+    return;
+  }
+  out.trip = Trip{.at_s = found.at.seconds(), .reasons = {words.text}, .hall_line = found.hall_line};
+  out.fault = base::Problem{
+      at(found.at.seconds()), "",
+      "the drive lost the rotor " + times + " and gave up: " + words.text + "; from there the motor coasts",
+      words.cure};
+}
+
+}  // namespace
+
+base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t_s) {
+  if (fault == rig::Fault::shoot_through)
+    return {at(t_s), "", "both switches of a leg were on: shoot-through",
+            "look at a switch that is shorted, or at the command that names one leg twice"};
+  if (fault == rig::Fault::beyond_model)
+    return {
+        at(t_s), "",
+        "the current along the magnet's axis is above half of saturation_current_A, where the model of saturation ends",
+        "ask for less current, or look at the sheet's saturation_current_A"};
+  const std::string text = "the Hall code is impossible (000 or 111)";
+  if (found.hall_line == 0) return {at(t_s), "", text, "look at the probes and their wires"};
+  return {at(t_s), "", text + ": " + line_to_blame(found.hall_line), "look at its probe and its wire"};
+}
+
+base::Problem ran_away(const plant::State<double>& s, double t_s) {
+  const auto [name, value] = [&s]() -> std::pair<const char*, double> {
+    for (const double i : s.i)
+      if (!(i - i == 0.0)) return {"a current", i};
+    if (!(s.bus - s.bus == 0.0)) return {"the bus voltage", s.bus};
+    return {"the speed", s.w};
+  }();
+  return {at(t_s), "", std::string("the run has run away: ") + name + " is " + base::rounded(value, 3),
+          "look at the load, the friction and the moment of inertia, then at the supply"};
+}
+
+void note_trip(const rig::Diagnosis& found, Outcome& out) {
+  struct Reason {
+    control::Fault bit;
+    const char* text;
+    const char* cure;
+  };
+  static constexpr Reason reasons[] = {
+      {control::fault_over_current, "over-current", "look at the current loop and protection.over_current_A"},
+      {control::fault_over_voltage, "over-voltage",
+       "brake less, let the supply take current back, or set control.regeneration.limit_V"},
+      {control::fault_under_voltage, "under-voltage", "look at the supply and protection.under_voltage_V"},
+      {control::fault_over_speed, "over-speed", "look at the load and protection.over_speed_rad_s"},
+      {control::fault_hall, "an impossible Hall code, jump or edge", "look at the probes and their wires"},
+      {control::fault_stall, "stall", "look at the load and protection.stall_s"},
+      {control::fault_calibration, "the offset of a current amplifier",
+       "look at sensors.current_offset_A and protection.offset_tolerance_A"},
+      {control::fault_align, "a rotor that did not come to where it was pulled",
+       "look at the load and protection.align"}};
+  if (found.faults == 0 && found.hall_line != 0)
+    out.notes.push_back(line_to_blame(found.hall_line) + ": the drive runs on without it");
+  if (found.unseen > 0) note_unseen(found, out);
+  if (found.losses > 0) return note_losses(found, out);
+  if (found.faults == 0) return;
+  Trip trip{.at_s = found.at.seconds(), .reasons = {}, .hall_line = found.hall_line};
+  std::string text, cure;
+  for (const Reason& reason : reasons) {
+    if ((found.faults & reason.bit) == 0) continue;
+    trip.reasons.emplace_back(reason.text);
+    text += (text.empty() ? "" : "; ") + trip.reasons.back();
+    cure += (cure.empty() ? "" : "; ") + std::string(reason.cure);
+  }
+  if (found.hall_line != 0) {
+    text += ": " + line_to_blame(found.hall_line);
+    cure = "look at its probe and its wire";
+  }
+  out.fault = base::Problem{at(trip.at_s), "",
+                            "the drive tripped by " + text + "; from there the motor coasts", cure};
+  out.trip = std::move(trip);
+}
+
+void note_wires(unsigned still_closed, Outcome& out) {
+  constexpr const char* wires[] = {"a", "b", "c"};
+  for (unsigned k = 0; k < 3; ++k)
+    if ((still_closed >> k & 1) != 0)
+      out.notes.push_back(
+          "wire " + std::string(wires[k]) +
+          " was to break and carries current to the end: it opens at that current's next zero");
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/live/live_rig_parts.hpp"
+
+namespace sixstep::study::detail {
+
+template struct LiveRig<rig::SensedDrive<double>, plant::general::Plant<double>>;
+template struct LiveRig<rig::SensedDrive<float>, plant::general::Plant<double>>;
+template struct LiveRig<rig::SensedDrive<control::Q15>, plant::general::Plant<double>>;
+template struct LiveRig<rig::SensedDrive<control::Q14>, plant::general::Plant<double>>;
+template struct LiveRig<rig::SensedDrive<control::Q31>, plant::general::Plant<double>>;
+template struct LiveRig<rig::SensedDrive<control::Q30>, plant::general::Plant<double>>;
+
+}  // namespace sixstep::study::detail

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// IronGauge tells the iron's drag from the bearings' friction: integrals of B_iron w^2 and of the dry drag along the way that
+// the motor's shaft turns, J, by the segments' own series (model.md 7). Only runs whose sheet tells them apart have one.
+#pragma once
+#include "sixstep/design/sheet/sheet_constants.hpp"
+#include "sixstep/plant/state.hpp"
+#include "sixstep/series/polynomial.hpp"
+#include "sixstep/series/quadrature.hpp"
+
+namespace sixstep::study {
+
+class IronGauge {
+ public:
+  explicit IronGauge(const design::IronDrag& iron) : iron_(iron) {}
+
+  /// Over [0, s] of the plant's segment.
+  template <class Plant>
+  void segment(const Plant& plant, double s) {
+    if (!plant::turns(plant.mode().motion)) return;
+    const auto& y = plant.expansion();
+    series::with_points_for(y.degree, [&]<int points>() {
+      const auto w = series::values_at<points>(y.w, y.degree, series::nodes_up_to<points>(s));
+      const double dt = y.h * s, dry = plant::against(plant.mode().motion, iron_.coulomb_Nm);
+      energy_.add(
+          dt * (iron_.B_Nm_s * series::weighted_sum<points>(w, w) + dry * series::weighted_sum<points>(w)));
+    });
+  }
+  double energy_J() const { return energy_.value; }
+
+ private:
+  design::IronDrag iron_;
+  series::CompensatedSum<double> energy_;
+};
+
+}  // namespace sixstep::study

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of [load].
+#pragma once
+#include "sixstep/study/scenario/choices.hpp"
+#include "sixstep/study/scenario/linear_words.hpp"
+
+namespace sixstep::study {
+
+using base::above;
+using base::between;
+using base::from;
+
+template <class Visitor>
+void describe(Visitor& v, Load& s) {
+  v.value("torque_Nm", s.torque_Nm,
+          {.meaning = "constant load torque, positive against forward motion",
+           .unit = "N m",
+           .also = words::force});
+  v.value("times_s", s.times_s,
+          {.meaning = "when each of torques_Nm begins, rising", .unit = "s", .range = from(0)});
+  v.value("torques_Nm", s.torques_Nm,
+          {.meaning = "load torques, each from its time on, instead of torque_Nm",
+           .unit = "N m",
+           .also = words::forces});
+  v.choice("between", s.between, between_choices,
+           {.meaning = "how the load goes from one of torques_Nm to the next"});
+  v.value("at_speeds_rad_s", s.at_speeds_rad_s,
+          {.meaning = "speeds of the load, rising, where at_speeds_Nm are given",
+           .unit = "rad/s",
+           .also = words::at_speeds});
+  v.value(
+      "at_speeds_Nm", s.at_speeds_Nm,
+      {.meaning = "torque over the load's speed, added to the others: lines between, level beyond the ends",
+       .unit = "N m",
+       .also = words::at_speeds_forces});
+  v.value("dynamometer_times_s", s.dynamometer_times_s,
+          {.meaning = "dynamometer: when the load has each of dynamometer_rad_s, from 0 on, rising",
+           .unit = "s",
+           .range = from(0)});
+  v.value(
+      "dynamometer_rad_s", s.dynamometer_rad_s,
+      {.meaning = "dynamometer: speeds of the load, imposed, lines between; the load torque is the result",
+       .unit = "rad/s",
+       .also = words::dynamometer});
+  v.value("viscous_Nm_s", s.viscous_Nm_s,
+          {.meaning = "friction torque per rad/s, added to the motor's own",
+           .unit = "N m s",
+           .range = from(0),
+           .also = words::viscous});
+  v.value("coulomb_Nm", s.coulomb_Nm,
+          {.meaning = "friction torque that does not depend on speed, added to the motor's own",
+           .unit = "N m",
+           .range = from(0),
+           .also = words::coulomb});
+  v.value("static_Nm", s.static_Nm,
+          {.meaning = "torque that breaks the shaft loose, where larger than the Coulomb friction",
+           .unit = "N m",
+           .range = from(0),
+           .also = words::breakaway});
+  v.value("inertia_kg_m2", s.inertia_kg_m2,
+          {.meaning = "moment of inertia on the shaft, added to the rotor's",
+           .unit = "kg m2",
+           .range = from(0),
+           .also = words::mass});
+  v.value(
+      "gear", s.gear,
+      {.meaning =
+           "motor turns per turn of the load; torque, inertia and friction of the load are then at its side",
+       .range = between(1e-3, 1e5)});
+  v.value("gear_efficiency", s.gear_efficiency,
+          {.meaning = "part of the driving side's torque that the gear hands on to the driven one",
+           .range = base::Range{0.01, 1, false, true}});
+  v.value("stiffness_Nm_rad", s.stiffness_Nm_rad,
+          {.meaning = "torsional stiffness of shaft and coupling at the load's side; 0: rigid",
+           .unit = "N m/rad",
+           .range = from(0),
+           .also = words::stiffness});
+  v.value("damping_Nm_s_rad", s.damping_Nm_s_rad,
+          {.meaning = "damping of the elastic shaft",
+           .unit = "N m s/rad",
+           .range = from(0),
+           .also = words::damping});
+  v.value("fan_Nm_s2", s.fan_Nm_s2,
+          {.meaning = "fan or propeller: torque per square of the load's speed, against it",
+           .unit = "N m s2",
+           .range = from(0),
+           .also = words::drag});
+  v.value("gravity_Nm", s.gravity_Nm,
+          {.meaning =
+               "weight on an arm: torque at its horizontal, gravity_Nm sin(load angle - gravity_angle_deg)",
+           .unit = "N m"});
+  v.value("gravity_angle_deg", s.gravity_angle_deg,
+          {.meaning = "load angle at which the weight pulls neither way", .unit = "deg"});
+  v.value("locked", s.locked, {.meaning = "whether the rotor is held"});
+}
+
+}  // namespace sixstep::study

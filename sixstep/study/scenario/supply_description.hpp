@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of [supply].
+#pragma once
+#include "sixstep/study/scenario/choices.hpp"
+
+namespace sixstep::study {
+
+using base::above;
+using base::between;
+using base::from;
+
+template <class Visitor>
+void describe_battery(Visitor& v, Supply& s) {
+  v.value("battery_charges", s.battery_charges,
+          {.meaning = "charges of a battery, of the whole, rising: where battery_voltages_V are given",
+           .range = between(0, 1)});
+  v.value(
+      "battery_voltages_V", s.battery_voltages_V,
+      {.meaning = "open-circuit voltages at battery_charges, lines between", .unit = "V", .range = above(0)});
+  v.value("battery_capacity_Ah", s.battery_capacity_Ah,
+          {.meaning = "the battery's whole charge", .unit = "A h", .range = from(0)});
+  v.value("battery_charge", s.battery_charge,
+          {.meaning = "charge of the battery at the start, of the whole", .range = between(0, 1)});
+  v.value("battery_recovery_ohm", s.battery_recovery_ohm,
+          {.meaning = "resistance of what recovers slowly after a load, beside resistance_ohm; 0: none",
+           .unit = "ohm",
+           .range = from(0)});
+  v.value("battery_recovery_F", s.battery_recovery_F,
+          {.meaning = "capacitance across battery_recovery_ohm", .unit = "F", .range = from(0)});
+}
+
+template <class Visitor>
+void describe(Visitor& v, Supply& s) {
+  v.choice(
+      "source", s.source, source_choices,
+      {.meaning = "what feeds the bus; of a battery or mains voltage_V is what the drive is designed for"});
+  v.value("voltage_V", s.voltage_V, {.meaning = "voltage of the source", .unit = "V", .range = above(0)});
+  v.value("resistance_ohm", s.resistance_ohm,
+          {.meaning = "resistance of the source, feeding capacitance_F; 0 with no capacitance is a stiff bus",
+           .unit = "ohm",
+           .range = from(0)});
+  v.value("capacitance_F", s.capacitance_F,
+          {.meaning = "bus capacitor behind resistance_ohm; 0: stiff bus", .unit = "F", .range = from(0)});
+  v.value("sinks", s.sinks,
+          {.meaning = "whether the source takes current back; false: regeneration lifts the bus"});
+  v.value("inductance_H", s.inductance_H,
+          {.meaning = "inductance between source and bus capacitor, in series with resistance_ohm",
+           .unit = "H",
+           .range = from(0)});
+  v.value("brake_resistance_ohm", s.brake_resistance_ohm,
+          {.meaning = "brake chopper: resistor across the bus from brake_on_V until brake_off_V; 0: none",
+           .unit = "ohm",
+           .range = from(0)});
+  v.value("brake_on_V", s.brake_on_V,
+          {.meaning = "bus voltage above which the brake resistor is on", .unit = "V", .range = from(0)});
+  v.value("brake_off_V", s.brake_off_V,
+          {.meaning = "bus voltage below which it is off again", .unit = "V", .range = from(0)});
+  v.value("sink_limit_A", s.sink_limit_A,
+          {.meaning = "current that a source that does not sink takes back all the same, at most",
+           .unit = "A",
+           .range = from(0)});
+  v.value("capacitor_resistance_ohm", s.capacitor_resistance_ohm,
+          {.meaning = "series resistance (ESR) of the bus capacitor", .unit = "ohm", .range = from(0)});
+  describe_battery(v, s);
+  v.value("mains_rms_V", s.mains_rms_V,
+          {.meaning = "mains, rms: of the line where single-phase, between two lines where three-phase",
+           .unit = "V",
+           .range = from(0)});
+  v.value("mains_Hz", s.mains_Hz, {.meaning = "frequency of the mains", .unit = "Hz", .range = above(0)});
+  v.value("rectifier_drop_V", s.rectifier_drop_V,
+          {.meaning = "forward drop of a diode of the rectifier, of which two are in the way",
+           .unit = "V",
+           .range = from(0)});
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// How often an interval held what it was meant to hold.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+namespace sixstep::testing {
+
+/// Drawn cases: few in every run of the tests, a thousand where the environment says so.
+inline int drawn_count(int usual) {
+  const char* const wanted = std::getenv("SIXSTEP_BENCH_LOGS");
+  return wanted ? std::atoi(wanted) : usual;
+}
+inline bool in_full() { return std::getenv("SIXSTEP_BENCH_LOGS") != nullptr; }
+
+class Held {
+ public:
+  explicit Held(std::string what) : what_(std::move(what)) {}
+  void count(bool held, std::uint64_t seed) {
+    ++all_;
+    if (held)
+      ++held_;
+    else if (missed_.size() < 400)
+      missed_ += " " + std::to_string(seed);
+  }
+  double part() const { return held_ / all_; }
+
+  /// 95 of 100 hold, as far as so many draws can tell: in full a thousand within 93 and 97, else within four
+  /// deviations of the binomial distribution. `cases` where answers of one case are not independent.
+  void expect_95(double cases = 0.0) const {
+    const double n = cases > 0.0 ? cases : all_;
+    const double width = width_of(n);
+    std::printf("%s: %.0f of %.0f held, %.1f %%; seeds of those missed:%s\n", what_.c_str(), held_, all_,
+                100.0 * part(), missed_.c_str());
+    EXPECT_NEAR(part(), 0.95, width) << what_;
+  }
+  /// No fewer than that.
+  void expect_at_least_95(double cases = 0.0) const {
+    const double n = cases > 0.0 ? cases : all_;
+    const double width = width_of(n);
+    std::printf("%s: %.0f of %.0f held, %.1f %%\n", what_.c_str(), held_, all_, 100.0 * part());
+    EXPECT_GE(part(), 0.95 - width) << what_ << "; seeds of those missed:" << missed_;
+  }
+
+ private:
+  /// The binomial distribution's deviation, 2.9 of which are 2 in 100 of a thousand.
+  static double width_of(double n) { return (in_full() ? 2.9 : 4.0) * std::sqrt(0.05 * 0.95 / n); }
+
+  std::string what_, missed_;
+  double held_ = 0, all_ = 0;
+};
+
+}  // namespace sixstep::testing

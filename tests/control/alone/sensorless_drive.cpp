@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// In fixed point, without floating-point registers where the compiler can be told so.
+#include "tests/control/alone/sensorless_drive.hpp"
+
+namespace firmware {
+
+template struct Sensorless<Q15>;
+template struct Sensorless<Fixed<std::int16_t, 12>>;
+template struct Sensorless<Q31>;
+template struct Sensorless<Fixed<std::int32_t, 24>>;
+
+}  // namespace firmware

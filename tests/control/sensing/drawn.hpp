@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drawn numbers for properties of decoders: what fails prints the seed, which draws the same again.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/base/random.hpp"
+
+namespace sixstep::control {
+
+struct Drawn {
+  std::uint64_t seed = 0;
+  std::uint64_t counter = 0;
+
+  double unit() { return base::uniform({seed, 0, counter++}); }
+  double normal() { return base::normal({seed, 0, counter++}); }
+  std::uint32_t word() { return static_cast<std::uint32_t>(base::random_bits({seed, 0, counter++})[0]); }
+  std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(unit() * n); }
+};
+
+/// Degrees of a signed binary angle.
+inline double degrees_of(std::int32_t angle) { return angle * (360.0 / 4294967296.0); }
+
+/// A real angle in turns, wrapped and rounded as a whole one.
+inline std::uint32_t of_turns(double turns) {
+  const double whole = turns * 4294967296.0;
+  return static_cast<std::uint32_t>(
+      static_cast<std::uint64_t>(static_cast<std::int64_t>(whole < 0 ? whole - 0.5 : whole + 0.5)));
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/control/sensing/pulse_speed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <numbers>
+#include <type_traits>
+
+#include "tests/control/scalars.hpp"
+#include "tests/control/sensing/drawn.hpp"
+
+namespace {
+
+using namespace sixstep::control;
+
+static_assert(std::is_trivially_copyable_v<PulseSpeedState>);
+
+constexpr double timer_Hz = 1e6;
+constexpr double counts_per_rad = 4096 / (2 * std::numbers::pi);
+
+template <class S>
+PulseSpeedConfig<S> config(double base = 1.0) {
+  return {static_cast<TickRatio<S>>(timer_Hz / counts_per_rad / base), 200000};
+}
+
+/// An encoder at a place (counts) that is a monotonous function of time between two ticks of the control: all
+/// its edges, each at the timer's count in which it falls.
+class Encoder {
+ public:
+  explicit Encoder(std::function<double(double)> place) : place_(std::move(place)) {
+    at_ = std::floor(place_(0));
+  }
+
+  /// Up to time t; edges are found by bisection, to 1e-10 of a second.
+  void run(PulseSpeedState& state, double t) {
+    const double end = std::floor(place_(t));
+    for (; at_ < end; ++at_) pulse_edge(state, 1, 1, ticks(passing(at_ + 1, t)));
+    for (; at_ > end; --at_) pulse_edge(state, -1, -1, ticks(passing(at_, t)));
+    time_ = t;
+  }
+  static std::uint32_t ticks(double t) {
+    return static_cast<std::uint32_t>(static_cast<std::uint64_t>(t * timer_Hz) + 0xfffff000u);  // wraps soon
+  }
+
+  double last_edge() const { return edge_; }
+
+ private:
+  double passing(double border, double until) {
+    double low = time_, high = until;
+    const bool rising = place_(high) > place_(low);
+    while (high - low > 1e-10) {
+      const double middle = (low + high) / 2;
+      ((place_(middle) >= border) == rising ? high : low) = middle;
+    }
+    return edge_ = high;
+  }
+  std::function<double(double)> place_;
+  double at_ = 0, time_ = 0, edge_ = 0;
+};
+
+template <class Scalar>
+class PulseSpeed : public testing::Test {};
+TYPED_TEST_SUITE(PulseSpeed, SensingScalars);
+
+/// From 1 to 10000 rad/s, both ways: the speed to a tick in T, where T spans the period less a count, or a count.
+TYPED_TEST(PulseSpeed, IsRightToATickOfTheTimer) {
+  using S = TypeParam;
+  const double base = is_fixed<S> ? 10400.0 : 1.0, period = 1e-3;
+  double worst_part = 0;
+  for (double w = 1; w <= 10000; w *= 1.6)
+    for (const double sign : {1.0, -1.0}) {
+      Encoder encoder([=](double t) { return sign * w * counts_per_rad * t + 0.3; });
+      PulseSpeedState state;
+      const auto c = config<S>(base);
+      const double count_s = 1 / (w * counts_per_rad);
+      for (int n = 1; n < 30; ++n) {
+        const double t = n * period;
+        encoder.run(state, t);
+        const double found = static_cast<double>(pulse_speed(c, state, Encoder::ticks(t))) * base;
+        if (t < 2 * (period + count_s)) continue;  // two ticks that saw an edge
+        const double T_ticks = timer_Hz * std::max(count_s, period - count_s);
+        // Times are cut to ticks: T to one, and `since`, which bounds the speed, as well. The ratio of a format
+        // has half a digit over the product of M = 1.
+        const double ratio = is_fixed<S> ? 0.5 * digit<S>() * base / (timer_Hz / counts_per_rad) : digit<S>();
+        const double bound = w * (1 / (T_ticks - 1) + ratio) + digit<S>() * (is_fixed<S> ? base : w);
+        ASSERT_NEAR(found, sign * w, bound) << w << " at " << n;
+        worst_part = std::max(worst_part, std::fabs(found - sign * w) / bound);
+      }
+    }
+  std::printf("largest error %.2f of the bound\n", worst_part);
+  EXPECT_GT(worst_part, 0.5) << "the bound is no wider than it must be";
+}
+
+/// A rotor that comes to rest: the speed falls no slower than an edge that does not come allows, then to 0.
+TEST(PulseSpeedLaw, AStandstillIsBoundedAndTimesOut) {
+  const auto c = config<double>();
+  Encoder encoder([](double t) { return 400.0 * counts_per_rad * std::min(t, 0.05); });
+  PulseSpeedState state;
+  double last = 1e9;
+  for (int n = 1; n < 400; ++n) {
+    const double t = n * 1e-3;
+    encoder.run(state, t);
+    const double w = pulse_speed(c, state, Encoder::ticks(t));
+    if (t < 0.0505) continue;
+    const double since = t - 0.05;  // the last edge is at most a count older
+    EXPECT_LE(w, 1 / (counts_per_rad * (since - 2e-6)));
+    EXPECT_LE(w, last);
+    if (since > 0.2) {
+      EXPECT_EQ(w, 0);
+    }
+    if (since < 0.2 - 2 / (400 * counts_per_rad)) {
+      EXPECT_GT(w, 0);
+    }
+    last = w;
+  }
+}
+
+/// Edges at 1000 and 1500, cut to ticks: 2000 ticks behind the last one a rotor may have needed 1999 and more.
+TEST(PulseSpeedLaw, TheBoundGrantsATick) {
+  const PulseSpeedConfig<double> c{1e6, 100000};
+  PulseSpeedState state;
+  pulse_edge(state, 1, 1, 1000);
+  EXPECT_EQ(pulse_speed(c, state, 1010), 0.0) << "one edge alone says nothing";
+  pulse_edge(state, 1, 1, 1500);
+  EXPECT_EQ(pulse_speed(c, state, 1510), 1e6 / 500);
+  EXPECT_EQ(pulse_speed(c, state, 2001), 1e6 / 500) << "still due";
+  EXPECT_EQ(pulse_speed(c, state, 3500), 1e6 / 1999);
+  pulse_edge(state, -3, -1, 4500);  // the last edge is passed back, and two more
+  EXPECT_EQ(pulse_speed(c, state, 4510), -2e6 / 3000);
+}
+
+/// Through a reversal the speed is the way by the rotor's own law over the time between the last edges of two
+/// ticks, or what an edge that does not come allows: an edge passed back adds nothing.
+TEST(PulseSpeedLaw, AReversalIsTheMeanOverItsTime) {
+  const auto c = config<double>();
+  const auto place = [](double t) { return 1000.5 - 4e5 * (t - 0.1003) * (t - 0.1003); };
+  Encoder encoder(place);
+  PulseSpeedState state;
+  double from = 0, to = 0;
+  int reversals = 0, bounded = 0;
+  double before = 0;
+  for (int n = 1; n < 200; ++n) {
+    const double t = n * 1e-3;
+    encoder.run(state, t);
+    const double w = pulse_speed(c, state, Encoder::ticks(t));
+    if (encoder.last_edge() != to) {
+      from = to;
+      to = encoder.last_edge();
+    }
+    if (n < 3) continue;
+    const double T_ticks = (to - from) * timer_Hz, since_ticks = (t - to) * timer_Hz;
+    const double mean = (place(to) - place(from)) / counts_per_rad / (to - from);
+    const double allowed = timer_Hz / counts_per_rad / (since_ticks + 1);
+    // T is known to a tick; places are found to 1e-10 s.
+    EXPECT_LE(std::fabs(w), std::fabs(mean) * (1 + 1 / (T_ticks - 1)) + 1e-4) << t;
+    EXPECT_GE(std::fabs(w), std::fmin(std::fabs(mean) * (1 - 1 / T_ticks), allowed) - 1e-4) << t;
+    EXPECT_GE(w * mean, 0) << t;
+    bounded += allowed < std::fabs(mean);
+    reversals += before > 0 && w < 0;
+    if (w != 0) before = w;
+  }
+  EXPECT_EQ(reversals, 1);
+  EXPECT_GT(bounded, 0);
+}
+
+/// Dithering about one edge is no speed, however often it is passed.
+TEST(PulseSpeedLaw, DitherAboutAnEdgeIsStandstill) {
+  const auto c = config<double>();
+  PulseSpeedState state;
+  std::uint32_t now = 0;
+  Drawn drawn{7};
+  std::int8_t next = 1;
+  for (int n = 0; n < 10000; ++n) {
+    now += 1 + drawn.below(500);
+    pulse_edge(state, next, next, now);
+    next = static_cast<std::int8_t>(-next);
+    if (drawn.unit() < 0.3) {
+      ASSERT_EQ(pulse_speed(c, state, now + 1), 0.0) << "seed " << drawn.seed;
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The linear loop that a tracking loop is, by its poles exp(s T): independent of the design's formulas.
+#pragma once
+#include <cmath>
+#include <complex>
+
+#include "sixstep/control/sensing/tracking.hpp"
+
+namespace sixstep::control {
+
+class SecondOrder {
+ public:
+  /// x = w_n T; damping up to 1, where the poles are kept a little apart.
+  SecondOrder(double x, double damping)
+      : z_(std::exp(
+            std::complex<double>(-damping * x, x * std::sqrt(std::fmax(1 - damping * damping, 1e-8))))) {}
+
+  double K_p() const { return 1 - std::norm(z_); }
+  double K_i() const { return std::norm(1.0 - z_); }
+  TrackingConfig config() const { return {FixedGain<std::int32_t>(K_p()), FixedGain<std::int32_t>(K_i())}; }
+
+  /// n ticks behind a step of 1: e[0] = 1, e[1] = 1 - K_p - K_i, e[n] = Re(b z^n).
+  double error(int n) const { return (start() * std::pow(z_, n)).real(); }
+
+  /// What rounding can move the error by, in units: each tick half of one in the speed's part and half in the
+  /// error's, each decaying as a step does; and the speed by 2^-17, which adds up until the loop answers.
+  double rounding() const {
+    double sum = 0, speed_sum = 0, moved = 0;
+    std::complex<double> z = 1;
+    for (; std::abs(z) > 1e-6; z *= z_) {
+      sum += std::fabs((start() * z).real());
+      moved += (start() * z).real();
+      speed_sum += std::fabs(moved);
+    }
+    return sum + speed_sum / 131072 + 1;
+  }
+
+ private:
+  std::complex<double> start() const { return {1.0, (z_.real() - 1 + K_p() + K_i()) / z_.imag()}; }
+  std::complex<double> z_;
+};
+
+}  // namespace sixstep::control

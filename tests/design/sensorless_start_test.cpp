@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers of a sensorless drive against the closed forms that sensorless_start.hpp states, worked out here by hand.
+#include "sixstep/design/loops/sensorless_start.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sixstep/base/angle.hpp"
+#include "tests/design/sensorless_maxon.hpp"
+
+namespace {
+
+using namespace sixstep;
+using sixstep::testing::maxon;
+using sixstep::testing::spec;
+
+TEST(SensorlessStart, FollowsItsClosedForms) {
+  const auto start = design::sensorless_start(maxon(), spec, 5.825);
+  ASSERT_TRUE(start);
+  const control::SensorlessConfig<double>& c = start->rotor;
+  EXPECT_DOUBLE_EQ(start->start_current_A, 1.5 * 2.33);
+  EXPECT_EQ(c.crossing.threshold, 3) << "two steps of the converter, rounded up";
+  EXPECT_EQ(c.crossing.rail_counts, std::round(0.03 * 24 / (30.0 / 4096)));
+  EXPECT_DOUBLE_EQ(start->lowest_rad_s, 0.05 * 24 / 0.0335);
+  EXPECT_NEAR(start->highest_rad_s, base::pi / 3 / 8 / (4 * 30e-6), 1e-9);
+  const double swing_s = 2 * base::pi * std::sqrt(1.35e-5 / (8 * 0.0335 * 3.495));
+  EXPECT_NEAR(c.start.align_ticks, 6 * swing_s * 16e6, 1);
+  const double a = (0.0335 * 3.495 - 0.5 * 0.0335 * 2.33) / (2 * 1.35e-5);
+  EXPECT_NEAR(c.start.acceleration, a * 8 / (base::pi / 3) * 9e-10 * 4294967296.0, 1);
+  // What the ramp takes as it ends, of the speed loop's 5.825 A: acceleration and viscous drag.
+  EXPECT_DOUBLE_EQ(start->start_output, (1.35e-5 * a + 7.3e-6 * start->lowest_rad_s) / 0.0335 / 5.825);
+  EXPECT_NEAR(c.start.trusted_ticks, base::pi / 3 / 8 / start->lowest_rad_s * 16e6, 1);
+  EXPECT_NEAR(start->duty_per_period, 2.33 * 0.0335 * 0.0335 / (1.35e-5 * 24) * 30e-6, 1e-12);
+  EXPECT_DOUBLE_EQ(start->least_duty, 2 * 0.25e-6 / 30e-6);
+  EXPECT_GT(c.speed.timeout_ticks, c.lock.longest_ticks) << "a time-out would end the history";
+}
+
+TEST(SensorlessStart, NoiseRaisesTheLowestSpeedUntilItIsRefused) {
+  design::SensorlessSpec noisy = spec;
+  noisy.adc_noise_V = 0.05;
+  const auto start = design::sensorless_start(maxon(), noisy, 0);
+  ASSERT_TRUE(start);
+  EXPECT_NEAR(start->lowest_rad_s, 4 * (5 * std::sqrt(6.0) * 0.05 + 2 * 30.0 / 4096) / (2 * 0.01675), 1e-9);
+  EXPECT_EQ(start->start_output, 0.0) << "no speed loop";
+  noisy.adc_noise_V = 0.5;
+  const auto refused = design::sensorless_start(maxon(), noisy, 0);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.problems().front().where, "adc_noise_V");
+}
+
+TEST(SensorlessStart, TellsEveryMistakeByItsKey) {
+  const auto where = [](const design::SensorlessSpec& s, const design::MotorModel& m) {
+    const auto start = design::sensorless_start(m, s, 0);
+    return start ? std::string() : start.problems().front().where;
+  };
+  design::SensorlessSpec s = spec;
+  s.bus_V = 0;
+  EXPECT_EQ(where(s, maxon()), "bus_V");
+  s = spec;
+  s.period_s = 0;
+  EXPECT_EQ(where(s, maxon()), "period_s");
+  s = spec;
+  s.capture_Hz = -1;
+  EXPECT_EQ(where(s, maxon()), "capture_Hz");
+  s = spec;
+  s.adc_bits = 4;
+  EXPECT_EQ(where(s, maxon()), "adc_bits");
+  s = spec;
+  s.greatest_load = 1.6;
+  EXPECT_EQ(where(s, maxon()), "greatest_load");
+  design::MotorModel light = maxon();
+  light.shaft.J_kg_m2 = 0;
+  EXPECT_EQ(where(spec, light), "motor");
+  EXPECT_EQ(where(spec, maxon()), "");
+}
+
+/// The hand-over leaves the reserve of the start current where it is: half of what the load leaves goes into speed, and dry
+/// friction comes to it.
+TEST(SensorlessStart, HandsOverTheRampsTorqueAndItsDrag) {
+  design::MotorModel rubbing = maxon();
+  rubbing.shaft.coulomb_Nm = 0.01;
+  rubbing.shaft.static_Nm =
+      0.012;  // holds at rest only: the greatest load counts it, the ramp's end does not
+  const auto start = design::sensorless_start(rubbing, spec, 5.825);
+  ASSERT_TRUE(start);
+  const double a = (0.0335 * 3.495 - 0.5 * 0.0335 * 2.33 - 0.012) / (2 * 1.35e-5);
+  const double A = (1.35e-5 * a + 0.01 + 7.3e-6 * start->lowest_rad_s) / 0.0335;
+  EXPECT_DOUBLE_EQ(start->start_output, A / 5.825);
+  EXPECT_LT(A, start->start_current_A);
+  // Drag alone above it: no more than the start's own current, and no more than all.
+  rubbing.shaft.coulomb_Nm = rubbing.shaft.static_Nm = 0.0;
+  rubbing.shaft.B_Nm_s = 0.01;
+  EXPECT_DOUBLE_EQ(design::sensorless_start(rubbing, spec, 5.825)->start_output, 3.495 / 5.825);
+  EXPECT_EQ(design::sensorless_start(rubbing, spec, 1.0)->start_output, 1.0);
+}
+
+TEST(SensorlessStart, HardChoppingMovesItsDutyHalfAsFast) {
+  design::SensorlessSpec hard = spec;
+  hard.chopping = control::Chopping::hard;
+  EXPECT_DOUBLE_EQ(design::sensorless_start(maxon(), hard, 0)->duty_per_period,
+                   design::sensorless_start(maxon(), spec, 0)->duty_per_period / 2);
+}
+
+}  // namespace

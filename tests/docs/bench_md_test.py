@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""bench_md_test.py PROGRAM [--renew]: docs/bench.md shows what the program says of recordings, and what it says of real motors
+is what others measured of them."""
+import json
+import re
+
+import page
+
+
+class BenchPage(page.PageTest):
+    NAME, FEWEST = "docs/bench.md", 10
+
+    def test_every_option_is_named(self):
+        told = self.shell("./run motor identify --help") + self.shell("./run motor emf --help")
+        for option in set(re.findall(r"--[a-z-]+", told)) - {"--help", "--data", "--quiet"}:
+            self.assertRegex(self.page.text, f"`{option}[ `]")
+
+    def emf(self, words):
+        return json.loads(self.shell(f"./run motor emf data/recordings/{words} --json"))
+
+    def test_the_bly172s_is_a_sine_of_38_3_mV_s(self):
+        """2.010 V peak at 33.4 Hz by another least-squares fit, 38.3 mV s/rad: each rounded to its last digit."""
+        told = self.emf("bly172s-emf.csv --pole-pairs 4")
+        peak = told["constants_V_s_per_electrical_rad"]["line_peak"]
+        self.assertAlmostEqual(4e3 * peak["value"], 38.3, delta=0.05 + 38.3 * (0.05 / 33.4 + 0.0005 / 2.01))
+        self.assertTrue(4e3 * peak["low"] < 38.3 < 4e3 * peak["high"])
+        self.assertIn('back_emf = "sine"', self.shell("./run motor emf data/recordings/bly172s-emf.csv --pole-pairs 4"))
+
+    def test_the_trampa_has_a_fifth_harmonic_of_3_4_to_3_7_percent(self):
+        told = self.emf("trampa6340-emf.csv --between lines --speed 1000")
+        self.assertEqual(told["pole_pairs"], 7)
+        parts = {h["order"]: h["part"] for h in told["harmonics"]}
+        self.assertTrue(0.034 < parts[5]["value"] < 0.037)
+        self.assertTrue(0.004 < parts[3]["value"] < 0.009)
+        self.assertTrue(0.002 < parts[7]["value"] < 0.005)
+        first, second = (channel["peak_V"]["value"] for channel in told["channels"])
+        self.assertAlmostEqual(first / second, 1, delta=0.004)
+
+    def test_what_the_simulator_was_told_is_found_again(self):
+        told = json.loads(self.shell("./run motor identify turned.csv --json"))
+        place, edges = told["place"], [2, -1, 0, -3, 1, 1]
+        self.assertEqual(place["wires"][0]["hall_lines"], "132")
+        for found, true in [(place["offset_deg"], 7), (place["hysteresis_deg"], 1.5), (place["delay_s"], 50e-6),
+                            *((edge["own_deg"], own) for edge, own in zip(told["edges"], edges))]:
+            self.assertTrue(found["low"] < true < found["high"], (found, true))
+
+
+if __name__ == "__main__":
+    page.main(BenchPage)

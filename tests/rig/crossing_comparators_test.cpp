@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Comparators at the filtered terminals, with a rotor whose speed stays: a sine's zero crossings come atan(w tau)/w late
+// behind a lag, and offset and hysteresis shift them by an arc sine.
+#include "sixstep/rig/crossing_comparators.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/support/board.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+
+struct Edge {
+  std::uint8_t lines;
+  double at_s;
+};
+
+struct Capturing : rig::SensedDrive<double> {
+  using SensedDrive::SensedDrive;
+  std::vector<Edge> edges;
+  void look_at_terminals(const plant::PerLeg<double>&) {}
+  void captured_crossing(std::uint8_t lines, const sim::Instant& at) {
+    edges.push_back({lines, at.seconds()});
+  }
+};
+using CapturingRig = rig::Rig<double, Capturing>;
+
+constexpr double tau = 50e-6, w = 250.0, w_e = 8 * w;
+
+/// A flywheel without friction: 250 rad/s for ever.
+Board flywheel(const rig::CrossingComparators& comparators) {
+  Board board = Board::duty(0.4);
+  board.machine.back_emf = plant::BackEmf::sine;
+  board.shaft = {.J_kg_m2 = 1e9};
+  board.start.speed_rad_s = w;
+  board.board.front_end = {.divider_s = tau, .comparators = comparators};
+  return board;
+}
+
+std::vector<Edge> edges_of(const Board& board, double end_s) {
+  CapturingRig rig(board.plant(), board.drive, board.board, board.timeline);
+  EXPECT_EQ(run_to(rig, end_s), sim::Stop::end);
+  return rig.firmware().edges;
+}
+
+double amplitude() { return 0.01675 * w / std::hypot(1, w_e * tau); }
+
+/// Of the edges from 2 ms, when the start is forgotten (40 time constants): each is one of `line`'s that the rotor reaches at
+/// angle_deg past the rising crossing of e_a at -30 degrees, each other line's a third of a turn later.
+void expect_edges(const std::vector<Edge>& edges, double rises_late_rad, double falls_late_rad) {
+  std::uint8_t before = 0;
+  int seen = 0;
+  for (const Edge& edge : edges) {
+    const unsigned changed = before ^ edge.lines;
+    before = edge.lines;
+    if (edge.at_s < 2e-3) continue;
+    const int leg = changed == 4 ? 0 : changed == 2 ? 1 : 2;
+    ASSERT_TRUE(changed == 4 || changed == 2 || changed == 1) << changed;
+    const bool rises = (edge.lines & changed) != 0;
+    const double lag = std::atan(w_e * tau) + (rises ? rises_late_rad : falls_late_rad);
+    const double at = base::pi / 180 * (-30 + 120 * leg + (rises ? 0 : 180)) + lag;
+    const double off = std::remainder(w_e * edge.at_s - at, 2 * base::pi);
+    // Of a turn, what rounding of the voltage, 24 V, is at a slope of `amplitude` a radian.
+    EXPECT_LT(std::fabs(off), 1e-12 * 24 / amplitude()) << leg << rises << " " << edge.at_s;
+    ++seen;
+  }
+  EXPECT_GE(seen, 30);
+}
+
+TEST(CrossingComparators, ACoastingSineCrossesLateByTheLag) {
+  Board board = flywheel({.fitted = true});
+  board.drive.mode = control::Mode::off;
+  expect_edges(edges_of(board, 20e-3), 0, 0);
+}
+
+TEST(CrossingComparators, OffsetAndHysteresisShiftTheEdges) {
+  Board board = flywheel({.fitted = true, .offset_V = {0.3, 0.3, 0.3}, .hysteresis_V = 0.5});
+  board.drive.mode = control::Mode::off;
+  const double rise = std::asin((0.3 + 0.25) / amplitude()), fall = std::asin((0.3 - 0.25) / amplitude());
+  expect_edges(edges_of(board, 20e-3), rise, -fall);
+}
+
+/// Against the mean of all three the star point itself drops out, chopped or not, and with it the bus: what is left of a leg
+/// that floats is e_k less the mean of e, which a sine has none of.
+TEST(CrossingComparators, ChoppingIsNotSeenAgainstTheVirtualStar) {
+  Board board = flywheel({.fitted = true, .hysteresis_V = 0.1});
+  board.start.speed_rad_s = 0;
+  board.shaft.locked = true;
+  EXPECT_TRUE(edges_of(board, 20e-3).size() <= 2);  // of the driven pair, once
+}
+
+/// Against half the bus it is: a floating leg at u_n = 0 or U/2 in turn means d U/2 and swings about that.
+TEST(CrossingComparators, HalfTheBusIsPassedAtEveryChopWhereTheRippleReachesIt) {
+  Board board = flywheel({.fitted = true, .against = rig::CrossingReference::half_bus});
+  board.shaft.locked = true;
+  board.start.speed_rad_s = 0;
+  board.board.front_end.divider_s = 10e-6;
+  board.timeline.clear();
+  board.setpoint(0, 0.5);
+  const std::vector<Edge> edges = edges_of(board, 3e-3);
+  // Terminal a, chopped at d = 1/2, has the steady state U/2 +- (U/2) tanh(T/(4 tau)): it passes U/2 in the middle of each half.
+  double on = 0, off = 0;
+  std::uint8_t before = 0;
+  for (const Edge& edge : edges) {
+    const bool of_a = ((before ^ edge.lines) & 4) != 0;
+    before = edge.lines;
+    if (!of_a || edge.at_s < 2e-3) continue;
+    const double t = std::fmod(edge.at_s + 1e-12, 30e-6) - 1e-12;
+    (t < 15e-6 ? on : off) = t;
+  }
+  const double e = std::exp(-15e-6 / 10e-6), half = 10e-6 * std::log(2 / (1 + e));
+  EXPECT_NEAR(on, half, 1e-16 + 1e-12 * 2e-3);  // the run's clock has picoseconds and their fractions
+  EXPECT_NEAR(off, 15e-6 + half, 1e-16 + 1e-12 * 2e-3);
+}
+
+TEST(CrossingComparators, WithoutThemNothingIsCaptured) {
+  Board board = flywheel({});
+  EXPECT_TRUE(edges_of(board, 5e-3).empty());
+}
+
+}  // namespace

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+// Encoders and resolvers as a board's peripherals have them, over shafts whose motion is known in closed form: counts and the
+// time of the last edge, the latch of an absolute code, samples at the peaks of an excitation.
+#include "sixstep/rig/shaft_ports.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sixstep/control/sensing/gray.hpp"
+#include "sixstep/design/loops/tracking_loop.hpp"
+
+namespace {
+
+using namespace sixstep;
+using rig::ShaftPorts;
+
+constexpr std::int64_t p = 8;
+constexpr double capture_Hz = 1e9;
+
+/// theta(t) = theta_0 + w t + a t^2/2 mechanical, cut into segments of 10 us.
+struct Motion {
+  double theta_0 = 0, w = 0, a = 0;
+
+  double theta(double t) const { return theta_0 + (w + a * t / 2) * t; }
+  /// Sector and angle in it at a time.
+  plant::ShaftAngle<double> shaft(double t) const {
+    const double sectors = theta(t) * p / base::sector_rad;
+    const auto sector = static_cast<std::int64_t>(std::floor(sectors));
+    return {sector, theta(t) * p - static_cast<double>(sector) * base::sector_rad, p};
+  }
+  /// On the load's side of a gear, and of a coupling that is twisted by so much.
+  void show(ShaftPorts& ports, double from_s, double to_s, double sample_s = 1.0, double gear = 0.0,
+            double twist_rad = 0.0) const {
+    const double h = 10e-6;
+    for (double t = from_s; t < to_s - h / 2; t += h) {
+      plant::Expansion<double> y;
+      y.degree = 2;
+      y.h = h;
+      const plant::ShaftAngle<double> at = shaft(t);
+      y.x[0] = at.x;
+      y.x[1] = p * (w + a * t) * h;
+      y.x[2] = p * a * h * h / 2;
+      y.w[0] = w + a * t;
+      y.w[1] = a * h;
+      y.w[2] = 0;
+      rig::ShaftMotion<double> motion{
+          y, at.sector, p, 1.0, sim::to_instant(t), sim::to_instant(t + h), sim::to_instant(sample_s)};
+      series::Coefficients<double> speed{}, twist{};
+      twist[0] = twist_rad;
+      if (gear > 0) {
+        for (int n = 0; n <= 2; ++n) speed[n] = y.w[n] / gear;
+        motion.load = {&speed, &twist, 1 / gear};
+      }
+      ports.follow(motion);
+    }
+  }
+};
+
+ShaftPorts encoder(std::int64_t lines, const Motion& m) {
+  return ShaftPorts({.kind = rig::ShaftSensor::encoder, .lines = lines}, capture_Hz, 0, m.shaft(0));
+}
+
+/// Of floor(4 N theta/2 pi).
+std::int64_t quarters(const Motion& m, std::int64_t lines, double t) {
+  return static_cast<std::int64_t>(std::floor(4 * static_cast<double>(lines) * m.theta(t) / (2 * base::pi)));
+}
+
+TEST(EncoderPort, CountsAndCapturesTheLastEdge) {
+  for (const double w : {3.0, -3.0, 250.0, -700.0}) {
+    const Motion m{0.1234, w, 0};
+    ShaftPorts ports = encoder(1000, m);
+    m.show(ports, 0, 0.02);
+    const std::int64_t n = quarters(m, 1000, 0.02);
+    EXPECT_EQ(ports.quarters(), n);
+    // The border that this count begins at: its own forward, the next one backward.
+    const double border = static_cast<double>(w > 0 ? n : n + 1) * 2 * base::pi / 4000;
+    EXPECT_NEAR(ports.edge_time(), (border - m.theta_0) / w * capture_Hz, 1.0) << w;
+    EXPECT_EQ(ports.edge_direction(), w > 0 ? 1 : -1);
+  }
+}
+
+// It turns round at t = w/|a|; the last edge of the way out is passed again on the way back.
+TEST(EncoderPort, ARotorThatTurnsRoundPassesItsEdgesAgain) {
+  const Motion m{0.5, 40, -8000};  // round at 5 ms, there 0.1 rad further
+  ShaftPorts ports = encoder(1000, m);
+  m.show(ports, 0, 4.99e-3);
+  EXPECT_EQ(ports.quarters(), quarters(m, 1000, 4.99e-3));
+  m.show(ports, 4.99e-3, 7e-3);
+  const std::int64_t n = quarters(m, 1000, 7e-3);
+  EXPECT_EQ(ports.quarters(), n);
+  EXPECT_EQ(ports.edge_direction(), -1);
+  const double border = static_cast<double>(n + 1) * 2 * base::pi / 4000;
+  // theta = border on the way back: t = (w + sqrt(w^2 - 2 |a| (border - theta_0)))/|a|
+  const double t = (m.w + std::sqrt(m.w * m.w + 2 * m.a * (border - m.theta_0))) / -m.a;
+  EXPECT_NEAR(ports.edge_time(), t * capture_Hz, 2.0);
+}
+
+TEST(EncoderPort, TellsOfItsIndexOnceATurn) {
+  const Motion m{-0.05, 100, 0};
+  ShaftPorts ports = encoder(500, m);
+  int passed = 0;
+  for (int n = 0; n < 2000; ++n) {  // 0.2 s: 20 rad from -0.05
+    m.show(ports, n * 1e-4, (n + 1) * 1e-4);
+    passed += ports.index_passed();
+  }
+  EXPECT_EQ(passed, 4) << "at 0, 2 pi, 4 pi and 6 pi";
+}
+
+// 7 edges are not counted: the counter is behind by 7, until it is held against where the index stood.
+TEST(EncoderPort, MissesEdgesAndLatchesItsCountAtTheIndex) {
+  for (const double w : {100.0, -100.0}) {
+    const Motion m{w > 0 ? -0.05 : 0.05, w, 0};
+    ShaftPorts ports = encoder(500, m);
+    ports.miss(7);
+    m.show(ports, 0, 4e-4);  // 12 edges
+    const int way = w > 0 ? 1 : -1;
+    EXPECT_EQ(ports.quarters(), quarters(m, 500, 4e-4) - 7 * way);
+    EXPECT_FALSE(ports.index_passed());
+    m.show(ports, 4e-4, 5e-3);
+    EXPECT_EQ(ports.quarters(), quarters(m, 500, 5e-3) - 7 * way);
+    EXPECT_TRUE(ports.index_passed());
+    EXPECT_EQ(ports.since_index(), quarters(m, 500, 5e-3)) << "counted from theta = 0";
+  }
+}
+
+// Edges missed across the index itself: what lies behind it and is not counted stays missing.
+TEST(EncoderPort, EdgesMissedBehindTheIndexAreMissingFromItsCount) {
+  const Motion m{-3.5 * 2 * base::pi / 2000, 100, 0};  // 4 edges to the index, the fourth its own
+  ShaftPorts ports = encoder(500, m);
+  ports.miss(6);
+  m.show(ports, 0, 1e-3);
+  EXPECT_TRUE(ports.index_passed());
+  EXPECT_EQ(ports.since_index(), quarters(m, 500, 1e-3) - 2);
+}
+
+TEST(EncoderPort, OnTheLoadsSideCountsTheLoad) {
+  const Motion m{0.3, 170, 900};
+  ShaftPorts ports({.kind = rig::ShaftSensor::encoder, .on_load = true, .gear = 3.7, .lines = 1000},
+                   capture_Hz, 0, rig::in_sixths(m.theta(0) / 3.7));
+  m.show(ports, 0, 0.02, 1.0, 3.7, 0.01);
+  const double turns = (m.theta(0.02) / 3.7 - 0.01) / (2 * base::pi);
+  EXPECT_EQ(ports.quarters(), static_cast<std::int64_t>(std::floor(4000 * turns)));
+}
+
+TEST(AbsolutePort, ATrackSticks) {
+  const Motion m{0.3, 0, 0};
+  ShaftPorts ports({.kind = rig::ShaftSensor::absolute, .bits = 16}, capture_Hz, 0, m.shaft(0));
+  const std::uint32_t whole = ports.code();
+  for (int bit = 0; bit < 16; ++bit) {
+    ShaftPorts low = ports, high = ports;
+    low.stick_track(bit, false);
+    high.stick_track(bit, true);
+    EXPECT_EQ(low.code(), whole & ~(1u << bit));
+    EXPECT_EQ(high.code(), whole | 1u << bit);
+  }
+}
+
+TEST(AbsolutePort, LatchesItsCodeBeforeItIsRead) {
+  const Motion m{0.3, 200, 5000};
+  for (const double latency_s : {0.0, 7e-6, 28e-6}) {
+    ShaftPorts ports({.kind = rig::ShaftSensor::absolute, .bits = 16, .latency_s = latency_s}, capture_Hz, 0,
+                     m.shaft(0));
+    for (int n = 1; n < 200; ++n) {
+      m.show(ports, (n - 1) * 30e-6, n * 30e-6, n * 30e-6);
+      const double turns = m.theta(n * 30e-6 - latency_s) / (2 * base::pi);
+      const auto code = static_cast<std::uint32_t>(std::floor((turns - std::floor(turns)) * 65536));
+      ASSERT_EQ(control::binary_of_gray(ports.code(), 16), code) << n << " latency " << latency_s;
+    }
+  }
+}
+
+TEST(ResolverPort, IsSampledAtItsPeaks) {
+  const Motion m{0.7, 0, 0};
+  ShaftPorts ports({.kind = rig::ShaftSensor::resolver,
+                    .resolver = {.amplitude_V = 2.0, .excitation_Hz = 10e3, .pole_pairs = 2}},
+                   capture_Hz, 0, m.shaft(0));
+  for (int n = 0; n < 6; ++n) {
+    const auto counts =
+        ports.resolver_counts(m.shaft(0), sim::to_instant(12e-6 + n * 50e-6), static_cast<std::uint64_t>(n));
+    const double sign = n % 2 == 0 ? 1 : -1, lsb = 2 * 2.5 / 4096;
+    EXPECT_NEAR(counts.cos, 2048 + sign * 2 * std::cos(1.4) / lsb, 0.51) << n;
+    EXPECT_NEAR(counts.sin, 2048 + sign * 2 * std::sin(1.4) / lsb, 0.51) << n;
+  }
+}
+
+constexpr double clock_Hz = 500e3;
+
+rig::ShaftGiven converter(int bits, double latency_s = 0.0) {
+  rig::ShaftGiven given{.kind = rig::ShaftSensor::resolver, .bits = bits, .latency_s = latency_s};
+  given.resolver.pole_pairs = 2;
+  given.reading = rig::ResolverReading::tracking;
+  given.converter_Hz = clock_Hz;
+  const auto loop = design::tracking_loop(
+      {.bandwidth_rad_s = 2 * base::pi * 1000, .damping = 1.0, .period_s = 1 / clock_Hz});
+  given.tracking = design::tracking_config(*loop);
+  return given;
+}
+
+/// What the chip says less p_r theta(t), in turns, the shorter way.
+double off_turns(const ShaftPorts& ports, const Motion& m, double t) {
+  const double turns = 2 * m.theta(t) / (2 * base::pi);
+  const double off = ports.converter().angle() * 0x1p-32 - turns;
+  return off - std::floor(off + 0.5);
+}
+
+// A loop of type 2 has no lag at constant speed: what is left is the count that it rounds down to, and the step of its clock.
+TEST(ConverterChip, FollowsASteadyShaftToItsCount) {
+  for (const int bits : {10, 12, 14, 16})
+    for (const double w : {0.0, 150.0, -400.0}) {
+      const Motion m{0.4, w, 0};
+      ShaftPorts ports(converter(bits), capture_Hz, 0, m.shaft(0));
+      for (int n = 0; n < 300; ++n) m.show(ports, n * 100e-6, (n + 1) * 100e-6, (n + 1) * 100e-6);
+      const double step = 2 * std::fabs(w) / (2 * base::pi) / clock_Hz, count = std::ldexp(1.0, -bits);
+      const double off = off_turns(ports, m, 0.03);
+      EXPECT_GT(off, -count - step - 1e-6) << bits << " bits at " << w;
+      EXPECT_LT(off, step + 1e-6) << bits << " bits at " << w;
+      EXPECT_NEAR(ports.converter().speed() * 0x1p-32 * clock_Hz * base::pi, w, 1e-3 * std::fabs(w) + 1e-2);
+    }
+}
+
+// The acceleration over K_a for good.
+TEST(ConverterChip, LagsAnAccelerationByItOverKa) {
+  const Motion m{0.1, 0, 40000};
+  ShaftPorts ports(converter(16), capture_Hz, 0, m.shaft(0));
+  for (int n = 0; n < 50; ++n) m.show(ports, n * 100e-6, (n + 1) * 100e-6, (n + 1) * 100e-6);
+  const auto loop = design::tracking_loop(
+      {.bandwidth_rad_s = 2 * base::pi * 1000, .damping = 1.0, .period_s = 1 / clock_Hz});
+  const double lag_turns = 2 * m.a / (2 * base::pi) / loop->K_a_per_s2;
+  const double step = 2 * m.a * 0.005 / (2 * base::pi) / clock_Hz;
+  EXPECT_GT(lag_turns, 10 * (0x1p-16 + step)) << "the lag is what is looked at";
+  EXPECT_NEAR(off_turns(ports, m, 0.005), -lag_turns, 0x1p-16 + step);
+}
+
+TEST(ConverterChip, IsReadAsItWasLatched) {
+  const Motion m{0.4, 300, 0};
+  ShaftPorts now(converter(16), capture_Hz, 0, m.shaft(0)),
+      late(converter(16, 40e-6), capture_Hz, 0, m.shaft(0));
+  for (int n = 0; n < 100; ++n) {
+    m.show(now, n * 100e-6, (n + 1) * 100e-6, (n + 1) * 100e-6);
+    m.show(late, n * 100e-6, (n + 1) * 100e-6, (n + 1) * 100e-6);
+  }
+  const double behind = 2 * m.w * 40e-6 / (2 * base::pi), step = 2 * m.w / (2 * base::pi) / clock_Hz;
+  EXPECT_NEAR(off_turns(now, m, 0.01) - off_turns(late, m, 0.01), behind, 0x1p-16 + step);
+}
+
+// Without its cosine only the sign of the sine is left.
+TEST(ConverterChip, WithoutItsCosineSaysAQuarterOfATurn) {
+  for (const double theta : {0.2, 0.7, 1.2}) {  // p_r theta below half a turn
+    const Motion m{theta, 0, 0};
+    ShaftPorts ports(converter(16), capture_Hz, 0, m.shaft(0));
+    ports.break_winding(1);
+    for (int n = 0; n < 200; ++n) m.show(ports, n * 100e-6, (n + 1) * 100e-6, (n + 1) * 100e-6);
+    EXPECT_NEAR(ports.converter().angle() * 0x1p-32, 0.25, 2 * 0x1p-16) << theta;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sensorless drive as a scenario asks for it: starts in every arithmetic, hand-over in flight, a dead Hall line, a rotor
+// that does not come, and what is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/compile/compile.hpp"
+#include "sixstep/study/run/run.hpp"
+#include "tests/support/figures.hpp"
+#include "tests/support/scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using namespace sixstep::study;
+using control::Mode;
+using ::testing::HasSubstr;
+
+Scenario sensorless(Mode mode, double reference) {
+  Scenario s = maxon_scenario(mode, reference);
+  s.control.drive = FirmwareKind::sensorless;
+  s.control.speed.settle_s = 0.1;
+  s.control.speed.damping = 0.9;
+  s.pwm.alignment = Alignment::centre;
+  s.pwm.sample = SampleAt::middle;
+  s.sensors.capture_Hz = 16e6;
+  s.sheet.nominal_current_A = {2.0, "terminal", ""};
+  s.load.coulomb_Nm = 0.01;
+  s.duration_s = 2.2;
+  return s;
+}
+
+TEST(SensorlessScenario, StartsAndHoldsItsSpeedInEveryArithmetic) {
+  for (const Arithmetic a :
+       {Arithmetic::float64, Arithmetic::float32, Arithmetic::q15, Arithmetic::q14, Arithmetic::q31}) {
+    Scenario s = sensorless(Mode::speed, 100.0);
+    s.control.arithmetic = a;
+    if (a == Arithmetic::q15 || a == Arithmetic::q14) s.sensors.capture_Hz = 1e6;
+    ask(s, over(MetricKind::mean, Signal::speed, 2.0, 2.2));
+    const Outcome out = outcome_of(s);
+    ASSERT_FALSE(out.fault) << to_string(*out.fault);
+    EXPECT_TRUE(out.notes.empty()) << out.notes[0];
+    // Crossings between two samples are told by a straight line: a count of 1 MHz in 1.3 ms.
+    EXPECT_NEAR(out.comparisons[0].measured, 100.0, 0.5) << static_cast<int>(a);
+  }
+}
+
+TEST(SensorlessScenario, StartsByACurrentInDutyToo) {
+  for (const Arithmetic a : {Arithmetic::float64, Arithmetic::q15}) {
+    Scenario s = sensorless(Mode::duty, -0.4);
+    s.control.arithmetic = a;
+    ask(s, over(MetricKind::mean, Signal::speed, 2.1, 2.2));
+    const Outcome out = outcome_of(s);
+    ASSERT_FALSE(out.fault) << to_string(*out.fault);
+    // K_t w = d U - R I - 3/pi p w L_s I, with the friction's current: the last as in a rectifier whose current passes from
+    // phase to phase. The duty's ripple is left out.
+    const double I = (0.01 + 7.3e-6 * 268) / 0.0335;
+    const double w = (0.4 * 24 - 1.03 * I) / (0.0335 + 3 / base::pi * 8 * 0.286e-3 * I);
+    EXPECT_NEAR(out.comparisons[0].measured, -w, 0.01 * w);
+  }
+}
+
+TEST(SensorlessScenario, GoesOverFromHallToTheBackEmfAndBack) {
+  Scenario s = sensorless(Mode::speed, 100.0);
+  s.duration_s = 1.2;
+  s.sensors.rotor = RotorSensing::hall;
+  s.control.sensorless.commutates = Commutates::hall;
+  At there, back;
+  there.time_s = 0.5;
+  there.control.sensorless.commutates = AtCommutates::back_emf;
+  back.time_s = 0.9;
+  back.control.sensorless.commutates = AtCommutates::hall;
+  s.at = {there, back};
+  for (const auto& [from, to] : {std::pair{0.4, 0.5}, {0.6, 0.9}, {1.0, 1.2}}) {
+    ask(s, over(MetricKind::mean, Signal::speed, from, to));
+    ask(s, over(MetricKind::commutation_error, Signal::current, from, to));
+  }
+  const Outcome out = outcome_of(s);
+  ASSERT_FALSE(out.fault);
+  for (const std::size_t n : {0, 2, 4}) EXPECT_NEAR(out.comparisons[n].measured, 100.0, 0.5) << n;
+  // By probes at the edge; by crossings where the interpolation finds them.
+  EXPECT_LT(out.comparisons[1].measured, 1e-6);
+  EXPECT_GT(out.comparisons[3].measured, 1e-6);
+  EXPECT_LT(out.comparisons[3].measured, 5.0);
+  EXPECT_LT(out.comparisons[5].measured, 1e-6);
+}
+
+TEST(SensorlessScenario, TakesOverWhereAHallLineDies) {
+  Scenario s = sensorless(Mode::speed, 100.0);
+  s.duration_s = 0.8;
+  s.sensors.rotor = RotorSensing::hall;
+  s.control.sensorless.commutates = Commutates::hall;
+  s.sensors.hall_break = {0.5, 2, Level01::low};
+  ask(s, over(MetricKind::mean, Signal::speed, 0.6, 0.8));
+  const Outcome out = outcome_of(s);
+  ASSERT_FALSE(out.fault);
+  EXPECT_NEAR(out.comparisons[0].measured, 100.0, 0.5);
+  ASSERT_EQ(out.notes.size(), 1u);
+  EXPECT_THAT(out.notes[0], HasSubstr("line H2 does not follow the rotor"));
+}
+
+TEST(SensorlessScenario, GivesUpOnARotorThatIsHeldAndSaysWhy) {
+  Scenario s = sensorless(Mode::speed, 100.0);
+  s.load.locked = true;
+  s.duration_s = 12.0;
+  const Outcome out = outcome_of(s);
+  ASSERT_TRUE(out.fault && out.trip);
+  EXPECT_THAT(out.fault->limit, HasSubstr("gave up"));
+  EXPECT_THAT(out.trip->reasons[0], HasSubstr("ramp ended"));
+  EXPECT_GT(out.simulated_s, 11.9) << "it coasts on";
+}
+
+TEST(SensorlessScenario, SaysWhatItCannotDo) {
+  const auto refused = [](const Scenario& s, const std::string& where) {
+    const base::Problems found = check(s);
+    const bool any =
+        std::any_of(found.begin(), found.end(), [&](const base::Problem& p) { return p.where == where; });
+    EXPECT_TRUE(any) << where << (found.empty() ? " in nothing" : " in " + to_string(found[0]));
+  };
+  const Scenario good = sensorless(Mode::speed, 100.0);
+  EXPECT_TRUE(check(good).empty());
+  Scenario s = good;
+  s.pwm.alignment = Alignment::edge;
+  refused(s, "pwm.alignment");
+  s = good;
+  s.pwm.sample = SampleAt::start;
+  refused(s, "pwm.sample");
+  s = good;
+  s.control.mode = Mode::position;
+  refused(s, "control.mode");
+  s = good;
+  s.control.current.type = CurrentLoopType::hysteresis;
+  refused(s, "control.current.type");
+  s = good;
+  s.control.sensorless.commutates = Commutates::hall;
+  refused(s, "control.sensorless.commutates");
+  s = good;
+  s.sensors.rotor = RotorSensing::encoder;
+  refused(s, "sensors.rotor");
+  s = good;
+  s.control.drive = FirmwareKind::lean;
+  s.control.sensorless.overload = 2.0;
+  refused(s, "control.sensorless");
+}
+
+TEST(SensorlessScenario, IsRefusedWhereItsCurrentDoesNotMoveTheLoad) {
+  Scenario s = sensorless(Mode::speed, 100.0);
+  s.control.sensorless.greatest_load = 3.0;
+  const auto compiled = compile(s);
+  ASSERT_FALSE(compiled);
+  EXPECT_EQ(compiled.problems()[0].where, "control.sensorless.greatest_load");
+}
+
+}  // namespace

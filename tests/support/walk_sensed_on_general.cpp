@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/walk_rig.hpp"
+
+namespace sixstep::testing {
+
+Walk walk_sensed_on_general(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan) {
+  return detail::walk_chosen<rig::SensedDrive, true>(s, c, plan);
+}
+
+}  // namespace sixstep::testing

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/results/design_loops_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/design/sheet/motion.hpp"
+#include "sixstep/design/thesis/thesis_figures.hpp"
+#include "text/results/quantity_text.hpp"
+#include "text/results/text_rows.hpp"
+
+namespace text {
+namespace {
+
+using sixstep::base::Motion;
+using sixstep::design::DerivationStep;
+using sixstep::design::DriveDesign;
+using sixstep::design::LoopDesign;
+using sixstep::design::LoopFigures;
+
+std::string number(double x) { return fmt::format("{:.6g}", x); }
+std::string degrees(double rad) { return fmt::format("{:.1f} deg", rad * 180 / sixstep::base::pi); }
+std::string hertz(double rad_s) { return quantity_text(rad_s / (2 * sixstep::base::pi), "Hz", 4); }
+
+std::string or_none(const std::optional<double>& x, std::string (*shown)(double)) {
+  return x ? shown(*x) : "-";
+}
+
+}  // namespace
+
+std::string gain_unit(const LoopDesign& loop, const Motion& motion) {
+  return loop.name == "current" ? "V/A" : motion.words("per rad/s");
+}
+
+std::string loop_text(const LoopDesign& loop, const Motion& motion) {
+  Rows rows;
+  bool thesis = false;
+  for (const DerivationStep& step : loop.steps) {
+    std::vector<std::string> cells{step.symbol, quantity_text(step.value, step.unit, 6), step.formula};
+    if (loop.placed)
+      if (const auto printed = sixstep::design::thesis_figure(loop.name, *loop.placed, step.symbol)) {
+        cells.push_back("thesis " + number(*printed));
+        thesis = true;
+      }
+    rows.add(std::move(cells));
+  }
+  std::string head = fmt::format("\n{} loop, {}", loop.name, loop.method);
+  head[1] = static_cast<char>(head[1] - 'a' + 'A');
+  std::string text = head + "\n" + rows.text();
+  if (loop.name != "position")
+    text += fmt::format("  -> d1 = {}, d0 = {} {}; K = {}, K_i = {} per sample\n", number(loop.gains.d1),
+                        number(loop.gains.d0), gain_unit(loop, motion), number(loop.gains.d1),
+                        number(loop.gains.d1 + loop.gains.d0));
+  if (thesis)
+    text +=
+        "  (the thesis's gains follow from the poles that it prints; those are a faster loop's than it asks "
+        "for)\n";
+  return text;
+}
+
+std::string figures_text(const DriveDesign& d) {
+  Rows rows;
+  std::vector<std::string> head{"loop"};
+  for (const LoopDesign& loop : d.loops) head.push_back(loop.name);
+  rows.add(head);
+  const auto line = [&](const char* name, auto cell) {
+    std::vector<std::string> cells{name};
+    for (const LoopDesign& loop : d.loops) cells.push_back(cell(loop));
+    rows.add(std::move(cells));
+  };
+  const bool late = d.spec.delay_periods == 1;
+  const auto at_once = [&](const LoopDesign& l) -> const LoopFigures& { return late ? l.other : l.figures; };
+  const auto delayed = [&](const LoopDesign& l) -> const LoopFigures& { return late ? l.figures : l.other; };
+  const auto factor = +[](double x) { return fmt::format("{:.2f}", x); };
+  const auto decibels = +[](double x) { return fmt::format("{:.1f} dB", 20 * std::log10(x)); };
+  const auto seconds = +[](double s) { return quantity_text(s, "s", 3); };
+  line("crossover", [&](const LoopDesign& l) { return or_none(l.figures.crossover_rad_s, hertz); });
+  if (d.loops.size() > 1) {
+    std::vector<std::string> cells{"times the loop around it"};
+    for (std::size_t n = 0; n + 1 < d.loops.size(); ++n) {
+      const auto &inner = d.loops[n].figures.crossover_rad_s, &outer = d.loops[n + 1].figures.crossover_rad_s;
+      cells.push_back(inner && outer ? fmt::format("{:.1f}", *inner / *outer) : "-");
+    }
+    rows.add(std::move(cells));
+  }
+  line("bandwidth, -3 dB", [&](const LoopDesign& l) { return or_none(l.figures.bandwidth_rad_s, hertz); });
+  line("phase margin, command at once",
+       [&](const LoopDesign& l) { return or_none(at_once(l).phase_rad, degrees); });
+  line("phase margin, one period late",
+       [&](const LoopDesign& l) { return or_none(delayed(l).phase_rad, degrees); });
+  line("gain margin, one period late",
+       [&](const LoopDesign& l) { return or_none(delayed(l).gain, decibels); });
+  line("delay margin, one period late",
+       [&](const LoopDesign& l) { return or_none(delayed(l).delay_s, seconds); });
+  line("peak of sensitivity, one period late", [&](const LoopDesign& l) {
+    return delayed(l).stable ? factor(delayed(l).sensitivity_peak) : "unstable";
+  });
+  if (d.lag.delay_s() > 0)
+    line("phase margin with the speed's sensor",
+         [&](const LoopDesign& l) { return or_none(l.built.phase_rad, degrees); });
+  line(d.lag.delay_s() > 0 ? "step: settling" : "step: settling to 2 %",
+       [&](const LoopDesign& l) { return quantity_text(l.step.settling_s, "s", 4); });
+  line("step: overshoot",
+       [&](const LoopDesign& l) { return fmt::format("{:.1f} %", 100 * l.step.overshoot); });
+  return "\nLoops, with the hold of the PWM and the loops within\n" + rows.text();
+}
+
+std::string sensing_text(const DriveDesign& d) {
+  if (d.sensing.empty()) return "";
+  const std::string speed_unit(sixstep::design::motion_of(d.motor).unit("rad/s").linear);
+  Rows steps;
+  for (const DerivationStep& step : d.sensing)
+    steps.add({step.symbol, quantity_text(step.value, step.unit, 6), step.formula});
+  Rows table;
+  std::vector<std::string> head{"sensor"};
+  for (std::size_t n = 0; n < 3 && n < d.limits.size(); ++n)
+    head.push_back("down to " + quantity_text(d.limits[n].lowest_speed_rad_s, speed_unit, 3));
+  table.add(head);
+  for (std::size_t n = 0; n + 3 <= d.limits.size(); n += 3) {
+    std::vector<std::string> cells{sixstep::design::edges_words(d.limits[n].sensing)};
+    for (std::size_t k = n; k < n + 3; ++k)
+      cells.push_back(d.limits[k].settle_s ? quantity_text(*d.limits[k].settle_s, "s", 3) : "none");
+    table.add(std::move(cells));
+  }
+  const std::string words = sixstep::design::edges_words(d.spec.rotor);
+  return (d.spec.rotor.hall ? "\nSpeed from Hall edges, " + words.substr(6) : "\nSpeed from the " + words) +
+         "\n" + steps.text() + "\nFastest settling of the speed loop that keeps 45 degrees of phase\n" +
+         table.text();
+}
+
+std::string limits_text(const DriveDesign& d) {
+  std::string text = fmt::format(
+      "\nLimits at the nominal current of {}{}\n"
+      "  current ripple      {} peak to peak at worst (duty {}); gaps in the current below {}\n",
+      quantity_text(d.nominal_current_A, "A"),
+      d.nominal_printed ? "" : ", a tenth of the stall current: the sheet names none",
+      quantity_text(d.ripple.worst_A, "A", 3), d.ripple.worst_duty,
+      quantity_text(d.ripple.continuous_above_A, "A", 3));
+  const Motion motion = sixstep::design::motion_of(d.motor);
+  // A turning motor's speeds are hundreds, a linear one's a few.
+  const auto speed = [&](double w, int decimals) {
+    return motion.linear ? fmt::format("{:.4g}", w) : fmt::format("{:.{}f}", w, decimals);
+  };
+  text += "  voltage left        ";
+  for (int n = 0; n <= 4; ++n) {
+    const double w = d.bus_V / d.motor.K_t_Nm_A * n / 4;
+    text += fmt::format("{}{:.1f} V at {}", n ? ", " : "",
+                        sixstep::design::headroom_V(d.motor, d.bus_V, d.nominal_current_A, w), speed(w, 0));
+  }
+  text += motion.words(fmt::format(" rad/s; none above {} rad/s\n", speed(d.headroom_end_rad_s, 0)));
+  text += motion.words(
+      fmt::format("  braking, soft       held up to {} rad/s, (i/K_t) R\n", speed(d.braking_limit_rad_s, 1)));
+  text += fmt::format("  control period      up to {} for 45 degrees with one period of delay\n",
+                      quantity_text(d.longest_period_s, "s", 3));
+  return text;
+}
+
+}  // namespace text

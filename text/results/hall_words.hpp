@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Codes, wires and legs in words.
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "sixstep/analysis/bench/hall/identify.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+/// "101", H1 first.
+std::string code_word(std::uint8_t code);
+/// "231": the probes at pins H1, H2, H3, as a scenario's hall_lines has it.
+std::string probes_word(sixstep::rig::WireOrder probes);
+/// "none", "13": as a scenario's hall_inverted has it.
+std::string inverted_word(std::uint8_t inverted);
+/// "a".
+char leg_word(sixstep::control::Leg leg);
+/// "probes 120 degrees apart, probes 2 3 1 at H1 H2 H3, H2 inverted"
+std::string wires_words(const analysis::HallWires& wires);
+/// "from H1 to H3, from H2 to H1": where each wire has to go so that every probe is at its own pin; empty where it is.
+std::string moves_words(sixstep::rig::WireOrder probes);
+/// The lines of a scenario's [sensors], each a line.
+std::string sensor_lines(const analysis::HallIdentity& found);
+
+}  // namespace text

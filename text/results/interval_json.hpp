@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include "sixstep/analysis/bench/interval.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+/// {"value", "low", "high"}, the last two its 95 %.
+inline nlohmann::ordered_json interval_json(const analysis::Interval& x) {
+  return {{"value", x.value}, {"low", x.low}, {"high", x.high}};
+}
+
+}  // namespace text

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Measured numbers for people: as many digits as the measurement is good for.
+#pragma once
+#include <string>
+
+#include "sixstep/analysis/bench/interval.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+/// The value to two digits of its half width.
+std::string measured_text(const analysis::Interval& x);
+/// "3.15 .. 3.27", to the same digits.
+std::string bounds_text(const analysis::Interval& x);
+/// A number to the digits that the interval has: for a file.
+std::string as_good_as(double value, const analysis::Interval& x);
+
+/// "> 99.99 %", "97.2 %".
+std::string certainty_text(double probability);
+
+}  // namespace text

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The names of a JSON object in the words of a motor's kind.
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include "sixstep/base/linear.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+/// The same with every name told of that motion: "stall_force_N" of a linear motor. Numbers stay, so that names in degrees or in
+/// thousandths are not for here.
+inline nlohmann::ordered_json under_names_of(const sixstep::base::Motion& motion,
+                                             const nlohmann::ordered_json& json) {
+  if (!motion.linear || !json.is_structured()) return json;
+  nlohmann::ordered_json out =
+      json.is_array() ? nlohmann::ordered_json::array() : nlohmann::ordered_json::object();
+  for (const auto& [name, value] : json.items()) {
+    if (json.is_array())
+      out.push_back(under_names_of(motion, value));
+    else
+      out[motion.words(name)] = under_names_of(motion, value);
+  }
+  return out;
+}
+
+}  // namespace text

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// What feeds the bridge, in words.
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "sixstep/study/scenario/scenario.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+/// "24 V", "battery of 5 Ah, 80 % full", "rectified mains of three phases, 400 V at 50 Hz"; `given` writes a number and its unit.
+std::string source_words(const study::Supply& s, std::string (*given)(double, std::string_view));
+
+}  // namespace text

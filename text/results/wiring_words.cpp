@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/results/wiring_words.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/design/sheet/motion.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+#include "sixstep/study/scenario/sensors_description.hpp"
+
+namespace text {
+namespace {
+
+using analysis::moved;
+using analysis::WiringDoes;
+
+constexpr std::string_view legs[] = {"a", "b", "c"}, pins[] = {"H1", "H2", "H3"};
+using Names = std::string_view[3];
+
+/// The places whose wires change, in the order in which the wires go: from each to the next, from the last to the first.
+std::vector<std::size_t> round(const analysis::Moves& moves) {
+  std::vector<std::size_t> out;
+  for (std::size_t place = 0; place < 3 && out.empty(); ++place)
+    for (std::size_t at = place; moves[at] != at && (out.empty() || at != place); at = moves[at])
+      out.push_back(at);
+  return out;
+}
+
+std::string moves_text(const analysis::Moves& moves, const Names& names, const char* wires) {
+  const std::vector<std::size_t> way = round(moves);
+  if (way.size() == 2) return fmt::format("swap the {} {} and {}", wires, names[way[0]], names[way[1]]);
+  return fmt::format("move the {} on: {} to {}, {} to {}, {} to {}", wires, names[way[0]], names[way[1]],
+                     names[way[1]], names[way[2]], names[way[2]], names[way[0]]);
+}
+
+std::string moves_mark(const analysis::Moves& moves, const Names& names) {
+  const std::vector<std::size_t> way = round(moves);
+  if (way.size() == 2) return fmt::format("{}-{}", names[way[0]], names[way[1]]);
+  return fmt::format("{}>{}>{}", names[way[0]], names[way[1]], names[way[2]]);
+}
+
+base::Motion motion_of(const analysis::WiringStudy& s) { return design::motion_of(s.subject.sheet); }
+
+}  // namespace
+
+std::string_view phases_word(const sixstep::rig::Wiring& w) {
+  return base::word(study::phase_order_choices, w.phases);
+}
+std::string_view hall_lines_word(const sixstep::rig::Wiring& w) {
+  return base::word(study::hall_order_choices, w.probes);
+}
+
+std::span<const WiringDoes> told_order() {
+  static constexpr WiringDoes order[] = {
+      WiringDoes::forward,       WiringDoes::forward_early,  WiringDoes::forward_late, WiringDoes::hums,
+      WiringDoes::backward_late, WiringDoes::backward_early, WiringDoes::backward};
+  return order;
+}
+
+std::string_view does_text(WiringDoes does) {
+  switch (does) {
+    case WiringDoes::forward:
+      return "FORWARD";
+    case WiringDoes::forward_early:
+      return "forward, early";
+    case WiringDoes::forward_late:
+      return "forward, late";
+    case WiringDoes::backward:
+      return "BACKWARD";
+    case WiringDoes::backward_early:
+      return "backward, early";
+    case WiringDoes::backward_late:
+      return "backward, late";
+    case WiringDoes::hums:
+      return "hums";
+    case WiringDoes::unclear:
+      break;
+  }
+  return "unclear";
+}
+
+std::string_view short_does_text(WiringDoes does) {
+  const std::string_view text = does_text(does);
+  const std::size_t comma = text.find(", ");
+  return comma == text.npos ? text : text.substr(comma + 2);
+}
+
+std::string_view next_step_text(WiringDoes does) {
+  if (does == WiringDoes::forward) return "Leave it.";
+  if (does == WiringDoes::backward) return "Swap phases a and b, Hall lines H2 and H3.";
+  if (does == WiringDoes::hums || does == WiringDoes::unclear) return "Swap any two phase wires: it runs.";
+  return "Move all three phase wires on, once or twice.";
+}
+
+std::string_view does_name(WiringDoes does) {
+  constexpr std::string_view names[] = {"forward",        "forward_early", "forward_late", "backward",
+                                        "backward_early", "backward_late", "hums",         "unclear"};
+  return names[static_cast<std::size_t>(does)];
+}
+
+std::string symptom_text(const analysis::WiringStudy& s, WiringDoes does) {
+  const analysis::Symptom here = s.symptom(does), well = s.straight();
+  if (does == WiringDoes::forward) return "runs as it should";
+  if (does == WiringDoes::backward) return "runs as well as forward";
+  const auto times = [](double x) { return fmt::format("{:.{}f}", x, x < 9.95 ? 1 : 0); };
+  const std::string current = fmt::format("{} times the current", times(here.phase_rms_A / well.phase_rms_A));
+  if (does == WiringDoes::hums) return fmt::format("jerks, stands, hums; {}", current);
+  if (analysis::direction_of(does) == 0) return "does not do the same from every start";
+  return fmt::format("runs rough; {}", current);
+}
+
+std::string cure_text(const analysis::Cure& c) {
+  if (c.wires() == 0) return "nothing";
+  std::string text =
+      moved(c.legs) ? moves_text(c.legs, legs, moved(c.legs) == 2 ? "phase wires at legs" : "phase wires")
+                    : "";
+  if (moved(c.pins)) text += (text.empty() ? "" : " and ") + moves_text(c.pins, pins, "Hall lines");
+  return text;
+}
+
+std::string cure_mark(const analysis::Cure& c) {
+  if (c.wires() == 0) return "-";
+  std::string mark = moved(c.legs) ? moves_mark(c.legs, legs) : "";
+  if (moved(c.pins)) mark += (mark.empty() ? "" : " ") + moves_mark(c.pins, pins);
+  return mark;
+}
+
+std::span<const std::pair<std::string_view, std::string_view>> recipe_steps() {
+  static constexpr std::pair<std::string_view, std::string_view> steps[] = {
+      {"it jerks and hums", "swap any two phase wires: it runs then"},
+      {"it runs rough",
+       "move all three phase wires on by one leg; still rough: once more; then it runs well, the other way"},
+      {"it runs well, but backward",
+       "swap the phases at legs a and b and the Hall lines H2 and H3, or ask for the other direction"},
+  };
+  return steps;
+}
+
+std::string_view recipe_note() {
+  return "Of the six orders of the phase wires three hum, two run rough one way and one runs well the other way. Where two Hall "
+         "lines are swapped that one is backward, and phase wires alone do not cure it.";
+}
+
+std::string way_text(const analysis::WiringStudy& s, double electrical_deg) {
+  const base::LinearUnit unit = motion_of(s).unit("deg");
+  return fmt::format("{:.2g} {}", electrical_deg / s.bench.motor.machine.pole_pairs * unit.factor,
+                     unit.linear);
+}
+
+std::string wiring_speed_text(const analysis::WiringStudy& s, double rad_s) {
+  if (motion_of(s).linear) return fmt::format("{:.3g} m/s", rad_s);
+  const double rpm = rad_s * 30 / base::pi;
+  return std::fabs(rpm) < 99.95 ? fmt::format("{:.1f} rpm", rpm) : fmt::format("{:.0f} rpm", rpm);
+}
+
+std::vector<std::string> wiring_scenario_lines() {
+  return {"A motor let free from rest, its wires straight. To cross them:",
+          "  [bridge] phases = \"bac\", [sensors] hall_lines = \"132\""};
+}
+
+std::string bench_text(const analysis::WiringStudy& s) {
+  const analysis::WiringBench& b = s.bench;
+  const char* const is = b.from == analysis::BenchCurrent::nominal          ? ", its nominal current"
+                         : b.from == analysis::BenchCurrent::tenth_of_stall ? ", a tenth of full duty's"
+                                                                            : "";
+  return motion_of(s).words(fmt::format(
+      "{:.6g} V, duty {:.4g}, nothing on the shaft; stalled it draws {:.4g} A{}, at full duty {:.4g} A",
+      b.voltage_V, b.duty, b.current_A, is, b.current_A / b.duty));
+}
+
+}  // namespace text

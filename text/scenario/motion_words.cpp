@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/scenario/motion_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/base/linear.hpp"
+#include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/scenario_description.hpp"
+#include "text/keys/key_tree.hpp"
+
+namespace text {
+namespace {
+
+/// Where a path of the catalog stands in a document: once, or in each table of its list.
+std::vector<std::string> places_of(const std::string& path, const Document& document) {
+  const std::size_t dot = path.find('.');
+  const toml::node* first = document.find(path.substr(0, dot));
+  if (dot == path.npos || !first || !first->is_array()) return {path};
+  std::vector<std::string> places;
+  for (std::size_t n = 0; n < first->as_array()->size(); ++n)
+    places.push_back(fmt::format("{}[{}]{}", path.substr(0, dot), n, path.substr(dot)));
+  return places;
+}
+
+void refuse(const std::string& path, const std::string& instead, Complaints& complaints) {
+  for (const std::string& place : places_of(path, complaints.document()))
+    if (complaints.document().find(place)) complaints.other_motion(place, instead);
+}
+
+/// The nearest number that reading, which divides by the factor, takes for this one.
+double written_as(double own, double factor) {
+  if (factor == 1.0) return own;
+  double x = own * factor;
+  for (int n = 0; n < 4 && x / factor != own; ++n)
+    x = std::nextafter(x, x / factor < own ? HUGE_VAL : -HUGE_VAL);
+  return x;
+}
+
+/// A key of [[spread]] by its two names, and how many of the turning motor's unit one of the linear motor's is.
+struct TwoNames {
+  std::string turning, linear;
+  double factor = 1.0;
+};
+
+/// The constants of a sheet are spread in their standard keys, which have no spelling of their own.
+const TwoNames of_constants[] = {
+    {"motor_override.torque_constant_mNm_A", "motor_override.force_constant_N_A", 1e3},
+    {"motor_override.back_emf_mV_s", "motor_override.back_emf_V_s_m", 1e3},
+};
+
+std::vector<TwoNames> all_two_names() {
+  std::vector<TwoNames> names(std::begin(of_constants), std::end(of_constants));
+  for (const KeyEntry& entry : scenario_keys())
+    if (const base::Spelling* linear = base::linear_spelling(entry.about))
+      names.push_back({entry.path, spelled(entry, *linear).path, base::in_own_unit(1.0, *linear)});
+  return names;
+}
+
+/// The first of that name; null where there is none.
+const TwoNames* find(const std::vector<TwoNames>& names, std::string TwoNames::*which,
+                     const std::string& key) {
+  const auto found =
+      std::find_if(names.begin(), names.end(), [&](const TwoNames& two) { return two.*which == key; });
+  return found == names.end() ? nullptr : &*found;
+}
+
+/// Visits a scenario and writes over what is in a unit that follows from a mode or a figure.
+class InMetres {
+ public:
+  explicit InMetres(const study::Scenario& s) : modes_(study::modes_from(s)), mode_(s.control.mode) {}
+
+  void value(std::string_view, double& x, const base::About& about) { x = written_as(x, factor_of(about)); }
+  void value(std::string_view, std::vector<double>& list, const base::About& about) {
+    for (double& x : list) x = written_as(x, factor_of(about));
+  }
+  void value(std::string_view, std::optional<double>& x, const base::About& about) {
+    if (x) x = written_as(*x, factor_of(about));
+  }
+  template <class Other>
+  void value(std::string_view, Other&, const base::About&) {}
+  template <class Enum, class Choices>
+  void choice(std::string_view, Enum&, const Choices&, const base::About&) {}
+  void table(std::string_view, design::Sheet&, const base::About&) {}
+  template <class Struct>
+  void table(std::string_view, Struct& member, const base::About&) {
+    describe(*this, member);
+  }
+  template <class Struct>
+  void table(std::string_view, std::optional<Struct>& member, const base::About&) {
+    if (member) describe(*this, *member);
+  }
+  template <class Item>
+  void list(std::string_view, std::vector<Item>& items, const base::About&) {
+    const sixstep::control::Mode at_start = mode_;
+    for (std::size_t n = 0; n < items.size(); ++n) {
+      if constexpr (std::is_same_v<Item, study::At>) mode_ = modes_[n];
+      describe(*this, items[n]);
+    }
+    mode_ = at_start;
+  }
+
+ private:
+  double factor_of(const base::About& about) const {
+    const std::string_view unit = about.mode_unit.empty() ? about.unit_here : study::reference_unit(mode_);
+    return base::in_linear(unit).factor;
+  }
+  std::vector<sixstep::control::Mode> modes_;
+  sixstep::control::Mode mode_;
+};
+
+}  // namespace
+
+void refuse_other_motion(const std::vector<KeyEntry>& keys, Complaints& complaints) {
+  for (const KeyEntry& entry : keys) {
+    const base::Spelling* linear = base::linear_spelling(entry.about);
+    if (!linear) continue;
+    const std::string table = entry.path.substr(0, entry.path.rfind('.') + 1);
+    const std::string own(entry.path.substr(table.size()));
+    if (!complaints.linear_motor()) {
+      refuse(table + std::string(linear->key), own, complaints);
+      continue;
+    }
+    refuse(entry.path, std::string(linear->key), complaints);
+    for (const base::Spelling& other : entry.about.also)
+      if (!other.linear) refuse(table + std::string(other.key), std::string(linear->key), complaints);
+  }
+}
+
+void read_spread_keys(study::Scenario& scenario, Complaints& complaints) {
+  if (scenario.spread.empty()) return;
+  const std::vector<TwoNames> names = all_two_names();
+  const bool linear = complaints.linear_motor();
+  for (std::size_t n = 0; n < scenario.spread.size(); ++n) {
+    study::Spread& spread = scenario.spread[n];
+    const std::string at = fmt::format("spread[{}].key", n);
+    const TwoNames *own = find(names, &TwoNames::linear, spread.key),
+                   *turning = find(names, &TwoNames::turning, spread.key);
+    if (linear && turning) complaints.other_motion(at, fmt::format("\"{}\"", turning->linear));
+    if (!linear && own) complaints.other_motion(at, fmt::format("\"{}\"", own->turning));
+    if (!linear || !own) continue;
+    spread.key = own->turning;
+    if (spread.absolute) *spread.absolute *= own->factor;
+  }
+}
+
+void in_units_of_its_motor(study::Scenario& scenario) {
+  if (scenario.sheet.kind == design::MotorKind::rotary) return;
+  InMetres visitor(scenario);
+  describe(visitor, scenario);
+  if (scenario.spread.empty()) return;
+  const std::vector<TwoNames> names = all_two_names();
+  for (study::Spread& spread : scenario.spread)
+    if (const TwoNames* key = find(names, &TwoNames::turning, spread.key)) {
+      spread.key = key->linear;
+      if (spread.absolute) *spread.absolute /= key->factor;
+    }
+}
+
+}  // namespace text

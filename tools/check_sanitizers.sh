@@ -1,0 +1,20 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# check_sanitizers.sh         tests under the address and undefined-behaviour sanitizers (build/ci): of what reads others' bytes,
+#                             what shifts bits on a chip, and the fuzzers, which take drawn scenarios through all rooms
+# check_sanitizers.sh --all   of all rooms (ctest --preset long)
+set -eu
+cd "$(dirname "$0")/.."
+. tools/parts.sh
+rooms=(base series control text files fuzz)
+# Pages, tools and what other compilers make of the headers have no memory of ours to look at.
+elsewhere='^control\.(alone|inserted|int_of|single)'
+case "$*" in
+  '') targets=(drawn_scenarios digest_table libm_planted "${rooms[@]/%/_tests}")
+      chosen=(-R "^($(IFS='|'; echo "${rooms[*]}"))\.|^digest\.expected" -E "$elsewhere") ;;
+  --all) targets=(all) chosen=(-E "^(docs|tools|browser)\.|^firmware\.(configs|cortex_m|avr)$|$elsewhere") ;;
+  *) echo "usage: tools/check_sanitizers.sh [--all]   (unknown: $*)" >&2; exit 2 ;;
+esac
+part "sanitizers: configuring" tools/configure.sh ci
+part "sanitizers: building" cmake --build build/ci --target "${targets[@]}"
+part "sanitizers: tests" ctest --test-dir build/ci --output-on-failure --no-tests=error -LE long -j2 "${chosen[@]}"
