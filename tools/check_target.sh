@@ -3,6 +3,7 @@
 # check_target.sh          the controller on real cores, emulated: the same bits (tests/target/digests.txt), what drives and
 #                          blocks cost, their flash, RAM and library calls (data/cores/)
 # check_target.sh PART..   of proof, sights, bits, costs, blocks, sizes only these
+# check_target.sh --all [PART..]    a million steps on emulated hosts too, not the chips' ten thousand (ctest --preset long)
 # check_target.sh --renew [PART..]  writes those tables anew: after a change that is meant to change them
 #
 # Processors, compilers and flags: tests/target/cores.py. tools/install.sh target installs them.
@@ -12,13 +13,10 @@ cd "$(dirname "$0")/.."
 tools/configure.sh dev
 part "on chips: building" cmake --build build/dev --target sixstep_cli target_record
 export PYTHONDONTWRITEBYTECODE=1
-renew=
-if [ "${1:-}" = --renew ]; then
-  renew=--renew
-  shift
-fi
+how=
+case "${1:-}" in --renew | --all) how=$1; shift ;; esac
 status=0
 for part in ${*:-proof sights bits costs blocks sizes}; do
-  part "on chips: $part" python3 tests/target/check.py $renew "$part" || status=1
+  part "on chips: $part" python3 tests/target/check.py $how "$part" || status=1
 done
 exit $status
