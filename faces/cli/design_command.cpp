@@ -17,6 +17,7 @@
 #include "files/scenario_on_disk.hpp"
 #include "files/trace/model_export.hpp"
 #include "report/design_page.hpp"
+#include "sixstep/analysis/verify/board.hpp"
 #include "sixstep/analysis/verify/design_study.hpp"
 #include "sixstep/analysis/verify/scenario_spec.hpp"
 #include "sixstep/base/range_text.hpp"
@@ -50,6 +51,24 @@ struct DesignArguments {
 
 namespace fs = std::filesystem;
 
+/// The sensor that is asked for, as the scenario's keys have it, looked at once a period of this design.
+design::RotorSensing rotor_of(const DesignArguments& a, const study::Scenario* scenario,
+                              const design::DesignSpec& w, base::Problems& found) {
+  design::RotorSensing rotor = w.rotor;
+  if (a.rotor || (scenario && !w.rotor.hall)) {
+    study::Scenario board = scenario ? *scenario : study::Scenario{};
+    board.pwm.period_s = w.period_s;
+    if (a.rotor) {
+      choose("--rotor", *a.rotor, study::rotor_sensing_choices, board.sensors.rotor, found);
+      board.sensors = analysis::with_rotor(board.sensors, board.sensors.rotor, w.period_s);
+      board.control.drive = study::FirmwareKind::lean;
+    }
+    rotor = analysis::rotor_sensing_of(board);
+  }
+  rotor.edges = a.edges.value_or(rotor.edges);
+  return rotor;
+}
+
 /// Options over what a scenario says, or over what a board has.
 design::DesignSpec spec_of(const DesignArguments& a, const study::Scenario* scenario, base::Problems& found) {
   design::DesignSpec w = scenario ? analysis::spec_of(*scenario) : design::on_a_board();
@@ -59,12 +78,6 @@ design::DesignSpec spec_of(const DesignArguments& a, const study::Scenario* scen
   if (a.mode) choose("--mode", *a.mode, modes, w.mode, found);
   choose("--method", a.method, method_choices, w.method, found);
   if (a.chopping) choose("--chopping", *a.chopping, study::chopping_choices, w.chopping, found);
-  study::RotorSensing rotor = w.rotor.hall ? study::RotorSensing::hall : study::RotorSensing::ideal;
-  constexpr base::Choice<study::RotorSensing> rotors[] = {study::rotor_sensing_choices[0],
-                                                          study::rotor_sensing_choices[1]};
-  if (a.rotor) choose("--rotor", *a.rotor, rotors, rotor, found);
-  w.rotor.hall = rotor == study::RotorSensing::hall;
-  w.rotor.edges = a.edges.value_or(w.rotor.edges);
   const auto take = [](std::optional<double>& into, const std::optional<double>& option) {
     if (option) into = option;
   };
@@ -76,6 +89,7 @@ design::DesignSpec spec_of(const DesignArguments& a, const study::Scenario* scen
   w.damping = a.damping.value_or(w.damping);
   w.bandwidth_rad_s = a.bandwidth_rad_s;
   w.period_s = a.period_s.value_or(w.period_s);
+  w.rotor = rotor_of(a, scenario, w, found);
   w.load_inertia_kg_m2 = a.load_mass_kg.value_or(a.load_inertia_kg_m2.value_or(w.load_inertia_kg_m2));
   w.delay_periods = a.delay_periods.value_or(w.delay_periods);
   const base::Problems angle =
@@ -240,7 +254,7 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("--torque-limit", a.torque_limit_Nm,
                     "speed, position: in N m; that of 2.5 times the nominal current");
   design.add_option("--force-limit", a.force_limit_N, "linear motor, for --torque-limit: in N");
-  design.add_option("--rotor", a.rotor, "hall, or ideal: as an encoder of very many lines; hall");
+  design.add_option("--rotor", a.rotor, "hall, encoder, absolute, resolver, or ideal; hall");
   design.add_option("--edges", a.edges,
                     "Hall edges that a speed is taken over, 1 to 6; else 6 or 1, adaptive");
   design.add_option("--lowest-speed", a.lowest_speed_rad_s,

@@ -110,11 +110,16 @@ Json limits(const DriveDesign& d) {
           {"longest_period_s", d.longest_period_s}};
 }
 
+Json steps_json(const std::vector<sixstep::design::DerivationStep>& steps) {
+  Json out = Json::array();
+  for (const auto& s : steps)
+    out.push_back({{"symbol", s.symbol}, {"formula", s.formula}, {"value", s.value}, {"unit", s.unit}});
+  return out;
+}
+
 /// The speed's sensor: how old its speed is, and how fast each way of sensing lets the loop be.
 Json sensing(const DriveDesign& d) {
-  Json steps = Json::array(), limits = Json::array();
-  for (const auto& s : d.sensing)
-    steps.push_back({{"symbol", s.symbol}, {"formula", s.formula}, {"value", s.value}, {"unit", s.unit}});
+  Json limits = Json::array();
   for (const auto& l : d.limits)
     limits.push_back({{"edges", l.sensing.edges},
                       {"lowest_speed_rad_s", l.lowest_speed_rad_s},
@@ -122,7 +127,7 @@ Json sensing(const DriveDesign& d) {
   return {{"lowest_speed_rad_s", d.lowest_speed_rad_s},
           {"delay_s", d.lag.delay_s()},
           {"phase_margin_rad", or_null(d.loop("speed").built.phase_rad)},
-          {"steps", steps},
+          {"steps", steps_json(d.sensing)},
           {"fastest_settling", limits}};
 }
 
@@ -176,6 +181,7 @@ std::string design_json(const analysis::DesignStudy& s) {
   for (const LoopDesign& loop : d.loops) out["loops"].push_back(loop_json(loop, d));
   out["limits"] = own(limits(d));
   if (!d.sensing.empty()) out["sensing"] = own(sensing(d));
+  if (!s.sensorless.empty()) out["sensorless"] = {{"steps", steps_json(s.sensorless)}};
   const double of_gain = motion.unit("rad/s/deg").factor;
   if (s.position)
     out["position_gain"] = {{"estimate", s.position->estimate * of_gain},

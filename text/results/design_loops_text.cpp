@@ -130,6 +130,15 @@ std::string sensing_text(const DriveDesign& d) {
          table.text();
 }
 
+std::string sensorless_text(const std::vector<sixstep::design::DerivationStep>& steps) {
+  if (steps.empty()) return "";
+  Rows rows;
+  for (const DerivationStep& step : steps)
+    rows.add({step.symbol, quantity_text(step.value, step.unit, 6), step.formula});
+  return "\nWithout a rotor sensor: threshold, lowest speed, start, highest speed\n" + rows.text() +
+         "  the loops are run with Hall edges where crossings would be; run the scenario itself to see it start\n";
+}
+
 std::string limits_text(const DriveDesign& d) {
   std::string text = fmt::format(
       "\nLimits at the nominal current of {}{}\n"

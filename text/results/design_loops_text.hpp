@@ -2,6 +2,7 @@
 // The closed-form part of a design in text: what needs no run.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "sixstep/base/linear.hpp"
 #include "sixstep/design/loops/drive_design.hpp"
@@ -20,6 +21,9 @@ std::string figures_text(const design::DriveDesign& design);
 
 /// What the sensor of the speed costs, and what each way of sensing allows.
 std::string sensing_text(const design::DriveDesign& design);
+
+/// What a drive without a rotor sensor comes to; empty for one that has such a sensor.
+std::string sensorless_text(const std::vector<sixstep::design::DerivationStep>& steps);
 
 /// Ripple, voltage left, braking, period.
 std::string limits_text(const design::DriveDesign& design);

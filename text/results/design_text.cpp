@@ -120,15 +120,14 @@ std::string at_worst(const analysis::DesignStudy& s, const char* figure, double 
 std::string conditions(const analysis::DesignStudy& s) {
   const DriveDesign& d = s.design;
   const Motion motion = sixstep::design::motion_of(d.motor);
-  std::string text =
-      d.spec.rotor.shaft.kind != sixstep::design::ShaftSensorKind::none
-          ? "with the " + sixstep::design::edges_words(d.spec.rotor)
-      : !d.spec.rotor.hall ? motion.words("with an ideal rotor sensor")
-      : d.loops.size() < 2 ? "with Hall probes"
-      : d.spec.mode == Mode::speed
-          ? fmt::format("with Hall probes, down to {}",
-                        quantity_text(d.lowest_speed_rad_s, std::string(motion.unit("rad/s").linear), 3))
-          : "with Hall probes";
+  std::string text = d.spec.rotor.shaft.kind != sixstep::design::ShaftSensorKind::none
+                         ? "with the " + sixstep::design::edges_words(d.spec.rotor)
+                     : !d.spec.rotor.hall   ? motion.words("with an ideal rotor sensor")
+                     : s.sensorless.empty() ? "with Hall probes"
+                                            : "with back-EMF crossings taken for Hall edges";
+  if (d.spec.rotor.hall && d.loops.size() > 1 && d.spec.mode == Mode::speed)
+    text += fmt::format(", down to {}",
+                        quantity_text(d.lowest_speed_rad_s, std::string(motion.unit("rad/s").linear), 3));
   return text +
          (s.robustness ? fmt::format(", over {} motors", s.robustness->runs) : ", tolerances not looked at");
 }
@@ -170,7 +169,8 @@ std::string design_text(const analysis::DesignStudy& s, bool colour) {
   std::string text = verdict + "\n\n" + motor_line(s.design, s.scenario);
   for (const LoopDesign& loop : s.design.loops) text += loop_text(loop, motion);
   if (s.position) text += position_text(*s.position, motion);
-  text += figures_text(s.design) + sensing_text(s.design) + limits_text(s.design) + simulated_text(s);
+  text += figures_text(s.design) + sensing_text(s.design) + sensorless_text(s.sensorless) +
+          limits_text(s.design) + simulated_text(s);
   if (s.robustness) text += robust_text(*s.robustness);
   if (!s.warnings.empty()) text += "\nWarnings\n";
   for (const auto& w : s.warnings)

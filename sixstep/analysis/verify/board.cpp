@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/decimal.hpp"
@@ -15,15 +16,57 @@ double range_from(double least) { return base::shortened(least, 2, base::Towards
 
 constexpr double sectors_until_standstill = 20.0;
 
+/// In which the position is told, in degrees of the motor's shaft; 0: without steps.
+double position_step_deg(const design::DriveDesign& d) {
+  const design::ShaftSensing& shaft = d.spec.rotor.shaft;
+  switch (shaft.kind) {
+    case design::ShaftSensorKind::none:
+      return d.spec.rotor.hall ? 60.0 / d.motor.machine.pole_pairs : 0.0;
+    case design::ShaftSensorKind::encoder:
+      return shaft.gear * 360.0 / (4.0 * shaft.lines);
+    case design::ShaftSensorKind::absolute:
+      return shaft.gear * 360.0 / static_cast<double>(std::uint64_t{1} << shaft.bits);
+    case design::ShaftSensorKind::resolver:
+      return 0.0;
+  }
+  return 0.0;
+}
+
 }  // namespace
+
+study::RotorSensing rotor_sensing(const design::RotorSensing& sensing) {
+  switch (sensing.shaft.kind) {
+    case design::ShaftSensorKind::none:
+      break;
+    case design::ShaftSensorKind::encoder:
+      return study::RotorSensing::encoder;
+    case design::ShaftSensorKind::absolute:
+      return study::RotorSensing::absolute;
+    case design::ShaftSensorKind::resolver:
+      return study::RotorSensing::resolver;
+  }
+  return sensing.hall ? study::RotorSensing::hall : study::RotorSensing::ideal;
+}
+
+study::Sensors with_rotor(study::Sensors s, study::RotorSensing rotor, double period_s) {
+  s.rotor = rotor;
+  if (rotor == study::RotorSensing::ideal || rotor == study::RotorSensing::hall)
+    s.shaft = study::SensorShaft::motor;
+  if (rotor == study::RotorSensing::resolver && s.resolver.reading == rig::ResolverReading::sampled) {
+    const double half_periods = std::max(std::round(0.5 / s.resolver.excitation_Hz / period_s), 1.0);
+    s.resolver.excitation_Hz = 0.5 / (half_periods * period_s);
+  }
+  return s;
+}
 
 study::Sensors board_sensors(const design::DriveDesign& d) {
   study::Sensors s;
-  if (!d.spec.rotor.hall) return s;
+  if (!d.spec.rotor.lags()) return s;
   sense_currents(d, rig::CurrentMeasurement::phases, s);
   s.bus = study::BusSensing::adc;
   s.bus_range_V = std::min(range_from(1.5 * d.bus_V), base::plausible("V").most);
-  s.rotor = study::RotorSensing::hall;
+  s = with_rotor(s, rotor_sensing(d.spec.rotor), d.spec.period_s);
+  if (!d.spec.rotor.hall) return s;
   s.speed_edges = d.spec.rotor.edges;
   const double sector_s = base::pi / 3 / d.motor.machine.pole_pairs / d.lowest_speed_rad_s;
   s.timeout_s = std::max(s.timeout_s, range_from(sectors_until_standstill * sector_s));
@@ -48,8 +91,7 @@ double allowed_swing_rad_s(double with_ideal_sensors_rad_s, double speed_rad_s) 
 }
 
 double allowed_overshoot_deg(const design::DriveDesign& d, double move_deg) {
-  const double part = std::fabs(move_deg) / 100;
-  return d.spec.rotor.hall ? std::max(part, 3 * 60.0 / d.motor.machine.pole_pairs) : part;
+  return std::max(std::fabs(move_deg) / 100, 3 * position_step_deg(d));
 }
 
 }  // namespace sixstep::analysis

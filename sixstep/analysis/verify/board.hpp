@@ -7,9 +7,14 @@
 namespace sixstep::analysis {
 
 /// Sensors as boards have them, sized for the design: 12 bits for the phase currents (a quarter above what
-/// the drive may ask for) and for the bus (half as much again), Hall probes. All ideal where the spec's rotor
-/// is.
+/// the drive may ask for) and for the bus (half as much again), and the spec's rotor sensor with what its keys say where
+/// nobody does. All ideal where the spec's rotor is.
 study::Sensors board_sensors(const design::DriveDesign& design);
+/// What a scenario calls the spec's rotor sensor.
+study::RotorSensing rotor_sensing(const design::RotorSensing& sensing);
+/// The same sensors with another of the rotor's; a resolver that is sampled is excited so that its peaks are on control periods,
+/// as near to what was asked for as that goes.
+study::Sensors with_rotor(study::Sensors sensors, study::RotorSensing rotor, double period_s);
 /// Currents by another way, over the range that the design asks for where none is given.
 void sense_currents(const design::DriveDesign& design, rig::CurrentMeasurement currents,
                     study::Sensors& sensors);
@@ -22,7 +27,7 @@ study::Scenario with_ideal_sensors(study::Scenario scenario);
 /// speed where that is more.
 double allowed_swing_rad_s(double with_ideal_sensors_rad_s, double speed_rad_s);
 
-/// A move may overshoot by so much out of tolerance: a hundredth of it; counted in Hall steps three of them.
+/// A move may overshoot by so much out of tolerance: a hundredth of it; where the position is counted three steps of that.
 double allowed_overshoot_deg(const design::DriveDesign& design, double move_deg);
 
 }  // namespace sixstep::analysis

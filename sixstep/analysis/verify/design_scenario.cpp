@@ -68,13 +68,17 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
     s.supply = subject.board->supply;
     s.bridge = subject.board->bridge;
     s.pwm = subject.board->pwm;
-    s.sensors = subject.board->sensors;
-    s.sensors.rotor = d.spec.rotor.hall ? study::RotorSensing::hall : study::RotorSensing::ideal;
+    s.sensors = with_rotor(subject.board->sensors, rotor_sensing(d.spec.rotor), d.spec.period_s);
     s.sensors.speed_edges = d.spec.rotor.edges;
+    s.sensors.encoder.referenced = true;  // a move begins where the position is known
+    s.load.gear = subject.board->load.gear;
   } else {
     s.sensors = board_sensors(d);
   }
   if (subject.currents) sense_currents(d, *subject.currents, s.sensors);
+  if (d.spec.rotor.shaft.kind != design::ShaftSensorKind::none &&
+      s.sensors.shaft == study::SensorShaft::motor)
+    s.pwm.commutation = study::CommutationAt::sample;
   if (s.sensors.currents ==
       rig::CurrentMeasurement::dc_link) {  // it sees nothing before the on-time has begun
     s.pwm.alignment = study::Alignment::centre;
@@ -84,7 +88,7 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
   s.pwm.period_s = d.spec.period_s;
   s.pwm.chopping = d.spec.chopping;
   s.pwm.delay_periods = d.spec.delay_periods;
-  s.load.inertia_kg_m2 = d.spec.load_inertia_kg_m2;
+  s.load.inertia_kg_m2 = d.spec.load_inertia_kg_m2 * s.load.gear * s.load.gear;
   s.control.mode = d.spec.mode;
   set_gains(d.loop("current"), s.control.current);
   if (d.loops.size() > 1) {
@@ -205,7 +209,7 @@ void add_speed(const DriveDesign& d, const DesignSubject& subject, study::Scenar
   s.title = d.nominal_printed ? "Speed cascade as designed, against half the nominal torque"
                               : "Speed cascade as designed, against a twentieth of the stall torque";
   s.duration_s = t.end;
-  s.load.torque_Nm = d.motor.K_t_Nm_A * t.load_A;
+  s.load.torque_Nm = d.motor.K_t_Nm_A * t.load_A * s.load.gear;
   s.reference.shape = study::Shape::steps;
   s.reference.times_s = {0, t.begin};
   s.reference.values = {t.first, t.first + t.step};
@@ -236,14 +240,17 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
   s.reference.unit.emplace(unit.linear);
   study::Measure settling = step_measure(study::MetricKind::settling_time, study::Signal::position, 0, end, 0,
                                          step, "settling time");
-  const bool counts = d.spec.rotor.hall;  // edges: it rests within steps, if at all
+  const bool counts = d.spec.rotor.lags();  // it rests within what the sensor tells, if at all
+  const bool hall = d.spec.rotor.hall;
   const double steps = allowed_overshoot_deg(d, step);
   settling.band = counts ? steps / std::fabs(step) : 0.0005;
   const study::Measure overshoot =
       step_measure(study::MetricKind::overshoot, study::Signal::position, 0, end, 0, step, "overshoot");
   s.compare = {
       {settling, fastest,
-       counts ? "full torque forth and back; to three Hall steps" : "full torque forth and back; to 0.05 %"},
+       hall     ? "full torque forth and back; to three Hall steps"
+       : counts ? "full torque forth and back; to 1 %, or three steps of the sensor"
+                : "full torque forth and back; to 0.05 %"},
       {overshoot, 0.0, "none wanted"},
       {window_measure(study::MetricKind::maximum, study::Signal::speed, 0, end, "peak speed"), top,
        "bus/K_t"},

@@ -9,6 +9,7 @@
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/check/check.hpp"
+#include "sixstep/study/compile/compile.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/run/keep_going.hpp"
@@ -155,6 +156,19 @@ std::optional<double> ideal_swing(const DesignStudy& s, const std::function<bool
   return found ? std::optional(found->measured) : std::nullopt;
 }
 
+/// The board's own scenario says what its sensorless drive comes to.
+base::Result<std::vector<design::DerivationStep>> sensorless_steps(const DesignSubject& subject) {
+  if (!subject.board || subject.board->control.drive != study::FirmwareKind::sensorless)
+    return std::vector<design::DerivationStep>();
+  study::Scenario s = *subject.board;
+  s.motor = subject.motor;
+  s.sheet = subject.sheet;
+  if (base::Problems found = study::check(s); !found.empty()) return found;
+  const base::Result<study::Compiled> compiled = study::compile(s);
+  if (!compiled) return compiled.problems();
+  return compiled->sensorless_steps;
+}
+
 /// As of a turning motor, but for the numbers of the outcome: those are told in the units of its kind.
 base::Result<DesignStudy> studied(const DesignOrder& order) {
   const std::optional<double>& step = order.subject.step;
@@ -169,6 +183,9 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   s.design = std::move(*design);
   if (order.spec.mode == control::Mode::position)
     if (base::Problems found = find_gain(order, s); !found.empty()) return found;
+  base::Result<std::vector<design::DerivationStep>> sensorless = sensorless_steps(order.subject);
+  if (!sensorless) return sensorless.problems();
+  s.sensorless = std::move(*sensorless);
   s.scenario = design_scenario(s.design, order.subject);
   if (base::Problems found = too_long(s.scenario); !found.empty()) return found;
   if (base::Problems found = study::check(s.scenario); !found.empty()) {

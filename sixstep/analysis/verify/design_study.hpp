@@ -24,7 +24,9 @@ struct DesignStudy {
   std::optional<Robustness> robustness;
   std::optional<double> ideal_swing_rad_s;  ///< peak to peak of the speed in steady state, with ideal sensors
   std::optional<double> allowed_swing_rad_s;  ///< above which the speed loop oscillates (board.hpp)
-  std::vector<design::Warning> warnings;      ///< the design's, and what only the runs could show
+  /// Of a board whose drive is sensorless: start, range and lateness. Its loops are run with Hall edges where crossings would be.
+  std::vector<design::DerivationStep> sensorless;
+  std::vector<design::Warning> warnings;  ///< the design's, and what only the runs could show
 
   bool usable() const;  ///< no warning is grave
 };

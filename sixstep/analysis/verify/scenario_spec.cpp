@@ -65,7 +65,31 @@ design::ShaftSensing shaft_sensing(const study::Scenario& s) {
   return to;
 }
 
+/// The most by which any k sectors in a row together are longer or shorter than they should be, in rad.
+double stray_of(const std::vector<double>& edges_deg, std::size_t k) {
+  double most = 0.0;
+  for (std::size_t n = 0; n < edges_deg.size(); ++n)
+    most = std::max(most, std::fabs(edges_deg[(n + k) % edges_deg.size()] - edges_deg[n]));
+  return most * base::pi / 180;
+}
+
 }  // namespace
+
+design::RotorSensing rotor_sensing_of(const study::Scenario& s) {
+  design::RotorSensing to;
+  // The product drive has no other sensor than its Hall probes, and the sensorless one takes crossings as their edges.
+  to.hall = s.sensors.rotor == study::RotorSensing::hall || s.control.drive != study::FirmwareKind::lean;
+  to.edges = s.sensors.speed_edges;
+  // Edges whose places are known need no turn for their faults to cancel.
+  if (s.sensors.hall_angle == rig::HallAngleFrom::learned_edges) to.edges = std::max(to.edges, 1);
+  if (!to.hall) to.shaft = shaft_sensing(s);
+  if (s.sensors.rotor != study::RotorSensing::hall) return to;
+  to.late_s = s.sensors.hall_delay_s;
+  to.timeout_s = s.sensors.timeout_s;
+  if (s.sensors.hall_angle != rig::HallAngleFrom::learned_edges)
+    to.stray_rad = stray_of(s.sensors.hall_edges_deg, static_cast<std::size_t>(std::max(to.edges, 1)));
+  return to;
+}
 
 design::DesignSpec spec_of(const study::Scenario& s) {
   design::DesignSpec w;
@@ -80,15 +104,11 @@ design::DesignSpec spec_of(const study::Scenario& s) {
   w.period_s = s.pwm.period_s;
   w.voltage_V = s.supply.voltage_V;
   w.torque_limit_Nm = s.control.speed.torque_limit_Nm;
-  w.load_inertia_kg_m2 = s.load.inertia_kg_m2;
+  w.load_inertia_kg_m2 =
+      s.load.inertia_kg_m2 / (s.load.gear * s.load.gear);  // the loops are of the motor's shaft
   w.delay_periods = s.pwm.delay_periods;
   w.chopping = s.pwm.chopping;
-  // The product drive has no other sensor than its Hall probes, and the sensorless one takes crossings as their edges.
-  w.rotor.hall = s.sensors.rotor == study::RotorSensing::hall || s.control.drive != study::FirmwareKind::lean;
-  w.rotor.edges = s.sensors.speed_edges;
-  // Edges whose places are known need no turn for their faults to cancel.
-  if (s.sensors.hall_angle == rig::HallAngleFrom::learned_edges) w.rotor.edges = std::max(w.rotor.edges, 1);
-  if (!w.rotor.hall) w.rotor.shaft = shaft_sensing(s);
+  w.rotor = rotor_sensing_of(s);
   w.lowest_speed_rad_s = lowest_speed(s);
   return w;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/design/loops/rotor_sensing.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
@@ -45,12 +46,12 @@ SpeedLag speed_lag(const RotorSensing& sensing, double pole_pairs, double speed_
   }
   if (!sensing.hall) return {};
   const double T = sector_s(pole_pairs, speed_rad_s);
-  if (sensing.edges > 0) return {sensing.edges * T, T};
+  if (sensing.edges > 0) return {sensing.edges * T, T, sensing.late_s};
   const double window = hall_window_s(crossover_rad_s);
-  const SpeedLag one{T, T};
+  const SpeedLag one{T, T, sensing.late_s};
   // Six edges from the speed on at which they fit into the window: above it they come faster.
   const double at_most = std::fmin(window, one_turn * T);
-  const SpeedLag six{at_most, at_most / one_turn};
+  const SpeedLag six{at_most, at_most / one_turn, sensing.late_s};
   return six.delay_s() > one.delay_s() || one_turn * T <= window ? six : one;
 }
 
@@ -85,7 +86,16 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
                      hall_window_s(crossover_rad_s), "s"});
   else
     steps.push_back({"k", "edges that a speed is taken over", static_cast<double>(sensing.edges), ""});
-  add_cost(lag, "(k + 1)/2 sectors, the most from w_low up", crossover_rad_s, steps);
+  if (sensing.stray_rad > 0.0)
+    steps.push_back({"dw", "w_low s/(k pi/3), k sectors that are s off by probes beside their places",
+                     speed_rad_s * sensing.stray_rad / (std::max(sensing.edges, 1) * base::pi / 3), "rad/s"});
+  if (sensing.timeout_s > 0.0)
+    steps.push_back({"w_min", "(pi/3)/(p timeout_s), slowest speed that is told",
+                     sector_s(pole_pairs, 1.0) / sensing.timeout_s, "rad/s"});
+  add_cost(lag,
+           sensing.late_s > 0.0 ? "(k + 1)/2 sectors, the most from w_low up, and what the lines are late"
+                                : "(k + 1)/2 sectors, the most from w_low up",
+           crossover_rad_s, steps);
   return steps;
 }
 

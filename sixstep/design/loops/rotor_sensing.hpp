@@ -7,7 +7,9 @@
 //
 // the mean over k T and the hold over T (its mean over where in the sector a control tick falls): a delay of
 // (k + 1)/2 T and little else. It grows as the rotor slows down: what a loop can do is said for the lowest
-// speed that is asked for. Encoders and resolvers have shaft_sensing.hpp, whose angle may be late beside that.
+// speed that is asked for. What the lines are late comes on top. Where k sectors together stray by s from k pi/3, their speed
+// strays by w s/(k pi/3); a sector that lasts longer than the time-out ends the speed. Encoders and resolvers have
+// shaft_sensing.hpp, whose angle may be late beside that.
 #pragma once
 #include <string>
 #include <vector>
@@ -23,6 +25,10 @@ struct RotorSensing {
   bool hall = true;  ///< Hall probes; else ideal, as an encoder of very many lines
   int edges = 0;     ///< that a speed is taken over, 1..6; 0: six where they cost the loop little, else one
   ShaftSensing shaft{};  ///< an encoder or a resolver in the place of both
+  double late_s = 0.0;   ///< from a probe's edge to the pin of the chip
+  double stray_rad =
+      0.0;  ///< electrical: the most by which k sectors together are longer or shorter than k pi/3
+  double timeout_s = 0.0;  ///< a speed whose edge does not come for so long reads as 0; 0: nobody said
 
   /// Whether the speed is any older than the sample.
   bool lags() const { return hall || shaft.kind != ShaftSensorKind::none; }
