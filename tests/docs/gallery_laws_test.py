@@ -9,7 +9,7 @@ import cmath
 import decimal
 import tomllib
 import unittest
-from math import acos, atan2, cos, cosh, degrees, exp, hypot, log, pi, radians, sinh, sqrt
+from math import acos, atan, atan2, cos, cosh, degrees, exp, hypot, log, pi, radians, sin, sinh, sqrt
 
 from page import REPOSITORY
 
@@ -228,7 +228,98 @@ def closed_loop_peak(damping):
     return max(abs((1 + 2j * damping * x) / (1 - x * x + 2j * damping * x)) for x in (n / 1000 for n in range(1, 3000)))
 
 
+def link_reads(reading, lag=1 / (2 * pi * 150e3)):
+    """Mean current of a centred pulse that a lag in the DC link, where nothing flows beside the pulse, reads so in its middle."""
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        middle, x = (low + high) / 2, 0.0
+        a, b = halves(middle)
+        bottom = STALL * (1 - a) / (1 - a * b) * b
+        for _ in range(100):
+            x = lagged(x, STALL, bottom, lag, middle * T) * exp(-(1 - middle) * T / lag)
+        low, high = (middle, high) if lagged(x, STALL, bottom, lag, middle * T / 2) < reading else (low, middle)
+    return low * STALL
+
+
+def half_count(value):
+    return value - 20.48 / 2**16, value + 20.48 / 2**16
+
+
+def tracking(bandwidth, period):
+    """K_p and K_i of a critically damped loop of type 2 (design/loops/tracking_loop.hpp)."""
+    x = 2 * pi * bandwidth / sqrt(3 + sqrt(10)) * period
+    return 1 - exp(-2 * x), (1 - exp(-x))**2
+
+
+def noise_rms():
+    """Of the current asked for: two samples' mean through tracking loop and PI."""
+    k_p, k_i = tracking(500, T)
+    w = angle = out = before = squares = 0.0
+    for n in range(3000):
+        error = (0.5 if n < 2 else 0) - angle
+        w += k_i * error
+        angle += w + k_p * error
+        out += 1.582e-3 * -w / T - 1.5806e-3 * before
+        before = -w / T
+        squares += (out * 0.78 / K_T)**2
+    return sqrt((5e-3**2 + (5 / 4096)**2 / 12) * squares) / (2 * cos(radians(60)))
+
+
+def missed_rms(each=360 * PAIRS / 4096, mean=400 * 2 * pi / 100):
+    """Degrees by which edges missed since the index, and sampling, make a commutation late."""
+    period = 100 * PAIRS * T * 180 / pi
+    u, scatter = (period + each) / 2, (period**2 + each**2) / 12
+    return sqrt(each**2 * (mean / 2 + mean**2 / 3) + each * mean * u + u**2 + scatter)
+
+
+def pole_noise():
+    """Mean square of what two poles leave of the mean of two samples, for the lag of design/loops/sensorless_observer.hpp."""
+    m = 0.2 * pi / 3 / PAIRS * K_T / U / T - 0.5
+    p, slow, estimate, squares = m / (2 + m), 0.0, 0.0, 0.0
+    for n in range(200):
+        slow += (1 - p) * ((0.5 if n < 2 else 0) - slow)
+        estimate += (1 - p) * (slow - estimate)
+        squares += estimate**2
+    return squares
+
+
+LOOK = sqrt(6) * 0.05 / (2 * K_E * 60 / 30) * sqrt(26) / 4  # degrees of a commutation by single looks at 60 rad/s
+E_20 = pi / 3 / PAIRS / 20  # a sector at 20 rad/s
+CHIP_LAG = degrees(atan(1e4 * PAIRS * 2e-6**2 / tracking(200, 2e-6)[1]))
+CLOCK, PERIOD = PAIRS * 2e-6 * 180 / pi, PAIRS * T * 180 / pi  # degrees per rad/s
+ROUNDS = degrees(sqrt(2) / 2 * 5 / 4096 / 2) + 360 / 65536
+COUNT = 360 / 16384
+
+
+def ramp(part):
+    return K_T * 1.99 * part, K_T * 2.01 * part
+
+
+def around(value, by):
+    return value - by, value + by
+
+
 LAWS = {
+    "hall-hysteresis": [near(5 + 10, 1e-4 / 15), near(10 - 5, 1e-4 / 5)],
+    "hall-magnets": [near(3, 1e-4 / 3), (LOOP_GAIN * 100 * (360 / 357 - 360 / 363), None)],
+    "hall-glitches": [(None, 6 * 100 * PERIOD * (1 + T / SECTOR + 0.004)), near(100, T / SECTOR + 0.004)],
+    "hall-inverted": [ramp(3.5e-3 / E_20), ramp(1 - (10e-3 - E_20) / E_20)],
+    "hall-stuck": [ramp(1), ramp(1 - (49e-3 - 7 * E_20) / E_20)],
+    "hall-interpolated": [(None, 300 * (PERIOD + PAIRS * 1e-6 * 180 / pi))],
+    "encoder-misses": [near(missed_rms(), 0.1)],
+    "load-side-incremental": [around(radians(45), radians(2 * COUNT)), around(radians(45), radians(2 * COUNT)),
+                              around(90 + degrees(2 * 0.1 / 10), 4 * COUNT), around(90 - degrees(2 * 0.1 / 10), 4 * COUNT)],
+    "resolver-skew": [around(180 - 2, ROUNDS), around(180 + degrees(atan2(1 / 1.02 - sin(radians(2)), cos(radians(2)))), ROUNDS),
+                      around(270, ROUNDS)],
+    "resolver-noise": [near(noise_rms(), 4 * 0.0154)],
+    "resolver-tracking": [(CHIP_LAG - 100 * CLOCK, CHIP_LAG + 100 * PERIOD + 360 / 2**14),
+                          (None, 200 * PERIOD + 360 / 2**14)],
+    "amplifier-drift": [half_count(read_late(5, 1e-12, 0)), half_count(read_late(5, 1e-12, 0)), half_count(read_late(5 / 1.02, 1e-12, 0))],
+    "link-transducer": [half_count(link_reads(5)), half_count(link_reads(4.8))],
+    "sensorless-noise": [(LOOK * sqrt(0.5), LOOK)],
+    "sensorless-luenberger": [(None, LOOK / 0.88 * sqrt(pole_noise()))],
+    "sensorless-sliding-mode": [near(60, T * 60 * PAIRS * 3 / pi + 0.004)],
+    "sensorless-flux-linkage": [around(30 * (1 / sqrt(0.88) - 1), 60 * PERIOD / 2)],
     "chopping-soft": [near(0.5 * STALL), near(ripple(0.5)), (0, 0)],
     "chopping-hard": [near((2 * 0.75 - 1) * STALL), near(2 * ripple(0.75)),
                       near(-STALL * (1 - 2 * A + A * B_OFF) / (1 - A * B_OFF))[::-1]],
