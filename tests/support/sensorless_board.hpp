@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bench of sensorless.hpp with a board as one is built: channels of a tenth of the phase, diodes, dead time, amplifiers and
-// dividers on 12 bits that are as noisy as one count, a measured bus, and terminals whose dividers are unlike.
+// The bench of sensorless.hpp with a board as one is built: channels of a tenth of the phase, diodes, dead time, converters that
+// are as noisy as one count, terminals whose dividers are unlike, a measured bus, and answers that count a period late.
 #pragma once
 #include "tests/support/observers.hpp"
 
@@ -21,51 +21,75 @@ struct BuiltDrive : rig::SensorlessDrive<Scalar> {
 
 using BuiltRig = rig::Rig<double, BuiltDrive<double>>;
 
-struct BuiltBoard {
-  double dead_s = 0.5e-6;
-  double noise_counts = 1.0;  ///< of each converter, root mean square
-  bool delayed = true;        ///< an answer takes effect a period later
-};
-
-/// The board is built like that, and the drive designed for what is known of it: noise and dividers.
-inline void build(SensorlessBench& bench, const BuiltBoard& board = {}) {
-  const double R = bench.motor.machine.R_ohm, limit_A = bench.drive.current_limit_A;
+/// The board is built like that, and the drive designed for what is known of it: noise, dividers, diodes.
+inline void build(SensorlessBench& bench) {
+  const double R = bench.motor.machine.R_ohm;
   bench.devices = {.R_on_ohm = 0.1 * R, .V_f_V = 0.7, .r_d_ohm = 0.05 * R};
-  bench.board.modulator.dead_ticks = board.dead_s * sim::ticks_per_second;
-  bench.board.delayed = board.delayed;
+  bench.board.modulator.dead_ticks = 0.5e-6 * sim::ticks_per_second;
+  bench.board.delayed = true;
   rig::SensorsConfig& sensors = bench.board.sensors;
   sensors.currents = rig::CurrentMeasurement::phases;
-  sensors.current = {.bits = 12, .range = 2.0 * limit_A};
-  sensors.current.noise = board.noise_counts * sensors.current.lsb();
+  sensors.current = {.bits = 12, .range = 2.0 * bench.drive.current_limit_A};
+  sensors.current.noise = sensors.current.lsb();
   sensors.current.offset = 5.0 * sensors.current.lsb();
   sensors.measures_bus = true;
-  sensors.bus.noise = board.noise_counts * sensors.bus.lsb();
+  sensors.bus.noise = sensors.bus.lsb();
   bench.spec.adc_noise_V = sensors.bus.noise;
   bench.spec.mismatch = unlike_dividers;
   bench.spec.diode_V = bench.devices.V_f_V;
-  const auto start =
-      design::sensorless_start(bench.motor, bench.spec, bench.drive.current_at_full_torque_A);
+  const auto start = design::sensorless_start(bench.motor, bench.spec, bench.drive.current_at_full_torque_A);
   ASSERT_TRUE(start) << base::to_string(start.problems().front());
   bench.start = *start;
   bench.chip = design::sensorless_drive(bench.drive, bench.start);
 }
 
-/// Losses of the lock while it runs on, and the last one's name.
-struct Ride {
-  int losses = 0;
-  int wrong = 0;  ///< looks at which the drive was wrong by more than a sector's edge, or had lost the rotor
-  control::LockLoss last = control::LockLoss::none;
+inline SensorlessBench on_built_board(const SensorlessMotor& motor, control::Mode mode = control::Mode::speed,
+                                      control::Chopping chopping = control::Chopping::soft) {
+  SensorlessBench bench(motor, mode, chopping);
+  build(bench);
+  return bench;
+}
+
+/// When both steps of the alignment are over.
+inline double aligned_s(const SensorlessBench& bench) {
+  return 2 * bench.start.rotor.start.align_ticks / bench.spec.capture_Hz;
+}
+
+/// The duty that turns the motor with a tenth of its no-load speed against its load: what copper, channels and diodes take
+/// is put on top. Hard chopping applies 2 d - 1 of the bus.
+inline double tenth_of_no_load(const SensorlessBench& bench) {
+  const double R_tt = 2 * (bench.motor.machine.R_ohm + bench.devices.R_on_ohm);
+  const double drop_V = bench.load_part * bench.nominal_A() * R_tt + bench.devices.V_f_V;
+  const double d = 0.1 + drop_V / bench.spec.bus_V;
+  return bench.drive.chopping == control::Chopping::hard ? (1 + d) / 2 : d;
+}
+
+inline const char* word(control::Chopping chopping) {
+  constexpr const char* words[] = {"soft", "hard", "complementary"};
+  return words[static_cast<std::size_t>(chopping)];
+}
+
+/// From rest to a speed, and 0.1 s of holding it.
+struct Started {
+  bool holds = false;
+  bool at_once = false;  ///< without a second try
+  double after_s = 0.0;
 };
 
 template <class Rig>
-Ride ride(Rig& rig, double to_s, double every_s) {
-  const int before = rig.firmware().diagnosis().losses;
-  const int wrong = wrong_looks(rig, to_s, every_s);
-  return {rig.firmware().diagnosis().losses - before, wrong, rig.firmware().rotor().lock.last};
+Started started(Rig rig, const SensorlessBench& bench, double w) {
+  const double t = run_until_true(rig, 2.0 + 4 * aligned_s(bench), 5e-3, [&] {
+    return phase(rig) == control::SensorlessPhase::running &&
+           std::fabs(rig.plant().state().w - w) < 0.05 * std::fabs(w);
+  });
+  if (t < 0) return {};
+  const bool at_once = rig.firmware().rotor().lock.last == control::LockLoss::none;
+  return {wrong_looks(rig, t + 0.1, 1e-3) == 0, at_once, t};
 }
 
-inline double aligned_by_s(const SensorlessBench& bench) {
-  return 2 * bench.start.rotor.start.align_ticks / bench.spec.capture_Hz;
+inline int starts_each(int usual) {
+  const char* asked = std::getenv("SIXSTEP_SENSORLESS_STARTS");
+  return asked != nullptr ? std::atoi(asked) : usual;
 }
 
 }  // namespace sixstep::testing

@@ -161,7 +161,7 @@ std::vector<DerivationStep> steps_of(const Basis& b, const SensorlessStart& s) {
           {"T_swing", "2 pi sqrt(J/(p K_t I_start))", swing_s(b), "s"},
           {"a", "(K_t I_start - T_load)/(2 J)", ramp_rad_s2(b), "rad/s^2"},
           {"I_ramp", "(J a + T_c + B w_low)/K_t, where the speed loop goes on", ramp_A(b), "A"},
-          {"d'", "I_N K_t^2/(J U), of 2 U unless chopping is soft", s.duty_per_period / b.spec.period_s, "1/s"}};
+          {"d'", "I_N K_t^2/(J U), of 2 U unless soft", s.duty_per_period / b.spec.period_s, "1/s"}};
 }
 
 }  // namespace
