@@ -72,6 +72,10 @@ void Rig<Real, Firmware, Plant>::control_step(bool starts_period) {
     std::swap(command, pending_);
     // mutant: std::swap(reversed, pending_reversed_); => nothing
     std::swap(reversed, pending_reversed_);
+    // The pair moves on in what waits, as at a compare match: the next sample is to find the leg that is looked for.
+    if constexpr (has_commutation_clock)
+      if (firmware_.moved_on())
+        command.pair = firmware_.reversed() == reversed ? answer.pair : control::swapped(answer.pair);
   }
   if (board_.sampled_in_middle) {
     loaded_ = command;

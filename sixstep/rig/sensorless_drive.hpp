@@ -58,8 +58,10 @@ class SensorlessDrive {
     seen.on = config_.drive.sensorless.crossing.seen == control::NeutralSeen::on_time && command().enabled &&
               instant.duty > surely_on;
     const bool asks = state_.pulsing;
+    const std::uint8_t before = rotor().sector;
     control::pulsed_drive_step(config_, state_, input, {from_si<Scalar>(setpoint, bases_.setpoint)},
                                telemetry_);
+    moved_on_ = rotor().sector != before;
     if (asks && !state_.pulsing && !state_.found.seen) ++unseen_;
     note_losses(instant.at);
     find_next(instant.at);
@@ -72,6 +74,8 @@ class SensorlessDrive {
     find_next(at);
     return command();
   }
+  /// Whether the last tick found a commutation that was due already.
+  bool moved_on() const { return moved_on_; }
   /// When the timer's compare match comes.
   const sim::Instant& next_commutation() const { return next_; }
   const Command& commutation_interrupt(const sim::Instant& at) {
@@ -137,7 +141,7 @@ class SensorlessDrive {
   Bases bases_;
   double capture_Hz_;
   double terminal_V_[3]{};
-  bool dead_[3]{};
+  bool dead_[3]{}, moved_on_ = false;
   sim::Instant next_ = sim::Instant::never(), lost_at_{};
   int losses_ = 0, in_a_row_ = 0, unseen_ = 0;
   control::PulsedDriveState<Scalar> state_{};

@@ -95,11 +95,13 @@ TEST(SensorlessStart, HandsOverTheRampsTorqueAndItsDrag) {
   EXPECT_EQ(design::sensorless_start(rubbing, spec, 1.0)->start_output, 1.0);
 }
 
-TEST(SensorlessStart, HardChoppingMovesItsDutyHalfAsFast) {
-  design::SensorlessSpec hard = spec;
-  hard.chopping = control::Chopping::hard;
-  EXPECT_DOUBLE_EQ(design::sensorless_start(maxon(), hard, 0)->duty_per_period,
-                   design::sensorless_start(maxon(), spec, 0)->duty_per_period / 2);
+TEST(SensorlessStart, HardAndComplementaryChoppingMoveTheirDutyHalfAsFast) {
+  for (const control::Chopping chopping : {control::Chopping::hard, control::Chopping::complementary}) {
+    design::SensorlessSpec other = spec;
+    other.chopping = chopping;
+    EXPECT_DOUBLE_EQ(design::sensorless_start(maxon(), other, 0)->duty_per_period,
+                     design::sensorless_start(maxon(), spec, 0)->duty_per_period / 2);
+  }
 }
 
 }  // namespace

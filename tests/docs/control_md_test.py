@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""control_md_test.py COMPILER [PROGRAM]: the snippets of docs/control.md compile as they stand, and its table names every block."""
+"""control_md_test.py COMPILER [PROGRAM]: the snippets of docs/control.md compile as they stand, its figures are what tests of the rig
+print, and its table names every block."""
 import pathlib
 import re
 import subprocess
@@ -8,7 +9,7 @@ import sys
 import tempfile
 import unittest
 
-from page import REPOSITORY, Page
+from page import REPOSITORY, Page, first_missing
 
 PAGE = Page("docs/control.md")
 COMPILER, PROGRAM = "c++", REPOSITORY / "build/dev/sixstep"
@@ -53,8 +54,17 @@ class ControlPage(unittest.TestCase):
             self.assertEqual(done.returncode, 3)
             self.assertIn("line H2 does not follow the rotor", done.stdout)
 
+    def test_the_rig_prints_what_is_quoted(self):
+        quoted = [b for b in PAGE.blocks if b.word == "excerpt"]
+        self.assertGreaterEqual(len(quoted), 3)
+        for block in quoted:
+            with self.subTest(block.line):
+                command = block.detail.removeprefix("of ").replace("build/dev", str(PROGRAM.parent)).split()
+                printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+                self.assertIsNone(first_missing(block.text.splitlines(), printed.splitlines()))
+
     def test_every_snippet_is_tested_and_every_block_named(self):
-        self.assertLessEqual({b.word for b in PAGE.blocks}, {"chip", "host", "shell", "export", "exported", "trips"})
+        self.assertLessEqual({b.word for b in PAGE.blocks}, {"chip", "host", "shell", "export", "exported", "trips", "excerpt"})
         table = PAGE.text.split("<!-- test: blocks -->")[1]
         named = sorted(re.findall(r"`([\w/]+\.hpp)`", table))
         self.assertEqual(named, sorted(p.relative_to(REPOSITORY / "sixstep/control").as_posix() for p in (REPOSITORY / "sixstep/control").rglob("*.hpp")))

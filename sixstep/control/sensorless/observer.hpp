@@ -141,6 +141,7 @@ constexpr Observed observer_step(const ObserverConfig<Scalar>& config, ObserverS
   const std::uint8_t leg = floating_leg(sector);
   FloatingVoltage<Scalar> now = floating_voltage(config.voltage, s, leg, falls, command, measured.bus_V);
   Scalar i = phase_current(measured, static_cast<Leg>(leg));
+  if (now.known && !now.held) i = Scalar{};  // what an amplifier shows of it then is noise
   if (!falls) {
     now.w_V = -now.w_V;
     i = -i;

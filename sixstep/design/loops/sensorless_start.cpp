@@ -161,7 +161,7 @@ std::vector<DerivationStep> steps_of(const Basis& b, const SensorlessStart& s) {
           {"T_swing", "2 pi sqrt(J/(p K_t I_start))", swing_s(b), "s"},
           {"a", "(K_t I_start - T_load)/(2 J)", ramp_rad_s2(b), "rad/s^2"},
           {"I_ramp", "(J a + T_c + B w_low)/K_t, where the speed loop goes on", ramp_A(b), "A"},
-          {"d'", "I_N K_t^2/(J U), of 2 U in hard chopping", s.duty_per_period / b.spec.period_s, "1/s"}};
+          {"d'", "I_N K_t^2/(J U), of 2 U unless soft", s.duty_per_period / b.spec.period_s, "1/s"}};
 }
 
 }  // namespace
@@ -191,8 +191,8 @@ base::Result<SensorlessStart> sensorless_start(const MotorModel& motor, const Se
   out.start_output =
       current_at_full_output_A > 0.0 ? std::min(1.0, ramp_A(b) / current_at_full_output_A) : 0.0;
   const double K_t = motor.K_t_Nm_A;
-  // Hard chopping applies (2 d - 1) of the bus.
-  const double swing_V = spec.chopping == control::Chopping::hard ? 2.0 * spec.bus_V : spec.bus_V;
+  // Hard chopping applies (2 d - 1) of the bus; complementary chopping, while it brakes, keeps the old current alive.
+  const double swing_V = spec.chopping == control::Chopping::soft ? spec.bus_V : 2.0 * spec.bus_V;
   out.duty_per_period = b.nominal_A * K_t * K_t / (motor.shaft.J_kg_m2 * swing_V) * spec.period_s;
   out.current_per_period = b.nominal_A * spec.period_s / usual_current_settle_s;
   if (spec.seen == control::NeutralSeen::on_time)

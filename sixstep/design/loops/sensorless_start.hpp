@@ -9,7 +9,9 @@
 //   hand-over       a speed loop goes on from what the ramp takes, (J a + T_c + B w)/K_t, not from the start current
 //   catching        currents are gone after 6 L_s I/U; the rotor stands where two sectors of the lowest speed show nothing
 //   throttle        the duty grows no faster than the back-EMF follows: d' = I_N K_t^2/(J U), I_N beyond the load's current;
-//                   more of it would hide the crossing behind its freewheel. Hard chopping: half of it
+//                   more of it would hide the crossing behind its freewheel. Hard chopping: half of it, whose duty
+//                   swings the voltage twice as far; complementary: half of it, too. Braking, its freewheel holds the old
+//                   leg at its diode, and the current grows there, until K_e |s_f| has fallen below a fourth of d U
 //   highest speed   two samples before the crossing and one behind the freewheel: four control periods a sector
 #pragma once
 #include <vector>

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sensorless drive on a board as one is built (support/sensorless_board.hpp): starts, speeds and throttle of three motors of the
+// library, both ways, chopped softly and complementarily, by crossings and by observers. In all of it the rotor is never lost.
+#include "tests/support/sensorless_board.hpp"
+
+#include <random>
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using control::Chopping;
+using control::Follow;
+using control::LockLoss;
+using control::Mode;
+using control::SensorlessPhase;
+
+TEST(SensorlessBoard, StartsFromAnyAngleAgainstAnyLoadBothWays) {
+  const unsigned seed = 20'240'611;
+  std::mt19937 draw(seed);
+  std::uniform_real_distribution<double> angle(0.0, 2 * base::pi);
+  const int count = starts_each(2);
+  int drawn = 0;
+  for (const SensorlessMotor& motor : three_motors)
+    for (const double load : {0.0, 0.1, 0.3, 0.5}) {
+      int held = 0, at_once = 0;
+      double longest_s = 0;
+      for (int n = 0; n < count; ++n) {
+        SensorlessBench bench = on_built_board(
+            motor, Mode::speed, drawn++ / 2 % 2 == 0 ? Chopping::soft : Chopping::complementary);
+        bench.load_part = load;
+        bench.at.angle_rad = angle(draw) / bench.motor.machine.pole_pairs;
+        bench.board.sensors.seed = static_cast<std::uint64_t>(n);
+        const double w = (n % 2 == 0 ? 0.3 : -0.3) * bench.no_load_rad_s();
+        bench.setpoint(0, w);
+        const Started s = started(bench.rig<BuiltDrive<double>>(), bench, w);
+        held += s.holds;
+        at_once += s.at_once;
+        longest_s = std::fmax(longest_s, s.after_s);
+      }
+      std::printf("%-15s load %2.0f %%: %d of %d hold, %d at the first try, up to speed within %.2f s\n",
+                  motor.name, 100 * load, held, count, at_once, longest_s);
+      EXPECT_GE(held, static_cast<int>(std::ceil(0.99 * count))) << motor.name << " " << load;
+    }
+}
+
+TEST(SensorlessBoard, HoldsEverySpeedBothWays) {
+  int n = 0;
+  for (const SensorlessMotor& motor : three_motors)
+    for (const double load : {0.0, 0.5})
+      for (const double part : {0.05, 0.3, 0.8}) {
+        const Chopping chopping = n % 2 == 0 ? Chopping::soft : Chopping::complementary;
+        const int sign = n++ / 2 % 2 == 0 ? 1 : -1;
+        SensorlessBench bench = on_built_board(motor, Mode::speed, chopping);
+        bench.load_part = load;
+        const double w = sign * part * bench.no_load_rad_s();
+        bench.setpoint(0, w);
+        auto rig = bench.rig<BuiltDrive<double>>();
+        const std::string where = std::string(motor.name) + " " + word(chopping) + " " +
+                                  std::to_string(sign * part) + " load " + std::to_string(load);
+        EXPECT_LE(bench.start.lowest_rad_s, 0.0501 * bench.no_load_rad_s()) << where;
+        run_until(rig, aligned_s(bench) + 0.8);
+        EXPECT_EQ(wrong_looks(rig, aligned_s(bench) + 1.1, 1e-3), 0) << where;
+        EXPECT_NEAR(rig.plant().state().w, w, 0.1 * std::fabs(w)) << where;
+        EXPECT_EQ(rig.firmware().rotor().lock.last, LockLoss::none) << where;
+      }
+}
+
+/// Full throttle and back to a tenth of the no-load speed, twice; what is asked for comes at once, and the chip slews it.
+void expect_throttle(SensorlessBench& bench, int sign, const std::string& where) {
+  const double low = tenth_of_no_load(bench), from_s = aligned_s(bench) + 0.6;
+  bench.setpoint(0, sign * low);
+  for (int n = 0; n < 4; ++n) bench.setpoint(from_s + 0.4 * n, sign * (n % 2 == 0 ? 1.0 : low));
+  auto rig = bench.rig<BuiltDrive<double>>();
+  run_until(rig, from_s - 0.1);
+  EXPECT_EQ(wrong_looks(rig, from_s + 0.39, 0.3e-3), 0) << where;
+  const double fast = std::fabs(rig.plant().state().w);
+  EXPECT_EQ(wrong_looks(rig, from_s + 1.6, 0.3e-3), 0) << where;
+  EXPECT_EQ(rig.firmware().rotor().lock.last, LockLoss::none) << where;
+  // Full duty leaves the load's drop of the no-load speed; where a load or the bridge brakes, it has slowed down again.
+  const double R_tt = 2 * (bench.motor.machine.R_ohm + bench.devices.R_on_ohm);
+  const double full =
+      bench.no_load_rad_s() * (1 - bench.load_part * bench.nominal_A() * R_tt / bench.spec.bus_V);
+  EXPECT_GT(fast, 0.85 * full) << where;
+  if (bench.load_part > 0) {
+    EXPECT_LT(std::fabs(rig.plant().state().w), 0.25 * full) << where;
+  }
+}
+
+TEST(SensorlessBoard, ThrottleStepsKeepLock) {
+  int n = 0;
+  for (const SensorlessMotor& motor : three_motors)
+    for (const double load : {0.0, 0.5})
+      for (const Chopping chopping : {Chopping::soft, Chopping::complementary}) {
+        SensorlessBench bench = on_built_board(motor, Mode::duty, chopping);
+        bench.load_part = load;
+        expect_throttle(bench, n++ / 2 % 2 == 0 ? 1 : -1,
+                        std::string(motor.name) + " " + word(chopping) + " load " + std::to_string(load));
+      }
+}
+
+TEST(SensorlessBoard, ObserversThrottleTheHub) {
+  int n = 0;
+  for (const double load : {0.0, 0.5})
+    for (const Follow observer : three_observers) {
+      SensorlessBench bench =
+          on_built_board(three_motors[2], Mode::duty, n % 2 == 0 ? Chopping::soft : Chopping::complementary);
+      follow(bench, observer);
+      bench.load_part = load;
+      expect_throttle(bench, n++ % 3 == 0 ? -1 : 1, std::string(word(observer)) + " " + std::to_string(load));
+    }
+}
+
+/// The chip slews the duty (sensorless_start.hpp): from a tenth to all of it by the closed form.
+TEST(SensorlessBoard, TellsHowLongTheThrottleTakes) {
+  for (const SensorlessMotor& motor : three_motors) {
+    SensorlessBench bench(motor, Mode::duty);
+    const double K_t = bench.motor.K_t_Nm_A, J = bench.motor.shaft.J_kg_m2, U = bench.spec.bus_V;
+    const double slew = bench.nominal_A() * K_t * K_t / (J * U);
+    const double tau_s = 2 * bench.motor.machine.R_ohm * J / (K_t * K_t);
+    const double from_s = aligned_s(bench) + 0.6;
+    bench.setpoint(0, 0.1);
+    bench.setpoint(from_s, 1.0);
+    auto rig = bench.rig();
+    run_until(rig, from_s);
+    const double t = run_until_true(rig, from_s + 1, bench.spec.period_s,
+                                    [&] { return rig.modulator().command().duty >= 1.0; });
+    std::printf(
+        "%-15s time constant %2.0f ms, duty from 10 to 100 %% in %3.0f ms, complementary in %3.0f ms\n",
+        motor.name, 1e3 * tau_s, 1e3 * 0.9 / slew, 1e3 * 1.8 / slew);
+    EXPECT_NEAR(t - from_s, 0.9 / slew, 2.5 * bench.spec.period_s) << motor.name;
+  }
+}
+
+/// One count of noise in the amplifiers is several thresholds of a slow rotor's back-EMF behind L/T: where no current flows,
+/// none is taken.
+TEST(SensorlessBoard, ObserversHoldFivePercent) {
+  int n = 0;
+  for (const SensorlessMotor& motor : three_motors)
+    for (const Follow observer : three_observers) {
+      SensorlessBench bench = on_built_board(motor);
+      follow(bench, observer);
+      bench.load_part = 0.3;
+      const double w = (n++ % 2 == 0 ? 0.05 : -0.05) * bench.no_load_rad_s();
+      bench.setpoint(0, w);
+      auto rig = bench.rig<BuiltDrive<double>>();
+      run_until(rig, aligned_s(bench) + 0.8);
+      const std::string where = std::string(motor.name) + " " + word(observer) + " " + std::to_string(w);
+      EXPECT_EQ(wrong_looks(rig, aligned_s(bench) + 1.1, 1e-3), 0) << where;
+      EXPECT_NEAR(rig.plant().state().w, w, 0.1 * std::fabs(w)) << where;
+      EXPECT_EQ(rig.firmware().rotor().lock.last, LockLoss::none) << where;
+    }
+}
+
+/// A speed step from so much of the no-load speed to so much of it; how often the rotor was lost, and caught.
+int losses_of_step(SensorlessBench& bench, double from, double to, const std::string& where) {
+  const double no_load = bench.no_load_rad_s(), step_s = aligned_s(bench) + 0.7;
+  bench.setpoint(0, from * no_load);
+  bench.setpoint(step_s, to * no_load);
+  auto rig = bench.rig<BuiltDrive<double>>();
+  run_until(rig, step_s);
+  EXPECT_EQ(rig.firmware().diagnosis().losses, 0) << where;
+  run_until(rig, step_s + 0.6);
+  EXPECT_EQ(phase(rig), SensorlessPhase::running) << where;
+  EXPECT_NEAR(rig.plant().state().w, to * no_load, 0.05 * to * no_load) << where;
+  return rig.firmware().diagnosis().losses;
+}
+
+/// What the page says cannot be held: at the current's limit an old current may outlast a crossing. The rotor is caught again.
+TEST(SensorlessBoard, ASpeedStepMayLoseTheRotorOnce) {
+  for (const SensorlessMotor& motor : three_motors) {
+    int up = 0, down = 0;
+    for (const Follow follower : every_follow) {
+      SensorlessBench strayed(motor);
+      follow(strayed, follower);
+      strayed.motor.machine.R_ohm *= 1.3;
+      strayed.motor.machine.L_H *= 1.3;
+      strayed.motor.machine.K_e_V_s *= 0.9;
+      strayed.load_part = 0.3;
+      const int losses = losses_of_step(strayed, 0.08, 0.7, std::string(motor.name) + word(follower));
+      EXPECT_LE(losses, 1) << motor.name << " " << word(follower);
+      up += losses;
+    }
+    for (const Chopping chopping : {Chopping::soft, Chopping::complementary}) {
+      SensorlessBench bench = on_built_board(motor, Mode::speed, chopping);
+      bench.load_part = 0.3;
+      const int losses = losses_of_step(bench, 0.7, 0.3, std::string(motor.name) + word(chopping));
+      EXPECT_LE(losses, 1) << motor.name << " " << word(chopping);
+      down += losses;
+    }
+    std::printf("%-15s lost once in %d of 4 steps up on a strayed motor, in %d of 2 steps down\n", motor.name,
+                up, down);
+  }
+}
+
+}  // namespace

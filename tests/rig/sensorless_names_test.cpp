@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a loss of the lock is called, provoked at the plant: an old current that outlasts the crossing, a rotor that is struck
+// and stands elsewhere, a rotor that is held, a divider that breaks. Both ways, by crossings and by an observer, in double and q15.
+#include "tests/support/sensorless_board.hpp"
+
+#include <array>
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using control::Follow;
+using control::LockLoss;
+using control::Q15;
+using control::SensorlessPhase;
+
+struct Lost {
+  LockLoss named = LockLoss::none;
+  bool caused = false;   ///< before it was named
+  int commutations = 0;  ///< since the cause
+};
+
+/// Runs on until the rotor is lost. `caused`: whether the plant shows the cause by now.
+template <class Rig, class Caused>
+Lost lost(Rig&& rig, const SensorlessBench& bench, double cause_s, Caused&& caused) {
+  run_until(rig, cause_s);
+  EXPECT_EQ(phase(rig), SensorlessPhase::running);
+  Lost found;
+  std::int32_t last = 0, since = 0;
+  const double t = run_until_true(rig, cause_s + 0.3, bench.spec.period_s, [&] {
+    if (phase(rig) != SensorlessPhase::running) return true;
+    last = rig.firmware().rotor().position.sectors;
+    if (!found.caused) since = last;
+    found.caused = found.caused || caused(rig);
+    return false;
+  });
+  EXPECT_GT(t, 0);
+  EXPECT_FALSE(rig.modulator().command().enabled) << "the bridge is off";
+  found.named = rig.firmware().rotor().lock.last;
+  found.commutations = found.caused ? std::abs(last - since) : 0;
+  return found;
+}
+
+/// In double by the crossings, in q15 by flux linkage.
+template <class Caused>
+void expect_name(const SensorlessBench& bench, double cause_s, LockLoss name, const std::string& where,
+                 Caused&& caused) {
+  const auto expect = [&](const Lost& l, const char* which) {
+    EXPECT_EQ(l.named, name) << where << " " << which;
+    EXPECT_LE(l.commutations, 2) << where << " " << which;
+  };
+  expect(lost(bench.rig(), bench, cause_s, caused), "double");
+  SensorlessBench other = bench;
+  follow(other, Follow::flux);
+  const auto chip = in_fixed_point<Q15>(other);
+  expect(lost(rig::Rig<double, rig::SensorlessDrive<Q15>>(other.plant(), {.drive = chip}, other.board,
+                                                          other.timeline),
+              other, cause_s, caused),
+         "q15");
+}
+
+std::string at(const SensorlessMotor& motor, int sign) {
+  return std::string(motor.name) + (sign > 0 ? " forward" : " backward");
+}
+
+/// The crossing has passed, and the leg's old current still runs.
+template <class Rig>
+bool crossing_is_hidden(const Rig& rig, double least_A) {
+  const control::SensorlessState& rotor = rig.firmware().rotor();
+  const auto& state = rig.plant().state();
+  if (rig.plant().sector() != rotor.sector) return false;
+  const bool passed = rotor.direction > 0 ? state.x > base::sector_rad / 2 : state.x < base::sector_rad / 2;
+  return passed && std::fabs(state.i[control::floating_leg(rotor.sector)]) > least_A;
+}
+
+/// A winding with so much inductance that the current's limit takes half a sector at half the no-load speed to run out,
+/// L I = U t, is told to speed up.
+TEST(SensorlessNames, AnOldCurrentThatOutlastsTheCrossingIsALongDemagnetisation) {
+  for (const SensorlessMotor& motor : three_motors)
+    for (const int sign : {1, -1}) {
+      SensorlessBench bench(motor);
+      const double no_load = bench.no_load_rad_s();
+      const double half_s = base::sector_rad / (bench.motor.machine.pole_pairs * 0.5 * no_load) / 2;
+      bench.motor.machine.L_H = half_s * motor.bus_V / bench.drive.current_limit_A;
+      const double cause_s = aligned_s(bench) + 0.6;
+      bench.setpoint(0, sign * 0.3 * no_load);
+      bench.setpoint(cause_s, sign * 0.9 * no_load);
+      const double least_A = 0.02 * bench.nominal_A();
+      expect_name(bench, cause_s, LockLoss::long_demagnetisation, at(motor, sign),
+                  [least_A](const auto& rig) { return crossing_is_hidden(rig, least_A); });
+    }
+}
+
+/// A blow of four control periods, in any part of a sector, takes the rotor from a tenth of its no-load speed to seven tenths: it
+/// runs through sectors that the drive still waits for.
+TEST(SensorlessNames, ARotorThatIsStruckStandsInAWrongSector) {
+  int n = 0;
+  for (const SensorlessMotor& motor : three_motors)
+    for (const int sign : {1, -1}) {
+      SensorlessBench bench(motor);
+      const double w = 0.1 * bench.no_load_rad_s(), blow_s = 4 * bench.spec.period_s;
+      const double sector_s = base::sector_rad / (bench.motor.machine.pole_pairs * w);
+      const double cause_s = aligned_s(bench) + 0.6 + n++ * sector_s / 6;
+      bench.setpoint(0, sign * w);
+      bench.act(cause_s, rig::ActionKind::load_torque, -sign * 6 * w * bench.motor.shaft.J_kg_m2 / blow_s);
+      bench.act(cause_s + blow_s, rig::ActionKind::load_torque, 0);
+      expect_name(bench, cause_s, LockLoss::wrong_sector, at(motor, sign), [](const auto&) { return true; });
+    }
+}
+
+TEST(SensorlessNames, AHeldRotorMasksItsCrossing) {
+  for (const SensorlessMotor& motor : three_motors)
+    for (const int sign : {1, -1}) {
+      SensorlessBench bench(motor);
+      const double cause_s = aligned_s(bench) + 0.6;
+      bench.setpoint(0, sign * 0.5 * bench.no_load_rad_s());
+      bench.act(cause_s, rig::ActionKind::shaft_locked, 1);
+      expect_name(bench, cause_s, LockLoss::masked_crossing, at(motor, sign),
+                  [](const auto&) { return true; });
+    }
+}
+
+constexpr double broken_s = 1.4;
+
+/// The divider of one leg breaks on the built board: it reads 0, which is wrong once the terminal stands elsewhere, and matters
+/// unless the leg floats behind its crossing. Where it floats ahead of one that falls, 0 is that crossing to the chip, and is
+/// right for the two sectors that follow.
+template <class Scalar, std::size_t leg>
+struct BrokenDivider : BuiltDrive<Scalar> {
+  using BuiltDrive<Scalar>::BuiltDrive;
+  using typename BuiltDrive<Scalar>::Command;
+  bool reads_wrong = false;
+  bool broken = false;
+  bool looks_crossed = false;
+
+  template <class Real>
+  void look_at_terminals(const plant::PerLeg<Real>& u) {
+    const control::SensorlessState& rotor = this->rotor();
+    const bool matters = control::floating_leg(rotor.sector) != leg || !rotor.crossing.done;
+    reads_wrong = reads_wrong || (broken && matters && u[leg] > 1.0);
+    BuiltDrive<Scalar>::look_at_terminals(u);
+  }
+  template <class Real>
+  const Command& tick(const rig::SampleInstant<Real>& instant, double setpoint) {
+    if (!broken && instant.at >= sim::to_instant(broken_s)) {
+      broken = true;
+      const control::SensorlessState& rotor = this->rotor();
+      looks_crossed =
+          control::floating_leg(rotor.sector) == leg && rotor.sector % 2 == 0 && !rotor.crossing.done;
+      this->break_divider(leg);
+    }
+    return BuiltDrive<Scalar>::tick(instant, setpoint);
+  }
+};
+
+template <std::size_t leg>
+void expect_divider_named(const SensorlessMotor& motor, int sign, Follow follower) {
+  SensorlessBench bench = on_built_board(motor);
+  follow(bench, follower);
+  bench.setpoint(0, sign * 0.5 * bench.no_load_rad_s());
+  bool looks_crossed = false;
+  const Lost l = lost(bench.rig<BrokenDivider<double, leg>>(), bench, broken_s, [&](const auto& rig) {
+    looks_crossed = rig.firmware().looks_crossed;
+    return rig.firmware().reads_wrong;
+  });
+  const std::string where = at(motor, sign) + " " + word(follower) + " leg " + std::to_string(leg);
+  EXPECT_TRUE(l.named == LockLoss::terminals || l.named == LockLoss::long_demagnetisation ||
+              l.named == LockLoss::masked_crossing)
+      << where << " " << static_cast<int>(l.named);
+  EXPECT_TRUE(l.caused) << where;
+  EXPECT_LE(l.commutations, looks_crossed ? 3 : 2) << where;
+}
+
+/// Where the leg is driven high its reading contradicts the command: terminals. Where it floats, 0 is a diode's rail, which
+/// hides the crossing, or a back-EMF that does not come.
+TEST(SensorlessNames, ADividerThatBreaksIsOneOfThree) {
+  int n = 0;
+  for (const SensorlessMotor& motor : three_motors)
+    for (const Follow follower : {Follow::crossings, Follow::luenberger, Follow::flux}) {
+      const int sign = n % 2 == 0 ? 1 : -1;
+      constexpr auto by_leg =
+          std::array{expect_divider_named<0>, expect_divider_named<1>, expect_divider_named<2>};
+      by_leg[static_cast<std::size_t>((n + n / 3) % 3)](motor, sign, follower);
+      ++n;
+    }
+}
+
+}  // namespace

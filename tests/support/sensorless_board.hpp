@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bench of sensorless.hpp with a board as one is built: channels of a tenth of the phase, diodes, dead time, converters that
+// are as noisy as one count, terminals whose dividers are unlike, a measured bus, and answers that count a period late.
+#pragma once
+#include "tests/support/observers.hpp"
+
+namespace sixstep::testing {
+
+/// Dividers of resistors of 0.1 %: two of them differ by 0.4 % at most. That of leg a reads so much more than that of leg b.
+inline constexpr double unlike_dividers = 0.004;
+
+template <class Scalar>
+struct BuiltDrive : rig::SensorlessDrive<Scalar> {
+  using rig::SensorlessDrive<Scalar>::SensorlessDrive;
+  template <class Real>
+  void look_at_terminals(const plant::PerLeg<Real>& u) {
+    rig::SensorlessDrive<Scalar>::look_at_terminals(
+        plant::PerLeg<Real>{(1 + unlike_dividers / 2) * u[0], (1 - unlike_dividers / 2) * u[1], u[2]});
+  }
+};
+
+using BuiltRig = rig::Rig<double, BuiltDrive<double>>;
+
+/// The board is built like that, and the drive designed for what is known of it: noise, dividers, diodes.
+inline void build(SensorlessBench& bench) {
+  const double R = bench.motor.machine.R_ohm;
+  bench.devices = {.R_on_ohm = 0.1 * R, .V_f_V = 0.7, .r_d_ohm = 0.05 * R};
+  bench.board.modulator.dead_ticks = 0.5e-6 * sim::ticks_per_second;
+  bench.board.delayed = true;
+  rig::SensorsConfig& sensors = bench.board.sensors;
+  sensors.currents = rig::CurrentMeasurement::phases;
+  sensors.current = {.bits = 12, .range = 2.0 * bench.drive.current_limit_A};
+  sensors.current.noise = sensors.current.lsb();
+  sensors.current.offset = 5.0 * sensors.current.lsb();
+  sensors.measures_bus = true;
+  sensors.bus.noise = sensors.bus.lsb();
+  bench.spec.adc_noise_V = sensors.bus.noise;
+  bench.spec.mismatch = unlike_dividers;
+  bench.spec.diode_V = bench.devices.V_f_V;
+  const auto start = design::sensorless_start(bench.motor, bench.spec, bench.drive.current_at_full_torque_A);
+  ASSERT_TRUE(start) << base::to_string(start.problems().front());
+  bench.start = *start;
+  bench.chip = design::sensorless_drive(bench.drive, bench.start);
+}
+
+inline SensorlessBench on_built_board(const SensorlessMotor& motor, control::Mode mode = control::Mode::speed,
+                                      control::Chopping chopping = control::Chopping::soft) {
+  SensorlessBench bench(motor, mode, chopping);
+  build(bench);
+  return bench;
+}
+
+/// When both steps of the alignment are over.
+inline double aligned_s(const SensorlessBench& bench) {
+  return 2 * bench.start.rotor.start.align_ticks / bench.spec.capture_Hz;
+}
+
+/// The duty that turns the motor with a tenth of its no-load speed against its load: what copper, channels and diodes take
+/// is put on top. Hard chopping applies 2 d - 1 of the bus.
+inline double tenth_of_no_load(const SensorlessBench& bench) {
+  const double R_tt = 2 * (bench.motor.machine.R_ohm + bench.devices.R_on_ohm);
+  const double drop_V = bench.load_part * bench.nominal_A() * R_tt + bench.devices.V_f_V;
+  const double d = 0.1 + drop_V / bench.spec.bus_V;
+  return bench.drive.chopping == control::Chopping::hard ? (1 + d) / 2 : d;
+}
+
+inline const char* word(control::Chopping chopping) {
+  constexpr const char* words[] = {"soft", "hard", "complementary"};
+  return words[static_cast<std::size_t>(chopping)];
+}
+
+/// From rest to a speed, and 0.1 s of holding it.
+struct Started {
+  bool holds = false;
+  bool at_once = false;  ///< without a second try
+  double after_s = 0.0;
+};
+
+template <class Rig>
+Started started(Rig rig, const SensorlessBench& bench, double w) {
+  const double t = run_until_true(rig, 2.0 + 4 * aligned_s(bench), 5e-3, [&] {
+    return phase(rig) == control::SensorlessPhase::running &&
+           std::fabs(rig.plant().state().w - w) < 0.05 * std::fabs(w);
+  });
+  if (t < 0) return {};
+  const bool at_once = rig.firmware().rotor().lock.last == control::LockLoss::none;
+  return {wrong_looks(rig, t + 0.1, 1e-3) == 0, at_once, t};
+}
+
+inline int starts_each(int usual) {
+  const char* asked = std::getenv("SIXSTEP_SENSORLESS_STARTS");
+  return asked != nullptr ? std::atoi(asked) : usual;
+}
+
+}  // namespace sixstep::testing
