@@ -11,7 +11,7 @@
 //   throttle        the duty grows no faster than the back-EMF follows: d' = I_N K_t^2/(J U), I_N beyond the load's current;
 //                   more of it would hide the crossing behind its freewheel. Hard chopping: half of it, whose duty
 //                   swings the voltage twice as far; complementary: half of it, too. Braking, its freewheel holds the old
-//                   leg at its diode, and the current grows there, until K_e |s_f| has fallen below a fourth of d U
+//                   leg at its diode, and the current grows there, until K_e w |s_f| has fallen below d U/2
 //   highest speed   two samples before the crossing and one behind the freewheel: four control periods a sector
 #pragma once
 #include <vector>
