@@ -36,6 +36,43 @@ TEST(SensorlessStart, FollowsItsClosedForms) {
   EXPECT_GT(c.speed.timeout_ticks, c.lock.longest_ticks) << "a time-out would end the history";
 }
 
+TEST(SensorlessStart, AFilterSetsLeadBlankingAndLeastDuty) {
+  design::SensorlessSpec filtered = spec;
+  filtered.lowest_part = 0.2;
+  filtered.terminal_bandwidth_Hz = 250e3;
+  const double tau = 1 / (2 * base::pi * 250e3);
+  const auto start = design::sensorless_start(maxon(), filtered, 5.825);
+  ASSERT_TRUE(start);
+  EXPECT_EQ(start->rotor.clock.lead_ticks, std::round(tau * 16e6));
+  EXPECT_EQ(start->rotor.crossing.settle_ticks, std::ceil(3.5 * tau * 16e6));
+  EXPECT_EQ(start->rotor.crossing.margin_ticks, start->rotor.crossing.settle_ticks);
+  EXPECT_DOUBLE_EQ(start->least_duty, 7 * tau / 30e-6);
+  EXPECT_NEAR(start->highest_rad_s, base::pi / 3 / 8 / (5 * 30e-6), 1e-9);
+  EXPECT_EQ(start->rotor.lock.most_flux, 0xffffffffu) << "in soft chopping sizes tell nothing";
+  filtered.blanking_s = 4 * tau;
+  const auto longer = design::sensorless_start(maxon(), filtered, 5.825);
+  ASSERT_TRUE(longer);
+  EXPECT_EQ(longer->rotor.crossing.margin_ticks, std::ceil(4 * tau * 16e6)) << "the longer of both";
+}
+
+/// On-time at the lowest speed: a fifth of the period; of hard chopping three fifths.
+TEST(SensorlessStart, RefusesAFilterThatTheLeastOnTimeIsTooShortFor) {
+  for (const auto& [chopping, part] :
+       {std::pair{control::Chopping::soft, 0.2}, {control::Chopping::hard, 0.6}}) {
+    design::SensorlessSpec filtered = spec;
+    filtered.lowest_part = 0.2;
+    filtered.chopping = chopping;
+    const double least_Hz = 7 / (2 * base::pi * part * 30e-6);
+    filtered.terminal_bandwidth_Hz = 1.0001 * least_Hz;
+    EXPECT_TRUE(design::sensorless_start(maxon(), filtered, 5.825)) << part;
+    filtered.terminal_bandwidth_Hz = 0.9999 * least_Hz;
+    const auto refused = design::sensorless_start(maxon(), filtered, 5.825);
+    ASSERT_FALSE(refused) << part;
+    EXPECT_EQ(refused.problems().front().where, "terminal_bandwidth_Hz");
+    EXPECT_NE(refused.problems().front().cure.find("lowest_part"), std::string::npos);
+  }
+}
+
 TEST(SensorlessStart, NoiseRaisesTheLowestSpeedUntilItIsRefused) {
   design::SensorlessSpec noisy = spec;
   noisy.adc_noise_V = 0.05;

@@ -141,9 +141,39 @@ TEST(SensorlessScenario, SaysWhatItCannotDo) {
   s.sensors.rotor = RotorSensing::encoder;
   refused(s, "sensors.rotor");
   s = good;
+  s.sensors.bus_bandwidth_Hz = 1e6;
+  EXPECT_TRUE(check(s).empty());
+  s.control.sensorless.follows = control::Follow::luenberger;
+  refused(s, "sensors.bus_bandwidth_Hz");
+  s = good;
   s.control.drive = FirmwareKind::lean;
   s.control.sensorless.overload = 2.0;
   refused(s, "control.sensorless");
+}
+
+/// 7 time constants of 30 us lowest_part at least.
+TEST(SensorlessScenario, RunsBehindAFilterThatIsFastEnough) {
+  Scenario s = sensorless(Mode::speed, 300.0);
+  s.control.sensorless.lowest_part = 0.2;
+  const double least_Hz = 7 / (2 * base::pi * 0.2 * 30e-6);
+  s.sensors.bus_bandwidth_Hz = 0.99 * least_Hz;
+  const auto refused = compile(s);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.problems()[0].where, "sensors.bus_bandwidth_Hz");
+  EXPECT_THAT(refused.problems()[0].cure, HasSubstr("lowest_part"));
+  s.sensors.bus_bandwidth_Hz = 1.01 * least_Hz;
+  for (const BusSensing bus : {BusSensing::ideal, BusSensing::adc}) {
+    s.sensors.bus = bus;
+    s.sensors.bus_range_V = 30.0;
+    const auto compiled = compile(s);
+    ASSERT_TRUE(compiled);
+    EXPECT_DOUBLE_EQ(compiled->board.front_end.divider_s, 1 / (2 * base::pi * *s.sensors.bus_bandwidth_Hz));
+  }
+  ask(s, over(MetricKind::mean, Signal::speed, 2.0, 2.2));
+  const Outcome out = outcome_of(s);
+  ASSERT_FALSE(out.fault) << to_string(*out.fault);
+  EXPECT_TRUE(out.notes.empty()) << out.notes[0];
+  EXPECT_NEAR(out.comparisons[0].measured, 300.0, 1.5);
 }
 
 TEST(SensorlessScenario, IsRefusedWhereItsCurrentDoesNotMoveTheLoad) {

@@ -42,6 +42,7 @@ struct ZeroCrossingConfig {
   std::int32_t threshold = 0x7fffffff;  ///< counts of y that are a voltage and no noise
   std::int32_t below = 0x7fffffff;      ///< the same downwards; in a freewheel less: a diode holds u_f there
   std::uint32_t margin_ticks = 0;       ///< blanking after the freewheel's end
+  std::uint32_t settle_ticks = 0;       ///< from the commutation: filters still show what was before
   bool operator==(const ZeroCrossingConfig&) const = default;
 };
 
@@ -170,6 +171,7 @@ constexpr CrossingReading zero_crossing_step(const ZeroCrossingConfig& config, Z
   const bool falls = state.sector % 2 == 0;
   const std::int32_t y = falls ? sum : -sum;
   const std::uint32_t since = s.at - state.began;
+  if (since < config.settle_ticks) return {Crossing::none, s.at, true, false, y};
   if (state.freewheels) {
     state.freewheel = since;
     if (detail::at_rail(config, s, leg, falls)) {

@@ -18,8 +18,9 @@ constexpr double falling = 0.25;  // of the current, while the rotor falls towar
 constexpr double fastest = 1.5;   // no-load speeds: nothing turns faster
 constexpr double slowest = 0.4;   // of the lowest speed: given up below
 constexpr double fluxes = 2.0;    // T may be late by so much in a steep acceleration
-constexpr double periods_a_sector = 4.0;
+constexpr double periods_a_sector = 4.0, filtered_periods_a_sector = 5.0;
 constexpr double rail_part = 0.03;  // of the bus
+constexpr double rail_lags = 3.5;   // exp(-3.5) is that part
 
 std::uint32_t whole(double x) {
   return x < 0.0 ? 0u : x < 4294967295.0 ? static_cast<std::uint32_t>(std::floor(x + 0.5)) : 0xffffffffu;
@@ -31,11 +32,18 @@ struct Basis {
   const SensorlessSpec& spec;
   double R_tt = 0.0, no_load_rad_s = 0.0, nominal_A = 0.0, start_A = 0.0, load_Nm = 0.0;
   double lsb_V = 0.0, threshold_V = 0.0, lowest_rad_s = 0.0;
+  double lag_s = 0.0;  ///< of the terminals' filters
 
   double sector_s(double speed_rad_s) const {
     return base::sector_rad / (motor.machine.pole_pairs * speed_rad_s);
   }
   double counts(double seconds) const { return seconds * spec.capture_Hz; }
+  double settle_s() const { return rail_lags * lag_s; }
+  /// On-time of a rotor that turns at the lowest speed without a load.
+  double least_on_s() const {
+    const double part = lowest_rad_s / no_load_rad_s;
+    return (spec.chopping == control::Chopping::hard ? (1.0 + part) / 2.0 : part) * spec.period_s;
+  }
 };
 
 Basis basis_of(const MotorModel& motor, const SensorlessSpec& spec) {
@@ -52,6 +60,7 @@ Basis basis_of(const MotorModel& motor, const SensorlessSpec& spec) {
   b.threshold_V = noises * std::sqrt(6.0) * spec.adc_noise_V + 2.0 * b.lsb_V + spec.mismatch * spec.bus_V;
   b.lowest_rad_s =
       std::max(spec.lowest_part * b.no_load_rad_s, clear * b.threshold_V / (2.0 * motor.machine.K_e_V_s));
+  if (spec.terminal_bandwidth_Hz > 0.0) b.lag_s = 1.0 / (2.0 * base::pi * spec.terminal_bandwidth_Hz);
   return b;
 }
 
@@ -64,7 +73,10 @@ control::ZeroCrossingConfig crossing_of(const Basis& b) {
   // A diode of the freewheel holds the terminal one drop below the rail, and the driven pair half of one.
   c.below = b.spec.seen == control::NeutralSeen::on_time ? c.threshold
                                                          : std::min(c.threshold, counts(b.spec.diode_V / 2));
-  c.margin_ticks = whole(b.counts(b.spec.blanking_s));
+  const auto through = [](double ticks) { return whole(std::ceil(ticks)); };
+  c.margin_ticks = b.lag_s > 0.0 ? through(b.counts(std::max(b.spec.blanking_s, b.settle_s())))
+                                 : whole(b.counts(b.spec.blanking_s));
+  c.settle_ticks = through(b.counts(b.settle_s()));
   return c;
 }
 
@@ -120,6 +132,8 @@ control::LockConfig lock_of(const Basis& b) {
   l.shortest_ticks = whole(b.counts(b.sector_s(fastest * b.no_load_rad_s)));
   l.threshold = static_cast<std::int32_t>(b.threshold_V / b.lsb_V) + 1;
   l.most_flux = whole(fluxes * 3.0 * b.motor.machine.K_e_V_s / b.lsb_V * b.counts(b.sector_s(1.0)));
+  // A leg that its diode lets go within the on-time is seen on its way from the rail: no voltage that tells a flux.
+  if (b.lag_s > 0.0 && b.spec.chopping != control::Chopping::hard) l.most_flux = 0xffffffffu;
   l.longest_ticks = whole(b.counts(b.sector_s(slowest * b.lowest_rad_s)));
   return l;
 }
@@ -153,15 +167,31 @@ base::Problems problems_of(const MotorModel& motor, const SensorlessSpec& spec) 
   return problems;
 }
 
+/// Sampled in the middle of the on-time, half of which has to be enough for the legs to come to their rails.
+base::Problem too_slow(const Basis& b) {
+  const double needed_Hz = rail_lags / (base::pi * b.least_on_s());
+  return {"terminal_bandwidth_Hz", base::rounded(b.spec.terminal_bandwidth_Hz, 4),
+          "lets the terminals come to their rails within " + base::rounded(2e6 * b.settle_s(), 4) +
+              " us, 7 time constants, and the least on-time has " + base::rounded(1e6 * b.least_on_s(), 4) +
+              " us",
+          "raise it to " + base::rounded(needed_Hz, 4) + " Hz, or hand over at a higher lowest_part"};
+}
+
 std::vector<DerivationStep> steps_of(const Basis& b, const SensorlessStart& s) {
-  return {{"y_0", "5 sqrt(6) noise + 2 steps + mismatch U", b.threshold_V, "V"},
-          {"w_low", "4 y_0/(2 K_e), at least lowest_part U/K_t", s.lowest_rad_s, "rad/s"},
-          {"w_high", "a sector in 4 periods", s.highest_rad_s, "rad/s"},
-          {"I_start", "overload I_N, at most 0.8 U/R_tt", b.start_A, "A"},
-          {"T_swing", "2 pi sqrt(J/(p K_t I_start))", swing_s(b), "s"},
-          {"a", "(K_t I_start - T_load)/(2 J)", ramp_rad_s2(b), "rad/s^2"},
-          {"I_ramp", "(J a + T_c + B w_low)/K_t, where the speed loop goes on", ramp_A(b), "A"},
-          {"d'", "I_N K_t^2/(J U), of 2 U unless soft", s.duty_per_period / b.spec.period_s, "1/s"}};
+  std::vector<DerivationStep> steps = {
+      {"y_0", "5 sqrt(6) noise + 2 steps + mismatch U", b.threshold_V, "V"},
+      {"w_low", "4 y_0/(2 K_e), at least lowest_part U/K_t", s.lowest_rad_s, "rad/s"},
+      {"w_high", b.lag_s > 0.0 ? "a sector in 5 periods" : "a sector in 4 periods", s.highest_rad_s, "rad/s"},
+      {"I_start", "overload I_N, at most 0.8 U/R_tt", b.start_A, "A"},
+      {"T_swing", "2 pi sqrt(J/(p K_t I_start))", swing_s(b), "s"},
+      {"a", "(K_t I_start - T_load)/(2 J)", ramp_rad_s2(b), "rad/s^2"},
+      {"I_ramp", "(J a + T_c + B w_low)/K_t, where the speed loop goes on", ramp_A(b), "A"},
+      {"d'", "I_N K_t^2/(J U), of 2 U unless soft", s.duty_per_period / b.spec.period_s, "1/s"}};
+  if (b.lag_s > 0.0) {
+    steps.push_back({"tau", "1/(2 pi bandwidth), taken off the commutation", b.lag_s, "s"});
+    steps.push_back({"t_rail", "3.5 tau, from an edge to the rail", b.settle_s(), "s"});
+  }
+  return steps;
 }
 
 }  // namespace
@@ -178,12 +208,14 @@ base::Result<SensorlessStart> sensorless_start(const MotorModel& motor, const Se
     return base::Problem{"adc_noise_V", base::rounded(spec.adc_noise_V, 4),
                          "hides the back-EMF below " + base::rounded(b.lowest_rad_s, 4) + " rad/s",
                          "take a finer or quieter converter, or dividers that are more alike"};
+  if (b.spec.seen == control::NeutralSeen::on_time && 2.0 * b.settle_s() > b.least_on_s()) return too_slow(b);
   SensorlessStart out;
   out.rotor.crossing = crossing_of(b);
   out.rotor.spin = spin_of(b);
   out.rotor.start = start_of(b, out.rotor.crossing);
   out.rotor.lock = lock_of(b);
   out.rotor.clock.crossings = 2;
+  out.rotor.clock.lead_ticks = whole(b.counts(b.lag_s));
   out.rotor.clock.advance =
       static_cast<std::uint16_t>(whole(std::clamp(spec.advance_deg, 0.0, 30.0) / 60.0 * 65536.0));
   set_measuring(b, out.rotor);
@@ -196,9 +228,10 @@ base::Result<SensorlessStart> sensorless_start(const MotorModel& motor, const Se
   out.duty_per_period = b.nominal_A * K_t * K_t / (motor.shaft.J_kg_m2 * swing_V) * spec.period_s;
   out.current_per_period = b.nominal_A * spec.period_s / usual_current_settle_s;
   if (spec.seen == control::NeutralSeen::on_time)
-    out.least_duty = std::min(0.5, 2.0 * spec.sampling_s / spec.period_s);
+    out.least_duty = std::min(0.5, 2.0 * std::max(spec.sampling_s, b.settle_s()) / spec.period_s);
   out.lowest_rad_s = b.lowest_rad_s;
-  out.highest_rad_s = b.sector_s(1.0) / (periods_a_sector * spec.period_s);
+  const double periods = b.lag_s > 0.0 ? filtered_periods_a_sector : periods_a_sector;
+  out.highest_rad_s = b.sector_s(1.0) / (periods * spec.period_s);
   out.steps = steps_of(b, out);
   return out;
 }

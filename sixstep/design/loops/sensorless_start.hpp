@@ -13,6 +13,10 @@
 //                   swings the voltage twice as far; complementary: half of it, too. Braking, its freewheel holds the old
 //                   leg at its diode, and the current grows there, until K_e w |s_f| has fallen below d U/2
 //   highest speed   two samples before the crossing and one behind the freewheel: four control periods a sector
+//   filters         terminals and bus through like lags tau: y is tau late, and the lead takes it off. A leg is at its rail, to
+//                   the 3 % of it that the chip asks for, 3.5 tau behind an edge: half of the least on-time, and the
+//                   blanking behind commutation and freewheel. That costs a sample: five control periods a sector. But in hard
+//                   chopping a diode may hold the leg up to any instant of the on-time: y keeps its sign, its size says nothing
 #pragma once
 #include <vector>
 
@@ -38,6 +42,7 @@ struct SensorlessSpec {
   double advance_deg = 0.0;     ///< electrical, ahead of the middle between two crossings
   double sampling_s = 0.25e-6;  ///< that a pulse must reach to either side of its middle for a sample to fit
   double blanking_s = 0.0;      ///< beyond the end of the freewheel: dividers' and converters' filters
+  double terminal_bandwidth_Hz = 0.0;  ///< of dividers and bus, first-order lags; 0: there are none
   double speed_window_s =
       0.0;  ///< six crossings make a speed within this time, else one (hall_speed.hpp); 0: always six
   control::Chopping chopping = control::Chopping::soft;

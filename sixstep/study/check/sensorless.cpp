@@ -56,11 +56,11 @@ void check_start(const Scenario& s, base::Problems& out) {
 }
 
 void check_others(const Scenario& s, base::Problems& out) {
-  if (s.sensors.bus_bandwidth_Hz)
+  if (s.sensors.bus_bandwidth_Hz && s.control.sensorless.follows != control::Follow::crossings)
     out.push_back(
         {"sensors.bus_bandwidth_Hz", base::written(*s.sensors.bus_bandwidth_Hz),
-         "is of the terminals' dividers, too, and the drive takes what it reads for what is there now",
-         "leave it away"});
+         "is of the terminals' dividers, too, and an observer takes what it reads for what is there now",
+         "leave it away, or set control.sensorless.follows = \"crossings\""});
   if (s.sheet.kind == design::MotorKind::linear)
     out.push_back({"control.drive", "\"sensorless\"", "starts turning motors, and this one is linear",
                    "set drive = \"lean\" or \"product\""});

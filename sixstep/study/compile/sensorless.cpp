@@ -25,6 +25,7 @@ design::SensorlessSpec spec_of(const Scenario& s, const Basis& basis,
   spec.lowest_part = wanted.lowest_part;
   spec.advance_deg = wanted.advance_deg;
   spec.blanking_s = wanted.blanking_s;
+  spec.terminal_bandwidth_Hz = s.sensors.bus_bandwidth_Hz.value_or(0.0);
   spec.speed_window_s = speed_window_s(s, basis, drive);
   spec.chopping = s.pwm.chopping;
   spec.diode_V = s.bridge.diode_drop_V;
@@ -59,6 +60,7 @@ base::Problems under_their_keys(const base::Problems& problems) {
       {"current_range_A", "sensors.current_range_A"},
       {"adc_noise_V", "sensors.bus_noise_V"},
       {"adc_bits", "sensors.adc_bits"},
+      {"terminal_bandwidth_Hz", "sensors.bus_bandwidth_Hz"},
       {"capture_Hz", "sensors.capture_Hz"},
       {"bus_V", "supply.voltage_V"},
       {"period_s", "pwm.period_s"}};

@@ -91,6 +91,42 @@ TEST(ZeroCrossing, NoneBeforeTheEarliestTime) {
   EXPECT_EQ(zero_crossing_step(config, state, driven_sample(0, 55, 800, 600), true).crossing, Crossing::seen);
 }
 
+/// The old current ends before 200: no crossing counts within the margin behind the sample that shows it, and what lay in there
+/// is told at the first sample behind it.
+TEST(ZeroCrossing, NoneWithinTheMarginBehindTheFreewheelsEnd) {
+  for (const std::uint32_t margin : {0u, 1u, 100u, 101u, 250u}) {
+    ZeroCrossingConfig c = config;
+    c.margin_ticks = margin;
+    ZeroCrossingState state;
+    zero_crossing_begin(state, 0, 0, 0);
+    TerminalSample held = driven_sample(0, 5, 800, 100);
+    held.u[2] = 0;
+    zero_crossing_step(c, state, held, true);
+    std::uint32_t told = 0;
+    for (std::uint32_t t = 200; told == 0 && t <= 1000; t += 100)
+      if (zero_crossing_step(c, state, driven_sample(0, 40, 800, t), true).crossing != Crossing::none)
+        told = t;
+    EXPECT_EQ(told, 200 + (margin + 99) / 100 * 100) << margin;
+  }
+}
+
+/// A filter still shows the pair before: neither the freewheel's end nor a crossing is taken from it.
+TEST(ZeroCrossing, NothingIsLookedAtBeforeTheFiltersHaveSettled) {
+  for (const std::uint32_t settle : {0u, 50u, 51u}) {
+    ZeroCrossingConfig c = config;
+    c.settle_ticks = settle;
+    ZeroCrossingState state;
+    zero_crossing_begin(state, 0, 0, 1000);
+    // On its way from the upper rail to the lower one, where its diode holds it from now on.
+    zero_crossing_step(c, state, driven_sample(0, 40, 800, 1050), true);
+    TerminalSample held = driven_sample(0, 5, 800, 1150);
+    held.u[2] = 0;
+    const Crossing then = zero_crossing_step(c, state, held, true).crossing;
+    EXPECT_EQ(state.hidden, settle > 50) << settle;
+    EXPECT_EQ(then, Crossing::none) << settle;
+  }
+}
+
 /// Off part of soft chopping: both legs at the lower rail, u_f = 3/2 e_f where positive, else a diode holds it.
 TerminalSample soft_freewheel(double e_f, std::uint32_t at) {
   TerminalSample s;

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Dividers of the terminals that are not alike: by how much a crossing is seen beside its place, and that the threshold which
+// `mismatch` makes keeps the rotor.
+#include "tests/support/sensorless.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using control::LockLoss;
+using control::SensorlessPhase;
+
+constexpr double gain_error[] = {0.01, -0.006, 0.003};
+
+struct UnlikeDividers : rig::SensorlessDrive<double> {
+  using rig::SensorlessDrive<double>::SensorlessDrive;
+  template <class Real>
+  void look_at_terminals(const plant::PerLeg<Real>& u) {
+    plant::PerLeg<double> seen;
+    for (std::size_t k = 0; k < 3; ++k) seen[k] = (1 + gain_error[k]) * static_cast<double>(u[k]);
+    rig::SensorlessDrive<double>::look_at_terminals(seen);
+  }
+};
+
+/// At the crossing u_f is U/2 and the legs stand at U and 0: y = U (g_f - g_high), and falls through 4 K_e w in a sector.
+double shift_rad(const SensorlessBench& bench, std::uint8_t sector, double w) {
+  const std::size_t f = control::floating_leg(sector);
+  const auto high = static_cast<std::size_t>(control::positive_pair(sector).source);
+  const double y = bench.spec.bus_V * (gain_error[f] - gain_error[high]);
+  return (sector % 2 == 0 ? y : -y) / (4 * bench.motor.machine.K_e_V_s * w) * base::sector_rad;
+}
+
+TEST(SensorlessDividers, ACrossingIsSeenBesideItsPlaceByMismatchTimesBusOverSlope) {
+  SensorlessBench bench(three_motors[0]);
+  bench.spec.mismatch = 0.016;
+  bench.chip = design::sensorless_drive(
+      bench.drive, *design::sensorless_start(bench.motor, bench.spec, bench.drive.current_at_full_torque_A));
+  const double p = bench.motor.machine.pole_pairs;
+  bench.setpoint(0, 0.6 * bench.no_load_rad_s());
+  auto rig = bench.rig<UnlikeDividers>();
+  run_until(rig, 2.0);
+  ASSERT_EQ(phase(rig), SensorlessPhase::running);
+  double sum_rad[6]{};
+  int count[6]{};
+  std::uint32_t before = rig.firmware().rotor().clock.crossings.times[0];
+  for (int n = 0; n < 20000; ++n) {
+    run_until(rig, rig.now().seconds() + bench.spec.period_s);
+    const std::uint32_t at = rig.firmware().rotor().clock.crossings.times[0];
+    if (at == before) continue;
+    before = at;
+    const auto& s = rig.plant().state();
+    const auto now = static_cast<std::uint32_t>(std::fmod(rig.now().seconds() * 16e6, 4294967296.0));
+    const auto sector = static_cast<std::size_t>(rig.plant().sector());
+    const double since_s = static_cast<double>(static_cast<std::uint32_t>(now - at)) / 16e6;
+    sum_rad[sector] += s.x - s.w * p * since_s - base::sector_rad / 2;
+    ++count[sector];
+  }
+  EXPECT_EQ(rig.firmware().rotor().lock.last, LockLoss::none);
+  const double w = rig.plant().state().w;
+  const double step_rad = 2 * 30.0 / 4096 / (4 * bench.motor.machine.K_e_V_s * w) * base::sector_rad;
+  for (std::uint8_t k = 0; k < 6; ++k) {
+    ASSERT_GT(count[k], 50);
+    // Of the mean a step of the converter is left, of each of the three legs at their rails.
+    EXPECT_NEAR(sum_rad[k] / count[k], shift_rad(bench, k, w), step_rad) << int(k);
+  }
+}
+
+}  // namespace
