@@ -125,6 +125,15 @@ void RotorDecoder<Scalar>::set_resolver(const SensorsConfig& config, const Bases
   const double per_count = 0.6 * adc.lsb() / (2 * given.resolver.amplitude_V);
   resolver_config_.cos_per_count = resolver_config_.sin_per_count =
       control::Gain<Scalar>(per_count / raw_unit<Scalar>());
+  if (given.calibrated) {
+    const plant::Resolver& r = given.resolver;
+    // At its peak of the excitation a winding that leads by d shows cos d of its amplitude.
+    const double cos_part = base::cos(r.phase_1_rad), sin_part = (1 + r.imbalance) * base::cos(r.phase_2_rad);
+    const double g_c = per_count / cos_part, g_s = per_count / (sin_part * base::cos(r.quadrature_rad));
+    resolver_config_.cos_per_count = control::Gain<Scalar>(g_c / raw_unit<Scalar>());
+    resolver_config_.sin_per_count = control::Gain<Scalar>(g_s / raw_unit<Scalar>());
+    resolver_config_.skew = control::Gain<Scalar>(base::sin(r.quadrature_rad) / base::cos(r.quadrature_rad));
+  }
   resolver_config_.loop = given.tracking;
   resolver_.loop.angle = at.angle;
   bits_ = static_cast<std::uint8_t>(given.bits);

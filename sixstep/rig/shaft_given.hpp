@@ -24,6 +24,7 @@ struct ShaftGiven {
   int speed_samples = 1;   ///< that the speed of an absolute encoder is taken over
   plant::Resolver resolver{};
   ResolverReading reading = ResolverReading::sampled;
+  bool calibrated = false;    ///< sampled: the decoder takes off what the windings are unlike by
   double noise_V = 0.0;       ///< of a resolver's windings, root mean square
   int samples_per_peak = 1;   ///< sampled: control ticks from one peak of the excitation to the next
   double converter_Hz = 0.0;  ///< tracking: clock of the chip's loop

@@ -140,7 +140,10 @@ void draw_shaft_faults(Draw& draw, Scenario& s) {
     x.resolver.reading = rig::ResolverReading::tracking;
     x.resolver.bits = 10 + draw.one_of(7);
     x.resolver.latency_s = draw.between(0, 0.9) * s.pwm.period_s;
+  } else {
+    x.resolver.calibrated = x.resolver.imbalance > 0;
   }
+  if (x.resolver.imbalance < 0) x.resolver.sine_phase_deg = 500 * x.resolver.imbalance;
   if (draw.chance(0.3)) x.encoder.missed_Hz = draw.decades(1.0, 100.0) / s.duration_s;
   if (!draw.chance(0.3)) return;
   At at;

@@ -41,6 +41,9 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
               base::written(0.5 / step_s) + " Hz",
           sampled ? "lower it, or raise excitation_Hz" : "lower it, or raise converter_Hz");
   if (sampled) return;
+  if (r.calibrated)
+    wrong("calibrated", "true", "is of the drive's own decoder, and a converter chip reads this resolver",
+          "set reading = \"sampled\", or leave it away");
   if (r.bits < least_converter_bits)
     wrong("bits", std::to_string(r.bits), "is fewer than any converter chip has", "take 10, 12, 14 or 16");
   if (r.latency_s >= s.pwm.period_s)

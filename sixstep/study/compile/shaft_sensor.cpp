@@ -25,7 +25,8 @@ rig::ShaftGiven resolver_given(const Scenario& s) {
                  .imbalance = r.imbalance,
                  .quadrature_rad = r.quadrature_deg * deg,
                  .phase_1_rad = r.phase_deg * deg,
-                 .phase_2_rad = r.phase_deg * deg};
+                 .phase_2_rad = r.sine_phase_deg.value_or(r.phase_deg) * deg};
+  to.calibrated = r.calibrated;
   to.samples_per_peak = samples_per_peak(s);
   // check() has held the bandwidth below half the rate of the loop's steps.
   if (const auto loop = design::tracking_loop({.bandwidth_rad_s = 2 * base::pi * r.bandwidth_Hz,

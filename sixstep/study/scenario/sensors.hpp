@@ -56,6 +56,8 @@ struct Resolver {
   double imbalance = 0.0;
   double quadrature_deg = 0.0;
   double phase_deg = 0.0;
+  std::optional<double> sine_phase_deg;
+  bool calibrated = false;
   double noise_V = 0.0;
   double bandwidth_Hz = 1000.0;
   double damping = 1.0;

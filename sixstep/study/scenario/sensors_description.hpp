@@ -165,6 +165,14 @@ void describe(Visitor& v, Resolver& s) {
           {.meaning = "how far the windings' voltages lead the excitation",
            .unit = "deg",
            .range = base::between(-60, 60)});
+  v.value("sine_phase_deg", s.sine_phase_deg,
+          {.meaning = "the same of the sine's winding, where it is another",
+           .unit = "deg",
+           .range = base::between(-60, 60)});
+  v.value(
+      "calibrated", s.calibrated,
+      {.meaning =
+           "sampled: the drive knows imbalance, right angle and phases of this resolver, and takes them off"});
   v.value("noise_V", s.noise_V,
           {.meaning = "root mean square of the noise of a sample", .unit = "V", .range = base::from(0)});
   v.value("bandwidth_Hz", s.bandwidth_Hz,
@@ -229,8 +237,9 @@ void describe(Visitor& v, Sensors& s) {
           {.meaning = "root mean square of the noise of a sample", .unit = "V", .range = base::from(0)});
   v.value(
       "bus_bandwidth_Hz", s.bus_bandwidth_Hz,
-      {.meaning = "of the divider in front of the converter with the capacitor across it, a first-order lag; "
-                  "without it there is none",
+      {.meaning =
+           "of the divider in front of the converter with the capacitor across it, a first-order lag, and of the "
+           "terminals' dividers alike; without it there is none",
        .unit = "Hz",
        .range = base::between(1, 1e9)});
   v.choice("rotor", s.rotor, rotor_sensing_choices,
