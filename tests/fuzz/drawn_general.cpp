@@ -141,7 +141,7 @@ void draw_shaft_faults(Draw& draw, Scenario& s) {
     x.resolver.bits = 10 + draw.one_of(7);
     x.resolver.latency_s = draw.between(0, 0.9) * s.pwm.period_s;
   } else {
-    x.resolver.calibrated = x.resolver.imbalance > 0;
+    x.resolver.calibrated = x.resolver.quadrature_deg > 0;
   }
   if (x.resolver.imbalance < 0) x.resolver.sine_phase_deg = 500 * x.resolver.imbalance;
   if (draw.chance(0.3)) x.encoder.missed_Hz = draw.decades(1.0, 100.0) / s.duration_s;

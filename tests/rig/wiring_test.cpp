@@ -179,6 +179,22 @@ TEST(CrossedWires, OneInvertedLineMakesACodeThatCannotBe) {
   EXPECT_EQ(rig.pins(), 0);
 }
 
+/// Probe k (H1 is 0) shows 1 in the half turn of sectors (2k + 5), .., (2k + 7) of 6: each of the 48 ways to hang three lines.
+TEST(CrossedWires, EachPinShowsItsProbeOrTheContrary) {
+  for (const WireOrder order : orders)
+    for (std::uint8_t inverted = 0; inverted < 8; ++inverted)
+      for (int sector = 0; sector < 6; ++sector) {
+        const GeneralRig rig =
+            wired(Board::duty(0.1), {.probes = order, .inverted = inverted}, 60.0 * sector + 30);
+        for (int pin = 0; pin < 3; ++pin) {
+          const int probe = end_at(order, pin), into = (sector - 2 * probe + 7) % 6;
+          const bool high = into < 3, turned = (inverted >> (2 - pin) & 1) != 0;
+          EXPECT_EQ((rig.pins() >> (2 - pin) & 1) != 0, high != turned)
+              << words[static_cast<int>(order)] << " inverted " << int{inverted} << " sector " << sector;
+        }
+      }
+}
+
 TEST(CrossedWires, MayBeCrossedAtAnyTime) {
   Board later = Board::duty(0.5);
   later.timeline.push_back({{}, rig::ActionKind::wire_phases, static_cast<double>(WireOrder::bac)});
