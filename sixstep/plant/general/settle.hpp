@@ -121,14 +121,16 @@ bool holds_in_series(const Question<Real>& q, const Mode& mode, const Expansion<
 /// `expanded`: whether y and z hold the accepted mode's whole expansion.
 template <class Real>
 bool accepts(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z, bool& expanded) {
+  const std::int8_t through_sign = mode.through_sign;
   expand_first(q.constants, q.state, q.more, mode, q.h, y, z);
   Judgement all = both(judge_legs(q, mode, y, z), judge_rest(q, mode, y, z));
   if (q.series_only && all == Judgement::holds) all = Judgement::tie;
-  expanded = false;
-  if (all != Judgement::tie) return all == Judgement::holds;
-  expand(q.constants, q.state, q.more, mode, q.h, y, z);
-  expanded = true;
-  return holds_in_series(q, mode, y, z);
+  expanded = all == Judgement::tie;
+  if (expanded) expand(q.constants, q.state, q.more, mode, q.h, y, z);
+  const bool holds = expanded ? holds_in_series(q, mode, y, z) : all == Judgement::holds;
+  if (!holds)
+    mode.through_sign = through_sign;  // what a refused candidate takes for it is no answer of the next one
+  return holds;
 }
 
 template <class Real>
