@@ -26,8 +26,7 @@ std::vector<std::string> shipped_scenarios() {
 
 /// A lean drive with a line that is inverted, or that sticks at an instant of its own: an impossible code comes.
 bool misleads(const study::Scenario& s) {
-  if (s.control.drive != study::FirmwareKind::lean || s.sensors.rotor != study::RotorSensing::hall)
-    return false;
+  if (s.control.drive != study::FirmwareKind::lean) return false;
   using enum study::HallLines;
   const study::HallLines inverted = s.sensors.hall_inverted;
   return inverted == line_1 || inverted == line_2 || inverted == line_3 ||
