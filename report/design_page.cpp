@@ -9,6 +9,7 @@
 #include "report/design_charts.hpp"
 #include "report/figures.hpp"
 #include "report/html.hpp"
+#include "report/parameters.hpp"
 #include "report/shell.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/sheet/motion.hpp"
@@ -154,6 +155,20 @@ std::string sensing(const DesignStudy& s) {
       escaped(computed(d.lag.delay_s(), "s")), table, rows);
 }
 
+/// How the age of the speed comes about, and what a drive without a rotor sensor comes to.
+std::string sensing_steps(const DesignStudy& s) {
+  const bool linear = s.design.motor.kind == sixstep::design::MotorKind::linear;
+  const auto loop = [&](const std::string& title, const char* origin, const auto& steps) {
+    if (steps.empty()) return std::string();
+    return fmt::format("<div class=\"loop\"><h3>{}</h3><p class=\"origin\">{}</p>\n{}</div>\n",
+                       escaped(title), origin, derivation_table(steps, linear));
+  };
+  return loop("Speed from " + edges_words(s.design.spec.rotor), "how old it is, and how coarse",
+              s.design.sensing) +
+         loop("Without a rotor sensor", "the loops are run with Hall edges where crossings would be",
+              s.sensorless);
+}
+
 std::string robust_row(const RobustFigure& f) {
   return fmt::format("<tr><th scope=\"row\">{}</th>{}{}<td>{}</td><td>{}</td></tr>\n",
                      with_subscripts(f.figure), number_cell(shown(f.nominal, f.unit)),
@@ -179,6 +194,7 @@ std::string render_design(const DesignPage& page) {
   const DesignStudy& s = page.study;
   std::string derivation;
   for (const LoopDesign& loop : s.design.loops) derivation += steps(loop);
+  derivation += sensing_steps(s);
   const std::size_t colon = page.verdict.find(':');
   const std::string word = page.verdict.substr(0, colon),
                     line = colon == page.verdict.npos ? "" : page.verdict.substr(colon + 1);

@@ -40,12 +40,14 @@ std::string gain_table(const LoopGains& g, bool linear) {
   return html + "</tbody></table>\n";
 }
 
-/// Beside a linear motor's m/s a frequency in rad/s would be taken for a speed.
-std::string derivation(const std::vector<sixstep::design::DerivationStep>& steps, bool linear) {
+}  // namespace
+
+std::string derivation_table(const std::vector<sixstep::design::DerivationStep>& steps, bool linear) {
   std::string html =
       "<table class=\"steps\"><thead><tr><th>Step</th><th>Formula</th><th "
       "class=\"num\">Value</th></tr></thead><tbody>\n";
   for (const auto& step : steps) {
+    // Beside a linear motor's m/s a frequency in rad/s would be taken for a speed.
     const Scale scale = scale_for(step.value, linear && step.unit == "rad/s" ? "1/s" : step.unit);
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"formula\">{}</td><td class=\"num\">{}{}{}</td></tr>\n",
@@ -55,8 +57,6 @@ std::string derivation(const std::vector<sixstep::design::DerivationStep>& steps
   return html + "</tbody></table>\n";
 }
 
-}  // namespace
-
 std::string gains_section(const sixstep::study::Outcome& outcome) {
   const bool linear = outcome.motor.kind == sixstep::design::MotorKind::linear;
   std::string html;
@@ -65,12 +65,12 @@ std::string gains_section(const sixstep::study::Outcome& outcome) {
         "<div class=\"loop\"><h3>{} loop</h3><p class=\"origin\">{}</p>\n<div "
         "class=\"columns\"><div>{}</div>",
         escaped(g.loop), escaped(g.origin), gain_table(g, linear));
-    if (g.derivation) html += "<div>" + derivation(g.derivation->steps, linear) + "</div>";
+    if (g.derivation) html += "<div>" + derivation_table(g.derivation->steps, linear) + "</div>";
     html += "</div></div>\n";
   }
   if (!outcome.sensorless_steps.empty())
     html += "<div class=\"loop\"><h3>Sensorless drive</h3><p class=\"origin\">designed from the sheet</p>\n" +
-            derivation(outcome.sensorless_steps, linear) + "</div>\n";
+            derivation_table(outcome.sensorless_steps, linear) + "</div>\n";
   return html.empty() ? "<p class=\"quiet\">No controller: nothing to tune.</p>\n" : html;
 }
 

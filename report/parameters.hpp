@@ -12,5 +12,7 @@ std::string sheet_section(const sixstep::design::Sheet& sheet);
 std::string model_section(const sixstep::design::MotorModel& motor);
 std::string setup_section(const sixstep::study::Scenario& scenario);
 std::string gains_section(const sixstep::study::Outcome& outcome);
+/// How a design's numbers come about: symbol, formula, value.
+std::string derivation_table(const std::vector<sixstep::design::DerivationStep>& steps, bool linear);
 
 }  // namespace report

@@ -100,9 +100,10 @@ std::string sensor_alone(const study::Sensors& s) {
             "; resolver of {} pole pairs, followed within {} by a converter chip of {} bits at {}, {} late",
             s.resolver.pole_pairs, given(s.resolver.bandwidth_Hz, "Hz"), s.resolver.bits,
             given(s.resolver.converter_Hz, "Hz"), given(s.resolver.latency_s, "s"));
-      return fmt::format("; resolver of {} pole pairs at {}, followed within {}, {} bits",
+      return fmt::format("; resolver of {} pole pairs at {}, followed within {}, {} bits{}",
                          s.resolver.pole_pairs, given(s.resolver.excitation_Hz, "Hz"),
-                         given(s.resolver.bandwidth_Hz, "Hz"), s.resolver.bits);
+                         given(s.resolver.bandwidth_Hz, "Hz"), s.resolver.bits,
+                         s.resolver.calibrated ? ", what its windings are unlike by taken off" : "");
   }
   return {};
 }
@@ -134,9 +135,14 @@ std::string sensors(const study::Sensors& s) {
     text += fmt::format(" through {} bits over ±{}", s.adc_bits, given(s.current_range_A.value_or(0.0), "A"));
   if (s.currents != CurrentMeasurement::ideal && s.current_noise_A > 0.0)
     text += ", noise " + given(s.current_noise_A, "A");
+  if (s.currents != CurrentMeasurement::ideal && s.current_bandwidth_Hz)
+    text += ", amplifiers of " + given(*s.current_bandwidth_Hz, "Hz");
+  if (s.currents != CurrentMeasurement::ideal && s.current_delay_s > 0.0)
+    text += ", late by " + given(s.current_delay_s, "s");
   if (s.bus == study::BusSensing::adc)
     text +=
         fmt::format("; bus through {} bits up to {}", s.adc_bits, given(s.bus_range_V.value_or(0.0), "V"));
+  if (s.bus_bandwidth_Hz) text += "; dividers filtered at " + given(*s.bus_bandwidth_Hz, "Hz");
   if (s.rotor == study::RotorSensing::hall)
     text += fmt::format("; speed from Hall edges against {}, over {}", given(s.capture_Hz, "Hz"),
                         s.speed_edges == 0   ? "six sectors, at low speed one"
@@ -157,8 +163,9 @@ std::string sensors(const study::Sensors& s) {
 
 bool all_ideal(const study::Sensors& s) {
   return s.currents == sixstep::rig::CurrentMeasurement::ideal && s.bus == study::BusSensing::ideal &&
-         s.rotor == study::RotorSensing::ideal && !s.hall_break.at_s && s.hall_lines == rig::WireOrder::abc &&
-         s.hall_inverted == study::HallLines::none && probes(s).empty();
+         s.rotor == study::RotorSensing::ideal && !s.bus_bandwidth_Hz && !s.hall_break.at_s &&
+         s.hall_lines == rig::WireOrder::abc && s.hall_inverted == study::HallLines::none &&
+         probes(s).empty();
 }
 
 std::string protection(const study::Protection& p) {

@@ -78,7 +78,8 @@ struct Slice {
   }
 };
 
-/// `PlantType`: of the lean kernel, or of the general one where the scenario asks for what the lean one lacks.
+/// `PlantType`: of the lean kernel, or of the general one where the scenario asks for what the lean one lacks. Its functions stand
+/// in live_rig_parts.hpp and are compiled in the files that are named after a firmware.
 template <class FirmwareType, class PlantType = plant::Plant<double>>
 struct LiveRig {
   using Firmware = FirmwareType;
@@ -98,49 +99,5 @@ struct LiveRig {
   base::Problems end(sim::Stop stop, Observers& watchers, Outcome& out) const;
   FullScale full_scale() const { return full_scale_of<typename Firmware::Number>(bases); }
 };
-
-// Each is compiled in the file that is named after it.
-extern template struct LiveRig<rig::LeanDrive<double>>;
-extern template struct LiveRig<rig::LeanDrive<float>>;
-extern template struct LiveRig<rig::LeanDrive<control::Q15>>;
-extern template struct LiveRig<rig::LeanDrive<control::Q14>>;
-extern template struct LiveRig<rig::LeanDrive<control::Q31>>;
-extern template struct LiveRig<rig::LeanDrive<control::Q30>>;
-extern template struct LiveRig<rig::SensedDrive<double>>;
-extern template struct LiveRig<rig::SensedDrive<float>>;
-extern template struct LiveRig<rig::SensedDrive<control::Q15>>;
-extern template struct LiveRig<rig::SensedDrive<control::Q14>>;
-extern template struct LiveRig<rig::SensedDrive<control::Q31>>;
-extern template struct LiveRig<rig::SensedDrive<control::Q30>>;
-extern template struct LiveRig<rig::ProductDrive<double>>;
-extern template struct LiveRig<rig::ProductDrive<float>>;
-extern template struct LiveRig<rig::ProductDrive<control::Q15>>;
-extern template struct LiveRig<rig::ProductDrive<control::Q14>>;
-extern template struct LiveRig<rig::ProductDrive<control::Q31>>;
-extern template struct LiveRig<rig::ProductDrive<control::Q30>>;
-extern template struct LiveRig<rig::SensedDrive<double>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::SensedDrive<float>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::SensedDrive<control::Q15>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::SensedDrive<control::Q14>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::SensedDrive<control::Q31>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::SensedDrive<control::Q30>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::ProductDrive<double>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::ProductDrive<float>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::ProductDrive<control::Q15>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::ProductDrive<control::Q14>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::ProductDrive<control::Q31>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::ProductDrive<control::Q30>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::SensorlessDrive<double>>;
-extern template struct LiveRig<rig::SensorlessDrive<float>>;
-extern template struct LiveRig<rig::SensorlessDrive<control::Q15>>;
-extern template struct LiveRig<rig::SensorlessDrive<control::Q14>>;
-extern template struct LiveRig<rig::SensorlessDrive<control::Q31>>;
-extern template struct LiveRig<rig::SensorlessDrive<control::Q30>>;
-extern template struct LiveRig<rig::SensorlessDrive<double>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::SensorlessDrive<float>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::SensorlessDrive<control::Q15>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::SensorlessDrive<control::Q14>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::SensorlessDrive<control::Q31>, plant::general::Plant<double>>;
-extern template struct LiveRig<rig::SensorlessDrive<control::Q30>, plant::general::Plant<double>>;
 
 }  // namespace sixstep::study::detail
