@@ -103,6 +103,22 @@ TEST(Limits, ACurrentThatOnePulsePassesIsRefused) {
   EXPECT_TRUE(study::run(s));
 }
 
+/// A salient rotor runs; what the bounds are not proved for is not promised of it, each limit by its name.
+TEST(Limits, OfASalientRotorAreNotPromised) {
+  Scenario s = maxon_scenario(Mode::current, 3.0);
+  s.sheet.inductance_mH.reset();
+  s.sheet.d_axis_inductance_mH = base::Quantity{.value = 0.24};
+  s.sheet.q_axis_inductance_mH = base::Quantity{.value = 0.34};
+  EXPECT_EQ(refusal(s), "not refused");
+  s.control.limits.current_A = 6;
+  EXPECT_THAT(
+      refusal(s),
+      HasSubstr("control.limits.current_A = 6 is a promise that is proved for a rotor of one inductance"));
+  s.control.limits = {.speed_rad_s = 300};
+  EXPECT_THAT(refusal(s), HasSubstr("control.limits.speed_rad_s = 300 is a promise"));
+  EXPECT_THAT(refusal(s), HasSubstr("L_q is 1.42 times its L_d"));
+}
+
 TEST(Limits, ASpeedThatHallEdgesTellTooLateIsRefused) {
   Scenario s = maxon_scenario(Mode::current, 7.0);
   s.control.limits = {.current_A = 7.0, .speed_rad_s = 100.0};

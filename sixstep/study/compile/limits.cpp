@@ -130,6 +130,23 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
                      ", or lower the current limit"});
 }
 
+/// The bounds know one inductance. A salient rotor's torque and current at the limit depend on where it stands.
+void check_saliency(const Scenario& s, base::Problems& out) {
+  const double ratio = s.sheet.q_axis_inductance_mH->value / s.sheet.d_axis_inductance_mH->value;
+  const auto refuse = [&](const char* key, const std::optional<double>& value) {
+    if (value)
+      out.push_back({key, number(*value),
+                     "is a promise that is proved for a rotor of one inductance, and this one's L_q is " +
+                         number(ratio) + " times its L_d",
+                     "leave it away, and set what the drive may ask for: control.current.limit_A, "
+                     "control.speed.torque_limit_Nm"});
+  };
+  refuse("control.limits.current_A", s.control.limits.current_A);
+  refuse("control.limits.torque_Nm", s.control.limits.torque_Nm);
+  refuse("control.limits.speed_rad_s", s.control.limits.speed_rad_s);
+  refuse("control.regeneration.limit_V", s.control.regeneration.limit_V);
+}
+
 }  // namespace
 
 design::LimitSetting limit_setting(const Scenario& s, const Basis& basis,
@@ -155,6 +172,10 @@ base::Problems check_limits(const Scenario& s, const Basis& basis,
   const bool has_current_loop = s.control.mode == Mode::current || drive.current_limit_A > 0;
   if (has_current_loop && s.control.current.type == CurrentLoopType::pi) check_converter(s, drive, out);
   if (!drive.extras.limits_current) return out;
+  if (design::is_salient(s.sheet)) {
+    check_saliency(s, out);
+    return out;
+  }
   check_shunt(s, out);
   const design::LimitSetting setting = limit_setting(s, basis, drive);
   check_current(s, setting, out);
