@@ -25,6 +25,7 @@ void Job::run(const std::function<void(double t_s)>& reached) {
   base::Result<study::Outcome> result = study::run(scenario_, listeners);
   if (!result) {
     problems_ = result.problems();
+    for (base::Problem& p : problems_) p.where = origin_.scenario + ": " + p.where;  // of many, which
     outputs_ = {};
     return;
   }

@@ -34,7 +34,7 @@ double position_step_deg(const design::DriveDesign& d) {
 
 }  // namespace
 
-study::RotorSensing rotor_sensing(const design::RotorSensing& sensing) {
+study::RotorSensing rotor_key(const design::RotorSensing& sensing) {
   switch (sensing.shaft.kind) {
     case design::ShaftSensorKind::none:
       break;
@@ -65,7 +65,7 @@ study::Sensors board_sensors(const design::DriveDesign& d) {
   sense_currents(d, rig::CurrentMeasurement::phases, s);
   s.bus = study::BusSensing::adc;
   s.bus_range_V = std::min(range_from(1.5 * d.bus_V), base::plausible("V").most);
-  s = with_rotor(s, rotor_sensing(d.spec.rotor), d.spec.period_s);
+  s = with_rotor(s, rotor_key(d.spec.rotor), d.spec.period_s);
   if (!d.spec.rotor.hall) return s;
   s.speed_edges = d.spec.rotor.edges;
   const double sector_s = base::pi / 3 / d.motor.machine.pole_pairs / d.lowest_speed_rad_s;

@@ -10,8 +10,8 @@ namespace sixstep::analysis {
 /// the drive may ask for) and for the bus (half as much again), and the spec's rotor sensor with what its keys say where
 /// nobody does. All ideal where the spec's rotor is.
 study::Sensors board_sensors(const design::DriveDesign& design);
-/// What a scenario calls the spec's rotor sensor.
-study::RotorSensing rotor_sensing(const design::RotorSensing& sensing);
+/// What sensors.rotor of a scenario is for it.
+study::RotorSensing rotor_key(const design::RotorSensing& sensing);
 /// The same sensors with another of the rotor's; a resolver that is sampled is excited so that its peaks are on control periods,
 /// as near to what was asked for as that goes.
 study::Sensors with_rotor(study::Sensors sensors, study::RotorSensing rotor, double period_s);

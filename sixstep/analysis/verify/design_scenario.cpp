@@ -68,7 +68,7 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
     s.supply = subject.board->supply;
     s.bridge = subject.board->bridge;
     s.pwm = subject.board->pwm;
-    s.sensors = with_rotor(subject.board->sensors, rotor_sensing(d.spec.rotor), d.spec.period_s);
+    s.sensors = with_rotor(subject.board->sensors, rotor_key(d.spec.rotor), d.spec.period_s);
     s.sensors.speed_edges = d.spec.rotor.edges;
     s.sensors.encoder.referenced = true;  // a move begins where the position is known
     s.load.gear = subject.board->load.gear;

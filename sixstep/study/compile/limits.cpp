@@ -63,8 +63,8 @@ void check_current(const Scenario& s, const design::LimitSetting& setting, base:
   const bool by_current = wanted.current_A.has_value();
   out.push_back({by_current ? "control.limits.current_A" : "control.limits.torque_Nm",
                  number(by_current ? *wanted.current_A : *wanted.torque_Nm),
-                 "is " + number(setting.current_A) + " A, and one PWM period drives " + number(pulse_A) +
-                     " A into the held rotor",
+                 "comes to " + number(setting.current_A) + " A, and one PWM period drives " +
+                     number(pulse_A) + " A into the held rotor",
                  "shorten pwm.period_s to " + number(s.pwm.period_s * setting.current_A / pulse_A) +
                      " or raise the limit"});
 }
