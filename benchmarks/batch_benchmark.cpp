@@ -9,14 +9,16 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <map>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "batch/monte_carlo.hpp"
+#include "batch/plan_runs.hpp"
 #include "files/scenario_on_disk.hpp"
+#include "sixstep/study/scenario/spread.hpp"
 
 namespace {
 
@@ -29,11 +31,27 @@ sixstep::study::Scenario series() {
   return *scenario;
 }
 
+/// The digests of all, in whatever order: their sum.
+std::uint64_t digests(const sixstep::study::Scenario& scenario, std::size_t count, unsigned jobs) {
+  const sixstep::analysis::Plan plan{.axes = {}, .drives = count};
+  const sixstep::analysis::PlanColumns columns = sixstep::analysis::columns_of(plan, scenario);
+  std::atomic<std::uint64_t> sum{0};
+  batch::run_plan({.plan = plan,
+                   .columns = columns,
+                   .scenario = [&](std::size_t n) -> sixstep::base::Result<sixstep::analysis::PlannedRun> {
+                     return sixstep::analysis::PlannedRun{sixstep::study::varied(scenario, 1, n), {}};
+                   },
+                   .wanted = {},
+                   .take = [&](sixstep::analysis::RunRecord&& record) { sum += record.digest; },
+                   .stop = {},
+                   .jobs = jobs});
+  return sum;
+}
+
 void run_batch(benchmark::State& state, unsigned jobs) {
   const sixstep::study::Scenario scenario = series();
   std::uint64_t digest = 0;
-  for (auto _ : state)
-    digest = batch::monte_carlo(scenario, {.runs = drives, .seed = 1, .jobs = jobs}).digest;
+  for (auto _ : state) digest = digests(scenario, drives, jobs);
   state.SetLabel("digest " + std::to_string(digest));
   state.counters["drives"] =
       benchmark::Counter(drives * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
@@ -45,10 +63,7 @@ void run_apart(benchmark::State& state, unsigned threads) {
   for (auto _ : state) {
     std::vector<std::jthread> pool;
     for (unsigned n = 0; n < threads; ++n)
-      pool.emplace_back([&] {
-        benchmark::DoNotOptimize(
-            batch::monte_carlo(scenario, {.runs = drives / threads, .seed = 1, .jobs = 1}).digest);
-      });
+      pool.emplace_back([&] { benchmark::DoNotOptimize(digests(scenario, drives / threads, 1)); });
   }
   state.counters["drives"] = benchmark::Counter(
       static_cast<double>(drives / threads * threads * state.iterations()), benchmark::Counter::kIsRate);

@@ -3,12 +3,14 @@
 #pragma once
 
 namespace sixstep {
+namespace analysis {}
 namespace base {}
 namespace design {}
 namespace study {}
 }  // namespace sixstep
 
 namespace files {
+namespace analysis = sixstep::analysis;
 namespace base = sixstep::base;
 namespace design = sixstep::design;
 namespace study = sixstep::study;

@@ -36,6 +36,7 @@ std::string bar(double fraction, std::size_t width) {
 }  // namespace
 
 Progress::Progress(Work work, bool quiet) : work_(std::move(work)), at_s_(work_.seconds.size()) {
+  pieces_ = work_.before;
   if (quiet || terminal_width(stderr) == 0) return;
   drawer_ = std::jthread([this](const std::stop_token& stop) {
     std::mutex mutex;
@@ -75,9 +76,10 @@ std::string Progress::line(std::size_t width) const {
       what = fmt::format("{} of {} runs  ", runs_.load(std::memory_order_relaxed), work_.seconds.size());
     what += fmt::format("{:.3g} of {:.3g} s simulated  {:.3g} x real time", done, total, done / elapsed);
   }
+  const auto before = static_cast<double>(work_.before);
   const double fraction = total > 0 ? std::clamp(done / total, 0.0, 1.0) : 0.0;
   std::string text = fmt::format("{:3.0f} %  ", 100 * fraction);
-  if (fraction > 0) text += clock_text(elapsed * (1 - fraction) / fraction) + " left  ";
+  if (done > before) text += clock_text(elapsed * (total - done) / (done - before)) + " left  ";
   text += what;
   // The last column stays free: a terminal would go to the next line. Bars of few lengths do not flutter.
   const std::size_t room = width > text.size() + 4 ? (width - text.size() - 4) / 10 * 10 : 0;

@@ -15,6 +15,7 @@ struct Work {
   std::vector<double> seconds;
   std::size_t pieces = 0;
   const char* of = "drives";  ///< what the pieces are
+  std::size_t before = 0;     ///< pieces that were done when the work began
 };
 
 /// Shows itself on a terminal alone, and not before half a second has gone; it leaves nothing behind.

@@ -11,10 +11,11 @@
 #include "batch/for_each.hpp"
 #include "faces/cli/compare_command.hpp"
 #include "faces/cli/file_watch.hpp"
+#include "faces/cli/plan_command.hpp"
+#include "faces/cli/plan_reading.hpp"
 #include "faces/cli/progress.hpp"
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/run_reading.hpp"
-#include "faces/cli/series_command.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/whole_in.hpp"
 #include "files/atomic_file.hpp"
@@ -126,7 +127,6 @@ Exit tell(const std::vector<Job>& jobs, const RunArguments& arguments,
 Exit run_jobs(const RunArguments& arguments, JobsRead& read) {
   std::optional<files::AtomicFile> index;
   base::Problems problems = std::move(read.problems);
-  if (problems.empty() && arguments.runs > 0) return series_command(arguments, read.jobs);
   if (problems.empty() && compares(arguments)) return compare_command(arguments, read.jobs);
   if (problems.empty()) problems = prepare(arguments, read.jobs, index);
   if (!problems.empty()) return refused(problems);
@@ -148,6 +148,10 @@ Exit run_again_on_save(const RunArguments& arguments) {
 Exit run_command(const RunArguments& arguments) {
   if (const base::Problems problems = contradictions(arguments); !problems.empty()) return refused(problems);
   catch_interrupts();
+  const bool alone = arguments.drive || arguments.plan.only;
+  if (!alone &&
+      std::ranges::any_of(arguments.files, [&](const std::string& f) { return plans(arguments, f); }))
+    return plan_command(arguments);
   if (arguments.watch) return run_again_on_save(arguments);
   JobsRead read = read_jobs(arguments);
   return run_jobs(arguments, read);
@@ -160,6 +164,20 @@ std::string names_in_folder() {
     if (!format.in_folder.empty())
       text += fmt::format("{}NAME{}", text.empty() ? "" : ", ", format.in_folder);
   return text;
+}
+
+void declare_plan_options(CLI::App& run, PlanArguments& a) {
+  run.add_option("--vary", a.vary, "KEY=FROM:TO:POINTS, or KEY=VALUE,VALUE; several make a grid");
+  run.add_option("--sampling", a.sampling,
+                 "how points are laid out: grid, latin-hypercube, sobol, monte-carlo, saltelli");
+  run.add_option("--points", a.points, "how many points, of everything but a grid")
+      ->check(whole_in(1, 1'000'000'000));
+  run.add_flag("--tolerances", a.tolerances, "drives also stray in what makers do not promise: R, L and K_t");
+  run.add_option("--store", a.store, "keep each finished run in this SQLite file");
+  run.add_flag("--resume", a.resume, "go on with the runs of --store");
+  run.add_flag("--dry-run", a.dry_run, "how many runs, how long and how large, and nothing else");
+  run.add_option("--only", a.only, "run N of the plan alone, with all its outputs")
+      ->check(whole_in(0, std::numeric_limits<std::int64_t>::max()));
 }
 
 void declare_options(CLI::App& run, RunArguments& a) {
@@ -184,6 +202,7 @@ void declare_options(CLI::App& run, RunArguments& a) {
   run.add_option("--drive", a.drive, "drive N of the series alone, with all its outputs")
       ->excludes(runs)
       ->check(whole);
+  declare_plan_options(run, a.plan);
 }
 
 }  // namespace

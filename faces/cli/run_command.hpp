@@ -11,6 +11,17 @@
 
 namespace cli {
 
+/// Of many runs.
+struct PlanArguments {
+  std::vector<std::string> vary;  ///< "key=from:to:points" or "key=value,value"
+  std::string sampling;           ///< one of analysis::sampling_choices; empty: the plan's own
+  std::size_t points = 0;
+  bool tolerances = false;  ///< drives stray in what the sheet does not promise, too
+  std::string store;
+  bool resume = false, dry_run = false;
+  std::optional<std::uint64_t> only;  ///< the run that is made alone, as any other scenario
+};
+
 struct RunArguments {
   std::vector<std::string> files;
   std::string out;                ///< folder for the outputs of each scenario and index.html
@@ -21,9 +32,11 @@ struct RunArguments {
   bool watch = false;
   unsigned jobs = 0;     ///< 0: one per core
   std::size_t runs = 0;  ///< of a series; 0: the nominal run alone
-  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> drive;  ///< the one of the series that is run alone
-  std::string command;                 ///< the command line as it may be typed again
+  PlanArguments plan;
+  std::string junit;    ///< verdicts for build servers
+  std::string command;  ///< the command line as it may be typed again
 };
 
 /// `sixstep run FILE ..`: runs scenarios, judges them, writes what is asked for.

@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "faces/cli/compare_command.hpp"
+#include "faces/cli/plan_reading.hpp"
 #include "faces/cli/settings.hpp"
 #include "faces/cli/written_twice.hpp"
 #include "files/scenario_on_disk.hpp"
 #include "files/text_file.hpp"
-#include "sixstep/study/scenario/spread.hpp"
 
 namespace cli {
 namespace {
@@ -25,7 +25,7 @@ std::string place(const std::string& file) { return fmt::format("{}:", file); }
 std::uint64_t inputs_digest(const files::ReadLog& log, const RunArguments& a) {
   std::uint64_t digest = log.digest();
   for (const std::string& set : a.sets) digest = files::text_digest(set, digest);
-  return a.drive ? files::text_digest(fmt::format("seed {} drive {}", a.seed, *a.drive), digest) : digest;
+  return digest;
 }
 
 std::optional<Job> read_job(const std::string& file, const RunArguments& arguments,
@@ -37,11 +37,6 @@ std::optional<Job> read_job(const std::string& file, const RunArguments& argumen
     append(into.problems, scenario.problems());
     return {};
   }
-  if ((arguments.runs > 0 || arguments.drive) && scenario->spread.empty())
-    into.problems.push_back({.where = place(file),
-                             .limit = "describes no series: all drives would be the same",
-                             .cure = "say in [[spread]] what differs; see: sixstep help spread"});
-  if (arguments.drive) *scenario = study::varied(*scenario, arguments.seed, *arguments.drive);
   files::TraceOrigin origin{.scenario = file,
                             .digest = inputs_digest(log, arguments),
                             .title = scenario->title,
@@ -49,6 +44,37 @@ std::optional<Job> read_job(const std::string& file, const RunArguments& argumen
                             .command = arguments.command,
                             .text = log.first_text()};
   return Job(std::move(*scenario), std::move(origin));
+}
+
+/// One run of a plan alone, with all that can be had of a scenario's.
+std::optional<Job> read_one_of_a_plan(const std::string& file, const RunArguments& arguments,
+                                      JobsRead& into) {
+  const files::ReadLog log;
+  base::Result<ReadPlan> plan = read_plan(file, arguments);
+  into.files.insert(into.files.end(), log.paths().begin(), log.paths().end());
+  if (!plan) {
+    append(into.problems, plan.problems());
+    return {};
+  }
+  const std::size_t runs = analysis::runs_of(plan->scenarios->plan());
+  const std::uint64_t number = arguments.drive ? *arguments.drive : *arguments.plan.only;
+  if (number >= runs) {
+    into.problems.push_back(
+        {.where = "--only",
+         .value = std::to_string(number),
+         .limit = fmt::format("is no run of this plan: they count from 0 to {}", runs - 1),
+         .cure = "take one of these"});
+    return {};
+  }
+  base::Result<analysis::PlannedRun> run = plan->scenarios->run(number);
+  if (!run) {
+    append(into.problems, run.problems());
+    return {};
+  }
+  files::TraceOrigin origin = plan->origin;
+  origin.digest = files::text_digest(fmt::format("seed {} drive {}", plan->scenarios->plan().seed, number),
+                                     origin.digest);
+  return Job(std::move(run->scenario), std::move(origin));
 }
 
 base::Problems same_outputs(const RunArguments& arguments) {
@@ -82,10 +108,6 @@ base::Problems contradictions(const RunArguments& arguments) {
         {.where = all_options(),
          .limit = "name the outputs of one scenario",
          .cure = "with several files or --out use --out DIR alone; --html alone compares the files"});
-  if (arguments.runs > 0 && (single || !arguments.out.empty()))
-    problems.push_back({.where = "--runs",
-                        .limit = "writes no files of single runs",
-                        .cure = "write those of one drive with --drive N instead of --runs"});
   append(problems, same_outputs(arguments));
   return problems;
 }
@@ -94,8 +116,10 @@ JobsRead read_jobs(const RunArguments& arguments) {
   JobsRead read;
   const files::ReadOptions options = read_options(arguments.data_dir, arguments.sets, read.problems);
   if (!read.problems.empty()) return read;
+  const bool one_of_a_plan = arguments.drive || arguments.plan.only;
   for (const std::string& file : arguments.files)
-    if (std::optional<Job> job = read_job(file, arguments, options, read))
+    if (std::optional<Job> job = one_of_a_plan ? read_one_of_a_plan(file, arguments, read)
+                                               : read_job(file, arguments, options, read))
       read.jobs.push_back(std::move(*job));
   return read;
 }

@@ -159,7 +159,7 @@ class CommandLine(ProgramTest):
         self.assertIn("describes no series", self.run_program("run", self.write("a.toml", 1000), "--runs", "3", code=2).stderr)
         self.assertIn("describes no series", self.run_program("run", "a.toml", "--drive", "3", code=2).stderr)
         file = self.write_series(1000)
-        self.assertIn("--drive", self.run_program("run", file, "--runs", "3", "--csv", "a.csv", code=2).stderr)
+        self.assertIn("--only", self.run_program("run", file, "--runs", "3", "--vcd", "a.vcd", code=2).stderr)
         self.run_program("run", file, "--runs", "3", "--drive", "1", code=2)
         self.write_series(1000, SPREAD.replace("resistance_ohm", "resistance"))
         self.assertTrue(self.run_program("run", file, code=2).stderr.startswith(

@@ -21,7 +21,7 @@ std::string cell(const std::optional<double>& x, const std::string& unit) {
   return x ? quantity_text(*x, unit, digits) : "-";
 }
 
-std::string required(const analysis::SpreadFigure& f) {
+std::string required(const analysis::FigureColumn& f) {
   if (f.min && f.max) return quantity_text(*f.min, f.unit) + " .. " + quantity_text(*f.max, f.unit);
   if (f.min) return ">= " + quantity_text(*f.min, f.unit);
   return f.max ? "<= " + quantity_text(*f.max, f.unit) : "";
@@ -29,16 +29,17 @@ std::string required(const analysis::SpreadFigure& f) {
 
 Row row_of(const analysis::SpreadFigure& f, std::size_t runs) {
   const analysis::Statistics& s = f.statistics;
-  return {"  " + f.figure,
-          required(f),
-          cell(s.min(), f.unit),
-          cell(s.quantile(0.05), f.unit),
-          cell(s.quantile(0.5), f.unit),
-          cell(s.quantile(0.95), f.unit),
-          cell(s.max(), f.unit),
-          cell(s.mean(), f.unit),
-          cell(s.standard_deviation(), f.unit),
-          f.required ? fmt::format("{} of {}", f.holds, runs) : ""};
+  const std::string& unit = f.column.unit;
+  return {"  " + f.column.name,
+          required(f.column),
+          cell(s.min(), unit),
+          cell(s.quantile(0.05), unit),
+          cell(s.quantile(0.5), unit),
+          cell(s.quantile(0.95), unit),
+          cell(s.max(), unit),
+          cell(s.mean(), unit),
+          cell(s.standard_deviation(), unit),
+          f.column.required ? fmt::format("{} of {}", f.holds, runs) : ""};
 }
 
 std::string aligned(std::vector<Row> rows) {
@@ -58,44 +59,62 @@ std::string aligned(std::vector<Row> rows) {
   return text;
 }
 
-std::string casualties(const std::vector<analysis::Casualty>& which, const char* what) {
+/// Of a series of drives each number is a drive; else it is a run, at a point.
+const char* one_of(const analysis::Plan& plan) { return plan.axes.empty() ? "drive" : "run"; }
+
+std::string casualties(const std::vector<analysis::Casualty>& which, const char* what,
+                       const analysis::Plan& plan) {
   if (which.empty()) return "";
-  return fmt::format("  {} {}, the first of them drive {}: {}\n", which.size(), what, which[0].number,
-                     visible(to_string(which[0].problem)));
+  return fmt::format("  {} {}, the first of them {} {}: {}\n", which.size(), what, one_of(plan),
+                     which[0].number, visible(which[0].problem));
 }
 
-/// Of those that were run; what an interrupted series would have come to, nobody knows.
-std::string sum(const analysis::Series& series, std::uint64_t seed, std::size_t wanted) {
-  if (series.runs == 0) return fmt::format("interrupted before the first of {} drives ended\n", wanted);
+bool draws(const analysis::Plan& plan) {
+  return plan.drives > 0 || plan.sampling != analysis::Sampling::grid;
+}
+
+}  // namespace
+
+std::string series_sum(const analysis::Series& series, const analysis::Plan& plan) {
+  const std::size_t wanted = analysis::runs_of(plan);
+  const std::string all_of_them = fmt::format("{} {}s", wanted, one_of(plan));
+  if (series.runs == 0) return fmt::format("interrupted before the first of {} ended\n", all_of_them);
   const bool all = series.runs == wanted;
+  const std::string seed = draws(plan) ? fmt::format(", seed {}", plan.seed) : "";
   const std::string begin =
-      all ? fmt::format("{} drives, seed {}: ", series.runs, seed)
-          : fmt::format("interrupted after {} of {} drives, seed {}: ", series.runs, wanted, seed);
+      all ? fmt::format("{}{}: ", all_of_them, seed)
+          : fmt::format("interrupted after {} of {}{}: ", series.runs, all_of_them, seed);
   const std::string of_these = all ? "" : "of these ";
   if (series.passed < series.runs)
     return begin + of_these +
            fmt::format("{} hold every requirement, {} do NOT\n", series.passed, series.runs - series.passed);
   const bool asks = std::any_of(series.figures.begin(), series.figures.end(),
-                                [](const analysis::SpreadFigure& f) { return f.required; });
+                                [](const analysis::SpreadFigure& f) { return f.column.required; });
   return begin + (asks ? of_these + "all hold every requirement\n" : "nothing required\n");
 }
 
-}  // namespace
+std::string repeats_text(const analysis::Plan& plan, std::size_t number) {
+  return plan.axes.empty() ? fmt::format("--seed {} --drive {}", plan.seed, number)
+                           : fmt::format("--only {}", number);
+}
 
-std::string series_table(const std::string& name, const analysis::Series& series, std::uint64_t seed,
-                         std::size_t wanted) {
-  if (series.runs == 0) return sum(series, seed, wanted);
+std::string casualties_text(const analysis::Series& series, const analysis::Plan& plan) {
+  std::string text = casualties(series.faults, "stopped by a fault", plan);
+  text += casualties(series.refused, "could not run", plan);
+  for (const analysis::SpreadFigure& f : series.figures)
+    if (f.first_miss)
+      text += fmt::format("  {}: the first miss is {} {} ({})\n", visible(f.column.name), one_of(plan),
+                          *f.first_miss, repeats_text(plan, *f.first_miss));
+  return text;
+}
+
+std::string series_table(const std::string& name, const analysis::Series& series,
+                         const analysis::Plan& plan) {
+  if (series.runs == 0) return series_sum(series, plan);
   std::vector<Row> rows = {
       {name, "required", "min", "5 %", "median", "95 %", "max", "mean", "deviation", "holds"}};
   for (const analysis::SpreadFigure& figure : series.figures) rows.push_back(row_of(figure, series.runs));
-  std::string text = aligned(std::move(rows));
-  text += casualties(series.faults, "stopped by a fault");
-  text += casualties(series.refused, "could not run");
-  for (const analysis::SpreadFigure& f : series.figures)
-    if (f.first_miss)
-      text += fmt::format("  {}: the first miss is drive {} (--seed {} --drive {})\n", visible(f.figure),
-                          *f.first_miss, seed, *f.first_miss);
-  return text + sum(series, seed, wanted);
+  return aligned(std::move(rows)) + casualties_text(series, plan) + series_sum(series, plan);
 }
 
 }  // namespace text

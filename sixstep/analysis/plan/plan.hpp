@@ -22,6 +22,8 @@ struct Axis {
   double from = 0.0, to = 0.0;      ///< in the key's unit; both are reached on a grid
   std::size_t points = 0;           ///< of a range on a grid, two or more
   Spacing spacing = Spacing::linear;
+  bool strays =
+      false;  ///< the drive differs and its controller does not, as with [[spread]] (study::strayed_to)
   bool operator==(const Axis&) const = default;
 };
 

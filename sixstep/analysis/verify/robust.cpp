@@ -187,6 +187,23 @@ std::vector<Tolerance> sheet_tolerances(const design::Sheet& sheet, control::Mod
   return out;
 }
 
+std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet, control::Mode mode) {
+  std::vector<study::Spread> spreads;
+  for (const Tolerance& tolerance : sheet_tolerances(sheet, mode)) {
+    const double least = tolerance.levels.front().factor;
+    if (least >= 1.0) continue;  // to one side only
+    const char* key = tolerance.quantity == Strays::resistance   ? "motor_override.resistance_ohm"
+                      : tolerance.quantity == Strays::inductance ? "motor_override.inductance_mH"
+                      : sheet.back_emf_mV_s && !sheet.torque_constant_mNm_A
+                          ? "motor_override.back_emf_mV_s"
+                          : "motor_override.torque_constant_mNm_A";
+    if (tolerance.quantity == Strays::inductance && design::is_salient(sheet)) continue;
+    spreads.push_back(
+        {.key = key, .relative = 1.0 - least, .absolute = {}, .source = tolerance.levels.front().words});
+  }
+  return spreads;
+}
+
 std::vector<Variation> variations(const std::vector<Tolerance>& tolerances) {
   const std::vector<double> ones(tolerances.size(), 1.0);
   std::vector<Variation> out{{"", ones, false}};

@@ -31,6 +31,10 @@ struct Tolerance {
 /// thermal lines. J doubled: a load that nobody told of. With the rotor held, in current mode, only R and L matter.
 std::vector<Tolerance> sheet_tolerances(const design::Sheet& sheet, control::Mode mode);
 
+/// The same as [[spread]] has it, each quantity evenly to both sides: what a drive of a series strays by that a maker does not
+/// promise. Temperatures and loads are no tolerance of the motor, and two inductances have no key that could stray.
+std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet, control::Mode mode);
+
 /// A motor out of tolerance.
 struct Variation {
   std::string words;            ///< "R at 125 degC, L -20 %"; empty: nominal

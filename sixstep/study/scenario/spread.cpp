@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -182,20 +183,51 @@ struct Checker {
   }
 };
 
+/// The controller stays the one designed for what stands there now.
+Scenario with_its_designer(const Scenario& scenario) {
+  Scenario s = written_out(scenario);
+  if (!s.designed_for) s.designed_for = Nominal{scenario.sheet, scenario.supply, scenario.load};
+  return s;
+}
+
 /// The key whose spread is the same thing: of the two constants each means the other.
 std::string_view fact_of(std::string_view key) { return key == back_emf_key ? torque_key : key; }
 
 }  // namespace
 
 Scenario varied(const Scenario& scenario, std::uint64_t seed, std::uint64_t number) {
-  Scenario s = written_out(scenario);
-  if (!s.designed_for) s.designed_for = Nominal{scenario.sheet, scenario.supply, scenario.load};
+  Scenario s = with_its_designer(scenario);
   for (const Spread& spread : scenario.spread) {
     const double nominal = *find_number(s, spread.key).number;
     set_number(s, spread.key, nominal + width(spread, nominal) * deviation(spread, seed, number));
   }
   s.sensors.seed = noise_seed(scenario, seed, number);
   s.spread.clear();
+  return s;
+}
+
+std::vector<double> strayed_values(const Scenario& scenario, Scenario drive) {
+  std::vector<double> values;
+  values.reserve(scenario.spread.size());
+  for (const Spread& spread : scenario.spread) {
+    const NumberAt at = find_number(drive, spread.key);
+    values.push_back(at.number ? *at.number : std::numeric_limits<double>::quiet_NaN());
+  }
+  return values;
+}
+
+base::Result<Scenario> strayed_to(const Scenario& scenario, std::string_view key, double x) {
+  Scenario s = with_its_designer(scenario);
+  const NumberAt at = find_number(s, key);
+  const auto refuse = [&](std::string limit, std::string cure) {
+    return base::Problem{std::string(key), base::written(x), std::move(limit), std::move(cure)};
+  };
+  if (!may_stray(key) || !at.number)
+    return refuse(
+        "is of no number that differs from drive to drive",
+        "vary it as a key of the design, or one of motor_override, supply, bridge, load or initial");
+  if (!at.range.holds(x)) return refuse("is outside of the key's range", "narrow the range");
+  set_number(s, key, x);
   return s;
 }
 

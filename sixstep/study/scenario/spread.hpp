@@ -2,6 +2,8 @@
 // One drive out of a series: motor, supply and load as they stray, the controller as it was designed.
 #pragma once
 #include <cstdint>
+#include <string_view>
+#include <vector>
 
 #include "sixstep/base/result.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
@@ -20,6 +22,13 @@ namespace sixstep::study {
 ///
 /// Assumes that check() found nothing. Below 2^48 each number is another drive.
 Scenario varied(const Scenario& scenario, std::uint64_t seed, std::uint64_t number);
+
+/// What the keys of scenario.spread came to in one of its drives, in the keys' units; NaN for one without a number.
+std::vector<double> strayed_values(const Scenario& scenario, Scenario drive);
+
+/// The scenario with one number strayed to x, in the key's unit: the controller stays as it was designed. Keys as scenario.spread
+/// may have them; a Problem's `where` is the key.
+base::Result<Scenario> strayed_to(const Scenario& scenario, std::string_view key, double x);
 
 /// What is wrong with scenario.spread: keys that are none or cannot stray, a width given twice or not at all,
 /// a value that could leave its key's range. `where` is the key's path: "spread[0].relative".

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "batch/plan_runs.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <thread>
+#include <utility>
+
+#include "batch/for_each.hpp"
+#include "sixstep/study/run/run.hpp"
+
+namespace batch {
+
+std::optional<analysis::RunRecord> run_one(const PlanRuns& runs, std::size_t n) {
+  bool cut = false;
+  const auto keep_going = [&](double) {
+    cut = cut || runs.stop.stop_requested();
+    return !cut;
+  };
+  const study::Listeners listeners{.keep_going = keep_going, .keep_books = false};
+  base::Result<analysis::PlannedRun> planned = runs.scenario(n);
+  const base::Result<study::Outcome> result =
+      planned ? study::run(planned->scenario, listeners) : base::Result<study::Outcome>(planned.problems());
+  if (cut) return {};
+  analysis::RunRecord record = analysis::record_of(result, runs.columns);
+  record.number = n;
+  record.point = analysis::point_of_run(runs.plan, n);
+  if (planned)
+    record.strayed = std::move(planned->strayed);
+  else
+    record.strayed.assign(runs.columns.strayed.size(), std::numeric_limits<double>::quiet_NaN());
+  return record;
+}
+
+void run_plan(const PlanRuns& runs) {
+  const std::size_t count = analysis::runs_of(runs.plan);
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t threads = std::min<std::size_t>(runs.jobs == 0 ? cores : runs.jobs, count);
+  std::atomic<std::size_t> next{0};
+  std::atomic<bool> failed{false};
+  for_each(threads, static_cast<unsigned>(threads), [&](std::size_t) {
+    try {
+      for (std::size_t n = next++; n < count; n = next++) {
+        if (failed || runs.stop.stop_requested()) return;
+        if (runs.wanted && !runs.wanted(n)) continue;
+        if (std::optional<analysis::RunRecord> record = run_one(runs, n)) runs.take(std::move(*record));
+      }
+    } catch (...) {
+      failed = true;
+      throw;
+    }
+  });
+}
+
+}  // namespace batch

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a plan's runs leave in files: opened before the first of them, put in place after the last.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "faces/cli/plan_reading.hpp"
+#include "files/atomic_file.hpp"
+#include "text/results/plan_text.hpp"
+
+namespace cli {
+
+/// Rows and page of a plan, in the formats that it has.
+class PlanOutputs {
+ public:
+  /// Problems mean that nothing was written and nothing must run.
+  base::Problems open(const RunArguments& arguments, const ReadPlan& plan);
+  /// Of a plan that was cut short under partial names.
+  base::Problems publish(const text::PlanStory& story, const ReadPlan& plan, bool whole);
+
+ private:
+  struct Open {
+    std::string_view option;
+    files::AtomicFile file;
+  };
+  std::vector<Open> open_;
+  bool prints_json_ = false;
+};
+
+}  // namespace cli

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/plan_reading.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "faces/cli/choose.hpp"
+#include "faces/cli/settings.hpp"
+#include "files/scenario_on_disk.hpp"
+#include "files/text_file.hpp"
+#include "sixstep/analysis/plan/plan_description.hpp"
+#include "text/keys/key_catalog.hpp"
+#include "text/plan/plan_file.hpp"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void append(base::Problems& to, const base::Problems& more) { to.insert(to.end(), more.begin(), more.end()); }
+
+/// A pipe could be read only once.
+bool is_plan_file(const std::string& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return false;
+  const base::Result<std::string> text = files::read_text(file);
+  return text && text::is_plan(*text);
+}
+
+/// What the command line adds to a plan; an axis takes the place of the file's for the same key.
+base::Problems add_options(const RunArguments& a, analysis::Plan& plan) {
+  base::Problems problems;
+  for (const std::string& vary : a.plan.vary) {
+    base::Result<analysis::Axis> axis = text::axis_of(vary);
+    if (!axis) {
+      for (base::Problem problem : axis.problems()) {
+        problem.where = "--vary " + problem.where;
+        problems.push_back(std::move(problem));
+      }
+      continue;
+    }
+    std::erase_if(plan.axes, [&](const analysis::Axis& other) { return other.key == axis->key; });
+    plan.axes.push_back(std::move(*axis));
+  }
+  if (!a.plan.sampling.empty())
+    choose("--sampling", a.plan.sampling, analysis::sampling_choices, plan.sampling, problems);
+  else if (a.plan.points > 0 && plan.sampling == analysis::Sampling::grid)
+    plan.sampling = analysis::Sampling::sobol;
+  if (a.plan.points > 0) plan.points = a.plan.points;
+  if (a.runs > 0) plan.drives = a.runs;
+  if (a.drive) plan.drives = static_cast<std::size_t>(*a.drive) + 1;
+  if (a.seed) plan.seed = *a.seed;
+  return problems;
+}
+
+/// "--vary pwm.period_s" for what the plan's check calls vary[0].
+void in_words_of(const RunArguments& a, const analysis::Plan& plan, base::Problems& problems) {
+  if (a.plan.vary.empty()) return;
+  for (base::Problem& problem : problems)
+    for (std::size_t n = 0; n < plan.axes.size(); ++n)
+      if (problem.where.starts_with(fmt::format("vary[{}].", n)))
+        problem.where = "--vary " + plan.axes[n].key;
+}
+
+std::string unit_of(const std::string& key) {
+  const std::vector<text::KeyEntry> keys = text::scenario_keys();
+  const text::KeyEntry* entry = text::find_key(keys, key);
+  return entry ? std::string(entry->about.unit) : std::string();
+}
+
+/// A plan, or of a scenario one that makes a single run of it.
+base::Result<text::PlanFile> plan_of(const std::string& file) {
+  if (!is_plan_file(file)) {
+    text::PlanFile alone;
+    alone.scenario = file;
+    return alone;
+  }
+  base::Result<std::string> text = files::read_text(file);
+  if (!text) return text.problems();
+  base::Result<text::PlanFile> plan = text::read_plan_text(file, std::move(*text));
+  if (plan) plan->scenario = text::beside(file, plan->scenario);
+  return plan;
+}
+
+std::uint64_t inputs_digest(const files::ReadLog& log, const RunArguments& a, bool tolerances) {
+  std::uint64_t digest = log.digest();
+  for (const std::string& set : a.sets) digest = files::text_digest(set, digest);
+  return tolerances ? files::text_digest("sheet_tolerances", digest) : digest;
+}
+
+base::Problems without_series(const std::string& file, const ReadPlan& plan) {
+  if (plan.scenarios->plan().drives == 0 || !plan.nominal.spread.empty()) return {};
+  return {{.where = file + ":",
+           .limit = "describes no series: all drives would be the same",
+           .cure = "say in [[spread]] what differs; see: sixstep help spread"}};
+}
+
+void name_columns(ReadPlan& plan) {
+  plan.columns = analysis::columns_of(plan.scenarios->plan(), plan.nominal);
+  for (const std::string& key : plan.columns.keys) plan.units.push_back(unit_of(key));
+  for (const std::string& key : plan.columns.strayed) plan.units.push_back(unit_of(key));
+}
+
+}  // namespace
+
+bool plans(const RunArguments& a, const std::string& file) {
+  return a.runs > 0 || a.drive || !a.plan.vary.empty() || is_plan_file(file);
+}
+
+base::Result<ReadPlan> read_plan(const std::string& file, const RunArguments& arguments) {
+  base::Problems problems;
+  const files::ReadOptions options = read_options(arguments.data_dir, arguments.sets, problems);
+  if (!problems.empty()) return problems;
+  base::Result<text::PlanFile> of_file = plan_of(file);
+  if (!of_file) return of_file.problems();
+  const files::ReadLog log;  // of what the runs are made of: what a plan says besides may change
+  base::Result<std::string> text = files::read_text(of_file->scenario);
+  if (!text) return text.problems();
+  analysis::Plan& plan = of_file->plan;
+  problems = add_options(arguments, plan);
+  if (problems.empty()) problems = analysis::check(plan);
+  in_words_of(arguments, plan, problems);
+  if (!problems.empty()) return problems;
+
+  const bool tolerances = of_file->sheet_tolerances || arguments.plan.tolerances;
+  ReadPlan read;
+  read.name = fs::path(file).stem().string();
+  read.scenarios = std::make_unique<text::PlannedScenarios>(
+      text::PlannedText{of_file->scenario,
+                        *text,
+                        {.overrides = options.overrides, .resolve = files::on_disk(options.data_dir)},
+                        tolerances},
+      plan);
+  base::Result<study::Scenario> nominal = read.scenarios->nominal();
+  if (!nominal) return nominal.problems();
+  read.nominal = std::move(*nominal);
+  problems = read.scenarios->check();
+  in_words_of(arguments, plan, problems);
+  append(problems, without_series(file, read));
+  if (!problems.empty()) return problems;
+  read.title = of_file->title.empty() ? read.nominal.title : of_file->title;
+  read.notes = of_file->notes;
+  name_columns(read);
+  read.origin = {.scenario = file,
+                 .digest = inputs_digest(log, arguments, tolerances),
+                 .title = read.title,
+                 .motor = read.nominal.sheet.name,
+                 .command = arguments.command,
+                 .text = *text};
+  return read;
+}
+
+}  // namespace cli

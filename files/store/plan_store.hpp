@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// The finished runs of a plan in one SQLite file. A row is there whole or not at all, whatever kills the program; docs/store.md
+// has the tables.
+#pragma once
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "files/store/sqlite.hpp"
+#include "sixstep/analysis/plan/plan_table.hpp"
+
+namespace files {
+
+/// What a store says of itself. The first two must not change between two sittings.
+struct StoredPlan {
+  std::string plan;  ///< which runs, in one line (text::plan_identity)
+  std::string
+      inputs;  ///< digest of all that was read for the scenario and of what the command line set in it
+  std::string title, motor, scenario, command;
+  std::string scenario_text;  ///< whole, as a file
+  analysis::PlanColumns columns;
+  std::vector<std::string> units;  ///< of the varied keys, then of the strayed ones
+};
+
+class PlanStore {
+ public:
+  /// A new store at a path where nothing is, or nothing but a store if `force`; at an empty path one without a name, which goes
+  /// with the program.
+  static base::Result<PlanStore> create(const std::string& path, StoredPlan plan, bool force);
+  /// One that is there, to go on with. Problems where it is of another plan.
+  static base::Result<PlanStore> resume(const std::string& path, StoredPlan plan);
+  /// One that is there, for whoever looks into it.
+  static base::Result<PlanStore> read(const std::string& path);
+
+  PlanStore(PlanStore&&) noexcept;
+  PlanStore& operator=(PlanStore&&) noexcept;
+  ~PlanStore();
+
+  const StoredPlan& plan() const;
+  const std::string& path() const;
+  /// Rows that stand in the file.
+  std::size_t rows() const;
+  bool has(std::size_t number) const;
+
+  /// A row to be written: it stands in the file a moment later, and `rows()` then counts it. From any thread.
+  void add(analysis::RunRecord&& record);
+  /// A row could not be written, and none will be any more: there is no sense in going on.
+  bool failed() const;
+  /// Waits until all rows stand in the file. What kept one from it.
+  base::Problems finish();
+
+  /// In the order of the runs' numbers. `point` of a row is left empty: the plan tells it.
+  base::Problems each(const std::function<void(const analysis::RunRecord&)>& visit);
+
+ private:
+  struct Inside;
+  explicit PlanStore(std::unique_ptr<Inside> inside);
+  std::unique_ptr<Inside> inside_;
+};
+
+}  // namespace files

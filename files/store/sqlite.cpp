@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "files/store/sqlite.hpp"
+
+namespace files {
+
+base::Result<Database> Database::open(const std::string& path) {
+  Database db;
+  db.path_ = path;
+  sqlite3* handle = nullptr;
+  const int code = sqlite3_open_v2(path.c_str(), &handle,
+                                   SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
+  db.handle_.reset(handle);
+  if (code != SQLITE_OK) return db.problem();
+  return db;
+}
+
+base::Problems Database::run(const std::string& sql) {
+  if (sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK) return {};
+  return {problem()};
+}
+
+base::Result<Statement> Database::prepare(const std::string& sql) {
+  sqlite3_stmt* statement = nullptr;
+  if (sqlite3_prepare_v2(handle_.get(), sql.c_str(), static_cast<int>(sql.size()), &statement, nullptr) !=
+      SQLITE_OK)
+    return problem();
+  return Statement(statement);
+}
+
+base::Problem Database::problem() const {
+  const int code = handle_ ? sqlite3_errcode(handle_.get()) : SQLITE_NOMEM;
+  base::Problem problem{.where = path_ + ":", .limit = "cannot be used as a store"};
+  switch (code & 0xff) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return {path_ + ":", "", "is in use by another program",
+              "wait until that has closed it, or name another store"};
+    case SQLITE_NOTADB:
+    case SQLITE_CORRUPT:
+      return {path_ + ":", "", "is no store of runs: SQLite cannot read it", "name another file"};
+    case SQLITE_FULL:
+      return {path_ + ":", "", "cannot grow: the disk is full", "make room and go on where it stopped"};
+    case SQLITE_CANTOPEN:
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+      return {path_ + ":", "", "cannot be opened for writing", "name a file in a folder that can be written"};
+    default:
+      problem.limit += std::string(": ") + (handle_ ? sqlite3_errmsg(handle_.get()) : "no memory");
+      problem.cure = "name another file";
+      return problem;
+  }
+}
+
+std::string sql_name(std::string_view name) {
+  std::string text = "\"";
+  for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return text + "\"";
+}
+
+}  // namespace files

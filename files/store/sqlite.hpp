@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// SQLite's handles as values: closed where they end, every failure a Problem. (SQLite: one file, transactions that survive any
+// kill, and a language to ask it in that everybody has.)
+#pragma once
+#include <sqlite3.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "files/rooms.hpp"
+#include "sixstep/base/result.hpp"
+
+namespace files {
+
+/// A statement that is run many times. Places count from 1, columns from 0, as SQLite has them.
+class Statement {
+ public:
+  explicit Statement(sqlite3_stmt* statement) : statement_(statement) {}
+
+  void bind(int place, std::int64_t x) { sqlite3_bind_int64(statement_.get(), place, x); }
+  void bind(int place, std::string_view text) {
+    sqlite3_bind_text(statement_.get(), place, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
+  }
+  /// A number that is none is NULL; an infinite one is itself.
+  void bind(int place, double x) { sqlite3_bind_double(statement_.get(), place, x); }
+
+  /// True while there is a row. After the last one it can be bound and run again.
+  bool step() {
+    code_ = sqlite3_step(statement_.get());
+    if (code_ == SQLITE_ROW) return true;
+    sqlite3_reset(statement_.get());
+    return false;
+  }
+  bool failed() const { return code_ != SQLITE_ROW && code_ != SQLITE_DONE; }
+  int code() const { return code_; }
+
+  std::int64_t whole(int column) const { return sqlite3_column_int64(statement_.get(), column); }
+  std::optional<double> number(int column) const {
+    if (sqlite3_column_type(statement_.get(), column) == SQLITE_NULL) return {};
+    return sqlite3_column_double(statement_.get(), column);
+  }
+  std::string text(int column) const {
+    const auto* chars = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
+    return chars
+               ? std::string(chars, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column)))
+               : std::string();
+  }
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* s) const { sqlite3_finalize(s); }
+  };
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  int code_ = SQLITE_DONE;
+};
+
+class Database {
+ public:
+  /// An empty path is a file without a name that goes when it is closed.
+  static base::Result<Database> open(const std::string& path);
+
+  /// Any number of statements without results.
+  base::Problems run(const std::string& sql);
+  base::Result<Statement> prepare(const std::string& sql);
+
+  const std::string& path() const { return path_; }
+  /// That it cannot be read or written, for what SQLite says.
+  base::Problem problem() const;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* db) const { sqlite3_close_v2(db); }
+  };
+  std::unique_ptr<sqlite3, Close> handle_;
+  std::string path_;
+};
+
+/// "a name" for SQL, with its quotes.
+std::string sql_name(std::string_view name);
+
+}  // namespace files

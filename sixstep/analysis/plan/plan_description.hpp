@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of a plan file: the only place of their names, units, ranges and meanings. Defaults are the structs'.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sixstep/analysis/plan/plan.hpp"
+#include "sixstep/base/describe.hpp"
+
+namespace sixstep::analysis {
+
+/// An axis as a file says it.
+struct AxisEntry {
+  std::string key;
+  std::vector<std::string> values;
+  std::optional<double> from, to;
+  int points = 0;
+  Spacing spacing = Spacing::linear;
+  bool strays = false;
+};
+
+struct PlanEntry {
+  std::string title, scenario, notes;
+  Sampling sampling = Sampling::grid;
+  int points = 0, drives = 0, seed = 1;
+  bool sheet_tolerances = false;
+  std::vector<AxisEntry> vary;
+};
+
+inline constexpr base::Choice<Sampling> sampling_choices[] = {
+    {"grid", Sampling::grid, "every value of each key with every one of the others"},
+    {"latin-hypercube", Sampling::latin_hypercube,
+     "each key's range in as many parts as there are points, one point in each part"},
+    {"sobol", Sampling::sobol, "a sequence that fills the ranges evenly, whatever its length"},
+    {"monte-carlo", Sampling::monte_carlo, "at random"},
+    {"saltelli", Sampling::saltelli,
+     "for Sobol indices, which key a figure hangs on: points times (keys + 2) runs"},
+};
+
+inline constexpr base::Choice<Spacing> spacing_choices[] = {
+    {"linear", Spacing::linear, "equal steps"},
+    {"log", Spacing::logarithmic, "equal factors"},
+};
+
+template <class Visitor>
+void describe(Visitor& v, AxisEntry& s) {
+  v.value("key", s.key,
+          {.meaning = "what is varied: a key of the scenario, as pwm.period_s", .required = true});
+  v.value("values", s.values, {.meaning = "the values that it takes, as the scenario would write them"});
+  v.value("from", s.from, {.meaning = "one end of a range instead, which a grid reaches", .unit_of = s.key});
+  v.value("to", s.to, {.meaning = "its other end", .unit_of = s.key});
+  v.value("points", s.points,
+          {.meaning = "values from one end to the other on a grid", .range = base::between(0, 1e9)});
+  v.choice("spacing", s.spacing, spacing_choices, {.meaning = "how they lie between the ends"});
+  v.value(
+      "strays", s.strays,
+      {.meaning = "whether the drive differs from what its controller was designed for, as with [[spread]]; "
+                  "else the controller is designed for each value"});
+}
+
+template <class Visitor>
+void describe(Visitor& v, PlanEntry& s) {
+  v.value("title", s.title, {.meaning = "one line that names the plan"});
+  v.value("scenario", s.scenario,
+          {.meaning = "the scenario that all runs are made of, beside this file", .required = true});
+  v.value("notes", s.notes, {.meaning = "what the plan answers, shown on its page"});
+  v.choice("sampling", s.sampling, sampling_choices, {.meaning = "how points are laid out"});
+  v.value("points", s.points,
+          {.meaning = "how many, of everything but a grid", .range = base::between(0, 1e9)});
+  v.value(
+      "drives", s.drives,
+      {.meaning = "drives of the series that [[spread]] describes, at each point; 0: the drive as written",
+       .range = base::between(0, 1e9)});
+  v.value("seed", s.seed,
+          {.meaning = "another series of drives and of points that are drawn", .range = base::from(0)});
+  v.value("sheet_tolerances", s.sheet_tolerances,
+          {.meaning =
+               "whether drives also stray in what makers do not promise: resistance, inductance and torque "
+               "constant, where [[spread]] does not say"});
+  v.list("vary", s.vary, {.meaning = "what differs from point to point"});
+}
+
+}  // namespace sixstep::analysis

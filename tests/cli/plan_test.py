@@ -1,0 +1,219 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""sixstep run with many runs: what varies, what is stored, and that a kill takes nothing that was finished."""
+import contextlib
+import csv
+import json
+import os
+import random
+import re
+import signal
+import sqlite3
+import subprocess
+import time
+import unittest
+
+from program import PROGRAM, SHORT, ProgramTest
+
+KILLS = int(os.environ.get("SIXSTEP_KILLS", "10"))
+SPREAD = '[[spread]]\nkey = "motor_override.resistance_ohm"\nrelative = 0.1\n'
+PLAN = """
+title = "Held at two voltages"
+scenario = "a.toml"
+notes = "The current is the voltage over the resistance."
+[[vary]]
+key = "supply.voltage_V"
+values = [12, 24]
+[[vary]]
+key = "motor_override.resistance_ohm"
+from = 1.0
+to = 2.0
+points = 3
+"""
+
+
+class Plan(ProgramTest):
+    def held(self, more=""):
+        """Thirty time constants of a held rotor: the current is U/R."""
+        (self.path / "a.toml").write_text(SHORT.format(limit=20).replace("1e-4", "20e-3") + more)
+        return "a.toml"
+
+    def rows(self, store, what="*"):
+        with contextlib.closing(sqlite3.connect(self.path / store)) as db:
+            return db.execute(f"SELECT {what} FROM runs ORDER BY number").fetchall()
+
+    def test_a_grid_is_every_value_with_every_other(self):
+        file = self.held()
+        table = self.run_program("run", file, "--vary", "supply.voltage_V=12,24", "--vary",
+                                 "motor_override.resistance_ohm=1:2:3", "--json", "a.json", code=1).stdout
+        self.assertRegex(table, r"6 runs: 5 hold every requirement, 1 do NOT")
+        plan = json.loads((self.path / "a.json").read_text())
+        self.assertEqual([row[3:5] for row in plan["rows"]], [[u, r] for u in (12, 24) for r in (1, 1.5, 2)])
+        for row in plan["rows"]:
+            self.assertAlmostEqual(row[5], row[3] / row[4], places=9)
+            self.assertEqual(row[2], row[3] / row[4] <= 20)
+        self.assertEqual(self.names(), ["a.json", "a.toml"])
+
+    def test_a_plan_file_says_the_same(self):
+        self.held()
+        (self.path / "p.toml").write_text(PLAN)
+        by_file = self.run_program("run", "p.toml", "--csv", "p.csv", code=1).stdout
+        by_words = self.run_program("run", "a.toml", "--vary", "supply.voltage_V=12,24", "--vary",
+                                    "motor_override.resistance_ohm=1:2:3", "--csv", "a.csv", code=1).stdout
+        self.assertEqual(by_file.splitlines()[1:], by_words.splitlines()[1:])
+        table = list(csv.reader(line for line in (self.path / "p.csv").read_text().splitlines() if line[0] != "#"))
+        self.assertEqual(table[0][:6], ["run", "end", "passed", "supply.voltage_V [V]", "motor_override.resistance_ohm [ohm]",
+                                        "current [A]"])
+        self.assertEqual(len(table), 7)
+        self.assertEqual((self.path / "p.csv").read_text().splitlines()[3:], (self.path / "a.csv").read_text().splitlines()[3:])
+
+    def test_one_run_of_a_plan_is_a_run_as_any_other(self):
+        self.held()
+        (self.path / "p.toml").write_text(PLAN)
+        self.run_program("run", "p.toml", "--json", "p.json", code=1)
+        plan = json.loads((self.path / "p.json").read_text())
+        self.run_program("run", "p.toml", "--only", "3", "--json", "one.json", "--csv", "one.csv", code=1)
+        one = json.loads((self.path / "one.json").read_text())
+        self.assertEqual(one["digest"], plan["rows"][3][-1])
+        self.assertEqual(one["require"][0]["measured"], plan["rows"][3][5])
+        self.assertIn("count from 0 to 5", self.run_program("run", "p.toml", "--only", "6", code=2).stderr)
+
+    def test_a_controller_is_designed_for_each_value_or_stays_as_it_was(self):
+        """What strays meets the gains of the value as written: bit for bit the run that is given them."""
+        (self.path / "b.toml").write_text('motor = "maxon-251601"\nduration_s = 4e-3\n[control]\nmode = "current"\n'
+                                          "[control.current]\nsettle_s = 1e-3\ndamping = 0.9\n[reference]\nvalue = 5\n[load]\nlocked = true\n")
+        (self.path / "g.toml").write_text((self.path / "b.toml").read_text().replace("settle_s = 1e-3\ndamping = 0.9\n", ""))
+
+        def digest(*words):
+            summary = json.loads(self.run_program("run", *words, "--json", "-").stdout)
+            return summary["digest"], summary["gains"]
+        _, (gains,) = digest("b.toml")
+        resistance = ["--set", "motor_override.resistance_ohm=2.0"]
+        fixed = ["--set", f"control.current.d1={gains['d1']!r}", "--set", f"control.current.d0={gains['d0']!r}"]
+        for strays, truth in (("false", digest("b.toml", *resistance)), ("true", digest("g.toml", *resistance, *fixed))):
+            (self.path / "p.toml").write_text('scenario = "b.toml"\n[[vary]]\nkey = "motor_override.resistance_ohm"\n'
+                                              f"values = [1.5, 2.0]\nstrays = {strays}\n")
+            self.run_program("run", "p.toml", "--json", "p.json")
+            self.assertEqual(json.loads((self.path / "p.json").read_text())["rows"][1][-1], truth[0], strays)
+
+    def test_a_store_goes_on_where_it_stopped_and_grows(self):
+        file = self.held(SPREAD)
+        run = ["run", file, "--runs", "30", "--store", "s.sqlite"]
+        self.run_program(*run, code=1)
+        self.assertIn("holds runs already", self.run_program(*run, code=2).stderr)
+        self.run_program("run", file, "--runs", "30", "--store", "s.sqlite", "--resume", code=1)
+        self.assertEqual(len(self.rows("s.sqlite")), 30)
+        more = self.run_program("run", file, "--runs", "50", "--store", "s.sqlite", "--resume", code=1).stdout
+        self.assertEqual(more, self.run_program("run", file, "--runs", "50", code=1).stdout)
+        few = self.run_program("run", file, "--runs", "10", "--store", "s.sqlite", "--resume", code=1).stdout
+        self.assertEqual(few, self.run_program("run", file, "--runs", "10", code=1).stdout)
+        self.assertIn("another plan", self.run_program("run", file, "--runs", "50", "--seed", "2", "--store", "s.sqlite", "--resume",
+                                                       code=2).stderr)
+        self.held(SPREAD.replace("0.1", "0.2"))
+        self.assertIn("changed since", self.run_program("run", file, "--runs", "50", "--store", "s.sqlite", "--resume", code=2).stderr)
+        self.assertIn("--store", self.run_program("run", file, "--runs", "50", "--resume", code=2).stderr)
+        self.run_program("run", file, "--runs", "5", "--store", "s.sqlite", "--force", code=1)
+        self.assertEqual(len(self.rows("s.sqlite")), 5)
+
+    def test_another_program_is_noticed_by_its_bits(self):
+        file = self.held(SPREAD)
+        self.run_program("run", file, "--runs", "5", "--store", "s.sqlite", code=1)
+        with contextlib.closing(sqlite3.connect(self.path / "s.sqlite")) as db:
+            db.execute("UPDATE run SET digest = '0123456789abcdef' WHERE number = 0")
+            db.commit()
+        self.assertIn("another version of sixstep",
+                      self.run_program("run", file, "--runs", "9", "--store", "s.sqlite", "--resume", code=2).stderr)
+
+    def test_kills_take_nothing_that_was_finished(self):
+        """Killed at random instants and gone on with, the table is bit for bit that of one sitting."""
+        seed = random.randrange(2**32)
+        draw = random.Random(seed)
+        file = self.held(SPREAD)
+        words = ["run", file, "--runs", "4000"]
+        self.run_program(*words, "--csv", "whole.csv", code=1)
+        before, kills = 0, 0
+        while kills < KILLS:
+            with subprocess.Popen([PROGRAM, *words, "--store", "s.sqlite", "--resume", "--quiet"], cwd=self.path) as program:
+                time.sleep(draw.uniform(0.01, 0.15))
+                program.send_signal(signal.SIGKILL)
+            if program.returncode != -signal.SIGKILL:
+                (self.path / "s.sqlite").unlink()  # it was finished: begin anew
+                before = 0
+                continue
+            kills += 1
+            if not (self.path / "s.sqlite").exists():
+                continue
+            try:
+                now = len(self.rows("s.sqlite", "number"))
+            except sqlite3.OperationalError as missing:  # killed before its tables came
+                self.assertIn("no such table", str(missing))
+                now = 0
+            self.assertGreaterEqual(now, before, f"seed {seed}")
+            before = now
+        self.run_program(*words, "--store", "s.sqlite", "--resume", "--csv", "killed.csv", code=1)
+        whole, killed = ((self.path / name).read_text().splitlines()[3:] for name in ("whole.csv", "killed.csv"))
+        self.assertEqual(whole, killed, f"seed {seed}")
+        self.assertEqual(len(whole), 4001)
+
+    def test_indices_say_which_key_a_figure_hangs_on(self):
+        """I = U/R: of ln I the parts are those of ln U and ln R; over small ranges I is nearly linear in both."""
+        file = self.held()
+        words = ["run", file, "--vary", "supply.voltage_V=23:25", "--vary", "motor_override.resistance_ohm=1.02:1.04", "--vary",
+                 "load.torque_Nm=0:0.1", "--sampling", "saltelli", "--points", "200", "--set", "require=[]", "--set",
+                 'compare=[{metric="final",signal="current",value=20,source="U/R"}]']
+        self.run_program(*words, "--json", "s.json")
+        plan = json.loads((self.path / "s.json").read_text())
+        self.assertEqual(plan["runs"], 1000)
+        voltage, resistance, torque = plan["indices"][0]
+        share = (2 / 24) ** 2 / ((2 / 24) ** 2 + (0.02 / 1.03) ** 2)
+        for index, truth in ((voltage, share), (resistance, 1 - share), (torque, 0)):
+            for kind in ("first", "total"):
+                self.assertLessEqual(index[kind]["low"] - 0.01, truth)
+                self.assertGreaterEqual(index[kind]["high"] + 0.01, truth)
+        self.assertLess(torque["total"]["value"], 1e-9)
+
+    def test_it_tells_what_a_plan_would_take(self):
+        told = self.run_program("run", self.held(SPREAD), "--vary", "supply.voltage_V=12:24:7", "--runs", "100", "--dry-run",
+                                "--store", "s.sqlite").stdout
+        self.assertIn("7 points of 100 drives each: 700 runs", told)
+        self.assertRegex(told, r"a run on one core \(16 tried\), about .* on \d+ cores")
+        self.assertEqual(self.names(), ["a.toml"])
+
+    def test_tolerances_need_no_spread(self):
+        table = self.run_program("run", self.held(), "--tolerances", "--runs", "50", "--store", "s.sqlite", code=1).stdout
+        self.assertIn("50 drives, seed 1", table)
+        r = [row[0] for row in self.rows("s.sqlite", '"drive: motor_override.resistance_ohm [ohm]"')]
+        self.assertTrue(all(0.9 * 1.03 <= x <= 1.1 * 1.03 for x in r))
+        self.assertGreater(max(r) - min(r), 0.1)
+
+    def test_mistakes_are_told_where_they_stand(self):
+        self.held()
+        for vary, told in (("supply.voltge_V=1:2:3", "did you mean supply.voltage_V?"),
+                           ("supply.voltage_V", "KEY=FROM:TO:POINTS"),
+                           ("supply.voltage_V=1:2:x", "is no number of points"),
+                           ("supply.voltage_V=1:2:3:cubic", "write log or linear"),
+                           ("supply.voltage_V=1:2", "do not reach both ends"),
+                           ("supply.voltage_V=-1:2:3:log", "has no logarithm"),
+                           ("supply.voltage_V=1m:2m:3", "m"),
+                           ("pwm.chopping=soft,hrad", "hrad"),
+                           ("require[0].max=1,2", "is the same in all runs"),
+                           ("title=a,b", "is the same in all runs")):
+            code = 2
+            result = self.run_program("run", "a.toml", "--vary", vary, code=code)
+            self.assertIn(told, result.stderr + result.stdout, vary)
+        plan = PLAN.replace("to = 2.0\n", "").replace("values", "value")
+        (self.path / "p.toml").write_text(plan)
+        told = self.run_program("run", "p.toml", code=2).stderr
+        self.assertIn("p.toml:7:1: vary.value", told)
+        self.assertIn("one end of a range", told)
+        (self.path / "p.toml").write_text(PLAN.replace("a.toml", "b.toml"))
+        self.assertIn("b.toml", self.run_program("run", "p.toml", code=2).stderr)
+
+    def test_a_corner_that_cannot_run_is_a_row(self):
+        self.held()
+        result = self.run_program("run", "a.toml", "--vary", "bridge.dead_time_s=0,1us", "--vary", "pwm.period_s=30us,1us", code=2)
+        self.assertIn("could not run", result.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stands in a store stands there, whatever became of the program; and plain SQL reads it.
+#include "files/store/plan_store.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <thread>
+
+namespace files {
+namespace {
+
+using testing::HasSubstr;
+
+class Store : public testing::Test {
+ protected:
+  std::string path() const { return (folder_ / "runs.sqlite").string(); }
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("sixstep_store_" + std::to_string(::getpid()) + "_" +
+               testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  static StoredPlan plan() {
+    StoredPlan p{.plan = "{\"vary\":[]}",
+                 .inputs = "0123",
+                 .title = "t",
+                 .motor = "m",
+                 .scenario = "s.toml",
+                 .command = "c",
+                 .scenario_text = "x = 1\n",
+                 .columns = {},
+                 .units = {"s", "", "ohm"}};
+    p.columns.keys = {"pwm.period_s", "pwm.chopping"};
+    p.columns.strayed = {"motor_override.resistance_ohm"};
+    p.columns.figures = {{"rise \"time\"", "s", true, {}, 2.0}, {"peak", "A", false, {}, {}}};
+    return p;
+  }
+  static analysis::RunRecord row(std::size_t n) {
+    const double x = static_cast<double>(n);
+    return {.number = n,
+            .point = {"3e-05", "\"soft\""},
+            .strayed = {1.0 / (1.0 + x)},
+            .end = analysis::RunEnd::whole,
+            .problem = "",
+            .figures = {x, 1.0 / 3.0 * x},
+            .digest = 0xffffffff00000000u + n};
+  }
+  std::filesystem::path folder_;
+};
+
+std::vector<analysis::RunRecord> rows_of(PlanStore& store) {
+  std::vector<analysis::RunRecord> rows;
+  EXPECT_EQ(store.each([&](const analysis::RunRecord& r) { rows.push_back(r); }), base::Problems{});
+  return rows;
+}
+
+TEST_F(Store, GivesBackEachRowToTheBitInTheOrderOfItsNumber) {
+  const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  {
+    base::Result<PlanStore> store = PlanStore::create(path(), plan(), false);
+    ASSERT_TRUE(store);
+    analysis::RunRecord odd = row(2);
+    odd.figures = {inf, nan};
+    odd.end = analysis::RunEnd::fault;
+    odd.problem = "t = 1 s: shoot-through";
+    store->add(row(7));
+    store->add(std::move(odd));
+    store->add(row(0));
+    EXPECT_EQ(store->finish(), base::Problems{});
+    EXPECT_EQ(store->rows(), 3u);
+  }
+  base::Result<PlanStore> store = PlanStore::read(path());
+  ASSERT_TRUE(store);
+  const std::vector<analysis::RunRecord> rows = rows_of(*store);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].number, 0u);
+  EXPECT_EQ(rows[1].number, 2u);
+  EXPECT_EQ(rows[2].figures, row(7).figures);
+  EXPECT_EQ(rows[2].strayed, row(7).strayed);
+  EXPECT_EQ(rows[2].digest, row(7).digest);
+  EXPECT_EQ(rows[1].figures[0], inf);
+  EXPECT_TRUE(std::isnan(rows[1].figures[1]));
+  EXPECT_EQ(rows[1].problem, "t = 1 s: shoot-through");
+  EXPECT_EQ(rows[1].end, analysis::RunEnd::fault);
+  EXPECT_EQ(store->plan().columns, plan().columns);
+  EXPECT_EQ(store->plan().scenario_text, "x = 1\n");
+}
+
+TEST_F(Store, IsAskedInPlainSqlByNamesWithUnits) {
+  {
+    base::Result<PlanStore> store = PlanStore::create(path(), plan(), false);
+    store->add(row(1));
+    store->add(row(3));
+    store->finish();
+  }
+  base::Result<Database> db = Database::open(path());
+  base::Result<Statement> select = db->prepare(
+      "SELECT passed, \"pwm.period_s [s]\", \"pwm.chopping\", \"drive: motor_override.resistance_ohm [ohm]\", "
+      "\"rise \"\"time\"\" [s]\" FROM runs ORDER BY number");
+  ASSERT_TRUE(select) << to_string(select.problems().front());
+  ASSERT_TRUE(select->step());
+  EXPECT_EQ(select->whole(0), 1);
+  EXPECT_EQ(select->number(1), 3e-5);
+  EXPECT_EQ(select->text(2), "soft");
+  EXPECT_EQ(select->number(3), 0.5);
+  EXPECT_EQ(select->number(4), 1.0);
+  ASSERT_TRUE(select->step());
+  EXPECT_EQ(select->whole(0), 0) << "3 s are more than 2";
+}
+
+TEST_F(Store, GoesOnWithTheSamePlanAloneAndSaysWhatChanged) {
+  { PlanStore::create(path(), plan(), false)->add(row(4)); }
+  EXPECT_THAT(to_string(PlanStore::create(path(), plan(), false).problems().front()),
+              HasSubstr("holds runs already"));
+  {
+    base::Result<PlanStore> store = PlanStore::resume(path(), plan());
+    ASSERT_TRUE(store);
+    EXPECT_TRUE(store->has(4));
+    EXPECT_FALSE(store->has(0));
+    store->add(row(5));
+    store->add(row(5));
+    EXPECT_EQ(store->finish(), base::Problems{});
+    EXPECT_EQ(store->rows(), 2u);
+  }
+  StoredPlan other = plan();
+  other.plan = "{}";
+  EXPECT_THAT(to_string(PlanStore::resume(path(), other).problems().front()), HasSubstr("another plan"));
+  other = plan();
+  other.inputs = "4567";
+  EXPECT_THAT(to_string(PlanStore::resume(path(), other).problems().front()), HasSubstr("changed since"));
+  ASSERT_TRUE(PlanStore::create(path(), other, true));
+  EXPECT_EQ(PlanStore::read(path())->rows(), 0u);
+}
+
+TEST_F(Store, LeavesWhatIsNotItsOwnAlone) {
+  std::ofstream(path()) << "a letter\n";
+  for (const bool force : {false, true})
+    EXPECT_THAT(to_string(PlanStore::create(path(), plan(), force).problems().front()),
+                HasSubstr("no store of runs"));
+  EXPECT_FALSE(PlanStore::resume(path(), plan()));
+  EXPECT_FALSE(PlanStore::read(path()));
+  EXPECT_EQ(std::filesystem::file_size(path()), 9u);
+  EXPECT_FALSE(PlanStore::create((folder_ / "no/such/folder.sqlite").string(), plan(), false));
+}
+
+TEST_F(Store, IsOneWritersAlone) {
+  base::Result<PlanStore> first = PlanStore::create(path(), plan(), false);
+  ASSERT_TRUE(first);
+  first->add(row(0));
+  first->finish();
+  EXPECT_THAT(to_string(PlanStore::resume(path(), plan()).problems().front()),
+              HasSubstr("being written by another run"));
+}
+
+/// What rows() has counted is there after a kill -9, and the store goes on.
+TEST_F(Store, KeepsWhatItHasCountedThroughKills) {
+  std::size_t told = 0;
+  for (int kill = 0; kill < 10; ++kill) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+      base::Result<PlanStore> store = PlanStore::resume(path(), plan());
+      if (!store) ::_exit(1);
+      for (std::size_t n = store->rows();; ++n) {
+        store->add(row(n));
+        const std::size_t counted = store->rows();
+        if (::write(ends[1], &counted, sizeof counted) != sizeof counted) ::_exit(2);
+      }
+    }
+    ::close(ends[1]);
+    const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(20 + 13 * kill);
+    std::size_t last = 0;
+    while (std::chrono::steady_clock::now() < until && ::read(ends[0], &last, sizeof last) == sizeof last)
+      told = std::max(told, last);
+    ::kill(child, SIGKILL);
+    while (::read(ends[0], &last, sizeof last) == sizeof last) told = std::max(told, last);
+    ::close(ends[0]);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    base::Result<PlanStore> store = PlanStore::read(path());
+    ASSERT_TRUE(store);
+    EXPECT_GE(store->rows(), told);
+    const std::vector<analysis::RunRecord> rows = rows_of(*store);
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      ASSERT_EQ(rows[n].number, n) << "no gap: they were added in order";
+      ASSERT_EQ(rows[n].figures, row(n).figures);
+    }
+  }
+  EXPECT_GT(told, 100u);
+}
+
+}  // namespace
+}  // namespace files

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/plan/plan_file.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sixstep/analysis/plan/plan_description.hpp"
+#include "sixstep/base/written.hpp"
+#include "text/escape/escape.hpp"
+#include "text/keys/decimal_number.hpp"
+#include "text/keys/key_advice.hpp"
+#include "text/keys/key_catalog.hpp"
+#include "text/keys/units.hpp"
+#include "text/sources.hpp"
+#include "text/toml/complaints.hpp"
+#include "text/toml/table_reader.hpp"
+
+namespace text {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A value as a file would write it: what a list mixes is read as words.
+std::string as_written(const toml::node& node) {
+  if (const auto* text = node.as_string()) return toml_text(text->get());
+  if (const auto* whole = node.as_integer()) return fmt::format("{}", whole->get());
+  if (const auto* number = node.as_floating_point()) return base::written(number->get());
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  return "";
+}
+
+/// Each value of vary[n].values in the words of a file, where the description has a list of words.
+void values_as_words(Document& document) {
+  toml::array* entries = document.root()["vary"].as_array();
+  if (!entries) return;
+  for (toml::node& entry : *entries) {
+    toml::array* values = entry.is_table() ? (*entry.as_table())["values"].as_array() : nullptr;
+    if (!values) continue;
+    for (std::size_t n = 0; n < values->size(); ++n) {
+      const std::string text = as_written((*values)[n]);
+      if (!text.empty()) values->replace(values->cbegin() + static_cast<std::ptrdiff_t>(n), text);
+    }
+  }
+}
+
+analysis::Axis axis_from(const analysis::AxisEntry& entry, const std::string& where, Complaints& complaints) {
+  const bool range = entry.from || entry.to;
+  if (range && !entry.values.empty())
+    complaints.later({.where = where + ".values",
+                      .limit = "contradicts from and to: the values are given twice",
+                      .cure = "keep one of the two"});
+  if (!range && entry.values.empty())
+    complaints.later(
+        {.where = where, .limit = "has no values", .cure = "give values = [..], or from, to and points"});
+  if (range && !(entry.from && entry.to))
+    complaints.later({.where = where + (entry.from ? ".from" : ".to"),
+                      .limit = "is one end of a range without the other",
+                      .cure = entry.from ? "give to" : "give from"});
+  return {.key = entry.key,
+          .values = entry.values,
+          .from = entry.from.value_or(0.0),
+          .to = entry.to.value_or(0.0),
+          .points = static_cast<std::size_t>(entry.points),
+          .spacing = entry.spacing,
+          .strays = entry.strays};
+}
+
+std::vector<std::string> split(std::string_view text, char at) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(at, begin), text.size());
+    parts.emplace_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+/// The unit of a scenario's key; a Problem for what is none.
+base::Result<std::string> unit_of_key(const std::string& key) {
+  const std::vector<KeyEntry> keys = scenario_keys();
+  if (const KeyEntry* entry = find_key(keys, shown(key))) return std::string(entry->about.unit);
+  std::vector<std::string> known;
+  for (const KeyEntry& entry : keys) known.push_back(entry.path);
+  const std::string near = nearest(key, known);
+  return base::Problem{.value = key,
+                       .limit = "is no key of a scenario",
+                       .cure = near.empty() ? "name one as table.key, as in pwm.period_s"
+                                            : fmt::format("did you mean {}?", near)};
+}
+
+struct Ends {
+  std::string key;
+  base::Problems problems;
+
+  double end(const std::string& text, const std::string& unit, std::string_view whole) {
+    const DecimalNumber plain = decimal_number(text);
+    if (plain.kind == DecimalNumber::Kind::number && plain.size == text.size()) return plain.value;
+    const base::Result<double> x = in_unit(text, unit);
+    if (x) return *x;
+    problems.push_back({std::string(whole), text, x.problems().front().limit, x.problems().front().cure});
+    return 0.0;
+  }
+};
+
+base::Result<analysis::Axis> range_of(const std::string& key, const std::vector<std::string>& parts,
+                                      std::string_view whole) {
+  const base::Result<std::string> known = unit_of_key(key);
+  if (!known) {
+    base::Problem problem = known.problems().front();
+    problem.where = whole;
+    return problem;
+  }
+  const std::string& unit = *known;
+  Ends ends{key, {}};
+  analysis::Axis axis{.key = key, .values = {}};
+  axis.from = ends.end(parts[0], unit, whole);
+  axis.to = ends.end(parts[1], unit, whole);
+  if (!ends.problems.empty()) return ends.problems;
+  if (parts.size() > 2) {
+    const DecimalNumber count = decimal_number(parts[2]);
+    if (count.kind != DecimalNumber::Kind::number || count.size != parts[2].size() || count.value < 2 ||
+        count.value > 1e9 || count.value != static_cast<double>(static_cast<std::size_t>(count.value)))
+      return base::Problem{std::string(whole), parts[2], "is no number of points",
+                           "write a whole number from 2 on behind the second colon"};
+    axis.points = static_cast<std::size_t>(count.value);
+  }
+  if (parts.size() > 3 && parts[3] != "log" && parts[3] != "linear")
+    return base::Problem{std::string(whole), parts[3], "is no spacing", "write log or linear"};
+  if (parts.size() > 3 && parts[3] == "log") axis.spacing = analysis::Spacing::logarithmic;
+  return axis;
+}
+
+}  // namespace
+
+bool is_plan(const std::string& text) {
+  const base::Result<Document> document = Document::parse("", text);
+  return document && document->root().contains("scenario") && !document->root().contains("motor") &&
+         !document->root().contains("duration_s");
+}
+
+base::Result<PlanFile> read_plan_text(const std::string& name, std::string text) {
+  base::Result<Document> document = Document::parse(name, std::move(text));
+  if (!document) return document.problems();
+  values_as_words(*document);
+  Complaints complaints(*document);
+  analysis::PlanEntry entry;
+  read_root(*document, entry, complaints);
+  PlanFile file{.title = entry.title.empty() ? stem_of(name) : entry.title,
+                .notes = entry.notes,
+                .scenario = entry.scenario,
+                .sheet_tolerances = entry.sheet_tolerances,
+                .plan = {}};
+  file.plan = {.axes = {},
+               .sampling = entry.sampling,
+               .points = static_cast<std::size_t>(entry.points),
+               .drives = static_cast<std::size_t>(entry.drives),
+               .seed = static_cast<std::uint64_t>(entry.seed)};
+  for (std::size_t n = 0; n < entry.vary.size(); ++n)
+    file.plan.axes.push_back(axis_from(entry.vary[n], fmt::format("vary[{}]", n), complaints));
+  if (complaints.empty())
+    for (base::Problem& problem : analysis::check(file.plan)) complaints.later(std::move(problem));
+  if (!complaints.empty()) return complaints.in_order();
+  return file;
+}
+
+base::Result<analysis::Axis> axis_of(std::string_view text) {
+  const std::size_t cut = text.find('=');
+  if (cut == std::string_view::npos || cut == 0 || cut + 1 == text.size())
+    return base::Problem{std::string(text), "", "does not name a key and its values",
+                         "write KEY=FROM:TO:POINTS or KEY=VALUE,VALUE, as in pwm.period_s=20us:100us:9"};
+  const std::string key(text.substr(0, cut));
+  const std::string_view values = text.substr(cut + 1);
+  const std::vector<std::string> parts = split(values, ':');
+  if (parts.size() > 4)
+    return base::Problem{std::string(text), "", "has more than FROM:TO:POINTS:SPACING", "leave the rest out"};
+  if (parts.size() > 1) return range_of(key, parts, text);
+  return analysis::Axis{.key = key, .values = split(values, ',')};
+}
+
+std::string plan_identity(const analysis::Plan& plan) {
+  using analysis::Sampling;
+  Json axes = Json::array();
+  for (const analysis::Axis& axis : plan.axes) {
+    Json a = {{"key", axis.key}};
+    if (axis.strays) a["strays"] = true;
+    if (!axis.values.empty())
+      a["values"] = axis.values;
+    else
+      a.update(Json{{"from", axis.from},
+                    {"to", axis.to},
+                    {"spacing", base::word(analysis::spacing_choices, axis.spacing)}});
+    if (plan.sampling == Sampling::grid && axis.values.empty()) a["points"] = axis.points;
+    axes.push_back(std::move(a));
+  }
+  Json identity = {{"vary", axes}, {"seed", plan.seed}};
+  if (!plan.axes.empty()) {
+    identity["sampling"] = base::word(analysis::sampling_choices, plan.sampling);
+    if (plan.sampling == Sampling::latin_hypercube) identity["points"] = plan.points;
+    identity["drives"] = plan.drives;
+  }
+  return identity.dump();
+}
+
+}  // namespace text

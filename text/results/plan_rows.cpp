@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "sixstep/analysis/plan/plan_description.hpp"
+#include "sixstep/analysis/plan/sensitivity.hpp"
+#include "sixstep/base/written.hpp"
+#include "text/results/plan_text.hpp"
+
+namespace text {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr std::string_view ends[] = {"whole", "fault", "refused"};
+
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string bare(const std::string& written) {
+  const bool quoted = written.size() >= 2 && written.front() == '"' && written.back() == '"';
+  return quoted ? written.substr(1, written.size() - 2) : written;
+}
+
+/// As JSON has it: no number is null, one that never came a word.
+Json number(double x) {
+  if (x != x) return nullptr;
+  if (x - x != 0.0) return x > 0 ? "never" : "-never";
+  return x;
+}
+
+Json or_null(const std::optional<double>& x) { return x ? number(*x) : Json(nullptr); }
+
+Json columns_json(const PlanStory& s) {
+  Json keys = Json::array(), strayed = Json::array(), figures = Json::array();
+  for (std::size_t n = 0; n < s.columns.keys.size(); ++n)
+    keys.push_back({{"key", s.columns.keys[n]}, {"unit", s.units[n]}});
+  for (std::size_t n = 0; n < s.columns.strayed.size(); ++n)
+    strayed.push_back({{"key", s.columns.strayed[n]}, {"unit", s.units[s.columns.keys.size() + n]}});
+  for (const analysis::SpreadFigure& f : s.series.figures) {
+    Json figure = {{"figure", f.column.name},
+                   {"unit", f.column.unit},
+                   {"required", f.column.required},
+                   {"min", or_null(f.column.min)},
+                   {"max", or_null(f.column.max)}};
+    if (f.column.required) figure["holds"] = f.holds;
+    const analysis::Statistics& t = f.statistics;
+    figure["statistics"] = {{"count", t.count()},
+                            {"least", or_null(t.min())},
+                            {"p5", or_null(t.quantile(0.05))},
+                            {"median", or_null(t.quantile(0.5))},
+                            {"p95", or_null(t.quantile(0.95))},
+                            {"greatest", or_null(t.max())},
+                            {"mean", or_null(t.mean())},
+                            {"deviation", or_null(t.standard_deviation())}};
+    figures.push_back(std::move(figure));
+  }
+  return {{"keys", keys}, {"strayed", strayed}, {"figures", figures}};
+}
+
+Json interval(const analysis::Estimated& e) { return {{"value", e.value}, {"low", e.low}, {"high", e.high}}; }
+
+/// A list per figure with an entry per key; null for a figure that has none.
+Json indices_json(const PlanStory& s) {
+  Json all = Json::array();
+  for (std::size_t f = 0; f < s.columns.figures.size(); ++f) {
+    std::vector<double> values(analysis::runs_of(s.plan), std::numeric_limits<double>::quiet_NaN());
+    s.each([&](const analysis::RunRecord& record) { values[record.number] = record.figures[f]; });
+    const auto found = analysis::sensitivity(values, s.plan.axes.size(), s.plan.seed);
+    Json of_figure = found ? Json::array() : Json(nullptr);
+    for (std::size_t k = 0; found && k < found->size(); ++k)
+      of_figure.push_back({{"first", interval((*found)[k].first)}, {"total", interval((*found)[k].total)}});
+    all.push_back(std::move(of_figure));
+  }
+  return all;
+}
+
+/// A point's value as a number, a flag or a word.
+Json value_json(const std::string& written) {
+  const Json read = Json::parse(written, nullptr, false);
+  return read.is_discarded() ? Json(bare(written)) : read;
+}
+
+Json row_json(const analysis::RunRecord& r, const analysis::PlanColumns& columns) {
+  Json row = {r.number, ends[static_cast<std::size_t>(r.end)], analysis::passed(r, columns)};
+  for (const std::string& value : r.point) row.push_back(value_json(value));
+  for (const double x : r.strayed) row.push_back(number(x));
+  for (const double x : r.figures) row.push_back(number(x));
+  row.push_back(r.problem);
+  row.push_back(base::written_hex(r.digest));
+  return row;
+}
+
+}  // namespace
+
+std::string plan_csv_head(const analysis::PlanColumns& columns, const std::vector<std::string>& units) {
+  std::string line = "run,end,passed";
+  const auto add = [&](const std::string& name, const std::string& unit) {
+    line += "," + cell(unit.empty() ? name : fmt::format("{} [{}]", name, unit));
+  };
+  for (std::size_t n = 0; n < columns.keys.size(); ++n) add(columns.keys[n], units[n]);
+  for (std::size_t n = 0; n < columns.strayed.size(); ++n)
+    add("drive: " + columns.strayed[n], units[columns.keys.size() + n]);
+  for (const analysis::FigureColumn& f : columns.figures) add(f.name, f.unit);
+  return line + ",problem,digest\n";
+}
+
+std::string plan_csv_row(const analysis::RunRecord& record, const analysis::PlanColumns& columns) {
+  std::string line = fmt::format("{},{},{}", record.number, ends[static_cast<std::size_t>(record.end)],
+                                 analysis::passed(record, columns) ? 1 : 0);
+  for (const std::string& value : record.point) line += "," + cell(bare(value));
+  for (const std::vector<double>* numbers : {&record.strayed, &record.figures})
+    for (const double x : *numbers) line += "," + (x == x ? base::written(x) : std::string());
+  return line + "," + cell(record.problem) + "," + base::written_hex(record.digest) + "\n";
+}
+
+std::string plan_json(const PlanStory& s, const std::string& title, const std::string& motor) {
+  Json json = {{"sixstep", SIXSTEP_VERSION}, {"title", title}, {"motor", motor}};
+  json["plan"] = {{"sampling", base::word(analysis::sampling_choices, s.plan.sampling)},
+                  {"points", analysis::points_of(s.plan)},
+                  {"drives", s.plan.drives},
+                  {"seed", s.plan.seed},
+                  {"runs", analysis::runs_of(s.plan)}};
+  json["complete"] = s.series.runs == analysis::runs_of(s.plan);
+  json["runs"] = s.series.runs;
+  json["passed"] = s.series.passed;
+  json["faults"] = s.series.faults.size();
+  json["refused"] = s.series.refused.size();
+  json["digest"] = base::written_hex(s.series.digest);
+  json.update(columns_json(s));
+  if (s.plan.sampling == analysis::Sampling::saltelli) json["indices"] = indices_json(s);
+  // A row a line: a hundred thousand of them are read by programs that take lines, too.
+  std::string text = json.dump(2);
+  text.resize(text.find_last_of('}'));
+  text.erase(text.find_last_not_of(" \n") + 1);
+  text += ",\n  \"rows\": [";
+  bool first = true;
+  s.each([&](const analysis::RunRecord& record) {
+    text += (first ? "\n    " : ",\n    ") + row_json(record, s.columns).dump();
+    first = false;
+  });
+  return text + "\n  ]\n}\n";
+}
+
+}  // namespace text

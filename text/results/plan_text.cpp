@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/results/plan_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+
+#include "sixstep/analysis/plan/sensitivity.hpp"
+#include "text/escape/escape.hpp"
+#include "text/results/quantity_text.hpp"
+#include "text/results/series_table.hpp"
+
+namespace text {
+namespace {
+
+constexpr int digits = 4;
+using Cells = std::vector<std::string>;
+
+std::string aligned(const std::vector<Cells>& rows) {
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const Cells& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  std::string text;
+  for (const Cells& row : rows) {
+    std::string line = " ";
+    for (std::size_t c = 0; c < row.size(); ++c) line += fmt::format(" {:>{}} ", row[c], widths[c]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+/// The drives at one point.
+struct Point {
+  std::vector<std::string> values;
+  std::vector<analysis::Statistics> figures;
+  std::size_t first = 0, runs = 0, passed = 0;
+  std::string problem;
+};
+
+std::vector<Point> points_of(const PlanStory& story) {
+  std::vector<Point> points;
+  const std::size_t drives = std::max<std::size_t>(story.plan.drives, 1);
+  story.each([&](const analysis::RunRecord& record) {
+    if (points.empty() || record.number / drives != points.back().first / drives)
+      points.push_back({record.point,
+                        std::vector<analysis::Statistics>(story.columns.figures.size()),
+                        record.number,
+                        0,
+                        0,
+                        {}});
+    Point& at = points.back();
+    for (std::size_t n = 0; n < at.figures.size(); ++n) at.figures[n].add(record.figures[n]);
+    ++at.runs;
+    at.passed += analysis::passed(record, story.columns);
+    if (at.problem.empty()) at.problem = record.problem;
+  });
+  return points;
+}
+
+std::string value_text(const std::string& written, const std::string& unit) {
+  char* end = nullptr;
+  const double x = std::strtod(written.c_str(), &end);
+  if (!written.empty() && *end == '\0') return quantity_text(x, unit, digits);
+  const bool quoted = written.size() >= 2 && written.front() == '"';
+  return visible(quoted ? written.substr(1, written.size() - 2) : written);
+}
+
+std::string verdict(const Point& point, std::size_t drives, bool asks) {
+  if (!point.problem.empty() && drives <= 1) return visible(point.problem.substr(0, 100));
+  if (!asks) return "";
+  if (drives > 1) return fmt::format("{} of {}", point.passed, point.runs);
+  return point.passed == 1 ? "ok" : "FAIL";
+}
+
+Cells cells_of(const Point& point, const PlanStory& story, bool asks) {
+  const std::vector<analysis::FigureColumn>& figures = story.columns.figures;
+  Cells cells{fmt::format("{}", point.first)};
+  for (std::size_t k = 0; k < point.values.size(); ++k)
+    cells.push_back(value_text(point.values[k], story.units[k]));
+  for (std::size_t n = 0; n < figures.size(); ++n) {
+    const std::optional<double> x = point.figures[n].quantile(0.5);
+    const bool holds = !x || figures[n].holds(*x);
+    cells.push_back(x ? quantity_text(*x, figures[n].unit, digits) + (holds ? "" : " !") : "-");
+  }
+  cells.push_back(verdict(point, story.plan.drives, asks));
+  return cells;
+}
+
+std::string legend(const PlanStory& story) {
+  std::string text;
+  for (std::size_t n = 0; n < story.columns.figures.size(); ++n) {
+    const analysis::FigureColumn& f = story.columns.figures[n];
+    std::string line = fmt::format("  [{}] {}", n + 1, visible(f.name));
+    if (f.min) line += fmt::format(", at least {}", quantity_text(*f.min, f.unit));
+    if (f.max) line += fmt::format(", at most {}", quantity_text(*f.max, f.unit));
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string point_table(const PlanStory& story) {
+  const bool asks = std::any_of(story.columns.figures.begin(), story.columns.figures.end(),
+                                [](const auto& f) { return f.required; });
+  Cells head{"run"};
+  for (const std::string& key : story.columns.keys) head.push_back(visible(key));
+  for (std::size_t n = 0; n < story.columns.figures.size(); ++n) head.push_back(fmt::format("[{}]", n + 1));
+  head.push_back(!asks ? "" : story.plan.drives > 1 ? "holds" : "verdict");
+  std::vector<Cells> rows{head};
+  for (const Point& point : points_of(story)) rows.push_back(cells_of(point, story, asks));
+  const std::string of =
+      story.plan.drives > 1 ? fmt::format(", medians of {} drives", story.plan.drives) : "";
+  return fmt::format("{}{}\n", visible(story.name), of) + aligned(rows) + legend(story) +
+         casualties_text(story.series, story.plan) + series_sum(story.series, story.plan);
+}
+
+std::string part(const analysis::Estimated& e) {
+  return fmt::format("{:.3f} ({:.3f} .. {:.3f})", e.value, e.low, e.high);
+}
+
+std::string index_table(const PlanStory& story) {
+  std::string text;
+  for (std::size_t f = 0; f < story.columns.figures.size(); ++f) {
+    std::vector<double> values(analysis::runs_of(story.plan), std::numeric_limits<double>::quiet_NaN());
+    story.each([&](const analysis::RunRecord& record) { values[record.number] = record.figures[f]; });
+    const auto found = analysis::sensitivity(values, story.plan.axes.size(), story.plan.seed);
+    text += fmt::format("  {}: {}\n", visible(story.columns.figures[f].name),
+                        found ? "what it hangs on, first order and in all, each with the middle 95 %"
+                              : "does not vary, or too few runs have it");
+    if (!found) continue;
+    std::vector<Cells> rows;
+    for (std::size_t k = 0; k < found->size(); ++k)
+      rows.push_back({visible(story.columns.keys[k]), part((*found)[k].first), part((*found)[k].total)});
+    text += aligned(rows);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string plan_table(const PlanStory& story) {
+  if (story.series.runs > 0 && !story.plan.axes.empty() &&
+      analysis::points_of(story.plan) <= most_points_shown)
+    return point_table(story);
+  const std::string indices =
+      story.series.runs > 0 && story.plan.sampling == analysis::Sampling::saltelli ? index_table(story) : "";
+  return indices + series_table(story.name, story.series, story.plan);
+}
+
+}  // namespace text
