@@ -25,6 +25,7 @@ constexpr Mark marks[] = {{"", "# sixstep "},  // CSV
                           {"", "MATLAB 5.0 MAT-file, sixstep "},
                           {"", "MATLAB 7.3 MAT-file, sixstep "},
                           {"", "{\n  \"sixstep\": \""},
+                          {"<?xml ", "<testsuites name=\"sixstep "},
                           {"<svg ", "<desc>Made by sixstep "},
                           {"<!doctype html>", "<meta name=\"generator\" content=\"sixstep "}};
 

@@ -123,9 +123,9 @@ def section(program, entry, top):
 
 def page(program):
     overview = subprocess.run([program, "help"], capture_output=True, text=True, check=True).stdout.splitlines()
-    cut = next(n for n, line in enumerate(overview) if n and not line.startswith(" "))
+    cuts = [n for n, line in enumerate(overview) if n and not line.startswith(" ")]
     top, sheet = ([line.split()[0] for line in part if line.startswith("  ")]
-                  for part in (overview[:cut], overview[cut:]))
+                  for part in (overview[:cuts[0]], overview[cuts[0]:cuts[1]]))
     top = [Entry(program, path) for path in top]
     sheet = [Entry(program, OVERRIDE + path) for path in sheet]  # "notes" alone would be the scenario's
     for entry in sheet:

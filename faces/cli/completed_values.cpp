@@ -9,6 +9,7 @@
 
 #include "faces/cli/choose.hpp"
 #include "faces/cli/design_command.hpp"
+#include "sixstep/analysis/plan/plan_description.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
 #include "text/keys/key_catalog.hpp"
@@ -103,11 +104,14 @@ Candidates known_words(const CLI::App& verb, const std::string& name) {
   if (name == "--mode") return modes(verb);
   if (name == "--chopping") return words(study::chopping_choices);
   if (name == "--arithmetic") return words(study::arithmetic_choices);
+  if (name == "--sampling") return words(analysis::sampling_choices);
   if (name == "--method") return words(method_choices);
   if (name == "--style") return styles();
   if (name == "--between")
     return {{"lines", "two terminals"}, {"star", "a terminal and one point common to all"}};
-  if (name == "KIND") return {{"scenario", "of a scenario file"}, {"motor", "of a motor file"}};
+  if (name == "KIND")
+    return {
+        {"scenario", "of a scenario file"}, {"motor", "of a motor file"}, {"plan", "of a plan: many runs"}};
   if (name == "SHELL") return {{"bash", ""}, {"zsh", ""}, {"fish", ""}};
   if (name == "KEY") return keys("", true);
   return {};
@@ -118,7 +122,7 @@ Candidates known_words(const CLI::App& verb, const std::string& name) {
 Candidates values_of(const CLI::App& verb, const CLI::Option& option, const std::string& current) {
   const std::string name = option.get_positional() ? option.get_name(true) : option.get_name();
   if (Candidates found = known_words(verb, name); !found.empty()) return found;
-  if (name == "--set") return settings(current);
+  if (name == "--set" || name == "--vary") return settings(current);
   if (name == "FILE" || name == "SCENARIO") return files(current, ".toml");
   if (name == "MOTOR" || name == "--motor") return motors(current);
   if (name == "NAME") return verb.get_name() == "new" ? Candidates{} : motors(current);

@@ -27,12 +27,16 @@ std::string line(const KeyEntry& entry) {
   return fmt::format("  {:<38} {}{}\n", entry.path, entry.about.meaning, unit);
 }
 
-std::string overview(const std::vector<KeyEntry>& scenario, const std::vector<KeyEntry>& sheet) {
+std::string overview(const std::vector<KeyEntry>& scenario, const std::vector<KeyEntry>& sheet,
+                     const std::vector<KeyEntry>& plan) {
   std::string text = "Keys of a scenario file (sixstep help TABLE or sixstep help KEY tells more):\n";
   for (const KeyEntry& entry : scenario)
     if (entry.path.find('.') == std::string::npos) text += line(entry);
   text += "Keys of a motor file and of [motor_override]:\n";
   for (const KeyEntry& entry : sheet) text += line(entry);
+  text += "Keys of a plan file, which makes many runs of a scenario:\n";
+  for (const KeyEntry& entry : plan)
+    if (entry.path.find('.') == std::string::npos) text += line(entry);
   return text + "Commands: sixstep --help, and sixstep help COMMAND.\n";
 }
 
@@ -81,9 +85,10 @@ const CLI::App* command_of(const CLI::App& app, const std::string& name) {
 }
 
 Exit help_command(const CLI::App& app, const std::string& key) {
-  const std::vector<KeyEntry> scenario = text::scenario_keys(), sheet = text::sheet_keys();
+  const std::vector<KeyEntry> scenario = text::scenario_keys(), sheet = text::sheet_keys(),
+                              plan = text::plan_keys();
   if (key.empty()) {
-    print(overview(scenario, sheet));
+    print(overview(scenario, sheet, plan));
     return Exit::ok;
   }
   const CLI::App* const verb = command_of(app, key);
@@ -98,12 +103,16 @@ Exit help_command(const CLI::App& app, const std::string& key) {
     print(text::help_text(*entry) + "  in a motor file or in [motor_override]\n");
     return Exit::ok;
   }
+  if (const KeyEntry* entry = by_path(plan, key)) {
+    print((is_table(*entry) ? of_table(plan, *entry) : of_key(*entry)) + "  in a plan file\n");
+    return Exit::ok;
+  }
   if (const KeyEntry* entry = by_name(scenario, key)) {
     print(of_key(*entry));
     return Exit::ok;
   }
   std::vector<std::string> known;
-  for (const std::vector<KeyEntry>* entries : {&scenario, &sheet})
+  for (const std::vector<KeyEntry>* entries : {&scenario, &sheet, &plan})
     for (const KeyEntry& entry : *entries) known.push_back(entry.path);
   std::string near = text::nearest(key, known);
   for (const std::string& path : known)  // "voltage_V" stands in a table; so may a misspelt one

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <stop_token>
 #include <thread>
 
@@ -16,6 +17,7 @@
 #include "faces/cli/terminal.hpp"
 #include "sixstep/base/written.hpp"
 #include "text/plan/plan_file.hpp"
+#include "text/results/junit.hpp"
 #include "text/results/plan_text.hpp"
 #include "text/scenario/scenario_text.hpp"
 
@@ -103,6 +105,7 @@ base::Problems same_program(const batch::PlanRuns& runs, files::PlanStore& store
 struct Told {
   Exit exit = Exit::ok;
   base::Problems problems;
+  text::JunitSuite verdicts;
 };
 
 Told tell(const RunArguments& a, const ReadPlan& plan, files::PlanStore& store, PlanOutputs& outputs) {
@@ -124,10 +127,11 @@ Told tell(const RunArguments& a, const ReadPlan& plan, files::PlanStore& store, 
   const base::Problems unwritten = outputs.publish(story, plan, !interrupted());
   told.problems.insert(told.problems.end(), unwritten.begin(), unwritten.end());
   told.exit = exit_of(series);
+  told.verdicts = text::junit_suite(plan.name, series);
   return told;
 }
 
-Exit run_plan(const RunArguments& a, const ReadPlan& plan) {
+Exit run_plan(const RunArguments& a, const ReadPlan& plan, std::vector<text::JunitSuite>& suites) {
   PlanOutputs outputs;
   if (const base::Problems problems = outputs.open(a, plan); !problems.empty()) return refused(problems);
   base::Result<files::PlanStore> store = store_of(a, plan);
@@ -151,8 +155,24 @@ Exit run_plan(const RunArguments& a, const ReadPlan& plan) {
   if (const base::Problems unwritten = store->finish(); !unwritten.empty()) return refused(unwritten);
   const Told told = tell(a, plan, *store, outputs);
   complain(told.problems);
+  suites.push_back(told.verdicts);
   if (interrupted()) return exit_of_interrupt();
   return told.problems.empty() ? told.exit : graver(told.exit, Exit::bad_input);
+}
+
+Exit run_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
+               std::optional<files::AtomicFile>& junit) {
+  Exit exit = Exit::ok;
+  std::vector<text::JunitSuite> suites;
+  for (const ReadPlan& plan : plans) {
+    exit = graver(exit, a.plan.dry_run ? foretell(a, plan) : run_plan(a, plan, suites));
+    if (interrupted()) break;
+  }
+  if (!junit) return exit;
+  junit->write(text::junit_xml(suites));
+  const base::Problems unwritten = interrupted() ? junit->commit_partial() : junit->commit();
+  complain(unwritten);
+  return unwritten.empty() ? exit : graver(exit, Exit::bad_input);
 }
 
 base::Problems contradictions(const RunArguments& a) {
@@ -190,12 +210,14 @@ Exit plan_command(const RunArguments& arguments) {
       problems.insert(problems.end(), plan.problems().begin(), plan.problems().end());
   }
   if (!problems.empty()) return refused(problems);
-  Exit exit = Exit::ok;
-  for (const ReadPlan& plan : read) {
-    exit = graver(exit, arguments.plan.dry_run ? foretell(arguments, plan) : run_plan(arguments, plan));
-    if (interrupted()) break;
+  std::optional<files::AtomicFile> junit;
+  if (!arguments.junit.empty() && !arguments.plan.dry_run) {
+    base::Result<files::AtomicFile> file =
+        files::AtomicFile::create({arguments.junit, arguments.paths.force});
+    if (!file) return refused(file.problems());
+    junit.emplace(std::move(*file));
   }
-  return exit;
+  return run_plans(arguments, read, junit);
 }
 
 }  // namespace cli

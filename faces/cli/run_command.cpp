@@ -20,6 +20,7 @@
 #include "faces/cli/whole_in.hpp"
 #include "files/atomic_file.hpp"
 #include "text/escape/escape.hpp"
+#include "text/results/junit.hpp"
 #include "text/results/verdict_table.hpp"
 
 namespace cli {
@@ -39,9 +40,13 @@ OutputPaths paths_of(const RunArguments& arguments, const Job& job) {
   return paths;
 }
 
-/// Opens all outputs before anything runs. The index is the last to be written and proves the folder now.
-base::Problems prepare(const RunArguments& arguments, std::vector<Job>& jobs,
-                       std::optional<files::AtomicFile>& index) {
+/// What speaks of all runs; written last.
+struct Lists {
+  std::optional<files::AtomicFile> index, junit;
+};
+
+/// Opens all outputs before anything runs. The index proves the folder now.
+base::Problems prepare(const RunArguments& arguments, std::vector<Job>& jobs, Lists& lists) {
   base::Problems problems;
   if (!arguments.out.empty()) {
     std::error_code error;
@@ -53,7 +58,13 @@ base::Problems prepare(const RunArguments& arguments, std::vector<Job>& jobs,
     base::Result<files::AtomicFile> file =
         files::AtomicFile::create({(fs::path(arguments.out) / "index.html").string(), arguments.paths.force});
     if (!file) return file.problems();
-    index.emplace(std::move(*file));
+    lists.index.emplace(std::move(*file));
+  }
+  if (!arguments.junit.empty()) {
+    base::Result<files::AtomicFile> file =
+        files::AtomicFile::create({arguments.junit, arguments.paths.force});
+    if (!file) return file.problems();
+    lists.junit.emplace(std::move(*file));
   }
   for (Job& job : jobs) append(problems, job.prepare(paths_of(arguments, job)));
   return problems;
@@ -103,9 +114,16 @@ void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
   print(text, to);
 }
 
+std::string verdicts_xml(const std::vector<Job>& jobs) {
+  std::vector<text::JunitSuite> suites;
+  for (const Job& job : jobs)
+    suites.push_back(job.outcome() ? text::junit_suite(job.name(), *job.outcome())
+                                   : text::junit_suite(job.name(), job.problems()));
+  return text::junit_xml(suites);
+}
+
 /// What went wrong, what was cut short, the table, the index.
-Exit tell(const std::vector<Job>& jobs, const RunArguments& arguments,
-          std::optional<files::AtomicFile>& index) {
+Exit tell(const std::vector<Job>& jobs, const RunArguments& arguments, Lists& lists) {
   Exit exit = interrupted() ? exit_of_interrupt() : Exit::ok;
   for (const Job& job : jobs) {
     if (!interrupted()) exit = graver(exit, job.exit_code());
@@ -116,22 +134,24 @@ Exit tell(const std::vector<Job>& jobs, const RunArguments& arguments,
   if (interrupted() && std::ranges::none_of(jobs, &Job::begun))
     print("interrupted before the first run began\n", stderr);
   if (!arguments.quiet) print_table(jobs, arguments);
-  if (index) {
-    const base::Problems unwritten = write_index(arguments, jobs, *index);
-    complain(unwritten);
-    if (!unwritten.empty()) exit = graver(exit, Exit::bad_input);
+  base::Problems unwritten;
+  if (lists.index) append(unwritten, write_index(arguments, jobs, *lists.index));
+  if (lists.junit) {
+    lists.junit->write(verdicts_xml(jobs));
+    append(unwritten, interrupted() ? lists.junit->commit_partial() : lists.junit->commit());
   }
-  return exit;
+  complain(unwritten);
+  return unwritten.empty() ? exit : graver(exit, Exit::bad_input);
 }
 
 Exit run_jobs(const RunArguments& arguments, JobsRead& read) {
-  std::optional<files::AtomicFile> index;
+  Lists lists;
   base::Problems problems = std::move(read.problems);
   if (problems.empty() && compares(arguments)) return compare_command(arguments, read.jobs);
-  if (problems.empty()) problems = prepare(arguments, read.jobs, index);
+  if (problems.empty()) problems = prepare(arguments, read.jobs, lists);
   if (!problems.empty()) return refused(problems);
   run_all(read.jobs, arguments);
-  return tell(read.jobs, arguments, index);
+  return tell(read.jobs, arguments, lists);
 }
 
 Exit run_again_on_save(const RunArguments& arguments) {
@@ -187,6 +207,7 @@ void declare_options(CLI::App& run, RunArguments& a) {
   for (std::size_t n = 0; n < formats().size(); ++n)
     run.add_option(std::string(formats()[n].option), a.paths.of_formats[n],
                    std::string(formats()[n].meaning));
+  run.add_option("--junit", a.junit, "write the verdicts of all files for build servers: JUnit's XML");
   take_force(run, a.paths.force);
   take_sets(run, a.sets);
   take_data(run, a.data_dir);

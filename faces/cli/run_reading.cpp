@@ -92,7 +92,9 @@ base::Problems same_outputs(const RunArguments& arguments) {
                           .limit = fmt::format("would write the same outputs as {}", other->second),
                           .cure = "rename one or run them apart"});
   }
-  append(problems, written_twice(arguments.paths.files()));
+  std::vector<std::pair<std::string, std::string>> files = arguments.paths.files();
+  files.emplace_back("--junit", arguments.junit);
+  append(problems, written_twice(files));
   return problems;
 }
 

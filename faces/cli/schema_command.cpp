@@ -13,7 +13,8 @@ namespace {
 Exit print_schema(const std::string& kind) {
   using Schema = std::string (*)();
   constexpr base::Choice<Schema> kinds[] = {{"scenario", text::scenario_schema, "of a scenario file"},
-                                            {"motor", text::motor_schema, "of a motor file"}};
+                                            {"motor", text::motor_schema, "of a motor file"},
+                                            {"plan", text::plan_schema, "of a plan: many runs"}};
   Schema schema = nullptr;
   base::Problems found;
   choose("KIND", kind, kinds, schema, found);
@@ -27,7 +28,7 @@ Exit print_schema(const std::string& kind) {
 Verb declare_schema(CLI::App& app) {
   CLI::App& schema = *app.add_subcommand("schema", "the keys of a file as JSON Schema, for editors");
   const auto kind = std::make_shared<std::string>("scenario");
-  schema.add_option("KIND", *kind, "scenario or motor")->capture_default_str();
+  schema.add_option("KIND", *kind, "scenario, motor or plan")->capture_default_str();
   return {&schema, [kind](const std::string&) { return print_schema(*kind); }};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of a store (docs/store.md), and what goes into their rows.
+// The tables of a store (docs/many-runs.md), and what goes into their rows.
 #pragma once
 #include <string>
 #include <string_view>

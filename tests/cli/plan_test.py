@@ -12,6 +12,7 @@ import sqlite3
 import subprocess
 import time
 import unittest
+import xml.etree.ElementTree
 
 from program import PROGRAM, SHORT, ProgramTest
 
@@ -185,6 +186,29 @@ class Plan(ProgramTest):
         r = [row[0] for row in self.rows("s.sqlite", '"drive: motor_override.resistance_ohm [ohm]"')]
         self.assertTrue(all(0.9 * 1.03 <= x <= 1.1 * 1.03 for x in r))
         self.assertGreater(max(r) - min(r), 0.1)
+
+    def test_verdicts_for_build_servers(self):
+        """JUnit's own numbers: a case per requirement and one for running at all, as plain runs and as plans have them."""
+        held = self.held()
+        missed = self.write("b & <c>.toml", 1)
+        (self.path / "p.toml").write_text(PLAN)
+        self.run_program("run", held, missed, "--junit", "runs.xml", code=1)
+        self.run_program("run", "p.toml", "--junit", "plan.xml", code=1)
+        runs, plan = (xml.etree.ElementTree.parse(self.path / name).getroot() for name in ("runs.xml", "plan.xml"))
+        self.assertEqual([runs.get(key) for key in ("tests", "failures", "errors")], ["4", "2", "0"])
+        self.assertEqual([suite.get("name") for suite in runs], ["a", "b & <c>"])
+        for suite in runs:
+            self.assertEqual([case.get("name") for case in suite], ["runs to its end", "current"])
+            self.assertIn("required at most", suite[1][0].get("message"))
+        self.assertEqual([plan.get(key) for key in ("tests", "failures", "errors")], ["2", "1", "0"])
+        self.assertEqual(plan[0][1][0].get("message"), "holds in 5 of 6, required at most 20 A")
+        self.run_program("run", "a.toml", "--vary", "bridge.dead_time_s=0,1", "--junit", "bad.xml", code=2)
+        bad = xml.etree.ElementTree.parse(self.path / "bad.xml").getroot()
+        self.assertEqual(bad.get("errors"), "1")
+        self.assertIn("1 could not run, the first of them run 1", bad[0][0][0].get("message"))
+        self.run_program("run", held, "--junit", "runs.xml", code=1)  # over what is sixstep's own
+        (self.path / "other.xml").write_text("<?xml version='1.0'?><mine/>")
+        self.run_program("run", held, "--junit", "other.xml", code=2)
 
     def test_mistakes_are_told_where_they_stand(self):
         self.held()

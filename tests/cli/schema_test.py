@@ -73,7 +73,7 @@ class Schema(ProgramTest):
         return self.schemas[kind]
 
     def test_every_shipped_file_is_valid(self):
-        for kind, folder, least in (("scenario", "scenarios", 30), ("motor", "motors", 30)):
+        for kind, folder, least in (("scenario", "scenarios", 30), ("motor", "motors", 30), ("plan", "plans", 1)):
             files = sorted((SOURCE / "data" / folder).glob("**/*.toml"))
             self.assertGreaterEqual(len(files), least)
             for file in files:
@@ -112,7 +112,7 @@ class Schema(ProgramTest):
 
     def test_help_and_schema_have_the_same_keys(self):
         told = {line.split()[0] for line in self.run_program("help").stdout.splitlines() if line.startswith("  ")}
-        in_schema = set(self.validator("scenario").schema["properties"]) | set(self.validator("motor").schema["properties"])
+        in_schema = set().union(*(self.validator(kind).schema["properties"] for kind in ("scenario", "motor", "plan")))
         self.assertEqual(told - in_schema, set())
         self.assertEqual(in_schema - told - self.spellings(), set())
 
@@ -127,7 +127,7 @@ class Schema(ProgramTest):
 
     def test_an_unknown_kind(self):
         self.assertEqual(self.run_program("schema", "motr", code=2).stderr,
-                         "KIND = motr must be one of scenario, motor; did you mean motor?\n")
+                         "KIND = motr must be one of scenario, motor, plan; did you mean motor?\n")
 
 
 if __name__ == "__main__":

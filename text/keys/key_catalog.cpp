@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "sixstep/analysis/plan/plan_description.hpp"
 #include "sixstep/base/plausible.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
@@ -132,6 +133,13 @@ std::vector<KeyEntry> sheet_keys() {
   Catalog catalog;
   design::Sheet sheet;
   describe(catalog, sheet);
+  return catalog.take();
+}
+
+std::vector<KeyEntry> plan_keys() {
+  Catalog catalog;
+  analysis::PlanEntry plan;
+  describe(catalog, plan);
   return catalog.take();
 }
 

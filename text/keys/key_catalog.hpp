@@ -29,6 +29,7 @@ struct KeyEntry {
 
 std::vector<KeyEntry> scenario_keys();
 std::vector<KeyEntry> sheet_keys();
+std::vector<KeyEntry> plan_keys();
 
 /// The entry of a key or of one of its other spellings; null where there is none.
 const KeyEntry* find_key(const std::vector<KeyEntry>& keys, std::string_view path);

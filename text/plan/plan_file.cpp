@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "sixstep/analysis/plan/plan_description.hpp"
 #include "sixstep/base/written.hpp"
@@ -89,6 +90,23 @@ base::Result<std::string> unit_of_key(const std::string& key) {
                                             : fmt::format("did you mean {}?", near)};
 }
 
+/// A value with a unit as a number in the key's own; what is none stays as it is written.
+std::string in_keys_unit(const std::string& written, const std::string& unit) {
+  const bool quoted = written.size() >= 2 && written.front() == '"' && written.back() == '"';
+  const std::string text = quoted ? written.substr(1, written.size() - 2) : written;
+  const std::optional<Written> parts = split_number(text);
+  if (unit.empty() || !parts || parts->unit.empty()) return written;
+  const base::Result<double> x = in_unit(text, unit);
+  return x ? base::written(*x) : written;
+}
+
+/// A key that is none is told where it is set.
+void in_keys_unit(analysis::Axis& axis) {
+  const base::Result<std::string> unit = unit_of_key(axis.key);
+  if (!unit) return;
+  for (std::string& value : axis.values) value = in_keys_unit(value, *unit);
+}
+
 struct Ends {
   std::string key;
   base::Problems problems;
@@ -157,7 +175,8 @@ base::Result<PlanFile> read_plan_text(const std::string& name, std::string text)
                .drives = static_cast<std::size_t>(entry.drives),
                .seed = static_cast<std::uint64_t>(entry.seed)};
   for (std::size_t n = 0; n < entry.vary.size(); ++n)
-    file.plan.axes.push_back(axis_from(entry.vary[n], fmt::format("vary[{}]", n), complaints));
+    in_keys_unit(
+        file.plan.axes.emplace_back(axis_from(entry.vary[n], fmt::format("vary[{}]", n), complaints)));
   if (complaints.empty())
     for (base::Problem& problem : analysis::check(file.plan)) complaints.later(std::move(problem));
   if (!complaints.empty()) return complaints.in_order();
@@ -175,7 +194,9 @@ base::Result<analysis::Axis> axis_of(std::string_view text) {
   if (parts.size() > 4)
     return base::Problem{std::string(text), "", "has more than FROM:TO:POINTS:SPACING", "leave the rest out"};
   if (parts.size() > 1) return range_of(key, parts, text);
-  return analysis::Axis{.key = key, .values = split(values, ',')};
+  analysis::Axis axis{.key = key, .values = split(values, ',')};
+  in_keys_unit(axis);
+  return axis;
 }
 
 std::string plan_identity(const analysis::Plan& plan) {

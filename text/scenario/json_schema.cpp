@@ -124,6 +124,7 @@ Json value_of(const KeyEntry& entry, const Place& place) {
     case KeyType::numbers:
       return list_of(number(base::allowed(entry.about)));
     case KeyType::texts:
+      if (entry.path == "vary.values") return list_of({{"type", {"number", "string", "boolean"}}});
       return words_or_one(entry.path == "record.columns" ? column_names() : Json{{"type", "string"}});
     case KeyType::word:
       return one_of(all_words(entry));
@@ -186,5 +187,6 @@ std::string document(const std::vector<KeyEntry>& keys, const char* title) {
 
 std::string scenario_schema() { return document(scenario_keys(), "sixstep scenario"); }
 std::string motor_schema() { return document(sheet_keys(), "sixstep motor"); }
+std::string plan_schema() { return document(plan_keys(), "sixstep plan"); }
 
 }  // namespace text

@@ -16,5 +16,6 @@ inline constexpr char motor_schema_file[] = "sixstep-motor.schema.json";
 /// one value. What one key says about another is left to reading the file. Ends in a newline.
 std::string scenario_schema();
 std::string motor_schema();
+std::string plan_schema();
 
 }  // namespace text

@@ -82,6 +82,10 @@ class Checker {
           "vary at most " + std::to_string(sobol_dimensions * plan_.axes.size() / dimensions));
     if (plan_.sampling != Sampling::grid && !plan_.axes.empty() && plan_.points == 0)
       add("points", "0", "leaves nothing to run", "say how many points there are to be");
+    if (plan_.sampling == Sampling::saltelli && plan_.drives > 0)
+      add("drives", std::to_string(plan_.drives),
+          "stray at random, and Sobol indices need points that differ as planned",
+          "vary what strays over its range, with strays = true");
     if (problems_.empty() && too_many())
       add("points", "", "are more than a thousand million runs", "take fewer values or points");
     return std::move(problems_);
