@@ -179,11 +179,12 @@ TEST(PlannedScenarios, RefuseWhatNoRunCouldHave) {
 
 TEST(PlannedScenarios, StrayInWhatASheetDoesNotPromise) {
   const PlannedScenarios plan({"a.toml", scenario, {}, true}, {.axes = {}, .drives = 2});
+  const base::Result<study::Scenario> nominal = plan.nominal();
   std::vector<std::string> keys;
-  for (const study::Spread& spread : plan.nominal()->spread) keys.push_back(spread.key);
+  for (const study::Spread& spread : nominal->spread) keys.push_back(spread.key);
   EXPECT_THAT(keys, ElementsAre("motor_override.resistance_ohm", "motor_override.inductance_mH",
                                 "motor_override.torque_constant_mNm_A"));
-  EXPECT_EQ(plan.nominal()->spread[0].relative, 0.1) << "what the file says stays";
+  EXPECT_EQ(nominal->spread[0].relative, 0.1) << "what the file says stays";
 }
 
 }  // namespace
