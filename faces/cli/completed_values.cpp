@@ -72,7 +72,7 @@ Candidates keys(std::string_view behind, bool tables) {
 Candidates settings(const std::string& current) {
   const std::size_t equals = current.find('=');
   if (equals == std::string::npos) return keys("=", false);
-  const std::vector<text::KeyEntry> all = text::scenario_keys();
+  const std::vector<text::KeyEntry>& all = text::scenario_keys();
   const text::KeyEntry* key = text::find_key(all, current.substr(0, equals));
   Candidates found;
   if (!key) return found;

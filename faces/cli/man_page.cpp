@@ -106,7 +106,7 @@ std::string files() {
       "These are its keys and tables;\n"
       ".B sixstep help\n.I TABLE\nlists the keys of one, and\n.B sixstep help\n.I KEY\n"
       "tells unit, range, default and words.\n";
-  const std::vector<text::KeyEntry> keys = text::scenario_keys();
+  const std::vector<text::KeyEntry>& keys = text::scenario_keys();
   for (const text::KeyEntry* key : text::keys_in(keys, "")) {
     const std::string name = key->type == text::KeyType::table  ? fmt::format("[{}]", key->path)
                              : key->type == text::KeyType::list ? fmt::format("[[{}]]", key->path)

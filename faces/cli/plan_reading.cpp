@@ -65,7 +65,7 @@ void in_words_of(const RunArguments& a, const analysis::Plan& plan, base::Proble
 }
 
 std::string unit_of(const std::string& key) {
-  const std::vector<text::KeyEntry> keys = text::scenario_keys();
+  const std::vector<text::KeyEntry>& keys = text::scenario_keys();
   const text::KeyEntry* entry = text::find_key(keys, key);
   return entry ? std::string(entry->about.unit) : std::string();
 }

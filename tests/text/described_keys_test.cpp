@@ -144,7 +144,7 @@ TEST(DescribedKeys, EveryMotorKeyRoundTrips) { expect_round_trip<design::Sheet>(
 
 std::vector<KeyEntry> all_keys() {
   std::vector<KeyEntry> keys = scenario_keys();
-  const std::vector<KeyEntry> sheet = sheet_keys();
+  const std::vector<KeyEntry>& sheet = sheet_keys();
   keys.insert(keys.end(), sheet.begin(), sheet.end());
   return keys;
 }
@@ -241,7 +241,7 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
 }
 
 TEST(DescribedKeys, HelpTellsUnitRangeDefaultAndWords) {
-  const std::vector<KeyEntry> keys = scenario_keys();
+  const std::vector<KeyEntry>& keys = scenario_keys();
   const auto find = [&](const char* path) {
     return *std::find_if(keys.begin(), keys.end(), [&](const KeyEntry& k) { return k.path == path; });
   };

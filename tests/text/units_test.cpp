@@ -84,7 +84,7 @@ TEST(Units, AWrongOneIsToldWithThoseThatFit) {
 
 TEST(Units, EveryKeysOwnUnitIsInTheTable) {
   std::vector<KeyEntry> keys = scenario_keys();
-  const std::vector<KeyEntry> sheet = sheet_keys();
+  const std::vector<KeyEntry>& sheet = sheet_keys();
   keys.insert(keys.end(), sheet.begin(), sheet.end());
   for (const KeyEntry& key : keys) {
     EXPECT_TRUE(unit_of(key.about.unit)) << key.path << " in " << key.about.unit;

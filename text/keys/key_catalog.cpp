@@ -120,27 +120,29 @@ bool is_numeric(KeyType type) {
          type == KeyType::quantity;
 }
 
+template <class Described>
+std::vector<KeyEntry> keys_of() {
+  Catalog catalog;
+  Described described;
+  describe(catalog, described);
+  return catalog.take();
+}
+
 }  // namespace
 
-std::vector<KeyEntry> scenario_keys() {
-  Catalog catalog;
-  study::Scenario scenario;
-  describe(catalog, scenario);
-  return catalog.take();
+const std::vector<KeyEntry>& scenario_keys() {
+  static const std::vector<KeyEntry> keys = keys_of<study::Scenario>();
+  return keys;
 }
 
-std::vector<KeyEntry> sheet_keys() {
-  Catalog catalog;
-  design::Sheet sheet;
-  describe(catalog, sheet);
-  return catalog.take();
+const std::vector<KeyEntry>& sheet_keys() {
+  static const std::vector<KeyEntry> keys = keys_of<design::Sheet>();
+  return keys;
 }
 
-std::vector<KeyEntry> plan_keys() {
-  Catalog catalog;
-  analysis::PlanEntry plan;
-  describe(catalog, plan);
-  return catalog.take();
+const std::vector<KeyEntry>& plan_keys() {
+  static const std::vector<KeyEntry> keys = keys_of<analysis::PlanEntry>();
+  return keys;
 }
 
 const KeyEntry* find_key(const std::vector<KeyEntry>& keys, std::string_view path) {

@@ -27,9 +27,10 @@ struct KeyEntry {
   std::string meaning{};                       ///< in the words of a linear motor; empty: about.meaning
 };
 
-std::vector<KeyEntry> scenario_keys();
-std::vector<KeyEntry> sheet_keys();
-std::vector<KeyEntry> plan_keys();
+// Made once: a plan reads a file for each of its points.
+const std::vector<KeyEntry>& scenario_keys();
+const std::vector<KeyEntry>& sheet_keys();
+const std::vector<KeyEntry>& plan_keys();
 
 /// The entry of a key or of one of its other spellings; null where there is none.
 const KeyEntry* find_key(const std::vector<KeyEntry>& keys, std::string_view path);

@@ -79,7 +79,7 @@ std::vector<std::string> split(std::string_view text, char at) {
 
 /// The unit of a scenario's key; a Problem for what is none.
 base::Result<std::string> unit_of_key(const std::string& key) {
-  const std::vector<KeyEntry> keys = scenario_keys();
+  const std::vector<KeyEntry>& keys = scenario_keys();
   if (const KeyEntry* entry = find_key(keys, shown(key))) return std::string(entry->about.unit);
   std::vector<std::string> known;
   for (const KeyEntry& entry : keys) known.push_back(entry.path);

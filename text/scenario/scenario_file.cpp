@@ -93,7 +93,7 @@ std::optional<SheetSource> named_sheet(const Document& scenario, const Resolve& 
 /// In any of the key's spellings.
 bool overridden(const Document& document, std::string_view key) {
   if (document.find(fmt::format("motor_override.{}", key))) return true;
-  const std::vector<KeyEntry> keys = sheet_keys();
+  const std::vector<KeyEntry>& keys = sheet_keys();
   const KeyEntry* entry = find_key(keys, key);
   return entry && std::any_of(entry->about.also.begin(), entry->about.also.end(), [&](const auto& spelling) {
            return document.find(fmt::format("motor_override.{}", spelling.key)) != nullptr;
@@ -102,14 +102,14 @@ bool overridden(const Document& document, std::string_view key) {
 
 /// Whether a check speaks of the motor's sheet, whose keys it names without a table.
 bool is_sheet_key(const std::string& where) {
-  const std::vector<KeyEntry> keys = sheet_keys();
+  const std::vector<KeyEntry>& keys = sheet_keys();
   return find_key(keys, where) != nullptr;
 }
 
 /// A sheet's check speaks in the standard key's unit: what stands in another spelling is quoted from the
 /// file.
 base::Problem as_written(const Document& document, const std::string& table, base::Problem problem) {
-  const std::vector<KeyEntry> keys = sheet_keys();
+  const std::vector<KeyEntry>& keys = sheet_keys();
   const KeyEntry* entry = find_key(keys, problem.where);
   if (!entry || entry->path == problem.where) return problem;
   for (const char* part : {".value", ""}) {
