@@ -86,7 +86,9 @@ std::string sensor_alone(const study::Sensors& s) {
     case study::RotorSensing::hall:
       return {};
     case study::RotorSensing::encoder:
-      return fmt::format("; encoder of {} lines{}{}", s.encoder.lines,
+      return fmt::format("; encoder of {}{}{}",
+                         s.encoder.pitch_mm ? "pitch " + given(*s.encoder.pitch_mm, "mm")
+                                            : std::to_string(s.encoder.lines) + " lines",
                          s.encoder.referenced ? "" : ", its index not passed yet",
                          s.encoder.missed_Hz > 0
                              ? fmt::format(", {} edges missed each second", s.encoder.missed_Hz)

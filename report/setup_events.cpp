@@ -44,6 +44,24 @@ void add_wires(const study::At& at, const Add& add) {
   if (s.current_gain_error) add(fmt::format("current gain error {}", *s.current_gain_error));
 }
 
+/// Encoders and resolvers that fail, or are whole again.
+template <class Add>
+void add_shaft_faults(const study::AtSensors& s, const Add& add) {
+  const auto shows = [](study::EncoderLevel level) {
+    return base::word(study::encoder_level_choices, level);
+  };
+  if (s.missed_edges) add(fmt::format("{} edges missed", *s.missed_edges));
+  if (s.bad_track) add(fmt::format("track {} {}", s.bad_track->track, shows(s.bad_track->level)));
+  if (s.encoder_line)
+    add(fmt::format("encoder's line {} {}", base::word(study::encoder_line_choices, s.encoder_line->line),
+                    shows(s.encoder_line->level)));
+  if (s.false_index.value_or(false)) add("false index");
+  if (s.broken_winding == study::Winding::whole) add("resolver's windings whole");
+  if (s.broken_winding == study::Winding::cosine || s.broken_winding == study::Winding::sine)
+    add(fmt::format("resolver's {} winding breaks", base::word(study::winding_choices, s.broken_winding)));
+  if (s.excitation) add(fmt::format("resolver's excitation {} of the full one", *s.excitation));
+}
+
 }  // namespace
 
 std::string events(const std::vector<study::At>& events, bool linear) {
@@ -57,6 +75,7 @@ std::string events(const std::vector<study::At>& events, bool linear) {
     if (at.load.locked) add(*at.load.locked ? "rotor clamped" : "rotor let go");
     if (at.sensors.hall_break) add(fmt::format("line H{} breaks", at.sensors.hall_break->line));
     add_wires(at, add);
+    add_shaft_faults(at.sensors, add);
     if (at.motor.broken_wire != study::Wire::none)
       add(fmt::format("wire {} breaks", base::word(study::wire_choices, at.motor.broken_wire)));
     const auto fails = [&](study::Switch which, const char* how) {

@@ -34,6 +34,18 @@ double resolver_angle_rad(const Resolver& r, const ShaftAngle<Real>& at) {
 
 }  // namespace detail
 
+/// What a resolver suffers during a run.
+struct ResolverFaults {
+  std::uint8_t broken = 0;  ///< bit 0: the cosine's winding gives nothing; bit 1: the sine's
+  double excitation = 1.0;  ///< as a part of the full one
+
+  /// What is left of both windings' signals. Noise is not of the excitation, but a broken winding picks none up.
+  std::array<double, 2> leave(const std::array<double, 2>& whole, const std::array<double, 2>& noise) const {
+    return {(broken & 1) != 0 ? 0.0 : excitation * whole[0] + noise[0],
+            (broken & 2) != 0 ? 0.0 : excitation * whole[1] + noise[1]};
+  }
+};
+
 /// Both windings behind an ideal demodulator, over the cosine's amplitude: cos(p_r theta), (1 + a) sin(p_r theta + q).
 template <class Real>
 std::array<double, 2> resolver_envelope(const Resolver& r, const ShaftAngle<Real>& at) {

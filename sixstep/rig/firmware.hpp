@@ -4,7 +4,8 @@
 //
 //                 a tick is given                    a Hall edge           a fault              it tells
 //   LeanDrive     what is, in the controller's unit  on_hall               ends the run         -
-//   SensedDrive   the same through [sensors]         captured, on_hall     ends the run         broken line
+//   SensedDrive   the same through [sensors]         captured, on_hall     ends the run         broken line,
+//                                                                                               lost sensor
 //   ProductDrive  registers: counts, pins, counter   protected_on_hall     bridge off, goes on  reason, line,
 //                                                                                               when
 //
@@ -49,6 +50,7 @@ struct Diagnosis {
   int unseen = 0;                                    ///< how often pulses did not show how the rotor stands
   double north = 0.0;                                ///< the last time, over its noise
   double certain = 0.0;                              ///< and what would have been enough
+  ShaftFinding shaft{};                              ///< of an encoder or a resolver that is lost
 };
 
 /// What a chip is given while it runs (control/retune.hpp).
@@ -170,7 +172,9 @@ class SensedDrive {
   control::BridgeCommand<Scalar> tick(const SampleInstant<Real>& instant, double setpoint) {
     control::Measurement<Scalar> measured = ideal_measurement<Scalar>(instant, bases_);
     sensors_.sense(measured, sample_of(instant));
-    return drive_.step(measured, setpoint);
+    control::BridgeCommand<Scalar> answer = drive_.step(measured, setpoint);
+    if (sensors_.shaft_found().lost()) answer = {.fault = true};
+    return answer;
   }
   void captured(std::uint8_t pins, const sim::Instant& at) { sensors_.hall_edge(pins, at); }
   control::BridgeCommand<Scalar> hall_interrupt(std::uint8_t pins, const sim::Instant& at) {
@@ -187,10 +191,13 @@ class SensedDrive {
   bool open_loop() const { return drive_.open_loop(); }
   bool follows_setpoint_at_once() const { return drive_.follows_setpoint_at_once(); }
   const control::Telemetry<Scalar>& telemetry() const { return drive_.telemetry(); }
-  Diagnosis diagnosis() const { return {.hall_line = sensors_.broken_line()}; }
+  Diagnosis diagnosis() const {
+    return {.hall_line = sensors_.broken_line(), .shaft = sensors_.shaft_found()};
+  }
   /// What its converters and timers are fed with.
   Registers& registers() { return sensors_.registers(); }
   ShaftPorts& shaft_ports() { return sensors_.shaft_ports(); }
+  const ShaftPorts& shaft_ports() const { return sensors_.shaft_ports(); }
   const Sensors<Scalar>& sensors() const { return sensors_; }
   /// Whether an encoder's timer counts between samples, or a code is latched there.
   bool follows_shaft() const { return sensors_.follows_shaft(); }

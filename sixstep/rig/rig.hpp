@@ -19,7 +19,7 @@
 
 namespace sixstep::rig {
 
-enum class Fault : std::uint8_t { none, shoot_through, impossible_hall, beyond_model };
+enum class Fault : std::uint8_t { none, shoot_through, impossible_hall, beyond_model, shaft_sensor };
 
 /// Kinds of events, for the run's statistics.
 enum class EventKind : std::uint8_t {
@@ -94,6 +94,8 @@ class Rig {
   const Plant& plant() const { return plant_; }
   const Modulator& modulator() const { return modulator_; }
   const Firmware& firmware() const { return firmware_; }
+  /// Of the segment at hand, up to its part s: that the encoder or the resolver stands on.
+  ShaftMotion<Real> shaft_motion(Real s, const sim::Instant& to) const;
   /// Of a firmware that has converters.
   const auto& front_end() const { return front_end_; }
   /// Of a firmware that captures the edges of comparators at the terminals.
@@ -160,6 +162,10 @@ class Rig {
   }
   std::uint8_t chip_pins() const { return read_by_chip(pins()); }
   static constexpr bool has_load_side = requires(const Plant& p) { p.series().load_w; };
+  /// To the turn that a sensor on the motor's shaft has.
+  std::int64_t sensor_pole_pairs() const {
+    return board_.sensors.shaft.linear ? 1 : static_cast<std::int64_t>(plant_.constants().pole_pairs);
+  }
   /// Of the shaft that a sensor stands on, at the start.
   plant::ShaftAngle<double> shaft_angle() const {
     if constexpr (has_load_side)
@@ -168,8 +174,7 @@ class Rig {
                          (static_cast<double>(plant_.state().sector) * base::sector_rad +
                           static_cast<double>(plant_.state().x)) /
                          static_cast<double>(plant_.constants().pole_pairs));
-    return {plant_.state().sector, static_cast<double>(plant_.state().x),
-            static_cast<std::int64_t>(plant_.constants().pole_pairs)};
+    return {plant_.state().sector, static_cast<double>(plant_.state().x), sensor_pole_pairs()};
   }
   bool listens() const;
   /// By itself: few boards have anything that looks between two samples.
@@ -193,7 +198,6 @@ class Rig {
   void crossing_guards(Visit&& visit) const;
   void pass_crossing(int leg);
   sim::Instant next_sample() const;
-  ShaftMotion<Real> shaft_motion(Real s, const sim::Instant& to) const;
   sim::Instant next_due() const;
   bool watching() const {
     if constexpr (six_step) return modulator_.watching();

@@ -42,12 +42,7 @@ void Rig<Real, Firmware, Plant>::show_segment(Real s, const sim::Instant& to) {
 /// The shaft that its sensor stands on: the motor's, or the load's behind gear and spring.
 template <class Real, class Firmware, class Plant>
 ShaftMotion<Real> Rig<Real, Firmware, Plant>::shaft_motion(Real s, const sim::Instant& to) const {
-  ShaftMotion<Real> motion{plant_.expansion(),
-                           plant_.state().sector,
-                           static_cast<std::int64_t>(plant_.constants().pole_pairs),
-                           s,
-                           now_,
-                           to,
+  ShaftMotion<Real> motion{plant_.expansion(), plant_.state().sector, sensor_pole_pairs(), s, now_, to,
                            next_sample()};
   if constexpr (has_load_side)
     if (board_.sensors.shaft.on_load)

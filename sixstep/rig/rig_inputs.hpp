@@ -66,7 +66,12 @@ void Rig<Real, Firmware, Plant>::do_action(const Action& action) {
       return glitch(action);
     case ActionKind::encoder_misses:
     case ActionKind::track_sticks:
+    case ActionKind::track_whole:
     case ActionKind::winding_breaks:
+    case ActionKind::encoder_line_sticks:
+    case ActionKind::encoder_line_whole:
+    case ActionKind::false_index:
+    case ActionKind::excitation:
       return fail_shaft_sensor(action);
     case ActionKind::setpoint:
       break;
@@ -228,7 +233,12 @@ void Rig<Real, Firmware, Plant>::fail_shaft_sensor(const Action& action) {
     const int which = static_cast<int>(std::fabs(action.value));
     if (action.kind == ActionKind::encoder_misses) ports.miss(which);
     if (action.kind == ActionKind::track_sticks) ports.stick_track(which - 1, action.value > 0);
+    if (action.kind == ActionKind::track_whole) ports.free_track(which - 1);
     if (action.kind == ActionKind::winding_breaks) ports.break_winding(which);
+    if (action.kind == ActionKind::encoder_line_sticks) ports.stick_line(which, action.value > 0, now_);
+    if (action.kind == ActionKind::encoder_line_whole) ports.free_line(which, now_);
+    if (action.kind == ActionKind::false_index) ports.pulse_index();
+    if (action.kind == ActionKind::excitation) ports.excite(action.value);
   }
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a chip makes of an encoder or a resolver by the controller's own blocks (control/sensing/): speed, position, and the
 // Hall code of the sector that it takes the rotor to be in. What is commutated is what is seen; of a sensor on the load's side
-// that is what the Hall probes show, and speed and position are told times the gear, as those of the motor's shaft.
+// that is what the Hall probes show, and speed and position are told times the gear, as those of the motor's shaft. Where it is
+// asked to, it looks at what a whole sensor cannot show: a resolver's sum of squares, and an index that comes where the count is
+// off by more than a sector, by which the wrong pair was driven.
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/commutation.hpp"
@@ -23,6 +25,8 @@ class RotorDecoder {
 
   /// `now` is the capturing timer's count.
   void sense(control::Measurement<Scalar>& m, const Sample& s, ShaftPorts& ports, std::uint32_t now);
+  /// What the last samples told about the sensor itself.
+  const ShaftFinding& found() const { return found_; }
 
  private:
   void of_encoder(control::Measurement<Scalar>& m, ShaftPorts& ports, std::uint32_t now);
@@ -36,6 +40,9 @@ class RotorDecoder {
   }
   void set_speeds(const SensorsConfig& config, const Bases& bases);
   void set_resolver(const SensorsConfig& config, const Bases& bases, const control::UnwrappedAngle& at);
+  void set_watch(const ShaftGiven& given);
+  void look_at_index(const ShaftGiven& given);
+  void look_at_windings(const ShaftGiven& given, const control::ResolverCounts& before, bool positive_peak);
 
   std::uint8_t pole_pairs_ = 1;
   bool on_load_ = false;
@@ -56,6 +63,7 @@ class RotorDecoder {
   std::int64_t samples_per_peak_ = 1, period_ticks_ = 1;
   std::int64_t first_ticks_ = -1, last_peak_ = -1;  ///< -1: none yet
   bool positive_peak_ = true;
+  ShaftFinding found_{};
 };
 
 namespace detail {
@@ -116,13 +124,15 @@ void RotorDecoder<Scalar>::set_speeds(const SensorsConfig& config, const Bases& 
       control::Gain<Scalar>(unit_rad / step_s / per_turn_ / bases.speed_rad_s / raw_unit<Scalar>());
 }
 
-/// The loop has followed the shaft before the run. At the amplitude expected both signals are 0.6.
+/// A resolver's signals at the amplitude expected.
+inline constexpr double full_signal = 0.6;
+
+/// The loop has followed the shaft before the run.
 template <class Scalar>
 void RotorDecoder<Scalar>::set_resolver(const SensorsConfig& config, const Bases&,
                                         const control::UnwrappedAngle& at) {
   const ShaftGiven& given = config.shaft;
-  const AdcPath adc{.bits = 12, .range = 1.25 * given.resolver.amplitude_V};
-  const double per_count = 0.6 * adc.lsb() / (2 * given.resolver.amplitude_V);
+  const double per_count = full_signal * resolver_adc(given).lsb() / (2 * given.resolver.amplitude_V);
   resolver_config_.cos_per_count = resolver_config_.sin_per_count =
       control::Gain<Scalar>(per_count / raw_unit<Scalar>());
   if (given.calibrated) {
@@ -134,11 +144,22 @@ void RotorDecoder<Scalar>::set_resolver(const SensorsConfig& config, const Bases
     resolver_config_.sin_per_count = control::Gain<Scalar>(g_s / raw_unit<Scalar>());
     resolver_config_.skew = control::Gain<Scalar>(base::sin(r.quadrature_rad) / base::cos(r.quadrature_rad));
   }
+  if (given.watched) set_watch(given);
   resolver_config_.loop = given.tracking;
   resolver_.loop.angle = at.angle;
   bits_ = static_cast<std::uint8_t>(given.bits);
   samples_per_peak_ = given.samples_per_peak;
   period_ticks_ = sim::to_instant(config.period_s).ticks;
+}
+
+/// A limit that its number cannot hold is none.
+template <class Scalar>
+void RotorDecoder<Scalar>::set_watch(const ShaftGiven& given) {
+  constexpr double unit = full_signal * full_signal;
+  resolver_config_.least_square = Scalar(unit * given.watch.least_square);
+  if (unit * given.watch.greatest_square < 1.0)
+    resolver_config_.greatest_square = Scalar(unit * given.watch.greatest_square);
+  resolver_config_.lost_after = static_cast<std::uint8_t>(given.watch.in_a_row);
 }
 
 template <class Scalar>
@@ -176,11 +197,20 @@ void RotorDecoder<Scalar>::of_encoder(control::Measurement<Scalar>& m, ShaftPort
     const std::int64_t turn = quadrature_.counts;
     const std::int64_t in_turn = (ports.since_index() % turn + turn) % turn;
     control::quadrature_index(quadrature_, quarters_, static_cast<std::uint32_t>(in_turn));
+    look_at_index(ports.given());
   }
   m.speed_rad_s = control::pulse_speed(pulse_config_, pulses_, now);
   const control::BinaryAngle angle = control::quadrature_angle(quadrature_, quarters_);
   place(m, {angle, quarters_.turns});
   if (quarters_.referenced) commutate_at(m, control::electrical_angle(angle, pole_pairs_));
+}
+
+template <class Scalar>
+void RotorDecoder<Scalar>::look_at_index(const ShaftGiven& given) {
+  const double turns = given.on_load ? given.gear : 1.0;
+  const double sectors = 6.0 * pole_pairs_ * turns * quarters_.missed / quadrature_.counts;
+  if (given.watched && std::fabs(sectors) > 1)
+    found_ = {.loss = ShaftLoss::index, .counts = quarters_.missed};
 }
 
 template <class Scalar>
@@ -194,10 +224,21 @@ void RotorDecoder<Scalar>::of_absolute(control::Measurement<Scalar>& m, const Sh
 /// The chip's loop has followed the windings up to when it was read.
 template <class Scalar>
 void RotorDecoder<Scalar>::of_converter(control::Measurement<Scalar>& m, const TrackingConverter& converter) {
+  found_ = converter.found();
   control::unwrap(seen_, converter.angle());
   m.speed_rad_s = control::AngleTraits<Scalar>::scaled(converter.speed(), resolver_speed_);
   place(m, seen_);
   commutate_at(m, control::electrical_angle(seen_.angle, static_cast<std::uint8_t>(pole_pairs_ / per_turn_)));
+}
+
+/// Which of them it is, of the last peak and the one before.
+template <class Scalar>
+void RotorDecoder<Scalar>::look_at_windings(const ShaftGiven& given, const control::ResolverCounts& before,
+                                            bool positive_peak) {
+  const control::ResolverSignals<Scalar> x =
+      control::resolver_signals(resolver_config_, before, resolver_.last, positive_peak);
+  found_ =
+      given.watch.finding(static_cast<double>(x.c) / full_signal, static_cast<double>(x.s) / full_signal);
 }
 
 /// What a peak tells belongs to the middle between it and the peak before: half a step further is now. Between peaks the
@@ -208,9 +249,11 @@ void RotorDecoder<Scalar>::of_resolver(control::Measurement<Scalar>& m, const Sa
   const std::int64_t passed = s.at.ticks - first_ticks_;
   if (passed % (samples_per_peak_ * period_ticks_) == 0 && passed != last_peak_) {
     last_peak_ = passed;
-    const control::ResolverCounts counts = ports.resolver_counts(s.shaft, s.at, s.number);
+    const control::ResolverCounts counts = ports.resolver_counts(s.shaft, s.at, s.number),
+                                  before = resolver_.last;
     const control::ResolverReading<Scalar> reading =
         control::resolver_step(resolver_config_, resolver_, counts, positive_peak_);
+    if (reading.lost) look_at_windings(ports.given(), before, positive_peak_);
     positive_peak_ = !positive_peak_;
     per_peak_ = reading.speed;
     control::unwrap(seen_, resolver_.loop.angle);

@@ -31,12 +31,15 @@ class Sensors {
   void sense(control::Measurement<Scalar>& measured, const Sample& sample);
   Registers& registers() { return registers_; }
   ShaftPorts& shaft_ports() { return ports_; }
+  const ShaftPorts& shaft_ports() const { return ports_; }
   const HallInterpolator<Scalar>& interpolator() const { return interpolator_; }
   bool follows_shaft() const { return config_.shaft.kind != ShaftSensor::none; }
   template <class Real>
   void follow(const ShaftMotion<Real>& motion) {
     ports_.follow(motion);
   }
+  /// Of an encoder or a resolver.
+  const ShaftFinding& shaft_found() const { return rotor_.found(); }
   /// 1..3: the line that made an impossible code; 0: none, or it cannot be told.
   std::uint8_t broken_line() const { return broken_line_; }
 

@@ -5,6 +5,7 @@
 
 #include "sixstep/control/sensing/tracking.hpp"
 #include "sixstep/plant/resolver.hpp"
+#include "sixstep/rig/shaft_watch.hpp"
 
 namespace sixstep::rig {
 
@@ -18,6 +19,9 @@ struct ShaftGiven {
   bool on_load = false;    ///< behind gear and coupling; the Hall probes commutate
   double gear = 1.0;       ///< turns of the motor to one of the load
   std::int64_t lines = 0;  ///< of an incremental encoder
+  /// Along a line: a turn is the magnets' period, `lines` lie in it, `gear` is 1 over those to a metre, and the index stands at 0
+  /// alone.
+  bool linear = false;
   bool referenced = true;  ///< its index was passed before the run
   int bits = 0;            ///< of an absolute encoder, or of a resolver's angle
   double latency_s = 0.0;  ///< of an absolute encoder or a converter chip: latched so long before it is read
@@ -29,6 +33,8 @@ struct ShaftGiven {
   int samples_per_peak = 1;   ///< sampled: control ticks from one peak of the excitation to the next
   double converter_Hz = 0.0;  ///< tracking: clock of the chip's loop
   control::TrackingConfig tracking{};
+  bool watched = false;  ///< the drive ends where the sensor shows what a whole one cannot
+  ResolverWatch watch{};
 };
 
 }  // namespace sixstep::rig

@@ -51,4 +51,28 @@ struct ShaftMotion {
   }
 };
 
+/// Where a shaft turns round within the segment, which it does once at most; 0: it does not.
+template <class Real>
+Real turning_part(const ShaftMotion<Real>& m) {
+  const Real start = m.speed(Real(0)), end = m.speed(m.s);
+  if (!((start > 0 && end < 0) || (start < 0 && end > 0))) return 0;
+  Real low = 0, high = m.s;
+  for (int n = 0; n < 60; ++n) {
+    const Real middle = (low + high) / 2;
+    ((m.speed(middle) > 0) == (start > 0) ? low : high) = middle;
+  }
+  return high;
+}
+
+/// When a shaft that goes one way from `low` to `high` comes to a count of parts_of_turn().
+template <class Real>
+Real part_of_count(const ShaftMotion<Real>& m, std::int64_t parts, Real low, Real high, std::int64_t count,
+                   int way) {
+  for (int n = 0; n < 60; ++n) {
+    const Real middle = (low + high) / 2;
+    ((plant::parts_of_turn(m.angle(middle), parts) - count) * way >= 0 ? high : low) = middle;
+  }
+  return high;
+}
+
 }  // namespace sixstep::rig

@@ -2,17 +2,24 @@
 // What a board's peripherals make of an encoder or a resolver on the shaft (model.md 10), until the next sample asks:
 //
 //   incremental   the timer counts the quarters of lines by itself, captures the time of the last one, and latches its count
-//                 where the index passes; edges that it misses are not counted
+//                 where the index passes; edges that it misses are not counted. It knows of the pins alone: with A or B stuck
+//                 each edge of the other line looks like the one before passed back
 //   absolute      the code is latched some time before it is read; a track may stick
 //   resolver      both windings through converters, at the peaks of the excitation; or a chip that follows them
 #pragma once
 #include <cmath>
 
+#include "sixstep/control/sensing/quadrature.hpp"
 #include "sixstep/rig/adc.hpp"
 #include "sixstep/rig/capture_clock.hpp"
 #include "sixstep/rig/tracking_converter.hpp"
 
 namespace sixstep::rig {
+
+/// That of both windings: its range leaves a quarter of room above their amplitude.
+inline AdcPath resolver_adc(const ShaftGiven& given) {
+  return {.bits = 12, .range = 1.25 * given.resolver.amplitude_V, .noise = given.noise_V};
+}
 
 class ShaftPorts {
  public:
@@ -25,7 +32,7 @@ class ShaftPorts {
     if (given_.kind == ShaftSensor::encoder) count(motion);
     if (given_.kind == ShaftSensor::absolute) latch(motion);
     if (given_.kind != ShaftSensor::resolver) return;
-    if (given_.reading == ResolverReading::tracking) converter_.follow(motion, broken_winding_);
+    if (given_.reading == ResolverReading::tracking) converter_.follow(motion, windings_);
     if (given_.on_load) stands_ = as_double(motion.angle(motion.s));
   }
 
@@ -42,21 +49,64 @@ class ShaftPorts {
   }
   /// Counts since the last index: those by which the rotor is behind the start of its turn.
   std::int64_t since_index() const { return counted_ - at_index_; }
-  std::uint32_t code() const { return (code_ | stuck_high_) & ~stuck_low_; }
+  std::uint32_t code() const { return shown(code_); }
   /// Of both windings, at a peak; `at` is where the rotor stands.
   control::ResolverCounts resolver_counts(const plant::ShaftAngle<double>& at, const sim::Instant& t,
                                           std::uint64_t number);
   const TrackingConverter& converter() const { return converter_; }
 
+  /// What the pins show in a quarter of a line, bits as plant::encoder_lines has them.
+  std::uint8_t pins_in(std::int64_t quarter) const {
+    const unsigned elsewhere =
+        given_.linear && (quarter < 0 || quarter > 3) ? 1 : 0;  // the scale's one index is at 0
+    const unsigned shown = plant::encoder_lines_in(quarter, given_.lines) & ~elsewhere;
+    return static_cast<std::uint8_t>((shown | lines_high_) & ~unsigned{lines_low_});
+  }
+  /// The same where the shaft stands at the end of the last segment.
+  std::uint8_t pins() const { return pins_in(quarters_); }
+  /// What is left of a Gray code, where tracks stick.
+  std::uint32_t shown(std::uint32_t code) const { return (code | stuck_high_) & ~stuck_low_; }
+  /// Of cosine and sine, without noise. A drive that samples them by itself begins to excite them at its first sample; a chip
+  /// has done so at t = 0.
+  std::array<double, 2> windings_V(const plant::ShaftAngle<double>& at, const sim::Instant& t) const {
+    if (!excited_ && given_.reading == ResolverReading::sampled) return {};
+    return windings_.leave(plant::resolver_V(given_.resolver, at, t.ticks - excited_ticks_), {});
+  }
+
   /// The next so many edges are not counted.
   void miss(std::int64_t edges) { missing_ += edges; }
   /// A track of the Gray code shows one level from now on, bit 0 the finest.
   void stick_track(int bit, bool high) { (high ? stuck_high_ : stuck_low_) |= std::uint32_t{1} << bit; }
-  /// 1: the cosine's winding gives nothing from now on; 2: the sine's.
-  void break_winding(int which) { broken_winding_ = which; }
+  /// It shows what it is again.
+  void free_track(int bit) {
+    stuck_high_ &= ~(std::uint32_t{1} << bit);
+    stuck_low_ &= ~(std::uint32_t{1} << bit);
+  }
+  /// Line 1 to 3, A, B or Z, shows one level from now on; where it stood the other way that is an edge.
+  void stick_line(int line, bool high, const sim::Instant& now) {
+    const std::uint8_t bit = static_cast<std::uint8_t>(8 >> line);
+    set_lines(static_cast<std::uint8_t>(high ? lines_high_ | bit : lines_high_ & ~bit),
+              static_cast<std::uint8_t>(high ? lines_low_ & ~bit : lines_low_ | bit), now);
+  }
+  /// It shows what the encoder says again.
+  void free_line(int line, const sim::Instant& now) {
+    const std::uint8_t rest = static_cast<std::uint8_t>(~(8 >> line));
+    set_lines(lines_high_ & rest, lines_low_ & rest, now);
+  }
+  /// A pulse on a free Z, so short that only the timer sees it: where Z is low, it rises.
+  void pulse_index() {
+    if ((pins_in(quarters_) & 1) == 0 && (lines_low_ & 1) == 0) latch_index(counted_);
+  }
+  /// 1: the cosine's winding gives nothing from now on; 2: the sine's; 0: both are whole.
+  void break_winding(int which) {
+    windings_.broken = static_cast<std::uint8_t>(which == 0 ? 0 : windings_.broken | which);
+  }
+  /// As a part of the full excitation.
+  void excite(double part) { windings_.excitation = part; }
 
  private:
   std::int64_t parts() const { return 4 * given_.lines; }
+  bool stands_index(std::int64_t border) const { return given_.linear ? border == 0 : border % parts() == 0; }
   template <class Real>
   static plant::ShaftAngle<double> as_double(const plant::ShaftAngle<Real>& at) {
     return {at.sector, static_cast<double>(at.x), at.pole_pairs};
@@ -65,7 +115,17 @@ class ShaftPorts {
   void count(const ShaftMotion<Real>& m);
   template <class Real>
   void count_one_way(const ShaftMotion<Real>& m, Real from, Real to);
+  template <class Real>
+  void count_by_pins(const ShaftMotion<Real>& m, Real from, Real to, std::int64_t end);
+  template <class Real>
+  void capture(const ShaftMotion<Real>& m, Real low, Real high, std::int64_t count, int way);
   void look_for_index(std::int64_t end, std::int64_t not_missed);
+  void latch_index(std::int64_t at) {
+    index_ = true;
+    at_index_ = at;
+  }
+  bool counts_edge(std::uint8_t before, std::uint8_t after);
+  void set_lines(std::uint8_t high, std::uint8_t low, const sim::Instant& now);
   template <class Real>
   void latch(const ShaftMotion<Real>& m);
 
@@ -78,39 +138,35 @@ class ShaftPorts {
   std::int64_t quarters_ = 0;  ///< the shaft's own
   std::int64_t counted_ = 0, at_index_ = 0, missing_ = 0, excited_ticks_ = 0;
   std::uint32_t edge_time_ = 0, code_ = 0, stuck_high_ = 0, stuck_low_ = 0;
-  int edge_direction_ = 0, broken_winding_ = 0;
+  int edge_direction_ = 0;
+  std::uint8_t lines_high_ = 0, lines_low_ = 0;  ///< of an incremental encoder's that stick
+  plant::ResolverFaults windings_{};
   bool index_ = false, excited_ = false;
 };
 
-/// The converter's range leaves a quarter of room above the windings' amplitude.
 inline ShaftPorts::ShaftPorts(const ShaftGiven& given, double capture_Hz, std::uint64_t seed,
                               const plant::ShaftAngle<double>& at)
     : given_(given), capture_(capture_Hz), stands_(at), seed_(seed) {
   if (given.kind == ShaftSensor::encoder) counted_ = quarters_ = plant::parts_of_turn(at, parts());
   if (given.kind == ShaftSensor::absolute) code_ = plant::gray_code(at, given.bits);
   if (given.kind != ShaftSensor::resolver) return;
-  adc_ = {.bits = 12, .range = 1.25 * given.resolver.amplitude_V, .noise = given.noise_V};
+  adc_ = resolver_adc(given);
   if (given.reading == ResolverReading::tracking) converter_ = TrackingConverter(given, seed, at);
 }
 
 /// Within a segment the shaft may turn round once: then each way by itself.
 template <class Real>
 void ShaftPorts::count(const ShaftMotion<Real>& m) {
-  const Real start = m.speed(Real(0)), end = m.speed(m.s);
-  if (!((start > 0 && end < 0) || (start < 0 && end > 0))) return count_one_way(m, Real(0), m.s);
-  Real low = 0, high = m.s;
-  for (int n = 0; n < 60; ++n) {
-    const Real middle = (low + high) / 2;
-    ((m.speed(middle) > 0) == (start > 0) ? low : high) = middle;
-  }
-  count_one_way(m, Real(0), high);
-  count_one_way(m, high, m.s);
+  const Real turns = turning_part(m);
+  if (turns > 0) count_one_way(m, Real(0), turns);
+  count_one_way(m, turns, m.s);
 }
 
 template <class Real>
 void ShaftPorts::count_one_way(const ShaftMotion<Real>& m, Real from, Real to) {
   const std::int64_t end = plant::parts_of_turn(m.angle(to), parts());
   if (end == quarters_) return;
+  if (((lines_high_ | lines_low_) & 6) != 0) return count_by_pins(m, from, to, end);
   const int direction = end > quarters_ ? 1 : -1;
   const std::int64_t passed = direction * (end - quarters_);
   // Of the edges passed the first ones are missed.
@@ -120,14 +176,54 @@ void ShaftPorts::count_one_way(const ShaftMotion<Real>& m, Real from, Real to) {
   look_for_index(end, not_missed);
   quarters_ = end;
   if (not_missed == 0) return;
-  // The last border: where the count of the end begins to stand.
-  Real low = from, high = to;
-  for (int n = 0; n < 60; ++n) {
-    const Real middle = (low + high) / 2;
-    (plant::parts_of_turn(m.angle(middle), parts()) == end ? high : low) = middle;
-  }
-  edge_time_ = capture_.counts(m.from.plus_seconds(static_cast<double>(high * m.y.h)));
   edge_direction_ = direction;
+  capture(m, from, to, end, direction);  // the last border: where the count of the end begins to stand
+}
+
+template <class Real>
+void ShaftPorts::capture(const ShaftMotion<Real>& m, Real low, Real high, std::int64_t count, int way) {
+  const Real at = part_of_count(m, parts(), low, high, count, way);
+  edge_time_ = capture_.counts(m.from.plus_seconds(static_cast<double>(at * m.y.h)));
+}
+
+/// The timer's rule: which way a line turned over, and how the other one stands. Whether the count moved.
+inline bool ShaftPorts::counts_edge(std::uint8_t before, std::uint8_t after) {
+  const auto quarter = [](std::uint8_t pins) {
+    return static_cast<int>(control::quarter_of_line((pins & 4) != 0, (pins & 2) != 0));
+  };
+  const int ahead = (quarter(after) - quarter(before) + 4) % 4;
+  if (ahead == 0) return false;
+  if (missing_ > 0) return --missing_, false;
+  edge_direction_ = ahead == 1 ? 1 : -1;
+  counted_ += edge_direction_;
+  return true;
+}
+
+/// Edge by edge, as the pins show them.
+template <class Real>
+void ShaftPorts::count_by_pins(const ShaftMotion<Real>& m, Real from, Real to, std::int64_t end) {
+  const int way = end > quarters_ ? 1 : -1;
+  const std::int64_t begin = quarters_;
+  std::int64_t last = begin;
+  while (quarters_ != end) {
+    const std::uint8_t before = pins_in(quarters_);
+    const std::int64_t border = way > 0 ? quarters_ + 1 : quarters_;
+    quarters_ += way;
+    if (counts_edge(before, pins_in(quarters_))) last = quarters_;
+    if (stands_index(border) && ((lines_high_ | lines_low_) & 1) == 0)
+      latch_index(way > 0 ? counted_ : counted_ + 1);
+  }
+  if (last != begin) capture(m, from, to, last, way);
+}
+
+/// Pins that change are edges; Z that so rises is an index to the timer.
+inline void ShaftPorts::set_lines(std::uint8_t high, std::uint8_t low, const sim::Instant& now) {
+  const std::uint8_t before = pins_in(quarters_);
+  lines_high_ = high;
+  lines_low_ = low;
+  const std::uint8_t after = pins_in(quarters_);
+  if (counts_edge(before, after)) edge_time_ = capture_.counts(now);
+  if ((before & 1) == 0 && (after & 1) != 0) latch_index(counted_);
 }
 
 /// The index stands where a turn begins, a border of turns between both counts. What was counted behind it is taken off: so
@@ -135,12 +231,12 @@ void ShaftPorts::count_one_way(const ShaftMotion<Real>& m, Real from, Real to) {
 inline void ShaftPorts::look_for_index(std::int64_t end, std::int64_t not_missed) {
   const auto turn_of = [&](std::int64_t n) { return n >= 0 ? n / parts() : -((-n + parts() - 1) / parts()); };
   const std::int64_t last = turn_of(end), first = turn_of(quarters_);
-  if (last == first) return;
-  index_ = true;
+  if (last == first || ((lines_high_ | lines_low_) & 1) != 0) return;
   const bool forward = end > quarters_;
+  if (given_.linear && (last < 0) == (first < 0)) return;
   const std::int64_t behind = forward ? end - last * parts() : (last + 1) * parts() - 1 - end;
   const std::int64_t counted_behind = behind < not_missed ? behind : not_missed;
-  at_index_ = forward ? counted_ - counted_behind : counted_ + counted_behind + 1;
+  latch_index(forward ? counted_ - counted_behind : counted_ + counted_behind + 1);
 }
 
 template <class Real>
@@ -157,9 +253,7 @@ inline control::ResolverCounts ShaftPorts::resolver_counts(const plant::ShaftAng
     excited_ = true;
     excited_ticks_ = t.ticks - sim::to_instant(0.25 / given_.resolver.excitation_Hz).ticks;
   }
-  std::array<double, 2> V =
-      plant::resolver_V(given_.resolver, given_.on_load ? stands_ : at, t.ticks - excited_ticks_);
-  if (broken_winding_ > 0) V[static_cast<std::size_t>(broken_winding_ - 1)] = 0;
+  const std::array<double, 2> V = windings_V(given_.on_load ? stands_ : at, t);
   constexpr std::uint64_t stream = std::uint64_t{0x5e501} << 24;
   return {converted(adc_, V[0], {seed_, stream, number}), converted(adc_, V[1], {seed_, stream + 1, number})};
 }

@@ -5,6 +5,8 @@
 //   detected   tan(phi - theta) of both demodulated windings; beyond 45 degrees 1 in the direction of the shorter way
 //   followed   control/sensing/tracking.hpp, per clock of the chip
 //
+// The chip watches the sum of both squares by itself, and keeps what it found.
+//
 // Its demodulator is taken as ideal: the ripple at twice the excitation, which chips filter, is not there, and a phase of the
 // windings against the excitation, which they have in common, cancels.
 #pragma once
@@ -22,6 +24,8 @@ class TrackingConverter {
   TrackingConverter(const ShaftGiven& given, std::uint64_t seed, const plant::ShaftAngle<double>& at)
       : loop_{given.tracking},
         resolver_(given.resolver),
+        watch_(given.watch),
+        watched_(given.watched),
         noise_(given.noise_V / given.resolver.amplitude_V),
         latency_s_(given.latency_s),
         seed_(seed),
@@ -34,7 +38,7 @@ class TrackingConverter {
   }
 
   template <class Real>
-  void follow(const ShaftMotion<Real>& m, int broken_winding) {
+  void follow(const ShaftMotion<Real>& m, const plant::ResolverFaults& faults) {
     const sim::Instant latch = m.next_sample.plus_seconds(-latency_s_);
     bool latches = !(latch < m.from) && !(m.to < latch);
     while (!(m.to < next_)) {
@@ -42,7 +46,7 @@ class TrackingConverter {
         read_ = state_;
         latches = false;
       }
-      step(m.angle(m.part(next_)), broken_winding);
+      step(m.angle(m.part(next_)), faults);
       next_.ticks += period_ticks_;
     }
     if (latches) read_ = state_;
@@ -50,28 +54,39 @@ class TrackingConverter {
 
   /// Of the resolver's own turn, as it was read last.
   control::BinaryAngle angle() const { return control::quantised(read_.angle, bits_); }
+  const ShaftFinding& found() const { return found_; }
   /// Units of 2^-32 turn of the resolver per clock of the chip.
   std::int32_t speed() const { return control::tracking_speed(read_); }
 
  private:
   template <class Real>
-  void step(const plant::ShaftAngle<Real>& at, int broken_winding) {
+  void step(const plant::ShaftAngle<Real>& at, const plant::ResolverFaults& faults) {
     const plant::ShaftAngle<double> shaft{at.sector, static_cast<double>(at.x), at.pole_pairs};
-    std::array<double, 2> x = plant::resolver_envelope(resolver_, shaft);
+    std::array<double, 2> noise{};
     if (noise_ > 0) {
       constexpr std::uint64_t stream = std::uint64_t{0x5e502} << 24;
-      x[0] += noise_ * base::normal({seed_, stream, clock_});
-      x[1] += noise_ * base::normal({seed_, stream + 1, clock_});
+      noise[0] = noise_ * base::normal({seed_, stream, clock_});
+      noise[1] = noise_ * base::normal({seed_, stream + 1, clock_});
     }
     ++clock_;
-    if (broken_winding > 0) x[static_cast<std::size_t>(broken_winding - 1)] = 0;
+    const std::array<double, 2> x = faults.leave(plant::resolver_envelope(resolver_, shaft), noise);
+    if (watched_ && !found_.lost()) look(x[0], x[1]);
     const control::ResolverSignals<double> signals{x[0], x[1]};
     control::tracking_step(loop_, state_, control::resolver_error(signals, state_.angle, true));
+  }
+
+  void look(double c, double s) {
+    outside_ = watch_.outside(c * c + s * s) ? outside_ + 1 : 0;
+    if (outside_ >= watch_.in_a_row) found_ = watch_.finding(c, s);
   }
 
   control::TrackingConfig loop_{};
   control::TrackingState state_{}, read_{};
   plant::Resolver resolver_{};
+  ResolverWatch watch_{};
+  ShaftFinding found_{};
+  int outside_ = 0;
+  bool watched_ = false;
   sim::Instant next_{};
   double noise_ = 0.0, latency_s_ = 0.0;
   std::uint64_t seed_ = 0, clock_ = 0;

@@ -100,6 +100,9 @@ ROUNDS = degrees(sqrt(2) / 2 * 5 / 4096 / 2) + 360 / 65536
 COUNT = 360 / 16384
 
 
+RUBBED = 60 / PAIRS * 0.01 / (K_T * 1.99)  # degrees about where a pair pulls no more
+
+
 def ramp(part):
     return K_T * 1.99 * part, K_T * 2.01 * part
 
@@ -145,6 +148,8 @@ LAWS = {
     "encoder-missed": [(180 + 38 * 360 / 4096, 180 + 42 * 360 / 4096), (450 - 2 * 360 / 4096, 450 + 2 * 360 / 4096)],
     "absolute-bad-track": [(K_T * 1.99, K_T * 2.01), (-K_T * 2.01, -K_T * 1.99)],
     "resolver-broken-winding": [(K_T * 1.99, K_T * 2.01), (K_T * 1.99 / 2, K_T * 2.01 / 2)],
+    "encoder-stuck-line": [around((30 + 90) / PAIRS, RUBBED), around(0, 1e-9)],
+    "resolver-excitation": [ramp(1), ramp(1)],
     "load-side-encoder": [(90 + degrees(2 * 0.1 / 40) - 4 * 360 / 2**16, 90 + degrees(2 * 0.1 / 40) + 4 * 360 / 2**16)],
     "resolver": [(2 * 0.02 * 100, 2 * 0.02 * 100 * closed_loop_peak(0.7))],
     "sensorless-start": [(12 * SWING, 12 * SWING + LONGEST_RAMP + 0.1), (None, 100 * PAIRS * T * 180 / pi), near(100, T / SECTOR + 0.004)],

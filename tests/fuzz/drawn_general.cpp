@@ -150,8 +150,18 @@ void draw_shaft_faults(Draw& draw, Scenario& s) {
   at.time_s = draw.between(0, 0.9) * s.duration_s;
   if (x.rotor == RotorSensing::encoder) at.sensors.missed_edges = 1 + draw.one_of(100);
   if (x.rotor == RotorSensing::absolute)
-    at.sensors.bad_track = AtTrack{1 + draw.one_of(x.absolute.bits), Level01::high};
+    at.sensors.bad_track = AtTrack{1 + draw.one_of(x.absolute.bits), EncoderLevel::high};
   if (x.rotor == RotorSensing::resolver) at.sensors.broken_winding = Winding::sine;
+  x.watched = draw.chance(0.5);
+  if (draw.chance(0.5)) {
+    const EncoderLevel levels[] = {EncoderLevel::low, EncoderLevel::high, EncoderLevel::whole};
+    const EncoderLine lines[] = {EncoderLine::A, EncoderLine::B, EncoderLine::Z};
+    if (x.rotor == RotorSensing::encoder)
+      at.sensors.encoder_line = AtEncoderLine{lines[draw.one_of(3)], levels[draw.one_of(3)]};
+    if (x.rotor == RotorSensing::encoder) at.sensors.false_index = draw.chance(0.3);
+    if (x.rotor == RotorSensing::resolver) at.sensors.excitation = draw.between(0, 2);
+    if (x.rotor == RotorSensing::absolute) at.sensors.bad_track->level = levels[draw.one_of(3)];
+  }
   s.at.push_back(at);
 }
 

@@ -9,53 +9,15 @@
 
 #include "sixstep/control/sensing/gray.hpp"
 #include "sixstep/design/loops/tracking_loop.hpp"
+#include "tests/support/turning_shaft.hpp"
 
 namespace {
 
 using namespace sixstep;
 using rig::ShaftPorts;
+using sixstep::testing::Motion;
 
-constexpr std::int64_t p = 8;
 constexpr double capture_Hz = 1e9;
-
-/// theta(t) = theta_0 + w t + a t^2/2 mechanical, cut into segments of 10 us.
-struct Motion {
-  double theta_0 = 0, w = 0, a = 0;
-
-  double theta(double t) const { return theta_0 + (w + a * t / 2) * t; }
-  /// Sector and angle in it at a time.
-  plant::ShaftAngle<double> shaft(double t) const {
-    const double sectors = theta(t) * p / base::sector_rad;
-    const auto sector = static_cast<std::int64_t>(std::floor(sectors));
-    return {sector, theta(t) * p - static_cast<double>(sector) * base::sector_rad, p};
-  }
-  /// On the load's side of a gear, and of a coupling that is twisted by so much.
-  void show(ShaftPorts& ports, double from_s, double to_s, double sample_s = 1.0, double gear = 0.0,
-            double twist_rad = 0.0) const {
-    const double h = 10e-6;
-    for (double t = from_s; t < to_s - h / 2; t += h) {
-      plant::Expansion<double> y;
-      y.degree = 2;
-      y.h = h;
-      const plant::ShaftAngle<double> at = shaft(t);
-      y.x[0] = at.x;
-      y.x[1] = p * (w + a * t) * h;
-      y.x[2] = p * a * h * h / 2;
-      y.w[0] = w + a * t;
-      y.w[1] = a * h;
-      y.w[2] = 0;
-      rig::ShaftMotion<double> motion{
-          y, at.sector, p, 1.0, sim::to_instant(t), sim::to_instant(t + h), sim::to_instant(sample_s)};
-      series::Coefficients<double> speed{}, twist{};
-      twist[0] = twist_rad;
-      if (gear > 0) {
-        for (int n = 0; n <= 2; ++n) speed[n] = y.w[n] / gear;
-        motion.load = {&speed, &twist, 1 / gear};
-      }
-      ports.follow(motion);
-    }
-  }
-};
 
 ShaftPorts encoder(std::int64_t lines, const Motion& m) {
   return ShaftPorts({.kind = rig::ShaftSensor::encoder, .lines = lines}, capture_Hz, 0, m.shaft(0));

@@ -103,7 +103,7 @@ TEST(AbsoluteFault, ABadTrackOfTheElectricalTurnBrakesWithFullTorque) {
   Scenario s = held_at(270);
   s.sensors.rotor = RotorSensing::absolute;
   s.sensors.absolute.bits = 14;
-  s.at[0].sensors.bad_track = AtTrack{.track = 11, .level = Level01::low};
+  s.at[0].sensors.bad_track = AtTrack{.track = 11, .level = EncoderLevel::low};
   const Outcome out = outcome_of(s);
   EXPECT_NEAR(out.comparisons[0].measured, 2 * K_t, 0.01 * K_t);
   EXPECT_NEAR(out.comparisons[1].measured, -2 * K_t, 0.01 * K_t);
@@ -118,6 +118,7 @@ TEST(ResolverFault, ABrokenWindingLeavesHalfTheTorque) {
     s.sensors.resolver.excitation_Hz = 0.5 / s.pwm.period_s;
     s.sensors.resolver.reading = reading;
     s.at[0].sensors.broken_winding = Winding::cosine;
+    s.sensors.watched = false;
     const Outcome out = outcome_of(s);
     EXPECT_NEAR(out.comparisons[0].measured, 2 * K_t, 0.01 * K_t);
     EXPECT_NEAR(out.comparisons[1].measured, K_t, 0.01 * K_t);

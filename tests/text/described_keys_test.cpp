@@ -229,7 +229,8 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                                          "mismatch",
                                          "hall_calibration_turns",
                                          "missed_edges",
-                                         "track"};
+                                         "track",
+                                         "excitation"};
   for (const KeyEntry& key : all_keys()) {
     const bool number = key.type == KeyType::number || key.type == KeyType::whole_number ||
                         key.type == KeyType::numbers || key.type == KeyType::quantity;

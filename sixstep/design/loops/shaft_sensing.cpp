@@ -44,6 +44,7 @@ void add_resolver(const ShaftSensing& s, double speed, std::vector<DerivationSte
 }  // namespace
 
 std::string sensor_words(const ShaftSensing& s) {
+  if (s.linear) return "encoder, pitch " + base::rounded(s.gear * 2e3 * base::pi / s.lines, 4) + " mm";
   const std::string side = s.gear == 1.0 ? "" : ", on the load's side";
   switch (s.kind) {
     case ShaftSensorKind::none:

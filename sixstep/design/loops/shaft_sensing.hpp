@@ -25,6 +25,7 @@ enum class ShaftSensorKind : std::uint8_t { none, encoder, absolute, resolver };
 struct ShaftSensing {
   ShaftSensorKind kind = ShaftSensorKind::none;
   double gear = 1.0;      ///< n
+  bool linear = false;    ///< a scale: n is the magnets' period over 2 pi, in m, N the lines in it
   double period_s = 0.0;  ///< T_s, of the control ticks
   // incremental encoder
   int lines = 0;            ///< N

@@ -21,7 +21,9 @@ bool changes_no_wire(const At& at) {
 bool drifts(const At& at) { return at.sensors.current_offset_A || at.sensors.current_gain_error; }
 
 bool fails_shaft_sensor(const At& at) {
-  return at.sensors.missed_edges || at.sensors.bad_track || at.sensors.broken_winding != Winding::none;
+  const AtSensors& x = at.sensors;
+  return x.missed_edges || x.bad_track || x.encoder_line || x.false_index.value_or(false) ||
+         x.broken_winding != Winding::none || x.excitation;
 }
 
 bool changes_nothing(const At& at) {

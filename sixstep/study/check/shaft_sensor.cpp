@@ -82,7 +82,10 @@ void check_shaft_events(const Scenario& s, base::Problems& out) {
                            "\", or leave it away"});
     };
     if (at.missed_edges) of("missed_edges", RotorSensing::encoder, "an encoder");
+    if (at.encoder_line) of("encoder_line", RotorSensing::encoder, "an encoder");
+    if (at.false_index) of("false_index", RotorSensing::encoder, "an encoder");
     if (at.broken_winding != Winding::none) of("broken_winding", RotorSensing::resolver, "a resolver");
+    if (at.excitation) of("excitation", RotorSensing::resolver, "a resolver");
     if (!at.bad_track) continue;
     of("bad_track", RotorSensing::absolute, "an absolute encoder");
     if (at.bad_track->track > s.sensors.absolute.bits)
@@ -92,11 +95,48 @@ void check_shaft_events(const Scenario& s, base::Problems& out) {
   }
 }
 
+/// A scale along a linear motor, or lines of a turn.
+void check_lines(const Scenario& s, base::Problems& out) {
+  const Encoder& e = s.sensors.encoder;
+  const bool linear = s.sheet.kind == design::MotorKind::linear;
+  if (!linear && e.pitch_mm)
+    out.push_back({"sensors.encoder.pitch_mm", base::written(*e.pitch_mm),
+                   "is of a scale along a linear motor, and this one turns", "give sensors.encoder.lines"});
+  if (!linear) return;
+  if (e.lines != Encoder::usual_lines)
+    out.push_back({"sensors.encoder.lines", std::to_string(e.lines),
+                   "are those of a turn, and this motor is linear",
+                   "give sensors.encoder.pitch_mm in their place"});
+  if (!e.pitch_mm)
+    out.push_back({"sensors.encoder.pitch_mm", "", "is missing: this motor is linear",
+                   "give the length of a line of its scale"});
+  if (!e.pitch_mm || !s.sheet.pole_pitch_mm) return;
+  const double lines = lines_to_period(s), whole = std::floor(lines + 0.5);
+  if (whole >= 1 && whole <= 1e6 && std::fabs(lines - whole) <= 1e-9 * whole) return;
+  const double nearest = std::fmin(std::fmax(whole, 1.0), 1e6);
+  out.push_back({"sensors.encoder.pitch_mm", base::written(*e.pitch_mm),
+                 "goes " + base::rounded(lines, 6) +
+                     " times into two pole pitches: the drive counts a whole number to them, up to 1000000",
+                 "take " + base::written(2 * s.sheet.pole_pitch_mm->value / nearest) + " mm"});
+}
+
 void check_encoder(const Scenario& s, base::Problems& out) {
+  check_lines(s, out);
   if (s.sensors.encoder.missed_Hz * s.duration_s > most_missed)
     out.push_back({"sensors.encoder.missed_Hz", base::written(s.sensors.encoder.missed_Hz),
                    "misses more than 100000 edges in duration_s = " + base::written(s.duration_s),
                    "lower one of them"});
+}
+
+/// Of all but a scale with lines the shaft turns.
+void check_linear(const Scenario& s, const std::string& word, base::Problems& out) {
+  if (s.sheet.kind != design::MotorKind::linear) return;
+  if (s.sensors.rotor != RotorSensing::encoder)
+    out.push_back({"sensors.rotor", word, "is on the shaft of a turning motor, and this one is linear",
+                   "set rotor = \"encoder\" with sensors.encoder.pitch_mm, \"hall\" or \"ideal\""});
+  else if (s.sensors.shaft == SensorShaft::load)
+    out.push_back({"sensors.shaft", "\"load\"", "is of a turning motor's load, and this motor is linear",
+                   "set shaft = \"motor\""});
 }
 
 }  // namespace
@@ -115,9 +155,7 @@ void check_shaft_sensor(const Scenario& s, const std::optional<design::MotorMode
     return;
   }
   const std::string word(base::word(rotor_sensing_choices, rotor));
-  if (s.sheet.kind == design::MotorKind::linear)
-    out.push_back({"sensors.rotor", word, "is on the shaft of a turning motor, and this one is linear",
-                   "set rotor = \"hall\" or \"ideal\""});
+  check_linear(s, word, out);
   if (!on_load && s.pwm.commutation != CommutationAt::sample)
     out.push_back({"pwm.commutation", "\"hall-edge\"",
                    "waits for an interrupt that sensors.rotor = \"" + word + "\" does not give",

@@ -5,11 +5,41 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/decimal.hpp"
+#include "sixstep/base/elementary.hpp"
+#include "sixstep/design/loops/resolver_watch.hpp"
 #include "sixstep/design/loops/tracking_loop.hpp"
 
 namespace sixstep::study {
 
 namespace {
+
+/// Of what the drive, or the chip, makes of the windings. A sampled signal is half the difference of two samples, each rounded to
+/// a count; a chip's is one sample.
+rig::ResolverWatch watch_of(const rig::ShaftGiven& given) {
+  const plant::Resolver& r = given.resolver;
+  const double noise = given.noise_V / r.amplitude_V;
+  design::ResolverShows whole{.k_1 = 1.0, .k_2 = 1 + r.imbalance, .quadrature_rad = r.quadrature_rad};
+  double count = 0.0;
+  whole.noise = noise;
+  if (given.reading == rig::ResolverReading::sampled) {
+    count = rig::resolver_adc(given).lsb() / r.amplitude_V;
+    whole.noise = std::sqrt((noise * noise + count * count / 12) / 2);
+    whole.k_1 = base::cos(r.phase_1_rad);
+    whole.k_2 *= base::cos(r.phase_2_rad);
+    // Taken off, it is made up for by gain, which noise has as well.
+    if (given.calibrated)
+      whole = {.noise = whole.noise / std::min(whole.k_1, whole.k_2 * base::cos(r.quadrature_rad))};
+  }
+  const design::ResolverLimits limits = design::resolver_limits(whole);
+  // The first result behind a fault is half of a sample before it: what is named is of two.
+  const int results = given.reading == rig::ResolverReading::sampled ? 2 : 1;
+  // Of normal noise six deviations are rarer than once in 10^8, and rounding reaches a count.
+  return {.least_square = limits.least_square,
+          .greatest_square = limits.greatest_square,
+          .silent = 6 * whole.noise + count,
+          .in_a_row = std::max(limits.in_a_row, results)};
+}
 
 rig::ShaftGiven resolver_given(const Scenario& s) {
   const Resolver& r = s.sensors.resolver;
@@ -28,6 +58,7 @@ rig::ShaftGiven resolver_given(const Scenario& s) {
                  .phase_2_rad = r.sine_phase_deg.value_or(r.phase_deg) * deg};
   to.calibrated = r.calibrated;
   to.samples_per_peak = samples_per_peak(s);
+  to.watch = watch_of(to);
   // check() has held the bandwidth below half the rate of the loop's steps.
   if (const auto loop = design::tracking_loop({.bandwidth_rad_s = 2 * base::pi * r.bandwidth_Hz,
                                                .damping = r.damping,
@@ -44,6 +75,11 @@ rig::ShaftGiven on_the_motor(const Scenario& s) {
     case RotorSensing::encoder: {
       rig::ShaftGiven to{.kind = rig::ShaftSensor::encoder};
       to.lines = s.sensors.encoder.lines;
+      if (s.sensors.encoder.pitch_mm && s.sheet.pole_pitch_mm) {
+        to.linear = true;
+        to.lines = static_cast<std::int64_t>(std::floor(lines_to_period(s) + 0.5));
+        to.gear = base::times_ten_to(s.sheet.pole_pitch_mm->value, -3) / base::pi;
+      }
       to.referenced = s.sensors.encoder.referenced;
       return to;
     }
@@ -67,6 +103,10 @@ int samples_per_peak(const Scenario& s) {
   return static_cast<int>(std::clamp(std::floor(periods + 0.5), 1.0, 1e6));
 }
 
+double lines_to_period(const Scenario& s) {
+  return 2 * s.sheet.pole_pitch_mm->value / *s.sensors.encoder.pitch_mm;
+}
+
 double tracking_period_s(const Scenario& s) {
   return s.sensors.resolver.reading == rig::ResolverReading::tracking ? 1.0 / s.sensors.resolver.converter_Hz
                                                                       : samples_per_peak(s) * s.pwm.period_s;
@@ -84,6 +124,7 @@ void take_hall_angle(const Scenario& s, rig::SensorsConfig& to) {
 
 rig::ShaftGiven shaft_given(const Scenario& s) {
   rig::ShaftGiven to = on_the_motor(s);
+  to.watched = s.sensors.watched;
   to.on_load = s.sensors.shaft == SensorShaft::load;
   if (to.on_load) to.gear = s.load.gear;
   return to;

@@ -28,6 +28,28 @@ static_assert(behind_same(AtHallLines::line_1) == static_cast<int>(HallLines::li
               behind_same(AtHallLines::lines_12) == static_cast<int>(HallLines::lines_12) &&
               behind_same(AtHallLines::all) == static_cast<int>(HallLines::all));
 
+/// Of an encoder or a resolver.
+template <class Add>
+void add_shaft_faults(const AtSensors& at, const Add& add) {
+  const auto stick = [&](ActionKind sticks, ActionKind whole, int line, EncoderLevel level) {
+    if (level == EncoderLevel::whole)
+      add(whole, line);
+    else
+      add(sticks, stuck_line(line, level == EncoderLevel::high));
+  };
+  if (at.missed_edges) add(ActionKind::encoder_misses, *at.missed_edges);
+  if (const auto& bad = at.bad_track)
+    stick(ActionKind::track_sticks, ActionKind::track_whole, bad->track, bad->level);
+  if (const auto& stuck = at.encoder_line)
+    stick(ActionKind::encoder_line_sticks, ActionKind::encoder_line_whole, static_cast<int>(stuck->line),
+          stuck->level);
+  if (at.false_index.value_or(false)) add(ActionKind::false_index, 1.0);
+  if (at.broken_winding != Winding::none)
+    add(ActionKind::winding_breaks,
+        at.broken_winding == Winding::whole ? 0.0 : static_cast<double>(at.broken_winding));
+  if (at.excitation) add(ActionKind::excitation, *at.excitation);
+}
+
 void add_event(const At& at, rig::Timeline& timeline) {
   const auto add = [&](ActionKind kind, double value) {
     timeline.push_back({sim::to_instant(at.time_s), kind, value});
@@ -49,11 +71,7 @@ void add_event(const At& at, rig::Timeline& timeline) {
     add(ActionKind::invert_lines, behind_same(at.sensors.hall_inverted));
   if (at.sensors.current_offset_A) add(ActionKind::current_offset, *at.sensors.current_offset_A);
   if (at.sensors.current_gain_error) add(ActionKind::current_gain, *at.sensors.current_gain_error);
-  if (at.sensors.missed_edges) add(ActionKind::encoder_misses, *at.sensors.missed_edges);
-  if (const auto& bad = at.sensors.bad_track)
-    add(ActionKind::track_sticks, stuck_line(bad->track, bad->level == Level01::high));
-  if (at.sensors.broken_winding != Winding::none)
-    add(ActionKind::winding_breaks, static_cast<double>(at.sensors.broken_winding));
+  add_shaft_faults(at.sensors, add);
   if (at.bridge.dead_time_s)
     add(ActionKind::dead_time, static_cast<double>(sim::to_instant(*at.bridge.dead_time_s).ticks));
   if (at.bridge.open_switch != Switch::none)

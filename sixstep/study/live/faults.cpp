@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/live/faults.hpp"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -67,6 +68,40 @@ void note_losses(const rig::Diagnosis& found, Outcome& out) {
       words.cure};
 }
 
+/// What an encoder or a resolver showed that a whole one cannot.
+base::Problem lost_sensor(const rig::ShaftFinding& found, double t_s) {
+  using rig::ShaftLoss;
+  const std::string part =
+      std::to_string(static_cast<int>(std::floor(100 * found.shown + 0.5))) + " % of its amplitude";
+  const auto winding = [&](const char* name) -> base::Problem {
+    return {at(t_s), "", "the resolver shows " + part + ", and its " + name + " winding nothing",
+            std::string("look at the ") + name + " winding and its wires"};
+  };
+  switch (found.loss) {
+    case ShaftLoss::excitation:
+      return {at(t_s), "", "neither winding of the resolver shows anything: its excitation is lost",
+              "look at the excitation and its wires"};
+    case ShaftLoss::cosine:
+      return winding("cosine");
+    case ShaftLoss::sine:
+      return winding("sine");
+    case ShaftLoss::weak:
+      return {at(t_s), "", "the resolver shows " + part + ", less than a whole one does",
+              "look at the excitation, then at the windings"};
+    case ShaftLoss::strong:
+      return {at(t_s), "", "the resolver shows " + part + ", more than a whole one does",
+              "look at the excitation, and at sensors.resolver.amplitude_V"};
+    case ShaftLoss::index:
+      return {at(t_s), "",
+              "the encoder's index came with " + std::to_string(found.counts) +
+                  " counts missing, more than a sector of them",
+              "look at lines A, B and Z, and at what disturbs them"};
+    case ShaftLoss::none:
+      break;
+  }
+  return {};
+}
+
 }  // namespace
 
 base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t_s) {
@@ -78,6 +113,7 @@ base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t
         at(t_s), "",
         "the current along the magnet's axis is above half of saturation_current_A, where the model of saturation ends",
         "ask for less current, or look at the sheet's saturation_current_A"};
+  if (fault == rig::Fault::shaft_sensor) return lost_sensor(found.shaft, t_s);
   const std::string text = "the Hall code is impossible (000 or 111)";
   if (found.hall_line == 0) return {at(t_s), "", text, "look at the probes and their wires"};
   return {at(t_s), "", text + ": " + line_to_blame(found.hall_line), "look at its probe and its wire"};

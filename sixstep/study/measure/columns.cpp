@@ -62,6 +62,12 @@ std::vector<Column> turning_columns() {
       of(Signal::winding_temperature, "", "temperature of the winding"),
       of(Signal::housing_temperature, "", "temperature of housing and magnets"),
       of(Signal::junction_temperature, "", "temperature of the hottest switch's junction"),
+      {"encoder_A", "1", "", "line A of the incremental encoder, as the board's pin has it"},
+      {"encoder_B", "1", "", "line B"},
+      {"encoder_Z", "1", "", "the index line"},
+      {"absolute_code", "1", "", "Gray code that the absolute encoder shows"},
+      {"resolver_cos_V", "V", "", "voltage of the resolver's cosine winding, without noise"},
+      {"resolver_sin_V", "V", "", "voltage of its sine winding"},
   };
 }
 
@@ -97,6 +103,13 @@ std::vector<Column> linear_columns() {
   return columns;
 }
 
+/// Whether the sensor is there whose signal this is.
+bool fitted(ColumnId id, RotorSensing rotor) {
+  if (id <= ColumnId::encoder_Z) return rotor == RotorSensing::encoder;
+  if (id == ColumnId::absolute_code) return rotor == RotorSensing::absolute;
+  return rotor == RotorSensing::resolver;
+}
+
 }  // namespace
 
 const std::vector<Column>& all_columns() {
@@ -126,6 +139,7 @@ bool applies(ColumnId id, const Scenario& s) {
   if (id == ColumnId::winding_degC || id == ColumnId::housing_degC) return s.heat.motor;
   if (id == ColumnId::junction_degC) return s.heat.devices;
   if (id == ColumnId::battery_charge) return s.supply.source == SourceKind::battery;
+  if (id >= ColumnId::encoder_A) return fitted(id, s.sensors.rotor);
   if (id == ColumnId::loop_A) return s.sheet.connection == design::WindingConnection::delta;
   for (const Mode mode : {Mode::off, Mode::duty, Mode::current, Mode::speed, Mode::position})
     if (comes_into(s, mode) && applies(id, mode)) return true;

@@ -52,6 +52,12 @@ enum class ColumnId : std::uint8_t {
   winding_degC,
   housing_degC,
   junction_degC,
+  encoder_A,  // from here on: what an encoder or a resolver gives
+  encoder_B,
+  encoder_Z,
+  absolute_code,
+  resolver_cos_V,
+  resolver_sin_V,
   count
 };
 inline constexpr std::size_t column_count = static_cast<std::size_t>(ColumnId::count);

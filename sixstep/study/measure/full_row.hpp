@@ -2,6 +2,7 @@
 // One instant of a run as a row of all columns.
 #pragma once
 #include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/rig/shaft_raw.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/signals.hpp"
 
@@ -61,6 +62,24 @@ inline void set_load_side(FullRow& row, const plant::general::Plant<double>& pla
   if (c.has_loop) set(ColumnId::loop_A, value(plant.series().loop));
 }
 
+/// What an encoder or a resolver gives, where a firmware has one.
+template <class Rig>
+void set_shaft_sensor(FullRow& row, const Rig& rig, double s, double t) {
+  if constexpr (requires { rig.firmware().shaft_ports(); }) {
+    if (!rig.firmware().follows_shaft()) return;
+    const auto motion = rig.shaft_motion(s, rig.now());
+    const rig::ShaftRaw raw =
+        rig::shaft_raw(rig.firmware().shaft_ports(), motion.angle(s), sim::to_instant(t));
+    const auto set = [&](ColumnId id, double v) { row[static_cast<std::size_t>(id)] = v; };
+    set(ColumnId::encoder_A, raw.lines >> 2 & 1);
+    set(ColumnId::encoder_B, raw.lines >> 1 & 1);
+    set(ColumnId::encoder_Z, raw.lines & 1);
+    set(ColumnId::absolute_code, raw.code);
+    set(ColumnId::resolver_cos_V, raw.winding_V[0]);
+    set(ColumnId::resolver_sin_V, raw.winding_V[1]);
+  }
+}
+
 /// Everything there is to say of the rig at the fraction s of its segment, at time t, whether it applies or
 /// not.
 template <class Rig>
@@ -81,6 +100,7 @@ FullRow full_row(const Rig& rig, double s, double t) {
   set_load_side(row, rig.plant(), s);
   set(ColumnId::hall, rig.pins());
   set(ColumnId::sector, rig.plant().sector());
+  set_shaft_sensor(row, rig, s, t);
   return row;
 }
 

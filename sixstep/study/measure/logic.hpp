@@ -34,6 +34,10 @@ enum class LogicId : std::uint8_t {
   H2,
   H3,
   sector,
+  encoder_A,
+  encoder_B,
+  encoder_Z,
+  absolute_code,
   tick,
   periods,
   pwm,
@@ -42,6 +46,7 @@ enum class LogicId : std::uint8_t {
   comparator_2,
   shoot_through,
   impossible_hall,
+  shaft_sensor,
   over_current,  ///< from here in the order of control::Fault's bits
   over_voltage,
   under_voltage,
@@ -55,7 +60,7 @@ enum class LogicId : std::uint8_t {
 inline constexpr std::size_t logic_count = static_cast<std::size_t>(LogicId::count);
 using LogicRow = std::array<std::uint32_t, logic_count>;
 
-/// A comparator that nobody armed tells nothing.
+/// A comparator that nobody armed tells nothing, nor does an encoder that is not there.
 inline constexpr std::uint32_t logic_unknown = 0xffff'ffffu;
 
 /// In the order of LogicId.

@@ -2,9 +2,28 @@
 // This observer tells the logic signals. It reads the rig and cannot change the run by a bit.
 #pragma once
 #include "sixstep/rig/rig.hpp"
+#include "sixstep/rig/shaft_raw.hpp"
 #include "sixstep/study/measure/logic.hpp"
 
 namespace sixstep::study {
+
+inline void set_lines(LogicRow& row, std::uint8_t pins) {
+  for (std::size_t n = 0; n < 3; ++n)
+    row[static_cast<std::size_t>(LogicId::encoder_A) + n] = pins >> (2 - n) & 1U;
+}
+
+/// Where the segment begins.
+template <class Rig>
+void set_encoder(LogicRow& row, const Rig& rig) {
+  auto& code = row[static_cast<std::size_t>(LogicId::absolute_code)];
+  code = logic_unknown;
+  for (std::size_t n = 0; n < 3; ++n) row[static_cast<std::size_t>(LogicId::encoder_A) + n] = logic_unknown;
+  if constexpr (requires { rig.firmware().shaft_ports(); }) {
+    const rig::ShaftPorts& ports = rig.firmware().shaft_ports();
+    if (ports.given().kind == rig::ShaftSensor::absolute) code = ports.code();
+    if (ports.given().kind == rig::ShaftSensor::encoder) set_lines(row, ports.pins());
+  }
+}
 
 template <class Rig>
 LogicRow logic_row(const Rig& rig) {
@@ -23,6 +42,7 @@ LogicRow logic_row(const Rig& rig) {
   set(LogicId::H2, pins >> 1U & 1U);
   set(LogicId::H3, pins & 1U);
   set(LogicId::sector, rig.plant().sector());
+  set_encoder(row, rig);
   const std::int64_t ticks = rig.event_count(rig::EventKind::tick);
   set(LogicId::tick, ticks);
   set(LogicId::periods, ticks);
@@ -35,6 +55,7 @@ LogicRow logic_row(const Rig& rig) {
     row[static_cast<std::size_t>(LogicId::comparator_1) + static_cast<std::size_t>(which)] =
         c.armed ? output : logic_unknown;
   }
+  set(LogicId::shaft_sensor, rig.fault() == rig::Fault::shaft_sensor ? 1 : 0);
   set(LogicId::shoot_through, rig.fault() == rig::Fault::shoot_through ? 1 : 0);
   set(LogicId::impossible_hall, rig.fault() == rig::Fault::impossible_hall ? 1 : 0);
   const unsigned faults = rig.firmware().diagnosis().faults;
@@ -49,8 +70,18 @@ class LogicRecorder {
   explicit LogicRecorder(LogicSink sink) : sink_(std::move(sink)) {}
 
   template <class Rig>
-  void segment(const Rig& rig, double) {
-    take(rig.now().ticks, logic_row(rig));
+  void segment(const Rig& rig, double s) {
+    LogicRow row = logic_row(rig);
+    take(rig.now().ticks, row);
+    if constexpr (requires { rig.firmware().shaft_ports(); }) {
+      const rig::ShaftPorts& ports = rig.firmware().shaft_ports();
+      if (ports.given().kind != rig::ShaftSensor::encoder) return;
+      const auto motion = rig.shaft_motion(s, rig.now());
+      rig::for_each_quarter(motion, 4 * ports.given().lines, [&](std::int64_t quarter, double at) {
+        set_lines(row, ports.pins_in(quarter));
+        take(motion.from.plus_seconds(at * motion.y.h).ticks, row);
+      });
+    }
   }
   template <class Rig>
   void end(const Rig& rig) {

@@ -41,14 +41,24 @@ enum class AtHallLines : std::uint8_t {
   all
 };
 
+/// What a line or a track of an encoder shows: a level it sticks at, or what it should.
+enum class EncoderLevel : std::uint8_t { low, high, whole };
+
 /// A track of an absolute encoder that shows one level from then on, 1 the finest.
 struct AtTrack {
   int track = 1;
-  Level01 level = Level01::low;
+  EncoderLevel level = EncoderLevel::low;
 };
 
-/// A resolver's winding whose line breaks.
-enum class Winding : std::uint8_t { none, cosine, sine };
+/// A line of an incremental encoder; the numbers are those of rig::ShaftPorts.
+enum class EncoderLine : std::uint8_t { A = 1, B = 2, Z = 3 };
+struct AtEncoderLine {
+  EncoderLine line = EncoderLine::A;
+  EncoderLevel level = EncoderLevel::low;
+};
+
+/// A resolver's winding whose line breaks, beside those broken before; or both are whole again.
+enum class Winding : std::uint8_t { none, cosine, sine, whole };
 
 struct AtSensors {
   std::optional<AtHallBreak> hall_break;
@@ -57,7 +67,10 @@ struct AtSensors {
   std::optional<double> current_offset_A, current_gain_error;
   std::optional<int> missed_edges;
   std::optional<AtTrack> bad_track;
+  std::optional<AtEncoderLine> encoder_line;
+  std::optional<bool> false_index;
   Winding broken_winding = Winding::none;
+  std::optional<double> excitation;
 };
 
 /// What the product drive is asked for.

@@ -40,7 +40,9 @@ struct HallBreak {
 
 /// What stands on the shaft in the place of Hall probes; only that of `rotor` counts.
 struct Encoder {
-  int lines = 1024;
+  static constexpr int usual_lines = 1024;
+  int lines = usual_lines;
+  std::optional<double> pitch_mm;  // of a linear motor's, in their place
   bool referenced = true;
   double missed_Hz = 0.0;
 };
@@ -102,6 +104,7 @@ struct Sensors {
   double hall_delay_s = 0.0;
   double hall_glitches_Hz = 0.0, hall_glitch_s = 1e-6;
   SensorShaft shaft = SensorShaft::motor;
+  bool watched = true;
   Encoder encoder;
   AbsoluteEncoder absolute;
   Resolver resolver;

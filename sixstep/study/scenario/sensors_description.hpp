@@ -123,6 +123,12 @@ void describe(Visitor& v, Encoder& s) {
   v.value("lines", s.lines,
           {.meaning = "of a turn; the timer counts four edges of each", .range = base::between(1, 1000000)});
   v.value(
+      "pitch_mm", s.pitch_mm,
+      {.meaning =
+           "linear motor: a line of the scale, of which two pole pitches are a whole number; one index at 0",
+       .unit = "mm",
+       .range = base::above(0)});
+  v.value(
       "referenced", s.referenced,
       {.meaning = "whether the index was passed before the run; else the Hall probes commutate until it is"});
   v.value(
@@ -279,6 +285,11 @@ void describe(Visitor& v, Sensors& s) {
   describe_probes(v, s);
   v.choice("shaft", s.shaft, sensor_shaft_choices,
            {.meaning = "on which shaft the encoder or the resolver stands"});
+  v.value(
+      "watched", s.watched,
+      {.meaning =
+           "whether the drive stops where a resolver's amplitude or the count at an encoder's index is not "
+           "what a whole one shows; false: it goes on with what it has"});
   v.table("encoder", s.encoder, {.meaning = "lines A, B and Z, where rotor is \"encoder\""});
   v.table("absolute", s.absolute,
           {.meaning = "a code for every angle of the shaft, where rotor is \"absolute\""});

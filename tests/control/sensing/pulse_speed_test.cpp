@@ -184,4 +184,35 @@ TEST(PulseSpeedLaw, DitherAboutAnEdgeIsStandstill) {
   }
 }
 
+/// Every 37th edge is missed, 1000 ticks of the timer from one to the next, and a control tick moves on by one of the timer's
+/// against them: every phase comes as often. What the mean is lowered by stands in the header, 2 - ln 2 - 1/(M (M + 1)) of the share.
+TEST(PulseSpeedLaw, MissedEdgesLowerTheMeanByTheirShareAndByTheBound) {
+  for (const int M : {1, 2, 3, 5, 9}) {
+    const PulseSpeedConfig<double> c{1000.0, 1000000};  // an edge each 1000 ticks is a speed of 1
+    PulseSpeedState state;
+    std::uint32_t now = 500, edge = 0, number = 0;
+    double sum = 0.0, counted = 0.0, ticks = 0.0;
+    constexpr int readings = 370000;
+    for (int n = 0; n < readings; ++n) {
+      now += static_cast<std::uint32_t>(1000 * M + 1);
+      while (now - edge >= 1000) {
+        edge += 1000;
+        if (++number % 37 != 0) pulse_edge(state, 1, 1, edge);
+      }
+      const std::uint32_t to = state.fresh ? state.time : 0, from = state.from_time;
+      const double w = pulse_speed(c, state, now);
+      if (n < 2) continue;
+      sum += 1 - w;
+      if (to == 0) continue;
+      counted += state.moved;
+      ticks += to - from;
+    }
+    const double share = 1.0 / 37, law = 2 - std::log(2.0) - 1.0 / (M * (M + 1));
+    // The bound grants a tick of 1000, and a thousandth of the control ticks sees an edge more than M.
+    EXPECT_NEAR(sum / (readings - 2) / share, law, 0.004) << M;
+    EXPECT_NEAR(1000 * counted / ticks, 1 - share, 1.0 / (readings * M))
+        << "over its own windows, but for a miss at their ends";
+  }
+}
+
 }  // namespace

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of [[at]].sensors: what may happen to Hall lines, amplifiers, encoders and resolvers while a run goes on.
+#pragma once
+#include "sixstep/study/scenario/at.hpp"
+#include "sixstep/study/scenario/sensors_description.hpp"
+
+namespace sixstep::study {
+
+/// What is told to whoever asks for anything else.
+inline constexpr std::string_view what_may_change =
+    "during a run change only: reference; supply.voltage_V, supply.sinks; load.torque_Nm, load.locked; "
+    "sensors.hall_break, .hall_lines, .hall_inverted, .current_offset_A, .current_gain_error, .missed_edges, "
+    ".encoder_line, .false_index, .bad_track, .broken_winding, .excitation; request; control.mode, .slew, .current "
+    "(its gains, band_A, limit_A), .speed (its "
+    "gains, torque_limit_Nm), .position, .limits (current_A, torque_Nm, speed_rad_s), .sensorless.commutates; "
+    "pwm.chopping; "
+    "bridge.dead_time_s, .phases, .open_switch, .shorted_switch; motor.broken_wire";
+
+inline constexpr base::Choice<PinLevel> pin_level_choices[] = {
+    {"low", PinLevel::low, "0, as a line that is shorted to ground"},
+    {"high", PinLevel::high, "1, as a line that is cut before its pull-up"},
+    {"probe", PinLevel::probe, "what its probe says: the break is over, and was a glitch"},
+};
+
+template <class Visitor>
+void describe(Visitor& v, AtHallBreak& s) {
+  v.value("line", s.line, {.meaning = "which of H1, H2, H3", .range = base::between(1, 3)});
+  v.choice("level", s.level, pin_level_choices, {.meaning = "what the pin reads from then on"});
+}
+
+inline constexpr base::Choice<AtOrder> at_hall_order_choices[] = {
+    {"same", AtOrder::same, "as before"},
+    {"123", AtOrder::abc, hall_order_choices[0].meaning},
+    {"231", AtOrder::bca, hall_order_choices[1].meaning},
+    {"312", AtOrder::cab, hall_order_choices[2].meaning},
+    {"132", AtOrder::acb, hall_order_choices[3].meaning},
+    {"321", AtOrder::cba, hall_order_choices[4].meaning},
+    {"213", AtOrder::bac, hall_order_choices[5].meaning},
+};
+inline constexpr base::Choice<AtHallLines> at_hall_inverted_choices[] = {
+    {"same", AtHallLines::same, "as before"},
+    {"none", AtHallLines::none, hall_inverted_choices[0].meaning},
+    {"1", AtHallLines::line_1, hall_inverted_choices[1].meaning},
+    {"2", AtHallLines::line_2, hall_inverted_choices[2].meaning},
+    {"3", AtHallLines::line_3, hall_inverted_choices[3].meaning},
+    {"12", AtHallLines::lines_12, hall_inverted_choices[4].meaning},
+    {"13", AtHallLines::lines_13, hall_inverted_choices[5].meaning},
+    {"23", AtHallLines::lines_23, hall_inverted_choices[6].meaning},
+    {"123", AtHallLines::all, hall_inverted_choices[7].meaning},
+};
+
+inline constexpr base::Choice<EncoderLevel> encoder_level_choices[] = {
+    {"low", EncoderLevel::low, level_choices[0].meaning},
+    {"high", EncoderLevel::high, level_choices[1].meaning},
+    {"whole", EncoderLevel::whole, "what the encoder gives: the fault is over"},
+};
+
+template <class Visitor>
+void describe(Visitor& v, AtTrack& s) {
+  v.value("track", s.track,
+          {.meaning = "which, 1 the finest, up to sensors.absolute.bits", .range = base::between(1, 20)});
+  v.choice("level", s.level, encoder_level_choices, {.meaning = "what it shows from then on"});
+}
+
+inline constexpr base::Choice<EncoderLine> encoder_line_choices[] = {
+    {"A", EncoderLine::A, "high over the first half of each line of the disc"},
+    {"B", EncoderLine::B, "the same a quarter of a line later"},
+    {"Z", EncoderLine::Z,
+     "the index: stuck it is lost, and where it rises by that it is passed at a wrong place"},
+};
+
+template <class Visitor>
+void describe(Visitor& v, AtEncoderLine& s) {
+  v.choice("line", s.line, encoder_line_choices, {.meaning = "which of the encoder's three"});
+  v.choice(
+      "level", s.level, encoder_level_choices,
+      {.meaning =
+           "what its pin reads from then on; with A or B stuck the other line's edges count to and fro"});
+}
+
+inline constexpr base::Choice<Winding> winding_choices[] = {
+    {"none", Winding::none, "none breaks"},
+    {"cosine", Winding::cosine, "the winding of the cosine"},
+    {"sine", Winding::sine, "the winding of the sine"},
+    {"whole", Winding::whole, "both are whole again"},
+};
+
+template <class Visitor>
+void describe(Visitor& v, AtSensors& s) {
+  v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks then, or is whole again"});
+  v.choice("hall_lines", s.hall_lines, at_hall_order_choices,
+           {.meaning = "which Hall probe is wired to pins H1, H2, H3 of the board from then on"});
+  v.choice("hall_inverted", s.hall_inverted, at_hall_inverted_choices,
+           {.meaning = "which pins H1, H2, H3 read their probe inverted from then on"});
+  v.value("current_offset_A", s.current_offset_A,
+          {.meaning =
+               "what the amplifiers show at no current from then on; the drive measured its offsets before",
+           .unit = "A"});
+  v.value("current_gain_error", s.current_gain_error,
+          {.meaning = "how much too large a current reads from then on, as a part of it",
+           .range = base::Range{-1, 1, false, true}});
+  v.value("missed_edges", s.missed_edges,
+          {.meaning = "so many of the encoder's next edges are not counted; its next index mends the count",
+           .range = base::between(1, 1000000)});
+  v.table("bad_track", s.bad_track,
+          {.meaning = "a track of the absolute encoder that sticks from then on, or is whole again",
+           .cure = what_may_change});
+  v.table("encoder_line", s.encoder_line,
+          {.meaning = "a line of the incremental encoder that sticks from then on, or is whole again",
+           .cure = what_may_change});
+  v.value("false_index", s.false_index,
+          {.meaning = "true: a disturbance on line Z, which the timer takes for the index"});
+  v.choice("broken_winding", s.broken_winding, winding_choices,
+           {.meaning = "a winding of the resolver that gives nothing from then on"});
+  v.value("excitation", s.excitation,
+          {.meaning = "the resolver's excitation from then on, as a part of the full one",
+           .range = base::between(0, 2)});
+}
+
+}  // namespace sixstep::study
