@@ -68,6 +68,8 @@ void Rig<Real, Firmware, Plant>::do_action(const Action& action) {
     case ActionKind::track_sticks:
     case ActionKind::winding_breaks:
       return fail_shaft_sensor(action);
+    case ActionKind::divider_breaks:
+      return break_divider(static_cast<std::size_t>(action.value));
     case ActionKind::setpoint:
       break;
   }
@@ -229,6 +231,21 @@ void Rig<Real, Firmware, Plant>::fail_shaft_sensor(const Action& action) {
     if (action.kind == ActionKind::encoder_misses) ports.miss(which);
     if (action.kind == ActionKind::track_sticks) ports.stick_track(which - 1, action.value > 0);
     if (action.kind == ActionKind::winding_breaks) ports.break_winding(which);
+  }
+}
+
+/// Of a firmware that looks at the terminals.
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::break_divider(std::size_t leg) {
+  if constexpr (requires { firmware_.break_divider(leg); }) {
+    firmware_.break_divider(leg);
+    if constexpr (has_crossings) {
+      const std::uint8_t before = crossings_.lines();
+      if (!crossings_.fitted()) return;
+      crossings_.break_divider(leg, front_end_.reading());
+      if (crossings_.lines() != before) firmware_.captured_crossing(crossings_.lines(), now_);
+      moved_ = true;
+    }
   }
 }
 

@@ -35,7 +35,8 @@ enum class ActionKind : std::uint8_t {
   hall_glitch,
   encoder_misses,
   track_sticks,
-  winding_breaks
+  winding_breaks,
+  divider_breaks
 };
 
 /// How a setpoint moves from its action on: t seconds later it stands at
@@ -63,12 +64,13 @@ struct Waveform {
 struct Action {
   sim::Instant at;
   ActionKind kind = ActionKind::setpoint;
-  double value = 0.0;   ///< setpoint in the mode's unit; N m; Hall line 1 to 3, stuck low where negative;
-                        ///< V; a request to run, a clamp on the shaft, a sinking source: 1 or 0; which of
-                        ///< the rig's tunings; ps; the phase, 0 to 2; a WireOrder; Hall lines as bits;
-                        ///< A; a part of the current; T1 to T6 as 1 to 6; rad/s;
-                        ///< the probe 1 to 3 whose line turns over; edges of an encoder;
-                        ///< 1 + the bit of a Gray code, stuck low where negative; a resolver's winding 1 or 2
+  double value = 0.0;  ///< setpoint in the mode's unit; N m; Hall line 1 to 3, stuck low where negative;
+                       ///< V; a request to run, a clamp on the shaft, a sinking source: 1 or 0; which of
+                       ///< the rig's tunings; ps; the phase, 0 to 2; a WireOrder; Hall lines as bits;
+                       ///< A; a part of the current; T1 to T6 as 1 to 6; rad/s;
+                       ///< the probe 1 to 3 whose line turns over; edges of an encoder;
+                       ///< 1 + the bit of a Gray code, stuck low where negative; a resolver's winding 1 or 2;
+                       ///< the leg, 0 to 2, whose divider breaks
   Waveform waveform{};  ///< of a setpoint; of a load torque and a shaft's speed the rate alone
 };
 
