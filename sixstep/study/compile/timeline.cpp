@@ -54,6 +54,8 @@ void add_event(const At& at, rig::Timeline& timeline) {
     add(ActionKind::track_sticks, stuck_line(bad->track, bad->level == Level01::high));
   if (at.sensors.broken_winding != Winding::none)
     add(ActionKind::winding_breaks, static_cast<double>(at.sensors.broken_winding));
+  if (at.sensors.broken_divider != Wire::none)
+    add(ActionKind::divider_breaks, static_cast<double>(at.sensors.broken_divider) - 1.0);
   if (at.bridge.dead_time_s)
     add(ActionKind::dead_time, static_cast<double>(sim::to_instant(*at.bridge.dead_time_s).ticks));
   if (at.bridge.open_switch != Switch::none)

@@ -50,6 +50,9 @@ struct AtTrack {
 /// A resolver's winding whose line breaks.
 enum class Winding : std::uint8_t { none, cosine, sine };
 
+/// A wire or a divider, by its terminal.
+enum class Wire : std::uint8_t { none, a, b, c };
+
 struct AtSensors {
   std::optional<AtHallBreak> hall_break;
   AtOrder hall_lines = AtOrder::same;
@@ -58,6 +61,7 @@ struct AtSensors {
   std::optional<int> missed_edges;
   std::optional<AtTrack> bad_track;
   Winding broken_winding = Winding::none;
+  Wire broken_divider = Wire::none;
 };
 
 /// What the product drive is asked for.
@@ -118,9 +122,6 @@ struct AtPwm {
   AtChopping chopping = AtChopping::same;
   bool operator==(const AtPwm&) const = default;
 };
-
-/// A motor's wire, by its terminal.
-enum class Wire : std::uint8_t { none, a, b, c };
 
 struct AtMotor {
   Wire broken_wire = Wire::none;

@@ -12,7 +12,7 @@ namespace sixstep::study {
 inline constexpr std::string_view what_may_change =
     "during a run change only: reference; supply.voltage_V, supply.sinks; load.torque_Nm, load.locked; "
     "sensors.hall_break, .hall_lines, .hall_inverted, .current_offset_A, .current_gain_error, .missed_edges, "
-    ".bad_track, .broken_winding; request; control.mode, .slew, .current (its gains, band_A, limit_A), .speed (its "
+    ".bad_track, .broken_winding, .broken_divider; request; control.mode, .slew, .current (its gains, band_A, limit_A), .speed (its "
     "gains, torque_limit_Nm), .position, .limits (current_A, torque_Nm, speed_rad_s), .sensorless.commutates; "
     "pwm.chopping; "
     "bridge.dead_time_s, .phases, .open_switch, .shorted_switch; motor.broken_wire";
@@ -82,6 +82,13 @@ inline constexpr base::Choice<Winding> winding_choices[] = {
     {"sine", Winding::sine, "the winding of the sine"},
 };
 
+inline constexpr base::Choice<Wire> divider_choices[] = {
+    {"none", Wire::none, "all three are whole"},
+    {"a", Wire::a, "that of terminal a"},
+    {"b", Wire::b, "that of terminal b"},
+    {"c", Wire::c, "that of terminal c"},
+};
+
 template <class Visitor>
 void describe(Visitor& v, AtSensors& s) {
   v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks then, or is whole again"});
@@ -103,6 +110,8 @@ void describe(Visitor& v, AtSensors& s) {
           {.meaning = "a track of the absolute encoder that sticks from then on", .cure = what_may_change});
   v.choice("broken_winding", s.broken_winding, winding_choices,
            {.meaning = "a winding of the resolver that gives nothing from then on"});
+  v.choice("broken_divider", s.broken_divider, divider_choices,
+           {.meaning = "a terminal's divider whose upper resistor opens then: it shows 0"});
 }
 
 inline constexpr base::Choice<AtMode> at_mode_choices[] = {
