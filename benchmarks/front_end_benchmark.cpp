@@ -63,8 +63,7 @@ int main(int argc, char** argv) {
   add("amplifiers with delay", run<Sensed>, {.amplifier_s = 1e-6, .amplifier_delay_ticks = 1'000'000});
   add("terminals unfiltered", run<Looking>, {});
   add("dividers", run<Looking>, {.divider_s = divider_s});
-  add("comparators", run<Capturing>,
-      {.divider_s = divider_s, .comparators = {.fitted = true, .hysteresis_V = 0.1}});
+  add("comparators", run<Capturing>, {.comparators = {.lag_s = divider_s, .hysteresis_V = 0.1}});
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

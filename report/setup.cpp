@@ -115,6 +115,21 @@ std::string shaft_sensor(const study::Sensors& s) {
   return text.empty() || s.shaft == study::SensorShaft::motor ? text : text + ", on the load's shaft";
 }
 
+/// What the terminals' dividers and comparators are.
+std::string terminals(const study::Sensors& s) {
+  std::string text;
+  if (!s.terminal_gain_error.empty())
+    text += fmt::format("; dividers of a, b, c too large by {:.4g}", fmt::join(s.terminal_gain_error, ", "));
+  const study::Comparators& c = s.comparators;
+  if (c == study::Comparators{}) return text;
+  text += fmt::format("; comparators against {}, filtered at {}",
+                      c.against == rig::CrossingReference::half_bus ? "half the bus" : "the virtual star",
+                      given(c.bandwidth_Hz.value_or(0.0), "Hz"));
+  if (!c.offset_V.empty()) text += fmt::format(", off by {:.4g} V", fmt::join(c.offset_V, ", "));
+  if (c.hysteresis_V > 0.0) text += ", hysteresis " + given(c.hysteresis_V, "V");
+  return text;
+}
+
 /// What of the Hall probes is not where the sectors are.
 std::string probes(const study::Sensors& s) {
   std::string text;
@@ -145,6 +160,7 @@ std::string sensors(const study::Sensors& s) {
     text +=
         fmt::format("; bus through {} bits up to {}", s.adc_bits, given(s.bus_range_V.value_or(0.0), "V"));
   if (s.bus_bandwidth_Hz) text += "; dividers filtered at " + given(*s.bus_bandwidth_Hz, "Hz");
+  text += terminals(s);
   if (s.rotor == study::RotorSensing::hall)
     text += fmt::format("; speed from Hall edges against {}, over {}", given(s.capture_Hz, "Hz"),
                         s.speed_edges == 0   ? "six sectors, at low speed one"
@@ -166,8 +182,8 @@ std::string sensors(const study::Sensors& s) {
 bool all_ideal(const study::Sensors& s) {
   return s.currents == sixstep::rig::CurrentMeasurement::ideal && s.bus == study::BusSensing::ideal &&
          s.rotor == study::RotorSensing::ideal && !s.bus_bandwidth_Hz && !s.hall_break.at_s &&
-         s.hall_lines == rig::WireOrder::abc && s.hall_inverted == study::HallLines::none &&
-         probes(s).empty();
+         terminals(s).empty() && s.hall_lines == rig::WireOrder::abc &&
+         s.hall_inverted == study::HallLines::none && probes(s).empty();
 }
 
 std::string protection(const study::Protection& p) {

@@ -29,7 +29,7 @@ std::string tuned(const study::At& at) {
   return text;
 }
 
-/// Wires that are changed, and amplifiers that drift.
+/// Wires that are changed, amplifiers that drift, dividers that break.
 template <class Add>
 void add_wires(const study::At& at, const Add& add) {
   const study::AtSensors& s = at.sensors;
@@ -42,6 +42,8 @@ void add_wires(const study::At& at, const Add& add) {
     add(fmt::format("inverted Hall lines: {}", base::word(study::at_hall_inverted_choices, s.hall_inverted)));
   if (s.current_offset_A) add("current offset " + given(*s.current_offset_A, "A"));
   if (s.current_gain_error) add(fmt::format("current gain error {}", *s.current_gain_error));
+  if (s.broken_divider != study::Wire::none)
+    add(fmt::format("divider of terminal {} breaks", base::word(study::divider_choices, s.broken_divider)));
 }
 
 /// Encoders and resolvers that fail, or are whole again.

@@ -82,6 +82,8 @@ SOURCES = {
     "resolver, windings 0.5 % unlike": ("lean", AT_SAMPLES, 'rotor = "resolver"\n[sensors.resolver]\nimbalance = 0.005\n'
                                         "excitation_Hz = 8333.333333333333\nnoise_V = 2e-3", ""),
     "zero crossing": ("sensorless", "", "bus_noise_V = 0.01", ""),
+    "comparators at the terminals": ("sensorless", "", "bus_noise_V = 0.01\n[sensors.comparators]\nbandwidth_Hz = 12e3",
+                                     'sensorless.follows = "comparators"'),
     "Luenberger observer": ("sensorless", "", "bus_noise_V = 0.01", 'sensorless.follows = "luenberger"'),
     "sliding-mode observer": ("sensorless", "", "bus_noise_V = 0.01", 'sensorless.follows = "sliding-mode"'),
     "flux linkage": ("sensorless", "", "bus_noise_V = 0.01", 'sensorless.follows = "flux-linkage"'),
@@ -107,6 +109,8 @@ DECODERS = {
     "absolute encoder, 14 bits": (("sensing/gray", "gray_step"),),
     "resolver, windings 0.5 % unlike": (("sensing/resolver", "resolver_step"), ("sensing/resolver", "tracked_speed")),
     "zero crossing": CROSSING,
+    "comparators at the terminals": (("sensorless/captured_crossing", "capture_lines"),
+                                     ("sensorless/captured_crossing", "captured_crossing_step"), *CROSSING),
     "Luenberger observer": (("sensorless/observer", "observer_step(luenberger)"), *CROSSING),
     "sliding-mode observer": (("sensorless/observer", "observer_step(sliding_mode)"), *CROSSING),
     "flux linkage": (("sensorless/observer", "observer_step(flux)"), *CROSSING),

@@ -16,14 +16,21 @@ class Crossings {
  public:
   /// As the lines stand where the run begins; on its very level a line is low.
   Crossings(const FrontEndConfig& config, const FrontEndReading& at) : config_(config) {
+    for (std::size_t k = 0; k < 3; ++k) gain_[k] = 1.0 + config.divider_gain_error[k];
     for (std::size_t k = 0; k < 3; ++k)
-      if (at.terminal_V[k] - reference(at.terminal_V, at.bus_V) > config.comparators.offset_V[k])
-        turn_over(k);
+      if (above(at, k) > 0) turn_over(k);
+  }
+  /// The divider of a leg shows 0 from now on: lines that no longer stand by their levels turn over.
+  void break_divider(std::size_t leg, const FrontEndReading& at) {
+    gain_[leg] = 0.0;
+    const double half = config_.comparators.hysteresis_V / 2;
+    for (std::size_t k = 0; k < 3; ++k)
+      if ((lines_ & (4U >> k)) != 0 ? above(at, k) < -half : above(at, k) > half) turn_over(k);
   }
 
-  bool fitted() const { return config_.comparators.fitted && config_.lags_voltages(); }
+  bool fitted() const { return config_.has_comparators(); }
   /// No segment may be longer: behind it 16 orders of the lag do not reach rounding.
-  double longest_s() const { return config_.divider_s / 2; }
+  double longest_s() const { return config_.comparators.lag_s / 2; }
   /// Of legs a, b, c as bits 2, 1, 0, as a Hall code has its lines.
   std::uint8_t lines() const { return lines_; }
   void turn_over(std::size_t leg) { lines_ ^= static_cast<std::uint8_t>(4U >> leg); }
@@ -33,8 +40,11 @@ class Crossings {
   void guards(const FrontEndSegment<Real>& of, const plant::TerminalSeries<Real>& u,
               const FrontEndReading& now, Real volt_scale, Visit&& visit) const {
     plant::TerminalSeries<Real> x;
-    for (std::size_t k = 0; k < 3; ++k) x[k] = lagged(of, u[of.phase[k]], now.terminal_V[k]);
-    const Coefficients<Real> bus = lagged(of, of.y.bus, now.bus_V);
+    for (std::size_t k = 0; k < 3; ++k) {
+      x[k] = lagged(of, u[of.phase[k]], now.comparator_V[k]);
+      for (Real& c : x[k]) c = Real(gain_[k]) * c;
+    }
+    const Coefficients<Real> bus = lagged(of, of.y.bus, now.comparator_bus_V);
     const Real noise = plant::noise_of(volt_scale, Real(1));
     // Behind an edge the line must stand clear of it by more than rounding.
     const Real half = std::max(Real(config_.comparators.hysteresis_V) / 2, 4 * noise);
@@ -49,6 +59,12 @@ class Crossings {
   }
 
  private:
+  /// Beyond its level without hysteresis.
+  double above(const FrontEndReading& at, std::size_t leg) const {
+    plant::PerLeg<double> x{};
+    for (std::size_t k = 0; k < 3; ++k) x[k] = gain_[k] * at.comparator_V[k];
+    return x[leg] - reference(x, at.comparator_bus_V) - config_.comparators.offset_V[leg];
+  }
   template <class Real>
   using Coefficients = series::Coefficients<Real>;
 
@@ -59,7 +75,7 @@ class Crossings {
   }
   template <class Real>
   Coefficients<Real> lagged(const FrontEndSegment<Real>& of, const Coefficients<Real>& u, double from) const {
-    const Real rate = of.y.h / Real(config_.divider_s);
+    const Real rate = of.y.h / Real(config_.comparators.lag_s);
     Coefficients<Real> x;
     x[0] = Real(from);
     for (int n = 0; n < series::max_degree; ++n) {
@@ -70,6 +86,7 @@ class Crossings {
   }
 
   FrontEndConfig config_;
+  plant::PerLeg<double> gain_{};
   std::uint8_t lines_ = 0;
 };
 

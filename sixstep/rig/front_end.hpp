@@ -29,13 +29,20 @@ class FrontEnd {
       : config_(config),
         reading_{.terminal_V = terminal_V,
                  .bus_V = bus_V,
+                 .comparator_V = terminal_V,
+                 .comparator_bus_V = bus_V,
                  .currents = config.lags_currents(),
                  .voltages = config.lags_voltages()} {
     bus_.set(bus_V);
-    for (std::size_t k = 0; k < 3; ++k) terminal_[k].set(terminal_V[k]);
+    comparator_bus_.set(bus_V);
+    for (std::size_t k = 0; k < 3; ++k) {
+      terminal_[k].set(terminal_V[k]);
+      comparator_[k].set(terminal_V[k]);
+    }
   }
 
-  bool follows() const { return reading_.currents || reading_.voltages; }
+  bool follows() const { return reading_.currents || follows_terminals(); }
+  bool follows_terminals() const { return reading_.voltages || config_.has_comparators(); }
   const FrontEndReading& reading() const { return reading_; }
 
   template <class Real>
@@ -45,8 +52,12 @@ class FrontEnd {
       bus_.add(by(config_.divider_s, of, of.y.bus, bus_));
       reading_.bus_V = bus_.value;
     }
+    if (config_.has_comparators()) {
+      comparator_bus_.add(by(config_.comparators.lag_s, of, of.y.bus, comparator_bus_));
+      reading_.comparator_bus_V = comparator_bus_.value;
+    }
   }
-  /// Where voltages lag: the terminals' series, by phases.
+  /// Where voltages lag, or comparators' do: the terminals' series, by phases.
   template <class Real>
   void follow_terminals(const FrontEndSegment<Real>& of, const plant::TerminalSeries<Real>& u);
 
@@ -76,10 +87,13 @@ class FrontEnd {
   }
   template <class Real>
   void follow_currents(const FrontEndSegment<Real>& of);
+  template <class Real>
+  static void follow_legs(double lag_s, const FrontEndSegment<Real>& of, const plant::TerminalSeries<Real>& u,
+                          plant::PerLeg<Kept>& kept, plant::PerLeg<double>& shown);
 
   FrontEndConfig config_;
-  plant::PerLeg<Kept> i_{}, terminal_{};
-  Kept dc_link_{}, bus_{};
+  plant::PerLeg<Kept> i_{}, terminal_{}, comparator_{};
+  Kept dc_link_{}, bus_{}, comparator_bus_{};
   FrontEndReading reading_{};
 };
 
@@ -111,13 +125,22 @@ void FrontEnd::follow_currents(const FrontEndSegment<Real>& of) {
 }
 
 template <class Real>
-void FrontEnd::follow_terminals(const FrontEndSegment<Real>& of, const plant::TerminalSeries<Real>& u) {
+void FrontEnd::follow_legs(double lag_s, const FrontEndSegment<Real>& of,
+                           const plant::TerminalSeries<Real>& u, plant::PerLeg<Kept>& kept,
+                           plant::PerLeg<double>& shown) {
   const auto s = static_cast<double>(of.s);
-  const series::LagWeights w = weights(config_.divider_s, of, s);
+  const series::LagWeights w = weights(lag_s, of, s);
   for (std::size_t k = 0; k < 3; ++k) {
-    terminal_[k].add(series::lag_increment(u[of.phase[k]], of.y.degree, s, w, terminal_[k].value));
-    reading_.terminal_V[k] = terminal_[k].value;
+    kept[k].add(series::lag_increment(u[of.phase[k]], of.y.degree, s, w, kept[k].value));
+    shown[k] = kept[k].value;
   }
+}
+
+template <class Real>
+void FrontEnd::follow_terminals(const FrontEndSegment<Real>& of, const plant::TerminalSeries<Real>& u) {
+  if (reading_.voltages) follow_legs(config_.divider_s, of, u, terminal_, reading_.terminal_V);
+  if (config_.has_comparators())
+    follow_legs(config_.comparators.lag_s, of, u, comparator_, reading_.comparator_V);
 }
 
 /// Of a firmware that is told what is.

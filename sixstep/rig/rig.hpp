@@ -60,7 +60,11 @@ class Rig {
                    read_by_chip(wires_.at_pins(probes_.code(plant_.sector()))), shaft_angle()}),
         front_end_(front_end_before(board.front_end)),
         crossings_(crossings_before(board.front_end)),
-        listens_(listens()) {}
+        listens_(listens()) {
+    if constexpr (has_crossings)
+      if (crossings_.fitted() && crossings_.lines() != 0)
+        firmware_.captured_crossing(crossings_.lines(), now_);
+  }
 
   sim::Instant now() const { return now_; }
   sim::Instant next_known() const { return due_; }
@@ -219,6 +223,7 @@ class Rig {
   void rewire(const Action& action);
   void drift(const Action& action);
   void fail_shaft_sensor(const Action& action);
+  void break_divider(std::size_t leg);
   void control_step(bool starts_period);
   void follow_waveform();
   void skip_idle_ticks();

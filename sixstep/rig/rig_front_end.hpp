@@ -58,7 +58,7 @@ void Rig<Real, Firmware, Plant>::show_signals(Real s, const sim::Instant& to) {
     const FrontEndSegment<Real> of = segment(s, to);
     front_end_.follow(of);
     if constexpr (looks_at_terminals)
-      if (front_end_.reading().voltages) front_end_.follow_terminals(of, plant::terminal_series(plant_, s));
+      if (front_end_.follows_terminals()) front_end_.follow_terminals(of, plant::terminal_series(plant_, s));
   }
 }
 

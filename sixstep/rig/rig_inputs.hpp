@@ -73,6 +73,8 @@ void Rig<Real, Firmware, Plant>::do_action(const Action& action) {
     case ActionKind::false_index:
     case ActionKind::excitation:
       return fail_shaft_sensor(action);
+    case ActionKind::divider_breaks:
+      return break_divider(static_cast<std::size_t>(action.value));
     case ActionKind::setpoint:
       break;
   }
@@ -239,6 +241,21 @@ void Rig<Real, Firmware, Plant>::fail_shaft_sensor(const Action& action) {
     if (action.kind == ActionKind::encoder_line_whole) ports.free_line(which, now_);
     if (action.kind == ActionKind::false_index) ports.pulse_index();
     if (action.kind == ActionKind::excitation) ports.excite(action.value);
+  }
+}
+
+/// Of a firmware that looks at the terminals.
+template <class Real, class Firmware, class Plant>
+void Rig<Real, Firmware, Plant>::break_divider(std::size_t leg) {
+  if constexpr (requires { firmware_.break_divider(leg); }) {
+    firmware_.break_divider(leg);
+    if constexpr (has_crossings) {
+      const std::uint8_t before = crossings_.lines();
+      if (!crossings_.fitted()) return;
+      crossings_.break_divider(leg, front_end_.reading());
+      if (crossings_.lines() != before) firmware_.captured_crossing(crossings_.lines(), now_);
+      moved_ = true;
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 //   SensorlessDrive   terminals and bus as counts, currents   sensorless_drive_       bridge off, starts again; after so
 //                     as SensedDrive                          commutate               many losses in a row off for good
 //
+// Comparators at the terminals have their edges captured by the same timer (crossing_comparators.hpp).
 // Terminals and bus hang at like dividers and converters: sensors.bus says which. The timer is sensors.capture_Hz. Where pulses
 // are to ask how the rotor stands (control/commissioning/pulse_start.hpp), it reads the counts of the currents, too.
 #pragma once
@@ -28,15 +29,18 @@ class SensorlessDrive {
       : config_(config),
         sensors_(board.sensors, board.bases, power_up),
         bases_(board.bases),
-        capture_Hz_(board.sensors.capture_Hz) {}
+        capture_Hz_(board.sensors.capture_Hz),
+        period_s_(static_cast<double>(board.modulator.period_ticks) / sim::ticks_per_second) {
+    for (std::size_t k = 0; k < 3; ++k) gain_[k] = 1.0 + board.front_end.divider_gain_error[k];
+  }
 
   /// The terminals as they are at the sample that is about to come, V.
   template <class Real>
   void look_at_terminals(const plant::PerLeg<Real>& u) {
-    for (std::size_t k = 0; k < 3; ++k) terminal_V_[k] = dead_[k] ? 0.0 : static_cast<double>(u[k]);
+    for (std::size_t k = 0; k < 3; ++k) terminal_V_[k] = gain_[k] * static_cast<double>(u[k]);
   }
-  /// The divider of a leg breaks: it reads 0 from now on.
-  void break_divider(std::size_t leg) { dead_[leg] = true; }
+  /// The upper resistor of a leg's divider breaks: the lower one holds it at 0 from now on.
+  void break_divider(std::size_t leg) { gain_[leg] = 0.0; }
 
   template <class Real>
   const Command& tick(const SampleInstant<Real>& instant, double setpoint) {
@@ -57,6 +61,8 @@ class SensorlessDrive {
     seen.terminals.at = registers.counter(instant.at);
     seen.on = config_.drive.sensorless.crossing.seen == control::NeutralSeen::on_time && command().enabled &&
               instant.duty > surely_on;
+    if (config_.drive.sensorless.captured.period_ticks > 0)
+      seen.on_ticks = static_cast<std::uint32_t>(instant.duty * period_s_ * capture_Hz_);
     const bool asks = state_.pulsing;
     const std::uint8_t before = rotor().sector;
     control::pulsed_drive_step(config_, state_, input, {from_si<Scalar>(setpoint, bases_.setpoint)},
@@ -66,6 +72,10 @@ class SensorlessDrive {
     note_losses(instant.at);
     find_next(instant.at);
     return command();
+  }
+  /// An edge of the comparators at the terminals, their lines as bits 2, 1, 0 of legs a, b, c.
+  void captured_crossing(std::uint8_t lines, const sim::Instant& at) {
+    control::sensorless_capture(state_.drive.sensorless, lines, sensors_.registers().counter(at));
   }
   void captured(std::uint8_t pins, const sim::Instant& at) { sensors_.hall_edge(pins, at); }
   const Command& hall_interrupt(std::uint8_t pins, const sim::Instant& at) {
@@ -139,9 +149,9 @@ class SensorlessDrive {
   Config config_;
   Sensors<Scalar> sensors_;
   Bases bases_;
-  double capture_Hz_;
-  double terminal_V_[3]{};
-  bool dead_[3]{}, moved_on_ = false;
+  double capture_Hz_, period_s_;
+  double terminal_V_[3]{}, gain_[3]{};
+  bool moved_on_ = false;
   sim::Instant next_ = sim::Instant::never(), lost_at_{};
   int losses_ = 0, in_a_row_ = 0, unseen_ = 0;
   control::PulsedDriveState<Scalar> state_{};

@@ -132,6 +132,46 @@ TEST(SensorlessStart, HandsOverTheRampsTorqueAndItsDrag) {
   EXPECT_EQ(design::sensorless_start(rubbing, spec, 1.0)->start_output, 1.0);
 }
 
+/// Against the virtual star 5 tau are half a sector at no load, 183 us; against half the bus 7 tau the least on-time, 1.5 us. Their
+/// offset and half their hysteresis come to what the lock takes for nothing, and to the lowest speed.
+TEST(SensorlessStart, ComparatorsSetLeadLockAndLowestSpeed) {
+  const double sector_s = base::pi / 3 / 8 * 0.0335 / 24;
+  const auto with = [](const design::ComparatorSpec& comparators) {
+    design::SensorlessSpec s = spec;
+    s.comparators = comparators;
+    return design::sensorless_start(maxon(), s, 5.825);
+  };
+  const auto Hz = [](double tau) { return 1 / (2 * base::pi * tau); };
+  const auto plain = design::sensorless_start(maxon(), spec, 5.825);
+  for (const bool half_bus : {false, true}) {
+    const double most_s = half_bus ? 0.05 * 30e-6 / 7 : sector_s / 10;
+    for (const double bandwidth_Hz : {0.0, 0.999 * Hz(most_s)}) {
+      const auto refused = with({true, bandwidth_Hz, half_bus});
+      ASSERT_FALSE(refused);
+      EXPECT_EQ(refused.problems()[0].where, "comparators.bandwidth_Hz");
+    }
+    const auto taken = with({true, 1.001 * Hz(most_s), half_bus, 0.02, 0.01});
+    ASSERT_TRUE(taken);
+    const control::SensorlessConfig<double>& c = taken->rotor;
+    EXPECT_TRUE(c.captured.follows);
+    EXPECT_NEAR(c.clock.lead_ticks, most_s * 16e6, 0.01 * most_s * 16e6 + 0.5);
+    EXPECT_EQ(c.captured.lag_ticks, c.clock.lead_ticks);
+    EXPECT_EQ(c.captured.period_ticks, half_bus ? 480u : 0u);
+    EXPECT_EQ(c.crossing.threshold, plain->rotor.crossing.threshold) << "samples are what they were";
+    const double y_V = 2 * 30.0 / 4096 + (half_bus ? 2 : 3) * (0.02 + 0.005);
+    EXPECT_EQ(c.lock.threshold, std::floor(y_V / (30.0 / 4096)) + 1);
+    EXPECT_NEAR(taken->highest_rad_s, base::pi / 3 / 8 / (3 * 30e-6), 1e-9);
+    EXPECT_DOUBLE_EQ(taken->least_duty,
+                     half_bus ? 2 * 3.5 / (2 * base::pi * 1.001 * Hz(most_s)) / 30e-6 : plain->least_duty);
+    const auto coarse = with({true, 1e6, half_bus, 0.4, 0.0});
+    ASSERT_TRUE(coarse);
+    EXPECT_NEAR(coarse->lowest_rad_s, 4 * (2 * 30.0 / 4096 + (half_bus ? 2 : 3) * 0.4) / (2 * 0.01675), 1e-9);
+    const auto hidden = with({true, 1e6, half_bus, 2.0, 0.0});
+    ASSERT_FALSE(hidden);
+    EXPECT_EQ(hidden.problems()[0].where, "comparators");
+  }
+}
+
 TEST(SensorlessStart, HardAndComplementaryChoppingMoveTheirDutyHalfAsFast) {
   for (const control::Chopping chopping : {control::Chopping::hard, control::Chopping::complementary}) {
     design::SensorlessSpec other = spec;

@@ -38,7 +38,7 @@ Board flywheel(const rig::CrossingComparators& comparators) {
   board.machine.back_emf = plant::BackEmf::sine;
   board.shaft = {.J_kg_m2 = 1e9};
   board.start.speed_rad_s = w;
-  board.board.front_end = {.divider_s = tau, .comparators = comparators};
+  board.board.front_end = {.comparators = comparators};
   return board;
 }
 
@@ -73,13 +73,13 @@ void expect_edges(const std::vector<Edge>& edges, double rises_late_rad, double 
 }
 
 TEST(CrossingComparators, ACoastingSineCrossesLateByTheLag) {
-  Board board = flywheel({.fitted = true});
+  Board board = flywheel({.lag_s = tau});
   board.drive.mode = control::Mode::off;
   expect_edges(edges_of(board, 20e-3), 0, 0);
 }
 
 TEST(CrossingComparators, OffsetAndHysteresisShiftTheEdges) {
-  Board board = flywheel({.fitted = true, .offset_V = {0.3, 0.3, 0.3}, .hysteresis_V = 0.5});
+  Board board = flywheel({.lag_s = tau, .offset_V = {0.3, 0.3, 0.3}, .hysteresis_V = 0.5});
   board.drive.mode = control::Mode::off;
   const double rise = std::asin((0.3 + 0.25) / amplitude()), fall = std::asin((0.3 - 0.25) / amplitude());
   expect_edges(edges_of(board, 20e-3), rise, -fall);
@@ -88,7 +88,7 @@ TEST(CrossingComparators, OffsetAndHysteresisShiftTheEdges) {
 /// Against the mean of all three the star point itself drops out, chopped or not, and with it the bus: what is left of a leg
 /// that floats is e_k less the mean of e, which a sine has none of.
 TEST(CrossingComparators, ChoppingIsNotSeenAgainstTheVirtualStar) {
-  Board board = flywheel({.fitted = true, .hysteresis_V = 0.1});
+  Board board = flywheel({.lag_s = tau, .hysteresis_V = 0.1});
   board.start.speed_rad_s = 0;
   board.shaft.locked = true;
   EXPECT_TRUE(edges_of(board, 20e-3).size() <= 2);  // of the driven pair, once
@@ -96,10 +96,10 @@ TEST(CrossingComparators, ChoppingIsNotSeenAgainstTheVirtualStar) {
 
 /// Against half the bus it is: a floating leg at u_n = 0 or U/2 in turn means d U/2 and swings about that.
 TEST(CrossingComparators, HalfTheBusIsPassedAtEveryChopWhereTheRippleReachesIt) {
-  Board board = flywheel({.fitted = true, .against = rig::CrossingReference::half_bus});
+  Board board = flywheel({.lag_s = tau, .against = rig::CrossingReference::half_bus});
   board.shaft.locked = true;
   board.start.speed_rad_s = 0;
-  board.board.front_end.divider_s = 10e-6;
+  board.board.front_end.comparators.lag_s = 10e-6;
   board.timeline.clear();
   board.setpoint(0, 0.5);
   const std::vector<Edge> edges = edges_of(board, 3e-3);

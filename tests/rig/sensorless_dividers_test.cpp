@@ -12,16 +12,6 @@ using control::SensorlessPhase;
 
 constexpr double gain_error[] = {0.01, -0.006, 0.003};
 
-struct UnlikeDividers : rig::SensorlessDrive<double> {
-  using rig::SensorlessDrive<double>::SensorlessDrive;
-  template <class Real>
-  void look_at_terminals(const plant::PerLeg<Real>& u) {
-    plant::PerLeg<double> seen;
-    for (std::size_t k = 0; k < 3; ++k) seen[k] = (1 + gain_error[k]) * static_cast<double>(u[k]);
-    rig::SensorlessDrive<double>::look_at_terminals(seen);
-  }
-};
-
 /// At the crossing u_f is U/2 and the legs stand at U and 0: y = U (g_f - g_high), and falls through 4 K_e w in a sector.
 double shift_rad(const SensorlessBench& bench, std::uint8_t sector, double w) {
   const std::size_t f = control::floating_leg(sector);
@@ -35,9 +25,10 @@ TEST(SensorlessDividers, ACrossingIsSeenBesideItsPlaceByMismatchTimesBusOverSlop
   bench.spec.mismatch = 0.016;
   bench.chip = design::sensorless_drive(
       bench.drive, *design::sensorless_start(bench.motor, bench.spec, bench.drive.current_at_full_torque_A));
+  for (std::size_t k = 0; k < 3; ++k) bench.board.front_end.divider_gain_error[k] = gain_error[k];
   const double p = bench.motor.machine.pole_pairs;
   bench.setpoint(0, 0.6 * bench.no_load_rad_s());
-  auto rig = bench.rig<UnlikeDividers>();
+  auto rig = bench.rig();
   run_until(rig, 2.0);
   ASSERT_EQ(phase(rig), SensorlessPhase::running);
   double sum_rad[6]{};

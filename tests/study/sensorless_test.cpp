@@ -176,6 +176,110 @@ TEST(SensorlessScenario, RunsBehindAFilterThatIsFastEnough) {
   EXPECT_NEAR(out.comparisons[0].measured, 300.0, 1.5);
 }
 
+Scenario by_comparators(rig::CrossingReference against) {
+  Scenario s = sensorless(Mode::speed, 300.0);
+  s.sensors.capture_Hz = 16e6;
+  s.control.sensorless.lowest_part = 0.2;
+  s.control.sensorless.follows = control::Follow::comparators;
+  s.sensors.comparators = {
+      against == rig::CrossingReference::half_bus ? 200e3 : 12e3, against, {0.02, -0.01, 0.0}, 0.03};
+  return s;
+}
+
+TEST(SensorlessScenario, FollowsComparators) {
+  for (const auto against : {rig::CrossingReference::virtual_star, rig::CrossingReference::half_bus}) {
+    Scenario s = by_comparators(against);
+    const auto compiled = compile(s);
+    ASSERT_TRUE(compiled) << to_string(compiled.problems()[0]);
+    const rig::CrossingComparators& fitted = compiled->board.front_end.comparators;
+    EXPECT_DOUBLE_EQ(fitted.lag_s, 1 / (2 * base::pi * *s.sensors.comparators.bandwidth_Hz));
+    EXPECT_EQ(fitted.against, against);
+    EXPECT_EQ(fitted.offset_V[1], -0.01);
+    EXPECT_EQ(fitted.hysteresis_V, 0.03);
+    ask(s, over(MetricKind::mean, Signal::speed, 2.0, 2.2));
+    const Outcome out = outcome_of(s);
+    ASSERT_FALSE(out.fault) << to_string(*out.fault);
+    EXPECT_TRUE(out.notes.empty()) << out.notes[0];
+    EXPECT_NEAR(out.comparisons[0].measured, 300.0, 1.5);
+  }
+}
+
+/// The number that the cure gives is taken.
+TEST(SensorlessScenario, SaysTheBandwidthThatComparatorsNeed) {
+  for (const auto against : {rig::CrossingReference::virtual_star, rig::CrossingReference::half_bus})
+    for (const std::optional<double> wrong : {std::optional<double>{}, std::optional<double>(100.0)}) {
+      Scenario s = by_comparators(against);
+      s.sensors.comparators.bandwidth_Hz = wrong;
+      const auto refused = compile(s);
+      ASSERT_FALSE(refused);
+      const base::Problem& told = refused.problems()[0];
+      EXPECT_EQ(told.where, "sensors.comparators.bandwidth_Hz");
+      const std::size_t digits = told.cure.find_first_of("0123456789");
+      ASSERT_NE(digits, std::string::npos) << told.cure;
+      s.sensors.comparators.bandwidth_Hz = std::stod(told.cure.substr(digits));
+      EXPECT_TRUE(compile(s)) << told.cure;
+    }
+}
+
+TEST(SensorlessScenario, ComparatorsThatHideTheBackEmfAreRefused) {
+  Scenario s = by_comparators(rig::CrossingReference::virtual_star);
+  s.sensors.comparators.offset_V = {1.5, 0, 0};
+  const auto refused = compile(s);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.problems()[0].where, "sensors.comparators");
+}
+
+/// The divider's zero where the terminal stands elsewhere is a loss of one of three names; it goes on trying, and gives up.
+TEST(SensorlessScenario, ADividerBreaksAtAnInstant) {
+  for (const Wire leg : {Wire::a, Wire::b, Wire::c})
+    for (const bool comparators : {false, true}) {
+      Scenario s =
+          comparators ? by_comparators(rig::CrossingReference::virtual_star) : sensorless(Mode::speed, 300.0);
+      At at;
+      at.time_s = 1.8;
+      at.sensors.broken_divider = leg;
+      s.at = {at};
+      EXPECT_TRUE(check(s).empty());
+      const Outcome out = outcome_of(s);
+      ASSERT_TRUE(out.fault || !out.notes.empty());
+      const std::string told = out.fault ? to_string(*out.fault) : out.notes[0];
+      EXPECT_THAT(told, ::testing::AnyOf(HasSubstr("divider"), HasSubstr("demagnetisation"),
+                                         HasSubstr("crossing"), HasSubstr("start")))
+          << static_cast<int>(leg);
+      s.at.clear();
+      const Outcome whole = outcome_of(s);
+      EXPECT_TRUE(!whole.fault && whole.notes.empty());
+    }
+}
+
+TEST(SensorlessScenario, TerminalsKeysAreOfTheDriveThatLooksAtThem) {
+  const auto where = [](const Scenario& s) {
+    const base::Problems found = check(s);
+    return found.empty() ? std::string() : found[0].where;
+  };
+  Scenario s = sensorless(Mode::speed, 100.0);
+  s.sensors.terminal_gain_error = {0.01, -0.006, 0.003};
+  EXPECT_EQ(where(s), "");
+  const auto compiled = compile(s);
+  ASSERT_TRUE(compiled);
+  EXPECT_EQ(compiled->board.front_end.divider_gain_error[1], -0.006);
+  s.sensors.terminal_gain_error = {0.01};
+  EXPECT_EQ(where(s), "sensors.terminal_gain_error");
+  s.sensors.terminal_gain_error.clear();
+  s.sensors.comparators.hysteresis_V = 0.1;
+  EXPECT_EQ(where(s), "sensors.comparators");
+  s = sensorless(Mode::speed, 100.0);
+  s.control.drive = FirmwareKind::lean;
+  s.sensors.terminal_gain_error = {0.01, 0, 0};
+  EXPECT_EQ(where(s), "sensors.terminal_gain_error");
+  s.sensors.terminal_gain_error.clear();
+  At at;
+  at.time_s = 0.1;
+  at.sensors.broken_divider = Wire::a;
+  s.at = {at};
+  EXPECT_EQ(where(s), "at[0].sensors.broken_divider");
+}
+
 TEST(SensorlessScenario, IsRefusedWhereItsCurrentDoesNotMoveTheLoad) {
   Scenario s = sensorless(Mode::speed, 100.0);
   s.control.sensorless.greatest_load = 3.0;

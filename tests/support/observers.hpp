@@ -15,7 +15,7 @@ inline constexpr control::Follow three_observers[] = {control::Follow::luenberge
                                                       control::Follow::sliding_mode, control::Follow::flux};
 
 inline const char* word(control::Follow follow) {
-  constexpr const char* words[] = {"crossings", "Luenberger", "sliding mode", "flux linkage"};
+  constexpr const char* words[] = {"crossings", "Luenberger", "sliding mode", "flux linkage", "comparators"};
   return words[static_cast<std::size_t>(follow)];
 }
 
@@ -81,6 +81,7 @@ control::SensorlessDriveConfig<Scalar> in_fixed_point(SensorlessBench& bench) {
   c.source = d.source;
   const control::SensorlessConfig<double>& from = d.sensorless;
   c.sensorless.crossing = from.crossing;
+  c.sensorless.captured = from.captured;
   c.sensorless.clock = from.clock;
   c.sensorless.spin = from.spin;
   c.sensorless.lock = from.lock;

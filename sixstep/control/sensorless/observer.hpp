@@ -23,7 +23,12 @@
 
 namespace sixstep::control {
 
-enum class Follow : std::uint8_t { crossings, luenberger, sliding_mode, flux };
+/// Comparators' edges are the terminal's own crossings (captured_crossing.hpp): no observer either.
+enum class Follow : std::uint8_t { crossings, luenberger, sliding_mode, flux, comparators };
+
+constexpr bool observes(Follow follow) {
+  return follow != Follow::crossings && follow != Follow::comparators;
+}
 
 /// The default follows the terminal's crossings, and costs a branch.
 template <class Scalar>
@@ -123,6 +128,7 @@ constexpr Scalar observed_voltage(const ObserverConfig<Scalar>& config, Observer
       return known ? flux_linkage_step(config.flux, state.flux, w_V, i_A)
                    : flux_linkage_hold(state.flux, i_A);
     case Follow::crossings:
+    case Follow::comparators:
       break;
   }
   return Scalar{};
@@ -136,7 +142,7 @@ constexpr Observed observer_step(const ObserverConfig<Scalar>& config, ObserverS
                                  const TerminalSample& s, const BridgeCommand<Scalar>& command,
                                  const Measurement<Scalar>& measured, std::uint8_t sector) {
   using T = ScalarTraits<Scalar>;
-  if (config.follow == Follow::crossings || sector > 5) return {};
+  if (!observes(config.follow) || sector > 5) return {};
   const bool falls = sector % 2 == 0, moved = sector != state.sector;
   const std::uint8_t leg = floating_leg(sector);
   FloatingVoltage<Scalar> now = floating_voltage(config.voltage, s, leg, falls, command, measured.bus_V);

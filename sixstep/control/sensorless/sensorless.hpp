@@ -9,7 +9,8 @@
 // `following`: another source commutates, this one only watches, so that it can take over in flight.
 //
 // Call sensorless_step once per control tick with the samples of that tick, and sensorless_commutate where the timer
-// reaches state.clock.next while state.clock.scheduled. What is late already when it is found is done in the step.
+// reaches state.clock.next while state.clock.scheduled. What is late already when it is found is done in the step. Where
+// comparators stand at the terminals, sensorless_capture takes each of their edges.
 #pragma once
 #include <cstdint>
 
@@ -31,6 +32,11 @@ constexpr void sensorless_commutate(const SensorlessConfig<Scalar>& config, Sens
                                     std::uint32_t now) {
   detail::begin_sector(config, state, state.direction, now);
   if (state.phase == SensorlessPhase::ramping) ramp_commutated(state.start);
+}
+
+/// The capture interrupt of comparators at the terminals: their three lines as they stand from `at` on.
+constexpr void sensorless_capture(SensorlessState& state, std::uint8_t lines, std::uint32_t at) {
+  capture_lines(state.captured, lines, at);
 }
 
 /// One control tick.
@@ -83,8 +89,7 @@ template <class Scalar>
 constexpr void sensorless_follow(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                  const SensorlessInput& input) {
   state.phase = SensorlessPhase::following;
-  const CrossingReading reading =
-      zero_crossing_step(config.crossing, state.crossing, input.terminals, input.on);
+  const CrossingReading reading = detail::crossing_of(config, state, input);
   if (reading.crossing == Crossing::seen) detail::take_crossing(config, state, reading.at);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The drive of drive.hpp around a position without a sensor: what firmware calls. Three entries: sensorless_drive_step once
 // per control tick, sensorless_drive_commutate where the timer reaches next_commutation, and sensorless_drive_hall in the
-// Hall interrupt of a motor that has probes, too.
+// Hall interrupt of a motor that has probes, too; sensorless_capture (sensorless.hpp) in that of comparators.
 //
 // While the start has the word the current loop is held to the start's current, whatever the mode. At the hand-over the
 // loops go on from there: a speed loop's output begins as what the ramp takes of that current, which holds more in reserve;
@@ -43,7 +43,8 @@ struct SensorlessDriveInput {
   Measurement<Scalar> measured{};
   TerminalSample terminals{};
   std::uint8_t hall_pins = 0;
-  bool on = false;  ///< the pair's switches are on at the sample
+  bool on = false;             ///< the pair's switches are on at the sample
+  std::uint32_t on_ticks = 0;  ///< of the timer, how long around it; for comparators against half the bus
 };
 
 namespace detail {
@@ -108,7 +109,7 @@ constexpr const BridgeCommand<Scalar>& sensorless_drive_step(const SensorlessDri
   const Observed observed = observer_step(config.observer, state.observer, input.terminals,
                                           state.drive.command, measured, rotor.sector);
   if (state.source.source == RotorSource::hall) {
-    sensorless_follow(config.sensorless, rotor, {input.terminals, 0, input.on});
+    sensorless_follow(config.sensorless, rotor, {input.terminals, 0, input.on, input.on_ticks});
     state.by_start = false;
     measured.hall = state.source.broken ? std::uint8_t{0}
                                         : as_120_degrees(config.source.hall.arrangement, input.hall_pins);
@@ -117,7 +118,7 @@ constexpr const BridgeCommand<Scalar>& sensorless_drive_step(const SensorlessDri
   const std::int8_t wanted = detail::wanted_direction(config.drive, setpoint.value,
                                                       sensorless_position(config.sensorless, rotor, now));
   const bool from_ramp = rotor.phase == SensorlessPhase::ramping;
-  sensorless_step(config.sensorless, rotor, {input.terminals, wanted, input.on, observed});
+  sensorless_step(config.sensorless, rotor, {input.terminals, wanted, input.on, input.on_ticks, observed});
   const SensorlessAnswer<Scalar> answer = sensorless_answer(config.sensorless, rotor, wanted);
   measured.hall = hall_of_sector(rotor.sector);
   // An estimate tells of an instant that has passed: a crossing behind that is not missing yet.

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 
+#include "sixstep/control/sensorless/captured_crossing.hpp"
 #include "sixstep/control/sensorless/lock.hpp"
 #include "sixstep/control/sensorless/observer.hpp"
 #include "sixstep/control/sensorless/spin.hpp"
@@ -17,6 +18,7 @@ enum class SensorlessPhase : std::uint8_t { off, catching, aligning, ramping, ru
 template <class Scalar>
 struct SensorlessConfig {
   ZeroCrossingConfig crossing{};
+  CapturedCrossingConfig captured{};
   CommutationClockConfig clock{};
   SpinConfig spin{};
   StartUpConfig<Scalar> start{};
@@ -28,9 +30,10 @@ struct SensorlessConfig {
 
 struct SensorlessInput {
   TerminalSample terminals{};
-  std::int8_t wanted = 0;  ///< direction: 1, -1; 0 where the drive is to stand or run out
-  bool on = false;         ///< the driven pair's switches are on at the sample
-  Observed observed{};     ///< what an observer makes of it
+  std::int8_t wanted = 0;      ///< direction: 1, -1; 0 where the drive is to stand or run out
+  bool on = false;             ///< the driven pair's switches are on at the sample
+  std::uint32_t on_ticks = 0;  ///< how long around it; for comparators against half the bus
+  Observed observed{};         ///< what an observer makes of it
 };
 
 struct SensorlessState {
@@ -40,6 +43,7 @@ struct SensorlessState {
   bool settled = false;  ///< catching: the currents have ended
   std::uint32_t commutated_at = 0;
   ZeroCrossingState crossing{};
+  CapturedLines captured{};
   CommutationClockState clock{};
   SpinState spin{};
   StartUpState start{};
@@ -63,6 +67,16 @@ constexpr void begin_sector(const SensorlessConfig<Scalar>& config, SensorlessSt
   const std::uint32_t half = sector_ticks(config.clock, state.clock) / 2;
   const std::uint32_t since = now - state.clock.crossings.times[0];
   zero_crossing_begin(state.crossing, state.sector, since < half ? half - since : 0, now);
+}
+
+/// Behind the start: the terminal's own crossing, by its samples or by the comparators' edges.
+template <class Scalar>
+constexpr CrossingReading crossing_of(const SensorlessConfig<Scalar>& config, SensorlessState& state,
+                                      const SensorlessInput& input) {
+  if (!config.captured.follows)
+    return zero_crossing_step(config.crossing, state.crossing, input.terminals, input.on);
+  return captured_crossing_step(config.captured, config.crossing, state.crossing, state.captured,
+                                input.terminals, input.on, input.on_ticks);
 }
 
 constexpr void catch_spin(SensorlessState& state, std::uint32_t now) {
@@ -194,7 +208,7 @@ constexpr void running_step(const SensorlessConfig<Scalar>& config, SensorlessSt
   const CrossingReading reading =
       input.observed.follows
           ? observed_crossing_step(config.crossing, state.crossing, input.terminals, input.observed, input.on)
-          : zero_crossing_step(config.crossing, state.crossing, input.terminals, input.on);
+          : crossing_of(config, state, input);
   if (reading.crossing != Crossing::none) {
     const std::uint32_t at = reading.crossing == Crossing::seen ? reading.at : passed_at(config, state, now);
     const std::uint32_t T = sector_ticks(config.clock, state.clock);

@@ -28,8 +28,9 @@ void fields(Walk&& w, const control::StartUpConfig<double>& d, Kept& kept) {
 
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::SensorlessConfig<double>& d, Kept& kept, bool measures_position) {
-  auto& [crossing, clock, spin, start, lock, speed, position] = kept;
+  auto& [crossing, captured, clock, spin, start, lock, speed, position] = kept;
   crossing = d.crossing;
+  captured = d.captured;
   clock = d.clock;
   spin = d.spin;
   lock = d.lock;

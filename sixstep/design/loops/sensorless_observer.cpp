@@ -54,7 +54,7 @@ double flux_level_V_s(const plant::Machine& machine) {
 base::Result<SensorlessObserver> sensorless_observer(const MotorModel& motor, const SensorlessSpec& spec,
                                                      control::Follow follow) {
   SensorlessObserver out;
-  if (follow == control::Follow::crossings) return out;
+  if (!control::observes(follow)) return out;
   if (base::Problems problems = problems_of(motor, spec); !problems.empty()) return problems;
   const plant::Machine& machine = motor.machine;
   const double T = spec.period_s, sector_rad = base::sector_rad / machine.pole_pairs;

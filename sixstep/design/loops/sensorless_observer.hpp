@@ -29,7 +29,7 @@ struct SensorlessObserver {
 };
 
 /// For the same motor and board as sensorless_start. Problems name the key: samples in the freewheel show a terminal that
-/// a diode may hold; an inductance of nothing has no equation. Follow::crossings gives the default.
+/// a diode may hold; an inductance of nothing has no equation. What is no observer gives the default.
 base::Result<SensorlessObserver> sensorless_observer(const MotorModel& motor, const SensorlessSpec& spec,
                                                      control::Follow follow);
 

@@ -18,9 +18,10 @@ constexpr double falling = 0.25;  // of the current, while the rotor falls towar
 constexpr double fastest = 1.5;   // no-load speeds: nothing turns faster
 constexpr double slowest = 0.4;   // of the lowest speed: given up below
 constexpr double fluxes = 2.0;    // T may be late by so much in a steep acceleration
-constexpr double periods_a_sector = 4.0, filtered_periods_a_sector = 5.0;
-constexpr double rail_part = 0.03;  // of the bus
-constexpr double rail_lags = 3.5;   // exp(-3.5) is that part
+constexpr double periods_a_sector = 4.0, filtered_periods_a_sector = 5.0, captured_periods_a_sector = 3.0;
+constexpr double rail_part = 0.03;       // of the bus
+constexpr double rail_lags = 3.5;        // exp(-3.5) is that part
+constexpr double forgetting_lags = 5.0;  // exp(-5) of the bus is less than the back-EMF of a slow rotor
 
 std::uint32_t whole(double x) {
   return x < 0.0 ? 0u : x < 4294967295.0 ? static_cast<std::uint32_t>(std::floor(x + 0.5)) : 0xffffffffu;
@@ -32,7 +33,9 @@ struct Basis {
   const SensorlessSpec& spec;
   double R_tt = 0.0, no_load_rad_s = 0.0, nominal_A = 0.0, start_A = 0.0, load_Nm = 0.0;
   double lsb_V = 0.0, threshold_V = 0.0, lowest_rad_s = 0.0;
-  double lag_s = 0.0;  ///< of the terminals' filters
+  double lock_V = 0.0;            ///< the threshold with what comparators are off by
+  double lag_s = 0.0;             ///< of the terminals' filters
+  double comparator_lag_s = 0.0;  ///< of those in front of comparators that are followed
 
   double sector_s(double speed_rad_s) const {
     return base::sector_rad / (motor.machine.pole_pairs * speed_rad_s);
@@ -46,6 +49,12 @@ struct Basis {
   }
 };
 
+/// How far from nothing y may be where the line turns over.
+double comparators_V(const ComparatorSpec& c) {
+  if (!c.followed) return 0.0;
+  return (c.against_half_bus ? 2.0 : 3.0) * (c.offset_V + c.hysteresis_V / 2.0);
+}
+
 Basis basis_of(const MotorModel& motor, const SensorlessSpec& spec) {
   Basis b{motor, spec};
   b.R_tt = 2.0 * motor.machine.R_ohm;
@@ -58,9 +67,12 @@ Basis basis_of(const MotorModel& motor, const SensorlessSpec& spec) {
   b.lsb_V = range_V / static_cast<double>(1 << spec.adc_bits);
   // Of 2 u_f - u_s - u_k: variances 4 + 1 + 1, half a step each way per converter.
   b.threshold_V = noises * std::sqrt(6.0) * spec.adc_noise_V + 2.0 * b.lsb_V + spec.mismatch * spec.bus_V;
+  b.lock_V = b.threshold_V + comparators_V(spec.comparators);
   b.lowest_rad_s =
-      std::max(spec.lowest_part * b.no_load_rad_s, clear * b.threshold_V / (2.0 * motor.machine.K_e_V_s));
-  if (spec.terminal_bandwidth_Hz > 0.0) b.lag_s = 1.0 / (2.0 * base::pi * spec.terminal_bandwidth_Hz);
+      std::max(spec.lowest_part * b.no_load_rad_s, clear * b.lock_V / (2.0 * motor.machine.K_e_V_s));
+  const auto lag_s = [](double Hz) { return Hz > 0.0 ? 1.0 / (2.0 * base::pi * Hz) : 0.0; };
+  b.lag_s = lag_s(spec.terminal_bandwidth_Hz);
+  if (spec.comparators.followed) b.comparator_lag_s = lag_s(spec.comparators.bandwidth_Hz);
   return b;
 }
 
@@ -78,6 +90,22 @@ control::ZeroCrossingConfig crossing_of(const Basis& b) {
                                  : whole(b.counts(b.spec.blanking_s));
   c.settle_ticks = through(b.counts(b.settle_s()));
   return c;
+}
+
+/// Of half a pulse, what its filters take.
+double settled_s(const Basis& b) {
+  const bool in_pulse = b.spec.comparators.followed && b.spec.comparators.against_half_bus;
+  return std::max(b.settle_s(), in_pulse ? rail_lags * b.comparator_lag_s : 0.0);
+}
+
+control::CapturedCrossingConfig captured_of(const Basis& b) {
+  const ComparatorSpec& c = b.spec.comparators;
+  if (!c.followed) return {};
+  control::CapturedCrossingConfig captured{.follows = true, .lag_ticks = whole(b.counts(b.comparator_lag_s))};
+  if (!c.against_half_bus) return captured;
+  captured.period_ticks = whole(b.counts(b.spec.period_s));
+  captured.settle_ticks = whole(b.counts(rail_lags * b.comparator_lag_s));
+  return captured;
 }
 
 control::SpinConfig spin_of(const Basis& b) {
@@ -130,7 +158,7 @@ control::StartUpConfig<double> start_of(const Basis& b, const control::ZeroCross
 control::LockConfig lock_of(const Basis& b) {
   control::LockConfig l;
   l.shortest_ticks = whole(b.counts(b.sector_s(fastest * b.no_load_rad_s)));
-  l.threshold = static_cast<std::int32_t>(b.threshold_V / b.lsb_V) + 1;
+  l.threshold = static_cast<std::int32_t>(b.lock_V / b.lsb_V) + 1;
   l.most_flux = whole(fluxes * 3.0 * b.motor.machine.K_e_V_s / b.lsb_V * b.counts(b.sector_s(1.0)));
   // A leg that its diode lets go within the on-time is seen on its way from the rail: no voltage that tells a flux.
   if (b.lag_s > 0.0 && b.spec.chopping != control::Chopping::hard) l.most_flux = 0xffffffffu;
@@ -177,11 +205,53 @@ base::Problem too_slow(const Basis& b) {
           "raise it to " + base::rounded(needed_Hz, 4) + " Hz, or hand over at a higher lowest_part"};
 }
 
+/// A comparator's time constant at most: that has forgotten the freewheel half a sector later, or is settled in half a pulse.
+double longest_comparator_lag_s(const Basis& b) {
+  if (b.spec.comparators.against_half_bus) return b.least_on_s() / (2.0 * rail_lags);
+  return b.sector_s(b.no_load_rad_s) / (2.0 * forgetting_lags);
+}
+
+/// Without a low-pass comparators turn over at each edge of the pulse, with too slow a one they tell what was.
+base::Problem badly_filtered(const Basis& b) {
+  const ComparatorSpec& c = b.spec.comparators;
+  const std::string least = base::rounded(1.01 / (2.0 * base::pi * longest_comparator_lag_s(b)), 3) +
+                            " Hz";  // rounded, still enough
+  if (!(c.bandwidth_Hz > 0.0))
+    return {"comparators.bandwidth_Hz", "",
+            "is missing, and comparators without a low-pass turn over at each edge of the pulse",
+            "give it; " + least + " is slow enough here, and fast enough"};
+  return {"comparators.bandwidth_Hz", base::rounded(c.bandwidth_Hz, 4),
+          c.against_half_bus ? "is not settled within half of the least on-time"
+                             : "has not forgotten the freewheel by the crossing at no-load speed",
+          c.against_half_bus ? "raise it to " + least + ", or hand over at a higher lowest_part"
+                             : "raise it to " + least};
+}
+
+base::Problem hidden_below(const Basis& b) {
+  const double comparators = comparators_V(b.spec.comparators);
+  const std::string hides = "hides the back-EMF below " + base::rounded(b.lowest_rad_s, 4) + " rad/s";
+  if (comparators > b.threshold_V)
+    return {"comparators", base::rounded(comparators, 4) + " V off", hides,
+            "take comparators with less offset and hysteresis"};
+  return {"adc_noise_V", base::rounded(b.spec.adc_noise_V, 4), hides,
+          "take a finer or quieter converter, or dividers that are more alike"};
+}
+
+double least_periods_a_sector(const Basis& b) {
+  if (b.spec.comparators.followed) return captured_periods_a_sector;
+  return b.lag_s > 0.0 ? filtered_periods_a_sector : periods_a_sector;
+}
+
+const char* least_sector(const Basis& b) {
+  if (b.spec.comparators.followed) return "a sector in 3 periods";
+  return b.lag_s > 0.0 ? "a sector in 5 periods" : "a sector in 4 periods";
+}
+
 std::vector<DerivationStep> steps_of(const Basis& b, const SensorlessStart& s) {
   std::vector<DerivationStep> steps = {
       {"y_0", "5 sqrt(6) noise + 2 steps + mismatch U", b.threshold_V, "V"},
       {"w_low", "4 y_0/(2 K_e), at least lowest_part U/K_t", s.lowest_rad_s, "rad/s"},
-      {"w_high", b.lag_s > 0.0 ? "a sector in 5 periods" : "a sector in 4 periods", s.highest_rad_s, "rad/s"},
+      {"w_high", least_sector(b), s.highest_rad_s, "rad/s"},
       {"I_start", "overload I_N, at most 0.8 U/R_tt", b.start_A, "A"},
       {"T_swing", "2 pi sqrt(J/(p K_t I_start))", swing_s(b), "s"},
       {"a", "(K_t I_start - T_load)/(2 J)", ramp_rad_s2(b), "rad/s^2"},
@@ -190,6 +260,11 @@ std::vector<DerivationStep> steps_of(const Basis& b, const SensorlessStart& s) {
   if (b.lag_s > 0.0) {
     steps.push_back({"tau", "1/(2 pi bandwidth), taken off the commutation", b.lag_s, "s"});
     steps.push_back({"t_rail", "3.5 tau, from an edge to the rail", b.settle_s(), "s"});
+  }
+  if (b.spec.comparators.followed) {
+    steps.push_back(
+        {"y_c", "offset and half the hysteresis, beside y_0", comparators_V(b.spec.comparators), "V"});
+    steps.push_back({"tau_c", "1/(2 pi bandwidth), taken off the commutation", b.comparator_lag_s, "s"});
   }
   return steps;
 }
@@ -204,18 +279,19 @@ base::Result<SensorlessStart> sensorless_start(const MotorModel& motor, const Se
     return base::Problem{"greatest_load", base::rounded(spec.greatest_load, 4),
                          "is more than the start's current moves: " + base::rounded(b.start_A, 4) + " A",
                          "raise overload, or start against less"};
-  if (b.lowest_rad_s > 0.5 * b.no_load_rad_s)
-    return base::Problem{"adc_noise_V", base::rounded(spec.adc_noise_V, 4),
-                         "hides the back-EMF below " + base::rounded(b.lowest_rad_s, 4) + " rad/s",
-                         "take a finer or quieter converter, or dividers that are more alike"};
+  if (b.lowest_rad_s > 0.5 * b.no_load_rad_s) return hidden_below(b);
+  if (spec.comparators.followed &&
+      !(b.comparator_lag_s > 0.0 && b.comparator_lag_s <= longest_comparator_lag_s(b)))
+    return badly_filtered(b);
   if (b.spec.seen == control::NeutralSeen::on_time && 2.0 * b.settle_s() > b.least_on_s()) return too_slow(b);
   SensorlessStart out;
   out.rotor.crossing = crossing_of(b);
+  out.rotor.captured = captured_of(b);
   out.rotor.spin = spin_of(b);
   out.rotor.start = start_of(b, out.rotor.crossing);
   out.rotor.lock = lock_of(b);
   out.rotor.clock.crossings = 2;
-  out.rotor.clock.lead_ticks = whole(b.counts(b.lag_s));
+  out.rotor.clock.lead_ticks = whole(b.counts(spec.comparators.followed ? b.comparator_lag_s : b.lag_s));
   out.rotor.clock.advance =
       static_cast<std::uint16_t>(whole(std::clamp(spec.advance_deg, 0.0, 30.0) / 60.0 * 65536.0));
   set_measuring(b, out.rotor);
@@ -228,10 +304,9 @@ base::Result<SensorlessStart> sensorless_start(const MotorModel& motor, const Se
   out.duty_per_period = b.nominal_A * K_t * K_t / (motor.shaft.J_kg_m2 * swing_V) * spec.period_s;
   out.current_per_period = b.nominal_A * spec.period_s / usual_current_settle_s;
   if (spec.seen == control::NeutralSeen::on_time)
-    out.least_duty = std::min(0.5, 2.0 * std::max(spec.sampling_s, b.settle_s()) / spec.period_s);
+    out.least_duty = std::min(0.5, 2.0 * std::max(spec.sampling_s, settled_s(b)) / spec.period_s);
   out.lowest_rad_s = b.lowest_rad_s;
-  const double periods = b.lag_s > 0.0 ? filtered_periods_a_sector : periods_a_sector;
-  out.highest_rad_s = b.sector_s(1.0) / (periods * spec.period_s);
+  out.highest_rad_s = b.sector_s(1.0) / (least_periods_a_sector(b) * spec.period_s);
   out.steps = steps_of(b, out);
   return out;
 }

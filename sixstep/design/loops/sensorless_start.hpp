@@ -17,6 +17,11 @@
 //                   the 3 % of it that the chip asks for, 3.5 tau behind an edge: half of the least on-time, and the
 //                   blanking behind commutation and freewheel. That costs a sample: five control periods a sector. But in hard
 //                   chopping a diode may hold the leg up to any instant of the on-time: y keeps its sign, its size says nothing
+//   comparators     their offset and half their hysteresis are beside the threshold, counted in y: 3 times of them against
+//                   the virtual star, 2 times against half the bus. Of their low-pass the lead takes tau off. Against the virtual
+//                   star 5 tau are half a sector at no-load speed at most, so that what the freewheel left in it is gone; against
+//                   half the bus 7 tau are the least on-time. A sample behind the freewheel, one behind the edge: three
+//                   control periods a sector
 #pragma once
 #include <vector>
 
@@ -26,6 +31,15 @@
 #include "sixstep/design/loops/pole_placement.hpp"
 
 namespace sixstep::design {
+
+/// Comparators at the terminals whose edges are followed.
+struct ComparatorSpec {
+  bool followed = false;
+  double bandwidth_Hz = 0.0;      ///< of each one's low-pass
+  bool against_half_bus = false;  ///< else against the virtual star
+  double offset_V = 0.0;          ///< that a terminal may be off by, as their sheet says
+  double hysteresis_V = 0.0;      ///< from the level of one edge to that of the other
+};
 
 /// What a sensorless drive hangs at; SI.
 struct SensorlessSpec {
@@ -49,6 +63,7 @@ struct SensorlessSpec {
   control::NeutralSeen seen = control::NeutralSeen::on_time;
   double diode_V = 0.0;  ///< of the bridge's diodes: seen in a freewheel
   bool catches_spin = true;
+  ComparatorSpec comparators{};
 };
 
 /// The numbers of chip and judgement.
@@ -65,7 +80,7 @@ struct SensorlessStart {
 
 /// `motor`: with the load's inertia on its shaft. `current_at_full_output_A`: of the speed loop; 0 without one. Problems
 /// name the key that is to be changed: a bus that is not given, a load that the start current does not move, a converter
-/// too coarse to see the back-EMF below half the no-load speed.
+/// too coarse, or a comparator too far off, to see the back-EMF below half the no-load speed.
 base::Result<SensorlessStart> sensorless_start(const MotorModel& motor, const SensorlessSpec& spec,
                                                double current_at_full_output_A);
 

@@ -31,7 +31,7 @@ bool changes_nothing(const At& at) {
          !at.sensors.hall_break && changes_no_wire(at) && !drifts(at) && !fails_shaft_sensor(at) &&
          at.request == DriveRequest::none && !retunes(at) && !at.bridge.dead_time_s &&
          at.bridge.open_switch == Switch::none && at.bridge.shorted_switch == Switch::none &&
-         at.motor.broken_wire == Wire::none;
+         at.motor.broken_wire == Wire::none && at.sensors.broken_divider == Wire::none;
 }
 
 /// A reference that goes on from where it stood can not do so in another unit.

@@ -56,14 +56,42 @@ void check_start(const Scenario& s, base::Problems& out) {
 }
 
 void check_others(const Scenario& s, base::Problems& out) {
-  if (s.sensors.bus_bandwidth_Hz && s.control.sensorless.follows != control::Follow::crossings)
+  if (s.sensors.bus_bandwidth_Hz && control::observes(s.control.sensorless.follows))
     out.push_back(
         {"sensors.bus_bandwidth_Hz", base::written(*s.sensors.bus_bandwidth_Hz),
-         "is of the terminals' dividers, too, and an observer takes what it reads for what is there now",
+         "is of the terminals' dividers, too: a leg that its diode lets go within the pulse is sampled on its way "
+         "from the rail, by up to half the bus off, and an observer keeps that for periods",
          "leave it away, or set control.sensorless.follows = \"crossings\""});
   if (s.sheet.kind == design::MotorKind::linear)
     out.push_back({"control.drive", "\"sensorless\"", "starts turning motors, and this one is linear",
                    "set drive = \"lean\" or \"product\""});
+}
+
+/// Values of the three terminals are given for all or none.
+void check_terminals(const Scenario& s, base::Problems& out) {
+  const auto three = [&](const char* key, const std::vector<double>& values) {
+    if (!values.empty() && values.size() != 3)
+      out.push_back({key, std::to_string(values.size()) + " values", "is not 3, those of terminals a, b, c",
+                     "give 3, or leave it away"});
+  };
+  three("sensors.terminal_gain_error", s.sensors.terminal_gain_error);
+  three("sensors.comparators.offset_V", s.sensors.comparators.offset_V);
+  if (s.sensors.comparators != Comparators{} && s.control.sensorless.follows != control::Follow::comparators)
+    out.push_back({"sensors.comparators", "", "stands at the terminals, and nothing follows its edges",
+                   "set control.sensorless.follows = \"comparators\", or leave it away"});
+}
+
+/// Of a drive that looks at no terminal.
+void check_no_terminals(const Scenario& s, base::Problems& out) {
+  const auto refuse = [&](const std::string& key) {
+    out.push_back({key, "", "is of the terminals, which only the sensorless drive looks at",
+                   "set control.drive = \"sensorless\", or leave it away"});
+  };
+  if (!s.sensors.terminal_gain_error.empty()) refuse("sensors.terminal_gain_error");
+  if (s.sensors.comparators != Comparators{}) refuse("sensors.comparators");
+  for (std::size_t n = 0; n < s.at.size(); ++n)
+    if (s.at[n].sensors.broken_divider != Wire::none)
+      refuse("at[" + std::to_string(n) + "].sensors.broken_divider");
 }
 
 }  // namespace
@@ -73,8 +101,10 @@ void check_sensorless(const Scenario& s, base::Problems& out) {
     if (s.control.sensorless != Sensorless{})
       out.push_back({"control.sensorless", "", "is what the sensorless drive does only",
                      "set control.drive = \"sensorless\", or leave it away"});
+    check_no_terminals(s, out);
     return;
   }
+  check_terminals(s, out);
   check_sample(s, out);
   check_loops(s, out);
   check_source(s, out);

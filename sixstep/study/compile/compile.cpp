@@ -81,7 +81,8 @@ rig::BoardConfig board_of(const Scenario& s, double L_over_R_s) {
   board.delayed = s.pwm.delay_periods > 0;
   board.sampled_in_middle = s.pwm.sample == SampleAt::middle;
   board.sensors = sensors_of(s, L_over_R_s);
-  board.front_end = front_end_of(s.sensors, s.control.drive == FirmwareKind::sensorless);
+  board.front_end = front_end_of(s.sensors, s.control.drive == FirmwareKind::sensorless,
+                                 s.control.sensorless.follows == control::Follow::comparators);
   board.hall_arrangement = s.sensors.hall_spacing;
   return board;
 }

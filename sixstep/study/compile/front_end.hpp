@@ -13,15 +13,26 @@ inline double lag_s(const std::optional<double>& bandwidth_Hz) {
   return bandwidth_Hz ? 1 / (2 * base::pi * *bandwidth_Hz) : 0.0;
 }
 
+/// One value each of terminals a, b, c, or none.
+inline plant::PerLeg<double> per_terminal(const std::vector<double>& given) {
+  plant::PerLeg<double> out{};
+  for (std::size_t k = 0; k < out.size() && k < given.size(); ++k) out[k] = given[k];
+  return out;
+}
+
 /// What the controller is told as it is goes through no amplifier and no divider. Terminals that are looked at hang at
-/// dividers like the bus's, whether that is read or not.
-inline rig::FrontEndConfig front_end_of(const Sensors& s, bool looks_at_terminals) {
+/// dividers like the bus's, whether that is read or not; comparators there are for a drive that follows them.
+inline rig::FrontEndConfig front_end_of(const Sensors& s, bool looks_at_terminals, bool follows_comparators) {
   rig::FrontEndConfig to;
   if (s.currents != rig::CurrentMeasurement::ideal) {
     to.amplifier_s = lag_s(s.current_bandwidth_Hz);
     to.amplifier_delay_ticks = sim::to_instant(s.current_delay_s).ticks;
   }
   if (s.bus == BusSensing::adc || looks_at_terminals) to.divider_s = lag_s(s.bus_bandwidth_Hz);
+  to.divider_gain_error = per_terminal(s.terminal_gain_error);
+  if (looks_at_terminals && follows_comparators)
+    to.comparators = {lag_s(s.comparators.bandwidth_Hz), s.comparators.against,
+                      per_terminal(s.comparators.offset_V), s.comparators.hysteresis_V};
   return to;
 }
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sensorless drive of a scenario: board and motor as they are told, every other number by design/loops/.
+#include <algorithm>
+#include <cmath>
+
 #include "sixstep/design/loops/pulse_start.hpp"
 #include "sixstep/design/loops/sensorless_observer.hpp"
 #include "sixstep/study/compile/basis.hpp"
@@ -8,6 +11,15 @@
 namespace sixstep::study {
 
 namespace {
+
+design::ComparatorSpec comparators_of(const Comparators& from) {
+  design::ComparatorSpec to{.followed = true,
+                            .bandwidth_Hz = from.bandwidth_Hz.value_or(0.0),
+                            .against_half_bus = from.against == rig::CrossingReference::half_bus,
+                            .hysteresis_V = from.hysteresis_V};
+  for (const double offset_V : from.offset_V) to.offset_V = std::max(to.offset_V, std::fabs(offset_V));
+  return to;
+}
 
 design::SensorlessSpec spec_of(const Scenario& s, const Basis& basis,
                                const control::DriveConfig<double>& drive) {
@@ -30,6 +42,8 @@ design::SensorlessSpec spec_of(const Scenario& s, const Basis& basis,
   spec.chopping = s.pwm.chopping;
   spec.diode_V = s.bridge.diode_drop_V;
   spec.catches_spin = wanted.catches_spin;
+  if (wanted.follows == control::Follow::comparators)
+    spec.comparators = comparators_of(s.sensors.comparators);
   return spec;
 }
 
@@ -62,6 +76,8 @@ base::Problems under_their_keys(const base::Problems& problems) {
       {"adc_bits", "sensors.adc_bits"},
       {"terminal_bandwidth_Hz", "sensors.bus_bandwidth_Hz"},
       {"capture_Hz", "sensors.capture_Hz"},
+      {"comparators", "sensors.comparators"},
+      {"comparators.bandwidth_Hz", "sensors.comparators.bandwidth_Hz"},
       {"bus_V", "supply.voltage_V"},
       {"period_s", "pwm.period_s"}};
   base::Problems out = problems;

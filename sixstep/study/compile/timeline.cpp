@@ -72,6 +72,8 @@ void add_event(const At& at, rig::Timeline& timeline) {
   if (at.sensors.current_offset_A) add(ActionKind::current_offset, *at.sensors.current_offset_A);
   if (at.sensors.current_gain_error) add(ActionKind::current_gain, *at.sensors.current_gain_error);
   add_shaft_faults(at.sensors, add);
+  if (at.sensors.broken_divider != Wire::none)
+    add(ActionKind::divider_breaks, static_cast<double>(at.sensors.broken_divider) - 1.0);
   if (at.bridge.dead_time_s)
     add(ActionKind::dead_time, static_cast<double>(sim::to_instant(*at.bridge.dead_time_s).ticks));
   if (at.bridge.open_switch != Switch::none)

@@ -60,6 +60,9 @@ struct AtEncoderLine {
 /// A resolver's winding whose line breaks, beside those broken before; or both are whole again.
 enum class Winding : std::uint8_t { none, cosine, sine, whole };
 
+/// A wire or a divider, by its terminal.
+enum class Wire : std::uint8_t { none, a, b, c };
+
 struct AtSensors {
   std::optional<AtHallBreak> hall_break;
   AtOrder hall_lines = AtOrder::same;
@@ -71,6 +74,7 @@ struct AtSensors {
   std::optional<bool> false_index;
   Winding broken_winding = Winding::none;
   std::optional<double> excitation;
+  Wire broken_divider = Wire::none;
 };
 
 /// What the product drive is asked for.
@@ -131,9 +135,6 @@ struct AtPwm {
   AtChopping chopping = AtChopping::same;
   bool operator==(const AtPwm&) const = default;
 };
-
-/// A motor's wire, by its terminal.
-enum class Wire : std::uint8_t { none, a, b, c };
 
 struct AtMotor {
   Wire broken_wire = Wire::none;

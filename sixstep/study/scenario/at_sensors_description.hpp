@@ -10,7 +10,7 @@ namespace sixstep::study {
 inline constexpr std::string_view what_may_change =
     "during a run change only: reference; supply.voltage_V, supply.sinks; load.torque_Nm, load.locked; "
     "sensors.hall_break, .hall_lines, .hall_inverted, .current_offset_A, .current_gain_error, .missed_edges, "
-    ".encoder_line, .false_index, .bad_track, .broken_winding, .excitation; request; control.mode, .slew, .current "
+    ".encoder_line, .false_index, .bad_track, .broken_winding, .excitation, .broken_divider; request; control.mode, .slew, .current "
     "(its gains, band_A, limit_A), .speed (its "
     "gains, torque_limit_Nm), .position, .limits (current_A, torque_Nm, speed_rad_s), .sensorless.commutates; "
     "pwm.chopping; "
@@ -85,6 +85,13 @@ inline constexpr base::Choice<Winding> winding_choices[] = {
     {"whole", Winding::whole, "both are whole again"},
 };
 
+inline constexpr base::Choice<Wire> divider_choices[] = {
+    {"none", Wire::none, "all three are whole"},
+    {"a", Wire::a, "that of terminal a"},
+    {"b", Wire::b, "that of terminal b"},
+    {"c", Wire::c, "that of terminal c"},
+};
+
 template <class Visitor>
 void describe(Visitor& v, AtSensors& s) {
   v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks then, or is whole again"});
@@ -115,6 +122,8 @@ void describe(Visitor& v, AtSensors& s) {
   v.value("excitation", s.excitation,
           {.meaning = "the resolver's excitation from then on, as a part of the full one",
            .range = base::between(0, 2)});
+  v.choice("broken_divider", s.broken_divider, divider_choices,
+           {.meaning = "a terminal's divider whose upper resistor opens then: it shows 0"});
 }
 
 }  // namespace sixstep::study

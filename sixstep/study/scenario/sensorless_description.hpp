@@ -16,6 +16,8 @@ inline constexpr base::Choice<control::Follow> follow_choices[] = {
     {"luenberger", control::Follow::luenberger, "the crossing of a Luenberger observer's back-EMF"},
     {"sliding-mode", control::Follow::sliding_mode, "that of a sliding-mode observer"},
     {"flux-linkage", control::Follow::flux, "the flux linkage since the crossing: it says when to commutate"},
+    {"comparators", control::Follow::comparators,
+     "the terminal's crossing by the captured edges of sensors.comparators"},
 };
 
 inline constexpr base::Choice<StartsBy> starts_by_choices[] = {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sixstep/control/hall.hpp"
+#include "sixstep/rig/front_end_config.hpp"
 #include "sixstep/rig/sensors.hpp"
 #include "sixstep/rig/wiring.hpp"
 
@@ -69,6 +70,15 @@ struct Resolver {
   double latency_s = 0.0;
 };
 
+/// Comparators at the terminals; they count where control.sensorless.follows names them.
+struct Comparators {
+  std::optional<double> bandwidth_Hz;
+  rig::CrossingReference against = rig::CrossingReference::virtual_star;
+  std::vector<double> offset_V{};  // 3, of a, b, c
+  double hysteresis_V = 0.0;
+  bool operator==(const Comparators&) const = default;
+};
+
 struct Sensors {
   rig::CurrentMeasurement currents = rig::CurrentMeasurement::ideal;
   int adc_bits = 12;
@@ -87,6 +97,7 @@ struct Sensors {
   double bus_gain_error = 0.0;
   double bus_noise_V = 0.0;
   std::optional<double> bus_bandwidth_Hz;
+  std::vector<double> terminal_gain_error{};  // 3, of a, b, c
   RotorSensing rotor = RotorSensing::ideal;
   double capture_Hz = 1e6;
   int speed_edges = 0;  // 0: six where the speed loop stands their delay, else one
@@ -108,6 +119,7 @@ struct Sensors {
   Encoder encoder;
   AbsoluteEncoder absolute;
   Resolver resolver;
+  Comparators comparators;
   HallBreak hall_break;
 };
 

@@ -2,6 +2,7 @@
 // The keys of [sensors]: names, units, ranges and meanings.
 #pragma once
 #include "sixstep/base/describe.hpp"
+#include "sixstep/study/scenario/comparators_description.hpp"
 #include "sixstep/study/scenario/sensors.hpp"
 
 namespace sixstep::study {
@@ -248,6 +249,11 @@ void describe(Visitor& v, Sensors& s) {
            "terminals' dividers alike; without it there is none",
        .unit = "Hz",
        .range = base::between(1, 1e9)});
+  v.value("terminal_gain_error", s.terminal_gain_error,
+          {.meaning =
+               "how much too large the dividers of terminals a, b, c show them, as parts: 3 values; what the "
+               "drive knows of it is control.sensorless.mismatch",
+           .range = base::between(-0.5, 0.5)});
   v.choice("rotor", s.rotor, rotor_sensing_choices,
            {.meaning = "how the controller gets speed and position"});
   v.value("capture_Hz", s.capture_Hz,
@@ -294,6 +300,8 @@ void describe(Visitor& v, Sensors& s) {
   v.table("absolute", s.absolute,
           {.meaning = "a code for every angle of the shaft, where rotor is \"absolute\""});
   v.table("resolver", s.resolver, {.meaning = "two windings at right angles, where rotor is \"resolver\""});
+  v.table("comparators", s.comparators,
+          {.meaning = "comparators at the terminals, where control.sensorless.follows is \"comparators\""});
   v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks during the run"});
 }
 

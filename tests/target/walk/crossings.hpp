@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blocks of sensorless/ that know no scalar: crossings, their clock, the lock, a rotor that spins by itself.
 #pragma once
+#include "sixstep/control/sensorless/captured_crossing.hpp"
 #include "sixstep/control/sensorless/lock.hpp"
 #include "sixstep/control/sensorless/spin.hpp"
 #include "tests/target/walk/counted.hpp"
@@ -45,6 +46,48 @@ struct ZeroCrossingWalk {
     saw("hidden", state.hidden);
     saw("not visible", !reading.visible);
     saw("a contradiction", state.unlike > 0);
+  }
+};
+
+/// Comparators at the same terminals, whose lines turn over somewhere between two samples.
+struct CapturedCrossingWalk {
+  ZeroCrossingWalk by{};
+  CapturedCrossingConfig config{};
+  CapturedLines captured{};
+
+  void draw(Random& r) {
+    by.draw(r);
+    const bool half_bus = r.one_in(3);
+    config = {true, std::uint32_t{r.below(8)} * 20, half_bus ? tick_ticks : 0,
+              std::uint32_t{r.below(4)} * 16};
+  }
+  void step(Random& r, Digest& mix) {
+    by.now += tick_ticks;
+    by.rotor.angle += static_cast<std::uint32_t>(by.rotor.speed);
+    if (by.rotor.sector() != by.sector) {
+      by.sector = by.rotor.sector();
+      by.rotor.driven = r.one_in(32) ? r.below(6) : by.sector;
+      by.rotor.demagnetises = r.below(4);
+      zero_crossing_begin(by.state, by.rotor.driven, std::uint32_t{r.below(4)} * tick_ticks, by.now);
+    }
+    const TerminalSample sample =
+        r.one_in(24) ? wild_sample(r, by.now) : by.rotor.sample(by.now, true, drawn_noise(r, 20));
+    std::uint8_t lines = 0;
+    for (std::uint8_t k = 0; k < 3; ++k)
+      if (above_neutral(sample, k) > 0) lines = static_cast<std::uint8_t>(lines | 4u >> k);
+    const std::uint32_t edge = by.now - std::uint32_t{r.below(16)} * (tick_ticks / 16);
+    counted<1>("capture_lines", [&] { capture_lines(captured, lines, edge); });
+    const std::uint32_t on = std::uint32_t{r.below(16)} * (tick_ticks / 16);
+    const CrossingReading reading = counted<0>("captured_crossing_step", [&] {
+      return captured_crossing_step(config, by.config, by.state, captured, sample, true, on);
+    });
+    mix(static_cast<std::uint8_t>(reading.crossing), reading.at, reading.visible, reading.free, reading.y);
+    mix(by.state.armed, by.state.done, captured.came_back, captured.at[0], captured.at[1], captured.at[2]);
+    saw("by an edge", reading.crossing == Crossing::seen && captured.came_back);
+    saw("by samples", reading.crossing == Crossing::seen && !captured.came_back);
+    saw("passed before", reading.crossing == Crossing::passed_before);
+    saw("in a pause", config.period_ticks > 0 && reading.crossing == Crossing::seen &&
+                          reading.at == by.now - tick_ticks / 2);
   }
 };
 

@@ -90,6 +90,7 @@ void walk_all() {
   walk<QuadratureWalk>("sensing/quadrature");
   walk<TrackingWalk>("sensing/tracking");
   walk<ZeroCrossingWalk>("sensorless/zero_crossing");
+  walk<CapturedCrossingWalk>("sensorless/captured_crossing");
   walk<CommutationClockWalk>("sensorless/commutation_clock");
   walk<SpinWalk>("sensorless/spin");
   walk<LockWalk>("sensorless/lock");

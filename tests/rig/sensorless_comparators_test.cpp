@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sensorless drive by the captured edges of comparators at its filtered terminals: where their crossings lie, by the closed form,
+// and that it starts, holds its speeds and names its losses as by samples.
+#include "tests/support/sensorless_comparators.hpp"
+
+#include <random>
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using control::Chopping;
+using control::LockLoss;
+using control::SensorlessPhase;
+using rig::CrossingReference;
+
+constexpr CrossingReference references[] = {CrossingReference::virtual_star, CrossingReference::half_bus};
+
+/// Where each sector's crossing was seen, in the mean over so many: behind the sector's middle, rad electrical.
+struct SeenCrossings {
+  double late_rad[6]{};
+  int count[6]{};
+  double speed_rad_s = 0.0;
+};
+
+SeenCrossings seen_crossings(const SensorlessBench& bench, double from_s) {
+  SeenCrossings seen;
+  auto rig = bench.rig();
+  run_until(rig, from_s);
+  EXPECT_EQ(phase(rig), SensorlessPhase::running);
+  const double p = bench.motor.machine.pole_pairs, capture_Hz = bench.board.sensors.capture_Hz;
+  std::uint32_t before = rig.firmware().rotor().clock.crossings.times[0];
+  for (int n = 0; n < 6000; ++n) {
+    run_until(rig, rig.now().seconds() + bench.spec.period_s);
+    const std::uint32_t at = rig.firmware().rotor().clock.crossings.times[0];
+    if (at == before) continue;
+    before = at;
+    const auto& s = rig.plant().state();
+    const auto now = static_cast<std::uint32_t>(std::fmod(rig.now().seconds() * capture_Hz, 4294967296.0));
+    const double since_s = static_cast<double>(static_cast<std::uint32_t>(now - at)) / capture_Hz;
+    const auto sector = static_cast<std::size_t>(rig.plant().sector());
+    seen.late_rad[sector] += s.x - s.w * p * since_s - base::sector_rad / 2;
+    ++seen.count[sector];
+  }
+  EXPECT_EQ(rig.firmware().rotor().lock.last, LockLoss::none);
+  for (std::size_t k = 0; k < 6; ++k) seen.late_rad[k] /= seen.count[k];
+  seen.speed_rad_s = rig.plant().state().w;
+  return seen;
+}
+
+/// u_f less the mean of all three falls through 4 K_e w/3 in a sector, less half the bus through 2 K_e w.
+double slope_V_rad(const SensorlessBench& bench, CrossingReference against, double w) {
+  return (against == CrossingReference::half_bus ? 2.0 : 4.0 / 3.0) * bench.motor.machine.K_e_V_s * w /
+         base::sector_rad;
+}
+
+/// At full duty nothing chops: the lag, the offset of the leg that floats and half the hysteresis, and of the samples nothing. Two
+/// ticks of the timer are left, and 1e-3 of it for a speed that the torque's ripple moves.
+TEST(SensorlessComparators, AnEdgeComesLateByLagOffsetAndHysteresis) {
+  SensorlessBench bench(three_motors[0], control::Mode::duty);
+  bench.spec.capture_Hz = bench.board.sensors.capture_Hz = 64e6;
+  rig::CrossingComparators comparators{.offset_V = {0.08, -0.05, 0.03}, .hysteresis_V = 0.06};
+  bench.load_part = 0.3;
+  for (const CrossingReference against : references) {
+    comparators.against = against;
+    // Against half the bus no pulse is left at full duty that a filter would have to settle in.
+    capture_crossings(bench, comparators, against == CrossingReference::half_bus ? 0.8 : 0.3);
+    bench.timeline.clear();
+    bench.setpoint(0, 1);
+    const SeenCrossings seen = seen_crossings(bench, aligned_s(bench) + 0.5);
+    const double w = seen.speed_rad_s, w_e = bench.motor.machine.pole_pairs * w;
+    const double slope = slope_V_rad(bench, against, w);
+    for (std::uint8_t k = 0; k < 6; ++k) {
+      ASSERT_GT(seen.count[k], 50);
+      const double offset_V = comparators.offset_V[control::floating_leg(k)];
+      const double late = bench.board.front_end.comparators.lag_s * w_e +
+                          (comparators.hysteresis_V / 2 + (k % 2 == 0 ? -offset_V : offset_V)) / slope;
+      EXPECT_NEAR(seen.late_rad[k], late, 1e-3 * std::fabs(late) + 2 * w_e / 64e6) << word(against) << int(k);
+    }
+  }
+}
+
+/// Samples of 12 bits lose up to half a step each; edges of the same board do not.
+TEST(SensorlessComparators, CommutatesEvenlyWhereSamplesAreRounded) {
+  const auto spread_deg = [](bool by_edges) {
+    SensorlessBench bench(three_motors[0], control::Mode::speed, Chopping::hard);
+    bench.spec.lowest_part = 0.1;
+    bench.spec.adc_bits = bench.board.sensors.bus.bits = 8;
+    if (by_edges) capture_crossings(bench, {});
+    bench.chip = design::sensorless_drive(
+        bench.drive,
+        *design::sensorless_start(bench.motor, bench.spec, bench.drive.current_at_full_torque_A));
+    bench.setpoint(0, 0.3 * bench.no_load_rad_s());
+    auto rig = bench.rig();
+    run_until(rig, 2.0);
+    EXPECT_EQ(phase(rig), SensorlessPhase::running);
+    const CommutationError e = watch_commutations(rig, 2.1, bench.spec.period_s);
+    EXPECT_GT(e.count, 100);
+    return std::sqrt(e.rms() * e.rms() - e.mean() * e.mean());
+  };
+  const double by_samples = spread_deg(false), by_edges = spread_deg(true);
+  EXPECT_LT(by_edges, by_samples / 2) << by_edges << " of " << by_samples << " deg";
+}
+
+TEST(SensorlessComparators, StartsFromAnyAngleAgainstAnyLoadBothWays) {
+  std::mt19937 draw(20'241'124);
+  std::uniform_real_distribution<double> angle(0.0, 2 * base::pi);
+  const int count = starts_each(2);
+  int drawn = 0;
+  for (const SensorlessMotor& motor : three_motors)
+    for (const double load : {0.0, 0.1, 0.3, 0.5}) {
+      int held = 0, at_once = 0;
+      double longest_s = 0;
+      for (int n = 0; n < count; ++n) {
+        SensorlessBench bench = on_built_board(motor, control::Mode::speed,
+                                               drawn / 2 % 2 == 0 ? Chopping::soft : Chopping::complementary);
+        capture_crossings(bench, usual_comparators(references[drawn++ % 2], motor.bus_V));
+        bench.load_part = load;
+        bench.at.angle_rad = angle(draw) / bench.motor.machine.pole_pairs;
+        bench.board.sensors.seed = static_cast<std::uint64_t>(n);
+        const double w = (drawn / 4 % 2 == 0 ? 0.3 : -0.3) * bench.no_load_rad_s();
+        bench.setpoint(0, w);
+        const Started s = started(bench.rig<BuiltDrive<double>>(), bench, w);
+        held += s.holds;
+        at_once += s.at_once;
+        longest_s = std::fmax(longest_s, s.after_s);
+      }
+      std::printf("%-15s load %2.0f %%: %d of %d hold, %d at the first try, up to speed within %.2f s\n",
+                  motor.name, 100 * load, held, count, at_once, longest_s);
+      EXPECT_GE(held, static_cast<int>(std::ceil(0.99 * count))) << motor.name << " " << load;
+    }
+}
+
+TEST(SensorlessComparators, HoldsEverySpeedBothWays) {
+  int n = 0;
+  for (const SensorlessMotor& motor : three_motors)
+    for (const CrossingReference against : references)
+      for (const double load : {0.0, 0.5})
+        for (const double part : {against == CrossingReference::half_bus ? 0.3 : 0.06, 0.8}) {
+          const Chopping chopping = n % 2 == 0 ? Chopping::soft : Chopping::complementary;
+          const int sign = n++ / 2 % 2 == 0 ? 1 : -1;
+          SensorlessBench bench = on_built_board(motor, control::Mode::speed, chopping);
+          capture_crossings(bench, usual_comparators(against, motor.bus_V));
+          bench.load_part = load;
+          const double w = sign * part * bench.no_load_rad_s();
+          bench.setpoint(0, w);
+          auto rig = bench.rig<BuiltDrive<double>>();
+          const std::string where = std::string(motor.name) + " " + word(against) + " " + word(chopping) +
+                                    " " + std::to_string(sign * part) + " load " + std::to_string(load);
+          run_until(rig, aligned_s(bench) + 0.8);
+          EXPECT_EQ(wrong_looks(rig, aligned_s(bench) + 1.1, 1e-3), 0) << where;
+          EXPECT_NEAR(rig.plant().state().w, w, 0.1 * std::fabs(w)) << where;
+          EXPECT_EQ(rig.firmware().rotor().lock.last, LockLoss::none) << where;
+        }
+}
+
+/// So slow a control that a sector near the no-load speed has but three periods of it.
+TEST(SensorlessComparators, ThreePeriodsASectorAreEnough) {
+  for (const SensorlessMotor& motor : three_motors)
+    for (const int sign : {1, -1}) {
+      SensorlessMotor slow = motor;
+      const SensorlessBench first(motor);
+      const double w = 0.95 * first.no_load_rad_s();
+      slow.period_s = base::sector_rad / (first.motor.machine.pole_pairs * w) / 3.05;
+      SensorlessBench bench(slow, control::Mode::duty);
+      capture_crossings(bench, {});
+      EXPECT_GT(bench.start.highest_rad_s, w);
+      bench.setpoint(0, sign * 0.95);
+      auto rig = bench.rig();
+      const std::string where = std::string(motor.name) + (sign > 0 ? " forward" : " backward");
+      run_until(rig, aligned_s(bench) + 1.5);
+      EXPECT_EQ(wrong_looks(rig, aligned_s(bench) + 1.7, 1e-3), 0) << where;
+      EXPECT_NEAR(rig.plant().state().w, sign * w, 0.1 * w) << where;
+      EXPECT_EQ(rig.firmware().rotor().lock.last, LockLoss::none) << where;
+    }
+}
+
+/// What is provoked at the plant has the name that the samples give it (sensorless_names_test.cpp).
+LockLoss named(SensorlessBench& bench, double cause_s) {
+  auto rig = bench.rig();
+  run_until(rig, cause_s);
+  EXPECT_EQ(phase(rig), SensorlessPhase::running);
+  const double t = run_until_true(rig, cause_s + 0.3, bench.spec.period_s,
+                                  [&] { return phase(rig) != SensorlessPhase::running; });
+  EXPECT_GT(t, 0);
+  return rig.firmware().rotor().lock.last;
+}
+
+TEST(SensorlessComparators, NamesWhatWentWrong) {
+  for (const SensorlessMotor& motor : three_motors)
+    for (const CrossingReference against : references) {
+      const auto bench_at = [&](double w_part) {
+        SensorlessBench bench(motor);
+        capture_crossings(bench, usual_comparators(against, motor.bus_V));
+        bench.setpoint(0, w_part * bench.no_load_rad_s());
+        return bench;
+      };
+      const std::string where = std::string(motor.name) + " " + word(against);
+      SensorlessBench held = bench_at(0.5);
+      const double cause_s = aligned_s(held) + 0.6;
+      held.act(cause_s, rig::ActionKind::shaft_locked, 1);
+      EXPECT_EQ(named(held, cause_s), LockLoss::masked_crossing) << where;
+      if (against == CrossingReference::half_bus) continue;  // handed over at twice that speed
+      SensorlessBench struck = bench_at(-0.1);
+      const double blow_s = 4 * struck.spec.period_s;
+      struck.act(cause_s, rig::ActionKind::load_torque,
+                 0.6 * struck.no_load_rad_s() * struck.motor.shaft.J_kg_m2 / blow_s);
+      struck.act(cause_s + blow_s, rig::ActionKind::load_torque, 0);
+      EXPECT_EQ(named(struck, cause_s), LockLoss::wrong_sector) << where;
+    }
+}
+
+}  // namespace
