@@ -98,7 +98,7 @@ TEST(IdentifyCalibration, PlacesOfLogsWithVoltages) {
 /// Only who turns to and fro tells hysteresis from offset: such logs alone, for there are few among all. What jitter decides at
 /// the turns is no fair sample of it, so that many turns and much jitter are the hard ones.
 TEST(IdentifyCalibration, HysteresisOfLogsThatTurnBothWays) {
-  const int count = drawn_count(60);
+  const int count = drawn_count(40);
   Held hysteresis("hysteresis, to and fro"), offset("offset, to and fro"), delay("delay, to and fro");
   double missed_by_lower = 0.0, missed_by_upper = 0.0;
   for (int n = 1; n <= count; ++n) {
