@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "faces/cli/bench_commands.hpp"
+#include "faces/cli/commission_command.hpp"
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/wiring_command.hpp"
@@ -128,9 +129,10 @@ Verb declare_motor(CLI::App& app) {
   fresh.add_option("NAME", a->name, "the file to write, NAME.toml; without it standard output");
   fresh.add_option("--style", a->style, "whose sheet it is: maxon, drone, servo, linear or firmware")
       ->capture_default_str();
-  const Verb wiring = declare_wiring(motor), identify = declare_identify(motor), emf = declare_emf(motor);
-  return {&motor, [a, &list, &show, &check, wiring, identify, emf](const std::string& command) {
-            for (const Verb& verb : {wiring, identify, emf})
+  const Verb wiring = declare_wiring(motor), commission = declare_commission(motor),
+             identify = declare_identify(motor), emf = declare_emf(motor);
+  return {&motor, [a, &list, &show, &check, wiring, commission, identify, emf](const std::string& command) {
+            for (const Verb& verb : {wiring, commission, identify, emf})
               if (*verb.app) return verb.call(command);
             if (list) return list_motors(*a);
             if (show) return show_motor(*a);

@@ -4,9 +4,9 @@
 
 namespace cli {
 
-/// `sixstep motor list|show|check|new|wiring`: the motors compiled in, one sheet with its model, a sheet held
+/// `sixstep motor list|show|check|new|wiring|commission`: the motors compiled in, one sheet with its model, a sheet held
 /// against itself (`failed` where it contradicts itself), a template to fill in; the 36 ways to plug it in
-/// (wiring_command.hpp).
+/// (wiring_command.hpp, commission_command.hpp).
 Verb declare_motor(CLI::App& app);
 
 }  // namespace cli

@@ -182,7 +182,7 @@ class CommandLine(ProgramTest):
         self.write("a.toml", 1000)
         for words, told in (
                 ("run", "sixstep run needs FILE: scenario files; sixstep run --help tells more"),
-                ("motor", "sixstep motor needs a command: list, show, check, new, wiring, identify, emf; sixstep motor --help tells more"),
+                ("motor", "sixstep motor needs a command: list, show, check, new, wiring, commission, identify, emf; sixstep motor --help tells more"),
                 ("motor lst", "lst is no command of sixstep motor; did you mean list?"),
                 ("run a.toml --htlm x", "--htlm is no argument of sixstep run; did you mean --html?"),
                 ("run a.toml --duraton 3", "--duraton is no argument of sixstep run; did you mean --set duration_s=..?"),

@@ -140,7 +140,7 @@ class Hostile(ProgramTest):
                 self.check_shown(shown.stdout + shown.stderr)
             plain = self.run_bytes("motor", "show", "maxon-251601").stdout.count(b"\n")
             self.assertEqual(self.run_bytes("motor", "show", "own").stdout.count(b"\n"), plain)
-        for words in (["motor", "wiring", "own"], ["motor", "wiring", "own", "--svg", "/dev/stdout", "--quiet"], ["curve", "own", "--points", "2"], ["curve", "own", "--points", "2", "--json", "-"], ["curve", "own", "--points", "2", "--csv", "/dev/stdout"],
+        for words in (["motor", "commission", "own"], ["motor", "commission", "own", "--html", "/dev/stdout", "--quiet"], ["motor", "wiring", "own"], ["motor", "wiring", "own", "--svg", "/dev/stdout", "--quiet"], ["curve", "own", "--points", "2"], ["curve", "own", "--points", "2", "--json", "-"], ["curve", "own", "--points", "2", "--csv", "/dev/stdout"],
                       ["design", "own", "--quick"], ["design", "own", "--quick", "--toml", "/dev/stdout", "--quiet"]):
             shown = self.run_bytes(*words)
             self.check_shown(shown.stdout + shown.stderr)

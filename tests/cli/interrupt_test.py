@@ -142,6 +142,12 @@ class Ends(Started):
                                      told="motor wiring baldor-bsm90n-175: interrupted; nothing was written")
         self.assertGreater(heard, 0)
 
+    def test_a_commissioning(self):
+        """A wheel's hub takes nine seconds of the motor's time."""
+        heard = self.nothing_is_left("motor", "commission", "hoverboard-hub", "--voltage", "36", "--html", "c.html", "--write", "c.toml", after=(0.05, 0.5), rounds=2,
+                                     told="motor commission hoverboard-hub: interrupted; nothing was written")
+        self.assertGreater(heard, 0)
+
     def test_an_identification(self):
         """Twenty thousand edges with voltages beside them: ten seconds of work."""
         lines = hall_log(turns=3400, rows=30).splitlines()

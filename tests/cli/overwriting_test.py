@@ -21,6 +21,7 @@ OUTPUTS = {"run --csv": "run slow.toml --csv {}", "run --mat": "run slow.toml --
            "curve --csv": "curve maxon-251601 --csv {}", "curve --json": "curve maxon-251601 --json {}", "curve --html": "curve maxon-251601 --html {}",
            "motor wiring --svg": "motor wiring maxon-251601 --svg {}", "motor wiring --html": "motor wiring maxon-251601 --html {}",
            "motor wiring --toml": "motor wiring maxon-251601 --toml {}",
+           "motor commission --html": "motor commission maxon-251601 --html {}", "motor commission --write": "motor commission maxon-251601 --write {}",
            "motor identify --html": "motor identify log.csv --html {}", "motor identify --write": "motor identify log.csv --write {}",
            "motor emf --html": EMF + " --html {}", "motor emf --write": EMF + " --write {}", "motor emf --shape": EMF + " --shape {}",
            "export header": "export header slow.toml --out {}"}

@@ -7,7 +7,12 @@ import page
 
 
 class CommissioningPage(page.PageTest):
-    NAME, FEWEST = "docs/commissioning.md", 3
+    NAME, FEWEST = "docs/commissioning.md", 5
+
+    def test_every_option_is_named(self):
+        told = self.shell("./run motor commission --help")
+        for option in set(re.findall(r"--[a-z-]+", told)) - {"--help", "--data", "--quiet", "--json", "--force"}:
+            self.assertIn(f"`{option}", self.page.text)
 
     def test_every_phase_is_in_the_table(self):
         header = (page.REPOSITORY / "sixstep/control/commissioning/commissioning_phases.hpp").read_text(encoding="utf-8")

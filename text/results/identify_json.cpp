@@ -33,6 +33,7 @@ Json place_json(const analysis::IdentifiedPlace& p) {
                                   {"low", std::string(1, leg_word(row.pair.sink))}});
   out["offset_deg"] = interval_json(p.offset_deg);
   out["hysteresis_deg"] = p.hysteresis_deg ? interval_json(*p.hysteresis_deg) : Json(nullptr);
+  out["edges_at_turns"] = p.at_turns;
   out["delay_s"] = p.delay_s ? interval_json(*p.delay_s) : Json(nullptr);
   out["flux_linkage_Vs"] = interval_json(p.flux_linkage_Vs);
   out["explained"] = p.explained;

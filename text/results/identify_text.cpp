@@ -40,6 +40,9 @@ std::string heading(const std::string& name, const HallIdentity& f) {
   if (f.left_out > 0)
     out += fmt::format("  {} left out, out of place by more than five deviations\n",
                        count(f.left_out, "edge", "edges"));
+  if (f.place && f.place->at_turns > 0)
+    out += fmt::format("  {} not used, for the rotor turned back beyond {}\n",
+                       count(f.place->at_turns, "edge", "edges"), f.place->at_turns == 1 ? "it" : "them");
   if (f.unused > 0)
     out += fmt::format("  {} behind the first {} not looked at\n", count(f.unused, "edge", "edges"), edges);
   return out;
@@ -95,8 +98,11 @@ std::string numbers_section(const HallIdentity& f) {
   rows.add({"Electrical degrees", "", "95 %"});
   if (f.place) {
     const IdentifiedPlace& p = *f.place;
-    add(rows, "offset", p.offset_deg, 1.0, "deg", p.hysteresis_deg ? "" : "as this way of turning shows it");
-    if (p.hysteresis_deg) add(rows, "hysteresis", *p.hysteresis_deg, 1.0, "deg");
+    add(rows, "offset", p.offset_deg, 1.0, "deg", p.both_ways ? "" : "as this way of turning shows it");
+    if (p.hysteresis_deg)
+      add(rows, "hysteresis", *p.hysteresis_deg, 1.0, "deg");
+    else if (p.both_ways)
+      rows.add({"hysteresis", "not told: turn farther, by a turn and more, before turning back", ""});
   }
   add_jitter(rows, f);
   if (f.place) {

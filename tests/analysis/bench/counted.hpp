@@ -29,7 +29,7 @@ class Held {
   }
   double part() const { return held_ / all_; }
 
-  /// 95 of 100 hold, as far as so many draws can tell: in full a thousand within 93 and 97, else within four
+  /// 95 of 100 hold, as far as so many draws can tell: in full a thousand and more within 93 and 97, else within four
   /// deviations of the binomial distribution. `cases` where answers of one case are not independent.
   void expect_95(double cases = 0.0) const {
     const double n = cases > 0.0 ? cases : all_;
@@ -47,8 +47,11 @@ class Held {
   }
 
  private:
-  /// The binomial distribution's deviation, 2.9 of which are 2 in 100 of a thousand.
-  static double width_of(double n) { return (in_full() ? 2.9 : 4.0) * std::sqrt(0.05 * 0.95 / n); }
+  /// The binomial distribution's deviation, 2.9 of which are 2 in 100 of a thousand; what is promised is no less than that.
+  static double width_of(double n) {
+    const double deviation = std::sqrt(0.05 * 0.95 / n);
+    return in_full() ? std::fmax(2.9 * deviation, 0.02) : 4.0 * deviation;
+  }
 
   std::string what_, missed_;
   double held_ = 0, all_ = 0;

@@ -190,6 +190,12 @@ void drop_short_turns(HallEdges& out) {
   out.edges = std::move(kept);
 }
 
+void mark_turns(std::vector<HallEdge>& edges) {
+  for (std::size_t n = 1; n < edges.size(); ++n)
+    if (!edges[n].begins && edges[n].boundary == edges[n - 1].boundary)
+      edges[n].at_turn = edges[n - 1].at_turn = true;
+}
+
 void count(HallEdges& out) {
   for (const HallEdge& edge : out.edges) {
     ++out.seen[static_cast<std::size_t>((edge.boundary % 6 + 6) % 6)];
@@ -253,6 +259,7 @@ base::Result<HallEdges> hall_edges(const HallLog& log) {
   }
   measure_sectors(log, out);
   drop_short_turns(out);
+  mark_turns(out.edges);
   count(out);
   if (base::Problems few = too_little(out); !few.empty()) return few;
   return out;

@@ -19,6 +19,8 @@ struct HallEdge {
   std::int64_t boundary = 0;  ///< between sector boundary - 1 and sector boundary; sector 6 is 0 a turn on
   int direction = 1;          ///< +1, -1
   bool begins = false;        ///< what came between this and the last one is not known
+  /// The rotor turned beyond it and came back over it: the edge before or behind is the same, passed the other way.
+  bool at_turn = false;
 };
 
 struct HallEdges {
@@ -35,6 +37,12 @@ struct HallEdges {
   double sector_s = 0.0;        ///< median time between two edges
   double sector_samples = 0.0;  ///< and its rows; 0 where each row is a change
 };
+
+/// Where an edge lies among `own` that repeat.
+inline std::size_t repeating(std::int64_t boundary, std::size_t own) {
+  const auto size = static_cast<std::int64_t>(own);
+  return static_cast<std::size_t>((boundary % size + size) % size);
+}
 
 /// What a log tells from then on is less than what it costs.
 inline constexpr std::size_t most_edges = 20'000;

@@ -18,12 +18,6 @@ constexpr double contradiction = 5.0;
 /// More than these are no slips but what the log is like.
 constexpr double most_left_out = 0.05;
 
-/// Where an edge lies among those that repeat.
-std::size_t repeating(std::int64_t boundary, std::size_t own) {
-  const auto size = static_cast<std::int64_t>(own);
-  return static_cast<std::size_t>((boundary % size + size) % size);
-}
-
 /// The one that contradicts most of each neighbourhood: an edge that is far off pulls those beside it.
 void leave_out(FoundMotion& m) {
   const auto size = m.points.size();

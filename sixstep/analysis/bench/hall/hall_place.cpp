@@ -33,11 +33,35 @@ std::vector<HallEdge> in_place(const std::vector<HallEdge>& edges, const FoundPl
   return out;
 }
 
+constexpr std::size_t fewest_each_way = 6;
+
+/// An edge beyond which the rotor turns back says where that was, not how wide the hysteresis is. There the voltages are
+/// next to nothing, and the way bends most, more on one side of the turn than on the other: a spline of one stiffness is
+/// beside it, and what it lacks would be taken for hysteresis. And where jitter decides whether the edge is passed at all,
+/// those that are passed are no fair sample. So these are left out, in all rounds; where too few are passed between the
+/// turns they stay, and nothing is said of the hysteresis.
+bool tell_between_turns(const std::vector<HallEdge>& edges, std::size_t own) {
+  std::vector<std::size_t> seen(own);
+  std::size_t forward = 0, backward = 0;
+  for (const HallEdge& e : edges) {
+    if (e.at_turn) continue;
+    ++(e.direction > 0 ? forward : backward);
+    ++seen[repeating(e.boundary, own)];
+  }
+  return std::min(forward, backward) >= fewest_each_way && *std::min_element(seen.begin(), seen.end()) >= 2;
+}
+
 /// Edges and voltages in the order of their times. An edge that was left out stays so.
 class Sightings {
  public:
   Sightings(const std::vector<VoltageVector>& vectors, std::vector<HallEdge> edges)
       : vectors_(vectors), edges_(std::move(edges)), left_out_(edges_.size()) {}
+
+  /// How many they are.
+  std::size_t leave_out_turns() {
+    for (std::size_t n = 0; n < edges_.size(); ++n) left_out_[n] = edges_[n].at_turn;
+    return static_cast<std::size_t>(std::count(left_out_.begin(), left_out_.end(), true));
+  }
 
   /// With the way as it is known so far.
   void bring(FoundMotion& m, VoltageModel& model, const MotionPath& path) {
@@ -128,10 +152,13 @@ base::Result<FoundPlace> place_by_voltages(const HallLog& log, const HallEdges& 
   FoundMotion& m = place->motion;
   m.sector_s = by_edges.sector_s;
   m.keep_going = by_edges.keep_going;
-  m.effects = {.own = by_edges.effects.own, .hysteresis = std::min(edges.forward, edges.backward) >= 6};
+  m.effects = {.own = by_edges.effects.own,
+               .hysteresis = std::min(edges.forward, edges.backward) >= fewest_each_way};
   m.effects.usual_speed_deg_s = usual_speed(by_edges.points);
   m.effects.delay = speeds_differ(by_edges.points, m.effects.usual_speed_deg_s);
   Sightings sightings(vectors, in_place(edges.edges, *place));
+  place->between_turns = tell_between_turns(edges.edges, m.effects.own);
+  if (place->between_turns) place->at_turns = sightings.leave_out_turns();
   sightings.bring(m, place->voltages, path);
   constexpr int rounds = 4;
   const bool found = find_motion(m, rounds, [&](FoundMotion& now) {

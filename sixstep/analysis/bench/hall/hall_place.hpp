@@ -11,6 +11,8 @@ struct FoundPlace {
   int rotation = 0;    ///< the sector where the lines show sector 0; mirrored: the one above it
   FoundMotion motion;  ///< in electrical angles
   VoltageModel voltages;
+  bool between_turns = false;  ///< enough is passed between the rotor's turns back to tell the hysteresis
+  std::size_t at_turns = 0;    ///< edges left out for it
 
   /// Of the rotor, where the lines show that one with each at its own pin.
   int sector_of(int shown) const {

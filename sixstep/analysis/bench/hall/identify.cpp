@@ -52,11 +52,6 @@ base::Problem not_fixed() {
           .cure = "turn the shaft by more turns in one go"};
 }
 
-std::size_t repeating(std::int64_t boundary, std::size_t own) {
-  const auto size = static_cast<std::int64_t>(own);
-  return static_cast<std::size_t>((boundary % size + size) % size);
-}
-
 /// Sectors by which edges lie off the nearest place: with an offset beyond 30 degrees another sector is nearer.
 int whole_sectors(double offset_deg) {
   return static_cast<int>(std::floor((offset_deg + sector_deg / 2.0) / sector_deg));
@@ -138,7 +133,10 @@ void take_place(const FoundPlace& found, const MotionPosterior& posterior, HallI
   place.offset_deg = {raw.value - sector_deg * shift, raw.low - sector_deg * shift,
                       raw.high - sector_deg * shift};
   place.usual_speed_deg_s = effects.usual_speed_deg_s;
-  if (effects.hysteresis) place.hysteresis_deg = posterior.effects(Weights(effects).hysteresis());
+  place.both_ways = effects.hysteresis;
+  place.at_turns = found.at_turns;
+  if (effects.hysteresis && found.between_turns)
+    place.hysteresis_deg = posterior.effects(Weights(effects).hysteresis());
   if (effects.delay) place.delay_s = posterior.effects(Weights(effects).delay());
   const VoltageModel& v = found.voltages;
   place.flux_linkage_Vs =

@@ -25,7 +25,7 @@ namespace sixstep::analysis {
 struct IdentifiedEdge {
   std::uint8_t before = 0, after = 0;  ///< codes at the pins, turning forward
   Interval own_deg;                    ///< electrical
-  std::size_t seen = 0;                ///< times it was passed
+  std::size_t seen = 0;                ///< passages that say so
 };
 
 /// What only voltages tell.
@@ -38,11 +38,15 @@ struct IdentifiedPlace {
   /// Of all edges, in the direction of positive angles. A log that turns one way only cannot part it from
   /// half the hysteresis and from what a delay is at the log's speed: it is then as that way shows it.
   Interval offset_deg;
-  double usual_speed_deg_s = 0.0;          ///< electrical: mean size of the speed at the edges
-  std::optional<Interval> hysteresis_deg;  ///< where the log turns both ways
-  std::optional<Interval> delay_s;         ///< of the Hall lines behind the voltages, where speeds differ
-  Interval flux_linkage_Vs;                ///< peak of a phase's fundamental
-  double explained = 0.0;                  ///< part of the voltages' power that the rotor makes
+  double usual_speed_deg_s = 0.0;  ///< electrical: mean size of the speed at the edges
+  bool both_ways = false;          ///< the log turns so: the offset is parted from the hysteresis
+  std::size_t at_turns =
+      0;  ///< edges that say nothing of the hysteresis, for the rotor turned back beyond them
+  std::optional<Interval>
+      hysteresis_deg;               ///< where the log turns both ways, and far enough between its turns
+  std::optional<Interval> delay_s;  ///< of the Hall lines behind the voltages, where speeds differ
+  Interval flux_linkage_Vs;         ///< peak of a phase's fundamental
+  double explained = 0.0;           ///< part of the voltages' power that the rotor makes
 };
 
 /// One edge as it was passed, for a picture.

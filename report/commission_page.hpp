@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// A drive that found out what hangs at it, as one HTML file: the currents of its test, the rotor's way, and all figures.
+#pragma once
+#include <string>
+
+#include "sixstep/analysis/commission/commission_study.hpp"
+
+namespace report {
+
+struct CommissionPage {
+  const sixstep::analysis::CommissionStudy& study;
+  std::string command;  ///< what makes this page again
+  std::string version;
+};
+
+/// The same input gives the same bytes.
+std::string render_commission(const CommissionPage& page);
+
+}  // namespace report

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// What commissioning is to find of a plant, from its parameters alone.
+#pragma once
+#include "sixstep/analysis/commission/commission_bench.hpp"
+
+namespace sixstep::analysis {
+
+/// `in_diode`: the part of a period in which a leg's current flows through a diode, by dead time.
+CommissionTruth truth_of(const study::GeneralPlant& plant, double in_diode);
+
+/// The peak of the fundamental of a phase's back-EMF over the electrical speed, V s.
+double flux_linkage_of(const plant::general::Machine& machine);
+
+}  // namespace sixstep::analysis

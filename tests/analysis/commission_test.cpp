@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// A drive that finds out what hangs at it, on the bench that `commission_bench` makes of a sheet: the motors of the library
+// within the bounds that it claims, and those with which it cannot be, with the reason.
+#include "sixstep/analysis/commission/commission_study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "sixstep/analysis/commission/commission_truth.hpp"
+#include "sixstep/base/angle.hpp"
+#include "tests/support/in_part.hpp"
+#include "text/scenario/scenario_file.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using analysis::CommissionStudy;
+using analysis::CommissionSubject;
+using control::CommissioningPhase;
+using rig::WireOrder;
+
+CommissionSubject subject_of(const char* motor) {
+  const auto sheet = text::read_sheet(motor);
+  EXPECT_TRUE(sheet) << motor;
+  return {.motor = motor, .sheet = *sheet};
+}
+
+struct OnBench {
+  const char* motor;
+  double voltage_V;  ///< 0: nominal
+};
+constexpr OnBench benches[] = {{"anaheim-bly172s", 0}, {"baldor-bsm90n-175", 0}, {"dji-2212-920kv", 0},
+                               {"maxon-200142", 0},    {"maxon-251601", 0},      {"maxon-339285", 0},
+                               {"maxon-339286", 0},    {"maxon-397172", 0},      {"maxon-488607", 0},
+                               {"maxon-651607", 0},    {"maxon-651609", 0},      {"maxon-651614", 0},
+                               {"teknic-m2310p", 0},   {"hoverboard-hub", 36},   {"mjbots-mj5208", 24}};
+
+/// All of them where the environment says so (ctest --preset long), else one in four.
+bool in_full() { return std::getenv("SIXSTEP_ALL_MOTORS") != nullptr; }
+
+TEST(Commission, FindsTheMotorsOfTheLibraryWithinItsBounds) {
+  InPart some;
+  double offset_deg = -25.0;
+  int seed = 0;
+  for (const OnBench& on : benches) {
+    CommissionSubject subject = subject_of(on.motor);
+    if (on.voltage_V > 0) subject.voltage_V = on.voltage_V;
+    subject.hall_offset_deg = offset_deg;
+    subject.seed = ++seed;
+    offset_deg += 3.5;
+    if (some.leaves_out() || (!in_full() && seed % 4 != 1)) continue;
+    const auto s = analysis::study_commission({.subject = subject});
+    ASSERT_TRUE(s) << on.motor << ": " << to_string(s.problems()[0]);
+    const analysis::CommissionTruth& is = s->bench.truth;
+    EXPECT_EQ(s->state.phase, CommissioningPhase::done) << on.motor;
+    EXPECT_NEAR(s->found.R_ohm, is.R_ohm, s->bounds.R_part * s->found.R_ohm) << on.motor;
+    EXPECT_NEAR(s->found.L_H, is.L_H, s->bounds.L_part * s->found.L_H) << on.motor;
+    EXPECT_NEAR(s->found.flux_linkage_Vs, is.flux_linkage_Vs, s->bounds.flux_part * s->found.flux_linkage_Vs)
+        << on.motor;
+    ASSERT_TRUE(s->lines_found()) << on.motor;
+    EXPECT_NEAR(s->shown_offset_deg, subject.hall_offset_deg, 1e-9) << on.motor;
+    EXPECT_LE(s->worst_edge_deg(), s->bounds.edge_deg) << on.motor;
+    EXPECT_TRUE(s->holds()) << on.motor;
+    // A bound that says nothing would hold, too.
+    EXPECT_LT(s->bounds.R_part, 0.01) << on.motor;
+    EXPECT_LT(s->bounds.L_part, 0.05) << on.motor;
+    EXPECT_LT(s->bounds.flux_part, 0.08) << on.motor;
+    EXPECT_LT(s->bounds.edge_deg, 10.0) << on.motor;
+  }
+}
+
+/// The board's forward is the motor's where an even number of phases is crossed, and its backward where an odd number is: the
+/// edges stand where the board has them then, in either case.
+TEST(Commission, FindsTheLinesOfCrossedWires) {
+  InPart some;
+  constexpr WireOrder orders[] = {WireOrder::abc, WireOrder::bca, WireOrder::cab,
+                                  WireOrder::acb, WireOrder::cba, WireOrder::bac};
+  std::uint8_t n = 0;
+  for (const WireOrder phases : orders) {
+    const WireOrder probes = orders[5 - n];
+    CommissionSubject subject = subject_of("maxon-251601");
+    subject.wires = {phases, probes, static_cast<std::uint8_t>(n++)};
+    subject.hall_offset_deg = 9.0;
+    if (some.leaves_out()) continue;
+    const auto s = analysis::study_commission({.subject = subject});
+    ASSERT_TRUE(s);
+    EXPECT_TRUE(s->holds()) << int(phases) << int(probes) << int(n);
+    EXPECT_NEAR(s->shown_offset_deg, phases < WireOrder::acb ? 9.0 : -9.0, 1e-9) << int(phases);
+  }
+}
+
+/// Another noise is another finding, within the same bounds; the same noise the same to the last bit.
+TEST(Commission, HoldsWhateverTheNoiseAndIsTheSameForOne) {
+  InPart some;
+  double first = 0.0;
+  for (int seed = 1; seed <= 2; ++seed) {
+    CommissionSubject subject = subject_of("maxon-251601");
+    subject.seed = seed;
+    if (some.leaves_out()) continue;
+    const auto s = analysis::study_commission({.subject = subject});
+    ASSERT_TRUE(s);
+    EXPECT_TRUE(s->holds()) << seed;
+    if (first == 0.0) {
+      first = s->found.R_ohm;
+      EXPECT_EQ(analysis::study_commission({.subject = subject})->found.R_ohm, first);
+    } else {
+      EXPECT_NE(s->found.R_ohm, first) << seed;
+    }
+  }
+}
+
+/// More current, more counts between the levels: what rounding and dead time leave open shrinks.
+TEST(Commission, BoundsShrinkWithTheCurrentOverOneRange) {
+  CommissionSubject subject = subject_of("maxon-251601");
+  subject.current_A = 3.0;
+  const auto less = analysis::study_commission({.subject = subject});
+  subject.current_A = 9.0;
+  const auto more = analysis::study_commission({.subject = subject});
+  ASSERT_TRUE(less && more);
+  EXPECT_TRUE(less->holds() && more->holds());
+  EXPECT_LT(more->bounds.edge_deg, less->bounds.edge_deg);
+}
+
+/// Of a trapezoid 4 sin g/(pi g) with slopes 2 g wide (model.md 1); of harmonics the first; of a table the integral: a triangle's
+/// is 8/pi^2.
+TEST(Commission, KnowsTheFundamentalOfEachShape) {
+  plant::general::Machine m{.R_ohm = {1, 1, 1}, .K_e_V_s = {0.02, 0.02, 0.02}, .L_H = 1e-3, .pole_pairs = 4};
+  for (const double flat_deg : {60.0, 100.0, 120.0, 150.0}) {
+    m.shape = {.flat_deg = flat_deg};
+    const double g = (180 - flat_deg) / 2 * base::pi / 180;
+    EXPECT_NEAR(analysis::flux_linkage_of(m), 4 * std::sin(g) / (base::pi * g) * 0.02 / 4, 1e-12) << flat_deg;
+  }
+  m.shape = {.harmonics = {{1, 1.0}, {5, 0.1}}};
+  EXPECT_DOUBLE_EQ(analysis::flux_linkage_of(m), 0.02 / 4);
+  m.shape = {.table = {{0, 0}, {90, 1}, {270, -1}}};
+  EXPECT_NEAR(analysis::flux_linkage_of(m), 8 / (base::pi * base::pi) * 0.02 / 4, 1e-12);
+}
+
+void expect_refused(const CommissionSubject& subject, const char* where, const char* words) {
+  const auto bench = analysis::commission_bench(subject);
+  ASSERT_FALSE(bench) << where;
+  EXPECT_EQ(bench.problems()[0].where, where);
+  EXPECT_NE(bench.problems()[0].limit.find(words), std::string::npos) << bench.problems()[0].limit;
+  EXPECT_FALSE(bench.problems()[0].cure.empty());
+}
+
+TEST(Commission, SaysWhichMotorsItCannotBeMadeWith) {
+  expect_refused(subject_of("example-linear"), "kind", "track");
+  CommissionSubject delta = subject_of("maxon-251601");
+  delta.sheet.connection = design::WindingConnection::delta;
+  expect_refused(delta, "connection", "star");
+  expect_refused(subject_of("hoverboard-hub"), "voltage_V", "is missing");
+  for (const double A : {0.0, -1.0, 1e9, double(NAN), double(INFINITY)}) {
+    CommissionSubject subject = subject_of("maxon-251601");
+    subject.current_A = A;
+    expect_refused(subject, "current_A", "must be above 0");
+  }
+  CommissionSubject weak = subject_of("maxon-251601");
+  weak.current_A = 1e-5;
+  expect_refused(weak, "current_A", "so long does the rotor swing");
+  CommissionSubject beside = subject_of("maxon-251601");
+  beside.hall_offset_deg = 181.0;
+  expect_refused(beside, "hall_offset_deg", "");
+}
+
+TEST(Commission, WhatIsNotFoundIsNoProblemAndNotHeld) {
+  CommissionSubject subject = subject_of("dji-2212-920kv");
+  subject.current_A = 4.0;  // half of the vector goes to dead time and diodes
+  const auto s = analysis::study_commission({.subject = subject});
+  ASSERT_TRUE(s);
+  EXPECT_FALSE(s->lines_found());
+  EXPECT_FALSE(s->holds());
+  EXPECT_NEAR(s->found.R_ohm, s->bench.truth.R_ohm, s->bounds.R_part * s->found.R_ohm);
+}
+
+TEST(Commission, EndsEarlyWhereNobodyWantsIt) {
+  int asked = 0;
+  const auto s = analysis::study_commission(
+      {.subject = subject_of("maxon-251601"), .keep_going = [&] { return ++asked < 5; }});
+  ASSERT_FALSE(s);
+  EXPECT_EQ(asked, 5);
+}
+
+TEST(Commission, PhasesFollowEachOtherWithoutAGap) {
+  const auto s = analysis::study_commission({.subject = subject_of("maxon-251601")});
+  ASSERT_TRUE(s);
+  EXPECT_EQ(s->phases.front().from_s, 0.0);
+  for (std::size_t n = 1; n < s->phases.size(); ++n) EXPECT_EQ(s->phases[n].from_s, s->phases[n - 1].to_s);
+  EXPECT_EQ(s->phases.back().phase, CommissioningPhase::done);
+  EXPECT_EQ(s->phases.back().from_s, s->seconds);
+}
+
+}  // namespace
