@@ -38,13 +38,22 @@ void run_plan(const PlanRuns& runs) {
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   const std::size_t threads = std::min<std::size_t>(runs.jobs == 0 ? cores : runs.jobs, count);
   std::atomic<std::size_t> next{0};
+  make_runs(runs, static_cast<unsigned>(threads), [&]() -> std::optional<std::size_t> {
+    for (std::size_t n = next++; n < count; n = next++)
+      if (!runs.wanted || runs.wanted(n)) return n;
+    return {};
+  });
+}
+
+void make_runs(const PlanRuns& runs, unsigned threads,
+               const std::function<std::optional<std::size_t>()>& next) {
   std::atomic<bool> failed{false};
-  for_each(threads, static_cast<unsigned>(threads), [&](std::size_t) {
+  for_each(threads, threads, [&](std::size_t) {
     try {
-      for (std::size_t n = next++; n < count; n = next++) {
-        if (failed || runs.stop.stop_requested()) return;
-        if (runs.wanted && !runs.wanted(n)) continue;
-        if (std::optional<analysis::RunRecord> record = run_one(runs, n)) runs.take(std::move(*record));
+      while (!failed && !runs.stop.stop_requested()) {
+        const std::optional<std::size_t> n = next();
+        if (!n) return;
+        if (std::optional<analysis::RunRecord> record = run_one(runs, *n)) runs.take(std::move(*record));
       }
     } catch (...) {
       failed = true;

@@ -31,4 +31,9 @@ std::optional<analysis::RunRecord> run_one(const PlanRuns& runs, std::size_t n);
 /// All that are wanted. An exception of one of the functions is thrown again here.
 void run_plan(const PlanRuns& runs);
 
+/// The runs that `next` names, until it names none or they are stopped, on `threads` threads. Each asks for itself, and may be
+/// let wait. Exceptions as above.
+void make_runs(const PlanRuns& runs, unsigned threads,
+               const std::function<std::optional<std::size_t>()>& next);
+
 }  // namespace batch

@@ -18,6 +18,7 @@
 #include "faces/cli/motor_command.hpp"
 #include "faces/cli/new_command.hpp"
 #include "faces/cli/not_called.hpp"
+#include "faces/cli/plan_ranks.hpp"
 #include "faces/cli/run_command.hpp"
 #include "faces/cli/schema_command.hpp"
 #include "faces/cli/terminal.hpp"
@@ -71,7 +72,9 @@ Exit run_program(int count, const char* const* words) {
 int main(int count, char** words) {
   cli::take_write_errors();
   try {
-    return static_cast<int>(cli::exit_after_printing(cli::run_program(count, words)));
+    const auto program = [&] { return cli::exit_after_printing(cli::run_program(count, words)); };
+    const bool makes_runs = count > 1 && words[1] == std::string_view("run");
+    return static_cast<int>(makes_runs ? cli::among_ranks(program) : program());
   } catch (const std::exception& error) {
     cli::print("internal error: " + text::visible(error.what()) + "\n", stderr);
   } catch (...) {

@@ -13,6 +13,7 @@
 #include "batch/plan_runs.hpp"
 #include "faces/cli/plan_foretold.hpp"
 #include "faces/cli/plan_outputs.hpp"
+#include "faces/cli/plan_ranks.hpp"
 #include "faces/cli/progress.hpp"
 #include "faces/cli/terminal.hpp"
 #include "sixstep/base/written.hpp"
@@ -150,7 +151,7 @@ Exit run_plan(const RunArguments& a, const ReadPlan& plan, std::vector<text::Jun
       store->add(std::move(record));
       progress.pieces_done(store->rows());
     };
-    batch::run_plan(runs);
+    make(runs, plan);
   }
   if (const base::Problems unwritten = store->finish(); !unwritten.empty()) return refused(unwritten);
   const Told told = tell(a, plan, *store, outputs);

@@ -12,6 +12,7 @@ import sqlite3
 import subprocess
 import time
 import unittest
+import unittest.mock
 import xml.etree.ElementTree
 
 from program import PROGRAM, SHORT, ProgramTest
@@ -155,6 +156,21 @@ class Plan(ProgramTest):
         whole, killed = ((self.path / name).read_text().splitlines()[3:] for name in ("whole.csv", "killed.csv"))
         self.assertEqual(whole, killed, f"seed {seed}")
         self.assertEqual(len(whole), 4001)
+
+    def test_several_processes_need_a_build_with_mpi(self):
+        """Else each would make all the runs; one of them says so. A plan on one rank, and other verbs on any, are as ever."""
+        file = self.held()
+        for names in ("OMPI_COMM_WORLD_SIZE OMPI_COMM_WORLD_RANK", "PMI_SIZE PMI_RANK", "SLURM_STEP_NUM_TASKS PMIX_RANK"):
+            size, rank = names.split()
+            told = []
+            for n in ("0", "1"):
+                with unittest.mock.patch.dict(os.environ, {size: "2", rank: n}):
+                    told.append(self.run_program("run", file, "--runs", "3", code=2).stderr)
+                    self.run_program("motor", "list")
+            self.assertIn("started 2 processes, and this build knows nothing of MPI", told[0])
+            self.assertEqual(told[1], "")
+            with unittest.mock.patch.dict(os.environ, {size: "1", rank: "0"}):
+                self.run_program("run", file, code=1)
 
     def test_indices_say_which_key_a_figure_hangs_on(self):
         """I = U/R: of ln I the parts are those of ln U and ln R; over small ranges I is nearly linear in both."""

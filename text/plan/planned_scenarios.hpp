@@ -34,6 +34,7 @@ class PlannedScenarios {
   base::Problems check() const;
 
   const analysis::Plan& plan() const { return plan_; }
+  const PlannedText& made_of() const { return of_; }
 
  private:
   struct Recent;

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values as bytes, the same on every processor: whole numbers and doubles as eight bytes, the least first; texts and lists behind
+// their length. A double keeps its bits, NaN's too.
+#pragma once
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace batch {
+
+class ByteWriter {
+ public:
+  void whole(std::uint64_t x) {
+    for (int n = 0; n < 8; ++n) bytes_.push_back(static_cast<char>(x >> 8 * n & 0xFF));
+  }
+  void number(double x) { whole(std::bit_cast<std::uint64_t>(x)); }
+  void text(std::string_view text) {
+    whole(text.size());
+    bytes_ += text;
+  }
+  template <class T, class Write>
+  void list(const std::vector<T>& list, Write write) {
+    whole(list.size());
+    for (const T& entry : list) write(entry);
+  }
+  void texts(const std::vector<std::string>& list) {
+    this->list(list, [this](const std::string& entry) { text(entry); });
+  }
+  void numbers(const std::vector<double>& list) {
+    this->list(list, [this](double entry) { number(entry); });
+  }
+
+  std::string&& bytes() && { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+/// Reads what a ByteWriter wrote. Past the end, or where a length cannot be, it has failed and reads nothing more.
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
+
+  /// All was read, and nothing is left over.
+  bool whole_read() const { return !failed_ && rest_.empty(); }
+  bool failed() const { return failed_; }
+
+  std::uint64_t whole() {
+    const std::string_view bytes = take(8);
+    std::uint64_t x = 0;
+    for (std::size_t n = bytes.size(); n-- > 0;) x = x << 8 | static_cast<unsigned char>(bytes[n]);
+    return x;
+  }
+  double number() { return std::bit_cast<double>(whole()); }
+  std::string text() { return std::string(take(whole())); }
+  template <class T, class Read>
+  std::vector<T> list(Read read) {
+    std::vector<T> list;
+    // No entry is shorter than eight bytes: a length that cannot be reserves no memory.
+    const std::uint64_t length = whole();
+    if (length > rest_.size() / 8) failed_ = true;
+    for (std::uint64_t n = 0; n < length && !failed_; ++n) list.push_back(read());
+    return list;
+  }
+  std::vector<std::string> texts() {
+    return list<std::string>([this] { return text(); });
+  }
+  std::vector<double> numbers() {
+    return list<double>([this] { return number(); });
+  }
+  /// One of the first `count` of an enumeration.
+  template <class E>
+  E choice(std::uint64_t count) {
+    const std::uint64_t x = whole();
+    if (x < count) return static_cast<E>(x);
+    failed_ = true;
+    return E{};
+  }
+  bool yes() { return choice<int>(2) == 1; }
+
+ private:
+  std::string_view take(std::uint64_t count) {
+    failed_ = failed_ || count > rest_.size();
+    if (failed_) return {};
+    const std::string_view taken = rest_.substr(0, count);
+    rest_.remove_prefix(count);
+    return taken;
+  }
+
+  std::string_view rest_;
+  bool failed_ = false;
+};
+
+}  // namespace batch

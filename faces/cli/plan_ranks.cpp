@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/plan_ranks.hpp"
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "batch/byte_format.hpp"
+#include "batch/cluster.hpp"
+#include "batch/ranks.hpp"
+#include "faces/cli/terminal.hpp"
+
+namespace cli {
+namespace {
+
+/// Which this process belongs to. There is one MPI in a process.
+struct Ranks {
+  batch::Cluster cluster;
+  bool whole = true;  ///< nobody left without a word
+};
+
+Ranks& ranks() {
+  static Ranks all;
+  return all;
+}
+
+// What faces tell each other, as bytes. The others open no file: what a text names, they ask for.
+
+std::string bytes_of(const text::PlannedText& of) {
+  batch::ByteWriter w;
+  w.text(of.name);
+  w.text(of.text);
+  w.list(of.options.overrides, [&](const text::Setting& set) {
+    w.text(set.path);
+    w.text(set.text);
+  });
+  w.whole(of.sheet_tolerances);
+  return std::move(w).bytes();
+}
+
+text::PlannedText planned_text(const std::string& bytes) {
+  batch::ByteReader r(bytes);
+  text::PlannedText of;
+  of.name = r.text();
+  of.text = r.text();
+  of.options.overrides = r.list<text::Setting>([&] { return text::Setting{r.text(), r.text()}; });
+  of.sheet_tolerances = r.yes();
+  return of;
+}
+
+std::string bytes_of(const text::Naming& naming) {
+  batch::ByteWriter w;
+  w.whole(static_cast<std::uint64_t>(naming.kind));
+  w.text(naming.name);
+  w.text(naming.from);
+  return std::move(w).bytes();
+}
+
+std::string bytes_of(const base::Result<text::NamedText>& found) {
+  batch::ByteWriter w;
+  if (found) {
+    w.text(found->name);
+    w.text(found->text);
+  } else {
+    w.list(found.problems(), [&](const base::Problem& problem) {
+      for (const std::string& word : {problem.where, problem.value, problem.limit, problem.cure})
+        w.text(word);
+    });
+  }
+  return (found ? "+" : "-") + std::move(w).bytes();
+}
+
+base::Result<text::NamedText> named_text(const std::string& bytes) {
+  batch::ByteReader r(std::string_view(bytes).substr(1));
+  if (bytes.front() == '+') return text::NamedText{r.text(), r.text()};
+  return r.list<base::Problem>([&] { return base::Problem{r.text(), r.text(), r.text(), r.text()}; });
+}
+
+std::string answer(const text::Resolve& resolve, const std::string& question) {
+  batch::ByteReader r(question);
+  return bytes_of(resolve({r.choice<text::Naming::Kind>(3), r.text(), r.text()}));
+}
+
+/// What turns a number into a run, in a process that has nothing but what it was told.
+decltype(batch::PlanRuns::scenario) scenario_of(const std::string& made_of, const analysis::Plan& plan,
+                                                batch::Ask ask) {
+  text::PlannedText of = planned_text(made_of);
+  of.options.resolve = [ask = std::move(ask)](const text::Naming& naming) {
+    return named_text(ask(bytes_of(naming)));
+  };
+  const auto scenarios = std::make_shared<text::PlannedScenarios>(std::move(of), plan);
+  return [scenarios](std::size_t n) { return scenarios->run(n); };
+}
+
+}  // namespace
+
+Exit among_ranks(const std::function<Exit()>& program) {
+  base::Result<batch::Cluster> joined = batch::join_ranks();
+  if (!joined) {
+    if (batch::started().rank == 0) complain(joined.problems());
+    return Exit::bad_input;
+  }
+  batch::Cluster& cluster = ranks().cluster = std::move(*joined);
+  // mpirun gives the first process a terminal of its own, wherever what it prints goes then.
+  if (cluster.size > 1) ::setenv("NO_COLOR", "1", 1);
+  Exit exit = Exit::ok;
+  if (cluster.rank == 0) {
+    exit = program();
+    if (!ranks().whole) return exit;  // the launcher ends who is left
+    batch::dismiss(cluster, static_cast<int>(exit));
+  } else {
+    catch_interrupts();
+    exit = static_cast<Exit>(batch::follow(cluster, scenario_of, interrupted));
+  }
+  batch::part();
+  return exit;
+}
+
+void make(const batch::PlanRuns& runs, const ReadPlan& plan) {
+  if (ranks().cluster.size == 1) return batch::run_plan(runs);
+  const text::PlannedText& of = plan.scenarios->made_of();
+  const auto answered = [&](const std::string& question) { return answer(of.options.resolve, question); };
+  ranks().whole &= batch::lead_plan(ranks().cluster, runs, {bytes_of(of), answered});
+}
+
+}  // namespace cli

@@ -1,0 +1,234 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""plans_test.py PROGRAM SOURCE: mpirun -n N sixstep run .., with a program built with MPI: the rows of one process to the bit, one
+voice, nobody's file but the first one's, and no kill of any rank takes what was finished. SIXSTEP_KILLS says how many kills."""
+import contextlib
+import os
+import pathlib
+import random
+import re
+import resource
+import shutil
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+from program import PROGRAM, SHORT, SOURCE, ProgramTest  # noqa: E402
+
+KILLS = int(os.environ.get("SIXSTEP_KILLS", "10"))
+SPREAD = '[[spread]]\nkey = "motor_override.resistance_ohm"\nrelative = 0.1\n'
+# In a container the user is root, and there are fewer cores than ranks: Open MPI is to run all the same.
+ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_btl": "self,vader,tcp",
+                            "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+
+
+def mpirun(ranks, *words):
+    return ["mpirun", "--oversubscribe", "--quiet", "-n", str(ranks), PROGRAM, *words]
+
+
+class Mpi(ProgramTest):
+    def held(self, more=SPREAD, length="20e-3"):
+        """A held rotor: the current is U/R."""
+        (self.path / "a.toml").write_text(SHORT.format(limit=20).replace("1e-4", length) + more)
+        return "a.toml"
+
+    def on_ranks(self, ranks, *words, code=0, **how):
+        result = subprocess.run(mpirun(ranks, *words), cwd=self.path, capture_output=True, text=True, timeout=300,
+                                env=ENVIRONMENT, **how)
+        self.assertEqual(result.returncode, code, result.stderr + result.stdout)
+        return result
+
+    @contextlib.contextmanager
+    def started(self, ranks, *words):
+        with subprocess.Popen(mpirun(ranks, *words), cwd=self.path, env=ENVIRONMENT, text=True, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE) as job:
+            try:
+                yield job
+            finally:
+                job.kill()
+
+    def children(self, job, ranks, seconds=60):
+        """The processes that this mpirun started, in the order of their ranks."""
+        deadline = time.monotonic() + seconds
+        while job.poll() is None:
+            found = {}
+            for pid in pathlib.Path(f"/proc/{job.pid}/task/{job.pid}/children").read_text().split():
+                with contextlib.suppress(OSError):
+                    words = (pathlib.Path("/proc") / pid / "environ").read_bytes().split(b"\0")
+                    for word in words:
+                        if word.startswith(b"OMPI_COMM_WORLD_RANK="):
+                            found[int(word.split(b"=")[1])] = int(pid)
+            if len(found) == ranks:
+                return [found[rank] for rank in range(ranks)]
+            self.assertLess(time.monotonic(), deadline, "it never came")
+            time.sleep(0.005)
+        return []
+
+    def lives(self, pid):
+        """Not so who waits for a parent to hear of his end: in a container there may be none that listens."""
+        with contextlib.suppress(OSError):
+            return pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+        return False
+
+    @staticmethod
+    def children_s():
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return used.ru_utime + used.ru_stime
+
+    def numbers(self, store="s.sqlite"):
+        """Of the runs that a store has counted; none where its tables have not come yet."""
+        if not (self.path / store).exists():
+            return set()
+        with contextlib.closing(sqlite3.connect(self.path / store)) as db:
+            try:
+                return {row[0] for row in db.execute("SELECT number FROM runs")}
+            except sqlite3.OperationalError as missing:
+                self.assertIn("no such table", str(missing))
+                return set()
+
+    def table(self, file):
+        return (self.path / file).read_text().splitlines()[3:]  # behind the lines that tell the command
+
+    def wait_for_runs(self, count, job, store="s.sqlite", seconds=60):
+        """Until the store's file has grown by so many rows: nobody may look into it while it is written."""
+        deadline = time.monotonic() + seconds
+        wal = self.path / (store + "-wal")
+        while not (wal.exists() and wal.stat().st_size > 100 * count):
+            self.assertLess(time.monotonic(), deadline, "it never came")
+            self.assertIsNone(job.poll())
+            time.sleep(0.01)
+
+    def test_rows_are_those_of_one_process(self):
+        file = self.held()
+        words = ["run", file, "--vary", "supply.voltage_V=12,24", "--runs", "150"]
+        alone = self.run_program(*words, "--csv", "alone.csv", "--json", "alone.json", code=1).stdout
+        self.assertEqual(len(self.table("alone.csv")), 301)
+        for ranks, more in ((2, []), (3, ["--jobs", "2"]), (5, ["--store", "s.sqlite"])):
+            together = self.on_ranks(ranks, *words, *more, "--csv", "mpi.csv", "--json", "mpi.json", "--force", code=1)
+            self.assertEqual(together.stdout, alone)
+            self.assertEqual(together.stderr, "")
+            self.assertEqual(self.table("mpi.csv"), self.table("alone.csv"))
+            self.assertEqual((self.path / "mpi.json").read_text().split('"rows"')[1],
+                             (self.path / "alone.json").read_text().split('"rows"')[1])
+        self.assertEqual(self.numbers(), set(range(300)))
+        self.assertEqual(self.names(), ["a.toml", "alone.csv", "alone.json", "mpi.csv", "mpi.json", "s.sqlite"])
+
+    def test_only_the_first_rank_needs_the_files(self):
+        """The others stand in another folder, where there is none; what they name they are told."""
+        there = self.path / "there"
+        there.mkdir()
+        shutil.copy(SOURCE / "data/motors/maxon-251601.toml", there / "m.toml")
+        (there / "base.toml").write_text(SHORT.format(limit=20))
+        (there / "a.toml").write_text('extends = "base.toml"\n' + SPREAD)
+        words = ["run", "a.toml", "--vary", "motor=m.toml,maxon-251601", "--runs", "40", "--quiet"]
+        each = [["-n", "1", "--wdir", str(there), PROGRAM, *words, "--csv", "mpi.csv"], ["-n", "2", "--wdir", "/", PROGRAM, *words]]
+        result = subprocess.run(["mpirun", "--oversubscribe", "--quiet", *each[0], ":", *each[1]], cwd=self.path, env=ENVIRONMENT,
+                                capture_output=True, text=True, timeout=300)
+        self.assertEqual((result.returncode, result.stdout + result.stderr), (0, ""))
+        subprocess.run([PROGRAM, *words, "--csv", "alone.csv"], cwd=there, timeout=300, check=True)
+        self.assertEqual(self.table("there/mpi.csv"), self.table("there/alone.csv"))
+
+    def test_one_voice_and_one_exit(self):
+        file = self.held()
+        for words, code, told in ((["run", file, "--vary", "supply.voltge_V=1:2:3"], 2, "did you mean"),
+                                  (["run", "none.toml", "--runs", "3"], 2, "none.toml"),
+                                  (["run", file, "--runs"], 2, "--runs"),
+                                  (["run", file, "--runs", "3", "--resume"], 2, "--store")):
+            result = self.on_ranks(3, *words, code=code)
+            alone = self.run_program(*words, code=code)
+            self.assertIn(told, result.stderr)
+            self.assertEqual(result.stderr, alone.stderr)
+        self.assertEqual(self.on_ranks(3, "run", file, code=1).stdout, self.run_program("run", file, code=1).stdout)
+        self.held(SPREAD.replace("0.1", "0.01").replace("resistance_ohm", "inductance_mH"))
+        self.assertIn("hold every", self.on_ranks(2, "run", file, "--set", "require[0].max=30", "--runs", "20").stdout)
+
+    def test_a_corner_that_cannot_run_is_a_row(self):
+        self.held("")
+        words = ["run", "a.toml", "--vary", "bridge.dead_time_s=0,1us", "--vary", "pwm.period_s=30us,1us"]
+        self.assertEqual(self.on_ranks(3, *words, code=2).stdout, self.run_program(*words, code=2).stdout)
+
+    def test_several_plans_one_after_the_other(self):
+        self.held()
+        (self.path / "b.toml").write_text((self.path / "a.toml").read_text().replace("20e-3", "10e-3"))
+        words = ["run", "a.toml", "b.toml", "--runs", "50"]
+        self.assertEqual(self.on_ranks(3, *words, code=1).stdout, self.run_program(*words, code=1).stdout)
+
+    def test_interruptions_end_cleanly_and_resume_goes_on(self):
+        file = self.held()
+        words = ["run", file, "--runs", "1500"]
+        self.run_program(*words, "--csv", "whole.csv", code=1)
+        for told in (signal.SIGINT, signal.SIGTERM):
+            endless = ["run", file, "--runs", "100000000", "--store", "s.sqlite", "--resume"]
+            with self.started(3, *endless) as job:
+                pids = self.children(job, 3)
+                self.wait_for_runs(20, job)
+                job.send_signal(told)
+                job.communicate(timeout=60)
+            self.assertNotEqual(job.returncode, 0)
+            self.assertEqual([pid for pid in pids if self.lives(pid)], [])
+            self.assertGreater(len(self.numbers()), 0)
+        self.on_ranks(2, *words, "--store", "s.sqlite", "--resume", "--csv", "mpi.csv", code=1)
+        self.assertEqual(self.table("mpi.csv"), self.table("whole.csv"))
+
+    def test_waiting_burns_no_core(self):
+        """Two runs keep two ranks busy, and two others wait: all four together take little more than one process does alone."""
+        file = self.held("", length="5e3")
+        words = ["run", file, "--vary", "supply.voltage_V=24,25", "--jobs", "1", "--quiet"]
+
+        before = self.children_s()
+        self.run_program(*words, code=1)
+        alone = self.children_s() - before
+        # mpirun does not count what its processes took: a shell around each of them does.
+        counted = ["bash", "-c", '"$0" "$@"; times >cpu.$OMPI_COMM_WORLD_RANK', PROGRAM, *words]
+        subprocess.run([*mpirun(4)[:-1], *counted], cwd=self.path, env=ENVIRONMENT, timeout=300, check=True)
+        took = [sum(60 * float(m) + float(s) for m, s in re.findall(r"(\d+)m([\d.]+)s", (self.path / f"cpu.{rank}").read_text()))
+                for rank in range(4)]
+        print(f"{alone:.2f} s of work; on four ranks {took}")
+        # Who waits busily takes as much as who works, and two of four wait.
+        self.assertGreater(sum(took), 0.5 * alone)
+        for waited in sorted(took)[:2]:
+            self.assertLess(waited, 0.1 * alone + 0.3)
+
+    def test_kills_take_nothing_that_was_finished(self):
+        """A rank killed at a random instant takes the job along; the store keeps what it counted, and whoever goes on with it, on any
+        number of ranks or without MPI, comes to the table of one sitting."""
+        seed = random.randrange(2**32)
+        draw = random.Random(seed)
+        file = self.held()
+        words = ["run", file, "--runs", "20000"]
+        self.run_program(*words, "--csv", "whole.csv", code=1)
+        before, kills, told = set(), 0, []
+        while kills < KILLS:
+            ranks = draw.choice((2, 3, 4))
+            with self.started(ranks, *words, "--store", "s.sqlite", "--resume", "--quiet") as job:
+                pids = self.children(job, ranks)
+                time.sleep(draw.uniform(0.0, 1.2))
+                victim = draw.randrange(ranks)
+                if pids:
+                    with contextlib.suppress(ProcessLookupError):
+                        os.kill(pids[victim], signal.SIGKILL)
+                job.communicate(timeout=60)
+            if job.returncode in (0, 1):
+                (self.path / "s.sqlite").unlink()  # it was finished: begin anew
+                before = set()
+                continue
+            kills += 1
+            now = self.numbers()
+            self.assertLessEqual(before, now, f"seed {seed}")
+            told.append(f"{victim}/{ranks}:{len(now) - len(before)}")
+            before = now
+        print(f"kills (rank/ranks:rows more) {' '.join(told)}; {len(before)} rows before the last sitting, seed {seed}")
+        shutil.copy(self.path / "s.sqlite", self.path / "t.sqlite")
+        self.on_ranks(3, *words, "--store", "s.sqlite", "--resume", "--csv", "mpi.csv", code=1)
+        self.run_program(*words, "--store", "t.sqlite", "--resume", "--csv", "alone.csv", code=1)
+        for table in ("mpi.csv", "alone.csv"):
+            self.assertEqual(self.table(table), self.table("whole.csv"), f"seed {seed}")
+        self.assertEqual(len(self.table("whole.csv")), 20001)
+
+
+if __name__ == "__main__":
+    unittest.main()
