@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the leader of a cluster does for each row that another process made, beside simulating: reads it from a letter, and puts it
+// into the store. One over the rate is the time of a core that a row takes there, and so what bounds the rows of all nodes together
+// (docs/cluster.md). Rows are those of data/scenarios/current-square-series.toml: four strayed values, two figures.
+//
+//   build/dev/benchmarks/cluster_benchmark
+#include <benchmark/benchmark.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "batch/letters.hpp"
+#include "files/store/plan_store.hpp"
+
+namespace {
+
+namespace analysis = sixstep::analysis;
+
+constexpr std::size_t rows_at_once = 1000;
+
+analysis::RunRecord row(std::size_t n) {
+  const double x = 1.0 / (1.0 + static_cast<double>(n));
+  return {.number = n,
+          .point = {},
+          .strayed = {x, x / 3, x / 7, x / 11},
+          .end = analysis::RunEnd::whole,
+          .problem = "",
+          .figures = {x / 13, x / 17},
+          .digest = 0x9e37'79b9'7f4a'7c15u * n};
+}
+
+std::string letter() {
+  batch::letters::Rows rows;
+  for (std::size_t n = 0; n < rows_at_once; ++n) rows.rows.push_back(row(n));
+  return batch::letters::bytes_of(rows);
+}
+
+void count(benchmark::State& state) {
+  state.counters["rows"] =
+      benchmark::Counter(static_cast<double>(rows_at_once * static_cast<std::size_t>(state.iterations())),
+                         benchmark::Counter::kIsRate);
+}
+
+void read_rows(benchmark::State& state) {
+  const std::string bytes = letter();
+  for (auto _ : state) benchmark::DoNotOptimize(batch::letters::read(bytes));
+  count(state);
+  state.SetLabel(std::to_string(bytes.size() / rows_at_once) + " bytes a row");
+}
+
+/// With the writer's thread; the clock is the processor's, of all threads.
+void store_rows(benchmark::State& state) {
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("sixstep_rows_" + std::to_string(::getpid()) + ".sqlite"))
+          .string();
+  files::StoredPlan plan{.plan = "{}", .inputs = "0", .units = {"ohm", "mH", "mN m/A", "g cm^2"}};
+  plan.columns.strayed = {"a", "b", "c", "d"};
+  plan.columns.figures = {{"slowest", "s", true, {}, 1.0}, {"greatest", "A", true, {}, 1.0}};
+  std::size_t n = 0;
+  {
+    sixstep::base::Result<files::PlanStore> store = files::PlanStore::create(path, plan, true);
+    if (!store) return state.SkipWithError("no store");
+    for (auto _ : state)
+      for (std::size_t k = 0; k < rows_at_once; ++k) store->add(row(n++));
+    if (!store->finish().empty()) state.SkipWithError("not stored");
+  }
+  count(state);
+  if (n > 0) state.SetLabel(std::to_string(std::filesystem::file_size(path) / n) + " bytes a row");
+  std::filesystem::remove(path);
+}
+
+BENCHMARK(read_rows);
+BENCHMARK(store_rows)->MeasureProcessCPUTime();
+
+}  // namespace
+
+BENCHMARK_MAIN();
