@@ -8,6 +8,7 @@
 
 #include "faces/cli/choose.hpp"
 #include "faces/cli/new_file.hpp"
+#include "faces/cli/optimise_command.hpp"
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/spec_words.hpp"
 #include "faces/cli/terminal.hpp"
@@ -45,6 +46,8 @@ struct DesignArguments {
   unsigned jobs = 0;
   std::string json, toml, models, html;  ///< files; json "-": standard output
   double angle_deg = 30.0;               ///< of the models, electrical
+  std::string optimise, store;  ///< a plan and where its runs are kept
+  bool resume = false;
   std::string data_dir;
   std::string command;  ///< the command line as it may be typed again
 };
@@ -208,6 +211,17 @@ void refuse_other_motion(const DesignArguments& a, const design::Sheet& sheet, b
 }
 
 Exit design_command(const DesignArguments& a) {
+  if (!a.optimise.empty())
+    return optimise_command({.plan = a.optimise,
+                             .store = a.store,
+                             .resume = a.resume,
+                             .force = a.force,
+                             .quiet = a.quiet,
+                             .toml = a.toml,
+                             .json = a.json,
+                             .data_dir = a.data_dir,
+                             .command = a.command,
+                             .jobs = a.jobs});
   base::Problems found;
   const std::optional<study::Scenario> board = board_of(a, found);
   if (!found.empty()) return refused(found);
@@ -273,6 +287,10 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("--models", a.models, "write the motor's two state spaces, as .json or .mat");
   design.add_option("--angle", a.angle_deg, "of the rotor for --models, in electrical degrees")
       ->capture_default_str();
+  CLI::Option* optimise = design.add_option(
+      "--optimise", a.optimise, "a plan that says what is to be small: the best point of its ranges, and what limits it");
+  design.add_option("--store", a.store, "keep each run of --optimise in this SQLite file")->needs(optimise);
+  design.add_flag("--resume", a.resume, "go on with the runs of --store")->needs("--store");
   take_force(design, a.force);
   design.add_flag("--quick", a.quick, "leave out the tolerances");
   design.add_flag("--quiet", a.quiet, "no text, only errors and the exit code");

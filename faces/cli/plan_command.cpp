@@ -3,79 +3,28 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <optional>
-#include <stop_token>
-#include <thread>
 
 #include "batch/plan_runs.hpp"
 #include "faces/cli/plan_foretold.hpp"
 #include "faces/cli/plan_outputs.hpp"
 #include "faces/cli/plan_ranks.hpp"
+#include "faces/cli/plan_storing.hpp"
 #include "faces/cli/progress.hpp"
 #include "faces/cli/terminal.hpp"
-#include "sixstep/base/written.hpp"
 #include "text/plan/plan_file.hpp"
 #include "text/results/junit.hpp"
 #include "text/results/plan_text.hpp"
-#include "text/scenario/scenario_text.hpp"
 
 namespace cli {
 namespace {
-
-/// Carries Ctrl-C, of which a signal handler may only leave a note, and a store that takes nothing more to the runs under way.
-class Interrupter {
- public:
-  explicit Interrupter(const files::PlanStore& store) : store_(store) {}
-  std::stop_token token() const { return stop_.get_token(); }
-
- private:
-  const files::PlanStore& store_;
-  std::stop_source stop_;
-  std::jthread watch_{[this](const std::stop_token& done) {
-    while (!done.stop_requested()) {
-      if (interrupted() || store_.failed()) stop_.request_stop();
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-  }};
-};
 
 Exit exit_of(const analysis::Series& series) {
   Exit exit = series.passed == series.runs ? Exit::ok : Exit::failed;
   if (!series.refused.empty()) exit = graver(exit, Exit::bad_input);
   if (!series.faults.empty()) exit = graver(exit, Exit::fault);
   return exit;
-}
-
-/// What the store calls by its meaning has a name here.
-void in_options(base::Problem& problem) {
-  const auto replace = [](std::string& text, std::string_view word, std::string_view option) {
-    if (const std::size_t at = text.find(word); at != std::string::npos)
-      text.replace(at, word.size(), option);
-  };
-  replace(problem.cure, "(resume)", "with --resume");
-  replace(problem.cure, "(force)", "with --force");
-}
-
-base::Result<files::PlanStore> store_of(const RunArguments& a, const ReadPlan& plan) {
-  files::StoredPlan stored{.plan = text::plan_identity(plan.scenarios->plan()),
-                           .inputs = base::written_hex(plan.origin.digest),
-                           .title = plan.title,
-                           .motor = plan.origin.motor,
-                           .scenario = plan.origin.scenario,
-                           .command = plan.origin.command,
-                           .scenario_text = text::scenario_text(plan.nominal),
-                           .columns = plan.columns,
-                           .units = plan.units};
-  base::Result<files::PlanStore> store =
-      a.plan.resume ? files::PlanStore::resume(a.plan.store, std::move(stored))
-                    : files::PlanStore::create(a.plan.store, std::move(stored), a.paths.force);
-  if (store) return store;
-  base::Problems problems = store.problems();
-  for (base::Problem& problem : problems) in_options(problem);
-  return problems;
 }
 
 batch::PlanRuns runs_of(const RunArguments& a, const ReadPlan& plan, files::PlanStore& store) {
@@ -135,13 +84,13 @@ Told tell(const RunArguments& a, const ReadPlan& plan, files::PlanStore& store, 
 Exit run_plan(const RunArguments& a, const ReadPlan& plan, std::vector<text::JunitSuite>& suites) {
   PlanOutputs outputs;
   if (const base::Problems problems = outputs.open(a, plan); !problems.empty()) return refused(problems);
-  base::Result<files::PlanStore> store = store_of(a, plan);
+  base::Result<files::PlanStore> store = store_of(a, plan, text::plan_identity(plan.scenarios->plan()));
   if (!store) return refused(store.problems());
   batch::PlanRuns runs = runs_of(a, plan, *store);
   if (const base::Problems problems = same_program(runs, *store); !problems.empty()) return refused(problems);
   {
-    const Interrupter interrupter(*store);
-    runs.stop = interrupter.token();
+    const StoreWatch watch(*store);
+    runs.stop = watch.token();
     Progress progress({.seconds = {},
                        .pieces = analysis::runs_of(runs.plan),
                        .of = runs.plan.axes.empty() ? "drives" : "runs",

@@ -142,6 +142,8 @@ base::Result<ReadPlan> read_plan(const std::string& file, const RunArguments& ar
   if (!problems.empty()) return problems;
   read.title = of_file->title.empty() ? read.nominal.title : of_file->title;
   read.notes = of_file->notes;
+  read.minimise = of_file->minimise;
+  read.evaluations = of_file->evaluations;
   name_columns(read);
   read.origin = {.scenario = file,
                  .digest = inputs_digest(log, arguments, tolerances),

@@ -16,6 +16,8 @@ namespace cli {
 struct ReadPlan {
   std::string name;  ///< the file's stem
   std::string title, notes;
+  std::string minimise;  ///< of a plan that is to be optimised
+  std::size_t evaluations = 0;
   std::unique_ptr<text::PlannedScenarios> scenarios;
   study::Scenario nominal;
   analysis::PlanColumns columns;

@@ -55,7 +55,7 @@ class PlanStore {
   /// Waits until all rows stand in the file. What kept one from it.
   base::Problems finish();
 
-  /// In the order of the runs' numbers. `point` of a row is left empty: the plan tells it.
+  /// In the order of the runs' numbers. Of a row's `point` numbers are as they were, words without their quotes.
   base::Problems each(const std::function<void(const analysis::RunRecord&)>& visit);
 
  private:

@@ -42,6 +42,7 @@ class Statement {
     if (sqlite3_column_type(statement_.get(), column) == SQLITE_NULL) return {};
     return sqlite3_column_double(statement_.get(), column);
   }
+  bool is_number(int column) const { return sqlite3_column_type(statement_.get(), column) == SQLITE_FLOAT; }
   std::string text(int column) const {
     const auto* chars = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
     return chars

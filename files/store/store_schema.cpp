@@ -102,8 +102,7 @@ void bind_row(Statement& insert, const analysis::RunRecord& record, const analys
 
 std::string select_sql(const StoredPlan& plan) {
   std::string sql = "SELECT number, \"end\", problem, digest";
-  for (const std::string& name : own_columns(plan.columns))
-    if (name[0] != 'k') sql += ", " + name;
+  for (const std::string& name : own_columns(plan.columns)) sql += ", " + name;
   return sql + " FROM run ORDER BY number";
 }
 
@@ -116,6 +115,8 @@ analysis::RunRecord row_of(const Statement& select, const analysis::PlanColumns&
   record.problem = select.text(2);
   record.digest = from_hex(select.text(3));
   int column = 4;
+  for (std::size_t n = 0; n < columns.keys.size(); ++n, ++column)
+    record.point.push_back(select.is_number(column) ? base::written(*select.number(column)) : select.text(column));
   for (std::size_t n = 0; n < columns.strayed.size(); ++n)
     record.strayed.push_back(select.number(column++).value_or(none));
   for (std::size_t n = 0; n < columns.figures.size(); ++n)

@@ -168,6 +168,8 @@ base::Result<PlanFile> read_plan_text(const std::string& name, std::string text)
                 .notes = entry.notes,
                 .scenario = entry.scenario,
                 .sheet_tolerances = entry.sheet_tolerances,
+                .minimise = entry.minimise,
+                .evaluations = static_cast<std::size_t>(entry.evaluations),
                 .plan = {}};
   file.plan = {.axes = {},
                .sampling = entry.sampling,
@@ -177,6 +179,10 @@ base::Result<PlanFile> read_plan_text(const std::string& name, std::string text)
   for (std::size_t n = 0; n < entry.vary.size(); ++n)
     in_keys_unit(
         file.plan.axes.emplace_back(axis_from(entry.vary[n], fmt::format("vary[{}]", n), complaints)));
+  if (!entry.minimise.empty()) {  // points come from the search
+    file.plan.sampling = analysis::Sampling::sobol;
+    file.plan.points = file.evaluations;
+  }
   if (complaints.empty())
     for (base::Problem& problem : analysis::check(file.plan)) complaints.later(std::move(problem));
   if (!complaints.empty()) return complaints.in_order();

@@ -14,6 +14,8 @@ struct PlanFile {
   std::string title, notes;
   std::string scenario;  ///< as written
   bool sheet_tolerances = false;
+  std::string minimise;  ///< a figure's label; empty: nothing is optimised
+  std::size_t evaluations = 0;
   analysis::Plan plan;
 };
 

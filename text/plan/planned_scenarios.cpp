@@ -92,7 +92,10 @@ base::Result<study::Scenario> PlannedScenarios::at(const std::vector<std::string
 }
 
 base::Result<analysis::PlannedRun> PlannedScenarios::run(std::size_t n) const {
-  const std::vector<std::string> point = analysis::point_of_run(plan_, n);
+  return run(analysis::point_of_run(plan_, n), analysis::drive_of_run(plan_, n).value_or(0));
+}
+
+base::Result<analysis::PlannedRun> PlannedScenarios::run(const std::vector<std::string>& point, std::size_t drive) const {
   std::shared_ptr<const base::Result<study::Scenario>> read;
   {
     const std::lock_guard lock(recent_->guard);
@@ -105,9 +108,8 @@ base::Result<analysis::PlannedRun> PlannedScenarios::run(std::size_t n) const {
     recent_->read.emplace(point, read);
   }
   if (!*read) return read->problems();
-  const std::optional<std::size_t> drive = analysis::drive_of_run(plan_, n);
-  if (!drive) return analysis::PlannedRun{**read, {}};
-  study::Scenario varied = study::varied(**read, plan_.seed, *drive);
+  if (plan_.drives == 0) return analysis::PlannedRun{**read, {}};
+  study::Scenario varied = study::varied(**read, plan_.seed, drive);
   std::vector<double> strayed = study::strayed_values(**read, varied);
   return analysis::PlannedRun{std::move(varied), std::move(strayed)};
 }

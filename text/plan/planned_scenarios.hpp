@@ -28,6 +28,8 @@ class PlannedScenarios {
   /// Of a point, before it strays from drive to drive. A Problem's `where` is "--set key" for a value of the plan.
   base::Result<study::Scenario> at(const std::vector<std::string>& point) const;
   base::Result<analysis::PlannedRun> run(std::size_t n) const;
+  /// A drive of a point that need not be one of the plan's.
+  base::Result<analysis::PlannedRun> run(const std::vector<std::string>& point, std::size_t drive) const;
 
   /// Keys that can be varied at all, with values that can be read: each axis's ends, the others at their beginnings. Told
   /// once for each axis of which no end can be run; a corner that cannot is a row of its own.

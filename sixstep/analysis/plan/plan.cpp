@@ -24,12 +24,6 @@ double on_range(const Axis& axis, double u) {
   return axis.from + u * (axis.to - axis.from);
 }
 
-std::string on_axis(const Axis& axis, double u) {
-  if (axis.values.empty()) return base::written(on_range(axis, u));
-  const auto count = static_cast<double>(axis.values.size());
-  return axis.values[std::min(static_cast<std::size_t>(u * count), axis.values.size() - 1)];
-}
-
 /// Digits of n in the axes' own numbers of steps, the last axis's first.
 std::vector<double> on_grid(const Plan& plan, std::size_t n) {
   std::vector<double> at(plan.axes.size());
@@ -128,6 +122,12 @@ class Checker {
 };
 
 }  // namespace
+
+std::string on_axis(const Axis& axis, double u) {
+  if (axis.values.empty()) return base::written(on_range(axis, u));
+  const auto count = static_cast<double>(axis.values.size());
+  return axis.values[std::min(static_cast<std::size_t>(u * count), axis.values.size() - 1)];
+}
 
 base::Problems check(const Plan& plan) { return Checker(plan).problems(); }
 

@@ -59,6 +59,9 @@ std::vector<std::string> point_of_run(const Plan& plan, std::size_t run);
 /// The drive of run n; empty where the plan has none.
 std::optional<std::size_t> drive_of_run(const Plan& plan, std::size_t run);
 
+/// The value at u of an axis, 0 its beginning and 1 its end, as a file writes it.
+std::string on_axis(const Axis& axis, double u);
+
 /// Where point n lies on each axis, 0 to 1: of a listed value, which part of as many equal ones.
 std::vector<double> coordinates(const Plan& plan, std::size_t point);
 

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "batch/optimise.hpp"
+
+#include <nlopt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "batch/for_each.hpp"
+#include "batch/plan_runs.hpp"
+#include "sixstep/analysis/plan/sobol_sequence.hpp"
+#include "sixstep/base/written.hpp"
+
+namespace batch {
+namespace {
+
+using analysis::FigureColumn;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+/// A point that could not run, or a figure that never came: worse than any miss that is one of size.
+constexpr double hopeless = 1e3;
+constexpr double close = 1e-3;  ///< of a limit's size, and of a range
+
+/// How far a figure is beyond its limits, in their own size; negative within.
+double beyond(const FigureColumn& f, double x) {
+  if (!(x - x == 0.0)) return hopeless;
+  double miss = -hopeless;
+  const auto size = [](double limit) { return limit == 0.0 ? 1.0 : std::fabs(limit); };
+  if (f.max) miss = std::max(miss, (x - *f.max) / size(*f.max));
+  if (f.min) miss = std::max(miss, (*f.min - x) / size(*f.min));
+  return miss;
+}
+
+struct Evaluated {
+  std::vector<std::string> point;
+  std::vector<double> at, figures;  ///< coordinates 0 to 1; the worst drive's
+  double cost = none;               ///< of the figure, over its size at the first point that has one
+  std::vector<double> misses;       ///< a requirement each
+  double worst() const { return misses.empty() ? -hopeless : *std::max_element(misses.begin(), misses.end()); }
+  bool holds() const { return cost == cost && worst() <= 0.0; }
+};
+
+/// Feasible before infeasible, then the lesser cost, or the lesser miss.
+bool better(const Evaluated& a, const Evaluated& b) {
+  if (a.holds() != b.holds()) return a.holds();
+  if (!a.holds()) return a.worst() < b.worst();
+  return a.cost < b.cost;
+}
+
+class Search {
+ public:
+  explicit Search(const Optimisation& work) : w_(work) {
+    for (std::size_t n = 0; n < w_.columns.figures.size(); ++n)
+      if (w_.columns.figures[n].required) required_.push_back(n);
+  }
+
+  std::optional<analysis::Optimum> run() {
+    const std::size_t keys = w_.plan.axes.size();
+    const std::size_t spread = std::min(w_.evaluations / 2 + 1, 10 * keys);
+    for (std::size_t n = 0; n < spread && !ended(); ++n) {
+      std::vector<double> u(keys);
+      for (std::size_t k = 0; k < keys; ++k) u[k] = n == 0 ? 0.5 : analysis::sobol(k, static_cast<std::uint32_t>(n), w_.plan.seed);
+      evaluate(u);
+    }
+    if (const Evaluated* start = best(); start && !ended()) refine(start->at);
+    return told();
+  }
+
+ private:
+  bool ended() const { return w_.stop.stop_requested() || tried_.size() >= w_.evaluations; }
+
+  const Evaluated* best() const {
+    const auto found = std::min_element(tried_.begin(), tried_.end(), [](const auto& a, const auto& b) { return better(*a, *b); });
+    return found == tried_.end() || (*found)->cost != (*found)->cost ? nullptr : found->get();
+  }
+
+  analysis::RunRecord row(const std::vector<std::string>& point, std::size_t number, std::size_t drive) const {
+    if (w_.known)
+      if (std::optional<analysis::RunRecord> before = w_.known(number); before && before->point == point) return *before;
+    const analysis::Plan one{.axes = {}, .drives = 1};
+    const PlanRuns runs{.plan = one,
+                        .columns = w_.columns,
+                        .scenario = [&](std::size_t) { return w_.scenario(point, drive); },
+                        .wanted = {},
+                        .take = {},
+                        .stop = w_.stop};
+    std::optional<analysis::RunRecord> made = run_one(runs, number);
+    if (!made) return {.number = number, .point = {}, .strayed = {}, .problem = "stopped", .figures = {}};
+    made->point = point;
+    if (w_.take) w_.take(analysis::RunRecord(*made));
+    return *made;
+  }
+
+  /// The worst of the drives: of each figure that is asked something the one nearest to its limit or farthest beyond, of the
+  /// one that is to be small the largest.
+  const Evaluated& evaluate(const std::vector<double>& u) {
+    auto e = std::make_unique<Evaluated>();
+    e->at = u;
+    for (std::size_t k = 0; k < u.size(); ++k) e->point.push_back(analysis::on_axis(w_.plan.axes[k], u[k]));
+    for (const auto& other : tried_)
+      if (other->point == e->point) return *other;
+    const std::size_t drives = std::max<std::size_t>(w_.plan.drives, 1), first = tried_.size() * drives;
+    std::vector<analysis::RunRecord> rows(drives);
+    for_each(drives, w_.jobs, [&](std::size_t d) { rows[d] = row(e->point, first + d, d); });
+    judge(*e, rows);
+    if (!w_.stop.stop_requested()) {
+      tried_.push_back(std::move(e));
+      if (w_.progress) w_.progress(tried_.size());
+      return *tried_.back();
+    }
+    cut_ = std::move(e);
+    return *cut_;
+  }
+
+  void judge(Evaluated& e, const std::vector<analysis::RunRecord>& rows) {
+    e.figures.assign(w_.columns.figures.size(), none);
+    e.misses.assign(required_.size(), -hopeless);
+    double cost = -std::numeric_limits<double>::infinity();
+    for (const analysis::RunRecord& r : rows) {
+      const bool whole = r.end == analysis::RunEnd::whole && r.figures.size() == e.figures.size();
+      for (std::size_t n = 0; n < required_.size(); ++n) {
+        const double miss = whole ? beyond(w_.columns.figures[required_[n]], r.figures[required_[n]]) : hopeless;
+        if (miss >= e.misses[n] && whole) e.figures[required_[n]] = r.figures[required_[n]];
+        e.misses[n] = std::max(e.misses[n], miss);
+      }
+      const double x = whole ? r.figures[w_.figure] : none;
+      cost = x - x == 0.0 && cost == cost ? std::max(cost, x) : none;
+      for (std::size_t n = 0; n < e.figures.size(); ++n)
+        if (!w_.columns.figures[n].required && whole && !(e.figures[n] >= r.figures[n])) e.figures[n] = r.figures[n];
+    }
+    if (cost != cost) return;
+    e.figures[w_.figure] = cost;
+    if (size_ == 0.0) size_ = cost == 0.0 ? 1.0 : std::fabs(cost);
+    e.cost = cost / size_;
+  }
+
+  struct Wanted {
+    Search* search;
+    std::size_t requirement;
+  };
+  static double cost_of(unsigned n, const double* u, double*, void* data) {
+    const Evaluated& e = static_cast<Search*>(data)->at(n, u);
+    return e.cost == e.cost ? e.cost : hopeless;
+  }
+  static double miss_of(unsigned n, const double* u, double*, void* data) {
+    const auto& wanted = *static_cast<Wanted*>(data);
+    return wanted.search->at(n, u).misses[wanted.requirement];
+  }
+  const Evaluated& at(unsigned n, const double* u) {
+    if (ended()) nlopt_force_stop(optimiser_.get());
+    if (ended()) return *tried_.back();
+    std::vector<double> place(u, u + n);
+    for (double& x : place) x = std::clamp(x, 0.0, 1.0);
+    return evaluate(place);
+  }
+
+  void refine(std::vector<double> u) {
+    const auto keys = static_cast<unsigned>(u.size());
+    optimiser_.reset(nlopt_create(NLOPT_LN_COBYLA, keys));
+    nlopt_opt o = optimiser_.get();
+    std::vector<double> low(keys, 0.0), high(keys, 1.0), step(keys, 0.1);
+    nlopt_set_lower_bounds(o, low.data());
+    nlopt_set_upper_bounds(o, high.data());
+    nlopt_set_initial_step(o, step.data());
+    nlopt_set_min_objective(o, cost_of, this);
+    std::vector<Wanted> wanted;
+    for (std::size_t n = 0; n < required_.size(); ++n) wanted.push_back({this, n});
+    for (Wanted& w : wanted) nlopt_add_inequality_constraint(o, miss_of, &w, 0.0);
+    nlopt_set_xtol_rel(o, 0.0);
+    const std::vector<double> tolerance(keys, 1e-4);
+    nlopt_set_xtol_abs(o, tolerance.data());
+    nlopt_set_maxeval(o, static_cast<int>(4 * w_.evaluations));
+    double least = 0.0;
+    nlopt_optimize(o, u.data(), &least);  // what counts is what was tried, however it ended
+  }
+
+  std::optional<analysis::Optimum> told() const {
+    const Evaluated* e = best();
+    if (!e) return {};
+    analysis::Optimum best{.point = e->point, .figures = e->figures, .holds = e->holds(), .limits = {}, .evaluations = tried_.size()};
+    for (std::size_t n = 0; n < tried_.size(); ++n)
+      if (tried_[n].get() == e) best.at = n;
+    for (std::size_t n = 0; n < required_.size(); ++n) {
+      const FigureColumn& f = w_.columns.figures[required_[n]];
+      if (e->misses[n] < -10 * close) continue;
+      const double x = e->figures[required_[n]];
+      best.limits.push_back({f.name, f.max && (!f.min || *f.max - x < x - *f.min), false});
+    }
+    for (std::size_t k = 0; k < e->at.size(); ++k)
+      if (e->at[k] < close || e->at[k] > 1.0 - close) best.limits.push_back({w_.plan.axes[k].key, e->at[k] > 0.5, true});
+    return best;
+  }
+
+  struct Destroy {
+    void operator()(nlopt_opt_s* o) const { nlopt_destroy(o); }
+  };
+  const Optimisation& w_;
+  std::vector<std::size_t> required_;
+  std::vector<std::unique_ptr<Evaluated>> tried_;
+  std::unique_ptr<Evaluated> cut_;
+  std::unique_ptr<nlopt_opt_s, Destroy> optimiser_;
+  double size_ = 0.0;
+};
+
+}  // namespace
+
+std::optional<analysis::Optimum> optimise(const Optimisation& work) { return Search(work).run(); }
+
+}  // namespace batch

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/plan_storing.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "faces/cli/terminal.hpp"
+#include "sixstep/base/written.hpp"
+#include "text/scenario/scenario_text.hpp"
+
+namespace cli {
+namespace {
+
+/// What the store calls by its meaning has a name here.
+void in_options(base::Problem& problem) {
+  const auto replace = [](std::string& text, std::string_view word, std::string_view option) {
+    if (const std::size_t at = text.find(word); at != std::string::npos) text.replace(at, word.size(), option);
+  };
+  replace(problem.cure, "(resume)", "with --resume");
+  replace(problem.cure, "(force)", "with --force");
+}
+
+}  // namespace
+
+base::Result<files::PlanStore> store_of(const RunArguments& a, const ReadPlan& plan, std::string identity) {
+  files::StoredPlan stored{.plan = std::move(identity),
+                           .inputs = base::written_hex(plan.origin.digest),
+                           .title = plan.title,
+                           .motor = plan.origin.motor,
+                           .scenario = plan.origin.scenario,
+                           .command = plan.origin.command,
+                           .scenario_text = text::scenario_text(plan.nominal),
+                           .columns = plan.columns,
+                           .units = plan.units};
+  base::Result<files::PlanStore> store =
+      a.plan.resume ? files::PlanStore::resume(a.plan.store, std::move(stored))
+                    : files::PlanStore::create(a.plan.store, std::move(stored), a.paths.force);
+  if (store) return store;
+  base::Problems problems = store.problems();
+  for (base::Problem& problem : problems) in_options(problem);
+  return problems;
+}
+
+StoreWatch::StoreWatch(const files::PlanStore& store)
+    : watch_([this, &store](const std::stop_token& done) {
+        while (!done.stop_requested()) {
+          if (interrupted() || store.failed()) stop_.request_stop();
+          std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+      }) {}
+
+}  // namespace cli

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the search for the best point of a plan's ranges came to.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sixstep/analysis/plan/optimum.hpp"
+#include "sixstep/analysis/plan/plan_table.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+struct OptimumStory {
+  const std::string& name;
+  const analysis::Plan& plan;
+  const analysis::PlanColumns& columns;
+  const std::vector<std::string>& units;  ///< of the keys, then of what strays
+  std::size_t figure = 0;                 ///< that is small
+};
+
+std::string optimum_text(const OptimumStory& story, const analysis::Optimum& best);
+std::string optimum_json(const OptimumStory& story, const analysis::Optimum& best);
+
+}  // namespace text
