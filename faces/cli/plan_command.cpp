@@ -67,8 +67,8 @@ base::Result<files::PlanStore> store_of(const RunArguments& a, const ReadPlan& p
                            .columns = plan.columns,
                            .units = plan.units};
   base::Result<files::PlanStore> store =
-      a.plan.resume ? files::PlanStore::resume(a.plan.store, std::move(stored))
-                    : files::PlanStore::create(a.plan.store, std::move(stored), a.paths.force);
+      a.plan.resume ? files::PlanStore::resume(store_path(a, plan.name), std::move(stored))
+                    : files::PlanStore::create(store_path(a, plan.name), std::move(stored), a.paths.force);
   if (store) return store;
   base::Problems problems = store.problems();
   for (base::Problem& problem : problems) in_options(problem);
@@ -157,10 +157,10 @@ Exit run_plan(const RunArguments& a, const ReadPlan& plan) {
 
 base::Problems contradictions(const RunArguments& a) {
   base::Problems problems;
-  if (a.plan.resume && a.plan.store.empty())
+  if (a.plan.resume && a.plan.store.empty() && a.out.empty())
     problems.push_back({.where = "--resume",
                         .limit = "goes on with the runs of a store, and none is named",
-                        .cure = "add --store FILE.sqlite"});
+                        .cure = "add --store FILE.sqlite, or --out DIR as it was"});
   if (a.files.size() > 1 && (!a.plan.store.empty() || (a.paths.any() && a.out.empty())))
     problems.push_back({.where = a.plan.store.empty() ? all_options() : "--store",
                         .limit = "name the outputs of one plan",
