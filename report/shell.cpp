@@ -31,12 +31,14 @@ std::string in_shell(const Shell& shell, std::string_view data,
                      std::initializer_list<std::string_view> scripts) {
   std::string own;
   for (const std::string_view script : scripts) own.append(script);
+  const std::string charts = shell.charts ? fmt::format("<!-- Charts: uPlot.\n{}-->\n<script>{}</script>\n",
+                                                        assets::LICENSE, assets::uPlot_iife_min_js)
+                                          : std::string();
   const std::string code = fmt::format(
-      "<script type=\"application/json\" id=\"data\">{}</script>\n<!-- Charts: "
-      "uPlot.\n{}-->\n<script>{}</script>\n"
-      "<script>\n(() => {{\n\"use strict\";\n{}}})();\n</script>\n",
-      script_safe(data), assets::LICENSE, assets::uPlot_iife_min_js, own);
-  return filled_shell(shell, style(assets::uPlot_min_css) + style(assets::report_css), code);
+      "<script type=\"application/json\" id=\"data\">{}</script>\n{}<script>\n(() => {{\n\"use strict\";\n{}}})();\n</script>\n",
+      script_safe(data), charts, own);
+  const std::string styles = style(assets::report_css);
+  return filled_shell(shell, shell.charts ? style(assets::uPlot_min_css) + styles : styles, code);
 }
 
 }  // namespace report

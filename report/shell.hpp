@@ -13,13 +13,14 @@ struct Shell {
   std::string_view command;
   std::string_view version;
   std::string_view main_class = {};
+  bool charts = true;  ///< its scripts draw with uPlot
 };
 
 /// A page without a script.
 std::string in_shell(const Shell& shell);
 
-/// A page with charts: `data` is the JSON its scripts read, `scripts` stand behind uPlot in one scope, in
-/// this order.
+/// A page with charts: `data` is the JSON its scripts read, `scripts` stand in one scope, in this
+/// order, behind uPlot where they draw with it.
 std::string in_shell(const Shell& shell, std::string_view data,
                      std::initializer_list<std::string_view> scripts);
 

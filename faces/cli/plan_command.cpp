@@ -127,10 +127,10 @@ Exit run_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
 
 base::Problems contradictions(const RunArguments& a) {
   base::Problems problems;
-  if (a.plan.resume && a.plan.store.empty())
+  if (a.plan.resume && a.plan.store.empty() && a.out.empty())
     problems.push_back({.where = "--resume",
                         .limit = "goes on with the runs of a store, and none is named",
-                        .cure = "add --store FILE.sqlite"});
+                        .cure = "add --store FILE.sqlite, or --out DIR as it was"});
   if (a.files.size() > 1 && (!a.plan.store.empty() || (a.paths.any() && a.out.empty())))
     problems.push_back({.where = a.plan.store.empty() ? all_options() : "--store",
                         .limit = "name the outputs of one plan",

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include "faces/cli/plan_reports.hpp"
+#include "faces/cli/report_page.hpp"
 #include "faces/cli/terminal.hpp"
 
 namespace cli {
@@ -10,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view of_a_plan[] = {"--csv", "--json"};
+constexpr std::string_view of_a_plan[] = {"--csv", "--json", page_option};
 
 bool has_format(std::string_view option) {
   return std::find(std::begin(of_a_plan), std::end(of_a_plan), option) != std::end(of_a_plan);
@@ -36,6 +38,7 @@ void write_csv(files::AtomicFile& file, const text::PlanStory& story, const Read
 }  // namespace
 
 base::Problems PlanOutputs::open(const RunArguments& arguments, const ReadPlan& plan) {
+  arguments_ = &arguments;
   const OutputPaths paths = paths_of(arguments, plan);
   for (std::size_t n = 0; n < formats().size(); ++n) {
     const std::string& path = paths.of_formats[n];
@@ -56,6 +59,21 @@ base::Problems PlanOutputs::open(const RunArguments& arguments, const ReadPlan& 
   return {};
 }
 
+/// In a folder the page has reports of the worst runs beside it.
+std::string PlanOutputs::page(const text::PlanStory& story, const ReadPlan& plan,
+                              base::Problems& problems) const {
+  WorstReports worst;
+  if (!arguments_->out.empty() && !interrupted()) worst = write_worst_reports(*arguments_, plan, story);
+  problems.insert(problems.end(), worst.problems.begin(), worst.problems.end());
+  return plan_page({{.story = story,
+                     .title = plan.title,
+                     .motor = plan.origin.motor,
+                     .notes = plan.notes,
+                     .repeats = repeating_command(*arguments_, plan),
+                     .reports = std::move(worst.files)}},
+                   plan.origin.command);
+}
+
 base::Problems PlanOutputs::publish(const text::PlanStory& story, const ReadPlan& plan, bool whole) {
   base::Problems problems;
   const std::string json = prints_json_ || std::any_of(open_.begin(), open_.end(),
@@ -65,6 +83,7 @@ base::Problems PlanOutputs::publish(const text::PlanStory& story, const ReadPlan
   for (Open& open : open_) {
     if (open.option == "--csv") write_csv(open.file, story, plan);
     if (open.option == "--json") open.file.write(json);
+    if (open.option == page_option) open.file.write(page(story, plan, problems));
     const base::Problems unwritten = whole ? open.file.commit() : open.file.commit_partial();
     problems.insert(problems.end(), unwritten.begin(), unwritten.end());
   }

@@ -14,7 +14,7 @@ namespace cli {
 /// Rows and page of a plan, in the formats that it has.
 class PlanOutputs {
  public:
-  /// Problems mean that nothing was written and nothing must run.
+  /// Problems mean that nothing was written and nothing must run. The arguments stay where they are.
   base::Problems open(const RunArguments& arguments, const ReadPlan& plan);
   /// Of a plan that was cut short under partial names.
   base::Problems publish(const text::PlanStory& story, const ReadPlan& plan, bool whole);
@@ -24,6 +24,9 @@ class PlanOutputs {
     std::string_view option;
     files::AtomicFile file;
   };
+  std::string page(const text::PlanStory& story, const ReadPlan& plan, base::Problems& problems) const;
+
+  const RunArguments* arguments_ = nullptr;
   std::vector<Open> open_;
   bool prints_json_ = false;
 };

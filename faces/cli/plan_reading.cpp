@@ -154,4 +154,16 @@ base::Result<ReadPlan> read_plan(const std::string& file, const RunArguments& ar
   return read;
 }
 
+files::TraceOrigin origin_of_run(const ReadPlan& plan, std::uint64_t number) {
+  files::TraceOrigin origin = plan.origin;
+  origin.digest =
+      files::text_digest(fmt::format("seed {} drive {}", plan.scenarios->plan().seed, number), origin.digest);
+  return origin;
+}
+
+std::string store_path(const RunArguments& a, const std::string& name) {
+  if (!a.plan.store.empty() || a.out.empty()) return a.plan.store;
+  return (fs::path(a.out) / (name + ".sqlite")).string();
+}
+
 }  // namespace cli

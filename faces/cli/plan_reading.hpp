@@ -31,4 +31,10 @@ bool plans(const RunArguments& arguments, const std::string& file);
 /// The file is a scenario, or a plan that names one.
 base::Result<ReadPlan> read_plan(const std::string& file, const RunArguments& arguments);
 
+/// Of one run of the plan alone; its command is the plan's.
+files::TraceOrigin origin_of_run(const ReadPlan& plan, std::uint64_t number);
+
+/// The store that the runs go into: --store, or one beside the other outputs of --out; empty: one that goes with the program.
+std::string store_path(const RunArguments& arguments, const std::string& name);
+
 }  // namespace cli

@@ -33,8 +33,8 @@ base::Result<files::PlanStore> store_of(const RunArguments& a, const ReadPlan& p
                            .columns = plan.columns,
                            .units = plan.units};
   base::Result<files::PlanStore> store =
-      a.plan.resume ? files::PlanStore::resume(a.plan.store, std::move(stored))
-                    : files::PlanStore::create(a.plan.store, std::move(stored), a.paths.force);
+      a.plan.resume ? files::PlanStore::resume(store_path(a, plan.name), std::move(stored))
+                    : files::PlanStore::create(store_path(a, plan.name), std::move(stored), a.paths.force);
   if (store) return store;
   base::Problems problems = store.problems();
   for (base::Problem& problem : problems) in_options(problem);

@@ -2,6 +2,7 @@
 #include "faces/cli/report_page.hpp"
 
 #include "report/comparison.hpp"
+#include "report/plan_worst.hpp"
 
 namespace cli {
 
@@ -23,6 +24,14 @@ std::string comparison_page(const std::vector<ComparedSource>& runs, const std::
   for (const ComparedSource& run : runs)
     input.runs.push_back({run.name, run.scenario, run.outcome, run.events, run.grid});
   return report::render_comparison(input);
+}
+
+std::string plan_page(const std::vector<report::PagePlan>& plans, const std::string& command) {
+  return report::render_plan({.plans = plans, .command = command, .version = SIXSTEP_VERSION});
+}
+
+std::vector<std::size_t> worst_runs(const text::PlanStory& story, std::size_t most) {
+  return report::worst_runs(story, most);
 }
 
 }  // namespace cli

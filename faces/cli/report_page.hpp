@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "faces/cli/rooms.hpp"
+#include "report/plan_page.hpp"
 #include "report/report.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/measure/trace.hpp"
@@ -33,5 +34,11 @@ struct ComparedSource {
 };
 
 std::string comparison_page(const std::vector<ComparedSource>& runs, const std::string& command);
+
+/// One plan, or two over each other.
+std::string plan_page(const std::vector<report::PagePlan>& plans, const std::string& command);
+
+/// Numbers of the runs of a plan to look at first.
+std::vector<std::size_t> worst_runs(const text::PlanStory& story, std::size_t most);
 
 }  // namespace cli

@@ -71,10 +71,7 @@ std::optional<Job> read_one_of_a_plan(const std::string& file, const RunArgument
     append(into.problems, run.problems());
     return {};
   }
-  files::TraceOrigin origin = plan->origin;
-  origin.digest = files::text_digest(fmt::format("seed {} drive {}", plan->scenarios->plan().seed, number),
-                                     origin.digest);
-  return Job(std::move(run->scenario), std::move(origin));
+  return Job(std::move(run->scenario), origin_of_run(*plan, number));
 }
 
 base::Problems same_outputs(const RunArguments& arguments) {

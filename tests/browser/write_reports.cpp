@@ -6,9 +6,11 @@
 
 #include "report/comparison.hpp"
 #include "report/curve_page.hpp"
+#include "report/plan_page.hpp"
 #include "report/report.hpp"
 #include "report/wiring_page.hpp"
 #include "sixstep/study/measure/trace.hpp"
+#include "tests/report/synthetic_plan.hpp"
 #include "tests/report/synthetic_run.hpp"
 #include "tests/support/bench.hpp"
 #include "tests/support/wirings.hpp"
@@ -64,6 +66,21 @@ std::string curve() {
                                "sixstep curve maxon-251601 --html curve.html", "0.1.0"});
 }
 
+std::string plan(const std::vector<sixstep_tests::SyntheticPlan>& made) {
+  std::vector<text::PlanStory> stories;
+  for (const sixstep_tests::SyntheticPlan& one : made) stories.push_back(one.story());
+  report::PlanPageInput input{
+      .plans = {}, .command = "sixstep run plan.toml --html plan.html", .version = "0.1.0"};
+  for (const text::PlanStory& story : stories)
+    input.plans.push_back({story,
+                           "How quick may the speed loop be?",
+                           "maxon-251601",
+                           "What it answers.",
+                           "sixstep run plan.toml --only",
+                           {}});
+  return report::render_plan(input);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -82,6 +99,17 @@ int main(int argc, char** argv) {
   write(folder / "wirings.html",
         report::render_wiring(
             {wirings, scenario_text, "sixstep motor wiring maxon-251601 --html wirings.html", "0.1.0"}));
+  using sixstep::analysis::Sampling;
+  auto alone = sixstep_tests::synthetic_plan(sixstep_tests::grid_plan());
+  write(folder / "plan.html", plan({alone}));
+  auto later = sixstep_tests::synthetic_plan(sixstep_tests::drawn_plan(300, Sampling::latin_hypercube), 5e-4);
+  later.name = "later";
+  write(folder / "plans.html", plan({alone, later}));
+  write(folder / "plan-indices.html",
+        plan({sixstep_tests::synthetic_plan(sixstep_tests::drawn_plan(200, Sampling::saltelli))}));
+  auto many = sixstep_tests::drawn_plan(12500, Sampling::sobol);
+  many.drives = 8;
+  write(folder / "plan-many.html", plan({sixstep_tests::synthetic_plan(many)}));
   const auto other = sixstep_tests::synthetic_run(0.02, 40.0);
   write(folder / "compare.html",
         report::render_comparison(

@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """sixstep run with many runs: what varies, what is stored, and that a kill takes nothing that was finished."""
+import base64
 import contextlib
 import csv
 import json
 import os
 import random
 import re
+import shlex
 import signal
 import sqlite3
+import struct
 import subprocess
 import time
 import unittest
@@ -253,6 +256,68 @@ class Plan(ProgramTest):
         self.held()
         result = self.run_program("run", "a.toml", "--vary", "bridge.dead_time_s=0,1us", "--vary", "pwm.period_s=30us,1us", code=2)
         self.assertIn("could not run", result.stdout)
+
+    def page(self, name):
+        """A page, and the data that it draws from."""
+        text = (self.path / name).read_text()
+        data = json.loads(text.split('id="data">', 1)[1].split("</script>", 1)[0])
+        return text, data["plans"]
+
+    def test_a_page_has_every_run_and_says_how_to_look_at_one(self):
+        self.held()
+        (self.path / "p.toml").write_text(PLAN)
+        self.run_program("run", "p.toml", "--html", "p.html", code=1)
+        text, (plan,) = self.page("p.html")
+        self.assertIn("of 6 runs hold every requirement", text)
+        self.assertIn("The current is the voltage over the resistance.", text)
+        self.assertEqual([c["name"] for c in plan["columns"]], ["supply.voltage_V", "motor_override.resistance_ohm", "current"])
+        self.assertEqual(struct.unpack("<6f", base64.b64decode(plan["columns"][1]["data"])), (1, 1.5, 2) * 2)
+        self.assertEqual(list(base64.b64decode(plan["states"])), [0, 0, 0, 1, 0, 0])
+        self.run_program("run", "p.toml", "--html", "q.html", "--jobs", "2", code=1)
+        made = [t.split("<footer>")[0] for t in (text, (self.path / "q.html").read_text())]
+        self.assertEqual(*made)
+        # The command that the page names makes the run that it names it for.
+        command = re.search(r"<pre class=\"text\">sixstep (run p.toml --only 3 --html run-3.html)</pre>", text).group(1)
+        self.run_program(*command.split(), "--json", "3.json", code=1)
+        self.assertAlmostEqual(json.loads((self.path / "3.json").read_text())["require"][0]["measured"], 24.0, places=9)
+        self.assertIn("run-3.html", self.names())
+
+    def test_the_command_for_one_run_has_what_the_plan_was_made_of(self):
+        self.held(SPREAD)
+        (self.path / "a.toml").write_text((self.path / "a.toml").read_text().replace("max = 20", "max = 200"))
+        words = ["run", "a.toml", "--vary", "supply.voltage_V=12:24", "--points", "4", "--sampling", "latin-hypercube", "--seed", "7",
+                 "--runs", "2", "--set", 'title="two words"']
+        self.run_program(*words, "--html", "p.html", "--json", "p.json")
+        plan = json.loads((self.path / "p.json").read_text())
+        _, (page,) = self.page("p.html")
+        self.run_program(*shlex.split(page["repeats"])[1:], "5", "--json", "one.json")
+        self.assertEqual(json.loads((self.path / "one.json").read_text())["digest"], plan["rows"][5][-1])
+        self.run_program("run", "a.toml", "--runs", "4", "--html", "s.html", "--json", "s.json")
+        _, (page,) = self.page("s.html")
+        self.run_program(*shlex.split(page["repeats"])[1:], "3", "--json", "one.json")
+        self.assertEqual(json.loads((self.path / "one.json").read_text())["digest"], json.loads((self.path / "s.json").read_text())["rows"][3][-1])
+
+    def test_a_folder_has_the_page_rows_store_and_reports_of_the_worst(self):
+        self.held()
+        (self.path / "p.toml").write_text(PLAN)
+        (self.path / "p.toml").write_text(PLAN.replace("from = 1.0", "from = 1.1"))  # no two alike
+        self.run_program("run", "p.toml", "--out", "out", code=1)
+        self.assertEqual(self.names("out"), ["p.csv", "p.html", "p.json", "p.run-3.html", "p.run-4.html", "p.run-5.html", "p.sqlite"])
+        text, (plan,) = self.page("out/p.html")
+        self.assertEqual(plan["reports"], {f"{n}": f"p.run-{n}.html" for n in (3, 4, 5)})
+        self.assertIn('<a href="p.run-3.html">', text)
+        report = (self.path / "out/p.run-3.html").read_text()
+        self.assertIn("sixstep run p.toml --only 3 --html out/p.run-3.html", report)
+        self.assertIn("FAIL", report)
+        self.assertEqual(len(self.rows("out/p.sqlite")), 6)
+        self.assertIn("holds runs already", self.run_program("run", "p.toml", "--out", "out", code=2).stderr)
+        self.run_program("run", "p.toml", "--out", "out", "--resume", code=1)
+        self.run_program("run", "p.toml", "--out", "other", "--store", "s.sqlite", code=1)
+        self.assertNotIn("p.sqlite", self.names("other"))
+
+    def test_a_trace_is_of_one_run(self):
+        self.held()
+        self.assertIn("--only N --vcd", self.run_program("run", "a.toml", "--vary", "supply.voltage_V=12,24", "--vcd", "a.vcd", code=2).stderr)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <vector>
+
+#include "report/plan_page.hpp"
+
+namespace report {
+
+/// What the page's scripts draw from.
+std::string plan_data(const std::vector<PagePlan>& plans);
+
+}  // namespace report

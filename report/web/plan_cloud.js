@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs as points: any column over any other.
+
+/** Draws all runs that are picked; those that miss lie on top, for they are sought. */
+function drawCloud(f, table, picked) {
+  const {ctx} = f;
+  for (const bad of [false, true]) for (const plan of table.plans) {
+    const xs = f.across.of[plan.index], ys = f.up.of[plan.index];
+    if (!xs || !ys) continue;
+    const size = plan.runs > 20000 ? 2 : plan.runs > 1000 ? 3.5 : 6;
+    ctx.globalAlpha = plan.runs > 20000 && !bad ? 0.45 : 0.8;
+    ctx.fillStyle = runColour(plan.index, bad ? 1 : 0);
+    for (let n = 0; n < plan.runs; ++n) {
+      if ((plan.states[n] !== 0) !== bad || !picked(plan, n)) continue;
+      const x = f.px(xs[n]), y = f.py(ys[n]);
+      if (!(x === x && y === y)) continue;
+      if (plan.states[n] === 2) ctx.fillRect(x - size, y - 1, 2 * size, 2), ctx.fillRect(x - 1, y - size, 2, 2 * size);  // a fault is a cross
+      else ctx.fillRect(x - size / 2, y - size / 2, size, size);
+    }
+  }
+  ctx.globalAlpha = 1;
+}
+
+/** A ring around the run that was chosen. */
+function drawRing(f, chosen) {
+  if (!chosen) return;
+  const x = f.px(f.across.of[chosen.plan.index]?.[chosen.row] ?? NaN), y = f.py(f.up.of[chosen.plan.index]?.[chosen.row] ?? NaN);
+  if (!(x === x && y === y)) return;
+  f.ctx.strokeStyle = palette.ink;
+  f.ctx.lineWidth = 2;
+  f.ctx.beginPath();
+  f.ctx.arc(x, y, 8, 0, 7);
+  f.ctx.stroke();
+}
+
+/** The run nearest to a place, not further than a finger is wide. */
+function nearestRun(f, table, picked, [x, y]) {
+  let best = null, least = 22 ** 2;
+  for (const plan of table.plans) {
+    const xs = f.across.of[plan.index], ys = f.up.of[plan.index];
+    if (!xs || !ys) continue;
+    for (let n = 0; n < plan.runs; ++n) {
+      const distance = (f.px(xs[n]) - x) ** 2 + (f.py(ys[n]) - y) ** 2;
+      if (distance < least && picked(plan, n)) least = distance, best = {plan, row: n};
+    }
+  }
+  return best;
+}
+
+/** A cloud with its selects: `extra` draws over it. Returns what draws it again. */
+function cloud(id, page, {across, up, extra}) {
+  const canvas = document.querySelector(`#${id} canvas`), said = document.getElementById(id + '-said');
+  const selects = {x: document.getElementById(id + '-x'), y: document.getElementById(id + '-y')};
+  fillSelect(selects.x, page.choices, across);
+  fillSelect(selects.y, page.choices, up);
+  const column = (axis) => page.table.columns[selects[axis].value];
+  let frame = null;
+  const draw = () => {
+    frame = frameOf(canvas, column('x'), column('y'));
+    drawAxes(frame);
+    drawCloud(frame, page.table, page.picked);
+    drawLimits(frame);
+    extra?.(frame);
+    drawRing(frame, page.chosen);
+    canvas.setAttribute('aria-label', `${columnTitle(frame.up)} over ${columnTitle(frame.across)}, a point per run`);
+  };
+  canvas.setAttribute('role', 'img');
+  const at = (event) => nearestRun(frame, page.table, page.picked, placeOf(canvas, event));
+  canvas.addEventListener('pointermove', (event) => {
+    const run = at(event);
+    const of = (c) => valueText(c, c.of[run.plan.index]?.[run.row]);
+    if (!extra) said.textContent = run ? `run ${run.plan.numberOf(run.row)}: ${of(frame.across)}, ${of(frame.up)}` : '';
+  });
+  canvas.addEventListener('click', (event) => page.choose(at(event)));
+  for (const select of Object.values(selects)) select.addEventListener('change', draw);
+  return {draw, column};
+}
