@@ -138,7 +138,7 @@ class Hand {
   /// What there is to say, or a pause.
   void speak() {
     std::unique_lock lock(guard_);
-    for (letters::Question& question : std::exchange(questions_, {})) send(std::move(question));
+    for (const letters::Question& question : std::exchange(questions_, {})) send(question);
     if (steady_clock::now() - rows_sent_ >= rows_every) send_rows();
     if (!hungry_ && !over_) ask_for_work();
     moved_.wait_for(lock, pause);
@@ -162,7 +162,7 @@ class Hand {
     asked_at_ = now;
   }
 
-  void send(letters::Letter letter) { cluster_.send(0, letters::bytes_of(letter)); }
+  void send(const letters::Letter& letter) { cluster_.send(0, letters::bytes_of(letter)); }
 
   Cluster& cluster_;
   const letters::Begin& begin_;

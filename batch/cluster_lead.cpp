@@ -31,7 +31,7 @@ class Handout {
   explicit Handout(const PlanRuns& runs) : runs_(runs), count_(analysis::runs_of(runs.plan)) {}
 
   /// Of what is left at most `most`, but no more than a fair part, so that all end together.
-  std::vector<std::uint64_t> hand_out(std::uint64_t idle, std::uint64_t ahead, unsigned processes) {
+  std::vector<std::uint64_t> hand_out(std::uint64_t idle, std::uint64_t ahead, std::uint64_t processes) {
     const std::lock_guard lock(guard_);
     const std::uint64_t part = (count_ - cursor_ + returned_.size()) / (2 * processes);
     const std::uint64_t most = std::max(idle, std::min(idle + ahead, part));

@@ -15,8 +15,11 @@ for word in "$@"; do
     *) build=$word ;;
   esac
 done
-git ls-files -z 'sixstep/*.cpp' 'batch/*.cpp' 'text/*.cpp' 'files/*.cpp' 'report/*.cpp' 'faces/*.cpp' ':!faces/firmware' |
+git ls-files -z 'sixstep/*.cpp' 'batch/*.cpp' 'text/*.cpp' 'files/*.cpp' 'report/*.cpp' 'faces/*.cpp' ':!faces/firmware' \
+  ':!batch/ranks_with_mpi.cpp' |
   xargs -0 -n 1 -P "$(nproc)" clang-tidy -p "$build" --quiet "$checks" 2>/dev/null
+# MPI is in a build of its own, which need not be there.
+[ ! -f build/mpi/compile_commands.json ] || clang-tidy -p build/mpi --quiet "$checks" batch/ranks_with_mpi.cpp 2>/dev/null
 # Firmware is in no build for this machine: each example with the flags of its chip.
 firmware() {
   clang-tidy --quiet "$checks" "faces/firmware/example/$1/main.cpp" -- "${@:2}" -std=c++20 -ffreestanding -nostdinc++ -I. \
