@@ -4,6 +4,7 @@
 #include <nlopt.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -39,7 +40,9 @@ struct Evaluated {
   std::vector<double> at, figures;  ///< coordinates 0 to 1; the worst drive's
   double cost = none;               ///< of the figure, over its size at the first point that has one
   std::vector<double> misses;       ///< a requirement each
-  double worst() const { return misses.empty() ? -hopeless : *std::max_element(misses.begin(), misses.end()); }
+  double worst() const {
+    return misses.empty() ? -hopeless : *std::max_element(misses.begin(), misses.end());
+  }
   bool holds() const { return cost == cost && worst() <= 0.0; }
 };
 
@@ -48,6 +51,12 @@ bool better(const Evaluated& a, const Evaluated& b) {
   if (a.holds() != b.holds()) return a.holds();
   if (!a.holds()) return a.worst() < b.worst();
   return a.cost < b.cost;
+}
+
+double number_of(const std::string& text) {
+  double x = none;
+  std::from_chars(text.data(), text.data() + text.size(), x);
+  return x;
 }
 
 class Search {
@@ -62,7 +71,8 @@ class Search {
     const std::size_t spread = std::min(w_.evaluations / 2 + 1, 10 * keys);
     for (std::size_t n = 0; n < spread && !ended(); ++n) {
       std::vector<double> u(keys);
-      for (std::size_t k = 0; k < keys; ++k) u[k] = n == 0 ? 0.5 : analysis::sobol(k, static_cast<std::uint32_t>(n), w_.plan.seed);
+      for (std::size_t k = 0; k < keys; ++k)
+        u[k] = n == 0 ? 0.5 : analysis::sobol(k, static_cast<std::uint32_t>(n), w_.plan.seed);
       evaluate(u);
     }
     if (const Evaluated* start = best(); start && !ended()) refine(start->at);
@@ -73,13 +83,16 @@ class Search {
   bool ended() const { return w_.stop.stop_requested() || tried_.size() >= w_.evaluations; }
 
   const Evaluated* best() const {
-    const auto found = std::min_element(tried_.begin(), tried_.end(), [](const auto& a, const auto& b) { return better(*a, *b); });
+    const auto found = std::min_element(tried_.begin(), tried_.end(),
+                                        [](const auto& a, const auto& b) { return better(*a, *b); });
     return found == tried_.end() || (*found)->cost != (*found)->cost ? nullptr : found->get();
   }
 
-  analysis::RunRecord row(const std::vector<std::string>& point, std::size_t number, std::size_t drive) const {
+  analysis::RunRecord row(const std::vector<std::string>& point, std::size_t number,
+                          std::size_t drive) const {
     if (w_.known)
-      if (std::optional<analysis::RunRecord> before = w_.known(number); before && before->point == point) return *before;
+      if (std::optional<analysis::RunRecord> before = w_.known(number); before && before->point == point)
+        return *before;
     const analysis::Plan one{.axes = {}, .drives = 1};
     const PlanRuns runs{.plan = one,
                         .columns = w_.columns,
@@ -122,14 +135,16 @@ class Search {
     for (const analysis::RunRecord& r : rows) {
       const bool whole = r.end == analysis::RunEnd::whole && r.figures.size() == e.figures.size();
       for (std::size_t n = 0; n < required_.size(); ++n) {
-        const double miss = whole ? beyond(w_.columns.figures[required_[n]], r.figures[required_[n]]) : hopeless;
+        const double miss =
+            whole ? beyond(w_.columns.figures[required_[n]], r.figures[required_[n]]) : hopeless;
         if (miss >= e.misses[n] && whole) e.figures[required_[n]] = r.figures[required_[n]];
         e.misses[n] = std::max(e.misses[n], miss);
       }
       const double x = whole ? r.figures[w_.figure] : none;
       cost = x - x == 0.0 && cost == cost ? std::max(cost, x) : none;
       for (std::size_t n = 0; n < e.figures.size(); ++n)
-        if (!w_.columns.figures[n].required && whole && !(e.figures[n] >= r.figures[n])) e.figures[n] = r.figures[n];
+        if (!w_.columns.figures[n].required && whole && !(e.figures[n] >= r.figures[n]))
+          e.figures[n] = r.figures[n];
     }
     if (cost != cost) return;
     e.figures[w_.figure] = cost;
@@ -180,7 +195,13 @@ class Search {
   std::optional<analysis::Optimum> told() const {
     const Evaluated* e = best();
     if (!e) return {};
-    analysis::Optimum best{.point = e->point, .figures = e->figures, .holds = e->holds(), .limits = {}, .evaluations = tried_.size()};
+    analysis::Optimum best{.point = e->point,
+                           .values = {},
+                           .figures = e->figures,
+                           .holds = e->holds(),
+                           .limits = {},
+                           .evaluations = tried_.size()};
+    for (const std::string& text : e->point) best.values.push_back(number_of(text));
     for (std::size_t n = 0; n < tried_.size(); ++n)
       if (tried_[n].get() == e) best.at = n;
     for (std::size_t n = 0; n < required_.size(); ++n) {
@@ -190,7 +211,8 @@ class Search {
       best.limits.push_back({f.name, f.max && (!f.min || *f.max - x < x - *f.min), false});
     }
     for (std::size_t k = 0; k < e->at.size(); ++k)
-      if (e->at[k] < close || e->at[k] > 1.0 - close) best.limits.push_back({w_.plan.axes[k].key, e->at[k] > 0.5, true});
+      if (e->at[k] < close || e->at[k] > 1.0 - close)
+        best.limits.push_back({w_.plan.axes[k].key, e->at[k] > 0.5, true});
     return best;
   }
 

@@ -21,10 +21,11 @@ struct Optimisation {
   std::size_t figure = 0;         ///< that is to be small: its column
   std::size_t evaluations = 200;  ///< of points, at most
   /// The drive of a point. Called on any thread, several at once.
-  std::function<base::Result<analysis::PlannedRun>(const std::vector<std::string>& point, std::size_t drive)> scenario;
+  std::function<base::Result<analysis::PlannedRun>(const std::vector<std::string>& point, std::size_t drive)>
+      scenario;
   /// A row that is known already: evaluation times drives, plus the drive. It counts where its point is the one wanted.
   std::function<std::optional<analysis::RunRecord>(std::size_t number)> known;
-  std::function<void(analysis::RunRecord&&)> take;         ///< each that is new; on any thread
+  std::function<void(analysis::RunRecord&&)> take;        ///< each that is new; on any thread
   std::function<void(std::size_t evaluations)> progress;  ///< how many points have been tried
   std::stop_token stop;
   unsigned jobs = 0;

@@ -46,7 +46,7 @@ struct DesignArguments {
   unsigned jobs = 0;
   std::string json, toml, models, html;  ///< files; json "-": standard output
   double angle_deg = 30.0;               ///< of the models, electrical
-  std::string optimise, store;  ///< a plan and where its runs are kept
+  std::string optimise, store;           ///< a plan and where its runs are kept
   bool resume = false;
   std::string data_dir;
   std::string command;  ///< the command line as it may be typed again
@@ -288,7 +288,8 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("--angle", a.angle_deg, "of the rotor for --models, in electrical degrees")
       ->capture_default_str();
   CLI::Option* optimise = design.add_option(
-      "--optimise", a.optimise, "a plan that says what is to be small: the best point of its ranges, and what limits it");
+      "--optimise", a.optimise,
+      "a plan that says what is to be small: the best point of its ranges, and what limits it");
   design.add_option("--store", a.store, "keep each run of --optimise in this SQLite file")->needs(optimise);
   design.add_flag("--resume", a.resume, "go on with the runs of --store")->needs("--store");
   take_force(design, a.force);

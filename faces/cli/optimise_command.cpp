@@ -44,16 +44,18 @@ base::Problems not_to_be_chosen(const OptimiseArguments& a, const analysis::Plan
       problems.push_back({a.plan + ": " + axis.key, "", "is a list, and an optimiser goes through ranges",
                           "give from and to, or a plan for each value"});
     if (axis.strays)
-      problems.push_back({a.plan + ": " + axis.key, "", "strays, and is nobody's to choose", "put it into [[spread]]"});
+      problems.push_back(
+          {a.plan + ": " + axis.key, "", "strays, and is nobody's to choose", "put it into [[spread]]"});
   }
   return problems;
 }
 
-struct Outputs {
+struct OptimumFiles {
   std::optional<files::AtomicFile> toml, json;
 
   base::Problems open(const OptimiseArguments& a) {
-    for (const auto& [path, file] : {std::pair{a.toml, &toml}, std::pair{a.json == "-" ? "" : a.json, &json}}) {
+    for (const auto& [path, file] :
+         {std::pair{a.toml, &toml}, std::pair{a.json == "-" ? "" : a.json, &json}}) {
       if (path.empty()) continue;
       base::Result<files::AtomicFile> opened = files::AtomicFile::create({path, a.force});
       if (!opened) return opened.problems();
@@ -64,7 +66,7 @@ struct Outputs {
 };
 
 std::optional<analysis::Optimum> search(const OptimiseArguments& a, const ReadPlan& plan, std::size_t figure,
-                                     files::PlanStore& store) {
+                                        files::PlanStore& store) {
   std::map<std::size_t, analysis::RunRecord> before;
   const base::Problems unread =
       store.each([&](const analysis::RunRecord& record) { before.emplace(record.number, record); });
@@ -87,7 +89,8 @@ std::optional<analysis::Optimum> search(const OptimiseArguments& a, const ReadPl
                           .jobs = a.jobs});
 }
 
-base::Problems write(Outputs& outputs, const ReadPlan& plan, const analysis::Optimum& best, const std::string& json) {
+base::Problems write(OptimumFiles& outputs, const ReadPlan& plan, const analysis::Optimum& best,
+                     const std::string& json) {
   base::Problems unwritten;
   const auto commit = [&](std::optional<files::AtomicFile>& file, const std::string& text) {
     if (!file) return;
@@ -117,7 +120,7 @@ Exit optimise_command(const OptimiseArguments& a) {
   if (!figure) return refused(figure.problems());
   if (const base::Problems problems = not_to_be_chosen(a, plan->scenarios->plan()); !problems.empty())
     return refused(problems);
-  Outputs outputs;
+  OptimumFiles outputs;
   if (const base::Problems problems = outputs.open(a); !problems.empty()) return refused(problems);
   base::Result<files::PlanStore> store =
       store_of(as_run, *plan, text::plan_identity(plan->scenarios->plan()) + " minimise " + plan->minimise);
@@ -127,10 +130,12 @@ Exit optimise_command(const OptimiseArguments& a) {
   if (const base::Problems unwritten = store->finish(); !unwritten.empty()) return refused(unwritten);
   if (interrupted()) return told_interrupted("the search");
   if (!best)
-    return refused({{a.plan + ":", "", "has no point that can be run", "look at one of its runs: sixstep run --only 0"}});
+    return refused({{a.plan + ":", "", "has no point that can be run",
+                     "look at one of its runs: sixstep run --only 0"}});
   const text::OptimumStory story{plan->name, plan->scenarios->plan(), plan->columns, plan->units, *figure};
   const std::string json = text::optimum_json(story, *best);
-  if (const base::Problems unwritten = write(outputs, *plan, *best, json); !unwritten.empty()) return refused(unwritten);
+  if (const base::Problems unwritten = write(outputs, *plan, *best, json); !unwritten.empty())
+    return refused(unwritten);
   if (a.json == "-") print(json);
   if (!a.quiet) print(text::optimum_text(story, *best), a.json == "-" ? stderr : stdout);
   return best->holds ? Exit::ok : Exit::failed;

@@ -14,7 +14,8 @@ namespace {
 /// What the store calls by its meaning has a name here.
 void in_options(base::Problem& problem) {
   const auto replace = [](std::string& text, std::string_view word, std::string_view option) {
-    if (const std::size_t at = text.find(word); at != std::string::npos) text.replace(at, word.size(), option);
+    if (const std::size_t at = text.find(word); at != std::string::npos)
+      text.replace(at, word.size(), option);
   };
   replace(problem.cure, "(resume)", "with --resume");
   replace(problem.cure, "(force)", "with --force");

@@ -9,7 +9,8 @@
 namespace cli {
 
 /// As --store, --resume and --force say. `identity` is what must not change between two sittings.
-base::Result<files::PlanStore> store_of(const RunArguments& arguments, const ReadPlan& plan, std::string identity);
+base::Result<files::PlanStore> store_of(const RunArguments& arguments, const ReadPlan& plan,
+                                        std::string identity);
 
 /// Carries Ctrl-C, of which a signal handler may only leave a note, and a store that takes nothing more to the runs under way.
 class StoreWatch {

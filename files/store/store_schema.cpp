@@ -116,7 +116,8 @@ analysis::RunRecord row_of(const Statement& select, const analysis::PlanColumns&
   record.digest = from_hex(select.text(3));
   int column = 4;
   for (std::size_t n = 0; n < columns.keys.size(); ++n, ++column)
-    record.point.push_back(select.is_number(column) ? base::written(*select.number(column)) : select.text(column));
+    record.point.push_back(select.is_number(column) ? base::written(*select.number(column))
+                                                    : select.text(column));
   for (std::size_t n = 0; n < columns.strayed.size(); ++n)
     record.strayed.push_back(select.number(column++).value_or(none));
   for (std::size_t n = 0; n < columns.figures.size(); ++n)

@@ -26,7 +26,10 @@ struct Held {
 
   analysis::Plan plan() const {
     return {.axes = {{.key = "supply.voltage_V", .values = {}, .from = 6, .to = 24},
-                     {.key = "motor_override.resistance_ohm", .values = {}, .from = 1, .to = 4,
+                     {.key = "motor_override.resistance_ohm",
+                      .values = {},
+                      .from = 1,
+                      .to = 4,
                       .spacing = analysis::Spacing::logarithmic}},
             .sampling = analysis::Sampling::sobol,
             .points = 100,
@@ -58,13 +61,15 @@ struct Found {
   double U = 0.0, R = 0.0;
 };
 
-Found search(const Held& held, std::size_t evaluations, unsigned jobs = 1, const std::map<std::size_t, analysis::RunRecord>& before = {}) {
+Found search(const Held& held, std::size_t evaluations, unsigned jobs = 1,
+             const std::map<std::size_t, analysis::RunRecord>& before = {}) {
   const analysis::Plan plan = held.plan();
   const study::Scenario nominal = held.scenario();
   const analysis::PlanColumns columns = analysis::columns_of(plan, nominal);
   Found found;
   std::mutex guard;
-  const auto at = [&](const std::vector<std::string>& point, std::size_t drive) -> base::Result<analysis::PlannedRun> {
+  const auto at = [&](const std::vector<std::string>& point,
+                      std::size_t drive) -> base::Result<analysis::PlannedRun> {
     study::Scenario s = nominal;
     s.supply.voltage_V = std::stod(point[0]);
     s.sheet.resistance_ohm->value = std::stod(point[1]);

@@ -206,6 +206,29 @@ class Plan(ProgramTest):
         self.assertTrue(all(0.9 * 1.03 <= x <= 1.1 * 1.03 for x in r))
         self.assertGreater(max(r) - min(r), 0.1)
 
+    def test_the_best_point_is_the_laws_and_its_limit_is_named(self):
+        """The least current U/R of at least 10 A is 10 A; goes on from a store; what it writes runs to the same figure."""
+        (self.path / "a.toml").write_text(SHORT.format(limit=1000).replace("1e-4", "20e-3").replace("max = 1000", "min = 10"))
+        (self.path / "p.toml").write_text('scenario = "a.toml"\nminimise = "current"\nevaluations = 80\n'
+                                          '[[vary]]\nkey = "supply.voltage_V"\nfrom = 6\nto = 24\n'
+                                          '[[vary]]\nkey = "motor_override.resistance_ohm"\nfrom = 1\nto = 4\nspacing = "log"\n')
+        words = ["design", "--optimise", "p.toml", "--json", "p.json", "--toml", "best.toml", "--store", "p.sqlite"]
+        told = self.run_program(*words).stdout
+        self.assertIn("limited by current", told)
+        best = json.loads((self.path / "p.json").read_text())
+        (voltage, resistance), (current,) = best["point"], best["figures"]
+        self.assertAlmostEqual(current["worst"], voltage["value"] / resistance["value"], places=9)
+        self.assertTrue(10 <= current["worst"] <= 10.01)
+        self.assertEqual(best["limits"], [{"figure": "current", "end": "lower"}])
+        alone = json.loads(self.run_program("run", "best.toml", "--json", "-").stdout)
+        self.assertEqual(alone["require"][0]["measured"], current["worst"])
+        rows = self.rows("p.sqlite")
+        self.assertEqual(told, self.run_program(*words, "--resume").stdout)
+        self.assertEqual(self.rows("p.sqlite"), rows)
+        for wrong, why in (('minimise = "currant"', "did you mean current?"), ("", "does not say what is to be small")):
+            (self.path / "q.toml").write_text((self.path / "p.toml").read_text().replace('minimise = "current"', wrong))
+            self.assertIn(why, self.run_program("design", "--optimise", "q.toml", code=2).stderr)
+
     def test_verdicts_for_build_servers(self):
         """JUnit's own numbers: a case per requirement and one for running at all, as plain runs and as plans have them."""
         held = self.held()

@@ -95,7 +95,8 @@ base::Result<analysis::PlannedRun> PlannedScenarios::run(std::size_t n) const {
   return run(analysis::point_of_run(plan_, n), analysis::drive_of_run(plan_, n).value_or(0));
 }
 
-base::Result<analysis::PlannedRun> PlannedScenarios::run(const std::vector<std::string>& point, std::size_t drive) const {
+base::Result<analysis::PlannedRun> PlannedScenarios::run(const std::vector<std::string>& point,
+                                                         std::size_t drive) const {
   std::shared_ptr<const base::Result<study::Scenario>> read;
   {
     const std::lock_guard lock(recent_->guard);

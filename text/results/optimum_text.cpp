@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "text/escape/escape.hpp"
-#include "text/keys/decimal_number.hpp"
 #include "text/results/quantity_text.hpp"
 
 namespace text {
@@ -27,8 +26,9 @@ std::string limits(const OptimumStory& s, const analysis::Optimum& best) {
   if (best.limits.empty()) return "  nothing limits it: a least value inside of all ranges\n";
   std::vector<std::string> words;
   for (const analysis::Limit& limit : best.limits)
-    words.push_back(limit.of_key ? fmt::format("the {} end of {}", limit.upper ? "upper" : "lower", limit.what)
-                                 : visible(limit.what));
+    words.push_back(limit.of_key
+                        ? fmt::format("the {} end of {}", limit.upper ? "upper" : "lower", limit.what)
+                        : visible(limit.what));
   return fmt::format("  limited by {}{}\n", fmt::join(words, ", "),
                      s.plan.drives > 1 ? " (the worst drive's)" : "");
 }
@@ -42,19 +42,20 @@ std::string optimum_text(const OptimumStory& s, const analysis::Optimum& best) {
   std::size_t width = 0;
   for (const std::string& key : s.columns.keys) width = std::max(width, key.size());
   for (const analysis::FigureColumn& f : s.columns.figures) width = std::max(width, visible(f.name).size());
-  std::string text = fmt::format("{}: least {} of {} points{}\n", visible(s.name),
-                                 visible(s.columns.figures[s.figure].name), best.evaluations,
-                                 s.plan.drives > 1 ? fmt::format(" of {} drives", s.plan.drives) : "");
+  std::string text =
+      fmt::format("{}: least {} of {} points{}\n", visible(s.name), visible(s.columns.figures[s.figure].name),
+                  best.evaluations, s.plan.drives > 1 ? fmt::format(" of {} drives", s.plan.drives) : "");
   for (std::size_t k = 0; k < best.point.size(); ++k) {
     const analysis::Axis& axis = s.plan.axes[k];
     text += fmt::format("  {:<{}}  {:>12}  in {} .. {}\n", axis.key, width,
-                        quantity_text(decimal_number(best.point[k]).value, s.units[k]), quantity_text(axis.from, s.units[k]),
+                        quantity_text(best.values[k], s.units[k]), quantity_text(axis.from, s.units[k]),
                         quantity_text(axis.to, s.units[k]));
   }
   for (std::size_t n = 0; n < s.columns.figures.size(); ++n) {
     const analysis::FigureColumn& f = s.columns.figures[n];
     const std::string asked = n == s.figure && bounds(f).empty() ? "least" : bounds(f);
-    text += fmt::format("  {:<{}}  {:>12}  {}", visible(f.name), width, quantity_text(best.figures[n], f.unit), asked);
+    text += fmt::format("  {:<{}}  {:>12}  {}", visible(f.name), width,
+                        quantity_text(best.figures[n], f.unit), asked);
     text.erase(text.find_last_not_of(' ') + 1);
     text += "\n";
   }
@@ -73,7 +74,7 @@ std::string optimum_json(const OptimumStory& s, const analysis::Optimum& best) {
                {"drives", std::max<std::size_t>(s.plan.drives, 1)}};
   for (std::size_t k = 0; k < best.point.size(); ++k)
     json["point"].push_back({{"key", s.plan.axes[k].key},
-                             {"value", decimal_number(best.point[k]).value},
+                             {"value", best.values[k]},
                              {"unit", s.units[k]},
                              {"from", s.plan.axes[k].from},
                              {"to", s.plan.axes[k].to}});
@@ -87,7 +88,8 @@ std::string optimum_json(const OptimumStory& s, const analysis::Optimum& best) {
   }
   json["limits"] = Json::array();
   for (const analysis::Limit& limit : best.limits)
-    json["limits"].push_back({{limit.of_key ? "key" : "figure", limit.what}, {"end", limit.upper ? "upper" : "lower"}});
+    json["limits"].push_back(
+        {{limit.of_key ? "key" : "figure", limit.what}, {"end", limit.upper ? "upper" : "lower"}});
   return json.dump(2) + "\n";
 }
 

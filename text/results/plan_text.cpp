@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <charconv>
 #include <limits>
 
 #include "sixstep/analysis/plan/sensitivity.hpp"
@@ -61,9 +61,9 @@ std::vector<Point> points_of(const PlanStory& story) {
 }
 
 std::string value_text(const std::string& written, const std::string& unit) {
-  char* end = nullptr;
-  const double x = std::strtod(written.c_str(), &end);
-  if (!written.empty() && *end == '\0') return quantity_text(x, unit, digits);
+  double x = 0.0;
+  const auto [end, error] = std::from_chars(written.data(), written.data() + written.size(), x);
+  if (error == std::errc() && end == written.data() + written.size()) return quantity_text(x, unit, digits);
   const bool quoted = written.size() >= 2 && written.front() == '"';
   return visible(quoted ? written.substr(1, written.size() - 2) : written);
 }

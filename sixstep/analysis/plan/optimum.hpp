@@ -15,9 +15,11 @@ struct Limit {
 };
 
 struct Optimum {
-  std::vector<std::string> point;       ///< a value per key, as a file writes it
-  std::vector<double> figures;          ///< of the worst drive there: each as far towards its limit as any drive has it
-  bool holds = false;                   ///< every drive every requirement
+  std::vector<std::string> point;  ///< a value per key, as a file writes it
+  std::vector<double> values;      ///< the same as numbers, in the keys' units
+  std::vector<double>
+      figures;         ///< of the worst drive there: each as far towards its limit as any drive has it
+  bool holds = false;  ///< every drive every requirement
   std::vector<Limit> limits;
   std::size_t evaluations = 0, at = 0;  ///< points that were tried; the one that is best
 };

@@ -80,8 +80,10 @@ void describe(Visitor& v, PlanEntry& s) {
           {.meaning =
                "whether drives also stray in what makers do not promise: resistance, inductance and torque "
                "constant, where [[spread]] does not say"});
-  v.value("minimise", s.minimise,
-          {.meaning = "label of the figure that is to be small, for design with optimise: every requirement held by every drive"});
+  v.value(
+      "minimise", s.minimise,
+      {.meaning =
+           "label of the figure that is to be small, for design with optimise: every requirement held by every drive"});
   v.value("evaluations", s.evaluations,
           {.meaning = "points that are tried for it, at most", .range = base::between(1, 1e6)});
   v.list("vary", s.vary, {.meaning = "what differs from point to point"});
