@@ -28,6 +28,7 @@ class ThreeLegFirmware {
   void request_clear() {}
   bool open_loop() const { return false; }
   bool follows_setpoint_at_once() const { return false; }
+  rig::Diagnosis diagnosis() const { return {}; }
 
  private:
   Controller controller_;
