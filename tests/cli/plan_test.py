@@ -338,6 +338,22 @@ class Plan(ProgramTest):
         self.run_program("run", "p.toml", "--out", "other", "--store", "s.sqlite", code=1)
         self.assertNotIn("p.sqlite", self.names("other"))
 
+    def test_two_plans_share_a_page(self):
+        """What the page has of each is what a page of its own has, but for the command that repeats a run."""
+        self.held()
+        (self.path / "b.toml").write_text((self.path / "a.toml").read_text().replace("maxon-251601", "teknic-m2310p"))
+        vary = ["--vary", "supply.voltage_V=12,24"]
+        told = self.run_program("run", "a.toml", "b.toml", *vary, "--html", "both.html", code=1).stdout
+        self.assertRegex(told, r"(?s)^a\n.*2 runs.*\nb\n.*2 runs")
+        _, plans = self.page("both.html")
+        self.assertEqual([p["name"] for p in plans], ["a", "b"])
+        for p in plans:
+            self.run_program("run", p["name"] + ".toml", *vary, "--html", "one.html", code=1)
+            self.assertEqual(self.page("one.html")[1][0] | {"repeats": ""}, p | {"repeats": ""})
+        for more, why in ((["a.toml"], "more than the 2"), (["--store", "s.sqlite"], "one plan")):
+            self.assertIn(why, self.run_program("run", "a.toml", "b.toml", *more, *vary, "--html", "x.html", code=2).stderr)
+        self.assertNotIn("x.html", self.names())
+
     def test_a_trace_is_of_one_run(self):
         self.held()
         self.assertIn("--only N --vcd", self.run_program("run", "a.toml", "--vary", "supply.voltage_V=12,24", "--vcd", "a.vcd", code=2).stderr)
