@@ -38,7 +38,7 @@ const std::vector<std::string>& shipped() {
 const std::vector<text::KeyEntry>& keys() {
   static const std::vector<text::KeyEntry> all = [] {
     std::vector<text::KeyEntry> keys = text::scenario_keys();
-    for (text::KeyEntry& key : text::sheet_keys()) {
+    for (text::KeyEntry key : text::sheet_keys()) {
       key.path.insert(0, "motor_override.");
       keys.push_back(std::move(key));
     }
