@@ -157,7 +157,7 @@ TEST_F(Store, IsOneWritersAlone) {
   first->add(row(0));
   first->finish();
   EXPECT_THAT(to_string(PlanStore::resume(path(), plan()).problems().front()),
-              HasSubstr("being written by another run"));
+              HasSubstr("is in use by another program"));
 }
 
 /// What rows() has counted is there after a kill -9, and the store goes on.

@@ -230,7 +230,8 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                                          "hall_calibration_turns",
                                          "missed_edges",
                                          "track",
-                                         "excitation"};
+                                         "excitation",
+                                         "terminal_gain_error"};
   for (const KeyEntry& key : all_keys()) {
     const bool number = key.type == KeyType::number || key.type == KeyType::whole_number ||
                         key.type == KeyType::numbers || key.type == KeyType::quantity;
