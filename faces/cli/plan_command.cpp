@@ -14,8 +14,8 @@
 #include "faces/cli/plan_foretold.hpp"
 #include "faces/cli/plan_outputs.hpp"
 #include "faces/cli/plan_ranks.hpp"
-#include "faces/cli/plan_storing.hpp"
 #include "faces/cli/plan_reports.hpp"
+#include "faces/cli/plan_storing.hpp"
 #include "faces/cli/progress.hpp"
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/terminal.hpp"
@@ -90,9 +90,9 @@ class MadePlan {
   files::PlanStore store_;
   analysis::Series series_;
   base::Problems problems_;
-  text::PlanStory story_{plan_.name,  plan_.scenarios->plan(),
+  text::PlanStory story_{plan_.name,    plan_.scenarios->plan(),
                          plan_.columns, plan_.units,
-                         series_,     [this](const auto& visit) { each(visit); }};
+                         series_,       [this](const auto& visit) { each(visit); }};
 };
 
 /// All runs of a plan that its store does not have yet, or as many as there was time for.
@@ -155,7 +155,8 @@ Exit compare_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
     pages.push_back(page_of(a, plan, one.story(), {}));
   }
   file->write(plan_page(pages, a.command));
-  for (const auto& one : made) problems.insert(problems.end(), one->problems().begin(), one->problems().end());
+  for (const auto& one : made)
+    problems.insert(problems.end(), one->problems().begin(), one->problems().end());
   const base::Problems unwritten = problems.empty() ? file->commit() : problems;
   complain(unwritten);
   return unwritten.empty() ? exit : graver(exit, Exit::bad_input);

@@ -75,8 +75,8 @@ struct Action {
                        ///< A; a part of the current; T1 to T6 as 1 to 6; rad/s;
                        ///< the probe 1 to 3 whose line turns over; edges of an encoder;
                        ///< 1 + the bit of a Gray code, stuck low where negative; a resolver's winding 1 or 2,
-      ///< 0 both whole; A, B, Z as 1 to 3, stuck low where negative; a part of the excitation;
-      ///< the leg, 0 to 2, whose divider breaks
+  ///< 0 both whole; A, B, Z as 1 to 3, stuck low where negative; a part of the excitation;
+  ///< the leg, 0 to 2, whose divider breaks
   Waveform waveform{};  ///< of a setpoint; of a load torque and a shaft's speed the rate alone
 };
 
