@@ -10,9 +10,12 @@
 #include <thread>
 
 #include "batch/plan_runs.hpp"
+#include "faces/cli/compare_command.hpp"
 #include "faces/cli/plan_foretold.hpp"
 #include "faces/cli/plan_outputs.hpp"
+#include "faces/cli/plan_reports.hpp"
 #include "faces/cli/progress.hpp"
+#include "faces/cli/report_page.hpp"
 #include "faces/cli/terminal.hpp"
 #include "sixstep/base/written.hpp"
 #include "text/plan/plan_file.hpp"
@@ -100,40 +103,48 @@ base::Problems same_program(const batch::PlanRuns& runs, files::PlanStore& store
            .cure = "finish it with that version, or begin anew with --force"}};
 }
 
-struct Told {
-  Exit exit = Exit::ok;
-  base::Problems problems;
-};
+/// A plan whose runs have been made: what stands in its store, and what it comes to. It stays where it is.
+class MadePlan {
+ public:
+  MadePlan(const ReadPlan& plan, files::PlanStore store)
+      : plan_(plan), store_(std::move(store)), series_(analysis::series_of(plan.columns)) {
+    each([&](const analysis::RunRecord& record) { analysis::add(series_, record); });
+  }
+  MadePlan(const MadePlan&) = delete;
+  MadePlan& operator=(const MadePlan&) = delete;
 
-Told tell(const RunArguments& a, const ReadPlan& plan, files::PlanStore& store, PlanOutputs& outputs) {
-  Told told;
-  const analysis::Plan& p = plan.scenarios->plan();
-  analysis::Series series = analysis::series_of(plan.columns);
-  const auto each = [&](const std::function<void(const analysis::RunRecord&)>& visit) {
-    const base::Problems unread = store.each([&](const analysis::RunRecord& record) {
+  const text::PlanStory& story() const { return story_; }
+  /// What kept rows from being read.
+  const base::Problems& problems() const { return problems_; }
+  Exit exit() const { return exit_of(series_); }
+
+ private:
+  void each(const std::function<void(const analysis::RunRecord&)>& visit) {
+    const analysis::Plan& p = plan_.scenarios->plan();
+    const base::Problems unread = store_.each([&](const analysis::RunRecord& record) {
       if (record.number >= analysis::runs_of(p)) return;  // of a sitting that wanted more
       analysis::RunRecord whole = record;
       whole.point = analysis::point_of_run(p, record.number);
       visit(whole);
     });
-    told.problems.insert(told.problems.end(), unread.begin(), unread.end());
-  };
-  each([&](const analysis::RunRecord& record) { analysis::add(series, record); });
-  const text::PlanStory story{plan.name, p, plan.columns, plan.units, series, each};
-  if (!a.quiet && told.problems.empty()) print(text::plan_table(story), a.paths.prints() ? stderr : stdout);
-  const base::Problems unwritten = outputs.publish(story, plan, !interrupted());
-  told.problems.insert(told.problems.end(), unwritten.begin(), unwritten.end());
-  told.exit = exit_of(series);
-  return told;
-}
+    problems_.insert(problems_.end(), unread.begin(), unread.end());
+  }
 
-Exit run_plan(const RunArguments& a, const ReadPlan& plan) {
-  PlanOutputs outputs;
-  if (const base::Problems problems = outputs.open(a, plan); !problems.empty()) return refused(problems);
+  const ReadPlan& plan_;
+  files::PlanStore store_;
+  analysis::Series series_;
+  base::Problems problems_;
+  text::PlanStory story_{plan_.name,    plan_.scenarios->plan(),
+                         plan_.columns, plan_.units,
+                         series_,       [this](const auto& visit) { each(visit); }};
+};
+
+/// All runs of a plan that its store does not have yet, or as many as there was time for.
+base::Result<files::PlanStore> make_runs(const RunArguments& a, const ReadPlan& plan) {
   base::Result<files::PlanStore> store = store_of(a, plan);
-  if (!store) return refused(store.problems());
+  if (!store) return store;
   batch::PlanRuns runs = runs_of(a, plan, *store);
-  if (const base::Problems problems = same_program(runs, *store); !problems.empty()) return refused(problems);
+  if (const base::Problems problems = same_program(runs, *store); !problems.empty()) return problems;
   {
     const Interrupter interrupter(*store);
     runs.stop = interrupter.token();
@@ -148,11 +159,48 @@ Exit run_plan(const RunArguments& a, const ReadPlan& plan) {
     };
     batch::run_plan(runs);
   }
-  if (const base::Problems unwritten = store->finish(); !unwritten.empty()) return refused(unwritten);
-  const Told told = tell(a, plan, *store, outputs);
-  complain(told.problems);
+  if (const base::Problems unwritten = store->finish(); !unwritten.empty()) return unwritten;
+  return store;
+}
+
+Exit run_plan(const RunArguments& a, const ReadPlan& plan) {
+  PlanOutputs outputs;
+  if (const base::Problems problems = outputs.open(a, plan); !problems.empty()) return refused(problems);
+  base::Result<files::PlanStore> store = make_runs(a, plan);
+  if (!store) return refused(store.problems());
+  const MadePlan made(plan, std::move(*store));
+  if (!a.quiet && made.problems().empty())
+    print(text::plan_table(made.story()), a.paths.prints() ? stderr : stdout);
+  base::Problems problems = outputs.publish(made.story(), plan, !interrupted());
+  problems.insert(problems.end(), made.problems().begin(), made.problems().end());
+  complain(problems);
   if (interrupted()) return exit_of_interrupt();
-  return told.problems.empty() ? told.exit : graver(told.exit, Exit::bad_input);
+  return problems.empty() ? made.exit() : graver(made.exit(), Exit::bad_input);
+}
+
+/// Two plans on one page.
+Exit compare_plans(const RunArguments& a, const std::vector<ReadPlan>& plans) {
+  base::Result<files::AtomicFile> file = files::AtomicFile::create({a.paths.of(page_option), a.paths.force});
+  if (!file) return refused(file.problems());
+  std::vector<std::unique_ptr<MadePlan>> made;
+  std::vector<report::PagePlan> pages;
+  base::Problems problems;
+  Exit exit = Exit::ok;
+  for (const ReadPlan& plan : plans) {
+    base::Result<files::PlanStore> store = make_runs(a, plan);
+    if (!store) return refused(store.problems());
+    if (interrupted()) return told_interrupted("the comparison");
+    const MadePlan& one = *made.emplace_back(std::make_unique<MadePlan>(plan, std::move(*store)));
+    exit = graver(exit, one.exit());
+    if (!a.quiet) print(text::plan_table(one.story()));
+    pages.push_back(page_of(a, plan, one.story(), {}));
+  }
+  file->write(plan_page(pages, a.command));
+  for (const auto& one : made)
+    problems.insert(problems.end(), one->problems().begin(), one->problems().end());
+  const base::Problems unwritten = problems.empty() ? file->commit() : problems;
+  complain(unwritten);
+  return unwritten.empty() ? exit : graver(exit, Exit::bad_input);
 }
 
 base::Problems contradictions(const RunArguments& a) {
@@ -161,7 +209,14 @@ base::Problems contradictions(const RunArguments& a) {
     problems.push_back({.where = "--resume",
                         .limit = "goes on with the runs of a store, and none is named",
                         .cure = "add --store FILE.sqlite, or --out DIR as it was"});
-  if (a.files.size() > 1 && (!a.plan.store.empty() || (a.paths.any() && a.out.empty())))
+  const bool both = compares(a);
+  if (both && a.files.size() > report::most_plans_on_a_page)
+    problems.push_back({.where = "--html",
+                        .value = fmt::format("{} plans", a.files.size()),
+                        .limit = fmt::format("is more than the {} that one page can tell apart",
+                                             report::most_plans_on_a_page),
+                        .cure = "compare two, or write a page each with --out DIR"});
+  if (a.files.size() > 1 && (!a.plan.store.empty() || (a.paths.any() && a.out.empty() && !both)))
     problems.push_back({.where = a.plan.store.empty() ? all_options() : "--store",
                         .limit = "name the outputs of one plan",
                         .cure = "run the files one by one, or with --out DIR"});
@@ -190,6 +245,7 @@ Exit plan_command(const RunArguments& arguments) {
       problems.insert(problems.end(), plan.problems().begin(), plan.problems().end());
   }
   if (!problems.empty()) return refused(problems);
+  if (compares(arguments) && !arguments.plan.dry_run) return compare_plans(arguments, read);
   Exit exit = Exit::ok;
   for (const ReadPlan& plan : read) {
     exit = graver(exit, arguments.plan.dry_run ? foretell(arguments, plan) : run_plan(arguments, plan));

@@ -65,13 +65,7 @@ std::string PlanOutputs::page(const text::PlanStory& story, const ReadPlan& plan
   WorstReports worst;
   if (!arguments_->out.empty() && !interrupted()) worst = write_worst_reports(*arguments_, plan, story);
   problems.insert(problems.end(), worst.problems.begin(), worst.problems.end());
-  return plan_page({{.story = story,
-                     .title = plan.title,
-                     .motor = plan.origin.motor,
-                     .notes = plan.notes,
-                     .repeats = repeating_command(*arguments_, plan),
-                     .reports = std::move(worst.files)}},
-                   plan.origin.command);
+  return plan_page({page_of(*arguments_, plan, story, std::move(worst.files))}, plan.origin.command);
 }
 
 base::Problems PlanOutputs::publish(const text::PlanStory& story, const ReadPlan& plan, bool whole) {

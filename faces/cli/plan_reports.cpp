@@ -58,6 +58,16 @@ std::string repeating_command(const RunArguments& a, const ReadPlan& plan) {
   return text + " --only";
 }
 
+report::PagePlan page_of(const RunArguments& a, const ReadPlan& plan, const text::PlanStory& story,
+                         std::map<std::size_t, std::string> reports) {
+  return {.story = story,
+          .title = plan.title,
+          .motor = plan.origin.motor,
+          .notes = plan.notes,
+          .repeats = repeating_command(a, plan),
+          .reports = std::move(reports)};
+}
+
 WorstReports write_worst_reports(const RunArguments& a, const ReadPlan& plan, const text::PlanStory& story) {
   WorstReports written;
   for (const std::size_t number : worst_runs(story, most_reports)) {

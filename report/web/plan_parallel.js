@@ -40,7 +40,7 @@ function drawAxis(ctx, axis, x, top, height, room, brush) {
   line(ctx, x, top, x, top + height);
   ctx.fillStyle = palette.quiet;
   ctx.textAlign = 'right';
-  for (const {v, text} of axis.scale.ticks(4)) {
+  for (const {v, text} of axis.scale.ticks(6)) {
     const y = top + (1 - axis.scale.at(v)) * height;
     line(ctx, x - 3, y, x, y);
     // On the lines' colours numbers need a ground of their own.

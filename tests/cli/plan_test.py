@@ -275,6 +275,21 @@ class Plan(ProgramTest):
         self.run_program("run", "p.toml", "--out", "other", "--store", "s.sqlite", code=1)
         self.assertNotIn("p.sqlite", self.names("other"))
 
+    def test_two_plans_share_a_page(self):
+        self.held()
+        (self.path / "b.toml").write_text((self.path / "a.toml").read_text().replace("maxon-251601", "maxon-200142"))
+        vary = ["--vary", "supply.voltage_V=12,24"]
+        told = self.run_program("run", "a.toml", "b.toml", *vary, "--html", "both.html", code=1).stdout
+        self.assertRegex(told, r"(?s)^a\n.*2 runs.*\nb\n.*2 runs")
+        text, plans = self.page("both.html")
+        self.assertEqual([p["name"] for p in plans], ["a", "b"])
+        for p in plans:
+            self.run_program("run", p["name"] + ".toml", *vary, "--html", "one.html", code={"a": 1, "b": 0}[p["name"]])
+            self.assertEqual(self.page("one.html")[1][0] | {"repeats": ""}, p | {"repeats": ""})
+        self.assertIn("more than the 2", self.run_program("run", "a.toml", "b.toml", "a.toml", *vary, "--html", "x.html", code=2).stderr)
+        self.assertIn("one plan", self.run_program("run", "a.toml", "b.toml", *vary, "--html", "x.html", "--store", "s.sqlite", code=2).stderr)
+        self.assertNotIn("x.html", self.names())
+
     def test_a_trace_is_of_one_run(self):
         self.held()
         self.assertIn("--only N --vcd", self.run_program("run", "a.toml", "--vary", "supply.voltage_V=12,24", "--vcd", "a.vcd", code=2).stderr)
