@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "report/figures.hpp"
 #include "report/html.hpp"
@@ -44,15 +45,20 @@ Reach reach_of(const analysis::FigureColumn& f, const Span& span) {
   return {reach.low - margin, reach.high + margin};
 }
 
-std::string bars(const Reach& reach, const Span& span, const DrawnHistogram& drawn, std::size_t most) {
+/// Of all runs of its plan: so plans of unlike size compare.
+double share(const Histogram& h, std::size_t count) {
+  const std::size_t all = std::accumulate(h.counts.begin(), h.counts.end(), h.never + h.missing);
+  return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(all, 1));
+}
+
+std::string bars(const Reach& reach, const Span& span, const DrawnHistogram& drawn, double most) {
   const double from = reach.at(span.low), to = reach.at(span.high);
   const double each = std::max((to - from) / histogram_bins, to > from ? 0.0 : 6.0);
   std::string path;
   for (std::size_t n = 0; n < histogram_bins; ++n) {
     const std::size_t count = drawn.histogram.counts[n];
     if (count == 0) continue;
-    const double tall =
-        std::max(1.0, static_cast<double>(count) / static_cast<double>(most) * (height - top - bottom));
+    const double tall = std::max(1.0, share(drawn.histogram, count) / most * (height - top - bottom));
     const double x = to > from ? from + static_cast<double>(n) * each : from - each / 2;
     path += fmt::format("M{:.1f} {:.1f}v{:.1f}h{:.1f}v{:.1f}z", x, height - bottom, -tall, each, tall);
   }
@@ -139,9 +145,10 @@ std::string histogram_picture(const analysis::FigureColumn& f, const Span& span,
       fmt::format("<figcaption><span class=\"name\">{}</span><span class=\"unit\">{}</span>{}</figcaption>",
                   escaped(f.name), escaped(scale.unit), without_value(drawn));
   if (span.empty()) return "<figure class=\"chart drawn histogram\">" + caption + "</figure>\n";
-  std::size_t most = 1;
+  double most = 0.0;
   for (const DrawnHistogram& d : drawn)
-    most = std::max(most, *std::max_element(d.histogram.counts.begin(), d.histogram.counts.end()));
+    most = std::max(
+        most, share(d.histogram, *std::max_element(d.histogram.counts.begin(), d.histogram.counts.end())));
   const Reach reach = reach_of(f, span);
   std::string svg;
   for (const DrawnHistogram& d : drawn) svg += bars(reach, span, d, most);

@@ -18,7 +18,7 @@ struct DrawnHistogram {
   const Histogram& histogram;
 };
 
-/// A <figure>: bars from one end of the span to the other, the limits that lie near, and a line on what is no value.
+/// A <figure>: bars as high as their share of a plan's runs, from one end of the span to the other, the limits that lie near, and a line on what is no value.
 std::string histogram_picture(const sixstep::analysis::FigureColumn& figure, const Span& span,
                               const std::vector<DrawnHistogram>& drawn);
 
