@@ -52,7 +52,7 @@ class Dump:
                 assert then is None or now > then, f"time goes back at {line}"
             elif line.startswith("b"):
                 bits, code = line[1:].split()
-                self.changes[names[code]].append((now, int(bits, 2)))
+                self.changes[names[code]].append((now, None if bits == "x" else int(bits, 2)))
             elif not line.startswith("$"):
                 self.changes[names[line[1:]]].append((now, {"0": 0, "1": 1, "x": None}[line[0]]))
         self.end = now
