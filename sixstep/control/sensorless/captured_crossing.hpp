@@ -103,9 +103,10 @@ constexpr CrossingReading captured_crossing_step(const CapturedCrossingConfig& c
                                                  const ZeroCrossingConfig& crossing, ZeroCrossingState& state,
                                                  CapturedLines& captured, const TerminalSample& s, bool on,
                                                  std::uint32_t on_ticks) {
-  CrossingReading reading;
-  if (!detail::shown(crossing, state, s, on, reading)) return reading;
-  return detail::look_at_line(config, crossing, state, captured, reading, on_ticks);
+  return detail::looked_at(crossing, state, s, on, [&](std::int32_t y, bool held) {
+    return detail::look_at_line(config, crossing, state, captured, {Crossing::none, s.at, true, !held, y},
+                                on_ticks);
+  });
 }
 
 }  // namespace sixstep::control
