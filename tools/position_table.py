@@ -82,7 +82,7 @@ SOURCES = {
     "resolver, windings 0.5 % unlike": ("lean", AT_SAMPLES, 'rotor = "resolver"\n[sensors.resolver]\nimbalance = 0.005\n'
                                         "excitation_Hz = 8333.333333333333\nnoise_V = 2e-3", ""),
     "zero crossing": ("sensorless", "", "bus_noise_V = 0.01", ""),
-    "comparators at the terminals": ("sensorless", "", "bus_noise_V = 0.01\n[sensors.comparators]\nbandwidth_Hz = 14e3",
+    "comparators at the terminals": ("sensorless", "", "bus_noise_V = 0.01\n[sensors.comparators]\nbandwidth_Hz = 20e3",
                                      'sensorless.follows = "comparators"'),
     "Luenberger observer": ("sensorless", "", "bus_noise_V = 0.01", 'sensorless.follows = "luenberger"'),
     "sliding-mode observer": ("sensorless", "", "bus_noise_V = 0.01", 'sensorless.follows = "sliding-mode"'),

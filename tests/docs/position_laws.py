@@ -133,8 +133,8 @@ LAWS = {
     "sensorless-luenberger": [(None, LOOK / 0.88 * sqrt(pole_noise()))],
     "sensorless-sliding-mode": [near(60, T * 60 * PAIRS * 3 / pi + 0.004)],
     "sensorless-flux-linkage": [around(30 * (1 / sqrt(0.88) - 1), 60 * PERIOD / 2)],
-    # Early by less than the comparators' low-pass, which the lead takes off a falling crossing as a whole.
-    "sensorless-comparators": [(None, degrees(PAIRS * 60 / (2 * pi * 12e3)))],
+    # Late by less than a pause, beside the comparators' low-pass, which the lead takes off.
+    "sensorless-comparators": [(None, 60 * PERIOD)],
     "hall-glitch": [near(100, T / SECTOR + 0.004)],
     "hall-60": [near(100, T / SECTOR + 0.004)],
     "hall-offset": [(2 * K_T * late(15) * (1 - (2 * L / (U - K_T * 20) + 3 * 1.5 * 2 * L / U) / (2 * pi / PAIRS / 20)), 2 * K_T * late(15)),

@@ -80,7 +80,29 @@ TEST(SensorlessComparators, AnEdgeComesLateByLagOffsetAndHysteresis) {
   }
 }
 
-/// Samples of 12 bits lose up to half a step each; edges of the same board do not.
+/// Hard chopping leaves the star point where it is, and an edge comes tau late. In soft and complementary chopping a diode hands a
+/// negative back-EMF on to the next pulse: up to a pause later.
+TEST(SensorlessComparators, ChoppingDelaysAnEdgeByAPauseAtMost) {
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
+    for (const double part : {0.1, 0.3, 0.6}) {
+      SensorlessBench bench(three_motors[0], control::Mode::speed, chopping);
+      bench.spec.capture_Hz = bench.board.sensors.capture_Hz = 64e6;
+      bench.load_part = 0.3;
+      capture_crossings(bench, {});
+      bench.setpoint(0, part * bench.no_load_rad_s());
+      const SeenCrossings seen = seen_crossings(bench, aligned_s(bench) + 0.8);
+      const double w_e = bench.motor.machine.pole_pairs * seen.speed_rad_s;
+      const double tau = bench.board.front_end.comparators.lag_s, ticks_s = 2 / 64e6 + 1e-3 * tau;
+      const double pause_s = chopping == Chopping::hard ? 0.0 : (1 - part) * bench.spec.period_s;
+      for (std::size_t k = 0; k < 6; ++k) {
+        const double late_s = seen.late_rad[k] / w_e;
+        EXPECT_GE(late_s, tau - ticks_s) << word(chopping) << part << k;
+        EXPECT_LE(late_s, tau + pause_s + ticks_s) << word(chopping) << part << k;
+      }
+    }
+}
+
+/// Samples of 8 bits lose up to half a step each; edges on the same board do not.
 TEST(SensorlessComparators, CommutatesEvenlyWhereSamplesAreRounded) {
   const auto spread_deg = [](bool by_edges) {
     SensorlessBench bench(three_motors[0], control::Mode::speed, Chopping::hard);

@@ -10,16 +10,18 @@
 //
 // An edge counts that lies behind the first sample without the old current: those before it are the freewheel's. What that left in the
 // low-pass tau in front of each comparator keeps the line on the wrong side for a while; a crossing before it has come back
-// is the samples' own. Against the virtual star it may be as slow as a period of the PWM, and has to be: in soft and complementary
-// chopping a diode holds a negative e_f at nothing beside the pulse, where the star is, too, and only the mean over the period
-// has a sign. That mean is d of e_f there, all of it above; an edge so comes late by
+// is the samples' own.
+// Against the virtual star it may be about as slow as a period of the PWM, and should be: in soft and complementary
+// chopping a diode holds a negative e_f at nothing beside the pulse, where the star is, too. The current that flows then pulls
+// the leg to the rail as the pulse begins, until it is gone: 3 L di/dt has no mean over a period, so that of y is right, and
+// comes up to a pause later. An edge is late by
 //
-//   falling   t = tau                          rising   t = tau (1 - (1 - d) exp(-t/tau))     d = 1 in hard chopping
+//   hard chopping   t = tau                 soft, complementary   tau <= t <= tau + (1 - d) T
 //
-// of which the lead of commutation_clock.hpp takes tau off: in between the commutations lie unevenly by less than tau. Against half
-// the bus soft and complementary chopping pull the leg below its reference beside each pulse: the filter has to be settled within
-// half a pulse, only the line at the sample in its middle is believed, and an edge within that pulse; one beside it is the
-// pulse's own, and the crossing lay somewhere in the pause: its middle is taken.
+// of which the lead of commutation_clock.hpp takes tau off. Against half the bus these two pull the leg below its reference
+// beside each pulse: the filter has to be settled within half a pulse, only the line at the sample in its middle is believed,
+// and an edge within that pulse; one beside it is the pulse's own, and the crossing lay somewhere in the pause: its middle
+// is taken.
 //
 // An offset moves a crossing by offset over slope, a hysteresis by half of itself over the slope, to later.
 //
@@ -101,9 +103,10 @@ constexpr CrossingReading captured_crossing_step(const CapturedCrossingConfig& c
                                                  const ZeroCrossingConfig& crossing, ZeroCrossingState& state,
                                                  CapturedLines& captured, const TerminalSample& s, bool on,
                                                  std::uint32_t on_ticks) {
-  CrossingReading reading;
-  if (!detail::shown(crossing, state, s, on, reading)) return reading;
-  return detail::look_at_line(config, crossing, state, captured, reading, on_ticks);
+  return detail::looked_at(crossing, state, s, on, [&](std::int32_t y, bool held) {
+    return detail::look_at_line(config, crossing, state, captured, {Crossing::none, s.at, true, !held, y},
+                                on_ticks);
+  });
 }
 
 }  // namespace sixstep::control

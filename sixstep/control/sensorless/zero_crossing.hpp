@@ -154,37 +154,37 @@ constexpr CrossingReading look(const ZeroCrossingConfig& config, ZeroCrossingSta
   return reading;
 }
 
-/// One sample up to where its y is to be judged; true where it is: the star point shows, no old current hides the back-EMF, and
-/// nothing has crossed in this sector yet.
-constexpr bool shown(const ZeroCrossingConfig& config, ZeroCrossingState& state, const TerminalSample& s,
-                     bool on, CrossingReading& reading) {
-  if (state.sector > 5) return false;
+/// One sample; look(y, held) judges it where the star point shows, no old current hides the back-EMF and nothing has crossed in
+/// this sector yet.
+template <class Look>
+constexpr CrossingReading looked_at(const ZeroCrossingConfig& config, ZeroCrossingState& state,
+                                    const TerminalSample& s, bool on, Look&& look) {
+  if (state.sector > 5) return {};
   const std::uint8_t leg = floating_leg(state.sector);
   const bool visible = neutral_visible(config, s, leg);
   if (visible || !on)
     state.unlike = 0;
   else if (state.unlike < 255)
     ++state.unlike;
-  if (!visible) return false;
+  if (!visible) return {};
   const std::int32_t sum = above_neutral(s, leg);
   const bool falls = state.sector % 2 == 0;
-  reading = {Crossing::none, s.at, true, false, falls ? sum : -sum};
+  const std::int32_t y = falls ? sum : -sum;
   const std::uint32_t since = s.at - state.began;
-  if (since < config.settle_ticks) return false;
+  if (since < config.settle_ticks) return {Crossing::none, s.at, true, false, y};
   if (state.freewheels) {
     state.freewheel = since;
     if (at_rail(config, s, leg, falls)) {
       state.hidden = true;
-      return false;
+      return {Crossing::none, s.at, true, false, y};
     }
     state.freewheels = false;
     state.blank = since + config.margin_ticks;
   }
-  if (since < state.blank) return false;
-  reading.free = !at_rail(config, s, leg, !falls);
-  if (!state.done) return true;
-  reading.free = reading.free && !at_rail(config, s, leg, falls);
-  return false;
+  if (since < state.blank) return {Crossing::none, s.at, true, false, y};
+  const bool held = at_rail(config, s, leg, !falls);
+  if (state.done) return {Crossing::none, s.at, true, !held && !at_rail(config, s, leg, falls), y};
+  return look(y, held);
 }
 
 }  // namespace detail
@@ -192,9 +192,9 @@ constexpr bool shown(const ZeroCrossingConfig& config, ZeroCrossingState& state,
 /// One sample. `on`: the chip has the pair's switches on now, so that the driven legs must stand at the rails.
 constexpr CrossingReading zero_crossing_step(const ZeroCrossingConfig& config, ZeroCrossingState& state,
                                              const TerminalSample& s, bool on) {
-  CrossingReading reading;
-  if (!detail::shown(config, state, s, on, reading)) return reading;
-  return detail::look(config, state, s.at, reading.y, !reading.free);
+  return detail::looked_at(config, state, s, on, [&](std::int32_t y, bool held) {
+    return detail::look(config, state, s.at, y, held);
+  });
 }
 
 }  // namespace sixstep::control
