@@ -51,9 +51,9 @@ void see(FundamentalFit& fit, long double from, long double to, const Curve& sig
   FittedPart<points> part;
   for (int k = 0; k < points; ++k) {
     const long double turn = series::gauss<points>.node[k] * (to - from);
-    part.weight[k] = static_cast<double>(series::gauss<points>.weight[k] * (to - from));
-    part.turn[k] = static_cast<double>(turn);
-    part.signal[k] = static_cast<double>(signal(from + turn));
+    part.weight.set(k, static_cast<double>(series::gauss<points>.weight[k] * (to - from)));
+    part.turn.set(k, static_cast<double>(turn));
+    part.signal.set(k, static_cast<double>(signal(from + turn)));
   }
   fit.add(phase_of(static_cast<double>(std::fmod(from, 2 * pi))), part);
 }
@@ -87,7 +87,9 @@ TEST(Phase, KeepsItsDigitsWhereItIsSmall) {
 template <int terms>
 void expect_small_turns(double largest) {
   for (double x = largest; x > 1e-9; x *= -0.61) {
-    const Phase found = detail::small_turn<terms>(std::fabs(x));
+    series::Nodes<terms, double> sin, versine;
+    detail::small_turn<terms>(series::Nodes<terms, double>::everywhere(std::fabs(x)), sin, versine);
+    const Phase found{sin[0], versine[0]};
     const long double exact = std::fabs(static_cast<long double>(x)), half = std::sin(exact / 2);
     EXPECT_NEAR(found.sin, static_cast<double>(std::sin(exact)), 2 * eps * found.sin) << terms << " " << x;
     EXPECT_NEAR(found.versine, static_cast<double>(2 * half * half), 3 * eps * found.versine)

@@ -41,95 +41,98 @@ class FundamentalFit {
 
  private:
   using Three = std::array<double, 3>;
-  /// Integrals of the functions' products, of the distance from the reference with each of them, and of its square.
-  template <class Sum>
-  struct Integrals {
-    Sum one{}, s{}, v{}, ss{}, sv{}, vv{};
-    std::array<Sum, 3> with{};
-    Sum square{};
+  /// Integrals of products of 1, s = sin p, v = 1 - cos p and r, the distance from the reference.
+  enum Product : int { one, s, v, ss, sv, vv, r, rs, rv, rr, products };
+  using Integrals = series::Nodes<products, double>;
+  template <int points>
+  struct Phases {
+    series::Nodes<points, double> sin, versine;
   };
+
+  template <int points>
+  static Phases<points> phases_of(const Phase& begin, const series::Nodes<points, double>& turn);
+  template <int points>
+  series::Nodes<points, double> distance(const Phases<points>& at,
+                                         const series::Nodes<points, double>& signal) const {
+    return signal - reference_[0] - reference_[1] * at.sin - reference_[2] * at.versine;
+  }
+  template <int points>
+  static Integrals integrals_of(const Phases<points>& at, const series::Nodes<points, double>& weight,
+                                const series::Nodes<points, double>& distance);
+  void take(const Integrals& of_part);
   Three step_to_fit() const;
   void move_reference(const Three& by);
   void follow_fit() {
     move_reference(step_to_fit());
-    fitted_at_ = sums_.one.value;
+    fitted_at_ = sums_[one];
   }
   void pass_through(const std::array<Phase, 3>& at, const Three& distance);
-  double distance(const Phase& p, double signal) const {
-    return signal - reference_[0] - reference_[1] * p.sin - reference_[2] * p.versine;
-  }
 
-  template <int points>
-  Integrals<double> integrals_of(const std::array<Phase, points>& at, const FittedPart<points>& part) const;
-  void take(const Integrals<double>& of_part);
-
-  Integrals<series::CompensatedSum<double>> sums_;  ///< over all that was seen
+  Integrals sums_ = Integrals::everywhere(0.0),
+            low_ = sums_;  ///< over all that was seen; what rounding has left
   Three reference_{};
   double fitted_at_ = 0.0;  ///< how much had been seen when the reference was last moved
 };
 
 namespace detail {
 
-/// p at begin + turn: sums of products that keep their digits where both are small.
-inline Phase turned(const Phase& begin, const Phase& turn) {
-  const double cos = 1.0 - begin.versine;
-  return {begin.sin - begin.sin * turn.versine + cos * turn.sin,
-          begin.versine + cos * turn.versine + begin.sin * turn.sin};
-}
-
-/// As many terms as points: a rule of n points is taken for turns x with x^(2 n) below 2^-53 (2 n)!.
-template <int terms>
-inline Phase small_turn(double x) {
-  const double square = x * x;
-  double sin = 1.0, versine = 1.0;
+/// sin x and 1 - cos x with all their digits, by as many terms as points: a rule of n points is taken for turns x
+/// with x^(2 n) below 2^-53 (2 n)!.
+template <int points>
+[[gnu::always_inline]] inline void small_turn(const series::Nodes<points, double>& x,
+                                              series::Nodes<points, double>& sin,
+                                              series::Nodes<points, double>& versine) {
+  const auto square = x * x;
+  sin = versine = series::Nodes<points, double>::everywhere(1.0);
 #pragma GCC unroll 8
-  for (int n = terms - 1; n >= 1; --n) {
-    sin = 1.0 - sin * (square * (1.0 / ((2 * n) * (2 * n + 1))));
-    versine = 1.0 - versine * (square * (1.0 / ((2 * n + 1) * (2 * n + 2))));
+  for (int n = points - 1; n >= 1; --n) {
+    sin = 1.0 - sin * ((1.0 / ((2 * n) * (2 * n + 1))) * square);
+    versine = 1.0 - versine * ((1.0 / ((2 * n + 1) * (2 * n + 2))) * square);
   }
-  return {x * sin, square * 0.5 * versine};
+  sin = x * sin;
+  versine = 0.5 * square * versine;
 }
 
 }  // namespace detail
 
+/// Sums of products that keep their digits where both angles are small.
 template <int points>
-FundamentalFit::Integrals<double> FundamentalFit::integrals_of(const std::array<Phase, points>& at,
-                                                               const FittedPart<points>& part) const {
-  Integrals<double> sum;
-#pragma GCC unroll 8
-  for (int k = 0; k < points; ++k) {
-    const double w = part.weight[k], ws = w * at[k].sin, wv = w * at[k].versine;
-    const double r = distance(at[k], part.signal[k]), wr = w * r;
-    sum.one += w;
-    sum.s += ws;
-    sum.v += wv;
-    sum.ss += ws * at[k].sin;
-    sum.sv += ws * at[k].versine;
-    sum.vv += wv * at[k].versine;
-    sum.with[0] += wr;
-    sum.with[1] += wr * at[k].sin;
-    sum.with[2] += wr * at[k].versine;
-    sum.square += wr * r;
-  }
-  return sum;
+[[gnu::always_inline]] inline FundamentalFit::Phases<points> FundamentalFit::phases_of(
+    const Phase& begin, const series::Nodes<points, double>& turn) {
+  series::Nodes<points, double> sin, versine;
+  detail::small_turn<points>(turn, sin, versine);
+  const double cos = 1.0 - begin.versine;
+  return {begin.sin - begin.sin * versine + cos * sin, begin.versine + cos * versine + begin.sin * sin};
+}
+
+template <int points>
+[[gnu::always_inline]] inline FundamentalFit::Integrals FundamentalFit::integrals_of(
+    const Phases<points>& at, const series::Nodes<points, double>& w,
+    const series::Nodes<points, double>& distance) {
+  const auto ws = w * at.sin, wv = w * at.versine, wr = w * distance;
+  Integrals out;
+  out.pair[0] = series::totals(w, ws);
+  out.pair[1] = series::totals(wv, ws * at.sin);
+  out.pair[2] = series::totals(ws * at.versine, wv * at.versine);
+  out.pair[3] = series::totals(wr, wr * at.sin);
+  out.pair[4] = series::totals(wr * at.versine, wr * distance);
+  return out;
 }
 
 template <int points>
 void FundamentalFit::add(const Phase& begin, const FittedPart<points>& part) {
-  std::array<Phase, points> at;
-  double length = 0.0;
-#pragma GCC unroll 8
-  for (int k = 0; k < points; ++k) {
-    at[k] = detail::turned(begin, detail::small_turn<points>(part.turn[k]));
-    length += part.weight[k];
-  }
+  const Phases<points> at = phases_of<points>(begin, part.turn);
+  auto weight = part.weight;
+  if constexpr (points % 2 != 0) weight.set(points, 0.0);  // the lane left over
   constexpr double far_more = 8.0;
-  if (length > far_more * sums_.one.value) {
-    const auto of = [&](int k) { return distance(at[k], part.signal[k]); };
-    pass_through({at[0], at[points / 2], at[points - 1]}, {of(0), of(points / 2), of(points - 1)});
+  if (series::totals(weight, weight)[0] > far_more * sums_[one]) {
+    const auto off = distance<points>(at, part.signal);
+    const auto phase = [&](int k) { return Phase{at.sin[k], at.versine[k]}; };
+    constexpr int middle = points / 2, last = points - 1;
+    pass_through({phase(0), phase(middle), phase(last)}, {off[0], off[middle], off[last]});
   }
-  take(integrals_of<points>(at, part));
-  if (sums_.one.value >= 2 * fitted_at_) follow_fit();
+  take(integrals_of<points>(at, weight, distance<points>(at, part.signal)));
+  if (sums_[one] >= 2 * fitted_at_) follow_fit();
 }
 
 }  // namespace sixstep::study

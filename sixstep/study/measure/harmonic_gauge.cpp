@@ -102,18 +102,16 @@ void HarmonicGauge::turn_part(const SegmentView& g, const Piece& y, double from,
   const double x_from = series::evaluate(e.x, e.degree, from);
   series::with_points_for(std::max({e.degree, 8, degree_of_turn(turn)}), [&]<int points>() {
     using series::values_at;
-    const auto node = series::nodes_up_to<points>(1.0);
-    series::Nodes<points, double> at;
-    for (int k = 0; k < points; ++k) at[k] = from + node[k] * (to - from);
-    FittedPart<points> part{.weight = values_at<points>(e.w, e.degree, at),
-                            .turn = values_at<points>(e.x, e.degree, at),
-                            .signal = values_at<points>(y.c, y.degree, node)};
+    const auto node = series::nodes_up_to<points>(1.0), at = from + (to - from) * node;
+    auto angle = per_s * values_at<points>(e.w, e.degree, at);  // of this part, per unit of weight
     for (int k = 0; k < points; ++k) {
-      const double angle = per_s * part.weight[k];  // of this part, per unit of weight
-      if (angle < 0.0) turned_back_ = true;
-      part.weight[k] = angle > 0.0 ? static_cast<double>(series::gauss<points>.weight[k]) * angle : 0.0;
-      part.turn[k] -= x_from;
+      if (angle[k] < 0.0) turned_back_ = true;
+      if (!(angle[k] > 0.0)) angle.set(k, 0.0);
     }
+    const FittedPart<points> part{
+        .weight = series::as_nodes<points, double>(series::gauss<points>.weight) * angle,
+        .turn = values_at<points>(e.x, e.degree, at) - x_from,
+        .signal = values_at<points>(y.c, y.degree, node)};
     fit_.add(phase_at(g, from), part);
   });
   swept_ = direction_ * up_to;
@@ -126,17 +124,14 @@ void HarmonicGauge::time_part(const SegmentView& g, const Piece& y, double from,
   const double share = 1.0 / static_cast<double>(count), turn = rate * length * share;
   const double begin_s = g.t_s + h * from - window_.from_s;
   series::with_points_for(std::max(y.degree, degree_of_turn(turn)), [&]<int points>() {
-    FittedPart<points> part;
     const auto node = series::nodes_up_to<points>(share);
-    for (int k = 0; k < points; ++k) {
-      part.weight[k] = static_cast<double>(series::gauss<points>.weight[k]) * (length * share);
-      part.turn[k] = static_cast<double>(series::gauss<points>.node[k]) * turn;
-    }
+    FittedPart<points> part{
+        .weight = (length * share) * series::as_nodes<points, double>(series::gauss<points>.weight),
+        .turn = series::nodes_up_to<points>(turn),
+        .signal = {}};
     for (std::int64_t n = 0; n < count; ++n) {
       const double done = static_cast<double>(n) * share;
-      auto at = node;
-      for (double& s : at) s += done;
-      part.signal = series::values_at<points>(y.c, y.degree, at);
+      part.signal = series::values_at<points>(y.c, y.degree, node + done);
       fit_.add(phase_of(rate * (begin_s + done * length)), part);
     }
   });
