@@ -43,6 +43,14 @@ inline std::string trajectory_file(const Case& c) {
   return std::string(SIXSTEP_SOURCE_DIR "/tests/reference/") + c.trajectory;
 }
 
+/// Empty where the files cannot be read; a duration above zero replaces the scenario's.
+inline std::optional<sixstep::study::Scenario> read(const Case& c, double duration_s) {
+  auto scenario = files::read_scenario(std::string(SIXSTEP_SOURCE_DIR "/data/scenarios/") + c.scenario, {});
+  if (!scenario) return std::nullopt;
+  if (duration_s > 0) scenario->duration_s = duration_s;
+  return std::move(*scenario);
+}
+
 /// A case for the engine. Copies of `rig()` start from rest; they look at this, which must live on.
 class Prepared {
  public:
@@ -50,7 +58,7 @@ class Prepared {
 
   using GeneralRig = sixstep::study::GeneralRig<sixstep::rig::LeanDrive<double>>;
 
-  /// Empty where the files cannot be read; a duration above zero replaces the scenario's.
+  /// Empty where the files cannot be read.
   static std::optional<Prepared> of(const Case& c, double duration_s = 0.0) {
     return of(c, duration_s, false);
   }
@@ -69,9 +77,8 @@ class Prepared {
 
  private:
   static std::optional<Prepared> of(const Case& c, double duration_s, bool on_general) {
-    auto scenario = files::read_scenario(std::string(SIXSTEP_SOURCE_DIR "/data/scenarios/") + c.scenario, {});
+    auto scenario = read(c, duration_s);
     if (!scenario) return std::nullopt;
-    if (duration_s > 0) scenario->duration_s = duration_s;
     if (on_general) {  // straight wires, asked for in an event: only the general kernel can cross them
       sixstep::study::At straight;
       straight.bridge.phases = sixstep::study::AtOrder::abc;

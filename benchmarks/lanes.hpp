@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Several motors' numbers in one register, as a scalar for the plant's templates: GCC's and clang's vector
-// extension with the conversions that a scalar has. Of the benchmarks only; the library knows no vectors.
+// extension with the conversions that a scalar has. Of the benchmarks only; the library has pairs (series/nodes.hpp).
 #pragma once
 #include <cstddef>
 #include <type_traits>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each observer of a run costs, alone and all together as the program has them. tools/performance.py
-// makes the table of docs/performance.md of it.
+// What each observer of a run costs, alone and all together as the program has them; and every case of
+// engine_benchmark as a user runs it, over ten seconds. tools/performance.py makes the table of docs/performance.md of it,
+// and the second lines of README's.
 //
 //   build/dev/benchmarks/observer_benchmark
 #include <benchmark/benchmark.h>
@@ -11,6 +12,8 @@
 
 #include "benchmarks/cases.hpp"
 #include "files/trace/csv_writer.hpp"
+#include "report/kept_rows.hpp"
+#include "report/report.hpp"
 #include "sixstep/plant/audit.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/digest.hpp"
@@ -24,6 +27,12 @@ using namespace benchmarks;
 namespace study = sixstep::study;
 using sixstep::control::Mode;
 
+void note(benchmark::State& state, double simulated_s) {
+  state.counters["per_period"] =
+      benchmark::Counter(simulated_s / period_s * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
 /// Runs with a fresh observer each time, as `make(prepared)` gives it.
 template <class Make>
 void measure(benchmark::State& state, const Case& c, Make make) {
@@ -35,9 +44,7 @@ void measure(benchmark::State& state, const Case& c, Make make) {
     benchmark::DoNotOptimize(sixstep::sim::run(rig, prepared->end(), observer));
     benchmark::DoNotOptimize(observer);
   }
-  state.counters["per_period"] =
-      benchmark::Counter(prepared->end().seconds() / period_s * static_cast<double>(state.iterations()),
-                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  note(state, prepared->end().seconds());
 }
 
 struct Audited {
@@ -110,9 +117,40 @@ void whole_study(benchmark::State& state, const Case& c) {
   const auto prepared = Prepared::of(c);
   if (!prepared) return state.SkipWithError("the scenario cannot be read");
   for (auto _ : state) benchmark::DoNotOptimize(study::run(prepared->scenario()));
-  state.counters["per_period"] =
-      benchmark::Counter(prepared->end().seconds() / period_s * static_cast<double>(state.iterations()),
-                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  note(state, prepared->end().seconds());
+}
+
+/// From the scenario to its verdicts, over ten seconds, on the kernel that it asks for.
+void as_user(benchmark::State& state, const Case& c) {
+  constexpr double duration_s = 10.0;
+  const auto scenario = read(c, duration_s);
+  if (!scenario) return state.SkipWithError("the scenario cannot be read");
+  for (auto _ : state) {
+    const auto outcome = study::run(*scenario);
+    if (!outcome || study::cut_short(*scenario, *outcome) || outcome->fault)
+      return state.SkipWithError("the run does not reach its end");
+    benchmark::DoNotOptimize(outcome->verdicts.data());
+  }
+  note(state, duration_s);
+}
+
+/// The study with its report: a row at every event, kept, and the page made of them.
+void report_of(benchmark::State& state, const Case& c) {
+  const auto prepared = Prepared::of(c);
+  if (!prepared) return state.SkipWithError("the scenario cannot be read");
+  for (auto _ : state) {
+    report::KeptRows rows(prepared->scenario());
+    const auto outcome =
+        study::run(prepared->scenario(), {.on_event = [&rows](study::Row row) { rows.add(row); }});
+    if (!outcome) return state.SkipWithError("the scenario cannot be run");
+    benchmark::DoNotOptimize(report::render({.scenario = prepared->scenario(),
+                                             .outcome = *outcome,
+                                             .trace = rows.trace(),
+                                             .command = "sixstep run",
+                                             .version = "",
+                                             .scenario_text = ""}));
+  }
+  note(state, prepared->end().seconds());
 }
 
 template <class Make>
@@ -136,12 +174,20 @@ void register_all(const Case& c) {
                                [c](benchmark::State& state) { csv(state, c); });
   benchmark::RegisterBenchmark((std::string(c.name) + "/study: digest, audit, its figures").c_str(),
                                [c](benchmark::State& state) { whole_study(state, c); });
+  benchmark::RegisterBenchmark((std::string(c.name) + "/study with its report").c_str(),
+                               [c](benchmark::State& state) { report_of(state, c); });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   for (const Case& c : {cases[1], cases[2]}) register_all(c);
+  const auto add_user = [](const Case& c) {
+    benchmark::RegisterBenchmark((std::string(c.name) + "/study of 10 s").c_str(),
+                                 [c](benchmark::State& state) { as_user(state, c); });
+  };
+  for (const Case& c : cases) add_user(c);
+  for (const Case& c : wider_cases) add_user(c);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

@@ -2,6 +2,7 @@
 #include "report/chart_json.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 namespace report {
 namespace {
@@ -73,6 +74,54 @@ std::vector<Interval> kept(const Windows& windows, const std::vector<double>& ti
   return out;
 }
 
-std::string dumped(const json& page) { return page.dump(-1, ' ', false, json::error_handler_t::replace); }
+namespace {
+
+std::string by_library(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+/// Base64 and most names: nothing in it that JSON would write otherwise.
+bool is_plain(std::string_view text) {
+  return std::ranges::all_of(text, [](char c) { return c >= ' ' && c < 0x7F && c != '"' && c != '\\'; });
+}
+
+void append_string(std::string& out, const std::string& text) {
+  if (!is_plain(text))
+    out += by_library(text);
+  else
+    out.append(1, '"').append(text).append(1, '"');
+}
+
+void append_value(std::string& out, const json& value) {
+  const char* between = "";
+  if (value.is_object()) {
+    out += '{';
+    for (const auto& [key, of] : value.items()) {
+      append_string(out += between, key);
+      append_value(out += ':', of);
+      between = ",";
+    }
+    out += '}';
+  } else if (value.is_array()) {
+    out += '[';
+    for (const json& of : value) {
+      append_value(out += between, of);
+      between = ",";
+    }
+    out += ']';
+  } else if (value.is_string()) {
+    append_string(out, value.get_ref<const std::string&>());
+  } else {
+    out += by_library(value);
+  }
+}
+
+}  // namespace
+
+std::string dumped(const json& page) {
+  std::string out;
+  append_value(out, page);
+  return out;
+}
 
 }  // namespace report

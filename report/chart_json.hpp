@@ -54,7 +54,7 @@ json windows_json(const Windows& windows, const sixstep::study::Scenario& scenar
 /// Those whose every row the page can carry.
 std::vector<Interval> kept(const Windows& windows, const std::vector<double>& time, std::size_t most_rows);
 
-/// As text; what is no UTF-8 is replaced.
+/// As text, as the library writes it; what is no UTF-8 is replaced. Its way through a megabyte of base64 is longer.
 std::string dumped(const json& page);
 
 }  // namespace report

@@ -7,33 +7,39 @@
 #include <bit>
 #include <cctype>
 #include <cstdint>
+#include <vector>
 
 #include "text/escape/escape.hpp"
 
 namespace report {
 namespace {
 
-std::string base64_bytes(const std::string& bytes) {
+using Bytes = std::vector<std::uint8_t>;
+
+std::string base64_bytes(std::span<const std::uint8_t> bytes) {
   static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t n = 0; n < bytes.size(); n += 3) {
-    std::uint32_t triple = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      triple = triple << 8 | (n + k < bytes.size() ? static_cast<unsigned char>(bytes[n + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += n + k <= bytes.size() ? digits[triple >> (18 - 6 * k) & 63u] : '=';
-  }
+  std::string text((bytes.size() + 2) / 3 * 4, '=');
+  const auto put = [&text](std::size_t at, std::uint32_t triple, std::size_t signs) {
+    for (std::size_t k = 0; k < signs; ++k) text[at + k] = digits[triple >> (18 - 6 * k) & 63u];
+  };
+  const std::size_t whole = bytes.size() / 3, over = bytes.size() % 3;
+  for (std::size_t n = 0; n < whole; ++n)
+    put(4 * n, std::uint32_t{bytes[3 * n]} << 16 | std::uint32_t{bytes[3 * n + 1]} << 8 | bytes[3 * n + 2],
+        4);
+  if (over > 0)
+    put(4 * whole,
+        std::uint32_t{bytes[3 * whole]} << 16 | (over > 1 ? std::uint32_t{bytes[3 * whole + 1]} << 8 : 0u),
+        over + 1);
   return text;
 }
 
 template <class Bits, class Real>
-std::string little_endian(std::span<const Real> values) {
-  std::string bytes;
-  bytes.reserve(values.size() * sizeof(Real));
-  for (const Real value : values) {
-    const Bits bits = std::bit_cast<Bits>(value);
-    for (std::size_t k = 0; k < sizeof(Real); ++k) bytes += static_cast<char>(bits >> (8 * k) & 0xffu);
+Bytes little_endian(std::span<const Real> values) {
+  Bytes bytes(values.size() * sizeof(Real));
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const Bits bits = std::bit_cast<Bits>(values[n]);
+    for (std::size_t k = 0; k < sizeof(Real); ++k)
+      bytes[n * sizeof(Real) + k] = static_cast<std::uint8_t>(bits >> (8 * k) & 0xffu);
   }
   return bytes;
 }
@@ -126,20 +132,19 @@ std::string typeset(std::string_view formula) {
 
 std::string script_safe(std::string_view json) {
   // In JSON a '<' stands only inside strings, where \u003c means the same.
+  const std::string shown = text::visible(json, text::Lines::kept);
   std::string out;
-  out.reserve(json.size());
-  for (const char c : text::visible(json, text::Lines::kept)) {
-    if (c == '<')
-      out += "\\u003c";
-    else
-      out += c;
+  out.reserve(shown.size());
+  for (std::size_t begin = 0;;) {
+    const std::size_t sign = shown.find('<', begin);
+    out.append(shown, begin, sign == shown.npos ? sign : sign - begin);
+    if (sign == shown.npos) return out;
+    out += "\\u003c";
+    begin = sign + 1;
   }
-  return out;
 }
 
-std::string base64(std::span<const std::uint8_t> bytes) {
-  return base64_bytes(std::string(bytes.begin(), bytes.end()));
-}
+std::string base64(std::span<const std::uint8_t> bytes) { return base64_bytes(bytes); }
 std::string base64(std::span<const float> values) {
   return base64_bytes(little_endian<std::uint32_t>(values));
 }
@@ -158,7 +163,10 @@ std::string table_head(std::initializer_list<std::string_view> names) {
 }
 
 std::string filled(std::string_view page, std::initializer_list<Gap> gaps) {
+  std::size_t size = page.size();
+  for (const Gap& gap : gaps) size += gap.second.size();
   std::string out;
+  out.reserve(size);
   while (true) {
     const std::size_t open = page.find("{{");
     const std::size_t close = open == page.npos ? page.npos : page.find("}}", open);

@@ -26,11 +26,14 @@ std::size_t row_at(const std::vector<double>& time, double t_s) {
   return static_cast<std::size_t>(std::ranges::lower_bound(time, t_s) - time.begin());
 }
 
-/// Bytes of events, about.
-double expected_bytes(const Scenario& s) {
+/// Of events, about.
+double expected_rows(const Scenario& s) {
   // Soft chopping has seven rows a period: a tick and two edges, with both sides of each jump.
   constexpr double rows_a_period = 7.0;
-  return s.duration_s / s.pwm.period_s * rows_a_period * sizeof(double) * sixstep::study::column_count;
+  return s.duration_s / s.pwm.period_s * rows_a_period;
+}
+double expected_bytes(const Scenario& s) {
+  return expected_rows(s) * sizeof(double) * sixstep::study::column_count;
 }
 
 }  // namespace
@@ -41,6 +44,10 @@ KeptRows::KeptRows(const Scenario& scenario, std::size_t most_bytes)
   trace_.columns = sixstep::study::all_columns();
   trace_.values.resize(trace_.columns.size());
   trace_.every_event = true;
+  // What is reserved takes no memory before a row stands in it; columns that grow are copied as often as they double.
+  const double expected = std::min(expected_rows(scenario), static_cast<double>(most_));
+  if (expected > 0.0)
+    for (std::vector<double>& column : trace_.values) column.reserve(static_cast<std::size_t>(expected) + 1);
 }
 
 void KeptRows::add(sixstep::study::Row row) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <span>
 
 namespace report {
 namespace {
@@ -14,20 +16,75 @@ namespace {
 constexpr double highest_count = 65533.0;  // with one to spare for a zero that is a whole count
 constexpr std::uint16_t no_number = 65535;
 
+/// How zlib goes about it. Few bytes of a run come twice in the lower planes of its times: there it only counts how often
+/// each comes. A page that is too large at the quick level may still fit at the thorough one, which takes thrice the time.
+struct Effort {
+  int level;
+  bool count_times;
+};
+constexpr Effort quick{4, true}, thorough{6, false};
+constexpr std::size_t time_planes = sizeof(std::uint32_t), noisy_time_planes = 3;
+
+/// zlib's stream of plane after plane.
+class Deflated {
+ public:
+  Deflated(std::size_t rows, std::size_t columns, const Effort& effort, std::size_t most_bytes)
+      : effort_(effort), most_(most_bytes) {
+    constexpr std::size_t to_change =
+        64;  // bytes, at most, where a plane is gone about otherwise than the one before
+    planes_ = time_planes + 2 * columns;
+    const std::size_t room = compressBound(planes_ * rows) + planes_ * to_change;
+    bytes_ = std::make_unique_for_overwrite<Bytef[]>(room);
+    sound_ = deflateInit(&stream_, effort.level) == Z_OK;
+    stream_.next_out = bytes_.get();
+    stream_.avail_out = static_cast<uInt>(room);
+    sound_ = sound_ && stream_.avail_out == room;
+  }
+  ~Deflated() { deflateEnd(&stream_); }
+  Deflated(const Deflated&) = delete;
+  Deflated& operator=(const Deflated&) = delete;
+
+  void add(std::span<const std::uint8_t> plane) {
+    const bool counting = effort_.count_times && done_ < noisy_time_planes;
+    if (counting != counting_)
+      sound_ =
+          sound_ && deflateParams(&stream_, effort_.level, counting ? Z_RLE : Z_DEFAULT_STRATEGY) == Z_OK;
+    counting_ = counting;
+    const bool last = ++done_ == planes_;
+    stream_.next_in = const_cast<Bytef*>(plane.data());
+    stream_.avail_in = static_cast<uInt>(plane.size());
+    sound_ = sound_ && deflate(&stream_, last ? Z_FINISH : Z_NO_FLUSH) == (last ? Z_STREAM_END : Z_OK) &&
+             stream_.total_out <= most_;
+  }
+  bool sound() const { return sound_; }
+  std::string bytes() const { return {reinterpret_cast<const char*>(bytes_.get()), stream_.total_out}; }
+
+ private:
+  z_stream stream_{};
+  std::unique_ptr<Bytef[]> bytes_;
+  Effort effort_;
+  std::size_t most_, planes_ = 0, done_ = 0;
+  bool sound_ = true, counting_ = false;
+};
+
 /// Bytes of equal weight side by side: the high ones of small differences are zeros, which compress to
 /// nothing.
 template <class Count>
-void append_planes(std::string& bytes, const std::vector<Count>& counts) {
-  for (std::size_t plane = 0; plane < sizeof(Count); ++plane) {
-    Count before = 0;
-    for (const Count count : counts) {
-      bytes += static_cast<char>(static_cast<Count>(count - before) >> (8 * plane) & 0xffu);
-      before = count;
-    }
+void add_planes(Deflated& out, const std::vector<Count>& counts) {
+  const std::size_t rows = counts.size();
+  std::vector<std::uint8_t> planes(rows * sizeof(Count));
+  Count before = 0;
+  for (std::size_t n = 0; n < rows; ++n) {
+    const auto apart = static_cast<Count>(counts[n] - before);
+    before = counts[n];
+    for (std::size_t plane = 0; plane < sizeof(Count); ++plane)
+      planes[plane * rows + n] = static_cast<std::uint8_t>(apart >> (8 * plane) & 0xffu);
   }
+  for (std::size_t plane = 0; plane < sizeof(Count); ++plane)
+    out.add(std::span(planes).subspan(plane * rows, rows));
 }
 
-void append_times(std::string& bytes, const std::vector<double>& time, PackedRows& out) {
+void add_times(Deflated& bytes, const std::vector<double>& time, PackedRows& out) {
   double gap = 0.0;
   for (std::size_t n = 1; n < time.size(); ++n) gap = std::max(gap, time[n] - time[n - 1]);
   constexpr double picosecond = 1e-12, most = 4e9;  // below 2^32, with room for a rounding
@@ -39,24 +96,43 @@ void append_times(std::string& bytes, const std::vector<double>& time, PackedRow
   for (const double t : time)
     counts.push_back(static_cast<std::uint32_t>(
         static_cast<std::uint64_t>(std::llround((t - out.start_s) / out.tick_s)) & 0xffffffffu));
-  append_planes(bytes, counts);
+  add_planes(bytes, counts);
 }
 
-void append_column(std::string& bytes, const std::vector<double>& values, PackedRows& out) {
+bool finite(double v) { return v - v == 0.0; }
+
+/// Half up, as std::lround() of what is not negative.
+std::uint16_t nearest(double count) {
+  const auto whole = static_cast<std::uint16_t>(count);
+  return static_cast<std::uint16_t>(whole + (count - whole >= 0.5 ? 1 : 0));
+}
+
+void add_column(Deflated& bytes, const std::vector<double>& values, PackedRows& out) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const double v : values)
-    if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+    if (finite(v)) low = std::min(low, v), high = std::max(high, v);
   PackedRows::Column column{low <= high ? low : 0.0, low < high ? (high - low) / highest_count : 0.0};
   // Zero stays zero: a current that has gone out must not come back as a rounding.
   if (low < 0.0 && high > 0.0) column.low = -column.step * std::ceil(-low / column.step);
-  std::vector<std::uint16_t> counts;
-  counts.reserve(values.size());
-  for (const double v : values) {
-    const double count = column.step > 0.0 ? (v - column.low) / column.step : 0.0;
-    counts.push_back(std::isfinite(v) ? static_cast<std::uint16_t>(std::lround(count)) : no_number);
+  std::vector<std::uint16_t> counts(values.size());
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const double count = column.step > 0.0 ? (values[n] - column.low) / column.step : 0.0;
+    counts[n] = finite(values[n]) ? nearest(count) : no_number;
   }
-  append_planes(bytes, counts);
+  add_planes(bytes, counts);
   out.columns.push_back(column);
+}
+
+std::optional<PackedRows> packed_with(const Effort& effort, const std::vector<double>& time,
+                                      const std::vector<const std::vector<double>*>& columns,
+                                      std::size_t most_bytes) {
+  PackedRows out{.rows = time.size()};
+  Deflated bytes(time.size(), columns.size(), effort, most_bytes);
+  add_times(bytes, time, out);
+  for (std::size_t n = 0; n < columns.size() && bytes.sound(); ++n) add_column(bytes, *columns[n], out);
+  if (!bytes.sound()) return std::nullopt;
+  out.bytes = bytes.bytes();
+  return out;
 }
 
 }  // namespace
@@ -66,18 +142,8 @@ std::optional<PackedRows> packed_rows(const std::vector<double>& time,
                                       std::size_t most_bytes) {
   // Not even a tenth of a byte a value: no use to begin.
   if (time.size() < 2 || time.size() * columns.size() / 10 > most_bytes) return std::nullopt;
-  PackedRows out{.rows = time.size()};
-  std::string bytes;
-  bytes.reserve(time.size() * (4 + 2 * columns.size()));
-  append_times(bytes, time, out);
-  for (const auto* column : columns) append_column(bytes, *column, out);
-  uLongf size = compressBound(bytes.size());
-  out.bytes.resize(size);
-  const int done = compress2(reinterpret_cast<Bytef*>(out.bytes.data()), &size,
-                             reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 6);
-  if (done != Z_OK || size > most_bytes) return std::nullopt;
-  out.bytes.resize(size);
-  return out;
+  auto packed = packed_with(quick, time, columns, most_bytes);
+  return packed ? packed : packed_with(thorough, time, columns, most_bytes);
 }
 
 }  // namespace report

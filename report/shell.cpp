@@ -29,14 +29,16 @@ std::string in_shell(const Shell& shell) { return filled_shell(shell, style(asse
 
 std::string in_shell(const Shell& shell, std::string_view data,
                      std::initializer_list<std::string_view> scripts) {
-  std::string own;
-  for (const std::string_view script : scripts) own.append(script);
-  const std::string charts = shell.charts ? fmt::format("<!-- Charts: uPlot.\n{}-->\n<script>{}</script>\n",
-                                                        assets::LICENSE, assets::uPlot_iife_min_js)
-                                          : std::string();
-  const std::string code = fmt::format(
-      "<script type=\"application/json\" id=\"data\">{}</script>\n{}<script>\n(() => {{\n\"use strict\";\n{}}})();\n</script>\n",
-      script_safe(data), charts, own);
+  std::string code = "<script type=\"application/json\" id=\"data\">";
+  code += script_safe(data);  // nearly all of the page
+  code += "</script>\n";
+  if (shell.charts) {
+    code.append("<!-- Charts: uPlot.\n").append(assets::LICENSE).append("-->\n<script>");
+    code.append(assets::uPlot_iife_min_js).append("</script>\n");
+  }
+  code += "<script>\n(() => {\n\"use strict\";\n";
+  for (const std::string_view script : scripts) code.append(script);
+  code += "})();\n</script>\n";
   const std::string styles = style(assets::report_css);
   return filled_shell(shell, shell.charts ? style(assets::uPlot_min_css) + styles : styles, code);
 }

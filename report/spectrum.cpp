@@ -92,10 +92,12 @@ void transform(std::vector<std::complex<double>>& values) {
     reversed ^= bit;
     if (n < reversed) std::swap(values[n], values[reversed]);
   }
+  // Those of half the size are every second one: a power of two in both changes no bit of the angle.
+  std::vector<std::complex<double>> turns(count / 2), turn(count / 2);
+  for (std::size_t k = 0; k < turns.size(); ++k)
+    turns[k] = std::polar(1.0, -2 * pi * static_cast<double>(k) / static_cast<double>(count));
   for (std::size_t size = 2; size <= count; size *= 2) {
-    std::vector<std::complex<double>> turn(size / 2);
-    for (std::size_t k = 0; k < size / 2; ++k)
-      turn[k] = std::polar(1.0, -2 * pi * static_cast<double>(k) / static_cast<double>(size));
+    for (std::size_t k = 0; k < size / 2; ++k) turn[k] = turns[k * (count / size)];
     for (std::size_t start = 0; start < count; start += size)
       for (std::size_t k = 0; k < size / 2; ++k) {
         const std::complex<double> even = values[start + k], other = values[start + k + size / 2];

@@ -9,27 +9,33 @@ namespace {
 
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
+/// Whether row n holds what its neighbours hold.
+bool is_level(const Curves& curves, std::size_t n) {
+  for (const auto& y : curves)
+    if (!same(y[n - 1], y[n]) || !same(y[n], y[n + 1])) return false;
+  return true;
+}
+
 /// Rows whose neighbours hold the same values in every curve lie on a level line: not needed to draw it.
 std::vector<std::size_t> changing_rows(std::size_t count, const Curves& curves) {
   std::vector<std::size_t> rows;
-  for (std::size_t n = 0; n < count; ++n) {
-    const bool level = n > 0 && n + 1 < count && std::ranges::all_of(curves, [n](const auto& y) {
-                         return same(y[n - 1], y[n]) && same(y[n], y[n + 1]);
-                       });
-    if (!level) rows.push_back(n);
-  }
+  rows.reserve(count);
+  for (std::size_t n = 0; n < count; ++n)
+    if (n == 0 || n + 1 == count || !is_level(curves, n)) rows.push_back(n);
   return rows;
 }
 
 /// First, last and each curve's extremes of the rows [begin, end), rising and without repetition.
 void keep_extremes(const std::vector<std::size_t>& rows, std::size_t begin, std::size_t end,
-                   const Curves& curves, std::vector<std::size_t>& kept) {
-  std::vector<std::size_t> chosen{rows[begin], rows[end - 1]};
+                   const Curves& curves, std::vector<std::size_t>& chosen, std::vector<std::size_t>& kept) {
+  chosen.assign({rows[begin], rows[end - 1]});
   for (const auto& y : curves) {
-    std::size_t low = rows[begin], high = rows[begin];
+    std::size_t low = rows[begin], high = low;
+    double lowest = y[low], highest = lowest;
     for (std::size_t n = begin; n < end; ++n) {
-      if (y[rows[n]] < y[low] || std::isnan(y[low])) low = rows[n];
-      if (y[rows[n]] > y[high] || std::isnan(y[high])) high = rows[n];
+      const double v = y[rows[n]];
+      if (v < lowest || std::isnan(lowest)) low = rows[n], lowest = v;
+      if (v > highest || std::isnan(highest)) high = rows[n], highest = v;
     }
     chosen.push_back(low);
     chosen.push_back(high);
@@ -44,13 +50,13 @@ std::vector<std::size_t> envelope(std::span<const double> time, const std::vecto
                                   const Curves& curves, std::size_t buckets) {
   const double start = time[rows.front()];
   const double width = (time[rows.back()] - start) / static_cast<double>(buckets);
-  std::vector<std::size_t> kept;
+  std::vector<std::size_t> kept, chosen;
   std::size_t begin = 0;
   for (std::size_t bucket = 1; begin < rows.size(); ++bucket) {
     std::size_t end = begin;
     const double edge = start + width * static_cast<double>(bucket);
     while (end < rows.size() && (bucket >= buckets || time[rows[end]] < edge)) ++end;
-    if (end > begin) keep_extremes(rows, begin, end, curves, kept);
+    if (end > begin) keep_extremes(rows, begin, end, curves, chosen, kept);
     begin = end;
   }
   return kept;

@@ -2,6 +2,8 @@
 // The audit holds a run to the laws of every run (model.md 5): energy balances, currents sum to zero, no
 // diode conducts backwards. It integrates the segments' own polynomials, so its residuals are rounding.
 #pragma once
+#include <algorithm>
+
 #include "sixstep/plant/segment_energy.hpp"
 
 namespace sixstep::plant {
@@ -34,19 +36,31 @@ struct Laws {
 template <class Real>
 class Audit {
  public:
-  void segment(const Plant<Real>& plant, Real s);
+  void segment(const Plant<Real>& plant, Real s) { take(plant, s, segment_energy(plant, s)); }
+  /// The same with the segment's energies at hand.
+  [[gnu::always_inline]] void take(const Plant<Real>& plant, Real s, const SegmentEnergy<Real>& e);
   EnergyBook energy() const;
   const Laws& laws() const { return laws_; }
 
  private:
-  /// What the balance needs of an instant: the stored energies are made of it once, at the end.
+  /// What the balance needs of an instant, currents in the order of the legs' law: the stored energies are made of it
+  /// once, at the end.
   struct Point {
     PerLeg<Real> i{};
     Real w = 0;
   };
-  static Point end_of(const Expansion<Real>& y, Real s);
+  using Pair = series::Pair<Real>;
+  /// Side by side, each with what its rounding has left.
+  struct TwoSums {
+    Pair value{}, low{};
+    void add(Real first, Real second) { series::add_compensated(value, low, Pair{first, second}); }
+  };
+  [[gnu::always_inline]] static Point begin_of(const Expansion<Real>& y, const LegsLaw<Real>& law);
+  [[gnu::always_inline]] static Point end_of(const Expansion<Real>& y, const LegsLaw<Real>& law,
+                                             const Point& begin, Real s);
   void begin(const Plant<Real>& plant);
-  void check_laws(const Mode& mode, const PerLeg<Real>& i);
+  [[gnu::always_inline]] void check_laws(const Mode& mode, const LegsLaw<Real>& law, const Point& begin,
+                                         const Point& end);
   Real magnetic_energy(const Point& p) const {
     return (p.i[0] * p.i[0] + p.i[1] * p.i[1] + p.i[2] * p.i[2]) / (2 * inv_L_);
   }
@@ -56,7 +70,7 @@ class Audit {
   Real inv_L_ = 1, inv_J_ = 1;
   Real noise_ = 0;  ///< energy of a current and a speed at their noise: less than that cannot be balanced
   Point start_, end_;
-  series::CompensatedSum<Real> supplied_, copper_, devices_, air_gap_, friction_, load_;
+  TwoSums supplied_copper_, devices_air_gap_, friction_load_;
   Real moved_ = 0;
   Laws laws_;
 };
@@ -68,38 +82,55 @@ void Audit<Real>::begin(const Plant<Real>& plant) {
   begun_ = true;
   inv_L_ = c.inv_L;
   inv_J_ = c.inv_J;
-  start_ = {{y.i[0][0], y.i[1][0], y.i[2][0]}, y.w[0]};
+  start_ = {{y.i[0][0], y.i[1][0], y.i[2][0]}, y.w[0]};  // in any order
   const Real amp = c.amp_noise, speed = c.speed_noise;
   noise_ = amp * amp / c.inv_L + speed * speed / c.inv_J;
 }
 
-/// All four series in one pass: their sums do not wait for each other.
 template <class Real>
-typename Audit<Real>::Point Audit<Real>::end_of(const Expansion<Real>& y, Real s) {
-  Real a = 0, b = 0, c = 0, w = 0;
+inline typename Audit<Real>::Point Audit<Real>::begin_of(const Expansion<Real>& y, const LegsLaw<Real>& law) {
+  return {{y.i[law.leg[0]][0], y.i[law.leg[1]][0], y.i[law.leg[2]][0]}, y.w[0]};
+}
+
+/// Of a segment that ends early all four series, in one pass, two to an instruction. Of a whole one the expansion knows
+/// where it ends, and the state goes on from there (Plant::advance()).
+template <class Real>
+inline typename Audit<Real>::Point Audit<Real>::end_of(const Expansion<Real>& y, const LegsLaw<Real>& law,
+                                                       const Point& begin, Real s) {
+  if (s == 1) {
+    const Real first = begin.i[0] + (law.connected >= 2 ? y.end.i : Real(0)), w = begin.w + y.end.w;
+    if (law.connected < 3) return {{first, law.connected == 2 ? -first : begin.i[1], begin.i[2]}, w};
+    const Real second = begin.i[1] + y.end.i_2;
+    return {{first, second, -(first + second)}, w};
+  }
+  const auto& [first, second, third] = law.leg;
+  const Pair at = series::both(s);
+  Pair one_two = series::both(Real(0)), three_w = one_two;
   for (int j = y.degree; j >= 1; --j) {
-    a = (a + y.i[0][j]) * s;
-    b = (b + y.i[1][j]) * s;
-    c = (c + y.i[2][j]) * s;
-    w = (w + y.w[j]) * s;
+    one_two = (one_two + Pair{y.i[first][j], y.i[second][j]}) * at;
+    three_w = (three_w + Pair{y.i[third][j], y.w[j]}) * at;
   }
-  return {{y.i[0][0] + a, y.i[1][0] + b, y.i[2][0] + c}, y.w[0] + w};
+  return {{begin.i[0] + one_two[0], begin.i[1] + one_two[1], begin.i[2] + three_w[0]}, begin.w + three_w[1]};
 }
 
 template <class Real>
-void Audit<Real>::check_laws(const Mode& mode, const PerLeg<Real>& i) {
+inline void Audit<Real>::check_laws(const Mode& mode, const LegsLaw<Real>& law, const Point& begin,
+                                    const Point& end) {
   const auto raise = [](double& worst, Real v) { worst = std::max(worst, static_cast<double>(v)); };
-  raise(laws_.current_sum_A, detail::abs(i[0] + i[1] + i[2]));
-  for (int k = 0; k < 3; ++k) {
-    const Connection leg = mode.legs[k];
-    // mutant: -along_diode(leg, i[k]) => Real(0)
-    if (is_diode(leg)) raise(laws_.reverse_diode_A, -along_diode(leg, i[k]));
-    if (is_floating(leg)) raise(laws_.floating_current_A, detail::abs(i[k]));
+  const auto sum = [](const Point& p) { return detail::abs(p.i[0] + p.i[1] + p.i[2]); };
+  raise(laws_.current_sum_A, std::max(sum(begin), sum(end)));
+  for (int n = 0; n < 3; ++n) {
+    const Connection leg = mode.legs[law.leg[n]];
+    // mutant: -std::min(along_diode(leg, begin.i[n]), along_diode(leg, end.i[n])) => Real(0)
+    if (is_diode(leg))
+      raise(laws_.reverse_diode_A, -std::min(along_diode(leg, begin.i[n]), along_diode(leg, end.i[n])));
+    if (is_floating(leg))
+      raise(laws_.floating_current_A, std::max(detail::abs(begin.i[n]), detail::abs(end.i[n])));
   }
 }
 
 template <class Real>
-void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
+inline void Audit<Real>::take(const Plant<Real>& plant, Real s, const SegmentEnergy<Real>& e) {
   const Expansion<Real>& y = plant.expansion();
   const Constants<Real>& c = plant.constants();
   if (!begun_) begin(plant);
@@ -107,17 +138,14 @@ void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
   // go at the same instant. What standstill snaps to zero is noise.
   const bool stopped = y.w[0] == 0 && (c.locked || detail::abs(end_.w) > c.speed_noise);
   // mutant: stopped && end_.w != 0 => false
-  if (stopped && end_.w != 0) friction_.add(kinetic_energy(end_));
-  end_ = end_of(y, s);
-  check_laws(plant.mode(), {y.i[0][0], y.i[1][0], y.i[2][0]});
-  check_laws(plant.mode(), end_.i);
-  const SegmentEnergy<Real> e = segment_energy(plant, s);
-  supplied_.add(e.supplied);
-  copper_.add(e.copper);
-  devices_.add(e.devices);
-  air_gap_.add(e.air_gap);
-  friction_.add(e.viscous + e.dry);
-  load_.add(e.load);
+  if (stopped && end_.w != 0) friction_load_.add(kinetic_energy(end_), Real(0));
+  const LegsLaw<Real>& law = c.legs[legs_index(plant.mode().legs)];
+  const Point begin = begin_of(y, law);
+  end_ = end_of(y, law, begin, s);
+  check_laws(plant.mode(), law, begin, end_);
+  supplied_copper_.add(e.supplied, e.copper);
+  devices_air_gap_.add(e.devices, e.air_gap);
+  friction_load_.add(e.viscous + e.dry, e.load);
   moved_ += detail::abs(e.supplied) + detail::abs(e.air_gap) + detail::abs(e.load);
 }
 
@@ -129,20 +157,26 @@ EnergyBook Audit<Real>::energy() const {
   // A motor that coasts moves no energy through bridge or load; what it stored is then the yardstick.
   const Real scale =
       std::max({moved_, magnetic_start + kinetic_start, magnetic_end + kinetic_end, noise_, Real(1e-300)});
+  const Real supplied = supplied_copper_.value[0], copper = supplied_copper_.value[1];
+  const Real devices = devices_air_gap_.value[0], air_gap = devices_air_gap_.value[1];
+  const Real friction = friction_load_.value[0], load = friction_load_.value[1];
   const auto d = [](Real v) { return static_cast<double>(v); };
-  return {.supplied = d(supplied_.value),
-          .copper = d(copper_.value),
-          .devices = d(devices_.value),
+  return {.supplied = d(supplied),
+          .copper = d(copper),
+          .devices = d(devices),
           .magnetic = d(magnetic),
-          .air_gap = d(air_gap_.value),
-          .friction = d(friction_.value),
-          .load = d(load_.value),
+          .air_gap = d(air_gap),
+          .friction = d(friction),
+          .load = d(load),
           .kinetic = d(kinetic),
           .moved = d(moved_),
           .scale = d(scale),
-          .electrical_residual =
-              d((supplied_.value - copper_.value - devices_.value - air_gap_.value - magnetic) / scale),
-          .mechanical_residual = d((air_gap_.value - friction_.value - load_.value - kinetic) / scale)};
+          .electrical_residual = d((supplied - copper - devices - air_gap - magnetic) / scale),
+          .mechanical_residual = d((air_gap - friction - load - kinetic) / scale)};
 }
+
+// Compiled once, with the energies in it, for any processor and for those with AVX (plant/expand.hpp).
+template <>
+void Audit<double>::segment(const Plant<double>& plant, double s);
 
 }  // namespace sixstep::plant

@@ -17,69 +17,119 @@ struct SegmentEnergy {
 
 namespace detail {
 
-/// Integrals of squares and currents per leg, in units of the segment's length.
+/// Integrals of squares and currents, in units of the segment's length, of the connected legs in the law's order.
 template <class Real>
 struct LegIntegrals {
   PerLeg<Real> square{}, charge{};
 };
 
+/// What is integrated, at the nodes: currents of the first and second connected leg, speed and torque.
+template <int points, class Real>
+struct Moving {
+  series::Nodes<points, Real> i_1, i_2, w, torque;
+};
+
 /// i_c = -(i_a + i_b), or i_b = -i_a where two legs are connected: one or two series say all.
 template <int points, class Real>
-LegIntegrals<Real> leg_integrals(const LegsLaw<Real>& law, const series::Nodes<points, Real>& i_1,
-                                 const series::Nodes<points, Real>& i_2) {
-  using series::weighted_sum;
-  LegIntegrals<Real> out;
-  const int first = law.leg[0], second = law.leg[1], third = law.leg[2];
-  const Real square_1 = weighted_sum<points>(i_1, i_1), charge_1 = weighted_sum<points>(i_1);
-  out.square[first] = square_1;
-  out.charge[first] = charge_1;
+[[gnu::always_inline]] inline LegIntegrals<Real> leg_integrals(const LegsLaw<Real>& law,
+                                                               const Moving<points, Real>& at) {
+  using series::weighted_sums;
   if (law.connected == 2) {
-    out.square[second] = square_1;
-    out.charge[second] = -charge_1;
-    return out;
+    const auto sums = weighted_sums<points>(at.i_1 * at.i_1, at.i_1);
+    return {{sums[0], sums[0], 0}, {sums[1], -sums[1], 0}};
   }
-  const Real square_2 = weighted_sum<points>(i_2, i_2), charge_2 = weighted_sum<points>(i_2);
-  series::Nodes<points, Real> i_3;
-  for (int k = 0; k < points; ++k) i_3[k] = i_1[k] + i_2[k];
-  out.square[second] = square_2;
-  out.charge[second] = charge_2;
-  out.square[third] = weighted_sum<points>(i_3, i_3);
-  out.charge[third] = -(charge_1 + charge_2);
-  return out;
+  const auto i_3 = at.i_1 + at.i_2;
+  const auto squares = weighted_sums<points>(at.i_1 * at.i_1, at.i_2 * at.i_2);
+  const auto charges = weighted_sums<points>(at.i_1, at.i_2);
+  return {{squares[0], squares[1], series::weighted_sum<points>(i_3, i_3)},
+          {charges[0], charges[1], -(charges[0] + charges[1])}};
 }
 
 /// Copper, devices and supply: what the currents do. `dt` is the length in seconds.
 template <int points, class Real>
-void electrical_energy(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real dt,
-                       const series::Nodes<points, Real>& s, SegmentEnergy<Real>& out) {
+[[gnu::always_inline]] inline void electrical_energy(const Constants<Real>& c, const Mode& mode,
+                                                     const Expansion<Real>& y, Real dt,
+                                                     const series::Nodes<points, Real>& s,
+                                                     const Moving<points, Real>& at,
+                                                     SegmentEnergy<Real>& out) {
   const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
-  const auto i_1 = series::values_at<points>(y.i[law.leg[0]], y.degree, s);
-  series::Nodes<points, Real> i_2;
-  if (law.connected == 3)
-    i_2 = series::values_at<points>(y.i[law.leg[1]], y.degree, s);
-  else
-    for (int k = 0; k < points; ++k) i_2[k] = -i_1[k];
-  const LegIntegrals<Real> legs = leg_integrals<points>(law, i_1, i_2);
-  Real devices = 0, charge = 0;
-  for (int k = 0; k < 3; ++k) {
-    const PoleTerms<Real>& terms = c.poles[static_cast<std::size_t>(mode.legs[k])];
-    // mutant: terms.r_ohm * legs.square[k] - terms.offset_V * legs.charge[k] => terms.r_ohm * legs.square[k] + terms.offset_V * legs.charge[k]
-    devices += terms.r_ohm * legs.square[k] - terms.offset_V * legs.charge[k];
-    charge += terms.bus_share * legs.charge[k];
-  }
+  const LegIntegrals<Real> legs = leg_integrals<points>(law, at);
+  // Of a floating leg in the third place both integrals are zero.
+  const auto terms = [&](int n) -> const PoleTerms<Real>& {
+    return c.poles[static_cast<std::size_t>(mode.legs[law.leg[n]])];
+  };
+  const auto device = [&](int n) {
+    // mutant: terms(n).r_ohm * legs.square[n] - terms(n).offset_V * legs.charge[n] => terms(n).r_ohm * legs.square[n] + terms(n).offset_V * legs.charge[n]
+    return terms(n).r_ohm * legs.square[n] - terms(n).offset_V * legs.charge[n];
+  };
+  const auto drawn = [&](int n) { return terms(n).bus_share * legs.charge[n]; };
   out.copper = dt * c.R * (legs.square[0] + legs.square[1] + legs.square[2]);
-  out.devices = dt * devices;
+  out.devices = dt * ((device(0) + device(1)) + device(2));
   if (!(c.inv_C > 0)) {
-    out.supplied = dt * y.bus[0] * charge;
+    out.supplied = dt * y.bus[0] * ((drawn(0) + drawn(1)) + drawn(2));
     return;
   }
-  series::Nodes<points, Real> dc;
-  const auto share = [&](int n) {
-    return c.poles[static_cast<std::size_t>(mode.legs[law.leg[n]])].bus_share;
-  };
-  for (int k = 0; k < points; ++k)
-    dc[k] = (share(0) - share(2)) * i_1[k] + (share(1) - share(2)) * i_2[k];  // i_3 = -(i_1 + i_2)
+  const Real share = terms(2).bus_share;  // i_3 = -(i_1 + i_2)
+  const auto dc = (terms(0).bus_share - share) * at.i_1 + (terms(1).bus_share - share) * at.i_2;
   out.supplied = dt * series::weighted_sum<points>(series::values_at<points>(y.bus, y.degree, s), dc);
+}
+
+/// What turns, and what it takes from the air gap where currents flow.
+template <int points, class Real>
+[[gnu::always_inline]] inline void shaft_energy(const Constants<Real>& c, const Mode& mode, Real dt,
+                                                const Moving<points, Real>& at, bool conducts,
+                                                SegmentEnergy<Real>& out) {
+  const auto [load, dry, per_speed] = torques(c, mode.motion);
+  const auto sums = series::weighted_sums<points>(at.w, at.w * at.w);
+  out.travel = dt * sums[0];
+  out.load = load * out.travel;
+  // mutant: dry * out.travel => -dry * out.travel
+  out.dry = dry * out.travel;
+  out.viscous = dt * per_speed * sums[1];
+  if (conducts) out.air_gap = dt * series::weighted_sum<points>(at.torque, at.w);
+}
+
+/// Only what is asked for of them, in one pass.
+template <int points, class Real>
+[[gnu::always_inline]] inline Moving<points, Real> moving_at(const LegsLaw<Real>& law,
+                                                             const Expansion<Real>& y,
+                                                             const series::Nodes<points, Real>& s,
+                                                             bool conducts, bool turning) {
+  Moving<points, Real> at;
+  if (!conducts) {
+    at.w = series::values_at<points>(y.w, y.degree, s);
+  } else if (law.connected == 3) {
+    const auto v =
+        series::values_together<points, Real>(y.degree, s, y.i[law.leg[0]], y.i[law.leg[1]], y.w, y.torque);
+    at = {v[0], v[1], v[2], v[3]};
+  } else if (turning) {
+    const auto v = series::values_together<points, Real>(y.degree, s, y.i[law.leg[0]], y.w, y.torque);
+    at = {v[0], -v[0], v[1], v[2]};
+  } else {
+    at.i_1 = series::values_at<points>(y.i[law.leg[0]], y.degree, s);
+    at.i_2 = -at.i_1;
+  }
+  return at;
+}
+
+template <class Real>
+[[gnu::always_inline]] inline SegmentEnergy<Real> segment_energy_here(const Plant<Real>& plant, Real to) {
+  const Constants<Real>& c = plant.constants();
+  const Expansion<Real>& y = plant.expansion();
+  const Mode& mode = plant.mode();
+  const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
+  const bool conducts = law.connected >= 2, turning = turns(mode.motion);
+  SegmentEnergy<Real> out;
+  if (!conducts && !turning) return out;
+  series::with_points_for(
+      y.degree, [&]<int points>() __attribute__((always_inline)) {
+        const auto s = series::nodes_up_to<points>(to);
+        const auto at = moving_at<points>(law, y, s, conducts, turning);
+        const Real dt = y.h * to;
+        if (conducts) electrical_energy<points>(c, mode, y, dt, s, at, out);
+        if (turning) shaft_energy<points>(c, mode, dt, at, conducts, out);
+      });
+  return out;
 }
 
 }  // namespace detail
@@ -88,27 +138,9 @@ void electrical_energy(const Constants<Real>& c, const Mode& mode, const Expansi
 /// series/quadrature.hpp.
 template <class Real>
 SegmentEnergy<Real> segment_energy(const Plant<Real>& plant, Real to) {
-  const Constants<Real>& c = plant.constants();
-  const Expansion<Real>& y = plant.expansion();
-  const Mode& mode = plant.mode();
-  const bool conducts = connected_count(mode.legs) >= 2;
-  SegmentEnergy<Real> out;
-  series::with_points_for(y.degree, [&]<int points>() {
-    const auto s = series::nodes_up_to<points>(to);
-    const Real dt = y.h * to;
-    if (conducts) detail::electrical_energy<points>(c, mode, y, dt, s, out);
-    if (!turns(mode.motion)) return;
-    const auto w = series::values_at<points>(y.w, y.degree, s);
-    out.travel = dt * series::weighted_sum<points>(w);
-    const auto [load, dry, per_speed] = torques(c, mode.motion);
-    out.load = load * out.travel;
-    // mutant: dry * out.travel => -dry * out.travel
-    out.dry = dry * out.travel;
-    if (per_speed > 0) out.viscous = dt * per_speed * series::weighted_sum<points>(w, w);
-    if (conducts)
-      out.air_gap = dt * series::weighted_sum<points>(series::values_at<points>(y.torque, y.degree, s), w);
-  });
-  return out;
+  return detail::segment_energy_here(plant, to);
 }
+/// Of doubles compiled once, for any processor and for those with AVX: the same bits (plant/expand.hpp).
+SegmentEnergy<double> segment_energy(const Plant<double>& plant, double to);
 
 }  // namespace sixstep::plant

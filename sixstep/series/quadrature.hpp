@@ -12,6 +12,7 @@
 #include <array>
 #include <utility>
 
+#include "sixstep/series/nodes.hpp"
 #include "sixstep/series/polynomial.hpp"
 
 namespace sixstep::series {
@@ -79,46 +80,76 @@ inline constexpr Gauss<8> gauss<8> = {
                0.181341891689180991483L, 0.181341891689180991483L, 0.156853322938943643669L,
                0.111190517226687235272L, 0.0506142681451881295763L}};
 
-/// One number per node.
+/// A rule's nodes or weights as numbers at its nodes.
 template <int points, class Real>
-using Nodes = std::array<Real, points>;
+[[gnu::always_inline]] inline Nodes<points, Real> as_nodes(const std::array<long double, points>& of) {
+  return Nodes<points, Real>::each([&](int k) {
+    const int first = 2 * k, second = 2 * k + 1 < points ? 2 * k + 1 : points - 1;
+    return Pair<Real>{static_cast<Real>(of[first]), static_cast<Real>(of[second])};
+  });
+}
 
 /// The nodes of [0, to].
 template <int points, class Real>
-inline Nodes<points, Real> nodes_up_to(Real to) {
-  Nodes<points, Real> s;
-  for (int k = 0; k < points; ++k) s[k] = to * static_cast<Real>(gauss<points>.node[k]);
-  return s;
+[[gnu::always_inline]] inline Nodes<points, Real> nodes_up_to(Real to) {
+  return to * as_nodes<points, Real>(gauss<points>.node);
 }
 
 /// A series at every node at once: the sums do not wait for each other.
 template <int points, class Real>
-inline Nodes<points, Real> values_at(const Coefficients<Real>& c, int degree, const Nodes<points, Real>& s) {
-  Nodes<points, Real> v;
-  for (int k = 0; k < points; ++k) v[k] = c[degree];
-  for (int j = degree - 1; j >= 0; --j)
+[[gnu::always_inline]] inline Nodes<points, Real> values_at(const Coefficients<Real>& c, int degree,
+                                                            const Nodes<points, Real>& s) {
+  auto v = Nodes<points, Real>::everywhere(c[degree]);
+  for (int j = degree - 1; j >= 0; --j) v = v * s + c[j];
+  return v;
+}
+
+/// Several series at every node, order by order. The degree is one that wants so many points: where it is odd a zero is
+/// taken along, for a number of orders that varies is foreseen badly. The bits are those of values_at().
+template <int points, class Real, class... Series>
+[[gnu::always_inline]] inline std::array<Nodes<points, Real>, sizeof...(Series)> values_together(
+    int degree, const Nodes<points, Real>& s, const Series&... c) {
+  constexpr int count = sizeof...(Series), most = 2 * points;
+  if (degree < most - 1) return {values_at<points>(c, degree, s)...};
+  const Real* const series[] = {c.data()...};
+  const Real none = 0;
+  std::array<Nodes<points, Real>, count> v;
 #pragma GCC unroll 8
-    for (int k = 0; k < points; ++k) v[k] = v[k] * s[k] + c[j];
+  for (int n = 0; n < count; ++n)
+    v[n] = Nodes<points, Real>::everywhere(*(degree == most ? series[n] + most : &none));
+#pragma GCC unroll 16
+  for (int j = most - 1; j >= 0; --j)
+#pragma GCC unroll 8
+    for (int n = 0; n < count; ++n) v[n] = v[n] * s + series[n][j];
   return v;
 }
 
 /// Integral over [0, 1] of what has these values at the nodes; over [0, to] it is `to` times that.
 template <int points, class Real>
-inline Real weighted_sum(const Nodes<points, Real>& v) {
-  Real sum = static_cast<Real>(gauss<points>.weight[0]) * v[0];
-  for (int k = 1; k < points; ++k) sum += static_cast<Real>(gauss<points>.weight[k]) * v[k];
+[[gnu::always_inline]] inline Real weighted_sum(const Nodes<points, Real>& v) {
+  const auto weighted = as_nodes<points, Real>(gauss<points>.weight) * v;
+  Real sum = weighted[0];
+#pragma GCC unroll 8
+  for (int k = 1; k < points; ++k) sum += weighted[k];
   return sum;
 }
 template <int points, class Real>
-inline Real weighted_sum(const Nodes<points, Real>& a, const Nodes<points, Real>& b) {
-  Real sum = static_cast<Real>(gauss<points>.weight[0]) * (a[0] * b[0]);
-  for (int k = 1; k < points; ++k) sum += static_cast<Real>(gauss<points>.weight[k]) * (a[k] * b[k]);
-  return sum;
+[[gnu::always_inline]] inline Real weighted_sum(const Nodes<points, Real>& a, const Nodes<points, Real>& b) {
+  return weighted_sum<points>(a * b);
+}
+
+/// Two such integrals side by side; the sums go over even and odd nodes apart.
+template <int points, class Real>
+[[gnu::always_inline]] inline Pair<Real> weighted_sums(const Nodes<points, Real>& a,
+                                                       const Nodes<points, Real>& b) {
+  auto weight = as_nodes<points, Real>(gauss<points>.weight);
+  if constexpr (points % 2 != 0) weight.set(points, Real(0));  // the lane left over
+  return totals(weight * a, weight * b);
 }
 
 /// Calls visit.template operator()<points>() with what `degree` wants.
 template <class Visit>
-inline auto with_points_for(int degree, Visit&& visit) {
+[[gnu::always_inline]] inline auto with_points_for(int degree, Visit&& visit) {
   switch (points_for(degree)) {
     case 3:
       return visit.template operator()<3>();

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace {
@@ -98,6 +100,57 @@ TEST(Gauss, AFewPointsAreEnoughForProductsOfSolutions) {
     EXPECT_NEAR(sum, product_integral(a, b, degree, to), 16 * eps) << "seed " << seed << " pair " << n;
   }
 }
+
+/// Two numbers to an instruction, and each has the bits that it has alone; of an odd count the lane left over is in no
+/// sum.
+template <int points, class Real>
+void expect_bits_of_single_numbers(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> any(-1, 1);
+  Coefficients<Real> a{}, b{};
+  for (int j = 0; j <= max_degree; ++j)
+    a[j] = static_cast<Real>(any(random)), b[j] = static_cast<Real>(any(random));
+  const int degree = static_cast<int>(random() % (max_degree + 1));
+  const auto to = static_cast<Real>(any(random));
+  const auto s = nodes_up_to<points>(to);
+  const auto v = values_at<points>(a, degree, s), u = values_at<points>(b, degree, s), both = u - to * v;
+  Real sum = 0, products = 0;
+  for (int k = 0; k < points; ++k) {
+    const Real at = to * static_cast<Real>(gauss<points>.node[k]),
+               weight = static_cast<Real>(gauss<points>.weight[k]);
+    Real value = a[degree], other = b[degree];
+    for (int j = degree - 1; j >= 0; --j) value = value * at + a[j], other = other * at + b[j];
+    EXPECT_EQ(s[k], at);
+    EXPECT_EQ(v[k], value) << points << " points, node " << k;
+    EXPECT_EQ(both[k], other - to * value);
+    sum = k == 0 ? weight * value : sum + weight * value;
+    products = k == 0 ? weight * (value * other) : products + weight * (value * other);
+  }
+  EXPECT_EQ(weighted_sum<points>(v), sum) << points;
+  EXPECT_EQ(weighted_sum<points>(v, u), products) << points;
+  // Weights sum up to one, and the values to 17 at most: a few roundings in another order.
+  const auto two = weighted_sums<points>(v, u * v);
+  const Real rounding = 17 * 17 * points * std::numeric_limits<Real>::epsilon();
+  EXPECT_LE(std::fabs(two[0] - sum), rounding) << points;
+  EXPECT_LE(std::fabs(two[1] - products), rounding) << points;
+  const int fitting = std::min(degree, 2 * points);
+  const auto together = values_together<points, Real>(fitting, s, b, a);
+  const auto one = values_at<points>(b, fitting, s), other = values_at<points>(a, fitting, s);
+  for (int k = 0; k < points; ++k)
+    EXPECT_TRUE(together[0][k] == one[k] && together[1][k] == other[k])
+        << points << " points, degree " << fitting;
+}
+
+template <class Real>
+void expect_bits_of_single_numbers() {
+  std::mt19937_64 random{seed};
+  for (int n = 0; n < 200; ++n) [&]<int... more>(std::integer_sequence<int, more...>) {
+      (expect_bits_of_single_numbers<3 + more, Real>(random), ...);
+    }
+  (std::make_integer_sequence<int, 6>{});
+}
+TEST(Nodes, HaveTheBitsOfSingleNumbers) { expect_bits_of_single_numbers<double>(); }
+TEST(Nodes, HaveTheBitsOfSingleNumbersInFloat) { expect_bits_of_single_numbers<float>(); }
+TEST(Nodes, HaveTheBitsOfSingleNumbersInLongDouble) { expect_bits_of_single_numbers<long double>(); }
 
 TEST(Gauss, OnePointFewerWouldNotDo) {
   // cosh-like series without alternating signs, at degree 8: 3 points leave what 4 do not.

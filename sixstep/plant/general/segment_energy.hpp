@@ -16,13 +16,12 @@ void electrical_energy(const AtNodes<points, Real>& at, SegmentEnergy<Real>& out
   const auto& y = at.plant.expansion();
   const auto& mode = at.plant.mode();
   out.copper = copper_energy<points>(at);
-  series::Nodes<points, Real> dc{};
+  auto dc = series::Nodes<points, Real>::everywhere(Real(0));
   for (std::size_t k = 0; k < 3; ++k) {
     if (is_floating(mode.legs[k])) continue;
     out.devices += device_energy<points>(at, k);
     const Real share = c.terms(k, mode.legs[k]).bus_share;
-    const auto i = at.of(y.i[k]);
-    for (int n = 0; n < points; ++n) dc[n] += share * i[n];
+    dc = dc + share * at.of(y.i[k]);
   }
   out.supplied = at.integral(at.of(y.bus), dc);
 }
@@ -38,8 +37,7 @@ void shaft_energy(const AtNodes<points, Real>& at, SegmentEnergy<Real>& out) {
   out.viscous = c.B * at.integral(w, w);
   out.load_viscous = c.load_B * at.integral(load_w, load_w);
   if (c.elastic) {
-    auto slip = load_w;
-    for (int n = 0; n < points; ++n) slip[n] = c.inv_gear * w[n] - load_w[n];
+    const auto slip = c.inv_gear * w - load_w;
     out.viscous += out.load_viscous + c.damping * at.integral(slip, slip);
   }
   if (c.lossy_gear() && turns(at.plant.mode().motion)) {

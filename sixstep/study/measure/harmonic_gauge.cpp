@@ -13,33 +13,23 @@ namespace {
 
 constexpr double whole_turn = 6 * base::sector_rad;
 
-/// A part of a segment turns by no more than this for a frequency of its own: eight points then integrate
-/// products of a series with its cos and sin to rounding, as for the engine's own rates
-/// (series/quadrature.hpp).
+/// A part turns by no more than this for a frequency of its own.
 constexpr double largest_turn = 0.5;
-constexpr int most_points = 8;
+
+/// A degree behind which the series of cos x and sin x have no term above rounding, even, as few points as
+/// possible: x^n/n! <= 2^-53. Products with them are integrated like those of the engine's own series of that
+/// degree (series/quadrature.hpp).
+constexpr int degree_of_turn(double rad) {
+  constexpr double largest[] = {0.0065, 0.038, 0.115, 0.247, 0.437};  // for 6, 8, .. 14
+  int degree = 6;
+  for (const double x : largest) {
+    if (rad <= x) break;
+    degree += 2;
+  }
+  return degree;
+}
 
 }  // namespace
-
-/// Rotates the row into R from the left, until nothing is left of it.
-void FundamentalFit::add(std::array<double, 4> row) {
-  for (std::size_t j = 0; j < 4; ++j) {
-    if (row[j] == 0.0) continue;
-    const double length = std::sqrt(r_[j][j] * r_[j][j] + row[j] * row[j]);
-    if (length == 0.0) continue;
-    const double c = r_[j][j] / length, s = row[j] / length;
-    for (std::size_t k = j; k < 4; ++k) {
-      const double kept = c * r_[j][k] + s * row[k];
-      row[k] = c * row[k] - s * r_[j][k];
-      r_[j][k] = kept;
-    }
-  }
-}
-
-double FundamentalFit::distortion() const {
-  const double fundamental = r_[1][3] * r_[1][3] + r_[2][3] * r_[2][3];
-  return std::sqrt(r_[3][3] * r_[3][3] / fundamental);
-}
 
 double whole_periods(const Window& window, double frequency_Hz) {
   return std::floor((window.to_s - window.from_s) * frequency_Hz + whole_enough);
@@ -95,42 +85,56 @@ void HarmonicGauge::turn(const SegmentView& g, const Piece& y, double from, doub
   if (root < 1.0) turn_part(g, share(root, 1.0), full, to);
 }
 
+/// Since the window's begin; whole turns are left out, so that none of its digits goes into them.
+Phase HarmonicGauge::phase_at(const SegmentView& g, double s) const {
+  const plant::Expansion<double>& y = g.plant.expansion();
+  const double sectors = static_cast<double>((g.plant.state().sector - first_sector_) % 6);
+  return phase_of(sectors * base::sector_rad + (series::evaluate(y.x, y.degree, s) - first_x_));
+}
+
 /// The electrical angle turns no faster than the series of a segment change, so that their degree says how
 /// many points do. Products have three factors here, the speed being the weight: series/quadrature.hpp's
 /// bound is then (pi/2) (3/4)^n e^(3 x) u M^3 for degree n, below u M^3/5 where n is 8 or more.
 void HarmonicGauge::turn_part(const SegmentView& g, const Piece& y, double from, double to) {
   const plant::Expansion<double>& e = g.plant.expansion();
   const double per_s = direction_ * g.plant.pole_pairs() * e.h * (to - from);
-  const double sector = static_cast<double>(g.plant.sector()) * base::sector_rad;
-  series::with_points_for(std::max(e.degree, 8), [&]<int points>() {
+  const double up_to = swept(g, to), turn = std::fabs(up_to - swept(g, from));
+  const double x_from = series::evaluate(e.x, e.degree, from);
+  series::with_points_for(std::max({e.degree, 8, degree_of_turn(turn)}), [&]<int points>() {
+    using series::values_at;
+    const auto node = series::nodes_up_to<points>(1.0), at = from + (to - from) * node;
+    auto angle = per_s * values_at<points>(e.w, e.degree, at);  // of this part, per unit of weight
     for (int k = 0; k < points; ++k) {
-      const double s = static_cast<double>(series::gauss<points>.node[k]), at = from + s * (to - from);
-      const double angle = per_s * series::evaluate(e.w, e.degree, at);  // of this part, per unit of weight
-      if (angle < 0.0) turned_back_ = true;
-      if (!(angle > 0.0)) continue;
-      const double weight = std::sqrt(static_cast<double>(series::gauss<points>.weight[k]) * angle);
-      const base::SinCos phase = base::sin_cos(sector + series::evaluate(e.x, e.degree, at));
-      fit_.add({weight, weight * phase.cos, weight * phase.sin, weight * series::evaluate(y.c, y.degree, s)});
+      if (angle[k] < 0.0) turned_back_ = true;
+      if (!(angle[k] > 0.0)) angle.set(k, 0.0);
     }
+    const FittedPart<points> part{
+        .weight = series::as_nodes<points, double>(series::gauss<points>.weight) * angle,
+        .turn = values_at<points>(e.x, e.degree, at) - x_from,
+        .signal = values_at<points>(y.c, y.degree, node)};
+    fit_.add(phase_at(g, from), part);
   });
-  swept_ = direction_ * swept(g, to);
+  swept_ = direction_ * up_to;
 }
 
 void HarmonicGauge::time_part(const SegmentView& g, const Piece& y, double from, double to) {
   const double h = g.plant.expansion().h, length = h * (to - from);
   const double rate = 2 * base::pi * *frequency_Hz_;
   const std::int64_t count = 1 + static_cast<std::int64_t>(rate * length / largest_turn);
-  const double parts = static_cast<double>(count);
+  const double share = 1.0 / static_cast<double>(count), turn = rate * length * share;
   const double begin_s = g.t_s + h * from - window_.from_s;
-  for (std::int64_t n = 0; n < count; ++n)
-    for (int k = 0; k < most_points; ++k) {
-      const double s =
-          (static_cast<double>(n) + static_cast<double>(series::gauss<most_points>.node[k])) / parts;
-      const double weight =
-          std::sqrt(static_cast<double>(series::gauss<most_points>.weight[k]) * length / parts);
-      const base::SinCos phase = base::sin_cos(rate * (begin_s + s * length));
-      fit_.add({weight, weight * phase.cos, weight * phase.sin, weight * series::evaluate(y.c, y.degree, s)});
+  series::with_points_for(std::max(y.degree, degree_of_turn(turn)), [&]<int points>() {
+    const auto node = series::nodes_up_to<points>(share);
+    FittedPart<points> part{
+        .weight = (length * share) * series::as_nodes<points, double>(series::gauss<points>.weight),
+        .turn = series::nodes_up_to<points>(turn),
+        .signal = {}};
+    for (std::int64_t n = 0; n < count; ++n) {
+      const double done = static_cast<double>(n) * share;
+      part.signal = series::values_at<points>(y.c, y.degree, node + done);
+      fit_.add(phase_of(rate * (begin_s + done * length)), part);
     }
+  });
   seconds_ += length;
 }
 

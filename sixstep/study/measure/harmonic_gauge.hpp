@@ -1,29 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fundamental and distortion of a signal over whole periods: a least-squares fit of 1, cos and sin, whose
 // residual is all that is neither mean nor fundamental. Whole periods make the three orthogonal, and the fit
-// the Fourier coefficients. No harmonic is left out, and none is a difference of large squares: the fit is a
-// QR decomposition by plane rotations (Golub, Van Loan 5.1.8), row by row as the run passes, so that a pure
-// sine shows a distortion of rounding's size and not of its root.
+// the Fourier coefficients. No harmonic is left out, and none is a difference of large squares
+// (fundamental_fit.hpp): a pure sine shows a distortion of rounding's size and not of its root.
+//
+// Integrals are Gauss sums over each segment's own polynomial. The phase is worked out once per segment, from
+// the time or the angle since the window's begin, so that it does not drift; from there to the nodes it is less
+// than a radian, and a few terms of a series do.
 #pragma once
-#include <array>
 #include <cstdint>
 #include <optional>
 
+#include "sixstep/study/measure/fundamental_fit.hpp"
 #include "sixstep/study/measure/signals.hpp"
 #include "sixstep/study/measure/window.hpp"
 
 namespace sixstep::study {
-
-/// R of the decomposition, columns 1, cos, sin, signal.
-class FundamentalFit {
- public:
-  void add(std::array<double, 4> row);
-  /// rms of the distortion over rms of the fundamental; NaN where the signal is zero.
-  double distortion() const;
-
- private:
-  std::array<std::array<double, 4>, 4> r_{};
-};
 
 class HarmonicGauge {
  public:
@@ -41,6 +33,7 @@ class HarmonicGauge {
   void turn_part(const SegmentView& g, const Piece& y, double from, double to);
   void time_part(const SegmentView& g, const Piece& y, double from, double to);
   double swept(const SegmentView& g, double s) const;
+  Phase phase_at(const SegmentView& g, double s) const;
 
   Window window_;
   Signal signal_;

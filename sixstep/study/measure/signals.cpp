@@ -246,8 +246,9 @@ Piece piece_of(const SegmentView& g, Signal signal, double from, double to) {
   const int degree = g.plant.expansion().degree;
   if (is_product(signal)) return product_piece(g, signal, from, to);
   const PlainSignal* row = plain(signal);
-  const Series c = row ? row->series(g) : magnitude_series(g, from, to);
-  return {from == 0.0 && to == 1.0 ? c : series::restricted(c, degree, from, to), degree};
+  Piece piece{row ? row->series(g) : magnitude_series(g, from, to), degree};
+  if (from != 0.0 || to != 1.0) piece.c = series::restricted(piece.c, degree, from, to);
+  return piece;
 }
 
 double signal_now(const SegmentView& g, Signal signal) {

@@ -21,7 +21,7 @@ struct Listeners {
   std::function<void(Row)> on_event{};   ///< every event, both sides of each jump: columns all_columns()
   LogicSink on_logic{};  ///< gates, Hall lines, timer and the like, as logic_signals() names them
   std::function<bool(double t_s)> keep_going{};  ///< now and then; false ends the run early
-  bool keep_books = true;  ///< energy and standing laws: about half the time of a run with a few figures
+  bool keep_books = true;  ///< energy and standing laws: about a third on top of the run itself
 };
 
 /// Runs it. A fault (shoot-through, impossible Hall code, a trip of the product drive) is part of the

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// A number at each node of a rule of integration, two of them to an instruction: sums over nodes do not wait for each
+// other, and each number is worked out by the same operations in the same order as it would be alone, so that the bits
+// are those of plain numbers.
+#pragma once
+
+namespace sixstep::series {
+
+/// Two numbers side by side, of any scalar; of double it is one register (the vector extension of GCC and clang, which
+/// takes it apart again where a processor has none).
+template <class Real>
+struct PlainPair {
+  Real lane[2];
+  Real& operator[](int k) { return lane[k]; }
+  Real operator[](int k) const { return lane[k]; }
+  friend PlainPair operator+(const PlainPair& a, const PlainPair& b) {
+    return {{a.lane[0] + b.lane[0], a.lane[1] + b.lane[1]}};
+  }
+  friend PlainPair operator-(const PlainPair& a, const PlainPair& b) {
+    return {{a.lane[0] - b.lane[0], a.lane[1] - b.lane[1]}};
+  }
+  friend PlainPair operator*(const PlainPair& a, const PlainPair& b) {
+    return {{a.lane[0] * b.lane[0], a.lane[1] * b.lane[1]}};
+  }
+  friend PlainPair operator-(const PlainPair& a) { return {{-a.lane[0], -a.lane[1]}}; }
+};
+
+namespace detail {
+
+typedef double TwoDoubles __attribute__((vector_size(16)));
+
+template <class Real>
+struct PairOf {
+  using Type = PlainPair<Real>;
+};
+template <>
+struct PairOf<double> {
+  using Type = TwoDoubles;
+};
+
+}  // namespace detail
+
+template <class Real>
+using Pair = typename detail::PairOf<Real>::Type;
+
+template <class Real>
+[[gnu::always_inline]] inline Pair<Real> both(Real v) {
+  return Pair<Real>{v, v};
+}
+
+/// One number per node. An odd count leaves the last lane over; what stands in it is in no sum.
+template <int points, class Real>
+struct Nodes {
+  static constexpr int pairs = (points + 1) / 2;
+  Pair<Real> pair[pairs];
+
+  [[gnu::always_inline]] Real operator[](int k) const { return pair[k / 2][k % 2]; }
+  [[gnu::always_inline]] void set(int k, Real v) { pair[k / 2][k % 2] = v; }
+
+  [[gnu::always_inline]] friend Nodes operator+(const Nodes& a, const Nodes& b) {
+    return each([&](int k) { return a.pair[k] + b.pair[k]; });
+  }
+  [[gnu::always_inline]] friend Nodes operator-(const Nodes& a, const Nodes& b) {
+    return each([&](int k) { return a.pair[k] - b.pair[k]; });
+  }
+  [[gnu::always_inline]] friend Nodes operator*(const Nodes& a, const Nodes& b) {
+    return each([&](int k) { return a.pair[k] * b.pair[k]; });
+  }
+  [[gnu::always_inline]] friend Nodes operator-(const Nodes& a) {
+    return each([&](int k) { return -a.pair[k]; });
+  }
+  [[gnu::always_inline]] friend Nodes operator+(const Nodes& a, Real b) { return a + everywhere(b); }
+  [[gnu::always_inline]] friend Nodes operator+(Real a, const Nodes& b) { return everywhere(a) + b; }
+  [[gnu::always_inline]] friend Nodes operator-(const Nodes& a, Real b) { return a - everywhere(b); }
+  [[gnu::always_inline]] friend Nodes operator-(Real a, const Nodes& b) { return everywhere(a) - b; }
+  [[gnu::always_inline]] friend Nodes operator*(Real a, const Nodes& b) { return everywhere(a) * b; }
+
+  [[gnu::always_inline]] static Nodes everywhere(Real v) {
+    const Pair<Real> two = both(v);
+    return each([&](int) { return two; });
+  }
+  /// What `of(k)` says of pair k.
+  template <class Of>
+  [[gnu::always_inline]] static Nodes each(Of of) {
+    Nodes out;
+#pragma GCC unroll 8
+    for (int k = 0; k < pairs; ++k) out.pair[k] = of(k);
+    return out;
+  }
+};
+
+/// Sums over all lanes, the one left over included, of two side by side.
+template <int points, class Real>
+[[gnu::always_inline]] inline Pair<Real> totals(const Nodes<points, Real>& a, const Nodes<points, Real>& b) {
+  Pair<Real> sum_a = a.pair[0], sum_b = b.pair[0];
+#pragma GCC unroll 8
+  for (int k = 1; k < Nodes<points, Real>::pairs; ++k) {
+    sum_a = sum_a + a.pair[k];
+    sum_b = sum_b + b.pair[k];
+  }
+  return Pair<Real>{sum_a[0], sum_b[0]} + Pair<Real>{sum_a[1], sum_b[1]};
+}
+
+}  // namespace sixstep::series
