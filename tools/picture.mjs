@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // node tools/picture.mjs [PROGRAM]: photographs the top of the pages that the documents show, as a reader sees them, into
-// docs/images: report.png, of the README's scenario, curve.png, the torque-speed curve, and bench.png, a measured back-EMF. Needs what
-// tools/install.sh test installs (playwright-core and Chromium).
-import {execFileSync} from 'node:child_process';
+// docs/images: report.png, of the README's scenario, curve.png, the torque-speed curve, bench.png, a measured back-EMF, and plan.png,
+// from the middle of a plan's page. Needs what tools/install.sh test installs (playwright-core and Chromium).
+import {execFileSync, spawnSync} from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
@@ -17,10 +17,11 @@ const browser = await playwright.chromium.launch({
   args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-background-networking', '--disable-dev-shm-usage'],
 });
 
-/** What `words` makes with --html, down to the element `last`; what stands below is cut off. Charts may be drawn already. */
-async function photograph(name, last, words) {
+/** What `words` makes with --html, from the element `first` or the top down to `last`. Charts may be drawn already. */
+async function photograph(name, last, words, first) {
   const file = path.join(folder, `${name}.html`);
-  execFileSync(program, [...words, '--html', file, '--quiet'], {cwd: root});
+  const {status, stderr} = spawnSync(program, [...words, '--html', file, '--quiet'], {cwd: root, encoding: 'utf8'});
+  if (status !== 0 && status !== 1) throw new Error(stderr); // 1: a requirement is missed, which is what a plan's page is for
   const page = await browser.newPage({viewport: {width: 1200, height: 1400}, colorScheme: 'light', deviceScaleFactor: 1.15});
   await page.goto(pathToFileURL(file).href);
   if (last.startsWith('#chart')) await page.waitForFunction(() => globalThis.sixstep?.charts?.length > 0);
@@ -28,8 +29,10 @@ async function photograph(name, last, words) {
   await page.evaluate(() => globalThis.sixstep?.pointAt?.(0.0031));
   await page.waitForTimeout(200);
   const box = await page.locator(last).boundingBox();
+  const top = first ? Math.floor((await page.locator(first).boundingBox()).y) - 16 : 0;
   const picture = path.join(root, `docs/images/${name}.png`);
-  await page.screenshot({path: picture, clip: {x: 0, y: 0, width: 1200, height: Math.ceil(box.y + box.height + 16)}});
+  const height = Math.ceil(box.y + box.height + 16) - top;
+  await page.screenshot({path: picture, fullPage: true, clip: {x: 0, y: top, width: 1200, height}});
   execFileSync('pngquant', ['--strip', '--force', '64', '--output', picture, picture]); // 64 colours: a quarter of the size
   await page.close();
 }
@@ -38,5 +41,6 @@ await photograph('report', '#chart-logic', ['run', 'data/scenarios/current-squar
 await photograph('curve', '#chart-efficiency', ['curve', 'maxon-251601']);
 await photograph('bench', '.columns.wide',
   ['motor', 'emf', 'data/recordings/trampa6340-emf.csv', '--between', 'lines', '--speed', '1000']);
+await photograph('plan', '#front', ['run', 'data/plans/which-pwm.toml'], 'h2:has(+ #heat)');
 await browser.close();
 fs.rmSync(folder, {recursive: true});
