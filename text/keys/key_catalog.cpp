@@ -69,7 +69,9 @@ class Catalog {
   template <class Struct>
   void table(std::string_view key, std::optional<Struct>&, const base::About& about) {
     Struct inner;
+    const std::size_t at = entries_.size();
     table(key, inner, about);
+    entries_[at].optional = true;
   }
   template <class Struct>
   void list(std::string_view key, std::vector<Struct>&, const base::About& about) {
