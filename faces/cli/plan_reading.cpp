@@ -11,7 +11,6 @@
 #include "files/scenario_on_disk.hpp"
 #include "files/text_file.hpp"
 #include "sixstep/analysis/plan/plan_description.hpp"
-#include "text/keys/key_catalog.hpp"
 #include "text/plan/plan_file.hpp"
 
 namespace cli {
@@ -64,12 +63,6 @@ void in_words_of(const RunArguments& a, const analysis::Plan& plan, base::Proble
         problem.where = "--vary " + plan.axes[n].key;
 }
 
-std::string unit_of(const std::string& key) {
-  const std::vector<text::KeyEntry>& keys = text::scenario_keys();
-  const text::KeyEntry* entry = text::find_key(keys, key);
-  return entry ? std::string(entry->about.unit) : std::string();
-}
-
 /// A plan, or of a scenario one that makes a single run of it.
 base::Result<text::PlanFile> plan_of(const std::string& file) {
   if (!is_plan_file(file)) {
@@ -99,8 +92,11 @@ base::Problems without_series(const std::string& file, const ReadPlan& plan) {
 
 void name_columns(ReadPlan& plan) {
   plan.columns = analysis::columns_of(plan.scenarios->plan(), plan.nominal);
-  for (const std::string& key : plan.columns.keys) plan.units.push_back(unit_of(key));
-  for (const std::string& key : plan.columns.strayed) plan.units.push_back(unit_of(key));
+  for (const std::vector<std::string>* keys : {&plan.columns.keys, &plan.columns.strayed})
+    for (const std::string& key : *keys) {
+      const base::Result<std::string> unit = text::unit_of_key(key);
+      plan.units.push_back(unit ? *unit : "");
+    }
 }
 
 }  // namespace

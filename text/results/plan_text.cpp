@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 
 #include "sixstep/analysis/plan/sensitivity.hpp"
 #include "text/escape/escape.hpp"
+#include "text/keys/decimal_number.hpp"
 #include "text/results/quantity_text.hpp"
 #include "text/results/series_table.hpp"
 
@@ -61,11 +61,8 @@ std::vector<Point> points_of(const PlanStory& story) {
 }
 
 std::string value_text(const std::string& written, const std::string& unit) {
-  double x = 0.0;
-  const auto [end, error] = std::from_chars(written.data(), written.data() + written.size(), x);
-  if (error == std::errc() && end == written.data() + written.size()) return quantity_text(x, unit, digits);
-  const bool quoted = written.size() >= 2 && written.front() == '"';
-  return visible(quoted ? written.substr(1, written.size() - 2) : written);
+  const std::optional<double> x = number_alone(written);
+  return x ? quantity_text(*x, unit, digits) : visible(analysis::bare(written));
 }
 
 std::string verdict(const Point& point, std::size_t drives, bool asks) {
