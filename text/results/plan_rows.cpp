@@ -2,11 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "sixstep/analysis/plan/plan_description.hpp"
-#include "sixstep/analysis/plan/sensitivity.hpp"
 #include "sixstep/base/written.hpp"
 #include "text/results/plan_text.hpp"
 
@@ -64,9 +62,7 @@ Json interval(const analysis::Estimated& e) { return {{"value", e.value}, {"low"
 Json indices_json(const PlanStory& s) {
   Json all = Json::array();
   for (std::size_t f = 0; f < s.columns.figures.size(); ++f) {
-    std::vector<double> values(analysis::runs_of(s.plan), std::numeric_limits<double>::quiet_NaN());
-    s.each([&](const analysis::RunRecord& record) { values[record.number] = record.figures[f]; });
-    const auto found = analysis::sensitivity(values, s.plan.axes.size(), s.plan.seed);
+    const auto found = indices_of(s, f);
     Json of_figure = found ? Json::array() : Json(nullptr);
     for (std::size_t k = 0; found && k < found->size(); ++k)
       of_figure.push_back({{"first", interval((*found)[k].first)}, {"total", interval((*found)[k].total)}});
