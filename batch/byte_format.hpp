@@ -26,12 +26,6 @@ class ByteWriter {
     whole(list.size());
     for (const T& entry : list) write(entry);
   }
-  void texts(const std::vector<std::string>& list) {
-    this->list(list, [this](const std::string& entry) { text(entry); });
-  }
-  void numbers(const std::vector<double>& list) {
-    this->list(list, [this](double entry) { number(entry); });
-  }
 
   std::string&& bytes() && { return std::move(bytes_); }
 
@@ -64,12 +58,6 @@ class ByteReader {
     if (length > rest_.size() / 8) failed_ = true;
     for (std::uint64_t n = 0; n < length && !failed_; ++n) list.push_back(read());
     return list;
-  }
-  std::vector<std::string> texts() {
-    return list<std::string>([this] { return text(); });
-  }
-  std::vector<double> numbers() {
-    return list<double>([this] { return number(); });
   }
   /// One of the first `count` of an enumeration.
   template <class E>

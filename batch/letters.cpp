@@ -1,167 +1,109 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "batch/letters.hpp"
 
+#include <concepts>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "batch/byte_format.hpp"
+#include "sixstep/analysis/plan/plan_description.hpp"
 
 namespace batch::letters {
 namespace {
 
-// Each struct is taken apart into all of its members: a new one stops the compiler here.
+template <class T, class Struct>
+concept Is = std::same_as<std::remove_const_t<T>, Struct>;
 
-void write(ByteWriter& w, const analysis::Axis& axis) {
-  const auto& [key, values, from, to, points, spacing, strays] = axis;
-  w.text(key);
-  w.texts(values);
-  w.number(from);
-  w.number(to);
-  w.whole(points);
-  w.whole(static_cast<std::uint64_t>(spacing));
-  w.whole(strays);
+// The members of each struct in the order of their bytes, for writing and reading. What is not this room's own is taken apart into all
+// of them: a new one stops the compiler here.
+
+auto members(Is<analysis::Axis> auto& axis) {
+  auto& [key, values, from, to, points, spacing, strays] = axis;
+  return std::tie(key, values, from, to, points, spacing, strays);
 }
-
-analysis::Axis read_axis(ByteReader& r) {
-  analysis::Axis axis;
-  axis.key = r.text();
-  axis.values = r.texts();
-  axis.from = r.number();
-  axis.to = r.number();
-  axis.points = r.whole();
-  axis.spacing = r.choice<analysis::Spacing>(2);
-  axis.strays = r.yes();
-  return axis;
+auto members(Is<analysis::Plan> auto& plan) {
+  auto& [axes, sampling, points, drives, seed] = plan;
+  return std::tie(axes, sampling, points, drives, seed);
 }
-
-void write(ByteWriter& w, const analysis::Plan& plan) {
-  const auto& [axes, sampling, points, drives, seed] = plan;
-  w.list(axes, [&](const analysis::Axis& axis) { write(w, axis); });
-  w.whole(static_cast<std::uint64_t>(sampling));
-  w.whole(points);
-  w.whole(drives);
-  w.whole(seed);
+auto members(Is<analysis::FigureColumn> auto& figure) {
+  auto& [name, unit, required, min, max] = figure;
+  return std::tie(name, unit, required, min, max);
 }
-
-analysis::Plan read_plan(ByteReader& r) {
-  analysis::Plan plan;
-  plan.axes = r.list<analysis::Axis>([&] { return read_axis(r); });
-  plan.sampling = r.choice<analysis::Sampling>(5);
-  plan.points = r.whole();
-  plan.drives = r.whole();
-  plan.seed = r.whole();
-  return plan;
+auto members(Is<analysis::PlanColumns> auto& columns) {
+  auto& [keys, strayed, figures] = columns;
+  return std::tie(keys, strayed, figures);
 }
-
-void write(ByteWriter& w, const std::optional<double>& bound) {
-  w.whole(bound.has_value());
-  w.number(bound.value_or(0.0));
-}
-
-std::optional<double> read_bound(ByteReader& r) {
-  const bool there = r.yes();
-  const double x = r.number();
-  return there ? std::optional(x) : std::nullopt;
-}
-
-void write(ByteWriter& w, const analysis::PlanColumns& columns) {
-  const auto& [keys, strayed, figures] = columns;
-  w.texts(keys);
-  w.texts(strayed);
-  w.list(figures, [&](const analysis::FigureColumn& figure) {
-    const auto& [name, unit, required, min, max] = figure;
-    w.text(name);
-    w.text(unit);
-    w.whole(required);
-    write(w, min);
-    write(w, max);
-  });
-}
-
-analysis::PlanColumns read_columns(ByteReader& r) {
-  analysis::PlanColumns columns;
-  columns.keys = r.texts();
-  columns.strayed = r.texts();
-  columns.figures = r.list<analysis::FigureColumn>([&] {
-    analysis::FigureColumn figure;
-    figure.name = r.text();
-    figure.unit = r.text();
-    figure.required = r.yes();
-    figure.min = read_bound(r);
-    figure.max = read_bound(r);
-    return figure;
-  });
-  return columns;
-}
-
-void write(ByteWriter& w, const analysis::RunRecord& record) {
-  const auto& [number, point, strayed, end, problem, figures, digest] = record;
+auto members(Is<analysis::RunRecord> auto& record) {
+  auto& [number, point, strayed, end, problem, figures, digest] = record;
   static_cast<void>(point);
-  w.whole(number);
-  w.numbers(strayed);
-  w.whole(static_cast<std::uint64_t>(end));
-  w.text(problem);
-  w.numbers(figures);
-  w.whole(digest);
+  return std::tie(number, strayed, end, problem, figures, digest);
+}
+auto members(Is<Begin> auto& x) { return std::tie(x.plan, x.columns, x.jobs, x.made_of); }
+auto members(Is<Runs> auto& x) { return std::tie(x.numbers); }
+auto members(Is<Answer> auto& x) { return std::tie(x.to, x.bytes); }
+auto members(Is<End> auto&) { return std::tie(); }
+auto members(Is<Dismissed> auto& x) { return std::tie(x.exit); }
+auto members(Is<Rows> auto& x) { return std::tie(x.rows); }
+auto members(Is<Hungry> auto& x) { return std::tie(x.idle, x.ahead); }
+auto members(Is<Question> auto& x) { return std::tie(x.number, x.bytes); }
+auto members(Is<Gone> auto& x) { return std::tie(x.unmade); }
+
+constexpr std::size_t count_of(analysis::Spacing) { return std::size(analysis::spacing_choices); }
+constexpr std::size_t count_of(analysis::Sampling) { return std::size(analysis::sampling_choices); }
+constexpr std::size_t count_of(analysis::RunEnd) { return std::size(analysis::run_ends); }
+
+void write(ByteWriter& w, double x) { w.number(x); }
+void write(ByteWriter& w, const std::string& x) { w.text(x); }
+void write(ByteWriter& w, const std::optional<double>& x) {
+  w.whole(x.has_value());
+  w.number(x.value_or(0.0));
+}
+template <class Whole>
+requires std::is_enum_v<Whole> || std::unsigned_integral<Whole>
+void write(ByteWriter& w, Whole x) { w.whole(static_cast<std::uint64_t>(x)); }
+template <class Entry>
+void write(ByteWriter& w, const std::vector<Entry>& list);
+template <class Struct>
+requires requires(const Struct& x) { members(x); }
+void write(ByteWriter& w, const Struct& x) {
+  std::apply([&](const auto&... member) { (write(w, member), ...); }, members(x));
+}
+template <class Entry>
+void write(ByteWriter& w, const std::vector<Entry>& list) {
+  w.list(list, [&](const Entry& entry) { write(w, entry); });
 }
 
-analysis::RunRecord read_record(ByteReader& r) {
-  analysis::RunRecord record;
-  record.number = r.whole();
-  record.strayed = r.numbers();
-  record.end = r.choice<analysis::RunEnd>(3);
-  record.problem = r.text();
-  record.figures = r.numbers();
-  record.digest = r.whole();
-  return record;
+void read_into(ByteReader& r, double& x) { x = r.number(); }
+void read_into(ByteReader& r, std::string& x) { x = r.text(); }
+void read_into(ByteReader& r, bool& x) { x = r.yes(); }
+void read_into(ByteReader& r, std::optional<double>& x) {
+  const bool there = r.yes();
+  const double bound = r.number();
+  if (there) x = bound;
 }
-
-void write(ByteWriter& w, const std::vector<std::uint64_t>& numbers) {
-  w.list(numbers, [&](std::uint64_t n) { w.whole(n); });
+template <std::unsigned_integral Whole>
+void read_into(ByteReader& r, Whole& x) {
+  x = static_cast<Whole>(r.whole());
 }
-
-std::vector<std::uint64_t> read_wholes(ByteReader& r) {
-  return r.list<std::uint64_t>([&] { return r.whole(); });
+template <class Enum>
+requires std::is_enum_v<Enum>
+void read_into(ByteReader& r, Enum& x) { x = r.choice<Enum>(count_of(x)); }
+template <class Entry>
+void read_into(ByteReader& r, std::vector<Entry>& list);
+template <class Struct>
+requires requires(Struct& x) { members(x); }
+void read_into(ByteReader& r, Struct& x) {
+  std::apply([&](auto&... member) { (read_into(r, member), ...); }, members(x));
 }
-
-void write(ByteWriter& w, const Begin& begin) {
-  write(w, begin.plan);
-  write(w, begin.columns);
-  w.whole(begin.jobs);
-  w.text(begin.made_of);
+template <class Entry>
+void read_into(ByteReader& r, std::vector<Entry>& list) {
+  list = r.list<Entry>([&] {
+    Entry entry{};
+    read_into(r, entry);
+    return entry;
+  });
 }
-void write(ByteWriter& w, const Runs& runs) { write(w, runs.numbers); }
-void write(ByteWriter& w, const Answer& answer) {
-  w.whole(answer.to);
-  w.text(answer.bytes);
-}
-void write(ByteWriter&, const End&) {}
-void write(ByteWriter& w, const Dismissed& dismissed) { w.whole(dismissed.exit); }
-void write(ByteWriter& w, const Rows& rows) {
-  w.list(rows.rows, [&](const analysis::RunRecord& record) { write(w, record); });
-}
-void write(ByteWriter& w, const Hungry& hungry) {
-  w.whole(hungry.idle);
-  w.whole(hungry.ahead);
-}
-void write(ByteWriter& w, const Question& question) {
-  w.whole(question.number);
-  w.text(question.bytes);
-}
-void write(ByteWriter& w, const Gone& gone) { write(w, gone.unmade); }
-
-// The members of a braced list are read in its order.
-
-void read_into(ByteReader& r, Begin& begin) { begin = {read_plan(r), read_columns(r), r.whole(), r.text()}; }
-void read_into(ByteReader& r, Runs& runs) { runs.numbers = read_wholes(r); }
-void read_into(ByteReader& r, Answer& answer) { answer = {r.whole(), r.text()}; }
-void read_into(ByteReader&, End&) {}
-void read_into(ByteReader& r, Dismissed& dismissed) { dismissed.exit = r.whole(); }
-void read_into(ByteReader& r, Rows& rows) {
-  rows.rows = r.list<analysis::RunRecord>([&] { return read_record(r); });
-}
-void read_into(ByteReader& r, Hungry& hungry) { hungry = {r.whole(), r.whole()}; }
-void read_into(ByteReader& r, Question& question) { question = {r.whole(), r.text()}; }
-void read_into(ByteReader& r, Gone& gone) { gone.unmade = read_wholes(r); }
 
 template <std::size_t... Kind>
 std::optional<Letter> read_kind(std::uint64_t kind, ByteReader& r, std::index_sequence<Kind...>) {

@@ -74,7 +74,8 @@ std::string fact(std::string_view name, const std::string& html) {
 
 std::string words_of(const analysis::Axis& axis) {
   std::string text;
-  for (const std::string& value : axis.values) text += (text.empty() ? "" : ", ") + bare(value);
+  for (const std::string& value : axis.values)
+    text += (text.empty() ? "" : ", ") + std::string(analysis::bare(value));
   return text;
 }
 

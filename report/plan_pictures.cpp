@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "report/figures.hpp"
@@ -122,9 +121,7 @@ std::string index_bar(const analysis::Estimated& e) {
 }
 
 std::string index_table(const text::PlanStory& story, std::size_t figure) {
-  std::vector<double> values(analysis::runs_of(story.plan), std::numeric_limits<double>::quiet_NaN());
-  story.each([&](const analysis::RunRecord& record) { values[record.number] = record.figures[figure]; });
-  const auto found = analysis::sensitivity(values, story.plan.axes.size(), story.plan.seed);
+  const auto found = text::indices_of(story, figure);
   const std::string head = fmt::format("<h3>{}</h3>\n", escaped(story.columns.figures[figure].name));
   if (!found) return head + "<p class=\"quiet\">It does not vary, or too few runs have it.</p>\n";
   std::string rows;

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+
+#include "text/keys/decimal_number.hpp"
 
 namespace report {
 namespace {
@@ -11,16 +12,9 @@ namespace {
 namespace analysis = sixstep::analysis;
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
-/// NaN for what is no number.
-double number_in(const std::string& written) {
-  char* end = nullptr;
-  const double x = std::strtod(written.c_str(), &end);
-  return !written.empty() && *end == '\0' ? x : std::numeric_limits<double>::quiet_NaN();
-}
-
 bool has_words(const analysis::Axis& axis) {
   return std::any_of(axis.values.begin(), axis.values.end(),
-                     [](const std::string& v) { return std::isnan(number_in(v)); });
+                     [](const std::string& v) { return !text::number_alone(v); });
 }
 
 std::vector<PlanColumn> columns_of(const text::PlanStory& story) {
@@ -31,7 +25,7 @@ std::vector<PlanColumn> columns_of(const text::PlanStory& story) {
     PlanColumn column{.kind = PlanColumn::Kind::key, .name = of.keys[k], .unit = story.units[k]};
     column.logarithmic = axis.values.empty() && axis.spacing == analysis::Spacing::logarithmic;
     if (has_words(axis))
-      for (const std::string& value : axis.values) column.words.push_back(bare(value));
+      for (const std::string& value : axis.values) column.words.emplace_back(analysis::bare(value));
     columns.push_back(std::move(column));
   }
   for (std::size_t k = 0; k < of.strayed.size(); ++k)
@@ -43,8 +37,8 @@ std::vector<PlanColumn> columns_of(const text::PlanStory& story) {
 }
 
 float key_value(const PlanColumn& column, const std::string& written) {
-  if (column.words.empty()) return static_cast<float>(number_in(written));
-  const auto found = std::find(column.words.begin(), column.words.end(), bare(written));
+  if (column.words.empty()) return static_cast<float>(text::number_alone(written).value_or(none));
+  const auto found = std::find(column.words.begin(), column.words.end(), analysis::bare(written));
   return found == column.words.end() ? none : static_cast<float>(found - column.words.begin());
 }
 
@@ -61,11 +55,6 @@ void add(PlanRows& rows, const analysis::RunRecord& record, const analysis::Plan
 }
 
 }  // namespace
-
-std::string bare(const std::string& written) {
-  const bool quoted = written.size() >= 2 && written.front() == '"' && written.back() == '"';
-  return quoted ? written.substr(1, written.size() - 2) : written;
-}
 
 RunState state_of(const analysis::RunRecord& record, const analysis::PlanColumns& columns) {
   if (record.end == analysis::RunEnd::refused) return RunState::refused;

@@ -15,9 +15,6 @@ namespace report {
 /// How a run ended, as its colour tells it.
 enum class RunState : std::uint8_t { holds, misses, fault, refused };
 
-/// A value as a file writes it, without a word's quotes.
-std::string bare(const std::string& written);
-
 RunState state_of(const sixstep::analysis::RunRecord& record, const sixstep::analysis::PlanColumns& columns);
 
 struct PlanColumn {

@@ -9,6 +9,7 @@
 
 #include "faces/cli/choose.hpp"
 #include "faces/cli/design_command.hpp"
+#include "faces/cli/schema_command.hpp"
 #include "sixstep/analysis/plan/plan_description.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
@@ -109,9 +110,7 @@ Candidates known_words(const CLI::App& verb, const std::string& name) {
   if (name == "--style") return styles();
   if (name == "--between")
     return {{"lines", "two terminals"}, {"star", "a terminal and one point common to all"}};
-  if (name == "KIND")
-    return {
-        {"scenario", "of a scenario file"}, {"motor", "of a motor file"}, {"plan", "of a plan: many runs"}};
+  if (name == "KIND") return words(schema_kinds);
   if (name == "SHELL") return {{"bash", ""}, {"zsh", ""}, {"fish", ""}};
   if (name == "KEY") return keys("", true);
   return {};
@@ -123,7 +122,7 @@ Candidates values_of(const CLI::App& verb, const CLI::Option& option, const std:
   const std::string name = option.get_positional() ? option.get_name(true) : option.get_name();
   if (Candidates found = known_words(verb, name); !found.empty()) return found;
   if (name == "--set" || name == "--vary") return settings(current);
-  if (name == "FILE" || name == "SCENARIO") return files(current, ".toml");
+  if (name == "FILE" || name == "SCENARIO" || name == "--optimise") return files(current, ".toml");
   if (name == "MOTOR" || name == "--motor") return motors(current);
   if (name == "NAME") return verb.get_name() == "new" ? Candidates{} : motors(current);
   if (name == "--data") return files(current, "", true);

@@ -60,12 +60,6 @@ std::string of_key(const KeyEntry& entry) {
   return text;
 }
 
-const KeyEntry* by_path(const std::vector<KeyEntry>& entries, const std::string& key) {
-  const auto found =
-      std::find_if(entries.begin(), entries.end(), [&](const KeyEntry& e) { return e.path == key; });
-  return found == entries.end() ? nullptr : &*found;
-}
-
 /// The key by its last word, where only one has it.
 const KeyEntry* by_name(const std::vector<KeyEntry>& entries, const std::string& key) {
   const KeyEntry* found = nullptr;
@@ -93,7 +87,7 @@ Exit help_command(const CLI::App& app, const std::string& key) {
   }
   const CLI::App* const verb = command_of(app, key);
   if (verb) print(verb->help(app.get_name()));
-  if (const KeyEntry* entry = by_path(scenario, key)) {
+  if (const KeyEntry* entry = text::find_key(scenario, key)) {
     if (verb) print(fmt::format("The key {} of a scenario:\n", key));
     print(is_table(*entry) ? of_table(scenario, *entry) : of_key(*entry));
     return Exit::ok;
@@ -103,7 +97,7 @@ Exit help_command(const CLI::App& app, const std::string& key) {
     print(text::help_text(*entry) + "  in a motor file or in [motor_override]\n");
     return Exit::ok;
   }
-  if (const KeyEntry* entry = by_path(plan, key)) {
+  if (const KeyEntry* entry = text::find_key(plan, key)) {
     print((is_table(*entry) ? of_table(plan, *entry) : of_key(*entry)) + "  in a plan file\n");
     return Exit::ok;
   }

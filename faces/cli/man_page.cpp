@@ -98,6 +98,18 @@ std::string commands(const CLI::App& app, const Verbs& verbs) {
   return text;
 }
 
+/// Its keys and tables at the root.
+std::string keys_of_file(const std::vector<text::KeyEntry>& keys) {
+  std::string text;
+  for (const text::KeyEntry* key : text::keys_in(keys, "")) {
+    const std::string name = key->type == text::KeyType::table  ? fmt::format("[{}]", key->path)
+                             : key->type == text::KeyType::list ? fmt::format("[[{}]]", key->path)
+                                                                : key->path;
+    text += entry(bold(name), std::string(key->about.meaning) + (key->about.required ? " (required)" : ""));
+  }
+  return text;
+}
+
 std::string files() {
   std::string text =
       ".SH SCENARIO FILES\n"
@@ -106,17 +118,15 @@ std::string files() {
       "These are its keys and tables;\n"
       ".B sixstep help\n.I TABLE\nlists the keys of one, and\n.B sixstep help\n.I KEY\n"
       "tells unit, range, default and words.\n";
-  const std::vector<text::KeyEntry>& keys = text::scenario_keys();
-  for (const text::KeyEntry* key : text::keys_in(keys, "")) {
-    const std::string name = key->type == text::KeyType::table  ? fmt::format("[{}]", key->path)
-                             : key->type == text::KeyType::list ? fmt::format("[[{}]]", key->path)
-                                                                : key->path;
-    text += entry(bold(name), std::string(key->about.meaning) + (key->about.required ? " (required)" : ""));
-  }
-  return text +
+  return text + keys_of_file(text::scenario_keys()) +
          ".PP\nA motor file is a TOML file of the motor's data sheet;\n.B sixstep motor new\nwrites one to "
          "be "
-         "filled in.\n";
+         "filled in.\n"
+         ".SH PLAN FILES\n"
+         "A plan is a TOML file that names a scenario and says what differs in the\nruns that are made of it;\n"
+         ".B sixstep run\n"
+         "takes one wherever it takes a\nscenario.\nThese are its keys:\n" +
+         keys_of_file(text::plan_keys());
 }
 
 constexpr std::string_view examples =
@@ -125,6 +135,11 @@ constexpr std::string_view examples =
     "sixstep new first\n"
     "sixstep run first.toml \\-\\-html first.html\n"
     "sixstep run first.toml \\-\\-set supply.voltage_V=20\n"
+    ".RE\n.fi\n.PP\n"
+    "Which PWM period it takes, and a thousand drives of a series in a file that\n"
+    "a later call goes on with:\n.PP\n.nf\n.RS\n"
+    "sixstep run first.toml \\-\\-vary pwm.period_s=20us:100us:9\n"
+    "sixstep run series.toml \\-\\-runs 1000 \\-\\-store series.sqlite\n"
     ".RE\n.fi\n.PP\n"
     "Gains of a speed cascade, put through the sheet's tolerances, as a\nscenario "
     "that runs:\n.PP\n.nf\n.RS\n"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/cli/outputs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -33,6 +35,15 @@ std::function<void(Arguments...)> one_of_all(std::vector<std::function<void(Argu
 }
 
 }  // namespace
+
+base::Problems make_folder(const std::string& out) {
+  std::error_code error;
+  std::filesystem::create_directories(out, error);
+  if (!error) return {};
+  return {{.where = out + ":",
+           .limit = fmt::format("cannot be made a folder: {}", error.message()),
+           .cure = "choose another --out"}};
+}
 
 const std::string& OutputPaths::of(std::string_view option) const {
   const auto found = std::ranges::find(formats(), option, &Format::option);

@@ -12,6 +12,9 @@
 
 namespace cli {
 
+/// For --out.
+base::Problems make_folder(const std::string& out);
+
 struct OutputPaths {
   std::vector<std::string> of_formats = std::vector<std::string>(formats().size());  ///< empty: not wanted
   bool force = false;  ///< over whatever is there

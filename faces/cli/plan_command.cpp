@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -185,6 +184,10 @@ base::Problems contradictions(const RunArguments& a) {
     problems.push_back({.where = "--resume",
                         .limit = "goes on with the runs of a store, and none is named",
                         .cure = "add --store FILE.sqlite, or --out DIR as it was"});
+  if (a.watch)
+    problems.push_back({.where = "--watch",
+                        .limit = "runs scenarios again, and this is a plan of many runs",
+                        .cure = "leave it out, or watch one of them with --only N"});
   const bool both = compares(a);
   if (both && a.files.size() > report::most_plans_on_a_page)
     problems.push_back({.where = "--html",
@@ -203,14 +206,8 @@ base::Problems contradictions(const RunArguments& a) {
 
 Exit plan_command(const RunArguments& arguments) {
   if (const base::Problems problems = contradictions(arguments); !problems.empty()) return refused(problems);
-  if (!arguments.out.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(arguments.out, error);
-    if (error)
-      return refused({{.where = arguments.out + ":",
-                       .limit = fmt::format("cannot be made a folder: {}", error.message()),
-                       .cure = "choose another --out"}});
-  }
+  if (!arguments.out.empty())
+    if (const base::Problems unmade = make_folder(arguments.out); !unmade.empty()) return refused(unmade);
   std::vector<ReadPlan> read;
   base::Problems problems;
   for (const std::string& file : arguments.files) {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <thread>
 
 #include "batch/plan_runs.hpp"
+#include "faces/cli/plan_ranks.hpp"
 #include "faces/cli/terminal.hpp"
 #include "text/escape/escape.hpp"
 #include "text/results/quantity_text.hpp"
@@ -82,18 +82,18 @@ Exit foretell(const RunArguments& arguments, const ReadPlan& plan) {
                                    .stop = {},
                                    .jobs = 1});
   if (interrupted()) return told_interrupted("nothing was written");
-  const double cores =
-      arguments.jobs > 0 ? arguments.jobs : std::max(1U, std::thread::hardware_concurrency());
+  const double cores = threads_for_runs(arguments.jobs);
   const double columns = static_cast<double>(plan.columns.keys.size() + plan.columns.strayed.size() +
                                              plan.columns.figures.size());
   std::string text = fmt::format("{}\n", text::visible(plan.name));
   for (std::size_t k = 0; k < p.axes.size(); ++k)
     text += "  " +
             text::visible(axis_text(p.axes[k], plan.units[k], p.sampling == analysis::Sampling::grid)) + "\n";
-  text += fmt::format("  {} points", analysis::points_of(p));
+  const std::size_t points = analysis::points_of(p);
+  text += fmt::format("  {} point{}", points, points == 1 ? "" : "s");
   if (p.drives > 0) text += fmt::format(" of {} drives each", p.drives);
-  text += fmt::format(": {} runs\n  {} a run on one core ({} tried), about {} on {:.0f} cores\n", all,
-                      time_text(sample.each_s), sample.runs,
+  text += fmt::format(": {} run{}\n  {} a run on one core ({} tried), about {} on {:.0f} cores\n", all,
+                      all == 1 ? "" : "s", time_text(sample.each_s), sample.runs,
                       time_text(sample.each_s * static_cast<double>(all) / cores), cores);
   text += fmt::format("  a store of {}\n",
                       size_text(static_cast<double>(all) * (row_bytes + column_bytes * columns)));

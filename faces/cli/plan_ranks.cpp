@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/cli/plan_ranks.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -116,6 +118,12 @@ Exit among_ranks(const std::function<Exit()>& program) {
   }
   batch::part();
   return exit;
+}
+
+unsigned threads_for_runs(unsigned jobs) {
+  const unsigned processes = ranks().cluster.size;
+  if (processes > 1) return processes * std::max(1U, jobs);
+  return jobs > 0 ? jobs : std::max(1U, std::thread::hardware_concurrency());
 }
 
 void make(const batch::PlanRuns& runs, const ReadPlan& plan) {

@@ -11,6 +11,9 @@ namespace cli {
 /// The program's exit, in all of them: only the first calls `program`, reads, prints and writes.
 Exit among_ranks(const std::function<Exit()>& program);
 
+/// Threads that make runs, of all processes there are; `jobs` as in batch::PlanRuns.
+unsigned threads_for_runs(unsigned jobs);
+
 /// The plan's runs, made by all processes there are; by this one alone on its threads as batch::run_plan() does.
 void make(const batch::PlanRuns& runs, const ReadPlan& plan);
 

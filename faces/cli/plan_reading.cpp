@@ -11,7 +11,6 @@
 #include "files/scenario_on_disk.hpp"
 #include "files/text_file.hpp"
 #include "sixstep/analysis/plan/plan_description.hpp"
-#include "text/keys/key_catalog.hpp"
 #include "text/plan/plan_file.hpp"
 
 namespace cli {
@@ -55,19 +54,15 @@ base::Problems add_options(const RunArguments& a, analysis::Plan& plan) {
   return problems;
 }
 
-/// "--vary pwm.period_s" for what the plan's check calls vary[0].
-void in_words_of(const RunArguments& a, const analysis::Plan& plan, base::Problems& problems) {
-  if (a.plan.vary.empty()) return;
-  for (base::Problem& problem : problems)
-    for (std::size_t n = 0; n < plan.axes.size(); ++n)
+/// "--vary pwm.period_s" for what the plan's check calls vary[0]; of a scenario alone "--vary" for a list that is not there.
+void in_words_of(const RunArguments& a, const std::string& file, const analysis::Plan& plan,
+                 base::Problems& problems) {
+  for (base::Problem& problem : problems) {
+    if (problem.where == "vary" && !is_plan_file(file)) problem.where = "--vary";
+    for (std::size_t n = 0; n < plan.axes.size() && !a.plan.vary.empty(); ++n)
       if (problem.where.starts_with(fmt::format("vary[{}].", n)))
         problem.where = "--vary " + plan.axes[n].key;
-}
-
-std::string unit_of(const std::string& key) {
-  const std::vector<text::KeyEntry>& keys = text::scenario_keys();
-  const text::KeyEntry* entry = text::find_key(keys, key);
-  return entry ? std::string(entry->about.unit) : std::string();
+  }
 }
 
 /// A plan, or of a scenario one that makes a single run of it.
@@ -90,6 +85,13 @@ std::uint64_t inputs_digest(const files::ReadLog& log, const RunArguments& a, bo
   return tolerances ? files::text_digest("sheet_tolerances", digest) : digest;
 }
 
+base::Problems without_drives(const RunArguments& a, const analysis::Plan& plan) {
+  if (!a.plan.tolerances || plan.drives > 0) return {};
+  return {{.where = "--tolerances",
+           .limit = "makes drives differ, and there is but the one as written",
+           .cure = "say how many: --runs 1000"}};
+}
+
 base::Problems without_series(const std::string& file, const ReadPlan& plan) {
   if (plan.scenarios->plan().drives == 0 || !plan.nominal.spread.empty()) return {};
   return {{.where = file + ":",
@@ -99,14 +101,19 @@ base::Problems without_series(const std::string& file, const ReadPlan& plan) {
 
 void name_columns(ReadPlan& plan) {
   plan.columns = analysis::columns_of(plan.scenarios->plan(), plan.nominal);
-  for (const std::string& key : plan.columns.keys) plan.units.push_back(unit_of(key));
-  for (const std::string& key : plan.columns.strayed) plan.units.push_back(unit_of(key));
+  for (const std::vector<std::string>* keys : {&plan.columns.keys, &plan.columns.strayed})
+    for (const std::string& key : *keys) {
+      const base::Result<std::string> unit = text::unit_of_key(key);
+      plan.units.push_back(unit ? *unit : "");
+    }
 }
 
 }  // namespace
 
 bool plans(const RunArguments& a, const std::string& file) {
-  return a.runs > 0 || a.drive || !a.plan.vary.empty() || is_plan_file(file);
+  const PlanArguments& p = a.plan;
+  return a.runs > 0 || a.drive || !p.vary.empty() || !p.sampling.empty() || p.points > 0 || p.tolerances ||
+         !p.store.empty() || p.resume || p.dry_run || is_plan_file(file);
 }
 
 base::Result<ReadPlan> read_plan(const std::string& file, const RunArguments& arguments) {
@@ -121,7 +128,8 @@ base::Result<ReadPlan> read_plan(const std::string& file, const RunArguments& ar
   analysis::Plan& plan = of_file->plan;
   problems = add_options(arguments, plan);
   if (problems.empty()) problems = analysis::check(plan);
-  in_words_of(arguments, plan, problems);
+  append(problems, without_drives(arguments, plan));
+  in_words_of(arguments, file, plan, problems);
   if (!problems.empty()) return problems;
 
   const bool tolerances = of_file->sheet_tolerances || arguments.plan.tolerances;
@@ -137,7 +145,7 @@ base::Result<ReadPlan> read_plan(const std::string& file, const RunArguments& ar
   if (!nominal) return nominal.problems();
   read.nominal = std::move(*nominal);
   problems = read.scenarios->check();
-  in_words_of(arguments, plan, problems);
+  in_words_of(arguments, file, plan, problems);
   append(problems, without_series(file, read));
   if (!problems.empty()) return problems;
   read.title = of_file->title.empty() ? read.nominal.title : of_file->title;

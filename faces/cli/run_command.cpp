@@ -49,12 +49,7 @@ struct Lists {
 base::Problems prepare(const RunArguments& arguments, std::vector<Job>& jobs, Lists& lists) {
   base::Problems problems;
   if (!arguments.out.empty()) {
-    std::error_code error;
-    fs::create_directories(arguments.out, error);
-    if (error)
-      return {{.where = arguments.out + ":",
-               .limit = fmt::format("cannot be made a folder: {}", error.message()),
-               .cure = "choose another --out"}};
+    if (base::Problems unmade = make_folder(arguments.out); !unmade.empty()) return unmade;
     base::Result<files::AtomicFile> file =
         files::AtomicFile::create({(fs::path(arguments.out) / "index.html").string(), arguments.paths.force});
     if (!file) return file.problems();
@@ -192,18 +187,20 @@ void declare_plan_options(CLI::App& run, PlanArguments& a) {
                  "how points are laid out: grid, latin-hypercube, sobol, monte-carlo, saltelli");
   run.add_option("--points", a.points, "how many points, of everything but a grid")
       ->check(whole_in(1, 1'000'000'000));
-  run.add_flag("--tolerances", a.tolerances, "drives also stray in what makers do not promise: R, L and K_t");
+  run.add_flag("--tolerances", a.tolerances,
+               "drives of --runs also stray in what makers do not promise: R, L and K_t");
   run.add_option("--store", a.store, "keep each finished run in this SQLite file");
-  run.add_flag("--resume", a.resume, "go on with the runs of --store");
+  run.add_flag("--resume", a.resume, "go on with the runs of --store, or of --out as it was");
   run.add_flag("--dry-run", a.dry_run, "how many runs, how long and how large, and nothing else");
   run.add_option("--only", a.only, "run N of the plan alone, with all its outputs")
       ->check(whole_in(0, std::numeric_limits<std::int64_t>::max()));
 }
 
 void declare_options(CLI::App& run, RunArguments& a) {
-  run.add_option("FILE", a.files, "scenario files")->required();
+  run.add_option("FILE", a.files, "scenario or plan files")->required();
   run.add_option("--out", a.out,
-                 fmt::format("folder for {} of each scenario and index.html", names_in_folder()));
+                 fmt::format("folder for {} of each file, index.html of scenarios and NAME.sqlite of a plan",
+                             names_in_folder()));
   for (std::size_t n = 0; n < formats().size(); ++n)
     run.add_option(std::string(formats()[n].option), a.paths.of_formats[n],
                    std::string(formats()[n].meaning));
@@ -229,7 +226,7 @@ void declare_options(CLI::App& run, RunArguments& a) {
 }  // namespace
 
 Verb declare_run(CLI::App& app) {
-  CLI::App& run = *app.add_subcommand("run", "run scenarios and judge them");
+  CLI::App& run = *app.add_subcommand("run", "run scenarios, or plans of many runs, and judge them");
   const auto a = std::make_shared<RunArguments>();
   declare_options(run, *a);
   return {&run, calling(run_command, a)};

@@ -24,7 +24,7 @@ struct PlanArguments {
 
 struct RunArguments {
   std::vector<std::string> files;
-  std::string out;                ///< folder for the outputs of each scenario and index.html
+  std::string out;                ///< folder for the outputs of each file, and index.html of scenarios
   OutputPaths paths;              ///< for one file only
   std::vector<std::string> sets;  ///< "key=value"
   std::string data_dir;

@@ -5,19 +5,14 @@
 
 #include "faces/cli/choose.hpp"
 #include "faces/cli/terminal.hpp"
-#include "text/scenario/json_schema.hpp"
 
 namespace cli {
 namespace {
 
 Exit print_schema(const std::string& kind) {
-  using Schema = std::string (*)();
-  constexpr base::Choice<Schema> kinds[] = {{"scenario", text::scenario_schema, "of a scenario file"},
-                                            {"motor", text::motor_schema, "of a motor file"},
-                                            {"plan", text::plan_schema, "of a plan: many runs"}};
   Schema schema = nullptr;
   base::Problems found;
-  choose("KIND", kind, kinds, schema, found);
+  choose("KIND", kind, schema_kinds, schema, found);
   if (!found.empty()) return refused(found);
   print(schema());
   return Exit::ok;

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "sixstep/base/written.hpp"
+#include "text/keys/decimal_number.hpp"
 
 namespace files {
 namespace {
 
-constexpr std::string_view ends[] = {"whole", "fault", "refused"};
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Columns of `run` behind its fixed ones: k0, k1, .. s0, .. f0, ..
@@ -48,11 +48,8 @@ std::vector<std::string> shown_names(const StoredPlan& plan) {
 
 /// A number as a number, "soft" without its quotes.
 void bind_value(Statement& insert, int place, const std::string& written) {
-  double x = 0.0;
-  const auto [end, error] = std::from_chars(written.data(), written.data() + written.size(), x);
-  if (error == std::errc() && end == written.data() + written.size()) return insert.bind(place, x);
-  const bool quoted = written.size() >= 2 && written.front() == '"' && written.back() == '"';
-  insert.bind(place, quoted ? std::string_view(written).substr(1, written.size() - 2) : written);
+  if (const std::optional<double> x = text::number_alone(written)) return insert.bind(place, *x);
+  insert.bind(place, analysis::bare(written));
 }
 
 std::uint64_t from_hex(const std::string& text) {
@@ -90,7 +87,7 @@ std::string insert_sql(const StoredPlan& plan) {
 
 void bind_row(Statement& insert, const analysis::RunRecord& record, const analysis::PlanColumns& columns) {
   insert.bind(1, static_cast<std::int64_t>(record.number));
-  insert.bind(2, ends[static_cast<std::size_t>(record.end)]);
+  insert.bind(2, base::word(analysis::run_ends, record.end));
   insert.bind(3, std::int64_t{analysis::passed(record, columns)});
   insert.bind(4, record.problem);
   insert.bind(5, base::written_hex(record.digest));
@@ -110,8 +107,8 @@ analysis::RunRecord row_of(const Statement& select, const analysis::PlanColumns&
   analysis::RunRecord record;
   record.number = static_cast<std::size_t>(select.whole(0));
   const std::string end = select.text(1);
-  for (std::size_t n = 0; n < std::size(ends); ++n)
-    if (ends[n] == end) record.end = static_cast<analysis::RunEnd>(n);
+  for (const auto& choice : analysis::run_ends)
+    if (choice.word == end) record.end = choice.value;
   record.problem = select.text(2);
   record.digest = from_hex(select.text(3));
   int column = 4;

@@ -24,11 +24,18 @@ function fitted(ctx, text, room) {
   return text.slice(0, length) + '…';
 }
 
+/** Where a drawing begins, that its texts at the left stand whole: of long words so much further in, up to a third. */
+const leftBeside = (ctx, texts, width) => Math.min(width / 3, Math.max(FRAME.left, ...texts.map((text) => ctx.measureText(text).width + 24)));
+
+/** Numbers or words up the left side. */
+const ticksUp = (scale, h) => scale.ticks(Math.max(2, h / 60));
+
 /** Places of two columns on a canvas. */
 function frameOf(canvas, across, up) {
   const {ctx, width, height} = cleared(canvas);
-  const w = width - FRAME.left - FRAME.right, h = height - FRAME.top - FRAME.bottom, x = scaleOf(across), y = scaleOf(up);
-  return {ctx, width, height, w, h, x, y, across, up, px: (v) => FRAME.left + x.at(v) * w, py: (v) => FRAME.top + (1 - y.at(v)) * h};
+  const h = height - FRAME.top - FRAME.bottom, x = scaleOf(across), y = scaleOf(up);
+  const left = leftBeside(ctx, ticksUp(y, h).map((t) => t.text), width), w = width - left - FRAME.right;
+  return {ctx, width, height, left, w, h, x, y, across, up, px: (v) => left + x.at(v) * w, py: (v) => FRAME.top + (1 - y.at(v)) * h};
 }
 
 function line(ctx, x1, y1, x2, y2) {
@@ -40,7 +47,7 @@ function line(ctx, x1, y1, x2, y2) {
 
 /** Grid, numbers and names. `bands`: ticks that cells stand on instead, with no line through them. */
 function drawAxes(f, bands = {}) {
-  const {ctx, w, h} = f, bottom = FRAME.top + h;
+  const {ctx, left, w, h} = f, bottom = FRAME.top + h;
   ctx.lineWidth = 1;
   ctx.strokeStyle = palette.grid;
   ctx.fillStyle = palette.quiet;
@@ -55,15 +62,15 @@ function drawAxes(f, bands = {}) {
   }
   ctx.textAlign = 'right';
   free = Infinity;
-  for (const {at, text} of bands.y ?? f.y.ticks(Math.max(2, h / 60)).map((t) => ({at: f.py(t.v), text: t.text}))) {
-    if (!bands.y) line(ctx, FRAME.left, at, FRAME.left + w, at);
+  for (const {at, text} of bands.y ?? ticksUp(f.y, h).map((t) => ({at: f.py(t.v), text: t.text}))) {
+    if (!bands.y) line(ctx, left, at, left + w, at);
     if (at + 7 > free) continue;
-    ctx.fillText(fitted(ctx, text, FRAME.left - 24), FRAME.left - 6, at + 4);
+    ctx.fillText(fitted(ctx, text, left - 24), left - 6, at + 4);
     free = at - 7;
   }
   ctx.fillStyle = palette.ink;
   ctx.textAlign = 'center';
-  ctx.fillText(fitted(ctx, columnTitle(f.across), w), FRAME.left + w / 2, bottom + 35);
+  ctx.fillText(fitted(ctx, columnTitle(f.across), w), left + w / 2, bottom + 35);
   ctx.save();
   ctx.translate(13, FRAME.top + h / 2);
   ctx.rotate(-Math.PI / 2);
@@ -73,12 +80,12 @@ function drawAxes(f, bands = {}) {
 
 /** Requirements as dashed lines, each named where it stands. */
 function drawLimits(f) {
-  const {ctx, w, h} = f, inside = (s) => s >= 0 && s <= 1;
+  const {ctx, left, w, h} = f, inside = (s) => s >= 0 && s <= 1;
   ctx.save();
   ctx.strokeStyle = palette.ink;
   ctx.setLineDash([5, 4]);
   for (const v of limitsOf(f.across)) if (inside(f.x.at(v))) line(ctx, f.px(v), FRAME.top, f.px(v), FRAME.top + h);
-  for (const v of limitsOf(f.up)) if (inside(f.y.at(v))) line(ctx, FRAME.left, f.py(v), FRAME.left + w, f.py(v));
+  for (const v of limitsOf(f.up)) if (inside(f.y.at(v))) line(ctx, left, f.py(v), left + w, f.py(v));
   ctx.restore();
 }
 

@@ -51,7 +51,7 @@ function heatCells(plan, across, up, figure, picked = () => true) {
 }
 
 function drawBar(f, low, high, column) {
-  const {ctx, w} = f, left = FRAME.left + w + 14;
+  const {ctx, w} = f, left = f.left + w + 14;
   for (let n = 0; n < 100; ++n) {
     ctx.fillStyle = heatColour(n / 99);
     ctx.fillRect(left, FRAME.top + f.h * (1 - (n + 1) / 100), 14, f.h / 100 + 1);
@@ -65,15 +65,16 @@ function drawBar(f, low, high, column) {
 
 function drawHeat(canvas, plan, across, up, column, picked) {
   const {ctx, width, height} = cleared(canvas), cells = heatCells(plan, across, up, column, picked);
-  const w = width - FRAME.left - 92, h = height - FRAME.top - FRAME.bottom, cw = w / cells.x.count, ch = h / cells.y.count;
-  const f = {ctx, width, height, w, h, across, up, cells, cw, ch};
+  const left = leftBeside(ctx, cells.y.ticks.map(([, text]) => text), width);
+  const w = width - left - 92, h = height - FRAME.top - FRAME.bottom, cw = w / cells.x.count, ch = h / cells.y.count;
+  const f = {ctx, width, height, left, w, h, across, up, cells, cw, ch};
   let low = Infinity, high = -Infinity;
   cells.counts.forEach((count, n) => {
     if (count) low = Math.min(low, cells.sums[n] / count), high = Math.max(high, cells.sums[n] / count);
   });
   cells.counts.forEach((count, n) => {
     if (!count) return;
-    const i = n % cells.x.count, j = Math.floor(n / cells.x.count), x = FRAME.left + i * cw, y = FRAME.top + h - (j + 1) * ch;
+    const i = n % cells.x.count, j = Math.floor(n / cells.x.count), x = left + i * cw, y = FRAME.top + h - (j + 1) * ch;
     ctx.fillStyle = heatColour(high > low ? (cells.sums[n] / count - low) / (high - low) : 0.5);
     ctx.fillRect(x, y, cw + 0.5, ch + 0.5);
     if (!cells.misses[n] || Math.min(cw, ch) < 7) return;
@@ -85,7 +86,7 @@ function drawHeat(canvas, plan, across, up, column, picked) {
       ctx.fill();
     }
   });
-  drawAxes(f, {x: cells.x.ticks.map(([at, text]) => ({at: FRAME.left + at * cw, text})),
+  drawAxes(f, {x: cells.x.ticks.map(([at, text]) => ({at: left + at * cw, text})),
     y: cells.y.ticks.map(([at, text]) => ({at: FRAME.top + h - at * ch, text}))});
   if (low <= high) drawBar(f, low, high, column);
   return f;
@@ -93,7 +94,7 @@ function drawHeat(canvas, plan, across, up, column, picked) {
 
 /** What a cell is made of, in words. */
 function cellText(f, column, [x, y]) {
-  const {cells} = f, i = Math.floor((x - FRAME.left) / f.cw), j = Math.floor((FRAME.top + f.h - y) / f.ch), n = j * cells.x.count + i;
+  const {cells} = f, i = Math.floor((x - f.left) / f.cw), j = Math.floor((FRAME.top + f.h - y) / f.ch), n = j * cells.x.count + i;
   if (i < 0 || j < 0 || i >= cells.x.count || j >= cells.y.count || !cells.counts[n]) return '';
   const count = cells.counts[n], mean = valueText(column, cells.sums[n] / count);
   return (count > 1 ? `mean of ${count} runs ${mean}` : mean) + (cells.misses[n] ? `; ${cells.misses[n]} beyond the limit` : '');

@@ -2,8 +2,6 @@
 // The three terminals' voltages against the negative rail, floating ones included: what a board's dividers hang at. With all
 // legs floating centred between the rails (circuit.hpp).
 #pragma once
-#include <algorithm>
-
 #include "sixstep/plant/general/plant.hpp"
 #include "sixstep/plant/plant.hpp"
 
@@ -32,15 +30,15 @@ using TerminalSeries = PerLeg<series::Coefficients<Real>>;
 
 namespace detail {
 
-/// u[k] = e_k of a star that hangs at nothing: which are the highest and the lowest is judged in the middle of [0, s].
+/// u[k] = e_k of a star that hangs at nothing: which are the highest and the lowest is judged in the middle of [0, s]; `dead` is the
+/// mask of broken wires.
 template <class Real>
-void centre(const Expansion<Real>& y, Real s, TerminalSeries<Real>& u) {
+void centre(const Expansion<Real>& y, Real s, TerminalSeries<Real>& u, unsigned dead = 0) {
   PerLeg<Real> middle;
   for (std::size_t k = 0; k < 3; ++k) middle[k] = series::evaluate(u[k], y.degree, s / 2);
-  const auto high = static_cast<std::size_t>(std::max_element(middle.begin(), middle.end()) - middle.begin());
-  const auto low = static_cast<std::size_t>(std::min_element(middle.begin(), middle.end()) - middle.begin());
+  const general::StarEnds ends = general::star_ends(middle, dead);
   for (int n = 0; n <= y.degree; ++n) {
-    const Real star = (y.bus[n] - u[high][n] - u[low][n]) / 2;
+    const Real star = (y.bus[n] - u[ends.high][n] - u[ends.low][n]) / 2;
     for (std::size_t k = 0; k < 3; ++k) u[k][n] += star;
   }
 }
@@ -72,7 +70,7 @@ TerminalSeries<Real> terminal_series(const Plant<Real>& plant, Real s) {
 template <class Real>
 TerminalSeries<Real> terminal_series(const general::Plant<Real>& plant, Real s) {
   TerminalSeries<Real> u = plant.series().pole;
-  if (connected_count(plant.mode().legs) == 0) detail::centre(plant.expansion(), s, u);
+  if (connected_count(plant.mode().legs) == 0) detail::centre(plant.expansion(), s, u, plant.dead());
   return u;
 }
 

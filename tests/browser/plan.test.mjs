@@ -81,6 +81,28 @@ test('cells have every run once, and their means', async () => {
   await close(page);
 });
 
+test('long words stand whole beside a drawing, on a phone too', async () => {
+  for (const width of [1280, 390]) {
+    const page = await opened('plan.html');
+    await page.setViewportSize({width, height: 900});
+    await page.evaluate(() => {
+      sixstep.table.columns[2].words[1] = 'complementary';
+      const write = CanvasRenderingContext2D.prototype.fillText;
+      globalThis.written = {heat: [], scatter: []};
+      CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+        if (this.textAlign === 'right') written[this.canvas.closest('figure').id]?.push([text, x - this.measureText(text).width]);
+        write.call(this, text, x, y);
+      };
+    });
+    for (const drawing of ['heat', 'scatter']) {
+      await page.selectOption(`#${drawing}-y`, {label: 'pwm.chopping'});
+      // Right of the axis's own name, which stands upright in the first 16 pixels.
+      await eventually(async () => assert.ok(await page.evaluate((of) => written[of].some(([text, x]) => text === 'complementary' && x >= 16), drawing), drawing));
+    }
+    await close(page);
+  }
+});
+
 test('a run that is clicked or typed tells all of itself, and how to make its report', async () => {
   const page = await opened('plan.html');
   await page.fill('#number', '100');

@@ -181,7 +181,7 @@ class CommandLine(ProgramTest):
     def test_what_the_command_line_lacks_or_has_too_much_of(self):
         self.write("a.toml", 1000)
         for words, told in (
-                ("run", "sixstep run needs FILE: scenario files; sixstep run --help tells more"),
+                ("run", "sixstep run needs FILE: scenario or plan files; sixstep run --help tells more"),
                 ("motor", "sixstep motor needs a command: list, show, check, new, wiring, commission, identify, emf; sixstep motor --help tells more"),
                 ("motor lst", "lst is no command of sixstep motor; did you mean list?"),
                 ("run a.toml --htlm x", "--htlm is no argument of sixstep run; did you mean --html?"),

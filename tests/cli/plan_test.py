@@ -199,6 +199,26 @@ class Plan(ProgramTest):
         self.assertRegex(told, r"a run on one core \(16 tried\), about .* on \d+ cores")
         self.assertEqual(self.names(), ["a.toml"])
 
+    def test_it_tells_by_how_many_threads(self):
+        told = self.run_program("run", self.held(SPREAD), "--runs", "100", "--dry-run", "--jobs", "3").stdout
+        self.assertRegex(told, r"about .* on 3 cores")
+
+    def test_what_a_plan_alone_can_do_is_never_passed_over(self):
+        varied = ["--vary", "supply.voltage_V=12:24:7"]
+        for words, told in ((["--dry-run"], "--vary is missing"), (["--store", "s.sqlite"], "--vary is missing"),
+                            (["--points", "5"], "--vary is missing"), (["--sampling", "sobol"], "--vary is missing"),
+                            (["--resume"], "--resume goes on with the runs of a store"),
+                            (["--tolerances"], "--tolerances makes drives differ"),
+                            ([*varied, "--tolerances"], "--tolerances makes drives differ"),
+                            ([*varied, "--watch"], "--watch runs scenarios again")):
+            self.assertIn(told, self.run_program("run", self.held(), *words, code=2).stderr)
+        self.assertEqual(self.names(), ["a.toml"])
+
+    def test_keys_of_lists_have_their_units(self):
+        at = "[[at]]\ntime_s = 1e-5\nload.torque_Nm = 0\n"
+        table = self.run_program("run", self.held(at), "--vary", "at[0].load.torque_Nm=1 mNm:2 mNm:2", code=1).stdout
+        self.assertIn("2 mN m", table)
+
     def test_tolerances_need_no_spread(self):
         table = self.run_program("run", self.held(), "--tolerances", "--runs", "50", "--store", "s.sqlite", code=1).stdout
         self.assertIn("50 drives, seed 1", table)

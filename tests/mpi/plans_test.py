@@ -179,6 +179,11 @@ class Mpi(ProgramTest):
         words = ["run", "a.toml", "--vary", "bridge.dead_time_s=0,1us", "--vary", "pwm.period_s=30us,1us"]
         self.assertEqual(self.on_ranks(3, *words, code=2).stdout, self.run_program(*words, code=2).stdout)
 
+    def test_what_it_would_take_counts_all_processes(self):
+        words = ["run", self.held(), "--runs", "100", "--dry-run"]
+        self.assertRegex(self.on_ranks(3, *words).stdout, r"about .* on 3 cores")
+        self.assertRegex(self.on_ranks(3, *words, "--jobs", "2").stdout, r"about .* on 6 cores")
+
     def test_several_plans_one_after_the_other(self):
         self.held()
         (self.path / "b.toml").write_text((self.path / "a.toml").read_text().replace("20e-3", "10e-3"))

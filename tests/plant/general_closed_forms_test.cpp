@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sixstep/plant/general/audit.hpp"
+#include "sixstep/plant/terminals.hpp"
 #include "tests/support/general.hpp"
 
 namespace {
@@ -204,6 +205,26 @@ TEST(GeneralClosedForms, AWireThatBreaksWhileItCarriesCurrentOpensAtTheNextZero)
   held.plant().set_gates(a_to_b());
   ASSERT_EQ(run_to(held, 6e-3), sim::Stop::end);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(held.plant().state().i[k], 0);
+}
+
+// One behind a broken wire has no rails, whatever its back-EMF: the two that are left stand midway between theirs, and the third lies
+// where the windings put it.
+TEST(GeneralClosedForms, AStarBehindABrokenWireHangsMidwayBetweenTheOthersRails) {
+  for (unsigned broken = 0; broken < 3; ++broken) {
+    HeldGeneral held(free_rotor(300));
+    held.plant().break_wire(static_cast<int>(broken));
+    for (int n = 1; n <= 24; ++n) {  // over a turn of the field and more
+      ASSERT_EQ(run_to(held, n * 0.15e-3), sim::Stop::end);
+      auto& plant = held.plant();
+      ASSERT_GE(plant.expand(1e-9), 0);
+      const plant::Snapshot<double> now = plant.at(0);
+      ASSERT_EQ(plant.dead(), 1U << broken);
+      const std::size_t j = (broken + 1) % 3, k = (broken + 2) % 3;
+      EXPECT_NEAR(now.pole[j] + now.pole[k], now.bus, 1e-12 * now.bus);
+      EXPECT_NEAR(now.pole[broken] - now.pole[j], now.emf[broken] - now.emf[j], 1e-12 * now.bus);
+      EXPECT_NEAR(plant::terminal_series(plant, 1e-9)[broken][0], now.pole[broken], 1e-12 * now.bus);
+    }
+  }
 }
 
 TEST(GeneralClosedForms, TheBooksCloseWithEverythingAtOnce) {

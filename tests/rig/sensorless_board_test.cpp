@@ -16,32 +16,10 @@ using control::Mode;
 using control::SensorlessPhase;
 
 TEST(SensorlessBoard, StartsFromAnyAngleAgainstAnyLoadBothWays) {
-  const unsigned seed = 20'240'611;
-  std::mt19937 draw(seed);
-  std::uniform_real_distribution<double> angle(0.0, 2 * base::pi);
-  const int count = starts_each(2);
-  int drawn = 0;
-  for (const SensorlessMotor& motor : three_motors)
-    for (const double load : {0.0, 0.1, 0.3, 0.5}) {
-      int held = 0, at_once = 0;
-      double longest_s = 0;
-      for (int n = 0; n < count; ++n) {
-        SensorlessBench bench = on_built_board(
-            motor, Mode::speed, drawn++ / 2 % 2 == 0 ? Chopping::soft : Chopping::complementary);
-        bench.load_part = load;
-        bench.at.angle_rad = angle(draw) / bench.motor.machine.pole_pairs;
-        bench.board.sensors.seed = static_cast<std::uint64_t>(n);
-        const double w = (n % 2 == 0 ? 0.3 : -0.3) * bench.no_load_rad_s();
-        bench.setpoint(0, w);
-        const Started s = started(bench.rig<BuiltDrive<double>>(), bench, w);
-        held += s.holds;
-        at_once += s.at_once;
-        longest_s = std::fmax(longest_s, s.after_s);
-      }
-      std::printf("%-15s load %2.0f %%: %d of %d hold, %d at the first try, up to speed within %.2f s\n",
-                  motor.name, 100 * load, held, count, at_once, longest_s);
-      EXPECT_GE(held, static_cast<int>(std::ceil(0.99 * count))) << motor.name << " " << load;
-    }
+  const auto bench_of = [](const SensorlessMotor& motor, int n) {
+    return on_built_board(motor, Mode::speed, n / 2 % 2 == 0 ? Chopping::soft : Chopping::complementary);
+  };
+  expect_starts_from_any_angle(20'240'611, bench_of, [](int n) { return n % 2 == 0 ? 1 : -1; });
 }
 
 TEST(SensorlessBoard, HoldsEverySpeedBothWays) {
@@ -53,16 +31,8 @@ TEST(SensorlessBoard, HoldsEverySpeedBothWays) {
         const int sign = n++ / 2 % 2 == 0 ? 1 : -1;
         SensorlessBench bench = on_built_board(motor, Mode::speed, chopping);
         bench.load_part = load;
-        const double w = sign * part * bench.no_load_rad_s();
-        bench.setpoint(0, w);
-        auto rig = bench.rig<BuiltDrive<double>>();
-        const std::string where = std::string(motor.name) + " " + word(chopping) + " " +
-                                  std::to_string(sign * part) + " load " + std::to_string(load);
-        EXPECT_LE(bench.start.lowest_rad_s, 0.0501 * bench.no_load_rad_s()) << where;
-        run_until(rig, aligned_s(bench) + 0.8);
-        EXPECT_EQ(wrong_looks(rig, aligned_s(bench) + 1.1, 1e-3), 0) << where;
-        EXPECT_NEAR(rig.plant().state().w, w, 0.1 * std::fabs(w)) << where;
-        EXPECT_EQ(rig.firmware().rotor().lock.last, LockLoss::none) << where;
+        EXPECT_LE(bench.start.lowest_rad_s, 0.0501 * bench.no_load_rad_s()) << motor.name;
+        expect_speed_held(bench, sign * part, motor.name);
       }
 }
 

@@ -2,8 +2,7 @@
 // The sensorless drive by the captured edges of comparators at its filtered terminals: where their crossings lie, by the closed form,
 // and that it starts, holds its speeds and names its losses as by samples.
 #include "tests/support/sensorless_comparators.hpp"
-
-#include <random>
+#include "tests/support/seen_crossings.hpp"
 
 namespace {
 
@@ -15,38 +14,6 @@ using control::SensorlessPhase;
 using rig::CrossingReference;
 
 constexpr CrossingReference references[] = {CrossingReference::virtual_star, CrossingReference::half_bus};
-
-/// Where each sector's crossing was seen, in the mean over so many: behind the sector's middle, rad electrical.
-struct SeenCrossings {
-  double late_rad[6]{};
-  int count[6]{};
-  double speed_rad_s = 0.0;
-};
-
-SeenCrossings seen_crossings(const SensorlessBench& bench, double from_s) {
-  SeenCrossings seen;
-  auto rig = bench.rig();
-  run_until(rig, from_s);
-  EXPECT_EQ(phase(rig), SensorlessPhase::running);
-  const double p = bench.motor.machine.pole_pairs, capture_Hz = bench.board.sensors.capture_Hz;
-  std::uint32_t before = rig.firmware().rotor().clock.crossings.times[0];
-  for (int n = 0; n < 6000; ++n) {
-    run_until(rig, rig.now().seconds() + bench.spec.period_s);
-    const std::uint32_t at = rig.firmware().rotor().clock.crossings.times[0];
-    if (at == before) continue;
-    before = at;
-    const auto& s = rig.plant().state();
-    const auto now = static_cast<std::uint32_t>(std::fmod(rig.now().seconds() * capture_Hz, 4294967296.0));
-    const double since_s = static_cast<double>(static_cast<std::uint32_t>(now - at)) / capture_Hz;
-    const auto sector = static_cast<std::size_t>(rig.plant().sector());
-    seen.late_rad[sector] += s.x - s.w * p * since_s - base::sector_rad / 2;
-    ++seen.count[sector];
-  }
-  EXPECT_EQ(rig.firmware().rotor().lock.last, LockLoss::none);
-  for (std::size_t k = 0; k < 6; ++k) seen.late_rad[k] /= seen.count[k];
-  seen.speed_rad_s = rig.plant().state().w;
-  return seen;
-}
 
 /// u_f less the mean of all three falls through 4 K_e w/3 in a sector, less half the bus through 2 K_e w.
 double slope_V_rad(const SensorlessBench& bench, CrossingReference against, double w) {
@@ -125,32 +92,13 @@ TEST(SensorlessComparators, CommutatesEvenlyWhereSamplesAreRounded) {
 }
 
 TEST(SensorlessComparators, StartsFromAnyAngleAgainstAnyLoadBothWays) {
-  std::mt19937 draw(20'241'124);
-  std::uniform_real_distribution<double> angle(0.0, 2 * base::pi);
-  const int count = starts_each(2);
-  int drawn = 0;
-  for (const SensorlessMotor& motor : three_motors)
-    for (const double load : {0.0, 0.1, 0.3, 0.5}) {
-      int held = 0, at_once = 0;
-      double longest_s = 0;
-      for (int n = 0; n < count; ++n) {
-        SensorlessBench bench = on_built_board(motor, control::Mode::speed,
-                                               drawn / 2 % 2 == 0 ? Chopping::soft : Chopping::complementary);
-        capture_crossings(bench, usual_comparators(references[drawn++ % 2], motor.bus_V));
-        bench.load_part = load;
-        bench.at.angle_rad = angle(draw) / bench.motor.machine.pole_pairs;
-        bench.board.sensors.seed = static_cast<std::uint64_t>(n);
-        const double w = (drawn / 4 % 2 == 0 ? 0.3 : -0.3) * bench.no_load_rad_s();
-        bench.setpoint(0, w);
-        const Started s = started(bench.rig<BuiltDrive<double>>(), bench, w);
-        held += s.holds;
-        at_once += s.at_once;
-        longest_s = std::fmax(longest_s, s.after_s);
-      }
-      std::printf("%-15s load %2.0f %%: %d of %d hold, %d at the first try, up to speed within %.2f s\n",
-                  motor.name, 100 * load, held, count, at_once, longest_s);
-      EXPECT_GE(held, static_cast<int>(std::ceil(0.99 * count))) << motor.name << " " << load;
-    }
+  const auto bench_of = [](const SensorlessMotor& motor, int n) {
+    SensorlessBench bench = on_built_board(motor, control::Mode::speed,
+                                           n / 2 % 2 == 0 ? Chopping::soft : Chopping::complementary);
+    capture_crossings(bench, usual_comparators(references[n % 2], motor.bus_V));
+    return bench;
+  };
+  expect_starts_from_any_angle(20'241'124, bench_of, [](int n) { return (n + 1) / 4 % 2 == 0 ? 1 : -1; });
 }
 
 TEST(SensorlessComparators, HoldsEverySpeedBothWays) {
@@ -164,15 +112,7 @@ TEST(SensorlessComparators, HoldsEverySpeedBothWays) {
           SensorlessBench bench = on_built_board(motor, control::Mode::speed, chopping);
           capture_crossings(bench, usual_comparators(against, motor.bus_V));
           bench.load_part = load;
-          const double w = sign * part * bench.no_load_rad_s();
-          bench.setpoint(0, w);
-          auto rig = bench.rig<BuiltDrive<double>>();
-          const std::string where = std::string(motor.name) + " " + word(against) + " " + word(chopping) +
-                                    " " + std::to_string(sign * part) + " load " + std::to_string(load);
-          run_until(rig, aligned_s(bench) + 0.8);
-          EXPECT_EQ(wrong_looks(rig, aligned_s(bench) + 1.1, 1e-3), 0) << where;
-          EXPECT_NEAR(rig.plant().state().w, w, 0.1 * std::fabs(w)) << where;
-          EXPECT_EQ(rig.firmware().rotor().lock.last, LockLoss::none) << where;
+          expect_speed_held(bench, sign * part, std::string(motor.name) + " " + word(against));
         }
 }
 

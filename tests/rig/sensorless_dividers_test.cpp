@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dividers of the terminals that are not alike: by how much a crossing is seen beside its place, and that the threshold which
 // `mismatch` makes keeps the rotor.
-#include "tests/support/sensorless.hpp"
+#include "tests/support/seen_crossings.hpp"
 
 namespace {
 
 using namespace sixstep;
 using namespace sixstep::testing;
-using control::LockLoss;
-using control::SensorlessPhase;
 
 constexpr double gain_error[] = {0.01, -0.006, 0.003};
 
@@ -26,33 +24,14 @@ TEST(SensorlessDividers, ACrossingIsSeenBesideItsPlaceByMismatchTimesBusOverSlop
   bench.chip = design::sensorless_drive(
       bench.drive, *design::sensorless_start(bench.motor, bench.spec, bench.drive.current_at_full_torque_A));
   for (std::size_t k = 0; k < 3; ++k) bench.board.front_end.divider_gain_error[k] = gain_error[k];
-  const double p = bench.motor.machine.pole_pairs;
   bench.setpoint(0, 0.6 * bench.no_load_rad_s());
-  auto rig = bench.rig();
-  run_until(rig, 2.0);
-  ASSERT_EQ(phase(rig), SensorlessPhase::running);
-  double sum_rad[6]{};
-  int count[6]{};
-  std::uint32_t before = rig.firmware().rotor().clock.crossings.times[0];
-  for (int n = 0; n < 20000; ++n) {
-    run_until(rig, rig.now().seconds() + bench.spec.period_s);
-    const std::uint32_t at = rig.firmware().rotor().clock.crossings.times[0];
-    if (at == before) continue;
-    before = at;
-    const auto& s = rig.plant().state();
-    const auto now = static_cast<std::uint32_t>(std::fmod(rig.now().seconds() * 16e6, 4294967296.0));
-    const auto sector = static_cast<std::size_t>(rig.plant().sector());
-    const double since_s = static_cast<double>(static_cast<std::uint32_t>(now - at)) / 16e6;
-    sum_rad[sector] += s.x - s.w * p * since_s - base::sector_rad / 2;
-    ++count[sector];
-  }
-  EXPECT_EQ(rig.firmware().rotor().lock.last, LockLoss::none);
-  const double w = rig.plant().state().w;
+  const SeenCrossings seen = seen_crossings(bench, 2.0, 20000);
+  const double w = seen.speed_rad_s;
   const double step_rad = 2 * 30.0 / 4096 / (4 * bench.motor.machine.K_e_V_s * w) * base::sector_rad;
   for (std::uint8_t k = 0; k < 6; ++k) {
-    ASSERT_GT(count[k], 50);
+    ASSERT_GT(seen.count[k], 50);
     // Of the mean a step of the converter is left, of each of the three legs at their rails.
-    EXPECT_NEAR(sum_rad[k] / count[k], shift_rad(bench, k, w), step_rad) << int(k);
+    EXPECT_NEAR(seen.late_rad[k], shift_rad(bench, k, w), step_rad) << int(k);
   }
 }
 

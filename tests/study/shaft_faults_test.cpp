@@ -28,13 +28,6 @@ At event(double at_s) {
   return at;
 }
 
-Measure over(MetricKind kind, Signal signal, double from_s, std::optional<double> to_s = {}) {
-  Measure m = measure(kind, signal);
-  m.from_s = from_s;
-  m.to_s = to_s;
-  return m;
-}
-
 Scenario positioned(double to_deg) {
   Scenario s = cascade(0.6);
   s.pwm.commutation = CommutationAt::sample;

@@ -16,21 +16,11 @@ namespace {
 using namespace sixstep;
 using namespace sixstep::testing;
 using namespace sixstep::study;
-using control::Mode;
 
-constexpr double two_pi = 2 * base::pi, w = 200, theta_0 = 0.3;
+constexpr double two_pi = 2 * base::pi, w = turned_rad_s, theta_0 = turned_from_rad;
 
-/// Turned from outside, with current in the windings that commutation is seen to go by the sensor.
 Scenario turned(RotorSensing rotor) {
-  Scenario s = maxon_scenario(Mode::current, 0.5);
-  s.duration_s = 0.04;
-  s.control.current = {.type = CurrentLoopType::hysteresis, .band_A = 0.05};
-  s.pwm.chopping = control::Chopping::hard;
-  s.pwm.commutation = CommutationAt::sample;
-  s.initial.angle_rad = theta_0;
-  s.load.dynamometer_times_s = {0};
-  s.load.dynamometer_rad_s = {w};
-  s.sensors.rotor = rotor;
+  Scenario s = turned_by(rotor, 0.04);
   s.sensors.encoder.lines = 500;
   s.sensors.absolute.bits = 13;
   s.sensors.resolver = {.pole_pairs = 2,

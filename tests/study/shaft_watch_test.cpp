@@ -17,24 +17,15 @@ namespace {
 using namespace sixstep;
 using namespace sixstep::testing;
 using namespace sixstep::study;
-using control::Mode;
 using ::testing::HasSubstr;
 
-constexpr double w = 200, theta_0 = 0.3, deg = base::pi / 180;
+constexpr double w = turned_rad_s, theta_0 = turned_from_rad, deg = base::pi / 180;
 
 /// When the shaft is there, of its first turn.
 double time_at(double angle_deg) { return (angle_deg * deg - theta_0) / w; }
 
 Scenario turned(RotorSensing rotor, double to_deg) {
-  Scenario s = maxon_scenario(Mode::current, 0.5);
-  s.duration_s = time_at(to_deg);
-  s.control.current = {.type = CurrentLoopType::hysteresis, .band_A = 0.05};
-  s.pwm.chopping = control::Chopping::hard;
-  s.pwm.commutation = CommutationAt::sample;
-  s.initial.angle_rad = theta_0;
-  s.load.dynamometer_times_s = {0};
-  s.load.dynamometer_rad_s = {w};
-  s.sensors.rotor = rotor;
+  Scenario s = turned_by(rotor, time_at(to_deg));
   s.sensors.capture_Hz = 48e6;
   s.sensors.resolver.excitation_Hz = 0.5 / s.pwm.period_s;
   s.sensors.resolver.bandwidth_Hz = 500;

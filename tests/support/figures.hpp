@@ -3,11 +3,14 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "tests/support/scenarios.hpp"
 
 namespace sixstep::testing {
 
-inline study::Measure over(study::MetricKind metric, study::Signal signal, double from_s, double to_s) {
+inline study::Measure over(study::MetricKind metric, study::Signal signal, double from_s,
+                           std::optional<double> to_s = {}) {
   study::Measure m = measure(metric, signal);
   m.from_s = from_s;
   m.to_s = to_s;

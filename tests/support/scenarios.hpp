@@ -59,6 +59,22 @@ inline study::Scenario cascade(double duration_s = 8e-3) {
   return s;
 }
 
+/// Turned from outside at a speed that is held, so that angles are known in closed form, with current in the windings that commutation
+/// is seen to go by the sensor.
+inline constexpr double turned_rad_s = 200, turned_from_rad = 0.3;
+inline study::Scenario turned_by(study::RotorSensing rotor, double duration_s) {
+  study::Scenario s = maxon_scenario(control::Mode::current, 0.5);
+  s.duration_s = duration_s;
+  s.control.current = {.type = study::CurrentLoopType::hysteresis, .band_A = 0.05};
+  s.pwm.chopping = control::Chopping::hard;
+  s.pwm.commutation = study::CommutationAt::sample;
+  s.initial.angle_rad = turned_from_rad;
+  s.load.dynamometer_times_s = {0};
+  s.load.dynamometer_rad_s = {turned_rad_s};
+  s.sensors.rotor = rotor;
+  return s;
+}
+
 inline study::Measure measure(study::MetricKind metric, study::Signal signal) {
   study::Measure m;
   m.metric = metric;

@@ -45,6 +45,15 @@ TEST(PlanWords, AreEndsAndNumbersOrValuesInTheKeysUnit) {
   EXPECT_THAT(axis_of("supply.voltage_V=12")->values, ElementsAre("12"));
 }
 
+TEST(PlanWords, NameKeysOfListsAndOfLinearMotorsInTheirUnits) {
+  EXPECT_EQ(axis_of("at[0].load.torque_Nm=10 mNm:1 Nm:3")->from, 10e-3);
+  EXPECT_EQ(axis_of("load.force_N=1 N:2 kN:3")->to, 2000);
+  EXPECT_EQ(*unit_of_key("at[0].load.torque_Nm"), "N m");
+  EXPECT_EQ(*unit_of_key("load.force_N"), "N");
+  EXPECT_EQ(*unit_of_key("load.torque_Nm"), "N m");
+  EXPECT_FALSE(unit_of_key("force_N"));
+}
+
 TEST(PlanWords, ThatAreNoneSayWhy) {
   for (const auto& [words, told] : {std::pair{"supply.voltge_V=1:2:3", "did you mean supply.voltage_V?"},
                                     std::pair{"supply.voltage_V=1 A:2 A:3", "A"},

@@ -148,6 +148,26 @@ TEST(ScenarioText, WritesWhatOverridesTheMotorsSheet) {
   EXPECT_THAT(scenario_text(with("")), ::testing::Not(::testing::HasSubstr("motor_override")));
 }
 
+/// A line that sticks at low is line 1 at low where nothing else is said: the heading alone is the event.
+TEST(ScenarioText, KeepsAnEventWhoseKeysAreAllTheUsualOnes) {
+  const std::pair<const char*, const char*> events[] = {{"ideal", "[at.reference]"},
+                                                        {"hall", "[at.sensors.hall_break]"},
+                                                        {"absolute", "[at.sensors.bad_track]"},
+                                                        {"encoder", "[at.sensors.encoder_line]"}};
+  for (const auto& [rotor, event] : events) {
+    SCOPED_TRACE(event);
+    const study::Scenario s =
+        with(fmt::format("control.mode = \"duty\"\nsensors.rotor = \"{}\"\npwm.commutation = \"sample\"\n"
+                         "sensors.capture_Hz = 48e6\n[[at]]\ntime_s = 0.05\n{}\n",
+                         rotor, event));
+    ASSERT_EQ(s.at.size(), 1u);
+    const std::vector<std::string> keys = every_key(s);
+    EXPECT_EQ(every_key(read_back(scenario_text(s))), keys);
+    for (const bool full : {false, true})
+      EXPECT_EQ(every_key(read_back(starter_text(s, {.file = "x.toml", .full = full}))), keys);
+  }
+}
+
 /// TOML takes 132 for a number, and so does --set sensors.hall_lines=132.
 TEST(ScenarioText, AWordOfDigitsNeedsNoQuotes) {
   const study::Scenario s = with("sensors = { hall_lines = 132, hall_inverted = 3 }");

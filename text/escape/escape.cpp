@@ -96,6 +96,33 @@ std::string shell_word(std::string_view word) {
   return fmt::format("$'{}'", out);
 }
 
+std::string markup_text(std::string_view text, Lines lines) {
+  std::string out;
+  out.reserve(text.size() + text.size() / 8);
+  for (const char c : visible(text, lines)) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
 std::string url_of_name(std::string_view name) {
   std::string out;
   for (const char c : name) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names and texts of others on their way out: a title, a label, a key or a file's name may hold any bytes,
-// and none of them may act on what shows it, reads it or runs it. One function per target; a page's is
-// report::escaped. Numbers and words of our own need none.
+// and none of them may act on what shows it, reads it or runs it. One function per target. Numbers and words of
+// our own need none.
 #pragma once
 #include <string>
 #include <string_view>
@@ -20,6 +20,9 @@ std::string visible(std::string_view text, Lines lines = Lines::shown);
 
 /// One word of a command line, as a shell takes it again: quoted where it has to be, and visible.
 std::string shell_word(std::string_view word);
+
+/// Text or an attribute of HTML and of XML: visible, for XML 1.0 cannot hold every character.
+std::string markup_text(std::string_view text, Lines lines = Lines::shown);
 
 /// A file's name as a relative URL: no colon begins a scheme, no # or ? ends the name.
 std::string url_of_name(std::string_view name);

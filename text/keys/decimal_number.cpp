@@ -72,4 +72,10 @@ DecimalNumber decimal_number(std::string_view text) {
   return {DecimalNumber::Kind::number, w.negative ? -x : x, w.size};
 }
 
+std::optional<double> number_alone(std::string_view text) {
+  const DecimalNumber x = decimal_number(text);
+  if (x.kind != DecimalNumber::Kind::number || x.size != text.size()) return {};
+  return x.value;
+}
+
 }  // namespace text

@@ -2,6 +2,7 @@
 // A decimal number's text as the nearest double, the same on every platform and in every locale.
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <string_view>
 
 namespace text {
@@ -16,5 +17,8 @@ struct DecimalNumber {
 /// perhaps an exponent. Rounded once, to even where two doubles are equally near. What would be infinite, or
 /// 0 although it has other digits, is out of range.
 DecimalNumber decimal_number(std::string_view text);
+
+/// The number that the text is, with nothing behind it.
+std::optional<double> number_alone(std::string_view text);
 
 }  // namespace text

@@ -69,7 +69,9 @@ class Catalog {
   template <class Struct>
   void table(std::string_view key, std::optional<Struct>&, const base::About& about) {
     Struct inner;
+    const std::size_t at = entries_.size();
     table(key, inner, about);
+    entries_[at].optional = true;
   }
   template <class Struct>
   void list(std::string_view key, std::vector<Struct>&, const base::About& about) {
@@ -120,6 +122,13 @@ bool is_numeric(KeyType type) {
          type == KeyType::quantity;
 }
 
+/// In the table of the key itself.
+bool is_spelled(const KeyEntry& key, const base::Spelling& spelling, std::string_view path) {
+  const std::size_t table = key.path.rfind('.') + 1;  // 0 at the root
+  return path.size() == table + spelling.key.size() && path.ends_with(spelling.key) &&
+         path.starts_with(std::string_view(key.path).substr(0, table));
+}
+
 template <class Described>
 std::vector<KeyEntry> keys_of() {
   Catalog catalog;
@@ -148,9 +157,17 @@ const std::vector<KeyEntry>& plan_keys() {
 const KeyEntry* find_key(const std::vector<KeyEntry>& keys, std::string_view path) {
   const auto found = std::find_if(keys.begin(), keys.end(), [&](const KeyEntry& key) {
     return key.path == path || std::any_of(key.about.also.begin(), key.about.also.end(),
-                                           [&](const base::Spelling& s) { return s.key == path; });
+                                           [&](const base::Spelling& s) { return is_spelled(key, s, path); });
   });
   return found == keys.end() ? nullptr : &*found;
+}
+
+std::optional<std::string> key_unit(const std::vector<KeyEntry>& keys, std::string_view path) {
+  const KeyEntry* entry = find_key(keys, path);
+  if (!entry) return {};
+  for (const base::Spelling& spelling : entry->about.also)
+    if (is_spelled(*entry, spelling, path) && !spelling.unit.empty()) return std::string(spelling.unit);
+  return std::string(entry->about.unit);
 }
 
 std::string help_text(const KeyEntry& entry) {

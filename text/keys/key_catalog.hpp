@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // All keys of a file as data, for help texts, tables and forms.
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,6 +35,8 @@ const std::vector<KeyEntry>& plan_keys();
 
 /// The entry of a key or of one of its other spellings; null where there is none.
 const KeyEntry* find_key(const std::vector<KeyEntry>& keys, std::string_view path);
+/// Its unit, as it is spelled; nothing where there is no such key.
+std::optional<std::string> key_unit(const std::vector<KeyEntry>& keys, std::string_view path);
 
 /// What a user wants to know of one key, in a few lines.
 std::string help_text(const KeyEntry& entry);

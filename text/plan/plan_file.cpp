@@ -77,23 +77,9 @@ std::vector<std::string> split(std::string_view text, char at) {
   return parts;
 }
 
-/// The unit of a scenario's key; a Problem for what is none.
-base::Result<std::string> unit_of_key(const std::string& key) {
-  const std::vector<KeyEntry>& keys = scenario_keys();
-  if (const KeyEntry* entry = find_key(keys, shown(key))) return std::string(entry->about.unit);
-  std::vector<std::string> known;
-  for (const KeyEntry& entry : keys) known.push_back(entry.path);
-  const std::string near = nearest(key, known);
-  return base::Problem{.value = key,
-                       .limit = "is no key of a scenario",
-                       .cure = near.empty() ? "name one as table.key, as in pwm.period_s"
-                                            : fmt::format("did you mean {}?", near)};
-}
-
 /// A value with a unit as a number in the key's own; what is none stays as it is written.
 std::string in_keys_unit(const std::string& written, const std::string& unit) {
-  const bool quoted = written.size() >= 2 && written.front() == '"' && written.back() == '"';
-  const std::string text = quoted ? written.substr(1, written.size() - 2) : written;
+  const std::string text(analysis::bare(written));
   const std::optional<Written> parts = split_number(text);
   if (unit.empty() || !parts || parts->unit.empty()) return written;
   const base::Result<double> x = in_unit(text, unit);
@@ -108,12 +94,12 @@ void in_keys_unit(analysis::Axis& axis) {
 }
 
 struct Ends {
-  std::string key;
-  base::Problems problems;
+  std::string_view whole;
+  const std::string& unit;
+  base::Problems problems{};
 
-  double end(const std::string& text, const std::string& unit, std::string_view whole) {
-    const DecimalNumber plain = decimal_number(text);
-    if (plain.kind == DecimalNumber::Kind::number && plain.size == text.size()) return plain.value;
+  double end(const std::string& text) {
+    if (const std::optional<double> plain = number_alone(text)) return *plain;
     const base::Result<double> x = in_unit(text, unit);
     if (x) return *x;
     problems.push_back({std::string(whole), text, x.problems().front().limit, x.problems().front().cure});
@@ -129,19 +115,17 @@ base::Result<analysis::Axis> range_of(const std::string& key, const std::vector<
     problem.where = whole;
     return problem;
   }
-  const std::string& unit = *known;
-  Ends ends{key, {}};
+  Ends ends{whole, *known};
   analysis::Axis axis{.key = key, .values = {}};
-  axis.from = ends.end(parts[0], unit, whole);
-  axis.to = ends.end(parts[1], unit, whole);
+  axis.from = ends.end(parts[0]);
+  axis.to = ends.end(parts[1]);
   if (!ends.problems.empty()) return ends.problems;
   if (parts.size() > 2) {
-    const DecimalNumber count = decimal_number(parts[2]);
-    if (count.kind != DecimalNumber::Kind::number || count.size != parts[2].size() || count.value < 2 ||
-        count.value > 1e9 || count.value != static_cast<double>(static_cast<std::size_t>(count.value)))
+    const double count = number_alone(parts[2]).value_or(0.0);
+    if (count < 2 || count > 1e9 || count != static_cast<double>(static_cast<std::size_t>(count)))
       return base::Problem{std::string(whole), parts[2], "is no number of points",
                            "write a whole number from 2 on behind the second colon"};
-    axis.points = static_cast<std::size_t>(count.value);
+    axis.points = static_cast<std::size_t>(count);
   }
   if (parts.size() > 3 && parts[3] != "log" && parts[3] != "linear")
     return base::Problem{std::string(whole), parts[3], "is no spacing", "write log or linear"};
@@ -150,6 +134,18 @@ base::Result<analysis::Axis> range_of(const std::string& key, const std::vector<
 }
 
 }  // namespace
+
+base::Result<std::string> unit_of_key(const std::string& key) {
+  const std::vector<KeyEntry>& keys = scenario_keys();
+  if (std::optional<std::string> unit = key_unit(keys, shown(key))) return std::move(*unit);
+  std::vector<std::string> known;
+  for (const KeyEntry& entry : keys) known.push_back(entry.path);
+  const std::string near = nearest(key, known);
+  return base::Problem{.value = key,
+                       .limit = "is no key of a scenario",
+                       .cure = near.empty() ? "name one as table.key, as in pwm.period_s"
+                                            : fmt::format("did you mean {}?", near)};
+}
 
 bool is_plan(const std::string& text) {
   const base::Result<Document> document = Document::parse("", text);

@@ -29,6 +29,9 @@ base::Result<PlanFile> read_plan_text(const std::string& name, std::string text)
 /// points its ends alone, for what is drawn between them. A Problem's `where` is the text itself.
 base::Result<analysis::Axis> axis_of(std::string_view text);
 
+/// The unit of a scenario's key as it is spelled, also of a list's: "at[0].load.torque_Nm"; a Problem for what is none.
+base::Result<std::string> unit_of_key(const std::string& key);
+
 /// The plan as one line of JSON: what two plans are compared by. Where runs do not depend on how many follow, that is left out.
 std::string plan_identity(const analysis::Plan& plan);
 

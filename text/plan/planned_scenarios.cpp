@@ -82,11 +82,10 @@ base::Result<study::Scenario> PlannedScenarios::at(const std::vector<std::string
   base::Result<study::Scenario> scenario = read(options);
   for (std::size_t k = 0; k < point.size() && scenario; ++k) {
     if (!plan_.axes[k].strays) continue;
-    const DecimalNumber x = decimal_number(point[k]);
-    scenario = x.kind == DecimalNumber::Kind::number
-                   ? study::strayed_to(*scenario, plan_.axes[k].key, x.value)
-                   : base::Problem{plan_.axes[k].key, point[k], "is no number, and only numbers stray",
-                                   "write numbers, or strays = false"};
+    const std::optional<double> x = number_alone(point[k]);
+    scenario = x ? study::strayed_to(*scenario, plan_.axes[k].key, *x)
+                 : base::Problem{plan_.axes[k].key, point[k], "is no number, and only numbers stray",
+                                 "write numbers, or strays = false"};
   }
   return scenario;
 }

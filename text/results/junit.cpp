@@ -11,30 +11,6 @@
 namespace text {
 namespace {
 
-/// For an attribute: what XML 1.0 cannot hold is made visible first.
-std::string attribute(std::string_view words) {
-  std::string out;
-  for (const char c : visible(words)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 std::string bounds_text(const std::optional<double>& min, const std::optional<double>& max,
                         const std::string& unit) {
   std::string text;
@@ -47,10 +23,10 @@ JunitCase whole_run(std::string failure) { return {"runs to its end", std::move(
 
 std::string case_xml(const std::string& suite, const JunitCase& c) {
   std::string text =
-      fmt::format("    <testcase classname=\"{}\" name=\"{}\"", attribute(suite), attribute(c.name));
+      fmt::format("    <testcase classname=\"{}\" name=\"{}\"", markup_text(suite), markup_text(c.name));
   if (c.failure.empty()) return text + "/>\n";
   return text + fmt::format(">\n      <{} message=\"{}\"/>\n    </testcase>\n",
-                            c.broken ? "error" : "failure", attribute(c.failure));
+                            c.broken ? "error" : "failure", markup_text(c.failure));
 }
 
 template <class Which>
@@ -108,7 +84,7 @@ std::string junit_xml(std::span<const JunitSuite> suites) {
   for (const JunitSuite& suite : suites) {
     const std::size_t failed = count(suite, fails), broken = count(suite, is_error);
     inner += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\">\n",
-                         attribute(suite.name), suite.cases.size(), failed, broken);
+                         markup_text(suite.name), suite.cases.size(), failed, broken);
     for (const JunitCase& c : suite.cases) inner += case_xml(suite.name, c);
     inner += "  </testsuite>\n";
     tests += suite.cases.size();

@@ -2,11 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "sixstep/analysis/plan/plan_description.hpp"
-#include "sixstep/analysis/plan/sensitivity.hpp"
 #include "sixstep/base/written.hpp"
 #include "text/results/plan_text.hpp"
 
@@ -14,18 +12,12 @@ namespace text {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr std::string_view ends[] = {"whole", "fault", "refused"};
 
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+std::string cell(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
-}
-
-std::string bare(const std::string& written) {
-  const bool quoted = written.size() >= 2 && written.front() == '"' && written.back() == '"';
-  return quoted ? written.substr(1, written.size() - 2) : written;
 }
 
 /// As JSON has it: no number is null, one that never came a word.
@@ -70,9 +62,7 @@ Json interval(const analysis::Estimated& e) { return {{"value", e.value}, {"low"
 Json indices_json(const PlanStory& s) {
   Json all = Json::array();
   for (std::size_t f = 0; f < s.columns.figures.size(); ++f) {
-    std::vector<double> values(analysis::runs_of(s.plan), std::numeric_limits<double>::quiet_NaN());
-    s.each([&](const analysis::RunRecord& record) { values[record.number] = record.figures[f]; });
-    const auto found = analysis::sensitivity(values, s.plan.axes.size(), s.plan.seed);
+    const auto found = indices_of(s, f);
     Json of_figure = found ? Json::array() : Json(nullptr);
     for (std::size_t k = 0; found && k < found->size(); ++k)
       of_figure.push_back({{"first", interval((*found)[k].first)}, {"total", interval((*found)[k].total)}});
@@ -84,11 +74,11 @@ Json indices_json(const PlanStory& s) {
 /// A point's value as a number, a flag or a word.
 Json value_json(const std::string& written) {
   const Json read = Json::parse(written, nullptr, false);
-  return read.is_discarded() ? Json(bare(written)) : read;
+  return read.is_discarded() ? Json(analysis::bare(written)) : read;
 }
 
 Json row_json(const analysis::RunRecord& r, const analysis::PlanColumns& columns) {
-  Json row = {r.number, ends[static_cast<std::size_t>(r.end)], analysis::passed(r, columns)};
+  Json row = {r.number, base::word(analysis::run_ends, r.end), analysis::passed(r, columns)};
   for (const std::string& value : r.point) row.push_back(value_json(value));
   for (const double x : r.strayed) row.push_back(number(x));
   for (const double x : r.figures) row.push_back(number(x));
@@ -112,9 +102,9 @@ std::string plan_csv_head(const analysis::PlanColumns& columns, const std::vecto
 }
 
 std::string plan_csv_row(const analysis::RunRecord& record, const analysis::PlanColumns& columns) {
-  std::string line = fmt::format("{},{},{}", record.number, ends[static_cast<std::size_t>(record.end)],
+  std::string line = fmt::format("{},{},{}", record.number, base::word(analysis::run_ends, record.end),
                                  analysis::passed(record, columns) ? 1 : 0);
-  for (const std::string& value : record.point) line += "," + cell(bare(value));
+  for (const std::string& value : record.point) line += "," + cell(analysis::bare(value));
   for (const std::vector<double>* numbers : {&record.strayed, &record.figures})
     for (const double x : *numbers) line += "," + (x == x ? base::written(x) : std::string());
   return line + "," + cell(record.problem) + "," + base::written_hex(record.digest) + "\n";

@@ -4,33 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 
-#include "sixstep/analysis/plan/sensitivity.hpp"
 #include "text/escape/escape.hpp"
+#include "text/keys/decimal_number.hpp"
 #include "text/results/quantity_text.hpp"
 #include "text/results/series_table.hpp"
+#include "text/results/text_rows.hpp"
 
 namespace text {
 namespace {
 
 constexpr int digits = 4;
 using Cells = std::vector<std::string>;
-
-std::string aligned(const std::vector<Cells>& rows) {
-  std::vector<std::size_t> widths(rows.front().size());
-  for (const Cells& row : rows)
-    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
-  std::string text;
-  for (const Cells& row : rows) {
-    std::string line = " ";
-    for (std::size_t c = 0; c < row.size(); ++c) line += fmt::format(" {:>{}} ", row[c], widths[c]);
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  }
-  return text;
-}
 
 /// The drives at one point.
 struct Point {
@@ -61,11 +47,8 @@ std::vector<Point> points_of(const PlanStory& story) {
 }
 
 std::string value_text(const std::string& written, const std::string& unit) {
-  double x = 0.0;
-  const auto [end, error] = std::from_chars(written.data(), written.data() + written.size(), x);
-  if (error == std::errc() && end == written.data() + written.size()) return quantity_text(x, unit, digits);
-  const bool quoted = written.size() >= 2 && written.front() == '"';
-  return visible(quoted ? written.substr(1, written.size() - 2) : written);
+  const std::optional<double> x = number_alone(written);
+  return x ? quantity_text(*x, unit, digits) : visible(analysis::bare(written));
 }
 
 std::string verdict(const Point& point, std::size_t drives, bool asks) {
@@ -108,11 +91,12 @@ std::string point_table(const PlanStory& story) {
   for (const std::string& key : story.columns.keys) head.push_back(visible(key));
   for (std::size_t n = 0; n < story.columns.figures.size(); ++n) head.push_back(fmt::format("[{}]", n + 1));
   head.push_back(!asks ? "" : story.plan.drives > 1 ? "holds" : "verdict");
-  std::vector<Cells> rows{head};
-  for (const Point& point : points_of(story)) rows.push_back(cells_of(point, story, asks));
+  Rows rows(Rows::Side::right);
+  rows.add(std::move(head));
+  for (const Point& point : points_of(story)) rows.add(cells_of(point, story, asks));
   const std::string of =
       story.plan.drives > 1 ? fmt::format(", medians of {} drives", story.plan.drives) : "";
-  return fmt::format("{}{}\n", visible(story.name), of) + aligned(rows) + legend(story) +
+  return fmt::format("{}{}\n", visible(story.name), of) + rows.text() + legend(story) +
          casualties_text(story.series, story.plan) + series_sum(story.series, story.plan);
 }
 
@@ -123,22 +107,27 @@ std::string part(const analysis::Estimated& e) {
 std::string index_table(const PlanStory& story) {
   std::string text;
   for (std::size_t f = 0; f < story.columns.figures.size(); ++f) {
-    std::vector<double> values(analysis::runs_of(story.plan), std::numeric_limits<double>::quiet_NaN());
-    story.each([&](const analysis::RunRecord& record) { values[record.number] = record.figures[f]; });
-    const auto found = analysis::sensitivity(values, story.plan.axes.size(), story.plan.seed);
+    const auto found = indices_of(story, f);
     text += fmt::format("  {}: {}\n", visible(story.columns.figures[f].name),
                         found ? "what it hangs on, first order and in all, each with the middle 95 %"
                               : "does not vary, or too few runs have it");
     if (!found) continue;
-    std::vector<Cells> rows;
+    Rows rows(Rows::Side::right);
     for (std::size_t k = 0; k < found->size(); ++k)
-      rows.push_back({visible(story.columns.keys[k]), part((*found)[k].first), part((*found)[k].total)});
-    text += aligned(rows);
+      rows.add({visible(story.columns.keys[k]), part((*found)[k].first), part((*found)[k].total)});
+    text += rows.text();
   }
   return text;
 }
 
 }  // namespace
+
+std::optional<std::vector<analysis::SensitivityIndex>> indices_of(const PlanStory& story,
+                                                                  std::size_t figure) {
+  std::vector<double> values(analysis::runs_of(story.plan), std::numeric_limits<double>::quiet_NaN());
+  story.each([&](const analysis::RunRecord& record) { values[record.number] = record.figures[figure]; });
+  return analysis::sensitivity(values, story.plan.axes.size(), story.plan.seed);
+}
 
 std::string plan_table(const PlanStory& story) {
   if (story.series.runs > 0 && !story.plan.axes.empty() &&

@@ -2,9 +2,11 @@
 // A plan's runs as text: for the terminal point by point, and as rows for programs.
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sixstep/analysis/plan/sensitivity.hpp"
 #include "sixstep/analysis/series/series.hpp"
 #include "text/rooms.hpp"
 
@@ -19,6 +21,9 @@ struct PlanStory {
   const analysis::Series& series;
   std::function<void(const std::function<void(const analysis::RunRecord&)>&)> each;
 };
+
+/// What a figure hangs on, an entry per key, of a plan laid out for it (Sampling::saltelli).
+std::optional<std::vector<analysis::SensitivityIndex>> indices_of(const PlanStory& story, std::size_t figure);
 
 /// Beyond these points a table says less than statistics do.
 inline constexpr std::size_t most_points_shown = 60;

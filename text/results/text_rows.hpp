@@ -8,9 +8,11 @@
 
 namespace text {
 
-/// Cells in columns as wide as their widest, no blanks at the end.
+/// Cells in columns as wide as their widest, no blanks at the end; on its side of each.
 class Rows {
  public:
+  enum class Side { left, right };
+  explicit Rows(Side side = Side::left) : side_(side) {}
   void add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
   std::string text() const {
     std::vector<std::size_t> widths;
@@ -22,7 +24,9 @@ class Rows {
     std::string out;
     for (const auto& row : rows_) {
       std::string line = " ";
-      for (std::size_t n = 0; n < row.size(); ++n) line += fmt::format(" {:<{}} ", row[n], widths[n]);
+      for (std::size_t n = 0; n < row.size(); ++n)
+        line += side_ == Side::left ? fmt::format(" {:<{}} ", row[n], widths[n])
+                                    : fmt::format(" {:>{}} ", row[n], widths[n]);
       line.erase(line.find_last_not_of(' ') + 1);
       out += line + "\n";
     }
@@ -30,6 +34,7 @@ class Rows {
   }
 
  private:
+  Side side_;
   std::vector<std::vector<std::string>> rows_;
 };
 

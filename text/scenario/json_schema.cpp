@@ -27,7 +27,7 @@ struct Place {
 
 bool finite(double x) { return x - x == 0.0; }
 
-Json plain_number(const base::Range& range) {
+Json number_alone(const base::Range& range) {
   Json schema = {{"type", "number"}};
   if (finite(range.low)) schema[range.low_included ? "minimum" : "exclusiveMinimum"] = range.low;
   if (finite(range.high)) schema[range.high_included ? "maximum" : "exclusiveMaximum"] = range.high;
@@ -38,12 +38,12 @@ Json plain_number(const base::Range& range) {
 /// checks.
 Json number(const base::Range& range) {
   const Json with_unit = {{"type", "string"}, {"pattern", "^\\s*[-+]?[.0-9]"}};
-  return {{"anyOf", {plain_number(range), with_unit}}};
+  return {{"anyOf", {number_alone(range), with_unit}}};
 }
 
 /// An int: what the reader of files takes.
 Json whole_number(const base::Range& range) {
-  Json schema = plain_number(range);
+  Json schema = number_alone(range);
   schema["type"] = "integer";
   const auto bound = [&](const char* key, const char* excluding, double limit) {
     if (!schema.contains(key) && !schema.contains(excluding)) schema[key] = static_cast<int>(limit);

@@ -149,13 +149,15 @@ class Starter {
     const std::string at =
         outer.empty() ? std::string(name_of(entry)) : fmt::format("{}.{}", outer, name_of(entry));
     const bool in_list = outer.find('[') != std::string::npos;  // there it may be left out, header and all
-    return headed(entry, table(entry.path, at), !in_list || says(at));
+    return headed(entry, table(entry.path, at), !in_list || says(at), entry.optional && says(at));
   }
 
-  /// The header of a table that is there stands open, so that taking one # away suffices.
-  static std::string headed(const KeyEntry& table, const std::string& lines, bool open) {
+  /// The header of a table that is there stands open, so that taking one # away suffices. One that says something by being there has
+  /// a header even where all its keys are the usual ones.
+  static std::string headed(const KeyEntry& table, const std::string& lines, bool open,
+                            bool says_by_itself = false) {
     // Tables within need no header of their own above them: TOML makes it.
-    if (lines.empty() || lines.front() == '\n') return lines;
+    if (!says_by_itself && (lines.empty() || lines.front() == '\n')) return lines;
     return fmt::format("\n{}{}[{}]\n{}", wrapped_comment(meaning_of(table)), open ? "" : "# ", table.path,
                        lines);
   }

@@ -129,6 +129,11 @@ std::string on_axis(const Axis& axis, double u) {
   return axis.values[std::min(static_cast<std::size_t>(u * count), axis.values.size() - 1)];
 }
 
+std::string_view bare(std::string_view value) {
+  const bool quoted = value.size() >= 2 && value.front() == '"' && value.back() == '"';
+  return quoted ? value.substr(1, value.size() - 2) : value;
+}
+
 base::Problems check(const Plan& plan) { return Checker(plan).problems(); }
 
 std::size_t points_of(const Plan& plan) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sixstep/base/result.hpp"
@@ -58,6 +59,9 @@ std::size_t runs_of(const Plan& plan);
 std::vector<std::string> point_of_run(const Plan& plan, std::size_t run);
 /// The drive of run n; empty where the plan has none.
 std::optional<std::size_t> drive_of_run(const Plan& plan, std::size_t run);
+
+/// A value without the quotes that a file writes around a word.
+std::string_view bare(std::string_view value);
 
 /// The value at u of an axis, 0 its beginning and 1 its end, as a file writes it.
 std::string on_axis(const Axis& axis, double u);

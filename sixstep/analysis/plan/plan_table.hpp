@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sixstep/analysis/plan/plan.hpp"
+#include "sixstep/base/describe.hpp"
 #include "sixstep/base/result.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
@@ -41,10 +42,12 @@ struct PlannedRun {
   std::vector<double> strayed;  ///< as RunRecord's
 };
 
-enum class RunEnd : std::uint8_t {
-  whole,   ///< came to its end, whatever its verdicts
-  fault,   ///< stopped by one; figures are as they were then
-  refused  ///< could not start: no figures
+enum class RunEnd : std::uint8_t { whole, fault, refused };
+
+inline constexpr base::Choice<RunEnd> run_ends[] = {
+    {"whole", RunEnd::whole, "came to its end, whatever its verdicts"},
+    {"fault", RunEnd::fault, "stopped by one; figures are as they were then"},
+    {"refused", RunEnd::refused, "could not start: no figures"},
 };
 
 struct RunRecord {

@@ -200,9 +200,9 @@ Snapshot<Real> Plant<Real>::at(Real s) const {
                       ? value(z_.pole[k])
                       : pole_voltage(constants_.terms(k, mode_.legs[k]), now.bus, now.i[k]);
   if (connected_count(mode_.legs) == 0) {
-    const Real highest = std::max({now.pole[0], now.pole[1], now.pole[2]});
-    const Real lowest = std::min({now.pole[0], now.pole[1], now.pole[2]});
-    for (Real& u : now.pole) u += (now.bus - highest - lowest) / 2;
+    const StarEnds ends = star_ends(now.pole, dead_);
+    const Real star = (now.bus - now.pole[ends.high] - now.pole[ends.low]) / 2;
+    for (Real& u : now.pole) u += star;
   }
   now.bus_current = bus_current(mode_.legs, now.i);
   return now;

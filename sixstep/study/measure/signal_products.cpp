@@ -93,12 +93,9 @@ void add_free_star(const Stretch& part, const SpeedShapes& shapes, Series& u) {
 void add_general_free_star(const Stretch& part, Series& u) {
   const auto& emf = part.g.plant.general->series().emf;
   const int degree = part.g.plant.expansion().degree;
-  const auto middle = [&](int k) { return series::evaluate(emf[k], degree, (part.from + part.to) / 2); };
-  int high = 0, low = 0;
-  for (int k = 1; k < 3; ++k) {
-    if (middle(k) > middle(high)) high = k;
-    if (middle(k) < middle(low)) low = k;
-  }
+  PerLeg<double> middle;
+  for (std::size_t k = 0; k < 3; ++k) middle[k] = series::evaluate(emf[k], degree, (part.from + part.to) / 2);
+  const auto [high, low] = plant::general::star_ends(middle, part.g.plant.general->dead());
   add(u, 0.5, part.of(part.g.plant.expansion().bus));
   add(u, -0.5, part.of(emf[high]));
   add(u, -0.5, part.of(emf[low]));

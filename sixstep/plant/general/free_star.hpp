@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a star point that hangs at nothing is put (plant/circuit.hpp), also where wires are broken.
+#pragma once
+#include <cstddef>
+
+#include "sixstep/plant/circuit.hpp"
+
+namespace sixstep::plant::general {
+
+struct StarEnds {
+  std::size_t high = 0, low = 0;
+};
+
+/// The highest and the lowest of the terminals, u_n = (U_s - e_high - e_low)/2 lies between. One behind a broken wire (`dead`, a mask of
+/// legs) has no rails to keep a distance from; with no wire whole all three count.
+template <class Real>
+constexpr StarEnds star_ends(const PerLeg<Real>& e, unsigned dead) {
+  if (dead == 0b111) dead = 0;
+  StarEnds ends;
+  while ((dead >> ends.high & 1) != 0) ++ends.high;
+  ends.low = ends.high;
+  for (std::size_t k = ends.high + 1; k < 3; ++k) {
+    if ((dead >> k & 1) != 0) continue;
+    if (e[k] > e[ends.high]) ends.high = k;
+    // mutant: e[k] < e[ends.low] => e[k] > e[ends.low]
+    if (e[k] < e[ends.low]) ends.low = k;
+  }
+  return ends;
+}
+
+}  // namespace sixstep::plant::general
