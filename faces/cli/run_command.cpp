@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "batch/for_each.hpp"
+#include "faces/cli/bode_command.hpp"
 #include "faces/cli/compare_command.hpp"
 #include "faces/cli/file_watch.hpp"
 #include "faces/cli/plan_command.hpp"
@@ -163,6 +164,7 @@ Exit run_again_on_save(const RunArguments& arguments) {
 Exit run_command(const RunArguments& arguments) {
   if (const base::Problems problems = contradictions(arguments); !problems.empty()) return refused(problems);
   catch_interrupts();
+  if (arguments.bode) return bode_command(arguments);
   const bool alone = arguments.drive || arguments.plan.only;
   if (!alone &&
       std::ranges::any_of(arguments.files, [&](const std::string& f) { return plans(arguments, f); }))
@@ -220,6 +222,14 @@ void declare_options(CLI::App& run, RunArguments& a) {
   run.add_option("--drive", a.drive, "drive N of the series alone, with all its outputs")
       ->excludes(runs)
       ->check(whole);
+  CLI::Option* bode = run.add_flag(
+      "--bode", a.bode,
+      "measure the outermost loop's frequency response where the scenario ends, beside the designed one");
+  run.add_option(
+         "--amplitude", a.amplitude,
+         "of --bode's multisine, A, rad/s or deg; without it a twentieth of where the reference stands")
+      ->needs(bode)
+      ->check(CLI::PositiveNumber);
   declare_plan_options(run, a.plan);
 }
 

@@ -35,8 +35,10 @@ struct RunArguments {
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> drive;  ///< the one of the series that is run alone
   PlanArguments plan;
-  std::string junit;    ///< verdicts for build servers
-  std::string command;  ///< the command line as it may be typed again
+  bool bode = false;                ///< the loop's frequency response, instead of a run
+  std::optional<double> amplitude;  ///< of its multisine, in the mode's unit
+  std::string junit;                ///< verdicts for build servers
+  std::string command;              ///< the command line as it may be typed again
 };
 
 /// `sixstep run FILE ..`: runs scenarios, judges them, writes what is asked for.

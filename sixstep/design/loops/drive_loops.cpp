@@ -56,6 +56,11 @@ Transfer open_current_loop(const DriveLoops& d) {
   return series(series(pi, held), delay(d.delay_periods));
 }
 
+Transfer open_current_loop_turning(const DriveLoops& d) {
+  const Plant p = plant_of(d);
+  return {product(of(d.current), p.i), product(difference, product(p.den, delay(d.delay_periods).den))};
+}
+
 Transfer open_speed_loop(const DriveLoops& d) {
   const Plant p = plant_of(d);
   const Cascade c = cascade_of(d, p);

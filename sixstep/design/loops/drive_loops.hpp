@@ -20,6 +20,8 @@ struct DriveLoops {
 
 /// Rotor held, as it is designed.
 Transfer open_current_loop(const DriveLoops& drive);
+/// Rotor free: its back-EMF gives way to a slow change of the current.
+Transfer open_current_loop_turning(const DriveLoops& drive);
 /// From speed error to speed, the current loop closed within.
 Transfer open_speed_loop(const DriveLoops& drive);
 /// From position error to position, both loops closed within.

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "faces/cli/exit_code.hpp"
+#include "faces/cli/run_command.hpp"
+
+namespace cli {
+
+/// `sixstep run --bode SCENARIO`: the frequency response of its outermost loop, measured where the scenario ends.
+Exit bode_command(const RunArguments& arguments);
+
+}  // namespace cli

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// A loop's measured frequency response as one HTML file, drawn over the designed one.
+#pragma once
+#include <string>
+
+#include "sixstep/analysis/bode/bode_study.hpp"
+
+namespace report {
+
+struct BodePage {
+  std::string name;  ///< of the scenario
+  const sixstep::analysis::BodeStudy& study;
+  std::string command;  ///< what makes this page again
+  std::string version;
+};
+
+/// The same input gives the same bytes.
+std::string render_bode(const BodePage& page);
+
+}  // namespace report

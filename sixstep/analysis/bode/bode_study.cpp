@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/analysis/bode/bode_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/analysis/bode/designed_loop.hpp"
+#include "sixstep/base/angle.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/session/session.hpp"
+
+namespace sixstep::analysis {
+namespace {
+
+using control::Mode;
+using study::ColumnId;
+
+/// From a thirtieth of the crossover to thirty times it, or to four fifths of half the sampling rate.
+constexpr double below_crossover = 30.0, above_crossover = 30.0, of_half_the_rate = 0.8;
+/// A period of the multisine; the longest is 16 Mi samples over seven periods of it.
+constexpr double fewest_samples = 64, most_samples = 262144, usual_samples = 4096;
+
+base::Problems not_measurable(const study::Scenario& s) {
+  base::Problems problems;
+  if (s.control.mode == Mode::off || s.control.mode == Mode::duty)
+    problems.push_back({"control.mode", s.control.mode == Mode::off ? "off" : "duty",
+                        "has no loop whose response could be measured",
+                        "measure current, speed or position"});
+  if (s.control.slew)
+    problems.push_back({"control.slew", "", "ramps the setpoint, which would hide the loop behind it",
+                        "leave it out for this measurement"});
+  if (problems.empty() && study::reference_moves(s, s.duration_s - s.pwm.period_s, s.duration_s))
+    problems.push_back({"reference", "", "still moves at the end of the run, where the measurement begins",
+                        "let it stand there: shape = \"constant\", or a longer duration_s"});
+  return problems;
+}
+
+std::size_t index_of(Mode mode) {
+  return static_cast<std::size_t>(mode == Mode::current ? ColumnId::i_m
+                                  : mode == Mode::speed ? ColumnId::speed
+                                                        : ColumnId::angle);
+}
+
+/// From what a column holds to the mode's unit.
+double in_unit_of(Mode mode, double value) {
+  return mode == Mode::position ? value * 180.0 / base::pi : value;
+}
+
+/// N of a period and its lines, around the loop's crossover where it is known.
+Multisine multisine_for(const std::optional<design::LoopFigures>& figures, double period_s,
+                        std::size_t lines) {
+  Multisine signal;
+  double N = usual_samples, last = of_half_the_rate / 2 * N;
+  if (figures && figures->crossover_rad_s) {
+    N = std::clamp(std::ceil(2 * base::pi * below_crossover / (*figures->crossover_rad_s * period_s)),
+                   fewest_samples, most_samples);
+    const double crossover_line = *figures->crossover_rad_s * period_s * N / (2 * base::pi);
+    last = std::fmin(of_half_the_rate / 2 * N, above_crossover * crossover_line);
+  }
+  signal.samples = static_cast<std::size_t>(N);
+  signal.lines = odd_lines(static_cast<std::size_t>(last), lines);
+  return signal;
+}
+
+/// The reference from the end of the run on: it changes in the middle between two samples, so that it is clear which sample sees what.
+study::At multisine_event(const BodeStudy& b, std::size_t periods) {
+  study::Reference r;
+  r.shape = study::Shape::csv;
+  r.interpolation = study::Interpolation::hold;
+  const std::vector<double> one = samples_of(b.signal);
+  for (std::size_t n = 0; n < (1 + periods) * one.size(); ++n) {
+    r.times_s.push_back(static_cast<double>(n) * b.period_s);
+    r.values.push_back(b.stands_at + one[n % one.size()]);
+  }
+  study::At at;
+  at.time_s = b.begin_s - b.period_s / 2;
+  at.reference = std::move(r);
+  return at;
+}
+
+/// The scenario with the multisine behind its end, and nothing judged.
+study::Scenario with_multisine(const study::Scenario& s, const BodeStudy& b, std::size_t periods) {
+  study::Scenario out = s;
+  out.require.clear();
+  out.compare.clear();
+  out.at.push_back(multisine_event(b, periods));
+  out.duration_s = b.begin_s + static_cast<double>((1 + periods) * b.signal.samples) * b.period_s;
+  return out;
+}
+
+base::Result<study::Session> at_the_end(const study::Scenario& s, const BodeStudy& b,
+                                        const BodeOrder& order) {
+  base::Result<study::Session> session = study::Session::open(
+      s,
+      {.on_record = {}, .on_event = {}, .on_logic = {}, .keep_going = order.keep_going, .keep_books = false});
+  if (session && !session->advance(b.begin_s))
+    return base::Problem{"duration_s", "", "is not reached: the run ends before it, or was interrupted",
+                         "run it without measuring, and see why"};
+  return session;
+}
+
+/// What the controller saw at each sample of the periods that count.
+base::Result<std::vector<double>> outputs_of(study::Session& session, const BodeStudy& b,
+                                             std::size_t periods) {
+  const std::size_t N = b.signal.samples, column = index_of(b.mode);
+  std::vector<double> output;
+  output.reserve(periods * N);
+  for (std::size_t n = N; n < (1 + periods) * N; ++n) {
+    const double t_s = b.begin_s + static_cast<double>(n) * b.period_s;
+    const bool goes_on = session.advance(t_s);
+    if (!goes_on && n + 1 < (1 + periods) * N)
+      return base::Problem{"reference", "", "with the multisine on it ended the run early",
+                           "choose a smaller amplitude"};
+    output.push_back(in_unit_of(b.mode, session.present().signals[column]));
+  }
+  return output;
+}
+
+double amplitude_of(const BodeOrder& order, double stands_at) {
+  return order.amplitude.value_or(std::fabs(stands_at) / 20);
+}
+
+/// Operating point, signal and the linear loop there; nothing is run yet but what the scenario asks for.
+base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& order) {
+  const std::vector<study::Stretch> waveform = study::reference_waveform(s);
+  b.mode = s.control.mode;
+  b.period_s = s.pwm.period_s;
+  b.begin_s = std::ceil(s.duration_s / b.period_s * (1 - 1e-12)) * b.period_s;
+  b.stands_at = waveform.back().at(s.duration_s);
+  b.amplitude = amplitude_of(order, b.stands_at);
+  if (!(b.amplitude > 0.0))
+    return {{"reference", "", "stands at zero at the end, of which no part can be taken for the multisine",
+             "name an amplitude, or measure where the drive works"}};
+  const base::Result<study::Compiled> compiled = study::compile(s);
+  if (!compiled) return compiled.problems();
+  const double speed = b.mode == Mode::speed ? b.stands_at : 0.0;
+  const DesignedLoop designed = designed_loop(s, *compiled, speed);
+  b.designed = designed.loop;
+  b.not_linear = designed.not_linear;
+  b.lag = designed.lag;
+  if (b.designed)
+    b.figures = b.lag ? design::sensed_figures({.loop = *b.designed, .lag = *b.lag}, b.period_s)
+                      : design::loop_figures(*b.designed, b.period_s);
+  b.signal = multisine_for(b.figures, b.period_s, order.lines);
+  b.signal.amplitude = b.amplitude;
+  return {};
+}
+
+}  // namespace
+
+std::optional<design::Complex> BodeStudy::designed_at(double w_rad_s) const {
+  if (!designed) return std::nullopt;
+  const design::Complex L = designed->at(w_rad_s * period_s);
+  return lag ? L * lag->at(w_rad_s) : L;
+}
+
+base::Result<BodeStudy> study_bode(const study::Scenario& scenario, const BodeOrder& order) {
+  if (const base::Problems problems = study::check(scenario); !problems.empty()) return problems;
+  if (const base::Problems problems = not_measurable(scenario); !problems.empty()) return problems;
+  BodeStudy b;
+  if (const base::Problems problems = prepare(b, scenario, order); !problems.empty()) return problems;
+  b.scenario = with_multisine(scenario, b, order.periods);
+  base::Result<study::Session> session = at_the_end(b.scenario, b, order);
+  if (!session) return session.problems();
+  const base::Result<std::vector<double>> output = outputs_of(*session, b, order.periods);
+  if (!output) return output.problems();
+  const Answer answer = answer_to(b.signal, *output);
+  b.points = loop_points(b.signal, answer, b.period_s);
+  b.beside = answer.beside;
+  b.measured = margins_of(b.points);
+  return b;
+}
+
+}  // namespace sixstep::analysis

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is measured on the switching simulation is the loop that was designed, as far as that is linear.
+#include "sixstep/analysis/bode/bode_study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/support/scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using analysis::BodeStudy;
+
+study::Scenario steady_current(bool locked) {
+  study::Scenario s = maxon_scenario(control::Mode::current, 5.0);
+  s.load.locked = locked;
+  s.duration_s = 10e-3;
+  return s;
+}
+
+/// The largest |L/(designed factor) - 1| where |L| is between the two.
+double off_by(const BodeStudy& b, double least, double most, double factor = 1.0) {
+  double worst = 0;
+  std::size_t looked_at = 0;
+  for (const analysis::LoopPoint& p : b.points) {
+    if (p.gain < least || p.gain > most) continue;
+    const design::Complex D = *b.designed_at(p.w_rad_s);
+    const design::Complex L{p.gain * std::cos(p.phase_rad), p.gain * std::sin(p.phase_rad)};
+    const design::Complex ratio = L / D;
+    worst = std::max(worst, std::hypot(ratio.re / factor - 1, ratio.im / factor));
+    ++looked_at;
+  }
+  EXPECT_GT(looked_at, 10u);
+  return worst;
+}
+
+/// What a pulse that ends a little later adds to the current at the next sample, against a voltage held over the period: with
+/// x = R T/L and the pulse's end at d T it decays for (1 - d) T, the held voltage for half a period in the mean.
+double pulse_over_held(double R_ohm, double L_H, double period_s, double duty) {
+  const double x = R_ohm * period_s / L_H;
+  return std::exp(-(1 - duty) * x) * x / -std::expm1(-x);
+}
+
+/// A locked rotor leaves nothing but winding and PWM: the designed loop, times what the pulse's place in the period makes of it.
+TEST(Bode, CurrentLoopOfALockedRotorIsTheDesigned) {
+  for (const int delay : {0, 1}) {
+    study::Scenario s = steady_current(true);
+    s.pwm.delay_periods = delay;
+    if (delay == 1) s.control.current.settle_s = 2e-3;
+    const auto b = analysis::study_bode(s);
+    ASSERT_TRUE(b) << to_string(b.problems()[0]);
+    ASSERT_TRUE(b->designed && b->figures);
+    const double factor = pulse_over_held(1.03, 0.572e-3, 30e-6, 5 * 1.03 / 24);
+    EXPECT_NEAR(20 * std::log10(factor), -0.135, 1e-3);
+    EXPECT_LT(off_by(*b, 0.05, 30, factor), 2e-3) << delay;
+    EXPECT_LT(b->beside, 1e-3);
+    for (const analysis::LoopPoint& p : b->points) EXPECT_NEAR(p.coherence, 1.0, 1e-6);
+    ASSERT_TRUE(b->measured.crossover_rad_s && b->measured.phase_rad);
+    EXPECT_NEAR(*b->measured.crossover_rad_s / *b->figures->crossover_rad_s, factor, 5e-3);
+    EXPECT_NEAR(*b->measured.phase_rad, *b->figures->phase_rad, 2e-3);
+    if (delay == 1) {
+      EXPECT_NEAR(*b->measured.gain * factor / *b->figures->gain, 1.0, 1e-2);
+    }
+  }
+}
+
+/// Chopped both ways the current may reverse, and the speed loop is linear but for commutation. The torque follows the mean of
+/// the current and not its sample: a per cent or two of gain near the crossover that the linear loop does not know.
+TEST(Bode, SpeedLoopIsTheDesigned) {
+  study::Scenario s = cascade(0.1);
+  s.pwm.chopping = control::Chopping::complementary;
+  const auto b = analysis::study_bode(s);
+  ASSERT_TRUE(b) << to_string(b.problems()[0]);
+  ASSERT_TRUE(b->figures && b->measured.crossover_rad_s && b->measured.phase_rad);
+  EXPECT_NEAR(*b->measured.crossover_rad_s / *b->figures->crossover_rad_s, 1.0, 0.05);
+  EXPECT_NEAR(*b->measured.phase_rad, *b->figures->phase_rad, 0.03);
+  EXPECT_LT(off_by(*b, 0.3, 5), 0.08);
+}
+
+/// Where a band holds the current there is no linear loop to lay beside, and the measurement says what there is.
+TEST(Bode, ABandHasNoLinearLoop) {
+  study::Scenario s = cascade(0.1);
+  s.control.current = {.type = study::CurrentLoopType::hysteresis, .band_A = 0.2};
+  s.pwm.chopping = control::Chopping::complementary;
+  const auto b = analysis::study_bode(s);
+  ASSERT_TRUE(b) << to_string(b.problems()[0]);
+  EXPECT_FALSE(b->designed);
+  EXPECT_EQ(b->not_linear, "the current is held in a band");
+  EXPECT_TRUE(b->measured.crossover_rad_s);
+}
+
+TEST(Bode, TheSameOrderGivesTheSameBits) {
+  const auto one = analysis::study_bode(steady_current(true)),
+             two = analysis::study_bode(steady_current(true));
+  ASSERT_TRUE(one && two);
+  ASSERT_EQ(one->points.size(), two->points.size());
+  for (std::size_t k = 0; k < one->points.size(); ++k) {
+    EXPECT_EQ(one->points[k].gain, two->points[k].gain);
+    EXPECT_EQ(one->points[k].phase_rad, two->points[k].phase_rad);
+  }
+}
+
+std::string problem_of(const study::Scenario& s, const analysis::BodeOrder& order = {}) {
+  const auto b = analysis::study_bode(s, order);
+  if (b) return "measured";
+  EXPECT_FALSE(b.problems()[0].cure.empty());
+  return b.problems()[0].where;
+}
+
+TEST(Bode, WhatCannotBeMeasuredIsToldWithAWayOut) {
+  EXPECT_EQ(problem_of(maxon_scenario(control::Mode::duty, 0.5)), "control.mode");
+  EXPECT_EQ(problem_of(maxon_scenario(control::Mode::current, 0.0)), "reference");
+  EXPECT_EQ(problem_of(maxon_scenario(control::Mode::current, 0.0), {.amplitude = 0.1}), "measured");
+  study::Scenario slewed = steady_current(true);
+  slewed.control.slew = 1000.0;
+  EXPECT_EQ(problem_of(slewed), "control.slew");
+  study::Scenario moving = steady_current(true);
+  moving.reference = {};
+  moving.reference.shape = study::Shape::sine;
+  moving.reference.offset = 5;
+  moving.reference.amplitude = 1;
+  moving.reference.frequency_Hz = 50;
+  EXPECT_EQ(problem_of(moving), "reference");
+  study::Scenario interrupted = steady_current(true);
+  interrupted.duration_s = 1.0;
+  EXPECT_EQ(problem_of(interrupted, {.keep_going = [](double) { return false; }}), "duration_s");
+}
+
+}  // namespace

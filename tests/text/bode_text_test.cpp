@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// A measured frequency response as text, table and JSON: the same numbers in each.
+#include "text/results/bode_text.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+analysis::BodeStudy study_of(bool by_band) {
+  study::Scenario s = maxon_scenario(control::Mode::current, 5.0);
+  s.load.locked = true;
+  if (by_band) s.control.current = {.type = study::CurrentLoopType::hysteresis, .band_A = 0.2};
+  const auto b = analysis::study_bode(s);
+  EXPECT_TRUE(b);
+  return *b;
+}
+
+std::size_t lines_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST(BodeText, TellsBothLoopsAndTheirMargins) {
+  const analysis::BodeStudy s = study_of(false);
+  const std::string text = text::bode_text("locked", s);
+  EXPECT_THAT(text, HasSubstr("locked: current around 5 A, +-0.25 A\n"));
+  EXPECT_THAT(text, HasSubstr("designed, dB"));
+  EXPECT_THAT(text, HasSubstr("phase margin"));
+  EXPECT_THAT(text, HasSubstr("of the answer's rms stands at no line"));
+  for (const text::BodeMargin& m : text::bode_margins(s)) EXPECT_THAT(text, HasSubstr(m.designed));
+}
+
+TEST(BodeText, WithoutALinearLoopSaysWhy) {
+  const analysis::BodeStudy s = study_of(true);
+  const std::string text = text::bode_text("band", s);
+  EXPECT_THAT(text, HasSubstr("no linear loop to compare with: the current is held in a band"));
+  EXPECT_THAT(text, Not(HasSubstr("designed")));
+  EXPECT_THAT(text::bode_csv(s), Not(HasSubstr("designed")));
+}
+
+TEST(BodeText, TableAndJsonHoldTheSameNumbers) {
+  const analysis::BodeStudy s = study_of(false);
+  const std::string csv = text::bode_csv(s);
+  EXPECT_EQ(lines_of(csv), s.points.size() + 1);
+  const auto json = nlohmann::json::parse(text::bode_json("locked", s));
+  ASSERT_EQ(json["points"].size(), s.points.size());
+  std::istringstream rows(csv);
+  std::string row;
+  std::getline(rows, row);
+  for (const auto& point : json["points"]) {
+    ASSERT_TRUE(std::getline(rows, row));
+    std::istringstream cells(row);
+    for (const char* name : {"frequency_Hz", "gain_dB", "phase_deg", "coherence"}) {
+      std::string cell;
+      ASSERT_TRUE(std::getline(cells, cell, ','));
+      EXPECT_EQ(std::stod(cell), point[name].get<double>()) << name;
+    }
+    // The designed phase is the one of all turns that lies nearest to the measured.
+    EXPECT_LE(std::abs(point["designed_phase_deg"].get<double>() - point["phase_deg"].get<double>()), 180.0);
+  }
+  EXPECT_NEAR(json["measured"]["crossover_Hz"].get<double>() / json["designed"]["crossover_Hz"].get<double>(),
+              1.0, 0.03);
+}
+
+}  // namespace

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/results/bode_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/describe.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+#include "text/escape/escape.hpp"
+#include "text/results/quantity_text.hpp"
+
+namespace text {
+namespace {
+
+using analysis::BodeStudy;
+using analysis::LoopPoint;
+using Json = nlohmann::ordered_json;
+
+constexpr double turn = 2 * sixstep::base::pi, degrees = 180 / sixstep::base::pi;
+/// Below it a line is told of: half of what came was not the multisine's.
+constexpr double little_coherence = 0.9;
+
+double dB(double gain) { return 20 * std::log10(gain); }
+
+const char* unit_of(const BodeStudy& s) {
+  return s.mode == sixstep::control::Mode::current ? "A"
+         : s.mode == sixstep::control::Mode::speed ? "rad/s"
+                                                   : "deg";
+}
+
+/// The designed L at a point, its phase the one of all turns that lies nearest to the measured.
+struct Designed {
+  double gain_dB = 0.0, phase_deg = 0.0;
+};
+std::optional<Designed> designed_at(const BodeStudy& s, const LoopPoint& p) {
+  const auto L = s.designed_at(p.w_rad_s);
+  if (!L) return std::nullopt;
+  const double off = (p.phase_rad - L->angle_rad()) / turn;
+  return Designed{dB(L->size()), (L->angle_rad() + turn * std::floor(off + 0.5)) * degrees};
+}
+
+std::string gain_margin(const std::optional<double>& gain) {
+  return gain ? fmt::format("{:.1f} dB", dB(*gain)) : "-";
+}
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+Json or_null(const std::optional<double>& x, double factor = 1.0) {
+  return x ? number(*x * factor) : Json(nullptr);
+}
+
+Json margins_json(const std::optional<double>& crossover, const std::optional<double>& phase,
+                  const std::optional<double>& gain, const std::optional<double>& delay,
+                  const std::optional<double>& bandwidth) {
+  return {{"crossover_Hz", or_null(crossover, 1 / turn)},
+          {"phase_margin_deg", or_null(phase, degrees)},
+          {"gain_margin", or_null(gain)},
+          {"delay_margin_s", or_null(delay)},
+          {"bandwidth_Hz", or_null(bandwidth, 1 / turn)}};
+}
+
+}  // namespace
+
+std::vector<BodeMargin> bode_margins(const BodeStudy& s) {
+  const analysis::ReadMargins& m = s.measured;
+  const design::LoopFigures f = s.figures.value_or(design::LoopFigures{});
+  const auto row = [](const char* name, const std::optional<double>& is, const std::optional<double>& was,
+                      double factor, const char* unit) {
+    const auto in_unit = [&](const std::optional<double>& x) {
+      return x ? quantity_text(*x * factor, unit, 4) : "-";
+    };
+    return BodeMargin{name, in_unit(is), in_unit(was)};
+  };
+  return {row("crossover", m.crossover_rad_s, f.crossover_rad_s, 1 / turn, "Hz"),
+          row("phase margin", m.phase_rad, f.phase_rad, degrees, "deg"),
+          {"gain margin", gain_margin(m.gain), gain_margin(f.gain)},
+          row("delay that is left", m.delay_s, f.delay_s, 1.0, "s"),
+          row("bandwidth, closed", m.bandwidth_rad_s, f.bandwidth_rad_s, 1 / turn, "Hz")};
+}
+
+std::string bode_place(const BodeStudy& s) {
+  return fmt::format("{} around {}, +-{}", sixstep::base::word(study::mode_choices, s.mode),
+                     quantity_text(s.stands_at, unit_of(s)), quantity_text(s.amplitude, unit_of(s)));
+}
+
+std::vector<std::string> bode_notes(const BodeStudy& s) {
+  std::vector<std::string> notes;
+  if (!s.not_linear.empty()) notes.push_back("no linear loop to compare with: " + s.not_linear);
+  const auto few = std::count_if(s.points.begin(), s.points.end(),
+                                 [](const LoopPoint& p) { return p.coherence < little_coherence; });
+  if (few > 0)
+    notes.push_back(fmt::format(
+        "{} of {} lines have a coherence below {:g}: commutation, ripple or noise is larger there than the answer; "
+        "a larger amplitude helps",
+        few, s.points.size(), little_coherence));
+  notes.push_back(fmt::format("{:.2g} % of the answer's rms stands at no line", 100 * s.beside));
+  return notes;
+}
+
+std::string bode_text(std::string_view name, const BodeStudy& s) {
+  std::string text = fmt::format("{}: {}\n", visible(std::string(name)), bode_place(s));
+  const bool both = s.designed.has_value();
+  text += fmt::format("  {:>10}  {:>9}  {:>8}  {:>9}{}\n", "Hz", "|L|, dB", "phase", "coherence",
+                      both ? fmt::format("  {:>12}  {:>8}", "designed, dB", "phase") : "");
+  for (const LoopPoint& p : s.points) {
+    text += fmt::format("  {:>10.5g}  {:>9.2f}  {:>8.1f}  {:>9.4f}", p.w_rad_s / turn, dB(p.gain),
+                        p.phase_rad * degrees, p.coherence);
+    if (const auto d = designed_at(s, p))
+      text += fmt::format("  {:>12.2f}  {:>8.1f}", d->gain_dB, d->phase_deg);
+    text += "\n";
+  }
+  text += fmt::format("  {:<20}{:>14}{}\n", "", "measured", both ? fmt::format("{:>14}", "designed") : "");
+  for (const BodeMargin& m : bode_margins(s))
+    text +=
+        fmt::format("  {:<20}{:>14}{}\n", m.name, m.measured, both ? fmt::format("{:>14}", m.designed) : "");
+  for (const std::string& note : bode_notes(s)) text += "  " + note + "\n";
+  return text;
+}
+
+std::string bode_csv(const BodeStudy& s) {
+  std::string text = "frequency_Hz,gain_dB,phase_deg,coherence,closed_gain_dB,scatter";
+  text += s.designed ? ",designed_gain_dB,designed_phase_deg\n" : "\n";
+  for (const LoopPoint& p : s.points) {
+    text += fmt::format("{},{},{},{},{},{}", p.w_rad_s / turn, dB(p.gain), p.phase_rad * degrees, p.coherence,
+                        dB(p.closed.size()), p.scatter);
+    if (const auto d = designed_at(s, p)) text += fmt::format(",{},{}", d->gain_dB, d->phase_deg);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string bode_json(std::string_view name, const BodeStudy& s) {
+  Json json = {{"sixstep", SIXSTEP_VERSION},
+               {"scenario", name},
+               {"mode", sixstep::base::word(study::mode_choices, s.mode)},
+               {"stands_at", s.stands_at},
+               {"amplitude", s.amplitude},
+               {"unit", unit_of(s)},
+               {"samples", s.signal.samples},
+               {"sample_s", s.period_s},
+               {"beside", s.beside}};
+  const analysis::ReadMargins& m = s.measured;
+  json["measured"] = margins_json(m.crossover_rad_s, m.phase_rad, m.gain, m.delay_s, m.bandwidth_rad_s);
+  if (s.figures)
+    json["designed"] = margins_json(s.figures->crossover_rad_s, s.figures->phase_rad, s.figures->gain,
+                                    s.figures->delay_s, s.figures->bandwidth_rad_s);
+  if (!s.not_linear.empty()) json["not_linear"] = s.not_linear;
+  for (const LoopPoint& p : s.points) {
+    Json point = {{"frequency_Hz", p.w_rad_s / turn},
+                  {"gain_dB", number(dB(p.gain))},
+                  {"phase_deg", p.phase_rad * degrees},
+                  {"coherence", p.coherence},
+                  {"scatter", p.scatter},
+                  {"closed_re", p.closed.re},
+                  {"closed_im", p.closed.im}};
+    if (const auto d = designed_at(s, p)) {
+      point["designed_gain_dB"] = number(d->gain_dB);
+      point["designed_phase_deg"] = d->phase_deg;
+    }
+    json["points"].push_back(std::move(point));
+  }
+  return json.dump(2) + "\n";
+}
+
+}  // namespace text
