@@ -48,7 +48,7 @@ class Manual(ProgramTest):
 
     def test_the_examples_run(self):
         examples = re.findall(r"(?m)^(sixstep .*)$", self.plain.partition(".SH EXAMPLES")[2])
-        self.assertEqual(len(examples), 4)
+        self.assertEqual(len(examples), 6)
         for command in examples:
             self.run_program(*command.split()[1:])
         self.assertIn("first.html", self.names())
