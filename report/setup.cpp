@@ -213,6 +213,17 @@ std::string sensorless(const study::Sensorless& x) {
   return text;
 }
 
+std::string field(const study::Field& x) {
+  std::string text = "currents held along the magnet and across it";
+  if (x.bandwidth_Hz) text += " to " + given(*x.bandwidth_Hz, "Hz");
+  text += x.decoupling ? ", decoupled" : ", not decoupled";
+  text += x.voltage_limit == control::VoltageLimit::circle ? "; voltages within the circle"
+                                                           : "; each axis within half the bus";
+  if (x.weakening_A) text += "; the field weakened by up to " + given(*x.weakening_A, "A");
+  if (x.advance_periods) text += fmt::format("; answers turned on by {} periods", *x.advance_periods);
+  return text;
+}
+
 std::string move(const study::Reference& r, const char* unit) {
   const std::string way =
       fmt::format("{}to {}", r.start ? "from " + given(*r.start, unit) + " " : "", given(r.end, unit));
@@ -279,8 +290,10 @@ std::string setup_section(const study::Scenario& scenario) {
   if (s.control.drive == study::FirmwareKind::product) add("Product drive", protection(s.protection));
   if (s.control.drive == study::FirmwareKind::sensorless)
     add("Sensorless drive", sensorless(s.control.sensorless));
+  if (s.control.drive == study::FirmwareKind::field) add("Field-oriented drive", field(s.control.field));
   if (s.control.mode != control::Mode::off) add("Reference", reference(s));
-  add("Commutation", at_edge ? "at the Hall edge" : "at the next sample");
+  if (s.control.drive != study::FirmwareKind::field)
+    add("Commutation", at_edge ? "at the Hall edge" : "at the next sample");
   const bool linear = s.sheet.kind == sixstep::design::MotorKind::linear;
   add(linear ? "Slide" : "Shaft", shaft(s.load, linear));
   if (const std::string text = heat(s.heat); !text.empty()) add("Heat", text);

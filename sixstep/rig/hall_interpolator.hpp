@@ -25,6 +25,8 @@ class HallInterpolator {
   void edge(const control::HallReading& reading, std::uint32_t now);
   void measure(control::Measurement<Scalar>& m, std::uint32_t now);
   bool learned() const { return learned_; }
+  /// That of the last sample; the middle of the sector where no speed is known.
+  control::BinaryAngle electrical_angle() const { return seen_.angle; }
   const control::HallEdges& edges() const { return config_.edges; }
 
  private:

@@ -27,6 +27,8 @@ class RotorDecoder {
   void sense(control::Measurement<Scalar>& m, const Sample& s, ShaftPorts& ports, std::uint32_t now);
   /// What the last samples told about the sensor itself.
   const ShaftFinding& found() const { return found_; }
+  /// That of the last sample; 0 before the first, and of a sensor on the load's shaft.
+  control::BinaryAngle electrical_angle() const { return electrical_; }
 
  private:
   void of_encoder(control::Measurement<Scalar>& m, ShaftPorts& ports, std::uint32_t now);
@@ -35,8 +37,10 @@ class RotorDecoder {
   void of_converter(control::Measurement<Scalar>& m, const TrackingConverter& converter);
   /// Of turns and the angle in the last one: 2^-16 turn to a unit.
   void place(control::Measurement<Scalar>& m, const control::UnwrappedAngle& at);
-  void commutate_at(control::Measurement<Scalar>& m, control::BinaryAngle electrical) const {
-    if (!on_load_) m.hall = control::hall_of_sector(control::sector_of_angle(electrical));
+  void commutate_at(control::Measurement<Scalar>& m, control::BinaryAngle electrical) {
+    if (on_load_) return;
+    electrical_ = electrical;
+    m.hall = control::hall_of_sector(control::sector_of_angle(electrical));
   }
   void set_speeds(const SensorsConfig& config, const Bases& bases);
   void set_resolver(const SensorsConfig& config, const Bases& bases, const control::UnwrappedAngle& at);
@@ -58,6 +62,7 @@ class RotorDecoder {
   control::ResolverState resolver_{};
   control::Gain<Scalar> resolver_speed_{};
   control::UnwrappedAngle seen_{};
+  control::BinaryAngle electrical_ = 0;
   std::int32_t per_peak_ = 0;  ///< of the resolver's angle, in units of 2^-32 turn
   std::uint8_t per_turn_ = 1, bits_ = 32;
   std::int64_t samples_per_peak_ = 1, period_ticks_ = 1;

@@ -34,6 +34,12 @@ class Sensors {
   const ShaftPorts& shaft_ports() const { return ports_; }
   const HallInterpolator<Scalar>& interpolator() const { return interpolator_; }
   bool follows_shaft() const { return config_.shaft.kind != ShaftSensor::none; }
+  /// Whether there is an angle between two Hall edges: of a sensor on the shaft, or one that runs on.
+  bool tells_angle() const { return follows_shaft() || interpolates(); }
+  /// That of the last sample.
+  control::BinaryAngle electrical_angle() const {
+    return follows_shaft() ? rotor_.electrical_angle() : interpolator_.electrical_angle();
+  }
   template <class Real>
   void follow(const ShaftMotion<Real>& motion) {
     ports_.follow(motion);

@@ -9,7 +9,7 @@ import cmath
 import decimal
 import tomllib
 import unittest
-from math import acos, atan2, cos, cosh, exp, hypot, log, pi, radians, sinh, sqrt
+from math import acos, atan2, cos, cosh, exp, hypot, log, pi, radians, sin, sinh, sqrt
 
 import position_laws
 from gallery_sheet import A, B, B_OFF, J, K_E, K_T, L, L_S, PAIRS, R, SECTOR, STALL, T, TAU, U, halves, near, read_late
@@ -156,6 +156,20 @@ def losses(period):
     return [near(switching), near(0.02 * (on + off) / period), near(25 + 40 * (switching + 0.01 * on / period))]
 
 
+def weakened(w):
+    """Effective phase current whose voltage is 0.95 of the circle at a speed that friction alone brakes, by halving of i_d."""
+    turns = w * PAIRS * T / 2  # of a vector that stands for a period while the rotor turns by twice that, sin(x)/x counts
+    circle, i_q, low, high = 0.95 * U / sqrt(3) * sin(turns) / turns, B * w / (1.5 * K_E_SINE), -K_E_SINE / PAIRS / L_S, 0.0
+    for _ in range(100):
+        i_d = (low + high) / 2
+        v = hypot(R / 2 * i_d - w * PAIRS * L_S * i_q, R / 2 * i_q + w * PAIRS * L_S * i_d + w * K_E_SINE)
+        low, high = (low, i_d) if v > circle else (i_d, high)
+    return hypot(low, i_q) / sqrt(2)
+
+
+K_E_SINE = K_T * pi / 3 / sqrt(3)  # K_t over the sector mean of a sine between two phases
+HELD = hypot(R / 2 * 5.5 + 20 * K_E_SINE, 20 * PAIRS * L_S * 5.5) * T / 4 / L_S
+
 # (min, max) of each requirement; None: the file has none.
 LAWS = {
     **position_laws.LAWS,
@@ -176,6 +190,8 @@ LAWS = {
     "machine-trapezoid": [(None, K_T * 5.01), (K_T * 4.99, None)],
     "machine-sine": [(pi / 3 * K_T * 4.99, pi / 3 * K_T * 5.01), (pi / 3 * cos(pi / 6) * K_T * 4.99,
                                                                    pi / 3 * cos(8 * 20 * 6.5e-3 - pi / 6) * K_T * 5.01)],
+    "machine-sine-field": [near(1.5 * K_E_SINE * 5.5, 5e-4), (None, 1.5 * K_E_SINE * (5.5 + HELD)), (1.5 * K_E_SINE * (5.5 - HELD), None)],
+    "field-weakened": [near(900, 1e-4 / 0.9), near(weakened(900), 1e-3)],
     "stiction": [(0, 0), (0, BURST), (0, 0)],
     "wind-up-none": [(None, T + 1e-3), near(300, 1e-3)],
     "wind-up": [made_up(0.02, 0.9, 0.1, [(0, 900), (0.25, 300)], 0.8), near(300, 1e-3)],

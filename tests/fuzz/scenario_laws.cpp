@@ -157,6 +157,7 @@ std::string kind_of(const Scenario& s) {
                       s.sensors.bus != BusSensing::ideal || s.sensors.rotor != RotorSensing::ideal;
   const std::string firmware = s.control.drive == FirmwareKind::product      ? "product"
                                : s.control.drive == FirmwareKind::sensorless ? "sensorless"
+                               : s.control.drive == FirmwareKind::field      ? "field-oriented"
                                : sensed                                      ? "sensed"
                                                                              : "lean";
   return firmware + ", " + std::string(base::word(arithmetic_choices, s.control.arithmetic));

@@ -17,6 +17,7 @@ Walk walk_sensed_on_general(const study::Scenario& s, const study::Compiled& c, 
 Walk walk_product_on_general(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan);
 Walk walk_sensorless(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan);
 Walk walk_sensorless_on_general(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan);
+Walk walk_field(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan);
 
 namespace detail {
 

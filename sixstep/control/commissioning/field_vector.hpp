@@ -12,6 +12,7 @@
 
 #include "sixstep/control/adc.hpp"
 #include "sixstep/control/leg_command.hpp"
+#include "sixstep/control/root.hpp"
 #include "sixstep/control/sensing/sine.hpp"
 
 namespace sixstep::control {
@@ -70,23 +71,10 @@ constexpr FieldVector seen_along(const std::int32_t (&eighths)[3], BinaryAngle a
           detail::scaled_30(beta, to.cos.raw) - detail::scaled_30(alpha, to.sin.raw)};
 }
 
-/// The whole part of a square root, bit by bit: no library is asked.
-constexpr std::uint32_t whole_root(std::uint64_t x) {
-  std::uint64_t root = 0;
-  for (std::uint64_t bit = std::uint64_t{1} << 62; bit != 0; bit >>= 2) {
-    if (x >= root + bit) {
-      x -= root + bit;
-      root = (root >> 1) + bit;
-    } else {
-      root >>= 1;
-    }
-  }
-  return static_cast<std::uint32_t>(root);
-}
-
 constexpr std::uint32_t length_of(std::int32_t x, std::int32_t y) {
   const std::int64_t a = x, b = y;
-  return whole_root(static_cast<std::uint64_t>(a * a) + static_cast<std::uint64_t>(b * b));
+  return static_cast<std::uint32_t>(
+      whole_root(static_cast<std::uint64_t>(a * a) + static_cast<std::uint64_t>(b * b)));
 }
 
 }  // namespace sixstep::control

@@ -97,8 +97,8 @@ constexpr std::int64_t relative_20(const PulseHarmonic& h, std::int64_t total) {
 
 constexpr std::uint32_t over_noise_16(std::int64_t relative, std::int64_t I_0, std::int64_t variance_8) {
   const std::int64_t signal = shifted_down(relative * I_0, 16);  // 2^-4 eighths
-  return whole_root(static_cast<std::uint64_t>(
-      divided<std::int64_t>(3 * signal * signal * 256, variance_8 == 0 ? 1 : variance_8)));
+  return static_cast<std::uint32_t>(whole_root(static_cast<std::uint64_t>(
+      divided<std::int64_t>(3 * signal * signal * 256, variance_8 == 0 ? 1 : variance_8))));
 }
 
 /// sigma^2, in 2^-8 eighths squared.

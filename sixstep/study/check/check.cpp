@@ -8,6 +8,7 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/check/field.hpp"
 #include "sixstep/study/check/heat.hpp"
 #include "sixstep/study/check/measures.hpp"
 #include "sixstep/study/check/numbers.hpp"
@@ -157,6 +158,7 @@ void check_tunings(const Scenario& s, const std::optional<design::MotorModel>& m
     check_extras(then, found);
     check_product(then, std::nullopt, found);
     check_sensorless(then, found);
+    check_field(then, found);
     if (motor) check_torque_limit(then, *motor, found);
     return found;
   };
@@ -219,6 +221,7 @@ base::Problems check(const Scenario& s) {
   check_shaft_sensor(s, model, out);
   check_product(s, sector_rad, out);
   check_sensorless(s, out);
+  check_field(s, out);
   check_extras(s, out);
   check_measures(s, sound_reference, out);
   if (const base::Problems spread = check_spread(s); !spread.empty())

@@ -156,7 +156,7 @@ void check_shaft_sensor(const Scenario& s, const std::optional<design::MotorMode
   }
   const std::string word(base::word(rotor_sensing_choices, rotor));
   check_linear(s, word, out);
-  if (!on_load && s.pwm.commutation != CommutationAt::sample)
+  if (!on_load && s.control.drive != FirmwareKind::field && s.pwm.commutation != CommutationAt::sample)
     out.push_back({"pwm.commutation", "\"hall-edge\"",
                    "waits for an interrupt that sensors.rotor = \"" + word + "\" does not give",
                    "set commutation = \"sample\""});

@@ -7,6 +7,7 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/control/fixed.hpp"
+#include "sixstep/design/fields/field_drive_fields.hpp"
 #include "sixstep/design/fields/product_fields.hpp"
 #include "sixstep/design/fields/sensorless_fields.hpp"
 #include "sixstep/design/loops/limit_bounds.hpp"
@@ -179,6 +180,16 @@ base::Result<SensorlessIn<Scalar>> sensorless_in(const Scenario& s, const Compil
   }
 }
 
+template <class Scalar>
+base::Result<FieldIn<Scalar>> field_in(const Compiled& c) {
+  FieldIn<Scalar> out;
+  out.config.drive = in_arithmetic<Scalar>(c.field->drive);
+  design::fields(design::AsFloat{}, *c.field, out.config);
+  return out;
+}
+
+template base::Result<FieldIn<double>> field_in(const Compiled&);
+template base::Result<FieldIn<float>> field_in(const Compiled&);
 template base::Result<SensorlessIn<double>> sensorless_in(const Scenario&, const Compiled&);
 template base::Result<SensorlessIn<float>> sensorless_in(const Scenario&, const Compiled&);
 template base::Result<SensorlessIn<control::Q15>> sensorless_in(const Scenario&, const Compiled&);

@@ -3,6 +3,7 @@
 // scaled to fixed point with a proof that they fit.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
+#include "sixstep/control/field/field_drive.hpp"
 #include "sixstep/design/scaling/product_scaling.hpp"
 #include "sixstep/rig/bases.hpp"
 #include "sixstep/study/compile/compile.hpp"
@@ -51,5 +52,14 @@ struct SensorlessIn {
 };
 template <class Scalar>
 base::Result<SensorlessIn<Scalar>> sensorless_in(const Scenario& scenario, const Compiled& compiled);
+
+/// And the field-oriented one, in floating point alone: no scaling is proved of it yet.
+template <class Scalar>
+struct FieldIn {
+  control::FieldDriveConfig<Scalar> config;
+  rig::Bases bases;
+};
+template <class Scalar>
+base::Result<FieldIn<Scalar>> field_in(const Compiled& compiled);
 
 }  // namespace sixstep::study

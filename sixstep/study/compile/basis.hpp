@@ -43,6 +43,19 @@ struct SensorlessAround {
 base::Result<SensorlessAround> sensorless_around(const Scenario& scenario, const Basis& basis,
                                                  const control::DriveConfig<double>& drive);
 
+struct FieldAround {
+  control::FieldDriveConfig<double> config;  ///< SI
+  std::vector<LoopGains> gains;              ///< of the current loops
+  std::vector<design::DerivationStep> steps;
+};
+/// The field-oriented drive around `drive`: gains as given, placed or by cancellation (design/loops/field_current.hpp).
+/// Problems: a bandwidth that the board's delay does not allow.
+base::Result<FieldAround> field_around(const Scenario& scenario, const Basis& basis,
+                                       const control::DriveConfig<double>& drive);
+
+/// N m per A of what the scenario's drive calls the current: the driven pair's, or i_q.
+double torque_per_A(const Scenario& scenario, const Basis& basis);
+
 /// A speed that a board learns of by six sectors where the loop stands their delay (design/loops/rotor_sensing.hpp), s; 0
 /// without a speed loop.
 double speed_window_s(const Scenario& scenario, const Basis& basis,

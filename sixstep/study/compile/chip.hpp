@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "sixstep/plant/general/plant.hpp"
+#include "sixstep/rig/field_drive.hpp"
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/rig/sensorless_drive.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
@@ -44,6 +45,10 @@ template <class Scalar>
 auto given_to(std::type_identity<rig::SensorlessDrive<Scalar>>, const Scenario& s, const Compiled& c) {
   return sensorless_in<Scalar>(s, c);
 }
+template <class Scalar>
+auto given_to(std::type_identity<rig::FieldDrive<Scalar>>, const Scenario&, const Compiled& c) {
+  return field_in<Scalar>(c);
+}
 template <class Firmware>
 auto given_to(std::type_identity<Firmware>, const Scenario& s, const Compiled& c) {
   return drive_in<typename Firmware::Number>(s, c);
@@ -62,6 +67,7 @@ base::Problems add_later(const Scenario& s, const Compiled& c, Chip<Firmware>& o
     then.drive = c.later[number].drive;
     then.product = c.later[number].product;
     then.sensorless = c.later[number].sensorless;
+    then.field = c.later[number].field;
     const auto chip = given_to(std::type_identity<Firmware>{}, settled_s, then);
     if (!chip) return told_of_event(s, *at, chip.problems());
     out.later.push_back({chip->config, chip->bases.setpoint});

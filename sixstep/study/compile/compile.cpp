@@ -114,6 +114,18 @@ base::Problems add_sensorless(const Scenario& s, const Basis& basis,
   return {};
 }
 
+/// The gains of its current loops come first, as the innermost.
+base::Problems add_field(const Scenario& s, const Basis& basis, Tuned& tuned,
+                         std::vector<design::DerivationStep>* steps = nullptr) {
+  if (s.control.drive != FirmwareKind::field) return {};
+  auto around = field_around(s, basis, tuned.drive);
+  if (!around) return around.problems();
+  tuned.field = around->config;
+  tuned.gains.insert(tuned.gains.begin(), around->gains.begin(), around->gains.end());
+  if (steps != nullptr) *steps = std::move(around->steps);
+  return {};
+}
+
 /// What [[at]] makes of it. Sensors stay as they were laid out for the start.
 base::Problems add_later(const Scenario& s, const Basis& basis, Compiled& out) {
   const std::vector<const At*> order = in_order(s);
@@ -126,6 +138,8 @@ base::Problems add_later(const Scenario& s, const Basis& basis, Compiled& out) {
     if (out.product) later->product = product_around(then, basis, later->drive, out.board.sensors);
     if (base::Problems problems = add_sensorless(then, basis, later->drive, later->sensorless);
         !problems.empty())
+      return told_of_event(s, *at, problems);
+    if (base::Problems problems = add_field(then, basis, *later); !problems.empty())
       return told_of_event(s, *at, problems);
     out.later.push_back(std::move(*later));
   }
@@ -150,7 +164,8 @@ double speed_window_s(const Scenario& s, const Basis& basis, const control::Driv
   const bool cascade = s.control.speed.output == SpeedOutput::current;
   const double full_A =
       cascade ? drive.current_at_full_torque_A : basis.bus_V / (2 * basis.motor.machine.R_ohm);
-  const double full_rad_s2 = full_A * basis.motor.K_t_Nm_A / basis.shaft.J_kg_m2;
+  const double per_A = cascade ? torque_per_A(s, basis) : basis.motor.K_t_Nm_A;
+  const double full_rad_s2 = full_A * per_A / basis.shaft.J_kg_m2;
   return design::hall_window_s(design::speed_crossover_rad_s(drive.speed.d1, full_rad_s2));
 }
 
@@ -177,6 +192,10 @@ base::Result<Compiled> compile(const Scenario& s) {
   const std::optional<Scenario> alone = changes_mode(s) ? std::optional(settled(s, nullptr)) : std::nullopt;
   base::Result<Tuned> first = tuned(alone ? *alone : s, basis);
   if (!first) return first.problems();
+  if (base::Problems problems = add_field(alone ? *alone : s, basis, *first, &out.field_steps);
+      !problems.empty())
+    return problems;
+  out.field = first->field;
   out.drive = first->drive;
   out.gains = std::move(first->gains);
   settle_edges(s, basis, out);

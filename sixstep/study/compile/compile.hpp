@@ -4,6 +4,7 @@
 #pragma once
 #include "sixstep/base/result.hpp"
 #include "sixstep/control/commissioning/pulse_start.hpp"
+#include "sixstep/control/field/field_drive.hpp"
 #include "sixstep/control/protected_drive.hpp"
 #include "sixstep/plant/general/machine.hpp"
 #include "sixstep/rig/rig.hpp"
@@ -19,6 +20,7 @@ struct Tuned {
   std::vector<LoopGains> gains;
   std::optional<control::ProtectedConfig<double>> product;       ///< around the drive, where the chip runs it
   std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< alike
+  std::optional<control::FieldDriveConfig<double>> field;        ///< alike
 };
 
 /// What the general kernel is given, where the scenario asks for what the lean one lacks (plant/general/).
@@ -44,8 +46,10 @@ struct Compiled {
   control::DriveConfig<double> drive;
   std::optional<control::ProtectedConfig<double>> product;       ///< around the drive, where the chip runs it
   std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< alike
+  std::optional<control::FieldDriveConfig<double>> field;        ///< alike
   std::vector<LoopGains> gains;
   std::vector<design::DerivationStep> sensorless_steps;  ///< of the sensorless drive's numbers
+  std::vector<design::DerivationStep> field_steps;       ///< of the field-oriented drive's
   std::vector<Tuned> later;                              ///< what the timeline's retune actions name
   std::optional<GeneralPlant> general;  ///< runs in the place of motor, shaft, devices and supply
   sim::Instant end;

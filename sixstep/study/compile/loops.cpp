@@ -67,7 +67,7 @@ base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Tuned& out)
     out.drive.speed_control = control::SpeedControl::duty;
     return {};
   }
-  out.drive.current_at_full_torque_A = torque_limit / basis.motor.K_t_Nm_A;
+  out.drive.current_at_full_torque_A = torque_limit / torque_per_A(s, basis);
   out.drive.current_limit_A = s.control.current.limit_A.value_or(out.drive.current_at_full_torque_A);
   // A bound behind the PI that the PI does not know of would let its integral wind up.
   if (out.drive.current_limit_A < out.drive.current_at_full_torque_A)
@@ -80,9 +80,10 @@ base::Problems add_loops(const Scenario& s, const Basis& basis, Tuned& out) {
   // A start without a rotor sensor holds a current, whatever comes behind it.
   const bool starts_blindly = s.control.drive == FirmwareKind::sensorless;
   if (mode == control::Mode::off || (mode == control::Mode::duty && !starts_blindly)) return {};
+  const bool in_the_field = s.control.drive == FirmwareKind::field;  // has current loops of its own
   const bool has_current_loop = mode == control::Mode::current || mode == control::Mode::duty ||
                                 starts_blindly || s.control.speed.output == SpeedOutput::current;
-  if (has_current_loop)
+  if (has_current_loop && !in_the_field)
     if (base::Problems problems = add_current_loop(s, basis, out); !problems.empty()) return problems;
   if (mode == control::Mode::current || mode == control::Mode::duty) return {};
   if (base::Problems problems = add_speed_loop(s, basis, out); !problems.empty()) return problems;

@@ -33,6 +33,13 @@ base::Result<AnyRig> made_in(const Scenario& s, const Compiled& c, rig::Timeline
   return base::Problem{"control.arithmetic", "", "is none that there is", "see control.arithmetic"};
 }
 
+/// check() has refused the fixed formats.
+template <template <class> class Live>
+base::Result<AnyRig> made_in_floating_point(const Scenario& s, const Compiled& c, rig::Timeline timeline) {
+  return s.control.arithmetic == Arithmetic::float32 ? made_of<Live<float>>(s, c, std::move(timeline))
+                                                     : made_of<Live<double>>(s, c, std::move(timeline));
+}
+
 }  // namespace
 
 base::Result<AnyRig> made_by(const Scenario& s, const Compiled& c, rig::Timeline timeline) {
@@ -44,6 +51,9 @@ base::Result<AnyRig> made_by(const Scenario& s, const Compiled& c, rig::Timeline
     case FirmwareKind::sensorless:
       return general ? made_in<SensorlessOnGeneral>(s, c, std::move(timeline))
                      : made_in<SensorlessRig>(s, c, std::move(timeline));
+    case FirmwareKind::field:
+      return general ? made_in_floating_point<FieldOnGeneral>(s, c, std::move(timeline))
+                     : made_in_floating_point<FieldRig>(s, c, std::move(timeline));
     case FirmwareKind::lean:
       break;
   }

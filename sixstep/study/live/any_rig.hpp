@@ -20,10 +20,17 @@ using SensorlessOnGeneral = LiveRig<rig::SensorlessDrive<Scalar>, plant::general
 template <class Scalar>
 using ProductOnGeneral = LiveRig<rig::ProductDrive<Scalar>, plant::general::Plant<double>>;
 
+template <class Scalar>
+using FieldRig = LiveRig<rig::FieldDrive<Scalar>>;
+template <class Scalar>
+using FieldOnGeneral = LiveRig<rig::FieldDrive<Scalar>, plant::general::Plant<double>>;
+
 /// One firmware on one kernel in each arithmetic.
 template <template <class> class Live>
 using InEachArithmetic = std::variant<Live<double>, Live<float>, Live<control::Q15>, Live<control::Q14>,
                                       Live<control::Q31>, Live<control::Q30>>;
+template <template <class> class Live>
+using InFloatingPoint = std::variant<Live<double>, Live<float>>;
 template <class... Some>
 struct Joined;
 template <class... A>
@@ -38,7 +45,8 @@ struct Joined<std::variant<A...>, std::variant<B...>, More...> {
 /// On the general kernel the lean firmware is the sensed one whose sensors are ideal: the same bits.
 using AnyRig = Joined<InEachArithmetic<LeanRig>, InEachArithmetic<SensedRig>, InEachArithmetic<ProductRig>,
                       InEachArithmetic<SensorlessRig>, InEachArithmetic<SensedOnGeneral>,
-                      InEachArithmetic<ProductOnGeneral>, InEachArithmetic<SensorlessOnGeneral>>::type;
+                      InEachArithmetic<ProductOnGeneral>, InEachArithmetic<SensorlessOnGeneral>,
+                      InFloatingPoint<FieldRig>, InFloatingPoint<FieldOnGeneral>>::type;
 
 /// The scenario's rig at the start of its run: it pays for what its firmware does, and for nothing else.
 /// Problems: the arithmetic cannot hold the drive.

@@ -19,7 +19,8 @@ int sector_of_pair(const control::Pair& pair) {
 }  // namespace
 
 void CommutationGauge::segment(const SegmentView& g, double) {
-  const rig::BoardCommand& command = g.modulator.command();
+  if (!g.modulator.pair) return;
+  const rig::BoardCommand& command = g.modulator.pair->command();
   const int before = sector_, now = command.enabled ? sector_of_pair(command.pair) : none;
   sector_ = now;
   const int moved = before == none || now == none ? 0 : (now - before + 9) % 6 - 3;

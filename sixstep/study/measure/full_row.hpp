@@ -87,7 +87,7 @@ FullRow full_row(const Rig& rig, double s, double t) {
   FullRow row{};
   const auto set = [&](ColumnId id, double v) { row[static_cast<std::size_t>(id)] = v; };
   set_moving(row, rig.plant(), rig.probe_sector(), s, t);
-  set(ColumnId::duty, signed_duty(rig.modulator(), rig.board_sector()));
+  set(ColumnId::duty, signed_duty(ModulatorView(rig.modulator()), rig.board_sector()));
   set(ColumnId::i_ref, rig.current_reference_A());
   set(ColumnId::speed_ref, rig.speed_reference_rad_s());
   set(ColumnId::position_ref, rig.setpoint());

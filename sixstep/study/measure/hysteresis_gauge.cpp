@@ -9,10 +9,10 @@ void HysteresisGauge::segment(const SegmentView& g, double s) {
   for (int which = 0; which < 2; ++which) {
     if (!g.modulator.comparator(which).armed) continue;
     const auto& y = g.plant.expansion();
-    const plant::PerLeg<double> w = g.modulator.comparator_weights(which);
+    const plant::PerLeg<double> w = g.modulator.pair->comparator_weights(which);
     Series c{};
     for (int j = 0; j <= y.degree; ++j) c[j] = w[0] * y.i[0][j] + w[1] * y.i[1][j] + w[2] * y.i[2][j];
-    const rig::BoardCommand& command = g.modulator.command();
+    const rig::BoardCommand& command = g.modulator.pair->command();
     // The sign of the reference is part of what is watched: a reversal changes which current is compared.
     const double key = g.setpoint < 0.0 ? -command.off_above_A : command.off_above_A;
     part(watched_[which], g, c, {command.on_below_A, command.off_above_A, key}, s);

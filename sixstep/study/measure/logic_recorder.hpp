@@ -4,6 +4,7 @@
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/rig/shaft_raw.hpp"
 #include "sixstep/study/measure/logic.hpp"
+#include "sixstep/study/measure/modulator_view.hpp"
 
 namespace sixstep::study {
 
@@ -46,11 +47,11 @@ LogicRow logic_row(const Rig& rig) {
   const std::int64_t ticks = rig.event_count(rig::EventKind::tick);
   set(LogicId::tick, ticks);
   set(LogicId::periods, ticks);
-  const auto& command = rig.modulator().command();
-  set(LogicId::enabled, command.enabled ? 1 : 0);
-  set(LogicId::pwm, command.enabled && rig.modulator().source_on() ? 1 : 0);
+  const ModulatorView modulator(rig.modulator());
+  set(LogicId::enabled, modulator.enabled() ? 1 : 0);
+  set(LogicId::pwm, modulator.enabled() && modulator.drives() ? 1 : 0);
   for (int which = 0; which < 2; ++which) {
-    const rig::ArmedComparator c = rig.modulator().comparator(which);
+    const rig::ArmedComparator c = modulator.comparator(which);
     const std::uint32_t output = c.switches_off ? 1 : 0;  // one that waits to switch off is on
     row[static_cast<std::size_t>(LogicId::comparator_1) + static_cast<std::size_t>(which)] =
         c.armed ? output : logic_unknown;

@@ -62,6 +62,7 @@ struct Outcome {
   std::vector<EventCount> events;
   std::vector<LoopGains> gains;
   std::vector<design::DerivationStep> sensorless_steps;  // how a sensorless drive's numbers came about
+  std::vector<design::DerivationStep> field_steps;       // how a field-oriented drive's did
   design::MotorModel motor;
   std::optional<base::Problem>
       fault;                       // what stopped the run (shoot-through, impossible Hall code) or the drive

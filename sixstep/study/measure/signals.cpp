@@ -213,11 +213,12 @@ Series magnitude_series(const SegmentView& g, double from, double to) {
 
 }  // namespace
 
-double signed_duty(const rig::SixStepModulator& modulator, int sector) {
-  const rig::BoardCommand& command = modulator.command();
+double signed_duty(const ModulatorView& modulator, int sector) {
+  if (modulator.legs) return duty_between(modulator.legs->command());
+  const rig::BoardCommand& command = modulator.pair->command();
   if (!command.enabled) return 0.0;
   const bool compares = command.watch != control::Watch::none;
-  const double duty = compares ? (modulator.source_on() ? 1.0 : 0.0) : command.duty;
+  const double duty = compares ? (modulator.pair->source_on() ? 1.0 : 0.0) : command.duty;
   const control::Pair positive = control::positive_pair(static_cast<std::uint8_t>(sector));
   return command.pair.source == positive.source ? duty : -duty;
 }

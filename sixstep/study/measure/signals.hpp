@@ -6,6 +6,7 @@
 #include "sixstep/plant/view.hpp"
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/series/extremes.hpp"
+#include "sixstep/study/measure/modulator_view.hpp"
 #include "sixstep/study/scenario/measure_choices.hpp"
 
 namespace sixstep::study {
@@ -15,7 +16,7 @@ using Series = series::Coefficients<double>;
 /// What figures see of a segment: all that they need is the same for every firmware, and compiled once.
 struct SegmentView {
   plant::View plant;
-  const rig::SixStepModulator& modulator;
+  ModulatorView modulator;
   double t_s = 0.0;  ///< where the segment begins
   double current_reference_A = 0.0, speed_reference_rad_s = 0.0, setpoint = 0.0;
   plant::Gates gates{};  ///< of the board's legs
@@ -26,7 +27,7 @@ struct SegmentView {
 template <class Rig>
 SegmentView segment_view(const Rig& rig) {
   return {.plant = plant::View(rig.plant()),
-          .modulator = rig.modulator(),
+          .modulator = ModulatorView(rig.modulator()),
           .t_s = rig.now().seconds(),
           .current_reference_A = rig.current_reference_A(),
           .speed_reference_rad_s = rig.speed_reference_rad_s(),
@@ -48,8 +49,8 @@ inline plant::PerLeg<double> motor_current_weights(int sector) {
 }
 
 /// The duty in effect, negative where the source is not that of the board's sector's positive pair; with armed
-/// comparators whether the upper switch is on.
-double signed_duty(const rig::SixStepModulator& modulator, int sector);
+/// comparators whether the upper switch is on. Of three legs the largest difference of two duties.
+double signed_duty(const ModulatorView& modulator, int sector);
 
 /// Whether a signal is no polynomial over the whole segment, or would need more than max_degree of one; and
 /// where: the cuts of [from, to], both ends included.

@@ -64,6 +64,9 @@ void look_at_drive(const Scenario& s, base::Problems& out) {
     out.push_back(
         {"control.drive", "\"sensorless\"", "has no header yet",
          "set drive = \"lean\" or \"product\", or write its configuration by design::sensorless_drive"});
+  if (s.control.drive == FirmwareKind::field)
+    out.push_back({"control.drive", "\"field-oriented\"", "has no header yet",
+                   "set drive = \"lean\" or \"product\", or take the gains from the run's report"});
 }
 
 /// What is sampled in the middle of a period is answered at the next one's start: that is a delay.

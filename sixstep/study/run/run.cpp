@@ -38,6 +38,7 @@ base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners) 
   out.motor = compiled->motor;
   out.gains = compiled->gains;
   out.sensorless_steps = compiled->sensorless_steps;
+  out.field_steps = compiled->field_steps;
   Observers w = observers_of(scenario, listeners, *indices);
   const bool on_general = compiled->general.has_value();
   const base::Problems problems = run_on_board(scenario, std::move(*compiled), w, out);

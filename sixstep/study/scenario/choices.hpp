@@ -56,6 +56,9 @@ inline constexpr Choice<FirmwareKind> drive_choices[] = {
     {"sensorless", FirmwareKind::sensorless,
      "the loops on a rotor that is started blindly and followed by its back-EMF, by [control.sensorless]; "
      "needs pwm.alignment = \"centre\" and pwm.sample = \"middle\""},
+    {"field-oriented", FirmwareKind::field,
+     "sine currents on three legs, held along the magnet and across it, by [control.field]; what is controlled as the "
+     "current is their amplitude i_q; needs pwm.alignment = \"centre\""},
 };
 inline constexpr Choice<control::Mode> mode_choices[] = {
     {"off", control::Mode::off, "all six gates off"},

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "sixstep/control/bridge_command.hpp"
+#include "sixstep/study/scenario/field.hpp"
 #include "sixstep/study/scenario/sensorless.hpp"
 
 namespace sixstep::study {
@@ -86,8 +87,8 @@ struct Advance {
 };
 constexpr bool advances(const Advance& a) { return a.angle_deg > 0 || a.gain_deg_s_per_rad > 0; }
 
-/// What the chip runs (rig/firmware.hpp, rig/sensorless_drive.hpp).
-enum class FirmwareKind : std::uint8_t { lean, product, sensorless };
+/// What the chip runs (rig/firmware.hpp, rig/sensorless_drive.hpp, rig/field_drive.hpp).
+enum class FirmwareKind : std::uint8_t { lean, product, sensorless, field };
 
 struct Control {
   FirmwareKind drive = FirmwareKind::lean;
@@ -103,6 +104,7 @@ struct Control {
   SmoothChopping smooth_chopping;
   Advance advance;
   Sensorless sensorless;
+  Field field;
 };
 
 }  // namespace sixstep::study

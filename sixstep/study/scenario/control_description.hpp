@@ -4,6 +4,7 @@
 #include "sixstep/base/describe.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/control.hpp"
+#include "sixstep/study/scenario/field_description.hpp"
 #include "sixstep/study/scenario/linear_words.hpp"
 #include "sixstep/study/scenario/sensorless_description.hpp"
 
@@ -217,6 +218,8 @@ void describe(Visitor& v, Control& s) {
   v.table(
       "sensorless", s.sensorless,
       {.meaning = "sensorless drive: how it starts and what it follows; designed from the motor's sheet"});
+  v.table("field", s.field,
+          {.meaning = "field-oriented drive: how the currents along the magnet and across it are held"});
 }
 
 }  // namespace sixstep::study

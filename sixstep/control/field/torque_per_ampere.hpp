@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The current along the magnet that gives a salient rotor the most torque per ampere. Of
+//
+//   T = 3/2 p (psi i_q + (L_d - L_q) i_d i_q)
+//
+// at a given torque |i| is least where i_d^2 - i_q^2 = psi i_d/(L_q - L_d) (Jahns, Kliman and Neumann, Interior
+// Permanent-Magnet Synchronous Motors for Adjustable-Speed Drives, IEEE Trans. IA 22, 1986), which is
+//
+//   i_d = a - sqrt(a^2 + i_q^2), a = psi/(2 (L_q - L_d));   here -i_q k/(1/4 + sqrt(1/16 + k^2)), k = i_q/(4 a)
+//
+// the same without a difference of two near numbers and without a, which no format holds where the rotor is round: there
+// k and i_d are 0. In fixed point k is a number below 1; |k| <= 0.7, i_q up to 2.8 a, stays within every format.
+#pragma once
+#include "sixstep/control/root.hpp"
+
+namespace sixstep::control {
+
+/// The default is that of a round rotor.
+template <class Scalar>
+struct TorquePerAmpereConfig {
+  Gain<Scalar> k_per_A{};  ///< (L_q - L_d)/(2 psi)
+  bool operator==(const TorquePerAmpereConfig&) const = default;
+};
+
+template <class Scalar>
+constexpr Scalar least_current_d(const TorquePerAmpereConfig<Scalar>& config, Scalar i_q) {
+  constexpr auto quarter = static_cast<Scalar>(0.25);
+  const Scalar k = ScalarTraits<Scalar>::product(i_q, config.k_per_A);
+  if (k == Scalar{}) return Scalar{};
+  return -(i_q * (k / (quarter + vector_length(quarter, k))));
+}
+
+}  // namespace sixstep::control

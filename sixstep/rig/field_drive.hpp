@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// The firmware of a field-oriented drive (control/field/), beside those of firmware.hpp:
+//
+//                a tick is given                              a Hall edge    a fault         it tells
+//   FieldDrive   what is, or what [sensors] say, and where    captured       ends the run    lost sensor
+//                the magnet points
+//
+// It answers three legs throughout. An ideal sensor tells cosine and sine of the magnet's direction as they are; from
+// an encoder, a resolver or Hall edges they are made of the angle that was decoded, as the chip does it
+// (field_direction.hpp).
+#pragma once
+#include "sixstep/base/elementary.hpp"
+#include "sixstep/control/field/field_drive.hpp"
+#include "sixstep/rig/firmware.hpp"
+
+namespace sixstep::rig {
+
+template <class Scalar>
+class FieldDrive {
+ public:
+  using Number = Scalar;
+  using Command = control::LegCommands<Scalar>;
+  using Config = control::FieldDriveConfig<Scalar>;
+  static constexpr bool fault_ends_run = true;
+
+  FieldDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
+      : config_(config),
+        sensors_(board.sensors, board.bases, power_up),
+        bases_(board.bases),
+        ideal_(board.sensors.ideal()) {}
+
+  template <class Real>
+  const Command& tick(const SampleInstant<Real>& instant, double setpoint) {
+    control::FieldDriveInput<Scalar> input{.measured = ideal_measurement<Scalar>(instant, bases_),
+                                           .magnet = {}};
+    if (!ideal_) sensors_.sense(input.measured, sample_of(instant));
+    input.magnet = sensors_.tells_angle()
+                       ? control::field_directions(config_.advance, sensors_.electrical_angle(),
+                                                   input.measured.speed_rad_s)
+                       : directions_as_they_are(instant.state);
+    control::field_drive_step(config_, state_, input, {from_si<Scalar>(setpoint, bases_.setpoint)},
+                              telemetry_);
+    if (sensors_.shaft_found().lost()) {
+      state_.command = Command{};
+      state_.command.fault = true;
+    }
+    return state_.command;
+  }
+  void captured(std::uint8_t pins, const sim::Instant& at) { sensors_.hall_edge(pins, at); }
+  void request_run(bool) {}
+  void request_clear() {}
+  void retune(const Tuning<Config>& tuning) {
+    control::retune(config_, state_, tuning.config);
+    bases_.setpoint = tuning.setpoint_unit;
+  }
+
+  control::Mode mode() const { return config_.drive.mode; }
+  /// Asks nothing of a tick but the setpoint.
+  bool open_loop() const { return config_.drive.mode == control::Mode::off; }
+  bool follows_setpoint_at_once() const { return false; }
+  const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
+  Diagnosis diagnosis() const {
+    return {.hall_line = sensors_.broken_line(), .shaft = sensors_.shaft_found()};
+  }
+  /// What its converters and timers are fed with.
+  Registers& registers() { return sensors_.registers(); }
+  ShaftPorts& shaft_ports() { return sensors_.shaft_ports(); }
+  const ShaftPorts& shaft_ports() const { return sensors_.shaft_ports(); }
+  bool follows_shaft() const { return sensors_.follows_shaft(); }
+  template <class Real>
+  void follow(const ShaftMotion<Real>& motion) {
+    sensors_.follow(motion);
+  }
+  /// Currents and voltages of the last tick, in the rotor's frame.
+  const control::FieldDriveState<Scalar>& state() const { return state_; }
+
+ private:
+  static control::Direction<Scalar> direction(double rad) {
+    const base::SinCos at = base::sin_cos(rad);
+    return {from_si<Scalar>(at.cos, 1.0), from_si<Scalar>(at.sin, 1.0)};
+  }
+  template <class Real>
+  control::FieldDirections<Scalar> directions_as_they_are(const plant::State<Real>& s) const {
+    const double magnet =
+        plant::sector_in_turn(s.sector) * base::sector_rad + static_cast<double>(s.x) - 5 * base::pi / 6;
+    const double on = static_cast<double>(config_.advance.rad_s) * static_cast<double>(s.w);
+    return {direction(magnet), direction(magnet + on)};
+  }
+
+  Config config_;
+  Sensors<Scalar> sensors_;
+  Bases bases_;
+  bool ideal_;
+  control::FieldDriveState<Scalar> state_{};
+  control::Telemetry<Scalar> telemetry_{};
+};
+
+}  // namespace sixstep::rig

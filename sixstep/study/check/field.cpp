@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/check/field.hpp"
+
+#include "sixstep/study/scenario/choices.hpp"
+#include "sixstep/study/scenario/measure_choices.hpp"
+#include "sixstep/study/scenario/sensors_description.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+constexpr const char* other_drive = "leave it away, or set control.drive = \"lean\"";
+
+/// Three legs in the middle of the period, all of them complementary.
+void check_pwm(const Scenario& s, base::Problems& out) {
+  if (s.pwm.alignment != Alignment::centre)
+    out.push_back({"pwm.alignment", "\"edge\"",
+                   "has no middle, in which the field-oriented drive's pulses lie",
+                   "set alignment = \"centre\""});
+  if (s.pwm.chopping != control::Chopping::soft)
+    out.push_back({"pwm.chopping", std::string(base::word(chopping_choices, s.pwm.chopping)),
+                   "is six-step's: the field-oriented drive switches all three legs complementarily",
+                   other_drive});
+  if (s.pwm.commutation != CommutationAt::hall_edge)
+    out.push_back(
+        {"pwm.commutation", "\"sample\"", "is six-step's: three legs commutate nothing", other_drive});
+}
+
+void check_loops(const Scenario& s, base::Problems& out) {
+  const Control& c = s.control;
+  const auto refuse = [&out](bool given, const char* key, const char* limit, const char* cure) {
+    if (given) out.push_back({key, "", limit, cure});
+  };
+  refuse(c.mode == control::Mode::duty, "control.mode",
+         "= \"duty\" is of a driven pair, and the field-oriented drive has none",
+         "set mode = \"current\", \"speed\" or \"position\"");
+  if (c.arithmetic != Arithmetic::float64 && c.arithmetic != Arithmetic::float32)
+    out.push_back({"control.arithmetic", std::string(base::word(arithmetic_choices, c.arithmetic)),
+                   "has no scaling that is proved for the field-oriented drive",
+                   "set arithmetic = \"float\" or \"double\""});
+  refuse(c.current.type != CurrentLoopType::pi, "control.current.type",
+         "= \"hysteresis\" watches a driven pair, and the field-oriented drive has none",
+         "set type = \"pi\"");
+  refuse(c.speed.output == SpeedOutput::duty, "control.speed.output",
+         "= \"duty\" is of a driven pair, and the field-oriented drive has none", "set output = \"current\"");
+  const char* const of_pair = "is of six-step's current loop";
+  refuse(c.current.back_emf_feed_forward, "control.current.back_emf_feed_forward", of_pair,
+         "leave it away: control.field.decoupling adds what turning makes");
+  refuse(c.current.measured_bus_from_V.has_value(), "control.current.measured_bus_from_V", of_pair,
+         "leave it away: three legs go by the measured bus");
+  const Limits& l = c.limits;
+  refuse(l.current_A || l.torque_Nm || l.speed_rad_s, "control.limits", of_pair,
+         "leave it away; in a cascade control.current.limit_A bounds the current");
+  refuse(c.regeneration.limit_V.has_value(), "control.regeneration", of_pair, other_drive);
+  refuse(c.smooth_chopping.on, "control.smooth_chopping", of_pair, other_drive);
+}
+
+/// An angle between two samples, of the motor's own shaft.
+void check_sensing(const Scenario& s, base::Problems& out) {
+  const Sensors& x = s.sensors;
+  if (x.currents == rig::CurrentMeasurement::dc_link)
+    out.push_back({"sensors.currents", "\"dc-link\"",
+                   "shows one current of a driven pair, and the field-oriented drive turns three",
+                   "set currents = \"phases\", or \"ideal\""});
+  if (x.rotor == RotorSensing::hall && x.hall_angle == rig::HallAngleFrom::sectors)
+    out.push_back({"sensors.hall_angle", "\"sectors\"", "tells no angle between two Hall edges",
+                   "set hall_angle = \"interpolated\" or \"calibrated\""});
+  if (x.rotor == RotorSensing::encoder && !x.encoder.referenced)
+    out.push_back({"sensors.encoder.referenced", "false", "tells no angle before the index is passed",
+                   "set referenced = true"});
+  if (x.shaft == SensorShaft::load && x.rotor != RotorSensing::ideal && x.rotor != RotorSensing::hall)
+    out.push_back({"sensors.shaft", "\"load\"", "does not say where the motor's magnet points",
+                   "set shaft = \"motor\""});
+  if (s.sheet.kind == design::MotorKind::linear)
+    out.push_back({"control.drive", "\"field-oriented\"", "drives turning motors, and this one is linear",
+                   "set drive = \"lean\" or \"product\""});
+}
+
+void check_keys(const Scenario& s, base::Problems& out) {
+  const Field& f = s.control.field;
+  const CurrentLoop& loop = s.control.current;
+  if (f.bandwidth_Hz && (loop.d1 || loop.d0 || loop.kp || loop.ki || loop.settle_s || loop.damping))
+    out.push_back({"control.field.bandwidth_Hz", "",
+                   "contradicts the gains in control.current: they are given or designed twice",
+                   "keep one of them"});
+  if (f.weakening_A && f.voltage_limit != control::VoltageLimit::circle)
+    out.push_back({"control.field.weakening_A", "", "goes by the circle, and voltage_limit is \"axes\"",
+                   "set control.field.voltage_limit = \"circle\", or leave it away"});
+}
+
+/// What is taken of a pair that moves on.
+void check_figures(const Scenario& s, base::Problems& out) {
+  const auto refuse = [&out](const Measure& m, const std::string& where) {
+    if (fact_of(m.metric).of == TakenOf::commutations)
+      out.push_back({where + ".metric", "", "is of a driven pair that moves on, and three legs have none",
+                     "take another figure"});
+  };
+  for (std::size_t n = 0; n < s.require.size(); ++n)
+    refuse(s.require[n].measure, "require[" + std::to_string(n) + "]");
+  for (std::size_t n = 0; n < s.compare.size(); ++n)
+    refuse(s.compare[n].measure, "compare[" + std::to_string(n) + "]");
+}
+
+}  // namespace
+
+void check_field(const Scenario& s, base::Problems& out) {
+  if (s.control.drive != FirmwareKind::field) {
+    if (s.control.field != Field{})
+      out.push_back({"control.field", "", "is what the field-oriented drive does only",
+                     "set control.drive = \"field-oriented\", or leave it away"});
+    return;
+  }
+  check_pwm(s, out);
+  check_loops(s, out);
+  check_sensing(s, out);
+  check_keys(s, out);
+  check_figures(s, out);
+}
+
+}  // namespace sixstep::study

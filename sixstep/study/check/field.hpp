@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "sixstep/base/problem.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+/// What the field-oriented drive does not do, and what is its own.
+void check_field(const Scenario& scenario, base::Problems& out);
+
+}  // namespace sixstep::study
