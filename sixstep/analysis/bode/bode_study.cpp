@@ -6,6 +6,7 @@
 
 #include "sixstep/analysis/bode/designed_loop.hpp"
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/elementary.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/session/session.hpp"
 
@@ -35,15 +36,22 @@ base::Problems not_measurable(const study::Scenario& s) {
   return problems;
 }
 
-std::size_t index_of(Mode mode) {
-  return static_cast<std::size_t>(mode == Mode::current ? ColumnId::i_m
-                                  : mode == Mode::speed ? ColumnId::speed
-                                                        : ColumnId::angle);
+/// Across the magnet, which points 150 degrees behind the electrical angle (control/frames.hpp).
+double i_q_of(const study::FullRow& row, double pole_pairs) {
+  const auto at = [&](ColumnId id) { return row[static_cast<std::size_t>(id)]; };
+  const double a = at(ColumnId::i_a), b = at(ColumnId::i_b), c = at(ColumnId::i_c);
+  const base::SinCos magnet = base::sin_cos(at(ColumnId::angle) * pole_pairs - 5 * base::pi / 6);
+  constexpr double root_3 = 1.73205080756887729353;
+  return -(2 * a - b - c) / 3 * magnet.sin + (b - c) / root_3 * magnet.cos;
 }
 
-/// From what a column holds to the mode's unit.
-double in_unit_of(Mode mode, double value) {
-  return mode == Mode::position ? value * 180.0 / base::pi : value;
+/// What the loop holds, in the mode's unit.
+double controlled(const study::FullRow& row, const BodeStudy& b) {
+  const auto at = [&](ColumnId id) { return row[static_cast<std::size_t>(id)]; };
+  if (b.mode == Mode::speed) return at(ColumnId::speed);
+  if (b.mode == Mode::position) return at(ColumnId::angle) * 180.0 / base::pi;
+  const bool field = b.scenario.control.drive == study::FirmwareKind::field;
+  return field ? i_q_of(row, b.pole_pairs) : at(ColumnId::i_m);
 }
 
 /// N of a period and its lines, around the loop's crossover where it is known.
@@ -102,7 +110,7 @@ base::Result<study::Session> at_the_end(const study::Scenario& s, const BodeStud
 /// What the controller saw at each sample of the periods that count.
 base::Result<std::vector<double>> outputs_of(study::Session& session, const BodeStudy& b,
                                              std::size_t periods) {
-  const std::size_t N = b.signal.samples, column = index_of(b.mode);
+  const std::size_t N = b.signal.samples;
   std::vector<double> output;
   output.reserve(periods * N);
   for (std::size_t n = N; n < (1 + periods) * N; ++n) {
@@ -111,7 +119,7 @@ base::Result<std::vector<double>> outputs_of(study::Session& session, const Bode
     if (!goes_on && n + 1 < (1 + periods) * N)
       return base::Problem{"reference", "", "with the multisine on it ended the run early",
                            "choose a smaller amplitude"};
-    output.push_back(in_unit_of(b.mode, session.present().signals[column]));
+    output.push_back(controlled(session.present().signals, b));
   }
   return output;
 }
@@ -133,6 +141,7 @@ base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& 
              "name an amplitude, or measure where the drive works"}};
   const base::Result<study::Compiled> compiled = study::compile(s);
   if (!compiled) return compiled.problems();
+  b.pole_pairs = compiled->motor.machine.pole_pairs;
   const double speed = b.mode == Mode::speed ? b.stands_at : 0.0;
   const DesignedLoop designed = designed_loop(s, *compiled, speed);
   b.designed = designed.loop;

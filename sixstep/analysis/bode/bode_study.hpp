@@ -28,6 +28,7 @@ struct BodeStudy {
   control::Mode mode = control::Mode::current;
   double stands_at = 0.0, amplitude = 0.0;  ///< in the mode's unit
   double begin_s = 0.0, period_s = 0.0;     ///< when the multisine began; of the control
+  double pole_pairs = 1.0;
   Multisine signal;
   std::vector<LoopPoint> points;
   double beside =

@@ -5,6 +5,7 @@
 
 #include "sixstep/analysis/verify/scenario_spec.hpp"
 #include "sixstep/design/loops/drive_loops.hpp"
+#include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/loops/margins.hpp"
 
 namespace sixstep::analysis {
@@ -35,6 +36,16 @@ design::DriveLoops loops_of(const study::Scenario& s, const study::Compiled& c,
           .position_gain_rad_s_per_deg = drive.position_gain};
 }
 
+/// The current across the magnet, decoupled, as field_current.hpp has it.
+design::Transfer open_field_loop(const study::Scenario& s, const study::Compiled& c,
+                                 const control::FieldDriveConfig<double>& field) {
+  const double L_q_H = design::field_machine(c.motor, s.sheet).L_q_H;
+  const design::ZohPlant plant = design::current_plant(c.motor.machine.R_ohm, L_q_H, s.pwm.period_s);
+  const control::PiConfig<double>& q = field.current.q;
+  const design::Transfer pi{{q.d1 + q.d0, q.d1}, {0.0, 1.0}}, held{{plant.b0}, {1.0 + plant.a0, 1.0}};
+  return design::series(design::series(pi, held), design::delay(c.board.delayed ? 1 : 0));
+}
+
 /// What the speed loop sees of its speed through the scenario's sensor.
 std::optional<design::SpeedLag> lag_of(const study::Scenario& s, const study::Compiled& c,
                                        const control::DriveConfig<double>& drive, double speed_rad_s) {
@@ -53,7 +64,13 @@ DesignedLoop designed_loop(const study::Scenario& s, const study::Compiled& c, d
   out.not_linear = nonlinear_block(s, drive);
   if (out.not_linear.empty() && c.board.sampled_in_middle)
     out.not_linear = "samples in the middle of a period are not in the linear model";
+  if (c.field && s.control.mode != Mode::current)
+    out.not_linear = "of a field-oriented drive it is laid beside the current alone";
   if (!out.not_linear.empty()) return out;
+  if (c.field) {
+    out.loop = open_field_loop(s, c, c.later.empty() ? *c.field : *c.later.back().field);
+    return out;
+  }
   const design::DriveLoops loops = loops_of(s, c, drive);
   if (s.control.mode == Mode::current)
     out.loop = s.load.locked ? open_current_loop(loops) : open_current_loop_turning(loops);

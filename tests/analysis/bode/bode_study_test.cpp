@@ -81,6 +81,26 @@ TEST(Bode, SpeedLoopIsTheDesigned) {
   EXPECT_LT(off_by(*b, 0.3, 5), 0.08);
 }
 
+/// A sine machine turning in the field: the bandwidth that the rule claims is found, T(z) = z_1 (1 - z_1)/(z^2 - z + z_1 (1 - z_1)).
+/// Three legs' pulses stand in the middle of the period, so that the held voltage is what the winding sees.
+TEST(Bode, FieldOrientedCurrentHasTheBandwidthOfItsRule) {
+  study::Scenario s = maxon_scenario(control::Mode::current, 4.0);
+  s.sheet.back_emf = design::BackEmfShape::sine;
+  s.control.drive = study::FirmwareKind::field;
+  s.pwm.period_s = 50e-6;
+  s.pwm.alignment = study::Alignment::centre;
+  s.pwm.delay_periods = 1;
+  s.load.dynamometer_times_s = {0.0};
+  s.load.dynamometer_rad_s = {100.0};
+  s.initial.speed_rad_s = 100.0;
+  const auto b = analysis::study_bode(s);
+  ASSERT_TRUE(b) << to_string(b.problems()[0]);
+  ASSERT_TRUE(b->figures && b->measured.bandwidth_rad_s);
+  EXPECT_NEAR(*b->measured.bandwidth_rad_s / *b->figures->bandwidth_rad_s, 1.0, 0.01);
+  EXPECT_NEAR(*b->measured.phase_rad, *b->figures->phase_rad, 0.02);
+  EXPECT_LT(off_by(*b, 0.1, 10), 0.02);
+}
+
 /// Where a band holds the current there is no linear loop to lay beside, and the measurement says what there is.
 TEST(Bode, ABandHasNoLinearLoop) {
   study::Scenario s = cascade(0.1);
