@@ -226,6 +226,7 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                                          "greatest_load",
                                          "overload",
                                          "lowest_part",
+                                         "advance_periods",
                                          "mismatch",
                                          "hall_calibration_turns",
                                          "missed_edges",

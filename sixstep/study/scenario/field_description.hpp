@@ -7,9 +7,9 @@
 namespace sixstep::study {
 
 inline constexpr base::Choice<control::VoltageLimit> voltage_limit_choices[] = {
-    {"axes", control::VoltageLimit::axes, "each axis within half the nominal bus"},
     {"circle", control::VoltageLimit::circle,
      "the vector within the measured bus over sqrt 3; what weakens the field comes first"},
+    {"axes", control::VoltageLimit::axes, "each axis within half the nominal bus"},
 };
 
 template <class Visitor>
