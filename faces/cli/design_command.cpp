@@ -161,9 +161,14 @@ base::Problems write(const analysis::DesignStudy& s, const DesignArguments& a, D
 std::optional<study::Scenario> board_of(const DesignArguments& a, base::Problems& found) {
   if (a.scenario.empty()) return std::nullopt;
   const base::Result<study::Scenario> scenario = files::read_scenario(a.scenario, {.data_dir = a.data_dir});
-  if (scenario) return *scenario;
-  found = scenario.problems();
-  return std::nullopt;
+  if (!scenario) {
+    found = scenario.problems();
+    return std::nullopt;
+  }
+  if (scenario->control.drive == study::FirmwareKind::field)
+    found.push_back({"--scenario", a.scenario, "has a field-oriented drive, and this designs six-step's loops",
+                     "sixstep run tells the gains that its own rule gives"});
+  return *scenario;
 }
 
 /// The motor that was named, else the scenario's.

@@ -67,6 +67,10 @@ class Design(ProgramTest):
             self.assertIn(f"{mantissa.rstrip('0')}p{exponent}", (self.path / "d.hpp").read_text())
             (self.path / "d.hpp").unlink()
 
+    def test_a_field_oriented_drive_is_not_designed_as_six_step(self):
+        field = str(SOURCE / "data/scenarios/gallery/machine-sine-field.toml")
+        self.assertIn("designs six-step's loops", self.run_program("design", "--scenario", field, code=2).stderr)
+
     def test_design_of_a_motor_file_names_it_as_the_scenario_sees_it(self):
         (self.path / "mine.toml").write_text((SOURCE / "data/motors/maxon-251601.toml").read_text())
         (self.path / "out").mkdir()

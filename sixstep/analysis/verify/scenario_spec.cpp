@@ -83,7 +83,9 @@ double stray_of(const std::vector<double>& edges_deg, std::size_t k) {
 design::RotorSensing rotor_sensing_of(const study::Scenario& s) {
   design::RotorSensing to;
   // The product drive has no other sensor than its Hall probes, and the sensorless one takes crossings as their edges.
-  to.hall = s.sensors.rotor == study::RotorSensing::hall || s.control.drive != study::FirmwareKind::lean;
+  const study::FirmwareKind drive = s.control.drive;
+  to.hall = s.sensors.rotor == study::RotorSensing::hall || drive == study::FirmwareKind::product ||
+            drive == study::FirmwareKind::sensorless;
   to.edges = s.sensors.speed_edges;
   // Edges whose places are known need no turn for their faults to cancel.
   if (s.sensors.hall_angle == rig::HallAngleFrom::learned_edges) to.edges = std::max(to.edges, 1);
