@@ -166,7 +166,8 @@ std::optional<study::Scenario> board_of(const DesignArguments& a, base::Problems
     return std::nullopt;
   }
   if (scenario->control.drive == study::FirmwareKind::field)
-    found.push_back({"--scenario", a.scenario, "has a field-oriented drive, and this designs six-step's loops",
+    found.push_back({"--scenario", a.scenario,
+                     "has a field-oriented drive, and this designs six-step's loops",
                      "sixstep run tells the gains that its own rule gives"});
   return *scenario;
 }
