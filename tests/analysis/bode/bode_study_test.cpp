@@ -92,7 +92,6 @@ TEST(Bode, FieldOrientedCurrentHasTheBandwidthOfItsRule) {
   s.pwm.delay_periods = 1;
   s.load.dynamometer_times_s = {0.0};
   s.load.dynamometer_rad_s = {100.0};
-  s.initial.speed_rad_s = 100.0;
   const auto b = analysis::study_bode(s);
   ASSERT_TRUE(b) << to_string(b.problems()[0]);
   ASSERT_TRUE(b->figures && b->measured.bandwidth_rad_s);
