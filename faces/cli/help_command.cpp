@@ -79,8 +79,9 @@ const CLI::App* command_of(const CLI::App& app, const std::string& name) {
 }
 
 Exit help_command(const CLI::App& app, const std::string& key) {
-  const std::vector<KeyEntry> scenario = text::scenario_keys(), sheet = text::sheet_keys(),
-                              plan = text::plan_keys();
+  const std::vector<KeyEntry>& scenario = text::scenario_keys();
+  const std::vector<KeyEntry>& sheet = text::sheet_keys();
+  const std::vector<KeyEntry>& plan = text::plan_keys();
   if (key.empty()) {
     print(overview(scenario, sheet, plan));
     return Exit::ok;

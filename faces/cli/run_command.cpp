@@ -112,6 +112,7 @@ void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
 
 std::string verdicts_xml(const std::vector<Job>& jobs) {
   std::vector<text::JunitSuite> suites;
+  suites.reserve(jobs.size());
   for (const Job& job : jobs)
     suites.push_back(job.outcome() ? text::junit_suite(job.name(), *job.outcome())
                                    : text::junit_suite(job.name(), job.problems()));
