@@ -139,6 +139,7 @@ base::Result<std::string> unit_of_key(const std::string& key) {
   const std::vector<KeyEntry>& keys = scenario_keys();
   if (std::optional<std::string> unit = key_unit(keys, shown(key))) return std::move(*unit);
   std::vector<std::string> known;
+  known.reserve(keys.size());
   for (const KeyEntry& entry : keys) known.push_back(entry.path);
   const std::string near = nearest(key, known);
   return base::Problem{.value = key,

@@ -99,7 +99,8 @@ std::vector<KeyEntry> keys_for(const study::Scenario& scenario) {
 
 std::vector<Wanted> wanted_for(const study::Scenario& scenario) {
   std::vector<Wanted> wanted = wanted_keys(scenario.control.mode);
-  const std::vector<KeyEntry> turning = scenario_keys(), own = keys_for(scenario);
+  const std::vector<KeyEntry>& turning = scenario_keys();
+  const std::vector<KeyEntry> own = keys_for(scenario);
   for (Wanted& key : wanted)
     for (std::size_t n = 0; n < turning.size(); ++n)
       if (turning[n].path == key.path) {
