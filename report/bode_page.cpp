@@ -7,6 +7,7 @@
 #include <report_assets.hpp>
 
 #include "report/bench_facts.hpp"
+#include "report/design_charts.hpp"
 #include "report/html.hpp"
 #include "report/shell.hpp"
 #include "report/svg_chart.hpp"
@@ -52,14 +53,7 @@ void add_designed(const BodeStudy& s, SvgChart& gain, SvgChart& phase) {
 }
 
 std::string charts(const BodeStudy& s) {
-  SvgChart gain{
-      .title = "Gain |L|", .x_label = "Hz", .y_label = "dB", .log_x = true, .y_tick = 20.0, .levels = {0.0}};
-  SvgChart phase{.title = "Phase of L",
-                 .x_label = "Hz",
-                 .y_label = "degrees",
-                 .log_x = true,
-                 .y_tick = 45.0,
-                 .levels = {-180.0}};
+  auto [gain, phase] = BodeCharts{};
   SvgChart closed{
       .title = "Closed loop |T|", .x_label = "Hz", .y_label = "dB", .log_x = true, .levels = {-3.0}};
   SvgChart coherence{.title = "Coherence", .x_label = "Hz", .log_x = true, .levels = {1.0}};

@@ -89,14 +89,7 @@ std::string step_charts(const DesignStudy& s) {
 }
 
 std::string loop_charts(const DesignStudy& s) {
-  SvgChart gain{
-      .title = "Gain |L|", .x_label = "Hz", .y_label = "dB", .log_x = true, .y_tick = 20.0, .levels = {0.0}};
-  SvgChart phase{.title = "Phase of L",
-                 .x_label = "Hz",
-                 .y_label = "degrees",
-                 .log_x = true,
-                 .y_tick = 45.0,
-                 .levels = {-180.0}};
+  auto [gain, phase] = BodeCharts{};
   std::size_t n = 0;
   for (const auto& loop : s.design.loops) {
     const double from = loop.figures.crossover_rad_s.value_or(0.1 / s.design.spec.period_s) / 30;

@@ -11,7 +11,7 @@ namespace {
 using namespace sixstep::testing;
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr std::uint64_t valid_count = 180, hostile_count = 600;
+constexpr std::uint64_t valid_count = 400, hostile_count = 600;
 #else
 constexpr std::uint64_t valid_count = 600, hostile_count = 6000;
 #endif
@@ -27,8 +27,7 @@ CampaignResult all_hold(const char* name, Examined (*examine)(std::uint64_t), st
 TEST(DrawnScenarios, KeepTheLawsInEveryFirmwareAndArithmetic) {
   const CampaignResult result = all_hold("valid", examine_drawn, valid_count);
   if (std::getenv("SIXSTEP_FUZZ_SEED")) return;
-  // Seven of ten are; of the 180 under the sanitizers as few as six, by chance alone.
-  EXPECT_GT(2 * result.accepted, 3 * result.refused) << "most of what is drawn must be worth a run";
+  EXPECT_GT(result.accepted, 2 * result.refused) << "most of what is drawn must be worth a run";
   EXPECT_EQ(result.kinds.size(), 24u) << "four firmwares in six arithmetics";
 }
 
