@@ -18,11 +18,13 @@ namespace {
 
 using namespace sixstep;
 
-std::string pwm(const study::Pwm& p) {
-  static constexpr const char* choppings[] = {"soft", "hard", "complementary"};
-  return fmt::format(
-      "{} ({}), {}-aligned, {} chopping", given(p.period_s, "s"), computed(1.0 / p.period_s, "Hz"),
-      p.alignment == study::Alignment::edge ? "edge" : "centre", choppings[static_cast<int>(p.chopping)]);
+std::string pwm(const study::Scenario& scenario) {
+  const study::Pwm& p = scenario.pwm;
+  static constexpr const char* choppings[] = {"soft chopping", "hard chopping", "complementary chopping"};
+  const bool three_legs = scenario.control.drive == study::FirmwareKind::field;
+  return fmt::format("{} ({}), {}-aligned, {}", given(p.period_s, "s"), computed(1.0 / p.period_s, "Hz"),
+                     p.alignment == study::Alignment::edge ? "edge" : "centre",
+                     three_legs ? "three legs, each complementary" : choppings[static_cast<int>(p.chopping)]);
 }
 
 std::string current_loop(const study::CurrentLoop& c) {
@@ -284,7 +286,7 @@ std::string setup_section(const study::Scenario& scenario) {
   const bool at_edge = s.pwm.commutation == study::CommutationAt::hall_edge;
   add("Supply", supply(s.supply));
   add("Bridge", bridge(s.bridge));
-  add("PWM", pwm(s.pwm));
+  add("PWM", pwm(s));
   add("Control", control(s));
   if (!all_ideal(s.sensors)) add("Sensors", sensors(s.sensors));
   if (s.control.drive == study::FirmwareKind::product) add("Product drive", protection(s.protection));

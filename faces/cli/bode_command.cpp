@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -41,6 +42,11 @@ base::Problems strangers(const RunArguments& a) {
   refuse("--vary", !a.plan.vary.empty());
   refuse("--store", !a.plan.store.empty());
   refuse("--dry-run", a.plan.dry_run);
+  if (a.amplitude && !(*a.amplitude > 0.0 && std::isfinite(*a.amplitude)))
+    problems.push_back({.where = "--amplitude",
+                        .value = fmt::format("{}", *a.amplitude),
+                        .limit = "must be above 0",
+                        .cure = "give the multisine's peak in the mode's unit"});
   return problems;
 }
 

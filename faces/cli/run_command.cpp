@@ -229,8 +229,7 @@ void declare_options(CLI::App& run, RunArguments& a) {
   run.add_option(
          "--amplitude", a.amplitude,
          "of --bode's multisine, A, rad/s or deg; without it a twentieth of where the reference stands")
-      ->needs(bode)
-      ->check(CLI::PositiveNumber);
+      ->needs(bode);
   declare_plan_options(run, a.plan);
 }
 
