@@ -65,6 +65,7 @@ std::string gains_section(const sixstep::study::Outcome& outcome) {
         "<div class=\"loop\"><h3>{} loop</h3><p class=\"origin\">{}</p>\n<div "
         "class=\"columns\"><div>{}</div>",
         escaped(g.loop), escaped(g.origin), gain_table(g, linear));
+    if (!g.steps.empty()) html += "<div>" + derivation_table(g.steps, linear) + "</div>";
     if (g.derivation) html += "<div>" + derivation_table(g.derivation->steps, linear) + "</div>";
     html += "</div></div>\n";
   }

@@ -71,4 +71,24 @@ constexpr Scalar motor_current(const Measurement<Scalar>& m, Pair positive) {
                                                phase_current(m, positive.sink));
 }
 
+/// The phase that conducts before and after a commutation.
+struct StayingPhase {
+  std::uint8_t sector = no_sector;  ///< of the last sample
+  Leg leg = Leg::a;
+};
+
+/// i_m by that phase alone. It makes the torque while the others hand over, T_e w = 2 E i where all shapes are flat, and is
+/// the pair's current otherwise. Where pairs have no leg in common, or none was before: the source's.
+template <class Scalar>
+constexpr Scalar staying_current(StayingPhase& state, const Measurement<Scalar>& m, std::uint8_t sector) {
+  const Pair now = positive_pair(sector);
+  if (sector != state.sector) {
+    const Pair before = state.sector == no_sector ? now : positive_pair(state.sector);
+    state.leg = now.sink == before.sink && now.source != before.source ? now.sink : now.source;
+    state.sector = sector;
+  }
+  const Scalar i = phase_current(m, state.leg);
+  return state.leg == now.source ? i : -i;
+}
+
 }  // namespace sixstep::control

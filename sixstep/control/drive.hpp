@@ -112,12 +112,15 @@ constexpr Scalar speed_output(const DriveConfig<Scalar>& config, DriveState<Scal
 
 /// u/U_s; without a nominal bus voltage there is no duty.
 template <class Scalar>
-constexpr Scalar current_to_duty(const DriveConfig<Scalar>& config, DriveState<Scalar>& state, Scalar error,
-                                 const Measurement<Scalar>& measured) {
+constexpr Scalar current_to_duty(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
+                                 Scalar reference, Scalar i_m, const Measurement<Scalar>& measured) {
   const DriveExtras<Scalar>& extras = config.extras;
-  const Scalar u = extras.on ? voltage_with_feed_forward(extras, config.current, state.current, error,
-                                                         measured.speed_rad_s)
-                             : pi_step(config.current, state.current, error);
+  const Scalar u =
+      !extras.on ? pi_step(config.current, state.current, reference - i_m)
+      : extras.predicts_current
+          ? deadbeat_step(extras.deadbeat, state.extras.deadbeat, reference, i_m, measured.speed_rad_s)
+          : voltage_with_feed_forward(extras, config.current, state.current, reference - i_m,
+                                      measured.speed_rad_s);
   if (extras.on && extras.bus.lowest_bus_V > Scalar{}) return compensated_duty(extras.bus, u, measured.bus_V);
   if (!(config.nominal_bus_V > Divisor<Scalar>{})) return Scalar{};
   return clamped(ScalarTraits<Scalar>::quotient(u, config.nominal_bus_V), one<Scalar>);
@@ -169,7 +172,7 @@ constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveStat
   if (config.current_control == CurrentControl::hysteresis)
     arm_hysteresis(config, state, positive, i_m, i_ref);
   else
-    set_duty(state, positive, current_to_duty(config, state, i_ref - i_m, measured));
+    set_duty(state, positive, current_to_duty(config, state, i_ref, i_m, measured));
   if (limits && over_limit(config.extras.limits, measured)) coast(state);
 }
 
@@ -190,7 +193,9 @@ constexpr const BridgeCommand<Scalar>& step_in(Mode mode, const DriveConfig<Scal
     return state.command;
   }
   const Pair positive = positive_pair(sector);
-  const Scalar i_m = motor_current(measured, positive);
+  const Scalar i_m = config.extras.on && config.extras.staying_phase
+                         ? staying_current(state.extras.staying, measured, sector)
+                         : motor_current(measured, positive);
   state.command.enabled = true;
   state.command.fault = false;
   state.command.chopping = config.chopping;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a product adds inside the drive's loops: a slewed setpoint, a window for the current reference,
 // back-EMF feed-forward, the measured bus, chopping that is smooth through zero, a speed loop in positional
-// form with a derivative. All of it stands behind one flag, so that a drive without extras pays one branch
-// per tick.
+// form with a derivative, a current loop that predicts, the current of the phase that does not commutate. All of it
+// stands behind one flag, so that a drive without extras pays one branch per tick.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
+#include "sixstep/control/commutation.hpp"
+#include "sixstep/control/deadbeat.hpp"
 #include "sixstep/control/derivative.hpp"
 #include "sixstep/control/feed_forward.hpp"
 #include "sixstep/control/limits.hpp"
@@ -27,6 +29,10 @@ struct DriveExtras {
   BusCompensationConfig<Scalar> bus{};
   bool smooth_chopping = false;  ///< else DriveConfig::chopping
   SmoothChoppingConfig<Scalar> chopping{};
+  bool predicts_current = false;  ///< the current loop by the next one, else by DriveConfig::current
+  DeadbeatConfig<Scalar> deadbeat{};
+  bool staying_phase =
+      false;  ///< i_m is the current of the phase that the last commutation left where it was
   bool positional_speed = false;  ///< the speed loop by the next two, else by DriveConfig::speed
   PiPositionalConfig<Scalar> speed{};
   DerivativeConfig<Scalar> speed_derivative{};  ///< of the measured speed, taken off the output
@@ -37,6 +43,8 @@ template <class Scalar>
 struct DriveExtrasState {
   SlewState<Scalar> slew{};
   SmoothChoppingState<Scalar> chopping{};
+  DeadbeatState<Scalar> deadbeat{};
+  StayingPhase staying{};
   PiPositionalState<Scalar> speed{};
   DerivativeState<Scalar> speed_derivative{};
   Mode slewing = Mode::off;  ///< the mode whose setpoint slews: a new one starts at what is measured

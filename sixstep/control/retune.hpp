@@ -31,6 +31,7 @@ constexpr void rest_idle_loops(const DriveConfig<Scalar>& config, DriveState<Sca
   if (!runs_current_loop(config)) {
     state.current = {};
     state.hysteresis = {};
+    state.extras.deadbeat = {};
   }
   if (!runs_speed_loop(config)) {
     state.speed = {};

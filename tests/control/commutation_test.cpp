@@ -51,4 +51,17 @@ TEST(Commutation, MotorCurrentIsHalfTheDifferenceOfThePair) {
   static_assert(motor_current(m, positive_pair(5)) == -0.5);
 }
 
+TEST(StayingPhase, IsTheOneThatBothPairsHave) {
+  StayingPhase state;
+  Measurement<double> m{.i_a_A = 3, .i_b_A = -2, .i_c_A = -1};  // a and c hand over from b
+  EXPECT_EQ(staying_current(state, m, 0), 3.0);                 // a to b: none was before
+  EXPECT_EQ(staying_current(state, m, 1), 3.0);                 // a to c: a stays
+  m = {.i_a_A = 1, .i_b_A = 2, .i_c_A = -3};
+  EXPECT_EQ(staying_current(state, m, 2), 3.0);  // b to c: c stays, in which the current runs out
+  EXPECT_EQ(staying_current(state, m, 2), 3.0);
+  EXPECT_EQ(staying_current(state, m, 1), 3.0);  // turned back, a to c: c stays
+  m = {.i_a_A = -5, .i_b_A = 0, .i_c_A = 5};
+  EXPECT_EQ(staying_current(state, m, 4), 5.0);  // c to a, with no leg in its place: the source's
+}
+
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sixstep/analysis/verify/scenario_spec.hpp"
+#include "sixstep/design/loops/deadbeat.hpp"
 #include "sixstep/design/loops/drive_loops.hpp"
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/loops/margins.hpp"
@@ -17,6 +18,8 @@ using control::Mode;
 std::string nonlinear_block(const study::Scenario& s, const control::DriveConfig<double>& drive) {
   if (drive.current_control == control::CurrentControl::hysteresis) return "the current is held in a band";
   if (s.control.mode == Mode::current) return "";
+  if (drive.extras.on && drive.extras.predicts_current)
+    return "a current that is predicted is laid beside the current alone";
   if (drive.speed_control == control::SpeedControl::duty) return "the speed controller sets the duty itself";
   if (drive.extras.on && drive.extras.positional_speed)
     return "the speed controller is one in positional form, with a derivative";
@@ -69,6 +72,10 @@ DesignedLoop designed_loop(const study::Scenario& s, const study::Compiled& c, d
   if (!out.not_linear.empty()) return out;
   if (c.field) {
     out.loop = open_field_loop(s, c, c.later.empty() ? *c.field : *c.later.back().field);
+    return out;
+  }
+  if (drive.extras.on && drive.extras.predicts_current) {
+    out.loop = design::open_deadbeat_loop(c.board.delayed ? 1 : 0);
     return out;
   }
   const design::DriveLoops loops = loops_of(s, c, drive);

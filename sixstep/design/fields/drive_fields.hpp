@@ -74,6 +74,27 @@ void fields(Walk&& w, const control::SmoothChoppingConfig<double>& d, Kept& kept
   w.signal({"complementary_below_A", "A"}, d.complementary_below_A, complementary_below_A, Base::current);
 }
 
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::HeldWinding<double>& d, Kept& kept) {
+  auto& [decay, A_per_V] = kept;
+  w.gain({"decay"}, d.decay, decay, Ratio{});
+  w.gain({"A_per_V", "A per V"}, d.A_per_V, A_per_V, {Base::current, Base::voltage});
+}
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::DeadbeatConfig<double>& d, Kept& kept) {
+  auto& [wait, rest, decay, V_per_A, correction_V_per_A, K_t_V_s, limit] = kept;
+  constexpr Ratio of_current{Base::voltage, Base::current};
+  w.part("wait", d.wait, wait);
+  w.part("rest", d.rest, rest);
+  w.gain({"decay", "", "over a period"}, d.decay, decay, Ratio{});
+  w.gain({"V_per_A", "V per A"}, d.V_per_A, V_per_A, of_current);
+  w.gain({"correction_V_per_A", "V per A", "of what a prediction missed"}, d.correction_V_per_A,
+         correction_V_per_A, of_current);
+  w.gain({"K_t_V_s", "V per rad/s"}, d.K_t_V_s, K_t_V_s, {Base::voltage, Base::speed});
+  w.signal({"limit", "V"}, d.limit, limit, Base::voltage);
+}
+
 /// Of a speed.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::PiPositionalConfig<double>& d, Kept& kept) {
@@ -97,7 +118,8 @@ void fields(Walk&& w, const control::DerivativeConfig<double>& d, Kept& kept) {
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::DriveExtras<double>& d, Kept& kept) {
   auto& [on, slews_setpoint, slew, limits_current, limits, torque_fraction_per_A, feed_forward, bus,
-         smooth_chopping, chopping, positional_speed, speed, speed_derivative] = kept;
+         smooth_chopping, chopping, predicts_current, deadbeat, staying_phase, positional_speed, speed,
+         speed_derivative] = kept;
   w.flag({"on"}, d.on, on);
   if (!w.when_on(d.on)) return;
   w.flag({"slews_setpoint"}, d.slews_setpoint, slews_setpoint);
@@ -110,6 +132,9 @@ void fields(Walk&& w, const control::DriveExtras<double>& d, Kept& kept) {
   w.part("bus", d.bus, bus);
   w.flag({"smooth_chopping"}, d.smooth_chopping, smooth_chopping);
   w.part("chopping", d.chopping, chopping);
+  w.flag({"predicts_current"}, d.predicts_current, predicts_current);
+  if (w.when_on(d.predicts_current)) w.part("deadbeat", d.deadbeat, deadbeat);
+  w.flag({"staying_phase"}, d.staying_phase, staying_phase);
   w.flag({"positional_speed"}, d.positional_speed, positional_speed);
   if (!w.when_on(d.positional_speed)) return;
   w.part("speed", d.speed, speed);

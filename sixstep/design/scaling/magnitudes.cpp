@@ -33,6 +33,8 @@ Magnitudes magnitudes(const control::DriveConfig<double>& d, const OperatingRang
     const bool hysteresis = d.current_control == control::CurrentControl::hysteresis;
     m.current_levels = m.current_ref + (hysteresis ? d.hysteresis.band_A : 0.0);
     if (d.extras.on) m.emf = std::min(d.current.limit, r.speed_rad_s * d.extras.feed_forward.K_t_V_s);
+    // A prediction takes a voltage of either sign off one of either sign.
+    if (d.extras.on && d.extras.predicts_current) m.emf = m.voltage = d.extras.deadbeat.limit;
   }
   return m;
 }

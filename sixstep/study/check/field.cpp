@@ -38,7 +38,11 @@ void check_loops(const Scenario& s, base::Problems& out) {
     out.push_back({"control.arithmetic", std::string(base::word(arithmetic_choices, c.arithmetic)),
                    "has no scaling that is proved for the field-oriented drive",
                    "set arithmetic = \"float\" or \"double\""});
-  refuse(c.current.type != CurrentLoopType::pi, "control.current.type",
+  refuse(c.current.type == CurrentLoopType::deadbeat, "control.current.type",
+         "= \"deadbeat\" predicts a driven pair, and the field-oriented drive has none", "set type = \"pi\"");
+  refuse(c.current.feedback != CurrentFeedback::mean, "control.current.feedback",
+         "is of a pair that moves on, and the field-oriented drive has none", "leave it away");
+  refuse(c.current.type == CurrentLoopType::hysteresis, "control.current.type",
          "= \"hysteresis\" watches a driven pair, and the field-oriented drive has none",
          "set type = \"pi\"");
   refuse(c.speed.output == SpeedOutput::duty, "control.speed.output",

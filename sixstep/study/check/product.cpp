@@ -158,11 +158,39 @@ void check_product(const Scenario& s, const std::optional<double>& sector_rad, b
   check_hall_filter(s, sector_rad, out);
 }
 
+namespace {
+
+/// A deadbeat loop has one design, and the back-EMF in it.
+void check_deadbeat(const CurrentLoop& loop, base::Problems& out) {
+  const auto refuse = [&out](bool given, const char* key, const char* limit, const char* cure) {
+    if (given) out.push_back({std::string("control.current.") + key, "", limit, cure});
+  };
+  if (loop.type != CurrentLoopType::deadbeat) {
+    refuse(loop.correction.has_value(), "correction", "is of predictions, and nothing is predicted",
+           "set type = \"deadbeat\", or leave it away");
+    return;
+  }
+  const char* const whole = "has nothing to set in a deadbeat loop: R, L and the period say all";
+  refuse(loop.settle_s.has_value(), "settle_s", whole, "leave it away, or set type = \"pi\"");
+  refuse(loop.damping.has_value(), "damping", whole, "leave it away, or set type = \"pi\"");
+  refuse(loop.d1 || loop.d0, "d1", whole, "leave d1 and d0 away, or set type = \"pi\"");
+  refuse(loop.kp || loop.ki, "kp", whole, "leave kp and ki away, or set type = \"pi\"");
+  refuse(loop.back_emf_feed_forward, "back_emf_feed_forward", "is in a deadbeat loop already",
+         "leave it away");
+}
+
+}  // namespace
+
 void check_extras(const Scenario& s, base::Problems& out) {
   const CurrentLoop& loop = s.control.current;
+  check_deadbeat(loop, out);
   if (loop.type == CurrentLoopType::hysteresis && loop.back_emf_feed_forward)
     out.push_back({"control.current.back_emf_feed_forward", "true",
                    "has no voltage to be added to in a hysteresis", "remove it, or set type = \"pi\""});
+  if (loop.type == CurrentLoopType::hysteresis && loop.feedback != CurrentFeedback::mean)
+    out.push_back({"control.current.feedback", "\"staying-phase\"",
+                   "is told to a loop that goes by samples, and a hysteresis has control.current.on",
+                   "leave it away, or set type = \"pi\""});
   if (loop.type == CurrentLoopType::hysteresis && loop.measured_bus_from_V)
     out.push_back({"control.current.measured_bus_from_V", written(*loop.measured_bus_from_V),
                    "has no duty to correct in a hysteresis", "remove it, or set type = \"pi\""});

@@ -30,6 +30,13 @@ void check_loops(const Scenario& s, base::Problems& out) {
     out.push_back({"control.current.type", "\"hysteresis\"",
                    "switches whenever its band is left, and no sample of the terminals finds an on-time",
                    "set type = \"pi\""});
+  if (s.control.current.type == CurrentLoopType::deadbeat)
+    out.push_back({"control.current.type", "\"deadbeat\"",
+                   "predicts by Hall sectors, and the sensorless drive starts without them",
+                   "set type = \"pi\""});
+  if (s.control.current.feedback != CurrentFeedback::mean)
+    out.push_back({"control.current.feedback", "\"staying-phase\"",
+                   "goes by Hall sectors, and the sensorless drive starts without them", "leave it away"});
 }
 
 void check_source(const Scenario& s, base::Problems& out) {

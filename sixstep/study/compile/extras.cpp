@@ -82,6 +82,8 @@ void add_extras(const Scenario& s, const Basis& basis, control::DriveConfig<doub
     extras.on = extras.slews_setpoint = true;
     extras.slew.step = *s.control.slew * s.pwm.period_s;
   }
+  extras.staying_phase = s.control.current.feedback == CurrentFeedback::staying_phase;
+  extras.on = extras.on || extras.staying_phase;
   if (s.control.current.back_emf_feed_forward) {
     extras.on = true;
     extras.feed_forward.K_t_V_s = basis.motor.K_t_Nm_A;

@@ -3,6 +3,7 @@
 #include "sixstep/study/compile/loops.hpp"
 
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/deadbeat.hpp"
 #include "sixstep/design/loops/operating_limits.hpp"
 
 namespace sixstep::study {
@@ -33,7 +34,36 @@ control::Watch watch_of(const CurrentLoop& loop) {
   return loop.on == HysteresisOn::motor ? control::Watch::motor : control::Watch::phase;
 }
 
+/// Periods from a sample to the begin of its answer (rig/board_config.hpp).
+double wait_periods(const Pwm& pwm) {
+  return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 0.5 : 0.0);
+}
+
+base::Problems add_deadbeat(const Scenario& s, const Basis& basis, Tuned& out) {
+  const auto made =
+      design::deadbeat({.R_ohm = 2 * basis.motor.machine.R_ohm,
+                        .L_H = 2 * basis.motor.machine.L_H,
+                        .K_t_Nm_A = basis.motor.K_t_Nm_A,
+                        .period_s = s.pwm.period_s,
+                        .wait_periods = wait_periods(s.pwm),
+                        .correction = s.control.current.correction.value_or(design::usual_correction),
+                        .limit_V = basis.bus_V});
+  if (!made)
+    return {{"control.current.type", "\"deadbeat\"",
+             "predicts over one period, and an answer comes one and a half after its sample",
+             "set pwm.sample = \"start\" or pwm.delay_periods = 0"}};
+  const control::DeadbeatConfig<double>& c = made->config;
+  out.drive.extras.on = out.drive.extras.predicts_current = true;
+  out.drive.extras.deadbeat = c;
+  out.gains.push_back(
+      {"current", c.V_per_A, -c.decay * c.V_per_A,
+       "deadbeat; a PI of these gains would reach its reference as soon, had its answer no wait",
+       std::nullopt, made->steps});
+  return {};
+}
+
 base::Problems add_current_loop(const Scenario& s, const Basis& basis, Tuned& out) {
+  if (s.control.current.type == CurrentLoopType::deadbeat) return add_deadbeat(s, basis, out);
   if (s.control.current.type != CurrentLoopType::pi) return {};
   const design::ZohPlant plant =
       design::current_plant(2 * basis.motor.machine.R_ohm, 2 * basis.motor.machine.L_H, s.pwm.period_s);
@@ -108,9 +138,9 @@ base::Result<Tuned> tuned(const Scenario& s, const Basis& basis) {
   out.drive.mode = s.control.mode;
   out.drive.chopping = s.pwm.chopping;
   out.drive.nominal_bus_V = basis.bus_V;
-  out.drive.current_control = s.control.current.type == CurrentLoopType::pi
-                                  ? control::CurrentControl::pi
-                                  : control::CurrentControl::hysteresis;
+  out.drive.current_control = s.control.current.type == CurrentLoopType::hysteresis
+                                  ? control::CurrentControl::hysteresis
+                                  : control::CurrentControl::pi;
   out.drive.hysteresis = {s.control.current.band_A, watch_of(s.control.current)};
   if (base::Problems problems = add_loops(s, basis, out); !problems.empty()) return problems;
   add_extras(s, basis, out.drive);

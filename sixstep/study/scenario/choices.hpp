@@ -78,6 +78,13 @@ inline constexpr Choice<Arithmetic> arithmetic_choices[] = {
 inline constexpr Choice<CurrentLoopType> current_loop_choices[] = {
     {"pi", CurrentLoopType::pi, "discrete PI with clamped output, one step per control period"},
     {"hysteresis", CurrentLoopType::hysteresis, "on below the band, off above it"},
+    {"deadbeat", CurrentLoopType::deadbeat,
+     "the voltage after which a winding of the sheet's R and L has its reference, a period after the answer begins"},
+};
+inline constexpr Choice<CurrentFeedback> current_feedback_choices[] = {
+    {"mean", CurrentFeedback::mean, "half the difference of the driven pair's currents"},
+    {"staying-phase", CurrentFeedback::staying_phase,
+     "the current of the phase that conducts before and after a commutation: it makes the torque while the others hand over"},
 };
 inline constexpr Choice<SpeedOutput> speed_output_choices[] = {
     {"current", SpeedOutput::current, "a part of the full torque, for the current loop within"},

@@ -10,7 +10,9 @@
 
 namespace sixstep::study {
 
-enum class CurrentLoopType : std::uint8_t { pi, hysteresis };
+enum class CurrentLoopType : std::uint8_t { pi, hysteresis, deadbeat };
+/// Which current a loop is told: (i_p - i_n)/2, or that of the phase that the last commutation left where it was.
+enum class CurrentFeedback : std::uint8_t { mean, staying_phase };
 enum class HysteresisOn : std::uint8_t { motor, phase };
 enum class Comparator : std::uint8_t { event, sampled };
 
@@ -26,6 +28,8 @@ struct CurrentLoop {
   Comparator comparator = Comparator::event;
   std::optional<double> limit_A;  // of the current reference, in cascades
   bool back_emf_feed_forward = false;
+  CurrentFeedback feedback = CurrentFeedback::mean;
+  std::optional<double> correction;           // deadbeat: part of a prediction's miss taken over per sample
   std::optional<double> measured_bus_from_V;  // duty = u/measured bus from this voltage on, else u/nominal
 };
 

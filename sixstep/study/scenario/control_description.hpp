@@ -39,6 +39,13 @@ void describe(Visitor& v, CurrentLoop& s) {
   v.choice("on", s.on, hysteresis_choices, {.meaning = "hysteresis: which current is watched"});
   v.choice("comparator", s.comparator, comparator_choices,
            {.meaning = "hysteresis: when the band is looked at"});
+  v.choice("feedback", s.feedback, current_feedback_choices,
+           {.meaning = "which current the controller is told"});
+  v.value(
+      "correction", s.correction,
+      {.meaning =
+           "deadbeat: part of what a prediction missed that each sample takes over as a voltage; without it 0.25",
+       .range = base::Range{0, 1, false, true}});
   v.value("limit_A", s.limit_A,
           {.meaning = "bound on the current reference that an outer loop asks for; its integral knows of it",
            .unit = "A",

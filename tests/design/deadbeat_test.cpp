@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Deadbeat current control on a winding with held voltage, which it predicts: reached in one period after its answer begins,
+// and what is known in closed form of a model that is off.
+#include "sixstep/design/loops/deadbeat.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/control/scalars.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::control;
+
+constexpr double R = 1.03, L = 0.572e-3, T = 30e-6;
+constexpr design::DeadbeatSpec spec{.R_ohm = R, .L_H = L, .K_t_Nm_A = 0.0335, .period_s = T, .limit_V = 24.0};
+
+/// The winding itself, of any inductance, over `time_s`.
+double winding(double i, double u_minus_e, double time_s, double L_H = L) {
+  const double a = std::exp(-R * time_s / L_H);
+  return a * i + (1 - a) / R * u_minus_e;
+}
+
+DeadbeatConfig<double> config_of(double wait_periods, double correction = design::usual_correction) {
+  design::DeadbeatSpec s = spec;
+  s.wait_periods = wait_periods;
+  s.correction = correction;
+  return design::deadbeat(s)->config;
+}
+
+/// A drive of this loop and that winding: what was answered takes effect `wait` periods after the sample.
+struct Loop {
+  DeadbeatConfig<double> config;
+  double wait, L_H = L;
+  DeadbeatState<double> state{};
+  double i = 0, in_effect = 0;
+
+  /// From this sample to the next.
+  double tick(double reference, double e, double speed = 0) {
+    const double before = in_effect;
+    in_effect = deadbeat_step(config, state, reference, i, speed);
+    i = winding(i, before - e, wait * T, L_H);
+    i = winding(i, in_effect - e, (1 - wait) * T, L_H);
+    return i;
+  }
+};
+
+TEST(Deadbeat, ReachesItsReferenceOnePeriodAfterTheAnswerBegins) {
+  const double e = spec.K_t_Nm_A * 200;  // at 200 rad/s, which it knows
+  for (const double wait : {0.0, 1.0}) {
+    Loop loop{config_of(wait), wait};
+    for (int n = 0; n < 40; ++n) loop.tick(0.0, e, 200);
+    ASSERT_NEAR(loop.i, 0.0, 1e-3);  // what the first tick, which knew of no voltage in effect, has left
+    loop.state.missed = 0;
+    loop.i = 0;
+    loop.in_effect = loop.state.u = e;
+    loop.state.predicted = 0;
+    for (int n = 0; n < 12; ++n) {
+      const double i = loop.tick(0.5 * n, e, 200);
+      const int whole = static_cast<int>(wait);
+      if (n >= whole) {
+        EXPECT_NEAR(i, 0.5 * (n - whole), 1e-12) << n;
+      }
+    }
+  }
+}
+
+TEST(Deadbeat, AnAnswerHalfAPeriodAfterItsSampleReachesItWhereThePeriodEnds) {
+  Loop loop{config_of(0.5), 0.5};
+  loop.tick(0.8, 0.0);
+  // Its voltage holds half a period more, into the next interval between samples.
+  EXPECT_NEAR(winding(loop.i, loop.in_effect, 0.5 * T), 0.8, 1e-12);
+}
+
+TEST(Deadbeat, OfAVoltageThatTheModelLacksAPartIsLeftAtEachSample) {
+  constexpr double g = 0.25, e = 1.5;
+  Loop loop{config_of(0.0, g), 0.0};
+  const double b = (1 - std::exp(-R * T / L)) / R;
+  for (int n = 0; n < 30; ++n) EXPECT_NEAR(loop.tick(1.0, e) - 1.0, -b * e * std::pow(1 - g, n), 1e-12) << n;
+}
+
+TEST(Deadbeat, AnInductanceOffByMPutsThePoleAtOneMinusOneOverM) {
+  // Without correction, and R so small that the decay says nothing.
+  for (const double m : {0.55, 0.8, 1.25, 2.0}) {
+    design::DeadbeatSpec s = spec;
+    s.R_ohm = 1e-9;
+    s.correction = 0;
+    DeadbeatState<double> state;
+    const DeadbeatConfig<double> config = design::deadbeat(s)->config;
+    double i = 0, error = 1;
+    for (int n = 0; n < 8; ++n) {
+      i += T / (m * L) * deadbeat_step(config, state, 1.0, i, 0.0);
+      error *= 1 - 1 / m;
+      EXPECT_NEAR(1 - i, error, 1e-6 * std::fabs(error) + 1e-9) << m << " after " << n;
+    }
+  }
+}
+
+TEST(Deadbeat, WhatTheLimitCutsOffIsForeseenAndNothingWindsUp) {
+  Loop loop{config_of(1.0), 1.0};
+  double before = 0;
+  int ticks = 0;
+  while (std::fabs(loop.i - 10.0) > 1e-9 && ticks < 50) {
+    loop.tick(10.0, 0.0);
+    EXPECT_NEAR(loop.state.missed, 0.0, 1e-9);
+    EXPECT_GE(loop.i, before - 1e-12);
+    EXPECT_LE(loop.i, 10.0 + 1e-9);
+    before = loop.i;
+    ++ticks;
+  }
+  // i(t) = U/R (1 - exp(-R t/L)) at full voltage: that many periods, the last one shortened, and the wait.
+  const double least = -L / R * std::log1p(-10.0 * R / 24.0) / T;
+  EXPECT_EQ(ticks, static_cast<int>(std::ceil(least)) + 1);
+}
+
+TEST(Deadbeat, AWaitOfMoreThanAPeriodIsRefused) {
+  design::DeadbeatSpec s = spec;
+  s.wait_periods = 1.5;
+  EXPECT_FALSE(design::deadbeat(s));
+}
+
+TEST(Deadbeat, DefaultsAnswerNothing) {
+  DeadbeatState<float> state;
+  EXPECT_EQ(deadbeat_step(DeadbeatConfig<float>{}, state, 5.0f, 1.0f, 100.0f), 0.0f);
+}
+
+template <class Scalar>
+class DeadbeatScalars : public testing::Test {};
+TYPED_TEST_SUITE(DeadbeatScalars, Scalars);
+
+/// In parts of 40 A, 60 V and 1500 rad/s: each format follows the double one as far as its digits tell. The current that comes back
+/// is the winding's, so that errors do not add up beyond what one tick makes: its roundings, times 1/b in volts.
+TYPED_TEST(DeadbeatScalars, FollowsTheDoubleOne) {
+  using S = TypeParam;
+  constexpr double A = 40, V = 60, W = 1500;
+  const DeadbeatConfig<double> d = config_of(1.0);
+  const auto over = [](const HeldWinding<double>& h) {
+    return HeldWinding<S>{static_cast<Gain<S>>(h.decay), static_cast<Gain<S>>(h.A_per_V * V / A)};
+  };
+  const DeadbeatConfig<S> config{over(d.wait),
+                                 over(d.rest),
+                                 static_cast<Gain<S>>(d.decay),
+                                 static_cast<Gain<S>>(d.V_per_A * A / V),
+                                 static_cast<Gain<S>>(d.correction_V_per_A * A / V),
+                                 static_cast<Gain<S>>(d.K_t_V_s * W / V),
+                                 static_cast<S>(d.limit / V)};
+  DeadbeatState<S> state;
+  double i = 0, in_effect = 0;
+  const double e = spec.K_t_Nm_A * 200 + 0.7;
+  for (int n = 0; n < 200; ++n) {
+    const double reference = n < 100 ? 6.0 : -3.0;
+    const S u = deadbeat_step(config, state, static_cast<S>(reference / A), static_cast<S>(i / A),
+                              static_cast<S>(200.0 / W));
+    i = winding(i, in_effect - e, T);
+    in_effect = static_cast<double>(u) * V;
+    // 60 ticks after a step only rounding is left: a few digits of a current each tick.
+    if (n % 100 >= 60) {
+      EXPECT_NEAR(i, reference, 8 * digit<S>() * A) << n;
+    }
+  }
+}
+
+}  // namespace
