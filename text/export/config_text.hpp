@@ -12,6 +12,7 @@
 
 #include "sixstep/base/describe.hpp"
 #include "sixstep/control/fixed.hpp"
+#include "sixstep/design/fields/field_drive_fields.hpp"
 #include "sixstep/design/fields/product_fields.hpp"
 #include "sixstep/design/scaling/scaling.hpp"
 #include "sixstep/study/scenario/choices.hpp"
@@ -96,6 +97,14 @@ struct EnumText<sixstep::control::HallArrangement> {
   static constexpr const char* type = "HallArrangement";
   static constexpr sixstep::base::Choice<sixstep::control::HallArrangement> words[] = {
       {"degrees_120", degrees_120, ""}, {"degrees_60", degrees_60, ""}};
+};
+
+template <>
+struct EnumText<sixstep::control::VoltageLimit> {
+  using enum sixstep::control::VoltageLimit;
+  static constexpr const char* type = "VoltageLimit";
+  static constexpr sixstep::base::Choice<sixstep::control::VoltageLimit> words[] = {{"axes", axes, ""},
+                                                                                    {"circle", circle, ""}};
 };
 
 /// A walk over the fields of a configuration (design/fields), the designed one in SI beside the kept one in
