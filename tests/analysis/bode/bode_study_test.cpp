@@ -100,6 +100,29 @@ TEST(Bode, FieldOrientedCurrentHasTheBandwidthOfItsRule) {
   EXPECT_LT(off_by(*b, 0.1, 10), 0.02);
 }
 
+/// Its speed loop, over the axis across the magnet: no commutation stands between.
+TEST(Bode, FieldOrientedSpeedLoopIsTheDesigned) {
+  study::Scenario s = cascade(0.1);
+  s.sheet.back_emf = design::BackEmfShape::sine;
+  s.control.current = {};
+  s.control.drive = study::FirmwareKind::field;
+  s.pwm.period_s = 50e-6;
+  s.pwm.alignment = study::Alignment::centre;
+  s.pwm.delay_periods = 1;
+  const auto b = analysis::study_bode(s);
+  ASSERT_TRUE(b) << to_string(b.problems()[0]);
+  ASSERT_TRUE(b->figures && b->measured.crossover_rad_s && b->measured.phase_rad) << b->not_linear;
+  EXPECT_NEAR(*b->measured.crossover_rad_s / *b->figures->crossover_rad_s, 1.0, 0.02);
+  EXPECT_NEAR(*b->measured.phase_rad, *b->figures->phase_rad, 0.02);
+  EXPECT_LT(off_by(*b, 0.3, 5), 0.03);
+  s.sheet.inductance_mH = std::nullopt;
+  s.sheet.d_axis_inductance_mH = base::Quantity{0.2, "", ""};
+  s.sheet.q_axis_inductance_mH = base::Quantity{0.4, "", ""};
+  const auto salient = analysis::study_bode(s);
+  ASSERT_TRUE(salient) << to_string(salient.problems()[0]);
+  EXPECT_EQ(salient->not_linear, "a salient rotor's torque is not proportional to its current");
+}
+
 /// Where a band holds the current there is no linear loop to lay beside, and the measurement says what there is.
 TEST(Bode, ABandHasNoLinearLoop) {
   study::Scenario s = cascade(0.1);
