@@ -99,20 +99,19 @@ void fields(Walk&& w, const control::DriveExtras<double>& d, Kept& kept) {
   auto& [on, slews_setpoint, slew, limits_current, limits, torque_fraction_per_A, feed_forward, bus,
          smooth_chopping, chopping, positional_speed, speed, speed_derivative] = kept;
   w.flag({"on"}, d.on, on);
-  const auto torque_fraction = [&] {
-    w.gain({"torque_fraction_per_A", "per A"}, d.torque_fraction_per_A, torque_fraction_per_A,
-           {Base::one, Base::current});
-  };
+  constexpr Field torque_fraction{"torque_fraction_per_A", "per A"};
+  constexpr Ratio of_current{Base::one, Base::current};
   if (!w.when_on(d.on)) {
     // What a field-oriented drive holds its speed loop to, without any extra.
-    if (d.torque_fraction_per_A != 0) torque_fraction();
+    if (d.torque_fraction_per_A != 0)
+      w.gain(torque_fraction, d.torque_fraction_per_A, torque_fraction_per_A, of_current);
     return;
   }
   w.flag({"slews_setpoint"}, d.slews_setpoint, slews_setpoint);
   w.part("slew", d.slew, slew);
   w.flag({"limits_current"}, d.limits_current, limits_current);
   if (w.when_on(d.limits_current)) w.part("limits", d.limits, limits);
-  torque_fraction();
+  w.gain(torque_fraction, d.torque_fraction_per_A, torque_fraction_per_A, of_current);
   w.part("feed_forward", d.feed_forward, feed_forward);
   w.part("bus", d.bus, bus);
   w.flag({"smooth_chopping"}, d.smooth_chopping, smooth_chopping);
