@@ -34,6 +34,7 @@ std::string closed_loop_poles(const study::LoopGains& g, const design::ZohPlant&
 std::string derivation(const study::LoopGains& g) {
   if (g.loop == "position") return fmt::format("{} rad/s per deg; {}", base::written(g.d1), g.origin);
   const char* unit = g.loop.starts_with("current") ? "V/A" : "per rad/s";
+  if (!g.steps.empty()) return fmt::format("K = {} {}; {}", number(g.d1), unit, g.origin);
   std::string text =
       fmt::format("d1 = {} {}, d0 = {} {}; {}", number(g.d1), unit, number(g.d0), unit, g.origin);
   if (!g.derivation) return text;

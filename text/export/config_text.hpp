@@ -78,6 +78,13 @@ struct EnumText<sixstep::control::SpeedControl> {
                                                                                     {"duty", duty, ""}};
 };
 template <>
+struct EnumText<sixstep::control::SpeedLaw> {
+  using enum sixstep::control::SpeedLaw;
+  static constexpr const char* type = "SpeedLaw";
+  static constexpr sixstep::base::Choice<sixstep::control::SpeedLaw> words[] = {
+      {"pi", pi, ""}, {"positional", positional, ""}, {"observed", observed, ""}, {"sliding", sliding, ""}};
+};
+template <>
 struct EnumText<sixstep::control::Watch> {
   using enum sixstep::control::Watch;
   static constexpr const char* type = "Watch";

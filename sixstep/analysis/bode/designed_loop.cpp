@@ -6,6 +6,7 @@
 #include "sixstep/analysis/verify/scenario_loops.hpp"
 #include "sixstep/analysis/verify/scenario_spec.hpp"
 #include "sixstep/design/loops/margins.hpp"
+#include "sixstep/design/loops/speed_laws.hpp"
 
 namespace sixstep::analysis {
 namespace {
@@ -18,11 +19,28 @@ std::string nonlinear_block(const study::Scenario& s, const study::Compiled& c,
   if (drive.current_control == control::CurrentControl::hysteresis) return "the current is held in a band";
   if (s.control.mode == Mode::current) return "";
   if (drive.speed_control == control::SpeedControl::duty) return "the speed controller sets the duty itself";
-  if (drive.extras.on && drive.extras.positional_speed)
-    return "the speed controller is one in positional form, with a derivative";
+  if (s.control.mode == Mode::position && drive.extras.on && drive.extras.speed_law != control::SpeedLaw::pi)
+    return "the speed controller within is another one than the PI in velocity form";
   if (c.field && c.field->per_ampere.k_per_A != 0)
     return "a salient rotor's torque is not proportional to its current";
   return "";
+}
+
+/// What the measured answer to the setpoint makes of a speed controller.
+design::Transfer speed_loop(const design::DriveLoops& loops, const control::DriveConfig<double>& drive) {
+  const control::DriveExtras<double>& x = drive.extras;
+  const control::SpeedLaw law = x.on ? x.speed_law : control::SpeedLaw::pi;
+  switch (law) {
+    case control::SpeedLaw::pi:
+      break;
+    case control::SpeedLaw::positional:
+      return speed_loop_by_setpoint(loops, design::linear(x.speed, x.speed_derivative, x.speed_weight_off));
+    case control::SpeedLaw::observed:
+      return speed_loop_by_setpoint(loops, design::linear(x.laws.observed));
+    case control::SpeedLaw::sliding:
+      return speed_loop_by_setpoint(loops, design::linear(x.laws.sliding));
+  }
+  return open_speed_loop(loops);
 }
 
 /// What the speed loop sees of its speed through the scenario's sensor.
@@ -49,7 +67,7 @@ DesignedLoop designed_loop(const study::Scenario& s, const study::Compiled& c, d
   if (s.control.mode == Mode::current)  // decoupled, an axis is that of a locked rotor
     out.loop = s.load.locked || c.field ? open_current_loop(loops) : open_current_loop_turning(loops);
   else
-    out.loop = s.control.mode == Mode::speed ? open_speed_loop(loops) : open_position_loop(loops);
+    out.loop = s.control.mode == Mode::speed ? speed_loop(loops, drive) : open_position_loop(loops);
   out.lag = lag_of(s, loops, speed_rad_s);
   return out;
 }

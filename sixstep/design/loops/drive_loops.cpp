@@ -75,6 +75,19 @@ Transfer open_speed_loop(const DriveLoops& d) {
   return {product(c.controllers, p.w), product(difference, c.current_closed)};
 }
 
+Transfer speed_loop_by_setpoint(const DriveLoops& d, const LinearLaw& law) {
+  const Plant p = plant_of(d);
+  const Polynomial acts = product(scaled(of(d.current), d.current_at_full_torque_A), p.w);
+  const Polynomial apart = sum(law.y, scaled(law.r, -1.0));
+  return {product(acts, law.r), sum(product(cascade_of(d, p).current_closed, law.q), product(acts, apart))};
+}
+
+Transfer open_speed_loop(const DriveLoops& d, const LinearLaw& law) {
+  const Plant p = plant_of(d);
+  const Polynomial acts = product(scaled(of(d.current), d.current_at_full_torque_A), p.w);
+  return {product(acts, law.y), product(cascade_of(d, p).current_closed, law.q)};
+}
+
 Transfer open_position_loop(const DriveLoops& d) {
   const Plant p = plant_of(d);
   const Cascade c = cascade_of(d, p);

@@ -31,12 +31,21 @@ struct DriveLoops {
   double position_gain_rad_s_per_deg = 0.0;
 };
 
+/// A speed controller that sees setpoint and speed each its own way: u = (setpoint r - speed y)/q, in z - 1.
+struct LinearLaw {
+  Polynomial r, y, q;
+};
+
 /// Rotor held, as it is designed.
 Transfer open_current_loop(const DriveLoops& drive);
 /// Rotor free: its back-EMF gives way to a slow change of the current.
 Transfer open_current_loop_turning(const DriveLoops& drive);
 /// From speed error to speed, the current loop closed within.
 Transfer open_speed_loop(const DriveLoops& drive);
+/// The loop L that a PI would need for the same answer to its setpoint, T = L/(1 + L): what a measurement of T shows.
+Transfer speed_loop_by_setpoint(const DriveLoops& drive, const LinearLaw& law);
+/// The loop opened at the output of the controller: what margins are of.
+Transfer open_speed_loop(const DriveLoops& drive, const LinearLaw& law);
 /// From position error to position, both loops closed within.
 Transfer open_position_loop(const DriveLoops& drive);
 

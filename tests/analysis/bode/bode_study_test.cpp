@@ -81,6 +81,30 @@ TEST(Bode, SpeedLoopIsTheDesigned) {
   EXPECT_LT(off_by(*b, 0.3, 5), 0.08);
 }
 
+/// Each law has the bandwidth of its rule, T = (1 - p)/(z - p): a loop L = (1 - p)/(z - 1) that crosses over at 2 asin((1 - p)/2)/T_s, where
+/// the current were not late; and with that it is the linear one that stands beside.
+TEST(Bode, SpeedLawsHaveTheBandwidthOfTheirRule) {
+  for (const study::SpeedLaw law : {study::SpeedLaw::state_feedback, study::SpeedLaw::disturbance_rejection,
+                                    study::SpeedLaw::sliding_mode, study::SpeedLaw::pi}) {
+    study::Scenario s = cascade(0.1);
+    s.control.speed.settle_s = 20e-3;
+    s.control.speed.law = law;
+    if (law == study::SpeedLaw::pi) {
+      s.control.speed.form = study::SpeedForm::positional;
+      s.control.speed.setpoint_weight = 0.5;
+    }
+    s.pwm.chopping = control::Chopping::complementary;
+    const auto b = analysis::study_bode(s);
+    ASSERT_TRUE(b) << to_string(b.problems()[0]);
+    ASSERT_TRUE(b->figures && b->measured.crossover_rad_s) << b->not_linear;
+    EXPECT_NEAR(*b->measured.crossover_rad_s / *b->figures->crossover_rad_s, 1.0, 0.05);
+    EXPECT_LT(off_by(*b, 0.3, 5), 0.08);
+    if (law == study::SpeedLaw::pi) continue;
+    const double p = std::exp(-4.6 * 30e-6 / 20e-3);
+    EXPECT_NEAR(*b->measured.crossover_rad_s / (2 * std::asin((1 - p) / 2) / 30e-6), 1.0, 0.05);
+  }
+}
+
 /// A sine machine turning in the field: the bandwidth that the rule claims is found, T(z) = z_1 (1 - z_1)/(z^2 - z + z_1 (1 - z_1)).
 /// Three legs' pulses stand in the middle of the period, so that the held voltage is what the winding sees.
 TEST(Bode, FieldOrientedCurrentHasTheBandwidthOfItsRule) {
