@@ -21,6 +21,10 @@ std::string gain_table(const LoopGains& g, bool linear) {
         "<table class=\"gains\"><tbody><tr><th scope=\"row\">gain</th><td class=\"num strong\">{} {}"
         "</td></tr></tbody></table>\n",
         plain(linear ? g.d1 / mm_per_deg : g.d1, 6, true), linear ? "m/s per mm" : "rad/s per degree");
+  if (!g.steps.empty())
+    return fmt::format(
+        "<table class=\"gains\"><tbody><tr><th scope=\"row\">K</th><td class=\"num strong\">{}</td></tr></tbody></table>\n",
+        plain(g.d1, 6, true));
   const auto row = [&](const char* symbol, double used, double exact) {
     std::string html =
         fmt::format("<tr><th scope=\"row\">{}</th><td class=\"num strong\">{}</td>", symbol, plain(used, 6));
@@ -65,8 +69,8 @@ std::string gains_section(const sixstep::study::Outcome& outcome) {
         "<div class=\"loop\"><h3>{} loop</h3><p class=\"origin\">{}</p>\n<div "
         "class=\"columns\"><div>{}</div>",
         escaped(g.loop), escaped(g.origin), gain_table(g, linear));
-    if (!g.steps.empty()) html += "<div>" + derivation_table(g.steps, linear) + "</div>";
     if (g.derivation) html += "<div>" + derivation_table(g.derivation->steps, linear) + "</div>";
+    if (!g.steps.empty()) html += "<div>" + derivation_table(g.steps, linear) + "</div>";
     html += "</div></div>\n";
   }
   if (!outcome.sensorless_steps.empty())

@@ -75,6 +75,7 @@ std::string loop(const LoopGains& g, bool linear) {
     return plain(g.d1 / sixstep::base::in_linear("deg").factor, 4, true) + "\u00a0m/s per mm, " +
            escaped(g.origin);
   if (g.loop == "position") return plain(g.d1, 4, true) + "\u00a0rad/s per degree, " + escaped(g.origin);
+  if (!g.steps.empty()) return fmt::format("<b>K {}</b><br>{}", plain(g.d1, 5, true), escaped(g.origin));
   std::string text = fmt::format("<b>d<sub>1</sub> {}, d<sub>0</sub> {}</b><br>{}", plain(g.d1, 5, true),
                                  plain(g.d0, 5, true), escaped(g.origin));
   if (!g.derivation) return text;

@@ -48,6 +48,30 @@ Group currents(const Trace& trace) {
   return g;
 }
 
+/// What a field-oriented drive holds.
+Group rotor_currents(const Trace& trace) {
+  Group g{.id = "rotor-currents",
+          .title = "Currents along the magnet and across it",
+          .unit = "A",
+          .height_px = 216,
+          .quantity = "current"};
+  add(g, trace, "i_d_A", "i_d", "a");
+  add(g, trace, "i_d_ref_A", "i_d_ref", "a-soft");
+  add(g, trace, "i_q_A", "i_q", "main");
+  add(g, trace, "i_q_ref_A", "i_q_ref", "reference");
+  return g;
+}
+
+Group rotor_voltages(const Trace& trace) {
+  Group g{.id = "rotor-voltages",
+          .title = "Voltages along the magnet and across it",
+          .unit = "V",
+          .height_px = 150};
+  add(g, trace, "v_d_V", "v_d", "a");
+  add(g, trace, "v_q_V", "v_q", "main");
+  return g;
+}
+
 Group logic(const Trace& trace, std::deque<std::vector<double>>& derived) {
   Group g{.id = "logic", .title = "Gates and Hall probes", .unit = "", .height_px = 216, .logic = true};
   add(g, trace, "gate_T1", "T1 a↑", "a");
@@ -164,6 +188,10 @@ Groups chart_groups(const Trace& trace, const sixstep::study::Scenario& scenario
   if (mode == Mode::position) charts.push_back(position(trace, out.derived, linear));
   if (mode == Mode::position || mode == Mode::speed) charts.push_back(speed(trace, linear));
   charts.push_back(currents(trace));
+  if (scenario.control.drive == sixstep::study::FirmwareKind::field) {
+    charts.push_back(rotor_currents(trace));
+    charts.push_back(rotor_voltages(trace));
+  }
   charts.push_back(logic(trace, out.derived));
   charts.push_back(line_voltages(trace));
   charts.push_back(back_emf(trace));

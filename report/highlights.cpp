@@ -24,11 +24,14 @@ struct Loop {
   double factor;
 };
 constexpr Loop current_loop{"current", "A", "i_ref_A", "i_m_A", 1.0};
+constexpr Loop across_loop{"current", "A", "i_q_ref_A", "i_q_A", 1.0};
 constexpr Loop speed_loop{"speed", "rad/s", "speed_ref_rad_s", "speed_rad_s", 1.0};
 constexpr Loop position_loop{"position", "deg", "position_ref_deg", "angle_rad", degrees_per_rad};
 
-const Loop* loop_of(Mode mode) {
-  if (mode == Mode::current) return &current_loop;
+const Loop* loop_of(const Scenario& s) {
+  const Mode mode = s.control.mode;
+  if (mode == Mode::current)
+    return s.control.drive == sixstep::study::FirmwareKind::field ? &across_loop : &current_loop;
   if (mode == Mode::speed) return &speed_loop;
   return mode == Mode::position ? &position_loop : nullptr;
 }
@@ -65,7 +68,7 @@ Step from_start(const Values& time) {
 
 std::optional<double> last_setpoint_s(const Trace& trace, const Scenario& scenario) {
   const auto* time = find_column(trace, "t_s");
-  const Loop* loop = loop_of(scenario.control.mode);
+  const Loop* loop = loop_of(scenario);
   const Values* reference = loop ? find_column(trace, loop->reference) : nullptr;
   if (!time || !reference) return std::nullopt;
   const std::vector<Change> changes = changes_of(*reference, 0.0);
@@ -75,7 +78,7 @@ std::optional<double> last_setpoint_s(const Trace& trace, const Scenario& scenar
 std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
   const auto* time = find_column(trace, "t_s");
   if (!time || time->size() < 2) return std::nullopt;
-  const Loop* loop = loop_of(scenario.control.mode);
+  const Loop* loop = loop_of(scenario);
   const Values* reference = loop ? find_column(trace, loop->reference) : nullptr;
   const Values* signal = loop ? find_column(trace, loop->signal) : nullptr;
   if (!reference || !signal) return from_start(*time);

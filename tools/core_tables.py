@@ -9,7 +9,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "firmware.md"
 CORES = ROOT / "data" / "cores"
-DRIVES = ("duty", "hysteresis", "current", "speed", "position", "product")
+COMMUTATED = ("duty", "hysteresis", "current", "speed", "position", "product")
+DRIVES = (*COMMUTATED, "field")
 
 
 def rows(file):
@@ -30,14 +31,14 @@ def places(found):
     return list(dict.fromkeys((key[0], key[2]) for key in found))
 
 
-def of_entry(entry, cell):
+def of_entry(entry, cell, drives=DRIVES):
     found = keyed(CORES / "drives.txt", 4)
     lines = []
     for core, scalar in places(found):
-        cells = [found.get((core, drive, scalar, entry)) for drive in DRIVES]
-        if all(cells):
-            lines.append([core, scalar, *map(cell, cells)])
-    return table(["core", "arithmetic", *DRIVES], lines)
+        cells = [found.get((core, drive, scalar, entry)) for drive in drives]
+        if any(cells):
+            lines.append([core, scalar, *(cell(c) if c else "" for c in cells)])
+    return table(["core", "arithmetic", *drives], lines)
 
 
 def blocks():
@@ -54,7 +55,7 @@ def blocks():
 
 def sizes():
     found = keyed(CORES / "sizes.txt", 3)
-    lines = [[core, scalar, *(" + ".join(found[core, drive, scalar]) for drive in DRIVES)] for core, scalar in places(found)]
+    lines = [[core, scalar, *(" + ".join(found.get((core, drive, scalar), ())) for drive in DRIVES)] for core, scalar in places(found)]
     return table(["core", "arithmetic", *DRIVES], lines)
 
 
@@ -65,9 +66,9 @@ def digests():
     return table(["arithmetic", "digests"], counted)
 
 
-TABLES = {"ticks": lambda: of_entry("tick", lambda c: f"{c[2]} / {c[3]}"), "edges": lambda: of_entry("hall", lambda c: c[3]),
+TABLES = {"ticks": lambda: of_entry("tick", lambda c: f"{c[2]} / {c[3]}"), "edges": lambda: of_entry("hall", lambda c: c[3], COMMUTATED),
           "interrupts": lambda: of_entry("tick_interrupt", lambda c: c[3]),
-          "edge interrupts": lambda: of_entry("hall_interrupt", lambda c: c[3]),
+          "edge interrupts": lambda: of_entry("hall_interrupt", lambda c: c[3], COMMUTATED),
           "blocks": blocks, "sizes": sizes, "digests": digests}
 
 

@@ -7,6 +7,8 @@
 #include <filesystem>
 
 #include "faces/cli/choose.hpp"
+#include "faces/cli/design_arguments.hpp"
+#include "faces/cli/field_design.hpp"
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/optimise_command.hpp"
 #include "faces/cli/side_by_side.hpp"
@@ -31,26 +33,6 @@
 
 namespace cli {
 namespace {
-
-struct DesignArguments {
-  std::string motor;
-  std::string scenario;  ///< whose board, motor and task are designed for
-  std::optional<std::string> mode, chopping, rotor, currents;
-  std::string method = "pole-placement";
-  std::optional<double> settle_s, current_settle_s, damping, bandwidth_rad_s, period_s, voltage_V,
-      torque_limit_Nm, load_inertia_kg_m2, lowest_speed_rad_s, step;
-  std::optional<double> force_limit_N, load_mass_kg;  ///< of a linear motor, for torque limit and inertia
-  std::optional<int> delay_periods, edges;
-  bool quick = false;  ///< without the tolerances
-  bool quiet = false, force = false;
-  unsigned jobs = 0;
-  std::string json, toml, models, html;  ///< files; json "-": standard output
-  double angle_deg = 30.0;               ///< of the models, electrical
-  std::string optimise, store;           ///< a plan and where its runs are kept
-  bool resume = false;
-  std::string data_dir;
-  std::string command;  ///< the command line as it may be typed again
-};
 
 namespace fs = std::filesystem;
 
@@ -165,10 +147,6 @@ std::optional<study::Scenario> board_of(const DesignArguments& a, base::Problems
     found = scenario.problems();
     return std::nullopt;
   }
-  if (scenario->control.drive == study::FirmwareKind::field)
-    found.push_back({"--scenario", a.scenario,
-                     "has a field-oriented drive, and this designs six-step's loops",
-                     "sixstep run tells the gains that its own rule gives"});
   return *scenario;
 }
 
@@ -231,6 +209,7 @@ Exit design_command(const DesignArguments& a) {
   base::Problems found;
   const std::optional<study::Scenario> board = board_of(a, found);
   if (!found.empty()) return refused(found);
+  if (board && board->control.drive == study::FirmwareKind::field) return design_field(a, *board);
   const design::DesignSpec spec = spec_of(a, board ? &*board : nullptr, found);
   const base::Result<analysis::DesignSubject> subject = subject_of(a, board, found);
   if (subject) refuse_other_motion(a, subject->sheet, found);

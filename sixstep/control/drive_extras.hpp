@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a product adds inside the drive's loops: a slewed setpoint, a window for the current reference,
-// back-EMF feed-forward, the measured bus, chopping that is smooth through zero, a speed loop in positional
-// form with a derivative, a current loop that predicts, the current of the phase that does not commutate. All of it
-// stands behind one flag, so that a drive without extras pays one branch per tick.
+// back-EMF feed-forward, the measured bus, chopping that is smooth through zero, a speed loop by another law than
+// the PI in velocity form, a current loop that predicts, the current of the phase that does not commutate. All of
+// it stands behind one flag, so that a drive without extras pays one branch per tick.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/commutation.hpp"
@@ -10,12 +10,37 @@
 #include "sixstep/control/derivative.hpp"
 #include "sixstep/control/feed_forward.hpp"
 #include "sixstep/control/limits.hpp"
+#include "sixstep/control/observed_speed.hpp"
 #include "sixstep/control/pi.hpp"
 #include "sixstep/control/pi_positional.hpp"
 #include "sixstep/control/slew.hpp"
+#include "sixstep/control/sliding_speed.hpp"
 #include "sixstep/control/smooth_chopping.hpp"
 
 namespace sixstep::control {
+
+/// What computes the speed loop's output: pi.hpp, or pi_positional.hpp with derivative.hpp and a setpoint weight, or the
+/// header of its name.
+enum class SpeedLaw : std::uint8_t { pi, positional, observed, sliding };
+
+/// What of the laws is there in floating point only takes no memory in fixed point.
+template <class Scalar>
+struct SpeedLaws {
+  ObservedSpeedConfig<Scalar> observed{};
+  SlidingSpeedConfig<Scalar> sliding{};
+  bool operator==(const SpeedLaws&) const = default;
+};
+template <class Storage, int FractionBits>
+struct SpeedLaws<Fixed<Storage, FractionBits>> {
+  bool operator==(const SpeedLaws&) const = default;
+};
+template <class Scalar>
+struct SpeedLawsState {
+  ObservedSpeedState<Scalar> observed{};
+  SlidingSpeedState<Scalar> sliding{};
+};
+template <class Storage, int FractionBits>
+struct SpeedLawsState<Fixed<Storage, FractionBits>> {};
 
 template <class Scalar>
 struct DriveExtras {
@@ -33,9 +58,11 @@ struct DriveExtras {
   DeadbeatConfig<Scalar> deadbeat{};
   bool staying_phase =
       false;  ///< i_m is the current of the phase that the last commutation left where it was
-  bool positional_speed = false;  ///< the speed loop by the next two, else by DriveConfig::speed
+  SpeedLaw speed_law = SpeedLaw::pi;  ///< pi: by DriveConfig::speed; positional: by the next three
   PiPositionalConfig<Scalar> speed{};
   DerivativeConfig<Scalar> speed_derivative{};  ///< of the measured speed, taken off the output
+  Gain<Scalar> speed_weight_off{};  ///< (1 - b) K with a weight b of the setpoint in the proportional part
+  SpeedLaws<Scalar> laws{};         ///< within the limit of DriveConfig::speed
   bool operator==(const DriveExtras&) const = default;
 };
 
@@ -47,6 +74,7 @@ struct DriveExtrasState {
   StayingPhase staying{};
   PiPositionalState<Scalar> speed{};
   DerivativeState<Scalar> speed_derivative{};
+  SpeedLawsState<Scalar> laws{};
   Mode slewing = Mode::off;  ///< the mode whose setpoint slews: a new one starts at what is measured
 };
 
@@ -68,22 +96,38 @@ constexpr CurrentWindow<Scalar> allowed_current(const DriveExtras<Scalar>& extra
   return {between(w.low, -limit, limit), between(w.high, -limit, limit)};
 }
 
-/// The speed PI, in a cascade within the window: it cannot wind up against a limit that it does not see.
+/// K (b r - y) + integral - derivative: two degrees of freedom (Astrom and Hagglund, PID Controllers, 3.4).
+template <class Scalar>
+constexpr Scalar positional_speed(const DriveExtras<Scalar>& extras, DriveExtrasState<Scalar>& state,
+                                  Scalar error, Scalar speed_rad_s, Scalar low, Scalar high) {
+  const Accumulator<Scalar> braked =
+      derivative_step(extras.speed_derivative, state.speed_derivative, speed_rad_s);
+  const Accumulator<Scalar> weighted =
+      ScalarTraits<Scalar>::accumulated(error + speed_rad_s, extras.speed_weight_off);
+  return pi_positional_step(extras.speed, state.speed, error, -braked - weighted, low, high);
+}
+
+/// The speed controller, in a cascade within the window: it cannot wind up against a limit that it does not see.
 template <class Scalar>
 constexpr Scalar speed_with_extras(const DriveExtras<Scalar>& extras, DriveExtrasState<Scalar>& state,
                                    const PiConfig<Scalar>& config, PiState<Scalar>& pi, Scalar error,
                                    Scalar speed_rad_s, const CurrentWindow<Scalar>* window) {
   using T = ScalarTraits<Scalar>;
-  const Scalar limit = extras.positional_speed ? extras.speed.limit : config.limit;
+  const bool positional = extras.speed_law == SpeedLaw::positional;
+  const Scalar limit = positional ? extras.speed.limit : config.limit;
   Scalar low = -limit, high = limit;
   if (window != nullptr) {
     low = between(T::product(window->low, extras.torque_fraction_per_A), -limit, limit);
     high = between(T::product(window->high, extras.torque_fraction_per_A), -limit, limit);
   }
-  if (!extras.positional_speed) return pi_step(config, pi, error, low, high);
-  const Accumulator<Scalar> braked =
-      derivative_step(extras.speed_derivative, state.speed_derivative, speed_rad_s);
-  return pi_positional_step(extras.speed, state.speed, error, -braked, low, high);
+  if (positional) return positional_speed(extras, state, error, speed_rad_s, low, high);
+  if constexpr (requires { extras.laws.observed; }) {
+    if (extras.speed_law == SpeedLaw::observed)
+      return observed_speed_step(extras.laws.observed, state.laws.observed, error, speed_rad_s, low, high);
+    if (extras.speed_law == SpeedLaw::sliding)
+      return sliding_speed_step(extras.laws.sliding, state.laws.sliding, error, speed_rad_s, low, high);
+  }
+  return pi_step(config, pi, error, low, high);
 }
 
 /// u = u_PI + e, both together within the limit of the PI. At an end of it u is that end itself: (limit - e)

@@ -4,7 +4,9 @@
 //   same mode   every state stays. A PI in velocity form goes on from its last output and its last error: with
 //               the new gains the next tick adds d1 (e[n] - e[n-1]) + K_i e[n-1], so that at no error nothing
 //               moves. The positional form keeps its integral; its output moves by the change of K times the
-//               error.
+//               error. An observer and a sliding surface go on from where they are.
+//   other law   of the speed loop: the new one begins at the output that the old one holds, at no error nothing moves
+//               (of a positional form whose setpoint is not weighted).
 //   other mode  a loop that both modes run keeps its state; one that only the new mode runs begins at rest,
 //               its output 0. A setpoint that slews starts at what is measured (drive_extras.hpp). The bridge
 //               keeps the last command until the next tick.
@@ -37,6 +39,42 @@ constexpr void rest_idle_loops(const DriveConfig<Scalar>& config, DriveState<Sca
     state.speed = {};
     state.extras.speed = {};
     state.extras.speed_derivative = {};
+    state.extras.laws = {};
+  }
+}
+
+/// What the speed loop holds at no error.
+template <class Scalar>
+constexpr Scalar held_by_speed_law(const DriveConfig<Scalar>& config, const DriveState<Scalar>& state) {
+  using T = ScalarTraits<Scalar>;
+  const SpeedLaw law = config.extras.on ? config.extras.speed_law : SpeedLaw::pi;
+  if (law == SpeedLaw::positional)
+    return between(T::signal(state.extras.speed.integral), -config.extras.speed.limit,
+                   config.extras.speed.limit);
+  if constexpr (requires { state.extras.laws.observed; }) {
+    if (law == SpeedLaw::observed) return state.extras.laws.observed.t;
+    if (law == SpeedLaw::sliding) return state.extras.laws.sliding.held;
+  }
+  return T::signal(T::accumulator(Scalar{}) + state.speed.u);
+}
+
+/// A law that takes over begins with what the one before it held.
+template <class Scalar>
+constexpr void hand_speed_over(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
+                               const DriveConfig<Scalar>& next) {
+  const SpeedLaw before = config.extras.on ? config.extras.speed_law : SpeedLaw::pi,
+                 law = next.extras.on ? next.extras.speed_law : SpeedLaw::pi;
+  if (law == before) return;
+  const Scalar held = held_by_speed_law(config, state);
+  state.speed = {};
+  state.extras.speed = {};
+  state.extras.speed_derivative = {};
+  state.extras.laws = {};
+  if (law == SpeedLaw::pi) state.speed.u = ScalarTraits<Scalar>::accumulator(held);
+  if (law == SpeedLaw::positional) state.extras.speed.integral = ScalarTraits<Scalar>::accumulator(held);
+  if constexpr (requires { state.extras.laws.observed; }) {
+    if (law == SpeedLaw::observed) state.extras.laws.observed.l = held;
+    if (law == SpeedLaw::sliding) state.extras.laws.sliding.m = held;
   }
 }
 
@@ -46,6 +84,7 @@ template <class Scalar>
 constexpr void retune(DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                       const DriveConfig<Scalar>& next) {
   if (next.mode != config.mode) detail::rest_idle_loops(config, state);
+  detail::hand_speed_over(config, state, next);
   config = next;
 }
 
@@ -55,6 +94,7 @@ constexpr void retune(ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& s
                       const ProtectedConfig<Scalar>& next) {
   if (next.drive.mode != config.drive.mode && state.activity.activity == Activity::run)
     detail::rest_idle_loops(config.drive, state.drive);
+  detail::hand_speed_over(config.drive, state.drive, next.drive);
   config = next;
 }
 

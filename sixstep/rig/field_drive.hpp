@@ -11,6 +11,7 @@
 #pragma once
 #include "sixstep/base/elementary.hpp"
 #include "sixstep/control/field/field_drive.hpp"
+#include "sixstep/rig/field_held.hpp"
 #include "sixstep/rig/firmware.hpp"
 
 namespace sixstep::rig {
@@ -73,6 +74,13 @@ class FieldDrive {
   }
   /// Currents and voltages of the last tick, in the rotor's frame.
   const control::FieldDriveState<Scalar>& state() const { return state_; }
+  FieldHeld field_held() const {
+    const auto si = [](const control::Dq<Scalar>& x, double unit) {
+      return control::Dq<double>{to_si(x.d, unit), to_si(x.q, unit)};
+    };
+    return {si(state_.measured, bases_.current_A), si(state_.reference, bases_.current_A),
+            si(state_.current.voltage, bases_.voltage_V)};
+  }
 
  private:
   static control::Direction<Scalar> direction(double rad) {

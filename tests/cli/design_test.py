@@ -67,9 +67,25 @@ class Design(ProgramTest):
             self.assertIn(f"{mantissa.rstrip('0')}p{exponent}", (self.path / "d.hpp").read_text())
             (self.path / "d.hpp").unlink()
 
-    def test_a_field_oriented_drive_is_not_designed_as_six_step(self):
-        field = str(SOURCE / "data/scenarios/gallery/machine-sine-field.toml")
-        self.assertIn("designs six-step's loops", self.run_program("design", "--scenario", field, code=2).stderr)
+    def test_a_field_oriented_drive_is_looked_at_with_its_own_loops(self):
+        field = str(SOURCE / "data/scenarios/gallery/field-weakened.toml")
+        told = self.run_program("design", "--scenario", field).stdout
+        for words in ("Current loop, zero on the winding's pole", "Speed loop", "torque over i_q", "U_s/sqrt 3", "weakening, per sample"):
+            self.assertIn(words, told)
+        d = json.loads(self.run_program("design", "--scenario", field, "--json", "-", "--quiet").stdout)
+        self.assertEqual([loop["name"] for loop in d["loops"]], ["current", "speed"])
+        self.assertEqual(d["drive"], "field-oriented")
+        self.assertTrue(d["usable"])
+        self.assertTrue(all(loop["margins"]["one_period_late"]["stable"] for loop in d["loops"]))
+        self.run_program("design", "--scenario", field, "--json", "f.json", "--quiet")
+        self.assertEqual(json.loads((self.path / "f.json").read_text()), d)
+
+    def test_six_step_options_are_refused_of_a_field_oriented_drive(self):
+        field = str(SOURCE / "data/scenarios/gallery/field-weakened.toml")
+        said = self.run_program("design", "--scenario", field, "--settle", "0.1", "--html", "f.html", code=2).stderr
+        self.assertIn("--settle", said)
+        self.assertIn("--html", said)
+        self.assertFalse((self.path / "f.html").exists())
 
     def test_design_of_a_motor_file_names_it_as_the_scenario_sees_it(self):
         (self.path / "mine.toml").write_text((SOURCE / "data/motors/maxon-251601.toml").read_text())

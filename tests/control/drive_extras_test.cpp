@@ -204,7 +204,7 @@ TYPED_TEST(Extras, AnyMeasurementGivesALawfulDuty) {
 template <class S>
 Bench<S> positional(double K_b) {
   Bench<S> b(Mode::speed);
-  b.config.extras.positional_speed = true;
+  b.config.extras.speed_law = SpeedLaw::positional;
   b.config.extras.speed = {Gain<S>(1.0), Gain<S>(0.25), Gain<S>(K_b), one<S>,
                            Gain<S>(gain_beyond_limit(1.0, 0.25, K_b))};
   return b;

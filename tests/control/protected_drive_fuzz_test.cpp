@@ -66,7 +66,7 @@ void configure(ProtectedConfig<S>& c, std::uint64_t bits) {
   c.drive.extras.feed_forward = {static_cast<Gain<S>>(K_t * base_rad_s / base_V)};
   c.drive.extras.bus = {static_cast<S>(bits / 8192 % 2 ? 0.25 : 0.0)};
   c.drive.extras.smooth_chopping = bits / 16384 % 2;
-  c.drive.extras.positional_speed = bits / 67108864 % 2;
+  c.drive.extras.speed_law = bits / 67108864 % 2 ? SpeedLaw::positional : SpeedLaw::pi;
   c.drive.extras.speed = {static_cast<Gain<S>>(0.0158299 * base_rad_s),
                           static_cast<Gain<S>>(0.00013378 * base_rad_s),
                           static_cast<Gain<S>>(0.25 * static_cast<double>(bits / 134217728 % 5)), one<S>};

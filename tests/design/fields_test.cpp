@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "sixstep/control/fixed.hpp"
+#include "sixstep/design/fields/field_drive_fields.hpp"
 #include "sixstep/design/fields/product_fields.hpp"
 
 namespace {
@@ -52,6 +53,10 @@ void expect_every_member() {
   expect_all_walked<ProtectedConfig<Scalar>>([](auto& c) {
     design::fields(Clear{}, DriveConfig<double>{}, c.drive);
     design::fields(Clear{}, ProtectedConfig<double>{}, c);
+  });
+  expect_all_walked<FieldDriveConfig<Scalar>>([](auto& c) {
+    design::fields(Clear{}, DriveConfig<double>{}, c.drive);
+    design::fields(Clear{}, FieldDriveConfig<double>{}, c);
   });
 }
 

@@ -188,7 +188,8 @@ TYPED_TEST(Scaling, ASlewedSetpointBeginsAtWhatIsMeasured) {
 TYPED_TEST(Scaling, AnIntegralBehindASteepDerivativeIsProved) {
   DriveConfig<double> d = cascade(Mode::speed);
   OperatingRange r = range(Mode::speed);
-  d.extras.on = d.extras.positional_speed = true;
+  d.extras.on = true;
+  d.extras.speed_law = control::SpeedLaw::positional;
   d.extras.speed = {0.0158, 0.00013, 0.00013 / 0.0158, 0.97};
   d.extras.speed_derivative = {0.05, 0.01};  // 72 times the output where the speed jumps from end to end
   const auto jumping = design::scaled<TypeParam>(d, r);

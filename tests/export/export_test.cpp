@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 #include <optional>
@@ -11,6 +12,8 @@
 #include <vector>
 
 #include "files/scenario_on_disk.hpp"
+#include "sixstep/control/field/field_drive.hpp"
+#include "sixstep/design/fields/field_drive_fields.hpp"
 #include "sixstep/design/loops/pole_placement.hpp"
 #include "sixstep/design/scaling/product_scaling.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
@@ -161,6 +164,56 @@ TEST(ExportHeader, TheProductIsWhatTheRunComputesWith) {
   expect_product(exported_product_q31::product, exported_product_q31::units, 40.0);
 }
 
+template <class S>
+std::vector<std::int64_t> bits_of(const FieldDriveConfig<S>& c) {
+  Bits walk{bits_of(c.drive)};
+  design::fields(walk, FieldDriveConfig<double>{}, c);
+  return walk.all;
+}
+
+study::Scenario salient() {
+  study::Scenario s = shipped("gallery/machine-sine-field");
+  s.control.field.voltage_limit = VoltageLimit::axes;
+  s.sheet.inductance_mH = std::nullopt;
+  s.sheet.d_axis_inductance_mH = base::Quantity{0.2, "", ""};
+  s.sheet.q_axis_inductance_mH = base::Quantity{0.4, "", ""};
+  return s;
+}
+
+/// The constants against the run's, and their answers step by step: a chip's own, whatever it is given.
+template <class S>
+void expect_field(const FieldDriveConfig<S>& header, const study::Scenario& s) {
+  const auto run = study::field_in<S>(compiled(s));
+  ASSERT_TRUE(run);
+  EXPECT_EQ(bits_of(header), bits_of(run->config));
+  FieldDriveState<S> chip, simulated;
+  Telemetry<S> told;
+  BinaryAngle electrical = 0;
+  S swing{};
+  for (int n = 0; n < 2000; ++n) {
+    electrical += 20000000u + static_cast<BinaryAngle>(n) * 10007u;
+    const auto part = [&](int k) { return static_cast<S>((n * k) % 200 - 100) / 100; };
+    FieldDriveInput<S> input;
+    input.measured = {.i_a_A = 8 * part(7), .i_b_A = 8 * part(11), .i_c_A = 8 * part(13)};
+    input.measured.speed_rad_s = 900 * part(3);
+    input.measured.bus_V = static_cast<S>(24);
+    input.magnet = field_directions(header.advance, electrical, input.measured.speed_rad_s);
+    const Setpoint<S> setpoint{5 * part(17)};
+    const LegCommands<S> a = field_drive_step(header, chip, input, setpoint, told);
+    const LegCommands<S> b = field_drive_step(run->config, simulated, input, setpoint, told);
+    ASSERT_TRUE(a.enabled);
+    for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(bits(a.leg[k].duty), bits(b.leg[k].duty)) << n;
+    swing = std::max(swing, a.leg[0].duty - a.leg[1].duty);
+  }
+  EXPECT_GT(swing, S(0.5)) << "it answers with the bus";
+}
+
+TEST(ExportHeader, TheFieldOrientedDriveIsWhatTheRunComputesWith) {
+  expect_field(exported_field::field, shipped("gallery/field-weakened"));
+  expect_field(exported_field_float::field, shipped("gallery/field-weakened"));
+  expect_field(exported_field_salient::field, salient());
+}
+
 constexpr DriveConfig<double> extras_double() {
   using Scalar = double;
   DriveConfig<Scalar> c;
@@ -249,6 +302,13 @@ TEST(ExportHeader, GivenGainsAreToldWithTheirOwnPoles) {
   const std::string poles = fmt::format("poles z = {:.6g} and {:.6g} on", -plant.a0, 1 - 5 * plant.b0);
   EXPECT_NE(text->find(poles), std::string::npos) << poles << "\n" << text->substr(0, 900);
   EXPECT_NE(text->find("settle_s = 0.001, damping = 0.9 would give d1 = 4.09559"), std::string::npos);
+}
+
+TEST(ExportHeader, NoFixedPointIsProvedOfTheFieldOrientedDrive) {
+  const auto text = header_of(shipped("gallery/field-weakened"), study::Arithmetic::q15);
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.problems()[0].where, "control.arithmetic");
+  EXPECT_EQ(text.problems()[0].value, "q15");
 }
 
 TEST(ExportHeader, NamespacesAreNames) {

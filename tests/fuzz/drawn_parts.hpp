@@ -24,5 +24,7 @@ void draw_events(Draw& draw, study::Scenario& s, const Scales& of);
 void draw_measures(Draw& draw, study::Scenario& s);
 /// What needs the general kernel, of some.
 void draw_general(Draw& draw, study::Scenario& s, const Scales& of);
+/// Makes some field-oriented.
+void draw_field(Draw& draw, study::Scenario& s, const Scales& of);
 
 }  // namespace sixstep::testing

@@ -10,6 +10,7 @@
 #include "report/comparison_data.hpp"
 #include "report/conduction.hpp"
 #include "report/glance.hpp"
+#include "report/groups.hpp"
 #include "report/highlights.hpp"
 #include "report/html.hpp"
 #include "report/packed_rows.hpp"
@@ -69,6 +70,29 @@ TEST(Highlights, the_largest_step_is_found_with_its_current) {
   // Half a second of 6 A, then 6 A to 0 in five seconds, then nothing: 18 As in 6.5 s.
   EXPECT_DOUBLE_EQ(*current->then_mean_A, 18.0 / 6.5);
   EXPECT_EQ(*current->then_span_A, 6.0);
+}
+
+/// Of a field-oriented drive the step is i_q's, which it holds, and the page shows what it holds.
+TEST(Highlights, a_field_oriented_drive_steps_across_the_magnet) {
+  SyntheticRun run = stepped_run();
+  run.scenario.control.mode = sixstep::control::Mode::current;
+  run.scenario.control.drive = sixstep::study::FirmwareKind::field;
+  run.trace.columns.push_back({"i_q_ref_A", "A", "", ""});
+  run.trace.columns.push_back({"i_q_A", "A", "", ""});
+  run.trace.values.push_back({0, 0, 4, 4, 4, 4, 4, 4});
+  run.trace.values.push_back({0, 0, 0, 2, 4, 4, 4, 4});
+  const auto step = largest_step(run.trace, run.scenario);
+  ASSERT_TRUE(step);
+  EXPECT_EQ(step->of, "current");
+  EXPECT_EQ(step->to, 4.0);
+  EXPECT_EQ(step->at_s, 1.0);
+  const Groups groups = chart_groups(run.trace, run.scenario);
+  const auto shown = std::ranges::find(groups.charts, "rotor-currents", &Group::id);
+  ASSERT_NE(shown, groups.charts.end());
+  EXPECT_EQ(shown->curves.size(), 2u);
+  run.scenario.control.drive = sixstep::study::FirmwareKind::lean;
+  const Groups others = chart_groups(run.trace, run.scenario);
+  EXPECT_EQ(std::ranges::find(others.charts, "rotor-currents", &Group::id), others.charts.end());
 }
 
 TEST(Highlights, what_held_the_run_back_is_timed) {

@@ -91,6 +91,26 @@ TEST(ExportGate, ComplementarySwitchesWithoutDeadTimeAreRefused) {
   EXPECT_THAT(unmeasured(s), ElementsAre("bridge.dead_time_s"));
 }
 
+TEST(ExportGate, AFieldOrientedDriveReadsAnglesAndBusAndSwitchesBothWays) {
+  Scenario s = on_a_board(Mode::current);
+  s.control.drive = study::FirmwareKind::field;
+  s.pwm.alignment = study::Alignment::centre;
+  s.sheet.back_emf = design::BackEmfShape::sine;
+  s.sensors = {};
+  EXPECT_THAT(unmeasured(s),
+              ElementsAre("sensors.rotor", "sensors.currents", "sensors.bus", "bridge.dead_time_s"));
+  s.sensors = board_sensors();
+  s.sensors.resolver.excitation_Hz = 0.5 / s.pwm.period_s;
+  s.bridge.dead_time_s = 500e-9;
+  for (const study::RotorSensing rotor : {study::RotorSensing::hall, study::RotorSensing::encoder,
+                                          study::RotorSensing::absolute, study::RotorSensing::resolver}) {
+    const bool hall = rotor == study::RotorSensing::hall;
+    s.sensors.rotor = rotor;
+    s.sensors.hall_angle = hall ? rig::HallAngleFrom::angle : rig::HallAngleFrom::sectors;
+    EXPECT_THAT(unmeasured(s), IsEmpty()) << static_cast<int>(rotor);
+  }
+}
+
 TEST(ExportGate, WhatTheRunChangedOfTheDriveIsNotWhatIsWritten) {
   Scenario s = on_a_board(Mode::current);
   s.at = {{.time_s = 1e-3, .reference = study::Reference{.value = 2.0}}, {.time_s = 2e-3}};

@@ -14,6 +14,7 @@
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/compile/compile.hpp"
 #include "sixstep/study/live/any_rig.hpp"
+#include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/figures.hpp"
 #include "tests/support/scenarios.hpp"
@@ -236,6 +237,68 @@ TEST(FieldOriented, RunsOnWhatABoardMeasures) {
     ASSERT_FALSE(out.fault) << to_string(*out.fault);
     EXPECT_NEAR(out.comparisons[0].measured, 200.0, 1.0) << static_cast<int>(s.sensors.rotor);
   }
+}
+
+/// What the drive had in hand at its last sample, row for row, and what a figure is taken of.
+TEST(FieldOriented, WhatItHoldsIsRecordedAndMeasured) {
+  Scenario s = field_oriented(Mode::current, 0.0);
+  s.reference = {};
+  s.reference.shape = Shape::steps;
+  s.reference.times_s = {0.0, 1e-3};
+  s.reference.values = {1.0, 3.0};
+  s.duration_s = 4e-3;
+  const std::vector<Tick> ticks = ticks_of(s);
+  const std::function<double(const Tick&)> held[] = {
+      [](const Tick& t) { return t.measured.d; },  [](const Tick& t) { return t.measured.q; },
+      [](const Tick& t) { return t.reference.d; }, [](const Tick& t) { return t.reference.q; },
+      [](const Tick& t) { return t.voltage.d; },   [](const Tick& t) { return t.voltage.q; }};
+  s.record.columns = {"i_d_A", "i_q_A", "i_d_ref_A", "i_q_ref_A", "v_d_V", "v_q_V"};
+  s.record.grid_s = 50e-6;
+  constexpr Signal signals[] = {Signal::direct_current,           Signal::quadrature_current,
+                                Signal::direct_current_reference, Signal::quadrature_current_reference,
+                                Signal::direct_voltage,           Signal::quadrature_voltage};
+  for (const Signal signal : signals) ask(s, over(MetricKind::mean, signal, 0.0, 4e-3));
+  ask(s, measure(MetricKind::settling_time, Signal::quadrature_current));
+  EXPECT_TRUE(check_columns(s).empty());
+  std::vector<std::vector<double>> rows;
+  Listeners listeners;
+  listeners.on_record = [&](Row row) { rows.emplace_back(row.begin(), row.end()); };
+  const auto out = run(s, listeners);
+  ASSERT_TRUE(out) << to_string(out.problems()[0]);
+  ASSERT_EQ(ticks.size(), 80u);
+  ASSERT_EQ(rows.size(), 81u);
+  for (std::size_t k = 0; k < 6; ++k) {
+    double sum = 0.0;
+    for (std::size_t n = 0; n < ticks.size(); ++n) {
+      EXPECT_EQ(rows[n][k + 1], held[k](ticks[n])) << s.record.columns[k] << ", row " << n;
+      sum += held[k](ticks[n]);
+    }
+    EXPECT_NEAR(out->comparisons[k].measured, sum / 80, 1e-13 * 24) << s.record.columns[k];
+  }
+  // Without a level i_q's is the setpoint's: the last sample beyond 2 % of a step holds for its whole period.
+  double last_out_s = 0.0;
+  for (const Tick& t : ticks)
+    if (t.t_s >= 1e-3 && std::fabs(t.measured.q - 3.0) > 0.02 * 2.0) last_out_s = t.t_s + 50e-6 - 1e-3;
+  EXPECT_GT(last_out_s, 0.0);
+  EXPECT_NEAR(out->comparisons[6].measured, last_out_s, 1e-12);
+}
+
+TEST(FieldOriented, OtherDrivesHoldNoneOfIt) {
+  Scenario s = maxon_scenario(Mode::current, 2.0);
+  s.record.columns = {"i_q_A"};
+  ask(s, over(MetricKind::mean, Signal::quadrature_current, 0.0));
+  const base::Problems problems = check(s), unfit = check_columns(s);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].where, "compare[0].signal");
+  EXPECT_THAT(problems[0].cure, HasSubstr("field-oriented"));
+  ASSERT_EQ(unfit.size(), 1u);
+  EXPECT_THAT(unfit[0].cure, HasSubstr("field-oriented"));
+  const auto columns = record_columns(maxon_scenario(Mode::current, 2.0));
+  ASSERT_TRUE(columns);
+  for (const Column& column : *columns) EXPECT_NE(column.name, "i_q_A");
+  Scenario off = field_oriented(Mode::off, 0.0);
+  ask(off, over(MetricKind::mean, Signal::direct_current, 0.0));
+  ASSERT_EQ(check(off).size(), 1u) << "off, it holds nothing";
 }
 
 TEST(FieldOriented, WhatItDoesNotDoIsRefusedWithACure) {

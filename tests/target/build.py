@@ -10,7 +10,7 @@ from cores import HERE, OUT, REPOSITORY
 
 PROGRAM = REPOSITORY / "build" / "dev" / "sixstep"
 SCALARS = ("q15", "q14", "q31", "q30", "float")
-DRIVES = ("duty", "current", "hysteresis", "speed", "position", "product", "guarded", "one_shunt")
+DRIVES = ("duty", "current", "hysteresis", "speed", "position", "product", "guarded", "one_shunt", "field")
 JOBS = int(os.environ.get("SIXSTEP_JOBS", "2"))
 
 
@@ -44,6 +44,11 @@ def scenario(drive):
     return HERE / "scenarios" / f"{drive}.toml"
 
 
+def has_header(drive, scalar):
+    """Of the field-oriented drive no fixed-point scaling is proved."""
+    return drive != "field" or scalar == "float"
+
+
 def export_headers():
     """build/target/headers/SCALAR/DRIVE.hpp, constants from_raw: the same bits for every compiler."""
     def export(pair):
@@ -52,7 +57,7 @@ def export_headers():
         folder.mkdir(parents=True, exist_ok=True)
         told([PROGRAM, "export", "header", scenario(drive), "--arithmetic", scalar, "--set", f"control.arithmetic={scalar}",
               "--namespace", drive, "--despite", "measured on emulated cores, never flashed", "--out", folder / f"{drive}.hpp"])
-    for answer in side_by_side(export, [(s, d) for s in SCALARS for d in DRIVES]):
+    for answer in side_by_side(export, [(s, d) for s in SCALARS for d in DRIVES if has_header(d, s)]):
         if isinstance(answer, Failed):
             raise answer
 

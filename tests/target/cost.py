@@ -10,7 +10,7 @@ TABLE = cores.TABLES / "drives.txt"
 RECORDER = cores.REPOSITORY / "build" / "dev" / "tests" / "target" / "target_record"
 RECORDS = cores.OUT / "records"
 PLUGIN = cores.OUT / "count_instructions.so"
-CASES = ("duty", "current", "hysteresis", "speed", "position", "product")
+CASES = ("duty", "current", "hysteresis", "speed", "position", "product", "field")
 SOURCES = [cores.HERE / "cost" / "main.cpp", cores.HERE / "cost" / "entries.cpp"]
 MORE = 1.05  # a count that differs from the table's by more is told
 HEAD = """# SPDX-License-Identifier: Apache-2.0
@@ -26,7 +26,7 @@ def build_plugin():
 
 
 def cases():
-    return [(core, drive, scalar) for core in cores.CHIPS for scalar in core.costs for drive in CASES]
+    return [(core, drive, scalar) for core in cores.CHIPS for scalar in core.costs for drive in CASES if build.has_header(drive, scalar)]
 
 
 def record():
@@ -45,7 +45,8 @@ def record():
 
 def defines(core, drive):
     marked = core.unit == "instructions"
-    return (*core.for_entries, f"-DTARGET_DRIVE={drive}", f"-DTARGET_PRODUCT={int(drive == 'product')}", *(["-DTARGET_CALLS_ARE_MARKED"] if marked else []))
+    return (*core.for_entries, f"-DTARGET_DRIVE={drive}", f"-DTARGET_PRODUCT={int(drive == 'product')}",
+            f"-DTARGET_FIELD={int(drive == 'field')}", *(["-DTARGET_CALLS_ARE_MARKED"] if marked else []))
 
 
 def addresses(core, file):

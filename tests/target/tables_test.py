@@ -47,8 +47,9 @@ class Tables(unittest.TestCase):
     def test_every_part_of_the_walk_has_blocks_and_observers_are_not_the_rotors(self):
         blocks_of = {block for block, _, _ in walk.expected()}
         self.assertEqual({walk.part_of(block) for block in blocks_of}, set(walk.PARTS))
-        self.assertEqual([walk.part_of(block) for block in ("pi", "sensorless/lock", "sensorless/observer", "commissioning/pulse_start")],
-                         ["", "rotor", "observers", "pulses"])
+        self.assertEqual([walk.part_of(block) for block in ("pi", "sensorless/lock", "sensorless/observer", "commissioning/pulse_start",
+                                                      "field/field_drive")],
+                         ["", "rotor", "observers", "pulses", "field"])
 
     def test_a_block_that_got_dearer_is_told_with_block_and_core(self):
         told = cost.judge(("ATmega2560", "pi", "q15", "pi_step"), (10000, 1005, 1086, 1086), (10000, 1060, 1086, 1086))

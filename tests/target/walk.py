@@ -17,9 +17,9 @@ HEAD = """# SPDX-License-Identifier: Apache-2.0
 # Programs of their own: all at once would not fit, and a block's count would move with its neighbours. A block is in the part
 # that names it most exactly.
 PARTS = {"": (), "rotor": ("-DTARGET_OF_ROTOR",), "observers": ("-DTARGET_OF_OBSERVERS",),
-         "commissioning": ("-DTARGET_OF_COMMISSIONING",), "pulses": ("-DTARGET_OF_PULSES",)}
+         "commissioning": ("-DTARGET_OF_COMMISSIONING",), "pulses": ("-DTARGET_OF_PULSES",), "field": ("-DTARGET_OF_FIELD",)}
 BLOCKS = {"": "", "sensing/": "rotor", "sensorless/": "rotor", "commissioning/": "commissioning",
-          "commissioning/pulse": "pulses",
+          "commissioning/pulse": "pulses", "field/": "field",
           **{f"sensorless/{observer}": "observers" for observer in ("luenberger", "sliding_mode", "flux_linkage", "observer")}}
 
 

@@ -65,6 +65,21 @@ TEST(CoreCosts, AreThoseCountedOfTheDriveOfItsKind) {
   }
 }
 
+/// No Hall edge asks anything of it, and it has no fixed point.
+TEST(CoreCosts, AFieldOrientedDriveHasATickAlone) {
+  auto field = drive_of(control::Mode::speed);
+  field.field.emplace();
+  const std::string text = text::core_cost_lines(field);
+  const auto row = words_of_row(text, "Cortex-M4F", "float");
+  ASSERT_EQ(row.size(), 9u) << text;
+  EXPECT_EQ(row[3], counted("Cortex-M4F field float").first);
+  EXPECT_EQ(row[4], "-");
+  EXPECT_TRUE(words_of_row(text, "Cortex-M4F", "q15").empty());
+  EXPECT_EQ(text.find("has more"), std::string::npos);
+  field.field->weakening.most_A = 5.0;
+  EXPECT_NE(text::core_cost_lines(field).find("which comes to it: field_weakening.\n"), std::string::npos);
+}
+
 TEST(CoreCosts, EveryLineIsAComment) {
   std::istringstream lines(text::core_cost_lines(drive_of(control::Mode::speed)));
   int count = 0;

@@ -173,6 +173,8 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                                          "hall_stable_samples",
                                          "damping",
                                          "anti_windup",
+                                         "setpoint_weight",
+                                         "observer_ratio",
                                          "d1",
                                          "d0",
                                          "kp",

@@ -90,15 +90,25 @@ std::string bus(const study::Sensors& s) {
 }
 
 std::string rotor(const study::Sensors& s) {
-  if (s.rotor == study::RotorSensing::ideal) return "as it is";
+  using study::RotorSensing;
+  if (s.rotor == RotorSensing::ideal) return "as it is";
+  if (s.rotor == RotorSensing::encoder)
+    return fmt::format("encoder of {} lines, edges captured at {:.6g} Hz", s.encoder.lines, s.capture_Hz);
+  if (s.rotor == RotorSensing::absolute)
+    return fmt::format("absolute encoder of {} bits, {:.6g} s late, speed over {} samples", s.absolute.bits,
+                       s.absolute.latency_s, s.absolute.speed_samples);
+  if (s.rotor == RotorSensing::resolver)
+    return fmt::format("resolver of {} pole pairs, followed within {:.6g} Hz", s.resolver.pole_pairs,
+                       s.resolver.bandwidth_Hz);
   const std::string over = s.speed_edges > 0
                                ? fmt::format("speed over {} edges", s.speed_edges)
                                : "speed over six edges where the loop stands their delay, else one";
   const bool in_place = s.hall_offset_deg == 0 && s.hall_edges_deg.empty() && s.hall_hysteresis_deg == 0 &&
                         s.hall_delay_s == 0 && s.hall_glitches_Hz == 0;
-  return fmt::format("Hall edges {}, captured at {:.6g} Hz, {}",
+  const bool runs_on = s.hall_angle != sixstep::rig::HallAngleFrom::sectors;
+  return fmt::format("Hall edges {}, captured at {:.6g} Hz, {}{}",
                      in_place ? "exactly at the sectors' ends" : "off their places as [sensors] says",
-                     s.capture_Hz, over);
+                     s.capture_Hz, over, runs_on ? ", angle that runs on between edges" : "");
 }
 
 std::string load(const study::Load& l) {

@@ -33,7 +33,8 @@ std::string closed_loop_poles(const study::LoopGains& g, const design::ZohPlant&
 /// One line: the gains and where they come from.
 std::string derivation(const study::LoopGains& g) {
   if (g.loop == "position") return fmt::format("{} rad/s per deg; {}", base::written(g.d1), g.origin);
-  const char* unit = g.loop == "current" ? "V/A" : "per rad/s";
+  const char* unit = g.loop.starts_with("current") ? "V/A" : "per rad/s";
+  if (!g.steps.empty()) return fmt::format("K = {} {}; {}", number(g.d1), unit, g.origin);
   std::string text =
       fmt::format("d1 = {} {}, d0 = {} {}; {}", number(g.d1), unit, number(g.d0), unit, g.origin);
   if (!g.derivation) return text;
@@ -64,7 +65,12 @@ std::string head(const ConfigHeader& w, const study::Compiled& c) {
   for (const study::LoopGains& g : c.gains) text += comment(g.loop, derivation(g));
   text +=
       "// Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the "
-      "motor.\n//\n";
+      "motor.\n";
+  if (c.field)
+    text +=
+        "// The tick is field_drive_step: of currents, speed and bus as measured, and of the magnet's direction, which\n"
+        "// field_directions makes of a decoder's electrical angle. Hall edges ask nothing of it.\n";
+  text += "//\n";
   return text + clearance_lines({w.scenario, w.clearance, w.despite, states_range(w.range)});
 }
 
@@ -94,8 +100,9 @@ std::string timing(const study::Compiled& c) {
          constant("bool", "pwm_centre_aligned", flag(m.centre_aligned),
                   "else the on-time begins with the period") +
          constant("std::uint64_t", "dead_time_ps", fmt::format("{:.0f}", dead), us(dead)) +
-         constant("bool", "commutate_at_sample", flag(c.board.commutate_at_sample),
-                  "else in the Hall interrupt") +
+         (c.field ? ""
+                  : constant("bool", "commutate_at_sample", flag(c.board.commutate_at_sample),
+                             "else in the Hall interrupt")) +
          constant("bool", "command_delayed", flag(c.board.delayed),
                   "a command counts from the next period on");
 }
@@ -109,22 +116,31 @@ std::string made(std::string_view type, std::string_view name, const std::string
       type, name, lines);
 }
 
-std::string includes(const ConfigHeader& w, bool product) {
+std::string includes(const ConfigHeader& w, const study::Compiled& c) {
   if (w.single_header) return "#include \"sixstep_control.hpp\"\n";
   return fmt::format("#include \"sixstep/control/{}.hpp\"\n#include \"sixstep/control/units.hpp\"\n",
-                     product ? "protected_drive" : "drive");
+                     c.product ? "protected_drive"
+                     : c.field ? "field/field_drive"
+                               : "drive");
 }
 
-/// `kept`: the drive in the target's arithmetic, and the product around it where the scenario has one.
+/// The drive in the target's arithmetic, and what stands around it where the scenario has that.
+template <class Scalar>
+struct Kept {
+  control::DriveConfig<Scalar> drive{};
+  control::ProtectedConfig<Scalar> product{};
+  control::FieldDriveConfig<Scalar> field{};
+};
+
 template <class Scalar>
 std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_view type,
-                   const control::ProtectedConfig<Scalar>& kept, const design::Bases& b,
+                   const Kept<Scalar>& kept, const design::Bases& b,
                    const std::vector<design::Headroom>& rows) {
   std::string text = head(w, c);
   if (!rows.empty()) text += proof(rows);
   text += core_cost_lines(c);
   text += "#pragma once\n#include <cstdint>\n\n";
-  text += includes(w, c.product.has_value());
+  text += includes(w, c);
   text += fmt::format("\nnamespace {} {{\n\nusing Scalar = {};\n\n", w.name_space, type);
   const auto base = [](const char* member, double x, const char* unit) {
     return fmt::format("{:<72}  // {} {}\n", fmt::format("  .{} = {},", member, hex_float(x)), number(x),
@@ -134,11 +150,15 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   text += "inline constexpr sixstep::control::Units<Scalar> units{\n" + base("current_A", b.current_A, "A") +
           base("voltage_V", b.voltage_V, "V") + base("speed_rad_s", b.speed_rad_s, "rad/s") +
           base("position_deg", b.position_deg, "deg") + "};\n\n";
+  const control::DriveConfig<double>& drive = c.field ? c.field->drive : c.drive;
   text += timing(c) + "\n" +
-          made("DriveConfig", "drive", config_lines<Scalar>(c.drive.mode, c.drive, kept.drive, b));
-  if (c.product)
-    text += made("ProtectedConfig", "product",
-                 "  c.drive = drive;\n" + config_lines<Scalar>(c.drive.mode, *c.product, kept, b));
+          made("DriveConfig", "drive", config_lines<Scalar>(c.drive.mode, drive, kept.drive, b));
+  const auto around = [&](const char* type_name, const char* name, const auto& designed, const auto& own) {
+    text +=
+        made(type_name, name, "  c.drive = drive;\n" + config_lines<Scalar>(c.drive.mode, designed, own, b));
+  };
+  if (c.product) around("ProtectedConfig", "product", *c.product, kept.product);
+  if (c.field) around("FieldDriveConfig", "field", *c.field, kept.field);
   return text + fmt::format("}}  // namespace {}\n", w.name_space);
 }
 
@@ -154,15 +174,28 @@ design::OperatingRange range_of(const ConfigHeader& w, const study::Compiled& c)
 template <class Scalar>
 base::Result<std::string> floating_header(const ConfigHeader& w, const study::Compiled& c,
                                           std::string_view type) {
-  control::ProtectedConfig<Scalar> kept;
+  Kept<Scalar> kept;
   kept.drive = study::in_arithmetic<Scalar>(c.drive);
-  if (c.product) kept = study::product_in<Scalar>(w.scenario, c)->config;
+  if (c.product) {
+    kept.product = study::product_in<Scalar>(w.scenario, c)->config;
+    kept.drive = kept.product.drive;
+  }
+  if (c.field) {
+    kept.field = study::field_in<Scalar>(c)->config;
+    kept.drive = kept.field.drive;
+  }
   return header<Scalar>(w, c, type, kept, {}, {});
 }
 
 template <class Scalar>
 base::Result<std::string> fixed_header(const ConfigHeader& w, const study::Compiled& c,
                                        std::string_view type) {
+  if (c.field)
+    return base::Problem{"control.arithmetic",
+                         std::string(base::word(study::arithmetic_choices,
+                                                w.arithmetic.value_or(w.scenario.control.arithmetic))),
+                         "has no scaling that is proved for the field-oriented drive",
+                         "take float or double"};
   const design::OperatingRange range = range_of(w, c);
   design::Bases bases = design::bases_for(c.drive, range, static_cast<double>(Scalar::max()));
   if (!states_range(w.range)) {  // as the run has it
@@ -176,11 +209,14 @@ base::Result<std::string> fixed_header(const ConfigHeader& w, const study::Compi
     const auto product =
         design::scaled_product<Scalar>(*c.product, range, bases, w.scenario.sensors.adc_bits);
     if (!product) return product.problems();
-    return header<Scalar>(w, c, type, product->config, product->bases, product->proof);
+    Kept<Scalar> kept;
+    kept.drive = product->config.drive;
+    kept.product = product->config;
+    return header<Scalar>(w, c, type, kept, product->bases, product->proof);
   }
   const base::Result<design::Scaled<Scalar>> scaled = design::scaled<Scalar>(c.drive, range, bases);
   if (!scaled) return scaled.problems();
-  control::ProtectedConfig<Scalar> kept;
+  Kept<Scalar> kept;
   kept.drive = scaled->config;
   return header<Scalar>(w, c, type, kept, scaled->bases, scaled->proof);
 }

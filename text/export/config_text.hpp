@@ -12,6 +12,7 @@
 
 #include "sixstep/base/describe.hpp"
 #include "sixstep/control/fixed.hpp"
+#include "sixstep/design/fields/field_drive_fields.hpp"
 #include "sixstep/design/fields/product_fields.hpp"
 #include "sixstep/design/scaling/scaling.hpp"
 #include "sixstep/study/scenario/choices.hpp"
@@ -77,6 +78,13 @@ struct EnumText<sixstep::control::SpeedControl> {
                                                                                     {"duty", duty, ""}};
 };
 template <>
+struct EnumText<sixstep::control::SpeedLaw> {
+  using enum sixstep::control::SpeedLaw;
+  static constexpr const char* type = "SpeedLaw";
+  static constexpr sixstep::base::Choice<sixstep::control::SpeedLaw> words[] = {
+      {"pi", pi, ""}, {"positional", positional, ""}, {"observed", observed, ""}, {"sliding", sliding, ""}};
+};
+template <>
 struct EnumText<sixstep::control::Watch> {
   using enum sixstep::control::Watch;
   static constexpr const char* type = "Watch";
@@ -96,6 +104,14 @@ struct EnumText<sixstep::control::HallArrangement> {
   static constexpr const char* type = "HallArrangement";
   static constexpr sixstep::base::Choice<sixstep::control::HallArrangement> words[] = {
       {"degrees_120", degrees_120, ""}, {"degrees_60", degrees_60, ""}};
+};
+
+template <>
+struct EnumText<sixstep::control::VoltageLimit> {
+  using enum sixstep::control::VoltageLimit;
+  static constexpr const char* type = "VoltageLimit";
+  static constexpr sixstep::base::Choice<sixstep::control::VoltageLimit> words[] = {{"axes", axes, ""},
+                                                                                    {"circle", circle, ""}};
 };
 
 /// A walk over the fields of a configuration (design/fields), the designed one in SI beside the kept one in

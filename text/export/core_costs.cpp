@@ -19,6 +19,7 @@ namespace control = sixstep::control;
 /// The reference drive, by the name that the tables have for it.
 std::string_view kind(const study::Compiled& c) {
   if (c.product) return "product";
+  if (c.field) return "field";
   switch (c.drive.mode) {
     case control::Mode::duty:
       return "duty";
@@ -64,14 +65,20 @@ const Words* row_of(const std::vector<Words>& all, const Words& key) {
 std::string blocks_beside(const study::Compiled& c) {
   const auto& e = c.drive.extras;
   const bool advances = c.product && (c.product->advance.fixed != 0 || c.product->advance.per_speed != 0);
-  const std::array<std::pair<bool, std::string_view>, 8> blocks{{
+  const bool weakens = c.field && c.field->weakening.most_A > 0;
+  const bool salient = c.field && c.field->per_ampere.k_per_A != 0;
+  const std::array<std::pair<bool, std::string_view>, 12> blocks{{
       {e.on && e.slews_setpoint, "slew"},
       {e.on && e.limits_current, "limits"},
       {e.on && (e.feed_forward.K_t_V_s != 0 || e.bus.lowest_bus_V != 0), "feed_forward"},
       {e.on && e.smooth_chopping, "smooth_chopping"},
-      {e.on && e.positional_speed, "pi_positional"},
+      {e.on && e.speed_law == control::SpeedLaw::positional, "pi_positional"},
+      {e.on && e.speed_law == control::SpeedLaw::observed, "observed_speed"},
+      {e.on && e.speed_law == control::SpeedLaw::sliding, "sliding_speed"},
       {e.on && e.speed_derivative.g != 0, "derivative"},
       {advances, "advance"},
+      {weakens, "field_weakening"},
+      {salient, "torque_per_ampere"},
       {c.product && c.product->sensing == control::CurrentSensing::one_shunt, "one_shunt"},
   }};
   std::string names;
@@ -93,10 +100,10 @@ std::string core_cost_lines(const study::Compiled& c) {
     if (size.size() != 5 || size[1] != kind(c)) continue;
     const Words* tick = row_of(counts, {size[0], size[1], size[2], "tick"});
     const Words* hall = row_of(counts, {size[0], size[1], size[2], "hall"});
-    if (!tick || !hall) continue;
-    text +=
-        fmt::format("//   {:<12}{:<12}{:>8}{:>8}{:<16}{:>8}{:>8} bytes\n", size[0], size[2], tick->back(),
-                    hall->back(), size[0].starts_with("AT") ? " cycles" : " instructions", size[3], size[4]);
+    if (!tick || (!hall && !c.field)) continue;
+    text += fmt::format("//   {:<12}{:<12}{:>8}{:>8}{:<16}{:>8}{:>8} bytes\n", size[0], size[2], tick->back(),
+                        hall ? hall->back() : "-", size[0].starts_with("AT") ? " cycles" : " instructions",
+                        size[3], size[4]);
   }
   if (const std::string more = blocks_beside(c); !more.empty())
     text += fmt::format("// This drive has more, which comes to it: {}.\n", more);

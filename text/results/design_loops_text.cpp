@@ -31,7 +31,7 @@ std::string or_none(const std::optional<double>& x, std::string (*shown)(double)
 }  // namespace
 
 std::string gain_unit(const LoopDesign& loop, const Motion& motion) {
-  return loop.name == "current" ? "V/A" : motion.words("per rad/s");
+  return loop.name.starts_with("current") ? "V/A" : motion.words("per rad/s");
 }
 
 std::string loop_text(const LoopDesign& loop, const Motion& motion) {

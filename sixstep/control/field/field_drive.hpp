@@ -8,7 +8,7 @@
 // that it does not wind up against it.
 //
 // Modulation is the symmetric space vector's; DriveConfig's chopping, current loop and bus voltage have no say here. What
-// its extras may ask for are a slewed setpoint and a speed loop in positional form.
+// its extras may ask for are a slewed setpoint and another law of the speed loop.
 #pragma once
 #include "sixstep/control/field/field_current.hpp"
 #include "sixstep/control/field/field_direction.hpp"
@@ -116,6 +116,7 @@ constexpr void retune(FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>&
       state.reference = {};
     }
   }
+  detail::hand_speed_over(config.drive, state.drive, next.drive);
   config = next;
 }
 

@@ -180,6 +180,7 @@ template <class Scalar>
 constexpr void retune(SensorlessDriveConfig<Scalar>& config, SensorlessDriveState<Scalar>& state,
                       const SensorlessDriveConfig<Scalar>& next) {
   if (next.drive.mode != config.drive.mode) detail::rest_idle_loops(config.drive, state.drive);
+  detail::hand_speed_over(config.drive, state.drive, next.drive);
   config = next;
 }
 

@@ -116,18 +116,56 @@ void fields(Walk&& w, const control::DerivativeConfig<double>& d, Kept& kept) {
 }
 
 template <class Walk, class Kept>
+void fields(Walk&& w, const control::ObservedSpeedConfig<double>& d, Kept& kept) {
+  auto& [a, b, c, L_w, L_l, K, f, g] = kept;
+  w.signal({"a", "", "left of the speed, per sample"}, d.a, a, Base::one);
+  w.signal({"b", "rad/s", "that a sample of full torque adds"}, d.b, b, Base::speed);
+  w.signal({"c", "", "left of the torque, per sample"}, d.c, c, Base::one);
+  w.signal({"L_w", "", "correction of the speed"}, d.L_w, L_w, Base::one);
+  w.signal({"L_l", "per rad/s", "correction of the load"}, d.L_l, L_l, Base::one);
+  w.signal({"K", "per rad/s"}, d.K, K, Base::one);
+  w.signal({"f", "per rad/s", "for friction"}, d.f, f, Base::one);
+  w.signal({"g", "rad/s", "that the torque on its way brings"}, d.g, g, Base::speed);
+}
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::SlidingSpeedConfig<double>& d, Kept& kept) {
+  auto& [q, f, reach, layer] = kept;
+  w.signal({"q", "", "of the error, per sample"}, d.q, q, Base::one);
+  w.signal({"f", "per rad/s"}, d.f, f, Base::one);
+  w.signal({"reach", "of full torque"}, d.reach, reach, Base::one);
+  w.signal({"layer", "rad/s"}, d.layer, layer, Base::speed);
+}
+
+/// Fixed point has none of them: no scaling of theirs is proved.
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::SpeedLaws<double>& d, Kept& kept) {
+  if constexpr (requires { kept.observed; }) {
+    auto& [observed, sliding] = kept;
+    w.part("observed", d.observed, observed);
+    w.part("sliding", d.sliding, sliding);
+  }
+}
+
+template <class Walk, class Kept>
 void fields(Walk&& w, const control::DriveExtras<double>& d, Kept& kept) {
   auto& [on, slews_setpoint, slew, limits_current, limits, torque_fraction_per_A, feed_forward, bus,
-         smooth_chopping, chopping, predicts_current, deadbeat, staying_phase, positional_speed, speed,
-         speed_derivative] = kept;
+         smooth_chopping, chopping, predicts_current, deadbeat, staying_phase, speed_law, speed,
+         speed_derivative, speed_weight_off, laws] = kept;
   w.flag({"on"}, d.on, on);
-  if (!w.when_on(d.on)) return;
+  constexpr Field torque_fraction{"torque_fraction_per_A", "per A"};
+  constexpr Ratio of_current{Base::one, Base::current};
+  if (!w.when_on(d.on)) {
+    // What a field-oriented drive holds its speed loop to, without any extra.
+    if (d.torque_fraction_per_A != 0)
+      w.gain(torque_fraction, d.torque_fraction_per_A, torque_fraction_per_A, of_current);
+    return;
+  }
   w.flag({"slews_setpoint"}, d.slews_setpoint, slews_setpoint);
   w.part("slew", d.slew, slew);
   w.flag({"limits_current"}, d.limits_current, limits_current);
   if (w.when_on(d.limits_current)) w.part("limits", d.limits, limits);
-  w.gain({"torque_fraction_per_A", "per A"}, d.torque_fraction_per_A, torque_fraction_per_A,
-         {Base::one, Base::current});
+  w.gain(torque_fraction, d.torque_fraction_per_A, torque_fraction_per_A, of_current);
   w.part("feed_forward", d.feed_forward, feed_forward);
   w.part("bus", d.bus, bus);
   w.flag({"smooth_chopping"}, d.smooth_chopping, smooth_chopping);
@@ -135,10 +173,13 @@ void fields(Walk&& w, const control::DriveExtras<double>& d, Kept& kept) {
   w.flag({"predicts_current"}, d.predicts_current, predicts_current);
   if (w.when_on(d.predicts_current)) w.part("deadbeat", d.deadbeat, deadbeat);
   w.flag({"staying_phase"}, d.staying_phase, staying_phase);
-  w.flag({"positional_speed"}, d.positional_speed, positional_speed);
-  if (!w.when_on(d.positional_speed)) return;
+  w.choice({"speed_law"}, d.speed_law, speed_law, control::SpeedLaw::pi);
+  if (!w.when_on(d.speed_law != control::SpeedLaw::pi)) return;
   w.part("speed", d.speed, speed);
   w.part("speed_derivative", d.speed_derivative, speed_derivative);
+  w.gain({"speed_weight_off", "per rad/s", "of the setpoint"}, d.speed_weight_off, speed_weight_off,
+         {Base::one, Base::speed});
+  w.part("laws", d.laws, laws);
 }
 
 template <class Walk, class Kept>

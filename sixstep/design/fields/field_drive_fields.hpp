@@ -14,7 +14,7 @@ void fields(Walk&& w, const control::FieldCurrentConfig<double>& c, Kept& kept) 
   const PiUse use{{Base::voltage, Base::current}, "V per A", "V"};
   w.part("d", c.d, d, use);
   w.part("q", c.q, q, use);
-  limit = c.limit;
+  w.choice({.name = "limit", .always = true}, c.limit, limit, control::VoltageLimit::circle);
   w.flag({"decouples"}, c.decouples, decouples);
   w.gain({"d_V_s_A", "V per A and rad/s", "p L_d"}, c.d_V_s_A, d_V_s_A, {Base::voltage, Base::current});
   w.gain({"q_V_s_A", "V per A and rad/s", "p L_q"}, c.q_V_s_A, q_V_s_A, {Base::voltage, Base::current});

@@ -27,7 +27,10 @@ double settle_of_current(const DesignSpec& w) {
 }
 
 DriveLoops loops_of(const DriveDesign& d, const MotorModel& motor, int delay_periods) {
-  DriveLoops to{.motor = motor, .period_s = d.spec.period_s, .delay_periods = delay_periods};
+  DriveLoops to{.motor = motor,
+                .winding = driven_pair(motor),
+                .period_s = d.spec.period_s,
+                .delay_periods = delay_periods};
   for (const LoopDesign& loop : d.loops) {
     if (loop.name == "current") to.current = loop.gains;
     if (loop.name == "speed") to.speed = loop.gains;
@@ -46,19 +49,9 @@ double watched_s(const Transfer& whole, double period_s) {
 
 void judge(DriveDesign& d, LoopDesign& loop, std::size_t index) {
   const int delay_periods = d.spec.delay_periods;
-  loop.loop = open_loops(d, d.motor, delay_periods)[index];
-  loop.figures = loop_figures(loop.loop, d.spec.period_s);
-  loop.other = loop_figures(open_loops(d, d.motor, 1 - delay_periods)[index], d.spec.period_s);
-  const SensedLoop sensed = sensed_loops(d, d.motor, delay_periods)[index];
-  const bool lags = sensed.lag.delay_s() > 0.0;
-  loop.built = lags ? sensed_figures(sensed, d.spec.period_s) : loop.figures;
-  if (!loop.built.stable) return;
-  const Transfer whole = closed(loop.loop);
-  const double watched = watched_s(whole, d.spec.period_s);
-  // The step of a position loop is shaped by limits, not by the linear loop: it is not looked at.
-  loop.step = lags && loop.name == "speed"
-                  ? sensed_step(sensed, d.spec.period_s, 2 * watched, settling_band(d))
-                  : step_response(whole, d.spec.period_s, watched);
+  judge_loop(loop, open_loops(d, d.motor, delay_periods)[index],
+             open_loops(d, d.motor, 1 - delay_periods)[index], sensed_loops(d, d.motor, delay_periods)[index],
+             d.spec.period_s, settling_band(d));
 }
 
 base::Result<LoopDesign> by_placement(const char* name, const ZohPlant& plant, double settle_s,
@@ -235,6 +228,21 @@ void finish(DriveDesign& d) {
 }
 
 }  // namespace
+
+void judge_loop(LoopDesign& loop, const Transfer& open, const Transfer& other, const SensedLoop& sensed,
+                double period_s, double band) {
+  loop.loop = open;
+  loop.figures = loop_figures(open, period_s);
+  loop.other = loop_figures(other, period_s);
+  const bool lags = sensed.lag.delay_s() > 0.0;
+  loop.built = lags ? sensed_figures(sensed, period_s) : loop.figures;
+  if (!loop.built.stable) return;
+  const Transfer whole = closed(open);
+  const double watched = watched_s(whole, period_s);
+  // The step of a position loop is shaped by limits, not by the linear loop: it is not looked at.
+  loop.step = lags && loop.name == "speed" ? sensed_step(sensed, period_s, 2 * watched, band)
+                                           : step_response(whole, period_s, watched);
+}
 
 double settling_band(const DriveDesign& d) { return d.spec.rotor.hall && d.lag.delay_s() > 0.0 ? 0.1 : 0.02; }
 

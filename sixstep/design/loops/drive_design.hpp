@@ -108,6 +108,11 @@ base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignSpec
 /// The same with another position gain, figures and warnings anew.
 DriveDesign with_position_gain(const DriveDesign& design, double gain_rad_s_per_deg);
 
+/// Fills in figures and step of a loop whose gains are there: open with the delay that it has and with the other one, and as the
+/// speed's sensor shows it. `band`: of a speed loop's settling.
+void judge_loop(LoopDesign& loop, const Transfer& open, const Transfer& other, const SensedLoop& sensed,
+                double period_s, double band);
+
 /// The loops of the same controller on another motor: what a tolerance does to the margins. From the inside
 /// out, open.
 std::vector<Transfer> open_loops(const DriveDesign& design, const MotorModel& motor, int delay_periods);

@@ -21,11 +21,11 @@ struct Plant {
 };
 
 Plant plant_of(const DriveLoops& d) {
-  const double R = 2.0 * d.motor.machine.R_ohm, L = 2.0 * d.motor.machine.L_H, K = d.motor.K_t_Nm_A;
+  const auto& [R, L, K_e, K_t] = d.winding;
   const double J = d.motor.shaft.J_kg_m2, B = d.motor.shaft.B_Nm_s;
   Linear motor{.states = 2, .A = {}, .B = {}};
-  motor.A[0] = {-R / L, -K / L, 0.0, 0.0};
-  motor.A[1] = {K / J, -B / J, 0.0, 0.0};
+  motor.A[0] = {-R / L, -K_e / L, 0.0, 0.0};
+  motor.A[1] = {K_t / J, -B / J, 0.0, 0.0};
   motor.A[2] = {0.0, 1.0, 0.0, 0.0};
   motor.B[0] = 1.0 / L;
   const Transfer i = sampled(motor, 0, d.period_s), w = sampled(motor, 1, d.period_s);
@@ -50,8 +50,16 @@ Cascade cascade_of(const DriveLoops& d, const Plant& p) {
 
 }  // namespace
 
+LoopWinding driven_pair(const MotorModel& motor) {
+  return {2.0 * motor.machine.R_ohm, 2.0 * motor.machine.L_H, motor.K_t_Nm_A, motor.K_t_Nm_A};
+}
+
+LoopWinding quadrature_axis(const FieldMachine& machine, bool decoupled) {
+  return {machine.R_ohm, machine.L_q_H, decoupled ? 0.0 : machine.magnet_V_s, torque_per_q_A(machine)};
+}
+
 Transfer open_current_loop(const DriveLoops& d) {
-  const ZohPlant plant = current_plant(2.0 * d.motor.machine.R_ohm, 2.0 * d.motor.machine.L_H, d.period_s);
+  const ZohPlant plant = current_plant(d.winding.R_ohm, d.winding.L_H, d.period_s);
   const Transfer pi{of(d.current), difference}, held{{plant.b0}, {1.0 + plant.a0, 1.0}};
   return series(series(pi, held), delay(d.delay_periods));
 }
@@ -65,6 +73,19 @@ Transfer open_speed_loop(const DriveLoops& d) {
   const Plant p = plant_of(d);
   const Cascade c = cascade_of(d, p);
   return {product(c.controllers, p.w), product(difference, c.current_closed)};
+}
+
+Transfer speed_loop_by_setpoint(const DriveLoops& d, const LinearLaw& law) {
+  const Plant p = plant_of(d);
+  const Polynomial acts = product(scaled(of(d.current), d.current_at_full_torque_A), p.w);
+  const Polynomial apart = sum(law.y, scaled(law.r, -1.0));
+  return {product(acts, law.r), sum(product(cascade_of(d, p).current_closed, law.q), product(acts, apart))};
+}
+
+Transfer open_speed_loop(const DriveLoops& d, const LinearLaw& law) {
+  const Plant p = plant_of(d);
+  const Polynomial acts = product(scaled(of(d.current), d.current_at_full_torque_A), p.w);
+  return {product(acts, law.y), product(cascade_of(d, p).current_closed, law.q)};
 }
 
 Transfer open_position_loop(const DriveLoops& d) {

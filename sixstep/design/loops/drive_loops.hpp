@@ -1,15 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // The drive's loops as open loops in z: motor with back-EMF, held voltage, delay, and the loops within.
 #pragma once
+#include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/loops/pole_placement.hpp"
 #include "sixstep/design/loops/transfer.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 
 namespace sixstep::design {
 
-/// Driven pair and shaft: L di/dt = u - R i - K_t w, J dw/dt = K_t i - B w, d theta/dt = w (terminal values).
+/// What the current controller's voltage acts on: L di/dt = u - R i - K_e w, and J dw/dt = K_t i - B w, d theta/dt = w.
+struct LoopWinding {
+  double R_ohm = 0.0, L_H = 0.0;
+  double back_emf_V_s = 0.0;  ///< K_e
+  double torque_Nm_A = 0.0;   ///< K_t
+};
+/// Terminal values: K_e = K_t.
+LoopWinding driven_pair(const MotorModel& motor);
+/// The axis across the magnet: R, L_q and p psi of a phase, and 3/2 p psi of torque. Decoupled, what turning makes is added to
+/// what the controller asks for, and it sees none of it.
+LoopWinding quadrature_axis(const FieldMachine& machine, bool decoupled);
+
 struct DriveLoops {
   MotorModel motor;
+  LoopWinding winding;
   double period_s = 0.0;
   int delay_periods = 0;
   PiGains current{};
@@ -18,12 +31,21 @@ struct DriveLoops {
   double position_gain_rad_s_per_deg = 0.0;
 };
 
+/// A speed controller that sees setpoint and speed each its own way: u = (setpoint r - speed y)/q, in z - 1.
+struct LinearLaw {
+  Polynomial r, y, q;
+};
+
 /// Rotor held, as it is designed.
 Transfer open_current_loop(const DriveLoops& drive);
 /// Rotor free: its back-EMF gives way to a slow change of the current.
 Transfer open_current_loop_turning(const DriveLoops& drive);
 /// From speed error to speed, the current loop closed within.
 Transfer open_speed_loop(const DriveLoops& drive);
+/// The loop L that a PI would need for the same answer to its setpoint, T = L/(1 + L): what a measurement of T shows.
+Transfer speed_loop_by_setpoint(const DriveLoops& drive, const LinearLaw& law);
+/// The loop opened at the output of the controller: what margins are of.
+Transfer open_speed_loop(const DriveLoops& drive, const LinearLaw& law);
 /// From position error to position, both loops closed within.
 Transfer open_position_loop(const DriveLoops& drive);
 

@@ -124,19 +124,23 @@ bool Scale<Scalar>::prove(const control::PiPositionalConfig<double>& pi) {
   const control::DerivativeConfig<double>& d = extras_->speed_derivative;
   const double steepest = d.b > 0 ? d.g / d.b * m_.speed_change : HUGE_VAL;
   const double braked = d.g > 0 ? std::min(2 * m_.speed * d.g, steepest) : 0.0;
+  // What a setpoint weight takes off is fed forward like the derivative, and the integral makes up for it.
+  const double weighted = extras_->speed_weight_off * m_.speed_ref;
   const double integral =
-      pi.K_b > 0 ? pi.limit + braked + std::fabs(pi.K_c) / pi.K_b * (m_.speed + m_.speed_ref) : 0.0;
+      pi.K_b > 0 ? pi.limit + braked + weighted + std::fabs(pi.K_c) / pi.K_b * (m_.speed + m_.speed_ref)
+                 : 0.0;
   if (!(pi.K_b > 0) && pi.K_i != 0)
     proof_.problems.push_back({"speed.K_b", "0",
                                "lets the integral grow without an end, which fixed point has",
                                "take K_i/K, or floating point"});
-  if (braked + integral > 14.0 * full_scale<Scalar>)
+  if (braked + weighted + integral > 14.0 * full_scale<Scalar>)
     proof_.problems.push_back(
-        {"speed derivative and integral", base::written(braked + integral),
+        {"speed derivative and integral", base::written(braked + weighted + integral),
          "of full output are above " + base::written(14.0 * full_scale<Scalar>),
          "take K_b nearer K_i/K, a longer filter of the derivative, or a format with more "
          "bits before the point"});
-  proof_.rows.push_back({"speed derivative and integral", braked + integral, 14.0 * full_scale<Scalar>});
+  proof_.rows.push_back(
+      {"speed derivative and integral", braked + weighted + integral, 14.0 * full_scale<Scalar>});
   return true;
 }
 

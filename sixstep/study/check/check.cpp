@@ -19,6 +19,7 @@
 #include "sixstep/study/check/sensors.hpp"
 #include "sixstep/study/check/shaft.hpp"
 #include "sixstep/study/check/shaft_sensor.hpp"
+#include "sixstep/study/check/speed.hpp"
 #include "sixstep/study/check/supply.hpp"
 #include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/compile/compile.hpp"
@@ -88,22 +89,6 @@ void check_limited_mode(const Scenario& s, base::Problems& out) {
   refuse("control.regeneration.limit_V", c.regeneration.limit_V);
 }
 
-/// What only the positional form has.
-void check_speed_form(const Scenario& s, base::Problems& out) {
-  const SpeedLoop& loop = s.control.speed;
-  const auto refuse = [&](const char* key, const std::optional<double>& value) {
-    if (value && loop.form != SpeedForm::positional)
-      out.push_back({std::string("control.speed.") + key, number(*value), "is of the positional form only",
-                     "set control.speed.form = \"positional\", or remove it"});
-  };
-  refuse("anti_windup", loop.anti_windup);
-  refuse("derivative_s", loop.derivative_s);
-  refuse("derivative_filter_s", loop.derivative_filter_s);
-  if (loop.derivative_filter_s && !loop.derivative_s && loop.form == SpeedForm::positional)
-    out.push_back({"control.speed.derivative_filter_s", number(*loop.derivative_filter_s),
-                   "has no derivative to smooth", "give control.speed.derivative_s too"});
-}
-
 /// A loop of second order takes two samples at least until it stands: dead beat.
 void check_settling(const std::optional<double>& settle_s, const char* key, const Scenario& s,
                     base::Problems& out) {
@@ -121,7 +106,7 @@ void check_control(const Scenario& s, base::Problems& out) {
   check_regeneration(s, out);
   check_speed_output(s, out);
   check_limited_mode(s, out);
-  check_speed_form(s, out);
+  check_speed_law(s, out);
   const auto add = [&](const base::Problems& more) { out.insert(out.end(), more.begin(), more.end()); };
   add(given_gains(s.control.current, "control.current").problems);
   add(given_gains(s.control.speed, "control.speed").problems);

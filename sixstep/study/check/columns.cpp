@@ -8,12 +8,16 @@ base::Problems check_columns(const Scenario& s) {
   base::Problems out;
   const auto columns = record_indices(s);
   if (!columns || s.record.columns.empty()) return out;  // unknown ones are told by check()
-  for (const std::size_t n : *columns)
-    if (!applies(static_cast<ColumnId>(n), s) &&
-        static_cast<ColumnId>(n) != ColumnId::loop_A)  // a star's is 0
-      out.push_back({"record.columns", "\"" + all_columns(s.sheet.kind)[n].name + "\"",
-                     "has no value in this control.mode",
-                     "remove it, or control what it is the reference of"});
+  for (const std::size_t n : *columns) {
+    const auto id = static_cast<ColumnId>(n);
+    if (applies(id, s) || id == ColumnId::loop_A) continue;  // a star's is 0
+    const bool of_field = id >= ColumnId::i_d && s.control.drive != FirmwareKind::field;
+    out.push_back(
+        {"record.columns", "\"" + all_columns(s.sheet.kind)[n].name + "\"",
+         of_field ? "is held by the field-oriented drive only" : "has no value in this control.mode",
+         of_field ? "remove it, or set control.drive = \"field-oriented\""
+                  : "remove it, or control what it is the reference of"});
+  }
   return out;
 }
 

@@ -92,6 +92,14 @@ void check_signal(const Asked& a) {
   }
 }
 
+/// What only a field-oriented drive holds, in a mode in which it holds currents.
+void check_drive(const Asked& a) {
+  if (!is_of_field(a.m.signal)) return;
+  if (a.s.control.drive != FirmwareKind::field)
+    a.refuse("signal", quoted(a.m.signal), "is held by the field-oriented drive only",
+             "set control.drive = \"field-oriented\", or name another signal");
+}
+
 /// A reference that the mode does not have, and the error against it.
 void check_mode(const Asked& a) {
   const Mode mode = a.s.control.mode;
@@ -99,6 +107,7 @@ void check_mode(const Asked& a) {
   const bool current = speed || comes_into(a.s, Mode::current);
   const Signal signal = a.m.signal;
   const bool missing =
+      (is_of_field(signal) && !current) ||
       ((signal == Signal::current_reference || signal == Signal::current_error) && !current) ||
       ((signal == Signal::speed_reference || signal == Signal::speed_error) && !speed) ||
       ((signal == Signal::position_reference || signal == Signal::position_error) && !position);
@@ -108,15 +117,17 @@ void check_mode(const Asked& a) {
              "name a signal of this mode, or change control.mode");
 }
 
-bool is_controlled(Signal signal, Mode mode) {
-  return (mode == Mode::current && signal == Signal::current) ||
+bool is_controlled(Signal signal, const Control& control) {
+  const Mode mode = control.mode;
+  const bool across = control.drive == FirmwareKind::field && signal == Signal::quadrature_current;
+  return (mode == Mode::current && (signal == Signal::current || across)) ||
          (mode == Mode::speed && signal == Signal::speed) ||
          (mode == Mode::position && signal == Signal::position);
 }
 
 void check_level(const Asked& a) {
   const bool wanted = fact_of(a.m.metric).over != TakenOver::window;
-  if (wanted && !a.m.level && !is_controlled(a.m.signal, a.s.control.mode))
+  if (wanted && !a.m.level && !is_controlled(a.m.signal, a.s.control))
     a.refuse("level", "", "is missing, and the reference is of another signal",
              "give the level that the signal is to reach, in its own unit");
   if (a.m.tail && !is_of_a_level(a.m.metric))
@@ -130,7 +141,7 @@ void check_level(const Asked& a) {
 /// Steps are told apart by the reference's levels: while it moves it has none.
 void check_levels_of_reference(const Asked& a) {
   const bool takes_levels = fact_of(a.m.metric).over != TakenOver::window;
-  if (takes_levels && !a.m.level && is_controlled(a.m.signal, a.s.control.mode) &&
+  if (takes_levels && !a.m.level && is_controlled(a.m.signal, a.s.control) &&
       reference_moves(a.s, a.from_s(), a.to_s()))
     a.refuse(
         "metric", quoted(a.m.metric),
@@ -180,6 +191,7 @@ void check_measure(const Measure& m, const std::string& where, const Scenario& s
   check_band(asked);
   check_window(asked);
   check_signal(asked);
+  check_drive(asked);
   check_mode(asked);
   check_level(asked);
   if (sound_references) check_levels_of_reference(asked);

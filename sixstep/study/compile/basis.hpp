@@ -53,6 +53,15 @@ struct FieldAround {
 base::Result<FieldAround> field_around(const Scenario& scenario, const Basis& basis,
                                        const control::DriveConfig<double>& drive);
 
+/// By how many samples its current across the magnet comes late in the mean (design/loops/speed_laws.hpp).
+double field_lag_periods(const Scenario& scenario, const Basis& basis);
+
+/// The speed loop of `tuned`, whose limits and current loop are known, by the law that the scenario asks for
+/// (design/loops/speed_laws.hpp); a PI is left as it is. `full_rad_s2`: what a full output accelerates by, `fades_1_s`: what
+/// friction takes.
+base::Problems add_speed_law(const Scenario& scenario, const Basis& basis, double full_rad_s2,
+                             double fades_1_s, Tuned& tuned);
+
 /// N m per A of what the scenario's drive calls the current: the driven pair's, or i_q.
 double torque_per_A(const Scenario& scenario, const Basis& basis);
 

@@ -58,13 +58,15 @@ void add_smooth_chopping(const Scenario& s, const Basis& basis, control::DriveEx
 void add_speed_form(const Scenario& s, control::DriveConfig<double>& drive) {
   const SpeedLoop& loop = s.control.speed;
   const bool runs_speed = s.control.mode == Mode::speed || s.control.mode == Mode::position;
-  if (loop.form != SpeedForm::positional || !runs_speed) return;
+  if (loop.law != SpeedLaw::pi || loop.form != SpeedForm::positional || !runs_speed) return;
   control::DriveExtras<double>& extras = drive.extras;
-  extras.on = extras.positional_speed = true;
+  extras.on = true;
+  extras.speed_law = control::SpeedLaw::positional;
   const double K = drive.speed.d1, K_i = drive.speed.d1 + drive.speed.d0;
   const double usual = K > 0 ? std::clamp(K_i / K, 0.0, 1.0) : 1.0;
   const double K_b = loop.anti_windup.value_or(usual);
   extras.speed = {K, K_i, K_b, drive.speed.limit, control::gain_beyond_limit(K, K_i, K_b)};
+  extras.speed_weight_off = (1.0 - loop.setpoint_weight.value_or(1.0)) * K;
   if (!loop.derivative_s) return;
   const double T_d = *loop.derivative_s, T_f = loop.derivative_filter_s.value_or(T_d / 10),
                T = s.pwm.period_s;

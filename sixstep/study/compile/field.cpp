@@ -4,6 +4,7 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/speed_laws.hpp"
 #include "sixstep/study/compile/basis.hpp"
 
 namespace sixstep::study {
@@ -91,6 +92,12 @@ base::Problems add_axes(const Scenario& s, const design::FieldMachine& machine, 
 double torque_per_A(const Scenario& s, const Basis& basis) {
   if (s.control.drive != FirmwareKind::field) return basis.motor.K_t_Nm_A;
   return design::torque_per_q_A(design::field_machine(basis.motor, designed_sheet(s)));
+}
+
+double field_lag_periods(const Scenario& s, const Basis& basis) {
+  const design::FieldMachine machine = design::field_machine(basis.motor, designed_sheet(s));
+  const auto axis = axis_loop(s, "current q", machine.R_ohm, machine.L_q_H);
+  return axis ? design::current_lag_periods(machine.R_ohm, axis->gains.d1 + axis->gains.d0) : 0.0;
 }
 
 base::Result<FieldAround> field_around(const Scenario& s, const Basis& basis,

@@ -77,32 +77,36 @@ base::Problems add_current_loop(const Scenario& s, const Basis& basis, Tuned& ou
 
 /// What the speed controller's output does to the speed: torque at once, or the bus through the winding,
 /// whose inductance is too fast to count (thesis 6.2.2): J dw/dt = K_t (d U - K_t w)/R - B w.
-design::ZohPlant speed_plant_of(const Scenario& s, const Basis& basis, double torque_limit_Nm) {
-  const plant::Shaft& shaft = basis.shaft;
-  if (s.control.speed.output == SpeedOutput::current)
-    return design::speed_plant(torque_limit_Nm, shaft.J_kg_m2, shaft.B_Nm_s, s.pwm.period_s);
+struct SpeedPlant {
+  double full_Nm, B_Nm_s;
+};
+SpeedPlant speed_plant_of(const Scenario& s, const Basis& basis, double torque_limit_Nm) {
+  if (s.control.speed.output == SpeedOutput::current) return {torque_limit_Nm, basis.shaft.B_Nm_s};
   const double K_t = basis.motor.K_t_Nm_A, per_V = K_t / (2 * basis.motor.machine.R_ohm);
-  return design::speed_plant(per_V * basis.bus_V, shaft.J_kg_m2, shaft.B_Nm_s + per_V * K_t, s.pwm.period_s);
+  return {per_V * basis.bus_V, basis.shaft.B_Nm_s + per_V * K_t};
 }
 
 base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Tuned& out) {
   const double torque_limit =
       s.control.speed.torque_limit_Nm.value_or(design::usual_torque_limit_Nm(basis.motor, basis.bus_V));
-  base::Result<LoopGains> gains = loop_gains(s.control.speed, "speed", speed_plant_of(s, basis, torque_limit),
-                                             design::usual_speed_settle_s, s.pwm.period_s);
+  const double J = basis.shaft.J_kg_m2;
+  const SpeedPlant plant = speed_plant_of(s, basis, torque_limit);
+  base::Result<LoopGains> gains = loop_gains(
+      s.control.speed, "speed", design::speed_plant(plant.full_Nm, J, plant.B_Nm_s, s.pwm.period_s),
+      design::usual_speed_settle_s, s.pwm.period_s);
   if (!gains) return gains.problems();
   out.drive.speed = {gains->d1, gains->d0, 1.0};
   out.gains.push_back(*gains);
   if (s.control.speed.output == SpeedOutput::duty) {
     out.drive.speed_control = control::SpeedControl::duty;
-    return {};
+    return add_speed_law(s, basis, plant.full_Nm / J, plant.B_Nm_s / J, out);
   }
   out.drive.current_at_full_torque_A = torque_limit / torque_per_A(s, basis);
   out.drive.current_limit_A = s.control.current.limit_A.value_or(out.drive.current_at_full_torque_A);
   // A bound behind the PI that the PI does not know of would let its integral wind up.
   if (out.drive.current_limit_A < out.drive.current_at_full_torque_A)
     out.drive.speed.limit = out.drive.current_limit_A / out.drive.current_at_full_torque_A;
-  return {};
+  return add_speed_law(s, basis, plant.full_Nm / J, plant.B_Nm_s / J, out);
 }
 
 base::Problems add_loops(const Scenario& s, const Basis& basis, Tuned& out) {
@@ -123,11 +127,14 @@ base::Problems add_loops(const Scenario& s, const Basis& basis, Tuned& out) {
   out.drive.speed_limit_rad_s = limit.value_or(basis.bus_V / basis.motor.K_t_Nm_A);
   const bool linear = s.sheet.kind == design::MotorKind::linear;
   out.gains.push_back(
-      {"position", out.drive.position_gain, 0.0,
+      {"position",
+       out.drive.position_gain,
+       0.0,
        (linear ? "given as gain_m_s_per_mm, for at most " : "given as gain_rad_s_per_deg, for at most ") +
            base::rounded(out.drive.speed_limit_rad_s, 4) + (linear ? " m/s, " : " rad/s, ") +
            (limit ? "as given" : "the bus over K_t"),
-       std::nullopt});
+       std::nullopt,
+       {}});
   return {};
 }
 

@@ -68,6 +68,17 @@ std::vector<Column> turning_columns() {
       {"absolute_code", "1", "", "Gray code that the absolute encoder shows"},
       {"resolver_cos_V", "V", "", "voltage of the resolver's cosine winding, without noise"},
       {"resolver_sin_V", "V", "", "voltage of its sine winding"},
+      of(Signal::direct_current, "rotor, d",
+         "field-oriented: current along the magnet, as measured at the last sample"),
+      of(Signal::quadrature_current, "rotor, q",
+         "field-oriented: current across the magnet, as measured at the last sample"),
+      of(Signal::direct_current_reference, "rotor, d",
+         "field-oriented: reference of the current along the magnet"),
+      of(Signal::quadrature_current_reference, "rotor, q",
+         "field-oriented: reference of the current across the magnet"),
+      of(Signal::direct_voltage, "rotor, d", "field-oriented: phase voltage along the magnet, as asked for"),
+      of(Signal::quadrature_voltage, "rotor, q",
+         "field-oriented: phase voltage across the magnet, as asked for"),
   };
 }
 
@@ -124,7 +135,8 @@ const std::vector<Column>& all_columns(design::MotorKind kind) {
 
 bool applies(ColumnId id, control::Mode mode) {
   using control::Mode;
-  if (id == ColumnId::i_ref) return mode == Mode::current || mode == Mode::speed || mode == Mode::position;
+  if (id == ColumnId::i_ref || id >= ColumnId::i_d)
+    return mode == Mode::current || mode == Mode::speed || mode == Mode::position;
   if (id == ColumnId::speed_ref) return mode == Mode::speed || mode == Mode::position;
   if (id == ColumnId::position_ref) return mode == Mode::position;
   return true;
@@ -139,7 +151,8 @@ bool applies(ColumnId id, const Scenario& s) {
   if (id == ColumnId::winding_degC || id == ColumnId::housing_degC) return s.heat.motor;
   if (id == ColumnId::junction_degC) return s.heat.devices;
   if (id == ColumnId::battery_charge) return s.supply.source == SourceKind::battery;
-  if (id >= ColumnId::encoder_A) return fitted(id, s.sensors.rotor);
+  if (id >= ColumnId::i_d && s.control.drive != FirmwareKind::field) return false;
+  if (id >= ColumnId::encoder_A && id < ColumnId::i_d) return fitted(id, s.sensors.rotor);
   if (id == ColumnId::loop_A) return s.sheet.connection == design::WindingConnection::delta;
   for (const Mode mode : {Mode::off, Mode::duty, Mode::current, Mode::speed, Mode::position})
     if (comes_into(s, mode) && applies(id, mode)) return true;

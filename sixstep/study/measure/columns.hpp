@@ -58,6 +58,12 @@ enum class ColumnId : std::uint8_t {
   absolute_code,
   resolver_cos_V,
   resolver_sin_V,
+  i_d,  // from here on: what a field-oriented drive holds
+  i_q,
+  i_d_ref,
+  i_q_ref,
+  v_d,
+  v_q,
   count
 };
 inline constexpr std::size_t column_count = static_cast<std::size_t>(ColumnId::count);

@@ -80,6 +80,16 @@ void set_shaft_sensor(FullRow& row, const Rig& rig, double s, double t) {
   }
 }
 
+inline void set_field(FullRow& row, const rig::FieldHeld& held) {
+  const auto pair = [&row](ColumnId along, const control::Dq<double>& x) {
+    row[static_cast<std::size_t>(along)] = x.d;
+    row[static_cast<std::size_t>(along) + 1] = x.q;
+  };
+  pair(ColumnId::i_d, held.measured_A);
+  pair(ColumnId::i_d_ref, held.reference_A);
+  pair(ColumnId::v_d, held.voltage_V);
+}
+
 /// Everything there is to say of the rig at the fraction s of its segment, at time t, whether it applies or
 /// not.
 template <class Rig>
@@ -101,6 +111,7 @@ FullRow full_row(const Rig& rig, double s, double t) {
   set(ColumnId::hall, rig.pins());
   set(ColumnId::sector, rig.plant().sector());
   set_shaft_sensor(row, rig, s, t);
+  set_field(row, rig::field_held(rig.firmware()));
   return row;
 }
 

@@ -44,7 +44,7 @@ struct LoopGains {
   double d1 = 0.0, d0 = 0.0;  // position: d1 is the gain, d0 = 0
   std::string origin;         // "given as d1, d0", "pole placement, settle_s = 0.001, damping = 0.9"
   std::optional<design::PolePlacement> derivation;  // of the exact design for the same loop
-  std::vector<design::DerivationStep> steps{};      // of a rule that places no pair
+  std::vector<design::DerivationStep> steps{};      // of what is no PI: d1 is its gain on the error, d0 = 0
 };
 
 /// The product drive turned the bridge off and latched why; the motor coasted on to the end of the run.

@@ -31,13 +31,19 @@ bool reads_currents(const Scenario& s) {
   return (has_current_loop(s) && !by_comparators(s)) || s.control.smooth_chopping.on;
 }
 
+/// Three legs go by the bus, and turn by the rotor's angle.
+bool in_the_field(const Scenario& s) {
+  return s.control.drive == FirmwareKind::field && s.control.mode != Mode::off;
+}
+
 bool reads_bus(const Scenario& s) {
+  if (in_the_field(s)) return true;
   return has_current_loop(s) && (s.control.current.measured_bus_from_V || s.control.regeneration.limit_V);
 }
 
 bool reads_rotor(const Scenario& s) {
   const bool within_current_loop = s.control.current.back_emf_feed_forward || s.control.limits.speed_rad_s;
-  return is_cascade(s) || (has_current_loop(s) && within_current_loop);
+  return is_cascade(s) || in_the_field(s) || (has_current_loop(s) && within_current_loop);
 }
 
 void look_at_sensors(const Scenario& s, base::Problems& out) {
@@ -45,28 +51,30 @@ void look_at_sensors(const Scenario& s, base::Problems& out) {
     out.push_back({key, "\"ideal\"", std::string("tells the drive ") + what, cure});
   };
   if (reads_rotor(s) && s.sensors.rotor == RotorSensing::ideal)
-    ideal("sensors.rotor", "speed and position at every instant, and a board has the Hall edges",
-          "set rotor = \"hall\"");
-  if (s.sensors.rotor != RotorSensing::ideal && s.sensors.rotor != RotorSensing::hall)
+    ideal("sensors.rotor",
+          in_the_field(s) ? "angle and speed at every instant, and a board has a decoder's"
+                          : "speed and position at every instant, and a board has the Hall edges",
+          in_the_field(s)
+              ? "set rotor = \"encoder\", \"absolute\" or \"resolver\", or \"hall\" with hall_angle"
+              : "set rotor = \"hall\"");
+  if (!in_the_field(s) && s.sensors.rotor != RotorSensing::ideal && s.sensors.rotor != RotorSensing::hall)
     out.push_back({"sensors.rotor", std::string(base::word(rotor_sensing_choices, s.sensors.rotor)),
                    "has no decoder in the header's drive, which reads Hall probes", "set rotor = \"hall\""});
   if (reads_currents(s) && s.sensors.currents == rig::CurrentMeasurement::ideal)
     ideal("sensors.currents", "currents that no amplifier and converter have been through",
-          "set currents = \"phases\" or \"dc-link\", and current_range_A");
+          in_the_field(s) ? "set currents = \"phases\" and current_range_A"
+                          : "set currents = \"phases\" or \"dc-link\", and current_range_A");
   if (reads_bus(s) && s.sensors.bus == BusSensing::ideal)
     ideal("sensors.bus", "a bus voltage that no converter has been through",
           "set bus = \"adc\" and bus_range_V");
 }
 
-/// The header's drive is the lean one or the product.
+/// The header's drive is the lean one, the product or the field-oriented one.
 void look_at_drive(const Scenario& s, base::Problems& out) {
   if (s.control.drive == FirmwareKind::sensorless)
     out.push_back(
         {"control.drive", "\"sensorless\"", "has no header yet",
          "set drive = \"lean\" or \"product\", or write its configuration by design::sensorless_drive"});
-  if (s.control.drive == FirmwareKind::field)
-    out.push_back({"control.drive", "\"field-oriented\"", "has no header yet",
-                   "set drive = \"lean\" or \"product\", or take the gains from the run's report"});
 }
 
 /// What is sampled in the middle of a period is answered at the next one's start: that is a delay.
@@ -79,7 +87,8 @@ void look_at_delay(const Scenario& s, base::Problems& out) {
 }
 
 void look_at_dead_time(const Scenario& s, base::Problems& out) {
-  const bool both_switch = s.pwm.chopping == control::Chopping::complementary || s.control.smooth_chopping.on;
+  const bool both_switch =
+      in_the_field(s) || s.pwm.chopping == control::Chopping::complementary || s.control.smooth_chopping.on;
   if (both_switch && s.control.mode != Mode::off && !(s.bridge.dead_time_s > 0))
     out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s),
                    "turns one switch of a leg on while the other turns off, and real ones short the bus then",

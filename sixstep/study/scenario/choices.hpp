@@ -90,6 +90,15 @@ inline constexpr Choice<SpeedOutput> speed_output_choices[] = {
     {"current", SpeedOutput::current, "a part of the full torque, for the current loop within"},
     {"duty", SpeedOutput::duty, "the duty itself: no current is measured, none is limited (thesis 6.2.2)"},
 };
+inline constexpr Choice<SpeedLaw> speed_law_choices[] = {
+    {"pi", SpeedLaw::pi, "proportional and integral of the error, in one of the forms below"},
+    {"state-feedback", SpeedLaw::state_feedback,
+     "linear-quadratic, on speed and torque, with an observer for the load; knows inertia, friction and how late the torque is"},
+    {"disturbance-rejection", SpeedLaw::disturbance_rejection,
+     "all that the full torque's acceleration does not explain is observed and taken off"},
+    {"sliding-mode", SpeedLaw::sliding_mode,
+     "the full torque against whatever leads away from the course of a drive without load, less of it in a boundary layer"},
+};
 inline constexpr Choice<SpeedForm> speed_form_choices[] = {
     {"incremental", SpeedForm::incremental,
      "each sample adds to the last output, which is kept within its limit: nothing can wind up"},

@@ -38,8 +38,12 @@ enum class SpeedOutput : std::uint8_t { current, duty };
 /// pi.hpp, or pi_positional.hpp with derivative.hpp.
 enum class SpeedForm : std::uint8_t { incremental, positional };
 
+/// What makes a torque of a speed error (design/loops/speed_laws.hpp).
+enum class SpeedLaw : std::uint8_t { pi, state_feedback, disturbance_rejection, sliding_mode };
+
 struct SpeedLoop {
   SpeedOutput output = SpeedOutput::current;
+  SpeedLaw law = SpeedLaw::pi;
   SpeedForm form = SpeedForm::incremental;
   std::optional<double> settle_s, damping;
   std::optional<double> d1, d0;
@@ -47,6 +51,8 @@ struct SpeedLoop {
   std::optional<double> torque_limit_Nm;
   std::optional<double> anti_windup;
   std::optional<double> derivative_s, derivative_filter_s;
+  std::optional<double> setpoint_weight;
+  std::optional<double> observer_ratio;
 };
 
 struct PositionLoop {

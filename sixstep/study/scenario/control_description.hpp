@@ -62,6 +62,8 @@ void describe(Visitor& v, CurrentLoop& s) {
 template <class Visitor>
 void describe(Visitor& v, SpeedLoop& s) {
   v.choice("output", s.output, speed_output_choices, {.meaning = "what the speed controller sets"});
+  v.choice("law", s.law, speed_law_choices,
+           {.meaning = "what computes its output; all of them are designed for settle_s"});
   v.choice("form", s.form, speed_form_choices,
            {.meaning = "how its PI is computed; short of the limit both forms are one controller"});
   describe_gains(v, s);
@@ -86,6 +88,17 @@ void describe(Visitor& v, SpeedLoop& s) {
           {.meaning = "time constant that smooths the derivative; without it a tenth of derivative_s",
            .unit = "s",
            .range = from(0)});
+  v.value(
+      "setpoint_weight", s.setpoint_weight,
+      {.meaning =
+           "positional: part of the setpoint that the proportional part sees; 0 is an I-P controller, without it 1",
+       .range = between(0, 1)});
+  v.value(
+      "observer_ratio", s.observer_ratio,
+      {.meaning =
+           "state-feedback, disturbance-rejection, sliding-mode: how many times faster a load is seen, or the "
+           "surface reached, than settle_s; without it 5",
+       .range = between(1, 20)});
 }
 
 template <class Visitor>

@@ -85,7 +85,13 @@ enum class Signal : std::uint8_t {
   loop_current,
   winding_temperature,
   housing_temperature,
-  junction_temperature
+  junction_temperature,
+  direct_current,  // from here on: what a field-oriented drive holds
+  quadrature_current,
+  direct_current_reference,
+  quadrature_current_reference,
+  direct_voltage,
+  quadrature_voltage
 };
 
 struct Measure {

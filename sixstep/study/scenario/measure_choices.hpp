@@ -220,6 +220,18 @@ inline constexpr SignalFact signal_facts[] = {
      "temperature of housing and magnets, with heat.motor", SignalKind::held},
     {Signal::junction_temperature, "junction_degC", "temperature of the hottest junction", "degC",
      "temperature of the hottest switch's junction, with heat.devices", SignalKind::held},
+    {Signal::direct_current, "i_d_A", "current along the magnet", "A",
+     "field-oriented: current along the magnet, as measured at the last sample", SignalKind::held},
+    {Signal::quadrature_current, "i_q_A", "current across the magnet", "A",
+     "field-oriented: current across the magnet, as measured at the last sample", SignalKind::held},
+    {Signal::direct_current_reference, "i_d_ref_A", "reference of the current along the magnet", "A",
+     "field-oriented: reference of the current along the magnet", SignalKind::held},
+    {Signal::quadrature_current_reference, "i_q_ref_A", "reference of the current across the magnet", "A",
+     "field-oriented: reference of the current across the magnet", SignalKind::held},
+    {Signal::direct_voltage, "v_d_V", "voltage along the magnet", "V",
+     "field-oriented: phase voltage along the magnet, as asked for at the last sample", SignalKind::held},
+    {Signal::quadrature_voltage, "v_q_V", "voltage across the magnet", "V",
+     "field-oriented: phase voltage across the magnet, as asked for at the last sample", SignalKind::held},
 };
 
 /// Columns of the trace that have an older word.
@@ -269,7 +281,7 @@ constexpr const SignalFact& fact_of(Signal signal) { return signal_facts[static_
 static_assert([] {
   for (std::size_t n = 0; n < std::size(signal_facts); ++n)
     if (static_cast<std::size_t>(signal_facts[n].signal) != n) return false;
-  return std::size(signal_facts) == static_cast<std::size_t>(Signal::junction_temperature) + 1;
+  return std::size(signal_facts) == static_cast<std::size_t>(Signal::quadrature_voltage) + 1;
 }());
 
 /// Unit of a signal, as shown behind a figure.
@@ -281,6 +293,8 @@ constexpr std::string_view figure_unit(const Measure& m) {
   return own.empty() ? unit_of(m.signal) : own;
 }
 
+/// Of a field-oriented drive only.
+constexpr bool is_of_field(Signal signal) { return signal >= Signal::direct_current; }
 constexpr bool is_gate(Signal signal) { return fact_of(signal).kind == SignalKind::gate; }
 constexpr bool is_power(Signal signal) { return fact_of(signal).kind == SignalKind::power; }
 /// A product of two of the engine's series (signal_products.hpp).

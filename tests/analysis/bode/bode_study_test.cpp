@@ -81,6 +81,30 @@ TEST(Bode, SpeedLoopIsTheDesigned) {
   EXPECT_LT(off_by(*b, 0.3, 5), 0.08);
 }
 
+/// Each law has the bandwidth of its rule, T = (1 - p)/(z - p): a loop L = (1 - p)/(z - 1) that crosses over at 2 asin((1 - p)/2)/T_s, where
+/// the current were not late; and with that it is the linear one that stands beside.
+TEST(Bode, SpeedLawsHaveTheBandwidthOfTheirRule) {
+  for (const study::SpeedLaw law : {study::SpeedLaw::state_feedback, study::SpeedLaw::disturbance_rejection,
+                                    study::SpeedLaw::sliding_mode, study::SpeedLaw::pi}) {
+    study::Scenario s = cascade(0.1);
+    s.control.speed.settle_s = 20e-3;
+    s.control.speed.law = law;
+    if (law == study::SpeedLaw::pi) {
+      s.control.speed.form = study::SpeedForm::positional;
+      s.control.speed.setpoint_weight = 0.5;
+    }
+    s.pwm.chopping = control::Chopping::complementary;
+    const auto b = analysis::study_bode(s);
+    ASSERT_TRUE(b) << to_string(b.problems()[0]);
+    ASSERT_TRUE(b->figures && b->measured.crossover_rad_s) << b->not_linear;
+    EXPECT_NEAR(*b->measured.crossover_rad_s / *b->figures->crossover_rad_s, 1.0, 0.05);
+    EXPECT_LT(off_by(*b, 0.3, 5), 0.08);
+    if (law == study::SpeedLaw::pi) continue;
+    const double p = std::exp(-4.6 * 30e-6 / 20e-3);
+    EXPECT_NEAR(*b->measured.crossover_rad_s / (2 * std::asin((1 - p) / 2) / 30e-6), 1.0, 0.05);
+  }
+}
+
 /// A sine machine turning in the field: the bandwidth that the rule claims is found, T(z) = z_1 (1 - z_1)/(z^2 - z + z_1 (1 - z_1)).
 /// Three legs' pulses stand in the middle of the period, so that the held voltage is what the winding sees.
 TEST(Bode, FieldOrientedCurrentHasTheBandwidthOfItsRule) {
@@ -98,6 +122,29 @@ TEST(Bode, FieldOrientedCurrentHasTheBandwidthOfItsRule) {
   EXPECT_NEAR(*b->measured.bandwidth_rad_s / *b->figures->bandwidth_rad_s, 1.0, 0.01);
   EXPECT_NEAR(*b->measured.phase_rad, *b->figures->phase_rad, 0.02);
   EXPECT_LT(off_by(*b, 0.1, 10), 0.02);
+}
+
+/// Its speed loop, over the axis across the magnet: no commutation stands between.
+TEST(Bode, FieldOrientedSpeedLoopIsTheDesigned) {
+  study::Scenario s = cascade(0.1);
+  s.sheet.back_emf = design::BackEmfShape::sine;
+  s.control.current = {};
+  s.control.drive = study::FirmwareKind::field;
+  s.pwm.period_s = 50e-6;
+  s.pwm.alignment = study::Alignment::centre;
+  s.pwm.delay_periods = 1;
+  const auto b = analysis::study_bode(s);
+  ASSERT_TRUE(b) << to_string(b.problems()[0]);
+  ASSERT_TRUE(b->figures && b->measured.crossover_rad_s && b->measured.phase_rad) << b->not_linear;
+  EXPECT_NEAR(*b->measured.crossover_rad_s / *b->figures->crossover_rad_s, 1.0, 0.02);
+  EXPECT_NEAR(*b->measured.phase_rad, *b->figures->phase_rad, 0.02);
+  EXPECT_LT(off_by(*b, 0.3, 5), 0.03);
+  s.sheet.inductance_mH = std::nullopt;
+  s.sheet.d_axis_inductance_mH = base::Quantity{0.2, "", ""};
+  s.sheet.q_axis_inductance_mH = base::Quantity{0.4, "", ""};
+  const auto salient = analysis::study_bode(s);
+  ASSERT_TRUE(salient) << to_string(salient.problems()[0]);
+  EXPECT_EQ(salient->not_linear, "a salient rotor's torque is not proportional to its current");
 }
 
 /// Where a band holds the current there is no linear loop to lay beside, and the measurement says what there is.

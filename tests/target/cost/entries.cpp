@@ -3,7 +3,7 @@
 
 namespace target {
 
-const BridgeCommand<Scalar>* answer;
+const Answer* answer;
 namespace {
 
 Setpoint<Scalar> setpoint;
@@ -17,6 +17,17 @@ inline void tick() {
   answer = &protected_step(exported::product, state, input, request, setpoint, telemetry);
 }
 inline void hall() { answer = &protected_on_hall(exported::product, state, input.hall_pins, input.now); }
+#elif TARGET_FIELD
+FieldDriveState<Scalar> state;
+Telemetry<Scalar> telemetry;
+FieldDriveInput<Scalar> input;
+BinaryAngle electrical;  ///< a decoder's
+
+inline void tick() {
+  input.magnet = field_directions(exported::field.advance, electrical, input.measured.speed_rad_s);
+  answer = &field_drive_step(exported::field, state, input, setpoint, telemetry);
+}
+inline void hall() {}
 #else
 DriveState<Scalar> state;
 Telemetry<Scalar> telemetry;
@@ -37,6 +48,9 @@ void give(const Record& record) {
   }
   input = record.input;
   request = record.request;
+#elif TARGET_FIELD
+  input.measured = record.measured;
+  electrical = record.electrical;
 #else
   measured.hall = record.measured.hall;
   if (record.kind != 0) return;

@@ -15,10 +15,17 @@ namespace target {
 using Scalar = TARGET_SCALAR;
 namespace exported = ::TARGET_DRIVE;
 
-extern const BridgeCommand<Scalar>* answer;  ///< what the last entry told the bridge
+#if TARGET_FIELD
+using Answer = LegCommands<Scalar>;
+#else
+using Answer = BridgeCommand<Scalar>;
+#endif
+extern const Answer* answer;  ///< what the last entry told the bridge
 
 #if TARGET_PRODUCT
 using Record = ProductRecord<Scalar>;
+#elif TARGET_FIELD
+using Record = FieldRecord<Scalar>;
 #else
 using Record = LeanRecord<Scalar>;
 #endif

@@ -28,7 +28,11 @@ void run() {
       record.fields(Reader{chunk + n});
       give(record);
       record.kind != 0 ? call_hall() : call_tick();
+#if TARGET_FIELD
+      mix_legs(digest, *answer);
+#else
       mix_command(digest, *answer);
+#endif
       ++calls;
     }
   }

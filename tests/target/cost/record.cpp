@@ -28,11 +28,14 @@ struct Tape {
   std::uint32_t calls = 0;
   Digest answers;
 
-  template <class Record, class Scalar>
-  void note(Record record, const BridgeCommand<Scalar>& answer) {
+  template <class Record, class Answer>
+  void note(Record record, const Answer& answer) {
     bytes.resize(bytes.size() + Record::bytes);
     record.fields(Writer{bytes.data() + bytes.size() - Record::bytes});
-    mix_command(answers, answer);
+    if constexpr (requires { answer.leg; })
+      mix_legs(answers, answer);
+    else
+      mix_command(answers, answer);
     ++calls;
   }
 } tape;
@@ -141,6 +144,56 @@ class ProductRecorder {
   ProtectedTelemetry<Scalar> telemetry_{};
 };
 
+template <class Scalar>
+class FieldRecorder {
+ public:
+  using Number = Scalar;
+  using Command = LegCommands<Scalar>;
+  using Config = FieldDriveConfig<Scalar>;
+  static constexpr bool fault_ends_run = true;
+
+  FieldRecorder(const Config& config, const rig::BoardConfig& board, const rig::PowerUp& up)
+      : config_(config), sensors_(board.sensors, board.bases, up), bases_(board.bases) {}
+
+  template <class Real>
+  const Command& tick(const rig::SampleInstant<Real>& instant, double setpoint) {
+    FieldRecord<Scalar> record{};
+    record.measured = rig::ideal_measurement<Scalar>(instant, bases_);
+    sensors_.sense(record.measured, rig::sample_of(instant));
+    record.setpoint.value = rig::from_si<Scalar>(setpoint, bases_.setpoint);
+    record.electrical = sensors_.electrical_angle();
+    const FieldDriveInput<Scalar> input{
+        record.measured, field_directions(config_.advance, record.electrical, record.measured.speed_rad_s)};
+    const Command& answer = field_drive_step(config_, state_, input, record.setpoint, telemetry_);
+    tape.note(record, answer);
+    return answer;
+  }
+  void captured(std::uint8_t pins, const sim::Instant& at) { sensors_.hall_edge(pins, at); }
+  void request_run(bool) {}
+  void request_clear() {}
+  void retune(const rig::Tuning<Config>& tuning) { control::retune(config_, state_, tuning.config); }
+  bool open_loop() const { return false; }
+  bool follows_setpoint_at_once() const { return false; }
+  const Telemetry<Scalar>& telemetry() const { return telemetry_; }
+  Mode mode() const { return config_.drive.mode; }
+  rig::Diagnosis diagnosis() const { return {}; }
+  rig::ShaftPorts& shaft_ports() { return sensors_.shaft_ports(); }
+  const rig::ShaftPorts& shaft_ports() const { return sensors_.shaft_ports(); }
+  rig::Registers& registers() { return sensors_.registers(); }
+  bool follows_shaft() const { return sensors_.follows_shaft(); }
+  template <class Real>
+  void follow(const rig::ShaftMotion<Real>& motion) {
+    sensors_.follow(motion);
+  }
+
+ private:
+  Config config_;
+  rig::Sensors<Scalar> sensors_;
+  rig::Bases bases_;
+  FieldDriveState<Scalar> state_{};
+  Telemetry<Scalar> telemetry_{};
+};
+
 struct Watch {
   study::Digest digest;
   template <class Rig>
@@ -168,6 +221,9 @@ template <class Scalar>
 std::uint64_t digest_in(const study::Scenario& s, const study::Compiled& c) {
   if (s.control.drive == study::FirmwareKind::product)
     return digest_of<ProductRecorder<Scalar>, rig::ProductDrive<Scalar>>(s, c);
+  if constexpr (std::is_floating_point_v<Scalar>)
+    if (s.control.drive == study::FirmwareKind::field)
+      return digest_of<FieldRecorder<Scalar>, rig::FieldDrive<Scalar>>(s, c);
   return digest_of<LeanRecorder<Scalar>, rig::SensedDrive<Scalar>>(s, c);
 }
 

@@ -4,10 +4,12 @@
 //
 //   all       kind 1 (0 tick, 1 Hall), pins 1
 //   lean      i_a, i_b, i_c, speed, position, bus, setpoint: a scalar each
+//   field     as lean, the electrical angle 4
 //   product   current counts 3 x 2, bus counts 2, counter 4, run 1, clear 1, setpoint: a scalar
 #pragma once
 #include <cstdint>
 
+#include "sixstep/control/field/field_drive.hpp"
 #include "sixstep/control/protected_drive.hpp"
 
 namespace target {
@@ -85,6 +87,30 @@ struct LeanRecord {
     way.scalar(measured.position_deg);
     way.scalar(measured.bus_V);
     way.scalar(setpoint.value);
+  }
+};
+
+/// No Hall edge asks anything of it.
+template <class Scalar>
+struct FieldRecord {
+  static constexpr std::uint8_t bytes = LeanRecord<Scalar>::bytes + 4;
+  std::uint8_t kind = 0;
+  Measurement<Scalar> measured{};
+  Setpoint<Scalar> setpoint{};
+  BinaryAngle electrical = 0;
+
+  template <class Way>
+  void fields(Way&& way) {
+    way.whole(kind);
+    way.whole(measured.hall);
+    way.scalar(measured.i_a_A);
+    way.scalar(measured.i_b_A);
+    way.scalar(measured.i_c_A);
+    way.scalar(measured.speed_rad_s);
+    way.scalar(measured.position_deg);
+    way.scalar(measured.bus_V);
+    way.scalar(setpoint.value);
+    way.whole(electrical);
   }
 };
 

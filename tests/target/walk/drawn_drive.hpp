@@ -25,7 +25,7 @@ DriveExtras<Scalar> drawn_extras(Random& r) {
   if (r.one_in(2)) e.bus = {positive<Scalar>(r)};
   e.smooth_chopping = r.one_in(2);
   e.chopping = {Number<Scalar>::part(0x20000000), Number<Scalar>::part(0x10000000)};
-  e.positional_speed = r.one_in(2);
+  e.speed_law = r.one_in(2) ? SpeedLaw::positional : SpeedLaw::pi;
   e.speed = {gain<Scalar>(r, -2), gain<Scalar>(r, 3), positive_gain<Scalar>(r, 1), positive<Scalar>(r),
              gain<Scalar>(r, 4)};
   e.speed_derivative = {gain<Scalar>(r, 0), positive_gain<Scalar>(r, 1)};

@@ -3,8 +3,8 @@
 // prints a digest of all their outputs: the same source for every processor. One program per scalar:
 // TARGET_SCALAR q15, q14, q31, q30, float, or whole for the blocks without one. With TARGET_OF_ROTOR it is the blocks of
 // sensing/ and sensorless/ instead, with TARGET_OF_OBSERVERS the back-EMF observers, with TARGET_OF_COMMISSIONING those of
-// commissioning/ but for the pulses, which TARGET_OF_PULSES has: programs of their own, so that the rest is compiled alike
-// with them and without.
+// commissioning/ but for the pulses, which TARGET_OF_PULSES has, with TARGET_OF_FIELD those of field/: programs of their own, so
+// that the rest is compiled alike with them and without.
 #include "tests/target/platform/print.hpp"
 #include "tests/target/walk/names.hpp"
 
@@ -22,6 +22,10 @@
 #include "tests/target/walk/commissioning.hpp"
 #elif defined TARGET_OF_PULSES
 #include "tests/target/walk/pulses.hpp"
+#elif defined TARGET_OF_FIELD && TARGET_IS_WHOLE
+#include "tests/target/walk/magnet.hpp"
+#elif defined TARGET_OF_FIELD
+#include "tests/target/walk/field.hpp"
 #elif TARGET_IS_WHOLE
 #include "tests/target/walk/whole.hpp"
 #else
@@ -148,6 +152,22 @@ void walk_all() {
   walk<PulsePositionWalk>("commissioning/pulse_position");
 #else
   walk<PulsedDriveWalk<TARGET_SCALAR> >("commissioning/pulse_start");
+#endif
+}
+#elif defined TARGET_OF_FIELD
+void walk_all() {
+#ifdef TARGET_COUNTED
+  walk<NothingWalk>("nothing");
+#endif
+#if TARGET_IS_WHOLE
+  walk<MagnetAngleWalk>("field/field_direction");
+#else
+  using Scalar = TARGET_SCALAR;
+  walk<FieldCurrentWalk<Scalar> >("field/field_current");
+  walk<FieldDirectionWalk<Scalar> >("field/field_direction");
+  walk<FieldWeakeningWalk<Scalar> >("field/field_weakening");
+  walk<TorquePerAmpereWalk<Scalar> >("field/torque_per_ampere");
+  walk<FieldDriveWalk<Scalar> >("field/field_drive");
 #endif
 }
 #elif TARGET_IS_WHOLE

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "faces/cli/design_arguments.hpp"
+#include "faces/cli/exit_code.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace cli {
+
+/// `sixstep design --scenario` of a field-oriented drive: its own loops, of the gains that its run has.
+Exit design_field(const DesignArguments& arguments, const study::Scenario& scenario);
+
+}  // namespace cli

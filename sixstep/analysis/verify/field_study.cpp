@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/analysis/verify/field_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "sixstep/analysis/verify/scenario_loops.hpp"
+#include "sixstep/analysis/verify/scenario_spec.hpp"
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/decimal.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/design_warnings.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
+
+namespace sixstep::analysis {
+namespace {
+
+using control::Mode;
+using design::DerivationStep;
+using design::LoopDesign;
+
+std::string rounded(double x) { return base::rounded(x, 3); }
+
+double circle_V(const FieldStudy& f) { return f.design.bus_V / std::sqrt(3.0); }
+
+/// Where the magnet's back-EMF alone takes the whole circle.
+double base_speed_rad_s(const FieldStudy& f) { return circle_V(f) / f.machine.magnet_V_s; }
+
+/// |v|^2 = (R i + w p psi)^2 + (w p L_q i)^2 = U_s^2/3, solved for w; 0 where R i alone is more.
+double speed_for_current_rad_s(const FieldStudy& f, double i_q_A) {
+  const double e = f.machine.magnet_V_s, x = f.machine.pole_pairs * f.machine.L_q_H * i_q_A,
+               r = f.machine.R_ohm * i_q_A;
+  const double a = e * e + x * x, half_b = r * e, c = r * r - circle_V(f) * circle_V(f);
+  return c < 0 ? (std::sqrt(half_b * half_b - a * c) - half_b) / a : 0.0;
+}
+
+LoopDesign named(std::string name, std::string method, design::PiGains gains,
+                 std::vector<DerivationStep> steps) {
+  return {.name = std::move(name),
+          .method = std::move(method),
+          .gains = gains,
+          .steps = std::move(steps),
+          .placed = {},
+          .loop = {},
+          .figures = {},
+          .other = {},
+          .built = {},
+          .step = {}};
+}
+
+bool is_current(const study::LoopGains& g) { return g.loop.starts_with("current"); }
+
+/// Those of field_steps that are this axis's: both axes have as many.
+std::vector<DerivationStep> steps_of(const study::Compiled& c, std::size_t axis) {
+  const auto axes = static_cast<std::size_t>(std::count_if(c.gains.begin(), c.gains.end(), is_current));
+  const auto each = static_cast<std::ptrdiff_t>(c.field_steps.size() / axes);
+  const auto from = c.field_steps.begin() + each * static_cast<std::ptrdiff_t>(axis);
+  return {from, from + each};
+}
+
+/// Placed gains say how; a position gain is given.
+std::vector<DerivationStep> outer_steps(const study::LoopGains& g) {
+  if (g.loop == "position")
+    return {{"K_p", "as given", g.d1, "rad/s/deg"},
+            {"K_p", "the same in radians", g.d1 * 180.0 / base::pi, "1/s"}};
+  const bool placed = g.derivation && g.derivation->gains.d1 == g.d1 && g.derivation->gains.d0 == g.d0;
+  return placed ? g.derivation->steps : std::vector<DerivationStep>();
+}
+
+/// The open loop of that name, the loops within closed.
+design::Transfer open_loop(const std::string& name, const design::DriveLoops& loops) {
+  if (name == "speed") return open_speed_loop(loops);
+  if (name == "position") return open_position_loop(loops);
+  return open_current_loop(loops);
+}
+
+void add_loops(const study::Compiled& c, const design::DriveLoops& loops, FieldStudy& f) {
+  std::size_t axis = 0;
+  const design::Transfer speed = open_speed_loop(loops);
+  for (const study::LoopGains& g : c.gains) {
+    design::DriveLoops own = loops;
+    own.delay_periods = f.design.spec.delay_periods;
+    if (g.loop == "current d") {
+      own.winding.L_H = f.machine.L_d_H;
+      own.current = {g.d1, g.d0};
+    }
+    design::DriveLoops other = own;
+    other.delay_periods = 1 - own.delay_periods;
+    LoopDesign loop =
+        named(g.loop, g.origin, {g.d1, g.d0}, is_current(g) ? steps_of(c, axis++) : outer_steps(g));
+    design::SensedLoop sensed{open_loop(g.loop, own), {}, {}};
+    if (!is_current(g)) sensed.lag = f.design.lag;
+    if (g.loop == "position") sensed.around = speed;
+    judge_loop(loop, open_loop(g.loop, own), open_loop(g.loop, other), sensed, own.period_s,
+               design::settling_band(f.design));
+    f.design.loops.push_back(std::move(loop));
+  }
+}
+
+/// How old the speed is at the lowest speed that is asked for; else at a tenth of what the bus reaches.
+void add_sensing(const design::DriveLoops& loops, FieldStudy& f) {
+  design::DriveDesign& d = f.design;
+  d.lowest_speed_rad_s =
+      d.spec.lowest_speed_rad_s.value_or(base::shortened(0.1 * base_speed_rad_s(f), 2, base::Towards::down));
+  if (d.spec.mode == Mode::current || !d.spec.rotor.lags()) return;
+  const double full = d.current_at_full_torque_A * loops.winding.torque_Nm_A / loops.motor.shaft.J_kg_m2;
+  const double crossover = design::speed_crossover_rad_s(loops.speed.d1, full);
+  d.lag = speed_lag(d.spec.rotor, f.machine.pole_pairs, d.lowest_speed_rad_s, crossover);
+  d.sensing = lag_steps(d.spec.rotor, f.machine.pole_pairs, d.lowest_speed_rad_s, crossover);
+}
+
+void add_axes(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
+  const design::FieldMachine& m = f.machine;
+  f.axes = {{"p psi", "peak of the back-EMF's fundamental over the speed", m.magnet_V_s, "V s"},
+            {"K_q", "3/2 p psi, torque over i_q", torque_per_q_A(m), "N m/A"},
+            {"p L_d", "decoupling: voltage across over speed and i_d", c.current.d_V_s_A, "V s/A"},
+            {"p L_q", "decoupling: voltage along over speed and i_q", c.current.q_V_s_A, "V s/A"},
+            {"n T p", "the magnet turns on before an answer acts, over the speed", c.advance.rad_s, "s"}};
+  if (!c.current.decouples) f.axes.erase(f.axes.begin() + 2, f.axes.begin() + 4);
+  if (c.per_ampere.k_per_A != 0)
+    f.axes.push_back({"k", "(L_q - L_d)/(2 psi), most torque per ampere", c.per_ampere.k_per_A, "1/A"});
+  if (!(c.weakening.most_A > 0)) return;
+  f.axes.push_back({"K", "weakening, per sample", c.weakening.K_A_per_V, "A/V"});
+  f.axes.push_back({"psi/L_d", "more against the magnet asks for more voltage", most_weakening_A(m), "A"});
+}
+
+void add_limits(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
+  const double I = f.design.nominal_current_A;
+  f.limits = {{"U_s/sqrt 3", "the circle, the largest phase voltage in every direction", circle_V(f), "V"},
+              {"w_0", "from there on the magnet's back-EMF alone is more", base_speed_rad_s(f), "rad/s"}};
+  if (I > 0) {
+    f.limits.push_back({"i_q",
+                        f.design.spec.mode == Mode::current ? "the sheet's nominal current"
+                                                            : "the most that the speed loop asks for",
+                        I, "A"});
+    f.limits.push_back(
+        {"w(i_q)", "up to there the circle drives it", speed_for_current_rad_s(f, I), "rad/s"});
+    f.limits.push_back({"K_q i_q", "the torque that it makes", I * torque_per_q_A(f.machine), "N m"});
+  }
+  if (!(c.weakening.most_A > 0)) return;
+  const double left = f.machine.magnet_V_s - f.machine.pole_pairs * f.machine.L_d_H * c.weakening.most_A;
+  if (left > 0)
+    f.limits.push_back({"w_1", "m U_s/(sqrt 3 p (psi - L_d I)): weakened, without a load",
+                        c.weakening.part * circle_V(f) / left, "rad/s"});
+}
+
+std::string slower(const std::string& name) {
+  if (name == "position") return "lower control.position.gain_rad_s_per_deg";
+  if (name == "speed") return "lengthen control.speed.settle_s";
+  return "lower control.field.bandwidth_Hz, or give control.current less gain";
+}
+
+void look_at_loop(const LoopDesign& loop, FieldStudy& f) {
+  const auto warn = [&](const std::string& what, bool grave) {
+    f.warnings.push_back({"the " + loop.name + " loop " + what, slower(loop.name), grave});
+  };
+  const design::LoopFigures& built = loop.built;
+  const bool sensed = built.phase_rad != loop.figures.phase_rad;
+  const std::string with = sensed ? " with the delay of its sensor" : "";
+  if (!loop.figures.stable || !built.stable) return warn("is unstable" + with, true);
+  const double phase_deg = built.phase_rad.value_or(base::pi) * 180.0 / base::pi;
+  if (phase_deg < design::least_phase_deg - 0.1)
+    warn("keeps " + rounded(phase_deg) + " degrees of phase" + with + ", less than " +
+             rounded(design::least_phase_deg),
+         false);
+  else if (built.sensitivity_peak > design::greatest_sensitivity)
+    warn("amplifies disturbances up to " + rounded(built.sensitivity_peak) + " times", false);
+  if (loop.name != "position" && loop.step.overshoot > 0.1)
+    f.warnings.push_back({"the " + loop.name + " loop overshoots a step by " +
+                              rounded(100.0 * loop.step.overshoot) + " %, for the PI's zero",
+                          "limit how fast the setpoint rises (control.slew)", false});
+}
+
+void look_at_separation(FieldStudy& f) {
+  for (std::size_t n = 0; n + 1 < f.design.loops.size(); ++n) {
+    const LoopDesign &inner = f.design.loops[n], &outer = f.design.loops[n + 1];
+    if (outer.name.starts_with("current") || outer.name == "position") continue;
+    if (!inner.figures.crossover_rad_s || !outer.figures.crossover_rad_s) continue;
+    const double ratio = *inner.figures.crossover_rad_s / *outer.figures.crossover_rad_s;
+    if (ratio < design::least_separation)
+      f.warnings.push_back({"the " + inner.name + " loop crosses over at only " + rounded(ratio) +
+                                " times the frequency of the " + outer.name + " loop",
+                            slower(outer.name), false});
+  }
+}
+
+void look_at_bus(const control::FieldDriveConfig<double>& c, double asked_rad_s, FieldStudy& f) {
+  if (asked_rad_s > base_speed_rad_s(f) && !(c.weakening.most_A > 0))
+    f.warnings.push_back({"the reference asks for " + rounded(asked_rad_s) +
+                              " rad/s, and the bus has no voltage above " + rounded(base_speed_rad_s(f)) +
+                              " rad/s",
+                          "give control.field.weakening_A, or raise supply.voltage_V", false});
+}
+
+double fastest_asked_rad_s(const study::Scenario& s) {
+  if (s.control.mode != Mode::speed) return 0.0;
+  double most = 0.0;
+  for (const study::Level& level : study::reference_levels(s)) most = std::max(most, std::fabs(level.value));
+  return most;
+}
+
+}  // namespace
+
+bool FieldStudy::usable() const {
+  return std::none_of(warnings.begin(), warnings.end(), [](const design::Warning& w) { return w.grave; });
+}
+
+base::Result<FieldStudy> study_field(const study::Scenario& s) {
+  if (s.control.drive != study::FirmwareKind::field)
+    return base::Problem{"control.drive", "", "is not field-oriented", "set it to \"field-oriented\""};
+  if (s.control.mode == Mode::off)
+    return base::Problem{"control.mode", "\"off\"", "leaves no loop to look at",
+                         "set it to \"current\", \"speed\" or \"position\""};
+  if (base::Problems problems = study::check(s); !problems.empty()) return problems;
+  const base::Result<study::Compiled> c = study::compile(s);
+  if (!c) return c.problems();
+  const design::DriveLoops loops = loops_of(s, *c);
+  FieldStudy f;
+  f.scenario = s;
+  f.machine = design::field_machine(c->motor, s.sheet);
+  design::DriveDesign& d = f.design;
+  d.spec = spec_of(s);
+  d.spec.delay_periods = c->board.delayed || c->board.sampled_in_middle ? 1 : 0;
+  d.motor = loops.motor;
+  d.bus_V = s.supply.voltage_V;
+  d.current_at_full_torque_A = c->drive.current_at_full_torque_A;
+  d.torque_limit_Nm = d.current_at_full_torque_A * torque_per_q_A(f.machine);
+  d.nominal_current_A = d.spec.mode == Mode::current
+                            ? c->motor.nominal_current_A
+                            : std::min(c->drive.current_limit_A, d.current_at_full_torque_A);
+  add_sensing(loops, f);
+  add_loops(*c, loops, f);
+  add_axes(*c->field, f);
+  add_limits(*c->field, f);
+  for (const LoopDesign& loop : d.loops) look_at_loop(loop, f);
+  look_at_separation(f);
+  look_at_bus(*c->field, fastest_asked_rad_s(s), f);
+  return f;
+}
+
+}  // namespace sixstep::analysis

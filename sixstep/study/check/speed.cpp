@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/check/speed.hpp"
+
+#include <string>
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+std::string number(double v) { return base::rounded(v, 6); }
+
+/// What only the PI's positional form has.
+void check_positional(const Scenario& s, base::Problems& out) {
+  const SpeedLoop& loop = s.control.speed;
+  const auto refuse = [&](const char* key, const std::optional<double>& value) {
+    if (value && loop.form != SpeedForm::positional)
+      out.push_back({std::string("control.speed.") + key, number(*value), "is of the positional form only",
+                     "set control.speed.form = \"positional\", or remove it"});
+  };
+  refuse("anti_windup", loop.anti_windup);
+  refuse("derivative_s", loop.derivative_s);
+  refuse("derivative_filter_s", loop.derivative_filter_s);
+  refuse("setpoint_weight", loop.setpoint_weight);
+  if (loop.derivative_filter_s && !loop.derivative_s && loop.form == SpeedForm::positional)
+    out.push_back({"control.speed.derivative_filter_s", number(*loop.derivative_filter_s),
+                   "has no derivative to smooth", "give control.speed.derivative_s too"});
+  if (loop.observer_ratio)
+    out.push_back({"control.speed.observer_ratio", number(*loop.observer_ratio),
+                   "is of an observer, and law = \"pi\" has none", "set control.speed.law, or remove it"});
+}
+
+/// A law that is designed for a settling time has no gains to give.
+void check_designed(const Scenario& s, base::Problems& out) {
+  const SpeedLoop& loop = s.control.speed;
+  const std::string law(base::word(speed_law_choices, loop.law));
+  const auto refuse = [&](const char* key, const std::optional<double>& value, const std::string& cure) {
+    if (value)
+      out.push_back({std::string("control.speed.") + key, number(*value),
+                     "is of a PI, and control.speed.law = \"" + law + "\" has none", cure});
+  };
+  const std::string gains = "give settle_s and observer_ratio alone, or set law = \"pi\"";
+  refuse("d1", loop.d1, gains);
+  refuse("d0", loop.d0, gains);
+  refuse("kp", loop.kp, gains);
+  refuse("ki", loop.ki, gains);
+  refuse("damping", loop.damping, "remove it: the law places real poles; or set law = \"pi\"");
+  const std::string form = "remove it, or set law = \"pi\"";
+  refuse("anti_windup", loop.anti_windup, form);
+  refuse("derivative_s", loop.derivative_s, form);
+  refuse("derivative_filter_s", loop.derivative_filter_s, form);
+  refuse("setpoint_weight", loop.setpoint_weight, form);
+  if (loop.form == SpeedForm::positional)
+    out.push_back({"control.speed.form", "\"positional\"",
+                   "is of a PI, and control.speed.law = \"" + law + "\" has none", form});
+  if (s.control.arithmetic != Arithmetic::float64 && s.control.arithmetic != Arithmetic::float32)
+    out.push_back({"control.arithmetic", std::string(base::word(arithmetic_choices, s.control.arithmetic)),
+                   "has no scaling that is proved for control.speed.law = \"" + law + "\"",
+                   "set arithmetic = \"float\" or \"double\", or law = \"pi\""});
+}
+
+}  // namespace
+
+void check_speed_law(const Scenario& s, base::Problems& out) {
+  if (s.control.speed.law == SpeedLaw::pi)
+    check_positional(s, out);
+  else
+    check_designed(s, out);
+}
+
+}  // namespace sixstep::study

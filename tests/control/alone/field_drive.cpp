@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// In fixed point, without floating-point registers where the compiler can be told so.
+#include "tests/control/alone/field_drive.hpp"
+
+namespace firmware {
+
+template struct FieldOriented<Q15>;
+template struct FieldOriented<Fixed<std::int16_t, 12>>;
+template struct FieldOriented<Q31>;
+template struct FieldOriented<Fixed<std::int32_t, 24>>;
+
+}  // namespace firmware

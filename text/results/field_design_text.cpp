@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/results/field_design_text.hpp"
+
+#include <fmt/format.h>
+
+#include "sixstep/design/sheet/motion.hpp"
+#include "text/escape/escape.hpp"
+#include "text/results/design_loops_text.hpp"
+#include "text/results/quantity_text.hpp"
+#include "text/results/text_rows.hpp"
+
+namespace text {
+namespace {
+
+using sixstep::analysis::FieldStudy;
+using sixstep::design::DerivationStep;
+
+std::string number(double x) { return fmt::format("{:.6g}", x); }
+
+std::string winding(const sixstep::design::FieldMachine& m) {
+  if (m.L_d_H == m.L_q_H)
+    return fmt::format("phase R = {} ohm, L = {} mH", number(m.R_ohm), number(1e3 * m.L_q_H));
+  return fmt::format("phase R = {} ohm, L_d = {} mH, L_q = {} mH", number(m.R_ohm), number(1e3 * m.L_d_H),
+                     number(1e3 * m.L_q_H));
+}
+
+std::string motor_line(const FieldStudy& f) {
+  const sixstep::plant::Shaft& shaft = f.design.motor.shaft;
+  const study::Scenario& s = f.scenario;
+  return fmt::format(
+      "{} on {} V: {}, p = {}, psi = {} V s, J = {} g cm2, B = {} N m s\n"
+      "field-oriented, control and PWM period {}, a command counts {}\n",
+      visible(s.sheet.name.empty() ? s.motor : s.sheet.name), number(f.design.bus_V), winding(f.machine),
+      number(f.machine.pole_pairs), number(f.machine.magnet_V_s / f.machine.pole_pairs),
+      number(1e7 * shaft.J_kg_m2), number(shaft.B_Nm_s), quantity_text(f.design.spec.period_s, "s"),
+      f.design.spec.delay_periods == 1 ? "one period late" : "at once");
+}
+
+std::string table(const char* head, const std::vector<DerivationStep>& steps) {
+  if (steps.empty()) return "";
+  Rows rows;
+  for (const DerivationStep& step : steps)
+    rows.add({step.symbol, quantity_text(step.value, step.unit, 6), step.formula});
+  return fmt::format("\n{}\n", head) + rows.text();
+}
+
+std::string sensing(const FieldStudy& f) {
+  if (f.design.sensing.empty()) return "";
+  const std::string words = sixstep::design::edges_words(f.design.spec.rotor);
+  const std::string head =
+      f.design.spec.rotor.hall ? "Speed from Hall edges, " + words.substr(6) : "Speed from the " + words;
+  return table(head.c_str(), f.design.sensing);
+}
+
+}  // namespace
+
+std::string field_design_verdict(const FieldStudy& f) {
+  for (const auto& w : f.warnings)
+    if (w.grave) return "NOT USABLE: " + w.what;
+  const std::size_t n = f.warnings.size();
+  return n == 0 ? "good" : fmt::format("usable, {} warning{}", n, n == 1 ? "" : "s");
+}
+
+std::string field_design_text(const FieldStudy& f, bool colour) {
+  std::string verdict = field_design_verdict(f);
+  if (colour) verdict = fmt::format("\x1b[{}m{}\x1b[0m", f.usable() ? "32" : "31;1", verdict);
+  const sixstep::base::Motion motion = sixstep::design::motion_of(f.design.motor);
+  std::string text = verdict + "\n\n" + motor_line(f);
+  for (const sixstep::design::LoopDesign& loop : f.design.loops) text += loop_text(loop, motion);
+  text += table("Along the magnet and across it", f.axes) + figures_text(f.design) + sensing(f) +
+          table("What the bus lets through", f.limits);
+  if (!f.warnings.empty()) text += "\nWarnings\n";
+  for (const auto& w : f.warnings)
+    text += fmt::format("  - {}{}\n    {}\n", w.grave ? "GRAVE: " : "", visible(w.what), visible(w.cure));
+  return text +
+         "\nsixstep run puts the scenario to the test with all switching; its --bode measures the loop\n";
+}
+
+}  // namespace text

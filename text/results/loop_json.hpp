@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// A designed loop as JSON, for each kind of drive alike.
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <vector>
+
+#include "sixstep/design/loops/drive_design.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+/// null where a number is infinite or is none.
+nlohmann::ordered_json finite(double x);
+nlohmann::ordered_json or_null(const std::optional<double>& x);
+
+nlohmann::ordered_json steps_json(const std::vector<sixstep::design::DerivationStep>& steps);
+
+/// Gains, derivation, open loop, margins with both delays, Bode and step data.
+nlohmann::ordered_json loop_json(const sixstep::design::LoopDesign& loop,
+                                 const sixstep::design::DriveDesign& design);
+
+}  // namespace text
