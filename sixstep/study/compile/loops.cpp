@@ -55,10 +55,8 @@ base::Problems add_deadbeat(const Scenario& s, const Basis& basis, Tuned& out) {
   const control::DeadbeatConfig<double>& c = made->config;
   out.drive.extras.on = out.drive.extras.predicts_current = true;
   out.drive.extras.deadbeat = c;
-  out.gains.push_back(
-      {"current", c.V_per_A, -c.decay * c.V_per_A,
-       "deadbeat; a PI of these gains would reach its reference as soon, had its answer no wait",
-       std::nullopt, made->steps});
+  out.gains.push_back({"current", c.V_per_A, 0.0, "deadbeat, on the sheet's R and L and the control period",
+                       std::nullopt, made->steps});
   return {};
 }
 
