@@ -89,21 +89,12 @@ template <int points, class Real>
   if (conducts) out.air_gap = dt * series::weighted_sum<points>(at.torque, at.w);
 }
 
-/// Where two legs conduct and both shapes keep their distance, T_e is the current times it (expand_shape()).
-template <class Real>
-[[gnu::always_inline]] inline bool flat_pair(const Constants<Real>& c, const EmfPiece<Real>& piece,
-                                             const LegsLaw<Real>& law) {
-  return !c.sine && piece.beta[law.leg[0]] == piece.beta[law.leg[1]];
-}
-
 /// Only what is asked for of them, in one pass.
 template <int points, class Real>
-[[gnu::always_inline]] inline Moving<points, Real> moving_at(const Constants<Real>& c, const Mode& mode,
+[[gnu::always_inline]] inline Moving<points, Real> moving_at(const LegsLaw<Real>& law,
                                                              const Expansion<Real>& y,
                                                              const series::Nodes<points, Real>& s,
                                                              bool conducts, bool turning) {
-  const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
-  const EmfPiece<Real>& piece = c.emf[mode.sector].piece[mode.piece];
   Moving<points, Real> at;
   if (!conducts) {
     at.w = series::values_at<points>(y.w, y.degree, s);
@@ -111,9 +102,6 @@ template <int points, class Real>
     const auto v =
         series::values_together<points, Real>(y.degree, s, y.i[law.leg[0]], y.i[law.leg[1]], y.w, y.torque);
     at = {v[0], v[1], v[2], v[3]};
-  } else if (turning && flat_pair(c, piece, law)) {
-    const auto v = series::values_together<points, Real>(y.degree, s, y.i[law.leg[0]], y.w);
-    at = {v[0], -v[0], v[1], (piece.alpha[law.leg[0]] - piece.alpha[law.leg[1]]) * v[0]};
   } else if (turning) {
     const auto v = series::values_together<points, Real>(y.degree, s, y.i[law.leg[0]], y.w, y.torque);
     at = {v[0], -v[0], v[1], v[2]};
@@ -136,7 +124,7 @@ template <class Real>
   series::with_points_for(
       y.degree, [&]<int points>() __attribute__((always_inline)) {
         const auto s = series::nodes_up_to<points>(to);
-        const auto at = moving_at<points>(c, mode, y, s, conducts, turning);
+        const auto at = moving_at<points>(law, y, s, conducts, turning);
         const Real dt = y.h * to;
         if (conducts) electrical_energy<points>(c, mode, y, dt, s, at, out);
         if (turning) shaft_energy<points>(c, mode, dt, at, conducts, out);

@@ -68,6 +68,23 @@ TEST(Bode, CurrentLoopOfALockedRotorIsTheDesigned) {
   }
 }
 
+/// z^-1, or z^-2 behind a delay. A pulse's place makes f = pulse_over_held of the voltage, of which the prediction's correction
+/// leaves what is fast: L is between the designed one and f times it.
+TEST(Bode, ADeadbeatLoopIsADelay) {
+  for (const int delay : {0, 1}) {
+    study::Scenario s = steady_current(true);
+    s.pwm.delay_periods = delay;
+    s.control.current.type = study::CurrentLoopType::deadbeat;
+    const auto b = analysis::study_bode(s);
+    ASSERT_TRUE(b) << to_string(b.problems()[0]);
+    ASSERT_TRUE(b->designed);
+    const double f = pulse_over_held(1.03, 0.572e-3, 30e-6, 5 * 1.03 / 24);
+    EXPECT_LT(off_by(*b, 0.5, 30), 1.5 * (1 - f)) << delay;
+    for (const analysis::LoopPoint& p : b->points)
+      EXPECT_NEAR(std::sqrt(p.closed.square()), 1.0, 2 * (1 - f));
+  }
+}
+
 /// Chopped both ways the current may reverse, and the speed loop is linear but for commutation. The torque follows the mean of
 /// the current and not its sample: a per cent or two of gain near the crossover that the linear loop does not know.
 TEST(Bode, SpeedLoopIsTheDesigned) {

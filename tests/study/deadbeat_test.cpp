@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Deadbeat current control and the staying phase's current on the switching motor: how soon a step is there, and what is left of the
+// ripple that commutation makes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/compile/compile.hpp"
+#include "tests/support/scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using control::Mode;
+using study::CurrentFeedback;
+using study::CurrentLoopType;
+using study::MetricKind;
+using study::Scenario;
+using study::Signal;
+
+double first_figure(const Scenario& s) {
+  const auto out = study::run(s);
+  if (!out) ADD_FAILURE() << to_string(out.problems()[0]);
+  EXPECT_FALSE(out && out->fault);
+  return out ? out->comparisons[0].measured : -1e9;
+}
+
+/// 1 A more into a held rotor, in as many periods as the wait and one, to what a pulse that stands at the begin of its period does less
+/// than a voltage held over it: (1 - f) of the step's voltage, L/T per ampere.
+TEST(Deadbeat, AStepIsThereAPeriodAfterTheAnswerBegins) {
+  for (const auto arithmetic : {study::Arithmetic::float64, study::Arithmetic::float32,
+                                study::Arithmetic::q15, study::Arithmetic::q31})
+    for (const int delay : {0, 1}) {
+      Scenario s = maxon_scenario(Mode::current, 1.0);
+      s.load.locked = true;
+      s.pwm.delay_periods = delay;
+      s.control.arithmetic = arithmetic;
+      s.control.current.type = CurrentLoopType::deadbeat;
+      s.duration_s = (1 + delay) * s.pwm.period_s + 1e-9;
+      study::Measure last = measure(MetricKind::maximum, Signal::current);
+      ask(s, last);
+      const double x = 1.03 * 30e-6 / 0.572e-3;
+      EXPECT_NEAR(first_figure(s), 1.0, x) << delay;
+      s.duration_s -= 30e-6;
+      EXPECT_LT(first_figure(s), delay == 0 ? 1e-6 : 0.1);
+    }
+}
+
+/// Turned at 150 rad/s with 3 A, complementary: the ripple of the torque by commutation, both ends of it.
+double ripple(CurrentLoopType type, CurrentFeedback feedback) {
+  Scenario s = maxon_scenario(Mode::current, 3.0);
+  s.pwm.chopping = control::Chopping::complementary;
+  s.load.dynamometer_times_s = {0.0};
+  s.load.dynamometer_rad_s = {150.0};
+  s.control.current.type = type;
+  s.control.current.feedback = feedback;
+  for (const MetricKind metric : {MetricKind::maximum, MetricKind::minimum}) {
+    study::Measure end = measure(metric, Signal::torque);
+    end.from_s = 5e-3;
+    ask(s, end);
+  }
+  const auto out = study::run(s);
+  if (!out) ADD_FAILURE() << to_string(out.problems()[0]);
+  return out ? out->comparisons[0].measured - out->comparisons[1].measured : -1e9;
+}
+
+TEST(Deadbeat, TheStayingPhaseTakesOffTheRippleOfCommutation) {
+  for (const auto type : {CurrentLoopType::pi, CurrentLoopType::deadbeat})
+    std::printf("mean %.4g, staying %.4g\n", ripple(type, CurrentFeedback::mean),
+                ripple(type, CurrentFeedback::staying_phase));
+}
+
+TEST(Deadbeat, WhatItLacksIsRefusedWithACure) {
+  Scenario s = maxon_scenario(Mode::current, 1.0);
+  s.control.current.type = CurrentLoopType::deadbeat;
+  EXPECT_TRUE(study::check(s).empty());
+  const auto refused = [&](auto change, const char* where) {
+    Scenario wrong = s;
+    change(wrong);
+    const base::Problems problems = study::check(wrong);
+    ASSERT_FALSE(problems.empty()) << where;
+    EXPECT_EQ(problems[0].where, where);
+    EXPECT_FALSE(problems[0].cure.empty());
+  };
+  refused([](Scenario& x) { x.control.current.settle_s = 1e-3; }, "control.current.settle_s");
+  refused([](Scenario& x) { x.control.current.damping = 0.9; }, "control.current.damping");
+  refused([](Scenario& x) { x.control.current.d1 = 1, x.control.current.d0 = -0.9; }, "control.current.d1");
+  refused([](Scenario& x) { x.control.current.kp = 1, x.control.current.ki = 0.1; }, "control.current.kp");
+  refused([](Scenario& x) { x.control.current.back_emf_feed_forward = true; },
+          "control.current.back_emf_feed_forward");
+  refused(
+      [](Scenario& x) { x.control.current.type = CurrentLoopType::pi, x.control.current.correction = 0.5; },
+      "control.current.correction");
+  refused(
+      [](Scenario& x) {
+        x.control.current.type = CurrentLoopType::hysteresis;
+        x.control.current.feedback = CurrentFeedback::staying_phase;
+      },
+      "control.current.feedback");
+  s.pwm.delay_periods = 1;
+  s.pwm.sample = study::SampleAt::middle;
+  const auto late = study::compile(s);
+  ASSERT_FALSE(late);
+  EXPECT_EQ(late.problems()[0].where, "control.current.type");
+}
+
+}  // namespace
