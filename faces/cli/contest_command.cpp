@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/contest_command.hpp"
+
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <stop_token>
+#include <utility>
+
+#include "batch/contest.hpp"
+#include "faces/cli/keep.hpp"
+#include "faces/cli/new_file.hpp"
+#include "faces/cli/outputs.hpp"
+#include "faces/cli/progress.hpp"
+#include "faces/cli/terminal.hpp"
+#include "faces/cli/written_twice.hpp"
+#include "files/atomic_file.hpp"
+#include "files/own_file.hpp"
+#include "files/scenario_on_disk.hpp"
+#include "text/contest/contest_entries.hpp"
+#include "text/results/contest_text.hpp"
+#include "text/scenario/scenario_text.hpp"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ContestArguments {
+  std::string motor, board, data_dir;
+  std::optional<double> voltage_V, settle_s, current_settle_s, period_s;
+  std::size_t drives = 10;
+  std::uint64_t seed = 1;
+  std::string json, csv, write;
+  bool quiet = false, force = false;
+  unsigned jobs = 0;
+  std::string command;  ///< what makes the files again
+};
+
+/// A file per controller: "six-step-soft.toml" of "six-step, soft".
+std::string file_name(std::string_view name) {
+  std::string out;
+  for (const char c : name)
+    if (c == ' ')
+      out += '-';
+    else if (c != ',')
+      out += c;
+  return out + ".toml";
+}
+
+/// Files are made before the work begins: one that cannot be written is told at once.
+struct ContestFiles {
+  std::optional<files::AtomicFile> json, csv;
+  std::vector<files::AtomicFile> scenarios;  ///< of the entries that have one, in their order
+
+  base::Problems open(const ContestArguments& a, const std::vector<analysis::ContestEntry>& entries) {
+    base::Problems found = written_twice({{"--json", a.json}, {"--csv", a.csv}});
+    if (!found.empty()) return found;
+    const auto one = [&](std::optional<files::AtomicFile>& into, const std::string& path) {
+      if (!path.empty() && path != "-") keep(into, files::AtomicFile::create({path, a.force}), found);
+    };
+    one(json, a.json);
+    one(csv, a.csv);
+    if (a.write.empty() || !found.empty()) return found;
+    found = make_folder(a.write);
+    for (const analysis::ContestEntry& entry : entries) {
+      if (!entry.scenario || !found.empty()) continue;
+      std::optional<files::AtomicFile> file;
+      one(file, (fs::path(a.write) / file_name(entry.who->name)).string());
+      if (file) scenarios.push_back(std::move(*file));
+    }
+    return found;
+  }
+};
+
+base::Problems write(const analysis::Contest& contest, const ContestArguments& a, ContestFiles& out) {
+  base::Problems found;
+  const auto put = [&](files::AtomicFile& file, const std::string& text) {
+    file.write(text);
+    const base::Problems failed = file.commit();
+    found.insert(found.end(), failed.begin(), failed.end());
+  };
+  if (out.json) put(*out.json, text::contest_json(contest));
+  if (out.csv) put(*out.csv, text::contest_csv(contest));
+  auto file = out.scenarios.begin();
+  for (const analysis::ContestEntry& entry : contest.entries) {
+    if (!entry.scenario || file == out.scenarios.end()) continue;
+    study::Scenario scenario = *entry.scenario;
+    scenario.motor = motor_beside(scenario.motor, file->path());
+    put(*file++, files::with_own_mark(a.command, text::scenario_text(scenario, contest.bench.rules)));
+  }
+  return found;
+}
+
+/// Members are told as options.
+base::Problems in_options(base::Problems problems) {
+  constexpr std::pair<std::string_view, std::string_view> options[] = {{"voltage_V", "--voltage"},
+                                                                       {"settle_s", "--settle"},
+                                                                       {"current_settle_s", "--current-settle"},
+                                                                       {"period_s", "--period"}};
+  for (base::Problem& p : problems)
+    for (const auto& [member, option] : options)
+      if (p.where == member) p.where = option;
+  return problems;
+}
+
+base::Result<analysis::ContestBench> bench_of(const ContestArguments& a) {
+  const base::Result<design::Sheet> sheet = files::read_sheet(a.motor, a.data_dir);
+  if (!sheet) return sheet.problems();
+  analysis::ContestSpec spec{.motor = a.motor,
+                             .sheet = *sheet,
+                             .voltage_V = a.voltage_V,
+                             .settle_s = a.settle_s,
+                             .current_settle_s = a.current_settle_s,
+                             .period_s = a.period_s};
+  if (!a.board.empty()) {
+    const base::Result<study::Scenario> board = files::read_scenario(a.board, {.data_dir = a.data_dir, .overrides = {}});
+    if (!board) return board.problems();
+    spec.board = *board;
+  }
+  base::Result<analysis::ContestBench> bench = analysis::contest_bench(spec);
+  if (!bench) return in_options(bench.problems());
+  return bench;
+}
+
+/// Runs end where the user ends the program.
+class InterruptWatch {
+ public:
+  InterruptWatch()
+      : watch_([this](const std::stop_token& done) {
+          while (!done.stop_requested()) {
+            if (interrupted()) stop_.request_stop();
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+          }
+        }) {}
+  std::stop_token token() const { return stop_.get_token(); }
+
+ private:
+  std::stop_source stop_;
+  std::jthread watch_;
+};
+
+Exit exit_of(const analysis::Contest& contest) {
+  const bool any = std::any_of(contest.rows.begin(), contest.rows.end(),
+                               [](const analysis::ContestRow& row) { return row.nominal_held; });
+  return any ? Exit::ok : Exit::failed;
+}
+
+Exit contest_command(const ContestArguments& a) {
+  base::Result<analysis::ContestBench> bench = bench_of(a);
+  if (!bench) return refused(bench.problems());
+  std::vector<analysis::ContestEntry> entries = text::contest_entries(*bench, files::on_disk(a.data_dir));
+  ContestFiles outputs;
+  if (const base::Problems found = outputs.open(a, entries); !found.empty()) return refused(found);
+  catch_interrupts();
+  const auto compared = [&] {
+    const InterruptWatch watch;
+    Progress progress({.seconds = {}, .pieces = batch::contest_runs(entries.size(), a.drives), .of = "runs"}, a.quiet);
+    return batch::compare_controllers(std::move(*bench), entries,
+                                      {.drives = a.drives,
+                                       .seed = a.seed,
+                                       .jobs = a.jobs,
+                                       .progress = [&](std::size_t done) { progress.pieces_done(done); },
+                                       .stop = watch.token()});
+  };
+  const analysis::Contest contest = compared();
+  if (interrupted()) return told_interrupted("compare " + a.motor);
+  if (const base::Problems unwritten = write(contest, a, outputs); !unwritten.empty()) return refused(unwritten);
+  if (a.json == "-") print(text::contest_json(contest));
+  if (a.csv == "-") print(text::contest_csv(contest));
+  if (!a.quiet && a.json != "-" && a.csv != "-") print(text::contest_text(contest));
+  return exit_of(contest);
+}
+
+void declare_options(CLI::App& verb, ContestArguments& a) {
+  verb.add_option("MOTOR", a.motor, "name or path of a motor file")->required();
+  verb.add_option("--voltage", a.voltage_V, "of the bus in V; without it the sheet's nominal voltage");
+  verb.add_option("--settle", a.settle_s, "settling time of all speed loops in s; without it what Hall probes allow");
+  verb.add_option("--current-settle", a.current_settle_s, "of all current loops in s; without it the design's");
+  verb.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");
+  verb.add_option("--board", a.board, "a scenario whose supply, bridge, PWM and sensors all controllers have");
+  verb.add_option("--runs", a.drives, "drives of the sheet's tolerances for each controller; 0: the nominal one alone")
+      ->check(CLI::Range(0, 100'000))
+      ->capture_default_str();
+  verb.add_option("--seed", a.seed, "of these drives")->capture_default_str();
+  verb.add_option("--json", a.json, "write everything; - for standard output instead of the tables");
+  verb.add_option("--csv", a.csv, "write a line per controller; - for standard output");
+  verb.add_option("--write", a.write, "a folder for the scenario of each controller, for sixstep run");
+  take_force(verb, a.force);
+  take_data(verb, a.data_dir);
+  take_jobs(verb, a.jobs);
+  verb.add_flag("--quiet", a.quiet, "no tables, only files and errors");
+}
+
+}  // namespace
+
+Verb declare_contest(CLI::App& app) {
+  CLI::App& verb =
+      *app.add_subcommand("compare", "controllers of one motor, each designed by its rule, side by side on one course");
+  const auto a = std::make_shared<ContestArguments>();
+  declare_options(verb, *a);
+  return {&verb, calling(contest_command, a)};
+}
+
+}  // namespace cli

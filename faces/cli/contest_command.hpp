@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "faces/cli/verb.hpp"
+
+namespace cli {
+
+/// sixstep compare MOTOR: controllers designed by their rules, set side by side on one course.
+Verb declare_contest(CLI::App& app);
+
+}  // namespace cli

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Controllers side by side: what comes out is physics, whoever computes it on how many threads.
+#include "batch/contest.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sixstep/design/loops/field_current.hpp"
+#include "text/contest/contest_entries.hpp"
+
+namespace {
+
+using namespace sixstep;
+using analysis::Contest;
+using analysis::ContestRow;
+using analysis::Gauge;
+
+constexpr analysis::Contestant few[] = {
+    {analysis::six_step_name, "", "is the reference"},
+    {"six-step, complementary", "pwm.chopping = complementary", "chops the lower switch too"},
+    {analysis::field_name, "control.drive = field-oriented", "turns a vector"}};
+
+Contest compared(const std::string& motor, std::size_t drives, unsigned jobs) {
+  const auto sheet = text::read_sheet(motor);
+  EXPECT_TRUE(sheet);
+  auto bench = analysis::contest_bench({.motor = motor, .sheet = *sheet});
+  EXPECT_TRUE(bench);
+  auto entries = text::contest_entries(*bench, {}, few);
+  return batch::compare_controllers(std::move(*bench), std::move(entries), {.drives = drives, .jobs = jobs});
+}
+
+double gauge(const ContestRow& row, Gauge g) {
+  const std::size_t requirements = row.nominal.figures.size() - std::size(analysis::contest_gauges);
+  return row.nominal.figures[requirements + static_cast<std::size_t>(g)];
+}
+
+/// A sine machine under sine currents: T = 3/2 p psi I and 3/2 R I^2 of loss; ripple and PWM add a part of it, T^2 its ripple's
+/// square. Six-step's cannot be below that of its best current, 2 R i^2 with T = K_t i.
+TEST(Contest, CopperLossIsThatOfTheTorque) {
+  const Contest c = compared("teknic-m2310p", 0, 2);
+  const design::MotorModel& m = c.bench.design.motor;
+  const ContestRow &six = c.rows[0], &field = c.rows[2];
+  const double sine_A = gauge(field, Gauge::mean_torque) / design::torque_per_q_A(design::field_machine(m, c.bench.scenario.sheet));
+  const double sine_W = 1.5 * m.machine.R_ohm * sine_A * sine_A;
+  EXPECT_GE(gauge(field, Gauge::copper), sine_W);
+  const double thd = gauge(field, Gauge::distortion);
+  EXPECT_LE(gauge(field, Gauge::copper), 1.01 * sine_W * (1 + thd * thd));  // what is not the fundamental's only heats
+  const double pair_A = gauge(six, Gauge::mean_torque) / m.K_t_Nm_A;
+  EXPECT_GE(gauge(six, Gauge::copper), 2 * m.machine.R_ohm * pair_A * pair_A);
+}
+
+/// Both hold the same load against the same friction: the mean torque is the load's and friction's, whoever makes it.
+TEST(Contest, TheMeanTorqueIsTheLoads) {
+  const Contest c = compared("maxon-251601", 0, 2);
+  const double load = c.bench.course.rated_Nm / 2 + c.bench.design.motor.shaft.B_Nm_s * c.bench.course.rated_rad_s;
+  for (const ContestRow& row : c.rows) {
+    ASSERT_TRUE(row.nominal_held);
+    EXPECT_NEAR(gauge(row, Gauge::mean_torque), load, 0.005 * load);
+  }
+}
+
+/// What freewheels through a switch of 11 mohm is spared a diode's 0.8 V.
+TEST(Contest, ComplementaryChoppingSparesTheDiode) {
+  const Contest c = compared("maxon-251601", 0, 2);
+  EXPECT_LT(gauge(c.rows[1], Gauge::conduction), 0.5 * gauge(c.rows[0], Gauge::conduction));
+}
+
+TEST(Contest, DrivesAreTheSameOnAnyNumberOfThreadsAndNoneIsBetterThanTheWorst) {
+  const Contest a = compared("maxon-251601", 2, 1), b = compared("maxon-251601", 2, 3);
+  for (std::size_t n = 0; n < a.rows.size(); ++n) {
+    EXPECT_EQ(a.rows[n].nominal.digest, b.rows[n].nominal.digest);
+    EXPECT_EQ(a.rows[n].worst, b.rows[n].worst);
+    EXPECT_EQ(a.rows[n].drives, 2U);
+    for (std::size_t f = 0; f < a.rows[n].values.size(); ++f) EXPECT_GE(a.rows[n].worst[f], a.rows[n].values[f]);
+    EXPECT_GT(a.rows[n].trace.t_s.size(), 500U);
+    EXPECT_EQ(a.rows[n].trace.t_s.size(), a.rows[n].trace.speed_rad_s.size());
+  }
+}
+
+}  // namespace

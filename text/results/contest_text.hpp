@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Controllers side by side as tables, as plain words, and for programs.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sixstep/analysis/contest/contest.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+/// Who wins where, and the answer to "six-step or field-oriented?": sentences made of the numbers by rules. Controllers that do not
+/// hold the course are left out.
+std::vector<std::string> contest_words(const analysis::Contest& contest);
+
+/// A line per controller that this motor or board does not let be, or that does not hold the course: why.
+std::vector<std::string> contest_notes(const analysis::Contest& contest);
+
+/// What is common, the tables, nominal and worst, and the words.
+std::string contest_text(const analysis::Contest& contest);
+
+/// A line per controller and drive, "nominal" or "worst".
+std::string contest_csv(const analysis::Contest& contest);
+
+/// Everything, with the keys of each.
+std::string contest_json(const analysis::Contest& contest);
+
+}  // namespace text

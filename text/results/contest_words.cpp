@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sentences of a comparison of controllers, made of its numbers by rules.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <optional>
+
+#include "text/results/contest_text.hpp"
+#include "text/results/quantity_text.hpp"
+
+namespace text {
+namespace {
+
+using analysis::Contest;
+using analysis::contest_figures;
+
+/// Within this part two figures count as alike.
+constexpr double alike = 0.05;
+
+std::string shown(double x, std::size_t figure) {
+  const std::string unit(contest_figures[figure].unit);
+  return unit == "1" ? fmt::format("{:.1f} %", 100 * x) : quantity_text(x, unit, 3);
+}
+
+/// "3.2 times", "12 % more": how much larger b is.
+std::string larger(double a, double b) {
+  if (!(a > 0.0)) return "against none";
+  return b / a >= 2.0 ? fmt::format("{:.1f} times", b / a) : fmt::format("{:.0f} % more", 100 * (b / a - 1));
+}
+
+
+/// Rows that hold the course and have the figure, the least first and the next.
+struct Ranked {
+  std::optional<std::size_t> first, second;
+};
+Ranked ranked(const Contest& c, std::size_t figure, const std::function<bool(std::size_t)>& counts) {
+  Ranked r;
+  const auto value = [&](std::size_t n) { return c.rows[n].values[figure]; };
+  for (std::size_t n = 0; n < c.rows.size(); ++n) {
+    if (!c.rows[n].nominal_held || !std::isfinite(value(n)) || !counts(n)) continue;
+    if (!r.first || value(n) < value(*r.first)) {
+      r.second = r.first;
+      r.first = n;
+    } else if (!r.second || value(n) < value(*r.second)) {
+      r.second = n;
+    }
+  }
+  return r;
+}
+
+bool are_alike(double a, double b) { return std::fabs(b - a) <= alike * std::fmax(std::fabs(a), std::fabs(b)); }
+
+/// "NAME has the least rms torque ripple (1.2 mN m; next NAME, 2.3 times)": what it leads in clearly, and why.
+std::vector<std::string> winners(const Contest& c) {
+  std::vector<std::vector<std::string>> wins(c.rows.size());
+  std::vector<std::string> even;
+  for (std::size_t f = 0; f < std::size(contest_figures); ++f) {
+    const Ranked r = ranked(c, f, [](std::size_t) { return true; });
+    if (!r.first || !r.second) continue;
+    const double least = c.rows[*r.first].values[f], next = c.rows[*r.second].values[f];
+    if (are_alike(least, next))
+      even.emplace_back(contest_figures[f].phrase);
+    else
+      wins[*r.first].push_back(fmt::format("{} ({}, the next {})", contest_figures[f].phrase, shown(least, f),
+                                           larger(least, next)));
+  }
+  std::vector<std::string> out;
+  for (std::size_t n = 0; n < wins.size(); ++n)
+    if (!wins[n].empty())
+      out.push_back(fmt::format("{} has the least {}. It {}.", c.entries[n].who->name, fmt::join(wins[n], ", "),
+                                c.entries[n].who->sentence));
+  if (!even.empty()) out.push_back(fmt::format("The first two are alike in {}.", fmt::join(even, ", ")));
+  return out;
+}
+
+/// Of ripple and loss: -1 where the first has clearly less, 1 where the second has, 0 where they are alike.
+int less_of(double a, double b) { return are_alike(a, b) ? 0 : a < b ? -1 : 1; }
+
+const char* answer(int ripple, int loss) {
+  if (ripple < 0 && loss < 0) return "field-oriented: smoother, and less heat";
+  if (ripple > 0 && loss > 0) return "six-step: smoother, and less heat";
+  if (ripple < 0) return loss == 0 ? "field-oriented: smoother, at the same heat"
+                                   : "field-oriented where torque must be smooth, six-step where heat decides";
+  if (ripple > 0) return loss == 0 ? "six-step: smoother, at the same heat"
+                                   : "six-step where torque must be smooth, field-oriented where heat decides";
+  if (loss == 0) return "either: ripple and heat are alike, and six-step is the smaller program";
+  return loss < 0 ? "field-oriented: less heat, at the same ripple" : "six-step: less heat, at the same ripple";
+}
+
+/// The best six-step row, figure by figure, against the field-oriented one.
+std::vector<std::string> six_step_or_field(const Contest& c) {
+  std::optional<std::size_t> field;
+  for (std::size_t n = 0; n < c.rows.size(); ++n)
+    if (c.entries[n].who->name == analysis::field_name && c.rows[n].nominal_held) field = n;
+  if (!field) return {};
+  std::vector<std::string> less, more, same;
+  int ripple = 0, loss = 0;
+  for (std::size_t f = 0; f < std::size(contest_figures); ++f) {
+    const Ranked six = ranked(c, f, [&](std::size_t n) { return c.entries[n].who->name.starts_with("six-step"); });
+    const double own = c.rows[*field].values[f];
+    if (!six.first || !std::isfinite(own)) continue;
+    const double other = c.rows[*six.first].values[f];
+    const int order = less_of(own, other);
+    if (f == analysis::ripple_figure) ripple = order;
+    if (f == analysis::loss_figure) loss = order;
+    const std::string_view phrase = contest_figures[f].phrase;
+    if (order == 0)
+      same.emplace_back(phrase);
+    else if (order < 0)
+      less.push_back(fmt::format("{} ({})", phrase, larger(own, other)));
+    else
+      more.push_back(fmt::format("{} ({})", phrase, larger(other, own)));
+  }
+  std::vector<std::string> out{fmt::format("Six-step or field-oriented? Here {}.", answer(ripple, loss))};
+  if (!less.empty()) out.push_back(fmt::format("Of the best six-step, figure by figure, more: {}.", fmt::join(less, ", ")));
+  if (!more.empty()) out.push_back(fmt::format("Of field-oriented more: {}.", fmt::join(more, ", ")));
+  if (!same.empty()) out.push_back(fmt::format("Alike within 5 %: {}.", fmt::join(same, ", ")));
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> contest_words(const Contest& c) {
+  std::vector<std::string> out = winners(c);
+  for (std::string& line : six_step_or_field(c)) out.push_back(std::move(line));
+  return out;
+}
+
+}  // namespace text
