@@ -22,31 +22,50 @@ inline constexpr std::string_view field_name = "field-oriented";
 
 inline constexpr Contestant all_contestants[] = {
     {six_step_name, "",
-     "chops the upper switch alone: the current freewheels through a diode, and braking is a short circuit", "speed"},
+     "chops the upper switch alone: the current freewheels through a diode, and braking is a short circuit",
+     "speed"},
     {"six-step, hard", "pwm.chopping = hard",
      "chops both switches: twice the voltage moves the current both ways, with twice the ripple", "speed"},
     {"six-step, complementary", "pwm.chopping = complementary",
-     "turns the lower switch on while the upper is off: no diode's loss, and the current may change its sign", "speed"},
+     "turns the lower switch on while the upper is off: no diode's loss, and the current may change its sign",
+     "speed"},
     {"six-step, smooth", "control.smooth_chopping.on = true",
      "chops softly where much current flows and complementarily where little does", "speed"},
     {"six-step, fed forward", "pwm.chopping = complementary; control.current.back_emf_feed_forward = true",
-     "adds the back-EMF at the measured speed to the voltage: its current loop has R, L and commutation left", "speed"},
+     "adds the back-EMF at the measured speed to the voltage: its current loop has R, L and commutation left",
+     "speed"},
     {"six-step, advanced",
      "pwm.chopping = complementary; control.drive = product; sensors.hall_angle = sectors; "
      "control.advance.gain_deg_s_per_rad = <advance>; protection.over_current_A = <trip_A>; "
      "protection.over_voltage_V = <high_V>; protection.under_voltage_V = <low_V>; "
      "protection.over_speed_rad_s = <trip_rad_s>",
-     "commutates ahead of the Hall edge by half of what a commutation takes, in the product drive", "product"},
-    {"hysteresis, comparators", "control.current = {type = \"hysteresis\", band_A = <band_A>}; pwm.delay_periods = 0",
+     "commutates ahead of the Hall edge by half of what a commutation takes, in the product drive",
+     "product"},
+    {"six-step, deadbeat", "pwm.chopping = complementary; control.current = {type = \"deadbeat\"}",
+     "foretells the current and asks for the voltage that brings it there in one period"},
+    {"hysteresis, comparators",
+     "control.current = {type = \"hysteresis\", band_A = <band_A>}; pwm.delay_periods = 0",
      "switches the moment the band is left: no sample and no delay, by comparators, at a frequency that wanders"},
     {"hysteresis, sampled",
      "control.current = {type = \"hysteresis\", band_A = <band_A>, comparator = \"sampled\"}",
      "looks at the band once a period and answers a period late: the current leaves it by what it moves meanwhile"},
-    {"speed to duty", "control.speed = {output = \"duty\", settle_s = <settle_s>, damping = <damping>}; control.current = {}; "
+    {"speed to duty",
+     "control.speed = {output = \"duty\", settle_s = <settle_s>, damping = <damping>}; control.current = {}; "
      "control.slew = <slew>",
      "has no current loop and no limit: its setpoint moves no faster than the torque limit could follow"},
+    {"state feedback",
+     "pwm.chopping = complementary; control.speed = {law = \"state-feedback\", settle_s = <settle_s>, torque_limit_Nm = <limit_Nm>}",
+     "feeds back speed and an observed load: what the load takes is asked for before the speed has fallen far"},
+    {"disturbance rejection",
+     "pwm.chopping = complementary; control.speed = {law = \"disturbance-rejection\", settle_s = <settle_s>, torque_limit_Nm = "
+     "<limit_Nm>}",
+     "observes all that the inertia alone does not explain, and takes it off"},
+    {"sliding mode",
+     "pwm.chopping = complementary; control.speed = {law = \"sliding-mode\", settle_s = <settle_s>, torque_limit_Nm = <limit_Nm>}",
+     "drives with its whole torque until it is near its surface, and slides along it from there"},
     {field_name, "control.drive = field-oriented",
-     "drives sine currents across the magnet with three legs: nothing commutates, and three legs switch", ""},
+     "drives sine currents across the magnet with three legs: nothing commutates, and three legs switch",
+     "field"},
 };
 
 constexpr std::span<const Contestant> contestants() { return all_contestants; }
