@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """manual_md_test.py PROGRAM [--renew]: what the pages in docs/manual say is so, and two pages link to what is there.
 The gallery has its own script."""
+import re
+
 import page
 
 
@@ -19,6 +21,15 @@ class Tour(page.PageTest):
 
 class Questions(page.PageTest):
     NAME, FEWEST = "docs/manual/faq.md", 12
+
+
+class Controllers(page.PageTest):
+    NAME, FEWEST = "docs/manual/control.md", 3
+
+    def test_every_option_is_named(self):
+        told = self.shell("./run compare --help")
+        for option in set(re.findall(r"--[a-z-]+", told)) - {"--help", "--data", "--quiet", "--force", "--jobs"}:
+            self.assertRegex(self.page.text, f"`[^`]*{option}[ `]")
 
 
 class Gallery(page.LinkTest):

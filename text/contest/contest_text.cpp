@@ -78,6 +78,23 @@ std::string tables(const Contest& c, std::vector<double> ContestRow::*values) {
   return table(c, ContestGroup::moving, values) + "\n" + table(c, ContestGroup::steady, values);
 }
 
+/// In lines that a terminal holds, the later ones further in.
+std::string paragraph(const std::string& words) {
+  constexpr std::size_t width = 118;
+  std::string text, line = "  ";
+  for (std::size_t at = 0; at < words.size();) {
+    const std::size_t end = std::min(words.find(' ', at), words.size());
+    const std::string word = words.substr(at, end - at);
+    if (line.find_first_not_of(' ') != std::string::npos && line.size() + 1 + word.size() > width) {
+      text += line + "\n";
+      line = "    ";
+    }
+    line += (line.find_first_not_of(' ') == std::string::npos ? "" : " ") + word;
+    at = end + 1;
+  }
+  return text + line + "\n";
+}
+
 Json number(double x) {
   if (std::isfinite(x)) return x;
   return std::isinf(x) ? Json("never") : Json(nullptr);
@@ -121,8 +138,8 @@ std::string contest_text(const Contest& c) {
   text += fmt::format(
       "\n  * least of those that hold the course; tick, flash: {} {}, instructions at worst and bytes\n\n",
       core, arithmetic);
-  for (const std::string& note : contest_notes(c)) text += "  " + note + "\n";
-  for (const std::string& line : contest_words(c)) text += "  " + line + "\n";
+  for (const std::string& note : contest_notes(c)) text += paragraph(note);
+  for (const std::string& line : contest_words(c)) text += paragraph(line);
   return text;
 }
 
