@@ -20,7 +20,7 @@
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
 #include "text/contest/contest_entries.hpp"
-#include "text/results/contest_text.hpp"
+#include "text/contest/contest_text.hpp"
 #include "text/scenario/scenario_text.hpp"
 
 namespace cli {
@@ -96,10 +96,11 @@ base::Problems write(const analysis::Contest& contest, const ContestArguments& a
 
 /// Members are told as options.
 base::Problems in_options(base::Problems problems) {
-  constexpr std::pair<std::string_view, std::string_view> options[] = {{"voltage_V", "--voltage"},
-                                                                       {"settle_s", "--settle"},
-                                                                       {"current_settle_s", "--current-settle"},
-                                                                       {"period_s", "--period"}};
+  constexpr std::pair<std::string_view, std::string_view> options[] = {
+      {"voltage_V", "--voltage"},
+      {"settle_s", "--settle"},
+      {"current_settle_s", "--current-settle"},
+      {"period_s", "--period"}};
   for (base::Problem& p : problems)
     for (const auto& [member, option] : options)
       if (p.where == member) p.where = option;
@@ -116,7 +117,8 @@ base::Result<analysis::ContestBench> bench_of(const ContestArguments& a) {
                              .current_settle_s = a.current_settle_s,
                              .period_s = a.period_s};
   if (!a.board.empty()) {
-    const base::Result<study::Scenario> board = files::read_scenario(a.board, {.data_dir = a.data_dir, .overrides = {}});
+    const base::Result<study::Scenario> board =
+        files::read_scenario(a.board, {.data_dir = a.data_dir, .overrides = {}});
     if (!board) return board.problems();
     spec.board = *board;
   }
@@ -157,7 +159,8 @@ Exit contest_command(const ContestArguments& a) {
   catch_interrupts();
   const auto compared = [&] {
     const InterruptWatch watch;
-    Progress progress({.seconds = {}, .pieces = batch::contest_runs(entries.size(), a.drives), .of = "runs"}, a.quiet);
+    Progress progress({.seconds = {}, .pieces = batch::contest_runs(entries.size(), a.drives), .of = "runs"},
+                      a.quiet);
     return batch::compare_controllers(std::move(*bench), entries,
                                       {.drives = a.drives,
                                        .seed = a.seed,
@@ -167,7 +170,8 @@ Exit contest_command(const ContestArguments& a) {
   };
   const analysis::Contest contest = compared();
   if (interrupted()) return told_interrupted("compare " + a.motor);
-  if (const base::Problems unwritten = write(contest, a, outputs); !unwritten.empty()) return refused(unwritten);
+  if (const base::Problems unwritten = write(contest, a, outputs); !unwritten.empty())
+    return refused(unwritten);
   if (a.json == "-") print(text::contest_json(contest));
   if (a.csv == "-") print(text::contest_csv(contest));
   if (!a.quiet && a.json != "-" && a.csv != "-") print(text::contest_text(contest));
@@ -177,11 +181,15 @@ Exit contest_command(const ContestArguments& a) {
 void declare_options(CLI::App& verb, ContestArguments& a) {
   verb.add_option("MOTOR", a.motor, "name or path of a motor file")->required();
   verb.add_option("--voltage", a.voltage_V, "of the bus in V; without it the sheet's nominal voltage");
-  verb.add_option("--settle", a.settle_s, "settling time of all speed loops in s; without it what Hall probes allow");
-  verb.add_option("--current-settle", a.current_settle_s, "of all current loops in s; without it the design's");
+  verb.add_option("--settle", a.settle_s,
+                  "settling time of all speed loops in s; without it what Hall probes allow");
+  verb.add_option("--current-settle", a.current_settle_s,
+                  "of all current loops in s; without it the design's");
   verb.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");
-  verb.add_option("--board", a.board, "a scenario whose supply, bridge, PWM and sensors all controllers have");
-  verb.add_option("--runs", a.drives, "drives of the sheet's tolerances for each controller; 0: the nominal one alone")
+  verb.add_option("--board", a.board,
+                  "a scenario whose supply, bridge, PWM and sensors all controllers have");
+  verb.add_option("--runs", a.drives,
+                  "drives of the sheet's tolerances for each controller; 0: the nominal one alone")
       ->check(CLI::Range(0, 100'000))
       ->capture_default_str();
   verb.add_option("--seed", a.seed, "of these drives")->capture_default_str();
@@ -197,8 +205,8 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
 }  // namespace
 
 Verb declare_contest(CLI::App& app) {
-  CLI::App& verb =
-      *app.add_subcommand("compare", "controllers of one motor, each designed by its rule, side by side on one course");
+  CLI::App& verb = *app.add_subcommand(
+      "compare", "controllers of one motor, each designed by its rule, side by side on one course");
   const auto a = std::make_shared<ContestArguments>();
   declare_options(verb, *a);
   return {&verb, calling(contest_command, a)};

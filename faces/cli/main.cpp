@@ -50,9 +50,10 @@ Exit run_program(int count, const char* const* words) {
   app.require_subcommand(1);
   app.footer("To begin with: sixstep new first\n" + exit_codes());
 
-  const Verb verbs[] = {declare_new(app),    declare_run(app),    declare_design(app), declare_contest(app),
-                        declare_curve(app),  declare_export(app), declare_help(app),   declare_motor(app),
-                        declare_schema(app), declare_completion(app), declare_man(app)};
+  const Verb verbs[] = {declare_new(app),        declare_run(app),   declare_design(app),
+                        declare_contest(app),    declare_curve(app), declare_export(app),
+                        declare_help(app),       declare_motor(app), declare_schema(app),
+                        declare_completion(app), declare_man(app)};
   if (count > 1 && words[1] == std::string_view(complete_word))
     return answer_shell(app, std::vector<std::string>(words + 2, words + count));
 

@@ -41,11 +41,13 @@ TEST(Contest, CopperLossIsThatOfTheTorque) {
   const Contest c = compared("teknic-m2310p", 0, 2);
   const design::MotorModel& m = c.bench.design.motor;
   const ContestRow &six = c.rows[0], &field = c.rows[2];
-  const double sine_A = gauge(field, Gauge::mean_torque) / design::torque_per_q_A(design::field_machine(m, c.bench.scenario.sheet));
+  const double sine_A = gauge(field, Gauge::mean_torque) /
+                        design::torque_per_q_A(design::field_machine(m, c.bench.scenario.sheet));
   const double sine_W = 1.5 * m.machine.R_ohm * sine_A * sine_A;
   EXPECT_GE(gauge(field, Gauge::copper), sine_W);
   const double thd = gauge(field, Gauge::distortion);
-  EXPECT_LE(gauge(field, Gauge::copper), 1.01 * sine_W * (1 + thd * thd));  // what is not the fundamental's only heats
+  EXPECT_LE(gauge(field, Gauge::copper),
+            1.01 * sine_W * (1 + thd * thd));  // what is not the fundamental's only heats
   const double pair_A = gauge(six, Gauge::mean_torque) / m.K_t_Nm_A;
   EXPECT_GE(gauge(six, Gauge::copper), 2 * m.machine.R_ohm * pair_A * pair_A);
 }
@@ -53,7 +55,8 @@ TEST(Contest, CopperLossIsThatOfTheTorque) {
 /// Both hold the same load against the same friction: the mean torque is the load's and friction's, whoever makes it.
 TEST(Contest, TheMeanTorqueIsTheLoads) {
   const Contest c = compared("maxon-251601", 0, 2);
-  const double load = c.bench.course.rated_Nm / 2 + c.bench.design.motor.shaft.B_Nm_s * c.bench.course.rated_rad_s;
+  const double load =
+      c.bench.course.rated_Nm / 2 + c.bench.design.motor.shaft.B_Nm_s * c.bench.course.rated_rad_s;
   for (const ContestRow& row : c.rows) {
     ASSERT_TRUE(row.nominal_held);
     EXPECT_NEAR(gauge(row, Gauge::mean_torque), load, 0.005 * load);
@@ -72,7 +75,8 @@ TEST(Contest, DrivesAreTheSameOnAnyNumberOfThreadsAndNoneIsBetterThanTheWorst) {
     EXPECT_EQ(a.rows[n].nominal.digest, b.rows[n].nominal.digest);
     EXPECT_EQ(a.rows[n].worst, b.rows[n].worst);
     EXPECT_EQ(a.rows[n].drives, 2U);
-    for (std::size_t f = 0; f < a.rows[n].values.size(); ++f) EXPECT_GE(a.rows[n].worst[f], a.rows[n].values[f]);
+    for (std::size_t f = 0; f < a.rows[n].values.size(); ++f)
+      EXPECT_GE(a.rows[n].worst[f], a.rows[n].values[f]);
     EXPECT_GT(a.rows[n].trace.t_s.size(), 500U);
     EXPECT_EQ(a.rows[n].trace.t_s.size(), a.rows[n].trace.speed_rad_s.size());
   }

@@ -9,7 +9,8 @@
 namespace text {
 namespace {
 
-base::Result<study::Scenario> scenario_of(const analysis::Contestant& who, const std::vector<analysis::ContestKey>& keys,
+base::Result<study::Scenario> scenario_of(const analysis::Contestant& who,
+                                          const std::vector<analysis::ContestKey>& keys,
                                           const std::string& common, const Resolve& resolve) {
   ReadOptions options{.overrides = {}, .resolve = resolve};
   for (const analysis::ContestKey& key : keys) options.overrides.push_back({key.path, key.value});
@@ -23,7 +24,8 @@ base::Result<study::Scenario> scenario_of(const analysis::Contestant& who, const
 
 }  // namespace
 
-std::vector<analysis::ContestEntry> contest_entries(const analysis::ContestBench& bench, const Resolve& resolve,
+std::vector<analysis::ContestEntry> contest_entries(const analysis::ContestBench& bench,
+                                                    const Resolve& resolve,
                                                     std::span<const analysis::Contestant> all) {
   const std::string common = scenario_text(bench.scenario);
   std::vector<analysis::ContestEntry> out;

@@ -82,7 +82,8 @@ std::string blocks_beside(const study::Compiled& c) {
 
 }  // namespace
 
-std::optional<CoreCost> core_cost(std::string_view core, std::string_view drive, std::string_view arithmetic) {
+std::optional<CoreCost> core_cost(std::string_view core, std::string_view drive,
+                                  std::string_view arithmetic) {
   const std::vector<Words> counts = rows(cores::drives_txt), sizes = rows(cores::sizes_txt);
   const Words* tick = row_of(counts, {core, drive, arithmetic, "tick"});
   const Words* size = row_of(sizes, {core, drive, arithmetic});

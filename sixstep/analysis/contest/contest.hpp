@@ -23,10 +23,10 @@ struct ContestTrace {
 };
 
 struct ContestRow {
-  RunRecord nominal{};            ///< its figures are the gauges, requirements first
+  RunRecord nominal{};  ///< its figures are the gauges, requirements first
   ContestTrace trace{};
-  std::vector<double> values{};   ///< of contest_figures, nominal
-  std::vector<double> worst{};    ///< the largest over nominal and all drives; empty without drives
+  std::vector<double> values{};      ///< of contest_figures, nominal
+  std::vector<double> worst{};       ///< the largest over nominal and all drives; empty without drives
   std::size_t drives = 0, held = 0;  ///< of the tolerances; those that hold every requirement
   bool nominal_held = false;
 };

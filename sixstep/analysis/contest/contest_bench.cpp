@@ -46,7 +46,11 @@ bool is_grave(const design::DriveDesign& d) {
 base::Result<design::DriveDesign> drive_design(const design::MotorModel& motor, const ContestSpec& c) {
   design::DesignSpec spec = wanted(c);
   base::Result<design::DriveDesign> first = design::design_drive(motor, spec);
-  if (!first || c.settle_s || !is_grave(*first)) return first;
+  if (!first) return first;
+  if (!(first->headroom_end_rad_s > 0.0))
+    return base::Problem{"voltage_V", base::rounded(first->bus_V, 4),
+                         "drives the nominal current at no speed", "give a higher bus voltage in V"};
+  if (c.settle_s || !is_grave(*first)) return first;
   const double chosen_s = first->spec.settle_s.value_or(10e-3);
   for (const double times : {2.0, 5.0, 10.0, 20.0}) {
     spec.settle_s = times * chosen_s;
@@ -67,7 +71,8 @@ Course course_of(const design::DriveDesign& d) {
   c.calm_s = plain(std::max(settle, electrical_turns * turn / c.rated_rad_s));
   c.slow_calm_s = plain(std::max(settle, electrical_turns * turn / c.slow_rad_s));
   // With the torque that limit and bus leave at the end of the start; commutation takes about half of it.
-  const double drives = 0.5 * std::min(d.torque_limit_Nm, K * (d.bus_V - K * c.rated_rad_s) / R) - c.rated_Nm / 2;
+  const double drives =
+      0.5 * std::min(d.torque_limit_Nm, K * (d.bus_V - K * c.rated_rad_s) / R) - c.rated_Nm / 2;
   const double start = J * c.rated_rad_s / std::max(drives, 0.2 * c.rated_Nm);
   c.load_at_s = plain(start + 5 * settle + c.calm_s);
   c.slow_at_s = plain(c.load_at_s + 5 * settle);
@@ -131,9 +136,10 @@ void add_course(const Course& c, study::Scenario& s) {
   s.load.torques_Nm = {c.rated_Nm / 2, c.rated_Nm};
   s.load.torque_Nm = 0.0;
   const double loaded = c.slow_at_s - c.load_at_s;
-  s.require = {holds("rated speed held", c.load_at_s - c.calm_s, c.load_at_s, c.rated_rad_s, holds_rated),
-               holds("held under the whole load", c.slow_at_s - loaded / 5, c.slow_at_s, c.rated_rad_s, holds_rated),
-               holds("low speed held", c.end_s - c.slow_calm_s, c.end_s, c.slow_rad_s, holds_slow)};
+  s.require = {
+      holds("rated speed held", c.load_at_s - c.calm_s, c.load_at_s, c.rated_rad_s, holds_rated),
+      holds("held under the whole load", c.slow_at_s - loaded / 5, c.slow_at_s, c.rated_rad_s, holds_rated),
+      holds("low speed held", c.end_s - c.slow_calm_s, c.end_s, c.slow_rad_s, holds_slow)};
   s.compare.clear();
   for (const ContestGauge& gauge : contest_gauges)
     s.compare.push_back({measure_of(gauge, c), 0.0, "what controllers are compared by"});
@@ -154,18 +160,18 @@ void make_common(const design::DriveDesign& d, bool board, study::Scenario& s) {
 std::vector<std::string> rules_of(const ContestBench& b) {
   const study::Scenario& s = b.scenario;
   const auto n = [](double x) { return base::rounded(x, 4); };
-  return {
-      "one sample and one PWM period, " + n(s.pwm.period_s * 1e6) + " us, and " +
-          (s.pwm.delay_periods == 1 ? "one period" : "no period") + " from a sample to its answer",
-      "one bus, " + n(s.supply.voltage_V) + " V, one bridge, one set of sensors",
-      "one torque limit, " + n(s.control.speed.torque_limit_Nm.value_or(0) * 1e3) + " mN m, " + n(b.design.current_at_full_torque_A) +
-          " A",
-      "one speed loop asked for, settled in " + n(b.design.spec.settle_s.value_or(0) * 1e3) +
-          " ms, and one current loop, in " + n(s.control.current.settle_s.value_or(0) * 1e3) +
-          " ms, by pole placement with damping " + n(b.design.spec.damping),
-      "one course: to " + n(b.course.rated_rad_s) + " rad/s against " + n(b.course.rated_Nm * 500) + " mN m, at " +
-          n(b.course.load_at_s * 1e3) + " ms " + n(b.course.rated_Nm * 1e3) + " mN m, at " +
-          n(b.course.slow_at_s * 1e3) + " ms down to " + n(b.course.slow_rad_s) + " rad/s"};
+  return {"one sample and one PWM period, " + n(s.pwm.period_s * 1e6) + " us, and " +
+              (s.pwm.delay_periods == 1 ? "one period" : "no period") + " from a sample to its answer",
+          "one bus, " + n(s.supply.voltage_V) + " V, one bridge, one set of sensors",
+          "one torque limit, " + n(s.control.speed.torque_limit_Nm.value_or(0) * 1e3) + " mN m, " +
+              n(b.design.current_at_full_torque_A) + " A",
+          "one speed loop asked for, settled in " + n(b.design.spec.settle_s.value_or(0) * 1e3) +
+              " ms, and one current loop, in " + n(s.control.current.settle_s.value_or(0) * 1e3) +
+              " ms, by pole placement with damping " + n(b.design.spec.damping),
+          "one course: to " + n(b.course.rated_rad_s) + " rad/s against " + n(b.course.rated_Nm * 500) +
+              " mN m, at " + n(b.course.load_at_s * 1e3) + " ms " + n(b.course.rated_Nm * 1e3) +
+              " mN m, at " + n(b.course.slow_at_s * 1e3) + " ms down to " + n(b.course.slow_rad_s) +
+              " rad/s"};
 }
 
 }  // namespace
@@ -185,15 +191,13 @@ study::Bridge usual_bridge(const design::DriveDesign& d) {
 
 base::Result<ContestBench> contest_bench(const ContestSpec& spec) {
   if (spec.sheet.kind == design::MotorKind::linear)
-    return base::Problem{"the motor", spec.motor, "is linear, and the controllers are compared on a turning one",
+    return base::Problem{"the motor", spec.motor,
+                         "is linear, and the controllers are compared on a turning one",
                          "look at designs of it one by one"};
   const base::Result<design::MotorModel> motor = design::motor_model(spec.sheet);
   if (!motor) return motor.problems();
   base::Result<design::DriveDesign> d = drive_design(*motor, spec);
   if (!d) return d.problems();
-  if (!(d->headroom_end_rad_s > 0.0))
-    return base::Problem{"the motor", spec.motor, "draws its nominal current at no speed: the bus is too low",
-                         "give a higher voltage"};
   ContestBench bench{.design = *d, .course = course_of(*d), .scenario = {}, .rules = {}};
   const DesignSubject subject{.motor = spec.motor, .sheet = spec.sheet, .board = spec.board};
   bench.scenario = design_scenario(*d, subject);

@@ -29,21 +29,23 @@ struct ContestSpec {
   std::optional<double> settle_s{};          ///< of the speed loop; else what the Hall probes allow
   std::optional<double> current_settle_s{};  ///< of the current loop; else the design's
   std::optional<double> period_s{};          ///< of PWM and control; else 30 us
-  std::optional<study::Scenario> board{};    ///< whose supply, bridge, PWM and sensors are taken; else usual_bridge()
+  std::optional<study::Scenario>
+      board{};  ///< whose supply, bridge, PWM and sensors are taken; else usual_bridge()
 };
 
 struct Course {
   double rated_rad_s = 0.0, slow_rad_s = 0.0;
   double rated_Nm = 0.0;
   double load_at_s = 0.0, slow_at_s = 0.0, end_s = 0.0;
-  double calm_s = 0.0;       ///< length of the window before load_at_s: whole electrical turns, or the settling time
+  double calm_s =
+      0.0;  ///< length of the window before load_at_s: whole electrical turns, or the settling time
   double slow_calm_s = 0.0;  ///< and of the one at the end
 };
 
 struct ContestBench {
   design::DriveDesign design;
   Course course;
-  study::Scenario scenario;  ///< that of a row without keys
+  study::Scenario scenario;        ///< that of a row without keys
   std::vector<std::string> rules;  ///< what is the same for all, a sentence each
 };
 

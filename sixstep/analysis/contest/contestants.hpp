@@ -22,27 +22,33 @@ inline constexpr std::string_view field_name = "field-oriented";
 
 inline constexpr Contestant all_contestants[] = {
     {six_step_name, "",
-     "chops the upper switch alone: the current freewheels through a diode, and braking is a short circuit", "speed"},
+     "chops the upper switch alone: the current freewheels through a diode, and braking is a short circuit",
+     "speed"},
     {"six-step, hard", "pwm.chopping = hard",
      "chops both switches: twice the voltage moves the current both ways, with twice the ripple", "speed"},
     {"six-step, complementary", "pwm.chopping = complementary",
-     "turns the lower switch on while the upper is off: no diode's loss, and the current may change its sign", "speed"},
+     "turns the lower switch on while the upper is off: no diode's loss, and the current may change its sign",
+     "speed"},
     {"six-step, smooth", "control.smooth_chopping.on = true",
      "chops softly where much current flows and complementarily where little does", "speed"},
     {"six-step, fed forward", "pwm.chopping = complementary; control.current.back_emf_feed_forward = true",
-     "adds the back-EMF at the measured speed to the voltage: its current loop has R, L and commutation left", "speed"},
+     "adds the back-EMF at the measured speed to the voltage: its current loop has R, L and commutation left",
+     "speed"},
     {"six-step, advanced",
      "pwm.chopping = complementary; control.drive = product; sensors.hall_angle = sectors; "
      "control.advance.gain_deg_s_per_rad = <advance>; protection.over_current_A = <trip_A>; "
      "protection.over_voltage_V = <high_V>; protection.under_voltage_V = <low_V>; "
      "protection.over_speed_rad_s = <trip_rad_s>",
-     "commutates ahead of the Hall edge by half of what a commutation takes, in the product drive", "product"},
-    {"hysteresis, comparators", "control.current = {type = \"hysteresis\", band_A = <band_A>}; pwm.delay_periods = 0",
+     "commutates ahead of the Hall edge by half of what a commutation takes, in the product drive",
+     "product"},
+    {"hysteresis, comparators",
+     "control.current = {type = \"hysteresis\", band_A = <band_A>}; pwm.delay_periods = 0",
      "switches the moment the band is left: no sample and no delay, by comparators, at a frequency that wanders"},
     {"hysteresis, sampled",
      "control.current = {type = \"hysteresis\", band_A = <band_A>, comparator = \"sampled\"}",
      "looks at the band once a period and answers a period late: the current leaves it by what it moves meanwhile"},
-    {"speed to duty", "control.speed = {output = \"duty\", settle_s = <settle_s>, damping = <damping>}; control.current = {}; "
+    {"speed to duty",
+     "control.speed = {output = \"duty\", settle_s = <settle_s>, damping = <damping>}; control.current = {}; "
      "control.slew = <slew>",
      "has no current loop and no limit: its setpoint moves no faster than the torque limit could follow"},
     {field_name, "control.drive = field-oriented",

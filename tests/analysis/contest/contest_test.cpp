@@ -35,7 +35,9 @@ TEST(Contest, WindowsLieInTheirOrderAndHoldTenElectricalTurns) {
     EXPECT_GE(c.slow_calm_s * c.slow_rad_s, 10 * turn_rad);
     // The bus drives the rated torque at the rated speed, K_t w + R i < U, with two fifths of that speed to spare.
     const design::MotorModel& m = bench->design.motor;
-    EXPECT_LE(c.rated_rad_s, 0.6 * (bench->design.bus_V - 2 * m.machine.R_ohm * bench->design.nominal_current_A) / m.K_t_Nm_A);
+    EXPECT_LE(
+        c.rated_rad_s,
+        0.6 * (bench->design.bus_V - 2 * m.machine.R_ohm * bench->design.nominal_current_A) / m.K_t_Nm_A);
   }
 }
 
@@ -50,15 +52,17 @@ TEST(Contest, UsualBridgeHasEdgesOfFiftyNanoseconds) {
 
 TEST(Contest, FiguresAreSumsOfGauges) {
   std::vector<double> gauges(std::size(contest_gauges));
-  for (std::size_t n = 0; n < gauges.size(); ++n) gauges[n] = std::pow(2.0, double(n));  // no two sums are alike
+  for (std::size_t n = 0; n < gauges.size(); ++n)
+    gauges[n] = std::pow(2.0, double(n));  // no two sums are alike
   const auto gauge = [&](Gauge g) { return gauges[static_cast<std::size_t>(g)]; };
   const std::vector<double> values = contest_values_of(gauges);
   ASSERT_EQ(values.size(), std::size(contest_figures));
   EXPECT_EQ(values[loss_figure], gauge(Gauge::copper) + gauge(Gauge::conduction) + gauge(Gauge::switching));
   EXPECT_EQ(values[ripple_figure], gauge(Gauge::ripple_rms));
-  for (std::size_t f = 0; f < values.size(); ++f)
-    if (contest_figures[f].less == Gauge::least_torque)
-      EXPECT_EQ(values[f], gauge(Gauge::mean_torque) - gauge(Gauge::least_torque));
+  for (std::size_t f = 0; f < values.size(); ++f) {
+    if (contest_figures[f].less != Gauge::least_torque) continue;
+    EXPECT_EQ(values[f], gauge(Gauge::mean_torque) - gauge(Gauge::least_torque));
+  }
   // Each gauge stands where its name says.
   EXPECT_EQ(contest_gauges[static_cast<std::size_t>(Gauge::turn_ons)].signal, study::Signal::gate_T1);
   EXPECT_EQ(contest_gauges[static_cast<std::size_t>(Gauge::brake_peak)].part, CoursePart::brake);
@@ -73,7 +77,8 @@ TEST(Contest, TheWorstOfDrivesIsTheLargestAndNoValueIsWorse) {
   ContestRow row;
   take_nominal(row, record, columns);
   EXPECT_TRUE(row.nominal_held);
-  const std::size_t settles = static_cast<std::size_t>(Gauge::start_settles), peak = static_cast<std::size_t>(Gauge::start_peak);
+  const std::size_t settles = static_cast<std::size_t>(Gauge::start_settles),
+                    peak = static_cast<std::size_t>(Gauge::start_peak);
   record.figures[settles] = 0.5;
   record.figures[peak] = 3.0;
   take_drive(row, record, columns);
@@ -93,7 +98,8 @@ TEST(Contest, ALinearMotorAndABusTooLowAreRefused) {
   EXPECT_NE(to_string(linear.problems().front()).find("linear"), std::string::npos);
   const auto sheet = text::read_sheet("maxon-251601");
   ASSERT_TRUE(sheet);
-  EXPECT_FALSE(contest_bench({.motor = "maxon-251601", .sheet = *sheet, .voltage_V = 2.0}));  // 2.33 A need 2.4 V
+  EXPECT_FALSE(
+      contest_bench({.motor = "maxon-251601", .sheet = *sheet, .voltage_V = 2.0}));  // 2.33 A need 2.4 V
 }
 
 }  // namespace

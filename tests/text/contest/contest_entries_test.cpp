@@ -60,7 +60,8 @@ TEST(Contest, ScenariosDifferInTheKeysOfTheirRowsAlone) {
     for (const ContestEntry& entry : entries) {
       ASSERT_TRUE(entry.scenario) << entry.who->name << ": " << to_string(entry.scenario.problems().front());
       const auto different = differences(bench.scenario, *entry.scenario);
-      for (const std::string& path : different) EXPECT_TRUE(is_of_row(entry, path)) << entry.who->name << ": " << path;
+      for (const std::string& path : different)
+        EXPECT_TRUE(is_of_row(entry, path)) << entry.who->name << ": " << path;
       EXPECT_EQ(different.empty(), entry.keys.empty()) << entry.who->name;
     }
   }
@@ -73,10 +74,11 @@ TEST(Contest, NoRowTouchesWhatIsTheSameForAll) {
       {"six-step, advanced", "sensors.hall_angle"},      // the product drive goes by sectors
       {"speed to duty", "control.speed"}};               // has no torque whose limit it could keep
   const ContestBench bench = bench_of("maxon-251601");
-  const std::regex common("motor.*|supply.*|bridge.*|pwm\\.(period_s|sample|alignment|delay_periods)|sensors.*|load.*|reference.*|"
-                          "initial.*|at.*|require.*|compare.*|duration_s|control\\.limits.*|control\\.speed|"
-                          "control\\.speed\\.(torque_limit_Nm|settle_s|damping|d0|d1|kp|ki)|"
-                          "control\\.current\\.(settle_s|damping|d0|d1|kp|ki|limit_A)");
+  const std::regex common(
+      "motor.*|supply.*|bridge.*|pwm\\.(period_s|sample|alignment|delay_periods)|sensors.*|load.*|reference.*|"
+      "initial.*|at.*|require.*|compare.*|duration_s|control\\.limits.*|control\\.speed|"
+      "control\\.speed\\.(torque_limit_Nm|settle_s|damping|d0|d1|kp|ki)|"
+      "control\\.current\\.(settle_s|damping|d0|d1|kp|ki|limit_A)");
   for (const Contestant& who : analysis::contestants()) {
     const auto keys = analysis::keys_of(who, bench);
     ASSERT_TRUE(keys) << who.name;

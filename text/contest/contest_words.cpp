@@ -8,7 +8,7 @@
 #include <iterator>
 #include <optional>
 
-#include "text/results/contest_text.hpp"
+#include "text/contest/contest_text.hpp"
 #include "text/results/quantity_text.hpp"
 
 namespace text {
@@ -31,7 +31,6 @@ std::string larger(double a, double b) {
   return b / a >= 2.0 ? fmt::format("{:.1f} times", b / a) : fmt::format("{:.0f} % more", 100 * (b / a - 1));
 }
 
-
 /// Rows that hold the course and have the figure, the least first and the next.
 struct Ranked {
   std::optional<std::size_t> first, second;
@@ -51,7 +50,9 @@ Ranked ranked(const Contest& c, std::size_t figure, const std::function<bool(std
   return r;
 }
 
-bool are_alike(double a, double b) { return std::fabs(b - a) <= alike * std::fmax(std::fabs(a), std::fabs(b)); }
+bool are_alike(double a, double b) {
+  return std::fabs(b - a) <= alike * std::fmax(std::fabs(a), std::fabs(b));
+}
 
 /// "NAME has the least rms torque ripple (1.2 mN m; next NAME, 2.3 times)": what it leads in clearly, and why.
 std::vector<std::string> winners(const Contest& c) {
@@ -70,8 +71,8 @@ std::vector<std::string> winners(const Contest& c) {
   std::vector<std::string> out;
   for (std::size_t n = 0; n < wins.size(); ++n)
     if (!wins[n].empty())
-      out.push_back(fmt::format("{} has the least {}. It {}.", c.entries[n].who->name, fmt::join(wins[n], ", "),
-                                c.entries[n].who->sentence));
+      out.push_back(fmt::format("{} has the least {}. It {}.", c.entries[n].who->name,
+                                fmt::join(wins[n], ", "), c.entries[n].who->sentence));
   if (!even.empty()) out.push_back(fmt::format("The first two are alike in {}.", fmt::join(even, ", ")));
   return out;
 }
@@ -82,12 +83,15 @@ int less_of(double a, double b) { return are_alike(a, b) ? 0 : a < b ? -1 : 1; }
 const char* answer(int ripple, int loss) {
   if (ripple < 0 && loss < 0) return "field-oriented: smoother, and less heat";
   if (ripple > 0 && loss > 0) return "six-step: smoother, and less heat";
-  if (ripple < 0) return loss == 0 ? "field-oriented: smoother, at the same heat"
-                                   : "field-oriented where torque must be smooth, six-step where heat decides";
-  if (ripple > 0) return loss == 0 ? "six-step: smoother, at the same heat"
-                                   : "six-step where torque must be smooth, field-oriented where heat decides";
+  if (ripple < 0)
+    return loss == 0 ? "field-oriented: smoother, at the same heat"
+                     : "field-oriented where torque must be smooth, six-step where heat decides";
+  if (ripple > 0)
+    return loss == 0 ? "six-step: smoother, at the same heat"
+                     : "six-step where torque must be smooth, field-oriented where heat decides";
   if (loss == 0) return "either: ripple and heat are alike, and six-step is the smaller program";
-  return loss < 0 ? "field-oriented: less heat, at the same ripple" : "six-step: less heat, at the same ripple";
+  return loss < 0 ? "field-oriented: less heat, at the same ripple"
+                  : "six-step: less heat, at the same ripple";
 }
 
 /// The best six-step row, figure by figure, against the field-oriented one.
@@ -99,7 +103,8 @@ std::vector<std::string> six_step_or_field(const Contest& c) {
   std::vector<std::string> less, more, same;
   int ripple = 0, loss = 0;
   for (std::size_t f = 0; f < std::size(contest_figures); ++f) {
-    const Ranked six = ranked(c, f, [&](std::size_t n) { return c.entries[n].who->name.starts_with("six-step"); });
+    const Ranked six =
+        ranked(c, f, [&](std::size_t n) { return c.entries[n].who->name.starts_with("six-step"); });
     const double own = c.rows[*field].values[f];
     if (!six.first || !std::isfinite(own)) continue;
     const double other = c.rows[*six.first].values[f];
@@ -115,7 +120,8 @@ std::vector<std::string> six_step_or_field(const Contest& c) {
       more.push_back(fmt::format("{} ({})", phrase, larger(other, own)));
   }
   std::vector<std::string> out{fmt::format("Six-step or field-oriented? Here {}.", answer(ripple, loss))};
-  if (!less.empty()) out.push_back(fmt::format("Of the best six-step, figure by figure, more: {}.", fmt::join(less, ", ")));
+  if (!less.empty())
+    out.push_back(fmt::format("Of the best six-step, figure by figure, more: {}.", fmt::join(less, ", ")));
   if (!more.empty()) out.push_back(fmt::format("Of field-oriented more: {}.", fmt::join(more, ", ")));
   if (!same.empty()) out.push_back(fmt::format("Alike within 5 %: {}.", fmt::join(same, ", ")));
   return out;

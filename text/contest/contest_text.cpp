@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "text/results/contest_text.hpp"
+#include "text/contest/contest_text.hpp"
 
 #include <fmt/format.h>
 
@@ -36,14 +36,14 @@ std::string cell(double x, const ContestFigure& figure) {
 std::string name_of(const Contest& c, std::size_t row) { return std::string(c.entries[row].who->name); }
 
 /// The least of a column, where there is one.
-double least_of(const Contest& c, std::size_t figure, std::vector<double> ContestRow::* values) {
+double least_of(const Contest& c, std::size_t figure, std::vector<double> ContestRow::*values) {
   double least = std::nan("");
   for (const ContestRow& row : c.rows)
     if (!(row.*values).empty() && row.nominal_held) least = std::fmin(least, (row.*values)[figure]);
   return least;
 }
 
-std::string table(const Contest& c, ContestGroup group, std::vector<double> ContestRow::* values) {
+std::string table(const Contest& c, ContestGroup group, std::vector<double> ContestRow::*values) {
   const bool nominal = values == &ContestRow::values;
   Rows rows(Rows::Side::left);
   std::vector<std::string> head{"controller"};
@@ -64,7 +64,8 @@ std::string table(const Contest& c, ContestGroup group, std::vector<double> Cont
       cells.push_back(cell(x, contest_figures[f]) + (x == least_of(c, f, values) ? " *" : ""));
     }
     if (group == ContestGroup::moving) {
-      cells.push_back(nominal ? (row.nominal_held ? "yes" : "NO") : fmt::format("{} of {}", row.held, row.drives));
+      cells.push_back(nominal ? (row.nominal_held ? "yes" : "NO")
+                              : fmt::format("{} of {}", row.held, row.drives));
       const auto cost = core_cost(core, c.entries[n].who->core_drive, arithmetic);
       if (nominal) cells.insert(cells.end(), {cost ? cost->tick : "-", cost ? cost->flash_bytes : "-"});
     }
@@ -73,7 +74,7 @@ std::string table(const Contest& c, ContestGroup group, std::vector<double> Cont
   return rows.text();
 }
 
-std::string tables(const Contest& c, std::vector<double> ContestRow::* values) {
+std::string tables(const Contest& c, std::vector<double> ContestRow::*values) {
   return table(c, ContestGroup::moving, values) + "\n" + table(c, ContestGroup::steady, values);
 }
 
@@ -97,25 +98,29 @@ std::vector<std::string> contest_notes(const Contest& c) {
     const base::Result<study::Scenario>& scenario = c.entries[n].scenario;
     const std::string& problem = c.rows[n].nominal.problem;
     if (!scenario)
-      notes.push_back(fmt::format("{} is left out: {}", name_of(c, n), base::to_string(scenario.problems().front())));
+      notes.push_back(
+          fmt::format("{} is left out: {}", name_of(c, n), base::to_string(scenario.problems().front())));
     else if (!problem.empty())
       notes.push_back(fmt::format("{} stopped: {}", name_of(c, n), problem));
     else if (!c.rows[n].nominal_held)
-      notes.push_back(fmt::format("{} does not hold the speed that is asked for, and wins nothing", name_of(c, n)));
+      notes.push_back(
+          fmt::format("{} does not hold the speed that is asked for, and wins nothing", name_of(c, n)));
   }
   return notes;
 }
 
 std::string contest_text(const Contest& c) {
-  std::string text = fmt::format("{}: {} controllers, designed by rule for\n", visible(c.bench.scenario.motor),
-                                 c.entries.size());
+  std::string text = fmt::format("{}: {} controllers, designed by rule for\n",
+                                 visible(c.bench.scenario.motor), c.entries.size());
   for (const std::string& rule : c.bench.rules) text += "  - " + rule + "\n";
   text += "\n" + tables(c, &ContestRow::values);
   if (c.drives > 0)
-    text += fmt::format("\nWorst of the nominal motor and {} drives of the sheet's tolerances\n\n", c.drives) +
-            tables(c, &ContestRow::worst);
-  text += fmt::format("\n  * least of those that hold the course; tick, flash: {} {}, instructions at worst and bytes\n\n",
-                      core, arithmetic);
+    text +=
+        fmt::format("\nWorst of the nominal motor and {} drives of the sheet's tolerances\n\n", c.drives) +
+        tables(c, &ContestRow::worst);
+  text += fmt::format(
+      "\n  * least of those that hold the course; tick, flash: {} {}, instructions at worst and bytes\n\n",
+      core, arithmetic);
   for (const std::string& note : contest_notes(c)) text += "  " + note + "\n";
   for (const std::string& line : contest_words(c)) text += "  " + line + "\n";
   return text;
@@ -139,7 +144,8 @@ std::string contest_csv(const Contest& c) {
 }
 
 std::string contest_json(const Contest& c) {
-  Json json = {{"sixstep", SIXSTEP_VERSION}, {"motor", c.bench.scenario.motor}, {"same_for_all", c.bench.rules}};
+  Json json = {
+      {"sixstep", SIXSTEP_VERSION}, {"motor", c.bench.scenario.motor}, {"same_for_all", c.bench.rules}};
   for (const ContestFigure& f : contest_figures) json["units"][std::string(f.phrase)] = f.unit;
   json["controllers"] = Json::array();
   for (std::size_t n = 0; n < c.rows.size(); ++n) {

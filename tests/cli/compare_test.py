@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""sixstep compare MOTOR: what it prints and writes, that a scenario it writes is the one it ran, and what it refuses."""
+import csv
+import json
+import unittest
+
+from program import ProgramTest
+
+MOTOR = "maxon-251601"
+
+
+class Compare(ProgramTest):
+    def test_prints_and_writes(self):
+        made = self.run_program("compare", MOTOR, "--runs", "0", "--json", "c.json", "--csv", "c.csv")
+        self.assertEqual(made.stderr, "")
+        self.assertIn("Six-step or field-oriented?", made.stdout)
+        told = json.loads((self.path / "c.json").read_text())
+        for controller in told["controllers"]:
+            self.assertIn(controller["name"], made.stdout)
+            self.assertEqual(set(controller["nominal"]), set(told["units"]))
+        rows = list(csv.DictReader((self.path / "c.csv").read_text().splitlines()))
+        self.assertEqual([row["controller"] for row in rows], [c["name"] for c in told["controllers"]])
+
+    def test_a_written_scenario_is_the_one_that_ran(self):
+        made = self.run_program("compare", MOTOR, "--runs", "0", "--json", "-", "--write", "all")
+        told = {c["name"]: c for c in json.loads(made.stdout)["controllers"]}
+        self.assertEqual(len(list((self.path / "all").iterdir())), len(told))
+        for name, file in (("six-step, soft", "six-step-soft"), ("field-oriented", "field-oriented")):
+            alone = json.loads(self.run_program("run", f"all/{file}.toml", "--json", "-").stdout)
+            copper = [c["measured"] for c in alone["compare"] if c["figure"] == "copper loss"]
+            self.assertEqual(copper, [told[name]["nominal"]["copper loss"]])
+
+    def test_refuses_with_a_way_out_and_writes_nothing(self):
+        for words, said in ((("no-such-motor",), "no-such-motor"), (("example-linear",), "linear"),
+                            ((MOTOR, "--voltage", "2"), "--voltage"), ((MOTOR, "--json", "/nowhere/c.json"), "/nowhere"),
+                            ((MOTOR, "--json", "c.json", "--csv", "c.json"), "c.json")):
+            with self.subTest(words=words):
+                made = self.run_program("compare", *words, code=2)
+                self.assertIn(said, made.stderr)
+                self.assertEqual(made.stdout, "")
+        self.assertEqual(self.names(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
