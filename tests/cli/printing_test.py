@@ -50,8 +50,8 @@ class Unheard(ProgramTest):
     VERBS = ["--version", "--help", "run --help", "help", "help pwm", "help pwm.period_s", "man", "schema", "schema motor",
              "completion bash", "completion zsh", "completion fish", "__complete run --", "new", "new --full", "motor list",
              "motor list --json", "motor show maxon-251601", "motor check maxon-251601", "motor new",
-             "design maxon-251601 --quick", "design maxon-251601 --quick --json - --quiet", "curve maxon-251601 --points 2",
-             "curve maxon-251601 --points 2 --json -", "motor wiring maxon-251601", "motor wiring maxon-251601 --json", "motor commission maxon-251601", "motor commission maxon-251601 --json", "motor identify log.csv", "motor identify log.csv --json", EMF, EMF + " --json",
+             "design maxon-251601 --quick", "design maxon-251601 --quick --json - --quiet", "compare maxon-251601 --runs 0", "curve maxon-251601 --points 2",
+             "compare maxon-251601 --runs 0 --quiet --json -", "curve maxon-251601 --points 2 --json -", "motor wiring maxon-251601", "motor wiring maxon-251601 --json", "motor commission maxon-251601", "motor commission maxon-251601 --json", "motor identify log.csv", "motor identify log.csv --json", EMF, EMF + " --json",
              "export header pi.toml --despite unread", "run a.toml", "run a.toml --json -",
              "run a.toml b.toml --html c.html", "run spread.toml --runs 3"]
 

@@ -46,7 +46,11 @@ bool is_grave(const design::DriveDesign& d) {
 base::Result<design::DriveDesign> drive_design(const design::MotorModel& motor, const ContestSpec& c) {
   design::DesignSpec spec = wanted(c);
   base::Result<design::DriveDesign> first = design::design_drive(motor, spec);
-  if (!first || c.settle_s || !is_grave(*first)) return first;
+  if (!first) return first;
+  if (!(first->headroom_end_rad_s > 0.0))
+    return base::Problem{"voltage_V", base::rounded(first->bus_V, 4),
+                         "drives the nominal current at no speed", "give a higher bus voltage in V"};
+  if (c.settle_s || !is_grave(*first)) return first;
   const double chosen_s = first->spec.settle_s.value_or(10e-3);
   for (const double times : {2.0, 5.0, 10.0, 20.0}) {
     spec.settle_s = times * chosen_s;
@@ -194,9 +198,6 @@ base::Result<ContestBench> contest_bench(const ContestSpec& spec) {
   if (!motor) return motor.problems();
   base::Result<design::DriveDesign> d = drive_design(*motor, spec);
   if (!d) return d.problems();
-  if (!(d->headroom_end_rad_s > 0.0))
-    return base::Problem{"the motor", spec.motor, "draws its nominal current at no speed: the bus is too low",
-                         "give a higher voltage"};
   ContestBench bench{.design = *d, .course = course_of(*d), .scenario = {}, .rules = {}};
   const DesignSubject subject{.motor = spec.motor, .sheet = spec.sheet, .board = spec.board};
   bench.scenario = design_scenario(*d, subject);

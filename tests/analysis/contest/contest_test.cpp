@@ -59,9 +59,10 @@ TEST(Contest, FiguresAreSumsOfGauges) {
   ASSERT_EQ(values.size(), std::size(contest_figures));
   EXPECT_EQ(values[loss_figure], gauge(Gauge::copper) + gauge(Gauge::conduction) + gauge(Gauge::switching));
   EXPECT_EQ(values[ripple_figure], gauge(Gauge::ripple_rms));
-  for (std::size_t f = 0; f < values.size(); ++f)
-    if (contest_figures[f].less == Gauge::least_torque)
-      EXPECT_EQ(values[f], gauge(Gauge::mean_torque) - gauge(Gauge::least_torque));
+  for (std::size_t f = 0; f < values.size(); ++f) {
+    if (contest_figures[f].less != Gauge::least_torque) continue;
+    EXPECT_EQ(values[f], gauge(Gauge::mean_torque) - gauge(Gauge::least_torque));
+  }
   // Each gauge stands where its name says.
   EXPECT_EQ(contest_gauges[static_cast<std::size_t>(Gauge::turn_ons)].signal, study::Signal::gate_T1);
   EXPECT_EQ(contest_gauges[static_cast<std::size_t>(Gauge::brake_peak)].part, CoursePart::brake);
