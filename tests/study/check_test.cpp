@@ -121,7 +121,7 @@ TEST(Check, EachContradictionIsFoundAndNamed) {
       {"pwm.delay_periods", [](Scenario& s) { s.pwm.delay_periods = 2; }},
       {"bridge.dead_time_s", [](Scenario& s) { s.bridge.dead_time_s = 30e-6; }},
       {"pwm.minimum_pulse_s", [](Scenario& s) { s.pwm.minimum_pulse_s = 15.1e-6; }},
-      {"record.columns", [](Scenario& s) { s.record.columns = {"i_d_A"}; }},
+      {"record.columns", [](Scenario& s) { s.record.columns = {"i_x_A"}; }},
       {"require[0]", [](Scenario& s) { s.require.push_back({}); }},
       {"require[0].min", [](Scenario& s) { s.require.push_back({.measure = {}, .min = 2.0, .max = 1.0}); }},
       {"compare[0].to_s",

@@ -229,6 +229,7 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                                          "overload",
                                          "lowest_part",
                                          "advance_periods",
+                                         "correction",
                                          "mismatch",
                                          "hall_calibration_turns",
                                          "missed_edges",
