@@ -49,4 +49,4 @@ class Contributing(page.LinkTest):
 
 
 if __name__ == "__main__":
-    page.main(Contents, Tour, Questions)
+    page.main(Contents, Controllers, Tour, Questions)

@@ -90,9 +90,9 @@ CHIPS = (
          for_walk=("-mllvm", "-inline-threshold=5000"),
          # At 5000 commissioning's phases become one function that clang 19's branches do not reach across; at 2000 it gets
          # pulse_start in float wrong, which is a part of its own.
-         # Of a sensorless drive in float clang 19 hands the extras of its loops amiss at 5000, and crashes; at 3000 it does not.
-         for_part={"commissioning": ("-mllvm", "-inline-threshold=2000"), "pulses": ("-mllvm", "-inline-threshold=3000"),
-                   "rotor": ("-mllvm", "-inline-threshold=3000")},
+         # Of drives in float clang 19 hands the extras of their loops amiss at 5000, and crashes; at 3000 it does not.
+         for_part={part: ("-mllvm", "-inline-threshold=3000") for part in ("", "rotor", "pulses")} |
+                  {"commissioning": ("-mllvm", "-inline-threshold=2000")},
          for_entries=("-mllvm", "-inline-threshold=100000"),
          scalars=("q15", "q14", "float"), unit="cycles", costs=("q15", "q31", "float"),
          nm="avr-nm", size="avr-size"),
