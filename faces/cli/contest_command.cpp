@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <stop_token>
 #include <utility>
 
 #include "batch/contest.hpp"
@@ -14,6 +13,7 @@
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/outputs.hpp"
 #include "faces/cli/progress.hpp"
+#include "faces/cli/stop_watch.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
 #include "files/atomic_file.hpp"
@@ -127,23 +127,6 @@ base::Result<analysis::ContestBench> bench_of(const ContestArguments& a) {
   return bench;
 }
 
-/// Runs end where the user ends the program.
-class InterruptWatch {
- public:
-  InterruptWatch()
-      : watch_([this](const std::stop_token& done) {
-          while (!done.stop_requested()) {
-            if (interrupted()) stop_.request_stop();
-            std::this_thread::sleep_for(std::chrono::milliseconds(20));
-          }
-        }) {}
-  std::stop_token token() const { return stop_.get_token(); }
-
- private:
-  std::stop_source stop_;
-  std::jthread watch_;
-};
-
 Exit exit_of(const analysis::Contest& contest) {
   const bool any = std::any_of(contest.rows.begin(), contest.rows.end(),
                                [](const analysis::ContestRow& row) { return row.nominal_held; });
@@ -158,7 +141,7 @@ Exit contest_command(const ContestArguments& a) {
   if (const base::Problems found = outputs.open(a, entries); !found.empty()) return refused(found);
   catch_interrupts();
   const auto compared = [&] {
-    const InterruptWatch watch;
+    const StopWatch watch;
     Progress progress({.seconds = {}, .pieces = batch::contest_runs(entries.size(), a.drives), .of = "runs"},
                       a.quiet);
     return batch::compare_controllers(std::move(*bench), entries,

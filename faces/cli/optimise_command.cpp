@@ -10,6 +10,7 @@
 #include "batch/optimise.hpp"
 #include "faces/cli/plan_storing.hpp"
 #include "faces/cli/progress.hpp"
+#include "faces/cli/stop_watch.hpp"
 #include "faces/cli/terminal.hpp"
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
@@ -71,7 +72,7 @@ std::optional<analysis::Optimum> search(const OptimiseArguments& a, const ReadPl
   const base::Problems unread =
       store.each([&](const analysis::RunRecord& record) { before.emplace(record.number, record); });
   complain(unread);
-  const StoreWatch watch(store);
+  const StopWatch watch([&store] { return store.failed(); });
   Progress progress({.seconds = {}, .pieces = plan.evaluations, .of = "points"}, a.quiet);
   return batch::optimise({.plan = plan.scenarios->plan(),
                           .columns = plan.columns,

@@ -17,6 +17,7 @@
 #include "faces/cli/plan_storing.hpp"
 #include "faces/cli/progress.hpp"
 #include "faces/cli/report_page.hpp"
+#include "faces/cli/stop_watch.hpp"
 #include "faces/cli/terminal.hpp"
 #include "text/plan/plan_file.hpp"
 #include "text/results/junit.hpp"
@@ -101,7 +102,7 @@ base::Result<files::PlanStore> make_runs(const RunArguments& a, const ReadPlan& 
   batch::PlanRuns runs = runs_of(a, plan, *store);
   if (const base::Problems problems = same_program(runs, *store); !problems.empty()) return problems;
   {
-    const StoreWatch watch(*store);
+    const StopWatch watch([&store] { return store->failed(); });
     runs.stop = watch.token();
     Progress progress({.seconds = {},
                        .pieces = analysis::runs_of(runs.plan),

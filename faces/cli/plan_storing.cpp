@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/cli/plan_storing.hpp"
 
-#include <chrono>
 #include <utility>
 
-#include "faces/cli/terminal.hpp"
 #include "sixstep/base/written.hpp"
 #include "text/scenario/scenario_text.hpp"
 
@@ -41,13 +39,5 @@ base::Result<files::PlanStore> store_of(const RunArguments& a, const ReadPlan& p
   for (base::Problem& problem : problems) in_options(problem);
   return problems;
 }
-
-StoreWatch::StoreWatch(const files::PlanStore& store)
-    : watch_([this, &store](const std::stop_token& done) {
-        while (!done.stop_requested()) {
-          if (interrupted() || store.failed()) stop_.request_stop();
-          std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        }
-      }) {}
 
 }  // namespace cli

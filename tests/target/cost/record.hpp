@@ -90,26 +90,15 @@ struct LeanRecord {
   }
 };
 
-/// No Hall edge asks anything of it.
+/// What the lean drive is told, and an angle; no Hall edge asks anything of it.
 template <class Scalar>
-struct FieldRecord {
+struct FieldRecord : LeanRecord<Scalar> {
   static constexpr std::uint8_t bytes = LeanRecord<Scalar>::bytes + 4;
-  std::uint8_t kind = 0;
-  Measurement<Scalar> measured{};
-  Setpoint<Scalar> setpoint{};
   BinaryAngle electrical = 0;
 
   template <class Way>
   void fields(Way&& way) {
-    way.whole(kind);
-    way.whole(measured.hall);
-    way.scalar(measured.i_a_A);
-    way.scalar(measured.i_b_A);
-    way.scalar(measured.i_c_A);
-    way.scalar(measured.speed_rad_s);
-    way.scalar(measured.position_deg);
-    way.scalar(measured.bus_V);
-    way.scalar(setpoint.value);
+    LeanRecord<Scalar>::fields(way);
     way.whole(electrical);
   }
 };
