@@ -30,16 +30,16 @@
 // On a core, the product drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a
 // control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/firmware.md):
 //                               tick    Hall                   flash     RAM
-//   Cortex-M0   q15             1884     286 instructions      18888     240 bytes
-//   Cortex-M3   q15             1045     172 instructions      16638     240 bytes
-//   Cortex-M3   q31             1499     173 instructions      26288     320 bytes
-//   Cortex-M4F  float            628     173 instructions       8900     280 bytes
-//   Cortex-M4F  q15             1045     172 instructions      16626     240 bytes
-//   Cortex-M4F  q31             1496     173 instructions      26172     320 bytes
-//   RV32IMC     q15             1012     172 instructions      16846     240 bytes
-//   ATmega2560  q15             5358     979 cycles            14294     197 bytes
-//   ATmega2560  q31            11569     979 cycles            20030     235 bytes
-//   ATmega2560  float           9497     980 cycles            11314     215 bytes
+//   Cortex-M0   q15             1893     287 instructions      22148     248 bytes
+//   Cortex-M3   q15             1045     172 instructions      19342     248 bytes
+//   Cortex-M3   q31             1495     173 instructions      30652     336 bytes
+//   Cortex-M4F  float            701     173 instructions      10320     324 bytes
+//   Cortex-M4F  q15             1044     172 instructions      19342     248 bytes
+//   Cortex-M4F  q31             1495     173 instructions      30512     336 bytes
+//   RV32IMC     q15             1012     172 instructions      18760     248 bytes
+//   ATmega2560  q15             5365     979 cycles            14376     205 bytes
+//   ATmega2560  q31            11568     979 cycles            20198     249 bytes
+//   ATmega2560  float           9493     980 cycles            11542     251 bytes
 #pragma once
 #include <cstdint>
 
