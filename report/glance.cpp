@@ -102,12 +102,13 @@ std::string gains(const Scenario& scenario, const Outcome& outcome) {
   return card("tuned", "Gains", list(text));
 }
 
-/// The motor current and its reference over the step, in the step's own time.
+/// The current that is held and its reference over the step, in the step's own time.
 std::string step_chart(const Trace& trace, const Step& step) {
   constexpr std::size_t rows_drawn = 600;
   const auto* time = find_column(trace, "t_s");
-  const auto* current = find_column(trace, "i_m_A");
-  const auto* reference = find_column(trace, "i_ref_A");
+  const HeldCurrent& held = held_current(trace);
+  const auto* current = find_column(trace, held.column);
+  const auto* reference = find_column(trace, held.reference);
   if (!time || !current) return "";
   const auto begin = std::ranges::lower_bound(*time, step.window.from) - time->begin();
   const auto end = std::ranges::upper_bound(*time, step.window.to) - time->begin();
@@ -117,7 +118,7 @@ std::string step_chart(const Trace& trace, const Step& step) {
   Curves curves{part(*current)};
   if (reference) curves.push_back(part(*reference));
   const Scale in = scale_for(step.window.to - step.window.from, "s");
-  SvgChart chart{.title = "Motor current",
+  SvgChart chart{.title = held.title,
                  .x_label = in.unit + (step.of == "start" ? " after the start" : " after the step"),
                  .y_label = "A",
                  .compact = true};
@@ -130,8 +131,8 @@ std::string step_chart(const Trace& trace, const Step& step) {
     }
     chart.curves.push_back(curve);
   };
-  drawn("i_m", "main", curves[0]);
-  if (reference) drawn("i_ref", "reference", curves[1]);
+  drawn(held.label, "main", curves[0]);
+  if (reference) drawn(held.reference_label, "reference", curves[1]);
   return svg_chart(chart);
 }
 

@@ -38,11 +38,13 @@ std::vector<double> in_degrees(std::vector<double> angles) {
   return times(std::move(angles), 180.0 / 3.14159265358979323846);
 }
 
-Group currents(const Trace& trace) {
+/// A field-oriented drive drives no pair; what it holds has a chart of its own.
+Group currents(const Trace& trace, bool of_field) {
   Group g{.id = "currents", .title = "Currents", .unit = "A", .height_px = 270, .quantity = "current"};
   add(g, trace, "i_a_A", "i_a", "a");
   add(g, trace, "i_b_A", "i_b", "b");
   add(g, trace, "i_c_A", "i_c", "c");
+  if (of_field) return g;
   add(g, trace, "i_m_A", "i_m", "main");
   add(g, trace, "i_ref_A", "i_ref", "reference");
   return g;
@@ -56,9 +58,9 @@ Group rotor_currents(const Trace& trace) {
           .height_px = 216,
           .quantity = "current"};
   add(g, trace, "i_d_A", "i_d", "a");
-  add(g, trace, "i_d_ref_A", "i_d_ref", "a-soft");
+  add(g, trace, "i_d_ref_A", "i_d*", "a-soft");
   add(g, trace, "i_q_A", "i_q", "main");
-  add(g, trace, "i_q_ref_A", "i_q_ref", "reference");
+  add(g, trace, "i_q_ref_A", "i_q*", "reference");
   return g;
 }
 
@@ -187,8 +189,9 @@ Groups chart_groups(const Trace& trace, const sixstep::study::Scenario& scenario
   auto& charts = out.charts;
   if (mode == Mode::position) charts.push_back(position(trace, out.derived, linear));
   if (mode == Mode::position || mode == Mode::speed) charts.push_back(speed(trace, linear));
-  charts.push_back(currents(trace));
-  if (scenario.control.drive == sixstep::study::FirmwareKind::field) {
+  const bool of_field = scenario.control.drive == sixstep::study::FirmwareKind::field;
+  charts.push_back(currents(trace, of_field));
+  if (of_field) {
     charts.push_back(rotor_currents(trace));
     charts.push_back(rotor_voltages(trace));
   }

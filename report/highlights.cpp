@@ -136,9 +136,16 @@ std::size_t peak_row(const Values& time, const Values& y, const Interval& window
 
 }  // namespace
 
+const HeldCurrent& held_current(const Trace& trace) {
+  static constexpr HeldCurrent across{"Current across the magnet", "i_q_A", "i_q_ref_A", "i_q", "i_q*"},
+      pair{"Motor current", "i_m_A", "i_ref_A", "i_m", "i_ref"};
+  return find_column(trace, across.column) ? across : pair;
+}
+
 std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
+  const HeldCurrent& held = held_current(trace);
   const auto* time = find_column(trace, "t_s");
-  const auto* current = find_column(trace, "i_m_A");
+  const auto* current = find_column(trace, held.column);
   if (!time || !current) return std::nullopt;
   const double shown = step.window.to - step.window.from, rest = step.next_s - step.window.to;
   if (!(shown > 0.0) || !is_whole(trace, step.window)) return std::nullopt;
@@ -151,7 +158,7 @@ std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
     out.then_mean_A = then.integral / rest;
     out.then_span_A = then.high - then.low;
   }
-  if (const auto* reference = find_column(trace, "i_ref_A"))
+  if (const auto* reference = find_column(trace, held.reference))
     out.asked_A = (*reference)[peak_row(*time, *reference, step.window)];
   return out;
 }

@@ -30,7 +30,13 @@ std::optional<Step> largest_step(const sixstep::study::Trace& trace,
 std::optional<double> last_setpoint_s(const sixstep::study::Trace& trace,
                                       const sixstep::study::Scenario& scenario);
 
-/// The motor current i_m during a step; empty where an envelope stands for it.
+/// The current that a drive holds: of a field-oriented one that across the magnet, else of the driven pair.
+struct HeldCurrent {
+  const char *title, *column, *reference, *label, *reference_label;
+};
+const HeldCurrent& held_current(const sixstep::study::Trace& trace);
+
+/// That current during a step; empty where an envelope stands for it.
 struct StepCurrent {
   double peak_A = 0.0, peak_after_s = 0.0;
   std::optional<double> asked_A{};                     ///< largest reference, where there is a current loop

@@ -28,9 +28,20 @@ std::string pwm(const study::Scenario& scenario) {
 }
 
 std::string current_loop(const study::CurrentLoop& c) {
-  if (c.type == study::CurrentLoopType::pi) return "current PI";
-  return fmt::format("current hysteresis ±{}, {} comparator", given(c.band_A, "A"),
-                     c.comparator == study::Comparator::event ? "event" : "sampled");
+  if (c.type == study::CurrentLoopType::hysteresis)
+    return fmt::format("current hysteresis ±{}, {} comparator", given(c.band_A, "A"),
+                       c.comparator == study::Comparator::event ? "event" : "sampled");
+  const bool staying = c.feedback == study::CurrentFeedback::staying_phase;
+  return std::string(c.type == study::CurrentLoopType::pi ? "current PI" : "deadbeat current") +
+         (staying ? " on the staying phase" : "");
+}
+
+/// The speed loop and what it sets.
+std::string speed_loop(const study::Control& c) {
+  static constexpr const char* laws[] = {"speed PI", "speed by state feedback",
+                                         "speed by disturbance rejection", "speed by sliding mode"};
+  const std::string law = laws[static_cast<int>(c.speed.law)];
+  return law + " → " + (c.speed.output == study::SpeedOutput::duty ? "duty" : current_loop(c.current));
 }
 
 const char* arithmetic(study::Arithmetic a) {
@@ -64,10 +75,10 @@ std::string control(const study::Scenario& s) {
       text = current_loop(s.control.current);
       break;
     case control::Mode::speed:
-      text = "speed PI → " + current_loop(s.control.current);
+      text = speed_loop(s.control);
       break;
     case control::Mode::position:
-      text = "position P → speed PI → " + current_loop(s.control.current);
+      text = "position P → " + speed_loop(s.control);
       break;
   }
   text += arithmetic(s.control.arithmetic);

@@ -14,6 +14,7 @@
 #include "report/highlights.hpp"
 #include "report/html.hpp"
 #include "report/packed_rows.hpp"
+#include "report/parameters.hpp"
 #include "report/scenario_differences.hpp"
 #include "report/spectra.hpp"
 #include "report/spectrum.hpp"
@@ -86,13 +87,47 @@ TEST(Highlights, a_field_oriented_drive_steps_across_the_magnet) {
   EXPECT_EQ(step->of, "current");
   EXPECT_EQ(step->to, 4.0);
   EXPECT_EQ(step->at_s, 1.0);
+  const auto held = step_current(run.trace, *step);
+  ASSERT_TRUE(held);
+  EXPECT_EQ(held->peak_A, 4.0);
+  EXPECT_EQ(held->asked_A, 4.0);
   const Groups groups = chart_groups(run.trace, run.scenario);
+  const auto currents = std::ranges::find(groups.charts, "currents", &Group::id);
+  ASSERT_NE(currents, groups.charts.end());
+  EXPECT_EQ(std::ranges::count(currents->curves, "i_m", &Curve::label), 0) << "no pair is driven";
   const auto shown = std::ranges::find(groups.charts, "rotor-currents", &Group::id);
   ASSERT_NE(shown, groups.charts.end());
   EXPECT_EQ(shown->curves.size(), 2u);
   run.scenario.control.drive = sixstep::study::FirmwareKind::lean;
   const Groups others = chart_groups(run.trace, run.scenario);
   EXPECT_EQ(std::ranges::find(others.charts, "rotor-currents", &Group::id), others.charts.end());
+}
+
+/// Each controller is called by its name.
+TEST(Setup, names_the_controllers_that_run) {
+  using namespace sixstep::study;
+  const auto told = [](const Control& control) {
+    Scenario s;
+    s.control = control;
+    const std::string html = setup_section(s);
+    const auto at = html.find("<dt>Control</dt><dd>") + 20;
+    return html.substr(at, html.find(", 64-bit", at) - at);
+  };
+  Control c;
+  c.mode = sixstep::control::Mode::speed;
+  EXPECT_EQ(told(c), "speed PI → current PI");
+  c.current.type = CurrentLoopType::deadbeat;
+  c.speed.law = SpeedLaw::state_feedback;
+  EXPECT_EQ(told(c), "speed by state feedback → deadbeat current");
+  c.current.feedback = CurrentFeedback::staying_phase;
+  c.speed.law = SpeedLaw::disturbance_rejection;
+  EXPECT_EQ(told(c), "speed by disturbance rejection → deadbeat current on the staying phase");
+  c.speed.law = SpeedLaw::sliding_mode;
+  c.speed.output = SpeedOutput::duty;
+  EXPECT_EQ(told(c), "speed by sliding mode → duty");
+  c.mode = sixstep::control::Mode::current;
+  c.current = {.type = CurrentLoopType::hysteresis, .band_A = 0.2};
+  EXPECT_EQ(told(c), "current hysteresis ±200 mA, event comparator");
 }
 
 TEST(Highlights, what_held_the_run_back_is_timed) {
