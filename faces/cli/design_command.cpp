@@ -208,6 +208,7 @@ Exit design_command(const DesignArguments& a) {
                              .jobs = a.jobs});
   base::Problems found;
   const std::optional<study::Scenario> board = board_of(a, found);
+  if (board && found.empty()) found = analysis::passed_over(*board);
   if (!found.empty()) return refused(found);
   if (board && board->control.drive == study::FirmwareKind::field) return design_field(a, *board);
   const design::DesignSpec spec = spec_of(a, board ? &*board : nullptr, found);

@@ -87,6 +87,15 @@ class Design(ProgramTest):
         self.assertIn("--html", said)
         self.assertFalse((self.path / "f.html").exists())
 
+    def test_controllers_that_it_would_pass_over_are_refused(self):
+        (self.path / "s.toml").write_text('motor = "maxon-251601"\nduration_s = 0.1\n[control]\nmode = "speed"\n'
+                                          '[control.speed]\nlaw = "sliding-mode"\n[control.current]\ntype = "deadbeat"\n'
+                                          "[reference]\nvalue = 100\n")
+        said = self.run_program("design", "--scenario", "s.toml", code=2).stderr
+        for key in ("control.current.type", "control.speed.law"):
+            self.assertIn(f"{key} = ", said)
+        self.assertIn('set it to "pi"', said)
+
     def test_design_of_a_motor_file_names_it_as_the_scenario_sees_it(self):
         (self.path / "mine.toml").write_text((SOURCE / "data/motors/maxon-251601.toml").read_text())
         (self.path / "out").mkdir()

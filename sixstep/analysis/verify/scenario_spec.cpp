@@ -7,6 +7,7 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/loops/tracking_loop.hpp"
 #include "sixstep/study/compile/shaft_sensor.hpp"
+#include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
 namespace sixstep::analysis {
@@ -79,6 +80,20 @@ double stray_of(const std::vector<double>& edges_deg, std::size_t k) {
 }
 
 }  // namespace
+
+base::Problems passed_over(const study::Scenario& s) {
+  base::Problems found;
+  const auto tell = [&found](const char* key, std::string_view word) {
+    found.push_back({key, '"' + std::string(word) + '"',
+                     "is laid out in the report of a run, and a design lays out PI loops",
+                     "run the scenario and look there, or set it to \"pi\""});
+  };
+  if (s.control.current.type == study::CurrentLoopType::deadbeat)
+    tell("control.current.type", base::word(study::current_loop_choices, s.control.current.type));
+  if (s.control.speed.law != study::SpeedLaw::pi)
+    tell("control.speed.law", base::word(study::speed_law_choices, s.control.speed.law));
+  return found;
+}
 
 design::RotorSensing rotor_sensing_of(const study::Scenario& s) {
   design::RotorSensing to;

@@ -11,6 +11,9 @@ namespace sixstep::analysis {
 /// default; given gains are not looked at, since new ones are asked for.
 design::DesignSpec spec_of(const study::Scenario& scenario);
 
+/// Controllers of the scenario that a design, which lays out PI loops, would pass over.
+base::Problems passed_over(const study::Scenario& scenario);
+
 /// How its drive knows the rotor: what [sensors] says, but that the product drive has Hall probes alone, and the sensorless one
 /// crossings that count as their edges.
 design::RotorSensing rotor_sensing_of(const study::Scenario& scenario);
