@@ -9,6 +9,7 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/scenario/switching_law.hpp"
 
 namespace sixstep::analysis {
 namespace {
@@ -151,8 +152,17 @@ void add_course(const Course& c, study::Scenario& s) {
 void make_common(const design::DriveDesign& d, bool board, study::Scenario& s) {
   s.pwm.alignment = study::Alignment::centre;
   s.control.speed.torque_limit_Nm = base::shortened(d.torque_limit_Nm, 4, base::Towards::down);
-  if (board) return;
-  s.bridge = usual_bridge(d);
+  const study::Bridge usual = usual_bridge(d);
+  if (board) {
+    if (!study::switching_law(s.bridge).any()) {  // every controller's switching is to cost something
+      s.bridge.energies_at_V = usual.energies_at_V;
+      s.bridge.energies_at_A = usual.energies_at_A;
+      s.bridge.turn_on_J = usual.turn_on_J;
+      s.bridge.turn_off_J = usual.turn_off_J;
+    }
+    return;
+  }
+  s.bridge = usual;
   s.sensors.hall_angle = rig::HallAngleFrom::angle;
   s.sensors.current_range_A = plain(2.0 * (d.current_at_full_torque_A + 2 * d.ripple.worst_A));
 }

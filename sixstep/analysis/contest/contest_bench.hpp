@@ -30,7 +30,8 @@ struct ContestSpec {
   std::optional<double> current_settle_s{};  ///< of the current loop; else the design's
   std::optional<double> period_s{};          ///< of PWM and control; else 30 us
   std::optional<study::Scenario>
-      board{};  ///< whose supply, bridge, PWM and sensors are taken; else usual_bridge()
+      board{};  ///< whose supply, bridge, PWM and sensors are taken, else usual_bridge(), and its
+                ///< energies where the board's switches name none
 };
 
 struct Course {

@@ -50,6 +50,23 @@ TEST(Contest, UsualBridgeHasEdgesOfFiftyNanoseconds) {
   EXPECT_EQ(b.on_resistance_ohm, 0.011);  // 1 % of 1.03 ohm, two digits, rounded up
 }
 
+TEST(Contest, ABoardIsTakenAndItsSwitchesCostWhatIsUsualWhereItNamesNothing) {
+  const auto sheet = text::read_sheet("maxon-251601");
+  ASSERT_TRUE(sheet);
+  study::Scenario board = sixstep::testing::cascade();
+  board.bridge.on_resistance_ohm = 0.02;
+  board.pwm.period_s = 40e-6;
+  const auto ideal = contest_bench({.motor = "maxon-251601", .sheet = *sheet, .board = board});
+  ASSERT_TRUE(ideal) << to_string(ideal.problems()[0]);
+  EXPECT_EQ(ideal->scenario.bridge.on_resistance_ohm, 0.02);
+  EXPECT_EQ(ideal->scenario.pwm.period_s, 40e-6);
+  EXPECT_EQ(ideal->scenario.bridge.turn_on_J, usual_bridge(ideal->design).turn_on_J);
+  board.bridge = {.turn_on_J = 3e-6, .turn_off_J = 2e-6, .energies_at_V = 24, .energies_at_A = 5};
+  const auto named = contest_bench({.motor = "maxon-251601", .sheet = *sheet, .board = board});
+  ASSERT_TRUE(named);
+  EXPECT_EQ(named->scenario.bridge.turn_on_J, 3e-6);
+}
+
 TEST(Contest, FiguresAreSumsOfGauges) {
   std::vector<double> gauges(std::size(contest_gauges));
   for (std::size_t n = 0; n < gauges.size(); ++n)
