@@ -6,11 +6,11 @@ namespace sixstep::plant {
 namespace {
 
 void for_any(Audit<double>& audit, const Plant<double>& plant, double s) {
-  audit.take(plant, s, detail::segment_energy_here(plant, s));
+  audit.take(plant, detail::segment_energy_here(plant, s));
 }
 #ifdef __x86_64__
 [[gnu::target("avx")]] void with_avx(Audit<double>& audit, const Plant<double>& plant, double s) {
-  audit.take(plant, s, detail::segment_energy_here(plant, s));
+  audit.take(plant, detail::segment_energy_here(plant, s));
 }
 #endif
 

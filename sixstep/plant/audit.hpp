@@ -36,9 +36,9 @@ struct Laws {
 template <class Real>
 class Audit {
  public:
-  void segment(const Plant<Real>& plant, Real s) { take(plant, s, segment_energy(plant, s)); }
+  void segment(const Plant<Real>& plant, Real s) { take(plant, segment_energy(plant, s)); }
   /// The same with the segment's energies at hand.
-  [[gnu::always_inline]] void take(const Plant<Real>& plant, Real s, const SegmentEnergy<Real>& e);
+  [[gnu::always_inline]] void take(const Plant<Real>& plant, const SegmentEnergy<Real>& e);
   EnergyBook energy() const;
   const Laws& laws() const { return laws_; }
 
@@ -57,10 +57,9 @@ class Audit {
   };
   [[gnu::always_inline]] static Point begin_of(const Expansion<Real>& y, const LegsLaw<Real>& law);
   [[gnu::always_inline]] static Point end_of(const Expansion<Real>& y, const LegsLaw<Real>& law,
-                                             const Point& begin, Real s);
+                                             const Point& begin);
   void begin(const Plant<Real>& plant);
-  [[gnu::always_inline]] void check_laws(const Mode& mode, const LegsLaw<Real>& law, const Point& begin,
-                                         const Point& end);
+  [[gnu::always_inline]] void check_laws(const LegsLaw<Real>& law, const Point& begin, const Point& end);
   Real magnetic_energy(const Point& p) const {
     return (p.i[0] * p.i[0] + p.i[1] * p.i[1] + p.i[2] * p.i[2]) / (2 * inv_L_);
   }
@@ -92,45 +91,33 @@ inline typename Audit<Real>::Point Audit<Real>::begin_of(const Expansion<Real>& 
   return {{y.i[law.leg[0]][0], y.i[law.leg[1]][0], y.i[law.leg[2]][0]}, y.w[0]};
 }
 
-/// Of a segment that ends early all four series, in one pass, two to an instruction. Of a whole one the expansion knows
-/// where it ends, and the state goes on from there (Plant::advance()).
+/// The expansion knows where the segment ends, and the state goes on from there (Plant::advance()).
 template <class Real>
 inline typename Audit<Real>::Point Audit<Real>::end_of(const Expansion<Real>& y, const LegsLaw<Real>& law,
-                                                       const Point& begin, Real s) {
-  if (s == 1) {
-    const Real first = begin.i[0] + (law.connected >= 2 ? y.end.i : Real(0)), w = begin.w + y.end.w;
-    if (law.connected < 3) return {{first, law.connected == 2 ? -first : begin.i[1], begin.i[2]}, w};
-    const Real second = begin.i[1] + y.end.i_2;
-    return {{first, second, -(first + second)}, w};
-  }
-  const auto& [first, second, third] = law.leg;
-  const Pair at = series::both(s);
-  Pair one_two = series::both(Real(0)), three_w = one_two;
-  for (int j = y.degree; j >= 1; --j) {
-    one_two = (one_two + Pair{y.i[first][j], y.i[second][j]}) * at;
-    three_w = (three_w + Pair{y.i[third][j], y.w[j]}) * at;
-  }
-  return {{begin.i[0] + one_two[0], begin.i[1] + one_two[1], begin.i[2] + three_w[0]}, begin.w + three_w[1]};
+                                                       const Point& begin) {
+  const Real w = begin.w + y.end.w;
+  if (law.connected < 2) return {begin.i, w};
+  const Real first = begin.i[0] + y.end.i;
+  if (law.connected == 2) return {{first, -first, begin.i[2]}, w};
+  const Real second = begin.i[1] + y.end.i_2;
+  return {{first, second, -(first + second)}, w};
 }
 
 template <class Real>
-inline void Audit<Real>::check_laws(const Mode& mode, const LegsLaw<Real>& law, const Point& begin,
-                                    const Point& end) {
+inline void Audit<Real>::check_laws(const LegsLaw<Real>& law, const Point& begin, const Point& end) {
   const auto raise = [](double& worst, Real v) { worst = std::max(worst, static_cast<double>(v)); };
   const auto sum = [](const Point& p) { return detail::abs(p.i[0] + p.i[1] + p.i[2]); };
   raise(laws_.current_sum_A, std::max(sum(begin), sum(end)));
-  for (int n = 0; n < 3; ++n) {
-    const Connection leg = mode.legs[law.leg[n]];
-    // mutant: -std::min(along_diode(leg, begin.i[n]), along_diode(leg, end.i[n])) => Real(0)
-    if (is_diode(leg))
-      raise(laws_.reverse_diode_A, -std::min(along_diode(leg, begin.i[n]), along_diode(leg, end.i[n])));
-    if (is_floating(leg))
-      raise(laws_.floating_current_A, std::max(detail::abs(begin.i[n]), detail::abs(end.i[n])));
-  }
+  // What floats stands last, and has not moved.
+  for (int n = law.connected; n < 3; ++n) raise(laws_.floating_current_A, detail::abs(begin.i[n]));
+  if (law.diodes == 0) return;
+  for (int n = 0; n < 3; ++n)
+    // mutant: -std::min(law.along[n] * begin.i[n], law.along[n] * end.i[n]) => Real(0)
+    raise(laws_.reverse_diode_A, -std::min(law.along[n] * begin.i[n], law.along[n] * end.i[n]));
 }
 
 template <class Real>
-inline void Audit<Real>::take(const Plant<Real>& plant, Real s, const SegmentEnergy<Real>& e) {
+inline void Audit<Real>::take(const Plant<Real>& plant, const SegmentEnergy<Real>& e) {
   const Expansion<Real>& y = plant.expansion();
   const Constants<Real>& c = plant.constants();
   if (!begun_) begin(plant);
@@ -141,8 +128,8 @@ inline void Audit<Real>::take(const Plant<Real>& plant, Real s, const SegmentEne
   if (stopped && end_.w != 0) friction_load_.add(kinetic_energy(end_), Real(0));
   const LegsLaw<Real>& law = c.legs[legs_index(plant.mode().legs)];
   const Point begin = begin_of(y, law);
-  end_ = end_of(y, law, begin, s);
-  check_laws(plant.mode(), law, begin, end_);
+  end_ = end_of(y, law, begin);
+  check_laws(law, begin, end_);
   supplied_copper_.add(e.supplied, e.copper);
   devices_air_gap_.add(e.devices, e.air_gap);
   friction_load_.add(e.viscous + e.dry, e.load);

@@ -35,7 +35,7 @@ struct Constants {
 template <class Real>
 inline constexpr Real terms_per_scale = Real(1LL << 53) * (sizeof(Real) > 8 ? 2048 : 1);
 
-/// Increments over a segment's whole length; currents of the first and second connected leg.
+/// What moves until a segment's end; currents of the first and second connected leg.
 template <class Real>
 struct Increments {
   Real i = 0, i_2 = 0, w = 0, x = 0;

@@ -15,6 +15,8 @@ struct LegsLaw {
   std::array<std::uint8_t, 3> leg{0, 1, 2};  ///< the connected legs in order, then the floating ones
   std::uint8_t connected = 0;
   std::uint8_t floating = 0, diodes = 0;  ///< as masks: bit k is leg k
+  PerLeg<PoleTerms<Real>> pole{};         ///< of `leg`, in its order; of a floating one zero
+  PerLeg<Real> along{};  ///< of `leg`: 1 or -1 makes a diode's current positive, 0 where there is none
   Terms slope, slope_2;  ///< di/dt of the first current and, where three legs are connected, of the second
   Terms star;            ///< u_n + mean of e over the connected legs; one or two of them
   Real emf_rate = 0;     ///< a back-EMF e in a leg's way: di/dt = -emf_rate (e_leg - e_other or - mean)
@@ -81,8 +83,12 @@ LegsLaw<Real> legs_law(const Legs& legs, const Devices& devices, Real R, Real in
     if (is_floating(legs[k])) law.floating |= bit;
     if (is_diode(legs[k])) law.diodes |= bit;
   }
-  PerLeg<PoleTerms<Real>> terms;
-  for (std::size_t n = 0; n < 3; ++n) terms[n] = pole_terms<Real>(legs[law.leg[n]], devices);
+  PerLeg<PoleTerms<Real>>& terms = law.pole;
+  for (std::size_t n = 0; n < 3; ++n) {
+    const Connection connection = legs[law.leg[n]];
+    terms[n] = pole_terms<Real>(connection, devices);
+    if (is_diode(connection)) law.along[n] = along_diode(connection, Real(1));
+  }
   if (law.connected == 1) law.star = {.bus = terms[0].bus_share, .offset = terms[0].offset_V};
   if (law.connected == 2) detail::pair_law(terms[0], terms[1], R, inv_L, law);
   if (law.connected == 3) detail::three_leg_law(terms, R, inv_L, law);

@@ -55,7 +55,11 @@ class Plant {
     mode_guards(constants_, mode_, y_, slack_, visit);
     edge_guards(constants_.emf[mode_.sector].piece[mode_.piece], y_, visit);
   }
-  /// Takes the state to the fraction s of the expanded length.
+  /// The segment ends at the fraction s of the expanded length: the expansion's `end` is what has moved until there.
+  void end_at(Real s) {
+    if (s != 1) y_.end = detail::increments(y_, constants_.legs[legs_index(mode_.legs)], s);
+  }
+  /// Takes the state there.
   void advance(Real s);
   /// The located event `id`; true where the rotor passed into another sector.
   bool apply(int id);
@@ -176,8 +180,7 @@ void Plant<Real>::advance(Real s) {
   State<Real>& q = state_;
   const LegsLaw<Real>& law = constants_.legs[legs_index(mode_.legs)];
   const int first = law.leg[0], second = law.leg[1], third = law.leg[2];
-  Increments<Real> by = y_.end;
-  if (s != 1) by = detail::increments(y_, law, s);
+  const Increments<Real>& by = y_.end;
   if (law.connected >= 2) {
     add_compensated(q.i[first], q.i_low[first], by.i);
     if (law.connected == 3) {

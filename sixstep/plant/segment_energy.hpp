@@ -55,22 +55,20 @@ template <int points, class Real>
   const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
   const LegIntegrals<Real> legs = leg_integrals<points>(law, at);
   // Of a floating leg in the third place both integrals are zero.
-  const auto terms = [&](int n) -> const PoleTerms<Real>& {
-    return c.poles[static_cast<std::size_t>(mode.legs[law.leg[n]])];
-  };
+  const PerLeg<PoleTerms<Real>>& pole = law.pole;
   const auto device = [&](int n) {
-    // mutant: terms(n).r_ohm * legs.square[n] - terms(n).offset_V * legs.charge[n] => terms(n).r_ohm * legs.square[n] + terms(n).offset_V * legs.charge[n]
-    return terms(n).r_ohm * legs.square[n] - terms(n).offset_V * legs.charge[n];
+    // mutant: pole[n].r_ohm * legs.square[n] - pole[n].offset_V * legs.charge[n] => pole[n].r_ohm * legs.square[n] + pole[n].offset_V * legs.charge[n]
+    return pole[n].r_ohm * legs.square[n] - pole[n].offset_V * legs.charge[n];
   };
-  const auto drawn = [&](int n) { return terms(n).bus_share * legs.charge[n]; };
+  const auto drawn = [&](int n) { return pole[n].bus_share * legs.charge[n]; };
   out.copper = dt * c.R * (legs.square[0] + legs.square[1] + legs.square[2]);
   out.devices = dt * ((device(0) + device(1)) + device(2));
   if (!(c.inv_C > 0)) {
     out.supplied = dt * y.bus[0] * ((drawn(0) + drawn(1)) + drawn(2));
     return;
   }
-  const Real share = terms(2).bus_share;  // i_3 = -(i_1 + i_2)
-  const auto dc = (terms(0).bus_share - share) * at.i_1 + (terms(1).bus_share - share) * at.i_2;
+  const Real share = pole[2].bus_share;  // i_3 = -(i_1 + i_2)
+  const auto dc = (pole[0].bus_share - share) * at.i_1 + (pole[1].bus_share - share) * at.i_2;
   out.supplied = dt * series::weighted_sum<points>(series::values_at<points>(y.bus, y.degree, s), dc);
 }
 
@@ -95,20 +93,16 @@ template <int points, class Real>
                                                              const Expansion<Real>& y,
                                                              const series::Nodes<points, Real>& s,
                                                              bool conducts, bool turning) {
+  const auto values = [&](const series::Coefficients<Real>& c) __attribute__((always_inline)) {
+    return series::values_of_fitting<points>(c, y.degree, s);
+  };
   Moving<points, Real> at;
-  if (!conducts) {
-    at.w = series::values_at<points>(y.w, y.degree, s);
-  } else if (law.connected == 3) {
-    const auto v =
-        series::values_together<points, Real>(y.degree, s, y.i[law.leg[0]], y.i[law.leg[1]], y.w, y.torque);
-    at = {v[0], v[1], v[2], v[3]};
-  } else if (turning) {
-    const auto v = series::values_together<points, Real>(y.degree, s, y.i[law.leg[0]], y.w, y.torque);
-    at = {v[0], -v[0], v[1], v[2]};
-  } else {
-    at.i_1 = series::values_at<points>(y.i[law.leg[0]], y.degree, s);
-    at.i_2 = -at.i_1;
+  if (conducts) {
+    at.i_1 = values(y.i[law.leg[0]]);
+    at.i_2 = law.connected == 3 ? values(y.i[law.leg[1]]) : -at.i_1;
   }
+  if (turning) at.w = values(y.w);
+  if (conducts && turning) at.torque = values(y.torque);
   return at;
 }
 

@@ -22,6 +22,7 @@ class BarePlant {
   void guards(Visit&& visit) const {
     plant_.guards(visit);
   }
+  void end_at(Real s) { plant_.end_at(s); }
   void advance(Real s, const sim::Instant& to) {
     plant_.advance(s);
     now_ = to;

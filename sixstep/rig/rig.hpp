@@ -83,6 +83,7 @@ class Rig {
     if constexpr (has_crossings)
       if (crossings_.fitted()) crossing_guards(visit);
   }
+  void end_at(Real s) { plant_.end_at(s); }
   void advance(Real s, const sim::Instant& to) {
     if constexpr (may_listen)
       if (listens_) show_segment(s, to);

@@ -104,23 +104,18 @@ template <int points, class Real>
   return v;
 }
 
-/// Several series at every node, order by order. The degree is one that wants so many points: where it is odd a zero is
-/// taken along, for a number of orders that varies is foreseen badly. The bits are those of values_at().
-template <int points, class Real, class... Series>
-[[gnu::always_inline]] inline std::array<Nodes<points, Real>, sizeof...(Series)> values_together(
-    int degree, const Nodes<points, Real>& s, const Series&... c) {
-  constexpr int count = sizeof...(Series), most = 2 * points;
-  if (degree < most - 1) return {values_at<points>(c, degree, s)...};
-  const Real* const series[] = {c.data()...};
+/// The same of a degree that wants so many points, in an even number of orders: where the degree is odd a zero is taken
+/// along, for a number of orders that varies is foreseen badly. Of several series one after the other: order by order the
+/// compiler takes all coefficients to memory and back.
+template <int points, class Real>
+[[gnu::always_inline]] inline Nodes<points, Real> values_of_fitting(const Coefficients<Real>& c, int degree,
+                                                                    const Nodes<points, Real>& s) {
+  constexpr int most = 2 * points;
+  if (degree < most - 1) return values_at<points>(c, degree, s);
   const Real none = 0;
-  std::array<Nodes<points, Real>, count> v;
-#pragma GCC unroll 8
-  for (int n = 0; n < count; ++n)
-    v[n] = Nodes<points, Real>::everywhere(*(degree == most ? series[n] + most : &none));
+  auto v = Nodes<points, Real>::everywhere(*(degree == most ? c.data() + most : &none));
 #pragma GCC unroll 16
-  for (int j = most - 1; j >= 0; --j)
-#pragma GCC unroll 8
-    for (int n = 0; n < count; ++n) v[n] = v[n] * s + series[n][j];
+  for (int j = most - 1; j >= 0; --j) v = v * s + c[j];
   return v;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The run loop, on one page. Known instants are scheduled, only unknown ones are searched.
 //
-//   act on all that is due -> settle and expand (Taylor) -> first root of all guards -> observe -> advance -> apply ONE event
+//   act on all that is due -> settle and expand (Taylor) -> first root of all guards -> end there -> observe -> advance -> apply ONE event
 //
 // A System provides
 //   Instant now() const                    where it stands
@@ -12,7 +12,8 @@
 //                                          it returns, <= h; negative where no consistent state exists
 //   void guards(Visit&&) const             calls visit(id, coefficients, degree, noise) for each guard that must stay
 //                                          >= 0, those that snap a state first (they win a tie)
-//   void advance(Real s, Instant to)       takes the state to the fraction s of the expanded length
+//   void end_at(Real s)                    the segment at hand ends at the fraction s of the expanded length
+//   void advance(Real s, Instant to)       takes the state there
 //   void apply(id)                         the one located event
 // An Observer provides segment(system, s), called before the system advances over [0, s] of its expansion, and may
 // provide done(): true ends the run after the event at hand.
@@ -72,6 +73,7 @@ Run run(System& system, Instant end, Observer& observer) {
       }
     });
 
+    system.end_at(first);
     // mutant: first => Real(1)
     observer.segment(system, first);
     // mutant: event < 0 && length == wanted => event < 0

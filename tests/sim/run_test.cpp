@@ -39,6 +39,7 @@ class Ball {
   void guards(Visit&& visit) const {
     visit(0, c_, 2, 64 * eps);
   }
+  void end_at(double) {}
   void advance(double s, const Instant& to) {
     y = series::evaluate(c_, 2, s);
     v -= g * h_ * s;
@@ -84,6 +85,7 @@ class Chopped {
   }
   template <class Visit>
   void guards(Visit&&) const {}
+  void end_at(double) {}
   void advance(double s, const Instant& to) {
     i += series::increment(c_, series::max_degree, s);
     now_ = to;
@@ -165,6 +167,7 @@ struct Stuttering {
   void guards(Visit&& visit) const {
     visit(0, series::Coefficients<double>{left > 0 ? -1.0 : 1.0}, 1, eps);
   }
+  void end_at(double) {}
   void advance(double, const Instant& to) { at = to; }
   void apply(int) { --left; }
 };

@@ -71,6 +71,7 @@ class Plant {
     mode_guards(constants_, gates_, mode_, dead_, breaking_, y_, z_, slack_, visit);
     edge_guards(piece(), y_, visit);
   }
+  void end_at(Real) {}  ///< nobody asks before advance()
   void advance(Real s);
   bool apply(int id);
 
