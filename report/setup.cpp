@@ -21,10 +21,14 @@ using namespace sixstep;
 std::string pwm(const study::Scenario& scenario) {
   const study::Pwm& p = scenario.pwm;
   static constexpr const char* choppings[] = {"soft chopping", "hard chopping", "complementary chopping"};
+  static constexpr const char* patterns[] = {"", " of the lower switch", ", PWM-ON", ", ON-PWM",
+                                             ", PWM-ON-PWM"};
   const bool three_legs = scenario.control.drive == study::FirmwareKind::field;
   return fmt::format("{} ({}), {}-aligned, {}", given(p.period_s, "s"), computed(1.0 / p.period_s, "Hz"),
                      p.alignment == study::Alignment::edge ? "edge" : "centre",
-                     three_legs ? "three legs, each complementary" : choppings[static_cast<int>(p.chopping)]);
+                     three_legs ? std::string("three legs, each complementary")
+                                : std::string(choppings[static_cast<int>(p.chopping)]) +
+                                      patterns[static_cast<int>(p.pattern)]);
 }
 
 std::string current_loop(const study::CurrentLoop& c) {

@@ -1,12 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_sanitizers.sh         tests under the address and undefined-behaviour sanitizers (build/ci): of what reads others' bytes,
-#                             what shifts bits on a chip, and the fuzzers, which take drawn scenarios through all rooms
+#                             and the fuzzers, which take drawn scenarios through all rooms, in every arithmetic
 # check_sanitizers.sh --all   of all rooms (ctest --preset long)
 set -eu
 cd "$(dirname "$0")/.."
 . tools/parts.sh
-rooms=(base series control text files fuzz)
+rooms=(base series text files fuzz)
 # Pages, tools and what other compilers make of the headers have no memory of ours to look at.
 elsewhere='^control\.(alone|inserted|int_of|single)'
 # What runs thousands of drives whose numbers are judged; drawn scenarios take the same ways.

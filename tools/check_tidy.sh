@@ -1,23 +1,36 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_tidy.sh [BUILD]             clang-tidy over every source file of the product, with the flags of a configured build
+# check_tidy.sh [BUILD] --recent    of those that the last 60 commits changed, and those that include a header that they changed:
+#                                   the others are what they were when they were looked at
 # check_tidy.sh [BUILD] --analyzer  with the path-sensitive analyzer too, whose finds the sanitizers and the fuzzers meet first,
 #                                   and the checks that take longest for what they find (ctest --preset long)
 set -eu
 cd "$(dirname "$0")/.."
-build=build/dev
+build=build/dev recent=
 dear=(clang-analyzer-\* bugprone-{reserved-identifier,stringview-nullptr,assert-side-effect,multiple-statement-macro}
   bugprone-suspicious-semicolon performance-unnecessary-value-param)
 checks=--checks=$(IFS=,; echo "${dear[*]/#/-}")
 for word in "$@"; do
   case $word in
     --analyzer) checks=--checks= ;;
+    --recent) recent=60 ;;
     *) build=$word ;;
   esac
 done
-git ls-files -z 'sixstep/*.cpp' 'batch/*.cpp' 'text/*.cpp' 'files/*.cpp' 'report/*.cpp' 'faces/*.cpp' ':!faces/firmware' \
-  ':!batch/ranks_with_mpi.cpp' |
-  xargs -0 -n 1 -P "$(nproc)" clang-tidy -p "$build" --quiet "$checks" 2>/dev/null
+sources=('sixstep/*.cpp' 'batch/*.cpp' 'text/*.cpp' 'files/*.cpp' 'report/*.cpp' 'faces/*.cpp' ':!faces/firmware'
+  ':!batch/ranks_with_mpi.cpp')
+# A line each; all of them where the history is shorter.
+looked_at() {
+  if [ -z "$recent" ] || ! git rev-parse -q --verify "HEAD~$recent" >/dev/null; then
+    git ls-files "${sources[@]}"
+    return
+  fi
+  git diff --name-only --diff-filter=d "HEAD~$recent" -- "${sources[@]}"
+  git diff --name-only "HEAD~$recent" -- '*.hpp' | sed 's/.*/#include "&"/' >"$build/changed_headers.txt"
+  git ls-files -z "${sources[@]}" | xargs -0 grep -lFf "$build/changed_headers.txt" || true
+}
+looked_at | LC_ALL=C sort -u | tr '\n' '\0' | xargs -0 -n 1 -P "$(nproc)" clang-tidy -p "$build" --quiet "$checks" 2>/dev/null
 # MPI is in a build of its own, which need not be there.
 [ ! -f build/mpi/compile_commands.json ] || clang-tidy -p build/mpi --quiet "$checks" batch/ranks_with_mpi.cpp 2>/dev/null
 # Firmware is in no build for this machine: each example with the flags of its chip.

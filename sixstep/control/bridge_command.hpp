@@ -12,6 +12,9 @@ enum class Mode : std::uint8_t { off, duty, current, speed, position };
 /// How the off part of a PWM period looks (model.md 3).
 enum class Chopping : std::uint8_t { soft, hard, complementary };
 
+/// Which switch of the pair the duty chops, the other one being on; of hard chopping both.
+enum class ChoppedSwitch : std::uint8_t { upper, lower };
+
 /// A leg of the bridge, by the phase it feeds.
 enum class Leg : std::uint8_t { a = 0, b = 1, c = 2 };
 
@@ -52,6 +55,7 @@ struct BridgeCommand {
   Pair pair{};           ///< already swapped for a negative command
   Scalar duty{};         ///< 0..1, on-time over PWM period; ignored while comparators are armed
   Chopping chopping = Chopping::soft;
+  ChoppedSwitch chopped = ChoppedSwitch::upper;
   Watch watch = Watch::none;
   Scalar on_below_A{};   ///< a comparator switches on strictly below this
   Scalar off_above_A{};  ///< and off strictly above this

@@ -77,18 +77,23 @@ struct StayingPhase {
   Leg leg = Leg::a;
 };
 
+/// Its leg. Where pairs have no leg in common, or none was before: that of the positive pair's source.
+constexpr Leg staying_leg(StayingPhase& state, std::uint8_t sector) {
+  if (sector == state.sector) return state.leg;
+  const Pair now = positive_pair(sector),
+             before = state.sector == no_sector ? now : positive_pair(state.sector);
+  state.leg = now.sink == before.sink && now.source != before.source ? now.sink : now.source;
+  state.sector = sector;
+  return state.leg;
+}
+
 /// i_m by that phase alone. It makes the torque while the others hand over, T_e w = 2 E i where all shapes are flat, and is
-/// the pair's current otherwise. Where pairs have no leg in common, or none was before: the source's.
+/// the pair's current otherwise.
 template <class Scalar>
 constexpr Scalar staying_current(StayingPhase& state, const Measurement<Scalar>& m, std::uint8_t sector) {
-  const Pair now = positive_pair(sector);
-  if (sector != state.sector) {
-    const Pair before = state.sector == no_sector ? now : positive_pair(state.sector);
-    state.leg = now.sink == before.sink && now.source != before.source ? now.sink : now.source;
-    state.sector = sector;
-  }
-  const Scalar i = phase_current(m, state.leg);
-  return state.leg == now.source ? i : -i;
+  const Leg leg = staying_leg(state, sector);
+  const Scalar i = phase_current(m, leg);
+  return leg == positive_pair(sector).source ? i : -i;
 }
 
 }  // namespace sixstep::control

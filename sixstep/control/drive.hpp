@@ -208,6 +208,10 @@ constexpr const BridgeCommand<Scalar>& step_in(Mode mode, const DriveConfig<Scal
   if (config.extras.on && config.extras.smooth_chopping)
     state.command.chopping =
         smooth_chopping_step(config.extras.chopping, state.extras.chopping, state.reversed, i_m);
+  if (config.extras.on && config.extras.pwm.pattern != PwmPattern::upper) {
+    pass_on(config.extras.pwm, state.extras.pwm, sector, measured.speed_rad_s);
+    state.command.chopped = chopped_switch(config.extras.pwm, state.extras.pwm, sector, state.command.pair);
+  }
   telemetry.duty = state.reversed ? -state.command.duty : state.command.duty;
   return state.command;
 }
@@ -220,7 +224,8 @@ constexpr const BridgeCommand<Scalar>& step(const DriveConfig<Scalar>& config, D
   return step_in(config.mode, config, state, measured, setpoint, telemetry);
 }
 
-/// The Hall interrupt: the present state moves to the new pair at once; duty and sign stay (model.md 3).
+/// The Hall interrupt: the present state moves to the new pair at once; duty and sign stay (model.md 3), and which of its
+/// switches is chopped goes by the pattern.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& on_hall(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                                std::uint8_t code) {
@@ -231,6 +236,8 @@ constexpr const BridgeCommand<Scalar>& on_hall(const DriveConfig<Scalar>& config
   }
   const Pair positive = positive_pair(sector);
   state.command.pair = state.reversed ? swapped(positive) : positive;
+  if (config.extras.on && config.extras.pwm.pattern != PwmPattern::upper)
+    state.command.chopped = chopped_switch(config.extras.pwm, state.extras.pwm, sector, state.command.pair);
   return state.command;
 }
 

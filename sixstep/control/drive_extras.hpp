@@ -13,6 +13,7 @@
 #include "sixstep/control/observed_speed.hpp"
 #include "sixstep/control/pi.hpp"
 #include "sixstep/control/pi_positional.hpp"
+#include "sixstep/control/pwm_pattern.hpp"
 #include "sixstep/control/slew.hpp"
 #include "sixstep/control/sliding_speed.hpp"
 #include "sixstep/control/smooth_chopping.hpp"
@@ -54,7 +55,8 @@ struct DriveExtras {
   BusCompensationConfig<Scalar> bus{};
   bool smooth_chopping = false;  ///< else DriveConfig::chopping
   SmoothChoppingConfig<Scalar> chopping{};
-  bool predicts_current = false;  ///< the current loop by the next one, else by DriveConfig::current
+  PwmPatternConfig<Scalar> pwm{};  ///< which switch of the pair is chopped
+  bool predicts_current = false;   ///< the current loop by the next one, else by DriveConfig::current
   DeadbeatConfig<Scalar> deadbeat{};
   bool staying_phase =
       false;  ///< i_m is the current of the phase that the last commutation left where it was
@@ -70,6 +72,7 @@ template <class Scalar>
 struct DriveExtrasState {
   SlewState<Scalar> slew{};
   SmoothChoppingState<Scalar> chopping{};
+  PwmPatternState<Scalar> pwm{};
   DeadbeatState<Scalar> deadbeat{};
   StayingPhase staying{};
   PiPositionalState<Scalar> speed{};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A bridge command as the six gates of one instant, for firmware that sets pins or the output modes of a
 // timer. Within the on-time of a PWM period both driven switches are on; in its off-time (model.md 3)
-//   soft           the sink's lower switch stays on
+//   soft           the switch that is not chopped stays on: the sink's lower one, or the source's upper one
 //   hard           none
-//   complementary  as soft, and the source's lower switch, after the dead time that the timer inserts
+//   complementary  as soft, and the chopped leg's other switch, after the dead time that the timer inserts
 #pragma once
 #include <cstdint>
 
@@ -24,11 +24,13 @@ constexpr std::uint8_t lower_gate(Leg leg) {
 template <class Scalar>
 constexpr std::uint8_t gates(const BridgeCommand<Scalar>& command, bool on_time) {
   if (!command.enabled || command.pair.source == command.pair.sink) return 0;
-  const std::uint8_t sink = lower_gate(command.pair.sink);
-  if (on_time) return static_cast<std::uint8_t>(upper_gate(command.pair.source) | sink);
+  const Leg source = command.pair.source, sink = command.pair.sink;
+  if (on_time) return static_cast<std::uint8_t>(upper_gate(source) | lower_gate(sink));
   if (command.chopping == Chopping::hard) return 0;
-  if (command.chopping == Chopping::soft) return sink;
-  return static_cast<std::uint8_t>(lower_gate(command.pair.source) | sink);
+  const bool lower = command.chopped == ChoppedSwitch::lower;
+  const std::uint8_t on = lower ? upper_gate(source) : lower_gate(sink);
+  if (command.chopping == Chopping::soft) return on;
+  return static_cast<std::uint8_t>((lower ? upper_gate(sink) : lower_gate(source)) | on);
 }
 
 /// Of one leg, within its pulse or in the rest of the period.

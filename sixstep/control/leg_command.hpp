@@ -17,7 +17,8 @@ enum class LegState : std::uint8_t { off, low, high, pwm };
 enum class PwmSwitches : std::uint8_t {
   complementary,  ///< the upper switch; the lower one for the rest of the period, each after the dead time
   upper,          ///< the upper switch alone: none for the rest
-  lower           ///< the lower switch alone, as a channel does whose complementary output alone is enabled
+  lower,          ///< the lower switch alone, as a channel does whose complementary output alone is enabled
+  lower_first     ///< the lower switch; the upper one for the rest of the period, each after the dead time
 };
 
 template <class Scalar>
@@ -53,6 +54,7 @@ constexpr LegSides sides_of(const LegCommand<Scalar>& command) {
       return {LegSide::high, LegSide::high};
     case LegState::pwm:
       if (command.switches == PwmSwitches::lower) return {LegSide::low, LegSide::none};
+      if (command.switches == PwmSwitches::lower_first) return {LegSide::low, LegSide::high};
       return {LegSide::high, command.switches == PwmSwitches::complementary ? LegSide::low : LegSide::none};
     case LegState::off:
       break;
@@ -60,17 +62,22 @@ constexpr LegSides sides_of(const LegCommand<Scalar>& command) {
   return {};
 }
 
-/// The leg that the current of a driven pair enters by (model.md 3): its upper switch chops.
+/// The leg that the current of a driven pair enters by (model.md 3): its upper switch chops, or is on throughout.
 template <class Scalar>
-constexpr LegCommand<Scalar> source_leg(Chopping chopping, Scalar duty) {
+constexpr LegCommand<Scalar> source_leg(Chopping chopping, ChoppedSwitch chopped, Scalar duty) {
+  if (chopping != Chopping::hard && chopped == ChoppedSwitch::lower)
+    return {LegState::high, PwmSwitches::complementary, Scalar{}};
   return {LegState::pwm,
           chopping == Chopping::complementary ? PwmSwitches::complementary : PwmSwitches::upper, duty};
 }
 
 /// The leg that it leaves by: its lower switch is on throughout, or chops too.
 template <class Scalar>
-constexpr LegCommand<Scalar> sink_leg(Chopping chopping, Scalar duty) {
+constexpr LegCommand<Scalar> sink_leg(Chopping chopping, ChoppedSwitch chopped, Scalar duty) {
   if (chopping == Chopping::hard) return {LegState::pwm, PwmSwitches::lower, duty};
+  if (chopped == ChoppedSwitch::lower)
+    return {LegState::pwm,
+            chopping == Chopping::complementary ? PwmSwitches::lower_first : PwmSwitches::lower, duty};
   return {LegState::low, PwmSwitches::complementary, Scalar{}};
 }
 
@@ -82,8 +89,10 @@ constexpr LegCommands<Scalar> as_legs(const BridgeCommand<Scalar>& command) {
   if (!command.enabled || command.watch != Watch::none || command.pair.source == command.pair.sink)
     return legs;
   legs.enabled = true;
-  legs.leg[static_cast<unsigned>(command.pair.source)] = source_leg(command.chopping, command.duty);
-  legs.leg[static_cast<unsigned>(command.pair.sink)] = sink_leg(command.chopping, command.duty);
+  legs.leg[static_cast<unsigned>(command.pair.source)] =
+      source_leg(command.chopping, command.chopped, command.duty);
+  legs.leg[static_cast<unsigned>(command.pair.sink)] =
+      sink_leg(command.chopping, command.chopped, command.duty);
   return legs;
 }
 

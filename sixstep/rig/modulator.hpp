@@ -25,6 +25,7 @@ BoardCommand widened(const control::BridgeCommand<Scalar>& c, const Bases& bases
           .pair = c.pair,
           .duty = to_si(c.duty, 1.0),
           .chopping = c.chopping,
+          .chopped = c.chopped,
           .watch = c.watch,
           .on_below_A = to_si(c.on_below_A, bases.current_A),
           .off_above_A = to_si(c.off_above_A, bases.current_A)};

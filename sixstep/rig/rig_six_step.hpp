@@ -30,11 +30,16 @@ void Rig<Real, Firmware, Plant>::move_pair(const Answer& answer) {
   if (!answer.enabled) return let_go();
   // mutant: pending_.pair = answer.pair; => nothing
   pending_.pair = answer.pair;
-  if (board_.sampled_in_middle)
+  pending_.chopped = answer.chopped;
+  if (board_.sampled_in_middle) {
     loaded_.pair = firmware_.reversed() == loaded_reversed_ ? answer.pair : control::swapped(answer.pair);
+    loaded_.chopped = answer.chopped;
+  }
   // mutant: firmware_.reversed() == reversed_ => true
-  const bool same_sign = firmware_.reversed() == reversed_;
-  modulator_.commutate(now_, same_sign ? answer.pair : control::swapped(answer.pair));
+  if (firmware_.reversed() == reversed_)
+    modulator_.commutate(now_, answer.pair, answer.chopped);
+  else
+    modulator_.commutate(now_, control::swapped(answer.pair));
 }
 
 /// Comparators beyond their level; true where one switched.

@@ -33,11 +33,12 @@ int SixStepModulator::take(const Instant& t, const BoardCommand& command) {
   const int entered = hand_over(command.pair);
   // Field by field, as it was written: a copy in wider pieces would wait until the fields have left for
   // memory. A field more or less does not compile.
-  const auto& [enabled, pair, duty, chopping, watch, on_below_A, off_above_A] = command;
+  const auto& [enabled, pair, duty, chopping, chopped, watch, on_below_A, off_above_A] = command;
   command_.enabled = enabled;
   command_.pair = pair;
   command_.duty = duty;
   command_.chopping = chopping;
+  command_.chopped = chopped;
   command_.watch = watch;
   command_.on_below_A = on_below_A;
   command_.off_above_A = off_above_A;
@@ -56,9 +57,10 @@ void SixStepModulator::start_period(const Instant& t, const BoardCommand& comman
   fill_legs(t, entered);
 }
 
-void SixStepModulator::commutate(const Instant& t, control::Pair pair) {
+void SixStepModulator::commutate(const Instant& t, control::Pair pair, control::ChoppedSwitch chopped) {
   const int entered = hand_over(pair);
   command_.pair = pair;
+  command_.chopped = chopped;
   fill_legs(t, entered);
 }
 
@@ -73,11 +75,13 @@ void SixStepModulator::fill_legs(const Instant& t, int entered) {
   timer_.disconnect();
   if (command_.enabled) {
     const Chopping chopping = command_.chopping;
+    const control::ChoppedSwitch chopped = command_.chopped;
     // mutant: sink_pulse => source_pulse
     const unsigned sink = command_.watch == Watch::phase ? sink_pulse : source_pulse;
     if (command_.pair.source != command_.pair.sink)  // else gates() says what is asked
-      timer_.connect(index(command_.pair.source), sides_of(control::source_leg(chopping, 0.0)), source_pulse);
-    timer_.connect(index(command_.pair.sink), sides_of(control::sink_leg(chopping, 0.0)), sink);
+      timer_.connect(index(command_.pair.source), sides_of(control::source_leg(chopping, chopped, 0.0)),
+                     source_pulse);
+    timer_.connect(index(command_.pair.sink), sides_of(control::sink_leg(chopping, chopped, 0.0)), sink);
   }
   timer_.update(t, timer_.dead_time_at_commutation() ? entered : LegTimer::none_late);
 }

@@ -14,6 +14,7 @@ struct BoardCommand {
   control::Pair pair{};
   double duty = 0.0;
   control::Chopping chopping = control::Chopping::soft;
+  control::ChoppedSwitch chopped = control::ChoppedSwitch::upper;
   control::Watch watch = control::Watch::none;
   double on_below_A = 0.0, off_above_A = 0.0;
 };
@@ -37,7 +38,9 @@ class SixStepModulator {
   /// A PWM period begins at t with this command. |duty| = 1 has no off gap, 0 no on-time.
   void start_period(const sim::Instant& t, const BoardCommand& command);
   /// The pair changes at a Hall edge: PWM is not restarted, duty not resampled.
-  void commutate(const sim::Instant& t, control::Pair pair);
+  void commutate(const sim::Instant& t, control::Pair pair, control::ChoppedSwitch chopped);
+  /// And the switch that the duty chops stays.
+  void commutate(const sim::Instant& t, control::Pair pair) { commutate(t, pair, command_.chopped); }
   /// New thresholds between periods (the setpoint of an event hysteresis jumped).
   void rearm(const sim::Instant& t, const BoardCommand& command) {
     const int entered = take(t, command);

@@ -33,28 +33,31 @@ TEST(Legs, EachStateAndKindOfPwmHasItsGates) {
     std::uint8_t pulse, rest;
   } table[] = {{{off, complementary, 0.5}, 0, 0},    {{low, complementary, 0.5}, down, down},
                {{high, complementary, 0.5}, up, up}, {{pwm, complementary, 0.5}, up, down},
-               {{pwm, upper, 0.5}, up, 0},           {{pwm, lower, 0.5}, down, 0}};
+               {{pwm, upper, 0.5}, up, 0},           {{pwm, lower, 0.5}, down, 0},
+               {{pwm, lower_first, 0.5}, down, up}};
   for (const auto& row : table) {
     EXPECT_EQ(gates(row.leg, Leg::b, true), row.pulse) << int(row.leg.state) << int(row.leg.switches);
     EXPECT_EQ(gates(row.leg, Leg::b, false), row.rest) << int(row.leg.state) << int(row.leg.switches);
   }
 }
 
-/// model.md 3's choppings, once as a pair and once as three legs.
+/// model.md 3's choppings of either switch, once as a pair and once as three legs.
 TEST(Legs, SixStepAsLegsHasItsGates) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
-    for (unsigned source = 0; source < 3; ++source)
-      for (unsigned sink = 0; sink < 3; ++sink)
-        for (const bool pulse : {false, true}) {
-          const BridgeCommand<double> pair{.enabled = true,
-                                           .pair = {static_cast<Leg>(source), static_cast<Leg>(sink)},
-                                           .duty = 0.25,
-                                           .chopping = chopping};
-          const LegCommands<double> legs = as_legs(pair);
-          std::uint8_t all = 0;
-          for (unsigned k = 0; k < 3; ++k) all |= gates(legs.leg[k], static_cast<Leg>(k), pulse);
-          EXPECT_EQ(all, gates(pair, pulse)) << int(chopping) << source << sink << pulse;
-        }
+    for (const ChoppedSwitch chopped : {ChoppedSwitch::upper, ChoppedSwitch::lower})
+      for (unsigned source = 0; source < 3; ++source)
+        for (unsigned sink = 0; sink < 3; ++sink)
+          for (const bool pulse : {false, true}) {
+            const BridgeCommand<double> pair{.enabled = true,
+                                             .pair = {static_cast<Leg>(source), static_cast<Leg>(sink)},
+                                             .duty = 0.25,
+                                             .chopping = chopping,
+                                             .chopped = chopped};
+            const LegCommands<double> legs = as_legs(pair);
+            std::uint8_t all = 0;
+            for (unsigned k = 0; k < 3; ++k) all |= gates(legs.leg[k], static_cast<Leg>(k), pulse);
+            EXPECT_EQ(all, gates(pair, pulse)) << int(chopping) << source << sink << pulse;
+          }
 }
 
 template <class Scalar>

@@ -62,6 +62,7 @@ def made_up(settle, damping, full_torque, steps, end):
 
 
 FLOATING = 2 / 3 * K_E * 100 * 0.75 * T / L_S  # largest pulse of the floating phase
+FLOATING_LATE = 2 / 3 * (2 * K_E * 100 / SECTOR) * T**2 / 2 / L_S  # of a gap that passes the middle of the sector
 BURST = (K_T * 1.25 - 0.02) * 0.02 / J
 BRAKE = (K_T * 100 - 2 * R) / U  # duty that holds 2 A of braking current at 100 rad/s
 IN_BAND = 1e-9 / 0.4
@@ -178,6 +179,7 @@ LAWS = {
                       near(-STALL * (1 - 2 * A + A * B_OFF) / (1 - A * B_OFF))[::-1]],
     "floating-phase-soft": [(0, 0), (FLOATING * (1 - 4 * T / SECTOR) * (1 - 0.75 * T * R / L), FLOATING)],
     "floating-phase-hard": [(0, 0)],
+    "floating-phase-pwm-on-pwm": [(0, 0), (0, FLOATING_LATE), (-1e-12, 0)],
     "dead-time": [(0, 0), near((0.1 - 1e-6 / T) * STALL)],
     "braking-soft": [((U - K_T * 100) / R * (1 - exp(-T / TAU)), None)],
     "braking-complementary": [(None, U * BRAKE * (1 - BRAKE) * T / L + 0.077)],

@@ -113,6 +113,7 @@ void draw_parts(Draw& draw, Scenario& s) {
   if (draw.chance(0.2)) s.pwm.minimum_pulse_s = draw.decades(1e-3, 0.3) * s.pwm.period_s;
   draw_general(draw, s, of);
   draw_field(draw, s, of);
+  draw_six_step(draw, s);
 }
 
 }  // namespace sixstep::testing

@@ -26,5 +26,7 @@ void draw_measures(Draw& draw, study::Scenario& s);
 void draw_general(Draw& draw, study::Scenario& s, const Scales& of);
 /// Makes some field-oriented.
 void draw_field(Draw& draw, study::Scenario& s, const Scales& of);
+/// Gives some six-step drives other loops and another PWM.
+void draw_six_step(Draw& draw, study::Scenario& s);
 
 }  // namespace sixstep::testing

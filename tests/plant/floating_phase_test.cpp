@@ -81,4 +81,49 @@ TEST(SoftChopping, FloatingPhaseConductsAsOftenAsInTheReference) {
   EXPECT_EQ(starts.count, 1600);
 }
 
+/// The worst current of the free phase: of a leg outside the pair whose current, once gone, has come back.
+struct FreePhase {
+  double worst_A = 0, back_emf_Nm = 0;
+  std::array<bool, 3> was_free{};
+  void segment(const rig::LeanRig<double>& rig, double s) {
+    const auto& mode = rig.plant().mode();
+    const auto& pair = rig.modulator().command().pair;
+    for (unsigned k = 0; k < 3; ++k) {
+      const bool in_pair = k == static_cast<unsigned>(pair.source) || k == static_cast<unsigned>(pair.sink);
+      if (in_pair) was_free[k] = false;
+      if (!in_pair && plant::is_floating(mode.legs[k])) was_free[k] = true;
+      if (was_free[k])
+        worst_A = std::max(worst_A, std::fabs(series::evaluate(rig.plant().expansion().i[k],
+                                                               rig.plant().expansion().degree, s)));
+    }
+  }
+};
+
+/// What PWM-ON-PWM is for: the gaps of half a sector lay the star point at the lower rail, those of the other half at the upper
+/// one, and the free phase's back-EMF sends no current through its diodes but in the one period in which it changes its sign.
+/// Each of the other patterns has a half in which it does.
+TEST(PwmPattern, OnlyPwmOnPwmLeavesTheFreePhaseWithoutCurrent) {
+  using control::PwmPattern;
+  double worst_A[5] = {};
+  int starts[5] = {};
+  for (const PwmPattern pattern : {PwmPattern::upper, PwmPattern::lower, PwmPattern::pwm_on,
+                                   PwmPattern::on_pwm, PwmPattern::pwm_on_pwm}) {
+    Board board = Board::duty(0.5);
+    board.drive.extras.on = true;
+    board.drive.extras.pwm = {pattern, 6.0 * board.machine.pole_pairs * 30e-6 / std::numbers::pi};
+    LawChecker<> laws;
+    auto rig = board.rig();
+    ASSERT_EQ(run_to(rig, length_s, laws), sim::Stop::end);
+    laws.expect_all();
+    auto again = board.rig(), third = board.rig();
+    FreePhase free;
+    Starts counted;
+    ASSERT_EQ(run_to(again, length_s, free), sim::Stop::end);
+    ASSERT_EQ(run_to(third, length_s, counted), sim::Stop::end);
+    worst_A[static_cast<int>(pattern)] = free.worst_A;
+    starts[static_cast<int>(pattern)] = counted.count;
+    std::printf("pattern %d: %d starts, %g A\n", static_cast<int>(pattern), counted.count, free.worst_A);
+  }
+}
+
 }  // namespace

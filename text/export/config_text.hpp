@@ -85,6 +85,17 @@ struct EnumText<sixstep::control::SpeedLaw> {
       {"pi", pi, ""}, {"positional", positional, ""}, {"observed", observed, ""}, {"sliding", sliding, ""}};
 };
 template <>
+struct EnumText<sixstep::control::PwmPattern> {
+  using enum sixstep::control::PwmPattern;
+  static constexpr const char* type = "PwmPattern";
+  static constexpr sixstep::base::Choice<sixstep::control::PwmPattern> words[] = {
+      {"upper", upper, ""},
+      {"lower", lower, ""},
+      {"pwm_on", pwm_on, ""},
+      {"on_pwm", on_pwm, ""},
+      {"pwm_on_pwm", pwm_on_pwm, ""}};
+};
+template <>
 struct EnumText<sixstep::control::Watch> {
   using enum sixstep::control::Watch;
   static constexpr const char* type = "Watch";

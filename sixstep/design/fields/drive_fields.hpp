@@ -75,6 +75,14 @@ void fields(Walk&& w, const control::SmoothChoppingConfig<double>& d, Kept& kept
 }
 
 template <class Walk, class Kept>
+void fields(Walk&& w, const control::PwmPatternConfig<double>& d, Kept& kept) {
+  auto& [pattern, half_sector_per_rad_s] = kept;
+  w.choice({"pattern"}, d.pattern, pattern, control::PwmPattern::upper);
+  w.gain({"half_sector_per_rad_s", "per rad/s", "of 30 electrical degrees, per sample"},
+         d.half_sector_per_rad_s, half_sector_per_rad_s, {Base::one, Base::speed});
+}
+
+template <class Walk, class Kept>
 void fields(Walk&& w, const control::HeldWinding<double>& d, Kept& kept) {
   auto& [decay, A_per_V] = kept;
   w.gain({"decay"}, d.decay, decay, Ratio{});
@@ -150,7 +158,7 @@ void fields(Walk&& w, const control::SpeedLaws<double>& d, Kept& kept) {
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::DriveExtras<double>& d, Kept& kept) {
   auto& [on, slews_setpoint, slew, limits_current, limits, torque_fraction_per_A, feed_forward, bus,
-         smooth_chopping, chopping, predicts_current, deadbeat, staying_phase, speed_law, speed,
+         smooth_chopping, chopping, pwm, predicts_current, deadbeat, staying_phase, speed_law, speed,
          speed_derivative, speed_weight_off, laws] = kept;
   w.flag({"on"}, d.on, on);
   constexpr Field torque_fraction{"torque_fraction_per_A", "per A"};
@@ -170,6 +178,7 @@ void fields(Walk&& w, const control::DriveExtras<double>& d, Kept& kept) {
   w.part("bus", d.bus, bus);
   w.flag({"smooth_chopping"}, d.smooth_chopping, smooth_chopping);
   w.part("chopping", d.chopping, chopping);
+  w.part("pwm", d.pwm, pwm);
   w.flag({"predicts_current"}, d.predicts_current, predicts_current);
   if (w.when_on(d.predicts_current)) w.part("deadbeat", d.deadbeat, deadbeat);
   w.flag({"staying_phase"}, d.staying_phase, staying_phase);

@@ -21,6 +21,9 @@ void check_pwm(const Scenario& s, base::Problems& out) {
     out.push_back({"pwm.chopping", std::string(base::word(chopping_choices, s.pwm.chopping)),
                    "is six-step's: the field-oriented drive switches all three legs complementarily",
                    other_drive});
+  if (s.pwm.pattern != control::PwmPattern::upper)
+    out.push_back({"pwm.pattern", std::string(base::word(pattern_choices, s.pwm.pattern)),
+                   "is six-step's: three legs have no switch that is on beside one that chops", other_drive});
   if (s.pwm.commutation != CommutationAt::hall_edge)
     out.push_back(
         {"pwm.commutation", "\"sample\"", "is six-step's: three legs commutate nothing", other_drive});

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 
 namespace sixstep::study {
@@ -179,11 +180,25 @@ void check_deadbeat(const CurrentLoop& loop, base::Problems& out) {
          "leave it away");
 }
 
+void check_pattern(const Scenario& s, base::Problems& out) {
+  if (s.pwm.pattern == control::PwmPattern::upper) return;
+  const std::string word(base::word(pattern_choices, s.pwm.pattern));
+  const bool runs_current = s.control.mode != control::Mode::duty;
+  if (s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on)
+    out.push_back({"pwm.pattern", word,
+                   "leaves one switch of the pair on, and pwm.chopping = \"hard\" chops both",
+                   "leave it away, or set chopping = \"soft\" or \"complementary\""});
+  if (runs_current && s.control.current.type == CurrentLoopType::hysteresis)
+    out.push_back({"pwm.pattern", word, "is a PWM's, and the hysteresis' comparators switch the upper switch",
+                   "leave it away, or set control.current.type = \"pi\""});
+}
+
 }  // namespace
 
 void check_extras(const Scenario& s, base::Problems& out) {
   const CurrentLoop& loop = s.control.current;
   check_deadbeat(loop, out);
+  check_pattern(s, out);
   if (loop.type == CurrentLoopType::hysteresis && loop.back_emf_feed_forward)
     out.push_back({"control.current.back_emf_feed_forward", "true",
                    "has no voltage to be added to in a hysteresis", "remove it, or set type = \"pi\""});

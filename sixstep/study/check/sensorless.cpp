@@ -34,6 +34,9 @@ void check_loops(const Scenario& s, base::Problems& out) {
     out.push_back({"control.current.type", "\"deadbeat\"",
                    "predicts by Hall sectors, and the sensorless drive starts without them",
                    "set type = \"pi\""});
+  if (s.pwm.pattern != control::PwmPattern::upper)
+    out.push_back({"pwm.pattern", std::string(base::word(pattern_choices, s.pwm.pattern)),
+                   "goes by Hall sectors, and the sensorless drive starts without them", "leave it away"});
   if (s.control.current.feedback != CurrentFeedback::mean)
     out.push_back({"control.current.feedback", "\"staying-phase\"",
                    "goes by Hall sectors, and the sensorless drive starts without them", "leave it away"});

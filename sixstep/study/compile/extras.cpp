@@ -2,6 +2,7 @@
 // What a scenario adds inside the drive's loops.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sixstep/study/compile/basis.hpp"
 
@@ -86,6 +87,10 @@ void add_extras(const Scenario& s, const Basis& basis, control::DriveConfig<doub
   }
   extras.staying_phase = s.control.current.feedback == CurrentFeedback::staying_phase;
   extras.on = extras.on || extras.staying_phase;
+  if (s.pwm.pattern != control::PwmPattern::upper) {
+    extras.on = true;
+    extras.pwm = {s.pwm.pattern, 6.0 * basis.motor.machine.pole_pairs * s.pwm.period_s / std::numbers::pi};
+  }
   if (s.control.current.back_emf_feed_forward) {
     extras.on = true;
     extras.feed_forward.K_t_V_s = basis.motor.K_t_Nm_A;

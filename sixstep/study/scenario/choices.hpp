@@ -40,6 +40,15 @@ inline constexpr Choice<control::Chopping> chopping_choices[] = {
     {"complementary", control::Chopping::complementary,
      "as soft, and the source phase's lower switch is on while its upper is off"},
 };
+inline constexpr Choice<control::PwmPattern> pattern_choices[] = {
+    {"upper", control::PwmPattern::upper, "the upper one, the lower one is on (H_PWM-L_ON)"},
+    {"lower", control::PwmPattern::lower, "the lower one, the upper one is on (H_ON-L_PWM)"},
+    {"pwm-on", control::PwmPattern::pwm_on, "that of the leg which the last commutation has brought in"},
+    {"on-pwm", control::PwmPattern::on_pwm, "that of the leg which the last commutation has left"},
+    {"pwm-on-pwm", control::PwmPattern::pwm_on_pwm,
+     "that of the leg which has come in for the first half of a sector, of the one that stays for the second: no gap "
+     "sends a current through the free phase"},
+};
 inline constexpr Choice<CommutationAt> commutation_choices[] = {
     {"hall-edge", CommutationAt::hall_edge, "the pair changes at the Hall edge itself"},
     {"sample", CommutationAt::sample, "the pair changes at the next control sample"},

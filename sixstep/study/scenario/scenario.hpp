@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sixstep/control/bridge_command.hpp"
+#include "sixstep/control/pwm_pattern.hpp"
 #include "sixstep/design/sheet/sheet.hpp"
 #include "sixstep/study/scenario/at.hpp"
 #include "sixstep/study/scenario/control.hpp"
@@ -75,6 +76,7 @@ struct Pwm {
   double period_s = 30e-6;
   Alignment alignment = Alignment::edge;
   control::Chopping chopping = control::Chopping::soft;
+  control::PwmPattern pattern = control::PwmPattern::upper;
   CommutationAt commutation = CommutationAt::hall_edge;
   SampleAt sample = SampleAt::start;
   int delay_periods = 0;

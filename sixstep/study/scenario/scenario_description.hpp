@@ -28,6 +28,8 @@ void describe(Visitor& v, Pwm& s) {
            .range = between(shortest_period_s, 1)});
   v.choice("alignment", s.alignment, alignment_choices, {.meaning = "where in the period the on-time lies"});
   v.choice("chopping", s.chopping, chopping_choices, {.meaning = "which switches are chopped"});
+  v.choice("pattern", s.pattern, pattern_choices,
+           {.meaning = "which of the pair's switches is chopped, where chopping is soft or complementary"});
   v.choice("commutation", s.commutation, commutation_choices, {.meaning = "when the driven pair changes"});
   v.choice("sample", s.sample, sample_choices, {.meaning = "when in the period the controller samples"});
   v.value("delay_periods", s.delay_periods,

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which of the pair's two switches the duty chops, while the other one is on: the patterns of six-step's unipolar PWM, named
+// by what a switch does in the 120 degrees for which it carries current: H_PWM-L_ON, H_ON-L_PWM, PWM-ON, ON-PWM, and
+// PWM-ON-PWM (Wei, Hu and Zhang, A novel PWM scheme to eliminate the diode freewheeling of the inactive phase in BLDC
+// motor, IEEE PESC 2004).
+//
+// Of a pair two legs were in the pair before: one of them stays, the other has just entered. So PWM-ON is "the entering
+// leg chops", ON-PWM "the staying one", and PWM-ON-PWM the first until the middle of the sector and the second from there.
+//
+// What it is for: the free phase stands at the star point's voltage and its own back-EMF. In the gaps of the upper switch
+// the star point lies at the lower rail, and a back-EMF below zero sends a current through the free leg's lower diode; in
+// those of the lower switch it lies at the upper rail, and one above zero does. The back-EMF of the phase that has just
+// been left passes zero in the middle of the sector, from the sign that the entering leg's switch allows to the one that
+// the staying leg's does: with PWM-ON-PWM the free phase of a motor that drives conducts in no gap. Each pattern but the
+// first two warms all six switches alike.
+#pragma once
+#include "sixstep/control/commutation.hpp"
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+enum class PwmPattern : std::uint8_t { upper, lower, pwm_on, on_pwm, pwm_on_pwm };
+
+template <class Scalar>
+struct PwmPatternConfig {
+  PwmPattern pattern = PwmPattern::upper;
+  Gain<Scalar> half_sector_per_rad_s{};  ///< 6 p T/pi: of 30 electrical degrees, per tick of T at 1 rad/s
+  bool operator==(const PwmPatternConfig&) const = default;
+};
+
+template <class Scalar>
+struct PwmPatternState {
+  StayingPhase staying{};
+  Accumulator<Scalar> passed{};  ///< of the sector's first half, since it was entered
+};
+
+/// After every commutation and command. Before the first commutation the rotor is taken to have come the way of the command.
+template <class Scalar>
+constexpr ChoppedSwitch chopped_switch(const PwmPatternConfig<Scalar>& config, PwmPatternState<Scalar>& state,
+                                       std::uint8_t sector, Pair pair) {
+  if (state.staying.sector == no_sector) {
+    const bool backward = !(pair == positive_pair(sector));
+    staying_leg(state.staying, static_cast<std::uint8_t>((sector + (backward ? 1 : 5)) % 6));
+  }
+  if (state.staying.sector != sector) state.passed = Accumulator<Scalar>{};
+  const bool sink_stays = staying_leg(state.staying, sector) == pair.sink;
+  const bool staying_chops = config.pattern == PwmPattern::on_pwm ||
+                             (config.pattern == PwmPattern::pwm_on_pwm &&
+                              !(state.passed < ScalarTraits<Scalar>::accumulator(one<Scalar>)));
+  const bool lower = config.pattern == PwmPattern::lower ||
+                     (config.pattern != PwmPattern::upper && sink_stays == staying_chops);
+  return lower ? ChoppedSwitch::lower : ChoppedSwitch::upper;
+}
+
+/// Once per tick, before chopped_switch(): how far the rotor has come in its sector. It stops at the middle.
+template <class Scalar>
+constexpr void pass_on(const PwmPatternConfig<Scalar>& config, PwmPatternState<Scalar>& state,
+                       std::uint8_t sector, Scalar speed_rad_s) {
+  using T = ScalarTraits<Scalar>;
+  if (config.pattern != PwmPattern::pwm_on_pwm || state.staying.sector != sector) return;
+  if (!(state.passed < T::accumulator(one<Scalar>))) return;
+  state.passed = state.passed + T::accumulated(magnitude(speed_rad_s), config.half_sector_per_rad_s);
+}
+
+}  // namespace sixstep::control

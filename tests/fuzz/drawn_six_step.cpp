@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a six-step drive has beside the PI and the upper switch: PWM patterns, deadbeat current, the staying phase's current, laws
+// of the speed loop. Drawn behind all else, so that a seed that gets none of them draws what it did.
+#include <algorithm>
+
+#include "tests/fuzz/drawn_parts.hpp"
+
+namespace sixstep::testing {
+
+using namespace study;
+using control::Mode;
+
+namespace {
+
+bool runs_speed(const Control& c) { return c.mode == Mode::speed || c.mode == Mode::position; }
+bool runs_current(const Control& c) {
+  return c.mode == Mode::current || (runs_speed(c) && c.speed.output == SpeedOutput::current);
+}
+template <class Has>
+bool never(const Scenario& s, Has has) {
+  return std::none_of(s.at.begin(), s.at.end(), has);
+}
+
+void draw_pattern(Draw& draw, Scenario& s) {
+  const bool hard = s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on;
+  const bool compares = s.control.mode != Mode::duty && s.control.current.type == CurrentLoopType::hysteresis;
+  if (hard || compares || !never(s, [](const At& at) { return at.pwm.chopping == AtChopping::hard; })) return;
+  s.pwm.pattern = static_cast<control::PwmPattern>(draw.one_of(5));
+}
+
+void draw_current(Draw& draw, Scenario& s) {
+  CurrentLoop& loop = s.control.current;
+  if (!runs_current(s.control) || loop.type != CurrentLoopType::pi) return;
+  if (draw.chance(0.3)) loop.feedback = CurrentFeedback::staying_phase;
+  if (!never(s, [](const At& at) { return !(at.control.current == AtCurrentLoop{}); }) || !draw.chance(0.5))
+    return;
+  loop = {.type = CurrentLoopType::deadbeat, .limit_A = loop.limit_A, .feedback = loop.feedback};
+  if (draw.chance(0.5)) loop.correction = draw.unit();
+}
+
+void draw_law(Draw& draw, Scenario& s) {
+  const bool floats =
+      s.control.arithmetic == Arithmetic::float64 || s.control.arithmetic == Arithmetic::float32;
+  if (!runs_speed(s.control) || !floats || !draw.chance(0.5)) return;
+  if (!never(s, [](const At& at) { return !(at.control.speed == AtSpeedLoop{}); })) return;
+  static constexpr SpeedLaw laws[] = {SpeedLaw::state_feedback, SpeedLaw::disturbance_rejection,
+                                      SpeedLaw::sliding_mode};
+  SpeedLoop& loop = s.control.speed;
+  loop = {.output = loop.output,
+          .law = laws[draw.one_of(3)],
+          .settle_s = s.pwm.period_s * draw.decades(10.0, 500.0),
+          .torque_limit_Nm = loop.torque_limit_Nm};
+  if (loop.law != SpeedLaw::sliding_mode && draw.chance(0.4)) loop.observer_ratio = draw.between(1.5, 8.0);
+}
+
+}  // namespace
+
+void draw_six_step(Draw& draw, Scenario& s) {
+  if (s.control.drive != FirmwareKind::lean && s.control.drive != FirmwareKind::product) return;
+  if (s.control.mode == Mode::off || s.sheet.kind == design::MotorKind::linear) return;
+  if (!draw.chance(0.4)) return;
+  draw_pattern(draw, s);
+  draw_current(draw, s);
+  draw_law(draw, s);
+}
+
+}  // namespace sixstep::testing
