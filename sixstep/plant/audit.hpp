@@ -106,10 +106,12 @@ inline typename Audit<Real>::Point Audit<Real>::end_of(const Expansion<Real>& y,
 template <class Real>
 inline void Audit<Real>::check_laws(const LegsLaw<Real>& law, const Point& begin, const Point& end) {
   const auto raise = [](double& worst, Real v) { worst = std::max(worst, static_cast<double>(v)); };
-  const auto sum = [](const Point& p) { return detail::abs(p.i[0] + p.i[1] + p.i[2]); };
-  raise(laws_.current_sum_A, std::max(sum(begin), sum(end)));
+  // A segment keeps the sum: two currents are moved, and the third is made of them. The next one begins where it ends.
+  raise(laws_.current_sum_A, detail::abs(begin.i[0] + begin.i[1] + begin.i[2]));
   // What floats stands last, and has not moved.
-  for (int n = law.connected; n < 3; ++n) raise(laws_.floating_current_A, detail::abs(begin.i[n]));
+  if (law.connected < 3) raise(laws_.floating_current_A, detail::abs(begin.i[2]));
+  if (law.connected < 2)
+    raise(laws_.floating_current_A, std::max(detail::abs(begin.i[0]), detail::abs(begin.i[1])));
   if (law.diodes == 0) return;
   for (int n = 0; n < 3; ++n)
     // mutant: -std::min(law.along[n] * begin.i[n], law.along[n] * end.i[n]) => Real(0)

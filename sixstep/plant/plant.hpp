@@ -55,7 +55,7 @@ class Plant {
     mode_guards(constants_, mode_, y_, slack_, visit);
     edge_guards(constants_.emf[mode_.sector].piece[mode_.piece], y_, visit);
   }
-  /// The segment ends at the fraction s of the expanded length: the expansion's `end` is what has moved until there.
+  /// Once per expansion: its segment ends at the fraction s of its length, and `end` is what has moved until there.
   void end_at(Real s) {
     if (s != 1) y_.end = detail::increments(y_, constants_.legs[legs_index(mode_.legs)], s);
   }

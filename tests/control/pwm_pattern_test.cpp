@@ -57,7 +57,8 @@ TYPED_TEST(PwmPatternOf, ChopsWhatItsNameSaysBothWays) {
         for (int k = 0; k <= ticks; ++k) {
           if (k > 0) pass_on(config, state, rotor.sector(n), backward ? S(-0.5) : S(0.5));
           const ChoppedSwitch chopped = chopped_switch(config, state, rotor.sector(n), rotor.pair(n));
-          const bool begun = rotor.pair(n - 1).source == rotor.pair(n).source;  // of the first sector too: it came that way
+          const bool begun =
+              rotor.pair(n - 1).source == rotor.pair(n).source;  // of the first sector too: it came that way
           if (pattern == PwmPattern::pwm_on_pwm && is_fixed<S> && k == ticks / 2)
             continue;  // a digit early or late
           EXPECT_EQ(chopped == ChoppedSwitch::upper, chops(pattern, true, begun, k >= ticks / 2))

@@ -155,8 +155,10 @@ TEST(Audit, SeesADiodeThatConductsBackwards) {
         i_0 * std::exp(-length / setup.tau()) + 24.0 / setup.R_tt() * std::expm1(-length / setup.tau());
     ASSERT_LT(exact, -0.1);
     plant::Audit<double> audit;
+    bench.plant().end_at(0.2);
     audit.segment(bench.plant(), 0.2);
     EXPECT_EQ(audit.laws().reverse_diode_A, 0.0) << high;
+    ASSERT_EQ(bench.plant().expand(30e-6), length);
     audit.segment(bench.plant(), 1.0);
     EXPECT_NEAR(audit.laws().reverse_diode_A, -exact, 32 * eps * i_0) << high;
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/support/board.hpp"
 #include "tests/support/laws.hpp"
@@ -83,7 +84,7 @@ TEST(SoftChopping, FloatingPhaseConductsAsOftenAsInTheReference) {
 
 /// The worst current of the free phase: of a leg outside the pair whose current, once gone, has come back.
 struct FreePhase {
-  double worst_A = 0, back_emf_Nm = 0;
+  double worst_A = 0;
   std::array<bool, 3> was_free{};
   void segment(const rig::LeanRig<double>& rig, double s) {
     const auto& mode = rig.plant().mode();
@@ -100,29 +101,38 @@ struct FreePhase {
 };
 
 /// What PWM-ON-PWM is for: the gaps of half a sector lay the star point at the lower rail, those of the other half at the upper
-/// one, and the free phase's back-EMF sends no current through its diodes but in the one period in which it changes its sign.
-/// Each of the other patterns has a half in which it does.
+/// one, and the free phase's back-EMF sends no current through its diodes but in the gap that passes the middle, in which it
+/// changes its sign: by 2 K_e w in a sector, L di/dt = -2/3 e. Each of the other patterns has a half in which it does.
 TEST(PwmPattern, OnlyPwmOnPwmLeavesTheFreePhaseWithoutCurrent) {
   using control::PwmPattern;
-  double worst_A[5] = {};
-  int starts[5] = {};
+  constexpr double T = 30e-6;
   for (const PwmPattern pattern : {PwmPattern::upper, PwmPattern::lower, PwmPattern::pwm_on,
                                    PwmPattern::on_pwm, PwmPattern::pwm_on_pwm}) {
     Board board = Board::duty(0.5);
     board.drive.extras.on = true;
-    board.drive.extras.pwm = {pattern, 6.0 * board.machine.pole_pairs * 30e-6 / std::numbers::pi};
+    board.drive.extras.pwm = {pattern, 6.0 * board.machine.pole_pairs * T / std::numbers::pi};
     LawChecker<> laws;
     auto rig = board.rig();
     ASSERT_EQ(run_to(rig, length_s, laws), sim::Stop::end);
     laws.expect_all();
     auto again = board.rig(), third = board.rig();
     FreePhase free;
-    Starts counted;
+    Starts starts;
     ASSERT_EQ(run_to(again, length_s, free), sim::Stop::end);
-    ASSERT_EQ(run_to(third, length_s, counted), sim::Stop::end);
-    worst_A[static_cast<int>(pattern)] = free.worst_A;
-    starts[static_cast<int>(pattern)] = counted.count;
-    std::printf("pattern %d: %d starts, %g A\n", static_cast<int>(pattern), counted.count, free.worst_A);
+    ASSERT_EQ(run_to(third, length_s, starts), sim::Stop::end);
+    // Counts and currents of docs/control.md.
+    static constexpr struct {
+      int starts;
+      double worst_mA;
+    } rows[] = {{1600, 189}, {1674, 191}, {1744, 192}, {1535, 178}, {151, 19}};
+    EXPECT_EQ(starts.count, rows[static_cast<int>(pattern)].starts) << static_cast<int>(pattern);
+    EXPECT_NEAR(1e3 * free.worst_A, rows[static_cast<int>(pattern)].worst_mA, 0.5)
+        << static_cast<int>(pattern);
+    if (pattern != PwmPattern::pwm_on_pwm) continue;
+    const double w = rig.plant().state().w, sector_s = std::numbers::pi / 3 / board.machine.pole_pairs / w;
+    EXPECT_LT(free.worst_A,
+              2.0 / 3 * (2 * board.machine.K_e_V_s * w / sector_s) * T * T / 2 / board.machine.L_H);
+    EXPECT_LT(starts.count, rig.event_count(rig::EventKind::sector_edge)) << "one in a sector";
   }
 }
 

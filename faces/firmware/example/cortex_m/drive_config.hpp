@@ -30,16 +30,16 @@
 // On a core, the product drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a
 // control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/firmware.md):
 //                               tick    Hall                   flash     RAM
-//   Cortex-M0   q15             1893     287 instructions      22148     248 bytes
-//   Cortex-M3   q15             1045     172 instructions      19342     248 bytes
-//   Cortex-M3   q31             1495     173 instructions      30652     336 bytes
-//   Cortex-M4F  float            701     173 instructions      10320     324 bytes
-//   Cortex-M4F  q15             1044     172 instructions      19342     248 bytes
-//   Cortex-M4F  q31             1495     173 instructions      30512     336 bytes
-//   RV32IMC     q15             1012     172 instructions      18760     248 bytes
-//   ATmega2560  q15             5365     979 cycles            14376     205 bytes
-//   ATmega2560  q31            11568     979 cycles            20198     249 bytes
-//   ATmega2560  float           9493     980 cycles            11542     251 bytes
+//   Cortex-M0   q15             1898     300 instructions      22928     260 bytes
+//   Cortex-M3   q15             1044     172 instructions      20140     260 bytes
+//   Cortex-M3   q31             1499     173 instructions      31576     352 bytes
+//   Cortex-M4F  float            731     173 instructions      10532     332 bytes
+//   Cortex-M4F  q15             1043     172 instructions      20136     260 bytes
+//   Cortex-M4F  q31             1499     173 instructions      31512     352 bytes
+//   RV32IMC     q15             1031     172 instructions      19646     260 bytes
+//   ATmega2560  q15             5365     975 cycles            14408     213 bytes
+//   ATmega2560  q31            11568     975 cycles            20236     261 bytes
+//   ATmega2560  float           9493     976 cycles            11542     257 bytes
 #pragma once
 #include <cstdint>
 
