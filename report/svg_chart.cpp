@@ -101,6 +101,27 @@ std::string path(const SvgCurve& c, const Axis& x, const Axis& y) {
   return fmt::format("<path class=\"{0}\" style=\"stroke:var(--{0})\" d=\"{1}\"/>\n", c.style, d);
 }
 
+/// Names stand behind their points; where one stands already, behind that one.
+std::string marks(const SvgChart& chart, const Axis& x, const Axis& y) {
+  constexpr double line = 12, letter = 7.5;
+  struct Name {
+    double from, to, row;
+  };
+  std::vector<Name> names;
+  std::string out;
+  for (const SvgMark& m : chart.marks) {
+    const double row = y.at(m.y) + 4, length = letter * static_cast<double>(m.label.size() + 1);
+    double from = x.at(m.x) + 8;
+    for (const Name& n : names)
+      if (std::abs(n.row - row) < line && from < n.to && n.from < from + length) from = n.to;
+    names.push_back({from, from + length, row});
+    out += fmt::format(
+        "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" style=\"fill:var(--{})\"/><text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+        x.at(m.x), y.at(m.y), m.style, from, row, escaped(m.label));
+  }
+  return out;
+}
+
 std::string caption(const SvgChart& chart) {
   std::string out = fmt::format("<figcaption><span class=\"name\">{}</span><span class=\"unit\">{}</span>",
                                 escaped(chart.title), escaped(chart.y_label));
@@ -123,7 +144,13 @@ std::string svg_chart(const SvgChart& chart) {
         x.include(c.x[n]);
         y.include(c.y[n]);
       }
+  for (const SvgMark& m : chart.marks)
+    if (x.shows(m.x) && y.shows(m.y)) {
+      x.include(m.x);
+      y.include(m.y);
+    }
   if (x.empty()) return "";
+  if (!chart.marks.empty()) x.widen(0.1);
   for (const double v : chart.levels) y.include(v);
   y.widen(0.06);
   std::string out = "<figure class=\"chart drawn\">" + caption(chart);
@@ -131,6 +158,7 @@ std::string svg_chart(const SvgChart& chart) {
                      escaped(chart.title));
   out += grid(x, y, chart);
   for (const SvgCurve& c : chart.curves) out += path(c, x, y);
+  out += marks(chart, x, y);
   return out + "</svg></figure>\n";
 }
 

@@ -13,6 +13,13 @@ struct SvgCurve {
       y{};  ///< points that are not finite, or not positive on a logarithmic axis, break it
 };
 
+/// A point with a name beside it.
+struct SvgMark {
+  double x, y;
+  std::string label;
+  std::string style;  ///< as a curve's
+};
+
 struct SvgChart {
   std::string title, x_label, y_label{};
   bool log_x = false, log_y = false;
@@ -20,9 +27,10 @@ struct SvgChart {
   bool compact = false;  ///< half as large, for a place beside others
   std::vector<SvgCurve> curves{};
   std::vector<double> levels{};  ///< horizontal lines
+  std::vector<SvgMark> marks{};
 };
 
-/// A <figure> with caption, legend and drawing; empty where no curve has a point.
+/// A <figure> with caption, legend and drawing; empty where neither a curve nor a mark has a point.
 std::string svg_chart(const SvgChart& chart);
 
 }  // namespace report

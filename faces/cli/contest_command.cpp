@@ -19,6 +19,7 @@
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
+#include "report/contest_page.hpp"
 #include "text/contest/contest_entries.hpp"
 #include "text/contest/contest_text.hpp"
 #include "text/scenario/scenario_text.hpp"
@@ -33,7 +34,7 @@ struct ContestArguments {
   std::optional<double> voltage_V, settle_s, current_settle_s, period_s;
   std::size_t drives = 10;
   std::uint64_t seed = 1;
-  std::string json, csv, write;
+  std::string json, csv, html, write;
   bool quiet = false, force = false;
   unsigned jobs = 0;
   std::string command;  ///< what makes the files again
@@ -52,17 +53,18 @@ std::string file_name(std::string_view name) {
 
 /// Files are made before the work begins: one that cannot be written is told at once.
 struct ContestFiles {
-  std::optional<files::AtomicFile> json, csv;
+  std::optional<files::AtomicFile> json, csv, html;
   std::vector<files::AtomicFile> scenarios;  ///< of the entries that have one, in their order
 
   base::Problems open(const ContestArguments& a, const std::vector<analysis::ContestEntry>& entries) {
-    base::Problems found = written_twice({{"--json", a.json}, {"--csv", a.csv}});
+    base::Problems found = written_twice({{"--json", a.json}, {"--csv", a.csv}, {"--html", a.html}});
     if (!found.empty()) return found;
     const auto one = [&](std::optional<files::AtomicFile>& into, const std::string& path) {
       if (!path.empty() && path != "-") keep(into, files::AtomicFile::create({path, a.force}), found);
     };
     one(json, a.json);
     one(csv, a.csv);
+    if (!a.html.empty()) keep(html, files::AtomicFile::create({a.html, a.force}), found);
     if (a.write.empty() || !found.empty()) return found;
     found = make_folder(a.write);
     for (const analysis::ContestEntry& entry : entries) {
@@ -84,6 +86,7 @@ base::Problems write(const analysis::Contest& contest, const ContestArguments& a
   };
   if (out.json) put(*out.json, text::contest_json(contest));
   if (out.csv) put(*out.csv, text::contest_csv(contest));
+  if (out.html) put(*out.html, report::render_contest({contest, a.command, SIXSTEP_VERSION}));
   auto file = out.scenarios.begin();
   for (const analysis::ContestEntry& entry : contest.entries) {
     if (!entry.scenario || file == out.scenarios.end()) continue;
@@ -178,6 +181,8 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
   verb.add_option("--seed", a.seed, "of these drives")->capture_default_str();
   verb.add_option("--json", a.json, "write everything; - for standard output instead of the tables");
   verb.add_option("--csv", a.csv, "write a line per controller; - for standard output");
+  verb.add_option("--html", a.html,
+                  "write a page with pictures: who has the least of what, each one's answer to the load");
   verb.add_option("--write", a.write, "a folder for the scenario of each controller, for sixstep run");
   take_force(verb, a.force);
   take_data(verb, a.data_dir);

@@ -22,6 +22,24 @@ class Compare(ProgramTest):
         rows = list(csv.DictReader((self.path / "c.csv").read_text().splitlines()))
         self.assertEqual([row["controller"] for row in rows], [c["name"] for c in told["controllers"]])
 
+    def test_draws_a_page(self):
+        told = json.loads(self.run_program("compare", MOTOR, "--runs", "0", "--json", "-", "--html", "c.html").stdout)
+        page = (self.path / "c.html").read_text(encoding="utf-8")
+        names = [c["name"] for c in told["controllers"]]
+        for n, name in enumerate(names):  # its answer to the load, and its number among the trades
+            self.assertEqual(page.count(f'aria-label="{n + 1} {name}"'), 1, name)
+            self.assertRegex(page, f"<circle[^>]*/><text[^>]*>{n + 1}</text>")
+        trades = page.partition('aria-label="Torque ripple against losses"')[2].partition("</svg>")[0]
+        self.assertEqual(trades.count("<circle"), len(names))
+        figures = {c["name"]: (c["nominal"]["rms torque ripple"], c["nominal"]["loss in all"]) for c in told["controllers"]}
+        front = [n for n, (r, l) in figures.items() if not any(a <= r and b <= l and (a, b) != (r, l) for a, b in figures.values())]
+        self.assertEqual(trades.count('style="fill:var(--main)"'), len(front))
+        least = min(figures, key=lambda n: figures[n][0])
+        self.assertRegex(page, f"least rms torque ripple</dt>\\s*<dd>{least}: ")
+        self.run_program("compare", MOTOR, "--runs", "0", "--quiet", "--html", "again.html")
+        again = (self.path / "again.html").read_text(encoding="utf-8")
+        self.assertEqual(again.partition("<h1>")[2].partition("<footer")[0], page.partition("<h1>")[2].partition("<footer")[0])
+
     def test_a_written_scenario_is_the_one_that_ran(self):
         made = self.run_program("compare", MOTOR, "--runs", "0", "--json", "-", "--write", "all")
         told = {c["name"]: c for c in json.loads(made.stdout)["controllers"]}

@@ -29,6 +29,9 @@ inline constexpr Contestant all_contestants[] = {
     {"six-step, complementary", "pwm.chopping = complementary",
      "turns the lower switch on while the upper is off: no diode's loss, and the current may change its sign",
      "speed"},
+    {"six-step, PWM-ON-PWM", "pwm.pattern = pwm-on-pwm",
+     "chops the switch that the commutation has brought in until the middle of a sector, and the other one from there: no "
+     "gap sends a current through the free phase"},
     {"six-step, smooth", "control.smooth_chopping.on = true",
      "chops softly where much current flows and complementarily where little does", "speed"},
     {"six-step, fed forward", "pwm.chopping = complementary; control.current.back_emf_feed_forward = true",

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/contest_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <report_assets.hpp>
+
+#include "report/bench_facts.hpp"
+#include "report/html.hpp"
+#include "report/shell.hpp"
+#include "report/svg_chart.hpp"
+#include "text/contest/contest_text.hpp"
+#include "text/escape/escape.hpp"
+#include "text/results/quantity_text.hpp"
+
+namespace report {
+namespace {
+
+using namespace sixstep;
+using analysis::Contest;
+using analysis::contest_figures;
+using analysis::ContestRow;
+using analysis::ContestTrace;
+
+/// Of those that hold the course the one with the least of a figure; none where none has it.
+const ContestRow* least_of(const Contest& c, std::size_t figure) {
+  const ContestRow* least = nullptr;
+  for (const ContestRow& row : c.rows)
+    if (row.nominal_held && std::isfinite(row.values[figure]) &&
+        (least == nullptr || row.values[figure] < least->values[figure]))
+      least = &row;
+  return least;
+}
+
+std::size_t place_of(const Contest& c, const ContestRow& row) {
+  return static_cast<std::size_t>(&row - c.rows.data());
+}
+std::string name_of(const Contest& c, const ContestRow& row) {
+  return std::string(c.entries[place_of(c, row)].who->name);
+}
+/// What stands at a point, and before the name over its course.
+std::string number_of(const Contest& c, const ContestRow& row) {
+  return fmt::format("{}", place_of(c, row) + 1);
+}
+
+std::string facts(const Contest& c) {
+  std::string out;
+  for (std::size_t f = 0; f < std::size(contest_figures); ++f) {
+    const ContestRow* row = least_of(c, f);
+    if (row == nullptr) continue;
+    const double value = row->values[f];
+    const std::string unit(contest_figures[f].unit);
+    out += bench_fact(fmt::format("least {}", contest_figures[f].phrase),
+                      fmt::format("{}: {}", name_of(c, *row),
+                                  unit == "1" ? fmt::format("{:.1f} %", 100 * value)
+                                              : text::quantity_text(value, unit, 3)));
+  }
+  return out;
+}
+
+/// Nobody has less of both: a front from the least ripple to the least losses.
+bool on_front(const Contest& c, const ContestRow& row) {
+  const auto ripple = analysis::ripple_figure, loss = analysis::loss_figure;
+  return std::none_of(c.rows.begin(), c.rows.end(), [&](const ContestRow& other) {
+    return other.nominal_held && other.values[ripple] <= row.values[ripple] &&
+           other.values[loss] <= row.values[loss] &&
+           (other.values[ripple] < row.values[ripple] || other.values[loss] < row.values[loss]);
+  });
+}
+
+SvgChart trade(const Contest& c) {
+  SvgChart chart{
+      .title = "Torque ripple against losses", .x_label = "rms torque ripple, mN m", .y_label = "W"};
+  std::vector<const ContestRow*> front;
+  for (const ContestRow& row : c.rows) {
+    if (!row.nominal_held) continue;
+    const double x = 1e3 * row.values[analysis::ripple_figure], y = row.values[analysis::loss_figure];
+    if (!std::isfinite(x) || !std::isfinite(y)) continue;
+    const bool best = on_front(c, row);
+    if (best) front.push_back(&row);
+    chart.marks.push_back({x, y, number_of(c, row), best ? "main" : "c"});
+  }
+  std::sort(front.begin(), front.end(), [](const ContestRow* a, const ContestRow* b) {
+    return a->values[analysis::ripple_figure] < b->values[analysis::ripple_figure];
+  });
+  SvgCurve line{"nobody has less of both", "main", {}, {}};
+  for (const ContestRow* row : front) {
+    line.x.push_back(1e3 * row->values[analysis::ripple_figure]);
+    line.y.push_back(row->values[analysis::loss_figure]);
+  }
+  chart.curves.push_back(std::move(line));
+  return chart;
+}
+
+/// The speed from shortly before the load step until all have settled, or the course goes on.
+SvgCurve load_step_of(const Contest& c, const ContestTrace& trace, const char* label, const char* style) {
+  const analysis::Course& course = c.bench.course;
+  const double before_s = 0.1 * (course.slow_at_s - course.load_at_s), to_s = course.load_at_s + 5 * before_s;
+  SvgCurve curve{label, style, {}, {}};
+  for (std::size_t n = 0; n < trace.t_s.size(); ++n) {
+    if (trace.t_s[n] < course.load_at_s - before_s || trace.t_s[n] > to_s) continue;
+    curve.x.push_back(1e3 * (trace.t_s[n] - course.load_at_s));
+    curve.y.push_back(trace.speed_rad_s[n]);
+  }
+  return curve;
+}
+
+/// Each controller's answer to the load over that of the usual one.
+std::string load_steps(const Contest& c) {
+  const ContestTrace* usual = nullptr;
+  for (const ContestRow& row : c.rows)
+    if (name_of(c, row) == analysis::six_step_name && !row.trace.t_s.empty()) usual = &row.trace;
+  std::string out;
+  for (const ContestRow& row : c.rows) {
+    if (row.trace.t_s.empty()) continue;
+    SvgChart chart{.title = number_of(c, row) + " " + name_of(c, row),
+                   .x_label = "ms after the load step",
+                   .y_label = "rad/s",
+                   .compact = true};
+    if (usual != nullptr && usual != &row.trace)
+      chart.curves.push_back(load_step_of(c, *usual, analysis::six_step_name.data(), "reference"));
+    chart.curves.push_back(load_step_of(c, row.trace, "speed", "a"));
+    out += svg_chart(chart);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string render_contest(const ContestPage& page) {
+  const Contest& c = page.contest;
+  const std::string title =
+      escaped(text::visible(fmt::format("Controllers of the {}", c.bench.scenario.motor)));
+  const std::string subtitle = fmt::format(
+      "{} controllers, each designed by its rule, on one course: start against half of the "
+      "rated torque, load step, way down to the lowest speed",
+      c.entries.size());
+  const std::string body = filled(assets::bench_html, {{"title", title},
+                                                       {"subtitle", escaped(subtitle)},
+                                                       {"facts", facts(c)},
+                                                       {"pictured", "On the nominal motor"},
+                                                       {"charts", svg_chart(trade(c)) + load_steps(c)},
+                                                       {"text", escaped(text::contest_text(c))}});
+  return in_shell({.title = title, .body = body, .command = page.command, .version = page.version});
+}
+
+}  // namespace report
