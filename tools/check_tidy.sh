@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_tidy.sh [BUILD]             clang-tidy over every source file of the product, with the flags of a configured build
-# check_tidy.sh [BUILD] --recent    of those that the last 60 commits changed, and those that include a header that they changed:
+# check_tidy.sh [BUILD] --recent    of those that the last 40 commits changed, and those that include a header that they changed:
 #                                   the others are what they were when they were looked at
 # check_tidy.sh [BUILD] --analyzer  with the path-sensitive analyzer too, whose finds the sanitizers and the fuzzers meet first,
 #                                   and the checks that take longest for what they find (ctest --preset long)
@@ -14,7 +14,7 @@ checks=--checks=$(IFS=,; echo "${dear[*]/#/-}")
 for word in "$@"; do
   case $word in
     --analyzer) checks=--checks= ;;
-    --recent) recent=60 ;;
+    --recent) recent=40 ;;
     *) build=$word ;;
   esac
 done
