@@ -14,7 +14,8 @@ namespace firmware {
 using namespace sixstep::control;
 using exported::drive, exported::Scalar, exported::units;
 
-static_assert(drive.mode == Mode::current && drive.chopping == Chopping::soft,
+static_assert(drive.mode == Mode::current && drive.chopping == Chopping::soft &&
+                  drive.extras.pwm.pattern == PwmPattern::upper,
               "what these pins and loops are for");
 static_assert(exported::pwm_centre_aligned && exported::command_delayed,
               "timer 1 counts up and down, and its compare registers are taken at the top");

@@ -19,9 +19,11 @@ struct LegOutput {
 
 constexpr LegOutput leg_output(sixstep::control::Leg leg, unsigned on, unsigned off) {
   const unsigned upper = sixstep::control::upper_gate(leg), lower = sixstep::control::lower_gate(leg);
+  if (on & off & upper) return {force_high, 1};
   if (on & upper) return {pwm_1, off & lower ? 5u : 1u};
   if (on & off & lower) return {force_low, 5};
-  if (on & lower) return {pwm_1, 4};  // the lower gate alone follows the on-time: hard chopping
+  if (on & lower && off & upper) return {pwm_2, 5};  // the upper gate's on-time is the rest of the period
+  if (on & lower) return {pwm_1, 4};                 // the lower gate alone follows the on-time
   return {force_low, 0};
 }
 

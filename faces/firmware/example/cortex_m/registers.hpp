@@ -31,9 +31,10 @@ inline Timer& tim2() { return *reinterpret_cast<Timer*>(0x40000000); }
 inline Adc& adc1() { return *reinterpret_cast<Adc*>(0x50000000); }
 inline Gpio& gpio_a() { return *reinterpret_cast<Gpio*>(0x48000000); }
 
-constexpr std::uint32_t adc_jeos = 1u << 6;        // ISR: all injected conversions done; cleared by writing 1
-constexpr std::uint32_t timer_cc1if = 1u << 1;     // SR: a Hall edge was captured; cleared by writing 0
-constexpr std::uint32_t force_low = 4, pwm_1 = 6;  // OCxM, with the preload bit below
+constexpr std::uint32_t adc_jeos = 1u << 6;     // ISR: all injected conversions done; cleared by writing 1
+constexpr std::uint32_t timer_cc1if = 1u << 1;  // SR: a Hall edge was captured; cleared by writing 0
+constexpr std::uint32_t force_low = 4, force_high = 5, pwm_1 = 6,
+                        pwm_2 = 7;  // OCxM, with the preload bit below
 constexpr std::uint32_t preload = 1u << 3;
 
 }  // namespace firmware
