@@ -13,7 +13,6 @@
 #include "report/svg_chart.hpp"
 #include "text/contest/contest_text.hpp"
 #include "text/escape/escape.hpp"
-#include "text/results/quantity_text.hpp"
 
 namespace report {
 namespace {
@@ -50,12 +49,9 @@ std::string facts(const Contest& c) {
   for (std::size_t f = 0; f < std::size(contest_figures); ++f) {
     const ContestRow* row = least_of(c, f);
     if (row == nullptr) continue;
-    const double value = row->values[f];
-    const std::string unit(contest_figures[f].unit);
-    out += bench_fact(fmt::format("least {}", contest_figures[f].phrase),
-                      fmt::format("{}: {}", name_of(c, *row),
-                                  unit == "1" ? fmt::format("{:.1f} %", 100 * value)
-                                              : text::quantity_text(value, unit, 3)));
+    out += bench_fact(
+        fmt::format("least {}", contest_figures[f].phrase),
+        fmt::format("{}: {}", name_of(c, *row), text::contest_value(row->values[f], contest_figures[f])));
   }
   return out;
 }

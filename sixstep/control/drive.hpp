@@ -209,7 +209,7 @@ constexpr const BridgeCommand<Scalar>& step_in(Mode mode, const DriveConfig<Scal
     state.command.chopping =
         smooth_chopping_step(config.extras.chopping, state.extras.chopping, state.reversed, i_m);
   if (config.extras.on && config.extras.pwm.pattern != PwmPattern::upper) {
-    pass_on(config.extras.pwm, state.extras.pwm, sector, measured.speed_rad_s);
+    move_in_sector(config.extras.pwm, state.extras.pwm, sector, measured.speed_rad_s);
     state.command.chopped = chopped_switch(config.extras.pwm, state.extras.pwm, sector, state.command.pair);
   }
   telemetry.duty = state.reversed ? -state.command.duty : state.command.duty;

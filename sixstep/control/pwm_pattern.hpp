@@ -55,8 +55,8 @@ constexpr ChoppedSwitch chopped_switch(const PwmPatternConfig<Scalar>& config, P
 
 /// Once per tick, before chopped_switch(): how far the rotor has come in its sector. It stops at the middle.
 template <class Scalar>
-constexpr void pass_on(const PwmPatternConfig<Scalar>& config, PwmPatternState<Scalar>& state,
-                       std::uint8_t sector, Scalar speed_rad_s) {
+constexpr void move_in_sector(const PwmPatternConfig<Scalar>& config, PwmPatternState<Scalar>& state,
+                              std::uint8_t sector, Scalar speed_rad_s) {
   using T = ScalarTraits<Scalar>;
   if (config.pattern != PwmPattern::pwm_on_pwm || state.staying.sector != sector) return;
   if (!(state.passed < T::accumulator(one<Scalar>))) return;

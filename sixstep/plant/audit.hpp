@@ -106,8 +106,8 @@ inline typename Audit<Real>::Point Audit<Real>::end_of(const Expansion<Real>& y,
 template <class Real>
 inline void Audit<Real>::check_laws(const LegsLaw<Real>& law, const Point& begin, const Point& end) {
   const auto raise = [](double& worst, Real v) { worst = std::max(worst, static_cast<double>(v)); };
-  // A segment keeps the sum: two currents are moved, and the third is made of them. The next one begins where it ends.
-  raise(laws_.current_sum_A, detail::abs(begin.i[0] + begin.i[1] + begin.i[2]));
+  const auto sum = [](const Point& p) { return detail::abs(p.i[0] + p.i[1] + p.i[2]); };
+  raise(laws_.current_sum_A, std::max(sum(begin), sum(end)));
   // What floats stands last, and has not moved.
   if (law.connected < 3) raise(laws_.floating_current_A, detail::abs(begin.i[2]));
   if (law.connected < 2)

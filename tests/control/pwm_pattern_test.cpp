@@ -55,7 +55,7 @@ TYPED_TEST(PwmPatternOf, ChopsWhatItsNameSaysBothWays) {
       PwmPatternState<S> state;
       for (int n = 5; n < 24; ++n)
         for (int k = 0; k <= ticks; ++k) {
-          if (k > 0) pass_on(config, state, rotor.sector(n), backward ? S(-0.5) : S(0.5));
+          if (k > 0) move_in_sector(config, state, rotor.sector(n), backward ? S(-0.5) : S(0.5));
           const ChoppedSwitch chopped = chopped_switch(config, state, rotor.sector(n), rotor.pair(n));
           const bool begun =
               rotor.pair(n - 1).source == rotor.pair(n).source;  // of the first sector too: it came that way
@@ -90,7 +90,7 @@ TEST(PwmPattern, ShareTheChoppingAmongSixSwitches) {
     int chopped[6] = {};
     for (int n = 0; n < 66; ++n)
       for (int k = 0; k < 16; ++k) {
-        pass_on(config, state, rotor.sector(n), 1.0);
+        move_in_sector(config, state, rotor.sector(n), 1.0);
         const Pair pair = rotor.pair(n);
         const bool lower = chopped_switch(config, state, rotor.sector(n), pair) == ChoppedSwitch::lower;
         if (n >= 6) ++chopped[2 * static_cast<int>(lower ? pair.sink : pair.source) + lower];

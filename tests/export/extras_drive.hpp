@@ -25,6 +25,7 @@ inline sixstep::control::DriveConfig<double> drive() {
               .bus = {11.0},
               .smooth_chopping = true,
               .chopping = {0.75, 0.5},
+              .pwm = {PwmPattern::pwm_on_pwm, 0.00046},
               .speed_law = SpeedLaw::positional,
               .speed = {0.0158, 0.00013, 0.0085, 0.96, 0.00013 - 0.0085 * 0.0158},
               .speed_derivative = {0.0021, 0.031}};

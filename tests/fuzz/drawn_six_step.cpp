@@ -23,7 +23,7 @@ bool never(const Scenario& s, Has has) {
 
 void draw_pattern(Draw& draw, Scenario& s) {
   const bool hard = s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on;
-  const bool compares = s.control.mode != Mode::duty && s.control.current.type == CurrentLoopType::hysteresis;
+  const bool compares = s.control.current.type == CurrentLoopType::hysteresis;
   if (hard || compares || !never(s, [](const At& at) { return at.pwm.chopping == AtChopping::hard; })) return;
   s.pwm.pattern = static_cast<control::PwmPattern>(draw.one_of(5));
 }

@@ -26,13 +26,6 @@ using Json = nlohmann::ordered_json;
 /// The core of the table; all of them stand in docs/firmware.md.
 constexpr std::string_view core = "Cortex-M4F", arithmetic = "float";
 
-std::string cell(double x, const ContestFigure& figure) {
-  if (std::isnan(x)) return "-";
-  if (std::isinf(x)) return "never";
-  if (figure.unit == "1") return fmt::format("{:.1f} %", 100 * x);
-  return quantity_text(x, std::string(figure.unit), 3);
-}
-
 std::string name_of(const Contest& c, std::size_t row) { return std::string(c.entries[row].who->name); }
 
 /// The least of a column, where there is one.
@@ -61,7 +54,7 @@ std::string table(const Contest& c, ContestGroup group, std::vector<double> Cont
     for (std::size_t f = 0; f < std::size(contest_figures); ++f) {
       if (contest_figures[f].group != group) continue;
       const double x = (row.*values)[f];
-      cells.push_back(cell(x, contest_figures[f]) + (x == least_of(c, f, values) ? " *" : ""));
+      cells.push_back(contest_value(x, contest_figures[f]) + (x == least_of(c, f, values) ? " *" : ""));
     }
     if (group == ContestGroup::moving) {
       cells.push_back(nominal ? (row.nominal_held ? "yes" : "NO")
@@ -108,6 +101,13 @@ Json figures_json(const std::vector<double>& values) {
 }
 
 }  // namespace
+
+std::string contest_value(double x, const ContestFigure& figure) {
+  if (std::isnan(x)) return "-";
+  if (std::isinf(x)) return "never";
+  if (figure.unit == "1") return fmt::format("{:.1f} %", 100 * x);
+  return quantity_text(x, std::string(figure.unit), 3);
+}
 
 std::vector<std::string> contest_notes(const Contest& c) {
   std::vector<std::string> notes;

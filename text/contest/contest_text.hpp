@@ -9,6 +9,9 @@
 
 namespace text {
 
+/// "8.22 mN m", "34.6 %"; "never" where it never comes, "-" where there is none.
+std::string contest_value(double x, const analysis::ContestFigure& figure);
+
 /// Who wins where, and the answer to "six-step or field-oriented?": sentences made of the numbers by rules. Controllers that do not
 /// hold the course are left out.
 std::vector<std::string> contest_words(const analysis::Contest& contest);

@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "text/contest/contest_text.hpp"
-#include "text/results/quantity_text.hpp"
 
 namespace text {
 namespace {
@@ -19,11 +18,6 @@ using analysis::contest_figures;
 
 /// Within this part two figures count as alike.
 constexpr double alike = 0.05;
-
-std::string shown(double x, std::size_t figure) {
-  const std::string unit(contest_figures[figure].unit);
-  return unit == "1" ? fmt::format("{:.1f} %", 100 * x) : quantity_text(x, unit, 3);
-}
 
 /// "3.2 times", "12 % more": how much larger b is.
 std::string larger(double a, double b) {
@@ -65,8 +59,8 @@ std::vector<std::string> winners(const Contest& c) {
     if (are_alike(least, next))
       even.emplace_back(contest_figures[f].phrase);
     else
-      wins[*r.first].push_back(fmt::format("{} ({}, the next {})", contest_figures[f].phrase, shown(least, f),
-                                           larger(least, next)));
+      wins[*r.first].push_back(fmt::format("{} ({}, the next {})", contest_figures[f].phrase,
+                                           contest_value(least, contest_figures[f]), larger(least, next)));
   }
   std::vector<std::string> out;
   for (std::size_t n = 0; n < wins.size(); ++n)

@@ -183,12 +183,11 @@ void check_deadbeat(const CurrentLoop& loop, base::Problems& out) {
 void check_pattern(const Scenario& s, base::Problems& out) {
   if (s.pwm.pattern == control::PwmPattern::upper) return;
   const std::string word(base::word(pattern_choices, s.pwm.pattern));
-  const bool runs_current = s.control.mode != control::Mode::duty;
   if (s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on)
     out.push_back({"pwm.pattern", word,
                    "leaves one switch of the pair on, and pwm.chopping = \"hard\" chops both",
                    "leave it away, or set chopping = \"soft\" or \"complementary\""});
-  if (runs_current && s.control.current.type == CurrentLoopType::hysteresis)
+  if (s.control.current.type == CurrentLoopType::hysteresis)
     out.push_back({"pwm.pattern", word, "is a PWM's, and the hysteresis' comparators switch the upper switch",
                    "leave it away, or set control.current.type = \"pi\""});
 }
