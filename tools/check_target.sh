@@ -3,7 +3,7 @@
 # check_target.sh          the controller on real cores, emulated: the same bits (tests/target/digests.txt), what drives and
 #                          blocks cost, their flash, RAM and library calls (data/cores/)
 # check_target.sh PART..   of proof, sights, bits, costs, blocks, sizes only these
-# check_target.sh --all [PART..]    armhf and aarch64 too, and a million steps on emulated hosts (ctest --preset long)
+# check_target.sh --all [PART..]    armhf and aarch64 too, a million steps on emulated hosts, every drive's costs (ctest --preset long)
 # check_target.sh --renew [PART..]  writes those tables anew: after a change that is meant to change them
 #
 # Processors, compilers and flags: tests/target/cores.py. tools/install.sh target installs them.

@@ -30,7 +30,8 @@ looked_at() {
   git diff --name-only "HEAD~$recent" -- '*.hpp' | sed 's/.*/#include "&"/' >"$build/changed_headers.txt"
   git ls-files -z "${sources[@]}" | xargs -0 grep -lFf "$build/changed_headers.txt" || true
 }
-looked_at | LC_ALL=C sort -u | tr '\n' '\0' | xargs -0 -n 1 -P "$(nproc)" clang-tidy -p "$build" --quiet "$checks" 2>/dev/null
+python3 tools/compile_commands.py "$build" "$build/sources"
+looked_at | LC_ALL=C sort -u | tr '\n' '\0' | xargs -0 -n 1 -P "$(nproc)" clang-tidy -p "$build/sources" --quiet "$checks" 2>/dev/null
 # MPI is in a build of its own, which need not be there.
 [ ! -f build/mpi/compile_commands.json ] || clang-tidy -p build/mpi --quiet "$checks" batch/ranks_with_mpi.cpp 2>/dev/null
 # Firmware is in no build for this machine: each example with the flags of its chip.

@@ -91,7 +91,7 @@ base::Result<text::Recording> recording_of(const BenchArguments& a) {
 }
 
 /// Files are made before the work begins: one that cannot be written is told at once.
-struct Outputs {
+struct BenchOutputs {
   std::optional<files::AtomicFile> write, html, shape;
 
   base::Problems open(const BenchArguments& a, const std::string& shape_path) {
@@ -121,7 +121,7 @@ Exit identify_command(const BenchArguments& arguments) {
   const base::Result<analysis::HallLog> log = text::hall_log_of(*recording, a.columns);
   if (!log) return refused(of_recording(log.problems(), a.path));
   catch_interrupts();
-  Outputs out;
+  BenchOutputs out;
   base::Problems problems = out.open(a, "");
   if (!problems.empty()) return refused(problems);
   const base::Result<analysis::HallIdentity> found =
@@ -158,7 +158,7 @@ std::string shape_beside(const EmfArguments& a) {
 }
 
 void write_emf(const EmfArguments& a, const text::MeasuredEmf& measured, const analysis::EmfRecord& record,
-               Outputs& out, base::Problems& problems) {
+               BenchOutputs& out, base::Problems& problems) {
   if (out.shape)
     put(out.shape,
         fmt::format("# sixstep {}\n# command: {}\n", SIXSTEP_VERSION, text::visible(a.command)) +
@@ -189,7 +189,7 @@ Exit emf_command(const EmfArguments& arguments) {
   const base::Result<analysis::EmfRecord> record = text::emf_record_of(*recording, a.columns);
   if (!record) return refused(of_recording(record.problems(), a.path));
   catch_interrupts();
-  Outputs out;
+  BenchOutputs out;
   problems = out.open(a, a.shape);
   if (!problems.empty()) return refused(problems);
   const std::optional<double> speed_rad_s =

@@ -18,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void append(base::Problems& to, const base::Problems& more) { to.insert(to.end(), more.begin(), more.end()); }
-
 /// A pipe could be read only once.
 bool is_plan_file(const std::string& file) {
   std::error_code error;

@@ -29,8 +29,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void append(base::Problems& to, const base::Problems& more) { to.insert(to.end(), more.begin(), more.end()); }
-
 OutputPaths paths_of(const RunArguments& arguments, const Job& job) {
   if (arguments.out.empty()) return arguments.paths;
   OutputPaths paths;

@@ -17,8 +17,6 @@
 namespace cli {
 namespace {
 
-void append(base::Problems& to, const base::Problems& more) { to.insert(to.end(), more.begin(), more.end()); }
-
 std::string place(const std::string& file) { return fmt::format("{}:", file); }
 
 /// Of what is read for a scenario and of what the command line sets in it.

@@ -22,6 +22,9 @@ inline std::string rounded(double x, int digits) {
   return {text, end.ptr};
 }
 
+/// As a sentence names what need not be exact.
+inline std::string three_digits(double x) { return rounded(x, 3); }
+
 /// Sixteen hexadecimal digits.
 inline std::string written_hex(std::uint64_t bits) {
   std::string text(16, '0');

@@ -139,6 +139,34 @@ TEST(SegmentEnergy, IsThatOfTheWholeProducts) {
   EXPECT_GT(connected[3], 1000);
 }
 
+/// Of the series of three currents, which the audit does not sum once more where a segment ends: Kirchhoff's law order by
+/// order, and nothing in a leg that floats.
+struct SumsOfSeries {
+  double worst_A = 0, floating_A = 0;
+  int of_legs[4] = {};
+  void segment(const rig::LeanRig<double>& rig, double) {
+    const auto& plant = rig.plant();
+    const auto& y = plant.expansion();
+    for (int j = 0; j <= y.degree; ++j)
+      worst_A = std::max(worst_A, std::fabs(y.i[0][j] + y.i[1][j] + y.i[2][j]));
+    for (std::size_t k = 0; k < 3; ++k)
+      for (int j = 0; j <= y.degree && plant::is_floating(plant.mode().legs[k]); ++j)
+        floating_A = std::max(floating_A, std::fabs(y.i[k][j]));
+    ++of_legs[plant::connected_count(plant.mode().legs)];
+  }
+};
+
+TEST(Audit, CurrentsSumToZeroOrderByOrder) {
+  const Board board = Board::duty(0.5);
+  auto rig = board.rig();
+  SumsOfSeries sums;
+  ASSERT_EQ(run_to(rig, 20e-3, sums), sim::Stop::end);
+  EXPECT_LE(sums.worst_A, 4 * eps * 24.0 / board.R_tt());
+  EXPECT_EQ(sums.floating_A, 0.0);
+  EXPECT_GT(sums.of_legs[2], 100);
+  EXPECT_GT(sums.of_legs[3], 100);
+}
+
 /// Beyond the instant at which a diode's current ends its series goes on with the wrong sign. A watch that
 /// sees nothing there would see nothing anywhere.
 TEST(Audit, SeesADiodeThatConductsBackwards) {

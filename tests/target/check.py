@@ -48,6 +48,8 @@ def main():
             return 0
         if part == "bits":
             check = functools.partial(check, whole=True) if "--all" in sys.argv else functools.partial(check, of=cores.USUAL)
+        if part == "costs" and "--all" not in sys.argv:
+            check = functools.partial(check, cost.USUAL)
         return 0 if check() else 1
     except Failed as failed:
         print(failed)

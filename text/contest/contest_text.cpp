@@ -88,7 +88,7 @@ std::string paragraph(const std::string& words) {
   return text + line + "\n";
 }
 
-Json number(double x) {
+Json figure_json(double x) {
   if (std::isfinite(x)) return x;
   return std::isinf(x) ? Json("never") : Json(nullptr);
 }
@@ -96,7 +96,7 @@ Json number(double x) {
 Json figures_json(const std::vector<double>& values) {
   Json out = Json::object();
   for (std::size_t f = 0; f < values.size(); ++f)
-    out[std::string(contest_figures[f].phrase)] = number(values[f]);
+    out[std::string(contest_figures[f].phrase)] = figure_json(values[f]);
   return out;
 }
 

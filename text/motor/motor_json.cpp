@@ -4,6 +4,7 @@
 #include "sixstep/base/linear.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "text/escape/escape.hpp"
+#include "text/escape/json_number.hpp"
 #include "text/motor/motor_text.hpp"
 
 namespace text {
@@ -43,8 +44,6 @@ class SheetJson {
     object[std::string(key)] = std::move(entry);
   }
 };
-
-Json or_null(const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); }
 
 Json constant(const std::optional<design::Constant>& c) {
   return c ? Json({{"value", c->value}, {"from", c->from}}) : Json(nullptr);

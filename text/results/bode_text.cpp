@@ -11,6 +11,7 @@
 #include "sixstep/base/describe.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
+#include "text/escape/json_number.hpp"
 #include "text/results/quantity_text.hpp"
 
 namespace text {
@@ -20,7 +21,7 @@ using analysis::BodeStudy;
 using analysis::LoopPoint;
 using Json = nlohmann::ordered_json;
 
-constexpr double turn = 2 * sixstep::base::pi, degrees = 180 / sixstep::base::pi;
+constexpr double turn_rad = 2 * sixstep::base::pi, degrees_per_rad = 180 / sixstep::base::pi;
 /// Below it a line is told of: half of what came was not the multisine's.
 constexpr double little_coherence = 0.9;
 
@@ -39,27 +40,24 @@ struct Designed {
 std::optional<Designed> designed_at(const BodeStudy& s, const LoopPoint& p) {
   const auto L = s.designed_at(p.w_rad_s);
   if (!L) return std::nullopt;
-  const double off = (p.phase_rad - L->angle_rad()) / turn;
-  return Designed{dB(L->size()), (L->angle_rad() + turn * std::floor(off + 0.5)) * degrees};
+  const double off = (p.phase_rad - L->angle_rad()) / turn_rad;
+  return Designed{dB(L->size()), (L->angle_rad() + turn_rad * std::floor(off + 0.5)) * degrees_per_rad};
 }
 
 std::string gain_margin(const std::optional<double>& gain) {
   return gain ? fmt::format("{:.1f} dB", dB(*gain)) : "-";
 }
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-Json or_null(const std::optional<double>& x, double factor = 1.0) {
-  return x ? number(*x * factor) : Json(nullptr);
-}
+Json times(const std::optional<double>& x, double factor) { return x ? finite(*x * factor) : Json(nullptr); }
 
 Json margins_json(const std::optional<double>& crossover, const std::optional<double>& phase,
                   const std::optional<double>& gain, const std::optional<double>& delay,
                   const std::optional<double>& bandwidth) {
-  return {{"crossover_Hz", or_null(crossover, 1 / turn)},
-          {"phase_margin_deg", or_null(phase, degrees)},
+  return {{"crossover_Hz", times(crossover, 1 / turn_rad)},
+          {"phase_margin_deg", times(phase, degrees_per_rad)},
           {"gain_margin", or_null(gain)},
           {"delay_margin_s", or_null(delay)},
-          {"bandwidth_Hz", or_null(bandwidth, 1 / turn)}};
+          {"bandwidth_Hz", times(bandwidth, 1 / turn_rad)}};
 }
 
 }  // namespace
@@ -74,11 +72,11 @@ std::vector<BodeMargin> bode_margins(const BodeStudy& s) {
     };
     return BodeMargin{name, in_unit(is), in_unit(was)};
   };
-  return {row("crossover", m.crossover_rad_s, f.crossover_rad_s, 1 / turn, "Hz"),
-          row("phase margin", m.phase_rad, f.phase_rad, degrees, "deg"),
+  return {row("crossover", m.crossover_rad_s, f.crossover_rad_s, 1 / turn_rad, "Hz"),
+          row("phase margin", m.phase_rad, f.phase_rad, degrees_per_rad, "deg"),
           {"gain margin", gain_margin(m.gain), gain_margin(f.gain)},
           row("delay that is left", m.delay_s, f.delay_s, 1.0, "s"),
-          row("bandwidth, closed", m.bandwidth_rad_s, f.bandwidth_rad_s, 1 / turn, "Hz")};
+          row("bandwidth, closed", m.bandwidth_rad_s, f.bandwidth_rad_s, 1 / turn_rad, "Hz")};
 }
 
 std::string bode_place(const BodeStudy& s) {
@@ -106,8 +104,8 @@ std::string bode_text(std::string_view name, const BodeStudy& s) {
   text += fmt::format("  {:>10}  {:>9}  {:>8}  {:>9}{}\n", "Hz", "|L|, dB", "phase", "coherence",
                       both ? fmt::format("  {:>12}  {:>8}", "designed, dB", "phase") : "");
   for (const LoopPoint& p : s.points) {
-    text += fmt::format("  {:>10.5g}  {:>9.2f}  {:>8.1f}  {:>9.4f}", p.w_rad_s / turn, dB(p.gain),
-                        p.phase_rad * degrees, p.coherence);
+    text += fmt::format("  {:>10.5g}  {:>9.2f}  {:>8.1f}  {:>9.4f}", p.w_rad_s / turn_rad, dB(p.gain),
+                        p.phase_rad * degrees_per_rad, p.coherence);
     if (const auto d = designed_at(s, p))
       text += fmt::format("  {:>12.2f}  {:>8.1f}", d->gain_dB, d->phase_deg);
     text += "\n";
@@ -124,8 +122,8 @@ std::string bode_csv(const BodeStudy& s) {
   std::string text = "frequency_Hz,gain_dB,phase_deg,coherence,closed_gain_dB,scatter";
   text += s.designed ? ",designed_gain_dB,designed_phase_deg\n" : "\n";
   for (const LoopPoint& p : s.points) {
-    text += fmt::format("{},{},{},{},{},{}", p.w_rad_s / turn, dB(p.gain), p.phase_rad * degrees, p.coherence,
-                        dB(p.closed.size()), p.scatter);
+    text += fmt::format("{},{},{},{},{},{}", p.w_rad_s / turn_rad, dB(p.gain), p.phase_rad * degrees_per_rad,
+                        p.coherence, dB(p.closed.size()), p.scatter);
     if (const auto d = designed_at(s, p)) text += fmt::format(",{},{}", d->gain_dB, d->phase_deg);
     text += "\n";
   }
@@ -149,15 +147,15 @@ std::string bode_json(std::string_view name, const BodeStudy& s) {
                                     s.figures->delay_s, s.figures->bandwidth_rad_s);
   if (!s.not_linear.empty()) json["not_linear"] = s.not_linear;
   for (const LoopPoint& p : s.points) {
-    Json point = {{"frequency_Hz", p.w_rad_s / turn},
-                  {"gain_dB", number(dB(p.gain))},
-                  {"phase_deg", p.phase_rad * degrees},
+    Json point = {{"frequency_Hz", p.w_rad_s / turn_rad},
+                  {"gain_dB", finite(dB(p.gain))},
+                  {"phase_deg", p.phase_rad * degrees_per_rad},
                   {"coherence", p.coherence},
                   {"scatter", p.scatter},
                   {"closed_re", p.closed.re},
                   {"closed_im", p.closed.im}};
     if (const auto d = designed_at(s, p)) {
-      point["designed_gain_dB"] = number(d->gain_dB);
+      point["designed_gain_dB"] = finite(d->gain_dB);
       point["designed_phase_deg"] = d->phase_deg;
     }
     json["points"].push_back(std::move(point));

@@ -7,6 +7,7 @@
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
+#include "text/escape/json_number.hpp"
 #include "text/results/json_words.hpp"
 
 namespace text {
@@ -15,8 +16,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-Json or_null(const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); }
-
 Json point(const CurveRow& row) {
   Json out = Json::object();
   for (const CurveColumn& c : curve_columns()) out[c.column.name] = finite(c.value(row));

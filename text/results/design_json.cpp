@@ -10,6 +10,7 @@
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
+#include "text/escape/json_number.hpp"
 #include "text/results/design_text.hpp"
 #include "text/results/json_words.hpp"
 #include "text/results/loop_json.hpp"

@@ -20,8 +20,7 @@ using sixstep::design::DriveDesign;
 using sixstep::design::LoopDesign;
 using sixstep::design::LoopFigures;
 
-std::string number(double x) { return fmt::format("{:.6g}", x); }
-std::string degrees(double rad) { return fmt::format("{:.1f} deg", rad * 180 / sixstep::base::pi); }
+std::string degrees_text(double rad) { return fmt::format("{:.1f} deg", rad * 180 / sixstep::base::pi); }
 std::string hertz(double rad_s) { return quantity_text(rad_s / (2 * sixstep::base::pi), "Hz", 4); }
 
 std::string or_none(const std::optional<double>& x, std::string (*shown)(double)) {
@@ -41,7 +40,7 @@ std::string loop_text(const LoopDesign& loop, const Motion& motion) {
     std::vector<std::string> cells{step.symbol, quantity_text(step.value, step.unit, 6), step.formula};
     if (loop.placed)
       if (const auto printed = sixstep::design::thesis_figure(loop.name, *loop.placed, step.symbol)) {
-        cells.push_back("thesis " + number(*printed));
+        cells.push_back("thesis " + six_digits(*printed));
         thesis = true;
       }
     rows.add(std::move(cells));
@@ -50,9 +49,9 @@ std::string loop_text(const LoopDesign& loop, const Motion& motion) {
   head[1] = static_cast<char>(head[1] - 'a' + 'A');
   std::string text = head + "\n" + rows.text();
   if (loop.name != "position")
-    text += fmt::format("  -> d1 = {}, d0 = {} {}; K = {}, K_i = {} per sample\n", number(loop.gains.d1),
-                        number(loop.gains.d0), gain_unit(loop, motion), number(loop.gains.d1),
-                        number(loop.gains.d1 + loop.gains.d0));
+    text += fmt::format("  -> d1 = {}, d0 = {} {}; K = {}, K_i = {} per sample\n", six_digits(loop.gains.d1),
+                        six_digits(loop.gains.d0), gain_unit(loop, motion), six_digits(loop.gains.d1),
+                        six_digits(loop.gains.d1 + loop.gains.d0));
   if (thesis)
     text +=
         "  (the thesis's gains follow from the poles that it prints; those are a faster loop's than it asks "
@@ -87,9 +86,9 @@ std::string figures_text(const DriveDesign& d) {
   }
   line("bandwidth, -3 dB", [&](const LoopDesign& l) { return or_none(l.figures.bandwidth_rad_s, hertz); });
   line("phase margin, command at once",
-       [&](const LoopDesign& l) { return or_none(at_once(l).phase_rad, degrees); });
+       [&](const LoopDesign& l) { return or_none(at_once(l).phase_rad, degrees_text); });
   line("phase margin, one period late",
-       [&](const LoopDesign& l) { return or_none(delayed(l).phase_rad, degrees); });
+       [&](const LoopDesign& l) { return or_none(delayed(l).phase_rad, degrees_text); });
   line("gain margin, one period late",
        [&](const LoopDesign& l) { return or_none(delayed(l).gain, decibels); });
   line("delay margin, one period late",
@@ -99,7 +98,7 @@ std::string figures_text(const DriveDesign& d) {
   });
   if (d.lag.delay_s() > 0)
     line("phase margin with the speed's sensor",
-         [&](const LoopDesign& l) { return or_none(l.built.phase_rad, degrees); });
+         [&](const LoopDesign& l) { return or_none(l.built.phase_rad, degrees_text); });
   line(d.lag.delay_s() > 0 ? "step: settling" : "step: settling to 2 %",
        [&](const LoopDesign& l) { return quantity_text(l.step.settling_s, "s", 4); });
   line("step: overshoot",

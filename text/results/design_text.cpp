@@ -23,8 +23,6 @@ using sixstep::control::Mode;
 using sixstep::design::DriveDesign;
 using sixstep::design::LoopDesign;
 
-std::string number(double x) { return fmt::format("{:.6g}", x); }
-
 const study::ComparisonResult* find(const analysis::DesignStudy& s, const char* figure) {
   for (const auto& c : s.outcome.comparisons)
     if (c.figure == figure) return &c;
@@ -32,14 +30,14 @@ const study::ComparisonResult* find(const analysis::DesignStudy& s, const char* 
 }
 
 std::string motor_words(const sixstep::design::MotorModel& m) {
-  const std::string winding =
-      fmt::format("terminal R = {} ohm, L = {} mH", number(2 * m.machine.R_ohm), number(2e3 * m.machine.L_H));
+  const std::string winding = fmt::format("terminal R = {} ohm, L = {} mH", six_digits(2 * m.machine.R_ohm),
+                                          six_digits(2e3 * m.machine.L_H));
   if (sixstep::design::motion_of(m).linear)
-    return fmt::format("{}, K_f = {} N/A, m = {} kg, B = {} N s/m, tau = {} mm", winding, number(m.K_t_Nm_A),
-                       number(m.shaft.J_kg_m2), number(m.shaft.B_Nm_s),
-                       number(1e3 * sixstep::base::pi / m.machine.pole_pairs));
-  return fmt::format("{}, K_t = {} mNm/A, J = {} g cm2, B = {} N m s", winding, number(1e3 * m.K_t_Nm_A),
-                     number(1e7 * m.shaft.J_kg_m2), number(m.shaft.B_Nm_s));
+    return fmt::format("{}, K_f = {} N/A, m = {} kg, B = {} N s/m, tau = {} mm", winding,
+                       six_digits(m.K_t_Nm_A), six_digits(m.shaft.J_kg_m2), six_digits(m.shaft.B_Nm_s),
+                       six_digits(1e3 * sixstep::base::pi / m.machine.pole_pairs));
+  return fmt::format("{}, K_t = {} mNm/A, J = {} g cm2, B = {} N m s", winding, six_digits(1e3 * m.K_t_Nm_A),
+                     six_digits(1e7 * m.shaft.J_kg_m2), six_digits(m.shaft.B_Nm_s));
 }
 
 std::string motor_line(const DriveDesign& d, const study::Scenario& s) {
@@ -47,7 +45,7 @@ std::string motor_line(const DriveDesign& d, const study::Scenario& s) {
   return fmt::format(
       "{} on {} V: {}\n"
       "control and PWM period {}, {} chopping, a command counts {}\n",
-      visible(s.sheet.name.empty() ? s.motor : s.sheet.name), number(d.bus_V), motor_words(d.motor),
+      visible(s.sheet.name.empty() ? s.motor : s.sheet.name), six_digits(d.bus_V), motor_words(d.motor),
       quantity_text(d.spec.period_s, "s"), chopping,
       d.spec.delay_periods == 1 ? "one period late" : "at once");
 }
@@ -63,13 +61,13 @@ std::string simulated_text(const analysis::DesignStudy& s) {
   const sixstep::base::LinearUnit deg = motion.unit("deg");
   std::string how;
   if (n.control.mode == Mode::current)
-    how = motion.words(fmt::format("rotor held, a step to {} A", number(n.reference.value)));
+    how = motion.words(fmt::format("rotor held, a step to {} A", six_digits(n.reference.value)));
   else if (n.control.mode == Mode::speed)
     how = motion.words(fmt::format("load {} N m, from rest to {} rad/s, then to {} rad/s",
-                                   number(n.load.torque_Nm), number(n.reference.values.at(0)),
-                                   number(n.reference.values.at(1))));
+                                   six_digits(n.load.torque_Nm), six_digits(n.reference.values.at(0)),
+                                   six_digits(n.reference.values.at(1))));
   else
-    how = fmt::format("a move of {} {}", number(n.reference.value * deg.factor), deg.linear);
+    how = fmt::format("a move of {} {}", six_digits(n.reference.value * deg.factor), deg.linear);
   return fmt::format("\nSimulated with all switching: {}\n", how) + rows.text();
 }
 
@@ -96,10 +94,10 @@ std::string position_text(const analysis::PositionGain& p, const Motion& motion)
   const sixstep::base::LinearUnit gain = motion.unit("rad/s/deg");
   std::string text = motion.words(fmt::format(
       "  found by {} simulations between {} (full torque stops it from top speed) and {} (no limit acts)\n",
-      p.runs, number(p.estimate * gain.factor), number(p.linear * gain.factor)));
+      p.runs, six_digits(p.estimate * gain.factor), six_digits(p.linear * gain.factor)));
   if (p.gain_rad_s_per_deg < p.nominal)
     text += fmt::format("  the sheet's motor alone would stand {} {}; the tolerances do not\n",
-                        number(p.nominal * gain.factor), gain.linear);
+                        six_digits(p.nominal * gain.factor), gain.linear);
   return text;
 }
 
@@ -184,9 +182,10 @@ std::vector<std::string> design_lines(const analysis::DesignStudy& s) {
   std::vector<std::string> lines;
   for (const LoopDesign& loop : s.design.loops) {
     std::string line = fmt::format("{} loop, {}: ", loop.name, loop.method);
-    line += loop.name == "position" ? fmt::format("{} {}", number(loop.gains.d1 * gain.factor), gain.linear)
-                                    : fmt::format("d1 = {}, d0 = {} {}", number(loop.gains.d1),
-                                                  number(loop.gains.d0), gain_unit(loop, motion));
+    line += loop.name == "position"
+                ? fmt::format("{} {}", six_digits(loop.gains.d1 * gain.factor), gain.linear)
+                : fmt::format("d1 = {}, d0 = {} {}", six_digits(loop.gains.d1), six_digits(loop.gains.d0),
+                              gain_unit(loop, motion));
     lines.push_back(line);
   }
   return lines;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
+#include "text/escape/json_number.hpp"
 #include "text/results/field_design_text.hpp"
 #include "text/results/loop_json.hpp"
 

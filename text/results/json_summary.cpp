@@ -8,13 +8,12 @@
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "text/escape/escape.hpp"
+#include "text/escape/json_number.hpp"
 
 namespace text {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json or_null(const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); }
 
 Json verdicts(const study::Outcome& outcome) {
   Json list = Json::array();

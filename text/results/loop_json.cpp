@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "text/results/loop_json.hpp"
+#include "text/escape/json_number.hpp"
 
 #include <cmath>
 
@@ -56,9 +57,6 @@ Json step(const LoopDesign& loop, double period_s) {
 }
 
 }  // namespace
-
-Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-Json or_null(const std::optional<double>& x) { return x ? finite(*x) : Json(nullptr); }
 
 Json steps_json(const std::vector<sixstep::design::DerivationStep>& steps) {
   Json out = Json::array();

@@ -3,17 +3,12 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
-#include <optional>
 #include <vector>
 
 #include "sixstep/design/loops/drive_design.hpp"
 #include "text/rooms.hpp"
 
 namespace text {
-
-/// null where a number is infinite or is none.
-nlohmann::ordered_json finite(double x);
-nlohmann::ordered_json or_null(const std::optional<double>& x);
 
 nlohmann::ordered_json steps_json(const std::vector<sixstep::design::DerivationStep>& steps);
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "text/escape/escape.hpp"
+#include "text/escape/json_number.hpp"
 #include "text/results/quantity_text.hpp"
 
 namespace text {
@@ -32,9 +33,6 @@ std::string limits(const OptimumStory& s, const analysis::Optimum& best) {
   return fmt::format("  limited by {}{}\n", fmt::join(words, ", "),
                      s.plan.drives > 1 ? " (the worst drive's)" : "");
 }
-
-Json number(double x) { return x - x == 0.0 ? Json(x) : Json(nullptr); }
-Json or_null(const std::optional<double>& x) { return x ? number(*x) : Json(nullptr); }
 
 }  // namespace
 
@@ -82,7 +80,7 @@ std::string optimum_json(const OptimumStory& s, const analysis::Optimum& best) {
     const analysis::FigureColumn& f = s.columns.figures[n];
     json["figures"].push_back({{"figure", f.name},
                                {"unit", f.unit},
-                               {"worst", number(best.figures[n])},
+                               {"worst", finite(best.figures[n])},
                                {"min", or_null(f.min)},
                                {"max", or_null(f.max)}});
   }

@@ -21,13 +21,13 @@ std::string cell(std::string_view text) {
 }
 
 /// As JSON has it: no number is null, one that never came a word.
-Json number(double x) {
+Json stored(double x) {
   if (x != x) return nullptr;
   if (x - x != 0.0) return x > 0 ? "never" : "-never";
   return x;
 }
 
-Json or_null(const std::optional<double>& x) { return x ? number(*x) : Json(nullptr); }
+Json stored_or_null(const std::optional<double>& x) { return x ? stored(*x) : Json(nullptr); }
 
 Json columns_json(const PlanStory& s) {
   Json keys = Json::array(), strayed = Json::array(), figures = Json::array();
@@ -39,18 +39,18 @@ Json columns_json(const PlanStory& s) {
     Json figure = {{"figure", f.column.name},
                    {"unit", f.column.unit},
                    {"required", f.column.required},
-                   {"min", or_null(f.column.min)},
-                   {"max", or_null(f.column.max)}};
+                   {"min", stored_or_null(f.column.min)},
+                   {"max", stored_or_null(f.column.max)}};
     if (f.column.required) figure["holds"] = f.holds;
     const analysis::Statistics& t = f.statistics;
     figure["statistics"] = {{"count", t.count()},
-                            {"least", or_null(t.min())},
-                            {"p5", or_null(t.quantile(0.05))},
-                            {"median", or_null(t.quantile(0.5))},
-                            {"p95", or_null(t.quantile(0.95))},
-                            {"greatest", or_null(t.max())},
-                            {"mean", or_null(t.mean())},
-                            {"deviation", or_null(t.standard_deviation())}};
+                            {"least", stored_or_null(t.min())},
+                            {"p5", stored_or_null(t.quantile(0.05))},
+                            {"median", stored_or_null(t.quantile(0.5))},
+                            {"p95", stored_or_null(t.quantile(0.95))},
+                            {"greatest", stored_or_null(t.max())},
+                            {"mean", stored_or_null(t.mean())},
+                            {"deviation", stored_or_null(t.standard_deviation())}};
     figures.push_back(std::move(figure));
   }
   return {{"keys", keys}, {"strayed", strayed}, {"figures", figures}};
@@ -80,8 +80,8 @@ Json value_json(const std::string& written) {
 Json row_json(const analysis::RunRecord& r, const analysis::PlanColumns& columns) {
   Json row = {r.number, base::word(analysis::run_ends, r.end), analysis::passed(r, columns)};
   for (const std::string& value : r.point) row.push_back(value_json(value));
-  for (const double x : r.strayed) row.push_back(number(x));
-  for (const double x : r.figures) row.push_back(number(x));
+  for (const double x : r.strayed) row.push_back(stored(x));
+  for (const double x : r.figures) row.push_back(stored(x));
   row.push_back(r.problem);
   row.push_back(base::written_hex(r.digest));
   return row;

@@ -15,7 +15,7 @@
 namespace text {
 namespace {
 
-constexpr int digits = 4;
+constexpr int plan_digits = 4;
 using Cells = std::vector<std::string>;
 
 /// The drives at one point.
@@ -48,7 +48,7 @@ std::vector<Point> points_of(const PlanStory& story) {
 
 std::string value_text(const std::string& written, const std::string& unit) {
   const std::optional<double> x = number_alone(written);
-  return x ? quantity_text(*x, unit, digits) : visible(analysis::bare(written));
+  return x ? quantity_text(*x, unit, plan_digits) : visible(analysis::bare(written));
 }
 
 std::string verdict(const Point& point, std::size_t drives, bool asks) {
@@ -66,7 +66,7 @@ Cells cells_of(const Point& point, const PlanStory& story, bool asks) {
   for (std::size_t n = 0; n < figures.size(); ++n) {
     const std::optional<double> x = point.figures[n].quantile(0.5);
     const bool holds = !x || figures[n].holds(*x);
-    cells.push_back(x ? quantity_text(*x, figures[n].unit, digits) + (holds ? "" : " !") : "-");
+    cells.push_back(x ? quantity_text(*x, figures[n].unit, plan_digits) + (holds ? "" : " !") : "-");
   }
   cells.push_back(verdict(point, story.plan.drives, asks));
   return cells;

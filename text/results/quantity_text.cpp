@@ -37,7 +37,7 @@ Prefix prefix_for(double x, std::string_view unit) {
   return none;
 }
 
-std::string number(double x, Prefix prefix, int digits) {
+std::string prefixed(double x, Prefix prefix, int digits) {
   const std::string text = fmt::format("{:.{}g}", x * prefix.times, digits);
   return text == "-0" ? "0" : text;
 }
@@ -53,15 +53,17 @@ std::string joined(const std::string& text, const std::string& unit) {
 /// A time that did not come, a figure of an empty window: words, for numbers they are not.
 std::string without_number(double x, const std::string& unit) {
   if (std::isnan(x)) return "no value";
-  return unit == "s" && x > 0.0 ? "never" : joined(number(x, none, few_digits), unit_text(none, unit));
+  return unit == "s" && x > 0.0 ? "never" : joined(prefixed(x, none, few_digits), unit_text(none, unit));
 }
 
 }  // namespace
 
+std::string six_digits(double x) { return fmt::format("{:.6g}", x); }
+
 std::string quantity_text(double x, const std::string& unit, int digits) {
   if (!std::isfinite(x)) return without_number(x, unit);
   const Prefix prefix = prefix_for(x, unit);
-  return joined(number(x, prefix, digits), unit_text(prefix, unit));
+  return joined(prefixed(x, prefix, digits), unit_text(prefix, unit));
 }
 
 ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const std::string& unit) {
@@ -78,11 +80,11 @@ ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const
   for (int digits = few_digits; digits <= all_digits; ++digits) {
     // Of what is a thousand times smaller than all it is held against, the magnitude alone counts.
     const bool tiny = !alike && ratio < 1e-3;
-    const std::string x_text = number(x, own, tiny ? 2 : digits);
+    const std::string x_text = prefixed(x, own, tiny ? 2 : digits);
     texts = {{}, joined(x_text, unit_text(own, unit)), unit_text(shared, unit)};
     bool told_apart = true;
     for (const double y : yardsticks) {
-      const std::string text = number(y, shared, digits);
+      const std::string text = prefixed(y, shared, digits);
       told_apart = told_apart && (y == x || !alike || text != x_text);
       for (std::size_t n = 0; n < texts.yardsticks.size(); ++n)
         told_apart = told_apart && (y == yardsticks[n] || text != texts.yardsticks[n]);
@@ -94,10 +96,10 @@ ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const
   // The prefix's product has swallowed the last bit: without prefix it shows.
   return {[&] {
             std::vector<std::string> plain;
-            for (const double y : yardsticks) plain.push_back(number(y, none, all_digits));
+            for (const double y : yardsticks) plain.push_back(prefixed(y, none, all_digits));
             return plain;
           }(),
-          joined(number(x, none, all_digits), unit_text(none, unit)), unit_text(none, unit)};
+          joined(prefixed(x, none, all_digits), unit_text(none, unit)), unit_text(none, unit)};
 }
 
 }  // namespace text

@@ -14,11 +14,11 @@ namespace text {
 namespace {
 
 constexpr std::size_t columns = 10;
-constexpr int digits = 4;  // a thousand drives do not tell more
+constexpr int spread_digits = 4;  // a thousand drives do not tell more
 using Row = std::array<std::string, columns>;
 
 std::string cell(const std::optional<double>& x, const std::string& unit) {
-  return x ? quantity_text(*x, unit, digits) : "-";
+  return x ? quantity_text(*x, unit, spread_digits) : "-";
 }
 
 std::string required(const analysis::FigureColumn& f) {

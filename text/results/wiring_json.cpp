@@ -14,14 +14,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* legs[] = {"a", "b", "c"};
+constexpr const char* leg_names[] = {"a", "b", "c"};
 
 std::string bits(std::uint8_t code) {
   return {static_cast<char>('0' + (code >> 2)), static_cast<char>('0' + (code >> 1 & 1)),
           static_cast<char>('0' + (code & 1))};
 }
 
-Json commutation() {
+Json commutation_json() {
   Json rows = Json::array();
   for (std::uint8_t sector = 0; sector < 6; ++sector) {
     const auto [code, high, low, floating] = analysis::commutation(sector);
@@ -29,9 +29,9 @@ Json commutation() {
                     {"from_deg", 60 * sector},
                     {"to_deg", 60 * sector + 60},
                     {"hall", bits(code)},
-                    {"high", legs[high]},
-                    {"low", legs[low]},
-                    {"floating", legs[floating]}});
+                    {"high", leg_names[high]},
+                    {"low", leg_names[low]},
+                    {"floating", leg_names[floating]}});
   }
   return rows;
 }
@@ -50,8 +50,8 @@ Json theory(const analysis::WiringTheory& t) {
   Json sectors = Json::array();
   for (std::size_t n = 0; n < 6; ++n)
     sectors.push_back({{"seen", t.driven[n].seen},
-                       {"source", legs[t.driven[n].source]},
-                       {"sink", legs[t.driven[n].sink]},
+                       {"source", leg_names[t.driven[n].source]},
+                       {"sink", leg_names[t.driven[n].sink]},
                        {"ahead_deg", 60 * t.driven[n].ahead},
                        {"torque_Nm_A", t.torque_Nm_A[n]}});
   return {{"does", does_name(t.does)},
@@ -100,7 +100,7 @@ Json cures(const std::vector<analysis::Cure>& all) {
   for (const analysis::Cure& c : all)
     out.push_back({{"wires", c.wires()},
                    {"text", cure_text(c)},
-                   {"legs", moves(c.legs, legs)},
+                   {"legs", moves(c.legs, leg_names)},
                    {"pins", moves(c.pins, pins)}});
   return out;
 }
@@ -111,7 +111,7 @@ std::string wiring_json(const analysis::WiringStudy& s) {
   const base::Motion motion = design::motion_of(s.subject.sheet);
   Json out = {{"sixstep", SIXSTEP_VERSION},
               {"motor", s.subject.sheet.name},
-              {"commutation", commutation()},
+              {"commutation", commutation_json()},
               {"bench", bench(s.bench)},
               {"agreeing", s.agreeing()}};
   out["wirings"] = Json::array();

@@ -20,7 +20,7 @@ using analysis::WiringCase;
 using analysis::WiringDoes;
 using analysis::WiringStudy;
 
-std::string commutation() {
+std::string commutation_text() {
   constexpr const char* leg[] = {"a", "b", "c"};
   Rows rows;
   rows.add({"sector", "electrical", "H1 H2 H3", "code", "high", "low", "floating"});
@@ -126,7 +126,7 @@ std::string agreement(const WiringStudy& s) {
 std::string wiring_text(const WiringStudy& s) {
   const base::Motion motion = design::motion_of(s.subject.sheet);
   const std::string columns = " at legs a b c (rows), probes at pins H1 H2 H3 (columns)\n";
-  std::string text = visible(s.subject.sheet.name) + "\n\n" + commutation() +
+  std::string text = visible(s.subject.sheet.name) + "\n\n" + commutation_text() +
                      "\nThe 36 ways to plug it in: phases" + columns;
   text += grid(s, [](const WiringCase& c) { return std::string(does_text(c.measured.does)); });
   text += agreement(s) + "\n";

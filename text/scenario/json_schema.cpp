@@ -36,7 +36,7 @@ Json number_alone(const base::Range& range) {
 
 /// Every number of a file: in the key's unit, or as text with its own, "20 ms", whose kind and range reading
 /// checks.
-Json number(const base::Range& range) {
+Json range_schema(const base::Range& range) {
   const Json with_unit = {{"type", "string"}, {"pattern", "^\\s*[-+]?[.0-9]"}};
   return {{"anyOf", {number_alone(range), with_unit}}};
 }
@@ -67,13 +67,13 @@ Json quantity(const KeyEntry& entry, const Place& place) {
   const std::vector<std::string> frames = frames_of(entry.about.frame);
   std::vector<std::string> trusts;
   for (const auto& trust : base::trust_choices) trusts.emplace_back(trust.word);
-  Json parts = {{"value", number(base::allowed(entry.about))}};
+  Json parts = {{"value", range_schema(base::allowed(entry.about))}};
   if (!frames.empty()) parts["frame"] = words_of(frames);
   parts["source"] = {{"type", "string"}, {"description", "where the value comes from"}};
   parts["kind"] = {{"description", "how far the value can be trusted"}};
   parts["kind"].update(words_of(trusts));
   parts["range"] = {{"type", "array"},
-                    {"items", number(base::allowed(entry.about))},
+                    {"items", range_schema(base::allowed(entry.about))},
                     {"minItems", 2},
                     {"maxItems", 2},
                     {"description", "[low, high], where sources differ"}};
@@ -81,7 +81,7 @@ Json quantity(const KeyEntry& entry, const Place& place) {
   Json table = {{"type", "object"}, {"properties", parts}, {"additionalProperties", false}};
   table["required"] = frame_needed ? Json::array({"value", "frame"}) : Json::array({"value"});
   if (frame_needed) return table;
-  return {{"anyOf", {number(base::allowed(entry.about)), table}}};
+  return {{"anyOf", {range_schema(base::allowed(entry.about)), table}}};
 }
 
 Json list_of(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
@@ -114,7 +114,7 @@ Json table(const std::string& path, const Place& place);
 Json value_of(const KeyEntry& entry, const Place& place) {
   switch (entry.type) {
     case KeyType::number:
-      return number(base::allowed(entry.about));
+      return range_schema(base::allowed(entry.about));
     case KeyType::whole_number:
       return whole_number(base::allowed(entry.about));
     case KeyType::flag:
@@ -122,7 +122,7 @@ Json value_of(const KeyEntry& entry, const Place& place) {
     case KeyType::text:
       return entry.path == "motor" ? motor_names() : Json{{"type", "string"}};
     case KeyType::numbers:
-      return list_of(number(base::allowed(entry.about)));
+      return list_of(range_schema(base::allowed(entry.about)));
     case KeyType::texts:
       if (entry.path == "vary.values") return list_of({{"type", {"number", "string", "boolean"}}});
       return words_or_one(entry.path == "record.columns" ? column_names() : Json{{"type", "string"}});

@@ -20,12 +20,12 @@ namespace {
 /// So many lines are told of; of a file that is no table at all every one would be.
 constexpr std::size_t most_told = 5;
 
-constexpr std::string_view blanks = " \t\r\"";
+constexpr std::string_view blanks_and_quotes = " \t\r\"";
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blanks);
+std::string_view bare_cell(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(blanks_and_quotes);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+  return text.substr(first, text.find_last_not_of(blanks_and_quotes) - first + 1);
 }
 
 char separator_of(std::string_view line) {
@@ -41,7 +41,7 @@ std::vector<std::string_view> cells_of(std::string_view line, char separator) {
   std::vector<std::string_view> cells;
   while (!line.empty() && cells.size() < most_columns) {
     const std::size_t cut = std::min(line.find(separator), line.size());
-    const std::string_view cell = trimmed(line.substr(0, cut));
+    const std::string_view cell = bare_cell(line.substr(0, cut));
     if (separator != ' ' || !cell.empty()) cells.emplace_back(cell);
     line.remove_prefix(std::min(cut + 1, line.size()));
   }
@@ -86,7 +86,7 @@ class RowsReader {
 
   void line(std::string_view text) {
     ++number_;
-    const std::string_view content = trimmed(text);
+    const std::string_view content = bare_cell(text);
     if (content.empty() || content.front() == '#') return;
     if (separator_ == 0) separator_ = separator_of(content);
     const std::vector<std::string_view> cells = cells_of(content, separator_);

@@ -18,9 +18,9 @@ struct Sample {
   OperatingPoint point;
 };
 
-class Search {
+class NoLoadSearch {
  public:
-  explicit Search(const Bench& b) : bench_(b), direction_(b.duty < 0 ? -1.0 : 1.0) {}
+  explicit NoLoadSearch(const Bench& b) : bench_(b), direction_(b.duty < 0 ? -1.0 : 1.0) {}
 
   base::Problems problems;
 
@@ -41,7 +41,7 @@ class Search {
 };
 
 /// Speeds below and above the crossing: from standstill up to seven times what full voltage would reach.
-bool bracket(Search& search, const Bench& b, Sample& low, Sample& high) {
+bool bracket(NoLoadSearch& search, const Bench& b, Sample& low, Sample& high) {
   if (!search.take(0.0, low)) return false;
   if (!(low.torque > 0)) {
     search.problems = {{"duty", base::written(b.duty),
@@ -64,7 +64,7 @@ bool bracket(Search& search, const Bench& b, Sample& low, Sample& high) {
 
 /// False position with the kept end's value halved (Illinois): ends where the speed stands still to 1e-11, or
 /// the torque is within its interval of zero.
-bool narrow(Search& search, Sample low, Sample high, Sample& found, double& slope) {
+bool narrow(NoLoadSearch& search, Sample low, Sample high, Sample& found, double& slope) {
   constexpr int most = 100;
   double f_low = low.torque, f_high = high.torque;
   const Sample* moved = nullptr;  // the end that moved last
@@ -130,7 +130,7 @@ void run_free(const Bench& b, FullOn& system, double settle_s, double mean_s, No
 
 base::Result<NoLoad> no_load(const Bench& b) {
   if (base::Problems problems = check(b); !problems.empty()) return problems;
-  Search search(b);
+  NoLoadSearch search(b);
   Sample low, high, found;
   double slope = 0.0;
   if (!bracket(search, b, low, high)) return search.problems;

@@ -18,8 +18,6 @@
 namespace sixstep::analysis {
 namespace {
 
-std::string rounded(double x) { return base::rounded(x, 3); }
-
 const study::ComparisonResult* find(const study::Outcome& outcome, const std::string& figure) {
   for (const study::ComparisonResult& c : outcome.comparisons)
     if (c.figure == figure) return &c;
@@ -53,15 +51,16 @@ void look_at_settling(DesignStudy& s) {
   if (!c || s.design.spec.mode == control::Mode::position) return;
   if (drowned(s))
     s.warnings.push_back(
-        {"the commutations' ripple in speed, " + rounded(find(s.outcome, "speed ripple")->measured) +
+        {"the commutations' ripple in speed, " +
+             base::three_digits(find(s.outcome, "speed ripple")->measured) +
              " rad/s, is wider than 2 % of the largest step at which no limit acts: its settling "
              "time says nothing",
          "design the speed loop slower, or give a step and mind that limits act", false});
   else if (!std::isfinite(c->measured))
     s.warnings.push_back({"in the simulation it never settles", cure_of_settling(s.design), true});
   else if (c->measured > 1.25 * c->value)
-    s.warnings.push_back({"in the simulation it settles in " + rounded(1e3 * c->measured) +
-                              " ms, designed were " + rounded(1e3 * c->value) + " ms",
+    s.warnings.push_back({"in the simulation it settles in " + base::three_digits(1e3 * c->measured) +
+                              " ms, designed were " + base::three_digits(1e3 * c->value) + " ms",
                           cure_of_settling(s.design), false});
 }
 
@@ -70,9 +69,9 @@ void look_at_swing(DesignStudy& s) {
   const std::optional<double> allowed = s.allowed_swing_rad_s;
   const study::ComparisonResult* swing = find(s.outcome, "speed ripple");
   if (!allowed || !swing || swing->measured <= *allowed) return;
-  s.warnings.push_back({"in the simulation the speed swings by " + rounded(swing->measured) +
-                            " rad/s without end; with ideal sensors by " + rounded(*s.ideal_swing_rad_s) +
-                            " rad/s",
+  s.warnings.push_back({"in the simulation the speed swings by " + base::three_digits(swing->measured) +
+                            " rad/s without end; with ideal sensors by " +
+                            base::three_digits(*s.ideal_swing_rad_s) + " rad/s",
                         cure_of_settling(s.design), true});
 }
 
@@ -84,8 +83,9 @@ void look_at_run(DesignStudy& s) {
   look_at_settling(s);
   for (const study::Verdict& v : s.outcome.verdicts)
     if (!v.ok && s.usable())  // else the reason is told
-      s.warnings.push_back({"in the simulation the " + v.figure + " is " + rounded(v.measured) + " " + v.unit,
-                            cure_of_settling(s.design), true});
+      s.warnings.push_back(
+          {"in the simulation the " + v.figure + " is " + base::three_digits(v.measured) + " " + v.unit,
+           cure_of_settling(s.design), true});
 }
 
 void look_at_tolerances(DesignStudy& s) {
@@ -93,9 +93,9 @@ void look_at_tolerances(DesignStudy& s) {
   const std::optional<double> swing = s.allowed_swing_rad_s;
   for (const RobustFigure& f : s.robustness->figures) {
     if (f.figure == "speed ripple" && swing && f.nominal <= *swing && f.worst > *swing)
-      s.warnings.push_back(
-          {"out of tolerance the speed swings by " + rounded(f.worst) + " rad/s without end: " + f.at,
-           chiefly(f, "design slower (settle_s)"), true});
+      s.warnings.push_back({"out of tolerance the speed swings by " + base::three_digits(f.worst) +
+                                " rad/s without end: " + f.at,
+                            chiefly(f, "design slower (settle_s)"), true});
     if (f.figure == "settling time" && !drowned(s) && std::isfinite(f.nominal) && !std::isfinite(f.worst))
       s.warnings.push_back(
           {"out of tolerance it never settles: " + f.at, chiefly(f, "design slower (settle_s)"), true});
@@ -103,7 +103,7 @@ void look_at_tolerances(DesignStudy& s) {
     const base::LinearUnit unit = design::motion_of(s.scenario.sheet).unit("deg");
     if (position && f.figure == "overshoot" &&
         f.worst > unit.factor * allowed_overshoot_deg(s.design, s.scenario.reference.value))
-      s.warnings.push_back({"out of tolerance it overshoots by " + rounded(f.worst) + " " +
+      s.warnings.push_back({"out of tolerance it overshoots by " + base::three_digits(f.worst) + " " +
                                 std::string(unit.linear) + ": " + f.at,
                             chiefly(f, "lower the gain, or torque_limit_Nm so that braking keeps a reserve"),
                             true});
@@ -111,7 +111,7 @@ void look_at_tolerances(DesignStudy& s) {
   for (const RobustFigure& f : s.robustness->phases)
     if (f.worst < 30.0 && f.nominal >= 30.0)
       s.warnings.push_back({"out of tolerance the " + f.figure + " falls to " +
-                                rounded(std::max(f.worst, 0.0)) +
+                                base::three_digits(std::max(f.worst, 0.0)) +
                                 " degrees with one period of delay: " + f.at,
                             "design slower (settle_s)", false});
 }
@@ -121,7 +121,7 @@ constexpr double most_periods = 2e6;
 
 base::Problems too_long(const study::Scenario& s) {
   if (s.duration_s / s.pwm.period_s <= most_periods) return {};
-  return {{"the test", rounded(s.duration_s) + " s",
+  return {{"the test", base::three_digits(s.duration_s) + " s",
            "is longer than two million control periods, so slow is the drive beside them",
            "give a shorter settle_s, a smaller step or more torque_limit_Nm, or a longer period_s"}};
 }
@@ -173,7 +173,7 @@ base::Result<std::vector<design::DerivationStep>> sensorless_steps(const DesignS
 base::Result<DesignStudy> studied(const DesignOrder& order) {
   const std::optional<double>& step = order.subject.step;
   if (step && !(std::isfinite(*step) && *step != 0.0))
-    return base::Problem{"step", rounded(*step), "must be a number other than 0",
+    return base::Problem{"step", base::three_digits(*step), "must be a number other than 0",
                          "give it in A, rad/s or deg as the mode asks"};
   const base::Result<design::MotorModel> motor = design::motor_model(order.subject.sheet);
   if (!motor) return motor.problems();

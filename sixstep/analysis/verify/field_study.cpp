@@ -21,8 +21,6 @@ using control::Mode;
 using design::DerivationStep;
 using design::LoopDesign;
 
-std::string rounded(double x) { return base::rounded(x, 3); }
-
 double circle_V(const FieldStudy& f) { return f.design.bus_V / std::sqrt(3.0); }
 
 /// Where the magnet's back-EMF alone takes the whole circle.
@@ -162,14 +160,14 @@ void look_at_loop(const LoopDesign& loop, FieldStudy& f) {
   if (!loop.figures.stable || !built.stable) return warn("is unstable" + with, true);
   const double phase_deg = built.phase_rad.value_or(base::pi) * 180.0 / base::pi;
   if (phase_deg < design::least_phase_deg - 0.1)
-    warn("keeps " + rounded(phase_deg) + " degrees of phase" + with + ", less than " +
-             rounded(design::least_phase_deg),
+    warn("keeps " + base::three_digits(phase_deg) + " degrees of phase" + with + ", less than " +
+             base::three_digits(design::least_phase_deg),
          false);
   else if (built.sensitivity_peak > design::greatest_sensitivity)
-    warn("amplifies disturbances up to " + rounded(built.sensitivity_peak) + " times", false);
+    warn("amplifies disturbances up to " + base::three_digits(built.sensitivity_peak) + " times", false);
   if (loop.name != "position" && loop.step.overshoot > 0.1)
     f.warnings.push_back({"the " + loop.name + " loop overshoots a step by " +
-                              rounded(100.0 * loop.step.overshoot) + " %, for the PI's zero",
+                              base::three_digits(100.0 * loop.step.overshoot) + " %, for the PI's zero",
                           "limit how fast the setpoint rises (control.slew)", false});
 }
 
@@ -180,7 +178,7 @@ void look_at_separation(FieldStudy& f) {
     if (!inner.figures.crossover_rad_s || !outer.figures.crossover_rad_s) continue;
     const double ratio = *inner.figures.crossover_rad_s / *outer.figures.crossover_rad_s;
     if (ratio < design::least_separation)
-      f.warnings.push_back({"the " + inner.name + " loop crosses over at only " + rounded(ratio) +
+      f.warnings.push_back({"the " + inner.name + " loop crosses over at only " + base::three_digits(ratio) +
                                 " times the frequency of the " + outer.name + " loop",
                             slower(outer.name), false});
   }
@@ -188,9 +186,9 @@ void look_at_separation(FieldStudy& f) {
 
 void look_at_bus(const control::FieldDriveConfig<double>& c, double asked_rad_s, FieldStudy& f) {
   if (asked_rad_s > base_speed_rad_s(f) && !(c.weakening.most_A > 0))
-    f.warnings.push_back({"the reference asks for " + rounded(asked_rad_s) +
-                              " rad/s, and the bus has no voltage above " + rounded(base_speed_rad_s(f)) +
-                              " rad/s",
+    f.warnings.push_back({"the reference asks for " + base::three_digits(asked_rad_s) +
+                              " rad/s, and the bus has no voltage above " +
+                              base::three_digits(base_speed_rad_s(f)) + " rad/s",
                           "give control.field.weakening_A, or raise supply.voltage_V", false});
 }
 

@@ -12,8 +12,6 @@
 namespace sixstep::analysis {
 namespace {
 
-constexpr double electrical_turn = 6 * base::sector_rad;
-
 /// How long a run with rows for a picture may be: some seconds for all of them.
 constexpr double most_periods = 3e5;
 constexpr double rows = 1500;
@@ -51,16 +49,16 @@ void set_times(WiringBench& b) {
   const plant::Machine& m = b.motor.machine;
   const double K = b.motor.K_t_Nm_A, R = 2 * m.R_ohm, period = study::Pwm{}.period_s;
   b.ideal_rad_s = b.duty * b.voltage_V / K;
-  const double watched = watched_turns * electrical_turn / (m.pole_pairs * b.ideal_rad_s);
+  const double watched = watched_turns * electrical_turn_rad / (m.pole_pairs * b.ideal_rad_s);
   b.watched_from_s = on_grid(run_up * R * b.motor.shaft.J_kg_m2 / (K * K) + watched / watched_turns, period);
   b.row_s = on_grid((b.watched_from_s + watched) / rows, period);
   b.watched_from_s = on_grid(b.watched_from_s, b.row_s);
   b.free_s = b.watched_from_s + on_grid(watched, b.row_s);
-  const double slow = electrical_turn / (m.pole_pairs * most_back_emf * b.ideal_rad_s);
+  const double slow = electrical_turn_rad / (m.pole_pairs * most_back_emf * b.ideal_rad_s);
   const double row = on_grid(std::max(slow, least_turn * m.L_H / m.R_ohm) / turned_rows, period);
   b.turned_s = turned_rows * row;
   b.turned_from_s = b.turned_s / 6;
-  b.turned_rad_s = electrical_turn / (m.pole_pairs * b.turned_s);
+  b.turned_rad_s = electrical_turn_rad / (m.pole_pairs * b.turned_s);
 }
 
 study::Measure over(study::MetricKind metric, study::Signal signal, double from_s) {

@@ -5,12 +5,15 @@
 #include <optional>
 #include <string>
 
+#include "sixstep/base/angle.hpp"
 #include "sixstep/base/result.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/rig/wiring.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
 namespace sixstep::analysis {
+
+inline constexpr double electrical_turn_rad = 6 * base::sector_rad;
 
 struct WiringSubject {
   std::string motor{};                ///< name or path, as a scenario is to have it

@@ -16,8 +16,6 @@
 namespace sixstep::analysis {
 namespace {
 
-constexpr double electrical_turn = 6 * base::sector_rad;
-
 /// Electrical turns: what hums swings within half a turn about its rest, and comes to it from no farther away.
 constexpr double whole_way = 1.0;
 /// In the watched time, in which an ideal motor makes three. A slow one is held by friction, and still runs.
@@ -68,7 +66,7 @@ double swings_Hz(const std::vector<double>& t_s, const std::vector<double>& spee
 
 /// Of the columns of a free run: t, angle, speed, currents.
 void look_at_rows(const WiringBench& b, const Columns& c, FreeRun& run) {
-  const double per_rad = b.motor.machine.pole_pairs / electrical_turn;
+  const double per_rad = b.motor.machine.pole_pairs / electrical_turn_rad;
   const auto first = static_cast<std::size_t>(
       std::lower_bound(c[0].begin(), c[0].end(), b.watched_from_s - b.row_s / 2) - c[0].begin());
   for (std::size_t n = 0; n < c[0].size(); ++n) {

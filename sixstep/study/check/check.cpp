@@ -7,10 +7,10 @@
 #include <string>
 
 #include "sixstep/base/angle.hpp"
-#include "sixstep/base/written.hpp"
 #include "sixstep/study/check/field.hpp"
 #include "sixstep/study/check/heat.hpp"
 #include "sixstep/study/check/measures.hpp"
+#include "sixstep/study/check/number.hpp"
 #include "sixstep/study/check/numbers.hpp"
 #include "sixstep/study/check/pace.hpp"
 #include "sixstep/study/check/product.hpp"
@@ -31,8 +31,6 @@
 namespace sixstep::study {
 
 namespace {
-
-std::string number(double v) { return base::rounded(v, 6); }
 
 void check_bridge(const Scenario& s, base::Problems& out) {
   if (s.bridge.saturation_V > 0 && s.bridge.device != Device::igbt)

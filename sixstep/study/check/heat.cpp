@@ -3,14 +3,12 @@
 
 #include <string>
 
-#include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/study/check/number.hpp"
 
 namespace sixstep::study {
 
 namespace {
-
-std::string number(double v) { return base::rounded(v, 6); }
 
 void check_energies(const Bridge& b, base::Problems& out) {
   const bool energies = b.turn_on_J > 0 || b.turn_off_J > 0 || b.recovery_J > 0;

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "sixstep/base/written.hpp"
+#include "sixstep/study/check/number.hpp"
 #include "sixstep/study/check/reference.hpp"
 
 namespace sixstep::study {
@@ -12,8 +12,6 @@ namespace sixstep::study {
 namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();  // a line may lead beyond the end
-
-std::string number(double v) { return base::rounded(v, 6); }
 
 void check_table(const Load& l, base::Problems& out) {
   if (l.at_speeds_rad_s.size() != l.at_speeds_Nm.size() || l.at_speeds_Nm.size() == 1 ||

@@ -3,14 +3,12 @@
 
 #include <string>
 
-#include "sixstep/base/written.hpp"
+#include "sixstep/study/check/number.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
 namespace sixstep::study {
 
 namespace {
-
-std::string number(double v) { return base::rounded(v, 6); }
 
 /// What only the PI's positional form has.
 void check_positional(const Scenario& s, base::Problems& out) {

@@ -5,13 +5,12 @@
 #include <string>
 
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/check/number.hpp"
 #include "sixstep/study/scenario/supply_voltages.hpp"
 
 namespace sixstep::study {
 
 namespace {
-
-std::string number(double v) { return base::rounded(v, 6); }
 
 void check_brake(const Supply& s, bool has_capacitor, base::Problems& out) {
   const double R = s.brake_resistance_ohm;

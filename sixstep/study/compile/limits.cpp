@@ -16,8 +16,6 @@ namespace {
 
 using control::Mode;
 
-std::string number(double v) { return base::rounded(v, 3); }
-
 double highest_start_V(const Scenario& s) {
   return std::max(highest_supply_V(s), s.initial.bus_V.value_or(0.0));
 }
@@ -33,9 +31,9 @@ void check_converter(const Scenario& s, const control::DriveConfig<double>& driv
   const double read =
       range - 2 * range / std::ldexp(1.0, sensors.adc_bits) - std::fabs(sensors.current_offset_A);
   if (asked < read) return;
-  out.push_back({"sensors.current_range_A", number(range),
-                 "lets the converter read up to " + number(read) + " A, and the drive " +
-                     (limited ? "turns off above " : "may ask for ") + number(asked) + " A",
+  out.push_back({"sensors.current_range_A", base::three_digits(range),
+                 "lets the converter read up to " + base::three_digits(read) + " A, and the drive " +
+                     (limited ? "turns off above " : "may ask for ") + base::three_digits(asked) + " A",
                  s.control.mode == Mode::current ? "widen it, or lower the reference"
                                                  : "widen it, or lower control.current.limit_A"});
 }
@@ -45,7 +43,7 @@ void check_shunt(const Scenario& s, base::Problems& out) {
   if (s.sensors.currents != rig::CurrentMeasurement::dc_link) return;
   const auto refuse = [&out](const char* key, const std::optional<double>& value) {
     if (value)
-      out.push_back({key, number(*value),
+      out.push_back({key, base::three_digits(*value),
                      "needs every phase's current, and a shunt in the DC link hides some",
                      "set sensors.currents = \"phases\", or leave it away"});
   };
@@ -62,10 +60,11 @@ void check_current(const Scenario& s, const design::LimitSetting& setting, base:
   if (pulse_A <= setting.current_A) return;
   const bool by_current = wanted.current_A.has_value();
   out.push_back({by_current ? "control.limits.current_A" : "control.limits.torque_Nm",
-                 number(by_current ? *wanted.current_A : *wanted.torque_Nm),
-                 "comes to " + number(setting.current_A) + " A, and one PWM period drives " +
-                     number(pulse_A) + " A into the held rotor",
-                 "shorten pwm.period_s to " + number(s.pwm.period_s * setting.current_A / pulse_A) +
+                 base::three_digits(by_current ? *wanted.current_A : *wanted.torque_Nm),
+                 "comes to " + base::three_digits(setting.current_A) + " A, and one PWM period drives " +
+                     base::three_digits(pulse_A) + " A into the held rotor",
+                 "shorten pwm.period_s to " +
+                     base::three_digits(s.pwm.period_s * setting.current_A / pulse_A) +
                      " or raise the limit"});
 }
 
@@ -91,10 +90,10 @@ void check_speed(const Scenario& s, const design::LimitSetting& setting, base::P
   if (most(limit) <= fastest * limit) return;
   double least = limit;
   while (most(least) > fastest * least) least *= 1.02;
-  out.push_back({"control.limits.speed_rad_s", number(limit),
+  out.push_back({"control.limits.speed_rad_s", base::three_digits(limit),
                  "cannot be held: until a sample tells, the drive's own torque may take the rotor to " +
-                     number(most(limit)) + " rad/s",
-                 "raise it to " + number(least) + ", lower control.limits.current_A" +
+                     base::three_digits(most(limit)) + " rad/s",
+                 "raise it to " + base::three_digits(least) + ", lower control.limits.current_A" +
                      (s.sensors.rotor == RotorSensing::hall ? ", or take fewer sensors.speed_edges"
                                                             : ", or shorten pwm.period_s")});
 }
@@ -104,8 +103,8 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
   if (!wanted || !(s.supply.capacitance_F > 0)) return;
   const double from = highest_start_V(s);
   if (!(*wanted > from)) {  // check.cpp says so of the supply at the start
-    out.push_back({"control.regeneration.limit_V", number(*wanted),
-                   "must be above the highest supply or start, " + number(from) + " V",
+    out.push_back({"control.regeneration.limit_V", base::three_digits(*wanted),
+                   "must be above the highest supply or start, " + base::three_digits(from) + " V",
                    "the drive could never brake"});
     return;
   }
@@ -121,12 +120,12 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
   while (!holds(limit_V, C) && limit_V < 100 * from) limit_V = from + 1.05 * (limit_V - from);
   while (!holds(*wanted, C_F) && C_F < 1e6 * C) C_F *= 1.05;
   const bool can_store = holds(*wanted, C_F);
-  out.push_back({"control.regeneration.limit_V", number(*wanted),
+  out.push_back({"control.regeneration.limit_V", base::three_digits(*wanted),
                  "cannot be held: what the windings hold when the drive lets go, up to " +
-                     number(design::most_current_A(setting)) + " A, may lift the bus to " + number(reached) +
-                     " V",
-                 "raise it to " + number(limit_V) +
-                     (can_store ? " or supply.capacitance_F to " + number(C_F) : std::string()) +
+                     base::three_digits(design::most_current_A(setting)) + " A, may lift the bus to " +
+                     base::three_digits(reached) + " V",
+                 "raise it to " + base::three_digits(limit_V) +
+                     (can_store ? " or supply.capacitance_F to " + base::three_digits(C_F) : std::string()) +
                      ", or lower the current limit"});
 }
 
@@ -135,9 +134,9 @@ void check_saliency(const Scenario& s, base::Problems& out) {
   const double ratio = s.sheet.q_axis_inductance_mH->value / s.sheet.d_axis_inductance_mH->value;
   const auto refuse = [&](const char* key, const std::optional<double>& value) {
     if (value)
-      out.push_back({key, number(*value),
+      out.push_back({key, base::three_digits(*value),
                      "is a promise that is proved for a rotor of one inductance, and this one's L_q is " +
-                         number(ratio) + " times its L_d",
+                         base::three_digits(ratio) + " times its L_d",
                      "leave it away, and set what the drive may ask for: control.current.limit_A, "
                      "control.speed.torque_limit_Nm"});
   };

@@ -22,7 +22,7 @@ PerLeg<double> bus_current_weights(const plant::View& plant) {
 namespace {
 
 /// The segment's own series seen over [from, to], with zeros behind their degree.
-struct Stretch {
+struct Span {
   const SegmentView& g;
   double from, to;
 
@@ -48,7 +48,7 @@ void add(Series& sum, double weight, const Series& c) {
 struct SpeedShapes {
   Series w0, w1;
 };
-SpeedShapes speed_shapes(const Stretch& part) {
+SpeedShapes speed_shapes(const Span& part) {
   const auto& y = part.g.plant.expansion();
   const Series w = part.of(y.w);
   if (part.g.plant.lean->constants().sine)
@@ -60,7 +60,7 @@ const plant::EmfPiece<double>& emf_piece(const plant::Plant<double>& plant) {
   return plant.constants().emf[static_cast<std::size_t>(plant.mode().sector)].piece[plant.mode().piece];
 }
 
-Series emf_series(const Stretch& part, int k) {
+Series emf_series(const Span& part, int k) {
   if (part.g.plant.general) return part.of(part.g.plant.general->series().emf[k]);
   const SpeedShapes shapes = speed_shapes(part);
   const plant::EmfPiece<double>& p = emf_piece(*part.g.plant.lean);
@@ -73,7 +73,7 @@ Series emf_series(const Stretch& part, int k) {
 /// Nothing connected: the star point is put midway, u_n = (U_s - e_high - e_low)/2 (plant/circuit.hpp). Which
 /// legs are highest and lowest changes at edges of sectors and pieces only: the shapes are even about their
 /// tops and cross there. Where the rotor turns backwards the two change places, which changes no sum.
-void add_free_star(const Stretch& part, const SpeedShapes& shapes, Series& u) {
+void add_free_star(const Span& part, const SpeedShapes& shapes, Series& u) {
   const plant::Plant<double>& plant = *part.g.plant.lean;
   const plant::EmfPiece<double>& p = emf_piece(plant);
   const double x = (p.from + p.to) / 2;
@@ -90,7 +90,7 @@ void add_free_star(const Stretch& part, const SpeedShapes& shapes, Series& u) {
 }
 
 /// The same of the general kernel, which has e_k in the place of the pole voltages then: by the ends of the stretch.
-void add_general_free_star(const Stretch& part, Series& u) {
+void add_general_free_star(const Span& part, Series& u) {
   const auto& emf = part.g.plant.general->series().emf;
   const int degree = part.g.plant.expansion().degree;
   PerLeg<double> middle;
@@ -102,7 +102,7 @@ void add_general_free_star(const Stretch& part, Series& u) {
 }
 
 /// u_n + e_k of a leg that floats (model.md 2).
-Series floating_series(const Stretch& part, int k) {
+Series floating_series(const Span& part, int k) {
   const bool free = plant::connected_count(part.g.plant.legs()) == 0;
   Series u{};
   if (part.g.plant.general) {
@@ -127,7 +127,7 @@ Series floating_series(const Stretch& part, int k) {
 }
 
 /// u_k by the leg's device (model.md 2).
-Series pole_series(const Stretch& part, int k) {
+Series pole_series(const Span& part, int k) {
   const plant::View& plant = part.g.plant;
   if (plant::is_floating(plant.legs()[k])) return floating_series(part, k);
   const auto& terms = plant.terms(k);
@@ -138,14 +138,14 @@ Series pole_series(const Stretch& part, int k) {
   return u;
 }
 
-Series line_series(const Stretch& part, int from_leg, int to_leg) {
+Series line_series(const Span& part, int from_leg, int to_leg) {
   Series u = pole_series(part, from_leg);
   add(u, -1.0, pole_series(part, to_leg));
   return u;
 }
 
 /// sum_k r_k i_k^2 - offset_k i_k: what the devices keep of u_k i_k (plant/circuit.hpp).
-Series device_loss(const Stretch& part) {
+Series device_loss(const Span& part) {
   Series loss{};
   for (int k = 0; k < 3; ++k) {
     const auto& terms = part.g.plant.terms(k);
@@ -156,7 +156,7 @@ Series device_loss(const Stretch& part) {
   return loss;
 }
 
-Series copper_loss(const Stretch& part) {
+Series copper_loss(const Span& part) {
   const plant::View& plant = part.g.plant;
   Series loss{};
   for (int k = 0; k < 3; ++k) {
@@ -171,7 +171,7 @@ Series copper_loss(const Stretch& part) {
 }
 
 /// B w^2 + T_c |w|, and what an elastic shaft keeps: of the torques against the turning all but the load's.
-Series friction_loss(const Stretch& part) {
+Series friction_loss(const Span& part) {
   const plant::View& plant = part.g.plant;
   const Series w = part.of(plant.expansion().w);
   Series loss{};
@@ -194,7 +194,7 @@ Series friction_loss(const Stretch& part) {
 }
 
 /// At the load's side of gear and coupling.
-Series load_power(const Stretch& part) {
+Series load_power(const Span& part) {
   const plant::View& plant = part.g.plant;
   if (plant.general)
     return part.product(part.of(plant.general->series().load), part.of(plant.general->series().load_w));
@@ -204,38 +204,38 @@ Series load_power(const Stretch& part) {
   return power;
 }
 
-Series supply_power(const Stretch& part) {
+Series supply_power(const Span& part) {
   const auto& y = part.g.plant.expansion();
   return part.product(part.of(y.bus), part.of(weighted_current(bus_current_weights(part.g.plant), y)));
 }
 
 /// What the bridge takes less what its devices keep.
-Series motor_power(const Stretch& part) {
+Series motor_power(const Span& part) {
   Series p = supply_power(part);
   add(p, -1.0, device_loss(part));
   return p;
 }
 
-Series mechanical_power(const Stretch& part) {
+Series mechanical_power(const Span& part) {
   return part.product(part.of(part.g.plant.expansion().torque), part.of(part.g.plant.expansion().w));
 }
 
 template <int k>
-Series pole(const Stretch& part) {
+Series pole(const Span& part) {
   return pole_series(part, k);
 }
 template <int k>
-Series line(const Stretch& part) {
+Series line(const Span& part) {
   return line_series(part, k, (k + 1) % 3);
 }
 template <int k>
-Series emf(const Stretch& part) {
+Series emf(const Span& part) {
   return emf_series(part, k);
 }
 
 struct ProductSignal {
   Signal signal;
-  Series (*series)(const Stretch&);
+  Series (*series)(const Span&);
 };
 constexpr ProductSignal product_signals[] = {
     {Signal::pole_a, pole<0>},
@@ -271,7 +271,7 @@ static_assert([] {
 }  // namespace
 
 Piece product_piece(const SegmentView& g, Signal signal, double from, double to) {
-  const Stretch part{g, from, to};
+  const Span part{g, from, to};
   const ProductSignal* row = product_signal(signal);
   return {row ? row->series(part) : Series{}, part.degree()};
 }

@@ -58,14 +58,25 @@ struct DrawnDriveWalk {
   Telemetry<Scalar> telemetry{};
   Setpoint<Scalar> setpoint{};
 
-  void draw(Random& r) { retune(config, state, drawn_drive<Scalar>(r)); }
+  void draw(Random& r) {
+    DriveConfig<Scalar> next = drawn_drive<Scalar>(r);
+    next.extras.pwm = {static_cast<PwmPattern>(r.below(5)),
+                       positive_gain<Scalar>(r, 0)};  // drives with probes alone have them
+    next.extras.staying_phase = r.one_in(2);
+    retune(config, state, next);
+  }
   void step(Random& r, Digest& mix) {
     if (r.one_in(16)) setpoint.value = signal<Scalar>(r);
     Measurement<Scalar> m = drawn_measurement<Scalar>(r);
     if (r.one_in(64)) m.hall = r.below(8);
-    if (r.one_in(8)) mix_command(mix, on_hall(config, state, m.hall));
+    if (r.one_in(8)) {
+      const BridgeCommand<Scalar>& moved = on_hall(config, state, m.hall);
+      mix_command(mix, moved);
+      mix(static_cast<std::uint8_t>(moved.chopped));
+    }
     const BridgeCommand<Scalar> answer = sixstep::control::step(config, state, m, setpoint, telemetry);
     mix_command(mix, answer);
+    mix(static_cast<std::uint8_t>(answer.chopped));
     mix(telemetry.motor_current_A, telemetry.current_reference_A, telemetry.speed_reference_rad_s,
         telemetry.duty, state.current.u, state.speed.u, state.extras.speed.integral);
     saw("off", !answer.enabled);
@@ -73,6 +84,7 @@ struct DrawnDriveWalk {
     saw("coasts", !answer.enabled && !answer.fault && config.mode != Mode::off);
     saw("reversed", answer.enabled && state.reversed);
     saw("all the bus", answer.duty == one<Scalar>);
+    saw("chops the lower switch", answer.enabled && answer.chopped == ChoppedSwitch::lower);
     saw("comparators armed", answer.watch != Watch::none);
     saw("chops otherwise than configured", answer.enabled && answer.chopping != config.chopping);
   }

@@ -2,12 +2,14 @@
 // The blocks of the loops: arithmetic, controllers, setpoints. A walk draws a configuration and then steps
 // it; its state goes on between draws.
 #pragma once
+#include "sixstep/control/deadbeat.hpp"
 #include "sixstep/control/derivative.hpp"
 #include "sixstep/control/feed_forward.hpp"
 #include "sixstep/control/hysteresis.hpp"
 #include "sixstep/control/pi.hpp"
 #include "sixstep/control/pi_positional.hpp"
 #include "sixstep/control/profile.hpp"
+#include "sixstep/control/pwm_pattern.hpp"
 #include "sixstep/control/slew.hpp"
 #include "sixstep/control/smooth_chopping.hpp"
 #include "tests/target/walk/counted.hpp"
@@ -169,6 +171,62 @@ struct SmoothChoppingWalk {
         "smooth_chopping_step", [&] { return smooth_chopping_step(config, state, reversed, i_m); })));
     saw("became soft", was != Chopping::soft && state.chopping == Chopping::soft);
     saw("became complementary", was == Chopping::soft && state.chopping != Chopping::soft);
+  }
+};
+
+/// A rotor that mostly goes on, driven or braked.
+template <class Scalar>
+struct PwmPatternWalk {
+  PwmPatternConfig<Scalar> config{};
+  PwmPatternState<Scalar> state{};
+  unsigned sector = 0;
+
+  void draw(Random& r) {
+    config = {static_cast<PwmPattern>(r.below(5)), positive_gain<Scalar>(r, 0)};
+    if (r.one_in(4)) state = {};
+  }
+  void step(Random& r, Digest& mix) {
+    if (r.one_in(8)) sector = (sector + (r.one_in(4) ? 5 : 1)) % 6;
+    const auto now = static_cast<std::uint8_t>(sector);
+    const Scalar speed = signal<Scalar>(r);
+    const Pair pair = r.one_in(4) ? swapped(positive_pair(now)) : positive_pair(now);
+    counted<0>("move_in_sector", [&] { move_in_sector(config, state, now, speed); });
+    const ChoppedSwitch chopped =
+        counted<1>("chopped_switch", [&] { return chopped_switch(config, state, now, pair); });
+    mix(static_cast<std::uint8_t>(chopped), state.passed);
+    const bool halves = config.pattern == PwmPattern::pwm_on_pwm;
+    saw("chops the lower switch", chopped == ChoppedSwitch::lower);
+    saw("the first half of a sector",
+        halves && state.passed < ScalarTraits<Scalar>::accumulator(one<Scalar>));
+    saw("the second", halves && !(state.passed < ScalarTraits<Scalar>::accumulator(one<Scalar>)));
+  }
+};
+
+template <class Scalar>
+struct DeadbeatWalk {
+  DeadbeatConfig<Scalar> config{};
+  DeadbeatState<Scalar> state{};
+
+  void draw(Random& r) {
+    const auto held = [&] {
+      return HeldWinding<Scalar>{positive_gain<Scalar>(r, 0), positive_gain<Scalar>(r, 0)};
+    };
+    config.wait = held();
+    config.rest = held();
+    config.decay = positive_gain<Scalar>(r, 0);
+    config.V_per_A = positive_gain<Scalar>(r, -3);
+    config.correction_V_per_A = positive_gain<Scalar>(r, -2);
+    config.K_t_V_s = positive_gain<Scalar>(r, 0);
+    config.limit = positive<Scalar>(r);
+    if (r.one_in(4)) state = {};
+  }
+  void step(Random& r, Digest& mix) {
+    const Scalar reference = signal<Scalar>(r), current = signal<Scalar>(r), speed = signal<Scalar>(r);
+    const Scalar u =
+        counted<0>("deadbeat_step", [&] { return deadbeat_step(config, state, reference, current, speed); });
+    mix(u, state.predicted, state.missed);
+    saw("at its limit", u == config.limit || u == -config.limit);
+    saw("within it", u < config.limit && u > -config.limit);
   }
 };
 

@@ -200,6 +200,8 @@ using Scalar = TARGET_SCALAR;
   walk<CommutationWalk<Scalar> >("commutation");
   walk<FramesWalk<Scalar> >("frames");
   walk<ThreePhasePwmWalk<Scalar> >("three_phase_pwm");
+  walk<PwmPatternWalk<Scalar> >("pwm_pattern");
+  walk<DeadbeatWalk<Scalar> >("deadbeat");
 }
 
 #ifndef TARGET_COUNTED

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// JSON has no word for what is not finite.
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include <optional>
+
+#include "text/rooms.hpp"
+
+namespace text {
+
+/// null where a number is infinite or is none.
+inline nlohmann::ordered_json finite(double x) {
+  return x - x == 0.0 ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
+}
+inline nlohmann::ordered_json or_null(const std::optional<double>& x) {
+  return x ? finite(*x) : nlohmann::ordered_json(nullptr);
+}
+
+}  // namespace text

@@ -1,0 +1,17 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""compile_commands.py BUILD OUT: the build's compile_commands.json with one entry for each source, also of those that are
+compiled in batches (cmake/rooms.cmake), into the folder OUT: for clang-tidy, clangd and what else looks at one source."""
+import json
+import pathlib
+import re
+import sys
+
+build, out = map(pathlib.Path, sys.argv[1:])
+entries = []
+for entry in json.loads((build / "compile_commands.json").read_text()):
+    batch = pathlib.Path(entry["file"])
+    within = re.findall(r'^#include "(.*\.cpp)"', batch.read_text(), re.M) if batch.parent.name == "Unity" else [str(batch)]
+    entries += [{**entry, "file": source, "command": entry["command"].replace(str(batch), source)} for source in within]
+out.mkdir(parents=True, exist_ok=True)
+(out / "compile_commands.json").write_text(json.dumps(entries, indent=1))
