@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_tidy.sh [BUILD]             clang-tidy over every source file of the product, with the flags of a configured build
-# check_tidy.sh [BUILD] --recent    of those that the last 40 commits changed, and those that include a header that they changed:
-#                                   the others are what they were when they were looked at
+# check_tidy.sh [BUILD] --recent    of those that the last 40 commits changed, and for each header that they changed one that
+#                                   includes it: the others are what they were when they were looked at
 # check_tidy.sh [BUILD] --analyzer  with the path-sensitive analyzer too, whose finds the sanitizers and the fuzzers meet first,
 #                                   and the checks that take longest for what they find (ctest --preset long)
 set -eu
@@ -27,8 +27,9 @@ looked_at() {
     return
   fi
   git diff --name-only --diff-filter=d "HEAD~$recent" -- "${sources[@]}"
-  git diff --name-only "HEAD~$recent" -- '*.hpp' | sed 's/.*/#include "&"/' >"$build/changed_headers.txt"
-  git ls-files -z "${sources[@]}" | xargs -0 grep -lFf "$build/changed_headers.txt" || true
+  git diff --name-only --diff-filter=d "HEAD~$recent" -- '*.hpp' | while read -r header; do
+    git ls-files -z "${sources[@]}" | xargs -0 grep -lF "#include \"$header\"" | sed 1q
+  done
 }
 python3 tools/compile_commands.py "$build" "$build/sources"
 looked_at | LC_ALL=C sort -u | tr '\n' '\0' | xargs -0 -n 1 -P "$(nproc)" clang-tidy -p "$build/sources" --quiet "$checks" 2>/dev/null
