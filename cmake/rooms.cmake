@@ -10,10 +10,6 @@ function(sixstep_room name)
     add_library(${name} STATIC ${ROOM_SOURCES})
     target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(${name} PUBLIC ${ROOM_DEPENDS})
-    # What reads and writes once: instrumented code takes twice as long to compile at -O1 (CMakeLists.txt).
-    if(SIXSTEP_SANITIZE AND name MATCHES "^(analysis|design|files|report|text)$")
-      target_compile_options(${name} PRIVATE -O0)
-    endif()
     # A forgotten member is an error in every room; a test names what it is about.
     target_compile_options(${name} PRIVATE -Wmissing-field-initializers)
     if(ROOM_LIBRARY)
@@ -23,6 +19,13 @@ function(sixstep_room name)
     add_library(${name} INTERFACE)
     target_include_directories(${name} INTERFACE ${PROJECT_SOURCE_DIR})
     target_link_libraries(${name} INTERFACE ${ROOM_DEPENDS})
+  endif()
+endfunction()
+
+# Of instrumented code only what holds the engine runs long enough to be worth -O1 (CMakeLists.txt).
+function(sixstep_holds_engine target)
+  if(SIXSTEP_SANITIZE)
+    target_compile_options(${target} PRIVATE -O1)
   endif()
 endfunction()
 

@@ -21,7 +21,7 @@ namespace {
 using sixstep::analysis::BodeStudy;
 using sixstep::analysis::LoopPoint;
 
-constexpr double turn = 2 * sixstep::base::pi, degrees = 180 / sixstep::base::pi;
+constexpr double degrees = 180 / sixstep::base::pi;
 
 /// Frequencies of the designed curve: those of the lines and enough between them for a smooth one.
 std::vector<double> frequencies(const BodeStudy& s) {
@@ -42,9 +42,10 @@ void add_designed(const BodeStudy& s, SvgChart& gain, SvgChart& phase) {
   double last = s.points.empty() ? 0.0 : s.points.front().phase_rad;
   for (const double w : frequencies(s)) {
     const auto L = *s.designed_at(w);
-    last = L.angle_rad() + turn * std::floor((last - L.angle_rad()) / turn + 0.5);
-    g.x.push_back(w / turn);
-    p.x.push_back(w / turn);
+    last = L.angle_rad() +
+           sixstep::base::turn_rad * std::floor((last - L.angle_rad()) / sixstep::base::turn_rad + 0.5);
+    g.x.push_back(w / sixstep::base::turn_rad);
+    p.x.push_back(w / sixstep::base::turn_rad);
     g.y.push_back(20 * std::log10(L.size()));
     p.y.push_back(last * degrees);
   }
@@ -59,7 +60,7 @@ std::string charts(const BodeStudy& s) {
   SvgChart coherence{.title = "Coherence", .x_label = "Hz", .log_x = true, .levels = {1.0}};
   SvgCurve g{"measured", "a", {}, {}}, p = g, t = g, c = g;
   for (const LoopPoint& point : s.points) {
-    for (SvgCurve* curve : {&g, &p, &t, &c}) curve->x.push_back(point.w_rad_s / turn);
+    for (SvgCurve* curve : {&g, &p, &t, &c}) curve->x.push_back(point.w_rad_s / sixstep::base::turn_rad);
     g.y.push_back(20 * std::log10(point.gain));
     p.y.push_back(point.phase_rad * degrees);
     t.y.push_back(20 * std::log10(point.closed.size()));

@@ -15,7 +15,7 @@ using sixstep::control::Mode;
 using sixstep::design::DriveDesign;
 
 constexpr const char* styles[] = {"a", "b", "c"};
-constexpr double turn = 2 * sixstep::base::pi, degrees = 180 / sixstep::base::pi;
+constexpr double degrees = 180 / sixstep::base::pi;
 
 const std::vector<double>* column(const DesignStudy& s, std::string_view name) {
   for (std::size_t n = 0; n < s.trace.columns.size(); ++n)
@@ -99,7 +99,7 @@ std::string loop_charts(const DesignStudy& s) {
       const double deg = point.phase_rad * degrees;
       // Beyond that neither tells anything.
       const bool shown = point.gain > 1e-3 && deg > -400;
-      g.x.push_back(point.w_rad_s / turn);
+      g.x.push_back(point.w_rad_s / sixstep::base::turn_rad);
       g.y.push_back(shown ? 20 * std::log10(point.gain) : NAN);
       p.y.push_back(shown ? deg : NAN);
     }

@@ -3,7 +3,7 @@
 # check_bits.sh          builds tests/digest with every toolchain at hand, runs it, and compares with expected.txt
 # check_bits.sh --all    the same, and a missing toolchain is a failure (ctest --preset long)
 # check_bits.sh --gate   another processor (aarch64) and another compiler (clang, for WebAssembly), likewise, at -O1: the tests
-#                        ask g++ at -O3, and at -O1 under the sanitizers; clang's bits have not yet hung on its target
+#                        ask g++ at -O3, and under the sanitizers at -O1 and -O0; clang's bits have not yet hung on its target
 # check_bits.sh --renew  writes expected.txt anew from g++ -O3: after a change that is meant to change bits
 #
 # In WebAssembly text/ is compiled too, and the scenarios of tests/digest/scenarios.txt are read from their texts there:

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_target.sh          the controller on real cores, emulated: the same bits (tests/target/digests.txt), what drives and
 #                          blocks cost, their flash, RAM and library calls (data/cores/)
-# check_target.sh PART..   of proof, sights (what the walk's inputs reach: ctest --preset long), bits, costs, blocks, sizes only these
+# check_target.sh PART..   of proof, sights (what the walk's inputs reach, looked at when its digests are renewed), bits, costs, blocks,
+#                          sizes only these
 # check_target.sh --all [PART..]    armhf and aarch64 too, a million steps on emulated hosts, every drive's costs (ctest --preset long)
 # check_target.sh --renew [PART..]  writes those tables anew: after a change that is meant to change them
 #

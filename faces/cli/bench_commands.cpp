@@ -108,7 +108,7 @@ struct BenchOutputs {
 void put(std::optional<files::AtomicFile>& file, const std::string& text, base::Problems& problems) {
   file->write(text);
   const base::Problems failed = file->commit();
-  problems.insert(problems.end(), failed.begin(), failed.end());
+  append(problems, failed);
 }
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }

@@ -67,7 +67,7 @@ void write(const CurveArguments& a, const analysis::CurveRequest& request, const
            CurveFiles& out, base::Problems& problems) {
   const auto commit = [&](auto& file) {
     const base::Problems failed = file.commit();
-    problems.insert(problems.end(), failed.begin(), failed.end());
+    append(problems, failed);
   };
   if (out.csv) {
     std::vector<double> numbers;

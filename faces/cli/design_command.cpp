@@ -100,7 +100,7 @@ struct DesignFiles {
       if (file)
         into.emplace(std::move(*file));
       else
-        found.insert(found.end(), file.problems().begin(), file.problems().end());
+        append(found, file.problems());
     };
     one(json, a.json);
     one(toml, a.toml);
@@ -118,7 +118,7 @@ base::Problems put(std::optional<files::AtomicFile>& file, const std::string& te
 
 base::Problems write(const analysis::DesignStudy& s, const DesignArguments& a, DesignFiles& out) {
   base::Problems found = put(out.json, text::design_json(s));
-  const auto add = [&](const base::Problems& more) { found.insert(found.end(), more.begin(), more.end()); };
+  const auto add = [&](const base::Problems& more) { append(found, more); };
   study::Scenario scenario = s.scenario;
   scenario.motor = motor_beside(scenario.motor, a.toml);
   const std::string text =
@@ -174,7 +174,7 @@ base::Result<analysis::DesignSubject> subject_of(const DesignArguments& a,
   if (sheet)
     subject.sheet = *sheet;
   else
-    found.insert(found.end(), sheet.problems().begin(), sheet.problems().end());
+    append(found, sheet.problems());
   return subject;
 }
 

@@ -142,7 +142,7 @@ Exit export_header(const ExportArguments& a) {
   base::Problems problems;
   const design::OperatingRange range = range_of(a, problems);
   const base::Result<study::Scenario> scenario = scenario_of(a);
-  if (!scenario) problems.insert(problems.end(), scenario.problems().begin(), scenario.problems().end());
+  if (!scenario) append(problems, scenario.problems());
   if (!problems.empty()) return refused(problems);
   text::ConfigHeader wanted{.scenario = *scenario,
                             .arithmetic = {},

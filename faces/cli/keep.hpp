@@ -15,7 +15,7 @@ void keep(std::optional<File>& into, base::Result<File> file, base::Problems& pr
   if (file)
     into.emplace(std::move(*file));
   else
-    problems.insert(problems.end(), file.problems().begin(), file.problems().end());
+    append(problems, file.problems());
 }
 
 }  // namespace cli

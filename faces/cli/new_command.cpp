@@ -39,7 +39,7 @@ base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::stri
                                                             study::mode_choices[4], study::mode_choices[1]};
   choose("--mode", a.mode, modes, spec.mode, found);
   const base::Result<design::Sheet> sheet = files::read_sheet(a.motor, a.data_dir);
-  if (!sheet) found.insert(found.end(), sheet.problems().begin(), sheet.problems().end());
+  if (!sheet) append(found, sheet.problems());
   if (!found.empty()) return found;
   spec.motor = motor_beside(a.motor, path);
   spec.sheet = *sheet;
@@ -59,7 +59,7 @@ Exit new_command(const NewArguments& a) {
   const std::string path = a.name.empty() ? "" : toml_path(a.name);
   base::Problems found = taken(path);
   const base::Result<study::Scenario> scenario = scenario_of(a, path);
-  if (!scenario) found.insert(found.end(), scenario.problems().begin(), scenario.problems().end());
+  if (!scenario) append(found, scenario.problems());
   if (!found.empty()) return refused(found);
   const std::string file = path.empty() ? "FILE.toml" : path;
   const std::string text = text::starter_text(*scenario, {.file = file, .full = a.full});

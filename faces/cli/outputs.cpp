@@ -77,7 +77,7 @@ base::Problems Outputs::open(const OutputPaths& paths, const study::Scenario& sc
     if (sink)
       open_.push_back({format.option, is_stdout(format, path) ? "" : path, std::move(*sink)});
     else
-      problems.insert(problems.end(), sink.problems().begin(), sink.problems().end());
+      append(problems, sink.problems());
   }
   return problems;
 }
@@ -111,7 +111,7 @@ base::Problems Outputs::publish(const files::RunStory& story, bool whole) {
   base::Problems problems;
   for (const Open& output : open_) {
     const base::Problems failed = output.sink.finish(story, whole);
-    problems.insert(problems.end(), failed.begin(), failed.end());
+    append(problems, failed);
     if (output.sink.left_out) left_out_ += output.sink.left_out();
     if (!failed.empty() || output.path.empty()) continue;
     // What is no regular file has no such name.

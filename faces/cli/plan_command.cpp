@@ -83,7 +83,7 @@ class MadePlan {
       whole.point = analysis::point_of_run(p, record.number);
       visit(whole);
     });
-    problems_.insert(problems_.end(), unread.begin(), unread.end());
+    append(problems_, unread);
   }
 
   const ReadPlan& plan_;
@@ -128,7 +128,7 @@ Exit run_plan(const RunArguments& a, const ReadPlan& plan, std::vector<text::Jun
   if (!a.quiet && made.problems().empty())
     print(text::plan_table(made.story()), a.paths.prints() ? stderr : stdout);
   base::Problems problems = outputs.publish(made.story(), plan, !interrupted());
-  problems.insert(problems.end(), made.problems().begin(), made.problems().end());
+  append(problems, made.problems());
   complain(problems);
   suites.push_back(made.verdicts());
   if (interrupted()) return exit_of_interrupt();
@@ -155,8 +155,7 @@ Exit compare_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
     pages.push_back(page_of(a, plan, one.story(), {}));
   }
   file->write(plan_page(pages, a.command));
-  for (const auto& one : made)
-    problems.insert(problems.end(), one->problems().begin(), one->problems().end());
+  for (const auto& one : made) append(problems, one->problems());
   const base::Problems unwritten = problems.empty() ? file->commit() : problems;
   complain(unwritten);
   return unwritten.empty() ? exit : graver(exit, Exit::bad_input);
@@ -216,7 +215,7 @@ Exit plan_command(const RunArguments& arguments) {
     if (plan)
       read.push_back(std::move(*plan));
     else
-      problems.insert(problems.end(), plan.problems().begin(), plan.problems().end());
+      append(problems, plan.problems());
   }
   if (!problems.empty()) return refused(problems);
   std::optional<files::AtomicFile> junit;

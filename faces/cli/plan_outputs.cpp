@@ -64,7 +64,7 @@ std::string PlanOutputs::page(const text::PlanStory& story, const ReadPlan& plan
                               base::Problems& problems) const {
   WorstReports worst;
   if (!arguments_->out.empty() && !interrupted()) worst = write_worst_reports(*arguments_, plan, story);
-  problems.insert(problems.end(), worst.problems.begin(), worst.problems.end());
+  append(problems, worst.problems);
   return plan_page({page_of(*arguments_, plan, story, std::move(worst.files))}, plan.origin.command);
 }
 
@@ -79,7 +79,7 @@ base::Problems PlanOutputs::publish(const text::PlanStory& story, const ReadPlan
     if (open.option == "--json") open.file.write(json);
     if (open.option == page_option) open.file.write(page(story, plan, problems));
     const base::Problems unwritten = whole ? open.file.commit() : open.file.commit_partial();
-    problems.insert(problems.end(), unwritten.begin(), unwritten.end());
+    append(problems, unwritten);
   }
   if (prints_json_ && whole) print(json);
   return problems;

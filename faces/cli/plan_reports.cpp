@@ -75,7 +75,7 @@ WorstReports write_worst_reports(const RunArguments& a, const ReadPlan& plan, co
     const std::string file = fmt::format("{}.run-{}.html", plan.name, number);
     const base::Problems problems = write_report(a, plan, number, (fs::path(a.out) / file).string());
     if (problems.empty()) written.files.emplace(number, file);
-    written.problems.insert(written.problems.end(), problems.begin(), problems.end());
+    append(written.problems, problems);
   }
   return written;
 }

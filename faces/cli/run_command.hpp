@@ -11,11 +11,6 @@
 
 namespace cli {
 
-/// All that is wrong is told at once.
-inline void append(base::Problems& to, const base::Problems& more) {
-  to.insert(to.end(), more.begin(), more.end());
-}
-
 /// Of many runs.
 struct PlanArguments {
   std::vector<std::string> vary;  ///< "key=from:to:points" or "key=value,value"

@@ -65,7 +65,7 @@ std::string scenario_of(const analysis::WiringStudy& s, const std::string& path)
 
 base::Problems write(const analysis::WiringStudy& s, const WiringArguments& a, WiringFiles& out) {
   base::Problems found;
-  const auto add = [&](const base::Problems& more) { found.insert(found.end(), more.begin(), more.end()); };
+  const auto add = [&](const base::Problems& more) { append(found, more); };
   const report::WiringPageInput page{
       .study = s, .scenario = scenario_of(s, ""), .command = a.command, .version = SIXSTEP_VERSION};
   if (out.svg) add(put(out.svg, report::wiring_picture(s, SIXSTEP_VERSION)));

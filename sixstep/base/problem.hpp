@@ -19,6 +19,9 @@ struct Problem {
 
 using Problems = std::vector<Problem>;
 
+/// All that is wrong is told at once.
+inline void append(Problems& to, const Problems& more) { to.insert(to.end(), more.begin(), more.end()); }
+
 /// "supply.voltage_V = -3 must be above 0; give the bus voltage in volts"
 inline std::string to_string(const Problem& p) {
   std::string text = p.where;

@@ -24,6 +24,8 @@ inline std::string rounded(double x, int digits) {
 
 /// As a sentence names what need not be exact.
 inline std::string three_digits(double x) { return rounded(x, 3); }
+/// As one names what was given, or comes out of a formula.
+inline std::string six_digits(double x) { return rounded(x, 6); }
 
 /// Sixteen hexadecimal digits.
 inline std::string written_hex(std::uint64_t bits) {

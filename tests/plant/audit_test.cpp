@@ -139,8 +139,8 @@ TEST(SegmentEnergy, IsThatOfTheWholeProducts) {
   EXPECT_GT(connected[3], 1000);
 }
 
-/// Of the series of three currents, which the audit does not sum once more where a segment ends: Kirchhoff's law order by
-/// order, and nothing in a leg that floats.
+/// Beside the audit's own sums at both ends: Kirchhoff's law of the three currents' series order by order, and nothing in a leg that
+/// floats.
 struct SumsOfSeries {
   double worst_A = 0, floating_A = 0;
   int of_legs[4] = {};

@@ -10,7 +10,6 @@
 #include "text/export/clearance_lines.hpp"
 #include "text/export/config_text.hpp"
 #include "text/export/core_costs.hpp"
-#include "text/results/quantity_text.hpp"
 
 namespace text {
 namespace {
@@ -25,27 +24,30 @@ std::string comment(std::string_view label, std::string_view text) {
 std::string closed_loop_poles(const study::LoopGains& g, const design::ZohPlant& plant) {
   const double half = (plant.b0 * g.d1 + plant.a0 - 1) / 2, product = plant.b0 * g.d0 - plant.a0;
   const double square = half * half - product, root = std::sqrt(std::fabs(square));
-  return square < 0 ? fmt::format("z = {} +- {}j", six_digits(-half), six_digits(root))
-                    : fmt::format("z = {} and {}", six_digits(-half + root), six_digits(-half - root));
+  return square < 0
+             ? fmt::format("z = {} +- {}j", sixstep::base::six_digits(-half), sixstep::base::six_digits(root))
+             : fmt::format("z = {} and {}", sixstep::base::six_digits(-half + root),
+                           sixstep::base::six_digits(-half - root));
 }
 
 /// One line: the gains and where they come from.
 std::string derivation(const study::LoopGains& g) {
   if (g.loop == "position") return fmt::format("{} rad/s per deg; {}", base::written(g.d1), g.origin);
   const char* unit = g.loop.starts_with("current") ? "V/A" : "per rad/s";
-  if (!g.steps.empty()) return fmt::format("K = {} {}; {}", six_digits(g.d1), unit, g.origin);
-  std::string text =
-      fmt::format("d1 = {} {}, d0 = {} {}; {}", six_digits(g.d1), unit, six_digits(g.d0), unit, g.origin);
+  if (!g.steps.empty()) return fmt::format("K = {} {}; {}", sixstep::base::six_digits(g.d1), unit, g.origin);
+  std::string text = fmt::format("d1 = {} {}, d0 = {} {}; {}", sixstep::base::six_digits(g.d1), unit,
+                                 sixstep::base::six_digits(g.d0), unit, g.origin);
   if (!g.derivation) return text;
   const design::PolePlacement& p = *g.derivation;
   const bool designed = p.gains.d1 == g.d1 && p.gains.d0 == g.d0;
   const std::string rule =
       fmt::format("settle_s = {}, damping = {}", base::written(p.settle_s), base::written(p.damping));
   text += fmt::format("; poles {}{} on {}/(z {:+.6g})", closed_loop_poles(g, p.plant),
-                      designed ? fmt::format(" ({})", rule) : "", six_digits(p.plant.b0), p.plant.a0);
+                      designed ? fmt::format(" ({})", rule) : "", sixstep::base::six_digits(p.plant.b0),
+                      p.plant.a0);
   if (designed) return text;
-  return text + fmt::format("; {} would give d1 = {}, d0 = {}", rule, six_digits(p.gains.d1),
-                            six_digits(p.gains.d0));
+  return text + fmt::format("; {} would give d1 = {}, d0 = {}", rule, sixstep::base::six_digits(p.gains.d1),
+                            sixstep::base::six_digits(p.gains.d0));
 }
 
 bool states_range(const design::OperatingRange& r) {
@@ -59,9 +61,11 @@ std::string head(const ConfigHeader& w, const study::Compiled& c) {
                       SIXSTEP_VERSION, comment_text(w.command));
   text += comment("scenario", w.scenario.title.empty() ? "(no title)" : w.scenario.title);
   text += comment(
-      "motor", fmt::format("{}: {} pole pairs, terminal R = {} ohm, L = {} H, K_t = {} N m/A; J = {} kg m2",
-                           w.scenario.sheet.name, static_cast<int>(m.pole_pairs), six_digits(2 * m.R_ohm),
-                           six_digits(2 * m.L_H), six_digits(c.motor.K_t_Nm_A), six_digits(c.shaft.J_kg_m2)));
+      "motor",
+      fmt::format("{}: {} pole pairs, terminal R = {} ohm, L = {} H, K_t = {} N m/A; J = {} kg m2",
+                  w.scenario.sheet.name, static_cast<int>(m.pole_pairs),
+                  sixstep::base::six_digits(2 * m.R_ohm), sixstep::base::six_digits(2 * m.L_H),
+                  sixstep::base::six_digits(c.motor.K_t_Nm_A), sixstep::base::six_digits(c.shaft.J_kg_m2)));
   for (const study::LoopGains& g : c.gains) text += comment(g.loop, derivation(g));
   text +=
       "// Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the "
@@ -143,8 +147,8 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   text += includes(w, c);
   text += fmt::format("\nnamespace {} {{\n\nusing Scalar = {};\n\n", w.name_space, type);
   const auto base = [](const char* member, double x, const char* unit) {
-    return fmt::format("{:<72}  // {} {}\n", fmt::format("  .{} = {},", member, hex_float(x)), six_digits(x),
-                       unit);
+    return fmt::format("{:<72}  // {} {}\n", fmt::format("  .{} = {},", member, hex_float(x)),
+                       sixstep::base::six_digits(x), unit);
   };
   text += "// What 1.0 means; constants of the board are made by its functions: units.amperes(15)\n";
   text += "inline constexpr sixstep::control::Units<Scalar> units{\n" + base("current_A", b.current_A, "A") +

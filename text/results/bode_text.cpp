@@ -21,7 +21,7 @@ using analysis::BodeStudy;
 using analysis::LoopPoint;
 using Json = nlohmann::ordered_json;
 
-constexpr double turn_rad = 2 * sixstep::base::pi, degrees_per_rad = 180 / sixstep::base::pi;
+constexpr double degrees_per_rad = 180 / sixstep::base::pi;
 /// Below it a line is told of: half of what came was not the multisine's.
 constexpr double little_coherence = 0.9;
 
@@ -40,8 +40,9 @@ struct Designed {
 std::optional<Designed> designed_at(const BodeStudy& s, const LoopPoint& p) {
   const auto L = s.designed_at(p.w_rad_s);
   if (!L) return std::nullopt;
-  const double off = (p.phase_rad - L->angle_rad()) / turn_rad;
-  return Designed{dB(L->size()), (L->angle_rad() + turn_rad * std::floor(off + 0.5)) * degrees_per_rad};
+  const double off = (p.phase_rad - L->angle_rad()) / sixstep::base::turn_rad;
+  return Designed{dB(L->size()),
+                  (L->angle_rad() + sixstep::base::turn_rad * std::floor(off + 0.5)) * degrees_per_rad};
 }
 
 std::string gain_margin(const std::optional<double>& gain) {
@@ -53,11 +54,11 @@ Json times(const std::optional<double>& x, double factor) { return x ? finite(*x
 Json margins_json(const std::optional<double>& crossover, const std::optional<double>& phase,
                   const std::optional<double>& gain, const std::optional<double>& delay,
                   const std::optional<double>& bandwidth) {
-  return {{"crossover_Hz", times(crossover, 1 / turn_rad)},
+  return {{"crossover_Hz", times(crossover, 1 / sixstep::base::turn_rad)},
           {"phase_margin_deg", times(phase, degrees_per_rad)},
           {"gain_margin", or_null(gain)},
           {"delay_margin_s", or_null(delay)},
-          {"bandwidth_Hz", times(bandwidth, 1 / turn_rad)}};
+          {"bandwidth_Hz", times(bandwidth, 1 / sixstep::base::turn_rad)}};
 }
 
 }  // namespace
@@ -72,11 +73,11 @@ std::vector<BodeMargin> bode_margins(const BodeStudy& s) {
     };
     return BodeMargin{name, in_unit(is), in_unit(was)};
   };
-  return {row("crossover", m.crossover_rad_s, f.crossover_rad_s, 1 / turn_rad, "Hz"),
+  return {row("crossover", m.crossover_rad_s, f.crossover_rad_s, 1 / sixstep::base::turn_rad, "Hz"),
           row("phase margin", m.phase_rad, f.phase_rad, degrees_per_rad, "deg"),
           {"gain margin", gain_margin(m.gain), gain_margin(f.gain)},
           row("delay that is left", m.delay_s, f.delay_s, 1.0, "s"),
-          row("bandwidth, closed", m.bandwidth_rad_s, f.bandwidth_rad_s, 1 / turn_rad, "Hz")};
+          row("bandwidth, closed", m.bandwidth_rad_s, f.bandwidth_rad_s, 1 / sixstep::base::turn_rad, "Hz")};
 }
 
 std::string bode_place(const BodeStudy& s) {
@@ -104,8 +105,8 @@ std::string bode_text(std::string_view name, const BodeStudy& s) {
   text += fmt::format("  {:>10}  {:>9}  {:>8}  {:>9}{}\n", "Hz", "|L|, dB", "phase", "coherence",
                       both ? fmt::format("  {:>12}  {:>8}", "designed, dB", "phase") : "");
   for (const LoopPoint& p : s.points) {
-    text += fmt::format("  {:>10.5g}  {:>9.2f}  {:>8.1f}  {:>9.4f}", p.w_rad_s / turn_rad, dB(p.gain),
-                        p.phase_rad * degrees_per_rad, p.coherence);
+    text += fmt::format("  {:>10.5g}  {:>9.2f}  {:>8.1f}  {:>9.4f}", p.w_rad_s / sixstep::base::turn_rad,
+                        dB(p.gain), p.phase_rad * degrees_per_rad, p.coherence);
     if (const auto d = designed_at(s, p))
       text += fmt::format("  {:>12.2f}  {:>8.1f}", d->gain_dB, d->phase_deg);
     text += "\n";
@@ -122,8 +123,8 @@ std::string bode_csv(const BodeStudy& s) {
   std::string text = "frequency_Hz,gain_dB,phase_deg,coherence,closed_gain_dB,scatter";
   text += s.designed ? ",designed_gain_dB,designed_phase_deg\n" : "\n";
   for (const LoopPoint& p : s.points) {
-    text += fmt::format("{},{},{},{},{},{}", p.w_rad_s / turn_rad, dB(p.gain), p.phase_rad * degrees_per_rad,
-                        p.coherence, dB(p.closed.size()), p.scatter);
+    text += fmt::format("{},{},{},{},{},{}", p.w_rad_s / sixstep::base::turn_rad, dB(p.gain),
+                        p.phase_rad * degrees_per_rad, p.coherence, dB(p.closed.size()), p.scatter);
     if (const auto d = designed_at(s, p)) text += fmt::format(",{},{}", d->gain_dB, d->phase_deg);
     text += "\n";
   }
@@ -147,7 +148,7 @@ std::string bode_json(std::string_view name, const BodeStudy& s) {
                                     s.figures->delay_s, s.figures->bandwidth_rad_s);
   if (!s.not_linear.empty()) json["not_linear"] = s.not_linear;
   for (const LoopPoint& p : s.points) {
-    Json point = {{"frequency_Hz", p.w_rad_s / turn_rad},
+    Json point = {{"frequency_Hz", p.w_rad_s / sixstep::base::turn_rad},
                   {"gain_dB", finite(dB(p.gain))},
                   {"phase_deg", p.phase_rad * degrees_per_rad},
                   {"coherence", p.coherence},

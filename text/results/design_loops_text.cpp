@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/design/thesis/thesis_figures.hpp"
 #include "text/results/quantity_text.hpp"
@@ -40,7 +41,7 @@ std::string loop_text(const LoopDesign& loop, const Motion& motion) {
     std::vector<std::string> cells{step.symbol, quantity_text(step.value, step.unit, 6), step.formula};
     if (loop.placed)
       if (const auto printed = sixstep::design::thesis_figure(loop.name, *loop.placed, step.symbol)) {
-        cells.push_back("thesis " + six_digits(*printed));
+        cells.push_back("thesis " + sixstep::base::six_digits(*printed));
         thesis = true;
       }
     rows.add(std::move(cells));
@@ -49,9 +50,10 @@ std::string loop_text(const LoopDesign& loop, const Motion& motion) {
   head[1] = static_cast<char>(head[1] - 'a' + 'A');
   std::string text = head + "\n" + rows.text();
   if (loop.name != "position")
-    text += fmt::format("  -> d1 = {}, d0 = {} {}; K = {}, K_i = {} per sample\n", six_digits(loop.gains.d1),
-                        six_digits(loop.gains.d0), gain_unit(loop, motion), six_digits(loop.gains.d1),
-                        six_digits(loop.gains.d1 + loop.gains.d0));
+    text += fmt::format("  -> d1 = {}, d0 = {} {}; K = {}, K_i = {} per sample\n",
+                        sixstep::base::six_digits(loop.gains.d1), sixstep::base::six_digits(loop.gains.d0),
+                        gain_unit(loop, motion), sixstep::base::six_digits(loop.gains.d1),
+                        sixstep::base::six_digits(loop.gains.d1 + loop.gains.d0));
   if (thesis)
     text +=
         "  (the thesis's gains follow from the poles that it prints; those are a faster loop's than it asks "

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
@@ -30,14 +31,17 @@ const study::ComparisonResult* find(const analysis::DesignStudy& s, const char* 
 }
 
 std::string motor_words(const sixstep::design::MotorModel& m) {
-  const std::string winding = fmt::format("terminal R = {} ohm, L = {} mH", six_digits(2 * m.machine.R_ohm),
-                                          six_digits(2e3 * m.machine.L_H));
+  const std::string winding =
+      fmt::format("terminal R = {} ohm, L = {} mH", sixstep::base::six_digits(2 * m.machine.R_ohm),
+                  sixstep::base::six_digits(2e3 * m.machine.L_H));
   if (sixstep::design::motion_of(m).linear)
     return fmt::format("{}, K_f = {} N/A, m = {} kg, B = {} N s/m, tau = {} mm", winding,
-                       six_digits(m.K_t_Nm_A), six_digits(m.shaft.J_kg_m2), six_digits(m.shaft.B_Nm_s),
-                       six_digits(1e3 * sixstep::base::pi / m.machine.pole_pairs));
-  return fmt::format("{}, K_t = {} mNm/A, J = {} g cm2, B = {} N m s", winding, six_digits(1e3 * m.K_t_Nm_A),
-                     six_digits(1e7 * m.shaft.J_kg_m2), six_digits(m.shaft.B_Nm_s));
+                       sixstep::base::six_digits(m.K_t_Nm_A), sixstep::base::six_digits(m.shaft.J_kg_m2),
+                       sixstep::base::six_digits(m.shaft.B_Nm_s),
+                       sixstep::base::six_digits(1e3 * sixstep::base::pi / m.machine.pole_pairs));
+  return fmt::format(
+      "{}, K_t = {} mNm/A, J = {} g cm2, B = {} N m s", winding, sixstep::base::six_digits(1e3 * m.K_t_Nm_A),
+      sixstep::base::six_digits(1e7 * m.shaft.J_kg_m2), sixstep::base::six_digits(m.shaft.B_Nm_s));
 }
 
 std::string motor_line(const DriveDesign& d, const study::Scenario& s) {
@@ -45,8 +49,8 @@ std::string motor_line(const DriveDesign& d, const study::Scenario& s) {
   return fmt::format(
       "{} on {} V: {}\n"
       "control and PWM period {}, {} chopping, a command counts {}\n",
-      visible(s.sheet.name.empty() ? s.motor : s.sheet.name), six_digits(d.bus_V), motor_words(d.motor),
-      quantity_text(d.spec.period_s, "s"), chopping,
+      visible(s.sheet.name.empty() ? s.motor : s.sheet.name), sixstep::base::six_digits(d.bus_V),
+      motor_words(d.motor), quantity_text(d.spec.period_s, "s"), chopping,
       d.spec.delay_periods == 1 ? "one period late" : "at once");
 }
 
@@ -61,13 +65,16 @@ std::string simulated_text(const analysis::DesignStudy& s) {
   const sixstep::base::LinearUnit deg = motion.unit("deg");
   std::string how;
   if (n.control.mode == Mode::current)
-    how = motion.words(fmt::format("rotor held, a step to {} A", six_digits(n.reference.value)));
+    how =
+        motion.words(fmt::format("rotor held, a step to {} A", sixstep::base::six_digits(n.reference.value)));
   else if (n.control.mode == Mode::speed)
     how = motion.words(fmt::format("load {} N m, from rest to {} rad/s, then to {} rad/s",
-                                   six_digits(n.load.torque_Nm), six_digits(n.reference.values.at(0)),
-                                   six_digits(n.reference.values.at(1))));
+                                   sixstep::base::six_digits(n.load.torque_Nm),
+                                   sixstep::base::six_digits(n.reference.values.at(0)),
+                                   sixstep::base::six_digits(n.reference.values.at(1))));
   else
-    how = fmt::format("a move of {} {}", six_digits(n.reference.value * deg.factor), deg.linear);
+    how =
+        fmt::format("a move of {} {}", sixstep::base::six_digits(n.reference.value * deg.factor), deg.linear);
   return fmt::format("\nSimulated with all switching: {}\n", how) + rows.text();
 }
 
@@ -94,10 +101,11 @@ std::string position_text(const analysis::PositionGain& p, const Motion& motion)
   const sixstep::base::LinearUnit gain = motion.unit("rad/s/deg");
   std::string text = motion.words(fmt::format(
       "  found by {} simulations between {} (full torque stops it from top speed) and {} (no limit acts)\n",
-      p.runs, six_digits(p.estimate * gain.factor), six_digits(p.linear * gain.factor)));
+      p.runs, sixstep::base::six_digits(p.estimate * gain.factor),
+      sixstep::base::six_digits(p.linear * gain.factor)));
   if (p.gain_rad_s_per_deg < p.nominal)
     text += fmt::format("  the sheet's motor alone would stand {} {}; the tolerances do not\n",
-                        six_digits(p.nominal * gain.factor), gain.linear);
+                        sixstep::base::six_digits(p.nominal * gain.factor), gain.linear);
   return text;
 }
 
@@ -183,9 +191,9 @@ std::vector<std::string> design_lines(const analysis::DesignStudy& s) {
   for (const LoopDesign& loop : s.design.loops) {
     std::string line = fmt::format("{} loop, {}: ", loop.name, loop.method);
     line += loop.name == "position"
-                ? fmt::format("{} {}", six_digits(loop.gains.d1 * gain.factor), gain.linear)
-                : fmt::format("d1 = {}, d0 = {} {}", six_digits(loop.gains.d1), six_digits(loop.gains.d0),
-                              gain_unit(loop, motion));
+                ? fmt::format("{} {}", sixstep::base::six_digits(loop.gains.d1 * gain.factor), gain.linear)
+                : fmt::format("d1 = {}, d0 = {} {}", sixstep::base::six_digits(loop.gains.d1),
+                              sixstep::base::six_digits(loop.gains.d0), gain_unit(loop, motion));
     lines.push_back(line);
   }
   return lines;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/motion.hpp"
 #include "text/escape/escape.hpp"
 #include "text/results/design_loops_text.hpp"
@@ -17,9 +18,10 @@ using sixstep::design::DerivationStep;
 
 std::string winding(const sixstep::design::FieldMachine& m) {
   if (m.L_d_H == m.L_q_H)
-    return fmt::format("phase R = {} ohm, L = {} mH", six_digits(m.R_ohm), six_digits(1e3 * m.L_q_H));
-  return fmt::format("phase R = {} ohm, L_d = {} mH, L_q = {} mH", six_digits(m.R_ohm),
-                     six_digits(1e3 * m.L_d_H), six_digits(1e3 * m.L_q_H));
+    return fmt::format("phase R = {} ohm, L = {} mH", sixstep::base::six_digits(m.R_ohm),
+                       sixstep::base::six_digits(1e3 * m.L_q_H));
+  return fmt::format("phase R = {} ohm, L_d = {} mH, L_q = {} mH", sixstep::base::six_digits(m.R_ohm),
+                     sixstep::base::six_digits(1e3 * m.L_d_H), sixstep::base::six_digits(1e3 * m.L_q_H));
 }
 
 std::string motor_line(const FieldStudy& f) {
@@ -28,9 +30,11 @@ std::string motor_line(const FieldStudy& f) {
   return fmt::format(
       "{} on {} V: {}, p = {}, psi = {} V s, J = {} g cm2, B = {} N m s\n"
       "field-oriented, control and PWM period {}, a command counts {}\n",
-      visible(s.sheet.name.empty() ? s.motor : s.sheet.name), six_digits(f.design.bus_V), winding(f.machine),
-      six_digits(f.machine.pole_pairs), six_digits(f.machine.magnet_V_s / f.machine.pole_pairs),
-      six_digits(1e7 * shaft.J_kg_m2), six_digits(shaft.B_Nm_s), quantity_text(f.design.spec.period_s, "s"),
+      visible(s.sheet.name.empty() ? s.motor : s.sheet.name), sixstep::base::six_digits(f.design.bus_V),
+      winding(f.machine), sixstep::base::six_digits(f.machine.pole_pairs),
+      sixstep::base::six_digits(f.machine.magnet_V_s / f.machine.pole_pairs),
+      sixstep::base::six_digits(1e7 * shaft.J_kg_m2), sixstep::base::six_digits(shaft.B_Nm_s),
+      quantity_text(f.design.spec.period_s, "s"),
       f.design.spec.delay_periods == 1 ? "one period late" : "at once");
 }
 

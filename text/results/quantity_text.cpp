@@ -58,8 +58,6 @@ std::string without_number(double x, const std::string& unit) {
 
 }  // namespace
 
-std::string six_digits(double x) { return fmt::format("{:.6g}", x); }
-
 std::string quantity_text(double x, const std::string& unit, int digits) {
   if (!std::isfinite(x)) return without_number(x, unit);
   const Prefix prefix = prefix_for(x, unit);

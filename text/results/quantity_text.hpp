@@ -13,9 +13,6 @@ namespace text {
 /// "131.17 us", "47.25 kHz", "702.61 rad/s": five significant digits unless asked for others.
 std::string quantity_text(double x, const std::string& unit, int digits = 5);
 
-/// For formulas and gains, which have no prefix.
-std::string six_digits(double x);
-
 /// Numbers that are compared with each other: all in the prefix of the largest of `yardsticks`, and with as
 /// many digits as tell apart whatever differs. First the texts of the yardsticks, without unit, then that of
 /// x.

@@ -14,8 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* leg_names[] = {"a", "b", "c"};
-
 std::string bits(std::uint8_t code) {
   return {static_cast<char>('0' + (code >> 2)), static_cast<char>('0' + (code >> 1 & 1)),
           static_cast<char>('0' + (code & 1))};
@@ -87,21 +85,20 @@ Json measured(const analysis::WiringMeasured& m) {
 }
 
 /// The wire at each place goes to this one: {"a": "b", "b": "a"}; what stays is left out.
-Json moves(const analysis::Moves& m, const char* const (&names)[3]) {
+Json moves(const analysis::Moves& m, const std::string_view (&names)[3]) {
   Json out = Json::object();
   for (std::size_t n = 0; n < 3; ++n)
-    if (m[n] != n) out[names[n]] = names[m[n]];
+    if (m[n] != n) out[std::string(names[n])] = names[m[n]];
   return out;
 }
 
 Json cures(const std::vector<analysis::Cure>& all) {
-  constexpr const char* pins[] = {"H1", "H2", "H3"};
   Json out = Json::array();
   for (const analysis::Cure& c : all)
     out.push_back({{"wires", c.wires()},
                    {"text", cure_text(c)},
                    {"legs", moves(c.legs, leg_names)},
-                   {"pins", moves(c.pins, pins)}});
+                   {"pins", moves(c.pins, hall_pin_names)}});
   return out;
 }
 

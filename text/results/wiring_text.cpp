@@ -21,14 +21,13 @@ using analysis::WiringDoes;
 using analysis::WiringStudy;
 
 std::string commutation_text() {
-  constexpr const char* leg[] = {"a", "b", "c"};
   Rows rows;
   rows.add({"sector", "electrical", "H1 H2 H3", "code", "high", "low", "floating"});
   for (std::uint8_t sector = 0; sector < 6; ++sector) {
     const auto [code, high, low, floating] = analysis::commutation(sector);
     rows.add({fmt::format("{}", sector), fmt::format("{:3}..{:3} deg", 60 * sector, 60 * sector + 60),
               fmt::format(" {}  {}  {}", code >> 2, code >> 1 & 1, code & 1), fmt::format("{}", code),
-              leg[high], leg[low], leg[floating]});
+              std::string(leg_names[high]), std::string(leg_names[low]), std::string(leg_names[floating])});
   }
   return "The drive's commutation, forward; backward high and low change places\n" + rows.text();
 }

@@ -17,7 +17,6 @@ namespace {
 using analysis::moved;
 using analysis::WiringDoes;
 
-constexpr std::string_view legs[] = {"a", "b", "c"}, pins[] = {"H1", "H2", "H3"};
 using Names = std::string_view[3];
 
 /// The places whose wires change, in the order in which the wires go: from each to the next, from the last to the first.
@@ -114,17 +113,17 @@ std::string symptom_text(const analysis::WiringStudy& s, WiringDoes does) {
 
 std::string cure_text(const analysis::Cure& c) {
   if (c.wires() == 0) return "nothing";
-  std::string text =
-      moved(c.legs) ? moves_text(c.legs, legs, moved(c.legs) == 2 ? "phase wires at legs" : "phase wires")
-                    : "";
-  if (moved(c.pins)) text += (text.empty() ? "" : " and ") + moves_text(c.pins, pins, "Hall lines");
+  std::string text = moved(c.legs) ? moves_text(c.legs, leg_names,
+                                                moved(c.legs) == 2 ? "phase wires at legs" : "phase wires")
+                                   : "";
+  if (moved(c.pins)) text += (text.empty() ? "" : " and ") + moves_text(c.pins, hall_pin_names, "Hall lines");
   return text;
 }
 
 std::string cure_mark(const analysis::Cure& c) {
   if (c.wires() == 0) return "-";
-  std::string mark = moved(c.legs) ? moves_mark(c.legs, legs) : "";
-  if (moved(c.pins)) mark += (mark.empty() ? "" : " ") + moves_mark(c.pins, pins);
+  std::string mark = moved(c.legs) ? moves_mark(c.legs, leg_names) : "";
+  if (moved(c.pins)) mark += (mark.empty() ? "" : " ") + moves_mark(c.pins, hall_pin_names);
   return mark;
 }
 

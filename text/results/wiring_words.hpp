@@ -13,6 +13,8 @@
 
 namespace text {
 
+inline constexpr std::string_view leg_names[] = {"a", "b", "c"}, hall_pin_names[] = {"H1", "H2", "H3"};
+
 /// "bac" of the phases at legs a, b, c; "213" of the probes at pins H1, H2, H3: as a scenario has them.
 std::string_view phases_word(const sixstep::rig::Wiring& wiring);
 std::string_view hall_lines_word(const sixstep::rig::Wiring& wiring);

@@ -28,11 +28,11 @@ class Family {
       if (read)
         bases.push_back(std::move(*read));
       else
-        of_bases.insert(of_bases.end(), read.problems().begin(), read.problems().end());
+        append(of_bases, read.problems());
     }
     chain_.pop_back();
     base::Problems problems = complaints.in_order();
-    problems.insert(problems.end(), of_bases.begin(), of_bases.end());
+    append(problems, of_bases);
     if (!problems.empty()) return problems;
     document->lay_over(std::move(bases));
     return document;

@@ -48,7 +48,7 @@ void read_shape(const Document& document, const std::string& path, const Resolve
   if (!file) return complain(file.problems().front());
   base::Result<ShapeRows> rows = shape_rows(file->name, file->text);
   if (!rows) {
-    of_other_files.insert(of_other_files.end(), rows.problems().begin(), rows.problems().end());
+    append(of_other_files, rows.problems());
     return complaints.told_elsewhere(path);
   }
   sheet.back_emf_angle_deg = std::move(rows->angles_deg);
@@ -84,7 +84,7 @@ std::optional<SheetSource> named_sheet(const Document& scenario, const Resolve& 
   }
   base::Result<SheetSource> source = sheet_of(std::move(*document), resolve);
   if (!source) {
-    of_other_files.insert(of_other_files.end(), source.problems().begin(), source.problems().end());
+    append(of_other_files, source.problems());
     return {};
   }
   return std::move(*source);
@@ -169,7 +169,7 @@ void read_rows(const Document& document, const std::string& path, sixstep::contr
   base::Result<ReferenceRows> rows =
       reference_rows(file->name, file->text, r.column, unit.linear == "1" ? "" : std::string(unit.linear));
   if (!rows) {
-    of_other_files.insert(of_other_files.end(), rows.problems().begin(), rows.problems().end());
+    append(of_other_files, rows.problems());
     return complaints.told_elsewhere(key);
   }
   r.times_s = std::move(rows->times_s);
@@ -254,7 +254,7 @@ base::Result<study::Scenario> read_scenario_text(const std::string& name, std::s
   if (source) run_checks(document, *source, scenario, complaints, of_other_files);
 
   base::Problems problems = complaints.in_order();
-  problems.insert(problems.end(), of_other_files.begin(), of_other_files.end());
+  append(problems, of_other_files);
   if (!problems.empty()) {
     if (std::optional<base::Problem> problem = taken_for(FileKind::scenario, document)) return *problem;
     return problems;

@@ -15,8 +15,6 @@
 namespace sixstep::analysis {
 namespace {
 
-constexpr double two_pi = 2 * base::pi;
-
 /// A board as one is built: counts of offset, one of noise, half a microsecond of dead time, diodes, channels of a tenth of
 /// the phase. Ranges of twice the current and a quarter above the bus.
 constexpr double offset_counts = 12.3, noise_counts = 1.0, dead_s = 0.5e-6, channel_part = 0.1, diode_V = 0.7,
@@ -41,8 +39,8 @@ Paces paces_of(const design::MotorModel& m, double flux_Vs, double R_ohm, double
   return {.tau_s = m.machine.L_H / R_ohm,
           .swing_rad_s = std::sqrt(p * torque_per_rad / J),
           .calming_s = 2 * J / braking,
-          .spin_turns_s2 = p * torque_per_rad / J / two_pi,
-          .half_emf_turns_s = R_ohm * I_A / (2 * flux_Vs) / two_pi};
+          .spin_turns_s2 = p * torque_per_rad / J / base::turn_rad,
+          .half_emf_turns_s = R_ohm * I_A / (2 * flux_Vs) / base::turn_rad};
 }
 
 /// Long enough for what the paces say, and what a test usually takes where they are faster.
@@ -52,7 +50,7 @@ control::CommissioningWish wish_of(const Paces& p, double I_A) {
   w.settle_s = std::max(w.settle_s, 6 * p.calming_s);
   w.step_s = std::max(w.step_s, 12 * p.tau_s);
   // Six times the turn stays below a third of the swing (hall_survey.hpp).
-  w.slow_turns_s = std::min(w.slow_turns_s, p.swing_rad_s / (18 * two_pi));
+  w.slow_turns_s = std::min(w.slow_turns_s, p.swing_rad_s / (18 * base::turn_rad));
   w.fastest_turns_s = std::max(w.fastest_turns_s, 2 * p.half_emf_turns_s);
   w.spin_up_s = std::max(w.spin_up_s, 5 * w.fastest_turns_s / p.spin_turns_s2);
   return w;

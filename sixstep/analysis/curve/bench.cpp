@@ -49,7 +49,7 @@ base::Problems check(const Bench& b) {
   const auto hold = [&](const char* where, double x, const base::Range& own, std::string_view unit,
                         const char* cure) {
     const base::Problems out = base::out_of_range(where, x, own, unit, cure);
-    problems.insert(problems.end(), out.begin(), out.end());
+    append(problems, out);
   };
   hold("voltage_V", b.voltage_V, base::above(0), "V", "give the bus voltage in volts");
   if (!(base::between(-1, 1).holds(b.duty) && std::fabs(b.duty) >= least_duty))

@@ -91,7 +91,7 @@ base::Result<MotorModel> motor_model(const Sheet& sheet) {
   SheetConstants c = sheet_constants(sheet);
   if (!sheet.simulatable && c.problems.empty()) return not_simulatable(sheet);
   base::Problems problems = c.problems;
-  problems.insert(problems.end(), c.missing.begin(), c.missing.end());
+  append(problems, c.missing);
   if (!problems.empty()) return problems;
 
   MotorModel m;

@@ -3,17 +3,12 @@
 
 #include <cmath>
 
+#include "sixstep/base/angle.hpp"
 #include "sixstep/base/elementary.hpp"
 
 namespace sixstep::design {
-namespace {
-
-constexpr double turn_rad = 2.0 * base::pi;
-
-}  // namespace
-
 double trapezoid(base::ElectricalAngle theta_e, double flat_deg) {
-  const double turns = theta_e.rad / turn_rad;
+  const double turns = theta_e.rad / base::turn_rad;
   const double deg = (turns - std::floor(turns)) * 360.0;
   // Even about the middle of the positive top, odd about 90 degrees from it.
   double from_top = std::abs(deg - 60.0);
@@ -24,9 +19,9 @@ double trapezoid(base::ElectricalAngle theta_e, double flat_deg) {
 }
 
 base::Abc<double> back_emf_shape(const plant::Machine& m, base::ElectricalAngle theta_e) {
-  const double third = turn_rad / 3.0;
+  const double third = base::turn_rad / 3.0;
   if (m.back_emf == plant::BackEmf::sine) {
-    const double top = turn_rad / 6.0;  // cos(theta - 60 degrees), b and c later by 120 and 240
+    const double top = base::turn_rad / 6.0;  // cos(theta - 60 degrees), b and c later by 120 and 240
     return {base::cos(theta_e.rad - top), base::cos(theta_e.rad - top - third),
             base::cos(theta_e.rad - top - 2.0 * third)};
   }

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/written.hpp"
 #include "sixstep/study/check/field.hpp"
 #include "sixstep/study/check/heat.hpp"
 #include "sixstep/study/check/measures.hpp"
-#include "sixstep/study/check/number.hpp"
 #include "sixstep/study/check/numbers.hpp"
 #include "sixstep/study/check/pace.hpp"
 #include "sixstep/study/check/product.hpp"
@@ -34,12 +34,12 @@ namespace {
 
 void check_bridge(const Scenario& s, base::Problems& out) {
   if (s.bridge.saturation_V > 0 && s.bridge.device != Device::igbt)
-    out.push_back({"bridge.saturation_V", number(s.bridge.saturation_V),
+    out.push_back({"bridge.saturation_V", base::six_digits(s.bridge.saturation_V),
                    "is of an IGBT, and bridge.device is \"mosfet\"",
                    "write device = \"igbt\", or give on_resistance_ohm alone"});
   if (!(s.bridge.dead_time_s < s.pwm.period_s))
-    out.push_back({"bridge.dead_time_s", number(s.bridge.dead_time_s),
-                   "must be shorter than pwm.period_s = " + number(s.pwm.period_s),
+    out.push_back({"bridge.dead_time_s", base::six_digits(s.bridge.dead_time_s),
+                   "must be shorter than pwm.period_s = " + base::six_digits(s.pwm.period_s),
                    "a leg would never turn on"});
 }
 
@@ -47,8 +47,8 @@ void check_regeneration(const Scenario& s, base::Problems& out) {
   const Regeneration& r = s.control.regeneration;
   if (!r.limit_V) return;
   if (!(*r.limit_V > s.supply.voltage_V))
-    out.push_back({"control.regeneration.limit_V", number(*r.limit_V),
-                   "must be above supply.voltage_V = " + number(s.supply.voltage_V),
+    out.push_back({"control.regeneration.limit_V", base::six_digits(*r.limit_V),
+                   "must be above supply.voltage_V = " + base::six_digits(s.supply.voltage_V),
                    "the drive could never brake"});
   if (!r.gain_A_per_V && !(s.supply.capacitance_F > 0))
     out.push_back({"control.regeneration.gain_A_per_V", "", "is missing, and no capacitance to take it from",
@@ -78,7 +78,7 @@ void check_limited_mode(const Scenario& s, base::Problems& out) {
   if (c.mode != control::Mode::off && c.mode != control::Mode::duty) return;
   const auto refuse = [&out](const char* key, const std::optional<double>& value) {
     if (value)
-      out.push_back({key, number(*value), "needs a current loop, and control.mode has none",
+      out.push_back({key, base::six_digits(*value), "needs a current loop, and control.mode has none",
                      "leave it away, or control current, speed or position"});
   };
   refuse("control.limits.current_A", c.limits.current_A);
@@ -92,10 +92,10 @@ void check_settling(const std::optional<double>& settle_s, const char* key, cons
                     base::Problems& out) {
   const double least = 2 * s.pwm.period_s;
   if (settle_s && *settle_s < least)
-    out.push_back({key, number(*settle_s),
+    out.push_back({key, base::six_digits(*settle_s),
                    "is shorter than two control periods, the least that any loop takes",
-                   "write at least " + number(least) + ", better 10 periods, " + number(5 * least) +
-                       "; or shorten pwm.period_s"});
+                   "write at least " + base::six_digits(least) + ", better 10 periods, " +
+                       base::six_digits(5 * least) + "; or shorten pwm.period_s"});
 }
 
 void check_control(const Scenario& s, base::Problems& out) {
@@ -105,7 +105,7 @@ void check_control(const Scenario& s, base::Problems& out) {
   check_speed_output(s, out);
   check_limited_mode(s, out);
   check_speed_law(s, out);
-  const auto add = [&](const base::Problems& more) { out.insert(out.end(), more.begin(), more.end()); };
+  const auto add = [&](const base::Problems& more) { append(out, more); };
   add(given_gains(s.control.current, "control.current").problems);
   add(given_gains(s.control.speed, "control.speed").problems);
   const CurrentLoop& c = s.control.current;
@@ -167,11 +167,12 @@ void check_tunings(const Scenario& s, const std::optional<design::MotorModel>& m
 void check_linear(const Scenario& s, base::Problems& out) {
   if (s.sheet.kind != design::MotorKind::linear) return;
   if (s.load.gravity_Nm != 0)
-    out.push_back({"load.gravity_Nm", number(s.load.gravity_Nm),
+    out.push_back({"load.gravity_Nm", base::six_digits(s.load.gravity_Nm),
                    "is of a weight on an arm, and the motor is linear",
                    "give an incline's force as load.force_N"});
   if (s.load.gear != 1)
-    out.push_back({"load.gear", number(s.load.gear), "is of a turning motor, and this one is linear",
+    out.push_back({"load.gear", base::six_digits(s.load.gear),
+                   "is of a turning motor, and this one is linear",
                    "give the load as the motor's slide feels it"});
 }
 
@@ -209,8 +210,7 @@ base::Problems check(const Scenario& s) {
   check_measures(s, sound_reference, out);
   if (const base::Problems spread = check_spread(s); !spread.empty())
     out.insert(out.end(), spread.begin(), spread.end());
-  if (const auto columns = record_indices(s); !columns)
-    out.insert(out.end(), columns.problems().begin(), columns.problems().end());
+  if (const auto columns = record_indices(s); !columns) append(out, columns.problems());
   return out;
 }
 

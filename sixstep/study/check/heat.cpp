@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/thermal.hpp"
-#include "sixstep/study/check/number.hpp"
 
 namespace sixstep::study {
 
@@ -21,11 +21,11 @@ void check_energies(const Bridge& b, base::Problems& out) {
                    "give turn_on_J, turn_off_J, recovery_J, energies_at_V and energies_at_A"});
   const bool charges = b.gate_source_charge_C > 0 || b.gate_drain_charge_C > 0;
   if (charges != (b.gate_current_A > 0))
-    out.push_back({"bridge.gate_current_A", number(b.gate_current_A),
+    out.push_back({"bridge.gate_current_A", base::six_digits(b.gate_current_A),
                    "and the gate's charges belong together",
                    "give gate_current_A and gate_drain_charge_C, or neither"});
   if (charges && energies)
-    out.push_back({"bridge.gate_drain_charge_C", number(b.gate_drain_charge_C),
+    out.push_back({"bridge.gate_drain_charge_C", base::six_digits(b.gate_drain_charge_C),
                    "says again what turn_on_J and turn_off_J say", "keep one of the two ways"});
 }
 
@@ -43,17 +43,18 @@ void check_heat(const Scenario& s, base::Problems& out) {
     out.push_back(
         {"heat.devices", "true", "needs bridge.junction_K_W", "give the thermal resistance of a switch"});
   if (!h.devices && s.bridge.on_resistance_percent_K > 0)
-    out.push_back({"bridge.on_resistance_percent_K", number(s.bridge.on_resistance_percent_K),
+    out.push_back({"bridge.on_resistance_percent_K", base::six_digits(s.bridge.on_resistance_percent_K),
                    "acts where junctions warm up only", "set heat.devices = true"});
   const auto unused = [&](const char* key, const std::optional<double>& value) {
     if (value && !h.motor)
-      out.push_back({key, number(*value), "is of a motor that warms up, and heat.motor = false",
+      out.push_back({key, base::six_digits(*value), "is of a motor that warms up, and heat.motor = false",
                      "set heat.motor = true, or leave it away"});
   };
   unused("heat.winding_degC", h.winding_degC);
   unused("heat.housing_degC", h.housing_degC);
   if ((h.motor || h.devices) && h.step_s < s.pwm.period_s)
-    out.push_back({"heat.step_s", number(h.step_s), "must not be shorter than pwm.period_s", "lengthen it"});
+    out.push_back(
+        {"heat.step_s", base::six_digits(h.step_s), "must not be shorter than pwm.period_s", "lengthen it"});
 }
 
 }  // namespace sixstep::study

@@ -16,12 +16,10 @@ using base::written;
 using plant::fastest_answer_1_s;
 using plant::fastest_field_rad_s;
 
-std::string rounded(double x) { return base::rounded(x, 3); }
-
 /// "3.2 ns, and no board's is below 100 ns"
 std::string too_short(double rate_1_s) {
-  return rounded(1e9 / rate_1_s) + " ns, and on no board it is below " + rounded(1e9 / fastest_answer_1_s) +
-         " ns";
+  return base::three_digits(1e9 / rate_1_s) + " ns, and on no board it is below " +
+         base::three_digits(1e9 / fastest_answer_1_s) + " ns";
 }
 
 void check_bridge(const Scenario& s, const plant::Machine& m, base::Problems& out) {
@@ -111,8 +109,8 @@ void check_torque(const Scenario& s, const design::MotorModel& motor, base::Prob
   const auto look = [&](const std::string& key, double torque_Nm) {
     if (std::fabs(torque_Nm) > most_Nm)
       out.push_back({key, written(torque_Nm),
-                     "is no load for a moment of inertia of " + rounded(J) + " kg m2: at most " +
-                         rounded(most_Nm) + " N m are simulated",
+                     "is no load for a moment of inertia of " + base::three_digits(J) + " kg m2: at most " +
+                         base::three_digits(most_Nm) + " N m are simulated",
                      "look at its unit and at that of the inertia"});
   };
   look("load.torque_Nm", s.load.torque_Nm);
@@ -133,8 +131,9 @@ void check_field(const Scenario& s, const plant::Machine& m, base::Problems& out
   const auto look = [&](const std::string& key, double value, double field_rad_s, const char* cure) {
     if (std::fabs(field_rad_s) > fastest_field_rad_s)
       out.push_back({key, written(value),
-                     "lets the field turn at " + rounded(std::fabs(field_rad_s)) +
-                         " electrical rad/s, and no motor's is above " + rounded(fastest_field_rad_s),
+                     "lets the field turn at " + base::three_digits(std::fabs(field_rad_s)) +
+                         " electrical rad/s, and no motor's is above " +
+                         base::three_digits(fastest_field_rad_s),
                      cure});
   };
   constexpr const char* too_high = "lower it, or look at the unit of the motor's torque constant";
@@ -156,7 +155,7 @@ void check_band(const Scenario& s, const plant::Machine& m, base::Problems& out)
   const double per_s = s.supply.voltage_V / (2.0 * m.L_H), rate = per_s / (2.0 * loop.band_A);
   if (rate > fastest_answer_1_s)
     out.push_back({"control.current.band_A", written(loop.band_A), "is crossed within " + too_short(rate),
-                   "widen it to at least " + rounded(per_s / (2.0 * fastest_answer_1_s)) +
+                   "widen it to at least " + base::three_digits(per_s / (2.0 * fastest_answer_1_s)) +
                        " A, or set comparator = \"sampled\""});
 }
 

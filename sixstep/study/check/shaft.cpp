@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "sixstep/study/check/number.hpp"
+#include "sixstep/base/written.hpp"
 #include "sixstep/study/check/reference.hpp"
 
 namespace sixstep::study {
@@ -21,8 +21,9 @@ void check_table(const Load& l, base::Problems& out) {
                    "as at_speeds_rad_s = [0, 300], at_speeds_Nm = [0.01, 0.05]"});
   for (std::size_t n = 0; n + 1 < l.at_speeds_rad_s.size(); ++n)
     if (!(l.at_speeds_rad_s[n + 1] > l.at_speeds_rad_s[n])) {
-      out.push_back({"load.at_speeds_rad_s[" + std::to_string(n + 1) + "]", number(l.at_speeds_rad_s[n + 1]),
-                     "must be above the one before", "sort them"});
+      out.push_back({"load.at_speeds_rad_s[" + std::to_string(n + 1) + "]",
+                     base::six_digits(l.at_speeds_rad_s[n + 1]), "must be above the one before",
+                     "sort them"});
       return;
     }
 }
@@ -34,11 +35,11 @@ void check_dynamometer(const Scenario& s, base::Problems& out) {
   check_steps(l.dynamometer_times_s, l.dynamometer_rad_s, "load", "dynamometer_rad_s", endless, out,
               "dynamometer_times_s");
   if (!l.dynamometer_times_s.empty() && l.dynamometer_times_s.front() != 0)
-    out.push_back({"load.dynamometer_times_s", number(l.dynamometer_times_s.front()),
+    out.push_back({"load.dynamometer_times_s", base::six_digits(l.dynamometer_times_s.front()),
                    "must begin at 0: a dynamometer turns the shaft from the start", "write 0 for the first"});
   const auto refuse = [&out](const char* key, double value) {
     if (value != 0)
-      out.push_back({key, number(value), "is not felt where a dynamometer says the speed",
+      out.push_back({key, base::six_digits(value), "is not felt where a dynamometer says the speed",
                      "leave it away: the load torque is the run's result"});
   };
   refuse("load.torque_Nm", l.torque_Nm);
@@ -50,7 +51,7 @@ void check_dynamometer(const Scenario& s, base::Problems& out) {
   if (l.locked)
     out.push_back({"load.locked", "true", "contradicts load.dynamometer_rad_s", "leave one of them away"});
   if (l.gear_efficiency < 1 && !(l.stiffness_Nm_rad > 0))
-    out.push_back({"load.gear_efficiency", number(l.gear_efficiency),
+    out.push_back({"load.gear_efficiency", base::six_digits(l.gear_efficiency),
                    "says nothing where a dynamometer turns a rigid shaft",
                    "leave it away, or give load.stiffness_Nm_rad and load.inertia_kg_m2"});
 }
@@ -60,23 +61,23 @@ void check_dynamometer(const Scenario& s, base::Problems& out) {
 void check_shaft(const Scenario& s, base::Problems& out) {
   const Load& l = s.load;
   if (l.stiffness_Nm_rad > 0 && !(l.inertia_kg_m2 > 0))
-    out.push_back({"load.stiffness_Nm_rad", number(l.stiffness_Nm_rad),
+    out.push_back({"load.stiffness_Nm_rad", base::six_digits(l.stiffness_Nm_rad),
                    "has no mass behind it that could swing", "give load.inertia_kg_m2"});
   if (l.damping_Nm_s_rad > 0 && !(l.stiffness_Nm_rad > 0))
-    out.push_back({"load.damping_Nm_s_rad", number(l.damping_Nm_s_rad),
+    out.push_back({"load.damping_Nm_s_rad", base::six_digits(l.damping_Nm_s_rad),
                    "is of an elastic shaft, and this one is rigid",
                    "give load.stiffness_Nm_rad, or leave it away"});
   if (l.gravity_angle_deg != 0 && l.gravity_Nm == 0)
-    out.push_back({"load.gravity_angle_deg", number(l.gravity_angle_deg), "is of a weight that is not there",
-                   "give load.gravity_Nm"});
+    out.push_back({"load.gravity_angle_deg", base::six_digits(l.gravity_angle_deg),
+                   "is of a weight that is not there", "give load.gravity_Nm"});
   check_table(l, out);
   check_dynamometer(s, out);
   if (l.gear_efficiency < 1 && l.gear == 1)
-    out.push_back({"load.gear_efficiency", number(l.gear_efficiency), "is of a gear that is not there",
-                   "give load.gear, or leave it away"});
+    out.push_back({"load.gear_efficiency", base::six_digits(l.gear_efficiency),
+                   "is of a gear that is not there", "give load.gear, or leave it away"});
   if (l.locked && s.initial.speed_rad_s != 0)
-    out.push_back({"initial.speed_rad_s", number(s.initial.speed_rad_s), "contradicts load.locked = true",
-                   "set it to 0 or unlock the rotor"});
+    out.push_back({"initial.speed_rad_s", base::six_digits(s.initial.speed_rad_s),
+                   "contradicts load.locked = true", "set it to 0 or unlock the rotor"});
   check_steps(l.times_s, l.torques_Nm, "load", "torques_Nm",
               l.between == Between::lines ? endless : s.duration_s, out);
 }

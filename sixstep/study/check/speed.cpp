@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "sixstep/study/check/number.hpp"
+#include "sixstep/base/written.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
 namespace sixstep::study {
@@ -15,7 +15,8 @@ void check_positional(const Scenario& s, base::Problems& out) {
   const SpeedLoop& loop = s.control.speed;
   const auto refuse = [&](const char* key, const std::optional<double>& value) {
     if (value && loop.form != SpeedForm::positional)
-      out.push_back({std::string("control.speed.") + key, number(*value), "is of the positional form only",
+      out.push_back({std::string("control.speed.") + key, base::six_digits(*value),
+                     "is of the positional form only",
                      "set control.speed.form = \"positional\", or remove it"});
   };
   refuse("anti_windup", loop.anti_windup);
@@ -23,10 +24,10 @@ void check_positional(const Scenario& s, base::Problems& out) {
   refuse("derivative_filter_s", loop.derivative_filter_s);
   refuse("setpoint_weight", loop.setpoint_weight);
   if (loop.derivative_filter_s && !loop.derivative_s && loop.form == SpeedForm::positional)
-    out.push_back({"control.speed.derivative_filter_s", number(*loop.derivative_filter_s),
+    out.push_back({"control.speed.derivative_filter_s", base::six_digits(*loop.derivative_filter_s),
                    "has no derivative to smooth", "give control.speed.derivative_s too"});
   if (loop.observer_ratio)
-    out.push_back({"control.speed.observer_ratio", number(*loop.observer_ratio),
+    out.push_back({"control.speed.observer_ratio", base::six_digits(*loop.observer_ratio),
                    "is of an observer, and law = \"pi\" has none", "set control.speed.law, or remove it"});
 }
 
@@ -36,7 +37,7 @@ void check_designed(const Scenario& s, base::Problems& out) {
   const std::string law(base::word(speed_law_choices, loop.law));
   const auto refuse = [&](const char* key, const std::optional<double>& value, const std::string& cure) {
     if (value)
-      out.push_back({std::string("control.speed.") + key, number(*value),
+      out.push_back({std::string("control.speed.") + key, base::six_digits(*value),
                      "is of a PI, and control.speed.law = \"" + law + "\" has none", cure});
   };
   const std::string gains = "give settle_s and observer_ratio alone, or set law = \"pi\"";

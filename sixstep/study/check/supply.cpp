@@ -5,7 +5,6 @@
 #include <string>
 
 #include "sixstep/base/written.hpp"
-#include "sixstep/study/check/number.hpp"
 #include "sixstep/study/scenario/supply_voltages.hpp"
 
 namespace sixstep::study {
@@ -17,27 +16,28 @@ void check_brake(const Supply& s, bool has_capacitor, base::Problems& out) {
   if (!(R > 0)) {
     if (s.brake_on_V > 0 || s.brake_off_V > 0)
       out.push_back({s.brake_on_V > 0 ? "supply.brake_on_V" : "supply.brake_off_V",
-                     number(s.brake_on_V > 0 ? s.brake_on_V : s.brake_off_V),
+                     base::six_digits(s.brake_on_V > 0 ? s.brake_on_V : s.brake_off_V),
                      "has no brake resistor to switch", "give supply.brake_resistance_ohm"});
     return;
   }
   if (!has_capacitor)
-    out.push_back({"supply.brake_resistance_ohm", number(R), "needs a bus whose voltage can rise",
+    out.push_back({"supply.brake_resistance_ohm", base::six_digits(R), "needs a bus whose voltage can rise",
                    "give supply.resistance_ohm and supply.capacitance_F"});
   if (!(s.brake_on_V > s.brake_off_V) || !(s.brake_off_V > 0))
-    out.push_back({"supply.brake_on_V", number(s.brake_on_V),
-                   "must be above supply.brake_off_V = " + number(s.brake_off_V) + ", and that above 0",
-                   "give both, as brake_on_V = 30, brake_off_V = 28"});
+    out.push_back(
+        {"supply.brake_on_V", base::six_digits(s.brake_on_V),
+         "must be above supply.brake_off_V = " + base::six_digits(s.brake_off_V) + ", and that above 0",
+         "give both, as brake_on_V = 30, brake_off_V = 28"});
   else if (const double open_V = highest_open_V(s); !(s.brake_off_V > open_V))
-    out.push_back({"supply.brake_off_V", number(s.brake_off_V),
+    out.push_back({"supply.brake_off_V", base::six_digits(s.brake_off_V),
                    (s.source == SourceKind::steady ? "must be above supply.voltage_V = "
                                                    : "must be above what the source stands at, ") +
-                       number(open_V),
+                       base::six_digits(open_V),
                    "the resistor would never be off again"});
   else if (const double falls = s.brake_on_V * s.capacitor_resistance_ohm / (s.capacitor_resistance_ohm + R);
            !(falls < s.brake_on_V - s.brake_off_V))
-    out.push_back({"supply.brake_off_V", number(s.brake_off_V),
-                   "is reached at once: the resistor takes " + number(falls) +
+    out.push_back({"supply.brake_off_V", base::six_digits(s.brake_off_V),
+                   "is reached at once: the resistor takes " + base::six_digits(falls) +
                        " V across supply.capacitor_resistance_ohm",
                    "lower it, or the capacitor's resistance"});
 }
@@ -46,9 +46,10 @@ void check_brake(const Supply& s, bool has_capacitor, base::Problems& out) {
 void check_nominal(const Supply& s, base::Problems& out) {
   const double open_V = highest_open_V(s);
   if (!(open_V > 0) || (s.voltage_V > open_V / 2 && s.voltage_V < open_V * 2)) return;
-  out.push_back({"supply.voltage_V", number(s.voltage_V),
-                 "is what the drive is designed for, and the source stands at " + number(open_V) + " V",
-                 "write voltage_V = " + base::rounded(open_V, 3)});
+  out.push_back(
+      {"supply.voltage_V", base::six_digits(s.voltage_V),
+       "is what the drive is designed for, and the source stands at " + base::six_digits(open_V) + " V",
+       "write voltage_V = " + base::rounded(open_V, 3)});
 }
 
 void check_battery(const Supply& s, base::Problems& out) {
@@ -68,14 +69,14 @@ void check_battery(const Supply& s, base::Problems& out) {
   for (std::size_t n = 0; n + 1 < s.battery_charges.size(); ++n)
     if (!(s.battery_charges[n + 1] > s.battery_charges[n])) {
       out.push_back({"supply.battery_charges[" + std::to_string(n + 1) + "]",
-                     number(s.battery_charges[n + 1]), "must be above the one before",
+                     base::six_digits(s.battery_charges[n + 1]), "must be above the one before",
                      "sort them, from empty to full"});
       break;
     }
   if (!(s.battery_capacity_Ah > 0))
     out.push_back({"supply.battery_capacity_Ah", "", "is missing", "give the battery's whole charge, as 5"});
   if ((s.battery_recovery_ohm > 0) != (s.battery_recovery_F > 0))
-    out.push_back({"supply.battery_recovery_ohm", number(s.battery_recovery_ohm),
+    out.push_back({"supply.battery_recovery_ohm", base::six_digits(s.battery_recovery_ohm),
                    "and supply.battery_recovery_F belong together", "give both, or none"});
   if (out.empty()) check_nominal(s, out);
 }
@@ -84,16 +85,18 @@ void check_mains(const Supply& s, base::Problems& out) {
   const bool mains = s.source == SourceKind::single_phase || s.source == SourceKind::three_phase;
   if (!mains) {
     if (s.mains_rms_V > 0)
-      out.push_back({"supply.mains_rms_V", number(s.mains_rms_V), "is of mains, and supply.source is not",
+      out.push_back({"supply.mains_rms_V", base::six_digits(s.mains_rms_V),
+                     "is of mains, and supply.source is not",
                      "write source = \"single-phase\" or \"three-phase\""});
     if (s.rectifier_drop_V > 0)
-      out.push_back({"supply.rectifier_drop_V", number(s.rectifier_drop_V),
+      out.push_back({"supply.rectifier_drop_V", base::six_digits(s.rectifier_drop_V),
                      "is of mains, and supply.source is not",
                      "write source = \"single-phase\" or \"three-phase\", or leave it away"});
     return;
   }
   if (!(highest_open_V(s) > 0))
-    out.push_back({"supply.mains_rms_V", number(s.mains_rms_V), "does not reach over the rectifier's diodes",
+    out.push_back({"supply.mains_rms_V", base::six_digits(s.mains_rms_V),
+                   "does not reach over the rectifier's diodes",
                    "give the mains' voltage, as 230, or 400 between the lines of three phases"});
   else
     check_nominal(s, out);
@@ -104,24 +107,25 @@ void check_mains(const Supply& s, base::Problems& out) {
 void check_supply(const Scenario& s, base::Problems& out) {
   const bool R = s.supply.resistance_ohm > 0, C = s.supply.capacitance_F > 0;
   if (R && !C)
-    out.push_back({"supply.resistance_ohm", number(s.supply.resistance_ohm),
+    out.push_back({"supply.resistance_ohm", base::six_digits(s.supply.resistance_ohm),
                    "needs a bus capacitor behind it",
                    "give supply.capacitance_F too, or leave both away for a stiff bus"});
   if (C && !R)
-    out.push_back({"supply.capacitance_F", number(s.supply.capacitance_F), "needs the source's resistance",
+    out.push_back({"supply.capacitance_F", base::six_digits(s.supply.capacitance_F),
+                   "needs the source's resistance",
                    "give supply.resistance_ohm too, or leave both away for a stiff bus"});
   if (!s.supply.sinks && !(R && C))
     out.push_back({"supply.sinks", "false", "needs a bus whose voltage can rise",
                    "give supply.resistance_ohm and supply.capacitance_F"});
   if (s.supply.inductance_H > 0 && !(R && C))
-    out.push_back({"supply.inductance_H", number(s.supply.inductance_H), "needs a bus capacitor behind it",
-                   "give supply.resistance_ohm and supply.capacitance_F"});
+    out.push_back({"supply.inductance_H", base::six_digits(s.supply.inductance_H),
+                   "needs a bus capacitor behind it", "give supply.resistance_ohm and supply.capacitance_F"});
   if (s.supply.capacitor_resistance_ohm > 0 && !C)
-    out.push_back({"supply.capacitor_resistance_ohm", number(s.supply.capacitor_resistance_ohm),
+    out.push_back({"supply.capacitor_resistance_ohm", base::six_digits(s.supply.capacitor_resistance_ohm),
                    "is of a capacitor that is not there",
                    "give supply.resistance_ohm and supply.capacitance_F"});
   if (s.supply.sink_limit_A > 0 && s.supply.sinks)
-    out.push_back({"supply.sink_limit_A", number(s.supply.sink_limit_A),
+    out.push_back({"supply.sink_limit_A", base::six_digits(s.supply.sink_limit_A),
                    "bounds nothing while supply.sinks = true", "write sinks = false beside it"});
   check_brake(s.supply, C, out);
   check_battery(s.supply, out);
@@ -130,7 +134,7 @@ void check_supply(const Scenario& s, base::Problems& out) {
     out.push_back({"supply.source", "", "needs a bus capacitor behind its resistance",
                    "give supply.resistance_ohm and supply.capacitance_F"});
   if (s.initial.bus_V && !C)
-    out.push_back({"initial.bus_V", number(*s.initial.bus_V), "has no meaning on a stiff bus",
+    out.push_back({"initial.bus_V", base::six_digits(*s.initial.bus_V), "has no meaning on a stiff bus",
                    "leave it away, or give supply.resistance_ohm and supply.capacitance_F"});
 }
 

@@ -40,8 +40,6 @@ bool may_stray(std::string_view key) {
 }
 
 /// Six digits say what a message needs, without the rounding of 1.03 - 1.5 * 1.03.
-std::string rounded(double x) { return base::rounded(x, 6); }
-
 /// The visitor that looks for the number at a key's path.
 class NumberAt {
  public:
@@ -174,7 +172,7 @@ struct Checker {
       if (!at.range.holds(end))
         return add(where + (spread.relative ? ".relative" : ".absolute"),
                    base::written(spread.relative ? *spread.relative : *spread.absolute),
-                   "lets " + spread.key + " reach " + rounded(end) + ", outside of the key's range",
+                   "lets " + spread.key + " reach " + base::six_digits(end) + ", outside of the key's range",
                    spread.distribution == Distribution::uniform ? "lower it" : "lower it or cut_sigma");
   }
 

@@ -60,8 +60,8 @@ struct DrawnDriveWalk {
 
   void draw(Random& r) {
     DriveConfig<Scalar> next = drawn_drive<Scalar>(r);
-    next.extras.pwm = {static_cast<PwmPattern>(r.below(5)),
-                       positive_gain<Scalar>(r, 0)};  // drives with probes alone have them
+    // Drives with probes alone have these two.
+    next.extras.pwm = {static_cast<PwmPattern>(r.below(5)), positive_gain<Scalar>(r, 0)};
     next.extras.staying_phase = r.one_in(2);
     retune(config, state, next);
   }

@@ -14,7 +14,7 @@
 namespace sixstep::analysis {
 namespace {
 
-constexpr double turn = 2.0 * base::pi, per_deg = base::pi / 180.0;
+constexpr double per_deg = base::pi / 180.0;
 
 double size_of(const Harmonic& h) { return std::sqrt(h.a_V * h.a_V + h.b_V * h.b_V); }
 /// Of a cos x + b sin x = size cos(x + angle).
@@ -216,7 +216,7 @@ base::Problems find_pole_pairs(const EmfRequest& request, const HarmonicFit& fit
   return {
       {.where = "speed",
        .value = base::rounded(*request.speed_rad_s * rpm, 5) + " rpm",
-       .limit = "with " + base::rounded(fit.phase.rate[0] / turn, 5) + " Hz makes " +
+       .limit = "with " + base::rounded(fit.phase.rate[0] / base::turn_rad, 5) + " Hz makes " +
                 base::rounded(pairs, 4) + " pole pairs" +
                 (request.pole_pairs ? ", not " + std::to_string(*request.pole_pairs) : ", no whole number"),
        .cure =
@@ -241,9 +241,10 @@ base::Result<EmfResult> measure_emf(const EmfRequest& request) {
   out.rows = request.record.t_s.size();
   out.seconds = request.record.t_s.back() - request.record.t_s.front();
   out.periods = fit->periods;
-  out.frequency_Hz = scaled(
-      around(fit->phase.rate[0], student_95(fit->degrees_of_freedom) * fit->speed_deviation), 1.0 / turn);
-  out.change_Hz_s = fit->phase.rate[1] / turn;
+  out.frequency_Hz =
+      scaled(around(fit->phase.rate[0], student_95(fit->degrees_of_freedom) * fit->speed_deviation),
+             1.0 / base::turn_rad);
+  out.change_Hz_s = fit->phase.rate[1] / base::turn_rad;
   base::Problems problems = direction(request, *fit, out);
   if (problems.empty()) problems = find_pole_pairs(request, *fit, out);
   if (!problems.empty()) return problems;

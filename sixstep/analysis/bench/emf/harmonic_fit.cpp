@@ -15,8 +15,6 @@
 namespace sixstep::analysis {
 namespace {
 
-constexpr double turn_rad = 2.0 * base::pi;
-
 /// One channel at a phase: offset, a_1, b_1, a_2 and so on, and their cofactors.
 struct Linear {
   std::vector<double> unknowns;
@@ -268,7 +266,7 @@ base::Result<HarmonicFit> fit_harmonics(const EmfRecord& record, const EmfPhase&
   HarmonicFit out;
   out.phase = rough;
   const double seconds = record.t_s.back() - record.t_s.front();
-  out.periods = seconds * rough.rate[0] / turn_rad;
+  out.periods = seconds * rough.rate[0] / base::turn_rad;
   const HarmonicPoints points = harmonic_points(record, out.periods);
   const double per_period = static_cast<double>(points.t_s.size()) / out.periods;
   const auto harmonics =
@@ -284,7 +282,7 @@ base::Result<HarmonicFit> fit_harmonics(const EmfRecord& record, const EmfPhase&
     if (!moved) return not_periodic(record.channels[0].name);
     if (*moved < nothing_rad) break;
   }
-  out.periods = seconds * out.phase.rate[0] / turn_rad;
+  out.periods = seconds * out.phase.rate[0] / base::turn_rad;
   if (!(out.periods > 1.0)) return out;  // no spectrum beside its harmonics: who asked refuses it
   if (base::Problems problems = take_channels(record, points, iteration, out); !problems.empty())
     return problems;

@@ -10,15 +10,13 @@
 namespace sixstep::analysis {
 namespace {
 
-constexpr double whole_turn = 2.0 * base::pi;
-
 /// In steps, of a value in steps.
 double mean_error(double u, double noise) {
   double sum = 0.0;
   for (int n = 1; n <= 8; ++n) {
-    const double left = base::exp(-0.5 * whole_turn * whole_turn * n * n * noise * noise);
+    const double left = base::exp(-0.5 * base::turn_rad * base::turn_rad * n * n * noise * noise);
     if (left < 1e-6) break;
-    sum += (n % 2 == 0 ? 1.0 : -1.0) / (base::pi * n) * left * base::sin(whole_turn * n * u);
+    sum += (n % 2 == 0 ? 1.0 : -1.0) / (base::pi * n) * left * base::sin(base::turn_rad * n * u);
   }
   return sum;
 }
@@ -30,11 +28,13 @@ StepErrors step_errors(const Converted& c) {
   const std::size_t harmonics = (c.unknowns.size() - 1) / 2;
   StepErrors out{std::vector<double>(harmonics), 0.0};
   const double noise = c.noise_V / c.step_V;
-  if (!(c.step_V > 0.0) || base::exp(-0.5 * whole_turn * whole_turn * noise * noise) < 1e-6) return out;
+  if (!(c.step_V > 0.0) || base::exp(-0.5 * base::turn_rad * base::turn_rad * noise * noise) < 1e-6)
+    return out;
   std::vector<double> cos(harmonics * angles), sin(harmonics * angles), u(angles, c.unknowns[0]);
   for (std::size_t m = 0; m < angles; ++m)
     for (std::size_t h = 0; h < harmonics; ++h) {
-      const base::SinCos at = base::sin_cos(whole_turn * static_cast<double>(m * (h + 1) % angles) / angles);
+      const base::SinCos at =
+          base::sin_cos(base::turn_rad * static_cast<double>(m * (h + 1) % angles) / angles);
       cos[h * angles + m] = at.cos;
       sin[h * angles + m] = at.sin;
       u[m] += c.unknowns[2 * h + 1] * at.cos + c.unknowns[2 * h + 2] * at.sin;
