@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "files/controller_file.hpp"
 #include "files/text_file.hpp"
 
 namespace files {
@@ -48,6 +49,7 @@ text::Resolve on_disk(const std::string& data_dir) {
   return [data_dir](const text::Naming& naming) -> base::Result<text::NamedText> {
     if (naming.kind == text::Naming::Kind::motor) return find_motor(naming, data_dir);
     const std::string path = (fs::path(naming.from).parent_path() / naming.name).string();
+    if (naming.kind == text::Naming::Kind::controller) return load_controller(path);
     return named(path, read_regular_text(path));
   };
 }

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "report/figures.hpp"
 #include "report/html.hpp"
 #include "report/parameters.hpp"
 #include "report/setup_words.hpp"
 #include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensorless_description.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 #include "text/scenario/motion_words.hpp"
@@ -23,7 +25,8 @@ std::string pwm(const study::Scenario& scenario) {
   static constexpr const char* choppings[] = {"soft chopping", "hard chopping", "complementary chopping"};
   static constexpr const char* patterns[] = {"", " of the lower switch", ", PWM-ON", ", ON-PWM",
                                              ", PWM-ON-PWM"};
-  const bool three_legs = scenario.control.drive == study::FirmwareKind::field;
+  const bool three_legs =
+      scenario.control.drive == study::FirmwareKind::field || study::answers_legs(scenario.control.own);
   return fmt::format("{} ({}), {}-aligned, {}", given(p.period_s, "s"), computed(1.0 / p.period_s, "Hz"),
                      p.alignment == study::Alignment::edge ? "edge" : "centre",
                      three_legs ? std::string("three legs, each complementary")
@@ -37,7 +40,9 @@ std::string current_loop(const study::CurrentLoop& c) {
                        c.comparator == study::Comparator::event ? "event" : "sampled");
   const bool staying = c.feedback == study::CurrentFeedback::staying_phase;
   return std::string(c.type == study::CurrentLoopType::pi ? "current PI" : "deadbeat current") +
-         (staying ? " on the staying phase" : "");
+         (staying ? " on the staying phase" : "") +
+         std::array{"", ", duty step at commutation",
+                    ", overlapping at commutation"}[static_cast<std::size_t>(c.commutation)];
 }
 
 /// The speed loop and what it sets.
@@ -67,6 +72,17 @@ const char* arithmetic(study::Arithmetic a) {
   return "";
 }
 
+/// A controller of one's own: its name, what it holds, and the numbers that are not as preset.
+std::string own_controller(const study::Scenario& s) {
+  const study::Own& own = s.control.own;
+  std::string text = fmt::format("{} ({}), {}", own.loaded ? own.loaded->name : "own", own.controller,
+                                 base::word(study::mode_choices, s.control.mode));
+  for (const study::OwnNumber& number : own.number)
+    text += fmt::format(", {} = {}", number.name, given(number.value, ""));
+  return text;
+}
+
+/// What the library's loops hold.
 std::string control(const study::Scenario& s) {
   std::string text;
   switch (s.control.mode) {
@@ -85,6 +101,7 @@ std::string control(const study::Scenario& s) {
       text = "position P → " + speed_loop(s.control);
       break;
   }
+  if (s.control.drive == study::FirmwareKind::own) text = own_controller(s);
   text += arithmetic(s.control.arithmetic);
   if (s.pwm.delay_periods > 0) text += fmt::format(", acts {} period(s) later", s.pwm.delay_periods);
   return text;

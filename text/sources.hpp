@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sixstep/base/result.hpp"
+#include "sixstep/control/own/own_controller.h"
 #include "text/rooms.hpp"
 
 namespace text {
@@ -14,10 +15,11 @@ namespace text {
 struct NamedText {
   std::string name;  ///< what messages call it; what it names in turn lies beside that
   std::string text;
+  const sixstep_controller* controller = nullptr;  ///< what was loaded of it, where a controller is meant
 };
 
 struct Naming {
-  enum class Kind { scenario, motor, rows };
+  enum class Kind { scenario, motor, rows, controller };
   Kind kind;
   std::string name;  ///< as written
   std::string from;  ///< of the text that names it; empty: nobody's

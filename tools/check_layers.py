@@ -21,7 +21,7 @@ ROOTS = ("sixstep", "batch", "text", "files", "report", "faces")
 DETERMINISTIC = {"base", "series", "control", "plant", "sim", "rig", "design"}
 
 # What C++20 promises without an operating system (the freestanding headers, and three that need none).
-FREESTANDING = set("array bit cfloat climits compare concepts cstddef cstdint initializer_list limits type_traits "
+FREESTANDING = set("array bit cfloat climits compare concepts cstddef cstdint initializer_list limits stdint.h type_traits "
                    "utility version".split())
 # Of the standard library, what the library may use: no files, clocks, threads, platform-dependent random numbers,
 # or containers whose order differs between platforms.
@@ -116,7 +116,7 @@ def check_include(layer: str, quoted: bool, target: str, layers: dict[str, set[s
         return f"control/ runs on a bare chip and <{target}> needs more; use {' '.join(sorted(FREESTANDING))}"
     if not in_library:
         return None
-    if not CPP_HEADER.match(target):
+    if not CPP_HEADER.match(target) and target not in FREESTANDING:
         return f"<{target}> is not the C++ standard library's; third-party code belongs to batch, text, files, report or faces"
     if target not in LIBRARY:
         return f"<{target}> knows files, clocks, threads or differs between platforms; do that in batch, files or faces"

@@ -5,7 +5,9 @@
 #include <CLI/App.hpp>
 
 #include <algorithm>
+#include <deque>
 #include <filesystem>
+#include <span>
 #include <utility>
 
 #include "batch/contest.hpp"
@@ -17,6 +19,7 @@
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
 #include "files/atomic_file.hpp"
+#include "files/controller_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
 #include "report/contest_page.hpp"
@@ -31,6 +34,7 @@ namespace fs = std::filesystem;
 
 struct ContestArguments {
   std::string motor, board, data_dir;
+  std::vector<std::string> own;  ///< shared objects of controllers of one's own
   std::optional<double> voltage_V, settle_s, current_settle_s, period_s;
   std::size_t drives = 10;
   std::uint64_t seed = 1;
@@ -49,6 +53,39 @@ std::string file_name(std::string_view name) {
     else if (c != ',')
       out += c;
   return out + ".toml";
+}
+
+/// The library's rows, and one for each controller of one's own.
+struct Contestants {
+  std::vector<analysis::Contestant> all;
+  std::deque<std::string> keys;  ///< of the own ones
+};
+
+base::Result<Contestants> contestants_of(const ContestArguments& a) {
+  const std::span<const analysis::Contestant> library = analysis::contestants();
+  Contestants out{{library.begin(), library.end()}, {}};
+  base::Problems found;
+  for (const std::string& file : a.own) {
+    const std::string path = fs::absolute(file).string();
+    const base::Result<text::NamedText> loaded = files::load_controller(path);
+    if (!loaded) {
+      for (base::Problem problem : loaded.problems()) {
+        problem.where = "--own " + problem.where;
+        found.push_back(std::move(problem));
+      }
+      continue;
+    }
+    const sixstep_controller& is = *loaded->controller;
+    const std::string_view name = is.name;
+    if (std::any_of(out.all.begin(), out.all.end(), [&](const auto& other) { return other.name == name; }))
+      found.push_back({"--own " + file, '"' + std::string(name) + '"', "is another controller's name already",
+                       "give it a name of its own"});
+    const std::string& keys =
+        out.keys.emplace_back(fmt::format("control.drive = own; control.own.controller = '{}'", path));
+    out.all.push_back({name, keys, is.sentence});
+  }
+  if (!found.empty()) return found;
+  return out;
 }
 
 /// Files are made before the work begins: one that cannot be written is told at once.
@@ -81,8 +118,7 @@ base::Problems write(const analysis::Contest& contest, const ContestArguments& a
   base::Problems found;
   const auto put = [&](files::AtomicFile& file, const std::string& text) {
     file.write(text);
-    const base::Problems failed = file.commit();
-    found.insert(found.end(), failed.begin(), failed.end());
+    append(found, file.commit());
   };
   if (out.json) put(*out.json, text::contest_json(contest));
   if (out.csv) put(*out.csv, text::contest_csv(contest));
@@ -139,7 +175,10 @@ Exit exit_of(const analysis::Contest& contest) {
 Exit contest_command(const ContestArguments& a) {
   base::Result<analysis::ContestBench> bench = bench_of(a);
   if (!bench) return refused(bench.problems());
-  std::vector<analysis::ContestEntry> entries = text::contest_entries(*bench, files::on_disk(a.data_dir));
+  const base::Result<Contestants> contestants = contestants_of(a);
+  if (!contestants) return refused(contestants.problems());
+  std::vector<analysis::ContestEntry> entries =
+      text::contest_entries(*bench, files::on_disk(a.data_dir), contestants->all);
   ContestFiles outputs;
   if (const base::Problems found = outputs.open(a, entries); !found.empty()) return refused(found);
   catch_interrupts();
@@ -174,6 +213,11 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
   verb.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");
   verb.add_option("--board", a.board,
                   "a scenario whose supply, bridge, PWM and sensors all controllers have");
+  verb.add_option(
+          "--own", a.own,
+          "shared object of a controller of one's own, to stand beside the library's; may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   verb.add_option("--runs", a.drives,
                   "drives of the sheet's tolerances for each controller; 0: the nominal one alone")
       ->check(CLI::Range(0, 100'000))

@@ -13,6 +13,7 @@
 #include "batch/cluster.hpp"
 #include "batch/ranks.hpp"
 #include "faces/cli/terminal.hpp"
+#include "files/scenario_on_disk.hpp"
 
 namespace cli {
 namespace {
@@ -82,14 +83,15 @@ base::Result<text::NamedText> named_text(const std::string& bytes) {
 
 std::string answer(const text::Resolve& resolve, const std::string& question) {
   batch::ByteReader r(question);
-  return bytes_of(resolve({r.choice<text::Naming::Kind>(3), r.text(), r.text()}));
+  return bytes_of(resolve({r.choice<text::Naming::Kind>(4), r.text(), r.text()}));
 }
 
 /// What turns a number into a run, in a process that has nothing but what it was told.
 decltype(batch::PlanRuns::scenario) scenario_of(const std::string& made_of, const analysis::Plan& plan,
                                                 batch::Ask ask) {
   text::PlannedText of = planned_text(made_of);
-  of.options.resolve = [ask = std::move(ask)](const text::Naming& naming) {
+  of.options.resolve = [ask = std::move(ask)](const text::Naming& naming) -> base::Result<text::NamedText> {
+    if (naming.kind == text::Naming::Kind::controller) return files::on_disk()(naming);
     return named_text(ask(bytes_of(naming)));
   };
   const auto scenarios = std::make_shared<text::PlannedScenarios>(std::move(of), plan);

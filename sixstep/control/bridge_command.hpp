@@ -25,6 +25,11 @@ struct Pair {
   bool operator==(const Pair&) const = default;
 };
 
+/// The one that is in no pair.
+constexpr Leg free_leg(Pair pair) {
+  return static_cast<Leg>(3 - static_cast<int>(pair.source) - static_cast<int>(pair.sink));
+}
+
 /// What the sensors said at the sample instant. Currents are positive into the motor.
 template <class Scalar>
 struct Measurement {
@@ -57,6 +62,8 @@ struct BridgeCommand {
   Chopping chopping = Chopping::soft;
   ChoppedSwitch chopped = ChoppedSwitch::upper;
   Watch watch = Watch::none;
+  Scalar
+      overlap{};  ///< of the leg in no pair, whose current has not left yet: its upper switch (below 0: its lower one) chopped
   Scalar on_below_A{};   ///< a comparator switches on strictly below this
   Scalar off_above_A{};  ///< and off strictly above this
   bool fault = false;    ///< an impossible Hall code was seen; the bridge is off

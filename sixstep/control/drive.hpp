@@ -112,6 +112,14 @@ constexpr Scalar speed_output(const DriveConfig<Scalar>& config, DriveState<Scal
 
 /// u/U_s; without a nominal bus voltage there is no duty.
 template <class Scalar>
+constexpr Scalar duty_for(const DriveConfig<Scalar>& config, Scalar u, const Measurement<Scalar>& measured) {
+  const DriveExtras<Scalar>& extras = config.extras;
+  if (extras.on && extras.bus.lowest_bus_V > Scalar{}) return compensated_duty(extras.bus, u, measured.bus_V);
+  if (!(config.nominal_bus_V > Divisor<Scalar>{})) return Scalar{};
+  return clamped(ScalarTraits<Scalar>::quotient(u, config.nominal_bus_V), one<Scalar>);
+}
+
+template <class Scalar>
 constexpr Scalar current_to_duty(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                  Scalar reference, Scalar i_m, const Measurement<Scalar>& measured) {
   const DriveExtras<Scalar>& extras = config.extras;
@@ -121,9 +129,55 @@ constexpr Scalar current_to_duty(const DriveConfig<Scalar>& config, DriveState<S
           ? deadbeat_step(extras.deadbeat, state.extras.deadbeat, reference, i_m, measured.speed_rad_s)
           : voltage_with_feed_forward(extras, config.current, state.current, reference - i_m,
                                       measured.speed_rad_s);
-  if (extras.on && extras.bus.lowest_bus_V > Scalar{}) return compensated_duty(extras.bus, u, measured.bus_V);
-  if (!(config.nominal_bus_V > Divisor<Scalar>{})) return Scalar{};
-  return clamped(ScalarTraits<Scalar>::quotient(u, config.nominal_bus_V), one<Scalar>);
+  return duty_for(config, u, measured);
+}
+
+/// The part of the bus that a voltage of the staying phase is (commutation_step.hpp).
+template <class Scalar>
+constexpr Scalar holding_part(const DriveConfig<Scalar>& config, Scalar u,
+                              const Measurement<Scalar>& measured) {
+  const bool overlaps = Scalar{} < config.extras.commutation.overlap_bus_V;
+  return between(duty_for(config, u, measured), Scalar{}, overlaps ? one<Scalar> : half_of_one<Scalar>());
+}
+
+/// What the duty steps to, known before the commutation: it goes by the last tick's speed and current. Without a current
+/// loop nothing is held.
+template <class Scalar>
+constexpr void look_at_commutation(Mode mode, const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
+                                   const Measurement<Scalar>& measured, std::uint8_t sector) {
+  CommutationStepState<Scalar>& s = state.extras.commutation;
+  if (mode == Mode::duty || (mode != Mode::current && config.speed_control == SpeedControl::duty)) {
+    s = {};
+    return;
+  }
+  watch_leaving(config.extras.commutation, s, measured, sector, state.reversed);
+  s.part = holding_part(config, s.volts, measured);
+}
+
+/// While the others hand over, the staying phase is held, and its loop with it.
+template <class Scalar>
+constexpr bool holds_current(const DriveConfig<Scalar>& config, const DriveState<Scalar>& state) {
+  return config.extras.on && config.extras.steps_commutation && state.extras.commutation.hands_over;
+}
+
+/// The pair goes on, and the staying phase towards its reference.
+template <class Scalar>
+constexpr void hold_towards(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
+                            const Measurement<Scalar>& measured, Pair positive, Scalar i_ref) {
+  state.command.pair = state.reversed ? swapped(positive) : positive;
+  CommutationStepState<Scalar>& s = state.extras.commutation;
+  const Scalar u = corrected_voltage(config.extras.commutation, s, state.reversed ? -i_ref : i_ref);
+  s.part = between(holding_part(config, u, measured), Scalar{}, greatest_part(s.part));
+}
+
+/// The command of a pair that is known, with what holds the staying phase meanwhile.
+template <class Scalar>
+constexpr void hold_current(const DriveConfig<Scalar>& config, DriveState<Scalar>& state) {
+  const CommutationStepState<Scalar>& held = state.extras.commutation;
+  state.command.overlap = Scalar{};
+  if (!holds_current(config, state) || !state.command.enabled) return;
+  state.command.duty = holding_duty(held, state.command.pair, state.command.chopped);
+  state.command.overlap = holding_overlap(held, state.command.pair);
 }
 
 /// What a slewed setpoint starts from: the measurement in the unit of the mode.
@@ -171,6 +225,8 @@ constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveStat
     return coast(state);
   if (config.current_control == CurrentControl::hysteresis)
     arm_hysteresis(config, state, positive, i_m, i_ref);
+  else if (holds_current(config, state))
+    hold_towards(config, state, measured, positive, i_ref);
   else
     set_duty(state, positive, current_to_duty(config, state, i_ref, i_m, measured));
   if (limits && over_limit(config.extras.limits, measured)) coast(state);
@@ -204,6 +260,8 @@ constexpr const BridgeCommand<Scalar>& step_in(Mode mode, const DriveConfig<Scal
   if (config.extras.on)
     value = detail::slewed_setpoint(config.extras, state.extras, mode, value,
                                     detail::measured_value(mode, measured, i_m));
+  if (config.extras.on && config.extras.steps_commutation)
+    detail::look_at_commutation(mode, config, state, measured, sector);
   detail::run_loops(mode, config, state, measured, positive, value, i_m, telemetry);
   if (config.extras.on && config.extras.smooth_chopping)
     state.command.chopping =
@@ -212,6 +270,7 @@ constexpr const BridgeCommand<Scalar>& step_in(Mode mode, const DriveConfig<Scal
     move_in_sector(config.extras.pwm, state.extras.pwm, sector, measured.speed_rad_s);
     state.command.chopped = chopped_switch(config.extras.pwm, state.extras.pwm, sector, state.command.pair);
   }
+  if (config.extras.on && config.extras.steps_commutation) detail::hold_current(config, state);
   telemetry.duty = state.reversed ? -state.command.duty : state.command.duty;
   return state.command;
 }
@@ -224,8 +283,8 @@ constexpr const BridgeCommand<Scalar>& step(const DriveConfig<Scalar>& config, D
   return step_in(config.mode, config, state, measured, setpoint, telemetry);
 }
 
-/// The Hall interrupt: the present state moves to the new pair at once; duty and sign stay (model.md 3), and which of its
-/// switches is chopped goes by the pattern.
+/// The Hall interrupt: the present state moves to the new pair at once; duty and sign stay (model.md 3), which of its
+/// switches is chopped goes by the pattern, and where the commutation is stepped the duty goes to what it holds.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& on_hall(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                                std::uint8_t code) {
@@ -238,6 +297,10 @@ constexpr const BridgeCommand<Scalar>& on_hall(const DriveConfig<Scalar>& config
   state.command.pair = state.reversed ? swapped(positive) : positive;
   if (config.extras.on && config.extras.pwm.pattern != PwmPattern::upper)
     state.command.chopped = chopped_switch(config.extras.pwm, state.extras.pwm, sector, state.command.pair);
+  if (config.extras.on && config.extras.steps_commutation) {
+    enter_sector(config.extras.commutation, state.extras.commutation, sector);
+    detail::hold_current(config, state);
+  }
   return state.command;
 }
 

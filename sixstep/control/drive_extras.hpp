@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a product adds inside the drive's loops: a slewed setpoint, a window for the current reference,
 // back-EMF feed-forward, the measured bus, chopping that is smooth through zero, a speed loop by another law than
-// the PI in velocity form, a current loop that predicts, the current of the phase that does not commutate. All of
+// the PI in velocity form, a current loop that predicts, the current of the phase that does not commutate, and a duty
+// that holds it while the others hand over. All of
 // it stands behind one flag, so that a drive without extras pays one branch per tick.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/commutation.hpp"
+#include "sixstep/control/commutation_step.hpp"
 #include "sixstep/control/deadbeat.hpp"
 #include "sixstep/control/derivative.hpp"
 #include "sixstep/control/feed_forward.hpp"
@@ -60,6 +62,8 @@ struct DriveExtras {
   DeadbeatConfig<Scalar> deadbeat{};
   bool staying_phase =
       false;  ///< i_m is the current of the phase that the last commutation left where it was
+  bool steps_commutation = false;  ///< the current loop rests while a commutation lasts
+  CommutationStepConfig<Scalar> commutation{};
   SpeedLaw speed_law = SpeedLaw::pi;  ///< pi: by DriveConfig::speed; positional: by the next three
   PiPositionalConfig<Scalar> speed{};
   DerivativeConfig<Scalar> speed_derivative{};  ///< of the measured speed, taken off the output
@@ -75,6 +79,7 @@ struct DriveExtrasState {
   PwmPatternState<Scalar> pwm{};
   DeadbeatState<Scalar> deadbeat{};
   StayingPhase staying{};
+  CommutationStepState<Scalar> commutation{};
   PiPositionalState<Scalar> speed{};
   DerivativeState<Scalar> speed_derivative{};
   SpeedLawsState<Scalar> laws{};

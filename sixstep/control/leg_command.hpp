@@ -81,6 +81,13 @@ constexpr LegCommand<Scalar> sink_leg(Chopping chopping, ChoppedSwitch chopped, 
   return {LegState::low, PwmSwitches::complementary, Scalar{}};
 }
 
+/// The leg that is in no pair, while it keeps up a part of the current that leaves it.
+template <class Scalar>
+constexpr LegCommand<Scalar> overlapping_leg(Scalar overlap) {
+  const bool upper = Scalar{} < overlap;
+  return {LegState::pwm, upper ? PwmSwitches::upper : PwmSwitches::lower, upper ? overlap : -overlap};
+}
+
 /// Six-step as three leg commands: a duty's, for comparators have none.
 template <class Scalar>
 constexpr LegCommands<Scalar> as_legs(const BridgeCommand<Scalar>& command) {
@@ -93,6 +100,8 @@ constexpr LegCommands<Scalar> as_legs(const BridgeCommand<Scalar>& command) {
       source_leg(command.chopping, command.chopped, command.duty);
   legs.leg[static_cast<unsigned>(command.pair.sink)] =
       sink_leg(command.chopping, command.chopped, command.duty);
+  if (command.overlap != Scalar{})
+    legs.leg[static_cast<unsigned>(free_leg(command.pair))] = overlapping_leg(command.overlap);
   return legs;
 }
 

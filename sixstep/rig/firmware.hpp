@@ -20,6 +20,7 @@
 #include "sixstep/control/sensorless/lock.hpp"
 #include "sixstep/plant/plant.hpp"
 #include "sixstep/rig/board_config.hpp"
+#include "sixstep/rig/own_answer.hpp"
 #include "sixstep/rig/sensors.hpp"
 
 namespace sixstep::rig {
@@ -51,6 +52,7 @@ struct Diagnosis {
   double north = 0.0;                                ///< the last time, over its noise
   double certain = 0.0;                              ///< and what would have been enough
   ShaftFinding shaft{};                              ///< of an encoder or a resolver that is lost
+  OwnWrong own = OwnWrong::none;                     ///< what a controller of one's own answered
 };
 
 /// What a chip is given while it runs (control/retune.hpp).

@@ -27,6 +27,7 @@ BoardCommand widened(const control::BridgeCommand<Scalar>& c, const Bases& bases
           .chopping = c.chopping,
           .chopped = c.chopped,
           .watch = c.watch,
+          .overlap = to_si(c.overlap, 1.0),
           .on_below_A = to_si(c.on_below_A, bases.current_A),
           .off_above_A = to_si(c.off_above_A, bases.current_A)};
 }

@@ -19,7 +19,20 @@
 
 namespace sixstep::rig {
 
-enum class Fault : std::uint8_t { none, shoot_through, impossible_hall, beyond_model, shaft_sensor };
+enum class Fault : std::uint8_t {
+  none,
+  shoot_through,
+  impossible_hall,
+  beyond_model,
+  shaft_sensor,
+  own_controller
+};
+
+/// Why a firmware answered one.
+inline Fault fault_of(const Diagnosis& found) {
+  if (found.shaft.lost()) return Fault::shaft_sensor;
+  return found.own != OwnWrong::none ? Fault::own_controller : Fault::impossible_hall;
+}
 
 /// Kinds of events, for the run's statistics.
 enum class EventKind : std::uint8_t {

@@ -63,8 +63,7 @@ void Rig<Real, Firmware, Plant>::control_step(bool starts_period) {
     if (front_end_.follows()) instant.seen = &front_end_.reading();
   if constexpr (looks_at_terminals) show_terminals();
   const auto& answer = firmware_.tick(instant, setpoint_);
-  if (Firmware::fault_ends_run && answer.fault)
-    fault_ = firmware_.diagnosis().shaft.lost() ? Fault::shaft_sensor : Fault::impossible_hall;
+  if (Firmware::fault_ends_run && answer.fault) fault_ = fault_of(firmware_.diagnosis());
   if (!answer.enabled) let_go();
   BoardAnswer command = widened(answer, board_.bases);
   bool reversed = false;

@@ -26,14 +26,20 @@ bool Rig<Real, Firmware, Plant>::do_commutation() {
 template <class Real, class Firmware, class Plant>
 template <class Answer>
 void Rig<Real, Firmware, Plant>::move_pair(const Answer& answer) {
-  if (Firmware::fault_ends_run && answer.fault) fault_ = Fault::impossible_hall;
+  if (Firmware::fault_ends_run && answer.fault) fault_ = fault_of(firmware_.diagnosis());
   if (!answer.enabled) return let_go();
   // mutant: pending_.pair = answer.pair; => nothing
   pending_.pair = answer.pair;
   pending_.chopped = answer.chopped;
+  pending_.duty = to_si(answer.duty, 1.0);
+  pending_.overlap = to_si(answer.overlap, 1.0);
   if (board_.sampled_in_middle) {
     loaded_.pair = firmware_.reversed() == loaded_reversed_ ? answer.pair : control::swapped(answer.pair);
     loaded_.chopped = answer.chopped;
+    if (!board_.delayed) {
+      loaded_.duty = pending_.duty;
+      loaded_.overlap = pending_.overlap;
+    }
   }
   // mutant: firmware_.reversed() == reversed_ => true
   if (firmware_.reversed() == reversed_)

@@ -2,6 +2,7 @@
 #include "sixstep/rig/six_step_modulator.hpp"
 
 #include <bit>
+#include <cmath>
 
 namespace sixstep::rig {
 
@@ -33,13 +34,14 @@ int SixStepModulator::take(const Instant& t, const BoardCommand& command) {
   const int entered = hand_over(command.pair);
   // Field by field, as it was written: a copy in wider pieces would wait until the fields have left for
   // memory. A field more or less does not compile.
-  const auto& [enabled, pair, duty, chopping, chopped, watch, on_below_A, off_above_A] = command;
+  const auto& [enabled, pair, duty, chopping, chopped, watch, overlap, on_below_A, off_above_A] = command;
   command_.enabled = enabled;
   command_.pair = pair;
   command_.duty = duty;
   command_.chopping = chopping;
   command_.chopped = chopped;
   command_.watch = watch;
+  command_.overlap = overlap;
   command_.on_below_A = on_below_A;
   command_.off_above_A = off_above_A;
   if (!wakes) return entered;
@@ -54,6 +56,8 @@ void SixStepModulator::start_period(const Instant& t, const BoardCommand& comman
   const int entered = take(t, command);
   timer_.start_period();
   if (command.enabled && command.watch == Watch::none) timer_.start_pulse(source_pulse, t, command.duty);
+  if (command.overlap != 0.0 || timer_.pulse_on(overlap_pulse))
+    timer_.start_pulse(overlap_pulse, t, std::fabs(command.overlap));
   fill_legs(t, entered);
 }
 
@@ -61,6 +65,7 @@ void SixStepModulator::commutate(const Instant& t, control::Pair pair, control::
   const int entered = hand_over(pair);
   command_.pair = pair;
   command_.chopped = chopped;
+  command_.overlap = 0.0;
   fill_legs(t, entered);
 }
 
@@ -82,6 +87,9 @@ void SixStepModulator::fill_legs(const Instant& t, int entered) {
       timer_.connect(index(command_.pair.source), sides_of(control::source_leg(chopping, chopped, 0.0)),
                      source_pulse);
     timer_.connect(index(command_.pair.sink), sides_of(control::sink_leg(chopping, chopped, 0.0)), sink);
+    if (command_.overlap != 0.0)
+      timer_.connect(index(control::free_leg(command_.pair)),
+                     sides_of(control::overlapping_leg(command_.overlap)), overlap_pulse);
   }
   timer_.update(t, timer_.dead_time_at_commutation() ? entered : LegTimer::none_late);
 }

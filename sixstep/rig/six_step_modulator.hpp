@@ -16,6 +16,7 @@ struct BoardCommand {
   control::Chopping chopping = control::Chopping::soft;
   control::ChoppedSwitch chopped = control::ChoppedSwitch::upper;
   control::Watch watch = control::Watch::none;
+  double overlap = 0.0;
   double on_below_A = 0.0, off_above_A = 0.0;
 };
 
@@ -37,7 +38,7 @@ class SixStepModulator {
 
   /// A PWM period begins at t with this command. |duty| = 1 has no off gap, 0 no on-time.
   void start_period(const sim::Instant& t, const BoardCommand& command);
-  /// The pair changes at a Hall edge: PWM is not restarted, duty not resampled.
+  /// The pair changes at a Hall edge: PWM is not restarted, duty not resampled, no leg overlaps until the next period.
   void commutate(const sim::Instant& t, control::Pair pair, control::ChoppedSwitch chopped);
   /// And the switch that the duty chops stays.
   void commutate(const sim::Instant& t, control::Pair pair) { commutate(t, pair, command_.chopped); }
@@ -78,8 +79,8 @@ class SixStepModulator {
   std::int64_t turn_ons() const { return timer_.turn_ons(); }
 
  private:
-  /// The second pulse is that of hard chopping's second comparator.
-  static constexpr unsigned source_pulse = 0, sink_pulse = 1;
+  /// The second pulse is that of hard chopping's second comparator, the third that of the leg in no pair.
+  static constexpr unsigned source_pulse = 0, sink_pulse = 1, overlap_pulse = 2;
 
   int take(const sim::Instant& t, const BoardCommand& command);
   int hand_over(control::Pair to);

@@ -74,7 +74,7 @@ class Starter(ProgramTest):
             inner = [line.split()[0].split(".")[-1] for line in self.run_program("help", table).stdout.splitlines() if line.startswith(f"  {table}.")]
             for key in inner:
                 if table != "motor_override":
-                    self.assertRegex(text, rf"(?m)^(# )?({key} = |\[\w+(\.\w+)?\.{key}[\].])", f"{table}.{key}")
+                    self.assertRegex(text, rf"(?m)^(# )?({key} = |\[+\w+(\.\w+)?\.{key}[\].])", f"{table}.{key}")
 
     def test_no_line_is_wider_than_a_window(self):
         for words in ((), ("--full",)):

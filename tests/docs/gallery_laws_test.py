@@ -69,6 +69,24 @@ IN_BAND = 1e-9 / 0.4
 AMPLIFIED = read_late(5, 1 / (2 * pi * 160e3), 1e-6)
 DIP = 3 * L / (U - 2 * K_T * 200) / (pi / 3 / PAIRS / 200)  # part of a sector that a commutation takes at 200 rad/s
 
+
+def after_commutation(emf, current):
+    """The staying phase's current where the leaving one is gone, for a duty that holds the current with the pair and goes on."""
+    duty_V = 2 * emf + R * current
+    leaving, staying = (duty_V + 2 * emf) / (1.5 * R), (4 * emf - duty_V) / (1.5 * R)
+    return (current + staying) * leaving / (leaving + current) - staying
+
+
+def commutation_held(emf, current, speed):
+    """With a duty step: what the leaving phase's back-EMF lets go at most, and what falls in a period without the step."""
+    sectors = L_S * current / (2 * emf + 0.75 * R * current) / (pi / 3 / PAIRS / speed)
+    return current * (1 - sectors / 4) - (2 * emf + R / 2 * current) / (3 * L_S) * T
+
+
+COMMUTATING = K_E * 150  # V
+PAIR_RIPPLE = (2 * COMMUTATING + 3 * R) * (1 - (2 * COMMUTATING + 3 * R) / U) * T / (2 * L)  # half of it, at 3 A
+
+
 def fifth(x):
     """Torque of two phases over K_e I, x from the middle of their sector, with 7 % of fifth harmonic."""
     return sqrt(3) * (cos(x) - 0.07 * cos(5 * x))
@@ -180,6 +198,8 @@ LAWS = {
     "floating-phase-soft": [(0, 0), (FLOATING * (1 - 4 * T / SECTOR) * (1 - 0.75 * T * R / L), FLOATING)],
     "floating-phase-hard": [(0, 0)],
     "floating-phase-pwm-on-pwm": [(0, 0), (0, FLOATING_LATE), (-1e-12, 0)],
+    "commutation-plain": [(K_T * (after_commutation(COMMUTATING, 3) - PAIR_RIPPLE), None)],
+    "commutation-duty-step": [(K_T * (commutation_held(COMMUTATING, 3, 150) - PAIR_RIPPLE), None)],
     "dead-time": [(0, 0), near((0.1 - 1e-6 / T) * STALL)],
     "braking-soft": [((U - K_T * 100) / R * (1 - exp(-T / TAU)), None)],
     "braking-complementary": [(None, U * BRAKE * (1 - BRAKE) * T / L + 0.077)],

@@ -26,6 +26,8 @@ inline sixstep::control::DriveConfig<double> drive() {
               .smooth_chopping = true,
               .chopping = {0.75, 0.5},
               .pwm = {PwmPattern::pwm_on_pwm, 0.00046},
+              .steps_commutation = true,
+              .commutation = {0.034, 0.75, 0.08, 24.0, 1.2, 2e-4, 2e-4, 0.25},
               .speed_law = SpeedLaw::positional,
               .speed = {0.0158, 0.00013, 0.0085, 0.96, 0.00013 - 0.0085 * 0.0158},
               .speed_derivative = {0.0021, 0.031}};

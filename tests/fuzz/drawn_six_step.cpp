@@ -21,10 +21,14 @@ bool never(const Scenario& s, Has has) {
   return std::none_of(s.at.begin(), s.at.end(), has);
 }
 
-void draw_pattern(Draw& draw, Scenario& s) {
+/// Hard, at first or from an event on.
+bool chops_both(const Scenario& s) {
   const bool hard = s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on;
-  const bool compares = s.control.current.type == CurrentLoopType::hysteresis;
-  if (hard || compares || !never(s, [](const At& at) { return at.pwm.chopping == AtChopping::hard; })) return;
+  return hard || !never(s, [](const At& at) { return at.pwm.chopping == AtChopping::hard; });
+}
+
+void draw_pattern(Draw& draw, Scenario& s) {
+  if (s.control.current.type == CurrentLoopType::hysteresis || chops_both(s)) return;
   s.pwm.pattern = static_cast<control::PwmPattern>(draw.one_of(5));
 }
 
@@ -32,6 +36,8 @@ void draw_current(Draw& draw, Scenario& s) {
   CurrentLoop& loop = s.control.current;
   if (!runs_current(s.control) || loop.type != CurrentLoopType::pi) return;
   if (draw.chance(0.3)) loop.feedback = CurrentFeedback::staying_phase;
+  if (draw.chance(0.3) && !chops_both(s))
+    loop.commutation = static_cast<CurrentCommutation>(1 + draw.one_of(2));
   if (!never(s, [](const At& at) { return !(at.control.current == AtCurrentLoop{}); }) || !draw.chance(0.5))
     return;
   loop = {.type = CurrentLoopType::deadbeat, .limit_A = loop.limit_A, .feedback = loop.feedback};

@@ -86,11 +86,12 @@ class Dump {
   template <class Struct>
   void list(std::string_view key, std::vector<Struct>& member, const base::About&) {
     if (change_) member.resize(2);
-    const std::string keys = std::exchange(text, "");
+    const std::string keys = std::exchange(text, ""), outer = std::exchange(prefix_, "");
     for (Struct& item : member) {
-      text += fmt::format("[[{}]]\n", key);
+      text += fmt::format("[[{}{}]]\n", outer, key);
       describe(*this, item);
     }
+    prefix_ = outer;
     lists_ += std::exchange(text, keys);
   }
   /// Lists come last: what follows a heading would belong to it.

@@ -195,6 +195,17 @@ TEST(ScenarioText, WritesWhatDiffersFromTheDefaultsAlone) {
             "max = 3\n");
 }
 
+TEST(ScenarioText, AListWithinATableStandsUnderIt) {
+  study::Scenario s;
+  s.control.own.number = {{"first", 1.5}, {"second", -2.0}};
+  const std::string text = scenario_text(s);
+  EXPECT_NE(
+      text.find(
+          "\n[[control.own.number]]\nname = \"first\"\nvalue = 1.5\n\n[[control.own.number]]\nname = \"second\"\nvalue = -2"),
+      std::string::npos)
+      << text;
+}
+
 TEST(ScenarioText, EscapesWhatAStringMayHold) {
   study::Scenario s;
   s.motor = "maxon-251601";

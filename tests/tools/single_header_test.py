@@ -24,7 +24,8 @@ class SingleHeader(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         self.header = self.folder / "sixstep_control.hpp"
         subprocess.run([sys.executable, REPOSITORY / "tools" / "single_header.py", "--out", self.header], check=True)
-        self.parts = sorted(p.relative_to(REPOSITORY).as_posix() for p in (REPOSITORY / "sixstep/control").rglob("*.hpp"))
+        self.parts = sorted(p.relative_to(REPOSITORY).as_posix() for p in (REPOSITORY / "sixstep/control").rglob("*.hpp")
+                            if p.parent.name != "own")  # no firmware passes that door
 
     def compile(self, name, source, *flags, include):
         file = self.folder / name

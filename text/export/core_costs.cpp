@@ -67,13 +67,14 @@ std::string blocks_beside(const study::Compiled& c) {
   const bool advances = c.product && (c.product->advance.fixed != 0 || c.product->advance.per_speed != 0);
   const bool weakens = c.field && c.field->weakening.most_A > 0;
   const bool salient = c.field && c.field->per_ampere.k_per_A != 0;
-  const std::array<std::pair<bool, std::string_view>, 14> blocks{{
+  const std::array<std::pair<bool, std::string_view>, 15> blocks{{
       {e.on && e.slews_setpoint, "slew"},
       {e.on && e.limits_current, "limits"},
       {e.on && (e.feed_forward.K_t_V_s != 0 || e.bus.lowest_bus_V != 0), "feed_forward"},
       {e.on && e.smooth_chopping, "smooth_chopping"},
       {e.on && e.pwm.pattern != control::PwmPattern::upper, "pwm_pattern"},
       {e.on && e.predicts_current, "deadbeat"},
+      {e.on && e.steps_commutation, "commutation_step"},
       {e.on && e.speed_law == control::SpeedLaw::positional, "pi_positional"},
       {e.on && e.speed_law == control::SpeedLaw::observed, "observed_speed"},
       {e.on && e.speed_law == control::SpeedLaw::sliding, "sliding_speed"},

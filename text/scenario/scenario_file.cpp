@@ -188,6 +188,26 @@ void read_all_rows(const Document& document, const Resolve& resolve, study::Scen
                 complaints, of_other_files);
 }
 
+/// The shared object of a controller of one's own.
+void load_controller(const Document& document, const Resolve& resolve, study::Own& own,
+                     Complaints& complaints) {
+  constexpr const char* key = "control.own.controller";
+  const toml::node* node = document.find(key);
+  if (!node || own.controller.empty()) return;
+  const base::Result<NamedText> file =
+      find_text(resolve, {Naming::Kind::controller, own.controller, document.file_of(*node, key)});
+  if (file && file->controller) {
+    own.loaded = file->controller;
+    return;
+  }
+  base::Problem problem = file ? base::Problem{.limit = "is machine code, and none is loaded here",
+                                               .cure = "run it by the program on this machine"}
+                               : file.problems().front();
+  problem.where = key;
+  complaints.later(std::move(problem));
+  complaints.told_elsewhere(key);
+}
+
 /// The sheet's kind, or the one that [motor_override] makes of it.
 bool is_linear(const Document& document, const design::Sheet& sheet) {
   const toml::node* kind = document.find("motor_override.kind");
@@ -250,6 +270,7 @@ base::Result<study::Scenario> read_scenario_text(const std::string& name, std::s
   // A duration that is wrong has been told: nothing shall lie behind its end besides.
   if (!(scenario.duration_s > 0.0)) scenario.duration_s = study::longest_s;
   read_all_rows(document, options.resolve, scenario, complaints, of_other_files);
+  load_controller(document, options.resolve, scenario.control.own, complaints);
   for (base::Problem& problem : study::check_columns(scenario)) complaints.later(std::move(problem));
   if (source) run_checks(document, *source, scenario, complaints, of_other_files);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <type_traits>
+#include <utility>
 
 #include "sixstep/base/linear.hpp"
 #include "sixstep/base/written.hpp"
@@ -108,8 +109,10 @@ class TableText {
     for (Item& item : items) {
       TableText inner(linear_motor_);
       describe(inner, item);
-      lists_.emplace_back(key, inner.text(plain, std::string(key), Heading::none));
+      inner.key_ = std::string(key);
       inner.add_values(plain, fmt::format("{}[{}].", key, &item - items.data()), listed_);
+      items_.push_back(std::move(inner));
+      usual_items_.push_back(plain);
     }
   }
 
@@ -127,13 +130,18 @@ class TableText {
     }
     if (heading == Heading::always || (heading == Heading::with_rows && !out.empty()))
       out = fmt::format("\n[{}]\n", path) + out;
+    const auto within = [&path](const TableText& inner) {
+      return path.empty() ? inner.key_ : path + "." + inner.key_;
+    };
     for (std::size_t n = 0; n < tables_.size(); ++n) {
       const TableText& inner = tables_[n];
       if (inner.shown_ == Shown::never) continue;
-      out += inner.text(usual.tables_[n], path.empty() ? inner.key_ : path + "." + inner.key_,
+      out += inner.text(usual.tables_[n], within(inner),
                         inner.shown_ == Shown::always ? Heading::always : Heading::with_rows);
     }
-    for (const auto& [key, rows] : lists_) out += fmt::format("\n[[{}]]\n{}", key, rows);
+    for (std::size_t n = 0; n < items_.size(); ++n)
+      out += fmt::format("\n[[{}]]\n{}", within(items_[n]),
+                         items_[n].text(usual_items_[n], within(items_[n]), Heading::none));
     return out;
   }
 
@@ -172,9 +180,9 @@ class TableText {
   std::string key_;
   Shown shown_ = Shown::where_it_differs;
   std::vector<Row> rows_;
-  std::vector<std::pair<std::string, std::string>> lists_;
   std::vector<TableText> tables_;
-  std::vector<WrittenValue> listed_;  ///< of the lists' items
+  std::vector<TableText> items_, usual_items_;  ///< of the lists, and what an item of each has by itself
+  std::vector<WrittenValue> listed_;            ///< of the lists' items
 };
 
 /// The quantities, counts and texts that a sheet gives.

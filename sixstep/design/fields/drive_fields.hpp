@@ -103,6 +103,21 @@ void fields(Walk&& w, const control::DeadbeatConfig<double>& d, Kept& kept) {
   w.signal({"limit", "V"}, d.limit, limit, Base::voltage);
 }
 
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::CommutationStepConfig<double>& d, Kept& kept) {
+  auto& [K_t_V_s, V_per_A, A_per_V, overlap_bus_V, missing_V_per_A, flanks_per_rad_s, ahead_per_rad_s,
+         flat_flanks] = kept;
+  w.gain({"K_t_V_s", "V per rad/s", "2 E"}, d.K_t_V_s, K_t_V_s, {Base::voltage, Base::speed});
+  w.gain({"V_per_A", "V per A", "3 R/2"}, d.V_per_A, V_per_A, {Base::voltage, Base::current});
+  w.gain({"A_per_V", "A per V", "T/L times half a period and those that an answer waits"}, d.A_per_V, A_per_V,
+         {Base::current, Base::voltage});
+  w.signal({"overlap_bus_V", "V"}, d.overlap_bus_V, overlap_bus_V, Base::voltage);
+  w.gain({"missing_V_per_A", "V per A"}, d.missing_V_per_A, missing_V_per_A, {Base::voltage, Base::current});
+  w.gain({"flanks_per_rad_s", "per rad/s"}, d.flanks_per_rad_s, flanks_per_rad_s, {Base::one, Base::speed});
+  w.gain({"ahead_per_rad_s", "per rad/s"}, d.ahead_per_rad_s, ahead_per_rad_s, {Base::one, Base::speed});
+  w.signal({"flat_flanks"}, d.flat_flanks, flat_flanks, Base::one);
+}
+
 /// Of a speed.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::PiPositionalConfig<double>& d, Kept& kept) {
@@ -158,8 +173,8 @@ void fields(Walk&& w, const control::SpeedLaws<double>& d, Kept& kept) {
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::DriveExtras<double>& d, Kept& kept) {
   auto& [on, slews_setpoint, slew, limits_current, limits, torque_fraction_per_A, feed_forward, bus,
-         smooth_chopping, chopping, pwm, predicts_current, deadbeat, staying_phase, speed_law, speed,
-         speed_derivative, speed_weight_off, laws] = kept;
+         smooth_chopping, chopping, pwm, predicts_current, deadbeat, staying_phase, steps_commutation,
+         commutation, speed_law, speed, speed_derivative, speed_weight_off, laws] = kept;
   w.flag({"on"}, d.on, on);
   constexpr Field torque_fraction{"torque_fraction_per_A", "per A"};
   constexpr Ratio of_current{Base::one, Base::current};
@@ -182,6 +197,8 @@ void fields(Walk&& w, const control::DriveExtras<double>& d, Kept& kept) {
   w.flag({"predicts_current"}, d.predicts_current, predicts_current);
   if (w.when_on(d.predicts_current)) w.part("deadbeat", d.deadbeat, deadbeat);
   w.flag({"staying_phase"}, d.staying_phase, staying_phase);
+  w.flag({"steps_commutation"}, d.steps_commutation, steps_commutation);
+  if (w.when_on(d.steps_commutation)) w.part("commutation", d.commutation, commutation);
   w.choice({"speed_law"}, d.speed_law, speed_law, control::SpeedLaw::pi);
   if (!w.when_on(d.speed_law != control::SpeedLaw::pi)) return;
   w.part("speed", d.speed, speed);

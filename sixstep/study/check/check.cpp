@@ -12,6 +12,7 @@
 #include "sixstep/study/check/heat.hpp"
 #include "sixstep/study/check/measures.hpp"
 #include "sixstep/study/check/numbers.hpp"
+#include "sixstep/study/check/own.hpp"
 #include "sixstep/study/check/pace.hpp"
 #include "sixstep/study/check/product.hpp"
 #include "sixstep/study/check/reference.hpp"
@@ -142,6 +143,7 @@ void check_tunings(const Scenario& s, const std::optional<design::MotorModel>& m
     check_product(then, std::nullopt, found);
     check_sensorless(then, found);
     check_field(then, found);
+    check_own(then, found);
     if (motor) check_torque_limit(then, *motor, found);
     return found;
   };
@@ -156,8 +158,7 @@ void check_tunings(const Scenario& s, const std::optional<design::MotorModel>& m
     if (!retunes(*at)) continue;
     base::Problems found = wrong(settled(s, at));
     std::erase_if(found, is_told);
-    const base::Problems of_event = told_of_event(s, *at, std::move(found));
-    out.insert(out.end(), of_event.begin(), of_event.end());
+    append(out, told_of_event(s, *at, std::move(found)));
   }
 }
 
@@ -206,10 +207,10 @@ base::Problems check(const Scenario& s) {
   check_product(s, sector_rad, out);
   check_sensorless(s, out);
   check_field(s, out);
+  check_own(s, out);
   check_extras(s, out);
   check_measures(s, sound_reference, out);
-  if (const base::Problems spread = check_spread(s); !spread.empty())
-    out.insert(out.end(), spread.begin(), spread.end());
+  append(out, check_spread(s));
   if (const auto columns = record_indices(s); !columns) append(out, columns.problems());
   return out;
 }

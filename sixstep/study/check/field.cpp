@@ -45,6 +45,8 @@ void check_loops(const Scenario& s, base::Problems& out) {
          "= \"deadbeat\" predicts a driven pair, and the field-oriented drive has none", "set type = \"pi\"");
   refuse(c.current.feedback != CurrentFeedback::mean, "control.current.feedback",
          "is of a pair that moves on, and the field-oriented drive has none", "leave it away");
+  refuse(c.current.commutation != CurrentCommutation::plain, "control.current.commutation",
+         "is of a pair that moves on, and the field-oriented drive has none", "leave it away");
   refuse(c.current.type == CurrentLoopType::hysteresis, "control.current.type",
          "= \"hysteresis\" watches a driven pair, and the field-oriented drive has none",
          "set type = \"pi\"");

@@ -180,6 +180,23 @@ void check_deadbeat(const CurrentLoop& loop, base::Problems& out) {
          "leave it away");
 }
 
+/// What has no duty of its own, or no pair that it could be held on.
+void check_commutation_step(const Scenario& s, base::Problems& out) {
+  if (s.control.current.commutation == CurrentCommutation::plain) return;
+  const std::string word(base::word(current_commutation_choices, s.control.current.commutation));
+  const auto refuse = [&](bool given, const char* limit, const char* cure) {
+    if (given) out.push_back({"control.current.commutation", '"' + word + '"', limit, cure});
+  };
+  const char* const leave = "leave it away, or set type = \"pi\"";
+  refuse(s.control.current.type == CurrentLoopType::hysteresis, "sets a duty, and a hysteresis has none",
+         leave);
+  refuse(s.control.current.type == CurrentLoopType::deadbeat,
+         "sets a duty that the deadbeat loop's prediction would not know of", leave);
+  refuse(s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on,
+         "holds the current with one switch of the pair on, and pwm.chopping = \"hard\" chops both",
+         "set chopping = \"soft\" or \"complementary\"");
+}
+
 void check_pattern(const Scenario& s, base::Problems& out) {
   if (s.pwm.pattern == control::PwmPattern::upper) return;
   const std::string word(base::word(pattern_choices, s.pwm.pattern));
@@ -197,6 +214,7 @@ void check_pattern(const Scenario& s, base::Problems& out) {
 void check_extras(const Scenario& s, base::Problems& out) {
   const CurrentLoop& loop = s.control.current;
   check_deadbeat(loop, out);
+  check_commutation_step(s, out);
   check_pattern(s, out);
   if (loop.type == CurrentLoopType::hysteresis && loop.back_emf_feed_forward)
     out.push_back({"control.current.back_emf_feed_forward", "true",

@@ -40,6 +40,9 @@ void check_loops(const Scenario& s, base::Problems& out) {
   if (s.control.current.feedback != CurrentFeedback::mean)
     out.push_back({"control.current.feedback", "\"staying-phase\"",
                    "goes by Hall sectors, and the sensorless drive starts without them", "leave it away"});
+  if (s.control.current.commutation != CurrentCommutation::plain)
+    out.push_back({"control.current.commutation", "",
+                   "goes by Hall sectors, and the sensorless drive starts without them", "leave it away"});
 }
 
 void check_source(const Scenario& s, base::Problems& out) {

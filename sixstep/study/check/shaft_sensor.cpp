@@ -156,7 +156,8 @@ void check_shaft_sensor(const Scenario& s, const std::optional<design::MotorMode
   }
   const std::string word(base::word(rotor_sensing_choices, rotor));
   check_linear(s, word, out);
-  if (!on_load && s.control.drive != FirmwareKind::field && s.pwm.commutation != CommutationAt::sample)
+  const bool pair_moves = s.control.drive != FirmwareKind::field && !answers_legs(s.control.own);
+  if (!on_load && pair_moves && s.pwm.commutation != CommutationAt::sample)
     out.push_back({"pwm.commutation", "\"hall-edge\"",
                    "waits for an interrupt that sensors.rotor = \"" + word + "\" does not give",
                    "set commutation = \"sample\""});

@@ -53,6 +53,11 @@ struct FieldAround {
 base::Result<FieldAround> field_around(const Scenario& scenario, const Basis& basis,
                                        const control::DriveConfig<double>& drive);
 
+/// A controller of one's own, as it designs itself by the nominal motor, the board and the loops of `drive`. Problems: what it says
+/// that it cannot.
+base::Result<rig::OwnConfig> own_designed(const Scenario& scenario, const Basis& basis,
+                                          const control::DriveConfig<double>& drive);
+
 /// By how many samples its current across the magnet comes late in the mean (design/loops/speed_laws.hpp).
 double field_lag_periods(const Scenario& scenario, const Basis& basis);
 

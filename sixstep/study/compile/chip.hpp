@@ -49,6 +49,15 @@ template <class Scalar>
 auto given_to(std::type_identity<rig::FieldDrive<Scalar>>, const Scenario&, const Compiled& c) {
   return field_in<Scalar>(c);
 }
+/// What an own controller's chip is given: it computes in SI.
+struct OwnGiven {
+  rig::OwnConfig config;
+  rig::Bases bases;
+};
+template <class Command>
+auto given_to(std::type_identity<rig::OwnDrive<Command>>, const Scenario&, const Compiled& c) {
+  return base::Result<OwnGiven>(OwnGiven{*c.own, {}});
+}
 template <class Firmware>
 auto given_to(std::type_identity<Firmware>, const Scenario& s, const Compiled& c) {
   return drive_in<typename Firmware::Number>(s, c);
@@ -68,6 +77,7 @@ base::Problems add_later(const Scenario& s, const Compiled& c, Chip<Firmware>& o
     then.product = c.later[number].product;
     then.sensorless = c.later[number].sensorless;
     then.field = c.later[number].field;
+    then.own = c.later[number].own;
     const auto chip = given_to(std::type_identity<Firmware>{}, settled_s, then);
     if (!chip) return told_of_event(s, *at, chip.problems());
     out.later.push_back({chip->config, chip->bases.setpoint});

@@ -126,6 +126,16 @@ base::Problems add_field(const Scenario& s, const Basis& basis, Tuned& tuned,
   return {};
 }
 
+/// The library's loops are what it was given, and are not run.
+base::Problems add_own(const Scenario& s, const Basis& basis, Tuned& tuned) {
+  if (s.control.drive != FirmwareKind::own) return {};
+  auto designed = own_designed(s, basis, tuned.drive);
+  if (!designed) return designed.problems();
+  tuned.own = std::make_shared<const rig::OwnConfig>(std::move(*designed));
+  tuned.gains.clear();
+  return {};
+}
+
 /// What [[at]] makes of it. Sensors stay as they were laid out for the start.
 base::Problems add_later(const Scenario& s, const Basis& basis, Compiled& out) {
   const std::vector<const At*> order = in_order(s);
@@ -140,6 +150,8 @@ base::Problems add_later(const Scenario& s, const Basis& basis, Compiled& out) {
         !problems.empty())
       return told_of_event(s, *at, problems);
     if (base::Problems problems = add_field(then, basis, *later); !problems.empty())
+      return told_of_event(s, *at, problems);
+    if (base::Problems problems = add_own(then, basis, *later); !problems.empty())
       return told_of_event(s, *at, problems);
     out.later.push_back(std::move(*later));
   }
@@ -195,7 +207,10 @@ base::Result<Compiled> compile(const Scenario& s) {
   if (base::Problems problems = add_field(alone ? *alone : s, basis, *first, &out.field_steps);
       !problems.empty())
     return problems;
+  if (base::Problems problems = add_own(alone ? *alone : s, basis, *first); !problems.empty())
+    return problems;
   out.field = first->field;
+  out.own = std::move(first->own);
   out.drive = first->drive;
   out.gains = std::move(first->gains);
   settle_edges(s, basis, out);

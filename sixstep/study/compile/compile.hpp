@@ -2,11 +2,14 @@
 // compile() turns a scenario into what a run is made of: plant parameters, controller configuration, board,
 // timeline, gains with their origin.
 #pragma once
+#include <memory>
+
 #include "sixstep/base/result.hpp"
 #include "sixstep/control/commissioning/pulse_start.hpp"
 #include "sixstep/control/field/field_drive.hpp"
 #include "sixstep/control/protected_drive.hpp"
 #include "sixstep/plant/general/machine.hpp"
+#include "sixstep/rig/own_drive.hpp"
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
@@ -21,6 +24,7 @@ struct Tuned {
   std::optional<control::ProtectedConfig<double>> product;       ///< around the drive, where the chip runs it
   std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< alike
   std::optional<control::FieldDriveConfig<double>> field;        ///< alike
+  std::shared_ptr<const rig::OwnConfig> own;                     ///< in its place
 };
 
 /// What the general kernel is given, where the scenario asks for what the lean one lacks (plant/general/).
@@ -47,6 +51,7 @@ struct Compiled {
   std::optional<control::ProtectedConfig<double>> product;       ///< around the drive, where the chip runs it
   std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< alike
   std::optional<control::FieldDriveConfig<double>> field;        ///< alike
+  std::shared_ptr<const rig::OwnConfig> own;                     ///< in its place
   std::vector<LoopGains> gains;
   std::vector<design::DerivationStep> sensorless_steps;  ///< of the sensorless drive's numbers
   std::vector<design::DerivationStep> field_steps;       ///< of the field-oriented drive's

@@ -55,6 +55,30 @@ void add_smooth_chopping(const Scenario& s, const Basis& basis, control::DriveEx
                      .complementary_below_A = below};
 }
 
+/// A wider one has flanks that are no ramps to a chip's samples.
+constexpr double widest_flat_deg = 175.0;
+
+/// commutation_step.hpp.
+void add_commutation_step(const Scenario& s, const Basis& basis, control::DriveConfig<double>& drive) {
+  control::DriveExtras<double>& extras = drive.extras;
+  const CurrentCommutation kind = s.control.current.commutation;
+  if (kind == CurrentCommutation::plain) return;
+  const plant::Machine& m = basis.motor.machine;
+  const design::Sheet& sheet = s.designed_for ? s.designed_for->sheet : s.sheet;
+  const double flat_deg =
+      sheet.back_emf == design::BackEmfShape::trapezoid ? std::min(sheet.flat_deg, widest_flat_deg) : 120.0;
+  const double flank_rad = (180 - flat_deg) * base::pi / 180 / m.pole_pairs;  // mechanical rad
+  extras.on = extras.steps_commutation = true;
+  extras.commutation = {.K_t_V_s = basis.motor.K_t_Nm_A,
+                        .V_per_A = 1.5 * m.R_ohm,
+                        .A_per_V = (0.5 + s.pwm.delay_periods) * s.pwm.period_s / m.L_H,
+                        .overlap_bus_V = kind == CurrentCommutation::overlap ? basis.bus_V : 0.0,
+                        .missing_V_per_A = 0.75 * drive.current.d1,
+                        .flanks_per_rad_s = s.pwm.period_s / flank_rad,
+                        .ahead_per_rad_s = s.pwm.delay_periods * s.pwm.period_s / flank_rad,
+                        .flat_flanks = (flat_deg - 120) / 2 / (180 - flat_deg)};
+}
+
 /// The gains of drive.speed in positional form, and D = K T_d s/(T_f s + 1) of the measured speed.
 void add_speed_form(const Scenario& s, control::DriveConfig<double>& drive) {
   const SpeedLoop& loop = s.control.speed;
@@ -80,6 +104,7 @@ void add_extras(const Scenario& s, const Basis& basis, control::DriveConfig<doub
   control::DriveExtras<double>& extras = drive.extras;
   add_limits(s, basis, drive);
   add_smooth_chopping(s, basis, extras);
+  add_commutation_step(s, basis, drive);
   add_speed_form(s, drive);
   if (s.control.slew) {
     extras.on = extras.slews_setpoint = true;

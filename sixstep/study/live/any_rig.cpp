@@ -40,6 +40,13 @@ base::Result<AnyRig> made_in_floating_point(const Scenario& s, const Compiled& c
                                                      : made_of<Live<double>>(s, c, std::move(timeline));
 }
 
+template <template <class> class Live>
+base::Result<AnyRig> made_to_answer(const Scenario& s, const Compiled& c, rig::Timeline timeline) {
+  return c.own->is->answers == SIXSTEP_ANSWERS_LEGS
+             ? made_of<Live<control::LegCommands<double>>>(s, c, std::move(timeline))
+             : made_of<Live<control::BridgeCommand<double>>>(s, c, std::move(timeline));
+}
+
 }  // namespace
 
 base::Result<AnyRig> made_by(const Scenario& s, const Compiled& c, rig::Timeline timeline) {
@@ -54,6 +61,9 @@ base::Result<AnyRig> made_by(const Scenario& s, const Compiled& c, rig::Timeline
     case FirmwareKind::field:
       return general ? made_in_floating_point<FieldOnGeneral>(s, c, std::move(timeline))
                      : made_in_floating_point<FieldRig>(s, c, std::move(timeline));
+    case FirmwareKind::own:
+      return general ? made_to_answer<OwnOnGeneral>(s, c, std::move(timeline))
+                     : made_to_answer<OwnRig>(s, c, std::move(timeline));
     case FirmwareKind::lean:
       break;
   }

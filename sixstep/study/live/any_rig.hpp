@@ -25,6 +25,14 @@ using FieldRig = LiveRig<rig::FieldDrive<Scalar>>;
 template <class Scalar>
 using FieldOnGeneral = LiveRig<rig::FieldDrive<Scalar>, plant::general::Plant<double>>;
 
+/// Of a controller of one's own, by what it answers.
+template <class Command>
+using OwnRig = LiveRig<rig::OwnDrive<Command>>;
+template <class Command>
+using OwnOnGeneral = LiveRig<rig::OwnDrive<Command>, plant::general::Plant<double>>;
+template <template <class> class Live>
+using WithEachAnswer = std::variant<Live<control::BridgeCommand<double>>, Live<control::LegCommands<double>>>;
+
 /// One firmware on one kernel in each arithmetic.
 template <template <class> class Live>
 using InEachArithmetic = std::variant<Live<double>, Live<float>, Live<control::Q15>, Live<control::Q14>,
@@ -46,7 +54,8 @@ struct Joined<std::variant<A...>, std::variant<B...>, More...> {
 using AnyRig = Joined<InEachArithmetic<LeanRig>, InEachArithmetic<SensedRig>, InEachArithmetic<ProductRig>,
                       InEachArithmetic<SensorlessRig>, InEachArithmetic<SensedOnGeneral>,
                       InEachArithmetic<ProductOnGeneral>, InEachArithmetic<SensorlessOnGeneral>,
-                      InFloatingPoint<FieldRig>, InFloatingPoint<FieldOnGeneral>>::type;
+                      InFloatingPoint<FieldRig>, InFloatingPoint<FieldOnGeneral>, WithEachAnswer<OwnRig>,
+                      WithEachAnswer<OwnOnGeneral>>::type;
 
 /// The scenario's rig at the start of its run: it pays for what its firmware does, and for nothing else.
 /// Problems: the arithmetic cannot hold the drive.

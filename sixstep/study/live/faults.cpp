@@ -102,6 +102,26 @@ base::Problem lost_sensor(const rig::ShaftFinding& found, double t_s) {
   return {};
 }
 
+/// What a controller of one's own answered that is not carried out.
+base::Problem refused_answer(rig::OwnWrong wrong, double t_s) {
+  using rig::OwnWrong;
+  switch (wrong) {
+    case OwnWrong::duty:
+      return {at(t_s), "", "the controller answered a duty that is no number of 0 to 1",
+              "bound it in the controller, and look for a division by 0"};
+    case OwnWrong::leg:
+      return {at(t_s), "", "the controller answered a pair of one leg, or a leg that there is not",
+              "answer source and sink as two of the legs a, b, c"};
+    case OwnWrong::choice:
+      return {at(t_s), "", "the controller answered a chopping, a switch or a leg's state that there is not",
+              "use the names of own_controller.h"};
+    case OwnWrong::gave_up:
+    case OwnWrong::none:
+      break;
+  }
+  return {at(t_s), "", "the controller gave up", "look at what it takes for a fault"};
+}
+
 }  // namespace
 
 base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t_s) {
@@ -113,6 +133,7 @@ base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t
         at(t_s), "",
         "the current along the magnet's axis is above half of saturation_current_A, where the model of saturation ends",
         "ask for less current, or look at the sheet's saturation_current_A"};
+  if (fault == rig::Fault::own_controller) return refused_answer(found.own, t_s);
   if (fault == rig::Fault::shaft_sensor) return lost_sensor(found.shaft, t_s);
   const std::string text = "the Hall code is impossible (000 or 111)";
   if (found.hall_line == 0) return {at(t_s), "", text, "look at the probes and their wires"};

@@ -37,7 +37,7 @@ struct EnergyOf {
   Signal power;
   double (*taken)(const Energies&);
 };
-constexpr EnergyOf energies[] = {
+constexpr EnergyOf energy_figures[] = {
     {Signal::supply_power, [](const Energies& e) { return e.supplied.value; }},
     {Signal::motor_power, [](const Energies& e) { return e.supplied.value - e.devices.value; }},
     {Signal::mechanical_power, [](const Energies& e) { return e.air_gap.value; }},
@@ -49,7 +49,7 @@ constexpr EnergyOf energies[] = {
 static_assert([] {
   for (const SignalFact& fact : signal_facts) {
     bool has = false;
-    for (const EnergyOf& e : energies) has = has || e.power == fact.signal;
+    for (const EnergyOf& e : energy_figures) has = has || e.power == fact.signal;
     if (has != is_power(fact.signal)) return false;
   }
   return true;
@@ -59,7 +59,7 @@ static_assert([] {
 
 std::optional<double> EnergyGauge::energy(Signal signal) const {
   if (!seen_) return std::nullopt;
-  for (const EnergyOf& e : energies)
+  for (const EnergyOf& e : energy_figures)
     if (e.power == signal) return e.taken(sum_);
   return std::nullopt;
 }

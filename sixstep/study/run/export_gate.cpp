@@ -75,6 +75,9 @@ void look_at_drive(const Scenario& s, base::Problems& out) {
     out.push_back(
         {"control.drive", "\"sensorless\"", "has no header yet",
          "set drive = \"lean\" or \"product\", or write its configuration by design::sensorless_drive"});
+  if (s.control.drive == FirmwareKind::own)
+    out.push_back({"control.drive", "\"own\"", "has its configuration in its own source, and needs no header",
+                   "compile that source for the chip"});
 }
 
 /// What is sampled in the middle of a period is answered at the next one's start: that is a delay.

@@ -68,6 +68,8 @@ inline constexpr Choice<FirmwareKind> drive_choices[] = {
     {"field-oriented", FirmwareKind::field,
      "sine currents on three legs, held along the magnet and across it, by [control.field]; what is controlled as the "
      "current is their amplitude i_q; needs pwm.alignment = \"centre\""},
+    {"own", FirmwareKind::own,
+     "a controller of one's own, compiled into a shared object that [control.own] names"},
 };
 inline constexpr Choice<control::Mode> mode_choices[] = {
     {"off", control::Mode::off, "all six gates off"},
@@ -94,6 +96,13 @@ inline constexpr Choice<CurrentFeedback> current_feedback_choices[] = {
     {"mean", CurrentFeedback::mean, "half the difference of the driven pair's currents"},
     {"staying-phase", CurrentFeedback::staying_phase,
      "the current of the phase that conducts before and after a commutation: it makes the torque while the others hand over"},
+};
+inline constexpr Choice<CurrentCommutation> current_commutation_choices[] = {
+    {"plain", CurrentCommutation::plain, "the loop goes on"},
+    {"duty-step", CurrentCommutation::duty_step,
+     "the loop rests, and the duty is the one at which the phase that stays keeps its current while the others hand over"},
+    {"overlap", CurrentCommutation::overlap,
+     "the same, and where a whole duty is too little the leaving phase is still fed by what is missing"},
 };
 inline constexpr Choice<SpeedOutput> speed_output_choices[] = {
     {"current", SpeedOutput::current, "a part of the full torque, for the current loop within"},

@@ -6,6 +6,7 @@
 
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/study/scenario/field.hpp"
+#include "sixstep/study/scenario/own.hpp"
 #include "sixstep/study/scenario/sensorless.hpp"
 
 namespace sixstep::study {
@@ -13,6 +14,8 @@ namespace sixstep::study {
 enum class CurrentLoopType : std::uint8_t { pi, hysteresis, deadbeat };
 /// Which current a loop is told: (i_p - i_n)/2, or that of the phase that the last commutation left where it was.
 enum class CurrentFeedback : std::uint8_t { mean, staying_phase };
+/// What the duty does while a commutation lasts: the loop goes on, or the duty that holds the staying phase.
+enum class CurrentCommutation : std::uint8_t { plain, duty_step, overlap };
 enum class HysteresisOn : std::uint8_t { motor, phase };
 enum class Comparator : std::uint8_t { event, sampled };
 
@@ -29,6 +32,7 @@ struct CurrentLoop {
   std::optional<double> limit_A;  // of the current reference, in cascades
   bool back_emf_feed_forward = false;
   CurrentFeedback feedback = CurrentFeedback::mean;
+  CurrentCommutation commutation = CurrentCommutation::plain;
   std::optional<double> correction;           // deadbeat: part of a prediction's miss taken over per sample
   std::optional<double> measured_bus_from_V;  // duty = u/measured bus from this voltage on, else u/nominal
 };
@@ -97,8 +101,8 @@ struct Advance {
 };
 constexpr bool advances(const Advance& a) { return a.angle_deg > 0 || a.gain_deg_s_per_rad > 0; }
 
-/// What the chip runs (rig/firmware.hpp, rig/sensorless_drive.hpp, rig/field_drive.hpp).
-enum class FirmwareKind : std::uint8_t { lean, product, sensorless, field };
+/// What the chip runs (rig/firmware.hpp, rig/sensorless_drive.hpp, rig/field_drive.hpp, rig/own_drive.hpp).
+enum class FirmwareKind : std::uint8_t { lean, product, sensorless, field, own };
 
 struct Control {
   FirmwareKind drive = FirmwareKind::lean;
@@ -115,6 +119,7 @@ struct Control {
   Advance advance;
   Sensorless sensorless;
   Field field;
+  Own own;
 };
 
 }  // namespace sixstep::study

@@ -6,6 +6,7 @@
 #include "sixstep/study/scenario/control.hpp"
 #include "sixstep/study/scenario/field_description.hpp"
 #include "sixstep/study/scenario/linear_words.hpp"
+#include "sixstep/study/scenario/own_description.hpp"
 #include "sixstep/study/scenario/sensorless_description.hpp"
 
 namespace sixstep::study {
@@ -41,6 +42,8 @@ void describe(Visitor& v, CurrentLoop& s) {
            {.meaning = "hysteresis: when the band is looked at"});
   v.choice("feedback", s.feedback, current_feedback_choices,
            {.meaning = "which current the controller is told"});
+  v.choice("commutation", s.commutation, current_commutation_choices,
+           {.meaning = "pi: what happens while a commutation lasts"});
   v.value(
       "correction", s.correction,
       {.meaning =
@@ -240,6 +243,7 @@ void describe(Visitor& v, Control& s) {
       {.meaning = "sensorless drive: how it starts and what it follows; designed from the motor's sheet"});
   v.table("field", s.field,
           {.meaning = "field-oriented drive: how the currents along the magnet and across it are held"});
+  v.table("own", s.own, {.meaning = "a controller of one's own: where it is, and its numbers"});
 }
 
 }  // namespace sixstep::study

@@ -50,6 +50,7 @@ namespace {
 bool same_chip(const Tuned& a, const Tuned& b) {
   if (!(a.drive == b.drive) || a.product.has_value() != b.product.has_value()) return false;
   if (!(a.sensorless == b.sensorless) || !(a.field == b.field)) return false;
+  if (a.own && b.own && !(*a.own == *b.own)) return false;
   if (!a.product) return true;
   control::ProtectedConfig<double> one = *a.product, other = *b.product;
   one.setpoint_limit = other.setpoint_limit = 0.0;
@@ -58,8 +59,8 @@ bool same_chip(const Tuned& a, const Tuned& b) {
 
 /// Whether what was compiled anew had been the same run up to now.
 bool same_past(const Scenario& s, const Compiled& before, const Compiled& anew, const Instant& now) {
-  if (!same_chip({before.drive, {}, before.product, before.sensorless, before.field},
-                 {anew.drive, {}, anew.product, anew.sensorless, anew.field}))
+  if (!same_chip({before.drive, {}, before.product, before.sensorless, before.field, before.own},
+                 {anew.drive, {}, anew.product, anew.sensorless, anew.field, anew.own}))
     return false;
   std::size_t number = 0;
   for (const At* at : in_order(s)) {

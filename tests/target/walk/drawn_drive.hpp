@@ -63,6 +63,12 @@ struct DrawnDriveWalk {
     // Drives with probes alone have these two.
     next.extras.pwm = {static_cast<PwmPattern>(r.below(5)), positive_gain<Scalar>(r, 0)};
     next.extras.staying_phase = r.one_in(2);
+    next.extras.steps_commutation = r.one_in(2);
+    next.extras.commutation = {
+        positive_gain<Scalar>(r, 0),  positive_gain<Scalar>(r, -1),
+        positive_gain<Scalar>(r, -2), r.one_in(2) ? Scalar{} : positive<Scalar>(r, 8000),
+        positive_gain<Scalar>(r, 0),  positive_gain<Scalar>(r, -4),
+        positive_gain<Scalar>(r, -4), signal<Scalar>(r)};
     retune(config, state, next);
   }
   void step(Random& r, Digest& mix) {
@@ -72,11 +78,11 @@ struct DrawnDriveWalk {
     if (r.one_in(8)) {
       const BridgeCommand<Scalar>& moved = on_hall(config, state, m.hall);
       mix_command(mix, moved);
-      mix(static_cast<std::uint8_t>(moved.chopped));
+      mix(static_cast<std::uint8_t>(moved.chopped), moved.overlap);
     }
     const BridgeCommand<Scalar> answer = sixstep::control::step(config, state, m, setpoint, telemetry);
     mix_command(mix, answer);
-    mix(static_cast<std::uint8_t>(answer.chopped));
+    mix(static_cast<std::uint8_t>(answer.chopped), answer.overlap);
     mix(telemetry.motor_current_A, telemetry.current_reference_A, telemetry.speed_reference_rad_s,
         telemetry.duty, state.current.u, state.speed.u, state.extras.speed.integral);
     saw("off", !answer.enabled);

@@ -2,6 +2,7 @@
 // The blocks of the loops: arithmetic, controllers, setpoints. A walk draws a configuration and then steps
 // it; its state goes on between draws.
 #pragma once
+#include "sixstep/control/commutation_step.hpp"
 #include "sixstep/control/deadbeat.hpp"
 #include "sixstep/control/derivative.hpp"
 #include "sixstep/control/feed_forward.hpp"
@@ -15,6 +16,7 @@
 #include "tests/target/walk/counted.hpp"
 #include "tests/target/walk/digest.hpp"
 #include "tests/target/walk/draw.hpp"
+#include "tests/target/walk/sensing.hpp"
 
 namespace target {
 
@@ -199,6 +201,43 @@ struct PwmPatternWalk {
     saw("the first half of a sector",
         halves && state.passed < ScalarTraits<Scalar>::accumulator(one<Scalar>));
     saw("the second", halves && !(state.passed < ScalarTraits<Scalar>::accumulator(one<Scalar>)));
+  }
+};
+
+/// A rotor that mostly goes on, its leaving current dying away.
+template <class Scalar>
+struct CommutationStepWalk {
+  CommutationStepConfig<Scalar> config{};
+  CommutationStepState<Scalar> state{};
+  unsigned sector = 0;
+
+  void draw(Random& r) {
+    config = {positive_gain<Scalar>(r, 0),  positive_gain<Scalar>(r, -1),
+              positive_gain<Scalar>(r, -2), r.one_in(2) ? Scalar{} : positive<Scalar>(r, 8000),
+              positive_gain<Scalar>(r, 0),  positive_gain<Scalar>(r, -4),
+              positive_gain<Scalar>(r, -4), signal<Scalar>(r)};
+    if (r.one_in(4)) state = {};
+  }
+  void step(Random& r, Digest& mix) {
+    const bool moves = r.one_in(8);
+    if (moves) sector = (sector + (r.one_in(4) ? 5 : 1)) % 6;
+    const auto now = static_cast<std::uint8_t>(sector);
+    if (moves && r.one_in(2)) counted<0>("enter_sector", [&] { enter_sector(config, state, now); });
+    const bool before = state.hands_over;
+    const Measurement<Scalar> m = drawn_measurement<Scalar>(r);
+    const bool reversed = r.one_in(4);
+    counted<1>("watch_leaving", [&] { watch_leaving(config, state, m, now, reversed); });
+    const Scalar volts = corrected_voltage(config, state, m.i_a_A);
+    state.part =
+        between(volts, Scalar{}, Scalar{} < config.overlap_bus_V ? one<Scalar> : half_of_one<Scalar>());
+    const Pair pair = reversed ? swapped(positive_pair(now)) : positive_pair(now);
+    const ChoppedSwitch chopped = r.one_in(2) ? ChoppedSwitch::lower : ChoppedSwitch::upper;
+    const Scalar duty = counted<2>("holding_duty", [&] { return holding_duty(state, pair, chopped); });
+    const Scalar overlap = holding_overlap(state, pair);
+    mix(state.hands_over, state.driven_A, volts, duty, overlap);
+    saw("overlaps", overlap != Scalar{});
+    saw("hands over", state.hands_over);
+    saw("has handed over", before && !state.hands_over);
   }
 };
 

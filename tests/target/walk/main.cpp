@@ -201,6 +201,7 @@ using Scalar = TARGET_SCALAR;
   walk<FramesWalk<Scalar> >("frames");
   walk<ThreePhasePwmWalk<Scalar> >("three_phase_pwm");
   walk<PwmPatternWalk<Scalar> >("pwm_pattern");
+  walk<CommutationStepWalk<Scalar> >("commutation_step");
   walk<DeadbeatWalk<Scalar> >("deadbeat");
 }
 

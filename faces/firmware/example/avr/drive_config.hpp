@@ -37,16 +37,16 @@
 // On a core, the current drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a
 // control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/firmware.md):
 //                               tick    Hall                   flash     RAM
-//   Cortex-M0   q15              138      62 instructions       1142     108 bytes
-//   Cortex-M3   q15              111      30 instructions        954     108 bytes
-//   Cortex-M3   q31              172      29 instructions       1406     196 bytes
-//   Cortex-M4F  float             87      29 instructions        822     176 bytes
-//   Cortex-M4F  q15              111      30 instructions        950     108 bytes
-//   Cortex-M4F  q31              170      29 instructions       1430     196 bytes
-//   RV32IMC     q15              132      37 instructions       1334     108 bytes
-//   ATmega2560  q15              996      42 cycles             2402     113 bytes
-//   ATmega2560  q31             2606      42 cycles             3960     169 bytes
-//   ATmega2560  float           2176      42 cycles             1986     165 bytes
+//   Cortex-M0   q15              139      62 instructions       1162     124 bytes
+//   Cortex-M3   q15              111      29 instructions        966     124 bytes
+//   Cortex-M3   q31              172      29 instructions       1434     220 bytes
+//   Cortex-M4F  float             87      29 instructions        858     204 bytes
+//   Cortex-M4F  q15              111      29 instructions        970     124 bytes
+//   Cortex-M4F  q31              170      29 instructions       1458     220 bytes
+//   RV32IMC     q15              132      37 instructions       1360     124 bytes
+//   ATmega2560  q15              996      42 cycles             2434     129 bytes
+//   ATmega2560  q31             2606      42 cycles             4020     197 bytes
+//   ATmega2560  float           2176      42 cycles             2046     193 bytes
 #pragma once
 #include <cstdint>
 

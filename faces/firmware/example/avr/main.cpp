@@ -17,6 +17,8 @@ using exported::drive, exported::Scalar, exported::units;
 static_assert(drive.mode == Mode::current && drive.chopping == Chopping::soft &&
                   drive.extras.pwm.pattern == PwmPattern::upper,
               "what these pins and loops are for");
+static_assert(!(Scalar{} < drive.extras.commutation.overlap_bus_V),
+              "the leg in no pair has no pulse of its own here");
 static_assert(exported::pwm_centre_aligned && exported::command_delayed,
               "timer 1 counts up and down, and its compare registers are taken at the top");
 // Up and down again, of 1/16 MHz.

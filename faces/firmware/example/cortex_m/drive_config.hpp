@@ -30,16 +30,16 @@
 // On a core, the product drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a
 // control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/firmware.md):
 //                               tick    Hall                   flash     RAM
-//   Cortex-M0   q15             1898     300 instructions      22928     260 bytes
-//   Cortex-M3   q15             1044     172 instructions      20140     260 bytes
-//   Cortex-M3   q31             1499     173 instructions      31576     352 bytes
-//   Cortex-M4F  float            731     173 instructions      10532     332 bytes
-//   Cortex-M4F  q15             1043     172 instructions      20136     260 bytes
-//   Cortex-M4F  q31             1499     173 instructions      31512     352 bytes
-//   RV32IMC     q15             1031     172 instructions      19646     260 bytes
-//   ATmega2560  q15             5365     975 cycles            14408     213 bytes
-//   ATmega2560  q31            11568     975 cycles            20236     261 bytes
-//   ATmega2560  float           9493     976 cycles            11542     257 bytes
+//   Cortex-M0   q15             1909     312 instructions      25860     276 bytes
+//   Cortex-M3   q15             1048     172 instructions      22730     276 bytes
+//   Cortex-M3   q31             1468     173 instructions      35908     376 bytes
+//   Cortex-M4F  float            767     173 instructions      12076     360 bytes
+//   Cortex-M4F  q15             1049     172 instructions      22742     276 bytes
+//   Cortex-M4F  q31             1467     173 instructions      35852     376 bytes
+//   RV32IMC     q15             1032     172 instructions      22284     276 bytes
+//   ATmega2560  q15             5365     976 cycles            14594     229 bytes
+//   ATmega2560  q31            11568     975 cycles            20552     289 bytes
+//   ATmega2560  float           9508     976 cycles            11872     285 bytes
 #pragma once
 #include <cstdint>
 

@@ -17,6 +17,8 @@ constexpr auto pwm_counts = static_cast<std::uint32_t>(exported::pwm_period_ps *
 
 // Gains, converters, capture and thresholds, as the scenario simulated them.
 constexpr const ProtectedConfig<Scalar>& config = exported::product;
+static_assert(!(Scalar{} < config.drive.extras.commutation.overlap_bus_V),
+              "the leg in no pair has no pulse of its own here");
 static_assert(exported::command_delayed,
               "the compare registers are preloaded: a command counts from the next period on");
 

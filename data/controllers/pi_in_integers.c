@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A current controller as it is written for a small chip: C, integers of mA and mV, gains in 1/1024, commutation by a table of the
+ * Hall codes, a clamped integral. It holds the current, and in speed mode a speed around it, soft chopped. Its gains follow from the
+ * motor's data by one rule: the PI's zero on the winding's pole, the loop's bandwidth a part of the control frequency. */
+#include "sixstep/control/own/own_controller.h"
+
+#define MODE_CURRENT SIXSTEP_CURRENT
+#define HALL_CODES 8
+#define NO_LEG 3
+
+/* Which leg gives and which takes the current, by H1 H2 H3. */
+static const uint8_t table[HALL_CODES][2] = {{NO_LEG, NO_LEG}, {2, 0}, {1, 2}, {1, 0}, {0, 1}, {2, 1}, {0, 2}, {NO_LEG, NO_LEG}};
+
+typedef struct {
+  int32_t kp, ki;             /* mV per A, Q10 */
+  int32_t speed_kp, speed_ki; /* mA per rad/s, Q10 */
+  int32_t limit_mA, bus_mV;
+  uint8_t mode;
+} config_t;
+
+typedef struct {
+  int64_t integral;       /* mV, Q10 */
+  int64_t speed_integral; /* mA, Q10 */
+  int32_t volts_mV;       /* signed */
+} state_t;
+
+static int64_t clamp(int64_t x, int64_t limit) { return x > limit ? limit : x < -limit ? -limit : x; }
+static int32_t milli(double x) { return (int32_t)(x * 1e3 + (x < 0 ? -0.5 : 0.5)); }
+
+static const sixstep_parameter numbers[] = {
+    {"bandwidth", "", "current loop's bandwidth, as a part of the control frequency", 0.05, 0.001, 0.15},
+    {"limit_A", "A", "largest current that the speed loop asks for", 10.0, 0.1, 1000.0},
+};
+
+static const char* design(const sixstep_given* given, const double* values, void* config) {
+  config_t* const c = (config_t*)config;
+  /* Open loop kp/(2 L s): crosses over at 2 pi times the bandwidth. */
+  const double kp = 6.283185307179586 * values[0] / given->period_s * 2 * given->L_H;
+  if (given->mode != SIXSTEP_CURRENT && given->mode != SIXSTEP_SPEED) return "holds a current or a speed, and nothing else";
+  if (kp * 1024 * 1e3 > 1e9) return "has gains that its integers do not hold: lower the bandwidth";
+  c->mode = given->mode;
+  c->kp = (int32_t)(kp * 1024 * 1e3);
+  c->ki = (int32_t)(kp * given->R_ohm / given->L_H * given->period_s * 1024 * 1e3);
+  c->bus_mV = milli(given->bus_V);
+  c->limit_mA = milli(values[1]);
+  /* As the library's speed loop, in current. */
+  c->speed_kp = (int32_t)(given->speed_d1 * given->full_current_A * 1024 * 1e3);
+  c->speed_ki = (int32_t)((given->speed_d1 + given->speed_d0) * given->full_current_A * 1024 * 1e3);
+  return 0;
+}
+
+/* The driven pair for the sign of the voltage. */
+static void drive(int32_t volts_mV, int32_t bus_mV, uint8_t hall, sixstep_answer* answer) {
+  const uint8_t* const legs = table[hall & 7u];
+  answer->enabled = legs[0] != NO_LEG;
+  answer->fault = !answer->enabled; /* a broken Hall line */
+  if (!answer->enabled) return;
+  answer->source = legs[volts_mV < 0];
+  answer->sink = legs[volts_mV >= 0];
+  answer->chopping = SIXSTEP_SOFT;
+  answer->duty = (double)(volts_mV < 0 ? -volts_mV : volts_mV) / bus_mV;
+}
+
+static void step(const void* config, void* state, const sixstep_measured* seen, double setpoint, sixstep_answer* answer) {
+  const config_t* const c = (const config_t*)config;
+  state_t* const s = (state_t*)state;
+  const uint8_t* const legs = table[seen->hall & 7u];
+  int32_t want_mA, is_mA, error;
+  if (c->mode == MODE_CURRENT) {
+    want_mA = milli(setpoint);
+  } else {
+    const int32_t slow_mrad_s = milli(setpoint - seen->speed_rad_s);
+    s->speed_integral = clamp(s->speed_integral + (int64_t)c->speed_ki * slow_mrad_s / 1000, (int64_t)c->limit_mA << 10);
+    want_mA = (int32_t)clamp((s->speed_integral + (int64_t)c->speed_kp * slow_mrad_s / 1000) >> 10, c->limit_mA);
+    answer->speed_reference_rad_s = setpoint;
+  }
+  answer->current_reference_A = want_mA * 1e-3;
+  is_mA = legs[0] == NO_LEG ? 0 : milli((seen->current_A[legs[0]] - seen->current_A[legs[1]]) / 2);
+  error = want_mA - is_mA;
+  s->integral = clamp(s->integral + (int64_t)c->ki * error / 1000, (int64_t)c->bus_mV << 10);
+  s->volts_mV = (int32_t)clamp((s->integral + (int64_t)c->kp * error / 1000) >> 10, c->bus_mV);
+  drive(s->volts_mV, c->bus_mV, seen->hall, answer);
+}
+
+static void hall(const void* config, void* state, uint8_t code, sixstep_answer* answer) {
+  drive(((const state_t*)state)->volts_mV, ((const config_t*)config)->bus_mV, code, answer);
+}
+
+const sixstep_controller* sixstep_own_controller(void) {
+  static const sixstep_controller own = {
+      SIXSTEP_OWN_INTERFACE, SIXSTEP_ANSWERS_PAIR, "PI in integers",
+      "it counts in mA and mV, as a small chip does",
+      sizeof(config_t), sizeof(state_t), sizeof numbers / sizeof numbers[0], numbers, design, 0, step, hall};
+  return &own;
+}

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Three sines of voltage across the magnet, no loop at all: the setpoint is the signed duty, 1 for an amplitude of half the bus. The
+ * simplest controller that answers three legs. */
+#include "sixstep/control/own/own_controller.h"
+
+static const char* design(const sixstep_given* given, const double* values, void* config) {
+  (void)values, (void)config;
+  return given->mode == SIXSTEP_DUTY ? 0 : "has no loop: set control.mode = \"duty\"";
+}
+
+static void step(const void* config, void* state, const sixstep_measured* seen, double setpoint, sixstep_answer* answer) {
+  static const double half_root_3 = 0.86602540378443864676;
+  const double c = seen->magnet_cos, s = seen->magnet_sin;
+  /* Of the axis a quarter turn ahead of the magnet, in phases a, b, c. */
+  const double across[3] = {-s, s / 2 + half_root_3 * c, s / 2 - half_root_3 * c};
+  int k;
+  (void)config, (void)state;
+  answer->enabled = 1;
+  for (k = 0; k < 3; ++k) {
+    double duty = 0.5 + setpoint / 2 * across[k];
+    if (duty < 0) duty = 0;
+    if (duty > 1) duty = 1;
+    answer->leg[k].state = SIXSTEP_LEG_PWM;
+    answer->leg[k].switches = SIXSTEP_PWM_COMPLEMENTARY;
+    answer->leg[k].duty = duty;
+  }
+  answer->duty = setpoint < 0 ? -setpoint : setpoint; /* for the report */
+}
+
+const sixstep_controller* sixstep_own_controller(void) {
+  static const sixstep_controller own = {
+      SIXSTEP_OWN_INTERFACE, SIXSTEP_ANSWERS_LEGS, "sine voltage", "it asks for sines of voltage and measures no current",
+      0, 0, 0, 0, design, 0, step, 0};
+  return &own;
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// The library's own six-step drive (sixstep/control/drive.hpp) through the door for controllers of one's own: what it answers is the
+// built-in drive's to the last bit. A place to start from where one block is to be another.
+#include "sixstep/control/drive.hpp"
+#include "sixstep/control/own/own_controller.hpp"
+
+namespace {
+
+using namespace sixstep::control;
+
+struct SixStepAgain {
+  using Config = DriveConfig<double>;
+  using State = DriveState<double>;
+
+  static const char* design(const sixstep_given& given, const double*, Config& config) {
+    constexpr Mode modes[] = {Mode::off, Mode::duty, Mode::current, Mode::speed, Mode::position};
+    config.mode = modes[given.mode];
+    config.chopping = static_cast<Chopping>(given.chopping);
+    config.nominal_bus_V = given.bus_V;
+    config.current = {given.current_d1, given.current_d0, given.bus_V};
+    config.speed = {given.speed_d1, given.speed_d0, 1.0};
+    if (given.current_limit_A < given.full_current_A)
+      config.speed.limit = given.current_limit_A / given.full_current_A;
+    config.current_at_full_torque_A = given.full_current_A;
+    config.current_limit_A = given.current_limit_A;
+    config.position_gain = given.position_gain_rad_s_per_deg;
+    config.speed_limit_rad_s = given.speed_limit_rad_s;
+    return nullptr;
+  }
+
+  static void step(const Config& config, State& state, const sixstep_measured& seen, double setpoint,
+                   sixstep_answer& answer) {
+    Telemetry<double> telemetry{};
+    sixstep::control::step(config, state,
+                           Measurement<double>{.i_a_A = seen.current_A[0],
+                                               .i_b_A = seen.current_A[1],
+                                               .i_c_A = seen.current_A[2],
+                                               .speed_rad_s = seen.speed_rad_s,
+                                               .position_deg = seen.position_deg,
+                                               .bus_V = seen.bus_V,
+                                               .hall = seen.hall},
+                           {setpoint}, telemetry);
+    answer.current_reference_A = telemetry.current_reference_A;
+    answer.speed_reference_rad_s = telemetry.speed_reference_rad_s;
+    take(state.command, answer);
+  }
+
+  static void hall(const Config& config, State& state, std::uint8_t code, sixstep_answer& answer) {
+    take(on_hall(config, state, code), answer);
+  }
+
+  static void take(const BridgeCommand<double>& command, sixstep_answer& answer) {
+    answer.enabled = command.enabled;
+    answer.fault = command.fault;
+    answer.source = static_cast<std::uint8_t>(command.pair.source);
+    answer.sink = static_cast<std::uint8_t>(command.pair.sink);
+    answer.chopping = static_cast<std::uint8_t>(command.chopping);
+    answer.chopped = static_cast<std::uint8_t>(command.chopped);
+    answer.duty = command.duty;
+    answer.overlap = command.overlap;
+  }
+};
+
+}  // namespace
+
+SIXSTEP_OWN_CONTROLLER(SixStepAgain, SIXSTEP_ANSWERS_PAIR, "six-step, again",
+                       "it is the library's drive, by the door for controllers of one's own")

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "files/controller_file.hpp"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+
+#include "files/text_file.hpp"
+#include "sixstep/study/check/own.hpp"
+
+namespace files {
+namespace {
+
+constexpr const char* symbol = "sixstep_own_controller";
+
+base::Problem unloaded(const std::string& path, std::string why) {
+  if (why.starts_with(path + ": ")) why.erase(0, path.size() + 2);
+  return {.where = path,
+          .limit = "cannot be loaded: " + why,
+          .cure = "compile it with -shared -fPIC for this machine (docs/own-controller.md)"};
+}
+
+}  // namespace
+
+base::Result<text::NamedText> load_controller(const std::string& path) {
+  const base::Result<std::string> bytes = read_regular_text(path);
+  if (!bytes) {
+    base::Problem problem = bytes.problems().front();
+    problem.where = path;
+    return problem;
+  }
+  // A name without a slash would be looked for among the system's libraries.
+  std::error_code ignored;
+  const std::string whole = std::filesystem::absolute(path, ignored).string();
+  void* const object = dlopen(whole.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (object == nullptr) {
+    const char* const why = dlerror();
+    return unloaded(whole, why ? why : "no reason is told");
+  }
+  using Own = const sixstep_controller* (*)();
+  const auto own = reinterpret_cast<Own>(dlsym(object, symbol));
+  if (own == nullptr) return unloaded(whole, std::string("it has no function ") + symbol);
+  const sixstep_controller* const controller = own();
+  if (controller == nullptr) return unloaded(whole, std::string(symbol) + " answers a null pointer");
+  if (base::Problems wrong = sixstep::study::check_controller(*controller); !wrong.empty()) {
+    base::Problem& first = wrong.front();
+    return base::Problem{.where = path, .limit = "has a controller whose " + to_string(first), .cure = {}};
+  }
+  return text::NamedText{path, {}, controller};
+}
+
+}  // namespace files

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a controller of one's own answered, as a command that a timer can carry out, or what no timer could.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/leg_command.hpp"
+#include "sixstep/control/own/own_controller.h"
+
+namespace sixstep::rig {
+
+/// Why an answer was not carried out.
+enum class OwnWrong : std::uint8_t {
+  none,
+  gave_up,  ///< it said so itself
+  duty,     ///< no number of 0 to 1
+  leg,      ///< a leg that there is not, or source and sink are one
+  choice,   ///< a chopping, a switch or a state that has no meaning
+};
+
+namespace detail {
+
+constexpr bool is_part(double x) { return x >= 0.0 && x <= 1.0; }
+
+}  // namespace detail
+
+template <class Command>
+constexpr OwnWrong wrong_in(const sixstep_answer& a) {
+  if (a.fault != 0) return OwnWrong::gave_up;
+  if (a.enabled == 0) return OwnWrong::none;
+  if constexpr (requires(Command command) { command.pair; }) {
+    if (a.source > SIXSTEP_LEG_C || a.sink > SIXSTEP_LEG_C || a.source == a.sink) return OwnWrong::leg;
+    if (a.chopping > SIXSTEP_COMPLEMENTARY || a.chopped > SIXSTEP_LOWER) return OwnWrong::choice;
+    const bool parts = detail::is_part(a.duty) && detail::is_part(a.overlap < 0.0 ? -a.overlap : a.overlap);
+    return parts ? OwnWrong::none : OwnWrong::duty;
+  } else {
+    for (const sixstep_leg& leg : a.leg) {
+      if (leg.state > SIXSTEP_LEG_PWM || leg.switches > SIXSTEP_PWM_LOWER_FIRST) return OwnWrong::choice;
+      if (leg.state == SIXSTEP_LEG_PWM && !detail::is_part(leg.duty)) return OwnWrong::duty;
+    }
+    return OwnWrong::none;
+  }
+}
+
+/// Of one in which nothing is wrong.
+template <class Command>
+constexpr Command command_of(const sixstep_answer& a) {
+  Command command{};
+  command.enabled = a.enabled != 0;
+  if constexpr (requires { command.pair; }) {
+    command.pair = {static_cast<control::Leg>(a.source), static_cast<control::Leg>(a.sink)};
+    command.duty = a.duty;
+    command.overlap = a.overlap;
+    command.chopping = static_cast<control::Chopping>(a.chopping);
+    command.chopped = static_cast<control::ChoppedSwitch>(a.chopped);
+  } else {
+    for (unsigned k = 0; k < 3; ++k)
+      command.leg[k] = {static_cast<control::LegState>(a.leg[k].state),
+                        static_cast<control::PwmSwitches>(a.leg[k].switches), a.leg[k].duty};
+  }
+  return command;
+}
+
+}  // namespace sixstep::rig

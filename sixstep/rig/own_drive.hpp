@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// The firmware that runs a controller of one's own (control/own/own_controller.h), beside those of firmware.hpp:
+//
+//              a tick is given                         a Hall edge          a fault         it tells
+//   OwnDrive   what is, or what [sensors] say, and     captured, its hall   ends the run    lost sensor, what it
+//              where the magnet points                                                      answered
+//
+// It answers a pair or three legs, as its Command says. What no timer could do is not passed on: the run ends there and
+// tells what was answered.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "sixstep/base/elementary.hpp"
+#include "sixstep/control/commutation.hpp"
+#include "sixstep/control/drive.hpp"
+#include "sixstep/control/field/field_direction.hpp"
+#include "sixstep/control/own/own_controller.h"
+#include "sixstep/rig/firmware.hpp"
+#include "sixstep/rig/own_answer.hpp"
+
+namespace sixstep::rig {
+
+/// A controller with its config as it designed it.
+struct OwnConfig {
+  const sixstep_controller* is = nullptr;
+  std::vector<std::uint64_t> config;
+  control::Mode mode = control::Mode::off;
+  bool operator==(const OwnConfig&) const = default;
+};
+
+/// Room for so many bytes, all zero, and aligned as operator new aligns whatever it makes.
+inline std::vector<std::uint64_t> zero_bytes(std::size_t bytes) {
+  return std::vector<std::uint64_t>(bytes / 8 + 1);
+}
+
+template <class CommandType>
+class OwnDrive {
+ public:
+  using Number = double;
+  using Command = CommandType;
+  using Config = OwnConfig;
+  static constexpr bool fault_ends_run = true;
+
+  OwnDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
+      : config_(config),
+        state_(zero_bytes(config.is->state_bytes)),
+        sensors_(board.sensors, board.bases, power_up),
+        ideal_(board.sensors.ideal()) {
+    if (config_.is->start) config_.is->start(config_.config.data(), state_.data());
+  }
+
+  template <class Real>
+  const Command& tick(const SampleInstant<Real>& instant, double setpoint) {
+    control::Measurement<double> measured = ideal_measurement<double>(instant, Bases{});
+    if (!ideal_) sensors_.sense(measured, sample_of(instant));
+    const control::Direction<double> magnet = magnet_direction(instant.state);
+    const sixstep_measured seen{.current_A = {measured.i_a_A, measured.i_b_A, measured.i_c_A},
+                                .speed_rad_s = measured.speed_rad_s,
+                                .position_deg = measured.position_deg,
+                                .bus_V = measured.bus_V,
+                                .magnet_cos = magnet.cos,
+                                .magnet_sin = magnet.sin,
+                                .hall = measured.hall};
+    config_.is->step(config_.config.data(), state_.data(), &seen, setpoint, &answer_);
+    take(measured.hall, instant.at);
+    const std::uint8_t sector = control::sector_of_hall(measured.hall);
+    telemetry_.motor_current_A = control::motor_current(measured, control::positive_pair(sector));
+    telemetry_.duty = reversed_ ? -answer_.duty : answer_.duty;
+    telemetry_.current_reference_A = answer_.current_reference_A;
+    telemetry_.speed_reference_rad_s = answer_.speed_reference_rad_s;
+    if (sensors_.shaft_found().lost()) {
+      command_ = given_up();
+    }
+    return command_;
+  }
+  void captured(std::uint8_t pins, const sim::Instant& at) { sensors_.hall_edge(pins, at); }
+  const Command& hall_interrupt(std::uint8_t pins, const sim::Instant& at) {
+    if (config_.is->hall == nullptr) return command_;
+    config_.is->hall(config_.config.data(), state_.data(), pins, &answer_);
+    take(pins, at);
+    if (command_.enabled) sensors_.commutated();
+    return command_;
+  }
+  void request_run(bool) {}
+  void request_clear() {}
+  /// Its state stays.
+  void retune(const Tuning<Config>& tuning) { config_ = tuning.config; }
+
+  control::Mode mode() const { return config_.mode; }
+  /// Whether the pair of the last answer is that of a negative torque.
+  bool reversed() const { return reversed_; }
+  bool open_loop() const { return false; }
+  bool follows_setpoint_at_once() const { return false; }
+  const control::Telemetry<double>& telemetry() const { return telemetry_; }
+  Diagnosis diagnosis() const {
+    return {
+        .hall_line = sensors_.broken_line(), .at = wrong_at_, .shaft = sensors_.shaft_found(), .own = wrong_};
+  }
+  Registers& registers() { return sensors_.registers(); }
+  ShaftPorts& shaft_ports() { return sensors_.shaft_ports(); }
+  const ShaftPorts& shaft_ports() const { return sensors_.shaft_ports(); }
+  bool follows_shaft() const { return sensors_.follows_shaft(); }
+  template <class Real>
+  void follow(const ShaftMotion<Real>& motion) {
+    sensors_.follow(motion);
+  }
+
+ private:
+  /// By itself: GCC 12 ends with an internal error where a member is set to Command{}.
+  static Command given_up() {
+    Command command{};
+    command.fault = true;
+    return command;
+  }
+  /// As decoded, or as it is (field_drive.hpp).
+  template <class Real>
+  control::Direction<double> magnet_direction(const plant::State<Real>& s) const {
+    if (sensors_.tells_angle())
+      return control::direction_of<double>(control::magnet_angle(sensors_.electrical_angle()));
+    const base::SinCos at = base::sin_cos(plant::sector_in_turn(s.sector) * base::sector_rad +
+                                          static_cast<double>(s.x) - 5 * base::pi / 6);
+    return {at.cos, at.sin};
+  }
+  void take(std::uint8_t hall, const sim::Instant& at) {
+    const OwnWrong wrong = wrong_in<Command>(answer_);
+    if (wrong == OwnWrong::none) {
+      command_ = command_of<Command>(answer_);
+    } else {
+      command_ = given_up();
+      wrong_ = wrong;
+      wrong_at_ = at;
+    }
+    if constexpr (requires { command_.pair; }) {
+      const std::uint8_t sector = control::sector_of_hall(hall);
+      reversed_ =
+          sector != control::no_sector && command_.pair == control::swapped(control::positive_pair(sector));
+    }
+  }
+
+  Config config_;
+  std::vector<std::uint64_t> state_;
+  Sensors<double> sensors_;
+  bool ideal_;
+  bool reversed_ = false;
+  sixstep_answer answer_{};
+  Command command_{};
+  control::Telemetry<double> telemetry_{};
+  OwnWrong wrong_ = OwnWrong::none;
+  sim::Instant wrong_at_{};
+};
+
+}  // namespace sixstep::rig

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// A controller of one's own of a scenario: what it is given to design itself by.
+#include "sixstep/control/own/own_controller.h"
+
+#include <algorithm>
+
+#include "sixstep/design/loops/field_current.hpp"
+#include "sixstep/study/compile/basis.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+std::uint8_t mode_of(control::Mode mode) {
+  switch (mode) {
+    case control::Mode::current:
+      return SIXSTEP_CURRENT;
+    case control::Mode::speed:
+      return SIXSTEP_SPEED;
+    case control::Mode::position:
+      return SIXSTEP_POSITION;
+    default:
+      return SIXSTEP_DUTY;
+  }
+}
+
+sixstep_given given_of(const Scenario& s, const Basis& basis, const control::DriveConfig<double>& drive) {
+  const design::Sheet& sheet = s.designed_for ? s.designed_for->sheet : s.sheet;
+  const design::FieldMachine machine = design::field_machine(basis.motor, sheet);
+  return {.mode = mode_of(s.control.mode),
+          .delay_periods = static_cast<std::uint8_t>(s.pwm.delay_periods),
+          .sampled_in_middle = s.pwm.sample == SampleAt::middle,
+          .chopping = static_cast<std::uint8_t>(s.pwm.chopping),
+          .period_s = s.pwm.period_s,
+          .bus_V = basis.bus_V,
+          .pole_pairs = machine.pole_pairs,
+          .R_ohm = basis.motor.machine.R_ohm,
+          .L_H = basis.motor.machine.L_H,
+          .K_t_Nm_A = basis.motor.K_t_Nm_A,
+          .magnet_Vs = machine.magnet_V_s / machine.pole_pairs,
+          .J_kg_m2 = basis.shaft.J_kg_m2,
+          .B_Nm_s = basis.shaft.B_Nm_s,
+          .current_d1 = drive.current.d1,
+          .current_d0 = drive.current.d0,
+          .speed_d1 = drive.speed.d1,
+          .speed_d0 = drive.speed.d0,
+          .full_torque_Nm = drive.current_at_full_torque_A * basis.motor.K_t_Nm_A,
+          .full_current_A = drive.current_at_full_torque_A,
+          .current_limit_A = drive.current_limit_A,
+          .position_gain_rad_s_per_deg = drive.position_gain,
+          .speed_limit_rad_s = drive.speed_limit_rad_s};
+}
+
+std::vector<double> values_of(const Own& own) {
+  std::vector<double> values(own.loaded->parameters +
+                             1);  // a controller without numbers gets an array all the same
+  for (std::uint32_t n = 0; n < own.loaded->parameters; ++n) {
+    const sixstep_parameter& is = own.loaded->parameter[n];
+    const auto given = std::find_if(own.number.begin(), own.number.end(),
+                                    [&is](const OwnNumber& number) { return number.name == is.name; });
+    values[n] = given == own.number.end() ? is.preset : given->value;
+  }
+  return values;
+}
+
+}  // namespace
+
+base::Result<rig::OwnConfig> own_designed(const Scenario& s, const Basis& basis,
+                                          const control::DriveConfig<double>& drive) {
+  const sixstep_controller& is = *s.control.own.loaded;
+  rig::OwnConfig out{&is, rig::zero_bytes(is.config_bytes), s.control.mode};
+  const sixstep_given given = given_of(s, basis, drive);
+  if (const char* wrong = is.design(&given, values_of(s.control.own).data(), out.config.data()))
+    return base::Problem{"control.own", "", std::string(is.name) + " " + wrong,
+                         "change what the controller is given"};
+  return out;
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// The duty step at commutation on the switching motor: what it leaves of the dip that a duty which goes on makes by theory, and of the
+// torque's ripple behind a current loop.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sixstep/study/check/check.hpp"
+#include "tests/support/scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using control::Mode;
+using control::PwmPattern;
+using study::CurrentCommutation;
+using study::MetricKind;
+using study::Scenario;
+using study::Signal;
+
+constexpr double K_t = 33.5e-3, R = 0.515, L = 0.286e-3, U = 24.0;  // of maxon_sheet(), a phase
+
+/// Complementary, turned from outside.
+Scenario turned(CurrentCommutation commutation, PwmPattern pattern, double speed_rad_s, double current_A) {
+  Scenario s = maxon_scenario(Mode::current, current_A);
+  s.pwm.chopping = control::Chopping::complementary;
+  s.pwm.pattern = pattern;
+  s.load.dynamometer_times_s = {0.0};
+  s.load.dynamometer_rad_s = {speed_rad_s};
+  s.control.current.commutation = commutation;
+  return s;
+}
+
+void ask_torque(Scenario& s, MetricKind metric, double from_s) {
+  study::Measure figure = measure(metric, Signal::torque);
+  figure.from_s = from_s;
+  ask(s, figure);
+}
+
+/// The staying phase's current where the leaving one has died, with u between the entering phase and it (model.md 1, the leaving
+/// terminal at the lower rail).
+double after_commutation_A(double E, double I, double u) {
+  const double leaving = (u + 2 * E) / (3 * R), staying = (4 * E - u) / (3 * R);
+  const double faded = leaving / (leaving + I);  // exp(-t R/L) where it has died
+  return (I + staying) * faded - staying;
+}
+
+/// Of the first commutation that is no start: the loop has settled, and holds its duty from then on.
+double least_current_A(CurrentCommutation commutation, PwmPattern pattern, double speed_rad_s,
+                       double current_A) {
+  Scenario s = turned(commutation, pattern, speed_rad_s, current_A);
+  const double sector_s = base::sector_rad / (8 * speed_rad_s);
+  s.sheet.flat_deg = 170;  // the leaving phase's lasts
+  s.pwm.period_s = 0.5e-6;
+  s.control.current.settle_s = 0.3 * sector_s;
+  s.duration_s = 1.9 * sector_s;
+  study::At frozen;
+  frozen.time_s = 0.95 * sector_s;
+  frozen.control.current.d1 = 1e-9;
+  frozen.control.current.d0 = 0.0;
+  s.at = {frozen};
+  ask_torque(s, MetricKind::minimum, 0.97 * sector_s);
+  const auto out = study::run(s);
+  if (!out) ADD_FAILURE() << to_string(out.problems()[0]);
+  return out ? out->comparisons[0].measured / K_t : 0.0;
+}
+
+TEST(CommutationStep, LeavesNothingOfTheDipThatTheoryForetells) {
+  for (const double speed_rad_s : {60.0, 150.0, 250.0})
+    for (const double current_A : {1.0, 3.0})
+      for (const PwmPattern pattern : {PwmPattern::pwm_on, PwmPattern::upper}) {
+        const double E = K_t * speed_rad_s / 2, ripple_A = U * 0.5e-6 / (4 * L);
+        const double foretold =
+            after_commutation_A(E, current_A, 2 * E + 2 * R * current_A);  // the pair's, which goes on
+        SCOPED_TRACE(::testing::Message() << speed_rad_s << " rad/s, " << current_A << " A");
+        EXPECT_LT(foretold, 0.75 * current_A);
+        EXPECT_NEAR(least_current_A(CurrentCommutation::plain, PwmPattern::pwm_on, speed_rad_s, current_A),
+                    foretold, ripple_A + 0.01 * current_A);
+        EXPECT_NEAR(least_current_A(CurrentCommutation::duty_step, pattern, speed_rad_s, current_A),
+                    current_A, ripple_A + 0.01 * current_A);
+      }
+}
+
+/// Above 4 E + 3 R I = U: what a whole duty leaves, and what overlapping does.
+TEST(CommutationStep, OverlappingHoldsWhatAWholeDutyDoesNot) {
+  for (const double speed_rad_s : {370.0, 430.0})
+    for (const PwmPattern pattern : {PwmPattern::pwm_on, PwmPattern::upper, PwmPattern::on_pwm}) {
+      const double E = K_t * speed_rad_s / 2, current_A = 3.0, ripple_A = U * 0.5e-6 / (4 * L);
+      ASSERT_GT(4 * E + 3 * R * current_A, U);
+      SCOPED_TRACE(::testing::Message() << speed_rad_s << " rad/s, pattern " << static_cast<int>(pattern));
+      EXPECT_NEAR(least_current_A(CurrentCommutation::duty_step, pattern, speed_rad_s, current_A),
+                  after_commutation_A(E, current_A, U), ripple_A + 0.01 * current_A);
+      EXPECT_NEAR(least_current_A(CurrentCommutation::overlap, pattern, speed_rad_s, current_A), current_A,
+                  ripple_A + 0.01 * current_A);
+    }
+}
+
+/// Of the torque, behind the drive's own loop on its usual period.
+double ripple_Nm(CurrentCommutation commutation, PwmPattern pattern, double speed_rad_s, double current_A,
+                 int delay_periods, study::Arithmetic arithmetic = study::Arithmetic::float64) {
+  Scenario s = turned(commutation, pattern, speed_rad_s, current_A);
+  s.control.arithmetic = arithmetic;
+  s.pwm.delay_periods = delay_periods;
+  ask_torque(s, MetricKind::ripple_rms, 5e-3);
+  const auto out = study::run(s);
+  if (!out) ADD_FAILURE() << to_string(out.problems()[0]);
+  return out ? out->comparisons[0].measured : 0.0;
+}
+
+/// Behind the loop, at speeds where a whole duty is too little: overlapping halves the ripple there too, as far as the bus goes.
+TEST(CommutationStep, OverlappingTakesOnWhereADutyIsTooLittle) {
+  for (const double speed_rad_s : {350.0, -400.0, 450.0, -500.0})
+    for (const int delay_periods : {0, 1}) {
+      const auto ripple = [&](CurrentCommutation commutation) {
+        return ripple_Nm(commutation, PwmPattern::pwm_on, speed_rad_s, std::copysign(3.0, speed_rad_s),
+                         delay_periods);
+      };
+      SCOPED_TRACE(::testing::Message() << speed_rad_s << " rad/s, " << delay_periods << " late");
+      EXPECT_LT(ripple(CurrentCommutation::overlap), 0.85 * ripple(CurrentCommutation::duty_step));
+      EXPECT_LT(ripple(CurrentCommutation::overlap),
+                (delay_periods == 1 ? 0.75 : 0.85) * ripple(CurrentCommutation::plain));
+    }
+}
+
+/// Where a commutation takes some periods it halves the ripple, where it takes one it leaves it about where it was, and a motor that
+/// is braked runs as without it.
+TEST(CommutationStep, HalvesTheRippleBehindTheLoop) {
+  using enum PwmPattern;
+  for (const double speed_rad_s : {50.0, -150.0, 300.0})
+    for (const PwmPattern pattern : {upper, lower, pwm_on, on_pwm, pwm_on_pwm})
+      for (const int delay_periods : {0, 1}) {
+        const auto part_left = [&](double current_A) {
+          return ripple_Nm(CurrentCommutation::duty_step, pattern, speed_rad_s, current_A, delay_periods) /
+                 ripple_Nm(CurrentCommutation::plain, pattern, speed_rad_s, current_A, delay_periods);
+        };
+        SCOPED_TRACE(::testing::Message() << speed_rad_s << " rad/s, pattern " << static_cast<int>(pattern)
+                                          << ", " << delay_periods << " late");
+        EXPECT_LT(part_left(std::copysign(3.0, speed_rad_s)), delay_periods == 1 ? 0.6 : 0.76);
+        EXPECT_LT(part_left(std::copysign(1.0, speed_rad_s)), 1.15);
+        EXPECT_EQ(part_left(std::copysign(3.0, -speed_rad_s)), 1.0);
+      }
+}
+
+/// The chip's arithmetic: as far from the double's run as without the step.
+TEST(CommutationStep, InTheNumbersOfAChip) {
+  for (const study::Arithmetic arithmetic :
+       {study::Arithmetic::float32, study::Arithmetic::q15, study::Arithmetic::q31})
+    EXPECT_NEAR(ripple_Nm(CurrentCommutation::duty_step, PwmPattern::pwm_on, 150.0, 3.0, 1, arithmetic),
+                ripple_Nm(CurrentCommutation::duty_step, PwmPattern::pwm_on, 150.0, 3.0, 1), 0.02 * K_t);
+}
+
+/// What has no duty of its own, or no pair to hold it on, is told so.
+TEST(CommutationStep, IsRefusedWhereNothingHolds) {
+  const auto told = [](const Scenario& s) {
+    const base::Problems problems = study::check(s);
+    return problems.size() == 1 ? problems[0].where : std::to_string(problems.size()) + " problems";
+  };
+  Scenario s = turned(CurrentCommutation::duty_step, PwmPattern::upper, 150.0, 3.0);
+  EXPECT_EQ(told(s), "0 problems");
+  s.pwm.chopping = control::Chopping::hard;
+  EXPECT_EQ(told(s), "control.current.commutation");
+  s.pwm.chopping = control::Chopping::soft;
+  s.control.current.type = study::CurrentLoopType::hysteresis;
+  EXPECT_EQ(told(s), "control.current.commutation");
+  s.control.current.type = study::CurrentLoopType::deadbeat;
+  EXPECT_EQ(told(s), "control.current.commutation");
+}
+
+}  // namespace

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// A controller of one's own in a scenario: the library's drive by that door is the built-in one to the bit, numbers and board reach its
+// design, and what no timer does ends the run and is told.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "data/controllers/six_step_again.cpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/check/own.hpp"
+#include "sixstep/study/session/session.hpp"
+#include "tests/support/scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using study::Scenario;
+
+Scenario with(const sixstep_controller* own, Scenario s) {
+  s.control.drive = study::FirmwareKind::own;
+  s.control.own.controller = "in this file";
+  s.control.own.loaded = own;
+  return s;
+}
+
+std::uint64_t digest_of(const Scenario& s) {
+  const auto out = study::run(s);
+  if (!out) {
+    ADD_FAILURE() << to_string(out.problems()[0]);
+    return 0;
+  }
+  EXPECT_FALSE(out->fault) << to_string(*out->fault);
+  return out->digest;
+}
+
+std::vector<Scenario> six_step_scenarios() {
+  std::vector<Scenario> all{maxon_scenario(control::Mode::duty, -0.4), current_square(), cascade(),
+                            maxon_scenario(control::Mode::position, 90.0)};
+  all[3].control.position.gain_rad_s_per_deg = 0.5;
+  const std::size_t plain = all.size();
+  for (std::size_t n = 0; n < plain; ++n) {
+    Scenario s = all[n];
+    s.pwm.delay_periods = 1;
+    s.pwm.chopping = n % 2 == 0 ? control::Chopping::hard : control::Chopping::complementary;
+    s.bridge.dead_time_s = 0.5e-6;
+    all.push_back(s);
+    s.pwm.delay_periods = 0;
+    s.pwm.alignment = study::Alignment::centre;
+    s.pwm.sample = study::SampleAt::middle;
+    s.sensors.currents = rig::CurrentMeasurement::phases;
+    s.sensors.current_range_A = 40.0;
+    s.sensors.current_noise_A = 0.02;
+    s.sensors.rotor = study::RotorSensing::hall;
+    all.push_back(s);
+    s.pwm.commutation = study::CommutationAt::sample;
+    s.sheet.back_emf = design::BackEmfShape::sine;
+    s.sensors.hall_offset_deg = 1.5;  // of the general kernel
+    all.push_back(s);
+  }
+  return all;
+}
+
+TEST(OwnController, TheLibrarysDriveByThisDoorHasItsBits) {
+  int turned = 0;
+  for (const Scenario& s : six_step_scenarios()) {
+    const std::uint64_t built_in = digest_of(s);
+    EXPECT_EQ(digest_of(with(sixstep_own_controller(), s)), built_in) << "scenario " << turned;
+    ++turned;
+  }
+  EXPECT_EQ(turned, 16);
+}
+
+/// What a test makes it answer, and what it was designed by.
+sixstep_answer told{};
+sixstep_given last_given{};
+double last_values[2];
+constexpr sixstep_parameter two_numbers[] = {{"first", "A", "one", 1.0, 0.0, 5.0},
+                                             {"second", "", "other", -2.0, -3.0, 3.0}};
+
+struct Puppet {
+  struct Config {};
+  struct State {};
+  static constexpr const sixstep_parameter (&parameters)[2] = two_numbers;
+  static const char* design(const sixstep_given& given, const double* values, Config&) {
+    last_given = given;
+    for (int n = 0; n < 2; ++n) last_values[n] = values[n];
+    return values[0] == 5.0 ? "cannot have five" : nullptr;
+  }
+  static void step(const Config&, State&, const sixstep_measured&, double, sixstep_answer& answer) {
+    answer = told;
+  }
+};
+
+constexpr sixstep_controller pair_puppet =
+    control::own_controller<Puppet>(SIXSTEP_ANSWERS_PAIR, "puppet", "it does as it is told");
+constexpr sixstep_controller legs_puppet =
+    control::own_controller<Puppet>(SIXSTEP_ANSWERS_LEGS, "puppet", "it does as it is told");
+
+TEST(OwnController, IsDesignedByMotorBoardLoopsAndNumbers) {
+  Scenario s = with(&pair_puppet, cascade());
+  s.pwm.delay_periods = 1;
+  s.control.own.number = {{"second", 2.5}};
+  told = {};
+  ASSERT_TRUE(study::run(s));
+  EXPECT_EQ(last_values[0], 1.0);
+  EXPECT_EQ(last_values[1], 2.5);
+  EXPECT_EQ(last_given.mode, SIXSTEP_SPEED);
+  EXPECT_EQ(last_given.delay_periods, 1);
+  EXPECT_EQ(last_given.period_s, 30e-6);
+  EXPECT_EQ(last_given.pole_pairs, 8);
+  EXPECT_NEAR(last_given.R_ohm, 0.515, 1e-12);
+  EXPECT_NEAR(last_given.L_H, 0.286e-3, 1e-12);
+  EXPECT_NEAR(last_given.full_torque_Nm, 0.78, 1e-12);
+  EXPECT_GT(last_given.current_d1, 0);
+  EXPECT_LT(last_given.current_d0, 0);
+  EXPECT_GT(last_given.speed_d1, 0);
+  s.control.own.number = {{"first", 5.0}};
+  const auto refused = study::run(s);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(to_string(refused.problems()[0]),
+            "control.own puppet cannot have five; change what the controller is given");
+}
+
+TEST(OwnController, WhatNoTimerDoesEndsTheRun) {
+  const auto fault = [](const sixstep_controller& is, const sixstep_answer& answer) {
+    told = answer;
+    const auto out = study::run(with(&is, maxon_scenario(control::Mode::duty, 0.2)));
+    if (!out) return to_string(out.problems()[0]);
+    return out->fault ? out->fault->limit : std::string("runs");
+  };
+  const sixstep_answer off{};
+  EXPECT_EQ(fault(pair_puppet, off), "runs");
+  EXPECT_EQ(fault(legs_puppet, off), "runs");
+  sixstep_answer pair{};
+  pair.enabled = 1, pair.source = 0, pair.sink = 1, pair.duty = 0.5;
+  EXPECT_EQ(fault(pair_puppet, pair), "runs");
+  for (const double duty : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN(), HUGE_VAL}) {
+    sixstep_answer wrong = pair;
+    wrong.duty = duty;
+    EXPECT_EQ(fault(pair_puppet, wrong), "the controller answered a duty that is no number of 0 to 1");
+    sixstep_answer legs{};
+    legs.enabled = 1, legs.leg[2] = {SIXSTEP_LEG_PWM, SIXSTEP_PWM_UPPER, duty};
+    EXPECT_EQ(fault(legs_puppet, legs), "the controller answered a duty that is no number of 0 to 1");
+  }
+  sixstep_answer wrong = pair;
+  wrong.sink = 0;
+  EXPECT_EQ(fault(pair_puppet, wrong),
+            "the controller answered a pair of one leg, or a leg that there is not");
+  wrong.sink = 3;
+  EXPECT_EQ(fault(pair_puppet, wrong),
+            "the controller answered a pair of one leg, or a leg that there is not");
+  wrong = pair;
+  wrong.chopping = 3;
+  EXPECT_EQ(fault(pair_puppet, wrong),
+            "the controller answered a chopping, a switch or a leg's state that there is not");
+  wrong = {};
+  wrong.enabled = 1, wrong.leg[0].state = 4;
+  EXPECT_EQ(fault(legs_puppet, wrong),
+            "the controller answered a chopping, a switch or a leg's state that there is not");
+  wrong = {};
+  wrong.fault = 1;
+  EXPECT_EQ(fault(pair_puppet, wrong), "the controller gave up");
+  EXPECT_EQ(fault(legs_puppet, wrong), "the controller gave up");
+}
+
+std::vector<std::string> places(const base::Problems& problems) {
+  std::vector<std::string> out;
+  for (const base::Problem& p : problems) out.push_back(p.where);
+  return out;
+}
+
+TEST(OwnController, WhatDoesNotGoWithItIsTold) {
+  using Places = std::vector<std::string>;
+  Scenario s = with(&pair_puppet, current_square());
+  EXPECT_EQ(places(study::check(s)), Places{});
+  s.control.own.number = {{"third", 1.0}, {"first", 6.0}, {"second", 0.0}, {"second", 1.0}};
+  EXPECT_EQ(places(study::check(s)), (Places{"control.own.number[0].name", "control.own.number[1].value",
+                                             "control.own.number[3].name"}));
+  s.control.own.number.clear();
+  s.control.arithmetic = study::Arithmetic::q15;
+  s.control.current.feedback = study::CurrentFeedback::staying_phase;
+  s.control.slew = 100.0;
+  EXPECT_EQ(places(study::check(s)),
+            (Places{"control.arithmetic", "control.current.feedback", "control.slew"}));
+  s = with(nullptr, current_square());
+  EXPECT_EQ(places(study::check(s)), Places{"control.own.controller"});
+  s.control.drive = study::FirmwareKind::lean;
+  EXPECT_EQ(places(study::check(s)), Places{"control.own"});
+}
+
+TEST(OwnController, WhatItSaysOfItselfIsLookedAt) {
+  using Places = std::vector<std::string>;
+  EXPECT_EQ(places(study::check_controller(pair_puppet)), Places{});
+  sixstep_controller is = pair_puppet;
+  is.interface = 2;
+  EXPECT_EQ(places(study::check_controller(is)), Places{"interface"});
+  is = pair_puppet;
+  is.answers = 2, is.name = "", is.state_bytes = 70000, is.step = nullptr;
+  EXPECT_EQ(places(study::check_controller(is)), (Places{"answers", "name", "state_bytes", "step"}));
+  const sixstep_parameter wrong[] = {{"a b", "", "", 0, 0, 1}, {"b", "", nullptr, 2, 0, 1}};
+  is = pair_puppet;
+  is.parameter = wrong;
+  EXPECT_EQ(places(study::check_controller(is)),
+            (Places{"parameter[0].name", "parameter[1].meaning", "parameter[1].preset"}));
+}
+
+/// A copy of a session goes on alike: state and config are copied as bytes.
+TEST(OwnController, ASessionIsCutWhereOneLikes) {
+  const Scenario s = with(sixstep_own_controller(), cascade());
+  auto session = study::Session::open(s);
+  ASSERT_TRUE(session);
+  session->advance(2.5e-3);
+  study::Session kept = *session;
+  session->advance(s.duration_s);
+  kept.advance(s.duration_s);
+  const std::uint64_t uncut = digest_of(s);
+  EXPECT_EQ(session->close()->digest, uncut);
+  EXPECT_EQ(kept.close()->digest, uncut);
+}
+
+}  // namespace
