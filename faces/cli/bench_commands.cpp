@@ -107,8 +107,7 @@ struct BenchOutputs {
 
 void put(std::optional<files::AtomicFile>& file, const std::string& text, base::Problems& problems) {
   file->write(text);
-  const base::Problems failed = file->commit();
-  append(problems, failed);
+  append(problems, file->commit());
 }
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }

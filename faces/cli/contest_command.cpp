@@ -25,6 +25,7 @@
 #include "report/contest_page.hpp"
 #include "text/contest/contest_entries.hpp"
 #include "text/contest/contest_text.hpp"
+#include "text/escape/escape.hpp"
 #include "text/scenario/scenario_text.hpp"
 
 namespace cli {
@@ -80,8 +81,8 @@ base::Result<Contestants> contestants_of(const ContestArguments& a) {
     if (std::any_of(out.all.begin(), out.all.end(), [&](const auto& other) { return other.name == name; }))
       found.push_back({"--own " + file, '"' + std::string(name) + '"', "is another controller's name already",
                        "give it a name of its own"});
-    const std::string& keys =
-        out.keys.emplace_back(fmt::format("control.drive = own; control.own.controller = '{}'", path));
+    const std::string& keys = out.keys.emplace_back(
+        fmt::format("control.drive = own; control.own.controller = {}", text::toml_text(path)));
     out.all.push_back({name, keys, is.sentence});
   }
   if (!found.empty()) return found;

@@ -65,10 +65,7 @@ CurveFiles outputs(const CurveArguments& a, const design::Sheet& sheet, base::Pr
 
 void write(const CurveArguments& a, const analysis::CurveRequest& request, const analysis::Curve& curve,
            CurveFiles& out, base::Problems& problems) {
-  const auto commit = [&](auto& file) {
-    const base::Problems failed = file.commit();
-    append(problems, failed);
-  };
+  const auto commit = [&](auto& file) { append(problems, file.commit()); };
   if (out.csv) {
     std::vector<double> numbers;
     for (const text::CurveRow& row : text::curve_rows(request, curve)) {

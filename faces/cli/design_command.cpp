@@ -118,23 +118,22 @@ base::Problems put(std::optional<files::AtomicFile>& file, const std::string& te
 
 base::Problems write(const analysis::DesignStudy& s, const DesignArguments& a, DesignFiles& out) {
   base::Problems found = put(out.json, text::design_json(s));
-  const auto add = [&](const base::Problems& more) { append(found, more); };
   study::Scenario scenario = s.scenario;
   scenario.motor = motor_beside(scenario.motor, a.toml);
   const std::string text =
       files::with_own_mark(a.command, text::scenario_text(scenario, text::design_lines(s)));
-  add(put(out.toml, text));
+  append(found, put(out.toml, text));
   if (out.html)
-    add(put(out.html, report::render_design({.study = s,
-                                             .verdict = text::design_verdict(s),
-                                             .scenario = text,
-                                             .command = a.command,
-                                             .version = SIXSTEP_VERSION})));
+    append(found, put(out.html, report::render_design({.study = s,
+                                                       .verdict = text::design_verdict(s),
+                                                       .scenario = text,
+                                                       .command = a.command,
+                                                       .version = SIXSTEP_VERSION})));
   if (out.models) {
     const files::ModelPoint point{s.design.motor, a.angle_deg};
     const base::Result<std::string> bytes =
         fs::path(a.models).extension() == ".mat" ? files::models_mat(point) : files::models_json(point);
-    add(bytes ? put(out.models, *bytes) : bytes.problems());
+    append(found, bytes ? put(out.models, *bytes) : bytes.problems());
   }
   return found;
 }

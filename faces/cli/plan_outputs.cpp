@@ -78,8 +78,7 @@ base::Problems PlanOutputs::publish(const text::PlanStory& story, const ReadPlan
     if (open.option == "--csv") write_csv(open.file, story, plan);
     if (open.option == "--json") open.file.write(json);
     if (open.option == page_option) open.file.write(page(story, plan, problems));
-    const base::Problems unwritten = whole ? open.file.commit() : open.file.commit_partial();
-    append(problems, unwritten);
+    append(problems, whole ? open.file.commit() : open.file.commit_partial());
   }
   if (prints_json_ && whole) print(json);
   return problems;

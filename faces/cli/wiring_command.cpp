@@ -65,12 +65,11 @@ std::string scenario_of(const analysis::WiringStudy& s, const std::string& path)
 
 base::Problems write(const analysis::WiringStudy& s, const WiringArguments& a, WiringFiles& out) {
   base::Problems found;
-  const auto add = [&](const base::Problems& more) { append(found, more); };
   const report::WiringPageInput page{
       .study = s, .scenario = scenario_of(s, ""), .command = a.command, .version = SIXSTEP_VERSION};
-  if (out.svg) add(put(out.svg, report::wiring_picture(s, SIXSTEP_VERSION)));
-  if (out.html) add(put(out.html, report::render_wiring(page)));
-  if (out.toml) add(put(out.toml, files::with_own_mark(a.command, scenario_of(s, a.toml))));
+  if (out.svg) append(found, put(out.svg, report::wiring_picture(s, SIXSTEP_VERSION)));
+  if (out.html) append(found, put(out.html, report::render_wiring(page)));
+  if (out.toml) append(found, put(out.toml, files::with_own_mark(a.command, scenario_of(s, a.toml))));
   return found;
 }
 

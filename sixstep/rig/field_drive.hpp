@@ -9,10 +9,10 @@
 // an encoder, a resolver or Hall edges they are made of the angle that was decoded, as the chip does it
 // (field_direction.hpp).
 #pragma once
-#include "sixstep/base/elementary.hpp"
 #include "sixstep/control/field/field_drive.hpp"
 #include "sixstep/rig/field_held.hpp"
 #include "sixstep/rig/firmware.hpp"
+#include "sixstep/rig/magnet_angle.hpp"
 
 namespace sixstep::rig {
 
@@ -83,16 +83,11 @@ class FieldDrive {
   }
 
  private:
-  static control::Direction<Scalar> direction(double rad) {
-    const base::SinCos at = base::sin_cos(rad);
-    return {from_si<Scalar>(at.cos, 1.0), from_si<Scalar>(at.sin, 1.0)};
-  }
   template <class Real>
   control::FieldDirections<Scalar> directions_as_they_are(const plant::State<Real>& s) const {
-    const double magnet =
-        plant::sector_in_turn(s.sector) * base::sector_rad + static_cast<double>(s.x) - 5 * base::pi / 6;
+    const double magnet = magnet_rad(s);
     const double on = static_cast<double>(config_.advance.rad_s) * static_cast<double>(s.w);
-    return {direction(magnet), direction(magnet + on)};
+    return {direction_at<Scalar>(magnet), direction_at<Scalar>(magnet + on)};
   }
 
   Config config_;

@@ -17,6 +17,21 @@ enum class OwnWrong : std::uint8_t {
   choice,   ///< a chopping, a switch or a state that has no meaning
 };
 
+// The C interface names the same in the same order.
+static_assert(SIXSTEP_LEG_C == static_cast<int>(control::Leg::c) &&
+              SIXSTEP_SOFT == static_cast<int>(control::Chopping::soft) &&
+              SIXSTEP_HARD == static_cast<int>(control::Chopping::hard) &&
+              SIXSTEP_COMPLEMENTARY == static_cast<int>(control::Chopping::complementary) &&
+              SIXSTEP_LOWER == static_cast<int>(control::ChoppedSwitch::lower));
+static_assert(SIXSTEP_LEG_OFF == static_cast<int>(control::LegState::off) &&
+              SIXSTEP_LEG_LOW == static_cast<int>(control::LegState::low) &&
+              SIXSTEP_LEG_HIGH == static_cast<int>(control::LegState::high) &&
+              SIXSTEP_LEG_PWM == static_cast<int>(control::LegState::pwm) &&
+              SIXSTEP_PWM_COMPLEMENTARY == static_cast<int>(control::PwmSwitches::complementary) &&
+              SIXSTEP_PWM_UPPER == static_cast<int>(control::PwmSwitches::upper) &&
+              SIXSTEP_PWM_LOWER == static_cast<int>(control::PwmSwitches::lower) &&
+              SIXSTEP_PWM_LOWER_FIRST == static_cast<int>(control::PwmSwitches::lower_first));
+
 namespace detail {
 
 constexpr bool is_part(double x) { return x >= 0.0 && x <= 1.0; }

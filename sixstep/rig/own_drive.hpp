@@ -12,17 +12,17 @@
 #include <cstdint>
 #include <vector>
 
-#include "sixstep/base/elementary.hpp"
 #include "sixstep/control/commutation.hpp"
 #include "sixstep/control/drive.hpp"
 #include "sixstep/control/field/field_direction.hpp"
 #include "sixstep/control/own/own_controller.h"
 #include "sixstep/rig/firmware.hpp"
+#include "sixstep/rig/magnet_angle.hpp"
 #include "sixstep/rig/own_answer.hpp"
 
 namespace sixstep::rig {
 
-/// A controller with its config as it designed it.
+/// A controller with its config as it designed it; none: `is` is null.
 struct OwnConfig {
   const sixstep_controller* is = nullptr;
   std::vector<std::uint64_t> config;
@@ -47,7 +47,8 @@ class OwnDrive {
       : config_(config),
         state_(zero_bytes(config.is->state_bytes)),
         sensors_(board.sensors, board.bases, power_up),
-        ideal_(board.sensors.ideal()) {
+        ideal_(board.sensors.ideal()),
+        by_hall_(board.sensors.rotor_from_hall) {
     if (config_.is->start) config_.is->start(config_.config.data(), state_.data());
   }
 
@@ -55,7 +56,7 @@ class OwnDrive {
   const Command& tick(const SampleInstant<Real>& instant, double setpoint) {
     control::Measurement<double> measured = ideal_measurement<double>(instant, Bases{});
     if (!ideal_) sensors_.sense(measured, sample_of(instant));
-    const control::Direction<double> magnet = magnet_direction(instant.state);
+    const control::Direction<double> magnet = magnet_direction(instant.state, measured.hall);
     const sixstep_measured seen{.current_A = {measured.i_a_A, measured.i_b_A, measured.i_c_A},
                                 .speed_rad_s = measured.speed_rad_s,
                                 .position_deg = measured.position_deg,
@@ -114,14 +115,15 @@ class OwnDrive {
     command.fault = true;
     return command;
   }
-  /// As decoded, or as it is (field_drive.hpp).
+  /// As decoded; by Hall codes alone the middle of the sector; as it is where nothing senses it.
   template <class Real>
-  control::Direction<double> magnet_direction(const plant::State<Real>& s) const {
+  control::Direction<double> magnet_direction(const plant::State<Real>& s, std::uint8_t hall) {
     if (sensors_.tells_angle())
       return control::direction_of<double>(control::magnet_angle(sensors_.electrical_angle()));
-    const base::SinCos at = base::sin_cos(plant::sector_in_turn(s.sector) * base::sector_rad +
-                                          static_cast<double>(s.x) - 5 * base::pi / 6);
-    return {at.cos, at.sin};
+    if (!by_hall_) return direction_at<double>(magnet_rad(s));
+    if (const std::uint8_t sector = control::sector_of_hall(hall); sector != control::no_sector)
+      sector_ = sector;
+    return direction_at<double>((sector_ + 0.5) * base::sector_rad - magnet_behind_rad);
   }
   void take(std::uint8_t hall, const sim::Instant& at) {
     const OwnWrong wrong = wrong_in<Command>(answer_);
@@ -142,8 +144,9 @@ class OwnDrive {
   Config config_;
   std::vector<std::uint64_t> state_;
   Sensors<double> sensors_;
-  bool ideal_;
+  bool ideal_, by_hall_;
   bool reversed_ = false;
+  std::uint8_t sector_ = 0;  ///< that the last possible code showed
   sixstep_answer answer_{};
   Command command_{};
   control::Telemetry<double> telemetry_{};

@@ -75,6 +75,7 @@ TEST(OwnController, TheLibrarysDriveByThisDoorHasItsBits) {
 /// What a test makes it answer, and what it was designed by.
 sixstep_answer told{};
 sixstep_given last_given{};
+sixstep_measured last_seen{};
 double last_values[2];
 constexpr sixstep_parameter two_numbers[] = {{"first", "A", "one", 1.0, 0.0, 5.0},
                                              {"second", "", "other", -2.0, -3.0, 3.0}};
@@ -88,7 +89,8 @@ struct Puppet {
     for (int n = 0; n < 2; ++n) last_values[n] = values[n];
     return values[0] == 5.0 ? "cannot have five" : nullptr;
   }
-  static void step(const Config&, State&, const sixstep_measured&, double, sixstep_answer& answer) {
+  static void step(const Config&, State&, const sixstep_measured& seen, double, sixstep_answer& answer) {
+    last_seen = seen;
     answer = told;
   }
 };
@@ -121,6 +123,27 @@ TEST(OwnController, IsDesignedByMotorBoardLoopsAndNumbers) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(to_string(refused.problems()[0]),
             "control.own puppet cannot have five; change what the controller is given");
+}
+
+/// The magnet's direction is what the sensors know of it, no more: of Hall codes a sector of 60 degrees.
+TEST(OwnController, SeesTheMagnetAsItsSensorsDo) {
+  told = {};
+  const auto electrical_deg = [](study::RotorSensing rotor, rig::HallAngleFrom angle) {
+    Scenario s = with(&legs_puppet, maxon_scenario(control::Mode::duty, 0.0));
+    s.load.dynamometer_times_s = {0.0};
+    s.load.dynamometer_rad_s = {100.0};
+    s.sensors.rotor = rotor;
+    s.sensors.hall_angle = angle;
+    EXPECT_TRUE(study::run(s));
+    const double behind = std::atan2(last_seen.magnet_sin, last_seen.magnet_cos) * 180 / base::pi + 150;
+    return behind - 360 * std::floor(behind / 360);
+  };
+  const double last_s = std::ceil(20e-3 / 30e-6 - 1) * 30e-6, turned = 100.0 * 8 * last_s * 180 / base::pi;
+  const double is = turned - 360 * std::floor(turned / 360), middle = 60 * std::floor(is / 60) + 30;
+  EXPECT_NEAR(electrical_deg(study::RotorSensing::ideal, rig::HallAngleFrom::sectors), is, 1e-6);
+  EXPECT_NEAR(electrical_deg(study::RotorSensing::hall, rig::HallAngleFrom::sectors), middle, 1e-9);
+  EXPECT_GT(std::fabs(is - middle), 3.0);
+  EXPECT_NEAR(electrical_deg(study::RotorSensing::hall, rig::HallAngleFrom::angle), is, 0.5);
 }
 
 TEST(OwnController, WhatNoTimerDoesEndsTheRun) {
@@ -184,6 +207,11 @@ TEST(OwnController, WhatDoesNotGoWithItIsTold) {
   s.control.slew = 100.0;
   EXPECT_EQ(places(study::check(s)),
             (Places{"control.arithmetic", "control.current.feedback", "control.slew"}));
+  s = with(&legs_puppet, current_square());
+  ask(s, measure(study::MetricKind::commutation_error, study::Signal::current));
+  EXPECT_EQ(places(study::check(s)), Places{"compare[0].metric"});
+  s.control.own.loaded = &pair_puppet;
+  EXPECT_EQ(places(study::check(s)), Places{});
   s = with(nullptr, current_square());
   EXPECT_EQ(places(study::check(s)), Places{"control.own.controller"});
   s.control.drive = study::FirmwareKind::lean;

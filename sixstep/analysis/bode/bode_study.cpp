@@ -7,6 +7,7 @@
 #include "sixstep/analysis/bode/designed_loop.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/elementary.hpp"
+#include "sixstep/rig/magnet_angle.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/session/session.hpp"
 
@@ -36,11 +37,11 @@ base::Problems not_measurable(const study::Scenario& s) {
   return problems;
 }
 
-/// Across the magnet, which points 150 degrees behind the electrical angle (control/frames.hpp).
+/// Across the magnet.
 double i_q_of(const study::FullRow& row, double pole_pairs) {
   const auto at = [&](ColumnId id) { return row[static_cast<std::size_t>(id)]; };
   const double a = at(ColumnId::i_a), b = at(ColumnId::i_b), c = at(ColumnId::i_c);
-  const base::SinCos magnet = base::sin_cos(at(ColumnId::angle) * pole_pairs - 5 * base::pi / 6);
+  const base::SinCos magnet = base::sin_cos(at(ColumnId::angle) * pole_pairs - rig::magnet_behind_rad);
   constexpr double root_3 = 1.73205080756887729353;
   return -(2 * a - b - c) / 3 * magnet.sin + (b - c) / root_3 * magnet.cos;
 }

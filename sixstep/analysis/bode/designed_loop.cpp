@@ -63,7 +63,7 @@ DesignedLoop designed_loop(const study::Scenario& s, const study::Compiled& c, d
   const control::DriveConfig<double>& drive = c.later.empty() ? c.drive : c.later.back().drive;
   DesignedLoop out;
   out.not_linear =
-      c.own ? "a controller of one's own has no linear model here" : nonlinear_block(s, c, drive);
+      c.own.is ? "a controller of one's own has no linear model here" : nonlinear_block(s, c, drive);
   if (out.not_linear.empty() && c.board.sampled_in_middle)
     out.not_linear = "samples in the middle of a period are not in the linear model";
   if (!out.not_linear.empty()) return out;

@@ -48,8 +48,7 @@ base::Problems check(const Bench& b) {
   base::Problems problems;
   const auto hold = [&](const char* where, double x, const base::Range& own, std::string_view unit,
                         const char* cure) {
-    const base::Problems out = base::out_of_range(where, x, own, unit, cure);
-    append(problems, out);
+    append(problems, base::out_of_range(where, x, own, unit, cure));
   };
   hold("voltage_V", b.voltage_V, base::above(0), "V", "give the bus voltage in volts");
   if (!(base::between(-1, 1).holds(b.duty) && std::fabs(b.duty) >= least_duty))

@@ -41,7 +41,7 @@ typedef struct {
   double speed_rad_s;            /* mechanical */
   double position_deg;           /* mechanical, counted over turns */
   double bus_V;
-  double magnet_cos, magnet_sin; /* of the electrical angle from phase a's axis to the magnet's */
+  double magnet_cos, magnet_sin; /* of the electrical angle from phase a's axis to the magnet's; by Hall codes alone the sector's middle */
   uint8_t hall;                  /* H1 H2 H3 as bits 2, 1, 0, as probes 120 degrees apart show it */
 } sixstep_measured;
 

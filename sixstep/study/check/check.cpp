@@ -106,9 +106,8 @@ void check_control(const Scenario& s, base::Problems& out) {
   check_speed_output(s, out);
   check_limited_mode(s, out);
   check_speed_law(s, out);
-  const auto add = [&](const base::Problems& more) { append(out, more); };
-  add(given_gains(s.control.current, "control.current").problems);
-  add(given_gains(s.control.speed, "control.speed").problems);
+  append(out, given_gains(s.control.current, "control.current").problems);
+  append(out, given_gains(s.control.speed, "control.speed").problems);
   const CurrentLoop& c = s.control.current;
   if (c.type == CurrentLoopType::hysteresis && c.comparator == Comparator::sampled &&
       c.on == HysteresisOn::phase)

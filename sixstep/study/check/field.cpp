@@ -97,8 +97,9 @@ void check_keys(const Scenario& s, base::Problems& out) {
                    "set control.field.voltage_limit = \"circle\", or leave it away"});
 }
 
-/// What is taken of a pair that moves on.
-void check_figures(const Scenario& s, base::Problems& out) {
+}  // namespace
+
+void check_pair_figures(const Scenario& s, base::Problems& out) {
   const auto refuse = [&out](const Measure& m, const std::string& where) {
     if (fact_of(m.metric).of == TakenOf::commutations)
       out.push_back({where + ".metric", "", "is of a driven pair that moves on, and three legs have none",
@@ -109,8 +110,6 @@ void check_figures(const Scenario& s, base::Problems& out) {
   for (std::size_t n = 0; n < s.compare.size(); ++n)
     refuse(s.compare[n].measure, "compare[" + std::to_string(n) + "]");
 }
-
-}  // namespace
 
 void check_field(const Scenario& s, base::Problems& out) {
   if (s.control.drive != FirmwareKind::field) {
@@ -123,7 +122,7 @@ void check_field(const Scenario& s, base::Problems& out) {
   check_loops(s, out);
   check_sensing(s, out);
   check_keys(s, out);
-  check_figures(s, out);
+  check_pair_figures(s, out);
 }
 
 }  // namespace sixstep::study

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/check/field.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
 namespace sixstep::study {
@@ -136,6 +137,7 @@ void check_own(const Scenario& s, base::Problems& out) {
   else
     check_numbers(own, out);
   check_around(s, out);
+  if (answers_legs(own)) check_pair_figures(s, out);
 }
 
 }  // namespace sixstep::study

@@ -56,7 +56,7 @@ struct OwnGiven {
 };
 template <class Command>
 auto given_to(std::type_identity<rig::OwnDrive<Command>>, const Scenario&, const Compiled& c) {
-  return base::Result<OwnGiven>(OwnGiven{*c.own, {}});
+  return base::Result<OwnGiven>(OwnGiven{c.own, {}});
 }
 template <class Firmware>
 auto given_to(std::type_identity<Firmware>, const Scenario& s, const Compiled& c) {

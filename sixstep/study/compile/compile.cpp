@@ -131,7 +131,7 @@ base::Problems add_own(const Scenario& s, const Basis& basis, Tuned& tuned) {
   if (s.control.drive != FirmwareKind::own) return {};
   auto designed = own_designed(s, basis, tuned.drive);
   if (!designed) return designed.problems();
-  tuned.own = std::make_shared<const rig::OwnConfig>(std::move(*designed));
+  tuned.own = std::move(*designed);
   tuned.gains.clear();
   return {};
 }

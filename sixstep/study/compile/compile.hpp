@@ -2,8 +2,6 @@
 // compile() turns a scenario into what a run is made of: plant parameters, controller configuration, board,
 // timeline, gains with their origin.
 #pragma once
-#include <memory>
-
 #include "sixstep/base/result.hpp"
 #include "sixstep/control/commissioning/pulse_start.hpp"
 #include "sixstep/control/field/field_drive.hpp"
@@ -24,7 +22,7 @@ struct Tuned {
   std::optional<control::ProtectedConfig<double>> product;       ///< around the drive, where the chip runs it
   std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< alike
   std::optional<control::FieldDriveConfig<double>> field;        ///< alike
-  std::shared_ptr<const rig::OwnConfig> own;                     ///< in its place
+  rig::OwnConfig own;                                            ///< in its place, where it is one's own
 };
 
 /// What the general kernel is given, where the scenario asks for what the lean one lacks (plant/general/).
@@ -51,7 +49,7 @@ struct Compiled {
   std::optional<control::ProtectedConfig<double>> product;       ///< around the drive, where the chip runs it
   std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< alike
   std::optional<control::FieldDriveConfig<double>> field;        ///< alike
-  std::shared_ptr<const rig::OwnConfig> own;                     ///< in its place
+  rig::OwnConfig own;                                            ///< in its place, where it is one's own
   std::vector<LoopGains> gains;
   std::vector<design::DerivationStep> sensorless_steps;  ///< of the sensorless drive's numbers
   std::vector<design::DerivationStep> field_steps;       ///< of the field-oriented drive's

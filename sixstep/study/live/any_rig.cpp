@@ -42,7 +42,7 @@ base::Result<AnyRig> made_in_floating_point(const Scenario& s, const Compiled& c
 
 template <template <class> class Live>
 base::Result<AnyRig> made_to_answer(const Scenario& s, const Compiled& c, rig::Timeline timeline) {
-  return c.own->is->answers == SIXSTEP_ANSWERS_LEGS
+  return c.own.is->answers == SIXSTEP_ANSWERS_LEGS
              ? made_of<Live<control::LegCommands<double>>>(s, c, std::move(timeline))
              : made_of<Live<control::BridgeCommand<double>>>(s, c, std::move(timeline));
 }

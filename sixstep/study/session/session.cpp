@@ -50,7 +50,7 @@ namespace {
 bool same_chip(const Tuned& a, const Tuned& b) {
   if (!(a.drive == b.drive) || a.product.has_value() != b.product.has_value()) return false;
   if (!(a.sensorless == b.sensorless) || !(a.field == b.field)) return false;
-  if (a.own && b.own && !(*a.own == *b.own)) return false;
+  if (!(a.own == b.own)) return false;
   if (!a.product) return true;
   control::ProtectedConfig<double> one = *a.product, other = *b.product;
   one.setpoint_limit = other.setpoint_limit = 0.0;

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the magnet points as it is: 150 electrical degrees behind the angle from phase a's axis (control/frames.hpp).
+#pragma once
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/elementary.hpp"
+#include "sixstep/control/frames.hpp"
+#include "sixstep/plant/state.hpp"
+
+namespace sixstep::rig {
+
+inline constexpr double magnet_behind_rad = 5 * base::pi / 6;
+
+/// Electrical, rad, within a turn.
+template <class Real>
+double magnet_rad(const plant::State<Real>& s) {
+  return plant::sector_in_turn(s.sector) * base::sector_rad + static_cast<double>(s.x) - magnet_behind_rad;
+}
+
+template <class Scalar>
+control::Direction<Scalar> direction_at(double rad) {
+  const base::SinCos at = base::sin_cos(rad);
+  return {static_cast<Scalar>(at.cos), static_cast<Scalar>(at.sin)};
+}
+
+}  // namespace sixstep::rig
