@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <map>
-#include <mutex>
 #include <utility>
 
 #include "batch/for_each.hpp"
@@ -39,11 +37,50 @@ base::Result<study::Outcome> traced(study::Scenario scenario, const std::stop_to
   return study::run(scenario, listeners);
 }
 
-/// All drives of all that can run, in the order of their numbers.
-void run_drives(analysis::Contest& contest, const analysis::Plan& plan, const analysis::PlanColumns& columns,
-                const ContestOrder& order, std::atomic<std::size_t>& done) {
-  std::map<std::size_t, analysis::RunRecord> records;
-  std::mutex guard;
+/// The slow run of an entry.
+std::optional<double> lowest_of(const study::Scenario& scenario, const analysis::ContestBench& bench,
+                                const std::stop_token& stop) {
+  const study::Listeners listeners{.keep_going = [&stop](double) { return !stop.stop_requested(); },
+                                   .keep_books = false};
+  const base::Result<study::Outcome> outcome =
+      study::run(analysis::slow_scenario(scenario, bench), listeners);
+  if (!outcome) return {};
+  return analysis::lowest_speed_rad_s(bench.course, outcome->verdicts);
+}
+
+}  // namespace
+
+std::size_t nominal_runs(std::size_t controllers) { return 2 * controllers; }
+
+analysis::Contest compare_nominally(analysis::ContestBench bench, std::vector<analysis::ContestEntry> entries,
+                                    const ContestOrder& order) {
+  analysis::Contest contest{std::move(bench), std::move(entries), {}, order.drives};
+  contest.rows.resize(contest.entries.size());
+  const analysis::PlanColumns columns = analysis::contest_columns(
+      analysis::contest_plan(contest.entries, order.drives, order.seed), contest.bench);
+  std::atomic<std::size_t> done{0};
+  for_each(nominal_runs(contest.entries.size()), order.jobs, [&](std::size_t n) {
+    const base::Result<study::Scenario>& scenario = contest.entries[n / 2].scenario;
+    analysis::ContestRow& row = contest.rows[n / 2];
+    if (n % 2 == 1) {
+      if (scenario) row.lowest_rad_s = lowest_of(*scenario, contest.bench, order.stop);
+    } else {
+      const base::Result<study::Outcome> outcome = scenario
+                                                       ? traced(*scenario, order.stop, row.trace)
+                                                       : base::Result<study::Outcome>(scenario.problems());
+      analysis::take_nominal(row, analysis::record_of(outcome, columns), columns);
+    }
+    if (order.progress) order.progress(++done);
+  });
+  return contest;
+}
+
+void run_drives(const analysis::Contest& contest, const ContestOrder& order,
+                const std::function<bool(std::size_t number)>& has,
+                const std::function<void(analysis::RunRecord&&)>& take) {
+  if (order.drives == 0) return;
+  const analysis::Plan plan = analysis::contest_plan(contest.entries, order.drives, order.seed);
+  const analysis::PlanColumns columns = analysis::contest_columns(plan, contest.bench);
   const auto entry_of = [&](std::size_t n) -> const analysis::ContestEntry& {
     return contest.entries[n / plan.drives];
   };
@@ -52,44 +89,14 @@ void run_drives(analysis::Contest& contest, const analysis::Plan& plan, const an
        .columns = columns,
        .scenario = [&](std::size_t n) -> base::Result<analysis::PlannedRun> {
          const study::Scenario& nominal = *entry_of(n).scenario;
-         return analysis::PlannedRun{study::varied(nominal, plan.seed, *analysis::drive_of_run(plan, n)), {}};
+         study::Scenario drive = study::varied(nominal, plan.seed, *analysis::drive_of_run(plan, n));
+         std::vector<double> strayed = study::strayed_values(nominal, drive);
+         return analysis::PlannedRun{std::move(drive), std::move(strayed)};
        },
-       .wanted = [&](std::size_t n) { return static_cast<bool>(entry_of(n).scenario); },
-       .take =
-           [&](analysis::RunRecord&& record) {
-             const std::lock_guard lock(guard);
-             const std::size_t number = record.number;
-             records.emplace(number, std::move(record));
-             if (order.progress) order.progress(++done);
-           },
+       .wanted = [&](std::size_t n) { return static_cast<bool>(entry_of(n).scenario) && !(has && has(n)); },
+       .take = take,
        .stop = order.stop,
        .jobs = order.jobs});
-  for (const auto& [number, record] : records)
-    analysis::take_drive(contest.rows[number / plan.drives], record, columns);
-}
-
-}  // namespace
-
-std::size_t contest_runs(std::size_t controllers, std::size_t drives) { return controllers * (1 + drives); }
-
-analysis::Contest compare_controllers(analysis::ContestBench bench,
-                                      std::vector<analysis::ContestEntry> entries,
-                                      const ContestOrder& order) {
-  analysis::Contest contest{std::move(bench), std::move(entries), {}, order.drives};
-  contest.rows.resize(contest.entries.size());
-  const analysis::Plan plan = analysis::contest_plan(contest.entries, order.drives, order.seed);
-  const analysis::PlanColumns columns = analysis::contest_columns(plan, contest.bench);
-  std::atomic<std::size_t> done{0};
-  for_each(contest.entries.size(), order.jobs, [&](std::size_t n) {
-    const base::Result<study::Scenario>& scenario = contest.entries[n].scenario;
-    analysis::ContestRow& row = contest.rows[n];
-    const base::Result<study::Outcome> outcome = scenario ? traced(*scenario, order.stop, row.trace)
-                                                          : base::Result<study::Outcome>(scenario.problems());
-    analysis::take_nominal(row, analysis::record_of(outcome, columns), columns);
-    if (order.progress) order.progress(++done);
-  });
-  if (order.drives > 0) run_drives(contest, plan, columns, order, done);
-  return contest;
 }
 
 }  // namespace batch

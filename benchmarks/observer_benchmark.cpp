@@ -10,13 +10,11 @@
 #include <numeric>
 #include <string>
 
-#include "benchmarks/cases.hpp"
+#include "benchmarks/observers.hpp"
 #include "files/trace/csv_writer.hpp"
 #include "report/kept_rows.hpp"
 #include "report/report.hpp"
-#include "sixstep/plant/audit.hpp"
 #include "sixstep/study/measure/columns.hpp"
-#include "sixstep/study/measure/digest.hpp"
 #include "sixstep/study/measure/figures.hpp"
 #include "sixstep/study/measure/recorder.hpp"
 #include "sixstep/study/run/run.hpp"
@@ -26,34 +24,6 @@ namespace {
 using namespace benchmarks;
 namespace study = sixstep::study;
 using sixstep::control::Mode;
-
-void note(benchmark::State& state, double simulated_s) {
-  state.counters["per_period"] =
-      benchmark::Counter(simulated_s / period_s * static_cast<double>(state.iterations()),
-                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-}
-
-/// Runs with a fresh observer each time, as `make(prepared)` gives it.
-template <class Make>
-void measure(benchmark::State& state, const Case& c, Make make) {
-  const auto prepared = Prepared::of(c);
-  if (!prepared) return state.SkipWithError("the scenario cannot be read");
-  for (auto _ : state) {
-    auto rig = prepared->rig();
-    auto observer = make(*prepared);
-    benchmark::DoNotOptimize(sixstep::sim::run(rig, prepared->end(), observer));
-    benchmark::DoNotOptimize(observer);
-  }
-  note(state, prepared->end().seconds());
-}
-
-struct Audited {
-  sixstep::plant::Audit<double> audit;
-  template <class Rig>
-  void segment(const Rig& rig, double s) {
-    audit.segment(rig.plant(), s);
-  }
-};
 
 /// One figure over the whole run.
 study::Figures figure(const Prepared& p, const study::Measure& measure) {
@@ -153,16 +123,8 @@ void report_of(benchmark::State& state, const Case& c) {
   note(state, prepared->end().seconds());
 }
 
-template <class Make>
-void add(const Case& c, const char* observer, Make make) {
-  benchmark::RegisterBenchmark((std::string(c.name) + "/" + observer).c_str(),
-                               [c, make](benchmark::State& state) { measure(state, c, make); });
-}
-
 void register_all(const Case& c) {
-  add(c, "none", [](const Prepared&) { return sixstep::sim::NoObserver{}; });
-  add(c, "digest", [](const Prepared&) { return study::Digest{}; });
-  add(c, "energy audit and laws", [](const Prepared&) { return Audited{}; });
+  add_bare_and_audited(c);
   for (const FigureRow& row : figure_rows)
     add(c, row.name, [measure = row.measure](const Prepared& p) { return figure(p, measure); });
   add(c, "rows on a grid, one per PWM period",

@@ -8,6 +8,7 @@
 #include <functional>
 #include <report_assets.hpp>
 
+#include "report/chip_section.hpp"
 #include "report/comparison_data.hpp"
 #include "report/figures.hpp"
 #include "report/highlights.hpp"
@@ -181,6 +182,12 @@ std::string gain_table(const std::vector<ComparedRun>& runs) {
                       : table("Gain", runs.size(), rows);
 }
 
+std::string chips(const std::vector<ComparedRun>& runs) {
+  std::string html;
+  for (const ComparedRun& run : runs) html += chip_section(run.outcome);
+  return html;
+}
+
 }  // namespace
 
 std::string render_comparison(const ComparisonInput& in) {
@@ -197,7 +204,8 @@ std::string render_comparison(const ComparisonInput& in) {
               {"subtitle", escaped(names) + "; differences are against the first"},
               {"runs", run_rows(in.runs)},
               {"differences", difference_table(in.runs)},
-              {"figures", table("Figure", in.runs.size(), named_figures(in.runs) + usual_figures(in.runs))},
+              {"figures", table("Figure", in.runs.size(), named_figures(in.runs) + usual_figures(in.runs)) +
+                              chips(in.runs)},
               {"plots", assets::plots_html},
               {"grid", escaped(given(common_grid_s(scenarios), "s"))},
               {"gains", gain_table(in.runs)}});

@@ -106,7 +106,7 @@ std::string gains(const Scenario& scenario, const Outcome& outcome) {
 std::string step_chart(const Trace& trace, const Step& step) {
   constexpr std::size_t rows_drawn = 600;
   const auto* time = find_column(trace, "t_s");
-  const HeldCurrent& held = held_current(trace);
+  const HeldCurrent& held = step.held;
   const auto* current = find_column(trace, held.column);
   const auto* reference = find_column(trace, held.reference);
   if (!time || !current) return "";

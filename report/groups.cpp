@@ -74,6 +74,13 @@ Group rotor_voltages(const Trace& trace) {
   return g;
 }
 
+/// Where it takes the magnet to point, less where that points.
+Group rotor_angle(const Trace& trace) {
+  Group g{.id = "rotor-angle", .title = "Error of the magnet's angle", .unit = "deg", .height_px = 150};
+  add(g, trace, "angle_error_deg", "error", "main");
+  return g;
+}
+
 Group logic(const Trace& trace, std::deque<std::vector<double>>& derived) {
   Group g{.id = "logic", .title = "Gates and Hall probes", .unit = "", .height_px = 216, .logic = true};
   add(g, trace, "gate_T1", "T1 a↑", "a");
@@ -194,6 +201,7 @@ Groups chart_groups(const Trace& trace, const sixstep::study::Scenario& scenario
   if (of_field) {
     charts.push_back(rotor_currents(trace));
     charts.push_back(rotor_voltages(trace));
+    charts.push_back(rotor_angle(trace));
   }
   charts.push_back(logic(trace, out.derived));
   charts.push_back(line_voltages(trace));

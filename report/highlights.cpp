@@ -55,12 +55,19 @@ std::vector<Change> changes_of(const Values& reference, double start) {
   return out;
 }
 
+HeldCurrent held_by(const Scenario& s) {
+  if (s.control.drive == sixstep::study::FirmwareKind::field)
+    return {"Current across the magnet", "i_q_A", "i_q_ref_A", "i_q", "i_q*"};
+  return {"Motor current", "i_m_A", "i_ref_A", "i_m", "i_ref"};
+}
+
 /// The whole run, where nothing is asked for.
-Step from_start(const Values& time) {
+Step from_start(const Values& time, const Scenario& scenario) {
   return {.of = "start",
           .unit = "",
           .at_s = time.front(),
           .next_s = time.back(),
+          .held = held_by(scenario),
           .window = {time.front(), time.back()}};
 }
 
@@ -81,11 +88,11 @@ std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
   const Loop* loop = loop_of(scenario);
   const Values* reference = loop ? find_column(trace, loop->reference) : nullptr;
   const Values* signal = loop ? find_column(trace, loop->signal) : nullptr;
-  if (!reference || !signal) return from_start(*time);
+  if (!reference || !signal) return from_start(*time, scenario);
   const std::vector<Change> changes = changes_of(*reference, signal->front() * loop->factor);
   const auto largest =
       std::ranges::max_element(changes, [](const Change& a, const Change& b) { return a.size() < b.size(); });
-  if (largest == changes.end() || largest->size() == 0.0) return from_start(*time);
+  if (largest == changes.end() || largest->size() == 0.0) return from_start(*time, scenario);
   const std::size_t next = largest + 1 == changes.end() ? time->size() - 1 : (largest + 1)->row;
   std::size_t outside = largest->row;  // last row away from the goal
   for (std::size_t n = largest->row; n <= next; ++n)
@@ -98,6 +105,7 @@ std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
               .from = largest->from,
               .to = largest->to,
               .next_s = end,
+              .held = held_by(scenario),
               .window = {at, std::min(end, at + shown)},
               .done = at + shown < end};
 }
@@ -136,16 +144,9 @@ std::size_t peak_row(const Values& time, const Values& y, const Interval& window
 
 }  // namespace
 
-const HeldCurrent& held_current(const Trace& trace) {
-  static constexpr HeldCurrent across{"Current across the magnet", "i_q_A", "i_q_ref_A", "i_q", "i_q*"},
-      pair{"Motor current", "i_m_A", "i_ref_A", "i_m", "i_ref"};
-  return find_column(trace, across.column) ? across : pair;
-}
-
 std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
-  const HeldCurrent& held = held_current(trace);
   const auto* time = find_column(trace, "t_s");
-  const auto* current = find_column(trace, held.column);
+  const auto* current = find_column(trace, step.held.column);
   if (!time || !current) return std::nullopt;
   const double shown = step.window.to - step.window.from, rest = step.next_s - step.window.to;
   if (!(shown > 0.0) || !is_whole(trace, step.window)) return std::nullopt;
@@ -158,7 +159,7 @@ std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
     out.then_mean_A = then.integral / rest;
     out.then_span_A = then.high - then.low;
   }
-  if (const auto* reference = find_column(trace, held.reference))
+  if (const auto* reference = find_column(trace, step.held.reference))
     out.asked_A = (*reference)[peak_row(*time, *reference, step.window)];
   return out;
 }

@@ -13,6 +13,11 @@
 
 namespace report {
 
+/// The current that a drive holds: of a field-oriented one that across the magnet, else of the driven pair. By the drive and not by the
+/// columns: a trace of every event has those of all drives.
+struct HeldCurrent {
+  const char *title, *column, *reference, *label, *reference_label;
+};
 /// The greatest change of what the controller is asked for. The first setpoint counts from the start's value.
 struct Step {
   std::string of;  ///< "speed", "current", "position"; "start" where nothing is controlled
@@ -20,6 +25,7 @@ struct Step {
   double at_s = 0.0;
   double from = 0.0, to = 0.0;
   double next_s = 0.0;  ///< the next change, or the run's end
+  HeldCurrent held{};   ///< what is looked at beside it
   Interval window;      ///< worth a close-up: half as long again as the goal's neighbourhood takes
   bool done = false;    ///< the goal's neighbourhood (10 % of the step) was reached before next_s
 };
@@ -30,13 +36,7 @@ std::optional<Step> largest_step(const sixstep::study::Trace& trace,
 std::optional<double> last_setpoint_s(const sixstep::study::Trace& trace,
                                       const sixstep::study::Scenario& scenario);
 
-/// The current that a drive holds: of a field-oriented one that across the magnet, else of the driven pair.
-struct HeldCurrent {
-  const char *title, *column, *reference, *label, *reference_label;
-};
-const HeldCurrent& held_current(const sixstep::study::Trace& trace);
-
-/// That current during a step; empty where an envelope stands for it.
+/// The held current during a step; empty where an envelope stands for it.
 struct StepCurrent {
   double peak_A = 0.0, peak_after_s = 0.0;
   std::optional<double> asked_A{};                     ///< largest reference, where there is a current loop

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/report.hpp"
+#include "report/chip_section.hpp"
 
 #include <fmt/format.h>
 #include <report_assets.hpp>
 
+#include "report/chip_section.hpp"
 #include "report/figures.hpp"
 #include "report/glance.hpp"
 #include "report/html.hpp"
@@ -17,6 +19,7 @@
 #include "report/verdicts.hpp"
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "text/results/core_text.hpp"
 
 namespace report {
 namespace {
@@ -36,6 +39,9 @@ std::string alerts(const ReportInput& in) {
                         escaped(sixstep::base::to_string(*in.outcome.fault)));
   for (const std::string& note : in.outcome.notes)
     html += fmt::format("<p class=\"alert\" role=\"alert\"><b>Note.</b> {}</p>\n", escaped(note));
+  if (in.outcome.core)
+    for (const std::string& told : text::core_texts(in.outcome))
+      html += fmt::format("<p class=\"quiet\">The drive ran {}.</p>\n", escaped(told));
   if (sixstep::study::cut_short(in.scenario, in.outcome))
     html +=
         fmt::format("<p class=\"alert\" role=\"alert\"><b>Interrupted</b> at {} of {}.</p>\n",
@@ -87,7 +93,7 @@ std::string render(const ReportInput& in) {
               {"alerts", alerts(in)},
               {"glance", glance_section(in.scenario, in.outcome, in.trace)},
               {"requirements", requirements(in.outcome)},
-              {"comparisons", comparisons(in.outcome)},
+              {"comparisons", comparisons(in.outcome) + chip_section(in.outcome)},
               {"setup", setup_section(in.scenario)},
               {"sheet", sheet_section(in.scenario.sheet)},
               {"model", model_section(in.outcome.motor)},

@@ -11,6 +11,7 @@
 #include "report/setup_words.hpp"
 #include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/choices.hpp"
+#include "sixstep/study/scenario/field_description.hpp"
 #include "sixstep/study/scenario/sensorless_description.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 #include "text/scenario/motion_words.hpp"
@@ -247,14 +248,28 @@ std::string sensorless(const study::Sensorless& x) {
   return text;
 }
 
+std::string finite_set(const study::Field& x) {
+  std::string text =
+      "currents along the magnet and across it held by the state of three legs that is foretold to come nearest";
+  if (x.switching_weight_A > 0) text += "; a leg that switches weighs " + given(x.switching_weight_A, "A");
+  if (x.peak_A) text += "; at most " + given(*x.peak_A, "A");
+  if (!x.delay_compensation) text += "; a late answer is not made up for";
+  if (x.harmonic_current) text += "; the current follows the shape of the back-EMF";
+  return text;
+}
+
 std::string field(const study::Field& x) {
+  if (x.law == study::FieldLaw::finite_set) return finite_set(x);
   std::string text = "currents held along the magnet and across it";
   if (x.bandwidth_Hz) text += " to " + given(*x.bandwidth_Hz, "Hz");
   text += x.decoupling ? ", decoupled" : ", not decoupled";
   text += x.voltage_limit == control::VoltageLimit::circle ? "; voltages within the circle"
                                                            : "; each axis within half the bus";
   if (x.weakening_A) text += "; the field weakened by up to " + given(*x.weakening_A, "A");
+  if (x.angle != study::FieldAngle::sensors)
+    text += fmt::format("; the magnet's angle by {}", base::word(study::field_angle_choices, x.angle));
   if (x.advance_periods) text += fmt::format("; answers turned on by {} periods", *x.advance_periods);
+  if (x.harmonic_current) text += "; the current follows the shape of the back-EMF";
   return text;
 }
 

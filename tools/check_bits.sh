@@ -38,7 +38,7 @@ mapfile -t reader < <(find text/sources.cpp text/keys text/toml text/motor/motor
   text/scenario/{scenario_file,scenario_family,reference_file,motion_words}.cpp -name '*.cpp' | LC_ALL=C sort)
 mapfile -t rest < <(find text -name '*.cpp' | LC_ALL=C sort | grep -vxF "$(printf '%s\n' "${reader[@]}")")
 # What decides about bits is what CMakeLists.txt gives the product. The rest shows that no exception is needed.
-flags=(-std=c++20 -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti -I.)
+flags=(-DSIXSTEP_POSITION_PROFILE -std=c++20 -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti -I.)
 
 if [ "$task" = --renew ]; then
   g++ -O3 "${flags[@]}" "${sources[@]}" -o "$out/renew"

@@ -18,7 +18,7 @@ for word in "$@"; do
     *) build=$word ;;
   esac
 done
-sources=('sixstep/*.cpp' 'batch/*.cpp' 'text/*.cpp' 'files/*.cpp' 'report/*.cpp' 'faces/*.cpp' ':!faces/firmware'
+sources=('sixstep/*.cpp' 'batch/*.cpp' 'text/*.cpp' 'files/*.cpp' 'report/*.cpp' 'faces/*.cpp' ':!faces/firmware' ':!faces/loop/core' ':!faces/loop/avr/main.cpp'
   ':!batch/ranks_with_mpi.cpp')
 # A line each; all of them where the history is shorter.
 looked_at() {
@@ -35,10 +35,13 @@ python3 tools/compile_commands.py "$build" "$build/sources"
 looked_at | LC_ALL=C sort -u | tr '\n' '\0' | xargs -0 -n 1 -P "$(nproc)" clang-tidy -p "$build/sources" --quiet "$checks" 2>/dev/null
 # MPI is in a build of its own, which need not be there.
 [ ! -f build/mpi/compile_commands.json ] || clang-tidy -p build/mpi --quiet "$checks" batch/ranks_with_mpi.cpp 2>/dev/null
-# Firmware is in no build for this machine: each example with the flags of its chip.
+# Firmware is in no build for this machine: each example with the flags of its chip, and what a core in the loop runs, with the drive of
+# an example.
 firmware() {
-  clang-tidy --quiet "$checks" "faces/firmware/example/$1/main.cpp" -- "${@:2}" -std=c++20 -ffreestanding -nostdinc++ -I. \
-    -Itests/control/sixteen_bit 2>/dev/null
+  clang-tidy --quiet "$checks" "$1" -- "${@:2}" -std=c++20 -ffreestanding -nostdinc++ -I. -Ifaces/firmware/bare 2>/dev/null
 }
-firmware cortex_m --target=thumbv7em-none-eabihf -mcpu=cortex-m4
-firmware avr --target=avr -mmcu=atmega2560
+arm=(--target=thumbv7em-none-eabihf -mcpu=cortex-m4) avr=(--target=avr -mmcu=atmega2560)
+firmware faces/firmware/example/cortex_m/main.cpp "${arm[@]}"
+firmware faces/firmware/example/avr/main.cpp "${avr[@]}"
+firmware faces/loop/core/main.cpp "${arm[@]}" -Ifaces/firmware/example/cortex_m -DSIXSTEP_PRODUCT_DRIVE
+firmware faces/loop/avr/main.cpp "${avr[@]}" -Ifaces/firmware/example/avr -DADC_AMPERES_PER_COUNT=0.05 -DSETPOINT_PER_COUNT=0.03

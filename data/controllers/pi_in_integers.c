@@ -7,6 +7,7 @@
 #define MODE_CURRENT SIXSTEP_CURRENT
 #define HALL_CODES 8
 #define NO_LEG 3
+#define Q10_MILLI 1024000
 
 /* Which leg gives and which takes the current, by H1 H2 H3. */
 static const uint8_t table[HALL_CODES][2] = {{NO_LEG, NO_LEG}, {2, 0}, {1, 2}, {1, 0}, {0, 1}, {2, 1}, {0, 2}, {NO_LEG, NO_LEG}};
@@ -25,27 +26,30 @@ typedef struct {
 } state_t;
 
 static int64_t clamp(int64_t x, int64_t limit) { return x > limit ? limit : x < -limit ? -limit : x; }
-static int32_t milli(double x) { return (int32_t)(x * 1e3 + (x < 0 ? -0.5 : 0.5)); }
+static int32_t milli(sixstep_real x) {
+  const sixstep_real half = (sixstep_real)0.5;
+  return (int32_t)(x * 1000 + (x < 0 ? -half : half));
+}
 
 static const sixstep_parameter numbers[] = {
-    {"bandwidth", "", "current loop's bandwidth, as a part of the control frequency", 0.05, 0.001, 0.15},
-    {"limit_A", "A", "largest current that the speed loop asks for", 10.0, 0.1, 1000.0},
+    {"bandwidth", "", "current loop's bandwidth, as a part of the control frequency", (sixstep_real)0.05, (sixstep_real)0.001, (sixstep_real)0.15},
+    {"limit_A", "A", "largest current that the speed loop asks for", 10, (sixstep_real)0.1, 1000},
 };
 
-static const char* design(const sixstep_given* given, const double* values, void* config) {
+static const char* design(const sixstep_given* given, const sixstep_real* values, void* config) {
   config_t* const c = (config_t*)config;
   /* Open loop kp/(2 L s): crosses over at 2 pi times the bandwidth. */
-  const double kp = 6.283185307179586 * values[0] / given->period_s * 2 * given->L_H;
+  const sixstep_real kp = (sixstep_real)6.283185307179586 * values[0] / given->period_s * 2 * given->L_H;
   if (given->mode != SIXSTEP_CURRENT && given->mode != SIXSTEP_SPEED) return "holds a current or a speed, and nothing else";
-  if (kp * 1024 * 1e3 > 1e9) return "has gains that its integers do not hold: lower the bandwidth";
+  if (kp * Q10_MILLI > 1000000000) return "has gains that its integers do not hold: lower the bandwidth";
   c->mode = given->mode;
-  c->kp = (int32_t)(kp * 1024 * 1e3);
-  c->ki = (int32_t)(kp * given->R_ohm / given->L_H * given->period_s * 1024 * 1e3);
+  c->kp = (int32_t)(kp * Q10_MILLI);
+  c->ki = (int32_t)(kp * given->R_ohm / given->L_H * given->period_s * Q10_MILLI);
   c->bus_mV = milli(given->bus_V);
   c->limit_mA = milli(values[1]);
   /* As the library's speed loop, in current. */
-  c->speed_kp = (int32_t)(given->speed_d1 * given->full_current_A * 1024 * 1e3);
-  c->speed_ki = (int32_t)((given->speed_d1 + given->speed_d0) * given->full_current_A * 1024 * 1e3);
+  c->speed_kp = (int32_t)(given->speed_d1 * given->full_current_A * Q10_MILLI);
+  c->speed_ki = (int32_t)((given->speed_d1 + given->speed_d0) * given->full_current_A * Q10_MILLI);
   return 0;
 }
 
@@ -58,10 +62,10 @@ static void drive(int32_t volts_mV, int32_t bus_mV, uint8_t hall, sixstep_answer
   answer->source = legs[volts_mV < 0];
   answer->sink = legs[volts_mV >= 0];
   answer->chopping = SIXSTEP_SOFT;
-  answer->duty = (double)(volts_mV < 0 ? -volts_mV : volts_mV) / bus_mV;
+  answer->duty = (sixstep_real)(volts_mV < 0 ? -volts_mV : volts_mV) / (sixstep_real)bus_mV;
 }
 
-static void step(const void* config, void* state, const sixstep_measured* seen, double setpoint, sixstep_answer* answer) {
+static void step(const void* config, void* state, const sixstep_measured* seen, sixstep_real setpoint, sixstep_answer* answer) {
   const config_t* const c = (const config_t*)config;
   state_t* const s = (state_t*)state;
   const uint8_t* const legs = table[seen->hall & 7u];
@@ -74,7 +78,7 @@ static void step(const void* config, void* state, const sixstep_measured* seen, 
     want_mA = (int32_t)clamp((s->speed_integral + (int64_t)c->speed_kp * slow_mrad_s / 1000) >> 10, c->limit_mA);
     answer->speed_reference_rad_s = setpoint;
   }
-  answer->current_reference_A = want_mA * 1e-3;
+  answer->current_reference_A = (sixstep_real)want_mA * (sixstep_real)1e-3;
   is_mA = legs[0] == NO_LEG ? 0 : milli((seen->current_A[legs[0]] - seen->current_A[legs[1]]) / 2);
   error = want_mA - is_mA;
   s->integral = clamp(s->integral + (int64_t)c->ki * error / 1000, (int64_t)c->bus_mV << 10);

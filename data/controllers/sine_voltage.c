@@ -3,21 +3,21 @@
  * simplest controller that answers three legs. */
 #include "sixstep/control/own/own_controller.h"
 
-static const char* design(const sixstep_given* given, const double* values, void* config) {
+static const char* design(const sixstep_given* given, const sixstep_real* values, void* config) {
   (void)values, (void)config;
   return given->mode == SIXSTEP_DUTY ? 0 : "has no loop: set control.mode = \"duty\"";
 }
 
-static void step(const void* config, void* state, const sixstep_measured* seen, double setpoint, sixstep_answer* answer) {
-  static const double half_root_3 = 0.86602540378443864676;
-  const double c = seen->magnet_cos, s = seen->magnet_sin;
+static void step(const void* config, void* state, const sixstep_measured* seen, sixstep_real setpoint, sixstep_answer* answer) {
+  static const sixstep_real half_root_3 = (sixstep_real)0.86602540378443864676;
+  const sixstep_real c = seen->magnet_cos, s = seen->magnet_sin;
   /* Of the axis a quarter turn ahead of the magnet, in phases a, b, c. */
-  const double across[3] = {-s, s / 2 + half_root_3 * c, s / 2 - half_root_3 * c};
+  const sixstep_real across[3] = {-s, s / 2 + half_root_3 * c, s / 2 - half_root_3 * c};
   int k;
   (void)config, (void)state;
   answer->enabled = 1;
   for (k = 0; k < 3; ++k) {
-    double duty = 0.5 + setpoint / 2 * across[k];
+    sixstep_real duty = (sixstep_real)0.5 + setpoint / 2 * across[k];
     if (duty < 0) duty = 0;
     if (duty > 1) duty = 1;
     answer->leg[k].state = SIXSTEP_LEG_PWM;

@@ -9,10 +9,10 @@ namespace {
 using namespace sixstep::control;
 
 struct SixStepAgain {
-  using Config = DriveConfig<double>;
-  using State = DriveState<double>;
+  using Config = DriveConfig<sixstep_real>;
+  using State = DriveState<sixstep_real>;
 
-  static const char* design(const sixstep_given& given, const double*, Config& config) {
+  static const char* design(const sixstep_given& given, const sixstep_real*, Config& config) {
     constexpr Mode modes[] = {Mode::off, Mode::duty, Mode::current, Mode::speed, Mode::position};
     config.mode = modes[given.mode];
     config.chopping = static_cast<Chopping>(given.chopping);
@@ -28,17 +28,17 @@ struct SixStepAgain {
     return nullptr;
   }
 
-  static void step(const Config& config, State& state, const sixstep_measured& seen, double setpoint,
+  static void step(const Config& config, State& state, const sixstep_measured& seen, sixstep_real setpoint,
                    sixstep_answer& answer) {
-    Telemetry<double> telemetry{};
+    Telemetry<sixstep_real> telemetry{};
     sixstep::control::step(config, state,
-                           Measurement<double>{.i_a_A = seen.current_A[0],
-                                               .i_b_A = seen.current_A[1],
-                                               .i_c_A = seen.current_A[2],
-                                               .speed_rad_s = seen.speed_rad_s,
-                                               .position_deg = seen.position_deg,
-                                               .bus_V = seen.bus_V,
-                                               .hall = seen.hall},
+                           Measurement<sixstep_real>{.i_a_A = seen.current_A[0],
+                                                     .i_b_A = seen.current_A[1],
+                                                     .i_c_A = seen.current_A[2],
+                                                     .speed_rad_s = seen.speed_rad_s,
+                                                     .position_deg = seen.position_deg,
+                                                     .bus_V = seen.bus_V,
+                                                     .hall = seen.hall},
                            {setpoint}, telemetry);
     answer.current_reference_A = telemetry.current_reference_A;
     answer.speed_reference_rad_s = telemetry.speed_reference_rad_s;
@@ -49,7 +49,7 @@ struct SixStepAgain {
     take(on_hall(config, state, code), answer);
   }
 
-  static void take(const BridgeCommand<double>& command, sixstep_answer& answer) {
+  static void take(const BridgeCommand<sixstep_real>& command, sixstep_answer& answer) {
     answer.enabled = command.enabled;
     answer.fault = command.fault;
     answer.source = static_cast<std::uint8_t>(command.pair.source);

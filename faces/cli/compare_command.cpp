@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
+#include <span>
 #include <utility>
 
 #include "batch/for_each.hpp"
@@ -11,6 +13,8 @@
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/run_command.hpp"
 #include "faces/cli/terminal.hpp"
+#include "faces/loop/cores.hpp"
+#include "faces/loop/on_core.hpp"
 #include "files/atomic_file.hpp"
 #include "report/comparison.hpp"
 #include "report/kept_rows.hpp"
@@ -36,6 +40,7 @@ void add(study::Trace& trace, study::Row row, const std::vector<study::Column>& 
 /// A run that keeps what is drawn and what is subtracted.
 struct Compared {
   study::Scenario scenario;
+  const loop::Core* core = nullptr;
   std::size_t most_bytes = report::most_row_bytes;  ///< of events
   study::Trace grid = all_columns();
   std::optional<report::KeptRows> events;
@@ -51,7 +56,7 @@ struct Compared {
       reached(t_s);
       return !interrupted();
     };
-    base::Result<study::Outcome> result = study::run(scenario, listeners);
+    base::Result<study::Outcome> result = loop::run(core, scenario, listeners);
     if (result)
       outcome = std::move(*result);
     else
@@ -67,8 +72,8 @@ std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
   runs.reserve(jobs.size());
   for (const Job& job : jobs) scenarios.push_back(&job.scenario());
   for (const Job& job : jobs) {
-    Compared& run = runs.emplace_back(
-        Compared{.scenario = job.scenario(), .most_bytes = report::most_row_bytes / jobs.size()});
+    Compared& run = runs.emplace_back(Compared{
+        .scenario = job.scenario(), .core = job.core(), .most_bytes = report::most_row_bytes / jobs.size()});
     run.scenario.record = {.grid_s = report::common_grid_s(scenarios)};
     // A column that a mode has no use for is asked for all the same, so that all runs have the same ones.
     for (const study::Column& column : study::all_columns(run.scenario.sheet.kind))
@@ -86,9 +91,21 @@ void print_table(const std::vector<Job>& jobs, const std::vector<Compared>& runs
 
 }  // namespace
 
+bool names_own_firmware(const RunArguments& a) {
+  return a.on.size() > 5 && a.on.compare(a.on.size() - 5, 5, ".toml") == 0;
+}
+
+bool lays_over(const RunArguments& a) {
+  if (names_own_firmware(a)) return a.files.size() == 1;
+  const std::span<const loop::Core> known = loop::cores();
+  return a.files.size() == 1 && std::any_of(known.begin(), known.end(), [&a](const loop::Core& core) {
+           return core.by_registers && core.name == a.on;
+         });
+}
+
 bool compares(const RunArguments& a) {
-  return a.files.size() > 1 && !a.paths.of(page_option).empty() && a.paths.files().size() == 1 &&
-         !a.paths.prints() && a.out.empty();
+  return (a.files.size() > 1 || lays_over(a)) && !a.paths.of(page_option).empty() &&
+         a.paths.files().size() == 1 && !a.paths.prints() && a.out.empty();
 }
 
 base::Problems check_comparison(const RunArguments& arguments) {

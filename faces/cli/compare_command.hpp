@@ -9,8 +9,13 @@ namespace cli {
 
 struct RunArguments;
 
-/// Several files and one page, nothing else.
+/// Several files and one page, nothing else; or one that runs on the host and on a chip (lays_over).
 bool compares(const RunArguments& arguments);
+
+/// --on names a map of a firmware of one's own.
+bool names_own_firmware(const RunArguments& arguments);
+/// One file on a chip that is no copy of the host's drive: what both do is laid over each other.
+bool lays_over(const RunArguments& arguments);
 
 /// sixstep run A B .. --html FILE: runs them all and lays them over each other on one page.
 Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs);

@@ -10,6 +10,7 @@
 #include "faces/cli/choose.hpp"
 #include "faces/cli/design_command.hpp"
 #include "faces/cli/schema_command.hpp"
+#include "faces/loop/cores.hpp"
 #include "sixstep/analysis/plan/plan_description.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
@@ -101,11 +102,19 @@ Candidates modes(const CLI::App& verb) {
   return found;
 }
 
+Candidates cores() {
+  Candidates found;
+  for (const loop::Core& core : loop::cores())
+    found.push_back({std::string(core.name), std::string(core.title)});
+  return found;
+}
+
 Candidates known_words(const CLI::App& verb, const std::string& name) {
   if (name == "--mode") return modes(verb);
   if (name == "--chopping") return words(study::chopping_choices);
   if (name == "--arithmetic") return words(study::arithmetic_choices);
   if (name == "--sampling") return words(analysis::sampling_choices);
+  if (name == "--on") return cores();
   if (name == "--method") return words(method_choices);
   if (name == "--style") return styles();
   if (name == "--between")

@@ -5,12 +5,12 @@
 #include <CLI/App.hpp>
 
 #include <algorithm>
-#include <deque>
 #include <filesystem>
-#include <span>
 #include <utility>
 
 #include "batch/contest.hpp"
+#include "faces/cli/contest_own.hpp"
+#include "faces/cli/contest_store.hpp"
 #include "faces/cli/keep.hpp"
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/outputs.hpp"
@@ -19,13 +19,11 @@
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
 #include "files/atomic_file.hpp"
-#include "files/controller_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
 #include "report/contest_page.hpp"
 #include "text/contest/contest_entries.hpp"
 #include "text/contest/contest_text.hpp"
-#include "text/escape/escape.hpp"
 #include "text/scenario/scenario_text.hpp"
 
 namespace cli {
@@ -35,12 +33,12 @@ namespace fs = std::filesystem;
 
 struct ContestArguments {
   std::string motor, board, data_dir;
-  std::vector<std::string> own;  ///< shared objects of controllers of one's own
+  OwnArguments own;
   std::optional<double> voltage_V, settle_s, current_settle_s, period_s;
   std::size_t drives = 10;
   std::uint64_t seed = 1;
-  std::string json, csv, html, write;
-  bool quiet = false, force = false;
+  std::string json, csv, html, write, store;
+  bool quiet = false, force = false, resume = false;
   unsigned jobs = 0;
   std::string command;  ///< what makes the files again
 };
@@ -54,39 +52,6 @@ std::string file_name(std::string_view name) {
     else if (c != ',')
       out += c;
   return out + ".toml";
-}
-
-/// The library's rows, and one for each controller of one's own.
-struct Contestants {
-  std::vector<analysis::Contestant> all;
-  std::deque<std::string> keys;  ///< of the own ones
-};
-
-base::Result<Contestants> contestants_of(const ContestArguments& a) {
-  const std::span<const analysis::Contestant> library = analysis::contestants();
-  Contestants out{{library.begin(), library.end()}, {}};
-  base::Problems found;
-  for (const std::string& file : a.own) {
-    const std::string path = fs::absolute(file).string();
-    const base::Result<text::NamedText> loaded = files::load_controller(path);
-    if (!loaded) {
-      for (base::Problem problem : loaded.problems()) {
-        problem.where = "--own " + problem.where;
-        found.push_back(std::move(problem));
-      }
-      continue;
-    }
-    const sixstep_controller& is = *loaded->controller;
-    const std::string_view name = is.name;
-    if (std::any_of(out.all.begin(), out.all.end(), [&](const auto& other) { return other.name == name; }))
-      found.push_back({"--own " + file, '"' + std::string(name) + '"', "is another controller's name already",
-                       "give it a name of its own"});
-    const std::string& keys = out.keys.emplace_back(
-        fmt::format("control.drive = own; control.own.controller = {}", text::toml_text(path)));
-    out.all.push_back({name, keys, is.sentence});
-  }
-  if (!found.empty()) return found;
-  return out;
 }
 
 /// Files are made before the work begins: one that cannot be written is told at once.
@@ -173,28 +138,67 @@ Exit exit_of(const analysis::Contest& contest) {
   return any ? Exit::ok : Exit::failed;
 }
 
+analysis::Contest nominally(const ContestArguments& a, analysis::ContestBench bench,
+                            std::vector<analysis::ContestEntry> entries) {
+  const StopWatch watch;
+  Progress progress({.seconds = {}, .pieces = batch::nominal_runs(entries.size()), .of = "nominal runs"},
+                    a.quiet);
+  return batch::compare_nominally(std::move(bench), std::move(entries),
+                                  {.drives = a.drives,
+                                   .seed = a.seed,
+                                   .jobs = a.jobs,
+                                   .progress = [&](std::size_t done) { progress.pieces_done(done); },
+                                   .stop = watch.token()});
+}
+
+/// By way of the store, with what it has already.
+base::Problems over_the_tolerances(const ContestArguments& a, analysis::Contest& contest) {
+  if (a.drives == 0) return {};
+  base::Result<files::PlanStore> store = store_of(contest, a.seed, {a.store, a.resume, a.force, a.command});
+  if (!store) return store.problems();
+  const StopWatch watch([&store] { return store->failed(); });
+  const auto runs = static_cast<std::size_t>(
+      std::count_if(contest.entries.begin(), contest.entries.end(),
+                    [](const analysis::ContestEntry& entry) { return static_cast<bool>(entry.scenario); }));
+  Progress progress({.seconds = {}, .pieces = runs * a.drives, .of = "drives", .before = store->rows()},
+                    a.quiet);
+  return take_drives(contest,
+                     {.drives = a.drives,
+                      .seed = a.seed,
+                      .jobs = a.jobs,
+                      .progress = [&](std::size_t done) { progress.pieces_done(done); },
+                      .stop = watch.token()},
+                     *store);
+}
+
+base::Problems contradictions(const ContestArguments& a) {
+  base::Problems problems;
+  if (a.resume && a.store.empty())
+    problems.push_back({.where = "--resume",
+                        .limit = "goes on with the drives of a store, and none is named",
+                        .cure = "add --store FILE.sqlite"});
+  if (!a.store.empty() && a.drives == 0)
+    problems.push_back({.where = "--store",
+                        .limit = "keeps drives of the tolerances, and --runs 0 makes none",
+                        .cure = "leave one of them out"});
+  return problems;
+}
+
 Exit contest_command(const ContestArguments& a) {
+  if (const base::Problems problems = contradictions(a); !problems.empty()) return refused(problems);
   base::Result<analysis::ContestBench> bench = bench_of(a);
   if (!bench) return refused(bench.problems());
-  const base::Result<Contestants> contestants = contestants_of(a);
+  const base::Result<Contestants> contestants = contestants_of(a.own);
   if (!contestants) return refused(contestants.problems());
   std::vector<analysis::ContestEntry> entries =
       text::contest_entries(*bench, files::on_disk(a.data_dir), contestants->all);
   ContestFiles outputs;
   if (const base::Problems found = outputs.open(a, entries); !found.empty()) return refused(found);
   catch_interrupts();
-  const auto compared = [&] {
-    const StopWatch watch;
-    Progress progress({.seconds = {}, .pieces = batch::contest_runs(entries.size(), a.drives), .of = "runs"},
-                      a.quiet);
-    return batch::compare_controllers(std::move(*bench), entries,
-                                      {.drives = a.drives,
-                                       .seed = a.seed,
-                                       .jobs = a.jobs,
-                                       .progress = [&](std::size_t done) { progress.pieces_done(done); },
-                                       .stop = watch.token()});
-  };
-  const analysis::Contest contest = compared();
+  analysis::Contest contest = nominally(a, std::move(*bench), std::move(entries));
+  if (interrupted()) return told_interrupted("compare " + a.motor);
+  if (const base::Problems problems = over_the_tolerances(a, contest); !problems.empty())
+    return refused(problems);
   if (interrupted()) return told_interrupted("compare " + a.motor);
   if (const base::Problems unwritten = write(contest, a, outputs); !unwritten.empty())
     return refused(unwritten);
@@ -214,16 +218,15 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
   verb.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");
   verb.add_option("--board", a.board,
                   "a scenario whose supply, bridge, PWM and sensors all controllers have");
-  verb.add_option(
-          "--own", a.own,
-          "shared object of a controller of one's own, to stand beside the library's; may be repeated")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+  declare_own(verb, a.own);
   verb.add_option("--runs", a.drives,
                   "drives of the sheet's tolerances for each controller; 0: the nominal one alone")
       ->check(CLI::Range(0, 100'000))
       ->capture_default_str();
   verb.add_option("--seed", a.seed, "of these drives")->capture_default_str();
+  verb.add_option("--store", a.store, "an SQLite file for the figures of each of these drives, one row each")
+      ->type_name("FILE");
+  verb.add_flag("--resume", a.resume, "go on with the drives that --store has not yet");
   verb.add_option("--json", a.json, "write everything; - for standard output instead of the tables");
   verb.add_option("--csv", a.csv, "write a line per controller; - for standard output");
   verb.add_option("--html", a.html,

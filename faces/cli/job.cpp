@@ -4,14 +4,16 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <memory>
 #include <utility>
 
 #include "faces/cli/terminal.hpp"
+#include "faces/loop/on_core.hpp"
 #include "text/escape/escape.hpp"
 
 namespace cli {
 
-std::string Job::name() const { return std::filesystem::path(origin_.scenario).stem().string(); }
+std::string Job::name() const { return std::filesystem::path(origin_.scenario).stem().string() + where_; }
 
 void Job::run(const std::function<void(double t_s)>& reached) {
   study::Listeners listeners;
@@ -22,16 +24,26 @@ void Job::run(const std::function<void(double t_s)>& reached) {
     broken_ = broken_ || outputs_.failed();
     return !interrupted_ && !broken_;
   };
-  base::Result<study::Outcome> result = study::run(scenario_, listeners);
-  if (!result) {
-    problems_ = result.problems();
-    for (base::Problem& p : problems_) p.where = origin_.scenario + ": " + p.where;  // of many, which
-    outputs_ = {};
-    return;
-  }
+  base::Result<study::Outcome> result = loop::run(core_, scenario_, listeners);
+  if (!result) return fail(result.problems());
   outcome_ = std::move(*result);
   problems_ = outputs_.publish({scenario_, *outcome_, origin_}, !interrupted_ && !broken_);
   reader_gone_ = broken_ && !interrupted_ && problems_.empty();
+}
+
+base::Problems Job::told(base::Problems problems) const {
+  for (base::Problem& p : problems) p.where = origin_.scenario + ": " + p.where;
+  return problems;
+}
+
+void Job::fail(const base::Problems& problems) {
+  problems_ = told(problems);
+  outputs_ = {};
+}
+
+base::Problems Job::take_core(const loop::Core* core) {
+  core_ = core;
+  return core == nullptr ? base::Problems{} : told(loop::stands_against(*core_, scenario_));
 }
 
 std::string Job::left_out() const {

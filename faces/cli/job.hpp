@@ -7,6 +7,7 @@
 
 #include "faces/cli/exit_code.hpp"
 #include "faces/cli/outputs.hpp"
+#include "faces/loop/cores.hpp"
 
 namespace cli {
 
@@ -21,11 +22,17 @@ class Job {
     return outputs_.open(paths, scenario_, origin_);
   }
 
+  /// Runs its drive on a core too; null: on the host alone. Problems: a drive that none can run.
+  base::Problems take_core(const loop::Core* core);
+  const loop::Core* core() const { return core_; }
+  /// One of two runs of a file: `where` follows its name.
+  void tell_where(std::string where) { where_ = std::move(where); }
+
   /// Runs and puts the outputs in place. `reached` hears the simulated time now and then.
   void run(const std::function<void(double t_s)>& reached);
 
   Exit exit_code() const;
-  std::string name() const;  ///< the file's stem
+  std::string name() const;  ///< the file's stem, and where it ran
   const study::Scenario& scenario() const { return scenario_; }
   const study::Outcome* outcome() const { return outcome_ ? &*outcome_ : nullptr; }
   bool begun() const { return outcome_ || !problems_.empty(); }
@@ -41,12 +48,18 @@ class Job {
   std::string cut_short() const;
 
  private:
+  /// With the file in front: of many, which.
+  base::Problems told(base::Problems problems) const;
+  void fail(const base::Problems& problems);
+
   study::Scenario scenario_;
   files::TraceOrigin origin_;
   Outputs outputs_;
   std::optional<study::Outcome> outcome_;
   base::Problems problems_;
   std::string foretold_;
+  const loop::Core* core_ = nullptr;
+  std::string where_;
   bool interrupted_ = false;
   bool broken_ = false;       // an output could be written no longer
   bool reader_gone_ = false;  // a pipe was closed at its other end

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "faces/cli/choose.hpp"
+#include "faces/cli/plan_storing.hpp"
 #include "faces/cli/settings.hpp"
 #include "files/scenario_on_disk.hpp"
 #include "files/text_file.hpp"
@@ -99,11 +100,7 @@ base::Problems without_series(const std::string& file, const ReadPlan& plan) {
 
 void name_columns(ReadPlan& plan) {
   plan.columns = analysis::columns_of(plan.scenarios->plan(), plan.nominal);
-  for (const std::vector<std::string>* keys : {&plan.columns.keys, &plan.columns.strayed})
-    for (const std::string& key : *keys) {
-      const base::Result<std::string> unit = text::unit_of_key(key);
-      plan.units.push_back(unit ? *unit : "");
-    }
+  plan.units = units_of(plan.columns);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sixstep/base/written.hpp"
+#include "text/plan/plan_file.hpp"
 #include "text/scenario/scenario_text.hpp"
 
 namespace cli {
@@ -31,9 +32,23 @@ base::Result<files::PlanStore> store_of(const RunArguments& a, const ReadPlan& p
                            .scenario_text = text::scenario_text(plan.nominal),
                            .columns = plan.columns,
                            .units = plan.units};
-  base::Result<files::PlanStore> store =
-      a.plan.resume ? files::PlanStore::resume(store_path(a, plan.name), std::move(stored))
-                    : files::PlanStore::create(store_path(a, plan.name), std::move(stored), a.paths.force);
+  return store_at(store_path(a, plan.name), a.plan.resume, a.paths.force, std::move(stored));
+}
+
+std::vector<std::string> units_of(const analysis::PlanColumns& columns) {
+  std::vector<std::string> units;
+  for (const std::vector<std::string>* keys : {&columns.keys, &columns.strayed})
+    for (const std::string& key : *keys) {
+      const base::Result<std::string> unit = text::unit_of_key(key);
+      units.push_back(unit ? *unit : "");
+    }
+  return units;
+}
+
+base::Result<files::PlanStore> store_at(const std::string& path, bool resume, bool force,
+                                        files::StoredPlan plan) {
+  base::Result<files::PlanStore> store = resume ? files::PlanStore::resume(path, std::move(plan))
+                                                : files::PlanStore::create(path, std::move(plan), force);
   if (store) return store;
   base::Problems problems = store.problems();
   for (base::Problem& problem : problems) in_options(problem);

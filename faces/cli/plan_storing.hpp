@@ -10,4 +10,11 @@ namespace cli {
 base::Result<files::PlanStore> store_of(const RunArguments& arguments, const ReadPlan& plan,
                                         std::string identity);
 
+/// Of the varied keys, then of the strayed ones; empty where a key has none.
+std::vector<std::string> units_of(const analysis::PlanColumns& columns);
+
+/// A new one, or one to go on with; what the store says of itself names these options.
+base::Result<files::PlanStore> store_at(const std::string& path, bool resume, bool force,
+                                        files::StoredPlan plan);
+
 }  // namespace cli

@@ -19,6 +19,7 @@
 #include "faces/cli/run_reading.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/whole_in.hpp"
+#include "faces/loop/cores.hpp"
 #include "files/atomic_file.hpp"
 #include "text/escape/escape.hpp"
 #include "text/results/junit.hpp"
@@ -160,6 +161,12 @@ Exit run_again_on_save(const RunArguments& arguments) {
   }
 }
 
+base::Problems one_at_a_time() {
+  return {{.where = "--on",
+           .limit = "runs one scenario on a core, and this is a plan of many runs",
+           .cure = "take one run of it: --only N, or --drive N of a series"}};
+}
+
 Exit run_command(const RunArguments& arguments) {
   if (const base::Problems problems = contradictions(arguments); !problems.empty()) return refused(problems);
   catch_interrupts();
@@ -167,7 +174,7 @@ Exit run_command(const RunArguments& arguments) {
   const bool alone = arguments.drive || arguments.plan.only;
   if (!alone &&
       std::ranges::any_of(arguments.files, [&](const std::string& f) { return plans(arguments, f); }))
-    return plan_command(arguments);
+    return arguments.on.empty() ? plan_command(arguments) : refused(one_at_a_time());
   if (arguments.watch) return run_again_on_save(arguments);
   JobsRead read = read_jobs(arguments);
   return run_jobs(arguments, read);
@@ -180,6 +187,12 @@ std::string names_in_folder() {
     if (!format.in_folder.empty())
       text += fmt::format("{}NAME{}", text.empty() ? "" : ", ", format.in_folder);
   return text;
+}
+
+std::vector<std::string_view> core_names() {
+  std::vector<std::string_view> names;
+  for (const loop::Core& core : loop::cores()) names.push_back(core.name);
+  return names;
 }
 
 void declare_plan_options(CLI::App& run, PlanArguments& a) {
@@ -228,6 +241,13 @@ void declare_options(CLI::App& run, RunArguments& a) {
          "--amplitude", a.amplitude,
          "of --bode's multisine, A, rad/s or deg; without it a twentieth of where the reference stands")
       ->needs(bode);
+  run.add_option(
+         "--on", a.on,
+         fmt::format(
+             "the drive runs on this core, in an emulator: {}; or the firmware that a map, MAP.toml, names",
+             fmt::join(core_names(), ", ")))
+      ->excludes(bode)
+      ->excludes(runs);
   declare_plan_options(run, a.plan);
 }
 

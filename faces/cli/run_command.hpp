@@ -38,7 +38,8 @@ struct RunArguments {
   bool bode = false;                ///< the loop's frequency response, instead of a run
   std::optional<double> amplitude;  ///< of its multisine, in the mode's unit
   std::string junit;                ///< verdicts for build servers
-  std::string command;              ///< the command line as it may be typed again
+  std::string on;       ///< the core that runs the drive, beside the host or in its place; empty: none
+  std::string command;  ///< the command line as it may be typed again
 };
 
 /// `sixstep run FILE ..`: runs scenarios, judges them, writes what is asked for.

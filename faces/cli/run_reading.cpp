@@ -7,10 +7,12 @@
 #include <map>
 #include <optional>
 
+#include "faces/cli/choose.hpp"
 #include "faces/cli/compare_command.hpp"
 #include "faces/cli/plan_reading.hpp"
 #include "faces/cli/settings.hpp"
 #include "faces/cli/written_twice.hpp"
+#include "faces/loop/own_firmware.hpp"
 #include "files/scenario_on_disk.hpp"
 #include "files/text_file.hpp"
 
@@ -93,6 +95,28 @@ base::Problems same_outputs(const RunArguments& arguments) {
   return problems;
 }
 
+struct NamedCore {
+  std::string_view word;
+  const loop::Core* value;
+};
+
+/// Null: on the host alone.
+const loop::Core* core_of(const RunArguments& arguments, JobsRead& read) {
+  const loop::Core* core = nullptr;
+  if (names_own_firmware(arguments)) {
+    const base::Result<std::string> text = files::read_text(arguments.on);
+    base::Result<loop::Core> own =
+        text ? loop::own_firmware(arguments.on, *text) : base::Result<loop::Core>(text.problems());
+    if (own) return (read.own_core = std::make_unique<loop::Core>(std::move(*own))).get();
+    append(read.problems, own.problems());
+    return nullptr;
+  }
+  std::vector<NamedCore> known;
+  for (const loop::Core& one : loop::cores()) known.push_back({one.name, &one});
+  if (!arguments.on.empty()) choose("--on", arguments.on, known, core, read.problems);
+  return core;
+}
+
 }  // namespace
 
 base::Problems contradictions(const RunArguments& arguments) {
@@ -112,12 +136,23 @@ base::Problems contradictions(const RunArguments& arguments) {
 JobsRead read_jobs(const RunArguments& arguments) {
   JobsRead read;
   const files::ReadOptions options = read_options(arguments.data_dir, arguments.sets, read.problems);
+  const loop::Core* const core = core_of(arguments, read);
   if (!read.problems.empty()) return read;
   const bool one_of_a_plan = arguments.drive || arguments.plan.only;
-  for (const std::string& file : arguments.files)
+  const bool twice = compares(arguments) && lays_over(arguments);
+  std::vector<std::string> files = arguments.files;
+  if (twice) files.push_back(files.front());
+  for (const std::string& file : files)
     if (std::optional<Job> job = one_of_a_plan ? read_one_of_a_plan(file, arguments, read)
                                                : read_job(file, arguments, options, read))
       read.jobs.push_back(std::move(*job));
+  if (twice && read.jobs.size() == 2) {
+    read.jobs[0].tell_where(" on the host");
+    read.jobs[1].tell_where(fmt::format(" on the {}", core->title));
+    append(read.problems, read.jobs[1].take_core(core));
+    return read;
+  }
+  for (Job& job : read.jobs) append(read.problems, job.take_core(core));
   return read;
 }
 

@@ -13,6 +13,7 @@ namespace cli {
 base::Problems contradictions(const RunArguments& arguments);
 
 struct JobsRead {
+  std::unique_ptr<loop::Core> own_core;  ///< of --on MAP, which its jobs point to
   std::vector<Job> jobs;
   base::Problems problems;
   std::vector<std::string> files;  ///< all that were read, or could not be

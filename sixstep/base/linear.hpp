@@ -21,6 +21,8 @@ struct LinearUnit {
 inline constexpr LinearUnit linear_units[] = {
     {"rad", "m"},
     {"rad/s", "m/s"},
+    {"rad/s2", "m/s2"},
+    {"rad/s3", "m/s3"},
     {"deg", "mm", 1e3 * pi / 180},
     {"rpm", "m/s", pi / 30},
     {"N m", "N"},

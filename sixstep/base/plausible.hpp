@@ -31,7 +31,8 @@ inline constexpr Plausible plausible_numbers[] = {
     {"N", 1e-12, 1e6},        {"kg", 1e-15, 1e9},        {"m/s", 1e-9, 1e6},       {"m", 1e-9, 1e6},
     {"N s/m", 1e-15, 1e6},    {"N/m", 1e-9, 1e12},       {"N s2/m2", 1e-18, 1e3},  {"N/A", 1e-9, 1e4},
     {"V s/m", 1e-9, 1e4},     {"A h", 1e-9, 1e6},        {"J", 1e-15, 1e6},        {"C", 1e-15, 1e6},
-    {"percent/K", 1e-6, 100},
+    {"percent/K", 1e-6, 100}, {"rad/s2", 1e-9, 1e12},    {"rad/s3", 1e-9, 1e18},   {"m/s2", 1e-9, 1e12},
+    {"m/s3", 1e-9, 1e18},
 };
 
 /// Gains, ratios and what is in a unit of its own.

@@ -51,6 +51,7 @@ struct Telemetry {
   Scalar current_reference_A{};
   Scalar speed_reference_rad_s{};
   Scalar duty{};  ///< signed
+  [[no_unique_address]] ProfiledReference<Scalar> position{};
 };
 
 namespace detail {
@@ -90,11 +91,11 @@ constexpr void arm_hysteresis(const DriveConfig<Scalar>& config, DriveState<Scal
 
 /// The setpoint of a speed loop: the position loop's answer, or what was asked.
 template <class Scalar>
-constexpr Scalar speed_reference(const DriveConfig<Scalar>& config, Mode mode, Scalar setpoint,
-                                 const Measurement<Scalar>& measured) {
+constexpr Scalar speed_reference(const DriveConfig<Scalar>& config, const DriveState<Scalar>& state,
+                                 Mode mode, Scalar setpoint, const Measurement<Scalar>& measured) {
   if (mode != Mode::position) return setpoint;
-  return clamped(ScalarTraits<Scalar>::product(setpoint - measured.position_deg, config.position_gain),
-                 config.speed_limit_rad_s);
+  const Scalar w = ScalarTraits<Scalar>::product(setpoint - measured.position_deg, config.position_gain);
+  return clamped(with_speed_ahead(config.extras, state.extras, w), config.speed_limit_rad_s);
 }
 
 /// The speed controller's output: a fraction of the torque limit, or the duty.
@@ -206,7 +207,7 @@ constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveStat
   const bool limits = config.extras.on && config.extras.limits_current;
   Scalar i_ref = value;
   if (mode != Mode::current) {
-    const Scalar w_ref = speed_reference(config, mode, value, measured);
+    const Scalar w_ref = speed_reference(config, state, mode, value, measured);
     const Scalar error = w_ref - measured.speed_rad_s;
     telemetry.speed_reference_rad_s = w_ref;
     if (config.speed_control == SpeedControl::duty)
@@ -257,9 +258,11 @@ constexpr const BridgeCommand<Scalar>& step_in(Mode mode, const DriveConfig<Scal
   state.command.chopping = config.chopping;
   telemetry.motor_current_A = i_m;
   Scalar value = setpoint.value;
-  if (config.extras.on)
+  if (config.extras.on) {
     value = detail::slewed_setpoint(config.extras, state.extras, mode, value,
-                                    detail::measured_value(mode, measured, i_m));
+                                    detail::measured_value(mode, measured, i_m), measured.speed_rad_s);
+    detail::tell_profile(config.extras, state.extras, value, telemetry);
+  }
   if (config.extras.on && config.extras.steps_commutation)
     detail::look_at_commutation(mode, config, state, measured, sector);
   detail::run_loops(mode, config, state, measured, positive, value, i_m, telemetry);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a product adds inside the drive's loops: a slewed setpoint, a window for the current reference,
 // back-EMF feed-forward, the measured bus, chopping that is smooth through zero, a speed loop by another law than
-// the PI in velocity form, a current loop that predicts, the current of the phase that does not commutate, and a duty
-// that holds it while the others hand over. All of
+// the PI in velocity form, a current loop that predicts, the current of the phase that does not commutate, a duty
+// that holds it while the others hand over, and a position setpoint by a profile. All of
 // it stands behind one flag, so that a drive without extras pays one branch per tick.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
@@ -15,6 +15,7 @@
 #include "sixstep/control/observed_speed.hpp"
 #include "sixstep/control/pi.hpp"
 #include "sixstep/control/pi_positional.hpp"
+#include "sixstep/control/profiled_position.hpp"
 #include "sixstep/control/pwm_pattern.hpp"
 #include "sixstep/control/slew.hpp"
 #include "sixstep/control/sliding_speed.hpp"
@@ -69,6 +70,8 @@ struct DriveExtras {
   DerivativeConfig<Scalar> speed_derivative{};  ///< of the measured speed, taken off the output
   Gain<Scalar> speed_weight_off{};  ///< (1 - b) K with a weight b of the setpoint in the proportional part
   SpeedLaws<Scalar> laws{};         ///< within the limit of DriveConfig::speed
+  [[no_unique_address]] ProfiledPositionConfig<Scalar>
+      position{};  ///< in Mode::position, in the slew's place
   bool operator==(const DriveExtras&) const = default;
 };
 
@@ -83,18 +86,55 @@ struct DriveExtrasState {
   PiPositionalState<Scalar> speed{};
   DerivativeState<Scalar> speed_derivative{};
   SpeedLawsState<Scalar> laws{};
-  Mode slewing = Mode::off;  ///< the mode whose setpoint slews: a new one starts at what is measured
+  [[no_unique_address]] ProfiledPositionState<Scalar> position{};
+  Mode slewing = Mode::off;  ///< the mode whose setpoint is shaped: a new one starts at what is measured
 };
 
 namespace detail {
 
 template <class Scalar>
 constexpr Scalar slewed_setpoint(const DriveExtras<Scalar>& extras, DriveExtrasState<Scalar>& state,
-                                 Mode mode, Scalar setpoint, Scalar measured) {
+                                 Mode mode, Scalar setpoint, Scalar measured, Scalar speed_rad_s) {
+  if constexpr (requires { extras.position.profile; }) {
+    if (extras.position.on) {
+      const Mode shaped = state.slewing;
+      state.slewing = mode;
+      state.position.runs = mode == Mode::position;
+      if (state.position.runs)
+        return profiled_setpoint(extras.position, state.position, shaped, setpoint, measured, speed_rad_s);
+      state.slewing = shaped == mode ? mode : Mode::off;
+    }
+  }
   if (!extras.slews_setpoint) return setpoint;
   if (state.slewing != mode) state.slew.y = ScalarTraits<Scalar>::accumulator(measured);
   state.slewing = mode;
   return slew_step(extras.slew, state.slew, setpoint);
+}
+
+template <class Scalar, class Telemetry>
+constexpr void tell_profile(const DriveExtras<Scalar>& extras, const DriveExtrasState<Scalar>& state,
+                            Scalar reference, Telemetry& telemetry) {
+  if constexpr (requires { extras.position.profile; }) {
+    telemetry.position = {extras.position.on && state.position.runs, reference};
+  }
+}
+
+/// Whether this tick's motion is told ahead.
+template <class Scalar>
+constexpr bool tells_ahead(const DriveExtras<Scalar>& extras, const DriveExtrasState<Scalar>& state) {
+  if constexpr (requires { extras.position.profile; })
+    return extras.on && extras.position.on && extras.position.feed_forward.on && state.position.runs;
+  else
+    return false;
+}
+
+/// The speed that a position loop asks for, and the profile's beside it.
+template <class Scalar>
+constexpr Scalar with_speed_ahead(const DriveExtras<Scalar>& extras, const DriveExtrasState<Scalar>& state,
+                                  Scalar w) {
+  if constexpr (requires { extras.position.profile; })
+    if (tells_ahead(extras, state)) return w + state.position.profile.now.speed_rad_s;
+  return w;
 }
 
 template <class Scalar>
@@ -107,12 +147,14 @@ constexpr CurrentWindow<Scalar> allowed_current(const DriveExtras<Scalar>& extra
 /// K (b r - y) + integral - derivative: two degrees of freedom (Astrom and Hagglund, PID Controllers, 3.4).
 template <class Scalar>
 constexpr Scalar positional_speed(const DriveExtras<Scalar>& extras, DriveExtrasState<Scalar>& state,
-                                  Scalar error, Scalar speed_rad_s, Scalar low, Scalar high) {
+                                  Scalar error, Scalar speed_rad_s, Scalar ahead, Scalar low, Scalar high) {
+  using T = ScalarTraits<Scalar>;
   const Accumulator<Scalar> braked =
       derivative_step(extras.speed_derivative, state.speed_derivative, speed_rad_s);
-  const Accumulator<Scalar> weighted =
-      ScalarTraits<Scalar>::accumulated(error + speed_rad_s, extras.speed_weight_off);
-  return pi_positional_step(extras.speed, state.speed, error, -braked - weighted, low, high);
+  const Accumulator<Scalar> weighted = T::accumulated(error + speed_rad_s, extras.speed_weight_off);
+  const Accumulator<Scalar> known =
+      ahead == Scalar{} ? -braked - weighted : -braked - weighted + T::accumulator(ahead);
+  return pi_positional_step(extras.speed, state.speed, error, known, low, high);
 }
 
 /// The speed controller, in a cascade within the window: it cannot wind up against a limit that it does not see.
@@ -128,14 +170,19 @@ constexpr Scalar speed_with_extras(const DriveExtras<Scalar>& extras, DriveExtra
     low = between(T::product(window->low, extras.torque_fraction_per_A), -limit, limit);
     high = between(T::product(window->high, extras.torque_fraction_per_A), -limit, limit);
   }
-  if (positional) return positional_speed(extras, state, error, speed_rad_s, low, high);
+  Scalar ahead{};
+  if constexpr (requires { extras.position.profile; })
+    if (tells_ahead(extras, state))
+      ahead = torque_ahead(extras.position.feed_forward, state.position.profile.now);
+  if (positional) return positional_speed(extras, state, error, speed_rad_s, ahead, low, high);
   if constexpr (requires { extras.laws.observed; }) {
     if (extras.speed_law == SpeedLaw::observed)
       return observed_speed_step(extras.laws.observed, state.laws.observed, error, speed_rad_s, low, high);
     if (extras.speed_law == SpeedLaw::sliding)
       return sliding_speed_step(extras.laws.sliding, state.laws.sliding, error, speed_rad_s, low, high);
   }
-  return pi_step(config, pi, error, low, high);
+  return ahead == Scalar{} ? pi_step(config, pi, error, low, high)
+                           : pi_beside(config, pi, error, ahead, low, high);
 }
 
 /// u = u_PI + e, both together within the limit of the PI. At an end of it u is that end itself: (limit - e)

@@ -8,8 +8,9 @@
 //   other law   of the speed loop: the new one begins at the output that the old one holds, at no error nothing moves
 //               (of a positional form whose setpoint is not weighted).
 //   other mode  a loop that both modes run keeps its state; one that only the new mode runs begins at rest,
-//               its output 0. A setpoint that slews starts at what is measured (drive_extras.hpp). The bridge
-//               keeps the last command until the next tick.
+//               its output 0. A setpoint that slews or has a profile starts at what is measured (drive_extras.hpp).
+//               The bridge keeps the last command until the next tick.
+//   other limits of a position profile: it goes on from where it is and as fast, without acceleration.
 #pragma once
 #include "sixstep/control/protected_drive.hpp"
 
@@ -78,6 +79,22 @@ constexpr void hand_speed_over(const DriveConfig<Scalar>& config, DriveState<Sca
   }
 }
 
+/// Its counts are of its limits.
+template <class Scalar>
+constexpr void hand_profile_over(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
+                                 const DriveConfig<Scalar>& next) {
+  if constexpr (requires { next.extras.position.profile; }) {
+    if (!next.extras.on || !next.extras.position.on) return;
+    const JerkProfileConfig<Scalar>& profile = next.extras.position.profile;
+    if (!config.extras.on || !config.extras.position.on) {
+      state.extras.slewing = Mode::off;
+    } else if (!(profile == config.extras.position.profile)) {
+      const ProfiledMotion<Scalar> now = state.extras.position.profile.now;
+      begin_profile(profile, state.extras.position.profile, now.position_deg, now.speed_rad_s);
+    }
+  }
+}
+
 }  // namespace detail
 
 template <class Scalar>
@@ -85,6 +102,7 @@ constexpr void retune(DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                       const DriveConfig<Scalar>& next) {
   if (next.mode != config.mode) detail::rest_idle_loops(config, state);
   detail::hand_speed_over(config, state, next);
+  detail::hand_profile_over(config, state, next);
   config = next;
 }
 
@@ -95,6 +113,7 @@ constexpr void retune(ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& s
   if (next.drive.mode != config.drive.mode && state.activity.activity == Activity::run)
     detail::rest_idle_loops(config.drive, state.drive);
   detail::hand_speed_over(config.drive, state.drive, next.drive);
+  detail::hand_profile_over(config.drive, state.drive, next.drive);
   config = next;
 }
 

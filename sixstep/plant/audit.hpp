@@ -58,12 +58,12 @@ class Audit {
   [[gnu::always_inline]] static Point begin_of(const Expansion<Real>& y, const LegsLaw<Real>& law);
   [[gnu::always_inline]] static Point end_of(const Expansion<Real>& y, const LegsLaw<Real>& law,
                                              const Point& begin);
-  void begin(const Plant<Real>& plant);
+  [[gnu::always_inline]] void begin(const Plant<Real>& plant);
   [[gnu::always_inline]] void check_laws(const LegsLaw<Real>& law, const Point& begin, const Point& end);
-  Real magnetic_energy(const Point& p) const {
+  [[gnu::always_inline]] Real magnetic_energy(const Point& p) const {
     return (p.i[0] * p.i[0] + p.i[1] * p.i[1] + p.i[2] * p.i[2]) / (2 * inv_L_);
   }
-  Real kinetic_energy(const Point& p) const { return p.w * p.w / (2 * inv_J_); }
+  [[gnu::always_inline]] Real kinetic_energy(const Point& p) const { return p.w * p.w / (2 * inv_J_); }
 
   bool begun_ = false;
   Real inv_L_ = 1, inv_J_ = 1;
@@ -75,7 +75,7 @@ class Audit {
 };
 
 template <class Real>
-void Audit<Real>::begin(const Plant<Real>& plant) {
+inline void Audit<Real>::begin(const Plant<Real>& plant) {
   const Constants<Real>& c = plant.constants();
   const Expansion<Real>& y = plant.expansion();
   begun_ = true;
@@ -164,8 +164,13 @@ EnergyBook Audit<Real>::energy() const {
           .mechanical_residual = d((air_gap - friction - load - kinetic) / scale)};
 }
 
-// Compiled once, with the energies in it, for any processor and for those with AVX (plant/expand.hpp).
+// Compiled once, with the energies in it, for any processor and for those with AVX (plant/audit_avx.cpp).
 template <>
 void Audit<double>::segment(const Plant<double>& plant, double s);
+#ifdef __x86_64__
+namespace detail {
+void audit_with_avx(Audit<double>& audit, const Plant<double>& plant, double s);
+}
+#endif
 
 }  // namespace sixstep::plant

@@ -17,6 +17,8 @@ struct SegmentEnergy {
 
 namespace detail {
 
+inline namespace SIXSTEP_LANES {
+
 /// Integrals of squares and currents, in units of the segment's length, of the connected legs in the law's order.
 template <class Real>
 struct LegIntegrals {
@@ -29,12 +31,22 @@ struct Moving {
   series::Nodes<points, Real> i_1, i_2, w, torque;
 };
 
+/// Which of the terms there are: where a number below is one that the compiler knows, what it does not ask for is left out.
+template <class Real>
+struct Moves {
+  unsigned connected;  ///< legs
+  bool turning;
+  Real torque_per_A;  ///< of the first leg's current, where the torque is in proportion to it; else 0
+
+  [[gnu::always_inline]] bool conducts() const { return connected >= 2; }
+};
+
 /// i_c = -(i_a + i_b), or i_b = -i_a where two legs are connected: one or two series say all.
 template <int points, class Real>
-[[gnu::always_inline]] inline LegIntegrals<Real> leg_integrals(const LegsLaw<Real>& law,
+[[gnu::always_inline]] inline LegIntegrals<Real> leg_integrals(unsigned connected,
                                                                const Moving<points, Real>& at) {
   using series::weighted_sums;
-  if (law.connected == 2) {
+  if (connected == 2) {
     const auto sums = weighted_sums<points>(at.i_1 * at.i_1, at.i_1);
     return {{sums[0], sums[0], 0}, {sums[1], -sums[1], 0}};
   }
@@ -47,13 +59,12 @@ template <int points, class Real>
 
 /// Copper, devices and supply: what the currents do. `dt` is the length in seconds.
 template <int points, class Real>
-[[gnu::always_inline]] inline void electrical_energy(const Constants<Real>& c, const Mode& mode,
-                                                     const Expansion<Real>& y, Real dt,
+[[gnu::always_inline]] inline void electrical_energy(const Constants<Real>& c, const LegsLaw<Real>& law,
+                                                     unsigned connected, const Expansion<Real>& y, Real dt,
                                                      const series::Nodes<points, Real>& s,
                                                      const Moving<points, Real>& at,
                                                      SegmentEnergy<Real>& out) {
-  const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
-  const LegIntegrals<Real> legs = leg_integrals<points>(law, at);
+  const LegIntegrals<Real> legs = leg_integrals<points>(connected, at);
   // Of a floating leg in the third place both integrals are zero.
   const PerLeg<PoleTerms<Real>>& pole = law.pole;
   const auto device = [&](int n) {
@@ -87,44 +98,72 @@ template <int points, class Real>
   if (conducts) out.air_gap = dt * series::weighted_sum<points>(at.torque, at.w);
 }
 
-/// Only what is asked for of them, in one pass.
+/// Only what is asked for, in one pass.
 template <int points, class Real>
 [[gnu::always_inline]] inline Moving<points, Real> moving_at(const LegsLaw<Real>& law,
+                                                             const Moves<Real>& moves,
                                                              const Expansion<Real>& y,
-                                                             const series::Nodes<points, Real>& s,
-                                                             bool conducts, bool turning) {
+                                                             const series::Nodes<points, Real>& s) {
   const auto values = [&](const series::Coefficients<Real>& c) __attribute__((always_inline)) {
     return series::values_of_fitting<points>(c, y.degree, s);
   };
   Moving<points, Real> at;
-  if (conducts) {
+  if (moves.conducts()) {
     at.i_1 = values(y.i[law.leg[0]]);
-    at.i_2 = law.connected == 3 ? values(y.i[law.leg[1]]) : -at.i_1;
+    at.i_2 = moves.connected == 3 ? values(y.i[law.leg[1]]) : -at.i_1;
   }
-  if (turning) at.w = values(y.w);
-  if (conducts && turning) at.torque = values(y.torque);
+  if (moves.turning) at.w = values(y.w);
+  if (moves.conducts() && moves.turning)
+    at.torque = moves.torque_per_A != 0 ? moves.torque_per_A * at.i_1 : values(y.torque);
   return at;
 }
 
+template <int points, class Real>
+[[gnu::always_inline]] inline SegmentEnergy<Real> energy_of(const Plant<Real>& plant,
+                                                            const LegsLaw<Real>& law,
+                                                            const Moves<Real>& moves, Real to) {
+  const Constants<Real>& c = plant.constants();
+  const Expansion<Real>& y = plant.expansion();
+  SegmentEnergy<Real> out;
+  const auto s = series::nodes_up_to<points>(to);
+  const auto at = moving_at<points>(law, moves, y, s);
+  const Real dt = y.h * to;
+  if (moves.conducts()) electrical_energy<points>(c, law, moves.connected, y, dt, s, at, out);
+  if (moves.turning) shaft_energy<points>(c, plant.mode(), dt, at, moves.conducts(), out);
+  return out;
+}
+
+/// Torque per current of the first leg, N m/A, where two legs share one and neither back-EMF per speed moves; else 0.
+template <class Real>
+[[gnu::always_inline]] inline Real steady_torque_per_A(const Constants<Real>& c, const Mode& mode,
+                                                       const LegsLaw<Real>& law) {
+  if (law.connected != 2 || c.sine) return 0;
+  const EmfPiece<Real>& piece = c.emf[mode.sector].piece[mode.piece];
+  const int j = law.leg[0], k = law.leg[1];
+  // mutant: piece.beta[j] == piece.beta[k] => true
+  return piece.beta[j] == piece.beta[k] ? piece.alpha[j] - piece.alpha[k] : Real(0);
+}
+
+/// A turning rotor with two legs on their flat tops or three connected is what nearly all segments are: each of these without a
+/// branch of its own.
 template <class Real>
 [[gnu::always_inline]] inline SegmentEnergy<Real> segment_energy_here(const Plant<Real>& plant, Real to) {
   const Constants<Real>& c = plant.constants();
-  const Expansion<Real>& y = plant.expansion();
   const Mode& mode = plant.mode();
   const LegsLaw<Real>& law = c.legs[legs_index(mode.legs)];
-  const bool conducts = law.connected >= 2, turning = turns(mode.motion);
-  SegmentEnergy<Real> out;
-  if (!conducts && !turning) return out;
-  series::with_points_for(
-      y.degree, [&]<int points>() __attribute__((always_inline)) {
-        const auto s = series::nodes_up_to<points>(to);
-        const auto at = moving_at<points>(law, y, s, conducts, turning);
-        const Real dt = y.h * to;
-        if (conducts) electrical_energy<points>(c, mode, y, dt, s, at, out);
-        if (turning) shaft_energy<points>(c, mode, dt, at, conducts, out);
+  const bool turning = turns(mode.motion);
+  const unsigned connected = law.connected;
+  if (connected < 2 && !turning) return {};
+  const Real per_A = steady_torque_per_A(c, mode, law);
+  return series::with_points_for(
+      plant.expansion().degree, [&]<int points>() __attribute__((always_inline)) {
+        if (turning && connected == 3) return energy_of<points>(plant, law, Moves<Real>{3, true, 0}, to);
+        if (turning && per_A != 0) return energy_of<points>(plant, law, Moves<Real>{2, true, per_A}, to);
+        return energy_of<points>(plant, law, Moves<Real>{connected, turning, 0}, to);
       });
-  return out;
 }
+
+}  // namespace SIXSTEP_LANES
 
 }  // namespace detail
 
@@ -134,7 +173,12 @@ template <class Real>
 SegmentEnergy<Real> segment_energy(const Plant<Real>& plant, Real to) {
   return detail::segment_energy_here(plant, to);
 }
-/// Of doubles compiled once, for any processor and for those with AVX: the same bits (plant/expand.hpp).
+/// Of doubles compiled once, for any processor and for those with AVX: the same bits (plant/audit_avx.cpp).
 SegmentEnergy<double> segment_energy(const Plant<double>& plant, double to);
+#ifdef __x86_64__
+namespace detail {
+SegmentEnergy<double> segment_energy_with_avx(const Plant<double>& plant, double to);
+}
+#endif
 
 }  // namespace sixstep::plant

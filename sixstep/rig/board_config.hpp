@@ -3,6 +3,8 @@
 #pragma once
 #include "sixstep/control/hall.hpp"
 #include "sixstep/rig/bases.hpp"
+#include "sixstep/rig/beside_core.hpp"
+#include "sixstep/rig/chip_port.hpp"
 #include "sixstep/rig/front_end_config.hpp"
 #include "sixstep/rig/pulse.hpp"
 #include "sixstep/rig/registers.hpp"
@@ -19,6 +21,8 @@ struct BoardConfig {
   FrontEndConfig front_end{};
   /// Of the probes: what the board makes of their codes for drives that know one arrangement alone.
   control::HallArrangement hall_arrangement = control::HallArrangement::degrees_120;
+  CorePort core{};  ///< that runs the drive beside the host
+  ChipPort chip{};  ///< that runs a firmware of its own in the drive's place
 };
 
 /// What a firmware may know before its first sample.

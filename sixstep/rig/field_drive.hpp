@@ -9,7 +9,7 @@
 // an encoder, a resolver or Hall edges they are made of the angle that was decoded, as the chip does it
 // (field_direction.hpp).
 #pragma once
-#include "sixstep/control/field/field_drive.hpp"
+#include "sixstep/control/field/sensorless_field_drive.hpp"
 #include "sixstep/rig/field_held.hpp"
 #include "sixstep/rig/firmware.hpp"
 #include "sixstep/rig/magnet_angle.hpp"
@@ -21,7 +21,7 @@ class FieldDrive {
  public:
   using Number = Scalar;
   using Command = control::LegCommands<Scalar>;
-  using Config = control::FieldDriveConfig<Scalar>;
+  using Config = control::SensorlessFieldConfig<Scalar>;
   static constexpr bool fault_ends_run = true;
 
   FieldDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
@@ -36,16 +36,16 @@ class FieldDrive {
                                            .magnet = {}};
     if (!ideal_) sensors_.sense(input.measured, sample_of(instant));
     input.magnet = sensors_.tells_angle()
-                       ? control::field_directions(config_.advance, sensors_.electrical_angle(),
+                       ? control::field_directions(config_.field.advance, sensors_.electrical_angle(),
                                                    input.measured.speed_rad_s)
                        : directions_as_they_are(instant.state);
-    control::field_drive_step(config_, state_, input, {from_si<Scalar>(setpoint, bases_.setpoint)},
-                              telemetry_);
+    control::sensorless_field_step(config_, state_, input, {from_si<Scalar>(setpoint, bases_.setpoint)},
+                                   telemetry_);
+    angle_error_deg_ = error_deg(instant.state);
     if (sensors_.shaft_found().lost()) {
-      state_.command = Command{};
-      state_.command.fault = true;
+      state_.field.command = control::detail::given_up_legs<Scalar>();
     }
-    return state_.command;
+    return state_.field.command;
   }
   void captured(std::uint8_t pins, const sim::Instant& at) { sensors_.hall_edge(pins, at); }
   void request_run(bool) {}
@@ -55,13 +55,19 @@ class FieldDrive {
     bases_.setpoint = tuning.setpoint_unit;
   }
 
-  control::Mode mode() const { return config_.drive.mode; }
+  control::Mode mode() const { return config_.field.drive.mode; }
   /// Asks nothing of a tick but the setpoint.
-  bool open_loop() const { return config_.drive.mode == control::Mode::off; }
+  bool open_loop() const { return config_.field.drive.mode == control::Mode::off; }
   bool follows_setpoint_at_once() const { return false; }
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
   Diagnosis diagnosis() const {
-    return {.hall_line = sensors_.broken_line(), .shaft = sensors_.shaft_found()};
+    Diagnosis found{.hall_line = sensors_.broken_line(), .shaft = sensors_.shaft_found()};
+    if (state_.estimator.phase != control::EstimatorPhase::unseen) return found;
+    found.unseen = 1;
+    found.gave_up = true;
+    found.north = static_cast<double>(control::magnitude(control::north_seen(state_.estimator.north)));
+    found.certain = static_cast<double>(config_.estimator.north.certain);
+    return found;
   }
   /// What its converters and timers are fed with.
   Registers& registers() { return sensors_.registers(); }
@@ -73,29 +79,41 @@ class FieldDrive {
     sensors_.follow(motion);
   }
   /// Currents and voltages of the last tick, in the rotor's frame.
-  const control::FieldDriveState<Scalar>& state() const { return state_; }
+  const control::FieldDriveState<Scalar>& state() const { return state_.field; }
+  /// What is known of the magnet where no sensor tells it.
+  const control::EstimatorState<Scalar>& estimator() const { return state_.estimator; }
   FieldHeld field_held() const {
     const auto si = [](const control::Dq<Scalar>& x, double unit) {
       return control::Dq<double>{to_si(x.d, unit), to_si(x.q, unit)};
     };
-    return {si(state_.measured, bases_.current_A), si(state_.reference, bases_.current_A),
-            si(state_.current.voltage, bases_.voltage_V)};
+    return {si(state_.field.measured, bases_.current_A), si(state_.field.reference, bases_.current_A),
+            si(state_.field.current.voltage, bases_.voltage_V), angle_error_deg_};
   }
 
  private:
+  /// Of what the last tick went by.
+  template <class Real>
+  double error_deg(const plant::State<Real>& s) const {
+    if (!config_.estimator.on && !sensors_.tells_angle()) return 0.0;
+    const control::BinaryAngle taken =
+        config_.estimator.on ? state_.estimator.sampled : control::magnet_angle(sensors_.electrical_angle());
+    constexpr double deg = 360.0 / 4294967296.0;
+    return deg * static_cast<double>(control::way_between(binary_angle(magnet_rad(s)), taken));
+  }
   template <class Real>
   control::FieldDirections<Scalar> directions_as_they_are(const plant::State<Real>& s) const {
     const double magnet = magnet_rad(s);
-    const double on = static_cast<double>(config_.advance.rad_s) * static_cast<double>(s.w);
-    return {direction_at<Scalar>(magnet), direction_at<Scalar>(magnet + on)};
+    const double on = static_cast<double>(config_.field.advance.rad_s) * static_cast<double>(s.w);
+    return {direction_at<Scalar>(magnet), direction_at<Scalar>(magnet + on), binary_angle(magnet)};
   }
 
   Config config_;
   Sensors<Scalar> sensors_;
   Bases bases_;
   bool ideal_;
-  control::FieldDriveState<Scalar> state_{};
+  control::SensorlessFieldState<Scalar> state_{};
   control::Telemetry<Scalar> telemetry_{};
+  double angle_error_deg_ = 0.0;
 };
 
 }  // namespace sixstep::rig

@@ -9,6 +9,7 @@ namespace sixstep::rig {
 struct FieldHeld {
   control::Dq<double> measured_A{}, reference_A{};
   control::Dq<double> voltage_V{};  ///< of a phase, as asked for
+  double angle_error_deg = 0.0;     ///< electrical: where the magnet is taken to point, less where it does
 };
 
 /// That of a firmware that has it; of any other zeros.

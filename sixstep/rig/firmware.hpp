@@ -53,6 +53,7 @@ struct Diagnosis {
   double certain = 0.0;                              ///< and what would have been enough
   ShaftFinding shaft{};                              ///< of an encoder or a resolver that is lost
   OwnWrong own = OwnWrong::none;                     ///< what a controller of one's own answered
+  CoreTrouble core = CoreTrouble::none;              ///< of a core beside the host
 };
 
 /// What a chip is given while it runs (control/retune.hpp).
@@ -118,8 +119,11 @@ class LeanDrive {
   }
   /// The command where it stands: a copy would have to wait for the fields that were just set.
   const control::BridgeCommand<Scalar>& step(const control::Measurement<Scalar>& measured, double setpoint) {
-    control::step(config_, state_, measured, {from_si<Scalar>(setpoint, bases_.setpoint)}, telemetry_);
+    control::step(config_, state_, measured, wanted(setpoint), telemetry_);
     return state_.command;
+  }
+  control::Setpoint<Scalar> wanted(double setpoint) const {
+    return {from_si<Scalar>(setpoint, bases_.setpoint)};
   }
   void captured(std::uint8_t, const sim::Instant&) {}
   control::BridgeCommand<Scalar> hall_interrupt(std::uint8_t pins, const sim::Instant&) {
@@ -168,19 +172,25 @@ class SensedDrive {
   SensedDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
       : drive_(config, board, power_up),
         sensors_(board.sensors, board.bases, power_up),
-        bases_(board.bases) {}
+        bases_(board.bases),
+        core_(board.core) {}
 
   template <class Real>
   control::BridgeCommand<Scalar> tick(const SampleInstant<Real>& instant, double setpoint) {
     control::Measurement<Scalar> measured = ideal_measurement<Scalar>(instant, bases_);
     sensors_.sense(measured, sample_of(instant));
     control::BridgeCommand<Scalar> answer = drive_.step(measured, setpoint);
+    if (core_.there())
+      answer = core_.held(LeanCall<Scalar>{.measured = measured, .setpoint = drive_.wanted(setpoint)}, answer,
+                          instant.at);
     if (sensors_.shaft_found().lost()) answer = {.fault = true};
     return answer;
   }
   void captured(std::uint8_t pins, const sim::Instant& at) { sensors_.hall_edge(pins, at); }
   control::BridgeCommand<Scalar> hall_interrupt(std::uint8_t pins, const sim::Instant& at) {
-    const control::BridgeCommand<Scalar> answer = drive_.hall_interrupt(pins, at);
+    control::BridgeCommand<Scalar> answer = drive_.hall_interrupt(pins, at);
+    if (core_.there())
+      answer = core_.held(LeanCall<Scalar>{.entry = CoreEntry::hall, .pins = pins}, answer, at);
     if (answer.enabled) sensors_.commutated();
     return answer;
   }
@@ -194,7 +204,10 @@ class SensedDrive {
   bool follows_setpoint_at_once() const { return drive_.follows_setpoint_at_once(); }
   const control::Telemetry<Scalar>& telemetry() const { return drive_.telemetry(); }
   Diagnosis diagnosis() const {
-    return {.hall_line = sensors_.broken_line(), .shaft = sensors_.shaft_found()};
+    return {.hall_line = sensors_.broken_line(),
+            .at = core_.at(),
+            .shaft = sensors_.shaft_found(),
+            .core = core_.trouble()};
   }
   /// What its converters and timers are fed with.
   Registers& registers() { return sensors_.registers(); }
@@ -212,6 +225,7 @@ class SensedDrive {
   LeanDrive<Scalar> drive_;
   Sensors<Scalar> sensors_;
   Bases bases_;
+  BesideCore<Scalar> core_;
 };
 
 /// What is flashed: registers in, command out. The request to run is a level that the timeline sets.
@@ -226,15 +240,20 @@ class ProductDrive {
 
   /// It knows its turn: position counts on from where the rotor stands.
   ProductDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
-      : config_(config), registers_(board.sensors), bases_(board.bases) {
+      : config_(config), registers_(board.sensors), bases_(board.bases), core_(board.core) {
     state_.position.sectors = static_cast<std::int32_t>(power_up.sector);
+    if (core_.there())
+      held({.entry = CoreEntry::start, .now = static_cast<std::uint32_t>(power_up.sector)}, {}, {});
   }
 
   template <class Real>
   control::BridgeCommand<Scalar> tick(const SampleInstant<Real>& instant, double setpoint);
   void captured(std::uint8_t, const sim::Instant&) {}
   control::BridgeCommand<Scalar> hall_interrupt(std::uint8_t pins, const sim::Instant& at) {
-    return control::protected_on_hall(config_, state_, pins, registers_.counter(at));
+    const std::uint32_t now = registers_.counter(at);
+    const control::BridgeCommand<Scalar> answer = control::protected_on_hall(config_, state_, pins, now);
+    if (!core_.there()) return answer;
+    return held(ProductCall<Scalar>{.entry = CoreEntry::hall, .now = now, .hall_pins = pins}, answer, at);
   }
   void request_run(bool run) { request_.run = run; }
   /// Seen by the next tick alone: clearing acts on the rise.
@@ -251,9 +270,18 @@ class ProductDrive {
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_.drive; }
   control::Activity activity() const { return telemetry_.activity; }
   const Diagnosis& diagnosis() const { return diagnosis_; }
+  /// Where it ends, a fault ends the run: nothing is left to go on with.
+  bool core_lost() const { return diagnosis_.core != CoreTrouble::none; }
   Registers& registers() { return registers_; }
 
  private:
+  control::BridgeCommand<Scalar> held(const ProductCall<Scalar>& call,
+                                      const control::BridgeCommand<Scalar>& answer, const sim::Instant& at) {
+    const control::BridgeCommand<Scalar> out = core_.held(call, answer, at);
+    if (core_.trouble() != CoreTrouble::none) diagnosis_ = {.at = core_.at(), .core = core_.trouble()};
+    return out;
+  }
+
   Config config_;
   Registers registers_;
   Bases bases_;
@@ -261,6 +289,7 @@ class ProductDrive {
   control::ProtectedState<Scalar> state_{};
   control::ProtectedTelemetry<Scalar> telemetry_{};
   Diagnosis diagnosis_{};
+  BesideCore<Scalar> core_;
 };
 
 template <class Scalar>
@@ -274,8 +303,9 @@ control::BridgeCommand<Scalar> ProductDrive<Scalar>::tick(const SampleInstant<Re
   for (std::size_t k = 0; k < (one_shunt ? 1u : 3u); ++k)
     in.current_counts[k] = registers_.current_counts(k, one_shunt ? s.dc_link_A : s.i_A[k], s.number);
   const control::Setpoint<Scalar> wanted{from_si<Scalar>(setpoint, bases_.setpoint)};
-  const control::BridgeCommand<Scalar> answer =
+  control::BridgeCommand<Scalar> answer =
       control::protected_step(config_, state_, in, request_, wanted, telemetry_);
+  if (core_.there()) answer = held(call_of(in, request_, wanted), answer, instant.at);
   request_.clear = false;
   if (telemetry_.first_fault != 0 && diagnosis_.faults == 0)
     diagnosis_ = {.faults = telemetry_.first_fault, .at = instant.at};

@@ -4,6 +4,7 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/elementary.hpp"
 #include "sixstep/control/frames.hpp"
+#include "sixstep/control/sensing/binary_angle.hpp"
 #include "sixstep/plant/state.hpp"
 
 namespace sixstep::rig {
@@ -15,6 +16,8 @@ template <class Real>
 double magnet_rad(const plant::State<Real>& s) {
   return plant::sector_in_turn(s.sector) * base::sector_rad + static_cast<double>(s.x) - magnet_behind_rad;
 }
+
+inline control::BinaryAngle binary_angle(double rad) { return control::binary_degrees(rad * 180 / base::pi); }
 
 template <class Scalar>
 control::Direction<Scalar> direction_at(double rad) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a controller answers, as the board's timer takes it, and which modulator does: a driven pair with one
-// duty, or three legs. A firmware that answers three legs shares nothing with six-step but the timer.
+// duty, or three legs. A firmware that answers three legs shares nothing with six-step but the timer; one that sets
+// the gates itself not even that.
 #pragma once
 #include "sixstep/rig/bases.hpp"
+#include "sixstep/rig/gate_modulator.hpp"
 #include "sixstep/rig/six_step_modulator.hpp"
 #include "sixstep/rig/three_leg_modulator.hpp"
 
@@ -17,6 +19,10 @@ struct ModulatorFor<control::BridgeCommand<Scalar>> {
 template <class Scalar>
 struct ModulatorFor<control::LegCommands<Scalar>> {
   using type = ThreeLegModulator;
+};
+template <>
+struct ModulatorFor<ChipGates> {
+  using type = GateModulator;
 };
 
 template <class Scalar>

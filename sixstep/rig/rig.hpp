@@ -25,13 +25,26 @@ enum class Fault : std::uint8_t {
   impossible_hall,
   beyond_model,
   shaft_sensor,
-  own_controller
+  own_controller,
+  north_unseen,
+  core
 };
 
 /// Why a firmware answered one.
 inline Fault fault_of(const Diagnosis& found) {
+  if (found.core != CoreTrouble::none) return Fault::core;
   if (found.shaft.lost()) return Fault::shaft_sensor;
+  if (found.unseen > 0) return Fault::north_unseen;
   return found.own != OwnWrong::none ? Fault::own_controller : Fault::impossible_hall;
+}
+
+/// Whether the run ends with a fault that a firmware answered; else the drive is off and the motor coasts on.
+template <class Firmware>
+bool ends_run([[maybe_unused]] const Firmware& firmware) {
+  if constexpr (requires { firmware.core_lost(); })
+    return firmware.core_lost();
+  else
+    return Firmware::fault_ends_run;
 }
 
 /// Kinds of events, for the run's statistics.
@@ -74,6 +87,7 @@ class Rig {
         front_end_(front_end_before(board.front_end)),
         crossings_(crossings_before(board.front_end)),
         listens_(listens()) {
+    if constexpr (keeps_time) next_tick_ = sim::Instant::never();
     if constexpr (has_crossings)
       if (crossings_.fitted() && crossings_.lines() != 0)
         firmware_.captured_crossing(crossings_.lines(), now_);
@@ -125,6 +139,11 @@ class Rig {
   double speed_reference_rad_s() const {
     return to_si(telemetry().speed_reference_rad_s, board_.bases.speed_rad_s);
   }
+  double position_reference_deg() const {
+    if constexpr (requires { telemetry().position.profiled; })
+      if (telemetry().position.profiled) return static_cast<double>(telemetry().position.reference_deg);
+    return setpoint_;
+  }
   double setpoint() const { return setpoint_; }
   Fault fault() const { return fault_; }
   /// H1 H2 H3 as the board's pins have them: those of the probes that are wired to them, but for a line that is stuck.
@@ -158,6 +177,8 @@ class Rig {
   static constexpr bool six_step = std::is_same_v<Modulator, SixStepModulator>;
   using BoardAnswer = typename Modulator::Command;
   static constexpr bool can_be_askew = requires(Probes probes) { probes.next(); };
+  /// A chip that keeps its own time, and stops where the plant is to look at it (chip_drive.hpp).
+  static constexpr bool keeps_time = requires(const Firmware& firmware) { firmware.next_stop(); };
   static constexpr bool has_front_end = requires(Firmware firmware) { firmware.registers(); };
   static constexpr bool looks_at_terminals = requires(Firmware firmware) {
     firmware.look_at_terminals(plant::PerLeg<Real>{});
@@ -233,6 +254,9 @@ class Rig {
   void act_on_general(const Action& action);
   bool do_tick();
   bool do_half_tick();
+  bool do_chip();
+  /// For how long surely no Hall edge comes.
+  double quiet_s() const;
   void set_hall_line(double line, bool stuck_high, bool stuck_low);
   void rewire(const Action& action);
   void drift(const Action& action);
@@ -308,6 +332,7 @@ using LeanRig = Rig<Real, LeanDrive<Scalar>>;
 }  // namespace sixstep::rig
 
 #include "sixstep/rig/rig_act.hpp"
+#include "sixstep/rig/rig_chip.hpp"
 #include "sixstep/rig/rig_front_end.hpp"
 #include "sixstep/rig/rig_inputs.hpp"
 #include "sixstep/rig/rig_six_step.hpp"

@@ -24,7 +24,8 @@ bool Rig<Real, Firmware, Plant>::act_on_due() {
   do {
     while (fault_ == Fault::none && !(now_ < due_)) {
       // mutant: !do_timeline() && !do_tick() => !do_tick() && !do_timeline()
-      if (!show_probes() && !do_timeline() && !do_tick() && !do_commutation() && modulator_.act(now_))
+      if (!show_probes() && !do_timeline() && !do_tick() && !do_chip() && !do_commutation() &&
+          modulator_.act(now_))
         count(EventKind::pwm_edge);
       due_ = next_due();
     }
@@ -36,14 +37,18 @@ bool Rig<Real, Firmware, Plant>::act_on_due() {
 
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::do_tick() {
-  if (now_ < next_tick_) return false;
-  if (board_.sampled_in_middle) return do_half_tick();
-  next_tick_.ticks += board_.modulator.period_ticks;
-  warm_up();
-  control_step(true);
-  skip_idle_ticks();
-  count(EventKind::tick);
-  return ticked_ = true;
+  if constexpr (keeps_time) {
+    return false;
+  } else {
+    if (now_ < next_tick_) return false;
+    if (board_.sampled_in_middle) return do_half_tick();
+    next_tick_.ticks += board_.modulator.period_ticks;
+    warm_up();
+    control_step(true);
+    skip_idle_ticks();
+    count(EventKind::tick);
+    return ticked_ = true;
+  }
 }
 
 template <class Real, class Firmware, class Plant>
@@ -63,7 +68,7 @@ void Rig<Real, Firmware, Plant>::control_step(bool starts_period) {
     if (front_end_.follows()) instant.seen = &front_end_.reading();
   if constexpr (looks_at_terminals) show_terminals();
   const auto& answer = firmware_.tick(instant, setpoint_);
-  if (Firmware::fault_ends_run && answer.fault) fault_ = fault_of(firmware_.diagnosis());
+  if (answer.fault && ends_run(firmware_)) fault_ = fault_of(firmware_.diagnosis());
   if (!answer.enabled) let_go();
   BoardAnswer command = widened(answer, board_.bases);
   bool reversed = false;

@@ -81,8 +81,9 @@ void Rig<Real, Firmware, Plant>::do_action(const Action& action) {
   setpoint_ = action.value;
   moving_ = action.waveform.moves();
   waveform_ = next_action_ - 1;
-  // mutant: !board_.delayed => true
-  if (firmware_.follows_setpoint_at_once() && !board_.delayed) control_step(false);
+  if constexpr (!keeps_time)
+    // mutant: !board_.delayed => true
+    if (firmware_.follows_setpoint_at_once() && !board_.delayed) control_step(false);
 }
 
 /// The tick that sees the next action which is the chip's: a setpoint or a tuning; never where none is left.
@@ -285,6 +286,8 @@ sim::Instant Rig<Real, Firmware, Plant>::next_due() const {
     if (const sim::Instant shown = probes_.next(); shown < next) next = shown;
   if constexpr (has_commutation_clock)
     if (firmware_.next_commutation() < next) next = firmware_.next_commutation();
+  if constexpr (keeps_time)
+    if (firmware_.next_stop() < next) next = firmware_.next_stop();
   return next;
 }
 

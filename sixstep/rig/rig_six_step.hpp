@@ -26,7 +26,7 @@ bool Rig<Real, Firmware, Plant>::do_commutation() {
 template <class Real, class Firmware, class Plant>
 template <class Answer>
 void Rig<Real, Firmware, Plant>::move_pair(const Answer& answer) {
-  if (Firmware::fault_ends_run && answer.fault) fault_ = fault_of(firmware_.diagnosis());
+  if (answer.fault && ends_run(firmware_)) fault_ = fault_of(firmware_.diagnosis());
   if (!answer.enabled) return let_go();
   // mutant: pending_.pair = answer.pair; => nothing
   pending_.pair = answer.pair;

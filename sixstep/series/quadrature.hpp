@@ -10,6 +10,9 @@
 // other degree that the engine takes (7 to 16).
 #pragma once
 #include <array>
+#include <bit>
+#include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #include "sixstep/series/nodes.hpp"
@@ -80,13 +83,19 @@ inline constexpr Gauss<8> gauss<8> = {
                0.181341891689180991483L, 0.181341891689180991483L, 0.156853322938943643669L,
                0.111190517226687235272L, 0.0506142681451881295763L}};
 
+inline namespace SIXSTEP_LANES {
+
 /// A rule's nodes or weights as numbers at its nodes.
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> as_nodes(const std::array<long double, points>& of) {
-  return Nodes<points, Real>::each([&](int k) {
-    const int first = 2 * k, second = 2 * k + 1 < points ? 2 * k + 1 : points - 1;
-    return Pair<Real>{static_cast<Real>(of[first]), static_cast<Real>(of[second])};
-  });
+  if constexpr (requires(Nodes<points, Real> all) { all.row; })
+    return {typename Nodes<points, Real>::Row{static_cast<Real>(of[0]), static_cast<Real>(of[1]),
+                                              static_cast<Real>(of[2]), static_cast<Real>(of[3])}};
+  else
+    return Nodes<points, Real>::each([&](int k) {
+      const int first = 2 * k, second = 2 * k + 1 < points ? 2 * k + 1 : points - 1;
+      return Pair<Real>{static_cast<Real>(of[first]), static_cast<Real>(of[second])};
+    });
 }
 
 /// The nodes of [0, to].
@@ -104,18 +113,32 @@ template <int points, class Real>
   return v;
 }
 
-/// The same of a degree that wants so many points, in an even number of orders: where the degree is odd a zero is taken
-/// along, for a number of orders that varies is foreseen badly. Of several series one after the other: order by order the
-/// compiler takes all coefficients to memory and back.
+/// A number, or zero where it is not asked for, without a branch that would be foreseen badly: it may be anything then.
+template <class Real>
+[[gnu::always_inline]] inline Real only_if(bool wanted, Real v) {
+  if constexpr (std::is_same_v<Real, double>)
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(v) & (std::uint64_t{0} - wanted));
+  else
+    return wanted ? v : Real(0);
+}
+
+/// The same of a degree that wants so many points, even and odd powers apart, which wait half as long, in an even number of orders:
+/// where the degree is odd a zero is taken along, for a number of orders that varies is foreseen badly. Of several series one after
+/// the other: order by order the compiler takes all coefficients to memory and back.
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> values_of_fitting(const Coefficients<Real>& c, int degree,
                                                                     const Nodes<points, Real>& s) {
   constexpr int most = 2 * points;
   if (degree < most - 1) return values_at<points>(c, degree, s);
-  const Real none = 0;
-  auto v = Nodes<points, Real>::everywhere(*(degree == most ? c.data() + most : &none));
+  const auto t = s * s;
+  auto even = Nodes<points, Real>::everywhere(only_if(degree == most, c[most])) * t + c[most - 2];
+  auto odd = c[most - 1] * t + c[most - 3];
 #pragma GCC unroll 16
-  for (int j = most - 1; j >= 0; --j) v = v * s + c[j];
+  for (int j = most - 4; j >= 2; j -= 2) {
+    even = even * t + c[j];
+    odd = odd * t + c[j - 1];
+  }
+  const auto v = (even * t + c[0]) + odd * s;
   return v;
 }
 
@@ -141,6 +164,8 @@ template <int points, class Real>
   if constexpr (points % 2 != 0) weight.set(points, Real(0));  // the lane left over
   return totals(weight * a, weight * b);
 }
+
+}  // namespace SIXSTEP_LANES
 
 /// Calls visit.template operator()<points>() with what `degree` wants.
 template <class Visit>

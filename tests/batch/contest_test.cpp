@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "sixstep/design/loops/field_current.hpp"
 #include "text/contest/contest_entries.hpp"
@@ -27,7 +29,18 @@ Contest compared(const std::string& motor, std::size_t drives, unsigned jobs) {
   auto bench = analysis::contest_bench({.motor = motor, .sheet = *sheet});
   EXPECT_TRUE(bench);
   auto entries = text::contest_entries(*bench, {}, few);
-  return batch::compare_controllers(std::move(*bench), std::move(entries), {.drives = drives, .jobs = jobs});
+  const batch::ContestOrder order{.drives = drives, .jobs = jobs};
+  Contest contest = batch::compare_nominally(std::move(*bench), std::move(entries), order);
+  std::mutex guard;
+  std::vector<analysis::RunRecord> records;
+  batch::run_drives(contest, order, {}, [&](analysis::RunRecord&& record) {
+    const std::lock_guard lock(guard);
+    records.push_back(std::move(record));
+  });
+  const auto columns =
+      analysis::contest_columns(analysis::contest_plan(contest.entries, drives, 1), contest.bench);
+  for (const analysis::RunRecord& record : records) analysis::take_drive(contest, record, columns);
+  return contest;
 }
 
 double gauge(const ContestRow& row, Gauge g) {
@@ -67,6 +80,30 @@ TEST(Contest, TheMeanTorqueIsTheLoads) {
 TEST(Contest, ComplementaryChoppingSparesTheDiode) {
   const Contest c = compared("maxon-251601", 0, 2);
   EXPECT_LT(gauge(c.rows[1], Gauge::conduction), 0.5 * gauge(c.rows[0], Gauge::conduction));
+}
+
+/// Each one holds the course's own low speed, and what it holds beyond is a halving of it.
+TEST(Contest, TheLowestSpeedIsAHalvingOfTheCoursesLowOne) {
+  const Contest c = compared("maxon-251601", 0, 2);
+  const std::vector<double> speeds = analysis::slow_speeds(c.bench.course);
+  ASSERT_EQ(speeds.size(), 6U);
+  for (const ContestRow& row : c.rows) {
+    ASSERT_TRUE(row.lowest_rad_s);
+    EXPECT_NE(std::find(speeds.begin(), speeds.end(), *row.lowest_rad_s), speeds.end());
+  }
+}
+
+TEST(Contest, TheLowestSpeedIsThatDownToWhichAllAreHeld) {
+  analysis::Course course;
+  course.slow_rad_s = 64.0;
+  std::vector<study::Verdict> verdicts(18);
+  EXPECT_FALSE(analysis::lowest_speed_rad_s(course, verdicts));
+  for (std::size_t n = 0; n < 6; ++n) verdicts[n].ok = true;
+  EXPECT_EQ(analysis::lowest_speed_rad_s(course, verdicts), 32.0);
+  for (std::size_t n = 9; n < 18; ++n) verdicts[n].ok = true;  // 16 was lost: what comes after does not count
+  EXPECT_EQ(analysis::lowest_speed_rad_s(course, verdicts), 32.0);
+  for (study::Verdict& v : verdicts) v.ok = true;
+  EXPECT_EQ(analysis::lowest_speed_rad_s(course, verdicts), 2.0);
 }
 
 TEST(Contest, DrivesAreTheSameOnAnyNumberOfThreadsAndNoneIsBetterThanTheWorst) {

@@ -3,7 +3,9 @@
 """sixstep compare MOTOR: what it prints and writes, that a scenario it writes is the one it ran, and what it refuses."""
 import csv
 import json
+import sqlite3
 import unittest
+from contextlib import closing
 
 from program import ProgramTest
 
@@ -56,6 +58,28 @@ class Compare(ProgramTest):
             for figure, nominal in controller["nominal"].items():
                 worst = controller["worst"][figure]
                 self.assertTrue("never" in (nominal, worst) or worst >= nominal, (controller["name"], figure))
+
+    def test_a_store_is_gone_on_with_and_tells_the_same(self):
+        whole = self.run_program("compare", MOTOR, "--runs", "2", "--json", "-").stdout
+        self.run_program("compare", MOTOR, "--runs", "2", "--quiet", "--store", "c.sqlite")
+        with closing(sqlite3.connect(self.path / "c.sqlite")) as store:
+            before = sorted(store.execute("select number, digest from run").fetchall())
+            store.execute("delete from run where number % 3 = 1")
+            store.commit()
+        again = self.run_program("compare", MOTOR, "--runs", "2", "--store", "c.sqlite", "--resume", "--json", "-").stdout
+        self.assertEqual(again, whole)
+        with closing(sqlite3.connect(self.path / "c.sqlite")) as store:
+            self.assertEqual(sorted(store.execute("select number, digest from run").fetchall()), before)
+        other = self.run_program("compare", MOTOR, "--runs", "2", "--voltage", "20", "--store", "c.sqlite", "--resume", code=2)
+        self.assertIn("c.sqlite", other.stderr)
+        there = self.run_program("compare", MOTOR, "--runs", "2", "--store", "c.sqlite", code=2)
+        self.assertIn("--resume", there.stderr)
+
+    def test_tells_the_lowest_speed(self):
+        told = json.loads(self.run_program("compare", MOTOR, "--runs", "0", "--json", "-").stdout)["controllers"]
+        lowest = {c["name"]: c["lowest_speed_rad_s"] for c in told}
+        self.assertTrue(all(w is None or w > 0 for w in lowest.values()), lowest)
+        self.assertTrue(any(w is not None for w in lowest.values()), lowest)
 
     def test_refuses_with_a_way_out_and_writes_nothing(self):
         for words, said in ((("no-such-motor",), "no-such-motor"), (("example-linear",), "linear"),

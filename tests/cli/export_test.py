@@ -33,6 +33,21 @@ class Export(ProgramTest):
         single = self.run_program("export", "header", position, *DESPITE, "--single-header", "--namespace", "left::wheel").stdout
         self.assertIn('#include "sixstep_control.hpp"\n\nnamespace left::wheel {', single)
 
+    def test_a_header_asks_for_a_profile_where_its_drive_has_one(self):
+        asks, told = "#define SIXSTEP_POSITION_PROFILE", {}
+        for name in ("gallery/position-profile", "gallery/position-step"):
+            header = self.run_program("export", "header", self.scenario(name), *DESPITE, "--set", "control.arithmetic=float").stdout
+            told[name] = asks in header
+            (self.path / "drive_config.hpp").write_text(header)
+            (self.path / "main.cpp").write_text(
+                '#include "drive_config.hpp"\n'
+                f"static_assert(sixstep::control::position_profile_is_there == {str(told[name]).lower()});\n")
+            space = re.search(r"^namespace (\S+) \{", header, re.M).group(1)
+            with (self.path / "main.cpp").open("a") as main:
+                main.write(f"constexpr auto drive = {space}::drive;\n")
+            subprocess.run(["g++", "-std=c++20", "-fsyntax-only", f"-I{SOURCE}", "main.cpp"], cwd=self.path, check=True)
+        self.assertEqual(list(told.values()), [True, False])
+
     def test_an_exported_header_can_be_made_again_by_its_own_comment(self):
         (self.path / "my drive.toml").write_text(pathlib.Path(self.scenario("thesis/7.5-position")).read_text())
         first = self.run_program("export", "header", "my drive.toml", "--arithmetic", "q31", "--range", "current_A=60", *DESPITE).stdout

@@ -60,7 +60,7 @@ class Manual(ProgramTest):
         (self.path / "bin").mkdir()
         (self.path / "bin/sixstep").symlink_to(PROGRAM)
         environment = dict(os.environ, HOME=str(self.path), PATH=f"{self.path / 'bin'}:{os.environ['PATH']}")
-        done = subprocess.run(["bash", "-c", script], cwd=self.path, env=environment, capture_output=True, text=True, timeout=60)
+        done = subprocess.run(["bash", "-c", script], cwd=self.path, env=environment, capture_output=True, text=True, timeout=300)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         for name in ("first.toml", "first.html", "push.toml", "all.toml", "sixstep-motor.schema.json", ".bashrc", ".config/fish/completions/sixstep.fish"):
             self.assertTrue((self.path / name).stat().st_size, name)
@@ -74,7 +74,7 @@ class Manual(ProgramTest):
         if not present:
             self.skipTest("neither mandoc nor groff is installed")
         for linter in present:
-            told = subprocess.run([linter, *linters[linter], "sixstep.1"], cwd=self.path, capture_output=True, text=True, timeout=60)
+            told = subprocess.run([linter, *linters[linter], "sixstep.1"], cwd=self.path, capture_output=True, text=True, timeout=300)
             self.assertEqual([line for line in (told.stdout + told.stderr).splitlines() if "missing date" not in line], [], linter)
 
 

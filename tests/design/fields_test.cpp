@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "sixstep/control/fixed.hpp"
-#include "sixstep/design/fields/field_drive_fields.hpp"
+#include "sixstep/design/fields/estimator_fields.hpp"
 #include "sixstep/design/fields/product_fields.hpp"
 
 namespace {
@@ -36,11 +36,30 @@ struct Clear {
 
 #if defined(__GNUC__) && !defined(__clang__)
 
+/// All bytes of its members are 0xff, those between them 0.
+template <class Config>
+void fill(Config& config) {
+  std::memset(static_cast<void*>(&config), 0xff, sizeof config);
+  __builtin_clear_padding(&config);
+}
+/// Member by member: behind an array of structs GCC 12 clears what lies that array's length before.
+template <class Scalar>
+void fill(FieldDriveConfig<Scalar>& config) {
+  std::memset(static_cast<void*>(&config), 0, sizeof config);
+  auto& [drive, current, weakening, per_ampere, advance, harmonic, finite_set] = config;
+  fill(drive);
+  fill(current);
+  fill(weakening);
+  fill(per_ampere);
+  fill(advance);
+  fill(harmonic);
+  fill(finite_set);
+}
+
 template <class Config, class Walked>
 void expect_all_walked(const Walked& walked) {
   Config config;
-  std::memset(static_cast<void*>(&config), 0xff, sizeof config);
-  __builtin_clear_padding(&config);
+  fill(config);
   walked(config);
   std::byte left[sizeof config];
   std::memcpy(left, static_cast<const void*>(&config), sizeof config);
@@ -58,6 +77,9 @@ void expect_every_member() {
     design::fields(Clear{}, DriveConfig<double>{}, c.drive);
     design::fields(Clear{}, FieldDriveConfig<double>{}, c);
   });
+  if constexpr (std::is_floating_point_v<Scalar>)
+    expect_all_walked<EstimatorConfig<Scalar>>(
+        [](auto& c) { design::fields(Clear{}, EstimatorConfig<double>{}, c); });
 }
 
 TEST(Fields, AreEveryMemberOfAConfiguration) {

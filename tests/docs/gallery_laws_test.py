@@ -11,7 +11,9 @@ import tomllib
 import unittest
 from math import acos, atan2, cos, cosh, exp, hypot, log, pi, radians, sin, sinh, sqrt
 
+import magnet_laws
 import position_laws
+import profile_laws
 from gallery_sheet import A, B, B_OFF, J, K_E, K_T, L, L_S, PAIRS, R, SECTOR, STALL, T, TAU, U, halves, near, read_late
 from page import REPOSITORY
 
@@ -189,9 +191,28 @@ def weakened(w):
 K_E_SINE = K_T * pi / 3 / sqrt(3)  # K_t over the sector mean of a sine between two phases
 HELD = hypot(R / 2 * 5.5 + 20 * K_E_SINE, 20 * PAIRS * L_S * 5.5) * T / 4 / L_S
 
+F_1 = 4 / pi * sin(pi / 6) / (pi / 6)  # of the trapezoid with a flat top of 120 degrees
+SHAPED = 1.5 * K_E * F_1 * 4  # torque of 4 A
+# Of the torque, the shape's largest vector 4/3 in both: what a quarter of a period of the voltage that holds the current leaves.
+LEFT = 1.5 * K_E * 4 / 3 * hypot(R / 2 * 4 + 20 * K_E * 4 / 3, 20 * PAIRS * L_S * 4) * T / 4 / L_S
+COPPER = 1.5 * R / 2 * 4**2
+
+
+def finite_set():
+    """Band of the currents, and from 6 to -6 A by the fastest and the slowest vector, 20 us a period."""
+    period, emf = 20e-6, 20 * K_E_SINE
+    band = 2 / (3 * sqrt(3)) * (1 - exp(-period / TAU)) / (R / 2) * U
+    def falls(volts, to):
+        end = (volts + emf) / (R / 2)
+        return TAU * log((6 + end) / (to + end))
+    return [(None, 6 + band), (6 - band, None), (period + falls(2 * U / 3, -4.8), 2 * period + falls(U / sqrt(3), -6)), (None, 1 / (2 * period))]
+
+
 # (min, max) of each requirement; None: the file has none.
 LAWS = {
     **position_laws.LAWS,
+    **magnet_laws.LAWS,
+    **profile_laws.LAWS,
     "chopping-soft": [near(0.5 * STALL), near(ripple(0.5)), (0, 0)],
     "chopping-hard": [near((2 * 0.75 - 1) * STALL), near(2 * ripple(0.75)),
                       near(-STALL * (1 - 2 * A + A * B_OFF) / (1 - A * B_OFF))[::-1]],
@@ -213,6 +234,9 @@ LAWS = {
     "machine-sine": [(pi / 3 * K_T * 4.99, pi / 3 * K_T * 5.01), (pi / 3 * cos(pi / 6) * K_T * 4.99,
                                                                    pi / 3 * cos(8 * 20 * 6.5e-3 - pi / 6) * K_T * 5.01)],
     "machine-sine-field": [near(1.5 * K_E_SINE * 5.5, 5e-4), (None, 1.5 * K_E_SINE * (5.5 + HELD)), (1.5 * K_E_SINE * (5.5 - HELD), None)],
+    "shape-constant": [near(SHAPED, 1e-3), (SHAPED * 4 / 3 / F_1 - LEFT, SHAPED * 4 / 3 / F_1 + LEFT), (SHAPED * 2 / sqrt(3) / F_1 - LEFT, SHAPED * 2 / sqrt(3) / F_1 + LEFT)],
+    "shape-followed": [near(SHAPED, 1e-3), (None, SHAPED + LEFT), (SHAPED - LEFT, None), near(COPPER * F_1**2 * sqrt(3) * pi / 8, 1e-3)],
+    "finite-set": finite_set(),
     "field-weakened": [near(900, 1e-4 / 0.9), near(weakened(900), 1e-3)],
     "stiction": [(0, 0), (0, BURST), (0, 0)],
     "wind-up-none": [(None, T + 1e-3), near(300, 1e-3)],

@@ -62,7 +62,22 @@ class OwnControllerPage(unittest.TestCase):
 
     def test_everything_is_compiled(self):
         self.assertEqual(len(self.compiled), 2)
-        self.assertEqual(len(commands()), 3)
+        self.assertEqual([c.split()[0] for c in commands()], ["cc", "c++", "./run", "tools/own_cost.sh", "./run"])
+
+    def test_what_was_counted_stands_in_the_comparison(self):
+        words = [c for c in commands() if "--own-cost" in c][0].split()[1:]
+        worst, flash = re.search(r"^Cortex-M4F +\d+ +(\d+) +\d+ +\d+ +(\d+) +\d+$", PAGE, re.M).groups()
+        row = {"core": "Cortex-M4F", "tick": {"worst": int(worst)}, "flash_bytes": int(flash)}
+        counted = {"controller": "PI in integers", "cores": [{"core": "Cortex-M0"}, row]}
+        (self.path / "cost.json").write_text(json.dumps(counted), encoding="utf-8")
+        told = json.loads(self.run_program(*words, "--runs", "0", "--json", "-").stdout)
+        cost = next(c["cost"] for c in told["controllers"] if c["name"] == "PI in integers")
+        self.assertEqual((cost["core"], cost["tick_instructions"], cost["flash_bytes"]), ("Cortex-M4F", worst, flash))
+        for text, said in (("{", "is no count of a controller"), (json.dumps({**counted, "cores": []}), "has no count of the Cortex-M4F"),
+                           (json.dumps({**counted, "cores": [{**row, "flash_bytes": -1}]}), "has no count of the Cortex-M4F"),
+                           (json.dumps({**counted, "controller": "another"}), '"another" is none of the controllers of --own')):
+            (self.path / "cost.json").write_text(text, encoding="utf-8")
+            self.assertIn(said, self.run_program(*words, code=2).stderr)
 
     def test_the_scenario_runs_and_its_number_counts(self):
         self.assertLess(abs(self.mean() - 3), 0.25)

@@ -185,7 +185,7 @@ template <class S>
 void expect_field(const FieldDriveConfig<S>& header, const study::Scenario& s) {
   const auto run = study::field_in<S>(compiled(s));
   ASSERT_TRUE(run);
-  EXPECT_EQ(bits_of(header), bits_of(run->config));
+  EXPECT_EQ(bits_of(header), bits_of(run->config.field));
   FieldDriveState<S> chip, simulated;
   Telemetry<S> told;
   BinaryAngle electrical = 0;
@@ -200,7 +200,7 @@ void expect_field(const FieldDriveConfig<S>& header, const study::Scenario& s) {
     input.magnet = field_directions(header.advance, electrical, input.measured.speed_rad_s);
     const Setpoint<S> setpoint{5 * part(17)};
     const LegCommands<S> a = field_drive_step(header, chip, input, setpoint, told);
-    const LegCommands<S> b = field_drive_step(run->config, simulated, input, setpoint, told);
+    const LegCommands<S> b = field_drive_step(run->config.field, simulated, input, setpoint, told);
     ASSERT_TRUE(a.enabled);
     for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(bits(a.leg[k].duty), bits(b.leg[k].duty)) << n;
     swing = std::max(swing, a.leg[0].duty - a.leg[1].duty);

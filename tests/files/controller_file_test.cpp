@@ -37,6 +37,10 @@ TEST(ControllerFile, WhatIsNoneIsToldAsSuch) {
       folder +
           "/other_interface.so has a controller whose interface = 2 is not the interface of this program: compile it "
           "with this program's own_controller.h; look at sixstep/control/own/own_controller.h");
+  EXPECT_EQ(told("in_float.so"),
+            folder +
+                "/in_float.so has a controller whose interface = 257 is that of float, and this program's is "
+                "of double; compile it without -DSIXSTEP_REAL=float");
   const std::string text = testing::TempDir() + "text.so";
   std::ofstream(text) << "no machine code\n";
   const auto loaded = files::load_controller(text);

@@ -19,7 +19,7 @@ EXAMPLES = REPOSITORY / "faces" / "firmware" / "example"
 LICENCE = "// SPDX-License-Identifier: Apache-2.0\n"
 FLAGS = ["-std=c++20", "-ffreestanding", "-nostdinc++", "-fno-exceptions", "-fno-rtti", "-Wall", "-Wextra", "-Wpedantic",
          "-Wshadow", "-Wconversion", "-Wno-sign-conversion", "-Wdouble-promotion", "-Wmissing-field-initializers", "-Werror",
-         "-Os", f"-I{REPOSITORY}", f"-I{REPOSITORY}/tests/control/sixteen_bit"]
+         "-Os", f"-I{REPOSITORY}", f"-I{REPOSITORY}/faces/firmware/bare"]
 TARGET = {"cortex_m": ["--target=thumbv7em-none-eabihf", "-mcpu=cortex-m4"],
           "avr": ["--target=avr", "-mmcu=atmega2560"]}
 MEMORY = r"memcpy|memmove|memset|__aeabi_mem\w+"

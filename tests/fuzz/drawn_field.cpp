@@ -52,6 +52,41 @@ void draw_keys(Draw& draw, Scenario& s, const design::MotorModel& motor) {
         draw.between(0.05, 0.99) * design::most_weakening_A(design::field_machine(motor, s.sheet));
 }
 
+/// Nothing senses the rotor: a salient one that saturates is pulsed, any other one is turned until it is seen.
+void leave_sensors(Draw& draw, Scenario& s, const Scales& of) {
+  if (s.sensors.rotor != RotorSensing::ideal || s.control.mode == Mode::position || !draw.chance(0.3)) return;
+  Field& f = s.control.field;
+  const bool salient = s.sheet.d_axis_inductance_mH &&
+                       s.sheet.q_axis_inductance_mH->value > 1.2 * s.sheet.d_axis_inductance_mH->value;
+  if (salient && s.pwm.sample == SampleAt::start && draw.chance(0.7)) {
+    s.sheet.saturation_current_A = base::Quantity{of.kept_A * draw.between(3.0, 6.0), "", ""};
+    f.angle = draw.chance(0.5) ? FieldAngle::injection : FieldAngle::injection_observer;
+  } else {
+    f.angle = FieldAngle::observer;
+    if (draw.chance(0.3)) f.start_current_A = of.kept_A * draw.between(0.3, 1.0);
+  }
+  if (draw.chance(0.2)) f.angle_bandwidth_Hz = draw.decades(2e-3, 0.05) / s.pwm.period_s;
+}
+
+/// The shape's currents, the choice among the legs' states. Drawn behind the keys above, so that a seed draws of those what it did.
+void draw_more_keys(Draw& draw, Scenario& s) {
+  Field& f = s.control.field;
+  if (!design::is_salient(s.sheet) && draw.chance(0.4)) f.harmonic_current = true;
+  if (!draw.chance(0.25) || f.angle != FieldAngle::sensors) return;
+  f.law = FieldLaw::finite_set;
+  f.bandwidth_Hz.reset();
+  f.voltage_limit = control::VoltageLimit::circle;
+  f.decoupling = true;
+  f.weakening_A.reset();
+  f.advance_periods.reset();
+  s.control.current = {.limit_A = s.control.current.limit_A};
+  for (At& at : s.at) static_cast<AtGains&>(at.control.current) = {};
+  s.pwm.sample = SampleAt::start;
+  if (draw.chance(0.4)) f.switching_weight_A = draw.decades(1e-2, 1);
+  if (draw.chance(0.3)) f.peak_A = draw.decades(0.5, 50);
+  if (draw.chance(0.2)) f.delay_compensation = false;
+}
+
 /// Of a board's sensors those that tell an angle and three currents.
 void keep_angles(Draw& draw, Scenario& s) {
   Sensors& x = s.sensors;
@@ -64,12 +99,17 @@ void keep_angles(Draw& draw, Scenario& s) {
 
 /// Some of what is asked is of what it holds.
 void ask_of_axes(Draw& draw, Scenario& s) {
-  static constexpr Signal signals[] = {Signal::direct_current,           Signal::quadrature_current,
-                                       Signal::direct_current_reference, Signal::quadrature_current_reference,
-                                       Signal::direct_voltage,           Signal::quadrature_voltage};
+  static constexpr Signal signals[] = {Signal::direct_current,
+                                       Signal::quadrature_current,
+                                       Signal::direct_current_reference,
+                                       Signal::quadrature_current_reference,
+                                       Signal::direct_voltage,
+                                       Signal::quadrature_voltage,
+                                       Signal::angle_error};
   if (s.control.mode == Mode::off) return;
   for (Requirement& r : s.require)
-    if (r.measure.signal == Signal::phase_a && draw.chance(0.6)) r.measure.signal = signals[draw.one_of(6)];
+    if (r.measure.signal == Signal::phase_a && draw.chance(0.6))
+      r.measure.signal = signals[draw.one_of(static_cast<int>(std::size(signals)))];
   if (!s.record.columns.empty()) s.record.columns = {"i_d_A", "i_q_ref_A", "v_q_V"};
 }
 
@@ -88,7 +128,9 @@ void draw_field(Draw& draw, Scenario& s, const Scales& of) {
     s.sheet.q_axis_inductance_mH = base::Quantity{L_mH * draw.between(1.0, 1.8), "", ""};
   }
   if (const auto motor = design::motor_model(s.sheet)) draw_keys(draw, s, *motor);
+  leave_sensors(draw, s, of);
   ask_of_axes(draw, s);
+  draw_more_keys(draw, s);
 }
 
 }  // namespace sixstep::testing

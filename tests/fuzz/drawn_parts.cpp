@@ -114,6 +114,7 @@ void draw_parts(Draw& draw, Scenario& s) {
   draw_general(draw, s, of);
   draw_field(draw, s, of);
   draw_six_step(draw, s);
+  draw_profile(draw, s);
 }
 
 }  // namespace sixstep::testing

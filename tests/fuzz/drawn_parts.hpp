@@ -28,5 +28,7 @@ void draw_general(Draw& draw, study::Scenario& s, const Scales& of);
 void draw_field(Draw& draw, study::Scenario& s, const Scales& of);
 /// Gives some six-step drives other loops and another PWM.
 void draw_six_step(Draw& draw, study::Scenario& s);
+/// Gives some position loops a profile.
+void draw_profile(Draw& draw, study::Scenario& s);
 
 }  // namespace sixstep::testing

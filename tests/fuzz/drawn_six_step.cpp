@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a six-step drive has beside the PI and the upper switch: PWM patterns, deadbeat current, the staying phase's current, laws
-// of the speed loop. Drawn behind all else, so that a seed that gets none of them draws what it did.
+// of the speed loop; and the profile of any drive's position loop. Drawn behind all else, so that a seed that gets none of them
+// draws what it did.
 #include <algorithm>
 
 #include "tests/fuzz/drawn_parts.hpp"
@@ -68,6 +69,25 @@ void draw_six_step(Draw& draw, Scenario& s) {
   draw_pattern(draw, s);
   draw_current(draw, s);
   draw_law(draw, s);
+}
+
+/// What is not drawn follows from the drive. Where an event changes the torque's limit, or the speed's, what is given might be
+/// beyond it.
+void draw_profile(Draw& draw, Scenario& s) {
+  Control& c = s.control;
+  const bool floats = c.arithmetic == Arithmetic::float64 || c.arithmetic == Arithmetic::float32;
+  const bool runs =
+      c.drive == FirmwareKind::lean || c.drive == FirmwareKind::product || c.drive == FirmwareKind::field;
+  if (c.mode != Mode::position || !floats || !runs || c.slew || !draw.chance(0.6)) return;
+  if (!never(s, [](const At& at) { return at.control.slew.has_value(); })) return;
+  PositionProfile& p = c.position.profile;
+  p.on = true;
+  p.feed_forward = c.speed.law == SpeedLaw::pi && draw.chance(0.8);
+  const bool steady =
+      never(s, [](const At& at) { return at.control.position.speed_limit_rad_s.has_value(); });
+  if (c.position.speed_limit_rad_s && steady && draw.chance(0.5))
+    p.speed_rad_s = *c.position.speed_limit_rad_s * draw.decades(0.05, 1.0);
+  if (draw.chance(0.6)) p.smoothing_s = s.pwm.period_s * draw.decades(0.5, 500.0);
 }
 
 }  // namespace sixstep::testing

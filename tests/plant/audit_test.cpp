@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "tests/support/board.hpp"
 #include "tests/support/laws.hpp"
@@ -64,6 +66,7 @@ struct BesideProducts {
     double supplied = 0, copper = 0, devices = 0, air_gap = 0, viscous = 0, travel = 0;
   } worst;
   std::array<int, 4> connected{};  ///< segments by how many legs were connected
+  int other_bits = 0;              ///< than here, where this file's compiler has no AVX
 
   template <class System>
   void segment(const System& system, double s) {
@@ -79,6 +82,9 @@ struct BesideProducts {
     look(worst.air_gap, (e.air_gap - exact.air_gap) / (c.torque_scale * w * dt));
     look(worst.viscous, (e.viscous - exact.viscous) / (c.torque_scale * w * dt));
     look(worst.travel, (e.travel - exact.travel) / (w * dt));
+    using Bits = std::array<std::uint64_t, sizeof e / sizeof(double)>;
+    other_bits +=
+        std::bit_cast<Bits>(e) != std::bit_cast<Bits>(plant::detail::segment_energy_here(p, s)) ? 1 : 0;
     ++connected[static_cast<std::size_t>(plant::connected_count(p.mode().legs))];
   }
 
@@ -133,6 +139,7 @@ TEST(SegmentEnergy, IsThatOfTheWholeProducts) {
     EXPECT_LE(beside.worst.air_gap, tolerance);
     EXPECT_LE(beside.worst.viscous, tolerance);
     EXPECT_LE(beside.worst.travel, tolerance);
+    EXPECT_EQ(beside.other_bits, 0);
     for (std::size_t k = 0; k < 4; ++k) connected[k] += beside.connected[k];
   }
   EXPECT_GT(connected[2], 1000);

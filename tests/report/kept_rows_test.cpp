@@ -113,6 +113,8 @@ TEST(KeptRows, OfTheLargestStepAllStay) {
   EXPECT_TRUE(is_whole(kept.trace(), *windows.periods));
   const auto current = step_current(kept.trace(), *step);
   ASSERT_TRUE(current);
+  EXPECT_STREQ(step->held.column, "i_m_A") << "its rows have the columns of all drives";
+  EXPECT_GT(current->peak_A, 4.0);
   EXPECT_FALSE(current->then_mean_A) << "an envelope has no mean";
   EXPECT_THAT(rows_told(kept.trace()), HasSubstr("the report has every event from 0.01 s to "));
 }

@@ -16,6 +16,7 @@
 #include "sixstep/study/live/any_rig.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "tests/support/field_ticks.hpp"
 #include "tests/support/figures.hpp"
 #include "tests/support/scenarios.hpp"
 
@@ -46,40 +47,16 @@ struct Tick {
   control::Dq<double> measured, reference, voltage;
 };
 
-/// On the lean kernel in double; on the general one where the scenario asks for it.
-struct TickWatch {
-  std::vector<Tick>& ticks;
-
-  template <class Rig>
-  void segment(const Rig& rig, double) {
-    if (!rig.ticked()) return;
-    const auto& s = rig.firmware().state();
-    ticks.push_back({rig.now().seconds(), static_cast<double>(rig.plant().state().w),
-                     static_cast<double>(rig.plant().state().bus), s.measured, s.reference,
-                     s.current.voltage});
-  }
-  template <class Rig>
-  bool done(const Rig&) {
-    return false;
-  }
-};
-
 std::vector<Tick> ticks_of(const Scenario& s) {
-  const base::Problems problems = check(s);
-  EXPECT_TRUE(problems.empty()) << to_string(problems[0]);
-  const auto compiled = compile(s);
-  EXPECT_TRUE(compiled) << to_string(compiled.problems()[0]);
-  std::vector<Tick> ticks;
-  TickWatch watch{ticks};
-  const auto chip = chip_of<rig::FieldDrive<double>>(s, *compiled);
-  if (compiled->general) {
-    auto rig = general_rig_of<rig::FieldDrive<double>>(*compiled, *chip, compiled->timeline);
-    EXPECT_EQ(sim::run(rig, compiled->end, watch).stop, sim::Stop::end);
-  } else {
-    auto rig = rig_of<rig::FieldDrive<double>>(*compiled, *chip, compiled->timeline);
-    EXPECT_EQ(sim::run(rig, compiled->end, watch).stop, sim::Stop::end);
-  }
-  return ticks;
+  return field_ticks(s, [](const auto& rig) {
+    const auto& drive = rig.firmware().state();
+    return Tick{rig.now().seconds(),
+                static_cast<double>(rig.plant().state().w),
+                static_cast<double>(rig.plant().state().bus),
+                drive.measured,
+                drive.reference,
+                drive.current.voltage};
+  });
 }
 
 /// At the locked rotor the plant is R and L, and a voltage's pulses lie in the middle of each period. Held for the whole period it

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""check.py [--renew | --all] proof | sights | bits | costs | blocks | sizes: one part of tools/check_target.sh."""
+"""check.py [--renew | --all] proof | sights | bits | costs | blocks | sizes | own | loop | avr: one part of tools/check_target.sh."""
 import functools
 import sys
 
+import avr
 import blocks
 import build
 import cores
 import cost
+import loop
+import own_costs
 import proof
 import sizes
 import walk
@@ -31,11 +34,15 @@ def renew_bits():
 PARTS = {"proof": (proof.check, proof.check, None), "sights": (sights, sights, None),
          "bits": (functools.partial(walk.check, of=cores.USUAL), functools.partial(walk.check, whole=True), renew_bits),
          "costs": (functools.partial(cost.check, cost.USUAL), cost.check, cost.renew),
-         "blocks": (blocks.check, blocks.check, blocks.renew), "sizes": (sizes.check, sizes.check, sizes.renew)}
+         "blocks": (blocks.check, blocks.check, blocks.renew), "sizes": (sizes.check, sizes.check, sizes.renew),
+         "own": (own_costs.check, own_costs.check, own_costs.renew), "loop": (loop.check, loop.check_all, None),
+         "avr": (avr.check, avr.check, None)}
 
 
 def prepare(part):
-    """Tools of our own, and the headers of the drives."""
+    """Tools of our own, and the headers of the drives. What a controller of one's own or a core in the loop needs, its command makes."""
+    if part in ("own", "loop", "avr"):
+        return
     build.export_headers()
     build.build_board()
     if part in ("costs", "blocks"):

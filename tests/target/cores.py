@@ -7,15 +7,16 @@ import shutil
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 HERE = REPOSITORY / "tests" / "target"
+BARE_METAL = REPOSITORY / "faces" / "firmware" / "bare"
 OUT = REPOSITORY / "build" / "target"
 TABLES = REPOSITORY / "data" / "cores"  # what was counted: the program, the pages and the checks read it there
 
 # Everywhere. What decides about bits is -ffp-contract=off; the rest shows what the code keeps to.
 COMMON = ["-std=c++20", "-fno-exceptions", "-fno-rtti", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion",
           "-Wno-sign-conversion", "-Werror", "-ffp-contract=off", "-O2", f"-I{REPOSITORY}"]
-# <cstdint> is the shim of tests/control/sixteen_bit: no chip's C++ library is asked for. Nothing is thrown, so nothing needs
+# <cstdint> is the shim of faces/firmware/bare: no chip's C++ library is asked for. Nothing is thrown, so nothing needs
 # tables to unwind by.
-BARE = ["-ffreestanding", "-nostdinc++", "-fno-unwind-tables", "-fno-asynchronous-unwind-tables", f"-I{REPOSITORY}/tests/control/sixteen_bit"]
+BARE = ["-ffreestanding", "-nostdinc++", "-fno-unwind-tables", "-fno-asynchronous-unwind-tables", f"-I{REPOSITORY}/faces/firmware/bare"]
 # A drive is flashed with its constexpr configuration: what is inlined is folded. g++ does so at -O3.
 INLINED = ("-O3",)
 SEMIHOSTING = ["-nographic", "-monitor", "none", "-serial", "none", "-chardev", "stdio,id=told", "-semihosting-config",
@@ -27,7 +28,7 @@ class Core:
     name: str
     compile: tuple              # compiler with its flags, without what every core shares
     run: tuple                  # stands before the program
-    platform: tuple             # files below platform/
+    platform: tuple             # files below platform/, or where they are
     link: tuple = ()            # linker with its flags where it is not the compiler
     libraries: tuple = ()
     for_walk: tuple = ()        # more flags, for the walk of all blocks
@@ -58,10 +59,14 @@ def host(name, *compile_, run=(), static=True):
     return Core(name, compile_, tuple(run), ("host.cpp",), libraries=("-static",) if static else ())
 
 
+def bare_platform(kind):
+    return ("bare.cpp", *(BARE_METAL / file for file in ("start.cpp", "memory.cpp", f"{kind}.S")))
+
+
 def cortex(name, cpu, board, *more, costs):
     return Core(name, ("arm-none-eabi-g++", f"-mcpu={cpu}", "-mthumb", "-Wno-psabi", *more),
-                ("qemu-system-arm", "-M", board, *SEMIHOSTING), ("bare.cpp", "memory.cpp", "cortex_m.S"),
-                libraries=("-nostdlib", "-T", str(HERE / "platform/cortex_m.ld"), "-lgcc"), for_entries=INLINED,
+                ("qemu-system-arm", "-M", board, *SEMIHOSTING), bare_platform("cortex_m"),
+                libraries=("-nostdlib", "-T", str(BARE_METAL / "cortex_m.ld"), "-lgcc"), for_entries=INLINED,
                 unit="instructions", costs=costs,
                 nm="arm-none-eabi-nm", size="arm-none-eabi-size")
 
@@ -78,8 +83,8 @@ CHIPS = (
     cortex("Cortex-M3", "cortex-m3", "mps2-an385", costs=("q15", "q31")),
     cortex("Cortex-M4F", "cortex-m4", "mps2-an386", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard", costs=("float", "q15", "q31")),
     Core("RV32IMC", ("riscv64-unknown-elf-g++", "-march=rv32imc", "-mabi=ilp32"),
-         ("qemu-system-riscv32", "-M", "virt", "-bios", "none", *SEMIHOSTING), ("bare.cpp", "memory.cpp", "riscv.S"),
-         libraries=("-nostdlib", "-T", str(HERE / "platform/riscv.ld"), "-Wl,--no-warn-rwx-segments", "-lgcc"), for_entries=INLINED,
+         ("qemu-system-riscv32", "-M", "virt", "-bios", "none", *SEMIHOSTING), bare_platform("riscv"),
+         libraries=("-nostdlib", "-T", str(BARE_METAL / "riscv.ld"), "-Wl,--no-warn-rwx-segments", "-lgcc"), for_entries=INLINED,
          unit="instructions", costs=("q15",), nm="riscv64-unknown-elf-nm", size="riscv64-unknown-elf-size"),
     # clang 14 to 16 miscompile for the AVR: proof.py. Only what is inlined takes up a constexpr configuration: at 5000 the
     # product drive is five times as large and more than twice as slow as at 100000. All blocks at once would not fit so.

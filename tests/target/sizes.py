@@ -49,7 +49,7 @@ def measured(case):
     core, drive, scalar = case
     entries = compiled(core, f"entries-{drive}-{scalar}", cores.HERE / "cost" / "entries.cpp", scalar,
                        (*cost.defines(core, drive), "-DTARGET_NO_INTERRUPTS"))
-    memory = [] if core.link else [compiled(core, "memory", cores.HERE / "platform" / "memory.cpp", scalar, ())]
+    memory = [] if core.link else [compiled(core, f"memory-{drive}-{scalar}", cores.BARE_METAL / "memory.cpp", scalar, ())]
     linker = [*(core.link or core.compile)]
     file = entries.with_suffix(".elf")
     # avr-libc has memory functions; its start code and vectors stay out.

@@ -19,7 +19,7 @@ HEAD = """# SPDX-License-Identifier: Apache-2.0
 PARTS = {"": (), "rotor": ("-DTARGET_OF_ROTOR",), "observers": ("-DTARGET_OF_OBSERVERS",),
          "commissioning": ("-DTARGET_OF_COMMISSIONING",), "pulses": ("-DTARGET_OF_PULSES",), "field": ("-DTARGET_OF_FIELD",)}
 BLOCKS = {"": "", "sensing/": "rotor", "sensorless/": "rotor", "commissioning/": "commissioning",
-          "commissioning/pulse": "pulses", "field/": "field",
+          "commissioning/pulse": "pulses", "field/": "field", "jerk_profile": "field",
           **{f"sensorless/{observer}": "observers" for observer in ("luenberger", "sliding_mode", "flux_linkage", "observer")}}
 
 

@@ -23,8 +23,12 @@ using analysis::ContestGroup;
 using analysis::ContestRow;
 using Json = nlohmann::ordered_json;
 
-/// The core of the table; all of them stand in docs/firmware.md.
-constexpr std::string_view core = "Cortex-M4F", arithmetic = "float";
+constexpr std::string_view arithmetic = "float";
+
+std::optional<CoreCost> cost_of(const analysis::Contestant& who) {
+  if (!who.tick.empty()) return CoreCost{std::string(who.tick), std::string(who.flash_bytes)};
+  return core_cost(contest_core, who.core_drive, arithmetic);
+}
 
 std::string name_of(const Contest& c, std::size_t row) { return std::string(c.entries[row].who->name); }
 
@@ -36,6 +40,10 @@ double least_of(const Contest& c, std::size_t figure, std::vector<double> Contes
   return least;
 }
 
+std::string lowest_text(const ContestRow& row) {
+  return row.lowest_rad_s ? quantity_text(*row.lowest_rad_s, "rad/s", 3) : "-";
+}
+
 std::string table(const Contest& c, ContestGroup group, std::vector<double> ContestRow::*values) {
   const bool nominal = values == &ContestRow::values;
   Rows rows(Rows::Side::left);
@@ -44,7 +52,7 @@ std::string table(const Contest& c, ContestGroup group, std::vector<double> Cont
     if (f.group == group) head.emplace_back(f.name);
   if (group == ContestGroup::moving) {
     head.emplace_back(nominal ? "holds" : "hold");
-    if (nominal) head.insert(head.end(), {"tick", "flash"});
+    if (nominal) head.insert(head.end(), {"lowest", "tick", "flash"});
   }
   rows.add(head);
   for (std::size_t n = 0; n < c.rows.size(); ++n) {
@@ -59,7 +67,8 @@ std::string table(const Contest& c, ContestGroup group, std::vector<double> Cont
     if (group == ContestGroup::moving) {
       cells.push_back(nominal ? (row.nominal_held ? "yes" : "NO")
                               : fmt::format("{} of {}", row.held, row.drives));
-      const auto cost = core_cost(core, c.entries[n].who->core_drive, arithmetic);
+      const auto cost = cost_of(*c.entries[n].who);
+      if (nominal) cells.push_back(lowest_text(row));
       if (nominal) cells.insert(cells.end(), {cost ? cost->tick : "-", cost ? cost->flash_bytes : "-"});
     }
     rows.add(cells);
@@ -136,19 +145,21 @@ std::string contest_text(const Contest& c) {
         fmt::format("\nWorst of the nominal motor and {} drives of the sheet's tolerances\n\n", c.drives) +
         tables(c, &ContestRow::worst);
   text += fmt::format(
-      "\n  * least of those that hold the course; tick, flash: {} {}, instructions at worst and bytes\n\n",
-      core, arithmetic);
+      "\n  * least of those that hold the course; lowest: speed still held against the rated torque, by halves; tick, flash: {} {}, instructions at worst and bytes\n\n",
+      contest_core, arithmetic);
   for (const std::string& note : contest_notes(c)) text += paragraph(note);
   for (const std::string& line : contest_words(c)) text += paragraph(line);
   return text;
 }
 
 std::string contest_csv(const Contest& c) {
-  std::string text = "controller,drive,holds";
+  std::string text = "controller,drive,holds,lowest speed [rad/s]";
   for (const ContestFigure& f : contest_figures) text += fmt::format(",{} [{}]", f.phrase, f.unit);
   text += "\n";
   const auto line = [&](std::size_t n, const char* drive, bool holds, const std::vector<double>& values) {
-    text += fmt::format("\"{}\",{},{}", name_of(c, n), drive, holds ? 1 : 0);
+    const bool of_nominal = drive == std::string_view("nominal") && c.rows[n].lowest_rad_s;
+    text += fmt::format("\"{}\",{},{},{}", name_of(c, n), drive, holds ? 1 : 0,
+                        of_nominal ? fmt::format("{}", *c.rows[n].lowest_rad_s) : "");
     for (const double x : values) text += std::isnan(x) ? "," : fmt::format(",{}", x);
     text += "\n";
   };
@@ -173,14 +184,15 @@ std::string contest_json(const Contest& c) {
     one["runs"] = static_cast<bool>(entry.scenario);
     one["holds"] = row.nominal_held;
     one["nominal"] = figures_json(row.values);
+    one["lowest_speed_rad_s"] = row.lowest_rad_s ? Json(*row.lowest_rad_s) : Json(nullptr);
     if (!row.worst.empty()) {
       one["worst"] = figures_json(row.worst);
       one["drives"] = row.drives;
       one["drives_that_hold"] = row.held;
     }
     if (!row.nominal.problem.empty()) one["problem"] = row.nominal.problem;
-    if (const auto cost = core_cost(core, entry.who->core_drive, arithmetic))
-      one["cost"] = {{"core", core},
+    if (const auto cost = cost_of(*entry.who))
+      one["cost"] = {{"core", contest_core},
                      {"arithmetic", arithmetic},
                      {"tick_instructions", cost->tick},
                      {"flash_bytes", cost->flash_bytes}};

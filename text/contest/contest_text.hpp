@@ -2,12 +2,16 @@
 // Controllers side by side as tables, as plain words, and for programs.
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sixstep/analysis/contest/contest.hpp"
 #include "text/rooms.hpp"
 
 namespace text {
+
+/// The core of the table's costs, in float; all cores stand in docs/firmware.md.
+inline constexpr std::string_view contest_core = "Cortex-M4F";
 
 /// "8.22 mN m", "34.6 %"; "never" where it never comes, "-" where there is none.
 std::string contest_value(double x, const analysis::ContestFigure& figure);

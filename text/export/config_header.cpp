@@ -120,6 +120,17 @@ std::string made(std::string_view type, std::string_view name, const std::string
       type, name, lines);
 }
 
+/// A drive has room for a profile where it is asked for (profiled_position.hpp).
+std::string position_profile(const study::Compiled& c) {
+  const control::DriveConfig<double>& drive = c.product ? c.product->drive
+                                              : c.field ? c.field->drive
+                                                        : c.drive;
+  if (!drive.extras.on || !drive.extras.position.on) return "";
+  return "#ifndef SIXSTEP_POSITION_PROFILE\n"
+         "#define SIXSTEP_POSITION_PROFILE  // so in all that is linked with it\n"
+         "#endif\n\n";
+}
+
 std::string includes(const ConfigHeader& w, const study::Compiled& c) {
   if (w.single_header) return "#include \"sixstep_control.hpp\"\n";
   return fmt::format("#include \"sixstep/control/{}.hpp\"\n#include \"sixstep/control/units.hpp\"\n",
@@ -144,7 +155,7 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   if (!rows.empty()) text += proof(rows);
   text += core_cost_lines(c);
   text += "#pragma once\n#include <cstdint>\n\n";
-  text += includes(w, c);
+  text += position_profile(c) + includes(w, c);
   text += fmt::format("\nnamespace {} {{\n\nusing Scalar = {};\n\n", w.name_space, type);
   const auto base = [](const char* member, double x, const char* unit) {
     return fmt::format("{:<72}  // {} {}\n", fmt::format("  .{} = {},", member, hex_float(x)),
@@ -185,7 +196,7 @@ base::Result<std::string> floating_header(const ConfigHeader& w, const study::Co
     kept.drive = kept.product.drive;
   }
   if (c.field) {
-    kept.field = study::field_in<Scalar>(c)->config;
+    kept.field = study::field_in<Scalar>(c)->config.field;
     kept.drive = kept.field.drive;
   }
   return header<Scalar>(w, c, type, kept, {}, {});

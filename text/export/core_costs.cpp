@@ -67,8 +67,10 @@ std::string blocks_beside(const study::Compiled& c) {
   const bool advances = c.product && (c.product->advance.fixed != 0 || c.product->advance.per_speed != 0);
   const bool weakens = c.field && c.field->weakening.most_A > 0;
   const bool salient = c.field && c.field->per_ampere.k_per_A != 0;
-  const std::array<std::pair<bool, std::string_view>, 15> blocks{{
+  const bool follows_shape = c.field && c.field->harmonic.on;
+  const std::array<std::pair<bool, std::string_view>, 18> blocks{{
       {e.on && e.slews_setpoint, "slew"},
+      {e.on && e.position.on, "jerk_profile"},
       {e.on && e.limits_current, "limits"},
       {e.on && (e.feed_forward.K_t_V_s != 0 || e.bus.lowest_bus_V != 0), "feed_forward"},
       {e.on && e.smooth_chopping, "smooth_chopping"},
@@ -82,6 +84,8 @@ std::string blocks_beside(const study::Compiled& c) {
       {advances, "advance"},
       {weakens, "field_weakening"},
       {salient, "torque_per_ampere"},
+      {follows_shape, "harmonic_current"},
+      {c.field && c.field->finite_set.on, "finite_set"},
       {c.product && c.product->sensing == control::CurrentSensing::one_shunt, "one_shunt"},
   }};
   std::string names;

@@ -15,11 +15,11 @@ namespace {
 // Every piece a unit suffix may be made of, right or wrong ones: what follows the last other piece is the
 // unit.
 constexpr std::array unit_pieces = {
-    "V",     "mV",   "kV",   "A",    "mA",      "uA",  "s",   "ms", "us",  "ns",   "min", "h",    "ohm",
-    "mohm",  "kohm", "H",    "mH",   "uH",      "F",   "uF",  "nF", "mF",  "Hz",   "kHz", "MHz",  "rad",
-    "deg",   "rpm",  "krpm", "rps",  "Nm",      "mNm", "Ncm", "kg", "g",   "m2",   "cm2", "gcm2", "kgm2",
-    "kgcm2", "W",    "kW",   "J",    "percent", "per", "N",   "m",  "K",   "degC", "T",   "mm",   "cm",
-    "Wb",    "mWb",  "uWb",  "Arms", "Vrms",    "s2",  "m3",  "Ah", "mAh", "C",    "nC"};
+    "V",     "mV",   "kV",   "A",    "mA",      "uA",  "s",   "ms", "us", "ns",   "min", "h",    "ohm",
+    "mohm",  "kohm", "H",    "mH",   "uH",      "F",   "uF",  "nF", "mF", "Hz",   "kHz", "MHz",  "rad",
+    "deg",   "rpm",  "krpm", "rps",  "Nm",      "mNm", "Ncm", "kg", "g",  "m2",   "cm2", "gcm2", "kgm2",
+    "kgcm2", "W",    "kW",   "J",    "percent", "per", "N",   "m",  "K",  "degC", "T",   "mm",   "cm",
+    "Wb",    "mWb",  "uWb",  "Arms", "Vrms",    "s2",  "s3",  "m3", "Ah", "mAh",  "C",   "nC"};
 
 bool is_unit_piece(std::string_view piece) {
   return std::find(unit_pieces.begin(), unit_pieces.end(), piece) != unit_pieces.end();

@@ -91,6 +91,22 @@ Json events(const study::Outcome& outcome) {
   return counts;
 }
 
+Json interrupt(const sixstep::rig::InterruptTimes& t) {
+  return {{"count", t.count},      {"sum_cycles", t.sum},        {"least_cycles", t.least},
+          {"most_cycles", t.most}, {"bin_cycles", t.bin_cycles}, {"bins", t.bin}};
+}
+
+Json chip(const study::ChipReport& c) {
+  return {{"name", c.chip},
+          {"clock_Hz", c.clock_Hz},
+          {"period_s", c.period_s},
+          {"periods", c.times.periods},
+          {"conversions", c.times.conversions},
+          {"latest_edge_s", c.latest_edge_s},
+          {"control", interrupt(c.times.control)},
+          {"hall", interrupt(c.times.hall)}};
+}
+
 }  // namespace
 
 std::string json_summary(const study::Scenario& scenario, const study::Outcome& outcome) {
@@ -106,6 +122,8 @@ std::string json_summary(const study::Scenario& scenario, const study::Outcome& 
                   {"segments", outcome.segments},
                   {"digest", base::written_hex(outcome.digest)}};
   if (!outcome.notes.empty()) summary["notes"] = outcome.notes;
+  if (outcome.core) summary["core"] = {{"name", outcome.core->core}, {"calls", outcome.core->calls}};
+  if (outcome.chip) summary["chip"] = chip(*outcome.chip);
   summary["require"] = verdicts(outcome);
   summary["compare"] = comparisons(outcome);
   summary["gains"] = gains(outcome);

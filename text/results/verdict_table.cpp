@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "text/escape/escape.hpp"
+#include "text/results/core_text.hpp"
 #include "text/results/quantity_text.hpp"
 
 namespace text {
@@ -80,6 +81,7 @@ void add_entry(std::vector<Line>& lines, const TableEntry& entry) {
   if (entry.outcome->fault)
     lines.push_back({Kind::note, {"  STOPPED by a fault: " + base::to_string(*entry.outcome->fault)}});
   for (const std::string& note : entry.outcome->notes) lines.push_back({Kind::note, {"  note: " + note}});
+  for (const std::string& told : core_texts(*entry.outcome)) lines.push_back({Kind::note, {"  " + told}});
   if (lines.size() == before) lines.push_back({Kind::note, {"  requires nothing"}});
 }
 

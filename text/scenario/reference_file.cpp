@@ -75,7 +75,7 @@ std::string unit_in(std::string_view heading) {
 struct FirstColumn {
   const char *unit, *word, *row;
 };
-constexpr FirstColumn time_column{"s", "time", "a time in s and a value"},
+constexpr FirstColumn first_is_time{"s", "time", "a time in s and a value"},
     angle_column{"deg", "angle", "an angle in degrees and a value"};
 
 class RowsReader {
@@ -222,7 +222,7 @@ base::Result<ReferenceRows> read_lines(RowsReader reader, std::string_view rest)
 base::Result<ReferenceRows> reference_rows(const std::string& name, const std::string& text,
                                            const std::optional<std::string>& column,
                                            const std::string& unit) {
-  return read_lines(RowsReader(name, time_column, column, unit), text);
+  return read_lines(RowsReader(name, first_is_time, column, unit), text);
 }
 
 base::Result<ShapeRows> shape_rows(const std::string& name, const std::string& text) {

@@ -31,6 +31,10 @@ base::Problems not_measurable(const study::Scenario& s) {
   if (s.control.slew)
     problems.push_back({"control.slew", "", "ramps the setpoint, which would hide the loop behind it",
                         "leave it out for this measurement"});
+  if (s.control.position.profile.on && s.control.mode == Mode::position)
+    problems.push_back({"control.position.profile", "",
+                        "shapes the setpoint, which would hide the loop behind it",
+                        "leave it out for this measurement"});
   if (problems.empty() && study::reference_moves(s, s.duration_s - s.pwm.period_s, s.duration_s))
     problems.push_back({"reference", "", "still moves at the end of the run, where the measurement begins",
                         "let it stand there: shape = \"constant\", or a longer duration_s"});

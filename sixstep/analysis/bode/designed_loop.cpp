@@ -18,6 +18,7 @@ using control::Mode;
 std::string nonlinear_block(const study::Scenario& s, const study::Compiled& c,
                             const control::DriveConfig<double>& drive) {
   if (drive.current_control == control::CurrentControl::hysteresis) return "the current is held in a band";
+  if (c.field && c.field->finite_set.on) return "the currents are held by choosing among the legs' states";
   if (s.control.mode == Mode::current) return "";
   if (drive.extras.on && drive.extras.predicts_current)
     return "a current that is predicted is laid beside the current alone";

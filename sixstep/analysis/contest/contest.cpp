@@ -45,7 +45,9 @@ void take_nominal(ContestRow& row, RunRecord record, const PlanColumns& columns)
   row.nominal_held = passed(row.nominal, columns);
 }
 
-void take_drive(ContestRow& row, const RunRecord& record, const PlanColumns& columns) {
+void take_drive(Contest& contest, const RunRecord& record, const PlanColumns& columns) {
+  if (contest.drives == 0 || record.number / contest.drives >= contest.rows.size()) return;
+  ContestRow& row = contest.rows[record.number / contest.drives];
   if (row.worst.empty()) row.worst = row.values;
   const std::vector<double> values = values_of(record);
   for (std::size_t n = 0; n < values.size(); ++n) row.worst[n] = worse(values[n], row.worst[n]);

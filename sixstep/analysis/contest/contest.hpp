@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sixstep/analysis/contest/contest_bench.hpp"
+#include "sixstep/analysis/contest/lowest_speed.hpp"
 #include "sixstep/analysis/plan/plan_table.hpp"
 
 namespace sixstep::analysis {
@@ -25,6 +25,8 @@ struct ContestTrace {
 struct ContestRow {
   RunRecord nominal{};  ///< its figures are the gauges, requirements first
   ContestTrace trace{};
+  std::optional<double>
+      lowest_rad_s{};  ///< it still holds nominally (lowest_speed.hpp); none: not even the course's low one
   std::vector<double> values{};      ///< of contest_figures, nominal
   std::vector<double> worst{};       ///< the largest over nominal and all drives; empty without drives
   std::size_t drives = 0, held = 0;  ///< of the tolerances; those that hold every requirement
@@ -43,8 +45,9 @@ Plan contest_plan(const std::vector<ContestEntry>& entries, std::size_t drives, 
 /// The same columns in all.
 PlanColumns contest_columns(const Plan& plan, const ContestBench& bench);
 
-/// Takes the figures of the nominal run, or of a drive of the tolerances, which then count where they are worse.
+/// Takes the figures of the nominal run, or of a drive of the tolerances, found by its number in the plan, which then count where they
+/// are worse.
 void take_nominal(ContestRow& row, RunRecord record, const PlanColumns& columns);
-void take_drive(ContestRow& row, const RunRecord& record, const PlanColumns& columns);
+void take_drive(Contest& contest, const RunRecord& record, const PlanColumns& columns);
 
 }  // namespace sixstep::analysis

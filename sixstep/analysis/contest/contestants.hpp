@@ -15,6 +15,8 @@ struct Contestant {
   std::string_view sentence;  ///< what it does otherwise, and what comes of that: "it ..."
   /// The drive of data/cores/ that has its blocks; empty: none was counted yet.
   std::string_view core_drive = "";
+  /// Of one's own: instructions of a step at worst and bytes of flash, where they were counted (text/contest/own_cost.hpp).
+  std::string_view tick = "", flash_bytes = "";
 };
 
 inline constexpr std::string_view six_step_name = "six-step, soft";
@@ -73,6 +75,11 @@ inline constexpr Contestant all_contestants[] = {
     {field_name, "control.drive = field-oriented",
      "drives sine currents across the magnet with three legs: nothing commutates, and three legs switch",
      "field"},
+    {"field-oriented, harmonic i_q", "control.drive = field-oriented; control.field.harmonic_current = true",
+     "drives currents that follow the back-EMF's shape: the torque that they make hangs on no angle"},
+    {"field-oriented, finite set",
+     "control.drive = field-oriented; control.field.law = finite-set; control.current = {}",
+     "holds one state of the legs for a whole period, the one that is foretold to bring the current nearest"},
 };
 
 constexpr std::span<const Contestant> contestants() { return all_contestants; }

@@ -18,12 +18,12 @@ struct Row {
   std::vector<double> f;
 };
 
-struct Sums {
+struct IndexSums {
   double a = 0.0, squares = 0.0;
   std::vector<double> first, total;
   std::size_t rows = 0;
 
-  explicit Sums(std::size_t keys) : first(keys), total(keys) {}
+  explicit IndexSums(std::size_t keys) : first(keys), total(keys) {}
   void add(const Row& row) {
     a += row.a + row.b;
     squares += row.a * row.a + row.b * row.b;
@@ -69,13 +69,13 @@ Estimated estimated(double value, std::vector<double>& again) {
 std::optional<std::vector<SensitivityIndex>> sensitivity(std::span<const double> figures, std::size_t keys,
                                                          std::uint64_t seed) {
   const std::vector<Row> rows = whole_rows(figures, keys);
-  Sums all(keys);
+  IndexSums all(keys);
   for (const Row& row : rows) all.add(row);
   if (rows.size() < 2 || !(all.variance() > 0.0)) return {};
 
   std::vector<std::vector<double>> first(keys), total(keys);
   for (std::size_t again = 0; again < resamples; ++again) {
-    Sums drawn(keys);
+    IndexSums drawn(keys);
     for (std::size_t n = 0; n < rows.size(); ++n)
       drawn.add(rows[base::random_bits({seed, again, n})[0] % rows.size()]);
     if (!(drawn.variance() > 0.0)) continue;

@@ -9,8 +9,10 @@
 #include "sixstep/analysis/verify/scenario_spec.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/decimal.hpp"
+#include "sixstep/base/elementary.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/loops/design_warnings.hpp"
+#include "sixstep/design/loops/harmonic_current.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
@@ -119,6 +121,12 @@ void add_axes(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
   if (!c.current.decouples) f.axes.erase(f.axes.begin() + 2, f.axes.begin() + 4);
   if (c.per_ampere.k_per_A != 0)
     f.axes.push_back({"k", "(L_q - L_d)/(2 psi), most torque per ampere", c.per_ampere.k_per_A, "1/A"});
+  if (c.harmonic.on) {
+    const design::HarmonicFigures shape = design::harmonic_figures(c.harmonic);
+    f.axes.push_back({"g", "a constant i_q's torque swings by so much of its mean", shape.swing, ""});
+    f.axes.push_back(
+        {"1/|g|^2", "copper loss of the shape's current, over that of a constant i_q", shape.copper, ""});
+  }
   if (!(c.weakening.most_A > 0)) return;
   f.axes.push_back({"K", "weakening, per sample", c.weakening.K_A_per_V, "A/V"});
   f.axes.push_back({"psi/L_d", "more against the magnet asks for more voltage", most_weakening_A(m), "A"});
@@ -192,6 +200,23 @@ void look_at_bus(const control::FieldDriveConfig<double>& c, double asked_rad_s,
                           "give control.field.weakening_A, or raise supply.voltage_V", false});
 }
 
+/// A tracking loop of damping 1 tells a speed w_n^2/(s + w_n)^2 late.
+void look_at_estimator(const study::Compiled& c, double period_s, FieldStudy& f) {
+  if (!c.estimator.on) return;
+  f.axes.insert(f.axes.end(), c.estimator_steps.begin(), c.estimator_steps.end());
+  const auto& K_i = c.estimator.tracking.K_i;
+  const double w_n = std::sqrt(std::ldexp(static_cast<double>(K_i.mantissa), -K_i.right)) / period_s;
+  for (const LoopDesign& loop : f.design.loops) {
+    if (loop.name != "speed" || !loop.figures.crossover_rad_s) continue;
+    const double lost_deg = 2 * base::atan2(*loop.figures.crossover_rad_s, w_n) * 180.0 / base::pi;
+    if (lost_deg > 20.0)
+      f.warnings.push_back({"the speed loop loses " + base::three_digits(lost_deg) +
+                                " degrees of phase to the loop that follows the magnet's angle",
+                            "lengthen control.speed.settle_s, or raise control.field.angle_bandwidth_Hz",
+                            false});
+  }
+}
+
 double fastest_asked_rad_s(const study::Scenario& s) {
   if (s.control.mode != Mode::speed) return 0.0;
   double most = 0.0;
@@ -211,6 +236,9 @@ base::Result<FieldStudy> study_field(const study::Scenario& s) {
   if (s.control.mode == Mode::off)
     return base::Problem{"control.mode", "\"off\"", "leaves no loop to look at",
                          "set it to \"current\", \"speed\" or \"position\""};
+  if (s.control.field.law == study::FieldLaw::finite_set)
+    return base::Problem{"control.field.law", "\"finite-set\"", "has no gains and no linear loop to look at",
+                         "run the scenario, or set control.field.law = \"pi\""};
   if (base::Problems problems = study::check(s); !problems.empty()) return problems;
   const base::Result<study::Compiled> c = study::compile(s);
   if (!c) return c.problems();
@@ -234,6 +262,7 @@ base::Result<FieldStudy> study_field(const study::Scenario& s) {
   add_limits(*c->field, f);
   for (const LoopDesign& loop : d.loops) look_at_loop(loop, f);
   look_at_separation(f);
+  look_at_estimator(*c, s.pwm.period_s, f);
   look_at_bus(*c->field, fastest_asked_rad_s(s), f);
   return f;
 }

@@ -49,6 +49,15 @@ constexpr Dq<Scalar> turning_voltage(const FieldCurrentConfig<Scalar>& config, c
           T::product(speed_rad_s * current.d, config.d_V_s_A) + T::product(speed_rad_s, config.magnet_V_s)};
 }
 
+/// The same beside a magnet that makes `magnet_V`, whatever its shape.
+template <class Scalar>
+constexpr Dq<Scalar> turning_voltage(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& current,
+                                     Scalar speed_rad_s, const Dq<Scalar>& magnet_V) {
+  using T = ScalarTraits<Scalar>;
+  return {magnet_V.d - T::product(speed_rad_s * current.q, config.q_V_s_A),
+          magnet_V.q + T::product(speed_rad_s * current.d, config.d_V_s_A)};
+}
+
 /// U_s/sqrt 3.
 template <class Scalar>
 constexpr Scalar voltage_circle(Scalar bus_V) {
@@ -69,19 +78,28 @@ constexpr Scalar axis_voltage(const PiConfig<Scalar>& config, PiState<Scalar>& s
 
 }  // namespace detail
 
-/// One control tick: the phase voltages to apply, in the frame of the rotor.
+/// One control tick beside an e that is known: the phase voltages to apply, in the frame of the rotor.
 template <class Scalar>
-constexpr const Dq<Scalar>& field_current_step(const FieldCurrentConfig<Scalar>& config,
-                                               FieldCurrentState<Scalar>& state, const Dq<Scalar>& reference,
-                                               const Dq<Scalar>& measured, Scalar speed_rad_s, Scalar bus_V) {
+constexpr const Dq<Scalar>& field_current_beside(const FieldCurrentConfig<Scalar>& config,
+                                                 FieldCurrentState<Scalar>& state,
+                                                 const Dq<Scalar>& reference, const Dq<Scalar>& measured,
+                                                 const Dq<Scalar>& e, Scalar bus_V) {
   const bool circle = config.limit == VoltageLimit::circle;
   const Scalar most = circle ? voltage_circle(bus_V) : Scalar{};
-  const Dq<Scalar> e = config.decouples ? turning_voltage(config, measured, speed_rad_s) : Dq<Scalar>{};
   state.voltage.d =
       detail::axis_voltage(config.d, state.d, reference.d - measured.d, e.d, circle ? most : config.d.limit);
   state.voltage.q = detail::axis_voltage(config.q, state.q, reference.q - measured.q, e.q,
                                          circle ? circle_rest(most, state.voltage.d) : config.q.limit);
   return state.voltage;
+}
+
+/// The same beside what turning does to the axes, where it decouples them.
+template <class Scalar>
+constexpr const Dq<Scalar>& field_current_step(const FieldCurrentConfig<Scalar>& config,
+                                               FieldCurrentState<Scalar>& state, const Dq<Scalar>& reference,
+                                               const Dq<Scalar>& measured, Scalar speed_rad_s, Scalar bus_V) {
+  const Dq<Scalar> e = config.decouples ? turning_voltage(config, measured, speed_rad_s) : Dq<Scalar>{};
+  return field_current_beside(config, state, reference, measured, e, bus_V);
 }
 
 }  // namespace sixstep::control

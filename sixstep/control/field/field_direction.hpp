@@ -17,6 +17,7 @@ namespace sixstep::control {
 template <class Scalar>
 struct FieldDirections {
   Direction<Scalar> sampled{}, answered{};
+  BinaryAngle angle = 0;  ///< of `sampled`, for what hangs on the angle itself
 };
 
 /// The default does not turn on.
@@ -29,12 +30,25 @@ struct FieldAdvanceConfig {
 /// The magnet's direction; 150 degrees are 5/12 of a turn.
 constexpr BinaryAngle magnet_angle(BinaryAngle electrical) { return electrical - 1789569707u; }
 
+/// A magnet that turns on by so much at this speed.
+template <class Scalar>
+constexpr BinaryAngle turned_on(BinaryAngle magnet, Scalar speed_rad_s, Gain<Scalar> rad_s) {
+  const std::int32_t on = angle_of_rad(ScalarTraits<Scalar>::product(speed_rad_s, rad_s));
+  return magnet + static_cast<BinaryAngle>(on);
+}
+
+/// Of the magnet's own angle.
+template <class Scalar>
+constexpr FieldDirections<Scalar> magnet_directions(const FieldAdvanceConfig<Scalar>& config,
+                                                    BinaryAngle sampled, Scalar speed_rad_s) {
+  return {direction_of<Scalar>(sampled), direction_of<Scalar>(turned_on(sampled, speed_rad_s, config.rad_s)),
+          sampled};
+}
+
 template <class Scalar>
 constexpr FieldDirections<Scalar> field_directions(const FieldAdvanceConfig<Scalar>& config,
                                                    BinaryAngle electrical, Scalar speed_rad_s) {
-  const BinaryAngle sampled = magnet_angle(electrical);
-  const std::int32_t on = angle_of_rad(ScalarTraits<Scalar>::product(speed_rad_s, config.rad_s));
-  return {direction_of<Scalar>(sampled), direction_of<Scalar>(sampled + static_cast<BinaryAngle>(on))};
+  return magnet_directions(config, magnet_angle(electrical), speed_rad_s);
 }
 
 }  // namespace sixstep::control

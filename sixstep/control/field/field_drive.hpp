@@ -4,15 +4,20 @@
 //
 // The reference of Mode::current, and what a speed loop asks for, is i_q: the amplitude of the phase currents that make
 // torque, T = 3/2 p psi i_q where the rotor is round. i_d* is what gives most torque per ampere and what weakens the field.
+// Where the back-EMF is no sine both may follow its shape (harmonic_current.hpp): the current asked for is then the constant
+// i_q that would make the same torque in the mean.
 // In a cascade both together stay within current_limit_A: i_d comes first, and the speed PI is held to what is left, so
 // that it does not wind up against it.
 //
-// Modulation is the symmetric space vector's; DriveConfig's chopping, current loop and bus voltage have no say here. What
-// its extras may ask for are a slewed setpoint and another law of the speed loop.
+// The currents are held by two PI and the symmetric space vector's modulation, or without either by choosing among the eight
+// states of three legs (finite_set.hpp). DriveConfig's chopping, current loop and bus voltage have no say here. What
+// its extras may ask for are a slewed or profiled setpoint and another law of the speed loop.
 #pragma once
 #include "sixstep/control/field/field_current.hpp"
 #include "sixstep/control/field/field_direction.hpp"
 #include "sixstep/control/field/field_weakening.hpp"
+#include "sixstep/control/field/finite_set.hpp"
+#include "sixstep/control/field/harmonic_current.hpp"
 #include "sixstep/control/field/torque_per_ampere.hpp"
 #include "sixstep/control/retune.hpp"
 #include "sixstep/control/three_phase_pwm.hpp"
@@ -27,6 +32,8 @@ struct FieldDriveConfig {
   FieldWeakeningConfig<Scalar> weakening{};
   TorquePerAmpereConfig<Scalar> per_ampere{};
   FieldAdvanceConfig<Scalar> advance{};
+  HarmonicCurrentConfig<Scalar> harmonic{};
+  FiniteSetConfig<Scalar> finite_set{};
   bool operator==(const FieldDriveConfig&) const = default;
 };
 
@@ -35,6 +42,7 @@ struct FieldDriveState {
   DriveState<Scalar> drive{};
   FieldCurrentState<Scalar> current{};
   FieldWeakeningState<Scalar> weakening{};
+  FiniteSetState<Scalar> finite_set{};
   Dq<Scalar> measured{}, reference{};  ///< of the last tick, A
   LegCommands<Scalar> command{};       ///< the last answer
 };
@@ -47,6 +55,64 @@ struct FieldDriveInput {
 
 namespace detail {
 
+/// What i_d leaves of the current limit.
+template <class Scalar>
+constexpr Scalar current_left(const FieldDriveConfig<Scalar>& config, const FieldDriveState<Scalar>& state) {
+  const Scalar limit = config.drive.current_limit_A;
+  if (!config.harmonic.on) return circle_rest(limit, state.reference.d);
+  return config.harmonic.least * circle_rest(limit, ScalarTraits<Scalar>::signal(state.weakening.i_d));
+}
+
+/// What turning does to the axes. Of a shape that is no sine where the answer acts: of the magnet, and of the current that it is to
+/// have by then more than at the sample.
+template <class Scalar>
+constexpr Dq<Scalar> turning(const FieldDriveConfig<Scalar>& config, const FieldDriveState<Scalar>& state,
+                             BinaryAngle magnet, Scalar speed_rad_s, Scalar i_q, Scalar weakening) {
+  if (!config.current.decouples) return {};
+  if (!config.harmonic.on) return turning_voltage(config.current, state.measured, speed_rad_s);
+  const BinaryAngle answered = turned_on(magnet, speed_rad_s, config.advance.rad_s);
+  const TakenAlong<Scalar> to = taken_along(config.harmonic, answered, speed_rad_s, i_q, weakening);
+  const Dq<Scalar> then{state.measured.d + (to.current.d - state.reference.d),
+                        state.measured.q + (to.current.q - state.reference.q)};
+  const Dq<Scalar> e =
+      turning_voltage(config.current, then, speed_rad_s,
+                      harmonic_voltage(config.harmonic, answered, speed_rad_s, config.current.magnet_V_s));
+  return {e.d + to.voltage.d, e.q + to.voltage.q};
+}
+
+/// What the magnet makes along itself and across, where it points so.
+template <class Scalar>
+constexpr Dq<Scalar> magnet_voltage(const FieldDriveConfig<Scalar>& config, BinaryAngle magnet,
+                                    Scalar speed_rad_s) {
+  const auto psi = config.current.magnet_V_s;
+  if (config.harmonic.on) return harmonic_voltage(config.harmonic, magnet, speed_rad_s, psi);
+  return {Scalar{}, ScalarTraits<Scalar>::product(speed_rad_s, psi)};
+}
+
+/// Three legs for a whole period, in place of a voltage and its pulses.
+template <class Scalar>
+constexpr const LegCommands<Scalar>& choose_legs(const FieldDriveConfig<Scalar>& config,
+                                                 FieldDriveState<Scalar>& state,
+                                                 const FieldDriveInput<Scalar>& input) {
+  const FiniteSetConfig<Scalar>& c = config.finite_set;
+  const Measurement<Scalar>& m = input.measured;
+  const BinaryAngle middle = turned_on(input.magnet.angle, m.speed_rad_s, c.half_turn_s);
+  BinaryAngle next = middle;
+  if (c.foretells)
+    next = turned_on(turned_on(middle, m.speed_rad_s, c.half_turn_s), m.speed_rad_s, c.half_turn_s);
+  const LegBits legs = finite_set_step(c, state.finite_set,
+                                       {.reference = state.reference,
+                                        .measured = state.measured,
+                                        .magnet = input.magnet.sampled,
+                                        .speed_rad_s = m.speed_rad_s,
+                                        .bus_V = m.bus_V,
+                                        .e = magnet_voltage(config, middle, m.speed_rad_s),
+                                        .e_next = magnet_voltage(config, next, m.speed_rad_s)});
+  state.current.voltage = park(legs_voltage(legs, m.bus_V), input.magnet.answered);
+  state.command = as_legs<Scalar>(legs);
+  return state.command;
+}
+
 /// i_q to ask for, with what i_d leaves of the current limit, and a weakened field of the voltage.
 template <class Scalar>
 constexpr Scalar torque_current(const FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>& state,
@@ -58,9 +124,9 @@ constexpr Scalar torque_current(const FieldDriveConfig<Scalar>& config, FieldDri
     return voltage_bound(config.weakening, config.current, measured.speed_rad_s, measured.bus_V, most);
   };
   if (drive.mode == Mode::current) return clamped(value, bounded(magnitude(value)));
-  const Scalar w_ref = speed_reference(drive, drive.mode, value, measured);
+  const Scalar w_ref = speed_reference(drive, state.drive, drive.mode, value, measured);
   telemetry.speed_reference_rad_s = w_ref;
-  const Scalar most = bounded(circle_rest(drive.current_limit_A, state.reference.d));
+  const Scalar most = bounded(current_left(config, state));
   const CurrentWindow<Scalar> window{-most, most};
   const Scalar y = speed_with_extras(drive.extras, state.drive.extras, drive.speed, state.drive.speed,
                                      w_ref - measured.speed_rad_s, measured.speed_rad_s, &window);
@@ -72,18 +138,50 @@ constexpr Scalar slewed(const DriveConfig<Scalar>& drive, DriveState<Scalar>& st
                         const Measurement<Scalar>& measured, Scalar i_q, Scalar value) {
   if (!drive.extras.on) return value;
   return slewed_setpoint(drive.extras, state.extras, drive.mode, value,
-                         measured_value(drive.mode, measured, i_q));
+                         measured_value(drive.mode, measured, i_q), measured.speed_rad_s);
+}
+
+/// What the loops around the currents ask for: state.reference, and of it what makes torque and what weakens the field.
+template <class Scalar>
+struct FieldAsked {
+  Scalar i_q{}, weakening{};
+};
+template <class Scalar>
+constexpr FieldAsked<Scalar> field_asked(const FieldDriveConfig<Scalar>& config,
+                                         FieldDriveState<Scalar>& state, const Measurement<Scalar>& m,
+                                         BinaryAngle magnet, const Setpoint<Scalar>& setpoint,
+                                         Telemetry<Scalar>& telemetry) {
+  const Scalar value = slewed(config.drive, state.drive, m, state.measured.q, setpoint.value);
+  if (config.drive.extras.on) tell_profile(config.drive.extras, state.drive.extras, value, telemetry);
+  const Scalar i_q = torque_current(config, state, m, value, telemetry);
+  const Scalar weakening =
+      field_weakening_step(config.weakening, state.weakening, state.current.voltage, m.bus_V);
+  if (config.harmonic.on)
+    state.reference = harmonic_current(config.harmonic, magnet, m.speed_rad_s, i_q, weakening);
+  else
+    state.reference = {least_current_d(config.per_ampere, i_q) + weakening, i_q};
+  telemetry.motor_current_A = state.measured.q;
+  telemetry.current_reference_A = i_q;
+  return {i_q, weakening};
+}
+
+/// From state.measured to the voltage in the rotor's frame.
+template <class Scalar>
+constexpr const Dq<Scalar>& field_voltage(const FieldDriveConfig<Scalar>& config,
+                                          FieldDriveState<Scalar>& state, const Measurement<Scalar>& m,
+                                          BinaryAngle magnet, const FieldAsked<Scalar>& asked) {
+  const Dq<Scalar> e = turning(config, state, magnet, m.speed_rad_s, asked.i_q, asked.weakening);
+  return field_current_beside(config.current, state.current, state.reference, state.measured, e, m.bus_V);
 }
 
 }  // namespace detail
 
-/// One control tick. The answer lies in state.command, up to the next call. A duty is no mode of it: the bridge is off.
+/// One control tick. The answer lies in state.command, up to the next call. A duty is no mode of it: the bridge is off. Inlined, so that
+/// where the configuration is a constant nothing is left of what it does not ask for: 2 KB on a Cortex-M4.
 template <class Scalar>
-constexpr const LegCommands<Scalar>& field_drive_step(const FieldDriveConfig<Scalar>& config,
-                                                      FieldDriveState<Scalar>& state,
-                                                      const FieldDriveInput<Scalar>& input,
-                                                      const Setpoint<Scalar>& setpoint,
-                                                      Telemetry<Scalar>& telemetry) {
+[[gnu::always_inline]] constexpr const LegCommands<Scalar>& field_drive_step(
+    const FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>& state,
+    const FieldDriveInput<Scalar>& input, const Setpoint<Scalar>& setpoint, Telemetry<Scalar>& telemetry) {
   const Measurement<Scalar>& m = input.measured;
   if (config.drive.mode == Mode::off || config.drive.mode == Mode::duty) {
     state.drive.extras.slewing = Mode::off;
@@ -91,15 +189,10 @@ constexpr const LegCommands<Scalar>& field_drive_step(const FieldDriveConfig<Sca
     return state.command;
   }
   state.measured = park(clarke(Abc<Scalar>{m.i_a_A, m.i_b_A, m.i_c_A}), input.magnet.sampled);
-  const Scalar value = detail::slewed(config.drive, state.drive, m, state.measured.q, setpoint.value);
-  const Scalar i_q = detail::torque_current(config, state, m, value, telemetry);
-  const Scalar weakening =
-      field_weakening_step(config.weakening, state.weakening, state.current.voltage, m.bus_V);
-  state.reference = {least_current_d(config.per_ampere, i_q) + weakening, i_q};
-  telemetry.motor_current_A = state.measured.q;
-  telemetry.current_reference_A = i_q;
-  const Dq<Scalar>& v = field_current_step(config.current, state.current, state.reference, state.measured,
-                                           m.speed_rad_s, m.bus_V);
+  const detail::FieldAsked<Scalar> asked =
+      detail::field_asked(config, state, m, input.magnet.angle, setpoint, telemetry);
+  if (config.finite_set.on) return detail::choose_legs(config, state, input);
+  const Dq<Scalar>& v = detail::field_voltage(config, state, m, input.magnet.angle, asked);
   state.command = space_vector(inverse_clarke(inverse_park(v, input.magnet.answered)), m.bus_V);
   return state.command;
 }
@@ -113,10 +206,12 @@ constexpr void retune(FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>&
     if (config.drive.mode == Mode::off || config.drive.mode == Mode::duty) {
       state.current = {};
       state.weakening = {};
+      state.finite_set = {};
       state.reference = {};
     }
   }
   detail::hand_speed_over(config.drive, state.drive, next.drive);
+  detail::hand_profile_over(config.drive, state.drive, next.drive);
   config = next;
 }
 

@@ -8,6 +8,10 @@
  *
  * and a scenario names it: control.drive = "own", control.own.controller = "mine.so" (docs/own-controller.md).
  *
+ * The same source goes onto a chip in float: numbers are sixstep_real, double for the program, and what SIXSTEP_REAL names
+ * (-DSIXSTEP_REAL=float) else. A literal like 0.5 is a double: written (sixstep_real)0.5, a chip computes with it in float.
+ * tools/own_cost.sh counts what it takes there.
+ *
  * What it computes must depend on nothing but config, state and what it is given: runs are repeated, resumed, copied and run side by
  * side. State is moved about as bytes, so it holds no pointer into itself. Nothing here may allocate, block, throw or end the
  * program. */
@@ -20,8 +24,13 @@
 extern "C" {
 #endif
 
-/* Of these structs. A program refuses another one's. */
-#define SIXSTEP_OWN_INTERFACE 1u
+#ifndef SIXSTEP_REAL
+#define SIXSTEP_REAL double
+#endif
+typedef SIXSTEP_REAL sixstep_real;
+
+/* Of these structs: 1 in double, 257 in float. A program refuses what has another than its own. */
+#define SIXSTEP_OWN_INTERFACE (1u + (sizeof(sixstep_real) == 8 ? 0u : 256u))
 
 /* What the setpoint means: duty -1..1, A, rad/s, mechanical degrees. */
 enum { SIXSTEP_DUTY = 1, SIXSTEP_CURRENT = 2, SIXSTEP_SPEED = 3, SIXSTEP_POSITION = 4 };
@@ -37,18 +46,18 @@ enum { SIXSTEP_ANSWERS_PAIR = 0, SIXSTEP_ANSWERS_LEGS = 1 };
 
 /* One sample, as the scenario's sensors have it. */
 typedef struct {
-  double current_A[3];           /* of phases a, b, c, into the motor */
-  double speed_rad_s;            /* mechanical */
-  double position_deg;           /* mechanical, counted over turns */
-  double bus_V;
-  double magnet_cos, magnet_sin; /* of the electrical angle from phase a's axis to the magnet's; by Hall codes alone the sector's middle */
-  uint8_t hall;                  /* H1 H2 H3 as bits 2, 1, 0, as probes 120 degrees apart show it */
+  sixstep_real current_A[3]; /* of phases a, b, c, into the motor */
+  sixstep_real speed_rad_s;  /* mechanical */
+  sixstep_real position_deg; /* mechanical, counted over turns */
+  sixstep_real bus_V;
+  sixstep_real magnet_cos, magnet_sin; /* of the electrical angle of the magnet from phase a's axis; by Hall codes alone the sector's middle */
+  uint8_t hall;                        /* H1 H2 H3 as bits 2, 1, 0, as probes 120 degrees apart show it */
 } sixstep_measured;
 
 typedef struct {
-  uint8_t state;    /* SIXSTEP_LEG_OFF ... */
-  uint8_t switches; /* of SIXSTEP_LEG_PWM */
-  double duty;      /* 0..1, of SIXSTEP_LEG_PWM */
+  uint8_t state;     /* SIXSTEP_LEG_OFF ... */
+  uint8_t switches;  /* of SIXSTEP_LEG_PWM */
+  sixstep_real duty; /* 0..1, of SIXSTEP_LEG_PWM */
 } sixstep_leg;
 
 /* Answers a pair: source, sink, duty, chopping, chopped. Answers legs: leg. Is zero before the first step and keeps what it was
@@ -59,11 +68,11 @@ typedef struct {
   uint8_t source;  /* leg whose upper switch the current comes by */
   uint8_t sink;    /* leg whose lower switch it leaves by */
   uint8_t chopping, chopped;
-  double duty;    /* 0..1 */
-  double overlap; /* of the leg in no pair: its upper switch (below 0: its lower one) chopped, -1..1 */
+  sixstep_real duty;    /* 0..1 */
+  sixstep_real overlap; /* of the leg in no pair: its upper switch (below 0: its lower one) chopped, -1..1 */
   sixstep_leg leg[3];
-  double current_reference_A;   /* for the report alone */
-  double speed_reference_rad_s; /* alike */
+  sixstep_real current_reference_A;   /* for the report alone */
+  sixstep_real speed_reference_rad_s; /* alike */
 } sixstep_answer;
 
 /* What one may know who designs it: the nominal motor's sheet, the board, and the loops that the library would use for this scenario
@@ -73,25 +82,25 @@ typedef struct {
   uint8_t delay_periods; /* that an answer waits */
   uint8_t sampled_in_middle;
   uint8_t chopping;
-  double period_s;
-  double bus_V;
-  double pole_pairs;
-  double R_ohm, L_H;   /* of a phase */
-  double K_t_Nm_A;     /* N m per A of a driven pair, and V s/rad between two terminals */
-  double magnet_Vs;    /* peak of a phase's flux linkage by the magnet, of a sine machine's */
-  double J_kg_m2, B_Nm_s; /* with the load's */
-  double current_d1, current_d0; /* V per A */
-  double speed_d1, speed_d0;     /* of the full torque per rad/s */
-  double full_torque_Nm, full_current_A;
-  double current_limit_A;
-  double position_gain_rad_s_per_deg, speed_limit_rad_s; /* of the speed that a position loop asks for */
+  sixstep_real period_s;
+  sixstep_real bus_V;
+  sixstep_real pole_pairs;
+  sixstep_real R_ohm, L_H;             /* of a phase */
+  sixstep_real K_t_Nm_A;               /* N m per A of a driven pair, and V s/rad between two terminals */
+  sixstep_real magnet_Vs;              /* peak of a phase's flux linkage by the magnet, of a sine machine's */
+  sixstep_real J_kg_m2, B_Nm_s;        /* with the load's */
+  sixstep_real current_d1, current_d0; /* V per A */
+  sixstep_real speed_d1, speed_d0;     /* of the full torque per rad/s */
+  sixstep_real full_torque_Nm, full_current_A;
+  sixstep_real current_limit_A;
+  sixstep_real position_gain_rad_s_per_deg, speed_limit_rad_s; /* of the speed that a position loop asks for */
 } sixstep_given;
 
 typedef struct {
   const char* name; /* letters, digits, '_' */
   const char* unit; /* "" for none */
   const char* meaning;
-  double preset, least, most;
+  sixstep_real preset, least, most;
 } sixstep_parameter;
 
 typedef struct {
@@ -104,11 +113,11 @@ typedef struct {
   const sixstep_parameter* parameter;
   /* Fills config, which is zero, from what is given and one value per parameter. Answers a null pointer, or what is wrong in half a
    * sentence: "asks for more than the bus has". */
-  const char* (*design)(const sixstep_given* given, const double* values, void* config);
+  const char* (*design)(const sixstep_given* given, const sixstep_real* values, void* config);
   /* Fills state, which is zero. May be null. */
   void (*start)(const void* config, void* state);
   /* Once per control period; answer holds the last one. */
-  void (*step)(const void* config, void* state, const sixstep_measured* measured, double setpoint, sixstep_answer* answer);
+  void (*step)(const void* config, void* state, const sixstep_measured* measured, sixstep_real setpoint, sixstep_answer* answer);
   /* In the Hall interrupt, of one that answers a pair: the pair moves on. Null: it moves at the next step. */
   void (*hall)(const void* config, void* state, uint8_t code, sixstep_answer* answer);
 } sixstep_controller;

@@ -3,9 +3,9 @@
 //
 //   struct Config; struct State;                              both trivially copyable, all zero before design and start
 //   static constexpr sixstep_parameter parameters[];          left out where it has none
-//   static const char* design(const sixstep_given&, const double* values, Config&);
+//   static const char* design(const sixstep_given&, const sixstep_real* values, Config&);
 //   static void start(const Config&, State&);                 left out where State begins as State{}
-//   static void step(const Config&, State&, const sixstep_measured&, double setpoint, sixstep_answer&);
+//   static void step(const Config&, State&, const sixstep_measured&, sixstep_real setpoint, sixstep_answer&);
 //   static void hall(const Config&, State&, std::uint8_t code, sixstep_answer&);   left out where the pair waits for the next step
 //
 // and the shared object's one symbol is made of it by
@@ -25,7 +25,7 @@ struct OwnFunctions {
   static_assert(__is_trivially_copyable(Config) && __is_trivially_copyable(State),
                 "they are moved about as bytes");
 
-  static const char* design(const sixstep_given* given, const double* values, void* config) {
+  static const char* design(const sixstep_given* given, const sixstep_real* values, void* config) {
     auto& own = *static_cast<Config*>(config);
     own = Config{};
     return Class::design(*given, values, own);
@@ -36,7 +36,7 @@ struct OwnFunctions {
     if constexpr (requires { Class::start(*static_cast<const Config*>(config), own); })
       Class::start(*static_cast<const Config*>(config), own);
   }
-  static void step(const void* config, void* state, const sixstep_measured* measured, double setpoint,
+  static void step(const void* config, void* state, const sixstep_measured* measured, sixstep_real setpoint,
                    sixstep_answer* answer) {
     Class::step(*static_cast<const Config*>(config), *static_cast<State*>(state), *measured, setpoint,
                 *answer);

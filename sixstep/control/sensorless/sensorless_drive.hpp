@@ -73,7 +73,8 @@ constexpr void hand_over(const SensorlessDriveConfig<Scalar>& config, Sensorless
   state.setpoint.y = T::accumulator(drive.mode == Mode::duty ? duty : current);
   const Scalar output = caught ? Scalar{} : forward ? config.start_output : -config.start_output;
   state.drive.speed.u = T::accumulator(drive.speed_control == SpeedControl::duty ? duty : output);
-  state.drive.speed.e = speed_reference(drive, drive.mode, setpoint, measured) - measured.speed_rad_s;
+  state.drive.speed.e =
+      speed_reference(drive, state.drive, drive.mode, setpoint, measured) - measured.speed_rad_s;
 }
 
 /// A pulse that a sample fits into.

@@ -170,11 +170,49 @@ void fields(Walk&& w, const control::SpeedLaws<double>& d, Kept& kept) {
   }
 }
 
+/// The scalars are the profile's own: a walk that knows bases takes no part in it.
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::JerkProfileConfig<double>& d, Kept& kept) {
+  auto& [counts_per_deg, deg_per_part, rad_s_per_part, rad_s2_per_part, stride_per_tick, acceleration, ticks,
+         cells] = kept;
+  const control::JerkProfileConfig<double> unset;
+  w.signal({"counts_per_deg"}, d.counts_per_deg, counts_per_deg, Base::one);
+  w.signal({"deg_per_part", "deg"}, d.deg_per_part, deg_per_part, Base::one);
+  w.signal({"rad_s_per_part", "rad/s"}, d.rad_s_per_part, rad_s_per_part, Base::one);
+  w.signal({"rad_s2_per_part", "rad/s^2"}, d.rad_s2_per_part, rad_s2_per_part, Base::one);
+  w.signal({"stride_per_tick"}, d.stride_per_tick, stride_per_tick, Base::one);
+  w.count({"acceleration", "", "counts per stride^2"}, d.acceleration, acceleration, unset.acceleration);
+  w.count({"ticks", "", "of a stride"}, d.ticks, ticks, unset.ticks);
+  w.count({"cells", "", "strides of the mean"}, d.cells, cells, unset.cells);
+}
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::MotionFeedForwardConfig<double>& d, Kept& kept) {
+  auto& [on, per_rad_s2, per_rad_s, coulomb] = kept;
+  w.flag({"on"}, d.on, on);
+  if (!w.when_on(d.on)) return;
+  w.signal({"per_rad_s2", "per rad/s^2"}, d.per_rad_s2, per_rad_s2, Base::one);
+  w.signal({"per_rad_s", "per rad/s"}, d.per_rad_s, per_rad_s, Base::one);
+  w.signal({"coulomb", "of full torque"}, d.coulomb, coulomb, Base::one);
+}
+
+/// Fixed point has none of it, as of SpeedLaws.
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::ProfiledPositionConfig<double>& d, Kept& kept) {
+  if constexpr (requires { kept.profile; }) {
+    auto& [on, profile, feed_forward] = kept;
+    w.flag({"on"}, d.on, on);
+    if (!w.when_on(d.on)) return;
+    w.part("profile", d.profile, profile);
+    w.part("feed_forward", d.feed_forward, feed_forward);
+  }
+}
+
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::DriveExtras<double>& d, Kept& kept) {
   auto& [on, slews_setpoint, slew, limits_current, limits, torque_fraction_per_A, feed_forward, bus,
          smooth_chopping, chopping, pwm, predicts_current, deadbeat, staying_phase, steps_commutation,
-         commutation, speed_law, speed, speed_derivative, speed_weight_off, laws] = kept;
+         commutation, speed_law, speed, speed_derivative, speed_weight_off, laws, position] = kept;
   w.flag({"on"}, d.on, on);
   constexpr Field torque_fraction{"torque_fraction_per_A", "per A"};
   constexpr Ratio of_current{Base::one, Base::current};
@@ -199,6 +237,7 @@ void fields(Walk&& w, const control::DriveExtras<double>& d, Kept& kept) {
   w.flag({"staying_phase"}, d.staying_phase, staying_phase);
   w.flag({"steps_commutation"}, d.steps_commutation, steps_commutation);
   if (w.when_on(d.steps_commutation)) w.part("commutation", d.commutation, commutation);
+  w.part("position", d.position, position);
   w.choice({"speed_law"}, d.speed_law, speed_law, control::SpeedLaw::pi);
   if (!w.when_on(d.speed_law != control::SpeedLaw::pi)) return;
   w.part("speed", d.speed, speed);

@@ -14,6 +14,7 @@
 #include "sixstep/study/check/numbers.hpp"
 #include "sixstep/study/check/own.hpp"
 #include "sixstep/study/check/pace.hpp"
+#include "sixstep/study/check/position.hpp"
 #include "sixstep/study/check/product.hpp"
 #include "sixstep/study/check/reference.hpp"
 #include "sixstep/study/check/sensorless.hpp"
@@ -106,6 +107,7 @@ void check_control(const Scenario& s, base::Problems& out) {
   check_speed_output(s, out);
   check_limited_mode(s, out);
   check_speed_law(s, out);
+  check_position(s, out);
   append(out, given_gains(s.control.current, "control.current").problems);
   append(out, given_gains(s.control.speed, "control.speed").problems);
   const CurrentLoop& c = s.control.current;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/check/field.hpp"
 
+#include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/study/scenario/choices.hpp"
+#include "sixstep/study/scenario/field_description.hpp"
 #include "sixstep/study/scenario/measure_choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 
@@ -64,6 +66,30 @@ void check_loops(const Scenario& s, base::Problems& out) {
   refuse(c.smooth_chopping.on, "control.smooth_chopping", of_pair, other_drive);
 }
 
+/// The angle is estimated: nothing else may be said of the rotor.
+void check_unsensed(const Scenario& s, base::Problems& out) {
+  const auto angle = [&s] { return std::string(base::word(field_angle_choices, s.control.field.angle)); };
+  if (s.sensors.rotor != RotorSensing::ideal)
+    out.push_back({"sensors.rotor", std::string(base::word(rotor_sensing_choices, s.sensors.rotor)),
+                   "is not looked at where control.field.angle is " + angle(),
+                   "leave it away, or set control.field.angle = \"sensors\""});
+  if (s.control.field.law == FieldLaw::finite_set)
+    out.push_back({"control.field.law", "\"finite-set\"",
+                   "makes no pulses, and where control.field.angle is " + angle() + " they are looked at",
+                   "set law = \"pi\", or control.field.angle = \"sensors\""});
+  if (s.control.mode == control::Mode::position)
+    out.push_back({"control.mode", "\"position\"",
+                   "needs a rotor whose turns are counted, and an estimated angle is not",
+                   "control speed or current, or set control.field.angle = \"sensors\""});
+  if (s.control.field.angle != FieldAngle::observer && s.pwm.sample == SampleAt::middle)
+    out.push_back({"pwm.sample", "\"middle\"",
+                   "is where the current of the pulse that is injected crosses zero: nothing is seen of it",
+                   "set sample = \"start\""});
+  if (s.sheet.kind == design::MotorKind::linear)
+    out.push_back({"control.drive", "\"field-oriented\"", "drives turning motors, and this one is linear",
+                   "set drive = \"lean\" or \"product\""});
+}
+
 /// An angle between two samples, of the motor's own shaft.
 void check_sensing(const Scenario& s, base::Problems& out) {
   const Sensors& x = s.sensors;
@@ -71,6 +97,7 @@ void check_sensing(const Scenario& s, base::Problems& out) {
     out.push_back({"sensors.currents", "\"dc-link\"",
                    "shows one current of a driven pair, and the field-oriented drive turns three",
                    "set currents = \"phases\", or \"ideal\""});
+  if (s.control.field.angle != FieldAngle::sensors) return check_unsensed(s, out);
   if (x.rotor == RotorSensing::hall && x.hall_angle == rig::HallAngleFrom::sectors)
     out.push_back({"sensors.hall_angle", "\"sectors\"", "tells no angle between two Hall edges",
                    "set hall_angle = \"interpolated\" or \"calibrated\""});
@@ -92,9 +119,29 @@ void check_keys(const Scenario& s, base::Problems& out) {
     out.push_back({"control.field.bandwidth_Hz", "",
                    "contradicts the gains in control.current: they are given or designed twice",
                    "keep one of them"});
+  const bool injects = f.angle == FieldAngle::injection || f.angle == FieldAngle::injection_observer;
+  const bool observes = f.angle == FieldAngle::observer || f.angle == FieldAngle::injection_observer;
+  const auto needs = [&out](bool given, bool serves, const char* key, const char* of, const char* cure) {
+    if (given && !serves) out.push_back({key, "", of, cure});
+  };
+  needs(f.angle_bandwidth_Hz.has_value(), injects || observes, "control.field.angle_bandwidth_Hz",
+        "is of an angle that is estimated, and this one is sensed",
+        "leave it away, or set control.field.angle");
+  needs(f.injection_V.has_value(), injects, "control.field.injection_V", "is injected nowhere",
+        "leave it away, or set control.field.angle = \"injection\"");
+  needs(f.observer_from_rad_s.has_value(), observes, "control.field.observer_from_rad_s",
+        "is of an observer, and there is none", "leave it away, or set control.field.angle = \"observer\"");
+  needs(f.start_current_A.has_value(), observes && !injects, "control.field.start_current_A",
+        "turns a rotor that is not seen at rest, and this one is",
+        "leave it away, or set control.field.angle = \"observer\"");
   if (f.weakening_A && f.voltage_limit != control::VoltageLimit::circle)
     out.push_back({"control.field.weakening_A", "", "goes by the circle, and voltage_limit is \"axes\"",
                    "set control.field.voltage_limit = \"circle\", or leave it away"});
+  if (f.harmonic_current && design::is_salient(s.sheet))
+    out.push_back(
+        {"control.field.harmonic_current", "true",
+         "is the least current of a round rotor, and d_axis_inductance_mH and q_axis_inductance_mH differ",
+         "leave it away, or give the motor one inductance_mH"});
 }
 
 }  // namespace
@@ -122,6 +169,7 @@ void check_field(const Scenario& s, base::Problems& out) {
   check_loops(s, out);
   check_sensing(s, out);
   check_keys(s, out);
+  check_finite_set(s, out);
   check_pair_figures(s, out);
 }
 

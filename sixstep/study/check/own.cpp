@@ -12,7 +12,10 @@ namespace sixstep::study {
 
 namespace {
 
+static_assert(sizeof(sixstep_real) == sizeof(double), "SIXSTEP_REAL is for what goes onto a chip");
 constexpr std::uint32_t most_bytes = 65536, most_numbers = 64;
+/// Of a controller compiled for a chip.
+constexpr std::uint32_t in_float = SIXSTEP_OWN_INTERFACE + 256;
 
 bool is_name(const char* text) {
   if (text == nullptr || *text == 0) return false;
@@ -83,6 +86,7 @@ void check_around(const Scenario& s, base::Problems& out) {
   refuse(c.regeneration.limit_V.has_value(), "control.regeneration", its_own, "leave it away");
   refuse(c.smooth_chopping.on, "control.smooth_chopping", its_own, "leave it away");
   refuse(c.slew.has_value(), "control.slew", its_own, "leave it away");
+  refuse(c.position.profile.on, "control.position.profile", its_own, "leave it away");
   refuse(s.pwm.pattern != control::PwmPattern::upper, "pwm.pattern", its_own, "leave it away");
 }
 
@@ -93,6 +97,9 @@ base::Problems check_controller(const sixstep_controller& is) {
   const auto refuse = [&out](bool wrong, const char* where, const std::string& value, const char* limit) {
     if (wrong) out.push_back({where, value, limit, "look at sixstep/control/own/own_controller.h"});
   };
+  if (is.interface == in_float)
+    return {{"interface", std::to_string(is.interface), "is that of float, and this program's is of double",
+             "compile it without -DSIXSTEP_REAL=float"}};
   refuse(is.interface != SIXSTEP_OWN_INTERFACE, "interface", std::to_string(is.interface),
          "is not the interface of this program: compile it with this program's own_controller.h");
   if (!out.empty()) return out;

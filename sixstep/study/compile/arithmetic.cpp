@@ -7,7 +7,7 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/control/fixed.hpp"
-#include "sixstep/design/fields/field_drive_fields.hpp"
+#include "sixstep/design/fields/estimator_fields.hpp"
 #include "sixstep/design/fields/product_fields.hpp"
 #include "sixstep/design/fields/sensorless_fields.hpp"
 #include "sixstep/design/loops/limit_bounds.hpp"
@@ -183,8 +183,9 @@ base::Result<SensorlessIn<Scalar>> sensorless_in(const Scenario& s, const Compil
 template <class Scalar>
 base::Result<FieldIn<Scalar>> field_in(const Compiled& c) {
   FieldIn<Scalar> out;
-  out.config.drive = in_arithmetic<Scalar>(c.field->drive);
-  design::fields(design::AsFloat{}, *c.field, out.config);
+  out.config.field.drive = in_arithmetic<Scalar>(c.field->drive);
+  design::fields(design::AsFloat{}, *c.field, out.config.field);
+  design::fields(design::AsFloat{}, c.estimator, out.config.estimator);
   return out;
 }
 

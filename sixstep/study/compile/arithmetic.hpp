@@ -3,7 +3,7 @@
 // scaled to fixed point with a proof that they fit.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
-#include "sixstep/control/field/field_drive.hpp"
+#include "sixstep/control/field/sensorless_field_drive.hpp"
 #include "sixstep/design/scaling/product_scaling.hpp"
 #include "sixstep/rig/bases.hpp"
 #include "sixstep/study/compile/compile.hpp"
@@ -56,7 +56,7 @@ base::Result<SensorlessIn<Scalar>> sensorless_in(const Scenario& scenario, const
 /// And the field-oriented one, in floating point alone: no scaling is proved of it yet.
 template <class Scalar>
 struct FieldIn {
-  control::FieldDriveConfig<Scalar> config;
+  control::SensorlessFieldConfig<Scalar> config;
   rig::Bases bases;
 };
 template <class Scalar>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a compiled scenario's parts are designed on, and the parts that have a file of their own.
 #pragma once
+#include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/loops/limit_bounds.hpp"
 #include "sixstep/study/compile/compile.hpp"
 
@@ -21,6 +22,12 @@ double current_settling_s(const Scenario& scenario);
 
 /// Sets drive.extras (drive_extras.hpp) where the scenario asks for any; `drive` has its loops already.
 void add_extras(const Scenario& scenario, const Basis& basis, control::DriveConfig<double>& drive);
+
+/// Sets the position loop's profile, where the scenario has one; `tuned` has its loops and limits already.
+void add_position_profile(const Scenario& scenario, const Basis& basis, Tuned& tuned);
+/// Of a motion that the drive as designed cannot make.
+base::Problems check_position_profile(const Scenario& scenario, const Basis& basis,
+                                      const control::DriveConfig<double>& drive);
 
 /// What control/limits.hpp has to hold against, at the worst that supply, start and limits allow.
 design::LimitSetting limit_setting(const Scenario& scenario, const Basis& basis,
@@ -44,14 +51,20 @@ base::Result<SensorlessAround> sensorless_around(const Scenario& scenario, const
                                                  const control::DriveConfig<double>& drive);
 
 struct FieldAround {
-  control::FieldDriveConfig<double> config;  ///< SI
-  std::vector<LoopGains> gains;              ///< of the current loops
-  std::vector<design::DerivationStep> steps;
+  control::FieldDriveConfig<double> config;    ///< SI
+  control::EstimatorConfig<double> estimator;  ///< on where no sensor tells the angle
+  std::vector<LoopGains> gains;                ///< of the current loops
+  std::vector<design::DerivationStep> steps, estimator_steps;
 };
 /// The field-oriented drive around `drive`: gains as given, placed or by cancellation (design/loops/field_current.hpp).
 /// Problems: a bandwidth that the board's delay does not allow.
 base::Result<FieldAround> field_around(const Scenario& scenario, const Basis& basis,
                                        const control::DriveConfig<double>& drive);
+
+/// Adds its estimator, where no sensor tells the angle (design/loops/field_estimate.hpp). `loop_rad_s`: bandwidth of its current loops.
+base::Problems add_estimator(const Scenario& scenario, const Basis& basis,
+                             const design::FieldMachine& machine, const control::DriveConfig<double>& drive,
+                             double loop_rad_s, FieldAround& out);
 
 /// A controller of one's own, as it designs itself by the nominal motor, the board and the loops of `drive`. Problems: what it says
 /// that it cannot.

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "sixstep/plant/general/plant.hpp"
+#include "sixstep/rig/chip_drive.hpp"
 #include "sixstep/rig/field_drive.hpp"
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/rig/sensorless_drive.hpp"
@@ -58,6 +59,15 @@ template <class Command>
 auto given_to(std::type_identity<rig::OwnDrive<Command>>, const Scenario&, const Compiled& c) {
   return base::Result<OwnGiven>(OwnGiven{c.own, {}});
 }
+/// A chip that runs a firmware of its own has its configuration in its flash; what stands here is the board's.
+struct ChipGiven {
+  rig::ChipConfig config;
+  rig::Bases bases;
+};
+inline auto given_to(std::type_identity<rig::ChipDrive>, const Scenario& s, const Compiled& c) {
+  return base::Result<ChipGiven>(
+      ChipGiven{{s.control.mode, c.setpoint_range, std::uint32_t{1} << c.board.sensors.current.bits}, {}});
+}
 template <class Firmware>
 auto given_to(std::type_identity<Firmware>, const Scenario& s, const Compiled& c) {
   return drive_in<typename Firmware::Number>(s, c);
@@ -78,6 +88,7 @@ base::Problems add_later(const Scenario& s, const Compiled& c, Chip<Firmware>& o
     then.sensorless = c.later[number].sensorless;
     then.field = c.later[number].field;
     then.own = c.later[number].own;
+    then.estimator = c.later[number].estimator;
     const auto chip = given_to(std::type_identity<Firmware>{}, settled_s, then);
     if (!chip) return told_of_event(s, *at, chip.problems());
     out.later.push_back({chip->config, chip->bases.setpoint});

@@ -11,6 +11,7 @@
 #include "sixstep/study/compile/front_end.hpp"
 #include "sixstep/study/compile/general_plant.hpp"
 #include "sixstep/study/compile/loops.hpp"
+#include "sixstep/study/compile/setpoint_range.hpp"
 #include "sixstep/study/compile/shaft_sensor.hpp"
 #include "sixstep/study/compile/timeline.hpp"
 #include "sixstep/study/scenario/changes.hpp"
@@ -115,14 +116,16 @@ base::Problems add_sensorless(const Scenario& s, const Basis& basis,
 }
 
 /// The gains of its current loops come first, as the innermost.
-base::Problems add_field(const Scenario& s, const Basis& basis, Tuned& tuned,
-                         std::vector<design::DerivationStep>* steps = nullptr) {
+base::Problems add_field(const Scenario& s, const Basis& basis, Tuned& tuned, Compiled* told = nullptr) {
   if (s.control.drive != FirmwareKind::field) return {};
   auto around = field_around(s, basis, tuned.drive);
   if (!around) return around.problems();
   tuned.field = around->config;
+  tuned.estimator = around->estimator;
   tuned.gains.insert(tuned.gains.begin(), around->gains.begin(), around->gains.end());
-  if (steps != nullptr) *steps = std::move(around->steps);
+  if (told == nullptr) return {};
+  told->field_steps = std::move(around->steps);
+  told->estimator_steps = std::move(around->estimator_steps);
   return {};
 }
 
@@ -200,16 +203,17 @@ base::Result<Compiled> compile(const Scenario& s) {
   out.wiring = {s.bridge.phases, s.sensors.hall_lines, static_cast<std::uint8_t>(s.sensors.hall_inverted)};
   out.probes = probes_of(s.sensors);
   out.timeline = timeline_of(s);
+  out.setpoint_range = setpoint_range(s, out.timeline);
   out.end = sim::to_instant(s.duration_s);
   const std::optional<Scenario> alone = changes_mode(s) ? std::optional(settled(s, nullptr)) : std::nullopt;
   base::Result<Tuned> first = tuned(alone ? *alone : s, basis);
   if (!first) return first.problems();
-  if (base::Problems problems = add_field(alone ? *alone : s, basis, *first, &out.field_steps);
-      !problems.empty())
+  if (base::Problems problems = add_field(alone ? *alone : s, basis, *first, &out); !problems.empty())
     return problems;
   if (base::Problems problems = add_own(alone ? *alone : s, basis, *first); !problems.empty())
     return problems;
   out.field = first->field;
+  out.estimator = first->estimator;
   out.own = std::move(first->own);
   out.drive = first->drive;
   out.gains = std::move(first->gains);

@@ -4,7 +4,7 @@
 #pragma once
 #include "sixstep/base/result.hpp"
 #include "sixstep/control/commissioning/pulse_start.hpp"
-#include "sixstep/control/field/field_drive.hpp"
+#include "sixstep/control/field/sensorless_field_drive.hpp"
 #include "sixstep/control/protected_drive.hpp"
 #include "sixstep/plant/general/machine.hpp"
 #include "sixstep/rig/own_drive.hpp"
@@ -23,6 +23,7 @@ struct Tuned {
   std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< alike
   std::optional<control::FieldDriveConfig<double>> field;        ///< alike
   rig::OwnConfig own;                                            ///< in its place, where it is one's own
+  control::EstimatorConfig<double> estimator;  ///< of the field-oriented drive without a rotor sensor
 };
 
 /// What the general kernel is given, where the scenario asks for what the lean one lacks (plant/general/).
@@ -50,10 +51,13 @@ struct Compiled {
   std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< alike
   std::optional<control::FieldDriveConfig<double>> field;        ///< alike
   rig::OwnConfig own;                                            ///< in its place, where it is one's own
+  control::EstimatorConfig<double> estimator;  ///< of the field-oriented drive without a rotor sensor
   std::vector<LoopGains> gains;
   std::vector<design::DerivationStep> sensorless_steps;  ///< of the sensorless drive's numbers
   std::vector<design::DerivationStep> field_steps;       ///< of the field-oriented drive's
+  std::vector<design::DerivationStep> estimator_steps;   ///< of its estimator's
   std::vector<Tuned> later;                              ///< what the timeline's retune actions name
+  double setpoint_range = 1.0;  ///< that a chip's potentiometer has to reach, either way (setpoint_range.hpp)
   std::optional<GeneralPlant> general;  ///< runs in the place of motor, shaft, devices and supply
   sim::Instant end;
 };

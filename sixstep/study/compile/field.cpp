@@ -5,23 +5,16 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/loops/speed_laws.hpp"
-#include "sixstep/study/compile/basis.hpp"
+#include "sixstep/study/compile/field_parts.hpp"
 
 namespace sixstep::study {
 
 namespace {
 
-const design::Sheet& designed_sheet(const Scenario& s) {
-  return s.designed_for ? s.designed_for->sheet : s.sheet;
-}
-
 /// Periods from a sample to the middle of the one that answers it: a sample in the middle waits half a period.
 double periods_to_answer(const Pwm& pwm) {
   return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 1.0 : 0.5);
 }
-
-/// Whole periods that the answer waits, as the winding's discrete model has them: half a one counts as a whole.
-int waits_periods(const Pwm& pwm) { return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 1 : 0); }
 
 design::FieldLoopSpec loop_spec(const Scenario& s) {
   const double usual = design::usual_field_bandwidth_rad_s(s.pwm.period_s);
@@ -95,6 +88,7 @@ double torque_per_A(const Scenario& s, const Basis& basis) {
 }
 
 double field_lag_periods(const Scenario& s, const Basis& basis) {
+  if (s.control.field.law == FieldLaw::finite_set) return waits_periods(s.pwm) + 0.5;
   const design::FieldMachine machine = design::field_machine(basis.motor, designed_sheet(s));
   const auto axis = axis_loop(s, "current q", machine.R_ohm, machine.L_q_H);
   return axis ? design::current_lag_periods(machine.R_ohm, axis->gains.d1 + axis->gains.d0) : 0.0;
@@ -108,7 +102,10 @@ base::Result<FieldAround> field_around(const Scenario& s, const Basis& basis,
   out.config.drive = drive;
   if (drive.current_at_full_torque_A > 0)
     out.config.drive.extras.torque_fraction_per_A = 1 / drive.current_at_full_torque_A;
-  if (base::Problems problems = add_axes(s, machine, out); !problems.empty()) return problems;
+  if (wanted.law == FieldLaw::finite_set)
+    add_finite_set(s, basis, out);
+  else if (base::Problems problems = add_axes(s, machine, out); !problems.empty())
+    return problems;
   control::FieldCurrentConfig<double>& c = out.config.current;
   c.limit = wanted.voltage_limit;
   c.d.limit = c.q.limit = basis.bus_V / 2;
@@ -127,6 +124,10 @@ base::Result<FieldAround> field_around(const Scenario& s, const Basis& basis,
   if (wanted.torque_per_ampere) out.config.per_ampere.k_per_A = design::torque_per_ampere_gain(machine);
   out.config.advance.rad_s =
       wanted.advance_periods.value_or(periods_to_answer(s.pwm)) * s.pwm.period_s * machine.pole_pairs;
+  add_harmonic_current(s, basis, out);
+  if (base::Problems problems = add_estimator(s, basis, machine, drive, loop_spec(s).bandwidth_rad_s, out);
+      !problems.empty())
+    return problems;
   return out;
 }
 

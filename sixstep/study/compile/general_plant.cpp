@@ -42,11 +42,12 @@ void connect_delta(const design::Sheet& s, double K_t_Nm_A, general::Machine& m)
   m.K_e_V_s = {K, K, K};
 }
 
-general::Machine machine_of(const Scenario& s, const Compiled& c) {
-  const plant::Machine& from = c.motor.machine;
-  const design::Sheet& sheet = s.sheet;
+}  // namespace
+
+general::Machine general_machine(const design::Sheet& sheet, const design::MotorModel& motor) {
+  const plant::Machine& from = motor.machine;
   general::Machine to{.R_ohm = {from.R_ohm, from.R_ohm, from.R_ohm},
-                      .K_e_V_s = {c.motor.K_e_V_s, c.motor.K_e_V_s, c.motor.K_e_V_s},
+                      .K_e_V_s = {motor.K_e_V_s, motor.K_e_V_s, motor.K_e_V_s},
                       .L_H = from.L_H,
                       .pole_pairs = from.pole_pairs,
                       .shape = shape_of(sheet, from)};
@@ -67,9 +68,11 @@ general::Machine machine_of(const Scenario& s, const Compiled& c) {
         {sheet.cogging_orders[n] * (sheet.kind == design::MotorKind::linear ? from.pole_pairs : 1.0),
          1e-3 * sheet.cogging_mNm[n],
          sheet.cogging_phase_deg.empty() ? 0.0 : sheet.cogging_phase_deg[n] * base::pi / 180});
-  if (sheet.connection == design::WindingConnection::delta) connect_delta(sheet, c.motor.K_t_Nm_A, to);
+  if (sheet.connection == design::WindingConnection::delta) connect_delta(sheet, motor.K_t_Nm_A, to);
   return to;
 }
+
+namespace {
 
 std::vector<general::TorquePoint> torque_over_speed(const Load& l) {
   std::vector<general::TorquePoint> points;
@@ -200,7 +203,7 @@ bool needs_general_plant(const Scenario& s) {
 std::optional<GeneralPlant> general_plant(const Scenario& s, const Compiled& c) {
   if (!needs_general_plant(s)) return std::nullopt;
   const plant::Start& start = c.start;
-  return GeneralPlant{.machine = machine_of(s, c),
+  return GeneralPlant{.machine = general_machine(s.sheet, c.motor),
                       .shaft = shaft_of(s, c),
                       .devices = devices_of(s.bridge),
                       .supply = supply_of(s.supply),

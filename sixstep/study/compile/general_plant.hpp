@@ -10,6 +10,9 @@ namespace sixstep::study {
 /// Whether a scenario asks for what the lean kernel lacks.
 bool needs_general_plant(const Scenario& scenario);
 
+/// The windings of a motor as the general kernel is given them.
+plant::general::Machine general_machine(const design::Sheet& sheet, const design::MotorModel& motor);
+
 /// Empty where the lean kernel runs it. `compiled` has the motor's model, the lean shaft and the start.
 std::optional<GeneralPlant> general_plant(const Scenario& scenario, const Compiled& compiled);
 

@@ -149,9 +149,13 @@ base::Result<Tuned> tuned(const Scenario& s, const Basis& basis) {
   out.drive.hysteresis = {s.control.current.band_A, watch_of(s.control.current)};
   if (base::Problems problems = add_loops(s, basis, out); !problems.empty()) return problems;
   add_extras(s, basis, out.drive);
+  add_position_profile(s, basis, out);
   // What a limit can hold is judged on the drive as designed; one of a series that strays from it is run.
-  if (!s.designed_for)
-    if (base::Problems problems = check_limits(s, basis, out.drive); !problems.empty()) return problems;
+  if (!s.designed_for) {
+    base::Problems problems = check_limits(s, basis, out.drive);
+    base::append(problems, check_position_profile(s, basis, out.drive));
+    if (!problems.empty()) return problems;
+  }
   return out;
 }
 

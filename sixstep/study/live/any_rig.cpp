@@ -51,6 +51,9 @@ base::Result<AnyRig> made_to_answer(const Scenario& s, const Compiled& c, rig::T
 
 base::Result<AnyRig> made_by(const Scenario& s, const Compiled& c, rig::Timeline timeline) {
   const bool general = c.general.has_value();
+  if (c.board.chip)
+    return general ? made_of<ChipOnGeneral>(s, c, std::move(timeline))
+                   : made_of<ChipRig>(s, c, std::move(timeline));
   switch (s.control.drive) {
     case FirmwareKind::product:
       return general ? made_in<ProductOnGeneral>(s, c, std::move(timeline))
@@ -68,8 +71,8 @@ base::Result<AnyRig> made_by(const Scenario& s, const Compiled& c, rig::Timeline
       break;
   }
   if (general) return made_in<SensedOnGeneral>(s, c, std::move(timeline));
-  return c.board.sensors.ideal() ? made_in<LeanRig>(s, c, std::move(timeline))
-                                 : made_in<SensedRig>(s, c, std::move(timeline));
+  return c.board.sensors.ideal() && !c.board.core ? made_in<LeanRig>(s, c, std::move(timeline))
+                                                  : made_in<SensedRig>(s, c, std::move(timeline));
 }
 
 }  // namespace sixstep::study::detail

@@ -33,6 +33,10 @@ using OwnOnGeneral = LiveRig<rig::OwnDrive<Command>, plant::general::Plant<doubl
 template <template <class> class Live>
 using WithEachAnswer = std::variant<Live<control::BridgeCommand<double>>, Live<control::LegCommands<double>>>;
 
+/// A chip that runs a firmware of its own.
+using ChipRig = LiveRig<rig::ChipDrive>;
+using ChipOnGeneral = LiveRig<rig::ChipDrive, plant::general::Plant<double>>;
+
 /// One firmware on one kernel in each arithmetic.
 template <template <class> class Live>
 using InEachArithmetic = std::variant<Live<double>, Live<float>, Live<control::Q15>, Live<control::Q14>,
@@ -55,7 +59,7 @@ using AnyRig = Joined<InEachArithmetic<LeanRig>, InEachArithmetic<SensedRig>, In
                       InEachArithmetic<SensorlessRig>, InEachArithmetic<SensedOnGeneral>,
                       InEachArithmetic<ProductOnGeneral>, InEachArithmetic<SensorlessOnGeneral>,
                       InFloatingPoint<FieldRig>, InFloatingPoint<FieldOnGeneral>, WithEachAnswer<OwnRig>,
-                      WithEachAnswer<OwnOnGeneral>>::type;
+                      WithEachAnswer<OwnOnGeneral>, std::variant<ChipRig, ChipOnGeneral>>::type;
 
 /// The scenario's rig at the start of its run: it pays for what its firmware does, and for nothing else.
 /// Problems: the arithmetic cannot hold the drive.

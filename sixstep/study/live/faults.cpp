@@ -122,6 +122,22 @@ base::Problem refused_answer(rig::OwnWrong wrong, double t_s) {
   return {at(t_s), "", "the controller gave up", "look at what it takes for a fault"};
 }
 
+base::Problem lost_core(rig::CoreTrouble trouble, double t_s) {
+  using rig::CoreTrouble;
+  if (trouble == CoreTrouble::differs)
+    return {
+        at(t_s), "", "the core's answer is not the host's, to the bit",
+        "look at the core's compiler and its flags; where they are the usual ones, please report it with the scenario file"};
+  if (trouble == CoreTrouble::silent)
+    return {at(t_s), "", "the core did not answer in time: its program hangs, or its emulator does",
+            "look at the last thing that was called"};
+  if (trouble == CoreTrouble::stalled)
+    return {at(t_s), "", "the chip starts no conversion any more: its program hangs, or has given up",
+            "look at what it does with a Hall code that there is not, and at loops that wait"};
+  return {at(t_s), "", "the core ended: its program ran into a fault, or its emulator was stopped",
+          "look at what it does with its memory and its stack"};
+}
+
 }  // namespace
 
 base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t_s) {
@@ -133,7 +149,16 @@ base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t
         at(t_s), "",
         "the current along the magnet's axis is above half of saturation_current_A, where the model of saturation ends",
         "ask for less current, or look at the sheet's saturation_current_A"};
+  if (fault == rig::Fault::core) return lost_core(found.core, t_s);
   if (fault == rig::Fault::own_controller) return refused_answer(found.own, t_s);
+  if (fault == rig::Fault::north_unseen)
+    return {
+        at(t_s), "",
+        "the injected pulses did not show which end of the magnet is north: " +
+            base::rounded(100 * found.north, 2) + " % of their current, and " +
+            base::rounded(100 * found.certain, 2) + " % are certain",
+        "see whether the rotor stands and its wires are whole; raise control.field.injection_V, or look at the "
+        "sheet's saturation_current_A"};
   if (fault == rig::Fault::shaft_sensor) return lost_sensor(found.shaft, t_s);
   const std::string text = "the Hall code is impossible (000 or 111)";
   if (found.hall_line == 0) return {at(t_s), "", text, "look at the probes and their wires"};

@@ -40,6 +40,8 @@ base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& o
   else
     note_trip(rig.firmware().diagnosis(), out);
   if constexpr (requires { rig.plant().breaking(); }) note_wires(rig.plant().breaking(), out);
+  if constexpr (requires { rig.firmware().latest_edge_s(); })
+    out.chip.emplace().latest_edge_s = rig.firmware().latest_edge_s();
   out.turn_ons = rig.modulator().turn_ons();
   out.simulated_s = t_s;
   out.digest = w.digest.after(rig);

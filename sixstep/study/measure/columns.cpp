@@ -79,6 +79,8 @@ std::vector<Column> turning_columns() {
       of(Signal::direct_voltage, "rotor, d", "field-oriented: phase voltage along the magnet, as asked for"),
       of(Signal::quadrature_voltage, "rotor, q",
          "field-oriented: phase voltage across the magnet, as asked for"),
+      of(Signal::angle_error, "electrical",
+         "field-oriented: error of the angle that the magnet is taken to point at"),
   };
 }
 
@@ -152,6 +154,9 @@ bool applies(ColumnId id, const Scenario& s) {
   if (id == ColumnId::junction_degC) return s.heat.devices;
   if (id == ColumnId::battery_charge) return s.supply.source == SourceKind::battery;
   if (id >= ColumnId::i_d && s.control.drive != FirmwareKind::field) return false;
+  if (id == ColumnId::angle_error && s.sensors.rotor == RotorSensing::ideal &&
+      s.control.field.angle == FieldAngle::sensors)
+    return false;  // it is 0
   if (id >= ColumnId::encoder_A && id < ColumnId::i_d) return fitted(id, s.sensors.rotor);
   if (id == ColumnId::loop_A) return s.sheet.connection == design::WindingConnection::delta;
   for (const Mode mode : {Mode::off, Mode::duty, Mode::current, Mode::speed, Mode::position})

@@ -64,6 +64,7 @@ enum class ColumnId : std::uint8_t {
   i_q_ref,
   v_d,
   v_q,
+  angle_error,
   count
 };
 inline constexpr std::size_t column_count = static_cast<std::size_t>(ColumnId::count);

@@ -88,6 +88,7 @@ inline void set_field(FullRow& row, const rig::FieldHeld& held) {
   pair(ColumnId::i_d, held.measured_A);
   pair(ColumnId::i_d_ref, held.reference_A);
   pair(ColumnId::v_d, held.voltage_V);
+  row[static_cast<std::size_t>(ColumnId::angle_error)] = held.angle_error_deg;
 }
 
 /// Everything there is to say of the rig at the fraction s of its segment, at time t, whether it applies or
@@ -100,7 +101,7 @@ FullRow full_row(const Rig& rig, double s, double t) {
   set(ColumnId::duty, signed_duty(ModulatorView(rig.modulator()), rig.board_sector()));
   set(ColumnId::i_ref, rig.current_reference_A());
   set(ColumnId::speed_ref, rig.speed_reference_rad_s());
-  set(ColumnId::position_ref, rig.setpoint());
+  set(ColumnId::position_ref, rig.position_reference_deg());
   set(ColumnId::load, plant::load_torque(rig.plant(), s));
   const plant::Gates& gates = rig.leg_gates();
   for (std::size_t k = 0; k < 3; ++k) {

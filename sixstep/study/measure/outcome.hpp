@@ -10,6 +10,7 @@
 #include "sixstep/design/loops/pole_placement.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/plant/audit.hpp"
+#include "sixstep/rig/chip_port.hpp"
 #include "sixstep/study/measure/device_watch.hpp"
 
 namespace sixstep::study {
@@ -54,6 +55,24 @@ struct Trip {
   int hall_line = 0;                 // 1..3: the line to blame; 0: none, or it cannot be told
 };
 
+/// A core that ran the drive beside the host (rig/beside_core.hpp); each of its answers was the host's, to the
+/// bit, unless the fault says otherwise.
+struct CoreRun {
+  std::string core;         // "Cortex-M4F"
+  std::uint64_t calls = 0;  // of its entries
+};
+
+/// A chip that ran a firmware of its own in the drive's place (rig/chip_drive.hpp).
+struct ChipReport {
+  std::string chip;  // "ATmega2560"
+  double clock_Hz = 0.0, period_s = 0.0;
+  rig::ChipTimes times;
+  double latest_edge_s = 0.0;  // by which a Hall edge was shown late at worst
+
+  /// Periods went by without a control interrupt; the one at the end may not have been answered yet.
+  bool overran() const { return times.periods > times.conversions + 1; }
+};
+
 struct Outcome {
   std::vector<Verdict> verdicts;
   std::vector<ComparisonResult> comparisons;
@@ -64,11 +83,14 @@ struct Outcome {
   std::vector<LoopGains> gains;
   std::vector<design::DerivationStep> sensorless_steps;  // how a sensorless drive's numbers came about
   std::vector<design::DerivationStep> field_steps;       // how a field-oriented drive's did
+  std::vector<design::DerivationStep> estimator_steps;   // and those of its estimator
   design::MotorModel motor;
   std::optional<base::Problem>
       fault;                       // what stopped the run (shoot-through, impossible Hall code) or the drive
   std::optional<Trip> trip;        // the same in parts, where it was the drive that stopped
   std::vector<std::string> notes;  // what was asked for and did not come about, a sentence each
+  std::optional<CoreRun> core;     // empty: the host alone ran it
+  std::optional<ChipReport> chip;  // empty: none did
   double simulated_s = 0.0;
   std::int64_t segments = 0;
   std::int64_t turn_ons = 0;  // of the role that is chopped, wherever commutation puts it

@@ -156,7 +156,7 @@ constexpr PlainSignal plain_signals[] = {
     {Signal::duty, [](const SegmentView& g) { return Series{signed_duty(g.modulator, g.board_sector)}; }},
     {Signal::current_reference, [](const SegmentView& g) { return Series{g.current_reference_A}; }},
     {Signal::speed_reference, [](const SegmentView& g) { return Series{g.speed_reference_rad_s}; }},
-    {Signal::position_reference, [](const SegmentView& g) { return Series{g.setpoint}; }},
+    {Signal::position_reference, [](const SegmentView& g) { return Series{g.position_reference_deg}; }},
     {Signal::current_error,
      [](const SegmentView& g) {
        return less(g.current_reference_A, motor_current(g), g.plant.expansion().degree);
@@ -166,7 +166,9 @@ constexpr PlainSignal plain_signals[] = {
        return less(g.speed_reference_rad_s, g.plant.expansion().w, g.plant.expansion().degree);
      }},
     {Signal::position_error,
-     [](const SegmentView& g) { return less(g.setpoint, position_series(g), g.plant.expansion().degree); }},
+     [](const SegmentView& g) {
+       return less(g.position_reference_deg, position_series(g), g.plant.expansion().degree);
+     }},
     {Signal::load_torque, load_torque},
     {Signal::load_speed, load_speed},
     {Signal::load_angle, load_angle},
@@ -187,6 +189,7 @@ constexpr PlainSignal plain_signals[] = {
      [](const SegmentView& g) { return Series{g.field.reference_A.q}; }},
     {Signal::direct_voltage, [](const SegmentView& g) { return Series{g.field.voltage_V.d}; }},
     {Signal::quadrature_voltage, [](const SegmentView& g) { return Series{g.field.voltage_V.q}; }},
+    {Signal::angle_error, [](const SegmentView& g) { return Series{g.field.angle_error_deg}; }},
     {Signal::gate_T1, gate<0>},
     {Signal::gate_T2, gate<1>},
     {Signal::gate_T3, gate<2>},
@@ -222,11 +225,14 @@ Series magnitude_series(const SegmentView& g, double from, double to) {
 
 double signed_duty(const ModulatorView& modulator, int sector) {
   if (modulator.legs) return duty_between(modulator.legs->command());
+  const control::Pair positive = control::positive_pair(static_cast<std::uint8_t>(sector));
+  if (modulator.pins)
+    return modulator.pins->source() == static_cast<int>(positive.source) ? modulator.pins->duty()
+                                                                         : -modulator.pins->duty();
   const rig::BoardCommand& command = modulator.pair->command();
   if (!command.enabled) return 0.0;
   const bool compares = command.watch != control::Watch::none;
   const double duty = compares ? (modulator.pair->source_on() ? 1.0 : 0.0) : command.duty;
-  const control::Pair positive = control::positive_pair(static_cast<std::uint8_t>(sector));
   return command.pair.source == positive.source ? duty : -duty;
 }
 

@@ -19,7 +19,7 @@ struct SegmentView {
   plant::View plant;
   ModulatorView modulator;
   double t_s = 0.0;  ///< where the segment begins
-  double current_reference_A = 0.0, speed_reference_rad_s = 0.0, setpoint = 0.0;
+  double current_reference_A = 0.0, speed_reference_rad_s = 0.0, position_reference_deg = 0.0, setpoint = 0.0;
   rig::FieldHeld field{};  ///< of a field-oriented drive
   plant::Gates gates{};    ///< of the board's legs
   int board_sector = 0;    ///< that the board takes the rotor to be in
@@ -33,6 +33,7 @@ SegmentView segment_view(const Rig& rig) {
           .t_s = rig.now().seconds(),
           .current_reference_A = rig.current_reference_A(),
           .speed_reference_rad_s = rig.speed_reference_rad_s(),
+          .position_reference_deg = rig.position_reference_deg(),
           .setpoint = rig.setpoint(),
           .field = rig::field_held(rig.firmware()),
           .gates = rig.leg_gates(),

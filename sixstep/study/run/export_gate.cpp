@@ -42,6 +42,7 @@ bool reads_bus(const Scenario& s) {
 }
 
 bool reads_rotor(const Scenario& s) {
+  if (in_the_field(s) && s.control.field.angle != FieldAngle::sensors) return false;
   const bool within_current_loop = s.control.current.back_emf_feed_forward || s.control.limits.speed_rad_s;
   return is_cascade(s) || in_the_field(s) || (has_current_loop(s) && within_current_loop);
 }
@@ -75,6 +76,10 @@ void look_at_drive(const Scenario& s, base::Problems& out) {
     out.push_back(
         {"control.drive", "\"sensorless\"", "has no header yet",
          "set drive = \"lean\" or \"product\", or write its configuration by design::sensorless_drive"});
+  if (in_the_field(s) && s.control.field.angle != FieldAngle::sensors)
+    out.push_back(
+        {"control.field.angle", "", "is estimated, and the estimator has no header yet",
+         "set angle = \"sensors\" and sensors.rotor, or write its configuration by design::field_estimate"});
   if (s.control.drive == FirmwareKind::own)
     out.push_back({"control.drive", "\"own\"", "has its configuration in its own source, and needs no header",
                    "compile that source for the chip"});

@@ -27,10 +27,13 @@ base::Problems run_on_board(const Scenario& s, Compiled compiled, Observers& w, 
 
 }  // namespace
 
-base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners) {
+base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners, const OnCore& core) {
   if (base::Problems problems = check(scenario); !problems.empty()) return problems;
   base::Result<Compiled> compiled = compile(scenario);
   if (!compiled) return compiled.problems();
+  compiled->board.core = core.beside;
+  compiled->board.chip = core.instead;
+  if (core.setpoint_range > 0.0) compiled->setpoint_range = core.setpoint_range;
   const base::Result<std::vector<std::size_t>> indices = record_indices(scenario);
   if (!indices) return indices.problems();
 
@@ -39,6 +42,7 @@ base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners) 
   out.gains = compiled->gains;
   out.sensorless_steps = compiled->sensorless_steps;
   out.field_steps = compiled->field_steps;
+  out.estimator_steps = compiled->estimator_steps;
   Observers w = observers_of(scenario, listeners, *indices);
   const bool on_general = compiled->general.has_value();
   const base::Problems problems = run_on_board(scenario, std::move(*compiled), w, out);

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "sixstep/base/result.hpp"
+#include "sixstep/rig/beside_core.hpp"
+#include "sixstep/rig/chip_port.hpp"
 #include "sixstep/study/measure/logic.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
@@ -24,9 +26,18 @@ struct Listeners {
   bool keep_books = true;  ///< energy and standing laws: about a third on top of the run itself
 };
 
+/// A core in an emulator: one that runs the drive too, and must answer as the host does, or a chip that runs a firmware of its own
+/// in the drive's place. Which scenarios they can run: on_core.hpp.
+struct OnCore {
+  rig::CorePort beside{};
+  rig::ChipPort instead{};
+  /// What its potentiometer's ends mean to that firmware, in the mode's unit; 0: what the run has use for.
+  double setpoint_range = 0.0;
+};
+
 /// Runs it. A fault (shoot-through, impossible Hall code, a trip of the product drive) is part of the
 /// outcome; Problems mean it could not start.
-base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners = {});
+base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners = {}, const OnCore& core = {});
 
 /// Someone ended the run before its time (Listeners::keep_going); a run that a fault stopped is whole.
 bool cut_short(const Scenario& scenario, const Outcome& outcome);

@@ -59,9 +59,19 @@ struct SpeedLoop {
   std::optional<double> observer_ratio;
 };
 
+/// control/profiled_position.hpp; what is not given follows from the drive.
+struct PositionProfile {
+  bool on = false;  // else the setpoint goes to the loop as it comes
+  std::optional<double> speed_rad_s, acceleration_rad_s2;
+  std::optional<double> jerk_rad_s3, smoothing_s;
+  bool feed_forward = true;
+  bool operator==(const PositionProfile&) const = default;
+};
+
 struct PositionLoop {
   double gain_rad_s_per_deg = 1.0;
   std::optional<double> speed_limit_rad_s;
+  PositionProfile profile;
 };
 
 /// The number the controller computes in; the fixed ones are named by their fraction bits.

@@ -105,6 +105,38 @@ void describe(Visitor& v, SpeedLoop& s) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, PositionProfile& s) {
+  v.value("on", s.on,
+          {.meaning = "whether the setpoint moves within limits of speed, acceleration and jerk"});
+  v.value("speed_rad_s", s.speed_rad_s,
+          {.meaning = "fastest speed of a move; without it nine tenths of what the bus still drives the "
+                      "acceleration at, or of speed_limit_rad_s where that is less",
+           .unit = "rad/s",
+           .range = above(0),
+           .also = words::speed});
+  v.value("acceleration_rad_s2", s.acceleration_rad_s2,
+          {.meaning = "largest acceleration; without it that of four fifths of the torque limit",
+           .unit = "rad/s2",
+           .range = above(0),
+           .also = words::acceleration});
+  v.value("jerk_rad_s3", s.jerk_rad_s3,
+          {.meaning = "fastest change of the acceleration; smoothing_s says the same as a time",
+           .unit = "rad/s3",
+           .range = above(0),
+           .also = words::jerk});
+  v.value(
+      "smoothing_s", s.smoothing_s,
+      {.meaning = "time in which the acceleration rises, acceleration over jerk; without both speed.settle_s",
+       .unit = "s",
+       .range = from(0)});
+  v.value(
+      "feed_forward", s.feed_forward,
+      {.meaning =
+           "whether the profile's speed is added to what the position loop asks for, and the torque of its "
+           "acceleration and the sheet's friction to what the speed loop does"});
+}
+
+template <class Visitor>
 void describe(Visitor& v, PositionLoop& s) {
   v.value("gain_rad_s_per_deg", s.gain_rad_s_per_deg,
           {.meaning = "speed asked for per degree of position error",
@@ -117,6 +149,9 @@ void describe(Visitor& v, PositionLoop& s) {
            .unit = "rad/s",
            .range = above(0),
            .also = words::speed_limit});
+  v.table(
+      "profile", s.profile,
+      {.meaning = "a setpoint that moves within limits of speed, acceleration and jerk, and lands exactly"});
 }
 
 template <class Visitor>

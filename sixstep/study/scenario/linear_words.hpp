@@ -21,6 +21,8 @@ inline constexpr Spelling at_speeds_forces[] = {{.key = "at_speeds_N", .unit = "
 inline constexpr Spelling dynamometer[] = {{.key = "dynamometer_m_s", .unit = "m/s", .linear = true}};
 inline constexpr Spelling drag[] = {{.key = "drag_N_s2_m2", .unit = "N s2/m2", .linear = true}};
 inline constexpr Spelling speed[] = {{.key = "speed_m_s", .unit = "m/s", .linear = true}};
+inline constexpr Spelling acceleration[] = {{.key = "acceleration_m_s2", .unit = "m/s2", .linear = true}};
+inline constexpr Spelling jerk[] = {{.key = "jerk_m_s3", .unit = "m/s3", .linear = true}};
 inline constexpr Spelling position[] = {{.key = "position_mm", .ten = -3, .unit = "mm", .linear = true}};
 inline constexpr Spelling force_limit[] = {{.key = "force_limit_N", .unit = "N", .linear = true}};
 inline constexpr Spelling speed_limit[] = {{.key = "speed_limit_m_s", .unit = "m/s", .linear = true}};

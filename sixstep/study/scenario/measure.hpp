@@ -91,7 +91,8 @@ enum class Signal : std::uint8_t {
   direct_current_reference,
   quadrature_current_reference,
   direct_voltage,
-  quadrature_voltage
+  quadrature_voltage,
+  angle_error
 };
 
 struct Measure {

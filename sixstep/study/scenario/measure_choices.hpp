@@ -232,6 +232,9 @@ inline constexpr SignalFact signal_facts[] = {
      "field-oriented: phase voltage along the magnet, as asked for at the last sample", SignalKind::held},
     {Signal::quadrature_voltage, "v_q_V", "voltage across the magnet", "V",
      "field-oriented: phase voltage across the magnet, as asked for at the last sample", SignalKind::held},
+    {Signal::angle_error, "angle_error_deg", "error of the angle", "deg",
+     "field-oriented: electrical angle by which the magnet was taken to point ahead of where it did, at the last sample",
+     SignalKind::held},
 };
 
 /// Columns of the trace that have an older word.
@@ -281,7 +284,7 @@ constexpr const SignalFact& fact_of(Signal signal) { return signal_facts[static_
 static_assert([] {
   for (std::size_t n = 0; n < std::size(signal_facts); ++n)
     if (static_cast<std::size_t>(signal_facts[n].signal) != n) return false;
-  return std::size(signal_facts) == static_cast<std::size_t>(Signal::quadrature_voltage) + 1;
+  return std::size(signal_facts) == static_cast<std::size_t>(Signal::angle_error) + 1;
 }());
 
 /// Unit of a signal, as shown behind a figure.

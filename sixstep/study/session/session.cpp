@@ -50,7 +50,7 @@ namespace {
 bool same_chip(const Tuned& a, const Tuned& b) {
   if (!(a.drive == b.drive) || a.product.has_value() != b.product.has_value()) return false;
   if (!(a.sensorless == b.sensorless) || !(a.field == b.field)) return false;
-  if (!(a.own == b.own)) return false;
+  if (!(a.own == b.own) || !(a.estimator == b.estimator)) return false;
   if (!a.product) return true;
   control::ProtectedConfig<double> one = *a.product, other = *b.product;
   one.setpoint_limit = other.setpoint_limit = 0.0;
@@ -59,8 +59,9 @@ bool same_chip(const Tuned& a, const Tuned& b) {
 
 /// Whether what was compiled anew had been the same run up to now.
 bool same_past(const Scenario& s, const Compiled& before, const Compiled& anew, const Instant& now) {
-  if (!same_chip({before.drive, {}, before.product, before.sensorless, before.field, before.own},
-                 {anew.drive, {}, anew.product, anew.sensorless, anew.field, anew.own}))
+  if (!same_chip(
+          {before.drive, {}, before.product, before.sensorless, before.field, before.own, before.estimator},
+          {anew.drive, {}, anew.product, anew.sensorless, anew.field, anew.own, anew.estimator}))
     return false;
   std::size_t number = 0;
   for (const At* at : in_order(s)) {
@@ -211,6 +212,7 @@ base::Result<Outcome> Session::close() {
   out.gains = s.compiled.gains;
   out.sensorless_steps = s.compiled.sensorless_steps;
   out.field_steps = s.compiled.field_steps;
+  out.estimator_steps = s.compiled.estimator_steps;
   if (base::Problems problems =
           std::visit([&](const auto& live) { return live.end(s.stop, s.watchers, out); }, s.rig);
       !problems.empty())

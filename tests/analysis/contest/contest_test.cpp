@@ -91,22 +91,30 @@ TEST(Contest, TheWorstOfDrivesIsTheLargestAndNoValueIsWorse) {
   columns.figures.assign(std::size(contest_gauges), {"x", "1"});
   RunRecord record;
   record.figures.assign(std::size(contest_gauges), 1.0);
-  ContestRow row;
+  Contest contest;
+  contest.drives = 2;
+  contest.rows.resize(2);
+  ContestRow& row = contest.rows[1];
   take_nominal(row, record, columns);
   EXPECT_TRUE(row.nominal_held);
+  record.number = 2;  // the second controller's first drive
   const std::size_t settles = static_cast<std::size_t>(Gauge::start_settles),
                     peak = static_cast<std::size_t>(Gauge::start_peak);
   record.figures[settles] = 0.5;
   record.figures[peak] = 3.0;
-  take_drive(row, record, columns);
+  take_drive(contest, record, columns);
   EXPECT_EQ(row.worst[0], 1.0);
   EXPECT_EQ(row.worst[2], 3.0);
   record.figures[settles] = std::numeric_limits<double>::quiet_NaN();
   record.end = RunEnd::fault;
-  take_drive(row, record, columns);
+  take_drive(contest, record, columns);
   EXPECT_TRUE(std::isnan(row.worst[0]));
   EXPECT_EQ(row.drives, 2U);
   EXPECT_EQ(row.held, 1U);
+  EXPECT_EQ(contest.rows[0].drives, 0U);
+  record.number = 4;  // of no controller
+  take_drive(contest, record, columns);
+  EXPECT_EQ(row.drives, 2U);
 }
 
 TEST(Contest, ALinearMotorAndABusTooLowAreRefused) {

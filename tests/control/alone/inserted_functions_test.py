@@ -12,7 +12,7 @@ import unittest
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[3]
 FLAGS = ["-std=c++20", "-ffreestanding", "-nostdinc++", "-fno-exceptions", "-fno-rtti", f"-I{REPOSITORY}",
-         f"-I{REPOSITORY}/tests/control/sixteen_bit"]
+         f"-I{REPOSITORY}/faces/firmware/bare"]
 CHIPS = {"Cortex-M4": ["--target=thumbv7em-none-eabihf", "-mcpu=cortex-m4"],
          "Cortex-M0": ["--target=thumbv6m-none-eabi", "-mcpu=cortex-m0"],
          "RV32IMC": ["--target=riscv32", "-march=rv32imc", "-mabi=ilp32"],

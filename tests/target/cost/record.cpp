@@ -149,11 +149,11 @@ class FieldRecorder {
  public:
   using Number = Scalar;
   using Command = LegCommands<Scalar>;
-  using Config = FieldDriveConfig<Scalar>;
+  using Config = SensorlessFieldConfig<Scalar>;  // as the rig's; its angle is sensed
   static constexpr bool fault_ends_run = true;
 
   FieldRecorder(const Config& config, const rig::BoardConfig& board, const rig::PowerUp& up)
-      : config_(config), sensors_(board.sensors, board.bases, up), bases_(board.bases) {}
+      : config_(config.field), sensors_(board.sensors, board.bases, up), bases_(board.bases) {}
 
   template <class Real>
   const Command& tick(const rig::SampleInstant<Real>& instant, double setpoint) {
@@ -171,7 +171,7 @@ class FieldRecorder {
   void captured(std::uint8_t pins, const sim::Instant& at) { sensors_.hall_edge(pins, at); }
   void request_run(bool) {}
   void request_clear() {}
-  void retune(const rig::Tuning<Config>& tuning) { control::retune(config_, state_, tuning.config); }
+  void retune(const rig::Tuning<Config>& tuning) { control::retune(config_, state_, tuning.config.field); }
   bool open_loop() const { return false; }
   bool follows_setpoint_at_once() const { return false; }
   const Telemetry<Scalar>& telemetry() const { return telemetry_; }
@@ -187,7 +187,7 @@ class FieldRecorder {
   }
 
  private:
-  Config config_;
+  FieldDriveConfig<Scalar> config_;
   rig::Sensors<Scalar> sensors_;
   rig::Bases bases_;
   FieldDriveState<Scalar> state_{};

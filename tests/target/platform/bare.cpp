@@ -1,21 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Cortex-M and RISC-V share: memory made ready, characters, files and the end by semihosting.
+// What Cortex-M and RISC-V share: characters and files by semihosting.
+#include "faces/firmware/bare/semihosting.hpp"
 #include "tests/target/platform/platform.hpp"
-#include "tests/target/platform/semihosting.hpp"
-
-extern "C" {
-
-extern std::uint32_t data_begin[], data_end[], data_in_flash[], bss_begin[], bss_end[];
-
-[[noreturn]] void begin() {
-  for (std::uint32_t *to = data_begin, *from = data_in_flash; to < data_end; ++to, ++from) *to = *from;
-  for (std::uint32_t* to = bss_begin; to < bss_end; ++to) *to = 0;
-  target::run();
-  target::exit_with(0);
-}
-
-[[noreturn]] void hard_fault() { target::exit_with(3); }
-}
 
 namespace target {
 

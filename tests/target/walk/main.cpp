@@ -25,7 +25,7 @@
 #elif defined TARGET_OF_FIELD && TARGET_IS_WHOLE
 #include "tests/target/walk/magnet.hpp"
 #elif defined TARGET_OF_FIELD
-#include "tests/target/walk/field.hpp"
+#include "tests/target/walk/estimator.hpp"
 #elif TARGET_IS_WHOLE
 #include "tests/target/walk/whole.hpp"
 #else
@@ -155,6 +155,20 @@ void walk_all() {
 #endif
 }
 #elif defined TARGET_OF_FIELD
+#if !TARGET_IS_WHOLE
+template <class Scalar>
+void walk_floating() {
+  if constexpr (__is_same(Scalar, float)) {
+    walk<InjectionWalk<Scalar> >("field/injection");
+    walk<NorthWalk<Scalar> >("field/north");
+    walk<ActiveFluxWalk<Scalar> >("field/active_flux");
+    walk<HarmonicCurrentWalk<Scalar> >("field/harmonic_current");
+    walk<FiniteSetWalk<Scalar> >("field/finite_set");
+    walk<SensorlessFieldWalk<Scalar> >("field/sensorless_field_drive");
+    walk<JerkProfileWalk<Scalar> >("jerk_profile");
+  }
+}
+#endif
 void walk_all() {
 #ifdef TARGET_COUNTED
   walk<NothingWalk>("nothing");
@@ -168,6 +182,7 @@ void walk_all() {
   walk<FieldWeakeningWalk<Scalar> >("field/field_weakening");
   walk<TorquePerAmpereWalk<Scalar> >("field/torque_per_ampere");
   walk<FieldDriveWalk<Scalar> >("field/field_drive");
+  walk_floating<Scalar>();
 #endif
 }
 #elif TARGET_IS_WHOLE

@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bridge command as output pins: the source's upper gate follows timer 1 (OC1A..OC1C), lower gates are
-// plain pins (PA0..PA2). Without an on-time the off-time's gates stand all along, no upper one among them:
-// never both of a leg.
+// A bridge command as output pins: timer 1 has its pulse ready on PB5..PB7 (OC1A..OC1C) all along, and the source's upper gate is let
+// out by its bit of DDRB; lower gates are plain pins (PA0..PA2). An output that is disconnected in the timer (COM1x = 0) instead would
+// come back as it left: with the level of its last match, for the rest of a half period (data sheet 2549, 17.8.1).
 #pragma once
 #include <cstdint>
 
-#include "sixstep/control/gates.hpp"
+#include "sixstep/control/bridge_command.hpp"
 
 namespace firmware {
 
 struct Pins {
-  std::uint8_t TCCR1A;  ///< COM1A1, COM1B1, COM1C1 and WGM11 (phase correct up to ICR1)
-  std::uint8_t PORTA;
+  std::uint8_t DDRB, PORTA;
 };
 
-constexpr Pins upper_gates_off{2, 0};
+constexpr Pins all_off{0, 0};
 
+/// As gates() of soft chopping by the upper switch has it, looked up: without an on-time the off-time's gates stand all along, no
+/// upper one among them. Never both of a leg.
 template <class Scalar>
 constexpr Pins pins(const sixstep::control::BridgeCommand<Scalar>& command, bool has_on_time) {
-  const unsigned g = gates(command, has_on_time);
-  return {static_cast<std::uint8_t>((g & 1) << 7 | (g & 4) << 3 | (g & 16) >> 1 | upper_gates_off.TCCR1A),
-          static_cast<std::uint8_t>((g & 2) >> 1 | (g & 8) >> 2 | (g & 32) >> 3)};
+  constexpr std::uint8_t upper[3] = {1u << 5, 1u << 6, 1u << 7}, lower[3] = {1u << 0, 1u << 1, 1u << 2};
+  if (!command.enabled || command.pair.source == command.pair.sink) return all_off;
+  return {has_on_time ? upper[static_cast<int>(command.pair.source)] : std::uint8_t{0},
+          lower[static_cast<int>(command.pair.sink)]};
 }
 
 }  // namespace firmware

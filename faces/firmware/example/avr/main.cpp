@@ -47,16 +47,17 @@ std::uint8_t hall_pins() {  // PK0 is H1, the highest bit
   return static_cast<std::uint8_t>((pins & 1) << 2 | (pins & 2) | (pins & 4) >> 2);
 }
 
+/// An upper gate that stays is let alone, it may be amid its pulse; one that goes is off before a lower one comes.
 void apply(const BridgeCommand<Scalar>& command) {
   const auto counts =
       static_cast<std::uint16_t>(static_cast<std::uint32_t>(command.duty.raw) * pwm_counts >> 15);
   const Pins to = pins(command, counts > 0);
-  TCCR1A() = upper_gates_off.TCCR1A;
+  DDRB() = DDRB() & to.DDRB;
   PORTA() = to.PORTA;
   OCR1A() = counts;
   OCR1B() = counts;
   OCR1C() = counts;
-  TCCR1A() = to.TCCR1A;
+  DDRB() = to.DDRB;
 }
 
 void turn_off() {

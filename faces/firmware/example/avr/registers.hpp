@@ -12,9 +12,9 @@ inline volatile Word& at(std::uint16_t address) {
 }
 
 inline volatile std::uint8_t& PORTA() { return at<std::uint8_t>(0x22); }
+inline volatile std::uint8_t& DDRB() { return at<std::uint8_t>(0x24); }
 inline volatile std::uint16_t& ADC() { return at<std::uint16_t>(0x78); }
 inline volatile std::uint8_t& TIFR1() { return at<std::uint8_t>(0x36); }
-inline volatile std::uint8_t& TCCR1A() { return at<std::uint8_t>(0x80); }
 inline volatile std::uint16_t& OCR1A() { return at<std::uint16_t>(0x88); }
 inline volatile std::uint16_t& OCR1B() { return at<std::uint16_t>(0x8A); }
 inline volatile std::uint16_t& OCR1C() { return at<std::uint16_t>(0x8C); }

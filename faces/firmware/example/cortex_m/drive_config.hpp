@@ -30,13 +30,13 @@
 // On a core, the product drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a
 // control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/firmware.md):
 //                               tick    Hall                   flash     RAM
-//   Cortex-M0   q15             1909     312 instructions      25860     276 bytes
-//   Cortex-M3   q15             1048     172 instructions      22730     276 bytes
-//   Cortex-M3   q31             1468     173 instructions      35908     376 bytes
-//   Cortex-M4F  float            767     173 instructions      12076     360 bytes
-//   Cortex-M4F  q15             1049     172 instructions      22742     276 bytes
-//   Cortex-M4F  q31             1467     173 instructions      35852     376 bytes
-//   RV32IMC     q15             1032     172 instructions      22284     276 bytes
+//   Cortex-M0   q15             1971     312 instructions      25748     276 bytes
+//   Cortex-M3   q15             1135     172 instructions      22842     276 bytes
+//   Cortex-M3   q31             1634     173 instructions      35836     376 bytes
+//   Cortex-M4F  float            767     173 instructions      12056     360 bytes
+//   Cortex-M4F  q15             1132     172 instructions      22810     276 bytes
+//   Cortex-M4F  q31             1635     173 instructions      35844     376 bytes
+//   RV32IMC     q15             1117     172 instructions      22400     276 bytes
 //   ATmega2560  q15             5365     976 cycles            14594     229 bytes
 //   ATmega2560  q31            11568     975 cycles            20552     289 bytes
 //   ATmega2560  float           9508     976 cycles            11872     285 bytes

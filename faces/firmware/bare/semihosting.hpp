@@ -17,15 +17,24 @@ inline void write_character(char c) { semihosting(0x03, &c); }
   for (;;) semihosting(0x20, words);
 }
 
+/// fopen()'s modes by their number in the convention.
+enum class FileMode : Word { read = 1, write = 5 };  // "rb", "wb"
+
 /// 0 where there is no such file, else its handle plus 1.
-inline Word open_to_read(const char* name, Word length) {
-  const Word words[3] = {reinterpret_cast<Word>(name), 1, length};
+inline Word open_file(const char* name, Word length, FileMode mode) {
+  const Word words[3] = {reinterpret_cast<Word>(name), static_cast<Word>(mode), length};
   return semihosting(0x01, words) + 1;
 }
+inline Word open_to_read(const char* name, Word length) { return open_file(name, length, FileMode::read); }
 /// Bytes that came.
 inline Word read_file(Word handle_plus_1, void* to, Word bytes) {
   const Word words[3] = {handle_plus_1 - 1, reinterpret_cast<Word>(to), bytes};
   return bytes - semihosting(0x06, words);
+}
+/// Whether all went.
+inline bool write_file(Word handle_plus_1, const void* from, Word bytes) {
+  const Word words[3] = {handle_plus_1 - 1, reinterpret_cast<Word>(from), bytes};
+  return semihosting(0x05, words) == 0;
 }
 
 }  // namespace target

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a core beside the host costs: calls a second of whole runs in lock-step, emulators and compilers of ./test --target at hand.
+//
+//   build/dev/benchmarks/loop_benchmark
+#include <benchmark/benchmark.h>
+
+#include "faces/loop/emulator.hpp"
+#include "faces/loop/fresh_folder.hpp"
+#include "faces/loop/image.hpp"
+#include "files/scenario_on_disk.hpp"
+#include "sixstep/study/run/run.hpp"
+
+namespace {
+
+using namespace sixstep;
+
+/// The emulator is started beforehand, once per run: a core starts as its drive does.
+void lock_step(benchmark::State& state, const loop::Core& core, const char* file) {
+  const base::Result<study::Scenario> scenario =
+      files::read_scenario(std::string(SIXSTEP_SOURCE_DIR "/tests/target/scenarios/") + file,
+                           {.overrides = {{"control.arithmetic", "q15"}}});
+  if (!scenario) return state.SkipWithError(base::to_string(scenario.problems().front()).c_str());
+  const base::Result<loop::FreshFolder> folder = loop::FreshFolder::make();
+  if (!folder) return state.SkipWithError(base::to_string(folder.problems().front()).c_str());
+  const base::Result<std::string> image = loop::compiled_image(core, *scenario, folder->path());
+  if (!image) return state.SkipWithError(base::to_string(image.problems().front()).c_str());
+  std::uint64_t calls = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    auto emulator = loop::Emulator::start(core, *image);
+    if (!emulator) return state.SkipWithError(base::to_string(emulator.problems().front()).c_str());
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(study::run(*scenario, {.keep_books = false}, {.beside = (*emulator)->port()}));
+    state.PauseTiming();
+    calls += (*emulator)->calls();
+    emulator->reset();
+    state.ResumeTiming();
+  }
+  state.counters["calls_per_s"] = benchmark::Counter(static_cast<double>(calls), benchmark::Counter::kIsRate);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (const loop::Core& core : loop::cores()) {
+    if (core.by_registers) continue;  // it is called for no entry
+    for (const char* file : {"current.toml", "speed.toml", "product.toml"})
+      benchmark::RegisterBenchmark((std::string(core.name) + "/" + file).c_str(),
+                                   [&core, file](benchmark::State& state) { lock_step(state, core, file); })
+          ->UseRealTime()
+          ->Unit(benchmark::kMillisecond);
+  }
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

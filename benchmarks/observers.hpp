@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run with one observer, as observer_benchmark times it.
+#pragma once
+#include <benchmark/benchmark.h>
+
+#include <string>
+
+#include "benchmarks/cases.hpp"
+
+namespace benchmarks {
+
+inline void note(benchmark::State& state, double simulated_s) {
+  state.counters["per_period"] =
+      benchmark::Counter(simulated_s / period_s * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+/// Runs with a fresh observer each time, as `make(prepared)` gives it.
+template <class Make>
+void measure(benchmark::State& state, const Case& c, Make make) {
+  const auto prepared = Prepared::of(c);
+  if (!prepared) return state.SkipWithError("the scenario cannot be read");
+  for (auto _ : state) {
+    auto rig = prepared->rig();
+    auto observer = make(*prepared);
+    benchmark::DoNotOptimize(sixstep::sim::run(rig, prepared->end(), observer));
+    benchmark::DoNotOptimize(observer);
+  }
+  note(state, prepared->end().seconds());
+}
+
+template <class Make>
+void add(const Case& c, const char* observer, Make make) {
+  benchmark::RegisterBenchmark((std::string(c.name) + "/" + observer).c_str(),
+                               [c, make](benchmark::State& state) { measure(state, c, make); });
+}
+
+/// The rows "none", "digest" and "energy audit and laws" (observer_audit.cpp).
+void add_bare_and_audited(const Case& c);
+
+}  // namespace benchmarks

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/contest_store.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "faces/cli/plan_storing.hpp"
+#include "files/text_file.hpp"
+#include "sixstep/base/written.hpp"
+#include "text/plan/plan_file.hpp"
+#include "text/scenario/scenario_text.hpp"
+
+namespace cli {
+
+base::Result<files::PlanStore> store_of(const analysis::Contest& contest, std::uint64_t seed,
+                                        const ContestStoring& storing) {
+  const analysis::Plan plan = analysis::contest_plan(contest.entries, contest.drives, seed);
+  const study::Scenario& common = contest.bench.scenario;
+  // A controller whose rule makes other numbers now is another one, and so is one of one's own that was compiled anew.
+  std::uint64_t inputs = files::text_digest(SIXSTEP_VERSION);
+  for (const analysis::ContestRow& row : contest.rows)
+    inputs = files::text_digest(base::written_hex(row.nominal.digest), inputs);
+  for (const analysis::ContestEntry& entry : contest.entries)
+    if (entry.scenario) inputs = files::text_digest(text::scenario_text(*entry.scenario), inputs);
+  files::StoredPlan stored{.plan = text::plan_identity(plan),
+                           .inputs = base::written_hex(inputs),
+                           .title = "Controllers side by side",
+                           .motor = common.sheet.name,
+                           .scenario = common.title,
+                           .command = storing.command,
+                           .scenario_text = text::scenario_text(common),
+                           .columns = analysis::contest_columns(plan, contest.bench),
+                           .units = {}};
+  stored.units = units_of(stored.columns);
+  return store_at(storing.path, storing.resume, storing.force, std::move(stored));
+}
+
+base::Problems take_drives(analysis::Contest& contest, batch::ContestOrder order, files::PlanStore& store) {
+  const auto progress = std::move(order.progress);
+  batch::run_drives(
+      contest, order, [&store](std::size_t number) { return store.has(number); },
+      [&](analysis::RunRecord&& record) {
+        store.add(std::move(record));
+        if (progress) progress(store.rows());
+      });
+  if (base::Problems unwritten = store.finish(); !unwritten.empty()) return unwritten;
+  const analysis::PlanColumns columns = store.plan().columns;
+  return store.each(
+      [&](const analysis::RunRecord& record) { analysis::take_drive(contest, record, columns); });
+}
+
+}  // namespace cli

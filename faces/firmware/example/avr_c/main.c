@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A six-step current controller as it is often written for an AVR: C, avr-libc, integers of mA and timer counts, tables by Hall code. It
+ * uses nothing of sixstep: map.toml tells sixstep how it hangs at the board.
+ *
+ * ATmega2560 at 16 MHz. Timer 1 up and down in 100 us, upper gates of legs a, b, c at OC1C, OC1B, OC1A (PB7, PB6, PB5), lower gates at
+ * PC3, PC4, PC5, Hall lines H1 H2 H3 at PK4, PK5, PK6. A transducer in each phase at ADC4..ADC6 (10 A over 1024 counts, 0 A in the
+ * middle), the setpoint's potentiometer at ADC7 (2 A either way). */
+#include <avr/interrupt.h>
+#include <avr/io.h>
+#include <avr/sleep.h>
+
+#define TOP 800 /* counts of half a period */
+#define MA(counts) (((int32_t)((int16_t)(counts)-512) * 625) >> 6) /* 9.77 mA a count */
+#define SETPOINT_MA(counts) (((int32_t)((int16_t)(counts)-512) * 125) >> 5) /* 3.9 mA a count */
+/* u = kp e + sum of ki e, in timer counts for mA, Q12: 2.3 V/A and 0.38 V/A at 24 V (sixstep design --method cancellation). */
+#define KP 315
+#define KI 52
+#define FULL ((int32_t)TOP << 12)
+
+/* By PK6..PK4 as a number, H1 lowest: the leg that feeds a positive current, and the one that takes it; 3: none. */
+static const uint8_t feeds[8] = {3, 0, 1, 0, 2, 2, 1, 3};
+static const uint8_t takes[8] = {3, 1, 2, 2, 0, 1, 0, 3};
+static const uint8_t upper[3] = {1 << PB7, 1 << PB6, 1 << PB5};
+static const uint8_t lower[3] = {1 << PC3, 1 << PC4, 1 << PC5};
+
+static int32_t integral; /* Q12 */
+static int16_t drive;    /* signed counts */
+
+static uint8_t hall(void) { return (PINK >> 4) & 7; }
+
+/* Pulses stand at all three outputs of the timer; the direction register lets one out. */
+static void set_gates(uint8_t code)
+{
+    uint8_t from = drive < 0 ? takes[code] : feeds[code];
+    uint8_t to = drive < 0 ? feeds[code] : takes[code];
+    uint8_t up = from > 2 || drive == 0 ? 0 : upper[from];
+    DDRB &= up;
+    PORTC = to > 2 ? 0 : lower[to];
+    DDRB = up;
+}
+
+static uint16_t convert(uint8_t channel)
+{
+    ADMUX = (1 << REFS0) | channel;
+    ADCSRA = (1 << ADEN) | (1 << ADPS2) | (1 << ADSC);
+    while (ADCSRA & (1 << ADSC))
+        ;
+    return ADC;
+}
+
+ISR(ADC_vect)
+{
+    uint16_t counts = ADC;
+    uint8_t code = hall();
+    int32_t error = SETPOINT_MA(convert(7)) - MA(counts);
+    int32_t u;
+
+    integral += KI * error;
+    if (integral > FULL) integral = FULL;
+    if (integral < -FULL) integral = -FULL;
+    u = (integral + KP * error) >> 12;
+    drive = u > TOP ? TOP : u < -TOP ? -TOP : (int16_t)u;
+    OCR1A = OCR1B = OCR1C = drive < 0 ? -drive : drive;
+
+    ADMUX = (1 << REFS0) | (feeds[code] > 2 ? 4 : 4 + feeds[code]);
+    ADCSRA = (1 << ADEN) | (1 << ADATE) | (1 << ADIE) | (1 << ADIF) | (1 << ADPS2);
+    TIFR1 = 1 << TOV1;
+    set_gates(hall());
+}
+
+ISR(PCINT2_vect)
+{
+    uint8_t code = hall();
+    ADMUX = (1 << REFS0) | (feeds[code] > 2 ? 4 : 4 + feeds[code]);
+    set_gates(code);
+}
+
+int main(void)
+{
+    DDRC = (1 << PC3) | (1 << PC4) | (1 << PC5);
+    ICR1 = TOP;
+    TCCR1A = (1 << COM1A1) | (1 << COM1B1) | (1 << COM1C1) | (1 << WGM11);
+    TCCR1B = (1 << WGM13) | (1 << CS10);
+    PCMSK2 = 0x70;
+    PCICR = 1 << PCIE2;
+    ADCSRB = (1 << ADTS2) | (1 << ADTS1); /* at timer 1's overflow, its bottom */
+    ADMUX = (1 << REFS0) | 4;
+    ADCSRA = (1 << ADEN) | (1 << ADATE) | (1 << ADIE) | (1 << ADPS2);
+    TIFR1 = 1 << TOV1; /* the flag's rise triggers: one that stands already never will */
+    set_sleep_mode(SLEEP_MODE_IDLE);
+    sei();
+    for (;;) sleep_mode();
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// sixstep-avr-board [--hall=K0,K1,K2] [--upper=B5,B6,B7] [--lower=A0,A1,A2] [--inputs=0,1,2,3] FIRMWARE.elf
+//
+// runs it on an ATmega2560, in lock-step with a plant behind two pipes: it reads runs from descriptor 3 and writes answers to 4
+// (sixstep/rig/chip_port.hpp). The options say what hangs at which pin, legs in the order a, b, c; inputs are the converter's, of the
+// three currents and the potentiometer.
+//
+// A program of its own: libsimavr is GPL-3, and nothing else here is linked with it.
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+
+#include "faces/loop/avr/chip.hpp"
+
+namespace {
+
+namespace rig = sixstep::rig;
+
+constexpr int runs = 3, answers = 4;
+
+/// False at the pipe's end.
+bool take(void* to, std::size_t bytes) {
+  for (char* at = static_cast<char*>(to); bytes > 0;) {
+    const ssize_t n = ::read(runs, at, bytes);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    at += n;
+    bytes -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+template <class Struct>
+bool tell(const Struct& what) {
+  const char* at = reinterpret_cast<const char*>(&what);
+  for (std::size_t bytes = sizeof what; bytes > 0;) {
+    const ssize_t n = ::write(answers, at, bytes);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    at += n;
+    bytes -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  board::Pins pins;
+  bool understood = argc >= 2;
+  for (int n = 1; n + 1 < argc; ++n) understood = understood && board::take_pins(argv[n], pins);
+  if (!understood) {
+    std::fputs(
+        "usage: sixstep-avr-board [--hall=..] [--upper=..] [--lower=..] [--inputs=..] FIRMWARE.elf, with pipes at descriptors 3 and 4\n",
+        stderr);
+    return 2;
+  }
+  static board::Chip chip(pins);
+  if (!chip.load(argv[argc - 1])) {
+    std::fprintf(stderr, "sixstep-avr-board: %s is no program of an ATmega2560\n", argv[argc - 1]);
+    return 2;
+  }
+  if (!tell(rig::ChipGreeting{.clock_Hz = board::Chip::clock_Hz})) return 3;
+  for (rig::ChipRun run; take(&run, sizeof run);)
+    if (!(run.asks_for_times != 0 ? tell(chip.times()) : tell(chip.run(run)))) return 3;
+  return 0;
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// An ATmega2560 at 16 MHz: simavr's core, ports and interrupts with a timer 1 and a converter of our own in place of simavr's. Its
+// gates are on where their pins are outputs and high; PB5..PB7 are timer 1's as well.
+//
+// Only what links with simavr (GPL-3) may include this.
+#pragma once
+#include <cstdint>
+#include <deque>
+
+#include "faces/loop/avr/converter.hpp"
+#include "faces/loop/avr/pins.hpp"
+#include "faces/loop/avr/stopwatch.hpp"
+#include "faces/loop/avr/timer1.hpp"
+#include "sixstep/rig/chip_port.hpp"
+
+extern "C" {
+#include <simavr/sim_avr.h>
+#include <simavr/sim_interrupts.h>
+}
+
+namespace board {
+
+class Chip {
+ public:
+  static constexpr std::uint32_t clock_Hz = 16'000'000;
+
+  explicit Chip(const Pins& pins) : pins_(pins) {}
+  Chip(const Chip&) = delete;
+  Chip& operator=(const Chip&) = delete;
+
+  /// Once; false where it cannot be read.
+  bool load(const char* elf);
+
+  sixstep::rig::ChipAnswer run(const sixstep::rig::ChipRun& with);
+  sixstep::rig::ChipTimes times() const;
+
+ private:
+  struct PortRegister {
+    Chip* chip = nullptr;
+    avr_io_write_t write = nullptr;  ///< simavr's
+    void* of_write = nullptr;
+  };
+  struct Write {
+    atmega2560::Address to = 0;
+    std::uint8_t value = 0;
+  };
+
+  // Of the core: chip_core.cpp
+  void take_over();
+  void register_pin_change();
+  void take_over_port(atmega2560::Address at);
+  void follow_interrupts();
+  avr_int_vector_t* vector(unsigned number) const;
+  bool flag(atmega2560::Address at, std::uint8_t bit) const { return (avr_->data[at] & bit) != 0; }
+  void stop_core();
+  void set_pins(std::uint32_t hall_pins, std::uint64_t since);
+  void advance(std::uint64_t until);
+  void run_core(std::uint64_t target);
+  void sleep_core(std::uint64_t target);
+  void entered(unsigned number);
+  void left(unsigned number);
+
+  // Of its timer and its converter: chip.cpp
+  void settle();
+  void pass_timer();
+  void pass_converter();
+  void trigger(std::uint64_t at);
+  void apply(Write write, std::uint64_t at);
+  void write_flags(Write write);
+  void write_adcsra(std::uint8_t value, std::uint64_t at);
+  void write_adcsrb(std::uint8_t value, std::uint64_t at);
+  std::uint8_t read(atmega2560::Address from);
+  std::uint16_t result() const;
+  bool is_on(const Pin& pin) const;
+  std::uint32_t gates() const;
+  void look_at_gates(std::uint64_t at);
+
+  avr_t* avr_ = nullptr;
+  avr_int_vector_t *overflow_ = nullptr, *converted_ = nullptr;
+  avr_int_vector_t pin_change_{};  ///< simavr 1.6 has none at port K
+  avr_irq_t* hall_irqs_ = nullptr;
+  std::deque<PortRegister> ports_;  ///< whose writes move gates; each stays where it is
+  Pins pins_;
+
+  bool stop_ = false;  ///< something was written, or an interrupt entered: look before the next instruction
+  bool has_write_ = false;
+  Write write_{};  ///< of the last instruction
+  bool ended_ = false, slept_ = false;
+  std::uint64_t response_ = 0;  ///< cycles of interrupts that were entered, which the core has not counted
+
+  Timer1 timer_;
+  Converter converter_;
+  std::uint8_t channel_ = 0;  ///< of the conversion that runs
+  bool timer_started_it_ = false;
+  std::uint16_t held_ = 0, result_ = 0;
+  bool result_locked_ = false;  ///< from ADCL's reading to ADCH's
+
+  std::uint32_t gates_ = 0, told_gates_ = 0;
+  std::deque<sixstep::rig::ChipAnswer> told_;  ///< in the order of their cycles
+  bool asked_for_count_ = false;               ///< the last answer was a sample
+  std::uint64_t reached_ = 0;                  ///< of the last answer
+
+  Stopwatch control_{32}, hall_{32};  // a Hall interrupt may wait for a control interrupt
+  std::uint64_t periods_ = 0, conversions_ = 0;
+};
+
+}  // namespace board

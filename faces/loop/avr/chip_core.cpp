@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// simavr's core, stopped at the cycles that matter, and which of its registers are ours.
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <set>
+
+#include "faces/loop/avr/chip.hpp"
+
+extern "C" {
+#include <simavr/avr_ioport.h>
+#include <simavr/sim_elf.h>
+#include <simavr/sim_io.h>
+}
+
+namespace board {
+
+namespace {
+
+using namespace atmega2560;
+
+// Data sheet 2549, 7.8: from the request to the first instruction of the vector, out of sleep, and of the return; simavr counts
+// only the last.
+constexpr std::uint64_t interrupt_response = 5, wake_up = 5, interrupt_return = 5;
+
+/// simavr tells of an instruction that there is not, or of an address outside, and goes on. It tells nobody else.
+bool told_of_error = false;
+
+void listen(avr_t*, int level, const char*, va_list) {
+  if (level == LOG_ERROR) told_of_error = true;
+}
+
+/// simavr reads any file, and not every one to an end.
+bool is_for_avr(const char* elf) {
+  constexpr unsigned char machine_AVR[2] = {83, 0};
+  unsigned char head[20]{};
+  std::FILE* file = std::fopen(elf, "rb");
+  if (file == nullptr) return false;
+  const bool whole = std::fread(head, 1, sizeof head, file) == sizeof head;
+  std::fclose(file);
+  return whole && std::equal(machine_AVR, machine_AVR + 2, head + 18);
+}
+
+}  // namespace
+
+bool Chip::load(const char* elf) {
+  if (!is_for_avr(elf)) return false;
+  avr_global_logger_set(listen);
+  elf_firmware_t firmware{};
+  if (elf_read_firmware(elf, &firmware) != 0 || firmware.flashsize == 0) return false;
+  avr_ = avr_make_mcu_by_name("atmega2560");
+  if (avr_ == nullptr) return false;
+  avr_init(avr_);
+  avr_->log = 0;
+  firmware.frequency = clock_Hz;
+  if (firmware.flashbase + firmware.flashsize > avr_->flashend) return false;
+  avr_load_firmware(avr_, &firmware);
+  take_over();
+  register_pin_change();
+  follow_interrupts();
+  told_of_error = false;
+  return true;
+}
+
+avr_int_vector_t* Chip::vector(unsigned number) const {
+  for (int n = 0; n < avr_->interrupts.vector_count; ++n)
+    if (avr_->interrupts.vector[n]->vector == number) return avr_->interrupts.vector[n];
+  return nullptr;
+}
+
+/// Timer 1 and the converter are ours from here on: simavr's own never hear of a write.
+void Chip::take_over() {
+  const auto mine = [&](Address at, bool reads) {
+    auto& io = avr_->io[AVR_DATA_TO_IO(at)];
+    io.w.param = io.r.param = this;
+    io.w.c = [](avr_t*, avr_io_addr_t to, std::uint8_t value, void* chip) {
+      Chip& c = *static_cast<Chip*>(chip);
+      c.write_ = {to, value};
+      c.has_write_ = true;
+      c.stop_core();
+    };
+    io.r.c = nullptr;
+    if (reads)
+      io.r.c = [](avr_t*, avr_io_addr_t from, void* chip) { return static_cast<Chip*>(chip)->read(from); };
+  };
+  for (const Address at : {TIFR1, TIMSK1, PCIFR, PCICR, ADCSRA, ADCSRB, ADMUX}) mine(at, false);
+  for (const Address at : {ADCL, ADCH, TCCR1A, TCCR1B}) mine(at, true);
+  for (Address at = TCNT1L; at <= OCR1CH; ++at) mine(at, true);
+  std::set<char> of_gates;
+  for (const Pin& pin : pins_.upper) of_gates.insert(pin.port);
+  for (const Pin& pin : pins_.lower) of_gates.insert(pin.port);
+  for (const char port : of_gates)
+    for (const Address at : {Pin{port, 0}.PIN(), Pin{port, 0}.DDR(), Pin{port, 0}.PORT()}) take_over_port(at);
+  avr_->run_cycle_limit = 1'000'000;
+  // simavr goes on by its own idea of how long nothing happens: taken back, sleep_core() knows better.
+  avr_->sleep = [](avr_t* avr, avr_cycle_count_t cycles) { avr->cycle -= cycles + 1; };
+  // Of what the watchdog's reset would do to what is ours nothing is modelled: it ends the program.
+  avr_->reset = [](avr_t*) { told_of_error = true; };
+  overflow_ = vector(vector_TIMER1_OVF);
+  converted_ = vector(vector_ADC);
+  hall_irqs_ = avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ('K'), IOPORT_IRQ_PIN0);
+}
+
+void Chip::register_pin_change() {
+  pin_change_.vector = vector_PCINT2;
+  pin_change_.enable = {.reg = PCICR, .bit = PCIE2_bit, .mask = 1};
+  pin_change_.raised = {.reg = PCIFR, .bit = PCIE2_bit, .mask = 1};
+  avr_register_vector(avr_, &pin_change_);
+}
+
+/// A write goes on to simavr, and gates may have moved.
+void Chip::take_over_port(Address at) {
+  auto& w = avr_->io[AVR_DATA_TO_IO(at)].w;
+  PortRegister& port = ports_.emplace_back(PortRegister{this, w.c, w.param});
+  w.param = &port;
+  w.c = [](avr_t* avr, avr_io_addr_t to, std::uint8_t value, void* param) {
+    const PortRegister& p = *static_cast<PortRegister*>(param);
+    p.write(avr, to, value, p.of_write);
+    p.chip->stop_core();
+  };
+}
+
+void Chip::follow_interrupts() {
+  const auto notify = [](avr_irq_t* irq, std::uint32_t runs, void* chip) {
+    Chip& c = *static_cast<Chip*>(chip);
+    const unsigned number = irq->irq >> 8;
+    runs != 0 ? c.entered(number) : c.left(number);
+  };
+  for (int n = 0; n < avr_->interrupts.vector_count; ++n)
+    avr_irq_register_notify(avr_->interrupts.vector[n]->irq + AVR_INT_IRQ_RUNNING, notify, this);
+}
+
+void Chip::entered(unsigned number) {
+  response_ += interrupt_response + (slept_ ? wake_up : 0);
+  slept_ = false;
+  stop_core();
+  if (number == vector_ADC) control_.entered();
+  if (number == vector_PCINT2) hall_.entered();
+}
+
+/// Called within the return.
+void Chip::left(unsigned number) {
+  const std::uint64_t at = avr_->cycle + interrupt_return;
+  if (number == vector_ADC) control_.left(at);
+  if (number == vector_PCINT2) hall_.left(at);
+}
+
+/// After this instruction: simavr runs as many in a row as it was given cycles for.
+void Chip::stop_core() {
+  stop_ = true;
+  avr_->run_cycle_count = 0;
+}
+
+void Chip::set_pins(std::uint32_t hall_pins, std::uint64_t since) {
+  const std::uint8_t before = avr_->data[PINK];
+  for (unsigned line = 0; line < 3; ++line)
+    avr_raise_irq(hall_irqs_ + pins_.hall[line].bit, hall_pins >> (2 - line) & 1);
+  if (((avr_->data[PINK] ^ before) & avr_->data[PCMSK2]) == 0 || pin_change_.pending != 0) return;
+  avr_raise_interrupt(avr_, &pin_change_);
+  hall_.asked(since);
+}
+
+void Chip::advance(std::uint64_t until) {
+  const std::uint64_t target = std::min({until, timer_.next(), converter_.next()});
+  stop_ = false;
+  while (avr_->cycle < target && !stop_ && avr_->interrupt_state <= 0 && !ended_)
+    avr_->state == cpu_Sleeping ? sleep_core(target) : run_core(target);
+  settle();
+  while (avr_->interrupt_state > 0 && avr_->sreg[S_I] != 0) avr_service_interrupts(avr_);
+  if (response_ == 0) return;
+  avr_->cycle += response_;
+  response_ = 0;
+  settle();
+}
+
+void Chip::run_core(std::uint64_t target) {
+  avr_->run_cycle_count = std::min<avr_cycle_count_t>(avr_->run_cycle_count, target - avr_->cycle);
+  avr_run(avr_);
+  ended_ =
+      avr_->state == cpu_Crashed || avr_->state == cpu_Done || avr_->pc >= avr_->codeend || told_of_error;
+}
+
+/// Up to where an interrupt may come: one of ours, or one of simavr's other peripherals.
+void Chip::sleep_core(std::uint64_t target) {
+  slept_ = true;
+  const auto* timer = avr_->cycle_timers.timer;
+  if (timer == nullptr || timer->when > target) {
+    avr_->cycle = target;
+    return;
+  }
+  avr_->cycle = std::max(avr_->cycle, timer->when);
+  avr_run(avr_);
+  stop_ = true;
+}
+
+}  // namespace board

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/loop/cores.hpp"
+
+#include <unistd.h>
+
+namespace loop {
+
+namespace {
+
+/// Virtual time goes by instructions alone, and never waits: the same run each time, however busy the machine is.
+constexpr const char* deterministic = "shift=10,sleep=off";
+
+std::vector<std::string> qemu(const char* program, const char* board) {
+  return {program,
+          "-M",
+          board,
+          "-nographic",
+          "-monitor",
+          "none",
+          "-serial",
+          "none",
+          "-parallel",
+          "none",
+          "-icount",
+          deterministic,
+          "-semihosting-config",
+          "enable=on,target=native",
+          "-kernel"};
+}
+
+Core cortex(std::string_view name, std::string_view title, const char* cpu, const char* board,
+            const std::vector<std::string>& more = {}) {
+  Core core{name,
+            title,
+            {"arm-none-eabi-g++", std::string("-mcpu=") + cpu, "-mthumb", "-Wno-psabi"},
+            qemu("qemu-system-arm", board),
+            "cortex_m.S",
+            "cortex_m.ld",
+            {"-lgcc"}};
+  core.compiler.insert(core.compiler.end(), more.begin(), more.end());
+  return core;
+}
+
+/// Beside this program where it was built, else on PATH.
+std::string avr_board_program() {
+  std::string beside = SIXSTEP_AVR_BOARD;
+  return ::access(beside.c_str(), X_OK) == 0 ? beside : "sixstep-avr-board";
+}
+
+/// clang 14 to 16 compile wrongly for it; a constexpr configuration is taken up by what is inlined alone (docs/firmware.md). Branches are
+/// to stay branches, and a switch none of tables: what LLVM makes of them takes a fifth more cycles of a chip that shifts bit by bit.
+Core avr() {
+  return {.name = "avr",
+          .title = "ATmega2560",
+          .compiler = {"clang++-19", "--target=avr", "-mmcu=atmega2560", "-mllvm", "-inline-threshold=100000",
+                       "-fno-jump-tables", "-mllvm", "-two-entry-phi-node-folding-threshold=0", "-mllvm",
+                       "-phi-node-folding-threshold=0", "-mllvm", "-speculate-one-expensive-inst=0"},
+          .emulator = {avr_board_program()},
+          .start_up = {},
+          .linker_script = {},
+          .libraries = {},
+          .by_registers = true,
+          .linker = {"avr-gcc", "-mmcu=atmega2560"}};
+}
+
+}  // namespace
+
+std::span<const Core> cores() {
+  static const std::vector<Core> all = [] {
+    std::vector<Core> made;
+    made.push_back(cortex("cortex-m0", "Cortex-M0", "cortex-m0", "microbit"));
+    made.push_back(cortex("cortex-m4", "Cortex-M4F", "cortex-m4", "mps2-an386",
+                          {"-mfpu=fpv4-sp-d16", "-mfloat-abi=hard"}));
+    std::vector<std::string> virt = qemu("qemu-system-riscv32", "virt");
+    virt.insert(virt.end() - 1, {"-bios", "none"});
+    made.push_back({"riscv",
+                    "RV32IMC",
+                    {"riscv64-unknown-elf-g++", "-march=rv32imc", "-mabi=ilp32"},
+                    std::move(virt),
+                    "riscv.S",
+                    "riscv.ld",
+                    {"-Wl,--no-warn-rwx-segments", "-lgcc"}});
+    made.push_back(avr());
+    return made;
+  }();
+  return all;
+}
+
+}  // namespace loop

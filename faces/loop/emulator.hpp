@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// A core in its emulator, call by call: it runs the drive beside the host (rig/beside_core.hpp).
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "faces/loop/cores.hpp"
+#include "faces/loop/one_processor.hpp"
+#include "faces/loop/talk.hpp"
+
+namespace loop {
+
+/// Of the thread that starts it.
+class Emulator {
+ public:
+  /// Loads the image and waits until its program runs. Problems: an emulator that is missing or does not start.
+  static base::Result<std::unique_ptr<Emulator>> start(const Core& core, const std::string& image);
+
+  /// Stays valid as long as this does.
+  rig::CorePort port();
+  std::uint64_t calls() const { return calls_; }
+
+ private:
+  Emulator() = default;
+  rig::CoreTrouble ask(const void* call, std::size_t call_bytes, void* answer, std::size_t answer_bytes);
+
+  OneProcessor processor_;
+  std::optional<Talk> talk_;
+  rig::CoreGreeting greeting_{.word = 0};  ///< until the program has said its own
+  std::uint64_t calls_ = 0;
+};
+
+}  // namespace loop

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/loop/image.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "faces/loop/child.hpp"
+#include "faces/loop/descriptor.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/run/on_core.hpp"
+#include "text/export/config_header.hpp"
+
+namespace loop {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where this program was built from, or what SIXSTEP_SOURCES says: a core's program is made of the library's own headers.
+base::Result<fs::path> sources() {
+  const char* const said = std::getenv("SIXSTEP_SOURCES");
+  const fs::path root = said != nullptr ? said : SIXSTEP_SOURCE_DIR;
+  std::error_code none;
+  if (fs::exists(root / "sixstep/control/drive.hpp", none)) return root;
+  return base::Problem{root.string(), "", "does not hold the sources that a core's program is compiled from",
+                       "set SIXSTEP_SOURCES to the folder with README.md and sixstep/ in it"};
+}
+
+base::Problems write_header(const study::Scenario& scenario, const fs::path& file) {
+  const base::Result<std::string> header = text::config_header({.scenario = scenario,
+                                                                .arithmetic = {},
+                                                                .range = {},
+                                                                .name_space = "exported",
+                                                                .single_header = false,
+                                                                .command = "run on an emulated core",
+                                                                .clearance = nullptr,
+                                                                .despite = "run on an emulated core"});
+  if (!header) return header.problems();
+  std::ofstream out(file);
+  out << *header;
+  out.close();
+  if (!out) return {{file.string(), "", "cannot be written", "see whether the disk is full"}};
+  return {};
+}
+
+using Words = std::vector<std::string>;
+
+void add(Words& words, std::initializer_list<std::string> more) { words.insert(words.end(), more); }
+
+/// What every core's program is compiled with.
+Words compiler_of(const Core& core, const fs::path& root, const fs::path& folder) {
+  Words words = core.compiler;
+  add(words, {"-std=c++20", "-O2", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti", "-fno-unwind-tables",
+              "-fno-asynchronous-unwind-tables", "-ffreestanding", "-nostdinc++",
+              "-I" + (root / "faces/firmware/bare").string(), "-I" + root.string(), "-I" + folder.string()});
+  return words;
+}
+
+/// A core that is called: compiled and linked at once.
+Words called_core(const Core& core, const study::Scenario& scenario, const fs::path& root,
+                  const fs::path& folder, const fs::path& image) {
+  const fs::path bare = root / "faces/firmware/bare";
+  Words words = compiler_of(core, root, folder);
+  if (scenario.control.drive == study::FirmwareKind::product) add(words, {"-DSIXSTEP_PRODUCT_DRIVE"});
+  add(words, {(root / "faces/loop/core/main.cpp").string(), (bare / "start.cpp").string(),
+              (bare / "memory.cpp").string(), (bare / core.start_up).string(), "-nostdlib", "-T",
+              (bare / core.linker_script).string(), "-o", image.string()});
+  words.insert(words.end(), core.libraries.begin(), core.libraries.end());
+  return words;
+}
+
+/// A whole chip: its program, then its C library's start code before it.
+std::vector<Words> whole_chip(const Core& core, const study::AvrBoard& board, const fs::path& root,
+                              const fs::path& folder, const fs::path& image) {
+  const std::string object = (folder / "main.o").string();
+  Words compile = compiler_of(core, root, folder);
+  add(compile, {"-DADC_AMPERES_PER_COUNT=" + base::written(board.amperes_per_count),
+                "-DSETPOINT_PER_COUNT=" + base::written(board.setpoint_per_count), "-c",
+                (root / "faces/loop/avr/main.cpp").string(), "-o", object});
+  Words link = core.linker;
+  add(link, {object, "-o", image.string()});
+  return {compile, link};
+}
+
+base::Result<std::vector<Words>> commands_for(const Core& core, const study::Scenario& scenario,
+                                              const fs::path& root, const fs::path& folder,
+                                              const fs::path& image) {
+  if (!core.by_registers) return std::vector<Words>{called_core(core, scenario, root, folder, image)};
+  const base::Result<study::AvrBoard> board = study::avr_board(scenario);
+  if (!board) return board.problems();
+  return whole_chip(core, *board, root, folder, image);
+}
+
+/// The first complaint, or the first line.
+std::string complaint_in(const fs::path& log) {
+  std::ifstream in(log);
+  std::string line, first;
+  while (std::getline(in, line)) {
+    if (line.find("error") != std::string::npos) return line;
+    if (first.empty()) first = line;
+  }
+  return first;
+}
+
+base::Problems carried_out(const Core& core, const Words& words, const fs::path& log,
+                           const std::string& folder) {
+  const Descriptor told(::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
+  base::Result<Child> compiler =
+      Child::start({.words = words, .given = {{told.number(), 1}, {told.number(), 2}}, .temporary = folder});
+  if (!compiler) return compiler.problems();
+  const std::optional<int> status = compiler->ended_within(std::chrono::minutes(5));
+  if (status == 0) return {};
+  const std::string why = status ? complaint_in(log) : "took more than five minutes";
+  return {{words.front(), "", "could not compile the drive for " + std::string(core.title) + ": " + why,
+           "please report it with the scenario file"}};
+}
+
+}  // namespace
+
+base::Result<std::string> compiled_image(const Core& core, const study::Scenario& scenario,
+                                         const std::string& folder) {
+  const base::Result<fs::path> root = sources();
+  if (!root) return root.problems();
+  const fs::path here = folder, image = here / "image.elf", log = here / "compiler.log";
+  if (base::Problems problems = write_header(scenario, here / "drive_config.hpp"); !problems.empty())
+    return problems;
+  const base::Result<std::vector<Words>> commands = commands_for(core, scenario, *root, here, image);
+  if (!commands) return commands.problems();
+  for (const Words& words : *commands)
+    if (base::Problems problems = carried_out(core, words, log, folder); !problems.empty()) return problems;
+  return image.string();
+}
+
+}  // namespace loop

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The library's rooms by their short names, for code in loop.
+#pragma once
+
+namespace sixstep {
+namespace base {}
+namespace rig {}
+namespace study {}
+}  // namespace sixstep
+
+namespace loop {
+namespace base = sixstep::base;
+namespace rig = sixstep::rig;
+namespace study = sixstep::study;
+}  // namespace loop

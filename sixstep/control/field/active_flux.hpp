@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the magnet points while it turns, by the flux that it makes in the winding (Boldea, Paicu and Andreescu, Active Flux
+// Concept for Motion-Sensorless Unified AC Drives, IEEE Trans. PE 23, 2008). In the stator's frame, whatever the saliency:
+//
+//   lambda = integral(u - R i) dt        the winding's whole flux
+//   psi_a  = lambda - L_q i              points along the magnet: psi + (L_d - L_q) i_d
+//
+// An integral keeps whatever offset it began with. So lambda is drawn, by a part g of the difference each period, to what the
+// magnet as it is taken to point would make:
+//
+//   lambda[n] = lambda[n-1] + T (u - R (i[n] + i[n-1])/2) + g (L_q i + psi_a(theta^) - lambda)
+//
+// An error of the flux turns backwards with w_e seen from the rotor; of it s^2 + w_g s + w_e^2 is left, g = 1 - exp(-w_g T): it
+// fades where the rotor turns, and stays where it stands. u is the mean from sample to sample, as the timer was told it.
+#pragma once
+#include "sixstep/control/frames.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+/// The default sees nothing.
+template <class Scalar>
+struct ActiveFluxConfig {
+  Gain<Scalar> period_s{};        ///< T
+  Gain<Scalar> R_ohm{};           ///< of a phase
+  Gain<Scalar> L_q_H{}, L_D_H{};  ///< L_D: L_d - L_q
+  Scalar magnet_Vs{};             ///< psi; 0: none
+  Gain<Scalar> pull{};            ///< g
+  bool operator==(const ActiveFluxConfig&) const = default;
+};
+
+template <class Scalar>
+struct ActiveFluxState {
+  AlphaBeta<Scalar> flux{};     ///< lambda, V s
+  AlphaBeta<Scalar> current{};  ///< of the last sample, A
+  Scalar along{}, across{};     ///< psi_a of the last sample, in the frame that was given
+};
+
+/// One sample, with the magnet taken to point along `magnet`: by how much it points ahead of that, as a part of a radian, |x| < 1.
+template <class Scalar>
+constexpr Scalar active_flux_step(const ActiveFluxConfig<Scalar>& config, ActiveFluxState<Scalar>& state,
+                                  const AlphaBeta<Scalar>& mean_V, const AlphaBeta<Scalar>& i,
+                                  const Direction<Scalar>& magnet) {
+  const Scalar half_R = config.R_ohm * static_cast<Scalar>(0.5);
+  state.flux.alpha += config.period_s * (mean_V.alpha - half_R * (i.alpha + state.current.alpha));
+  state.flux.beta += config.period_s * (mean_V.beta - half_R * (i.beta + state.current.beta));
+  state.current = i;
+  const Scalar expected = config.magnet_Vs + config.L_D_H * (i.alpha * magnet.cos + i.beta * magnet.sin);
+  const AlphaBeta<Scalar> active{state.flux.alpha - config.L_q_H * i.alpha,
+                                 state.flux.beta - config.L_q_H * i.beta};
+  state.flux.alpha += config.pull * (expected * magnet.cos - active.alpha);
+  state.flux.beta += config.pull * (expected * magnet.sin - active.beta);
+  const Dq<Scalar> seen = park(active, magnet);
+  state.along = seen.d;
+  state.across = seen.q;
+  const Scalar size = magnitude(seen.d) + magnitude(seen.q);
+  if (!(size > Scalar{})) return Scalar{};
+  // The sine of the angle, near enough, and past 90 degrees the way that is left.
+  const Scalar part = seen.q / size;
+  return seen.d < Scalar{} ? (seen.q < Scalar{} ? -one<Scalar> : one<Scalar>) : part;
+}
+
+}  // namespace sixstep::control

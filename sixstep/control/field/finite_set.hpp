@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// Current control without a modulator: three legs that are each high or low for a whole period make seven voltages, and the one
+// is taken whose current comes nearest to its reference (Rodriguez et al., Predictive current control of a voltage source
+// inverter, IEEE Trans. IE 54, 2007). With an answer that acts a period late the current is first foretold to where that period
+// begins, by the voltage that is on until then (Cortes et al., Delay compensation in model predictive current control of a
+// three-phase inverter, IEEE Trans. IE 59, 2012).
+//
+// The voltage stands in the stator's frame while the magnet turns on by x = w_e T. Seen from where the magnet points in the middle
+// of the period, by an axis that stands there, the winding is R and L beside what turning makes (field_current.hpp):
+//
+//   L_d di_d/dt = v_d - R i_d - w_e (L_d - L_q) i_q - e_d,     i' = a i + b (v - ...),   a = exp(-R T/L), b = (1 - a)/R
+//   L_q di_q/dt = v_q - R i_q - w_e (L_d - L_q) i_d - e_q      e = (0, w p psi), or what the shape makes (harmonic_current.hpp)
+//
+// so that i is turned back by x/2, goes on, and is turned back by x/2 again: exact for a round rotor up to e, whose turn by
+// +-x/2 about its mean leaves x^2/24 of it. Among the eight states the cost is least,
+//
+//   J = |i* - i'|^2 + s^2 (legs that change over)
+//
+// where s, in A, is how far off a leg's switching is worth. A current beyond `most` is worse than any within it, and of those
+// beyond the shortest is best. Of equal ones the one that changes fewer legs is taken: between the two zero vectors that decides.
+//
+// A leg switches at most once per period: no switch faster than 1/(2 T), and slower as it comes. Where the bus reaches, i' lies
+// within 2/(3 sqrt 3) b U of i*, the radius of the triangles that the seven currents make. There is no integral: what the
+// model is off by, dead time and a diode's drop among it, the mean is off by in part.
+//
+// In floating point only: no scaling of it is proved.
+#pragma once
+#include "sixstep/control/field/field_current.hpp"
+#include "sixstep/control/leg_command.hpp"
+#include "sixstep/control/sensing/binary_angle.hpp"
+#include "sixstep/control/sensing/sine.hpp"
+
+namespace sixstep::control {
+
+/// The default is not used.
+template <class Scalar>
+struct FiniteSetConfig {
+  bool on = false;
+  bool foretells = false;                 ///< answers act a period late, and that is made up for
+  Gain<Scalar> d_decay{}, q_decay{};      ///< a
+  Gain<Scalar> d_A_per_V{}, q_A_per_V{};  ///< b
+  Gain<Scalar>
+      half_turn_s{};  ///< p T/2: electrical rad of x/2 per mechanical rad/s; more than 1 rad is cut off
+  Gain<Scalar> salient_V_s_A{};  ///< p (L_d - L_q)
+  Scalar switching_A{};          ///< s
+  Scalar most_A{};               ///< of |i'|; 0: no bound
+  bool operator==(const FiniteSetConfig&) const = default;
+};
+
+/// Legs as bits: a is bit 0, high is 1.
+using LegBits = std::uint8_t;
+
+template <class Scalar>
+struct FiniteSetState {
+  LegBits legs = 0;       ///< the last answer
+  Dq<Scalar> foretold{};  ///< the current it leads to, in the frame of the magnet as it will stand
+};
+
+/// What a tick knows. Of e the first is that of the period that has begun, the other that of the period to be answered, each where
+/// the magnet points in its middle.
+template <class Scalar>
+struct FiniteSetInput {
+  Dq<Scalar> reference{}, measured{};
+  Direction<Scalar> magnet{};  ///< at the sample
+  Scalar speed_rad_s{}, bus_V{};
+  Dq<Scalar> e{}, e_next{};
+};
+
+/// The phase voltage vector of three legs: against the star point U/3 times what a leg is above the mean of the others.
+template <class Scalar>
+constexpr AlphaBeta<Scalar> legs_voltage(LegBits legs, Scalar bus_V) {
+  const auto side = [&](unsigned k) { return (legs >> k & 1u) != 0 ? bus_V : Scalar{}; };
+  return clarke(Abc<Scalar>{side(0), side(1), side(2)});
+}
+
+constexpr std::uint8_t legs_changed(LegBits from, LegBits to) {
+  const auto x = static_cast<unsigned>(from ^ to);
+  return static_cast<std::uint8_t>((x & 1u) + (x >> 1 & 1u) + (x >> 2 & 1u));
+}
+
+template <class Scalar>
+constexpr LegCommands<Scalar> as_legs(LegBits legs) {
+  const auto leg = [legs](unsigned k) {
+    return LegCommand<Scalar>{(legs >> k & 1u) != 0 ? LegState::high : LegState::low,
+                              PwmSwitches::complementary, Scalar{}};
+  };
+  return {.enabled = true, .leg = {leg(0), leg(1), leg(2)}};
+}
+
+namespace detail {
+
+/// A direction that is `by` further on.
+template <class Scalar>
+constexpr Direction<Scalar> turned(const Direction<Scalar>& from, const Direction<Scalar>& by) {
+  return {from.cos * by.cos - from.sin * by.sin, from.sin * by.cos + from.cos * by.sin};
+}
+
+/// A vector as it is seen from a frame that has turned on by `by`.
+template <class Scalar>
+constexpr Dq<Scalar> seen_from(const Dq<Scalar>& x, const Direction<Scalar>& by) {
+  return {x.d * by.cos + x.q * by.sin, x.q * by.cos - x.d * by.sin};
+}
+
+/// i' without a voltage, from where the magnet points in the middle of the period.
+template <class Scalar>
+constexpr Dq<Scalar> left_alone(const FiniteSetConfig<Scalar>& config, const Dq<Scalar>& i,
+                                Scalar speed_rad_s, const Dq<Scalar>& e) {
+  using T = ScalarTraits<Scalar>;
+  const Scalar x_d = T::product(speed_rad_s * i.q, config.salient_V_s_A) + e.d;
+  const Scalar x_q = T::product(speed_rad_s * i.d, config.salient_V_s_A) + e.q;
+  return {T::product(i.d, config.d_decay) - T::product(x_d, config.d_A_per_V),
+          T::product(i.q, config.q_decay) - T::product(x_q, config.q_A_per_V)};
+}
+
+/// What a voltage in that frame adds to it.
+template <class Scalar>
+constexpr Dq<Scalar> driven_by(const FiniteSetConfig<Scalar>& config, const Dq<Scalar>& v) {
+  using T = ScalarTraits<Scalar>;
+  return {T::product(v.d, config.d_A_per_V), T::product(v.q, config.q_A_per_V)};
+}
+
+template <class Scalar>
+constexpr Scalar square(const Dq<Scalar>& x) {
+  return x.d * x.d + x.q * x.q;
+}
+
+/// How good a state is: by what its current is beyond the bound, by its cost, by the legs it changes.
+template <class Scalar>
+struct Judged {
+  Scalar beyond{}, cost{};
+  std::uint8_t changed = 0;
+};
+
+template <class Scalar>
+constexpr bool better(const Judged<Scalar>& a, const Judged<Scalar>& b) {
+  if (a.beyond != b.beyond) return a.beyond < b.beyond;
+  if (a.cost != b.cost) return a.cost < b.cost;
+  return a.changed < b.changed;
+}
+
+template <class Scalar>
+constexpr Judged<Scalar> judged(const FiniteSetConfig<Scalar>& config, const Dq<Scalar>& i,
+                                const Dq<Scalar>& reference, std::uint8_t changed) {
+  const Scalar over = square(i) - config.most_A * config.most_A;
+  const Dq<Scalar> off{reference.d - i.d, reference.q - i.q};
+  Scalar cost = square(off);
+  for (std::uint8_t n = 0; n < changed; ++n) cost = cost + config.switching_A * config.switching_A;
+  return {config.most_A > Scalar{} && over > Scalar{} ? over : Scalar{}, cost, changed};
+}
+
+}  // namespace detail
+
+/// A current one period on, by legs as they stand: `middle` is where the magnet points in the middle of it, `half` how far it
+/// turns in half a period.
+template <class Scalar>
+constexpr Dq<Scalar> foretold(const FiniteSetConfig<Scalar>& config, const Dq<Scalar>& i,
+                              const AlphaBeta<Scalar>& voltage_V, const Direction<Scalar>& middle,
+                              const Direction<Scalar>& half, Scalar speed_rad_s, const Dq<Scalar>& e) {
+  const Dq<Scalar> alone = detail::left_alone(config, detail::seen_from(i, half), speed_rad_s, e);
+  const Dq<Scalar> more = detail::driven_by(config, park(voltage_V, middle));
+  return detail::seen_from(Dq<Scalar>{alone.d + more.d, alone.q + more.q}, half);
+}
+
+/// One control tick: the legs to be answered, which are kept in state.legs.
+template <class Scalar>
+constexpr LegBits finite_set_step(const FiniteSetConfig<Scalar>& config, FiniteSetState<Scalar>& state,
+                                  const FiniteSetInput<Scalar>& in) {
+  const std::int32_t x = angle_of_rad(ScalarTraits<Scalar>::product(in.speed_rad_s, config.half_turn_s));
+  const auto half = direction_of<Scalar>(static_cast<BinaryAngle>(x));
+  Direction<Scalar> middle = detail::turned(in.magnet, half);
+  Dq<Scalar> i = in.measured;
+  if (config.foretells) {
+    i = foretold(config, i, legs_voltage(state.legs, in.bus_V), middle, half, in.speed_rad_s, in.e);
+    middle = detail::turned(detail::turned(middle, half), half);
+  }
+  // The turn of all eight currents is one and the same: the reference is turned in their place.
+  const Dq<Scalar> alone = detail::left_alone(config, detail::seen_from(i, half), in.speed_rad_s, in.e_next);
+  const Direction<Scalar> back{half.cos, -half.sin};
+  const Dq<Scalar> reference = detail::seen_from(in.reference, back);
+  detail::Judged<Scalar> best{};
+  LegBits legs = 0;
+  Dq<Scalar> there{};
+  for (LegBits n = 0; n < 8; ++n) {
+    const Dq<Scalar> more = detail::driven_by(config, park(legs_voltage(n, in.bus_V), middle));
+    const Dq<Scalar> then{alone.d + more.d, alone.q + more.q};
+    const auto own = detail::judged(config, then, reference, legs_changed(state.legs, n));
+    if (n != 0 && !detail::better(own, best)) continue;
+    best = own;
+    legs = n;
+    there = then;
+  }
+  state.foretold = detail::seen_from(there, half);
+  state.legs = legs;
+  return legs;
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which end of the magnet's axis is north, once the axis is found (injection.hpp): where a current along it adds to the
+// magnet's field the iron saturates (model.md 7),
+//
+//   L_d(i_d) = L_d (1 - i_d/I_sat),   h_d = V T/L_d(i_d)
+//
+// and what the pulse makes of the current is more. A current I is held along the axis as it is taken to lie, then -I:
+//
+//   (h+ - h-)/(h+ + h-) = +-I/I_sat
+//
+// Along the axis neither makes torque. Less than `certain` of it is not seen: the iron does not saturate, or noise is as large.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+enum class NorthPhase : std::uint8_t { forth, back, found, opposite, unseen };
+
+template <class Scalar>
+struct NorthConfig {
+  Scalar current_A{};              ///< I
+  Gain<Scalar> certain{};          ///< of (h+ - h-)/(h+ + h-)
+  std::uint16_t settle_ticks = 0;  ///< until the current stands
+  std::uint16_t look_ticks = 0;    ///< what is summed then
+  bool operator==(const NorthConfig&) const = default;
+};
+
+template <class Scalar>
+struct NorthState {
+  NorthPhase phase = NorthPhase::forth;
+  std::uint16_t ticks = 0;
+  Accumulator<Scalar> forth{}, back{};  ///< sums of h_d, A
+};
+
+/// i_d to ask for.
+template <class Scalar>
+constexpr Scalar north_current(const NorthConfig<Scalar>& config, const NorthState<Scalar>& state) {
+  if (state.phase == NorthPhase::forth) return config.current_A;
+  return state.phase == NorthPhase::back ? -config.current_A : Scalar{};
+}
+
+/// How much was seen: (h+ - h-)/(h+ + h-), signed.
+template <class Scalar>
+constexpr Scalar north_seen(const NorthState<Scalar>& state) {
+  const Scalar sum = state.forth + state.back;
+  return sum > Scalar{} ? (state.forth - state.back) / sum : Scalar{};
+}
+
+/// One tick with its h_d, A.
+template <class Scalar>
+constexpr void north_step(const NorthConfig<Scalar>& config, NorthState<Scalar>& state, Scalar h_d) {
+  if (state.phase != NorthPhase::forth && state.phase != NorthPhase::back) return;
+  if (++state.ticks <= config.settle_ticks) return;
+  (state.phase == NorthPhase::forth ? state.forth : state.back) += h_d;
+  if (state.ticks < config.settle_ticks + config.look_ticks) return;
+  state.ticks = 0;
+  if (state.phase == NorthPhase::forth) {
+    state.phase = NorthPhase::back;
+    return;
+  }
+  const Scalar seen = north_seen(state);
+  state.phase = magnitude(seen) < config.certain ? NorthPhase::unseen
+                : seen < Scalar{}                ? NorthPhase::opposite
+                                                 : NorthPhase::found;
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+// Jerk-limited profile: a position setpoint that keeps limits of speed, acceleration and jerk, and stands still exactly
+// on its target, which may move at any tick. It tells speed and acceleration beside the position, for feed-forward.
+//
+// A trapezoid of speed, taken as its mean over the last M strides, is the profile whose acceleration has ramps (Biagiotti
+// and Melchiorri, Trajectory Planning for Automatic Machines and Robots, 2008, 4.5; Lambrechts et al., Trajectory planning and
+// feedforward design, 2005): with a the trapezoid's change of speed per stride,
+//
+//   v = 1/M sum of the trapezoid's speeds       so |v| and |change of v| keep the trapezoid's limits
+//   change of acceleration = (a[n] - a[n-M])/M  so it keeps a/M where a never has both signs M strides apart
+//
+// The trapezoid waits with another sign for M strides at a speed that stands. That is no loss: where the jerk is
+// limited, acceleration goes through 0. Each stride takes the fastest v that still stops on the target after c = M strides
+// of it, if it gains speed, after c = 0, if it loses some (profile.hpp, with c strides more):
+//
+//   c v + v + (v - a) + .. = R,   v = (R + a m (m + 1)/2)/(m + 1 + c),   m the largest with a m (2 c + m + 1)/2 <= R
+//
+// A move of d takes d/v + v/a + a/j where it is long enough for its speed, and its acceleration, and is the fastest there
+// is; else it is a little slower than that. A target set nearer than the stopping distance is passed and returned to.
+//
+// A stride is one control tick, or so many that M is at most 64: what has to be remembered is 64 numbers for any jerk. Between
+// two strides runs the cubic B-spline of the means: position, speed and acceleration are continuous, and as its
+// derivatives are B-splines of their differences, each limit holds at every instant. It lies three strides behind.
+//
+// Speeds and ways are whole counts, 2^26 for a stride of full speed: sums are exact, nothing drifts, and what has landed is
+// the target's own number. A new target moves the setpoint by at most half a count at once, 2^-27 of a stride at full speed;
+// from rest, a way of at most M counts is gone in one stride. One beyond 2^28 strides of full speed is gone in parts.
+//
+// For float and double. Not for fixed point: a fixed-point position in degrees has no room for what a tick adds.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/control/scalar.hpp"
+
+namespace sixstep::control {
+
+inline constexpr int jerk_profile_cells = 64;  ///< most M
+inline constexpr std::int32_t jerk_profile_speed = std::int32_t{1}
+                                                   << 26;  ///< the limit, in counts per stride
+inline constexpr std::int64_t jerk_profile_farthest = std::int64_t{1} << 54;  ///< way in counts
+
+inline constexpr double jerk_profile_longest = 64.0 * 65535;  ///< ticks of M strides
+
+/// Made by jerk_profile(); a part is a count over M. The default never moves.
+template <class Scalar>
+struct JerkProfileConfig {
+  Scalar counts_per_deg{};
+  Scalar deg_per_part{};
+  Scalar rad_s_per_part{};      ///< of a part per stride
+  Scalar rad_s2_per_part{};     ///< of a part per stride^2
+  Scalar stride_per_tick{};     ///< 1/ticks
+  std::int32_t acceleration{};  ///< counts per stride^2
+  std::uint16_t ticks = 1;      ///< control ticks of a stride
+  std::uint8_t cells = 1;       ///< M
+  bool operator==(const JerkProfileConfig&) const = default;
+};
+
+template <class Scalar>
+struct ProfiledMotion {
+  Scalar position_deg{}, speed_rad_s{}, acceleration_rad_s2{};
+};
+
+template <class Scalar>
+struct JerkProfileState {
+  ProfiledMotion<Scalar> now{};
+  Scalar target_deg{};      ///< as the strides know it
+  std::int64_t way{};       ///< counts that the trapezoid has to go
+  std::int64_t rest{};      ///< parts that the mean has to go
+  std::int64_t mean[3]{};   ///< its last speeds, parts per stride, the newest first
+  std::int32_t velocity{};  ///< the trapezoid's, counts per stride
+  std::int32_t begun{};     ///< what it was before it began: the cells that are not filled
+  std::int32_t cell[jerk_profile_cells]{};
+  Scalar
+      spline[4]{};  ///< of what is left in this stride: parts, its speed, its acceleration, what that gains
+  std::uint16_t tick{};           ///< within the stride
+  std::uint8_t next{}, filled{};  ///< cells
+  std::uint8_t waits{};           ///< strides until an acceleration may have another sign
+  std::int8_t sign{};             ///< of the last one
+};
+
+/// What a profile is asked for.
+struct JerkProfileLimits {
+  double speed_rad_s = 0.0;
+  double acceleration_rad_s2 = 0.0;
+  double smoothing_s = 0.0;  ///< a/j: the time in which the acceleration rises; rounded up to whole strides
+};
+
+/// Computed in double, while compiling or on a host.
+template <class Scalar = double>
+constexpr JerkProfileConfig<Scalar> jerk_profile(const JerkProfileLimits& limits, double period_s) {
+  constexpr double degrees = 57.295779513082320877;
+  if (!(limits.speed_rad_s > 0) || !(limits.acceleration_rad_s2 > 0) || !(period_s > 0)) return {};
+  // What is a whole number of periods but for its last digits is not one period more.
+  const double wanted = between(limits.smoothing_s / period_s * (1 - 1e-12), 0.0, jerk_profile_longest);
+  const auto whole = static_cast<std::int32_t>(wanted);
+  const std::int32_t smooth = static_cast<double>(whole) < wanted ? whole + 1 : whole < 1 ? 1 : whole;
+  const std::int32_t ticks = (smooth + jerk_profile_cells - 1) / jerk_profile_cells;
+  const std::int32_t cells = (smooth + ticks - 1) / ticks;
+  const auto strides = static_cast<double>(cells), stride_s = static_cast<double>(ticks) * period_s;
+  const auto most = static_cast<double>(jerk_profile_speed);
+  const double rad = limits.speed_rad_s * stride_s / most;  // of a count
+  const double steepest = limits.acceleration_rad_s2 * stride_s * stride_s / rad;
+  return {.counts_per_deg = static_cast<Scalar>(1 / (rad * degrees)),
+          .deg_per_part = static_cast<Scalar>(rad * degrees / strides),
+          .rad_s_per_part = static_cast<Scalar>(rad / stride_s / strides),
+          .rad_s2_per_part = static_cast<Scalar>(rad / stride_s / stride_s / strides),
+          .stride_per_tick = static_cast<Scalar>(1.0 / static_cast<double>(ticks)),
+          .acceleration = static_cast<std::int32_t>(between(steepest, 1.0, most)),
+          .ticks = static_cast<std::uint16_t>(ticks),
+          .cells = static_cast<std::uint8_t>(cells)};
+}
+
+namespace detail {
+
+/// By halves: cores with single precision convert 32 bits at once, and 64 with a library.
+template <class Scalar>
+constexpr Scalar scalar_of(std::int64_t n) {
+  constexpr Scalar half = Scalar(4294967296.0);
+  const bool below = n < 0;
+  const auto size = static_cast<std::uint64_t>(below ? -n : n);
+  const Scalar x = static_cast<Scalar>(static_cast<std::uint32_t>(size >> 32)) * half +
+                   static_cast<Scalar>(static_cast<std::uint32_t>(size));
+  return below ? -x : x;
+}
+
+/// To nearest, at most jerk_profile_farthest.
+template <class Scalar>
+constexpr std::int64_t counts_of(Scalar x) {
+  constexpr Scalar half = Scalar(4294967296.0), most = half * Scalar(4194304.0);
+  const bool below = x < Scalar{};
+  const Scalar size = (below ? -x : x) + Scalar(0.5);
+  if (!(size < most)) return below ? -jerk_profile_farthest : jerk_profile_farthest;
+  const auto high = static_cast<std::uint32_t>(size / half);
+  const auto low = static_cast<std::uint32_t>(size - static_cast<Scalar>(high) * half);
+  const auto n = static_cast<std::int64_t>((static_cast<std::uint64_t>(high) << 32) | low);
+  return below ? -n : n;
+}
+
+/// n/d rounded down, 0 <= n, below 2^27: by digits, for cores divide 64 bits with a library.
+constexpr std::int32_t quotient_27(std::int64_t n, std::int64_t d) {
+  std::int32_t q = 0;
+  for (std::int8_t bit = 26; bit >= 0; --bit) {
+    if ((d << bit) > n) continue;
+    n -= d << bit;
+    q |= std::int32_t{1} << bit;
+  }
+  return q;
+}
+
+/// The fastest v from which c strides of it and the braking behind them end within R.
+constexpr std::int32_t fastest_within(std::int64_t R, std::int64_t a, std::int64_t c) {
+  const auto way = [a, c](std::int64_t m) { return m * a * (2 * c + m + 1) / 2; };
+  std::int64_t low = 0, high = jerk_profile_speed / static_cast<std::int32_t>(a) + 1;
+  if (way(high) <= R) return jerk_profile_speed;
+  while (high - low > 1) {
+    const std::int64_t middle = (low + high) / 2;
+    (way(middle) <= R ? low : high) = middle;
+  }
+  const std::int32_t v = quotient_27(R + low * a * (low + 1) / 2, low + 1 + c);
+  return v < jerk_profile_speed ? v : jerk_profile_speed;
+}
+
+/// The trapezoid's next speed towards a target R ahead. `gains`, `loses`: whether its sign allows that.
+constexpr std::int32_t next_speed(std::int64_t R, std::int32_t last, std::int32_t a, std::int32_t cells,
+                                  bool gains, bool loses) {
+  const std::int32_t gained = fastest_within(R, a, cells);
+  if (gained > last && gains) return gained < last + a ? gained : last + a;
+  const std::int32_t kept = fastest_within(R, a, 0);
+  if (kept < last && loses) return kept > last - a ? kept : last - a;
+  return last;
+}
+
+template <class Scalar>
+constexpr void trapezoid_stride(const JerkProfileConfig<Scalar>& config, JerkProfileState<Scalar>& state) {
+  const bool back = state.way < 0;
+  // A mean of so little has no acceleration to speak of, and R/(M + 1) is no count.
+  const std::int64_t least = config.cells < config.acceleration ? config.cells : config.acceleration;
+  if (state.velocity == 0 && state.waits == 0 && state.way <= least && state.way >= -least) {
+    state.velocity = static_cast<std::int32_t>(state.way);
+    state.way = 0;
+    return;
+  }
+  const std::int32_t last = back ? -state.velocity : state.velocity, sign = back ? -state.sign : state.sign;
+  const std::int32_t v = next_speed(back ? -state.way : state.way, last, config.acceleration, config.cells,
+                                    state.waits == 0 || sign > 0, state.waits == 0 || sign < 0);
+  if (v != last) {
+    state.sign = (v > last) != back ? std::int8_t{1} : std::int8_t{-1};
+    state.waits = config.cells;
+  } else if (state.waits > 0) {
+    --state.waits;
+  }
+  state.velocity = back ? -v : v;
+  state.way -= state.velocity;
+}
+
+template <class Scalar>
+constexpr void mean_stride(const JerkProfileConfig<Scalar>& config, JerkProfileState<Scalar>& state) {
+  std::int32_t& cell = state.cell[state.next];
+  const std::int32_t leaves = state.filled < config.cells ? state.begun : cell;
+  if (state.filled < config.cells) ++state.filled;
+  cell = state.velocity;
+  if (++state.next >= config.cells) state.next = 0;
+  state.mean[2] = state.mean[1];
+  state.mean[1] = state.mean[0];
+  state.mean[0] += state.velocity - leaves;
+  state.rest -= state.mean[0];
+}
+
+/// The B-spline's piece between the last means but one, in the powers of the part of the stride that is gone.
+template <class Scalar>
+constexpr void spline_stride(JerkProfileState<Scalar>& state) {
+  const std::int64_t *S = state.mean, six_times = 6 * (state.rest + S[0]) + 5 * S[1] + S[2];
+  state.spline[0] = scalar_of<Scalar>(six_times) / Scalar(6);
+  state.spline[1] = scalar_of<Scalar>(S[1] + S[2]) * Scalar(0.5);
+  state.spline[2] = scalar_of<Scalar>(S[1] - S[2]);
+  state.spline[3] = scalar_of<Scalar>(S[0] - 2 * S[1] + S[2]);
+}
+
+/// What it has to go is told in counts, once for each target.
+template <class Scalar>
+constexpr void take_target(const JerkProfileConfig<Scalar>& config, JerkProfileState<Scalar>& state,
+                           Scalar target_deg) {
+  if (target_deg == state.target_deg) return;
+  std::int64_t on = counts_of((target_deg - state.target_deg) * config.counts_per_deg);
+  const std::int64_t most = jerk_profile_farthest - state.way, least = -jerk_profile_farthest - state.way;
+  if (on >= most || on <= least) {
+    on = on >= most ? most : least;
+    state.target_deg = state.target_deg + scalar_of<Scalar>(on) / config.counts_per_deg;
+  } else {
+    state.target_deg = target_deg;
+  }
+  state.way += on;
+  state.rest += on * config.cells;
+}
+
+}  // namespace detail
+
+/// From a motion without acceleration.
+template <class Scalar>
+constexpr void begin_profile(const JerkProfileConfig<Scalar>& config, JerkProfileState<Scalar>& state,
+                             Scalar position_deg, Scalar speed_rad_s) {
+  state = {};
+  state.now = {position_deg, speed_rad_s, Scalar{}};
+  state.target_deg = position_deg;
+  if (config.acceleration == 0) return;
+  const std::int64_t M = config.cells;
+  const Scalar unit = config.rad_s_per_part * static_cast<Scalar>(M);
+  const std::int64_t most = jerk_profile_speed;
+  const std::int64_t v = between(detail::counts_of(speed_rad_s / unit), -most, most);
+  state.velocity = state.begun = static_cast<std::int32_t>(v);
+  for (std::int64_t& mean : state.mean) mean = M * v;
+  state.way =
+      -v * (M + 1) / 2;  // the mean lies (M - 1)/2 strides behind the trapezoid, and the spline one more
+  state.rest = M * state.way + v * (M * (M - 1) / 2);
+}
+
+/// One control tick.
+template <class Scalar>
+constexpr const ProfiledMotion<Scalar>& jerk_profile_step(const JerkProfileConfig<Scalar>& config,
+                                                          JerkProfileState<Scalar>& state,
+                                                          Scalar target_deg) {
+  if (config.acceleration == 0) return state.now;
+  if (state.tick == 0) {
+    detail::take_target(config, state, target_deg);
+    detail::trapezoid_stride(config, state);
+    detail::mean_stride(config, state);
+    detail::spline_stride(state);
+  }
+  if (++state.tick >= config.ticks) state.tick = 0;
+  const Scalar s = state.tick == 0 ? Scalar(1) : static_cast<Scalar>(state.tick) * config.stride_per_tick;
+  const Scalar *c = state.spline, half = Scalar(0.5) * s, third = s / Scalar(3);
+  const Scalar gone = s * (c[1] + half * (c[2] + third * c[3]));
+  state.now.position_deg = state.target_deg - config.deg_per_part * (c[0] - gone);
+  state.now.speed_rad_s = config.rad_s_per_part * (c[1] + s * (c[2] + half * c[3]));
+  state.now.acceleration_rad_s2 = config.rad_s2_per_part * (c[2] + s * c[3]);
+  return state.now;
+}
+
+}  // namespace sixstep::control

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every field of the magnet's estimator (control/field/magnet_estimator.hpp), once, for floating point alone: no scaling is proved
+// of it. Each list binds all members of its struct: a new member stops the compiler here. Angles and times are whole numbers.
+#pragma once
+#include "sixstep/control/field/sensorless_field_drive.hpp"
+#include "sixstep/design/fields/field_drive_fields.hpp"
+
+namespace sixstep::design {
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::InjectionConfig<double>& c, Kept& kept) {
+  auto& [voltage_V, rad_per_A] = kept;
+  w.signal({"voltage_V", "V"}, c.voltage_V, voltage_V, Base::voltage);
+  w.gain({"rad_per_A", "rad per A"}, c.rad_per_A, rad_per_A, {Base::one, Base::current});
+}
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::NorthConfig<double>& c, Kept& kept) {
+  auto& [current_A, certain, settle_ticks, look_ticks] = kept;
+  w.signal({"current_A", "A"}, c.current_A, current_A, Base::current);
+  w.gain({"certain"}, c.certain, certain, {Base::one, Base::one});
+  settle_ticks = c.settle_ticks;
+  look_ticks = c.look_ticks;
+}
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::ActiveFluxConfig<double>& c, Kept& kept) {
+  auto& [period_s, R_ohm, L_q_H, L_D_H, magnet_Vs, pull] = kept;
+  const Ratio any{Base::one, Base::one};
+  w.gain({"period_s", "s"}, c.period_s, period_s, any);
+  w.gain({"R_ohm", "ohm"}, c.R_ohm, R_ohm, {Base::voltage, Base::current});
+  w.gain({"L_q_H", "H"}, c.L_q_H, L_q_H, any);
+  w.gain({"L_D_H", "H", "L_d - L_q"}, c.L_D_H, L_D_H, any);
+  w.signal({"magnet_Vs", "V s"}, c.magnet_Vs, magnet_Vs, Base::one);
+  w.gain({"pull"}, c.pull, pull, any);
+}
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::TurnStartConfig<double>& c, Kept& kept) {
+  auto& [current_A, align_ticks, step, enough] = kept;
+  w.signal({"current_A", "A"}, c.current_A, current_A, Base::current);
+  align_ticks = c.align_ticks;
+  step = c.step;
+  enough = c.enough;
+}
+
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::EstimatorConfig<double>& c, Kept& kept) {
+  auto& [on, tracking, rad_s, axis_ticks, late, in_middle, injection, north, flux, start, low_rad_s,
+         high_rad_s] = kept;
+  w.flag({"on"}, c.on, on);
+  tracking = c.tracking;
+  axis_ticks = c.axis_ticks;
+  late = c.late;
+  in_middle = c.in_middle;
+  w.gain({"rad_s", "rad/s"}, c.rad_s, rad_s, {Base::speed, Base::one});
+  w.part("injection", c.injection, injection);
+  w.part("north", c.north, north);
+  w.part("flux", c.flux, flux);
+  w.part("start", c.start, start);
+  w.signal({"low_rad_s", "rad/s"}, c.low_rad_s, low_rad_s, Base::speed);
+  w.signal({"high_rad_s", "rad/s"}, c.high_rad_s, high_rad_s, Base::speed);
+}
+
+}  // namespace sixstep::design

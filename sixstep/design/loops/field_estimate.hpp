@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the estimator of a field-oriented drive without a rotor sensor needs (control/field/magnet_estimator.hpp), from the sheet, the
+// board's period and the bus:
+//
+//   tracking       damping 1 (tracking_loop.hpp), w_n so that what the current accelerates by, a = 3/2 p psi I/J, leaves the angle
+//                  5 degrees behind, p a/w_n^2; w_b at least a hundredth and at most a twentieth of the control frequency
+//   injection      V, a quarter of U_s/sqrt 3, or less: h_d = V T/L_d no more than a fifth of the current
+//   axis           followed for 30/w_n: from 0.001 degrees off the way up the loop has left it by then
+//   north          I_sat times at most 1/5, and half of what would turn the saliency round, L_q/L_d - 1 or 1 - L_q/L_d
+//   flux           w_high: the magnet's back-EMF is a tenth of U_s/sqrt 3; w_low half of it; w_g half of p w_high
+//
+// Without injection a voltage R I along the taken axis holds the rotor, w p psi across it goes along with its speed. Pulled by
+// R I it swings as a motor at a stiff voltage does, and its back-EMF damps it:
+//
+//   tau = J R/(3/2 (p psi)^2),  tau' = psi/(R I):    aligned after 10 (2 tau + tau')
+//   it is turned on by a quarter of what I makes at most, 3/2 p psi I/(4 J)
+#pragma once
+#include <vector>
+
+#include "sixstep/base/result.hpp"
+#include "sixstep/control/field/magnet_estimator.hpp"
+#include "sixstep/design/loops/field_current.hpp"
+
+namespace sixstep::design {
+
+struct FieldEstimateSpec {
+  bool injects = false, observes = false;
+  double period_s = 0.0;
+  int delay_periods =
+      0;  ///< from a sample to the period that is answered; in_middle: one of them is half a period
+  bool in_middle = false;   ///< a sample lies in the middle of a period
+  double loop_rad_s = 0.0;  ///< bandwidth of the current loops
+  double bus_V = 0.0;
+  double current_A = 0.0;  ///< amplitude that motor and drive stand
+  double J_kg_m2 = 0.0;
+  std::optional<double> bandwidth_rad_s, injection_V, high_rad_s, start_A;
+};
+
+struct FieldEstimate {
+  control::EstimatorConfig<double> config;
+  std::vector<DerivationStep> steps;
+};
+
+/// saturation_A: I_sat of the sheet, 0 without one. Problems: a round rotor, iron that does not saturate, a tracking loop that cannot
+/// be sampled.
+base::Result<FieldEstimate> field_estimate(const FieldMachine& machine, double saturation_A,
+                                           const FieldEstimateSpec& spec);
+
+}  // namespace sixstep::design

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// The firmware that is none of ours: a chip runs it, register by register, in an emulator (chip_port.hpp), and keeps its own time. The
+// board turns it on at t = 0, shows it Hall pins and what its converter samples, and does what its gates say.
+//
+//               a sample is given                           a Hall edge   a fault            it tells
+//   ChipDrive   counts at the converter's inputs: currents  its pins      what it makes of   cycles of its interrupts
+//               of the legs, the setpoint's potentiometer                 it by itself
+//
+// The plant cannot know before what the chip will do, nor the chip when a Hall edge comes. So the chip runs ahead of the plant for a
+// stretch in which none comes, and stops where it acts; an edge that comes all the same is shown at the stop that follows.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "sixstep/rig/chip_port.hpp"
+#include "sixstep/rig/firmware.hpp"
+#include "sixstep/rig/gate_modulator.hpp"
+
+namespace sixstep::rig {
+
+/// Which input of its converter is what: legs a, b, c first.
+constexpr std::size_t potentiometer_input = 3;
+
+struct ChipConfig {
+  control::Mode mode = control::Mode::off;
+  double setpoint_range = 1.0;  ///< in the mode's unit: the potentiometer's ends are this and its negative
+  std::uint32_t full_counts = 1024;
+  bool operator==(const ChipConfig&) const = default;
+};
+
+class ChipDrive {
+ public:
+  using Number = double;
+  using Command = ChipGates;
+  using Config = ChipConfig;
+  static constexpr bool fault_ends_run = true;
+
+  ChipDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
+      : config_(config),
+        port_(board.chip),
+        registers_(board.sensors),
+        bases_(board.bases),
+        patience_s_(std::max(
+            least_patience_s,
+            patient_periods * static_cast<double>(board.modulator.period_ticks) / sim::ticks_per_second)),
+        pins_(power_up.pins) {}
+
+  /// Where it stands next, for the plant to come there too.
+  const sim::Instant& next_stop() const { return stop_; }
+  bool samples() const { return answer_.event == ChipEvent::sample; }
+  /// Of a current: a control sample, one a period.
+  bool samples_current() const { return samples() && answer_.channel < potentiometer_input; }
+  bool lost() const { return trouble_ != CoreTrouble::none; }
+  ChipGates gates() const { return {answer_.gates}; }
+
+  /// At a stop that samples: what stands at the converter's inputs.
+  template <class Real>
+  void sample(const SampleInstant<Real>& instant, double setpoint) {
+    const Sample s = sample_of(instant);
+    for (std::size_t k = 0; k < 3; ++k) run_.counts[k] = registers_.current_counts(k, s.i_A[k], s.number);
+    const double half = config_.full_counts / 2.0;
+    const double counts = std::floor(half + half * setpoint / config_.setpoint_range + 0.5);
+    run_.counts[potentiometer_input] =
+        static_cast<std::uint16_t>(std::clamp(counts, 0.0, config_.full_counts - 1.0));
+    if (!samples_current()) return;
+    sampled_ = instant.at;
+    telemetry_.motor_current_A =
+        control::motor_current(ideal_measurement<double>(instant, bases_),
+                               control::positive_pair(control::sector_of_hall(instant.pins)));
+    if (config_.mode == control::Mode::current) telemetry_.current_reference_A = setpoint;
+  }
+  /// From the stop at hand to the next one, `quiet_s` at most.
+  void go_on(double quiet_s) {
+    const double cycles = std::clamp(quiet_s * port_.clock_Hz, least_cycles, most_cycles);
+    run_.until = answer_.cycle + static_cast<std::uint64_t>(cycles);
+    run_.hall_pins = pins_;
+    note_lateness();
+    trouble_ = port_.run(port_.chip, run_, answer_);
+    if (trouble_ == CoreTrouble::none && answer_.event == ChipEvent::ended) trouble_ = CoreTrouble::gone;
+    if (trouble_ == CoreTrouble::none && sim::seconds_between(sampled_, stop_) > patience_s_)
+      trouble_ = CoreTrouble::stalled;
+    stop_ = lost() ? stop_ : at_cycle(answer_.cycle);
+  }
+  void captured(std::uint8_t pins, const sim::Instant& at) {
+    pins_ = pins;
+    edge_ = at;
+    edge_waits_ = true;
+  }
+  void request_run(bool) {}
+  void request_clear() {}
+  void retune(const Tuning<Config>&) {}
+
+  control::Mode mode() const { return config_.mode; }
+  bool reversed() const { return false; }
+  bool open_loop() const { return false; }
+  bool follows_setpoint_at_once() const { return false; }
+  const control::Telemetry<double>& telemetry() const { return telemetry_; }
+  Diagnosis diagnosis() const { return {.at = stop_, .core = trouble_}; }
+  /// By how much later than the rotor's an edge was shown at worst, in s.
+  double latest_edge_s() const { return latest_edge_s_; }
+
+ private:
+  /// Half a microsecond of an AVR is enough near an edge; far from one, a period's tenth keeps pins in step.
+  static constexpr double least_cycles = 8, most_cycles = 400;
+  /// Without a sample for so long, it hangs or has given up.
+  static constexpr double patient_periods = 50, least_patience_s = 5e-3;
+
+  sim::Instant at_cycle(std::uint64_t cycle) const {
+    const auto whole_s = static_cast<std::int64_t>(cycle / port_.clock_Hz);
+    const double rest =
+        static_cast<double>(cycle % port_.clock_Hz) * (sim::ticks_per_second / port_.clock_Hz);
+    return sim::Instant{whole_s * static_cast<std::int64_t>(sim::ticks_per_second), 0.0}.plus_ticks(rest);
+  }
+  void note_lateness() {
+    if (!edge_waits_) return;
+    latest_edge_s_ = std::max(latest_edge_s_, sim::seconds_between(edge_, stop_));
+    edge_waits_ = false;
+  }
+
+  Config config_;
+  ChipPort port_;
+  Registers registers_;
+  Bases bases_;
+  ChipRun run_{};
+  ChipAnswer answer_{};
+  CoreTrouble trouble_ = CoreTrouble::none;
+  double patience_s_;
+  sim::Instant stop_{};  ///< first at t = 0
+  sim::Instant sampled_{};
+  std::uint8_t pins_;
+  bool edge_waits_ = false;
+  sim::Instant edge_{};
+  double latest_edge_s_ = 0.0;
+  control::Telemetry<double> telemetry_{};
+};
+
+}  // namespace sixstep::rig

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bridge of a board whose chip sets the gates itself (chip_drive.hpp): what its pins say, it does. Duty and pair are read off them, as
+// a measuring instrument would: over the period that went by last.
+#pragma once
+#include "sixstep/plant/state.hpp"
+#include "sixstep/rig/pulse.hpp"
+
+namespace sixstep::rig {
+
+/// Gates as bits 0..5: upper a, lower a, upper b, lower b, upper c, lower c (control/gates.hpp).
+struct ChipGates {
+  std::uint32_t bits = 0;
+};
+
+inline std::uint32_t gates_of(const plant::Gates& g) {
+  std::uint32_t bits = 0;
+  for (unsigned k = 0; k < 3; ++k)
+    bits |= (g.high[k] ? 1U : 0U) << (2 * k) | (g.low[k] ? 1U : 0U) << (2 * k + 1);
+  return bits;
+}
+
+class GateModulator {
+ public:
+  using Command = ChipGates;
+
+  explicit GateModulator(const ModulatorConfig&) {}
+
+  static Command before_first() { return {}; }
+
+  /// The pins move.
+  void take(const sim::Instant& t, const Command& command) {
+    note(t);
+    for (unsigned k = 0; k < 3; ++k) {
+      const bool upper = (command.bits >> (2 * k) & 1U) != 0;
+      if (upper && !gates_.high[k]) {
+        source_ = static_cast<int>(k);
+        ++turn_ons_;
+      }
+      gates_.high[k] = upper;
+      gates_.low[k] = (command.bits >> (2 * k + 1) & 1U) != 0;
+    }
+  }
+  /// A sample: a period has gone by.
+  void end_period(const sim::Instant& t) {
+    note(t);
+    const double period = sim::seconds_between(begun_, t);
+    duty_ = period > 0 ? on_s_ / period : 0.0;
+    on_s_ = 0.0;
+    begun_ = t;
+  }
+
+  /// No edge is known beforehand: the chip's next stop is.
+  sim::Instant next_edge() const { return sim::Instant::never(); }
+  bool act(const sim::Instant&) { return false; }
+  bool steady() const { return false; }
+  /// A dead time is the firmware's.
+  void set_dead_time(double) {}
+
+  const plant::Gates& gates() const { return gates_; }
+  std::int64_t turn_ons() const { return turn_ons_; }
+  /// The bus stands between two legs.
+  bool drives() const { return gates_.high.any() && gates_.low.any(); }
+  bool enabled() const { return gates_.high.any() || gates_.low.any(); }
+  /// Part of the last whole period over which it did, and the leg whose upper switch was turned on last.
+  double duty() const { return duty_; }
+  int source() const { return source_; }
+
+ private:
+  void note(const sim::Instant& t) {
+    if (drives()) on_s_ += sim::seconds_between(noted_, t);
+    noted_ = t;
+  }
+
+  plant::Gates gates_{};
+  sim::Instant begun_{}, noted_{};
+  double on_s_ = 0.0, duty_ = 0.0;
+  int source_ = 0;
+  std::int64_t turn_ons_ = 0;
+};
+
+}  // namespace sixstep::rig

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/check/position.hpp"
+
+#include <string>
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+
+namespace sixstep::study {
+
+void check_position(const Scenario& s, base::Problems& out) {
+  const Control& c = s.control;
+  const PositionProfile& p = c.position.profile;
+  if (!p.on) {
+    if (p != PositionProfile{})
+      out.push_back({"control.position.profile", "", "says how a profile is, and none is on",
+                     "set control.position.profile.on = true, or leave it away"});
+    return;
+  }
+  if (p.jerk_rad_s3 && p.smoothing_s)
+    out.push_back({"control.position.profile.smoothing_s", base::six_digits(*p.smoothing_s),
+                   "contradicts jerk_rad_s3: the time in which the acceleration rises is given twice",
+                   "keep one of them"});
+  const std::optional<double>& limit = c.position.speed_limit_rad_s;
+  if (p.speed_rad_s && limit && *p.speed_rad_s > *limit)
+    out.push_back({"control.position.profile.speed_rad_s", base::six_digits(*p.speed_rad_s),
+                   "is above control.position.speed_limit_rad_s = " + base::six_digits(*limit) +
+                       ", which the loop does not ask for more than",
+                   "lower it, better to nine tenths of that, or raise the limit"});
+  if (c.slew && c.mode == control::Mode::position)
+    out.push_back({"control.slew", base::six_digits(*c.slew),
+                   "shapes a setpoint that control.position.profile shapes already",
+                   "leave it away: profile.speed_rad_s is its limit"});
+  if (c.arithmetic != Arithmetic::float64 && c.arithmetic != Arithmetic::float32)
+    out.push_back({"control.arithmetic", std::string(base::word(arithmetic_choices, c.arithmetic)),
+                   "has no room for what control.position.profile adds in a tick",
+                   "set arithmetic = \"float\" or \"double\", or leave the profile away"});
+  if (p.feed_forward && c.speed.law != SpeedLaw::pi)
+    out.push_back({"control.position.profile.feed_forward", "true",
+                   "adds a torque that the observer of control.speed.law = \"" +
+                       std::string(base::word(speed_law_choices, c.speed.law)) + "\" would take for a load",
+                   "set feed_forward = false, or law = \"pi\""});
+}
+
+}  // namespace sixstep::study

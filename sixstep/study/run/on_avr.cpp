@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The AVR's board as a scenario has to describe it: what its timer and its converter do is not to be chosen.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "sixstep/base/describe.hpp"
+#include "sixstep/study/compile/compile.hpp"
+#include "sixstep/study/run/on_core.hpp"
+#include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+constexpr int converter_bits = 10;
+constexpr double clock_Hz = 16e6;
+/// Timer 1 counts up and down again, with 16 bits.
+constexpr double most_counts = 65535;
+
+void need(bool has, base::Problems& out, const char* where, const char* what, const char* cure) {
+  if (!has) out.push_back({where, "", what, cure});
+}
+
+void need_drive(const Scenario& s, base::Problems& out) {
+  const Control& c = s.control;
+  need(c.drive == FirmwareKind::lean, out, "control.drive",
+       "is not the lean drive, which the AVR has time for", "leave it out");
+  need(c.mode == control::Mode::duty ||
+           (c.mode == control::Mode::current && c.current.type == CurrentLoopType::pi),
+       out, "control.mode", "is not what the AVR's program does: a duty, or a current by a PI",
+       "set control.mode = \"current\" or \"duty\"");
+  need(c.arithmetic == Arithmetic::q15 || c.arithmetic == Arithmetic::q14, out, "control.arithmetic",
+       "is none that the AVR's program computes in, which has signals of 16 bits",
+       "set control.arithmetic = \"q15\"");
+  need(!std::any_of(s.at.begin(), s.at.end(), retunes), out, "at.control",
+       "changes what the chip was given, and it is flashed once", "leave such events out");
+}
+
+void need_timer(const Scenario& s, base::Problems& out) {
+  need(s.pwm.alignment == Alignment::centre, out, "pwm.alignment",
+       "is not that of timer 1, which counts up and down", "set pwm.alignment = \"centre\"");
+  need(s.pwm.sample == SampleAt::middle, out, "pwm.sample", "is not where timer 1 starts the converter",
+       "set pwm.sample = \"middle\"");
+  need(s.pwm.chopping == control::Chopping::soft && s.pwm.pattern == control::PwmPattern::upper, out,
+       "pwm.chopping", "is not what its pins do: timer 1 chops upper switches",
+       "take soft chopping of the upper switch");
+  const double counts = s.pwm.period_s * clock_Hz / 2;
+  const double whole = std::floor(counts + 0.5);
+  need(counts >= 2 && counts <= most_counts && counts - whole < 1e-6 && whole - counts < 1e-6, out,
+       "pwm.period_s", "is no whole number of timer 1's 125 ns", "take a multiple of 125 ns up to 8 ms");
+}
+
+/// What the other boards' transducers can do on the way, and this one's do not.
+bool drifts(const At& at) { return at.sensors.current_offset_A || at.sensors.current_gain_error; }
+
+void need_converter(const Scenario& s, base::Problems& out) {
+  need(!std::any_of(s.at.begin(), s.at.end(), drifts), out, "at.sensors",
+       "has a transducer drift on the way, and those of the AVR's board do not",
+       "give its offset and gain from the start, in [sensors]");
+  need(s.sensors.currents == rig::CurrentMeasurement::phases, out, "sensors.currents",
+       "is not what stands on the AVR's board: a transducer in each phase",
+       "set sensors.currents = \"phases\"");
+  need(s.sensors.adc_bits == converter_bits, out, "sensors.adc_bits",
+       "is not the AVR's converter, which has 10", "set sensors.adc_bits = 10");
+  need(!s.sensors.current_bandwidth_Hz, out, "sensors.current_bandwidth_Hz",
+       "lags, and the AVR's board has none that do", "leave it out");
+}
+
+}  // namespace
+
+base::Problems not_on_an_avr(const Scenario& s) {
+  base::Problems out;
+  need_drive(s, out);
+  need_timer(s, out);
+  need_converter(s, out);
+  return out;
+}
+
+base::Problems not_on_an_avrs_board(const Scenario& s) {
+  base::Problems out;
+  need_converter(s, out);
+  return out;
+}
+
+base::Result<AvrBoard> avr_board(const Scenario& scenario) {
+  const base::Result<Compiled> compiled = compile(scenario);
+  if (!compiled) return compiled.problems();
+  constexpr double half = 1 << (converter_bits - 1);
+  return AvrBoard{.amperes_per_count = compiled->board.sensors.current.lsb(),
+                  .setpoint_per_count = compiled->setpoint_range / half};
+}
+
+}  // namespace sixstep::study

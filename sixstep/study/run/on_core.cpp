@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/run/on_core.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "sixstep/base/describe.hpp"
+#include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+
+namespace sixstep::study {
+
+base::Problems not_on_a_core(const Scenario& s) {
+  base::Problems out;
+  if (s.control.drive != FirmwareKind::lean && s.control.drive != FirmwareKind::product)
+    out.push_back({"control.drive", std::string(base::word(drive_choices, s.control.drive)),
+                   "does not run on a core yet: the lean drive and the product drive do",
+                   "set control.drive = \"product\" or leave it out"});
+  if (s.control.mode == control::Mode::off)
+    out.push_back({"control.mode", "\"off\"", "leaves nothing for a core to run", "set control.mode"});
+  if (std::any_of(s.at.begin(), s.at.end(), retunes))
+    out.push_back({"at.control", "", "changes what the chip was given, and a core is flashed once",
+                   "leave such events out, or run it on the host alone"});
+  return out;
+}
+
+}  // namespace sixstep::study

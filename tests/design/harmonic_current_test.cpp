@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shape vector that the drive is given, against closed forms: of the trapezoid, of harmonics, of a table, of a delta.
+#include "sixstep/design/loops/harmonic_current.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::design;
+namespace general = plant::general;
+
+constexpr double pi = std::numbers::pi;
+
+general::Machine machine_of(general::Shape shape, double K_e = 0.02) {
+  return {.R_ohm = {0.5, 0.5, 0.5},
+          .K_e_V_s = {K_e, K_e, K_e},
+          .L_H = 1e-3,
+          .pole_pairs = 8,
+          .shape = std::move(shape)};
+}
+
+/// In the middle of a sector the trapezoid's vector is a hexagon's inradius, 2/sqrt 3, along q; at its corner 4/3. From the middle
+/// on, d rad, it has gone 4/pi d along the side.
+TEST(HarmonicShape, OfTheTrapezoidIsAHexagon) {
+  const double f1 = 4 / pi * 0.5 / (pi / 6);
+  const auto c = harmonic_shape(machine_of({.flat_deg = 120}), 0.02 * f1);
+  EXPECT_TRUE(c.on);
+  EXPECT_NEAR(c.least, 2 / std::numbers::sqrt3 / f1, 1e-12);
+  for (int n = 0; n < control::shape_points; ++n) {
+    const double d = n <= 16 ? n * pi / 96 : (n - 32) * pi / 96;
+    const double inradius = 2 / std::numbers::sqrt3, along = 4 / pi * d;
+    // The q axis has turned on by d: what is along the side lies by d behind it.
+    EXPECT_NEAR(c.shape[n].q * f1, inradius * std::cos(d) + along * std::sin(d), 1e-12) << n;
+    EXPECT_NEAR(c.shape[n].d * f1, inradius * std::sin(d) - along * std::cos(d), 1e-12) << n;
+  }
+  const HarmonicFigures f = harmonic_figures(c);
+  EXPECT_NEAR(f.swing, (4.0 / 3 - 2 / std::numbers::sqrt3) / f1, 2e-4);
+  EXPECT_NEAR(f.copper, f1 * f1 * std::numbers::sqrt3 * pi / 8, 2e-4);
+}
+
+/// cos(theta - 60) is (0, 1) for ever; a fifth of size c turns against it six times, a seventh along with it, a third drops out.
+TEST(HarmonicShape, OfHarmonicsIsTheirSequence) {
+  const auto sine = harmonic_shape(machine_of({.harmonics = {{1, 1.0}, {3, 0.3}}}), 0.02);
+  EXPECT_TRUE(is_sine(sine));
+  for (const auto& g : sine.shape) {
+    EXPECT_NEAR(g.d, 0.0, 1e-14);
+    EXPECT_NEAR(g.q, 1.0, 1e-14);
+  }
+  const auto both = harmonic_shape(machine_of({.harmonics = {{1, 1.0}, {5, 0.1}, {7, 0.04}}}), 0.02);
+  EXPECT_FALSE(is_sine(both));
+  for (int n = 0; n < control::shape_points; ++n) {
+    // Phase a is cos of the angle a quarter turn before the magnet.
+    const double x = n * pi / 96 + pi / 2, magnet = x - pi / 2;
+    const double alpha = std::cos(x) + 0.1 * std::cos(5 * x) + 0.04 * std::cos(7 * x);
+    const double beta = std::sin(x) - 0.1 * std::sin(5 * x) + 0.04 * std::sin(7 * x);
+    EXPECT_NEAR(both.shape[n].d, alpha * std::cos(magnet) + beta * std::sin(magnet), 1e-13);
+    EXPECT_NEAR(both.shape[n].q, beta * std::cos(magnet) - alpha * std::sin(magnet), 1e-13);
+  }
+}
+
+/// The same trapezoid by its corners, and with phases that stray to both sides: their mean.
+TEST(HarmonicShape, OfATableAndOfPhasesThatStrayIsTheirMean) {
+  const auto trapezoid = harmonic_shape(machine_of({.flat_deg = 120}), 0.02);
+  const auto table =
+      harmonic_shape(machine_of({.table = {{0, 1.0}, {120, 1.0}, {180, -1.0}, {300, -1.0}}}), 0.02);
+  general::Machine stray = machine_of({.flat_deg = 120});
+  stray.K_e_V_s = {0.0206, 0.02, 0.0194};
+  const auto mean = harmonic_shape(stray, 0.02);
+  for (int n = 0; n < control::shape_points; ++n) {
+    EXPECT_NEAR(table.shape[n].d, trapezoid.shape[n].d, 1e-12);
+    EXPECT_NEAR(table.shape[n].q, trapezoid.shape[n].q, 1e-12);
+    EXPECT_NEAR(mean.shape[n].d, trapezoid.shape[n].d, 1e-12);
+    EXPECT_NEAR(mean.shape[n].q, trapezoid.shape[n].q, 1e-12);
+  }
+}
+
+/// Sines in three branches are sines of 1/sqrt 3 in the star that has their terminals, and in phase with it.
+TEST(HarmonicShape, OfADeltaIsThatOfItsStar) {
+  general::Machine m = machine_of({.harmonics = {{1, 1.0}}});
+  m.winding = general::Winding::delta;
+  for (const auto& g : harmonic_shape(m, 0.02).shape) {
+    EXPECT_NEAR(g.d, 0.0, 1e-14);
+    EXPECT_NEAR(g.q, 1 / std::numbers::sqrt3, 1e-14);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,6 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* One that was compiled as for a chip. */
+#ifndef SIXSTEP_REAL
+#define SIXSTEP_REAL float
+#endif
+#include "data/controllers/sine_voltage.c"

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`sixstep run --on avr`: chapter 8 of the thesis on an ATmega2560, register by register (faces/loop/avr/): its verdicts, what its
+interrupts took, the period that it cannot keep; the same bits each time; and programs that do what they should not."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import time
+
+import jsonschema
+
+import build
+
+SCHEMA = jsonschema.Draft202012Validator(json.loads((build.REPOSITORY / "docs/summary.schema.json").read_text(encoding="utf-8")))
+CHAPTER = build.REPOSITORY / "data" / "scenarios" / "thesis" / "avr"
+OWN = build.REPOSITORY / "faces" / "firmware" / "example" / "avr_c"
+TOO_SHORT = CHAPTER / "8b-30us.toml"
+
+
+def run(file, *words, on="avr", **environment):
+    return subprocess.run([str(build.PROGRAM), "run", str(file), "--on", on, *words], capture_output=True, text=True, timeout=300,
+                          check=False, env={**os.environ, **environment})
+
+
+def summary(done):
+    return json.loads(done.stdout) if done.stdout else {"fault": done.stderr, "passed": False}
+
+
+def trouble_of_times(name, chip):
+    """By what a current tick and a Hall interrupt of such a drive take (docs/firmware.md), and what stands around them; a Hall edge may
+    come as the control interrupt begins. The first samples only measure the offset."""
+    found = []
+    for which, least, most in (("control", 100, 1500), ("hall", 100, 1700)):
+        t = chip[which]
+        if not (t["count"] > 0 and least <= t["least_cycles"] <= t["most_cycles"] <= most):
+            found.append(f"{name}: its {which} interrupt {t['count']} times, {t['least_cycles']} to {t['most_cycles']} cycles")
+        if sum(t["bins"]) != t["count"]:
+            found.append(f"{name}: {sum(t['bins'])} {which} interrupts in bins, {t['count']} in all")
+    if not 1200 < chip["control"]["sum_cycles"] / chip["control"]["count"] < 1400:
+        found.append(f"{name}: its control interrupt takes {chip['control']['sum_cycles']} cycles in {chip['control']['count']} times")
+    if chip["latest_edge_s"] > 1e-6:
+        found.append(f"{name}: an edge was shown {chip['latest_edge_s'] * 1e6:.2f} us late")
+    return found
+
+
+def check_chapter():
+    trouble, files = [], sorted(CHAPTER.glob("8?.toml"))
+    for file in files:
+        done, again = (run(file, "--quiet", "--json", "-") for _ in range(2))
+        found = summary(done)
+        if done.returncode != 0 or not found["passed"] or len(found.get("require", [])) != 2:
+            trouble.append(f"{file.stem}: exit {done.returncode}, {found['fault']}")
+            continue
+        trouble += [f"{file.stem}: {error.message}" for error in SCHEMA.iter_errors(found)]
+        if found["digest"] != summary(again)["digest"]:
+            trouble.append(f"{file.stem}: another digest each time")
+        chip = found["chip"]
+        if chip["periods"] > chip["conversions"] + 1:
+            trouble.append(f"{file.stem}: {chip['conversions']} conversions in {chip['periods']} periods")
+        trouble += trouble_of_times(file.stem, chip)
+    print(f"{len(files)} current steps of chapter 8 on an ATmega2560: {'all hold' if not trouble else 'trouble'}")
+    return trouble
+
+
+def check_overrun():
+    """30 us are 480 cycles: of three periods the control interrupt takes all."""
+    done = run(TOO_SHORT, "--json", "-")
+    chip = summary(done).get("chip", {"periods": 0, "conversions": 0})
+    if not (chip["conversions"] > 0 and 2.5 < chip["periods"] / chip["conversions"] < 3.5):
+        return [f"30 us: {chip['conversions']} conversions in {chip['periods']} periods"]
+    told = run(TOO_SHORT).stdout
+    return [] if "OVERRUN" in told else [f"30 us: no overrun is told\n{told}"]
+
+
+BAD = {  # what the chip does at its 100th control interrupt, and what is said of it
+    "drives both switches of a leg": ("PORTA() = 7; byte(atmega2560::DDRB) = 0xE0; set_on_time(0xFFFF);", "shoot-through"),
+    "runs into an instruction that there is not": ('asm volatile(".word 0x0001");', "the core ended"),
+    "jumps into erased flash": ('asm volatile("ldi r30,0xFF\\n ldi r31,0xFF\\n ijmp");', "the core ended"),
+    "hangs with interrupts off": ('asm volatile("cli"); for (;;) asm volatile("");', "starts no conversion any more"),
+}
+PLACE = "  convert_potentiometer();\n"
+
+
+def badly(what):
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for part in ("sixstep/control", "faces/firmware", "faces/loop/avr"):
+            shutil.copytree(build.REPOSITORY / part, folder / part)
+        program = folder / "faces/loop/avr/main.cpp"
+        text = program.read_text(encoding="utf-8")
+        assert PLACE in text
+        program.write_text(text.replace(PLACE, f"{PLACE}  static std::uint8_t calls = 0;\n  if (++calls == 100) {{ {what} }}\n"),
+                           encoding="utf-8")
+        begin = time.monotonic()
+        return run(CHAPTER / "8b.toml", SIXSTEP_SOURCES=name), time.monotonic() - begin
+
+
+def check_bad():
+    trouble = []
+    for name, (what, said) in BAD.items():
+        done, took_s = badly(what)
+        if done.returncode != 3 or said not in done.stdout + done.stderr or took_s > 30:
+            trouble.append(f"a chip that {name}: exit {done.returncode} after {took_s:.1f} s\n{(done.stdout + done.stderr)[-600:]}")
+    print(f"{len(BAD) - len(trouble)} of {len(BAD)} chips with a bad program are told as such")
+    return trouble
+
+
+def check_own():
+    """A firmware that is none of ours, in C, with other pins: it holds what chapter 8 asks for as well."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        shutil.copy(OWN / "map.toml", folder)
+        build.told(["avr-gcc", "-mmcu=atmega2560", "-std=gnu99", "-O2", "-Wall", "-Wextra", "-Werror", OWN / "main.c", "-o",
+                    folder / "main.elf"])
+        trouble = []
+        for file in sorted(CHAPTER.glob("8?.toml")):
+            done = run(file, "--quiet", "--json", "-", on=str(folder / "map.toml"))
+            if done.returncode != 0 or not summary(done)["passed"]:
+                found = summary(done)
+                trouble.append(f"{file.stem} by {OWN.name}: exit {done.returncode}, {found['fault']}, {found.get('require')}")
+    print(f"a firmware of one's own: {'all hold' if not trouble else 'trouble'}")
+    return trouble
+
+
+def check():
+    trouble = check_chapter() + check_overrun() + check_own() + check_bad()
+    print("\n".join(trouble), end="\n" if trouble else "")
+    return not trouble

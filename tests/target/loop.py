@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`sixstep run --on`: drives on emulated cores beside the host, each answer the host's to the bit and the run's digest its own; how many
+calls a second; and nothing left behind where the program is killed."""
+import functools
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+
+import avr
+import build
+from build import Failed
+
+CORES = ("cortex-m0", "cortex-m4", "riscv")
+SCALARS = ("q15", "float")
+CHAPTERS = build.REPOSITORY / "data" / "scenarios" / "thesis"
+USUAL = (*(CHAPTERS / f"{name}-exact-design.toml" for name in ("7.3.1-turning", "7.4-speed", "7.5-position")), build.scenario("product"),
+         build.REPOSITORY / "data/scenarios/gallery/gear.toml")  # the last by the general kernel
+
+
+def command(file, scalar, core=None):
+    return [str(build.PROGRAM), "run", str(file), "--set", f"control.arithmetic={scalar}", "--quiet", "--json", "-",
+            *(["--on", core] if core else [])]
+
+
+def summary(file, scalar, core=None):
+    """Whether the drive keeps what is required of it, or trips where it shall, is another test's question."""
+    done = subprocess.run(command(file, scalar, core), capture_output=True, text=True, timeout=600, check=False)
+    if not done.stdout:
+        raise Failed(f"{file.stem} in {scalar} on {core or 'the host'}: exit {done.returncode}\n{done.stderr[-600:]}")
+    return json.loads(done.stdout) | {"exit": done.returncode}
+
+
+@functools.cache
+def of_host(file, scalar):
+    return summary(file, scalar)
+
+
+def beside_the_host(case):
+    """What is wrong with a run on a core, and the calls that it took."""
+    file, scalar, core = case
+    alone, beside = of_host(file, scalar), summary(file, scalar, core)
+    where = f"{file.stem} in {scalar} on {core}"
+    for what in ("digest", "exit", "fault"):
+        if beside[what] != alone[what]:
+            return f"{where}: {what} {beside[what]}, the host's is {alone[what]}", 0
+    calls = beside["core"]["calls"]
+    wanted = alone["events"].get("control ticks", 0)
+    return (None if calls >= wanted > 0 else f"{where}: {calls} calls for {wanted} control ticks"), calls
+
+
+def check_bits(files):
+    cases = [(file, scalar, core) for file in files for scalar in SCALARS for core in CORES]
+    answers = build.side_by_side(beside_the_host, cases)
+    trouble = [str(a) if isinstance(a, Failed) else a[0] for a in answers if isinstance(a, Failed) or a[0]]
+    calls = sum(a[1] for a in answers if not isinstance(a, Failed))
+    print(f"{len(cases) - len(trouble)} of {len(cases)} runs on cores give the host's digest, {calls} calls each to the bit")
+    return trouble
+
+
+def left_behind(folder):
+    """Files, and processes of any kind that were told of the folder: compilers, emulators, who cleans."""
+    left = [file.name for file in pathlib.Path(folder).iterdir()]
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            words = os.fsdecode((process / "cmdline").read_bytes()).split("\0")
+        except OSError:  # it has just ended
+            continue
+        if any(folder in word for word in words):
+            left.append(f"{process.name} {words[0]}")
+    return left
+
+
+def check_kills(times, seed):
+    """Killed at any instant, compiling, starting or running: no process and no file stays."""
+    drawn, file = random.Random(seed), build.scenario("product")
+    with tempfile.TemporaryDirectory() as folder:
+        for kill in range(times):
+            core = drawn.choice((*CORES, "avr"))
+            on = avr.CHAPTER / "8c.toml" if core == "avr" else file
+            program = subprocess.Popen(command(on, "q15", core), env={**os.environ, "TMPDIR": folder},
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            after_s = drawn.uniform(0.0, 4.0)
+            time.sleep(after_s)
+            program.send_signal(drawn.choice((signal.SIGKILL, signal.SIGTERM, signal.SIGINT)))
+            program.wait(timeout=60)
+            until = time.monotonic() + 30
+            while left_behind(folder) and time.monotonic() < until:
+                time.sleep(0.05)
+            if left := left_behind(folder):
+                return [f"kill {kill} (seed {seed}) after {after_s:.3f} s on {core} left {', '.join(left)}"]
+    print(f"{times} kills at random instants left no process and no file (seed {seed})")
+    return []
+
+
+BAD = {  # what the core's program does in its hundredth call, and what is said of it
+    "hangs": ("for (;;) {}", "did not answer in time"),
+    "writes where no memory is": ("*reinterpret_cast<volatile unsigned*>(0x90000000) = 1;", "the core ended"),
+    "jumps into nowhere": ("reinterpret_cast<void (*)()>(0x90000001)();", "the core ended"),
+    "ends": ("exit_with(0);", "the core ended"),
+    "answers otherwise": ("answer.duty = answer.duty + answer.duty; answer.enabled ^= 1;", "the core's answer is not the host's"),
+}
+CALL = "answer = rig::answer_of(made(call));"
+
+
+def bad_sources(folder, what):
+    """The sources of a core's program, with something bad in it."""
+    for part in ("sixstep/control", "faces/firmware/bare", "faces/loop/core"):
+        shutil.copytree(build.REPOSITORY / part, folder / part)
+    (folder / "sixstep/rig").mkdir()
+    shutil.copy(build.REPOSITORY / "sixstep/rig/core_call.hpp", folder / "sixstep/rig")
+    program = folder / "faces/loop/core/main.cpp"
+    text = program.read_text(encoding="utf-8")
+    assert CALL in text
+    program.write_text(text.replace(CALL, f"{CALL} static int calls = 0; if (++calls == 100) {{ {what} }}"), encoding="utf-8")
+
+
+def badly(case):
+    """What is wrong with how a bad program ends."""
+    core, (name, (what, said)) = case
+    with tempfile.TemporaryDirectory() as folder:
+        bad_sources(pathlib.Path(folder), what)
+        begin = time.monotonic()
+        done = subprocess.run(command(USUAL[0], "q15", core), capture_output=True, text=True, timeout=120, check=False,
+                              env={**os.environ, "SIXSTEP_SOURCES": folder})
+        took_s = time.monotonic() - begin
+    fault = json.loads(done.stdout or "{}").get("fault") or done.stderr
+    if done.returncode == 3 and said in fault and took_s < 30:
+        return None
+    return f"a program that {name} on {core}: exit {done.returncode} after {took_s:.1f} s, {fault[-300:]}"
+
+
+def check_bad(on):
+    cases = [(core, bad) for core in on for bad in BAD.items()]
+    trouble = [str(answer) for answer in build.side_by_side(badly, cases) if answer]
+    print(f"{len(cases) - len(trouble)} of {len(cases)} bad programs are told as such")
+    return trouble
+
+
+def tell_pace():
+    """No verdict: the machine may be busy."""
+    for core in CORES:
+        begin = time.monotonic()
+        calls = summary(build.scenario("product"), "q15", core)["core"]["calls"]
+        print(f"{core}: {calls / (time.monotonic() - begin):.0f} calls a second, compiling and starting included")
+
+
+def check(files=USUAL, bad_on=("cortex-m4",), kills=10, seed=1):
+    trouble = check_bits(files) + check_bad(bad_on) + check_kills(kills, seed)
+    print("\n".join(trouble), end="\n" if trouble else "")
+    return not trouble
+
+
+def check_all():
+    tell_pace()
+    return check([*sorted(CHAPTERS.glob("7.[345]*.toml")), build.scenario("product")], CORES, kills=100, seed=random.randrange(10**6))

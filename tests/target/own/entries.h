@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The two entries of a controller of one's own as firmware has them: step and hall are known while compiling, config, state and what
+ * goes in and out are in static memory. In C and in C++: it stands behind the controller's own source. */
+#ifndef SIXSTEP_TESTS_TARGET_OWN_ENTRIES_H
+#define SIXSTEP_TESTS_TARGET_OWN_ENTRIES_H
+
+#include "sixstep/control/own/own_controller.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+extern uint64_t own_config[], own_state[]; /* aligned as the program's are */
+extern sixstep_measured own_measured;      /* in the Hall interrupt its code alone is new */
+extern sixstep_real own_setpoint;
+extern sixstep_answer own_answer;
+
+void entry_tick(void);
+void entry_hall(void);
+
+#if defined __AVR__
+/* The same as interrupts, as avr_board.cpp asks for them: INT0 and INT1. */
+void __vector_1(void) __attribute__((signal, used));
+void __vector_2(void) __attribute__((signal, used));
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,10 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# own_cost.sh SOURCE [SCENARIO]   what a controller of your own costs on Cortex-M and RISC-V cores, emulated: instructions of a step and
+#                                 of a Hall interrupt, flash and RAM (docs/own-controller.md)
+# own_cost.sh --help              what else may be said; needs the compilers of tools/install.sh target
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+case " $* " in *" --program "* | *" --help "*) ;; *) "$root/run" --version >/dev/null ;; esac
+export PYTHONDONTWRITEBYTECODE=1
+exec python3 "$root/tests/target/own_cost.py" "$@"
