@@ -39,7 +39,14 @@ std::string table(const char* first, std::size_t runs, const std::string& rows) 
 std::string run_rows(const std::vector<ComparedRun>& runs) {
   std::string html;
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    const Standing verdict = standing(runs[k].outcome);
+    if (runs[k].outcome == nullptr) {
+      html += fmt::format(
+          "<tr><td>{}</td><th scope=\"row\">{}<small class=\"aside\">what a board "
+          "sent</small></th><td></td><td>{} rows</td></tr>\n",
+          number(k), escaped(runs[k].name), runs[k].events.values.front().size());
+      continue;
+    }
+    const Standing verdict = standing(*runs[k].outcome);
     html += fmt::format(
         "<tr><td>{}</td><th scope=\"row\">{}<small class=\"aside\">{}</small></th><td><span class=\"chip "
         "{}\">{}</span></td><td>{}</td></tr>\n",
@@ -80,7 +87,7 @@ std::string figure_row(const std::string& name, const std::string& unit, const s
                        const Ask& ask) {
   std::vector<std::optional<Measured>> found;
   found.reserve(runs.size());
-  for (const ComparedRun& run : runs) found.push_back(ask(run));
+  for (const ComparedRun& run : runs) found.push_back(run.outcome ? ask(run) : std::nullopt);
   // Neither what no run knows nor what is nothing in all of them.
   if (std::ranges::all_of(found, [](const auto& m) { return !m || (m->value == 0.0 && m->css.empty()); }))
     return "";
@@ -108,17 +115,18 @@ std::string named_figures(const std::vector<ComparedRun>& runs) {
     if (std::ranges::find(names, std::pair{figure, unit}) == names.end()) names.emplace_back(figure, unit);
   };
   for (const ComparedRun& run : runs) {
-    for (const auto& v : run.outcome.verdicts) meet(v.figure, v.unit);
-    for (const auto& c : run.outcome.comparisons) meet(c.figure, c.unit);
+    if (run.outcome == nullptr) continue;
+    for (const auto& v : run.outcome->verdicts) meet(v.figure, v.unit);
+    for (const auto& c : run.outcome->comparisons) meet(c.figure, c.unit);
   }
   std::string rows;
   for (const auto& [figure, unit] : names)
     rows += figure_row(figure, unit, runs,
                        [&, figure = figure, unit = unit](const ComparedRun& run) -> std::optional<Measured> {
-                         for (const auto& v : run.outcome.verdicts)
+                         for (const auto& v : run.outcome->verdicts)
                            if (v.figure == figure && v.unit == unit)
                              return Measured{v.measured, v.ok ? "ok" : "bad"};
-                         for (const auto& c : run.outcome.comparisons)
+                         for (const auto& c : run.outcome->comparisons)
                            if (c.figure == figure && c.unit == unit) return Measured{c.measured, ""};
                          return std::nullopt;
                        });
@@ -132,14 +140,14 @@ std::string energy_rows(const std::vector<ComparedRun>& runs) {
       {"in switches and diodes", &Book::devices}, {"in friction", &Book::friction},
       {"of friction in the iron", &Book::iron},   {"in the load", &Book::load}};
   const bool iron = std::any_of(runs.begin(), runs.end(), [](const ComparedRun& run) {
-    return run.outcome.energy && run.outcome.energy->iron != 0.0;
+    return run.outcome && run.outcome->energy && run.outcome->energy->iron != 0.0;
   });
   std::string rows;
   for (const auto& [name, entry] : entries) {
     if (entry == &Book::iron && !iron) continue;
     rows += figure_row(name, "J", runs, [entry = entry](const ComparedRun& run) -> std::optional<Measured> {
-      if (!run.outcome.energy) return std::nullopt;
-      return Measured{*run.outcome.energy.*entry, ""};
+      if (!run.outcome->energy) return std::nullopt;
+      return Measured{*run.outcome->energy.*entry, ""};
     });
   }
   return rows;
@@ -156,13 +164,13 @@ std::string usual_figures(const std::vector<ComparedRun>& runs) {
     return current ? std::optional(Measured{current->peak_A, ""}) : std::nullopt;
   });
   rows += figure_row("all of the bus in use for", "s", runs, [](const ComparedRun& run) {
-    const auto held = held_back(run.events, run.scenario, run.outcome);
+    const auto held = held_back(run.events, run.scenario, *run.outcome);
     return held && run.events.whole.empty() ? std::optional(Measured{held->bus_s, ""}) : std::nullopt;
   });
   rows += figure_row("switching frequency of the whole run", "Hz", runs,
                      [](const ComparedRun& run) -> std::optional<Measured> {
-                       if (!(run.outcome.simulated_s > 0.0)) return std::nullopt;
-                       return Measured{switching_frequency_Hz(run.outcome), ""};
+                       if (!(run.outcome->simulated_s > 0.0)) return std::nullopt;
+                       return Measured{switching_frequency_Hz(*run.outcome), ""};
                      });
   return rows + energy_rows(runs);
 }
@@ -174,7 +182,7 @@ std::string gain_table(const std::vector<ComparedRun>& runs) {
          {std::pair{"d_1", &sixstep::study::LoopGains::d1}, std::pair{"d_0", &sixstep::study::LoopGains::d0}})
       rows += figure_row(fmt::format("{} loop, {}", loop, symbol), "", runs,
                          [&, gain = gain](const ComparedRun& run) -> std::optional<Measured> {
-                           for (const auto& g : run.outcome.gains)
+                           for (const auto& g : run.outcome->gains)
                              if (g.loop == loop) return Measured{g.*gain, ""};
                            return std::nullopt;
                          });
@@ -184,8 +192,30 @@ std::string gain_table(const std::vector<ComparedRun>& runs) {
 
 std::string chips(const std::vector<ComparedRun>& runs) {
   std::string html;
-  for (const ComparedRun& run : runs) html += chip_section(run.outcome);
+  for (const ComparedRun& run : runs)
+    if (run.outcome) html += chip_section(*run.outcome);
   return html;
+}
+
+/// Of a board's log: how far it lies from the simulation. Nothing where there is none.
+std::string laid_over_table(const ComparisonInput& in) {
+  if (in.laid_over.empty()) return "";
+  std::string rows;
+  for (const sixstep::analysis::LaidOver& one : in.laid_over) {
+    const std::string unit = one.column.unit == "1" ? "" : one.column.unit;
+    rows += fmt::format(
+        "<tr><th scope=\"row\"><code>{}</code></th><td class=\"num\">{}</td><td class=\"num\">{}</td><td "
+        "class=\"num\">{}</td><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n",
+        escaped(one.column.name), one.rows, escaped(computed(one.rms, unit)),
+        escaped(computed(one.greatest, unit)), escaped(computed(one.at_s, "s")),
+        escaped(computed(one.span, unit)));
+  }
+  return fmt::format(
+      "<h2>What the board sent, less the simulation</h2>\n<p class=\"quiet\">At the log's own instants{}.</p>\n"
+      "<table><thead><tr><th scope=\"col\">Column</th><th scope=\"col\" class=\"num\">Rows</th><th scope=\"col\" "
+      "class=\"num\">Rms</th><th scope=\"col\" class=\"num\">Greatest</th><th scope=\"col\" class=\"num\">At"
+      "</th><th scope=\"col\" class=\"num\">Simulated, from lowest to highest</th></tr></thead><tbody>\n{}</tbody></table>\n",
+      in.shift_s == 0.0 ? "" : ", moved by " + escaped(computed(in.shift_s, "s")), rows);
 }
 
 }  // namespace
@@ -197,17 +227,22 @@ std::string render_comparison(const ComparisonInput& in) {
     scenarios.push_back(&run.scenario);
     names += (names.empty() ? "" : ", ") + run.name;
   }
-  const std::string title = fmt::format("{} runs compared", in.runs.size());
+  const bool with_log = in.runs.back().outcome == nullptr;
+  const std::string title =
+      with_log ? "A board's log over its simulation" : fmt::format("{} runs compared", in.runs.size());
   const std::string body =
       filled(assets::comparison_html,
              {{"title", title},
               {"subtitle", escaped(names) + "; differences are against the first"},
               {"runs", run_rows(in.runs)},
-              {"differences", difference_table(in.runs)},
+              {"differences", with_log ? "<p class=\"quiet\">The log's drive is taken for the one of this "
+                                         "scenario.</p>\n"
+                                       : difference_table(in.runs)},
               {"figures", table("Figure", in.runs.size(), named_figures(in.runs) + usual_figures(in.runs)) +
-                              chips(in.runs)},
+                              chips(in.runs) + laid_over_table(in)},
               {"plots", assets::plots_html},
               {"grid", escaped(given(common_grid_s(scenarios), "s"))},
+              {"between", with_log ? ", the log straight between its rows" : ""},
               {"gains", gain_table(in.runs)}});
   return in_shell(
       {.title = title + " · " + escaped(names), .body = body, .command = in.command, .version = in.version},

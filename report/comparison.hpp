@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sixstep/analysis/bench/log/laid_over.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
@@ -11,9 +12,10 @@
 namespace report {
 
 struct ComparedRun {
-  std::string name;  ///< short: the file's
-  const sixstep::study::Scenario& scenario;
-  const sixstep::study::Outcome& outcome;
+  std::string name;                          ///< short: the file's
+  const sixstep::study::Scenario& scenario;  ///< of a board's log the one that it is laid over
+  const sixstep::study::Outcome*
+      outcome;                          ///< null: a log of a board, of which nothing is known but its columns
   const sixstep::study::Trace& events;  ///< every event, both sides of each jump: what is drawn
   const sixstep::study::Trace& grid;  ///< at the same instants for all runs, exact there: what is subtracted
 };
@@ -21,7 +23,9 @@ struct ComparedRun {
 inline constexpr std::size_t most_compared = 5;  ///< as many as there are colours that can be told apart
 
 struct ComparisonInput {
-  std::vector<ComparedRun> runs;  ///< two to most_compared; differences are against the first
+  std::vector<ComparedRun> runs;  ///< two to most_compared; differences are against the first, which is a run
+  std::vector<sixstep::analysis::LaidOver> laid_over{};  ///< of a log, the last one
+  double shift_s = 0.0;                                  ///< of the log
   std::string command;
   std::string version;
 };

@@ -169,7 +169,7 @@ std::string comparison_data(const std::vector<ComparedRun>& runs) {
   out["run"] = {begin, end};
   out["compared"] = true;
   out["windows"] = windows_json(choose_windows(runs[0].events, runs[0].scenario), runs[0].scenario);
-  out["pole_pairs"] = runs[0].outcome.motor.machine.pole_pairs;
+  out["pole_pairs"] = runs[0].outcome->motor.machine.pole_pairs;
   Axes axes(out);
   std::deque<std::vector<Values>> drawn;  // by overlay, by run
   for (const Compared& what : compared_of(runs)) {

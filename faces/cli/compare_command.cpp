@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <utility>
@@ -16,11 +17,14 @@
 #include "faces/loop/cores.hpp"
 #include "faces/loop/on_core.hpp"
 #include "files/atomic_file.hpp"
+#include "files/text_file.hpp"
 #include "report/comparison.hpp"
 #include "report/kept_rows.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "text/recording/board_log.hpp"
+#include "text/results/laid_over_text.hpp"
 #include "text/results/verdict_table.hpp"
 
 namespace cli {
@@ -82,6 +86,48 @@ std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
   return runs;
 }
 
+/// What a board sent.
+struct Log {
+  std::string name;
+  std::optional<double> shift_s;  ///< that was asked for
+  study::Trace trace, grid;
+  LogFound found;
+};
+
+base::Result<std::optional<Log>> read_log(const LogArguments& asked) {
+  if (asked.path.empty()) return std::optional<Log>();
+  const base::Result<std::string> text = files::read_text(asked.path);
+  if (!text) return text.problems();
+  base::Result<study::Trace> trace = text::read_board_log(asked.path, *text);
+  if (!trace) return trace.problems();
+  return std::optional(Log{.name = std::filesystem::path(asked.path).filename().string(),
+                           .shift_s = asked.shift_s,
+                           .trace = std::move(*trace),
+                           .grid = {},
+                           .found = {}});
+}
+
+/// Its first column decides how far its clock is off: a board begins to count when it has set itself up. Within twenty PWM periods, in
+/// steps that a ripple stands; whoever knows more says so.
+void lay_over(Log& log, const Compared& run) {
+  const study::Trace simulated = run.events->trace();
+  const std::string& decides = log.trace.columns[1].name;
+  log.found.shift_s = log.shift_s.value_or(analysis::best_shift_s(
+      simulated, log.trace, decides, 20.0 * run.scenario.pwm.period_s, run.scenario.pwm.period_s / 20.0));
+  log.found.columns = analysis::laid_over(simulated, log.trace, log.found.shift_s);
+  log.grid = analysis::at_instants(log.trace, log.found.shift_s, run.grid.values.front());
+  for (double& t : log.trace.values.front()) t += log.found.shift_s;
+}
+
+/// Nothing where no page is wanted.
+base::Result<std::optional<files::AtomicFile>> page_of(const RunArguments& arguments) {
+  const std::string& path = arguments.paths.of(page_option);
+  if (path.empty()) return std::optional<files::AtomicFile>();
+  base::Result<files::AtomicFile> file = files::AtomicFile::create({path, arguments.paths.force});
+  if (!file) return file.problems();
+  return std::optional(std::move(*file));
+}
+
 void print_table(const std::vector<Job>& jobs, const std::vector<Compared>& runs) {
   std::vector<text::TableEntry> entries;
   for (std::size_t n = 0; n < runs.size(); ++n) entries.push_back({jobs[n].name(), &*runs[n].outcome});
@@ -95,20 +141,31 @@ bool names_own_firmware(const RunArguments& a) {
   return a.on.size() > 5 && a.on.compare(a.on.size() - 5, 5, ".toml") == 0;
 }
 
-bool lays_over(const RunArguments& a) {
-  if (names_own_firmware(a)) return a.files.size() == 1;
+bool on_a_chip(const RunArguments& a) {
   const std::span<const loop::Core> known = loop::cores();
-  return a.files.size() == 1 && std::any_of(known.begin(), known.end(), [&a](const loop::Core& core) {
+  return names_own_firmware(a) || std::any_of(known.begin(), known.end(), [&a](const loop::Core& core) {
            return core.by_registers && core.name == a.on;
          });
 }
 
+bool lays_over(const RunArguments& a) { return a.files.size() == 1 && a.log.path.empty() && on_a_chip(a); }
+
 bool compares(const RunArguments& a) {
+  if (!a.log.path.empty()) return true;
   return (a.files.size() > 1 || lays_over(a)) && !a.paths.of(page_option).empty() &&
          a.paths.files().size() == 1 && !a.paths.prints() && a.out.empty();
 }
 
 base::Problems check_comparison(const RunArguments& arguments) {
+  const bool with_log = !arguments.log.path.empty();
+  const bool page_alone =
+      arguments.paths.files().size() == (arguments.paths.of(page_option).empty() ? 0 : 1) &&
+      !arguments.paths.prints();
+  if (with_log && (arguments.files.size() > 1 || !arguments.out.empty() || !page_alone))
+    return {{.where = "--compare",
+             .value = arguments.log.path,
+             .limit = "is laid over one run, and on one page",
+             .cure = "name one scenario, and no output but --html FILE"}};
   if (arguments.files.size() <= report::most_compared) return {};
   return {{.where = "--html",
            .value = fmt::format("{} files", arguments.files.size()),
@@ -117,9 +174,10 @@ base::Problems check_comparison(const RunArguments& arguments) {
 }
 
 Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs) {
-  base::Result<files::AtomicFile> file =
-      files::AtomicFile::create({arguments.paths.of(page_option), arguments.paths.force});
+  base::Result<std::optional<files::AtomicFile>> file = page_of(arguments);
   if (!file) return refused(file.problems());
+  base::Result<std::optional<Log>> log = read_log(arguments.log);
+  if (!log) return refused(log.problems());
   std::vector<Compared> runs = on_one_grid(jobs);
   {
     Work work;
@@ -138,16 +196,25 @@ Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs
     exit = graver(exit, runs[n].outcome ? exit_of(*runs[n].outcome) : Exit::bad_input);
     if (runs[n].outcome)
       sources.push_back(
-          {jobs[n].name(), runs[n].scenario, *runs[n].outcome, runs[n].events->trace(), runs[n].grid});
+          {jobs[n].name(), runs[n].scenario, &*runs[n].outcome, runs[n].events->trace(), runs[n].grid});
   }
   if (sources.size() < runs.size()) return exit;
   for (const ComparedSource& source : sources)
     if (const std::string told = report::rows_told(source.events); !told.empty() && !arguments.quiet)
       print(fmt::format("{}: {}\n", source.name, told), stderr);
-  file->write(comparison_page(sources, arguments.command));
-  const base::Problems unwritten = file->commit();
-  complain(unwritten);
+  if (*log) {
+    lay_over(**log, runs.front());
+    sources.push_back({(*log)->name, runs.front().scenario, nullptr, (*log)->trace, (*log)->grid});
+  }
+  base::Problems unwritten;
+  if (*file) {
+    (*file)->write(comparison_page(sources, *log ? (*log)->found : LogFound(), arguments.command));
+    unwritten = (*file)->commit();
+    complain(unwritten);
+  }
   if (!arguments.quiet) print_table(jobs, runs);
+  if (*log && !arguments.quiet)
+    print(text::laid_over_text((*log)->name, (*log)->found.columns, (*log)->found.shift_s));
   return unwritten.empty() ? exit : graver(exit, Exit::bad_input);
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/cli/formats.hpp"
 
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "faces/cli/report_page.hpp"
 #include "files/trace/sinks.hpp"
 #include "report/kept_rows.hpp"
+#include "text/escape/escape.hpp"
 #include "text/results/json_summary.hpp"
 
 namespace cli {
@@ -32,6 +35,18 @@ base::Result<files::Sink> report_sink(const files::Destination& to, const study:
   return sink;
 }
 
+/// What a chip sent over its serial line, below a remark that says of which run.
+std::string sent_text(const files::RunStory& s) {
+  if (!s.outcome.chip) return "";
+  return fmt::format("# sixstep {}: what an emulated {} sent; {}\n{}", SIXSTEP_VERSION, s.outcome.chip->chip,
+                     text::visible(s.origin.command), s.outcome.chip->sent);
+}
+
+base::Result<files::Sink> uart_sink(const files::Destination& to, const study::Scenario&,
+                                    const files::TraceOrigin&) {
+  return files::page_sink(to, sent_text);
+}
+
 std::string report_foretold(const study::Scenario& scenario) { return report::rows_foretold(scenario); }
 
 constexpr Format list[] = {
@@ -53,6 +68,10 @@ constexpr Format list[] = {
      .open = files::json_sink,
      .in_folder = ".json",
      .printed = json_text},
+    {.option = uart_option,
+     .meaning = "write what the chip of --on avr, or of a firmware of your own, sent over its serial line",
+     .open = uart_sink,
+     .in_folder = ""},
     {.option = page_option,
      .meaning = "write the report; of several files, one that compares them",
      .open = report_sink,

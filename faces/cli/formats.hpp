@@ -26,6 +26,8 @@ std::span<const Format> formats();
 
 /// The one for people: it may also compare several runs, and the index of --out links to it.
 inline constexpr std::string_view page_option = "--html";
+/// The one that a chip has to run for.
+inline constexpr std::string_view uart_option = "--uart";
 
 /// "--csv, --mat, .."
 std::string all_options();

@@ -19,8 +19,13 @@ std::string report_index(const std::vector<report::IndexEntry>& entries, const s
   return report::render_index(entries, command, SIXSTEP_VERSION);
 }
 
-std::string comparison_page(const std::vector<ComparedSource>& runs, const std::string& command) {
-  report::ComparisonInput input{.runs = {}, .command = command, .version = SIXSTEP_VERSION};
+std::string comparison_page(const std::vector<ComparedSource>& runs, const LogFound& log,
+                            const std::string& command) {
+  report::ComparisonInput input{.runs = {},
+                                .laid_over = log.columns,
+                                .shift_s = log.shift_s,
+                                .command = command,
+                                .version = SIXSTEP_VERSION};
   for (const ComparedSource& run : runs)
     input.runs.push_back({run.name, run.scenario, run.outcome, run.events, run.grid});
   return report::render_comparison(input);

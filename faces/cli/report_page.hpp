@@ -7,6 +7,7 @@
 #include "faces/cli/rooms.hpp"
 #include "report/plan_page.hpp"
 #include "report/report.hpp"
+#include "sixstep/analysis/bench/log/laid_over.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
@@ -28,12 +29,20 @@ std::string report_index(const std::vector<report::IndexEntry>& entries, const s
 struct ComparedSource {
   std::string name;
   const study::Scenario& scenario;
-  const study::Outcome& outcome;
+  const study::Outcome* outcome;  ///< null: a board's log
   const study::Trace& events;
   const study::Trace& grid;  ///< the same instants for all runs
 };
 
-std::string comparison_page(const std::vector<ComparedSource>& runs, const std::string& command);
+/// How far a board's log lies from its simulation.
+struct LogFound {
+  std::vector<analysis::LaidOver> columns;
+  double shift_s = 0.0;
+};
+
+/// With a log, which comes last, what was found of it.
+std::string comparison_page(const std::vector<ComparedSource>& runs, const LogFound& log,
+                            const std::string& command);
 
 /// One plan, or two over each other.
 std::string plan_page(const std::vector<report::PagePlan>& plans, const std::string& command);

@@ -161,9 +161,11 @@ Exit run_again_on_save(const RunArguments& arguments) {
   }
 }
 
-base::Problems one_at_a_time() {
-  return {{.where = "--on",
-           .limit = "runs one scenario on a core, and this is a plan of many runs",
+base::Problems one_at_a_time(const RunArguments& a) {
+  const bool on_core = !a.on.empty();
+  return {{.where = on_core ? "--on" : "--compare",
+           .limit = fmt::format("{}, and this is a plan of many runs",
+                                on_core ? "runs one scenario on a core" : "lays a log over one run"),
            .cure = "take one run of it: --only N, or --drive N of a series"}};
 }
 
@@ -174,7 +176,8 @@ Exit run_command(const RunArguments& arguments) {
   const bool alone = arguments.drive || arguments.plan.only;
   if (!alone &&
       std::ranges::any_of(arguments.files, [&](const std::string& f) { return plans(arguments, f); }))
-    return arguments.on.empty() ? plan_command(arguments) : refused(one_at_a_time());
+    return arguments.on.empty() && arguments.log.path.empty() ? plan_command(arguments)
+                                                              : refused(one_at_a_time(arguments));
   if (arguments.watch) return run_again_on_save(arguments);
   JobsRead read = read_jobs(arguments);
   return run_jobs(arguments, read);
@@ -248,6 +251,15 @@ void declare_options(CLI::App& run, RunArguments& a) {
              fmt::join(core_names(), ", ")))
       ->excludes(bode)
       ->excludes(runs);
+  CLI::Option* log =
+      run.add_option(
+             "--compare", a.log.path,
+             "lay what a board sent over the run: a table of its serial line, on the page of --html too")
+          ->excludes(bode)
+          ->excludes(runs);
+  run.add_option("--shift", a.log.shift_s,
+                 "s to add to the times of --compare; without it they are fitted within 20 PWM periods")
+      ->needs(log);
   declare_plan_options(run, a.plan);
 }
 

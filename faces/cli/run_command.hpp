@@ -22,6 +22,12 @@ struct PlanArguments {
   std::optional<std::uint64_t> only;  ///< the run that is made alone, as any other scenario
 };
 
+/// What a board sent over its serial line while it ran.
+struct LogArguments {
+  std::string path;               ///< empty: none
+  std::optional<double> shift_s;  ///< that is added to its times; without it they are fitted
+};
+
 struct RunArguments {
   std::vector<std::string> files;
   std::string out;                ///< folder for the outputs of each file, and index.html of scenarios
@@ -39,6 +45,7 @@ struct RunArguments {
   std::optional<double> amplitude;  ///< of its multisine, in the mode's unit
   std::string junit;                ///< verdicts for build servers
   std::string on;       ///< the core that runs the drive, beside the host or in its place; empty: none
+  LogArguments log;     ///< to lay over the run
   std::string command;  ///< the command line as it may be typed again
 };
 

@@ -129,6 +129,10 @@ base::Problems contradictions(const RunArguments& arguments) {
         {.where = all_options(),
          .limit = "name the outputs of one scenario",
          .cure = "with several files or --out use --out DIR alone; --html alone compares the files"});
+  if (!arguments.paths.of(uart_option).empty() && !on_a_chip(arguments))
+    problems.push_back({.where = std::string(uart_option),
+                        .limit = "writes what a chip sent over its serial line, and no chip runs here",
+                        .cure = "with --on avr, or with the map of a firmware of your own"});
   append(problems, same_outputs(arguments));
   return problems;
 }

@@ -47,14 +47,13 @@ std::string avr_board_program() {
   return ::access(beside.c_str(), X_OK) == 0 ? beside : "sixstep-avr-board";
 }
 
-/// clang 14 to 16 compile wrongly for it; a constexpr configuration is taken up by what is inlined alone (docs/firmware.md). Branches are
-/// to stay branches, and a switch none of tables: what LLVM makes of them takes a fifth more cycles of a chip that shifts bit by bit.
+/// clang 14 to 16 compile wrongly for it (docs/firmware.md). Its flags stand beside its program, for whoever makes an image to flash too:
+/// branches are to stay branches there, and a switch none of tables, for what LLVM makes of them takes a fifth more cycles of a chip that
+/// shifts bit by bit.
 Core avr() {
   return {.name = "avr",
           .title = "ATmega2560",
-          .compiler = {"clang++-19", "--target=avr", "-mmcu=atmega2560", "-mllvm", "-inline-threshold=100000",
-                       "-fno-jump-tables", "-mllvm", "-two-entry-phi-node-folding-threshold=0", "-mllvm",
-                       "-phi-node-folding-threshold=0", "-mllvm", "-speculate-one-expensive-inst=0"},
+          .compiler = {"clang++-19"},
           .emulator = {avr_board_program()},
           .start_up = {},
           .linker_script = {},

@@ -7,8 +7,6 @@
 
 #include "faces/loop/child.hpp"
 #include "faces/loop/descriptor.hpp"
-#include "sixstep/base/written.hpp"
-#include "sixstep/study/run/on_core.hpp"
 #include "text/export/config_header.hpp"
 
 namespace loop {
@@ -46,50 +44,47 @@ base::Problems write_header(const study::Scenario& scenario, const fs::path& fil
 
 using Words = std::vector<std::string>;
 
-void add(Words& words, std::initializer_list<std::string> more) { words.insert(words.end(), more); }
+void add(Words& words, const Words& more) { words.insert(words.end(), more.begin(), more.end()); }
 
-/// What every core's program is compiled with.
-Words compiler_of(const Core& core, const fs::path& root, const fs::path& folder) {
-  Words words = core.compiler;
-  add(words, {"-std=c++20", "-O2", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti", "-fno-unwind-tables",
-              "-fno-asynchronous-unwind-tables", "-ffreestanding", "-nostdinc++",
-              "-I" + (root / "faces/firmware/bare").string(), "-I" + root.string(), "-I" + folder.string()});
-  return words;
+/// Where the compiler looks.
+Words include_paths(const fs::path& root, const fs::path& folder) {
+  return {"-I" + (root / "faces/firmware/bare").string(), "-I" + root.string(), "-I" + folder.string()};
 }
 
 /// A core that is called: compiled and linked at once.
 Words called_core(const Core& core, const study::Scenario& scenario, const fs::path& root,
                   const fs::path& folder, const fs::path& image) {
   const fs::path bare = root / "faces/firmware/bare";
-  Words words = compiler_of(core, root, folder);
+  Words words = core.compiler;
+  add(words, {"-std=c++20", "-O2", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti", "-fno-unwind-tables",
+              "-fno-asynchronous-unwind-tables", "-ffreestanding", "-nostdinc++"});
+  add(words, include_paths(root, folder));
   if (scenario.control.drive == study::FirmwareKind::product) add(words, {"-DSIXSTEP_PRODUCT_DRIVE"});
   add(words, {(root / "faces/loop/core/main.cpp").string(), (bare / "start.cpp").string(),
               (bare / "memory.cpp").string(), (bare / core.start_up).string(), "-nostdlib", "-T",
               (bare / core.linker_script).string(), "-o", image.string()});
-  words.insert(words.end(), core.libraries.begin(), core.libraries.end());
+  add(words, core.libraries);
   return words;
 }
 
-/// A whole chip: its program, then its C library's start code before it.
-std::vector<Words> whole_chip(const Core& core, const study::AvrBoard& board, const fs::path& root,
-                              const fs::path& folder, const fs::path& image) {
+/// A whole chip: its program as tools/firmware_image.sh compiles it, then its C library's start code before it.
+std::vector<Words> whole_chip(const Core& core, const fs::path& root, const fs::path& folder,
+                              const fs::path& image) {
+  const fs::path example = root / "faces/firmware/example/avr";
   const std::string object = (folder / "main.o").string();
-  Words compile = compiler_of(core, root, folder);
-  add(compile, {"-DADC_AMPERES_PER_COUNT=" + base::written(board.amperes_per_count),
-                "-DSETPOINT_PER_COUNT=" + base::written(board.setpoint_per_count), "-c",
-                (root / "faces/loop/avr/main.cpp").string(), "-o", object});
+  Words compile = core.compiler;
+  add(compile, {"@" + (example / "compile.flags").string()});
+  add(compile, include_paths(root, folder));
+  add(compile, {"-c", (example / "main.cpp").string(), "-o", object});
   Words link = core.linker;
   add(link, {object, "-o", image.string()});
   return {compile, link};
 }
 
-base::Result<std::vector<Words>> commands_for(const Core& core, const study::Scenario& scenario,
-                                              const fs::path& root, const fs::path& folder,
-                                              const fs::path& image) {
-  if (!core.by_registers) return std::vector<Words>{called_core(core, scenario, root, folder, image)};
-  const base::Result<study::AvrBoard> board = study::avr_board(scenario);
-  if (!board) return board.problems();
-  return whole_chip(core, *board, root, folder, image);
+std::vector<Words> commands_for(const Core& core, const study::Scenario& scenario, const fs::path& root,
+                                const fs::path& folder, const fs::path& image) {
+  if (core.by_registers) return whole_chip(core, root, folder, image);
+  return {called_core(core, scenario, root, folder, image)};
 }
 
 /// The first complaint, or the first line.
@@ -125,9 +120,7 @@ base::Result<std::string> compiled_image(const Core& core, const study::Scenario
   const fs::path here = folder, image = here / "image.elf", log = here / "compiler.log";
   if (base::Problems problems = write_header(scenario, here / "drive_config.hpp"); !problems.empty())
     return problems;
-  const base::Result<std::vector<Words>> commands = commands_for(core, scenario, *root, here, image);
-  if (!commands) return commands.problems();
-  for (const Words& words : *commands)
+  for (const Words& words : commands_for(core, scenario, *root, here, image))
     if (base::Problems problems = carried_out(core, words, log, folder); !problems.empty()) return problems;
   return image.string();
 }

@@ -113,8 +113,8 @@ int main(int argc, char** argv) {
   const auto other = sixstep_tests::synthetic_run(0.02, 40.0);
   write(folder / "compare.html",
         report::render_comparison(
-            {.runs = {{"as-is", good.scenario, good.outcome, good.trace, sampled(good.trace)},
-                      {"slower-start", other.scenario, other.outcome, other.trace, sampled(other.trace)}},
+            {.runs = {{"as-is", good.scenario, &good.outcome, good.trace, sampled(good.trace)},
+                      {"slower-start", other.scenario, &other.outcome, other.trace, sampled(other.trace)}},
              .command = "sixstep run as-is.toml slower-start.toml --html compare.html",
              .version = "0.1.0"}));
   write(folder / "index.html", report::render_index({{good.scenario.title, "short.html", &good.outcome},

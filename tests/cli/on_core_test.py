@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep run --on: what it refuses, with a way out. Runs on cores: ./test --target (tests/target/loop.py)."""
+"""sixstep run --on: what it refuses, with a way out. Runs on cores: ./test --target (tests/target/loop.py, avr.py)."""
 import os
 import pathlib
 import subprocess
@@ -48,7 +48,9 @@ class OnCore(ProgramTest):
                             ((AVR, "--on", MAP), "build the firmware first"),
                             ((AVR, "--on", "retuned.toml"), "chip"),
                             (("drifts.toml", "--on", "avr"), "give its offset and gain from the start"),
-                            (("retuned.toml", "--on", "riscv"), "a core is flashed once")):
+                            (("retuned.toml", "--on", "riscv"), "a core is flashed once"),
+                            ((SPEED, "--uart", "u.csv"), "no chip runs here"),
+                            ((SPEED, "--on", "cortex-m4", "--uart", "u.csv"), "with --on avr")):
             with self.subTest(words=words[1:]):
                 made = self.run_program("run", *words, code=2)
                 self.assertIn(said, made.stderr)

@@ -30,16 +30,18 @@ KIND, TOOLS = sys.argv.pop(1), []
 
 
 class Examples(unittest.TestCase):
-    def compiled(self, chip, source):
+    def compiled(self, chip, config):
+        """With the drive_config.hpp of that folder."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         out = pathlib.Path(folder.name) / "main.o"
-        done = subprocess.run([TOOLS[0], *TARGET[chip], *FLAGS, "-c", source, "-o", out], capture_output=True, text=True, check=False)
+        done = subprocess.run([TOOLS[0], *TARGET[chip], *FLAGS, f"-I{config}", "-c", EXAMPLES / chip / "main.cpp", "-o", out],
+                              capture_output=True, text=True, check=False)
         return done, out
 
     @unittest.skipIf(KIND == "configs", "compiles")
     def test_compiles_and_needs_no_library(self):
-        done, out = self.compiled(KIND, EXAMPLES / KIND / "main.cpp")
+        done, out = self.compiled(KIND, EXAMPLES / KIND)
         self.assertEqual(done.returncode, 0, done.stderr)
         symbols = subprocess.run([TOOLS[1], "-u", out], capture_output=True, text=True, check=True).stdout.split()
         needed = [s for s in symbols if s != "U" and not re.fullmatch(MAY_NEED[KIND], s)]
@@ -48,16 +50,15 @@ class Examples(unittest.TestCase):
         for entry in {"cortex_m": ["ADC1_2_IRQHandler", "TIM2_IRQHandler"], "avr": ["__vector_29", "__vector_11"]}[KIND]:
             self.assertIn(f"T {entry}\n", defined)
 
-    @unittest.skipUnless(KIND == "avr", "fixed point only")
-    def test_a_threshold_beyond_the_format_does_not_compile(self):
-        text = (EXAMPLES / "avr" / "main.cpp").read_text()
-        self.assertIn("units.amperes(24)", text)
+    @unittest.skipUnless(KIND == "avr", "the other's drive knows its converter")
+    def test_a_drive_for_another_converter_does_not_compile(self):
+        text, times = re.subn("adc_bits = 10;", "adc_bits = 12;", (EXAMPLES / "avr" / "drive_config.hpp").read_text())
+        self.assertEqual(times, 1)
         with tempfile.TemporaryDirectory() as folder:
-            source = pathlib.Path(folder) / "main.cpp"
-            source.write_text(text.replace("units.amperes(24)", "units.amperes(100)"))
-            done, _ = self.compiled("avr", source)
+            (pathlib.Path(folder) / "drive_config.hpp").write_text(text)
+            done, _ = self.compiled("avr", folder)
         self.assertNotEqual(done.returncode, 0)
-        self.assertIn("does_not_fit", done.stderr)
+        self.assertIn("the converter that is there", done.stderr)
 
     @unittest.skipUnless(KIND == "configs", "exports")
     def test_configs_are_what_their_command_writes(self):

@@ -47,6 +47,26 @@ TEST(CortexM, TheTimersOutputsAreTheGates) {
   }
 }
 
+/// RM0316, 20.4.18, DTG: its upper bits choose the step.
+std::uint32_t counts_of(std::uint32_t dtg) {
+  if (dtg < 0x80) return dtg;
+  if (dtg < 0xC0) return 2 * (64 + (dtg & 0x3f));
+  return dtg < 0xE0 ? 8 * (32 + (dtg & 0x1f)) : 16 * (32 + (dtg & 0x1f));
+}
+
+TEST(CortexM, ADeadTimeIsNeverShorterAndAtMostAStepLonger) {
+  for (std::uint32_t counts = 0; counts <= 1008; ++counts) {
+    const std::uint32_t dtg = firmware::dead_time_bits(counts);
+    ASSERT_LT(dtg, 256u);
+    EXPECT_GE(counts_of(dtg), counts);
+    EXPECT_LT(counts_of(dtg), counts + (counts < 128    ? 1
+                                        : counts <= 254 ? 2
+                                        : counts <= 504 ? 8
+                                                        : 16))
+        << counts;
+  }
+}
+
 /// ATmega2560 data sheet, 17.11.1 and 13.2.1: with COM1x1 the timer's pulse stands at the pin where its bit of DDRB makes it an output;
 /// else the pin floats, and is pulled down outside.
 unsigned gates_of(const firmware::Pins& pins, bool on_time) {

@@ -214,8 +214,8 @@ sixstep::study::Trace grid_of(double first, double second) {
 TEST(Comparison, draws_each_run_on_its_own_rows_and_subtracts_on_the_common_grid) {
   const SyntheticRun one = ramp_run(1), two = ramp_run(2);
   const auto grid_one = grid_of(0.125, 0.75), grid_two = grid_of(0.625, 0.5);
-  const std::vector<ComparedRun> runs{{"one", one.scenario, one.outcome, one.trace, grid_one},
-                                      {"two", two.scenario, two.outcome, two.trace, grid_two}};
+  const std::vector<ComparedRun> runs{{"one", one.scenario, &one.outcome, one.trace, grid_one},
+                                      {"two", two.scenario, &two.outcome, two.trace, grid_two}};
   const auto data = nlohmann::json::parse(comparison_data(runs));
   ASSERT_EQ(data["charts"].size(), 2u);
   const auto& over = data["charts"][0]["curves"];
@@ -272,14 +272,35 @@ TEST(Comparison, names_what_an_event_changes) {
   EXPECT_THAT(found[1].values, testing::ElementsAre("–", "12 V"));
 }
 
+TEST(Comparison, a_boards_log_has_its_columns_and_no_verdict) {
+  const SyntheticRun one = synthetic_run(0.002);
+  sixstep::analysis::LaidOver current;
+  current.column = {"i_m_A", "A", "", ""};
+  current.rows = 12;
+  current.rms = 0.125;
+  const std::string html =
+      render_comparison({.runs = {{"one", one.scenario, &one.outcome, one.trace, one.trace},
+                                  {"b<i>.csv", one.scenario, nullptr, one.trace, one.trace}},
+                         .laid_over = {current},
+                         .shift_s = 3e-5,
+                         .command = "sixstep run one.toml --compare b.csv --html x.html",
+                         .version = "0.1.0"});
+  EXPECT_THAT(html, HasSubstr("A board's log over its simulation"));
+  EXPECT_THAT(html, HasSubstr("b&lt;i&gt;.csv<small class=\"aside\">what a board sent</small>"));
+  EXPECT_THAT(
+      html,
+      HasSubstr("<code>i_m_A</code></th><td class=\"num\">12</td><td class=\"num\">125.0\u00a0mA</td>"));
+  EXPECT_THAT(html, HasSubstr("moved by 30.00\u00a0µs"));
+}
+
 TEST(Comparison, foreign_text_stays_text_and_figures_stand_side_by_side) {
   SyntheticRun one = synthetic_run(0.002), two = synthetic_run(0.002);
   two.scenario.title = "<b>bold</b>";
   two.outcome.verdicts[1].ok = false;
   two.outcome.verdicts[1].measured = 2 * one.outcome.verdicts[1].measured;
   const std::string html =
-      render_comparison({.runs = {{"one", one.scenario, one.outcome, one.trace, one.trace},
-                                  {"two", two.scenario, two.outcome, two.trace, two.trace}},
+      render_comparison({.runs = {{"one", one.scenario, &one.outcome, one.trace, one.trace},
+                                  {"two", two.scenario, &two.outcome, two.trace, two.trace}},
                          .command = "sixstep run one.toml two.toml --html x.html",
                          .version = "0.1.0"});
   EXPECT_THAT(html, HasSubstr("&lt;b&gt;bold&lt;/b&gt;"));

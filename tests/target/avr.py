@@ -4,6 +4,7 @@ interrupts took, the period that it cannot keep; the same bits each time; and pr
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -17,6 +18,7 @@ SCHEMA = jsonschema.Draft202012Validator(json.loads((build.REPOSITORY / "docs/su
 CHAPTER = build.REPOSITORY / "data" / "scenarios" / "thesis" / "avr"
 OWN = build.REPOSITORY / "faces" / "firmware" / "example" / "avr_c"
 TOO_SHORT = CHAPTER / "8b-30us.toml"
+LOGGED = CHAPTER / "8d.toml"  # whose rotor hardly turns: near a commutation the chip looks at a leg that the current has left
 
 
 def run(file, *words, on="avr", **environment):
@@ -75,7 +77,7 @@ def check_overrun():
 
 
 BAD = {  # what the chip does at its 100th control interrupt, and what is said of it
-    "drives both switches of a leg": ("PORTA() = 7; byte(atmega2560::DDRB) = 0xE0; set_on_time(0xFFFF);", "shoot-through"),
+    "drives both switches of a leg": ("byte(atmega2560::PORTA) = 7; byte(atmega2560::DDRB) = 0xE0; set_on_time(0xFFFF);", "shoot-through"),
     "runs into an instruction that there is not": ('asm volatile(".word 0x0001");', "the core ended"),
     "jumps into erased flash": ('asm volatile("ldi r30,0xFF\\n ldi r31,0xFF\\n ijmp");', "the core ended"),
     "hangs with interrupts off": ('asm volatile("cli"); for (;;) asm volatile("");', "starts no conversion any more"),
@@ -86,9 +88,9 @@ PLACE = "  convert_potentiometer();\n"
 def badly(what):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        for part in ("sixstep/control", "faces/firmware", "faces/loop/avr"):
+        for part in ("sixstep/control", "faces/firmware"):
             shutil.copytree(build.REPOSITORY / part, folder / part)
-        program = folder / "faces/loop/avr/main.cpp"
+        program = folder / "faces/firmware/example/avr/main.cpp"
         text = program.read_text(encoding="utf-8")
         assert PLACE in text
         program.write_text(text.replace(PLACE, f"{PLACE}  static std::uint8_t calls = 0;\n  if (++calls == 100) {{ {what} }}\n"),
@@ -124,7 +126,24 @@ def check_own():
     return trouble
 
 
+def check_log():
+    """What its serial line sends: over the very run it is that run's samples, over the host's they are a converter's counts apart."""
+    with tempfile.TemporaryDirectory() as name:
+        log = str(pathlib.Path(name) / "board.csv")
+        run(LOGGED, "--quiet", "--uart", log)
+        text = pathlib.Path(log).read_text(encoding="ascii") if os.path.exists(log) else ""
+        trouble = []
+        for more, most_A in ((["--on", "avr"], 0.01), ([], 0.25)):
+            done = subprocess.run([str(build.PROGRAM), "run", LOGGED, *more, "--compare", log], capture_output=True, text=True,
+                                  timeout=300, check=False)
+            found = re.search(r"i_m_A +(\d+) rows +rms ([0-9.]+) (m?)A", done.stdout)
+            if not found or int(found[1]) < 25 or float(found[2]) * (1e-3 if found[3] else 1) > most_A:
+                trouble.append(f"its log over the run {' '.join(more)}: {done.stdout[-400:]}{done.stderr}\n{text[:300]}")
+    print(f"what its serial line sent, over the run: {'as it was' if not trouble else 'trouble'}")
+    return trouble
+
+
 def check():
-    trouble = check_chapter() + check_overrun() + check_own() + check_bad()
+    trouble = check_chapter() + check_overrun() + check_own() + check_log() + check_bad()
     print("\n".join(trouble), end="\n" if trouble else "")
     return not trouble

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""check.py [--renew | --all] proof | sights | bits | costs | blocks | sizes | own | loop | avr: one part of tools/check_target.sh."""
+"""check.py [--renew | --all] proof | sights | bits | costs | blocks | sizes | own | loop | avr | images: one part of tools/check_target.sh."""
 import functools
 import sys
 
@@ -9,6 +9,7 @@ import blocks
 import build
 import cores
 import cost
+import images
 import loop
 import own_costs
 import proof
@@ -36,12 +37,12 @@ PARTS = {"proof": (proof.check, proof.check, None), "sights": (sights, sights, N
          "costs": (functools.partial(cost.check, cost.USUAL), cost.check, cost.renew),
          "blocks": (blocks.check, blocks.check, blocks.renew), "sizes": (sizes.check, sizes.check, sizes.renew),
          "own": (own_costs.check, own_costs.check, own_costs.renew), "loop": (loop.check, loop.check_all, None),
-         "avr": (avr.check, avr.check, None)}
+         "avr": (avr.check, avr.check, None), "images": (images.check, images.check, None)}
 
 
 def prepare(part):
     """Tools of our own, and the headers of the drives. What a controller of one's own or a core in the loop needs, its command makes."""
-    if part in ("own", "loop", "avr"):
+    if part in ("own", "loop", "avr", "images"):
         return
     build.export_headers()
     build.build_board()

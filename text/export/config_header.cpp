@@ -111,6 +111,17 @@ std::string timing(const study::Compiled& c) {
                   "a command counts from the next period on");
 }
 
+/// What a lean drive leaves to its board: converters that its scenario has, and how far a setpoint goes.
+std::string around_lean(const ConfigHeader& w, const study::Compiled& c) {
+  const study::Sensors& sensors = w.scenario.sensors;
+  if (c.product || c.field || sensors.currents != sixstep::rig::CurrentMeasurement::phases) return "";
+  const double lsb = c.board.sensors.current.lsb(), range = c.setpoint_range;
+  return constant("int", "adc_bits", std::to_string(sensors.adc_bits), "of each phase's transducer") +
+         constant("double", "adc_amperes_per_count", hex_float(lsb), sixstep::base::six_digits(lsb) + " A") +
+         constant("double", "setpoint_range", hex_float(range),
+                  sixstep::base::six_digits(range) + " in the mode's unit: a potentiometer's, either way");
+}
+
 /// A function that makes a constant, and the constant.
 std::string made(std::string_view type, std::string_view name, const std::string& lines) {
   return fmt::format(
@@ -166,7 +177,7 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
           base("voltage_V", b.voltage_V, "V") + base("speed_rad_s", b.speed_rad_s, "rad/s") +
           base("position_deg", b.position_deg, "deg") + "};\n\n";
   const control::DriveConfig<double>& drive = c.field ? c.field->drive : c.drive;
-  text += timing(c) + "\n" +
+  text += timing(c) + around_lean(w, c) + "\n" +
           made("DriveConfig", "drive", config_lines<Scalar>(c.drive.mode, drive, kept.drive, b));
   const auto around = [&](const char* type_name, const char* name, const auto& designed, const auto& own) {
     text +=

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// sixstep-avr-board [--hall=K0,K1,K2] [--upper=B5,B6,B7] [--lower=A0,A1,A2] [--inputs=0,1,2,3] FIRMWARE.elf
+// sixstep-avr-board [--hall=K0,K1,K2] [--upper=B5,B6,B7] [--lower=A0,A1,A2] [--inputs=0,1,2,3] [--serial=FILE] FIRMWARE.elf
 //
 // runs it on an ATmega2560, in lock-step with a plant behind two pipes: it reads runs from descriptor 3 and writes answers to 4
 // (sixstep/rig/chip_port.hpp). The options say what hangs at which pin, legs in the order a, b, c; inputs are the converter's, of the
-// three currents and the potentiometer.
+// three currents and the potentiometer; FILE takes what USART0 sends, line by line.
 //
 // A program of its own: libsimavr is GPL-3, and nothing else here is linked with it.
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 
 #include "faces/loop/avr/chip.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 namespace rig = sixstep::rig;
 
 constexpr int runs = 3, answers = 4;
+constexpr char serial_option[] = "--serial=";
 
 /// False at the pipe's end.
 bool take(void* to, std::size_t bytes) {
@@ -48,15 +50,29 @@ bool tell(const Struct& what) {
 
 int main(int argc, char** argv) {
   board::Pins pins;
+  const char* serial = nullptr;
   bool understood = argc >= 2;
-  for (int n = 1; n + 1 < argc; ++n) understood = understood && board::take_pins(argv[n], pins);
+  for (int n = 1; n + 1 < argc; ++n) {
+    if (std::strncmp(argv[n], serial_option, sizeof serial_option - 1) == 0)
+      serial = argv[n] + sizeof serial_option - 1;
+    else
+      understood = understood && board::take_pins(argv[n], pins);
+  }
   if (!understood) {
     std::fputs(
-        "usage: sixstep-avr-board [--hall=..] [--upper=..] [--lower=..] [--inputs=..] FIRMWARE.elf, with pipes at descriptors 3 and 4\n",
+        "usage: sixstep-avr-board [--hall=..] [--upper=..] [--lower=..] [--inputs=..] [--serial=FILE] FIRMWARE.elf, with pipes at "
+        "descriptors 3 and 4\n",
         stderr);
     return 2;
   }
-  static board::Chip chip(pins);
+  std::FILE* const sent = serial == nullptr ? nullptr : std::fopen(serial, "wb");
+  if (serial != nullptr && sent == nullptr) {
+    std::fprintf(stderr, "sixstep-avr-board: %s cannot be written\n", serial);
+    return 2;
+  }
+  // Whole lines: whoever started this may end it at any time.
+  if (sent != nullptr && std::setvbuf(sent, nullptr, _IOLBF, 4096) != 0) return 2;
+  static board::Chip chip(pins, sent);
   if (!chip.load(argv[argc - 1])) {
     std::fprintf(stderr, "sixstep-avr-board: %s is no program of an ATmega2560\n", argv[argc - 1]);
     return 2;

@@ -5,6 +5,7 @@
 // Only what links with simavr (GPL-3) may include this.
 #pragma once
 #include <cstdint>
+#include <cstdio>
 #include <deque>
 
 #include "faces/loop/avr/converter.hpp"
@@ -24,7 +25,8 @@ class Chip {
  public:
   static constexpr std::uint32_t clock_Hz = 16'000'000;
 
-  explicit Chip(const Pins& pins) : pins_(pins) {}
+  /// Null: what its USART0 sends is lost.
+  explicit Chip(const Pins& pins, std::FILE* serial) : pins_(pins), serial_(serial) {}
   Chip(const Chip&) = delete;
   Chip& operator=(const Chip&) = delete;
 
@@ -50,6 +52,7 @@ class Chip {
   void register_pin_change();
   void take_over_port(atmega2560::Address at);
   void follow_interrupts();
+  void follow_serial_line();
   avr_int_vector_t* vector(unsigned number) const;
   bool flag(atmega2560::Address at, std::uint8_t bit) const { return (avr_->data[at] & bit) != 0; }
   void stop_core();
@@ -81,6 +84,7 @@ class Chip {
   avr_irq_t* hall_irqs_ = nullptr;
   std::deque<PortRegister> ports_;  ///< whose writes move gates; each stays where it is
   Pins pins_;
+  std::FILE* serial_;
 
   bool stop_ = false;  ///< something was written, or an interrupt entered: look before the next instruction
   bool has_write_ = false;

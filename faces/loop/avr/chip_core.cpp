@@ -9,6 +9,7 @@
 
 extern "C" {
 #include <simavr/avr_ioport.h>
+#include <simavr/avr_uart.h>
 #include <simavr/sim_elf.h>
 #include <simavr/sim_io.h>
 }
@@ -58,6 +59,7 @@ bool Chip::load(const char* elf) {
   take_over();
   register_pin_change();
   follow_interrupts();
+  follow_serial_line();
   told_of_error = false;
   return true;
 }
@@ -91,7 +93,9 @@ void Chip::take_over() {
   for (const Pin& pin : pins_.lower) of_gates.insert(pin.port);
   for (const char port : of_gates)
     for (const Address at : {Pin{port, 0}.PIN(), Pin{port, 0}.DDR(), Pin{port, 0}.PORT()}) take_over_port(at);
-  avr_->run_cycle_limit = 1'000'000;
+  // Whatever starts a timer of simavr's amid a run, the watchdog's or the serial line's, has it go on by that one: ended there instead,
+  // for run_core() alone knows how far.
+  avr_->run_cycle_limit = 1;
   // simavr goes on by its own idea of how long nothing happens: taken back, sleep_core() knows better.
   avr_->sleep = [](avr_t* avr, avr_cycle_count_t cycles) { avr->cycle -= cycles + 1; };
   // Of what the watchdog's reset would do to what is ours nothing is modelled: it ends the program.
@@ -128,6 +132,17 @@ void Chip::follow_interrupts() {
   };
   for (int n = 0; n < avr_->interrupts.vector_count; ++n)
     avr_irq_register_notify(avr_->interrupts.vector[n]->irq + AVR_INT_IRQ_RUNNING, notify, this);
+}
+
+/// simavr's own prints lines, and sleeps for whoever polls it.
+void Chip::follow_serial_line() {
+  std::uint32_t flags = 0;
+  avr_ioctl(avr_, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
+  if (serial_ == nullptr) return;
+  const auto take = [](avr_irq_t*, std::uint32_t byte, void* file) {
+    std::fputc(static_cast<int>(byte & 0xff), static_cast<std::FILE*>(file));
+  };
+  avr_irq_register_notify(avr_io_getirq(avr_, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUTPUT), take, serial_);
 }
 
 void Chip::entered(unsigned number) {
@@ -174,7 +189,9 @@ void Chip::advance(std::uint64_t until) {
 }
 
 void Chip::run_core(std::uint64_t target) {
-  avr_->run_cycle_count = std::min<avr_cycle_count_t>(avr_->run_cycle_count, target - avr_->cycle);
+  const auto* timer = avr_->cycle_timers.timer;
+  const bool waits = timer != nullptr && timer->when > avr_->cycle;
+  avr_->run_cycle_count = (waits ? std::min<avr_cycle_count_t>(timer->when, target) : target) - avr_->cycle;
   avr_run(avr_);
   ended_ =
       avr_->state == cpu_Crashed || avr_->state == cpu_Done || avr_->pc >= avr_->codeend || told_of_error;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "faces/loop/avr/addresses.hpp"
+#include "faces/firmware/example/avr/addresses.hpp"
 
 namespace board {
 

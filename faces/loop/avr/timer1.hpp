@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "faces/loop/avr/addresses.hpp"
+#include "faces/firmware/example/avr/addresses.hpp"
 
 namespace board {
 

@@ -68,6 +68,7 @@ struct ChipReport {
   double clock_Hz = 0.0, period_s = 0.0;
   rig::ChipTimes times;
   double latest_edge_s = 0.0;  // by which a Hall edge was shown late at worst
+  std::string sent;            // by its serial line, in whole lines
 
   /// Periods went by without a control interrupt; the one at the end may not have been answered yet.
   bool overran() const { return times.periods > times.conversions + 1; }

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "sixstep/base/describe.hpp"
-#include "sixstep/study/compile/compile.hpp"
 #include "sixstep/study/run/on_core.hpp"
 #include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/choices.hpp"
@@ -82,14 +81,6 @@ base::Problems not_on_an_avrs_board(const Scenario& s) {
   base::Problems out;
   need_converter(s, out);
   return out;
-}
-
-base::Result<AvrBoard> avr_board(const Scenario& scenario) {
-  const base::Result<Compiled> compiled = compile(scenario);
-  if (!compiled) return compiled.problems();
-  constexpr double half = 1 << (converter_bits - 1);
-  return AvrBoard{.amperes_per_count = compiled->board.sensors.current.lsb(),
-                  .setpoint_per_count = compiled->setpoint_range / half};
 }
 
 }  // namespace sixstep::study

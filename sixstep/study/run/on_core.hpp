@@ -4,7 +4,6 @@
 // transducers, and no more.
 #pragma once
 #include "sixstep/base/problem.hpp"
-#include "sixstep/base/result.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
 namespace sixstep::study {
@@ -14,13 +13,5 @@ base::Problems not_on_a_core(const Scenario& scenario);
 base::Problems not_on_an_avr(const Scenario& scenario);
 /// Of a firmware that is none of ours: the board's converters alone.
 base::Problems not_on_an_avrs_board(const Scenario& scenario);
-
-/// What the AVR's firmware is to know of the board around it.
-struct AvrBoard {
-  double amperes_per_count = 0.0;
-  double setpoint_per_count = 0.0;  ///< in the mode's unit
-};
-/// Problems: the scenario is none that can be compiled.
-base::Result<AvrBoard> avr_board(const Scenario& scenario);
 
 }  // namespace sixstep::study

@@ -19,12 +19,13 @@ struct LegOutput {
 
 constexpr LegOutput leg_output(sixstep::control::Leg leg, unsigned on, unsigned off) {
   const unsigned upper = sixstep::control::upper_gate(leg), lower = sixstep::control::lower_gate(leg);
-  if (on & off & upper) return {force_high, 1};
-  if (on & upper) return {pwm_1, off & lower ? 5u : 1u};
-  if (on & off & lower) return {force_low, 5};
-  if (on & lower && off & upper) return {pwm_2, 5};  // the upper gate's on-time is the rest of the period
-  if (on & lower) return {pwm_1, 4};                 // the lower gate alone follows the on-time
-  return {force_low, 0};
+  if (on & off & upper) return {bit::force_high, 1};
+  if (on & upper) return {bit::pwm_1, off & lower ? 5u : 1u};
+  if (on & off & lower) return {bit::force_low, 5};
+  if (on & lower && off & upper)
+    return {bit::pwm_2, 5};                // the upper gate's on-time is the rest of the period
+  if (on & lower) return {bit::pwm_1, 4};  // the lower gate alone follows the on-time
+  return {bit::force_low, 0};
 }
 
 template <class Scalar>
@@ -33,8 +34,17 @@ constexpr GateOutputs outputs(const sixstep::control::BridgeCommand<Scalar>& com
   const unsigned on = gates(command, true), off = gates(command, false);
   const LegOutput a = leg_output(Leg::a, on, off), b = leg_output(Leg::b, on, off),
                   c = leg_output(Leg::c, on, off);
-  return {(a.mode << 4 | preload) | (b.mode << 4 | preload) << 8, c.mode << 4 | preload,
+  return {(a.mode << 4 | bit::preload) | (b.mode << 4 | bit::preload) << 8, c.mode << 4 | bit::preload,
           a.enables | b.enables << 4 | c.enables << 8};
+}
+
+/// DTG of a dead time in counts, never shorter (20.4.18): steps of 1, 2, 8 and 16 counts.
+constexpr std::uint32_t dead_time_bits(std::uint32_t counts) {
+  const auto steps = [counts](std::uint32_t of, std::uint32_t from) { return (counts + of - 1) / of - from; };
+  if (counts < 128) return counts;
+  if (counts <= 254) return 0x80 | steps(2, 64);
+  if (counts <= 504) return 0xC0 | steps(8, 32);
+  return 0xE0 | steps(16, 32);
 }
 
 }  // namespace firmware

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Registers of an ATmega2560 by their data-memory addresses, and their bits: for the board, which models them, and for the
-// firmware, which writes them. Source: Atmel data sheet 2549, register summary (33) and interrupt vectors (14.1).
+// Registers of an ATmega2560 by their data-memory addresses, and their bits: for the firmware, which writes them, and for the
+// board in the loop (faces/loop/avr/), which models them. Source: Atmel data sheet 2549, register summary (33) and interrupt vectors (14.1).
 #pragma once
 #include <cstdint>
 
@@ -15,6 +15,8 @@ constexpr Address TIFR1 = 0x36, PCIFR = 0x3B, SMCR = 0x53, PCICR = 0x68, PCMSK2 
 constexpr Address ADCL = 0x78, ADCH = 0x79, ADCSRA = 0x7A, ADCSRB = 0x7B, ADMUX = 0x7C;
 constexpr Address TCCR1A = 0x80, TCCR1B = 0x81, TCNT1L = 0x84, ICR1L = 0x86;
 constexpr Address OCR1AL = 0x88, OCR1BL = 0x8A, OCR1CL = 0x8C, OCR1CH = 0x8D;
+constexpr Address MCUSR = 0x54, WDTCSR = 0x60;
+constexpr Address UCSR0A = 0xC0, UCSR0B = 0xC1, UCSR0C = 0xC2, UBRR0L = 0xC4, UDR0 = 0xC6;
 
 constexpr std::uint8_t TOV1 = 1u << 0;                                                   // TIFR1
 constexpr std::uint8_t COM1A1 = 1u << 7, COM1B1 = 1u << 5, COM1C1 = 1u << 3;             // TCCR1A
@@ -26,6 +28,11 @@ constexpr std::uint8_t MUX5 = 1u << 3, ADTS_bits = 7, ADTS_timer1_overflow = 6; 
 constexpr std::uint8_t REFS0 = 1u << 6, ADLAR = 1u << 5, MUX_bits = 31;                  // ADMUX
 constexpr std::uint8_t PCIE2_bit = 2, PCIE2 = 1u << PCIE2_bit;                           // PCICR, and PCIFR
 constexpr std::uint8_t SE = 1u << 0;                                                     // SMCR
+constexpr std::uint8_t WDRF = 1u << 3;                                                   // MCUSR
+constexpr std::uint8_t WDE = 1u << 3, WDCE = 1u << 4;                                    // WDTCSR
+constexpr std::uint8_t UDRE0 = 1u << 5, U2X0 = 1u << 1;                                  // UCSR0A
+constexpr std::uint8_t TXEN0 = 1u << 3;                                                  // UCSR0B
+constexpr std::uint8_t UCSZ01 = 1u << 2, UCSZ00 = 1u << 1;                               // UCSR0C
 
 constexpr unsigned vector_PCINT2 = 11, vector_TIMER1_OVF = 20, vector_ADC = 29;
 

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stands around the chip, as the scenario simulated it: a transducer in each phase on ADC0..ADC2, of which each period's sample is
+// that of the leg that feeds the driven pair; a potentiometer on ADC3 as the setpoint, 0 in its middle; Hall pins on PK0..PK2.
+#pragma once
+#include <drive_config.hpp>
+
+#include "faces/firmware/example/avr/registers.hpp"
+#include "sixstep/control/adc.hpp"
+#include "sixstep/control/drive.hpp"
+#include "sixstep/control/one_shunt.hpp"
+
+namespace firmware {
+
+using namespace sixstep::control;
+using exported::drive, exported::Scalar, exported::units;
+
+static_assert((drive.mode == Mode::current || drive.mode == Mode::duty) && drive.chopping == Chopping::soft &&
+                  drive.extras.pwm.pattern == PwmPattern::upper,
+              "what these pins and loops are for");
+static_assert(!(Scalar{} < drive.extras.commutation.overlap_bus_V),
+              "the leg in no pair has no pulse of its own here");
+static_assert(exported::pwm_centre_aligned,
+              "timer 1 counts up and down; its compare registers are taken at the top");
+static_assert(exported::adc_bits == 10, "the converter that is there");
+static_assert(sizeof(Scalar) == 2, "eighths of counts as signals of 16 bits");
+
+constexpr std::uint32_t clock_Hz = 16'000'000;
+// Up and down again, of 1/16 MHz.
+constexpr std::uint64_t pwm_counts = exported::pwm_period_ps / 62'500 / 2;
+static_assert(pwm_counts >= 3 && pwm_counts < 65536, "timer 1 has 16 bits");
+
+constexpr AdcConfig<Scalar> currents{.per_eighth = units.amperes_per_count(exported::adc_amperes_per_count),
+                                     .offset_counts = 512,
+                                     .offset_tolerance = 15,
+                                     .log2_samples = 3};
+constexpr Units<Scalar> plain{};
+constexpr AdcConfig<Scalar> potentiometer{
+    .per_eighth =
+        (drive.mode == Mode::duty ? plain : units).amperes_per_count(exported::setpoint_range / 512),
+    .offset_counts = 512};
+constexpr std::uint8_t potentiometer_channel = 3;
+
+/// By the Hall pins as port K has them: looked up in a few cycles, worked out in dozens.
+struct ByPins {
+  std::uint8_t code[8], source[8];
+};
+constexpr ByPins by_pins = [] {
+  ByPins by{};
+  for (unsigned pins = 0; pins < 8; ++pins) {  // PK0 is H1, the highest bit
+    const auto code = static_cast<std::uint8_t>((pins & 1) << 2 | (pins & 2) | (pins & 4) >> 2);
+    by.code[pins] = code;
+    by.source[pins] = static_cast<std::uint8_t>(positive_pair(sector_of_hall(code)).source);
+  }
+  return by;
+}();
+
+inline std::uint8_t hall_pins() { return byte(atmega2560::PINK) & 7; }
+
+/// As adc_value(): of 10 bits nothing saturates, and 32-bit differences would cost a hundred cycles.
+inline Scalar value_of(const AdcConfig<Scalar>& config, std::int16_t offset, std::uint16_t counts) {
+  const auto eighths = static_cast<std::int16_t>(static_cast<std::int16_t>(counts * 8) - offset);
+  return ScalarTraits<Scalar>::product(Scalar::from_raw(eighths), config.per_eighth);
+}
+
+constexpr std::uint16_t counts_of(Scalar duty) {
+  using Wide = std::uint32_t;
+  return static_cast<std::uint16_t>(static_cast<Wide>(duty.raw) * static_cast<Wide>(pwm_counts) >>
+                                    Scalar::fraction_bits);
+}
+
+}  // namespace firmware

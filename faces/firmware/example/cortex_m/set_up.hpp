@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the registers hold before the first interrupt. tests/target/images.py runs it and reads each of them as RM0316 says.
+#pragma once
+#include "faces/firmware/example/cortex_m/board.hpp"
+#include "faces/firmware/example/cortex_m/bridge.hpp"
+
+namespace firmware {
+
+constexpr std::uint32_t baud = 1'000'000;
+
+/// Whether it came within so many looks: a part that is broken must not keep the rest from saying so.
+template <class Condition>
+bool waited_for(Condition condition, std::uint32_t looks = 1'000'000) {
+  for (; looks > 0; --looks)
+    if (condition()) return true;
+  return false;
+}
+
+/// 8 MHz times nine. False: no clock came, and the chip runs on its own 8 MHz.
+inline bool set_up_clock() {
+  rcc().CR = rcc().CR | bit::HSEON | (has_external_clock ? bit::HSEBYP : 0);
+  if (!waited_for([] { return (rcc().CR & bit::HSERDY) != 0; })) return false;
+  flash_acr() = bit::LATENCY_2 | bit::PRFTBE;  // above 48 MHz (4.5.1)
+  rcc().CFGR = bit::PPRE1_half | bit::PLLSRC_HSE | bit::PLLMUL_9;
+  rcc().CR = rcc().CR | bit::PLLON;
+  if (!waited_for([] { return (rcc().CR & bit::PLLRDY) != 0; })) return false;
+  rcc().CFGR = rcc().CFGR | bit::SW_PLL;
+  return waited_for([] { return (rcc().CFGR & bit::SWS) == bit::SWS_PLL; });
+}
+
+inline void switch_parts_on() {
+  rcc().AHBENR = rcc().AHBENR | bit::IOPAEN | bit::IOPBEN | bit::IOPCEN | bit::ADC12EN;
+  rcc().APB2ENR = rcc().APB2ENR | bit::TIM1EN;
+  rcc().APB1ENR = rcc().APB1ENR | bit::TIM2EN | bit::USART2EN;
+  // A debugger that stops the core stops the timer too, whose outputs are then off, and the watchdog.
+  debug_apb2_freeze() = bit::TIM1_STOP;
+  debug_apb1_freeze() = bit::IWDG_STOP;
+}
+
+enum class PinMode : std::uint32_t { input, output, alternate, analog };
+enum class Pull : std::uint32_t { none, up, down };
+
+inline void set_pin(Gpio& port, unsigned pin, PinMode mode, Pull pull, std::uint32_t function = 0) {
+  const auto with = [pin](std::uint32_t all, unsigned bits, unsigned of, std::uint32_t value) {
+    const unsigned shift = pin % of * bits;
+    return (all & ~(((1u << bits) - 1) << shift)) | value << shift;
+  };
+  Register& functions = port.AFR[pin / 8];
+  functions = with(functions, 4, 8, function);
+  port.PUPDR = with(port.PUPDR, 2, 16, static_cast<std::uint32_t>(pull));
+  port.MODER = with(port.MODER, 2, 16, static_cast<std::uint32_t>(mode));
+}
+
+/// Functions by the data sheet's tables of alternate functions (DS9118, DocID026415).
+inline void set_up_pins() {
+  for (unsigned pin = 8; pin <= 10; ++pin)
+    set_pin(gpio_a(), pin, PinMode::alternate, Pull::down, 6);  // TIM1_CHx
+  set_pin(gpio_b(), 13, PinMode::alternate, Pull::down, 6);     // TIM1_CH1N
+  set_pin(gpio_b(), 14, PinMode::alternate, Pull::down, 6);     // TIM1_CH2N
+  set_pin(gpio_b(), 15, PinMode::alternate, Pull::down, 4);     // TIM1_CH3N
+  set_pin(gpio_a(), 15, PinMode::alternate, Pull::up, 1);       // TIM2_CH1
+  set_pin(gpio_b(), 3, PinMode::alternate, Pull::up, 1);        // TIM2_CH2
+  set_pin(gpio_b(), 10, PinMode::alternate, Pull::up, 1);       // TIM2_CH3
+  set_pin(gpio_a(), 2, PinMode::alternate, Pull::none, 7);      // USART2_TX
+  set_pin(gpio_a(), 3, PinMode::alternate, Pull::up, 7);        // USART2_RX
+  for (unsigned pin = 0; pin <= 1; ++pin) {
+    set_pin(gpio_a(), pin, PinMode::analog, Pull::none);
+    set_pin(gpio_c(), pin, PinMode::analog, Pull::none);
+  }
+}
+
+inline void set_up_serial_line() {
+  usart2().BRR = clock_Hz / 2 / baud;  // of APB1
+  usart2().CR1 = bit::UE | bit::TE | bit::RE;
+}
+
+constexpr auto dead_counts =
+    static_cast<std::uint32_t>((exported::dead_time_ps * (clock_Hz / 1'000'000) + 999'999) / 1'000'000);
+static_assert(dead_counts <= 1008, "14 us, as TIM1 counts it");
+
+/// Counts up; its update begins a period, and triggers the converter. Which outputs run, and how, is preloaded and taken by all three
+/// channels at once, at a commutation event.
+inline void set_up_bridge_timer() {
+  tim1().PSC = 0;
+  tim1().ARR = pwm_counts - 1;
+  tim1().CR2 = bit::CCPC | bit::MMS_update;
+  tim1().CCMR1 = (bit::force_low << 4 | bit::preload) * 0x101;
+  tim1().CCMR2 = bit::force_low << 4 | bit::preload;
+  tim1().CCER = 0;
+  tim1().BDTR = dead_time_bits(dead_counts) | bit::OSSR | bit::MOE;
+  tim1().EGR = bit::UG | bit::COMG;
+  tim1().CR1 = bit::ARPE | bit::CEN;
+}
+
+/// 32 bits of 72 MHz; each edge of the XOR of its three inputs is captured, once it stands for eight counts.
+inline void set_up_hall_timer() {
+  tim2().PSC = 0;
+  tim2().ARR = 0xFFFFFFFF;
+  tim2().CR2 = bit::TI1S;
+  tim2().CCMR1 = bit::CC1S_TI1 | bit::IC1F_8_samples;
+  tim2().CCER = bit::CC1E | bit::CC1P | bit::CC1NP;
+  tim2().DIER = bit::CC1IE;
+  tim2().EGR = bit::UG;
+  tim2().CR1 = bit::CEN;
+}
+
+/// Injected: a, b, c, bus at each of the bridge timer's updates, 7.5 and 12.5 clocks of 72 MHz each. False: it does not answer.
+inline bool set_up_converter() {
+  adc12_ccr() = bit::CKMODE_HCLK;
+  adc1().CR = 0;
+  adc1().CR = bit::ADVREGEN;
+  for (std::uint32_t n = 0; n < clock_Hz / 100'000; ++n)
+    asm volatile("");  // 10 us for its regulator (15.3.6)
+  adc1().CR = bit::ADVREGEN | bit::ADCAL;
+  if (!waited_for([] { return (adc1().CR & bit::ADCAL) == 0; })) return false;
+  // Four of its clocks after the calibration (15.3.9): asked until it is ready.
+  if (!waited_for([] {
+        adc1().CR = bit::ADVREGEN | bit::ADEN;
+        return (adc1().ISR & bit::ADRDY) != 0;
+      }))
+    return false;
+  constexpr std::uint32_t clocks_7_5 = 3, a = 1, b = 7, c = 6, bus = 2;  // channels
+  adc1().SMPR1 = clocks_7_5 << 3 * a | clocks_7_5 << 3 * b | clocks_7_5 << 3 * c | clocks_7_5 << 3 * bus;
+  adc1().JSQR =
+      bit::JL_4 | bit::JEXTSEL_TIM1_TRGO | bit::JEXTEN_rising | a << 8 | b << 14 | c << 20 | bus << 26;
+  adc1().IER = bit::JEOS;
+  adc1().CR = bit::ADVREGEN | bit::ADEN | bit::JADSTART;
+  return true;
+}
+
+/// Bites after 40 ms by its own clock of about 40 kHz.
+inline void set_up_watchdog() {
+  iwdg().KR = bit::start;
+  iwdg().KR = bit::unlock;
+  iwdg().PR = 0;  // a quarter of its clock
+  iwdg().RLR = 400;
+  waited_for([] { return iwdg().SR == 0; });
+  iwdg().KR = bit::reload;
+}
+
+/// Both at one priority, as they are after the reset: neither comes amid the other.
+inline void listen_to_interrupts() { nvic_enable() = 1u << irq_adc1_2 | 1u << irq_tim2; }
+
+}  // namespace firmware

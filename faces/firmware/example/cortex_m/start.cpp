@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the reset to the program, and where a fault ends.
+#include "faces/firmware/example/cortex_m/registers.hpp"
+
+int main();
+
+extern "C" {
+
+extern std::uint32_t data_begin[], data_end[], data_in_flash[], bss_begin[], bss_end[];
+
+[[noreturn]] void begin() {
+  for (std::uint32_t *to = data_begin, *from = data_in_flash; to < data_end; ++to, ++from) *to = *from;
+  for (std::uint32_t* to = bss_begin; to < bss_end; ++to) *to = 0;
+  main();
+  for (;;) continue;
+}
+
+/// All gates off at once, and then the watchdog bites.
+[[noreturn]] void fault() {
+  using namespace firmware;
+  tim1().BDTR = tim1().BDTR & ~bit::MOE;
+  for (;;) asm volatile("");
+}
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lines of numbers for a serial line: what a board logs is a table that `sixstep run --compare LOG` lays over its simulation. No
+// division, no library: a digit is found by subtracting, which a chip of 8 bits does in a few hundred cycles a number.
+#pragma once
+#include <cstdint>
+
+namespace firmware {
+
+template <class Word>
+constexpr Word tens[10] = {};
+template <>
+inline constexpr std::uint16_t tens<std::uint16_t>[10] = {0, 0, 0, 0, 0, 10'000, 1'000, 100, 10, 1};
+template <>
+inline constexpr std::uint32_t tens<std::uint32_t>[10] = {
+    1'000'000'000, 100'000'000, 10'000'000, 1'000'000, 100'000, 10'000, 1'000, 100, 10, 1};
+
+/// The digits from a place on, by words of that width.
+template <class Word, class Put>
+constexpr void put_digits(Put put, Word rest, unsigned decimals, unsigned first_place) {
+  bool begun = false;
+  for (unsigned place = first_place; place < 10; ++place) {
+    const unsigned behind = 9 - place;  // digits that follow
+    char digit = '0';
+    for (; rest >= tens<Word>[place]; rest = static_cast<Word>(rest - tens<Word>[place])) ++digit;
+    begun = begun || digit != '0' || behind <= decimals;
+    if (begun) put(digit);
+    if (decimals > 0 && behind == decimals) put('.');
+  }
+}
+
+/// "-0.123" is -123 with three decimals. `put` takes one character.
+template <class Put>
+constexpr void put_number(Put put, std::int32_t value, unsigned decimals = 0) {
+  const std::uint32_t rest =
+      value < 0 ? 0u - static_cast<std::uint32_t>(value) : static_cast<std::uint32_t>(value);
+  if (value < 0) put('-');
+  if (rest < 65536)  // most are, and words of 16 bits take a chip of 8 half the time
+    put_digits(put, static_cast<std::uint16_t>(rest), decimals, 5);
+  else
+    put_digits(put, rest, decimals, 0);
+}
+
+template <class Put>
+constexpr void put_text(Put put, const char* text) {
+  for (; *text != '\0'; ++text) put(*text);
+}
+
+/// What an interrupt wrote is read behind this, and what it may write again is left alone before.
+inline void barrier() { asm volatile("" ::: "memory"); }
+
+/// One row from the control interrupt to the main loop, which asks for the next as soon as it has sent one: as many rows as the line
+/// takes, each with its instant.
+template <class Row>
+class LogSlot {
+ public:
+  /// In the interrupt, where the main loop waits for one.
+  void take(const Row& row) {
+    if (full_) return;
+    row_ = row;
+    barrier();
+    full_ = true;
+  }
+
+  /// In the main loop: null as long as there is none.
+  const Row* waiting() const {
+    const bool there = full_;
+    barrier();
+    return there ? &row_ : nullptr;
+  }
+  /// It was sent.
+  void next() {
+    barrier();
+    full_ = false;
+  }
+
+ private:
+  Row row_{};
+  volatile bool full_ = false;
+};
+
+}  // namespace firmware

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// A board's log laid over a simulation of it: how far the two lie apart, column by column. Both are traces; where one jumps, both sides of
+// the jump stand at one instant, and between its rows each is straight.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sixstep/study/measure/trace.hpp"
+
+namespace sixstep::analysis {
+
+/// Of one column, over those of the log's rows that lie in the simulated time.
+struct LaidOver {
+  study::Column column;
+  std::size_t rows = 0;
+  double span = 0.0;      ///< of what was simulated there: highest less lowest
+  double rms = 0.0;       ///< of log less simulation
+  double greatest = 0.0;  ///< the one farthest from 0, with its sign
+  double at_s = 0.0;      ///< where that was
+};
+
+/// Of each column that both have, but for the time. `shift_s` is added to the log's times. Empty where no row meets the other.
+std::vector<LaidOver> laid_over(const study::Trace& simulated, const study::Trace& log, double shift_s);
+
+/// The shift within `most_s` either way by which that column differs least (rms), looked for in steps first: a board's clock starts some
+/// time after it is turned on. Of thousands of rows a part is asked. 0 where nothing of the two meets.
+double best_shift_s(const study::Trace& simulated, const study::Trace& log, const std::string& column,
+                    double most_s, double step_s);
+
+/// The log at these instants, its times shifted; NaN beyond its ends.
+study::Trace at_instants(const study::Trace& log, double shift_s, const std::vector<double>& t_s);
+
+}  // namespace sixstep::analysis

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a board sent, read as a trace.
+#include "text/recording/board_log.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using testing::DoubleEq;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> names_of(const sixstep::study::Trace& trace) {
+  std::vector<std::string> out;
+  for (const auto& column : trace.columns) out.push_back(column.name);
+  return out;
+}
+
+TEST(BoardLog, ColumnsByTheirNamesInAnyUnit) {
+  const auto log = text::read_board_log("b.csv",
+                                        "# sixstep on an ATmega2560\n"
+                                        "t [us],i_m [mA],duty,hall,speed [1/min],bus [V],bus [mA],faults\n"
+                                        "100,-500,0.25,5,60,24,1500,0\n"
+                                        "900,250,-0.125,4,-30,23.5,-20,3\n");
+  ASSERT_TRUE(log) << log.problems()[0].limit;
+  EXPECT_THAT(names_of(*log), ElementsAre("t_s", "i_m_A", "duty", "hall", "speed_rad_s", "bus_V", "bus_A"));
+  EXPECT_THAT(log->values[0], ElementsAre(DoubleEq(1e-4), DoubleEq(9e-4)));
+  EXPECT_THAT(log->values[1], ElementsAre(DoubleEq(-0.5), DoubleEq(0.25)));
+  EXPECT_THAT(log->values[2], ElementsAre(0.25, -0.125));
+  EXPECT_NEAR(log->values[4][0], 6.283185307179586, 1e-14);
+  EXPECT_THAT(log->values[6], ElementsAre(DoubleEq(1.5), DoubleEq(-0.02)));
+}
+
+TEST(BoardLog, ATracesOwnHeadings) {
+  const auto log = text::read_board_log("b.csv", "t_s,i_m_A,u_ab_V\n0,1,2\n0.5,3,4\n");
+  ASSERT_TRUE(log);
+  EXPECT_THAT(names_of(*log), ElementsAre("t_s", "i_m_A", "u_ab_V"));
+}
+
+TEST(BoardLog, FromTheLastStartToTheLastWholeLine) {
+  const auto log = text::read_board_log(
+      "b.csv",
+      "67,8\n# reset\nt [us],i_m [mA]\n100,1\n200,2\n3# the watchdog bit\nt [us],i_m [mA]\n100,5\n200,6\n300,-");
+  ASSERT_TRUE(log) << log.problems()[0].limit;
+  EXPECT_THAT(log->values[1], ElementsAre(DoubleEq(5e-3), DoubleEq(6e-3)));
+}
+
+TEST(BoardLog, SaysWhatIsWrong) {
+  const auto limit = [](const char* text) {
+    const auto log = text::read_board_log("b.csv", text);
+    return log ? std::string("nothing") : log.problems()[0].where + " " + log.problems()[0].limit;
+  };
+  EXPECT_THAT(limit(""), HasSubstr("is empty"));
+  EXPECT_THAT(limit("t [us],i_m [V]\n1,2\n3,4\n"), HasSubstr("where A belongs"));
+  EXPECT_THAT(limit("t [us],temper\n1,2\n3,4\n"), HasSubstr("no column that a simulation has"));
+  EXPECT_THAT(limit("t [us],i_m [mA]\n1,2\n1,4\n"), HasSubstr("does not rise"));
+  EXPECT_THAT(limit("t [us],i_m [mA]\n1,x\n2,4\n"), HasSubstr("is no number"));
+  EXPECT_THAT(limit("i_m [mA],duty\n1,0\n2,0\n"), testing::Not("nothing"));
+}
+
+}  // namespace

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/results/laid_over_text.hpp"
+
+#include <fmt/format.h>
+
+#include "text/results/quantity_text.hpp"
+#include "text/results/text_rows.hpp"
+
+namespace text {
+
+std::string laid_over_text(const std::string& name, const std::vector<analysis::LaidOver>& columns,
+                           double shift_s) {
+  if (columns.empty()) return fmt::format("{}: no row lies in the simulated time\n", name);
+  Rows rows;
+  for (const analysis::LaidOver& one : columns) {
+    const std::string unit = one.column.unit == "1" ? "" : one.column.unit;
+    const auto said = [&unit](double x) { return quantity_text(x, unit, 3); };
+    rows.add({one.column.name, fmt::format("{} rows", one.rows), "rms " + said(one.rms),
+              fmt::format("at most {} at {}", said(one.greatest), quantity_text(one.at_s, "s", 4)),
+              fmt::format("of {} simulated from lowest to highest", said(one.span))});
+  }
+  return fmt::format("{} less the simulation{}:\n{}", name,
+                     shift_s == 0.0 ? "" : ", moved by " + quantity_text(shift_s, "s", 3), rows.text());
+}
+
+}  // namespace text
