@@ -76,7 +76,7 @@ std::int32_t thousandths(Scalar x) {
   return static_cast<std::int32_t>(x.raw) * scale >> Scalar::fraction_bits;
 }
 
-constexpr auto full_mA = static_cast<std::int32_t>(units.current_A * 1000 + 0.5);
+constexpr auto full_mA = static_cast<std::int32_t>(units.current_A * 1000);
 constexpr std::int32_t full_setpoint = drive.mode == Mode::duty ? 1000 : full_mA;
 static_assert(full_mA < 65536, "times a signal of 16 bits");
 constexpr auto period_ns = static_cast<std::uint32_t>(exported::pwm_period_ps / 1000);
