@@ -73,6 +73,7 @@ void note(const Core& core, double period_s, Running& running, const FreshFolder
 }  // namespace
 
 base::Problems stands_against(const Core& core, const study::Scenario& scenario) {
+  if (!core.elf.empty()) return study::not_on_an_avrs_board(scenario);
   return core.by_registers ? study::not_on_an_avr(scenario) : study::not_on_a_core(scenario);
 }
 

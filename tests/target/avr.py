@@ -122,6 +122,11 @@ def check_own():
             if done.returncode != 0 or not summary(done)["passed"]:
                 found = summary(done)
                 trouble.append(f"{file.stem} by {OWN.name}: exit {done.returncode}, {found['fault']}, {found.get('require')}")
+        # What a scenario says of a controller is the host's.
+        other = run(CHAPTER / "8b.toml", "--quiet", "--set", "control.arithmetic=float", "--set", "pwm.alignment=edge",
+                    on=str(folder / "map.toml"))
+        if other.returncode != 0:
+            trouble.append(f"a scenario of another controller: exit {other.returncode}, {other.stderr}")
     print(f"a firmware of one's own: {'all hold' if not trouble else 'trouble'}")
     return trouble
 
