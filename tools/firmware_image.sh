@@ -11,10 +11,13 @@ root=$PWD
 usage() { sed -n 's/^# \{0,1\}//; 3,5p' "$0" >&2; exit 2; }
 [ $# -ge 1 ] && [ $# -le 3 ] || usage
 case $1 in
-  stm32f303) example=faces/firmware/example/cortex_m binutils=arm-none-eabi ;;
-  atmega2560) example=faces/firmware/example/avr binutils=avr ;;
+  stm32f303) example=faces/firmware/example/cortex_m binutils=arm-none-eabi compilers=(arm-none-eabi-g++) ;;
+  atmega2560) example=faces/firmware/example/avr binutils=avr compilers=(clang++-19 avr-gcc) ;;
   *) usage ;;
 esac
+for compiler in "${compilers[@]}"; do
+  command -v "$compiler" >/dev/null || { echo "$compiler is missing; tools/install.sh target installs it" >&2; exit 1; }
+done
 cd "$OLDPWD"
 header=$(realpath "${2:-$root/$example/drive_config.hpp}")
 out=$(realpath -m "${3:-$root/build/firmware/$1}")
