@@ -5,6 +5,7 @@
 //   build/dev/benchmarks/front_end_benchmark --benchmark_enable_random_interleaving=true --benchmark_repetitions=20
 #include <benchmark/benchmark.h>
 
+#include "sixstep/rig/lean_drive.hpp"
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/sim/run.hpp"
 

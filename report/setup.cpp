@@ -17,9 +17,17 @@
 #include "text/scenario/motion_words.hpp"
 
 namespace report {
-namespace {
 
 using namespace sixstep;
+
+std::string listed(const std::vector<double>& values, const char* unit) {
+  std::string text;
+  for (std::size_t n = 0; n < values.size() && n < 8; ++n)
+    text += (n ? ", " : "steps ") + given(values[n], unit);
+  return values.size() > 8 ? text + fmt::format(" … ({} in all)", values.size()) : text;
+}
+
+namespace {
 
 std::string pwm(const study::Scenario& scenario) {
   const study::Pwm& p = scenario.pwm;
@@ -106,119 +114,6 @@ std::string control(const study::Scenario& s) {
   text += arithmetic(s.control.arithmetic);
   if (s.pwm.delay_periods > 0) text += fmt::format(", acts {} period(s) later", s.pwm.delay_periods);
   return text;
-}
-
-std::string listed(const std::vector<double>& values, const char* unit) {
-  std::string text;
-  for (std::size_t n = 0; n < values.size() && n < 8; ++n)
-    text += (n ? ", " : "steps ") + given(values[n], unit);
-  return values.size() > 8 ? text + fmt::format(" … ({} in all)", values.size()) : text;
-}
-
-std::string sensor_alone(const study::Sensors& s) {
-  switch (s.rotor) {
-    case study::RotorSensing::ideal:
-    case study::RotorSensing::hall:
-      return {};
-    case study::RotorSensing::encoder:
-      return fmt::format("; encoder of {}{}{}",
-                         s.encoder.pitch_mm ? "pitch " + given(*s.encoder.pitch_mm, "mm")
-                                            : std::to_string(s.encoder.lines) + " lines",
-                         s.encoder.referenced ? "" : ", its index not passed yet",
-                         s.encoder.missed_Hz > 0
-                             ? fmt::format(", {} edges missed each second", s.encoder.missed_Hz)
-                             : std::string());
-    case study::RotorSensing::absolute:
-      return fmt::format("; absolute encoder of {} bits, {} late, speed over {} samples", s.absolute.bits,
-                         given(s.absolute.latency_s, "s"), s.absolute.speed_samples);
-    case study::RotorSensing::resolver:
-      if (s.resolver.reading == rig::ResolverReading::tracking)
-        return fmt::format(
-            "; resolver of {} pole pairs, followed within {} by a converter chip of {} bits at {}, {} late",
-            s.resolver.pole_pairs, given(s.resolver.bandwidth_Hz, "Hz"), s.resolver.bits,
-            given(s.resolver.converter_Hz, "Hz"), given(s.resolver.latency_s, "s"));
-      return fmt::format("; resolver of {} pole pairs at {}, followed within {}, {} bits{}",
-                         s.resolver.pole_pairs, given(s.resolver.excitation_Hz, "Hz"),
-                         given(s.resolver.bandwidth_Hz, "Hz"), s.resolver.bits,
-                         s.resolver.calibrated ? ", what its windings are unlike by taken off" : "");
-  }
-  return {};
-}
-
-std::string shaft_sensor(const study::Sensors& s) {
-  const std::string text = sensor_alone(s);
-  return text.empty() || s.shaft == study::SensorShaft::motor ? text : text + ", on the load's shaft";
-}
-
-/// What the terminals' dividers and comparators are.
-std::string terminals(const study::Sensors& s) {
-  std::string text;
-  if (!s.terminal_gain_error.empty())
-    text += fmt::format("; dividers of a, b, c too large by {:.4g}", fmt::join(s.terminal_gain_error, ", "));
-  const study::Comparators& c = s.comparators;
-  if (c == study::Comparators{}) return text;
-  text += fmt::format("; comparators against {}, filtered at {}",
-                      c.against == rig::CrossingReference::half_bus ? "half the bus" : "the virtual star",
-                      given(c.bandwidth_Hz.value_or(0.0), "Hz"));
-  if (!c.offset_V.empty()) text += fmt::format(", off by {:.4g} V", fmt::join(c.offset_V, ", "));
-  if (c.hysteresis_V > 0.0) text += ", hysteresis " + given(c.hysteresis_V, "V");
-  return text;
-}
-
-/// What of the Hall probes is not where the sectors are.
-std::string probes(const study::Sensors& s) {
-  std::string text;
-  if (s.hall_spacing != sixstep::control::HallArrangement::degrees_120) text += "; Hall probes 60° apart";
-  if (s.hall_offset_deg != 0) text += "; Hall edges late by " + given(s.hall_offset_deg, "deg");
-  if (!s.hall_edges_deg.empty()) text += "; each beside that by " + listed(s.hall_edges_deg, "deg");
-  if (s.hall_hysteresis_deg > 0) text += "; Hall hysteresis " + given(s.hall_hysteresis_deg, "deg");
-  if (s.hall_delay_s > 0) text += "; Hall lines late by " + given(s.hall_delay_s, "s");
-  if (s.hall_glitches_Hz > 0)
-    text += fmt::format("; {} glitches of {} each second", s.hall_glitches_Hz, given(s.hall_glitch_s, "s"));
-  return text;
-}
-
-std::string sensors(const study::Sensors& s) {
-  using sixstep::rig::CurrentMeasurement;
-  std::string text = s.currents == CurrentMeasurement::ideal    ? "ideal currents"
-                     : s.currents == CurrentMeasurement::phases ? "phase currents"
-                                                                : "one shunt in the DC link";
-  if (s.currents != CurrentMeasurement::ideal)
-    text += fmt::format(" through {} bits over ±{}", s.adc_bits, given(s.current_range_A.value_or(0.0), "A"));
-  if (s.currents != CurrentMeasurement::ideal && s.current_noise_A > 0.0)
-    text += ", noise " + given(s.current_noise_A, "A");
-  if (s.currents != CurrentMeasurement::ideal && s.current_bandwidth_Hz)
-    text += ", amplifiers of " + given(*s.current_bandwidth_Hz, "Hz");
-  if (s.currents != CurrentMeasurement::ideal && s.current_delay_s > 0.0)
-    text += ", late by " + given(s.current_delay_s, "s");
-  if (s.bus == study::BusSensing::adc)
-    text +=
-        fmt::format("; bus through {} bits up to {}", s.adc_bits, given(s.bus_range_V.value_or(0.0), "V"));
-  if (s.bus_bandwidth_Hz) text += "; dividers filtered at " + given(*s.bus_bandwidth_Hz, "Hz");
-  text += terminals(s);
-  if (s.rotor == study::RotorSensing::hall)
-    text += fmt::format("; speed from Hall edges against {}, over {}", given(s.capture_Hz, "Hz"),
-                        s.speed_edges == 0   ? "six sectors, at low speed one"
-                        : s.speed_edges == 1 ? "one sector"
-                                             : fmt::format("{} sectors", s.speed_edges));
-  if (s.rotor == study::RotorSensing::hall && s.hall_angle != rig::HallAngleFrom::sectors)
-    text += fmt::format(", {}", base::word(study::hall_angle_choices, s.hall_angle));
-  if (s.hall_lines != rig::WireOrder::abc)
-    text += fmt::format("; probes {} at H1, H2, H3", base::word(study::hall_order_choices, s.hall_lines));
-  if (s.hall_inverted != study::HallLines::none)
-    text +=
-        fmt::format("; inverted Hall lines: {}", base::word(study::hall_inverted_choices, s.hall_inverted));
-  text += shaft_sensor(s) + probes(s);
-  if (s.hall_break.at_s)
-    text += fmt::format("; line H{} breaks at {}", s.hall_break.line, given(*s.hall_break.at_s, "s"));
-  return text;
-}
-
-bool all_ideal(const study::Sensors& s) {
-  return s.currents == sixstep::rig::CurrentMeasurement::ideal && s.bus == study::BusSensing::ideal &&
-         s.rotor == study::RotorSensing::ideal && !s.bus_bandwidth_Hz && !s.hall_break.at_s &&
-         terminals(s).empty() && s.hall_lines == rig::WireOrder::abc &&
-         s.hall_inverted == study::HallLines::none && probes(s).empty();
 }
 
 std::string protection(const study::Protection& p) {

@@ -13,6 +13,10 @@ std::string bridge(const sixstep::study::Bridge& b);
 std::string shaft(const sixstep::study::Load& load, bool linear);
 /// Empty where no temperature is simulated.
 std::string heat(const sixstep::study::Heat& h);
+std::string sensors(const sixstep::study::Sensors& s);
+bool all_ideal(const sixstep::study::Sensors& s);
+/// The first eight, and how many there are.
+std::string listed(const std::vector<double>& values, const char* unit);
 std::string events(const std::vector<sixstep::study::At>& events, bool linear);
 
 }  // namespace report

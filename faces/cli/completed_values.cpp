@@ -102,10 +102,13 @@ Candidates modes(const CLI::App& verb) {
   return found;
 }
 
-Candidates cores() {
+/// Emulated ones, and maps of firmware.
+Candidates cores(const std::string& current) {
   Candidates found;
   for (const loop::Core& core : loop::cores())
     found.push_back({std::string(core.name), std::string(core.title)});
+  const Candidates maps = files(current, ".toml");
+  found.insert(found.end(), maps.begin(), maps.end());
   return found;
 }
 
@@ -114,7 +117,6 @@ Candidates known_words(const CLI::App& verb, const std::string& name) {
   if (name == "--chopping") return words(study::chopping_choices);
   if (name == "--arithmetic") return words(study::arithmetic_choices);
   if (name == "--sampling") return words(analysis::sampling_choices);
-  if (name == "--on") return cores();
   if (name == "--method") return words(method_choices);
   if (name == "--style") return styles();
   if (name == "--between")
@@ -132,6 +134,7 @@ Candidates values_of(const CLI::App& verb, const CLI::Option& option, const std:
   if (Candidates found = known_words(verb, name); !found.empty()) return found;
   if (name == "--set" || name == "--vary") return settings(current);
   if (name == "FILE" || name == "SCENARIO" || name == "--optimise") return files(current, ".toml");
+  if (name == "--on") return cores(current);
   if (name == "MOTOR" || name == "--motor") return motors(current);
   if (name == "NAME") return verb.get_name() == "new" ? Candidates{} : motors(current);
   if (name == "--data") return files(current, "", true);

@@ -51,6 +51,24 @@ Words include_paths(const fs::path& root, const fs::path& folder) {
   return {"-I" + (root / "faces/firmware/bare").string(), "-I" + root.string(), "-I" + folder.string()};
 }
 
+/// Which of the drives of core/main.cpp.
+const char* drive_of(const study::Scenario& scenario) {
+  using study::FirmwareKind;
+  switch (scenario.control.drive) {
+    case FirmwareKind::product:
+      return "-DSIXSTEP_PRODUCT_DRIVE";
+    case FirmwareKind::sensorless:
+      return "-DSIXSTEP_SENSORLESS_DRIVE";
+    case FirmwareKind::field:
+      return scenario.control.field.angle == study::FieldAngle::sensors ? "-DSIXSTEP_FIELD_DRIVE"
+                                                                        : "-DSIXSTEP_SENSORLESS_FIELD_DRIVE";
+    case FirmwareKind::lean:
+    case FirmwareKind::own:
+      break;
+  }
+  return "-DSIXSTEP_LEAN_DRIVE";
+}
+
 /// A core that is called: compiled and linked at once.
 Words called_core(const Core& core, const study::Scenario& scenario, const fs::path& root,
                   const fs::path& folder, const fs::path& image) {
@@ -59,7 +77,7 @@ Words called_core(const Core& core, const study::Scenario& scenario, const fs::p
   add(words, {"-std=c++20", "-O2", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti", "-fno-unwind-tables",
               "-fno-asynchronous-unwind-tables", "-ffreestanding", "-nostdinc++"});
   add(words, include_paths(root, folder));
-  if (scenario.control.drive == study::FirmwareKind::product) add(words, {"-DSIXSTEP_PRODUCT_DRIVE"});
+  add(words, {drive_of(scenario)});
   add(words, {(root / "faces/loop/core/main.cpp").string(), (bare / "start.cpp").string(),
               (bare / "memory.cpp").string(), (bare / core.start_up).string(), "-nostdlib", "-T",
               (bare / core.linker_script).string(), "-o", image.string()});

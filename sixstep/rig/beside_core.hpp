@@ -29,26 +29,29 @@ struct CorePort {
   explicit operator bool() const { return ask != nullptr; }
 };
 
-template <class Scalar>
 class BesideCore {
  public:
   explicit BesideCore(const CorePort& port) : port_(port) {}
 
   bool there() const { return static_cast<bool>(port_); }
   /// Where the core is in trouble, or gets into it now, an answer that turns the bridge off and is a fault.
-  template <class Call>
-  control::BridgeCommand<Scalar> held(const Call& call, const control::BridgeCommand<Scalar>& host,
-                                      const sim::Instant& at) {
-    if (trouble_ == CoreTrouble::none) {
-      CoreAnswer<Scalar> answer;
-      trouble_ = port_.ask(port_.core, &call, sizeof call, &answer, sizeof answer);
-      if (trouble_ == CoreTrouble::none && !(answer == answer_of(host))) trouble_ = CoreTrouble::differs;
-      if (trouble_ == CoreTrouble::none) return host;
-      at_ = at;
-    }
-    control::BridgeCommand<Scalar> off{};
+  template <class Call, class Command>
+  Command held(const Call& call, const Command& host, const sim::Instant& at) {
+    if (agrees(call, answer_of(host), at)) return host;
+    Command off{};
     off.fault = true;
     return off;
+  }
+  /// Whether the core is in order, and answers that.
+  template <class Call, class Answer>
+  bool agrees(const Call& call, const Answer& wanted, const sim::Instant& at) {
+    if (trouble_ != CoreTrouble::none) return false;
+    Answer answer{};
+    trouble_ = port_.ask(port_.core, &call, sizeof call, &answer, sizeof answer);
+    if (trouble_ == CoreTrouble::none && !(answer == wanted)) trouble_ = CoreTrouble::differs;
+    if (trouble_ == CoreTrouble::none) return true;
+    at_ = at;
+    return false;
   }
   CoreTrouble trouble() const { return trouble_; }
   const sim::Instant& at() const { return at_; }

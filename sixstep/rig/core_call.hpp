@@ -6,15 +6,19 @@
 #include <cstdint>
 
 #include "sixstep/control/bridge_command.hpp"
+#include "sixstep/control/field/field_direction.hpp"
+#include "sixstep/control/leg_command.hpp"
 #include "sixstep/control/protected_drive.hpp"
 
 namespace sixstep::rig {
 
-/// The two entries of a drive, and what it knows from the start.
+/// The entries of a drive, and what it knows from the start.
 enum class CoreEntry : std::uint32_t {
   tick,
   hall,
-  start  ///< of the product drive, once: `now` is the sector in which the rotor stands
+  start,      ///< of the product drive, once: `now` is the sector in which the rotor stands
+  commutate,  ///< of the sensorless drive: its timer's compare match
+  capture     ///< and an edge of the comparators at the terminals
 };
 
 /// Of control/drive.hpp: step() and on_hall().
@@ -34,6 +38,18 @@ struct ProductCall {
   std::uint32_t now = 0;             ///< control::BoardInput, as words
   std::uint32_t current_counts[3]{}, bus_counts = 0, hall_pins = 0;
   control::Setpoint<Scalar> setpoint{};
+};
+
+/// Of control/field/field_drive.hpp: field_drive_step(). Of an angle that was decoded the core makes the directions itself.
+template <class Scalar>
+struct FieldCall {
+  CoreEntry entry = CoreEntry::tick;
+  std::uint32_t decoded = 0;            ///< else `magnet` is what an ideal sensor tells
+  control::BinaryAngle electrical = 0;  ///< of the rotor, where it was decoded
+  std::uint32_t unused = 0;
+  control::Measurement<Scalar> measured{};
+  control::Setpoint<Scalar> setpoint{};
+  control::FieldDirections<Scalar> magnet{};
 };
 
 template <class Scalar>
@@ -80,6 +96,25 @@ constexpr CoreAnswer<Scalar> answer_of(const control::BridgeCommand<Scalar>& c) 
           .overlap = c.overlap,
           .on_below_A = c.on_below_A,
           .off_above_A = c.off_above_A};
+}
+
+/// The same of control::LegCommands.
+template <class Scalar>
+struct CoreLegs {
+  std::uint8_t enabled = 0, fault = 0, state[3]{}, switches[3]{};
+  Scalar duty[3]{};
+  bool operator==(const CoreLegs&) const = default;
+};
+
+template <class Scalar>
+constexpr CoreLegs<Scalar> answer_of(const control::LegCommands<Scalar>& c) {
+  CoreLegs<Scalar> out{.enabled = c.enabled, .fault = c.fault};
+  for (int k = 0; k < 3; ++k) {
+    out.state[k] = static_cast<std::uint8_t>(c.leg[k].state);
+    out.switches[k] = static_cast<std::uint8_t>(c.leg[k].switches);
+    out.duty[k] = c.leg[k].duty;
+  }
+  return out;
 }
 
 /// What a core says first: both sides mean the same structs.

@@ -28,7 +28,8 @@ class FieldDrive {
       : config_(config),
         sensors_(board.sensors, board.bases, power_up),
         bases_(board.bases),
-        ideal_(board.sensors.ideal()) {}
+        ideal_(board.sensors.ideal()),
+        core_(board.core) {}
 
   template <class Real>
   const Command& tick(const SampleInstant<Real>& instant, double setpoint) {
@@ -39,8 +40,9 @@ class FieldDrive {
                        ? control::field_directions(config_.field.advance, sensors_.electrical_angle(),
                                                    input.measured.speed_rad_s)
                        : directions_as_they_are(instant.state);
-    control::sensorless_field_step(config_, state_, input, {from_si<Scalar>(setpoint, bases_.setpoint)},
-                                   telemetry_);
+    const control::Setpoint<Scalar> wanted{from_si<Scalar>(setpoint, bases_.setpoint)};
+    control::sensorless_field_step(config_, state_, input, wanted, telemetry_);
+    if (core_.there()) hold_against_core(input, wanted, instant.at);
     angle_error_deg_ = error_deg(instant.state);
     if (sensors_.shaft_found().lost()) {
       state_.field.command = control::detail::given_up_legs<Scalar>();
@@ -61,7 +63,10 @@ class FieldDrive {
   bool follows_setpoint_at_once() const { return false; }
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
   Diagnosis diagnosis() const {
-    Diagnosis found{.hall_line = sensors_.broken_line(), .shaft = sensors_.shaft_found()};
+    Diagnosis found{.hall_line = sensors_.broken_line(),
+                    .at = core_.at(),
+                    .shaft = sensors_.shaft_found(),
+                    .core = core_.trouble()};
     if (state_.estimator.phase != control::EstimatorPhase::unseen) return found;
     found.unseen = 1;
     found.gave_up = true;
@@ -91,6 +96,17 @@ class FieldDrive {
   }
 
  private:
+  void hold_against_core(const control::FieldDriveInput<Scalar>& input,
+                         const control::Setpoint<Scalar>& wanted, const sim::Instant& at) {
+    FieldCall<Scalar> call{.measured = input.measured, .setpoint = wanted};
+    if (sensors_.tells_angle()) {
+      call.decoded = 1;
+      call.electrical = sensors_.electrical_angle();
+    } else {
+      call.magnet = input.magnet;
+    }
+    state_.field.command = core_.held(call, state_.field.command, at);
+  }
   /// Of what the last tick went by.
   template <class Real>
   double error_deg(const plant::State<Real>& s) const {
@@ -114,6 +130,7 @@ class FieldDrive {
   control::SensorlessFieldState<Scalar> state_{};
   control::Telemetry<Scalar> telemetry_{};
   double angle_error_deg_ = 0.0;
+  BesideCore core_;
 };
 
 }  // namespace sixstep::rig

@@ -10,6 +10,8 @@
 #include "sixstep/plant/plant.hpp"
 #include "sixstep/plant/terminals.hpp"
 #include "sixstep/rig/crossing_comparators.hpp"
+#include "sixstep/rig/event_kind.hpp"
+#include "sixstep/rig/fault.hpp"
 #include "sixstep/rig/firmware.hpp"
 #include "sixstep/rig/front_end.hpp"
 #include "sixstep/rig/modulator.hpp"
@@ -18,46 +20,6 @@
 #include "sixstep/rig/wiring.hpp"
 
 namespace sixstep::rig {
-
-enum class Fault : std::uint8_t {
-  none,
-  shoot_through,
-  impossible_hall,
-  beyond_model,
-  shaft_sensor,
-  own_controller,
-  north_unseen,
-  core
-};
-
-/// Why a firmware answered one.
-inline Fault fault_of(const Diagnosis& found) {
-  if (found.core != CoreTrouble::none) return Fault::core;
-  if (found.shaft.lost()) return Fault::shaft_sensor;
-  if (found.unseen > 0) return Fault::north_unseen;
-  return found.own != OwnWrong::none ? Fault::own_controller : Fault::impossible_hall;
-}
-
-/// Whether the run ends with a fault that a firmware answered; else the drive is off and the motor coasts on.
-template <class Firmware>
-bool ends_run([[maybe_unused]] const Firmware& firmware) {
-  if constexpr (requires { firmware.core_lost(); })
-    return firmware.core_lost();
-  else
-    return Firmware::fault_ends_run;
-}
-
-/// Kinds of events, for the run's statistics.
-enum class EventKind : std::uint8_t {
-  sector_edge,
-  diode_off,
-  standstill,
-  breakaway,
-  comparator,
-  tick,
-  pwm_edge,
-  count
-};
 
 template <class RealType, class Firmware, class PlantType = plant::Plant<RealType>>
 class Rig {
@@ -324,10 +286,6 @@ class Rig {
   Fault fault_ = Fault::none;
   std::uint8_t stuck_high_ = 0, stuck_low_ = 0;  ///< Hall lines, as bits of a code
 };
-
-/// The rig of the thesis's experiments: ideal measurement, the loops alone.
-template <class Real, class Scalar = Real>
-using LeanRig = Rig<Real, LeanDrive<Scalar>>;
 
 }  // namespace sixstep::rig
 

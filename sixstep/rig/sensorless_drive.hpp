@@ -11,7 +11,9 @@
 // are to ask how the rotor stands (control/commissioning/pulse_start.hpp), it reads the counts of the currents, too.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
+#include "sixstep/rig/beside_core.hpp"
 #include "sixstep/rig/firmware.hpp"
+#include "sixstep/rig/sensorless_call.hpp"
 
 namespace sixstep::rig {
 
@@ -30,7 +32,8 @@ class SensorlessDrive {
         sensors_(board.sensors, board.bases, power_up),
         bases_(board.bases),
         capture_Hz_(board.sensors.capture_Hz),
-        period_s_(static_cast<double>(board.modulator.period_ticks) / sim::ticks_per_second) {
+        period_s_(static_cast<double>(board.modulator.period_ticks) / sim::ticks_per_second),
+        core_(board.core) {
     for (std::size_t k = 0; k < 3; ++k) gain_[k] = 1.0 + board.front_end.divider_gain_error[k];
   }
 
@@ -65,8 +68,9 @@ class SensorlessDrive {
       seen.on_ticks = static_cast<std::uint32_t>(instant.duty * period_s_ * capture_Hz_);
     const bool asks = state_.pulsing;
     const std::uint8_t before = rotor().sector;
-    control::pulsed_drive_step(config_, state_, input, {from_si<Scalar>(setpoint, bases_.setpoint)},
-                               telemetry_);
+    const control::Setpoint<Scalar> wanted{from_si<Scalar>(setpoint, bases_.setpoint)};
+    control::pulsed_drive_step(config_, state_, input, wanted, telemetry_);
+    if (core_.there()) hold_against_core(call_of(input, wanted), instant.at);
     moved_on_ = rotor().sector != before;
     if (asks && !state_.pulsing && !state_.found.seen) ++unseen_;
     note_losses(instant.at);
@@ -75,12 +79,15 @@ class SensorlessDrive {
   }
   /// An edge of the comparators at the terminals, their lines as bits 2, 1, 0 of legs a, b, c.
   void captured_crossing(std::uint8_t lines, const sim::Instant& at) {
-    control::sensorless_capture(state_.drive.sensorless, lines, sensors_.registers().counter(at));
+    const std::uint32_t now = sensors_.registers().counter(at);
+    control::sensorless_capture(state_.drive.sensorless, lines, now);
+    if (core_.there()) hold_against_core({.entry = CoreEntry::capture, .now = now, .pins = lines}, at);
   }
   void captured(std::uint8_t pins, const sim::Instant& at) { sensors_.hall_edge(pins, at); }
   const Command& hall_interrupt(std::uint8_t pins, const sim::Instant& at) {
-    if (control::sensorless_drive_hall(config_.drive, state_.drive, pins, sensors_.registers().counter(at)))
-      sensors_.commutated();
+    const std::uint32_t now = sensors_.registers().counter(at);
+    if (control::sensorless_drive_hall(config_.drive, state_.drive, pins, now)) sensors_.commutated();
+    if (core_.there()) hold_against_core({.entry = CoreEntry::hall, .now = now, .pins = pins}, at);
     find_next(at);
     return command();
   }
@@ -89,7 +96,9 @@ class SensorlessDrive {
   /// When the timer's compare match comes.
   const sim::Instant& next_commutation() const { return next_; }
   const Command& commutation_interrupt(const sim::Instant& at) {
-    control::sensorless_drive_commutate(config_.drive, state_.drive, rotor().clock.next);
+    const std::uint32_t now = rotor().clock.next;
+    control::sensorless_drive_commutate(config_.drive, state_.drive, now);
+    if (core_.there()) hold_against_core({.entry = CoreEntry::commutate, .now = now}, at);
     sensors_.commutated();
     find_next(at);
     return command();
@@ -108,6 +117,7 @@ class SensorlessDrive {
   bool follows_setpoint_at_once() const { return false; }
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
   Diagnosis diagnosis() const {
+    if (core_lost()) return {.at = core_.at(), .core = core_.trouble()};
     return {.hall_line = source().line,
             .at = lost_at_,
             .losses = losses_,
@@ -117,6 +127,8 @@ class SensorlessDrive {
             .north = state_.found.north_16 / 16.0,
             .certain = static_cast<double>(config_.pulses.certain)};
   }
+  /// Where it ends, a fault ends the run: nothing is left to go on with.
+  bool core_lost() const { return core_.trouble() != CoreTrouble::none; }
   Registers& registers() { return sensors_.registers(); }
   /// What it knows of the rotor, and who commutates.
   const control::SensorlessState& rotor() const { return state_.drive.sensorless; }
@@ -126,6 +138,12 @@ class SensorlessDrive {
 
  private:
   const Command& command() const { return state_.drive.drive.command; }
+  void hold_against_core(const SensorlessCall<Scalar>& call, const sim::Instant& at) {
+    if (core_.agrees(call, answer_of(state_), at)) return;
+    control::BridgeCommand<Scalar> off{};
+    off.fault = true;
+    state_.drive.drive.command = off;
+  }
   /// lock.losses counts those in a row, and begins anew.
   void note_losses(const sim::Instant& now) {
     const int in_a_row = rotor().lock.losses;
@@ -156,6 +174,7 @@ class SensorlessDrive {
   int losses_ = 0, in_a_row_ = 0, unseen_ = 0;
   control::PulsedDriveState<Scalar> state_{};
   control::Telemetry<Scalar> telemetry_{};
+  BesideCore core_;
 };
 
 }  // namespace sixstep::rig

@@ -79,6 +79,7 @@ class Completion(ProgramTest):
     def test_motors_and_words_of_options(self):
         self.everywhere("sixstep curve maxon-25", ["maxon-251601"])
         self.everywhere("sixstep run hill.toml --on c", ["cortex-m0", "cortex-m4"])
+        self.everywhere("sixstep run hill.toml --on hi", ["high/", "hill.toml"])
         self.everywhere("sixstep new --mode ", ["current", "duty", "position", "speed"])
         self.everywhere("sixstep design maxon-251601 --mode ", ["current", "position", "speed"])
 

@@ -31,6 +31,9 @@ class OnCore(ProgramTest):
     def test_refuses_with_a_way_out_and_writes_nothing(self):
         gallery = SOURCE / "data/scenarios/gallery"
         (self.path / "retuned.toml").write_text(RETUNED)
+        controller = pathlib.Path(PROGRAM).parent / "controllers/pi_in_integers.so"
+        own = RETUNED.partition("[[at]]")[0].replace('mode = "current"', 'mode = "current"\ndrive = "own"')
+        (self.path / "own.toml").write_text(f'{own}\n[control.own]\ncontroller = "{controller}"\n')
         (self.path / "drifts.toml").write_text(pathlib.Path(AVR).read_text() + "\n[[at]]\ntime_s = 0.01\nsensors.current_offset_A = 0.1\n")
         for words, said in (((SPEED, "--on", "cortex-m5"), "did you mean cortex-m0?"),
                             ((SPEED, "--on", "z80"), "must be one of cortex-m0, cortex-m4, riscv, avr"),
@@ -38,7 +41,7 @@ class OnCore(ProgramTest):
                             ((SPEED, "--on", "cortex-m4", "--runs", "4"), "--runs"),
                             ((SPEED, "--on", "cortex-m4", "--vary", "supply.voltage_V=20:28:3"), "--only N"),
                             ((str(SOURCE / "data/plans/which-pwm.toml"), "--on", "cortex-m4"), "--only N"),
-                            ((str(gallery / "field-observer.toml"), "--on", "cortex-m4"), "does not run on a core yet"),
+                            (("own.toml", "--on", "cortex-m4"), "the library's drives do"),
                             ((SPEED, "--on", "cortex-m4", "--set", "control.mode=off"), "leaves nothing for a core to run"),
                             ((SPEED, "--on", "avr"), "set pwm.alignment = \"centre\""),
                             ((AVR, "--on", "avr", "--set", "control.arithmetic=float"), "set control.arithmetic = \"q15\""),
@@ -55,7 +58,7 @@ class OnCore(ProgramTest):
                 made = self.run_program("run", *words, code=2)
                 self.assertIn(said, made.stderr)
                 self.assertEqual(made.stdout, "")
-        self.assertEqual(self.names(), ["drifts.toml", "retuned.toml"])
+        self.assertEqual(self.names(), ["drifts.toml", "own.toml", "retuned.toml"])
 
     def test_says_what_is_missing_and_leaves_no_file(self):
         for environment, said in (({"PATH": "/nowhere"}, "arm-none-eabi-g++ is not on this machine; install it"),

@@ -14,5 +14,8 @@ static_assert(exported_field::field.drive.mode == Mode::speed &&
               exported_field::field.weakening.most_A == 8.0 &&
               exported_field_salient::field.current.limit == sixstep::control::VoltageLimit::axes &&
               exported_field_salient::field.per_ampere.k_per_A > 0.0f);
+static_assert(exported_field_observer::sensorless_field.estimator.on &&
+              exported_field_observer::sensorless_field.field == exported_field_observer::field &&
+              exported_field_injection::sensorless_field.estimator.injection.voltage_V > 0.0);
 static_assert(exported_position_q15::units.amperes(1.0).raw > 0);
 }  // namespace

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "files/scenario_on_disk.hpp"
-#include "sixstep/control/field/field_drive.hpp"
-#include "sixstep/design/fields/field_drive_fields.hpp"
+#include "sixstep/control/field/sensorless_field_drive.hpp"
+#include "sixstep/design/fields/estimator_fields.hpp"
 #include "sixstep/design/loops/pole_placement.hpp"
 #include "sixstep/design/scaling/product_scaling.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
@@ -77,6 +77,7 @@ struct Bits {
   void threshold(const design::Field&, double, const auto& kept, design::Base) { add(kept); }
   void gain(const design::Field&, double, const auto& kept, design::Ratio) { add(kept); }
   void raw_gain(const design::Field&, double, const auto& kept, design::Base) { add(kept); }
+  void gain_of_raw(const design::Field&, double, const auto& kept, design::Base) { add(kept); }
   void divisor(const design::Field&, double, const auto& kept, design::Base) { add(kept); }
   void sum(const design::Field&, double, const auto& kept, design::Base) { add(kept); }
   void ticks(const design::Field&, double, const auto& kept, design::Base) { add(kept); }
@@ -212,6 +213,46 @@ TEST(ExportHeader, TheFieldOrientedDriveIsWhatTheRunComputesWith) {
   expect_field(exported_field::field, shipped("gallery/field-weakened"));
   expect_field(exported_field_float::field, shipped("gallery/field-weakened"));
   expect_field(exported_field_salient::field, salient());
+}
+
+template <class S>
+std::vector<std::int64_t> bits_of(const SensorlessFieldConfig<S>& c) {
+  Bits walk{bits_of(c.field)};
+  design::fields(walk, SensorlessFieldConfig<double>{}, c);
+  return walk.all;
+}
+
+TEST(ExportHeader, TheEstimatorIsWhatTheRunComputesWith) {
+  const auto observer = study::field_in<float>(compiled(shipped("gallery/field-observer")));
+  EXPECT_EQ(bits_of(exported_field_observer::sensorless_field), bits_of(observer->config));
+  EXPECT_TRUE(exported_field_observer::sensorless_field == observer->config);
+  const auto injection = study::field_in<double>(compiled(shipped("gallery/field-injection")));
+  EXPECT_EQ(bits_of(exported_field_injection::sensorless_field), bits_of(injection->config));
+  EXPECT_TRUE(exported_field_injection::sensorless_field == injection->config);
+}
+
+template <class S>
+std::vector<std::int64_t> bits_of(const PulsedDriveConfig<S>& c) {
+  Bits walk{bits_of(c.drive.drive)};
+  const PulsedDriveConfig<double> none{};
+  walk.part("", none.drive, c.drive);
+  walk.part("", none.drive.observer, c.drive.observer);
+  walk.part("", none.pulses, c.pulses);
+  return walk.all;
+}
+
+template <class S>
+void expect_sensorless(const PulsedDriveConfig<S>& header, const char* name) {
+  const auto run = study::sensorless_in<S>(shipped(name), compiled(shipped(name)));
+  ASSERT_TRUE(run) << to_string(run.problems()[0]);
+  EXPECT_EQ(bits_of(header), bits_of(run->config)) << name;
+}
+
+TEST(ExportHeader, TheSensorlessDriveIsWhatTheRunComputesWith) {
+  expect_sensorless(exported_sensorless::sensorless, "gallery/sensorless-pulses");
+  expect_sensorless(exported_sensorless_q15::sensorless, "gallery/sensorless-flux-linkage");
+  expect_sensorless(exported_sensorless_comparators::sensorless, "gallery/sensorless-comparators");
+  expect_sensorless(exported_sensorless_hall::sensorless, "gallery/sensorless-fallback");
 }
 
 constexpr DriveConfig<double> extras_double() {

@@ -2,7 +2,7 @@
 // Dead time over whole runs: reversals, full duty, Hall edges, every way to command the bridge.
 #include <gtest/gtest.h>
 
-#include "sixstep/rig/rig.hpp"
+#include "sixstep/rig/lean_rig.hpp"
 #include "tests/support/coinciding.hpp"
 #include "tests/support/dead_time_watch.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Board timing (model.md 3, 4): delay, commutation at the sample, Hall edges, statistics, faults.
-#include "sixstep/rig/rig.hpp"
+#include "sixstep/rig/lean_rig.hpp"
 
 #include <gtest/gtest.h>
 

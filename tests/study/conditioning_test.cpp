@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "sixstep/rig/lean_rig.hpp"
 #include "sixstep/sim/run.hpp"
 #include "sixstep/study/compile/compile.hpp"
 #include "sixstep/study/measure/recorder.hpp"

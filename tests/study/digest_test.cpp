@@ -9,6 +9,7 @@
 #include <thread>
 #include <type_traits>
 
+#include "sixstep/rig/lean_rig.hpp"
 #include "sixstep/sim/run.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
 #include "sixstep/study/compile/compile.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The reference motor on the virtual board: what the tests' runs have in common.
 #pragma once
-#include "sixstep/rig/rig.hpp"
+#include "sixstep/rig/lean_rig.hpp"
 #include "tests/support/maxon.hpp"
 
 namespace sixstep::testing {

@@ -21,6 +21,13 @@ SCALARS = ("q15", "float")
 CHAPTERS = build.REPOSITORY / "data" / "scenarios" / "thesis"
 USUAL = (*(CHAPTERS / f"{name}-exact-design.toml" for name in ("7.3.1-turning", "7.4-speed", "7.5-position")), build.scenario("product"),
          build.REPOSITORY / "data/scenarios/gallery/gear.toml")  # the last by the general kernel
+# By an encoder, by an ideal sensor in a weakened field, by the state that is foretold best, and without a sensor: by the flux, by pulses.
+FIELD = (build.scenario("field"), *(build.REPOSITORY / f"data/scenarios/gallery/{name}.toml"
+                                   for name in ("field-weakened", "finite-set", "field-observer", "field-injection")))
+
+# Started by pulses; by comparators at the terminals; from Hall probes whose line breaks; by an observer.
+SENSORLESS = [(build.REPOSITORY / f"data/scenarios/gallery/sensorless-{name}.toml", scalar, core) for name, scalar, core in
+              (("pulses", "float", "cortex-m4"), ("comparators", "q15", "cortex-m0"), ("fallback", "q31", "riscv"), ("luenberger", "q15", "riscv"))]
 
 
 def command(file, scalar, core=None):
@@ -56,6 +63,8 @@ def beside_the_host(case):
 
 def check_bits(files):
     cases = [(file, scalar, core) for file in files for scalar in SCALARS for core in CORES]
+    cases += [(file, "float", core) for file in FIELD for core in CORES]  # in floating point alone
+    cases += SENSORLESS
     answers = build.side_by_side(beside_the_host, cases)
     trouble = [str(a) if isinstance(a, Failed) else a[0] for a in answers if isinstance(a, Failed) or a[0]]
     calls = sum(a[1] for a in answers if not isinstance(a, Failed))
@@ -103,7 +112,7 @@ BAD = {  # what the core's program does in its hundredth call, and what is said 
     "writes where no memory is": ("*reinterpret_cast<volatile unsigned*>(0x90000000) = 1;", "the core ended"),
     "jumps into nowhere": ("reinterpret_cast<void (*)()>(0x90000001)();", "the core ended"),
     "ends": ("exit_with(0);", "the core ended"),
-    "answers otherwise": ("answer.duty = answer.duty + answer.duty; answer.enabled ^= 1;", "the core's answer is not the host's"),
+    "answers otherwise": ("reinterpret_cast<unsigned char&>(answer) ^= 1;", "the core's answer is not the host's"),
 }
 CALL = "answer = rig::answer_of(made(call));"
 
@@ -113,7 +122,8 @@ def bad_sources(folder, what):
     for part in ("sixstep/control", "faces/firmware/bare", "faces/loop/core"):
         shutil.copytree(build.REPOSITORY / part, folder / part)
     (folder / "sixstep/rig").mkdir()
-    shutil.copy(build.REPOSITORY / "sixstep/rig/core_call.hpp", folder / "sixstep/rig")
+    for name in ("core_call.hpp", "sensorless_call.hpp"):
+        shutil.copy(build.REPOSITORY / "sixstep/rig" / name, folder / "sixstep/rig")
     program = folder / "faces/loop/core/main.cpp"
     text = program.read_text(encoding="utf-8")
     assert CALL in text
@@ -122,21 +132,23 @@ def bad_sources(folder, what):
 
 def badly(case):
     """What is wrong with how a bad program ends."""
-    core, (name, (what, said)) = case
+    file, scalar, core, (name, (what, said)) = case
     with tempfile.TemporaryDirectory() as folder:
         bad_sources(pathlib.Path(folder), what)
         begin = time.monotonic()
-        done = subprocess.run(command(USUAL[0], "q15", core), capture_output=True, text=True, timeout=120, check=False,
+        done = subprocess.run(command(file, scalar, core), capture_output=True, text=True, timeout=120, check=False,
                               env={**os.environ, "SIXSTEP_SOURCES": folder})
         took_s = time.monotonic() - begin
     fault = json.loads(done.stdout or "{}").get("fault") or done.stderr
     if done.returncode == 3 and said in fault and took_s < 30:
         return None
-    return f"a program that {name} on {core}: exit {done.returncode} after {took_s:.1f} s, {fault[-300:]}"
+    return f"a program for {file.stem} that {name} on {core}: exit {done.returncode} after {took_s:.1f} s, {fault[-300:]}"
 
 
 def check_bad(on):
-    cases = [(core, bad) for core in on for bad in BAD.items()]
+    cases = [(USUAL[0], "q15", core, bad) for core in on for bad in BAD.items()]
+    otherwise = ("answers otherwise", BAD["answers otherwise"])
+    cases += [(file, "float", "cortex-m4", otherwise) for file in (build.scenario("product"), FIELD[0], FIELD[-1], SENSORLESS[0][0])]
     trouble = [str(answer) for answer in build.side_by_side(badly, cases) if answer]
     print(f"{len(cases) - len(trouble)} of {len(cases)} bad programs are told as such")
     return trouble

@@ -4,79 +4,17 @@
 #include <cmath>
 
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/scaling/sensorless_scaling.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
 #include "sixstep/study/compile/compile.hpp"
-#include "text/escape/escape.hpp"
-#include "text/export/clearance_lines.hpp"
 #include "text/export/config_text.hpp"
 #include "text/export/core_costs.hpp"
+#include "text/export/header_comment.hpp"
 
 namespace text {
 namespace {
 
 namespace control = sixstep::control;
-
-std::string comment(std::string_view label, std::string_view text) {
-  return fmt::format("// {:<10}{}\n", label, comment_text(text));
-}
-
-/// Where the gains put the closed loop's poles: z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) = 0.
-std::string closed_loop_poles(const study::LoopGains& g, const design::ZohPlant& plant) {
-  const double half = (plant.b0 * g.d1 + plant.a0 - 1) / 2, product = plant.b0 * g.d0 - plant.a0;
-  const double square = half * half - product, root = std::sqrt(std::fabs(square));
-  return square < 0
-             ? fmt::format("z = {} +- {}j", sixstep::base::six_digits(-half), sixstep::base::six_digits(root))
-             : fmt::format("z = {} and {}", sixstep::base::six_digits(-half + root),
-                           sixstep::base::six_digits(-half - root));
-}
-
-/// One line: the gains and where they come from.
-std::string derivation(const study::LoopGains& g) {
-  if (g.loop == "position") return fmt::format("{} rad/s per deg; {}", base::written(g.d1), g.origin);
-  const char* unit = g.loop.starts_with("current") ? "V/A" : "per rad/s";
-  if (!g.steps.empty()) return fmt::format("K = {} {}; {}", sixstep::base::six_digits(g.d1), unit, g.origin);
-  std::string text = fmt::format("d1 = {} {}, d0 = {} {}; {}", sixstep::base::six_digits(g.d1), unit,
-                                 sixstep::base::six_digits(g.d0), unit, g.origin);
-  if (!g.derivation) return text;
-  const design::PolePlacement& p = *g.derivation;
-  const bool designed = p.gains.d1 == g.d1 && p.gains.d0 == g.d0;
-  const std::string rule =
-      fmt::format("settle_s = {}, damping = {}", base::written(p.settle_s), base::written(p.damping));
-  text += fmt::format("; poles {}{} on {}/(z {:+.6g})", closed_loop_poles(g, p.plant),
-                      designed ? fmt::format(" ({})", rule) : "", sixstep::base::six_digits(p.plant.b0),
-                      p.plant.a0);
-  if (designed) return text;
-  return text + fmt::format("; {} would give d1 = {}, d0 = {}", rule, sixstep::base::six_digits(p.gains.d1),
-                            sixstep::base::six_digits(p.gains.d0));
-}
-
-bool states_range(const design::OperatingRange& r) {
-  return r.current_A > 0 || r.speed_rad_s > 0 || r.position_deg > 0 || r.bus_V > 0 || r.setpoint > 0;
-}
-
-std::string head(const ConfigHeader& w, const study::Compiled& c) {
-  const sixstep::plant::Machine& m = c.motor.machine;
-  std::string text = "// clang-format off\n";
-  text += fmt::format("// Made by sixstep {}. Change the scenario, not this file:\n//   {}\n//\n",
-                      SIXSTEP_VERSION, comment_text(w.command));
-  text += comment("scenario", w.scenario.title.empty() ? "(no title)" : w.scenario.title);
-  text += comment(
-      "motor",
-      fmt::format("{}: {} pole pairs, terminal R = {} ohm, L = {} H, K_t = {} N m/A; J = {} kg m2",
-                  w.scenario.sheet.name, static_cast<int>(m.pole_pairs),
-                  sixstep::base::six_digits(2 * m.R_ohm), sixstep::base::six_digits(2 * m.L_H),
-                  sixstep::base::six_digits(c.motor.K_t_Nm_A), sixstep::base::six_digits(c.shaft.J_kg_m2)));
-  for (const study::LoopGains& g : c.gains) text += comment(g.loop, derivation(g));
-  text +=
-      "// Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the "
-      "motor.\n";
-  if (c.field)
-    text +=
-        "// The tick is field_drive_step: of currents, speed and bus as measured, and of the magnet's direction, which\n"
-        "// field_directions makes of a decoder's electrical angle. Hall edges ask nothing of it.\n";
-  text += "//\n";
-  return text + clearance_lines({w.scenario, w.clearance, w.despite, states_range(w.range)});
-}
 
 std::string proof(const std::vector<design::Headroom>& rows) {
   std::string text = "//\n// Fixed point: what each quantity may reach and where the format ends, in SI\n";
@@ -111,12 +49,18 @@ std::string timing(const study::Compiled& c) {
                   "a command counts from the next period on");
 }
 
-/// What a lean drive leaves to its board: converters that its scenario has, and how far a setpoint goes.
+/// What a lean drive leaves to its board: converters that its scenario has, and how far a setpoint goes; beside them a sensorless one's
+/// timer.
 std::string around_lean(const ConfigHeader& w, const study::Compiled& c) {
   const study::Sensors& sensors = w.scenario.sensors;
-  if (c.product || c.field || sensors.currents != sixstep::rig::CurrentMeasurement::phases) return "";
+  if (c.product || c.field) return "";
+  std::string timer;
+  if (c.sensorless)
+    timer = constant("double", "timer_Hz", hex_float(sensors.capture_Hz),
+                     sixstep::base::six_digits(sensors.capture_Hz) + " Hz, counts up and wraps at 2^32");
+  if (sensors.currents != sixstep::rig::CurrentMeasurement::phases) return timer;
   const double lsb = c.board.sensors.current.lsb(), range = c.setpoint_range;
-  return constant("int", "adc_bits", std::to_string(sensors.adc_bits), "of each phase's transducer") +
+  return timer + constant("int", "adc_bits", std::to_string(sensors.adc_bits), "of each phase's transducer") +
          constant("double", "adc_amperes_per_count", hex_float(lsb), sixstep::base::six_digits(lsb) + " A") +
          constant("double", "setpoint_range", hex_float(range),
                   sixstep::base::six_digits(range) + " in the mode's unit: a potentiometer's, either way");
@@ -145,9 +89,11 @@ std::string position_profile(const study::Compiled& c) {
 std::string includes(const ConfigHeader& w, const study::Compiled& c) {
   if (w.single_header) return "#include \"sixstep_control.hpp\"\n";
   return fmt::format("#include \"sixstep/control/{}.hpp\"\n#include \"sixstep/control/units.hpp\"\n",
-                     c.product ? "protected_drive"
-                     : c.field ? "field/field_drive"
-                               : "drive");
+                     c.product        ? "protected_drive"
+                     : c.sensorless   ? "commissioning/pulse_start"
+                     : c.estimator.on ? "field/sensorless_field_drive"
+                     : c.field        ? "field/field_drive"
+                                      : "drive");
 }
 
 /// The drive in the target's arithmetic, and what stands around it where the scenario has that.
@@ -155,14 +101,15 @@ template <class Scalar>
 struct Kept {
   control::DriveConfig<Scalar> drive{};
   control::ProtectedConfig<Scalar> product{};
-  control::FieldDriveConfig<Scalar> field{};
+  control::SensorlessFieldConfig<Scalar> field{};
+  control::PulsedDriveConfig<Scalar> sensorless{};
 };
 
 template <class Scalar>
 std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_view type,
                    const Kept<Scalar>& kept, const design::Bases& b,
                    const std::vector<design::Headroom>& rows) {
-  std::string text = head(w, c);
+  std::string text = header_comment(w, c);
   if (!rows.empty()) text += proof(rows);
   text += core_cost_lines(c);
   text += "#pragma once\n#include <cstdint>\n\n";
@@ -176,15 +123,26 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   text += "inline constexpr sixstep::control::Units<Scalar> units{\n" + base("current_A", b.current_A, "A") +
           base("voltage_V", b.voltage_V, "V") + base("speed_rad_s", b.speed_rad_s, "rad/s") +
           base("position_deg", b.position_deg, "deg") + "};\n\n";
-  const control::DriveConfig<double>& drive = c.field ? c.field->drive : c.drive;
+  const control::DriveConfig<double>& drive = c.field        ? c.field->drive
+                                              : c.sensorless ? c.sensorless->drive.drive
+                                                             : c.drive;
   text += timing(c) + around_lean(w, c) + "\n" +
           made("DriveConfig", "drive", config_lines<Scalar>(c.drive.mode, drive, kept.drive, b));
-  const auto around = [&](const char* type_name, const char* name, const auto& designed, const auto& own) {
+  const auto around = [&](const char* type_name, const char* name, const char* within, const auto& designed,
+                          const auto& own) {
     text +=
-        made(type_name, name, "  c.drive = drive;\n" + config_lines<Scalar>(c.drive.mode, designed, own, b));
+        made(type_name, name,
+             fmt::format("  c.{0} = {0};\n", within) + config_lines<Scalar>(c.drive.mode, designed, own, b));
   };
-  if (c.product) around("ProtectedConfig", "product", *c.product, kept.product);
-  if (c.field) around("FieldDriveConfig", "field", *c.field, kept.field);
+  if (c.product) around("ProtectedConfig", "product", "drive", *c.product, kept.product);
+  if (c.field) around("FieldDriveConfig", "field", "drive", *c.field, kept.field.field);
+  if (c.sensorless)
+    text += made("PulsedDriveConfig", "sensorless",
+                 "  c.drive.drive = drive;\n" +
+                     sensorless_lines<Scalar>(c.drive.mode, *c.sensorless, kept.sensorless, b));
+  if (c.estimator.on)
+    around("SensorlessFieldConfig", "sensorless_field", "field",
+           control::SensorlessFieldConfig<double>{{}, c.estimator}, kept.field);
   return text + fmt::format("}}  // namespace {}\n", w.name_space);
 }
 
@@ -206,11 +164,34 @@ base::Result<std::string> floating_header(const ConfigHeader& w, const study::Co
     kept.product = study::product_in<Scalar>(w.scenario, c)->config;
     kept.drive = kept.product.drive;
   }
+  if (c.sensorless) {
+    kept.sensorless = study::sensorless_in<Scalar>(w.scenario, c)->config;
+    kept.drive = kept.sensorless.drive.drive;
+  }
   if (c.field) {
-    kept.field = study::field_in<Scalar>(c)->config.field;
-    kept.drive = kept.field.drive;
+    kept.field = study::field_in<Scalar>(c)->config;
+    kept.drive = kept.field.field.drive;
   }
   return header<Scalar>(w, c, type, kept, {}, {});
+}
+
+/// That hold the range that was stated, or those of the run.
+template <class Scalar>
+base::Result<design::Bases> chosen_bases(const ConfigHeader& w, const study::Compiled& c,
+                                         const design::OperatingRange& range) {
+  constexpr auto end = static_cast<double>(Scalar::max());
+  if (states_range(w.range))
+    return c.sensorless ? design::bases_for(c.sensorless->drive, range, end)
+                        : design::bases_for(c.drive, range, end);
+  study::Scenario scenario = w.scenario;
+  scenario.control.arithmetic = w.arithmetic.value_or(scenario.control.arithmetic);
+  const auto told = [](const auto& own) -> base::Result<design::Bases> {
+    if (!own) return own.problems();
+    const sixstep::rig::Bases& b = own->bases;
+    return design::Bases{b.current_A, b.voltage_V, b.speed_rad_s, b.position_deg};
+  };
+  return c.sensorless ? told(study::sensorless_in<Scalar>(scenario, c))
+                      : told(study::drive_in<Scalar>(scenario, c));
 }
 
 template <class Scalar>
@@ -223,26 +204,26 @@ base::Result<std::string> fixed_header(const ConfigHeader& w, const study::Compi
                          "has no scaling that is proved for the field-oriented drive",
                          "take float or double"};
   const design::OperatingRange range = range_of(w, c);
-  design::Bases bases = design::bases_for(c.drive, range, static_cast<double>(Scalar::max()));
-  if (!states_range(w.range)) {  // as the run has it
-    study::Scenario scenario = w.scenario;
-    scenario.control.arithmetic = w.arithmetic.value_or(scenario.control.arithmetic);
-    const base::Result<study::DriveIn<Scalar>> own = study::drive_in<Scalar>(scenario, c);
-    if (!own) return own.problems();
-    bases = {own->bases.current_A, own->bases.voltage_V, own->bases.speed_rad_s, own->bases.position_deg};
-  }
+  const base::Result<design::Bases> bases = chosen_bases<Scalar>(w, c, range);
+  if (!bases) return bases.problems();
+  Kept<Scalar> kept;
   if (c.product) {
     const auto product =
-        design::scaled_product<Scalar>(*c.product, range, bases, w.scenario.sensors.adc_bits);
+        design::scaled_product<Scalar>(*c.product, range, *bases, w.scenario.sensors.adc_bits);
     if (!product) return product.problems();
-    Kept<Scalar> kept;
     kept.drive = product->config.drive;
     kept.product = product->config;
     return header<Scalar>(w, c, type, kept, product->bases, product->proof);
   }
-  const base::Result<design::Scaled<Scalar>> scaled = design::scaled<Scalar>(c.drive, range, bases);
+  if (c.sensorless) {
+    const auto sensorless = design::scaled_sensorless<Scalar>(c.sensorless->drive, range, *bases);
+    if (!sensorless) return sensorless.problems();
+    kept.drive = sensorless->config.drive;
+    kept.sensorless = {sensorless->config, c.sensorless->pulses};
+    return header<Scalar>(w, c, type, kept, sensorless->bases, sensorless->proof);
+  }
+  const base::Result<design::Scaled<Scalar>> scaled = design::scaled<Scalar>(c.drive, range, *bases);
   if (!scaled) return scaled.problems();
-  Kept<Scalar> kept;
   kept.drive = scaled->config;
   return header<Scalar>(w, c, type, kept, scaled->bases, scaled->proof);
 }

@@ -12,8 +12,9 @@
 
 #include "sixstep/base/describe.hpp"
 #include "sixstep/control/fixed.hpp"
-#include "sixstep/design/fields/field_drive_fields.hpp"
-#include "sixstep/design/fields/product_fields.hpp"
+#include "sixstep/design/fields/estimator_fields.hpp"
+#include "sixstep/design/fields/observer_fields.hpp"
+#include "sixstep/design/fields/sensorless_fields.hpp"
 #include "sixstep/design/scaling/scaling.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
@@ -48,6 +49,16 @@ std::string literal(sixstep::control::FixedTickRatio<Format> r) {
 template <class Format>
 std::string literal(sixstep::control::FixedSum<Format> s) {
   return fmt::format("Accumulator<Scalar>::from_raw({})", s.raw);
+}
+
+/// Of what is whole in every arithmetic.
+template <class Whole>
+std::string whole(Whole x) {
+  return std::to_string(x);
+}
+inline std::string whole(bool on) { return on ? "true" : "false"; }
+inline std::string whole(sixstep::control::FixedGain<std::int32_t> g) {
+  return fmt::format("FixedGain<std::int32_t>::from_raw({}, {})", g.mantissa, int{g.right});
 }
 
 /// The C++ names of an enumeration in control/ and its values.
@@ -118,6 +129,32 @@ struct EnumText<sixstep::control::HallArrangement> {
 };
 
 template <>
+struct EnumText<sixstep::control::NeutralSeen> {
+  using enum sixstep::control::NeutralSeen;
+  static constexpr const char* type = "NeutralSeen";
+  static constexpr sixstep::base::Choice<sixstep::control::NeutralSeen> words[] = {
+      {"on_time", on_time, ""}, {"freewheel", freewheel, ""}};
+};
+template <>
+struct EnumText<sixstep::control::RotorSource> {
+  using enum sixstep::control::RotorSource;
+  static constexpr const char* type = "RotorSource";
+  static constexpr sixstep::base::Choice<sixstep::control::RotorSource> words[] = {
+      {"hall", hall, ""}, {"back_emf", back_emf, ""}};
+};
+template <>
+struct EnumText<sixstep::control::Follow> {
+  using enum sixstep::control::Follow;
+  static constexpr const char* type = "Follow";
+  static constexpr sixstep::base::Choice<sixstep::control::Follow> words[] = {
+      {"crossings", crossings, ""},
+      {"luenberger", luenberger, ""},
+      {"sliding_mode", sliding_mode, ""},
+      {"flux", flux, ""},
+      {"comparators", comparators, ""}};
+};
+
+template <>
 struct EnumText<sixstep::control::VoltageLimit> {
   using enum sixstep::control::VoltageLimit;
   static constexpr const char* type = "VoltageLimit";
@@ -160,7 +197,7 @@ class ConfigText {
   }
   template <class Whole>
   void count(const Field& f, Whole, Whole kept, Whole otherwise) {
-    if (kept != otherwise) line(f, std::to_string(kept), f.about);
+    if (kept != otherwise) line(f, whole(kept), f.about);
   }
   void signal(const Field& f, double designed, Scalar kept, Base base) {
     if (f.always || literal(kept) != literal(Scalar{}))
@@ -173,6 +210,10 @@ class ConfigText {
   }
   void raw_gain(const Field& f, double designed, sixstep::control::Gain<Scalar> kept, Base base) {
     gain_of(f, designed, kept, value(base) * digit());
+  }
+  /// What takes the last bits of its input.
+  void gain_of_raw(const Field& f, double designed, sixstep::control::Gain<Scalar> kept, Base base) {
+    gain_of(f, designed, kept, 1.0 / (value(base) * digit()));
   }
   void divisor(const Field& f, double designed, sixstep::control::Divisor<Scalar> kept, Base base) {
     if (!(kept > sixstep::control::Divisor<Scalar>{})) return;
@@ -230,6 +271,19 @@ class ConfigText {
   sixstep::design::Bases b_;
   std::string text_, within_;
 };
+
+/// All of a sensorless drive but the loops.
+template <class Scalar>
+std::string sensorless_lines(sixstep::control::Mode mode,
+                             const sixstep::control::PulsedDriveConfig<double>& designed,
+                             const sixstep::control::PulsedDriveConfig<Scalar>& kept,
+                             const sixstep::design::Bases& bases) {
+  ConfigText<Scalar> text(mode, bases);
+  text.part("drive", designed.drive, kept.drive);
+  text.part("drive.observer", designed.drive.observer, kept.drive.observer);
+  text.part("pulses", designed.pulses, kept.pulses);
+  return text.text();
+}
 
 /// The drive, or what a product has around it: `designed` in SI beside `kept` in the target's arithmetic.
 template <class Scalar, class Designed, class Kept>

@@ -106,6 +106,9 @@ std::optional<CoreCost> core_cost(std::string_view core, std::string_view drive,
 }
 
 std::string core_cost_lines(const study::Compiled& c) {
+  if (c.sensorless)
+    return "//\n// What its entries take on a core is counted in docs/firmware.md: sensorless_drive_step, sensorless_drive_commutate and\n"
+           "// sensorless_drive_hall.\n";
   const std::vector<Words> counts = rows(cores::drives_txt), sizes = rows(cores::sizes_txt);
   std::string text = fmt::format(
       "//\n// On a core, the {} drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a\n"

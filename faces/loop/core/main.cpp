@@ -5,6 +5,9 @@
 
 #include "faces/firmware/bare/semihosting.hpp"
 #include "sixstep/rig/core_call.hpp"
+#ifdef SIXSTEP_SENSORLESS_DRIVE
+#include "sixstep/rig/sensorless_call.hpp"
+#endif
 
 namespace {
 
@@ -12,7 +15,7 @@ using exported::Scalar;
 namespace control = sixstep::control;
 namespace rig = sixstep::rig;
 
-/// The lean drive, or the product drive, by the name that the header gives its configuration.
+/// One of the library's drives, by the name that the header gives its configuration.
 #ifdef SIXSTEP_PRODUCT_DRIVE
 using Call = rig::ProductCall<Scalar>;
 
@@ -33,6 +36,50 @@ control::BridgeCommand<Scalar> made(const Call& call) {
   const control::Request request{.run = call.run != 0, .clear = call.clear != 0};
   return control::protected_step(exported::product, state, in, request, call.setpoint, telemetry);
 }
+#elif defined(SIXSTEP_FIELD_DRIVE)
+using Call = rig::FieldCall<Scalar>;
+
+control::FieldDriveState<Scalar> state;
+control::Telemetry<Scalar> telemetry;
+
+const control::LegCommands<Scalar>& made(const Call& call) {
+  const Scalar speed_rad_s = call.measured.speed_rad_s;
+  const control::FieldDriveInput<Scalar> input{
+      .measured = call.measured,
+      .magnet = call.decoded != 0
+                    ? control::field_directions(exported::field.advance, call.electrical, speed_rad_s)
+                    : call.magnet};
+  return control::field_drive_step(exported::field, state, input, call.setpoint, telemetry);
+}
+#elif defined(SIXSTEP_SENSORLESS_FIELD_DRIVE)
+using Call = rig::FieldCall<Scalar>;
+
+control::SensorlessFieldState<Scalar> state;
+control::Telemetry<Scalar> telemetry;
+
+const control::LegCommands<Scalar>& made(const Call& call) {
+  const control::FieldDriveInput<Scalar> input{.measured = call.measured, .magnet = {}};
+  return control::sensorless_field_step(exported::sensorless_field, state, input, call.setpoint, telemetry);
+}
+#elif defined(SIXSTEP_SENSORLESS_DRIVE)
+using Call = rig::SensorlessCall<Scalar>;
+
+control::PulsedDriveState<Scalar> state;
+control::Telemetry<Scalar> telemetry;
+
+const control::PulsedDriveState<Scalar>& made(const Call& call) {
+  const auto& drive = exported::sensorless.drive;
+  const auto pins = static_cast<std::uint8_t>(call.pins);
+  if (call.entry == rig::CoreEntry::capture)
+    control::sensorless_capture(state.drive.sensorless, pins, call.now);
+  else if (call.entry == rig::CoreEntry::hall)
+    control::sensorless_drive_hall(drive, state.drive, pins, call.now);
+  else if (call.entry == rig::CoreEntry::commutate)
+    control::sensorless_drive_commutate(drive, state.drive, call.now);
+  else
+    control::pulsed_drive_step(exported::sensorless, state, rig::input_of(call), call.setpoint, telemetry);
+  return state;
+}
 #else
 using Call = rig::LeanCall<Scalar>;
 
@@ -47,7 +94,7 @@ control::BridgeCommand<Scalar> made(const Call& call) {
 }
 #endif
 
-using Answer = rig::CoreAnswer<Scalar>;
+using Answer = decltype(rig::answer_of(made(Call{})));
 
 /// The two ends of pipes that the emulator was given (faces/loop/emulator.cpp).
 constexpr char calls_name[] = "/dev/fd/3", answers_name[] = "/dev/fd/4";

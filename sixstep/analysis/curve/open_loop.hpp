@@ -2,7 +2,7 @@
 // Motor and bridge on the virtual board with a duty that does not change.
 #pragma once
 #include "sixstep/analysis/curve/bench.hpp"
-#include "sixstep/rig/rig.hpp"
+#include "sixstep/rig/lean_rig.hpp"
 #include "sixstep/sim/run.hpp"
 
 namespace sixstep::analysis {

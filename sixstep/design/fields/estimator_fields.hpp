@@ -8,6 +8,14 @@
 namespace sixstep::design {
 
 template <class Walk, class Kept>
+void fields(Walk&& w, const control::TrackingConfig& c, Kept& kept) {
+  auto& [K_p, K_i] = kept;
+  const control::FixedGain<std::int32_t> none{};
+  w.count({"K_p", "", "per tick"}, c.K_p, K_p, none);
+  w.count({"K_i", "", "per tick"}, c.K_i, K_i, none);
+}
+
+template <class Walk, class Kept>
 void fields(Walk&& w, const control::InjectionConfig<double>& c, Kept& kept) {
   auto& [voltage_V, rad_per_A] = kept;
   w.signal({"voltage_V", "V"}, c.voltage_V, voltage_V, Base::voltage);
@@ -17,10 +25,11 @@ void fields(Walk&& w, const control::InjectionConfig<double>& c, Kept& kept) {
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::NorthConfig<double>& c, Kept& kept) {
   auto& [current_A, certain, settle_ticks, look_ticks] = kept;
+  constexpr control::NorthConfig<double> unset{};
   w.signal({"current_A", "A"}, c.current_A, current_A, Base::current);
   w.gain({"certain"}, c.certain, certain, {Base::one, Base::one});
-  settle_ticks = c.settle_ticks;
-  look_ticks = c.look_ticks;
+  w.count({"settle_ticks"}, c.settle_ticks, settle_ticks, unset.settle_ticks);
+  w.count({"look_ticks"}, c.look_ticks, look_ticks, unset.look_ticks);
 }
 
 template <class Walk, class Kept>
@@ -38,21 +47,23 @@ void fields(Walk&& w, const control::ActiveFluxConfig<double>& c, Kept& kept) {
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::TurnStartConfig<double>& c, Kept& kept) {
   auto& [current_A, align_ticks, step, enough] = kept;
+  constexpr control::TurnStartConfig<double> unset{};
   w.signal({"current_A", "A"}, c.current_A, current_A, Base::current);
-  align_ticks = c.align_ticks;
-  step = c.step;
-  enough = c.enough;
+  w.count({"align_ticks"}, c.align_ticks, align_ticks, unset.align_ticks);
+  w.count({"step", "", "2^-48 turn per tick and tick"}, c.step, step, unset.step);
+  w.count({"enough", "", "2^-48 turn per tick"}, c.enough, enough, unset.enough);
 }
 
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::EstimatorConfig<double>& c, Kept& kept) {
   auto& [on, tracking, rad_s, axis_ticks, late, in_middle, injection, north, flux, start, low_rad_s,
          high_rad_s] = kept;
+  constexpr control::EstimatorConfig<double> unset{};
   w.flag({"on"}, c.on, on);
-  tracking = c.tracking;
-  axis_ticks = c.axis_ticks;
-  late = c.late;
-  in_middle = c.in_middle;
+  w.part("tracking", c.tracking, tracking);
+  w.count({"axis_ticks"}, c.axis_ticks, axis_ticks, unset.axis_ticks);
+  w.count({"late", "", "ticks from an answer to its period"}, c.late, late, unset.late);
+  w.flag({"in_middle"}, c.in_middle, in_middle);
   w.gain({"rad_s", "rad/s"}, c.rad_s, rad_s, {Base::speed, Base::one});
   w.part("injection", c.injection, injection);
   w.part("north", c.north, north);
@@ -60,6 +71,13 @@ void fields(Walk&& w, const control::EstimatorConfig<double>& c, Kept& kept) {
   w.part("start", c.start, start);
   w.signal({"low_rad_s", "rad/s"}, c.low_rad_s, low_rad_s, Base::speed);
   w.signal({"high_rad_s", "rad/s"}, c.high_rad_s, high_rad_s, Base::speed);
+}
+
+/// All but the field-oriented drive, which has fields of its own.
+template <class Walk, class Kept>
+void fields(Walk&& w, const control::SensorlessFieldConfig<double>& c, Kept& kept) {
+  auto& [field, estimator] = kept;
+  w.part("estimator", c.estimator, estimator);
 }
 
 }  // namespace sixstep::design

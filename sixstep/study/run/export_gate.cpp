@@ -36,12 +36,18 @@ bool in_the_field(const Scenario& s) {
   return s.control.drive == FirmwareKind::field && s.control.mode != Mode::off;
 }
 
+/// Its terminals are read against the bus.
+bool by_terminals(const Scenario& s) {
+  return s.control.drive == FirmwareKind::sensorless && s.control.mode != Mode::off;
+}
+
 bool reads_bus(const Scenario& s) {
-  if (in_the_field(s)) return true;
+  if (in_the_field(s) || by_terminals(s)) return true;
   return has_current_loop(s) && (s.control.current.measured_bus_from_V || s.control.regeneration.limit_V);
 }
 
 bool reads_rotor(const Scenario& s) {
+  if (by_terminals(s)) return false;
   if (in_the_field(s) && s.control.field.angle != FieldAngle::sensors) return false;
   const bool within_current_loop = s.control.current.back_emf_feed_forward || s.control.limits.speed_rad_s;
   return is_cascade(s) || in_the_field(s) || (has_current_loop(s) && within_current_loop);
@@ -70,16 +76,8 @@ void look_at_sensors(const Scenario& s, base::Problems& out) {
           "set bus = \"adc\" and bus_range_V");
 }
 
-/// The header's drive is the lean one, the product or the field-oriented one.
+/// A controller of one's own has its constants at home.
 void look_at_drive(const Scenario& s, base::Problems& out) {
-  if (s.control.drive == FirmwareKind::sensorless)
-    out.push_back(
-        {"control.drive", "\"sensorless\"", "has no header yet",
-         "set drive = \"lean\" or \"product\", or write its configuration by design::sensorless_drive"});
-  if (in_the_field(s) && s.control.field.angle != FieldAngle::sensors)
-    out.push_back(
-        {"control.field.angle", "", "is estimated, and the estimator has no header yet",
-         "set angle = \"sensors\" and sensors.rotor, or write its configuration by design::field_estimate"});
   if (s.control.drive == FirmwareKind::own)
     out.push_back({"control.drive", "\"own\"", "has its configuration in its own source, and needs no header",
                    "compile that source for the chip"});

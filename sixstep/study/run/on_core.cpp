@@ -12,10 +12,9 @@ namespace sixstep::study {
 
 base::Problems not_on_a_core(const Scenario& s) {
   base::Problems out;
-  if (s.control.drive != FirmwareKind::lean && s.control.drive != FirmwareKind::product)
-    out.push_back({"control.drive", std::string(base::word(drive_choices, s.control.drive)),
-                   "does not run on a core yet: the lean drive and the product drive do",
-                   "set control.drive = \"product\" or leave it out"});
+  if (s.control.drive == FirmwareKind::own)
+    out.push_back({"control.drive", "\"own\"", "does not run on a core yet: the library's drives do",
+                   "count it there (tools/own_cost.sh), or set another control.drive"});
   if (s.control.mode == control::Mode::off)
     out.push_back({"control.mode", "\"off\"", "leaves nothing for a core to run", "set control.mode"});
   if (std::any_of(s.at.begin(), s.at.end(), retunes))

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Why a run of the virtual board ends before its time.
+#pragma once
+#include <cstdint>
+
+#include "sixstep/rig/firmware.hpp"
+
+namespace sixstep::rig {
+
+enum class Fault : std::uint8_t {
+  none,
+  shoot_through,
+  impossible_hall,
+  beyond_model,
+  shaft_sensor,
+  own_controller,
+  north_unseen,
+  core
+};
+
+/// Why a firmware answered one.
+inline Fault fault_of(const Diagnosis& found) {
+  if (found.core != CoreTrouble::none) return Fault::core;
+  if (found.shaft.lost()) return Fault::shaft_sensor;
+  if (found.unseen > 0) return Fault::north_unseen;
+  return found.own != OwnWrong::none ? Fault::own_controller : Fault::impossible_hall;
+}
+
+/// Whether the run ends with a fault that a firmware answered; else the drive is off and the motor coasts on.
+template <class Firmware>
+bool ends_run([[maybe_unused]] const Firmware& firmware) {
+  if constexpr (requires { firmware.core_lost(); })
+    return firmware.core_lost();
+  else
+    return Firmware::fault_ends_run;
+}
+
+}  // namespace sixstep::rig

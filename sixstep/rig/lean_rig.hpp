@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rig of the thesis's experiments: ideal measurement, the loops alone.
+#pragma once
+#include "sixstep/rig/lean_drive.hpp"
+#include "sixstep/rig/rig.hpp"
+
+namespace sixstep::rig {
+
+template <class Real, class Scalar = Real>
+using LeanRig = Rig<Real, LeanDrive<Scalar>>;
+
+}  // namespace sixstep::rig

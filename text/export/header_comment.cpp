@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/export/header_comment.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sixstep/base/describe.hpp"
+#include "sixstep/base/written.hpp"
+#include "text/escape/escape.hpp"
+#include "text/export/clearance_lines.hpp"
+
+namespace text {
+namespace {
+
+std::string comment(std::string_view label, std::string_view text) {
+  return fmt::format("// {:<10}{}\n", label, comment_text(text));
+}
+
+/// Where the gains put the closed loop's poles: z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) = 0.
+std::string closed_loop_poles(const study::LoopGains& g, const design::ZohPlant& plant) {
+  const double half = (plant.b0 * g.d1 + plant.a0 - 1) / 2, product = plant.b0 * g.d0 - plant.a0;
+  const double square = half * half - product, root = std::sqrt(std::fabs(square));
+  return square < 0
+             ? fmt::format("z = {} +- {}j", sixstep::base::six_digits(-half), sixstep::base::six_digits(root))
+             : fmt::format("z = {} and {}", sixstep::base::six_digits(-half + root),
+                           sixstep::base::six_digits(-half - root));
+}
+
+/// One line: the gains and where they come from.
+std::string derivation(const study::LoopGains& g) {
+  if (g.loop == "position") return fmt::format("{} rad/s per deg; {}", base::written(g.d1), g.origin);
+  const char* unit = g.loop.starts_with("current") ? "V/A" : "per rad/s";
+  if (!g.steps.empty()) return fmt::format("K = {} {}; {}", sixstep::base::six_digits(g.d1), unit, g.origin);
+  std::string text = fmt::format("d1 = {} {}, d0 = {} {}; {}", sixstep::base::six_digits(g.d1), unit,
+                                 sixstep::base::six_digits(g.d0), unit, g.origin);
+  if (!g.derivation) return text;
+  const design::PolePlacement& p = *g.derivation;
+  const bool designed = p.gains.d1 == g.d1 && p.gains.d0 == g.d0;
+  const std::string rule =
+      fmt::format("settle_s = {}, damping = {}", base::written(p.settle_s), base::written(p.damping));
+  text += fmt::format("; poles {}{} on {}/(z {:+.6g})", closed_loop_poles(g, p.plant),
+                      designed ? fmt::format(" ({})", rule) : "", sixstep::base::six_digits(p.plant.b0),
+                      p.plant.a0);
+  if (designed) return text;
+  return text + fmt::format("; {} would give d1 = {}, d0 = {}", rule, sixstep::base::six_digits(p.gains.d1),
+                            sixstep::base::six_digits(p.gains.d0));
+}
+
+/// What the board calls.
+std::string entries(const study::Compiled& c) {
+  if (c.sensorless)
+    return "// The tick is pulsed_drive_step: of currents, the terminals' and the bus's counts and the timer. At its compare match, where\n"
+           "// next_commutation says, sensorless_drive_commutate; in a Hall interrupt sensorless_drive_hall; at an edge of a comparator at\n"
+           "// a terminal sensorless_capture.\n";
+  if (c.estimator.on)
+    return "// The tick is sensorless_field_step: of currents and bus as measured; where the magnet points it finds itself.\n";
+  if (c.field)
+    return "// The tick is field_drive_step: of currents, speed and bus as measured, and of the magnet's direction, which\n"
+           "// field_directions makes of a decoder's electrical angle. Hall edges ask nothing of it.\n";
+  return "";
+}
+
+}  // namespace
+
+bool states_range(const design::OperatingRange& r) {
+  return r.current_A > 0 || r.speed_rad_s > 0 || r.position_deg > 0 || r.bus_V > 0 || r.setpoint > 0;
+}
+
+std::string header_comment(const ConfigHeader& w, const study::Compiled& c) {
+  const sixstep::plant::Machine& m = c.motor.machine;
+  std::string text = "// clang-format off\n";
+  text += fmt::format("// Made by sixstep {}. Change the scenario, not this file:\n//   {}\n//\n",
+                      SIXSTEP_VERSION, comment_text(w.command));
+  text += comment("scenario", w.scenario.title.empty() ? "(no title)" : w.scenario.title);
+  text += comment(
+      "motor",
+      fmt::format("{}: {} pole pairs, terminal R = {} ohm, L = {} H, K_t = {} N m/A; J = {} kg m2",
+                  w.scenario.sheet.name, static_cast<int>(m.pole_pairs),
+                  sixstep::base::six_digits(2 * m.R_ohm), sixstep::base::six_digits(2 * m.L_H),
+                  sixstep::base::six_digits(c.motor.K_t_Nm_A), sixstep::base::six_digits(c.shaft.J_kg_m2)));
+  for (const study::LoopGains& g : c.gains) text += comment(g.loop, derivation(g));
+  text +=
+      "// Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the "
+      "motor.\n";
+  text += entries(c) + "//\n";
+  return text + clearance_lines({w.scenario, w.clearance, w.despite, states_range(w.range)});
+}
+
+}  // namespace text
