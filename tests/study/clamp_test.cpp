@@ -10,9 +10,23 @@ namespace {
 using namespace sixstep;
 using namespace sixstep::testing;
 
+/// On either kernel: the general one has gears with losses.
+class Clamp : public ::testing::TestWithParam<bool> {
+ protected:
+  static study::Scenario coasting() {
+    study::Scenario s = maxon_scenario(control::Mode::off, 0.0);
+    if (GetParam()) {
+      s.load.gear = 2.0;
+      s.load.gear_efficiency = 0.8;
+    }
+    return s;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Kernels, Clamp, ::testing::Bool());
+
 /// Found by a drawn scenario: no segment is clamped, and yet the kinetic energy is gone.
-TEST(Clamp, ThatLetsGoAtTheInstantItGripsHasTheKineticEnergyInTheBook) {
-  study::Scenario s = maxon_scenario(control::Mode::off, 0.0);
+TEST_P(Clamp, ThatLetsGoAtTheInstantItGripsHasTheKineticEnergyInTheBook) {
+  study::Scenario s = coasting();
   s.initial.speed_rad_s = 60.0;
   for (const bool locked : {true, false}) {
     study::At at;
@@ -24,6 +38,25 @@ TEST(Clamp, ThatLetsGoAtTheInstantItGripsHasTheKineticEnergyInTheBook) {
   ASSERT_TRUE(outcome);
   const double J = outcome->motor.shaft.J_kg_m2;
   EXPECT_NEAR(outcome->energy->friction, J * 60.0 * 60.0 / 2, 1e-3 * J * 60.0 * 60.0);
+  EXPECT_LT(std::fabs(outcome->energy->mechanical_residual), 1e-13);
+}
+
+/// Found by drawn scenarios: nothing has moved but the magnets, who gave what the clamp takes.
+TEST(ClampOnCogging, TakesWhatTheMagnetsGaveARotorFromRest) {
+  study::Scenario s = maxon_scenario(control::Mode::off, 0.0);
+  s.sheet.cogging_orders = {48};
+  s.sheet.cogging_mNm = {5};
+  s.initial.angle_rad = 0.03;
+  study::At at;
+  at.time_s = 0.5e-3;
+  at.load.locked = true;
+  s.at.push_back(at);
+  s.duration_s = 1e-3;
+  const auto outcome = study::run(s);
+  ASSERT_TRUE(outcome);
+  EXPECT_GT(outcome->energy->friction, 1e-8);
+  EXPECT_NEAR(outcome->energy->kinetic, -outcome->energy->friction, 1e-3 * outcome->energy->friction);
+  EXPECT_GT(outcome->energy->moved, 0.5 * outcome->energy->friction);
   EXPECT_LT(std::fabs(outcome->energy->mechanical_residual), 1e-13);
 }
 

@@ -226,6 +226,30 @@ TEST(HostileInput, CellsOfTenMillionDigitsAreReadOrToldInAFewWords) {
 }  // namespace
 /// Two currents at the noise and one of twice it: the small one is zero, balancing brings the large one down
 /// to the noise, where it is zero too. It was left on a diode that no mode could have.
+/// A lossy gear before a heavy load: the little that it hands on as its torque turns round is noise, and had a sign.
+TEST(HostileInput, AGearsTorqueThatTurnsRoundHasOneSign) {
+  const auto scenario = read_scenario_text("x.toml", R"(motor = "maxon-397172"
+duration_s = 0.010190500697991007
+[pwm]
+period_s = 0.0002761117792141052
+[control]
+mode = "speed"
+[sensors]
+rotor = "hall"
+hall_edges_deg = [3.3446793375594464, -6.818504808132996, 6.450777031740346, -7.180292803434318, 1.8339898491658673, 7.339088953469757]
+[load]
+inertia_kg_m2 = 0.0003558900200905956
+gear = 0.743253880498782
+gear_efficiency = 0.41402657283327654
+[initial]
+speed_rad_s = -372.60553875793
+)",
+                                           {.overrides = {}, .resolve = {}});
+  ASSERT_TRUE(scenario) << to_string(scenario.problems()[0]);
+  const auto outcome = study::run(*scenario);
+  EXPECT_TRUE(outcome) << to_string(outcome.problems()[0]);
+}
+
 TEST(HostileInput, CurrentsThatBalancingBringsToTheNoiseAreZero) {
   const auto scenario = read_scenario_text("x.toml", R"(title = "drawn"
 motor = "maxon-488607"

@@ -25,6 +25,7 @@ class Audit {
   bool begun_ = false;
   Real noise_ = 0, moved_ = 0;
   Stored start_, end_;
+  Real end_w_ = 0;
   series::CompensatedSum<Real> supplied_, copper_, devices_, air_gap_, friction_, load_, cogging_;
   Laws laws_;
 };
@@ -54,9 +55,12 @@ void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
     start_ = end_ = begins;
     noise_ = c.amp_noise * c.amp_noise / c.inv_L + c.speed_noise * c.speed_noise / c.inv_J;
   }
-  // A clamp that stopped the shaft has taken its energy (plant/audit.hpp).
-  if (c.locked && end_.moving > begins.moving) friction_.add(end_.moving - begins.moving);
+  // A clamp that stopped the shaft has taken its energy, also where it let it go at the same instant (plant/audit.hpp).
+  const auto& y = plant.expansion();
+  const bool stopped = c.locked || (y.w[0] == 0 && plant::detail::abs(end_w_) > c.speed_noise);
+  if (stopped && end_.moving > begins.moving) friction_.add(end_.moving - begins.moving);
   end_ = stored(plant, s);
+  end_w_ = series::evaluate(y.w, y.degree, s);
   check_laws(plant, Real(0));
   check_laws(plant, s);
   const SegmentEnergy<Real> e = segment_energy(plant, s);
@@ -66,8 +70,10 @@ void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
   air_gap_.add(e.air_gap);
   friction_.add(e.viscous + e.dry);
   load_.add(e.load);
-  cogging_.add(cogging_energy(plant, s));
-  moved_ += plant::detail::abs(e.supplied) + plant::detail::abs(e.air_gap) + plant::detail::abs(e.load);
+  const Real cogging = cogging_energy(plant, s);
+  cogging_.add(cogging);
+  moved_ += plant::detail::abs(e.supplied) + plant::detail::abs(e.air_gap) + plant::detail::abs(e.load) +
+            plant::detail::abs(cogging);
 }
 
 template <class Real>

@@ -106,15 +106,20 @@ class ShaftTerms {
     const Real at_motor = drive - dry - c_.B_1 * y_.w[n];
     const Real own = c_.load_J * c_.inv_gear;
     const bool moves = turns(mode_.motion);
+    const bool forward = mode_.motion == Motion::forward;
     if (n == 0) {
-      z_.through[0] = moves ? at_load + own / c_.J_1 * at_motor : at_load;
+      z_.through[0] = moves ? handed_on(at_load + own / c_.J_1 * at_motor, own, forward) : at_load;
       judge_through();
     }
     push(n, drive, at_load);
-    const bool forward = mode_.motion == Motion::forward;
     const Real k = gear_factor(c_.efficiency, (mode_.through_sign > 0) == forward);
     turn(n, f, 1 / (c_.J_1 + k * own * c_.inv_gear), at_motor - k * c_.inv_gear * at_load);
     z_.through[n] = f > 0 ? own * y_.w[n + 1] / f + at_load : at_load;
+  }
+  /// J_2 dw_2/dt + B_2 w_2 + T_load of what has its sign: where J_2 is much of the whole it is a small part of that, and noise.
+  Real handed_on(Real sign_of, Real own, bool forward) const {
+    const Real k = gear_factor(c_.efficiency, (sign_of > 0) == forward);
+    return sign_of / (1 + k * own * c_.inv_gear / c_.J_1);
   }
   /// What stands clear has a sign; what does not keeps that of its event.
   void judge_through() {
