@@ -19,16 +19,17 @@ namespace detail {
 
 inline namespace SIXSTEP_LANES {
 
-/// Integrals of squares and currents, in units of the segment's length, of the connected legs in the law's order.
-template <class Real>
-struct LegIntegrals {
-  PerLeg<Real> square{}, charge{};
-};
-
 /// What is integrated, at the nodes: currents of the first and second connected leg, speed and torque.
 template <int points, class Real>
 struct Moving {
-  series::Nodes<points, Real> i_1, i_2, w, torque;
+  series::Nodes<points, Real> i_1{}, i_2{}, w{}, torque{};
+};
+
+/// Integrals in units of the segment's length: squares and currents of the connected legs in the law's order, what turns.
+template <class Real>
+struct Integrals {
+  PerLeg<Real> square{}, charge{};
+  Real turn = 0, turn_square = 0, air_gap = 0;
 };
 
 /// Which of the terms there are: where a number below is one that the compiler knows, what it does not ask for is left out.
@@ -36,35 +37,47 @@ template <class Real>
 struct Moves {
   unsigned connected;  ///< legs
   bool turning;
-  Real torque_per_A;  ///< of the first leg's current, where the torque is in proportion to it; else 0
+  bool steady;        ///< the torque is in proportion to the first leg's current
+  Real torque_per_A;  ///< where it is
 
   [[gnu::always_inline]] bool conducts() const { return connected >= 2; }
 };
 
-/// i_c = -(i_a + i_b), or i_b = -i_a where two legs are connected: one or two series say all.
+/// i_c = -(i_a + i_b), or i_b = -i_a where two legs are connected: one or two series say all. Four sums cost little more than two.
 template <int points, class Real>
-[[gnu::always_inline]] inline LegIntegrals<Real> leg_integrals(unsigned connected,
-                                                               const Moving<points, Real>& at) {
-  using series::weighted_sums;
-  if (connected == 2) {
-    const auto sums = weighted_sums<points>(at.i_1 * at.i_1, at.i_1);
-    return {{sums[0], sums[0], 0}, {sums[1], -sums[1], 0}};
+[[gnu::always_inline]] inline Integrals<Real> integrals(const Moves<Real>& moves,
+                                                        const Moving<points, Real>& at) {
+  using series::total, series::totals, series::weighted;
+  Integrals<Real> out;
+  const auto w = weighted<points>(at.w), i_1 = weighted<points>(at.i_1);
+  if (moves.connected == 3) {
+    const auto i_2 = weighted<points>(at.i_2);
+    const auto i_3 = at.i_1 + at.i_2, weighted_3 = i_1 + i_2;
+    const auto products = totals(i_1 * at.i_1, i_2 * at.i_2, weighted_3 * i_3, w * at.torque);
+    const auto others = totals(i_1, i_2, w, w * at.w);
+    out.square = {products.of[0], products.of[1], products.of[2]};
+    out.charge = {others.of[0], others.of[1], -(others.of[0] + others.of[1])};
+    out.air_gap = products.of[3];
+    out.turn = others.of[2];
+    out.turn_square = others.of[3];
+    return out;
   }
-  const auto i_3 = at.i_1 + at.i_2;
-  const auto squares = weighted_sums<points>(at.i_1 * at.i_1, at.i_2 * at.i_2);
-  const auto charges = weighted_sums<points>(at.i_1, at.i_2);
-  return {{squares[0], squares[1], series::weighted_sum<points>(i_3, i_3)},
-          {charges[0], charges[1], -(charges[0] + charges[1])}};
+  const auto sums = totals(i_1 * at.i_1, i_1, w, w * at.w);
+  out.square = {sums.of[0], sums.of[0], 0};
+  out.charge = {sums.of[1], -sums.of[1], 0};
+  out.turn = sums.of[2];
+  out.turn_square = sums.of[3];
+  out.air_gap = moves.steady ? moves.torque_per_A * total(i_1 * at.w) : total(w * at.torque);
+  return out;
 }
 
 /// Copper, devices and supply: what the currents do. `dt` is the length in seconds.
 template <int points, class Real>
 [[gnu::always_inline]] inline void electrical_energy(const Constants<Real>& c, const LegsLaw<Real>& law,
-                                                     unsigned connected, const Expansion<Real>& y, Real dt,
+                                                     const Expansion<Real>& y, Real dt,
                                                      const series::Nodes<points, Real>& s,
                                                      const Moving<points, Real>& at,
-                                                     SegmentEnergy<Real>& out) {
-  const LegIntegrals<Real> legs = leg_integrals<points>(connected, at);
+                                                     const Integrals<Real>& legs, SegmentEnergy<Real>& out) {
   // Of a floating leg in the third place both integrals are zero.
   const PerLeg<PoleTerms<Real>>& pole = law.pole;
   const auto device = [&](int n) {
@@ -84,18 +97,16 @@ template <int points, class Real>
 }
 
 /// What turns, and what it takes from the air gap where currents flow.
-template <int points, class Real>
+template <class Real>
 [[gnu::always_inline]] inline void shaft_energy(const Constants<Real>& c, const Mode& mode, Real dt,
-                                                const Moving<points, Real>& at, bool conducts,
-                                                SegmentEnergy<Real>& out) {
+                                                const Integrals<Real>& of, SegmentEnergy<Real>& out) {
   const auto [load, dry, per_speed] = torques(c, mode.motion);
-  const auto sums = series::weighted_sums<points>(at.w, at.w * at.w);
-  out.travel = dt * sums[0];
+  out.travel = dt * of.turn;
   out.load = load * out.travel;
   // mutant: dry * out.travel => -dry * out.travel
   out.dry = dry * out.travel;
-  out.viscous = dt * per_speed * sums[1];
-  if (conducts) out.air_gap = dt * series::weighted_sum<points>(at.torque, at.w);
+  out.viscous = dt * per_speed * of.turn_square;
+  out.air_gap = dt * of.air_gap;
 }
 
 /// Only what is asked for, in one pass.
@@ -113,8 +124,7 @@ template <int points, class Real>
     at.i_2 = moves.connected == 3 ? values(y.i[law.leg[1]]) : -at.i_1;
   }
   if (moves.turning) at.w = values(y.w);
-  if (moves.conducts() && moves.turning)
-    at.torque = moves.torque_per_A != 0 ? moves.torque_per_A * at.i_1 : values(y.torque);
+  if (moves.conducts() && moves.turning && !moves.steady) at.torque = values(y.torque);
   return at;
 }
 
@@ -128,8 +138,9 @@ template <int points, class Real>
   const auto s = series::nodes_up_to<points>(to);
   const auto at = moving_at<points>(law, moves, y, s);
   const Real dt = y.h * to;
-  if (moves.conducts()) electrical_energy<points>(c, law, moves.connected, y, dt, s, at, out);
-  if (moves.turning) shaft_energy<points>(c, plant.mode(), dt, at, moves.conducts(), out);
+  const Integrals<Real> of = integrals<points>(moves, at);
+  if (moves.conducts()) electrical_energy<points>(c, law, y, dt, s, at, of, out);
+  if (moves.turning) shaft_energy(c, plant.mode(), dt, of, out);
   return out;
 }
 
@@ -157,9 +168,11 @@ template <class Real>
   const Real per_A = steady_torque_per_A(c, mode, law);
   return series::with_points_for(
       plant.expansion().degree, [&]<int points>() __attribute__((always_inline)) {
-        if (turning && connected == 3) return energy_of<points>(plant, law, Moves<Real>{3, true, 0}, to);
-        if (turning && per_A != 0) return energy_of<points>(plant, law, Moves<Real>{2, true, per_A}, to);
-        return energy_of<points>(plant, law, Moves<Real>{connected, turning, 0}, to);
+        if (turning && connected == 3)
+          return energy_of<points>(plant, law, Moves<Real>{3, true, false, 0}, to);
+        if (turning && per_A != 0)
+          return energy_of<points>(plant, law, Moves<Real>{2, true, true, per_A}, to);
+        return energy_of<points>(plant, law, Moves<Real>{connected, turning, false, 0}, to);
       });
 }
 

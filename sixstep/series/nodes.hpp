@@ -98,7 +98,16 @@ struct Nodes {
   }
 };
 
-/// Sums over all lanes, the one left over included, of two side by side.
+/// The sum over all lanes, the one left over included: of even and odd nodes apart, and then of the two.
+template <int points, class Real>
+[[gnu::always_inline]] inline Real total(const Nodes<points, Real>& v) {
+  Pair<Real> sum = v.pair[0];
+#pragma GCC unroll 8
+  for (int k = 1; k < Nodes<points, Real>::pairs; ++k) sum = sum + v.pair[k];
+  return sum[0] + sum[1];
+}
+
+/// Two such sums side by side.
 template <int points, class Real>
 [[gnu::always_inline]] inline Pair<Real> totals(const Nodes<points, Real>& a, const Nodes<points, Real>& b) {
   Pair<Real> sum_a = a.pair[0], sum_b = b.pair[0];
@@ -108,6 +117,18 @@ template <int points, class Real>
     sum_b = sum_b + b.pair[k];
   }
   return Pair<Real>{sum_a[0], sum_b[0]} + Pair<Real>{sum_a[1], sum_b[1]};
+}
+
+/// Four such sums.
+template <class Real>
+struct Four {
+  Real of[4];
+};
+template <int points, class Real>
+[[gnu::always_inline]] inline Four<Real> totals(const Nodes<points, Real>& a, const Nodes<points, Real>& b,
+                                                const Nodes<points, Real>& c, const Nodes<points, Real>& d) {
+  const Pair<Real> first = totals(a, b), second = totals(c, d);
+  return {{first[0], first[1], second[0], second[1]}};
 }
 
 #ifdef SIXSTEP_FOUR_LANES
@@ -129,12 +150,30 @@ struct Nodes<4, double> {
 };
 
 template <>
+[[gnu::always_inline]] inline double total(const Nodes<4, double>& v) {
+  const Pair<double> sum =
+      __builtin_shufflevector(v.row, v.row, 0, 1) + __builtin_shufflevector(v.row, v.row, 2, 3);
+  return sum[0] + sum[1];
+}
+
+template <>
 [[gnu::always_inline]] inline Pair<double> totals(const Nodes<4, double>& a, const Nodes<4, double>& b) {
   const auto halves_of = [](const Nodes<4, double>& n) __attribute__((always_inline)) {
     return __builtin_shufflevector(n.row, n.row, 0, 1) + __builtin_shufflevector(n.row, n.row, 2, 3);
   };
   const Pair<double> sum_a = halves_of(a), sum_b = halves_of(b);
   return Pair<double>{sum_a[0], sum_b[0]} + Pair<double>{sum_a[1], sum_b[1]};
+}
+template <>
+[[gnu::always_inline]] inline Four<double> totals(const Nodes<4, double>& a, const Nodes<4, double>& b,
+                                                  const Nodes<4, double>& c, const Nodes<4, double>& d) {
+  using Row = Nodes<4, double>::Row;
+  const Row low_ac = __builtin_shufflevector(a.row, c.row, 0, 1, 4, 5);
+  const Row low_bd = __builtin_shufflevector(b.row, d.row, 0, 1, 4, 5);
+  const Row ac = low_ac + __builtin_shufflevector(a.row, c.row, 2, 3, 6, 7);
+  const Row bd = low_bd + __builtin_shufflevector(b.row, d.row, 2, 3, 6, 7);
+  const Row sums = __builtin_shufflevector(ac, bd, 0, 4, 2, 6) + __builtin_shufflevector(ac, bd, 1, 5, 3, 7);
+  return {{sums[0], sums[1], sums[2], sums[3]}};
 }
 
 #endif

@@ -156,13 +156,12 @@ template <int points, class Real>
   return weighted_sum<points>(a * b);
 }
 
-/// Two such integrals side by side; the sums go over even and odd nodes apart.
+/// Times the rule's weights, for totals(); the lane left over is zero.
 template <int points, class Real>
-[[gnu::always_inline]] inline Pair<Real> weighted_sums(const Nodes<points, Real>& a,
-                                                       const Nodes<points, Real>& b) {
+[[gnu::always_inline]] inline Nodes<points, Real> weighted(const Nodes<points, Real>& v) {
   auto weight = as_nodes<points, Real>(gauss<points>.weight);
-  if constexpr (points % 2 != 0) weight.set(points, Real(0));  // the lane left over
-  return totals(weight * a, weight * b);
+  if constexpr (points % 2 != 0) weight.set(points, Real(0));
+  return weight * v;
 }
 
 }  // namespace SIXSTEP_LANES

@@ -143,10 +143,20 @@ void expect_bits_of_single_numbers(std::mt19937_64& random) {
   EXPECT_EQ(weighted_sum<points>(v), sum) << points;
   EXPECT_EQ(weighted_sum<points>(v, u), products) << points;
   // Weights sum up to one, and the values to 17 at most: a few roundings in another order.
-  const auto two = weighted_sums<points>(v, u * v);
+  const auto w_v = weighted<points>(v);
+  const auto w_vu = w_v * u;
   const Real rounding = 17 * 17 * points * std::numeric_limits<Real>::epsilon();
-  EXPECT_LE(std::fabs(two[0] - sum), rounding) << points;
-  EXPECT_LE(std::fabs(two[1] - products), rounding) << points;
+  EXPECT_LE(std::fabs(total(w_v) - sum), rounding) << points;
+  EXPECT_LE(std::fabs(total(w_vu) - products), rounding) << points;
+  // Side by side each is what it is alone.
+  const auto two = totals(w_vu, w_v);
+  EXPECT_EQ(two[0], total(w_vu)) << points;
+  EXPECT_EQ(two[1], total(w_v)) << points;
+  const auto four = totals(w_v, w_vu, w_v - w_vu, w_vu * u);
+  EXPECT_EQ(four.of[0], total(w_v)) << points;
+  EXPECT_EQ(four.of[1], total(w_vu)) << points;
+  EXPECT_EQ(four.of[2], total(w_v - w_vu)) << points;
+  EXPECT_EQ(four.of[3], total(w_vu * u)) << points;
   const int fitting = std::min(degree, 2 * points);
   const auto fits = values_of_fitting<points>(b, fitting, s);
   for (int k = 0; k < points; ++k)
