@@ -6,7 +6,7 @@
 #include "sixstep/base/linear.hpp"
 
 #include "sixstep/study/scenario/changes.hpp"
-#include "sixstep/study/scenario/measure_choices.hpp"
+#include "sixstep/study/scenario/signal_choices.hpp"
 
 namespace sixstep::study {
 

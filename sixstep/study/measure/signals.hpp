@@ -8,7 +8,7 @@
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/series/extremes.hpp"
 #include "sixstep/study/measure/modulator_view.hpp"
-#include "sixstep/study/scenario/measure_choices.hpp"
+#include "sixstep/study/scenario/signal_choices.hpp"
 
 namespace sixstep::study {
 

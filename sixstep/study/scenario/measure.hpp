@@ -34,7 +34,7 @@ enum class MetricKind : std::uint8_t {
   commutation_error_rms
 };
 
-/// What a figure is taken of; signal_facts (measure_choices.hpp) has word, unit and meaning of each.
+/// What a figure is taken of; signal_facts (signal_choices.hpp) has word, unit and meaning of each.
 enum class Signal : std::uint8_t {
   current,
   phase_a,

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/loops/sensorless_basis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/base/written.hpp"
+
+namespace sixstep::design {
+namespace {
+
+constexpr double noises = 5.0;           // standard deviations that noise does not pass in a day
+constexpr double clear = 4.0;            // thresholds that the lowest speed's back-EMF has
+constexpr double forgetting_lags = 5.0;  // exp(-5) of the bus is less than the back-EMF of a slow rotor
+
+/// Sampled in the middle of the on-time, half of which has to be enough for the legs to come to their rails.
+base::Problem too_slow(const SensorlessBasis& b) {
+  const double needed_Hz = rail_lags / (base::pi * b.least_on_s());
+  return {"terminal_bandwidth_Hz", base::rounded(b.spec.terminal_bandwidth_Hz, 4),
+          "lets the terminals come to their rails within " + base::rounded(2e6 * b.settle_s(), 4) +
+              " us, 7 time constants, and the least on-time has " + base::rounded(1e6 * b.least_on_s(), 4) +
+              " us",
+          "raise it to " + base::rounded(needed_Hz, 4) + " Hz, or hand over at a higher lowest_part"};
+}
+
+/// Without a low-pass comparators turn over at each edge of the pulse, with too slow a one they tell what was.
+base::Problem badly_filtered(const SensorlessBasis& b) {
+  const ComparatorSpec& c = b.spec.comparators;
+  const std::string least = base::rounded(1.01 / (2.0 * base::pi * b.longest_comparator_lag_s()), 3) +
+                            " Hz";  // rounded, still enough
+  if (!(c.bandwidth_Hz > 0.0))
+    return {"comparators.bandwidth_Hz", "",
+            "is missing, and comparators without a low-pass turn over at each edge of the pulse",
+            "give it; " + least + " is slow enough here, and fast enough"};
+  return {"comparators.bandwidth_Hz", base::rounded(c.bandwidth_Hz, 4),
+          c.against_half_bus ? "is not settled within half of the least on-time"
+                             : "has not forgotten the freewheel by the crossing at no-load speed",
+          c.against_half_bus ? "raise it to " + least + ", or hand over at a higher lowest_part"
+                             : "raise it to " + least};
+}
+
+base::Problem hidden_below(const SensorlessBasis& b) {
+  const double comparators = b.comparators_V();
+  const std::string hides = "hides the back-EMF below " + base::rounded(b.lowest_rad_s, 4) + " rad/s";
+  if (comparators > b.threshold_V)
+    return {"comparators", base::rounded(comparators, 4) + " V off", hides,
+            "take comparators with less offset and hysteresis"};
+  return {"adc_noise_V", base::rounded(b.spec.adc_noise_V, 4), hides,
+          "take a finer or quieter converter, or dividers that are more alike"};
+}
+
+}  // namespace
+
+double SensorlessBasis::ramp_rad_s2() const {
+  return (motor.K_t_Nm_A * start_A - load_Nm) / (2.0 * motor.shaft.J_kg_m2);
+}
+
+/// Its acceleration's current and that of the drag which the sheet tells of. The rest of
+/// start_A is in reserve for a load, and a speed loop that began with it would run past its reference before it is unwound.
+double SensorlessBasis::ramp_A() const {
+  const plant::Shaft& shaft = motor.shaft;
+  const double drag_Nm = shaft.coulomb_Nm + shaft.B_Nm_s * lowest_rad_s;
+  return std::min(start_A, (shaft.J_kg_m2 * ramp_rad_s2() + drag_Nm) / motor.K_t_Nm_A);
+}
+
+double SensorlessBasis::swing_s() const {
+  const double stiffness = motor.machine.pole_pairs * motor.K_t_Nm_A * start_A;
+  return 2.0 * base::pi * std::sqrt(motor.shaft.J_kg_m2 / stiffness);
+}
+
+double SensorlessBasis::comparators_V() const {
+  const ComparatorSpec& c = spec.comparators;
+  if (!c.followed) return 0.0;
+  return (c.against_half_bus ? 2.0 : 3.0) * (c.offset_V + c.hysteresis_V / 2.0);
+}
+
+/// Has forgotten the freewheel half a sector later, or is settled in half a pulse.
+double SensorlessBasis::longest_comparator_lag_s() const {
+  if (spec.comparators.against_half_bus) return least_on_s() / (2.0 * rail_lags);
+  return sector_s(no_load_rad_s) / (2.0 * forgetting_lags);
+}
+
+base::Problems unusable(const MotorModel& motor, const SensorlessSpec& spec) {
+  base::Problems problems;
+  if (!(spec.bus_V > 0.0))
+    problems.push_back(
+        {"bus_V", base::rounded(spec.bus_V, 4), "must be above 0", "give the voltage of the bus"});
+  if (!(spec.period_s > 0.0))
+    problems.push_back(
+        {"period_s", base::rounded(spec.period_s, 4), "must be above 0", "give the control period"});
+  if (!(spec.capture_Hz > 0.0))
+    problems.push_back(
+        {"capture_Hz", base::rounded(spec.capture_Hz, 4), "must be above 0", "give the timer's frequency"});
+  if (spec.adc_bits < 6 || spec.adc_bits > 16)
+    problems.push_back(
+        {"adc_bits", std::to_string(spec.adc_bits), "must be 6 to 16", "choose another converter"});
+  if (!(motor.shaft.J_kg_m2 > 0.0) || !(motor.K_t_Nm_A > 0.0) || !(motor.machine.R_ohm > 0.0))
+    problems.push_back(
+        {"motor", "", "must have resistance, torque constant and inertia", "give them in the motor's file"});
+  return problems;
+}
+
+SensorlessBasis sensorless_basis(const MotorModel& motor, const SensorlessSpec& spec) {
+  SensorlessBasis b{motor, spec};
+  b.R_tt = 2.0 * motor.machine.R_ohm;
+  b.no_load_rad_s = spec.bus_V / motor.K_t_Nm_A;
+  b.nominal_A = nominal_current(motor, spec.bus_V).A;
+  b.start_A = std::min(spec.overload * b.nominal_A, 0.8 * spec.bus_V / b.R_tt);
+  b.load_Nm = spec.greatest_load * motor.K_t_Nm_A * b.nominal_A +
+              std::max(motor.shaft.coulomb_Nm, motor.shaft.static_Nm);
+  const double range_V = spec.adc_range_V > 0.0 ? spec.adc_range_V : 1.25 * spec.bus_V;
+  b.lsb_V = range_V / static_cast<double>(1 << spec.adc_bits);
+  // Of 2 u_f - u_s - u_k: variances 4 + 1 + 1, half a step each way per converter.
+  b.threshold_V = noises * std::sqrt(6.0) * spec.adc_noise_V + 2.0 * b.lsb_V + spec.mismatch * spec.bus_V;
+  b.lock_V = b.threshold_V + b.comparators_V();
+  b.lowest_rad_s =
+      std::max(spec.lowest_part * b.no_load_rad_s, clear * b.lock_V / (2.0 * motor.machine.K_e_V_s));
+  const auto lag_s = [](double Hz) { return Hz > 0.0 ? 1.0 / (2.0 * base::pi * Hz) : 0.0; };
+  b.lag_s = lag_s(spec.terminal_bandwidth_Hz);
+  if (spec.comparators.followed) b.comparator_lag_s = lag_s(spec.comparators.bandwidth_Hz);
+  return b;
+}
+
+base::Problems out_of_reach(const SensorlessBasis& b) {
+  const SensorlessSpec& spec = b.spec;
+  if (!(b.ramp_rad_s2() > 0.0))
+    return {{"greatest_load", base::rounded(spec.greatest_load, 4),
+             "is more than the start's current moves: " + base::rounded(b.start_A, 4) + " A",
+             "raise overload, or start against less"}};
+  if (b.lowest_rad_s > 0.5 * b.no_load_rad_s) return {hidden_below(b)};
+  if (spec.comparators.followed &&
+      !(b.comparator_lag_s > 0.0 && b.comparator_lag_s <= b.longest_comparator_lag_s()))
+    return {badly_filtered(b)};
+  if (spec.seen == control::NeutralSeen::on_time && 2.0 * b.settle_s() > b.least_on_s()) return {too_slow(b)};
+  return {};
+}
+
+}  // namespace sixstep::design
