@@ -67,6 +67,15 @@ TEST(GeneralHeat, ResistanceAndBackEmfFollowTheirTemperatures) {
   EXPECT_NEAR(plant.at(0.0).emf[0], 0.01675 * 50 * (1 - 0.0012 * 5), 1e-14);
 }
 
+TEST(GeneralHeat, MagnetsDoNotTurnRoundWhereTheirLineCrossesNothing) {
+  const auto on_K_e = [](double housing_degC) {
+    return general::Heat({.motor = true, .housing_degC = housing_degC, .magnet_per_K = -0.01}).on_K_e();
+  };
+  EXPECT_NEAR(on_K_e(100), 0.25, 1e-15);
+  EXPECT_EQ(on_K_e(125), general::least_on_K_e);
+  EXPECT_EQ(on_K_e(200), general::least_on_K_e);
+}
+
 TEST(GeneralHeat, AJunctionIsAsWarmAsItsOwnSwitchLoses) {
   GeneralSetup s;
   s.shaft.locked = true;

@@ -51,6 +51,54 @@ TEST(HostileInput, ABusFasterThanAnyBoardIsRefusedWithItsTimeConstant) {
               ElementsAre(HasSubstr("initial.bus_V = 1e308 must be above 0 and at most 100000")));
 }
 
+TEST(HostileInput, ABatteryThatRecoversAtOnceIsRefused) {
+  const auto battery = [](const char* farad) {
+    return told(
+        head +
+        "[supply]\nsource = \"battery\"\nvoltage_V = 24\nresistance_ohm = 0.08\ncapacitance_F = 470e-6\n"
+        "battery_charges = [0, 1]\nbattery_voltages_V = [24, 24]\nbattery_capacity_Ah = 2\n"
+        "battery_recovery_ohm = 0.05\nbattery_recovery_F = " +
+        farad + "\n");
+  };
+  EXPECT_THAT(battery("1e-6"),
+              ElementsAre(HasSubstr("supply.battery_recovery_F = 1e-06 makes the battery's time "
+                                    "constant with supply.battery_recovery_ohm = 0.05 30.8 ns")));
+  EXPECT_THAT(battery("4e-6"), SizeIs(0));
+}
+
+TEST(HostileInput, SpeedsOfALoadThatNobodyTellsApartAreRefused) {
+  const auto table = [](const char* speed) {
+    return told(head + "[load]\nat_speeds_rad_s = [" + speed + ", 0, 300]\nat_speeds_Nm = [0.1, 0, 0.1]\n");
+  };
+  EXPECT_THAT(table("-1e-17"),
+              ElementsAre(HasSubstr("load.at_speeds_rad_s = 0 is so near to the one before")));
+  EXPECT_THAT(table("1"), ElementsAre(HasSubstr("load.at_speeds_rad_s = 0 must be above the one before")));
+  EXPECT_THAT(table("-1e-5"), SizeIs(0));
+}
+
+TEST(HostileInput, MagnetsThatAreGoneAtTheStartAreRefusedAndLaterOnNoDefect) {
+  const auto motor = [](const char* degC) {
+    return head + "motor_override.magnet_loss_percent_K = 1\n[heat]\nmotor = true\nambient_degC = " + degC +
+           "\n";
+  };
+  EXPECT_THAT(told(motor("125")),
+              ElementsAre(HasSubstr("heat.ambient_degC = 125 leaves the magnets less than a tenth")));
+  EXPECT_THAT(told(motor("50") + "housing_degC = 116\n"),
+              ElementsAre(HasSubstr("heat.housing_degC = 116 leaves")));
+  // The housing warms up beyond it, and the magnets stay at their tenth.
+  const auto scenario = read_scenario_text(
+      "x.toml",
+      "motor = \"maxon-251601\"\nduration_s = 4\nmotor_override.magnet_loss_percent_K = 1\n"
+      "[heat]\nmotor = true\nambient_degC = 114\nwinding_degC = 900\n"
+      "[[require]]\nmetric = \"final\"\nsignal = \"housing_degC\"\nmin = 125.5\n",
+      {.overrides = {}, .resolve = {}});
+  ASSERT_TRUE(scenario) << to_string(scenario.problems()[0]);
+  const auto outcome = study::run(*scenario);
+  ASSERT_TRUE(outcome) << to_string(outcome.problems()[0]);
+  EXPECT_TRUE(outcome->passed());
+  EXPECT_FALSE(outcome->fault);
+}
+
 TEST(HostileInput, ASwitchOfMegohmsIsRefused) {
   EXPECT_THAT(told(head + "[bridge]\non_resistance_ohm = 1e9\n"),
               ElementsAre(HasSubstr("bridge.on_resistance_ohm = 1e9 must lie in 0 to 1000000")));
@@ -224,8 +272,6 @@ TEST(HostileInput, CellsOfTenMillionDigitsAreReadOrToldInAFewWords) {
 }
 
 }  // namespace
-/// Two currents at the noise and one of twice it: the small one is zero, balancing brings the large one down
-/// to the noise, where it is zero too. It was left on a diode that no mode could have.
 /// A lossy gear before a heavy load: the little that it hands on as its torque turns round is noise, and had a sign.
 TEST(HostileInput, AGearsTorqueThatTurnsRoundHasOneSign) {
   const auto scenario = read_scenario_text("x.toml", R"(motor = "maxon-397172"
@@ -250,6 +296,8 @@ speed_rad_s = -372.60553875793
   EXPECT_TRUE(outcome) << to_string(outcome.problems()[0]);
 }
 
+/// Two currents at the noise and one of twice it: the small one is zero, balancing brings the large one down
+/// to the noise, where it is zero too. It was left on a diode that no mode could have.
 TEST(HostileInput, CurrentsThatBalancingBringsToTheNoiseAreZero) {
   const auto scenario = read_scenario_text("x.toml", R"(title = "drawn"
 motor = "maxon-488607"

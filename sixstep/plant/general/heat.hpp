@@ -2,11 +2,17 @@
 // Warm copper, weak magnets, warm channels (model.md 8): what the run loses is summed up over thermal steps; at the end of
 // each the two bodies are solved exactly with the step's mean powers, and R, K_e and R_on follow.
 #pragma once
+#include <cmath>
+
 #include "sixstep/plant/device_losses.hpp"
 #include "sixstep/plant/two_bodies.hpp"
 #include "sixstep/series/polynomial.hpp"
 
 namespace sixstep::plant::general {
+
+/// Where the straight line of magnets and temperature ends: what has lost nine tenths is no magnet, and a K_e of the other
+/// sign no motor.
+inline constexpr double least_on_K_e = 0.1;
 
 struct HeatGiven {
   bool motor = false, devices = false;  ///< whether either is simulated
@@ -44,7 +50,9 @@ class Heat {
   void take_step();
 
   double on_R() const { return 1 + given_.copper_per_K * (winding_ - given_.given_at_degC); }
-  double on_K_e() const { return 1 + given_.magnet_per_K * (housing_ - given_.given_at_degC); }
+  double on_K_e() const {
+    return std::fmax(least_on_K_e, 1 + given_.magnet_per_K * (housing_ - given_.given_at_degC));
+  }
   double on_R_on(std::size_t leg, bool upper) const {
     return 1 + given_.on_per_K * (junction_[leg][upper ? 0 : 1] - given_.given_at_degC);
   }

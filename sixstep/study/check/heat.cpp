@@ -5,6 +5,7 @@
 
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/plant/general/heat.hpp"
 
 namespace sixstep::study {
 
@@ -29,10 +30,24 @@ void check_energies(const Bridge& b, base::Problems& out) {
                    "says again what turn_on_J and turn_off_J say", "keep one of the two ways"});
 }
 
+/// Beyond that the run goes on with least_on_K_e.
+void check_magnets(const Scenario& s, base::Problems& out) {
+  const double housing_degC = s.heat.housing_degC.value_or(s.heat.ambient_degC);
+  if (!s.heat.motor ||
+      design::on_K_e(s.sheet, {.housing_degC = housing_degC}) >= plant::general::least_on_K_e)
+    return;
+  out.push_back({s.heat.housing_degC ? "heat.housing_degC" : "heat.ambient_degC",
+                 base::six_digits(housing_degC),
+                 "leaves the magnets less than a tenth by magnet_loss_percent_K = " +
+                     base::six_digits(s.sheet.magnet_loss_percent_K),
+                 "look at both"});
+}
+
 }  // namespace
 
 void check_heat(const Scenario& s, base::Problems& out) {
   check_energies(s.bridge, out);
+  check_magnets(s, out);
   const Heat& h = s.heat;
   if (h.motor)
     if (const auto model = design::thermal_model(s.sheet); !model)

@@ -57,6 +57,18 @@ void check_friction(const Scenario& s, const design::MotorModel& motor, base::Pr
                    "look at its unit, or set load.locked = true to hold the rotor"});
 }
 
+/// C_1 of a battery between R_1 and the bus behind R_b, which is the slower.
+void check_recovery(const Supply& from, base::Problems& out) {
+  if (!(from.battery_recovery_ohm > 0 && from.battery_recovery_F > 0 && from.resistance_ohm > 0))
+    return;  // check_supply tells
+  const double rate = (1 / from.battery_recovery_ohm + 1 / from.resistance_ohm) / from.battery_recovery_F;
+  if (rate > fastest_answer_1_s)
+    out.push_back({"supply.battery_recovery_F", written(from.battery_recovery_F),
+                   "makes the battery's time constant with supply.battery_recovery_ohm = " +
+                       written(from.battery_recovery_ohm) + " " + too_short(rate),
+                   "look at its unit: a cell recovers over milliseconds to minutes"});
+}
+
 /// Inductance and capacitor of the source, and the brake resistor on it.
 void check_source(const Scenario& s, const plant::Machine& m, base::Problems& out) {
   const Supply& from = s.supply;
@@ -180,6 +192,7 @@ void check_pace(const Scenario& s, const design::MotorModel& motor, base::Proble
   check_bridge(s, motor.machine, out);
   check_bus(s, motor.machine, out);
   check_source(s, motor.machine, out);
+  check_recovery(s.supply, out);
   check_friction(s, motor, out);
   check_coupling(s, motor, out);
   check_torque(s, motor, out);

@@ -13,6 +13,9 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();  // a line may lead beyond the end
 
+/// Speeds closer than that are one to a run: its rounding is about a hundredth of it.
+constexpr double least_step_rad_s = 1e-6;
+
 void check_table(const Load& l, base::Problems& out) {
   if (l.at_speeds_rad_s.size() != l.at_speeds_Nm.size() || l.at_speeds_Nm.size() == 1 ||
       l.at_speeds_Nm.size() > 100)
@@ -20,10 +23,12 @@ void check_table(const Load& l, base::Problems& out) {
                    "need as many load.at_speeds_rad_s, 2 to 100 of them",
                    "as at_speeds_rad_s = [0, 300], at_speeds_Nm = [0.01, 0.05]"});
   for (std::size_t n = 0; n + 1 < l.at_speeds_rad_s.size(); ++n)
-    if (!(l.at_speeds_rad_s[n + 1] > l.at_speeds_rad_s[n])) {
+    if (const double step = l.at_speeds_rad_s[n + 1] - l.at_speeds_rad_s[n]; !(step >= least_step_rad_s)) {
       out.push_back({"load.at_speeds_rad_s[" + std::to_string(n + 1) + "]",
-                     base::six_digits(l.at_speeds_rad_s[n + 1]), "must be above the one before",
-                     "sort them"});
+                     base::six_digits(l.at_speeds_rad_s[n + 1]),
+                     step > 0 ? "is so near to the one before that a run takes both for one"
+                              : "must be above the one before",
+                     step > 0 ? "leave one of the two out" : "sort them"});
       return;
     }
 }
