@@ -8,6 +8,10 @@
 
 namespace sixstep::plant {
 
+/// Where the straight line of magnets and temperature ends: what has lost nine tenths is no magnet, and a K_e of the other
+/// sign no motor.
+inline constexpr double least_on_K_e = 0.1;
+
 /// Temperatures above the ambient, K: w' = ww w + wh h + b_w, h' = hw w + hh h + b_h, wh and hw positive.
 struct TwoBodies {
   double ww = 0.0, wh = 0.0, hw = 0.0, hh = 0.0;  ///< 1/s

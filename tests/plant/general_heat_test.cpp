@@ -72,8 +72,8 @@ TEST(GeneralHeat, MagnetsDoNotTurnRoundWhereTheirLineCrossesNothing) {
     return general::Heat({.motor = true, .housing_degC = housing_degC, .magnet_per_K = -0.01}).on_K_e();
   };
   EXPECT_NEAR(on_K_e(100), 0.25, 1e-15);
-  EXPECT_EQ(on_K_e(125), general::least_on_K_e);
-  EXPECT_EQ(on_K_e(200), general::least_on_K_e);
+  EXPECT_EQ(on_K_e(125), sixstep::plant::least_on_K_e);
+  EXPECT_EQ(on_K_e(200), sixstep::plant::least_on_K_e);
 }
 
 TEST(GeneralHeat, AJunctionIsAsWarmAsItsOwnSwitchLoses) {

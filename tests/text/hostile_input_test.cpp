@@ -82,7 +82,7 @@ TEST(HostileInput, MagnetsThatAreGoneAtTheStartAreRefusedAndLaterOnNoDefect) {
            "\n";
   };
   EXPECT_THAT(told(motor("125")),
-              ElementsAre(HasSubstr("heat.ambient_degC = 125 leaves the magnets less than a tenth")));
+              ElementsAre(HasSubstr("heat.ambient_degC = 125 leaves the magnets a tenth at most")));
   EXPECT_THAT(told(motor("50") + "housing_degC = 116\n"),
               ElementsAre(HasSubstr("heat.housing_degC = 116 leaves")));
   // The housing warms up beyond it, and the magnets stay at their tenth.

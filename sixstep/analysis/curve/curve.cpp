@@ -26,11 +26,9 @@ base::Problems check_temperatures(const CurveRequest& r) {
     if (!base::between(-200, 500).holds(degC))
       problems.push_back({name, base::written(degC), "must be a temperature, -200 to 500 degC",
                           "25 is what data sheets mean"});
-  if (problems.empty() && design::on_K_e(r.sheet, r.motor_degC) < 0.1)
-    problems.push_back({"housing_degC", base::written(r.motor_degC.housing_degC),
-                        "leaves the magnets less than a tenth by magnet_loss_percent_K = " +
-                            base::written(r.sheet.magnet_loss_percent_K),
-                        "look at both"});
+  if (auto lost = design::lost_magnets("housing_degC", r.sheet, r.motor_degC.housing_degC);
+      problems.empty() && lost)
+    problems.push_back(std::move(*lost));
   return problems;
 }
 
@@ -38,7 +36,8 @@ base::Problems check_temperatures(const CurveRequest& r) {
 
 base::Problems check(const CurveRequest& r) {
   base::Problems problems = check_temperatures(r);
-  if (problems.empty() || design::on_K_e(r.sheet, r.motor_degC) >= 0.1)  // else there is no model to look at
+  // Without magnets there is no model to look at.
+  if (!design::lost_magnets("housing_degC", r.sheet, r.motor_degC.housing_degC))
     for (base::Problem& p : check(r.bench)) problems.push_back(std::move(p));
   if (r.bench.duty < 0)
     problems.push_back({"duty", base::written(r.bench.duty), "must be in (0, 1]",

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "sixstep/plant/two_bodies.hpp"
+#include "sixstep/base/written.hpp"
 
 namespace sixstep::design {
 namespace {
@@ -47,6 +47,14 @@ MotorModel warmed(MotorModel m, const Sheet& s, const Temperatures& t) {
   m.K_e_V_s *= emf;
   m.K_t_Nm_A *= emf;
   return m;
+}
+
+std::optional<base::Problem> lost_magnets(const std::string& where, const Sheet& s, double housing_degC) {
+  if (on_K_e(s, {.housing_degC = housing_degC}) > plant::least_on_K_e) return std::nullopt;
+  return base::Problem{where, base::written(housing_degC),
+                       "leaves the magnets a tenth at most by magnet_loss_percent_K = " +
+                           base::written(s.magnet_loss_percent_K),
+                       "look at both"};
 }
 
 base::Result<ThermalModel> thermal_model(const Sheet& s) {

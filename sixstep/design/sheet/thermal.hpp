@@ -12,9 +12,11 @@
 #pragma once
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include "sixstep/base/result.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
+#include "sixstep/plant/two_bodies.hpp"
 
 namespace sixstep::design {
 
@@ -36,10 +38,12 @@ struct Temperatures {
 
 /// What temperatures make of a winding's R and of the magnets' K_e and K_t: factors on what the sheet gives at sheet_degC.
 inline double on_R(const Temperatures& t) { return 1 + copper_per_K * (t.winding_degC - sheet_degC); }
-/// Magnets have no less than nothing left.
+/// No less than plant::least_on_K_e, as a run has it.
 inline double on_K_e(const Sheet& s, const Temperatures& t) {
-  return std::fmax(0.0, 1 - 1e-2 * s.magnet_loss_percent_K * (t.housing_degC - sheet_degC));
+  return std::fmax(plant::least_on_K_e, 1 - 1e-2 * s.magnet_loss_percent_K * (t.housing_degC - sheet_degC));
 }
+/// What there is to tell where they start at that least: `where` names the housing's temperature.
+std::optional<base::Problem> lost_magnets(const std::string& where, const Sheet& s, double housing_degC);
 MotorModel warmed(MotorModel motor, const Sheet& sheet, const Temperatures& t);
 
 /// What heats, constant over time, and the air around.

@@ -10,10 +10,6 @@
 
 namespace sixstep::plant::general {
 
-/// Where the straight line of magnets and temperature ends: what has lost nine tenths is no magnet, and a K_e of the other
-/// sign no motor.
-inline constexpr double least_on_K_e = 0.1;
-
 struct HeatGiven {
   bool motor = false, devices = false;  ///< whether either is simulated
   double step_s = 1e-3;

@@ -2,10 +2,10 @@
 #include "sixstep/study/check/heat.hpp"
 
 #include <string>
+#include <utility>
 
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/thermal.hpp"
-#include "sixstep/plant/general/heat.hpp"
 
 namespace sixstep::study {
 
@@ -30,30 +30,20 @@ void check_energies(const Bridge& b, base::Problems& out) {
                    "says again what turn_on_J and turn_off_J say", "keep one of the two ways"});
 }
 
-/// Beyond that the run goes on with least_on_K_e.
-void check_magnets(const Scenario& s, base::Problems& out) {
-  const double housing_degC = s.heat.housing_degC.value_or(s.heat.ambient_degC);
-  if (!s.heat.motor ||
-      design::on_K_e(s.sheet, {.housing_degC = housing_degC}) >= plant::general::least_on_K_e)
-    return;
-  out.push_back({s.heat.housing_degC ? "heat.housing_degC" : "heat.ambient_degC",
-                 base::six_digits(housing_degC),
-                 "leaves the magnets less than a tenth by magnet_loss_percent_K = " +
-                     base::six_digits(s.sheet.magnet_loss_percent_K),
-                 "look at both"});
-}
-
 }  // namespace
 
 void check_heat(const Scenario& s, base::Problems& out) {
   check_energies(s.bridge, out);
-  check_magnets(s, out);
   const Heat& h = s.heat;
   if (h.motor)
     if (const auto model = design::thermal_model(s.sheet); !model)
       for (const base::Problem& p : model.problems())
         out.push_back({"heat.motor", "true", "needs what the motor's sheet does not have: " + p.where,
                        "add the sheet's thermal lines to the motor file, or give them in [motor_override]"});
+  if (h.motor)
+    if (auto lost = design::lost_magnets(h.housing_degC ? "heat.housing_degC" : "heat.ambient_degC", s.sheet,
+                                         h.housing_degC.value_or(h.ambient_degC)))
+      out.push_back(std::move(*lost));
   if (h.devices && !(s.bridge.junction_K_W > 0))
     out.push_back(
         {"heat.devices", "true", "needs bridge.junction_K_W", "give the thermal resistance of a switch"});
