@@ -8,10 +8,13 @@
 #include <cstdlib>
 #include <limits>
 #include <random>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "faces/firmware/example/commands.hpp"
+#include "faces/firmware/example/fault_reason.hpp"
 
 namespace {
 
@@ -40,6 +43,30 @@ TEST(Log, AnyNumberReadsBack) {
     const auto value = static_cast<std::int32_t>(random() >> bits(random)) * (n % 2 == 0 ? 1 : -1);
     EXPECT_EQ(written(value), std::to_string(value));
     EXPECT_EQ(std::llround(std::strtod(written(value, 3).c_str(), nullptr) * 1000), value);
+  }
+}
+
+std::string written(const firmware::Instant& t) {
+  std::string out;
+  firmware::put_instant([&out](char c) { out += c; }, t);
+  return out;
+}
+
+/// 2^31 us are 36 minutes, 2^32 counts of 72 MHz one: neither is an end.
+TEST(Log, AnInstantIsItsMicrosecondsHoweverLate) {
+  EXPECT_EQ(written(firmware::Instant{}), "0");
+  EXPECT_EQ(written({.seconds = 0, .microseconds = 999'999}), "999999");
+  EXPECT_EQ(written({.seconds = 1, .microseconds = 20}), "1000020");
+  EXPECT_EQ(written({.seconds = 100'000, .microseconds = 7}), "100000000007");
+  firmware::Instant t;
+  std::uint64_t passed = 0;
+  std::mt19937 random(27);
+  for (int n = 0; n < 10'000; ++n) {
+    const auto more = static_cast<std::uint32_t>(random() % 3'000'000);
+    t.pass(more);
+    passed += more;
+    ASSERT_LT(t.microseconds, 1'000'000u);
+    ASSERT_EQ(written(t), std::to_string(passed));
   }
 }
 
@@ -76,6 +103,98 @@ TEST(Commands, WhatIsTyped) {
   EXPECT_EQ(found[3].kind, Kind::stop);
   EXPECT_EQ(found[4].kind, Kind::clear) << "and what was typed before it is forgotten";
   EXPECT_EQ(found[5].number, 9'999'999) << "more than anything turns, and no overflow";
+}
+
+/// What the main loop finds in a ring that the interrupt filled with `typed`, all at once, of which the line lost those at `missing`.
+std::vector<firmware::Command> obeyed(const std::string& typed, const std::string& missing = "") {
+  firmware::Ring<16> ring;
+  firmware::Commands commands;
+  std::vector<firmware::Command> out;
+  bool overrun = false;
+  for (const char c : typed) {
+    if (missing.find(c) != std::string::npos)
+      overrun = true;
+    else
+      ring.put(c, std::exchange(overrun, false));
+  }
+  for (;;) {
+    const auto item = ring.take();
+    if (item.kind == decltype(ring)::Kind::none) return out;
+    if (item.kind == decltype(ring)::Kind::gap) commands.lost();
+    if (item.kind != decltype(ring)::Kind::character) continue;
+    if (const firmware::Command found = commands.take(item.character);
+        found.kind != firmware::Command::Kind::none)
+      out.push_back(found);
+  }
+}
+
+TEST(Commands, WhatComesAtOnceIsObeyedAsItWasTyped) {
+  using Kind = firmware::Command::Kind;
+  const auto found = obeyed("300\n70\ns");
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(found[0].number, 300);
+  EXPECT_EQ(found[1].number, 70);
+  EXPECT_EQ(found[2].kind, Kind::stop);
+}
+
+TEST(Commands, ANumberThatLostACharacterIsDroppedAndAStopBehindItCounts) {
+  using Kind = firmware::Command::Kind;
+  const auto found = obeyed("3x00\n-7y0\ns42\n", "xy");
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_EQ(found[0].kind, Kind::dropped);
+  EXPECT_EQ(found[1].kind, Kind::dropped);
+  EXPECT_EQ(found[2].kind, Kind::stop);
+  EXPECT_EQ(found[3].number, 42) << "the next one is whole";
+}
+
+TEST(Commands, NoLostEndOfALineJoinsTwoNumbers) {
+  const auto found = obeyed("7x30\n", "x");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].kind, firmware::Command::Kind::dropped);
+}
+
+TEST(Commands, ARingThatIsFullLosesTheRestAndSaysSo) {
+  firmware::Ring<4> ring;
+  for (const char c : std::string("12345")) ring.put(c, false);
+  for (const char c : std::string("1234")) EXPECT_EQ(ring.take().character, c);
+  EXPECT_EQ(ring.take().kind, firmware::Ring<4>::Kind::none);
+  ring.put('\n', false);
+  EXPECT_EQ(ring.take().kind, firmware::Ring<4>::Kind::gap);
+  EXPECT_EQ(ring.take().character, '\n');
+  for (int n = 0; n < 1000; ++n) {  // its indices wrap
+    ring.put(static_cast<char>('a' + n % 26), false);
+    ASSERT_EQ(ring.take().character, static_cast<char>('a' + n % 26));
+  }
+}
+
+TEST(Reasons, EachHasAWordAndALine) {
+  std::set<std::string> words;
+  for (int n = 0; n <= static_cast<int>(firmware::Reason::program); ++n) {
+    std::string line;
+    firmware::put_fault([&line](char c) { line += c; }, static_cast<firmware::Reason>(n));
+    EXPECT_TRUE(line.starts_with("# fault: ") && line.ends_with("\n")) << line;
+    EXPECT_EQ(line.find("unknown"), std::string::npos);
+    words.insert(line);
+  }
+  EXPECT_EQ(words.size(), static_cast<std::size_t>(firmware::Reason::program) + 1);
+}
+
+TEST(Reasons, WhatPowerUpLeavesInMemoryIsNotBelieved) {
+  firmware::KeptReason kept{};
+  EXPECT_EQ(kept.kept(), firmware::Reason::none);
+  kept.keep(firmware::Reason::hall);
+  EXPECT_EQ(kept.kept(), firmware::Reason::hall);
+  for (unsigned bit = 0; bit < 32; ++bit) {
+    kept.keep(firmware::Reason::comparator);
+    kept.key = kept.key ^ 1u << bit;
+    EXPECT_EQ(kept.kept(), firmware::Reason::none);
+  }
+  kept.keep(firmware::Reason::comparator);
+  kept.reason = firmware::Reason::stall;
+  EXPECT_EQ(kept.kept(), firmware::Reason::none);
+  kept.keep(firmware::Reason::watchdog);
+  kept.forget();
+  EXPECT_EQ(kept.kept(), firmware::Reason::none);
 }
 
 }  // namespace

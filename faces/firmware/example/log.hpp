@@ -45,6 +45,32 @@ constexpr void put_text(Put put, const char* text) {
   for (; *text != '\0'; ++text) put(*text);
 }
 
+/// Since the board began to count: a number of microseconds that wraps after 68 years.
+struct Instant {
+  std::uint32_t seconds = 0, microseconds = 0;  ///< the latter below a million
+
+  constexpr void pass(std::uint32_t more_microseconds) {
+    for (; more_microseconds >= 1'000'000; more_microseconds -= 1'000'000) ++seconds;
+    microseconds += more_microseconds;
+    if (microseconds < 1'000'000) return;
+    microseconds -= 1'000'000;
+    ++seconds;
+  }
+};
+
+/// In microseconds, without a number of 64 bits.
+template <class Put>
+constexpr void put_instant(Put put, const Instant& t) {
+  if (t.seconds == 0) return put_number(put, static_cast<std::int32_t>(t.microseconds));
+  put_number(put, static_cast<std::int32_t>(t.seconds));
+  std::uint32_t rest = t.microseconds;
+  for (unsigned place = 4; place < 10; ++place) {
+    char digit = '0';
+    for (; rest >= tens<std::uint32_t>[place]; rest -= tens<std::uint32_t>[place]) ++digit;
+    put(digit);
+  }
+}
+
 /// What an interrupt wrote is read behind this, and what it may write again is left alone before.
 inline void barrier() { asm volatile("" ::: "memory"); }
 

@@ -75,6 +75,7 @@ void obey(const Command& command) {
   asm volatile("cpsid i" ::: "memory");
   switch (command.kind) {
     case Command::Kind::none:
+    case Command::Kind::dropped:
       break;
     case Command::Kind::run:
       request = {.run = true};

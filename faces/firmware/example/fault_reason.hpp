@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Why a board's drive stands, as its line "# fault: over-current" says it: when it happens, and about once a second for as long as the
+// drive stands. The reason is kept over a reset, in memory that the start-up does not clear, so that a watchdog's reset does not hide it.
+#pragma once
+#include <cstdint>
+
+#include "faces/firmware/example/log.hpp"
+
+namespace firmware {
+
+enum class Reason : std::uint8_t {
+  none,
+  hall,            ///< a code that no rotor gives, or a jump over a sector
+  calibration,     ///< the offset of a current transducer is not where it must be
+  over_current,    ///< by the samples
+  current_sensor,  ///< a reading at the converter's end, or three currents whose sum is not zero
+  setpoint_wire,   ///< the potentiometer reads beyond its ends
+  comparator,      ///< the power stage's own, at the timer's break input
+  clock,           ///< the external clock did not come, or stopped
+  converter,       ///< no conversion ends
+  watchdog,        ///< the main loop or the control interrupt hung
+  over_voltage,
+  under_voltage,
+  over_speed,
+  stall,
+  align,
+  program  ///< an interrupt or a fault of the core that nobody serves
+};
+
+constexpr const char* word(Reason reason) {
+  switch (reason) {
+    case Reason::none:
+      return "none";
+    case Reason::hall:
+      return "hall";
+    case Reason::calibration:
+      return "calibration";
+    case Reason::over_current:
+      return "over-current";
+    case Reason::current_sensor:
+      return "current-sensor";
+    case Reason::setpoint_wire:
+      return "setpoint-wire";
+    case Reason::comparator:
+      return "comparator";
+    case Reason::clock:
+      return "clock";
+    case Reason::converter:
+      return "converter";
+    case Reason::watchdog:
+      return "watchdog";
+    case Reason::over_voltage:
+      return "over-voltage";
+    case Reason::under_voltage:
+      return "under-voltage";
+    case Reason::over_speed:
+      return "over-speed";
+    case Reason::stall:
+      return "stall";
+    case Reason::align:
+      return "align";
+    case Reason::program:
+      return "program";
+  }
+  return "unknown";
+}
+
+template <class Put>
+constexpr void put_fault(Put put, Reason reason) {
+  put_text(put, "# fault: ");
+  put_text(put, word(reason));
+  put('\n');
+}
+
+/// Lies in a section that no start-up clears. After power-up it holds anything: only with its key is it believed.
+struct KeptReason {
+  static constexpr std::uint32_t right_key = 0x5157E9A3;
+  volatile std::uint32_t key;
+  volatile Reason reason;
+  volatile std::uint8_t check;  ///< the reason, inverted
+
+  void keep(Reason why) {
+    key = 0;  // a reset amid this leaves nothing that is half written
+    reason = why;
+    check = static_cast<std::uint8_t>(~static_cast<unsigned>(why));
+    key = right_key;
+  }
+  void forget() { key = 0; }
+  Reason kept() const {
+    const Reason why = reason;
+    const bool whole = key == right_key && check == static_cast<std::uint8_t>(~static_cast<unsigned>(why));
+    return whole ? why : Reason::none;
+  }
+};
+
+}  // namespace firmware
