@@ -42,7 +42,7 @@ looked_at | tr '\n' '\0' | xargs -0 -n 1 -P "$(nproc)" clang-tidy -p "$build/sou
 firmware() {
   clang-tidy --quiet "$checks" "$1" -- "${@:2}" -std=c++20 -ffreestanding -nostdinc++ -I. -Ifaces/firmware/bare 2>/dev/null
 }
-arm=(--target=thumbv7em-none-eabihf -mcpu=cortex-m4) avr=(--target=avr -mmcu=atmega2560)
+arm=(--target=thumbv7em-none-eabihf -mcpu=cortex-m4) avr=(--target=avr -mmcu=atmega2560 -DSIXSTEP_ANY_COMPILER)
 firmware faces/firmware/example/cortex_m/main.cpp "${arm[@]}" -Ifaces/firmware/example/cortex_m
 firmware faces/firmware/example/avr/main.cpp "${avr[@]}" -Ifaces/firmware/example/avr
 firmware faces/loop/core/main.cpp "${arm[@]}" -Ifaces/firmware/example/cortex_m -DSIXSTEP_PRODUCT_DRIVE

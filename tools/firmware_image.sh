@@ -1,16 +1,22 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# firmware_image.sh BOARD [HEADER [OUT]]   an image to flash: the board's program (faces/firmware/example/) around the drive of HEADER, which
-#                                          `sixstep export header` writes; without it the example's own. BOARD: stm32f303, atmega2560.
+# firmware_image.sh BOARD [HEADER [OUT]] [--despite]   an image to flash: the board's program (faces/firmware/example/) around the drive of HEADER,
+#                                          which `sixstep export header` writes; without it the example's own. BOARD: stm32f303, atmega2560.
 #                                          OUT/image.elf, .hex and .bin; without it build/firmware/BOARD
+#                                          A header that its run did not clear for a bridge is refused; --despite builds it all the same.
 #
 # tools/install.sh target installs the compilers.
 set -eu
 cd "$(dirname "$0")/.."
 root=$PWD
-usage() { sed -n 's/^# \{0,1\}//; 3,5p' "$0" >&2; exit 2; }
-[ $# -ge 1 ] && [ $# -le 3 ] || usage
-case $1 in
+usage() { sed -n 's/^# \{0,1\}//; 3,6p' "$0" >&2; exit 2; }
+despite=() words=()
+for word; do
+  if [ "$word" = --despite ]; then despite=(-DSIXSTEP_DESPITE); else words+=("$word"); fi
+done
+[ ${#words[@]} -ge 1 ] && [ ${#words[@]} -le 3 ] || usage
+board=${words[0]}
+case $board in
   stm32f303) example=faces/firmware/example/cortex_m binutils=arm-none-eabi compilers=(arm-none-eabi-g++) ;;
   atmega2560) example=faces/firmware/example/avr binutils=avr compilers=(clang++-19 avr-gcc) ;;
   *) usage ;;
@@ -19,13 +25,25 @@ for compiler in "${compilers[@]}"; do
   command -v "$compiler" >/dev/null || { echo "$compiler is missing; tools/install.sh target installs it" >&2; exit 1; }
 done
 cd "$OLDPWD"
-header=$(realpath "${2:-$root/$example/drive_config.hpp}")
-out=$(realpath -m "${3:-$root/build/firmware/$1}")
+header=$(realpath "${words[1]:-$root/$example/drive_config.hpp}")
+out=$(realpath -m "${words[2]:-$root/build/firmware/$board}")
 cd "$root"
+# What the compiler would say in more words.
+refuse() { echo "$header: $1" >&2; exit 1; }
+[ -r "$header" ] || refuse "cannot be read"
+grep -q 'constexpr bool cleared = ' "$header" || refuse "does not say whether its drive is cleared for a bridge; export it anew with this sixstep"
+if grep -q 'constexpr std::uint64_t dead_time_ps = 0;' "$header"; then
+  refuse "has no dead time: both switches of a leg would be on at each reversal; give the scenario bridge.dead_time_s and export it anew"
+fi
+if grep -q 'constexpr bool cleared = false;' "$header"; then
+  sed -n '/^\/\/ NOT CLEARED/,/^\/\/ Its run/p' "$header" >&2
+  [ ${#despite[@]} -gt 0 ] || refuse "its drive is not cleared for a bridge; --despite builds the image all the same"
+  echo "$header: built all the same (--despite): not cleared for a bridge" >&2
+fi
 mkdir -p "$out"
 if [ "$header" != "$out/drive_config.hpp" ]; then cp "$header" "$out/drive_config.hpp"; fi
-include=("-I$root" "-I$root/faces/firmware/bare" "-I$out")
-if [ "$1" = stm32f303 ]; then
+include=("-I$root" "-I$root/faces/firmware/bare" "-I$out" ${despite[@]+"${despite[@]}"})
+if [ "$board" = stm32f303 ]; then
   arm-none-eabi-g++ "@$example/compile.flags" "${include[@]}" -Wall -Wextra -Wpedantic -Wshadow -Wdouble-promotion -Werror \
     "$example"/{main.cpp,start.cpp,start.S} faces/firmware/bare/memory.cpp -nostdlib -T "$example/stm32f303.ld" -o "$out/image.elf" -lgcc
 else

@@ -24,6 +24,12 @@ struct Fixed {
   using WideInt = typename detail::Widths<Storage>::Wide;
   static constexpr int fraction_bits = FractionBits;
   static_assert(FractionBits > 0 && FractionBits < detail::Widths<Storage>::bits);
+#if defined(__AVR__) && defined(__clang__) && !defined(SIXSTEP_ANY_COMPILER)
+  static_assert(
+      sizeof(Storage) == 2,
+      "clang 19 passes structs of 32-bit formats wrongly on the AVR wherever a call is not inlined: take q15 or q14, or "
+      "define SIXSTEP_ANY_COMPILER once a test on the chip has found this drive's bits right");
+#endif
 
   Storage raw = 0;  ///< the number times 2^FractionBits
 

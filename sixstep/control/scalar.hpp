@@ -9,7 +9,19 @@
 //
 // For float and double all of them are the Scalar itself, and every function below is the plain expression:
 // the same bits as writing it. fixed.hpp says what they are for fixed point.
+//
+// Compilers: C++20. For the AVR clang 19 or later; clang 14 to 16 compile a drive wrongly there, without a warning, and 17 and 18 were
+// never asked. avr-gcc 5 and 7, which Debian 12 and the Arduino IDE have, know no C++20. SIXSTEP_ANY_COMPILER lets any through: define
+// it for a compiler that tools/check_target.sh proof, or a test of yours on the chip, has found right.
 #pragma once
+#if __cplusplus < 201709L && !defined(_MSC_VER)
+#error \
+    "sixstep/control is C++20 (-std=c++20). avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have none: take clang 19 for the AVR"
+#endif
+#if defined(__AVR__) && defined(__clang__) && __clang_major__ < 19 && !defined(SIXSTEP_ANY_COMPILER)
+#error \
+    "this clang is known to compile drives wrongly for the AVR, without a warning: take clang 19 or later (SIXSTEP_ANY_COMPILER overrides)"
+#endif
 #include <cstdint>
 
 namespace sixstep::control {

@@ -107,6 +107,7 @@ class Gate(ProgramTest):
         self.assertIn("//   timing    sampled at a period's start, answered one period later;", text)
         self.assertIn("//   currents  phases, 12 bits over +-20.48 A\n", text)
         self.assertNotIn("NOT CLEARED", text)
+        self.assertIn("inline constexpr bool cleared = true; ", text)
         again = self.run_program("export", "header", self.scenario(BOARD)).stdout
         self.assertEqual(text, again, "no date")
 
@@ -143,8 +144,10 @@ class Gate(ProgramTest):
         lines = text.splitlines()
         at = lines.index("// NOT CLEARED FOR A BRIDGE. Written all the same, for this reason:")
         self.assertEqual(lines[at + 1:at + 3], ["//   one bench\\u000a#error two\\u000d*/ \\ \\u202e", "// What was overridden:"])
-        self.assertEqual([line.split(" ")[3] for line in lines[at + 3:at + 6]], ["sensors.currents", "pwm.delay_periods", "slowest"])
-        self.assertRegex(lines[at + 6], r"^// Its run: 0\.02 s simulated in double, digest \w{16}$")
+        self.assertEqual([line.split(" ")[3] for line in lines[at + 3:at + 7]],
+                         ["sensors.currents", "pwm.delay_periods", "bridge.dead_time_s", "slowest"])
+        self.assertIn("inline constexpr bool cleared = false; ", text)
+        self.assertRegex(lines[at + 7], r"^// Its run: 0\.02 s simulated in double, digest \w{16}$")
         self.assertNotIn("\u202e", text)
         for line in lines[:lines.index("#pragma once")]:
             self.assertTrue(line.startswith("//") and not line.endswith(("\\", "??/")), line)

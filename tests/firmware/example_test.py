@@ -47,7 +47,8 @@ class Examples(unittest.TestCase):
         needed = [s for s in symbols if s != "U" and not re.fullmatch(MAY_NEED[KIND], s)]
         self.assertEqual(needed, [])
         defined = subprocess.run([TOOLS[1], "--defined-only", out], capture_output=True, text=True, check=True).stdout
-        for entry in {"cortex_m": ["ADC1_2_IRQHandler", "TIM2_IRQHandler"], "avr": ["__vector_29", "__vector_11"]}[KIND]:
+        for entry in {"cortex_m": ["ADC1_2_IRQHandler", "TIM1_CC_IRQHandler", "TIM1_BRK_IRQHandler", "TIM2_IRQHandler", "USART2_IRQHandler",
+                                   "NMI_Handler"], "avr": ["__vector_29", "__vector_11"]}[KIND]:
             self.assertIn(f"T {entry}\n", defined)
 
     @unittest.skipUnless(KIND == "avr", "the other's drive knows its converter")
@@ -59,6 +60,40 @@ class Examples(unittest.TestCase):
             done, _ = self.compiled("avr", folder)
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("the converter that is there", done.stderr)
+
+    @unittest.skipUnless(KIND == "cortex_m", "its image is the one that asks for them")
+    def test_a_header_without_dead_time_or_clearance_does_not_compile(self):
+        for old, new, words in (("dead_time_ps = 500000;", "dead_time_ps = 0;", "without a dead time both switches of a leg are on"),
+                                ("bool cleared = true;", "bool cleared = false;", "not cleared for a bridge")):
+            text = (EXAMPLES / "cortex_m" / "drive_config.hpp").read_text()
+            self.assertEqual(text.count(old), 1)
+            with tempfile.TemporaryDirectory() as folder:
+                (pathlib.Path(folder) / "drive_config.hpp").write_text(text.replace(old, new))
+                done, _ = self.compiled("cortex_m", folder)
+                self.assertNotEqual(done.returncode, 0)
+                self.assertIn(words, done.stderr)
+                image = subprocess.run([REPOSITORY / "tools/firmware_image.sh", "stm32f303", f"{folder}/drive_config.hpp", f"{folder}/out"],
+                                       capture_output=True, text=True, check=False)
+                self.assertEqual(image.returncode, 1)
+                self.assertFalse((pathlib.Path(folder) / "out").exists())
+                if "is missing; tools/install.sh" not in image.stderr:
+                    self.assertIn("has no dead time" if "dead" in old else "--despite builds the image all the same", image.stderr)
+
+    @unittest.skipIf(KIND == "configs", "compiles")
+    def test_a_compiler_that_is_known_to_be_wrong_is_stopped(self):
+        source = f'#include "sixstep/control/fixed.hpp"\nsixstep::control::{"Q31" if KIND == "avr" else "Q15"} x;\n'
+        def told(*flags):
+            done = subprocess.run([TOOLS[0], *TARGET[KIND], *FLAGS, *flags, "-fsyntax-only", "-x", "c++", "-"], input=source,
+                                  capture_output=True, text=True, check=False)
+            return done.stderr
+        old = ["-Wno-builtin-macro-redefined", "-U__clang_major__", "-D__clang_major__=14"]
+        if KIND == "avr":
+            self.assertIn("known to compile drives wrongly for the AVR", told(*old))
+            self.assertIn("passes structs of 32-bit formats wrongly", told())
+            self.assertEqual(told(*old, "-DSIXSTEP_ANY_COMPILER"), "")
+        else:
+            self.assertEqual(told(*old), "")
+        self.assertIn("is C++20", told("-std=c++17"))
 
     @unittest.skipUnless(KIND == "configs", "exports")
     def test_configs_are_what_their_command_writes(self):

@@ -31,6 +31,7 @@ Scenario on_a_board(Mode mode) {
   Scenario s = maxon_scenario(mode, mode == Mode::duty ? 0.5 : 3.0);
   s.sensors = board_sensors();
   s.pwm.delay_periods = 1;
+  s.bridge.dead_time_s = 500e-9;
   s.require.push_back({measure(study::MetricKind::maximum, study::Signal::current), {}, 10.0});
   return s;
 }
@@ -80,15 +81,17 @@ TEST(ExportGate, ComparatorsNeedNeitherConverterNorDelay) {
   EXPECT_THAT(unmeasured(s), ElementsAre("sensors.currents", "pwm.delay_periods"));
 }
 
-TEST(ExportGate, ComplementarySwitchesWithoutDeadTimeAreRefused) {
-  Scenario s = on_a_board(Mode::duty);
-  s.pwm.chopping = control::Chopping::complementary;
-  EXPECT_THAT(unmeasured(s), ElementsAre("bridge.dead_time_s"));
-  s.bridge.dead_time_s = 500e-9;
-  EXPECT_THAT(unmeasured(s), IsEmpty());
-  s = on_a_board(Mode::current);
-  s.control.smooth_chopping.on = true;
-  EXPECT_THAT(unmeasured(s), ElementsAre("bridge.dead_time_s"));
+/// A reversal changes a leg over in every way of chopping.
+TEST(ExportGate, ADriveWithoutDeadTimeIsRefused) {
+  for (const Mode mode : {Mode::duty, Mode::current, Mode::speed, Mode::position})
+    for (const auto chopping :
+         {control::Chopping::soft, control::Chopping::hard, control::Chopping::complementary}) {
+      Scenario s = on_a_board(mode);
+      s.pwm.chopping = chopping;
+      EXPECT_THAT(unmeasured(s), IsEmpty());
+      s.bridge.dead_time_s = 0;
+      EXPECT_THAT(unmeasured(s), ElementsAre("bridge.dead_time_s"));
+    }
 }
 
 TEST(ExportGate, AFieldOrientedDriveReadsAnglesAndBusAndSwitchesBothWays) {
@@ -97,6 +100,7 @@ TEST(ExportGate, AFieldOrientedDriveReadsAnglesAndBusAndSwitchesBothWays) {
   s.pwm.alignment = study::Alignment::centre;
   s.sheet.back_emf = design::BackEmfShape::sine;
   s.sensors = {};
+  s.bridge.dead_time_s = 0;
   EXPECT_THAT(unmeasured(s),
               ElementsAre("sensors.rotor", "sensors.currents", "sensors.bus", "bridge.dead_time_s"));
   s.sensors = board_sensors();

@@ -90,7 +90,7 @@ CHIPS = (
     # product drive is five times as large and more than twice as slow as at 100000. All blocks at once would not fit so.
     # Where not all is inlined clang 19 gets 32-bit formats wrong too (it passes their structs amiss, programs crash): no walk
     # of q31 and q30. A drive that is inlined as a whole, as entries are, has the host's bits in them.
-    Core("ATmega2560", ("clang++-19", "--target=avr", "-mmcu=atmega2560"),
+    Core("ATmega2560", ("clang++-19", "--target=avr", "-mmcu=atmega2560", "-DSIXSTEP_ANY_COMPILER"),
          (str(OUT / "avr_board"),), ("avr.cpp",), link=("avr-gcc", "-mmcu=atmega2560"),
          for_walk=("-mllvm", "-inline-threshold=5000"),
          # At 5000 commissioning's phases become one function that clang 19's branches do not reach across; pulse_start

@@ -30,18 +30,21 @@ std::string constant(std::string_view type, std::string_view name, const std::st
   return fmt::format("{:<72}  // {}\n", code, about);
 }
 
-std::string timing(const study::Compiled& c) {
+std::string timing(const study::Compiled& c, bool cleared) {
   const sixstep::rig::ModulatorConfig& m = c.board.modulator;
   const auto flag = [](bool on) { return std::string(on ? "true" : "false"); };
   const auto us = [](double ps) { return fmt::format("{:.9g} us", ps / 1e6); };
   const double dead = m.dead_ticks;
-  return constant("std::uint8_t", "pole_pairs", std::to_string(static_cast<int>(c.motor.machine.pole_pairs)),
+  return constant("bool", "cleared", flag(cleared),
+                  cleared ? "for a bridge, by its run" : "NOT for a bridge: static_assert on it") +
+         constant("std::uint8_t", "pole_pairs", std::to_string(static_cast<int>(c.motor.machine.pole_pairs)),
                   "electrical turns per mechanical one") +
          constant("std::uint64_t", "pwm_period_ps", std::to_string(m.period_ticks),
                   us(static_cast<double>(m.period_ticks)) + ", and the period of the control tick") +
          constant("bool", "pwm_centre_aligned", flag(m.centre_aligned),
                   "else the on-time begins with the period") +
-         constant("std::uint64_t", "dead_time_ps", fmt::format("{:.0f}", dead), us(dead)) +
+         constant("std::uint64_t", "dead_time_ps", fmt::format("{:.0f}", dead),
+                  dead > 0 ? us(dead) : "none: not for an image") +
          (c.field ? ""
                   : constant("bool", "commutate_at_sample", flag(c.board.commutate_at_sample),
                              "else in the Hall interrupt")) +
@@ -112,7 +115,10 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   std::string text = header_comment(w, c);
   if (!rows.empty()) text += proof(rows);
   text += core_cost_lines(c);
-  text += "#pragma once\n#include <cstdint>\n\n";
+  text +=
+      "#pragma once\n#if __cplusplus < 201709L && !defined(_MSC_VER)\n"
+      "#error \"C++20 is needed: avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have none; take clang 19 for the AVR\"\n"
+      "#endif\n#include <cstdint>\n\n";
   text += position_profile(c) + includes(w, c);
   text += fmt::format("\nnamespace {} {{\n\nusing Scalar = {};\n\n", w.name_space, type);
   const auto base = [](const char* member, double x, const char* unit) {
@@ -126,7 +132,7 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   const control::DriveConfig<double>& drive = c.field        ? c.field->drive
                                               : c.sensorless ? c.sensorless->drive.drive
                                                              : c.drive;
-  text += timing(c) + around_lean(w, c) + "\n" +
+  text += timing(c, w.clearance && w.clearance->clear()) + around_lean(w, c) + "\n" +
           made("DriveConfig", "drive", config_lines<Scalar>(c.drive.mode, drive, kept.drive, b));
   const auto around = [&](const char* type_name, const char* name, const char* within, const auto& designed,
                           const auto& own) {

@@ -92,10 +92,9 @@ void look_at_delay(const Scenario& s, base::Problems& out) {
                    "set delay_periods = 1, or sample = \"middle\""});
 }
 
+/// Of every drive: where the torque reverses, a leg changes over from one switch to the other, whichever way it is chopped.
 void look_at_dead_time(const Scenario& s, base::Problems& out) {
-  const bool both_switch =
-      in_the_field(s) || s.pwm.chopping == control::Chopping::complementary || s.control.smooth_chopping.on;
-  if (both_switch && s.control.mode != Mode::off && !(s.bridge.dead_time_s > 0))
+  if (s.control.mode != Mode::off && !(s.bridge.dead_time_s > 0))
     out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s),
                    "turns one switch of a leg on while the other turns off, and real ones short the bus then",
                    "give what the gate drivers need, as 500e-9"});

@@ -16,7 +16,7 @@ FLAGS = ["-std=c++20", "-ffreestanding", "-nostdinc++", "-fno-exceptions", "-fno
 CHIPS = {"Cortex-M4": ["--target=thumbv7em-none-eabihf", "-mcpu=cortex-m4"],
          "Cortex-M0": ["--target=thumbv6m-none-eabi", "-mcpu=cortex-m0"],
          "RV32IMC": ["--target=riscv32", "-march=rv32imc", "-mabi=ilp32"],
-         "ATmega2560": ["--target=avr", "-mmcu=atmega2560"]}
+         "ATmega2560": ["--target=avr", "-mmcu=atmega2560", "-DSIXSTEP_ANY_COMPILER"]}
 TOOLS = []
 
 

@@ -3,6 +3,8 @@
 // Made by sixstep 0.1.0. Change the scenario, not this file:
 //   sixstep export header data/scenarios/firmware/avr.toml --arithmetic q15 --out faces/firmware/example/avr/drive_config.hpp
 //
+// C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have not. For the AVR: clang 19 or later.
+//
 // scenario  Current loop in Q15 on an AVR: a transducer in each phase, a tick every 100 us
 // motor     maxon EC 45 flat 251601: 8 pole pairs, terminal R = 1.03 ohm, L = 0.000572 H, K_t = 0.0335 N m/A; J = 0.0001135 kg m2
 // current   d1 = 2.30464 V/A, d0 = -1.92486 V/A; given as d1, d0; poles z = 0.83521 and 0.631286 on 0.159989/(z -0.835212); settle_s = 0.001, damping = 0.9 would give d1 = 3.77432, d0 = -2.72953
@@ -47,6 +49,9 @@
 //   ATmega2560  q31             2606      42 cycles             4020     197 bytes
 //   ATmega2560  float           2176      42 cycles             2046     193 bytes
 #pragma once
+#if __cplusplus < 201709L && !defined(_MSC_VER)
+#error "C++20 is needed: avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have none; take clang 19 for the AVR"
+#endif
 #include <cstdint>
 
 #include "sixstep/control/drive.hpp"
@@ -64,6 +69,7 @@ inline constexpr sixstep::control::Units<Scalar> units{
   .position_deg = 0x1p+0,                                                 // 1 deg
 };
 
+inline constexpr bool cleared = true;                                     // for a bridge, by its run
 inline constexpr std::uint8_t pole_pairs = 8;                             // electrical turns per mechanical one
 inline constexpr std::uint64_t pwm_period_ps = 100000000;                 // 100 us, and the period of the control tick
 inline constexpr bool pwm_centre_aligned = true;                          // else the on-time begins with the period

@@ -3,6 +3,8 @@
 // Made by sixstep 0.1.0. Change the scenario, not this file:
 //   sixstep export header data/scenarios/firmware/cortex-m.toml --arithmetic float --out faces/firmware/example/cortex_m/drive_config.hpp
 //
+// C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have not. For the AVR: clang 19 or later.
+//
 // scenario  Speed cascade on a Cortex-M: 70 to 300 rad/s on Hall probes
 // motor     maxon EC 45 flat 251601: 8 pole pairs, terminal R = 1.03 ohm, L = 0.000572 H, K_t = 0.0335 N m/A; J = 1.35e-05 kg m2
 // current   d1 = 4.09559 V/A, d0 = -3.69396 V/A; pole placement from settle_s and damping; poles z = 0.869154 +- 0.0581778j (settle_s = 0.001, damping = 0.9) on 0.0510561/(z -0.947412)
@@ -41,6 +43,9 @@
 //   ATmega2560  q31            11568     975 cycles            20552     289 bytes
 //   ATmega2560  float           9508     976 cycles            11872     285 bytes
 #pragma once
+#if __cplusplus < 201709L && !defined(_MSC_VER)
+#error "C++20 is needed: avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have none; take clang 19 for the AVR"
+#endif
 #include <cstdint>
 
 #include "sixstep/control/protected_drive.hpp"
@@ -58,6 +63,7 @@ inline constexpr sixstep::control::Units<Scalar> units{
   .position_deg = 0x1p+0,                                                 // 1 deg
 };
 
+inline constexpr bool cleared = true;                                     // for a bridge, by its run
 inline constexpr std::uint8_t pole_pairs = 8;                             // electrical turns per mechanical one
 inline constexpr std::uint64_t pwm_period_ps = 30000000;                  // 30 us, and the period of the control tick
 inline constexpr bool pwm_centre_aligned = false;                         // else the on-time begins with the period
