@@ -26,7 +26,7 @@ std::vector<BridgeCommand<float>> commands() {
 
 /// RM0316, output control bits of complementary channels with MOE = OSSR = 1: CCxE, CCxNE and the reference
 /// OCxREF, which PWM mode 1 (110) raises in the on-time and mode 2 (111) in the rest, 101 holds high and 100 low. Dead
-/// time left out.
+/// time left out. With neither enable the outputs are let go: no gate of a bridge is, ever.
 unsigned gates_of(const firmware::GateOutputs& out, bool on_time) {
   unsigned gates = 0;
   for (unsigned n = 0; n < 3; ++n) {
@@ -34,6 +34,7 @@ unsigned gates_of(const firmware::GateOutputs& out, bool on_time) {
     const bool upper = out.CCER >> (4 * n) & 1, lower = out.CCER >> (4 * n + 2) & 1;
     const bool reference = mode == 5 || (mode == 6 && on_time) || (mode == 7 && !on_time);
     EXPECT_GE(mode, 4u);
+    EXPECT_TRUE(upper || lower) << "a leg is let go";
     if (upper && reference) gates |= 1u << (2 * n);
     if (lower && (upper ? !reference : reference)) gates |= 2u << (2 * n);
   }
@@ -42,9 +43,36 @@ unsigned gates_of(const firmware::GateOutputs& out, bool on_time) {
 
 TEST(CortexM, TheTimersOutputsAreTheGates) {
   for (const BridgeCommand<float>& c : commands()) {
-    const firmware::GateOutputs out = firmware::outputs(c);
+    const firmware::GateOutputs out = firmware::registers(firmware::outputs(c));
     for (const bool on_time : {true, false}) EXPECT_EQ(gates_of(out, on_time), gates(c, on_time));
   }
+}
+
+/// Of each change from one command to another: where a leg has one switch before and the other one behind, and not the timer's own dead time
+/// throughout, it is off on the way; no leg that need not is; and no leg has a switch on the way that it has neither before nor
+/// behind. tests/target/transitions.py has the executed image do it, clock by clock.
+TEST(CortexM, ALegThatChangesSidesIsOffOnTheWay) {
+  using firmware::BridgeOutputs;
+  const auto can = [](const BridgeOutputs& o, bool pulse) { return gates_of(firmware::registers(o), pulse); };
+  const auto ever = [&](const BridgeOutputs& o) { return can(o, true) | can(o, false); };
+  int pauses = 0;
+  for (const BridgeCommand<float>& from : commands())
+    for (const BridgeCommand<float>& to : commands()) {
+      const BridgeOutputs before = firmware::outputs(from), behind = firmware::outputs(to),
+                          way = firmware::between(before, behind);
+      for (unsigned n = 0; n < 3; ++n) {
+        const auto of_leg = [n](unsigned gates) { return gates >> (2 * n) & 3; };
+        const unsigned first = of_leg(ever(before)), last = of_leg(ever(behind)), on_way = of_leg(ever(way));
+        const bool timed = before.leg[n].enables() == 5 && behind.leg[n].enables() == 5;
+        const bool changes = !(before.leg[n] == behind.leg[n]) && !timed &&
+                             ((first & 1 && last & 2) || (first & 2 && last & 1));
+        EXPECT_EQ(on_way, changes ? 0u : last);
+        pauses += changes;
+      }
+      EXPECT_EQ(ever(firmware::legs_off(before)), 0u);
+      EXPECT_EQ(firmware::between(way, behind), behind) << "two events do";
+    }
+  EXPECT_GT(pauses, 500);
 }
 
 /// RM0316, 20.4.18, DTG: its upper bits choose the step.

@@ -10,7 +10,6 @@
 #include <random>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "faces/firmware/example/commands.hpp"
@@ -110,12 +109,11 @@ std::vector<firmware::Command> obeyed(const std::string& typed, const std::strin
   firmware::Ring<16> ring;
   firmware::Commands commands;
   std::vector<firmware::Command> out;
-  bool overrun = false;
   for (const char c : typed) {
     if (missing.find(c) != std::string::npos)
-      overrun = true;
+      ring.lose();
     else
-      ring.put(c, std::exchange(overrun, false));
+      ring.put(c);
   }
   for (;;) {
     const auto item = ring.take();
@@ -155,14 +153,14 @@ TEST(Commands, NoLostEndOfALineJoinsTwoNumbers) {
 
 TEST(Commands, ARingThatIsFullLosesTheRestAndSaysSo) {
   firmware::Ring<4> ring;
-  for (const char c : std::string("12345")) ring.put(c, false);
+  for (const char c : std::string("12345")) ring.put(c);
   for (const char c : std::string("1234")) EXPECT_EQ(ring.take().character, c);
   EXPECT_EQ(ring.take().kind, firmware::Ring<4>::Kind::none);
-  ring.put('\n', false);
+  ring.put('\n');
   EXPECT_EQ(ring.take().kind, firmware::Ring<4>::Kind::gap);
   EXPECT_EQ(ring.take().character, '\n');
   for (int n = 0; n < 1000; ++n) {  // its indices wrap
-    ring.put(static_cast<char>('a' + n % 26), false);
+    ring.put(static_cast<char>('a' + n % 26));
     ASSERT_EQ(ring.take().character, static_cast<char>('a' + n % 26));
   }
 }

@@ -37,7 +37,7 @@ PARTS = {"proof": (proof.check, proof.check, None), "sights": (sights, sights, N
          "costs": (functools.partial(cost.check, cost.USUAL), cost.check, cost.renew),
          "blocks": (blocks.check, blocks.check, blocks.renew), "sizes": (sizes.check, sizes.check, sizes.renew),
          "own": (own_costs.check, own_costs.check, own_costs.renew), "loop": (loop.check, loop.check_all, None),
-         "avr": (avr.check, avr.check, None), "images": (images.check, images.check, None)}
+         "avr": (avr.check, avr.check, None), "images": (images.check, images.check_all, None)}
 
 
 def prepare(part):

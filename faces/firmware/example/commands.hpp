@@ -65,19 +65,18 @@ class Ring {
     char character = 0;
   };
 
-  /// In the interrupt. `overrun`: one before it was lost on the line. A full ring loses this one.
-  void put(char c, bool overrun) {
+  /// In the interrupt. A full ring loses this one.
+  void put(char c) {
     const auto begin = begin_, end = end_;
-    if (static_cast<std::uint8_t>(end - begin) >= size) {
-      lost_ = true;  // told with the next one that finds room
-      return;
-    }
+    if (static_cast<std::uint8_t>(end - begin) >= size) return lose();
     characters_[end % size] = c;
-    gaps_[end % size] = overrun || lost_;
+    gaps_[end % size] = lost_;
     lost_ = false;
     barrier();
     end_ = static_cast<std::uint8_t>(end + 1);
   }
+  /// In the interrupt: a character was lost behind the last one. It is told with the next that arrives.
+  void lose() { lost_ = true; }
 
   /// In the main loop: first that something is missing before a character, then the character.
   Item take() {

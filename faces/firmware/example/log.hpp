@@ -79,12 +79,13 @@ inline void barrier() { asm volatile("" ::: "memory"); }
 template <class Row>
 class LogSlot {
  public:
-  /// In the interrupt, where the main loop waits for one.
-  void take(const Row& row) {
-    if (full_) return;
+  /// In the interrupt, where the main loop waits for one; says whether it did.
+  bool take(const Row& row) {
+    if (full_) return false;
     row_ = row;
     barrier();
     full_ = true;
+    return true;
   }
 
   /// In the main loop: null as long as there is none.

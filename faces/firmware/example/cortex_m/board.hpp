@@ -3,7 +3,8 @@
 //
 //   PA8 PA9 PA10       upper gates a b c     TIM1_CH1..3
 //   PB13 PB14 PB15     lower gates a b c     TIM1_CH1N..3N
-//   PA0 PC1 PC0, PA1   currents a b c, bus   ADC1_IN1, 7, 6, 2
+//   PB12               the power stage's comparator or fault output, open drain, low: all gates off   TIM1_BKIN
+//   PA0 PC1 PC0, PA1   currents a b c, bus   ADC1_IN1, 7, 6, 2; transducers in line with the phases
 //   PA15 PB3 PB10      Hall H1 H2 H3         TIM2_CH1..3, whose XOR is captured
 //   PA2 PA3            serial line           USART2, on the Nucleo at its debugger's USB
 #pragma once
@@ -14,6 +15,12 @@
 
 namespace firmware {
 
+#ifdef SIXSTEP_DESPITE
+constexpr bool accepts_uncleared = true;  // tools/firmware_image.sh --despite
+#else
+constexpr bool accepts_uncleared = false;
+#endif
+
 using namespace sixstep::control;
 using exported::Scalar;
 
@@ -21,24 +28,74 @@ constexpr std::uint32_t clock_Hz = 72'000'000;
 /// The Nucleo's 8 MHz come from its debugger, as a clock; with a crystal this is false.
 constexpr bool has_external_clock = true;
 
+/// The power stage. Upper gates that live on a charge, which their switch node brings when it is low (IR21xx, L638x and most shields):
+/// before the first pulse all lower gates pulse for a while, no on-time leaves less than a gap, and no pattern keeps an upper gate on.
+constexpr bool upper_gates_by_bootstrap = true;
+constexpr std::uint32_t charge_ns = 2'000, charge_periods = 100, least_gap_ns = 1'500;
+/// The level of the break input that turns all gates off. Nothing at the pin is high: it is pulled up.
+constexpr bool break_active_high = false;
+
+// From here on what follows from the drive.
+static_assert(
+    exported::cleared || accepts_uncleared,
+    "the header says that its drive is not cleared for a bridge; tools/firmware_image.sh builds it with --despite");
+
+constexpr std::uint32_t counts_of_ns(std::uint64_t ns) {
+  return static_cast<std::uint32_t>((ns * (clock_Hz / 1'000'000) + 999) / 1'000);
+}
 constexpr auto pwm_counts =
     static_cast<std::uint32_t>(exported::pwm_period_ps * (clock_Hz / 1'000'000) / 1'000'000);
-static_assert(pwm_counts >= 100 && pwm_counts <= 65536, "TIM1 has 16 bits");
+static_assert(pwm_counts >= 720 && pwm_counts <= 65536,
+              "TIM1 has 16 bits, and a period takes 10 us at least");
+constexpr auto dead_counts =
+    static_cast<std::uint32_t>((exported::dead_time_ps * (clock_Hz / 1'000'000) + 999'999) / 1'000'000);
+static_assert(
+    dead_counts > 0,
+    "without a dead time both switches of a leg are on for a moment: give the scenario bridge.dead_time_s");
+static_assert(dead_counts <= 1008, "14 us, as TIM1 counts it");
+static_assert(dead_counts <= pwm_counts / 4, "interrupts wait for it");
+/// The samples are taken one microsecond before the update: the switching at the period's start comes when all four are held. Some
+/// counts before the update, the period's change of outputs.
+constexpr std::uint32_t sample_count = pwm_counts - clock_Hz / 1'000'000, event_count = pwm_counts - 12;
+constexpr std::uint32_t most_on_counts = pwm_counts - counts_of_ns(least_gap_ns);
+constexpr std::uint32_t charge_counts = counts_of_ns(charge_ns);
+static_assert(counts_of_ns(least_gap_ns) <= pwm_counts / 4 && charge_counts <= pwm_counts / 8);
 
 // Gains, converters, capture and thresholds, as the scenario simulated them.
 constexpr const ProtectedConfig<Scalar>& config = exported::product;
 static_assert(sizeof(Scalar) == 4 && Scalar(0.5f) > Scalar{}, "a duty becomes counts by multiplying floats");
 static_assert(!(Scalar{} < config.drive.extras.commutation.overlap_bus_V),
               "the leg in no pair has no pulse of its own here");
+static_assert(config.drive.current_control != CurrentControl::hysteresis ||
+                  config.drive.hysteresis.watch == Watch::none,
+              "comparators that switch the legs by themselves are not wired here");
+static_assert(config.sensing == CurrentSensing::phases, "a transducer in each phase");
+static_assert(
+    !upper_gates_by_bootstrap || !config.drive.extras.on ||
+        config.drive.extras.pwm.pattern == PwmPattern::upper,
+    "this pattern keeps upper gates on for 60 degrees and more: their bootstraps run empty at a slow rotor");
 static_assert(!exported::pwm_centre_aligned,
               "TIM1 counts up; a period begins with the on-time, and is sampled there");
 static_assert(exported::command_delayed,
               "the compare registers are preloaded: a command counts from the next period on");
+static_assert(!exported::commutate_at_sample, "the Hall interrupt moves the pair");
 
-/// PA15 is H1, the highest bit.
-inline std::uint8_t hall_pins() {
+/// Three readings a quarter of a microsecond apart, by majority: an edge of the bridge disturbs one of them.
+inline std::uint8_t hall_pins_once() {
   const std::uint32_t a = gpio_a().IDR, b = gpio_b().IDR;
   return static_cast<std::uint8_t>((a >> 15 & 1) << 2 | (b >> 3 & 1) << 1 | (b >> 10 & 1));
+}
+inline void quarter_of_a_microsecond() {
+  for (int n = 0; n < 6; ++n) asm volatile("");
+}
+/// PA15 is H1, the highest bit.
+inline std::uint8_t hall_pins() {
+  const unsigned first = hall_pins_once();
+  quarter_of_a_microsecond();
+  const unsigned second = hall_pins_once();
+  quarter_of_a_microsecond();
+  const unsigned third = hall_pins_once();
+  return static_cast<std::uint8_t>((first & second) | (second & third) | (first & third));
 }
 
 }  // namespace firmware

@@ -1,41 +1,118 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bridge command as TIM1's output modes. With both outputs of a channel enabled the timer itself makes the
-// lower gate the upper one's complement and puts the dead time between (RM0316, output control bits of
-// complementary channels).
+// A bridge command as TIM1's output modes, one per leg, and which of them may follow which.
+//
+// What the manual says of the two outputs of a channel, with MOE = OSSR = 1 (RM0316, table of the output control bits of complementary
+// channels, and "dead-time insertion is enabled by setting both CCxE and CCxNE"):
+//
+//   CCxE CCxNE   upper OCx             lower OCxN
+//    0     0     let go (Hi-Z)         let go (Hi-Z)
+//    1     0     OCxREF                driven low            no dead time
+//    0     1     driven low            OCxREF                no dead time
+//    1     1     OCxREF                not OCxREF            dead time at each edge of OCxREF
+//
+// A leg of which only one switch is ever on needs one enable; with it the timer puts no dead time anywhere. So a leg that is to change
+// between its switches passes through "off" for the dead time: two commutation events (COM), no closer than that. At the first one
+// it is off, and all other legs have their new outputs; at the second one it has its own. Only a leg with both enables before
+// and behind changes at once, for there the timer's own dead time stands between. Off is driven: CCxE or CCxNE alone, OCxREF forced low.
+// A leg goes off by its mode alone and changes its enables while OCxREF is low, so that no order within one event matters.
+//
+// bridge_timer.hpp says when the events come.
 #pragma once
 #include "faces/firmware/example/cortex_m/registers.hpp"
 #include "sixstep/control/gates.hpp"
 
 namespace firmware {
 
+/// OCxM, CCxE as bit 0 and CCxNE as bit 2, and the switches that it may turn on, in one byte: interrupts compare them.
+class LegOutput {
+ public:
+  static constexpr unsigned upper_alone = 1, lower_alone = 4, both = 5;
+  constexpr LegOutput() : LegOutput(bit::force_low, upper_alone) {}
+  constexpr LegOutput(unsigned mode, unsigned enables)
+      : bits_(static_cast<std::uint8_t>(mode | enables << 3 | switches_of(mode, enables) << 6)) {}
+  constexpr std::uint32_t mode() const { return bits_ & 7u; }
+  constexpr std::uint32_t enables() const { return bits_ >> 3 & 7u; }
+  /// At any time of a period: 1 the upper one, 2 the lower one.
+  constexpr unsigned switches() const { return bits_ >> 6; }
+  constexpr bool operator==(const LegOutput&) const = default;
+
+ private:
+  static constexpr unsigned switches_of(unsigned mode, unsigned enables) {
+    if (mode == bit::force_low) return enables == both ? 2 : 0;
+    return (enables & 1u) | (enables & 4u) >> 1;
+  }
+  std::uint8_t bits_;
+};
+
+/// Of a leg's two gates within the on-time and in the rest, each as a bit for the upper and one for the lower one.
+constexpr LegOutput leg_output(unsigned on, unsigned off) {
+  constexpr unsigned upper = 1, lower = 2;
+  if (on & off & upper) return {bit::force_high, LegOutput::upper_alone};
+  if (on & upper) return {bit::pwm_1, off & lower ? LegOutput::both : LegOutput::upper_alone};
+  if (on & off & lower) return {bit::force_low, LegOutput::both};
+  if (on & lower && off & upper)
+    return {bit::pwm_2, LegOutput::both};  // the upper gate's on-time is the rest of the period
+  if (on & lower) return {bit::pwm_1, LegOutput::lower_alone};  // the lower gate alone follows the on-time
+  return {};
+}
+
+/// Both switches off, from whatever it does.
+constexpr LegOutput leg_off(LegOutput from) {
+  const bool lower = from.enables() == LegOutput::lower_alone;
+  return {bit::force_low, lower ? LegOutput::lower_alone : LegOutput::upper_alone};
+}
+
+/// Whether a leg has to be off in between: one switch before, the other one behind, and not the timer's own dead time all along.
+constexpr bool needs_pause(LegOutput from, LegOutput to) {
+  const unsigned before = from.switches(), behind = to.switches();
+  if (((before >> 1 & behind) | (behind >> 1 & before)) == 0 || from == to) return false;
+  return from.enables() != LegOutput::both || to.enables() != LegOutput::both;
+}
+
+/// Of legs a, b, c.
+struct BridgeOutputs {
+  LegOutput leg[3];
+  constexpr bool operator==(const BridgeOutputs& other) const {
+    return leg[0] == other.leg[0] && leg[1] == other.leg[1] && leg[2] == other.leg[2];
+  }
+};
+
+template <class Scalar>
+constexpr BridgeOutputs outputs(const sixstep::control::BridgeCommand<Scalar>& command) {
+  const unsigned on = gates(command, true), off = gates(command, false);
+  return {
+      {leg_output(on & 3, off & 3), leg_output(on >> 2 & 3, off >> 2 & 3), leg_output(on >> 4, off >> 4)}};
+}
+
+/// On the way from one to the other: off where a leg has to pause.
+constexpr BridgeOutputs between(const BridgeOutputs& from, const BridgeOutputs& to) {
+  BridgeOutputs way = to;
+  for (int n = 0; n < 3; ++n)
+    if (needs_pause(from.leg[n], to.leg[n])) way.leg[n] = leg_off(from.leg[n]);
+  return way;
+}
+
+/// All off, at once.
+constexpr BridgeOutputs legs_off(const BridgeOutputs& from) {
+  return {{leg_off(from.leg[0]), leg_off(from.leg[1]), leg_off(from.leg[2])}};
+}
+
+/// Whether a switch may come on by it that could not before.
+constexpr bool turns_on(const BridgeOutputs& from, const BridgeOutputs& to) {
+  unsigned more = 0;
+  for (int n = 0; n < 3; ++n) more |= to.leg[n].switches() & ~from.leg[n].switches();
+  return more != 0;
+}
+
+/// As registers. CCMR2 has the fourth channel's mode too, whose reference rises at its compare value and starts the converter.
 struct GateOutputs {
   std::uint32_t CCMR1, CCMR2, CCER;
 };
 
-/// OCxM, and CCxE as bit 0, CCxNE as bit 2.
-struct LegOutput {
-  std::uint32_t mode, enables;
-};
-
-constexpr LegOutput leg_output(sixstep::control::Leg leg, unsigned on, unsigned off) {
-  const unsigned upper = sixstep::control::upper_gate(leg), lower = sixstep::control::lower_gate(leg);
-  if (on & off & upper) return {bit::force_high, 1};
-  if (on & upper) return {bit::pwm_1, off & lower ? 5u : 1u};
-  if (on & off & lower) return {bit::force_low, 5};
-  if (on & lower && off & upper)
-    return {bit::pwm_2, 5};                // the upper gate's on-time is the rest of the period
-  if (on & lower) return {bit::pwm_1, 4};  // the lower gate alone follows the on-time
-  return {bit::force_low, 0};
-}
-
-template <class Scalar>
-constexpr GateOutputs outputs(const sixstep::control::BridgeCommand<Scalar>& command) {
-  using sixstep::control::Leg;
-  const unsigned on = gates(command, true), off = gates(command, false);
-  const LegOutput a = leg_output(Leg::a, on, off), b = leg_output(Leg::b, on, off),
-                  c = leg_output(Leg::c, on, off);
-  return {(a.mode << 4 | bit::preload) | (b.mode << 4 | bit::preload) << 8, c.mode << 4 | bit::preload,
-          a.enables | b.enables << 4 | c.enables << 8};
+constexpr GateOutputs registers(const BridgeOutputs& o) {
+  const auto mode = [&o](int n) { return o.leg[n].mode() << 4 | bit::preload; };
+  return {mode(0) | mode(1) << 8, mode(2) | (bit::pwm_2 << 4 | bit::preload) << 8,
+          o.leg[0].enables() | o.leg[1].enables() << 4 | o.leg[2].enables() << 8};
 }
 
 /// DTG of a dead time in counts, never shorter (20.4.18): steps of 1, 2, 8 and 16 counts.

@@ -1,146 +1,271 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole program of an STM32F303 (Cortex-M4F, 72 MHz) around an exported product drive in float: what tools/firmware_image.sh makes an
-// image of. The control interrupt comes once a period, behind four conversions; the Hall interrupt moves the bridge; the main loop takes
-// commands from the serial line, logs to it, and keeps the watchdog from biting.
+// image of. The control interrupt comes once a period, behind four conversions; the Hall interrupt moves the bridge; the period's end
+// takes what waits. The main loop takes commands from the serial line, logs to it, and keeps the watchdog from biting.
 #include "faces/firmware/example/commands.hpp"
-#include "faces/firmware/example/cortex_m/bridge.hpp"
-#include "faces/firmware/example/cortex_m/set_up.hpp"
-#include "faces/firmware/example/log.hpp"
+#include "faces/firmware/example/cortex_m/standing.hpp"
 
 namespace firmware {
 
+[[gnu::section(".noinit")]] KeptReason kept_reason;
 ProtectedState<Scalar> state;
 ProtectedTelemetry<Scalar> telemetry;  // the drive never reads it
-Request request;                       // this one and the next by the main loop, with interrupts off
+Request asked;                         // this one and the next by the main loop, with interrupts off
 Setpoint<Scalar> setpoint;
+std::uint32_t charge_left = 0;  // periods until the bootstraps have their charge
 
 /// What the log has of a control tick.
 struct Row {
-  std::uint32_t tick;
+  Instant t;
   Scalar speed, speed_reference, current, duty, bus;
   std::uint8_t hall, activity;
   std::uint16_t faults;
+  std::uint32_t missed;
 };
 LogSlot<Row> log;
-std::uint32_t ticks = 0;
+Ring<64> received;
 volatile std::uint8_t heart = 0;  // beats with each control interrupt
+volatile bool listening = false;  // to control interrupts
 
-/// All channels at once, by the commutation event; the on-time counts from the next period on.
-void apply(const BridgeCommand<Scalar>& command) {
-  const GateOutputs out = outputs(command);
-  const auto compare = static_cast<std::uint32_t>(command.duty * static_cast<float>(pwm_counts));
-  for (int n = 0; n < 3; ++n) tim1().CCR[n] = compare;
-  tim1().CCMR1 = out.CCMR1;
-  tim1().CCMR2 = out.CCMR2;
-  tim1().CCER = out.CCER;
-  tim1().EGR = bit::COMG;
+/// By the counter that runs on: a period that had no control interrupt takes its time, and is counted as missed.
+struct LogClock {
+  Instant t;
+  std::uint32_t rest = 0;  // counts beyond the last microsecond
+  std::uint32_t missed = 0;
+
+  void tick(std::uint32_t elapsed) {
+    constexpr std::uint32_t counts = clock_Hz / 1'000'000;
+    rest += elapsed;
+    t.pass(rest / counts);
+    rest %= counts;
+    const std::uint32_t periods = (elapsed + pwm_counts / 2) / pwm_counts;
+    if (periods > 1) missed += periods - 1;
+  }
+};
+LogClock log_clock;
+
+/// A request to run waits until the bootstraps are charged; then it is the drive's.
+Request request_now() {
+  Request now = asked;
+  if (!asked.run)
+    charge_left = upper_gates_by_bootstrap ? charge_periods : 0;
+  else if (charge_left > 0)
+    --charge_left;
+  now.run = asked.run && charge_left == 0;
+  return now;
+}
+
+/// Asked to run and not yet there.
+bool charges() {
+  const Activity now = state.activity.activity;
+  return upper_gates_by_bootstrap && asked.run && (now == Activity::off || now == Activity::calibrate);
 }
 
 void put(char c) {
-  while ((usart2().ISR & bit::TXE) == 0) continue;
+  while ((usart2().ISR & bit::TXE) == 0) watch_converter(listening);
   usart2().TDR = static_cast<std::uint8_t>(c);
 }
 
 std::int32_t thousandths(Scalar x) { return static_cast<std::int32_t>(x * 1000.0f); }
 
-constexpr auto period_ns = static_cast<std::uint32_t>(exported::pwm_period_ps / 1000);
-
 void send(const Row& row) {
-  const std::int32_t numbers[] = {
-      static_cast<std::int32_t>(static_cast<std::uint64_t>(row.tick) * period_ns / 1000),
-      thousandths(row.speed),
-      thousandths(row.speed_reference),
-      thousandths(row.current),
-      thousandths(row.duty),
-      thousandths(row.bus),
-      row.hall,
-      row.activity,
-      row.faults};
-  constexpr unsigned columns = 9, decimals[columns] = {0, 3, 3, 0, 3, 3, 0, 0, 0};
+  put_instant(put, row.t);
+  const std::int32_t numbers[] = {thousandths(row.speed),
+                                  thousandths(row.speed_reference),
+                                  thousandths(row.current),
+                                  thousandths(row.duty),
+                                  thousandths(row.bus),
+                                  row.hall,
+                                  row.activity,
+                                  row.faults,
+                                  static_cast<std::int32_t>(row.missed)};
+  constexpr unsigned columns = 9, decimals[columns] = {3, 3, 0, 3, 3, 0, 0, 0, 0};
   for (unsigned n = 0; n < columns; ++n) {
+    put(',');
     put_number(put, numbers[n], decimals[n]);
-    put(n + 1 < columns ? ',' : '\n');
   }
+  put('\n');
 }
 
-/// As long as control interrupts come.
+/// As long as control interrupts come, or no gate can work.
 void feed_watchdog() {
   static std::uint8_t seen = 0;
-  if (heart == seen) return;
+  const bool stands = needs_reset && !gates_may_work();
+  if (heart == seen && !stands) return;
   seen = heart;
   iwdg().KR = bit::reload;
 }
 
-void obey(const Command& command) {
-  asm volatile("cpsid i" ::: "memory");
-  switch (command.kind) {
-    case Command::Kind::none:
-    case Command::Kind::dropped:
-      break;
-    case Command::Kind::run:
-      request = {.run = true};
-      break;
-    case Command::Kind::stop:
-      request = {};
-      break;
-    case Command::Kind::clear:
-      request = {.run = false, .clear = true};
-      break;
-    case Command::Kind::setpoint:
-      setpoint.value = static_cast<Scalar>(command.number);
-      break;
+/// When it happens, and about once a second for as long as it stands.
+void tell_fault() {
+  static Reason told = Reason::none;
+  static std::uint32_t told_at = 0;
+  const Reason of_board = board_fault;
+  const Reason why = of_board != Reason::none                ? of_board
+                     : telemetry.activity == Activity::fault ? reason_of(telemetry.first_fault)
+                                                             : Reason::none;
+  const std::uint32_t now = tim2().CNT;
+  const bool again = now - told_at >= counts_a_us * 1'000'000;
+  if (why == Reason::none || (why == told && !again)) {
+    told = why;
+    return;
   }
-  asm volatile("cpsie i" ::: "memory");
+  if (why != told) kept_reason.keep(why);
+  told = why;
+  told_at = now;
+  put_fault(put, why);
 }
 
-void listen() {
+constexpr const char* unit = config.drive.mode == Mode::speed      ? "rad/s"
+                             : config.drive.mode == Mode::current  ? "A"
+                             : config.drive.mode == Mode::position ? "deg"
+                                                                   : "of the bus";
+
+/// What is obeyed is what is echoed.
+void take_setpoint(std::int32_t number) {
+  constexpr auto most = static_cast<std::int32_t>(config.setpoint_limit);
+  const std::int32_t obeyed = number > most ? most : number < -most ? -most : number;
+  setpoint.value = static_cast<Scalar>(obeyed);
+  put_setpoint(put, obeyed, 0, unit);
+}
+
+void obey(const Command& command) {
+  const auto ask = [](const Request& request) {
+    const InterruptsOff hold;
+    asked = request;
+  };
+  switch (command.kind) {
+    case Command::Kind::none:
+      break;
+    case Command::Kind::run:
+      ask({.run = true});
+      break;
+    case Command::Kind::stop:
+      ask({});
+      break;
+    case Command::Kind::clear:
+      clear_board_fault();
+      ask({.run = false, .clear = true});
+      break;
+    case Command::Kind::setpoint:
+      take_setpoint(command.number);
+      break;
+    case Command::Kind::dropped:
+      put_text(put, "# setpoint dropped: a character was lost\n");
+      break;
+  }
+}
+
+[[gnu::noinline]] void listen() {
   static Commands commands;
-  if ((usart2().ISR & bit::RXNE) != 0) obey(commands.take(static_cast<char>(usart2().RDR)));
+  for (;;) {
+    const auto item = received.take();
+    if (item.kind == decltype(received)::Kind::none) return;
+    if (item.kind == decltype(received)::Kind::gap)
+      commands.lost();
+    else
+      obey(commands.take(item.character));
+  }
+}
+
+/// After a watchdog's reset the reason that was kept, or that the watchdog bit.
+Reason reason_before_reset() {
+  const bool bit_me = (rcc().CSR & bit::IWDGRSTF) != 0;
+  rcc().CSR = rcc().CSR | bit::RMVF;
+  const Reason kept = kept_reason.kept();
+  kept_reason.forget();
+  return !bit_me ? Reason::none : kept != Reason::none ? kept : Reason::watchdog;
+}
+
+void set_up() {
+  set_up_watchdog();  // before what may hang
+  const bool ready = set_up_clock();
+  iwdg().KR = bit::reload;
+  switch_parts_on();
+  set_up_pins();
+  set_up_hall_timer();
+  if (ready) {
+    set_up_serial_line(clock_Hz / 2);
+    set_up_bridge_timer();
+  } else {
+    fall_back_to_own_clock();
+    counts_a_us = own_clock_Hz / 1'000'000;
+    set_up_serial_line(own_clock_Hz);
+    stand_until_reset(Reason::clock);
+  }
+  listen_to_serial_line();
+  if (!ready) return;
+  if (!set_up_converter()) return stand_until_reset(Reason::converter);
+  last_tick = tim2().CNT;
+  listen_to_interrupts();
+  listening = true;
 }
 
 }  // namespace firmware
 
-/// Once per PWM period: TIM1 triggers the injected group, its end calls here. The same priority as below.
+/// Once per PWM period: TIM1 triggers the injected group, its end calls here. The same priority as the Hall interrupt.
 extern "C" void ADC1_2_IRQHandler() {
   using namespace firmware;
   adc1().ISR = bit::JEOS;
+  tim1().SR = ~bit::CC4IF;  // that of the instant that started these conversions
   BoardInput in;
   for (int n = 0; n < 3; ++n) in.current_counts[n] = static_cast<std::uint16_t>(adc1().JDR[n]);
   in.bus_counts = static_cast<std::uint16_t>(adc1().JDR[3]);
   in.hall_pins = hall_pins();
   in.now = tim2().CNT;
-  apply(protected_step(config, state, in, request, setpoint, telemetry));
+  log_clock.tick(in.now - last_tick);
+  last_tick = in.now;
+  watch_sensors(state, in);
+  if (board_fault != Reason::none)
+    state.events.other = static_cast<std::uint16_t>(state.events.other | fault_board);
+  const BridgeCommand<Scalar>& command =
+      protected_step(config, state, in, request_now(), setpoint, telemetry);
+  at_next_period(command, state.drive.reversed, charges());
+  if (strange_sums > 0 && (telemetry.first_fault & fault_over_current) != 0) trip(Reason::current_sensor);
   heart = static_cast<std::uint8_t>(heart + 1);
-  ++ticks;
-  log.take({ticks, telemetry.measured.speed_rad_s, telemetry.drive.speed_reference_rad_s,
-            telemetry.drive.motor_current_A, telemetry.drive.duty, telemetry.measured.bus_V, in.hall_pins,
-            static_cast<std::uint8_t>(telemetry.activity), telemetry.faults});
+  const bool taken =
+      log.take({log_clock.t, telemetry.measured.speed_rad_s, telemetry.drive.speed_reference_rad_s,
+                telemetry.drive.motor_current_A, telemetry.drive.duty, telemetry.measured.bus_V, in.hall_pins,
+                static_cast<std::uint8_t>(telemetry.activity), telemetry.faults, log_clock.missed});
+  if (taken) log_clock.missed = 0;
 }
 
 extern "C" void TIM2_IRQHandler() {
   using namespace firmware;
   tim2().SR = ~bit::CC1IF;
-  apply(protected_on_hall(config, state, hall_pins(), tim2().CCR[0]));
+  const BridgeCommand<Scalar>& command = protected_on_hall(config, state, hall_pins(), tim2().CCR[0]);
+  at_once(command, state.drive.reversed);
+}
+
+extern "C" void TIM1_CC_IRQHandler() { firmware::at_period_end(); }
+
+extern "C" void USART2_IRQHandler() {
+  using namespace firmware;
+  const std::uint32_t status = usart2().ISR;
+  if ((status & bit::RXNE) != 0) {
+    const char c = static_cast<char>(usart2().RDR);
+    if ((status & (bit::FE | bit::NF)) != 0)
+      received.lose();
+    else
+      received.put(c);
+  }
+  if ((status & bit::ORE) != 0) received.lose();  // behind the one that was read
+  usart2().ICR = status & (bit::FE | bit::NF | bit::ORE);
 }
 
 /// The bridge stays off until somebody says r, after the watchdog's reset as after any other.
 int main() {
   using namespace firmware;
-  const bool bit_me = (rcc().CSR & bit::IWDGRSTF) != 0;
-  rcc().CSR = rcc().CSR | bit::RMVF;
-  set_up_watchdog();  // before what may hang
-  const bool ready = set_up_clock();
-  switch_parts_on();
-  set_up_pins();
-  set_up_serial_line();
-  set_up_hall_timer();
-  set_up_bridge_timer();
-  if (ready && set_up_converter()) listen_to_interrupts();
-  put_text(put, bit_me ? "# the watchdog bit\n" : "# sixstep on an STM32F303\n");
-  put_text(put, "t [us],speed [rad/s],speed_ref [rad/s],i_m [mA],duty,bus [V],hall,activity,faults\n");
+  const Reason before = reason_before_reset();
+  set_up();
+  if (!needs_reset && before != Reason::none) board_fault = before;
+  put_text(put, "# sixstep on an STM32F303\n");
+  put_text(put, "t [us],speed [rad/s],speed_ref [rad/s],i_m [mA],duty,bus [V],hall,activity,faults,missed\n");
   for (;;) {
     feed_watchdog();
+    watch_converter(listening);
     listen();
+    tell_fault();
     if (const Row* row = log.waiting()) {
       send(*row);
       log.next();

@@ -65,48 +65,61 @@ inline Usart& usart2() { return block<Usart>(0x40004400); }
 inline Watchdog& iwdg() { return block<Watchdog>(0x40003000); }
 inline Register& debug_apb1_freeze() { return word_at(0xE0042008); }
 inline Register& debug_apb2_freeze() { return word_at(0xE004200C); }
-inline Register& nvic_enable() { return word_at(0xE000E100); }
+inline Register& syscfg_cfgr2() { return word_at(0x40010018); }  // 12.1.9
+/// Of the parts' interrupts: 32 a word to enable and to disable, a byte of priority each, of which the upper four bits count.
+inline Register& nvic_enable(unsigned irq) { return word_at(0xE000E100 + 4 * (irq / 32)); }
+inline Register& nvic_disable(unsigned irq) { return word_at(0xE000E180 + 4 * (irq / 32)); }
+inline volatile std::uint8_t& nvic_priority(unsigned irq) {
+  return block<volatile std::uint8_t>(0xE000E400 + irq);
+}
+inline Register& aircr() { return word_at(0xE000ED0C); }
 inline Register& cpacr() { return word_at(0xE000ED88); }
 
 namespace bit {
 
-// RCC_CR, CFGR, CSR
-constexpr std::uint32_t HSEON = 1u << 16, HSERDY = 1u << 17, HSEBYP = 1u << 18, PLLON = 1u << 24,
-                        PLLRDY = 1u << 25;
+// RCC_CR, CFGR, CIR, CSR
+constexpr std::uint32_t HSEON = 1u << 16, HSERDY = 1u << 17, HSEBYP = 1u << 18, CSSON = 1u << 19,
+                        PLLON = 1u << 24, PLLRDY = 1u << 25;
+constexpr std::uint32_t CSSC = 1u << 23;
 constexpr std::uint32_t SW_PLL = 2u << 0, SWS = 3u << 2, SWS_PLL = 2u << 2, PPRE1_half = 4u << 8,
                         PLLSRC_HSE = 1u << 16, PLLMUL_9 = 7u << 18;
 constexpr std::uint32_t RMVF = 1u << 24, IWDGRSTF = 1u << 29;
 // RCC_AHBENR, APB2ENR, APB1ENR
 constexpr std::uint32_t IOPAEN = 1u << 17, IOPBEN = 1u << 18, IOPCEN = 1u << 19, ADC12EN = 1u << 28;
-constexpr std::uint32_t TIM1EN = 1u << 11, TIM2EN = 1u << 0, USART2EN = 1u << 17;
+constexpr std::uint32_t SYSCFGEN = 1u << 0, TIM1EN = 1u << 11, TIM2EN = 1u << 0, USART2EN = 1u << 17;
 // FLASH_ACR
 constexpr std::uint32_t LATENCY_2 = 2, PRFTBE = 1u << 4;
 // TIMx_CR1, CR2, DIER, SR, EGR, BDTR
 constexpr std::uint32_t CEN = 1u << 0, ARPE = 1u << 7;
-constexpr std::uint32_t CCPC = 1u << 0, MMS_update = 2u << 4, TI1S = 1u << 7;
-constexpr std::uint32_t CC1IE = 1u << 1, CC1IF = 1u << 1;
+constexpr std::uint32_t CCPC = 1u << 0, TI1S = 1u << 7, MMS2_OC4REF = 7u << 20;
+constexpr std::uint32_t CC1IE = 1u << 1, CC1IF = 1u << 1, CC4IE = 1u << 4, CC4IF = 1u << 4, BIE = 1u << 7,
+                        BIF = 1u << 7;
 constexpr std::uint32_t UG = 1u << 0, COMG = 1u << 5;
-constexpr std::uint32_t OSSR = 1u << 11, MOE = 1u << 15;
+constexpr std::uint32_t OSSI = 1u << 10, OSSR = 1u << 11, BKE = 1u << 12, BKP = 1u << 13, MOE = 1u << 15;
 // TIMx_CCMR1 as outputs (OCxM, OCxPE) and as an input (CC1S), CCER
-constexpr std::uint32_t force_low = 4, force_high = 5, pwm_1 = 6, pwm_2 = 7;
+constexpr std::uint8_t force_low = 4, force_high = 5, pwm_1 = 6, pwm_2 = 7;
 constexpr std::uint32_t preload = 1u << 3;
-constexpr std::uint32_t CC1S_TI1 = 1, IC1F_8_samples = 3u << 4;
+constexpr std::uint32_t CC1S_TI1 = 1, IC1F_256_counts = 15u << 4;
 constexpr std::uint32_t CC1E = 1u << 0, CC1P = 1u << 1, CC1NP = 1u << 3;
 // ADC_ISR, IER, CR, JSQR, CCR
 constexpr std::uint32_t ADRDY = 1u << 0, JEOS = 1u << 6;
 constexpr std::uint32_t ADEN = 1u << 0, JADSTART = 1u << 3, ADVREGEN = 1u << 28, ADCAL = 1u << 31;
-constexpr std::uint32_t JL_4 = 3, JEXTSEL_TIM1_TRGO = 0u << 2, JEXTEN_rising = 1u << 6;
+constexpr std::uint32_t JL_4 = 3, JEXTSEL_TIM1_TRGO2 = 8u << 2, JEXTEN_rising = 1u << 6;
 constexpr std::uint32_t CKMODE_HCLK = 1u << 16;
 // USART_CR1, ISR
-constexpr std::uint32_t UE = 1u << 0, RE = 1u << 2, TE = 1u << 3, RXNE = 1u << 5, TXE = 1u << 7;
+constexpr std::uint32_t UE = 1u << 0, RE = 1u << 2, TE = 1u << 3, RXNEIE = 1u << 5, OVER8 = 1u << 15;
+constexpr std::uint32_t FE = 1u << 1, NF = 1u << 2, ORE = 1u << 3, RXNE = 1u << 5, TXE = 1u << 7;
 // IWDG_KR
 constexpr std::uint32_t unlock = 0x5555, reload = 0xAAAA, start = 0xCCCC;
-// DBGMCU
-constexpr std::uint32_t IWDG_STOP = 1u << 12, TIM1_STOP = 1u << 0;
+// DBGMCU, SYSCFG_CFGR2, SCB_AIRCR
+constexpr std::uint32_t IWDG_STOP = 1u << 12, TIM1_STOP = 1u << 0, TIM2_STOP = 1u << 0;
+constexpr std::uint32_t LOCKUP_LOCK = 1u << 0;
+constexpr std::uint32_t SYSRESETREQ = 0x05FA0004;
 
 }  // namespace bit
 
 /// Of the vector table behind the core's own sixteen (14.1).
-constexpr unsigned irq_adc1_2 = 18, irq_tim2 = 28;
+constexpr unsigned irq_adc1_2 = 18, irq_tim1_break = 24, irq_tim1_compare = 27, irq_tim2 = 28,
+                   irq_usart2 = 38;
 
 }  // namespace firmware

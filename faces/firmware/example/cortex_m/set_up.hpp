@@ -8,15 +8,20 @@ namespace firmware {
 
 constexpr std::uint32_t baud = 1'000'000;
 
-/// Whether it came within so many looks: a part that is broken must not keep the rest from saying so.
+/// Whether it came within so many looks: a part that is broken must not keep the rest from saying so. At 8 MHz they take 20 ms, less
+/// than the watchdog waits; a crystal comes within 10.
 template <class Condition>
-bool waited_for(Condition condition, std::uint32_t looks = 1'000'000) {
+bool waited_for(Condition condition, std::uint32_t looks = 20'000) {
   for (; looks > 0; --looks)
     if (condition()) return true;
   return false;
 }
 
-/// 8 MHz times nine. False: no clock came, and the chip runs on its own 8 MHz.
+constexpr std::uint32_t own_clock_Hz =
+    8'000'000;  // of the chip itself, after a reset and where the other one is missing
+
+/// 8 MHz times nine. False: no clock came, and the chip runs on its own 8 MHz. One that stops later turns the gates off by TIM1's
+/// break, and calls NMI_Handler (9.2.7).
 inline bool set_up_clock() {
   rcc().CR = rcc().CR | bit::HSEON | (has_external_clock ? bit::HSEBYP : 0);
   if (!waited_for([] { return (rcc().CR & bit::HSERDY) != 0; })) return false;
@@ -25,16 +30,22 @@ inline bool set_up_clock() {
   rcc().CR = rcc().CR | bit::PLLON;
   if (!waited_for([] { return (rcc().CR & bit::PLLRDY) != 0; })) return false;
   rcc().CFGR = rcc().CFGR | bit::SW_PLL;
-  return waited_for([] { return (rcc().CFGR & bit::SWS) == bit::SWS_PLL; });
+  if (!waited_for([] { return (rcc().CFGR & bit::SWS) == bit::SWS_PLL; })) return false;
+  rcc().CR = rcc().CR | bit::CSSON;
+  return true;
 }
+
+/// Back to the chip's own 8 MHz, which it has switched to by itself where the external clock stopped.
+inline void fall_back_to_own_clock() { rcc().CFGR = 0; }
 
 inline void switch_parts_on() {
   rcc().AHBENR = rcc().AHBENR | bit::IOPAEN | bit::IOPBEN | bit::IOPCEN | bit::ADC12EN;
-  rcc().APB2ENR = rcc().APB2ENR | bit::TIM1EN;
+  rcc().APB2ENR = rcc().APB2ENR | bit::TIM1EN | bit::SYSCFGEN;
   rcc().APB1ENR = rcc().APB1ENR | bit::TIM2EN | bit::USART2EN;
-  // A debugger that stops the core stops the timer too, whose outputs are then off, and the watchdog.
+  // A debugger that stops the core stops the timer too, whose outputs are then off, the log's clock, and the watchdog.
   debug_apb2_freeze() = bit::TIM1_STOP;
-  debug_apb1_freeze() = bit::IWDG_STOP;
+  debug_apb1_freeze() = bit::IWDG_STOP | bit::TIM2_STOP;
+  syscfg_cfgr2() = bit::LOCKUP_LOCK;  // a core that gives up is a break, too
 }
 
 enum class PinMode : std::uint32_t { input, output, alternate, analog };
@@ -54,57 +65,73 @@ inline void set_pin(Gpio& port, unsigned pin, PinMode mode, Pull pull, std::uint
 /// Functions by the data sheet's tables of alternate functions (DS9118, DocID026415).
 inline void set_up_pins() {
   for (unsigned pin = 8; pin <= 10; ++pin)
-    set_pin(gpio_a(), pin, PinMode::alternate, Pull::down, 6);  // TIM1_CHx
-  set_pin(gpio_b(), 13, PinMode::alternate, Pull::down, 6);     // TIM1_CH1N
-  set_pin(gpio_b(), 14, PinMode::alternate, Pull::down, 6);     // TIM1_CH2N
-  set_pin(gpio_b(), 15, PinMode::alternate, Pull::down, 4);     // TIM1_CH3N
-  set_pin(gpio_a(), 15, PinMode::alternate, Pull::up, 1);       // TIM2_CH1
-  set_pin(gpio_b(), 3, PinMode::alternate, Pull::up, 1);        // TIM2_CH2
-  set_pin(gpio_b(), 10, PinMode::alternate, Pull::up, 1);       // TIM2_CH3
-  set_pin(gpio_a(), 2, PinMode::alternate, Pull::none, 7);      // USART2_TX
-  set_pin(gpio_a(), 3, PinMode::alternate, Pull::up, 7);        // USART2_RX
+    set_pin(gpio_a(), pin, PinMode::alternate, Pull::down, 6);                              // TIM1_CHx
+  set_pin(gpio_b(), 13, PinMode::alternate, Pull::down, 6);                                 // TIM1_CH1N
+  set_pin(gpio_b(), 14, PinMode::alternate, Pull::down, 6);                                 // TIM1_CH2N
+  set_pin(gpio_b(), 15, PinMode::alternate, Pull::down, 4);                                 // TIM1_CH3N
+  set_pin(gpio_b(), 12, PinMode::alternate, break_active_high ? Pull::down : Pull::up, 6);  // TIM1_BKIN
+  set_pin(gpio_a(), 15, PinMode::alternate, Pull::up, 1);                                   // TIM2_CH1
+  set_pin(gpio_b(), 3, PinMode::alternate, Pull::up, 1);                                    // TIM2_CH2
+  set_pin(gpio_b(), 10, PinMode::alternate, Pull::up, 1);                                   // TIM2_CH3
+  set_pin(gpio_a(), 2, PinMode::alternate, Pull::none, 7);                                  // USART2_TX
+  set_pin(gpio_a(), 3, PinMode::alternate, Pull::up, 7);                                    // USART2_RX
   for (unsigned pin = 0; pin <= 1; ++pin) {
     set_pin(gpio_a(), pin, PinMode::analog, Pull::none);
     set_pin(gpio_c(), pin, PinMode::analog, Pull::none);
   }
 }
 
-inline void set_up_serial_line() {
-  usart2().BRR = clock_Hz / 2 / baud;  // of APB1
-  usart2().CR1 = bit::UE | bit::TE | bit::RE;
+/// Of a bus that runs at `bus_Hz`. With eight samples a bit where sixteen do not go into it (29.5.4).
+inline void set_up_serial_line(std::uint32_t bus_Hz) {
+  const bool eight = bus_Hz < 16 * baud;
+  const std::uint32_t divider = (eight ? 2 * bus_Hz : bus_Hz) / baud;
+  usart2().CR1 = 0;  // off while these change
+  usart2().BRR = eight ? (divider & ~0xFu) | (divider & 0xF) >> 1 : divider;
+  usart2().CR1 = (eight ? bit::OVER8 : 0) | bit::RXNEIE | bit::UE | bit::TE | bit::RE;
 }
 
-constexpr auto dead_counts =
-    static_cast<std::uint32_t>((exported::dead_time_ps * (clock_Hz / 1'000'000) + 999'999) / 1'000'000);
-static_assert(dead_counts <= 1008, "14 us, as TIM1 counts it");
+/// Gates work from here on. The break input must have its quiet level.
+inline void let_gates_work() { tim1().BDTR = tim1().BDTR | bit::MOE; }
+/// No gate works, in hardware, whatever the outputs are told.
+inline void forbid_gates() { tim1().BDTR = tim1().BDTR & ~bit::MOE; }
+inline bool gates_may_work() { return (tim1().BDTR & bit::MOE) != 0; }
 
-/// Counts up; its update begins a period, and triggers the converter. Which outputs run, and how, is preloaded and taken by all three
-/// channels at once, at a commutation event.
+/// Counts up; its update begins a period. Which outputs run, and how, is preloaded and taken by all three channels at once, at a
+/// commutation event. The fourth channel has no pin: its reference rises a microsecond before the update, and starts the converter.
+/// Without MOE the outputs are driven low (OSSI), too.
 inline void set_up_bridge_timer() {
+  const GateOutputs off = registers(BridgeOutputs{});
   tim1().PSC = 0;
   tim1().ARR = pwm_counts - 1;
-  tim1().CR2 = bit::CCPC | bit::MMS_update;
-  tim1().CCMR1 = (bit::force_low << 4 | bit::preload) * 0x101;
-  tim1().CCMR2 = bit::force_low << 4 | bit::preload;
-  tim1().CCER = 0;
-  tim1().BDTR = dead_time_bits(dead_counts) | bit::OSSR | bit::MOE;
+  tim1().CR2 = bit::CCPC | bit::MMS2_OC4REF;
+  tim1().CCMR1 = off.CCMR1;
+  tim1().CCMR2 = off.CCMR2;
+  tim1().CCER = off.CCER;
+  tim1().CCR[3] = sample_count;
+  tim1().BDTR =
+      dead_time_bits(dead_counts) | bit::OSSR | bit::OSSI | bit::BKE | (break_active_high ? bit::BKP : 0);
   tim1().EGR = bit::UG | bit::COMG;
+  tim1().SR = 0;
+  tim1().DIER = bit::BIE;
+  let_gates_work();
   tim1().CR1 = bit::ARPE | bit::CEN;
 }
 
-/// 32 bits of 72 MHz; each edge of the XOR of its three inputs is captured, once it stands for eight counts.
+/// 32 bits of 72 MHz; each edge of the XOR of its three inputs is captured, once it stands for 256 counts, 3.6 us: the ringing of a
+/// bridge's edge is shorter.
 inline void set_up_hall_timer() {
   tim2().PSC = 0;
   tim2().ARR = 0xFFFFFFFF;
   tim2().CR2 = bit::TI1S;
-  tim2().CCMR1 = bit::CC1S_TI1 | bit::IC1F_8_samples;
+  tim2().CCMR1 = bit::CC1S_TI1 | bit::IC1F_256_counts;
   tim2().CCER = bit::CC1E | bit::CC1P | bit::CC1NP;
   tim2().DIER = bit::CC1IE;
   tim2().EGR = bit::UG;
   tim2().CR1 = bit::CEN;
 }
 
-/// Injected: a, b, c, bus at each of the bridge timer's updates, 7.5 and 12.5 clocks of 72 MHz each. False: it does not answer.
+/// Injected: a, b, c, bus, 7.5 and 12.5 clocks of 72 MHz each: from 72 to 64 counts before the update, 52 to 44, 32 to 24, 12 to 4.
+/// False: it does not answer.
 inline bool set_up_converter() {
   adc12_ccr() = bit::CKMODE_HCLK;
   adc1().CR = 0;
@@ -122,7 +149,7 @@ inline bool set_up_converter() {
   constexpr std::uint32_t clocks_7_5 = 3, a = 1, b = 7, c = 6, bus = 2;  // channels
   adc1().SMPR1 = clocks_7_5 << 3 * a | clocks_7_5 << 3 * b | clocks_7_5 << 3 * c | clocks_7_5 << 3 * bus;
   adc1().JSQR =
-      bit::JL_4 | bit::JEXTSEL_TIM1_TRGO | bit::JEXTEN_rising | a << 8 | b << 14 | c << 20 | bus << 26;
+      bit::JL_4 | bit::JEXTSEL_TIM1_TRGO2 | bit::JEXTEN_rising | a << 8 | b << 14 | c << 20 | bus << 26;
   adc1().IER = bit::JEOS;
   adc1().CR = bit::ADVREGEN | bit::ADEN | bit::JADSTART;
   return true;
@@ -138,7 +165,21 @@ inline void set_up_watchdog() {
   iwdg().KR = bit::reload;
 }
 
-/// Both at one priority, as they are after the reset: neither comes amid the other.
-inline void listen_to_interrupts() { nvic_enable() = 1u << irq_adc1_2 | 1u << irq_tim2; }
+/// The control tick and the Hall interrupt have one priority: neither comes amid the other. The period's end and the break come amid
+/// both; the serial line waits for all. The chip has the upper four bits.
+inline void listen_to_interrupts() {
+  nvic_priority(irq_tim1_compare) = 0x00;
+  nvic_priority(irq_tim1_break) = 0x00;
+  nvic_priority(irq_adc1_2) = 0x40;
+  nvic_priority(irq_tim2) = 0x40;
+  nvic_enable(0) = 1u << irq_adc1_2 | 1u << irq_tim1_break | 1u << irq_tim1_compare | 1u << irq_tim2;
+}
+inline void listen_to_serial_line() {
+  nvic_priority(irq_usart2) = 0x80;
+  nvic_enable(irq_usart2) = 1u << irq_usart2 % 32;
+}
+inline void stop_control_interrupts() {
+  nvic_disable(0) = 1u << irq_adc1_2 | 1u << irq_tim1_compare | 1u << irq_tim2;
+}
 
 }  // namespace firmware

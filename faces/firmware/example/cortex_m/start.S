@@ -6,18 +6,28 @@
   .section .vectors, "a"
   .word stack_top
   .word reset
-  .rept 14
+  .word NMI_Handler
+  .rept 13
   .word fault
   .endr
   .rept 18
   .word fault
   .endr
   .word ADC1_2_IRQHandler   /* 18 */
+  .rept 5
+  .word fault
+  .endr
+  .word TIM1_BRK_IRQHandler /* 24 */
+  .rept 2
+  .word fault
+  .endr
+  .word TIM1_CC_IRQHandler  /* 27 */
+  .word TIM2_IRQHandler     /* 28 */
   .rept 9
   .word fault
   .endr
-  .word TIM2_IRQHandler     /* 28 */
-  .rept 53
+  .word USART2_IRQHandler   /* 38 */
+  .rept 43
   .word fault
   .endr
 

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+// Why the drive stood before the last reset.
+#pragma once
+#include "faces/firmware/example/fault_reason.hpp"
+
+namespace firmware {
+
+extern KeptReason kept_reason;  // in memory that begin() does not clear
+
+}  // namespace firmware

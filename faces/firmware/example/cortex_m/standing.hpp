@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Why the board itself lets no gate work, beside the faults that the drive sees: its comparator, its sensors, its clock, a converter that
+// stopped, and what a reset left behind. Nothing goes on by itself: the drive waits for c, and then for r.
+#pragma once
+#include "faces/firmware/example/cortex_m/bridge_timer.hpp"
+#include "faces/firmware/example/cortex_m/kept.hpp"
+#include "faces/firmware/example/cortex_m/set_up.hpp"
+
+namespace firmware {
+
+volatile Reason board_fault = Reason::none;
+volatile bool needs_reset = false;  // no control tick comes any more
+std::uint32_t counts_a_us = clock_Hz / 1'000'000;
+volatile std::uint32_t last_tick = 0;  // TIM2's count
+std::uint8_t strange_sums = 0;
+
+/// Beside the bits of Fault: the drive stops for it, and says so in the log's column, too.
+constexpr std::uint16_t fault_board = 1u << 15;
+
+inline void trip(Reason why) {
+  gates_off();
+  if (board_fault == Reason::none) board_fault = why;
+}
+
+/// In hardware, and until the chip is reset.
+inline void stand_until_reset(Reason why) {
+  forbid_gates();
+  stop_control_interrupts();
+  if (!needs_reset) board_fault = why;
+  needs_reset = true;
+}
+
+/// What flows into a star comes out of it: the sum of three readings is that of their offsets. Over 4 times the tolerance of one
+/// offset, one of them is wrong.
+inline bool sum_is_strange(const ProtectedState<Scalar>& state, const BoardInput& in) {
+  std::int32_t eighths = 0;
+  for (int n = 0; n < 3; ++n) {
+    const std::int32_t offset = state.current_adc[n].offset_eighths;
+    eighths += 8 * in.current_counts[n] - (offset < 0 ? 8 * config.current_adc[n].offset_counts : offset);
+  }
+  constexpr std::int32_t most = 4 * 8 * config.current_adc[0].offset_tolerance;
+  return eighths > most || eighths < -most;
+}
+
+/// Before the tick: three readings in a row, since one may be a disturbance.
+inline void watch_sensors(const ProtectedState<Scalar>& state, const BoardInput& in) {
+  strange_sums = !sum_is_strange(state, in)
+                     ? std::uint8_t{0}
+                     : static_cast<std::uint8_t>(strange_sums < 3 ? strange_sums + 1 : 3);
+  if (strange_sums == 3) trip(Reason::current_sensor);
+}
+
+constexpr Reason reason_of(std::uint16_t faults) {
+  return faults & fault_hall            ? Reason::hall
+         : faults & fault_calibration   ? Reason::calibration
+         : faults & fault_over_current  ? Reason::over_current
+         : faults & fault_over_voltage  ? Reason::over_voltage
+         : faults & fault_under_voltage ? Reason::under_voltage
+         : faults & fault_over_speed    ? Reason::over_speed
+         : faults & fault_stall         ? Reason::stall
+         : faults & fault_align         ? Reason::align
+                                        : Reason::none;
+}
+
+/// A conversion ends each period. Without one for a millisecond nobody looks at the current.
+inline void watch_converter(bool listening) {
+  constexpr std::uint32_t longest = clock_Hz / 1000 > 4 * pwm_counts ? clock_Hz / 1000 : 4 * pwm_counts;
+  // Asked twice: a tick between its two readings is none that is missing.
+  const auto late = [] {
+    const std::uint32_t seen = last_tick;
+    return tim2().CNT - seen > longest;
+  };
+  if (listening && !needs_reset && late() && late()) stand_until_reset(Reason::converter);
+}
+
+/// c was typed: what is over is forgotten.
+inline void clear_board_fault() {
+  kept_reason.forget();
+  if (needs_reset) {
+    aircr() = bit::SYSRESETREQ;
+    for (;;) asm volatile("");
+  }
+  strange_sums = 0;
+  board_fault = Reason::none;
+  tim1().SR = ~bit::BIF;
+  tim1().DIER = tim1().DIER | bit::BIE;
+  let_gates_work();
+}
+
+}  // namespace firmware
+
+/// The break input or a core that gives up: MOE is gone already. Its flag comes again for as long as the level stands.
+extern "C" void TIM1_BRK_IRQHandler() {
+  using namespace firmware;
+  tim1().DIER = tim1().DIER & ~bit::BIE;
+  trip(Reason::comparator);
+}
+
+/// The external clock stopped: the chip runs on its own 8 MHz, TIM1's break has turned the gates off, and the line keeps its speed.
+extern "C" void NMI_Handler() {
+  using namespace firmware;
+  rcc().CIR = rcc().CIR | bit::CSSC;
+  stand_until_reset(Reason::clock);
+  kept_reason.keep(Reason::clock);
+  fall_back_to_own_clock();
+  counts_a_us = own_clock_Hz / 1'000'000;
+  set_up_serial_line(own_clock_Hz);
+}

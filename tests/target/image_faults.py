@@ -1,0 +1,339 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What stops the STM32F303's drive, on its executed image: the gates are off, the line says why, and nothing goes on by itself."""
+import re
+import struct
+
+import build
+import images
+from images import ADC1, AT_REST, BDTR, IWDG, RCC, TIM1, TIM2, USART2, Chip, all_off, tick
+
+MOE = 1 << 15
+SECOND = 72_000_000
+
+
+def ready(folder, chip=None):
+    chip = chip or Chip(folder)
+    chip.hall(0b101)
+    chip.reset()
+    return chip
+
+
+def running(folder):
+    """At 100 rad/s of setpoint, its pair fed."""
+    chip = ready(folder)
+    for _ in range(10):
+        tick(chip)
+    chip.type("r100\r")
+    chip.go_on(20_000)
+    for _ in range(300):
+        tick(chip)
+    if all_off(chip):
+        raise build.Failed("the drive does not start")
+    chip.sent = ""
+    return chip
+
+
+def told(chip, instructions=60_000):
+    chip.sent = ""
+    chip.go_on(instructions)
+    return re.findall(r"^# fault: (.*)$", chip.sent, re.M)
+
+
+def stands(chip, reason, name):
+    """All gates off, told once, again a second later, not started by r; behind c and r it runs."""
+    trouble = []
+    if not all_off(chip) and chip.words[BDTR] & MOE:
+        trouble.append(f"{name}: gates are on: {chip.outputs()}")
+    if (said := told(chip)) != [reason]:
+        trouble.append(f"{name}: it says {said}, where {reason} is why")
+    if said := told(chip):
+        trouble.append(f"{name}: it says {said} at once again")
+    tick(chip, clocks=SECOND + 1)
+    if (said := told(chip)) != [reason]:
+        trouble.append(f"{name}: a second later it says {said}")
+    for _ in range(5):
+        tick(chip)
+    chip.type("r")
+    chip.go_on(20_000)
+    for _ in range(400):
+        tick(chip)
+    if not all_off(chip):
+        trouble.append(f"{name}: r starts it without c")
+    for text in ("s", "c", "r"):
+        chip.type(text)
+        chip.go_on(20_000)
+        for _ in range(400):
+            tick(chip)
+    if all_off(chip) or not chip.words[BDTR] & MOE:
+        trouble.append(f"{name}: c and r do not start it again")
+    return trouble
+
+
+def check_sensors(folder):
+    trouble = []
+    for counts, reason in (((0, 2048, 2048), "current-sensor"), ((2048, 4095, 2048), "current-sensor"), ((0, 0, 0), "current-sensor"),
+                           ((4095, 4095, 4095), "current-sensor"), ((2048 + 250, 2048, 2048), "current-sensor"),
+                           ((2048 + 1200, 2048 - 1200, 2048), "over-current"), ((4095, 0, 2048), "over-current")):
+        chip = running(folder)
+        for _ in range(3):
+            tick(chip, (*counts, AT_REST[3]))
+        trouble += stands(chip, reason, f"currents of {counts} counts")
+    chip = running(folder)
+    for n in range(300):  # one reading amiss, now and then
+        tick(chip, (2048 + (400 if n % 3 == 0 else 0), 2048, 2048, AT_REST[3]))
+    if all_off(chip):
+        trouble.append("a single disturbed reading stops the drive")
+    chip = running(folder)
+    for _ in range(5):
+        tick(chip, (2048, 2048, 2048, round(31 / 52.8 * 4096)))
+    return trouble + stands(chip, "over-voltage", "a bus of 31 V")
+
+
+def check_break(folder):
+    chip = running(folder)
+    chip.words[BDTR] &= ~MOE  # as the timer does by itself
+    chip.interrupt(24)
+    trouble = []
+    if chip.words[TIM1 + 0x0C] & 1 << 7:
+        trouble.append("break: its interrupt comes for ever while the level stands")
+    tick(chip)
+    if chip.words[BDTR] & MOE:
+        trouble.append("break: gates may work again before c")
+    return trouble + stands(chip, "comparator", "break")
+
+
+class NoClock(Chip):
+    """Whose external clock never comes."""
+
+    def write(self, core, offset, size, value, begin):
+        super().write(core, offset, size, value, begin)
+        if begin + offset == RCC:
+            self.words[RCC] = value & ~(1 << 17)
+
+
+def at_8_MHz(chip):
+    """What the line's speed is: 29.5.4, with OVER8."""
+    divider = chip.words[USART2 + 0x0C]
+    over_8 = bool(chip.words[USART2] & 1 << 15)
+    scale = 1 << (chip.words[RCC + 0x04] >> 8 & 7) - 3 if chip.words[RCC + 0x04] >> 8 & 4 else 1
+    divided = (divider & ~0xF | (divider & 7) << 1) / 2 if over_8 else divider
+    return 8e6 / scale / divided
+
+
+def check_clock(folder):
+    trouble = []
+    chip = running(folder)
+    chip.interrupt(-14)  # the clock security's
+    if chip.words[BDTR] & MOE or (RCC + 0x08, 1 << 23) not in chip.written:
+        trouble.append("clock lost: the gates may work, or the interrupt is not acknowledged")
+    if at_8_MHz(chip) != 1_000_000:
+        trouble.append(f"clock lost: the line has {at_8_MHz(chip)} baud")
+    if (said := told(chip)) != ["clock"]:
+        trouble.append(f"clock lost: it says {said}")
+    chip.written = []
+    chip.go_on(20_000)
+    if (IWDG, 0xAAAA) not in chip.written:
+        trouble.append("clock lost: the watchdog resets it for ever")
+    chip.type("r")
+    chip.go_on(20_000)
+    if chip.words[BDTR] & MOE:
+        trouble.append("clock lost: r lets the gates work")
+    chip.written = []
+    chip.type("c")
+    chip.go_on(20_000)
+    if (0xE000ED0C, 0x05FA0004) not in chip.written:
+        trouble.append("clock lost: c does not reset the chip")
+    chip = ready(folder, NoClock(folder))
+    if "# fault: clock\n" not in chip.sent or at_8_MHz(chip) != 1_000_000:
+        trouble.append(f"no clock at the start: it says {chip.sent!r} at {at_8_MHz(chip)} baud")
+    if chip.words.get(BDTR, 0) & MOE:
+        trouble.append("no clock at the start: gates may work")
+    return trouble
+
+
+def check_converter(folder):
+    chip = running(folder)
+    chip.words[TIM2 + 0x24] += 72_100
+    trouble = [] if told(chip) == ["converter"] else [f"no conversion for a millisecond: it says {chip.sent!r}"]
+    if chip.words[BDTR] & MOE:
+        trouble.append("no conversion for a millisecond: the gates may work")
+    chip.written = []
+    chip.go_on(20_000)
+    if (IWDG, 0xAAAA) not in chip.written:
+        trouble.append("no conversion: the watchdog hides the reason")
+    return trouble
+
+
+def reset_with(folder, memory, cause):
+    chip = Chip(folder)
+    chip.core.mem_write(images.RAM, bytes(memory))
+    chip.words[RCC + 0x24] = cause
+    return ready(folder, chip)
+
+
+def check_resets(folder):
+    """The reason is kept over the watchdog's reset; power-up, with anything in memory, has none."""
+    trouble = []
+    chip = running(folder)
+    chip.hall(0)
+    chip.interrupt(28)
+    tick(chip)
+    told(chip)
+    hall = chip.core.mem_read(images.RAM, 40 * 1024)
+    chip = running(folder)
+    quiet = chip.core.mem_read(images.RAM, 40 * 1024)
+    chip.interrupt(5)  # nobody serves it
+    program = chip.core.mem_read(images.RAM, 40 * 1024)
+    for name, memory, cause, reason in (("hall", hall, 1 << 29, "hall"), ("nobody's interrupt", program, 1 << 29, "program"),
+                                        ("no reason", quiet, 1 << 29, "watchdog")):
+        chip = reset_with(folder, memory, cause)
+        if f"# fault: {reason}\n" not in chip.sent:
+            trouble.append(f"behind the watchdog's reset with {name}: {chip.sent!r}")
+        chip.sent = ""
+        tick(chip)
+        chip.type("r100\r")
+        chip.go_on(20_000)
+        for _ in range(400):
+            tick(chip)
+        if not all_off(chip):
+            trouble.append(f"behind the watchdog's reset with {name}: it starts without c")
+    for memory, cause in ((b"\x55" * 40960, 0), (hall, 1 << 26), (quiet, 1 << 27)):
+        chip = reset_with(folder, memory, cause)
+        if "# fault" in chip.sent:
+            trouble.append(f"power-up: {chip.sent!r}")
+        for _ in range(300):
+            tick(chip)
+        if not all_off(chip):
+            trouble.append("power-up: it starts by itself")
+    return trouble
+
+
+def setpoint(chip):
+    return struct.unpack("<f", chip.core.mem_read(chip.symbols["firmware::setpoint"], 4))[0]
+
+
+def check_line(folder):
+    """What a line-buffered terminal sends, all of it before the main loop looks once."""
+    chip, trouble = running(folder), []
+    chip.type("300\n70\ns")
+    chip.go_on(60_000)
+    if not re.search(r"# setpoint 300 rad/s\n.*# setpoint 70 rad/s\n", chip.sent, re.S) or setpoint(chip) != 70:
+        trouble.append(f"'300' and '70' at once: {chip.sent!r}, {setpoint(chip)} obeyed")
+    for _ in range(30_000):
+        if all_off(chip):
+            break
+        tick(chip)
+    if not all_off(chip):
+        trouble.append("the stop behind a number is lost")
+    for text, lost in (("90\n", 1), ("9\n8\n", 1), ("90\n", 2), ("-90\n", 1)):  # the n-th never comes; with the one before ORE is up
+        chip = running(folder)
+        for n, character in enumerate(text):
+            chip.line_status = 8 if n + 1 == lost else 0
+            if n != lost:
+                chip.type(character)
+        chip.line_status = 0
+        chip.type("\n")
+        chip.go_on(60_000)
+        if setpoint(chip) != 100 or "# setpoint dropped" not in chip.sent:
+            trouble.append(f"{text!r} without its character {lost}: {setpoint(chip)} obeyed, {chip.sent[-80:]!r}")
+    chip = running(folder)
+    chip.type("9000\n")
+    chip.go_on(60_000)
+    if "# setpoint 300 rad/s\n" not in chip.sent or setpoint(chip) != 300:
+        trouble.append(f"a setpoint above the drive's limit: {setpoint(chip)}, {chip.sent[-60:]!r}")
+    return trouble
+
+
+class Glitches(Chip):
+    """One reading of the Hall pins is another code."""
+    at = -1
+    looks = 0
+
+    def read(self, core, offset, size, begin):
+        value = super().read(core, offset, size, begin)
+        if begin + offset == images.GPIOA + 0x10:
+            self.looks += 1
+            return value ^ (1 << 15 if self.looks == self.at else 0)
+        return value
+
+
+def check_hall(folder):
+    trouble = []
+    for at in range(1, 5):
+        chip = Glitches(folder)
+        ready(folder, chip)
+        tick(chip)
+        chip.looks, chip.at = 0, at
+        tick(chip)
+        if told(chip):
+            trouble.append(f"a glitch in reading {at} of the Hall pins stops the drive")
+    return trouble
+
+
+def rows(chip):
+    return [[float(cell) for cell in line.split(",")] for line in chip.sent.splitlines() if re.match(r"\d", line)]
+
+
+def check_time(folder):
+    """By a counter that runs on: across its 2^32, and with periods that had no control interrupt."""
+    chip = ready(folder)
+    for _ in range(3):
+        tick(chip)
+    chip.go_on(100_000)
+    told(chip)
+    at, t, trouble, passed = None, None, [], 0
+    for clocks in (2160, 2160, 3 * 2160, 40 * SECOND, 40 * SECOND, 2160, 7 * 2160 + 300):
+        chip.sent = ""
+        tick(chip, clocks=clocks)
+        chip.go_on(100_000)
+        row = rows(chip)[-1]
+        passed += clocks
+        if at is not None and abs(row[0] - t - clocks / 72) > 1:
+            trouble.append(f"a row {clocks / 72} us behind another says {row[0] - t} us")
+        if at is not None and row[9] != (clocks + 1080) // 2160 - 1:
+            trouble.append(f"{clocks / 2160} periods behind a row the next one says {row[9]} missed")
+        at, t = passed, row[0]
+    return trouble
+
+
+def check_most(folder):
+    """However much the loops ask for, the gap for the bootstraps stays."""
+    chip = running(folder)
+    chip.type("300\r")
+    chip.go_on(20_000)
+    most = 0
+    for _ in range(2000):
+        tick(chip)
+        most = max(most, chip.words[TIM1 + 0x34])
+    return [] if most == 2160 - 108 else [f"the longest on-time has {most} counts of 2160: a gap of 108 is wanted"]
+
+
+def check_constructors(folder):
+    """A global object of somebody's own is constructed before main()."""
+    example = build.REPOSITORY / images.EXAMPLES["stm32f303"]
+    source = folder / "own.cpp"
+    source.write_text("struct Own { int seen; Own() : seen(12345) { asm volatile(\"\"); } };\nOwn own;\n"
+                      "int unset_at_first = [] { volatile int x = 54321; return x; }();\n")
+    build.told(["arm-none-eabi-g++", f"@{example}/compile.flags", f"-I{build.REPOSITORY}", f"-I{build.REPOSITORY}/faces/firmware/bare", f"-I{folder}",
+                *(example / name for name in ("main.cpp", "start.cpp", "start.S")), source, build.REPOSITORY / "faces/firmware/bare/memory.cpp",
+                "-nostdlib", "-T", example / "stm32f303.ld", "-o", folder / "image.elf", "-lgcc"])
+    build.told(["arm-none-eabi-objcopy", "-O", "binary", folder / "image.elf", folder / "image.bin"])
+    chip = ready(folder)
+    value = struct.unpack("<i", chip.core.mem_read(chip.symbols["unset_at_first"], 4))[0]
+    trouble = [] if value == 54321 else [f"a constructor did not run: {value}"]
+    if not chip.symbols["stack_top"] <= chip.symbols["data_begin"] or chip.symbols["stack_top"] - images.RAM != 8192:
+        trouble.append("the stack does not lie at the memory's low end, where growing too far is a fault")
+    return trouble
+
+
+CHECKS = (check_sensors, check_break, check_clock, check_converter, check_resets, check_line, check_hall, check_time, check_most)
+
+
+def check(folder):
+    trouble = []
+    for part in CHECKS:
+        trouble += part(folder)
+    own = folder.parent / "own"
+    own.mkdir(exist_ok=True)
+    (own / "drive_config.hpp").write_bytes((folder / "drive_config.hpp").read_bytes())
+    return trouble + check_constructors(own)
