@@ -32,6 +32,11 @@ cd "$root"
 refuse() { echo "$header: $1" >&2; exit 1; }
 [ -r "$header" ] || refuse "cannot be read"
 grep -q 'constexpr bool cleared = ' "$header" || refuse "does not say whether its drive is cleared for a bridge; export it anew with this sixstep"
+if [ "$board" = stm32f303 ]; then
+  grep -q '^using Scalar = float;' "$header" || refuse "is not in float, which this board's program computes in; export it with --arithmetic float"
+  grep -q 'ProtectedConfig<Scalar> product = ' "$header" ||
+    refuse "has no product drive, which this board's program runs; set control.drive = \"product\" in the scenario"
+fi
 if grep -q 'constexpr std::uint64_t dead_time_ps = 0;' "$header"; then
   refuse "has no dead time: both switches of a leg would be on at each reversal; give the scenario bridge.dead_time_s and export it anew"
 fi

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """TIM1's output stage, clock by clock, written from the manual alone (RM0316, 20.3 and 20.4); it knows nothing of the program under test.
 
-  CCPC = 1         OCxM, CCxE and CCxNE are preloaded and taken by all channels at a COM event (EGR.COMG)       20.4.2, 20.3.17
+  CCPC = 1         OCxM, CCxE and CCxNE are preloaded and taken by all channels at a COM event (EGR.COMG)       20.4.2
   OCxPE            CCRx is preloaded and taken at the update; without it at once                                 20.4.7
   OCxM             100 low, 101 high, 110 high while CNT < CCRx, 111 the opposite                                20.4.7
   CCxE, CCxNE      with MOE = OSSR = 1: neither: both outputs let go; one: that output is OCxREF, the other is driven inactive, no

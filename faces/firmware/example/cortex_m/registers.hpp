@@ -65,7 +65,7 @@ inline Usart& usart2() { return block<Usart>(0x40004400); }
 inline Watchdog& iwdg() { return block<Watchdog>(0x40003000); }
 inline Register& debug_apb1_freeze() { return word_at(0xE0042008); }
 inline Register& debug_apb2_freeze() { return word_at(0xE004200C); }
-inline Register& syscfg_cfgr2() { return word_at(0x40010018); }  // 12.1.9
+inline Register& syscfg_cfgr2() { return word_at(0x40010018); }  // 12.1
 /// Of the parts' interrupts: 32 a word to enable and to disable, a byte of priority each, of which the upper four bits count.
 inline Register& nvic_enable(unsigned irq) { return word_at(0xE000E100 + 4 * (irq / 32)); }
 inline Register& nvic_disable(unsigned irq) { return word_at(0xE000E180 + 4 * (irq / 32)); }
