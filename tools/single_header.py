@@ -48,7 +48,8 @@ def single_header(root: pathlib.Path) -> str:
     texts = {part: (root / part).read_text() for part in parts}
     standard = sorted({name for text in texts.values() for name in STANDARD.findall(text)})
     head = [LICENCE, "// sixstep control library in one file, made by tools/single_header.py from sixstep/control/. C++20, freestanding.",
-            "// Change the parts, not this file.", "#pragma once"]
+            "// Change the parts, not this file.",
+            "// avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have no C++20. For the AVR: clang 19 or later.", "#pragma once"]
     head += [f"#include {name}" for name in standard]
     return "\n".join(head) + "\n" + "".join(f"\n// ---- {part}\n{body(texts[part])}\n" for part in parts)
 

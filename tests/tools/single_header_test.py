@@ -54,6 +54,18 @@ class SingleHeader(unittest.TestCase):
         self.assertGreater(len(parts), 1000)
         self.assertEqual(whole, parts)
 
+    def test_stops_compilers_that_are_known_to_be_wrong(self):
+        text = self.header.read_text()
+        self.assertIn("avr-gcc 5 and 7", text.split("#pragma once")[0])
+        file = self.folder / "old.cpp"
+        file.write_text('#include "sixstep_control.hpp"\n')
+        flags = [flag for flag in FLAGS if flag not in ("-std=c++20", "-Werror")]
+        for given, said in ((["-std=c++17"], "is C++20"),
+                            (["-std=c++20", "-D__AVR__", "-D__clang__", "-D__clang_major__=14"], "compile drives wrongly for the AVR")):
+            done = subprocess.run([COMPILER, *flags, *given, f"-I{self.folder}", "-fsyntax-only", file], capture_output=True, text=True, check=False)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(said, done.stderr)
+
     def test_compiles_alone_for_a_chip(self):
         source = ('#include "sixstep_control.hpp"\n#include "sixstep_control.hpp"\n'
                   "static_assert(sixstep::control::Q15(0.5).raw == 16384);\n")
