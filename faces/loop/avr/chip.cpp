@@ -47,7 +47,9 @@ void Chip::settle() {
 
 void Chip::pass_timer() {
   const std::uint64_t at = timer_.next();
-  if (timer_.pass()) {
+  const Timer1::Event event = timer_.pass();
+  if (event == Timer1::Event::top) avr_raise_interrupt(avr_, capture_);
+  if (event == Timer1::Event::bottom) {
     ++periods_;
     const bool rises = !flag(TIFR1, TOV1);
     avr_raise_interrupt(avr_, overflow_);
@@ -114,15 +116,18 @@ void Chip::apply(Write write, std::uint64_t at) {
 
 /// Flags are cleared by ones; one that stands asks as soon as its interrupt is enabled.
 void Chip::write_flags(Write write) {
-  const bool of_timer = write.to == TIFR1 || write.to == TIMSK1;
-  avr_int_vector_t* vector = of_timer ? overflow_ : &pin_change_;
-  const std::uint8_t bit = of_timer ? TOV1 : PCIE2;
-  if (write.to == TIFR1 || write.to == PCIFR) {
-    if ((write.value & bit) != 0) avr_clear_interrupt(avr_, vector);
-    return;
-  }
+  const struct {
+    Address flags, mask;
+    std::uint8_t bit;
+    avr_int_vector_t* vector;
+  } all[] = {
+      {TIFR1, TIMSK1, TOV1, overflow_}, {TIFR1, TIMSK1, ICF1, capture_}, {PCIFR, PCICR, PCIE2, &pin_change_}};
+  for (const auto& one : all)
+    if (write.to == one.flags && (write.value & one.bit) != 0) avr_clear_interrupt(avr_, one.vector);
+  if (write.to == TIFR1 || write.to == PCIFR) return;
   avr_->data[write.to] = write.value;
-  if (flag(of_timer ? TIFR1 : PCIFR, bit)) avr_raise_interrupt(avr_, vector);
+  for (const auto& one : all)
+    if (write.to == one.mask && flag(one.flags, one.bit)) avr_raise_interrupt(avr_, one.vector);
 }
 
 /// ADIF is cleared by a one; ADSC starts, and shows that a conversion runs.

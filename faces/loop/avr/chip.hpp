@@ -57,6 +57,7 @@ class Chip {
   bool flag(atmega2560::Address at, std::uint8_t bit) const { return (avr_->data[at] & bit) != 0; }
   void stop_core();
   void set_pins(std::uint32_t hall_pins, std::uint64_t since);
+  void begin_anew();
   void advance(std::uint64_t until);
   void run_core(std::uint64_t target);
   void sleep_core(std::uint64_t target);
@@ -79,7 +80,7 @@ class Chip {
   void look_at_gates(std::uint64_t at);
 
   avr_t* avr_ = nullptr;
-  avr_int_vector_t *overflow_ = nullptr, *converted_ = nullptr;
+  avr_int_vector_t *overflow_ = nullptr, *capture_ = nullptr, *converted_ = nullptr;
   avr_int_vector_t pin_change_{};  ///< simavr 1.6 has none at port K
   avr_irq_t* hall_irqs_ = nullptr;
   std::deque<PortRegister> ports_;  ///< whose writes move gates; each stays where it is
@@ -90,6 +91,7 @@ class Chip {
   bool has_write_ = false;
   Write write_{};  ///< of the last instruction
   bool ended_ = false, slept_ = false;
+  bool was_reset_ = false;      ///< by the watchdog
   std::uint64_t response_ = 0;  ///< cycles of interrupts that were entered, which the core has not counted
 
   Timer1 timer_;

@@ -98,9 +98,14 @@ void Chip::take_over() {
   avr_->run_cycle_limit = 1;
   // simavr goes on by its own idea of how long nothing happens: taken back, sleep_core() knows better.
   avr_->sleep = [](avr_t* avr, avr_cycle_count_t cycles) { avr->cycle -= cycles + 1; };
-  // Of what the watchdog's reset would do to what is ours nothing is modelled: it ends the program.
-  avr_->reset = [](avr_t*) { told_of_error = true; };
+  // The watchdog's.
+  avr_->reset = [](avr_t* avr) {
+    Chip& c = *static_cast<Chip*>(avr->io[AVR_DATA_TO_IO(ADMUX)].w.param);
+    c.was_reset_ = true;
+    c.stop_core();
+  };
   overflow_ = vector(vector_TIMER1_OVF);
+  capture_ = vector(vector_TIMER1_CAPT);
   converted_ = vector(vector_ADC);
   hall_irqs_ = avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ('K'), IOPORT_IRQ_PIN0);
 }
@@ -175,11 +180,26 @@ void Chip::set_pins(std::uint32_t hall_pins, std::uint64_t since) {
   hall_.asked(since);
 }
 
+/// simavr has cleared its registers, those of ports among them, though not what stands at the pins. RAM stays as it was.
+void Chip::begin_anew() {
+  was_reset_ = has_write_ = timer_started_it_ = result_locked_ = slept_ = false;
+  timer_ = {};
+  converter_ = {};
+  response_ = 0;
+  for (const Pin& pin : pins_.hall) {
+    avr_irq_t* irq = hall_irqs_ + pin.bit;
+    const std::uint32_t level = irq->value;
+    avr_raise_irq(irq, level == 0);
+    avr_raise_irq(irq, level);
+  }
+}
+
 void Chip::advance(std::uint64_t until) {
   const std::uint64_t target = std::min({until, timer_.next(), converter_.next()});
   stop_ = false;
   while (avr_->cycle < target && !stop_ && avr_->interrupt_state <= 0 && !ended_)
     avr_->state == cpu_Sleeping ? sleep_core(target) : run_core(target);
+  if (was_reset_) begin_anew();
   settle();
   while (avr_->interrupt_state > 0 && avr_->sreg[S_I] != 0) avr_service_interrupts(avr_);
   if (response_ == 0) return;

@@ -20,8 +20,10 @@ class Timer1 {
 
   std::uint64_t next() const { return next_; }
 
-  /// What happens at next(); true where that is BOTTOM, which sets TOV1.
-  bool pass() {
+  enum class Event { match, top, bottom };
+
+  /// What happens at next(): TOP sets ICF1, for both modes count to ICR1, and BOTTOM sets TOV1.
+  Event pass() {
     if (next_phase_ == period()) {
       base_ += period() * prescaler_;
       next_phase_ = 0;
@@ -31,7 +33,7 @@ class Timer1 {
       for (Channel& c : channel_) c.compare = c.buffer;
     for (Channel& c : channel_) match(c);
     find_next();
-    return passed_ == 0;
+    return passed_ == 0 ? Event::bottom : passed_ == top_ ? Event::top : Event::match;
   }
 
   /// Else the port drives the pin.

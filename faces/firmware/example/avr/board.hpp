@@ -23,26 +23,48 @@ static_assert(exported::pwm_centre_aligned,
               "timer 1 counts up and down; its compare registers are taken at the top");
 static_assert(exported::adc_bits == 10, "the converter that is there");
 static_assert(sizeof(Scalar) == 2, "eighths of counts as signals of 16 bits");
+static_assert(exported::dead_time_ps > 0,
+              "a leg would change between its two switches with both on: set bridge.dead_time_s");
 
 constexpr std::uint32_t clock_Hz = 16'000'000;
 // Up and down again, of 1/16 MHz.
 constexpr std::uint64_t pwm_counts = exported::pwm_period_ps / 62'500 / 2;
 static_assert(pwm_counts >= 3 && pwm_counts < 65536, "timer 1 has 16 bits");
+// Rounded up; four are the least that change_over() can wait.
+constexpr std::uint64_t dead_cycles =
+    exported::dead_time_ps <= 4 * 62'500 ? 4 : (exported::dead_time_ps + 62'499) / 62'500;
+static_assert(dead_cycles <= 80, "5 us at most: an interrupt waits it out");
+
+// What no sound board reads, in counts.
+constexpr std::uint16_t middle = 512;
+/// Above it a phase current is a fault: 0.9 of what its transducer reaches. Set it below what the switches and the motor stand.
+constexpr std::uint16_t over_current_counts = 461;
+/// So near to an end of the converter lies a wire that is lost: each input needs a resistor to ground that pulls it there.
+constexpr std::uint16_t end_counts = 3;
+/// The three currents' sum, whose samples lie half a period apart: a part of the range that no ripple has.
+constexpr std::uint16_t sum_counts = 192;
+constexpr std::uint8_t strange_sums = 3;
+/// Of the potentiometer about its middle: 0.
+constexpr std::uint16_t zero_counts = 10;
+
+constexpr bool is_within(std::uint16_t counts, std::uint16_t of_middle) {
+  return static_cast<std::uint16_t>(counts - middle + of_middle) <= 2 * of_middle;
+}
+constexpr bool is_at_end(std::uint16_t counts) { return !is_within(counts, middle - 1 - end_counts); }
 
 constexpr AdcConfig<Scalar> currents{.per_eighth = units.amperes_per_count(exported::adc_amperes_per_count),
-                                     .offset_counts = 512,
-                                     .offset_tolerance = 15,
-                                     .log2_samples = 3};
+                                     .offset_counts = middle};
+constexpr std::uint16_t offset_tolerance = 15;
 constexpr Units<Scalar> plain{};
 constexpr AdcConfig<Scalar> potentiometer{
     .per_eighth =
         (drive.mode == Mode::duty ? plain : units).amperes_per_count(exported::setpoint_range / 512),
-    .offset_counts = 512};
+    .offset_counts = middle};
 constexpr std::uint8_t potentiometer_channel = 3;
 
 /// By the Hall pins as port K has them: looked up in a few cycles, worked out in dozens.
 struct ByPins {
-  std::uint8_t code[8], source[8];
+  std::uint8_t code[8], source[8], second[8], third[8];
 };
 constexpr ByPins by_pins = [] {
   ByPins by{};
@@ -50,6 +72,8 @@ constexpr ByPins by_pins = [] {
     const auto code = static_cast<std::uint8_t>((pins & 1) << 2 | (pins & 2) | (pins & 4) >> 2);
     by.code[pins] = code;
     by.source[pins] = static_cast<std::uint8_t>(positive_pair(sector_of_hall(code)).source);
+    by.second[pins] = static_cast<std::uint8_t>((by.source[pins] + 1) % 3);
+    by.third[pins] = static_cast<std::uint8_t>((by.source[pins] + 2) % 3);
   }
   return by;
 }();

@@ -15,14 +15,13 @@ struct Pins {
 
 constexpr Pins all_off{0, 0};
 
-/// As gates() of soft chopping by the upper switch has it, looked up: without an on-time the off-time's gates stand all along, no
-/// upper one among them. Never both of a leg.
+/// As gates() of soft chopping by the upper switch has it, looked up. A compare register of 0 has no pulse (17.8.3), so that at a duty
+/// of 0 the off-time's gates stand all along. Never both of a leg.
 template <class Scalar>
-constexpr Pins pins(const sixstep::control::BridgeCommand<Scalar>& command, bool has_on_time) {
+constexpr Pins pins(const sixstep::control::BridgeCommand<Scalar>& command) {
   constexpr std::uint8_t upper[3] = {1u << 5, 1u << 6, 1u << 7}, lower[3] = {1u << 0, 1u << 1, 1u << 2};
   if (!command.enabled || command.pair.source == command.pair.sink) return all_off;
-  return {has_on_time ? upper[static_cast<int>(command.pair.source)] : std::uint8_t{0},
-          lower[static_cast<int>(command.pair.sink)]};
+  return {upper[static_cast<int>(command.pair.source)], lower[static_cast<int>(command.pair.sink)]};
 }
 
 }  // namespace firmware

@@ -1,29 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole program of an ATmega2560 at 16 MHz around an exported drive, a current or duty loop: what tools/firmware_image.sh makes an
 // image of, and what `sixstep run SCENARIO --on avr` runs in the loop. The control interrupt comes once a period, behind the conversion;
-// the Hall interrupt moves the bridge; the main loop logs to the serial line and keeps the watchdog from biting.
-#include "faces/firmware/example/avr/bridge.hpp"
+// amid it may come the Hall interrupt, which moves the bridge, and TOP's, from which on the new sign counts. The main loop logs to the
+// serial line and keeps the watchdog from biting. A fault turns the gates off and its reason is told, for as long as the drive stands.
 #include "faces/firmware/example/avr/set_up.hpp"
 #include "faces/firmware/example/log.hpp"
 
 namespace firmware {
 
 DriveState<Scalar> state;
-AdcState calibration;
-std::int16_t offset_eighths = -1;  // of all three transducers, measured at the first; below 0 not yet
-std::uint16_t on_counts = 0;       // half the on-time
+std::int16_t offset_eighths[3] = {};  // measured at the first
+std::uint16_t offset_sum = 0;         // in counts
 Setpoint<Scalar> setpoint;
 Telemetry<Scalar> telemetry;  // the drive never reads it
-bool fault = false;           // stays
+std::uint8_t sums_too_far = 0;
+
+/// The other two legs' currents, each second period: which of them is at the converter.
+enum class Legs : std::uint8_t { none, second, third } legs = Legs::none;
+std::uint8_t third_leg = 0;
+std::uint16_t second_counts = 0;
 
 /// What the log has of a control tick.
 struct Row {
-  std::uint32_t tick;
+  std::uint16_t clock;
+  std::uint8_t heart, hall;
   Scalar current, reference, duty;
-  std::uint8_t hall;
 };
 LogSlot<Row> log;
-std::uint32_t ticks = 0;
+std::uint16_t row_clock = 0;      // at the control interrupt's begin
 volatile std::uint8_t heart = 0;  // beats with each control interrupt
 
 /// All three compare registers, so that a leg that comes in mid-period has its pulse at once.
@@ -31,38 +35,84 @@ void set_on_time(std::uint16_t counts) {
   word(atmega2560::OCR1AL) = counts;
   word(atmega2560::OCR1BL) = counts;
   word(atmega2560::OCR1CL) = counts;
-  on_counts = counts;
 }
 
-/// An upper gate that stays is let alone, it may be amid its pulse; one that goes is off before a lower one comes.
-void apply(const BridgeCommand<Scalar>& command) {
-  const Pins to = pins(command, on_counts > 0);
-  volatile std::uint8_t& out = byte(atmega2560::DDRB);
-  out = out & to.DDRB;
-  byte(atmega2560::PORTA) = to.PORTA;
-  out = to.DDRB;
+void note_row(std::uint8_t pins, Scalar current, Scalar reference, Scalar duty) {
+  if (log.waiting() == nullptr) log.take({row_clock, heart, by_pins.code[pins], current, reference, duty});
 }
 
-void turn_off_for_good() {
-  fault = true;
-  byte(atmega2560::DDRB) = 0;
-  byte(atmega2560::PORTA) = 0;
+/// A current that no sound drive has.
+void stop_by_current(std::uint16_t counts) {
+  stop(is_at_end(counts) ? Reason::current_sensor : Reason::over_current);
 }
 
-/// With the bridge off, since the reset: 0 A.
-void calibrate(std::uint16_t counts) {
-  const Calibration so_far = adc_calibrate(currents, calibration, counts);
-  if (so_far == Calibration::failed) turn_off_for_good();
-  if (so_far == Calibration::done) offset_eighths = static_cast<std::int16_t>(calibration.offset_eighths);
+/// With the bridge off, since the reset: 0 A. The sum of eight samples is their mean in eighths of a count.
+void calibrate() {
+  static std::uint8_t samples = 0;
+  for (std::uint8_t leg = 0; leg < 3; ++leg) {
+    convert(leg);
+    const std::uint16_t counts = conversion();
+    if (is_at_end(counts)) return stop(Reason::current_sensor);
+    offset_eighths[leg] = static_cast<std::int16_t>(offset_eighths[leg] + counts);
+  }
+  if (++samples < 8) return;
+  for (const std::int16_t offset : offset_eighths)
+    if (!is_within(static_cast<std::uint16_t>(offset) / 8, offset_tolerance))
+      return stop(Reason::calibration);
+  offset_sum = static_cast<std::uint16_t>(offset_eighths[0] + offset_eighths[1] + offset_eighths[2]) / 8;
+  phase = Phase::waits;
 }
 
-void control(std::uint8_t code, std::uint16_t counts) {
-  const std::uint8_t sector = sector_of_hall(code);
-  if (sector == no_sector) return turn_off_for_good();
+/// However it came to be on: the motor starts only behind somebody who turned the setpoint to 0.
+void wait_for_zero() {
+  convert(potentiometer_channel);
+  const std::uint16_t counts = conversion();
+  if (is_at_end(counts)) return stop(Reason::setpoint_wire);
+  if (is_within(counts, zero_counts)) phase = Phase::drives;
+}
+
+/// A period without a drive.
+__attribute__((noinline)) void stand_by(std::uint16_t counts) {
+  const std::uint8_t pins = hall_pins();
+  note_row(pins, value_of(currents, 8 * middle, counts), Scalar{}, Scalar{});
+  if (phase == Phase::calibrates)
+    calibrate();
+  else if (phase == Phase::waits)
+    wait_for_zero();
+  convert_at_bottom(hall_pins());
+}
+
+void control(std::uint8_t pins, std::uint16_t counts) {
+  const std::uint8_t code = by_pins.code[pins], sector = sector_of_hall(code);
+  if (sector == no_sector) return stop(Reason::hall);
   Measurement<Scalar> m{.hall = code};
-  set_phase_currents(m, positive_pair(sector), value_of(currents, offset_eighths, counts));
+  set_phase_currents(m, positive_pair(sector),
+                     value_of(currents, offset_eighths[by_pins.source[pins]], counts));
   step(drive, state, m, setpoint, telemetry);
-  log.take({ticks, telemetry.motor_current_A, setpoint.value, telemetry.duty, code});
+  note_row(pins, telemetry.motor_current_A, setpoint.value, telemetry.duty);
+}
+
+/// From the next TOP on, where the timer takes the on-time. The interrupt comes there where the sign changes, and where the third leg's
+/// conversion is to begin.
+void answer(bool legs_are_next) {
+  set_on_time(counts_of(state.command.duty));
+  wanted = state.reversed ? Way::negative : Way::positive;
+  byte(atmega2560::TIMSK1) = legs_are_next || wanted != shown ? atmega2560::ICIE1 : std::uint8_t{0};
+}
+
+/// All three currents of this period.
+void check_legs(std::uint8_t pins, std::uint16_t first, std::uint16_t third) {
+  if (!is_within(second_counts, over_current_counts)) return stop_by_current(second_counts);
+  if (!is_within(third, over_current_counts)) return stop_by_current(third);
+  if (pins != hall_pins()) return;  // commutated on the way
+  const auto sum = static_cast<std::uint16_t>(first + second_counts + third - offset_sum + middle);
+  sums_too_far = is_within(sum, sum_counts) ? 0 : static_cast<std::uint8_t>(sums_too_far + 1);
+  if (sums_too_far >= strange_sums) stop(Reason::current_sensor);
+}
+
+void take_setpoint(std::uint16_t counts) {
+  if (is_at_end(counts)) return stop(Reason::setpoint_wire);
+  setpoint.value = value_of(potentiometer, 8 * potentiometer.offset_counts, counts);
 }
 
 void put(char c) {
@@ -79,16 +129,23 @@ std::int32_t thousandths(Scalar x) {
 constexpr auto full_mA = static_cast<std::int32_t>(units.current_A * 1000);
 constexpr std::int32_t full_setpoint = drive.mode == Mode::duty ? 1000 : full_mA;
 static_assert(full_mA < 65536, "times a signal of 16 bits");
-constexpr auto period_ns = static_cast<std::uint32_t>(exported::pwm_period_ps / 1000);
 
-/// Up to 35 minutes, as put_number() takes them.
-constexpr std::uint32_t microseconds(std::uint32_t tick) {
-  constexpr std::uint32_t whole = period_ns / 1000, rest = period_ns % 1000;
-  return tick * whole + (rest == 0 ? 0 : tick * rest / 1000);
+/// Periods between two rows that had no control interrupt: by the clock, less the interrupts that came.
+std::uint8_t missed(std::uint16_t half_us, std::uint8_t came) {
+  constexpr std::uint32_t cycles = 2 * pwm_counts;
+  const auto periods = static_cast<std::uint8_t>((std::uint32_t{half_us} * 8 + cycles / 2) / cycles);
+  return static_cast<std::uint8_t>(periods - came);
 }
 
 void send(const Row& row) {
-  put_number(put, static_cast<std::int32_t>(microseconds(row.tick)));
+  static Instant now;
+  static std::uint16_t clock = conversion_half_us;  // a row's instant is its sample's
+  static std::uint8_t seen = 0;
+  static bool begun = false;
+  const auto passed = static_cast<std::uint16_t>(row.clock - clock);
+  clock = static_cast<std::uint16_t>(row.clock & ~1u);
+  now.pass(passed / 2);
+  put_instant(put, now);
   put(',');
   put_number(put, thousandths<full_mA>(row.current));
   put(',');
@@ -97,15 +154,36 @@ void send(const Row& row) {
   put_number(put, thousandths<1000>(row.duty), 3);
   put(',');
   put_number(put, row.hall);
+  put(',');
+  put_number(put, begun ? missed(passed, static_cast<std::uint8_t>(row.heart - seen)) : 0);
   put('\n');
+  seen = row.heart;
+  begun = true;
 }
 
-/// As long as control interrupts come.
+/// As long as control interrupts come, and as long as the drive stands: that the reason goes on being told.
 void feed_watchdog() {
   static std::uint8_t seen = 0;
-  if (heart == seen) return;
+  if (heart == seen && phase != Phase::stands) return;
   seen = heart;
   asm volatile("wdr");
+}
+
+/// When the drive comes to stand or to wait, and once a second from then on.
+void tell_phase() {
+  constexpr std::uint8_t second = 31;  // turns of timer 3, of 33 ms
+  static Phase told = Phase::calibrates;
+  static std::uint8_t turns = 0;
+  const Phase now = phase;
+  if ((byte(atmega2560::TIFR3) & atmega2560::TOV3) != 0) {
+    byte(atmega2560::TIFR3) = atmega2560::TOV3;
+    ++turns;
+  }
+  if (now == told && turns < second) return;
+  told = now;
+  turns = 0;
+  if (now == Phase::stands) put_fault(put, reason);
+  if (now == Phase::waits) put_text(put, "# waits for the potentiometer's middle\n");
 }
 
 }  // namespace firmware
@@ -114,49 +192,79 @@ void feed_watchdog() {
 extern "C" __attribute__((signal, used)) void INTERRUPT_ADC() {
   using namespace firmware;
   const std::uint16_t counts = converted();
+  control_interrupt_came();
+  row_clock = log_clock();
   heart = static_cast<std::uint8_t>(heart + 1);
-  ++ticks;
-  if (fault) return;
-  if (offset_eighths < 0) {
-    calibrate(counts);
-    return convert_at_bottom();
+  if (phase != Phase::drives) return stand_by(counts);
+  const std::uint8_t pins = hall_pins();
+  const bool looks_at_legs = (heart & 1) != 0;
+  convert(looks_at_legs ? by_pins.second[pins] : potentiometer_channel);
+  legs = looks_at_legs ? Legs::second : Legs::none;
+  third_leg = by_pins.third[pins];
+  if (is_within(counts, over_current_counts)) {
+    asm volatile("sei" ::: "memory");
+    control(pins, counts);
+    asm volatile("cli" ::: "memory");
+  } else {
+    stop_by_current(counts);
   }
-  convert_potentiometer();
-  control(by_pins.code[hall_pins()], counts);
-  const std::uint16_t wanted = potentiometer_counts();
-  look_at_source(hall_pins());
-  convert_at_bottom();  // as early as may be: a BOTTOM before it is a period without control
-  if (fault) return;
-  set_on_time(counts_of(state.command.duty));
-  apply(state.command);
-  setpoint.value = value_of(potentiometer, 8 * potentiometer.offset_counts, wanted);
+  const std::uint16_t last = conversion();
+  const bool has_legs = legs == Legs::third;  // else TOP did not come in time
+  legs = Legs::none;
+  convert_at_bottom(hall_pins());  // as early as may be: a BOTTOM before it is a period without control
+  if (phase != Phase::drives) return;
+  answer(!looks_at_legs);
+  if (!looks_at_legs)
+    take_setpoint(last);
+  else if (has_legs)
+    check_legs(pins, counts, last);
 }
 
-/// Never amid the control interrupt, so that no conversion of the potentiometer runs.
+/// TOP.
+extern "C" __attribute__((signal, used)) void INTERRUPT_TIMER1_CAPT() {
+  using namespace firmware;
+  if (wanted != shown) {
+    shown = wanted;
+    show(hall_pins());
+  }
+  if (legs != Legs::second || converts()) return;
+  second_counts = converted();
+  convert(third_leg);
+  legs = Legs::third;
+}
+
 extern "C" __attribute__((signal, used)) void INTERRUPT_PCINT2() {
   using namespace firmware;
-  if (fault || !state.command.enabled) return;
-  const std::uint8_t pins = hall_pins(), code = by_pins.code[pins];
-  if (sector_of_hall(code) == no_sector) return turn_off_for_good();
+  if (shown == Way::off) return;
+  const std::uint8_t pins = hall_pins();
+  if (sector_of_hall(by_pins.code[pins]) == no_sector) return stop(Reason::hall);
   look_at_source(pins);
-  apply(on_hall(drive, state, code));
+  show(pins);
 }
 
-/// Freestanding, clang would give it a C++ name. After the watchdog's reset the bridge stays off until the supply goes.
+/// No control interrupt for too long.
+extern "C" __attribute__((signal, used)) void INTERRUPT_TIMER0_OVF() {
+  firmware::stop(firmware::Reason::converter);
+}
+
+/// Freestanding, clang would give it a C++ name.
 extern "C" int main() {
   using namespace firmware;
-  fault = set_up_watchdog();
+  const Reason before = reason_after_reset(set_up_watchdog());
+  kept_reason.keep(Reason::none);
+  if (before != Reason::none) stop(before);
   set_up();
   asm volatile("sei");
-  put_text(put, fault ? "# the watchdog bit\n" : "# sixstep on an ATmega2560\n");
-  put_text(put, drive.mode == Mode::duty ? "t [us],i_m [mA],setpoint,duty,hall\n"
-                                         : "t [us],i_m [mA],i_ref [mA],duty,hall\n");
+  put_text(put, "# sixstep on an ATmega2560\n");
+  put_text(put, drive.mode == Mode::duty ? "t [us],i_m [mA],setpoint,duty,hall,missed\n"
+                                         : "t [us],i_m [mA],i_ref [mA],duty,hall,missed\n");
   for (;;) {
     feed_watchdog();
+    tell_phase();
     if (const Row* row = log.waiting()) {
       send(*row);
       log.next();
-    } else {
+    } else if (phase != Phase::stands) {
       asm volatile("sleep");
     }
   }

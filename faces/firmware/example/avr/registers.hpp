@@ -17,4 +17,6 @@ inline volatile std::uint16_t& word(atmega2560::Address address) {
 
 // By their numbers, as the compiler wants them (14.1).
 #define INTERRUPT_PCINT2 __vector_11
+#define INTERRUPT_TIMER1_CAPT __vector_16
+#define INTERRUPT_TIMER0_OVF __vector_23
 #define INTERRUPT_ADC __vector_29

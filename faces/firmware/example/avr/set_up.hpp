@@ -2,20 +2,21 @@
 // What the registers hold before the first interrupt. All gates are inputs, pulled down outside, until a command lets one out.
 #pragma once
 #include "faces/firmware/example/avr/converter.hpp"
+#include "faces/firmware/example/avr/standing.hpp"
 
 namespace firmware {
 
 constexpr std::uint32_t baud = 1'000'000;
 
-/// Of the watchdog's 16 ms; the two writes may be four cycles apart. True where it was the watchdog that brought the reset.
-inline bool set_up_watchdog() {
+/// Of the watchdog's 16 ms; the two writes may be four cycles apart. What brought the reset.
+inline std::uint8_t set_up_watchdog() {
   using namespace atmega2560;
-  const bool bit_me = (byte(MCUSR) & WDRF) != 0;
+  const std::uint8_t cause = byte(MCUSR);
   asm volatile("wdr");
   byte(MCUSR) = 0;
   byte(WDTCSR) = WDCE | WDE;
   byte(WDTCSR) = WDE;
-  return bit_me;
+  return cause;
 }
 
 inline void set_up_serial_line() {
@@ -34,6 +35,32 @@ inline void set_up_timer() {
   byte(TCCR1B) = WGM13 | CS10;
 }
 
+/// Timer 0 overflows where no control interrupt sets it back for half a millisecond, or two periods and a half of a long one.
+constexpr bool is_long_period = exported::pwm_period_ps > 200'000'000;
+constexpr std::uint64_t patience_ps = is_long_period ? exported::pwm_period_ps / 2 * 5 : 500'000'000;
+constexpr std::uint64_t patience_counts = patience_ps / (is_long_period ? 64'000'000 : 4'000'000);
+static_assert(patience_counts > 1 && patience_counts < 256, "timer 0 has 8 bits");
+
+inline void control_interrupt_came() {
+  byte(atmega2560::TCNT0) = static_cast<std::uint8_t>(256 - patience_counts);
+}
+
+inline void set_up_supervisor() {
+  using namespace atmega2560;
+  control_interrupt_came();
+  byte(TCCR0B) = is_long_period ? by_1024 : by_64;
+  byte(TIMSK0) = TOIE0;
+}
+
+/// Timer 3 counts half microseconds, whatever the interrupts do, 33 ms around. Before main() variables are filled for a quarter of a
+/// millisecond: it is set off before that (avr-libc's sections .init).
+inline std::uint16_t log_clock() { return word(atmega2560::TCNT3L); }
+static_assert(atmega2560::TCCR3B == 0x91 && atmega2560::by_8 == 2);
+asm(".pushsection .init3,\"ax\",@progbits\n\t"
+    "ldi r24, 2\n\t"
+    "sts 0x91, r24\n\t"
+    ".popsection");
+
 inline void set_up_hall_pins() {
   byte(atmega2560::PCMSK2) = 7;
   byte(atmega2560::PCICR) = atmega2560::PCIE2;
@@ -41,8 +68,7 @@ inline void set_up_hall_pins() {
 
 inline void set_up_converter() {
   byte(atmega2560::ADCSRB) = atmega2560::ADTS_timer1_overflow;
-  look_at_channel(0);
-  convert_at_bottom();
+  convert_at_bottom(hall_pins());
 }
 
 inline void set_up() {
@@ -51,6 +77,7 @@ inline void set_up() {
   set_up_timer();
   set_up_hall_pins();
   set_up_converter();
+  if (phase != Phase::stands) set_up_supervisor();
   byte(atmega2560::SMCR) = atmega2560::SE;  // idle: timer, converter and serial line run on
 }
 

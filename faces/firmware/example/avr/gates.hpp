@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The six gates as they are, and how they change: what goes is off, and after the dead time what comes is on. No gate comes earlier than
+// that after any other went, also where two changes follow each other. All of it with interrupts off.
+#pragma once
+#include "faces/firmware/example/avr/board.hpp"
+#include "faces/firmware/example/avr/bridge.hpp"
+
+namespace firmware {
+
+/// The sign of the voltage that the pins give.
+enum class Way : std::uint8_t { off, positive, negative };
+
+/// What on_hall() answers, for every sign and every reading of the Hall pins: worked out by the compiler.
+struct PinsByWay {
+  Pins at[3][8];
+};
+constexpr PinsByWay pins_by_way = [] {
+  PinsByWay all{};
+  for (int way = 0; way < 3; ++way)
+    for (unsigned hall = 0; hall < 8; ++hall) {
+      DriveState<Scalar> state;
+      state.reversed = static_cast<Way>(way) == Way::negative;
+      state.command.enabled = static_cast<Way>(way) != Way::off;
+      all.at[way][hall] = pins(on_hall(drive, state, by_pins.code[hall]));
+    }
+  return all;
+}();
+
+inline Way shown = Way::off;   // at the pins
+inline Way wanted = Way::off;  // from the next TOP on, where the timer takes the on-time too
+
+/// From the write that turns off a lower gate to the one that lets out the upper gate: exactly dead_cycles. The other way round two more.
+inline void change_over(Pins stay, Pins to) {
+  constexpr std::uint8_t loops = (dead_cycles - 1) / 3, rest = (dead_cycles - 1) % 3;
+  static_assert(loops > 0 && (dead_cycles - 1) / 3 < 256, "one byte counts it");
+  std::uint8_t count;
+  asm volatile(
+      "out %[DDRB], %[stay_b]\n\t"
+      "out %[PORTA], %[stay_a]\n\t"
+      "ldi %[count], %[loops]\n"
+      "1:\tdec %[count]\n\t"
+      "brne 1b\n\t"
+      ".rept %[rest]\n\t"
+      "nop\n\t"
+      ".endr\n\t"
+      "out %[DDRB], %[to_b]\n\t"
+      "out %[PORTA], %[to_a]"
+      : [count] "=&d"(count)
+      : [DDRB] "I"(atmega2560::DDRB - 0x20), [PORTA] "I"(atmega2560::PORTA - 0x20), [stay_b] "r"(stay.DDRB),
+        [stay_a] "r"(stay.PORTA), [to_b] "r"(to.DDRB), [to_a] "r"(to.PORTA), [loops] "M"(loops),
+        [rest] "M"(rest)
+      : "memory");
+}
+
+/// The pair of `shown` by these Hall pins. A gate that stays is let alone, it may be amid its pulse.
+inline void show(std::uint8_t hall) {
+  const Pins to = pins_by_way.at[static_cast<int>(shown)][hall];
+  volatile std::uint8_t &uppers = byte(atmega2560::DDRB), &lowers = byte(atmega2560::PORTA);
+  const Pins stay{static_cast<std::uint8_t>(uppers & to.DDRB), static_cast<std::uint8_t>(lowers & to.PORTA)};
+  if (stay.DDRB == to.DDRB && stay.PORTA == to.PORTA) {
+    uppers = to.DDRB;
+    lowers = to.PORTA;
+  } else {
+    change_over(stay, to);
+  }
+}
+
+inline void turn_off() {
+  byte(atmega2560::DDRB) = 0;
+  byte(atmega2560::PORTA) = 0;
+  shown = wanted = Way::off;
+}
+
+}  // namespace firmware

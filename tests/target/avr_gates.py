@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How the gates of the ATmega2560's image change, on the executed image, cycle by cycle at its pins with their directions: from each pair
+to each other and to off. Never both gates of a leg are on; between the one and the other lies the dead time at the least; and the pair
+is at all times the one that the Hall code and the sign of the voltage ask for, whose sign counts from the TOP on at which the timer
+takes the on-time: as the simulation has it. Faults that are planted in the program are seen."""
+import math
+import pathlib
+import random
+import re
+import tempfile
+
+import build
+from avr_chip import Chip, ZERO
+from avr_image import EXAMPLE, built
+
+PERIOD = 1600  # cycles of 100 us
+CYCLE_PS = 62_500
+SAMPLE_LATE = 24  # a conversion that BOTTOM starts holds its input one and a half of the converter's clocks later
+# docs/model.md, 3, by H1 H2 H3: the leg that the positive pair feeds from the bus, and the one that it pulls down.
+POSITIVE = {0b100: "ab", 0b110: "ac", 0b010: "bc", 0b011: "ba", 0b001: "ca", 0b101: "cb"}
+AMPERES_PER_COUNT, D1, K_I = 20 / 1024, 2.30464, 0.37978  # of its drive_config.hpp
+# From a Hall edge to the new pair: an interrupt that has begun, the way into the next one, the dead time. From TOP: the same, and a Hall
+# interrupt that was there first.
+LATE_HALL, LATE_TOP = 650, 450
+
+
+def upper(leg):
+    return 1 << 2 * "abc".index(leg)
+
+
+def lower(leg):
+    return 2 << 2 * "abc".index(leg)
+
+
+def pair(code, negative):
+    source, sink = POSITIVE[code]
+    return (sink, source) if negative else (source, sink)
+
+
+def dead_cycles():
+    """Of the header, rounded up."""
+    text = (build.REPOSITORY / EXAMPLE / "drive_config.hpp").read_text(encoding="utf-8")
+    return math.ceil(int(re.search(r"dead_time_ps = (\d+);", text)[1]) / CYCLE_PS)
+
+
+class Walk:
+    """A drive whose Hall pins jump anywhere at any instant, and whose current is now far above its reference and now far below it, so
+    that the next duty has the other sign."""
+
+    def __init__(self, chip, seed):
+        self.chip, self.drawn = chip, random.Random(seed)
+        self.bottom = None
+        self.halls, self.signs = [(0, chip.hall)], []  # what counts from which cycle on
+        self.currents = []  # BOTTOM, and the counts that were given there
+        self.negative, self.left, self.counts, self.sum = False, 0, 0, 0
+
+    def sample(self, cycle, channel):
+        """A current in the leg that is looked at, which returns in equal parts by the other two."""
+        if (cycle - self.bottom) % PERIOD != SAMPLE_LATE:
+            if channel < 3:
+                self.chip.counts[channel] = ZERO - self.counts // 2
+            return
+        if self.left == 0:
+            self.negative = not self.negative
+            # What the integral gathers stays small beside what the proportional part says.
+            self.left = self.drawn.randint(1, 3) if (self.sum < 0) == self.negative else 1
+        self.left -= 1
+        self.counts = (1 if self.negative else -1) * self.drawn.randint(300, 400)
+        self.sum += self.counts
+        self.chip.counts[channel] = ZERO + self.counts
+        self.currents.append((cycle - SAMPLE_LATE, self.counts))
+        self.signs.append((cycle - SAMPLE_LATE + 3 * PERIOD // 2, self.negative))
+
+    def go(self, periods):
+        chip = self.chip
+        chip.run_ms(4)
+        # Before BOTTOM's there is none for the longest.
+        self.bottom = max(zip(chip.samples[-6:-1], chip.samples[-5:]), key=lambda two: two[1][0] - two[0][0])[1][0] - SAMPLE_LATE
+        chip.at_sample = self.sample
+        end = chip.cycle + periods * PERIOD
+        while chip.cycle < end:
+            chip.run_for(self.drawn.randint(2 * PERIOD, 5 * PERIOD))
+            chip.hall = self.drawn.choice([code for code in POSITIVE if code != chip.hall])
+            self.halls.append((chip.cycle, chip.hall))
+        chip.run_for(PERIOD)
+        return self
+
+
+def shortest_dead_times(moves):
+    """From the fall of each gate to the rise of the other one of its leg: the shortest of each of the six; and where both were on."""
+    both, shortest, fell, before = [], {}, {}, 0
+    for cycle, gates in moves:
+        if gates & gates >> 1 & 0b010101:
+            both.append(cycle)
+        for n in range(6):
+            bit, other = 1 << n, n ^ 1
+            if before & bit and not gates & bit:
+                fell[n] = cycle
+            if gates & bit and not before & bit and other in fell:
+                shortest[n] = min(shortest.get(n, 1 << 60), cycle - fell[other])
+        before = gates
+    return both, shortest
+
+
+def trouble_of_pairs(walk):
+    """At each move of the gates, and at the end of each stretch in which they stand."""
+    trouble, seen = [], set()
+    changes = sorted([(at, "hall", value) for at, value in walk.halls] + [(at, "sign", value) for at, value in walk.signs])
+    hall, negative = None, None
+    moves = [m for m in walk.chip.moves if m[0] > walk.signs[0][0] + PERIOD]
+    place, last_hall, last_sign, before = 0, 0, 0, None
+    old = set()
+    for cycle, gates in moves:
+        while place < len(changes) and changes[place][0] <= cycle:
+            at, what, value = changes[place]
+            place += 1
+            if what == "hall":
+                old, hall, last_hall = {(hall, negative)} | (old if at - last_hall < LATE_HALL or at - last_sign < LATE_TOP else set()), value, at
+            elif value != negative:
+                old, negative, last_sign = {(hall, negative)} | (old if at - last_hall < LATE_HALL else set()), value, at
+        settled = cycle - last_hall > LATE_HALL and cycle - last_sign > LATE_TOP
+        may = {(hall, negative)} if settled else {(hall, negative)} | old
+        allowed = [upper(p[0]) | lower(p[1]) for code, sign in may if code is not None and sign is not None for p in [pair(code, sign)]]
+        if not any(gates & ~one == 0 for one in allowed) or (settled and not gates & lower(pair(hall, negative)[1])):
+            trouble.append(f"at cycle {cycle} gates {gates:06b}: Hall {hall:03b} for {cycle - last_hall} cycles, "
+                           f"{'negative' if negative else 'positive'} for {cycle - last_sign}")
+        if settled:
+            if before not in (None, (hall, negative)):
+                seen.add((pair(*before), pair(hall, negative)))
+            before = (hall, negative)
+    return trouble[:5], seen
+
+
+def trouble_of_pulses(walk):
+    """An on-time is what the PI makes of the sample two BOTTOMs before: u = d1 e + K_i (sum of the e before), over 24 V."""
+    ons, since = [], None
+    for cycle, gates in walk.chip.moves:
+        on = bool(gates & 0b010101)
+        if since is not None and not on:
+            ons.append((since, cycle))
+        since = (since if since is not None else cycle) if on else None
+    trouble, gathered, judged, place = [], 0.0, 0, 0
+    edges = [at for at, _ in walk.halls]
+    for bottom, counts in walk.currents:
+        error = -counts * AMPERES_PER_COUNT
+        wanted = abs(D1 * error + gathered) / 24 * PERIOD
+        gathered += K_I * error
+        begin, end = bottom + 3 * PERIOD // 2, bottom + 5 * PERIOD // 2
+        if any(begin - LATE_HALL < at < end for at in edges) or end > walk.chip.cycle or wanted > 0.8 * PERIOD:
+            continue
+        while place < len(ons) and ons[place][1] <= begin:
+            place += 1
+        on = sum(min(to, end) - max(at, begin) for at, to in ons[place:place + 4] if at < end and to > begin)
+        judged += 1
+        if abs(on - wanted) > 8:
+            trouble.append(f"about the BOTTOM at cycle {begin + PERIOD // 2} a gate is on for {on} cycles, where {wanted:.1f} are wanted")
+    return trouble[:5] + ([] if judged > len(walk.currents) // 6 else [f"{judged} of {len(walk.currents)} pulses judged"])
+
+
+def walked(elf, seed, periods):
+    with Chip(elf) as chip:
+        walk = Walk(chip, seed).go(periods)
+        both, shortest = shortest_dead_times(chip.moves)
+        trouble, seen = trouble_of_pairs(walk)
+        trouble += trouble_of_pulses(walk)
+        return {"both": both, "shortest": min(shortest.values(), default=None), "of": len(shortest), "trouble": trouble, "seen": seen,
+                "said": chip.said()[-1], "ended": chip.ended}
+
+
+PERIODS = 3000
+# Faults to be seen: what is changed in which file of the example, and what the test says of it.
+PLANTED = {
+    "a dead time of one cycle less": ("gates.hpp", "loops = (dead_cycles - 1) / 3, rest = (dead_cycles - 1) % 3",
+                                      "loops = (dead_cycles - 2) / 3, rest = (dead_cycles - 2) % 3", "shortest"),
+    "no dead time where an upper gate goes": ("gates.hpp", "    change_over(stay, to);", "    lowers = to.PORTA;\n    uppers = to.DDRB;", "shortest"),
+    "a sign that counts at once": ("main.cpp", "  wanted = state.reversed ?", "  show(hall_pins());\n  shown = wanted = state.reversed ?", "trouble"),
+    "an on-time that is half": ("main.cpp", "set_on_time(counts_of(state.command.duty));", "set_on_time(counts_of(state.command.duty) / 2);", "trouble"),
+}
+
+
+def found_wrong(elf, dead, seed, periods=PERIODS):
+    """Nothing, or what."""
+    got = walked(elf, seed, periods)
+    wrong = {}
+    if got["both"]:
+        wrong["both"] = f"both gates of a leg are on at cycle {got['both'][0]}"
+    if got["of"] != 6 or got["shortest"] != dead:
+        wrong["shortest"] = f"between one gate and the other one of {got['of'] // 2} legs lie {got['shortest']} cycles at the least, not {dead}"
+    if got["trouble"]:
+        wrong["trouble"] = "\n".join(got["trouble"])
+    if len(got["seen"]) != 36:
+        wrong["seen"] = f"{len(got['seen'])} of 36 changes from pair to pair were seen"
+    return wrong
+
+
+def check_planted(case):
+    name, (file, old, new, seen_as) = case
+    with tempfile.TemporaryDirectory() as folder:
+        wrong = found_wrong(built(folder, [(file, old, new)]), dead_cycles(), seed=2, periods=PERIODS // 3)
+    return None if seen_as in wrong else f"{name} is not seen: {wrong}"
+
+
+def check_dead_time(case):
+    """Rounded up to cycles, four at the least."""
+    ps, dead = case
+    change = ("drive_config.hpp", f"dead_time_ps = {dead_cycles() * CYCLE_PS};", f"dead_time_ps = {ps};")
+    with tempfile.TemporaryDirectory() as folder:
+        wrong = found_wrong(built(folder, [change]), dead, seed=3)
+    return f"a dead time of {ps} ps: {wrong}" if wrong else None
+
+
+def check_no_dead_time():
+    change = ("drive_config.hpp", f"dead_time_ps = {dead_cycles() * CYCLE_PS};", "dead_time_ps = 0;")
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            built(folder, [change])
+        except build.Failed as failed:
+            return [] if "dead" in str(failed) else [f"without a dead time: {failed}"]
+    return ["an image without a dead time is built"]
+
+
+def check():
+    with tempfile.TemporaryDirectory() as folder:
+        elf = built(folder)
+        wrong = [found for seed in (1, 2) for found in found_wrong(elf, dead_cycles(), seed).values()]
+    answers = build.side_by_side(check_planted, PLANTED.items())
+    answers += build.side_by_side(check_dead_time, [(500_000, 8), (1_030_000, 17), (1, 4)])
+    trouble = wrong + [str(answer) for answer in answers if answer] + check_no_dead_time()
+    print(f"changes from pair to pair on the ATmega2560, both gates off for {dead_cycles()} cycles between, {len(PLANTED)} planted faults "
+          f"seen: {'all as they should be' if not trouble else 'trouble'}")
+    return trouble
