@@ -51,15 +51,18 @@ class Examples(unittest.TestCase):
                                    "NMI_Handler"], "avr": ["__vector_29", "__vector_11"]}[KIND]:
             self.assertIn(f"T {entry}\n", defined)
 
-    @unittest.skipUnless(KIND == "avr", "the other's drive knows its converter")
-    def test_a_drive_for_another_converter_does_not_compile(self):
-        text, times = re.subn("adc_bits = 10;", "adc_bits = 12;", (EXAMPLES / "avr" / "drive_config.hpp").read_text())
-        self.assertEqual(times, 1)
-        with tempfile.TemporaryDirectory() as folder:
-            (pathlib.Path(folder) / "drive_config.hpp").write_text(text)
-            done, _ = self.compiled("avr", folder)
-        self.assertNotEqual(done.returncode, 0)
-        self.assertIn("the converter that is there", done.stderr)
+    @unittest.skipUnless(KIND == "avr", "the AVR's board alone")
+    def test_a_drive_for_another_board_does_not_compile(self):
+        for pattern, instead, said in (("adc_bits = 10;", "adc_bits = 12;", "the converter that is there"),
+                                       (r"dead_time_ps = \d+;", "dead_time_ps = 0;", "bridge.dead_time_s"),
+                                       (r"dead_time_ps = \d+;", "dead_time_ps = 5062501;", "5 us at most")):
+            text, times = re.subn(pattern, instead, (EXAMPLES / "avr" / "drive_config.hpp").read_text())
+            self.assertEqual(times, 1)
+            with self.subTest(instead), tempfile.TemporaryDirectory() as folder:
+                (pathlib.Path(folder) / "drive_config.hpp").write_text(text)
+                done, _ = self.compiled("avr", folder)
+                self.assertNotEqual(done.returncode, 0)
+                self.assertIn(said, done.stderr)
 
     @unittest.skipUnless(KIND == "cortex_m", "its image is the one that asks for them")
     def test_a_header_without_dead_time_or_clearance_does_not_compile(self):

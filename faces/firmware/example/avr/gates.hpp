@@ -7,22 +7,22 @@
 
 namespace firmware {
 
-/// The sign of the voltage that the pins give.
-enum class Way : std::uint8_t { off, positive, negative };
+/// The sign of the voltage that the pins give; a number from which on its pins stand, by the reading of the Hall pins.
+enum class Way : std::uint8_t { off = 0, positive = 8, negative = 16 };
 
-/// What on_hall() answers, for every sign and every reading of the Hall pins: worked out by the compiler.
+/// What on_hall() answers, for every sign and every reading: worked out by the compiler.
 struct PinsByWay {
-  Pins at[3][8];
+  Pins at[24];
 };
 constexpr PinsByWay pins_by_way = [] {
   PinsByWay all{};
-  for (int way = 0; way < 3; ++way)
-    for (unsigned hall = 0; hall < 8; ++hall) {
-      DriveState<Scalar> state;
-      state.reversed = static_cast<Way>(way) == Way::negative;
-      state.command.enabled = static_cast<Way>(way) != Way::off;
-      all.at[way][hall] = pins(on_hall(drive, state, by_pins.code[hall]));
-    }
+  for (unsigned n = 0; n < 24; ++n) {
+    const auto way = static_cast<Way>(n & ~7u);
+    DriveState<Scalar> state;
+    state.reversed = way == Way::negative;
+    state.command.enabled = way != Way::off;
+    all.at[n] = pins(on_hall(drive, state, by_pins.code[n & 7]));
+  }
   return all;
 }();
 
@@ -54,7 +54,7 @@ inline void change_over(Pins stay, Pins to) {
 
 /// The pair of `shown` by these Hall pins. A gate that stays is let alone, it may be amid its pulse.
 inline void show(std::uint8_t hall) {
-  const Pins to = pins_by_way.at[static_cast<int>(shown)][hall];
+  const Pins to = pins_by_way.at[static_cast<std::uint8_t>(shown) | hall];
   volatile std::uint8_t &uppers = byte(atmega2560::DDRB), &lowers = byte(atmega2560::PORTA);
   const Pins stay{static_cast<std::uint8_t>(uppers & to.DDRB), static_cast<std::uint8_t>(lowers & to.PORTA)};
   if (stay.DDRB == to.DDRB && stay.PORTA == to.PORTA) {
