@@ -103,8 +103,8 @@ class ChipDrive {
  private:
   /// Half a microsecond of an AVR is enough near an edge; far from one, a period's tenth keeps pins in step.
   static constexpr double least_cycles = 8, most_cycles = 400;
-  /// Without a sample for so long, it hangs or has given up.
-  static constexpr double patient_periods = 50, least_patience_s = 5e-3;
+  /// Without a sample for so long, it hangs or has given up: longer than the shortest watchdog takes, and the start behind its reset.
+  static constexpr double patient_periods = 50, least_patience_s = 30e-3;
 
   sim::Instant at_cycle(std::uint64_t cycle) const {
     const auto whole_s = static_cast<std::int64_t>(cycle / port_.clock_Hz);

@@ -31,7 +31,7 @@ struct ChipAnswer {
   ChipEvent event = ChipEvent::ran;
   std::uint32_t gates =
       0;  ///< now: bits 0..5 upper a, lower a, upper b, lower b, upper c, lower c (control/gates.hpp)
-  std::uint32_t channel = 0;  ///< sampled
+  std::uint32_t channel = 0;  ///< sampled; 4 to 6: a current of 0 to 2 that is no control sample
   std::uint32_t unused = 0;
 };
 

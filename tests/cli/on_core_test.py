@@ -46,6 +46,8 @@ class OnCore(ProgramTest):
                             ((SPEED, "--on", "avr"), "set pwm.alignment = \"centre\""),
                             ((AVR, "--on", "avr", "--set", "control.arithmetic=float"), "set control.arithmetic = \"q15\""),
                             ((AVR, "--on", "avr", "--set", "pwm.period_s=10.01e-6"), "a multiple of 125 ns"),
+                            ((AVR, "--on", "avr", "--set", "bridge.dead_time_s=0"), "bridge.dead_time_s"),
+                            ((AVR, "--on", "avr", "--set", "bridge.dead_time_s=6e-6"), "5e-6 at most"),
                             ((AVR, "--on", "avr", "--set", "sensors.adc_bits=12"), "set sensors.adc_bits = 10"),
                             ((AVR, "--on", "none.toml"), "none.toml"),
                             ((AVR, "--on", MAP), "build the firmware first"),

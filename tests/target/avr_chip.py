@@ -15,6 +15,7 @@ RUN, ANSWER, GREETING = struct.Struct("<Q8HII"), struct.Struct("<QIIII"), struct
 INTERRUPT = struct.Struct("<QQ3I64II")
 TIMES = struct.Struct(f"<{2 * INTERRUPT.size + 16}s")
 GATES, SAMPLE, ENDED = 1, 2, 3
+BETWEEN = 4  # added to the channel of a current that is no control sample
 ZERO = 512  # counts
 
 
@@ -24,7 +25,7 @@ class Chip:
     def __init__(self, elf, hall=0b101):
         self.hall, self.counts = hall, [ZERO] * 8
         self.cycle, self.gates, self.moves, self.samples, self.ended = 0, 0, [], [], False
-        self.at_sample = lambda cycle, channel: None
+        self.at_sample = lambda cycle, channel, is_control_sample: None
         self.folder = tempfile.TemporaryDirectory()
         self.log = pathlib.Path(self.folder.name) / "serial.log"
         down, self.runs = os.pipe()
@@ -66,7 +67,7 @@ class Chip:
             self.gates = gates
             if event == SAMPLE:
                 self.samples.append((self.cycle, channel))
-                self.at_sample(self.cycle, channel)
+                self.at_sample(self.cycle, channel % BETWEEN, channel < 3)
             self.ended = event == ENDED
 
     def run_for(self, cycles):

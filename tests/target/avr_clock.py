@@ -14,13 +14,14 @@ STEPS = 301  # counts that a sample may have: each row's current says which one 
 class Stairs:
     """A current that is another one at each sample of BOTTOM."""
 
-    def __init__(self, chip, period):
-        self.chip, self.period, self.begun, self.given = chip, period, None, []
+    def __init__(self, chip):
+        self.chip, self.given = chip, []
+        chip.run_ms(2)
         chip.at_sample = self.sample
 
-    def sample(self, cycle, channel):
+    def sample(self, cycle, channel, is_control_sample):
         counts = self.chip.counts
-        if channel < 3 and self.begun is not None and (cycle - self.begun) % self.period == 0:
+        if is_control_sample:
             counts[channel] = ZERO + len(self.given) % STEPS - STEPS // 2
             self.given.append((cycle, counts[channel] - ZERO))
         elif channel < 3 and self.given:
@@ -31,12 +32,7 @@ def check_rows(period_us, run_ms):
     period = period_us * 16
     changes = [("drive_config.hpp", "pwm_period_ps = 100000000;", f"pwm_period_ps = {period_us}000000;")] if period_us != 100 else []
     with tempfile.TemporaryDirectory() as folder, Chip(built(folder, changes)) as chip:
-        stairs = Stairs(chip, period)
-        chip.run_ms(2)
-        waits = {}  # before a sample, by its place in the period: before BOTTOM's it is longest
-        for (at, _), (to, _) in zip(chip.samples[1:], chip.samples[2:]):
-            waits[to % period] = waits.get(to % period, 0) + (to - at)
-        stairs.begun = max(waits, key=waits.get)
+        stairs = Stairs(chip)
         chip.run_ms(run_ms)
         rows = [[float(cell) for cell in line.split(",")] for line in chip.said() if line[0] not in "#t"][1:]
         trouble, places = [], []

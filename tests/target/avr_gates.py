@@ -49,14 +49,13 @@ class Walk:
 
     def __init__(self, chip, seed):
         self.chip, self.drawn = chip, random.Random(seed)
-        self.bottom = None
         self.halls, self.signs = [(0, chip.hall)], []  # what counts from which cycle on
         self.currents = []  # BOTTOM, and the counts that were given there
         self.negative, self.left, self.counts, self.sum = False, 0, 0, 0
 
-    def sample(self, cycle, channel):
+    def sample(self, cycle, channel, is_control_sample):
         """A current in the leg that is looked at, which returns in equal parts by the other two."""
-        if (cycle - self.bottom) % PERIOD != SAMPLE_LATE:
+        if not is_control_sample:
             if channel < 3:
                 self.chip.counts[channel] = ZERO - self.counts // 2
             return
@@ -74,8 +73,6 @@ class Walk:
     def go(self, periods):
         chip = self.chip
         chip.run_ms(4)
-        # Before BOTTOM's there is none for the longest.
-        self.bottom = max(zip(chip.samples[-6:-1], chip.samples[-5:]), key=lambda two: two[1][0] - two[0][0])[1][0] - SAMPLE_LATE
         chip.at_sample = self.sample
         end = chip.cycle + periods * PERIOD
         while chip.cycle < end:

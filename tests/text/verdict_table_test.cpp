@@ -8,6 +8,7 @@
 #include <limits>
 #include <random>
 
+#include "text/results/core_text.hpp"
 #include "text/results/quantity_text.hpp"
 
 namespace text {
@@ -109,6 +110,35 @@ TEST(VerdictSummary, SaysHowManyAndWhich) {
   EXPECT_EQ(summary({{"x", &free}}), "1 experiment: nothing required\n");
   EXPECT_THAT(table_of(stopped), testing::HasSubstr("STOPPED by a fault: shoot-through"));
   EXPECT_THAT(table_of(free), testing::HasSubstr("requires nothing"));
+}
+
+study::Outcome of_chip(const std::string& sent) {
+  study::Outcome outcome;
+  outcome.chip.emplace();
+  outcome.chip->clock_Hz = 16e6;
+  outcome.chip->sent = sent;
+  return outcome;
+}
+
+TEST(ChipFaults, AreWhatItsSerialLineGivesAsReasonsEachOnce) {
+  using testing::ElementsAre, testing::IsEmpty;
+  EXPECT_THAT(chip_faults(*of_chip("# a board\nt [us],hall\n100,5\n").chip), IsEmpty());
+  EXPECT_THAT(chip_faults(*of_chip("# a board\n100,5\n# fault: hall\n200,0\n# fault: hall\n").chip),
+              ElementsAre("hall"));
+  EXPECT_THAT(
+      chip_faults(*of_chip("# fault: over-current\n# a board\n# fault: watchdog\n# fault: watchdog\n").chip),
+      ElementsAre("over-current", "watchdog"));
+  EXPECT_THAT(chip_faults(*of_chip("# fault: a\x80\x1b[2J\n").chip), ElementsAre("a??[2J"))
+      << "any firmware may send anything";
+}
+
+TEST(ChipFaults, AreToldBelowTheTableAndAWaitIsWhereItIsTheLastRemark) {
+  using testing::Contains, testing::HasSubstr, testing::Not;
+  EXPECT_THAT(core_texts(of_chip("# a board\n# fault: hall\n")), Contains(HasSubstr("says why: hall")));
+  EXPECT_THAT(core_texts(of_chip("# a board\n# waits for the middle\n")),
+              Contains(HasSubstr("waits for the middle")));
+  EXPECT_THAT(core_texts(of_chip("# a board\n# waits for the middle\n# fault: hall\n")),
+              Not(Contains(HasSubstr("WAITS"))));
 }
 
 }  // namespace

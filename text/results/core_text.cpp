@@ -2,6 +2,10 @@
 #include "text/results/core_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string_view>
 
 namespace text {
 
@@ -19,6 +23,29 @@ std::string taken(const sixstep::rig::InterruptTimes& t, double clock_Hz) {
                                     cycles_text(mean(t), clock_Hz), cycles_text(t.most, clock_Hz));
 }
 
+constexpr std::string_view fault_remark = "# fault: ", waits_remark = "# waits for ";
+
+/// Any firmware may send anything.
+constexpr std::size_t most_faults = 16, longest_reason = 60;
+
+std::string printable(std::string_view words) {
+  std::string out(words.substr(0, longest_reason));
+  std::replace_if(
+      out.begin(), out.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return out;
+}
+
+/// The last line that begins with '#', which tells how the chip's program stands.
+std::string_view last_remark(std::string_view sent) {
+  std::string_view last;
+  for (std::size_t at = 0; at < sent.size();) {
+    const std::size_t end = std::min(sent.find('\n', at), sent.size());
+    if (sent[at] == '#') last = sent.substr(at, end - at);
+    at = end + 1;
+  }
+  return last;
+}
+
 std::vector<std::string> chip_texts(const study::ChipReport& c) {
   std::vector<std::string> out;
   out.push_back(fmt::format("on the {} at {:g} MHz: its control interrupt {}, of a period's {}", c.chip,
@@ -30,6 +57,12 @@ std::vector<std::string> chip_texts(const study::ChipReport& c) {
     out.push_back(fmt::format(
         "OVERRUN: {} of {} periods went by without a control interrupt: it takes longer than they do",
         c.times.periods - c.times.conversions, c.times.periods));
+  if (const std::vector<std::string> why = chip_faults(c); !why.empty())
+    out.push_back(
+        fmt::format("FAULT: its gates are off, and its serial line says why: {}", fmt::join(why, ", then ")));
+  if (const std::string_view last = last_remark(c.sent); last.starts_with(waits_remark))
+    out.push_back(fmt::format("WAITS: it drives nothing before its setpoint was 0, and waits for {}",
+                              printable(last.substr(waits_remark.size()))));
   return out;
 }
 
@@ -37,6 +70,18 @@ std::vector<std::string> chip_texts(const study::ChipReport& c) {
 
 std::string cycles_text(double cycles, double clock_Hz) {
   return fmt::format("{:.3g} us", cycles / clock_Hz * 1e6);
+}
+
+std::vector<std::string> chip_faults(const study::ChipReport& chip) {
+  std::vector<std::string> out;
+  const std::string_view sent = chip.sent;
+  for (std::size_t at = sent.find(fault_remark); at != sent.npos; at = sent.find(fault_remark, at + 1)) {
+    const std::size_t begin = at + fault_remark.size();
+    std::string reason = printable(sent.substr(begin, sent.find('\n', begin) - begin));
+    if (std::find(out.begin(), out.end(), reason) == out.end()) out.push_back(std::move(reason));
+    if (out.size() == most_faults) break;
+  }
+  return out;
 }
 
 std::vector<std::string> core_texts(const study::Outcome& outcome) {

@@ -9,6 +9,7 @@
 #include "sixstep/study/run/run.hpp"
 #include "text/escape/escape.hpp"
 #include "text/escape/json_number.hpp"
+#include "text/results/core_text.hpp"
 
 namespace text {
 namespace {
@@ -103,6 +104,7 @@ Json chip(const study::ChipReport& c) {
           {"periods", c.times.periods},
           {"conversions", c.times.conversions},
           {"latest_edge_s", c.latest_edge_s},
+          {"faults", text::chip_faults(c)},
           {"control", interrupt(c.times.control)},
           {"hall", interrupt(c.times.hall)}};
 }

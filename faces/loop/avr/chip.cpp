@@ -74,10 +74,8 @@ void Chip::pass_converter() {
     case Converter::Event::holds:
       held_ = 0;
       if (const int input = pins_.what_hangs_at(channel_); input >= 0)
-        told_.push_back({.cycle = at,
-                         .event = rig::ChipEvent::sample,
-                         .gates = gates_,
-                         .channel = static_cast<std::uint32_t>(input)});
+        told_.push_back(
+            {.cycle = at, .event = rig::ChipEvent::sample, .gates = gates_, .channel = sampled(input)});
       break;
     case Converter::Event::done:
       if (!result_locked_) result_ = held_;
@@ -87,6 +85,14 @@ void Chip::pass_converter() {
       avr_raise_interrupt(avr_, converted_);
       break;
   }
+}
+
+/// A program whose timer starts its control samples may look at a current between: that is none (rig/chip_port.hpp).
+std::uint32_t Chip::sampled(int input) {
+  constexpr int currents = 3, between_control_samples = 4;
+  if (timer_started_it_ && input < currents) timer_samples_ = true;
+  const bool between = input < currents && timer_samples_ && !timer_started_it_;
+  return static_cast<std::uint32_t>(between ? input + between_control_samples : input);
 }
 
 void Chip::apply(Write write, std::uint64_t at) {

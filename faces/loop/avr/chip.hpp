@@ -68,6 +68,7 @@ class Chip {
   void settle();
   void pass_timer();
   void pass_converter();
+  std::uint32_t sampled(int input);
   void trigger(std::uint64_t at);
   void apply(Write write, std::uint64_t at);
   void write_flags(Write write);
@@ -97,7 +98,7 @@ class Chip {
   Timer1 timer_;
   Converter converter_;
   std::uint8_t channel_ = 0;  ///< of the conversion that runs
-  bool timer_started_it_ = false;
+  bool timer_started_it_ = false, timer_samples_ = false;
   std::uint16_t held_ = 0, result_ = 0;
   bool result_locked_ = false;  ///< from ADCL's reading to ADCH's
 

@@ -17,6 +17,8 @@ constexpr int converter_bits = 10;
 constexpr double clock_Hz = 16e6;
 /// Timer 1 counts up and down again, with 16 bits.
 constexpr double most_counts = 65535;
+/// Its program waits it out within an interrupt.
+constexpr double most_dead_time_s = 5e-6;
 
 void need(bool has, base::Problems& out, const char* where, const char* what, const char* cure) {
   if (!has) out.push_back({where, "", what, cure});
@@ -45,6 +47,9 @@ void need_timer(const Scenario& s, base::Problems& out) {
   need(s.pwm.chopping == control::Chopping::soft && s.pwm.pattern == control::PwmPattern::upper, out,
        "pwm.chopping", "is not what its pins do: timer 1 chops upper switches",
        "take soft chopping of the upper switch");
+  need(s.bridge.dead_time_s > 0.0 && s.bridge.dead_time_s <= most_dead_time_s, out, "bridge.dead_time_s",
+       "is none that its program keeps between the two switches of a leg",
+       "set one above 0, and 5e-6 at most");
   const double counts = s.pwm.period_s * clock_Hz / 2;
   const double whole = std::floor(counts + 0.5);
   need(counts >= 2 && counts <= most_counts && counts - whole < 1e-6 && whole - counts < 1e-6, out,

@@ -130,10 +130,18 @@ constexpr auto full_mA = static_cast<std::int32_t>(units.current_A * 1000);
 constexpr std::int32_t full_setpoint = drive.mode == Mode::duty ? 1000 : full_mA;
 static_assert(full_mA < 65536, "times a signal of 16 bits");
 
-/// Periods between two rows that had no control interrupt: by the clock, less the interrupts that came.
+/// Periods between two rows that had no control interrupt: by the clock, to the nearest, less the interrupts that came.
 std::uint8_t missed(std::uint16_t half_us, std::uint8_t came) {
-  constexpr std::uint32_t cycles = 2 * pwm_counts;
-  const auto periods = static_cast<std::uint8_t>((std::uint32_t{half_us} * 8 + cycles / 2) / cycles);
+  constexpr std::uint16_t period_half_us = pwm_counts / 4;
+  std::uint16_t periods = 0;
+  if constexpr (pwm_counts % 4 == 0) {  // a division of 32 bits takes as long as the rest of the row
+    for (; half_us > period_half_us; half_us = static_cast<std::uint16_t>(half_us - period_half_us))
+      ++periods;
+    if (half_us > period_half_us / 2) ++periods;
+  } else {
+    periods = static_cast<std::uint16_t>((std::uint32_t{half_us} * 8 + pwm_counts) /
+                                         (2 * std::uint32_t{pwm_counts}));
+  }
   return static_cast<std::uint8_t>(periods - came);
 }
 
@@ -227,10 +235,13 @@ extern "C" __attribute__((signal, used)) void INTERRUPT_TIMER1_CAPT() {
     shown = wanted;
     show(hall_pins());
   }
-  if (legs != Legs::second || converts()) return;
-  second_counts = converted();
-  convert(third_leg);
-  legs = Legs::third;
+  if (legs == Legs::second) {
+    if (converts()) return;  // at the next one
+    second_counts = converted();
+    convert(third_leg);
+    legs = Legs::third;
+  }
+  byte(atmega2560::TIMSK1) = 0;
 }
 
 extern "C" __attribute__((signal, used)) void INTERRUPT_PCINT2() {
