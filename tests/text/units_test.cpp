@@ -63,8 +63,11 @@ TEST(Units, OtherFactorsAreRoundedLast) {
 TEST(Units, AWrongOneIsToldWithThoseThatFit) {
   EXPECT_EQ(refused("20 mA", "s"),
             "carries the unit mA, which is not of the kind of s; units that fit: s, ms, us or min");
-  EXPECT_EQ(refused("50 Hz", "rad/s"),
-            "carries the unit Hz, which is not of the kind of rad/s; units that fit: rad/s, rpm or deg/s");
+  EXPECT_EQ(
+      refused("50 Hz", "rad/s"),
+      "carries the unit Hz, and hertz do not say of what: turns of the shaft, or electrical ones, which are "
+      "pole pairs times as many; write rev/s for turns of the shaft, or erpm, 60 times the electrical hertz; "
+      "units that fit: rad/s, rpm, rev/s or deg/s");
   EXPECT_EQ(refused("20 msecs", "s"), "carries an unknown unit, msecs; units that fit: s, ms, us or min");
   EXPECT_EQ(refused("20 MS", "s"),
             "carries an unknown unit, MS; did you mean ms? Units that fit: s, ms, us or min");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a unit is: its symbols, prefixes, powers and spellings.
+// What a unit is: its symbols, prefixes and powers.
 #include <algorithm>
+#include <cctype>
+#include <utility>
 
 #include "sixstep/base/angle.hpp"
 #include "text/keys/units.hpp"
@@ -19,62 +21,118 @@ struct Symbol {
 };
 
 // The one table of units. What is written together, Nm or gcm2, is a symbol of its own.
-constexpr Dimension plain{}, mass{1}, length{0, 1}, time{0, 0, 1}, rate{0, 0, -1}, current{0, 0, 0, 1},
-    angle{0, 0, 0, 0, 0, 1}, speed{0, 0, -1, 0, 0, 1}, torque{1, 2, -2}, inertia{1, 2}, flux{1, 2, -2, -1};
+//                         kg m  s  A  V  K rad
+constexpr Dimension plain{}, mass{1}, length{0, 1}, time{0, 0, 1}, current{0, 0, 0, 1},
+    voltage{0, 0, 0, 0, 1}, kelvin{0, 0, 0, 0, 0, 1}, angle{0, 0, 0, 0, 0, 0, 1},
+    celsius{0, 0, 0, 0, 0, 0, 0, 1}, speed{0, 0, -1, 0, 0, 0, 1},
+    electrical_speed{0, 0, -1, 0, 0, 0, 0, 0, 1}, electrical_angle{0, 0, 0, 0, 0, 0, 0, 0, 1},
+    force{1, 1, -2}, torque{1, 2, -2}, inertia{1, 2}, weighed{1, 1},
+    energy{1, 2, -2, 0, 0, 0, 1},  // torque times angle
+    resistance{0, 0, 0, -1, 1}, inductance{0, 0, 1, -1, 1}, capacity{0, 0, 1, 1, -1}, charge{0, 0, 1, 1},
+    volt_second{0, 0, 1, 0, 1},
+    linkage{0, 0, 1, 0, 1, 0, 0, 0, -1},  // of a phase with the magnets, volts per electrical rad/s
+    density{0, -2, 1, 0, 1}, per_volt{0, 0, -1, 0, -1, 0, 1};
+
+constexpr double inch = 0.0254, foot = 0.3048, pound = 0.45359237, ounce = pound / 16;
+constexpr double lbf = pound * standard_gravity, ozf = ounce * standard_gravity;
+
 constexpr Symbol symbols[] = {
     {"1", plain},
+    {"10", plain, 1},
     {"%", plain, -2},
     {"percent", plain, -2},
     {"s", time, 0, 1, "munp"},
     {"sec", time, 0, 1, "mun"},
     {"min", time, 0, 60},
     {"h", time, 0, 3600},
-    {"Hz", rate, 0, 1, "mkMG"},
+    {"Hz", electrical_speed, 0, 2 * pi, "mkMG"},
+    {"erpm", electrical_speed, 0, pi / 30, "k"},
+    {"erad", electrical_angle},
     {"m", length, 0, 1, "muck"},
+    {"in", length, 0, inch},
+    {"inch", length, 0, inch},
+    {"ft", length, 0, foot},
     {"g", mass, -3, 1, "mk"},
-    {"N", {1, 1, -2}, 0, 1, "muk"},
-    {"W", {1, 2, -3}, 0, 1, "muk"},
-    {"J", torque, 0, 1, "muk"},
-    {"V", {1, 2, -3, -1}, 0, 1, "mukM"},
+    {"Kg", mass},
+    {"lb", mass, 0, pound},
+    {"lbs", mass, 0, pound},
+    {"oz", mass, 0, ounce},
+    {"N", force, 0, 1, "muck"},
+    {"lbf", force, 0, lbf},
+    {"ozf", force, 0, ozf},
+    {"gf", force, -3, standard_gravity, "k"},
+    {"kp", force, 0, standard_gravity},
+    {"W", {1, 2, -3, 0, 0, 0, 1}, 0, 1, "muk"},
+    {"J", energy, 0, 1, "muk"},
+    {"V", voltage, 0, 1, "mukM"},
+    {"VDC", voltage},
+    {"Vdc", voltage},
+    {"Volt", voltage},
+    {"Volts", voltage},
+    {"volt", voltage},
+    {"volts", voltage},
     {"A", current, 0, 1, "munk"},
-    {"ohm", {1, 2, -3, -2}, 0, 1, "mukM"},
-    {"Ohm", {1, 2, -3, -2}, 0, 1, "mukM"},
-    {"H", {1, 2, -2, -2}, 0, 1, "mun"},
-    {"F", {-1, -2, 4, 2}, 0, 1, "munp"},
-    {"Ah", {0, 0, 1, 1}, 0, 3600, "mu"},
-    {"C", {0, 0, 1, 1}, 0, 1, "munp"},
-    {"Wb", flux, 0, 1, "mu"},
-    {"Vs", flux, 0, 1, "mu"},
-    {"T", {1, 0, -2, -1}, 0, 1, "m"},
-    {"K", {0, 0, 0, 0, 1}},
-    {"degC", {0, 0, 0, 0, 0, 0, 1}},
+    {"Amp", current},
+    {"Amps", current},
+    {"amp", current},
+    {"amps", current},
+    {"ohm", resistance, 0, 1, "mukM"},
+    {"Ohm", resistance, 0, 1, "mukM"},
+    {"ohms", resistance, 0, 1, "m"},
+    {"Ohms", resistance, 0, 1, "m"},
+    {"H", inductance, 0, 1, "mun"},
+    {"F", capacity, 0, 1, "munp"},
+    {"Ah", charge, 0, 3600, "mu"},
+    {"C", charge, 0, 1, "munp"},
+    {"Wb", linkage, 0, 1, "mu"},
+    {"Vs", volt_second, 0, 1, "mu"},
+    {"T", density, 0, 1, "m"},
+    {"K", kelvin},
+    {"degC", celsius},
     {"rad", angle, 0, 1, "m"},
     {"deg", angle, 0, pi / 180},
     {"rev", angle, 0, 2 * pi},
+    {"turn", angle, 0, 2 * pi},
+    {"turns", angle, 0, 2 * pi},
     {"rpm", speed, 0, pi / 30, "k"},
-    {"Nm", torque, 0, 1, "muk"},
+    {"rps", speed, 0, 2 * pi},
+    {"KV", per_volt, 0, pi / 30},
+    {"Nm", torque, 0, 1, "muck"},
     {"Ncm", torque, -2, 1, "m"},
+    {"Nmm", torque, -3, 1, "m"},
     {"Nms", {1, 2, -1}, 0, 1, "mu"},
+    {"gfcm", torque, -5, standard_gravity, "k"},
+    {"kgfm", torque, 0, standard_gravity},
+    {"ozin", weighed, 0, ounce* inch},
+    {"inoz", weighed, 0, ounce* inch},
+    {"lbin", weighed, 0, pound* inch},
+    {"inlb", weighed, 0, pound* inch},
+    {"lbft", weighed, 0, pound* foot},
+    {"ftlb", weighed, 0, pound* foot},
+    {"gcm", weighed, -5, 1, "k"},
     {"gm2", inertia, -3, 1, "k"},
     {"gcm2", inertia, -7, 1, "k"},
     {"gmm2", inertia, -9, 1, "k"},
+    {"Kgcm2", inertia, -4},
+    {"Kgm2", inertia},
+    {"ozin2", inertia, 0, ounce* inch* inch},
+    {"lbin2", inertia, 0, pound* inch* inch},
+    {"lbft2", inertia, 0, pound* foot* foot},
 };
 
 constexpr std::string_view prefix_letters = "pnumckMG";
 constexpr int prefix_tens[] = {-12, -9, -6, -3, -2, 3, 6, 9};
 
-struct Spelled {
-  std::string_view as, means;
+/// Which amperes or volts a symbol ends in, as plain_spelling() has them.
+struct Measured {
+  std::string_view ending;
+  Base base;
 };
-constexpr Spelled spellings[] = {
-    {"µ", "u"},          {"μ", "u"},     {"Ω", "ohm"},         {"Ω", "ohm"},         {"°C", "degC"},
-    {"°", "deg"},        {"²", "2"},     {"³", "3"},           {"·", "*"},           {"⁻¹", "-1"},
-    {"^", ""},           {" per ", "/"}, {"1/min", "rev/min"}, {"min-1", "rev/min"}, {"r/min", "rev/min"},
-    {"U/min", "rev/min"}};
+constexpr Measured measures[] = {{"rms", Base::rms}, {"pk", Base::peak}};
 
-std::optional<Unit> symbol_of(std::string_view name) {
+std::optional<Unit> bare_symbol_of(std::string_view name) {
   for (const Symbol& s : symbols) {
-    if (s.name == name) return Unit{s.dimension, s.ten, s.factor};
+    if (s.name == name) return Unit{s.dimension, s.ten, s.factor, s.name == "min" || s.name == "h"};
     if (!name.ends_with(s.name) || name.size() != s.name.size() + 1) continue;
     const char letter = name.front();
     if (s.prefixes.find(letter) != std::string_view::npos)
@@ -83,9 +141,21 @@ std::optional<Unit> symbol_of(std::string_view name) {
   return {};
 }
 
+std::optional<Unit> symbol_of(std::string_view name) {
+  for (const Measured& m : measures) {
+    if (!name.ends_with(m.ending)) continue;
+    std::optional<Unit> unit = bare_symbol_of(name.substr(0, name.size() - m.ending.size()));
+    if (!unit || (unit->dimension != current && unit->dimension != voltage)) continue;
+    unit->power(m.base) = 1;
+    return unit;
+  }
+  return bare_symbol_of(name);
+}
+
 void multiply(Unit& product, const Unit& by, int power) {
   for (std::size_t k = 0; k < product.dimension.size(); ++k) product.dimension[k] += power * by.dimension[k];
   product.ten += power * by.ten;
+  product.by_the_clock = product.by_the_clock || by.by_the_clock;
   for (int n = 0; n < std::abs(power); ++n)
     product.factor = power > 0 ? product.factor * by.factor : product.factor / by.factor;
 }
@@ -103,12 +173,26 @@ bool add_power(std::string_view token, int sign, Unit& product) {
     power = -power;
     token.remove_suffix(1);
   }
+  if (token == "1") return false;  // "12" is no power
   const std::optional<Unit> base = symbol_of(token);
   if (base) multiply(product, *base, sign * power);
   return base.has_value();
 }
 
-/// factor {(space | * | /) factor}, a factor being a power or a product in brackets; '/' divides by the next
+/// Powers joined by hyphens, as oz-in-s2: one factor.
+bool add_joined(std::string_view token, int sign, Unit& product) {
+  while (true) {
+    std::size_t cut = token.find('-');
+    while (cut < token.size() &&
+           (cut + 1 == token.size() || std::isdigit(static_cast<unsigned char>(token[cut + 1])) != 0))
+      cut = token.find('-', cut + 1);
+    if (!add_power(token.substr(0, cut), sign, product)) return false;
+    if (cut >= token.size()) return true;
+    token.remove_prefix(cut + 1);
+  }
+}
+
+/// factor {(space | * | /) factor}, a factor being powers joined by hyphens or a product in brackets; '/' divides by the next
 /// factor alone.
 class Product {
  public:
@@ -116,6 +200,8 @@ class Product {
   std::optional<Unit> whole() {
     Unit product;
     if (!factors(1, 0, product) || !rest_.empty()) return {};
+    // A step of the Celsius scale is a kelvin; degC alone is a point on it.
+    if (product.dimension != celsius) product.power(Base::K) += std::exchange(product.power(Base::degC), 0);
     return product;
   }
 
@@ -150,33 +236,48 @@ class Product {
     const std::size_t end = std::min(rest_.find_first_of(" */()"), rest_.size());
     const std::string_view token = rest_.substr(0, end);
     rest_.remove_prefix(end);
-    return add_power(token, sign, product);
+    return add_joined(token, sign, product);
   }
   std::string_view rest_;
 };
 
 }  // namespace
 
-std::string plain_spelling(std::string_view text) {
-  std::string out(text);
-  for (const Spelled& s : spellings)
-    for (std::size_t at = out.find(s.as); at != std::string::npos; at = out.find(s.as, at + s.means.size())) {
-      const bool within = at > 0 && s.as.ends_with("/min") && out[at - 1] >= 'a' && out[at - 1] <= 'z';
-      if (!within) out.replace(at, s.as.size(), s.means);
-    }
-  return out;
-}
-
 std::optional<Unit> unit_of(std::string_view text) {
   if (text.empty()) return Unit{};
   return Product(plain_spelling(text)).whole();
 }
 
+namespace {
+
+struct Angle {
+  int shaft = 0, electrical = 0;
+  bool operator==(const Angle&) const = default;
+};
+
+Angle take_angle(Unit& unit) {
+  return {std::exchange(unit.power(Base::rad), 0), std::exchange(unit.power(Base::electrical_rad), 0)};
+}
+
+/// The angles that may be left out of a unit with none: V s means V/(rad/s), kg m2 is N m/(rad/s2).
+bool left_out(const Angle& whole, const Dimension& rest) {
+  constexpr Dimension drag{1, 2, -1};
+  if (rest == volt_second || rest == drag) return whole == Angle{-1, 0};
+  return rest == inertia && (whole == Angle{-1, 0} || whole == Angle{-2, 0});
+}
+
+}  // namespace
+
 bool same_kind(const Unit& a, const Unit& b) {
-  constexpr std::size_t rad = 5;
-  Dimension x = a.dimension;
-  if (x[0] != 0) x[rad] = b.dimension[rad];
-  return x == b.dimension;
+  Unit from = a, to = b;
+  const Angle in = take_angle(from), out = take_angle(to);
+  if (from.dimension != to.dimension) return false;
+  // "mV min" was meant as mV/min-1, which is 1/(2 pi) of that.
+  const bool habit = left_out({-1, 0}, from.dimension);
+  if (habit && ((in == Angle{} && from.by_the_clock) || (out == Angle{} && to.by_the_clock))) return false;
+  if (in == out) return true;
+  if (in == Angle{} && out == Angle{0, -1}) return from.dimension == volt_second;  // a flux: Wb is V s
+  return (in == Angle{} && left_out(out, from.dimension)) || (out == Angle{} && left_out(in, from.dimension));
 }
 
 }  // namespace text

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "sixstep/base/decimal.hpp"
 #include "text/keys/decimal_number.hpp"
 #include "text/keys/key_advice.hpp"
 
@@ -13,12 +14,15 @@ namespace text {
 namespace {
 
 constexpr std::string_view usual[] = {
-    "s",     "ms",    "us",   "min",    "V",     "mV",      "kV",   "A",    "mA",    "ohm",    "mohm",
-    "H",     "mH",    "uH",   "F",      "mF",    "uF",      "Hz",   "kHz",  "MHz",   "rad/s",  "rpm",
-    "deg/s", "rad",   "deg",  "Nm",     "mNm",   "Ncm",     "kgm2", "gcm2", "kgcm2", "Nms",    "mNm/rpm",
-    "Nm/A",  "mNm/A", "Vs",   "V/krpm", "rpm/V", "rpm/mNm", "K/W",  "degC", "Wb",    "mWb",    "T",
-    "mT",    "mm",    "cm",   "A/V",    "%",     "As/rad",  "A/s",  "A/ms", "rpm/s", "rad/s2", "deg/s2",
-    "N",     "m/s",   "mm/s", "kg",     "N/A",   "kg/m3",
+    "s",     "ms",        "us",     "min",    "V",       "mV",         "kV",        "A",     "mA",
+    "ohm",   "mohm",      "H",      "mH",     "uH",      "F",          "mF",        "uF",    "Hz",
+    "kHz",   "MHz",       "rad/s",  "rpm",    "rev/s",   "deg/s",      "rad",       "deg",   "rev",
+    "Nm",    "mNm",       "Ncm",    "oz-in",  "lb-in",   "lb-ft",      "kgf cm",    "kgm2",  "gcm2",
+    "kgcm2", "oz-in-s2",  "lb-in2", "Nms",    "mNm/rpm", "Nm/(rad/s)", "Nm/A",      "mNm/A", "oz-in/A",
+    "Vs",    "V/(rad/s)", "V/krpm", "mV/rpm", "rpm/V",   "rpm/mNm",    "rpm/oz-in", "K/W",   "degC/W",
+    "degC",  "Wb",        "mWb",    "mV/Hz",  "T",       "mT",         "mm",        "cm",    "A/V",
+    "%",     "As/rad",    "A/s",    "A/ms",   "rpm/s",   "rad/s2",     "deg/s2",    "N",     "m/s",
+    "mm/s",  "kg",        "N/A",    "kg/m3",  "J",       "mJ",         "%/K",
 };
 
 bool begins_a_number(std::string_view text) {
@@ -43,14 +47,47 @@ std::string plain_number(std::string_view wanted) {
   return wanted.empty() ? "a plain number" : fmt::format("in {}", wanted);
 }
 
+bool takes_kind(Unit from, const Unit& to, const Unit& by) {
+  for (std::size_t n = 0; n < from.dimension.size(); ++n) from.dimension[n] += by.dimension[n];
+  return same_kind(from, to);
+}
+
+/// 1 or -1 where `from` has a mass times a length, or its inverse, in the place of a torque: "oz-in", "rpm/kg-cm".
+int weights_in(const Unit& from, const Unit& to) {
+  for (const int sign : {1, -1})
+    if (from.power(Base::kg) == sign && from.power(Base::m) == sign &&
+        takes_kind(from, to, {.dimension = {0, sign, -2 * sign}}))
+      return sign;
+  return 0;
+}
+
+/// The power of standard_gravity between the two.
+int gravity_between(const Unit& from, const Unit& to) {
+  const int power = weights_in(from, to);
+  return power != 0 ? power : -weights_in(to, from);
+}
+
+/// Electrical angle turned into that of the shaft; 0 where this makes no unit of the kind wanted.
+int electrical_in(const Unit& from, const Unit& to) {
+  const int power = from.power(Base::electrical_rad);
+  const bool fits = to.power(Base::electrical_rad) == 0 &&
+                    takes_kind(from, to, {.dimension = {0, 0, 0, 0, 0, 0, power, 0, -power}});
+  return fits ? power : 0;
+}
+
 /// Usual units of the same kind, the key's own first.
 std::vector<std::string> fitting(std::string_view wanted) {
+  static const std::vector<Unit> read = [] {
+    std::vector<Unit> units;
+    for (const std::string_view candidate : usual) units.push_back(unit_of(candidate).value_or(Unit{}));
+    return units;
+  }();
   const std::optional<Unit> unit = unit_of(wanted);
   std::vector<std::string> fit = {std::string(wanted)};
-  for (const std::string_view candidate : usual)
-    if (const auto u = unit_of(candidate);
-        unit && u && u->dimension == unit->dimension && plain_spelling(wanted) != candidate)
-      fit.emplace_back(candidate);
+  for (std::size_t n = 0; n < read.size(); ++n)
+    if (unit && plain_spelling(wanted) != usual[n] &&
+        (same_kind(read[n], *unit) || gravity_between(read[n], *unit) != 0))
+      fit.emplace_back(usual[n]);
   return fit;
 }
 
@@ -67,22 +104,77 @@ std::string fitting_like(const std::string& unit, std::string_view wanted) {
   return nearest(unit, fit);
 }
 
-base::Problem wrong_unit(const Written& w, std::string_view wanted) {
-  if (w.unit.starts_with(','))
+base::Problem not_known(const std::string& unit, const std::string& wanted) {
+  if (unit.starts_with(','))
     return {.limit = "has a decimal comma", .cure = "write the decimal point as a point"};
-  const bool known = unit_of(w.unit).has_value();
-  if (wanted.empty())
-    return {.limit = fmt::format("carries the {} {}, and this key is a plain number",
-                                 known ? "unit" : "unknown unit", w.unit),
-            .cure = "write the number alone, or in %"};
-  const std::string fit = units_that_fit(wanted);
-  if (known)
-    return {.limit = fmt::format("carries the unit {}, which is not of the kind of {}", w.unit, wanted),
-            .cure = "units that fit: " + fit};
-  const std::string near = fitting_like(w.unit, wanted);
-  return {.limit = fmt::format("carries an unknown unit, {}", w.unit),
+  if (plain_spelling(unit) == "degF")
+    return {.limit = "is in degrees Fahrenheit", .cure = "write (F - 32) / 1.8, in " + wanted};
+  const std::string near = fitting_like(unit, wanted), fit = units_that_fit(wanted);
+  return {.limit = fmt::format("carries an unknown unit, {}", unit),
           .cure = near.empty() ? "units that fit: " + fit
                                : fmt::format("did you mean {}? Units that fit: {}", near, fit)};
+}
+
+base::Problem no_plain_number(const std::string& unit, bool known) {
+  return {.limit = fmt::format("carries the {} {}, and this key is a plain number",
+                               known ? "unit" : "unknown unit", unit),
+          .cure = "write the number alone, or in %"};
+}
+
+/// Whether `from` differs in an angle at most, and has minutes where that is.
+bool multiplies_minutes(Unit from, Unit to) {
+  for (Unit* unit : {&from, &to}) unit->power(Base::rad) = unit->power(Base::electrical_rad) = 0;
+  return from.by_the_clock && from.dimension == to.dimension && to.dimension != Unit{}.dimension;
+}
+
+base::Problem other_kind(const std::string& unit, const Unit& from, const Unit& to, const Wanted& wanted) {
+  const std::string fit = units_that_fit(wanted.unit);
+  return {.limit = fmt::format("carries the unit {}, which is not of the kind of {}", unit, wanted.unit),
+          .cure = multiplies_minutes(from, to)
+                      ? "minutes multiply here: per rpm is written /rpm or /min-1. Units that fit: " + fit
+                      : "units that fit: " + fit};
+}
+
+base::Problem other_measure(const std::string& unit, std::string_view measure, const Wanted& wanted) {
+  std::string frames;
+  for (const std::string& frame : frames_with(wanted.frames, "")) frames += " \"" + frame + "\"";
+  return {.limit = fmt::format("carries the unit {}, and no {} value belongs here", unit, measure),
+          .cure = frames.empty()
+                      ? fmt::format("write it in {}; of a sine the peak is sqrt 2 times the rms value",
+                                    wanted.unit)
+                      : fmt::format("the frames of this key are{}: convert the value, of a sine the "
+                                    "peak is sqrt 2 times the rms value",
+                                    frames)};
+}
+
+double to_power(double x, int power) {
+  double out = 1.0;
+  for (int n = 0; n < power; ++n) out *= x;
+  return out;
+}
+
+/// Hertz of a voltage are electrical by custom, those of a shaft are nobody's: turns, or turns times pole pairs.
+base::Result<Conversion> by_pole_pairs(const std::string& unit, int power, const Unit& to,
+                                       const Wanted& wanted, Conversion conversion) {
+  if (to.power(Base::V) == 0 && plain_spelling(unit).find("Hz") != std::string::npos)
+    return base::Problem{
+        .limit = fmt::format("carries the unit {}, and hertz do not say of what: turns of the shaft, or "
+                             "electrical ones, which are pole pairs times as many",
+                             unit),
+        .cure = fmt::format(
+            "write rev/s for turns of the shaft, or erpm, 60 times the electrical hertz; units that fit: {}",
+            units_that_fit(wanted.unit))};
+  if (!wanted.pole_pairs)
+    return base::Problem{
+        .limit = fmt::format("carries the unit {}, which counts electrical turns, and the pole pairs are not "
+                             "known here",
+                             unit),
+        .cure = "give pole_pairs, poles or winding too, or convert; units that fit: " +
+                units_that_fit(wanted.unit)};
+  const double p = *wanted.pole_pairs;
+  conversion.multiply *= to_power(p, -power);
+  conversion.divide *= to_power(p, power);
+  return conversion;
 }
 
 }  // namespace
@@ -100,24 +192,69 @@ std::optional<Written> split_number(std::string_view text) {
   return Written{number, std::string(rest)};
 }
 
-base::Result<double> in_unit(std::string_view written, std::string_view wanted) {
-  const std::optional<Written> w = split_number(written);
+double Conversion::of(double x) const {
+  const double scaled = base::times_ten_to(x, ten);
+  return multiply == divide ? scaled : scaled * multiply / divide;
+}
+
+double Conversion::back(double x) const { return Conversion{-ten, divide, multiply}.of(x); }
+
+std::string_view measure_in(std::string_view text) {
+  const std::optional<Unit> unit = unit_of(text);
+  if (!unit) return {};
+  return unit->power(Base::rms) != 0 ? "rms" : unit->power(Base::peak) != 0 ? "peak" : "";
+}
+
+std::vector<std::string> frames_with(std::string_view frames, std::string_view measure) {
+  std::vector<std::string> fit;
+  while (!frames.empty()) {
+    const std::size_t cut = std::min(frames.find('|'), frames.size());
+    if (frames.substr(0, cut).ends_with(measure)) fit.emplace_back(frames.substr(0, cut));
+    frames.remove_prefix(std::min(cut + 1, frames.size()));
+  }
+  return fit;
+}
+
+base::Result<Conversion> conversion(std::string_view unit, const Wanted& wanted) {
+  const std::string written(unit);
+  std::optional<Unit> from = unit_of(unit);
+  const std::optional<Unit> to = unit_of(wanted.unit);
+  if (wanted.unit.empty() && (!from || from->dimension != Dimension{}))
+    return no_plain_number(written, from.has_value());
+  if (!from || !to) return not_known(written, wanted.unit);
+  const std::string_view measure = measure_in(unit);
+  from->power(Base::rms) = from->power(Base::peak) = 0;
+  const bool same = same_kind(*from, *to);
+  const int electrical = same ? 0 : electrical_in(*from, *to),
+            gravity = same ? 0 : gravity_between(*from, *to);
+  if (!same && electrical == 0 && gravity == 0) return other_kind(written, *from, *to, wanted);
+  if (!measure.empty() && frames_with(wanted.frames, measure).empty())
+    return other_measure(written, measure, wanted);
+  Conversion conversion{from->ten - to->ten, from->factor, to->factor};
+  if (electrical != 0) return by_pole_pairs(written, electrical, *to, wanted, conversion);
+  if (gravity != 0) (gravity > 0 ? conversion.multiply : conversion.divide) *= standard_gravity;
+  return conversion;
+}
+
+base::Result<double> in_unit(std::string_view text, const Wanted& wanted) {
+  const std::optional<Written> w = split_number(text);
   if (!w)
-    return base::Problem{.limit = wanted.empty()
+    return base::Problem{.limit = wanted.unit.empty()
                                       ? "must be a number without quotes"
                                       : fmt::format("must be a number, {}, or one with its unit in "
                                                     "quotes",
-                                                    plain_number(wanted))};
+                                                    plain_number(wanted.unit))};
   if (w->unit.empty())
-    return base::Problem{.limit = wanted.empty() ? "must be a number without quotes" : "lacks its unit",
-                         .cure = wanted.empty() ? "write " + w->number
-                                                : fmt::format("write {}, which is in {}, or \"{} {}\"",
-                                                              w->number, wanted, w->number, wanted)};
-  const std::optional<Unit> from = unit_of(w->unit), to = unit_of(wanted);
-  if (!from || !to || !same_kind(*from, *to)) return wrong_unit(*w, wanted);
-  const std::optional<double> x = shifted(w->number, from->ten - to->ten);
+    return base::Problem{.limit = wanted.unit.empty() ? "must be a number without quotes" : "lacks its unit",
+                         .cure = wanted.unit.empty()
+                                     ? "write " + w->number
+                                     : fmt::format("write {}, which is in {}, or \"{} {}\"", w->number,
+                                                   wanted.unit, w->number, wanted.unit)};
+  const base::Result<Conversion> by = conversion(w->unit, wanted);
+  if (!by) return by.problems();
+  const std::optional<double> x = shifted(w->number, by->ten);
   if (!x) return base::Problem{.limit = "is beyond what a number holds", .cure = "look at its exponent"};
-  return from->factor == to->factor ? *x : *x * from->factor / to->factor;
+  return by->multiply == by->divide ? *x : *x * by->multiply / by->divide;
 }
 
 std::string units_that_fit(std::string_view wanted) {

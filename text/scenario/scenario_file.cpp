@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "sixstep/base/linear.hpp"
 #include "sixstep/design/sheet/sheet_constants.hpp"
@@ -55,10 +56,30 @@ void read_shape(const Document& document, const std::string& path, const Resolve
   sheet.back_emf_shape = std::move(rows->values);
 }
 
+/// As the table says it in one of the ways, else as `sheet` has it. What is wrong with it is told elsewhere.
+std::optional<int> pole_pairs_in(const Document& document, const std::string& table,
+                                 const design::Sheet& sheet) {
+  const auto whole = [&](std::string_view key) {
+    const toml::node* node = document.find(table + std::string(key));
+    const std::optional<std::int64_t> count = node ? node->value_exact<std::int64_t>() : std::nullopt;
+    return count && std::in_range<int>(*count) ? std::optional(static_cast<int>(*count)) : std::nullopt;
+  };
+  const toml::node* code = document.find(table + "winding");
+  design::Sheet poles;
+  poles.pole_pairs = whole("pole_pairs");
+  for (const base::Spelling& spelling : design::spellings::pole_pairs)
+    if (!poles.pole_pairs) poles.pole_pairs = whole(spelling.key);
+  poles.poles = whole("poles");
+  poles.winding = code ? code->value<std::string>().value_or("") : "";
+  const bool given = poles.pole_pairs || poles.poles || !poles.winding.empty();
+  return design::sheet_constants(given ? poles : sheet).pole_pairs;
+}
+
 base::Result<SheetSource> sheet_of(Document document, const Resolve& resolve) {
   Complaints complaints(document);
   base::Problems of_other_files;
   design::Sheet sheet;
+  complaints.set_pole_pairs(pole_pairs_in(document, "", sheet));
   read_root(document, sheet, complaints);
   complaints.set_linear_motor(sheet.kind == design::MotorKind::linear);
   refuse_other_motion(sheet_keys(), complaints);
@@ -261,6 +282,7 @@ base::Result<study::Scenario> read_scenario_text(const std::string& name, std::s
     scenario.motor_sheet = source->sheet;
   }
   complaints.set_linear_motor(is_linear(document, scenario.sheet));
+  complaints.set_pole_pairs(pole_pairs_in(document, "motor_override.", scenario.sheet));
   read_root(document, scenario, complaints);
   refuse_other_motion(scenario_keys(), complaints);
   read_spread_keys(scenario, complaints);

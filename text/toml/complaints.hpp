@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Everything wrong with a file, collected and told in the order of its lines.
 #pragma once
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -18,6 +19,10 @@ class Complaints {
   /// Whether the document speaks of a motor that moves along a line: units that follow from others are then its own.
   bool linear_motor() const { return linear_motor_; }
   void set_linear_motor(bool linear) { linear_motor_ = linear; }
+
+  /// Those of the motor that the document speaks of, where it has any: electrical turns convert by them.
+  std::optional<int> pole_pairs() const { return pole_pairs_; }
+  void set_pole_pairs(std::optional<int> pole_pairs) { pole_pairs_ = pole_pairs; }
 
   /// About the value at `path`, which is quoted.
   void value(const toml::node& node, std::string_view path, base::Problem problem);
@@ -63,6 +68,7 @@ class Complaints {
 
   const Document& document_;
   bool linear_motor_ = false;
+  std::optional<int> pole_pairs_;
   std::size_t left_out_ = 0;
   std::vector<Found> found_;
   std::set<std::string> tables_;

@@ -11,6 +11,7 @@
 
 #include "sixstep/base/describe.hpp"
 #include "sixstep/base/result.hpp"
+#include "text/keys/units.hpp"
 #include "text/rooms.hpp"
 #include "text/toml/complaints.hpp"
 
@@ -124,6 +125,10 @@ class TableReader {
     return given(key) || std::any_of(about.also.begin(), about.also.end(),
                                      [&](const base::Spelling& spelling) { return given(spelling.key); });
   }
+  /// With the frames of the key, and the pole pairs where they are known.
+  Wanted wanted_in(const std::string& unit, const base::About& about) const;
+  void frame_of_unit(const toml::node& node, const std::string& path, const base::About& about,
+                     base::Quantity& quantity);
   /// Which of a quantity's keys the table holds; all of them are known from then on, and two are a complaint.
   std::optional<base::Spelling> spelling_in_file(std::string_view key, const base::About& about);
   void parts(const toml::table& table, const std::string& path, const base::About& about,

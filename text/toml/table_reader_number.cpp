@@ -88,12 +88,16 @@ std::optional<TableReader::WrittenIn> TableReader::unit_of_key(const base::About
   return whole;
 }
 
+Wanted TableReader::wanted_in(const std::string& unit, const base::About& about) const {
+  return {unit, about.frame, complaints_.pole_pairs()};
+}
+
 base::Result<double> TableReader::number_of(const toml::node& node, const base::About& about) const {
   const std::optional<WrittenIn> unit = unit_of_key(about);
   const double factor = unit ? unit->factor : 1.0;
   if (const toml::value<std::string>* text = node.as_string()) {
     if (unit) {
-      base::Result<double> x = in_unit(text->get(), unit->unit);
+      base::Result<double> x = in_unit(text->get(), wanted_in(unit->unit, about));
       return x ? base::Result<double>(*x / factor) : x;
     }
     if (!about.unit_of.empty())
@@ -116,10 +120,9 @@ std::string TableReader::limit_as_written(const toml::node& node, const base::Ab
   const std::optional<Written> written = text ? split_number(text->get()) : std::nullopt;
   if (!own || own->unit.empty() || !written || written->unit.empty())
     return limit_of(about.range, allowed, x);
-  const auto there = [&](double value) {
-    const auto found = in_unit(fmt::format("{} {}", value * own->factor, own->unit), written->unit);
-    return found ? *found : value;
-  };
+  const base::Result<Conversion> by = conversion(written->unit, wanted_in(own->unit, about));
+  if (!by) return limit_of(about.range, allowed, x);
+  const auto there = [&](double value) { return by->back(value * own->factor); };
   const auto in_its_unit = [&](base::Range range) {
     range.low = there(range.low);
     range.high = there(range.high);

@@ -40,11 +40,12 @@ std::optional<double> TableReader::last_digit(const toml::node& node, const std:
   double factor = 1.0;
   if (const toml::value<std::string>* quoted = node.as_string()) {
     const std::optional<Written> written = split_number(quoted->get());
-    const std::optional<Unit> from = unit_of(written ? written->unit : ""), to = unit_of(about.unit);
-    if (!written || !from || !to) return {};
+    if (!written) return {};
+    const base::Result<Conversion> by = conversion(written->unit, wanted_in(std::string(about.unit), about));
+    if (!by) return {};
     text = written->number;
-    ten += from->ten - to->ten;
-    factor = from->factor / to->factor;
+    ten += by->ten;
+    factor = by->multiply / by->divide;
   }
   const std::size_t exponent = text.find_first_of("eE"), point = text.find('.');
   const std::string_view digits = std::string_view(text).substr(0, exponent);
@@ -91,8 +92,8 @@ void TableReader::parts(const toml::table& table, const std::string& path, const
   number_about.required = true;
   number_about.also = {};
   reader.value("value", out.value, number_about);
-  if (const toml::node* value = table.get("value"))
-    out.last_digit = last_digit(*value, path + ".value", about, spelling.ten);
+  const toml::node* const value = table.get("value");
+  if (value) out.last_digit = last_digit(*value, path + ".value", about, spelling.ten);
   if (const toml::node* written = reader.find("frame", {}))
     reader.word(*written, path + ".frame", {.meaning = "frame"}, out.frame);
   if (const toml::node* written = reader.find("source", {}))
@@ -103,6 +104,7 @@ void TableReader::parts(const toml::table& table, const std::string& path, const
     reader.find("kind", {});
   if (const toml::node* written = reader.find("range", {}))
     interval(*written, path + ".range", about, spelling.ten, out);
+  if (value) frame_of_unit(*value, path + ".value", about, out);
   frame(table.contains("frame") ? *table.get("frame") : static_cast<const toml::node&>(table), path, about,
         out);
   reader.refuse_unknown_keys();
@@ -126,6 +128,7 @@ void TableReader::quantity(std::string_view key, base::Quantity& member, const b
   if (const toml::table* table = node.as_table()) {
     parts(*table, path, spelled, *spelling, read);
   } else if (number(node, path, spelled, read.value)) {
+    frame_of_unit(node, path, spelled, read);
     frame(node, path, spelled, read);
     read.last_digit = last_digit(node, path, spelled, spelling->ten);
   }
@@ -134,6 +137,25 @@ void TableReader::quantity(std::string_view key, base::Quantity& member, const b
     read.range = base::Interval{read.range->low * spelling->factor, read.range->high * spelling->factor};
   if (read.last_digit) *read.last_digit *= spelling->factor;
   member = std::move(read);
+}
+
+/// Nm/Arms says the frame, and so does Vrms/krpm where it leaves but one; what is written beside it must agree.
+void TableReader::frame_of_unit(const toml::node& node, const std::string& path, const base::About& about,
+                                base::Quantity& quantity) {
+  const toml::value<std::string>* text = node.as_string();
+  const std::optional<Written> written = text ? split_number(text->get()) : std::nullopt;
+  const std::string_view measure = written ? measure_in(written->unit) : std::string_view();
+  if (measure.empty()) return;
+  const std::vector<std::string> fit = frames_with(about.frame, measure);
+  if (quantity.frame.empty() && fit.size() == 1) quantity.frame = fit.front();
+  if (fit.empty() || std::find(fit.begin(), fit.end(), quantity.frame) != fit.end()) return;
+  complaints_.value(
+      node, path,
+      {.limit = quantity.frame.empty()
+                    ? fmt::format("is {} and must say of what", measure)
+                    : fmt::format("is {}, and its frame is \"{}\"", measure, quantity.frame),
+       .cure = fmt::format("write frame = {}{}", quoted_alternatives(fit),
+                           quantity.frame.empty() ? "" : ", or the unit without " + std::string(measure))});
 }
 
 /// A frame that is missing is told by the struct's own check, which can say what each candidate would mean.
