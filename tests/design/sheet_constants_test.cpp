@@ -2,7 +2,7 @@
 // Every way of printing a constant means the same machine, and a bad sheet is told one thing with its cure.
 #include "sixstep/design/sheet/sheet_constants.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 
@@ -110,9 +110,30 @@ TEST(SheetConstants, AMissingFrameIsToldWithWhatEachWouldMean) {
             "\"six-step\" or \"line-peak\"");
   s = printed_251601();
   s.nominal_current_A->frame.clear();
-  EXPECT_EQ(told(s),
-            "nominal_current_A = 2.33 must say its frame: \"terminal\" means a nominal torque of 78.06 mNm; "
-            "\"rms\" means a nominal torque of 100.7 mNm; write frame = \"terminal\" or \"rms\"");
+  EXPECT_EQ(
+      told(s),
+      "nominal_current_A = 2.33 must say its frame: \"terminal\" means 2.33 A of direct current in at one "
+      "terminal and out at another, a nominal torque of 78.06 mNm; \"rms\" means a sine of 2.33 A rms in each "
+      "phase, 3.295 A peak, a nominal torque of 100.7 mNm; write frame = \"terminal\" or \"rms\"");
+}
+
+/// Without a torque constant there is no torque to tell by: the amperes themselves are told.
+TEST(SheetConstants, NominalCurrentSaysWhichAmperes) {
+  Sheet s = without_constant();
+  s.nominal_current_A = Quantity{10, "", ""};
+  EXPECT_THAT(told(s),
+              ::testing::HasSubstr("\"terminal\" means 10 A of direct current in at one terminal and out at "
+                                   "another; \"rms\" means a sine of 10 A rms in each phase, 14.14 A peak;"));
+}
+
+/// Faulhaber prints k_M = 40.2 mNm/A and k_E = k_M/9.5493 = 4.21 mV/min-1: the mean between the driven pair.
+TEST(SheetConstants, ABackEmfOverASectorIsTheTorqueConstant) {
+  for (const BackEmfShape shape : {BackEmfShape::sine, BackEmfShape::trapezoid}) {
+    Sheet s = without_constant();
+    s.back_emf = shape;
+    s.back_emf_constant_V_krpm = Quantity{4.21, "six-step", ""};
+    EXPECT_NEAR(sheet_constants(s).K_t_Nm_A->value, 4.21e-3 * 9.54929658551372015, 1e-15);
+  }
 }
 
 TEST(SheetConstants, PolesPairsAndWindingsAreToldApart) {

@@ -60,7 +60,7 @@ struct Sheet {
   std::optional<base::Quantity> torque_constant_mNm_A;  // terminal: torque per ampere through the driven pair
   std::optional<base::Quantity> back_emf_mV_s;  // frame phase: peak per mechanical rad/s, used as it is
   std::optional<base::Quantity> torque_constant_Nm_A;      // frame terminal, peak or rms
-  std::optional<base::Quantity> back_emf_constant_V_krpm;  // frame line-peak, line-rms, phase-peak, phase-rms
+  std::optional<base::Quantity> back_emf_constant_V_krpm;  // frame line or phase, peak or rms; six-step
   std::optional<base::Quantity> flux_linkage_mWb;          // phase, peak of the fundamental
   std::optional<base::Quantity> speed_constant_rpm_V;      // frame six-step or line-peak: "KV"
   std::optional<base::Quantity> flux_density_T, active_length_mm, air_gap_radius_mm;  // K_t = 2 B l r N

@@ -101,12 +101,15 @@ void read_nominal_current(SheetReader& reader) {
   const std::optional<Quantity>& q = reader.sheet.nominal_current_A;
   const SheetConstants& c = reader.out;
   if (!q || !SheetReader::positive(*q) || q->frame == "terminal" || q->frame == "rms") return;
-  const auto means = [&](double K) {
-    return c.K_e_V_s ? "a nominal torque of " + rounded(K * q->value * 1e3) + " mNm" : std::string("its own");
+  const auto torque = [&](double K) {
+    return c.K_e_V_s ? ", a nominal torque of " + rounded(K * q->value * 1e3) + " mNm" : std::string();
   };
+  const std::string amperes = rounded(q->value) + " A";
   const std::array<FrameMeaning, 2> candidates = {
-      {{"terminal", means(c.K_t_Nm_A ? c.K_t_Nm_A->value : 0.0)},
-       {"rms", means(c.K_e_V_s ? torque_per_rms_A(c.K_e_V_s->value, c.shape) : 0.0)}}};
+      {{"terminal", amperes + " of direct current in at one terminal and out at another" +
+                        torque(c.K_t_Nm_A ? c.K_t_Nm_A->value : 0.0)},
+       {"rms", "a sine of " + amperes + " rms in each phase, " + rounded(std::sqrt(2.0) * q->value) +
+                   " A peak" + torque(c.K_e_V_s ? torque_per_rms_A(c.K_e_V_s->value, c.shape) : 0.0)}}};
   unknown_frame(reader, "nominal_current_A", *q, candidates);
 }
 

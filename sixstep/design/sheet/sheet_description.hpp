@@ -43,12 +43,14 @@ void describe_torque_constant(Visitor& v, Sheet& s) {
               .frame = "terminal|peak|rms",
               .range = base::above(0),
               .also = spellings::torque_per_A});
-  v.quantity("back_emf_constant_V_krpm", s.back_emf_constant_V_krpm,
-             {.meaning = "back-EMF per 1000 rpm, between two terminals or of one phase, peak or rms",
-              .unit = "V/krpm",
-              .frame = "line-peak|line-rms|phase-peak|phase-rms",
-              .range = base::above(0),
-              .also = spellings::back_emf_per_speed});
+  v.quantity(
+      "back_emf_constant_V_krpm", s.back_emf_constant_V_krpm,
+      {.meaning = "back-EMF per 1000 rpm, between two terminals or of one phase, peak or rms; or between the "
+                  "driven pair, mean over a sector (six-step)",
+       .unit = "V/krpm",
+       .frame = "line-peak|line-rms|phase-peak|phase-rms|six-step",
+       .range = base::above(0),
+       .also = spellings::back_emf_per_speed});
   v.quantity("flux_linkage_mWb", s.flux_linkage_mWb,
              {.meaning = "flux of the magnets through one phase, peak of its fundamental, as a drive's "
                          "set-up identifies it",
@@ -185,7 +187,8 @@ void describe_ratings(Visitor& v, Sheet& s) {
   v.quantity(
       "nominal_current_A", s.nominal_current_A,
       {.meaning =
-           "greatest continuous current: through the driven pair (terminal), or rms of a sine in each phase",
+           "greatest continuous current: direct current through the driven pair, in at one terminal and out at "
+           "another (terminal), or the rms value of a sine in each phase (rms)",
        .unit = "A",
        .frame = "terminal|rms",
        .range = base::above(0),

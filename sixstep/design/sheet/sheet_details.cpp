@@ -72,15 +72,20 @@ void read_delta(SheetReader& reader) {
                      "is of a delta's branches; a star's inductance_mH has it in it", "leave it away");
     return;
   }
-  const auto look = [&](const char* key, const std::optional<base::Quantity>& q) {
+  const auto look = [&](const char* key, const std::optional<base::Quantity>& q, const char* cure) {
     if (q && q->frame == "phase")
       reader.problem(SheetReader::key_of(key, *q), base::written(q->value),
                      "is given for a phase, and of a delta only what lies between two terminals is read",
-                     "give it with frame = \"terminal\": a branch has 3/2 of that");
+                     cure);
   };
-  look("resistance_ohm", s.resistance_ohm);
-  look("inductance_mH", s.inductance_mH);
-  look("back_emf_mV_s", s.back_emf_mV_s);
+  constexpr const char* winding_cure =
+      "write frame = \"terminal\" and twice the value where a drive has identified it (VESC, ODrive: half of "
+      "what lies between two terminals, delta or star), or 2/3 of it where it is of one branch of the delta";
+  look("resistance_ohm", s.resistance_ohm, winding_cure);
+  look("inductance_mH", s.inductance_mH, winding_cure);
+  look("back_emf_mV_s", s.back_emf_mV_s,
+       "give back_emf_constant_V_krpm with frame = \"line-peak\": a branch of the delta lies between two "
+       "terminals, and 1 mV s is 0.10472 V/krpm");
   if (s.d_axis_inductance_mH || s.q_axis_inductance_mH)
     reader.problem("d_axis_inductance_mH", "", "is of a star's phases, and connection is \"delta\"",
                    "give inductance_mH between two terminals");

@@ -27,7 +27,7 @@ constexpr int milli = -3;
 struct Way {
   std::string_view key;
   const std::optional<Quantity> Sheet::*member;
-  std::array<std::string_view, 4> frames;  // empty ones at the end
+  std::array<std::string_view, 5> frames;  // empty ones at the end
   Constants (*read)(double value, std::string_view frame, const ShapeFactors& f, double pole_pairs);
 };
 
@@ -41,13 +41,15 @@ Constants by_torque(double value, std::string_view frame, const ShapeFactors& f,
   return by_K_e(2.0 * peak / (3.0 * f.fundamental), f);
 }
 
-/// 1000 rpm are 104.72 rad/s.
+/// 1000 rpm are 104.72 rad/s. Six-step: the mean between the driven pair over a sector, whose V s are K_t's N m/A.
 Constants by_volts(double value, std::string_view frame, const ShapeFactors& f, double) {
+  const double V_s = value / (1000.0 * base::pi / 30.0);
+  if (frame == "six-step") return by_K_t(V_s, f);
   const double factor = frame == "line-peak"   ? f.line_peak
                         : frame == "line-rms"  ? f.line_rms
                         : frame == "phase-rms" ? f.phase_rms
                                                : f.phase_peak;
-  return by_K_e(value / (1000.0 * base::pi / 30.0) / factor, f);
+  return by_K_e(V_s / factor, f);
 }
 
 /// Six-step: the mean voltage of the driven pair, K_t = 9.5493/KV. Line-peak: the crest between terminals.
@@ -72,7 +74,7 @@ constexpr Way ways[] = {
     {"torque_constant_Nm_A", &Sheet::torque_constant_Nm_A, {"terminal", "peak", "rms"}, by_torque},
     {"back_emf_constant_V_krpm",
      &Sheet::back_emf_constant_V_krpm,
-     {"line-peak", "line-rms", "phase-peak", "phase-rms"},
+     {"line-peak", "line-rms", "phase-peak", "phase-rms", "six-step"},
      by_volts},
     {"flux_linkage_mWb",
      &Sheet::flux_linkage_mWb,

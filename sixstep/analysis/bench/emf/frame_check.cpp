@@ -80,17 +80,16 @@ std::vector<FrameCheck> check_frames(const EmfResult& m, const design::Sheet& sh
   const auto per = [](double factor) { return [factor](Interval V_s) { return scaled(V_s, factor); }; };
   if (m.pole_pairs > 0) {
     const double p = m.pole_pairs;
-    const std::vector<Frame> torque = torque_frames(m, p), voltage = voltage_frames(m, p);
-    const std::vector<Frame> speed{
-        {"six-step", torque[0].V_s}, voltage[0], voltage[1], voltage[2], voltage[3]};
+    const std::vector<Frame> torque = torque_frames(m, p), voltage = voltage_frames(m, p),
+                             six_step{{"six-step", torque[0].V_s}};
     checks.add("torque_constant_mNm_A", sheet.torque_constant_mNm_A, "mNm/A", both(torque, voltage),
                "terminal", per(1e3));
     checks.add("back_emf_mV_s", sheet.back_emf_mV_s, "mV s", voltage, "phase-peak", per(1e3));
     checks.add("torque_constant_Nm_A", sheet.torque_constant_Nm_A, "Nm/A", both(torque, voltage), "",
                per(1.0));
-    checks.add("back_emf_constant_V_krpm", sheet.back_emf_constant_V_krpm, "V/krpm", voltage, "",
+    checks.add("back_emf_constant_V_krpm", sheet.back_emf_constant_V_krpm, "V/krpm", both(voltage, six_step), "",
                per(rad_s_per_krpm));
-    checks.add("speed_constant_rpm_V", sheet.speed_constant_rpm_V, "rpm/V", speed, "",
+    checks.add("speed_constant_rpm_V", sheet.speed_constant_rpm_V, "rpm/V", both(six_step, voltage), "",
                [](Interval V_s) { return inverse(V_s, rpm_per_rad_s); });
   }
   const std::vector<Frame> flux{{"phase", m.constants.phase_fundamental},
