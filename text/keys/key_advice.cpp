@@ -7,6 +7,7 @@
 #include <array>
 #include <vector>
 
+#include "text/keys/sheet_words.hpp"
 #include "text/keys/units.hpp"
 
 namespace text {
@@ -36,8 +37,16 @@ std::array<std::string, 2> readings(std::string_view suffix) {
   return units;
 }
 
-/// ": 1 mV = 0.001 V", where both are units of the same thing.
-std::string conversion(std::string_view from_suffix, std::string_view to_suffix) {
+std::string join(std::span<const std::string> words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+}  // namespace
+
+std::string conversion_text(std::string_view from_suffix, std::string_view to_suffix) {
+  if (from_suffix == to_suffix) return "";
   for (const std::string& from : readings(from_suffix))
     for (const std::string& to : readings(to_suffix))
       if (const base::Result<double> one = in_unit("1 " + from, to); !from.empty() && one)
@@ -46,14 +55,6 @@ std::string conversion(std::string_view from_suffix, std::string_view to_suffix)
 }
 
 std::string_view unit_suffix(std::string_view key) { return key.substr(without_unit(key).size()); }
-
-std::string join(std::span<const std::string> words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
-}  // namespace
 
 std::string quoted_alternatives(const std::vector<std::string>& words) {
   std::string text;
@@ -129,7 +130,9 @@ base::Problem unknown_key(std::string_view key, std::span<const std::string> kno
   if (same != nullptr)
     return {.limit = unit_suffix(key).empty() ? "lacks its unit" : "carries the wrong unit",
             .cure = fmt::format("write {} and give the value in that unit{}", *same,
-                                conversion(unit_suffix(key), unit_suffix(*same)))};
+                                conversion_text(unit_suffix(key), unit_suffix(*same)))};
+  if (std::optional<std::string> meant = by_meaning(key, known))
+    return {.limit = "is not a key here", .cure = std::move(*meant)};
   const std::string near = nearest(key, known);
   if (!near.empty()) return {.limit = "is not a key here", .cure = fmt::format("did you mean {}?", near)};
   constexpr std::size_t most_listed = 30;  // a motor file has some seventy

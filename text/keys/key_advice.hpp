@@ -27,9 +27,15 @@ std::string nearest_word(std::string_view word, std::span<const std::string> kno
 /// A key without its unit suffix: "no_load_speed" for "no_load_speed_rad_s".
 std::string_view without_unit(std::string_view key);
 
+/// The unit suffix alone: "_rad_s" of "no_load_speed_rad_s".
+std::string_view unit_suffix(std::string_view key);
+
+/// ": 1 mV = 0.001 V" of two suffixes, where both are units of one kind and not the same.
+std::string conversion_text(std::string_view from_suffix, std::string_view to_suffix);
+
 /// Limit and cure for a key that is none of the known ones: `where` and `value` are left empty. A key that
-/// differs in its unit only is told as a wrong unit; one that is like none of them is told `advice`, where
-/// there is one, instead of them all.
+/// differs in its unit only is told as a wrong unit, a word of a motor's sheet by its meaning; one that is like
+/// none of them is told `advice`, where there is one, instead of them all.
 base::Problem unknown_key(std::string_view key, std::span<const std::string> known,
                           std::string_view advice = {});
 

@@ -113,7 +113,9 @@ void bracket_speeds(std::string& text) {
 }  // namespace
 
 std::string plain_spelling(std::string_view unit) {
+  constexpr std::size_t longest = 64;  // no unit has more bytes, and replacing takes the square of them
   std::string out(unit);
+  if (out.size() > longest) return out;
   for (const Spelled& s : unit_signs) replace_all(out, s);
   out = with_plain_gaps(out);
   replace_words(out, {"sec", "s"});

@@ -18,7 +18,7 @@ namespace {
 using analysis::EmfResult;
 using analysis::Interval;
 
-constexpr double rad_s_per_krpm = 1000.0 * base::pi / 30.0, per_cent = 100.0;
+constexpr double rad_s_per_krpm = 1000.0 * base::pi / 30.0, to_percent = 100.0;
 
 std::string shown(const Interval& x, const char* unit) {
   return fmt::format("{} {}", measured_text(x), unit);
@@ -53,11 +53,11 @@ std::string channels_section(const EmfResult& r) {
   for (const analysis::EmfChannelResult& c : r.channels)
     if (c.clipped > much && c.residual_rms_V > 0.3 * c.step_V)
       out += fmt::format("  {} stands at its greatest value for {:.2g} % of a period: was it clipped?\n",
-                         visible(c.name), per_cent * c.clipped);
+                         visible(c.name), to_percent * c.clipped);
   return out;
 }
 
-struct Row {
+struct ConstantRow {
   const char* name;
   const Interval& V_s_rad;
 };
@@ -65,7 +65,7 @@ struct Row {
 std::string constants_section(const EmfResult& r) {
   const analysis::EmfConstants& k = r.constants;
   const bool star = r.between == analysis::EmfBetween::star;
-  const Row all[] = {{"line, peak", k.line_peak},
+  const ConstantRow all[] = {{"line, peak", k.line_peak},
                      {"line, rms", k.line_rms},
                      {"phase, peak", k.phase_peak},
                      {"phase, rms", k.phase_rms},
@@ -74,7 +74,7 @@ std::string constants_section(const EmfResult& r) {
   const double p = std::max(r.pole_pairs, 1);
   rows.add({"Constant", r.pole_pairs > 0 ? "mV s/rad" : "mWb", "95 %", r.pole_pairs > 0 ? "V/krpm" : "",
             r.pole_pairs > 0 ? "rpm/V" : ""});
-  for (const Row& row : all) {
+  for (const ConstantRow& row : all) {
     const Interval V_s = analysis::scaled(row.V_s_rad, p);
     const Interval mV_s = analysis::scaled(V_s, 1e3), krpm = analysis::scaled(V_s, rad_s_per_krpm);
     rows.add({row.name, measured_text(mV_s), bounds_text(mV_s), r.pole_pairs > 0 ? measured_text(krpm) : "",
@@ -105,12 +105,12 @@ std::string harmonics_section(const EmfResult& r) {
       ++hidden;
       continue;
     }
-    const Interval part = analysis::scaled(h.part, per_cent);
+    const Interval part = analysis::scaled(h.part, to_percent);
     rows.add({std::to_string(h.order), measured_text(part), bounds_text(part),
-              fmt::format("{:.2g}", per_cent * h.floor),
+              fmt::format("{:.2g}", to_percent * h.floor),
               !h.stands_out ? ""
               : common      ? "not the motor's: between lines there is none"
-                            : fmt::format("{:+.2g} %", per_cent * h.in_phase)});
+                            : fmt::format("{:+.2g} %", to_percent * h.in_phase)});
   }
   std::string out = rows.text();
   if (hidden > 0) out += fmt::format("  {} more do not stand out of the noise\n", hidden);
@@ -131,7 +131,7 @@ std::string check_words(const analysis::FrameCheck& c, double tolerance) {
     if (r.fits) fitting += (fitting.empty() ? "" : ", ") + std::string(r.frame);
   if (printed && printed->fits)
     return "fits" + (fitting == printed->frame ? std::string() : "; so do, within the tolerance: " + fitting);
-  if (fitting.empty()) return fmt::format("CONTRADICTS: fits no frame within {:g} %", per_cent * tolerance);
+  if (fitting.empty()) return fmt::format("CONTRADICTS: fits no frame within {:g} %", to_percent * tolerance);
   if (!printed) return "says no frame; fits " + fitting;
   return "CONTRADICTS: reads like " + fitting;
 }
@@ -139,7 +139,7 @@ std::string check_words(const analysis::FrameCheck& c, double tolerance) {
 std::string sheet_section(const MeasuredEmf& m) {
   if (m.sheet.empty()) return "";
   std::string out = fmt::format("\nHeld against the sheet of {}, within {:g} %\n", visible(m.sheet),
-                                per_cent * m.tolerance);
+                                to_percent * m.tolerance);
   if (m.checks.empty()) out += "  it prints nothing of the back-EMF that can be compared\n";
   for (const analysis::FrameCheck& c : m.checks) {
     out +=
@@ -147,7 +147,7 @@ std::string sheet_section(const MeasuredEmf& m) {
     Rows rows;
     for (const analysis::FrameReading& r : c.readings)
       rows.add({"", std::string(r.frame), measured_text(r.measured),
-                fmt::format("{:+.1f} %", per_cent * r.deviation), r.fits ? "fits" : "",
+                fmt::format("{:+.1f} %", to_percent * r.deviation), r.fits ? "fits" : "",
                 r.is_printed ? "as printed" : ""});
     out += rows.text();
   }

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/keys/sheet_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "text/keys/key_advice.hpp"
+
+namespace text {
+namespace {
+
+/// Words as small letters without strokes and units, a space between two; the key; what the writer should know of it.
+struct SheetWords {
+  std::string_view words, key, more = "";
+};
+
+constexpr std::string_view terminal = "with frame = \"terminal\"", phase = "with frame = \"phase\"",
+                           which = "with the frame that it means";
+
+// By meaning, not by letters: rth1 looks like nothing here.
+constexpr SheetWords sheet_words[] = {
+    {"numberofpolepairs polepairnumber polepaircount noofpolepairs motorpolepairs pp p", "pole_pairs"},
+    {"numberofpoles polenumber polecount noofpoles motorpoles magnetpoles magnets simotorpoles", "poles"},
+    {"configuration windingconfiguration statorconfiguration slotpolecombination", "winding",
+     "as \"12N14P\", teeth and poles"},
+    {"ratedvoltage voltage operatingvoltage supplyvoltage un", "nominal_voltage_V"},
+    {"terminalresistance terminalresistancephasephase terminalresistancephasetophase resistancephasephase "
+     "linetolineresistance resistancelinetoline phasetophaseresistance resistancephasetophase rll rtt ra",
+     "resistance_ohm", terminal},
+    {"phaseresistance resistanceperphase resistancephase statorresistance rs rphase focmotorr",
+     "resistance_ohm", phase},
+    {"r windingresistance internalresistance motorresistance coilresistance", "resistance_ohm", which},
+    {"terminalinductance terminalinductancephasephase terminalinductancephasetophase inductancephasephase "
+     "linetolineinductance inductancelinetoline phasetophaseinductance inductancephasetophase lll ltt",
+     "inductance_mH", terminal},
+    {"phaseinductance inductanceperphase inductancephase statorinductance ls lphase focmotorl",
+     "inductance_mH", phase},
+    {"l windinginductance motorinductance coilinductance", "inductance_mH", which},
+    {"ld", "d_axis_inductance_mH"},
+    {"lq", "q_axis_inductance_mH"},
+    {"torqueconstant kt km kphi torquesensitivity", "torque_constant_mNm_A"},
+    {"backemfconstant bemfconstant emfconstant voltageconstant backemf ke kb kbemf",
+     "back_emf_constant_V_krpm",
+     "with its frame, as \"six-step\" where it is the torque constant over 9.549"},
+    {"focmotorfluxlinkage fluxlinkage psi psif lambda magnetflux pmflux", "flux_linkage_mWb"},
+    {"kv kvrating kvvalue motorkv rpmpervolt kn velocityconstant", "speed_constant_rpm_V",
+     "with frame = \"line-peak\" for a motor spun and measured, \"six-step\" for mean volts of a six-step drive"},
+    {"rotorinertia momentofinertia massmomentofinertia inertiaofrotor motorinertia j jm jr",
+     "inertia_gcm2"},
+    {"staticfriction frictiontorquestatic staticfrictiontorque frictiontorque dryfriction c0",
+     "coulomb_friction_mNm"},
+    {"dynamicfriction frictiontorquedynamic dynamicfrictiontorque viscousdamping dampingconstant damping cv",
+     "viscous_friction_Nm_s", "as \"4.3e-4 mNm/rpm\" where the sheet has mNm/rpm or mNm/min-1"},
+    {"noloadrpm idlespeed n0", "no_load_speed_rpm"},
+    {"idlecurrent noloadcurrenttyp i0", "no_load_current_mA"},
+    {"idlecurrentvoltage idlevoltage noloadvoltage", "no_load_voltage_V"},
+    {"ratedspeed nn", "nominal_speed_rpm"},
+    {"ratedtorque maxcontinuoustorque continuoustorque maximumcontinuoustorque maxcontinuousstalltorque mn",
+     "nominal_torque_mNm"},
+    {"ratedcurrent maxcontinuouscurrent continuouscurrent maximumcontinuouscurrent thermalcurrent in",
+     "nominal_current_A",
+     "with frame = \"terminal\" for direct current through two terminals, \"rms\" for a sine"},
+    {"startingtorque peakstalltorque lockedrotortorque mh mst", "stall_torque_mNm"},
+    {"startingcurrent lockedrotorcurrent ist ia", "stall_current_A"},
+    {"efficiency efficiencymax maximumefficiency etamax eta", "max_efficiency_percent"},
+    {"slopeofnmcurve speedregulation speedtorqueslope dndm", "speed_torque_gradient_rpm_mNm"},
+    {"mechanicaltimeconst taum tm", "mechanical_time_constant_ms"},
+    {"speedupto maxpermissiblespeed maximumspeed maxspeed nmax maxcontinuousspeed", "max_speed_rpm"},
+    {"rth1 thermalresistance1 thermalresistancerth1 thermalresistancerotorbody thermalresistancecoilhousing rth1rotorbody",
+     "thermal_resistance_winding_housing_K_W"},
+    {"rth2 thermalresistance2 thermalresistancerth2 thermalresistancebodyambient thermalresistancehousingair rth2bodyambient",
+     "thermal_resistance_housing_ambient_K_W"},
+    {"tauw1 tw1 thermaltimeconstant1 thermaltimeconstantrotor thermaltimeconstantcoil tauth1",
+     "thermal_time_constant_winding_s"},
+    {"tauw2 tw2 thermaltimeconstant2 thermaltimeconstantstator thermaltimeconstanthousing tauth2",
+     "thermal_time_constant_motor_s"},
+    {"operatingtemperaturemax maxoperatingtemperature maxcoiltemperature maxpermissiblewindingtemperature "
+     "windingtemperaturemax maximumwindingtemperature",
+     "max_winding_temperature_degC", "(what the winding may reach)"},
+};
+
+/// Words that a motor's file has no key for, and why or where else. All begin in the middle of "is not a key here; ..".
+constexpr SheetWords elsewhere[] = {
+    {"gearratio gear gearreduction reductionratio sigearratio", "",
+     "a gear is the load's: write load.gear in the scenario, motor turns per turn of the load"},
+    {"currentconstant ki", "", "leave it out: it is 1 over the torque constant"},
+    {"electricaltimeconstant taue te", "", "leave it out: it follows from resistance and inductance, L/R"},
+    {"motorconstant", "", "leave it out: it follows from torque constant and resistance, K_t/sqrt R"},
+    {"motorregulation", "", "write speed_torque_gradient_rpm_mNm: R/k^2 of 1e3/(Nm s) is 9.549 rpm/mNm"},
+    {"angularacceleration alphamax", "", "leave it out: it follows from stall torque and inertia"},
+    {"peaktorque maxtorque maximumtorque", "",
+     "leave it out, or write stall_torque_mNm where it is the torque of the held rotor at nominal voltage"},
+    {"peakcurrent maxcurrent maximumcurrent lcurrentmax currentlim currentlimit", "",
+     "write control.limits.current_A in the scenario: the drive's limit is the drive's"},
+    {"ratedpower nominalpower maxpower power outputpower", "",
+     "leave it out: it follows from nominal_torque_mNm and nominal_speed_rpm"},
+    {"weight motorweight mass shaftdiameter statordiameter length diameter phases numberofphases insulationclass",
+     "", "leave it out: nothing here follows from it"},
+    {"focmotorldlqdiff", "", "write d_axis_inductance_mH = L - diff/2 and q_axis_inductance_mH = L + diff/2"},
+};
+
+std::string bare_letters(std::string_view key) {
+  std::string letters;
+  for (const char c : key)
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return letters;
+}
+
+bool has_word(std::string_view words, std::string_view word) {
+  while (!words.empty()) {
+    const std::size_t cut = std::min(words.find(' '), words.size());
+    if (words.substr(0, cut) == word) return true;
+    words.remove_prefix(std::min(cut + 1, words.size()));
+  }
+  return false;
+}
+
+template <class Rows>
+const SheetWords* find_words(const Rows& rows, std::string_view key) {
+  // "C_V" is a name and "_V" no unit of it; then the same without what looks like one.
+  for (const std::string& word : {bare_letters(key), bare_letters(without_unit(key))})
+    for (const SheetWords& row : rows)
+      if (!word.empty() && has_word(row.words, word)) return &row;
+  return nullptr;
+}
+
+/// Among the spellings of `key` the one that has the unit of `written`.
+std::string spelled_like(std::string_view key, std::string_view written, std::span<const std::string> known) {
+  const std::string_view unit = unit_suffix(written);
+  std::string found(key);
+  for (const std::string& candidate : known)
+    if (!unit.empty() && without_unit(candidate) == without_unit(key) && unit_suffix(candidate) == unit)
+      found = candidate;
+  return found;
+}
+
+}  // namespace
+
+std::optional<std::string> by_meaning(std::string_view key, std::span<const std::string> known) {
+  const auto is_known = [&](std::string_view word) {
+    return std::find(known.begin(), known.end(), word) != known.end();
+  };
+  if (!is_known("resistance_ohm")) return {};  // no motor
+  if (const SheetWords* row = find_words(elsewhere, key)) return std::string(row->more);
+  const SheetWords* row = find_words(sheet_words, key);
+  if (!row || !is_known(row->key)) return {};
+  const std::string word = spelled_like(row->key, key, known);
+  return fmt::format("write {}{}{}", word, row->more.empty() ? "" : " " + std::string(row->more),
+                     conversion_text(unit_suffix(key), unit_suffix(word)));
+}
+
+}  // namespace text
