@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/cli/motor_command.hpp"
 
+#include <fmt/format.h>
 #include <CLI/App.hpp>
 
 #include <algorithm>
@@ -127,7 +128,9 @@ Verb declare_motor(CLI::App& app) {
   for (CLI::App* const verb : {&list, &show, &check}) verb->add_flag("--json", a->json, "for programs");
   CLI::App& fresh = *motor.add_subcommand("new", "an empty motor file, to be filled in");
   fresh.add_option("NAME", a->name, "the file to write, NAME.toml; without it standard output");
-  fresh.add_option("--style", a->style, "whose sheet it is: maxon, drone, servo, linear or firmware")
+  fresh
+      .add_option("--style", a->style,
+                  fmt::format("whose sheet it is: {}", fmt::join(text::template_styles(), ", ")))
       ->capture_default_str();
   const Verb wiring = declare_wiring(motor), commission = declare_commission(motor),
              identify = declare_identify(motor), emf = declare_emf(motor);

@@ -205,13 +205,13 @@ TEST_F(MotorFile, AFreshTemplateAsksForEachNumber) {
   }
   EXPECT_EQ(
       to_string(motor_template("servos", "x").problems().front()),
-      "--style = servos is none of maxon, drone, servo, linear, firmware; choose the one whose sheet looks "
-      "like yours");
+      "--style = servos is none of maxon, drone, servo, faulhaber, nanotec, portescap, hub, linear, firmware; "
+      "choose the one whose sheet looks like yours");
 }
 
 TEST_F(MotorFile, TheTemplatesFilledInAreTheReferenceMotor) {
   // The 251601 in the words of each trade. As a sine: K_e = K_t/1.65399 of the numbers below.
-  const double K_e = 0.01675;
+  const double K_e = 0.01675, K_t = 1.6539866862653762 * K_e;
   const std::map<std::string, std::map<std::string, std::string>> sheets = {
       {"maxon",
        {{"line_29_number_of_pole_pairs", "8"},
@@ -239,6 +239,44 @@ TEST_F(MotorFile, TheTemplatesFilledInAreTheReferenceMotor) {
         {"resistance_ohm", "{ value = 1.03, frame = \"terminal\" }"},
         {"inductance_mH", "{ value = 0.572, frame = \"terminal\" }"},
         {"inertia_kgcm2", "0.135"}}},
+      {"faulhaber",
+       {{"pole_pairs", "8"},
+        {"nominal_voltage_V", "24"},
+        {"resistance_ohm", "{ value = 1.03, frame = \"terminal\" }"},
+        {"inductance_uH", "{ value = 572, frame = \"terminal\" }"},
+        {"torque_constant_mNm_A", fmt::format("{}", K_t * 1e3)},
+        {"inertia_gcm2", "135"},
+        {"coulomb_friction_mNm", "1"},
+        {"viscous_friction_Nm_s", "\"4.3e-4 mNm/min-1\""},
+        {"no_load_current_mA", "\"0.185 A\""},
+        {"back_emf_constant_V_krpm",
+         fmt::format("{{ value = \"{} mV/min-1\", frame = \"six-step\" }}", K_t * 1e3 / 9.549296585513721)},
+        {"speed_constant_rpm_V",
+         fmt::format("{{ value = \"{} min-1/V\", frame = \"six-step\" }}", 9.549296585513721 / K_t)}}},
+      {"nanotec",
+       {{"pole_pairs", "8"},
+        {"nominal_voltage_V", "\"24 VDC\""},
+        {"resistance_ohm", "{ value = 1.03, frame = \"terminal\" }"},
+        {"inductance_mH", "{ value = 0.572, frame = \"terminal\" }"},
+        {"torque_constant_Nm_A", fmt::format("{{ value = \"{} Ncm/A\", frame = \"terminal\" }}", K_t * 1e2)},
+        {"inertia_gcm2", "135"}}},
+      {"portescap",
+       {{"pole_pairs", "8"},
+        {"nominal_voltage_V", "24"},
+        {"resistance_ohm", "{ value = 1.03, frame = \"terminal\" }"},
+        {"inductance_mH", "{ value = 0.572, frame = \"terminal\" }"},
+        {"torque_constant_mNm_A", fmt::format("{}", K_t * 1e3)},
+        {"inertia_gcm2", "\"135 10^-7 kg m2\""},
+        {"back_emf_constant_V_krpm", fmt::format("{{ value = \"{} V/1000 rpm\", frame = \"six-step\" }}",
+                                                 K_t * 1e3 / 9.549296585513721)}}},
+      {"hub",
+       {{"poles", "16"},
+        {"nominal_voltage_V", "24"},
+        {"speed_constant_rpm_V",
+         fmt::format("{{ value = {}, frame = \"six-step\" }}", 9.549296585513721 / K_t)},
+        {"resistance_ohm", "{ value = 1.03, frame = \"terminal\" }"},
+        {"inductance_mH", "{ value = 0.572, frame = \"terminal\" }"},
+        {"inertia_kgm2", "1.35e-5"}}},
       {"firmware",
        {{"pole_pairs", "8"},
         {"resistance_ohm", "{ value = 0.515, frame = \"phase\" }"},
