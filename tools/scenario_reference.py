@@ -23,7 +23,7 @@ where the key is left out; without a default it may be left out, unless it is re
 
 A number may bring a unit of its own, in quotes: `duration_s = "20 ms"`, `times_s = [0, "5 ms"]`, `inertia_kg_m2 =
 "135 gcm2"`, `damping = "90 %"`, and for a reference whatever suits the control mode, `value = "6710 rpm"`; a limit takes
-what its metric and signal ask for, `max = "150 mA"`. The unit must be of the key's kind. Powers of ten cost no rounding: "0.572 mH" is the same number as 0.000572.
+what its metric and signal ask for, `max = "150 mA"`. The unit must be of the key's kind; [what units there are](motors.md#what-a-number-means). Powers of ten cost no rounding: "0.572 mH" is the same number as 0.000572.
 
 Every number is held to what its unit can be on a bench, as the tables below say; one that may be 0 is 0 or at least 1e-30 in
 size. Numbers that each may be and that together are no drive are refused too: a bus, a winding with its bridge or a friction with

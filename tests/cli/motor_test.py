@@ -50,6 +50,24 @@ class Motor(ProgramTest):
         (self.path / "a.toml").write_text(shipped.replace('["nominal torque"]', '["stall current"]'))
         self.assertIn("names a relation that holds; remove it", self.run_program("motor", "check", "a.toml", code=2).stderr)
 
+    def test_motor_check_says_what_a_simulation_lacks(self):
+        words = 'name = "a"\npole_pairs = 7\nresistance_ohm = { value = 0.1, frame = "phase" }\n'
+        (self.path / "a.toml").write_text(words)
+        last = self.run_program("motor", "check", "a.toml").stdout.splitlines()[-1]
+        self.assertEqual(last, "consistent: the sheet prints nothing twice; it cannot be simulated: inductance_mH, "
+                               "torque_constant_mNm_A and inertia_gcm2 are missing")
+        more = 'inductance_uH = { value = 50, frame = "phase" }\nflux_linkage_mWb = 5\ninertia_gcm2 = 400\n'
+        (self.path / "a.toml").write_text(words + more)
+        self.assertTrue(self.run_program("motor", "check", "a.toml").stdout.endswith("\nconsistent: the sheet prints nothing twice\n"))
+        (self.path / "a.toml").write_text(words + more + 'simulatable = false\nnot_simulatable_because = "nobody trusts its inertia"\n')
+        self.assertIn("; it cannot be simulated: nobody trusts its inertia\n", self.run_program("motor", "check", "a.toml").stdout)
+
+    def test_every_style_is_named_where_one_looks_for_it(self):
+        asked = self.run_program("motor", "new", "--help").stdout
+        for style in "maxon drone servo faulhaber nanotec portescap hub linear firmware".split():
+            self.assertIn(style, asked)
+            self.assertIn("sixstep motor check FILE", self.run_program("motor", "new", "--style", style).stdout)
+
     def test_every_built_in_motor_is_one_line_and_shows_as_json(self):
         lines = self.run_program("motor", "list").stdout.splitlines()[1:]
         listed = json.loads(self.run_program("motor", "list", "--json").stdout)

@@ -155,17 +155,30 @@ std::string relation_rows(const Relation& r) {
   return text;
 }
 
+/// Why no run can be made of it; empty for a motor that can be simulated.
+std::string not_simulatable(const design::Sheet& sheet, const SheetCheck& check) {
+  std::string missing;
+  const base::Problems& all = check.constants.missing;
+  for (std::size_t n = 0; n < all.size(); ++n)
+    missing += (n == 0 ? "" : n + 1 == all.size() ? " and " : ", ") + all[n].where;
+  if (!missing.empty())
+    return fmt::format("; it cannot be simulated: {} {} missing", missing, all.size() == 1 ? "is" : "are");
+  if (!sheet.simulatable) return "; it cannot be simulated: " + sheet.not_simulatable_because;
+  const base::Result<design::MotorModel> model = design::motor_model(sheet);
+  return model ? "" : "; it cannot be simulated: " + base::to_string(model.problems().front());
+}
+
 std::string verdict_line(const SheetCheck& check) {
   std::size_t holds = 0, known = 0, broken = 0;
   for (const Relation& r : check.relations)
     ++(r.verdict == RelationVerdict::holds ? holds : r.verdict == RelationVerdict::known ? known : broken);
-  if (check.relations.empty()) return "consistent: the sheet prints nothing twice\n";
+  if (check.relations.empty()) return "consistent: the sheet prints nothing twice";
   std::string text =
       fmt::format("{}: {} of {} relations hold", check.consistent ? "consistent" : "INCONSISTENT", holds,
                   check.relations.size());
   if (known > 0) text += fmt::format(", {} broken as the file says", known);
   if (broken > 0) text += fmt::format(", {} broken", broken);
-  return text + "\n";
+  return text;
 }
 
 }  // namespace
@@ -220,7 +233,7 @@ std::string check_report(const design::Sheet& sheet, const SheetCheck& check) {
   for (const design::LineUse& line : check.lines)
     if (!line.used) unused += trimmed(fmt::format("  {}: {}", line.key, line.why));
   if (!unused.empty()) text += "\nLines that the model is not made of\n" + unused;
-  return text + "\n" + verdict_line(check);
+  return text + "\n" + trimmed(verdict_line(check) + not_simulatable(sheet, check));
 }
 
 std::string motor_line_heading(std::size_t width) {
