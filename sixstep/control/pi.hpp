@@ -31,6 +31,15 @@ constexpr Scalar pi_step(const PiConfig<Scalar>& config, PiState<Scalar>& state,
   return state.u;
 }
 
+/// The same without a limit, while the integral waits: u[n] = u[n-1] + d1 (e[n] - e[n-1]), for a loop that knows that its output is not
+/// reached.
+template <class Scalar>
+constexpr Scalar pi_wait(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error) {
+  state.u = state.u + config.d1 * (error - state.e);
+  state.e = error;
+  return state.u;
+}
+
 /// Fixed point keeps K_i itself: d1 and d0 nearly cancel, and of their rounded difference little would be
 /// left. The same sum, written u[n] = u[n-1] + d1 (e[n] - e[n-1]) + K_i e[n-1].
 template <class Storage, int FractionBits>
@@ -62,6 +71,17 @@ constexpr Fixed<Storage, FractionBits> pi_step(const PiConfig<Fixed<Storage, Fra
   const auto jump = static_cast<typename T::Wide>(T::wide(error) - T::wide(state.e));
   const auto increment = T::accumulated(jump, config.d1) + T::accumulated(state.e, config.K_i);
   state.u = between(state.u + increment, T::accumulator(low), T::accumulator(high));
+  state.e = error;
+  return T::signal(state.u);
+}
+
+template <class Storage, int FractionBits>
+constexpr Fixed<Storage, FractionBits> pi_wait(const PiConfig<Fixed<Storage, FractionBits>>& config,
+                                               PiState<Fixed<Storage, FractionBits>>& state,
+                                               Fixed<Storage, FractionBits> error) {
+  using T = ScalarTraits<Fixed<Storage, FractionBits>>;
+  const auto jump = static_cast<typename T::Wide>(T::wide(error) - T::wide(state.e));
+  state.u = state.u + T::accumulated(jump, config.d1);
   state.e = error;
   return T::signal(state.u);
 }

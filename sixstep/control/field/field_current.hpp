@@ -13,6 +13,10 @@
 //
 // Whichever it is, the PI keeps what is left of its output after the limit, e taken off: it cannot wind up against a bound
 // that moves with the speed and with the other axis.
+//
+// Where turning takes more than 0.9 of the voltage, d first would give v_q away, and the magnet would drive a current that asks for
+// more v_d yet: up to twice psi/L_d. There v goes back to the rim along the line to the voltage that holds the reference, the
+// integrals wait, and a drive that does not decouple its axes decouples what they are off by (reachable_current.hpp).
 #pragma once
 #include "sixstep/control/frames.hpp"
 #include "sixstep/control/pi.hpp"
@@ -31,6 +35,7 @@ struct FieldCurrentConfig {
   Gain<Scalar> d_V_s_A{};     ///< p L_d: V per A and mechanical rad/s
   Gain<Scalar> q_V_s_A{};     ///< p L_q
   Gain<Scalar> magnet_V_s{};  ///< p psi: V per mechanical rad/s, the back-EMF's fundamental
+  Gain<Scalar> R_ohm{};       ///< of a phase: what a current that is held takes of the voltage
   bool operator==(const FieldCurrentConfig&) const = default;
 };
 
@@ -65,7 +70,50 @@ constexpr Scalar voltage_circle(Scalar bus_V) {
   return bus_V > Scalar{} ? ScalarTraits<Scalar>::product(bus_V, one_by_root3) : Scalar{};
 }
 
+/// |v| that there is in every direction.
+template <class Scalar>
+constexpr Scalar voltage_reach(const FieldCurrentConfig<Scalar>& config, Scalar bus_V) {
+  return config.limit == VoltageLimit::circle ? voltage_circle(bus_V) : config.q.limit;
+}
+
+/// What a steady current takes.
+template <class Scalar>
+constexpr Dq<Scalar> holding_voltage(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& current,
+                                     Scalar speed_rad_s) {
+  using T = ScalarTraits<Scalar>;
+  const Dq<Scalar> e = turning_voltage(config, current, speed_rad_s);
+  return {e.d + T::product(current.d, config.R_ohm), e.q + T::product(current.q, config.R_ohm)};
+}
+
 namespace detail {
+
+template <class Scalar>
+constexpr bool is_within(const Dq<Scalar>& v, Scalar radius) {
+  return !(v.d * v.d + v.q * v.q > radius * radius);
+}
+
+/// The part of the way from a point within the circle to one outside that leads to its rim.
+template <class Scalar>
+constexpr Scalar way_to_rim(const Dq<Scalar>& from, const Dq<Scalar>& to, Scalar radius) {
+  const Dq<Scalar> way{to.d - from.d, to.q - from.q};
+  const Scalar length = vector_length(way.d, way.q);
+  if (!(length > Scalar{})) return Scalar{};
+  const Dq<Scalar> along{way.d / length, way.q / length};
+  const Scalar past = along.d * from.d + along.q * from.q, beside = along.d * from.q - along.q * from.d;
+  const Scalar left = circle_rest(radius, beside) - past;
+  return left < length ? (left > Scalar{} ? left / length : Scalar{}) : one<Scalar>;
+}
+
+/// The bus is short where a current takes more than this of the voltage: of the rest dead time and what the model is off by have a
+/// part.
+template <class Scalar>
+constexpr bool is_short(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& reference,
+                        const Dq<Scalar>& measured, Scalar speed_rad_s, Scalar most) {
+  constexpr auto part = static_cast<Gain<Scalar>>(0.9);
+  const Scalar radius = ScalarTraits<Scalar>::product(most, part);
+  return !is_within(holding_voltage(config, reference, speed_rad_s), radius) ||
+         !is_within(holding_voltage(config, measured, speed_rad_s), radius);
+}
 
 /// PI and e together within +-most; at an end it is that end itself.
 template <class Scalar>
@@ -76,6 +124,38 @@ constexpr Scalar axis_voltage(const PiConfig<Scalar>& config, PiState<Scalar>& s
   return u == high ? most : u == low ? -most : u + e;
 }
 
+/// What turning makes of the error alone.
+template <class Scalar>
+constexpr Dq<Scalar> turned_apart(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& reference,
+                                  const Dq<Scalar>& measured, Scalar speed_rad_s) {
+  const Dq<Scalar> is = turning_voltage(config, measured, speed_rad_s),
+                   to = turning_voltage(config, reference, speed_rad_s);
+  return {is.d - to.d, is.q - to.q};
+}
+
+/// Both axes where the bus is short: what the loops ask for, or of it without their integrals' step what leads from the voltage that
+/// holds the reference to the rim.
+template <class Scalar>
+constexpr Dq<Scalar> short_voltage(const FieldCurrentConfig<Scalar>& config, FieldCurrentState<Scalar>& state,
+                                   const Dq<Scalar>& reference, const Dq<Scalar>& error, const Dq<Scalar>& e,
+                                   Scalar speed_rad_s, Scalar most) {
+  const PiState<Scalar> d = state.d, q = state.q;
+  const Dq<Scalar> next{axis_voltage(config.d, state.d, error.d, e.d, most),
+                        axis_voltage(config.q, state.q, error.q, e.q, most)};
+  if (is_within(next, most)) return next;
+  state.d = d;
+  state.q = q;
+  const Dq<Scalar> asked{pi_wait(config.d, state.d, error.d) + e.d,
+                         pi_wait(config.q, state.q, error.q) + e.q};
+  Dq<Scalar> held = holding_voltage(config, reference, speed_rad_s);
+  if (!is_within(held, most)) {
+    const Scalar part = way_to_rim(Dq<Scalar>{}, held, most);
+    held = {held.d * part, held.q * part};
+  }
+  const Scalar part = is_within(asked, most) ? one<Scalar> : way_to_rim(held, asked, most);
+  return {held.d + (asked.d - held.d) * part, held.q + (asked.q - held.q) * part};
+}
+
 }  // namespace detail
 
 /// One control tick beside an e that is known: the phase voltages to apply, in the frame of the rotor.
@@ -83,13 +163,23 @@ template <class Scalar>
 constexpr const Dq<Scalar>& field_current_beside(const FieldCurrentConfig<Scalar>& config,
                                                  FieldCurrentState<Scalar>& state,
                                                  const Dq<Scalar>& reference, const Dq<Scalar>& measured,
-                                                 const Dq<Scalar>& e, Scalar bus_V) {
+                                                 const Dq<Scalar>& e, Scalar speed_rad_s, Scalar bus_V) {
   const bool circle = config.limit == VoltageLimit::circle;
-  const Scalar most = circle ? voltage_circle(bus_V) : Scalar{};
-  state.voltage.d =
-      detail::axis_voltage(config.d, state.d, reference.d - measured.d, e.d, circle ? most : config.d.limit);
-  state.voltage.q = detail::axis_voltage(config.q, state.q, reference.q - measured.q, e.q,
-                                         circle ? circle_rest(most, state.voltage.d) : config.q.limit);
+  const Scalar most = voltage_reach(config, bus_V);
+  const Dq<Scalar> error{reference.d - measured.d, reference.q - measured.q};
+  const PiState<Scalar> d = state.d, q = state.q;
+  const Scalar most_d = circle ? most : config.d.limit;
+  state.voltage.d = detail::axis_voltage(config.d, state.d, error.d, e.d, most_d);
+  const Scalar most_q = circle ? circle_rest(most, state.voltage.d) : config.q.limit;
+  state.voltage.q = detail::axis_voltage(config.q, state.q, error.q, e.q, most_q);
+  const bool reached = magnitude(state.voltage.d) >= most_d || magnitude(state.voltage.q) >= most_q;
+  if ((reached || !config.decouples) && detail::is_short(config, reference, measured, speed_rad_s, most)) {
+    state.d = d;
+    state.q = q;
+    const Dq<Scalar> off =
+        config.decouples ? e : detail::turned_apart(config, reference, measured, speed_rad_s);
+    state.voltage = detail::short_voltage(config, state, reference, error, off, speed_rad_s, most);
+  }
   return state.voltage;
 }
 
@@ -99,7 +189,7 @@ constexpr const Dq<Scalar>& field_current_step(const FieldCurrentConfig<Scalar>&
                                                FieldCurrentState<Scalar>& state, const Dq<Scalar>& reference,
                                                const Dq<Scalar>& measured, Scalar speed_rad_s, Scalar bus_V) {
   const Dq<Scalar> e = config.decouples ? turning_voltage(config, measured, speed_rad_s) : Dq<Scalar>{};
-  return field_current_beside(config, state, reference, measured, e, bus_V);
+  return field_current_beside(config, state, reference, measured, e, speed_rad_s, bus_V);
 }
 
 }  // namespace sixstep::control

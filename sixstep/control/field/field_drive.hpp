@@ -18,6 +18,7 @@
 #include "sixstep/control/field/field_weakening.hpp"
 #include "sixstep/control/field/finite_set.hpp"
 #include "sixstep/control/field/harmonic_current.hpp"
+#include "sixstep/control/field/reachable_current.hpp"
 #include "sixstep/control/field/torque_per_ampere.hpp"
 #include "sixstep/control/retune.hpp"
 #include "sixstep/control/three_phase_pwm.hpp"
@@ -156,13 +157,14 @@ constexpr FieldAsked<Scalar> field_asked(const FieldDriveConfig<Scalar>& config,
   const Scalar i_q = torque_current(config, state, m, value, telemetry);
   const Scalar weakening =
       field_weakening_step(config.weakening, state.weakening, state.current.voltage, m.bus_V);
-  if (config.harmonic.on)
-    state.reference = harmonic_current(config.harmonic, magnet, m.speed_rad_s, i_q, weakening);
-  else
-    state.reference = {least_current_d(config.per_ampere, i_q) + weakening, i_q};
   telemetry.motor_current_A = state.measured.q;
   telemetry.current_reference_A = i_q;
-  return {i_q, weakening};
+  const Dq<Scalar> wanted{least_current_d(config.per_ampere, i_q) + weakening, i_q};
+  state.reference = reachable_current(config.current, wanted, m.speed_rad_s, m.bus_V);
+  const FieldAsked<Scalar> asked{state.reference.q, state.reference.d};
+  if (config.harmonic.on)
+    state.reference = harmonic_current(config.harmonic, magnet, m.speed_rad_s, asked.i_q, asked.weakening);
+  return asked;
 }
 
 /// From state.measured to the voltage in the rotor's frame.
@@ -171,7 +173,8 @@ constexpr const Dq<Scalar>& field_voltage(const FieldDriveConfig<Scalar>& config
                                           FieldDriveState<Scalar>& state, const Measurement<Scalar>& m,
                                           BinaryAngle magnet, const FieldAsked<Scalar>& asked) {
   const Dq<Scalar> e = turning(config, state, magnet, m.speed_rad_s, asked.i_q, asked.weakening);
-  return field_current_beside(config.current, state.current, state.reference, state.measured, e, m.bus_V);
+  return field_current_beside(config.current, state.current, state.reference, state.measured, e,
+                              m.speed_rad_s, m.bus_V);
 }
 
 }  // namespace detail

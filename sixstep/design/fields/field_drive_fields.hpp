@@ -12,7 +12,7 @@ namespace sixstep::design {
 
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::FieldCurrentConfig<double>& c, Kept& kept) {
-  auto& [d, q, limit, decouples, d_V_s_A, q_V_s_A, magnet_V_s] = kept;
+  auto& [d, q, limit, decouples, d_V_s_A, q_V_s_A, magnet_V_s, R_ohm] = kept;
   const PiUse use{{Base::voltage, Base::current}, "V per A", "V"};
   w.part("d", c.d, d, use);
   w.part("q", c.q, q, use);
@@ -21,6 +21,7 @@ void fields(Walk&& w, const control::FieldCurrentConfig<double>& c, Kept& kept) 
   w.gain({"d_V_s_A", "V per A and rad/s", "p L_d"}, c.d_V_s_A, d_V_s_A, {Base::voltage, Base::current});
   w.gain({"q_V_s_A", "V per A and rad/s", "p L_q"}, c.q_V_s_A, q_V_s_A, {Base::voltage, Base::current});
   w.gain({"magnet_V_s", "V per rad/s", "p psi"}, c.magnet_V_s, magnet_V_s, {Base::voltage, Base::speed});
+  w.gain({"R_ohm", "V per A", "of a phase"}, c.R_ohm, R_ohm, {Base::voltage, Base::current});
 }
 
 template <class Walk, class Kept>

@@ -113,6 +113,7 @@ base::Result<FieldAround> field_around(const Scenario& s, const Basis& basis,
   c.d_V_s_A = machine.pole_pairs * machine.L_d_H;
   c.q_V_s_A = machine.pole_pairs * machine.L_q_H;
   c.magnet_V_s = machine.magnet_V_s;
+  c.R_ohm = machine.R_ohm;
   if (const double most = design::most_weakening_A(machine); wanted.weakening_A.value_or(0.0) > most)
     return base::Problem{"control.field.weakening_A", base::written(*wanted.weakening_A),
                          "is more than psi/L_d = " + base::rounded(most, 4) +

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which currents the voltage can hold at a speed, and what to ask for in place of one that it cannot. In the frame of the rotor
+// a steady current i needs
+//
+//   v = Z i + E,   Z = [R, -w_e L_q; w_e L_d, R],   E = (0, w_e psi)                  |v| <= V
+//
+// so that the currents that can be held fill a disc (an ellipse where the rotor is salient) around the current of shorted terminals,
+// -Z^-1 E. Beyond the speed at which |E| is V the disc no longer holds i = 0: some current flows whatever is asked for, and
+// (|E| - V)/|Z| is the least. Of a reference outside of the disc
+//
+//   1  what drives the rotor is given up first: i_q falls towards 0 at the same i_d as far as the voltage asks
+//   2  where that is not enough, or the rotor is braked, i' = i - (1 - V/|v|) Z^-1 v: along the line to the centre, up to the rim
+//
+// 2 is the nearest current of a round rotor. A projection onto a disc brings no two points further apart, so that |i'| is at most
+// |i| and the least current together.
+//
+// A voltage beyond the rim is taken back along the line to one that holds the reference, Z i' + E. Beside a measured current i' + x
+// that leaves of what the loops add, w_e L j x - k x, a part s: the first term turns x and does no work on it, the second shortens it.
+// So |x|^2 falls by 2 s k |x|^2/L and by what R takes, however small s is. Taken back to the rim in another direction, v_d first or in
+// the direction of v itself, the sum has no such sign.
+//
+// In fixed point w p L and R lie below one volt per ampere of the bases.
+#pragma once
+#include "sixstep/control/field/field_current.hpp"
+
+namespace sixstep::control {
+
+/// A current that can be held, in place of one that cannot; any other as it is.
+template <class Scalar>
+constexpr Dq<Scalar> reachable_current(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& wanted,
+                                       Scalar speed_rad_s, Scalar bus_V) {
+  using T = ScalarTraits<Scalar>;
+  const Scalar most = voltage_reach(config, bus_V);
+  Dq<Scalar> v = holding_voltage(config, wanted, speed_rad_s), i = wanted;
+  if (detail::is_within(v, most)) return wanted;
+  if ((wanted.q < Scalar{}) == (speed_rad_s < Scalar{})) {
+    i.q = Scalar{};
+    const Dq<Scalar> without = holding_voltage(config, i, speed_rad_s);
+    if (detail::is_within(without, most)) return {i.d, wanted.q * detail::way_to_rim(without, v, most)};
+    v = without;
+  }
+  const Scalar R = T::product(one<Scalar>, config.R_ohm);
+  const Scalar X_d = T::product(speed_rad_s, config.d_V_s_A), X_q = T::product(speed_rad_s, config.q_V_s_A);
+  const Scalar square = R * R + X_d * X_q;
+  if (!(square > Scalar{})) return wanted;
+  const Scalar beyond = one<Scalar> - most / vector_length(v.d, v.q);
+  return {i.d - beyond * (R * v.d + X_q * v.q) / square, i.q - beyond * (R * v.q - X_d * v.d) / square};
+}
+
+}  // namespace sixstep::control
