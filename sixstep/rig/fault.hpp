@@ -15,6 +15,7 @@ enum class Fault : std::uint8_t {
   shaft_sensor,
   own_controller,
   north_unseen,
+  not_started,
   core
 };
 
@@ -23,6 +24,7 @@ inline Fault fault_of(const Diagnosis& found) {
   if (found.core != CoreTrouble::none) return Fault::core;
   if (found.shaft.lost()) return Fault::shaft_sensor;
   if (found.unseen > 0) return Fault::north_unseen;
+  if (found.gave_up) return Fault::not_started;
   return found.own != OwnWrong::none ? Fault::own_controller : Fault::impossible_hall;
 }
 

@@ -68,8 +68,13 @@ class FieldDrive {
                     .shaft = sensors_.shaft_found(),
                     .core = core_.trouble()};
     if (state_.estimator.phase != control::EstimatorPhase::unseen) return found;
-    found.unseen = 1;
     found.gave_up = true;
+    if (state_.estimator.failures > 0) {
+      found.losses = state_.estimator.failures;
+      found.lost = control::LockLoss::start;
+      return found;
+    }
+    found.unseen = 1;
     found.north = static_cast<double>(control::magnitude(control::north_seen(state_.estimator.north)));
     found.certain = static_cast<double>(config_.estimator.north.certain);
     return found;

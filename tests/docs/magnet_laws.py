@@ -16,7 +16,7 @@ ROUNDED = degrees(DIGIT / 2 * 8 / 4 / (PULSE * PERIOD * (1 / L_D - 1 / L_Q)))
 # A round rotor is aligned, turned on to where the flux is followed, and driven from there.
 STARTS = 10 * (2 * J * R / 2 / (1.5 * PEAK**2) + PEAK / (PAIRS * R / 2 * FULL_A))
 FOLLOWED = 0.1 * CIRCLE / PEAK
-RAMP = FOLLOWED / (0.25 * LIMIT / J)
+RAMP = FOLLOWED / (LIMIT / 8 / J)
 DRIVEN = (200 - FOLLOWED) * J / (LIMIT - COULOMB)
 SETTLED = 0.06
 

@@ -202,6 +202,54 @@ TEST(FieldEstimate, TheObserverStartsARoundRotorFromEverywhere) {
   }
 }
 
+/// The 251601 as it comes, with a winding that is warmer than the drive believes: the current is held, whatever R has become.
+Scenario observed_251601(double load_Nm, double warmer_K) {
+  Scenario s = maxon_scenario(Mode::speed, 200.0);
+  s.sheet.back_emf = design::BackEmfShape::sine;
+  s.sheet.torque_constant_mNm_A = std::nullopt;
+  s.sheet.back_emf_mV_s = base::Quantity{16.75, "phase", ""};
+  s.sheet.nominal_current_A = base::Quantity{2.33, "terminal", ""};
+  s.control.drive = FirmwareKind::field;
+  s.control.field.angle = FieldAngle::observer;
+  s.control.speed.settle_s = 0.06;
+  s.control.speed.torque_limit_Nm = 0.1;
+  s.pwm.alignment = Alignment::centre;
+  s.pwm.period_s = 50e-6;
+  s.pwm.delay_periods = 1;
+  s.load.coulomb_Nm = load_Nm;
+  s.designed_for = Nominal{s.sheet, s.supply, s.load};
+  s.sheet.resistance_ohm = base::Quantity{s.sheet.resistance_ohm->value * (1 + 0.00393 * warmer_K),
+                                          s.sheet.resistance_ohm->frame, ""};
+  s.duration_s = 1.2;
+  return s;
+}
+
+/// 3/2 p psi 2.33 A is 0.0585 N m, of which 0.6 are promised: 0.0351 N m.
+TEST(FieldEstimate, TheObserverStartsAgainstTheLoadThatIsPromisedWarmOrCold) {
+  for (const double load_Nm : {0.03, 0.035})
+    for (const double warmer_K : {0.0, 40.0})
+      for (const double angle_rad : {0.0, 0.3, 0.6}) {
+        Scenario s = observed_251601(load_Nm, warmer_K);
+        s.initial.angle_rad = angle_rad;
+        const std::vector<Look> looks = looks_of(s);
+        ASSERT_FALSE(looks.empty());
+        EXPECT_NEAR(looks.back().true_speed_rad_s, 200.0, 5.0)
+            << load_Nm << " N m, " << warmer_K << " K warmer, from " << angle_rad;
+      }
+}
+
+/// More than the current makes: four starts, and it says so.
+TEST(FieldEstimate, ARotorThatDoesNotFollowIsGivenUpAfterFourStarts) {
+  Scenario s = observed_251601(0.06, 0.0);
+  s.duration_s = 4.0;
+  const auto out = run(s);
+  ASSERT_TRUE(out) << to_string(out.problems()[0]);
+  ASSERT_TRUE(out->fault);
+  EXPECT_THAT(out->fault->limit, HasSubstr("in 4 starts"));
+  EXPECT_THAT(out->fault->cure, HasSubstr("start_current_A"));
+  EXPECT_LT(out->simulated_s, 3.0);
+}
+
 /// Samples in the middle of the period, whose voltage is half of two answers.
 TEST(FieldEstimate, TheObserverSeesFromTheMiddleOfThePeriodToo) {
   Scenario s = inner_magnets(Mode::speed, 200.0);

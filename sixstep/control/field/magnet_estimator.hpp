@@ -10,8 +10,9 @@
 //   with injection      axis -> north -> following      the rotor is found where it stands, and stays there
 //                               '-----> unseen          it does not saturate: the drive gives up
 //   by the flux alone   aligning -> ramping -> following    a current turns it: it moves before it is seen
+//                           '--------'---------'--> unseen    it was lost too often in a row before it was followed for good
 //
-// In the second a current along an axis holds the rotor, and then a quarter turn on, so that it cannot rest where it is pulled
+// In the second a voltage along an axis holds the rotor, and then a quarter turn on, so that it cannot rest where it is pulled
 // neither way; turned on by a steady acceleration it takes the rotor along, up to a speed at which the flux is seen. A rotor that
 // falls below w_low is turned again. In floating point.
 #pragma once
@@ -33,6 +34,8 @@ struct TurnStartConfig {
   std::uint32_t align_ticks = 0;  ///< it stands
   std::int64_t step = 0;          ///< by which the speed grows a tick, 2^-48 turn per tick
   std::int64_t enough = 0;        ///< speed at which the flux is followed
+  std::uint32_t good_ticks = 0;   ///< a rotor that is followed for so long has started
+  std::uint8_t retries = 3;       ///< starts in vain in a row before the drive gives up
   bool operator==(const TurnStartConfig&) const = default;
 };
 
@@ -58,6 +61,7 @@ struct EstimatorState {
   EstimatorPhase phase = EstimatorPhase::axis;
   bool begun = false, reversed = false;
   std::uint32_t ticks = 0;
+  std::uint8_t failures = 0;  ///< starts in vain, in a row
   TrackingState tracking{};
   BinaryAngle sampled = 0;  ///< that of the last sample, the magnet's
   Scalar speed_rad_s{};     ///< mechanical
@@ -140,7 +144,9 @@ constexpr void turn_on(const EstimatorConfig<Scalar>& config, EstimatorState<Sca
   }
   t.speed += state.reversed ? -start.step : start.step;
   t.angle += static_cast<std::uint32_t>(shifted_down(t.speed, 16));
-  if ((state.reversed ? -t.speed : t.speed) >= start.enough) state.phase = EstimatorPhase::following;
+  if ((state.reversed ? -t.speed : t.speed) < start.enough) return;
+  state.phase = EstimatorPhase::following;
+  state.ticks = 0;
 }
 
 template <class Scalar>
@@ -168,6 +174,22 @@ constexpr bool out_of_sight(const EstimatorConfig<Scalar>& config, const Estimat
          magnitude(state.speed_rad_s) < config.low_rad_s;
 }
 
+/// A rotor that is turned is begun with anew where it is lost.
+template <class Scalar>
+constexpr void look_for_it(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state,
+                           bool reversed) {
+  if (!out_of_sight(config, state)) {
+    if (state.phase == EstimatorPhase::following && state.ticks < config.start.good_ticks) ++state.ticks;
+    return;
+  }
+  state.failures =
+      state.ticks < config.start.good_ticks ? static_cast<std::uint8_t>(state.failures + 1) : std::uint8_t{0};
+  if (state.failures > config.start.retries)
+    state.phase = EstimatorPhase::unseen;
+  else
+    estimator_begin(config, state, reversed);
+}
+
 }  // namespace detail
 
 /// One control tick with its currents: those in the frame of the magnet as it is taken to point, A, free of the pulse.
@@ -176,7 +198,8 @@ template <class Scalar>
 constexpr Dq<Scalar> estimator_step(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state,
                                     const AlphaBeta<Scalar>& current, bool reversed) {
   using T = ScalarTraits<Scalar>;
-  if (!state.begun || detail::out_of_sight(config, state)) detail::estimator_begin(config, state, reversed);
+  if (!state.begun) detail::estimator_begin(config, state, reversed);
+  detail::look_for_it(config, state, reversed);
   state.sampled = state.tracking.angle;
   const Direction<Scalar> axis = direction_of<Scalar>(state.sampled);
   const bool pulsed = detail::pulsed_twice(state.injection.pulses, config.late);

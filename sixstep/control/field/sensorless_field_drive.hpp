@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The field-oriented drive without a sensor on its rotor: field_drive.hpp, told by magnet_estimator.hpp where the magnet points
 // and how fast it turns. Until that is known it asks for the estimator's own current, and neither setpoint nor speed
-// loop has a say. Without an estimator it is field_drive.hpp's drive; with one it makes pulses, and chooses no states of legs. Where the estimator sees no north it gives up: fault.
+// loop has a say. Without an estimator it is field_drive.hpp's drive; with one it makes pulses, and chooses no states of legs. Where the estimator sees no north, or the rotor does not
+// follow the current that turns it, it gives up: fault.
 #pragma once
 #include "sixstep/control/field/field_drive.hpp"
 #include "sixstep/control/field/magnet_estimator.hpp"
@@ -51,13 +52,15 @@ constexpr Scalar bus_beside(const InjectionConfig<Scalar>& config, Scalar bus_V)
   return left > Scalar{} ? left : Scalar{};
 }
 
-/// What holds the current at rest, and what the magnet makes where it turns with the angle: a rotor that swings is damped, which a
-/// current that is held would not do.
+/// What pulls the rotor to the axis is a voltage: it damps the swing, which a current that is held would not do. The loop that holds
+/// the current once the axis turns goes on from it.
 template <class Scalar>
-constexpr Dq<Scalar> turning_on_voltage(const SensorlessFieldConfig<Scalar>& config, Scalar speed_rad_s) {
+constexpr const Dq<Scalar>& aligning_voltage(const SensorlessFieldConfig<Scalar>& config,
+                                             FieldCurrentState<Scalar>& state) {
   using T = ScalarTraits<Scalar>;
-  return {T::product(config.estimator.start.current_A, config.estimator.flux.R_ohm),
-          T::product(speed_rad_s, config.field.current.magnet_V_s)};
+  state.voltage = {T::product(config.estimator.start.current_A, config.estimator.flux.R_ohm), Scalar{}};
+  state.d.u = T::accumulator(state.voltage.d);
+  return state.voltage;
 }
 
 /// The voltage for what the estimator itself asks for.
@@ -69,10 +72,7 @@ constexpr Dq<Scalar> estimating_voltage(const SensorlessFieldConfig<Scalar>& con
   field.reference = {estimator_reference_d(config.estimator, state.estimator), Scalar{}};
   telemetry.motor_current_A = field.measured.q;
   telemetry.current_reference_A = Scalar{};
-  if (estimator_turns(state.estimator)) {
-    field.current.voltage = turning_on_voltage(config, measured.speed_rad_s);
-    return field.current.voltage;
-  }
+  if (state.estimator.phase == EstimatorPhase::aligning) return aligning_voltage(config, field.current);
   return field_current_step(config.field.current, field.current, field.reference, field.measured,
                             measured.speed_rad_s, measured.bus_V);
 }
@@ -105,7 +105,7 @@ constexpr const LegCommands<Scalar>& sensorless_field_step(const SensorlessField
   const bool injects = estimator_injects(config.estimator, estimator);
   if (injects) m.bus_V = detail::bus_beside(config.estimator.injection, m.bus_V);
   const bool follows = estimator.phase == EstimatorPhase::following;
-  if (follows && !followed) detail::field_anew(field);
+  if (follows != followed) detail::field_anew(field);
   Dq<Scalar> v{};
   if (follows)
     v = detail::field_voltage(

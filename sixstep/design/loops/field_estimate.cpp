@@ -22,6 +22,9 @@ constexpr double least_saturation = 0.01;
 const double band_of_natural = std::sqrt(3 + std::sqrt(10.0));
 constexpr double behind_rad = 5 * base::pi / 180;
 
+/// x, and of y what is promised: parts of the most that the starting current makes.
+constexpr double start_acceleration_part = 0.125, start_load_part = 0.6;
+
 double usual_bandwidth_rad_s(const FieldMachine& m, const FieldEstimateSpec& s) {
   const double rad_s2 = torque_per_q_A(m) * s.current_A / s.J_kg_m2;
   const double w_n = std::sqrt(m.pole_pairs * rad_s2 / behind_rad), control_rad_s = 2 * base::pi / s.period_s;
@@ -63,19 +66,24 @@ base::Problems injected(const FieldMachine& m, double saturation_A, const FieldE
   return {};
 }
 
+/// w_g.
+double pull_rad_s(const FieldMachine& m, const control::EstimatorConfig<double>& c) {
+  return 0.5 * m.pole_pairs * c.high_rad_s;
+}
+
 void observed(const FieldMachine& m, const FieldEstimateSpec& s, FieldEstimate& out) {
   control::EstimatorConfig<double>& c = out.config;
   c.high_rad_s = s.high_rad_s.value_or(0.1 * s.bus_V * by_root_3 / m.magnet_V_s);
   c.low_rad_s = 0.5 * c.high_rad_s;
-  const double pull_rad_s = 0.5 * m.pole_pairs * c.high_rad_s;
   c.flux = {s.period_s,
             m.R_ohm,
             m.L_q_H,
             m.L_d_H - m.L_q_H,
             m.magnet_V_s / m.pole_pairs,
-            1 - base::exp(-pull_rad_s * s.period_s)};
-  out.steps.insert(out.steps.end(), {{"w_high", "from there on the flux alone tells", c.high_rad_s, "rad/s"},
-                                     {"w_g", "an integral's offset is pulled out by", pull_rad_s, "rad/s"}});
+            1 - base::exp(-pull_rad_s(m, c) * s.period_s)};
+  out.steps.insert(out.steps.end(),
+                   {{"w_high", "from there on the flux alone tells", c.high_rad_s, "rad/s"},
+                    {"w_g", "an integral's offset is pulled out by", pull_rad_s(m, c), "rad/s"}});
 }
 
 void turned(const FieldMachine& m, const FieldEstimateSpec& s, FieldEstimate& out) {
@@ -84,14 +92,17 @@ void turned(const FieldMachine& m, const FieldEstimateSpec& s, FieldEstimate& ou
   const double tau_s = s.J_kg_m2 * R / (1.5 * m.magnet_V_s * m.magnet_V_s);
   const double pulls_s = m.magnet_V_s / (m.pole_pairs * R * I);
   const double align_s = 10 * (2 * tau_s + pulls_s);
-  const double rad_s2 = 0.25 * torque_per_q_A(m) * I / s.J_kg_m2;
+  const double most_Nm = torque_per_q_A(m) * I, rad_s2 = start_acceleration_part * most_Nm / s.J_kg_m2;
   const double per_rad_s = m.pole_pairs * s.period_s / (2 * base::pi) * turn_48;  // 2^-48 turn per tick
   c.start = {I, ticks_of(align_s, s.period_s),
              std::max<std::int64_t>(1, static_cast<std::int64_t>(rad_s2 * s.period_s * per_rad_s)),
-             static_cast<std::int64_t>(c.high_rad_s * per_rad_s)};
-  out.steps.insert(out.steps.end(), {{"I", "holds the rotor, and turns it on", I, "A"},
-                                     {"t_align", "until it stands", align_s, "s"},
-                                     {"t_ramp", "until the flux is followed", c.high_rad_s / rad_s2, "s"}});
+             static_cast<std::int64_t>(c.high_rad_s * per_rad_s),
+             ticks_of(10 / pull_rad_s(m, c), s.period_s)};
+  out.steps.insert(out.steps.end(),
+                   {{"I", "holds the rotor, and turns it on", I, "A"},
+                    {"t_align", "until it stands", align_s, "s"},
+                    {"t_ramp", "until the flux is followed", c.high_rad_s / rad_s2, "s"},
+                    {"T_start", "greatest load that it starts against", start_load_part * most_Nm, "N m"}});
 }
 
 }  // namespace

@@ -9,11 +9,19 @@
 //   north          I_sat times at most 1/5, and half of what would turn the saliency round, L_q/L_d - 1 or 1 - L_q/L_d
 //   flux           w_high: the magnet's back-EMF is a tenth of U_s/sqrt 3; w_low half of it; w_g half of p w_high
 //
-// Without injection a voltage R I along the taken axis holds the rotor, w p psi across it goes along with its speed. Pulled by
-// R I it swings as a motor at a stiff voltage does, and its back-EMF damps it:
+// Without injection a voltage R I along the taken axis holds the rotor. Pulled by it the rotor swings as a motor at a stiff voltage
+// does, and its back-EMF damps it:
 //
 //   tau = J R/(3/2 (p psi)^2),  tau' = psi/(R I):    aligned after 10 (2 tau + tau')
-//   it is turned on by a quarter of what I makes at most, 3/2 p psi I/(4 J)
+//
+// The axis then turns, and a loop holds I along it, whatever R has become. x = 1/8 of the most that I makes, T_I = 3/2 p psi I, speeds
+// the rotor up: a = x T_I/J. Nothing damps it now: behind the axis by delta it swings as a pendulum. It stands against a load y T_I,
+// up to delta_0 before the axis, until sin delta = y, and is taken along if what it has gained on the axis is used up before
+// sin delta = x + y on the far side (equal areas),
+//
+//   cos delta_1 - cos delta_2 >= (x + y)(delta_2 - delta_1) + x (delta_1 + delta_0),   delta_0 = delta_1 = asin y, delta_2 = pi - asin(x + y)
+//
+// y = 0.659. A part of 0.6 is promised: the rest is for the swing at the handover. A rotor that is followed for 10/w_g has started.
 #pragma once
 #include <vector>
 

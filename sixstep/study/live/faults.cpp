@@ -159,6 +159,12 @@ base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t
             base::rounded(100 * found.certain, 2) + " % are certain",
         "see whether the rotor stands and its wires are whole; raise control.field.injection_V, or look at the "
         "sheet's saturation_current_A"};
+  if (fault == rig::Fault::not_started)
+    return {at(t_s), "",
+            "the rotor was not seen to follow the current that turns it, in " + std::to_string(found.losses) +
+                " starts, and the drive gave up",
+            "see whether the rotor is free and its load at most T_start of the design; raise "
+            "control.field.start_current_A, or give the drive a sensor"};
   if (fault == rig::Fault::shaft_sensor) return lost_sensor(found.shaft, t_s);
   const std::string text = "the Hall code is impossible (000 or 111)";
   if (found.hall_line == 0) return {at(t_s), "", text, "look at the probes and their wires"};
