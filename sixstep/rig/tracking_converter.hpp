@@ -4,6 +4,8 @@
 //
 //   detected   tan(phi - theta) of both demodulated windings; beyond 45 degrees 1 in the direction of the shorter way
 //   followed   control/sensing/tracking.hpp, per clock of the chip
+//   given out  the angle that was foretold for this clock, not the one due at the next: no lag at constant speed,
+//              a T^2/K_i behind a constant acceleration
 //
 // The chip watches the sum of both squares by itself, and keeps what it found.
 //
@@ -34,7 +36,7 @@ class TrackingConverter {
     const auto all = static_cast<std::uint64_t>(plant::parts_of_turn(at, std::int64_t{1} << 32));
     state_.angle = static_cast<control::BinaryAngle>(all * static_cast<std::uint64_t>(resolver_.pole_pairs));
     next_.ticks = period_ticks_;
-    read_ = state_;
+    read_ = shown_ = state_;
   }
 
   template <class Real>
@@ -43,13 +45,13 @@ class TrackingConverter {
     bool latches = !(latch < m.from) && !(m.to < latch);
     while (!(m.to < next_)) {
       if (latches && latch < next_) {
-        read_ = state_;
+        read_ = shown_;
         latches = false;
       }
       step(m.angle(m.part(next_)), faults);
       next_.ticks += period_ticks_;
     }
-    if (latches) read_ = state_;
+    if (latches) read_ = shown_;
   }
 
   /// Of the resolver's own turn, as it was read last.
@@ -72,7 +74,10 @@ class TrackingConverter {
     const std::array<double, 2> x = faults.leave(plant::resolver_envelope(resolver_, shaft), noise);
     if (watched_ && !found_.lost()) look(x[0], x[1]);
     const control::ResolverSignals<double> signals{x[0], x[1]};
-    control::tracking_step(loop_, state_, control::resolver_error(signals, state_.angle, true));
+    const control::BinaryAngle foretold = state_.angle;
+    control::tracking_step(loop_, state_, control::resolver_error(signals, foretold, true));
+    shown_ = state_;
+    shown_.angle = foretold;
   }
 
   void look(double c, double s) {
@@ -81,7 +86,9 @@ class TrackingConverter {
   }
 
   control::TrackingConfig loop_{};
-  control::TrackingState state_{}, read_{};
+  control::TrackingState state_{};
+  control::TrackingState shown_{};  ///< what the chip's register holds since its last clock
+  control::TrackingState read_{};
   plant::Resolver resolver_{};
   ResolverWatch watch_{};
   ShaftFinding found_{};

@@ -220,17 +220,17 @@ double off_turns(const ShaftPorts& ports, const Motion& m, double t) {
   return off - std::floor(off + 0.5);
 }
 
-// A loop of type 2 has no lag at constant speed: what is left is the count that it rounds down to, and the step of its clock.
+// A loop of type 2 has no lag at constant speed, at its clocks: what is left is the count that it rounds down to, and the units of
+// 2^-48 turn by which its integrator rounds the speed, which K_i weighs against.
 TEST(ConverterChip, FollowsASteadyShaftToItsCount) {
   for (const int bits : {10, 12, 14, 16})
     for (const double w : {0.0, 150.0, -400.0}) {
       const Motion m{0.4, w, 0};
       ShaftPorts ports(converter(bits), capture_Hz, 0, m.shaft(0));
       for (int n = 0; n < 300; ++n) m.show(ports, n * 100e-6, (n + 1) * 100e-6, (n + 1) * 100e-6);
-      const double step = 2 * std::fabs(w) / (2 * base::pi) / clock_Hz, count = std::ldexp(1.0, -bits);
       const double off = off_turns(ports, m, 0.03);
-      EXPECT_GT(off, -count - step - 1e-6) << bits << " bits at " << w;
-      EXPECT_LT(off, step + 1e-6) << bits << " bits at " << w;
+      EXPECT_GT(off, -std::ldexp(1.0, -bits) - 1e-6) << bits << " bits at " << w;
+      EXPECT_LT(off, 1e-6) << bits << " bits at " << w;
       EXPECT_NEAR(ports.converter().speed() * 0x1p-32 * clock_Hz * base::pi, w, 1e-3 * std::fabs(w) + 1e-2);
     }
 }
@@ -244,8 +244,21 @@ TEST(ConverterChip, LagsAnAccelerationByItOverKa) {
       {.bandwidth_rad_s = 2 * base::pi * 1000, .damping = 1.0, .period_s = 1 / clock_Hz});
   const double lag_turns = 2 * m.a / (2 * base::pi) / loop->K_a_per_s2;
   const double step = 2 * m.a * 0.005 / (2 * base::pi) / clock_Hz;
-  EXPECT_GT(lag_turns, 10 * (0x1p-16 + step)) << "the lag is what is looked at";
-  EXPECT_NEAR(off_turns(ports, m, 0.005), -lag_turns, 0x1p-16 + step);
+  EXPECT_GT(step, 5 * 0x1p-16) << "a clock's way is told from the count it rounds down to";
+  const double off = off_turns(ports, m, 0.005);
+  EXPECT_LT(off, -lag_turns + 1e-6);
+  EXPECT_GT(off, -lag_turns - 0x1p-16 - 1e-6);
+}
+
+// The angle stands until the next clock, and is then that one's.
+TEST(ConverterChip, HoldsTheAngleOfItsLastClock) {
+  const Motion m{0.4, 300, 0};
+  ShaftPorts ports(converter(16), capture_Hz, 0, m.shaft(0));
+  for (int n = 0; n < 100; ++n) m.show(ports, n * 100e-6, (n + 1) * 100e-6, (n + 1) * 100e-6);
+  const double t = 0.01 + 0.7 / clock_Hz;
+  m.show(ports, 0.01, t, t);
+  const double behind = 2 * m.w * 0.7 / clock_Hz / (2 * base::pi);
+  EXPECT_NEAR(off_turns(ports, m, t), -behind, 0x1p-16);
 }
 
 TEST(ConverterChip, IsReadAsItWasLatched) {
