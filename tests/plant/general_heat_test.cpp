@@ -49,12 +49,12 @@ TEST(GeneralHeat, TwoBodiesUnderSteadyPowersAreSolvedExactlyInStepsOfAnyLength) 
     general::Heat heat(given);
     for (int n = 0; n < steps; ++n) {
       const double t = 30.0 / steps;
-      heat.add(t, copper_W * t, w * w * t, -w * t);
+      heat.add({t, copper_W * t, w * w * t, -w * t});
       ASSERT_TRUE(heat.due());
       heat.take_step();
     }
-    EXPECT_NEAR(heat.winding_degC(), T_w, 1e-8) << steps;
-    EXPECT_NEAR(heat.housing_degC(), T_h, 1e-8) << steps;
+    EXPECT_NEAR(heat.bodies_degC().winding, T_w, 1e-8) << steps;
+    EXPECT_NEAR(heat.bodies_degC().housing, T_h, 1e-8) << steps;
   }
 }
 

@@ -25,6 +25,12 @@ struct HeatGiven {
   double sink_degC = 25.0, junction_K_W = 0.0, on_per_K = 0.0;
 };
 
+/// What a stretch of a run brings.
+struct StretchLosses {
+  double dt_s = 0.0, copper_J = 0.0;
+  double square = 0.0, travel = 0.0;  ///< the integral of w^2, the way
+};
+
 class Heat {
  public:
   explicit Heat(const HeatGiven& given = {})
@@ -35,11 +41,10 @@ class Heat {
   bool on() const { return given_.motor || given_.devices; }
   const HeatGiven& given() const { return given_; }
   DeviceLosses& losses() { return losses_; }
-  /// Of a segment of dt: the winding's loss, the integral of w^2, the way.
-  void add(double dt, double copper_J, double square, double travel) {
-    elapsed_.add(dt);
-    copper_.add(copper_J);
-    friction_.add(given_.own_B_Nm_s * square + given_.own_coulomb_Nm * std::fabs(travel));
+  void add(const StretchLosses& of) {
+    elapsed_.add(of.dt_s);
+    copper_.add(of.copper_J);
+    friction_.add(friction_J(of));
   }
   /// Whether a thermal step is over; instants are whole ps, and sums of them nearly so.
   bool due() const { return on() && elapsed_.value > given_.step_s - 1e-9; }
@@ -52,8 +57,10 @@ class Heat {
   double on_R_on(std::size_t leg, bool upper) const {
     return 1 + given_.on_per_K * (junction_[leg][upper ? 0 : 1] - given_.given_at_degC);
   }
-  double winding_degC() const { return winding_; }
-  double housing_degC() const { return housing_; }
+  /// Of both bodies when so much more has passed, degC, by the mean powers since the last thermal step; at its end they are what the
+  /// step makes of them.
+  BodyTemperatures bodies_degC(const StretchLosses& more = {}) const;
+  /// Of the last thermal step: a junction has no heat capacity.
   double hottest_junction_degC() const {
     double hottest = junction_[0][0];
     for (const auto& leg : junction_)
@@ -62,6 +69,10 @@ class Heat {
   }
 
  private:
+  double friction_J(const StretchLosses& of) const {
+    return given_.own_B_Nm_s * of.square + given_.own_coulomb_Nm * std::fabs(of.travel);
+  }
+
   HeatGiven given_;
   DeviceLosses losses_;
   double winding_ = 25.0, housing_ = 25.0;
@@ -69,23 +80,26 @@ class Heat {
   series::CompensatedSum<double> elapsed_, copper_, friction_;
 };
 
+inline BodyTemperatures Heat::bodies_degC(const StretchLosses& more) const {
+  const double t = elapsed_.value + more.dt_s;
+  if (!given_.motor || !(t > 0)) return {winding_, housing_};
+  const double copper_W = (copper_.value + more.copper_J) / t,
+               friction_W = (friction_.value + friction_J(more)) / t;
+  const double per_C_w = given_.winding_housing_K_W / given_.winding_s,
+               per_C_h = given_.housing_ambient_K_W / given_.motor_s;
+  const double across = 1 / given_.winding_housing_K_W, out = 1 / given_.housing_ambient_K_W;
+  const TwoBodies bodies{-across * per_C_w,         across * per_C_w,   across * per_C_h,
+                         -(across + out) * per_C_h, copper_W * per_C_w, friction_W * per_C_h};
+  const BodyTemperatures end =
+      after(bodies, {winding_ - given_.ambient_degC, housing_ - given_.ambient_degC}, t);
+  return {given_.ambient_degC + end.winding, given_.ambient_degC + end.housing};
+}
+
 inline void Heat::take_step() {
   const double t = elapsed_.value;
-  if (given_.motor) {
-    const double per_C_w = given_.winding_housing_K_W / given_.winding_s,
-                 per_C_h = given_.housing_ambient_K_W / given_.motor_s;
-    const double across = 1 / given_.winding_housing_K_W, out = 1 / given_.housing_ambient_K_W;
-    const TwoBodies bodies{-across * per_C_w,
-                           across * per_C_w,
-                           across * per_C_h,
-                           -(across + out) * per_C_h,
-                           copper_.value / t * per_C_w,
-                           friction_.value / t * per_C_h};
-    const BodyTemperatures end =
-        after(bodies, {winding_ - given_.ambient_degC, housing_ - given_.ambient_degC}, t);
-    winding_ = given_.ambient_degC + end.winding;
-    housing_ = given_.ambient_degC + end.housing;
-  }
+  const BodyTemperatures end = bodies_degC();
+  winding_ = end.winding;
+  housing_ = end.housing;
   if (given_.devices) {
     const DeviceEnergies& lost = losses_.energies();
     for (std::size_t k = 0; k < 3; ++k) {

@@ -47,6 +47,10 @@ class Plant {
   bool warms() const { return heat_.on(); }
   void take_thermal_step();
   const Heat& heat() const { return heat_; }
+  /// Of winding and housing at the fraction s of the segment, degC.
+  BodyTemperatures bodies_degC(Real s) const {
+    return heat_.given().motor ? heat_.bodies_degC(losses_up_to(s)) : heat_.bodies_degC();
+  }
   /// The wire of leg k breaks: it opens at its current's next zero.
   void break_wire(int k) {
     breaking_ |= 1U << k;
@@ -100,6 +104,7 @@ class Plant {
   void place(const Start& start);
   void find_pieces();
   void mode_event(int id);
+  StretchLosses losses_up_to(Real s) const;
   void note_losses(Real s);
   bool resettle(Real wanted, bool& expanded);
   bool settle_fully(Real wanted, bool& expanded);

@@ -7,13 +7,23 @@
 namespace sixstep::plant::general {
 
 template <class Real>
-void Plant<Real>::note_losses(Real s) {
+StretchLosses Plant<Real>::losses_up_to(Real s) const {
+  StretchLosses out{.dt_s = static_cast<double>(y_.h * s)};
   series::with_points_for(y_.degree, [&]<int points>() {
     const detail::AtNodes<points, Real> at{*this, series::nodes_up_to<points>(s), y_.h * s};
     const auto w = at.of(y_.w);
-    const double copper = static_cast<double>(detail::copper_energy<points>(at));
-    heat_.add(static_cast<double>(y_.h * s), copper, static_cast<double>(at.integral(w, w)),
-              static_cast<double>(at.integral(w)));
+    out.copper_J = static_cast<double>(detail::copper_energy<points>(at));
+    out.square = static_cast<double>(at.integral(w, w));
+    out.travel = static_cast<double>(at.integral(w));
+  });
+  return out;
+}
+
+template <class Real>
+void Plant<Real>::note_losses(Real s) {
+  heat_.add(losses_up_to(s));
+  series::with_points_for(y_.degree, [&]<int points>() {
+    const detail::AtNodes<points, Real> at{*this, series::nodes_up_to<points>(s), y_.h * s};
     if (!heat_.given().devices) return;
     DeviceLosses& losses = heat_.losses();
     losses.begin(mode_.legs, state_.i, y_.bus[0]);

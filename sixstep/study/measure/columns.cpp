@@ -59,6 +59,7 @@ std::vector<Column> turning_columns() {
       of(Signal::loop_current, "delta", "loop current, the sum of the branch currents"),
       of(Signal::capacitor_current, "into the capacitor", "current of the bus capacitor"),
       of(Signal::battery_charge, "", "charge of the battery, of the whole"),
+      of(Signal::battery_recovery, "", "voltage of the battery that recovers slowly, v_1"),
       of(Signal::winding_temperature, "", "temperature of the winding"),
       of(Signal::housing_temperature, "", "temperature of housing and magnets"),
       of(Signal::junction_temperature, "", "temperature of the hottest switch's junction"),
@@ -153,6 +154,8 @@ bool applies(ColumnId id, const Scenario& s) {
   if (id == ColumnId::winding_degC || id == ColumnId::housing_degC) return s.heat.motor;
   if (id == ColumnId::junction_degC) return s.heat.devices;
   if (id == ColumnId::battery_charge) return s.supply.source == SourceKind::battery;
+  if (id == ColumnId::battery_recovery_V)
+    return s.supply.source == SourceKind::battery && s.supply.battery_recovery_ohm > 0;
   if (id >= ColumnId::i_d && s.control.drive != FirmwareKind::field) return false;
   if (id == ColumnId::angle_error && s.sensors.rotor == RotorSensing::ideal &&
       s.control.field.angle == FieldAngle::sensors)

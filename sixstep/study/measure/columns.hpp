@@ -49,6 +49,7 @@ enum class ColumnId : std::uint8_t {
   loop_A,
   capacitor_A,
   battery_charge,
+  battery_recovery_V,
   winding_degC,
   housing_degC,
   junction_degC,

@@ -54,10 +54,13 @@ inline void set_load_side(FullRow& row, const plant::general::Plant<double>& pla
   set(ColumnId::source_A,
       c.inv_C > 0 ? value(plant.series().source) : row[static_cast<std::size_t>(ColumnId::bus_A)]);
   if (c.inv_C > 0) set(ColumnId::capacitor_A, value(plant.series().capacitor_A));
-  if (c.source == plant::general::Source::battery)
+  if (c.source == plant::general::Source::battery) {
     set(ColumnId::battery_charge, value(plant.series().charge));
-  set(ColumnId::winding_degC, plant.heat().winding_degC());
-  set(ColumnId::housing_degC, plant.heat().housing_degC());
+    set(ColumnId::battery_recovery_V, value(plant.series().slow));
+  }
+  const plant::BodyTemperatures bodies = plant.bodies_degC(s);
+  set(ColumnId::winding_degC, bodies.winding);
+  set(ColumnId::housing_degC, bodies.housing);
   set(ColumnId::junction_degC, plant.heat().hottest_junction_degC());
   if (c.has_loop) set(ColumnId::loop_A, value(plant.series().loop));
 }

@@ -74,8 +74,17 @@ Series of_general(const SegmentView& g, Series General::*which) {
 }
 
 /// Where none is simulated it is what the sheet's numbers belong to.
-Series temperature(const SegmentView& g, double (plant::general::Heat::*which)() const) {
-  return {g.plant.general ? (g.plant.general->heat().*which)() : design::sheet_degC};
+Series junction_temperature(const SegmentView& g) {
+  return {g.plant.general ? g.plant.general->heat().hottest_junction_degC() : design::sheet_degC};
+}
+
+/// A segment is short of the bodies' time constants: a parabola through begin, middle and end.
+Series temperature(const SegmentView& g, double plant::BodyTemperatures::*which) {
+  if (!g.plant.general) return {design::sheet_degC};
+  const auto at = [&](double s) { return g.plant.general->bodies_degC(s).*which; };
+  const double begin = at(0), middle = at(0.5) - begin, end = at(1) - begin;
+  if (g.plant.expansion().degree < 2) return {begin, end};
+  return {begin, 4 * middle - end, 2 * (end - 2 * middle)};
 }
 
 Series load_speed(const SegmentView& g) {
@@ -175,13 +184,13 @@ constexpr PlainSignal plain_signals[] = {
     {Signal::source_current, source_current},
     {Signal::capacitor_current, capacitor_current},
     {Signal::battery_charge, [](const SegmentView& g) { return of_general(g, &General::charge); }},
+    {Signal::battery_recovery, [](const SegmentView& g) { return of_general(g, &General::slow); }},
     {Signal::loop_current, [](const SegmentView& g) { return of_general(g, &General::loop); }},
     {Signal::winding_temperature,
-     [](const SegmentView& g) { return temperature(g, &plant::general::Heat::winding_degC); }},
+     [](const SegmentView& g) { return temperature(g, &plant::BodyTemperatures::winding); }},
     {Signal::housing_temperature,
-     [](const SegmentView& g) { return temperature(g, &plant::general::Heat::housing_degC); }},
-    {Signal::junction_temperature,
-     [](const SegmentView& g) { return temperature(g, &plant::general::Heat::hottest_junction_degC); }},
+     [](const SegmentView& g) { return temperature(g, &plant::BodyTemperatures::housing); }},
+    {Signal::junction_temperature, junction_temperature},
     {Signal::direct_current, [](const SegmentView& g) { return Series{g.field.measured_A.d}; }},
     {Signal::quadrature_current, [](const SegmentView& g) { return Series{g.field.measured_A.q}; }},
     {Signal::direct_current_reference, [](const SegmentView& g) { return Series{g.field.reference_A.d}; }},

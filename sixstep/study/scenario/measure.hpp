@@ -82,6 +82,7 @@ enum class Signal : std::uint8_t {
   source_current,
   capacitor_current,
   battery_charge,
+  battery_recovery,
   loop_current,
   winding_temperature,
   housing_temperature,
