@@ -260,6 +260,36 @@ TEST(FieldOriented, WhatItHoldsIsRecordedAndMeasured) {
   EXPECT_NEAR(out->comparisons[6].measured, last_out_s, 1e-12);
 }
 
+/// A hand brake of 7 pole pairs, 5.12 mWb and 22.3 uH on 60 V, turned up to a speed where its magnet makes 35.84 V a phase.
+Scenario hand_brake(double reference_A, std::optional<double> weakening_A) {
+  Scenario s = field_oriented(Mode::current, reference_A);
+  s.sheet.pole_pairs = 7;
+  s.sheet.resistance_ohm = base::Quantity{0.0374, "terminal", ""};
+  s.sheet.inductance_mH = base::Quantity{0.0446, "terminal", ""};
+  s.sheet.back_emf_mV_s = base::Quantity{35.84, "phase", ""};
+  s.supply.voltage_V = 60;
+  s.pwm.period_s = 33e-6;
+  s.control.field.bandwidth_Hz = 1000;
+  s.control.field.weakening_A = weakening_A;
+  s.load.dynamometer_times_s = {0.0, 0.08, 0.12};
+  s.load.dynamometer_rad_s = {600.0, 1000.0, 1000.0};
+  s.duration_s = 0.12;
+  return s;
+}
+
+/// With pulses, by the plant itself; short_bus_test.cpp has the law. Least is (35.84 - 34.64) V/|Z| = 7.6 A; it had been 460 A.
+TEST(FieldOriented, TurnedBeyondTheBusItHoldsItsCurrent) {
+  for (const double reference_A : {0.0, 80.0, -80.0})
+    for (const std::optional<double> weakening_A : {std::optional<double>{}, std::optional<double>{5.0}}) {
+      double largest = 0.0;
+      for (const Tick& tick : ticks_of(hand_brake(reference_A, weakening_A)))
+        largest = std::max(largest, std::hypot(tick.measured.d, tick.measured.q));
+      EXPECT_LT(largest, std::hypot(reference_A, weakening_A.value_or(0.0)) + 7.6 + 5.0)
+          << reference_A << " A, weakening " << weakening_A.value_or(0.0);
+      EXPECT_GT(largest, 7.0);
+    }
+}
+
 TEST(FieldOriented, OtherDrivesHoldNoneOfIt) {
   Scenario s = maxon_scenario(Mode::current, 2.0);
   s.record.columns = {"i_q_A"};

@@ -130,6 +130,8 @@ EstimatorConfig<Scalar> drawn_estimator(Random& r) {
     c.start.align_ticks = 2u + r.below(8);
     c.start.step = static_cast<std::int64_t>(1 + r.bits()) << 26;
     c.start.enough = static_cast<std::int64_t>(1 + r.bits()) << 28;
+    c.start.good_ticks = r.below(8);
+    c.start.retries = r.below(4);
   }
   c.low_rad_s = positive<Scalar>(r, 8192);
   c.high_rad_s = c.low_rad_s * Scalar(2);

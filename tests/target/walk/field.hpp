@@ -17,6 +17,7 @@ FieldCurrentConfig<Scalar> drawn_field_current(Random& r) {
   c.d_V_s_A = positive_gain<Scalar>(r, 0);
   c.q_V_s_A = positive_gain<Scalar>(r, 0);
   c.magnet_V_s = positive_gain<Scalar>(r, 0);
+  c.R_ohm = positive_gain<Scalar>(r, 0);
   return c;
 }
 
@@ -62,6 +63,23 @@ struct FieldCurrentWalk {
     saw("within the circle", by_circle && magnitude(v.q) < circle_rest(circle, v.d));
     saw("at its own limit", config.limit == VoltageLimit::axes && magnitude(v.q) == config.q.limit);
     saw("no bus", circle == Scalar{});
+  }
+};
+
+template <class Scalar>
+struct ReachableCurrentWalk {
+  FieldCurrentConfig<Scalar> config{};
+
+  void draw(Random& r) { config = drawn_field_current<Scalar>(r); }
+  void step(Random& r, Digest& mix) {
+    const Dq<Scalar> wanted{signal<Scalar>(r), signal<Scalar>(r)};
+    const Scalar speed = signal<Scalar>(r), bus = drawn_bus<Scalar>(r);
+    const Dq<Scalar> i =
+        counted<0>("reachable_current", [&] { return reachable_current(config, wanted, speed, bus); });
+    mix(i.d, i.q);
+    saw("it can be held", i == wanted);
+    saw("less of what drives", i.d == wanted.d && i.q != wanted.q);
+    saw("to the rim", i.d != wanted.d);
   }
 };
 

@@ -178,6 +178,7 @@ void walk_all() {
 #else
   using Scalar = TARGET_SCALAR;
   walk<FieldCurrentWalk<Scalar> >("field/field_current");
+  walk<ReachableCurrentWalk<Scalar> >("field/reachable_current");
   walk<FieldDirectionWalk<Scalar> >("field/field_direction");
   walk<FieldWeakeningWalk<Scalar> >("field/field_weakening");
   walk<TorquePerAmpereWalk<Scalar> >("field/torque_per_ampere");
