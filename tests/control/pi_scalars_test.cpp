@@ -67,6 +67,18 @@ TYPED_TEST(PiScalars, ASmallIntegralGainDoesNotVanish) {
   EXPECT_NEAR(u, exact, 10000 * rounding + digit<S>() + cancelled);
 }
 
+/// The integral waits: u moves by d1 times what the error moved, and steps on from there.
+TYPED_TEST(PiScalars, WaitsAndGoesOnFromThere) {
+  using S = TypeParam;
+  const double d1 = held<S>(0.75), K_i = held<S>(0.125);
+  const PiConfig<S> config = pi<S>(d1, K_i, 0.9);
+  PiState<S> state;
+  pi_step(config, state, S(0.25));
+  for (const double e : {0.5, -0.25, 0.125})
+    EXPECT_NEAR(static_cast<double>(pi_wait(config, state, S(e))), d1 * e, 4 * digit<S>());
+  EXPECT_NEAR(static_cast<double>(pi_step(config, state, S(0.125))), (d1 + K_i) * 0.125, 4 * digit<S>());
+}
+
 TYPED_TEST(PiScalars, LeavesTheLimitWithTheFirstSampleOfTheOtherSign) {
   using S = TypeParam;
   const PiConfig<S> config = pi<S>(1.0, 0.25, 0.5);
