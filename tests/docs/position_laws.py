@@ -95,7 +95,7 @@ def pole_noise():
 LOOK = sqrt(6) * 0.05 / (2 * K_E * 60 / 30) * sqrt(26) / 4  # degrees of a commutation by single looks at 60 rad/s
 E_20 = pi / 3 / PAIRS / 20  # a sector at 20 rad/s
 CHIP_LAG = degrees(atan(1e4 * PAIRS * 2e-6**2 / tracking(200, 2e-6)[1]))
-CLOCK, PERIOD = PAIRS * 2e-6 * 180 / pi, PAIRS * T * 180 / pi  # degrees per rad/s
+PERIOD = PAIRS * T * 180 / pi  # degrees per rad/s
 ROUNDS = degrees(sqrt(2) / 2 * 5 / 4096 / 2) + 360 / 65536
 COUNT = 360 / 16384
 
@@ -125,7 +125,7 @@ LAWS = {
     "resolver-skew": [around(180 - 2, ROUNDS), around(180 + degrees(atan2(1 / 1.02 - sin(radians(2)), cos(radians(2)))), ROUNDS),
                       around(270, ROUNDS)],
     "resolver-noise": [near(noise_rms(), 4 * 0.0154)],
-    "resolver-tracking": [(CHIP_LAG - 100 * CLOCK, CHIP_LAG + 100 * PERIOD + 360 / 2**14),
+    "resolver-tracking": [(CHIP_LAG, CHIP_LAG + 100 * PERIOD + 360 / 2**14),
                           (None, 200 * PERIOD + 360 / 2**14)],
     "amplifier-drift": [half_count(read_late(5, 1e-12, 0)), half_count(read_late(5, 1e-12, 0)), half_count(read_late(5 / 1.02, 1e-12, 0))],
     "link-transducer": [half_count(link_reads(5)), half_count(link_reads(4.8))],
