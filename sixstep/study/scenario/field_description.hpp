@@ -53,8 +53,8 @@ void describe(Visitor& v, Field& s) {
   v.value(
       "weakening_A", s.weakening_A,
       {.meaning =
-           "most current against the magnet, that is asked for where the bus is short of the back-EMF; without "
-           "it none is",
+           "most current against the magnet that is asked for where the bus is short of the back-EMF; without it "
+           "none is, but for what flows beyond the bus whatever is asked for",
        .unit = "A",
        .range = above(0)});
   v.value(
