@@ -39,6 +39,8 @@ std::string alerts(const ReportInput& in) {
                         escaped(sixstep::base::to_string(*in.outcome.fault)));
   for (const std::string& note : in.outcome.notes)
     html += fmt::format("<p class=\"alert\" role=\"alert\"><b>Note.</b> {}</p>\n", escaped(note));
+  for (const std::string& remark : in.outcome.remarks)
+    html += fmt::format("<p class=\"alert\"><b>Remark.</b> {}</p>\n", escaped(remark));
   if (in.outcome.core)
     for (const std::string& told : text::core_texts(in.outcome))
       html += fmt::format("<p class=\"quiet\">The drive ran {}.</p>\n", escaped(told));

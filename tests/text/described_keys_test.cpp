@@ -180,6 +180,7 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                                          "d0",
                                          "kp",
                                          "ki",
+                                         "ki_per_s",
                                          "value",
                                          "values",
                                          "slew",

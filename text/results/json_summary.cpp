@@ -124,6 +124,7 @@ std::string json_summary(const study::Scenario& scenario, const study::Outcome& 
                   {"segments", outcome.segments},
                   {"digest", base::written_hex(outcome.digest)}};
   if (!outcome.notes.empty()) summary["notes"] = outcome.notes;
+  if (!outcome.remarks.empty()) summary["remarks"] = outcome.remarks;
   if (outcome.core) summary["core"] = {{"name", outcome.core->core}, {"calls", outcome.core->calls}};
   if (outcome.chip) summary["chip"] = chip(*outcome.chip);
   summary["require"] = verdicts(outcome);

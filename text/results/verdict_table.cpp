@@ -81,6 +81,8 @@ void add_entry(std::vector<Line>& lines, const TableEntry& entry) {
   if (entry.outcome->fault)
     lines.push_back({Kind::note, {"  STOPPED by a fault: " + base::to_string(*entry.outcome->fault)}});
   for (const std::string& note : entry.outcome->notes) lines.push_back({Kind::note, {"  note: " + note}});
+  for (const std::string& remark : entry.outcome->remarks)
+    lines.push_back({Kind::note, {"  remark: " + remark}});
   for (const std::string& told : core_texts(*entry.outcome)) lines.push_back({Kind::note, {"  " + told}});
   if (lines.size() == before) lines.push_back({Kind::note, {"  requires nothing"}});
 }

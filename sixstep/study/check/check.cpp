@@ -108,8 +108,8 @@ void check_control(const Scenario& s, base::Problems& out) {
   check_limited_mode(s, out);
   check_speed_law(s, out);
   check_position(s, out);
-  append(out, given_gains(s.control.current, "control.current").problems);
-  append(out, given_gains(s.control.speed, "control.speed").problems);
+  append(out, given_gains(s.control.current, s.pwm.period_s, "control.current").problems);
+  append(out, given_gains(s.control.speed, s.pwm.period_s, "control.speed").problems);
   const CurrentLoop& c = s.control.current;
   if (c.type == CurrentLoopType::hysteresis && c.comparator == Comparator::sampled &&
       c.on == HysteresisOn::phase)
@@ -119,9 +119,9 @@ void check_control(const Scenario& s, base::Problems& out) {
     out.push_back({"pwm.delay_periods", std::to_string(s.pwm.delay_periods),
                    "has no meaning for event comparators",
                    "set delay_periods = 0, or comparator = \"sampled\""});
-  if (c.type == CurrentLoopType::hysteresis && (c.d1 || c.d0 || c.kp || c.ki || c.settle_s || c.damping))
+  if (c.type == CurrentLoopType::hysteresis && (gives_gains(c)))
     out.push_back({"control.current.type", "\"hysteresis\"", "has no PI gains",
-                   "remove d1, d0, kp, ki, settle_s and damping, or set type = \"pi\""});
+                   "remove d1, d0, kp, ki, ki_per_s, settle_s and damping, or set type = \"pi\""});
 }
 
 /// The speed controller's full output is a torque; where the sheet says what the motor stands it is 2.5 times

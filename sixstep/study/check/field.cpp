@@ -115,7 +115,7 @@ void check_sensing(const Scenario& s, base::Problems& out) {
 void check_keys(const Scenario& s, base::Problems& out) {
   const Field& f = s.control.field;
   const CurrentLoop& loop = s.control.current;
-  if (f.bandwidth_Hz && (loop.d1 || loop.d0 || loop.kp || loop.ki || loop.settle_s || loop.damping))
+  if (f.bandwidth_Hz && (gives_gains(loop)))
     out.push_back({"control.field.bandwidth_Hz", "",
                    "contradicts the gains in control.current: they are given or designed twice",
                    "keep one of them"});

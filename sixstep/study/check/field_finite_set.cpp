@@ -31,8 +31,7 @@ void check_finite_set(const Scenario& s, base::Problems& out) {
   const char* const no_loop = "is of current loops, and control.field.law = \"finite-set\" has none";
   const char* const to_pi = "leave it away, or set control.field.law = \"pi\"";
   refuse(f.bandwidth_Hz.has_value(), "control.field.bandwidth_Hz", no_loop, to_pi);
-  refuse(loop.d1 || loop.d0 || loop.kp || loop.ki || loop.settle_s || loop.damping, "control.current",
-         no_loop, to_pi);
+  refuse(gives_gains(loop), "control.current", no_loop, to_pi);
   refuse(!f.decoupling, "control.field.decoupling",
          "= false leaves out what turning makes, and the finite set foretells with it", to_pi);
   refuse(f.voltage_limit != control::VoltageLimit::circle, "control.field.voltage_limit",

@@ -175,7 +175,8 @@ void check_deadbeat(const CurrentLoop& loop, base::Problems& out) {
   refuse(loop.settle_s.has_value(), "settle_s", whole, "leave it away, or set type = \"pi\"");
   refuse(loop.damping.has_value(), "damping", whole, "leave it away, or set type = \"pi\"");
   refuse(loop.d1 || loop.d0, "d1", whole, "leave d1 and d0 away, or set type = \"pi\"");
-  refuse(loop.kp || loop.ki, "kp", whole, "leave kp and ki away, or set type = \"pi\"");
+  refuse(loop.kp || loop.ki || loop.ki_per_s, "kp", whole,
+         "leave kp and its integral away, or set type = \"pi\"");
   refuse(loop.back_emf_feed_forward, "back_emf_feed_forward", "is in a deadbeat loop already",
          "leave it away");
 }

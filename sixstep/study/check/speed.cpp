@@ -45,6 +45,7 @@ void check_designed(const Scenario& s, base::Problems& out) {
   refuse("d0", loop.d0, gains);
   refuse("kp", loop.kp, gains);
   refuse("ki", loop.ki, gains);
+  refuse("ki_per_s", loop.ki_per_s, gains);
   refuse("damping", loop.damping, "remove it: the law places real poles; or set law = \"pi\"");
   const std::string form = "remove it, or set law = \"pi\"";
   refuse("anti_windup", loop.anti_windup, form);

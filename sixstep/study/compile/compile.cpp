@@ -31,12 +31,15 @@ plant::Shaft shaft_of(const design::MotorModel& motor, const Load& load) {
   return shaft;
 }
 
-/// The duty above which the middle of the period lies in the on-time, and the amplifier has settled.
+}  // namespace
+
 double least_visible_duty(const Scenario& s) {
   const double settle = s.sensors.shunt_settle_s / s.pwm.period_s;
   const double duty = s.pwm.alignment == Alignment::centre ? 2 * settle : 0.5 + settle;
   return std::min(duty, 1.0);
 }
+
+namespace {
 
 rig::SensorsConfig sensors_of(const Scenario& s, double L_over_R_s) {
   const Sensors& from = s.sensors;

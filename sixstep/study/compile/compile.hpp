@@ -62,16 +62,20 @@ struct Compiled {
   sim::Instant end;
 };
 
+/// Of a shunt in the DC link: the duty above which the middle of the period lies in the on-time and the amplifier has settled.
+double least_visible_duty(const Scenario& scenario);
+
 /// Assumes that check() found nothing.
 base::Result<Compiled> compile(const Scenario& scenario);
 
-/// Gains given in more than one way, or half: Problems; else whether any were given at all.
+/// The gains as a loop's keys give them, per sample; empty where they are left to the pole placement. Problems: given in more
+/// than one way, or half.
 struct GivenGains {
   std::optional<design::PiGains> gains;
   std::string origin;
   base::Problems problems;
 };
 template <class Loop>
-GivenGains given_gains(const Loop& loop, const std::string& where);
+GivenGains given_gains(const Loop& loop, double period_s, const std::string& where);
 
 }  // namespace sixstep::study

@@ -35,7 +35,7 @@ base::Result<AxisLoop> axis_loop(const Scenario& s, const char* name, double R_o
   const auto placed =
       design::place_poles(design::current_plant(R_ohm, L_H, s.pwm.period_s), current_settling_s(s),
                           loop.damping.value_or(design::usual_damping), s.pwm.period_s);
-  const GivenGains given = given_gains(loop, "control.current");
+  const GivenGains given = given_gains(loop, s.pwm.period_s, "control.current");
   if (given.gains || loop.settle_s || loop.damping) {
     if (!placed && !given.gains) return placed.problems();
     if (placed) out.gains.derivation = *placed;

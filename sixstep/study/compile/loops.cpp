@@ -19,7 +19,7 @@ base::Result<LoopGains> loop_gains(const Loop& loop, const std::string& name, co
   const double settle = loop.settle_s.value_or(usual_settle_s),
                damping = loop.damping.value_or(design::usual_damping);
   base::Result<design::PolePlacement> placed = design::place_poles(plant, settle, damping, period_s);
-  const GivenGains given = given_gains(loop, "control." + name);
+  const GivenGains given = given_gains(loop, period_s, "control." + name);
   if (!given.problems.empty()) return given.problems;
   if (!placed && !given.gains) return placed.problems();
   if (placed) out.derivation = *placed;
@@ -164,31 +164,39 @@ double current_settling_s(const Scenario& s) {
 }
 
 template <class Loop>
-GivenGains given_gains(const Loop& loop, const std::string& where) {
+GivenGains given_gains(const Loop& loop, double period_s, const std::string& where) {
   GivenGains out;
-  const bool d = loop.d1 || loop.d0, k = loop.kp || loop.ki, rule = loop.settle_s || loop.damping;
+  const bool d = loop.d1 || loop.d0, k = loop.kp || loop.ki || loop.ki_per_s,
+             rule = loop.settle_s || loop.damping;
   const auto wrong = [&](const char* key, const char* limit, const char* cure) {
     out.problems.push_back({where + "." + key, "", limit, cure});
   };
+  const char* const integral = loop.ki ? "ki" : "ki_per_s";
+  const char* const keep = "keep one of: d1 and d0 | kp with ki or ki_per_s | settle_s and damping";
   if (d && (k || rule))
     wrong(loop.d1 ? "d1" : "d0",
-          k ? "contradicts kp, ki: the same gains are given twice"
+          k ? "contradicts kp and its integral: the same gains are given twice"
             : "contradicts settle_s, damping: gains are either given or designed",
-          "keep one of: d1 and d0 | kp and ki | settle_s and damping");
+          keep);
   else if (k && rule)
-    wrong(loop.kp ? "kp" : "ki", "contradicts settle_s, damping: gains are either given or designed",
-          "keep one of: d1 and d0 | kp and ki | settle_s and damping");
+    wrong(loop.kp ? "kp" : integral, "contradicts settle_s, damping: gains are either given or designed",
+          keep);
   else if (d && !(loop.d1 && loop.d0))
     wrong(loop.d1 ? "d1" : "d0", "is only half of the gains", loop.d1 ? "give d0 too" : "give d1 too");
-  else if (k && !(loop.kp && loop.ki))
-    wrong(loop.kp ? "kp" : "ki", "is only half of the gains", loop.kp ? "give ki too" : "give kp too");
+  else if (loop.ki && loop.ki_per_s)
+    wrong("ki_per_s", "contradicts ki: the integral is given twice", "keep one of: ki | ki_per_s");
+  else if (k && !(loop.kp && (loop.ki || loop.ki_per_s)))
+    wrong(loop.kp ? "kp" : integral, "is only half of the gains",
+          loop.kp ? "give ki or ki_per_s too" : "give kp too");
   else if (d)
     out = {design::PiGains{*loop.d1, *loop.d0}, "given as d1, d0", {}};
-  else if (k)
+  else if (loop.ki)
     out = {design::PiGains{*loop.kp, *loop.ki - *loop.kp}, "given as kp, ki", {}};
+  else if (k)
+    out = {design::PiGains{*loop.kp, *loop.ki_per_s * period_s - *loop.kp}, "given as kp, ki_per_s", {}};
   return out;
 }
-template GivenGains given_gains<CurrentLoop>(const CurrentLoop&, const std::string&);
-template GivenGains given_gains<SpeedLoop>(const SpeedLoop&, const std::string&);
+template GivenGains given_gains<CurrentLoop>(const CurrentLoop&, double, const std::string&);
+template GivenGains given_gains<SpeedLoop>(const SpeedLoop&, double, const std::string&);
 
 }  // namespace sixstep::study

@@ -13,6 +13,7 @@
 #include "sixstep/study/measure/logic_recorder.hpp"
 #include "sixstep/study/measure/recorder.hpp"
 #include "sixstep/study/measure/run_away.hpp"
+#include "sixstep/study/measure/run_watch.hpp"
 
 namespace sixstep::study {
 
@@ -29,6 +30,7 @@ struct Observers {
   std::optional<DeviceWatch> devices{};
   std::optional<IronGauge> iron{};
   Digest digest{};
+  RunWatch extremes{};
   Figures figures;
   std::optional<GridRecorder> grid{};
   std::optional<EventRecorder> events{}, report{};
@@ -44,6 +46,7 @@ struct Observers {
     if (devices) devices->segment(segment_view(rig), s);
     if (iron) iron->segment(rig.plant(), s);
     digest.segment(rig, s);
+    extremes.segment(rig);
     figures.segment(rig, s);
     if (grid) grid->segment(rig, s);
     if (events) events->segment(rig, s);

@@ -90,7 +90,9 @@ struct Outcome {
       fault;                       // what stopped the run (shoot-through, impossible Hall code) or the drive
   std::optional<Trip> trip;        // the same in parts, where it was the drive that stopped
   std::vector<std::string> notes;  // what was asked for and did not come about, a sentence each
-  std::optional<CoreRun> core;     // empty: the host alone ran it
+  std::vector<std::string>
+      remarks;                  // what the numbers mean and nobody asked, a sentence each (run/remarks.hpp)
+  std::optional<CoreRun> core;  // empty: the host alone ran it
   std::optional<ChipReport> chip;  // empty: none did
   double simulated_s = 0.0;
   std::int64_t segments = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/run/observers_of.hpp"
 
+#include "sixstep/study/compile/compile.hpp"
 #include "sixstep/study/measure/columns.hpp"
 
 namespace sixstep::study {
@@ -28,6 +29,8 @@ Observers observers_of(const Scenario& s, const Listeners& listeners,
                        const std::vector<std::size_t>& indices) {
   const double gap_s = s.duration_s / drawn_points;
   Observers w{.figures = Figures(s, reference_levels(s)), .keep_going = listeners.keep_going};
+  if (s.sensors.currents == rig::CurrentMeasurement::dc_link)
+    w.extremes.shunt_least_duty = least_visible_duty(s);
   if (listeners.keep_books) w.audit.emplace();
   if (listeners.keep_books && tells_losses(s.bridge)) w.devices.emplace(s.bridge);
   const design::IronDrag iron = design::sheet_constants(s.sheet).friction.iron;

@@ -8,6 +8,7 @@
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/live/any_rig.hpp"
 #include "sixstep/study/measure/columns.hpp"
+#include "sixstep/study/run/conclude.hpp"
 #include "sixstep/study/run/observers_of.hpp"
 
 namespace sixstep::study {
@@ -15,7 +16,7 @@ namespace sixstep::study {
 namespace {
 
 /// The whole run in one slice, and what it leaves behind.
-base::Problems run_on_board(const Scenario& s, Compiled compiled, Observers& w, Outcome& out) {
+base::Problems run_on_board(const Scenario& s, Compiled& compiled, Observers& w, Outcome& out) {
   base::Result<detail::AnyRig> rig = detail::made_by(s, compiled, std::move(compiled.timeline));
   if (!rig) return rig.problems();
   Present present;
@@ -37,24 +38,11 @@ base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners, 
   const base::Result<std::vector<std::size_t>> indices = record_indices(scenario);
   if (!indices) return indices.problems();
 
-  Outcome out;
-  out.motor = compiled->motor;
-  out.gains = compiled->gains;
-  out.sensorless_steps = compiled->sensorless_steps;
-  out.field_steps = compiled->field_steps;
-  out.estimator_steps = compiled->estimator_steps;
+  Outcome out = outcome_of(*compiled);
   Observers w = observers_of(scenario, listeners, *indices);
-  const bool on_general = compiled->general.has_value();
-  const base::Problems problems = run_on_board(scenario, std::move(*compiled), w, out);
+  const base::Problems problems = run_on_board(scenario, *compiled, w, out);
   if (!problems.empty()) return problems;
-  out.segments = w.segments;
-  const auto note_books = [&out, &w](const auto& audit) {
-    out.energy = audit.energy();
-    if (w.iron) out.energy->iron = w.iron->energy_J();
-    out.laws = audit.laws();
-  };
-  if (w.audit) on_general ? note_books(w.audit->general) : note_books(w.audit->lean);
-  if (w.devices) out.devices = w.devices->losses();
+  conclude(scenario, *compiled, w, out);
   w.figures.judge(scenario, out);
   return out;
 }

@@ -84,7 +84,7 @@ enum class DriveRequest : std::uint8_t { none, off, on, clear };
 struct AtGains {
   std::optional<double> settle_s, damping;
   std::optional<double> d1, d0;
-  std::optional<double> kp, ki;
+  std::optional<double> kp, ki, ki_per_s;
   bool operator==(const AtGains&) const = default;
 };
 

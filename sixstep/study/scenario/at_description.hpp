@@ -44,7 +44,7 @@ inline constexpr base::Choice<AtChopping> at_chopping_choices[] = {
 
 template <class Visitor>
 void describe(Visitor& v, AtCurrentLoop& s) {
-  describe_gains(v, s);
+  describe_gains(v, s, current_gain_meanings);
   v.value("band_A", s.band_A,
           {.meaning = "hysteresis: half width of the band from then on", .unit = "A", .range = above(0)});
   v.value("limit_A", s.limit_A,
@@ -55,7 +55,7 @@ void describe(Visitor& v, AtCurrentLoop& s) {
 
 template <class Visitor>
 void describe(Visitor& v, AtSpeedLoop& s) {
-  describe_gains(v, s);
+  describe_gains(v, s, speed_gain_meanings);
   v.value("torque_limit_Nm", s.torque_limit_Nm,
           {.meaning = "torque at the speed controller's full output from then on",
            .unit = "N m",

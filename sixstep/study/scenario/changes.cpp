@@ -40,11 +40,12 @@ void take(T& member, const std::optional<double>& given) {
 template <class Loop>
 void take_gains(Loop& loop, const AtGains& given) {
   if (given == AtGains{}) return;
-  const bool rule = !given.d1 && !given.d0 && !given.kp && !given.ki;
+  const bool rule = !given.d1 && !given.d0 && !given.kp && !given.ki && !given.ki_per_s;
   loop.d1 = given.d1;
   loop.d0 = given.d0;
   loop.kp = given.kp;
   loop.ki = given.ki;
+  loop.ki_per_s = given.ki_per_s;
   if (!rule) loop.settle_s = loop.damping = std::nullopt;
   if (given.settle_s) loop.settle_s = given.settle_s;
   if (given.damping) loop.damping = given.damping;

@@ -19,13 +19,13 @@ enum class CurrentCommutation : std::uint8_t { plain, duty_step, overlap };
 enum class HysteresisOn : std::uint8_t { motor, phase };
 enum class Comparator : std::uint8_t { event, sampled };
 
-/// Gains of a discrete PI: given as d1, d0 or kp, ki (per sample), or left to the pole placement by settle_s,
-/// damping.
+/// Gains of a discrete PI: given as d1, d0, as kp with ki (per sample) or ki_per_s (per second), or left to the pole
+/// placement by settle_s, damping.
 struct CurrentLoop {
   CurrentLoopType type = CurrentLoopType::pi;
   std::optional<double> settle_s, damping;
   std::optional<double> d1, d0;
-  std::optional<double> kp, ki;
+  std::optional<double> kp, ki, ki_per_s;
   double band_A = 0.2;
   HysteresisOn on = HysteresisOn::motor;
   Comparator comparator = Comparator::event;
@@ -36,6 +36,12 @@ struct CurrentLoop {
   std::optional<double> correction;           // deadbeat: part of a prediction's miss taken over per sample
   std::optional<double> measured_bus_from_V;  // duty = u/measured bus from this voltage on, else u/nominal
 };
+
+/// Whether a loop's keys say anything of a PI's gains.
+template <class Loop>
+bool gives_gains(const Loop& loop) {
+  return loop.d1 || loop.d0 || loop.kp || loop.ki || loop.ki_per_s || loop.settle_s || loop.damping;
+}
 
 enum class SpeedOutput : std::uint8_t { current, duty };
 
@@ -51,7 +57,7 @@ struct SpeedLoop {
   SpeedForm form = SpeedForm::incremental;
   std::optional<double> settle_s, damping;
   std::optional<double> d1, d0;
-  std::optional<double> kp, ki;
+  std::optional<double> kp, ki, ki_per_s;
   std::optional<double> torque_limit_Nm;
   std::optional<double> anti_windup;
   std::optional<double> derivative_s, derivative_filter_s;

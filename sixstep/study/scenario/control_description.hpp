@@ -15,25 +15,42 @@ using base::above;
 using base::between;
 using base::from;
 
-/// The three ways to say a PI's gains, the same in every loop.
+/// The ways to give a PI's gains, the same in every loop. A current loop's are in V/A, a speed loop's in full output per rad/s.
+struct GainMeanings {
+  std::string_view d1, d0, kp, ki, ki_per_s;
+};
+inline constexpr GainMeanings current_gain_meanings{
+    "gain on the present error of (d1 z + d0)/(z - 1), V/A, with d0",
+    "gain on the previous error of (d1 z + d0)/(z - 1), V/A, with d1",
+    "proportional gain, V/A, with ki or ki_per_s: kp = d1",
+    "integral gain per sample, V/A, with kp: ki = d1 + d0",
+    "integral gain per second, V/A per s, with kp, as other tools give it: ki = ki_per_s times pwm.period_s"};
+inline constexpr GainMeanings speed_gain_meanings{
+    "gain on the present error of (d1 z + d0)/(z - 1), full output per rad/s, with d0",
+    "gain on the previous error of (d1 z + d0)/(z - 1), full output per rad/s, with d1",
+    "proportional gain, full output per rad/s, with ki or ki_per_s: kp = d1",
+    "integral gain per sample, full output per rad/s, with kp: ki = d1 + d0",
+    "integral gain per second, full output per rad, with kp, as other tools give it: ki = ki_per_s times pwm.period_s"};
+
 template <class Visitor, class Loop>
-void describe_gains(Visitor& v, Loop& s) {
+void describe_gains(Visitor& v, Loop& s, const GainMeanings& of) {
   v.value(
       "settle_s", s.settle_s,
       {.meaning = "settling time the poles are placed for, with damping", .unit = "s", .range = above(0)});
   v.value(
       "damping", s.damping,
       {.meaning = "damping of the placed pole pair, with settle_s", .range = base::Range{0, 1, false, true}});
-  v.value("d1", s.d1, {.meaning = "gain on the present error of (d1 z + d0)/(z - 1), with d0"});
-  v.value("d0", s.d0, {.meaning = "gain on the previous error of (d1 z + d0)/(z - 1), with d1"});
-  v.value("kp", s.kp, {.meaning = "proportional gain, with ki: kp = d1"});
-  v.value("ki", s.ki, {.meaning = "integral gain per sample, with kp: ki = d1 + d0"});
+  v.value("d1", s.d1, {.meaning = of.d1});
+  v.value("d0", s.d0, {.meaning = of.d0});
+  v.value("kp", s.kp, {.meaning = of.kp});
+  v.value("ki", s.ki, {.meaning = of.ki});
+  v.value("ki_per_s", s.ki_per_s, {.meaning = of.ki_per_s});
 }
 
 template <class Visitor>
 void describe(Visitor& v, CurrentLoop& s) {
   v.choice("type", s.type, current_loop_choices, {.meaning = "kind of the current controller"});
-  describe_gains(v, s);
+  describe_gains(v, s, current_gain_meanings);
   v.value(
       "band_A", s.band_A,
       {.meaning = "hysteresis: half width of the band around the reference", .unit = "A", .range = above(0)});
@@ -69,7 +86,7 @@ void describe(Visitor& v, SpeedLoop& s) {
            {.meaning = "what computes its output; all of them are designed for settle_s"});
   v.choice("form", s.form, speed_form_choices,
            {.meaning = "how its PI is computed; short of the limit both forms are one controller"});
-  describe_gains(v, s);
+  describe_gains(v, s, speed_gain_meanings);
   v.value("torque_limit_Nm", s.torque_limit_Nm,
           {.meaning = "torque at the speed controller's full output; without it that of 2.5 times the "
                       "sheet's nominal current",

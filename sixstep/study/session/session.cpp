@@ -7,6 +7,7 @@
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/compile/general_plant.hpp"
 #include "sixstep/study/live/any_rig.hpp"
+#include "sixstep/study/run/conclude.hpp"
 #include "sixstep/study/run/observers_of.hpp"
 #include "sixstep/study/session/shortened.hpp"
 
@@ -207,24 +208,12 @@ base::Result<Outcome> Session::close() {
     }
     advance(s.compiled.end.seconds());
   }
-  Outcome out;
-  out.motor = s.compiled.motor;
-  out.gains = s.compiled.gains;
-  out.sensorless_steps = s.compiled.sensorless_steps;
-  out.field_steps = s.compiled.field_steps;
-  out.estimator_steps = s.compiled.estimator_steps;
+  Outcome out = outcome_of(s.compiled);
   if (base::Problems problems =
           std::visit([&](const auto& live) { return live.end(s.stop, s.watchers, out); }, s.rig);
       !problems.empty())
     return problems;
-  out.segments = s.watchers.segments;
-  const auto note_books = [&out](const auto& audit) {
-    out.energy = audit.energy();
-    out.laws = audit.laws();
-  };
-  if (s.watchers.audit)
-    s.compiled.general ? note_books(s.watchers.audit->general) : note_books(s.watchers.audit->lean);
-  if (s.watchers.iron && out.energy) out.energy->iron = s.watchers.iron->energy_J();
+  conclude(s.scenario, s.compiled, s.watchers, out);
   if (!s.figures_moved || (s.scenario.require.empty() && s.scenario.compare.empty())) {
     s.watchers.figures.judge(s.scenario, out);
     return out;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// RunWatch keeps what the remarks on a run are made of (study/run/remarks.hpp): its extremes, and how often a shunt saw nothing.
+#pragma once
+#include <cmath>
+#include <cstdint>
+
+#include "sixstep/study/measure/signals.hpp"
+
+namespace sixstep::study {
+
+struct RunWatch {
+  double fastest_rad_s = 0.0;
+  double emf_rad_s = 0.0, emf_bus_V = 1.0;  ///< speed and bus where the back-EMF was greatest beside the bus
+  double winding_degC = 0.0, junction_degC = 0.0;  ///< the hottest; of kernels that warm up
+  double shunt_least_duty = -1.0;                ///< a shunt shows a current above this duty; negative: none
+  std::int64_t samples = 0, hidden_samples = 0;  ///< of the shunt
+
+  template <class Rig>
+  void segment(const Rig& rig) {
+    const auto& state = rig.plant().state();
+    const double speed = std::fabs(state.w);
+    if (speed > fastest_rad_s) fastest_rad_s = speed;
+    if (speed * emf_bus_V > emf_rad_s * state.bus) {
+      emf_rad_s = speed;
+      emf_bus_V = state.bus;
+    }
+    if constexpr (requires { rig.plant().heat(); }) {
+      winding_degC = std::fmax(winding_degC, rig.plant().heat().winding_degC());
+      junction_degC = std::fmax(junction_degC, rig.plant().heat().hottest_junction_degC());
+    }
+    if (shunt_least_duty >= 0.0 && rig.ticked()) {
+      ++samples;
+      const double duty = signed_duty(ModulatorView(rig.modulator()), rig.board_sector());
+      hidden_samples += std::fabs(duty) <= shunt_least_duty ? 1 : 0;
+    }
+  }
+};
+
+}  // namespace sixstep::study

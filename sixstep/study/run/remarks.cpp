@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/run/remarks.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/elementary.hpp"
+#include "sixstep/base/linear.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/field_current.hpp"
+#include "sixstep/design/loops/transfer.hpp"
+#include "sixstep/study/compile/field_parts.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
+
+namespace sixstep::study {
+
+namespace {
+
+using base::three_digits;
+
+/// What silicon switches stand by their data sheets: 150 or 175 degC.
+constexpr double usual_junction_limit_degC = 150.0;
+/// A commutation step of fewer control periods is a coarse one: its current is controlled a handful of times.
+constexpr double least_periods_per_step = 5.0;
+/// Of a shunt's samples outside of the pulse, what is worth a sentence.
+constexpr double hidden_part = 0.01;
+
+std::string speed(const Scenario& s, double rad_s) {
+  return three_digits(rad_s) + (s.sheet.kind == design::MotorKind::linear ? " m/s" : " rad/s");
+}
+std::string ms(double t_s) { return three_digits(1e3 * t_s) + " ms"; }
+
+/// Time from one sector edge to the next.
+double sector_s(const Compiled& c, double rad_s) {
+  return base::pi / 3 / (c.motor.machine.pole_pairs * rad_s);
+}
+
+std::string on_shunt(const Scenario& s, const Compiled& c, const RunWatch& w) {
+  if (static_cast<double>(w.hidden_samples) <= hidden_part * static_cast<double>(w.samples)) return {};
+  std::string text =
+      std::to_string(w.hidden_samples) + " of " + std::to_string(w.samples) +
+      " current samples fell outside of the pulse: the shunt shows a current only above a duty of " +
+      three_digits(w.shunt_least_duty) +
+      " (sensors.shunt_settle_s = " + three_digits(1e6 * s.sensors.shunt_settle_s) + " us)";
+  if (s.pwm.chopping == control::Chopping::soft && w.shunt_least_duty < 1.0)
+    text += "; with the rotor at rest that is " +
+            three_digits(w.shunt_least_duty * s.supply.voltage_V / (2 * c.motor.machine.R_ohm)) +
+            " A, and what is below it is not measured";
+  return text;
+}
+
+/// The smallest speed other than 0 that is asked for.
+double slowest_reference(const Scenario& s) {
+  double slowest = 0.0;
+  for (const Level& level : reference_levels(s)) {
+    const double asked = std::fabs(level.value);
+    if (asked > 0.0 && (slowest == 0.0 || asked < slowest)) slowest = asked;
+  }
+  return slowest;
+}
+
+std::string on_hall_timeout(const Scenario& s, const Compiled& c) {
+  if (s.control.mode != control::Mode::speed || s.sensors.rotor != RotorSensing::hall) return {};
+  const double asked = slowest_reference(s);
+  if (asked == 0.0 || sector_s(c, asked) <= s.sensors.timeout_s) return {};
+  return "at the reference of " + speed(s, asked) + " a Hall edge comes each " + ms(sector_s(c, asked)) +
+         ", later than sensors.timeout_s = " + ms(s.sensors.timeout_s) +
+         ": between two edges the measured speed reads 0; the slowest speed that is measured is " +
+         speed(s, sector_s(c, 1.0) / s.sensors.timeout_s);
+}
+
+/// Periods from a sample to its answer.
+double wait_periods(const Pwm& pwm) {
+  return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 0.5 : 0.0);
+}
+
+/// A PI on R and L with a held voltage that comes `wait` periods late: stable, as long as no limit acts?
+bool is_stable_loop(const LoopGains& g, double R, double L, double period_s, double wait) {
+  const int whole = static_cast<int>(wait);
+  const double late_s = (wait - whole) * period_s;
+  const double decay = base::exp(-R * period_s / L), behind = base::exp(-R * (period_s - late_s) / L);
+  // In z - 1: the voltage before acts for late_s, the new one for the rest of the period.
+  design::Transfer loop{{(1 - decay) / R, (1 - behind) / R}, {1 - decay, 1.0}};
+  if (late_s > 0.0)
+    loop.den = design::product(loop.den, {1.0, 1.0});
+  else
+    loop.num = {(1 - decay) / R};
+  loop = design::series(design::series({{g.d1 + g.d0, g.d1}, {0.0, 1.0}}, loop), design::delay(whole));
+  return design::is_stable(closed(loop).den);
+}
+
+/// Of the driven pair, or of an axis of the field-oriented drive.
+bool is_stable_current(const Scenario& s, const Compiled& c, const LoopGains& g) {
+  if (c.field) {
+    const design::FieldMachine machine = design::field_machine(c.motor, designed_sheet(s));
+    const double L = g.loop == "current q" ? machine.L_q_H : machine.L_d_H;
+    return is_stable_loop(g, machine.R_ohm, L, s.pwm.period_s, wait_periods(s.pwm));
+  }
+  return is_stable_loop(g, 2 * c.motor.machine.R_ohm, 2 * c.motor.machine.L_H, s.pwm.period_s,
+                        wait_periods(s.pwm));
+}
+
+std::string on_gains(const LoopGains& g, const std::string& key, double period_s) {
+  const double ki = g.d1 + g.d0;
+  if (g.origin != "given as kp, ki" || !(ki > g.d1 && g.d1 > 0.0)) return {};
+  return key + ".ki = " + base::six_digits(ki) + " adds " + three_digits(ki / g.d1) +
+         " times kp in each sample; if it comes from a tool whose gains are per second, give ki_per_s = " +
+         base::six_digits(ki) + ", which is ki = " + base::six_digits(ki * period_s);
+}
+
+std::string on_stability(const Scenario& s, const Compiled& c, const LoopGains& g) {
+  const bool pi = s.control.current.type == CurrentLoopType::pi && !(c.field && c.field->finite_set.on);
+  if (!g.loop.starts_with("current") || !pi || is_stable_current(s, c, g)) return {};
+  return "the " + g.loop + " loop is unstable with its gains (" + g.origin +
+         ") on this motor's R and L at a control period of " + three_digits(1e6 * s.pwm.period_s) +
+         " us: its current swings between its limits; give smaller gains, or leave them to the design";
+}
+
+/// The largest voltage between two terminals per rad/s.
+double line_peak_V_s(const Compiled& c) {
+  const bool sine = c.motor.machine.back_emf == plant::BackEmf::sine;
+  return c.motor.machine.K_e_V_s * (sine ? std::sqrt(3.0) : 2.0);
+}
+
+std::string on_back_emf(const Scenario& s, const Compiled& c, const RunWatch& w) {
+  const double emf_V = line_peak_V_s(c) * w.emf_rad_s;
+  if (!(emf_V > 1.01 * w.emf_bus_V)) return {};
+  return "at " + speed(s, w.emf_rad_s) + " the back-EMF of " + three_digits(emf_V) +
+         " V between two terminals is above the bus of " + three_digits(w.emf_bus_V) +
+         " V: the diodes feed the bus, whatever the bridge is told";
+}
+
+std::string on_heat(const Scenario& s, const RunWatch& w, const Outcome& out) {
+  std::string text;
+  const auto& limit = s.sheet.max_winding_temperature_degC;
+  if (s.heat.motor && limit && w.winding_degC > limit->value)
+    text = "the winding reached " + three_digits(w.winding_degC) + " degC, and its sheet allows " +
+           three_digits(limit->value) + " degC";
+  double junction = s.heat.devices ? w.junction_degC : 0.0;
+  for (const DeviceLoss& device : out.devices) junction = std::fmax(junction, device.junction_degC);
+  if (junction > usual_junction_limit_degC)
+    text += (text.empty() ? "" : "; ") + ("a switch's junction reached " + three_digits(junction)) +
+            " degC, and most are rated for 150 or 175 degC";
+  return text;
+}
+
+std::string on_steps(const Scenario& s, const Compiled& c, const RunWatch& w) {
+  if (s.control.mode == control::Mode::off || w.fastest_rad_s == 0.0) return {};
+  const double periods = sector_s(c, w.fastest_rad_s) / s.pwm.period_s;
+  if (periods >= least_periods_per_step) return {};
+  return "at " + speed(s, w.fastest_rad_s) + " a commutation step lasts " + three_digits(periods) +
+         " control periods: fewer than five samples see it; a shorter pwm.period_s gives more";
+}
+
+}  // namespace
+
+void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcome& out) {
+  const auto add = [&out](std::string text) {
+    if (!text.empty()) out.remarks.push_back(std::move(text));
+  };
+  if (c.own.is) return;  // its gains and samples are its own
+  add(on_shunt(s, c, w));
+  add(on_hall_timeout(s, c));
+  for (const LoopGains& g : out.gains) {
+    add(on_gains(g, g.loop == "speed" ? "control.speed" : "control.current", s.pwm.period_s));
+    add(on_stability(s, c, g));
+  }
+  add(on_back_emf(s, c, w));
+  add(on_heat(s, w, out));
+  add(on_steps(s, c, w));
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each remark comes where it is true, with the numbers that a hand calculation gives, and not beside it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sixstep/study/run/run.hpp"
+#include "sixstep/study/session/session.hpp"
+#include "tests/support/product_scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using control::Mode;
+using study::Scenario;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::vector<std::string> remarks_on(const Scenario& s) {
+  const auto out = study::run(s);
+  if (!out) {
+    ADD_FAILURE() << to_string(out.problems()[0]);
+    return {};
+  }
+  return out->remarks;
+}
+
+/// The maxon 251601 held still: 1.03 ohm and 0.572 mH between two terminals, 24 V, 30 us.
+Scenario held(double amps) {
+  Scenario s = maxon_scenario(Mode::current, amps);
+  s.load.locked = true;
+  s.duration_s = 5e-3;
+  return s;
+}
+
+TEST(Remarks, AnOrdinaryDriveHasNone) {
+  EXPECT_THAT(remarks_on(held(5.0)), IsEmpty());
+  EXPECT_THAT(remarks_on(maxon_scenario(Mode::current, 2.0)), IsEmpty());
+}
+
+TEST(Remarks, AShuntThatSeesNoPulse) {
+  Scenario s = held(0.3);
+  s.pwm.alignment = study::Alignment::centre;
+  s.pwm.sample = study::SampleAt::middle;
+  s.sensors.currents = rig::CurrentMeasurement::dc_link;
+  s.sensors.current_range_A = 20.0;
+  // Visible above 2 us/30 us of duty: at rest 24 V/1.03 ohm/15 = 1.553 A.
+  EXPECT_THAT(remarks_on(s),
+              Contains(AllOf(HasSubstr("above a duty of 0.0667"), HasSubstr("that is 1.55 A"))));
+  s.reference.value = 5.0;
+  EXPECT_THAT(remarks_on(s), IsEmpty());
+}
+
+TEST(Remarks, HallEdgesRarerThanTheTimeout) {
+  Scenario s = maxon_scenario(Mode::speed, 2.0);
+  s.duration_s = 10e-3;
+  s.sensors.rotor = study::RotorSensing::hall;
+  // Eight pole pairs: an edge each (pi/3)/(8 x 2) = 65.4 ms; slowest (pi/3)/8/50 ms = 2.618 rad/s.
+  EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("each 65.4 ms"), HasSubstr("timeout_s = 50 ms"),
+                                            HasSubstr("slowest speed that is measured is 2.62 rad/s"))));
+  s.reference.value = 5.0;
+  EXPECT_THAT(remarks_on(s), IsEmpty());
+}
+
+TEST(Remarks, GainsPerSecondTakenForGainsPerSample) {
+  Scenario s = held(5.0);
+  // Per second as other tools give them: kp = L 1000/s, ki = R 1000/s.
+  s.control.current.kp = 0.572;
+  s.control.current.ki = 1030.0;
+  const std::vector<std::string> told = remarks_on(s);
+  EXPECT_THAT(told, Contains(AllOf(HasSubstr("ki_per_s = 1030"), HasSubstr("ki = 0.0309"))));
+  EXPECT_THAT(told, Contains(HasSubstr("current loop is unstable")));
+  s.control.current.ki.reset();
+  s.control.current.ki_per_s = 1030.0;
+  EXPECT_THAT(remarks_on(s), IsEmpty());
+}
+
+TEST(Remarks, GainsPerSecondAreThoseOfASampleTimesThePeriod) {
+  Scenario per_sample = held(5.0), per_second = held(5.0);
+  per_sample.control.current.kp = per_second.control.current.kp = 0.572;
+  per_sample.control.current.ki = 1030.0 * per_sample.pwm.period_s;
+  per_second.control.current.ki_per_s = 1030.0;
+  const auto a = study::run(per_sample), b = study::run(per_second);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->digest, b->digest);
+  per_second.control.current.ki = 0.03;
+  const auto twice = study::run(per_second);
+  ASSERT_FALSE(twice);
+  EXPECT_THAT(to_string(twice.problems()[0]), HasSubstr("keep one of: ki | ki_per_s"));
+}
+
+/// Where a proportional gain makes the loop unstable, by hand: z - a + b kp = 0 at z = -1, kp = (1 + a)/b; one period late
+/// z^2 - a z + b kp = 0 has |z| = 1 at kp = 1/b.
+TEST(Remarks, TheGainAtWhichALoopBecomesUnstable) {
+  const double R = 1.03, L = 0.572e-3, T = 30e-6, a = std::exp(-R * T / L), b = (1 - a) / R;
+  for (const bool delayed : {false, true}) {
+    const double edge = delayed ? 1 / b : (1 + a) / b;
+    for (const double part : {0.9, 1.1}) {
+      Scenario s = held(5.0);
+      s.pwm.delay_periods = delayed ? 1 : 0;
+      s.control.current.d1 = part * edge;
+      s.control.current.d0 = -part * edge * (1 - 1e-6);  // hardly an integral
+      const auto told = remarks_on(s);
+      if (part > 1.0)
+        EXPECT_THAT(told, Contains(HasSubstr("current loop is unstable"))) << delayed;
+      else
+        EXPECT_THAT(told, IsEmpty()) << delayed;
+    }
+  }
+}
+
+TEST(Remarks, ABackEmfAboveTheBus) {
+  Scenario s = maxon_scenario(Mode::off, 0.0);
+  s.duration_s = 2e-3;
+  s.initial.speed_rad_s = 800.0;
+  // 33.5 mNm/A: 26.8 V between two terminals at 800 rad/s.
+  EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("back-EMF of 26.8 V"), HasSubstr("bus of 24 V"))));
+  s.initial.speed_rad_s = 700.0;
+  EXPECT_THAT(remarks_on(s), IsEmpty());
+}
+
+TEST(Remarks, AWindingAboveItsLimit) {
+  Scenario s = held(5.0);
+  s.sheet.thermal_resistance_winding_housing_K_W = base::Quantity{4.0, "", ""};
+  s.sheet.thermal_resistance_housing_ambient_K_W = base::Quantity{4.0, "", ""};
+  s.sheet.thermal_time_constant_winding_s = base::Quantity{10.0, "", ""};
+  s.sheet.thermal_time_constant_motor_s = base::Quantity{200.0, "", ""};
+  s.sheet.max_winding_temperature_degC = base::Quantity{125.0, "", ""};
+  s.heat.motor = true;
+  s.heat.winding_degC = 130.0;
+  EXPECT_THAT(remarks_on(s),
+              Contains(AllOf(HasSubstr("the winding reached 13"), HasSubstr("allows 125 degC"))));
+  s.heat.winding_degC = 100.0;
+  EXPECT_THAT(remarks_on(s), IsEmpty());
+}
+
+TEST(Remarks, FewSamplesInACommutationStep) {
+  Scenario s = maxon_scenario(Mode::current, 0.0);
+  s.duration_s = 2e-3;
+  s.pwm.period_s = 300e-6;
+  s.initial.speed_rad_s = 100.0;
+  // (pi/3)/(8 x 100) = 1.309 ms: 4.36 periods of 300 us.
+  EXPECT_THAT(remarks_on(s), Contains(HasSubstr("lasts 4.36 control periods")));
+  s.initial.speed_rad_s = 70.0;
+  EXPECT_THAT(remarks_on(s), IsEmpty());
+}
+
+TEST(Remarks, ASessionTellsThemToo) {
+  Scenario s = maxon_scenario(Mode::off, 0.0);
+  s.duration_s = 2e-3;
+  s.initial.speed_rad_s = 800.0;
+  auto session = study::Session::open(s);
+  ASSERT_TRUE(session);
+  session->advance(1e-3);
+  const auto out = session->close();
+  ASSERT_TRUE(out);
+  EXPECT_THAT(out->remarks, Contains(HasSubstr("back-EMF")));
+}
+
+}  // namespace
