@@ -253,7 +253,7 @@ def tolerance(script):
     return (1 + events) * (DEAD + 24) + (DEAD if len(ways) > 1 or COMPLEMENTARY in (way[0] for way in ways) else 0)
 
 
-def check_scripts(chip, scripts, compares=True):
+def check_scripts(chip, scripts, compares=True, dead=DEAD):
     bridge, trouble, ran = Bridge(chip), [], 0
     for name, script in scripts:
         bridge.off()
@@ -261,7 +261,7 @@ def check_scripts(chip, scripts, compares=True):
         chip.end_period()
         begin, simulated = play(bridge, script)
         ran += 1
-        trouble += [f"{name}: {what} of leg {'abc'[leg]}, {t - begin} clocks behind its begin" for t, leg, what in broken_laws(chip.tim1.edges, DEAD)]
+        trouble += [f"{name}: {what} of leg {'abc'[leg]}, {t - begin} clocks behind its begin" for t, leg, what in broken_laws(chip.tim1.edges, dead)]
         if chip.tim1.let_go:
             trouble.append(f"{name}: an output is let go")
             chip.tim1.let_go = False
@@ -308,6 +308,19 @@ def of_stops(duties):
                 yield f"{said(a)} off at {counter}", [(a, []), (a, []), (a, [(counter, OFF)]), (OFF, []), (OFF, [])]
 
 
+def of_edges_at_once(duties, firsts=PAIRS):
+    """Two Hall edges with nothing between them, inside the pulse and in the gap; and one right before a period's end that brings another
+    command: a leg that has just been let off is not turned on by the next event."""
+    for first, second, third in itertools.permutations(PAIRS, 3):
+        if first not in firsts:
+            continue
+        for way, duty in itertools.product(WAYS, duties):
+            a, c = (first, way, duty), (third, way, duty)
+            for counter in (200, 1500):
+                yield f"{said(a)} -> {second} -> {third} at {counter}", [(a, []), (a, []), (a, [(counter, second), (counter, third)]), (c, [])]
+            yield f"{said(a)} -> {second} right before {said(c)}", [(a, []), (a, []), (c, [(SAMPLE - 1, second)]), (c, [])]
+
+
 def check_drawn(chip, calls, seed):
     """Anything behind anything, at once or later: the laws hold."""
     draw, bridge = random.Random(seed), Bridge(chip)
@@ -340,6 +353,8 @@ def check(folder, whole=False):
             if not late or whole:
                 some, wrong = check_scripts(chip, scripts, compares=not late)
                 ran, trouble = ran + some, trouble + wrong
+        some, wrong = check_scripts(chip, of_edges_at_once((0.95,), PAIRS if whole else PAIRS[:2]), compares=False)
+        ran, trouble = ran + some, trouble + wrong
         trouble += check_drawn(chip, 20_000 if whole else 2000, 20261127)
     return ran, trouble
 
@@ -497,6 +512,10 @@ def check_drives(folder):
     trouble = tim1.check_itself() + check_latency(folder / "arm") + check_amid(folder / "arm") + check_drive(folder / "arm", "soft")
     for way in ("hard", "complementary"):
         trouble += check_drive(changed_image(folder, way, (chopping, f"c.chopping = Chopping::{way};")), way)
+    long = TimedChip(changed_image(folder, "long", ("dead_time_ps = 500000;", "dead_time_ps = 2000000;")))
+    long.hall(0b101)
+    long.start()  # its dead time is longer than the way from the last instant of a period to its end
+    trouble += check_scripts(long, of_edges_at_once((0.95,), PAIRS[:1]), compares=False, dead=144)[1]
     short = changed_image(folder, "short", ("dead_time_ps = 500000;", "dead_time_ps = 486000;"))
     for way in WAYS:
         forward, back = ((0, 1), way, 0.3), ((1, 0), way, 0.3)
