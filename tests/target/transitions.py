@@ -309,8 +309,8 @@ def of_stops(duties):
 
 
 def of_edges_at_once(duties, firsts=PAIRS):
-    """Two Hall edges with nothing between them, inside the pulse and in the gap; and one right before a period's end that brings another
-    command: a leg that has just been let off is not turned on by the next event."""
+    """Two Hall edges with nothing between them, inside the pulse and in the gap: a leg that has just been let off is not turned on by the next
+    event."""
     for first, second, third in itertools.permutations(PAIRS, 3):
         if first not in firsts:
             continue
@@ -318,7 +318,26 @@ def of_edges_at_once(duties, firsts=PAIRS):
             a, c = (first, way, duty), (third, way, duty)
             for counter in (200, 1500):
                 yield f"{said(a)} -> {second} -> {third} at {counter}", [(a, []), (a, []), (a, [(counter, second), (counter, third)]), (c, [])]
-            yield f"{said(a)} -> {second} right before {said(c)}", [(a, []), (a, []), (c, [(SAMPLE - 1, second)]), (c, [])]
+
+
+def check_late_ticks(chip, dead):
+    """A Hall edge and then a control tick, both right before the period's end."""
+    bridge, trouble = Bridge(chip), []
+    for (first, second, third), way in itertools.product(itertools.permutations(PAIRS, 3), WAYS):
+        bridge.off()
+        for _ in range(2):
+            chip.end_period()
+        chip.tim1.edges.clear()
+        for _ in range(2):
+            bridge.tick((first, way, 0.95))
+            chip.end_period()
+        chip.pass_to(chip.cycle_start() + SAMPLE - 1)
+        bridge.hall((second, way, 0.95))
+        bridge.tick((third, way, 0.95))
+        chip.end_period()
+        chip.pass_to(chip.now + PERIOD)
+        trouble += [f"{first} -> {second} -> late {third}: {what} of leg {'abc'[leg]}" for _, leg, what in broken_laws(chip.tim1.edges, dead)]
+    return trouble[:5]
 
 
 def check_drawn(chip, calls, seed):
@@ -494,6 +513,28 @@ def check_latency(folder):
     return []
 
 
+def check_load(folder):
+    """The control tick and a Hall interrupt, whose instructions have to go into the clocks of a period."""
+    ride, count, most = Ride(folder, round(72e6 * 0.1309 / 300)), [0], {}
+    ride.chip.core.hook_add(images.unicorn.UC_HOOK_CODE, lambda *_: count.__setitem__(0, count[0] + 1))
+    interrupt = ride.chip.interrupt
+
+    def counted(position):
+        count[0] = 0
+        ended = interrupt(position)
+        most[position] = max(most.get(position, 0), count[0])
+        return ended
+    ride.chip.interrupt = counted
+    ride.go(250)
+    ride.type("r300\r")
+    ride.go(400, 0.55)
+    ride.type("70\r")
+    ride.go(150, 0.55)
+    if most[18] + most[28] > PERIOD or len(most) < 4:
+        return [f"a control tick of {most.get(18)} and a Hall interrupt of {most.get(28)} instructions do not go into {PERIOD} clocks"]
+    return []
+
+
 def changed_image(folder, name, *changes):
     header = (images.build.REPOSITORY / images.EXAMPLES["stm32f303"] / "drive_config.hpp").read_text()
     for old, new in changes:
@@ -509,13 +550,13 @@ def changed_image(folder, name, *changes):
 def check_drives(folder):
     """Whole drives of each chopping; and that a dead time one clock short does not pass."""
     chopping = "c.chopping = Chopping::soft;"
-    trouble = tim1.check_itself() + check_latency(folder / "arm") + check_amid(folder / "arm") + check_drive(folder / "arm", "soft")
+    trouble = tim1.check_itself() + check_latency(folder / "arm") + check_load(folder / "arm") + check_amid(folder / "arm") + check_drive(folder / "arm", "soft")
     for way in ("hard", "complementary"):
         trouble += check_drive(changed_image(folder, way, (chopping, f"c.chopping = Chopping::{way};")), way)
     long = TimedChip(changed_image(folder, "long", ("dead_time_ps = 500000;", "dead_time_ps = 2000000;")))
     long.hall(0b101)
     long.start()  # its dead time is longer than the way from the last instant of a period to its end
-    trouble += check_scripts(long, of_edges_at_once((0.95,), PAIRS[:1]), compares=False, dead=144)[1]
+    trouble += check_scripts(long, of_edges_at_once((0.95,), PAIRS[:1]), compares=False, dead=144)[1] + check_late_ticks(long, 144)
     short = changed_image(folder, "short", ("dead_time_ps = 500000;", "dead_time_ps = 486000;"))
     for way in WAYS:
         forward, back = ((0, 1), way, 0.3), ((1, 0), way, 0.3)
