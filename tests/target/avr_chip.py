@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """An ATmega2560 with its firmware (faces/loop/avr/), without a plant: Hall pins and what its converter reads are set by hand, and each move
 of its gates is noted with its cycle."""
+import fcntl
 import os
 import pathlib
 import struct
@@ -32,7 +33,7 @@ class Chip:
         self.answers, up = os.pipe()
 
         def place():
-            taken = os.dup(down), os.dup(up)
+            taken = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (down, up)]  # neither of them 3 or 4
             os.dup2(taken[0], 3)
             os.dup2(taken[1], 4)
         self.process = subprocess.Popen([str(BOARD), f"--serial={self.log}", str(elf)], preexec_fn=place, close_fds=False)

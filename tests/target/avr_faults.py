@@ -156,7 +156,7 @@ PROGRAMS = {
                                           "converter_on | ADATE | ADIE | ADIF : converter_on;\n")], None, 1, "converter"),
     "a control interrupt that hangs": ([hanging(TICK)], None, 17, "watchdog"),
     "a control interrupt that hangs, behind a boot loader": ([hanging(TICK), HIDDEN], None, 17, "watchdog"),
-    "a main loop that hangs": ([("main.cpp", "    tell_phase();\n", "    if (heart == 200) for (;;) asm volatile(\"\");\n    tell_phase();\n")],
+    "a main loop that hangs": ([("main.cpp", "    tell_phase();\n", "    if (heart >= 200) for (;;) asm volatile(\"\");\n    tell_phase();\n")],
                                None, 17, "watchdog"),
     "a program that hangs behind a fault": ([hanging(STANDS, "if (phase == Phase::stands) ")], 0, 1, "hall"),
     "a program that hangs behind a fault, behind a boot loader": ([hanging(STANDS, "if (phase == Phase::stands) "), HIDDEN], 0, 1, "hall"),
