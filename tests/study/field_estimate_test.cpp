@@ -250,6 +250,19 @@ TEST(FieldEstimate, ARotorThatDoesNotFollowIsGivenUpAfterFourStarts) {
   EXPECT_LT(out->simulated_s, 3.0);
 }
 
+/// A rotor that is braked on purpose was not lost in vain: it is turned again and again, and goes where it is asked to at last.
+TEST(FieldEstimate, ARotorThatIsAskedToStandIsNoneThatDoesNotFollow) {
+  Scenario s = observed_251601(0.005, 0.0);
+  s.reference = {};
+  s.reference.shape = Shape::steps;
+  s.reference.times_s = {0.0, 3.0};
+  s.reference.values = {0.0, 200.0};
+  s.duration_s = 4.2;
+  const std::vector<Look> looks = looks_of(s);
+  ASSERT_FALSE(looks.empty());
+  EXPECT_NEAR(looks.back().true_speed_rad_s, 200.0, 5.0);
+}
+
 /// Samples in the middle of the period, whose voltage is half of two answers.
 TEST(FieldEstimate, TheObserverSeesFromTheMiddleOfThePeriodToo) {
   Scenario s = inner_magnets(Mode::speed, 200.0);

@@ -174,16 +174,16 @@ constexpr bool out_of_sight(const EstimatorConfig<Scalar>& config, const Estimat
          magnitude(state.speed_rad_s) < config.low_rad_s;
 }
 
-/// A rotor that is turned is begun with anew where it is lost.
+/// A rotor that is turned is begun with anew where it is lost. One that was not asked to turn so fast that it is seen was not lost in vain.
 template <class Scalar>
 constexpr void look_for_it(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state,
-                           bool reversed) {
+                           bool reversed, bool turns) {
   if (!out_of_sight(config, state)) {
     if (state.phase == EstimatorPhase::following && state.ticks < config.start.good_ticks) ++state.ticks;
     return;
   }
-  state.failures =
-      state.ticks < config.start.good_ticks ? static_cast<std::uint8_t>(state.failures + 1) : std::uint8_t{0};
+  const bool in_vain = turns && state.ticks < config.start.good_ticks;
+  state.failures = in_vain ? static_cast<std::uint8_t>(state.failures + 1) : std::uint8_t{0};
   if (state.failures > config.start.retries)
     state.phase = EstimatorPhase::unseen;
   else
@@ -193,13 +193,13 @@ constexpr void look_for_it(const EstimatorConfig<Scalar>& config, EstimatorState
 }  // namespace detail
 
 /// One control tick with its currents: those in the frame of the magnet as it is taken to point, A, free of the pulse.
-/// reversed: which way a rotor is turned that has to be turned to be seen.
+/// reversed: which way a rotor is turned that has to be turned to be seen; turns: whether it is asked to turn fast enough for that.
 template <class Scalar>
 constexpr Dq<Scalar> estimator_step(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state,
-                                    const AlphaBeta<Scalar>& current, bool reversed) {
+                                    const AlphaBeta<Scalar>& current, bool reversed, bool turns) {
   using T = ScalarTraits<Scalar>;
   if (!state.begun) detail::estimator_begin(config, state, reversed);
-  detail::look_for_it(config, state, reversed);
+  detail::look_for_it(config, state, reversed, turns);
   state.sampled = state.tracking.angle;
   const Direction<Scalar> axis = direction_of<Scalar>(state.sampled);
   const bool pulsed = detail::pulsed_twice(state.injection.pulses, config.late);

@@ -79,6 +79,17 @@ constexpr Dq<Scalar> estimating_voltage(const SensorlessFieldConfig<Scalar>& con
 
 }  // namespace detail
 
+namespace detail {
+
+/// Whether what is asked for turns a rotor fast enough to be seen by its flux.
+template <class Scalar>
+constexpr bool asks_to_turn(const SensorlessFieldConfig<Scalar>& config, Scalar setpoint) {
+  const Scalar least = config.field.drive.mode == Mode::speed ? config.estimator.low_rad_s : Scalar{};
+  return magnitude(setpoint) > least;
+}
+
+}  // namespace detail
+
 /// One control tick. The answer lies in state.field.command, up to the next call.
 template <class Scalar>
 constexpr const LegCommands<Scalar>& sensorless_field_step(const SensorlessFieldConfig<Scalar>& config,
@@ -96,7 +107,7 @@ constexpr const LegCommands<Scalar>& sensorless_field_step(const SensorlessField
   Measurement<Scalar> m = input.measured;
   const bool followed = estimator.phase == EstimatorPhase::following;
   field.measured = estimator_step(config.estimator, estimator, clarke(Abc<Scalar>{m.i_a_A, m.i_b_A, m.i_c_A}),
-                                  setpoint.value < Scalar{});
+                                  setpoint.value < Scalar{}, detail::asks_to_turn(config, setpoint.value));
   if (estimator.phase == EstimatorPhase::unseen) {
     field.command = detail::given_up_legs<Scalar>();
     return field.command;
