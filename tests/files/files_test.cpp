@@ -91,6 +91,13 @@ TEST_F(Files, UnwritableOutputIsToldWhenCreated) {
   EXPECT_EQ(folder.problems().at(0).limit, "cannot be written: Is a directory");
 }
 
+TEST_F(Files, ADashIsNoFilesName) {
+  const base::Result<AtomicFile> made = AtomicFile::create("-");
+  ASSERT_FALSE(made);
+  EXPECT_NE(to_string(made.problems().front()).find("is standard output elsewhere"), std::string::npos);
+  EXPECT_FALSE(fs::exists("-"));
+}
+
 TEST_F(Files, AFullDiskIsToldByCommit) {
   if (!fs::exists("/dev/full")) GTEST_SKIP();
   base::Result<AtomicFile> file = AtomicFile::create("/dev/full");
