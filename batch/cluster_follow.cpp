@@ -6,6 +6,7 @@
 #include <deque>
 #include <exception>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <stdexcept>
@@ -54,7 +55,7 @@ class Hand {
   /// The leader's exit, if the last word came in the middle of it.
   std::optional<int> work(const Prepare& prepare, const std::function<bool()>& told_to_end) {
     PlanRuns runs{.plan = begin_.plan,
-                  .columns = begin_.columns,
+                  .columns = std::make_shared<const analysis::PlanColumns>(begin_.columns),
                   .scenario = prepare(begin_.made_of, begin_.plan,
                                       [this](std::string question) { return ask(std::move(question)); }),
                   .wanted = {},
@@ -100,8 +101,8 @@ class Hand {
 
   void keep(analysis::RunRecord&& record) {
     const std::lock_guard lock(guard_);
-    open_.erase(record.number);
-    rows_.push_back(std::move(record));
+    open_.erase(record->number);
+    rows_.push_back(*record);
     ++made_;
   }
 
@@ -171,7 +172,7 @@ class Hand {
   std::condition_variable moved_, work_came_;
   std::deque<std::uint64_t> ready_;
   std::set<std::uint64_t> open_;  ///< handed to this process, and no row of them yet
-  std::vector<analysis::RunRecord> rows_;
+  std::vector<analysis::RunValues> rows_;
   std::vector<letters::Question> questions_;
   std::map<std::uint64_t, std::string> answers_;
   std::uint64_t asked_ = 0, made_ = 0, idle_ = 0;

@@ -131,7 +131,7 @@ class Leader {
       : cluster_(cluster), runs_(runs), briefing_(briefing), handout_(runs) {}
 
   bool lead() {
-    tell_all(letters::Begin{runs_.plan, runs_.columns, std::max(1U, runs_.jobs), briefing_.made_of});
+    tell_all(letters::Begin{runs_.plan, *runs_.columns, std::max(1U, runs_.jobs), briefing_.made_of});
     Crew crew(runs_, handout_);
     while (!crew.done()) {
       if (!take_letters()) std::this_thread::sleep_for(pause);
@@ -143,6 +143,9 @@ class Leader {
   }
 
  private:
+  static std::runtime_error another_build() {
+    return std::runtime_error("another build of sixstep runs on other nodes: take the same on all");
+  }
   void tell_all(const letters::Letter& letter) {
     const std::string bytes = letters::bytes_of(letter);
     for (unsigned rank = 1; rank < cluster_.size; ++rank) cluster_.send(rank, bytes);
@@ -152,8 +155,7 @@ class Leader {
     bool some = false;
     while (std::optional<Mail> mail = cluster_.receive()) {
       std::optional<letters::Letter> letter = letters::read(mail->bytes);
-      if (!letter)
-        throw std::runtime_error("another build of sixstep runs on other nodes: take the same on all");
+      if (!letter) throw another_build();
       std::visit([&](auto& content) { take(mail->from, content); }, *letter);
       some = true;
     }
@@ -161,9 +163,11 @@ class Leader {
   }
 
   void take(unsigned, letters::Rows& rows) {
-    for (analysis::RunRecord& row : rows.rows) {
+    for (analysis::RunValues& row : rows.rows) {
       row.point = analysis::point_of_run(runs_.plan, row.number);
-      runs_.take(std::move(row));
+      base::Result<analysis::RunRecord> record = analysis::RunRecord::of(runs_.columns, std::move(row));
+      if (!record) throw another_build();
+      runs_.take(std::move(*record));
     }
     handout_.came_back(rows.rows.size());
   }

@@ -9,7 +9,6 @@
 #include "batch/for_each.hpp"
 #include "batch/plan_runs.hpp"
 #include "sixstep/study/run/run.hpp"
-#include "sixstep/study/scenario/spread.hpp"
 
 namespace batch {
 namespace {
@@ -54,10 +53,8 @@ std::size_t nominal_runs(std::size_t controllers) { return 2 * controllers; }
 
 analysis::Contest compare_nominally(analysis::ContestBench bench, std::vector<analysis::ContestEntry> entries,
                                     const ContestOrder& order) {
-  analysis::Contest contest{std::move(bench), std::move(entries), {}, order.drives};
-  contest.rows.resize(contest.entries.size());
-  const analysis::PlanColumns columns = analysis::contest_columns(
-      analysis::contest_plan(contest.entries, order.drives, order.seed), contest.bench);
+  analysis::Contest contest =
+      analysis::contest_of(std::move(bench), std::move(entries), order.drives, order.seed, order.unit_of);
   std::atomic<std::size_t> done{0};
   for_each(nominal_runs(contest.entries.size()), order.jobs, [&](std::size_t n) {
     const base::Result<study::Scenario>& scenario = contest.entries[n / 2].scenario;
@@ -68,7 +65,7 @@ analysis::Contest compare_nominally(analysis::ContestBench bench, std::vector<an
       const base::Result<study::Outcome> outcome = scenario
                                                        ? traced(*scenario, order.stop, row.trace)
                                                        : base::Result<study::Outcome>(scenario.problems());
-      analysis::take_nominal(row, analysis::record_of(outcome, columns), columns);
+      analysis::take_nominal(contest, n / 2, outcome);
     }
     if (order.progress) order.progress(++done);
   });
@@ -78,20 +75,16 @@ analysis::Contest compare_nominally(analysis::ContestBench bench, std::vector<an
 void run_drives(const analysis::Contest& contest, const ContestOrder& order,
                 const std::function<bool(std::size_t number)>& has,
                 const std::function<void(analysis::RunRecord&&)>& take) {
-  if (order.drives == 0) return;
-  const analysis::Plan plan = analysis::contest_plan(contest.entries, order.drives, order.seed);
-  const analysis::PlanColumns columns = analysis::contest_columns(plan, contest.bench);
+  const analysis::Plan& plan = contest.plan;
+  if (plan.drives == 0) return;
   const auto entry_of = [&](std::size_t n) -> const analysis::ContestEntry& {
     return contest.entries[n / plan.drives];
   };
   run_plan(
       {.plan = plan,
-       .columns = columns,
+       .columns = contest.columns,
        .scenario = [&](std::size_t n) -> base::Result<analysis::PlannedRun> {
-         const study::Scenario& nominal = *entry_of(n).scenario;
-         study::Scenario drive = study::varied(nominal, plan.seed, *analysis::drive_of_run(plan, n));
-         std::vector<double> strayed = study::strayed_values(nominal, drive);
-         return analysis::PlannedRun{std::move(drive), std::move(strayed)};
+         return analysis::planned_drive(*entry_of(n).scenario, plan.seed, *analysis::drive_of_run(plan, n));
        },
        .wanted = [&](std::size_t n) { return static_cast<bool>(entry_of(n).scenario) && !(has && has(n)); },
        .take = take,

@@ -26,6 +26,10 @@ auto members(Is<analysis::Plan> auto& plan) {
   auto& [axes, sampling, points, drives, seed] = plan;
   return std::tie(axes, sampling, points, drives, seed);
 }
+auto members(Is<analysis::InputColumn> auto& column) {
+  auto& [key, unit] = column;
+  return std::tie(key, unit);
+}
 auto members(Is<analysis::FigureColumn> auto& figure) {
   auto& [name, unit, required, min, max] = figure;
   return std::tie(name, unit, required, min, max);
@@ -34,7 +38,7 @@ auto members(Is<analysis::PlanColumns> auto& columns) {
   auto& [keys, strayed, figures] = columns;
   return std::tie(keys, strayed, figures);
 }
-auto members(Is<analysis::RunRecord> auto& record) {
+auto members(Is<analysis::RunValues> auto& record) {
   auto& [number, point, strayed, end, problem, figures, digest] = record;
   static_cast<void>(point);
   return std::tie(number, strayed, end, problem, figures, digest);

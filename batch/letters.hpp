@@ -39,9 +39,9 @@ struct Dismissed {
 
 // To the leader.
 
-/// Rows that are finished, without their points: the plan tells those.
+/// Rows that are finished, without their points: the plan tells those. The leader sets them under its columns again.
 struct Rows {
-  std::vector<analysis::RunRecord> rows;
+  std::vector<analysis::RunValues> rows;
 };
 /// Work is running out. `idle` threads have none; `ahead` more would keep all busy for the next moment.
 struct Hungry {

@@ -62,8 +62,8 @@ double number_of(const std::string& text) {
 class Search {
  public:
   explicit Search(const Optimisation& work) : w_(work) {
-    for (std::size_t n = 0; n < w_.columns.figures.size(); ++n)
-      if (w_.columns.figures[n].required) required_.push_back(n);
+    for (std::size_t n = 0; n < w_.columns->figures.size(); ++n)
+      if (w_.columns->figures[n].required) required_.push_back(n);
   }
 
   std::optional<analysis::Optimum> run() {
@@ -88,23 +88,17 @@ class Search {
     return found == tried_.end() || (*found)->cost != (*found)->cost ? nullptr : found->get();
   }
 
-  analysis::RunRecord row(const std::vector<std::string>& point, std::size_t number,
-                          std::size_t drive) const {
+  /// Nothing where it was stopped.
+  std::optional<analysis::RunRecord> row(const std::vector<std::string>& point, std::size_t number,
+                                         std::size_t drive) const {
     if (w_.known)
-      if (std::optional<analysis::RunRecord> before = w_.known(number); before && before->point == point)
-        return *before;
-    const analysis::Plan one{.axes = {}, .drives = 1};
-    const PlanRuns runs{.plan = one,
-                        .columns = w_.columns,
-                        .scenario = [&](std::size_t) { return w_.scenario(point, drive); },
-                        .wanted = {},
-                        .take = {},
-                        .stop = w_.stop};
-    std::optional<analysis::RunRecord> made = run_one(runs, number);
-    if (!made) return {.number = number, .point = {}, .strayed = {}, .problem = "stopped", .figures = {}};
-    made->point = point;
-    if (w_.take) w_.take(analysis::RunRecord(*made));
-    return *made;
+      if (std::optional<analysis::RunRecord> before = w_.known(number);
+          before && before->fits(w_.columns) && (*before)->point == point)
+        return before;
+    std::optional<analysis::RunRecord> made =
+        row_of_run(w_.columns, number, point, w_.scenario(point, drive), w_.stop);
+    if (made && w_.take) w_.take(analysis::RunRecord(*made));
+    return made;
   }
 
   /// The worst of the drives: of each figure that is asked something the one nearest to its limit or farthest beyond, of the
@@ -116,7 +110,7 @@ class Search {
     for (const auto& other : tried_)
       if (other->point == e->point) return *other;
     const std::size_t drives = std::max<std::size_t>(w_.plan.drives, 1), first = tried_.size() * drives;
-    std::vector<analysis::RunRecord> rows(drives);
+    std::vector<std::optional<analysis::RunRecord>> rows(drives);
     for_each(drives, w_.jobs, [&](std::size_t d) { rows[d] = row(e->point, first + d, d); });
     judge(*e, rows);
     if (!w_.stop.stop_requested()) {
@@ -128,23 +122,24 @@ class Search {
     return *cut_;
   }
 
-  void judge(Evaluated& e, const std::vector<analysis::RunRecord>& rows) {
-    e.figures.assign(w_.columns.figures.size(), none);
+  void judge(Evaluated& e, const std::vector<std::optional<analysis::RunRecord>>& rows) {
+    e.figures.assign(w_.columns->figures.size(), none);
     e.misses.assign(required_.size(), -hopeless);
     double cost = -std::numeric_limits<double>::infinity();
-    for (const analysis::RunRecord& r : rows) {
-      const bool whole = r.end == analysis::RunEnd::whole && r.figures.size() == e.figures.size();
+    for (const std::optional<analysis::RunRecord>& r : rows) {
+      const bool whole = r && (*r)->end == analysis::RunEnd::whole;
+      const auto figure = [&](std::size_t n) { return whole ? (*r)->figures[n] : none; };
       for (std::size_t n = 0; n < required_.size(); ++n) {
         const double miss =
-            whole ? beyond(w_.columns.figures[required_[n]], r.figures[required_[n]]) : hopeless;
-        if (miss >= e.misses[n] && whole) e.figures[required_[n]] = r.figures[required_[n]];
+            whole ? beyond(w_.columns->figures[required_[n]], figure(required_[n])) : hopeless;
+        if (miss >= e.misses[n] && whole) e.figures[required_[n]] = figure(required_[n]);
         e.misses[n] = std::max(e.misses[n], miss);
       }
-      const double x = whole ? r.figures[w_.figure] : none;
+      const double x = figure(w_.figure);
       cost = x - x == 0.0 && cost == cost ? std::max(cost, x) : none;
       for (std::size_t n = 0; n < e.figures.size(); ++n)
-        if (!w_.columns.figures[n].required && whole && !(e.figures[n] >= r.figures[n]))
-          e.figures[n] = r.figures[n];
+        if (!w_.columns->figures[n].required && whole && !(e.figures[n] >= figure(n)))
+          e.figures[n] = figure(n);
     }
     if (cost != cost) return;
     e.figures[w_.figure] = cost;
@@ -205,7 +200,7 @@ class Search {
     for (std::size_t n = 0; n < tried_.size(); ++n)
       if (tried_[n].get() == e) best.at = n;
     for (std::size_t n = 0; n < required_.size(); ++n) {
-      const FigureColumn& f = w_.columns.figures[required_[n]];
+      const FigureColumn& f = w_.columns->figures[required_[n]];
       if (e->misses[n] < -10 * close) continue;
       const double x = e->figures[required_[n]];
       best.limits.push_back({f.name, f.max && (!f.min || *f.max - x < x - *f.min), false});

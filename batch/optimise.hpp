@@ -17,7 +17,7 @@ namespace batch {
 
 struct Optimisation {
   const analysis::Plan& plan;  ///< ranges alone; drives at each point
-  const analysis::PlanColumns& columns;
+  analysis::TableColumns columns;
   std::size_t figure = 0;         ///< that is to be small: its column
   std::size_t evaluations = 200;  ///< of points, at most
   /// The drive of a point. Called on any thread, several at once.

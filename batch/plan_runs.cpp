@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 #include <thread>
 #include <utility>
 
@@ -12,25 +11,24 @@
 
 namespace batch {
 
-std::optional<analysis::RunRecord> run_one(const PlanRuns& runs, std::size_t n) {
+std::optional<analysis::RunRecord> row_of_run(const analysis::TableColumns& columns, std::size_t number,
+                                              std::vector<std::string> point,
+                                              const base::Result<analysis::PlannedRun>& planned,
+                                              const std::stop_token& stop) {
   bool cut = false;
   const auto keep_going = [&](double) {
-    cut = cut || runs.stop.stop_requested();
+    cut = cut || stop.stop_requested();
     return !cut;
   };
   const study::Listeners listeners{.keep_going = keep_going, .keep_books = false};
-  base::Result<analysis::PlannedRun> planned = runs.scenario(n);
   const base::Result<study::Outcome> result =
       planned ? study::run(planned->scenario, listeners) : base::Result<study::Outcome>(planned.problems());
   if (cut) return {};
-  analysis::RunRecord record = analysis::record_of(result, runs.columns);
-  record.number = n;
-  record.point = analysis::point_of_run(runs.plan, n);
-  if (planned)
-    record.strayed = std::move(planned->strayed);
-  else
-    record.strayed.assign(runs.columns.strayed.size(), std::numeric_limits<double>::quiet_NaN());
-  return record;
+  return analysis::record_of(columns, number, std::move(point), planned, result);
+}
+
+std::optional<analysis::RunRecord> run_one(const PlanRuns& runs, std::size_t n) {
+  return row_of_run(runs.columns, n, analysis::point_of_run(runs.plan, n), runs.scenario(n), runs.stop);
 }
 
 void run_plan(const PlanRuns& runs) {

@@ -5,6 +5,8 @@
 #include <functional>
 #include <optional>
 #include <stop_token>
+#include <string>
+#include <vector>
 
 #include "batch/rooms.hpp"
 #include "sixstep/analysis/plan/plan_table.hpp"
@@ -14,7 +16,7 @@ namespace batch {
 
 struct PlanRuns {
   const analysis::Plan& plan;
-  const analysis::PlanColumns& columns;
+  analysis::TableColumns columns;
   /// Run n; Problems are its row. Called on any thread, several at once.
   std::function<base::Result<analysis::PlannedRun>(std::size_t n)> scenario;
   /// Whether run n is to be made; without it all are. Called as `scenario`.
@@ -25,7 +27,13 @@ struct PlanRuns {
   unsigned jobs = 0;     ///< threads; 0: one per core
 };
 
-/// One run of the plan, if it came to an end before it was stopped.
+/// Makes a run and its row, if it came to an end before it was stopped.
+std::optional<analysis::RunRecord> row_of_run(const analysis::TableColumns& columns, std::size_t number,
+                                              std::vector<std::string> point,
+                                              const base::Result<analysis::PlannedRun>& planned,
+                                              const std::stop_token& stop);
+
+/// One run of the plan, as above.
 std::optional<analysis::RunRecord> run_one(const PlanRuns& runs, std::size_t n);
 
 /// All that are wanted. An exception of one of the functions is thrown again here.

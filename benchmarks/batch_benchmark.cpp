@@ -34,15 +34,15 @@ sixstep::study::Scenario series() {
 /// The digests of all, in whatever order: their sum.
 std::uint64_t digests(const sixstep::study::Scenario& scenario, std::size_t count, unsigned jobs) {
   const sixstep::analysis::Plan plan{.axes = {}, .drives = count};
-  const sixstep::analysis::PlanColumns columns = sixstep::analysis::columns_of(plan, scenario);
+  const sixstep::analysis::TableColumns columns = sixstep::analysis::columns_of(plan, scenario);
   std::atomic<std::uint64_t> sum{0};
   batch::run_plan({.plan = plan,
                    .columns = columns,
                    .scenario = [&](std::size_t n) -> sixstep::base::Result<sixstep::analysis::PlannedRun> {
-                     return sixstep::analysis::PlannedRun{sixstep::study::varied(scenario, 1, n), {}};
+                     return sixstep::analysis::planned_drive(scenario, 1, n);
                    },
                    .wanted = {},
-                   .take = [&](sixstep::analysis::RunRecord&& record) { sum += record.digest; },
+                   .take = [&](sixstep::analysis::RunRecord&& record) { sum += record->digest; },
                    .stop = {},
                    .jobs = jobs});
   return sum;

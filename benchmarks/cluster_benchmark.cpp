@@ -8,7 +8,9 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "batch/letters.hpp"
@@ -20,7 +22,7 @@ namespace analysis = sixstep::analysis;
 
 constexpr std::size_t rows_at_once = 1000;
 
-analysis::RunRecord row(std::size_t n) {
+analysis::RunValues values(std::size_t n) {
   const double x = 1.0 / (1.0 + static_cast<double>(n));
   return {.number = n,
           .point = {},
@@ -31,9 +33,20 @@ analysis::RunRecord row(std::size_t n) {
           .digest = 0x9e37'79b9'7f4a'7c15u * n};
 }
 
+analysis::TableColumns columns() {
+  analysis::PlanColumns c;
+  c.strayed = {{"a", "ohm"}, {"b", "mH"}, {"c", "mN m/A"}, {"d", "g cm^2"}};
+  c.figures = {{"slowest", "s", true, {}, 1.0}, {"greatest", "A", true, {}, 1.0}};
+  return std::make_shared<const analysis::PlanColumns>(std::move(c));
+}
+
+analysis::RunRecord row(const analysis::TableColumns& under, std::size_t n) {
+  return *analysis::RunRecord::of(under, values(n));
+}
+
 std::string letter() {
   batch::letters::Rows rows;
-  for (std::size_t n = 0; n < rows_at_once; ++n) rows.rows.push_back(row(n));
+  for (std::size_t n = 0; n < rows_at_once; ++n) rows.rows.push_back(values(n));
   return batch::letters::bytes_of(rows);
 }
 
@@ -55,15 +68,13 @@ void store_rows(benchmark::State& state) {
   const std::string path =
       (std::filesystem::temp_directory_path() / ("sixstep_rows_" + std::to_string(::getpid()) + ".sqlite"))
           .string();
-  files::StoredPlan plan{.plan = "{}", .inputs = "0", .units = {"ohm", "mH", "mN m/A", "g cm^2"}};
-  plan.columns.strayed = {"a", "b", "c", "d"};
-  plan.columns.figures = {{"slowest", "s", true, {}, 1.0}, {"greatest", "A", true, {}, 1.0}};
+  const files::StoredPlan plan{.plan = "{}", .inputs = "0", .columns = columns()};
   std::size_t n = 0;
   {
     sixstep::base::Result<files::PlanStore> store = files::PlanStore::create(path, plan, true);
     if (!store) return state.SkipWithError("no store");
     for (auto _ : state)
-      for (std::size_t k = 0; k < rows_at_once; ++k) store->add(row(n++));
+      for (std::size_t k = 0; k < rows_at_once; ++k) store->add(row(plan.columns, n++));
     if (!store->finish().empty()) state.SkipWithError("not stored");
   }
   count(state);

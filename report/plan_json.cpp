@@ -36,6 +36,11 @@ json column_json(const PlanColumn& column) {
   json out{{"kind", kind_of(column)}, {"name", column.name}, {"unit", scale.unit}, {"factor", scale.factor}};
   if (column.logarithmic) out["log"] = true;
   if (!column.words.empty()) out["words"] = column.words;
+  if (column.required) {
+    out["required"] = true;
+    out["min"] = or_null(column.min);
+    out["max"] = or_null(column.max);
+  }
   out["data"] = base64(std::span<const float>(column.values));
   return out;
 }
@@ -55,17 +60,7 @@ json plan_json(const PagePlan& plan, std::size_t most) {
   else
     out["numbers"] = base64(std::span<const double>(rows.numbers));
   out["columns"] = json::array();
-  const std::vector<analysis::FigureColumn>& figures = plan.story.columns.figures;
-  const std::size_t first = rows.columns.size() - figures.size();
-  for (std::size_t c = 0; c < rows.columns.size(); ++c) {
-    json column = column_json(rows.columns[c]);
-    if (c >= first && figures[c - first].required) {
-      column["required"] = true;
-      column["min"] = or_null(figures[c - first].min);
-      column["max"] = or_null(figures[c - first].max);
-    }
-    out["columns"].push_back(std::move(column));
-  }
+  for (const PlanColumn& column : rows.columns) out["columns"].push_back(column_json(column));
   out["reports"] = json::object();
   for (const auto& [number, file] : plan.reports)
     out["reports"][std::to_string(number)] = text::url_of_name(file);

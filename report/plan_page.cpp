@@ -81,7 +81,7 @@ std::string words_of(const analysis::Axis& axis) {
 
 std::string range_text(const PagePlan& plan, std::size_t k) {
   const analysis::Axis& axis = plan.story.plan.axes[k];
-  const std::string& unit = plan.story.units[k];
+  const std::string& unit = plan.story.columns.keys[k].unit;
   std::string text = axis.values.empty() ? given(axis.from, unit) + " … " + given(axis.to, unit)
                                          : fmt::format("{}{}{}", words_of(axis), unit.empty() ? "" : "\u00a0",
                                                        scale_for(0.0, unit).unit);
@@ -107,11 +107,11 @@ std::string facts(const PlanPageInput& in, std::size_t p) {
   if (plan.story.plan.drives > 0 || plan.story.plan.sampling != analysis::Sampling::grid)
     html += fact("Seed", std::to_string(plan.story.plan.seed));
   for (std::size_t k = 0; k < plan.story.plan.axes.size(); ++k)
-    html += fact(escaped(plan.story.columns.keys[k]), escaped(range_text(plan, k)));
+    html += fact(escaped(plan.story.columns.keys[k].key), escaped(range_text(plan, k)));
   if (!plan.story.columns.strayed.empty()) {
     std::string names;
-    for (const std::string& key : plan.story.columns.strayed)
-      names += (names.empty() ? "" : ", ") + escaped(key);
+    for (const analysis::InputColumn& c : plan.story.columns.strayed)
+      names += (names.empty() ? "" : ", ") + escaped(c.key);
     html += fact("Strays from drive to drive", names);
   }
   return html + fact("Digest of all runs", base::written_hex(plan.story.series.digest)) + "</dl>\n";

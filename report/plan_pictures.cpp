@@ -126,7 +126,7 @@ std::string index_table(const text::PlanStory& story, std::size_t figure) {
   if (!found) return head + "<p class=\"quiet\">It does not vary, or too few runs have it.</p>\n";
   std::string rows;
   for (std::size_t k = 0; k < found->size(); ++k)
-    rows += fmt::format("<tr><th scope=\"row\">{}</th>{}{}</tr>\n", escaped(story.columns.keys[k]),
+    rows += fmt::format("<tr><th scope=\"row\">{}</th>{}{}</tr>\n", escaped(story.columns.keys[k].key),
                         index_bar((*found)[k].first), index_bar((*found)[k].total));
   return head + "<table class=\"indices\">" + table_head({"Key", "#Alone", "", "#In all", ""}) + "<tbody>\n" +
          rows + "</tbody></table>\n";

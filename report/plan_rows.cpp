@@ -22,17 +22,21 @@ std::vector<PlanColumn> columns_of(const text::PlanStory& story) {
   const analysis::PlanColumns& of = story.columns;
   for (std::size_t k = 0; k < of.keys.size(); ++k) {
     const analysis::Axis& axis = story.plan.axes[k];
-    PlanColumn column{.kind = PlanColumn::Kind::key, .name = of.keys[k], .unit = story.units[k]};
+    PlanColumn column{.kind = PlanColumn::Kind::key, .name = of.keys[k].key, .unit = of.keys[k].unit};
     column.logarithmic = axis.values.empty() && axis.spacing == analysis::Spacing::logarithmic;
     if (has_words(axis))
       for (const std::string& value : axis.values) column.words.emplace_back(analysis::bare(value));
     columns.push_back(std::move(column));
   }
-  for (std::size_t k = 0; k < of.strayed.size(); ++k)
-    columns.push_back(
-        {.kind = PlanColumn::Kind::strayed, .name = of.strayed[k], .unit = story.units[of.keys.size() + k]});
+  for (const analysis::InputColumn& c : of.strayed)
+    columns.push_back({.kind = PlanColumn::Kind::strayed, .name = c.key, .unit = c.unit});
   for (const analysis::FigureColumn& f : of.figures)
-    columns.push_back({.kind = PlanColumn::Kind::figure, .name = f.name, .unit = f.unit});
+    columns.push_back({.kind = PlanColumn::Kind::figure,
+                       .name = f.name,
+                       .unit = f.unit,
+                       .required = f.required,
+                       .min = f.min,
+                       .max = f.max});
   return columns;
 }
 
@@ -42,24 +46,24 @@ float key_value(const PlanColumn& column, const std::string& written) {
   return found == column.words.end() ? none : static_cast<float>(found - column.words.begin());
 }
 
-void add(PlanRows& rows, const analysis::RunRecord& record, const analysis::PlanColumns& of) {
-  rows.numbers.push_back(static_cast<double>(record.number));
-  rows.states.push_back(static_cast<std::uint8_t>(state_of(record, of)));
+void add(PlanRows& rows, const analysis::RunRecord& record) {
+  rows.numbers.push_back(static_cast<double>(record->number));
+  rows.states.push_back(static_cast<std::uint8_t>(state_of(record)));
   std::size_t c = 0;
-  for (const std::string& value : record.point) {
+  for (const std::string& value : record->point) {
     PlanColumn& column = rows.columns[c++];
     column.values.push_back(key_value(column, value));
   }
-  for (const std::vector<double>* numbers : {&record.strayed, &record.figures})
+  for (const std::vector<double>* numbers : {&record->strayed, &record->figures})
     for (const double x : *numbers) rows.columns[c++].values.push_back(static_cast<float>(x));
 }
 
 }  // namespace
 
-RunState state_of(const analysis::RunRecord& record, const analysis::PlanColumns& columns) {
-  if (record.end == analysis::RunEnd::refused) return RunState::refused;
-  if (record.end == analysis::RunEnd::fault) return RunState::fault;
-  return analysis::passed(record, columns) ? RunState::holds : RunState::misses;
+RunState state_of(const analysis::RunRecord& record) {
+  if (record->end == analysis::RunEnd::refused) return RunState::refused;
+  if (record->end == analysis::RunEnd::fault) return RunState::fault;
+  return analysis::passed(record) ? RunState::holds : RunState::misses;
 }
 
 PlanRows plan_rows(const text::PlanStory& story, std::size_t most) {
@@ -68,7 +72,7 @@ PlanRows plan_rows(const text::PlanStory& story, std::size_t most) {
   rows.columns = columns_of(story);
   std::size_t n = 0;
   story.each([&](const analysis::RunRecord& record) {
-    if (n++ % rows.every == 0) add(rows, record, story.columns);
+    if (n++ % rows.every == 0) add(rows, record);
   });
   return rows;
 }
@@ -87,7 +91,7 @@ void Span::include(const Span& other) {
 std::vector<Span> figure_spans(const text::PlanStory& story) {
   std::vector<Span> spans(story.columns.figures.size());
   story.each([&](const analysis::RunRecord& record) {
-    for (std::size_t f = 0; f < spans.size(); ++f) spans[f].include(record.figures[f]);
+    for (std::size_t f = 0; f < spans.size(); ++f) spans[f].include(record->figures[f]);
   });
   return spans;
 }
@@ -96,7 +100,7 @@ std::vector<Histogram> histograms(const text::PlanStory& story, const std::vecto
   std::vector<Histogram> out(spans.size());
   story.each([&](const analysis::RunRecord& record) {
     for (std::size_t f = 0; f < out.size(); ++f) {
-      const double x = record.figures[f], width = spans[f].high - spans[f].low;
+      const double x = record->figures[f], width = spans[f].high - spans[f].low;
       if (std::isnan(x)) ++out[f].missing;
       if (std::isinf(x)) ++out[f].never;
       if (!std::isfinite(x)) continue;

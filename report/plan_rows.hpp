@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,12 +16,14 @@ namespace report {
 /// How a run ended, as its colour tells it.
 enum class RunState : std::uint8_t { holds, misses, fault, refused };
 
-RunState state_of(const sixstep::analysis::RunRecord& record, const sixstep::analysis::PlanColumns& columns);
+RunState state_of(const sixstep::analysis::RunRecord& record);
 
 struct PlanColumn {
   enum class Kind : std::uint8_t { key, strayed, figure } kind = Kind::key;
   std::string name, unit;
   bool logarithmic = false;
+  bool required = false;  ///< of a figure, between these
+  std::optional<double> min{}, max{};
   std::vector<std::string> words{};  ///< of a key that is no number; its values count through them
   std::vector<float> values{};       ///< a row each; NaN where there is none
 };

@@ -88,10 +88,10 @@ std::vector<std::vector<NearRun>> worst_of(const text::PlanStory& story, std::si
   const std::vector<analysis::FigureColumn>& figures = story.columns.figures;
   std::vector<std::vector<NearRun>> worst(figures.size());
   story.each([&](const analysis::RunRecord& record) {
-    if (record.end == analysis::RunEnd::refused) return;
+    if (record->end == analysis::RunEnd::refused) return;
     for (std::size_t f = 0; f < figures.size(); ++f)
       if (figures[f].required)
-        keep(worst[f], {record.number, record.figures[f], room_of(figures[f], record.figures[f])}, most);
+        keep(worst[f], {record->number, record->figures[f], room_of(figures[f], record->figures[f])}, most);
   });
   return worst;
 }

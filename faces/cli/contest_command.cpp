@@ -14,8 +14,10 @@
 #include "faces/cli/keep.hpp"
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/outputs.hpp"
+#include "faces/cli/plan_storing.hpp"
 #include "faces/cli/progress.hpp"
 #include "faces/cli/stop_watch.hpp"
+#include "faces/cli/store_option.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
 #include "files/atomic_file.hpp"
@@ -147,6 +149,7 @@ analysis::Contest nominally(const ContestArguments& a, analysis::ContestBench be
                                   {.drives = a.drives,
                                    .seed = a.seed,
                                    .jobs = a.jobs,
+                                   .unit_of = unit_of,
                                    .progress = [&](std::size_t done) { progress.pieces_done(done); },
                                    .stop = watch.token()});
 }
@@ -154,7 +157,7 @@ analysis::Contest nominally(const ContestArguments& a, analysis::ContestBench be
 /// By way of the store, with what it has already.
 base::Problems over_the_tolerances(const ContestArguments& a, analysis::Contest& contest) {
   if (a.drives == 0) return {};
-  base::Result<files::PlanStore> store = store_of(contest, a.seed, {a.store, a.resume, a.force, a.command});
+  base::Result<files::PlanStore> store = store_of(contest, {a.store, a.resume, a.force, a.command});
   if (!store) return store.problems();
   const StopWatch watch([&store] { return store->failed(); });
   const auto runs = static_cast<std::size_t>(
@@ -224,8 +227,7 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
       ->check(CLI::Range(0, 100'000))
       ->capture_default_str();
   verb.add_option("--seed", a.seed, "of these drives")->capture_default_str();
-  verb.add_option("--store", a.store, "an SQLite file for the figures of each of these drives, one row each")
-      ->type_name("FILE");
+  take_store(verb, a.store, "an SQLite file for the figures of each of these drives, one row each");
   verb.add_flag("--resume", a.resume, "go on with the drives that --store has not yet");
   verb.add_option("--json", a.json, "write everything; - for standard output instead of the tables");
   verb.add_option("--csv", a.csv, "write a line per controller; - for standard output");

@@ -13,26 +13,22 @@
 
 namespace cli {
 
-base::Result<files::PlanStore> store_of(const analysis::Contest& contest, std::uint64_t seed,
-                                        const ContestStoring& storing) {
-  const analysis::Plan plan = analysis::contest_plan(contest.entries, contest.drives, seed);
+base::Result<files::PlanStore> store_of(const analysis::Contest& contest, const ContestStoring& storing) {
   const study::Scenario& common = contest.bench.scenario;
   // A controller whose rule makes other numbers now is another one, and so is one of one's own that was compiled anew.
   std::uint64_t inputs = files::text_digest(SIXSTEP_VERSION);
   for (const analysis::ContestRow& row : contest.rows)
-    inputs = files::text_digest(base::written_hex(row.nominal.digest), inputs);
+    inputs = files::text_digest(base::written_hex((*row.nominal)->digest), inputs);
   for (const analysis::ContestEntry& entry : contest.entries)
     if (entry.scenario) inputs = files::text_digest(text::scenario_text(*entry.scenario), inputs);
-  files::StoredPlan stored{.plan = text::plan_identity(plan),
+  files::StoredPlan stored{.plan = text::plan_identity(contest.plan),
                            .inputs = base::written_hex(inputs),
                            .title = "Controllers side by side",
                            .motor = common.sheet.name,
                            .scenario = common.title,
                            .command = storing.command,
                            .scenario_text = text::scenario_text(common),
-                           .columns = analysis::contest_columns(plan, contest.bench),
-                           .units = {}};
-  stored.units = units_of(stored.columns);
+                           .columns = contest.columns};
   return store_at(storing.path, storing.resume, storing.force, std::move(stored));
 }
 
@@ -45,9 +41,7 @@ base::Problems take_drives(analysis::Contest& contest, batch::ContestOrder order
         if (progress) progress(store.rows());
       });
   if (base::Problems unwritten = store.finish(); !unwritten.empty()) return unwritten;
-  const analysis::PlanColumns columns = store.plan().columns;
-  return store.each(
-      [&](const analysis::RunRecord& record) { analysis::take_drive(contest, record, columns); });
+  return store.each([&](const analysis::RunRecord& record) { analysis::take_drive(contest, record); });
 }
 
 }  // namespace cli

@@ -16,8 +16,7 @@ struct ContestStoring {
 };
 
 /// The store for the drives of these entries. Problems where it is of another comparison.
-base::Result<files::PlanStore> store_of(const analysis::Contest& contest, std::uint64_t seed,
-                                        const ContestStoring& storing);
+base::Result<files::PlanStore> store_of(const analysis::Contest& contest, const ContestStoring& storing);
 
 /// Makes the drives that the store has not yet, unless they are stopped, and takes all that it has by then.
 base::Problems take_drives(analysis::Contest& contest, batch::ContestOrder order, files::PlanStore& store);

@@ -13,6 +13,7 @@
 #include "faces/cli/optimise_command.hpp"
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/spec_words.hpp"
+#include "faces/cli/store_option.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
 #include "files/atomic_file.hpp"
@@ -275,7 +276,7 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   CLI::Option* optimise = design.add_option(
       "--optimise", a.optimise,
       "a plan that says what is to be small: the best point of its ranges, and what limits it");
-  design.add_option("--store", a.store, "keep each run of --optimise in this SQLite file")->needs(optimise);
+  take_store(design, a.store, "keep each run of --optimise in this SQLite file")->needs(optimise);
   design.add_flag("--resume", a.resume, "go on with the runs of --store")->needs("--store");
   take_force(design, a.force);
   design.add_flag("--quick", a.quick, "leave out the tolerances");

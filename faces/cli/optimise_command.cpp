@@ -28,9 +28,9 @@ base::Result<std::size_t> figure_of(const OptimiseArguments& a, const ReadPlan& 
     return base::Problem{a.plan + ":", "", "does not say what is to be small",
                          "name a figure of its scenario: minimise = \"label\""};
   std::vector<std::string> known;
-  for (std::size_t n = 0; n < plan.columns.figures.size(); ++n) {
-    if (plan.columns.figures[n].name == plan.minimise) return n;
-    known.push_back(plan.columns.figures[n].name);
+  for (std::size_t n = 0; n < plan.columns->figures.size(); ++n) {
+    if (plan.columns->figures[n].name == plan.minimise) return n;
+    known.push_back(plan.columns->figures[n].name);
   }
   const std::string near = text::nearest(plan.minimise, known);
   return base::Problem{a.plan + ": minimise", plan.minimise, "is no figure of the scenario",
@@ -70,7 +70,7 @@ std::optional<analysis::Optimum> search(const OptimiseArguments& a, const ReadPl
                                         files::PlanStore& store) {
   std::map<std::size_t, analysis::RunRecord> before;
   const base::Problems unread =
-      store.each([&](const analysis::RunRecord& record) { before.emplace(record.number, record); });
+      store.each([&](const analysis::RunRecord& record) { before.emplace(record->number, record); });
   complain(unread);
   const StopWatch watch([&store] { return store.failed(); });
   Progress progress({.seconds = {}, .pieces = plan.evaluations, .of = "points"}, a.quiet);
@@ -133,7 +133,7 @@ Exit optimise_command(const OptimiseArguments& a) {
   if (!best)
     return refused({{a.plan + ":", "", "has no point that can be run",
                      "look at one of its runs: sixstep run --only 0"}});
-  const text::OptimumStory story{plan->name, plan->scenarios->plan(), plan->columns, plan->units, *figure};
+  const text::OptimumStory story{plan->name, plan->scenarios->plan(), *plan->columns, *figure};
   const std::string json = text::optimum_json(story, *best);
   if (const base::Problems unwritten = write(outputs, *plan, *best, json); !unwritten.empty())
     return refused(unwritten);

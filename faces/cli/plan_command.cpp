@@ -19,6 +19,7 @@
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/stop_watch.hpp"
 #include "faces/cli/terminal.hpp"
+#include "text/escape/escape.hpp"
 #include "text/plan/plan_file.hpp"
 #include "text/results/junit.hpp"
 #include "text/results/plan_text.hpp"
@@ -47,14 +48,14 @@ batch::PlanRuns runs_of(const RunArguments& a, const ReadPlan& plan, files::Plan
 base::Problems same_program(const batch::PlanRuns& runs, files::PlanStore& store) {
   std::optional<analysis::RunRecord> before;
   base::Problems problems = store.each([&](const analysis::RunRecord& record) {
-    if (!before && record.end != analysis::RunEnd::refused) before = record;
+    if (!before && record->end != analysis::RunEnd::refused) before = record;
   });
   if (!problems.empty() || !before) return problems;
-  const std::optional<analysis::RunRecord> now = batch::run_one(runs, before->number);
-  if (!now || now->digest == before->digest) return {};
+  const std::optional<analysis::RunRecord> now = batch::run_one(runs, (*before)->number);
+  if (!now || (*now)->digest == (*before)->digest) return {};
   return {{.where = store.path() + ":",
            .limit = fmt::format("was begun by another version of sixstep: run {} has other bits now",
-                                before->number),
+                                (*before)->number),
            .cure = "finish it with that version, or begin anew with --force"}};
 }
 
@@ -62,8 +63,14 @@ base::Problems same_program(const batch::PlanRuns& runs, files::PlanStore& store
 class MadePlan {
  public:
   MadePlan(const ReadPlan& plan, files::PlanStore store)
-      : plan_(plan), store_(std::move(store)), series_(analysis::series_of(plan.columns)) {
+      : plan_(plan), store_(std::move(store)), series_(analysis::series_of(*plan.columns)) {
     each([&](const analysis::RunRecord& record) { analysis::add(series_, record); });
+    const std::size_t wanted = analysis::runs_of(plan.scenarios->plan());
+    if (problems_.empty() && series_.runs < wanted && !interrupted())
+      problems_.push_back(
+          {store_.path() + ":", "",
+           fmt::format("gives back {} of the {} runs that it was given", series_.runs, wanted),
+           "begin anew with --force"});
   }
   MadePlan(const MadePlan&) = delete;
   MadePlan& operator=(const MadePlan&) = delete;
@@ -71,17 +78,30 @@ class MadePlan {
   const text::PlanStory& story() const { return story_; }
   /// What kept rows from being read.
   const base::Problems& problems() const { return problems_; }
+  /// Runs that the store has beyond those of the plan, in words; empty where there are none.
+  std::string beyond() const {
+    if (beyond_ == 0) return "";
+    return fmt::format(
+        "{}: {} more {} stored, beyond the {} that are asked for; --resume with more of them shows all\n",
+        text::visible(store_.path()), beyond_, beyond_ == 1 ? "run is" : "runs are",
+        analysis::runs_of(plan_.scenarios->plan()));
+  }
   Exit exit() const { return exit_of(series_); }
   text::JunitSuite verdicts() const { return text::junit_suite(plan_.name, series_); }
 
  private:
+  /// Those of the plan that is asked for, with their points as it has them.
   void each(const std::function<void(const analysis::RunRecord&)>& visit) {
     const analysis::Plan& p = plan_.scenarios->plan();
+    beyond_ = 0;
     const base::Problems unread = store_.each([&](const analysis::RunRecord& record) {
-      if (record.number >= analysis::runs_of(p)) return;  // of a sitting that wanted more
-      analysis::RunRecord whole = record;
-      whole.point = analysis::point_of_run(p, record.number);
-      visit(whole);
+      if (record->number >= analysis::runs_of(p)) return void(++beyond_);  // of a sitting that wanted more
+      analysis::RunValues values = *record;
+      values.point = analysis::point_of_run(p, record->number);
+      if (const auto whole = analysis::RunRecord::of(plan_.columns, std::move(values)))
+        visit(*whole);
+      else
+        append(problems_, whole.problems());
     });
     append(problems_, unread);
   }
@@ -90,9 +110,9 @@ class MadePlan {
   files::PlanStore store_;
   analysis::Series series_;
   base::Problems problems_;
-  text::PlanStory story_{plan_.name,    plan_.scenarios->plan(),
-                         plan_.columns, plan_.units,
-                         series_,       [this](const auto& visit) { each(visit); }};
+  std::size_t beyond_ = 0;
+  text::PlanStory story_{plan_.name, plan_.scenarios->plan(), *plan_.columns, series_,
+                         [this](const auto& visit) { each(visit); }};
 };
 
 /// All runs of a plan that its store does not have yet, or as many as there was time for.
@@ -127,6 +147,7 @@ Exit run_plan(const RunArguments& a, const ReadPlan& plan, std::vector<text::Jun
   const MadePlan made(plan, std::move(*store));
   if (!a.quiet && made.problems().empty())
     print(text::plan_table(made.story()), a.paths.prints() ? stderr : stdout);
+  if (!a.quiet) print(made.beyond(), stderr);
   base::Problems problems = outputs.publish(made.story(), plan, !interrupted());
   append(problems, made.problems());
   complain(problems);
@@ -152,6 +173,7 @@ Exit compare_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
     exit = graver(exit, one.exit());
     suites.push_back(one.verdicts());
     if (!a.quiet) print(text::plan_table(one.story()));
+    if (!a.quiet) print(one.beyond(), stderr);
     pages.push_back(page_of(a, plan, one.story(), {}));
   }
   file->write(plan_page(pages, a.command));

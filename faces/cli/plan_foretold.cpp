@@ -18,8 +18,8 @@ namespace {
 using std::chrono::duration;
 using std::chrono::steady_clock;
 
-/// Of a row in the store: number, words and digest, and eight bytes a number with what SQLite adds.
-constexpr double row_bytes = 70, column_bytes = 9;
+/// Of a row in the store: number, words, digest and checksum, and eight bytes a number with what SQLite adds.
+constexpr double row_bytes = 79, column_bytes = 9;
 
 std::string time_text(double s) {
   if (s < 120) return text::quantity_text(s, "s", 2);
@@ -59,8 +59,8 @@ Sample sample_of(const batch::PlanRuns& runs) {
         static_cast<std::size_t>(static_cast<double>(k) * 0.6180339887498949 * static_cast<double>(all)) %
         all;
     const std::optional<analysis::RunRecord> record = batch::run_one(runs, n);
-    if (record && record->end == analysis::RunEnd::refused && sample.refused.empty())
-      sample.refused = fmt::format("run {}: {}", n, record->problem);
+    if (record && (*record)->end == analysis::RunEnd::refused && sample.refused.empty())
+      sample.refused = fmt::format("run {}: {}", n, (*record)->problem);
     spent_s = duration<double>(steady_clock::now() - begin).count();
     ++sample.runs;
   }
@@ -83,12 +83,14 @@ Exit foretell(const RunArguments& arguments, const ReadPlan& plan) {
                                    .jobs = 1});
   if (interrupted()) return told_interrupted("nothing was written");
   const double cores = threads_for_runs(arguments.jobs);
-  const double columns = static_cast<double>(plan.columns.keys.size() + plan.columns.strayed.size() +
-                                             plan.columns.figures.size());
+  const double columns = static_cast<double>(plan.columns->keys.size() + plan.columns->strayed.size() +
+                                             plan.columns->figures.size());
   std::string text = fmt::format("{}\n", text::visible(plan.name));
   for (std::size_t k = 0; k < p.axes.size(); ++k)
     text += "  " +
-            text::visible(axis_text(p.axes[k], plan.units[k], p.sampling == analysis::Sampling::grid)) + "\n";
+            text::visible(
+                axis_text(p.axes[k], plan.columns->keys[k].unit, p.sampling == analysis::Sampling::grid)) +
+            "\n";
   const std::size_t points = analysis::points_of(p);
   text += fmt::format("  {} point{}", points, points == 1 ? "" : "s");
   if (p.drives > 0) text += fmt::format(" of {} drives each", p.drives);

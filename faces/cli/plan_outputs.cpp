@@ -29,9 +29,9 @@ OutputPaths paths_of(const RunArguments& a, const ReadPlan& plan) {
 
 void write_csv(files::AtomicFile& file, const text::PlanStory& story, const ReadPlan& plan) {
   for (const std::string& line : files::origin_lines(plan.origin)) file.write("# " + line + "\n");
-  file.write(text::plan_csv_head(story.columns, story.units));
+  file.write(text::plan_csv_head(story.columns));
   story.each([&](const analysis::RunRecord& record) {
-    if (!file.failed()) file.write(text::plan_csv_row(record, story.columns));
+    if (!file.failed()) file.write(text::plan_csv_row(record));
   });
 }
 

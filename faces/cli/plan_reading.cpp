@@ -98,11 +98,6 @@ base::Problems without_series(const std::string& file, const ReadPlan& plan) {
            .cure = "say in [[spread]] what differs; see: sixstep help spread"}};
 }
 
-void name_columns(ReadPlan& plan) {
-  plan.columns = analysis::columns_of(plan.scenarios->plan(), plan.nominal);
-  plan.units = units_of(plan.columns);
-}
-
 }  // namespace
 
 bool plans(const RunArguments& a, const std::string& file) {
@@ -147,7 +142,7 @@ base::Result<ReadPlan> read_plan(const std::string& file, const RunArguments& ar
   read.notes = of_file->notes;
   read.minimise = of_file->minimise;
   read.evaluations = of_file->evaluations;
-  name_columns(read);
+  read.columns = analysis::columns_of(read.scenarios->plan(), read.nominal, unit_of);
   read.origin = {.scenario = file,
                  .digest = inputs_digest(log, arguments, tolerances),
                  .title = read.title,

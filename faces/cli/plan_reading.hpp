@@ -20,8 +20,7 @@ struct ReadPlan {
   std::size_t evaluations = 0;
   std::unique_ptr<text::PlannedScenarios> scenarios;
   study::Scenario nominal;
-  analysis::PlanColumns columns;
-  std::vector<std::string> units;  ///< of the varied keys, then of the strayed ones
+  analysis::TableColumns columns;
   files::TraceOrigin origin;
 };
 

@@ -30,19 +30,13 @@ base::Result<files::PlanStore> store_of(const RunArguments& a, const ReadPlan& p
                            .scenario = plan.origin.scenario,
                            .command = plan.origin.command,
                            .scenario_text = text::scenario_text(plan.nominal),
-                           .columns = plan.columns,
-                           .units = plan.units};
+                           .columns = plan.columns};
   return store_at(store_path(a, plan.name), a.plan.resume, a.paths.force, std::move(stored));
 }
 
-std::vector<std::string> units_of(const analysis::PlanColumns& columns) {
-  std::vector<std::string> units;
-  for (const std::vector<std::string>* keys : {&columns.keys, &columns.strayed})
-    for (const std::string& key : *keys) {
-      const base::Result<std::string> unit = text::unit_of_key(key);
-      units.push_back(unit ? *unit : "");
-    }
-  return units;
+std::string unit_of(const std::string& key) {
+  const base::Result<std::string> unit = text::unit_of_key(key);
+  return unit ? *unit : std::string();
 }
 
 base::Result<files::PlanStore> store_at(const std::string& path, bool resume, bool force,

@@ -10,8 +10,8 @@ namespace cli {
 base::Result<files::PlanStore> store_of(const RunArguments& arguments, const ReadPlan& plan,
                                         std::string identity);
 
-/// Of the varied keys, then of the strayed ones; empty where a key has none.
-std::vector<std::string> units_of(const analysis::PlanColumns& columns);
+/// The unit of a scenario's key; empty where it has none.
+std::string unit_of(const std::string& key);
 
 /// A new one, or one to go on with; what the store says of itself names these options.
 base::Result<files::PlanStore> store_at(const std::string& path, bool resume, bool force,

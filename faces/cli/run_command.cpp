@@ -17,6 +17,7 @@
 #include "faces/cli/progress.hpp"
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/run_reading.hpp"
+#include "faces/cli/store_option.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/whole_in.hpp"
 #include "faces/loop/cores.hpp"
@@ -206,7 +207,7 @@ void declare_plan_options(CLI::App& run, PlanArguments& a) {
       ->check(whole_in(1, 1'000'000'000));
   run.add_flag("--tolerances", a.tolerances,
                "drives of --runs also stray in what makers do not promise: R, L and K_t");
-  run.add_option("--store", a.store, "keep each finished run in this SQLite file");
+  take_store(run, a.store, "keep each finished run in this SQLite file");
   run.add_flag("--resume", a.resume, "go on with the runs of --store, or of --out as it was");
   run.add_flag("--dry-run", a.dry_run, "how many runs, how long and how large, and nothing else");
   run.add_option("--only", a.only, "run N of the plan alone, with all its outputs")

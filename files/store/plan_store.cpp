@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/store/plan_store.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -9,19 +11,43 @@
 #include <utility>
 
 #include "files/store/store_schema.hpp"
+#include "files/store/stored_row.hpp"
+#include "text/escape/escape.hpp"
 
 namespace files {
+namespace {
+
+/// One file while nobody writes, and no other program in it while somebody does. Nothing is forced to the disk at each
+/// transaction: only a power cut takes the last ones back, and leaves a whole store all the same.
+constexpr char modes[] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;";
+
+}  // namespace
 
 /// Rows wait for the writer, which writes all that wait in one transaction: few while runs are long, many while they are short.
 /// What a kill can take is what has not been counted yet.
 struct PlanStore::Inside {
   static constexpr std::size_t most_waiting = 4096;
 
-  Inside(Database database, StoredPlan stored) : db(std::move(database)), plan(std::move(stored)) {}
+  Inside(Database database, StoredPlan told)
+      : db(std::move(database)),
+        plan(std::move(told)),
+        stored(as_stored(plan)),
+        begin_of_checksums(checksum_begin(stored)) {}
   ~Inside() { end(); }
 
+  /// All tables of a new store come in one transaction.
+  base::Problems bear() {
+    if (base::Problems wrong = db.run(fmt::format("BEGIN; PRAGMA application_id={}; PRAGMA user_version={}",
+                                                  0x53495853, store_format));  // store_mark
+        !wrong.empty())
+      return wrong;
+    for (const std::string& sql : schema_of(stored))
+      if (base::Problems wrong = db.run(sql); !wrong.empty()) return wrong;
+    if (base::Problems wrong = write_plan(db, stored); !wrong.empty()) return wrong;
+    return db.run(std::string("COMMIT;") + modes);
+  }
   base::Problems begin() {
-    base::Result<Statement> statement = db.prepare(insert_sql(plan));
+    base::Result<Statement> statement = db.prepare(insert_sql(stored));
     if (!statement) return statement.problems();
     insert.emplace(std::move(*statement));
     writer = std::jthread([this](const std::stop_token& stop) { write(stop); });
@@ -43,7 +69,7 @@ struct PlanStore::Inside {
       base::Problems wrong = problems.empty() ? put(rows) : problems;
       lock.lock();
       if (wrong.empty())
-        for (const analysis::RunRecord& row : rows) note(row.number);
+        for (const analysis::RunRecord& row : rows) note(row->number);
       problems = std::move(wrong);
       moved.notify_all();
     }
@@ -51,14 +77,43 @@ struct PlanStore::Inside {
   base::Problems put(const std::vector<analysis::RunRecord>& rows) {
     if (base::Problems wrong = db.run("BEGIN IMMEDIATE"); !wrong.empty()) return wrong;
     for (const analysis::RunRecord& row : rows) {
-      bind_row(*insert, row, plan.columns);
-      insert->step();
-      if (!insert->failed()) continue;
-      base::Problems wrong{db.problem()};
+      base::Problems wrong = put(row);
+      if (wrong.empty()) continue;
       db.run("ROLLBACK");
       return wrong;
     }
     return db.run("COMMIT");
+  }
+  base::Problems put(const analysis::RunRecord& row) {
+    if (!row.fits(plan.columns))
+      return {{db.path() + ":", "", fmt::format("does not take run {}: it has other columns", row->number),
+               "report this with the command that led to it"}};
+    std::vector<Cell> cells = cells_of(row);
+    cells.emplace_back(static_cast<std::int64_t>(checksum_of(cells, begin_of_checksums)));
+    for (std::size_t n = 0; n < cells.size(); ++n) insert->bind_cell(static_cast<int>(n) + 1, cells[n]);
+    insert->step();
+    if (insert->failed()) return {db.problem()};
+    return {};
+  }
+  /// The row that a SELECT stands at, if it is the one that was written.
+  base::Result<analysis::RunRecord> row_at(const Statement& select) {
+    std::vector<Cell> cells;
+    for (int n = 0; n + 1 < select.columns(); ++n) cells.push_back(select.cell(n));
+    const auto told = static_cast<std::int64_t>(checksum_of(cells, begin_of_checksums));
+    base::Result<analysis::RunRecord> record = record_of_cells(cells, plan.columns);
+    if (record && select.cell(select.columns() - 1) == Cell(told)) return record;
+    return damaged(db.path(), fmt::format("run {} is not what was written", select.whole(0)));
+  }
+  base::Problems each(const std::function<void(const analysis::RunRecord&)>& visit) {
+    base::Result<Statement> select = db.prepare(select_sql(stored));
+    if (!select) return select.problems();
+    while (select->step()) {
+      const base::Result<analysis::RunRecord> row = row_at(*select);
+      if (!row) return row.problems();
+      visit(*row);
+    }
+    if (select->failed()) return {db.problem()};
+    return {};
   }
   void note(std::size_t number) {
     if (number >= there.size()) there.resize(number + 1);
@@ -68,6 +123,8 @@ struct PlanStore::Inside {
 
   Database db;
   StoredPlan plan;
+  StoredPlan stored;  ///< the same as it stands in the file
+  std::uint64_t begin_of_checksums;
   std::optional<Statement> insert;
   mutable std::mutex guard;
   std::condition_variable_any moved;
@@ -79,10 +136,6 @@ struct PlanStore::Inside {
 };
 
 namespace {
-
-/// One file while nobody writes, and no other program in it while somebody does. Nothing is forced to the disk at each
-/// transaction: only a power cut takes the last ones back, and leaves a whole store all the same.
-constexpr char modes[] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;";
 
 enum class Standing { nothing, store, other };
 
@@ -98,12 +151,23 @@ Standing standing_at(const std::string& path) {
   return begin.starts_with("SQLite format 3") && id == store_mark ? Standing::store : Standing::other;
 }
 
-/// Its tables come in one transaction: who was killed in it left none.
+/// Its tables come in one transaction: who was killed in it left a file that is empty once SQLite has looked at it. (A damaged one
+/// still has its pages.)
 bool was_killed_at_birth(const std::string& path) {
   base::Result<Database> db = Database::open(path);
-  base::Result<Statement> tables =
-      db ? db->prepare("SELECT count(*) FROM sqlite_schema") : base::Result<Statement>(db.problems());
-  return tables && tables->step() && tables->whole(0) == 0;
+  base::Result<Statement> pages =
+      db ? db->prepare("PRAGMA page_count") : base::Result<Statement>(db.problems());
+  return pages && pages->step() && pages->whole(0) == 0;
+}
+
+/// SQLite's own look at every page: that rows are there and in their order. What stands in them the checksums tell.
+base::Problems check_pages(Database& db) {
+  base::Result<Statement> check = db.prepare("PRAGMA quick_check(1)");
+  if (!check) return check.problems();
+  const std::string said = check->step() ? check->text(0) : std::string();
+  if (check->failed()) return {db.problem()};
+  if (said == "ok") return {};
+  return {damaged(db.path(), "SQLite says: " + text::visible(said))};
 }
 
 base::Problem foreign(const std::string& path) {
@@ -127,10 +191,8 @@ base::Result<PlanStore> PlanStore::create(const std::string& path, StoredPlan pl
     for (const char* part : {"", "-wal", "-shm"}) ::remove((path + part).c_str());
   base::Result<Database> db = Database::open(path);
   if (!db) return db.problems();
-  if (base::Problems wrong = db->run("BEGIN;" + schema_sql(plan)); !wrong.empty()) return wrong;
-  if (base::Problems wrong = write_plan(*db, plan); !wrong.empty()) return wrong;
-  if (base::Problems wrong = db->run(std::string("COMMIT;") + modes); !wrong.empty()) return wrong;
   auto inside = std::make_unique<Inside>(std::move(*db), std::move(plan));
+  if (base::Problems wrong = inside->bear(); !wrong.empty()) return wrong;
   if (base::Problems wrong = inside->begin(); !wrong.empty()) return wrong;
   return PlanStore(std::move(inside));
 }
@@ -139,14 +201,13 @@ base::Result<PlanStore> PlanStore::read(const std::string& path) {
   if (standing_at(path) != Standing::store) return foreign(path);
   base::Result<Database> db = Database::open(path);
   if (!db) return db.problems();
+  if (base::Problems wrong = check_pages(*db); !wrong.empty()) return wrong;
   if (base::Problems wrong = db->run(modes); !wrong.empty()) return wrong;
   base::Result<StoredPlan> plan = read_plan(*db);
   if (!plan) return plan.problems();
   auto inside = std::make_unique<Inside>(std::move(*db), std::move(*plan));
-  base::Result<Statement> numbers = inside->db.prepare("SELECT number FROM run");
-  if (!numbers) return numbers.problems();
-  while (numbers->step()) inside->note(static_cast<std::size_t>(numbers->whole(0)));
-  if (numbers->failed()) return inside->db.problem();
+  base::Problems wrong = inside->each([&](const analysis::RunRecord& row) { inside->note(row->number); });
+  if (!wrong.empty()) return wrong;
   return PlanStore(std::move(inside));
 }
 
@@ -156,15 +217,23 @@ base::Result<PlanStore> PlanStore::resume(const std::string& path, StoredPlan pl
     return create(path, std::move(plan), true);
   base::Result<PlanStore> store = read(path);
   if (!store) return store;
-  const StoredPlan& before = store->plan();
-  if (before.plan != plan.plan)
-    return base::Problem{path + ":", "", "holds the runs of another plan: " + before.plan,
-                         "name another store for this plan: " + plan.plan};
-  if (before.inputs != plan.inputs || !(before.columns == plan.columns))
-    return base::Problem{
-        path + ":", "",
+  const StoredPlan before = store->plan(), now = as_stored(plan);
+  const auto refuse = [&](std::string limit, std::string cure) {
+    return base::Problem{path + ":", "", std::move(limit), std::move(cure)};
+  };
+  if (before.sixstep != now.sixstep)
+    return refuse("was begun by sixstep " + before.sixstep + ", and this is " + now.sixstep +
+                      ": nothing would tell their rows apart",
+                  "finish it with that version, or begin anew (force)");
+  if (before.plan != now.plan)
+    return refuse("holds the runs of another plan: " + before.plan,
+                  "name another store for this plan: " + now.plan);
+  if (before.inputs != now.inputs || *before.columns != *now.columns)
+    return refuse(
         "holds runs of a scenario that was changed since: " + before.scenario + " or a file that it names",
-        "name another store, or overwrite this one (force)"};
+        "name another store, or overwrite this one (force)");
+  // The columns are told with their names as they are, not as they stand in the file.
+  store->inside_->plan = std::move(plan);
   if (base::Problems wrong = store->inside_->begin(); !wrong.empty()) return wrong;
   return store;
 }
@@ -201,11 +270,7 @@ base::Problems PlanStore::finish() {
 }
 
 base::Problems PlanStore::each(const std::function<void(const analysis::RunRecord&)>& visit) {
-  base::Result<Statement> select = inside_->db.prepare(select_sql(inside_->plan));
-  if (!select) return select.problems();
-  while (select->step()) visit(row_of(*select, inside_->plan.columns));
-  if (select->failed()) return {inside_->db.problem()};
-  return {};
+  return inside_->each(visit);
 }
 
 }  // namespace files

@@ -37,7 +37,7 @@ base::Problem Database::problem() const {
               "wait until that has closed it, or name another store"};
     case SQLITE_NOTADB:
     case SQLITE_CORRUPT:
-      return {path_ + ":", "", "is no store of runs: SQLite cannot read it", "name another file"};
+      return damaged(path_, std::string("SQLite says: ") + sqlite3_errmsg(handle_.get()));
     case SQLITE_FULL:
       return {path_ + ":", "", "cannot grow: the disk is full", "make room and go on where it stopped"};
     case SQLITE_CANTOPEN:
@@ -49,6 +49,10 @@ base::Problem Database::problem() const {
       problem.cure = "name another file";
       return problem;
   }
+}
+
+base::Problem damaged(const std::string& path, const std::string& how) {
+  return {path + ":", "", "is damaged: " + how, "use an older copy of it, or begin anew (force)"};
 }
 
 std::string sql_name(std::string_view name) {

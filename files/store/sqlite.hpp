@@ -9,11 +9,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "files/rooms.hpp"
 #include "sixstep/base/result.hpp"
 
 namespace files {
+
+/// A value as SQLite has it: nothing, a whole number, a number, a text. (A BLOB is none of them.)
+using Cell = std::variant<std::monostate, std::int64_t, double, std::string>;
 
 /// A statement that is run many times. Places count from 1, columns from 0, as SQLite has them.
 class Statement {
@@ -26,6 +30,12 @@ class Statement {
   }
   /// A number that is none is NULL; an infinite one is itself.
   void bind(int place, double x) { sqlite3_bind_double(statement_.get(), place, x); }
+  void bind_cell(int place, const Cell& cell) {
+    sqlite3_bind_null(statement_.get(), place);
+    if (const auto* whole = std::get_if<std::int64_t>(&cell)) bind(place, *whole);
+    if (const auto* number = std::get_if<double>(&cell)) bind(place, *number);
+    if (const auto* text = std::get_if<std::string>(&cell)) bind(place, std::string_view(*text));
+  }
 
   /// True while there is a row. After the last one it can be bound and run again.
   bool step() {
@@ -42,7 +52,19 @@ class Statement {
     if (sqlite3_column_type(statement_.get(), column) == SQLITE_NULL) return {};
     return sqlite3_column_double(statement_.get(), column);
   }
-  bool is_number(int column) const { return sqlite3_column_type(statement_.get(), column) == SQLITE_FLOAT; }
+  Cell cell(int column) const {
+    switch (sqlite3_column_type(statement_.get(), column)) {
+      case SQLITE_INTEGER:
+        return whole(column);
+      case SQLITE_FLOAT:
+        return sqlite3_column_double(statement_.get(), column);
+      case SQLITE_TEXT:
+        return text(column);
+      default:
+        return std::monostate{};
+    }
+  }
+  int columns() const { return sqlite3_column_count(statement_.get()); }
   std::string text(int column) const {
     const auto* chars = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
     return chars
@@ -78,6 +100,9 @@ class Database {
   std::unique_ptr<sqlite3, Close> handle_;
   std::string path_;
 };
+
+/// Of a store that does not hold what was written into it; `how` is a clause.
+base::Problem damaged(const std::string& path, const std::string& how);
 
 /// "a name" for SQL, with its quotes.
 std::string sql_name(std::string_view name);

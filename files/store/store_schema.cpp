@@ -4,17 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <limits>
+#include <set>
 #include <utility>
 
+#include "files/store/stored_row.hpp"
+#include "files/text_file.hpp"
 #include "sixstep/base/written.hpp"
-#include "text/keys/decimal_number.hpp"
+#include "text/escape/escape.hpp"
+#include "text/results/plan_columns.hpp"
 
 namespace files {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view checksum_word = "checksum", version_word = "sixstep";
 
 /// Columns of `run` behind its fixed ones: k0, k1, .. s0, .. f0, ..
 std::vector<std::string> own_columns(const analysis::PlanColumns& c) {
@@ -25,101 +27,147 @@ std::vector<std::string> own_columns(const analysis::PlanColumns& c) {
   return names;
 }
 
-std::string with_unit(std::string_view name, std::string_view unit) {
-  return unit.empty() ? std::string(name) : fmt::format("{} [{}]", name, unit);
+/// Members and the words that stand for them.
+using Word = std::pair<std::string_view, std::string*>;
+std::vector<Word> words_of(StoredPlan& plan) {
+  return {{version_word, &plan.sixstep}, {"plan", &plan.plan},
+          {"inputs", &plan.inputs},      {"title", &plan.title},
+          {"motor", &plan.motor},        {"scenario", &plan.scenario},
+          {"command", &plan.command},    {"scenario_text", &plan.scenario_text}};
 }
 
-/// What each of them is called in the view; a name that is taken gets a number.
-std::vector<std::string> shown_names(const StoredPlan& plan) {
-  const analysis::PlanColumns& c = plan.columns;
-  std::vector<std::string> names;
-  const auto add = [&](std::string name) {
-    const std::string wanted = name;
-    for (int n = 2; std::find(names.begin(), names.end(), name) != names.end(); ++n)
-      name = fmt::format("{} ({})", wanted, n);
-    names.push_back(std::move(name));
+/// A row of `columns`: column, kind, name, unit, required, min, max.
+using ColumnRow = std::vector<Cell>;
+std::vector<ColumnRow> column_rows(const analysis::PlanColumns& c) {
+  const std::vector<std::string> own = own_columns(c);
+  std::vector<ColumnRow> rows;
+  const auto limit = [](const std::optional<double>& x) { return x ? Cell(*x + 0.0) : Cell(); };
+  const auto add = [&](std::string_view kind, const std::string& name, const std::string& unit, bool required,
+                       const std::optional<double>& min, const std::optional<double>& max) {
+    rows.push_back(
+        {own[rows.size()], std::string(kind), name, unit, std::int64_t{required}, limit(min), limit(max)});
   };
-  for (std::size_t n = 0; n < c.keys.size(); ++n) add(with_unit(c.keys[n], plan.units[n]));
-  for (std::size_t n = 0; n < c.strayed.size(); ++n)
-    add(with_unit("drive: " + c.strayed[n], plan.units[c.keys.size() + n]));
-  for (const analysis::FigureColumn& f : c.figures) add(with_unit(f.name, f.unit));
-  return names;
+  for (const analysis::InputColumn& key : c.keys) add("key", key.key, key.unit, false, {}, {});
+  for (const analysis::InputColumn& key : c.strayed) add("strayed", key.key, key.unit, false, {}, {});
+  for (const analysis::FigureColumn& f : c.figures) add("figure", f.name, f.unit, f.required, f.min, f.max);
+  return rows;
 }
 
-/// A number as a number, "soft" without its quotes.
-void bind_value(Statement& insert, int place, const std::string& written) {
-  if (const std::optional<double> x = text::number_alone(written)) return insert.bind(place, *x);
-  insert.bind(place, analysis::bare(written));
+/// The version is told by name instead (PlanStore::resume).
+std::uint64_t checksum_of_plan(StoredPlan plan) {
+  std::vector<Cell> cells;
+  for (const auto& [word, value] : words_of(plan))
+    if (word != version_word) cells.insert(cells.end(), {std::string(word), *value});
+  for (const ColumnRow& row : column_rows(*plan.columns)) cells.insert(cells.end(), row.begin(), row.end());
+  return checksum_of(cells, store_format);
 }
 
-std::uint64_t from_hex(const std::string& text) {
-  std::uint64_t bits = 0;
-  std::from_chars(text.data(), text.data() + text.size(), bits, 16);
-  return bits;
+void put(Statement& insert, const std::vector<Cell>& cells) {
+  for (std::size_t n = 0; n < cells.size(); ++n) insert.bind_cell(static_cast<int>(n) + 1, cells[n]);
+  insert.step();
+}
+
+/// All rows of a query; problems where it cannot be asked.
+base::Result<std::vector<std::vector<Cell>>> rows_of(Database& db, const std::string& sql) {
+  base::Result<Statement> select = db.prepare(sql);
+  if (!select) return select.problems();
+  std::vector<std::vector<Cell>> rows;
+  while (select->step()) {
+    std::vector<Cell>& row = rows.emplace_back();
+    for (int n = 0; n < select->columns(); ++n) row.push_back(select->cell(n));
+  }
+  if (select->failed()) return db.problem();
+  return rows;
+}
+
+std::string text_of(const Cell& cell) {
+  const auto* text = std::get_if<std::string>(&cell);
+  return text ? *text : std::string();
+}
+
+base::Problems check_format(Database& db) {
+  const auto found = rows_of(db, "PRAGMA user_version");
+  if (!found) return found.problems();
+  const std::int64_t format = std::get<std::int64_t>((*found)[0][0]);
+  if (format == store_format) return {};
+  if (format == 1)
+    return {{db.path() + ":", "",
+             "was written by an older sixstep, which kept no checksums: damage could not be told",
+             "finish it with that version, or begin anew (force)"}};
+  return {{db.path() + ":", "",
+           fmt::format("has the format {}, and this sixstep knows {}", format, store_format),
+           "take the version that wrote it, or begin anew (force)"}};
+}
+
+analysis::PlanColumns columns_from(const std::vector<ColumnRow>& rows) {
+  analysis::PlanColumns columns;
+  for (const ColumnRow& row : rows) {
+    const std::string kind = text_of(row[1]), name = text_of(row[2]), unit = text_of(row[3]);
+    const auto limit = [](const Cell& cell) {
+      const auto* x = std::get_if<double>(&cell);
+      return x ? std::optional(*x) : std::nullopt;
+    };
+    if (kind == "key") columns.keys.push_back({name, unit});
+    if (kind == "strayed") columns.strayed.push_back({name, unit});
+    if (kind == "figure")
+      columns.figures.push_back({name, unit, row[4] == Cell(std::int64_t{1}), limit(row[5]), limit(row[6])});
+  }
+  return columns;
+}
+
+/// Each of the statements made one of the store's tables; others may stand beside them.
+bool has_tables(const std::vector<std::vector<Cell>>& tables, const StoredPlan& plan) {
+  std::set<std::string> there;
+  for (const std::vector<Cell>& row : tables) there.insert(text_of(row[0]));
+  const std::vector<std::string> wanted = schema_of(plan);
+  return std::all_of(wanted.begin(), wanted.end(),
+                     [&](const std::string& sql) { return there.contains(sql); });
 }
 
 }  // namespace
 
-std::string schema_sql(const StoredPlan& plan) {
-  const std::vector<std::string> own = own_columns(plan.columns), shown = shown_names(plan);
+StoredPlan as_stored(StoredPlan plan) {
+  if (plan.sixstep.empty()) plan.sixstep = SIXSTEP_VERSION;
+  for (const auto& [word, value] : words_of(plan))
+    *value = text::visible(*value, value == &plan.scenario_text ? text::Lines::kept : text::Lines::shown);
+  analysis::PlanColumns columns = *plan.columns;
+  for (std::vector<analysis::InputColumn>* inputs : {&columns.keys, &columns.strayed})
+    for (analysis::InputColumn& input : *inputs) input.key = text::visible(input.key);
+  for (analysis::FigureColumn& figure : columns.figures) figure.name = text::visible(figure.name);
+  plan.columns = std::make_shared<const analysis::PlanColumns>(std::move(columns));
+  return plan;
+}
+
+std::vector<std::string> schema_of(const StoredPlan& plan) {
+  const std::vector<std::string> own = own_columns(*plan.columns), shown = text::column_names(*plan.columns);
   std::string table =
-      "CREATE TABLE run(number INTEGER PRIMARY KEY, \"end\" TEXT NOT NULL, passed INTEGER NOT NULL, problem TEXT, "
+      "CREATE TABLE run(run INTEGER PRIMARY KEY, \"end\" TEXT NOT NULL, passed INTEGER NOT NULL, problem TEXT, "
       "digest TEXT NOT NULL";
-  std::string view = "CREATE VIEW runs AS SELECT number, \"end\", passed";
+  std::string view = "CREATE VIEW runs AS SELECT run, \"end\", passed";
   for (std::size_t n = 0; n < own.size(); ++n) {
     table += fmt::format(", {}{}", own[n], own[n][0] == 'k' ? "" : " REAL");
     view += fmt::format(", {} AS {}", own[n], sql_name(shown[n]));
   }
-  return fmt::format(
-      "PRAGMA application_id={}; PRAGMA user_version={};"
-      "CREATE TABLE about(word TEXT PRIMARY KEY, value TEXT NOT NULL);"
-      "CREATE TABLE \"columns\"(\"column\" TEXT PRIMARY KEY, kind TEXT NOT NULL, name TEXT NOT NULL, unit TEXT NOT NULL, "
-      "required INTEGER NOT NULL, min REAL, max REAL);"
-      "{});{}, problem, digest FROM run;",
-      0x53495853, store_format, table, view);  // store_mark
+  return {"CREATE TABLE about(word TEXT PRIMARY KEY, value TEXT NOT NULL)",
+          "CREATE TABLE \"columns\"(\"column\" TEXT PRIMARY KEY, kind TEXT NOT NULL, name TEXT NOT NULL, "
+          "unit TEXT NOT NULL, required INTEGER NOT NULL, min REAL, max REAL)",
+          table + ", checksum INTEGER NOT NULL)", view + ", problem, digest FROM run"};
 }
 
 std::string insert_sql(const StoredPlan& plan) {
-  std::string sql = "INSERT OR REPLACE INTO run VALUES(?,?,?,?,?";
-  for (std::size_t n = own_columns(plan.columns).size(); n > 0; --n) sql += ",?";
+  std::string sql = "INSERT OR REPLACE INTO run VALUES(?";
+  for (std::size_t n = cells_in_row(*plan.columns); n > 0; --n) sql += ",?";
   return sql + ")";
 }
 
-void bind_row(Statement& insert, const analysis::RunRecord& record, const analysis::PlanColumns& columns) {
-  insert.bind(1, static_cast<std::int64_t>(record.number));
-  insert.bind(2, base::word(analysis::run_ends, record.end));
-  insert.bind(3, std::int64_t{analysis::passed(record, columns)});
-  insert.bind(4, record.problem);
-  insert.bind(5, base::written_hex(record.digest));
-  int place = 6;
-  for (const std::string& value : record.point) bind_value(insert, place++, value);
-  for (const double x : record.strayed) insert.bind(place++, x);
-  for (const double x : record.figures) insert.bind(place++, x);
-}
-
 std::string select_sql(const StoredPlan& plan) {
-  std::string sql = "SELECT number, \"end\", problem, digest";
-  for (const std::string& name : own_columns(plan.columns)) sql += ", " + name;
-  return sql + " FROM run ORDER BY number";
+  std::string sql = "SELECT run, \"end\", passed, problem, digest";
+  for (const std::string& name : own_columns(*plan.columns)) sql += ", " + name;
+  return sql + ", checksum FROM run ORDER BY run";
 }
 
-analysis::RunRecord row_of(const Statement& select, const analysis::PlanColumns& columns) {
-  analysis::RunRecord record;
-  record.number = static_cast<std::size_t>(select.whole(0));
-  const std::string end = select.text(1);
-  for (const auto& choice : analysis::run_ends)
-    if (choice.word == end) record.end = choice.value;
-  record.problem = select.text(2);
-  record.digest = from_hex(select.text(3));
-  int column = 4;
-  for (std::size_t n = 0; n < columns.keys.size(); ++n, ++column)
-    record.point.push_back(select.is_number(column) ? base::written(*select.number(column))
-                                                    : select.text(column));
-  for (std::size_t n = 0; n < columns.strayed.size(); ++n)
-    record.strayed.push_back(select.number(column++).value_or(none));
-  for (std::size_t n = 0; n < columns.figures.size(); ++n)
-    record.figures.push_back(select.number(column++).value_or(none));
-  return record;
+std::uint64_t checksum_begin(const StoredPlan& plan) {
+  return text_digest(plan.inputs, text_digest(plan.plan));
 }
 
 base::Problems write_plan(Database& db, const StoredPlan& plan) {
@@ -127,67 +175,40 @@ base::Problems write_plan(Database& db, const StoredPlan& plan) {
                           columns = db.prepare("INSERT INTO \"columns\" VALUES(?,?,?,?,?,?,?)");
   if (!about) return about.problems();
   if (!columns) return columns.problems();
-  const std::pair<std::string_view, std::string_view> words[] = {
-      {"sixstep", SIXSTEP_VERSION}, {"plan", plan.plan},
-      {"inputs", plan.inputs},      {"title", plan.title},
-      {"motor", plan.motor},        {"scenario", plan.scenario},
-      {"command", plan.command},    {"scenario_text", plan.scenario_text}};
-  for (const auto& [word, value] : words) {
-    about->bind(1, word);
-    about->bind(2, value);
-    about->step();
+  StoredPlan words = plan;
+  std::string checksum = base::written_hex(checksum_of_plan(plan));
+  std::vector<Word> all = words_of(words);
+  all.emplace_back(checksum_word, &checksum);
+  for (const auto& [word, value] : all) {
+    put(*about, {std::string(word), *value});
     if (about->failed()) return {db.problem()};
   }
-  const std::vector<std::string> own = own_columns(plan.columns);
-  std::size_t at = 0;
-  const auto add = [&](std::string_view kind, const analysis::FigureColumn& f) {
-    columns->bind(1, own[at++]);
-    columns->bind(2, kind);
-    columns->bind(3, f.name);
-    columns->bind(4, f.unit);
-    columns->bind(5, std::int64_t{f.required});
-    columns->bind(6, f.min.value_or(none));
-    columns->bind(7, f.max.value_or(none));
-    columns->step();
-  };
-  const auto of_key = [&](const std::string& key) {
-    return analysis::FigureColumn{.name = key, .unit = plan.units[at], .min = {}, .max = {}};
-  };
-  for (const std::string& key : plan.columns.keys) add("key", of_key(key));
-  for (const std::string& key : plan.columns.strayed) add("strayed", of_key(key));
-  for (const analysis::FigureColumn& f : plan.columns.figures) add("figure", f);
-  if (columns->failed()) return {db.problem()};
+  for (const ColumnRow& row : column_rows(*plan.columns)) {
+    put(*columns, row);
+    if (columns->failed()) return {db.problem()};
+  }
   return {};
 }
 
 base::Result<StoredPlan> read_plan(Database& db) {
+  if (base::Problems wrong = check_format(db); !wrong.empty()) return wrong;
+  const auto about = rows_of(db, "SELECT word, value FROM about");
+  const auto columns =
+      rows_of(db, "SELECT \"column\", kind, name, unit, required, min, max FROM \"columns\" ORDER BY rowid");
+  const auto tables = rows_of(db, "SELECT sql FROM sqlite_schema");
+  for (const auto* found : {&about, &columns, &tables})
+    if (!*found) return found->problems();
   StoredPlan plan;
-  base::Result<Statement> about = db.prepare("SELECT word, value FROM about"),
-                          columns = db.prepare(
-                              "SELECT kind, name, unit, required, min, max FROM \"columns\" ORDER BY rowid");
-  if (!about) return about.problems();
-  if (!columns) return columns.problems();
-  const std::pair<std::string_view, std::string*> words[] = {{"plan", &plan.plan},
-                                                             {"inputs", &plan.inputs},
-                                                             {"title", &plan.title},
-                                                             {"motor", &plan.motor},
-                                                             {"scenario", &plan.scenario},
-                                                             {"command", &plan.command},
-                                                             {"scenario_text", &plan.scenario_text}};
-  while (about->step())
-    for (const auto& [word, value] : words)
-      if (about->text(0) == word) *value = about->text(1);
-  while (columns->step()) {
-    const std::string kind = columns->text(0);
-    if (kind == "figure") {
-      plan.columns.figures.push_back({columns->text(1), columns->text(2), columns->whole(3) != 0,
-                                      columns->number(4), columns->number(5)});
-      continue;
-    }
-    (kind == "key" ? plan.columns.keys : plan.columns.strayed).push_back(columns->text(1));
-    plan.units.push_back(columns->text(2));
-  }
-  if (about->failed() || columns->failed()) return db.problem();
+  plan.columns = std::make_shared<const analysis::PlanColumns>(columns_from(*columns));
+  std::string checksum;
+  std::vector<Word> words = words_of(plan);
+  words.emplace_back(checksum_word, &checksum);
+  for (const auto& [word, value] : words)
+    for (const std::vector<Cell>& row : *about)
+      if (text_of(row[0]) == word) *value = text_of(row[1]);
+  if (checksum != base::written_hex(checksum_of_plan(plan)) || column_rows(*plan.columns) != *columns)
+    return damaged(db.path(), "what it says of its plan is not what was written");
+  if (!has_tables(*tables, plan)) return damaged(db.path(), "its tables are not those of its columns");
   return plan;
 }
 

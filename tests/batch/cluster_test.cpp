@@ -15,7 +15,6 @@
 #include <thread>
 
 #include "batch/letters.hpp"
-#include "sixstep/study/scenario/spread.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace batch {
@@ -59,16 +58,14 @@ study::Scenario half_ms() {
 }
 
 base::Result<analysis::PlannedRun> drive(const study::Scenario& s, std::uint64_t seed, std::size_t n) {
-  study::Scenario varied = study::varied(s, seed, n);
-  std::vector<double> strayed = study::strayed_values(s, varied);
-  return analysis::PlannedRun{std::move(varied), std::move(strayed)};
+  return analysis::planned_drive(s, seed, n);
 }
 
 /// A leader and `others`, of which each has asked the leader for its seed.
 struct Together {
   study::Scenario scenario = half_ms();
   analysis::Plan plan{.axes = {}, .drives = 60, .seed = 5};
-  analysis::PlanColumns columns = analysis::columns_of(plan, scenario);
+  analysis::TableColumns columns = analysis::columns_of(plan, scenario);
   std::mutex guard{};
   std::map<std::size_t, analysis::RunRecord> rows{};
   std::size_t twice = 0;
@@ -92,7 +89,7 @@ struct Together {
             .take =
                 [this](analysis::RunRecord&& record) {
                   const std::lock_guard lock(guard);
-                  const std::size_t n = record.number;
+                  const std::size_t n = record->number;
                   twice += rows.emplace(n, std::move(record)).second ? 0 : 1;
                 },
             .stop = stop.get_token(),
@@ -145,9 +142,9 @@ TEST(Cluster, HasTheRowsOfOneProcess) {
     ASSERT_EQ(cluster.rows.size(), alone.rows.size());
     EXPECT_EQ(cluster.twice, 0u);
     for (const auto& [n, row] : alone.rows) {
-      EXPECT_EQ(cluster.rows.at(n).digest, row.digest);
-      EXPECT_EQ(cluster.rows.at(n).figures, row.figures);
-      EXPECT_EQ(cluster.rows.at(n).strayed, row.strayed);
+      EXPECT_EQ(cluster.rows.at(n)->digest, row->digest);
+      EXPECT_EQ(cluster.rows.at(n)->figures, row->figures);
+      EXPECT_EQ(cluster.rows.at(n)->strayed, row->strayed);
     }
     EXPECT_EQ(cluster.exits.size(), size - 1);
     for (const auto& [rank, exit] : cluster.exits) EXPECT_EQ(exit, 7) << rank;
@@ -180,7 +177,7 @@ TEST(Cluster, FillsInThePointsOfOthersRows) {
   cluster.columns = analysis::columns_of(cluster.plan, cluster.scenario);
   EXPECT_TRUE(cluster.lead(2, cluster.runs(1)));
   ASSERT_EQ(cluster.rows.size(), 60u);
-  for (const auto& [n, row] : cluster.rows) EXPECT_EQ(row.point, analysis::point_of_run(cluster.plan, n));
+  for (const auto& [n, row] : cluster.rows) EXPECT_EQ(row->point, analysis::point_of_run(cluster.plan, n));
 }
 
 TEST(Cluster, AStopEndsItEverywhereAndFinishedRowsStay) {
@@ -215,7 +212,7 @@ TEST(Cluster, DoesNotWaitForTheDeadOnceStopped) {
   cluster.plan.drives = 1'000'000'000;
   PlanRuns runs = cluster.runs(1);
   runs.take = [&](analysis::RunRecord&& record) {
-    if (record.number > 20) cluster.stop.request_stop();
+    if (record->number > 20) cluster.stop.request_stop();
   };
   Cluster leader = cluster.post.of(0, 2);  // and nobody is the other
   EXPECT_FALSE(lead_plan(leader, runs, {"", [](const std::string&) { return std::string(); }}));
@@ -232,6 +229,21 @@ TEST(Cluster, AnExceptionOfWhoTakesTheRowsComesOut) {
     };
     EXPECT_THROW(cluster.lead(2, runs), std::runtime_error);
   }
+}
+
+/// A row that does not fit the leader's columns, as another build's might not: it is taken by nobody.
+TEST(Cluster, RowsOfOtherColumnsAreNoRows) {
+  Together cluster;
+  cluster.plan.drives = 1'000'000'000;
+  Cluster leader = cluster.post.of(0, 2);
+  analysis::RunValues row;
+  row.number = 999'999'999;
+  row.strayed = {0.5, 0.5, 0.5};
+  row.figures.assign(cluster.columns->figures.size(), 1.0);
+  cluster.post.of(1, 2).send(0, letters::bytes_of(letters::Rows{{row}}));
+  EXPECT_THROW(lead_plan(leader, cluster.runs(1), {"", [](const std::string&) { return std::string(); }}),
+               std::runtime_error);
+  EXPECT_FALSE(cluster.rows.contains(row.number));
 }
 
 TEST(Cluster, AnotherBuildsLettersAreNoRows) {

@@ -37,15 +37,12 @@ Contest compared(const std::string& motor, std::size_t drives, unsigned jobs) {
     const std::lock_guard lock(guard);
     records.push_back(std::move(record));
   });
-  const auto columns =
-      analysis::contest_columns(analysis::contest_plan(contest.entries, drives, 1), contest.bench);
-  for (const analysis::RunRecord& record : records) analysis::take_drive(contest, record, columns);
+  for (const analysis::RunRecord& record : records) analysis::take_drive(contest, record);
   return contest;
 }
 
 double gauge(const ContestRow& row, Gauge g) {
-  const std::size_t requirements = row.nominal.figures.size() - std::size(analysis::contest_gauges);
-  return row.nominal.figures[requirements + static_cast<std::size_t>(g)];
+  return analysis::gauges_of(*row.nominal)[static_cast<std::size_t>(g)];
 }
 
 /// A sine machine under sine currents: T = 3/2 p psi I and 3/2 R I^2 of loss; ripple and PWM add a part of it, T^2 its ripple's
@@ -109,11 +106,11 @@ TEST(Contest, TheLowestSpeedIsThatDownToWhichAllAreHeld) {
 TEST(Contest, DrivesAreTheSameOnAnyNumberOfThreadsAndNoneIsBetterThanTheWorst) {
   const Contest a = compared("maxon-251601", 2, 1), b = compared("maxon-251601", 2, 3);
   for (std::size_t n = 0; n < a.rows.size(); ++n) {
-    EXPECT_EQ(a.rows[n].nominal.digest, b.rows[n].nominal.digest);
+    EXPECT_EQ((*a.rows[n].nominal)->digest, (*b.rows[n].nominal)->digest);
     EXPECT_EQ(a.rows[n].worst, b.rows[n].worst);
     EXPECT_EQ(a.rows[n].drives, 2U);
     for (std::size_t f = 0; f < a.rows[n].values.size(); ++f)
-      EXPECT_GE(a.rows[n].worst[f], a.rows[n].values[f]);
+      EXPECT_GE((*a.rows[n].worst)[f], a.rows[n].values[f]);
     EXPECT_GT(a.rows[n].trace.t_s.size(), 500U);
     EXPECT_EQ(a.rows[n].trace.t_s.size(), a.rows[n].trace.speed_rad_s.size());
   }

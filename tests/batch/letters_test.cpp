@@ -33,8 +33,8 @@ TEST(ByteFormat, IsTheSameOnEveryProcessor) {
                                               26));
 }
 
-analysis::RunRecord row(std::size_t number) {
-  analysis::RunRecord r;
+analysis::RunValues row(std::size_t number) {
+  analysis::RunValues r;
   r.number = number;
   r.strayed = {0.1, std::bit_cast<double>(0x7FF8'0000'0000'1234)};  // a NaN with a mark
   r.end = analysis::RunEnd::fault;
@@ -48,7 +48,7 @@ TEST(Letters, CarryRowsToTheBit) {
   const Rows sent{{row(0), row(999'999'999), {}}}, come = through_bytes(sent);
   ASSERT_EQ(come.rows.size(), 3u);
   for (std::size_t n = 0; n < 3; ++n) {
-    const analysis::RunRecord &a = sent.rows[n], &b = come.rows[n];
+    const analysis::RunValues &a = sent.rows[n], &b = come.rows[n];
     EXPECT_EQ(a.number, b.number);
     EXPECT_EQ(a.end, b.end);
     EXPECT_EQ(a.problem, b.problem);
@@ -75,8 +75,8 @@ TEST(Letters, CarryPlansWhole) {
   sent.plan.points = 11;
   sent.plan.drives = 13;
   sent.plan.seed = ~std::uint64_t{0};
-  sent.columns.keys = {"supply.voltage_V", "load.torque_Nm"};
-  sent.columns.strayed = {"supply.voltage_V"};
+  sent.columns.keys = {{"supply.voltage_V", "V"}, {"load.torque_Nm", "N m"}};
+  sent.columns.strayed = {{"supply.voltage_V", "V"}};
   sent.columns.figures = {{.name = "current", .unit = "A", .required = true, .max = 3.0},
                           {.name = "speed", .unit = "rad/s", .min = -1.0}};
   sent.jobs = 64;
@@ -102,10 +102,10 @@ TEST(Letters, CarryTheRest) {
 }
 
 TEST(Letters, ARowTakesEightBytesANumber) {
-  const auto length = [](const std::vector<analysis::RunRecord>& rows) {
+  const auto length = [](const std::vector<analysis::RunValues>& rows) {
     return bytes_of(Rows{rows}).size();
   };
-  analysis::RunRecord r = row(1);
+  analysis::RunValues r = row(1);
   r.problem.clear();
   const std::size_t one = length({r, r}) - length({r});
   r.figures.push_back(1.0);

@@ -65,7 +65,7 @@ Found search(const Held& held, std::size_t evaluations, unsigned jobs = 1,
              const std::map<std::size_t, analysis::RunRecord>& before = {}) {
   const analysis::Plan plan = held.plan();
   const study::Scenario nominal = held.scenario();
-  const analysis::PlanColumns columns = analysis::columns_of(plan, nominal);
+  const analysis::TableColumns columns = analysis::columns_of(plan, nominal);
   Found found;
   std::mutex guard;
   const auto at = [&](const std::vector<std::string>& point,
@@ -74,12 +74,11 @@ Found search(const Held& held, std::size_t evaluations, unsigned jobs = 1,
     s.supply.voltage_V = std::stod(point[0]);
     s.sheet.resistance_ohm->value = std::stod(point[1]);
     if (plan.drives == 0) return analysis::PlannedRun{s, {}};
-    study::Scenario varied = study::varied(s, plan.seed, drive);
-    return analysis::PlannedRun{varied, study::strayed_values(s, varied)};
+    return analysis::planned_drive(s, plan.seed, drive);
   };
   found.best = optimise({.plan = plan,
                          .columns = columns,
-                         .figure = columns.figures.size() - 1,
+                         .figure = columns->figures.size() - 1,
                          .evaluations = evaluations,
                          .scenario = at,
                          .known = [&](std::size_t n) -> std::optional<analysis::RunRecord> {
@@ -89,7 +88,8 @@ Found search(const Held& held, std::size_t evaluations, unsigned jobs = 1,
                          .take =
                              [&](analysis::RunRecord&& row) {
                                const std::lock_guard lock(guard);
-                               found.rows.emplace(row.number, std::move(row));
+                               const std::size_t n = row->number;
+                               found.rows.emplace(n, std::move(row));
                              },
                          .progress = {},
                          .stop = {},
@@ -165,7 +165,7 @@ TEST(Optimise, TakesTheSameWayOnAnyNumberOfThreadsAndFromRowsThatAreThere) {
   const Found again = search(held, 40, 2, half);
   EXPECT_EQ(again.best->point, one.best->point);
   EXPECT_EQ(again.rows.size(), one.rows.size() - half.size()) << "what was there was not run again";
-  for (const auto& [n, row] : again.rows) EXPECT_EQ(row.digest, one.rows.at(n).digest);
+  for (const auto& [n, row] : again.rows) EXPECT_EQ(row->digest, one.rows.at(n)->digest);
 }
 
 }  // namespace

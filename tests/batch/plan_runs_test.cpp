@@ -32,7 +32,7 @@ study::Spread spread(const char* key, double relative) {
 struct Drives {
   study::Scenario scenario;
   analysis::Plan plan;
-  analysis::PlanColumns columns = analysis::columns_of(plan, scenario);
+  analysis::TableColumns columns = analysis::columns_of(plan, scenario);
   std::mutex guard{};
   std::map<std::size_t, analysis::RunRecord> rows{};
 
@@ -43,21 +43,20 @@ struct Drives {
     return {.plan = plan,
             .columns = columns,
             .scenario = [this](std::size_t n) -> base::Result<analysis::PlannedRun> {
-              study::Scenario drive = study::varied(scenario, plan.seed, n);
-              std::vector<double> strayed = study::strayed_values(scenario, drive);
-              return analysis::PlannedRun{std::move(drive), std::move(strayed)};
+              return analysis::planned_drive(scenario, plan.seed, n);
             },
             .wanted = {},
             .take =
                 [this](analysis::RunRecord&& record) {
                   const std::lock_guard lock(guard);
-                  rows.emplace(record.number, std::move(record));
+                  const std::size_t n = record->number;
+                  rows.emplace(n, std::move(record));
                 },
             .stop = {},
             .jobs = jobs};
   }
   analysis::Series series() const {
-    analysis::Series all = analysis::series_of(columns);
+    analysis::Series all = analysis::series_of(*columns);
     for (const auto& [n, row] : rows) add(all, row);
     return all;
   }
@@ -91,7 +90,7 @@ TEST(PlanRuns, GiveTheSpreadThatTheCircuitsLawGives) {
   analysis::Statistics expected;
   for (std::size_t n = 0; n < count; ++n) {
     const double R = study::varied(s, 11, n).sheet.resistance_ohm->value, tau_s = 0.572e-3 / R;
-    EXPECT_EQ(drives.rows.at(n).strayed, std::vector<double>{R});
+    EXPECT_EQ(drives.rows.at(n)->strayed, std::vector<double>{R});
     expected.add(24.0 / R * (1.0 - std::exp(-s.duration_s / tau_s)));
     holds += R >= 1.03;
   }
@@ -122,13 +121,13 @@ TEST(PlanRuns, AreEachRunAloneToTheBitOnAnyNumberOfThreads) {
     run_plan(drives.runs(jobs));
     ASSERT_EQ(drives.rows.size(), 20u);
     for (const auto& [n, row] : drives.rows)
-      EXPECT_EQ(row.digest, study::run(study::varied(s, 3, n))->digest);
+      EXPECT_EQ(row->digest, study::run(study::varied(s, 3, n))->digest);
     if (jobs == 1) whole = drives.series().digest;
     EXPECT_EQ(drives.series().digest, whole) << jobs;
   }
   Drives few(s, 7, 3);
   run_plan(few.runs(2));
-  EXPECT_EQ(few.rows.at(6).digest, study::run(study::varied(s, 3, 6))->digest)
+  EXPECT_EQ(few.rows.at(6)->digest, study::run(study::varied(s, 3, 6))->digest)
       << "a longer series begins as a shorter one";
 }
 
@@ -169,12 +168,10 @@ TEST(PlanRuns, CountAFaultAsAMiss) {
   const base::Result<study::Outcome> whole = study::run(stall(100.0));
   study::Outcome stopped = *whole;
   stopped.fault = base::Problem{"t = 0.1 s", "", "shoot-through", ""};
-  analysis::Series series = analysis::series_of(drives.columns);
-  analysis::RunRecord first = analysis::record_of(whole, drives.columns),
-                      second = analysis::record_of(stopped, drives.columns);
-  second.number = 1;
-  add(series, first);
-  add(series, second);
+  analysis::Series series = analysis::series_of(*drives.columns);
+  const analysis::PlannedRun run{drives.scenario, {}};
+  add(series, analysis::record_of(drives.columns, 0, {}, run, whole));
+  add(series, analysis::record_of(drives.columns, 1, {}, run, stopped));
   EXPECT_EQ(series.passed, 1u);
   EXPECT_EQ(series.figures[0].holds, 1u);
   EXPECT_EQ(series.figures[0].first_miss, 1u);
@@ -209,7 +206,7 @@ TEST(PlanRuns, AnExceptionOfWhoTakesThemEndsTheBatchAndComesOut) {
       return make(n);
     };
     runs.take = [](analysis::RunRecord&& record) {
-      if (record.number == 4) throw std::runtime_error("full disk");
+      if (record->number == 4) throw std::runtime_error("full disk");
     };
     EXPECT_THROW(run_plan(runs), std::runtime_error);
     EXPECT_LE(begun, 1000u);

@@ -2,82 +2,208 @@
 # SPDX-License-Identifier: Apache-2.0
 """sixstep compare MOTOR: what it prints and writes, that a scenario it writes is the one it ran, and what it refuses."""
 import csv
+import html
 import json
+import math
+import pathlib
+import re
 import sqlite3
+import subprocess
+import tempfile
 import unittest
 from contextlib import closing
 
-from program import ProgramTest
+import cells
+from program import PROGRAM, ProgramTest
 
 MOTOR = "maxon-251601"
+R_OHM = 1.03  # of its sheet, from terminal to terminal
+# What each figure of a comparison is made of, by the labels of its scenarios: a sum, and what is taken off.
+MADE_OF = {
+    "settling after the start": (["settling of the start"], []),
+    "overshoot of the start": (["overshoot of the start"], []),
+    "peak current of the start": (["peak current of the start"], []),
+    "error after the load step": (["largest error after the load step"], []),
+    "settling after the load step": (["settling of the load step"], []),
+    "peak current of the way down": (["peak current of the way down"], []),
+    "swing of the low speed": (["swing of the low speed"], []),
+    "rms torque ripple": (["torque ripple, rms"], []),
+    "peak-to-peak torque ripple": (["torque ripple, peak to peak"], []),
+    "dip of the torque below its mean": (["mean torque"], ["least torque"]),
+    "distortion of the phase current": (["distortion of a phase's current"], []),
+    "copper loss": (["copper loss"], []),
+    "bridge loss": (["conduction loss", "switching loss"], []),
+    "loss in all": (["copper loss", "conduction loss", "switching loss"], []),
+    "turn-ons of a switch": (["turn-ons of a switch"], []),
+    "rms torque ripple at the low speed": (["torque ripple at the low speed, rms"], []),
+}
+SHORT_NAMES = dict(zip(("settles", "overshoot", "peak", "load error", "load settles", "brake peak", "slow swing", "ripple rms",
+                        "ripple p-p", "dip", "THD", "copper", "bridge", "losses", "turn-ons", "slow ripple"), MADE_OF, strict=True))
+
+
+RUNS, SEED = 2, 3
 
 
 class Compare(ProgramTest):
+    """One comparison with all that it writes; tests read it."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.made = pathlib.Path(folder.name)
+        words = ["compare", MOTOR, "--runs", f"{RUNS}", "--seed", f"{SEED}", "--json", "c.json", "--csv", "c.csv", "--html", "c.html",
+                 "--store", "c.sqlite", "--write", "all"]
+        result = subprocess.run([PROGRAM, *words], cwd=cls.made, capture_output=True, text=True, timeout=600)
+        if (result.returncode, result.stderr) != (0, ""):
+            raise AssertionError(result.stderr + result.stdout)
+        cls.printed = result.stdout
+        cls.told = json.loads((cls.made / "c.json").read_text())
+        cls.controllers = {c["name"]: c for c in cls.told["controllers"]}
+
+    def scenario(self, name):
+        return self.made / "all" / (name.replace(",", "").replace(" ", "-") + ".toml")
+
+    def alone(self, name, *words):
+        """The figures of a controller's run that is made alone, by their labels, and whether it holds."""
+        self.run_program("run", str(self.scenario(name)), *words, "--json", "one.json", "--force", code=None)
+        digest, figures = cells.figures_alone(self.path / "one.json")
+        return digest, figures, json.loads((self.path / "one.json").read_text())["passed"]
+
+    def figure_of(self, figures, phrase):
+        """A figure of the comparison, of the gauges that it is made of."""
+        labels = {name.partition(" [")[0]: math.inf if x is None else x for name, x in figures.items()}
+        plus, minus = MADE_OF[phrase]
+        return sum(labels[label] for label in plus) - sum(labels[label] for label in minus)
+
     def test_prints_and_writes(self):
-        made = self.run_program("compare", MOTOR, "--runs", "0", "--json", "c.json", "--csv", "c.csv")
-        self.assertEqual(made.stderr, "")
-        self.assertIn("Six-step or field-oriented?", made.stdout)
-        told = json.loads((self.path / "c.json").read_text())
-        for controller in told["controllers"]:
-            self.assertIn(controller["name"], made.stdout)
-            self.assertEqual(set(controller["nominal"]), set(told["units"]))
-        rows = list(csv.DictReader((self.path / "c.csv").read_text().splitlines()))
-        self.assertEqual([row["controller"] for row in rows], [c["name"] for c in told["controllers"]])
+        self.assertIn("Six-step or field-oriented?", self.printed)
+        self.assertEqual(set(MADE_OF), set(self.told["units"]))
+        for name, controller in self.controllers.items():
+            self.assertIn(name, self.printed)
+            self.assertEqual(set(controller["nominal"]), set(self.told["units"]))
+        rows = list(csv.DictReader((self.made / "c.csv").read_text().splitlines()))
+        self.assertEqual([row["controller"] for row in rows], [name for name in self.controllers for _ in ("nominal", "worst")])
+
+    def test_every_cell_is_that_of_the_run_alone(self):
+        """Store, CSV, JSON, page and tables against the same runs, made one by one from the scenarios that were written."""
+        stored = cells.of_store(self.made / "c.sqlite")
+        self.assertEqual(len(stored), RUNS * len(self.controllers))
+        rows = {(row["controller"], row["drive"]): row
+                for row in csv.DictReader((self.made / "c.csv").read_text().splitlines())}
+        for name in ("six-step, soft", "hysteresis, comparators", "field-oriented"):
+            _, nominal, holds = self.alone(name)
+            self.assertEqual(self.controllers[name]["holds"], holds)
+            worst, held = {phrase: self.figure_of(nominal, phrase) for phrase in MADE_OF}, 0
+            for drive in range(RUNS):
+                digest, figures, holds = self.alone(name, "--seed", f"{SEED}", "--drive", f"{drive}")
+                row = next(row for row in stored if row["controller"] == name and row["run"] % RUNS == drive)
+                self.assertEqual((row["digest"], bool(row["passed"])), (digest, holds))
+                for figure, measured in figures.items():
+                    self.assertEqual(row[figure], math.inf if measured is None else measured, (name, drive, figure))
+                R, U = row["drive: motor_override.resistance_ohm [ohm]"], 24
+                self.assertTrue(0.9 * R_OHM <= R <= 1.1 * R_OHM, R)
+                self.assertLessEqual(row["peak current of the start [A]"], 2 * U / R)
+                held += holds
+                worst = {phrase: max(x, self.figure_of(figures, phrase)) for phrase, x in worst.items()}
+            self.assertEqual(self.controllers[name]["drives_that_hold"], held)
+            for kind, wanted in (("nominal", {p: self.figure_of(nominal, p) for p in MADE_OF}), ("worst", worst)):
+                for phrase, exact in wanted.items():
+                    told, cell = self.controllers[name][kind][phrase], rows[name, kind][f"{phrase} [{self.told['units'][phrase]}]"]
+                    self.assertEqual(math.inf if told == "never" else told, exact, (name, kind, phrase))
+                    self.assertEqual(float(cell), exact, (name, kind, phrase))
+
+    def test_tables_and_page_show_the_same(self):
+        """Each cell of the four tables, read as its reader reads it, against the JSON under the same name."""
+        page = html.unescape((self.made / "c.html").read_text(encoding="utf-8"))
+        for line in self.printed.splitlines():
+            self.assertIn(line, page)
+        blocks = [block.splitlines() for block in self.printed.split("\n\n") if block.startswith("  controller")]
+        self.assertEqual(len(blocks), 4)
+        for kind, block in zip(("nominal", "nominal", "worst", "worst"), blocks):
+            head, *lines = [re.split(r"  +", line.strip()) for line in block]
+            self.assertEqual(len(lines), len(self.controllers))
+            for name, *line in lines:
+                controller = self.controllers[name]
+                for column, cell in zip(head[1:], line, strict=True):
+                    if column in SHORT_NAMES:
+                        phrase = SHORT_NAMES[column]
+                        exact = controller[kind][phrase]
+                        exact = math.inf if exact == "never" else exact
+                        shown = cells.shown(cell, self.told["units"][phrase])
+                        near = shown == exact or abs(shown - exact) <= 0.0051 * abs(exact) + 0.0005 * (phrase.startswith("distortion"))
+                        self.assertTrue(near, (name, kind, column, cell, exact))
+                    if column == "hold":
+                        self.assertEqual(cell, f"{controller['drives_that_hold']} of {RUNS}")
+                    if column == "holds":
+                        self.assertEqual(cell, "yes" if controller["holds"] else "NO")
+            self.assertTrue(set(head[1:]) - set(SHORT_NAMES) <= {"hold", "holds", "lowest", "tick", "flash"}, head)
+
+    def test_the_figures_keep_the_laws(self):
+        """A worst drive is no better than the nominal one, no more hold than were drawn, a winding of at least 0.9 R carries no more than
+        the bus drives through it (twice, where a hard or complementary bridge turns it round against the back-EMF), no time is longer
+        than its part of the course, and the losses are those of copper and bridge."""
+        course_s = max(float(x) for x in re.findall(r"^duration_s = (\S+)", self.scenario("six-step, soft").read_text(), re.M))
+        for name, controller in self.controllers.items():
+            self.assertTrue(controller["runs"] and controller["holds"], name)
+            self.assertEqual(controller["drives"], RUNS)
+            self.assertLessEqual(controller["drives_that_hold"], RUNS)
+            for figure, nominal in controller["nominal"].items():
+                worst = controller["worst"][figure]
+                self.assertTrue("never" in (nominal, worst) or worst >= nominal, (name, figure))
+            for kind in ("nominal", "worst"):
+                f = controller[kind]
+                self.assertLessEqual(f["peak current of the start"], 24 / (0.9 * R_OHM), (name, kind))
+                self.assertLessEqual(f["peak current of the way down"], 2 * 24 / (0.9 * R_OHM), (name, kind))
+                for time in ("settling after the start", "settling after the load step"):
+                    self.assertTrue(f[time] == "never" or 0 <= f[time] <= course_s, (name, kind, time))
+                self.assertTrue(0 <= f["distortion of the phase current"] < 2, (name, kind))
+                self.assertTrue(0 < f["copper loss"] < 24 * 24 / (0.9 * R_OHM), (name, kind))
+                self.assertLessEqual(f["loss in all"], (f["copper loss"] + f["bridge loss"]) * (1 + 1e-12), (name, kind))
+            f = controller["nominal"]
+            self.assertAlmostEqual(f["loss in all"], f["copper loss"] + f["bridge loss"], delta=1e-12)
 
     def test_draws_a_page(self):
-        told = json.loads(self.run_program("compare", MOTOR, "--runs", "0", "--json", "-", "--html", "c.html").stdout)
-        page = (self.path / "c.html").read_text(encoding="utf-8")
-        names = [c["name"] for c in told["controllers"]]
+        page = (self.made / "c.html").read_text(encoding="utf-8")
+        names = list(self.controllers)
         for n, name in enumerate(names):  # its answer to the load, and its number among the trades
             self.assertEqual(page.count(f'aria-label="{n + 1} {name}"'), 1, name)
             self.assertRegex(page, f"<circle[^>]*/><text[^>]*>{n + 1}</text>")
         trades = page.partition('aria-label="Torque ripple against losses"')[2].partition("</svg>")[0]
         self.assertEqual(trades.count("<circle"), len(names))
-        figures = {c["name"]: (c["nominal"]["rms torque ripple"], c["nominal"]["loss in all"]) for c in told["controllers"]}
+        figures = {name: (c["nominal"]["rms torque ripple"], c["nominal"]["loss in all"]) for name, c in self.controllers.items()}
         front = [n for n, (r, l) in figures.items() if not any(a <= r and b <= l and (a, b) != (r, l) for a, b in figures.values())]
         self.assertEqual(trades.count('style="fill:var(--main)"'), len(front))
         least = min(figures, key=lambda n: figures[n][0])
         self.assertRegex(page, f"least rms torque ripple</dt>\\s*<dd>{least}: ")
-        self.run_program("compare", MOTOR, "--runs", "0", "--quiet", "--html", "again.html")
-        again = (self.path / "again.html").read_text(encoding="utf-8")
-        self.assertEqual(again.partition("<h1>")[2].partition("<footer")[0], page.partition("<h1>")[2].partition("<footer")[0])
 
-    def test_a_written_scenario_is_the_one_that_ran(self):
-        made = self.run_program("compare", MOTOR, "--runs", "0", "--json", "-", "--write", "all")
-        told = {c["name"]: c for c in json.loads(made.stdout)["controllers"]}
-        self.assertEqual(len(list((self.path / "all").iterdir())), len(told))
-        for name, file in (("six-step, soft", "six-step-soft"), ("field-oriented", "field-oriented")):
-            alone = json.loads(self.run_program("run", f"all/{file}.toml", "--json", "-").stdout)
-            copper = [c["measured"] for c in alone["compare"] if c["figure"] == "copper loss"]
-            self.assertEqual(copper, [told[name]["nominal"]["copper loss"]])
-
-    def test_worst_is_no_better_than_nominal(self):
-        told = json.loads(self.run_program("compare", MOTOR, "--runs", "1", "--json", "-").stdout)
-        for controller in told["controllers"]:
-            self.assertTrue(controller["runs"] and controller["holds"], controller["name"])
-            for figure, nominal in controller["nominal"].items():
-                worst = controller["worst"][figure]
-                self.assertTrue("never" in (nominal, worst) or worst >= nominal, (controller["name"], figure))
+    def test_a_scenario_is_written_for_each(self):
+        self.assertEqual(len(list((self.made / "all").iterdir())), len(self.controllers))
 
     def test_a_store_is_gone_on_with_and_tells_the_same(self):
-        whole = self.run_program("compare", MOTOR, "--runs", "2", "--json", "-").stdout
-        self.run_program("compare", MOTOR, "--runs", "2", "--quiet", "--store", "c.sqlite")
-        with closing(sqlite3.connect(self.path / "c.sqlite")) as store:
-            before = sorted(store.execute("select number, digest from run").fetchall())
-            store.execute("delete from run where number % 3 = 1")
-            store.commit()
-        again = self.run_program("compare", MOTOR, "--runs", "2", "--store", "c.sqlite", "--resume", "--json", "-").stdout
-        self.assertEqual(again, whole)
-        with closing(sqlite3.connect(self.path / "c.sqlite")) as store:
-            self.assertEqual(sorted(store.execute("select number, digest from run").fetchall()), before)
-        other = self.run_program("compare", MOTOR, "--runs", "2", "--voltage", "20", "--store", "c.sqlite", "--resume", code=2)
+        store = self.path / "c.sqlite"
+        store.write_bytes((self.made / "c.sqlite").read_bytes())
+        before = cells.of_store(store)
+        with closing(sqlite3.connect(store)) as db:
+            db.execute("delete from run where run % 3 = 1")
+            db.commit()
+        words = ["compare", MOTOR, "--runs", f"{RUNS}", "--seed", f"{SEED}", "--store", "c.sqlite"]
+        self.run_program(*words, "--resume", "--json", "c.json", "--html", "c.html")
+        self.assertEqual((self.path / "c.json").read_bytes(), (self.made / "c.json").read_bytes())
+        pages = [(folder / "c.html").read_text(encoding="utf-8").partition("<h1>")[2].partition("<footer")[0] for folder in (self.path, self.made)]
+        self.assertEqual(*pages)
+        self.assertEqual(cells.of_store(store), before)
+        other = self.run_program(*words, "--voltage", "20", "--resume", code=2)
         self.assertIn("c.sqlite", other.stderr)
-        there = self.run_program("compare", MOTOR, "--runs", "2", "--store", "c.sqlite", code=2)
+        there = self.run_program(*words, code=2)
         self.assertIn("--resume", there.stderr)
+        with closing(sqlite3.connect(store)) as db:
+            db.execute("update run set f7 = f7 / 2 where run = 3")
+            db.commit()
+        self.assertIn("c.sqlite: is damaged: run 3 ", self.run_program(*words, "--resume", code=2).stderr)
 
     def test_tells_the_lowest_speed(self):
-        told = json.loads(self.run_program("compare", MOTOR, "--runs", "0", "--json", "-").stdout)["controllers"]
-        lowest = {c["name"]: c["lowest_speed_rad_s"] for c in told}
+        lowest = {name: c["lowest_speed_rad_s"] for name, c in self.controllers.items()}
         self.assertTrue(all(w is None or w > 0 for w in lowest.values()), lowest)
         self.assertTrue(any(w is not None for w in lowest.values()), lowest)
 

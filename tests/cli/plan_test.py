@@ -18,6 +18,7 @@ import unittest
 import unittest.mock
 import xml.etree.ElementTree
 
+import cells
 from program import PROGRAM, SHORT, ProgramTest
 
 KILLS = int(os.environ.get("SIXSTEP_KILLS", "10"))
@@ -45,7 +46,7 @@ class Plan(ProgramTest):
 
     def rows(self, store, what="*"):
         with contextlib.closing(sqlite3.connect(self.path / store)) as db:
-            return db.execute(f"SELECT {what} FROM runs ORDER BY number").fetchall()
+            return db.execute(f"SELECT {what} FROM runs ORDER BY run").fetchall()
 
     def test_a_grid_is_every_value_with_every_other(self):
         file = self.held()
@@ -123,9 +124,7 @@ class Plan(ProgramTest):
     def test_another_program_is_noticed_by_its_bits(self):
         file = self.held(SPREAD)
         self.run_program("run", file, "--runs", "5", "--store", "s.sqlite", code=1)
-        with contextlib.closing(sqlite3.connect(self.path / "s.sqlite")) as db:
-            db.execute("UPDATE run SET digest = '0123456789abcdef' WHERE number = 0")
-            db.commit()
+        cells.sealed(self.path / "s.sqlite", "UPDATE run SET digest = '0123456789abcdef' WHERE run = 0")
         self.assertIn("another version of sixstep",
                       self.run_program("run", file, "--runs", "9", "--store", "s.sqlite", "--resume", code=2).stderr)
 
@@ -149,7 +148,7 @@ class Plan(ProgramTest):
             if not (self.path / "s.sqlite").exists():
                 continue
             try:
-                now = len(self.rows("s.sqlite", "number"))
+                now = len(self.rows("s.sqlite", "run"))
             except sqlite3.OperationalError as missing:  # killed before its tables came
                 self.assertIn("no such table", str(missing))
                 now = 0

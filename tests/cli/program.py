@@ -46,7 +46,8 @@ class ProgramTest(unittest.TestCase):
 
     def run_program(self, *words, code=0):
         result = subprocess.run([PROGRAM, *words], cwd=self.path, capture_output=True, text=True, timeout=300)
-        self.assertEqual(result.returncode, code, result.stderr + result.stdout)
+        # None: all holds, or a requirement does not.
+        self.assertIn(result.returncode, (0, 1) if code is None else (code,), result.stderr + result.stdout)
         return result
 
     def write(self, name, limit):

@@ -12,67 +12,24 @@
 #include <limits>
 #include <thread>
 
+#include "tests/files/a_store.hpp"
+
 namespace files {
 namespace {
 
 using testing::HasSubstr;
-
-class Store : public testing::Test {
- protected:
-  std::string path() const { return (folder_ / "runs.sqlite").string(); }
-  void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("sixstep_store_" + std::to_string(::getpid()) + "_" +
-               testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  static StoredPlan plan() {
-    StoredPlan p{.plan = "{\"vary\":[]}",
-                 .inputs = "0123",
-                 .title = "t",
-                 .motor = "m",
-                 .scenario = "s.toml",
-                 .command = "c",
-                 .scenario_text = "x = 1\n",
-                 .columns = {},
-                 .units = {"s", "", "ohm"}};
-    p.columns.keys = {"pwm.period_s", "pwm.chopping"};
-    p.columns.strayed = {"motor_override.resistance_ohm"};
-    p.columns.figures = {{"rise \"time\"", "s", true, {}, 2.0}, {"peak", "A", false, {}, {}}};
-    return p;
-  }
-  static analysis::RunRecord row(std::size_t n) {
-    const double x = static_cast<double>(n);
-    return {.number = n,
-            .point = {"3e-05", "\"soft\""},
-            .strayed = {1.0 / (1.0 + x)},
-            .end = analysis::RunEnd::whole,
-            .problem = "",
-            .figures = {x, 1.0 / 3.0 * x},
-            .digest = 0xffffffff00000000u + n};
-  }
-  std::filesystem::path folder_;
-};
-
-std::vector<analysis::RunRecord> rows_of(PlanStore& store) {
-  std::vector<analysis::RunRecord> rows;
-  EXPECT_EQ(store.each([&](const analysis::RunRecord& r) { rows.push_back(r); }), base::Problems{});
-  return rows;
-}
 
 TEST_F(Store, GivesBackEachRowToTheBitInTheOrderOfItsNumber) {
   const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
   {
     base::Result<PlanStore> store = PlanStore::create(path(), plan(), false);
     ASSERT_TRUE(store);
-    analysis::RunRecord odd = row(2);
+    analysis::RunValues odd = values(2);
     odd.figures = {inf, nan};
     odd.end = analysis::RunEnd::fault;
     odd.problem = "t = 1 s: shoot-through";
     store->add(row(7));
-    store->add(std::move(odd));
+    store->add(row(std::move(odd)));
     store->add(row(0));
     EXPECT_EQ(store->finish(), base::Problems{});
     EXPECT_EQ(store->rows(), 3u);
@@ -81,16 +38,16 @@ TEST_F(Store, GivesBackEachRowToTheBitInTheOrderOfItsNumber) {
   ASSERT_TRUE(store);
   const std::vector<analysis::RunRecord> rows = rows_of(*store);
   ASSERT_EQ(rows.size(), 3u);
-  EXPECT_EQ(rows[0].number, 0u);
-  EXPECT_EQ(rows[1].number, 2u);
-  EXPECT_EQ(rows[2].figures, row(7).figures);
-  EXPECT_EQ(rows[2].strayed, row(7).strayed);
-  EXPECT_EQ(rows[2].digest, row(7).digest);
-  EXPECT_EQ(rows[1].figures[0], inf);
-  EXPECT_TRUE(std::isnan(rows[1].figures[1]));
-  EXPECT_EQ(rows[1].problem, "t = 1 s: shoot-through");
-  EXPECT_EQ(rows[1].end, analysis::RunEnd::fault);
-  EXPECT_EQ(store->plan().columns, plan().columns);
+  EXPECT_EQ(rows[0]->number, 0u);
+  EXPECT_EQ(rows[1]->number, 2u);
+  EXPECT_EQ(rows[2]->figures, row(7)->figures);
+  EXPECT_EQ(rows[2]->strayed, row(7)->strayed);
+  EXPECT_EQ(rows[2]->digest, row(7)->digest);
+  EXPECT_EQ(rows[1]->figures[0], inf);
+  EXPECT_TRUE(std::isnan(rows[1]->figures[1]));
+  EXPECT_EQ(rows[1]->problem, "t = 1 s: shoot-through");
+  EXPECT_EQ(rows[1]->end, analysis::RunEnd::fault);
+  EXPECT_EQ(*store->plan().columns, *plan().columns);
   EXPECT_EQ(store->plan().scenario_text, "x = 1\n");
 }
 
@@ -104,7 +61,7 @@ TEST_F(Store, IsAskedInPlainSqlByNamesWithUnits) {
   base::Result<Database> db = Database::open(path());
   base::Result<Statement> select = db->prepare(
       "SELECT passed, \"pwm.period_s [s]\", \"pwm.chopping\", \"drive: motor_override.resistance_ohm [ohm]\", "
-      "\"rise \"\"time\"\" [s]\" FROM runs ORDER BY number");
+      "\"rise \"\"time\"\" [s]\" FROM runs ORDER BY run");
   ASSERT_TRUE(select) << to_string(select.problems().front());
   ASSERT_TRUE(select->step());
   EXPECT_EQ(select->whole(0), 1);
@@ -160,6 +117,49 @@ TEST_F(Store, IsOneWritersAlone) {
               HasSubstr("is in use by another program"));
 }
 
+TEST_F(Store, TakesNoRowOfOtherColumns) {
+  analysis::PlanColumns other = *columns();
+  other.strayed.push_back({"supply.voltage_V", "V"});
+  analysis::RunValues wide = values(1);
+  wide.strayed.push_back(24.0);
+  EXPECT_FALSE(analysis::RunRecord::of(columns(), wide)) << "a value more than there are columns";
+  base::Result<PlanStore> store = PlanStore::create(path(), plan(), false);
+  store->add(row(0));
+  store->add(row(std::make_shared<const analysis::PlanColumns>(other), wide));
+  const base::Problems told = store->finish();
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_THAT(to_string(told[0]), HasSubstr("does not take run 1"));
+  EXPECT_TRUE(store->failed());
+}
+
+/// A label acts neither in the terminal that prints the store nor in the spreadsheet that opens what SQLite exports of it.
+TEST_F(Store, ShowsWhatActsInNames) {
+  const std::string evil = "=1+1 \x1b[31m\n\xe2\x80\xae";
+  StoredPlan odd = plan();
+  analysis::PlanColumns names = *columns();
+  names.figures[1].name = evil;
+  names.keys[1].key = evil;
+  odd.columns = std::make_shared<const analysis::PlanColumns>(names);
+  odd.title = odd.motor = odd.scenario = odd.plan = evil;
+  analysis::RunValues values = Store::values(1);
+  values.problem = values.point[1] = evil;
+  {
+    base::Result<PlanStore> store = PlanStore::create(path(), odd, false);
+    ASSERT_TRUE(store);
+    store->add(row(odd.columns, values));
+    EXPECT_EQ(store->finish(), base::Problems{});
+  }
+  {
+    base::Result<PlanStore> store = PlanStore::resume(path(), odd);
+    ASSERT_TRUE(store) << to_string(store.problems().front());
+    EXPECT_EQ(store->rows(), 1u);
+  }
+  const std::string bytes = text_of_file();
+  for (const char* raw : {"\x1b[31m", "\xe2\x80\xae", "31m\n", "\"=1+1"})
+    EXPECT_EQ(bytes.find(raw), std::string::npos) << raw;
+  EXPECT_NE(bytes.find("\"'=1+1 \\u001b[31m\\u000a\\u202e [A]\""), std::string::npos);
+}
+
 /// What rows() has counted is there after a kill -9, and the store goes on.
 TEST_F(Store, KeepsWhatItHasCountedThroughKills) {
   std::size_t told = 0;
@@ -192,8 +192,8 @@ TEST_F(Store, KeepsWhatItHasCountedThroughKills) {
     EXPECT_GE(store->rows(), told);
     const std::vector<analysis::RunRecord> rows = rows_of(*store);
     for (std::size_t n = 0; n < rows.size(); ++n) {
-      ASSERT_EQ(rows[n].number, n) << "no gap: they were added in order";
-      ASSERT_EQ(rows[n].figures, row(n).figures);
+      ASSERT_EQ(rows[n]->number, n) << "no gap: they were added in order";
+      ASSERT_EQ(rows[n]->figures, row(n)->figures);
     }
   }
   EXPECT_GT(told, 100u);

@@ -84,10 +84,10 @@ TEST(PlanPage, DrawsFromWhatTheRowsSay) {
   const json words = plan["columns"][2]["words"];
   for (std::size_t n = 0; n < made.rows.size(); ++n) {
     const auto& row = made.rows[n];
-    EXPECT_EQ(states[n] == 0, passed(row, made.columns));
-    EXPECT_TRUE(same(columns[0][n], std::stod(row.point[0])));
-    EXPECT_EQ("\"" + words[static_cast<std::size_t>(columns[2][n])].get<std::string>() + "\"", row.point[2]);
-    for (std::size_t f = 0; f < 3; ++f) EXPECT_TRUE(same(columns[3 + f][n], row.figures[f])) << n;
+    EXPECT_EQ(states[n] == 0, passed(row));
+    EXPECT_TRUE(same(columns[0][n], std::stod(row->point[0])));
+    EXPECT_EQ("\"" + words[static_cast<std::size_t>(columns[2][n])].get<std::string>() + "\"", row->point[2]);
+    for (std::size_t f = 0; f < 3; ++f) EXPECT_TRUE(same(columns[3 + f][n], row->figures[f])) << n;
   }
   EXPECT_EQ(plan["columns"][3]["unit"], "ms") << "as one reads it";
   EXPECT_EQ(plan["columns"][3]["max"], 6e-3);
@@ -136,14 +136,14 @@ TEST(PlanPage, TheWorstRunsAreTheWorst) {
   EXPECT_TRUE(worst[2].empty()) << "nothing is required of it";
   for (std::size_t f = 0; f < 2; ++f) {
     // The law by sorting everything there is.
-    const auto& column = made.columns.figures[f];
+    const auto& column = made.columns->figures[f];
     std::vector<std::pair<double, std::size_t>> sorted;
     for (const auto& row : made.rows) {
-      if (row.end == sixstep::analysis::RunEnd::refused) continue;
-      const double x = row.figures[f];
+      if (row->end == sixstep::analysis::RunEnd::refused) continue;
+      const double x = row->figures[f];
       sorted.emplace_back(
           std::min(column.min ? x - *column.min : INFINITY, column.max ? *column.max - x : INFINITY),
-          row.number);
+          row->number);
     }
     std::sort(sorted.begin(), sorted.end());
     ASSERT_EQ(worst[f].size(), 20u);
@@ -192,10 +192,10 @@ TEST(PlanPage, OfTwoPlansEachFigureIsDrawnOnce) {
 TEST(PlanPage, HoldsNamesAsText) {
   const std::string bad = "</script><script>alert(1)</script>&'\"";
   SyntheticPlan made = synthetic_plan(grid_plan());
-  made.name = made.columns.keys[2] = made.columns.figures[0].name = made.columns.figures[1].unit = bad;
+  sixstep::analysis::PlanColumns columns = *made.columns;
+  made.name = columns.keys[2].key = columns.figures[0].name = columns.figures[1].unit = bad;
   made.plan.axes[2].values = {"\"" + bad + "\"", "\"b\""};
-  for (auto& row : made.rows) row.problem = row.problem.empty() ? "" : bad;
-  made.sum_up();
+  made.rename(std::move(columns), bad);
   const text::PlanStory story = made.story();
   const std::string page =
       render_plan({.plans = {{story, bad, bad, bad, "sixstep run " + bad, {{worst_runs(story, 1)[0], bad}}}},

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,18 +16,27 @@ namespace sixstep_tests {
 struct SyntheticPlan {
   std::string name = "made-up";
   sixstep::analysis::Plan plan;
-  sixstep::analysis::PlanColumns columns;
-  std::vector<std::string> units;
+  sixstep::analysis::TableColumns columns;
   std::vector<sixstep::analysis::RunRecord> rows;
   sixstep::analysis::Series series;
 
   text::PlanStory story() const {
-    return {name, plan, columns, units, series, [this](const auto& visit) {
+    return {name, plan, *columns, series, [this](const auto& visit) {
               for (const sixstep::analysis::RunRecord& row : rows) visit(row);
             }};
   }
+  /// The same values under other names.
+  void rename(sixstep::analysis::PlanColumns names, const std::string& problem) {
+    columns = std::make_shared<const sixstep::analysis::PlanColumns>(std::move(names));
+    for (sixstep::analysis::RunRecord& row : rows) {
+      sixstep::analysis::RunValues values = *row;
+      if (!values.problem.empty()) values.problem = problem;
+      row = *sixstep::analysis::RunRecord::of(columns, std::move(values));
+    }
+    sum_up();
+  }
   void sum_up() {
-    series = sixstep::analysis::series_of(columns);
+    series = sixstep::analysis::series_of(*columns);
     for (const sixstep::analysis::RunRecord& row : rows) sixstep::analysis::add(series, row);
   }
 };
@@ -35,16 +45,17 @@ struct SyntheticPlan {
 inline SyntheticPlan synthetic_plan(sixstep::analysis::Plan plan, double shift = 0.0) {
   using sixstep::analysis::RunEnd;
   SyntheticPlan made{.plan = std::move(plan)};
-  for (const auto& axis : made.plan.axes) made.columns.keys.push_back(axis.key);
-  made.units = {"s", "V", ""};
-  if (made.plan.drives > 0) made.columns.strayed = {"motor_override.resistance_ohm"};
-  made.units.push_back("ohm");
-  made.columns.figures = {{"settling time of speed", "s", true, {}, 6e-3},
-                          {"greatest current", "A", true, 2.0, 9.0},
-                          {"ripple", "A", false, {}, {}}};
+  constexpr const char* units[] = {"s", "V", ""};
+  sixstep::analysis::PlanColumns columns;
+  for (const auto& axis : made.plan.axes) columns.keys.push_back({axis.key, units[columns.keys.size()]});
+  if (made.plan.drives > 0) columns.strayed = {{"motor_override.resistance_ohm", "ohm"}};
+  columns.figures = {{"settling time of speed", "s", true, {}, 6e-3},
+                     {"greatest current", "A", true, 2.0, 9.0},
+                     {"ripple", "A", false, {}, {}}};
+  made.columns = std::make_shared<const sixstep::analysis::PlanColumns>(std::move(columns));
   const std::size_t runs = runs_of(made.plan);
   for (std::size_t n = 0; n < runs; ++n) {
-    sixstep::analysis::RunRecord row;
+    sixstep::analysis::RunValues row;
     row.number = n;
     row.point = point_of_run(made.plan, n);
     std::uint64_t draws = 0;
@@ -62,7 +73,7 @@ inline SyntheticPlan synthetic_plan(sixstep::analysis::Plan plan, double shift =
       row.problem = "no such drive";
       row.figures.assign(3, std::numeric_limits<double>::quiet_NaN());
     }
-    made.rows.push_back(std::move(row));
+    made.rows.push_back(*sixstep::analysis::RunRecord::of(made.columns, std::move(row)));
   }
   made.sum_up();
   return made;

@@ -18,6 +18,7 @@
 
 #include "report/html.hpp"
 #include "tests/support/hostile_names.hpp"
+#include "text/escape/csv_cell.hpp"
 #include "text/toml/document.hpp"
 
 namespace text {
@@ -182,6 +183,39 @@ TEST(Escape, TomlAndJsonReadBackWhatWasWritten) {
       EXPECT_EQ(Json::parse(json)["title"], name);
     }
   }
+}
+
+/// A cell is one cell of one line, and none begins as a spreadsheet's formula does.
+TEST(Escape, ACellIsANameAndRunsNothing) {
+  for (const std::string& name : hostile_names()) {
+    for (const std::string& text : {name, "=" + name, " +" + name, "-" + name, "@" + name, "\uff1d" + name}) {
+      const std::string shown = cell_name(text), cell = csv_cell(text);
+      EXPECT_FALSE(acts(shown)) << shown;
+      EXPECT_EQ(
+          std::string("=+-@").find(shown.substr(std::min(shown.find_first_not_of(' '), shown.size()), 1)[0]),
+          std::string::npos)
+          << shown;
+      // Read as RFC 4180 has it, the cell is the name again.
+      std::string read = cell;
+      if (cell.starts_with('"')) {
+        ASSERT_TRUE(cell.size() > 1 && cell.ends_with('"')) << cell;
+        read.clear();
+        for (std::size_t n = 1; n + 1 < cell.size(); ++n) {
+          read += cell[n];
+          if (cell[n] != '"') continue;
+          ASSERT_EQ(cell[++n], '"') << cell;
+        }
+      } else {
+        EXPECT_EQ(cell.find_first_of(",;\""), std::string::npos);
+      }
+      EXPECT_EQ(read, shown);
+    }
+  }
+  EXPECT_EQ(csv_cell("six-step, soft"), "\"six-step, soft\"");
+  EXPECT_EQ(csv_cell("=1+1"), "'=1+1");
+  EXPECT_EQ(csv_cell("a \"b\""), "\"a \"\"b\"\"\"");
+  EXPECT_EQ(cell_name("i_m - ripple"), "i_m - ripple");
+  EXPECT_EQ(cell_name(""), "");
 }
 
 }  // namespace

@@ -117,6 +117,25 @@ strays = true
   EXPECT_EQ(file->plan, wanted);
 }
 
+TEST(PlanFile, IsTheSamePlanHoweverItsValuesAreSpelled) {
+  const auto identity = [](std::initializer_list<const char*> axes) {
+    analysis::Plan plan;
+    for (const char* axis : axes) plan.axes.push_back(*axis_of(axis));
+    return plan_identity(plan);
+  };
+  const std::string one = identity({"pwm.period_s=20us,30us"});
+  for (const char* same :
+       {"pwm.period_s=20e-6,30e-6", "pwm.period_s=0.02 ms,0.00003", "pwm.period_s=2.0e-5,3e-05"})
+    EXPECT_EQ(identity({same}), one) << same;
+  for (const char* other : {"pwm.period_s=20us,31us", "pwm.period_s=30us,20us", "pwm.period_s=20us,30us,30us",
+                            "pwm.period_s=20us:30us:2"})
+    EXPECT_NE(identity({other}), one) << other;
+  EXPECT_EQ(identity({"pwm.chopping=soft,hard"}), identity({"pwm.chopping=\"soft\",\"hard\""}));
+  EXPECT_EQ(identity({"supply.voltage_V=24,12"}), identity({"supply.voltage_V=24.0,1.2e1"}));
+  EXPECT_NE(identity({"sensors.seed=9007199254740993,1"}), identity({"sensors.seed=9007199254740992,1"}))
+      << "whole numbers have more digits than a double";
+}
+
 TEST(PlanFile, IsTheSamePlanWhereEachRunIs) {
   analysis::Plan plan{.axes = {{.key = "pwm.period_s", .values = {}, .from = 1, .to = 2, .points = 3}},
                       .points = 5};
@@ -168,7 +187,9 @@ TEST(PlannedScenarios, AreTheSeriesDrivesAtEachPoint) {
   const study::Scenario drive = study::varied(at_24, 5, 1);
   const base::Result<analysis::PlannedRun> run = plan.run(4);
   EXPECT_EQ(study::run(run->scenario)->digest, study::run(drive)->digest);
-  EXPECT_THAT(run->strayed, ElementsAre(drive.sheet.resistance_ohm->value));
+  ASSERT_EQ(run->strayed.size(), 1u);
+  EXPECT_EQ(run->strayed[0].key, "motor_override.resistance_ohm");
+  EXPECT_EQ(run->strayed[0].value, drive.sheet.resistance_ohm->value);
 }
 
 TEST(PlannedScenarios, RefuseWhatNoRunCouldHave) {

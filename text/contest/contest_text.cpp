@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "text/escape/csv_cell.hpp"
 #include "text/escape/escape.hpp"
+#include "text/escape/json_text.hpp"
 #include "text/export/core_costs.hpp"
 #include "text/results/quantity_text.hpp"
 #include "text/results/text_rows.hpp"
@@ -21,6 +24,7 @@ using analysis::contest_figures;
 using analysis::ContestFigure;
 using analysis::ContestGroup;
 using analysis::ContestRow;
+using analysis::ContestValues;
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view arithmetic = "float";
@@ -32,11 +36,17 @@ std::optional<CoreCost> cost_of(const analysis::Contestant& who) {
 
 std::string name_of(const Contest& c, std::size_t row) { return std::string(c.entries[row].who->name); }
 
+/// Figures of a row: of the nominal drive, or the worst of all; null where it has none.
+using FiguresOf = const ContestValues* (*)(const ContestRow& row);
+const ContestValues* nominal_of(const ContestRow& row) { return &row.values; }
+const ContestValues* worst_of(const ContestRow& row) { return row.worst ? &*row.worst : nullptr; }
+
 /// The least of a column, where there is one.
-double least_of(const Contest& c, std::size_t figure, std::vector<double> ContestRow::*values) {
+double least_of(const Contest& c, std::size_t figure, FiguresOf figures) {
   double least = std::nan("");
   for (const ContestRow& row : c.rows)
-    if (!(row.*values).empty() && row.nominal_held) least = std::fmin(least, (row.*values)[figure]);
+    if (const ContestValues* values = figures(row); values && row.nominal_held)
+      least = std::fmin(least, (*values)[figure]);
   return least;
 }
 
@@ -44,40 +54,57 @@ std::string lowest_text(const ContestRow& row) {
   return row.lowest_rad_s ? quantity_text(*row.lowest_rad_s, "rad/s", 3) : "-";
 }
 
-std::string table(const Contest& c, ContestGroup group, std::vector<double> ContestRow::*values) {
-  const bool nominal = values == &ContestRow::values;
+/// A column of a table: its head, and the cell of entry n below it.
+struct ContestColumn {
+  std::string head;
+  std::function<std::string(std::size_t n)> cell;
+};
+
+std::vector<ContestColumn> contest_columns(const Contest& c, ContestGroup group, FiguresOf figures) {
+  std::vector<ContestColumn> columns{{"controller", [&c](std::size_t n) { return visible(name_of(c, n)); }}};
+  for (std::size_t f = 0; f < std::size(contest_figures); ++f)
+    if (contest_figures[f].group == group)
+      columns.push_back({std::string(contest_figures[f].name),
+                         [&c, f, figures, least = least_of(c, f, figures)](std::size_t n) {
+                           const double x = (*figures(c.rows[n]))[f];
+                           return contest_value(x, contest_figures[f]) + (x == least ? " *" : "");
+                         }});
+  if (group != ContestGroup::moving) return columns;
+  if (figures == worst_of) {
+    columns.push_back(
+        {"hold", [&c](std::size_t n) { return fmt::format("{} of {}", c.rows[n].held, c.rows[n].drives); }});
+    return columns;
+  }
+  columns.push_back({"holds", [&c](std::size_t n) { return c.rows[n].nominal_held ? "yes" : "NO"; }});
+  columns.push_back({"lowest", [&c](std::size_t n) { return lowest_text(c.rows[n]); }});
+  const auto cost = [&c](std::string CoreCost::*of) {
+    return [&c, of](std::size_t n) {
+      const auto found = cost_of(*c.entries[n].who);
+      return found ? (*found).*of : "-";
+    };
+  };
+  columns.push_back({"tick", cost(&CoreCost::tick)});
+  columns.push_back({"flash", cost(&CoreCost::flash_bytes)});
+  return columns;
+}
+
+std::string table(const Contest& c, ContestGroup group, FiguresOf figures) {
+  const std::vector<ContestColumn> columns = contest_columns(c, group, figures);
   Rows rows(Rows::Side::left);
-  std::vector<std::string> head{"controller"};
-  for (const ContestFigure& f : contest_figures)
-    if (f.group == group) head.emplace_back(f.name);
-  if (group == ContestGroup::moving) {
-    head.emplace_back(nominal ? "holds" : "hold");
-    if (nominal) head.insert(head.end(), {"lowest", "tick", "flash"});
-  }
-  rows.add(head);
-  for (std::size_t n = 0; n < c.rows.size(); ++n) {
-    const ContestRow& row = c.rows[n];
-    if (!c.entries[n].scenario || (row.*values).empty()) continue;
-    std::vector<std::string> cells{name_of(c, n)};
-    for (std::size_t f = 0; f < std::size(contest_figures); ++f) {
-      if (contest_figures[f].group != group) continue;
-      const double x = (row.*values)[f];
-      cells.push_back(contest_value(x, contest_figures[f]) + (x == least_of(c, f, values) ? " *" : ""));
-    }
-    if (group == ContestGroup::moving) {
-      cells.push_back(nominal ? (row.nominal_held ? "yes" : "NO")
-                              : fmt::format("{} of {}", row.held, row.drives));
-      const auto cost = cost_of(*c.entries[n].who);
-      if (nominal) cells.push_back(lowest_text(row));
-      if (nominal) cells.insert(cells.end(), {cost ? cost->tick : "-", cost ? cost->flash_bytes : "-"});
-    }
-    rows.add(cells);
-  }
+  const auto add = [&](const auto& text_of) {
+    std::vector<std::string> cells;
+    for (const ContestColumn& column : columns) cells.push_back(text_of(column));
+    rows.add(std::move(cells));
+  };
+  add([](const ContestColumn& column) { return column.head; });
+  for (std::size_t n = 0; n < c.rows.size(); ++n)
+    if (c.entries[n].scenario && figures(c.rows[n]))
+      add([n](const ContestColumn& column) { return column.cell(n); });
   return rows.text();
 }
 
-std::string tables(const Contest& c, std::vector<double> ContestRow::*values) {
-  return table(c, ContestGroup::moving, values) + "\n" + table(c, ContestGroup::steady, values);
+std::string tables(const Contest& c, FiguresOf figures) {
+  return table(c, ContestGroup::moving, figures) + "\n" + table(c, ContestGroup::steady, figures);
 }
 
 /// In lines that a terminal holds, the later ones further in.
@@ -102,7 +129,7 @@ Json figure_json(double x) {
   return std::isinf(x) ? Json("never") : Json(nullptr);
 }
 
-Json figures_json(const std::vector<double>& values) {
+Json figures_json(const ContestValues& values) {
   Json out = Json::object();
   for (std::size_t f = 0; f < values.size(); ++f)
     out[std::string(contest_figures[f].phrase)] = figure_json(values[f]);
@@ -122,7 +149,7 @@ std::vector<std::string> contest_notes(const Contest& c) {
   std::vector<std::string> notes;
   for (std::size_t n = 0; n < c.rows.size(); ++n) {
     const base::Result<study::Scenario>& scenario = c.entries[n].scenario;
-    const std::string& problem = c.rows[n].nominal.problem;
+    const std::string problem = c.rows[n].nominal ? (*c.rows[n].nominal)->problem : std::string();
     if (!scenario)
       notes.push_back(
           fmt::format("{} is left out: {}", name_of(c, n), base::to_string(scenario.problems().front())));
@@ -139,11 +166,11 @@ std::string contest_text(const Contest& c) {
   std::string text = fmt::format("{}: {} controllers, designed by rule for\n",
                                  visible(c.bench.scenario.motor), c.entries.size());
   for (const std::string& rule : c.bench.rules) text += "  - " + rule + "\n";
-  text += "\n" + tables(c, &ContestRow::values);
-  if (c.drives > 0)
-    text +=
-        fmt::format("\nWorst of the nominal motor and {} drives of the sheet's tolerances\n\n", c.drives) +
-        tables(c, &ContestRow::worst);
+  text += "\n" + tables(c, nominal_of);
+  if (c.plan.drives > 0)
+    text += fmt::format("\nWorst of the nominal motor and {} drives of the sheet's tolerances\n\n",
+                        c.plan.drives) +
+            tables(c, worst_of);
   text += fmt::format(
       "\n  * least of those that hold the course; lowest: speed still held against the rated torque, by halves; tick, flash: {} {}, instructions at worst and bytes\n\n",
       contest_core, arithmetic);
@@ -154,19 +181,20 @@ std::string contest_text(const Contest& c) {
 
 std::string contest_csv(const Contest& c) {
   std::string text = "controller,drive,holds,lowest speed [rad/s]";
-  for (const ContestFigure& f : contest_figures) text += fmt::format(",{} [{}]", f.phrase, f.unit);
+  for (const ContestFigure& f : contest_figures)
+    text += "," + csv_cell(fmt::format("{} [{}]", f.phrase, f.unit));
   text += "\n";
-  const auto line = [&](std::size_t n, const char* drive, bool holds, const std::vector<double>& values) {
-    const bool of_nominal = drive == std::string_view("nominal") && c.rows[n].lowest_rad_s;
-    text += fmt::format("\"{}\",{},{},{}", name_of(c, n), drive, holds ? 1 : 0,
-                        of_nominal ? fmt::format("{}", *c.rows[n].lowest_rad_s) : "");
+  const auto line = [&](std::size_t n, const char* drive, bool holds, const std::optional<double>& lowest,
+                        const ContestValues& values) {
+    text += fmt::format("{},{},{},{}", csv_cell(name_of(c, n)), drive, holds ? 1 : 0,
+                        lowest ? fmt::format("{}", *lowest) : "");
     for (const double x : values) text += std::isnan(x) ? "," : fmt::format(",{}", x);
     text += "\n";
   };
   for (std::size_t n = 0; n < c.rows.size(); ++n) {
     const ContestRow& row = c.rows[n];
-    line(n, "nominal", row.nominal_held, row.values);
-    if (!row.worst.empty()) line(n, "worst", row.nominal_held && row.held == row.drives, row.worst);
+    line(n, "nominal", row.nominal_held, row.lowest_rad_s, row.values);
+    if (row.worst) line(n, "worst", row.nominal_held && row.held == row.drives, {}, *row.worst);
   }
   return text;
 }
@@ -185,12 +213,12 @@ std::string contest_json(const Contest& c) {
     one["holds"] = row.nominal_held;
     one["nominal"] = figures_json(row.values);
     one["lowest_speed_rad_s"] = row.lowest_rad_s ? Json(*row.lowest_rad_s) : Json(nullptr);
-    if (!row.worst.empty()) {
-      one["worst"] = figures_json(row.worst);
+    if (row.worst) {
+      one["worst"] = figures_json(*row.worst);
       one["drives"] = row.drives;
       one["drives_that_hold"] = row.held;
     }
-    if (!row.nominal.problem.empty()) one["problem"] = row.nominal.problem;
+    if (row.nominal && !(*row.nominal)->problem.empty()) one["problem"] = (*row.nominal)->problem;
     if (const auto cost = cost_of(*entry.who))
       one["cost"] = {{"core", contest_core},
                      {"arithmetic", arithmetic},
@@ -200,7 +228,7 @@ std::string contest_json(const Contest& c) {
   }
   json["words"] = contest_words(c);
   json["notes"] = contest_notes(c);
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 }  // namespace text

@@ -9,6 +9,7 @@
 #include "sixstep/analysis/plan/plan_description.hpp"
 #include "sixstep/base/written.hpp"
 #include "text/escape/escape.hpp"
+#include "text/escape/json_text.hpp"
 #include "text/keys/decimal_number.hpp"
 #include "text/keys/key_advice.hpp"
 #include "text/keys/key_catalog.hpp"
@@ -91,6 +92,15 @@ void in_keys_unit(analysis::Axis& axis) {
   const base::Result<std::string> unit = unit_of_key(axis.key);
   if (!unit) return;
   for (std::string& value : axis.values) value = in_keys_unit(value, *unit);
+}
+
+/// A number in its shortest digits and a word without quotes, however they were spelled. A whole number stays as it is: it may have
+/// more digits than a double.
+std::string one_spelling(const std::string& value) {
+  const std::string word(analysis::bare(value));
+  const std::optional<double> x = number_alone(word);
+  const bool whole = word.find_first_not_of("-0123456789") == std::string::npos;
+  return x && !whole ? base::written(*x) : word;
 }
 
 struct Ends {
@@ -208,9 +218,8 @@ std::string plan_identity(const analysis::Plan& plan) {
   for (const analysis::Axis& axis : plan.axes) {
     Json a = {{"key", axis.key}};
     if (axis.strays) a["strays"] = true;
-    if (!axis.values.empty())
-      a["values"] = axis.values;
-    else
+    for (const std::string& value : axis.values) a["values"].push_back(one_spelling(value));
+    if (axis.values.empty())
       a.update(Json{{"from", axis.from},
                     {"to", axis.to},
                     {"spacing", base::word(analysis::spacing_choices, axis.spacing)}});
@@ -223,7 +232,7 @@ std::string plan_identity(const analysis::Plan& plan) {
     if (plan.sampling == Sampling::latin_hypercube) identity["points"] = plan.points;
     identity["drives"] = plan.drives;
   }
-  return identity.dump();
+  return json_text(identity, -1);
 }
 
 }  // namespace text

@@ -109,9 +109,7 @@ base::Result<analysis::PlannedRun> PlannedScenarios::run(const std::vector<std::
   }
   if (!*read) return read->problems();
   if (plan_.drives == 0) return analysis::PlannedRun{**read, {}};
-  study::Scenario varied = study::varied(**read, plan_.seed, drive);
-  std::vector<double> strayed = study::strayed_values(**read, varied);
-  return analysis::PlannedRun{std::move(varied), std::move(strayed)};
+  return analysis::planned_drive(**read, plan_.seed, drive);
 }
 
 base::Problems PlannedScenarios::check() const {

@@ -12,6 +12,7 @@
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
 #include "text/escape/json_number.hpp"
+#include "text/escape/json_text.hpp"
 #include "text/results/quantity_text.hpp"
 
 namespace text {
@@ -125,7 +126,8 @@ std::string bode_csv(const BodeStudy& s) {
   for (const LoopPoint& p : s.points) {
     text += fmt::format("{},{},{},{},{},{}", p.w_rad_s / sixstep::base::turn_rad, dB(p.gain),
                         p.phase_rad * degrees_per_rad, p.coherence, dB(p.closed.size()), p.scatter);
-    if (const auto d = designed_at(s, p)) text += fmt::format(",{},{}", d->gain_dB, d->phase_deg);
+    const auto d = designed_at(s, p);
+    if (s.designed) text += d ? fmt::format(",{},{}", d->gain_dB, d->phase_deg) : ",,";
     text += "\n";
   }
   return text;
@@ -161,7 +163,7 @@ std::string bode_json(std::string_view name, const BodeStudy& s) {
     }
     json["points"].push_back(std::move(point));
   }
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 }  // namespace text

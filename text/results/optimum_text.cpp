@@ -8,6 +8,7 @@
 
 #include "text/escape/escape.hpp"
 #include "text/escape/json_number.hpp"
+#include "text/escape/json_text.hpp"
 #include "text/results/quantity_text.hpp"
 
 namespace text {
@@ -38,7 +39,7 @@ std::string limits(const OptimumStory& s, const analysis::Optimum& best) {
 
 std::string optimum_text(const OptimumStory& s, const analysis::Optimum& best) {
   std::size_t width = 0;
-  for (const std::string& key : s.columns.keys) width = std::max(width, key.size());
+  for (const analysis::InputColumn& c : s.columns.keys) width = std::max(width, c.key.size());
   for (const analysis::FigureColumn& f : s.columns.figures) width = std::max(width, visible(f.name).size());
   std::string text =
       fmt::format("{}: least {} of {} points{}\n", visible(s.name), visible(s.columns.figures[s.figure].name),
@@ -46,8 +47,9 @@ std::string optimum_text(const OptimumStory& s, const analysis::Optimum& best) {
   for (std::size_t k = 0; k < best.point.size(); ++k) {
     const analysis::Axis& axis = s.plan.axes[k];
     text += fmt::format("  {:<{}}  {:>12}  in {} .. {}\n", axis.key, width,
-                        quantity_text(best.values[k], s.units[k]), quantity_text(axis.from, s.units[k]),
-                        quantity_text(axis.to, s.units[k]));
+                        quantity_text(best.values[k], s.columns.keys[k].unit),
+                        quantity_text(axis.from, s.columns.keys[k].unit),
+                        quantity_text(axis.to, s.columns.keys[k].unit));
   }
   for (std::size_t n = 0; n < s.columns.figures.size(); ++n) {
     const analysis::FigureColumn& f = s.columns.figures[n];
@@ -73,7 +75,7 @@ std::string optimum_json(const OptimumStory& s, const analysis::Optimum& best) {
   for (std::size_t k = 0; k < best.point.size(); ++k)
     json["point"].push_back({{"key", s.plan.axes[k].key},
                              {"value", best.values[k]},
-                             {"unit", s.units[k]},
+                             {"unit", s.columns.keys[k].unit},
                              {"from", s.plan.axes[k].from},
                              {"to", s.plan.axes[k].to}});
   for (std::size_t n = 0; n < s.columns.figures.size(); ++n) {
@@ -88,7 +90,7 @@ std::string optimum_json(const OptimumStory& s, const analysis::Optimum& best) {
   for (const analysis::Limit& limit : best.limits)
     json["limits"].push_back(
         {{limit.of_key ? "key" : "figure", limit.what}, {"end", limit.upper ? "upper" : "lower"}});
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 }  // namespace text

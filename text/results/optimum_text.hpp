@@ -14,8 +14,7 @@ struct OptimumStory {
   const std::string& name;
   const analysis::Plan& plan;
   const analysis::PlanColumns& columns;
-  const std::vector<std::string>& units;  ///< of the keys, then of what strays
-  std::size_t figure = 0;                 ///< that is small
+  std::size_t figure = 0;  ///< that is small
 };
 
 std::string optimum_text(const OptimumStory& story, const analysis::Optimum& best);

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "sixstep/analysis/plan/plan_description.hpp"
 #include "sixstep/base/written.hpp"
+#include "text/escape/csv_cell.hpp"
+#include "text/escape/json_text.hpp"
+#include "text/keys/decimal_number.hpp"
+#include "text/results/plan_columns.hpp"
 #include "text/results/plan_text.hpp"
 
 namespace text {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string cell(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 /// As JSON has it: no number is null, one that never came a word.
 Json stored(double x) {
@@ -31,10 +30,9 @@ Json stored_or_null(const std::optional<double>& x) { return x ? stored(*x) : Js
 
 Json columns_json(const PlanStory& s) {
   Json keys = Json::array(), strayed = Json::array(), figures = Json::array();
-  for (std::size_t n = 0; n < s.columns.keys.size(); ++n)
-    keys.push_back({{"key", s.columns.keys[n]}, {"unit", s.units[n]}});
-  for (std::size_t n = 0; n < s.columns.strayed.size(); ++n)
-    strayed.push_back({{"key", s.columns.strayed[n]}, {"unit", s.units[s.columns.keys.size() + n]}});
+  for (const analysis::InputColumn& c : s.columns.keys) keys.push_back({{"key", c.key}, {"unit", c.unit}});
+  for (const analysis::InputColumn& c : s.columns.strayed)
+    strayed.push_back({{"key", c.key}, {"unit", c.unit}});
   for (const analysis::SpreadFigure& f : s.series.figures) {
     Json figure = {{"figure", f.column.name},
                    {"unit", f.column.unit},
@@ -77,37 +75,44 @@ Json value_json(const std::string& written) {
   return read.is_discarded() ? Json(analysis::bare(written)) : read;
 }
 
-Json row_json(const analysis::RunRecord& r, const analysis::PlanColumns& columns) {
-  Json row = {r.number, base::word(analysis::run_ends, r.end), analysis::passed(r, columns)};
-  for (const std::string& value : r.point) row.push_back(value_json(value));
-  for (const double x : r.strayed) row.push_back(stored(x));
-  for (const double x : r.figures) row.push_back(stored(x));
-  row.push_back(r.problem);
-  row.push_back(base::written_hex(r.digest));
+/// Of all cells of a row.
+std::vector<std::string> row_names(const analysis::PlanColumns& columns) {
+  std::vector<std::string> names(std::begin(columns_before), std::end(columns_before));
+  for (std::string& name : column_names(columns)) names.push_back(std::move(name));
+  names.insert(names.end(), std::begin(columns_behind), std::end(columns_behind));
+  return names;
+}
+
+Json row_json(const analysis::RunRecord& r) {
+  Json row = {r->number, base::word(analysis::run_ends, r->end), analysis::passed(r)};
+  for (const std::string& value : r->point) row.push_back(value_json(value));
+  for (const double x : r->strayed) row.push_back(stored(x));
+  for (const double x : r->figures) row.push_back(stored(x));
+  row.push_back(r->problem);
+  row.push_back(base::written_hex(r->digest));
   return row;
+}
+
+/// A number as it is written, a word as a name.
+std::string value_cell(const std::string& written) {
+  return number_alone(written) ? written : csv_cell(analysis::bare(written));
 }
 
 }  // namespace
 
-std::string plan_csv_head(const analysis::PlanColumns& columns, const std::vector<std::string>& units) {
-  std::string line = "run,end,passed";
-  const auto add = [&](const std::string& name, const std::string& unit) {
-    line += "," + cell(unit.empty() ? name : fmt::format("{} [{}]", name, unit));
-  };
-  for (std::size_t n = 0; n < columns.keys.size(); ++n) add(columns.keys[n], units[n]);
-  for (std::size_t n = 0; n < columns.strayed.size(); ++n)
-    add("drive: " + columns.strayed[n], units[columns.keys.size() + n]);
-  for (const analysis::FigureColumn& f : columns.figures) add(f.name, f.unit);
-  return line + ",problem,digest\n";
+std::string plan_csv_head(const analysis::PlanColumns& columns) {
+  std::vector<std::string> cells;
+  for (const std::string& name : row_names(columns)) cells.push_back(csv_cell(name));
+  return fmt::format("{}\n", fmt::join(cells, ","));
 }
 
-std::string plan_csv_row(const analysis::RunRecord& record, const analysis::PlanColumns& columns) {
-  std::string line = fmt::format("{},{},{}", record.number, base::word(analysis::run_ends, record.end),
-                                 analysis::passed(record, columns) ? 1 : 0);
-  for (const std::string& value : record.point) line += "," + cell(analysis::bare(value));
-  for (const std::vector<double>* numbers : {&record.strayed, &record.figures})
+std::string plan_csv_row(const analysis::RunRecord& r) {
+  std::string line =
+      fmt::format("{},{},{}", r->number, base::word(analysis::run_ends, r->end), analysis::passed(r) ? 1 : 0);
+  for (const std::string& value : r->point) line += "," + value_cell(value);
+  for (const std::vector<double>* numbers : {&r->strayed, &r->figures})
     for (const double x : *numbers) line += "," + (x == x ? base::written(x) : std::string());
-  return line + "," + cell(record.problem) + "," + base::written_hex(record.digest) + "\n";
+  return line + "," + csv_cell(r->problem) + "," + base::written_hex(r->digest) + "\n";
 }
 
 std::string plan_json(const PlanStory& s, const std::string& title, const std::string& motor) {
@@ -125,14 +130,15 @@ std::string plan_json(const PlanStory& s, const std::string& title, const std::s
   json["digest"] = base::written_hex(s.series.digest);
   json.update(columns_json(s));
   if (s.plan.sampling == analysis::Sampling::saltelli) json["indices"] = indices_json(s);
+  json["columns"] = row_names(s.columns);
   // A row a line: a hundred thousand of them are read by programs that take lines, too.
-  std::string text = json.dump(2);
+  std::string text = json_text(json);
   text.resize(text.find_last_of('}'));
   text.erase(text.find_last_not_of(" \n") + 1);
   text += ",\n  \"rows\": [";
   bool first = true;
   s.each([&](const analysis::RunRecord& record) {
-    text += (first ? "\n    " : ",\n    ") + row_json(record, s.columns).dump();
+    text += (first ? "\n    " : ",\n    ") + json_text(row_json(record), -1);
     first = false;
   });
   return text + "\n  ]\n}\n";

@@ -30,18 +30,18 @@ std::vector<Point> points_of(const PlanStory& story) {
   std::vector<Point> points;
   const std::size_t drives = std::max<std::size_t>(story.plan.drives, 1);
   story.each([&](const analysis::RunRecord& record) {
-    if (points.empty() || record.number / drives != points.back().first / drives)
-      points.push_back({record.point,
+    if (points.empty() || record->number / drives != points.back().first / drives)
+      points.push_back({record->point,
                         std::vector<analysis::Statistics>(story.columns.figures.size()),
-                        record.number,
+                        record->number,
                         0,
                         0,
                         {}});
     Point& at = points.back();
-    for (std::size_t n = 0; n < at.figures.size(); ++n) at.figures[n].add(record.figures[n]);
+    for (std::size_t n = 0; n < at.figures.size(); ++n) at.figures[n].add(record->figures[n]);
     ++at.runs;
-    at.passed += analysis::passed(record, story.columns);
-    if (at.problem.empty()) at.problem = record.problem;
+    at.passed += analysis::passed(record);
+    if (at.problem.empty()) at.problem = record->problem;
   });
   return points;
 }
@@ -62,7 +62,7 @@ Cells cells_of(const Point& point, const PlanStory& story, bool asks) {
   const std::vector<analysis::FigureColumn>& figures = story.columns.figures;
   Cells cells{fmt::format("{}", point.first)};
   for (std::size_t k = 0; k < point.values.size(); ++k)
-    cells.push_back(value_text(point.values[k], story.units[k]));
+    cells.push_back(value_text(point.values[k], story.columns.keys[k].unit));
   for (std::size_t n = 0; n < figures.size(); ++n) {
     const std::optional<double> x = point.figures[n].quantile(0.5);
     const bool holds = !x || figures[n].holds(*x);
@@ -88,7 +88,7 @@ std::string point_table(const PlanStory& story) {
   const bool asks = std::any_of(story.columns.figures.begin(), story.columns.figures.end(),
                                 [](const auto& f) { return f.required; });
   Cells head{"run"};
-  for (const std::string& key : story.columns.keys) head.push_back(visible(key));
+  for (const analysis::InputColumn& c : story.columns.keys) head.push_back(visible(c.key));
   for (std::size_t n = 0; n < story.columns.figures.size(); ++n) head.push_back(fmt::format("[{}]", n + 1));
   head.push_back(!asks ? "" : story.plan.drives > 1 ? "holds" : "verdict");
   Rows rows(Rows::Side::right);
@@ -114,7 +114,7 @@ std::string index_table(const PlanStory& story) {
     if (!found) continue;
     Rows rows(Rows::Side::right);
     for (std::size_t k = 0; k < found->size(); ++k)
-      rows.add({visible(story.columns.keys[k]), part((*found)[k].first), part((*found)[k].total)});
+      rows.add({visible(story.columns.keys[k].key), part((*found)[k].first), part((*found)[k].total)});
     text += rows.text();
   }
   return text;
@@ -125,7 +125,7 @@ std::string index_table(const PlanStory& story) {
 std::optional<std::vector<analysis::SensitivityIndex>> indices_of(const PlanStory& story,
                                                                   std::size_t figure) {
   std::vector<double> values(analysis::runs_of(story.plan), std::numeric_limits<double>::quiet_NaN());
-  story.each([&](const analysis::RunRecord& record) { values[record.number] = record.figures[figure]; });
+  story.each([&](const analysis::RunRecord& record) { values[record->number] = record->figures[figure]; });
   return analysis::sensitivity(values, story.plan.axes.size(), story.plan.seed);
 }
 

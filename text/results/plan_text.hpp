@@ -17,7 +17,6 @@ struct PlanStory {
   const std::string& name;
   const analysis::Plan& plan;
   const analysis::PlanColumns& columns;
-  const std::vector<std::string>& units;  ///< of the varied keys, then of the strayed ones
   const analysis::Series& series;
   std::function<void(const std::function<void(const analysis::RunRecord&)>&)> each;
 };
@@ -32,9 +31,9 @@ inline constexpr std::size_t most_points_shown = 60;
 /// for them the Sobol indices.
 std::string plan_table(const PlanStory& story);
 
-/// CSV: the head is a line of names with their units, then a line per run.
-std::string plan_csv_head(const analysis::PlanColumns& columns, const std::vector<std::string>& units);
-std::string plan_csv_row(const analysis::RunRecord& record, const analysis::PlanColumns& columns);
+/// CSV: the head is a line of names with their units (plan_columns.hpp), then a line per run.
+std::string plan_csv_head(const analysis::PlanColumns& columns);
+std::string plan_csv_row(const analysis::RunRecord& record);
 
 /// The whole table as JSON, with statistics and indices.
 std::string plan_json(const PlanStory& story, const std::string& title, const std::string& motor);

@@ -1,30 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/analysis/contest/contest.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
-#include <span>
 #include <utility>
 
 namespace sixstep::analysis {
 namespace {
 
-constexpr std::size_t gauges = std::size(contest_gauges);
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// The gauges stand behind the requirements; a run that could not start has none.
-std::vector<double> values_of(const RunRecord& record) {
-  if (record.end == RunEnd::refused || record.figures.size() < gauges)
-    return std::vector<double>(std::size(contest_figures), std::numeric_limits<double>::quiet_NaN());
-  return contest_values_of(std::span(record.figures).last(gauges));
+ContestValues values_of(const RunRecord& record) {
+  return record->end == RunEnd::refused ? no_contest_values() : contest_values_of(gauges_of(record));
 }
 
 /// Not a number is worst: a drive that has no figure did not get so far.
 double worse(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
-}  // namespace
-
-Plan contest_plan(const std::vector<ContestEntry>& entries, std::size_t drives, std::uint64_t seed) {
+Plan plan_of(const std::vector<ContestEntry>& entries, std::size_t drives, std::uint64_t seed) {
   Axis axis;
   axis.key = "controller";
   for (const ContestEntry& entry : entries) axis.values.emplace_back(entry.who->name);
@@ -35,24 +29,64 @@ Plan contest_plan(const std::vector<ContestEntry>& entries, std::size_t drives, 
   return plan;
 }
 
-PlanColumns contest_columns(const Plan& plan, const ContestBench& bench) {
-  return columns_of(plan, bench.scenario);
+/// Entries differ from the bench in what they spread, and not from each other.
+const study::Scenario& with_columns(const ContestBench& bench, const std::vector<ContestEntry>& entries) {
+  const auto first = std::find_if(entries.begin(), entries.end(), [](const ContestEntry& entry) {
+    return static_cast<bool>(entry.scenario);
+  });
+  return first == entries.end() ? bench.scenario : *first->scenario;
 }
 
-void take_nominal(ContestRow& row, RunRecord record, const PlanColumns& columns) {
-  row.nominal = std::move(record);
-  row.values = values_of(row.nominal);
-  row.nominal_held = passed(row.nominal, columns);
+}  // namespace
+
+ContestValues no_contest_values() {
+  ContestValues values{};
+  values.fill(none);
+  return values;
 }
 
-void take_drive(Contest& contest, const RunRecord& record, const PlanColumns& columns) {
-  if (contest.drives == 0 || record.number / contest.drives >= contest.rows.size()) return;
-  ContestRow& row = contest.rows[record.number / contest.drives];
-  if (row.worst.empty()) row.worst = row.values;
-  const std::vector<double> values = values_of(record);
-  for (std::size_t n = 0; n < values.size(); ++n) row.worst[n] = worse(values[n], row.worst[n]);
+Contest contest_of(ContestBench bench, std::vector<ContestEntry> entries, std::size_t drives,
+                   std::uint64_t seed, const UnitOfKey& unit_of) {
+  Plan plan = plan_of(entries, drives, seed);
+  TableColumns columns = columns_of(plan, with_columns(bench, entries), unit_of);
+  std::vector<ContestRow> rows(entries.size());
+  return {std::move(bench), std::move(entries), std::move(rows), std::move(plan), std::move(columns)};
+}
+
+GaugeValues gauges_of(const RunRecord& record) {
+  GaugeValues gauges{};
+  gauges.fill(none);
+  const std::vector<FigureColumn>& columns = record.columns().figures;
+  for (std::size_t g = 0; g < gauges.size(); ++g) {
+    const auto column = std::find_if(columns.begin(), columns.end(), [g](const FigureColumn& c) {
+      return !c.required && c.name == contest_gauges[g].label;
+    });
+    if (column != columns.end())
+      gauges[g] = record->figures[static_cast<std::size_t>(column - columns.begin())];
+  }
+  return gauges;
+}
+
+void take_nominal(Contest& contest, std::size_t entry, const base::Result<study::Outcome>& result) {
+  const base::Result<study::Scenario>& scenario = contest.entries[entry].scenario;
+  const base::Result<PlannedRun> alone = scenario ? base::Result<PlannedRun>(PlannedRun{*scenario, {}})
+                                                  : base::Result<PlannedRun>(scenario.problems());
+  const TableColumns columns = columns_of({}, scenario ? *scenario : contest.bench.scenario);
+  ContestRow& row = contest.rows[entry];
+  row.nominal = record_of(columns, 0, {}, alone, result);
+  row.values = values_of(*row.nominal);
+  row.nominal_held = passed(*row.nominal);
+}
+
+void take_drive(Contest& contest, const RunRecord& record) {
+  const std::size_t drives = contest.plan.drives;
+  if (drives == 0 || record->number / drives >= contest.rows.size()) return;
+  ContestRow& row = contest.rows[record->number / drives];
+  if (!row.worst) row.worst = row.values;
+  const ContestValues values = values_of(record);
+  for (std::size_t n = 0; n < values.size(); ++n) (*row.worst)[n] = worse(values[n], (*row.worst)[n]);
   ++row.drives;
-  if (passed(record, columns)) ++row.held;
+  if (passed(record)) ++row.held;
 }
 
 }  // namespace sixstep::analysis

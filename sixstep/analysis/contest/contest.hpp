@@ -22,32 +22,39 @@ struct ContestTrace {
   std::vector<double> t_s, speed_rad_s, torque_Nm, current_A;
 };
 
+/// NaN all of them.
+ContestValues no_contest_values();
+
 struct ContestRow {
-  RunRecord nominal{};  ///< its figures are the gauges, requirements first
+  std::optional<RunRecord> nominal{};
   ContestTrace trace{};
   std::optional<double>
       lowest_rad_s{};  ///< it still holds nominally (lowest_speed.hpp); none: not even the course's low one
-  std::vector<double> values{};      ///< of contest_figures, nominal
-  std::vector<double> worst{};       ///< the largest over nominal and all drives; empty without drives
-  std::size_t drives = 0, held = 0;  ///< of the tolerances; those that hold every requirement
+  ContestValues values = no_contest_values();  ///< nominal
+  std::optional<ContestValues> worst{};  ///< the largest over nominal and all drives; none without drives
+  std::size_t drives = 0, held = 0;      ///< of the tolerances; those that hold every requirement
   bool nominal_held = false;
 };
 
+/// The drives of all entries are one plan, whose table has the same columns for all: contestants are the values of its one key.
 struct Contest {
   ContestBench bench;
   std::vector<ContestEntry> entries;
   std::vector<ContestRow> rows;  ///< one per entry
-  std::size_t drives = 0;        ///< of each
+  Plan plan;
+  TableColumns columns;
 };
 
-/// The plan of all drives: contestants are the values of its one key.
-Plan contest_plan(const std::vector<ContestEntry>& entries, std::size_t drives, std::uint64_t seed);
-/// The same columns in all.
-PlanColumns contest_columns(const Plan& plan, const ContestBench& bench);
+/// Before anything runs: `drives` of each entry.
+Contest contest_of(ContestBench bench, std::vector<ContestEntry> entries, std::size_t drives,
+                   std::uint64_t seed, const UnitOfKey& unit_of = {});
 
-/// Takes the figures of the nominal run, or of a drive of the tolerances, found by its number in the plan, which then count where they
-/// are worse.
-void take_nominal(ContestRow& row, RunRecord record, const PlanColumns& columns);
-void take_drive(Contest& contest, const RunRecord& record, const PlanColumns& columns);
+/// The gauges of a run, found by their labels; NaN where it has none.
+GaugeValues gauges_of(const RunRecord& record);
+
+/// Takes the nominal run of an entry, whose drive does not stray.
+void take_nominal(Contest& contest, std::size_t entry, const base::Result<study::Outcome>& result);
+/// Takes the figures of a drive of the tolerances, found by its number in the plan, which then count where they are worse.
+void take_drive(Contest& contest, const RunRecord& record);
 
 }  // namespace sixstep::analysis

@@ -3,13 +3,15 @@
 
 namespace sixstep::analysis {
 
-std::vector<double> contest_values_of(std::span<const double> gauges) {
+ContestValues contest_values_of(const GaugeValues& gauges) {
   const auto of = [&](Gauge gauge) {
     return gauge == Gauge::none ? 0.0 : gauges[static_cast<std::size_t>(gauge)];
   };
-  std::vector<double> out;
-  for (const ContestFigure& f : contest_figures)
-    out.push_back(of(f.sum[0]) + of(f.sum[1]) + of(f.sum[2]) - of(f.less));
+  ContestValues out{};
+  for (std::size_t f = 0; f < out.size(); ++f) {
+    const ContestFigure& figure = contest_figures[f];
+    out[f] = of(figure.sum[0]) + of(figure.sum[1]) + of(figure.sum[2]) - of(figure.less);
+  }
   return out;
 }
 

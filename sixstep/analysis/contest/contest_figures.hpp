@@ -3,9 +3,8 @@
 // a sum of some, less another: the loss of the bridge is conduction and switching, the dip at a commutation mean less least torque.
 #pragma once
 #include <array>
-#include <span>
+#include <iterator>
 #include <string_view>
-#include <vector>
 
 #include "sixstep/study/scenario/measure.hpp"
 
@@ -160,7 +159,11 @@ inline constexpr std::size_t ripple_figure = 7, loss_figure = 13;
 static_assert(contest_figures[ripple_figure].name == "ripple rms" &&
               contest_figures[loss_figure].name == "losses");
 
+/// A value per gauge and per figure, so that none is there too many or too few.
+using GaugeValues = std::array<double, std::size(contest_gauges)>;
+using ContestValues = std::array<double, std::size(contest_figures)>;
+
 /// The figures of a run's gauges; NaN where a gauge has none, infinite where it never comes.
-std::vector<double> contest_values_of(std::span<const double> gauges);
+ContestValues contest_values_of(const GaugeValues& gauges);
 
 }  // namespace sixstep::analysis

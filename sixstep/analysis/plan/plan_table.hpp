@@ -4,8 +4,11 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sixstep/analysis/plan/plan.hpp"
@@ -27,20 +30,42 @@ struct FigureColumn {
   bool operator==(const FigureColumn&) const = default;
 };
 
+/// What went into a run: a key of the plan's, or one that strays.
+struct InputColumn {
+  std::string key, unit;
+  bool operator==(const InputColumn&) const = default;
+};
+
 struct PlanColumns {
-  std::vector<std::string> keys;      ///< of the plan's axes
-  std::vector<std::string> strayed;   ///< keys of [[spread]]; none where the plan has no drives
+  std::vector<InputColumn> keys;      ///< of the plan's axes
+  std::vector<InputColumn> strayed;   ///< keys of [[spread]]; none where the plan has no drives
   std::vector<FigureColumn> figures;  ///< requirements first, then comparisons, in the scenario's order
   bool operator==(const PlanColumns&) const = default;
 };
 
-PlanColumns columns_of(const Plan& plan, const study::Scenario& scenario);
+/// Shared by a table and all of its rows.
+using TableColumns = std::shared_ptr<const PlanColumns>;
+
+/// The unit of a scenario's key; empty where it has none.
+using UnitOfKey = std::function<std::string(const std::string& key)>;
+
+/// `scenario` with its spread, before a drive strays.
+TableColumns columns_of(const Plan& plan, const study::Scenario& scenario, const UnitOfKey& unit_of = {});
+
+/// A strayed value under its key.
+struct Strayed {
+  std::string key;
+  double value = 0.0;  ///< in the key's unit; NaN where it could not be drawn
+};
 
 /// What a run of a plan is: the drive at its point.
 struct PlannedRun {
   study::Scenario scenario;
-  std::vector<double> strayed;  ///< as RunRecord's
+  std::vector<Strayed> strayed;
 };
+
+/// A drive of the series that the nominal scenario's [[spread]] describes.
+PlannedRun planned_drive(const study::Scenario& nominal, std::uint64_t seed, std::size_t drive);
 
 enum class RunEnd : std::uint8_t { whole, fault, refused };
 
@@ -50,7 +75,8 @@ inline constexpr base::Choice<RunEnd> run_ends[] = {
     {"refused", RunEnd::refused, "could not start: no figures"},
 };
 
-struct RunRecord {
+/// What stands in a row. The columns say what each value is: RunRecord brings both together.
+struct RunValues {
   std::size_t number = 0;
   std::vector<std::string> point;  ///< what each key was set to, as a file writes it
   std::vector<double> strayed;     ///< in the keys' units; NaN where it could not be drawn
@@ -60,10 +86,34 @@ struct RunRecord {
   std::uint64_t digest = 0;     ///< of the trajectory
 };
 
-/// The row of a run: `number`, `point` and `strayed` are the caller's to fill.
-RunRecord record_of(const base::Result<study::Outcome>& result, const PlanColumns& columns);
+/// A row with its columns: a value for each of them and no other, which of() checks and nothing changes afterwards.
+class RunRecord {
+ public:
+  /// A Problem where there are more or fewer values of a kind than columns.
+  static base::Result<RunRecord> of(TableColumns columns, RunValues values);
+  /// The row of a run that could not start.
+  static RunRecord refused(TableColumns columns, std::size_t number, std::vector<std::string> point,
+                           std::string problem);
+
+  const PlanColumns& columns() const { return *columns_; }
+  /// Whether it is a row of that table.
+  bool fits(const TableColumns& columns) const { return columns_ == columns || *columns_ == *columns; }
+  const RunValues& operator*() const { return values_; }
+  const RunValues* operator->() const { return &values_; }
+
+ private:
+  RunRecord(TableColumns columns, RunValues values)
+      : columns_(std::move(columns)), values_(std::move(values)) {}
+  TableColumns columns_;
+  RunValues values_;
+};
+
+/// The row of a run: its values are found by the names of strayed keys and figures. Where they are others than the columns', the row
+/// is that of a run which could not start, and says so.
+RunRecord record_of(const TableColumns& columns, std::size_t number, std::vector<std::string> point,
+                    const base::Result<PlannedRun>& planned, const base::Result<study::Outcome>& result);
 
 /// Came to its end and holds every requirement.
-bool passed(const RunRecord& record, const PlanColumns& columns);
+bool passed(const RunRecord& record);
 
 }  // namespace sixstep::analysis

@@ -7,7 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <utility>
 
+#include "sixstep/study/measure/figures.hpp"
 #include "tests/support/scenarios.hpp"
 #include "text/scenario/scenario_file.hpp"
 
@@ -68,12 +71,11 @@ TEST(Contest, ABoardIsTakenAndItsSwitchesCostWhatIsUsualWhereItNamesNothing) {
 }
 
 TEST(Contest, FiguresAreSumsOfGauges) {
-  std::vector<double> gauges(std::size(contest_gauges));
+  GaugeValues gauges{};
   for (std::size_t n = 0; n < gauges.size(); ++n)
     gauges[n] = std::pow(2.0, double(n));  // no two sums are alike
   const auto gauge = [&](Gauge g) { return gauges[static_cast<std::size_t>(g)]; };
-  const std::vector<double> values = contest_values_of(gauges);
-  ASSERT_EQ(values.size(), std::size(contest_figures));
+  const ContestValues values = contest_values_of(gauges);
   EXPECT_EQ(values[loss_figure], gauge(Gauge::copper) + gauge(Gauge::conduction) + gauge(Gauge::switching));
   EXPECT_EQ(values[ripple_figure], gauge(Gauge::ripple_rms));
   for (std::size_t f = 0; f < values.size(); ++f) {
@@ -86,34 +88,99 @@ TEST(Contest, FiguresAreSumsOfGauges) {
   EXPECT_EQ(static_cast<std::size_t>(Gauge::none), std::size(contest_gauges));
 }
 
-TEST(Contest, TheWorstOfDrivesIsTheLargestAndNoValueIsWorse) {
-  PlanColumns columns;
-  columns.figures.assign(std::size(contest_gauges), {"x", "1"});
-  RunRecord record;
-  record.figures.assign(std::size(contest_gauges), 1.0);
+/// A course whose runs are made up: two contestants that spread three values, as contest_entries() has them.
+struct MadeUp {
   Contest contest;
-  contest.drives = 2;
-  contest.rows.resize(2);
-  ContestRow& row = contest.rows[1];
-  take_nominal(row, record, columns);
+
+  MadeUp() {
+    base::Result<ContestBench> bench = bench_of("maxon-251601");
+    study::Scenario scenario = bench->scenario;
+    for (const char* key :
+         {"motor_override.resistance_ohm", "motor_override.inductance_mH", "supply.voltage_V"})
+      scenario.spread.emplace_back().key = key;
+    const std::span<const Contestant> who = contestants();
+    contest = contest_of(*bench, {{&who[0], {}, scenario}, {&who[1], {}, scenario}}, 2, 1);
+  }
+  /// Requirements held, and each gauge a power of two: no two figures are alike.
+  study::Outcome outcome() const {
+    const study::Scenario& s = *contest.entries[0].scenario;
+    study::Outcome o;
+    for (const study::Requirement& r : s.require)
+      o.verdicts.push_back({r.measure.label, "rad/s", *r.min, r.min, r.max, true});
+    for (std::size_t g = 0; g < std::size(contest_gauges); ++g)
+      o.comparisons.push_back({std::string(contest_gauges[g].label),
+                               std::string(study::figure_unit(s.compare[g].measure)),
+                               std::pow(2.0, double(g)), 0.0, ""});
+    return o;
+  }
+  RunRecord drive(std::size_t number, const study::Outcome& o) const {
+    PlannedRun run{*contest.entries[0].scenario, {}};
+    for (const InputColumn& column : contest.columns->strayed) run.strayed.push_back({column.key, 1e6});
+    return record_of(contest.columns, number, point_of_run(contest.plan, number), run, o);
+  }
+};
+
+/// Values that stray come first in a row, and the figures keep their names all the same.
+TEST(Contest, AFigureIsFoundByItsNameWhateverStandsBeforeIt) {
+  MadeUp made;
+  EXPECT_EQ(made.contest.columns->strayed.size(), 3U);
+  const study::Outcome o = made.outcome();
+  take_nominal(made.contest, 0, o);
+  take_drive(made.contest, made.drive(0, o));
+  const ContestRow& row = made.contest.rows[0];
+  ASSERT_EQ((*row.nominal)->problem, "");
+  GaugeValues gauges{};
+  for (std::size_t g = 0; g < gauges.size(); ++g) gauges[g] = std::pow(2.0, double(g));
+  EXPECT_EQ(row.values, contest_values_of(gauges));
+  EXPECT_EQ(row.worst, row.values);
+  EXPECT_EQ(row.held, 1U);
+}
+
+TEST(Contest, ARunOfOtherValuesOrFiguresIsNoRow) {
+  const MadeUp made;
+  PlannedRun run{*made.contest.entries[0].scenario, {{"supply.voltage_V", 24.0}}};
+  const auto row = [&](const PlannedRun& r, const study::Outcome& o) {
+    return record_of(made.contest.columns, 0, point_of_run(made.contest.plan, 0), r, o);
+  };
+  EXPECT_EQ(row(run, made.outcome())->end, RunEnd::refused) << "one of three strays";
+  run.strayed.clear();
+  for (const InputColumn& column : made.contest.columns->strayed) run.strayed.push_back({column.key, 1.0});
+  EXPECT_EQ(row(run, made.outcome())->end, RunEnd::whole);
+  study::Outcome other = made.outcome();
+  std::swap(other.comparisons[0], other.comparisons[1]);
+  EXPECT_EQ(row(run, other)->end, RunEnd::refused);
+  other = made.outcome();
+  other.comparisons.pop_back();
+  EXPECT_NE(row(run, other)->problem, "");
+  std::swap(run.strayed[0], run.strayed[1]);
+  EXPECT_EQ(row(run, made.outcome())->end, RunEnd::refused);
+  RunValues values = *made.drive(0, made.outcome());
+  values.figures.insert(values.figures.begin(), {1.0, 2.0, 3.0});
+  EXPECT_FALSE(RunRecord::of(made.contest.columns, values));
+}
+
+TEST(Contest, TheWorstOfDrivesIsTheLargestAndNoValueIsWorse) {
+  MadeUp made;
+  study::Outcome o = made.outcome();
+  double& settles = o.comparisons[static_cast<std::size_t>(Gauge::start_settles)].measured;
+  double& peak = o.comparisons[static_cast<std::size_t>(Gauge::start_peak)].measured;
+  take_nominal(made.contest, 1, o);
+  const ContestRow& row = made.contest.rows[1];
   EXPECT_TRUE(row.nominal_held);
-  record.number = 2;  // the second controller's first drive
-  const std::size_t settles = static_cast<std::size_t>(Gauge::start_settles),
-                    peak = static_cast<std::size_t>(Gauge::start_peak);
-  record.figures[settles] = 0.5;
-  record.figures[peak] = 3.0;
-  take_drive(contest, record, columns);
-  EXPECT_EQ(row.worst[0], 1.0);
-  EXPECT_EQ(row.worst[2], 3.0);
-  record.figures[settles] = std::numeric_limits<double>::quiet_NaN();
-  record.end = RunEnd::fault;
-  take_drive(contest, record, columns);
-  EXPECT_TRUE(std::isnan(row.worst[0]));
+  const double nominal_s = settles;
+  settles = nominal_s / 2;
+  peak *= 3.0;
+  take_drive(made.contest, made.drive(2, o));  // the second controller's first drive
+  EXPECT_EQ((*row.worst)[0], nominal_s);
+  EXPECT_EQ((*row.worst)[2], peak);
+  settles = std::numeric_limits<double>::quiet_NaN();
+  o.fault = base::Problem{"t = 1 s", "", "shoot-through", ""};
+  take_drive(made.contest, made.drive(3, o));
+  EXPECT_TRUE(std::isnan((*row.worst)[0]));
   EXPECT_EQ(row.drives, 2U);
   EXPECT_EQ(row.held, 1U);
-  EXPECT_EQ(contest.rows[0].drives, 0U);
-  record.number = 4;  // of no controller
-  take_drive(contest, record, columns);
+  EXPECT_EQ(made.contest.rows[0].drives, 0U);
+  take_drive(made.contest, made.drive(4, o));  // of no controller
   EXPECT_EQ(row.drives, 2U);
 }
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/store_option.hpp"
+
+namespace cli {
+
+CLI::Option* take_store(CLI::App& verb, std::string& path, const std::string& meaning) {
+  const auto is_file = [](const std::string& word) {
+    return word == "-"
+               ? std::string("is standard output elsewhere, and a store is a file that is read from again")
+               : std::string();
+  };
+  return verb.add_option("--store", path, meaning)->type_name("FILE")->check(is_file);
+}
+
+}  // namespace cli
