@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Laws of what a bench finds: constants of one back-EMF in all frames, intervals around their value, and what the log was made with."""
+import re
+from math import pi, sqrt
+
+
+def between(test, spot, name, x, low, high):
+    test.assertTrue(float(low) <= float(x) <= float(high), f"{spot}: {name}: {x} not in {low} .. {high}")
+
+
+def intervals(test, spot):
+    found = re.findall(r"(-?[\d.]+)(?: \w+(?: s/rad)?)? +(-?[\d.]+) \.\. (-?[\d.]+)", spot.text)
+    test.assertTrue(found, str(spot))
+    for x, low, high in found:
+        between(test, spot, "value", x, low, high)
+
+
+def near(test, spot, name, x, y, part):
+    test.assertLessEqual(abs(x - y), part * abs(y), f"{spot}: {name}: {x}, by hand {y}")
+
+
+def emf(test, spot):
+    intervals(test, spot)
+    harmonics(test, spot)
+    rows, span, periods, hertz = re.search(r"(\d+) rows in ([\d.]+) ms, ([\d.]+) periods of ([\d.]+) Hz", spot.text).groups()
+    near(test, spot, "periods = f t", float(periods), float(hertz) * float(span) * 1e-3, 5e-3)
+    test.assertGreater(int(rows), 10 * float(periods))
+    row = {name: [float(n) for n in (constant, krpm, rpm)] for name, constant, krpm, rpm in re.findall(
+        r"^  ((?:line|phase), \w+) +([\d.]+) +[\d.]+ \.\. [\d.]+ +([\d.]+) +([\d.]+)$", spot.text, re.M)}
+    for name, (constant, krpm, rpm) in row.items():
+        near(test, spot, f"{name}: V/krpm", krpm, constant * 1e-3 * 1000 * pi / 30, 3e-3)
+        near(test, spot, f"{name}: rpm/V", rpm, 1000 / krpm, 3e-3)
+    pairs = int(re.search(r"^  (\d+) pole pairs", spot.text, re.M).group(1))
+    flux = float(re.search(r"flux linkage, mWb +([\d.]+)", spot.text).group(1))
+    near(test, spot, "flux linkage = phase fundamental/p", flux, row["phase, fundamental"][0] / pairs, 2e-3)
+    hertz, rpm = (float(re.search(pattern, spot.text).group(1)) for pattern in (r"periods of ([\d.]+) Hz", r"pole pairs: ([\d.]+) rpm"))
+    near(test, spot, "rpm = 60 f/p", rpm, 60 * hertz / pairs, 3e-4)
+    K_t = float(re.search(r"K_t, six-step, mNm/A +([\d.]+)", spot.text).group(1))
+    test.assertTrue(row["line, rms"][0] * sqrt(2) * 0.9 <= K_t <= row["line, peak"][0], f"{spot}: mean over the sector, below the peak")
+
+
+def harmonics(test, spot):
+    """Lines between terminals show no third harmonic of the motor; the sizes and their bounds are parts of the fundamental."""
+    for order, size, low, high in re.findall(r"^  (\d+) +([\d.]+) +([\d.]+) \.\. ([\d.]+) ", spot.text, re.M):
+        between(test, spot, f"harmonic {order}", size, low, high)
+        test.assertTrue(float(high) < 30 and 2 <= int(order) < 60, f"{spot}: harmonic {order}")
+    m = re.search(r"harmonic_orders = \[(\d+)\]\nharmonic_sizes = \[(-?[\d.]+)\]", spot.text)
+    if m:
+        told = re.search(rf"^  {m.group(1)} +([\d.]+) ", spot.text, re.M).group(1)
+        near(test, spot, "harmonic of the file", abs(float(m.group(2))), float(told) / 100, 0.02)
+    crest = float(re.search(r"crest factor ([\d.]+)", spot.text).group(1))
+    test.assertTrue(1.0 < crest < 1.8, str(spot))
+    for peak, low, high in re.findall(r"^  \S+ +([\d.]+) +([\d.]+) \.\. ([\d.]+) +(?:[\d.]+ +)?-?[\d.]+ +[\d.]+ +[\d.]+$", spot.text, re.M):
+        between(test, spot, "peak of a channel", peak, low, high)
+
+
+def held_against(test, spot):
+    printed = float(re.search(r"= ([\d.]+) V/krpm: CONTRADICTS", spot.text).group(1))
+    for constant, told in re.findall(r"^    \S+ +([\d.]+) +([-+][\d.]+) %", spot.text, re.M):
+        test.assertLess(abs(100 * (float(constant) / printed - 1) - float(told)), 0.1, str(spot))
+
+
+def identify(test, spot):
+    """The log is simulated: what it was made with stands in the scenario above it."""
+    for name, value, low, high in re.findall(r"^  (offset|hysteresis|delay|flux linkage) +([\d.]+) \S+ +([\d.]+) \.\. ([\d.]+)", spot.text, re.M):
+        between(test, spot, name, value, low, high)
+        truth = {"offset": 7.0, "hysteresis": 1.5, "delay": 50.0, "flux linkage": 0.0335 / 2 / 8 * 12 / pi**2 * 1e3}[name]
+        test.assertLessEqual(abs(truth - float(value)), 2.5 * max(float(high) - float(value), float(value) - float(low)), f"{spot}: {name}")
+    places = [2, -1, 0, -3, 1, 1]
+    for edge, place, low, high in re.findall(r"^  (\d) +\d+ deg +\d+ \d+ +(-?[\d.]+) +(-?[\d.]+) \.\. (-?[\d.]+)", spot.text, re.M):
+        between(test, spot, f"edge {edge}", place, low, high)
+        test.assertLess(abs(places[int(edge)] - float(place)), 0.2, f"{spot}: edge {edge}")
+    m = re.search(r"(\d+) edges, (\d+) forward and (\d+) backward", spot.text)
+    test.assertEqual(int(m.group(1)), int(m.group(2)) + int(m.group(3)))
+
+
+def commission_sheet(test, spot):
+    """What is found, off by what is told, within its bound."""
+    rows = re.findall(r"^  (\S.*?) {2,}([-\d.]+) (\S+) {2,}([-\d.]+) \S+ {2,}([-+][\d.]+) (\S+) {2,}([\d.]+) \S+$", spot.text, re.M)
+    test.assertGreaterEqual(len(rows), 9, str(spot))
+    for name, found, unit, truth, off, off_unit, bound in rows:
+        off_by = float(found) - float(truth)
+        if off_unit == "%":
+            off_by *= 100 / float(truth)
+        test.assertLess(abs(off_by - float(off)), 0.02 + 0.01 * abs(off_by), f"{spot}: {name}")
+        test.assertLessEqual(abs(off_by), float(bound), f"{spot}: {name}")
+    at = 0.0
+    for begin, lasts in re.findall(r"^  \w+ +([\d.]+) s +([\d.]+) s$", spot.text, re.M):
+        test.assertLess(abs(float(begin) - at), 2e-3, f"{spot}: phases follow each other")
+        at = float(begin) + float(lasts)
+
+
+def commission_constants(test, spot):
+    rows = re.findall(r"(R|L|psi) +([\d.]+) \S+ ([-+][\d.]+) \(([\d.]+)\) %", spot.text)
+    test.assertGreaterEqual(len(rows), 18, str(spot))
+    for name, _, off, bound in rows:
+        test.assertLessEqual(abs(float(off)), float(bound), f"{spot}: {name}")
+    sheet = {"maxon-251601": (0.515, 0.286, 0.0335 / 2 / 8 * 12 / pi**2 * 1e3)}
+    for motor, (R, L, psi) in sheet.items():
+        m = re.search(rf"{motor} +ideal +R +([\d.]+) ohm .*?L +([\d.]+) mH .*?psi +([\d.]+) mVs", spot.text)
+        for x, y in zip(m.groups(), (R, L, psi)):
+            near(test, spot, motor, float(x), y, 3e-3)
+
+
+def hall_places(test, spot):
+    rows = re.findall(r"offset +(-?[\d.]+): found +(-?[\d.]+) degrees, worst edge off by ([\d.]+)", spot.text)
+    test.assertGreaterEqual(len(rows), 15)
+    for offset, found, worst in rows:
+        # A trapezoid's rotor stands up to 1.12 degrees beside a field of sines.
+        test.assertLessEqual(abs(float(found) - float(offset)), 1.12, str(spot))
+        test.assertLessEqual(float(worst), 1.12, str(spot))

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Laws of a torque-speed curve: every column by the others, the motor's sheet and model.md."""
+import re
+from math import pi, sqrt
+
+from gallery_sheet import B, K_T, R, STALL, U
+
+COLUMNS = ("rpm", "torque", "ideal", "ripple", "current", "rms", "peak", "supply", "in", "copper", "friction", "out", "eff", "cont")
+
+
+def points(text):
+    """Rows of the table by their names, in SI; a row without a name is called by its speed."""
+    for line in text.splitlines():
+        m = re.match(r"^(locked|just turning|no load|best efficiency|nominal torque|)\s+(-?\d[\d.]*)\s+(.*)$", line)
+        if not m or len(m.group(3).split()) < 14:
+            continue
+        cells = [m.group(2)] + m.group(3).split()
+        numbers = [None if c == "-" else float(c) for c in cells[:14]]
+        yield m.group(1), dict(zip(COLUMNS, numbers)), " ".join(cells[14:])
+
+
+def same(test, spot, name, x, y, part, least=0.0):
+    test.assertLessEqual(abs(x - y), part * max(abs(x), abs(y)) + least, f"{spot}: {name}: {x} and {y}")
+
+
+def point(test, spot, name, p, duty):
+    w = p["rpm"] * pi / 30
+    same(test, spot, f"{name}: out = T w", p["out"], 1e-3 * p["torque"] * w, 1e-3, 6e-3)
+    same(test, spot, f"{name}: friction = B w^2", p["friction"], B * w * w, 6e-3, 6e-4)
+    same(test, spot, f"{name}: copper = 3 R_s rms^2", p["copper"], 1.5 * R * p["rms"]**2, 2e-3, 1e-3) if name != "locked" else None
+    same(test, spot, f"{name}: in is the sum", p["in"], p["copper"] + p["friction"] + p["out"], 2e-3, 1e-2)
+    same(test, spot, f"{name}: in = U supply", p["in"], U * p["supply"], 2e-3, 2e-3)
+    line = max(0.0, 1e3 * (K_T * (duty * U - K_T * w) / R))
+    same(test, spot, f"{name}: ideal line", p["ideal"], line, 2e-3, 0.1)
+    if p["eff"] is not None and p["out"] > 0:
+        same(test, spot, f"{name}: efficiency", p["eff"], 100 * p["out"] / p["in"], 2e-3, 0.06)
+        test.assertLess(p["eff"], 100)
+    test.assertLessEqual(p["peak"], STALL * 1.001, f"{spot}: {name}")
+    test.assertLessEqual(p["rms"], p["peak"] * 1.001, f"{spot}: {name}")
+    test.assertLessEqual(p["supply"], p["current"] * 1.001, f"{spot}: {name}: a chopped drive takes less than flows in the motor")
+
+
+def judge(test, spot):
+    if "ripple  current     rms" not in spot.text:
+        return short(test, spot)
+    duty = float(re.search(r"duty ([\d.]+)", spot.text.splitlines()[0]).group(1)) if "duty" in spot.text.splitlines()[0] else 1.0
+    rows = {}
+    for name, p, held in points(spot.text):
+        point(test, spot, name or p["rpm"], p, duty)
+        rows[name or p["rpm"]] = p, held
+    if not rows:  # other columns than these
+        return short(test, spot)
+    test.assertGreaterEqual(len(rows), 6)
+    same(test, spot, "stall torque K_t d U/R", rows["locked"][0]["torque"], 1e3 * K_T * duty * STALL, 2e-3)
+    same(test, spot, "just turning: sqrt(2/3)", rows["just turning"][0]["rms"], sqrt(2 / 3) * rows["locked"][0]["rms"], 1e-3)
+    best = max(p["eff"] or 0 for p, _ in rows.values())
+    test.assertEqual(best, rows["best efficiency"][0]["eff"])
+    test.assertLess(abs(rows["no load"][0]["torque"]), 0.02)
+    speeds = [p["rpm"] for name, (p, _) in rows.items() if name not in ("best efficiency", "nominal torque")]
+    test.assertEqual(speeds, sorted(speeds))
+    torques = [p["torque"] for name, (p, _) in rows.items() if name not in ("best efficiency", "nominal torque")]
+    test.assertEqual(torques, sorted(torques, reverse=True), "more speed, less torque")
+
+
+def short(test, spot):
+    """A page's excerpt of the first columns: torque at or below the ideal line, and standstill on it."""
+    rows = re.findall(r"^(?:locked|just turning|no load)?\s+(\d+)\s+([\d.]+)\s+([\d.]+)", spot.text, re.M)
+    test.assertGreaterEqual(len(rows), 1, str(spot))
+    duty = 0.5 if "duty 0.5" in spot.text else 1.0
+    for rpm, torque, ideal in rows:
+        w = float(rpm) * pi / 30
+        same(test, spot, "ideal line", float(ideal), 1e3 * K_T * (duty * U - K_T * w) / R, 2e-3, 0.1)
+        test.assertLessEqual(float(torque), float(ideal) * 1.001, f"{spot}: {rpm} rpm")

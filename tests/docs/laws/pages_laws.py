@@ -1,0 +1,290 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which law judges which block. A block is found by its page and a piece of its text or heading."""
+import re
+
+from laws import bench, contest, curve, design, run_output, series, tables
+from page import REPOSITORY
+
+# What a reader writes or runs is no result.
+INPUT = {"run", "write", "file", "shell", "chip", "host", "scenario", "programs", "trips", "exported", "export", "example", "blocks"}
+
+TEST_NAMED = re.compile(r"`(\w+)\.\*`|`(tests/[\w/*.]+|\w+_test\.cpp|\w+_tests|\w+_test\.py)`")
+
+
+def measured_by_a_test(test, spot):
+    """The table repeats what named tests hold, each by a law of its own: those tests are there."""
+    named = [group for m in TEST_NAMED.finditer(section_of(spot)) for group in m.groups() if group]
+    test.assertTrue(named, f"{spot}: names no test that measures it")
+    for name in named:
+        if "/" in name:
+            found = list(REPOSITORY.glob(name.rstrip("/")))
+        elif name.endswith(("_test.cpp", "_test.py")):
+            found = list((REPOSITORY / "tests").rglob(name))
+        elif name.endswith("_tests"):
+            found = (REPOSITORY / "tests" / name.removesuffix("_tests")).is_dir()
+        else:
+            found = any(f"TEST({name}," in f.read_text(encoding="utf-8") for f in (REPOSITORY / "tests").rglob("*_test.cpp"))
+        test.assertTrue(found, f"{spot}: {name} is no test")
+
+
+def section_of(spot):
+    """The text between the block's heading and the next one of any level."""
+    page = (REPOSITORY / spot.page).read_text(encoding="utf-8")
+    start = page.index(f"# {spot.heading}\n")
+    end = re.search(r"\n#+ ", page[start:])
+    return page[start:start + end.start() if end else len(page)]
+
+
+def definition(test, spot):
+    """Names, ranges, commands and formulas: no number in it is a result."""
+    test.assertNotRegex(spot.text, r"\d+ experiments?:", str(spot))
+
+
+def default_in_range(test, spot):
+    """Of a table of keys: a number that stands in for what is not given lies in the key's own range."""
+    if "default" not in spot.head():
+        return
+    range_at, default_at = spot.head().index("value"), spot.head().index("default")
+    for cells in spot.rows():
+        if len(cells) <= max(range_at, default_at):
+            continue
+        m = re.match(r"^`?(-?[\d.]+(?:e[-+]?\d+)?)`?$", cells[default_at])
+        if not m:
+            continue
+        x, asked = float(m.group(1)), cells[range_at]
+        for words, holds in ((r"above (-?[\d.e+-]+)", lambda a: x > a), (r"at least (-?[\d.e+-]+)", lambda a: x >= a),
+                             (r"at most (-?[\d.e+-]+)", lambda a: x <= a), (r"below (-?[\d.e+-]+)", lambda a: x < a)):
+            bound = re.search(words, asked)
+            if bound:
+                test.assertTrue(holds(float(bound.group(1).rstrip("."))), f"{spot}: {cells}")
+
+
+def message(test, spot):
+    """A message repeats what was given, or what is allowed: no result."""
+    test.assertNotRegex(spot.text, r"\d+ experiments?:|at worst", str(spot))
+
+
+def motor_check(test, spot):
+    """Each relation's deviation is that of its two sides, and its verdict that of what is tolerated."""
+    rows = re.findall(r"^  (ok|BROKEN|known) +(\S.*?) {2,}(\S.*?) {2,}([\d.]+) +([\d.]+) .*? ([-+][\d.]+) % +([-+][\d.]+) +([-+][\d.]+) %", spot.text, re.M)
+    for verdict, name, _, computed, printed, told, low, high in rows:
+        deviation = 100 * (float(computed) / float(printed) - 1)
+        test.assertLess(abs(deviation - float(told)), 0.12, f"{spot}: {name}")
+        inside = float(low) <= float(told) <= float(high)
+        test.assertEqual(verdict == "ok", inside, f"{spot}: {name}")
+    model = dict(re.findall(r"^  (R_s|L_s|K_e|K_t|J|tau_e|tau_m|I_st) +([\d.]+) ", spot.text, re.M))
+    x = {name: float(text) for name, text in model.items()}
+    if {"R_s", "L_s", "tau_e", "tau_m", "J", "K_t"} <= set(x):
+        curve.same(test, spot, "tau_e", x["tau_e"], x["L_s"] / x["R_s"], 1e-3)
+        curve.same(test, spot, "tau_m", x["tau_m"], 2 * x["R_s"] * x["J"] * 1e-7 / (x["K_t"] * 1e-3)**2 * 1e3, 1e-3)
+    test.assertTrue(rows or model or "hold" in spot.text, str(spot))
+
+
+def kv(test, spot):
+    """920 rpm/V of a sine's peak between two terminals, or of its mean over the driven pair."""
+    told = [float(x) for x in re.findall(r"K_t +([\d.]+) mNm/A", spot.text)]
+    peak = 1e3 / (920 * 3.14159265 / 30)
+    curve.same(test, spot, "line-peak", told[0], peak * 3 / 3.14159265, 1e-3)
+    curve.same(test, spot, "six-step", told[1], peak, 1e-3)
+
+
+def frames(test, spot):
+    """0.42 Nm/A of a sine: terminal as it is, peak 2 K/3 of a phase, rms that over sqrt 2; terminal is 1.654 K_e."""
+    terminal, peak, rms = (float(x) for x in re.findall(r"constant of ([\d.]+) mNm/A", spot.text))
+    curve.same(test, spot, "terminal", terminal, 420, 1e-3)
+    curve.same(test, spot, "peak", peak, 420 * 2 / 3 * 1.65399, 1e-3)
+    curve.same(test, spot, "rms", rms, 420 * 2 / 3 * 1.65399 / 2**0.5, 1e-3)
+
+
+def capacitor_store(test, spot):
+    """The least sum of the page's own table of that plan, and as many runs as it has that pass."""
+    table = (REPOSITORY / spot.page).read_text(encoding="utf-8")
+    rows = re.findall(r"^ +\d+ +[\d.]+ us +(\w+) +[\d.]+ [nu]s +(.*?) +ok$", table, re.M)
+    for chopping, least, runs in re.findall(r"│ (\w+) +│ ([\d.]+) +│ (\d+) ", spot.text):
+        sums = [sum(float(x) for x in re.findall(r"([\d.]+) W", cells)[:2]) for name, cells in rows if name == chopping]
+        test.assertEqual(int(runs), len(sums), str(spot))
+        test.assertLess(abs(min(sums) - float(least)), 0.006, f"{spot}: {chopping}")
+
+
+def devices(test, spot):
+    """Warm by what it loses: sink 40 degC and 40 K/W, as the page's scenario says."""
+    for name, body in re.findall(r'"device": "(T\d)",\n(.*?)\}', spot.text, re.S):
+        losses = sum(float(x) for x in re.findall(r'_W": ([\d.]+)', body))
+        degC = float(re.search(r'junction_degC": ([\d.]+)', body).group(1))
+        test.assertLess(abs(40 + 40 * losses - degC), 0.05, f"{spot}: {name}")
+    for x in re.findall(r'_W": ([\d.]+)', spot.text):
+        test.assertLess(float(x), 24 * 4, str(spot))
+
+
+def throttle(test, spot):
+    """The slew is half as fast where complementary chopping brakes; K_t^2 I_N/(J U) of the 251601 by its sheet."""
+    for ten, half in re.findall(r"duty from 10 to 100 % in +(\d+) ms, complementary in +(\d+) ms", spot.text):
+        test.assertLess(abs(int(half) / int(ten) - 2), 0.03, str(spot))
+    told = int(re.search(r"maxon-251601 .*? in +(\d+) ms", spot.text).group(1))
+    test.assertLess(abs(told - 0.9e3 / (2.33 * 0.0335**2 / (135e-7 * 24))), 0.02 * told, str(spot))
+
+
+def starts(test, spot):
+    rows = re.findall(r"(\d+) of (\d+) hold, (\d+) at the first try, up to speed within ([\d.]+) s", spot.text)
+    test.assertEqual(12, len(rows))
+    for held, asked, first, within in rows:
+        test.assertTrue(int(first) <= int(held) == int(asked) and float(within) < 2, str(spot))
+
+
+def counted(test, spot):
+    for part, whole in re.findall(r"(\d+) of (\d+)", spot.text):
+        test.assertLessEqual(int(part), int(whole), str(spot))
+
+
+def rotor_angles(test, spot):
+    m = re.search(r"(\d+) rotor angles: north right in all, (\d+) beyond an edge of its sector, worst angle off by ([\d.]+) degrees", spot.text)
+    test.assertTrue(int(m.group(2)) < int(m.group(1)) and float(m.group(3)) < 30, str(spot))
+
+
+def bode(test, spot):
+    """The linear loop holds its voltage over the period; a pulse that ends sooner decays from its end on: lower by that at every line."""
+    from math import exp, log10
+    from gallery_sheet import L, R, T, U
+    rows = re.findall(r"^ +([\d.]+) +(-?[\d.]+) +(-?[\d.]+) +[\d.]+ +(-?[\d.]+) +(-?[\d.]+)$", spot.text, re.M)
+    test.assertTrue(rows)
+    d, x = 5 * R / U, R * T / L
+    for _, measured, phase, designed, by_design in rows:
+        by_hand = 20 * log10(exp(-(1 - d) * x) * x / (1 - exp(-x)))
+        test.assertLess(abs(float(measured) - float(designed) - by_hand), 0.03, str(spot))
+        test.assertLess(abs(float(phase) - float(by_design)), 1, str(spot))
+
+
+def floating_phase(test, spot):
+    """A step ten times smaller is wrong by less; leaving the floating phase out is wrong by more than any step."""
+    coarse, fine = map(float, re.search(r"([\d.]+) % of peak current at 1 us, ([\d.]+) % at 0.1 us", spot.text).groups())
+    without = float(re.search(r"without the floating phase: ([\d.]+) %", spot.text).group(1))
+    test.assertTrue(0 < fine < coarse < without < 50, str(spot))
+
+
+def session(test, spot):
+    """Duty and torque: the speed rises, at most by K_t U/R/J."""
+    times, speeds = zip(*((float(t), float(w)) for t, w in re.findall(r"^([\d.]+) ms: ([\d.]+) rad/s", spot.text, re.M)))
+    from gallery_sheet import J, K_T, STALL
+    test.assertLess(speeds[1] - speeds[0], K_T * STALL / J * 1e-3 * (times[1] - times[0]), str(spot))
+    test.assertGreater(speeds[1], speeds[0])
+
+
+def laid_over(test, spot):
+    for rms, most, span in re.findall(r"rms ([\d.]+) \S* *at most -?([\d.]+).*?of ([\d.]+)", spot.text):
+        del rms
+        test.assertLessEqual(float(most), 1e4 * float(span), str(spot))
+
+
+def braking(test, spot):
+    told = float(re.search(r"held up to ([\d.]+) rad/s", spot.text).group(1))
+    from gallery_sheet import I_N, K_T, R
+    curve.same(test, spot, "(i/K_t) R", told, I_N / K_T * R, 2e-3)
+
+
+def exported(test, spot):
+    """A gain in 16 bits is that of the design to a digit of its own."""
+    held, gain = re.search(r"// ([\d.]+) V/A, held as ([\d.]+)", spot.text).groups()
+    test.assertLess(abs(float(held) - float(gain)), 2.0**-13, str(spot))
+
+
+def bring_up(test, spot):
+    """What the steps should read, by the sheet: a Hall line has p turns of the shaft a second, the current carries load and friction."""
+    from math import pi
+    from gallery_sheet import B, I_N, K_T, PAIRS
+    text = spot.text.replace("Hall 1 at ", "")
+    steps = re.findall(r"([\d.]+) rad/s, ([\d.]+) A, [\d.]+(?: at 0.02 N m of load)?[;,] ([\d.]+) Hz", text)
+    test.assertEqual(3, len(steps), str(spot))
+    for speed, current, hertz in steps:
+        w = float(speed)
+        test.assertLess(abs(float(hertz) - PAIRS * w / 2 / pi), 0.6, f"{spot}: {speed} rad/s")
+        curve.same(test, spot, f"current at {speed} rad/s", float(current), (0.02 + B * w) / K_T, 0.05)
+    limit = float(re.search(r"limit of ([\d.]+) A", text).group(1))
+    curve.same(test, spot, "2.5 times the nominal current", limit, 2.5 * I_N, 2e-3)
+
+
+def rows_at_the_leader(test, spot):
+    """Reading and storing a row is what limits the rows a second that the page promises."""
+    times = [float(cells[1].split()[0]) for cells in spot.rows()]
+    page = (REPOSITORY / spot.page).read_text(encoding="utf-8")
+    test.assertIn(f"make {times[0] + times[1]:.1f} us", page)
+    promised = float(re.search(r"with (\d+) 000 rows a second", page).group(1)) * 1e3
+    test.assertLess(promised, 1e6 / (times[0] + times[1]), str(spot))
+    letters = float(spot.rows()[0][2])
+    test.assertLess(abs(promised * letters * 1e-6 - float(re.search(r"are (\d+) MB/s", page).group(1))), 1, str(spot))
+
+
+BY_TEXT = [
+    ("docs/firmware.md", "| | do | measure |", bring_up), ("docs/cluster.md", "| for each row |", rows_at_the_leader),
+    ("docs/curve.md", "rpm ", curve.judge), ("docs/manual/faq.md", "rpm ", curve.judge),
+    ("README.md", "drives, seed", series.judge_drives), ("docs/manual", "drives, seed", series.judge_drives),
+    ("docs/many-runs.md", "verdict", series.judge_plan), ("docs/many-runs.md", "limited by", series.judge_best_pwm),
+    ("docs/many-runs.md", "least_W", capacitor_store), ("docs/manual/control.md", "$ sixstep compare", contest.judge),
+    ("docs/bench.md", "Constant  ", bench.emf), ("docs/bench.md", "CONTRADICTS", bench.held_against),
+    ("docs/bench.md", "hysteresis  ", bench.identify), ("docs/commissioning.md", "off by     bound", bench.commission_sheet),
+    ("docs/commissioning.md", "psi ", bench.commission_constants), ("docs/commissioning.md", "worst edge off", bench.hall_places),
+    ("docs/commissioning.md", "rotor angles", rotor_angles), ("docs/wiring.md", "theory   speed", tables.wiring),
+    ("docs/control.md", "at the first try, up to speed", starts), ("docs/control.md", "duty from 10 to 100 %", throttle),
+    ("docs/control.md", "lost once in", counted), ("docs/bode.md", "coherence  designed", bode),
+    ("README.md", "case      ", tables.reference), ("README.md", "RK4 with it", floating_phase),
+    ("README.md", "| case |", tables.speed), ("docs/performance.md", "| observer |", tables.observers),
+    ("docs/performance.md", "| case |", tables.growth), ("docs/performance.md", "| part |", tables.shares),
+    ("docs/trust.md", "| accepted |", tables.trust), ("docs/trust.md", "| law |", tables.trust),
+    ("docs/cluster.md", "| ranks |", tables.cluster_measured), ("docs/cluster.md", "| a run |", tables.cluster_limits),
+    ("docs/firmware.md", "| digests |", tables.digests), ("docs/firmware.md", "| function |", tables.block_costs),
+    ("docs/firmware.md", "| core | arithmetic |", tables.drive_costs), ("docs/own-controller.md", "core        step", tables.own_cost),
+    ("docs/firmware.md", "less the simulation", laid_over), ("docs/session.md", "the same bits again", session),
+    ("docs/manual/position.md", "known by", tables.position), ("docs/motors.md", "$ sixstep motor list", tables.motor_list),
+    ("docs/motors.md", "  Relation ", motor_check), ("docs/manual/tour.md", "  Relation ", motor_check),
+    ("docs/manual/faq.md", "motor show kv.toml | grep K_t", kv), ("docs/manual/faq.md", "torque_constant_Nm_A = 0.42", frames),
+    ("docs/manual/faq.md", "braking, soft", braking), ("docs/manual/faq.md", '"device"', devices),
+    ("docs/manual/tour.md", "held as", exported), ("docs/manual/faq.md", "cases match", counted),
+    ("docs/manual/tour.md", "settles in", design.judge), ("docs/manual/faq.md", "Fastest settling", design.judge),
+    ("docs/design.md", "", design.judge), ("README.md", "Fastest settling", design.judge),
+    ("docs/scenario.md", "| key |", default_in_range),
+]
+# Messages of the program, which repeat what was given or what is allowed.
+MESSAGES = [("README.md", "tells the drive currents"), ("README.md", "hill.toml:6"), ("docs/bench.md", "short.csv: "),
+            ("docs/manual/faq.md", "coil.toml:4"), ("docs/manual/faq.md", "motor show kv.toml | grep pole"), ("docs/motors.md", "mine.toml"),
+            ("docs/manual/tour.md", "dampng"), ("docs/manual/tour.md", "relations hold"), ("docs/manual/tour.md", "line_"), ("docs/manual/tour.md", "help control.current.damping"),
+            ("docs/manual/faq.md", "'mean current  '"), ("docs/manual/tour.md", "hot-plug.toml | head"),
+            ("docs/manual/faq.md", "grep ripple")]
+# Pages and tables that define: names, formulas, commands, exit codes, and pages of code.
+DEFINES = {"docs/architecture.md", "docs/model.md", "docs/notation.md", "docs/figures.md", "docs/results.md", "docs/command-line.md",
+           "docs/contributing.md", "docs/scenario.md"}
+DEFINING = [("docs/bench.md", "| column |"), ("docs/bode.md", "| what stands there |"), ("docs/commissioning.md", "| phase |"),
+            ("docs/curve.md", "| row |"), ("docs/curve.md", "| column |"), ("docs/control.md", "| limit |"), ("docs/control.md", "| what | exit code |"),
+            ("docs/control.md", "| law | what it is |"), ("docs/control.md", "| pattern | chopped is |"), ("docs/control.md", "| chopped is |"),
+            ("docs/control.md", "| angle"), ("docs/control.md", "| header |"), ("docs/control.md", "| for |"), ("docs/control.md", "| at rest |"),
+            ("docs/firmware.md", "| core | compiler |"), ("docs/firmware.md", "| the scenario says |"), ("docs/firmware.md", "# How main.c"),
+            ("docs/firmware.md", "| what | STM32F303 |"), ("docs/firmware.md", "--uart board.csv"), ("docs/cluster.md", "./test --mpi"),
+            ("docs/cluster.md", "| | |"), ("docs/motors.md", "| key |"), ("docs/motors.md", "| relation |"), ("docs/many-runs.md", "| key of a plan |"),
+            ("docs/many-runs.md", "title = "), ("docs/many-runs.md", "minimise = "), ("docs/many-runs.md", "sixstep run data/scenarios"),
+            ("docs/session.md", "| change |"), ("docs/wiring.md", "| in a cell |"), ("docs/manual/control.md", "| column |"),
+            ("docs/manual/position.md", "| you need |"), ("docs/own-controller.md", "$ ")]
+# Tables whose every row a named test measures and holds to a law of its own.
+HELD_BY_TESTS = [("docs/control.md", "| result |"), ("docs/control.md", "| experiment |"), ("docs/control.md", "| board |"),
+                 ("docs/control.md", "| loop | told |"), ("docs/control.md", "| pattern | free phase"),
+                 ("docs/control.md", "| law | a step")]
+
+
+NO_RESULTS = (definition, message, measured_by_a_test, default_in_range)
+
+
+def first_of(rows, spot):
+    return next((row for row in rows if spot.page.startswith(row[0]) and row[1] in spot.text), None)
+
+
+def law_of(spot):
+    if spot.kind in INPUT:
+        return None
+    if row := first_of(BY_TEXT, spot):
+        return row[2]
+    if run_output.judges(spot):
+        return None
+    if spot.page in DEFINES or first_of(DEFINING, spot):
+        return definition
+    if first_of(MESSAGES, spot):
+        return message
+    if first_of(HELD_BY_TESTS, spot):
+        return measured_by_a_test
+    return None

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the pages print numbers: fenced blocks and tables, each with its page, line, heading and the words before it."""
+import re
+import typing
+
+from page import BLOCK, REPOSITORY
+
+NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+TABLE = re.compile(r"^\|.*\|\n\|[-|: ]+\|\n((?:\|.*\n)+)", re.M)
+FEWEST = 2  # numbers that make a block one that somebody has to judge
+
+
+class Spot(typing.NamedTuple):
+    page: str
+    line: int
+    heading: str
+    kind: str     # of the block's test, or "table"
+    detail: str   # of the block's test
+    text: str
+    before: str   # the paragraph above it
+
+    def __str__(self):
+        return f"{self.page}:{self.line}"
+
+    def rows(self):
+        """Of a table: cells of each row, without the heading."""
+        lines = self.text.splitlines()
+        return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
+
+    def head(self):
+        return [cell.strip() for cell in self.text.splitlines()[0].strip("|").split("|")]
+
+
+def spots_of(name):
+    text = (REPOSITORY / name).read_text(encoding="utf-8")
+    blocks = list(BLOCK.finditer(text))
+    found = []
+    for m in blocks:
+        word, _, detail = (m["test"] or "").partition(" ")
+        found.append((m.start(), word, detail, m["text"]))
+    for m in TABLE.finditer(text):
+        if not any(b.start() < m.start() < b.end() for b in blocks):
+            found.append((m.start(), "table", "", m.group(0)))
+    headings = [(m.start(), m.group(1)) for m in re.finditer(r"^#+ (.*)$", BLOCK.sub(lambda m: " " * len(m.group(0)), text), re.M)]
+    for at, kind, detail, content in sorted(found):
+        heading = [words for where, words in headings if where < at]
+        before = text[:at].rstrip().removesuffix("-->").rsplit("\n\n", 2)
+        yield Spot(name, text[:at].count("\n") + 1, heading[-1] if heading else "", kind, detail, content, "\n\n".join(before[-2:]))
+
+
+def pages():
+    return ["README.md"] + sorted(str(f.relative_to(REPOSITORY)) for f in (REPOSITORY / "docs").rglob("*.md"))
+
+
+def all_spots():
+    for name in pages():
+        yield from spots_of(name)
+
+
+def is_worth_judging(spot):
+    return len(NUMBER.findall(spot.text)) >= FEWEST
