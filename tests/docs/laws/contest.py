@@ -4,7 +4,7 @@ than the nominal drive."""
 import re
 
 from laws.quantities import quantity
-from laws.scenarios import motor, value
+from laws.scenarios import motor, terminal_ohm
 
 CELL = re.compile(r" {2,}")
 MORE_IS_WORSE = {"settles", "overshoot", "peak", "load error", "load settles", "brake peak", "slow swing", "ripple rms", "ripple p-p", "dip",
@@ -36,7 +36,7 @@ def judge(test, spot):
     name = re.search(r"sixstep compare (\S+)", spot.text).group(1)
     sheet = motor(name)
     supply = float(re.search(r"one bus, ([\d.]+) V", spot.text).group(1))
-    R = value(sheet["resistance_ohm"]) * (2 if isinstance(sheet["resistance_ohm"], dict) and sheet["resistance_ohm"].get("frame") == "phase" else 1)
+    R = terminal_ohm(sheet)
     period = quantity(re.search(r"one PWM period, ([\d.]+ \w+)", spot.text).group(1))[0]
     speed = float(re.search(r"one course: to ([\d.]+) rad/s", spot.text).group(1))
     drives = int((re.search(r"Worst of the nominal motor and (\d+) drives", spot.text) or [0, 0])[1])

@@ -32,6 +32,13 @@ def motor(name):
     return tomllib.loads(file.read_text(encoding="utf-8")) if file.exists() else None
 
 
+def terminal_ohm(sheet):
+    """Resistance between two terminals, whichever the sheet gives."""
+    entry = sheet["resistance_ohm"]
+    frame = entry.get("frame", "terminal") if isinstance(entry, dict) else "terminal"
+    return value(entry) * (2 if frame == "phase" else 1)
+
+
 class Most:
     """Largest current and line voltage of a scenario: both ends of a winding on the bus, the back-EMF of twice the no-load speed
     helping, as when a drive is reversed at speed."""
@@ -47,9 +54,7 @@ class Most:
         self.known = "resistance_ohm" in sheet and isinstance(scenario.get("motor"), str)
         if not self.known:
             return
-        resistance = value(sheet["resistance_ohm"])
-        frame = sheet["resistance_ohm"].get("frame", "terminal") if isinstance(sheet["resistance_ohm"], dict) else "terminal"
-        self.R = resistance * (2 if frame == "phase" else 1)
+        self.R = terminal_ohm(sheet)
         supply = scenario.get("supply", {})
         self.U = max([float(supply.get("voltage_V", value(sheet.get("nominal_voltage_V", 24)))), sqrt(2) * supply.get("mains_rms_V", 0)])
         self.period_s = float(scenario.get("pwm", {}).get("period_s", 30e-6))

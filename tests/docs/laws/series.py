@@ -4,12 +4,11 @@ import re
 from math import sqrt
 
 from laws.quantities import quantity
-from laws.scenarios import motor, read, value
+from laws.scenarios import motor, read, terminal_ohm
 from page import REPOSITORY
 
 CELL = re.compile(r" {2,}")
-SHEET = motor(read(REPOSITORY / "data/scenarios/pwm-at-12-A.toml")["motor"])
-R_TT = value(SHEET["resistance_ohm"]) * (2 if SHEET["resistance_ohm"].get("frame") == "phase" else 1)
+R_TT = terminal_ohm(motor(read(REPOSITORY / "data/scenarios/pwm-at-12-A.toml")["motor"]))
 
 
 def statistics(test, spot, line, drives):

@@ -3,7 +3,7 @@
 import re
 
 from laws.quantities import quantity
-from laws.scenarios import motor, value
+from laws.scenarios import motor, terminal_ohm, value
 from page import REPOSITORY
 
 ORDER = ["duty", "hysteresis", "current", "speed", "position", "product"]
@@ -121,8 +121,8 @@ def motor_list(test, spot):
         if "nominal_voltage_V" in sheet:
             test.assertEqual(float(value(sheet["nominal_voltage_V"])), float(volts), line)
         if "resistance_ohm" in sheet:
-            R = value(sheet["resistance_ohm"]) * (2 if isinstance(sheet["resistance_ohm"], dict) and sheet["resistance_ohm"].get("frame") == "phase" else 1)
-            test.assertLess(abs(float(ohms) - R), 1e-3 * R, line) if ohms != "-" else None
+            R = terminal_ohm(sheet)
+            test.assertTrue(ohms == "-" or abs(float(ohms) - R) < 1e-3 * R, line)
         for x, least, most in ((ohms, 1e-3, 100), (constant, 1, 1e3), (inertia, 1e-2, 1e6)):
             if x != "-" and name != "example-linear":
                 test.assertTrue(least <= float(x) <= most, line)
