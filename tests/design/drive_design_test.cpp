@@ -108,6 +108,25 @@ TEST(DriveDesign, TheClosedLoopsAreTheCascadeWrittenOut) {
   }
 }
 
+/// A duty of hard chopping moves the voltage twice as far: half the gains make the same loops, whatever the rule.
+TEST(DriveDesign, HardChoppingTakesHalfTheGains) {
+  for (const GainMethod method :
+       {GainMethod::pole_placement, GainMethod::cancellation, GainMethod::symmetrical_optimum}) {
+    DesignSpec spec{.mode = Mode::speed, .method = method, .delay_periods = 1};
+    const DriveDesign soft = designed(spec);
+    spec.chopping = control::Chopping::hard;
+    const DriveDesign hard = designed(spec);
+    EXPECT_EQ(hard.loops[0].gains.d1, soft.loops[0].gains.d1 / 2);
+    EXPECT_EQ(hard.loops[0].gains.d0, soft.loops[0].gains.d0 / 2);
+    EXPECT_EQ(hard.loops[1].gains.d1, soft.loops[1].gains.d1);
+    for (const std::size_t n : {0u, 1u}) {
+      EXPECT_DOUBLE_EQ(*hard.loops[n].figures.phase_rad, *soft.loops[n].figures.phase_rad);
+      EXPECT_DOUBLE_EQ(*hard.loops[n].figures.gain, *soft.loops[n].figures.gain);
+    }
+    EXPECT_DOUBLE_EQ(hard.longest_period_s, soft.longest_period_s);
+  }
+}
+
 TEST(DriveDesign, TheInnerLoopCostsPhase) {
   const DriveDesign d = designed({.mode = Mode::speed});
   const PolePlacement& p = *d.loop("speed").placed;

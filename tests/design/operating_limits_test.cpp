@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "sixstep/control/leg_command.hpp"
+
 namespace {
 
 using namespace sixstep;
@@ -45,6 +47,36 @@ TEST(Ripple, IsWorstAtHalfDutyAndTwiceAsLargeInHardChopping) {
   EXPECT_NEAR(worst.worst_A, 24 / 1.03 * std::tanh(30e-6 * 1.03 / 0.572e-3 / 4), 1e-14);
   EXPECT_NEAR(period_for_ripple_s(m, 24.0, control::Chopping::soft, worst.worst_A), 30e-6, 1e-18);
   EXPECT_TRUE(std::isinf(period_for_ripple_s(m, 24.0, control::Chopping::soft, 24.0)));
+}
+
+/// What a leg puts on its terminal, in parts of the bus; where no switch is on, a diode carries the current: of the leg that it
+/// leaves by the upper one, of the leg that it enters by the lower one.
+double terminal(control::LegSide side, bool source) {
+  if (side == control::LegSide::high) return 1.0;
+  if (side == control::LegSide::low) return 0.0;
+  return source ? 0.0 : 1.0;
+}
+
+/// Mean of the pair's voltage over a period, as the timer drives its legs, while the current flows.
+double mean_voltage(control::Chopping chopping, control::ChoppedSwitch chopped, double duty) {
+  const auto mean = [&](const control::LegCommand<double>& leg, bool source) {
+    const control::LegSides sides = control::sides_of(leg);
+    const double d = leg.state == control::LegState::pwm ? leg.duty : 1.0;
+    return d * terminal(sides.pulse, source) + (1 - d) * terminal(sides.rest, source);
+  };
+  return mean(control::source_leg(chopping, chopped, duty), true) -
+         mean(control::sink_leg(chopping, chopped, duty), false);
+}
+
+TEST(VoltsPerDuty, AreWhatTheTimersLegsMakeOfADuty) {
+  using control::Chopping;
+  for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
+    for (const auto chopped : {control::ChoppedSwitch::upper, control::ChoppedSwitch::lower}) {
+      const double low = mean_voltage(chopping, chopped, 0.25), high = mean_voltage(chopping, chopped, 0.75);
+      EXPECT_EQ((high - low) / 0.5, volts_per_duty(chopping));
+      EXPECT_EQ(duty_for_voltage(chopping, low), 0.25);
+      EXPECT_EQ(duty_for_voltage(chopping, high), 0.75);
+    }
 }
 
 TEST(Headroom, EndsWhereTheBusIsUsedUp) {

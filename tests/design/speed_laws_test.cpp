@@ -182,7 +182,7 @@ TEST(SpeedLawDesign, APiAsALinearLawIsItsLoop) {
   loops.motor.machine.L_H = 0.286e-3;
   loops.motor.K_t_Nm_A = 0.0335;
   loops.motor.shaft.J_kg_m2 = 1.35e-5;
-  loops.winding = design::driven_pair(loops.motor);
+  loops.winding = design::driven_pair(loops.motor, control::Chopping::soft);
   loops.period_s = 30e-6;
   loops.delay_periods = 1;
   loops.current = {4.1, -3.7};

@@ -125,7 +125,7 @@ void add_current(const DriveDesign& d, const DesignSubject& subject, study::Scen
       {overshoot, loop.step.overshoot * std::fabs(step), "designed, at the samples"},
       {window_measure(study::MetricKind::peak_to_peak, study::Signal::current, last, end, "current ripple"),
        design::current_ripple_A(d.motor, d.bus_V, d.spec.period_s, d.spec.chopping,
-                                std::fabs(step) * R / d.bus_V),
+                                design::duty_for_voltage(d.spec.chopping, std::fabs(step) * R / d.bus_V)),
        "PWM at this duty"},
   };
   const double band = 0.02 * std::fabs(step);  // the band of settling
@@ -179,7 +179,7 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, study::Scenario
     if (kind == study::MetricKind::settling_time) m.band = within;
     return m;
   };
-  const double duty = (K * last + R * t.load_A) / d.bus_V;
+  const double duty = design::duty_for_voltage(d.spec.chopping, (K * last + R * t.load_A) / d.bus_V);
   s.compare = {
       {of(study::MetricKind::settling_time, true, "settling time"), linear.settling_s,
        within == 0.02 ? "designed, 2 %" : "designed, 10 %"},

@@ -5,8 +5,9 @@ namespace sixstep::analysis {
 
 design::DriveLoops loops_of(const study::Scenario& s, const study::Compiled& c) {
   const control::DriveConfig<double>& drive = c.later.empty() ? c.drive : c.later.back().drive;
+  const bool smooth = drive.extras.on && drive.extras.smooth_chopping;
   design::DriveLoops out{.motor = c.motor,
-                         .winding = driven_pair(c.motor),
+                         .winding = driven_pair(c.motor, smooth ? control::Chopping::complementary : drive.chopping),
                          .period_s = s.pwm.period_s,
                          .delay_periods = c.board.delayed ? 1 : 0,
                          .current = {drive.current.d1, drive.current.d0},

@@ -28,7 +28,7 @@ double settle_of_current(const DesignSpec& w) {
 
 DriveLoops loops_of(const DriveDesign& d, const MotorModel& motor, int delay_periods) {
   DriveLoops to{.motor = motor,
-                .winding = driven_pair(motor),
+                .winding = driven_pair(motor, d.spec.chopping),
                 .period_s = d.spec.period_s,
                 .delay_periods = delay_periods};
   for (const LoopDesign& loop : d.loops) {
@@ -86,19 +86,23 @@ base::Result<LoopDesign> by_rule(const char* name, const char* method, const bas
 
 base::Result<LoopDesign> current_loop(const DriveDesign& d) {
   const DesignSpec& w = d.spec;
-  const double R = 2.0 * d.motor.machine.R_ohm, L = 2.0 * d.motor.machine.L_H, settle = settle_of_current(w);
-  if (w.method == GainMethod::cancellation)
-    return by_rule(
-        "current", "pole-zero cancellation",
-        cancel_pole(R, L, w.bandwidth_rad_s.value_or(time_constants_to_settle / settle), w.period_s));
-  return by_placement("current", current_plant(R, L, w.period_s), settle, w.damping, w.period_s);
+  const LoopWinding winding = driven_pair(d.motor, w.chopping);
+  const double settle = settle_of_current(w);
+  base::Result<LoopDesign> loop =
+      w.method == GainMethod::cancellation
+          ? by_rule("current", "pole-zero cancellation",
+                    cancel_pole(winding.R_ohm, winding.L_H,
+                                w.bandwidth_rad_s.value_or(time_constants_to_settle / settle), w.period_s))
+          : by_placement("current", current_plant(winding, w.period_s), settle, w.damping, w.period_s);
+  if (loop) tell_chopping(w.chopping, loop->steps);
+  return loop;
 }
 
 base::Result<LoopDesign> speed_loop(const DriveDesign& d) {
   const DesignSpec& w = d.spec;
   const plant::Shaft& shaft = d.motor.shaft;
   if (w.method == GainMethod::symmetrical_optimum) {
-    const ZohPlant plant = current_plant(2.0 * d.motor.machine.R_ohm, 2.0 * d.motor.machine.L_H, w.period_s);
+    const ZohPlant plant = current_plant(driven_pair(d.motor, w.chopping), w.period_s);
     const double lag = lag_of_loop_s(plant, d.loops[0].gains, w.period_s);
     const double a = w.bandwidth_rad_s ? 1.0 / (*w.bandwidth_rad_s * lag) : 1.0 + 2.0 * w.damping;
     if (w.bandwidth_rad_s && !(a > 1.0))
@@ -161,7 +165,7 @@ double longest_period(const DriveDesign& d) {
     at.spec.period_s = period_s;
     const base::Result<LoopDesign> loop = current_loop(at);
     if (!loop) return false;
-    const ZohPlant plant = current_plant(2.0 * d.motor.machine.R_ohm, 2.0 * d.motor.machine.L_H, period_s);
+    const ZohPlant plant = current_plant(driven_pair(d.motor, d.spec.chopping), period_s);
     const std::optional<Margins> m = margins(plant, loop->gains, period_s, true);
     return m && m->phase_rad >= base::pi / 4.0;
   };

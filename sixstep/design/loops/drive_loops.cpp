@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/design/loops/drive_loops.hpp"
 
+#include <algorithm>
+
 #include "sixstep/base/angle.hpp"
+#include "sixstep/design/loops/operating_limits.hpp"
 
 namespace sixstep::design {
 namespace {
@@ -50,8 +53,21 @@ Cascade cascade_of(const DriveLoops& d, const Plant& p) {
 
 }  // namespace
 
-LoopWinding driven_pair(const MotorModel& motor) {
-  return {2.0 * motor.machine.R_ohm, 2.0 * motor.machine.L_H, motor.K_t_Nm_A, motor.K_t_Nm_A};
+LoopWinding driven_pair(const MotorModel& motor, control::Chopping chopping) {
+  const double s = volts_per_duty(chopping);
+  return {2.0 * motor.machine.R_ohm / s, 2.0 * motor.machine.L_H / s, motor.K_t_Nm_A / s, motor.K_t_Nm_A};
+}
+
+ZohPlant current_plant(const LoopWinding& winding, double period_s) {
+  return current_plant(winding.R_ohm, winding.L_H, period_s);
+}
+
+void tell_chopping(control::Chopping chopping, std::vector<DerivationStep>& steps) {
+  const double s = volts_per_duty(chopping);
+  if (s == 1.0) return;
+  const auto a0 =
+      std::find_if(steps.begin(), steps.end(), [](const DerivationStep& step) { return step.symbol == "a0"; });
+  steps.insert(a0, {"s", "hard chopping: a duty moves the mean voltage by s times the bus, R and L count as R/s and L/s", s, ""});
 }
 
 LoopWinding quadrature_axis(const FieldMachine& machine, bool decoupled) {
@@ -59,7 +75,7 @@ LoopWinding quadrature_axis(const FieldMachine& machine, bool decoupled) {
 }
 
 Transfer open_current_loop(const DriveLoops& d) {
-  const ZohPlant plant = current_plant(d.winding.R_ohm, d.winding.L_H, d.period_s);
+  const ZohPlant plant = current_plant(d.winding, d.period_s);
   const Transfer pi{of(d.current), difference}, held{{plant.b0}, {1.0 + plant.a0, 1.0}};
   return series(series(pi, held), delay(d.delay_periods));
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The drive's loops as open loops in z: motor with back-EMF, held voltage, delay, and the loops within.
 #pragma once
+#include <vector>
+
+#include "sixstep/control/bridge_command.hpp"
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/loops/pole_placement.hpp"
 #include "sixstep/design/loops/transfer.hpp"
@@ -8,14 +11,19 @@
 
 namespace sixstep::design {
 
-/// What the current controller's voltage acts on: L di/dt = u - R i - K_e w, and J dw/dt = K_t i - B w, d theta/dt = w.
+/// What the voltage that the current controller asks for acts on: L di/dt = u - R i - K_e w, and J dw/dt = K_t i - B w, d theta/dt = w.
 struct LoopWinding {
   double R_ohm = 0.0, L_H = 0.0;
   double back_emf_V_s = 0.0;  ///< K_e
   double torque_Nm_A = 0.0;   ///< K_t
 };
-/// Terminal values: K_e = K_t.
-LoopWinding driven_pair(const MotorModel& motor);
+/// Terminal values, K_e = K_t, each over s = volts_per_duty(): a duty of u/U puts s u and a constant on the pair, and
+/// L di/dt = s u - R i - K_e w is the same winding with L/s, R/s and K_e/s. What is constant the integral makes up for.
+LoopWinding driven_pair(const MotorModel& motor, control::Chopping chopping);
+/// Rotor held: 1/(L s + R), sampled with zero-order hold.
+ZohPlant current_plant(const LoopWinding& winding, double period_s);
+/// Says it in a derivation where s is not 1.
+void tell_chopping(control::Chopping chopping, std::vector<DerivationStep>& steps);
 /// The axis across the magnet: R, L_q and p psi of a phase, and 3/2 p psi of torque. Decoupled, what turning makes is added to
 /// what the controller asks for, and it sees none of it.
 LoopWinding quadrature_axis(const FieldMachine& machine, bool decoupled);

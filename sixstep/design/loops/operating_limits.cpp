@@ -8,20 +8,23 @@
 #include "sixstep/design/loops/pole_placement.hpp"
 
 namespace sixstep::design {
-namespace {
 
-double swing_V(double bus_V, control::Chopping chopping) {
-  return chopping == control::Chopping::hard ? 2.0 * bus_V : bus_V;
+double volts_per_duty(control::Chopping chopping) {
+  return chopping == control::Chopping::hard ? 2.0 : 1.0;
 }
 
-}  // namespace
+// u/U = s d - (s - 1) with s = volts_per_duty()
+double duty_for_voltage(control::Chopping chopping, double part_of_bus) {
+  const double s = volts_per_duty(chopping);
+  return (part_of_bus + s - 1.0) / s;
+}
 
 double current_ripple_A(const MotorModel& motor, double bus_V, double period_s, control::Chopping chopping,
                         double duty) {
   const double R = 2.0 * motor.machine.R_ohm, x = period_s * motor.machine.R_ohm / motor.machine.L_H;
   // R b0 = 1 - exp(-R T/L), without cancellation: pole_placement's plant of resistance 1.
   const auto rise = [](double t) { return t > 0.0 ? current_plant(1.0, 1.0, t).b0 : 0.0; };
-  return swing_V(bus_V, chopping) / R * rise(duty * x) * rise((1.0 - duty) * x) / rise(x);
+  return (volts_per_duty(chopping) * bus_V) / R * rise(duty * x) * rise((1.0 - duty) * x) / rise(x);
 }
 
 Ripple worst_ripple(const MotorModel& motor, double bus_V, double period_s, control::Chopping chopping) {
@@ -34,7 +37,7 @@ Ripple worst_ripple(const MotorModel& motor, double bus_V, double period_s, cont
 // At d = 1/2 the ripple is (dU/R) tanh(x/4): x = 2 ln((1 + y)/(1 - y)), y = ripple R/dU.
 double period_for_ripple_s(const MotorModel& motor, double bus_V, control::Chopping chopping,
                            double ripple_A) {
-  const double y = ripple_A * 2.0 * motor.machine.R_ohm / swing_V(bus_V, chopping);
+  const double y = ripple_A * 2.0 * motor.machine.R_ohm / (volts_per_duty(chopping) * bus_V);
   if (!(y < 1.0)) return std::numeric_limits<double>::infinity();
   return 2.0 * base::log((1.0 + y) / (1.0 - y)) * motor.machine.L_H / motor.machine.R_ohm;
 }

@@ -6,10 +6,17 @@
 
 namespace sixstep::design {
 
+/// What a duty of 1 more adds to the pair's mean voltage, in parts of the bus, while its current flows without gaps. With one
+/// switch of the pair on, the off state puts 0 on it, u = d U: 1, soft and complementary. Where both are off the current flows
+/// against the bus, u = d U - (1 - d) U: 2, hard.
+double volts_per_duty(control::Chopping chopping);
+/// The duty at which that mean voltage is a part u/U of the bus.
+double duty_for_voltage(control::Chopping chopping, double part_of_bus);
+
 /// Peak to peak of the driven pair's current in steady chopping at a duty, conduction continuous, ideal
 /// switches: the pair sees U_on for d T and U_off for (1 - d) T,
 ///   (U_on - U_off)/R (1 - exp(-d x)) (1 - exp(-(1 - d) x))/(1 - exp(-x)),   x = R T/L,
-/// whatever the EMF. U_on - U_off = U_s in soft and complementary chopping, 2 U_s in hard.
+/// whatever the EMF. U_on - U_off = volts_per_duty() U_s.
 double current_ripple_A(const MotorModel& motor, double bus_V, double period_s, control::Chopping chopping,
                         double duty);
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sixstep/study/compile/basis.hpp"
+#include "sixstep/study/compile/loops.hpp"
 
 namespace sixstep::study {
 
@@ -118,7 +118,7 @@ void add_extras(const Scenario& s, const Basis& basis, control::DriveConfig<doub
   }
   if (s.control.current.back_emf_feed_forward) {
     extras.on = true;
-    extras.feed_forward.K_t_V_s = basis.motor.K_t_Nm_A;
+    extras.feed_forward.K_t_V_s = winding_of(s, basis.motor).back_emf_V_s;
   }
   if (s.control.current.measured_bus_from_V) {
     extras.on = true;

@@ -34,16 +34,22 @@ control::Watch watch_of(const CurrentLoop& loop) {
   return loop.on == HysteresisOn::motor ? control::Watch::motor : control::Watch::phase;
 }
 
+/// By smooth chopping the current chooses between two that are the same to the pair.
+control::Chopping loop_chopping(const Scenario& s) {
+  return s.control.smooth_chopping.on ? control::Chopping::complementary : s.pwm.chopping;
+}
+
 /// Periods from a sample to the begin of its answer (rig/board_config.hpp).
 double wait_periods(const Pwm& pwm) {
   return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 0.5 : 0.0);
 }
 
 base::Problems add_deadbeat(const Scenario& s, const Basis& basis, Tuned& out) {
+  const design::LoopWinding winding = winding_of(s, basis.motor);
   const auto made =
-      design::deadbeat({.R_ohm = 2 * basis.motor.machine.R_ohm,
-                        .L_H = 2 * basis.motor.machine.L_H,
-                        .K_t_Nm_A = basis.motor.K_t_Nm_A,
+      design::deadbeat({.R_ohm = winding.R_ohm,
+                        .L_H = winding.L_H,
+                        .K_t_Nm_A = winding.back_emf_V_s,
                         .period_s = s.pwm.period_s,
                         .wait_periods = wait_periods(s.pwm),
                         .correction = s.control.current.correction.value_or(design::usual_correction),
@@ -57,17 +63,18 @@ base::Problems add_deadbeat(const Scenario& s, const Basis& basis, Tuned& out) {
   out.drive.extras.deadbeat = c;
   out.gains.push_back({"current", c.V_per_A, 0.0, "deadbeat, on the sheet's R and L and the control period",
                        std::nullopt, made->steps});
+  design::tell_chopping(loop_chopping(s), out.gains.back().steps);
   return {};
 }
 
 base::Problems add_current_loop(const Scenario& s, const Basis& basis, Tuned& out) {
   if (s.control.current.type == CurrentLoopType::deadbeat) return add_deadbeat(s, basis, out);
   if (s.control.current.type != CurrentLoopType::pi) return {};
-  const design::ZohPlant plant =
-      design::current_plant(2 * basis.motor.machine.R_ohm, 2 * basis.motor.machine.L_H, s.pwm.period_s);
+  const design::ZohPlant plant = design::current_plant(winding_of(s, basis.motor), s.pwm.period_s);
   base::Result<LoopGains> gains =
       loop_gains(s.control.current, "current", plant, design::usual_current_settle_s, s.pwm.period_s);
   if (!gains) return gains.problems();
+  if (gains->derivation) design::tell_chopping(loop_chopping(s), gains->derivation->steps);
   out.drive.current = {gains->d1, gains->d0, basis.bus_V};
   out.gains.push_back(*gains);
   return {};
@@ -80,8 +87,9 @@ struct SpeedPlant {
 };
 SpeedPlant speed_plant_of(const Scenario& s, const Basis& basis, double torque_limit_Nm) {
   if (s.control.speed.output == SpeedOutput::current) return {torque_limit_Nm, basis.shaft.B_Nm_s};
-  const double K_t = basis.motor.K_t_Nm_A, per_V = K_t / (2 * basis.motor.machine.R_ohm);
-  return {per_V * basis.bus_V, basis.shaft.B_Nm_s + per_V * K_t};
+  const design::LoopWinding winding = winding_of(s, basis.motor);
+  const double per_V = winding.torque_Nm_A / winding.R_ohm;
+  return {per_V * basis.bus_V, basis.shaft.B_Nm_s + per_V * winding.back_emf_V_s};
 }
 
 base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Tuned& out) {
@@ -157,6 +165,10 @@ base::Result<Tuned> tuned(const Scenario& s, const Basis& basis) {
     if (!problems.empty()) return problems;
   }
   return out;
+}
+
+design::LoopWinding winding_of(const Scenario& s, const design::MotorModel& motor) {
+  return design::driven_pair(motor, loop_chopping(s));
 }
 
 double current_settling_s(const Scenario& s) {

@@ -45,42 +45,64 @@ double pulse_over_held(double R_ohm, double L_H, double period_s, double duty) {
   return std::exp(-(1 - duty) * x) * x / -std::expm1(-x);
 }
 
+/// The duty of 5 A through the held rotor: d U, or (2 d - 1) U where both switches chop.
+double steady_duty(control::Chopping chopping) {
+  const double part = 5 * 1.03 / 24;
+  return chopping == control::Chopping::hard ? (1 + part) / 2 : part;
+}
+
 /// A locked rotor leaves nothing but winding and PWM: the designed loop, times what the pulse's place in the period makes of it.
-TEST(Bode, CurrentLoopOfALockedRotorIsTheDesigned) {
-  for (const int delay : {0, 1}) {
-    study::Scenario s = steady_current(true);
-    s.pwm.delay_periods = delay;
-    if (delay == 1) s.control.current.settle_s = 2e-3;
-    const auto b = analysis::study_bode(s);
-    ASSERT_TRUE(b) << to_string(b.problems()[0]);
-    ASSERT_TRUE(b->designed && b->figures);
-    const double factor = pulse_over_held(1.03, 0.572e-3, 30e-6, 5 * 1.03 / 24);
-    EXPECT_NEAR(20 * std::log10(factor), -0.135, 1e-3);
-    EXPECT_LT(off_by(*b, 0.05, 30, factor), 2e-3) << delay;
-    EXPECT_LT(b->beside, 1e-3);
-    for (const analysis::LoopPoint& p : b->points) EXPECT_NEAR(p.coherence, 1.0, 1e-6);
-    ASSERT_TRUE(b->measured.crossover_rad_s && b->measured.phase_rad);
-    EXPECT_NEAR(*b->measured.crossover_rad_s / *b->figures->crossover_rad_s, factor, 5e-3);
-    EXPECT_NEAR(*b->measured.phase_rad, *b->figures->phase_rad, 2e-3);
-    if (delay == 1) {
-      EXPECT_NEAR(*b->measured.gain * factor / *b->figures->gain, 1.0, 1e-2);
-    }
+void expect_the_designed(study::Scenario s) {
+  SCOPED_TRACE(static_cast<int>(s.pwm.chopping));
+  const auto b = analysis::study_bode(s);
+  ASSERT_TRUE(b) << to_string(b.problems()[0]);
+  ASSERT_TRUE(b->designed && b->figures);
+  const bool delayed = s.pwm.delay_periods == 1;
+  const double factor = pulse_over_held(1.03, 0.572e-3, 30e-6, steady_duty(s.pwm.chopping));
+  EXPECT_LT(off_by(*b, 0.05, 30, factor), 2e-3) << delayed;
+  EXPECT_LT(b->beside, 1e-3);
+  for (const analysis::LoopPoint& p : b->points) EXPECT_NEAR(p.coherence, 1.0, 1e-6);
+  ASSERT_TRUE(b->measured.crossover_rad_s && b->measured.phase_rad);
+  EXPECT_NEAR(*b->measured.crossover_rad_s / *b->figures->crossover_rad_s, factor, 5e-3);
+  EXPECT_NEAR(*b->measured.phase_rad, *b->figures->phase_rad, 2e-3);
+  if (delayed) {
+    EXPECT_NEAR(*b->measured.gain * factor / *b->figures->gain, 1.0, 1e-2);
   }
+}
+
+TEST(Bode, CurrentLoopOfALockedRotorIsTheDesigned) {
+  EXPECT_NEAR(20 * std::log10(pulse_over_held(1.03, 0.572e-3, 30e-6, 5 * 1.03 / 24)), -0.135, 1e-3);
+  for (const int delay : {0, 1})
+    for (const auto chopping :
+         {control::Chopping::soft, control::Chopping::hard, control::Chopping::complementary}) {
+      study::Scenario s = steady_current(true);
+      s.pwm.delay_periods = delay;
+      s.pwm.chopping = chopping;
+      if (delay == 1) s.control.current.settle_s = 2e-3;
+      expect_the_designed(s);
+    }
+}
+
+/// As the current chooses it: above its levels soft, and the gains are those of one switch, whatever pwm.chopping says.
+TEST(Bode, SmoothChoppingIsTheDesignedToo) {
+  study::Scenario s = steady_current(true);
+  s.control.smooth_chopping.on = true;
+  expect_the_designed(s);
 }
 
 /// z^-1, or z^-2 behind a delay. A pulse's place makes f = pulse_over_held of the voltage, of which the prediction's correction
 /// leaves what is fast: L is between the designed one and f times it.
 TEST(Bode, ADeadbeatLoopIsADelay) {
-  for (const int delay : {0, 1}) {
+  for (const int delay : {0, 1, 2}) {
     study::Scenario s = steady_current(true);
-    s.pwm.delay_periods = delay;
-    s.pwm.chopping = control::Chopping::complementary;
+    s.pwm.delay_periods = delay % 2;
+    s.pwm.chopping = delay == 2 ? control::Chopping::hard : control::Chopping::complementary;
     s.control.current.type = study::CurrentLoopType::deadbeat;
     // 19 V per ampere and period: more would ask for more than the bus.
     const auto b = analysis::study_bode(s, {.amplitude = 0.02});
     ASSERT_TRUE(b) << to_string(b.problems()[0]);
     ASSERT_TRUE(b->designed);
-    const double f = pulse_over_held(1.03, 0.572e-3, 30e-6, 5 * 1.03 / 24);
+    const double f = pulse_over_held(1.03, 0.572e-3, 30e-6, steady_duty(s.pwm.chopping));
     EXPECT_LT(off_by(*b, 0.5, 30), 1.5 * (1 - f)) << delay;
     for (const analysis::LoopPoint& p : b->points)
       EXPECT_NEAR(std::sqrt(p.closed.square()), 1.0, 3 * (1 - f)) << "2.3 (1 - f) at half the sampling rate";
@@ -90,14 +112,16 @@ TEST(Bode, ADeadbeatLoopIsADelay) {
 /// Chopped both ways the current may reverse, and the speed loop is linear but for commutation. The torque follows the mean of
 /// the current and not its sample: a per cent or two of gain near the crossover that the linear loop does not know.
 TEST(Bode, SpeedLoopIsTheDesigned) {
-  study::Scenario s = cascade(0.1);
-  s.pwm.chopping = control::Chopping::complementary;
-  const auto b = analysis::study_bode(s);
-  ASSERT_TRUE(b) << to_string(b.problems()[0]);
-  ASSERT_TRUE(b->figures && b->measured.crossover_rad_s && b->measured.phase_rad);
-  EXPECT_NEAR(*b->measured.crossover_rad_s / *b->figures->crossover_rad_s, 1.0, 0.05);
-  EXPECT_NEAR(*b->measured.phase_rad, *b->figures->phase_rad, 0.03);
-  EXPECT_LT(off_by(*b, 0.3, 5), 0.08);
+  for (const auto chopping : {control::Chopping::complementary, control::Chopping::hard}) {
+    study::Scenario s = cascade(0.1);
+    s.pwm.chopping = chopping;
+    const auto b = analysis::study_bode(s);
+    ASSERT_TRUE(b) << to_string(b.problems()[0]);
+    ASSERT_TRUE(b->figures && b->measured.crossover_rad_s && b->measured.phase_rad);
+    EXPECT_NEAR(*b->measured.crossover_rad_s / *b->figures->crossover_rad_s, 1.0, 0.05);
+    EXPECT_NEAR(*b->measured.phase_rad, *b->figures->phase_rad, 0.03);
+    EXPECT_LT(off_by(*b, 0.3, 5), 0.08);
+  }
 }
 
 /// Each law has the bandwidth of its rule, T = (1 - p)/(z - p): a loop L = (1 - p)/(z - 1) that crosses over at 2 asin((1 - p)/2)/T_s, where
