@@ -31,8 +31,8 @@ std::string shown(double x, const std::string& unit) {
 std::string warnings(const DesignStudy& s) {
   std::string out;
   for (const auto& w : s.warnings)
-    out += fmt::format("<p class=\"{}\">{}<b>{}.</b> {}.</p>\n", w.grave ? "alert" : "notes",
-                       w.grave ? "Grave: " : "", escaped(w.what), escaped(w.cure));
+    out += fmt::format("<p class=\"{}\">{}<b>{}.</b>{}</p>\n", w.grave ? "alert" : "notes",
+                       w.grave ? "Grave: " : "", escaped(w.what), w.cure.empty() ? "" : " " + escaped(w.cure) + ".");
   return out;
 }
 

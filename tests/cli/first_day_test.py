@@ -37,9 +37,6 @@ class FirstDay(ProgramTest):
         self.assertEqual(len(swings), 1)
         return swings[0], ran["passed"]
 
-    def run_any(self, *words):
-        return subprocess.run([PROGRAM, *words], cwd=self.path, capture_output=True, text=True, timeout=300, check=False)
-
     def test_from_the_data_sheet_to_a_compiled_header(self):
         self.fill_in_the_sheet()
         told = self.run_program("design", "mine.toml", "--mode", "speed").stdout

@@ -180,7 +180,8 @@ std::string design_text(const analysis::DesignStudy& s, bool colour) {
   if (s.robustness) text += robust_text(*s.robustness);
   if (!s.warnings.empty()) text += "\nWarnings\n";
   for (const auto& w : s.warnings)
-    text += fmt::format("  - {}{}\n    {}\n", w.grave ? "GRAVE: " : "", visible(w.what), visible(w.cure));
+    text += fmt::format("  - {}{}\n{}", w.grave ? "GRAVE: " : "", visible(w.what),
+                        w.cure.empty() ? "" : fmt::format("    {}\n", visible(w.cure)));
   return text;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sixstep/analysis/verify/advice.hpp"
 #include "sixstep/analysis/verify/board.hpp"
 #include "sixstep/analysis/verify/linear_study.hpp"
 #include "sixstep/base/written.hpp"
@@ -24,12 +25,8 @@ const study::ComparisonResult* find(const study::Outcome& outcome, const std::st
   return nullptr;
 }
 
-std::string cure_of_settling(const design::DriveDesign& d) {
-  std::string slower = "design slower (settle_s)";
-  if (d.spec.chopping != control::Chopping::soft) return slower;
-  return "try chopping = complementary: soft chopping puts the whole bus against the current as soon as the duty "
-         "turns negative; or " +
-         slower;
+void warn(DesignStudy& s, design::Concern of, std::string what, bool grave) {
+  s.warnings.push_back({.what = std::move(what), .cure = "", .grave = grave, .of = of});
 }
 
 /// The torque ripple of the commutations can be wider than the band of a small step: then settling times say
@@ -40,9 +37,12 @@ bool drowned(const DesignStudy& s) {
   return *s.ideal_swing_rad_s > 2 * design::settling_band(s.design) * std::fabs(levels[1] - levels[0]);
 }
 
-/// Out of tolerance where to look and what to do.
-std::string chiefly(const RobustFigure& f, const char* cure) {
-  return (f.culprit.empty() ? "" : "chiefly for " + f.culprit + "; ") + cure;
+/// Where to look out of tolerance.
+std::string chiefly(const RobustFigure& f) { return f.culprit.empty() ? "" : ", chiefly for " + f.culprit; }
+
+/// At a duty below a half hard chopping has no mean voltage that drives.
+bool from_half_the_bus(const DesignStudy& s) {
+  return s.design.spec.mode == control::Mode::current && s.design.spec.chopping == control::Chopping::hard;
 }
 
 /// A loop at whose limits the run was not to come must settle as designed; a quarter more is told.
@@ -50,18 +50,22 @@ void look_at_settling(DesignStudy& s) {
   const study::ComparisonResult* c = find(s.outcome, "settling time");
   if (!c || s.design.spec.mode == control::Mode::position) return;
   if (drowned(s))
-    s.warnings.push_back(
-        {"the commutations' ripple in speed, " +
-             base::three_digits(find(s.outcome, "speed ripple")->measured) +
-             " rad/s, is wider than 2 % of the largest step at which no limit acts: its settling "
-             "time says nothing",
-         "design the speed loop slower, or give a step and mind that limits act", false});
+    warn(
+        s, design::Concern::settling,
+        "the commutations' ripple in speed, " +
+            base::three_digits(find(s.outcome, "speed ripple")->measured) +
+            " rad/s, is wider than 2 % of the largest step at which no limit acts: its settling time says nothing",
+        false);
   else if (!std::isfinite(c->measured))
-    s.warnings.push_back({"in the simulation it never settles", cure_of_settling(s.design), true});
+    warn(s, design::Concern::settling, "in the simulation it never settles", true);
   else if (c->measured > 1.25 * c->value)
-    s.warnings.push_back({"in the simulation it settles in " + base::three_digits(1e3 * c->measured) +
-                              " ms, designed were " + base::three_digits(1e3 * c->value) + " ms",
-                          cure_of_settling(s.design), false});
+    warn(s, design::Concern::settling,
+         "in the simulation it settles in " + base::three_digits(1e3 * c->measured) + " ms, designed were " +
+             base::three_digits(1e3 * c->value) + " ms" +
+             (from_half_the_bus(s)
+                  ? ": from rest the integral has to reach half the bus before hard chopping drives"
+                  : ""),
+         false);
 }
 
 /// A limit cycle swings further than the commutations do.
@@ -69,23 +73,23 @@ void look_at_swing(DesignStudy& s) {
   const std::optional<double> allowed = s.allowed_swing_rad_s;
   const study::ComparisonResult* swing = find(s.outcome, "speed ripple");
   if (!allowed || !swing || swing->measured <= *allowed) return;
-  s.warnings.push_back({"in the simulation the speed swings by " + base::three_digits(swing->measured) +
-                            " rad/s without end; with ideal sensors by " +
-                            base::three_digits(*s.ideal_swing_rad_s) + " rad/s",
-                        cure_of_settling(s.design), true});
+  warn(s, design::Concern::swing,
+       "in the simulation the speed swings by " + base::three_digits(swing->measured) +
+           " rad/s without end; with ideal sensors by " + base::three_digits(*s.ideal_swing_rad_s) + " rad/s",
+       true);
 }
 
 void look_at_run(DesignStudy& s) {
   if (s.outcome.fault)
-    s.warnings.push_back(
-        {"a fault stopped the simulation: " + base::to_string(*s.outcome.fault), "see the scenario", true});
+    warn(s, design::Concern::fault, "a fault stopped the simulation: " + base::to_string(*s.outcome.fault),
+         true);
   look_at_swing(s);
   look_at_settling(s);
   for (const study::Verdict& v : s.outcome.verdicts)
     if (!v.ok && s.usable())  // else the reason is told
-      s.warnings.push_back(
-          {"in the simulation the " + v.figure + " is " + base::three_digits(v.measured) + " " + v.unit,
-           cure_of_settling(s.design), true});
+      warn(s, design::Concern::requirement,
+           "in the simulation the " + v.figure + " is " + base::three_digits(v.measured) + " " + v.unit,
+           true);
 }
 
 void look_at_tolerances(DesignStudy& s) {
@@ -93,27 +97,27 @@ void look_at_tolerances(DesignStudy& s) {
   const std::optional<double> swing = s.allowed_swing_rad_s;
   for (const RobustFigure& f : s.robustness->figures) {
     if (f.figure == "speed ripple" && swing && f.nominal <= *swing && f.worst > *swing)
-      s.warnings.push_back({"out of tolerance the speed swings by " + base::three_digits(f.worst) +
-                                " rad/s without end: " + f.at,
-                            chiefly(f, "design slower (settle_s)"), true});
+      warn(s, design::Concern::swing,
+           "out of tolerance the speed swings by " + base::three_digits(f.worst) +
+               " rad/s without end: " + f.at + chiefly(f),
+           true);
     if (f.figure == "settling time" && !drowned(s) && std::isfinite(f.nominal) && !std::isfinite(f.worst))
-      s.warnings.push_back(
-          {"out of tolerance it never settles: " + f.at, chiefly(f, "design slower (settle_s)"), true});
+      warn(s, design::Concern::settling, "out of tolerance it never settles: " + f.at + chiefly(f), true);
     const bool position = s.design.spec.mode == control::Mode::position;
     const base::LinearUnit unit = design::motion_of(s.scenario.sheet).unit("deg");
     if (position && f.figure == "overshoot" &&
         f.worst > unit.factor * allowed_overshoot_deg(s.design, s.scenario.reference.value))
-      s.warnings.push_back({"out of tolerance it overshoots by " + base::three_digits(f.worst) + " " +
-                                std::string(unit.linear) + ": " + f.at,
-                            chiefly(f, "lower the gain, or torque_limit_Nm so that braking keeps a reserve"),
-                            true});
+      warn(s, design::Concern::requirement,
+           "out of tolerance it overshoots by " + base::three_digits(f.worst) + " " +
+               std::string(unit.linear) + ": " + f.at + chiefly(f),
+           true);
   }
   for (const RobustFigure& f : s.robustness->phases)
     if (f.worst < 30.0 && f.nominal >= 30.0)
-      s.warnings.push_back({"out of tolerance the " + f.figure + " falls to " +
-                                base::three_digits(std::max(f.worst, 0.0)) +
-                                " degrees with one period of delay: " + f.at,
-                            "design slower (settle_s)", false});
+      warn(s, design::Concern::settling,
+           "out of tolerance the " + f.figure + " falls to " + base::three_digits(std::max(f.worst, 0.0)) +
+               " degrees with one period of delay: " + f.at + chiefly(f),
+           false);
 }
 
 /// Some seconds of computing for a run; a slower drive is to be looked at by hand.
@@ -133,10 +137,11 @@ base::Problems find_gain(const DesignOrder& order, DesignStudy& s) {
              "design the speed loop slower (settle_s) or the current loop faster (current_settle_s, "
              "bandwidth_rad_s)"}};
   if (base::Problems found = too_long(design_scenario(s.design, order.subject)); !found.empty()) return found;
-  base::Result<PositionGain> gain = largest_position_gain(s.design, order.subject, order.keep_going);
+  base::Result<PositionGain> gain =
+      largest_position_gain(s.design, order.subject, order.keep_going, order.gain);
   if (gain && !order.tolerances.empty())
     gain = lowered_for_tolerances(s.design, order.subject, *gain, order.tolerances, order.for_each,
-                                  order.keep_going);
+                                  order.keep_going, order.gain);
   if (!gain) return gain.problems();
   s.position = *gain;
   s.design = design::with_position_gain(s.design, gain->gain_rad_s_per_deg);
@@ -206,7 +211,8 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
                               .keep_books = true});
   if (!outcome) return outcome.problems();
   s.outcome = std::move(*outcome);
-  if (!order.tolerances.empty())
+  // A gain that was lowered until all motors hold says no less.
+  if (!order.tolerances.empty() && !(s.position && order.gain.quick))
     s.robustness = robustness(s.design, s.scenario, order.tolerances, order.for_each, order.keep_going);
   s.ideal_swing_rad_s = ideal_swing(s, order.keep_going);
   if (s.ideal_swing_rad_s && s.scenario.reference.values.size() > 1)
@@ -214,6 +220,8 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   s.warnings = s.design.warnings;
   look_at_run(s);
   look_at_tolerances(s);
+  std::stable_partition(s.warnings.begin(), s.warnings.end(),
+                        [](const design::Warning& w) { return w.grave; });
   return s;
 }
 
@@ -226,7 +234,12 @@ bool DesignStudy::usable() const {
 base::Result<DesignStudy> study_design(const DesignOrder& order) {
   base::Result<DesignStudy> s = studied(order);
   const bool linear = order.subject.sheet.kind == design::MotorKind::linear;
-  if (!s) return linear ? told_in_metres(s.problems()) : s.problems();
+  if (!s) {
+    base::Problems problems = s.problems();
+    if (order.advises) advise(order, problems);
+    return linear ? told_in_metres(std::move(problems)) : problems;
+  }
+  if (order.advises) advise(order, *s);
   tell_in_metres(*s);
   return s;
 }

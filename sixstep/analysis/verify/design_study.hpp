@@ -37,6 +37,8 @@ struct DesignOrder {
   std::vector<Tolerance> tolerances{};  ///< empty: not looked at
   ForEach for_each = one_after_the_other;
   std::function<bool()> keep_going{};  ///< false ends it early: what comes out then means nothing
+  GainSearch gain{};                   ///< position: how its gain is looked for
+  bool advises = true;                 ///< tries what helps against each warning (advice.hpp)
 };
 
 /// Problems are those of sheet, spec and scenario.

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sixstep/analysis/verify/advice.hpp"
 #include "sixstep/analysis/verify/design_study.hpp"
 #include "sixstep/analysis/verify/linear_study.hpp"
+#include "sixstep/base/angle.hpp"
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/base/range_text.hpp"
 #include "sixstep/base/written.hpp"
@@ -26,6 +28,12 @@ constexpr double usual_dead_time_s = 0.5e-6;
 
 constexpr double longest_run_up_s = 600;
 
+/// Control periods of a trial, and of all together: half a second, and one and a half, of one core.
+constexpr double trial_periods = 3.5e5, all_trials_periods = 1.2e6;
+
+/// Above it a drive's current is hardly more than ripple.
+constexpr double usable_ripple = 0.5;
+
 study::Measure measure(study::MetricKind metric, study::Signal signal, double from_s, const char* label) {
   study::Measure m;
   m.metric = metric;
@@ -42,11 +50,16 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
                          "give the bus voltage in V"};
   const double K = motor.K_t_Nm_A, R = 2 * motor.machine.R_ohm, d = 0.5;
   study::Scenario s;
-  const double slope = K * K / R + motor.shaft.B_Nm_s;
-  const auto line = [&](double duty) { return (K * duty * U / R - motor.shaft.coulomb_Nm) / slope; };
+  // Six-step commutates as a three-phase bridge does, whose voltage falls by 3/pi w_el L_s per ampere: what that costs at the
+  // speed reached. Of a motor of many pole pairs it is more than R.
+  const auto line = [&](double duty, double ohm) {
+    return (K * duty * U / ohm - motor.shaft.coulomb_Nm) / (K * K / ohm + motor.shaft.B_Nm_s);
+  };
   // While a switch waits the current flows on through a diode: that much of the duty is lost where the
   // current keeps its sign, and nothing where it changes it in every period.
-  const double speed = line(d), least = line(d - usual_dead_time_s / s.pwm.period_s);
+  const double speed = line(d, R),
+               commutating = R + 3 / base::pi * motor.machine.pole_pairs * speed * motor.machine.L_H;
+  const double least = line(d - usual_dead_time_s / s.pwm.period_s, commutating);
   if (!(least > 0.0))
     return base::Problem{"voltage_V", "", "does not turn the rotor: friction holds it at half the voltage",
                          "give a higher bus voltage in V"};
@@ -60,7 +73,7 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
   s.control.mode = Mode::duty;
   s.reference.value = d;
   s.reference.unit.emplace("1");
-  const double tau = motor.shaft.J_kg_m2 / slope;
+  const double tau = motor.shaft.J_kg_m2 / (K * K / commutating + motor.shaft.B_Nm_s);
   if (!(10 * tau < longest_run_up_s))
     return base::Problem{"the motor", spec.motor,
                          "takes " + base::rounded(10 * tau, 3) + " s to run up, and minutes to simulate it",
@@ -76,32 +89,112 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
   return s;
 }
 
-/// On a board's sensors and over the sheet's tolerances: the settling time that the design chooses, then
-/// slower ones.
-base::Result<DesignStudy> usable_design(const FirstScenarioSpec& spec) {
-  base::Problems told;
-  std::optional<double> chosen_s;
-  for (const double times : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
-    DesignOrder order{.subject = {.motor = spec.motor, .sheet = spec.sheet},
-                      .spec = design::on_a_board(),
-                      .tolerances = sheet_tolerances(spec.sheet, spec.mode),
-                      .for_each = spec.for_each};
-    order.spec.mode = spec.mode;
-    order.spec.voltage_V = spec.voltage_V;
-    if (chosen_s) order.spec.settle_s = times * *chosen_s;
-    base::Result<DesignStudy> study = study_design(order);
-    if (!chosen_s) chosen_s = study ? study->design.spec.settle_s : std::nullopt;
-    if (!chosen_s) chosen_s = spec.mode == Mode::current ? 1e-3 : 10e-3;
-    if (!study) {
-      if (told.empty()) told = study.problems();
-    } else if (study->usable() && study->outcome.passed()) {
-      return study;
+DesignOrder order_of(const FirstScenarioSpec& spec) {
+  DesignOrder order{.subject = {.motor = spec.motor, .sheet = spec.sheet},
+                    .spec = design::on_a_board(),
+                    .tolerances = sheet_tolerances(spec.sheet, spec.mode),
+                    .for_each = spec.for_each,
+                    .gain = {.quick = true, .longest_periods = 2e5, .periods = trial_periods},
+                    .advises = false};
+  order.spec.mode = spec.mode;
+  order.spec.voltage_V = spec.voltage_V;
+  return order;
+}
+
+/// On Hall probes of few pole pairs a rotor rests tens of degrees beside its target.
+constexpr double coarsest_step_deg = 20.0;
+
+/// What is tried, in turn: the usual design, and what a motor needs that it does not suit.
+std::vector<design::DesignSpec> candidates(const DesignOrder& order, const design::DriveDesign& usual) {
+  std::vector<design::DesignSpec> all;
+  if (usual.ripple.worst_A < usable_ripple * usual.nominal_current_A) all.push_back(order.spec);
+  for (design::DesignSpec& spec : joint_changes(order, usual)) all.push_back(std::move(spec));
+  const double hall_step_deg = 60.0 / usual.motor.machine.pole_pairs;
+  const bool coarse = usual.motor.kind == design::MotorKind::rotary && hall_step_deg > coarsest_step_deg;
+  if (order.spec.mode == Mode::position && coarse)
+    std::erase_if(all, [](const design::DesignSpec& s) { return s.rotor.hall; });
+  return all;
+}
+
+/// What decides most: a winding that saturates and a load that nobody told of.
+std::vector<Tolerance> chief(std::vector<Tolerance> tolerances) {
+  std::erase_if(tolerances, [](const Tolerance& t) {
+    return t.quantity != Strays::inductance && t.quantity != Strays::inertia;
+  });
+  return tolerances;
+}
+
+/// Makes a trial short enough: a higher lowest speed, whose loop is faster, fewer motors out of tolerance, a shorter move.
+bool shorten_trial(DesignOrder& order, const design::MotorModel& motor) {
+  const auto fits = [&] {
+    const base::Result<design::DriveDesign> d = design::design_drive(motor, order.spec);
+    return d && periods_of(order, *d) <= trial_periods;
+  };
+  if (fits()) return true;
+  const base::Result<design::DriveDesign> d = design::design_drive(motor, order.spec);
+  if (!d) return false;
+  if (order.spec.mode == Mode::speed && order.spec.rotor.lags() && !order.spec.lowest_speed_rad_s)
+    for (const double times : {2.0, 3.0}) {
+      order.spec.lowest_speed_rad_s = base::shortened(times * d->lowest_speed_rad_s, 2, base::Towards::up);
+      if (fits()) return true;
     }
+  order.tolerances = chief(order.tolerances);
+  if (fits()) return true;
+  order.tolerances.clear();
+  if (fits()) return true;
+  if (order.spec.mode != Mode::position || d->motor.kind == design::MotorKind::linear) return false;
+  for (const double step_deg : {300.0, 100.0}) {
+    order.subject.step = step_deg;
+    if (fits()) return true;
   }
-  if (told.empty())
-    told.push_back({"the motor", spec.motor, "has no usable design with the usual settling times",
-                    "a design of it tells why; or start with mode = duty"});
-  return told;
+  return false;
+}
+
+bool runs_and_passes(const study::Scenario& s) {
+  const base::Result<study::Outcome> outcome = study::run(s);
+  return outcome && outcome->passed() && !outcome->fault;
+}
+
+/// What works where this mode does not: a bus that drives the nominal current, else the motor without a loop.
+std::string way_out(const FirstScenarioSpec& spec, const design::MotorModel& motor,
+                    const design::DriveDesign& usual) {
+  const std::string more = "a design of it tells more";
+  DesignOrder order = order_of(spec);
+  order.tolerances.clear();
+  TrialBudget budget{trial_periods};
+  for (const design::DesignSpec& candidate : single_changes(order, usual)) {
+    if (candidate.voltage_V == order.spec.voltage_V) continue;
+    const std::optional<DesignStudy> study = tried(order, candidate, budget);
+    if (study && study->usable())
+      return "give a higher bus voltage, " + words_of_change(order.spec, candidate) + "; " + more;
+  }
+  base::Result<study::Scenario> open = run_up(spec, motor);
+  if (open && runs_and_passes(*open)) return "start with mode = duty; " + more;
+  return more;
+}
+
+/// On a board's sensors and over the sheet's tolerances, as far as a short trial goes.
+base::Result<DesignStudy> usable_design(const FirstScenarioSpec& spec, const design::MotorModel& motor) {
+  const DesignOrder order = order_of(spec);
+  const base::Result<design::DriveDesign> usual = design::design_drive(motor, order.spec);
+  if (!usual) return usual.problems();
+  std::string why;
+  for (const design::Warning& w : usual->warnings)
+    if (w.grave) why = w.what;
+  TrialBudget budget{all_trials_periods};
+  for (const design::DesignSpec& candidate : candidates(order, *usual)) {
+    DesignOrder next = order;
+    next.spec = candidate;
+    if (!shorten_trial(next, motor)) continue;
+    std::optional<DesignStudy> study = tried(next, next.spec, budget);
+    if (!study) continue;
+    if (study->usable() && study->outcome.passed()) return std::move(*study);
+    for (const design::Warning& w : study->warnings)
+      if (w.grave) why = w.what;
+  }
+  return base::Problem{"the motor", spec.motor,
+                       "has no usable design in this mode" + (why.empty() ? "" : ": " + why),
+                       way_out(spec, motor, *usual)};
 }
 
 /// Few digits as they are told: of a linear motor in mm for degrees.
@@ -141,13 +234,25 @@ void shorten(study::Scenario& s) {
   gain = shortened(gain, of_gain, 2, base::Towards::down);  // a lower one overshoots less
 }
 
+/// The controller's samples stand in the trough of the ripple, and so would the mean that it holds: in the middle of a centred pulse
+/// they meet the mean. An answer then comes half a period later, so that this is kept where it passes.
+void judge_the_mean(study::Scenario& s) {
+  study::Scenario middle = s;
+  middle.pwm.alignment = study::Alignment::centre;
+  middle.pwm.sample = study::SampleAt::middle;
+  middle.require.front().measure.sampled = false;
+  middle.require.front().measure.label = "mean of the last ten periods";
+  if (runs_and_passes(middle)) s = middle;
+}
+
 /// The design's test as a scenario of one's own.
-base::Result<study::Scenario> designed(const FirstScenarioSpec& spec) {
-  const base::Result<DesignStudy> study = usable_design(spec);
+base::Result<study::Scenario> designed(const FirstScenarioSpec& spec, const design::MotorModel& motor) {
+  const base::Result<DesignStudy> study = usable_design(spec, motor);
   if (!study) return study.problems();
   study::Scenario s = study->scenario;
   s.record = {};  // a reader wants to see everything
   s.compare.resize(std::min<std::size_t>(s.compare.size(), 2));
+  if (spec.mode == Mode::current) judge_the_mean(s);
   // A loop too fast for its sensor swings without end, and its mean may be right all the same.
   if (const std::optional<double> allowed = study->allowed_swing_rad_s) {
     study::Measure swing = s.require.front().measure;
@@ -166,14 +271,21 @@ base::Result<study::Scenario> begun(const FirstScenarioSpec& spec) {
                                                 "give the bus voltage in volts");
         !out.empty())
       return out;
-  base::Result<study::Scenario> s = spec.mode == Mode::duty ? run_up(spec, *motor) : designed(spec);
+  base::Result<study::Scenario> s = spec.mode == Mode::duty ? run_up(spec, *motor) : designed(spec, *motor);
   if (!s) return s.problems();
   shorten(*s);
   const base::Result<study::Outcome> outcome = study::run(*s);
   if (!outcome) return outcome.problems();
-  if (!outcome->passed() || outcome->fault)
-    return base::Problem{"the motor", spec.motor, "does not do what its sheet foretells",
-                         "hold its sheet against itself; or start with another mode"};
+  if (outcome->fault)
+    return base::Problem{"the motor", spec.motor,
+                         "is stopped by a fault: " + base::to_string(*outcome->fault),
+                         "start with another mode"};
+  for (const study::Verdict& v : outcome->verdicts)
+    if (!v.ok)
+      return base::Problem{"the motor", spec.motor,
+                           "does not do what its sheet foretells: the " + v.figure + " is " +
+                               base::three_digits(v.measured) + " " + v.unit,
+                           "start with another mode; the torque-speed curve of the motor tells more"};
   return s;
 }
 

@@ -14,12 +14,33 @@ namespace {
 
 constexpr double precision = 1e-3, coarse_precision = 0.02;
 
+/// What is left of a search.
+class Left {
+ public:
+  explicit Left(const GainSearch& search) : longest_(search.longest_periods), periods_(search.periods) {}
+  /// Whether so many runs of it can be had.
+  bool takes(const study::Scenario& s, std::size_t runs) {
+    const double periods = s.duration_s / s.pwm.period_s;
+    periods_ -= periods * static_cast<double>(runs);
+    return periods <= longest_ && periods_ >= 0.0;
+  }
+
+ private:
+  double longest_, periods_;
+};
+
+base::Problem none_found() {
+  return {"mode", "position",
+          "finds no gain that does not overshoot: the drive was tried down to gains that take too long",
+          "give a smaller step, a shorter period_s, or rotor = encoder in the place of Hall probes"};
+}
+
 /// Runs the move with a gain; only the overshoot is looked at.
 class Trial {
  public:
   Trial(const design::DriveDesign& design, const DesignSubject& subject,
-        const std::function<bool()>& keep_going)
-      : design_(design), subject_(subject), keep_going_(keep_going) {}
+        const std::function<bool()>& keep_going, GainSearch search)
+      : design_(design), subject_(subject), keep_going_(keep_going), left_(search) {}
 
   bool overshoots(double gain) {
     ++runs;
@@ -27,6 +48,10 @@ class Trial {
     d.loops.back().gains.d1 = gain;
     study::Scenario s = design_scenario(d, subject_);
     s.compare.clear();
+    if (!left_.takes(s, 1)) {
+      problems = {none_found()};
+      return true;
+    }
     const base::Result<study::Outcome> outcome = study::run(
         s,
         {.on_record = {}, .on_event = {}, .keep_going = study::listening(keep_going_), .keep_books = false});
@@ -44,6 +69,7 @@ class Trial {
   const design::DriveDesign& design_;
   const DesignSubject& subject_;
   const std::function<bool()>& keep_going_;
+  Left left_;
 };
 
 /// All motors of the tolerances, each making the move with a gain.
@@ -51,13 +77,14 @@ class Field {
  public:
   Field(const design::DriveDesign& design, const DesignSubject& subject,
         const std::vector<Tolerance>& tolerances, const ForEach& for_each,
-        const std::function<bool()>& keep_going)
+        const std::function<bool()>& keep_going, GainSearch search)
       : design_(design),
         subject_(subject),
         tolerances_(tolerances),
         all_(variations(tolerances)),
         for_each_(for_each),
-        keep_going_(keep_going) {}
+        keep_going_(keep_going),
+        left_(search) {}
 
   std::size_t motors() const { return all_.size(); }
 
@@ -67,6 +94,11 @@ class Field {
     study::Scenario nominal = design_scenario(d, subject_);
     nominal.compare.clear();
     nominal.require.front().max = allowed_overshoot_deg(d, nominal.reference.value);
+    if (!left_.takes(nominal, all_.size())) {
+      too_long = true;
+      problems = {none_found()};
+      return false;
+    }
     std::vector<base::Result<study::Outcome>> outcomes(all_.size(), base::Problem{});
     for_each_(all_.size(), [&](std::size_t n) {
       outcomes[n] = study::run(n == 0 ? nominal : varied_scenario(nominal, d.motor, tolerances_, all_[n]),
@@ -83,6 +115,7 @@ class Field {
   }
 
   base::Problems problems;
+  bool too_long = false;
 
  private:
   const design::DriveDesign& design_;
@@ -91,24 +124,30 @@ class Field {
   std::vector<Variation> all_;
   const ForEach& for_each_;
   const std::function<bool()>& keep_going_;
+  Left left_;
 };
 
 }  // namespace
 
+double braking_gain(const design::DriveDesign& d) {
+  return d.torque_limit_Nm / d.motor.shaft.J_kg_m2 / (d.bus_V / d.motor.K_t_Nm_A) * base::pi / 180;
+}
+
 base::Result<PositionGain> largest_position_gain(const design::DriveDesign& design,
                                                  const DesignSubject& subject,
-                                                 const std::function<bool()>& keep_going) {
+                                                 const std::function<bool()>& keep_going,
+                                                 const GainSearch& search) {
   PositionGain found;
   found.linear = design.loop("position").gains.d1;
-  found.estimate = design.torque_limit_Nm / design.motor.shaft.J_kg_m2 /
-                   (design.bus_V / design.motor.K_t_Nm_A) * base::pi / 180;
-  Trial trial(design, subject, keep_going);
+  found.estimate = braking_gain(design);
+  Trial trial(design, subject, keep_going, search);
   double low = std::min(found.estimate, found.linear), high = found.linear;
   for (int n = 0; n < 20 && trial.overshoots(low) && trial.problems.empty(); ++n) {
     high = found.overshoots = low;
     low /= 2;
   }
   if (!trial.problems.empty()) return trial.problems;
+  if (search.quick) high = low;
   if (found.overshoots == 0.0 && high > low) {
     if (trial.overshoots(high))
       found.overshoots = high;
@@ -132,9 +171,10 @@ base::Result<PositionGain> lowered_for_tolerances(const design::DriveDesign& des
                                                   const DesignSubject& subject, const PositionGain& nominal,
                                                   const std::vector<Tolerance>& tolerances,
                                                   const ForEach& for_each,
-                                                  const std::function<bool()>& keep_going) {
+                                                  const std::function<bool()>& keep_going,
+                                                  const GainSearch& search) {
   PositionGain found = nominal;
-  Field field(design, subject, tolerances, for_each, keep_going);
+  Field field(design, subject, tolerances, for_each, keep_going, search);
   const auto holds = [&](double gain) {
     found.runs += static_cast<int>(field.motors());
     return field.holds(gain);
@@ -145,9 +185,10 @@ base::Result<PositionGain> lowered_for_tolerances(const design::DriveDesign& des
     high = low;
     low /= 2;
   }
+  if (search.quick && field.too_long) return found;
   if (!field.problems.empty()) return field.problems;
   if (low < nominal.nominal / 16) return found;
-  while (high - low > coarse_precision * low) {
+  while (!search.quick && high - low > coarse_precision * low) {
     const double middle = low + (high - low) / 2;
     (holds(middle) ? low : high) = middle;
   }

@@ -20,13 +20,24 @@ struct PositionGain {
   int runs = 0;
 };
 
+/// How long a search may be: a lower gain makes a longer move.
+struct GainSearch {
+  bool quick = false;  ///< the first of the closed form and its halves that holds, and no larger one
+  double longest_periods = 2e6;  ///< of a run
+  double periods = 5e6;          ///< of all runs together: some seconds
+};
+
 /// The P controller asks for w = k x on the last of the way, a slowing-down of k^2 x = k w: no more than
-/// T_max/J at the highest speed, k = T_max/(J U/K_t). Between that and the linear loop's gain the overshoot
+/// T_max/J at the highest speed, k = T_max/(J U/K_t); here in rad/s per degree.
+double braking_gain(const design::DriveDesign& design);
+
+/// Between that and the linear loop's gain the overshoot
 /// grows with the gain, and halving with full simulations finds where it begins, to a part in 1000. Problems
-/// are those of a run.
+/// are those of a run., or that none was found within the search.
 base::Result<PositionGain> largest_position_gain(const design::DriveDesign& design,
                                                  const DesignSubject& subject,
-                                                 const std::function<bool()>& keep_going = {});
+                                                 const std::function<bool()>& keep_going = {},
+                                                 const GainSearch& search = {});
 
 /// The gain lowered until no motor of the tolerances overshoots by more than allowed_overshoot_deg
 /// (board.hpp), to a part in 50; the nominal one where a sixteenth of it does not do either.
@@ -34,6 +45,7 @@ base::Result<PositionGain> lowered_for_tolerances(const design::DriveDesign& des
                                                   const DesignSubject& subject, const PositionGain& nominal,
                                                   const std::vector<Tolerance>& tolerances,
                                                   const ForEach& for_each,
-                                                  const std::function<bool()>& keep_going = {});
+                                                  const std::function<bool()>& keep_going = {},
+                                                  const GainSearch& search = {});
 
 }  // namespace sixstep::analysis

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a designer should be told of a drive, in words, each with its cure.
+// What a designer should be told of a drive, in words. What helps is found by trying (analysis/verify/advice.hpp), and stands here
+// only where it is nothing that could be tried: what the sheet lacks, what a run shows.
 #pragma once
 #include <vector>
 

@@ -63,10 +63,33 @@ struct LoopDesign {
   StepResponse step;    ///< of the closed loop, sensor included
 };
 
+/// What a warning is about.
+enum class Concern : std::uint8_t {
+  other,
+  stability,
+  delay,
+  pace,
+  sign,
+  overshoot,
+  separation,
+  sensing,
+  rest,
+  voltage,
+  ripple,
+  braking,
+  heat,
+  settling,
+  swing,
+  fault,
+  requirement
+};
+
 struct Warning {
   std::string what;  ///< one sentence
+  /// What helps: a design's by having been tried (analysis/verify/advice.hpp), empty where nothing that was tried does.
   std::string cure;
   bool grave = false;  ///< not to be put on a motor
+  Concern of = Concern::other;
 };
 
 struct DriveDesign {
