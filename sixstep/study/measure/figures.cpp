@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "sixstep/base/written.hpp"
 #include "sixstep/study/scenario/switching_law.hpp"
 
 namespace sixstep::study {
@@ -89,6 +90,34 @@ double value_of(const Gauges& gauges, const Measure& m) {
 }
 double value_of(const auto& taken, const Measure&) { return taken.value(); }
 
+/// What is judged by the controller's samples is taken of the whole signal too: a sample stands at one place of the PWM's ripple.
+/// A time until a band that the ripple leaves says nothing of it.
+bool looks_beside_samples(const Measure& m) {
+  return m.sampled && fact_of(m.metric).of == TakenOf::signal && !is_time(m.metric);
+}
+
+bool meets(const Requirement& r, double v) {
+  return v == v && (!r.min || v >= *r.min) && (!r.max || v <= *r.max);
+}
+
+/// Whether the whole signal says something else than its samples, as far as the requirement tells.
+bool tells_apart(const Requirement& r, double samples, double whole) {
+  if (whole != whole) return false;
+  if (r.min && r.max && std::fabs(whole - samples) > (*r.max - *r.min) / 2) return true;
+  return meets(r, samples) != meets(r, whole);
+}
+
+std::string sample_note(const Scenario& s, const std::string& figure, double samples, double whole,
+                        std::string_view unit) {
+  const bool middle = s.pwm.sample == SampleAt::middle && s.pwm.alignment == Alignment::centre;
+  return figure + " is " + base::rounded(samples, 4) + " " + std::string(unit) +
+         " at the controller's samples and " + base::rounded(whole, 4) + " " + std::string(unit) +
+         " of the whole signal, which differ by more than the requirement allows: each sample stands at the same place of the "
+         "PWM's ripple; " +
+         (middle ? "sampled = false judges the whole signal"
+                 : "pwm.alignment = \"centre\" with pwm.sample = \"middle\" samples next to the mean");
+}
+
 Taken taken_by(const Measure& m, const Scenario& scenario, const std::vector<Level>& levels) {
   const Window all{m.from_s.value_or(0.0), m.to_s.value_or(std::numeric_limits<double>::infinity())};
   const EnergyGauge energies(all, {scenario.load.viscous_Nm_s, scenario.load.coulomb_Nm},
@@ -127,6 +156,12 @@ Figures::Figures(const Scenario& scenario, const std::vector<Level>& levels) {
     figures_.push_back({r.measure, taken_by(r.measure, scenario, levels)});
   for (const Comparison& c : scenario.compare)
     figures_.push_back({c.measure, taken_by(c.measure, scenario, levels)});
+  for (const Requirement& r : scenario.require)
+    if (looks_beside_samples(r.measure)) {
+      Measure whole = r.measure;
+      whole.sampled = false;
+      figures_.push_back({whole, taken_by(whole, scenario, levels)});
+    }
 }
 
 void Figures::watch(const SegmentView& g, double s) {
@@ -143,20 +178,30 @@ void Figures::judge(const Scenario& scenario, Outcome& outcome) const {
     // A time may never come; of anything else an infinite value is none.
     return is_time(figure.measure.metric) || v - v == 0.0 ? v : nothing;
   };
+  std::vector<double> judged;
   for (const Requirement& r : scenario.require) {
     const double v = next();
-    const bool ok = v == v && (!r.min || v >= *r.min) && (!r.max || v <= *r.max);
+    judged.push_back(v);
     const base::LinearUnit unit = unit_in(scenario, figure_unit(r.measure));
     const auto shown = [&](const std::optional<double>& x) {
       return x ? std::optional(*x * unit.factor) : std::nullopt;
     };
     outcome.verdicts.push_back({figure_name(scenario, r.measure), std::string(unit.linear), v * unit.factor,
-                                shown(r.min), shown(r.max), ok});
+                                shown(r.min), shown(r.max), meets(r, v)});
   }
   for (const Comparison& c : scenario.compare) {
     const base::LinearUnit unit = unit_in(scenario, figure_unit(c.measure));
     outcome.comparisons.push_back({figure_name(scenario, c.measure), std::string(unit.linear),
                                    next() * unit.factor, c.value * unit.factor, c.source});
+  }
+  for (std::size_t k = 0; k < scenario.require.size(); ++k) {
+    const Requirement& r = scenario.require[k];
+    if (!looks_beside_samples(r.measure)) continue;
+    const double whole = next();
+    const base::LinearUnit unit = unit_in(scenario, figure_unit(r.measure));
+    if (tells_apart(r, judged[k], whole))
+      outcome.notes.push_back(sample_note(scenario, figure_name(scenario, r.measure), judged[k] * unit.factor,
+                                          whole * unit.factor, unit.linear));
   }
 }
 
