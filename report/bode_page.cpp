@@ -74,11 +74,22 @@ std::string charts(const BodeStudy& s) {
   return svg_chart(gain) + svg_chart(phase) + svg_chart(closed) + svg_chart(coherence);
 }
 
+/// What a terminal is told in ASCII.
+std::string in_print(std::string text) {
+  const auto put = [&text](std::string_view from, std::string_view to) {
+    for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))
+      text.replace(at, from.size(), to);
+  };
+  put("+-", "±");
+  put(" us", " µs");
+  return text;
+}
+
 std::string facts(const BodeStudy& s) {
   std::string out;
   for (const text::BodeMargin& m : text::bode_margins(s))
-    out +=
-        bench_fact(m.name, s.designed ? fmt::format("{} (designed {})", m.measured, m.designed) : m.measured);
+    out += bench_fact(
+        m.name, in_print(s.designed ? fmt::format("{} (designed {})", m.measured, m.designed) : m.measured));
   return out;
 }
 
@@ -88,11 +99,11 @@ std::string render_bode(const BodePage& page) {
   const std::string title = escaped(text::visible("Frequency response of " + page.name));
   const std::string body =
       filled(assets::bench_html, {{"title", title},
-                                  {"subtitle", escaped(text::bode_place(page.study))},
+                                  {"subtitle", escaped(in_print(text::bode_place(page.study)))},
                                   {"facts", facts(page.study)},
                                   {"pictured", "Measured on the switching simulation"},
                                   {"charts", charts(page.study)},
-                                  {"text", escaped(text::bode_text(page.name, page.study))}});
+                                  {"text", escaped(in_print(text::bode_text(page.name, page.study)))}});
   return in_shell({.title = title, .body = body, .command = page.command, .version = page.version});
 }
 

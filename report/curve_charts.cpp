@@ -94,7 +94,7 @@ class Charts {
                                 }}});
     if (curve_.thermal) {
       const auto limit = limits();
-      lines.push_back({"for ever", "c", "what the winding stands for ever",
+      lines.push_back({"winding, continuous", "c", "what the winding stands continuously",
                        [limit, per_Nm](const Place& p) { return per_Nm * limit(p).continuous_Nm; }});
       lines.push_back({"60 s", "a", "what it stands for 60 s from ambient temperature",
                        [limit, per_Nm](const Place& p) { return per_Nm * limit(p).short_Nm[1]; }});
@@ -132,7 +132,7 @@ class Charts {
     };
   }
 
-  /// What bus and winding allow together: for ever, and for ten seconds.
+  /// What bus and winding allow together: continuously, and for ten seconds.
   std::vector<Line> regions() const {
     if (!curve_.thermal) return {};
     const auto below = [per_Nm = units_.per_Nm](double allowed_Nm, const Place& p) {
@@ -141,7 +141,7 @@ class Charts {
     const auto limit = limits();
     return {{"short-time", "b", "what bus and winding allow together for 10 s from ambient temperature",
              [=](const Place& p) { return below(limit(p).short_Nm[0], p); }, Line::Drawn::region},
-            {"continuous", "c", "what bus and winding allow together for ever",
+            {"continuous", "c", "what bus and winding allow together continuously",
              [=](const Place& p) { return below(limit(p).continuous_Nm, p); }, Line::Drawn::region}};
   }
 

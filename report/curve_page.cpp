@@ -91,9 +91,9 @@ std::string thermal_facts(const analysis::CurveRequest& r, const analysis::Curve
   if (!curve.thermal) return "";
   const analysis::ThermalLimits still = analysis::thermal_limits(*curve.thermal, r, 0.0);
   return fact(fmt::format("Current at {}\u00a0°C ambient", plain(r.ambient_degC, 3, true)),
-              fmt::format("{} for ever, {} for 60\u00a0s, {} for 10\u00a0s", amperes(still.continuous_A),
+              fmt::format("{} continuously, {} for 60\u00a0s, {} for 10\u00a0s", amperes(still.continuous_A),
                           amperes(still.short_A[1]), amperes(still.short_A[0]))) +
-         fact("The curve itself can be held for ever", lasting_fact(curve, u));
+         fact("The curve itself can be held continuously", lasting_fact(curve, u));
 }
 
 std::string facts(const analysis::CurveRequest& r, const analysis::Curve& curve, const CurveUnits& u) {

@@ -30,6 +30,9 @@ double end_of_view(const DesignStudy& s, double begin_s) {
   return whole ? s.scenario.duration_s : std::fmin(s.scenario.duration_s, begin_s + 3 * settle);
 }
 
+/// A speed's step comes when the drive has started: the time is counted from there.
+constexpr const char* behind_the_start = "ms from the step on";
+
 /// The linear response on top of where the step begins.
 SvgCurve designed(const DesignStudy& s, double begin_s, double from, double height) {
   SvgCurve curve{"designed", "reference", {}, {}};
@@ -37,7 +40,7 @@ SvgCurve designed(const DesignStudy& s, double begin_s, double from, double heig
   for (std::size_t n = 0; n < samples.size(); ++n) {
     const double t = begin_s + static_cast<double>(n) * s.design.spec.period_s;
     if (t > end_of_view(s, begin_s)) break;
-    curve.x.push_back(t * 1e3);
+    curve.x.push_back((t - begin_s) * 1e3);
     curve.y.push_back(from + height * samples[n]);
   }
   return curve;
@@ -48,7 +51,7 @@ SvgCurve simulated(const DesignStudy& s, std::string_view name, double begin_s, 
   const std::vector<double>*t = column(s, "t_s"), *y = column(s, name);
   for (std::size_t n = 0; t && y && n < t->size(); ++n) {
     if ((*t)[n] < begin_s || (*t)[n] > end_of_view(s, begin_s)) continue;
-    curve.x.push_back((*t)[n] * 1e3);
+    curve.x.push_back(((*t)[n] - begin_s) * 1e3);
     curve.y.push_back((*y)[n] * factor);
   }
   return curve;
@@ -66,6 +69,7 @@ std::string step_charts(const DesignStudy& s) {
     chart.levels = {r.value};
   } else if (s.design.spec.mode == Mode::speed) {
     chart.y_label = motion.unit("rad/s").linear;
+    chart.x_label = behind_the_start;
     const double begin = r.times_s.at(1), from = r.values.at(0), to = r.values.at(1);
     chart.curves = {simulated(s, motion.words("speed_rad_s"), begin, 1), designed(s, begin, from, to - from)};
     chart.levels = {to};
@@ -82,7 +86,7 @@ std::string step_charts(const DesignStudy& s) {
   if (s.design.spec.mode == Mode::current) return svg_chart(chart);
   const double begin = s.design.spec.mode == Mode::speed ? r.times_s.at(1) : 0.0;
   return svg_chart(chart) + svg_chart({.title = "Motor current",
-                                       .x_label = "ms",
+                                       .x_label = chart.x_label,
                                        .y_label = "A",
                                        .curves = {simulated(s, "i_m_A", begin, 1)},
                                        .levels = {}});

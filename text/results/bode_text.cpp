@@ -46,6 +46,37 @@ std::optional<Designed> designed_at(const BodeStudy& s, const LoopPoint& p) {
                   (L->angle_rad() + sixstep::base::turn_rad * std::floor(off + 0.5)) * degrees_per_rad};
 }
 
+/// By more than this two loops are not the same; margins are read between a quarter and four times the crossover's gain.
+constexpr double far_dB = 1.5, far_deg = 8.0, near_crossover_dB = 20.0;
+
+/// Why: the first that holds.
+const char* why_beside(const study::Scenario& s) {
+  const bool one_way = s.pwm.chopping != sixstep::control::Chopping::complementary &&
+                       !s.control.smooth_chopping.on && s.control.drive != study::FirmwareKind::field;
+  if (one_way && s.control.mode != sixstep::control::Mode::current)
+    return "this chopping lets no current flow backwards, so that the drive slows down by load and friction alone and the answer is "
+           "another one up than down; pwm.chopping = \"complementary\" lets it";
+  return "each period of the multisine is answered alike, and not as a linear loop does: commutation, gaps in the current or a limit";
+}
+
+/// A coherence near 1 says that the answers are alike, not that the loop is linear.
+std::string beside_the_designed(const BodeStudy& s) {
+  double most_dB = 0.0, deg = 0.0, Hz = 0.0;
+  for (const LoopPoint& p : s.points) {
+    const auto d = designed_at(s, p);
+    if (!d || p.coherence < little_coherence || std::fabs(dB(p.gain)) > near_crossover_dB) continue;
+    const double off_dB = dB(p.gain) - d->gain_dB, off_deg = p.phase_rad * degrees_per_rad - d->phase_deg;
+    if (std::fabs(off_dB) < far_dB && std::fabs(off_deg) < far_deg) continue;
+    if (Hz > 0.0 && std::fabs(off_dB) <= std::fabs(most_dB)) continue;
+    most_dB = off_dB;
+    deg = off_deg;
+    Hz = p.w_rad_s / sixstep::base::turn_rad;
+  }
+  if (Hz == 0.0) return "";
+  return fmt::format("at {:.3g} Hz the loop is {:+.2g} dB and {:+.2g} deg beside the designed one: {}", Hz,
+                     most_dB, deg, why_beside(s.scenario));
+}
+
 std::string gain_margin(const std::optional<double>& gain) {
   return gain ? fmt::format("{:.1f} dB", dB(*gain)) : "-";
 }
@@ -96,6 +127,7 @@ std::vector<std::string> bode_notes(const BodeStudy& s) {
         "{} of {} lines have a coherence below {:g}: commutation, ripple or noise is larger there than the answer; "
         "a larger amplitude helps",
         few, s.points.size(), little_coherence));
+  if (std::string told = beside_the_designed(s); !told.empty()) notes.push_back(std::move(told));
   notes.push_back(fmt::format("{:.2g} % of the answer's rms stands at no line", 100 * s.beside));
   return notes;
 }
