@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "files/own_file.hpp"
+#include "files/temporary_names.hpp"
 #include "files/text_file.hpp"
 
 namespace files {
@@ -118,6 +119,7 @@ void AtomicFile::Close::operator()(int* descriptor) const {
 
 void AtomicFile::Remove::operator()(std::string* name) const {
   if (!name->empty()) ::unlink(name->c_str());
+  forget_temporary(name->c_str());
   delete name;
 }
 
@@ -137,10 +139,11 @@ int AtomicFile::open_beside(const struct stat* old) {
   const mode_t permissions = old ? old->st_mode & permission_bits : usual;
   int descriptor = -1;
   do {
-    const std::string name = (fs::path(path_).parent_path() / random_name()).string();
+    const std::string name = (folder_ / random_name()).string();
     descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
     if (descriptor >= 0) temporary_.reset(new std::string(name));
   } while (descriptor < 0 && errno == EEXIST);
+  if (temporary_) note_temporary(temporary_->c_str());
   if (descriptor >= 0 && old) {
     std::ignore = ::fchown(descriptor, old->st_uid, old->st_gid);  // only root may give a file away
     ::fchmod(descriptor, permissions);                             // the umask may have taken some
@@ -166,6 +169,11 @@ base::Result<AtomicFile> AtomicFile::create(const Destination& to) {
     descriptor = file.open_device();
   } else {
     file.path_ = end_of_links(to.path).string();
+    // Of now: code of others that a run loads may change the folder that the program is in.
+    std::error_code unknown;
+    const fs::path here = fs::path(file.path_).parent_path();
+    file.folder_ = fs::absolute(here.empty() ? "." : here, unknown);
+    if (unknown) file.folder_ = here;
     if (base::Problems found = refused(to, partial_name(file.path_)); !found.empty()) return found;
     if (exists && ::access(to.path.c_str(), W_OK) != 0) return unwritable(to.path, errno);
     descriptor = file.open_beside(exists ? &there : nullptr);
@@ -181,12 +189,20 @@ void AtomicFile::write(std::string_view text) {
   if (error_ == 0) size_ += text.size();
 }
 
+void AtomicFile::begin_again() {
+  if ((size_ == 0 && error_ == 0) || !temporary_ || !descriptor_) return;
+  error_ = ::lseek(*descriptor_, 0, SEEK_SET) == 0 ? 0 : errno;
+  size_ = 0;
+}
+
 int AtomicFile::reserve(std::uint64_t bytes) {
   if (!temporary_ || !descriptor_) return 0;
   int failed = EINTR;
   while (failed == EINTR) failed = ::posix_fallocate(*descriptor_, 0, static_cast<off_t>(bytes));
   return failed;
 }
+
+bool AtomicFile::reader_is_gone() const { return error_ == EPIPE || error_ == EINTR; }
 
 base::Problems AtomicFile::commit_partial() { return commit_as(temporary_ ? partial_name(path_) : path_); }
 
@@ -198,14 +214,13 @@ base::Problems AtomicFile::commit_as(const std::string& path) {
   if (error_ != 0) return {unwritable(path, error_)};
   if (temporary_) {
     temporary_->clear();
-    sync_folder(fs::path(path).parent_path());
+    sync_folder(folder_);
   }
   return {};
 }
 
 base::Problems AtomicFile::save_what_is_whole() {
-  // The reader of a pipe has seen enough, or who waits for it has: nobody is to blame.
-  if (error_ == EPIPE || error_ == EINTR) return {};
+  if (reader_is_gone()) return {};
   base::Problem problem = unwritable(path_, error_);
   if (!temporary_ || size_ == 0) return {problem};
   error_ = 0;
@@ -218,11 +233,11 @@ int AtomicFile::put_in_place(const std::string& path) {
   if (!temporary_) return 0;
   const int descriptor = *descriptor_;
   // Beyond what was written whole there may be a piece that failed, or room that was only reserved.
-  if (!elsewhere_)
-    if (const int failed = persistently([&] { return ::ftruncate(descriptor, static_cast<off_t>(size_)); }))
-      return failed;
+  if (const int failed = persistently([&] { return ::ftruncate(descriptor, static_cast<off_t>(size_)); }))
+    return failed;
   if (const int failed = persistently([&] { return ::fsync(descriptor); })) return failed;
-  return std::rename(temporary_->c_str(), path.c_str()) == 0 ? 0 : errno;
+  const fs::path whole = folder_ / fs::path(path).filename();
+  return std::rename(temporary_->c_str(), whole.c_str()) == 0 ? 0 : errno;
 }
 
 }  // namespace files

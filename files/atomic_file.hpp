@@ -2,6 +2,7 @@
 // A file that appears whole or not at all.
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -43,6 +44,12 @@ class AtomicFile {
 
   /// A write failed: there is no sense in going on.
   bool failed() const { return error_ != 0; }
+  /// What errno said of it; 0 where all went well.
+  int error() const { return error_; }
+  /// The reader of a pipe has seen enough, or who waits for it has: nobody is to blame.
+  bool reader_is_gone() const;
+  /// Forgets what was written, and that it failed; a pipe or a device goes on.
+  void begin_again();
 
   /// Empty when the file stands under its name, safely on the disk. Where a write failed, what was whole
   /// before stands under NAME.partial.EXT, and the Problem says so.
@@ -52,10 +59,8 @@ class AtomicFile {
   base::Problems commit_partial();
 
   const std::string& path() const { return path_; }
-  /// Where it is written to; for those who can only write to a path. Empty where there is no such name.
+  /// Where it is written to. Empty where there is no such name.
   std::string temporary() const { return temporary_ ? *temporary_ : std::string(); }
-  /// It was written under temporary() by someone else.
-  void written_elsewhere() { elsewhere_ = true; }
 
  private:
   struct Close {
@@ -72,11 +77,11 @@ class AtomicFile {
   int put_in_place(const std::string& path);
 
   std::string path_;
+  std::filesystem::path folder_;                    // whole, of a file that has a temporary name
   std::unique_ptr<std::string, Remove> temporary_;  // null where the file is written as it is
   std::unique_ptr<int, Close> descriptor_;          // closed before the name goes
   std::uint64_t size_ = 0;                          // of what was written whole
-  bool elsewhere_ = false;
-  bool waits_ = false;  // a device or a pipe, whose reader may be slow
+  bool waits_ = false;                              // a device or a pipe, whose reader may be slow
   int error_ = 0;
 };
 

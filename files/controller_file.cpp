@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "files/controller_guard.hpp"
 #include "files/text_file.hpp"
 #include "sixstep/study/check/own.hpp"
 
@@ -20,18 +21,8 @@ base::Problem unloaded(const std::string& path, std::string why) {
           .cure = "compile it with -shared -fPIC for this machine (docs/own-controller.md)"};
 }
 
-}  // namespace
-
-base::Result<text::NamedText> load_controller(const std::string& path) {
-  const base::Result<std::string> bytes = read_regular_text(path);
-  if (!bytes) {
-    base::Problem problem = bytes.problems().front();
-    problem.where = path;
-    return problem;
-  }
-  // A name without a slash would be looked for among the system's libraries.
-  std::error_code ignored;
-  const std::string whole = std::filesystem::absolute(path, ignored).string();
+/// Its code runs here already, as do the constructors of what it is linked to.
+base::Result<text::NamedText> loaded_from(const std::string& path, const std::string& whole) {
   void* const object = dlopen(whole.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (object == nullptr) {
     const char* const why = dlerror();
@@ -46,7 +37,26 @@ base::Result<text::NamedText> load_controller(const std::string& path) {
     base::Problem& first = wrong.front();
     return base::Problem{.where = path, .limit = "has a controller whose " + to_string(first), .cure = {}};
   }
-  return text::NamedText{path, {}, controller};
+  const base::Result<const sixstep_controller*> guarded = guarded_controller(path, *controller);
+  if (!guarded) return guarded.problems();
+  return text::NamedText{path, {}, *guarded};
+}
+
+}  // namespace
+
+base::Result<text::NamedText> load_controller(const std::string& path) {
+  const base::Result<std::string> bytes = read_regular_text(path);
+  if (!bytes) {
+    base::Problem problem = bytes.problems().front();
+    problem.where = path;
+    return problem;
+  }
+  // A name without a slash would be looked for among the system's libraries.
+  std::error_code ignored;
+  const std::string whole = std::filesystem::absolute(path, ignored).string();
+  base::Result<text::NamedText> loaded = base::Problem{};
+  in_controller(path, [&] { loaded = loaded_from(path, whole); });
+  return loaded;
 }
 
 }  // namespace files

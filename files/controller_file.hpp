@@ -8,8 +8,8 @@
 
 namespace files {
 
-/// Loads it for as long as the program runs; the same file is loaded once. Its bytes count as read (ReadLog). It may do what any
-/// program may: a Problem tells what is missing or wrong in what it says of itself, nothing what it will do.
+/// Loads it for as long as the program runs; the same file is loaded once. Its bytes count as read (ReadLog). A Problem tells what
+/// is missing or wrong in what it says of itself; what it does later is watched (controller_guard.hpp).
 base::Result<text::NamedText> load_controller(const std::string& path);
 
 }  // namespace files

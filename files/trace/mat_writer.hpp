@@ -9,20 +9,18 @@
 
 #include "files/atomic_file.hpp"
 #include "files/column_spool.hpp"
+#include "files/trace/mat_text.hpp"
 #include "files/trace/mat_version.hpp"
 #include "files/trace/trace_origin.hpp"
 #include "sixstep/study/measure/trace.hpp"
 
 namespace files {
 
-class MatFile;
-
 class MatWriter {
  public:
   /// A variable of version 5 stays below 2 GiB in all: many read the sizes in its tags as signed.
   static constexpr std::size_t v5_most_rows = ((std::size_t{1} << 31U) - 1024) / sizeof(double);
 
-  /// Version 7.3 needs a file that can be written to and fro: a pipe is refused.
   static base::Result<MatWriter> create(const Destination& to, std::span<const study::Column> columns,
                                         MatVersion version, TraceOrigin origin,
                                         std::size_t most_rows_of_v5 = v5_most_rows);
@@ -38,10 +36,9 @@ class MatWriter {
   MatWriter(AtomicFile file, std::span<const study::Column> columns, MatVersion version, TraceOrigin origin,
             std::size_t most_rows_of_v5);
   void reserve();
-  void describe_trace(MatFile& mat, std::uint64_t digest) const;
+  std::vector<std::pair<std::string, MatFields>> structs(std::uint64_t digest) const;
+  /// Begins anew: of a file that could not be written to its end nothing is left.
   bool assemble(std::uint64_t digest);
-  bool assemble_v5(std::uint64_t digest);
-  bool assemble_v7_3(std::uint64_t digest);
   base::Problems save_what_fits(std::uint64_t digest);
 
   AtomicFile file_;

@@ -5,8 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/text_file.hpp"
-#include "files/trace/mat_file.hpp"
+#include "files/trace/mat5.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/design/thesis/thesis_models.hpp"
@@ -72,11 +71,11 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 template <std::size_t Rows, std::size_t Columns>
-void put(MatFile& file, const char* name, const sixstep::design::Matrix<Rows, Columns>& m) {
+std::string numbers(const char* name, const sixstep::design::Matrix<Rows, Columns>& m) {
   std::vector<double> values;
   for (std::size_t c = 0; c < Columns; ++c)
     for (std::size_t r = 0; r < Rows; ++r) values.push_back(m[r][c]);
-  file.numbers(name, std::move(values), Rows, Columns);
+  return mat5_numbers(name, values, Rows, Columns);
 }
 
 }  // namespace
@@ -94,29 +93,18 @@ std::string models_json(const ModelPoint& p) {
   return out.dump(2) + "\n";
 }
 
-base::Result<std::string> models_mat(const ModelPoint& p) {
-  if (!matio()) return base::Problem{"--models", "", matio().problems().front().limit, "name a .json file"};
-  const base::Problem no_room{"--models", "", "cannot be made: no temporary file", "make room in TMPDIR"};
-  const Scratch scratch;
-  if (!scratch.made()) return no_room;
-  {
-    MatFile file(*matio(), scratch.path(), MatVersion::v5);
-    const auto phase = sixstep::design::phase_voltage_model(p.motor.machine, p.motor.shaft, angle_of(p));
-    const auto terminal =
-        sixstep::design::terminal_voltage_model(p.motor.machine, p.motor.shaft, angle_of(p));
-    put(file, "phase_A", phase.A);
-    put(file, "phase_B", phase.B);
-    file.text("phase_states", joined(symbols(p, phase_states)));
-    file.text("phase_inputs", joined(symbols(p, phase_inputs)));
-    put(file, "terminal_A", terminal.A);
-    put(file, "terminal_B", terminal.B);
-    file.text("terminal_states", joined(symbols(p, terminal_states)));
-    file.text("terminal_inputs", joined(symbols(p, terminal_inputs)));
-    if (!p.motor.left_to_a_run.empty()) file.text("left_to_a_run", p.motor.left_to_a_run);
-    for (const auto& [name, value] : parameters(p)) file.numbers(symbol(p, name), {value}, 1, 1);
-    if (!file.close()) return no_room;
-  }
-  return read_text(scratch.path());
+std::string models_mat(const ModelPoint& p) {
+  const auto phase = sixstep::design::phase_voltage_model(p.motor.machine, p.motor.shaft, angle_of(p));
+  const auto terminal = sixstep::design::terminal_voltage_model(p.motor.machine, p.motor.shaft, angle_of(p));
+  std::string file = mat5_begin() + numbers("phase_A", phase.A) + numbers("phase_B", phase.B) +
+                     mat5_text("phase_states", joined(symbols(p, phase_states))) +
+                     mat5_text("phase_inputs", joined(symbols(p, phase_inputs))) +
+                     numbers("terminal_A", terminal.A) + numbers("terminal_B", terminal.B) +
+                     mat5_text("terminal_states", joined(symbols(p, terminal_states))) +
+                     mat5_text("terminal_inputs", joined(symbols(p, terminal_inputs)));
+  if (!p.motor.left_to_a_run.empty()) file += mat5_text("left_to_a_run", p.motor.left_to_a_run);
+  for (const auto& [name, value] : parameters(p)) file += mat5_numbers(symbol(p, name), {&value, 1}, 1, 1);
+  return file;
 }
 
 }  // namespace files

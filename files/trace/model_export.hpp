@@ -4,7 +4,6 @@
 #include <string>
 
 #include "files/rooms.hpp"
-#include "sixstep/base/result.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 
 namespace files {
@@ -20,7 +19,7 @@ struct ModelPoint {
 std::string models_json(const ModelPoint& point);
 
 /// The same as a MAT file, level 5: phase_A, phase_B, terminal_A, terminal_B, the parameters by name, and the
-/// states and inputs as text. The same input gives the same bytes: no date. Problems: no room for a file.
-base::Result<std::string> models_mat(const ModelPoint& point);
+/// states and inputs as text. The same input gives the same bytes: no date.
+std::string models_mat(const ModelPoint& point);
 
 }  // namespace files

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "files/controller_watch.hpp"
+
+#include <fcntl.h>
+#include <pthread.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <string_view>
+
+#include "files/temporary_names.hpp"
+
+namespace files {
+namespace {
+
+constexpr int exit_of_a_fault = 3;
+constexpr std::size_t most_threads = 1024;
+ControllerThread threads[most_threads];
+std::atomic<bool> watched = false, ours_at_work = false;
+std::atomic<const char*> last_loaded = nullptr;
+char noted_in[4096];  // a path, for a handler to open
+
+long this_thread() { return ::syscall(SYS_gettid); }
+
+/// By its number: what a thread keeps for itself may be what was written over.
+ControllerThread* found_thread() {
+  const long me = this_thread();
+  for (ControllerThread& t : threads)
+    if (t.thread.load() == me) return &t;
+  return nullptr;
+}
+
+/// Text without the memory and the locks of the C library, which a handler may not ask for.
+class Words {
+ public:
+  Words& operator<<(std::string_view text) {
+    for (const char c : text)
+      if (used_ + 1 < sizeof text_)
+        text_[used_++] = static_cast<unsigned char>(c) < ' ' && c != '\t' ? '?' : c;
+    return *this;
+  }
+  Words& operator<<(std::uint64_t n) {
+    char digits[20];
+    std::size_t count = 0;
+    do digits[count++] = static_cast<char>('0' + n % 10);
+    while ((n /= 10) != 0);
+    while (count > 0) *this << std::string_view(&digits[--count], 1);
+    return *this;
+  }
+  std::string_view line() {
+    text_[used_] = '\n';
+    return {text_, used_ + 1};
+  }
+
+ private:
+  char text_[1024];
+  std::size_t used_ = 0;
+};
+
+void write_out(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t taken = ::write(descriptor, text.data(), text.size());
+    if (taken <= 0) return;
+    text.remove_prefix(static_cast<std::size_t>(taken));
+  }
+}
+
+/// "in step 20, at t = 0.600 ms"
+void tell_place(Words& to, const ControllerThread& at) {
+  const ControllerPlace place = at.place;
+  if (place == ControllerPlace::loading) to << " while it was loaded";
+  if (place == ControllerPlace::design) to << " in its design";
+  if (place == ControllerPlace::start) to << " in its start";
+  if (place != ControllerPlace::step && place != ControllerPlace::hall) return;
+  const auto us = static_cast<std::uint64_t>(static_cast<double>(at.steps) * at.period_s * 1e6 + 0.5);
+  const std::uint64_t rest = us % 1000;
+  to << (place == ControllerPlace::hall ? " in its hall() after step " : " in step ") << at.steps
+     << ", at t = " << us / 1000 << "." << rest / 100 << rest / 10 % 10 << rest % 10 << " ms";
+}
+
+void tell(const ControllerThread& at, const char* what, std::string_view more) {
+  Words words;
+  words << (at.controller ? at.controller : "a controller") << ": the controller " << what;
+  tell_place(words, at);
+  if (at.run >= 0) words << ", of run " << static_cast<std::uint64_t>(at.run);
+  write_out(STDERR_FILENO, (words << more).line());
+}
+
+void note_run(const ControllerThread& at, const char* what) {
+  if (at.run < 0 || noted_in[0] == '\0') return;
+  const int descriptor = ::open(noted_in, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (descriptor < 0) return;
+  Words words;
+  words << static_cast<std::uint64_t>(at.run) << "\t" << at.controller << ": the controller " << what;
+  tell_place(words, at);
+  write_out(descriptor, words.line());
+  ::close(descriptor);
+}
+
+const char* crash_of(int signal) {
+  switch (signal) {
+    case SIGSEGV:
+      return "crashed (SIGSEGV: memory that is not its own)";
+    case SIGBUS:
+      return "crashed (SIGBUS: memory that is not there)";
+    case SIGFPE:
+      return "crashed (SIGFPE: a division by zero, or an exception that it enabled)";
+    case SIGILL:
+      return "crashed (SIGILL: what this processor cannot execute)";
+    case SIGTRAP:
+      return "crashed (SIGTRAP)";
+    default:
+      return "gave up by abort() (SIGABRT)";
+  }
+}
+
+constexpr int crashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP};
+struct sigaction before_us[64];
+
+extern "C" void on_crash(int signal, siginfo_t*, void*) {
+  const ControllerThread* const at = found_thread();
+  if (at && at->place != ControllerPlace::outside) end_by_controller(*at, crash_of(signal));
+  // Not in its code, but perhaps in what it has written over: whoever handled this before us goes on.
+  Words words;
+  words << "sixstep crashed; " << (last_loaded.load() ? last_loaded.load() : "a controller")
+        << " runs in this program and may have written over its memory";
+  write_out(STDERR_FILENO, words.line());
+  remove_temporary_files();
+  ::sigaction(signal, &before_us[signal], nullptr);
+  ::raise(signal);
+}
+
+extern "C" void on_exit_of_the_program() {
+  if (const ControllerThread* at = found_thread(); at && at->place != ControllerPlace::outside)
+    end_by_controller(*at, "ended the program by exit()");
+  if (!ours_at_work) return;
+  ControllerThread somewhere;
+  somewhere.controller = last_loaded.load();
+  end_by_controller(somewhere, "ended the program by exit() in a thread of its own");
+}
+
+void watch_the_end() {
+  struct sigaction act {};
+  act.sa_sigaction = on_crash;
+  act.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
+  for (const int signal : crashes) ::sigaction(signal, &act, &before_us[signal]);
+  std::atexit(on_exit_of_the_program);
+  std::at_quick_exit(on_exit_of_the_program);
+}
+
+/// A stack that overflowed has no room for the handler that tells it.
+struct HandlerStack {
+  static constexpr std::size_t bytes = 65536;
+  std::unique_ptr<char[]> room = std::make_unique<char[]>(bytes);
+  HandlerStack() { set(0); }
+  ~HandlerStack() { set(SS_DISABLE); }
+  HandlerStack(const HandlerStack&) = delete;
+  HandlerStack& operator=(const HandlerStack&) = delete;
+  void set(int flags) {
+    stack_t stack{};
+    stack.ss_sp = room.get();
+    stack.ss_size = bytes;
+    stack.ss_flags = flags;
+    ::sigaltstack(&stack, nullptr);
+  }
+};
+
+/// What a thread that ends calls last, however it came to end.
+extern "C" void on_end_of_thread(void* thread) {
+  const auto* const at = static_cast<const ControllerThread*>(thread);
+  if (at->place != ControllerPlace::outside) end_by_controller(*at, "ended its thread, as by pthread_exit()");
+}
+pthread_key_t end_of_thread() {
+  static const pthread_key_t key = [] {
+    pthread_key_t made{};
+    ::pthread_key_create(&made, on_end_of_thread);
+    return made;
+  }();
+  return key;
+}
+
+/// As long as the thread lives.
+struct Membership {
+  HandlerStack stack;
+  ControllerThread* at = nullptr;
+  ControllerThread beyond_the_last;
+
+  Membership() {
+    const long me = this_thread();
+    at = &beyond_the_last;
+    for (ControllerThread& t : threads) {
+      long nobody = 0;
+      if (!t.thread.compare_exchange_strong(nobody, me)) continue;
+      at = &t;
+      break;
+    }
+    ::pthread_setspecific(end_of_thread(), at);
+  }
+  ~Membership() {
+    if (at->place != ControllerPlace::outside) return;  // exit() comes by here, too: its handler tells
+    at->run = -1;
+    at->thread = 0;
+  }
+  Membership(const Membership&) = delete;
+  Membership& operator=(const Membership&) = delete;
+};
+
+}  // namespace
+
+ControllerThread& controller_thread() {
+  thread_local Membership membership;
+  return *membership.at;
+}
+
+void watch_controllers(const char* path) {
+  static std::once_flag once;
+  std::call_once(once, watch_the_end);
+  last_loaded = path;
+  watched = true;
+}
+
+bool controllers_are_watched() { return watched; }
+
+void controllers_make_run(std::uint64_t number) {
+  if (watched) controller_thread().run = static_cast<std::int64_t>(number);
+}
+
+void note_stopped_runs_in(const std::string& path) {
+  noted_in[0] = '\0';
+  if (path.size() < sizeof noted_in) std::memcpy(noted_in, path.c_str(), path.size() + 1);
+}
+
+void controllers_may_run() { ours_at_work = true; }
+void controllers_are_done() { ours_at_work = false; }
+
+void end_by_controller(const ControllerThread& at, const char* what) {
+  tell(at, what, "; the program ends here, and what it has not finished is lost");
+  note_run(at, what);
+  remove_temporary_files();
+  ::syscall(SYS_exit_group, exit_of_a_fault);
+  std::abort();
+}
+
+void mark_controller_calls() {
+  for (ControllerThread& t : threads) t.calls_at_stop = t.calls.load();
+}
+
+void tell_controllers_that_do_not_come_back() {
+  constexpr char what[] = "does not come back";
+  for (const ControllerThread& t : threads) {
+    if (t.thread == 0 || t.place == ControllerPlace::outside || t.calls != t.calls_at_stop) continue;
+    tell(t, what, "; press Ctrl-C again to end (a second SIGTERM does so, too)");
+    note_run(t, what);
+  }
+}
+
+}  // namespace files
+
+// The C library's own would end the program without a word to anybody. What a shared object calls by these names is what the program
+// has, if it has them.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+extern "C" {
+[[noreturn]] void _exit(int code) {
+  if (const files::ControllerThread* at = files::found_thread();
+      at && at->place != files::ControllerPlace::outside)
+    files::end_by_controller(*at, "ended the program by _exit()");
+  ::syscall(SYS_exit_group, code);
+  __builtin_trap();
+}
+[[noreturn]] void _Exit(int code) noexcept { _exit(code); }
+}
+#endif

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "files/temporary_names.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+
+namespace files {
+namespace {
+
+// A handler may take no lock and no memory.
+constexpr int most_names = 512;
+std::atomic<const char*> names[most_names];
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
+void change(const char* from, const char* to) {
+  for (std::atomic<const char*>& name : names)
+    if (const char* is = from; name.compare_exchange_strong(is, to)) return;
+}
+
+}  // namespace
+
+void note_temporary(const char* name) { change(nullptr, name); }
+void forget_temporary(const char* name) { change(name, nullptr); }
+
+void remove_temporary_files() {
+  for (const std::atomic<const char*>& name : names)
+    if (const char* is = name.load(); is != nullptr && *is != '\0') ::unlink(is);
+}
+
+}  // namespace files
