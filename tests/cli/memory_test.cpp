@@ -91,8 +91,7 @@ TEST_F(Memory, DoesNotGrowWhileEveryEventStreamsToAFile) {
   EXPECT_GT(std::filesystem::file_size(file("events.csv")), 20'000'000u);
 }
 
-// The columns wait on the disk in blocks of 2048 rows; libmatio's and HDF5's own buffers have their size from
-// the first block on.
+// The columns wait on the disk in blocks of 2048 rows.
 TEST_F(Memory, DoesNotGrowWhileColumnsWaitForTheirMatFiles) {
   EXPECT_LE(growth_KiB({"--mat", file("a.mat"), "--mat73", file("h.mat"), "--set", "record.grid_s=10e-6"}),
             bound_KiB);

@@ -6,6 +6,8 @@ import collections
 import json
 import pathlib
 import re
+import shlex
+import subprocess
 import unittest
 
 import h5py
@@ -13,7 +15,7 @@ import jsonschema
 import numpy
 import scipy.io
 
-from program import SOURCE, ProgramTest
+from program import PROGRAM, SOURCE, ProgramTest
 
 PS = 1e12
 
@@ -123,12 +125,33 @@ class Tables(ProgramTest):
         # What ends a line would end the comment.
         self.assertEqual(block("b.toml", "--set", 'title="two\\nlines"', "--set", "notes='a\nb'")[3], lines[3])
 
-    def test_a_pipe_takes_csv_and_mat_5_but_not_hdf5(self):
-        self.assertIn("HDF5 writes to and fro", self.run_program(
-            "run", self.write("a.toml", 1000), "--mat73", "/dev/stdout", code=2).stderr)
-        words = ["run", "a.toml", "--quiet", "--mat"]
-        self.run_program(*words, "a.mat")
-        self.run_program(*words, "/dev/null")
+    def test_a_pipe_takes_csv_and_both_mat_versions(self):
+        self.write("a.toml", 1000)
+        for option in ("--csv", "--mat", "--mat73"):
+            words = [PROGRAM, "run", "a.toml", "--quiet", option]
+            self.run_program(*words[1:], "/dev/null")
+            piped = subprocess.run(f"{shlex.join([*words, '/dev/stdout'])} | cat", shell=True, cwd=self.path, capture_output=True, check=True).stdout
+            self.run_program(*words[1:], "a.out", "--force")
+            told = lambda data: data[4096:] if option == "--csv" else data[-4096:]  # the command is told further in front
+            self.assertEqual(told(piped), told((self.path / "a.out").read_bytes()))
+            if option == "--mat73":
+                (self.path / "piped.h5").write_bytes(piped)
+                with h5py.File(self.path / "piped.h5") as trace:
+                    self.assertGreater(trace["t_s"].shape[1], 2)
+
+    def test_a_text_without_words_in_mat_7_3(self):
+        """Sizes of nothing are told as MATLAB tells them, and fields keep their order."""
+        self.run_program("run", self.write("a.toml", 1000), "--mat73", "h.mat", "--mat", "a.mat", "--set", "title=\"\"", "--quiet")
+        five = scipy.io.loadmat(self.path / "a.mat", simplify_cells=True)
+        with h5py.File(self.path / "h.mat") as seven:
+            self.assertEqual(len(five["sixstep"]["title"]), 0)
+            self.assertEqual(seven["sixstep"]["title"].attrs["MATLAB_empty"], 1)
+            self.assertEqual(list(seven["sixstep"]["title"][()]), [0, 0])
+            self.assertEqual(["".join(letter.decode() for letter in name) for name in seven["sixstep"].attrs["MATLAB_fields"]], list(five["sixstep"]))
+            self.assertEqual(seven.userblock_size, 512)
+
+    def test_two_outputs_are_no_pair(self):
+        self.write("a.toml", 1000)
         self.assertIn("is what --csv writes", self.run_program("run", "a.toml", "--csv", "x.mat", "--mat", "x.mat", code=2).stderr)
 
 
