@@ -188,7 +188,7 @@ std::string contest_csv(const Contest& c) {
                         const ContestValues& values) {
     text += fmt::format("{},{},{},{}", csv_cell(name_of(c, n)), drive, holds ? 1 : 0,
                         lowest ? fmt::format("{}", *lowest) : "");
-    for (const double x : values) text += std::isnan(x) ? "," : fmt::format(",{}", x);
+    for (const double x : values) text += "," + csv_cell(x);
     text += "\n";
   };
   for (std::size_t n = 0; n < c.rows.size(); ++n) {

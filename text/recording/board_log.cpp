@@ -70,11 +70,22 @@ base::Problems add_columns(const Recording& recording, study::Trace& out) {
   return problems;
 }
 
+base::Problem too_short(const std::string& name, std::string limit) {
+  return {name + ":", "", std::move(limit), "log for longer, and end the last line"};
+}
+
 }  // namespace
 
 base::Result<study::Trace> read_board_log(const std::string& name, std::string_view text) {
-  const base::Result<Recording> recording = read_recording(name, last_start(text));
+  const std::string_view whole_lines = last_start(text);
+  const base::Result<Recording> recording = read_recording(name, whole_lines);
+  // The last line of a board that was pulled off may be a part of one.
+  const bool short_of_rows = !recording || recording->rows() < 2;
+  if (short_of_rows && !text.ends_with('\n') && static_cast<bool>(read_recording(name, text)))
+    return too_short(name, "has not two rows whose line has ended");
   if (!recording) return recording.problems();
+  if (recording->rows() < 2)
+    return too_short(name, "has one row, and when it was sent is found by how a log moves");
   base::Result<std::vector<double>> times = times_of(*recording, {});
   if (!times) return times.problems();
   study::Trace out{.columns = {study::all_columns().front()}, .values = {std::move(*times)}};

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "sixstep/base/angle.hpp"
@@ -23,10 +24,11 @@ using analysis::LoopPoint;
 using Json = nlohmann::ordered_json;
 
 constexpr double degrees_per_rad = 180 / sixstep::base::pi;
-/// Below it a line is told of: half of what came was not the multisine's.
-constexpr double little_coherence = 0.9;
 
-double dB(double gain) { return 20 * std::log10(gain); }
+/// Of what did not come there is no level, and no phase.
+constexpr double no_level = std::numeric_limits<double>::quiet_NaN();
+double dB(double gain) { return gain > 0.0 ? 20 * std::log10(gain) : no_level; }
+double degrees(const LoopPoint& p) { return p.gain > 0.0 ? p.phase_rad * degrees_per_rad : no_level; }
 
 const char* unit_of(const BodeStudy& s) {
   return s.mode == sixstep::control::Mode::current ? "A"
@@ -64,7 +66,7 @@ std::string beside_the_designed(const BodeStudy& s) {
   double most_dB = 0.0, deg = 0.0, Hz = 0.0;
   for (const LoopPoint& p : s.points) {
     const auto d = designed_at(s, p);
-    if (!d || p.coherence < little_coherence || std::fabs(dB(p.gain)) > near_crossover_dB) continue;
+    if (!d || p.coherence < analysis::little_coherence || std::fabs(dB(p.gain)) > near_crossover_dB) continue;
     const double off_dB = dB(p.gain) - d->gain_dB, off_deg = p.phase_rad * degrees_per_rad - d->phase_deg;
     if (std::fabs(off_dB) < far_dB && std::fabs(off_deg) < far_deg) continue;
     if (Hz > 0.0 && std::fabs(off_dB) <= std::fabs(most_dB)) continue;
@@ -78,7 +80,7 @@ std::string beside_the_designed(const BodeStudy& s) {
 }
 
 std::string gain_margin(const std::optional<double>& gain) {
-  return gain ? fmt::format("{:.1f} dB", dB(*gain)) : "-";
+  return gain && std::isfinite(dB(*gain)) ? fmt::format("{:.1f} dB", dB(*gain)) : "-";
 }
 
 Json times(const std::optional<double>& x, double factor) { return x ? finite(*x * factor) : Json(nullptr); }
@@ -121,14 +123,19 @@ std::vector<std::string> bode_notes(const BodeStudy& s) {
   std::vector<std::string> notes;
   if (!s.not_linear.empty()) notes.push_back("no linear loop to compare with: " + s.not_linear);
   const auto few = std::count_if(s.points.begin(), s.points.end(),
-                                 [](const LoopPoint& p) { return p.coherence < little_coherence; });
-  if (few > 0)
+                                 [](const LoopPoint& p) { return p.coherence < analysis::little_coherence; });
+  if (!analysis::answered(s.points))
+    notes.push_back(
+        "NOTHING WAS MEASURED: the loop did not answer at any of these lines; look at its run without --bode, or name a larger "
+        "amplitude");
+  else if (few > 0)
     notes.push_back(fmt::format(
         "{} of {} lines have a coherence below {:g}: commutation, ripple or noise is larger there than the answer; "
         "a larger amplitude helps",
-        few, s.points.size(), little_coherence));
+        few, s.points.size(), analysis::little_coherence));
   if (std::string told = beside_the_designed(s); !told.empty()) notes.push_back(std::move(told));
-  notes.push_back(fmt::format("{:.2g} % of the answer's rms stands at no line", 100 * s.beside));
+  if (std::isfinite(s.beside))
+    notes.push_back(fmt::format("{:.2g} % of the answer's rms stands at no line", 100 * s.beside));
   return notes;
 }
 
@@ -138,10 +145,10 @@ std::string bode_text(std::string_view name, const BodeStudy& s) {
   text += fmt::format("  {:>10}  {:>9}  {:>8}  {:>9}{}\n", "Hz", "|L|, dB", "phase", "coherence",
                       both ? fmt::format("  {:>12}  {:>8}", "designed, dB", "phase") : "");
   for (const LoopPoint& p : s.points) {
-    text += fmt::format("  {:>10.5g}  {:>9.2f}  {:>8.1f}  {:>9.4f}", p.w_rad_s / sixstep::base::turn_rad,
-                        dB(p.gain), p.phase_rad * degrees_per_rad, p.coherence);
+    text += fmt::format("  {:>10.5g}  {:>9}  {:>8}  {:>9}", p.w_rad_s / sixstep::base::turn_rad,
+                        fixed_text(dB(p.gain), 2), fixed_text(degrees(p), 1), fixed_text(p.coherence, 4));
     if (const auto d = designed_at(s, p))
-      text += fmt::format("  {:>12.2f}  {:>8.1f}", d->gain_dB, d->phase_deg);
+      text += fmt::format("  {:>12}  {:>8}", fixed_text(d->gain_dB, 2), fixed_text(d->phase_deg, 1));
     text += "\n";
   }
   text += fmt::format("  {:<20}{:>14}{}\n", "", "measured", both ? fmt::format("{:>14}", "designed") : "");
@@ -156,10 +163,16 @@ std::string bode_csv(const BodeStudy& s) {
   std::string text = "frequency_Hz,gain_dB,phase_deg,coherence,closed_gain_dB,scatter";
   text += s.designed ? ",designed_gain_dB,designed_phase_deg\n" : "\n";
   for (const LoopPoint& p : s.points) {
-    text += fmt::format("{},{},{},{},{},{}", p.w_rad_s / sixstep::base::turn_rad, dB(p.gain),
-                        p.phase_rad * degrees_per_rad, p.coherence, dB(p.closed.size()), p.scatter);
+    std::vector<double> cells{p.w_rad_s / sixstep::base::turn_rad,
+                              dB(p.gain),
+                              degrees(p),
+                              p.coherence,
+                              dB(p.closed.size()),
+                              p.scatter};
     const auto d = designed_at(s, p);
-    if (s.designed) text += d ? fmt::format(",{},{}", d->gain_dB, d->phase_deg) : ",,";
+    if (d) cells.insert(cells.end(), {d->gain_dB, d->phase_deg});
+    for (std::size_t n = 0; n < cells.size(); ++n) text += (n > 0 ? "," : "") + csv_cell(cells[n]);
+    if (s.designed && !d) text += ",,";
     text += "\n";
   }
   return text;
@@ -174,7 +187,8 @@ std::string bode_json(std::string_view name, const BodeStudy& s) {
                {"unit", unit_of(s)},
                {"samples", s.signal.samples},
                {"sample_s", s.period_s},
-               {"beside", s.beside}};
+               {"beside", finite(s.beside)},
+               {"answered", analysis::answered(s.points)}};
   const analysis::ReadMargins& m = s.measured;
   json["measured"] = margins_json(m.crossover_rad_s, m.phase_rad, m.gain, m.delay_s, m.bandwidth_rad_s);
   if (s.figures)
@@ -184,14 +198,14 @@ std::string bode_json(std::string_view name, const BodeStudy& s) {
   for (const LoopPoint& p : s.points) {
     Json point = {{"frequency_Hz", p.w_rad_s / sixstep::base::turn_rad},
                   {"gain_dB", finite(dB(p.gain))},
-                  {"phase_deg", p.phase_rad * degrees_per_rad},
-                  {"coherence", p.coherence},
-                  {"scatter", p.scatter},
-                  {"closed_re", p.closed.re},
-                  {"closed_im", p.closed.im}};
+                  {"phase_deg", finite(degrees(p))},
+                  {"coherence", finite(p.coherence)},
+                  {"scatter", finite(p.scatter)},
+                  {"closed_re", finite(p.closed.re)},
+                  {"closed_im", finite(p.closed.im)}};
     if (const auto d = designed_at(s, p)) {
       point["designed_gain_dB"] = finite(d->gain_dB);
-      point["designed_phase_deg"] = d->phase_deg;
+      point["designed_phase_deg"] = finite(d->phase_deg);
     }
     json["points"].push_back(std::move(point));
   }

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "text/keys/decimal_number.hpp"
 #include "text/results/plan_columns.hpp"
 #include "text/results/plan_text.hpp"
+#include "text/results/quantity_text.hpp"
 
 namespace text {
 namespace {
@@ -111,7 +113,7 @@ std::string plan_csv_row(const analysis::RunRecord& r) {
       fmt::format("{},{},{}", r->number, base::word(analysis::run_ends, r->end), analysis::passed(r) ? 1 : 0);
   for (const std::string& value : r->point) line += "," + value_cell(value);
   for (const std::vector<double>* numbers : {&r->strayed, &r->figures})
-    for (const double x : *numbers) line += "," + (x == x ? base::written(x) : std::string());
+    for (const double x : *numbers) line += "," + (std::isfinite(x) ? base::written(x) : csv_cell(x));
   return line + "," + csv_cell(r->problem) + "," + base::written_hex(r->digest) + "\n";
 }
 

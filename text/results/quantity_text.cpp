@@ -64,6 +64,15 @@ std::string quantity_text(double x, const std::string& unit, int digits) {
   return joined(prefixed(x, prefix, digits), unit_text(prefix, unit));
 }
 
+std::string fixed_text(double x, int digits) {
+  return std::isfinite(x) ? fmt::format("{:.{}f}", x, digits) : "-";
+}
+
+std::string csv_cell(double x) {
+  if (std::isnan(x)) return "";
+  return std::isinf(x) ? (x > 0.0 ? "never" : "-never") : fmt::format("{}", x);
+}
+
 ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const std::string& unit) {
   double largest = 0.0;
   for (const double y : yardsticks) largest = std::max(largest, std::abs(y));

@@ -98,9 +98,13 @@ std::string repeats_text(const analysis::Plan& plan, std::size_t number) {
                            : fmt::format("--only {}", number);
 }
 
+std::string stopped_text(const analysis::Series& series, const analysis::Plan& plan) {
+  return casualties(series.faults, "stopped by a fault", plan) +
+         casualties(series.refused, "could not run", plan);
+}
+
 std::string casualties_text(const analysis::Series& series, const analysis::Plan& plan) {
-  std::string text = casualties(series.faults, "stopped by a fault", plan);
-  text += casualties(series.refused, "could not run", plan);
+  std::string text = stopped_text(series, plan);
   for (const analysis::SpreadFigure& f : series.figures)
     if (f.first_miss)
       text += fmt::format("  {}: the first miss is {} {} ({})\n", visible(f.column.name), one_of(plan),

@@ -15,6 +15,8 @@ std::string series_table(const std::string& name, const analysis::Series& series
 // Its parts, for who shows the figures otherwise.
 /// Who was stopped or refused, and the first that misses each requirement; a line each.
 std::string casualties_text(const analysis::Series& series, const analysis::Plan& plan);
+/// The first of these alone: how many were stopped or refused, and why the first.
+std::string stopped_text(const analysis::Series& series, const analysis::Plan& plan);
 /// The last line: "1000 drives, seed 1: all hold every requirement".
 std::string series_sum(const analysis::Series& series, const analysis::Plan& plan);
 /// The options that run number `number` alone: "--only 12".

@@ -124,6 +124,15 @@ std::string verdict_table(std::span<const TableEntry> entries, bool colour) {
   return text;
 }
 
+std::string faults_text(std::span<const TableEntry> entries) {
+  std::string text;
+  for (const TableEntry& entry : entries)
+    if (entry.outcome->fault)
+      text += visible(entry.experiment + ": stopped by a fault: " + base::to_string(*entry.outcome->fault)) +
+              "\n";
+  return text;
+}
+
 std::string verdict_summary(std::span<const TableEntry> entries, bool colour) {
   std::size_t requirements = 0, misses = 0, stopped = 0;
   std::string which;

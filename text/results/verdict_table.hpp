@@ -20,6 +20,9 @@ std::string verdict_table(std::span<const TableEntry> entries, bool colour);
 /// "22 experiments: all 43 requirements hold", or which of them fail.
 std::string verdict_summary(std::span<const TableEntry> entries, bool colour);
 
+/// Of those that a fault stopped: a line each, for who shows no table.
+std::string faults_text(std::span<const TableEntry> entries);
+
 /// "-0.25 %"; empty where the source says zero: the measured value is the difference.
 std::string deviation_text(const study::ComparisonResult& comparison);
 

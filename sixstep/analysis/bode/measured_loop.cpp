@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/analysis/bode/measured_loop.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
@@ -70,6 +71,7 @@ std::vector<LoopPoint> loop_points(const Multisine& signal, const Answer& answer
 
 ReadMargins margins_of(const std::vector<LoopPoint>& points) {
   ReadMargins out;
+  if (!answered(points)) return out;
   if (const auto crossing = fall_through(points, 0.0, Which::last, log_gain)) {
     out.crossover_rad_s = crossing->w_rad_s();
     out.phase_rad = base::pi + crossing->at(phase);
@@ -82,6 +84,11 @@ ReadMargins margins_of(const std::vector<LoopPoint>& points) {
                                     [](const LoopPoint& p) { return base::log(p.closed.size()); }))
     out.bandwidth_rad_s = end->w_rad_s();
   return out;
+}
+
+bool answered(const std::vector<LoopPoint>& points) {
+  return std::any_of(points.begin(), points.end(),
+                     [](const LoopPoint& p) { return p.coherence >= little_coherence && p.gain > 0.0; });
 }
 
 }  // namespace sixstep::analysis

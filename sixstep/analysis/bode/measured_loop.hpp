@@ -30,4 +30,9 @@ struct ReadMargins {
 };
 ReadMargins margins_of(const std::vector<LoopPoint>& points);
 
+/// Below it half of what came at a line was not the multisine's.
+inline constexpr double little_coherence = 0.9;
+/// Whether any line at all came back. Of a loop that did not answer nothing is measured.
+bool answered(const std::vector<LoopPoint>& points);
+
 }  // namespace sixstep::analysis

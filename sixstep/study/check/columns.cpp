@@ -4,6 +4,48 @@
 
 namespace sixstep::study {
 
+namespace {
+
+/// Why a column has nothing to show, by the key that decides it.
+struct NoValue {
+  const char *limit, *cure;
+};
+
+NoValue no_value(ColumnId id, const Scenario& s) {
+  switch (id) {
+    case ColumnId::load_speed:
+    case ColumnId::load_angle:
+      return {"is of a load behind a gear or an elastic shaft, and this one turns with the rotor",
+              "record speed_rad_s and angle_rad, or set load.gear or load.stiffness_Nm_rad"};
+    case ColumnId::source_A:
+      return {"is recorded where the source has an inductance, and supply.inductance_H = 0",
+              "remove it, or set supply.inductance_H; bus_A is what the bridge takes"};
+    case ColumnId::capacitor_A:
+      return {"is recorded where the capacitor has a resistance, and supply.capacitor_resistance_ohm = 0",
+              "remove it, or set supply.capacitor_resistance_ohm"};
+    case ColumnId::battery_charge:
+      return {"is a battery's, and supply.source is none", "remove it, or set supply.source = \"battery\""};
+    case ColumnId::winding_degC:
+    case ColumnId::housing_degC:
+      return {"stays as it is while heat.motor = false", "remove it, or set heat.motor = true"};
+    case ColumnId::junction_degC:
+      return {"stays as it is while heat.devices = false", "remove it, or set heat.devices = true"};
+    default:
+      break;
+  }
+  if (id >= ColumnId::i_d && s.control.drive != FirmwareKind::field)
+    return {"is held by the field-oriented drive only",
+            "remove it, or set control.drive = \"field-oriented\""};
+  if (id == ColumnId::angle_error)
+    return {"is 0 where nothing senses the angle: sensors.rotor = \"ideal\"",
+            "remove it, or set sensors.rotor or control.field.angle"};
+  if (id >= ColumnId::encoder_A && id < ColumnId::i_d)
+    return {"is a signal of another sensor than sensors.rotor", "remove it, or set sensors.rotor"};
+  return {"has no value in this control.mode", "remove it, or control what it is the reference of"};
+}
+
+}  // namespace
+
 base::Problems check_columns(const Scenario& s) {
   base::Problems out;
   const auto columns = record_indices(s);
@@ -11,12 +53,8 @@ base::Problems check_columns(const Scenario& s) {
   for (const std::size_t n : *columns) {
     const auto id = static_cast<ColumnId>(n);
     if (applies(id, s) || id == ColumnId::loop_A) continue;  // a star's is 0
-    const bool of_field = id >= ColumnId::i_d && s.control.drive != FirmwareKind::field;
-    out.push_back(
-        {"record.columns", "\"" + all_columns(s.sheet.kind)[n].name + "\"",
-         of_field ? "is held by the field-oriented drive only" : "has no value in this control.mode",
-         of_field ? "remove it, or set control.drive = \"field-oriented\""
-                  : "remove it, or control what it is the reference of"});
+    const NoValue why = no_value(id, s);
+    out.push_back({"record.columns", "\"" + all_columns(s.sheet.kind)[n].name + "\"", why.limit, why.cure});
   }
   return out;
 }

@@ -63,8 +63,9 @@ void describe(Visitor& v, Record& s) {
           {.meaning = "spacing of the recorded rows; without it pwm.period_s",
            .unit = "s",
            .range = from(shortest_period_s)});
-  v.value("events", s.events,
-          {.meaning = "whether every event is recorded too, with both sides of each jump"});
+  v.value(
+      "events", s.events,
+      {.meaning = "whether rows stand at every event, with both sides of each jump, in place of the grid"});
   v.value("columns", s.columns, {.meaning = "columns to record, t_s always first; without it all of them"});
 }
 
