@@ -2,7 +2,7 @@
 """Which law judges which block. A block is found by its page and a piece of its text or heading."""
 import re
 
-from laws import bench, contest, curve, design, run_output, series, tables
+from laws import bench, contest, curve, design, drives, run_output, series, tables
 from page import REPOSITORY
 
 # What a reader writes or runs is no result.
@@ -80,22 +80,6 @@ def motor_check(test, spot):
     test.assertTrue(rows or model or "hold" in spot.text, str(spot))
 
 
-def kv(test, spot):
-    """920 rpm/V of a sine's peak between two terminals, or of its mean over the driven pair."""
-    told = [float(x) for x in re.findall(r"K_t +([\d.]+) mNm/A", spot.text)]
-    peak = 1e3 / (920 * 3.14159265 / 30)
-    curve.same(test, spot, "line-peak", told[0], peak * 3 / 3.14159265, 1e-3)
-    curve.same(test, spot, "six-step", told[1], peak, 1e-3)
-
-
-def frames(test, spot):
-    """0.42 Nm/A of a sine: terminal as it is, peak 2 K/3 of a phase, rms that over sqrt 2; terminal is 1.654 K_e."""
-    terminal, peak, rms = (float(x) for x in re.findall(r"constant of ([\d.]+) mNm/A", spot.text))
-    curve.same(test, spot, "terminal", terminal, 420, 1e-3)
-    curve.same(test, spot, "peak", peak, 420 * 2 / 3 * 1.65399, 1e-3)
-    curve.same(test, spot, "rms", rms, 420 * 2 / 3 * 1.65399 / 2**0.5, 1e-3)
-
-
 def capacitor_store(test, spot):
     """The least sum of the page's own table of that plan, and as many runs as it has that pass."""
     table = (REPOSITORY / spot.page).read_text(encoding="utf-8")
@@ -104,31 +88,6 @@ def capacitor_store(test, spot):
         sums = [sum(float(x) for x in re.findall(r"([\d.]+) W", cells)[:2]) for name, cells in rows if name == chopping]
         test.assertEqual(int(runs), len(sums), str(spot))
         test.assertLess(abs(min(sums) - float(least)), 0.006, f"{spot}: {chopping}")
-
-
-def devices(test, spot):
-    """Warm by what it loses: sink 40 degC and 40 K/W, as the page's scenario says."""
-    for name, body in re.findall(r'"device": "(T\d)",\n(.*?)\}', spot.text, re.S):
-        losses = sum(float(x) for x in re.findall(r'_W": ([\d.]+)', body))
-        degC = float(re.search(r'junction_degC": ([\d.]+)', body).group(1))
-        test.assertLess(abs(40 + 40 * losses - degC), 0.05, f"{spot}: {name}")
-    for x in re.findall(r'_W": ([\d.]+)', spot.text):
-        test.assertLess(float(x), 24 * 4, str(spot))
-
-
-def throttle(test, spot):
-    """The slew is half as fast where complementary chopping brakes; K_t^2 I_N/(J U) of the 251601 by its sheet."""
-    for ten, half in re.findall(r"duty from 10 to 100 % in +(\d+) ms, complementary in +(\d+) ms", spot.text):
-        test.assertLess(abs(int(half) / int(ten) - 2), 0.03, str(spot))
-    told = int(re.search(r"maxon-251601 .*? in +(\d+) ms", spot.text).group(1))
-    test.assertLess(abs(told - 0.9e3 / (2.33 * 0.0335**2 / (135e-7 * 24))), 0.02 * told, str(spot))
-
-
-def starts(test, spot):
-    rows = re.findall(r"(\d+) of (\d+) hold, (\d+) at the first try, up to speed within ([\d.]+) s", spot.text)
-    test.assertEqual(12, len(rows))
-    for held, asked, first, within in rows:
-        test.assertTrue(int(first) <= int(held) == int(asked) and float(within) < 2, str(spot))
 
 
 def counted(test, spot):
@@ -169,39 +128,6 @@ def session(test, spot):
     test.assertGreater(speeds[1], speeds[0])
 
 
-def laid_over(test, spot):
-    for rms, most, span in re.findall(r"rms ([\d.]+) \S* *at most -?([\d.]+).*?of ([\d.]+)", spot.text):
-        del rms
-        test.assertLessEqual(float(most), 1e4 * float(span), str(spot))
-
-
-def braking(test, spot):
-    told = float(re.search(r"held up to ([\d.]+) rad/s", spot.text).group(1))
-    from gallery_sheet import I_N, K_T, R
-    curve.same(test, spot, "(i/K_t) R", told, I_N / K_T * R, 2e-3)
-
-
-def exported(test, spot):
-    """A gain in 16 bits is that of the design to a digit of its own."""
-    held, gain = re.search(r"// ([\d.]+) V/A, held as ([\d.]+)", spot.text).groups()
-    test.assertLess(abs(float(held) - float(gain)), 2.0**-13, str(spot))
-
-
-def bring_up(test, spot):
-    """What the steps should read, by the sheet: a Hall line has p turns of the shaft a second, the current carries load and friction."""
-    from math import pi
-    from gallery_sheet import B, I_N, K_T, PAIRS
-    text = spot.text.replace("Hall 1 at ", "")
-    steps = re.findall(r"([\d.]+) rad/s, ([\d.]+) A, [\d.]+(?: at 0.02 N m of load)?[;,] ([\d.]+) Hz", text)
-    test.assertEqual(3, len(steps), str(spot))
-    for speed, current, hertz in steps:
-        w = float(speed)
-        test.assertLess(abs(float(hertz) - PAIRS * w / 2 / pi), 0.6, f"{spot}: {speed} rad/s")
-        curve.same(test, spot, f"current at {speed} rad/s", float(current), (0.02 + B * w) / K_T, 0.05)
-    limit = float(re.search(r"limit of ([\d.]+) A", text).group(1))
-    curve.same(test, spot, "2.5 times the nominal current", limit, 2.5 * I_N, 2e-3)
-
-
 def rows_at_the_leader(test, spot):
     """Reading and storing a row is what limits the rows a second that the page promises."""
     times = [float(cells[1].split()[0]) for cells in spot.rows()]
@@ -214,7 +140,8 @@ def rows_at_the_leader(test, spot):
 
 
 BY_TEXT = [
-    ("docs/firmware.md", "| | do | measure |", bring_up), ("docs/cluster.md", "| for each row |", rows_at_the_leader),
+    ("docs/firmware.md", "kHz pulses", drives.bring_up_avr), ("docs/control.md", "least that flows", drives.beyond_the_bus),
+    ("docs/motors.md", "| oz-in-s2", drives.trade_units), ("docs/firmware.md", "| | do | measure |", drives.bring_up), ("docs/cluster.md", "| for each row |", rows_at_the_leader),
     ("docs/curve.md", "rpm ", curve.judge), ("docs/manual/faq.md", "rpm ", curve.judge),
     ("README.md", "drives, seed", series.judge_drives), ("docs/manual", "drives, seed", series.judge_drives),
     ("docs/many-runs.md", "verdict", series.judge_plan), ("docs/many-runs.md", "limited by", series.judge_best_pwm),
@@ -223,7 +150,7 @@ BY_TEXT = [
     ("docs/bench.md", "hysteresis  ", bench.identify), ("docs/commissioning.md", "off by     bound", bench.commission_sheet),
     ("docs/commissioning.md", "psi ", bench.commission_constants), ("docs/commissioning.md", "worst edge off", bench.hall_places),
     ("docs/commissioning.md", "rotor angles", rotor_angles), ("docs/wiring.md", "theory   speed", tables.wiring),
-    ("docs/control.md", "at the first try, up to speed", starts), ("docs/control.md", "duty from 10 to 100 %", throttle),
+    ("docs/control.md", "at the first try, up to speed", drives.starts), ("docs/control.md", "duty from 10 to 100 %", drives.throttle),
     ("docs/control.md", "lost once in", counted), ("docs/bode.md", "coherence  designed", bode),
     ("README.md", "case      ", tables.reference), ("README.md", "RK4 with it", floating_phase),
     ("README.md", "| case |", tables.speed), ("docs/performance.md", "| observer |", tables.observers),
@@ -232,12 +159,12 @@ BY_TEXT = [
     ("docs/cluster.md", "| ranks |", tables.cluster_measured), ("docs/cluster.md", "| a run |", tables.cluster_limits),
     ("docs/firmware.md", "| digests |", tables.digests), ("docs/firmware.md", "| function |", tables.block_costs),
     ("docs/firmware.md", "| core | arithmetic |", tables.drive_costs), ("docs/own-controller.md", "core        step", tables.own_cost),
-    ("docs/firmware.md", "less the simulation", laid_over), ("docs/session.md", "the same bits again", session),
+    ("docs/firmware.md", "less the simulation", drives.laid_over), ("docs/session.md", "the same bits again", session),
     ("docs/manual/position.md", "known by", tables.position), ("docs/motors.md", "$ sixstep motor list", tables.motor_list),
     ("docs/motors.md", "  Relation ", motor_check), ("docs/manual/tour.md", "  Relation ", motor_check),
-    ("docs/manual/faq.md", "motor show kv.toml | grep K_t", kv), ("docs/manual/faq.md", "torque_constant_Nm_A = 0.42", frames),
-    ("docs/manual/faq.md", "braking, soft", braking), ("docs/manual/faq.md", '"device"', devices),
-    ("docs/manual/tour.md", "held as", exported), ("docs/manual/faq.md", "cases match", counted),
+    ("docs/manual/faq.md", "motor show kv.toml | grep K_t", drives.kv), ("docs/manual/faq.md", "torque_constant_Nm_A = 0.42", drives.frames),
+    ("docs/manual/faq.md", "braking, soft", drives.braking), ("docs/manual/faq.md", '"device"', drives.devices),
+    ("docs/manual/tour.md", "held as", drives.exported), ("docs/manual/faq.md", "cases match", counted),
     ("docs/manual/tour.md", "settles in", design.judge), ("docs/manual/faq.md", "Fastest settling", design.judge),
     ("docs/design.md", "", design.judge), ("README.md", "Fastest settling", design.judge),
     ("docs/scenario.md", "| key |", default_in_range),

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Laws of single blocks about motors, drives and boards, each by hand from the sheet."""
+import re
+from math import pi
+
+from gallery_sheet import B, I_N, K_T, PAIRS, R
+from laws import curve
+from laws.scenarios import read
+from page import REPOSITORY
+
+
+def kv(test, spot):
+    """920 rpm/V of a sine's peak between two terminals, or of its mean over the driven pair."""
+    told = [float(x) for x in re.findall(r"K_t +([\d.]+) mNm/A", spot.text)]
+    peak = 1e3 / (920 * 3.14159265 / 30)
+    curve.same(test, spot, "line-peak", told[0], peak * 3 / 3.14159265, 1e-3)
+    curve.same(test, spot, "six-step", told[1], peak, 1e-3)
+
+
+def frames(test, spot):
+    """0.42 Nm/A of a sine: terminal as it is, peak 2 K/3 of a phase, rms that over sqrt 2; terminal is 1.654 K_e."""
+    terminal, peak, rms = (float(x) for x in re.findall(r"constant of ([\d.]+) mNm/A", spot.text))
+    curve.same(test, spot, "terminal", terminal, 420, 1e-3)
+    curve.same(test, spot, "peak", peak, 420 * 2 / 3 * 1.65399, 1e-3)
+    curve.same(test, spot, "rms", rms, 420 * 2 / 3 * 1.65399 / 2**0.5, 1e-3)
+
+
+def trade_units(test, spot):
+    """By the definitions of pound, ounce and inch."""
+    pound, inch, g = 0.45359237, 0.0254, 9.80665
+    for words, number in {r"1 oz-in is ([\d.]+) mNm": pound / 16 * g * inch * 1e3, r"1 lb-in ([\d.]+) mNm": pound * g * inch * 1e3,
+                          r"1 kg cm ([\d.]+) mNm": g * 10, r"1 oz-in-s2 is ([\d.]+) g cm2": pound / 16 * g * inch * 1e7,
+                          r"masses, ([\d.]+) and": pound / 16 * inch**2 * 1e7, r"and ([\d.]+) g cm2": pound * inch**2 * 1e7}.items():
+        curve.same(test, spot, words, float(re.search(words, spot.text).group(1)), number, 5e-5 if "masses" not in words and "and" not in words else 3e-4)
+
+
+def beyond_the_bus(test, spot):
+    """Least current inside of the circle V = U/sqrt 3 against E = w p psi over Z; what flows beside what is asked for is little more."""
+    pairs, psi, inductance, resistance, bus, w = 7, 5.12e-3, 22.3e-6, 18.7e-3, 60, 1000
+    V, E, Z = bus / 3**0.5, w * pairs * psi, ((w * pairs * inductance)**2 + resistance**2)**0.5
+    least = (E - V) / Z
+    rows = {name: [float(x) for x in re.findall(r"([\d.]+) A", found)] for name, found in spot.rows()}
+    curve.same(test, spot, "least", rows["least that flows"][0], least, 5e-3)
+    for name, found in rows.items():
+        asked = [abs(float(x)) for x in re.findall(r"(-?\d+) A", name.split("asked for")[0])] or [0.0]
+        flows = (E - 0.95 * V) / Z if "95 %" in name else least
+        for reference, current in zip(asked * len(found), found):
+            test.assertTrue(reference <= current <= reference + 1.25 * flows, f"{spot}: {name}: {current} A")
+
+
+def bring_up(test, spot):
+    """What the steps should read, by the sheet: a Hall line has p turns of the shaft a second, the current carries load and friction."""
+    text = spot.text.replace("Hall 1 at ", "")
+    steps = re.findall(r"([\d.]+) rad/s, ([\d.]+) A, [\d.]+(?: at 0.02 N m of load)?[;,] ([\d.]+) Hz", text)
+    test.assertEqual(3, len(steps), str(spot))
+    for speed, current, hertz in steps:
+        w = float(speed)
+        test.assertLess(abs(float(hertz) - PAIRS * w / 2 / pi), 0.6, f"{spot}: {speed} rad/s")
+        curve.same(test, spot, f"current at {speed} rad/s", float(current), (0.02 + B * w) / K_T, 0.05)
+    limit = float(re.search(r"limit of ([\d.]+) A", text).group(1))
+    curve.same(test, spot, "2.5 times the nominal current", limit, 2.5 * I_N, 2e-3)
+
+
+def bring_up_avr(test, spot):
+    """Its scenario's PWM frequency and dead time are what the steps have at the scope."""
+    scenario = read(REPOSITORY / "data/scenarios/firmware/avr.toml")
+    told = float(re.search(r"([\d.]+) kHz pulses", spot.text).group(1))
+    curve.same(test, spot, "PWM", told, 1e-3 / float(scenario["pwm"]["period_s"]), 1e-6)
+    dead_us = 1e6 * float(scenario["bridge"]["dead_time_s"])
+    test.assertIn(f"{dead_us:g} us and the fall", spot.text)
+
+
+def laid_over(test, spot):
+    for rms, most, span in re.findall(r"rms ([\d.]+) \S* *at most -?([\d.]+).*?of ([\d.]+)", spot.text):
+        del rms
+        test.assertLessEqual(float(most), 1e4 * float(span), str(spot))
+
+
+def throttle(test, spot):
+    """The slew is half as fast where complementary chopping brakes; K_t^2 I_N/(J U) of the 251601 by its sheet."""
+    for ten, half in re.findall(r"duty from 10 to 100 % in +(\d+) ms, complementary in +(\d+) ms", spot.text):
+        test.assertLess(abs(int(half) / int(ten) - 2), 0.03, str(spot))
+    told = int(re.search(r"maxon-251601 .*? in +(\d+) ms", spot.text).group(1))
+    test.assertLess(abs(told - 0.9e3 / (2.33 * 0.0335**2 / (135e-7 * 24))), 0.02 * told, str(spot))
+
+
+def starts(test, spot):
+    rows = re.findall(r"(\d+) of (\d+) hold, (\d+) at the first try, up to speed within ([\d.]+) s", spot.text)
+    test.assertEqual(12, len(rows))
+    for held, asked, first, within in rows:
+        test.assertTrue(int(first) <= int(held) == int(asked) and float(within) < 2, str(spot))
+
+
+def braking(test, spot):
+    told = float(re.search(r"held up to ([\d.]+) rad/s", spot.text).group(1))
+    curve.same(test, spot, "(i/K_t) R", told, I_N / K_T * R, 2e-3)
+
+
+def exported(test, spot):
+    """A gain in 16 bits is that of the design to a digit of its own."""
+    held, gain = re.search(r"// ([\d.]+) V/A, held as ([\d.]+)", spot.text).groups()
+    test.assertLess(abs(float(held) - float(gain)), 2.0**-13, str(spot))
+
+
+def devices(test, spot):
+    """Warm by what it loses: sink 40 degC and 40 K/W, as the page's scenario says."""
+    for name, body in re.findall(r'"device": "(T\d)",\n(.*?)\}', spot.text, re.S):
+        losses = sum(float(x) for x in re.findall(r'_W": ([\d.]+)', body))
+        degC = float(re.search(r'junction_degC": ([\d.]+)', body).group(1))
+        test.assertLess(abs(40 + 40 * losses - degC), 0.05, f"{spot}: {name}")
+    for x in re.findall(r'_W": ([\d.]+)', spot.text):
+        test.assertLess(float(x), 24 * 4, str(spot))
