@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # configure.sh PRESET: configures build/PRESET where that is still to be done. In a copy of a checkout the folder
 # that came along would go on building the original's sources: it is made anew, which is said.
+# What was missing when it was configured, and has been installed since, is looked for anew.
 set -eu
 cd "$(dirname "$0")/.."
 build=build/$1 log=build/$1.log
@@ -11,7 +12,12 @@ if [ -n "$home" ] && ! [ "$home" -ef . ]; then
   echo "$build was made for $home, not for this copy of it: making it anew"
   rm -rf "$build"
 fi
-if [ ! -f "$build/build.ninja" ]; then
+# A parts' list that has not changed since the last look brings nothing new.
+parts=/var/lib/dpkg/status looked=$build/looked-for-parts
+newer() { [ ! -e "$parts" ] || [ ! -e "$looked" ] || [ "$parts" -nt "$looked" ]; }
+lacks() { grep -q -- '-NOTFOUND$' "$build/CMakeCache.txt" 2>/dev/null; }
+if [ ! -f "$build/build.ninja" ] || { lacks && newer; }; then
   echo "configuring ($build)"
   cmake --preset "$1" >"$log" 2>&1 || { cat "$log"; exit 1; }
+  touch "$looked"
 fi

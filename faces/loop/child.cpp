@@ -64,11 +64,16 @@ std::string on_path(const std::string& program) {
   return "";
 }
 
+base::Problem not_here(const std::string& program) {
+  const bool is_ours = program.starts_with("sixstep-");
+  return {program, "", "is not on this machine",
+          is_ours ? "tools/install.sh target installs what it is made of; then build sixstep again"
+                  : "install it: tools/packages.txt lists the packages for cores under [target]"};
+}
+
 base::Result<Child> Child::start(const Command& command) {
   const Prepared prepared(command);
-  if (prepared.program.empty())
-    return base::Problem{command.words.front(), "", "is not on this machine",
-                         "install it: tools/packages.txt lists the packages for cores under [target]"};
+  if (prepared.program.empty()) return not_here(command.words.front());
   // Beyond all numbers that the program asks for, so that none is overwritten before it is copied.
   std::vector<Given> out_of_the_way;
   for (const Given& given : command.given)

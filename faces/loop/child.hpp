@@ -15,6 +15,8 @@ namespace loop {
 
 /// Where PATH finds a program; empty: nowhere.
 std::string on_path(const std::string& program);
+/// That it does so nowhere, and what brings it.
+base::Problem not_here(const std::string& program);
 
 /// A descriptor of ours and the number under which the program finds it.
 struct Given {

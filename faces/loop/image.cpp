@@ -129,12 +129,21 @@ base::Problems carried_out(const Core& core, const Words& words, const fs::path&
            "please report it with the scenario file"}};
 }
 
+/// All at once, and before the compiler is kept waiting for.
+base::Problems missing_programs(const Core& core) {
+  base::Problems missing;
+  for (const Words* words : {&core.compiler, &core.linker, &core.emulator})
+    if (!words->empty() && on_path(words->front()).empty()) missing.push_back(not_here(words->front()));
+  return missing;
+}
+
 }  // namespace
 
 base::Result<std::string> compiled_image(const Core& core, const study::Scenario& scenario,
                                          const std::string& folder) {
   const base::Result<fs::path> root = sources();
   if (!root) return root.problems();
+  if (base::Problems missing = missing_programs(core); !missing.empty()) return missing;
   const fs::path here = folder, image = here / "image.elf", log = here / "compiler.log";
   if (base::Problems problems = write_header(scenario, here / "drive_config.hpp"); !problems.empty())
     return problems;
