@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "faces/cli/keep.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
 #include "files/atomic_file.hpp"

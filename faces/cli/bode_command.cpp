@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "faces/cli/run_reading.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
 #include "files/atomic_file.hpp"
 #include "report/bode_page.hpp"
 #include "sixstep/analysis/bode/bode_study.hpp"
+#include "text/escape/escape.hpp"
 #include "text/results/bode_text.hpp"
 
 namespace cli {
@@ -97,7 +99,11 @@ Exit measure(const Job& job, const RunArguments& a, std::vector<BodeFile>& files
   for (const char* option : {"--csv", "--json"})
     if (a.paths.of(option) == "-") print(content(option, job.name(), *s, a));
   if (!a.quiet) print(text::bode_text(job.name(), *s), a.paths.prints() ? stderr : stdout);
-  return Exit::ok;
+  // What a quiet run leaves out.
+  const bool answered = analysis::answered(s->points);
+  if (a.quiet && !answered)
+    print(text::visible(job.name()) + ": the loop did not answer: nothing was measured\n", stderr);
+  return answered ? Exit::ok : Exit::failed;
 }
 
 }  // namespace

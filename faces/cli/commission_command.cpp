@@ -7,6 +7,7 @@
 
 #include "faces/cli/choose.hpp"
 #include "faces/cli/keep.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
 #include "files/atomic_file.hpp"
@@ -99,9 +100,9 @@ Exit commission_command(const CommissionArguments& a) {
                                         .keep_going = [] { return !interrupted(); }};
   if (const auto bench = analysis::commission_bench(order.subject); !bench)
     return refused(told(bench.problems(), a));
+  catch_interrupts();
   CommissionFiles outputs;
   if (const base::Problems found = outputs.open(a); !found.empty()) return refused(found);
-  catch_interrupts();
   const base::Result<analysis::CommissionStudy> s = analysis::study_commission(order);
   if (interrupted()) return told_interrupted("motor commission " + a.motor);
   if (!s) return refused(told(s.problems(), a));

@@ -13,6 +13,7 @@
 #include "faces/cli/progress.hpp"
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/run_command.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/loop/cores.hpp"
 #include "faces/loop/on_core.hpp"
@@ -128,9 +129,10 @@ base::Result<std::optional<files::AtomicFile>> page_of(const RunArguments& argum
   return std::optional(std::move(*file));
 }
 
-void print_table(const std::vector<Job>& jobs, const std::vector<Compared>& runs) {
+void print_table(const std::vector<Job>& jobs, const std::vector<Compared>& runs, bool quiet) {
   std::vector<text::TableEntry> entries;
   for (std::size_t n = 0; n < runs.size(); ++n) entries.push_back({jobs[n].name(), &*runs[n].outcome});
+  if (quiet) return print(text::faults_text(entries), stderr);
   print(text::verdict_table(entries, may_colour(stdout)) +
         text::verdict_summary(entries, may_colour(stdout)));
 }
@@ -212,7 +214,7 @@ Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs
     unwritten = (*file)->commit();
     complain(unwritten);
   }
-  if (!arguments.quiet) print_table(jobs, runs);
+  print_table(jobs, runs, arguments.quiet);
   if (*log && !arguments.quiet)
     print(text::laid_over_text((*log)->name, (*log)->found.columns, (*log)->found.shift_s));
   return unwritten.empty() ? exit : graver(exit, Exit::bad_input);

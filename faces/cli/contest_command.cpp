@@ -16,6 +16,7 @@
 #include "faces/cli/outputs.hpp"
 #include "faces/cli/plan_storing.hpp"
 #include "faces/cli/progress.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/stop_watch.hpp"
 #include "faces/cli/store_option.hpp"
 #include "faces/cli/terminal.hpp"
@@ -195,9 +196,9 @@ Exit contest_command(const ContestArguments& a) {
   if (!contestants) return refused(contestants.problems());
   std::vector<analysis::ContestEntry> entries =
       text::contest_entries(*bench, files::on_disk(a.data_dir), contestants->all);
+  catch_interrupts();
   ContestFiles outputs;
   if (const base::Problems found = outputs.open(a, entries); !found.empty()) return refused(found);
-  catch_interrupts();
   analysis::Contest contest = nominally(a, std::move(*bench), std::move(entries));
   if (interrupted()) return told_interrupted("compare " + a.motor);
   if (const base::Problems problems = over_the_tolerances(a, contest); !problems.empty())

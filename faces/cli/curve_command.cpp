@@ -10,6 +10,7 @@
 #include "batch/curve.hpp"
 #include "faces/cli/keep.hpp"
 #include "faces/cli/side_by_side.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
 #include "files/scenario_on_disk.hpp"
@@ -148,9 +149,9 @@ Exit curve_command(const CurveArguments& a) {
   }
   base::Problems problems = written_twice({{"--csv", a.csv}, {"--json", a.json}, {"--html", a.html}});
   if (!problems.empty()) return refused(problems);
+  catch_interrupts();
   CurveFiles out = outputs(a, request->sheet, problems);
   if (!problems.empty()) return refused(problems);
-  catch_interrupts();
   const base::Result<analysis::Curve> curve = batch::torque_speed_curve(
       *request, side_by_side(a.jobs, a.quiet, "points"), [] { return !interrupted(); });
   if (!curve) {

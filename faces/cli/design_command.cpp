@@ -13,6 +13,7 @@
 #include "faces/cli/optimise_command.hpp"
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/spec_words.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/store_option.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
@@ -132,9 +133,8 @@ base::Problems write(const analysis::DesignStudy& s, const DesignArguments& a, D
                                                        .version = SIXSTEP_VERSION})));
   if (out.models) {
     const files::ModelPoint point{s.design.motor, a.angle_deg};
-    const base::Result<std::string> bytes =
-        fs::path(a.models).extension() == ".mat" ? files::models_mat(point) : files::models_json(point);
-    append(found, bytes ? put(out.models, *bytes) : bytes.problems());
+    const bool is_mat = fs::path(a.models).extension() == ".mat";
+    append(found, put(out.models, is_mat ? files::models_mat(point) : files::models_json(point)));
   }
   return found;
 }
@@ -214,10 +214,10 @@ Exit design_command(const DesignArguments& a) {
   const design::DesignSpec spec = spec_of(a, board ? &*board : nullptr, found);
   const base::Result<analysis::DesignSubject> subject = subject_of(a, board, found);
   if (subject) refuse_other_motion(a, subject->sheet, found);
+  catch_interrupts();
   DesignFiles outputs;
   if (found.empty()) found = outputs.open(a);
   if (!found.empty()) return refused(found);
-  catch_interrupts();
   base::Result<analysis::DesignStudy> s =
       analysis::study_design({.subject = *subject,
                               .spec = spec,

@@ -9,14 +9,18 @@ namespace cli {
 
 /// What the shell is told; of several runs the gravest.
 enum class Exit : int {
-  ok = 0,             ///< all requirements hold
-  failed = 1,         ///< a requirement failed
-  bad_input = 2,      ///< also a file that cannot be read or written
-  fault = 3,          ///< a fault stopped a run, or the drive in it
-  internal = 4,       ///< a mistake of the program
-  interrupted = 130,  ///< by the user, as shells count it
-  reader_gone = 141,  ///< of a pipe that was written to, as shells count it
-  terminated = 143    ///< by SIGTERM
+  ok = 0,         ///< all requirements hold
+  failed = 1,     ///< a requirement failed
+  bad_input = 2,  ///< also a file that cannot be read or written
+  fault = 3,      ///< a fault stopped a run, or the drive in it
+  internal = 4,   ///< a mistake of the program
+  // What ended it from outside, as shells count: 128 and the signal's number.
+  hung_up = 129,      ///< SIGHUP: the terminal has gone
+  interrupted = 130,  ///< SIGINT: by the user
+  quit = 131,         ///< SIGQUIT
+  reader_gone = 141,  ///< of a pipe that was written to
+  terminated = 143,   ///< SIGTERM
+  out_of_time = 152   ///< SIGXCPU
 };
 
 struct ExitMeaning {
@@ -31,9 +35,12 @@ inline constexpr ExitMeaning exit_meanings[] = {
     {Exit::bad_input, "bad input"},
     {Exit::fault, "a fault stopped a run"},
     {Exit::internal, "internal error"},
+    {Exit::hung_up, "ended by SIGHUP as its terminal went"},
     {Exit::interrupted, "interrupted by Ctrl-C"},
+    {Exit::quit, "ended by SIGQUIT"},
     {Exit::reader_gone, "nobody reads the pipe"},
     {Exit::terminated, "ended by SIGTERM"},
+    {Exit::out_of_time, "ended by SIGXCPU at its limit of processor time"},
 };
 
 /// Of a run that came to its end or to a fault.

@@ -11,6 +11,7 @@
 #include "faces/cli/keep.hpp"
 #include "faces/cli/progress.hpp"
 #include "faces/cli/settings.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
 #include "files/atomic_file.hpp"
 #include "sixstep/base/plausible.hpp"
@@ -155,10 +156,10 @@ Exit export_header(const ExportArguments& a) {
   // What the format does not hold, or a file that cannot be written, is told before anything runs.
   if (const auto unrun = text::config_header(wanted); !unrun)
     return refused(within(a.file, unrun.problems()));
+  catch_interrupts();
   std::optional<files::AtomicFile> file;
   if (!a.out.empty() && a.out != "-") keep(file, files::AtomicFile::create({a.out, a.force}), problems);
   if (!problems.empty()) return refused(problems);
-  catch_interrupts();
   const base::Result<study::Clearance> clearance = cleared(*scenario);
   if (interrupted()) return told_interrupted("export " + a.file);
   if (!clearance) return refused(within(a.file, clearance.problems()));

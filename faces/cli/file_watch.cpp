@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
 
 namespace cli {

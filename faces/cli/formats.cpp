@@ -8,8 +8,10 @@
 #include "faces/cli/report_page.hpp"
 #include "files/trace/sinks.hpp"
 #include "report/kept_rows.hpp"
+#include "sixstep/study/measure/columns.hpp"
 #include "text/escape/escape.hpp"
 #include "text/results/json_summary.hpp"
+#include "text/results/quantity_text.hpp"
 
 namespace cli {
 namespace {
@@ -47,18 +49,39 @@ base::Result<files::Sink> uart_sink(const files::Destination& to, const study::S
   return files::page_sink(to, sent_text);
 }
 
+/// Of rows on a grid: how many, and how large they are, where that is more than a disk is asked for without a word.
+std::string grid_foretold(const study::Scenario& s, double bytes_a_number) {
+  constexpr double many_bytes = 5e8;
+  const base::Result<std::vector<study::Column>> columns = study::record_columns(s);
+  if (!columns || s.record.events) return "";
+  const double grid_s = s.record.grid_s.value_or(s.pwm.period_s), rows = s.duration_s / grid_s;
+  const double bytes = rows * bytes_a_number * static_cast<double>(columns->size());
+  if (!(bytes > many_bytes)) return "";
+  const auto rough = [](double x) { return x < 10 ? fmt::format("{:.2g}", x) : fmt::format("{:.0f}", x); };
+  return fmt::format("its rows, one each {}, are some {} million, {} GB; a longer record.grid_s makes fewer",
+                     text::quantity_text(grid_s, "s", 3), rough(rows / 1e6), rough(bytes / 1e9));
+}
+std::string csv_foretold(const study::Scenario& s) { return grid_foretold(s, 11); }
+std::string mat_foretold(const study::Scenario& s) { return grid_foretold(s, 8); }
+
 std::string report_foretold(const study::Scenario& scenario) { return report::rows_foretold(scenario); }
 
 constexpr Format list[] = {
-    {.option = "--csv", .meaning = "write the recorded trace", .open = files::csv_sink, .in_folder = ".csv"},
+    {.option = "--csv",
+     .meaning = "write the recorded trace",
+     .open = files::csv_sink,
+     .in_folder = ".csv",
+     .foretold = csv_foretold},
     {.option = "--mat",
      .meaning = "write the trace for MATLAB, Octave and scipy: MAT 5",
      .open = files::mat_sink,
-     .in_folder = ""},
+     .in_folder = "",
+     .foretold = mat_foretold},
     {.option = "--mat73",
      .meaning = "write the trace as MAT 7.3, which is HDF5",
      .open = files::mat73_sink,
-     .in_folder = ""},
+     .in_folder = "",
+     .foretold = mat_foretold},
     {.option = "--vcd",
      .meaning = "write gates, Hall lines, timer and faults for a waveform viewer",
      .open = files::vcd_sink,

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/loop/on_core.hpp"
 #include "text/escape/escape.hpp"

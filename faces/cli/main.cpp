@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // sixstep on the command line: reads arguments, calls one command, tells the shell how it went.
+#include <unistd.h>
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -22,7 +25,10 @@
 #include "faces/cli/plan_ranks.hpp"
 #include "faces/cli/run_command.hpp"
 #include "faces/cli/schema_command.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
+#include "files/controller_watch.hpp"
+#include "files/temporary_names.hpp"
 #include "files/text_file.hpp"
 #include "text/escape/escape.hpp"
 
@@ -65,7 +71,44 @@ Exit run_program(int count, const char* const* words) {
   const files::ReadLog inputs;  // no output takes the place of an input
   const auto chosen =
       std::find_if(std::begin(verbs), std::end(verbs), [](const Verb& v) { return v.app->parsed(); });
-  return chosen->call(retyped(count, words));
+  return exit_after_stop(chosen->call(retyped(count, words)));
+}
+
+/// Without asking for more of it.
+Exit out_of_memory() {
+  print("sixstep is out of memory; make room, or ask for less: fewer --jobs, a shorter run\n", stderr);
+  return Exit::bad_input;
+}
+
+/// What nobody catches: memory that a thread of the program's own did not get, or a mistake, whose trace the abort keeps.
+[[noreturn]] void end_uncaught() {
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    out_of_memory();
+    files::remove_temporary_files();
+    ::_exit(static_cast<int>(Exit::bad_input));
+  } catch (...) {
+  }
+  std::abort();
+}
+
+/// Before the program's own constants are made, which takes memory, too.
+[[gnu::constructor(101)]] void take_terminations() { std::set_terminate(end_uncaught); }
+
+int whole_program(int count, const char* const* words) {
+  try {
+    const auto program = [&] { return exit_after_printing(run_program(count, words)); };
+    const bool makes_runs = count > 1 && words[1] == std::string_view("run");
+    return static_cast<int>(makes_runs ? among_ranks(program) : program());
+  } catch (const std::bad_alloc&) {
+    return static_cast<int>(out_of_memory());
+  } catch (const std::exception& error) {
+    print("internal error: " + text::visible(error.what()) + "\n", stderr);
+  } catch (...) {
+    print("internal error\n", stderr);
+  }
+  return static_cast<int>(Exit::internal);
 }
 
 }  // namespace
@@ -73,14 +116,9 @@ Exit run_program(int count, const char* const* words) {
 
 int main(int count, char** words) {
   cli::take_write_errors();
-  try {
-    const auto program = [&] { return cli::exit_after_printing(cli::run_program(count, words)); };
-    const bool makes_runs = count > 1 && words[1] == std::string_view("run");
-    return static_cast<int>(makes_runs ? cli::among_ranks(program) : program());
-  } catch (const std::exception& error) {
-    cli::print("internal error: " + text::visible(error.what()) + "\n", stderr);
-  } catch (...) {
-    cli::print("internal error\n", stderr);
-  }
-  return static_cast<int>(cli::Exit::internal);
+  cli::take_stop_signals();
+  files::controllers_may_run();
+  const int code = cli::whole_program(count, words);
+  files::controllers_are_done();
+  return code;
 }

@@ -10,6 +10,7 @@
 #include "batch/optimise.hpp"
 #include "faces/cli/plan_storing.hpp"
 #include "faces/cli/progress.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/stop_watch.hpp"
 #include "faces/cli/terminal.hpp"
 #include "files/atomic_file.hpp"
@@ -121,12 +122,12 @@ Exit optimise_command(const OptimiseArguments& a) {
   if (!figure) return refused(figure.problems());
   if (const base::Problems problems = not_to_be_chosen(a, plan->scenarios->plan()); !problems.empty())
     return refused(problems);
+  catch_interrupts();
   OptimumFiles outputs;
   if (const base::Problems problems = outputs.open(a); !problems.empty()) return refused(problems);
   base::Result<files::PlanStore> store =
       store_of(as_run, *plan, text::plan_identity(plan->scenarios->plan()) + " minimise " + plan->minimise);
   if (!store) return refused(store.problems());
-  catch_interrupts();
   const std::optional<analysis::Optimum> best = search(a, *plan, *figure, *store);
   if (const base::Problems unwritten = store->finish(); !unwritten.empty()) return refused(unwritten);
   if (interrupted()) return told_interrupted("the search");

@@ -14,15 +14,19 @@
 #include "faces/cli/plan_outputs.hpp"
 #include "faces/cli/plan_ranks.hpp"
 #include "faces/cli/plan_reports.hpp"
+#include "faces/cli/plan_stopped.hpp"
 #include "faces/cli/plan_storing.hpp"
 #include "faces/cli/progress.hpp"
 #include "faces/cli/report_page.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/stop_watch.hpp"
 #include "faces/cli/terminal.hpp"
+#include "files/controller_watch.hpp"
 #include "text/escape/escape.hpp"
 #include "text/plan/plan_file.hpp"
 #include "text/results/junit.hpp"
 #include "text/results/plan_text.hpp"
+#include "text/results/series_table.hpp"
 
 namespace cli {
 namespace {
@@ -37,7 +41,11 @@ Exit exit_of(const analysis::Series& series) {
 batch::PlanRuns runs_of(const RunArguments& a, const ReadPlan& plan, files::PlanStore& store) {
   return {.plan = plan.scenarios->plan(),
           .columns = plan.columns,
-          .scenario = [&plan](std::size_t n) { return plan.scenarios->run(n); },
+          .scenario =
+              [&plan](std::size_t n) {
+                files::controllers_make_run(n);
+                return plan.scenarios->run(n);
+              },
           .wanted = [&store](std::size_t n) { return !store.has(n); },
           .take = [&store](analysis::RunRecord&& record) { store.add(std::move(record)); },
           .stop = {},
@@ -48,7 +56,7 @@ batch::PlanRuns runs_of(const RunArguments& a, const ReadPlan& plan, files::Plan
 base::Problems same_program(const batch::PlanRuns& runs, files::PlanStore& store) {
   std::optional<analysis::RunRecord> before;
   base::Problems problems = store.each([&](const analysis::RunRecord& record) {
-    if (!before && record->end != analysis::RunEnd::refused) before = record;
+    if (!before && record->digest != 0) before = record;
   });
   if (!problems.empty() || !before) return problems;
   const std::optional<analysis::RunRecord> now = batch::run_one(runs, (*before)->number);
@@ -87,6 +95,13 @@ class MadePlan {
         analysis::runs_of(plan_.scenarios->plan()));
   }
   Exit exit() const { return exit_of(series_); }
+  /// How many runs were stopped or refused, and why the first.
+  std::string stopped() const {
+    const std::string lines = text::stopped_text(series_, plan_.scenarios->plan());
+    return lines.empty() ? "" : text::visible(plan_.name) + ":\n" + lines;
+  }
+  /// Its table says so.
+  bool cut_short() const { return series_.runs < analysis::runs_of(plan_.scenarios->plan()); }
   text::JunitSuite verdicts() const { return text::junit_suite(plan_.name, series_); }
 
  private:
@@ -120,10 +135,14 @@ base::Result<files::PlanStore> make_runs(const RunArguments& a, const ReadPlan& 
   base::Result<files::PlanStore> store = store_of(a, plan, text::plan_identity(plan.scenarios->plan()));
   if (!store) return store;
   batch::PlanRuns runs = runs_of(a, plan, *store);
+  note_stopped_runs(*store, a.plan.resume);
   if (const base::Problems problems = same_program(runs, *store); !problems.empty()) return problems;
   {
     const StopWatch watch([&store] { return store->failed(); });
     runs.stop = watch.token();
+    runs.wanted = [&store, stopped = take_stopped_runs(plan, *store)](std::size_t n) {
+      return !store->has(n) && !stopped.contains(n);
+    };
     Progress progress({.seconds = {},
                        .pieces = analysis::runs_of(runs.plan),
                        .of = runs.plan.axes.empty() ? "drives" : "runs",
@@ -136,7 +155,15 @@ base::Result<files::PlanStore> make_runs(const RunArguments& a, const ReadPlan& 
     make(runs, plan);
   }
   if (const base::Problems unwritten = store->finish(); !unwritten.empty()) return unwritten;
+  if (!interrupted()) forget_stopped_runs(*store);
   return store;
+}
+
+/// The table, or of a quiet run what stopped runs or kept them from starting.
+void tell(const RunArguments& a, const MadePlan& made) {
+  if (a.quiet) return print(made.stopped(), stderr);
+  print(text::plan_table(made.story()), a.paths.prints() ? stderr : stdout);
+  if (made.cut_short()) stop_is_told();
 }
 
 Exit run_plan(const RunArguments& a, const ReadPlan& plan, std::vector<text::JunitSuite>& suites) {
@@ -145,8 +172,7 @@ Exit run_plan(const RunArguments& a, const ReadPlan& plan, std::vector<text::Jun
   base::Result<files::PlanStore> store = make_runs(a, plan);
   if (!store) return refused(store.problems());
   const MadePlan made(plan, std::move(*store));
-  if (!a.quiet && made.problems().empty())
-    print(text::plan_table(made.story()), a.paths.prints() ? stderr : stdout);
+  if (made.problems().empty()) tell(a, made);
   if (!a.quiet) print(made.beyond(), stderr);
   base::Problems problems = outputs.publish(made.story(), plan, !interrupted());
   append(problems, made.problems());
@@ -172,7 +198,7 @@ Exit compare_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
     const MadePlan& one = *made.emplace_back(std::make_unique<MadePlan>(plan, std::move(*store)));
     exit = graver(exit, one.exit());
     suites.push_back(one.verdicts());
-    if (!a.quiet) print(text::plan_table(one.story()));
+    tell(a, one);
     if (!a.quiet) print(one.beyond(), stderr);
     pages.push_back(page_of(a, plan, one.story(), {}));
   }
@@ -190,7 +216,7 @@ Exit run_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
   const bool on_one_page = compares(a) && !a.plan.dry_run;
   if (on_one_page) exit = compare_plans(a, plans, suites);
   for (const ReadPlan& plan : plans) {
-    if (on_one_page || interrupted()) break;
+    if (on_one_page || (interrupted() && !suites.empty())) break;
     exit = graver(exit, a.plan.dry_run ? foretell(a, plan) : run_plan(a, plan, suites));
   }
   if (!junit) return exit;

@@ -8,6 +8,7 @@
 
 #include "batch/plan_runs.hpp"
 #include "faces/cli/plan_ranks.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
 #include "text/escape/escape.hpp"
 #include "text/results/quantity_text.hpp"
@@ -71,7 +72,6 @@ Sample sample_of(const batch::PlanRuns& runs) {
 }  // namespace
 
 Exit foretell(const RunArguments& arguments, const ReadPlan& plan) {
-  catch_interrupts();
   const analysis::Plan& p = plan.scenarios->plan();
   const std::size_t all = analysis::runs_of(p);
   const Sample sample = sample_of({.plan = p,
@@ -81,7 +81,7 @@ Exit foretell(const RunArguments& arguments, const ReadPlan& plan) {
                                    .take = {},
                                    .stop = {},
                                    .jobs = 1});
-  if (interrupted()) return told_interrupted("nothing was written");
+  if (interrupted()) return told_interrupted("the look at " + text::visible(plan.name));
   const double cores = threads_for_runs(arguments.jobs);
   const double columns = static_cast<double>(plan.columns->keys.size() + plan.columns->strayed.size() +
                                              plan.columns->figures.size());

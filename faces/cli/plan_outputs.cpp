@@ -5,6 +5,7 @@
 
 #include "faces/cli/plan_reports.hpp"
 #include "faces/cli/report_page.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
 
 namespace cli {
@@ -78,7 +79,8 @@ base::Problems PlanOutputs::publish(const text::PlanStory& story, const ReadPlan
     if (open.option == "--csv") write_csv(open.file, story, plan);
     if (open.option == "--json") open.file.write(json);
     if (open.option == page_option) open.file.write(page(story, plan, problems));
-    append(problems, whole ? open.file.commit() : open.file.commit_partial());
+    // Reports of the worst runs may be missing from the page of who was told to end just now.
+    append(problems, whole && !interrupted() ? open.file.commit() : open.file.commit_partial());
   }
   if (prints_json_ && whole) print(json);
   return problems;

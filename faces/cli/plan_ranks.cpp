@@ -12,6 +12,7 @@
 #include "batch/byte_format.hpp"
 #include "batch/cluster.hpp"
 #include "batch/ranks.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
 #include "files/scenario_on_disk.hpp"
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "faces/cli/report_page.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
 #include "text/escape/escape.hpp"
 

@@ -17,6 +17,7 @@
 #include "faces/cli/progress.hpp"
 #include "faces/cli/report_page.hpp"
 #include "faces/cli/run_reading.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/store_option.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/whole_in.hpp"
@@ -102,6 +103,7 @@ void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
   std::vector<text::TableEntry> entries;
   for (const Job& job : jobs)  // what was cut short has met or missed nothing yet
     if (job.finished()) entries.push_back({job.name(), job.outcome()});
+  if (arguments.quiet) return print(text::faults_text(entries), stderr);
   std::FILE* to = arguments.paths.prints() ? stderr : stdout;  // standard output is that format's alone
   if (entries.empty()) return;
   std::string text = text::verdict_table(entries, may_colour(to));
@@ -125,12 +127,15 @@ Exit tell(const std::vector<Job>& jobs, const RunArguments& arguments, Lists& li
   for (const Job& job : jobs) {
     if (!interrupted()) exit = graver(exit, job.exit_code());
     complain(job.problems());
-    print(job.cut_short(), stderr);
+    if (const std::string cut = job.cut_short(); !cut.empty()) {
+      print(cut, stderr);
+      if (interrupted()) stop_is_told();
+    }
     if (!arguments.quiet) print(job.left_out(), stderr);
   }
   if (interrupted() && std::ranges::none_of(jobs, &Job::begun))
-    print("interrupted before the first run began\n", stderr);
-  if (!arguments.quiet) print_table(jobs, arguments);
+    tell_stop("interrupted before the first run began");
+  print_table(jobs, arguments);
   base::Problems unwritten;
   if (lists.index) append(unwritten, write_index(arguments, jobs, *lists.index));
   if (lists.junit) {
@@ -158,7 +163,7 @@ Exit run_again_on_save(const RunArguments& arguments) {
     const Exit exit = run_jobs(arguments, read);
     if (interrupted() || unheard()) return exit;
     if (!arguments.quiet) print("-- runs again when a file is saved; Ctrl-C ends\n", stderr);
-    if (!watch.wait_for_a_change()) return exit;
+    if (!watch.wait_for_a_change()) return ended_as_asked(exit);
   }
 }
 

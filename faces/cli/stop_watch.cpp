@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
 
 namespace cli {

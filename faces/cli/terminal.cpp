@@ -12,18 +12,13 @@
 #include <cstring>
 #include <string>
 
+#include "faces/cli/stop_signals.hpp"
 #include "text/escape/escape.hpp"
 
 namespace cli {
 namespace {
 
-volatile std::sig_atomic_t asked_to_end = 0;
 int unprinted = 0;  // what errno said when standard output took no more
-
-extern "C" void on_interrupt(int signal) {
-  asked_to_end = signal;
-  std::signal(signal, SIG_DFL);  // a second time ends at once
-}
 
 }  // namespace
 
@@ -87,20 +82,6 @@ void take_write_errors() {
   // printed. Opened the wrong way round, they refuse what is written or read, as a closed stream does.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-}
-
-void catch_interrupts() {
-  struct sigaction ask {};
-  ask.sa_handler = on_interrupt;
-  // Not SA_RESTART: who waits for the other end of a pipe is to hear of it.
-  for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &ask, nullptr);
-}
-bool interrupted() { return asked_to_end != 0; }
-Exit exit_of_interrupt() { return asked_to_end == SIGTERM ? Exit::terminated : Exit::interrupted; }
-
-Exit told_interrupted(const std::string& what) {
-  print(what + ": interrupted; nothing was written\n", stderr);
-  return exit_of_interrupt();
 }
 
 }  // namespace cli

@@ -35,13 +35,4 @@ std::size_t terminal_width(std::FILE* stream);
 /// write, not the program's end, and no file takes the stream's place.
 void take_write_errors();
 
-/// From here on Ctrl-C and SIGTERM ask runs to end instead of ending the program; a second time ends it at
-/// once.
-void catch_interrupts();
-bool interrupted();
-/// 130 after Ctrl-C, 143 after SIGTERM.
-Exit exit_of_interrupt();
-/// Of work that leaves nothing behind where it is cut short, which is told.
-Exit told_interrupted(const std::string& what);
-
 }  // namespace cli

@@ -8,6 +8,7 @@
 #include "faces/cli/keep.hpp"
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/side_by_side.hpp"
+#include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/written_twice.hpp"
 #include "files/atomic_file.hpp"
@@ -95,9 +96,9 @@ Exit wiring_command(const WiringArguments& a) {
       .keep_going = [] { return !interrupted(); }};
   if (const auto bench = analysis::wiring_bench(order.subject); !bench)
     return refused(told(bench.problems(), a));
+  catch_interrupts();
   WiringFiles outputs;
   if (const base::Problems found = outputs.open(a); !found.empty()) return refused(found);
-  catch_interrupts();
   const base::Result<analysis::WiringStudy> s = analysis::study_wiring(order);
   if (interrupted()) return told_interrupted("motor wiring " + a.motor);
   if (!s) return refused(told(s.problems(), a));

@@ -3,12 +3,26 @@
 """sixstep run --bode: what it prints and writes, and what it refuses."""
 import json
 import math
+import re
 import unittest
 
 from program import SOURCE, ProgramTest
 
 LOCKED = str(SOURCE / "data/scenarios/thesis/7.3.1-locked-exact-design.toml")
 NO_LOOP = str(SOURCE / "data/scenarios/thesis/7.2-no-load.toml")
+
+
+HELD = """
+motor = "maxon-251601"
+duration_s = 0.3
+load = { locked = true }
+pwm = { alignment = "centre", sample = "middle" }
+sensors = { capture_Hz = 16e6 }
+reference = { value = 100, unit = "rad/s" }
+[control]
+drive = "sensorless"
+mode = "speed"
+"""
 
 
 class Bode(ProgramTest):
@@ -21,6 +35,24 @@ class Bode(ProgramTest):
         self.assertIn("Frequency response of", (self.path / "b.html").read_text())
         self.assertAlmostEqual(told["measured"]["crossover_Hz"] / told["designed"]["crossover_Hz"], 1, delta=0.03)
         self.assertTrue(all(math.isfinite(p["gain_dB"]) for p in told["points"]))
+
+    def test_a_loop_that_does_not_answer_is_not_measured(self):
+        """A sensorless drive whose rotor is held has given up before the multisine comes: nothing at all comes back."""
+        (self.path / "held.toml").write_text(HELD)
+        files = ("--json", "b.json", "--csv", "b.csv", "--html", "b.html")
+        made = self.run_program("run", "held.toml", "--bode", *files, code=1)
+        self.assertIn("NOTHING WAS MEASURED: the loop did not answer", made.stdout)
+        margins = made.stdout.split("measured\n")[1].splitlines()[:5]
+        self.assertEqual([line.split()[-1] for line in margins], ["-"] * 5, made.stdout)
+        told = json.loads((self.path / "b.json").read_text())
+        self.assertFalse(told["answered"])
+        self.assertEqual(set(told["measured"].values()), {None})
+        self.assertTrue(all(p["gain_dB"] is None and p["phase_deg"] is None for p in told["points"]))
+        for text in (made.stdout, *[(self.path / name).read_text() for name in ("b.json", "b.csv")],
+                     re.sub("<script.*?</script>", "", (self.path / "b.html").read_text(), flags=re.S)):
+            self.assertIsNone(re.search(r"(?<![\w-])-?(nan|inf)(?!\w)", text))
+        quiet = self.run_program("run", "held.toml", "--bode", "--quiet", code=1)
+        self.assertEqual((quiet.stdout, quiet.stderr), ("", "held: the loop did not answer: nothing was measured\n"))
 
     def test_json_is_alone_on_standard_output(self):
         made = self.run_program("run", LOCKED, "--bode", "--amplitude", "0.5", "--json", "-")

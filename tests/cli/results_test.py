@@ -139,15 +139,14 @@ class Tables(ProgramTest):
                 with h5py.File(self.path / "piped.h5") as trace:
                     self.assertGreater(trace["t_s"].shape[1], 2)
 
-    def test_a_text_without_words_in_mat_7_3(self):
-        """Sizes of nothing are told as MATLAB tells them, and fields keep their order."""
-        self.run_program("run", self.write("a.toml", 1000), "--mat73", "h.mat", "--mat", "a.mat", "--set", "title=\"\"", "--quiet")
+    def test_mat_7_3_has_fields_in_their_order_behind_matlabs_own_block(self):
+        self.run_program("run", self.write("a.toml", 1000), "--mat73", "h.mat", "--mat", "a.mat", "--quiet")
         five = scipy.io.loadmat(self.path / "a.mat", simplify_cells=True)
         with h5py.File(self.path / "h.mat") as seven:
-            self.assertEqual(len(five["sixstep"]["title"]), 0)
-            self.assertEqual(seven["sixstep"]["title"].attrs["MATLAB_empty"], 1)
-            self.assertEqual(list(seven["sixstep"]["title"][()]), [0, 0])
-            self.assertEqual(["".join(letter.decode() for letter in name) for name in seven["sixstep"].attrs["MATLAB_fields"]], list(five["sixstep"]))
+            for name in ("sixstep", "units", "meanings"):
+                fields = ["".join(letter.decode() for letter in field) for field in seven[name].attrs["MATLAB_fields"]]
+                self.assertEqual(fields, list(five[name]))
+            self.assertEqual(seven["t_s"].attrs["MATLAB_class"], b"double")
             self.assertEqual(seven.userblock_size, 512)
 
     def test_two_outputs_are_no_pair(self):

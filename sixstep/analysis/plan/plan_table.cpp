@@ -97,22 +97,22 @@ base::Result<RunRecord> RunRecord::of(TableColumns columns, RunValues values) {
       "report this with the command that led to it"};
 }
 
-RunRecord RunRecord::refused(TableColumns columns, std::size_t number, std::vector<std::string> point,
-                             std::string problem) {
+RunRecord RunRecord::without_figures(TableColumns columns, std::size_t number, std::vector<std::string> point,
+                                     RunEnd end, std::string problem) {
   RunValues values;
   values.number = number;
   values.point = std::move(point);
   values.point.resize(columns->keys.size());
   values.strayed.assign(columns->strayed.size(), none);
   values.figures.assign(columns->figures.size(), none);
-  values.end = RunEnd::refused;
+  values.end = end;
   values.problem = std::move(problem);
   return RunRecord(std::move(columns), std::move(values));
 }
 
 RunRecord record_of(const TableColumns& columns, std::size_t number, std::vector<std::string> point,
                     const base::Result<PlannedRun>& planned, const base::Result<study::Outcome>& result) {
-  RunRecord nothing = RunRecord::refused(columns, number, std::move(point), {});
+  RunRecord nothing = RunRecord::without_figures(columns, number, std::move(point), RunEnd::refused, {});
   RunValues values = *nothing;
   const auto without_figures = [&](const std::string& problem) {
     values.problem = problem;

@@ -91,9 +91,9 @@ class RunRecord {
  public:
   /// A Problem where there are more or fewer values of a kind than columns.
   static base::Result<RunRecord> of(TableColumns columns, RunValues values);
-  /// The row of a run that could not start.
-  static RunRecord refused(TableColumns columns, std::size_t number, std::vector<std::string> point,
-                           std::string problem);
+  /// The row of a run that came to no figure: it could not start, or ended with the program.
+  static RunRecord without_figures(TableColumns columns, std::size_t number, std::vector<std::string> point,
+                                   RunEnd end, std::string problem);
 
   const PlanColumns& columns() const { return *columns_; }
   /// Whether it is a row of that table.
