@@ -85,14 +85,21 @@ std::string ticks(const Reach& reach, const Scale& scale) {
 
 std::string limit_lines(const analysis::FigureColumn& f, const Reach& reach) {
   std::string svg;
+  constexpr double as_wide_as_a_label = 140.0;
+  double last = -width;
+  int row = 0;
   for (const double limit : limits_of(f)) {
     if (limit < reach.low || limit > reach.high) continue;
     const double x = reach.at(limit);
     const bool flip = x > 0.6 * width;
+    row = std::fabs(x - last) < as_wide_as_a_label ? row + 1
+                                                   : 0;  // labels that would overlap stand below each other
+    last = x;
     svg += fmt::format(
-        "<line class=\"limit\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"4\" y2=\"{1}\"/><text x=\"{2:.1f}\" y=\"13\" "
+        "<line class=\"limit\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"4\" y2=\"{1}\"/><text x=\"{2:.1f}\" y=\"{5}\" "
         "text-anchor=\"{3}\">{4}</text>",
-        x, height - bottom, flip ? x - 4 : x + 4, flip ? "end" : "start", escaped(given(limit, f.unit)));
+        x, height - bottom, flip ? x - 4 : x + 4, flip ? "end" : "start", escaped(given(limit, f.unit)),
+        13 + 14 * row);
   }
   return svg;
 }

@@ -77,6 +77,7 @@ function legend() {
     if (!plan.states.some((s) => (s !== 0) === Boolean(bad))) continue;
     const asks = table.columns.some((c) => c.limits[plan.index]), entry = parent.appendChild(element('span'));
     entry.append(element('i'), (table.plans.length > 1 ? plan.name + ': ' : '') + (bad ? 'misses a requirement, or a fault (+)' : asks ? 'holds' : 'runs'));
+    if (bad) entry.firstChild.style.clipPath = 'polygon(0 0, 100% 0, 50% 100%)';  // as it is drawn
     entry.firstChild.style.background = `var(--${[['a', 'c'], ['b', 'reference']][bad][plan.index]})`;
   }
 }

@@ -1,6 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs as points: any column over any other.
 
+/** A run that holds is a square, one that misses a triangle, a fault a cross: colour alone is not for everybody. */
+function drawRun(ctx, x, y, size, state) {
+  if (state === 0) return ctx.fillRect(x - size / 2, y - size / 2, size, size);
+  if (state === 2) return ctx.fillRect(x - size, y - 1, 2 * size, 2), ctx.fillRect(x - 1, y - size, 2, 2 * size);
+  ctx.beginPath();
+  ctx.moveTo(x - 0.8 * size, y - 0.6 * size);
+  ctx.lineTo(x + 0.8 * size, y - 0.6 * size);
+  ctx.lineTo(x, y + 0.8 * size);
+  ctx.fill();
+}
+
 /** Draws all runs that are picked; those that miss lie on top, for they are sought. */
 function drawCloud(f, table, picked) {
   const {ctx} = f;
@@ -14,8 +25,7 @@ function drawCloud(f, table, picked) {
       if ((plan.states[n] !== 0) !== bad || !picked(plan, n)) continue;
       const x = f.px(xs[n]), y = f.py(ys[n]);
       if (!(x === x && y === y)) continue;
-      if (plan.states[n] === 2) ctx.fillRect(x - size, y - 1, 2 * size, 2), ctx.fillRect(x - 1, y - size, 2, 2 * size);  // a fault is a cross
-      else ctx.fillRect(x - size / 2, y - size / 2, size, size);
+      drawRun(ctx, x, y, size, plan.states[n]);
     }
   }
   ctx.globalAlpha = 1;

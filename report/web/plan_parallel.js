@@ -107,8 +107,10 @@ function parallelView(page) {
     for (const [on, bad] of layers) for (const plan of table.plans) for (let k = 0; k + 1 < axes.length; ++k) {
       const wanted = (n) => (plan.states[n] !== 0) === Boolean(bad) && page.picked(plan, n) === Boolean(on);
       ctx.strokeStyle = on ? runColour(plan.index, bad) : palette.line;
+      ctx.setLineDash(on && bad ? [7, 3] : []);
       drawBundle(ctx, bundled(down(axes[k], plan), down(axes[k + 1], plan), plan, wanted, height), [places[k], places[k + 1]], PARALLEL.top, on ? 0.8 : 0.5);
     }
+    ctx.setLineDash([]);
     axes.forEach((axis, k) => drawAxis(ctx, axis, places[k], PARALLEL.top, height, Math.min(gap, PARALLEL.side), brushes.get(axis.column)));
     drawNames(ctx, axes, places, gap);
     tell();

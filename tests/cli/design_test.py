@@ -198,7 +198,7 @@ class Design(ProgramTest):
         # A fast loop with a delay, chopped softly: only the simulation knows that it oscillates.
         text = told("maxon-251601", "--settle", "0.5e-3", "--delay", "1", code=1)
         self.assertRegex(text.splitlines()[0], "^NOT USABLE: in the simulation it never settles$")
-        self.assertIn("try --chopping complementary", text)
+        self.assertIn("usable with --chopping complementary", text)
 
 
 if __name__ == "__main__":

@@ -180,19 +180,18 @@ base::Result<PositionGain> lowered_for_tolerances(const design::DriveDesign& des
     return field.holds(gain);
   };
   double low = nominal.nominal, high = low;
-  while (!holds(low)) {
-    if (low < nominal.nominal / 16 || !field.problems.empty()) break;
+  bool held = holds(low);
+  while (!held && low >= nominal.nominal / 16 && field.problems.empty()) {
     high = low;
     low /= 2;
+    held = holds(low);
   }
-  if (search.quick && field.too_long) return found;
-  if (!field.problems.empty()) return field.problems;
-  if (low < nominal.nominal / 16) return found;
-  while (!search.quick && high - low > coarse_precision * low) {
+  while (!search.quick && held && field.problems.empty() && high - low > coarse_precision * low) {
     const double middle = low + (high - low) / 2;
     (holds(middle) ? low : high) = middle;
   }
-  if (!field.problems.empty()) return field.problems;
+  if (!field.problems.empty() && !field.too_long) return field.problems;
+  if (!held) return field.too_long && !search.quick ? base::Result<PositionGain>(none_found()) : found;
   found.gain_rad_s_per_deg = low;
   return found;
 }

@@ -24,7 +24,7 @@ struct PositionGain {
 struct GainSearch {
   bool quick = false;  ///< the first of the closed form and its halves that holds, and no larger one
   double longest_periods = 2e6;  ///< of a run
-  double periods = 5e6;          ///< of all runs together: some seconds
+  double periods = 1.5e7;        ///< of all runs together: half a minute of one core
 };
 
 /// The P controller asks for w = k x on the last of the way, a slowing-down of k^2 x = k w: no more than

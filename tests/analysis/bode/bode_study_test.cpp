@@ -103,9 +103,10 @@ TEST(Bode, ADeadbeatLoopIsADelay) {
     ASSERT_TRUE(b) << to_string(b.problems()[0]);
     ASSERT_TRUE(b->designed);
     const double f = pulse_over_held(1.03, 0.572e-3, 30e-6, steady_duty(s.pwm.chopping));
-    EXPECT_LT(off_by(*b, 0.5, 30), 1.5 * (1 - f)) << delay;
+    EXPECT_LT(off_by(*b, 0.5, 30), 1.5 * std::fabs(1 - f)) << delay;
     for (const analysis::LoopPoint& p : b->points)
-      EXPECT_NEAR(std::sqrt(p.closed.square()), 1.0, 3 * (1 - f)) << "2.3 (1 - f) at half the sampling rate";
+      EXPECT_NEAR(std::sqrt(p.closed.square()), 1.0, 3 * std::fabs(1 - f))
+          << "2.3 (1 - f) at half the sampling rate";
   }
 }
 
@@ -115,6 +116,8 @@ TEST(Bode, SpeedLoopIsTheDesigned) {
   for (const auto chopping : {control::Chopping::complementary, control::Chopping::hard}) {
     study::Scenario s = cascade(0.1);
     s.pwm.chopping = chopping;
+    // Hard chopping lets no current flow backwards: with a load it has no gaps.
+    if (chopping == control::Chopping::hard) s.load.torque_Nm = 0.1;
     const auto b = analysis::study_bode(s);
     ASSERT_TRUE(b) << to_string(b.problems()[0]);
     ASSERT_TRUE(b->figures && b->measured.crossover_rad_s && b->measured.phase_rad);
