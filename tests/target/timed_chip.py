@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The STM32F303's image with time: Unicorn's core before a timer's output stage (tim1.py), and the image's entries by their names.
+
+Time passes where a counter is read again, one clock each: a core so fast that only what waits for a counter takes time. That is the least
+distance that the program grants, so that a dead time one clock short is seen."""
+import struct
+
+import images
+from tim1 import Tim1
+
+TIM1, TIM2 = images.TIM1, images.TIM2
+SCRATCH = images.RAM + 0x9800
+SOFT, HARD, COMPLEMENTARY = range(3)
+BY_UPPER, BY_LOWER = range(2)
+PERIOD, SAMPLE, DEAD = 2160, 2160 - 72, 36
+PAIRS = [(s, k) for s in range(3) for k in range(3) if s != k]
+WAYS = [(SOFT, BY_UPPER), (SOFT, BY_LOWER), (HARD, BY_UPPER), (COMPLEMENTARY, BY_UPPER), (COMPLEMENTARY, BY_LOWER)]
+OFF = None
+
+
+class TimedChip(images.Chip):
+    """With a timer that makes pulses, and time."""
+
+    def __init__(self, folder, late=False):
+        self.tim1 = Tim1(late)
+        self.now, self.looked = 0, False
+        super().__init__(folder)
+
+    def pass_to(self, t):
+        self.now = max(self.now, t)
+        self.tim1.advance(self.now)
+
+    def read(self, core, offset, size, begin):
+        at = begin + offset
+        if at in (TIM1 + 0x24, TIM2 + 0x24):
+            self.pass_to(self.now + self.looked)
+            self.looked = True
+            return self.tim1.counter() if at == TIM1 + 0x24 else self.now & 0xFFFFFFFF
+        if at == TIM1 + 0x10:
+            return (1 << 4 if self.tim1.match_4 else 0) | self.words.get(at, 0) & ~(1 << 4)
+        return super().read(core, offset, size, begin)
+
+    def write(self, core, offset, size, value, begin):
+        at = begin + offset
+        super().write(core, offset, size, value, begin)
+        self.looked = False
+        if TIM1 <= at < TIM1 + 0x60:
+            self.tim1.advance(self.now)
+            self.tim1.write(at - TIM1, value)
+
+    def start(self):
+        """Through the set-up, no further: its main loop would miss the conversions."""
+        self.core.reg_write(images.arm.UC_ARM_REG_SP, self.stack)
+        at = self.begin
+        for _ in range(10_000):
+            self.run(at & ~1, 1000)
+            at = self.core.reg_read(images.arm.UC_ARM_REG_PC)
+            if self.words.get(0xE000E100, 0) & 1 << 27:
+                return
+        raise images.build.Failed("the set-up enables no interrupt")
+
+    def interrupt_amid(self, position, behind, other):
+        """An interrupt, and another one behind so many of its instructions, as soon as it lets it; False where it ended before."""
+        before = self.core.context_save()
+        self.core.reg_write(images.arm.UC_ARM_REG_LR, images.NOWHERE | 1)
+        self.run(struct.unpack("<I", self.core.mem_read(images.FLASH + 4 * (16 + position), 4))[0] & ~1, behind)
+        while self.core.reg_read(images.arm.UC_ARM_REG_PRIMASK) & 1:
+            self.run(self.core.reg_read(images.arm.UC_ARM_REG_PC), 1)
+        at = self.core.reg_read(images.arm.UC_ARM_REG_PC)
+        amid = at & ~1 != images.NOWHERE
+        if amid and self.armed():
+            self.interrupt(other)
+        if amid:
+            self.run(at, 100_000)
+        self.core.context_restore(before)
+        return amid
+
+    def call(self, name, *arguments):
+        """A function of the image, to its end."""
+        at = next(a for symbol, a in self.symbols.items() if symbol.startswith(f"firmware::{name}("))
+        before = self.core.context_save()
+        for register, value in zip((images.arm.UC_ARM_REG_R0, images.arm.UC_ARM_REG_R1, images.arm.UC_ARM_REG_R2), arguments):
+            self.core.reg_write(register, value)
+        self.core.reg_write(images.arm.UC_ARM_REG_LR, images.NOWHERE | 1)
+        self.run(at & ~1, 100_000)
+        ended = self.core.reg_read(images.arm.UC_ARM_REG_PC) & ~1 == images.NOWHERE
+        self.core.context_restore(before)
+        if not ended:
+            raise images.build.Failed(f"firmware::{name} did not return")
+
+    def cycle_start(self):
+        return self.now - self.tim1.counter()
+
+    def armed(self):
+        return bool(self.words.get(TIM1 + 0x0C, 0) & 1 << 4)
+
+    def end_period(self):
+        """To the update, with the interrupt of the fourth compare unit before it."""
+        update = self.cycle_start() + PERIOD
+        if self.tim1.counter() < SAMPLE:
+            self.pass_to(update - PERIOD + SAMPLE)
+        if self.armed() and not self.interrupt(27):
+            raise images.build.Failed("the period's interrupt did not return")
+        self.tim1.write(0x10, ~(1 << 4))
+        self.pass_to(update)
+
+
+def command(wanted):
+    """A BridgeCommand<float>, of (pair, way, duty) or OFF."""
+    if wanted is OFF:
+        return struct.pack("<BBBxfBBBxfffB3x", 0, 0, 1, 0.0, 0, 0, 0, 0.0, 0.0, 0.0, 0)
+    (source, sink), (chopping, chopped), duty = wanted
+    return struct.pack("<BBBxfBBBxfffB3x", 1, source, sink, duty, chopping, chopped, 0, 0.0, 0.0, 0.0, 0)
+
+
+class Bridge:
+    """The image's entries by their names, and what the simulation's timer would do at the same calls."""
+
+    def __init__(self, chip):
+        self.chip, self.wanted = chip, OFF
+        self.reversed = self.reversed_in_effect = False
+
+    def tick(self, wanted, reversed_=False):
+        self.chip.core.mem_write(SCRATCH, command(wanted))
+        self.chip.call("at_next_period", SCRATCH, reversed_, 0)
+
+    def hall(self, wanted, reversed_=False):
+        self.chip.core.mem_write(SCRATCH, command(wanted))
+        self.chip.call("at_once", SCRATCH, reversed_)
+
+    def off(self):
+        self.chip.call("gates_off")
