@@ -154,6 +154,7 @@ TEST(ExportGate, ATripStandsAgainstItToo) {
   Scenario s = product_scenario(Mode::current, 3.0);
   s.duration_s = 5e-3;
   s.pwm.delay_periods = 1;
+  s.bridge.dead_time_s = 500e-9;
   s.protection.over_current_A = 1.0;
   const auto tripped = study::clear_for_export(s);
   ASSERT_TRUE(tripped) << to_string(tripped.problems()[0]);
