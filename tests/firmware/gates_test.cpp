@@ -48,8 +48,8 @@ TEST(CortexM, TheTimersOutputsAreTheGates) {
   }
 }
 
-/// Of each change from one command to another: where a leg has one switch before and the other one behind, and not the timer's own dead time
-/// throughout, it is off on the way; no leg that need not is; and no leg has a switch on the way that it has neither before nor
+/// Of each change from one command to another: where a leg has one switch before and the other one behind, and not the timer's own dead
+/// time throughout, it is off on the way; no leg that need not is; and no leg has a switch on the way that it has neither before nor
 /// behind. tests/target/transitions.py has the executed image do it, clock by clock.
 TEST(CortexM, ALegThatChangesSidesIsOffOnTheWay) {
   using firmware::BridgeOutputs;

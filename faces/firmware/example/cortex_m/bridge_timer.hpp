@@ -9,8 +9,9 @@
 //                     duty stays.
 //   off, and a fault  at once
 //
-// The manual leaves open when the reference of a leg that leaves a forced level follows PWM: at once, or at the next match of its compare unit. So
-// the pulse of a leg that a Hall edge brings in may begin with the next period instead of amid this one. The laws hold either way.
+// The manual leaves open when the reference of a leg that leaves a forced level follows PWM: at once, or at the next match of its compare
+// unit. So the pulse of a leg that a Hall edge brings in may begin with the next period instead of amid this one: never both switches
+// either way.
 //
 // No two commutation events that matter to one leg come closer than the dead time: each that turns anything on waits for that
 // first. Interrupts are off while outputs change, so that the one at the period's end finds them whole.
