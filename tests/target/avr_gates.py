@@ -216,10 +216,28 @@ def check_no_dead_time():
     return ["an image without a dead time is built"]
 
 
+def check_starts(elf):
+    """From off to each pair, of either sign: the setpoint's, at whichever code the rotor stands."""
+    trouble = []
+    for code in POSITIVE:
+        for setpoint, negative in ((700, False), (324, True)):
+            with Chip(elf, code) as chip:
+                chip.run_ms(3)
+                began = [gates for _, gates in chip.moves]
+                chip.counts[3] = setpoint
+                chip.run_ms(2)
+                source, sink = pair(code, negative)
+                seen = {gates for cycle, gates in chip.moves if cycle > 4 * 16_000}
+                if began != [lower(pair(code, False)[1])] or seen != {lower(sink), lower(sink) | upper(source)}:
+                    trouble.append(f"a start at {code:03b} to {source}{sink}: first {began}, then {sorted(seen)}")
+    return trouble
+
+
 def check():
     with tempfile.TemporaryDirectory() as folder:
         elf = built(folder)
-        wrong = [found for seed in (1, 2) for found in found_wrong(elf, dead_cycles(), seed).values()]
+        wrong = check_starts(elf)
+        wrong += [found for seed in (1, 2) for found in found_wrong(elf, dead_cycles(), seed).values()]
     answers = build.side_by_side(check_planted, PLANTED.items())
     answers += build.side_by_side(check_dead_time, [(500_000, 8), (1_030_000, 17), (1, 4)])
     trouble = wrong + [str(answer) for answer in answers if answer] + check_no_dead_time()
