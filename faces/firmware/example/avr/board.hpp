@@ -32,7 +32,7 @@ constexpr std::uint64_t pwm_counts = exported::pwm_period_ps / 62'500 / 2;
 static_assert(pwm_counts >= 3 && pwm_counts < 65536, "timer 1 has 16 bits");
 // Rounded up; four are the least that change_over() can wait.
 constexpr std::uint64_t dead_cycles =
-    exported::dead_time_ps <= 4 * 62'500 ? 4 : (exported::dead_time_ps + 62'499) / 62'500;
+    exported::dead_time_ps <= 250'000 ? 4 : (exported::dead_time_ps + 62'499) / 62'500;
 static_assert(dead_cycles <= 80, "5 us at most: an interrupt waits it out");
 
 // What no sound board reads, in counts.

@@ -139,8 +139,8 @@ std::uint8_t missed(std::uint16_t half_us, std::uint8_t came) {
       ++periods;
     if (half_us > period_half_us / 2) ++periods;
   } else {
-    periods = static_cast<std::uint16_t>((std::uint32_t{half_us} * 8 + pwm_counts) /
-                                         (2 * std::uint32_t{pwm_counts}));
+    constexpr auto half = static_cast<std::uint32_t>(pwm_counts);  // a period, in cycles
+    periods = static_cast<std::uint16_t>((std::uint32_t{half_us} * 8 + half) / (half + half));
   }
   return static_cast<std::uint8_t>(periods - came);
 }
