@@ -272,7 +272,7 @@ Scenario hand_brake(double reference_A, std::optional<double> weakening_A) {
   s.control.field.bandwidth_Hz = 1000;
   s.control.field.weakening_A = weakening_A;
   s.load.dynamometer_times_s = {0.0, 0.08, 0.12};
-  s.load.dynamometer_rad_s = {600.0, 1000.0, 1000.0};
+  s.load.dynamometer_rad_s = {0.0, 1000.0, 1000.0};
   s.duration_s = 0.12;
   return s;
 }
