@@ -205,6 +205,10 @@ TEST(PrintedUnits, AMakersWordLeadsToTheKeyOfItsMeaning) {
       {"rated_voltage_V", "nominal_voltage_V"},
       {"max_continuous_torque_mNm", "nominal_torque_mNm"},
       {"max_coil_temperature_degC", "max_winding_temperature_degC"},
+      // servo sheets
+      {"torque_constant_Nm_Arms",
+       "torque_constant_Nm_A and give the value in that unit, with a frame that is rms"},
+      {"nominal_current_Arms", "nominal_current_A and give the value in that unit, with a frame that is rms"},
       // maxon
       {"starting_current_A", "stall_current_A"},
       {"terminal_resistance_phase_to_phase_ohm", "resistance_ohm with frame = \"terminal\""},

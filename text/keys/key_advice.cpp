@@ -51,6 +51,9 @@ std::string conversion_text(std::string_view from_suffix, std::string_view to_su
     for (const std::string& to : readings(to_suffix))
       if (const base::Result<double> one = in_unit("1 " + from, to); !from.empty() && one)
         return fmt::format(": 1 {} = {:.6g} {}", from, *one, to);
+  for (const std::string& from : readings(from_suffix))
+    if (const std::string_view measure = measure_in(from); !measure.empty())
+      return fmt::format(", with a frame that is {}", measure);
   return "";
 }
 

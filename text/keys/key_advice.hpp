@@ -30,7 +30,7 @@ std::string_view without_unit(std::string_view key);
 /// The unit suffix alone: "_rad_s" of "no_load_speed_rad_s".
 std::string_view unit_suffix(std::string_view key);
 
-/// ": 1 mV = 0.001 V" of two suffixes, where both are units of one kind and not the same.
+/// ": 1 mV = 0.001 V" of two suffixes, where both are units of one kind and not the same; of an rms unit that the frame says it.
 std::string conversion_text(std::string_view from_suffix, std::string_view to_suffix);
 
 /// Limit and cure for a key that is none of the known ones: `where` and `value` are left empty. A key that

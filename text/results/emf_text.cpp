@@ -66,10 +66,10 @@ std::string constants_section(const EmfResult& r) {
   const analysis::EmfConstants& k = r.constants;
   const bool star = r.between == analysis::EmfBetween::star;
   const ConstantRow all[] = {{"line, peak", k.line_peak},
-                     {"line, rms", k.line_rms},
-                     {"phase, peak", k.phase_peak},
-                     {"phase, rms", k.phase_rms},
-                     {"phase, fundamental", k.phase_fundamental}};
+                             {"line, rms", k.line_rms},
+                             {"phase, peak", k.phase_peak},
+                             {"phase, rms", k.phase_rms},
+                             {"phase, fundamental", k.phase_fundamental}};
   Rows rows;
   const double p = std::max(r.pole_pairs, 1);
   rows.add({"Constant", r.pole_pairs > 0 ? "mV s/rad" : "mWb", "95 %", r.pole_pairs > 0 ? "V/krpm" : "",

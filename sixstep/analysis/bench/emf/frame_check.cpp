@@ -87,8 +87,8 @@ std::vector<FrameCheck> check_frames(const EmfResult& m, const design::Sheet& sh
     checks.add("back_emf_mV_s", sheet.back_emf_mV_s, "mV s", voltage, "phase-peak", per(1e3));
     checks.add("torque_constant_Nm_A", sheet.torque_constant_Nm_A, "Nm/A", both(torque, voltage), "",
                per(1.0));
-    checks.add("back_emf_constant_V_krpm", sheet.back_emf_constant_V_krpm, "V/krpm", both(voltage, six_step), "",
-               per(rad_s_per_krpm));
+    checks.add("back_emf_constant_V_krpm", sheet.back_emf_constant_V_krpm, "V/krpm", both(voltage, six_step),
+               "", per(rad_s_per_krpm));
     checks.add("speed_constant_rpm_V", sheet.speed_constant_rpm_V, "rpm/V", both(six_step, voltage), "",
                [](Interval V_s) { return inverse(V_s, rpm_per_rad_s); });
   }
