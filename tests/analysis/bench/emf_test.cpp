@@ -164,7 +164,8 @@ TEST(FrameCheck, NamesTheFrameThatThePrintIsIn) {
   const std::pair<const char*, double> prints[] = {{"line-peak", root3 * phase_V_krpm},
                                                    {"line-rms", root3 / root2 * phase_V_krpm},
                                                    {"phase-peak", phase_V_krpm},
-                                                   {"phase-rms", phase_V_krpm / root2}};
+                                                   {"phase-rms", phase_V_krpm / root2},
+                                                   {"six-step", 1.6539866862653762 * phase_V_krpm}};
   for (const auto& [frame, volts] : prints) {
     design::Sheet sheet;
     sheet.back_emf_constant_V_krpm = base::Quantity{.value = volts, .frame = frame};
