@@ -199,6 +199,15 @@ TEST(UnitTable, RmsAndPeakBelongToTheFrame) {
   EXPECT_THAT(refused("5 oz-in/Arms", "Nm/A"), testing::HasSubstr("no rms value belongs here"));
 }
 
+/// Of a file that is all unit each sign is looked at a few times, not each as often as there are signs.
+TEST(UnitTable, AnEndlessUnitIsNone) {
+  for (const char* part : {"µ", "A ", "10-9 ", "A/", "(", "1 oz-in", "rms", "."}) {
+    std::string endless;
+    for (int n = 0; n < 300'000; ++n) endless += part;
+    EXPECT_FALSE(in_unit("1 " + endless, "V")) << part;
+  }
+}
+
 /// Units by kind: those of one convert into each other, those of two never do.
 const std::map<std::string, std::vector<std::string>>& kinds() {
   static const std::map<std::string, std::vector<std::string>> all = {
