@@ -89,10 +89,9 @@ class MadePlan {
   /// Runs that the store has beyond those of the plan, in words; empty where there are none.
   std::string beyond() const {
     if (beyond_ == 0) return "";
-    return fmt::format(
-        "{}: {} more {} stored, beyond the {} that are asked for; --resume with more of them shows all\n",
-        text::visible(store_.path()), beyond_, beyond_ == 1 ? "run is" : "runs are",
-        analysis::runs_of(plan_.scenarios->plan()));
+    return fmt::format("{}: holds {} run{} beyond the {} that are asked for; ask for more to see them\n",
+                       text::visible(store_.path()), beyond_, beyond_ == 1 ? "" : "s",
+                       analysis::runs_of(plan_.scenarios->plan()));
   }
   Exit exit() const { return exit_of(series_); }
   /// How many runs were stopped or refused, and why the first.
