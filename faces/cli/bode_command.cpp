@@ -55,6 +55,7 @@ base::Problems strangers(const RunArguments& a) {
 base::Result<std::vector<BodeFile>> opened(const OutputPaths& paths) {
   std::vector<BodeFile> out;
   for (const auto& [option, path] : paths.files()) {
+    if (option == "--csv" && path == "-") continue;  // printed, as the JSON is
     base::Result<files::AtomicFile> file = files::AtomicFile::create({path, paths.force});
     if (!file) return file.problems();
     out.push_back({option, std::move(*file)});
@@ -98,7 +99,8 @@ Exit measure(const Job& job, const RunArguments& a, std::vector<BodeFile>& files
     return refused(unwritten);
   for (const char* option : {"--csv", "--json"})
     if (a.paths.of(option) == "-") print(content(option, job.name(), *s, a));
-  if (!a.quiet) print(text::bode_text(job.name(), *s), a.paths.prints() ? stderr : stdout);
+  const bool prints = a.paths.prints() || a.paths.of("--csv") == "-";
+  if (!a.quiet) print(text::bode_text(job.name(), *s), prints ? stderr : stdout);
   // What a quiet run leaves out.
   const bool answered = analysis::answered(s->points);
   if (a.quiet && !answered)

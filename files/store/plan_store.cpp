@@ -98,6 +98,7 @@ struct PlanStore::Inside {
   /// The row that a SELECT stands at, if it is the one that was written.
   base::Result<analysis::RunRecord> row_at(const Statement& select) {
     std::vector<Cell> cells;
+    cells.reserve(cells_in_row(*plan.columns));
     for (int n = 0; n + 1 < select.columns(); ++n) cells.push_back(select.cell(n));
     const auto told = static_cast<std::int64_t>(checksum_of(cells, begin_of_checksums));
     base::Result<analysis::RunRecord> record = record_of_cells(cells, plan.columns);

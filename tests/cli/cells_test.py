@@ -174,6 +174,9 @@ class Cells(ProgramTest):
         self.run_program("new", "drive", "--mode", "current", "--motor", "maxon-251601")
         told = self.run_program("run", "drive.toml", "--bode", "--csv", "b.csv", "--json", "b.json", code=None).stdout
         rows = list(csv.DictReader((self.path / "b.csv").read_text().splitlines()))
+        printed = self.run_program("run", "drive.toml", "--bode", "--csv", "-", code=None).stdout
+        self.assertEqual(printed, (self.path / "b.csv").read_text(), "alone on standard output")
+        self.assertNotIn("-", self.names())
         points = json.loads((self.path / "b.json").read_text())["points"]
         lines = [line.split() for line in told.splitlines() if re.match(r"^ +[\d.e+]+  +-?[\d.]+  ", line)]
         self.assertGreater(len(rows), 10)
