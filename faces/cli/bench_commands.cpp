@@ -85,6 +85,15 @@ base::Problems of_recording(base::Problems problems, const std::string& path) {
   return problems;
 }
 
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+/// What the reader did not use, and what it took for what: on standard error, for standard output may be JSON.
+void tell(const BenchArguments& a, const text::Notes& notes) {
+  if (a.quiet) return;
+  for (const std::string& note : notes)
+    print(fmt::format("{}: {}\n", text::visible(file_name(a.path)), text::visible(note)), stderr);
+}
+
 base::Result<text::Recording> recording_of(const BenchArguments& a) {
   const base::Result<std::string> text = files::read_text(a.path);
   if (!text) return text.problems();
@@ -111,14 +120,13 @@ void put(std::optional<files::AtomicFile>& file, const std::string& text, base::
   append(problems, file->commit());
 }
 
-std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
-
 Exit identify_command(const BenchArguments& arguments) {
   BenchArguments a = arguments;
   if (const base::Problems wrong = check(a); !wrong.empty()) return refused(wrong);
   const base::Result<text::Recording> recording = recording_of(a);
   if (!recording) return refused(recording.problems());
-  const base::Result<analysis::HallLog> log = text::hall_log_of(*recording, a.columns);
+  text::Notes notes = recording->notes;
+  const base::Result<analysis::HallLog> log = text::hall_log_of(*recording, a.columns, notes);
   if (!log) return refused(of_recording(log.problems(), a.path));
   catch_interrupts();
   BenchOutputs out;
@@ -128,6 +136,7 @@ Exit identify_command(const BenchArguments& arguments) {
       analysis::identify(*log, a.pole_pairs.value_or(1), [] { return !interrupted(); });
   if (interrupted()) return told_interrupted("motor identify " + text::visible(a.path));
   if (!found) return refused(of_recording(found.problems(), a.path));
+  tell(a, notes);
   const std::string name = file_name(a.path);
   if (out.write) put(out.write, files::with_own_mark(a.command, text::identify_toml(name, *found)), problems);
   if (out.html) put(out.html, report::render_identify({name, *found, a.command, SIXSTEP_VERSION}), problems);
@@ -186,7 +195,8 @@ Exit emf_command(const EmfArguments& arguments) {
   if (!sheet) return refused(sheet.problems());
   const base::Result<text::Recording> recording = recording_of(a);
   if (!recording) return refused(recording.problems());
-  const base::Result<analysis::EmfRecord> record = text::emf_record_of(*recording, a.columns);
+  text::Notes notes = recording->notes;
+  const base::Result<analysis::EmfRecord> record = text::emf_record_of(*recording, a.columns, notes);
   if (!record) return refused(of_recording(record.problems(), a.path));
   catch_interrupts();
   BenchOutputs out;
@@ -197,6 +207,7 @@ Exit emf_command(const EmfArguments& arguments) {
   const base::Result<analysis::EmfResult> found = analysis::measure_emf({*record, a.pole_pairs, speed_rad_s});
   if (interrupted()) return told_interrupted("motor emf " + text::visible(a.path));
   if (!found) return refused(of_recording(found.problems(), a.path));
+  tell(a, notes);
   text::MeasuredEmf measured{file_name(a.path), *found};
   measured.tolerance = a.tolerance_percent ? *a.tolerance_percent / 100.0 : analysis::usual_emf_tolerance;
   if (*sheet) {

@@ -21,6 +21,10 @@
 #include "files/text_file.hpp"
 #include "report/comparison.hpp"
 #include "report/kept_rows.hpp"
+#include "sixstep/base/plausible.hpp"
+#include "sixstep/base/range_text.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/sheet_constants.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/run/run.hpp"
@@ -91,33 +95,61 @@ std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
 struct Log {
   std::string name;
   std::optional<double> shift_s;  ///< that was asked for
-  study::Trace trace, grid;
+  text::BoardLog read;
+  study::Trace grid;
   LogFound found;
 };
 
-base::Result<std::optional<Log>> read_log(const LogArguments& asked) {
+/// What the library names, as options.
+base::Problems of_options(base::Problems problems) {
+  for (base::Problem& p : problems)
+    if (p.where == "columns") p.where = "--columns";
+  return problems;
+}
+
+base::Result<std::optional<Log>> read_log(const LogArguments& asked, const study::Scenario& scenario) {
   if (asked.path.empty()) return std::optional<Log>();
+  const base::Range interval = base::allowed(base::above(0.0), "s");
+  if (asked.interval_s && !interval.holds(*asked.interval_s))
+    return base::Problem{"--interval", base::written(*asked.interval_s), base::limit_of(interval),
+                         "give the time from one row to the next in seconds"};
   const base::Result<std::string> text = files::read_text(asked.path);
   if (!text) return text.problems();
-  base::Result<study::Trace> trace = text::read_board_log(asked.path, *text);
-  if (!trace) return trace.problems();
+  base::Result<text::BoardLog> read = text::read_board_log(
+      asked.path, *text,
+      {asked.columns, asked.interval_s, design::sheet_constants(scenario.sheet).pole_pairs});
+  if (!read) return of_options(read.problems());
   return std::optional(Log{.name = std::filesystem::path(asked.path).filename().string(),
                            .shift_s = asked.shift_s,
-                           .trace = std::move(*trace),
+                           .read = std::move(*read),
                            .grid = {},
                            .found = {}});
 }
 
-/// Its first column decides how far its clock is off: a board begins to count when it has set itself up. Within twenty PWM periods, in
-/// steps that a ripple stands; whoever knows more says so.
-void lay_over(Log& log, const Compared& run) {
+/// All its columns decide how far its clock is off: a board begins to count when it has set itself up. Within twenty PWM periods, in steps
+/// that a ripple stands; whoever knows more says so. Problems: next to nothing of it lies in the simulated time.
+base::Problems lay_over(Log& log, const Compared& run) {
   const study::Trace simulated = run.events->trace();
-  const std::string& decides = log.trace.columns[1].name;
-  log.found.shift_s = log.shift_s.value_or(analysis::best_shift_s(
-      simulated, log.trace, decides, 20.0 * run.scenario.pwm.period_s, run.scenario.pwm.period_s / 20.0));
-  log.found.columns = analysis::laid_over(simulated, log.trace, log.found.shift_s);
-  log.grid = analysis::at_instants(log.trace, log.found.shift_s, run.grid.values.front());
-  for (double& t : log.trace.values.front()) t += log.found.shift_s;
+  study::Trace& trace = log.read.trace;
+  if (const double start_s = analysis::start_shift_s(simulated, trace); start_s != 0.0) {
+    log.read.notes.push_back(
+        fmt::format("its clock starts at {:.10g} s: times count from its first row", -start_s));
+    for (double& t : trace.values.front()) t += start_s;
+  }
+  const double period_s = run.scenario.pwm.period_s;
+  log.found.shift_s =
+      log.shift_s.value_or(analysis::best_shift_s(simulated, trace, 20.0 * period_s, period_s / 20.0));
+  base::Result<analysis::Overlay> overlay = analysis::overlay(log.name, simulated, trace, log.found.shift_s);
+  if (!overlay) return overlay.problems();
+  for (const auto& [column, reason] : overlay->left_out) log.read.not_used.push_back({column, reason});
+  text::note_not_used(log.read.not_used, log.read.notes);
+  if (overlay->inside < overlay->rows)
+    log.read.notes.push_back(fmt::format("{} of {} rows lie outside of the simulated time",
+                                         overlay->rows - overlay->inside, overlay->rows));
+  log.found.columns = std::move(overlay->columns);
+  log.grid = analysis::at_instants(trace, log.found.shift_s, run.grid.values.front());
+  for (double& t : trace.values.front()) t += log.found.shift_s;
+  return {};
 }
 
 /// Nothing where no page is wanted.
@@ -178,7 +210,7 @@ base::Problems check_comparison(const RunArguments& arguments) {
 Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs) {
   base::Result<std::optional<files::AtomicFile>> file = page_of(arguments);
   if (!file) return refused(file.problems());
-  base::Result<std::optional<Log>> log = read_log(arguments.log);
+  base::Result<std::optional<Log>> log = read_log(arguments.log, jobs.front().scenario());
   if (!log) return refused(log.problems());
   std::vector<Compared> runs = on_one_grid(jobs);
   {
@@ -205,8 +237,9 @@ Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs
     if (const std::string told = report::rows_told(source.events); !told.empty() && !arguments.quiet)
       print(fmt::format("{}: {}\n", source.name, told), stderr);
   if (*log) {
-    lay_over(**log, runs.front());
-    sources.push_back({(*log)->name, runs.front().scenario, nullptr, (*log)->trace, (*log)->grid});
+    if (const base::Problems nothing = lay_over(**log, runs.front()); !nothing.empty())
+      return graver(exit, refused(nothing));
+    sources.push_back({(*log)->name, runs.front().scenario, nullptr, (*log)->read.trace, (*log)->grid});
   }
   base::Problems unwritten;
   if (*file) {
@@ -216,7 +249,8 @@ Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs
   }
   print_table(jobs, runs, arguments.quiet);
   if (*log && !arguments.quiet)
-    print(text::laid_over_text((*log)->name, (*log)->found.columns, (*log)->found.shift_s));
+    print(
+        text::laid_over_text((*log)->name, (*log)->found.columns, (*log)->found.shift_s, (*log)->read.notes));
   return unwritten.empty() ? exit : graver(exit, Exit::bad_input);
 }
 

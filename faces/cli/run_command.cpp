@@ -260,11 +260,21 @@ void declare_options(CLI::App& run, RunArguments& a) {
   CLI::Option* log =
       run.add_option(
              "--compare", a.log.path,
-             "lay what a board sent over the run: a table of its serial line, on the page of --html too")
+             "lay what a board sent over the run, or an oscilloscope's record of it: a table, on the page of --html too")
           ->excludes(bode)
           ->excludes(runs);
-  run.add_option("--shift", a.log.shift_s,
-                 "s to add to the times of --compare; without it they are fitted within 20 PWM periods")
+  run.add_option("--columns", a.log.columns,
+                 "which column of --compare is what, with constants: "
+                 "time=ms_today/1000,speed=erpm*2*pi/60/7,i_m=current_motor; without it by its headings")
+      ->delimiter(',')
+      ->needs(log);
+  run.add_option("--interval", a.log.interval_s,
+                 "time from row to row of --compare, s, where no column is the time")
+      ->needs(log);
+  run.add_option(
+         "--shift", a.log.shift_s,
+         "s to add to the times of --compare; without it they are fitted within 20 PWM periods; a clock "
+         "that starts beyond the run counts from its first row")
       ->needs(log);
   declare_plan_options(run, a.plan);
 }

@@ -22,10 +22,12 @@ struct PlanArguments {
   std::optional<std::uint64_t> only;  ///< the run that is made alone, as any other scenario
 };
 
-/// What a board sent over its serial line while it ran.
+/// What a board sent over its serial line while it ran, or what somebody recorded of it.
 struct LogArguments {
-  std::string path;               ///< empty: none
-  std::optional<double> shift_s;  ///< that is added to its times; without it they are fitted
+  std::string path;                  ///< empty: none
+  std::optional<double> shift_s;     ///< that is added to its times; without it they are fitted
+  std::vector<std::string> columns;  ///< "speed=erpm*2*pi/60/7"; empty: by the headings
+  std::optional<double> interval_s;  ///< of its rows, where none is a time
 };
 
 struct RunArguments {

@@ -153,6 +153,20 @@ class Bench(Started):
                 self.assertIn(told, line)
         self.assertEqual(self.names(), ["log.csv", "scope.csv"])
 
+    def test_what_is_not_used_is_told_beside_the_answer(self):
+        head, rows = (self.path / "scope.csv").read_text().split("u_ab [V]\n")
+        (self.path / "scope.csv").write_text(head + "u_ab [V],Temp [degC],Comment\n" + rows.replace("\n", ",21.5,\n"))
+        made = self.run_program("motor", "emf", "scope.csv", "--json")
+        self.assertAlmostEqual(json.loads(made.stdout)["channels"][0]["peak_V"]["value"], 2.011, delta=0.001)
+        self.assertEqual(made.stderr, "scope.csv: not used: Temp (in degC)\n")
+        self.assertEqual(self.run_program("motor", "emf", "scope.csv", "--quiet").stderr, "")
+
+    def test_a_preamble_that_contradicts_the_rows_is_refused(self):
+        (self.path / "scope.csv").write_text("# Sample interval: 20 ms\n" + (self.path / "scope.csv").read_text())
+        line = self.refused("emf", "scope.csv")
+        self.assertIn('scope.csv: contradicts itself: time steps by 2e-05 s, and "Sample interval: 20 ms" says 0.02 s', line)
+        self.run_program("motor", "emf", "scope.csv", "--interval", "2e-5", "--quiet")
+
     def test_options_that_cannot_be(self):
         for words, told in ((("identify", "nowhere.csv"), "nowhere.csv"),
                             (("identify", "."), "."),

@@ -66,5 +66,129 @@ class BoardLog(ProgramTest):
                 self.assertIn(said, made.stderr)
 
 
+RUN = """
+motor = "hoverboard-hub"
+duration_s = 0.3
+[supply]
+voltage_V = 36
+[control]
+mode = "duty"
+[reference]
+value = 0.4
+[record]
+grid_s = 0.003
+columns = ["t_s", "speed_rad_s", "i_m_A", "bus_V", "duty", "u_a_V", "u_ab_V"]
+"""
+PAIRS = 15
+RPM = 30 / 3.141592653589793
+
+
+class LogsOfOthers(BoardLog):
+    """One run, as drives of many makers would have logged it."""
+
+    def setUp(self):
+        super().setUp()
+        (self.path / "run.toml").write_text(RUN)
+        self.run_program("run", "run.toml", "--csv", "trace.csv", "--quiet")
+        with open(self.path / "trace.csv", encoding="utf-8") as file:
+            self.rows = [{key: float(value) for key, value in row.items()}
+                         for row in csv.DictReader(line for line in file if not line.startswith("#"))][:-1]
+
+    def log(self, head, row):
+        (self.path / "log.csv").write_text(head + "".join(row(n, r) for n, r in enumerate(self.rows)), encoding="latin-1")
+
+    def compared(self, *words, code=0):
+        made = self.run_program("run", "run.toml", "--compare", "log.csv", *words, code=code)
+        return self.found(made.stdout), made.stdout + made.stderr
+
+    def expect_right(self, *words, columns=("speed_rad_s", "i_m_A")):
+        found, text = self.compared(*words)
+        self.assertEqual(set(found), set(columns), text)
+        for name in columns:
+            self.assertEqual(found[name][0], len(self.rows), text)
+        self.assertLess(found["speed_rad_s"][1], 0.01)  # 0.1 rpm and its eRPM are less
+        self.assertLess(found["i_m_A"][1], 0.006)       # half of a hundredth of an ampere, and what lies between instants
+        self.assertNotIn("moved by", text)
+        return text
+
+    def test_a_log_of_the_very_same_run_stays_where_it_is(self):
+        self.log("t [ms],speed [rpm],i_m [mA]\n", lambda n, r: f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM:.1f},{1e3 * r['i_m_A']:.2f}\n")
+        found, text = self.compared()
+        self.assertLess(found["i_m_A"][1], 0.3e-3, text)
+        self.assertNotIn("moved by", text)
+        self.assertEqual(found["i_m_A"][0], len(self.rows))
+
+    def test_turns_per_second_and_a_micro_sign_of_another_encoding(self):
+        self.log("t [\xb5s],speed [turn/s],i_m [mA]\n", lambda n, r: f"{1e6 * r['t_s']:.0f},{r['speed_rad_s'] * RPM / 60:.5f},{1e3 * r['i_m_A']:.2f}\n")
+        self.expect_right()
+
+    def test_electrical_speed_by_the_motors_pole_pairs(self):
+        self.log("t [ms],speed [erpm],i_m [mA]\n", lambda n, r: f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM * PAIRS:.1f},{1e3 * r['i_m_A']:.2f}\n")
+        self.expect_right()
+
+    def test_vesc(self):
+        head = "ms_today;input_voltage;temp_mos_max;current_motor;current_in;d_axis_current;q_axis_current;erpm;duty_cycle;tacho_meter;\n"
+        self.log(head, lambda n, r: f"{36000000 + 1e3 * r['t_s']:.0f};36.00;31.2;{r['i_m_A']:.2f};0;0.01;0;{r['speed_rad_s'] * RPM * PAIRS:.1f};0.400;{n};\n")
+        told = self.compared(code=2)[1]
+        self.assertIn("has no column of time: it has ms_today", told)
+        text = self.expect_right("--columns", "time=ms_today/1000,speed=erpm*2*pi/60/15,i_m=current_motor")
+        self.assertIn("its clock starts at 36000 s: times count from its first row", text)
+        self.assertIn("input_voltage (not named)", text)
+
+    def test_ardupilot(self):
+        self.log("TimeUS,Instance,RPM,RawRPM,Volt,Curr,Temp\n",
+                 lambda n, r: f"{12000000 + 1e6 * r['t_s']:.0f},0,{r['speed_rad_s'] * RPM:.1f},0,36,{r['i_m_A']:.2f},31\n")
+        self.expect_right("--columns", "time=TimeUS/1e6,speed=RPM*pi/30,i_m=Curr")
+
+    def test_blackbox(self):
+        self.log("loopIteration, time (us), rcCommand[0], eRPM[0], amperageLatest (A)\n",
+                 lambda n, r: f"{8 * n}, {5000000 + 1e6 * r['t_s']:.0f}, 0, {r['speed_rad_s'] * RPM * PAIRS / 100:.3f}, {r['i_m_A']:.2f}\n")
+        self.expect_right("--columns", "time=time,speed=eRPM[0]*100*2*pi/60/15,i_m=amperageLatest")
+
+    def test_simplefoc_has_neither_head_nor_time(self):
+        self.log("MOT: Monitor enabled!\nMOT: Init\nMOT: Ready.\n",
+                 lambda n, r: f"5.0000\t14.4000\t0.0000\t{1e3 * r['i_m_A']:.4f}\t0.0000\t{r['speed_rad_s']:.4f}\t0.1\n")
+        self.assertIn("where none has a heading", self.compared(code=2)[1])
+        self.expect_right("--interval", "0.003", "--columns", "speed=column 6,i_m=column 4/1000")
+
+    def test_a_scopes_record_of_terminals(self):
+        self.log("Time (s),CH1 (V),CH2 (V)\n", lambda n, r: f"{r['t_s']:.6f},{r['u_a_V']:.3f},{r['u_ab_V']:.3f}\n")
+        found, text = self.compared("--shift", "0", "--columns", "u_a=CH1,u_ab=CH2")
+        self.assertEqual(set(found), {"u_a_V", "u_ab_V"}, text)
+        self.assertLess(found["u_a_V"][1], 1e-3, text)
+        self.assertLess(found["u_ab_V"][1], 1e-3, text)
+
+    def test_columns_that_are_not_compared_are_named(self):
+        self.log("t [ms],speed_rpm,rpm,current,note\n", lambda n, r: f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM:.1f},1,2,x\n")
+        found, text = self.compared()
+        self.assertEqual(set(found), {"speed_rad_s"}, text)
+        self.assertIn("not used: rpm (a simulation has none of that name), current (a simulation has none of that name), note (holds no numbers)", text)
+
+    def test_what_cannot_be_compared_exits_2(self):
+        good = [f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM:.1f}\n" for r in self.rows]
+        for head, rows, words, said in (
+                ("t [ms],speed [counts]\n", good, (), 'heads speed in "counts", which is no unit; rad/s belongs there; units that fit: rad/s, '),
+                ("t [ms],speed [Hz]\n", good, (), 'heads speed as Hz, where rad/s belongs; name another column; write rev/s for turns of the shaft'),
+                ("t [foo],speed [rpm]\n", good, (), 'heads t in "foo", which is no unit; s belongs there'),
+                ("t [s],speed [rpm]\n", good, (), "has 1 of 100 rows in the simulated time, 0 to 0.3 s; its own is 0 to 297 s, and 5 are needed"),
+                ("t [ms],speed [rpm]\n", good[:4], (), "has 4 of 4 rows"),
+                ("t [ms],speed [rpm]\n", [*good[:5], "15.0,OL\n", *good[6:]], (), 'log.csv:7: speed "OL" is no number'),
+                ("t [ms],speed [rpm],speed [rpm]\n", [row[:-1] + ",1\n" for row in good], (), "has two columns of speed_rad_s"),
+                ("t [ms],speed [rpm]\n", good, ("--columns", "sped=speed"), "--columns = sped is no column that a simulation has; did you mean speed"),
+                ("t [ms],speed [rpm]\n", good, ("--columns", "speed"), "--columns = speed must be NAME=COLUMN"),
+                ("t [ms],speed [rpm]\n", good, ("--columns", "speed=sped"), 'has no column "sped"; did you mean "speed"?'),
+                ("t [ms],speed [rpm]\n", good, ("--columns", "speed=speed,speed=t"), "--columns = speed is named twice"),
+                ("t [ms],speed [rpm]\n", good, ("--interval", "0"), "--interval = 0 must be above 0")):
+            with self.subTest(said):
+                (self.path / "log.csv").write_text(head + "".join(rows))
+                text = self.compared(*words, code=2)[1]
+                self.assertIn(said, text)
+                self.assertNotIn("rms", text)
+
+    def test_missed_periods_are_told(self):
+        self.log("t [ms],speed [rpm],missed\n", lambda n, r: f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM:.1f},{2 if n == 7 else 0}\n")
+        self.assertIn("1 rows say that the board missed control periods, up to 2", self.compared()[1])
+
+
 if __name__ == "__main__":
     unittest.main()

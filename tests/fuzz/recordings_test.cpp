@@ -85,7 +85,8 @@ void expect_numbers(const analysis::EmfResult& found) {
 
 /// True where there is an answer.
 bool identified(const text::Recording& recording) {
-  const auto log = text::hall_log_of(recording, {});
+  text::Notes notes;
+  const auto log = text::hall_log_of(recording, {}, notes);
   if (!log) return expect_told(log.problems()), false;
   const auto found = analysis::identify(*log);
   if (!found) return expect_told(found.problems()), false;
@@ -98,7 +99,8 @@ bool identified(const text::Recording& recording) {
 }
 
 bool measured(const text::Recording& recording) {
-  const auto record = text::emf_record_of(recording, {});
+  text::Notes notes;
+  const auto record = text::emf_record_of(recording, {}, notes);
   if (!record) return expect_told(record.problems()), false;
   const auto found = analysis::measure_emf({*record, 4, {}});
   if (!found) return expect_told(found.problems()), false;

@@ -24,18 +24,19 @@ TEST(BoardLog, ColumnsByTheirNamesInAnyUnit) {
                                         "100,-500,0.25,5,60,24,1500,0\n"
                                         "900,250,-0.125,4,-30,23.5,-20,3\n");
   ASSERT_TRUE(log) << log.problems()[0].limit;
-  EXPECT_THAT(names_of(*log), ElementsAre("t_s", "i_m_A", "duty", "hall", "speed_rad_s", "bus_V", "bus_A"));
-  EXPECT_THAT(log->values[0], ElementsAre(DoubleEq(1e-4), DoubleEq(9e-4)));
-  EXPECT_THAT(log->values[1], ElementsAre(DoubleEq(-0.5), DoubleEq(0.25)));
-  EXPECT_THAT(log->values[2], ElementsAre(0.25, -0.125));
-  EXPECT_NEAR(log->values[4][0], 6.283185307179586, 1e-14);
-  EXPECT_THAT(log->values[6], ElementsAre(DoubleEq(1.5), DoubleEq(-0.02)));
+  EXPECT_THAT(names_of(log->trace),
+              ElementsAre("t_s", "i_m_A", "duty", "hall", "speed_rad_s", "bus_V", "bus_A"));
+  EXPECT_THAT(log->trace.values[0], ElementsAre(DoubleEq(1e-4), DoubleEq(9e-4)));
+  EXPECT_THAT(log->trace.values[1], ElementsAre(DoubleEq(-0.5), DoubleEq(0.25)));
+  EXPECT_THAT(log->trace.values[2], ElementsAre(0.25, -0.125));
+  EXPECT_NEAR(log->trace.values[4][0], 6.283185307179586, 1e-14);
+  EXPECT_THAT(log->trace.values[6], ElementsAre(DoubleEq(1.5), DoubleEq(-0.02)));
 }
 
 TEST(BoardLog, ATracesOwnHeadings) {
   const auto log = text::read_board_log("b.csv", "t_s,i_m_A,u_ab_V\n0,1,2\n0.5,3,4\n");
   ASSERT_TRUE(log);
-  EXPECT_THAT(names_of(*log), ElementsAre("t_s", "i_m_A", "u_ab_V"));
+  EXPECT_THAT(names_of(log->trace), ElementsAre("t_s", "i_m_A", "u_ab_V"));
 }
 
 TEST(BoardLog, FromTheLastStartToTheLastWholeLine) {
@@ -43,7 +44,7 @@ TEST(BoardLog, FromTheLastStartToTheLastWholeLine) {
       "b.csv",
       "67,8\n# reset\nt [us],i_m [mA]\n100,1\n200,2\n3# the watchdog bit\nt [us],i_m [mA]\n100,5\n200,6\n300,-");
   ASSERT_TRUE(log) << log.problems()[0].limit;
-  EXPECT_THAT(log->values[1], ElementsAre(DoubleEq(5e-3), DoubleEq(6e-3)));
+  EXPECT_THAT(log->trace.values[1], ElementsAre(DoubleEq(5e-3), DoubleEq(6e-3)));
 }
 
 TEST(BoardLog, SaysWhatIsWrong) {

@@ -8,6 +8,7 @@
 #include "sixstep/analysis/bench/emf/emf.hpp"
 #include "sixstep/analysis/bench/hall/identify.hpp"
 #include "text/recording/bench_recordings.hpp"
+#include "text/recording/times.hpp"
 
 namespace text {
 namespace {
@@ -33,7 +34,8 @@ std::string told(const base::Problems& problems) {
 std::string told_of_hall(const std::string& csv, const BenchColumns& columns = {}) {
   const auto recording = read_recording("r.csv", csv);
   if (!recording) return told(recording.problems());
-  const auto log = hall_log_of(*recording, columns);
+  Notes notes;
+  const auto log = hall_log_of(*recording, columns, notes);
   if (!log) return told(log.problems());
   const auto found = analysis::identify(*log);
   return found ? "" : told(found.problems());
@@ -41,7 +43,8 @@ std::string told_of_hall(const std::string& csv, const BenchColumns& columns = {
 std::string told_of_emf(const std::string& csv, const BenchColumns& columns = {}) {
   const auto recording = read_recording("r.csv", csv);
   if (!recording) return told(recording.problems());
-  const auto record = emf_record_of(*recording, columns);
+  Notes notes;
+  const auto record = emf_record_of(*recording, columns, notes);
   if (!record) return told(record.problems());
   const auto found = analysis::measure_emf({*record, {}, {}});
   return found ? "" : told(found.problems());
@@ -75,19 +78,21 @@ TEST(Recording, HeadingsWithUnitsUnitsBelowThemAndNone) {
   EXPECT_EQ(own.columns[1].unit, "mV");
   EXPECT_EQ(own.columns[2].name, "u_bc");
   EXPECT_EQ(own.columns[2].unit, "V");
-  EXPECT_EQ(own.first_line, 2u);
-  EXPECT_THAT(*times_of(own, {}), ElementsAre(0.0, 1e-3));
-  EXPECT_THAT(*values_of(own, own.columns[1], "V"), ElementsAre(1e-3, 3e-3));
+  EXPECT_EQ(own.line_of(0), 2u);
+  EXPECT_EQ(own.line_of(1), 3u);
+  Notes notes;
+  EXPECT_THAT(times_of(own, {}, notes)->t_s, ElementsAre(0.0, 1e-3));
+  EXPECT_THAT(*values_of(own, {&own.columns[1], "mV"}, "V"), ElementsAre(1e-3, 3e-3));
 
   const Recording keysight = read("x-axis,1,2\nsecond,Volt,Volt\n-1e-3,+1.5E+00,2\n0,1,2\n");
   EXPECT_EQ(keysight.columns[1].name, "1");
   EXPECT_EQ(keysight.columns[1].unit, "V");
-  EXPECT_THAT(*times_of(keysight, {}), ElementsAre(-1e-3, 0.0));
+  EXPECT_THAT(times_of(keysight, {}, notes)->t_s, ElementsAre(-1e-3, 0.0));
 
   const Recording bare = read("0,1.5\n1e-3,2\n3e-3,2.5\n");
   EXPECT_EQ(bare.columns[1].name, "column 2");
-  EXPECT_THAT(*times_of(bare, {}), ElementsAre(0.0, 1e-3, 3e-3));
-  EXPECT_THAT(*times_of(bare, 0.5), ElementsAre(0.0, 0.5, 1.0));
+  EXPECT_THAT(times_of(bare, {}, notes)->t_s, ElementsAre(0.0, 1e-3, 3e-3));
+  EXPECT_THAT(times_of(bare, 0.5, notes)->t_s, ElementsAre(0.0, 0.5, 1.0));
 }
 
 TEST(Recording, PreambleRemarksAndEverySeparator) {
@@ -194,7 +199,9 @@ TEST(Recording, WrongColumns) {
 TEST(Recording, WrongSeparators) {
   EXPECT_THAT(told_of_hall("time|hall1|hall2|hall3\n0|1|0|0\n1|1|1|0\n"),
               StartsWith("r.csv: holds no row of numbers"));
-  EXPECT_THAT(told_of_emf("time,u_ab\n0,0,1,5\n0,001,2,5\n"), AllOf(StartsWith("r.csv: "), HasSubstr("; ")));
+  EXPECT_THAT(
+      told_of_emf("time,u_ab\n0,0,1,5\n0,001,2,5\n"),
+      AllOf(StartsWith("r.csv:2: has 4 cells below 2 headings"), HasSubstr("; export it with semicolons")));
 }
 
 TEST(Recording, TooShortStandingOrDead) {

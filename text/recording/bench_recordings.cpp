@@ -6,45 +6,34 @@
 #include <algorithm>
 #include <cmath>
 
-#include "text/keys/bounded.hpp"
+#include "text/keys/units.hpp"
+#include "text/recording/columns.hpp"
+#include "text/recording/heading.hpp"
+#include "text/recording/times.hpp"
 
 namespace text {
 namespace {
 
-using Columns = std::vector<const RecordedColumn*>;
+using Columns = std::vector<Picked>;
 using Names = std::initializer_list<std::string_view>;
 
-base::Problem problem(const Recording& recording, std::string limit, std::string cure) {
-  return bounded(
-      {.where = recording.name + ":", .value = "", .limit = std::move(limit), .cure = std::move(cure)});
-}
-
-base::Result<Columns> columns_called(const Recording& recording, const std::vector<std::string>& headings) {
-  Columns out;
-  for (const std::string& heading : headings) {
-    const base::Result<const RecordedColumn*> column = column_called(recording, heading);
-    if (!column) return column.problems();
-    out.push_back(*column);
-  }
-  return out;
-}
-
 /// All of them, or as many as come before the first that is missing.
-Columns columns_like(const Recording& recording, std::initializer_list<Names> wanted) {
+base::Result<Columns> columns_like(const Recording& recording, std::initializer_list<Names> wanted) {
   Columns out;
   for (const Names names : wanted) {
-    const RecordedColumn* const column = find_column(recording, names);
-    if (!column) break;
-    out.push_back(column);
+    const base::Result<Picked> found = find_column(recording, names);
+    if (!found) return found.problems();
+    if (!found->column) break;
+    out.push_back(*found);
   }
   return out;
 }
 
-Columns line_voltages(const Recording& r) {
+base::Result<Columns> line_voltages(const Recording& r) {
   return columns_like(
       r, {{"uab", "vab", "eab", "ab"}, {"ubc", "vbc", "ebc", "bc"}, {"uca", "vca", "eca", "ca"}});
 }
-Columns terminal_voltages(const Recording& r) {
+base::Result<Columns> terminal_voltages(const Recording& r) {
   return columns_like(r, {{"ua", "va", "ea", "phasea", "vphasea"},
                           {"ub", "vb", "eb", "phaseb", "vphaseb"},
                           {"uc", "vc", "ec", "phasec", "vphasec"}});
@@ -62,12 +51,79 @@ base::Result<Voltages> voltages_of(const Recording& r, const BenchColumns& wante
     if (!named) return named.problems();
     return Voltages{std::move(*named), wanted.between};
   }
-  const Columns lines = line_voltages(r), terminals = terminal_voltages(r);
+  const base::Result<Columns> lines = line_voltages(r), terminals = terminal_voltages(r);
+  if (!lines) return lines.problems();
+  if (!terminals) return terminals.problems();
   const bool star = wanted.between == analysis::EmfBetween::star;
-  if (lines.size() > 1 && !star) return Voltages{lines, analysis::EmfBetween::lines};
-  if (terminals.size() == 3) return Voltages{terminals, wanted.between.value_or(analysis::EmfBetween::star)};
-  if (!lines.empty()) return Voltages{lines, wanted.between.value_or(analysis::EmfBetween::lines)};
-  return Voltages{terminals, wanted.between};
+  if (lines->size() > 1 && !star) return Voltages{*lines, analysis::EmfBetween::lines};
+  if (terminals->size() == 3)
+    return Voltages{*terminals, wanted.between.value_or(analysis::EmfBetween::star)};
+  if (!lines->empty()) return Voltages{*lines, wanted.between.value_or(analysis::EmfBetween::lines)};
+  return Voltages{*terminals, wanted.between};
+}
+
+bool is_of_kind(const RecordedColumn& column, std::string_view unit) {
+  return !column.unit.empty() && same_kind(*unit_of(column.unit), *unit_of(unit));
+}
+
+/// Some exporters give each channel a time of its own.
+bool is_other_time(const RecordedColumn& column, const RecordedColumn* time) {
+  if (&column == time || !time || !column.filled) return false;
+  const bool same_heading = !time->heading.empty() && column.heading == time->heading;
+  return same_heading || is_of_kind(column, "s");
+}
+
+/// Channels that were not sampled at one instant cannot stand in one row.
+base::Problems check_other_times(const Recording& r, const RecordedColumn* time) {
+  for (const RecordedColumn& column : r.columns) {
+    if (!is_other_time(column, time)) continue;
+    for (std::size_t n = 0; n < r.rows(); ++n) {
+      const double step = n > 0 ? std::fabs(time->values[n] - time->values[n - 1]) : 0.0;
+      if (std::fabs(column.values[n] - time->values[n]) <= 0.01 * step + 1e-12) continue;
+      return {of_recording(
+          r, fmt::format("has two times: {} and {} differ in line {}", time->name, column.name, r.line_of(n)),
+          "export all channels with one time, or a file for each channel")};
+    }
+  }
+  return {};
+}
+
+bool is_among(const Columns& columns, const RecordedColumn& column) {
+  return std::any_of(columns.begin(), columns.end(), [&](const Picked& p) { return p.column == &column; });
+}
+
+/// Each column that is not used, with its reason. Where columns were asked for by name, nobody wonders.
+void note_rest(const Recording& r, const Columns& used, const RecordedColumn* time, Notes& notes) {
+  std::vector<NotUsed> rest;
+  for (const RecordedColumn& column : r.columns) {
+    if (&column == time || !column.filled || is_among(used, column)) continue;
+    if (is_other_time(column, time)) continue;
+    const bool in_volts = column.unit.empty() || column.letter || is_of_kind(column, "V");
+    rest.push_back({column.name, !column.has_numbers() ? "holds no numbers"
+                                 : in_volts            ? "its heading says nothing that is known here"
+                                                       : "in " + column.unit});
+  }
+  note_not_used(rest, notes);
+}
+
+/// "CH1" or no heading at all: whatever holds numbers and is neither a time nor in the unit of another thing.
+Columns whatever_is_a_voltage(const Recording& r, const RecordedColumn* time, Notes& notes) {
+  Columns out;
+  std::vector<NotUsed> rest;
+  for (const RecordedColumn& column : r.columns) {
+    if (&column == time || !column.filled || is_other_time(column, time)) continue;
+    const bool other_unit = !column.unit.empty() && !column.letter && !is_of_kind(column, "V");
+    if (!column.has_numbers())
+      rest.push_back({column.name, "holds no numbers"});
+    else if (other_unit)
+      rest.push_back({column.name, "in " + column.unit});
+    else if (out.size() == analysis::most_emf_channels)
+      rest.push_back({column.name, fmt::format("more than {} voltages", analysis::most_emf_channels)});
+    else
+      out.push_back({&column, column.unit});
+  }
+  note_not_used(rest, notes);
+  return out;
 }
 
 /// Two levels of a line, or why it has none.
@@ -101,27 +157,27 @@ std::vector<bool> digital(const std::vector<double>& values) {
   return out;
 }
 
-base::Result<std::vector<std::uint8_t>> codes_of(const Recording& r, const RecordedColumn& column) {
-  const base::Result<std::vector<double>> values = values_of(r, column, "");
+using Codes = std::vector<std::uint8_t>;
+
+base::Result<Codes> codes_of(const Recording& r, const Picked& picked) {
+  const base::Result<std::vector<double>> values = values_of(r, picked, "");
   if (!values) return values.problems();
-  std::vector<std::uint8_t> out;
+  Codes out;
   for (std::size_t n = 0; n < values->size(); ++n) {
     const double x = (*values)[n];
     if (!(x >= 0.0 && x <= 7.0 && x == std::floor(x)))
-      return base::Problem{
-          .where = r.name + ":",
-          .value = "",
-          .limit = fmt::format("{} {:g} in row {} is no Hall code, 0 to 7", column.name, x, n + 1),
-          .cure = "a code is 4 H1 + 2 H2 + H3; three lines of their own are columns hall1, hall2, hall3"};
+      return of_recording(
+          r, fmt::format("{} {:g} in row {} is no Hall code, 0 to 7", picked.column->name, x, n + 1),
+          "a code is 4 H1 + 2 H2 + H3; three lines of their own are columns hall1, hall2, hall3");
     out.push_back(static_cast<std::uint8_t>(x));
   }
   return out;
 }
 
-base::Result<std::vector<std::uint8_t>> codes_of(const Recording& r, const Columns& lines) {
-  std::vector<std::uint8_t> out(r.rows());
-  for (const RecordedColumn* line : lines) {
-    const base::Result<std::vector<double>> values = values_of(r, *line, line->unit.empty() ? "" : "V");
+base::Result<Codes> codes_of(const Recording& r, const Columns& lines) {
+  Codes out(r.rows());
+  for (const Picked& line : lines) {
+    const base::Result<std::vector<double>> values = values_of(r, line, line.unit.empty() ? "" : "V");
     if (!values) return values.problems();
     const std::vector<bool> high = digital(*values);
     for (std::size_t n = 0; n < out.size(); ++n)
@@ -130,82 +186,101 @@ base::Result<std::vector<std::uint8_t>> codes_of(const Recording& r, const Colum
   return out;
 }
 
-base::Result<std::vector<std::uint8_t>> hall_codes(const Recording& r, const BenchColumns& wanted) {
-  Columns lines;
-  if (!wanted.hall.empty()) {
-    const base::Result<Columns> named = columns_called(r, wanted.hall);
-    if (!named) return named.problems();
-    lines = *named;
-  } else {
-    lines = columns_like(r, {{"hall1", "h1", "halla", "ha", "hallu", "hu"},
-                             {"hall2", "h2", "hallb", "hb", "hallv", "hv"},
-                             {"hall3", "h3", "hallc", "hc", "hallw", "hw"}});
-    if (lines.size() != 3) lines = columns_like(r, {{"hall", "code", "hallcode", "hallstate"}});
+/// By the options, else by the headings; what a logic analyzer heads "logic" are lines, where there are three.
+base::Result<Columns> hall_columns(const Recording& r, const BenchColumns& wanted, Notes& notes) {
+  if (!wanted.hall.empty()) return columns_called(r, wanted.hall);
+  const base::Result<Columns> lines = columns_like(r, {{"hall1", "h1", "halla", "ha", "hallu", "hu"},
+                                                       {"hall2", "h2", "hallb", "hb", "hallv", "hv"},
+                                                       {"hall3", "h3", "hallc", "hc", "hallw", "hw"}});
+  if (!lines || lines->size() == 3) return lines;
+  const base::Result<Columns> code = columns_like(r, {{"hall", "code", "hallcode", "hallstate"}});
+  if (!code || !code->empty()) return code;
+  Columns logic;
+  for (const RecordedColumn& column : r.columns)
+    if (bare_name(column.heading) == "logic") logic.push_back({&column, ""});
+  if (logic.size() != 3) return Columns{};
+  notes.push_back(fmt::format("{}, {} and {} are taken for H1, H2 and H3, in the order of their columns",
+                              logic[0].column->name, logic[1].column->name, logic[2].column->name));
+  return logic;
+}
+
+base::Result<Codes> hall_codes(const Recording& r, const Columns& columns) {
+  if (columns.size() == 1) return codes_of(r, columns[0]);
+  if (columns.size() == 3) return codes_of(r, columns);
+  return of_recording(r, "has no columns of Hall lines: it has " + headings_of(r),
+                      "head them hall1, hall2, hall3, or one of codes hall, or name the columns");
+}
+
+base::Problems take_voltages(const Recording& r, const Voltages& voltages, const Times& times,
+                             analysis::HallLog& out) {
+  const std::size_t count = voltages.columns.size();
+  const bool lines =
+      voltages.between.value_or(count == 2 ? analysis::EmfBetween::lines : analysis::EmfBetween::star) ==
+      analysis::EmfBetween::lines;
+  if (count > 3 || count < (lines ? 2U : 3U))
+    return {
+        of_recording(r,
+                     fmt::format("has {} {} of {}", count, count == 1 ? "voltage" : "voltages",
+                                 lines ? "lines" : "terminals"),
+                     lines ? "u_ab and u_bc are needed; leave out the voltages to go by the codes alone"
+                           : "u_a, u_b and u_c are needed; leave out the voltages to go by the codes alone")};
+  out.voltages = lines ? analysis::RecordedVoltages::lines : analysis::RecordedVoltages::terminals;
+  for (std::size_t n = 0; n < count; ++n) {
+    base::Result<std::vector<double>> values = values_of(r, voltages.columns[n], "V");
+    if (!values) return values.problems();
+    out.u_V[n] = without_rows(std::move(*values), times.left_out);
   }
-  if (lines.size() == 1) return codes_of(r, *lines[0]);
-  if (lines.size() == 3) return codes_of(r, lines);
-  return problem(r, "has no columns of Hall lines: it has " + headings_of(r),
-                 "head them hall1, hall2, hall3, or one of codes hall, or name the columns");
+  return {};
 }
 
 }  // namespace
 
-base::Result<analysis::HallLog> hall_log_of(const Recording& r, const BenchColumns& wanted) {
+base::Result<analysis::HallLog> hall_log_of(const Recording& r, const BenchColumns& wanted, Notes& notes) {
   analysis::HallLog out;
-  base::Result<std::vector<std::uint8_t>> codes = hall_codes(r, wanted);
+  const base::Result<Columns> lines = hall_columns(r, wanted, notes);
+  if (!lines) return lines.problems();
+  base::Result<Codes> codes = hall_codes(r, *lines);
   if (!codes) return codes.problems();
-  base::Result<std::vector<double>> times = times_of(r, wanted.interval_s);
+  base::Result<Times> times = times_of(r, wanted.interval_s, notes);
   if (!times) return times.problems();
+  if (base::Problems wrong = check_other_times(r, times->column); !wrong.empty()) return wrong;
   const base::Result<Voltages> voltages = voltages_of(r, wanted);
   if (!voltages) return voltages.problems();
-  out.codes = std::move(*codes);
-  out.t_s = std::move(*times);
-  const std::size_t count = voltages->columns.size();
-  if (count == 0) return out;
-  const bool lines =
-      voltages->between.value_or(count == 2 ? analysis::EmfBetween::lines : analysis::EmfBetween::star) ==
-      analysis::EmfBetween::lines;
-  if (count > 3 || count < (lines ? 2U : 3U))
-    return problem(r,
-                   fmt::format("has {} {} of {}", count, count == 1 ? "voltage" : "voltages",
-                               lines ? "lines" : "terminals"),
-                   lines ? "u_ab and u_bc are needed; leave out the voltages to go by the codes alone"
-                         : "u_a, u_b and u_c are needed; leave out the voltages to go by the codes alone");
-  out.voltages = lines ? analysis::RecordedVoltages::lines : analysis::RecordedVoltages::terminals;
-  for (std::size_t n = 0; n < count; ++n) {
-    base::Result<std::vector<double>> values = values_of(r, *voltages->columns[n], "V");
-    if (!values) return values.problems();
-    out.u_V[n] = std::move(*values);
-  }
+  out.codes = without_rows(std::move(*codes), times->left_out);
+  if (!voltages->columns.empty())
+    if (base::Problems wrong = take_voltages(r, *voltages, *times, out); !wrong.empty()) return wrong;
+  out.t_s = std::move(times->t_s);
+  Columns used = *lines;
+  used.insert(used.end(), voltages->columns.begin(), voltages->columns.end());
+  if (wanted.hall.empty()) note_rest(r, used, times->column, notes);
   return out;
 }
 
-base::Result<analysis::EmfRecord> emf_record_of(const Recording& r, const BenchColumns& wanted) {
+base::Result<analysis::EmfRecord> emf_record_of(const Recording& r, const BenchColumns& wanted,
+                                                Notes& notes) {
   analysis::EmfRecord out;
-  base::Result<std::vector<double>> times = times_of(r, wanted.interval_s);
+  base::Result<Times> times = times_of(r, wanted.interval_s, notes);
   if (!times) return times.problems();
+  if (base::Problems wrong = check_other_times(r, times->column); !wrong.empty()) return wrong;
   base::Result<Voltages> voltages = voltages_of(r, wanted);
   if (!voltages) return voltages.problems();
-  if (voltages->columns.empty()) {  // "CH1" or no heading at all: whatever is no time
-    const RecordedColumn* const time = time_column(r);
-    for (const RecordedColumn& column : r.columns)
-      if (&column != time && column.wrong_line == 0 && voltages->columns.size() < analysis::most_emf_channels)
-        voltages->columns.push_back(&column);
-    voltages->between = wanted.between;
-  }
   if (voltages->columns.empty())
-    return problem(r, "has no column of voltages: it has " + headings_of(r), "name the columns");
+    voltages = Voltages{whatever_is_a_voltage(r, times->column, notes), wanted.between};
+  else if (wanted.voltages.empty())
+    note_rest(r, voltages->columns, times->column, notes);
+  if (voltages->columns.empty())
+    return of_recording(r, "has no column of voltages: it has " + headings_of(r), "name the columns");
   if (!voltages->between)
     return base::Problem{.where = "between",
                          .value = "",
                          .limit = "is missing: the headings do not say what the probes hung between",
                          .cure = "lines is two terminals, star a terminal and the star point"};
   out.between = *voltages->between;
-  out.t_s = std::move(*times);
-  for (const RecordedColumn* column : voltages->columns) {
-    base::Result<std::vector<double>> values = values_of(r, *column, "V");
+  out.t_s = std::move(times->t_s);
+  for (const Picked& picked : voltages->columns) {
+    base::Result<std::vector<double>> values = values_of(r, picked, "V");
     if (!values) return values.problems();
-    out.channels.push_back({column->name, std::move(*values)});
+    out.channels.push_back({picked.column->name, without_rows(std::move(*values), times->left_out)});
   }
   return out;
 }

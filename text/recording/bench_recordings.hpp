@@ -20,10 +20,13 @@ struct BenchColumns {
   std::optional<double> interval_s;  ///< of the rows, where none is a time
 };
 
-/// Lines at 0 and 1, or at two voltages: then the middle between them, with some way to go before it counts.
-base::Result<analysis::HallLog> hall_log_of(const Recording& recording, const BenchColumns& columns);
+/// Lines at 0 and 1, or at two voltages: then the middle between them, with some way to go before it counts. `notes` gets what was not used
+/// of the recording, and what was taken for what.
+base::Result<analysis::HallLog> hall_log_of(const Recording& recording, const BenchColumns& columns,
+                                            Notes& notes);
 
 /// One to three voltages of one kind.
-base::Result<analysis::EmfRecord> emf_record_of(const Recording& recording, const BenchColumns& columns);
+base::Result<analysis::EmfRecord> emf_record_of(const Recording& recording, const BenchColumns& columns,
+                                                Notes& notes);
 
 }  // namespace text

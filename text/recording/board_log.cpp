@@ -4,28 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <optional>
 
 #include "sixstep/study/measure/columns.hpp"
+#include "text/keys/bounded.hpp"
+#include "text/keys/key_advice.hpp"
 #include "text/keys/units.hpp"
-#include "text/recording/recording.hpp"
+#include "text/recording/column_formula.hpp"
+#include "text/recording/heading.hpp"
+#include "text/recording/times.hpp"
 
 namespace text {
 namespace {
 
-bool begins_with_letter(std::string_view line) {
-  return !line.empty() && std::isalpha(static_cast<unsigned char>(line.front())) != 0;
-}
-
-/// From the last line of headings to the last line that is whole.
-std::string_view last_start(std::string_view text) {
-  if (const std::size_t end = text.rfind('\n'); end != std::string_view::npos) text = text.substr(0, end + 1);
-  std::size_t from = 0;
-  for (std::size_t at = 0; at < text.size(); at = std::min(text.find('\n', at), text.size() - 1) + 1)
-    if (begins_with_letter(text.substr(at))) from = at;
-  return text.substr(from);
-}
+using Values = base::Result<std::vector<double>>;
 
 /// "i_m" of i_m_A, as a log's heading has it.
 std::string bare_column(const study::Column& column) {
@@ -36,65 +27,208 @@ std::string bare_column(const study::Column& column) {
   return bare_name(name);
 }
 
-bool fits(const RecordedColumn& recorded, const study::Column& column) {
-  const std::optional<Unit> a = unit_of(recorded.unit), b = unit_of(column.unit);
-  return recorded.unit.empty() || (a && b && same_kind(*a, *b));
+std::string unit_of_trace(const study::Column& column) { return column.unit == "1" ? "" : column.unit; }
+
+bool fits(const std::string& unit, const study::Column& column) {
+  return unit.empty() || conversion(unit, {unit_of_trace(column), "", 1}).operator bool();
 }
 
-/// Null: no trace has it. Of two of one name, as the bus's voltage and current, the one that the unit fits.
-const study::Column* column_of(const RecordedColumn& recorded) {
-  const study::Column* found = nullptr;
+/// A column of the trace, and the recorded one in its unit.
+struct Found {
+  const study::Column* column = nullptr;
+  Picked picked;
+};
+
+/// By a heading that a trace itself would have, "i_m_A", else by name and unit. Of two of one name, as the bus's voltage and current, the one
+/// that the unit fits.
+Found column_of(const RecordedColumn& recorded) {
+  Found found;
   for (const study::Column& column : study::all_columns()) {
-    const std::string name = bare_name(recorded.name);
-    if (name != bare_column(column) && name != bare_name(column.name)) continue;
-    if (fits(recorded, column)) return &column;
-    if (found == nullptr) found = &column;
+    if (recorded.heading == column.name) return {&column, {&recorded, ""}};
+    const bool letter = recorded.letter && bare_name(recorded.heading) == bare_column(column);
+    if (!letter && recorded.bare != bare_column(column)) continue;
+    const std::string unit = letter ? std::string() : recorded.unit;
+    if (found.column == nullptr || (!fits(found.picked.unit, *found.column) && fits(unit, column)))
+      found = {&column, {&recorded, unit}};
   }
   return found;
 }
 
-base::Problems add_columns(const Recording& recording, study::Trace& out) {
-  base::Problems problems;
-  for (const RecordedColumn& recorded : recording.columns) {
-    const study::Column* const column = column_of(recorded);
-    if (column == nullptr || column->name == out.columns.front().name) continue;
-    base::Result<std::vector<double>> values =
-        values_of(recording, recorded, column->unit == "1" ? "" : column->unit);
-    if (!values) {
-      problems.insert(problems.end(), values.problems().begin(), values.problems().end());
-      continue;
-    }
-    out.columns.push_back(*column);
-    out.values.push_back(std::move(*values));
+/// The column of a trace that a formula names; of bus the one that says its unit.
+base::Result<const study::Column*> trace_column(const std::string& name) {
+  std::vector<std::string> known;
+  const study::Column* found = nullptr;
+  for (const study::Column& column : study::all_columns()) {
+    if (column.name == name) return &column;
+    known.push_back(column.name);
+    if (!found && bare_name(name) == bare_column(column)) found = &column;
   }
-  return problems;
+  if (found) return found;
+  const std::string near = nearest_word(name, known);
+  return bounded({.where = "columns",
+                  .value = name,
+                  .limit = "is no column that a simulation has",
+                  .cure = near.empty() ? "name one of a trace, as speed, i_m, u_ab, duty or bus_V"
+                                       : fmt::format("did you mean {}?", near)});
 }
 
-base::Problem too_short(const std::string& name, std::string limit) {
-  return {name + ":", "", std::move(limit), "log for longer, and end the last line"};
+bool is_time(const std::string& name) {
+  const std::string bare = bare_name(name);
+  return bare == "time" || bare == "t" || bare == "ts";
 }
+
+Values formula_values(const Recording& r, const ColumnFormula& formula, const Wanted& wanted,
+                      const RecordedColumn*& column) {
+  const base::Result<std::vector<Picked>> found = columns_called(r, {formula.column});
+  if (!found) return found.problems();
+  column = found->front().column;
+  if (!formula.scaled) {
+    Values values = values_of(r, found->front(), wanted);
+    if (values && formula.factor != 1.0)
+      for (double& x : *values) x *= formula.factor;
+    return values;
+  }
+  // With constants the numbers count as they stand: in no unit, and with its power of ten again.
+  RecordedColumn bare = *column;
+  const int ten = bare.unit.empty() ? 0 : unit_of(bare.unit)->ten;
+  bare.unit.clear();
+  bare.odd_unit.clear();
+  Values values = values_of(r, {&bare, ""}, "");
+  if (!values) return values;
+  double factor = formula.factor;
+  for (int n = 0; n < std::abs(ten); ++n) factor = ten < 0 ? factor * 10.0 : factor / 10.0;
+  for (double& x : *values) x *= factor;
+  return values;
+}
+
+class LogReader {
+ public:
+  LogReader(const Recording& recording, const LogColumns& wanted) : r_(recording), wanted_(wanted) {}
+
+  base::Result<BoardLog> read() {
+    out_.notes = r_.notes;
+    if (base::Problems wrong = read_formulas(); !wrong.empty()) return wrong;
+    base::Result<Times> times = read_times();
+    if (!times) return times.problems();
+    out_.trace = {.columns = {study::all_columns().front()}, .values = {std::move(times->t_s)}};
+    add_named(times->left_out);
+    if (wanted_.formulas.empty()) add_by_headings(*times);
+    note_missed();
+    if (!problems_.empty()) return problems_;
+    if (out_.trace.columns.size() < 2)
+      return of_recording(
+          r_, "has no column that a simulation has: it has " + headings_of(r_),
+          "head the columns as a trace names them, t [us], i_m [mA], duty, speed [rad/s], hall, "
+          "or name them");
+    return std::move(out_);
+  }
+
+ private:
+  base::Problems read_formulas() {
+    for (const std::string& text : wanted_.formulas) {
+      const base::Result<ColumnFormula> formula = column_formula(text);
+      if (!formula) return formula.problems();
+      if (is_time(formula->name)) {
+        time_ = *formula;
+        continue;
+      }
+      const base::Result<const study::Column*> column = trace_column(formula->name);
+      if (!column) return column.problems();
+      const bool twice =
+          std::any_of(named_.begin(), named_.end(), [&](const auto& n) { return n.first == *column; });
+      if (twice)
+        return {{.where = "columns",
+                 .value = bounded(formula->name, 200),
+                 .limit = "is named twice",
+                 .cure = "name each column of the simulation once"}};
+      named_.emplace_back(*column, *formula);
+    }
+    return {};
+  }
+
+  base::Result<Times> read_times() {
+    if (!time_ || wanted_.interval_s) return times_of(r_, wanted_.interval_s, out_.notes);
+    const RecordedColumn* column = nullptr;
+    Values values = formula_values(r_, *time_, "s", column);
+    if (!values) return values.problems();
+    used_.push_back(column);
+    return rising_times(r_, std::move(*values), *column, out_.notes);
+  }
+
+  Wanted wanted(const study::Column& column) const { return {unit_of_trace(column), "", wanted_.pole_pairs}; }
+
+  void add(const study::Column& column, Values values, const std::vector<std::size_t>& left_out) {
+    if (!values) return base::append(problems_, values.problems());
+    out_.trace.columns.push_back(column);
+    out_.trace.values.push_back(without_rows(std::move(*values), left_out));
+  }
+
+  void add_named(const std::vector<std::size_t>& left_out) {
+    for (const auto& [column, formula] : named_) {
+      const RecordedColumn* used = nullptr;
+      add(*column, formula_values(r_, formula, wanted(*column), used), left_out);
+      used_.push_back(used);
+    }
+    if (named_.empty()) return;
+    for (const RecordedColumn& recorded : r_.columns)
+      if (recorded.filled && std::find(used_.begin(), used_.end(), &recorded) == used_.end() &&
+          &recorded != time_column(r_))
+        out_.not_used.push_back({recorded.name, "not named"});
+  }
+
+  void add_by_headings(const Times& times) {
+    for (const RecordedColumn& recorded : r_.columns) {
+      if (&recorded == times.column || !recorded.filled) continue;
+      const Found found = column_of(recorded);
+      if (!found.column || found.column->name == "t_s") {
+        out_.not_used.push_back({recorded.name, !recorded.has_numbers() ? "holds no numbers"
+                                                : found.column          ? "another time"
+                                                               : "a simulation has none of that name"});
+        continue;
+      }
+      const auto& columns = out_.trace.columns;
+      if (std::any_of(columns.begin(), columns.end(),
+                      [&](const study::Column& c) { return c.name == found.column->name; }))
+        problems_.push_back(of_recording(r_, fmt::format("has two columns of {}", found.column->name),
+                                         "head one otherwise, or name the one that is meant"));
+      else
+        add(*found.column, values_of(r_, found.picked, wanted(*found.column)), times.left_out);
+    }
+  }
+
+  /// A board that lost control periods counted none of them.
+  void note_missed() {
+    const base::Result<Picked> missed = find_column(r_, {"missed", "missedperiods", "periodsmissed"});
+    if (!missed || !missed->column || !missed->column->has_numbers()) return;
+    double most = 0.0;
+    std::size_t rows = 0;
+    for (const double x : missed->column->values)
+      if (x > 0.0) {
+        most = std::max(most, x);
+        ++rows;
+      }
+    if (rows > 0)
+      out_.notes.push_back(fmt::format(
+          "{} rows say that the board missed control periods, up to {:g}: what it sent there is late", rows,
+          most));
+  }
+
+  const Recording& r_;
+  const LogColumns& wanted_;
+  std::optional<ColumnFormula> time_;
+  std::vector<std::pair<const study::Column*, ColumnFormula>> named_;
+  std::vector<const RecordedColumn*> used_;
+  base::Problems problems_;
+  BoardLog out_;
+};
 
 }  // namespace
 
-base::Result<study::Trace> read_board_log(const std::string& name, std::string_view text) {
-  const std::string_view whole_lines = last_start(text);
-  const base::Result<Recording> recording = read_recording(name, whole_lines);
-  // The last line of a board that was pulled off may be a part of one.
-  const bool short_of_rows = !recording || recording->rows() < 2;
-  if (short_of_rows && !text.ends_with('\n') && static_cast<bool>(read_recording(name, text)))
-    return too_short(name, "has not two rows whose line has ended");
+base::Result<BoardLog> read_board_log(const std::string& name, std::string_view bytes,
+                                      const LogColumns& wanted) {
+  const base::Result<Recording> recording = read_recording(name, bytes, RowsFrom::last_start);
   if (!recording) return recording.problems();
-  if (recording->rows() < 2)
-    return too_short(name, "has one row, and when it was sent is found by how a log moves");
-  base::Result<std::vector<double>> times = times_of(*recording, {});
-  if (!times) return times.problems();
-  study::Trace out{.columns = {study::all_columns().front()}, .values = {std::move(*times)}};
-  if (base::Problems problems = add_columns(*recording, out); !problems.empty()) return problems;
-  if (out.columns.size() < 2)
-    return base::Problem{
-        name + ":", headings_of(*recording), "has no column that a simulation has",
-        "head the columns as a trace names them: t [us], i_m [mA], duty, speed [rad/s], hall"};
-  return out;
+  return LogReader(*recording, wanted).read();
 }
 
 }  // namespace text

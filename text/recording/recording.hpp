@@ -1,60 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of numbers as oscilloscopes, logic analyzers and loggers export them: lines of preamble, headings
-// with units or a line of units below them, then rows.
+// Tables of numbers as oscilloscopes, logic analyzers, drives, simulators and loggers export them: lines of preamble, headings with
+// units or a line of units below them, then rows. Every table of numbers that the program reads is read here.
 #pragma once
 #include <cstddef>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sixstep/base/result.hpp"
+#include "text/recording/preamble.hpp"
 #include "text/rooms.hpp"
 
 namespace text {
 
-struct RecordedColumn {
-  std::string name;  ///< the heading without its unit; "column 2" where there is none
-  std::string unit;  ///< as units.hpp spells it; empty where there is none
-  std::vector<double> values;
-  /// The first cell that is no number. Columns that nobody asks for may hold what they like.
-  std::size_t wrong_line = 0;
-  std::string wrong_cell;
+/// A cell that is no number.
+struct BadCell {
+  std::size_t line = 0;
+  std::string cell;
 };
+
+struct RecordedColumn {
+  std::string heading;         ///< as it stands in the file
+  std::string name;            ///< without its unit, and no other column's; "column 2" where there is none
+  std::string bare;            ///< bare_name() of it, which two columns may have
+  std::string unit;            ///< as units.hpp spells it; empty where there is none
+  std::string odd_unit;        ///< what stands in the place of the unit and is none
+  bool letter = false;         ///< the unit may be a part of the name: Heading
+  std::vector<double> values;  ///< in the unit without its power of ten: in V where it is mV
+  std::vector<BadCell> bad;    ///< the first of them; columns that nobody asks for may hold what they like
+  std::size_t bad_cells = 0;   ///< how many there are
+  bool filled = false;         ///< some cell is not empty
+
+  bool has_numbers() const { return bad_cells < values.size(); }
+};
+
+/// What a reader has to say of a file that it took: what it did not use, and why; what it took for what.
+using Notes = std::vector<std::string>;
 
 struct Recording {
-  std::string name;            ///< of the file, for messages
-  std::size_t first_line = 1;  ///< of the rows
+  std::string name;  ///< of the file, for messages
   std::vector<RecordedColumn> columns;
+  std::optional<RowClock> clock;  ///< what the preamble says
+  bool has_headings = false;
+  std::vector<std::pair<std::size_t, std::size_t>> lines{};  ///< row and line, wherever lines are skipped
+  Notes notes;
 
   std::size_t rows() const { return columns.front().values.size(); }
+  std::size_t line_of(std::size_t row) const;
 };
 
-/// Cells are parted by ';' or a tab (then a comma may stand for the decimal point), ',' or blanks. A line that
-/// begins with '#' or '%' is a remark.
-base::Result<Recording> read_recording(const std::string& name, std::string_view text);
+/// "scope.csv: limit; cure"
+base::Problem of_recording(const Recording& recording, std::string limit, std::string cure);
 
-/// Letters and digits in lower case: "U_ab" is "uab".
-std::string bare_name(std::string_view heading);
+/// Which of the rows count.
+enum class RowsFrom {
+  first,      ///< all
+  last_start  ///< where a board began anew, from its last headings on, and to the last line that is whole
+};
 
-/// The column whose bare name is one of these; null where there is none.
-const RecordedColumn* find_column(const Recording& recording, std::initializer_list<std::string_view> names);
-
-/// The column with that heading; a Problem that says which there are.
-base::Result<const RecordedColumn*> column_called(const Recording& recording, const std::string& heading);
-
-/// Its values in that unit; as they stand where it has none.
-base::Result<std::vector<double>> values_of(const Recording& recording, const RecordedColumn& column,
-                                            std::string_view unit);
-
-/// By its heading or its unit; the first of several columns without headings. Null where there is none.
-const RecordedColumn* time_column(const Recording& recording);
-
-/// In s, of that column; or so far apart, where an interval is given.
-base::Result<std::vector<double>> times_of(const Recording& recording, std::optional<double> interval_s);
-
-/// "hall1, hall2, u_ab": what messages say there is.
-std::string headings_of(const Recording& recording);
+/// Cells are parted by ';', a tab or blanks (then a comma may stand for the decimal point) or ','. A line that begins with '#' or '%'
+/// is a remark. Of instruments that write key and value beside the rows, the rows are taken.
+base::Result<Recording> read_recording(const std::string& name, std::string_view bytes,
+                                       RowsFrom from = RowsFrom::first);
 
 }  // namespace text

@@ -3,14 +3,14 @@
 
 #include <fmt/format.h>
 
+#include "text/escape/escape.hpp"
 #include "text/results/quantity_text.hpp"
 #include "text/results/text_rows.hpp"
 
 namespace text {
 
 std::string laid_over_text(const std::string& name, const std::vector<analysis::LaidOver>& columns,
-                           double shift_s) {
-  if (columns.empty()) return fmt::format("{}: no row lies in the simulated time\n", name);
+                           double shift_s, const std::vector<std::string>& notes) {
   Rows rows;
   for (const analysis::LaidOver& one : columns) {
     const std::string unit = one.column.unit == "1" ? "" : one.column.unit;
@@ -19,8 +19,11 @@ std::string laid_over_text(const std::string& name, const std::vector<analysis::
               fmt::format("at most {} at {}", said(one.greatest), quantity_text(one.at_s, "s", 4)),
               fmt::format("of {} simulated from lowest to highest", said(one.span))});
   }
-  return fmt::format("{} less the simulation{}:\n{}", name,
-                     shift_s == 0.0 ? "" : ", moved by " + quantity_text(shift_s, "s", 3), rows.text());
+  std::string out =
+      fmt::format("{} less the simulation{}:\n{}", name,
+                  shift_s == 0.0 ? "" : ", moved by " + quantity_text(shift_s, "s", 3), rows.text());
+  for (const std::string& note : notes) out += fmt::format("  {}\n", visible(note));
+  return out;
 }
 
 }  // namespace text

@@ -9,8 +9,8 @@
 
 namespace text {
 
-/// A line that says what is compared, then one for each column. `name` is the log's.
+/// A line that says what is compared, then one for each column, then what is to be known of the log. `name` is the log's.
 std::string laid_over_text(const std::string& name, const std::vector<analysis::LaidOver>& columns,
-                           double shift_s);
+                           double shift_s, const std::vector<std::string>& notes);
 
 }  // namespace text

@@ -15,11 +15,9 @@ struct ReferenceRows {
   std::vector<double> times_s, values;
 };
 
-/// `text` is the file's, `name` what messages call it. Cells are parted by ';' (then a comma may stand for
-/// the decimal point), ',', tab or blanks, whichever the first line has; a line that begins with '#' is a
-/// remark; one line of headings may come first. `column` is the heading of the values; without it the second
-/// column. A heading may end in a unit, "time [ms]" or "speed_rpm": it must be one of time, and of the kind
-/// of `unit`, which the values are wanted in. Times rise from 0 on.
+/// `text` is the file's, `name` what messages call it; it is read as every recording is (text/recording/). The first column is the time.
+/// `column` is the heading of the values; without it the second column. A heading may say a unit, "time [ms]" or "speed_rpm": it must be one
+/// of time, and of the kind of `unit`, which the values are wanted in. Times rise from 0 on.
 base::Result<ReferenceRows> reference_rows(const std::string& name, const std::string& text,
                                            const std::optional<std::string>& column, const std::string& unit);
 

@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "text/keys/bounded.hpp"
+#include "text/toml/foreign_file.hpp"
 #include "text/toml/nesting.hpp"
 #include "text/toml/syntax_cure.hpp"
 
@@ -133,6 +134,7 @@ base::Result<Document> Document::parse(std::string name, std::string text) {
   if (std::optional<base::Problem> deep = nests_too_deep(name, text)) return std::move(*deep);
   toml::parse_result parsed = toml::parse(std::string_view(text), std::string_view(name));
   if (!parsed) {
+    if (std::optional<base::Problem> foreign = foreign_file(name, text)) return bounded(std::move(*foreign));
     const toml::parse_error& error = parsed.error();
     const toml::source_position at = error.source().begin;
     return bounded(base::Problem{.where = fmt::format("{}:{}:{}:", name, at.line, at.column),

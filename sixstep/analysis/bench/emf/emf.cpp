@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sixstep/analysis/bench/distributions.hpp"
+#include "sixstep/analysis/bench/emf/emf_doubts.hpp"
 #include "sixstep/analysis/bench/emf/emf_shape.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/elementary.hpp"
@@ -231,6 +232,7 @@ base::Result<EmfResult> measure_emf(const EmfRequest& request) {
   if (!rough) return rough.problems();
   const base::Result<HarmonicFit> fit = fit_harmonics(request.record, *rough);
   if (!fit) return fit.problems();
+  if (base::Problems noise = check_noise(request.record, *fit); !noise.empty()) return noise;
   if (fit->periods < least_periods)
     return base::Problem{.where = "time",
                          .limit = "holds " + base::rounded(fit->periods, 3) + " periods of the voltage; " +
@@ -249,9 +251,11 @@ base::Result<EmfResult> measure_emf(const EmfRequest& request) {
   if (problems.empty()) problems = find_pole_pairs(request, *fit, out);
   if (!problems.empty()) return problems;
   take_channels(request, *fit, out);
+  if (base::Problems clipped = check_clipped(request.record, out); !clipped.empty()) return clipped;
   MeanShape mean = mean_shape(*fit, out);
   take_harmonics(mean, out);
   take_constants(*fit, mean, out);
+  if (base::Problems beyond = check_plausible(out); !beyond.empty()) return beyond;
   take_table(mean.phase, out);
   out.fit = *fit;
   return out;

@@ -18,7 +18,7 @@ std::uint8_t as_60_degrees(std::uint8_t code) {
   return 0;
 }
 
-constexpr rig::WireOrder orders[] = {rig::WireOrder::abc, rig::WireOrder::bca, rig::WireOrder::cab,
+constexpr rig::WireOrder wire_orders[] = {rig::WireOrder::abc, rig::WireOrder::bca, rig::WireOrder::cab,
                                      rig::WireOrder::acb, rig::WireOrder::cba, rig::WireOrder::bac};
 
 }  // namespace
@@ -38,7 +38,7 @@ PinCodes codes_behind(const HallWires& wires) {
 std::vector<HallWires> wires_behind(const PinCodes& codes) {
   std::vector<HallWires> out;
   for (const bool spaced_60 : {false, true})
-    for (const rig::WireOrder order : orders)
+    for (const rig::WireOrder order : wire_orders)
       for (std::uint8_t inverted = 0; inverted < 8; ++inverted)
         if (const HallWires wires{spaced_60, order, inverted}; codes_behind(wires) == codes)
           out.push_back(wires);

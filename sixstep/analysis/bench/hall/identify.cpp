@@ -8,6 +8,8 @@
 #include "sixstep/analysis/bench/hall/hall_place.hpp"
 #include "sixstep/analysis/bench/hall/hall_runs.hpp"
 #include "sixstep/analysis/bench/hall/motion_posterior.hpp"
+#include "sixstep/base/plausible.hpp"
+#include "sixstep/base/written.hpp"
 #include "sixstep/control/commutation.hpp"
 
 namespace sixstep::analysis {
@@ -218,6 +220,13 @@ base::Result<HallIdentity> identified(const HallLog& log, int pole_pairs, const 
 base::Result<HallIdentity> identify(const HallLog& log, int pole_pairs, const KeepGoing& keep_going) {
   base::Result<HallIdentity> found = identified(log, pole_pairs, keep_going);
   if (keep_going && !keep_going()) return base::Problem{"identify", "", "was interrupted", "start it again"};
+  if (!found || !found->place) return found;
+  const base::Plausible likely = base::plausible("mWb");
+  if (const double mWb = 1e3 * found->place->flux_linkage_Vs.value; mWb > likely.most)
+    return base::Problem{.where = "voltage",
+                         .limit = "over speed is a flux linkage of " + base::three_digits(mWb) +
+                                  " mWb, and no motor has more than " + base::three_digits(likely.most),
+                         .cure = "look at the units of time and voltage"};
   return found;
 }
 

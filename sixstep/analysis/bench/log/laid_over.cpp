@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "sixstep/base/written.hpp"
+
 namespace sixstep::analysis {
 
 namespace {
@@ -81,27 +83,128 @@ std::vector<LaidOver> laid_over(const study::Trace& simulated, const study::Trac
   return out;
 }
 
-double best_shift_s(const study::Trace& simulated, const study::Trace& log, const std::string& column,
-                    double most_s, double step_s) {
-  const std::optional<Both> found = both(simulated, log, column);
-  if (!found || !(most_s >= step_s) || !(step_s > 0.0)) return 0.0;
+namespace {
+
+/// The least that two values of a column differ by.
+double least_step(Values values) {
+  std::sort(values.begin(), values.end());
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 1; n < values.size(); ++n)
+    if (values[n] > values[n - 1]) least = std::min(least, values[n] - values[n - 1]);
+  return std::isfinite(least) ? least : 0.0;
+}
+
+/// A column that tells a shift.
+struct Weighed {
+  Both both;
+  double scale = 1.0;  ///< its span, or its log's least step
+  double step = 0.0;
+  std::size_t rows = 0;  ///< that are compared without a shift
+};
+
+std::vector<Weighed> weighed_columns(const study::Trace& simulated, const study::Trace& log,
+                                     std::size_t every) {
+  std::vector<Weighed> out;
+  for (const study::Column& column : log.columns) {
+    const std::optional<Both> found = both(simulated, log, column.name);
+    if (column.name == "t_s" || !found) continue;
+    const LaidOver here = compared(*found, 0.0, every);
+    const double step = least_step(*found->log), scale = std::max(here.span, step);
+    if (scale > 0.0) out.push_back({*found, scale, step, here.rows});
+  }
+  // A column that the run has no value of meets nothing at any shift.
+  if (std::any_of(out.begin(), out.end(), [](const Weighed& w) { return w.rows > 0; }))
+    std::erase_if(out, [](const Weighed& w) { return w.rows == 0; });
+  return out;
+}
+
+/// Root of the mean of squares over all columns, as parts of their scales. Nothing where a shift leaves little to compare: it would win.
+struct Apart {
+  double rms = 0.0;
+  bool within_steps = true;  ///< no column differs by more than its log's step
+};
+std::optional<Apart> apart(const std::vector<Weighed>& columns, double shift_s, std::size_t every) {
+  double squares = 0.0;
+  Apart out;
+  for (const Weighed& column : columns) {
+    const LaidOver one = compared(column.both, shift_s, every);
+    if (one.rows == 0 || one.rows < column.rows / 2) return {};
+    squares += (one.rms / column.scale) * (one.rms / column.scale);
+    out.within_steps &= one.rms <= column.step;
+  }
+  out.rms = std::sqrt(squares / static_cast<double>(columns.size()));
+  return out;
+}
+
+}  // namespace
+
+double best_shift_s(const study::Trace& simulated, const study::Trace& log, double most_s, double step_s) {
   // The difference has many lows where a current ripples: looked for on a grid, then on finer ones around the best.
-  constexpr int rows = 2000, times_finer = 10, grids = 4;
-  const std::size_t every = found->log_t->size() / rows + 1;
-  double best = 0.0, least = std::numeric_limits<double>::infinity(), middle = 0.0;
-  // A shift that leaves little to compare would always win.
-  const std::size_t enough = compared(*found, 0.0, every).rows / 2;
+  constexpr int asked_values = 4000, times_finer = 10, grids = 4;
+  constexpr double counts = 1e-3, much_less = 0.9;
+  const Values* const times = values_of(log, "t_s");
+  if (!times || !(most_s >= step_s) || !(step_s > 0.0)) return 0.0;
+  const std::size_t every = times->size() * log.columns.size() / asked_values + 1;
+  const std::vector<Weighed> columns = weighed_columns(simulated, log, every);
+  if (columns.empty()) return 0.0;
+  const std::optional<Apart> unmoved = apart(columns, 0.0, every);
+  if (unmoved && unmoved->within_steps) return 0.0;
+  double best = 0.0, least = unmoved ? unmoved->rms : std::numeric_limits<double>::infinity(), middle = 0.0;
   for (int grid = 0; grid < grids; ++grid, most_s = step_s, step_s /= times_finer, middle = best) {
     const auto each_way = static_cast<int>(most_s / step_s);
     for (int n = -each_way; n <= each_way; ++n) {
-      const double shift = middle + step_s * n;
-      const LaidOver one = compared(*found, shift, every);
-      if (one.rows == 0 || one.rows < enough || one.rms >= least) continue;
-      least = one.rms;
-      best = shift;
+      const std::optional<Apart> there = apart(columns, middle + step_s * n, every);
+      if (!there || there->rms >= least) continue;
+      least = there->rms;
+      best = middle + step_s * n;
     }
   }
-  return best;
+  const bool gains = !unmoved || (unmoved->rms - least > counts && least < much_less * unmoved->rms);
+  return gains ? best : 0.0;
+}
+
+double start_shift_s(const study::Trace& simulated, const study::Trace& log) {
+  const Values *const there = values_of(simulated, "t_s"), *const here = values_of(log, "t_s");
+  if (!there || !here || there->empty() || here->empty()) return 0.0;
+  const bool meets = std::any_of(here->begin(), here->end(),
+                                 [&](double t) { return t >= there->front() && t <= there->back(); });
+  return meets ? 0.0 : -here->front();
+}
+
+base::Result<Overlay> overlay(const std::string& name, const study::Trace& simulated, const study::Trace& log,
+                              double shift_s) {
+  Overlay out;
+  const Values *const there = values_of(simulated, "t_s"), *const here = values_of(log, "t_s");
+  if (there && here && !there->empty())
+    for (const double t : *here)
+      out.inside += t + shift_s >= there->front() && t + shift_s <= there->back() ? 1 : 0;
+  out.rows = here ? here->size() : 0;
+  const std::vector<LaidOver> found = laid_over(simulated, log, shift_s);
+  for (const study::Column& column : log.columns) {
+    if (column.name == "t_s") continue;
+    const auto one = std::find_if(found.begin(), found.end(),
+                                  [&](const LaidOver& f) { return f.column.name == column.name; });
+    if (one == found.end())
+      out.left_out.push_back({column.name, "this run has no values of it there"});
+    else if (one->rows < fewest_compared)
+      out.left_out.push_back({column.name, "only in " + std::to_string(one->rows) + " rows"});
+    else
+      out.columns.push_back(*one);
+  }
+  if (!out.columns.empty()) return out;
+  const bool few = out.inside < fewest_compared && there && here && !there->empty() && !here->empty();
+  return base::Problem{
+      .where = name + ":",
+      .limit =
+          few ? "has " + std::to_string(out.inside) + " of " + std::to_string(out.rows) +
+                    " rows in the simulated time, " + base::six_digits(there->front()) + " to " +
+                    base::six_digits(there->back()) + " s; its own is " +
+                    base::six_digits(here->front() + shift_s) + " to " +
+                    base::six_digits(here->back() + shift_s) + " s, and " + std::to_string(fewest_compared) +
+                    " are needed"
+              : "has no column with " + std::to_string(fewest_compared) + " rows that this run has values of",
+      .cure = few ? "look at the unit of its time, or say by how much its clock is off"
+                  : "name columns that the scenario's drive has"};
 }
 
 study::Trace at_instants(const study::Trace& log, double shift_s, const std::vector<double>& t_s) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sixstep/base/result.hpp"
 #include "sixstep/study/measure/trace.hpp"
 
 namespace sixstep::analysis {
@@ -22,10 +23,31 @@ struct LaidOver {
 /// Of each column that both have, but for the time. `shift_s` is added to the log's times. Empty where no row meets the other.
 std::vector<LaidOver> laid_over(const study::Trace& simulated, const study::Trace& log, double shift_s);
 
-/// The shift within `most_s` either way by which that column differs least (rms), looked for in steps first: a board's clock starts some
-/// time after it is turned on. Of thousands of rows a part is asked. 0 where nothing of the two meets.
-double best_shift_s(const study::Trace& simulated, const study::Trace& log, const std::string& column,
-                    double most_s, double step_s);
+/// Rows that a comparison must have at the least: of one alone every difference may be 0.
+inline constexpr std::size_t fewest_compared = 5;
+
+/// The shift within `most_s` either way by which all columns together differ least, each by its own span or, where that is greater, the
+/// least step of its log; looked for in steps first: a board's clock starts some time after it is turned on. Of thousands of rows a part is
+/// asked. 0 where a shift gains nothing that counts: less than a thousandth of the spans, or less than the log's own steps can tell.
+double best_shift_s(const study::Trace& simulated, const study::Trace& log, double most_s, double step_s);
+
+/// What makes a clock that counts since midnight, or since it was turned on, count from the simulation's start: minus the first row's time
+/// where no row lies in the simulated time, else 0.
+double start_shift_s(const study::Trace& simulated, const study::Trace& log);
+
+/// What was compared, and what was not.
+struct Overlay {
+  std::vector<LaidOver> columns;
+  struct LeftOut {
+    std::string column, reason;
+  };
+  std::vector<LeftOut> left_out;
+  std::size_t rows = 0, inside = 0;  ///< of the log, and of these in the simulated time
+};
+
+/// laid_over() of columns with rows enough. A Problem where no column has them; `name` is the log's.
+base::Result<Overlay> overlay(const std::string& name, const study::Trace& simulated, const study::Trace& log,
+                              double shift_s);
 
 /// The log at these instants, its times shifted; NaN beyond its ends.
 study::Trace at_instants(const study::Trace& log, double shift_s, const std::vector<double>& t_s);

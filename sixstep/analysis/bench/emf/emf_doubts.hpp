@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recordings that give numbers, but none of the motor: noise, gaps, clipped tops, units that are off by a million.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "sixstep/analysis/bench/emf/emf.hpp"
+#include "sixstep/base/problem.hpp"
+
+namespace sixstep::analysis {
+
+/// Why a channel shows no period: a gap in time, half waves of all lengths, or next to none. `passed` times it passes its mean in all.
+base::Problem no_period(const std::vector<double>& t_s, const std::string& channel, std::size_t passed,
+                        bool regular);
+
+/// What the fit leaves over is more than what it explains.
+base::Problems check_noise(const EmfRecord& record, const HarmonicFit& fit);
+
+/// Tops that are exactly flat, while the flanks are curved or noisy by more than a step of the converter: there the voltage went beyond the
+/// range. The straight flanks of a trapezoid and steps that hide the noise say nothing.
+base::Problems check_clipped(const EmfRecord& record, const EmfResult& result);
+
+/// Constants that no motor has (base/plausible.hpp).
+base::Problems check_plausible(const EmfResult& result);
+
+}  // namespace sixstep::analysis

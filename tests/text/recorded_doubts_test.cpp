@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that say too little or contradict themselves: each is refused by its name, or what was not used of it is named.
+#include "tests/text/emf_by_formula.hpp"
+
+namespace text {
+namespace {
+
+using namespace emf_by_formula;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+TEST(RecordedDoubts, WordsThatAreNoUnitsAreRefused) {
+  for (const char* head :
+       {"time (us),u_ab [counts],u_bc [counts]\n", "time (us),u_ab (dBV),u_bc (dBV)\n",
+        "time (us),u_ab [counts],u_bc [V]\n", "time (us),u_ab_counts,u_bc_counts\n",
+        "time (us),CH1 raw,CH2 raw\n", "time (us),CH1 in LSB,CH2 in LSB\n",
+        "time (us),u_ab / div,u_bc / div\n", "Time (foo),u_ab [V],u_bc [V]\n", "time [ticks],u_ab,u_bc\n",
+        "time samples,u_ab,u_bc\n", "t,u_ab,u_bc\n(foo),(V),(V)\n"}) {
+    const Seen found = seen(plain(head, "{:.0f},{:.5f},{:.5f}\n", 1e6), between_lines);
+    EXPECT_THAT(found.problem, AllOf(HasSubstr("which is no unit"), HasSubstr("units that fit: "))) << head;
+  }
+  EXPECT_THAT(seen(plain("time [s],u_ab [A],u_bc [A]\n")).problem,
+              HasSubstr("heads u_ab as A, where V belongs"));
+}
+
+/// Of a name that ends in a letter the letter is no unit that must fit.
+TEST(RecordedDoubts, LettersThatArePhases) {
+  for (const char* head : {"time,phase_A,phase_B,phase_C\n", "time,phase A,phase B,phase C\n",
+                           "time,u_A,u_B,u_C\n", "time,U_a,U_b,U_c\n"}) {
+    const std::string file = table(head, [](int, double t, double a, double b) {
+      return fmt::format("{:.6f},{:.5f},{:.5f},{:.5f}\n", t, a, b, -a - b);
+    });
+    EXPECT_EQ(seen(file).problem, "") << head;
+    EXPECT_THAT(seen(file).channels, SizeIs(3)) << head;
+  }
+}
+
+TEST(RecordedDoubts, ADecimalCommaBetweenCommasIsNamed) {
+  for (const char* head : {"time [s],u_ab [V],u_bc [V]\n", ""})
+    EXPECT_THAT(
+        seen(with_commas(plain(head)), between_lines).problem,
+        AllOf(HasSubstr("commas are decimal points here and part the cells too"), HasSubstr("semicolons")));
+}
+
+TEST(RecordedDoubts, RowsOfMoreCellsThanHeadingsAreToldOf) {
+  EXPECT_THAT(seen(plain("time [s],u_ab [V],u_bc [V]\n") + "0.06,1.5,2.5,3.5\n").problem,
+              HasSubstr("r.csv:502: has 4 cells, and the table 3 columns"));
+}
+
+/// No instrument's word for a missing sample makes a channel vanish.
+TEST(RecordedDoubts, ABadCellIsNamed) {
+  for (const char* cell : {"\xe2\x88\x9e", "-\xe2\x88\x9e", "NaN", "nan", "inf", "-inf", "OL", "---", "***",
+                           "#N/A", "1.#INF", "-1.#IND", "", "  ", "overflow"})
+    for (const char* head : {"Time [s],Channel 0,Channel 1\n", "time [s],u_ab,u_bc\n",
+                             "Time,Kanal A,Kanal B\n(s),(V),(V)\n", ""}) {
+      const std::string file = table(head, [&](int n, double t, double a, double b) {
+        return n == 7 || n == 9 ? fmt::format("{:.6f},{:.5f},{}\n", t, a, cell)
+                                : fmt::format("{:.6f},{:.5f},{:.5f}\n", t, a, b);
+      });
+      const std::size_t above =
+          static_cast<std::size_t>(std::count(head, head + std::string(head).size(), '\n'));
+      const Seen found = seen(file, between_lines);
+      EXPECT_THAT(found.problem, AllOf(HasSubstr(fmt::format("r.csv:{}: ", above + 8)),
+                                       HasSubstr("is no number, and so is 1 more cell")))
+          << cell << head;
+    }
+}
+
+TEST(RecordedDoubts, ColumnsThatAreNotUsedAreNamed) {
+  const std::string file =
+      table("time [s],u_ab,u_bc,Remark,Temp [degC],aux\n", [](int n, double t, double a, double b) {
+        return fmt::format("{:.6f},{:.5f},{:.5f},fine,21.5,{}\n", t, a, b, n % 3);
+      });
+  EXPECT_THAT(
+      seen(file).notes,
+      ElementsAre(
+          "not used: Remark (holds no numbers), Temp (in degC), aux (its heading says nothing that is known here)"));
+  const std::string four = table("time [s],CH1,CH2,CH3,CH4\n", [](int, double t, double a, double b) {
+    return fmt::format("{:.6f},{:.5f},{:.5f},{:.5f},{:.5f}\n", t, a, b, -a - b, a);
+  });
+  EXPECT_THAT(seen(four, between_lines).notes, ElementsAre("not used: CH4 (more than 3 voltages)"));
+}
+
+TEST(RecordedDoubts, TwoColumnsOfOneNameAreToldApartByPlace) {
+  const std::string file = plain("time [s],u_ab,u_ab\n");
+  EXPECT_THAT(seen(file).problem,
+              HasSubstr("has 2 columns \"u_ab\"; name one by its place: column 2 or column 3"));
+  const auto named = [](std::vector<std::string> voltages) {
+    return BenchColumns{.hall = {},
+                        .voltages = std::move(voltages),
+                        .between = analysis::EmfBetween::lines,
+                        .interval_s = {}};
+  };
+  EXPECT_THAT(seen(file, named({"u_ab"})).problem, HasSubstr("has 2 columns"));
+  expect_right(file, 1e-5, named({"u_ab", "u_ab"}));
+  expect_right(file, 1e-5, named({"column 2", "column 3"}));
+  EXPECT_THAT(seen(plain("time [s],a,b\n"), named({"a", "a"})).problem,
+              HasSubstr("asked for its column \"a\" twice"));
+  EXPECT_THAT(seen(plain("time [s],CH1,CH1\n"), between_lines).channels,
+              ElementsAre("CH1", "CH1 (column 3)"));
+}
+
+/// The preamble's rate is held against the column of time.
+TEST(RecordedDoubts, ARateInThePreamble) {
+  const std::string rate = "# Samplerate: 10 kHz\n";
+  expect_right(rate + plain("Time,u_ab,u_bc\n"));
+  for (const auto& [per_s, unit] : {std::pair{1e3, "ms"}, {1e6, "us"}, {1e9, "ns"}}) {
+    const std::string file = rate + plain("Time,u_ab,u_bc\n", "{:.1f},{:.5f},{:.5f}\n", per_s);
+    expect_right(file);
+    EXPECT_THAT(seen(file).notes,
+                ElementsAre(fmt::format("Time is in {}, as \"Samplerate: 10 kHz\" says", unit)));
+  }
+  expect_right(rate + table("u_ab,u_bc\n", [](int, double, double a, double b) {
+                 return fmt::format("{:.5f},{:.5f}\n", a, b);
+               }));
+  for (const char* said : {"Samplerate: 10 kHz", "Sample Rate,1.0E+04", "Sampling rate: 10 kSa/s",
+                           "Sample Interval,1e-4", "Delta_X: 0.1 ms", "Sample Interval,100,us"})
+    expect_right(std::string(said) + "\n" + plain("Time,u_ab,u_bc\n", "{:.0f},{:.5f},{:.5f}\n", 1e6));
+  for (const char* head : {"Time [s],u_ab,u_bc\n", "Time (ms),u_ab,u_bc\n"})
+    EXPECT_THAT(seen(rate + plain(head, "{:.0f},{:.5f},{:.5f}\n", 1e6)).problem,
+                HasSubstr("contradicts itself: Time steps by"))
+        << head;
+  EXPECT_THAT(seen("Samplerate: 1 kHz\n" + plain("Time [s],u_ab,u_bc\n")).problem,
+              HasSubstr("contradicts itself"));
+  // Every tenth sample of a quicker acquisition is no contradiction, but told.
+  EXPECT_THAT(seen("Samplerate: 100 kHz\n" + plain("Time [s],u_ab,u_bc\n")).notes,
+              ElementsAre(HasSubstr("rows are 0.0001 s apart")));
+}
+
+TEST(RecordedDoubts, WhatNoMotorHasIsRefused) {
+  EXPECT_THAT(seen(plain("time [s],u_ab [kV],u_bc [kV]\n", "{:.0f},{:.5f},{:.5f}\n", 1e6)).problem,
+              AllOf(HasSubstr("no motor has less than"), HasSubstr("look at the units")));
+  EXPECT_THAT(seen(plain("time [s],u_ab,u_bc\n", "{:.0f},{:.5f},{:.5f}\n", 1e6)).problem,
+              HasSubstr("no motor has"));
+}
+
+TEST(RecordedDoubts, ClippedNoisyAndTornRecordingsAreCalledSo) {
+  const auto of = [](const std::function<double(int n, double u)>& value) {
+    return table("time [s],u_ab\n", [&](int n, double t, double a, double) {
+      return fmt::format("{:.6f},{:.5f}\n", t, value(n, a));
+    });
+  };
+  EXPECT_THAT(seen(of([](int, double u) { return std::clamp(u, -2.6, 2.6); })).problem,
+              HasSubstr("u_ab is clipped: it stands at 2.6 or -2.6 V"));
+  EXPECT_THAT(seen(of([](int n, double u) {
+                return std::clamp(u + 0.01 * std::sin(7919.0 * n * n), -3.5, 9.0);
+              })).problem,
+              HasSubstr("is clipped"));
+  EXPECT_THAT(seen(of([](int n, double) { return std::sin(7919.0 * n * n); })).problem,
+              HasSubstr("u_ab is noise"));
+  EXPECT_THAT(seen(of([](int n, double u) { return 0.1 * u + std::sin(7919.0 * n * n); })).problem,
+              HasSubstr("u_ab is noise"));
+  const std::string torn = table("time [s],u_ab\n", [](int n, double t, double, double) {
+    const double at = n < 43 ? t : t + 1.0;
+    return fmt::format("{:.6f},{:.5f}\n", at, u_ab(at));
+  });
+  EXPECT_THAT(seen(torn.substr(0, torn.find("\n1.010"))).problem, HasSubstr("is followed by a gap of 1 s"));
+  // The flanks of a trapezoid are straight: its flat tops are the motor's.
+  const std::string trapezoid = table("time [s],u_a,u_b,u_c\n", [](int, double t, double, double) {
+    const auto phase = [&](double lag) {
+      const double x = std::fmod(w * t / (2.0 * std::numbers::pi) + 2.0 - lag, 1.0);
+      return 2.0 *
+             std::clamp(6.0 * (x < 0.5 ? std::min(x, 0.5 - x) : -std::min(x - 0.5, 1.0 - x)), -1.0, 1.0);
+    };
+    return fmt::format("{:.6f},{:.5f},{:.5f},{:.5f}\n", t, phase(0.0), phase(1.0 / 3.0), phase(2.0 / 3.0));
+  });
+  EXPECT_EQ(seen(trapezoid).problem, "");
+}
+
+}  // namespace
+}  // namespace text

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/recording/column_formula.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "sixstep/base/angle.hpp"
+#include "text/keys/bounded.hpp"
+#include "text/keys/decimal_number.hpp"
+#include "text/recording/cells.hpp"
+
+namespace text {
+namespace {
+
+std::optional<double> constant_in(std::string_view word) {
+  word = bare_cell(word);
+  if (word == "pi") return base::pi;
+  return number_alone(word);
+}
+
+/// Takes constants off the end, "/60" and "*pi", while there are any.
+void take_behind(std::string_view& rest, ColumnFormula& out) {
+  for (std::size_t cut = rest.find_last_of("*/"); cut != std::string_view::npos;
+       cut = rest.find_last_of("*/")) {
+    const std::optional<double> constant = constant_in(rest.substr(cut + 1));
+    if (!constant) return;
+    out.factor = rest[cut] == '*' ? out.factor * *constant : out.factor / *constant;
+    out.scaled = true;
+    rest = rest.substr(0, cut);
+  }
+}
+
+/// And off the begin, "2*pi*"; a minus there turns the sign.
+void take_before(std::string_view& rest, ColumnFormula& out) {
+  if (rest.starts_with('-')) {
+    out.factor = -out.factor;
+    rest.remove_prefix(1);
+  }
+  for (std::size_t cut = rest.find('*'); cut != std::string_view::npos; cut = rest.find('*')) {
+    const std::optional<double> constant = constant_in(rest.substr(0, cut));
+    if (!constant) return;
+    out.factor *= *constant;
+    out.scaled = true;
+    rest = rest.substr(cut + 1);
+  }
+}
+
+}  // namespace
+
+base::Result<ColumnFormula> column_formula(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  ColumnFormula out;
+  if (equals != std::string_view::npos) {
+    out.name = bare_cell(text.substr(0, equals));
+    std::string_view rest = bare_cell(text.substr(equals + 1));
+    take_behind(rest, out);
+    take_before(rest, out);
+    out.column = bare_cell(rest);
+  }
+  const bool is_finite = std::isfinite(out.factor) && out.factor != 0.0;
+  if (!out.name.empty() && !out.column.empty() && is_finite) return out;
+  return bounded({.where = "columns",
+                  .value = std::string(text),
+                  .limit = is_finite ? "must be NAME=COLUMN, with constants behind it or none"
+                                     : "has a factor that is 0 or beyond all numbers",
+                  .cure = "write it like time=ms_today/1000 or speed=erpm*2*pi/60/7"});
+}
+
+}  // namespace text

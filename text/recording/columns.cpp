@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/recording/columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "text/keys/bounded.hpp"
+#include "text/keys/key_advice.hpp"
+#include "text/recording/heading.hpp"
+
+namespace text {
+namespace {
+
+/// "column 2 or column 4"
+std::string places_of(const Recording& r, const std::vector<const RecordedColumn*>& columns) {
+  std::string out;
+  for (std::size_t n = 0; n < columns.size(); ++n)
+    out += fmt::format("{}column {}",
+                       n == 0                   ? ""
+                       : n + 1 < columns.size() ? ", "
+                                                : " or ",
+                       columns[n] - r.columns.data() + 1);
+  return out;
+}
+
+base::Problem several(const Recording& r, std::string_view heading,
+                      const std::vector<const RecordedColumn*>& columns) {
+  return of_recording(r, fmt::format("has {} columns \"{}\"", columns.size(), heading),
+                      "name one by its place: " + places_of(r, columns));
+}
+
+std::vector<const RecordedColumn*> columns_like(const Recording& r, const std::string& heading) {
+  std::vector<const RecordedColumn*> exact, alike;
+  const std::string bare = bare_name(heading);
+  for (const RecordedColumn& column : r.columns) {
+    if (column.name == heading || column.heading == heading) exact.push_back(&column);
+    if (!bare.empty() && (column.bare == bare || bare_name(column.heading) == bare)) alike.push_back(&column);
+  }
+  if (exact.empty()) exact = std::move(alike);
+  for (std::size_t n = 0; exact.empty() && n < r.columns.size(); ++n)
+    if (bare == fmt::format("column{}", n + 1)) exact.push_back(&r.columns[n]);
+  return exact;
+}
+
+base::Problem none_called(const Recording& r, const std::string& heading) {
+  std::vector<std::string> known;
+  for (const RecordedColumn& column : r.columns) known.push_back(column.name);
+  const std::string near = nearest(heading, known);
+  return of_recording(r, fmt::format("has no column \"{}\"", bounded(heading, 200)),
+                      near.empty() ? "it has " + headings_of(r) : fmt::format("did you mean \"{}\"?", near));
+}
+
+/// Of a letter that does not fit, "phase_A" among voltages, nothing is left.
+bool is_part_of_name(const Picked& picked, const Wanted& wanted) {
+  return picked.column->letter && !picked.unit.empty() && !wanted.unit.empty() &&
+         !same_kind(*unit_of(picked.unit), *unit_of(wanted.unit));
+}
+
+/// From the column's unit, whose power of ten is in its values already.
+base::Result<Conversion> conversion_of(const Recording& r, const Picked& picked, const Wanted& wanted) {
+  const std::string belongs = wanted.unit.empty() ? "a plain number" : wanted.unit;
+  const RecordedColumn& column = *picked.column;
+  if (!column.odd_unit.empty())
+    return of_recording(
+        r,
+        fmt::format("heads {} in \"{}\", which is no unit; {} belongs there", column.name, column.odd_unit,
+                    belongs),
+        wanted.unit.empty() ? "head it without a unit" : "units that fit: " + units_that_fit(wanted.unit));
+  if (picked.unit.empty()) return Conversion{};
+  base::Result<Conversion> found = conversion(picked.unit, wanted);
+  if (!found)
+    return of_recording(
+        r, fmt::format("heads {} as {}, where {} belongs", column.name, picked.unit, belongs),
+        wanted.unit.empty() ? "name another column" : "name another column; " + found.problems()[0].cure);
+  found->ten -= unit_of(picked.unit)->ten;
+  return found;
+}
+
+}  // namespace
+
+base::Result<Picked> find_column(const Recording& recording, std::initializer_list<std::string_view> names) {
+  const auto is_one = [&](std::string_view bare) {
+    return std::find(names.begin(), names.end(), bare) != names.end();
+  };
+  Picked found;
+  std::vector<const RecordedColumn*> all;
+  for (const RecordedColumn& column : recording.columns) {
+    const bool whole = (column.unit.empty() || column.letter) && is_one(bare_name(column.heading));
+    if (!whole && !is_one(column.bare)) continue;
+    if (all.empty()) found = {&column, whole ? std::string() : column.unit};
+    all.push_back(&column);
+  }
+  if (all.size() > 1) return several(recording, found.column->name, all);
+  return found;
+}
+
+base::Result<std::vector<Picked>> columns_called(const Recording& recording,
+                                                 const std::vector<std::string>& headings) {
+  std::vector<Picked> out;
+  for (std::size_t n = 0; n < headings.size(); ++n) {
+    const std::string& heading = headings[n];
+    const std::vector<const RecordedColumn*> found = columns_like(recording, heading);
+    if (found.empty()) return none_called(recording, heading);
+    const auto asked = static_cast<std::size_t>(std::count(headings.begin(), headings.end(), heading));
+    const auto before = static_cast<std::size_t>(
+        std::count(headings.begin(), headings.begin() + static_cast<std::ptrdiff_t>(n), heading));
+    if (found.size() == 1 && before > 0)
+      return of_recording(recording, fmt::format("is asked for its column \"{}\" twice", heading),
+                          "name each column once; it has " + headings_of(recording));
+    if (found.size() > 1 && asked != found.size()) return several(recording, heading, found);
+    const RecordedColumn* const column = found[before];
+    out.push_back({column, column->unit});
+  }
+  return out;
+}
+
+base::Result<std::vector<double>> converted(const Recording& recording, const Picked& picked,
+                                            const Wanted& wanted) {
+  Picked of = picked;
+  if (is_part_of_name(of, wanted)) of.unit.clear();
+  const base::Result<Conversion> by = conversion_of(recording, of, wanted);
+  if (!by) return by.problems();
+  std::vector<double> out = of.column->values;
+  if (by->ten != 0 || by->multiply != by->divide)
+    for (double& x : out) x = by->of(x);
+  return out;
+}
+
+base::Result<std::vector<double>> values_of(const Recording& recording, const Picked& picked,
+                                            const Wanted& wanted) {
+  const RecordedColumn& column = *picked.column;
+  if (column.bad_cells > 0) {
+    const BadCell& first = column.bad.front();
+    const std::size_t others = column.bad_cells - 1;
+    const std::string more = others == 0   ? ""
+                             : others == 1 ? ", and so is 1 more cell below it"
+                                           : fmt::format(", and so are {} more cells below it", others);
+    return bounded(
+        {.where = fmt::format("{}:{}:", recording.name, first.line),
+         .value = "",
+         .limit = bounded(fmt::format("{} \"{}\"", column.name, first.cell), 400) + " is no number" + more,
+         .cure = "leave such rows out, and write numbers as 0.5 or 5e-1"});
+  }
+  base::Result<std::vector<double>> out = converted(recording, picked, wanted);
+  if (!out) return out;
+  constexpr double most = 1e12;  // what no instrument shows, and what products of can still be numbers
+  for (std::size_t n = 0; n < out->size(); ++n)
+    if (!(std::fabs((*out)[n]) <= most))
+      return of_recording(
+          recording,
+          fmt::format("{} {:g} in row {} is beyond all instruments", column.name, (*out)[n], n + 1),
+          "look at the unit of its column");
+  return out;
+}
+
+std::string headings_of(const Recording& recording) {
+  constexpr std::size_t shown = 12;
+  std::string out;
+  for (std::size_t n = 0; n < recording.columns.size() && n < shown; ++n)
+    out += (n == 0 ? "" : ", ") + recording.columns[n].name;
+  return recording.columns.size() > shown
+             ? out + fmt::format(" and {} more", recording.columns.size() - shown)
+             : out;
+}
+
+void note_not_used(const std::vector<NotUsed>& columns, Notes& notes) {
+  if (columns.empty()) return;
+  std::string out;
+  for (const NotUsed& one : columns)
+    out += fmt::format("{}{} ({})", out.empty() ? "not used: " : ", ", one.column, one.reason);
+  notes.push_back(bounded(std::move(out), 2000));
+}
+
+}  // namespace text

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lines of a recording, one by one.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "text/recording/recording.hpp"
+
+namespace text {
+
+/// Where the rows of a table stand that has other things beside them.
+struct RowsBeside {
+  char separator = 0;
+  std::size_t cells = 0;  ///< before the first of the row's own
+};
+
+/// Most lines begin with so many empty cells and a number: "Record Length,2500,,-0.02,3.78" and then ",,,-0.0199,3.77".
+std::optional<RowsBeside> rows_beside(std::string_view text);
+
+class RowReader {
+ public:
+  /// `line` lines of the file stand before the first one.
+  RowReader(std::string name, std::size_t line, std::optional<RowsBeside> beside);
+
+  /// False where there is no sense in going on.
+  bool line(std::string_view text);
+  base::Result<Recording> result();
+
+ private:
+  bool begins_rows(std::string_view text);
+  bool row_beside(std::string_view text);
+  void begin(std::size_t cells);
+  void row(const std::vector<std::string_view>& cells);
+  std::optional<base::Problem> wrong_cells() const;
+
+  Recording out_;
+  std::optional<RowsBeside> beside_;
+  std::vector<std::string> above_, remarks_;
+  char separator_ = 0;
+  std::size_t number_, values_ = 0, names_ = 0;
+  std::vector<int> tens_;  ///< of each column's unit
+  std::size_t wide_line_ = 0, wide_cells_ = 0, first_cells_ = 0, first_line_ = 0;
+  bool has_point_ = false, has_leading_zero_ = false;
+};
+
+}  // namespace text

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/recording/table_head.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "text/keys/bounded.hpp"
+#include "text/keys/units.hpp"
+#include "text/recording/cells.hpp"
+#include "text/recording/heading.hpp"
+
+namespace text {
+namespace {
+
+using Cells = std::vector<std::string_view>;
+
+/// A heading, as messages and results quote it.
+constexpr std::size_t longest_name = 80;
+
+bool is_in_brackets(std::string_view cell) {
+  return cell.size() > 1 && (cell.front() == '(' || cell.front() == '[') &&
+         (cell.back() == ')' || cell.back() == ']');
+}
+
+std::string_view without_brackets(std::string_view cell) {
+  return is_in_brackets(cell) ? cell.substr(1, cell.size() - 2) : cell;
+}
+
+/// "Second,Volt" and "(ms),(foo)": a line of units below the names, of which some may be strange where brackets say that units stand here.
+bool are_units(const Cells& cells) {
+  const auto is_unit = [](std::string_view cell) { return !unit_in_words(cell).empty(); };
+  return std::any_of(cells.begin(), cells.end(), is_unit) &&
+         std::all_of(cells.begin(), cells.end(), [&](std::string_view cell) {
+           return is_unit(cell) || is_in_brackets(cell) || (cell.empty() && cells.size() > 1);
+         });
+}
+
+/// Blanks part names from their units too, "t [s] u_ab [V]".
+Cells with_units_joined(const Cells& cells) {
+  Cells out;
+  for (const std::string_view cell : cells)
+    if (!out.empty() && is_in_brackets(cell))
+      out.back() = {out.back().data(), static_cast<std::size_t>(cell.end() - out.back().data())};
+    else
+      out.push_back(cell);
+  return out;
+}
+
+struct Head {
+  Cells names, units;
+};
+
+class HeadReader {
+ public:
+  HeadReader(const LinesAbove& above, std::size_t cells, Recording& out)
+      : above_(above), cells_(cells), out_(out) {}
+
+  std::size_t take() {
+    find_clock();
+    Head head = find_head();
+    // Start and step of the time are no columns.
+    while (head.names.size() > cells_ && head.names.back().find('=') != std::string_view::npos)
+      head.names.pop_back();
+    out_.has_headings = !head.names.empty();
+    for (std::size_t n = 0; n < std::max(cells_, head.names.size()); ++n)
+      out_.columns.push_back(column(head, n));
+    name_by_keys();
+    name_channels();
+    keep_names_apart();
+    return head.names.size();
+  }
+
+ private:
+  Cells cells_of(const std::string& line) const {
+    Cells cells = cells_of_line(line, above_.separator);
+    cells.erase(cells.begin(),
+                cells.begin() + static_cast<std::ptrdiff_t>(std::min(above_.cells_before, cells.size())));
+    return cells;
+  }
+
+  void find_clock() {
+    for (const auto* lines : {&above_.lines, &above_.remarks})
+      for (const std::string& line : *lines)
+        if (!out_.clock) out_.clock = clock_in(line, above_.separator);
+  }
+
+  /// The last lines above the rows: headings, perhaps with a line of units below them.
+  Head find_head() {
+    Head head;
+    const std::vector<std::string>& lines = above_.lines;
+    if (above_.cells_before > 1) return head;  // rows stand in those lines too
+    if (lines.size() > 1) {
+      const Cells names = cells_of(lines[lines.size() - 2]), below = cells_of(lines.back());
+      if (const std::optional<RowClock> clock = clock_below(names, below, above_.separator)) {
+        out_.clock = clock;
+        head = {names, below};
+        // Start and Increment have no column of their own.
+        head.names.resize(std::min(cells_, names.size()));
+        for (std::string_view& unit : head.units)
+          if (unit_in_words(unit).empty()) unit = {};
+        return head;
+      }
+    }
+    for (std::size_t n = lines.size(); n-- > 0 && head.names.empty();) {
+      Cells cells = cells_of(lines[n]);
+      if (above_.separator == ' ' && cells.size() > cells_) cells = with_units_joined(cells);
+      if (head.units.empty() && are_units(cells))
+        head.units = std::move(cells);
+      else if (cells.size() > 1 || (cells_ == 1 && !cells.empty()))
+        head.names = std::move(cells);
+      else
+        break;
+    }
+    if (head.names.empty())
+      head.names = std::exchange(head.units, {});  // "s,V": units at once, or names that look like them
+    return head;
+  }
+
+  RecordedColumn column(const Head& head, std::size_t n) const {
+    RecordedColumn out;
+    if (n < head.names.size()) {
+      Heading heading = heading_of(head.names[n]);
+      out.heading = bounded(std::string(head.names[n]), longest_name);
+      out.name = bounded(std::move(heading.name), longest_name);
+      out.unit = std::move(heading.unit);
+      out.odd_unit = bounded(std::move(heading.odd_unit), longest_name);
+      out.letter = heading.letter;
+    }
+    if (n < head.units.size() && !head.units[n].empty()) {
+      out.unit = unit_in_words(head.units[n]);
+      if (out.unit.empty())
+        out.odd_unit = bounded(std::string(without_brackets(head.units[n])), longest_name);
+      out.letter = false;
+    }
+    const bool is_time = !out.unit.empty() && same_kind(*unit_of(out.unit), *unit_of("s"));
+    if (out.name.empty()) out.name = is_time && n == 0 ? "time" : fmt::format("column {}", n + 1);
+    return out;
+  }
+
+  /// Tektronix has no headings, but "Source,CH1" and "Vertical Units,V" beside the rows.
+  void name_by_keys() {
+    if (above_.cells_before < 2 || out_.has_headings || out_.columns.size() < 2) return;
+    std::map<std::string, std::string> values;
+    for (const std::string& line : above_.lines)
+      if (const Cells cells = cells_of_line(line, above_.separator); cells.size() > 1)
+        values.emplace(bare_name(cells[0]), cells[1]);
+    RecordedColumn &time = out_.columns[0], &voltage = out_.columns[1];
+    const auto unit = [&](const char* key, RecordedColumn& of) {
+      if (values[key].empty()) return;
+      of.unit = unit_in_words(values[key]);
+      if (of.unit.empty()) of.odd_unit = bounded(values[key], longest_name);
+    };
+    unit("horizontalunits", time);
+    unit("verticalunits", voltage);
+    if (!values["source"].empty()) voltage.heading = voltage.name = bounded(values["source"], longest_name);
+    time.heading = time.name = "time";
+  }
+
+  /// sigrok heads all lines "logic" and names them above.
+  void name_channels() {
+    std::vector<RecordedColumn*> lines;
+    for (RecordedColumn& column : out_.columns)
+      if (bare_name(column.heading) == "logic") lines.push_back(&column);
+    for (const std::string& line : above_.lines)
+      if (const std::vector<std::string> channels = channels_in(line);
+          !lines.empty() && channels.size() == lines.size())
+        for (std::size_t n = 0; n < lines.size(); ++n) lines[n]->name = bounded(channels[n], longest_name);
+  }
+
+  void keep_names_apart() {
+    std::map<std::string, std::size_t> seen;
+    for (RecordedColumn& column : out_.columns) column.bare = bare_name(column.name);
+    for (std::size_t n = 0; n < out_.columns.size(); ++n)
+      if (++seen[out_.columns[n].name] > 1) out_.columns[n].name += fmt::format(" (column {})", n + 1);
+  }
+
+  const LinesAbove& above_;
+  std::size_t cells_;
+  Recording& out_;
+};
+
+}  // namespace
+
+std::size_t take_head(const LinesAbove& above, std::size_t cells, Recording& out) {
+  return HeadReader(above, cells, out).take();
+}
+
+}  // namespace text

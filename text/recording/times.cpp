@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/recording/times.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "text/keys/units.hpp"
+
+namespace text {
+namespace {
+
+bool is_in_seconds(const RecordedColumn& column) {
+  return !column.unit.empty() && same_kind(*unit_of(column.unit), *unit_of("s"));
+}
+
+/// 0, 1, 2 or 1, 2, 3: as an oscilloscope numbers its samples.
+bool are_numbers_of_rows(const std::vector<double>& values) {
+  for (std::size_t n = 0; n < values.size(); ++n)
+    if (values[n] - values[0] != static_cast<double>(n)) return false;
+  return values.size() > 2;
+}
+
+/// The steps from row to row that are none of zero: least, middle and greatest.
+struct Steps {
+  double least = 0.0, middle = 0.0, greatest = 0.0;
+  bool even() const { return greatest < 1.5 * least; }
+};
+Steps steps_of(const std::vector<double>& t) {
+  std::vector<double> steps;
+  for (std::size_t n = 1; n < t.size(); ++n)
+    if (t[n] > t[n - 1]) steps.push_back(t[n] - t[n - 1]);
+  if (steps.empty()) return {};
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  const double at_middle = *middle;
+  const auto [least, greatest] = std::minmax_element(steps.begin(), steps.end());
+  return {*least, at_middle, *greatest};
+}
+
+bool are_near(double a, double b) { return std::fabs(a - b) <= 0.01 * b; }
+
+/// Each step is a whole number of intervals, within what the file's digits leave.
+bool are_whole(const std::vector<double>& t, double factor, double interval_s) {
+  for (std::size_t n = 1; n < t.size(); ++n) {
+    const double steps = (t[n] - t[n - 1]) * factor / interval_s;
+    if (steps < 0.99 || std::fabs(steps - std::floor(steps + 0.5)) > 0.02 + 1e-3 * steps) return false;
+  }
+  return true;
+}
+
+struct TimeUnit {
+  const char* name;
+  double per_s;
+};
+constexpr TimeUnit time_units[] = {{"ns", 1e9}, {"us", 1e6}, {"ms", 1e3}, {"s", 1.0}};
+
+/// The unit in which a column without one goes with the preamble; null where none does. Rows at each change are whole numbers of samples
+/// apart in every unit above one: the least counts.
+const TimeUnit* unit_by_clock(const std::vector<double>& t, const Steps& steps, double interval_s) {
+  for (const TimeUnit& unit : time_units)
+    if (steps.even() && are_near(steps.middle / unit.per_s, interval_s)) return &unit;
+  for (const TimeUnit& unit : time_units)
+    if (are_whole(t, 1.0 / unit.per_s, interval_s)) return &unit;
+  return nullptr;
+}
+
+/// What the preamble says contradicts the rows: finer than it was sampled, or off by a thousand and more.
+bool contradict(const Steps& steps, double interval_s) {
+  return steps.least < 0.99 * interval_s || (steps.even() && steps.middle > 999.0 * interval_s);
+}
+
+/// The column's values in s, held against the preamble.
+base::Result<std::vector<double>> by_clock(const Recording& r, const RecordedColumn& column,
+                                           std::vector<double> t, Notes& notes) {
+  if (!r.clock) return t;
+  const double interval_s = r.clock->interval_s;
+  const bool bare = column.unit.empty();
+  if (bare && are_numbers_of_rows(t)) {
+    notes.push_back(fmt::format("{} numbers the rows; they are {:.6g} s apart, as \"{}\" says", column.name,
+                                interval_s, r.clock->said));
+    for (std::size_t n = 0; n < t.size(); ++n) t[n] = r.clock->start_s + static_cast<double>(n) * interval_s;
+    return t;
+  }
+  const Steps steps = steps_of(t);
+  if (steps.middle == 0.0) return t;
+  if (bare)
+    if (const TimeUnit* const unit = unit_by_clock(t, steps, interval_s); unit && unit->per_s != 1.0) {
+      notes.push_back(fmt::format("{} is in {}, as \"{}\" says", column.name, unit->name, r.clock->said));
+      for (double& x : t) x /= unit->per_s;
+      return t;
+    }
+  if (!contradict(steps, interval_s)) {
+    if (steps.even() && !are_near(steps.middle, interval_s))
+      notes.push_back(fmt::format("rows are {:.4g} s apart, and \"{}\" says {:.4g} s", steps.middle,
+                                  r.clock->said, interval_s));
+    return t;
+  }
+  return of_recording(r,
+                      fmt::format("contradicts itself: {} steps by {:.6g} s, and \"{}\" says {:.6g} s",
+                                  column.name, steps.middle, r.clock->said, interval_s),
+                      "give the column its right unit, as in time [us], or give the interval of the rows");
+}
+
+}  // namespace
+
+const RecordedColumn* time_column(const Recording& recording) {
+  constexpr std::string_view names[] = {"t", "time", "times", "ts",     "timestamp", "seconds", "xaxis",
+                                        "x", "zeit", "temps", "tiempo", "tempo",     "xvalue"};
+  const auto named = [&](const RecordedColumn& column) {
+    return std::find(std::begin(names), std::end(names), column.bare) != std::end(names);
+  };
+  const auto found = std::find_if(recording.columns.begin(), recording.columns.end(), named);
+  if (found != recording.columns.end()) return &*found;
+  const auto timed = std::find_if(recording.columns.begin(), recording.columns.end(), is_in_seconds);
+  if (timed != recording.columns.end()) return &*timed;
+  const bool bare = recording.columns.size() > 1 && !recording.has_headings && !recording.clock;
+  return bare ? &recording.columns.front() : nullptr;
+}
+
+base::Result<Times> rising_times(const Recording& recording, std::vector<double> t,
+                                 const RecordedColumn& column, Notes& notes) {
+  const auto does_not_rise = [&](std::size_t row) {
+    return of_recording(
+        recording, fmt::format("{} {:.10g} in row {} does not rise", column.name, t[row], row + 1),
+        recording.has_headings
+            ? "give the rows in the order of recording, with all digits of the time, or the interval of the rows"
+            : "the first column is taken for the time where none has a heading: name the column of the time, or "
+              "give the interval of the rows");
+  };
+  Times out{.t_s = {}, .left_out = {}, .column = &column};
+  for (std::size_t n = 1; n < t.size(); ++n) {
+    if (t[n] < t[n - 1]) return does_not_rise(n);
+    if (t[n] == t[n - 1]) out.left_out.push_back(n - 1);
+  }
+  // An event or two stand twice; a time with too few digits stands twice everywhere.
+  constexpr std::size_t one_in = 10;
+  if (out.left_out.size() * one_in > t.size()) return does_not_rise(out.left_out[0] + 1);
+  if (!out.left_out.empty())
+    notes.push_back(fmt::format("{} {} left out: the next row stands at the same instant (first in line {})",
+                                out.left_out.size(), out.left_out.size() == 1 ? "row" : "rows",
+                                recording.line_of(out.left_out[0])));
+  out.t_s = without_rows(std::move(t), out.left_out);
+  return out;
+}
+
+base::Result<Times> times_of(const Recording& recording, std::optional<double> interval_s, Notes& notes) {
+  const RecordedColumn* const column = time_column(recording);
+  const bool by_rows = !column && recording.clock;
+  if (interval_s || by_rows) {
+    const double step = interval_s ? *interval_s : recording.clock->interval_s;
+    if (by_rows && !interval_s)
+      notes.push_back(fmt::format("has no column of time: rows are {:.6g} s apart, as \"{}\" says", step,
+                                  recording.clock->said));
+    Times out{.t_s = std::vector<double>(recording.rows()), .left_out = {}, .column = column};
+    const double start_s = interval_s ? 0.0 : recording.clock->start_s;
+    for (std::size_t n = 0; n < out.t_s.size(); ++n) out.t_s[n] = start_s + static_cast<double>(n) * step;
+    return out;
+  }
+  if (!column)
+    return of_recording(recording, "has no column of time: it has " + headings_of(recording),
+                        "head it time [s], or give the interval of the rows");
+  base::Result<std::vector<double>> values = values_of(recording, {column, column->unit}, "s");
+  if (!values) return values.problems();
+  if (column->unit.empty() && !recording.clock && are_numbers_of_rows(*values))
+    return of_recording(recording, fmt::format("numbers its rows in {}", column->name),
+                        "head the column time [s] where these are seconds, or give the interval of the rows");
+  base::Result<std::vector<double>> t_s = by_clock(recording, *column, std::move(*values), notes);
+  if (!t_s) return t_s.problems();
+  return rising_times(recording, std::move(*t_s), *column, notes);
+}
+
+}  // namespace text
