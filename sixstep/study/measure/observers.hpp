@@ -58,6 +58,7 @@ struct Observers {
   template <class Rig>
   bool done(const Rig& rig) {
     if (segments % 256 != 0) return false;
+    extremes.look(rig);
     const sim::Instant now = rig.now();
     crowded = now.ticks <= looked.ticks;
     looked = now;

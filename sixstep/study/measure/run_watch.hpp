@@ -24,14 +24,20 @@ struct RunWatch {
       emf_rad_s = speed;
       emf_bus_V = state.bus;
     }
-    if constexpr (requires { rig.plant().heat(); }) {
-      winding_degC = std::fmax(winding_degC, rig.plant().heat().winding_degC());
-      junction_degC = std::fmax(junction_degC, rig.plant().heat().hottest_junction_degC());
-    }
     if (shunt_least_duty >= 0.0 && rig.ticked()) {
       ++samples;
       const double duty = signed_duty(ModulatorView(rig.modulator()), rig.board_sector());
       hidden_samples += std::fabs(duty) <= shunt_least_duty ? 1 : 0;
+    }
+  }
+
+  /// Now and then and at the end: temperatures move slowly, and cost an exponential each.
+  template <class Rig>
+  void look(const Rig& rig) {
+    if constexpr (requires { rig.plant().heat(); }) {
+      if (!rig.plant().heat().on()) return;
+      winding_degC = std::fmax(winding_degC, rig.plant().bodies_degC(0.0).winding);
+      junction_degC = std::fmax(junction_degC, rig.plant().heat().hottest_junction_degC());
     }
   }
 };
