@@ -88,7 +88,8 @@ std::string text_of(const Cell& cell) {
 base::Problems check_format(Database& db) {
   const auto found = rows_of(db, "PRAGMA user_version");
   if (!found) return found.problems();
-  const std::int64_t format = std::get<std::int64_t>((*found)[0][0]);
+  const auto* told = found->empty() ? nullptr : std::get_if<std::int64_t>(&found->front().front());
+  const std::int64_t format = told ? *told : 0;
   if (format == store_format) return {};
   if (format == 1)
     return {{db.path() + ":", "",
