@@ -169,6 +169,24 @@ class Cells(ProgramTest):
             self.assertEqual(row[figure], math.inf if measured is None else measured, figure)
             self.assertEqual(best[figure], measured, figure)
 
+    def test_of_points_that_are_searched_with_drives(self):
+        """Each row is the drive at its point, made alone from what the row itself says."""
+        self.held('[[spread]]\nkey = "motor_override.inductance_mH"\nrelative = 0.2\n')
+        (self.path / "p.toml").write_text('scenario = "a.toml"\nminimise = "heat"\nevaluations = 3\ndrives = 2\n'
+                                          '[[vary]]\nkey = "supply.voltage_V"\nfrom = 6\nto = 24\n')
+        self.run_program("design", "--optimise", "p.toml", "--store", "s.sqlite", "--quiet")
+        rows = cells.of_store(self.path / "s.sqlite")
+        self.assertEqual([row["run"] for row in rows], list(range(6)))
+        for row in rows:
+            self.run_program("run", "a.toml", "--set", f"supply.voltage_V={row['supply.voltage_V [V]']!r}", "--drive",
+                             str(row["run"] % 2), "--json", "one.json", "--force", code=None)
+            digest, figures = cells.figures_alone(self.path / "one.json")
+            self.assertEqual(row["digest"], digest)
+            for figure, measured in figures.items():
+                self.assertEqual(row[figure], math.inf if measured is None else measured, figure)
+        inductances = {row["run"] % 2: row["drive: motor_override.inductance_mH [mH]"] for row in rows}
+        self.assertEqual([row["drive: motor_override.inductance_mH [mH]"] for row in rows], [inductances[n % 2] for n in range(6)])
+
     def test_of_a_loop_that_is_measured(self):
         """A row per frequency, as long as the head, the same numbers in CSV, JSON and table; the frequencies are the multisine's."""
         self.run_program("new", "drive", "--mode", "current", "--motor", "maxon-251601")
