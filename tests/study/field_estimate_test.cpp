@@ -211,6 +211,7 @@ Scenario observed_251601(double load_Nm, double warmer_K) {
   s.sheet.nominal_current_A = base::Quantity{2.33, "terminal", ""};
   s.control.drive = FirmwareKind::field;
   s.control.field.angle = FieldAngle::observer;
+  s.control.field.start_current_A = 2.33;
   s.control.speed.settle_s = 0.06;
   s.control.speed.torque_limit_Nm = 0.1;
   s.pwm.alignment = Alignment::centre;
