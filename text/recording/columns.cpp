@@ -167,9 +167,12 @@ std::string headings_of(const Recording& recording) {
 
 void note_not_used(const std::vector<NotUsed>& columns, Notes& notes) {
   if (columns.empty()) return;
-  std::string out;
-  for (const NotUsed& one : columns)
-    out += fmt::format("{}{} ({})", out.empty() ? "not used: " : ", ", one.column, one.reason);
+  std::string out = "not used: ";
+  for (std::size_t n = 0; n < columns.size(); ++n) {
+    const bool last_of_reason = n + 1 == columns.size() || columns[n + 1].reason != columns[n].reason;
+    out += columns[n].column + (last_of_reason ? fmt::format(" ({})", columns[n].reason) : "") +
+           (n + 1 < columns.size() ? ", " : "");
+  }
   notes.push_back(bounded(std::move(out), 2000));
 }
 

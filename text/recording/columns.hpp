@@ -38,7 +38,7 @@ base::Result<std::vector<double>> converted(const Recording& recording, const Pi
 /// "hall1, hall2, u_ab": what messages say there is.
 std::string headings_of(const Recording& recording);
 
-/// "not used: Comment (holds no numbers), RPM (...)"; nothing where nothing is.
+/// "not used: Comment, Remark (holds no numbers), Temp (in degC)"; nothing where nothing is.
 struct NotUsed {
   std::string column, reason;
 };

@@ -92,6 +92,13 @@ bool is_unit_alone(std::string_view cell) {
   return same_kind(u, *unit_of("s")) || same_kind(u, *unit_of("V"));
 }
 
+/// Behind a name these are words or letters and no units: "current_in", "axis_10".
+bool is_rather_a_word(std::string_view word) {
+  constexpr std::string_view words[] = {"in", "inch", "ft",   "h",     "lb", "lbs", "oz",
+                                        "kp", "KV",   "turn", "turns", "m",  "g"};
+  return is_number_of_a_place(word) || std::find(std::begin(words), std::end(words), word) != std::end(words);
+}
+
 /// "speed_rad_s": the pieces of a key's unit, parted by underscores.
 std::optional<Heading> behind_underscores(std::string_view cell) {
   const std::string_view name = without_unit(cell);
@@ -118,7 +125,7 @@ std::optional<Heading> last_word(std::string_view cell) {
   // Small letters are names: "hall_v", "phase a".
   if (word.size() == 1 && cell[cut] != '.' && unit_of(word) == std::nullopt) return {};
   const std::string unit = unit_in_words(word);
-  if (unit.empty() || is_number_of_a_place(word)) return {};
+  if (unit.empty() || is_rather_a_word(word)) return {};
   return Heading{std::string(name), unit, {}, word.size() == 1};
 }
 
@@ -157,7 +164,11 @@ Heading heading_of(std::string_view cell) {
   cell = bare_cell(cell);
   if (std::optional<Heading> found = in_brackets(cell)) return *found;
   if (std::optional<Heading> found = behind_a_word(cell)) return *found;
-  if (is_unit_alone(cell)) return {{}, unit_in_words(cell), {}, false};
+  if (is_unit_alone(cell)) {
+    // A volt may be the name of a column too; a second is the time.
+    const std::string unit = unit_in_words(cell);
+    return {same_kind(*unit_of(unit), *unit_of("V")) ? std::string(cell) : std::string(), unit, {}, false};
+  }
   std::optional<Heading> found = behind_underscores(cell);
   if (!found) found = last_word(cell);
   if (!found) return {std::string(cell), {}, {}, false};

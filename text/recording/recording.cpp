@@ -63,7 +63,10 @@ struct WholeRows {
 };
 WholeRows from_last_start(std::string_view text) {
   WholeRows out;
-  if (const std::size_t end = text.rfind('\n'); end != std::string_view::npos && end + 1 < text.size()) {
+  const std::size_t end = text.rfind('\n');
+  const bool cut = end != std::string_view::npos && end + 1 < text.size();
+  // Of a log of one row that row is kept.
+  if (cut && begins_with_number(text.substr(text.rfind('\n', end - 1) + 1))) {
     text = text.substr(0, end + 1);
     out.notes.push_back(
         fmt::format("line {} has no end: it may have been cut, and is left out", lines_in(text) + 1));
