@@ -54,6 +54,21 @@ class Bode(ProgramTest):
         quiet = self.run_program("run", "held.toml", "--bode", "--quiet", code=1)
         self.assertEqual((quiet.stdout, quiet.stderr), ("", "held: the loop did not answer: nothing was measured\n"))
 
+    def test_says_why_a_loop_is_beside_the_designed_one(self):
+        """Soft chopping without a load cannot brake: the phase margin falls by ten degrees, and complementary chopping has it back."""
+        speed = str(SOURCE / "data/scenarios/thesis/7.4-speed-exact-design.toml")
+        for words, beside in (((), True), (("--set", "pwm.chopping=complementary"), False)):
+            made = self.run_program("run", speed, "--bode", *words, "--json", "b.json", "--html", "b.html").stdout
+            told = json.loads((self.path / "b.json").read_text())
+            (self.path / "b.json").unlink()
+            lost = told["designed"]["phase_margin_deg"] - told["measured"]["phase_margin_deg"]
+            self.assertEqual(lost > 5, beside)
+            self.assertEqual('deg beside the designed one' in made and 'pwm.chopping = "complementary" lets it' in made, beside)
+            page = (self.path / "b.html").read_text()
+            self.assertIn("±", page)
+            self.assertNotIn("+-", page[page.index("<h1"):page.index("<footer") if "<footer" in page else len(page)])
+            (self.path / "b.html").unlink()
+
     def test_json_is_alone_on_standard_output(self):
         made = self.run_program("run", LOCKED, "--bode", "--amplitude", "0.5", "--json", "-")
         self.assertEqual(json.loads(made.stdout)["amplitude"], 0.5)

@@ -11,6 +11,7 @@
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/base/range_text.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/design_warnings.hpp"
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/measure/figures.hpp"
 #include "sixstep/study/run/run.hpp"
@@ -30,6 +31,9 @@ constexpr double longest_run_up_s = 600;
 
 /// Control periods of a trial, and of all together: half a second, and one and a half, of one core.
 constexpr double trial_periods = 3.5e5, all_trials_periods = 1.2e6;
+
+/// A heavy rotor on a winding that lets it wait.
+constexpr double unhurried_period_s = 1e-4;
 
 /// Above it a drive's current is hardly more than ripple.
 constexpr double usable_ripple = 0.5;
@@ -124,7 +128,8 @@ std::vector<Tolerance> chief(std::vector<Tolerance> tolerances) {
   return tolerances;
 }
 
-/// Makes a trial short enough: a higher lowest speed, whose loop is faster, fewer motors out of tolerance, a shorter move.
+/// Makes a trial short enough: a higher lowest speed, whose loop is faster, fewer motors out of tolerance, a shorter move, a longer
+/// period.
 bool shorten_trial(DesignOrder& order, const design::MotorModel& motor) {
   const auto fits = [&] {
     const base::Result<design::DriveDesign> d = design::design_drive(motor, order.spec);
@@ -142,12 +147,17 @@ bool shorten_trial(DesignOrder& order, const design::MotorModel& motor) {
   if (fits()) return true;
   order.tolerances.clear();
   if (fits()) return true;
-  if (order.spec.mode != Mode::position || d->motor.kind == design::MotorKind::linear) return false;
-  for (const double step_deg : {300.0, 100.0}) {
-    order.subject.step = step_deg;
-    if (fits()) return true;
-  }
-  return false;
+  if (order.spec.mode == Mode::position && d->motor.kind == design::MotorKind::rotary)
+    for (const double step_deg : {300.0, 100.0}) {
+      order.subject.step = step_deg;
+      if (fits()) return true;
+    }
+  const double ripple_A = design::greatest_ripple * d->nominal_current_A;
+  if (period_for_ripple_s(d->motor, d->bus_V, order.spec.chopping, ripple_A) < unhurried_period_s)
+    return false;
+  order.spec.period_s = order.spec.rotor.shaft.period_s = unhurried_period_s;
+  order.spec.current_settle_s = 20 * unhurried_period_s;
+  return fits();
 }
 
 bool runs_and_passes(const study::Scenario& s) {
