@@ -32,7 +32,8 @@ std::string warnings(const DesignStudy& s) {
   std::string out;
   for (const auto& w : s.warnings)
     out += fmt::format("<p class=\"{}\">{}<b>{}.</b>{}</p>\n", w.grave ? "alert" : "notes",
-                       w.grave ? "Grave: " : "", escaped(w.what), w.cure.empty() ? "" : " " + escaped(w.cure) + ".");
+                       w.grave ? "Grave: " : "", escaped(w.what),
+                       w.cure.empty() ? "" : " " + escaped(w.cure) + ".");
   return out;
 }
 

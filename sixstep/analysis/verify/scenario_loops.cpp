@@ -6,14 +6,15 @@ namespace sixstep::analysis {
 design::DriveLoops loops_of(const study::Scenario& s, const study::Compiled& c) {
   const control::DriveConfig<double>& drive = c.later.empty() ? c.drive : c.later.back().drive;
   const bool smooth = drive.extras.on && drive.extras.smooth_chopping;
-  design::DriveLoops out{.motor = c.motor,
-                         .winding = driven_pair(c.motor, smooth ? control::Chopping::complementary : drive.chopping),
-                         .period_s = s.pwm.period_s,
-                         .delay_periods = c.board.delayed ? 1 : 0,
-                         .current = {drive.current.d1, drive.current.d0},
-                         .speed = {drive.speed.d1, drive.speed.d0},
-                         .current_at_full_torque_A = drive.current_at_full_torque_A,
-                         .position_gain_rad_s_per_deg = drive.position_gain};
+  design::DriveLoops out{
+      .motor = c.motor,
+      .winding = driven_pair(c.motor, smooth ? control::Chopping::complementary : drive.chopping),
+      .period_s = s.pwm.period_s,
+      .delay_periods = c.board.delayed ? 1 : 0,
+      .current = {drive.current.d1, drive.current.d0},
+      .speed = {drive.speed.d1, drive.speed.d0},
+      .current_at_full_torque_A = drive.current_at_full_torque_A,
+      .position_gain_rad_s_per_deg = drive.position_gain};
   out.motor.shaft = c.shaft;
   if (!c.field) return out;
   const control::FieldCurrentConfig<double>& field =

@@ -71,21 +71,23 @@ void look_at_steps(const DriveDesign& d, Collector& out) {
   const std::string step = base::three_digits(60.0 / d.motor.machine.pole_pairs * deg.factor) +
                            (d.motor.kind == MotorKind::linear ? " mm" : " degrees");
   if (const std::optional<double> stands = d.loops[1].figures.delay_s; stands && blind_s > *stands)
-    out.add(Concern::rest, "within a Hall step of " + step + " of its target the drive learns its speed every " +
-                milliseconds(blind_s) + " (1/K_p), and the speed loop stands " + milliseconds(*stands) +
-                ": it comes to within a few steps and never rests");
+    out.add(Concern::rest, "within a Hall step of " + step +
+                               " of its target the drive learns its speed every " + milliseconds(blind_s) +
+                               " (1/K_p), and the speed loop stands " + milliseconds(*stands) +
+                               ": it comes to within a few steps and never rests");
 }
 
 void look_at_sign(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
   if (loop.gains.d1 <= 0.0 && loop.name == "current")
     out.add(Concern::sign, "the current loop is asked to be slower than the motor's own L/R, " +
-                milliseconds(d.motor.machine.L_H / d.motor.machine.R_ohm) +
-                ": its proportional gain is negative");
+                               milliseconds(d.motor.machine.L_H / d.motor.machine.R_ohm) +
+                               ": its proportional gain is negative");
 }
 
 void look_at_overshoot(const LoopDesign& loop, Collector& out) {
   if (loop.name != "position" && loop.figures.stable && loop.step.overshoot > 0.1)
-    out.add(Concern::overshoot, "the " + loop.name + " loop overshoots a step by " +
+    out.add(Concern::overshoot,
+            "the " + loop.name + " loop overshoots a step by " +
                 base::three_digits(100.0 * loop.step.overshoot) + " %, for the PI's zero" +
                 (loop.built.phase_rad != loop.figures.phase_rad ? " and the delay of its sensor" : ""));
 }
@@ -94,8 +96,9 @@ void look_at_separation(const LoopDesign& inner, const LoopDesign& outer, Collec
   if (!inner.figures.crossover_rad_s || !outer.figures.crossover_rad_s) return;
   const double ratio = *inner.figures.crossover_rad_s / *outer.figures.crossover_rad_s;
   if (ratio < least_separation)
-    out.add(Concern::separation, "the " + inner.name + " loop crosses over at only " + base::three_digits(ratio) +
-                " times the frequency of the " + outer.name + " loop, less than " + base::three_digits(least_separation));
+    out.add(Concern::separation, "the " + inner.name + " loop crosses over at only " +
+                                     base::three_digits(ratio) + " times the frequency of the " + outer.name +
+                                     " loop, less than " + base::three_digits(least_separation));
 }
 
 void look_at_ripple(const DriveDesign& d, Collector& out) {
@@ -109,7 +112,8 @@ void look_at_braking(const DriveDesign& d, Collector& out) {
   const double top =
       d.motor.no_load_speed_rad_s > 0.0 ? d.motor.no_load_speed_rad_s : d.bus_V / d.motor.K_t_Nm_A;
   if (d.spec.chopping == control::Chopping::soft && d.braking_limit_rad_s < top)
-    out.add(Concern::braking, "soft chopping cannot hold a braking current of " + base::three_digits(d.nominal_current_A) +
+    out.add(Concern::braking,
+            "soft chopping cannot hold a braking current of " + base::three_digits(d.nominal_current_A) +
                 " A" + (d.nominal_printed ? "" : std::string(", ") + nominal_current_words(d) + ",") +
                 " above " + base::three_digits(d.braking_limit_rad_s) +
                 " rad/s, (i/K_t) R: the motor brakes through the lower switches");
@@ -120,18 +124,21 @@ void look_at_voltage(const DriveDesign& d, Collector& out) {
   const double first_V = d.loops[0].gains.d1 * d.nominal_current_A;
   if (first_V > d.bus_V)
     out.add(Concern::voltage, "a step of " + std::string(nominal_current_words(d)) + " asks for " +
-                base::three_digits(first_V) + " V at once, the bus has " + base::three_digits(d.bus_V) +
-                " V: it settles later than designed");
+                                  base::three_digits(first_V) + " V at once, the bus has " +
+                                  base::three_digits(d.bus_V) + " V: it settles later than designed");
   if (d.headroom_end_rad_s <= 0.0)
     out.add(Concern::voltage,
-            "the bus cannot drive " + std::string(nominal_current_words(d)) + " even through the held rotor", true);
+            "the bus cannot drive " + std::string(nominal_current_words(d)) + " even through the held rotor",
+            true);
 }
 
 void look_at_settling(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
   if (!loop.placed || !loop.figures.stable) return;
   if (loop.placed->settle_s < 10.0 * d.spec.period_s)
-    out.add(Concern::pace, "the " + loop.name + " loop is to settle within " + milliseconds(loop.placed->settle_s) + ", " +
-                base::three_digits(loop.placed->settle_s / d.spec.period_s) + " control periods, fewer than ten");
+    out.add(Concern::pace, "the " + loop.name + " loop is to settle within " +
+                               milliseconds(loop.placed->settle_s) + ", " +
+                               base::three_digits(loop.placed->settle_s / d.spec.period_s) +
+                               " control periods, fewer than ten");
 }
 
 void look_at_heat(const DriveDesign& d, Collector& out) {
@@ -141,7 +148,8 @@ void look_at_heat(const DriveDesign& d, Collector& out) {
       out.add(Concern::heat,
               "the sheet names no nominal current: a tenth of the stall current, " +
                   base::three_digits(d.nominal_current_A) + " A, stands in for it",
-              false, "give the sheet's nominal_current_A, or torque_limit_Nm with what bridge and winding bear");
+              false,
+              "give the sheet's nominal_current_A, or torque_limit_Nm with what bridge and winding bear");
     return;
   }
   if (d.current_at_full_torque_A > 3.0 * d.nominal_current_A)

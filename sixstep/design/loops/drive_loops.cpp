@@ -65,9 +65,12 @@ ZohPlant current_plant(const LoopWinding& winding, double period_s) {
 void tell_chopping(control::Chopping chopping, std::vector<DerivationStep>& steps) {
   const double s = volts_per_duty(chopping);
   if (s == 1.0) return;
-  const auto a0 =
-      std::find_if(steps.begin(), steps.end(), [](const DerivationStep& step) { return step.symbol == "a0"; });
-  steps.insert(a0, {"s", "hard chopping: a duty moves the mean voltage by s times the bus, R and L count as R/s and L/s", s, ""});
+  const auto a0 = std::find_if(steps.begin(), steps.end(),
+                               [](const DerivationStep& step) { return step.symbol == "a0"; });
+  steps.insert(
+      a0,
+      {"s", "hard chopping: a duty moves the mean voltage by s times the bus, R and L count as R/s and L/s",
+       s, ""});
 }
 
 LoopWinding quadrature_axis(const FieldMachine& machine, bool decoupled) {

@@ -9,9 +9,7 @@
 
 namespace sixstep::design {
 
-double volts_per_duty(control::Chopping chopping) {
-  return chopping == control::Chopping::hard ? 2.0 : 1.0;
-}
+double volts_per_duty(control::Chopping chopping) { return chopping == control::Chopping::hard ? 2.0 : 1.0; }
 
 // u/U = s d - (s - 1) with s = volts_per_duty()
 double duty_for_voltage(control::Chopping chopping, double part_of_bus) {

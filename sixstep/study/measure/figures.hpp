@@ -77,7 +77,8 @@ class Figures {
   };
   void watch(const SegmentView& g, double s);
 
-  std::vector<Figure> figures_;  ///< requirements, comparisons, and the whole signals beside requirements of samples
+  std::vector<Figure>
+      figures_;  ///< requirements, comparisons, and the whole signals beside requirements of samples
 };
 
 /// Shown for a measure without a label: "settling time of motor current".
