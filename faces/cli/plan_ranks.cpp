@@ -14,6 +14,7 @@
 #include "batch/ranks.hpp"
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
+#include "files/controller_watch.hpp"
 #include "files/scenario_on_disk.hpp"
 
 namespace cli {
@@ -96,7 +97,10 @@ decltype(batch::PlanRuns::scenario) scenario_of(const std::string& made_of, cons
     return named_text(ask(bytes_of(naming)));
   };
   const auto scenarios = std::make_shared<text::PlannedScenarios>(std::move(of), plan);
-  return [scenarios](std::size_t n) { return scenarios->run(n); };
+  return [scenarios](std::size_t n) {
+    files::controllers_make_run(n);
+    return scenarios->run(n);
+  };
 }
 
 }  // namespace

@@ -33,7 +33,12 @@ void CsvWriter::row(std::span<const double> numbers) {
   const std::size_t used = pending_.size();
   pending_.resize(used + longest * numbers.size());
   char* end = pending_.data() + used;
-  for (const double x : numbers) end = fmt::format_to(end, FMT_COMPILE("{},"), x);
+  for (const double x : numbers) {
+    if (x - x == 0.0)
+      end = fmt::format_to(end, FMT_COMPILE("{},"), x);
+    else
+      *end++ = ',';  // what has no value leaves its cell empty
+  }
   pending_.resize(static_cast<std::size_t>(end - pending_.data()));
   if (!numbers.empty()) pending_.back() = '\n';
   if (pending_.size() >= block) flush();
