@@ -187,7 +187,7 @@ DEFINING = [("docs/bench.md", "| column |"), ("docs/bode.md", "| what stands the
             ("docs/cluster.md", "| | |"), ("docs/motors.md", "| key |"), ("docs/motors.md", "| relation |"), ("docs/many-runs.md", "| key of a plan |"),
             ("docs/many-runs.md", "title = "), ("docs/many-runs.md", "minimise = "), ("docs/many-runs.md", "sixstep run data/scenarios"),
             ("docs/session.md", "| change |"), ("docs/wiring.md", "| in a cell |"), ("docs/manual/control.md", "| column |"),
-            ("docs/manual/position.md", "| you need |"), ("docs/own-controller.md", "$ ")]
+            ("docs/manual/position.md", "| you need |"), ("docs/own-controller.md", "$ "), ("docs/own-controller.md", "| it |"), ("docs/firmware.md", "| log of |")]
 # Tables whose every row a named test measures and holds to a law of its own.
 HELD_BY_TESTS = [("docs/control.md", "| result |"), ("docs/control.md", "| experiment |"), ("docs/control.md", "| board |"),
                  ("docs/control.md", "| loop | told |"), ("docs/control.md", "| pattern | free phase"),

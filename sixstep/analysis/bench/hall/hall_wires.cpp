@@ -19,7 +19,7 @@ std::uint8_t as_60_degrees(std::uint8_t code) {
 }
 
 constexpr rig::WireOrder wire_orders[] = {rig::WireOrder::abc, rig::WireOrder::bca, rig::WireOrder::cab,
-                                     rig::WireOrder::acb, rig::WireOrder::cba, rig::WireOrder::bac};
+                                          rig::WireOrder::acb, rig::WireOrder::cba, rig::WireOrder::bac};
 
 }  // namespace
 
