@@ -116,8 +116,9 @@ std::string verdicts_xml(const std::vector<Job>& jobs) {
   std::vector<text::JunitSuite> suites;
   suites.reserve(jobs.size());
   for (const Job& job : jobs)
-    suites.push_back(job.outcome() ? text::junit_suite(job.name(), *job.outcome())
-                                   : text::junit_suite(job.name(), job.problems()));
+    // One that an output has stopped did not run to its end, whatever it came to by then.
+    suites.push_back(job.outcome() && job.problems().empty() ? text::junit_suite(job.name(), *job.outcome())
+                                                             : text::junit_suite(job.name(), job.problems()));
   return text::junit_xml(suites);
 }
 
