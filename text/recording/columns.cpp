@@ -52,10 +52,9 @@ base::Problem none_called(const Recording& r, const std::string& heading) {
                       near.empty() ? "it has " + headings_of(r) : fmt::format("did you mean \"{}\"?", near));
 }
 
-/// Of a letter that does not fit, "phase_A" among voltages, nothing is left.
+/// A letter behind the name of a voltage is a phase, "phase_A" and "hall_C"; volts and seconds are units wherever they stand.
 bool is_part_of_name(const Picked& picked, const Wanted& wanted) {
-  return picked.column->letter && !picked.unit.empty() && !wanted.unit.empty() &&
-         !same_kind(*unit_of(picked.unit), *unit_of(wanted.unit));
+  return wanted.unit == "V" && picked.column->letter && picked.unit != "V" && picked.unit != "s";
 }
 
 /// From the column's unit, whose power of ten is in its values already.
