@@ -17,7 +17,10 @@ namespace sixstep::study {
 
 namespace {
 
-using base::three_digits;
+/// Three digits, of what is larger whole numbers.
+std::string three_digits(double x) {
+  return std::fabs(x) < 1000.0 ? base::three_digits(x) : std::to_string(std::llround(x));
+}
 
 /// What silicon switches stand by their data sheets: 150 or 175 degC.
 constexpr double usual_junction_limit_degC = 150.0;
@@ -128,7 +131,7 @@ std::string on_back_emf(const Scenario& s, const Compiled& c, const RunWatch& w)
   if (!(emf_V > 1.01 * w.emf_bus_V)) return {};
   return "at " + speed(s, w.emf_rad_s) + " the back-EMF of " + three_digits(emf_V) +
          " V between two terminals is above the bus of " + three_digits(w.emf_bus_V) +
-         " V: the diodes feed the bus, whatever the bridge is told";
+         " V: without a current against the magnet the diodes feed the bus, whatever the bridge is told";
 }
 
 std::string on_heat(const Scenario& s, const RunWatch& w, const Outcome& out) {
