@@ -22,14 +22,20 @@ const translucent = (color, share) => {
   return color.startsWith('color(') ? `rgb(${r * 255} ${g * 255} ${b * 255} / ${share})` : `rgb(${r} ${g} ${b} / ${share})`;
 };
 
+/** Decimals that tell multiples of a step apart: one more for 2.5 than for 2. */
+function decimalsOf(step) {
+  const fewest = Math.max(0, Math.min(9, -Math.floor(Math.log10(step * 1.0001) + 1e-9)));
+  const whole = (decimals) => Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) < 1e-6;
+  return !whole(fewest) && fewest < 9 && whole(fewest + 1) ? fewest + 1 : fewest;
+}
+
 /** Time in the unit that suits the whole run, with the decimals that the step needs. */
 function timeFormat(duration) {
   const [factor, unit] = duration < 2e-3 ? [1e6, 'µs'] : duration < 2 ? [1e3, 'ms'] : [1, 's'];
   return {
     unit,
     text(t, step) {
-      const decimals = Math.max(0, Math.min(9, -Math.floor(Math.log10(step * factor * 1.0001))));
-      return (t * factor).toFixed(decimals).replace('-', '−');
+      return (t * factor).toFixed(decimalsOf(step * factor)).replace('-', '−');
     },
   };
 }
@@ -122,7 +128,7 @@ function valueAxes(chart) {
   const written = (factor) => (u, splits) => {
     const f = factor();
     const step = Math.abs((splits[1] - splits[0]) * f) || 1;
-    const decimals = Math.max(0, Math.min(9, -Math.floor(Math.log10(step * 1.0001) + 1e-9)));
+    const decimals = decimalsOf(step);
     return splits.map((v) => (v * f).toFixed(decimals).replace('-', '−'));
   };
   const left = {...common, size: GUTTER.left, gap: 6, space: 28, values: written(() => 1)};

@@ -157,7 +157,7 @@ class Bench(Started):
         head, rows = (self.path / "scope.csv").read_text().split("u_ab [V]\n")
         (self.path / "scope.csv").write_text(head + "u_ab [V],Temp [degC],Comment\n" + rows.replace("\n", ",21.5,\n"))
         made = self.run_program("motor", "emf", "scope.csv", "--json")
-        self.assertAlmostEqual(json.loads(made.stdout)["channels"][0]["peak_V"]["value"], 2.011, delta=0.001)
+        self.assertAlmostEqual(json.loads(made.stdout)["channels"][0]["fundamental_V"]["value"], 2.011, delta=0.001)
         self.assertEqual(made.stderr, "scope.csv: not used: Temp (in degC)\n")
         self.assertEqual(self.run_program("motor", "emf", "scope.csv", "--quiet").stderr, "")
 

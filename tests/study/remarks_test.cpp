@@ -93,6 +93,15 @@ TEST(Remarks, GainsPerSecondAreThoseOfASampleTimesThePeriod) {
   EXPECT_THAT(to_string(twice.problems()[0]), HasSubstr("keep one of: ki | ki_per_s"));
 }
 
+TEST(Remarks, ASettlingTimeThatIsSlowerThanTheRotorItself) {
+  Scenario s = maxon_scenario(Mode::speed, 100.0);
+  s.duration_s = 2e-3;
+  s.control.speed.settle_s = 20.0;  // J/B is 1.85 s: 20 ms were meant
+  EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("negative"), HasSubstr("control.speed.settle_s"))));
+  s.control.speed.settle_s = 20e-3;
+  EXPECT_THAT(remarks_on(s), IsEmpty());
+}
+
 /// Where a proportional gain makes the loop unstable, by hand: z - a + b kp = 0 at z = -1, kp = (1 + a)/b; one period late
 /// z^2 - a z + b kp = 0 has |z| = 1 at kp = 1/b.
 TEST(Remarks, TheGainAtWhichALoopBecomesUnstable) {

@@ -58,9 +58,7 @@ TEST(BoardLog, SaysWhatIsWrong) {
   EXPECT_THAT(limit("t [us],i_m [mA]\n1,2\n1,4\n"), HasSubstr("does not rise"));
   EXPECT_THAT(limit("t [us],i_m [mA]\n1,x\n2,4\n"), HasSubstr("is no number"));
   EXPECT_THAT(limit("i_m [mA],duty\n1,0\n2,0\n"), testing::Not("nothing"));
-  EXPECT_THAT(limit("t [us],i_m [mA]\n1,2\n"), HasSubstr("has one row"));
-  EXPECT_THAT(limit("t [us],i_m [mA]\n1,2"), HasSubstr("has not two rows whose line has ended"));
-  EXPECT_THAT(limit("t [us],i_m [mA]\n1,2\n3,4"), HasSubstr("has not two rows whose line has ended"));
+  EXPECT_EQ(limit("t [us],i_m [mA]\n1,2\n"), "nothing");  // how few rows suffice is for the comparison to say
   EXPECT_THAT(limit("t [us],i_m [mA]\n"), HasSubstr("holds no row of numbers"));
   EXPECT_EQ(limit("t [us],i_m [mA]\n1,2\n3,4\n"), "nothing");
 }

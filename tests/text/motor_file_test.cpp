@@ -82,7 +82,7 @@ TEST_F(MotorFile, EachSlipIsOneClearErrorWithItsCure) {
        "unit: 1 kohm = 1000 ohm"},
       {sheet_with("torque_constant_Nm_Arms = 0.4"),
        "m.toml:8:1: torque_constant_Nm_Arms carries the wrong unit; write torque_constant_Nm_A and give the "
-       "value in that unit"},
+       "value in that unit, with a frame that is rms"},
       {sheet_with("poles = 15"),
        "m.toml:8:9: poles = 15 must be an even number from 2 on; magnet poles come in pairs of north and "
        "south; if the sheet counts pairs, write pole_pairs"},

@@ -46,7 +46,7 @@ TEST(PlanColumns, StandOverTheCellsOfARow) {
                                                         std::numeric_limits<double>::infinity(), -0.25},
                                             .digest = 255});
   ASSERT_TRUE(row);
-  EXPECT_EQ(plan_csv_row(*row), "4,whole,1,-12,'=soft,-1.5,2,,inf,-0.25,'=a\\u000ab,00000000000000ff\n")
+  EXPECT_EQ(plan_csv_row(*row), "4,whole,1,-12,'=soft,-1.5,2,,never,-0.25,'=a\\u000ab,00000000000000ff\n")
       << "a number is a number, minus and all";
 }
 

@@ -205,7 +205,7 @@ TEST_F(WrongInput, ContradictoryGainsAreToldOnceAndWhere) {
                         "d1 = 4.5\nd0 = -4.04\n"),
       ElementsAre(
           "x.toml:8:6: control.current.d1 = 4.5 contradicts settle_s, damping: gains are either given or "
-          "designed; keep one of: d1 and d0 | kp and ki | settle_s and damping"));
+          "designed; keep one of: d1 and d0 | kp with ki or ki_per_s | settle_s and damping"));
 }
 
 TEST_F(WrongInput, EverythingAtOnceInTheOrderOfTheLines) {

@@ -73,7 +73,7 @@ std::string inline_table(const EmfResult& r) {
 
 Json channel_json(const analysis::EmfChannelResult& c) {
   return {{"name", c.name},
-          {"peak_V", interval_json(c.peak_V)},
+          {"fundamental_V", interval_json(c.peak_V)},
           {"behind_deg", interval_json(c.phase_deg)},
           {"offset_V", c.offset_V},
           {"residual_rms_V", c.residual_rms_V},

@@ -43,7 +43,7 @@ std::string heading(const MeasuredEmf& m) {
 
 std::string channels_section(const EmfResult& r) {
   Rows rows;
-  rows.add({"Channel", "peak, V", "95 %", "behind, deg", "offset, V", "noise, V rms", "step, V"});
+  rows.add({"Channel", "fundamental, V", "95 %", "behind, deg", "offset, V", "noise, V rms", "step, V"});
   for (const analysis::EmfChannelResult& c : r.channels)
     rows.add({visible(c.name), measured_text(c.peak_V), bounds_text(c.peak_V),
               &c == &r.channels.front() ? "" : measured_text(c.phase_deg), fmt::format("{:.3g}", c.offset_V),

@@ -8,6 +8,7 @@
 #include "sixstep/base/elementary.hpp"
 #include "sixstep/base/linear.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/drive_loops.hpp"
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/loops/transfer.hpp"
 #include "sixstep/study/compile/field_parts.hpp"
@@ -100,8 +101,8 @@ bool is_stable_current(const Scenario& s, const Compiled& c, const LoopGains& g)
     const double L = g.loop == "current q" ? machine.L_q_H : machine.L_d_H;
     return is_stable_loop(g, machine.R_ohm, L, s.pwm.period_s, wait_periods(s.pwm));
   }
-  return is_stable_loop(g, 2 * c.motor.machine.R_ohm, 2 * c.motor.machine.L_H, s.pwm.period_s,
-                        wait_periods(s.pwm));
+  const design::LoopWinding pair = design::driven_pair(c.motor, s.pwm.chopping);
+  return is_stable_loop(g, pair.R_ohm, pair.L_H, s.pwm.period_s, wait_periods(s.pwm));
 }
 
 std::string on_gains(const LoopGains& g, const std::string& key, double period_s) {
@@ -110,6 +111,14 @@ std::string on_gains(const LoopGains& g, const std::string& key, double period_s
   return key + ".ki = " + base::six_digits(ki) + " adds " + three_digits(ki / g.d1) +
          " times kp in each sample; if it comes from a tool whose gains are per second, give ki_per_s = " +
          base::six_digits(ki) + ", which is ki = " + base::six_digits(ki * period_s);
+}
+
+/// Poles that are slower than the plant's own ask the loop to hold it back.
+std::string on_sign(const LoopGains& g, const std::string& key) {
+  if (!(g.d1 < 0.0) || g.origin.starts_with("given")) return {};
+  return "the " + g.loop + " loop's gain on its error is negative, " + three_digits(1e6 * g.d1) +
+         "e-6: at a change it first goes the other way; " + key +
+         ".settle_s asks for a loop that is slower than what it controls: give a shorter one";
 }
 
 std::string on_stability(const Scenario& s, const Compiled& c, const LoopGains& g) {
@@ -166,7 +175,9 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   add(on_shunt(s, c, w));
   add(on_hall_timeout(s, c));
   for (const LoopGains& g : out.gains) {
-    add(on_gains(g, g.loop == "speed" ? "control.speed" : "control.current", s.pwm.period_s));
+    const std::string key = g.loop == "speed" ? "control.speed" : "control.current";
+    add(on_gains(g, key, s.pwm.period_s));
+    add(on_sign(g, key));
     add(on_stability(s, c, g));
   }
   add(on_back_emf(s, c, w));

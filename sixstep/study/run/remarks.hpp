@@ -10,7 +10,7 @@ namespace sixstep::study {
 /// Adds to outcome.remarks:
 ///   - samples of a shunt that fell outside of the pulse,
 ///   - a speed reference whose Hall edges come later than sensors.timeout_s,
-///   - a current loop that is unstable with its gains, and gains that look like another tool's,
+///   - a current loop that is unstable with its gains, a placed gain that is negative, gains that look like another tool's,
 ///   - a back-EMF above the bus,
 ///   - a winding or a junction above its limit,
 ///   - fewer than five control periods in a commutation step.
