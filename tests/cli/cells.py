@@ -32,7 +32,7 @@ def shown(text, unit):
 def value(text):
     """A cell of CSV as the number that it is; None where it is empty."""
     try:
-        return float(text)
+        return math.inf if text == "never" else float(text)
     except ValueError:
         return text or None
 

@@ -12,7 +12,7 @@ import struct
 import unittest
 
 import cells
-from program import SHORT, ProgramTest
+from program import SHORT, SOURCE, ProgramTest
 
 # Figures far apart, in other units, some of which never come.
 FIGURES = """
@@ -189,10 +189,10 @@ class Cells(ProgramTest):
 
     def test_of_a_loop_that_is_measured(self):
         """A row per frequency, as long as the head, the same numbers in CSV, JSON and table; the frequencies are the multisine's."""
-        self.run_program("new", "drive", "--mode", "current", "--motor", "maxon-251601")
-        told = self.run_program("run", "drive.toml", "--bode", "--csv", "b.csv", "--json", "b.json", code=None).stdout
+        drive = str(SOURCE / "data/scenarios/thesis/7.3.1-locked-exact-design.toml")
+        told = self.run_program("run", drive, "--bode", "--csv", "b.csv", "--json", "b.json", code=None).stdout
         rows = list(csv.DictReader((self.path / "b.csv").read_text().splitlines()))
-        printed = self.run_program("run", "drive.toml", "--bode", "--csv", "-", code=None).stdout
+        printed = self.run_program("run", drive, "--bode", "--csv", "-", code=None).stdout
         self.assertEqual(printed, (self.path / "b.csv").read_text(), "alone on standard output")
         self.assertNotIn("-", self.names())
         points = json.loads((self.path / "b.json").read_text())["points"]
