@@ -142,6 +142,50 @@ def check_goes_on(elf):
     return []
 
 
+OPEN_STOP = ("standing.hpp", '  asm volatile("cli" ::: "memory");\n', "")
+GLITCH = 40  # cycles
+LAST = 150  # a Hall interrupt with its dead time, ahead of the stop
+
+
+def stopped_by_control(elf, begin, edge=None):
+    """A Hall code 000 that the control interrupt alone reads: it comes `begin` cycles behind BOTTOM's sample and is gone when the Hall
+    interrupt is let in; then, `edge` cycles behind the sample, a sound code. The moves of the gates from then on, and what is said."""
+    with driving(elf) as chip:
+        while chip.samples[-1][1] >= 3:
+            chip.run_for(100)
+        seen = len(chip.samples)
+        while not any(channel < 3 for _, channel in chip.samples[seen:]):
+            chip.run_for(20)
+        sample, moved = chip.samples[-1][0], len(chip.moves)
+        for at, code in ((begin, 0), (begin + GLITCH, 0b101), *([(edge, 0b100)] if edge else [])):
+            chip.run_to(sample + at)
+            chip.hall = code
+        chip.run_to(sample + MS)
+        return [(cycle - sample, gates) for cycle, gates in chip.moves[moved:]], chip.gates, reasons(chip)
+
+
+def trouble_of_stop(elf):
+    """Hall interrupts at each cycle about the control interrupt's stop, which runs with interrupts on: none lets a gate out again."""
+    for begin in range(200, 320, 10):
+        moves, _, said = stopped_by_control(elf, begin)
+        if said == ["hall"] and moves[-1][0] > begin + GLITCH + 60:  # the Hall interrupt would have had it off by then
+            off = moves[-1][0]
+            break
+    else:
+        return ["no glitch of the Hall pins stops the drive by its control interrupt"]
+    trouble = []
+    for edge in range(max(off - 80, begin + GLITCH), off + 20):
+        moves, gates, said = stopped_by_control(elf, begin, edge)
+        if gates or moves[-1][0] > off + LAST or said != ["hall"]:
+            trouble.append(f"a Hall edge {edge - off} cycles behind the stop: gates {gates:06b} a millisecond later, {moves[-3:]}, it says {said}")
+    return trouble
+
+
+def check_open_stop(_):
+    with tempfile.TemporaryDirectory() as folder:
+        return None if trouble_of_stop(built(folder, [OPEN_STOP])) else "a stop that lets interrupts in is not seen"
+
+
 HANGS = "  if (++calls == 100) { asm volatile(\"cli\"); for (;;) asm volatile(\"\"); }\n"
 CALLS = "  static std::uint8_t calls = 0;\n"
 TICK = "  const std::uint8_t pins = hall_pins();\n  const bool looks_at_legs"
@@ -199,7 +243,8 @@ def check():
     with tempfile.TemporaryDirectory() as folder:
         elf = built(folder)
         answers = build.side_by_side(functools.partial(check_break, elf), BREAKS.items())
-        trouble = check_sound(elf) + check_power_up(elf) + check_goes_on(elf)
+        trouble = check_sound(elf) + check_power_up(elf) + check_goes_on(elf) + trouble_of_stop(elf)
+    answers += build.side_by_side(check_open_stop, [None])
     answers += build.side_by_side(check_program, PROGRAMS.items())
     trouble += [str(answer) for answer in answers if answer]
     print(f"{len(BREAKS)} breaks around the ATmega2560 and {len(PROGRAMS)} programs that hang: "

@@ -17,7 +17,7 @@ constexpr Address TIFR3 = 0x38, TCCR3B = 0x91, TCNT3L = 0x94;
 constexpr Address ADCL = 0x78, ADCH = 0x79, ADCSRA = 0x7A, ADCSRB = 0x7B, ADMUX = 0x7C;
 constexpr Address TCCR1A = 0x80, TCCR1B = 0x81, TCNT1L = 0x84, ICR1L = 0x86;
 constexpr Address OCR1AL = 0x88, OCR1BL = 0x8A, OCR1CL = 0x8C, OCR1CH = 0x8D;
-constexpr Address MCUSR = 0x54, WDTCSR = 0x60;
+constexpr Address MCUSR = 0x54, SREG = 0x5F, WDTCSR = 0x60;
 constexpr Address UCSR0A = 0xC0, UCSR0B = 0xC1, UCSR0C = 0xC2, UBRR0L = 0xC4, UDR0 = 0xC6;
 
 constexpr std::uint8_t ICF1 = 1u << 5, TOV1 = 1u << 0, ICIE1 = 1u << 5;                  // TIFR1, TIMSK1

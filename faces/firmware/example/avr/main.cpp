@@ -71,8 +71,9 @@ void wait_for_zero() {
   if (is_within(counts, zero_counts)) phase = Phase::drives;
 }
 
-/// A period without a drive.
+/// A period without a drive. A gate that is on all the same, by whatever fault, is so for one period.
 __attribute__((noinline)) void stand_by(std::uint16_t counts) {
+  if (phase == Phase::stands) turn_off();
   const std::uint8_t pins = hall_pins();
   note_row(pins, value_of(currents, 8 * middle, counts), Scalar{}, Scalar{});
   if (phase == Phase::calibrates)
@@ -213,6 +214,7 @@ extern "C" __attribute__((signal, used)) void INTERRUPT_ADC() {
     asm volatile("sei" ::: "memory");
     control(pins, counts);
     asm volatile("cli" ::: "memory");
+    if (phase == Phase::stands) turn_off();
   } else {
     stop_by_current(counts);
   }

@@ -30,15 +30,20 @@ static_assert(sizeof(firmware::KeptReason) == 6);
 
 namespace firmware {
 
-/// The first reason stays.
+/// The first reason stays. The control tick stops with interrupts on: one that came amid this would let the pair out again.
 inline void stop(Reason why) {
+  const std::uint8_t interrupts = byte(atmega2560::SREG);
+  asm volatile("cli" ::: "memory");
   turn_off();
-  if (phase == Phase::stands) return;
-  byte(atmega2560::TIMSK0) = 0;
-  byte(atmega2560::TIMSK1) = 0;
-  phase = Phase::stands;
-  reason = why;
-  kept_reason.keep(why);
+  if (phase != Phase::stands) {
+    byte(atmega2560::TIMSK0) = 0;
+    byte(atmega2560::TIMSK1) = 0;
+    phase = Phase::stands;
+    reason = why;
+    kept_reason.keep(why);
+  }
+  asm volatile("" ::: "memory");
+  byte(atmega2560::SREG) = interrupts;
 }
 
 /// By what MCUSR said and what was kept. Nobody asks for a reset that no bit tells of: a boot loader has hidden the watchdog's, or the
