@@ -2,6 +2,9 @@
 /* A six-step current controller as it is often written for an AVR: C, avr-libc, integers of mA and timer counts, tables by Hall code. It
  * uses nothing of sixstep: map.toml tells sixstep how it hangs at the board.
  *
+ * NEVER FOR A BRIDGE. It shows how a firmware of one's own hangs at the simulated board, and no more: no over-current and no lost wire stop
+ * it, it has no watchdog, and it starts by itself, also behind a wrong Hall code. What is made for a bridge lies in ../avr.
+ *
  * ATmega2560 at 16 MHz. Timer 1 up and down in 100 us, upper gates of legs a, b, c at OC1C, OC1B, OC1A (PB7, PB6, PB5), lower gates at
  * PC3, PC4, PC5, Hall lines H1 H2 H3 at PK4, PK5, PK6. A transducer in each phase at ADC4..ADC6 (10 A over 1024 counts, 0 A in the
  * middle), the setpoint's potentiometer at ADC7 (2 A either way). */
@@ -10,6 +13,7 @@
 #include <avr/sleep.h>
 
 #define TOP 800 /* counts of half a period */
+#define DEAD 16 /* cycles from the going of a gate to the coming of another one: 1 us */
 #define MA(counts) (((int32_t)((int16_t)(counts)-512) * 625) >> 6) /* 9.77 mA a count */
 #define SETPOINT_MA(counts) (((int32_t)((int16_t)(counts)-512) * 125) >> 5) /* 3.9 mA a count */
 /* u = kp e + sum of ki e, in timer counts for mA, Q12: 2.3 V/A and 0.38 V/A at 24 V (sixstep design --method cancellation). */
@@ -28,15 +32,20 @@ static int16_t drive;    /* signed counts */
 
 static uint8_t hall(void) { return (PINK >> 4) & 7; }
 
-/* Pulses stand at all three outputs of the timer; the direction register lets one out. */
+/* Pulses stand at all three outputs of the timer; the direction register lets one out. What goes is off for the dead time before what
+ * comes is on. Within interrupts alone. */
 static void set_gates(uint8_t code)
 {
     uint8_t from = drive < 0 ? takes[code] : feeds[code];
     uint8_t to = drive < 0 ? feeds[code] : takes[code];
     uint8_t up = from > 2 || drive == 0 ? 0 : upper[from];
-    DDRB &= up;
-    PORTC = to > 2 ? 0 : lower[to];
+    uint8_t low = to > 2 ? 0 : lower[to];
+    uint8_t up_stays = DDRB & up, low_stays = PORTC & low;
+    DDRB = up_stays;
+    PORTC = low_stays;
+    if (up_stays != up || low_stays != low) __builtin_avr_delay_cycles(DEAD);
     DDRB = up;
+    PORTC = low;
 }
 
 static uint16_t convert(uint8_t channel)
