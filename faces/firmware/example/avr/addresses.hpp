@@ -10,7 +10,7 @@ using Address = std::uint16_t;
 
 constexpr Address PINA = 0x20, DDRA = 0x21, PORTA = 0x22;
 constexpr Address PINB = 0x23, DDRB = 0x24, PORTB = 0x25;
-constexpr Address PINK = 0x106;
+constexpr Address PINK = 0x106, PORTK = 0x108;
 constexpr Address TIFR1 = 0x36, PCIFR = 0x3B, SMCR = 0x53, PCICR = 0x68, PCMSK2 = 0x6D, TIMSK1 = 0x6F;
 constexpr Address TCCR0B = 0x45, TCNT0 = 0x46, TIMSK0 = 0x6E;
 constexpr Address TIFR3 = 0x38, TCCR3B = 0x91, TCNT3L = 0x94;

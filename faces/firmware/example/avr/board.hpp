@@ -39,8 +39,9 @@ static_assert(dead_cycles <= 80, "5 us at most: an interrupt waits it out");
 constexpr std::uint16_t middle = 512;
 /// Above it a phase current is a fault: 0.9 of what its transducer reaches. Set it below what the switches and the motor stand.
 constexpr std::uint16_t over_current_counts = 461;
-/// So near to an end of the converter lies a wire that is lost: each input needs a resistor to ground that pulls it there.
-constexpr std::uint16_t end_counts = 3;
+/// So near to an end of the converter lies a wire that is lost: each input needs a resistor of 10 kohm at most to ground that pulls it
+/// there, against what the holding capacitor brings from the channel before.
+constexpr std::uint16_t end_counts = 8;
 /// The three currents' sum, whose samples lie half a period apart: a part of the range that no ripple has.
 constexpr std::uint16_t sum_counts = 192;
 constexpr std::uint8_t strange_sums = 3;
@@ -78,7 +79,11 @@ constexpr ByPins by_pins = [] {
   return by;
 }();
 
-inline std::uint8_t hall_pins() { return byte(atmega2560::PINK) & 7; }
+/// Of three readings what two of them have: a spike of less than two cycles is none.
+inline std::uint8_t hall_pins() {
+  const std::uint8_t a = byte(atmega2560::PINK), b = byte(atmega2560::PINK), c = byte(atmega2560::PINK);
+  return ((a & b) | (c & (a | b))) & 7;
+}
 
 /// As adc_value(): of 10 bits nothing saturates, and 32-bit differences would cost a hundred cycles.
 inline Scalar value_of(const AdcConfig<Scalar>& config, std::int16_t offset, std::uint16_t counts) {

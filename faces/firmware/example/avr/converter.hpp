@@ -15,7 +15,8 @@ inline void look_at_channel(std::uint8_t channel) {
 /// The transducer of the leg that feeds the positive pair: it carries the motor current, whatever its sign.
 inline void look_at_source(std::uint8_t pins) { look_at_channel(by_pins.source[pins]); }
 
-/// 16 MHz / 16: a conversion is 13 us. The data sheet has its 10 bits up to 200 kHz; a microsecond is worth one or two of them here.
+/// 16 MHz / 16: a conversion is 13 us. One that BOTTOM starts is 13.5 us and holds its sample 2 us behind it, and up to three cycles of the
+/// trigger's. The data sheet has its 10 bits up to 200 kHz; a microsecond is worth one or two of them here.
 constexpr std::uint8_t converter_on = atmega2560::ADEN | atmega2560::ADPS2;
 constexpr std::uint16_t conversion_half_us = 2 * 13;
 

@@ -61,7 +61,9 @@ asm(".pushsection .init3,\"ax\",@progbits\n\t"
     "sts 0x91, r24\n\t"
     ".popsection");
 
+/// With the pull-ups of port K: a wire that is lost reads 1, and not what lies beside it.
 inline void set_up_hall_pins() {
+  byte(atmega2560::PORTK) = 7;
   byte(atmega2560::PCMSK2) = 7;
   byte(atmega2560::PCICR) = atmega2560::PCIE2;
 }
