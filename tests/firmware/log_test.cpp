@@ -93,15 +93,81 @@ std::vector<firmware::Command> understood(const std::string& typed) {
 
 TEST(Commands, WhatIsTyped) {
   using Kind = firmware::Command::Kind;
-  const auto found = understood("r 120\r\n-35\ns12c\nx9999999999\r");
-  ASSERT_EQ(found.size(), 6u);
+  const auto found = understood("r 120\r\n-35\ns12\nc9999999999\r\n");
+  ASSERT_EQ(found.size(), 7u);
   EXPECT_EQ(found[0].kind, Kind::run);
   EXPECT_EQ(found[1].kind, Kind::setpoint);
-  EXPECT_EQ(found[1].number, 120);
-  EXPECT_EQ(found[2].number, -35);
+  EXPECT_EQ(found[1].thousandths, 120'000);
+  EXPECT_EQ(found[2].thousandths, -35'000);
   EXPECT_EQ(found[3].kind, Kind::stop);
-  EXPECT_EQ(found[4].kind, Kind::clear) << "and what was typed before it is forgotten";
-  EXPECT_EQ(found[5].number, 9'999'999) << "more than anything turns, and no overflow";
+  EXPECT_EQ(found[4].thousandths, 12'000);
+  EXPECT_EQ(found[5].kind, Kind::clear);
+  EXPECT_EQ(found[6].thousandths, 999'999'000) << "more than anything turns, and no overflow";
+}
+
+TEST(Commands, ASetpointInThousandths) {
+  const std::vector<std::pair<std::string, std::int32_t>> all = {
+      {"1.5", 1500}, {"-1.5", -1500},   {"70.5", 70'500}, {"0.125", 125},
+      {".5", 500},   {"-.05", -50},     {"7.", 7000},     {"0", 0},
+      {"-0.0", 0},   {"007.100", 7100}, {" 3.25", 3250},  {"1999999.999", 1'999'999'999}};
+  for (const auto& [typed, thousandths] : all) {
+    const auto found = understood(typed + "\n");
+    ASSERT_EQ(found.size(), 1u) << typed;
+    EXPECT_EQ(found[0].kind, firmware::Command::Kind::setpoint) << typed;
+    EXPECT_EQ(found[0].thousandths, thousandths) << typed;
+  }
+}
+
+/// Told at once and at Enter; the next line is whole again.
+TEST(Commands, WhatIsNoNumberIsDroppedAsAWhole) {
+  using Kind = firmware::Command::Kind;
+  for (const std::string typed : {"1,5",
+                                  "-1,5",
+                                  "70\b5",
+                                  "70\x7f"
+                                  "5",
+                                  "7e1",
+                                  "x5",
+                                  "7x5",
+                                  "5-",
+                                  "--5",
+                                  "5-3",
+                                  "1.5.2",
+                                  "1.2345",
+                                  "7 5",
+                                  "7r5",
+                                  "7c",
+                                  "+5",
+                                  "0x10",
+                                  "7\t0",
+                                  "7\xff",
+                                  "-r5",
+                                  "70\0335",
+                                  "R5"}) {
+    const auto found = understood(typed + "\n42\n");
+    ASSERT_EQ(found.size(), 3u) << typed;
+    EXPECT_EQ(found[0].kind, Kind::spoiled) << typed;
+    EXPECT_EQ(found[1].kind, Kind::dropped) << typed;
+    EXPECT_EQ(found[2].thousandths, 42'000) << typed;
+  }
+  for (const std::string typed : {"-", ".", "-."}) {
+    const auto found = understood(typed + "\n");
+    ASSERT_EQ(found.size(), 1u) << typed;
+    EXPECT_EQ(found[0].kind, Kind::dropped) << typed;
+  }
+}
+
+TEST(Commands, AStopCountsAnywhereAndNothingElseInASpoiledLine) {
+  using Kind = firmware::Command::Kind;
+  for (const std::string typed : {"7s", "x s", "start", "s", "1.s5", "\bs"}) {
+    int stops = 0;
+    for (const auto& found : understood(typed + "\n")) {
+      stops += found.kind == Kind::stop;
+      EXPECT_NE(found.kind, Kind::run) << typed;
+      EXPECT_NE(found.kind, Kind::setpoint) << typed;
+    }
+    EXPECT_EQ(stops, 1) << typed;
+  }
 }
 
 /// What the main loop finds in a ring that the interrupt filled with `typed`, all at once, of which the line lost those at `missing`.
@@ -130,8 +196,8 @@ TEST(Commands, WhatComesAtOnceIsObeyedAsItWasTyped) {
   using Kind = firmware::Command::Kind;
   const auto found = obeyed("300\n70\ns");
   ASSERT_EQ(found.size(), 3u);
-  EXPECT_EQ(found[0].number, 300);
-  EXPECT_EQ(found[1].number, 70);
+  EXPECT_EQ(found[0].thousandths, 300'000);
+  EXPECT_EQ(found[1].thousandths, 70'000);
   EXPECT_EQ(found[2].kind, Kind::stop);
 }
 
@@ -142,7 +208,7 @@ TEST(Commands, ANumberThatLostACharacterIsDroppedAndAStopBehindItCounts) {
   EXPECT_EQ(found[0].kind, Kind::dropped);
   EXPECT_EQ(found[1].kind, Kind::dropped);
   EXPECT_EQ(found[2].kind, Kind::stop);
-  EXPECT_EQ(found[3].number, 42) << "the next one is whole";
+  EXPECT_EQ(found[3].thousandths, 42'000) << "the next one is whole";
 }
 
 TEST(Commands, NoLostEndOfALineJoinsTwoNumbers) {
@@ -155,14 +221,30 @@ TEST(Commands, ARingThatIsFullLosesTheRestAndSaysSo) {
   firmware::Ring<4> ring;
   for (const char c : std::string("12345")) ring.put(c);
   for (const char c : std::string("1234")) EXPECT_EQ(ring.take().character, c);
+  EXPECT_EQ(ring.take().kind, firmware::Ring<4>::Kind::gap) << "though nothing came behind it";
   EXPECT_EQ(ring.take().kind, firmware::Ring<4>::Kind::none);
   ring.put('\n');
+  EXPECT_EQ(ring.take().character, '\n') << "a loss is told once";
+  ring.lose();
+  ring.put('a');
   EXPECT_EQ(ring.take().kind, firmware::Ring<4>::Kind::gap);
-  EXPECT_EQ(ring.take().character, '\n');
+  EXPECT_EQ(ring.take().character, 'a');
   for (int n = 0; n < 1000; ++n) {  // its indices wrap
     ring.put(static_cast<char>('a' + n % 26));
     ASSERT_EQ(ring.take().character, static_cast<char>('a' + n % 26));
   }
+}
+
+TEST(Commands, AnEchoSaysWhatIsObeyed) {
+  const auto echo = [](std::int32_t thousandths) {
+    std::string out;
+    firmware::put_setpoint([&out](char c) { out += c; }, thousandths, "A");
+    return out;
+  };
+  EXPECT_EQ(echo(70'000), "# setpoint 70 A\n");
+  EXPECT_EQ(echo(-1500), "# setpoint -1.500 A\n");
+  EXPECT_EQ(echo(-50), "# setpoint -0.050 A\n");
+  EXPECT_EQ(echo(0), "# setpoint 0 A\n");
 }
 
 TEST(Reasons, EachHasAWordAndALine) {

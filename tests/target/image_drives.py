@@ -110,13 +110,36 @@ def check_amid(folder):
             chip.end_period()
         bridge.tick(other)
         chip.pass_to(chip.cycle_start() + SAMPLE)
-        if chip.interrupt_amid(handler, behind, 27):
+        if chip.interrupt_amid(chip.handler(handler), behind, 27):
             chip.pass_to(chip.now + 3 * PERIOD)
         trouble += [f"period's end {behind} instructions into interrupt {handler}: {what} of leg {'abc'[leg]}"
                     for _, leg, what in broken_laws(chip.tim1.edges, DEAD)][:2]
         if len(trouble) > 5:
             return trouble
     return trouble
+
+
+def check_clear(folder):
+    """The period's end comes amid c, behind any instruction of the main loop: what it brought is not brought again."""
+    chip = TimedChip(folder)
+    chip.hall(0b101)
+    chip.start()
+    bridge, forward, other = Bridge(chip), (PAIRS[0], WAYS[0], 0.5), (PAIRS[2], WAYS[0], 0.5)
+    for behind in range(1, 1000):
+        bridge.off()
+        for _ in range(2):
+            chip.end_period()
+        for wanted in (forward, forward):
+            bridge.tick(wanted)
+            chip.end_period()
+        bridge.tick(other)
+        chip.type("c")
+        chip.pass_to(chip.cycle_start() + SAMPLE)
+        if not chip.interrupt_amid(chip.entry("listen"), behind, 27):
+            return [] if behind > 50 else [f"the main loop obeys c in {behind} instructions: nothing was tried"]
+        if chip.armed():
+            return [f"the period's end {behind} instructions into the main loop's c: its interrupt is asked for again"]
+    return ["the main loop does not come to an end behind c"]
 
 
 def check_latency(folder):
@@ -182,7 +205,7 @@ def changed_image(folder, name, *changes):
 def check_drives(folder):
     """Whole drives of each chopping; and that a dead time one clock short does not pass."""
     chopping = "c.chopping = Chopping::soft;"
-    trouble = tim1.check_itself() + check_latency(folder / "arm") + check_load(folder / "arm") + check_amid(folder / "arm") + check_drive(folder / "arm", "soft")
+    trouble = tim1.check_itself() + check_latency(folder / "arm") + check_load(folder / "arm") + check_amid(folder / "arm") + check_clear(folder / "arm") + check_drive(folder / "arm", "soft")
     for way in ("hard", "complementary"):
         trouble += check_drive(changed_image(folder, way, (chopping, f"c.chopping = Chopping::{way};")), way)
     long = TimedChip(changed_image(folder, "long", ("dead_time_ps = 500000;", "dead_time_ps = 2000000;")))

@@ -236,12 +236,96 @@ def check_line(folder):
         chip.go_on(60_000)
         if setpoint(chip) != 100 or "# setpoint dropped" not in chip.sent:
             trouble.append(f"{text!r} without its character {lost}: {setpoint(chip)} obeyed, {chip.sent[-80:]!r}")
+    for text, value, echo in (("70.5\n", 70.5, "# setpoint 70.500 rad/s"), ("-1.5\n", -1.5, "# setpoint -1.500 rad/s"),
+                              ("70\b5\n", 100, "# not understood"), ("1,5\n", 100, "# setpoint dropped"), ("7r\n", 100, "# setpoint dropped")):
+        chip = running(folder)
+        chip.type(text)
+        chip.go_on(60_000)
+        if setpoint(chip) != value or echo not in chip.sent:
+            trouble.append(f"{text!r}: {setpoint(chip)} obeyed, {chip.sent!r}")
     chip = running(folder)
     chip.type("9000\n")
     chip.go_on(60_000)
     if "# setpoint 300 rad/s\n" not in chip.sent or setpoint(chip) != 300:
         trouble.append(f"a setpoint above the drive's limit: {setpoint(chip)}, {chip.sent[-60:]!r}")
     return trouble
+
+
+def feeds(chip, periods=400):
+    """Whether a pair is fed then."""
+    for _ in range(periods):
+        tick(chip)
+    return any(mode == 6 for mode, _, _ in chip.outputs())
+
+
+def stops(chip):
+    """To a rotor that stands; the drive brakes first."""
+    for _ in range(30_000):
+        tick(chip)
+        if all_off(chip):
+            return True
+    return False
+
+
+def check_words(folder):
+    """r, s and c are echoed, and each counts whatever comes right behind it, before a tick has looked."""
+    trouble = []
+    chip = running(folder)
+    chip.line_status = 2  # a framing error, and 4 would be noise
+    chip.type("s")
+    chip.line_status = 0
+    chip.go_on(60_000)
+    if "# stop\n" not in chip.sent or "# a character was lost" not in chip.sent or not stops(chip):
+        trouble.append(f"s with a framing error is not obeyed: {chip.sent!r}")
+    chip = running(folder)
+    chip.line_status = 4
+    chip.type("7")
+    chip.line_status = 0
+    chip.go_on(60_000)
+    if "# a character was lost" not in chip.sent:
+        trouble.append(f"a lost character is told with the next one only: {chip.sent!r}")
+    chip = running(folder)
+    chip.hall(0)
+    chip.interrupt(28)
+    for _ in range(3):
+        tick(chip)
+    chip.type("c")  # with its cause still there
+    chip.go_on(60_000)
+    tick(chip)
+    told_now = told(chip)
+    chip.hall(0b101)
+    for _ in range(3):
+        tick(chip)
+    chip.sent = ""
+    chip.type("cr")
+    chip.go_on(60_000)
+    if told_now != ["hall"] or not feeds(chip) or "# clear\n# run\n" not in re.sub(r"\d.*\n", "", chip.sent):
+        trouble.append(f"c, and then cr within a tick: {told_now}, {chip.sent!r}")
+    chip.type("sr")
+    chip.go_on(60_000)
+    tick(chip)
+    if wants_to_run(chip):
+        trouble.append("s with an r right behind it: no tick sees the stop")
+    tick(chip)
+    if not wants_to_run(chip):
+        trouble.append("s with an r right behind it: no tick sees the run")
+    return trouble
+
+
+def wants_to_run(chip):
+    return chip.core.mem_read(chip.symbols["firmware::wants_to_run"], 1)[0] != 0
+
+
+def check_board_alone(folder):
+    """The drive stands by a fault of the board that is over: it says so all the same."""
+    chip = running(folder)
+    chip.words[BDTR] &= ~MOE
+    chip.interrupt(24)
+    tick(chip)
+    told(chip)
+    chip.core.mem_write(chip.symbols["firmware::board_fault"], bytes(1))
+    said = told(chip)
+    return [] if said == ["board"] else [f"a drive that stands says {said}"]
 
 
 class Glitches(Chip):
@@ -267,7 +351,17 @@ def check_hall(folder):
         tick(chip)
         if told(chip):
             trouble.append(f"a glitch in reading {at} of the Hall pins stops the drive")
-    return trouble
+    return trouble + check_time_between_looks(ready(folder))
+
+
+def check_time_between_looks(chip):
+    """A quarter of a microsecond is 18 clocks, and no instruction takes less than one."""
+    passed, looks = [0], []
+    chip.core.hook_add(images.unicorn.UC_HOOK_CODE, lambda *_: passed.__setitem__(0, passed[0] + 1))
+    chip.core.hook_add(images.unicorn.UC_HOOK_MEM_READ, lambda _, access, at, *rest: looks.append(passed[0]) if at == images.GPIOA + 0x10 else None)
+    chip.interrupt(28)
+    apart = [later - earlier for earlier, later in zip(looks, looks[1:])]
+    return [] if len(looks) == 3 and min(apart) > 18 else [f"{len(looks)} looks at the Hall pins lie {apart} instructions apart"]
 
 
 def rows(chip):
@@ -326,7 +420,7 @@ def check_constructors(folder):
     return trouble
 
 
-CHECKS = (check_sensors, check_break, check_clock, check_converter, check_resets, check_line, check_hall, check_time, check_most)
+CHECKS = (check_sensors, check_break, check_clock, check_converter, check_resets, check_line, check_words, check_board_alone, check_hall, check_time, check_most)
 
 
 def check(folder):

@@ -59,11 +59,18 @@ class TimedChip(images.Chip):
                 return
         raise images.build.Failed("the set-up enables no interrupt")
 
-    def interrupt_amid(self, position, behind, other):
-        """An interrupt, and another one behind so many of its instructions, as soon as it lets it; False where it ended before."""
+    def entry(self, name):
+        return next(a for symbol, a in self.symbols.items() if symbol.startswith(f"firmware::{name}("))
+
+    def handler(self, position):
+        return struct.unpack("<I", self.core.mem_read(images.FLASH + 4 * (16 + position), 4))[0]
+
+    def interrupt_amid(self, begin, behind, other):
+        """A function or an interrupt, and another interrupt behind so many of its instructions, as soon as it lets it; False where it
+        ended before."""
         before = self.core.context_save()
         self.core.reg_write(images.arm.UC_ARM_REG_LR, images.NOWHERE | 1)
-        self.run(struct.unpack("<I", self.core.mem_read(images.FLASH + 4 * (16 + position), 4))[0] & ~1, behind)
+        self.run(begin & ~1, behind)
         while self.core.reg_read(images.arm.UC_ARM_REG_PRIMASK) & 1:
             self.run(self.core.reg_read(images.arm.UC_ARM_REG_PC), 1)
         at = self.core.reg_read(images.arm.UC_ARM_REG_PC)
@@ -77,7 +84,7 @@ class TimedChip(images.Chip):
 
     def call(self, name, *arguments):
         """A function of the image, to its end."""
-        at = next(a for symbol, a in self.symbols.items() if symbol.startswith(f"firmware::{name}("))
+        at = self.entry(name)
         before = self.core.context_save()
         for register, value in zip((images.arm.UC_ARM_REG_R0, images.arm.UC_ARM_REG_R1, images.arm.UC_ARM_REG_R2), arguments):
             self.core.reg_write(register, value)

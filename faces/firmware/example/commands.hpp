@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person types on a terminal: r runs, s stops, c clears faults, a whole number and Enter is the setpoint in the mode's unit.
-// Characters come in an interrupt into a ring, from which the main loop takes them. Where one was lost, the number that it belonged to
-// is not obeyed: "70" is never taken for 7, nor "7" and "30" for 730.
+// What a person types on a terminal: r runs, s stops, c clears faults, a number and Enter is the setpoint in the mode's unit. Characters
+// come in an interrupt into a ring, from which the main loop takes them. Where one was lost or makes no sense, nothing but s counts up
+// to the next Enter: "70" is never taken for 7, "7" and "30" never for 730, nor "1,5" for 5.
 #pragma once
 #include <cstdint>
 
@@ -10,47 +10,72 @@
 namespace firmware {
 
 struct Command {
-  enum class Kind : std::uint8_t { none, run, stop, clear, setpoint, dropped } kind = Kind::none;
-  std::int32_t number = 0;
+  /// `spoiled`: from this character on; `dropped`: at the Enter behind it.
+  enum class Kind : std::uint8_t { none, run, stop, clear, setpoint, spoiled, dropped } kind = Kind::none;
+  std::int32_t thousandths = 0;
 };
 
 class Commands {
  public:
   /// One character more.
   constexpr Command take(char c) {
-    if (c >= '0' && c <= '9') {
-      if (number_ < most) number_ = 10 * number_ + (c - '0');
-      digits_ = true;
-      return {};
+    using Kind = Command::Kind;
+    if (c == 's') {  // whatever it stands amid
+      if (begun_) spoiled_ = true;
+      return {Kind::stop, 0};
     }
-    if (c == '-') {
-      const bool spoiled = spoiled_;
+    if (c == '\r' || c == '\n') {
+      const Command found = at_end_of_line();
       *this = {};
-      negative_ = true;
-      spoiled_ = spoiled;
-      return {};
+      return found;
     }
-    const Command found = at_end_of_number(c);
-    *this = {};
-    return found;
+    if (spoiled_) return {};
+    if (!begun_ && (c == 'r' || c == 'c')) return {c == 'r' ? Kind::run : Kind::clear, 0};
+    if (!begun_ && c == ' ') return {};
+    spoiled_ = !continues_number(c);
+    begun_ = true;
+    return {spoiled_ ? Kind::spoiled : Kind::none, 0};
   }
-  /// A character before the next one did not arrive: no number counts up to the next Enter. r, s and c stand alone, and do.
+  /// A character before the next one did not arrive.
   constexpr void lost() { spoiled_ = true; }
 
  private:
-  static constexpr std::int32_t most = 1'000'000;
+  static constexpr std::int32_t most = 200'000;  // a digit more, and its thousandths fit in 31 bits
+  static constexpr std::uint8_t no_point = 0xFF;
 
-  constexpr Command at_end_of_number(char c) const {
-    using Kind = Command::Kind;
-    if (c == '\r' || c == '\n') {
-      if (spoiled_) return {Kind::dropped, 0};
-      return digits_ ? Command{Kind::setpoint, negative_ ? -number_ : number_} : Command{};
+  /// -12.345: a sign at its begin, one point, and up to three digits behind it.
+  constexpr bool continues_number(char c) {
+    if (c == '-') {
+      negative_ = true;
+      return !begun_;
     }
-    return {c == 'r' ? Kind::run : c == 's' ? Kind::stop : c == 'c' ? Kind::clear : Kind::none, 0};
+    if (c == '.') {
+      const bool first = decimals_ == no_point;
+      decimals_ = 0;
+      return first;
+    }
+    if (c < '0' || c > '9') return false;
+    digits_ = true;
+    if (decimals_ != no_point) {
+      constexpr std::int32_t weights[] = {100, 10, 1};
+      if (decimals_ == 3) return false;
+      thousandths_ += weights[decimals_++] * (c - '0');
+    } else if (whole_ < most) {
+      whole_ = 10 * whole_ + (c - '0');
+    }
+    return true;
   }
 
-  std::int32_t number_ = 0;
-  bool digits_ = false, negative_ = false, spoiled_ = false;
+  constexpr Command at_end_of_line() const {
+    using Kind = Command::Kind;
+    if (spoiled_ || (begun_ && !digits_)) return {Kind::dropped, 0};
+    const std::int32_t value = 1000 * whole_ + thousandths_;
+    return digits_ ? Command{Kind::setpoint, negative_ ? -value : value} : Command{};
+  }
+
+  std::int32_t whole_ = 0, thousandths_ = 0;
+  std::uint8_t decimals_ = no_point;
+  bool begun_ = false, digits_ = false, negative_ = false, spoiled_ = false;
 };
 
 /// Characters between an interrupt, which writes, and the main loop, which reads: each index is written by one of them alone.
@@ -70,23 +95,25 @@ class Ring {
     const auto begin = begin_, end = end_;
     if (static_cast<std::uint8_t>(end - begin) >= size) return lose();
     characters_[end % size] = c;
-    gaps_[end % size] = lost_;
-    lost_ = false;
+    losses_before_[end % size] = losses_;
     barrier();
     end_ = static_cast<std::uint8_t>(end + 1);
   }
-  /// In the interrupt: a character was lost behind the last one. It is told with the next that arrives.
-  void lose() { lost_ = true; }
+  /// In the interrupt: a character was lost behind the last one.
+  void lose() { losses_ = static_cast<std::uint8_t>(losses_ + 1); }
 
-  /// In the main loop: first that something is missing before a character, then the character.
+  /// In the main loop: first that something is missing before a character, or behind the last one, then the character.
   Item take() {
     const auto begin = begin_;
-    if (begin == end_) return {};
+    std::uint8_t losses = losses_;  // read before the end: whatever came before it is then taken first
+    const bool empty = begin == end_;
     barrier();
-    if (gaps_[begin % size]) {
-      gaps_[begin % size] = false;
+    if (!empty) losses = losses_before_[begin % size];
+    if (losses != told_) {
+      told_ = losses;
       return {Kind::gap, 0};
     }
+    if (empty) return {};
     const char c = characters_[begin % size];
     barrier();
     begin_ = static_cast<std::uint8_t>(begin + 1);
@@ -95,16 +122,21 @@ class Ring {
 
  private:
   char characters_[size] = {};
-  bool gaps_[size] = {};
-  bool lost_ = false;  // the interrupt's
+  std::uint8_t losses_before_[size] = {};
+  volatile std::uint8_t losses_ = 0;  // the interrupt's
+  std::uint8_t told_ = 0;             // the main loop's
   volatile std::uint8_t begin_ = 0, end_ = 0;
 };
 
-/// "# setpoint 70 rad/s": what is obeyed from now on.
+/// "# setpoint 70 rad/s", or 70.500: what is obeyed from now on.
 template <class Put>
-constexpr void put_setpoint(Put put, std::int32_t value, unsigned decimals, const char* unit) {
+constexpr void put_setpoint(Put put, std::int32_t thousandths, const char* unit) {
+  const std::int32_t whole = thousandths / 1000;
   put_text(put, "# setpoint ");
-  put_number(put, value, decimals);
+  if (1000 * whole == thousandths)
+    put_number(put, whole);
+  else
+    put_number(put, thousandths, 3);
   put(' ');
   put_text(put, unit);
   put('\n');

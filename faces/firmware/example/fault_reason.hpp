@@ -24,6 +24,7 @@ enum class Reason : std::uint8_t {
   over_speed,
   stall,
   align,
+  board,   ///< the board stopped the drive for a reason that is over
   program  ///< an interrupt or a fault of the core that nobody serves
 };
 
@@ -59,6 +60,8 @@ constexpr const char* word(Reason reason) {
       return "stall";
     case Reason::align:
       return "align";
+    case Reason::board:
+      return "board";
     case Reason::program:
       return "program";
   }

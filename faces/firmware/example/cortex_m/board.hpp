@@ -86,8 +86,10 @@ inline std::uint8_t hall_pins_once() {
   return static_cast<std::uint8_t>((a >> 15 & 1) << 2 | (b >> 3 & 1) << 1 | (b >> 10 & 1));
 }
 inline void quarter_of_a_microsecond() {
-  for (int n = 0; n < 6; ++n) asm volatile("");
+#pragma GCC unroll 18
+  for (int n = 0; n < 18; ++n) asm volatile("nop");  // a clock each, at least
 }
+static_assert(clock_Hz / 4'000'000 == 18);
 /// PA15 is H1, the highest bit.
 inline std::uint8_t hall_pins() {
   const unsigned first = hall_pins_once();

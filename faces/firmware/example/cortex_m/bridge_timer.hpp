@@ -135,7 +135,7 @@ inline void prepare_period_end() {
 /// All six gates off now, and in what waits.
 [[gnu::noinline]] void gates_off() {
   const InterruptsOff hold;
-  in_effect.bridge.enabled = waiting.bridge.enabled = charging = false;
+  in_effect.bridge.enabled = waiting.bridge.enabled = charging = change_due = false;
   change_at_once(legs_off(legs));
   arm_period_end(false);
 }
@@ -180,6 +180,7 @@ inline void prepare_period_end() {
     for (std::uint32_t count = tim1().CNT; count >= sample_count && count < event_count; count = tim1().CNT)
       continue;
     make(coming);
+    change_due = false;  // made once
   }
   in_effect = waiting;
   arm_period_end(false);

@@ -10,8 +10,15 @@ namespace firmware {
 [[gnu::section(".noinit")]] KeptReason kept_reason;
 ProtectedState<Scalar> state;
 ProtectedTelemetry<Scalar> telemetry;  // the drive never reads it
-Request asked;                         // this one and the next by the main loop, with interrupts off
 Setpoint<Scalar> setpoint;
+
+/// By the main loop, with interrupts off. A stop and a clear each last until a control tick has seen them, whatever is typed behind
+/// them.
+struct Asked {
+  bool run, stop, clear;
+};
+Asked asked;
+bool wants_to_run = false;      // at this tick
 std::uint32_t charge_left = 0;  // periods until the bootstraps have their charge
 
 /// What the log has of a control tick.
@@ -46,19 +53,20 @@ LogClock log_clock;
 
 /// A request to run waits until the bootstraps are charged; then it is the drive's.
 Request request_now() {
-  Request now = asked;
-  if (!asked.run)
+  const bool clear = asked.clear;
+  wants_to_run = asked.run && !asked.stop;
+  asked.stop = asked.clear = false;
+  if (!wants_to_run)
     charge_left = upper_gates_by_bootstrap ? charge_periods : 0;
   else if (charge_left > 0)
     --charge_left;
-  now.run = asked.run && charge_left == 0;
-  return now;
+  return {.run = wants_to_run && charge_left == 0, .clear = clear};
 }
 
 /// Asked to run and not yet there.
 bool charges() {
   const Activity now = state.activity.activity;
-  return upper_gates_by_bootstrap && asked.run && (now == Activity::off || now == Activity::calibrate);
+  return upper_gates_by_bootstrap && wants_to_run && (now == Activity::off || now == Activity::calibrate);
 }
 
 void put(char c) {
@@ -101,9 +109,10 @@ void tell_fault() {
   static Reason told = Reason::none;
   static std::uint32_t told_at = 0;
   const Reason of_board = board_fault;
-  const Reason why = of_board != Reason::none                ? of_board
-                     : telemetry.activity == Activity::fault ? reason_of(telemetry.first_fault)
-                                                             : Reason::none;
+  const bool stands = telemetry.activity == Activity::fault && !asked.clear;  // which the next tick sees
+  const Reason why = of_board != Reason::none ? of_board
+                     : stands                 ? reason_of(telemetry.first_fault)
+                                              : Reason::none;
   const std::uint32_t now = tim2().CNT;
   const bool again = now - told_at >= counts_a_us * 1'000'000;
   if (why == Reason::none || (why == told && !again)) {
@@ -122,38 +131,66 @@ constexpr const char* unit = config.drive.mode == Mode::speed      ? "rad/s"
                                                                    : "of the bus";
 
 /// What is obeyed is what is echoed.
-void take_setpoint(std::int32_t number) {
-  constexpr auto most = static_cast<std::int32_t>(config.setpoint_limit);
-  const std::int32_t obeyed = number > most ? most : number < -most ? -most : number;
-  setpoint.value = static_cast<Scalar>(obeyed);
-  put_setpoint(put, obeyed, 0, unit);
+void take_setpoint(std::int32_t typed) {
+  constexpr Scalar limit = config.setpoint_limit;
+  constexpr auto most = static_cast<std::int32_t>(limit < 2e6f ? limit * 1000.0f : 2e9f);
+  const std::int32_t obeyed = typed > most ? most : typed < -most ? -most : typed;
+  setpoint.value = static_cast<Scalar>(obeyed) / 1000.0f;
+  put_setpoint(put, obeyed, unit);
+}
+
+void run() {
+  put_text(put, "# run\n");
+  const InterruptsOff hold;
+  asked.run = true;
+}
+
+/// Obeyed first, then told.
+void stop() {
+  {
+    const InterruptsOff hold;
+    asked.run = false;
+    asked.stop = true;
+  }
+  put_text(put, "# stop\n");
+}
+
+void clear() {
+  put_text(put, "# clear\n");
+  const InterruptsOff hold;
+  clear_board_fault();
+  asked = {.run = false, .stop = true, .clear = true};
 }
 
 void obey(const Command& command) {
-  const auto ask = [](const Request& request) {
-    const InterruptsOff hold;
-    asked = request;
-  };
   switch (command.kind) {
     case Command::Kind::none:
       break;
     case Command::Kind::run:
-      ask({.run = true});
+      run();
       break;
     case Command::Kind::stop:
-      ask({});
+      stop();
       break;
     case Command::Kind::clear:
-      clear_board_fault();
-      ask({.run = false, .clear = true});
+      clear();
       break;
     case Command::Kind::setpoint:
-      take_setpoint(command.number);
+      take_setpoint(command.thousandths);
+      break;
+    case Command::Kind::spoiled:
+      put_text(put, "# not understood: nothing but s counts before the next Enter\n");
       break;
     case Command::Kind::dropped:
-      put_text(put, "# setpoint dropped: a character was lost\n");
+      put_text(put, "# setpoint dropped: no number, or a character was lost\n");
       break;
   }
+}
+
+/// The line goes on as one that makes no sense.
+void miss(Commands& commands) {
+  commands.lost();
+  put_text(put, "# a character was lost: nothing but s counts before the next Enter\n");
 }
 
 [[gnu::noinline]] void listen() {
@@ -162,7 +199,7 @@ void obey(const Command& command) {
     const auto item = received.take();
     if (item.kind == decltype(received)::Kind::none) return;
     if (item.kind == decltype(received)::Kind::gap)
-      commands.lost();
+      miss(commands);
     else
       obey(commands.take(item.character));
   }
@@ -244,10 +281,9 @@ extern "C" void USART2_IRQHandler() {
   const std::uint32_t status = usart2().ISR;
   if ((status & bit::RXNE) != 0) {
     const char c = static_cast<char>(usart2().RDR);
-    if ((status & (bit::FE | bit::NF)) != 0)
-      received.lose();
-    else
-      received.put(c);
+    const bool disturbed = (status & (bit::FE | bit::NF)) != 0;
+    if (disturbed) received.lose();
+    if (!disturbed || c == 's') received.put(c);  // rather a stop too many
   }
   if ((status & bit::ORE) != 0) received.lose();  // behind the one that was read
   usart2().ICR = status & (bit::FE | bit::NF | bit::ORE);

@@ -50,6 +50,7 @@ inline void watch_sensors(const ProtectedState<Scalar>& state, const BoardInput&
   if (strange_sums == 3) trip(Reason::current_sensor);
 }
 
+/// Of a drive that stands; never none, so that there is a line as long as it does.
 constexpr Reason reason_of(std::uint16_t faults) {
   return faults & fault_hall            ? Reason::hall
          : faults & fault_calibration   ? Reason::calibration
@@ -59,7 +60,7 @@ constexpr Reason reason_of(std::uint16_t faults) {
          : faults & fault_over_speed    ? Reason::over_speed
          : faults & fault_stall         ? Reason::stall
          : faults & fault_align         ? Reason::align
-                                        : Reason::none;
+                                        : Reason::board;
 }
 
 /// A conversion ends each period. Without one for a millisecond nobody looks at the current.
@@ -73,7 +74,7 @@ inline void watch_converter(bool listening) {
   if (listening && !needs_reset && late() && late()) stand_until_reset(Reason::converter);
 }
 
-/// c was typed: what is over is forgotten.
+/// c was typed: what is over is forgotten. Whoever calls has interrupts off, since DIER is the period's end's, too.
 inline void clear_board_fault() {
   kept_reason.forget();
   if (needs_reset) {
@@ -85,6 +86,7 @@ inline void clear_board_fault() {
   tim1().SR = ~bit::BIF;
   tim1().DIER = tim1().DIER | bit::BIE;
   let_gates_work();
+  if (needs_reset) forbid_gates();  // the clock stopped meanwhile
 }
 
 }  // namespace firmware
