@@ -122,7 +122,7 @@ constexpr sixstep::control::ProtectedConfig<Scalar> make_product() {
   c.faults.over_voltage_V = 0x1.ep+4f;                                    // 30 V
   c.faults.under_voltage_V = 0x1.4p+3f;                                   // 10 V
   c.faults.over_speed_rad_s = 0x1.9p+9f;                                  // 800 rad/s
-  c.faults.stall_current_A = 0x1p+3f;                                     // 8 A
+  c.faults.stall_current_A = 0x1.2p+2f;                                   // 4.5 A
   c.faults.stall_ticks = 10000;                                           // control periods
   c.faults.voltage_ticks = 3;                                             // control periods
   c.brake_current_A = 0x1p+1f;                                            // 2 A
