@@ -50,6 +50,7 @@ def beyond_the_bus(test, spot):
 
 def bring_up(test, spot):
     """What the steps should read, by the sheet: a Hall line has p turns of the shaft a second, the current carries load and friction."""
+    hall_order(test, spot)
     text = spot.text.replace("Hall 1 at ", "")
     steps = re.findall(r"([\d.]+) rad/s, ([\d.]+) A, [\d.]+(?: at 0.02 N m of load)?[;,] ([\d.]+) Hz", text)
     test.assertEqual(3, len(steps), str(spot))
@@ -63,6 +64,7 @@ def bring_up(test, spot):
 
 def bring_up_avr(test, spot):
     """Its scenario's PWM frequency and dead time are what the steps have at the scope."""
+    hall_order(test, spot)
     scenario = read(REPOSITORY / "data/scenarios/firmware/avr.toml")
     told = float(re.search(r"([\d.]+) kHz pulses", spot.text).group(1))
     curve.same(test, spot, "PWM", told, 1e-3 / float(scenario["pwm"]["period_s"]), 1e-6)
@@ -110,3 +112,11 @@ def devices(test, spot):
         test.assertLess(abs(40 + 40 * losses - degC), 0.05, f"{spot}: {name}")
     for x in re.findall(r'_W": ([\d.]+)', spot.text):
         test.assertLess(float(x), 24 * 4, str(spot))
+
+
+def hall_order(test, spot):
+    """The positive way passes the codes of notation.md's sectors in their order."""
+    order = re.search(r"\| (\d(?: \d){5}) and again", spot.text).group(1).split()
+    page = (REPOSITORY / "docs/wiring.md").read_text(encoding="utf-8")
+    codes = re.findall(r"^  \d +\d+\.\. ?\d+ deg +\d +\d +\d +(\d) ", page, re.M)
+    test.assertEqual(codes, order, str(spot))
