@@ -79,11 +79,7 @@ constexpr ByPins by_pins = [] {
   return by;
 }();
 
-/// Of three readings what two of them have: a spike of less than two cycles is none.
-inline std::uint8_t hall_pins() {
-  const std::uint8_t a = byte(atmega2560::PINK), b = byte(atmega2560::PINK), c = byte(atmega2560::PINK);
-  return ((a & b) | (c & (a | b))) & 7;
-}
+inline std::uint8_t hall_pins() { return byte(atmega2560::PINK) & 7; }
 
 /// As adc_value(): of 10 bits nothing saturates, and 32-bit differences would cost a hundred cycles.
 inline Scalar value_of(const AdcConfig<Scalar>& config, std::int16_t offset, std::uint16_t counts) {
