@@ -189,11 +189,11 @@ base::Result<Codes> codes_of(const Recording& r, const Columns& lines) {
 /// By the options, else by the headings; what a logic analyzer heads "logic" are lines, where there are three.
 base::Result<Columns> hall_columns(const Recording& r, const BenchColumns& wanted, Notes& notes) {
   if (!wanted.hall.empty()) return columns_called(r, wanted.hall);
-  const base::Result<Columns> lines = columns_like(r, {{"hall1", "h1", "halla", "ha", "hallu", "hu"},
+  base::Result<Columns> lines = columns_like(r, {{"hall1", "h1", "halla", "ha", "hallu", "hu"},
                                                        {"hall2", "h2", "hallb", "hb", "hallv", "hv"},
                                                        {"hall3", "h3", "hallc", "hc", "hallw", "hw"}});
   if (!lines || lines->size() == 3) return lines;
-  const base::Result<Columns> code = columns_like(r, {{"hall", "code", "hallcode", "hallstate"}});
+  base::Result<Columns> code = columns_like(r, {{"hall", "code", "hallcode", "hallstate"}});
   if (!code || !code->empty()) return code;
   Columns logic;
   for (const RecordedColumn& column : r.columns)

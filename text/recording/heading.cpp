@@ -147,14 +147,14 @@ std::string unit_in_words(std::string_view cell) {
   if (const std::string_view unit = word_for(lower(bare)); bare.size() > 2 && !unit.empty())
     return std::string(unit);
   for (const std::string_view as_written : {bare, cell})
-    if (const std::string unit = plain_spelling(as_written); !unit.empty() && unit_of(unit)) return unit;
+    if (std::string unit = plain_spelling(as_written); !unit.empty() && unit_of(unit)) return unit;
   const std::string small = lower(plain_spelling(bare));
   if (const std::string_view unit = word_for(small); !unit.empty()) return std::string(unit);
   if (small == "ms" || small == "us" || small == "ns")  // "uS", but no "MS"
     return std::islower(static_cast<unsigned char>(bare[0])) != 0 || small != "ms" ? small : std::string();
   for (const auto& [word, letter] : prefix_words) {
     if (!small.starts_with(word) || small.size() < word.size() + 3) continue;
-    const std::string unit = std::string(letter) + std::string(word_for(small.substr(word.size())));
+    std::string unit = std::string(letter) + std::string(word_for(small.substr(word.size())));
     if (unit.size() > letter.size() && unit_of(unit)) return unit;
   }
   return {};

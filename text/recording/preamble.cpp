@@ -65,7 +65,7 @@ std::optional<RowClock> clock_among_headings(std::string_view line, char separat
 }  // namespace
 
 std::optional<RowClock> clock_in(std::string_view line, char separator) {
-  if (const std::optional<RowClock> found = clock_among_headings(line, separator)) return found;
+  if (std::optional<RowClock> found = clock_among_headings(line, separator)) return found;
   const std::size_t first = line.find_first_not_of(" \t\";#%/");
   if (first == std::string_view::npos) return {};
   line.remove_prefix(first);

@@ -112,7 +112,7 @@ constexpr double coarsest_step_deg = 20.0;
 std::vector<design::DesignSpec> candidates(const DesignOrder& order, const design::DriveDesign& usual) {
   std::vector<design::DesignSpec> all;
   if (usual.ripple.worst_A < usable_ripple * usual.nominal_current_A) all.push_back(order.spec);
-  for (design::DesignSpec& spec : joint_changes(order, usual)) all.push_back(std::move(spec));
+  for (const design::DesignSpec& spec : joint_changes(order, usual)) all.push_back(spec);
   const double hall_step_deg = 60.0 / usual.motor.machine.pole_pairs;
   const bool coarse = usual.motor.kind == design::MotorKind::rotary && hall_step_deg > coarsest_step_deg;
   if (order.spec.mode == Mode::position && coarse)
@@ -168,7 +168,7 @@ bool runs_and_passes(const study::Scenario& s) {
 /// What works where this mode does not: a bus that drives the nominal current, else the motor without a loop.
 std::string way_out(const FirstScenarioSpec& spec, const design::MotorModel& motor,
                     const design::DriveDesign& usual) {
-  const std::string more = "a design of it tells more";
+  std::string more = "a design of it tells more";
   DesignOrder order = order_of(spec);
   order.tolerances.clear();
   TrialBudget budget{trial_periods};
