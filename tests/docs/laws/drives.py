@@ -68,8 +68,9 @@ def bring_up_avr(test, spot):
     scenario = read(REPOSITORY / "data/scenarios/firmware/avr.toml")
     told = float(re.search(r"([\d.]+) kHz pulses", spot.text).group(1))
     curve.same(test, spot, "PWM", told, 1e-3 / float(scenario["pwm"]["period_s"]), 1e-6)
-    dead_us = 1e6 * float(scenario["bridge"]["dead_time_s"])
-    test.assertIn(f"{dead_us:g} us and the fall", spot.text)
+    told = re.search(r"lower one's fall to the upper one's rise ([\d.]+) us", spot.text)
+    dead_us, cycle_us = 1e6 * float(scenario["bridge"]["dead_time_s"]), 1 / 16
+    test.assertTrue(told and dead_us <= float(told.group(1)) <= dead_us + 2 * cycle_us + 0.05, f"{spot}: pause at the gates")
 
 
 def laid_over(test, spot):
