@@ -239,8 +239,8 @@ void controllers_may_run() { ours_at_work = true; }
 void controllers_are_done() { ours_at_work = false; }
 
 void end_by_controller(const ControllerThread& at, const char* what) {
-  tell(at, what, "; the program ends here, and what it has not finished is lost");
   note_run(at, what);
+  tell(at, what, "; the program ends here, and what it has not finished is lost");
   remove_temporary_files();
   ::syscall(SYS_exit_group, exit_of_a_fault);
   std::abort();
@@ -254,8 +254,8 @@ void tell_controllers_that_do_not_come_back() {
   constexpr char what[] = "does not come back";
   for (const ControllerThread& t : threads) {
     if (t.thread == 0 || t.place == ControllerPlace::outside || t.calls != t.calls_at_stop) continue;
+    note_run(t, what);  // before the word that has somebody press again
     tell(t, what, "; press Ctrl-C again to end (a second SIGTERM does so, too)");
-    note_run(t, what);
   }
 }
 

@@ -34,7 +34,7 @@ class BenchPage(page.PageTest):
         self.assertTrue(0.034 < parts[5]["value"] < 0.037)
         self.assertTrue(0.004 < parts[3]["value"] < 0.009)
         self.assertTrue(0.002 < parts[7]["value"] < 0.005)
-        first, second = (channel["peak_V"]["value"] for channel in told["channels"])
+        first, second = (channel["fundamental_V"]["value"] for channel in told["channels"])
         self.assertAlmostEqual(first / second, 1, delta=0.004)
 
     def test_what_the_simulator_was_told_is_found_again(self):

@@ -118,21 +118,26 @@ std::vector<Weighed> weighed_columns(const study::Trace& simulated, const study:
   return out;
 }
 
-/// Root of the mean of squares over all columns, as parts of their scales. Nothing where a shift leaves little to compare: it would win.
+/// Geometric mean of the columns' rms, as parts of their scales: the likelihood where nobody knows how exact each column is. A column that
+/// fits at no shift, as a duty that acts a period later, then does not outweigh one that does. Nothing where a shift leaves little to
+/// compare: it would win.
 struct Apart {
   double rms = 0.0;
   bool within_steps = true;  ///< no column differs by more than its log's step
 };
 std::optional<Apart> apart(const std::vector<Weighed>& columns, double shift_s, std::size_t every) {
-  double squares = 0.0;
+  // What a log's step alone leaves over.
+  constexpr double rms_of_a_step = 0.28867513459481287, least_part = 1e-6;
+  double logs = 0.0;
   Apart out;
   for (const Weighed& column : columns) {
     const LaidOver one = compared(column.both, shift_s, every);
     if (one.rows == 0 || one.rows < column.rows / 2) return {};
-    squares += (one.rms / column.scale) * (one.rms / column.scale);
+    const double left = std::max(one.rms, rms_of_a_step * column.step) / column.scale;
+    logs += std::log(std::max(left, least_part));
     out.within_steps &= one.rms <= column.step;
   }
-  out.rms = std::sqrt(squares / static_cast<double>(columns.size()));
+  out.rms = std::exp(logs / static_cast<double>(columns.size()));
   return out;
 }
 

@@ -26,8 +26,8 @@ std::vector<LaidOver> laid_over(const study::Trace& simulated, const study::Trac
 /// Rows that a comparison must have at the least: of one alone every difference may be 0.
 inline constexpr std::size_t fewest_compared = 5;
 
-/// The shift within `most_s` either way by which all columns together differ least, each by its own span or, where that is greater, the
-/// least step of its log; looked for in steps first: a board's clock starts some time after it is turned on. Of thousands of rows a part is
+/// The shift within `most_s` either way by which all columns together differ least: by the geometric mean of their rms, each as a part of
+/// its own span or, where that is greater, of the least step of its log; looked for in steps first: a board's clock starts some time after it is turned on. Of thousands of rows a part is
 /// asked. 0 where a shift gains nothing that counts: less than a thousandth of the spans, or less than the log's own steps can tell.
 double best_shift_s(const study::Trace& simulated, const study::Trace& log, double most_s, double step_s);
 
