@@ -6,6 +6,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -77,7 +78,7 @@ void tell_place(Words& to, const ControllerThread& at) {
   if (place == ControllerPlace::design) to << " in its design";
   if (place == ControllerPlace::start) to << " in its start";
   if (place != ControllerPlace::step && place != ControllerPlace::hall) return;
-  const auto us = static_cast<std::uint64_t>(static_cast<double>(at.steps) * at.period_s * 1e6 + 0.5);
+  const auto us = static_cast<std::uint64_t>(std::llround(static_cast<double>(at.steps) * at.period_s * 1e6));
   const std::uint64_t rest = us % 1000;
   to << (place == ControllerPlace::hall ? " in its hall() after step " : " in step ") << at.steps
      << ", at t = " << us / 1000 << "." << rest / 100 << rest / 10 % 10 << rest % 10 << " ms";
@@ -265,13 +266,13 @@ void tell_controllers_that_do_not_come_back() {
 // has, if it has them.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 extern "C" {
-[[noreturn]] void _exit(int code) {
+__attribute__((noreturn)) void _exit(int code) {
   if (const files::ControllerThread* at = files::found_thread();
       at && at->place != files::ControllerPlace::outside)
     files::end_by_controller(*at, "ended the program by _exit()");
   ::syscall(SYS_exit_group, code);
   __builtin_trap();
 }
-[[noreturn]] void _Exit(int code) noexcept { _exit(code); }
+__attribute__((noreturn)) void _Exit(int code) noexcept { _exit(code); }
 }
 #endif
