@@ -93,6 +93,7 @@ std::string table(const Contest& c, ContestGroup group, FiguresOf figures) {
   Rows rows(Rows::Side::left);
   const auto add = [&](const auto& text_of) {
     std::vector<std::string> cells;
+    cells.reserve(columns.size());
     for (const ContestColumn& column : columns) cells.push_back(text_of(column));
     rows.add(std::move(cells));
   };
