@@ -190,8 +190,8 @@ base::Result<Codes> codes_of(const Recording& r, const Columns& lines) {
 base::Result<Columns> hall_columns(const Recording& r, const BenchColumns& wanted, Notes& notes) {
   if (!wanted.hall.empty()) return columns_called(r, wanted.hall);
   base::Result<Columns> lines = columns_like(r, {{"hall1", "h1", "halla", "ha", "hallu", "hu"},
-                                                       {"hall2", "h2", "hallb", "hb", "hallv", "hv"},
-                                                       {"hall3", "h3", "hallc", "hc", "hallw", "hw"}});
+                                                 {"hall2", "h2", "hallb", "hb", "hallv", "hv"},
+                                                 {"hall3", "h3", "hallc", "hc", "hallw", "hw"}});
   if (!lines || lines->size() == 3) return lines;
   base::Result<Columns> code = columns_like(r, {{"hall", "code", "hallcode", "hallstate"}});
   if (!code || !code->empty()) return code;

@@ -43,10 +43,14 @@ constexpr Reason reasons[] = {
     {"rotor_density_kg_m3", "the inertia is printed, and counts"},
     {"inertia_gcm2", "the motor carries its brake: inertia_with_brake_gcm2 counts"},
     {"inertia_with_brake_gcm2", "the motor carries no brake: inertia_gcm2 counts"},
-    {"thermal_resistance_winding_housing_K_W", "what [heat] and the curve warm the motor by; without them it stays at the sheet's temperature"},
-    {"thermal_resistance_housing_ambient_K_W", "what [heat] and the curve warm the motor by; without them it stays at the sheet's temperature"},
-    {"thermal_time_constant_winding_s", "what [heat] and the curve warm the motor by; without them it stays at the sheet's temperature"},
-    {"thermal_time_constant_motor_s", "what [heat] and the curve warm the motor by; without them it stays at the sheet's temperature"},
+    {"thermal_resistance_winding_housing_K_W",
+     "what [heat] and the curve warm the motor by; without them it stays at the sheet's temperature"},
+    {"thermal_resistance_housing_ambient_K_W",
+     "what [heat] and the curve warm the motor by; without them it stays at the sheet's temperature"},
+    {"thermal_time_constant_winding_s",
+     "what [heat] and the curve warm the motor by; without them it stays at the sheet's temperature"},
+    {"thermal_time_constant_motor_s",
+     "what [heat] and the curve warm the motor by; without them it stays at the sheet's temperature"},
     {"max_winding_temperature_degC", "a limit"},
 };
 
