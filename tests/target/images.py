@@ -238,6 +238,7 @@ def check_end(chip):
 def check(whole=False):
     import image_drives  # they are made of this file
     import image_faults
+    import image_line
     import transitions
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -248,8 +249,8 @@ def check(whole=False):
             trouble += check_running(chip) + check_log(chip) + check_end(chip)
         print(f"the STM32F303's image, executed: {len(TABLE)} registers as RM0316 wants them, interrupts and log: "
               f"{'all as they should be' if not trouble else 'trouble'}")
-        wrong = image_faults.check(folder / "arm")
-        print(f"what stops its drive, with the reason that it tells: {'all as it should be' if not wrong else 'trouble'}")
+        wrong = image_faults.check(folder / "arm") + image_line.check(folder / "arm")
+        print(f"what stops its drive, with the reason that it tells, and its serial line: {'all as it should be' if not wrong else 'trouble'}")
         changes, broken = transitions.check(folder / "arm", whole)
         broken += image_drives.check_drives(folder)
         print(f"{changes} changes of its legs, clock by clock: {'never both switches of a leg' if not broken else 'trouble'}")
