@@ -55,6 +55,7 @@ class Examples(unittest.TestCase):
     def test_a_drive_for_another_board_does_not_compile(self):
         for pattern, instead, said in (("adc_bits = 10;", "adc_bits = 12;", "the converter that is there"),
                                        (r"dead_time_ps = \d+;", "dead_time_ps = 0;", "bridge.dead_time_s"),
+                                       ("bool cleared = true;", "bool cleared = false;", "not cleared for a bridge"),
                                        (r"dead_time_ps = \d+;", "dead_time_ps = 5062501;", "5 us at most")):
             text, times = re.subn(pattern, instead, (EXAMPLES / "avr" / "drive_config.hpp").read_text())
             self.assertEqual(times, 1)

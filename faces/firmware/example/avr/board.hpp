@@ -23,6 +23,11 @@ static_assert(exported::pwm_centre_aligned,
               "timer 1 counts up and down; its compare registers are taken at the top");
 static_assert(exported::adc_bits == 10, "the converter that is there");
 static_assert(sizeof(Scalar) == 2, "eighths of counts as signals of 16 bits");
+#ifndef SIXSTEP_DESPITE  // tools/firmware_image.sh --despite, and a chip that is emulated
+static_assert(
+    exported::cleared,
+    "the header says that its drive is not cleared for a bridge; tools/firmware_image.sh builds it with --despite");
+#endif
 static_assert(exported::dead_time_ps > 0,
               "a leg would change between its two switches with both on: set bridge.dead_time_s");
 
