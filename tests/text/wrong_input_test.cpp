@@ -191,9 +191,12 @@ TEST_F(WrongInput, OfManyWordsOnlyTheNearestIsTold) {
 }
 
 TEST_F(WrongInput, ReferenceInAnotherModesUnit) {
-  EXPECT_THAT(complaints(head + "[control]\nmode = \"speed\"\n[reference]\nvalue = 955\nunit = \"rpm\"\n"),
-              ElementsAre("x.toml:7:8: reference.unit = \"rpm\" is not the unit of mode \"speed\"; "
-                          "give the reference in \"rad/s\" or change control.mode"));
+  EXPECT_THAT(
+      complaints(head + "[control]\nmode = \"speed\"\n[reference]\nvalue = 955\nunit = \"rpm\"\n"),
+      ElementsAre(
+          "x.toml:7:8: reference.unit = \"rpm\" is not the unit of mode \"speed\"; "
+          "give the reference in \"rad/s\", or write the unit behind the number, as \"100 rpm\", if it is of that "
+          "kind, or change control.mode"));
   EXPECT_THAT(complaints(head + "[control]\nmode = \"current\"\n[reference]\nvalue = 9\nunit = \"rad/s\"\n"),
               ElementsAre("x.toml:7:8: reference.unit = \"rad/s\" is not the unit of mode \"current\"; "
                           "set control.mode = \"speed\", or give the reference in \"A\""));

@@ -18,7 +18,8 @@ inline std::string cure_of_unit(std::string_view unit, control::Mode mode, const
   for (const auto& choice : mode_choices)
     if (!unit.empty() && own(choice.value) == unit)
       return "set control.mode = \"" + std::string(choice.word) + "\", or " + in_mode;
-  return in_mode + " or change control.mode";
+  return in_mode + ", or write the unit behind the number, as \"100 " + std::string(unit) +
+         "\", if it is of that kind, or change control.mode";
 }
 
 /// A duty is a share of the period; who writes 50 means percent.
