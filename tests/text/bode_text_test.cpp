@@ -73,4 +73,23 @@ TEST(BodeText, TableAndJsonHoldTheSameNumbers) {
               1.0, 0.03);
 }
 
+// A measured phase that is noise wanders over many turns; the designed one stays where a reader expects it.
+TEST(BodeText, DesignedPhaseDoesNotFollowAPhaseThatIsNoise) {
+  analysis::BodeStudy s = study_of(false);
+  const auto before = nlohmann::json::parse(text::bode_json("locked", s));
+  for (analysis::LoopPoint& p : s.points) {
+    p.coherence = analysis::little_coherence / 2;
+    p.phase_rad += 10.0;
+  }
+  const auto after = nlohmann::json::parse(text::bode_json("locked", s));
+  for (std::size_t n = 0; n < s.points.size(); ++n) {
+    const double phase = after["points"][n]["designed_phase_deg"].get<double>();
+    EXPECT_GT(phase, -360.0);
+    EXPECT_LE(phase, 0.0);
+    // The loop is the same one: only whole turns lie between.
+    const double turns = (phase - before["points"][n]["designed_phase_deg"].get<double>()) / 360.0;
+    EXPECT_NEAR(turns, std::round(turns), 1e-9);
+  }
+}
+
 }  // namespace
