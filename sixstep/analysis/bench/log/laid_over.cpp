@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "sixstep/base/elementary.hpp"
 #include "sixstep/base/written.hpp"
 
 namespace sixstep::analysis {
@@ -134,10 +135,10 @@ std::optional<Apart> apart(const std::vector<Weighed>& columns, double shift_s, 
     const LaidOver one = compared(column.both, shift_s, every);
     if (one.rows == 0 || one.rows < column.rows / 2) return {};
     const double left = std::max(one.rms, rms_of_a_step * column.step) / column.scale;
-    logs += std::log(std::max(left, least_part));
+    logs += base::log(std::max(left, least_part));
     out.within_steps &= one.rms <= column.step;
   }
-  out.rms = std::exp(logs / static_cast<double>(columns.size()));
+  out.rms = base::exp(logs / static_cast<double>(columns.size()));
   return out;
 }
 
