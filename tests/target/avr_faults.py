@@ -144,7 +144,7 @@ def check_goes_on(elf):
 
 OPEN_STOP = ("standing.hpp", '  asm volatile("cli" ::: "memory");\n', "")
 GLITCH = 40  # cycles
-LAST = 150  # a Hall interrupt with its dead time, ahead of the stop
+LAST = 170  # a Hall interrupt with its dead time, ahead of the stop
 
 
 def stopped_by_control(elf, begin, edge=None):

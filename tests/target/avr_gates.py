@@ -22,6 +22,7 @@ AMPERES_PER_COUNT, D1, K_I = 20 / 1024, 2.30464, 0.37978  # of its drive_config.
 # From a Hall edge to the new pair: an interrupt that has begun, the way into the next one, the dead time. From TOP: the same, and a Hall
 # interrupt that was there first.
 LATE_HALL, LATE_TOP = 650, 450
+AT_ONCE = 16  # a pin moves where the instruction or the way into an interrupt ends that runs: TOP may come before it
 
 
 def upper(leg):
@@ -114,7 +115,8 @@ def trouble_of_pairs(walk):
             if what == "hall":
                 old, hall, last_hall = {(hall, negative)} | (old if at - last_hall < LATE_HALL or at - last_sign < LATE_TOP else set()), value, at
             elif value != negative:
-                old, negative, last_sign = {(hall, negative)} | (old if at - last_hall < LATE_HALL else set()), value, at
+                tied = {(code, value) for code, _ in old} if at - last_hall < AT_ONCE else set()
+                old, negative, last_sign = {(hall, negative)} | tied | (old if at - last_hall < LATE_HALL else set()), value, at
         settled = cycle - last_hall > LATE_HALL and cycle - last_sign > LATE_TOP
         may = {(hall, negative)} if settled else {(hall, negative)} | old
         allowed = [upper(p[0]) | lower(p[1]) for code, sign in may if code is not None and sign is not None for p in [pair(code, sign)]]
@@ -129,7 +131,8 @@ def trouble_of_pairs(walk):
 
 
 def trouble_of_pulses(walk):
-    """An on-time is what the PI makes of the sample two BOTTOMs before: u = d1 e + K_i (sum of the e before), over 24 V."""
+    """An on-time is what the PI makes of the sample two BOTTOMs before: u = d1 e + K_i (sum of the e before), over 24 V, and at most that;
+    the sum goes on from what was left of it (control/pi.hpp). A walk that never reached the limit would not need to know."""
     ons, since = [], None
     for cycle, gates in walk.chip.moves:
         on = bool(gates & 0b010101)
@@ -140,8 +143,9 @@ def trouble_of_pulses(walk):
     edges = [at for at, _ in walk.halls]
     for bottom, counts in walk.currents:
         error = -counts * AMPERES_PER_COUNT
-        wanted = abs(D1 * error + gathered) / 24 * PERIOD
-        gathered += K_I * error
+        volts = min(24.0, max(-24.0, D1 * error + gathered))
+        wanted = abs(volts) / 24 * PERIOD
+        gathered = volts - (D1 - K_I) * error
         begin, end = bottom + 3 * PERIOD // 2, bottom + 5 * PERIOD // 2
         if any(begin - LATE_HALL < at < end for at in edges) or end > walk.chip.cycle or wanted > 0.8 * PERIOD:
             continue
@@ -154,6 +158,12 @@ def trouble_of_pulses(walk):
     return trouble[:5] + ([] if judged > len(walk.currents) // 6 else [f"{judged} of {len(walk.currents)} pulses judged"])
 
 
+def missed(walk):
+    """Periods between the first control sample and the last one that had none."""
+    cycles = [cycle for cycle, channel in walk.chip.samples if channel < 3 and cycle > walk.halls[0][0]]
+    return sum(round((b - a) / PERIOD) - 1 for a, b in zip(cycles, cycles[1:]))
+
+
 def walked(elf, seed, periods):
     with Chip(elf) as chip:
         walk = Walk(chip, seed).go(periods)
@@ -161,16 +171,18 @@ def walked(elf, seed, periods):
         trouble, seen = trouble_of_pairs(walk)
         trouble += trouble_of_pulses(walk)
         return {"both": both, "shortest": min(shortest.values(), default=None), "of": len(shortest), "trouble": trouble, "seen": seen,
-                "said": chip.said()[-1], "ended": chip.ended}
+                "missed": missed(walk), "said": chip.said()[-1], "ended": chip.ended}
 
 
 PERIODS = 3000
+DELAY = '  asm volatile("ldi r24, 34\\n1:\\tdec r24\\n\\tbrne 1b" ::: "r24");\n'
 # Faults to be seen: what is changed in which file of the example, and what the test says of it.
 PLANTED = {
     "a dead time of one cycle less": ("gates.hpp", "loops = (dead_cycles - 1) / 3, rest = (dead_cycles - 1) % 3",
                                       "loops = (dead_cycles - 2) / 3, rest = (dead_cycles - 2) % 3", "shortest"),
     "no dead time where an upper gate goes": ("gates.hpp", "    change_over(stay, to);", "    lowers = to.PORTA;\n    uppers = to.DDRB;", "shortest"),
     "a sign that counts at once": ("main.cpp", "  wanted = state.reversed ?", "  show(hall_pins());\n  shown = wanted = state.reversed ?", "trouble"),
+    "a control interrupt 100 cycles longer": ("main.cpp", "  const std::uint8_t last_pins = pins_seen;", f"{DELAY}  const std::uint8_t last_pins = pins_seen;", "missed"),
     "an on-time that is half": ("main.cpp", "set_on_time(counts_of(state.command.duty));", "set_on_time(counts_of(state.command.duty) / 2);", "trouble"),
 }
 
@@ -185,6 +197,8 @@ def found_wrong(elf, dead, seed, periods=PERIODS):
         wrong["shortest"] = f"between one gate and the other one of {got['of'] // 2} legs lie {got['shortest']} cycles at the least, not {dead}"
     if got["trouble"]:
         wrong["trouble"] = "\n".join(got["trouble"])
+    if got["missed"]:
+        wrong["missed"] = f"{got['missed']} periods go by without a control interrupt"
     if len(got["seen"]) != 36:
         wrong["seen"] = f"{len(got['seen'])} of 36 changes from pair to pair were seen"
     return wrong
@@ -233,10 +247,27 @@ def check_starts(elf):
     return trouble
 
 
+EVERY_DUTY = """  set_up_serial_line();
+  bool right = true;
+  for (std::uint16_t raw = 0; raw < 32768; ++raw)
+    right = right && counts_of(Scalar::from_raw(static_cast<std::int16_t>(raw))) ==
+                         static_cast<std::uint16_t>(std::uint32_t{raw} * pwm_counts >> 15);
+  put_text(put, right ? "# right\\n" : "# wrong\\n");
+"""
+
+
+def check_counts():
+    """Its product in the assembler's words, for every duty."""
+    begin = "  const Reason before = reason_after_reset("
+    with tempfile.TemporaryDirectory() as folder, Chip(built(folder, [("main.cpp", begin, EVERY_DUTY + begin)])) as chip:
+        chip.run_ms(2000)
+        return [] if "# right" in chip.said() else [f"the on-times of all duties: {chip.said()[:3]}"]
+
+
 def check():
     with tempfile.TemporaryDirectory() as folder:
         elf = built(folder)
-        wrong = check_starts(elf)
+        wrong = check_starts(elf) + check_counts()
         wrong += [found for seed in (1, 2) for found in found_wrong(elf, dead_cycles(), seed).values()]
     answers = build.side_by_side(check_planted, PLANTED.items())
     answers += build.side_by_side(check_dead_time, [(500_000, 8), (1_030_000, 17), (1, 4)])

@@ -34,7 +34,7 @@ class Chip:
         self.core = unicorn.Uc(unicorn.UC_ARCH_ARM, unicorn.UC_MODE_THUMB | unicorn.UC_MODE_MCLASS)
         self.core.ctl_set_cpu_model(arm.UC_CPU_ARM_CORTEX_M4)
         self.words, self.written, self.sent, self.typed, self.line_status = dict(RESET), [], "", [], 0
-        self.passing = False
+        self.passing, self.late = False, False
         self.core.mem_map(FLASH, 256 * 1024)
         self.core.mem_map(RAM, 64 * 1024)
         self.core.mem_write(FLASH, (folder / "image.bin").read_bytes())
@@ -50,6 +50,8 @@ class Chip:
         at = begin + offset
         if self.passing and at in (TIM1 + 0x24, TIM2 + 0x24):
             self.words[at] = self.words.get(at, 0) + 1
+        if at == TIM1 + 0x10 and self.late:
+            return 1 << 4  # the counter has passed its fourth match, and the period's end
         if at == USART2 + 0x1C:
             return 0x80 | (0x20 if self.typed else 0) | self.line_status
         if at == USART2 + 0x24:
@@ -145,6 +147,7 @@ def tick(chip, counts=AT_REST, clocks=2160):
 def end_of_period(chip):
     if not chip.words.get(TIM1 + 0x0C, 0) & 1 << 4:
         return True
+    chip.words[TIM1 + 0x10] = chip.words.get(TIM1 + 0x10, 0) | 1 << 4
     chip.passing = True  # the counter it waits for goes on
     ended = chip.interrupt(27)
     chip.passing = False
@@ -239,6 +242,7 @@ def check(whole=False):
     import image_drives  # they are made of this file
     import image_faults
     import image_line
+    import image_load
     import transitions
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -254,6 +258,7 @@ def check(whole=False):
         changes, broken = transitions.check(folder / "arm", whole)
         broken += image_drives.check_drives(folder)
         print(f"{changes} changes of its legs, clock by clock: {'never both switches of a leg' if not broken else 'trouble'}")
+        broken += image_load.check(folder, whole)
     trouble += wrong + broken
     print("\n".join(trouble), end="\n" if trouble else "")
     return not trouble

@@ -76,6 +76,7 @@ class TimedChip(images.Chip):
         at = self.core.reg_read(images.arm.UC_ARM_REG_PC)
         amid = at & ~1 != images.NOWHERE
         if amid and self.armed():
+            self.tim1.match_4 = True
             self.interrupt(other)
         if amid:
             self.run(at, 100_000)

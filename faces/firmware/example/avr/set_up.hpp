@@ -66,11 +66,12 @@ inline void set_up_hall_pins() {
   byte(atmega2560::PORTK) = 7;
   byte(atmega2560::PCMSK2) = 7;
   byte(atmega2560::PCICR) = atmega2560::PCIE2;
+  pins_seen = hall_pins();  // an edge from here on is the Hall interrupt's
 }
 
 inline void set_up_converter() {
   byte(atmega2560::ADCSRB) = atmega2560::ADTS_timer1_overflow;
-  convert_at_bottom(hall_pins());
+  convert_at_bottom(pins_seen);
 }
 
 inline void set_up() {

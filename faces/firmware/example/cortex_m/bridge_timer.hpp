@@ -5,6 +5,7 @@
 //                     leg's output changes too, the interrupt of the fourth compare unit, shortly before the period's end, waits for the
 //                     update and gives the commutation event there. A leg that changes sides is off from that event on, and has its new
 //                     switch the dead time later.
+//                     An answer that comes too late for that waits for the next end as a whole, and is counted as missed.
 //   Hall interrupt    the pair moves at once, in what is in effect and in what waits; the pulse goes on in the leg that takes over. The
 //                     duty stays.
 //   off, and a fault  at once
@@ -140,14 +141,48 @@ inline void prepare_period_end() {
   arm_period_end(false);
 }
 
-/// The control tick's answer. `charges`: the drive is about to start, and pulses of the lower gates charge the bootstraps.
-[[gnu::noinline]] void at_next_period(const BridgeCommand<Scalar>& command, bool reversed, bool charges) {
-  if (!command.enabled && (!charges || in_effect.bridge.enabled)) return gates_off();
+/// The fourth compare unit's interrupt: waits for the update, some counts away, and makes the period's change there. The event comes
+/// with the update or some counts before it, in the gap of the old on-time: behind it, the old pair would have a pulse of some counts.
+[[gnu::noinline]] void at_period_end() {
   const InterruptsOff hold;
+  // Taken back after the core had seen it, or made by a control tick that came too late.
+  if ((tim1().DIER & bit::CC4IE) == 0 || (tim1().SR & bit::CC4IF) == 0) return;
+  if (change_due) {
+    preload(coming.first);
+    if (coming.waits_before) wait_for_dead_time();
+    for (std::uint32_t count = tim1().CNT; count >= sample_count && count < event_count; count = tim1().CNT)
+      continue;
+    make(coming);
+    change_due = false;  // made once
+  }
+  in_effect = waiting;
+  arm_period_end(false);
+}
+
+/// Whether the period for whose end an answer was meant is over, or so nearly that its duty and its pair might not count together: then
+/// both wait for the next end. What waited for that one is made first, where the core has not come to it.
+inline bool period_is_over() {
+  if ((tim1().SR & bit::CC4IF) == 0) return false;  // control ticks clear it as they begin
+  at_period_end();
+  while (tim1().CNT >= sample_count) continue;
+  tim1().SR = ~bit::CC4IF;
+  return true;
+}
+
+/// The control tick's answer. `charges`: the drive is about to start, and pulses of the lower gates charge the bootstraps. False: it came
+/// too late, and counts a period later.
+[[gnu::noinline]] bool at_next_period(const BridgeCommand<Scalar>& command, bool reversed, bool charges) {
+  if (!command.enabled && (!charges || in_effect.bridge.enabled)) {
+    gates_off();
+    return true;
+  }
+  const InterruptsOff hold;
+  const bool in_time = !period_is_over();
   charging = !command.enabled;
   waiting = {command, reversed};
   compare_next(charging ? charge_counts : compare_of(command.duty));
   prepare_period_end();
+  return in_time;
 }
 
 /// The Hall interrupt's answer, whose pair is that of the last tick's sign.
@@ -167,23 +202,6 @@ inline void prepare_period_end() {
     change_at_once(outputs(in_effect.bridge));
   }
   prepare_period_end();
-}
-
-/// The fourth compare unit's interrupt: waits for the update, some counts away, and makes the period's change there. The event comes
-/// with the update or some counts before it, in the gap of the old on-time: behind it, the old pair would have a pulse of some counts.
-[[gnu::noinline]] void at_period_end() {
-  const InterruptsOff hold;
-  if ((tim1().DIER & bit::CC4IE) == 0) return;  // taken back after the core had seen it
-  if (change_due) {
-    preload(coming.first);
-    if (coming.waits_before) wait_for_dead_time();
-    for (std::uint32_t count = tim1().CNT; count >= sample_count && count < event_count; count = tim1().CNT)
-      continue;
-    make(coming);
-    change_due = false;  // made once
-  }
-  in_effect = waiting;
-  arm_period_end(false);
 }
 
 }  // namespace firmware

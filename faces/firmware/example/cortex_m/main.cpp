@@ -34,7 +34,8 @@ Ring<64> received;
 volatile std::uint8_t heart = 0;  // beats with each control interrupt
 volatile bool listening = false;  // to control interrupts
 
-/// By the counter that runs on: a period that had no control interrupt takes its time, and is counted as missed.
+/// By the counter that runs on: a period that had no control interrupt takes its time, and is counted as missed; so is one whose answer
+/// came behind its end.
 struct LogClock {
   Instant t;
   std::uint32_t rest = 0;  // counts beyond the last microsecond
@@ -257,7 +258,7 @@ extern "C" void ADC1_2_IRQHandler() {
     state.events.other = static_cast<std::uint16_t>(state.events.other | fault_board);
   const BridgeCommand<Scalar>& command =
       protected_step(config, state, in, request_now(), setpoint, telemetry);
-  at_next_period(command, state.drive.reversed, charges());
+  if (!at_next_period(command, state.drive.reversed, charges())) ++log_clock.missed;
   if (strange_sums > 0 && (telemetry.first_fault & fault_over_current) != 0) trip(Reason::current_sensor);
   heart = static_cast<std::uint8_t>(heart + 1);
   const bool taken =

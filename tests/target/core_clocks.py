@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""At most how many clocks of 72 MHz the STM32F303's Cortex-M4 takes for what Unicorn executes, which counts none itself. Two sums:
+
+  core   Arm's technical reference manual (100166_0001, 3.3 and 7.2), each instruction at its longest: a taken branch refills for 3, a
+         division takes 12 (whole) or 14 (float), a result of the floating-point unit is waited for by whoever is next
+  flash  beside it RM0316, 4.2.2: above 48 MHz a reading of the flash, of 64 bits, waits two clocks. Here each line that the core goes into
+         waits both, as if the prefetch buffer brought none ahead; a taken branch waits for a line that was asked for in vain; each
+         reading of data from the flash waits, and the line behind it once more
+  parts  the bridges to the timers, ports and converter: two clocks, and four where the bus has half the clock (APB1)
+
+The true number lies between the first sum and that of all: a board says where."""
+import re
+
+import images
+
+REFILL, WAIT = 3, 2
+ENTRY, RETURN = 12, 10  # with its stacking, memory without wait states; of an interrupt (100166_0001, 3.9.1)
+LAZY = 17  # and room for the floating-point registers, which are stored when the first one is used
+LONG = {"sdiv": 12, "udiv": 12, "vdiv": 14, "vsqrt": 14, "vmla": 3, "vmls": 3, "vnmla": 3, "vnmls": 3, "vfma": 3, "mla": 2, "mls": 2,
+        "ldrd": 3, "strd": 3, "vldr": 2, "vstr": 2, "isb": 4, "dsb": 4, "mrs": 2, "msr": 2, "cpsid": 2, "cpsie": 2, "vmrs": 2, "vmov": 2}
+BUSES = ((0x40000000, 0x40010000, 4), (0x40010000, 0x48000000, 2), (0x48000000, 0x60000000, 2), (0xE0000000, 0x100000000, 2))
+
+
+def registers_of(operands):
+    """How many a list in braces has."""
+    count = 0
+    for part in re.search(r"\{(.*?)\}", operands)[1].split(","):
+        ends = [int(n) for n in re.findall(r"[rs](\d+)", part)]
+        count += ends[1] - ends[0] + 1 if len(ends) == 2 else 1
+    return count
+
+
+def clocks_of(mnemonic, operands):
+    """Without what a taken branch adds."""
+    name = mnemonic.split(".")[0]
+    if name.startswith(("push", "pop", "ldm", "stm", "vpush", "vpop", "vldm", "vstm")):
+        return 1 + registers_of(operands)
+    for stem, clocks in LONG.items():
+        if name.startswith(stem):
+            return clocks
+    if name.startswith(("ldr", "str", "tbb", "tbh", "v")):
+        return 2
+    return 1
+
+
+def table(elf):
+    """Address: (size, clocks)."""
+    found = {}
+    for line in images.build.told(["arm-none-eabi-objdump", "-d", elf]).splitlines():
+        if of := re.match(r"\s*([0-9a-f]+):\t((?:[0-9a-f]{4} ?)+)\s*\t(\S+)\s*(.*)", line):
+            found[int(of[1], 16)] = (2 * len(of[2].split()), clocks_of(of[3], of[4]))
+    return found
+
+
+class Clocks:
+    """Of a chip's core, from reset() on."""
+
+    def __init__(self, chip, elf):
+        self.table = table(elf)
+        self.reset()
+        chip.core.hook_add(images.unicorn.UC_HOOK_CODE, self.instruction)
+        chip.core.hook_add(images.unicorn.UC_HOOK_MEM_READ | images.unicorn.UC_HOOK_MEM_WRITE, self.access)
+
+    def reset(self):
+        self.instructions = self.core = self.flash = self.parts = 0
+        self.next, self.line = None, None
+
+    def instruction(self, _, at, size, __):
+        self.instructions += 1
+        taken = self.next not in (None, at)
+        self.core += self.table[at][1] + (REFILL if taken else 0)
+        lines = {at >> 3, at + size - 1 >> 3}
+        self.flash += WAIT * (len(lines - {self.line}) + taken)
+        self.next, self.line = at + size, at + size - 1 >> 3
+
+    def access(self, _, __, at, size, *___):
+        if images.FLASH <= at < images.FLASH + 256 * 1024:
+            self.flash += 2 * WAIT
+        self.parts += next((clocks for begin, end, clocks in BUSES if begin <= at < end), 0)
+
+    def at_least(self):
+        return self.core + ENTRY + RETURN
+
+    def at_most(self):
+        """With the vector's reading, the stacked registers' return, and the floating-point ones' way out and in again."""
+        return self.core + self.flash + self.parts + ENTRY + RETURN + 2 * LAZY + 2 * WAIT
