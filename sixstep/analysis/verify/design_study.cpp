@@ -138,10 +138,10 @@ base::Problems find_gain(const DesignOrder& order, DesignStudy& s) {
              "bandwidth_rad_s)"}};
   if (base::Problems found = too_long(design_scenario(s.design, order.subject)); !found.empty()) return found;
   base::Result<PositionGain> gain =
-      largest_position_gain(s.design, order.subject, order.keep_going, order.gain);
+      largest_position_gain(s.design, order.subject, order.keep_going, order.gain, order.budget);
   if (gain && !order.tolerances.empty())
     gain = lowered_for_tolerances(s.design, order.subject, *gain, order.tolerances, order.for_each,
-                                  order.keep_going, order.gain);
+                                  order.keep_going, order.gain, order.budget);
   if (!gain) return gain.problems();
   s.position = *gain;
   s.design = design::with_position_gain(s.design, gain->gain_rad_s_per_deg);
@@ -215,6 +215,7 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   if (!order.tolerances.empty() && !(s.position && order.gain.quick))
     s.robustness = robustness(s.design, s.scenario, order.tolerances, order.for_each, order.keep_going);
   s.ideal_swing_rad_s = ideal_swing(s, order.keep_going);
+  if (order.budget != nullptr) order.budget->takes(s.scenario, 2 + (s.robustness ? s.robustness->runs : 0));
   if (s.ideal_swing_rad_s && s.scenario.reference.values.size() > 1)
     s.allowed_swing_rad_s = allowed_swing_rad_s(*s.ideal_swing_rad_s, s.scenario.reference.values[1]);
   s.warnings = s.design.warnings;

@@ -38,6 +38,7 @@ struct DesignOrder {
   ForEach for_each = one_after_the_other;
   std::function<bool()> keep_going{};  ///< false ends it early: what comes out then means nothing
   GainSearch gain{};                   ///< position: how its gain is looked for
+  TrialBudget* budget = nullptr;       ///< that each run is taken out of; a search ends where it is empty
   bool advises = true;                 ///< tries what helps against each warning (advice.hpp)
 };
 

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "sixstep/analysis/verify/advice.hpp"
+#include "sixstep/analysis/verify/design_changes.hpp"
 #include "sixstep/analysis/verify/design_study.hpp"
+#include "sixstep/analysis/verify/few_digits.hpp"
 #include "sixstep/analysis/verify/linear_study.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/decimal.hpp"
@@ -31,9 +33,6 @@ constexpr double longest_run_up_s = 600;
 
 /// Control periods of a trial, and of all together: half a second, and one and a half, of one core.
 constexpr double trial_periods = 3.5e5, all_trials_periods = 1.2e6;
-
-/// A heavy rotor on a winding that lets it wait.
-constexpr double unhurried_period_s = 1e-4;
 
 /// Above it a drive's current is hardly more than ripple.
 constexpr double usable_ripple = 0.5;
@@ -128,21 +127,20 @@ std::vector<Tolerance> chief(std::vector<Tolerance> tolerances) {
   return tolerances;
 }
 
-/// Makes a trial short enough: a higher lowest speed, whose loop is faster, fewer motors out of tolerance, a shorter move, a longer
-/// period.
-bool shorten_trial(DesignOrder& order, const design::MotorModel& motor) {
-  const auto fits = [&] {
-    const base::Result<design::DriveDesign> d = design::design_drive(motor, order.spec);
-    return d && periods_of(order, *d) <= trial_periods;
-  };
-  if (fits()) return true;
-  const base::Result<design::DriveDesign> d = design::design_drive(motor, order.spec);
-  if (!d) return false;
+/// Makes a trial take so many periods at most: a higher lowest speed, whose loop is faster, fewer motors out of tolerance, a shorter
+/// move, a longer period. A design in closed form takes a tenth of a second: one for each specification.
+bool shorten_trial(DesignOrder& order, const design::MotorModel& motor, double longest) {
+  base::Result<design::DriveDesign> d = design::design_drive(motor, order.spec);
+  const auto fits = [&] { return d && periods_of(order, *d) <= longest; };
+  if (!d || fits()) return static_cast<bool>(d);
+  const double lowest = d->lowest_speed_rad_s;
   if (order.spec.mode == Mode::speed && order.spec.rotor.lags() && !order.spec.lowest_speed_rad_s)
     for (const double times : {2.0, 3.0}) {
-      order.spec.lowest_speed_rad_s = base::shortened(times * d->lowest_speed_rad_s, 2, base::Towards::up);
+      order.spec.lowest_speed_rad_s = base::shortened(times * lowest, 2, base::Towards::up);
+      d = design::design_drive(motor, order.spec);
       if (fits()) return true;
     }
+  if (!d) return false;
   order.tolerances = chief(order.tolerances);
   if (fits()) return true;
   order.tolerances.clear();
@@ -157,6 +155,7 @@ bool shorten_trial(DesignOrder& order, const design::MotorModel& motor) {
     return false;
   order.spec.period_s = order.spec.rotor.shaft.period_s = unhurried_period_s;
   order.spec.current_settle_s = 20 * unhurried_period_s;
+  d = design::design_drive(motor, order.spec);
   return fits();
 }
 
@@ -191,57 +190,24 @@ base::Result<DesignStudy> usable_design(const FirstScenarioSpec& spec, const des
   std::string why;
   for (const design::Warning& w : usual->warnings)
     if (w.grave) why = w.what;
-  TrialBudget budget{all_trials_periods};
-  for (const design::DesignSpec& candidate : candidates(order, *usual)) {
-    DesignOrder next = order;
-    next.spec = candidate;
-    if (!shorten_trial(next, motor)) continue;
-    std::optional<DesignStudy> study = tried(next, next.spec, budget);
-    if (!study) continue;
-    if (study->usable() && study->outcome.passed()) return std::move(*study);
-    for (const design::Warning& w : study->warnings)
-      if (w.grave) why = w.what;
+  // A slow motor's trial takes all that there is, and only where no shorter one did.
+  for (const double longest : {trial_periods, all_trials_periods}) {
+    TrialBudget budget{all_trials_periods};
+    for (const design::DesignSpec& candidate : candidates(order, *usual)) {
+      DesignOrder next = order;
+      next.spec = candidate;
+      next.gain.periods = longest;
+      if (!shorten_trial(next, motor, longest)) continue;
+      std::optional<DesignStudy> study = tried(next, next.spec, budget);
+      if (!study) continue;
+      if (study->usable() && study->outcome.passed()) return std::move(*study);
+      for (const design::Warning& w : study->warnings)
+        if (w.grave) why = w.what;
+    }
   }
   return base::Problem{"the motor", spec.motor,
                        "has no usable design in this mode" + (why.empty() ? "" : ": " + why),
                        way_out(spec, motor, *usual)};
-}
-
-/// Few digits as they are told: of a linear motor in mm for degrees.
-double shortened(double x, double factor, int digits, base::Towards towards) {
-  return base::shortened(x * factor, digits, towards) / factor;
-}
-
-/// Times move on together: their order stays, and so do windows that meet. What a window holds anyhow is left
-/// out.
-void shorten(study::Measure& m, double duration_s) {
-  for (std::optional<double>* time : {&m.from_s, &m.to_s})
-    if (*time) *time = base::shortened(**time, 3, base::Towards::up);
-  if (m.from_s == 0.0) m.from_s.reset();
-  if (m.to_s == duration_s) m.to_s.reset();
-}
-
-void shorten(study::Scenario& s) {
-  s.duration_s = base::shortened(s.duration_s, 3, base::Towards::up);
-  for (double& time : s.reference.times_s) time = base::shortened(time, 3, base::Towards::up);
-  for (study::Requirement& r : s.require) {
-    shorten(r.measure, s.duration_s);
-    const double factor = unit_in(s, figure_unit(r.measure)).factor;
-    if (r.min) r.min = shortened(*r.min, factor, 4, base::Towards::down);
-    if (r.max) r.max = shortened(*r.max, factor, 4, base::Towards::up);
-  }
-  for (study::Comparison& c : s.compare) {
-    shorten(c.measure, s.duration_s);
-    c.value = shortened(c.value, unit_in(s, figure_unit(c.measure)).factor, 4, base::Towards::down);
-  }
-  s.load.torque_Nm = base::shortened(s.load.torque_Nm, 2, base::Towards::down);
-  s.initial.angle_rad = base::shortened(s.initial.angle_rad, 4, base::Towards::down);
-  if (std::optional<double>& limit = s.control.speed.torque_limit_Nm)
-    limit = base::shortened(*limit, 3, base::Towards::down);
-  if (s.control.mode != Mode::position) return;
-  double& gain = s.control.position.gain_rad_s_per_deg;
-  const double of_gain = design::motion_of(s.sheet).unit("rad/s/deg").factor;
-  gain = shortened(gain, of_gain, 2, base::Towards::down);  // a lower one overshoots less
 }
 
 /// The controller's samples stand in the trough of the ripple, and so would the mean that it holds: in the middle of a centred pulse
@@ -283,7 +249,7 @@ base::Result<study::Scenario> begun(const FirstScenarioSpec& spec) {
       return out;
   base::Result<study::Scenario> s = spec.mode == Mode::duty ? run_up(spec, *motor) : designed(spec, *motor);
   if (!s) return s.problems();
-  shorten(*s);
+  write_in_few_digits(*s);
   const base::Result<study::Outcome> outcome = study::run(*s);
   if (!outcome) return outcome.problems();
   if (outcome->fault)

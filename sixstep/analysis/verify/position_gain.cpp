@@ -17,16 +17,18 @@ constexpr double precision = 1e-3, coarse_precision = 0.02;
 /// What is left of a search.
 class Left {
  public:
-  explicit Left(const GainSearch& search) : longest_(search.longest_periods), periods_(search.periods) {}
+  Left(const GainSearch& search, TrialBudget* budget)
+      : longest_(search.longest_periods), own_{search.periods}, of_all_(budget) {}
   /// Whether so many runs of it can be had.
   bool takes(const study::Scenario& s, std::size_t runs) {
-    const double periods = s.duration_s / s.pwm.period_s;
-    periods_ -= periods * static_cast<double>(runs);
-    return periods <= longest_ && periods_ >= 0.0;
+    if (!(s.duration_s / s.pwm.period_s <= longest_)) return false;
+    return own_.takes(s, runs) && (of_all_ == nullptr || of_all_->takes(s, runs));
   }
 
  private:
-  double longest_, periods_;
+  double longest_;
+  TrialBudget own_;
+  TrialBudget* of_all_;
 };
 
 base::Problem none_found() {
@@ -39,8 +41,8 @@ base::Problem none_found() {
 class Trial {
  public:
   Trial(const design::DriveDesign& design, const DesignSubject& subject,
-        const std::function<bool()>& keep_going, GainSearch search)
-      : design_(design), subject_(subject), keep_going_(keep_going), left_(search) {}
+        const std::function<bool()>& keep_going, Left left)
+      : design_(design), subject_(subject), keep_going_(keep_going), left_(left) {}
 
   bool overshoots(double gain) {
     ++runs;
@@ -77,14 +79,14 @@ class Field {
  public:
   Field(const design::DriveDesign& design, const DesignSubject& subject,
         const std::vector<Tolerance>& tolerances, const ForEach& for_each,
-        const std::function<bool()>& keep_going, GainSearch search)
+        const std::function<bool()>& keep_going, Left left)
       : design_(design),
         subject_(subject),
         tolerances_(tolerances),
         all_(variations(tolerances)),
         for_each_(for_each),
         keep_going_(keep_going),
-        left_(search) {}
+        left_(left) {}
 
   std::size_t motors() const { return all_.size(); }
 
@@ -129,6 +131,11 @@ class Field {
 
 }  // namespace
 
+bool TrialBudget::takes(const study::Scenario& s, std::size_t runs) {
+  periods -= s.duration_s / s.pwm.period_s * static_cast<double>(runs);
+  return periods >= 0.0;
+}
+
 double braking_gain(const design::DriveDesign& d) {
   return d.torque_limit_Nm / d.motor.shaft.J_kg_m2 / (d.bus_V / d.motor.K_t_Nm_A) * base::pi / 180;
 }
@@ -136,11 +143,11 @@ double braking_gain(const design::DriveDesign& d) {
 base::Result<PositionGain> largest_position_gain(const design::DriveDesign& design,
                                                  const DesignSubject& subject,
                                                  const std::function<bool()>& keep_going,
-                                                 const GainSearch& search) {
+                                                 const GainSearch& search, TrialBudget* budget) {
   PositionGain found;
   found.linear = design.loop("position").gains.d1;
   found.estimate = braking_gain(design);
-  Trial trial(design, subject, keep_going, search);
+  Trial trial(design, subject, keep_going, Left(search, budget));
   double low = std::min(found.estimate, found.linear), high = found.linear;
   for (int n = 0; n < 20 && trial.overshoots(low) && trial.problems.empty(); ++n) {
     high = found.overshoots = low;
@@ -172,9 +179,9 @@ base::Result<PositionGain> lowered_for_tolerances(const design::DriveDesign& des
                                                   const std::vector<Tolerance>& tolerances,
                                                   const ForEach& for_each,
                                                   const std::function<bool()>& keep_going,
-                                                  const GainSearch& search) {
+                                                  const GainSearch& search, TrialBudget* budget) {
   PositionGain found = nominal;
-  Field field(design, subject, tolerances, for_each, keep_going, search);
+  Field field(design, subject, tolerances, for_each, keep_going, Left(search, budget));
   const auto holds = [&](double gain) {
     found.runs += static_cast<int>(field.motors());
     return field.holds(gain);

@@ -20,6 +20,13 @@ struct PositionGain {
   int runs = 0;
 };
 
+/// Control periods that may still be simulated: what a search costs is known only behind it.
+struct TrialBudget {
+  double periods = 0.0;
+  /// Takes the periods of so many runs out of it; false where they are more than it has.
+  bool takes(const study::Scenario& s, std::size_t runs);
+};
+
 /// How long a search may be: a lower gain makes a longer move.
 struct GainSearch {
   bool quick = false;  ///< the first of the closed form and its halves that holds, and no larger one
@@ -31,13 +38,14 @@ struct GainSearch {
 /// T_max/J at the highest speed, k = T_max/(J U/K_t); here in rad/s per degree.
 double braking_gain(const design::DriveDesign& design);
 
-/// Between that and the linear loop's gain the overshoot
-/// grows with the gain, and halving with full simulations finds where it begins, to a part in 1000. Problems
-/// are those of a run., or that none was found within the search.
+/// Between that and the linear loop's gain the overshoot grows with the gain, and halving with full simulations finds where it begins,
+/// to a part in 1000. Problems are those of a run, or that none was found within the search. The runs are taken out of `budget`, where
+/// there is one.
 base::Result<PositionGain> largest_position_gain(const design::DriveDesign& design,
                                                  const DesignSubject& subject,
                                                  const std::function<bool()>& keep_going = {},
-                                                 const GainSearch& search = {});
+                                                 const GainSearch& search = {},
+                                                 TrialBudget* budget = nullptr);
 
 /// The gain lowered until no motor of the tolerances overshoots by more than allowed_overshoot_deg
 /// (board.hpp), to a part in 50; the nominal one where a sixteenth of it does not do either.
@@ -46,6 +54,7 @@ base::Result<PositionGain> lowered_for_tolerances(const design::DriveDesign& des
                                                   const std::vector<Tolerance>& tolerances,
                                                   const ForEach& for_each,
                                                   const std::function<bool()>& keep_going = {},
-                                                  const GainSearch& search = {});
+                                                  const GainSearch& search = {},
+                                                  TrialBudget* budget = nullptr);
 
 }  // namespace sixstep::analysis

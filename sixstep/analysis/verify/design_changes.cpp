@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/analysis/verify/design_changes.hpp"
+
+#include <algorithm>
+
+#include "sixstep/analysis/verify/board.hpp"
+#include "sixstep/analysis/verify/scenario_spec.hpp"
+#include "sixstep/base/decimal.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/design_warnings.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+
+namespace sixstep::analysis {
+namespace {
+
+using control::Chopping;
+using control::Mode;
+using design::DesignSpec;
+using design::DriveDesign;
+
+/// No timer of a drive is faster.
+constexpr double shortest_period_s = 1e-6;
+
+double plain(double x, base::Towards towards) { return base::shortened(x, 2, towards); }
+
+/// Ripple low enough, and 45 degrees of phase with one period of delay.
+std::optional<double> shorter_period(const DesignSpec& w, const DriveDesign& d) {
+  if (w.rotor.shaft.kind == design::ShaftSensorKind::resolver)
+    return std::nullopt;  // its carrier is tied to the period
+  const double ripple =
+      period_for_ripple_s(d.motor, d.bus_V, w.chopping, design::greatest_ripple * d.nominal_current_A);
+  const double period = plain(std::min(ripple, d.longest_period_s), base::Towards::down);
+  if (!(period < w.period_s && period >= shortest_period_s)) return std::nullopt;
+  return period;
+}
+
+void take_period(DesignSpec& w, double period_s) {
+  w.period_s = period_s;
+  w.rotor.shaft.period_s = period_s;
+}
+
+bool has_speed_loop(const DesignSpec& w) { return w.mode != Mode::current; }
+
+/// As the command line's option makes it, on the board at hand.
+design::RotorSensing encoder(const DesignOrder& order, double period_s) {
+  study::Scenario board = order.subject.board.value_or(study::Scenario{});
+  board.pwm.period_s = period_s;
+  board.sensors = with_rotor(board.sensors, study::RotorSensing::encoder, period_s);
+  board.control.drive = study::FirmwareKind::lean;
+  return rotor_sensing_of(board);
+}
+
+void slow_down(DesignSpec& w, const DriveDesign& d, double times) {
+  if (w.bandwidth_rad_s) {
+    w.bandwidth_rad_s = plain(*w.bandwidth_rad_s / times, base::Towards::down);
+    return;
+  }
+  const double usual = has_speed_loop(w) ? design::usual_speed_settle_s : design::usual_current_settle_s;
+  w.settle_s = plain(times * d.spec.settle_s.value_or(usual), base::Towards::up);
+}
+
+void add_slower(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
+  const auto with = [&](auto change) {
+    DesignSpec next = w;
+    change(next);
+    out.push_back(next);
+  };
+  for (const design::SettlingLimit& limit : d.limits)
+    if (limit.sensing.edges == w.rotor.edges && limit.lowest_speed_rad_s == d.lowest_speed_rad_s &&
+        limit.settle_s && d.spec.settle_s && *limit.settle_s > *d.spec.settle_s)
+      with([&](DesignSpec& n) { n.settle_s = plain(*limit.settle_s, base::Towards::up); });
+  with([&](DesignSpec& n) { slow_down(n, d, 2.0); });
+  with([&](DesignSpec& n) { slow_down(n, d, 4.0); });
+  if (!has_speed_loop(w)) return;
+  const auto& inner = d.loops.front().placed;
+  if (inner)
+    for (const double times : {0.5, 2.0})
+      with([&](DesignSpec& n) { n.current_settle_s = plain(times * inner->settle_s, base::Towards::up); });
+  if (w.rotor.lags() && w.mode == Mode::speed)
+    with([&](DesignSpec& n) { n.lowest_speed_rad_s = plain(2 * d.lowest_speed_rad_s, base::Towards::up); });
+}
+
+void add_torque(const DriveDesign& d, const DesignSpec& w, std::vector<DesignSpec>& out) {
+  if (!has_speed_loop(w)) return;
+  for (const double amperes : {3.0 * d.nominal_current_A, d.nominal_current_A})
+    if (amperes < d.current_at_full_torque_A) {
+      DesignSpec next = w;
+      next.torque_limit_Nm = plain(amperes * d.motor.K_t_Nm_A, base::Towards::down);
+      out.push_back(next);
+    }
+}
+
+void add_voltage(const DriveDesign& d, const DesignSpec& w, std::vector<DesignSpec>& out) {
+  const double first_V = d.loops.front().gains.d1 * d.nominal_current_A;
+  const double held_V = 1.25 * 2 * d.motor.machine.R_ohm * d.nominal_current_A;
+  const double least = std::max(first_V, held_V);
+  if (!(least > d.bus_V)) return;
+  DesignSpec next = w;
+  next.voltage_V = plain(least, base::Towards::up);
+  out.push_back(next);
+}
+
+}  // namespace
+
+DesignSpec on_encoder(const DesignOrder& order, double period_s) {
+  DesignSpec w = order.spec;
+  w.chopping = Chopping::complementary;
+  w.period_s = period_s;
+  w.rotor = encoder(order, period_s);
+  return w;
+}
+
+std::vector<DesignSpec> single_changes(const DesignOrder& order, const DriveDesign& d) {
+  const DesignSpec& w = order.spec;
+  std::vector<DesignSpec> out;
+  const auto with = [&](auto change) {
+    DesignSpec next = w;
+    change(next);
+    out.push_back(next);
+  };
+  if (w.chopping != Chopping::complementary)
+    with([](DesignSpec& n) { n.chopping = Chopping::complementary; });
+  if (const std::optional<double> period = shorter_period(w, d))
+    with([&](DesignSpec& n) { take_period(n, *period); });
+  if (w.rotor.hall && w.rotor.edges > 1) with([](DesignSpec& n) { n.rotor.edges = 1; });
+  if (w.rotor.hall && w.mode == Mode::position)
+    with([&](DesignSpec& n) { n.rotor = encoder(order, w.period_s); });
+  if (w.method == design::GainMethod::pole_placement && w.mode == Mode::current)
+    with([](DesignSpec& n) { n.method = design::GainMethod::cancellation; });
+  add_slower(w, d, out);
+  add_torque(d, w, out);
+  add_voltage(d, w, out);
+  return out;
+}
+
+std::vector<DesignSpec> joint_changes(const DesignOrder& order, const DriveDesign& d) {
+  std::vector<DesignSpec> out;
+  if (order.spec.rotor.hall && order.spec.mode == Mode::position)
+    out.push_back(on_encoder(order, order.spec.period_s));
+  DesignSpec base = order.spec;
+  base.chopping = Chopping::complementary;
+  if (const std::optional<double> period = shorter_period(base, d)) take_period(base, *period);
+  out.push_back(base);
+  for (const double times : {2.0, 5.0, 10.0, 20.0}) {
+    DesignSpec slower = base;
+    slow_down(slower, d, times);
+    out.push_back(slower);
+    if (base.mode == Mode::speed && base.rotor.lags() && times < 10.0) {
+      DesignSpec faster = base;
+      faster.lowest_speed_rad_s = plain(times * d.lowest_speed_rad_s, base::Towards::up);
+      out.push_back(faster);
+    }
+  }
+  if (base.rotor.hall && base.mode != Mode::current) {
+    base.rotor = encoder(order, base.period_s);
+    out.push_back(base);
+    slow_down(base, d, 2.0);
+    out.push_back(base);
+  }
+  return out;
+}
+
+std::string words_of_change(const DesignSpec& before, const DesignSpec& after) {
+  std::string text;
+  const auto say = [&](const char* name, const std::string& value) {
+    text += (text.empty() ? "" : " and ") + (name + (" = " + value));
+  };
+  const auto number = [&](const char* name, const std::optional<double>& was,
+                          const std::optional<double>& is) {
+    if (is && was != is) say(name, base::written(*is));
+  };
+  if (after.rotor.shaft.kind != before.rotor.shaft.kind) say("rotor", "encoder");
+  if (after.method != before.method) say("method", "cancellation");
+  number("period_s", before.period_s, after.period_s);
+  if (after.chopping != before.chopping)
+    say("chopping", std::string(base::word(study::chopping_choices, after.chopping)));
+  if (after.rotor.hall && after.rotor.edges != before.rotor.edges)
+    say("edges", std::to_string(after.rotor.edges));
+  number("settle_s", before.settle_s, after.settle_s);
+  number("bandwidth_rad_s", before.bandwidth_rad_s, after.bandwidth_rad_s);
+  number("current_settle_s", before.current_settle_s, after.current_settle_s);
+  number("lowest_speed_rad_s", before.lowest_speed_rad_s, after.lowest_speed_rad_s);
+  number("torque_limit_Nm", before.torque_limit_Nm, after.torque_limit_Nm);
+  number("voltage_V", before.voltage_V, after.voltage_V);
+  return text;
+}
+
+}  // namespace sixstep::analysis
