@@ -102,7 +102,7 @@ class Charts {
                        [limit, per_Nm](const Place& p) { return per_Nm * limit(p).short_Nm[0]; }});
     }
     if (curve_.nominal && curve_.nominal->torque_Nm)
-      lines.push_back({"nominal point", "b", "as the sheet prints it",
+      lines.push_back({"nominal point", "b", "as printed",
                        [per_Nm](const Place& p) { return p.nominal ? per_Nm * *p.nominal->torque_Nm : none; },
                        Line::Drawn::points});
     add("torque", "Torque", units_.torque, 320, lines);
@@ -117,7 +117,7 @@ class Charts {
                                {"rms", "a", "rms of a phase current", of<&P::phase_rms_A>(1)},
                                {"supply", "c", "mean current from the supply", of<&P::bus_current_A>(1)}};
     if (curve_.nominal && curve_.nominal->current_A)
-      lines.push_back({"nominal point", "b", "as the sheet prints it",
+      lines.push_back({"nominal point", "b", "as printed",
                        [](const Place& p) { return p.nominal ? *p.nominal->current_A : none; },
                        Line::Drawn::points});
     add("current", "Current", "A", 220, lines);

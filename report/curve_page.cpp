@@ -50,6 +50,10 @@ std::string certainty(const analysis::Curve& curve, const CurveUnits& u) {
                      plain(residual, 2));
 }
 
+std::string nominal_name(const analysis::NominalPoint& n) {
+  return n.from.empty() ? "Nominal point of the sheet" : "Nominal point, " + escaped(n.from);
+}
+
 std::string nominal_fact(const analysis::CurveRequest& r, const analysis::NominalPoint& n,
                          const CurveUnits& u) {
   std::string text;
@@ -67,7 +71,7 @@ std::string nominal_fact(const analysis::CurveRequest& r, const analysis::Nomina
 std::string drop_fact(const analysis::SpeedDrop& d, const CurveUnits& u) {
   const auto per_torque = [&](double x) { return plain(x * u.per_rad_s / u.per_Nm, 3); };
   std::string text = "curve " + per_torque(*d.curve);
-  if (d.sheet) text += ", the sheet's two points " + per_torque(*d.sheet);
+  if (d.sheet) text += ", the two points as printed " + per_torque(*d.sheet);
   text += fmt::format("; R/Kₜ² = {}", per_torque(d.ideal));
   if (d.printed) text += fmt::format(", printed {},", per_torque(*d.printed));
   return text + " leaves out the time that commutation takes";
@@ -115,7 +119,7 @@ std::string facts(const analysis::CurveRequest& r, const analysis::Curve& curve,
     html += fact("Best efficiency",
                  fmt::format("{}\u00a0% at {}, {}", plain(100 * *best->efficiency, 3),
                              u.speed_text(best->speed_rad_s), u.torque_text(best->shaft_torque_Nm)));
-  if (curve.nominal) html += fact("Nominal point of the sheet", nominal_fact(r, *curve.nominal, u));
+  if (curve.nominal) html += fact(nominal_name(*curve.nominal), nominal_fact(r, *curve.nominal, u));
   if (curve.nominal && curve.nominal->at_torque)
     html += fact(fmt::format("Speed lost per torque, {}/{}", u.speed, u.torque),
                  drop_fact(analysis::speed_drop(r, curve), u));

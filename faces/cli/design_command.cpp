@@ -154,8 +154,12 @@ std::optional<study::Scenario> board_of(const DesignArguments& a, base::Problems
 base::Result<analysis::DesignSubject> subject_of(const DesignArguments& a,
                                                  const std::optional<study::Scenario>& board,
                                                  base::Problems& found) {
-  analysis::DesignSubject subject{
-      .motor = a.motor, .sheet = {}, .board = board, .currents = {}, .step = a.step};
+  analysis::DesignSubject subject{.motor = a.motor,
+                                  .sheet = {},
+                                  .board = board,
+                                  .currents = {},
+                                  .step = a.step,
+                                  .dead_time_s = a.toml.empty() ? 0.0 : analysis::usual_dead_time_s};
   if (a.currents) {
     study::Sensors sensors;
     choose("--currents", *a.currents, study::current_sensing_choices, sensors.currents, found);
@@ -268,7 +272,10 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("--step", a.step,
                     "what is simulated: a step in A, rad/s (m/s) or deg (mm) as the mode asks");
   design.add_option("--json", a.json, "write everything as numbers; - for standard output");
-  design.add_option("--toml", a.toml, "write the scenario that was simulated, for sixstep run");
+  design.add_option(
+      "--toml", a.toml,
+      "write the scenario that was simulated, for sixstep run and export; without --scenario it has, and is designed with, a dead "
+      "time of 0.5 us");
   design.add_option("--html", a.html, "write the design as a page");
   design.add_option("--models", a.models, "write the motor's two state spaces, as .json or .mat");
   design.add_option("--angle", a.angle_deg, "of the rotor for --models, in electrical degrees")

@@ -23,7 +23,8 @@ function halfLeg(parent, x, top, name) {
   return {device, diode, wire};
 }
 
-/** Draws the bridge into the SVG, each leg with the phase that hangs at it; returns the function that shows it at an instant. */
+/** Draws the bridge into the SVG, each leg with the phase that hangs at it; returns the function that shows it at an instant. `middle` is that of the
+ * charts, where nobody points at another one. */
 function bridgeDrawing(svg, say, phaseAt = [0, 1, 2]) {
   const names = phaseAt.map((n) => 'abc'[n]);
   const legs = names.map((phase, k) => {
@@ -38,7 +39,7 @@ function bridgeDrawing(svg, say, phaseAt = [0, 1, 2]) {
   svgNode('path', {d: 'M14 14H306M14 154H306', class: 'rail'}, svg);
   svgNode('text', {x: 4, y: 18}, svg).textContent = '+';
   svgNode('text', {x: 4, y: 158}, svg).textContent = '−';
-  return (states, currents, unit) => {
+  return (states, currents, unit, middle) => {
     legs.forEach((leg, k) => {
       const state = states?.[k] ?? 0, i = currents?.[phaseAt[k]] ?? 0;
       leg.upper.device.classList.toggle('lit', state === 1);
@@ -50,8 +51,9 @@ function bridgeDrawing(svg, say, phaseAt = [0, 1, 2]) {
       leg.arrow.setAttribute('d', states && state && i ? `M${tip} 84l${back} -4.5v9z` : '');
       leg.value.textContent = !states ? '' : state ? figure(i) : 'floating';
     });
+    const when = middle == null ? '' : `In the middle of the charts, at ${time.text(middle, (view[1] - view[0]) / 1000)} ${time.unit}; point at them for another instant: `;
     say.textContent = !states ? 'Point at a chart: what conducts then is lit.'
-      : names.map((phase, k) => `${phase} ${states[k] ? `${figure(currents[phaseAt[k]])} ${unit} through its ${LEG_STATES[states[k]]}` : 'floating'}`).join(', ');
+      : when + names.map((phase, k) => `${phase} ${states[k] ? `${figure(currents[phaseAt[k]])} ${unit} through its ${LEG_STATES[states[k]]}` : 'floating'}`).join(', ');
   };
 }
 

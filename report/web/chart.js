@@ -88,7 +88,9 @@ function inLanes(chart, raw) {
 
 function curveOptions(curve, index, chart, count) {
   const color = () => palette[curve.style];
-  const options = {label: curve.label, stroke: color, width: curve.style === 'main' ? 1.8 : 1.3, points: {show: false}, spanGaps: chart.joined};
+  // What others are drawn over is a band beneath them, so that both are seen where they are one.
+  const beneath = curve.style === 'main' && chart.curves.slice(index + 1).some((c) => c.style !== 'reference');
+  const options = {label: curve.label, stroke: beneath ? () => translucent(color(), 0.35) : color, width: beneath ? 5 : curve.style === 'main' ? 1.8 : 1.3, points: {show: false}, spanGaps: chart.joined};
   if (curve.style === 'reference') Object.assign(options, {dash: [6, 4], width: 1.6});
   // What lies below the curve, without a line of its own.
   if (curve.region) Object.assign(options, {stroke: 'transparent', width: 0, fill: () => translucent(color(), 0.16), fillTo: () => 0});

@@ -22,7 +22,8 @@ function describeMarks() {
 
 function makeInstruments(axisOf) {
   const currents = charts.find((c) => c.chart.id === 'currents');
-  const phases = currents && ['i_a', 'i_b', 'i_c'].every((label, n) => currents.chart.curves[n]?.label === label) ? currents : null;
+  const places = ['i_a', 'i_b', 'i_c'].map((label) => currents?.chart.curves.findIndex((curve) => curve.label === label) ?? -1);
+  const phases = places.includes(-1) ? null : places.map((place) => currents.curves[place]);
   const rotor = rotorEntry(axisOf);
   if (rotor) wearRotorUnit(rotor);
   const logic = charts.filter((c) => c.chart.logic), others = charts.filter((c) => !c.chart.logic);
@@ -30,7 +31,7 @@ function makeInstruments(axisOf) {
   const drawBridge = data.conduction && phases ? bridgeDrawing(element('bridge'), element('conducts'), data.legs) : null;
   // In a long run it comes with the rows.
   let conduction = drawBridge && data.conduction.time ? {time: unpack(data.conduction.time, Float64Array), code: unpack(data.conduction.code, Uint8Array)} : null;
-  const drawPlane = phases ? currentPlane(element('plane'), phases) : null;
+  const drawPlane = phases ? currentPlane(element('plane'), currents, phases) : null;
   element('bridge').closest('figure').hidden = !drawBridge;
   element('plane').closest('figure').hidden = !drawPlane;
   const used = new Set([...charts.map((c) => c.chart.quantity), rotor && 'angle']);
@@ -38,9 +39,12 @@ function makeInstruments(axisOf) {
   const instant = () => {
     const t = instants.cursor;
     fill([t, instants.A, instants.B]);
-    const factor = phases?.chart.factor ?? 1;
-    const now = t == null || !phases ? null : phases.curves.slice(0, 3).map((c) => (valueAt(c.full ?? c, t) ?? 0) * factor);
-    if (drawBridge) drawBridge(t == null ? null : conductionAt(conduction, data.conduction.end, t), now, phases.chart.unit);
+    if (drawBridge) {
+      // Until somebody points at a chart: the middle of what the charts show.
+      const at = t ?? (view[0] + view[1]) / 2, factor = currents.chart.factor ?? 1;
+      const now = phases.map((c) => (valueAt(c.full ?? c, at) ?? 0) * factor);
+      drawBridge(conductionAt(conduction, data.conduction.end, at), now, currents.chart.unit, t == null ? at : null);
+    }
     if (drawPlane) drawPlane(...view, t);
     describeMarks();
   };

@@ -3,9 +3,8 @@
 
 const clarke = (a, b, c) => [(2 * a - b - c) / 3, (b - c) / Math.sqrt(3)];
 
-/** Takes the chart of the phase currents; returns the function that draws view and instant. */
-function currentPlane(canvas, entry) {
-  const phases = entry.curves.slice(0, 3);
+/** Takes the chart of the phase currents and these three; returns the function that draws view and instant. */
+function currentPlane(canvas, entry, phases) {
   const point = ([a, b, c], n) => clarke(a.raw[n], b.raw[n], c.raw[n]);
   return (from, to, t) => {
     const shown = curvesInView(phases, from, to) ?? phases, {axis} = shown[0], first = Math.max(0, rowAt(axis, from));

@@ -89,14 +89,41 @@ test('the bridge lights what conducts at the cursor, and the keys step through t
   await close(page);
 });
 
+test('before anybody points at a chart the bridge shows the middle of what the charts show, and says so', async () => {
+  const page = await opened('short.html', {hash: '#t=0.004,0.0042'});
+  const bridge = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done({
+    lit: [...document.querySelectorAll('#bridge .switch.lit text')].map((t) => t.textContent),
+    words: document.getElementById('conducts').textContent})))));
+  const {lit, words} = await bridge();
+  assert.match(words, /^In the middle of the charts, at 4\.1\d* ms; point at them for another instant: a .*, b .*, c /);
+  assert.ok(lit.length >= 1 && lit.length <= 3, lit.join());
+  await page.evaluate(() => sixstep.pointAt(0.0041));
+  const there = await bridge();
+  assert.deepEqual(there.lit, lit);
+  assert.equal(there.words, words.replace(/^In the middle .*? instant: /, ''));
+  await close(page);
+});
+
+test('i_m lies beneath the phases, of which it always is one', async () => {
+  const page = await opened('short.html');
+  const drawn = await page.evaluate(() => {
+    const {chart, plot} = sixstep.entries.find((e) => e.chart.id === 'currents');
+    return {labels: chart.curves.map((c) => c.label), widths: plot.series.slice(1).map((s) => s.width)};
+  });
+  assert.deepEqual(drawn.labels, ['i_m', 'i_a', 'i_b', 'i_c', 'i_ref']);
+  assert.ok(drawn.widths[0] > 2 * Math.max(...drawn.widths.slice(1, 4)), String(drawn.widths));
+  await close(page);
+});
+
 test('close looks into a long run draw every row, as exact as the envelope', async () => {
   const page = await opened('long.html');
   await page.waitForFunction(() => sixstep.complete_ms > 0);
   assert.ok((await page.evaluate(() => sixstep.drawnRows())).every((n) => n === 0));
   const worst = await page.evaluate(() => {
     const place = sixstep.entries.findIndex((e) => e.chart.id === 'currents'), {curves} = sixstep.entries[place];
-    const {low, step} = sixstep.packed[0].columns.find((c) => c.chart === place && c.curve === 0);
-    const {axis, raw, full} = curves[0];
+    const phase = sixstep.entries[place].chart.curves.findIndex((curve) => curve.label === 'i_a');
+    const {low, step} = sixstep.packed[0].columns.find((c) => c.chart === place && c.curve === phase);
+    const {axis, raw, full} = curves[phase];
     let error = 0, compared = 0, zeros = 0;
     for (let n = 1; n + 1 < axis.length; ++n) {
       if (axis[n - 1] === axis[n] || axis[n] === axis[n + 1] || raw[n] == null) continue;  // a jump: two rows at one time

@@ -64,7 +64,7 @@ test('the cursor is read out in every chart', async () => {
 test('every chart says in words what it shows, and colours can be told from their ground', async () => {
   const page = await opened('short.html');
   const told = await page.locator('#charts .uplot').evaluateAll((all) => all.map((n) => n.getAttribute('aria-label')));
-  assert.match(told[0], /^Currents over time\. i a from −\d.* A to \d.* A, at the end/);
+  assert.match(told[0], /^Currents over time\. i m from −\d.* A to \d.* A, at the end .*; i a from −\d.* A to \d.* A, at the end/);
   assert.match(told[1], /9 logic levels: T1/);
   for (const theme of ['light', 'dark']) {
     await page.emulateMedia({colorScheme: theme});
@@ -145,7 +145,8 @@ test('follows the theme, and is printed with dark ink on white paper', async () 
   const page = await opened('short.html', {theme: 'dark'});
   const brightness = () => page.evaluate(() =>
     getComputedStyle(document.documentElement).backgroundColor.match(/\d+/g).slice(0, 3).reduce((a, b) => a + +b, 0));
-  const stroke = () => page.evaluate(() => sixstep.charts[0].series[4].stroke());
+  await page.evaluate(() => { window.main = sixstep.entries.find((e) => e.chart.id === 'speed').plot.series[1]; });
+  const stroke = () => page.evaluate(() => main.stroke());
   assert.ok(await brightness() < 150);
   const inDark = await stroke();
   await page.emulateMedia({colorScheme: 'light'});
@@ -156,7 +157,7 @@ test('follows the theme, and is printed with dark ink on white paper', async () 
   await page.evaluate(() => {
     window.heard = [];
     for (const event of ['beforeprint', 'afterprint'])
-      addEventListener(event, () => heard.push([event, sixstep.charts[0].series[4].stroke(), sixstep.charts[0].width]));
+      addEventListener(event, () => heard.push([event, main.stroke(), sixstep.charts[0].width]));
   });
   const colours = await page.evaluate(() =>
     [getComputedStyle(document.documentElement).backgroundColor, getComputedStyle(document.body).color]);

@@ -24,6 +24,17 @@ drive = "sensorless"
 mode = "speed"
 """
 
+SLOW = """
+motor = "maxon-251601"
+duration_s = 0.2
+load = { inertia_kg_m2 = 1e-2 }
+reference = { value = 400, unit = "rad/s" }
+[control]
+mode = "speed"
+speed = { settle_s = 10e-3 }
+current = { settle_s = 1e-3 }
+"""
+
 
 class Bode(ProgramTest):
     def test_prints_and_writes(self):
@@ -53,6 +64,14 @@ class Bode(ProgramTest):
             self.assertIsNone(re.search(r"(?<![\w-])-?(nan|inf)(?!\w)", text))
         quiet = self.run_program("run", "held.toml", "--bode", "--quiet", code=1)
         self.assertEqual((quiet.stdout, quiet.stderr), ("", "held: the loop did not answer: nothing was measured\n"))
+
+    def test_refuses_a_drive_that_is_still_on_its_way(self):
+        """400 rad/s take 20 s there. A straight way has a coherence of 1 in every line: the curve would be that of the way."""
+        (self.path / "slow.toml").write_text(SLOW)
+        made = self.run_program("run", "slow.toml", "--bode", "--json", "b.json", code=2)
+        self.assertRegex(made.stderr, r"^slow: duration_s = 0\.\d+ ends while the drive is still on its way to 400: .*; lengthen duration_s")
+        self.assertFalse((self.path / "b.json").exists())
+        self.run_program("run", "slow.toml", "--set", "load.inertia_kg_m2=0", "--bode")
 
     def test_says_why_a_loop_is_beside_the_designed_one(self):
         """Soft chopping without a load cannot brake: the phase margin falls by ten degrees, and complementary chopping has it back."""

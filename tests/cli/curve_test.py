@@ -25,6 +25,14 @@ class Curve(ProgramTest):
         self.assertEqual(self.run_program("curve", "maxon-251601", "--quiet").stdout, "")
         self.assertEqual(json.loads(self.run_program("curve", "maxon-251601", "--json", "-").stdout), curve)
 
+    def test_ratings_are_told_with_their_source(self):
+        """Those of the 251601 are of a set-up file, not of its sheet; where a sheet says nothing else they are its own."""
+        told = self.run_program("curve", "maxon-251601", "--points", "3").stdout
+        self.assertIn("\nNominal point, public ESCON set-up file: 83.40 mNm, 5240 rpm, 2.330 A; ", told)
+        plain = (SOURCE / "data/motors/maxon-251601.toml").read_text().replace(', source = "public ESCON set-up file"', "")
+        (self.path / "plain.toml").write_text(plain)
+        self.assertIn("\nNominal point of the sheet: 83.40 mNm", self.run_program("curve", "plain.toml", "--points", "3").stdout)
+
     def test_a_linear_motors_curve_is_in_newtons(self):
         self.run_program("curve", "example-linear", "--points", "5", "--csv", "a.csv", "--json", "a.json", "--html", "a.html", "--quiet")
         rows = [row for row in (self.path / "a.csv").read_text().splitlines() if not row.startswith("#")]

@@ -17,7 +17,6 @@ static_assert(exported::pole_pairs == 8 && exported::command_delayed);
 static_assert(exported::drive.mode == sixstep::control::Mode::speed);
 int main() { return exported::drive.current_limit_A > exported::Scalar{} ? 0 : 1; }
 """
-DEAD_TIME = ("--set", "bridge.dead_time_s=500e-9")
 
 
 class FirstDay(ProgramTest):
@@ -51,10 +50,7 @@ class FirstDay(ProgramTest):
         self.assertTrue(passed)
         self.assertLess(swing, 3.6)
 
-        told = self.run_program("export", "header", "drive.toml", "--out", "drive_config.hpp", code=2).stderr.splitlines()
-        self.assertEqual(len(told), 2, "its gate drivers' dead time is the board's, and all that is missing")
-        self.assertIn("bridge.dead_time_s = 0", told[0])
-        self.run_program("export", "header", "drive.toml", *DEAD_TIME, "--arithmetic", "q31", "--out", "drive_config.hpp")
+        self.run_program("export", "header", "drive.toml", "--arithmetic", "q31", "--out", "drive_config.hpp")
         header = (self.path / "drive_config.hpp").read_text()
         self.assertIn("// Cleared by its run:", header)
         (self.path / "use.cpp").write_text(USE)
@@ -73,7 +69,7 @@ class FirstDay(ProgramTest):
         swing, passed = self.swing("--set", f"control.speed.settle_s={third}", "--set", "sensors.speed_edges=1")
         self.assertFalse(passed)
         self.assertGreater(swing, 3.6)
-        told = self.run_program("export", "header", "drive.toml", *DEAD_TIME, "--set", f"control.speed.settle_s={third}",
+        told = self.run_program("export", "header", "drive.toml", "--set", f"control.speed.settle_s={third}",
                                 "--set", "sensors.speed_edges=1", code=1).stderr
         self.assertIn("swing of the speed at the end", told)
 

@@ -79,7 +79,7 @@ std::string beside_the_designed(const BodeStudy& s) {
   }
   if (Hz == 0.0) return "";
   return fmt::format("at {:.3g} Hz the loop is {:+.2g} dB and {:+.2g} deg beside the designed one: {}", Hz,
-                     most_dB, deg, why_beside(s.scenario));
+                     most_dB, deg, why_beside(s.at_end));
 }
 
 std::string gain_margin(const std::optional<double>& gain) {

@@ -214,7 +214,7 @@ std::string drop(const analysis::CurveRequest& r, const analysis::Curve& curve, 
   const auto per_torque = [&](double x) { return significant(x * u.speed.factor / u.torque.factor, 3); };
   std::string text = fmt::format("From no load to that torque the curve falls by {} {}/{}",
                                  per_torque(*d.curve), u.speed.name, u.torque.name);
-  if (d.sheet) text += fmt::format(", the sheet's own two points by {}", per_torque(*d.sheet));
+  if (d.sheet) text += fmt::format(", the two points as printed by {}", per_torque(*d.sheet));
   text += fmt::format("; R/K_t^2 is {}", per_torque(d.ideal));
   if (d.printed) text += fmt::format(" (printed as gradient: {})", per_torque(*d.printed));
   return text + " and leaves out the time that commutation takes.\n";
@@ -224,7 +224,8 @@ std::string drop(const analysis::CurveRequest& r, const analysis::Curve& curve, 
 /// load asks for that, the speed is the motor's answer.
 std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   const analysis::NominalPoint& n = *curve.nominal;
-  std::string text = "Nominal point of the sheet:";
+  std::string text =
+      n.from.empty() ? "Nominal point of the sheet:" : "Nominal point, " + visible(n.from) + ":";
   const auto item = [&](const std::string& what) { text += (text.back() == ':' ? " " : ", ") + what; };
   if (n.torque_Nm) item(torque_text(*n.torque_Nm, u));
   if (n.speed_rad_s) item(speed_text(*n.speed_rad_s, u));

@@ -197,6 +197,9 @@ std::vector<std::string> design_lines(const analysis::DesignStudy& s) {
                               sixstep::base::six_digits(loop.gains.d0), gain_unit(loop, motion));
     lines.push_back(line);
   }
+  if (s.scenario.bridge.dead_time_s == analysis::usual_dead_time_s)
+    lines.push_back(
+        "bridge.dead_time_s: what gate drivers of small bridges ask for, and what this was simulated with; write what yours need");
   return lines;
 }
 

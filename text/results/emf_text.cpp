@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sixstep/analysis/bench/emf/emf_doubts.hpp"
 #include "sixstep/base/angle.hpp"
 #include "text/escape/escape.hpp"
 #include "text/results/interval_text.hpp"
@@ -49,11 +50,12 @@ std::string channels_section(const EmfResult& r) {
               &c == &r.channels.front() ? "" : measured_text(c.phase_deg), fmt::format("{:.3g}", c.offset_V),
               fmt::format("{:.2g}", c.residual_rms_V), fmt::format("{:.2g}", c.step_V)});
   std::string out = rows.text();
-  constexpr double much = 0.03;
   for (const analysis::EmfChannelResult& c : r.channels)
-    if (c.clipped > much && c.residual_rms_V > 0.3 * c.step_V)
-      out += fmt::format("  {} stands at its greatest value for {:.2g} % of a period: was it clipped?\n",
-                         visible(c.name), to_percent * c.clipped);
+    if (analysis::may_be_clipped(c))
+      out += fmt::format(
+          "  {} stands at its greatest value for {:.2g} % of a period: was it clipped? The upper ends of the "
+          "constants allow for it\n",
+          visible(c.name), to_percent * c.clipped);
   return out;
 }
 

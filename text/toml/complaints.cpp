@@ -76,6 +76,7 @@ void Complaints::later(base::Problem problem) {
 
 void Complaints::told(std::string_view path) {
   std::string table = table_of(path);
+  for (std::string key = shown(path); !key.empty(); key = table_of(key)) keys_.insert(key);
   tables_.insert(table);
   for (table = table_of(table); table.find('[') != std::string::npos; table = table_of(table))
     tables_.insert(table);
@@ -84,6 +85,8 @@ void Complaints::told(std::string_view path) {
 void Complaints::told_elsewhere(std::string_view path) { told(path); }
 
 bool Complaints::about_table_of(std::string_view path) const { return tables_.contains(table_of(path)); }
+
+bool Complaints::about(std::string_view key) const { return keys_.contains(key); }
 
 base::Problems Complaints::in_order() const {
   std::vector<Found> sorted = found_;

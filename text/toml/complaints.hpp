@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Everything wrong with a file, collected and told in the order of its lines.
 #pragma once
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -47,6 +48,9 @@ class Complaints {
   /// Whether something in the table that `path` lies in has been complained about already.
   bool about_table_of(std::string_view path) const;
 
+  /// Whether something has been complained about at the key itself or in its value.
+  bool about(std::string_view key) const;
+
   const Document& document() const { return document_; }
   bool empty() const { return found_.empty(); }
   /// So many mistakes have been told that nobody reads the next one: it is counted only.
@@ -72,6 +76,7 @@ class Complaints {
   std::size_t left_out_ = 0;
   std::vector<Found> found_;
   std::set<std::string> tables_;
+  std::set<std::string, std::less<>> keys_;  ///< told of, and the tables that they lie in
 };
 
 /// "require.max" for "require[1].max": the line number already tells which.

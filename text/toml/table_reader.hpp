@@ -50,8 +50,10 @@ class TableReader {
 
   void quantity(std::string_view key, std::optional<base::Quantity>& member, const base::About& about) {
     if (!any_spelling_in_file(key, about)) return absent(key, about);
-    if (!member) member.emplace();
-    quantity(key, *member, about);
+    std::optional<base::Quantity> read = member ? member : base::Quantity{};
+    quantity(key, *read, about);
+    // What could not be read is no number of the file's: what follows sees none, or the one that it was to replace.
+    if (!complaints_.about(shown(at(read->key.empty() ? key : std::string_view(read->key))))) member = read;
   }
 
   template <class Enum, class Choices>

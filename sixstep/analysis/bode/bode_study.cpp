@@ -7,8 +7,11 @@
 #include "sixstep/analysis/bode/designed_loop.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/elementary.hpp"
+#include "sixstep/base/written.hpp"
 #include "sixstep/rig/magnet_angle.hpp"
 #include "sixstep/study/check/check.hpp"
+#include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/session/session.hpp"
 
 namespace sixstep::analysis {
@@ -22,7 +25,14 @@ constexpr double below_crossover = 30.0, above_crossover = 30.0, of_half_the_rat
 /// A period of the multisine; the longest is 16 Mi samples over seven periods of it.
 constexpr double fewest_samples = 64, most_samples = 262144, usual_samples = 4096;
 
-base::Problems not_measurable(const study::Scenario& s) {
+/// The scenario as if the chip had been from the start what the events have made of it at the end.
+study::Scenario as_at_the_end(const study::Scenario& s) {
+  const std::vector<const study::At*> events = study::in_order(s);
+  return study::settled(s, events.empty() ? nullptr : events.back());
+}
+
+/// `run` is the scenario as written, `s` the one of the chip at its end.
+base::Problems not_measurable(const study::Scenario& run, const study::Scenario& s) {
   base::Problems problems;
   if (s.control.mode == Mode::off || s.control.mode == Mode::duty)
     problems.push_back({"control.mode", s.control.mode == Mode::off ? "off" : "duty",
@@ -35,7 +45,7 @@ base::Problems not_measurable(const study::Scenario& s) {
     problems.push_back({"control.position.profile", "",
                         "shapes the setpoint, which would hide the loop behind it",
                         "leave it out for this measurement"});
-  if (problems.empty() && study::reference_moves(s, s.duration_s - s.pwm.period_s, s.duration_s))
+  if (problems.empty() && study::reference_moves(run, run.duration_s - run.pwm.period_s, run.duration_s))
     problems.push_back({"reference", "", "still moves at the end of the run, where the measurement begins",
                         "let it stand there: shape = \"constant\", or a longer duration_s"});
   return problems;
@@ -129,6 +139,30 @@ base::Result<std::vector<double>> outputs_of(study::Session& session, const Bode
   return output;
 }
 
+/// A drive that is still on its way answers each period alike, for a straight way has the same lines in each: what they show
+/// is the way. A part w of the amplitude in a period puts about w/line of what the multisine has there beside the answer.
+base::Problems still_on_its_way(const BodeStudy& b, const std::vector<double>& output) {
+  constexpr double most_way = 0.05;
+  const std::size_t N = b.signal.samples, periods = output.size() / N;
+  std::vector<double> means(periods, 0.0);
+  for (std::size_t n = 0; n < periods * N; ++n) means[n / N] += output[n] / static_cast<double>(N);
+  bool rises = periods > 2, falls = periods > 2;
+  for (std::size_t p = 1; p < periods; ++p) {
+    rises = rises && means[p] > means[p - 1];
+    falls = falls && means[p] < means[p - 1];
+  }
+  if (!rises && !falls) return {};
+  const double way = (means.back() - means.front()) / static_cast<double>(periods - 1);
+  if (!(std::fabs(way) > most_way * b.amplitude)) return {};
+  return {{"duration_s", base::written(b.begin_s),
+           "ends while the drive is still on its way to " + base::six_digits(b.stands_at) +
+               ": in the measurement it went from " + base::three_digits(means.front()) + " to " +
+               base::three_digits(means.back()) + ", " + base::three_digits(std::fabs(way)) +
+               " in each period of a multisine of +-" + base::three_digits(b.amplitude) + " " +
+               std::string(study::reference_unit(b.mode)),
+           "lengthen duration_s until it rests, or let the reference stand where the drive can get"}};
+}
+
 double amplitude_of(const BodeOrder& order, double stands_at) {
   return order.amplitude.value_or(std::fabs(stands_at) / 20);
 }
@@ -136,7 +170,8 @@ double amplitude_of(const BodeOrder& order, double stands_at) {
 /// Operating point, signal and the linear loop there; nothing is run yet but what the scenario asks for.
 base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& order) {
   const std::vector<study::Stretch> waveform = study::reference_waveform(s);
-  b.mode = s.control.mode;
+  const study::Scenario& last = b.at_end;
+  b.mode = last.control.mode;
   b.period_s = s.pwm.period_s;
   b.begin_s = std::ceil(s.duration_s / b.period_s * (1 - 1e-12)) * b.period_s;
   b.stands_at = waveform.back().at(s.duration_s);
@@ -144,11 +179,11 @@ base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& 
   if (!(b.amplitude > 0.0))
     return {{"reference", "", "stands at zero at the end, of which no part can be taken for the multisine",
              "name an amplitude, or measure where the drive works"}};
-  const base::Result<study::Compiled> compiled = study::compile(s);
+  const base::Result<study::Compiled> compiled = study::compile(last);
   if (!compiled) return compiled.problems();
   b.pole_pairs = compiled->motor.machine.pole_pairs;
   const double speed = b.mode == Mode::speed ? b.stands_at : 0.0;
-  const DesignedLoop designed = designed_loop(s, *compiled, speed);
+  const DesignedLoop designed = designed_loop(last, *compiled, speed);
   b.designed = designed.loop;
   b.not_linear = designed.not_linear;
   b.lag = designed.lag;
@@ -170,14 +205,16 @@ std::optional<design::Complex> BodeStudy::designed_at(double w_rad_s) const {
 
 base::Result<BodeStudy> study_bode(const study::Scenario& scenario, const BodeOrder& order) {
   if (const base::Problems problems = study::check(scenario); !problems.empty()) return problems;
-  if (const base::Problems problems = not_measurable(scenario); !problems.empty()) return problems;
   BodeStudy b;
+  b.at_end = as_at_the_end(scenario);
+  if (const base::Problems problems = not_measurable(scenario, b.at_end); !problems.empty()) return problems;
   if (const base::Problems problems = prepare(b, scenario, order); !problems.empty()) return problems;
   b.scenario = with_multisine(scenario, b, order.periods);
   base::Result<study::Session> session = at_the_end(b.scenario, b, order);
   if (!session) return session.problems();
   const base::Result<std::vector<double>> output = outputs_of(*session, b, order.periods);
   if (!output) return output.problems();
+  if (const base::Problems problems = still_on_its_way(b, *output); !problems.empty()) return problems;
   const Answer answer = answer_to(b.signal, *output);
   b.points = loop_points(b.signal, answer, b.period_s);
   b.beside = answer.beside;

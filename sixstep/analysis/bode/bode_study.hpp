@@ -25,6 +25,7 @@ struct BodeOrder {
 
 struct BodeStudy {
   study::Scenario scenario;  ///< as it was run, the multisine included
+  study::Scenario at_end;    ///< as if the chip had been from the start what the events made of it
   control::Mode mode = control::Mode::current;
   double stands_at = 0.0, amplitude = 0.0;  ///< in the mode's unit
   double begin_s = 0.0, period_s = 0.0;     ///< when the multisine began; of the control
@@ -44,7 +45,7 @@ struct BodeStudy {
 };
 
 /// Problems: the scenario's own, a mode without a loop, a reference that does not stand at the end, a setpoint that is slewed, a
-/// run that a fault ends.
+/// run that a fault ends, a drive that is still on its way.
 base::Result<BodeStudy> study_bode(const study::Scenario& scenario, const BodeOrder& order = {});
 
 }  // namespace sixstep::analysis

@@ -99,11 +99,23 @@ std::optional<double> printed_current(const design::MotorModel& motor) {
   return std::nullopt;
 }
 
+/// What prints the ratings, each source once, where it is not the data sheet.
+std::string rated_in(const design::Sheet& sheet) {
+  std::string all;
+  for (const auto* rating : {&sheet.nominal_torque_mNm, &sheet.nominal_speed_rpm, &sheet.nominal_current_A}) {
+    const std::string source = *rating ? (*rating)->source : std::string();
+    if (source.empty() || source.starts_with("data sheet") || all.find(source) != std::string::npos) continue;
+    all += (all.empty() ? "" : "; ") + source;
+  }
+  return all;
+}
+
 std::optional<NominalPoint> nominal_point(const CurveRequest& r, const Marks& marks,
                                           const OperatingPoint& last) {
   NominalPoint out{.speed_rad_s = scaled(r.sheet.nominal_speed_rpm, rad_s_per_rpm),
                    .torque_Nm = scaled(r.sheet.nominal_torque_mNm, 1e-3),
                    .current_A = printed_current(r.bench.motor),
+                   .from = rated_in(r.sheet),
                    .at_torque = marks.nominal,
                    .at_speed = {}};
   if (out.speed_rad_s) out.at_speed = last;

@@ -28,6 +28,7 @@ struct CurveRequest {
 /// difference by the curve's steepness.
 struct NominalPoint {
   std::optional<double> speed_rad_s, torque_Nm, current_A;  ///< as printed
+  std::string from;                                         ///< what prints them, where it is not the sheet
   std::optional<OperatingPoint> at_torque;  ///< empty without a torque, or where the curve never has it
   std::optional<OperatingPoint> at_speed;   ///< empty without a speed
 };
@@ -36,7 +37,7 @@ struct NominalPoint {
 struct SpeedDrop {
   double ideal = 0.0;               ///< R_tt/K_t^2: what a sheet's speed-torque gradient is
   std::optional<double> printed{};  ///< that gradient as printed
-  std::optional<double> sheet{};    ///< between the sheet's own two points
+  std::optional<double> sheet{};    ///< between the printed no-load and nominal points
   std::optional<double> curve{};    ///< between the same torques of the curve
 };
 

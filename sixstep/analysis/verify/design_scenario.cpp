@@ -73,6 +73,7 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
     s.sensors.encoder.referenced = true;  // a move begins where the position is known
     s.load.gear = subject.board->load.gear;
   } else {
+    s.bridge.dead_time_s = subject.dead_time_s;
     s.sensors = board_sensors(d);
   }
   if (subject.currents) sense_currents(d, *subject.currents, s.sensors);

@@ -11,6 +11,9 @@
 
 namespace sixstep::analysis {
 
+/// What gate drivers of small bridges ask for.
+inline constexpr double usual_dead_time_s = 0.5e-6;
+
 struct DesignSubject {
   std::string motor{};    ///< name or path, as a scenario is to have it
   design::Sheet sheet{};  ///< of that motor
@@ -21,6 +24,8 @@ struct DesignSubject {
   /// Height of the step in the unit of the mode, as the motor's kind has it: of a linear one m/s and mm. Else one at which
   /// no limit acts (current, speed), the thesis's 1000 degrees, or twenty pole pitches.
   std::optional<double> step{};
+  /// Of the bridge, where no board says it. A scenario that shall become a header is run with one: real bridges are shorted without.
+  double dead_time_s = 0.0;
 };
 
 /// - current: rotor held in the middle of a sector, a step of the setpoint; settling and overshoot at the

@@ -26,8 +26,6 @@ using control::Mode;
 /// What the straight line leaves out is commutation time and PWM ripple: some percent. Who starts with
 /// another duty sees the requirement fail.
 constexpr double line_tolerance = 0.05;
-/// What gate drivers of small bridges ask for.
-constexpr double usual_dead_time_s = 0.5e-6;
 
 constexpr double longest_run_up_s = 600;
 
@@ -93,7 +91,7 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
 }
 
 DesignOrder order_of(const FirstScenarioSpec& spec) {
-  DesignOrder order{.subject = {.motor = spec.motor, .sheet = spec.sheet},
+  DesignOrder order{.subject = {.motor = spec.motor, .sheet = spec.sheet, .dead_time_s = usual_dead_time_s},
                     .spec = design::on_a_board(),
                     .tolerances = sheet_tolerances(spec.sheet, spec.mode),
                     .for_each = spec.for_each,

@@ -255,6 +255,7 @@ base::Result<EmfResult> measure_emf(const EmfRequest& request) {
   MeanShape mean = mean_shape(*fit, out);
   take_harmonics(mean, out);
   take_constants(*fit, mean, out);
+  allow_for_clipping(out);
   if (base::Problems beyond = check_plausible(out); !beyond.empty()) return beyond;
   take_table(mean.phase, out);
   out.fit = *fit;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/plausible.hpp"
@@ -10,6 +11,9 @@
 
 namespace sixstep::analysis {
 namespace {
+
+/// A whole top within one step of the converter seems to have lost that step: less than this cannot be told from it.
+constexpr double lost_steps = 1.5;
 
 double middle_of(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -28,6 +32,61 @@ double bend_of_flanks(const std::vector<double>& t, const std::vector<double>& u
     bends.push_back(std::fabs(u[n] - u[n - 1] - part * (u[n + 1] - u[n - 1])));
   }
   return middle_of(std::move(bends));
+}
+
+/// What is left of a top: a run of rows at the extreme of half width h, and how far the voltage lies below it on the mean over
+/// h .. 2 h from the run's middle and over 2 h .. 3 h, on both sides.
+struct Top {
+  std::size_t from = 0, to = 0;
+  double near = 0.0, far = 0.0;
+};
+
+/// The rows of the windows are those of an even recording; a top at the recording's ends is none.
+std::optional<Top> measured_top(const std::vector<double>& u, std::size_t from, std::size_t to) {
+  const std::size_t rows = to - from + 1, half = rows / 2;
+  if (half == 0 || from < rows || to + rows >= u.size()) return {};
+  Top top{from, to};
+  for (std::size_t n = 0; n < half; ++n) {
+    top.near += std::fabs(u[from] - u[from - 1 - n]) + std::fabs(u[from] - u[to + 1 + n]);
+    top.far += std::fabs(u[from] - u[from - 1 - half - n]) + std::fabs(u[from] - u[to + 1 + half + n]);
+  }
+  top.near /= 2.0 * static_cast<double>(half);
+  top.far /= 2.0 * static_cast<double>(half);
+  return top;
+}
+
+/// The runs of rows at one extreme, those that are about as long as the longest.
+std::vector<Top> tops_at(const std::vector<double>& u, double extreme) {
+  constexpr std::size_t fewest_rows = 8;
+  std::vector<Top> all;
+  std::size_t longest = 0;
+  for (std::size_t n = 0; n < u.size(); ++n) {
+    if (u[n] != extreme) continue;
+    std::size_t end = n;
+    while (end + 1 < u.size() && u[end + 1] == extreme) ++end;
+    if (end - n + 1 >= fewest_rows)
+      if (const std::optional<Top> top = measured_top(u, n, end)) {
+        all.push_back(*top);
+        longest = std::max(longest, end - n + 1);
+      }
+    n = end;
+  }
+  std::erase_if(all, [&](const Top& top) { return 2 * (top.to - top.from + 1) < longest; });
+  return all;
+}
+
+/// How far the voltage would have gone beyond its extreme, by the parabola u = V - b x^2 through the rows beside the run: b h^2 = V,
+/// and near is 4/3 V. Nothing where the flanks are no parabola's: far is 4 times near there, 3.4 of a sine that has lost a fifth;
+/// straight flanks have 3 and less, a top that is flat by itself and round at its ends 5 and more.
+double lost_beyond(const std::vector<double>& u, double extreme) {
+  constexpr double straight = 3.2, round = 4.6, near_of_lost = 4.0 / 3.0;
+  std::vector<double> lost, bent;
+  for (const Top& top : tops_at(u, extreme)) {
+    lost.push_back(top.near / near_of_lost);
+    bent.push_back(top.near > 0.0 ? top.far / top.near : 0.0);
+  }
+  const double ratio = middle_of(std::move(bent));
+  return ratio > straight && ratio < round ? middle_of(std::move(lost)) : 0.0;
 }
 
 }  // namespace
@@ -74,14 +133,37 @@ base::Problems check_noise(const EmfRecord& record, const HarmonicFit& fit) {
   return {};
 }
 
+bool may_be_clipped(const EmfChannelResult& channel) {
+  constexpr double much = 0.03, dithered = 0.3;
+  return channel.clipped > much && channel.residual_rms_V > dithered * channel.step_V;
+}
+
+/// A sine of peak A that has lost V at both ends, and stands there for a part q of the period at each, has 8/3 q V/A less in its
+/// fundamental and its rms, and V/A in its peak.
+void allow_for_clipping(EmfResult& result) {
+  double peak = 0.0, fundamental = 0.0;
+  for (const EmfChannelResult& channel : result.channels) {
+    if (!may_be_clipped(channel)) continue;
+    const double part = lost_steps * channel.step_V / channel.peak_V.value;
+    peak = std::max(peak, part);
+    fundamental = std::max(fundamental, 8.0 / 3.0 * channel.clipped * part);
+  }
+  EmfConstants& k = result.constants;
+  for (Interval* of_peak : {&k.line_peak, &k.phase_peak}) of_peak->high += peak * of_peak->value;
+  for (Interval* other : {&k.line_rms, &k.line_fundamental, &k.phase_rms, &k.phase_fundamental})
+    other->high += fundamental * other->value;
+}
+
 base::Problems check_clipped(const EmfRecord& record, const EmfResult& result) {
   constexpr double part_of_period = 0.03, steps = 2.0;
   for (std::size_t c = 0; c < result.channels.size(); ++c) {
     const EmfChannelResult& channel = result.channels[c];
     const std::vector<double>& u = record.channels[c].u_V;
-    if (!(channel.clipped > part_of_period)) continue;
-    if (!(bend_of_flanks(record.t_s, u) > steps * channel.step_V)) continue;
     const auto [low, high] = std::minmax_element(u.begin(), u.end());
+    const bool lost = std::max(lost_beyond(u, *low), lost_beyond(u, *high)) > lost_steps * channel.step_V;
+    const bool bent =
+        channel.clipped > part_of_period && bend_of_flanks(record.t_s, u) > steps * channel.step_V;
+    if (!lost && !bent) continue;
     return {{.where = channel.name,
              .value = "",
              .limit = "is clipped: it stands at " + base::six_digits(*high) + " or " +

@@ -17,9 +17,14 @@ base::Problem no_period(const std::vector<double>& t_s, const std::string& chann
 /// What the fit leaves over is more than what it explains.
 base::Problems check_noise(const EmfRecord& record, const HarmonicFit& fit);
 
-/// Tops that are exactly flat, while the flanks are curved or noisy by more than a step of the converter: there the voltage went beyond the
-/// range. The straight flanks of a trapezoid and steps that hide the noise say nothing.
+/// Tops that are exactly flat, while the flanks are curved or noisy by more than a step of the converter, or go on beyond the top by
+/// the parabola that they are: there the voltage went beyond the range. The straight flanks of a trapezoid and steps that hide the noise say nothing.
 base::Problems check_clipped(const EmfRecord& record, const EmfResult& result);
+
+/// Tops that stand still for long, and of which too little is lost to tell it from a step of the converter: the upper ends of the
+/// constants move by what such a loss would hide.
+bool may_be_clipped(const EmfChannelResult& channel);
+void allow_for_clipping(EmfResult& result);
 
 /// Constants that no motor has (base/plausible.hpp).
 base::Problems check_plausible(const EmfResult& result);

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// A loop is measured where the scenario ends: with the chip that the events have made there, and on a drive that has come to rest.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "sixstep/analysis/bode/bode_study.hpp"
+#include "tests/support/scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using analysis::BodeStudy;
+
+/// The largest |L/L' - 1| of two measurements over the points that `one` has between a third and five.
+double apart(const BodeStudy& one, const BodeStudy& other) {
+  double worst = 0.0;
+  EXPECT_EQ(one.points.size(), other.points.size());
+  for (std::size_t k = 0; k < one.points.size() && k < other.points.size(); ++k) {
+    const analysis::LoopPoint &p = one.points[k], &q = other.points[k];
+    if (p.gain < 0.3 || p.gain > 5) continue;
+    const double turn = p.phase_rad - q.phase_rad, ratio = p.gain / q.gain;
+    worst = std::max(worst, std::hypot(ratio * std::cos(turn) - 1, ratio * std::sin(turn)));
+  }
+  return worst;
+}
+
+study::Scenario both_ways() {
+  study::Scenario s = cascade(0.1);
+  s.pwm.chopping = control::Chopping::complementary;
+  return s;
+}
+
+study::At change(double time_s, double reference) {
+  study::At at;
+  at.time_s = time_s;
+  at.reference.emplace();
+  at.reference->value = reference;
+  return at;
+}
+
+/// A current that accelerates, then a speed that is held: the speed loop is measured, beside the designed speed loop.
+TEST(BodeAtTheEnd, TheLoopIsThatOfTheLastMode) {
+  const study::Scenario from_the_start = both_ways();
+  study::Scenario later = from_the_start;
+  later.control.mode = control::Mode::current;
+  later.reference.value = 1.0;
+  later.at.push_back(change(0.01, from_the_start.reference.value));
+  later.at[0].control.mode = study::AtMode::speed;
+  const auto one = analysis::study_bode(from_the_start), other = analysis::study_bode(later);
+  ASSERT_TRUE(one) << to_string(one.problems()[0]);
+  ASSERT_TRUE(other) << to_string(other.problems()[0]);
+  EXPECT_EQ(other->mode, control::Mode::speed);
+  ASSERT_TRUE(one->figures && other->figures);
+  EXPECT_EQ(*one->figures->crossover_rad_s, *other->figures->crossover_rad_s);
+  EXPECT_LT(apart(*one, *other), 0.02);
+}
+
+/// Gains that an event brings are those of the designed loop, too.
+TEST(BodeAtTheEnd, TheDesignedLoopHasTheLastGains) {
+  study::Scenario later = both_ways();
+  later.at.push_back(change(0.01, later.reference.value));
+  later.at[0].control.speed.settle_s = 20e-3;
+  study::Scenario from_the_start = both_ways();
+  from_the_start.control.speed.settle_s = 20e-3;
+  const auto one = analysis::study_bode(from_the_start), other = analysis::study_bode(later);
+  ASSERT_TRUE(one) << to_string(one.problems()[0]);
+  ASSERT_TRUE(other) << to_string(other.problems()[0]);
+  ASSERT_TRUE(one->figures && other->figures);
+  EXPECT_EQ(*one->figures->crossover_rad_s, *other->figures->crossover_rad_s);
+  EXPECT_LT(apart(*one, *other), 0.02);
+}
+
+std::string problem_of(const study::Scenario& s) {
+  const auto b = analysis::study_bode(s);
+  return b ? "measured" : b.problems()[0].where + ": " + b.problems()[0].limit;
+}
+
+/// What an event brings hides the loop as what stands there from the start.
+TEST(BodeAtTheEnd, AnEventsSlewAndRampAreRefused) {
+  study::Scenario slewed = both_ways();
+  slewed.at.push_back(change(0.01, slewed.reference.value));
+  slewed.at[0].control.slew = 1000.0;
+  EXPECT_EQ(problem_of(slewed), "control.slew: ramps the setpoint, which would hide the loop behind it");
+  study::Scenario off = both_ways();
+  off.at.push_back({});
+  off.at[0].time_s = 0.05;
+  off.at[0].control.mode = study::AtMode::off;
+  EXPECT_EQ(problem_of(off), "control.mode: has no loop whose response could be measured");
+  study::Scenario ramp = both_ways();
+  ramp.at.push_back(change(0.01, 0.0));
+  ramp.at[0].reference->shape = study::Shape::ramp;
+  ramp.at[0].reference->end = 200;
+  ramp.at[0].reference->begin_s = 0.01;
+  ramp.at[0].reference->end_s = 0.1;
+  const std::string moves = "reference: still moves at the end of the run, where the measurement begins";
+  EXPECT_EQ(problem_of(ramp), moves);
+  ramp.at[0].reference->end_s = 0.05;
+  EXPECT_EQ(problem_of(ramp), "measured");
+}
+
+/// The multisine's first period is not looked at, and is thirty periods of the crossover long: a step dies away in it.
+TEST(BodeAtTheEnd, AStepJustBeforeTheEndChangesNothing) {
+  study::Scenario rested = both_ways();
+  rested.at.push_back(change(0.02, 120.0));
+  study::Scenario stepped = rested;
+  stepped.at[0].time_s = 0.0999;
+  const auto one = analysis::study_bode(rested), other = analysis::study_bode(stepped);
+  ASSERT_TRUE(one) << to_string(one.problems()[0]);
+  ASSERT_TRUE(other) << to_string(other.problems()[0]);
+  EXPECT_LT(apart(*one, *other), 0.02);
+}
+
+/// J = 1e-2 kg m^2 and 0.195 N m, 2.5 times the nominal torque: 400 rad/s take 20 s. A straight way has the same lines in every
+/// period, so that the coherence is 1 and the curve is that of the way.
+TEST(BodeAtTheEnd, ADriveOnItsWayIsRefused) {
+  study::Scenario s = both_ways();
+  s.load.inertia_kg_m2 = 1e-2;
+  s.reference.value = 400;
+  const std::string told = problem_of(s);
+  EXPECT_TRUE(told.starts_with(
+      "duration_s: ends while the drive is still on its way to 400: in the measurement it went from "))
+      << told;
+  EXPECT_NE(told.find(" in each period of a multisine of +-20 rad/s"), std::string::npos) << told;
+  s.load.inertia_kg_m2 = 0.0;
+  EXPECT_EQ(problem_of(s), "measured");
+}
+
+}  // namespace
