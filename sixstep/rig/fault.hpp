@@ -31,7 +31,9 @@ inline Fault fault_of(const Diagnosis& found) {
 /// Whether the run ends with a fault that a firmware answered; else the drive is off and the motor coasts on.
 template <class Firmware>
 bool ends_run([[maybe_unused]] const Firmware& firmware) {
-  if constexpr (requires { firmware.core_lost(); })
+  if constexpr (requires { firmware.ends_run_by_fault(); })
+    return firmware.ends_run_by_fault();
+  else if constexpr (requires { firmware.core_lost(); })
     return firmware.core_lost();
   else
     return Firmware::fault_ends_run;

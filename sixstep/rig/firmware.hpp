@@ -77,6 +77,15 @@ control::Measurement<Scalar> ideal_measurement(const SampleInstant<Real>& instan
           .hall = instant.pins};
 }
 
+/// Whether it knows how its Hall probes are arranged; a drive that does not is given codes of probes 120 degrees apart.
+template <class Firmware>
+bool reads_arrangement([[maybe_unused]] const typename Firmware::Config& config) {
+  if constexpr (requires { Firmware::reads_arrangement(config); })
+    return Firmware::reads_arrangement(config);
+  else
+    return requires { requires Firmware::decodes_arrangement; };
+}
+
 /// What converters and shunt are exposed to.
 template <class Real>
 Sample sample_of(const SampleInstant<Real>& instant) {

@@ -15,6 +15,7 @@
 #include "sixstep/rig/firmware.hpp"
 #include "sixstep/rig/front_end.hpp"
 #include "sixstep/rig/modulator.hpp"
+#include "sixstep/rig/ports_of.hpp"
 #include "sixstep/rig/probes.hpp"
 #include "sixstep/rig/timeline.hpp"
 #include "sixstep/rig/wiring.hpp"
@@ -43,9 +44,11 @@ class Rig {
         modulator_(board.modulator),
         wires_(wires),
         probes_(probes, plant_.state()),
-        firmware_(chip, board,
-                  {static_cast<double>(plant_.constants().pole_pairs), probes_.sector(plant_.state().sector),
-                   read_by_chip(wires_.at_pins(probes_.code(plant_.sector()))), shaft_angle()}),
+        firmware_(
+            chip, board,
+            {static_cast<double>(plant_.constants().pole_pairs), probes_.sector(plant_.state().sector),
+             read_by_chip(wires_.at_pins(probes_.code(plant_.sector())), reads_arrangement<Firmware>(chip)),
+             shaft_angle()}),
         front_end_(front_end_before(board.front_end)),
         crossings_(crossings_before(board.front_end)),
         listens_(listens()) {
@@ -142,26 +145,36 @@ class Rig {
   /// A chip that keeps its own time, and stops where the plant is to look at it (chip_drive.hpp).
   static constexpr bool keeps_time = requires(const Firmware& firmware) { firmware.next_stop(); };
   static constexpr bool has_front_end = requires(Firmware firmware) { firmware.registers(); };
-  static constexpr bool looks_at_terminals = requires(Firmware firmware) {
+  static constexpr bool looks_at_terminals = six_step && requires(Firmware firmware) {
     firmware.look_at_terminals(plant::PerLeg<Real>{});
   };
-  static constexpr bool has_crossings = requires(Firmware firmware) {
+  static constexpr bool has_crossings = six_step && requires(Firmware firmware) {
     firmware.captured_crossing(std::uint8_t{}, sim::Instant{});
   };
   static constexpr bool may_listen = has_front_end || requires(const Firmware& firmware) {
     firmware.follows_shaft();
   };
   static_assert(!has_crossings || (has_front_end && looks_at_terminals));
+  bool sees_terminals() const {
+    if constexpr (requires { firmware_.wants_terminals(); }) return firmware_.wants_terminals();
+    return looks_at_terminals;
+  }
   static constexpr int probe_ahead = plant::guard::first_free + 2, probe_behind = probe_ahead + 1,
                        crossing = probe_behind + 1;  // + leg
 
   /// A drive that knows no arrangement is given codes of probes 120 degrees apart.
-  std::uint8_t read_by_chip(std::uint8_t pins) const {
-    if constexpr (can_be_askew && !requires { requires Firmware::decodes_arrangement; })
-      return control::as_120_degrees(board_.hall_arrangement, pins);
+  std::uint8_t read_by_chip(std::uint8_t pins, [[maybe_unused]] bool knows_arrangement) const {
+    if constexpr (can_be_askew)
+      if (!knows_arrangement) return control::as_120_degrees(board_.hall_arrangement, pins);
     return pins;
   }
-  std::uint8_t chip_pins() const { return read_by_chip(pins()); }
+  std::uint8_t chip_pins() const {
+    if constexpr (requires { firmware_.reads_arrangement(); })
+      return read_by_chip(pins(), firmware_.reads_arrangement());
+    else
+      return read_by_chip(
+          pins(), requires { requires Firmware::decodes_arrangement; });
+  }
   static constexpr bool has_load_side = requires(const Plant& p) { p.series().load_w; };
   /// To the turn that a sensor on the motor's shaft has.
   std::int64_t sensor_pole_pairs() const {
@@ -248,7 +261,9 @@ class Rig {
   template <class Answer>
   void move_pair(const Answer& answer);
   /// A timer's interrupt between two ticks: of a firmware that asks for one.
-  static constexpr bool has_commutation_clock = requires(const Firmware& f) { f.next_commutation(); };
+  static constexpr bool has_commutation_clock = six_step && requires(const Firmware& f) {
+    f.next_commutation();
+  };
   bool do_commutation();
   template <class Visit>
   void comparator_guards(Visit&& visit) const;

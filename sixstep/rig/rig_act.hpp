@@ -66,7 +66,8 @@ void Rig<Real, Firmware, Plant>::control_step(bool starts_period) {
   if constexpr (six_step) instant.duty = modulator_.command().duty;
   if constexpr (has_front_end)
     if (front_end_.follows()) instant.seen = &front_end_.reading();
-  if constexpr (looks_at_terminals) show_terminals();
+  if constexpr (looks_at_terminals)
+    if (sees_terminals()) show_terminals();
   const auto& answer = firmware_.tick(instant, setpoint_);
   if (answer.fault && ends_run(firmware_)) fault_ = fault_of(firmware_.diagnosis());
   if (!answer.enabled) let_go();

@@ -58,7 +58,8 @@ void Rig<Real, Firmware, Plant>::show_signals(Real s, const sim::Instant& to) {
     const FrontEndSegment<Real> of = segment(s, to);
     front_end_.follow(of);
     if constexpr (looks_at_terminals)
-      if (front_end_.follows_terminals()) front_end_.follow_terminals(of, plant::terminal_series(plant_, s));
+      if (sees_terminals() && front_end_.follows_terminals())
+        front_end_.follow_terminals(of, plant::terminal_series(plant_, s));
   }
 }
 
@@ -74,10 +75,12 @@ void Rig<Real, Firmware, Plant>::show_terminals() {
 template <class Real, class Firmware, class Plant>
 auto Rig<Real, Firmware, Plant>::crossings_before(const FrontEndConfig& config) const
     -> std::conditional_t<has_crossings, Crossings, NoCrossings> {
-  if constexpr (has_crossings)
-    return Crossings(config, front_end_.reading());
-  else
+  if constexpr (has_crossings) {
+    if (sees_terminals()) return Crossings(config, front_end_.reading());
+    return Crossings({}, front_end_.reading());
+  } else {
     return {};
+  }
 }
 
 template <class Real, class Firmware, class Plant>

@@ -222,27 +222,26 @@ void Rig<Real, Firmware, Plant>::rewire(const Action& action) {
 /// The amplifiers show something else from now on. A firmware that is told what is has none.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::drift(const Action& action) {
-  if constexpr (requires { firmware_.registers(); }) {
-    if (action.kind == ActionKind::current_offset) firmware_.registers().set_current_offset(action.value);
-    if (action.kind == ActionKind::current_gain) firmware_.registers().set_current_gain_error(action.value);
-  }
+  Registers* const registers = registers_of(firmware_);
+  if (registers == nullptr) return;
+  if (action.kind == ActionKind::current_offset) registers->set_current_offset(action.value);
+  if (action.kind == ActionKind::current_gain) registers->set_current_gain_error(action.value);
 }
 
 /// Of a firmware that looks at a shaft.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::fail_shaft_sensor(const Action& action) {
-  if constexpr (requires { firmware_.shaft_ports(); }) {
-    ShaftPorts& ports = firmware_.shaft_ports();
-    const int which = static_cast<int>(std::fabs(action.value));
-    if (action.kind == ActionKind::encoder_misses) ports.miss(which);
-    if (action.kind == ActionKind::track_sticks) ports.stick_track(which - 1, action.value > 0);
-    if (action.kind == ActionKind::track_whole) ports.free_track(which - 1);
-    if (action.kind == ActionKind::winding_breaks) ports.break_winding(which);
-    if (action.kind == ActionKind::encoder_line_sticks) ports.stick_line(which, action.value > 0, now_);
-    if (action.kind == ActionKind::encoder_line_whole) ports.free_line(which, now_);
-    if (action.kind == ActionKind::false_index) ports.pulse_index();
-    if (action.kind == ActionKind::excitation) ports.excite(action.value);
-  }
+  ShaftPorts* const ports = shaft_ports_of(firmware_);
+  if (ports == nullptr) return;
+  const int which = static_cast<int>(std::fabs(action.value));
+  if (action.kind == ActionKind::encoder_misses) ports->miss(which);
+  if (action.kind == ActionKind::track_sticks) ports->stick_track(which - 1, action.value > 0);
+  if (action.kind == ActionKind::track_whole) ports->free_track(which - 1);
+  if (action.kind == ActionKind::winding_breaks) ports->break_winding(which);
+  if (action.kind == ActionKind::encoder_line_sticks) ports->stick_line(which, action.value > 0, now_);
+  if (action.kind == ActionKind::encoder_line_whole) ports->free_line(which, now_);
+  if (action.kind == ActionKind::false_index) ports->pulse_index();
+  if (action.kind == ActionKind::excitation) ports->excite(action.value);
 }
 
 /// Of a firmware that looks at the terminals.

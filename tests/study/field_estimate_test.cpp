@@ -8,9 +8,10 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/rig/magnet_angle.hpp"
+#include "sixstep/sim/run.hpp"
 #include "sixstep/study/check/check.hpp"
+#include "sixstep/study/compile/chip.hpp"
 #include "sixstep/study/compile/compile.hpp"
-#include "sixstep/study/live/any_rig.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "sixstep/study/scenario/field_description.hpp"
 #include "tests/support/field_ticks.hpp"

@@ -11,9 +11,10 @@
 #include <numbers>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/sim/run.hpp"
 #include "sixstep/study/check/check.hpp"
+#include "sixstep/study/compile/chip.hpp"
 #include "sixstep/study/compile/compile.hpp"
-#include "sixstep/study/live/any_rig.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/field_ticks.hpp"

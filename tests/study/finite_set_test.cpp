@@ -11,9 +11,10 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/loops/finite_set.hpp"
+#include "sixstep/sim/run.hpp"
 #include "sixstep/study/check/check.hpp"
+#include "sixstep/study/compile/chip.hpp"
 #include "sixstep/study/compile/compile.hpp"
-#include "sixstep/study/live/any_rig.hpp"
 #include "tests/support/field_ticks.hpp"
 #include "tests/support/figures.hpp"
 #include "tests/support/scenarios.hpp"

@@ -8,9 +8,10 @@
 #include <string>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/sim/run.hpp"
 #include "sixstep/study/check/check.hpp"
+#include "sixstep/study/compile/chip.hpp"
 #include "sixstep/study/compile/compile.hpp"
-#include "sixstep/study/live/any_rig.hpp"
 #include "tests/support/figures.hpp"
 #include "tests/support/product_scenarios.hpp"
 

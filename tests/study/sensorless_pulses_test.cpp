@@ -7,8 +7,9 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/sim/run.hpp"
 #include "sixstep/study/check/check.hpp"
-#include "sixstep/study/live/any_rig.hpp"
+#include "sixstep/study/compile/chip.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/figures.hpp"
 #include "tests/support/scenarios.hpp"

@@ -5,9 +5,10 @@
 
 #include <vector>
 
+#include "sixstep/sim/run.hpp"
 #include "sixstep/study/check/check.hpp"
+#include "sixstep/study/compile/chip.hpp"
 #include "sixstep/study/compile/compile.hpp"
-#include "sixstep/study/live/any_rig.hpp"
 
 namespace sixstep::testing {
 

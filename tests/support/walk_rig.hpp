@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// walk() for one firmware in every arithmetic. Each is compiled in a file of its own, side by side.
+// walk() for one kind of drive. Each is compiled in a file of its own, side by side.
 #pragma once
 #include <cmath>
 
-#include "sixstep/control/fixed.hpp"
-#include "sixstep/study/compile/chip.hpp"
+#include "sixstep/study/compile/rig_of.hpp"
 #include "sixstep/study/measure/digest.hpp"
 #include "tests/support/scenario_walk.hpp"
 
 namespace sixstep::testing {
 
 Walk walk_lean(const study::Scenario& scenario, const study::Compiled& compiled, const WalkPlan& plan);
-Walk walk_sensed(const study::Scenario& scenario, const study::Compiled& compiled, const WalkPlan& plan);
-Walk walk_product(const study::Scenario& scenario, const study::Compiled& compiled, const WalkPlan& plan);
-Walk walk_sensed_on_general(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan);
-Walk walk_product_on_general(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan);
-Walk walk_sensorless(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan);
-Walk walk_sensorless_on_general(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan);
-Walk walk_field(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan);
+Walk walk_pair(const study::Scenario& scenario, const study::Compiled& compiled, const WalkPlan& plan);
+Walk walk_legs(const study::Scenario& scenario, const study::Compiled& compiled, const WalkPlan& plan);
 
 namespace detail {
 
@@ -74,34 +68,12 @@ Walk walk_rig(Rig rig, sim::Instant end, const WalkPlan& plan) {
   return out;
 }
 
-template <class Firmware, bool on_general>
-Walk walk_in(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan) {
-  const auto chip = study::chip_of<Firmware>(s, c);
+template <class Firmware>
+Walk walk_with(const base::Result<study::Chip<Firmware>>& chip, const study::Compiled& c,
+               const WalkPlan& plan) {
   if (!chip) return {.problems = chip.problems()};
-  if constexpr (on_general)
-    return walk_rig(study::general_rig_of<Firmware>(c, *chip, c.timeline), c.end, plan);
-  else
-    return walk_rig(study::rig_of<Firmware>(c, *chip, c.timeline), c.end, plan);
-}
-
-template <template <class> class Firmware, bool on_general = false>
-Walk walk_chosen(const study::Scenario& s, const study::Compiled& c, const WalkPlan& plan) {
-  using enum study::Arithmetic;
-  switch (s.control.arithmetic) {
-    case float64:
-      return walk_in<Firmware<double>, on_general>(s, c, plan);
-    case float32:
-      return walk_in<Firmware<float>, on_general>(s, c, plan);
-    case q15:
-      return walk_in<Firmware<control::Q15>, on_general>(s, c, plan);
-    case q14:
-      return walk_in<Firmware<control::Q14>, on_general>(s, c, plan);
-    case q31:
-      return walk_in<Firmware<control::Q31>, on_general>(s, c, plan);
-    case q30:
-      return walk_in<Firmware<control::Q30>, on_general>(s, c, plan);
-  }
-  return {};
+  if (c.general) return walk_rig(study::general_rig_of<Firmware>(c, *chip, c.timeline), c.end, plan);
+  return walk_rig(study::rig_of<Firmware>(c, *chip, c.timeline), c.end, plan);
 }
 
 }  // namespace detail

@@ -5,24 +5,17 @@
 #include <cmath>
 #include <type_traits>
 
-#include "sixstep/plant/general/plant.hpp"
 #include "sixstep/rig/chip_drive.hpp"
 #include "sixstep/rig/field_drive.hpp"
-#include "sixstep/rig/lean_rig.hpp"
+#include "sixstep/rig/lean_drive.hpp"
 #include "sixstep/rig/product_drive.hpp"
 #include "sixstep/rig/sensorless_drive.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
 #include "sixstep/study/compile/basis.hpp"
+#include "sixstep/study/compile/rig_of.hpp"
 #include "sixstep/study/scenario/changes.hpp"
 
 namespace sixstep::study {
-
-template <class Firmware>
-struct Chip {
-  typename Firmware::Config config;
-  rig::Bases bases;
-  std::vector<rig::Tuning<typename Firmware::Config>> later;  ///< what the timeline's retune actions name
-};
 
 /// [control.full_scale] that makes these bases of it, to the bit. Floating point has none.
 template <class Scalar>
@@ -82,8 +75,7 @@ base::Problems add_later(const Scenario& s, const Compiled& c, Chip<Firmware>& o
   for (const At* at : in_order(s)) {
     if (!retunes(*at)) continue;
     Scenario settled_s = settled(s, at);
-    if (!std::is_arithmetic_v<typename Firmware::Number>)
-      settled_s.control.full_scale = full_scale_of<typename Firmware::Number>(out.bases);
+    if (!std::is_arithmetic_v<typename Firmware::Number>) settled_s.control.full_scale = out.full_scale;
     then.drive = c.later[number].drive;
     then.product = c.later[number].product;
     then.sensorless = c.later[number].sensorless;
@@ -106,30 +98,9 @@ base::Result<Chip<Firmware>> chip_of(const Scenario& s, const Compiled& c) {
   const std::optional<Scenario> alone = changes_mode(s) ? std::optional(settled(s, nullptr)) : std::nullopt;
   const auto first = detail::given_to(std::type_identity<Firmware>{}, alone ? *alone : s, c);
   if (!first) return first.problems();
-  Chip<Firmware> out{first->config, first->bases, {}};
+  Chip<Firmware> out{first->config, first->bases, {}, full_scale_of<typename Firmware::Number>(first->bases)};
   if (base::Problems problems = detail::add_later(s, c, out); !problems.empty()) return problems;
   return out;
-}
-
-/// Motor, bridge, chip and timeline of a run.
-template <class Firmware>
-rig::Rig<double, Firmware> rig_of(const Compiled& c, const Chip<Firmware>& chip, rig::Timeline timeline) {
-  const plant::Plant<double> plant(c.motor.machine, c.shaft, c.devices, c.supply, c.start);
-  rig::BoardConfig board = c.board;
-  board.bases = chip.bases;
-  return {plant, chip.config, board, std::move(timeline), chip.later};
-}
-
-/// Of a scenario that the general kernel runs.
-template <class Firmware>
-using GeneralRig = rig::Rig<double, Firmware, plant::general::Plant<double>>;
-template <class Firmware>
-GeneralRig<Firmware> general_rig_of(const Compiled& c, const Chip<Firmware>& chip, rig::Timeline timeline) {
-  const GeneralPlant& g = *c.general;
-  const plant::general::Plant<double> plant(g.machine, g.shaft, g.devices, g.supply, g.start, g.heat);
-  rig::BoardConfig board = c.board;
-  board.bases = chip.bases;
-  return {plant, chip.config, board, std::move(timeline), chip.later, c.wiring, c.probes};
 }
 
 }  // namespace sixstep::study

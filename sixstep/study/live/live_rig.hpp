@@ -1,103 +1,109 @@
 // SPDX-License-Identifier: Apache-2.0
-// One firmware's run, which may stop and go on: a whole run is one slice of it, a session many. A program of its
-// own per firmware, arithmetic and kernel, compiled in the file named after the firmware.
+// One kernel with one kind of drive as a run. Included only by the files named rig_*: each compiles the engine once.
 #pragma once
-#include <algorithm>
-#include <variant>
+#include <utility>
 
-#include "sixstep/control/fixed.hpp"
-#include "sixstep/sim/run.hpp"
-#include "sixstep/study/compile/chip.hpp"
-#include "sixstep/study/measure/observers.hpp"
-#include "sixstep/study/measure/outcome.hpp"
-#include "sixstep/study/measure/present.hpp"
+#include "sixstep/study/compile/rig_of.hpp"
+#include "sixstep/study/live/any_run.hpp"
+#include "sixstep/study/live/faults.hpp"
 
 namespace sixstep::study::detail {
 
-/// The segment that passed the instant asked for last: what lies within it can still be looked at.
-struct LastSegment {
-  std::variant<plant::Plant<double>, plant::general::Plant<double>> plant;
-  sim::Instant from;
-  double part;  ///< of its polynomials' length
-  int probe_sector;
+template <class Rig>
+void count_events(const Rig& rig, Outcome& out) {
+  using rig::EventKind;
+  constexpr std::pair<EventKind, const char*> names[] = {{EventKind::sector_edge, "sector edges"},
+                                                         {EventKind::diode_off, "diode stops"},
+                                                         {EventKind::comparator, "comparator switches"},
+                                                         {EventKind::standstill, "rotor stops"},
+                                                         {EventKind::breakaway, "rotor breaks away"},
+                                                         {EventKind::tick, "control ticks"},
+                                                         {EventKind::pwm_edge, "PWM edges"}};
+  for (const auto& [what, name] : names) out.events.push_back({name, rig.event_count(what)});
+  out.events.push_back({"diode starts to conduct", rig.plant().diodes_started()});
+}
 
-  /// Puts what moves where it stood at t.
-  void look(FullRow& row, const sim::Instant& t) const {
-    std::visit(
-        [&](const auto& seen) {
-          const double s = fraction(seen.expansion().h, t);
-          set_moving(row, seen, probe_sector, s, t.seconds());
-          row[static_cast<std::size_t>(ColumnId::load)] = plant::load_torque(seen, s);
-          set_load_side(row, seen, s);
-        },
-        plant);
+/// What a run leaves behind that has stopped, or stands where it is now.
+template <class Rig>
+base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& out) {
+  const double t_s = rig.now().seconds();
+  const bool away = has_run_away(rig.plant());
+  if (!away && (stop == sim::Stop::unsettled || stop == sim::Stop::no_progress || w.crowded))
+    return {{"t = " + std::to_string(t_s) + " s", "",
+             stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
+                                          : "events repeat without time going on",
+             "this is a defect of sixstep: please report it with the scenario file"}};
+  if (away)
+    out.fault = ran_away(rig.plant().state(), t_s);
+  else if (stop == sim::Stop::fault)
+    out.fault = stopped_by(rig.fault(), rig.firmware().diagnosis(), t_s);
+  else
+    note_trip(rig.firmware().diagnosis(), out);
+  if constexpr (requires { rig.plant().breaking(); }) note_wires(rig.plant().breaking(), out);
+  if constexpr (requires { rig.firmware().latest_edge_s(); })
+    out.chip.emplace().latest_edge_s = rig.firmware().latest_edge_s();
+  out.turn_ons = rig.modulator().turn_ons();
+  out.simulated_s = t_s;
+  out.digest = w.digest.after(rig);
+  if (w.logic) w.logic->end(rig);
+  w.extremes.look(rig);
+  count_events(rig, out);
+  return {};
+}
+
+template <class Firmware, class PlantType>
+class LiveRig final : public AnyRun {
+ public:
+  /// The chip of a scenario: once at the start, and once for each change of its future.
+  using MakeChip = base::Result<Chip<Firmware>> (*)(const Scenario&, const Compiled&);
+
+  static base::Result<std::unique_ptr<AnyRun>> made(MakeChip make_chip, const Scenario& scenario,
+                                                    const Compiled& compiled, rig::Timeline timeline) {
+    const base::Result<Chip<Firmware>> chip = make_chip(scenario, compiled);
+    if (!chip) return chip.problems();
+    return std::unique_ptr<AnyRun>(new LiveRig(make_chip, compiled, *chip, std::move(timeline)));
   }
-  double fraction(double h, const sim::Instant& t) const {
-    return h > 0 ? std::clamp(sim::seconds_between(from, t) / h, 0.0, part) : 0.0;
+
+  std::unique_ptr<AnyRun> clone() const override { return std::unique_ptr<AnyRun>(new LiveRig(*this)); }
+  sim::Instant now() const override { return rig_.now(); }
+  sim::Instant next_tick() const override { return rig_.next_tick(); }
+  sim::Stop advance(const sim::Instant& end, Slice& slice) override {
+    return sim::run(rig_, end, slice).stop;
   }
-};
-
-/// The observer of one slice: everybody who watches the run, the row at the instant asked for, and how far
-/// ahead the segments' polynomials looked. It ends the slice behind an event, so that no segment is cut. A whole
-/// run is asked for no row, and nothing changes it.
-struct Slice {
-  Observers& watchers;
-  Present& present;
-  std::optional<LastSegment>& last;
-  sim::Instant until;   ///< the row is taken here, on the polynomial of the segment that passes it
-  sim::Instant& reach;  ///< of segments that skipped ticks: nothing that happens sooner may be news to them
-  std::int64_t period_ticks;
-  bool whole_run = false;  ///< up to its end, whatever `until` is
-  bool taken = false;
-  bool stopped = false;  ///< by who watches, not by its end
-
-  template <class Rig>
-  void segment(const Rig& rig, double s) {
-    watchers.segment(rig, s);
-    if (whole_run) return;
-    const double h = rig.plant().expansion().h;
-    const sim::Instant from = rig.now();
-    if (rig.next_tick().ticks - from.ticks > period_ticks) {
-      // What it wanted, not what came of it: a series that did not converge over all of that is shorter.
-      const double wanted = useful_length(rig.plant().constants(), rig.plant().state(), 1e6);
-      reach = std::max(reach, sim::Instant{from.plus_seconds(wanted).ticks + 2, 0.0});
-    }
-    if (taken || sim::seconds_between(from.plus_seconds(h * s), until) > 0.5e-12) return;
-    last.emplace(LastSegment{rig.plant(), from, s, rig.probe_sector()});
-    take(rig, last->fraction(h, until), until.seconds());
+  void look(Slice& slice) const override {
+    Rig twin = rig_;
+    twin.act();
+    if (twin.expand(1e-12) >= 0) slice.take(twin, 0.0, twin.now().seconds());
   }
-  template <class Rig>
-  bool done(const Rig& rig) {
-    stopped = watchers.done(rig);
-    return stopped || (!whole_run && !(rig.now() < until));
+  base::Problems take(const Scenario& scenario, const Compiled& compiled, rig::Timeline timeline) override {
+    base::Result<Chip<Firmware>> chip = make_chip_(scenario, compiled);
+    if (!chip) return chip.problems();
+    rig_.replace_future(std::move(timeline), {chip->config, chip->bases.setpoint}, std::move(chip->later));
+    return {};
   }
-  template <class Rig>
-  void take(const Rig& rig, double s, double t_s) {
-    present = {t_s, full_row(rig, s, t_s), logic_row(rig), rig.firmware().mode()};
-    taken = true;
+  base::Problems end(sim::Stop stop, Observers& watchers, Outcome& out) const override {
+    return note_end(rig_, stop, watchers, out);
   }
-};
+  FullScale full_scale() const override { return full_scale_; }
 
-/// `PlantType`: of the lean kernel, or of the general one where the scenario asks for what the lean one lacks. Its functions stand
-/// in live_rig_parts.hpp and are compiled in the files that are named after a firmware.
-template <class FirmwareType, class PlantType = plant::Plant<double>>
-struct LiveRig {
-  using Firmware = FirmwareType;
-  rig::Rig<double, Firmware, PlantType> rig;
-  rig::Bases bases;  ///< the scaling of the whole run
+ private:
+  using Rig = rig::Rig<double, Firmware, PlantType>;
 
-  /// At the start of the run.
-  static base::Result<LiveRig> made(const Scenario& scenario, const Compiled& compiled,
-                                    rig::Timeline timeline);
+  LiveRig(MakeChip make_chip, const Compiled& compiled, const Chip<Firmware>& chip, rig::Timeline timeline)
+      : make_chip_(make_chip),
+        rig_(built(compiled, chip, std::move(timeline))),
+        full_scale_(chip.full_scale) {}
+  LiveRig(const LiveRig&) = default;
+  static Rig built(const Compiled& compiled, const Chip<Firmware>& chip, rig::Timeline timeline) {
+    if constexpr (std::is_same_v<PlantType, plant::general::Plant<double>>)
+      return general_rig_of<Firmware>(compiled, chip, std::move(timeline));
+    else
+      return rig_of<Firmware>(compiled, chip, std::move(timeline));
+  }
 
-  /// Up to the first event at or behind slice.until, or to the end of the run.
-  sim::Stop advance(const sim::Instant& end, Slice& slice);
-  /// The present instant, seen by a copy that acts and goes nowhere.
-  void look(Slice& slice) const;
-  /// The scenario that this run is now one of: its past is this one's.
-  base::Problems take(const Scenario& scenario, const Compiled& compiled, rig::Timeline timeline);
-  base::Problems end(sim::Stop stop, Observers& watchers, Outcome& out) const;
-  FullScale full_scale() const { return full_scale_of<typename Firmware::Number>(bases); }
+  MakeChip make_chip_;
+  Rig rig_;
+  FullScale full_scale_;
 };
 
 }  // namespace sixstep::study::detail

@@ -68,19 +68,17 @@ inline void set_load_side(FullRow& row, const plant::general::Plant<double>& pla
 /// What an encoder or a resolver gives, where a firmware has one.
 template <class Rig>
 void set_shaft_sensor(FullRow& row, const Rig& rig, double s, double t) {
-  if constexpr (requires { rig.firmware().shaft_ports(); }) {
-    if (!rig.firmware().follows_shaft()) return;
-    const auto motion = rig.shaft_motion(s, rig.now());
-    const rig::ShaftRaw raw =
-        rig::shaft_raw(rig.firmware().shaft_ports(), motion.angle(s), sim::to_instant(t));
-    const auto set = [&](ColumnId id, double v) { row[static_cast<std::size_t>(id)] = v; };
-    set(ColumnId::encoder_A, raw.lines >> 2 & 1);
-    set(ColumnId::encoder_B, raw.lines >> 1 & 1);
-    set(ColumnId::encoder_Z, raw.lines & 1);
-    set(ColumnId::absolute_code, raw.code);
-    set(ColumnId::resolver_cos_V, raw.winding_V[0]);
-    set(ColumnId::resolver_sin_V, raw.winding_V[1]);
-  }
+  const rig::ShaftPorts* const ports = rig::shaft_ports_of(rig.firmware());
+  if (ports == nullptr || ports->given().kind == rig::ShaftSensor::none) return;
+  const auto motion = rig.shaft_motion(s, rig.now());
+  const rig::ShaftRaw raw = rig::shaft_raw(*ports, motion.angle(s), sim::to_instant(t));
+  const auto set = [&](ColumnId id, double v) { row[static_cast<std::size_t>(id)] = v; };
+  set(ColumnId::encoder_A, raw.lines >> 2 & 1);
+  set(ColumnId::encoder_B, raw.lines >> 1 & 1);
+  set(ColumnId::encoder_Z, raw.lines & 1);
+  set(ColumnId::absolute_code, raw.code);
+  set(ColumnId::resolver_cos_V, raw.winding_V[0]);
+  set(ColumnId::resolver_sin_V, raw.winding_V[1]);
 }
 
 inline void set_field(FullRow& row, const rig::FieldHeld& held) {

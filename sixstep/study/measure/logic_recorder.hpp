@@ -19,11 +19,10 @@ void set_encoder(LogicRow& row, const Rig& rig) {
   auto& code = row[static_cast<std::size_t>(LogicId::absolute_code)];
   code = logic_unknown;
   for (std::size_t n = 0; n < 3; ++n) row[static_cast<std::size_t>(LogicId::encoder_A) + n] = logic_unknown;
-  if constexpr (requires { rig.firmware().shaft_ports(); }) {
-    const rig::ShaftPorts& ports = rig.firmware().shaft_ports();
-    if (ports.given().kind == rig::ShaftSensor::absolute) code = ports.code();
-    if (ports.given().kind == rig::ShaftSensor::encoder) set_lines(row, ports.pins());
-  }
+  const rig::ShaftPorts* const ports = rig::shaft_ports_of(rig.firmware());
+  if (ports == nullptr) return;
+  if (ports->given().kind == rig::ShaftSensor::absolute) code = ports->code();
+  if (ports->given().kind == rig::ShaftSensor::encoder) set_lines(row, ports->pins());
 }
 
 template <class Rig>
@@ -74,15 +73,13 @@ class LogicRecorder {
   void segment(const Rig& rig, double s) {
     LogicRow row = logic_row(rig);
     take(rig.now().ticks, row);
-    if constexpr (requires { rig.firmware().shaft_ports(); }) {
-      const rig::ShaftPorts& ports = rig.firmware().shaft_ports();
-      if (ports.given().kind != rig::ShaftSensor::encoder) return;
-      const auto motion = rig.shaft_motion(s, rig.now());
-      rig::for_each_quarter(motion, 4 * ports.given().lines, [&](std::int64_t quarter, double at) {
-        set_lines(row, ports.pins_in(quarter));
-        take(motion.from.plus_seconds(at * motion.y.h).ticks, row);
-      });
-    }
+    const rig::ShaftPorts* const ports = rig::shaft_ports_of(rig.firmware());
+    if (ports == nullptr || ports->given().kind != rig::ShaftSensor::encoder) return;
+    const auto motion = rig.shaft_motion(s, rig.now());
+    rig::for_each_quarter(motion, 4 * ports->given().lines, [&](std::int64_t quarter, double at) {
+      set_lines(row, ports->pins_in(quarter));
+      take(motion.from.plus_seconds(at * motion.y.h).ticks, row);
+    });
   }
   template <class Rig>
   void end(const Rig& rig) {

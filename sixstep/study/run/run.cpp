@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/run/run.hpp"
 
+#include <memory>
 #include <optional>
 #include <utility>
-#include <variant>
 
 #include "sixstep/study/check/check.hpp"
-#include "sixstep/study/live/any_rig.hpp"
+#include "sixstep/study/live/any_run.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/run/conclude.hpp"
 #include "sixstep/study/run/observers_of.hpp"
@@ -17,13 +17,15 @@ namespace {
 
 /// The whole run in one slice, and what it leaves behind.
 base::Problems run_on_board(const Scenario& s, Compiled& compiled, Observers& w, Outcome& out) {
-  base::Result<detail::AnyRig> rig = detail::made_by(s, compiled, std::move(compiled.timeline));
-  if (!rig) return rig.problems();
+  base::Result<std::unique_ptr<detail::AnyRun>> run =
+      detail::made_by(s, compiled, std::move(compiled.timeline));
+  if (!run) return run.problems();
   Present present;
   std::optional<detail::LastSegment> last;
   sim::Instant reach;
   detail::Slice slice{w, present, last, compiled.end, reach, compiled.board.modulator.period_ticks, true};
-  return std::visit([&](auto& live) { return live.end(live.advance(compiled.end, slice), w, out); }, *rig);
+  const sim::Stop stop = (*run)->advance(compiled.end, slice);
+  return (*run)->end(stop, w, out);
 }
 
 }  // namespace

@@ -6,22 +6,42 @@
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/compile/general_plant.hpp"
-#include "sixstep/study/live/any_rig.hpp"
+#include "sixstep/study/live/any_run.hpp"
 #include "sixstep/study/run/conclude.hpp"
 #include "sixstep/study/run/observers_of.hpp"
+#include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/session/shortened.hpp"
 
 namespace sixstep::study {
 
-using detail::AnyRig;
+using detail::AnyRun;
 using detail::Slice;
 using sim::Instant;
+
+namespace {
+
+/// A run as a value: a copy goes on by itself.
+class Run {
+ public:
+  explicit Run(std::unique_ptr<AnyRun> run) : run_(std::move(run)) {}
+  Run(const Run& other) : run_(other.run_->clone()) {}
+  Run(Run&&) noexcept = default;
+  Run& operator=(const Run&) = delete;
+  ~Run() = default;
+  AnyRun* operator->() { return run_.get(); }
+  const AnyRun* operator->() const { return run_.get(); }
+
+ private:
+  std::unique_ptr<AnyRun> run_;
+};
+
+}  // namespace
 
 struct Session::State {
   Scenario scenario;
   Compiled compiled;  ///< its timeline is the rig's
   Observers watchers;
-  AnyRig rig;
+  Run run;
   Present present{};
   std::optional<detail::LastSegment> last{};
   Instant reach{};
@@ -29,9 +49,7 @@ struct Session::State {
   bool over = false;
   bool figures_moved = false;  ///< windows are not those that were known when it began
 
-  Instant now() const {
-    return std::visit([](const auto& live) { return live.rig.now(); }, rig);
-  }
+  Instant now() const { return run->now(); }
   /// Already simulated: the segment that passed it shows it, or it is gone.
   bool look_back(const Instant& asked) {
     if (last && !(asked < last->from)) {
@@ -119,18 +137,17 @@ base::Result<Session> Session::open(const Scenario& scenario, const Listeners& l
   if (!indices) return indices.problems();
   compiled->board.sensors.decodes_hall = true;  // a line may break at any time
   rig::Timeline timeline = std::move(compiled->timeline);
-  base::Result<AnyRig> rig = detail::made_by(scenario, *compiled, std::move(timeline));
-  if (!rig) return rig.problems();
+  base::Result<std::unique_ptr<AnyRun>> run = detail::made_by(scenario, *compiled, std::move(timeline));
+  if (!run) return run.problems();
   auto state = std::make_unique<State>(State{.scenario = scenario,
                                              .compiled = std::move(*compiled),
                                              .watchers = observers_of(scenario, listeners, *indices),
-                                             .rig = std::move(*rig)});
+                                             .run = Run(std::move(*run))});
   const Arithmetic arithmetic = scenario.control.arithmetic;
   if (arithmetic != Arithmetic::float64 && arithmetic != Arithmetic::float32)
-    state->scenario.control.full_scale =
-        std::visit([](const auto& live) { return live.full_scale(); }, state->rig);
+    state->scenario.control.full_scale = state->run->full_scale();
   Slice first = state->slice({});
-  std::visit([&](const auto& live) { live.look(first); }, state->rig);
+  state->run->look(first);
   return Session(std::move(state));
 }
 
@@ -141,18 +158,17 @@ bool Session::advance(double to_s) {
   if (s.over) return false;
   if (!to_end && !(s.now() < asked)) return s.look_back(asked);
   Slice slice = s.slice(to_end ? end : asked);
-  const auto go = [&](auto& live) { return live.advance(end, slice); };
-  s.stop = s.now() < slice.until ? std::visit(go, s.rig) : sim::Stop::observer;
+  s.stop = s.now() < slice.until ? s.run->advance(end, slice) : sim::Stop::observer;
   // The end of the run is an instant too: what is due there is done.
-  if (s.stop == sim::Stop::observer && !slice.stopped && to_end) s.stop = std::visit(go, s.rig);
+  if (s.stop == sim::Stop::observer && !slice.stopped && to_end) s.stop = s.run->advance(end, slice);
   s.over = s.stop != sim::Stop::observer || slice.stopped;
-  if (!slice.taken) std::visit([&](const auto& live) { live.look(slice); }, s.rig);
+  if (!slice.taken) s.run->look(slice);
   return !s.over;
 }
 
 base::Result<double> Session::change(At at) {
   State& s = *state_;
-  const auto next_tick = std::visit([](const auto& live) { return live.rig.next_tick(); }, s.rig);
+  const Instant next_tick = s.run->next_tick();
   const Instant when = next_change(s.now(), next_tick, s.reach, s.compiled.board.modulator.period_ticks);
   if (s.over || !(when < s.compiled.end))
     return base::Problem{"time_s", base::written(now_s()), "is where the session is over",
@@ -173,9 +189,7 @@ base::Result<double> Session::change(At at) {
                          "let the session's own reference reach as far, by an [[at]] at its end"};
   compiled->board.sensors.decodes_hall = true;
   rig::Timeline timeline = std::move(compiled->timeline);
-  if (base::Problems problems =
-          std::visit([&](auto& live) { return live.take(candidate, *compiled, std::move(timeline)); }, s.rig);
-      !problems.empty())
+  if (base::Problems problems = s.run->take(candidate, *compiled, std::move(timeline)); !problems.empty())
     return problems;
   s.figures_moved = s.figures_moved || candidate.at.back().reference;
   s.scenario = std::move(candidate);
@@ -186,7 +200,7 @@ base::Result<double> Session::change(At at) {
 base::Result<Outcome> Session::close() {
   State& s = *state_;
   if (!s.over) {
-    const auto next_tick = std::visit([](const auto& live) { return live.rig.next_tick(); }, s.rig);
+    const Instant next_tick = s.run->next_tick();
     const std::int64_t period = s.compiled.board.modulator.period_ticks;
     Instant end = next_change(s.now(), next_tick, s.reach, period);
     if (end.ticks == 0) end.ticks = period;
@@ -198,9 +212,7 @@ base::Result<Outcome> Session::close() {
                              "leaves out a reference that the drive's limits were laid out for",
                              "run the session to its end"};
       rig::Timeline timeline = std::move(compiled->timeline);
-      if (base::Problems problems =
-              std::visit([&](auto& live) { return live.take(cut, *compiled, std::move(timeline)); }, s.rig);
-          !problems.empty())
+      if (base::Problems problems = s.run->take(cut, *compiled, std::move(timeline)); !problems.empty())
         return problems;
       s.scenario = std::move(cut);
       s.compiled = std::move(*compiled);
@@ -209,10 +221,7 @@ base::Result<Outcome> Session::close() {
     advance(s.compiled.end.seconds());
   }
   Outcome out = outcome_of(s.compiled);
-  if (base::Problems problems =
-          std::visit([&](const auto& live) { return live.end(s.stop, s.watchers, out); }, s.rig);
-      !problems.empty())
-    return problems;
+  if (base::Problems problems = s.run->end(s.stop, s.watchers, out); !problems.empty()) return problems;
   conclude(s.scenario, s.compiled, s.watchers, out);
   if (!s.figures_moved || (s.scenario.require.empty() && s.scenario.compare.empty())) {
     s.watchers.figures.judge(s.scenario, out);

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parts of a chip that some firmwares have and others have not: where one has none, null.
+#pragma once
+#include <type_traits>
+
+#include "sixstep/rig/registers.hpp"
+#include "sixstep/rig/shaft_ports.hpp"
+
+namespace sixstep::rig {
+
+/// Of an encoder or a resolver.
+template <class Firmware>
+auto shaft_ports_of([[maybe_unused]] Firmware& firmware)
+    -> std::conditional_t<std::is_const_v<Firmware>, const ShaftPorts*, ShaftPorts*> {
+  if constexpr (requires { *firmware.shaft_ports(); })
+    return firmware.shaft_ports();
+  else if constexpr (requires { firmware.shaft_ports(); })
+    return &firmware.shaft_ports();
+  else
+    return nullptr;
+}
+
+/// What converters and timers are fed with.
+template <class Firmware>
+Registers* registers_of([[maybe_unused]] Firmware& firmware) {
+  if constexpr (requires { *firmware.registers(); })
+    return firmware.registers();
+  else if constexpr (requires { firmware.registers(); })
+    return &firmware.registers();
+  else
+    return nullptr;
+}
+
+}  // namespace sixstep::rig

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// A slice of a run: who watches it, and how far it goes. A whole run is one slice, a session many.
+#pragma once
+#include <algorithm>
+#include <optional>
+#include <variant>
+
+#include "sixstep/plant/general/plant.hpp"
+#include "sixstep/plant/plant.hpp"
+#include "sixstep/study/measure/observers.hpp"
+#include "sixstep/study/measure/present.hpp"
+
+namespace sixstep::study::detail {
+
+/// The segment that passed the instant asked for last: what lies within it can still be looked at.
+struct LastSegment {
+  std::variant<plant::Plant<double>, plant::general::Plant<double>> plant;
+  sim::Instant from;
+  double part;  ///< of its polynomials' length
+  int probe_sector;
+
+  /// Puts what moves where it stood at t.
+  void look(FullRow& row, const sim::Instant& t) const {
+    std::visit(
+        [&](const auto& seen) {
+          const double s = fraction(seen.expansion().h, t);
+          set_moving(row, seen, probe_sector, s, t.seconds());
+          row[static_cast<std::size_t>(ColumnId::load)] = plant::load_torque(seen, s);
+          set_load_side(row, seen, s);
+        },
+        plant);
+  }
+  double fraction(double h, const sim::Instant& t) const {
+    return h > 0 ? std::clamp(sim::seconds_between(from, t) / h, 0.0, part) : 0.0;
+  }
+};
+
+/// The observer of one slice: everybody who watches the run, the row at the instant asked for, and how far
+/// ahead the segments' polynomials looked. It ends the slice behind an event, so that no segment is cut. A whole
+/// run is asked for no row, and nothing changes it.
+struct Slice {
+  Observers& watchers;
+  Present& present;
+  std::optional<LastSegment>& last;
+  sim::Instant until;   ///< the row is taken here, on the polynomial of the segment that passes it
+  sim::Instant& reach;  ///< of segments that skipped ticks: nothing that happens sooner may be news to them
+  std::int64_t period_ticks;
+  bool whole_run = false;  ///< up to its end, whatever `until` is
+  bool taken = false;
+  bool stopped = false;  ///< by who watches, not by its end
+
+  template <class Rig>
+  void segment(const Rig& rig, double s) {
+    watchers.segment(rig, s);
+    if (whole_run) return;
+    const double h = rig.plant().expansion().h;
+    const sim::Instant from = rig.now();
+    if (rig.next_tick().ticks - from.ticks > period_ticks) {
+      // What it wanted, not what came of it: a series that did not converge over all of that is shorter.
+      const double wanted = useful_length(rig.plant().constants(), rig.plant().state(), 1e6);
+      reach = std::max(reach, sim::Instant{from.plus_seconds(wanted).ticks + 2, 0.0});
+    }
+    if (taken || sim::seconds_between(from.plus_seconds(h * s), until) > 0.5e-12) return;
+    last.emplace(LastSegment{rig.plant(), from, s, rig.probe_sector()});
+    take(rig, last->fraction(h, until), until.seconds());
+  }
+  template <class Rig>
+  bool done(const Rig& rig) {
+    stopped = watchers.done(rig);
+    return stopped || (!whole_run && !(rig.now() < until));
+  }
+  template <class Rig>
+  void take(const Rig& rig, double s, double t_s) {
+    present = {t_s, full_row(rig, s, t_s), logic_row(rig), rig.firmware().mode()};
+    taken = true;
+  }
+};
+
+}  // namespace sixstep::study::detail
