@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every firmware for the virtual board is given and tells. A firmware is a template parameter of the rig, and a run pays for its
-// own one only; these are the library's six-step drives:
+// What every firmware for the virtual board is given and tells. The rig sees it behind the interface of any_drive.hpp; a test may give it
+// to the rig itself. These are the library's six-step drives:
 //
 //                 a tick is given                    a Hall edge           a fault              it tells
 //   LeanDrive     what is, in the controller's unit  on_hall               ends the run         -
