@@ -66,16 +66,16 @@ double step_of(const Compiled& compiled, const std::string& symbol) {
   return 0.0;
 }
 
-using Live = detail::SensorlessOnGeneral<double>;
+using Firmware = rig::SensorlessDrive<double>;
 
 /// Runs until the pulses are over.
-void run_pulses(Live& live) {
+void run_pulses(GeneralRig<Firmware>& rig) {
   sim::NoObserver none;
   bool began = false;
   for (int n = 1; n < 4000; ++n) {
-    ASSERT_EQ(sim::run(live.rig, sim::to_instant(n * 250e-6), none).stop, sim::Stop::end);
-    began = began || live.rig.firmware().start().pulsing;
-    if (began && !live.rig.firmware().start().pulsing) return;
+    ASSERT_EQ(sim::run(rig, sim::to_instant(n * 250e-6), none).stop, sim::Stop::end);
+    began = began || rig.firmware().start().pulsing;
+    if (began && !rig.firmware().start().pulsing) return;
   }
   FAIL() << "no pulses";
 }
@@ -90,13 +90,14 @@ TEST(SensorlessPulses, FindsTheRotorFromAnyAngleAndLeavesItWhereItStands) {
     ASSERT_TRUE(compiled) << to_string(compiled.problems().front());
     most_off = step_of(*compiled, "off");
     most_turn = step_of(*compiled, "turned");
-    auto live = Live::made(s, *compiled, compiled->timeline);
-    ASSERT_TRUE(live);
-    run_pulses(*live);
-    const control::PulsePositionReading& found = live->rig.firmware().start().found;
+    const auto chip = chip_of<Firmware>(s, *compiled);
+    ASSERT_TRUE(chip);
+    GeneralRig<Firmware> rig = general_rig_of<Firmware>(*compiled, *chip, compiled->timeline);
+    run_pulses(rig);
+    const control::PulsePositionReading& found = rig.firmware().start().found;
     ASSERT_TRUE(found.seen && found.axis_seen) << deg;
-    EXPECT_EQ(live->rig.firmware().rotor().phase, SensorlessPhase::ramping) << deg;
-    const auto& state = live->rig.plant().state();
+    EXPECT_EQ(rig.firmware().rotor().phase, SensorlessPhase::ramping) << deg;
+    const auto& state = rig.plant().state();
     const double turned = static_cast<double>(state.sector) * 60.0 + state.x * 180 / base::pi - deg;
     const double off = std::remainder(found.electrical * (360.0 / 4294967296.0) - deg - turned, 360.0);
     worst_off = std::fmax(worst_off, std::fabs(off));
