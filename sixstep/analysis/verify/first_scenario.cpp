@@ -209,13 +209,22 @@ base::Result<DesignStudy> usable_design(const FirstScenarioSpec& spec, const des
 }
 
 /// The controller's samples stand in the trough of the ripple, and so would the mean that it holds: in the middle of a centred pulse
-/// they meet the mean. An answer then comes half a period later, so that this is kept where it passes.
-void judge_the_mean(study::Scenario& s) {
+/// they meet the mean. An answer then comes half a period later, so that this is kept where it passes. A pulse that begins a dead
+/// time late has its middle half of that later: the sample is below the mean by what the current rises in it, and of a winding of
+/// little inductance that is more than the requirement's band.
+void judge_the_mean(study::Scenario& s, const design::MotorModel& motor) {
   study::Scenario middle = s;
   middle.pwm.alignment = study::Alignment::centre;
   middle.pwm.sample = study::SampleAt::middle;
   middle.require.front().measure.sampled = false;
   middle.require.front().measure.label = "mean of the last ten periods";
+  if (runs_and_passes(middle)) {
+    s = middle;
+    return;
+  }
+  study::Requirement& mean = middle.require.front();
+  mean.measure.label = "mean of the last ten periods, dead time in it";
+  if (mean.max) *mean.max += s.bridge.dead_time_s / 2 * s.supply.voltage_V / (2 * motor.machine.L_H);
   if (runs_and_passes(middle)) s = middle;
 }
 
@@ -226,7 +235,7 @@ base::Result<study::Scenario> designed(const FirstScenarioSpec& spec, const desi
   study::Scenario s = study->scenario;
   s.record = {};  // a reader wants to see everything
   s.compare.resize(std::min<std::size_t>(s.compare.size(), 2));
-  if (spec.mode == Mode::current) judge_the_mean(s);
+  if (spec.mode == Mode::current) judge_the_mean(s, motor);
   // A loop too fast for its sensor swings without end, and its mean may be right all the same.
   if (const std::optional<double> allowed = study->allowed_swing_rad_s) {
     study::Measure swing = s.require.front().measure;

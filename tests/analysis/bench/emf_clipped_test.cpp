@@ -40,13 +40,13 @@ analysis::EmfRequest recorded(const Cut& cut) {
   return out;
 }
 
-/// 12 and 8 bits of 8 V, without noise and with half a step of it: from two steps on it is refused.
-TEST(EmfClipped, WhatLacksTwoStepsIsRefused) {
+/// 12 and 8 bits of 8 V, without noise and with half a step of it: from three steps on it is refused, noise or not.
+TEST(EmfClipped, WhatLacksThreeStepsIsRefused) {
   for (const double step_V : {8.0 / 4096, 8.0 / 256})
     for (const double noise : {0.0, 0.3, 0.5})
       for (const double part : {0.01, 0.02, 0.05, 0.2})
         for (const bool both : {true, false}) {
-          if (part * peak_V < 2 * step_V) continue;
+          if (part * peak_V < 3 * step_V) continue;
           const auto found = analysis::measure_emf(recorded({part, step_V, noise * step_V, both}));
           ASSERT_FALSE(found) << step_V << " V, " << noise << ", " << part;
           EXPECT_THAT(found.problems()[0].limit, HasSubstr("is clipped"));
@@ -57,7 +57,7 @@ TEST(EmfClipped, WhatLacksTwoStepsIsRefused) {
 TEST(EmfClipped, WhatIsLeftIsWithinTheBounds) {
   for (const double step_V : {8.0 / 256, 8.0 / 64})
     for (const double noise : {0.3, 0.5})
-      for (const double steps : {0.8, 1.0, 1.2, 1.4, 1.7}) {
+      for (const double steps : {0.8, 1.0, 1.4, 1.7, 2.0, 2.4, 2.8}) {
         const double part = steps * step_V / peak_V;
         const auto found = analysis::measure_emf(recorded({part, step_V, noise * step_V, true}));
         if (!found) continue;

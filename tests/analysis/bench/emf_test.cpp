@@ -33,9 +33,14 @@ TEST(EmfCalibration, IntervalsHoldTheTruth) {
   const int count = drawn_count(80);
   Held frequency("frequency"), flux("flux linkage"), peak("line peak"), fifth("5th harmonic"),
       seventh("7th harmonic"), none("harmonics that are none"), lag("lag of the second channel");
+  int taken_for_clipped = 0;
   for (int n = 1; n <= count; ++n) {
     const EmfTruth t = drawn_emf(static_cast<std::uint64_t>(n));
     const auto found = analysis::measure_emf(drawn_record(t));
+    if (!found && found.problems()[0].limit.starts_with("is clipped")) {
+      ++taken_for_clipped;
+      continue;
+    }
     ASSERT_TRUE(found) << "seed " << t.seed << ": " << to_string(found.problems()[0]);
     frequency.count(found->frequency_Hz.holds(t.frequency_Hz), t.seed);
     flux.count(found->constants.phase_fundamental.holds(t.flux_Vs), t.seed);
@@ -52,6 +57,8 @@ TEST(EmfCalibration, IntervalsHoldTheTruth) {
     EXPECT_EQ(found->backward, t.backward) << "seed " << t.seed;
     lag.count(found->channels[1].phase_deg.holds(t.backward ? 240.0 : 120.0), t.seed);
   }
+  // Of 4400 recordings four: round tops without noise to tell that they are the motor's.
+  EXPECT_LE(taken_for_clipped, 1 + count / 300);
   for (const Held* held : {&frequency, &flux, &peak, &fifth, &seventh}) held->expect_95();
   // A harmonic that is not there has an interval with one end; two probes share a hum.
   none.expect_at_least_95(count);

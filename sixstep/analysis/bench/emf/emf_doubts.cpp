@@ -12,8 +12,8 @@
 namespace sixstep::analysis {
 namespace {
 
-/// A whole top within one step of the converter seems to have lost that step: less than this cannot be told from it.
-constexpr double lost_steps = 1.5;
+/// A whole top within one step of the converter seems to have lost that step, and with noise more: this cannot be told from it.
+double hidden_V(const EmfChannelResult& channel) { return 2.0 * (channel.step_V + channel.residual_rms_V); }
 
 double middle_of(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -55,20 +55,33 @@ std::optional<Top> measured_top(const std::vector<double>& u, std::size_t from, 
   return top;
 }
 
-/// The runs of rows at one extreme, those that are about as long as the longest.
+/// The last row of a top that begins at `from`: noise makes it leave its ends and come back.
+std::size_t end_of_top(const std::vector<double>& u, std::size_t from) {
+  std::size_t end = from;
+  for (std::size_t n = from + 1; n < u.size() && n - end <= std::max<std::size_t>(2, (end - from) / 4); ++n)
+    if (u[n] == u[from]) end = n;
+  return end;
+}
+
+/// Whether nothing leaves the inner part of a top. What is flat by itself is noisy there, too.
+bool stands_still(const std::vector<double>& u, std::size_t from, std::size_t to) {
+  const std::size_t edge = (to - from + 1) / 5;
+  return std::all_of(u.begin() + static_cast<std::ptrdiff_t>(from + edge),
+                     u.begin() + static_cast<std::ptrdiff_t>(to + 1 - edge),
+                     [&](double x) { return x == u[from]; });
+}
+
+/// The tops at one extreme that stand still, those that are about as long as the longest.
 std::vector<Top> tops_at(const std::vector<double>& u, double extreme) {
   constexpr std::size_t fewest_rows = 8;
   std::vector<Top> all;
   std::size_t longest = 0;
   for (std::size_t n = 0; n < u.size(); ++n) {
     if (u[n] != extreme) continue;
-    std::size_t end = n;
-    while (end + 1 < u.size() && u[end + 1] == extreme) ++end;
-    if (end - n + 1 >= fewest_rows)
-      if (const std::optional<Top> top = measured_top(u, n, end)) {
-        all.push_back(*top);
-        longest = std::max(longest, end - n + 1);
-      }
+    const std::size_t end = end_of_top(u, n), rows = end - n + 1;
+    longest = std::max(longest, rows);
+    if (rows >= fewest_rows && stands_still(u, n, end))
+      if (const std::optional<Top> top = measured_top(u, n, end)) all.push_back(*top);
     n = end;
   }
   std::erase_if(all, [&](const Top& top) { return 2 * (top.to - top.from + 1) < longest; });
@@ -77,11 +90,14 @@ std::vector<Top> tops_at(const std::vector<double>& u, double extreme) {
 
 /// How far the voltage would have gone beyond its extreme, by the parabola u = V - b x^2 through the rows beside the run: b h^2 = V,
 /// and near is 4/3 V. Nothing where the flanks are no parabola's: far is 4 times near there, 3.4 of a sine that has lost a fifth;
-/// straight flanks have 3 and less, a top that is flat by itself and round at its ends 5 and more.
-double lost_beyond(const std::vector<double>& u, double extreme) {
-  constexpr double straight = 3.2, round = 4.6, near_of_lost = 4.0 / 3.0;
+/// straight flanks have 3 and less, a top that is flat by itself and round at its ends more than both.
+double lost_beyond(const std::vector<double>& u, double extreme, double periods) {
+  constexpr double straight = 3.2, round = 4.6, near_of_lost = 4.0 / 3.0, most_periods = 0.6;
   std::vector<double> lost, bent;
-  for (const Top& top : tops_at(u, extreme)) {
+  const std::vector<Top> tops = tops_at(u, extreme);
+  // A rail stops every period; a flat top that hum lifts onto a step of the converter does so now and then.
+  if (static_cast<double>(tops.size()) + 1.0 < most_periods * periods) return 0.0;
+  for (const Top& top : tops) {
     lost.push_back(top.near / near_of_lost);
     bent.push_back(top.near > 0.0 ? top.far / top.near : 0.0);
   }
@@ -144,7 +160,7 @@ void allow_for_clipping(EmfResult& result) {
   double peak = 0.0, fundamental = 0.0;
   for (const EmfChannelResult& channel : result.channels) {
     if (!may_be_clipped(channel)) continue;
-    const double part = lost_steps * channel.step_V / channel.peak_V.value;
+    const double part = hidden_V(channel) / channel.peak_V.value;
     peak = std::max(peak, part);
     fundamental = std::max(fundamental, 8.0 / 3.0 * channel.clipped * part);
   }
@@ -160,7 +176,8 @@ base::Problems check_clipped(const EmfRecord& record, const EmfResult& result) {
     const EmfChannelResult& channel = result.channels[c];
     const std::vector<double>& u = record.channels[c].u_V;
     const auto [low, high] = std::minmax_element(u.begin(), u.end());
-    const bool lost = std::max(lost_beyond(u, *low), lost_beyond(u, *high)) > lost_steps * channel.step_V;
+    const bool lost = std::max(lost_beyond(u, *low, result.periods), lost_beyond(u, *high, result.periods)) >
+                      hidden_V(channel);
     const bool bent =
         channel.clipped > part_of_period && bend_of_flanks(record.t_s, u) > steps * channel.step_V;
     if (!lost && !bent) continue;
