@@ -6,6 +6,7 @@
 
 #include "benchmarks/yardstick.hpp"
 #include "files/scenario_on_disk.hpp"
+#include "sixstep/rig/lean_rig.hpp"
 #include "sixstep/sim/run.hpp"
 #include "sixstep/study/compile/chip.hpp"
 #include "sixstep/study/compile/compile.hpp"

@@ -10,6 +10,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "faces/cli/completion_command.hpp"
@@ -50,16 +51,34 @@ std::string exit_codes() {
   return text + "\n";
 }
 
+struct Listed {
+  std::string_view name;
+  Verb (*declare)(CLI::App& app);
+  bool looks_at_all = false;  ///< it tells of the other verbs, too
+};
+constexpr Listed listed[] = {{"new", declare_new},         {"run", declare_run},
+                             {"design", declare_design},   {"compare", declare_contest},
+                             {"curve", declare_curve},     {"export", declare_export},
+                             {"help", declare_help, true}, {"motor", declare_motor},
+                             {"schema", declare_schema},   {"completion", declare_completion, true},
+                             {"man", declare_man, true}};
+
+/// The verb that was asked for, or all of them: to declare the options of each takes longer than many a verb does.
+std::vector<Verb> declared(CLI::App& app, std::string_view word) {
+  for (const Listed& verb : listed)
+    if (verb.name == word && !verb.looks_at_all) return {verb.declare(app)};
+  std::vector<Verb> all;
+  for (const Listed& verb : listed) all.push_back(verb.declare(app));
+  return all;
+}
+
 Exit run_program(int count, const char* const* words) {
   CLI::App app{"Brushless DC motor from data sheet to verified firmware", "sixstep"};
   app.set_version_flag("--version", std::string("sixstep ") + SIXSTEP_VERSION);
   app.require_subcommand(1);
   app.footer("To begin with: sixstep new first\n" + exit_codes());
 
-  const Verb verbs[] = {declare_new(app),        declare_run(app),   declare_design(app),
-                        declare_contest(app),    declare_curve(app), declare_export(app),
-                        declare_help(app),       declare_motor(app), declare_schema(app),
-                        declare_completion(app), declare_man(app)};
+  const std::vector<Verb> verbs = declared(app, count > 1 ? words[1] : "");
   if (count > 1 && words[1] == std::string_view(complete_word))
     return answer_shell(app, std::vector<std::string>(words + 2, words + count));
 
@@ -69,8 +88,7 @@ Exit run_program(int count, const char* const* words) {
     return not_called(app, error, count > 1 ? words[count - 1] : "");
   }
   const files::ReadLog inputs;  // no output takes the place of an input
-  const auto chosen =
-      std::find_if(std::begin(verbs), std::end(verbs), [](const Verb& v) { return v.app->parsed(); });
+  const auto chosen = std::find_if(verbs.begin(), verbs.end(), [](const Verb& v) { return v.app->parsed(); });
   return exit_after_stop(chosen->call(retyped(count, words)));
 }
 
