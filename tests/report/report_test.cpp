@@ -75,7 +75,7 @@ TEST(Report, foreign_text_stays_text) {
   EXPECT_THAT(html, Not(HasSubstr("<script>alert")));
   EXPECT_THAT(html, Not(HasSubstr("<img src=x")));
   EXPECT_THAT(html, HasSubstr("&lt;script&gt;alert(2)&lt;/script&gt; {{data}}"));
-  EXPECT_EQ(data_of(html)["charts"][0]["curves"][0]["meaning"], "</script><script>alert(1)</script> (phase)");
+  EXPECT_EQ(data_of(html)["charts"][0]["curves"][1]["meaning"], "</script><script>alert(1)</script> (phase)");
 }
 
 TEST(Report, needs_no_network) {
@@ -160,8 +160,10 @@ TEST(Report, long_run_keeps_every_extreme_and_the_close_ups_whole) {
   const auto& chart = data["charts"][0];
   ASSERT_EQ(chart["id"], "currents");
   ASSERT_FALSE(chart["complete"]);
-  const auto t = decoded<std::uint64_t, double>(data["axes"][chart["curves"][0]["axis"].get<std::size_t>()]);
-  const auto i = decoded<std::uint32_t, float>(chart["curves"][0]["data"]);
+  const auto& of_a = chart["curves"][1];  // behind i_m, which lies beneath the phases
+  ASSERT_EQ(of_a["label"], "i_a");
+  const auto t = decoded<std::uint64_t, double>(data["axes"][of_a["axis"].get<std::size_t>()]);
+  const auto i = decoded<std::uint32_t, float>(of_a["data"]);
   ASSERT_EQ(t.size(), i.size());
   EXPECT_TRUE(std::ranges::is_sorted(t));
   EXPECT_EQ(std::ranges::max(i), static_cast<float>(std::ranges::max(current)));
