@@ -27,7 +27,7 @@ VERBS = {
     "varied": ["run", SERIES, "--vary", "supply.voltage_V=20:28:50", "--json", "-", *ALONE],
     "sobol": ["run", SERIES, "--vary", "supply.voltage_V=20:28", "--vary", "pwm.period_s=20us:40us", "--points", "200", "--csv", "o.csv", *ALONE],
     "looked at": ["run", PLAN, "--dry-run"], "run": ["run", ONE, "--csv", "o.csv", "--set", "duration_s=2"], "two": ["run", ONE, data("scenarios/current-square-board.toml"), "--out", "o", *ALONE],
-    "one of a plan": ["run", PLAN, "--only", "3", "--csv", "o.csv"], "bode": ["run", ONE, "--bode", "--json", "o.json"],
+    "one of a plan": ["run", PLAN, "--only", "3", "--csv", "o.csv"], "bode": ["run", data("scenarios/thesis/7.3.1-locked-exact-design.toml"), "--bode", "--json", "o.json"],
     "optimise": ["design", "--optimise", data("plans/best-pwm.toml"), "--json", "o.json", *ALONE], "design": ["design", "maxon-251601", "--json", "o.json", *ALONE],
     "compare": ["compare", "maxon-251601", "--runs", "2", "--csv", "o.csv", *ALONE], "wiring": ["motor", "wiring", "maxon-251601", "--html", "o.html", *ALONE],
     "commission": ["motor", "commission", "maxon-251601", "--html", "o.html"], "emf": ["motor", "emf", data("recordings/trampa6340-emf.csv"), "--between", "lines", "--pole-pairs", "7", "--html", "o.html"],
