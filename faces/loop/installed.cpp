@@ -35,7 +35,7 @@ fs::path sources_folder() {
 }
 
 std::string avr_board_program() {
-  const std::string name = "sixstep-avr-board";
+  std::string name = "sixstep-avr-board";
   const fs::path folder = program_folder();
   if (folder.empty()) return name;
   for (const fs::path& file : {folder / name, folder.parent_path() / "libexec/sixstep" / name})
