@@ -4,6 +4,8 @@
 //   build/dev/benchmarks/loop_benchmark
 #include <benchmark/benchmark.h>
 
+#include <cstdlib>
+
 #include "faces/loop/emulator.hpp"
 #include "faces/loop/fresh_folder.hpp"
 #include "faces/loop/image.hpp"
@@ -42,6 +44,7 @@ void lock_step(benchmark::State& state, const loop::Core& core, const char* file
 }  // namespace
 
 int main(int argc, char** argv) {
+  ::setenv("SIXSTEP_SOURCES", SIXSTEP_SOURCE_DIR, 0);  // no program beside it
   for (const loop::Core& core : loop::cores()) {
     if (core.by_registers) continue;  // it is called for no entry
     for (const char* file : {"current.toml", "speed.toml", "product.toml"})

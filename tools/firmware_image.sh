@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # firmware_image.sh BOARD [HEADER [OUT]] [--despite]   an image to flash: the board's program (faces/firmware/example/) around the drive of HEADER,
 #                                          which `sixstep export header` writes; without it the example's own. BOARD: stm32f303, atmega2560.
-#                                          OUT/image.elf, .hex and .bin; without it build/firmware/BOARD
+#                                          OUT/image.elf, .hex and .bin; without it build/firmware/BOARD, installed firmware/BOARD here
 #                                          A header that its run did not clear for a bridge is refused; --despite builds it all the same.
 #
 # tools/install.sh target installs the compilers.
@@ -22,11 +22,13 @@ case $board in
   *) usage ;;
 esac
 for compiler in "${compilers[@]}"; do
-  command -v "$compiler" >/dev/null || { echo "$compiler is missing; tools/install.sh target installs it" >&2; exit 1; }
+  command -v "$compiler" >/dev/null || { echo "$compiler is missing; tools/packages.txt lists its package under [target]" >&2; exit 1; }
 done
 cd "$OLDPWD"
 header=$(realpath "${words[1]:-$root/$example/drive_config.hpp}")
-out=$(realpath -m "${words[2]:-$root/build/firmware/$board}")
+# An installed copy has no build folder.
+if [ -e "$root/CMakeLists.txt" ]; then images=$root/build/firmware; else images=$PWD/firmware; fi
+out=$(realpath -m "${words[2]:-$images/$board}")
 cd "$root"
 # What the compiler would say in more words.
 refuse() { echo "$header: $1" >&2; exit 1; }

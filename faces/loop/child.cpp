@@ -12,6 +12,8 @@
 #include <cstring>
 #include <thread>
 
+#include "faces/loop/installed.hpp"
+
 namespace loop {
 
 namespace {
@@ -66,9 +68,12 @@ std::string on_path(const std::string& program) {
 
 base::Problem not_here(const std::string& program) {
   const bool is_ours = program.starts_with("sixstep-");
-  return {program, "", "is not on this machine",
-          is_ours ? "tools/install.sh target installs what it is made of; then build sixstep again"
-                  : "install it: tools/packages.txt lists the packages for cores under [target]"};
+  return {
+      program, "", "is not on this machine",
+      is_ours
+          ? "install the package sixstep-avr-board; in a checkout tools/install.sh target, then build sixstep again"
+          : "install it: " + (sources_folder() / "tools/packages.txt").string() +
+                " lists the packages for cores under [target]"};
 }
 
 base::Result<Child> Child::start(const Command& command) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/loop/cores.hpp"
 
-#include <unistd.h>
+#include "faces/loop/installed.hpp"
 
 namespace loop {
 
@@ -39,12 +39,6 @@ Core cortex(std::string_view name, std::string_view title, const char* cpu, cons
             {"-lgcc"}};
   core.compiler.insert(core.compiler.end(), more.begin(), more.end());
   return core;
-}
-
-/// Beside this program where it was built, else on PATH.
-std::string avr_board_program() {
-  std::string beside = SIXSTEP_AVR_BOARD;
-  return ::access(beside.c_str(), X_OK) == 0 ? beside : "sixstep-avr-board";
 }
 
 /// clang 14 to 16 compile wrongly for it (docs/firmware.md). Its flags stand beside its program, for whoever makes an image to flash too:

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/loop/image.hpp"
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "faces/loop/child.hpp"
 #include "faces/loop/descriptor.hpp"
+#include "faces/loop/installed.hpp"
 #include "text/export/config_header.hpp"
 
 namespace loop {
@@ -15,14 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where this program was built from, or what SIXSTEP_SOURCES says: a core's program is made of the library's own headers.
+/// A core's program is made of the library's own headers.
 base::Result<fs::path> sources() {
-  const char* const said = std::getenv("SIXSTEP_SOURCES");
-  const fs::path root = said != nullptr ? said : SIXSTEP_SOURCE_DIR;
+  const fs::path root = sources_folder();
   std::error_code none;
   if (fs::exists(root / "sixstep/control/drive.hpp", none)) return root;
   return base::Problem{root.string(), "", "does not hold the sources that a core's program is compiled from",
-                       "set SIXSTEP_SOURCES to the folder with README.md and sixstep/ in it"};
+                       "set SIXSTEP_SOURCES to the folder with sixstep/ and faces/ in it"};
 }
 
 base::Problems write_header(const study::Scenario& scenario, const fs::path& file) {

@@ -17,7 +17,7 @@ SOURCES = sorted(f for room in ROOMS for f in (ROOT / room).glob("**/*") if f.su
 MODEL = (ROOT / "docs/model.md").read_text(encoding="utf-8")
 PLACES = set(re.findall(r"(?m)^## (\d+b?) ", MODEL)) | set(re.findall(r"(?m)^    .* (\(\d+\))$", MODEL))
 PITFALLS = set(re.findall(r"(?m)^\| (\d+) \|", (ROOT / "docs/architecture.md").read_text(encoding="utf-8")))
-PAGES = {file.name for file in [ROOT / "README.md", *(ROOT / "docs").glob("**/*.md"), *(ROOT / "faces").glob("**/*.md")]}
+PAGES = {file.name for file in [*ROOT.glob("*.md"), *(ROOT / "docs").glob("**/*.md"), *(ROOT / "faces").glob("**/*.md")]}
 PLACE = r"(?:\(\d+\)|\d+b?\b)"
 
 

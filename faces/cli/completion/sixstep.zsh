@@ -16,4 +16,9 @@ _sixstep() {
   compadd -S '' -a open
   compadd -l -d shown -a done
 }
-compdef _sixstep sixstep
+# Installed, zsh reads this file at the first Tab, as the body of the function: it is to answer at once.
+if [[ ${funcstack[1]} == _sixstep ]]; then
+  _sixstep "$@"
+else
+  compdef _sixstep sixstep
+fi
