@@ -33,7 +33,7 @@ async function photograph(name, last, words, first) {
   const picture = path.join(root, `docs/images/${name}.png`);
   const height = Math.ceil(box.y + box.height + 16) - top;
   await page.screenshot({path: picture, fullPage: true, clip: {x: 0, y: top, width: 1200, height}});
-  execFileSync('pngquant', ['--strip', '--force', '64', '--output', picture, picture]); // 64 colours: a quarter of the size
+  execFileSync('pngquant', ['--strip', '--force', '48', '--output', picture, picture]); // 48 colours: a quarter of the size
   await page.close();
 }
 

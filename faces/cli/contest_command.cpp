@@ -190,13 +190,14 @@ base::Problems contradictions(const ContestArguments& a) {
 
 Exit contest_command(const ContestArguments& a) {
   if (const base::Problems problems = contradictions(a); !problems.empty()) return refused(problems);
+  catch_interrupts();
   base::Result<analysis::ContestBench> bench = bench_of(a);
   if (!bench) return refused(bench.problems());
   const base::Result<Contestants> contestants = contestants_of(a.own);
   if (!contestants) return refused(contestants.problems());
   std::vector<analysis::ContestEntry> entries =
       text::contest_entries(*bench, files::on_disk(a.data_dir), contestants->all);
-  catch_interrupts();
+  if (interrupted()) return told_interrupted("compare " + a.motor);
   ContestFiles outputs;
   if (const base::Problems found = outputs.open(a, entries); !found.empty()) return refused(found);
   analysis::Contest contest = nominally(a, std::move(*bench), std::move(entries));

@@ -141,7 +141,7 @@ base::Result<std::vector<double>> outputs_of(study::Session& session, const Bode
 
 /// A drive that is still on its way answers each period alike, for a straight way has the same lines in each: what they show
 /// is the way. A part w of the amplitude in a period puts about w/line of what the multisine has there beside the answer.
-base::Problems still_on_its_way(const BodeStudy& b, const std::vector<double>& output) {
+base::Problems still_on_its_way(const BodeStudy& b, const std::vector<double>& output, double duration_s) {
   constexpr double most_way = 0.05;
   const std::size_t N = b.signal.samples, periods = output.size() / N;
   std::vector<double> means(periods, 0.0);
@@ -154,12 +154,12 @@ base::Problems still_on_its_way(const BodeStudy& b, const std::vector<double>& o
   if (!rises && !falls) return {};
   const double way = (means.back() - means.front()) / static_cast<double>(periods - 1);
   if (!(std::fabs(way) > most_way * b.amplitude)) return {};
-  return {{"duration_s", base::written(b.begin_s),
-           "ends while the drive is still on its way to " + base::six_digits(b.stands_at) +
+  const std::string unit = " " + std::string(study::reference_unit(b.mode));
+  return {{"duration_s", base::written(duration_s),
+           "ends while the drive is still on its way to " + base::six_digits(b.stands_at) + unit +
                ": in the measurement it went from " + base::three_digits(means.front()) + " to " +
-               base::three_digits(means.back()) + ", " + base::three_digits(std::fabs(way)) +
-               " in each period of a multisine of +-" + base::three_digits(b.amplitude) + " " +
-               std::string(study::reference_unit(b.mode)),
+               base::three_digits(means.back()) + unit + ", " + base::three_digits(std::fabs(way)) +
+               " in each period of a multisine of +-" + base::three_digits(b.amplitude) + unit,
            "lengthen duration_s until it rests, or let the reference stand where the drive can get"}};
 }
 
@@ -214,7 +214,8 @@ base::Result<BodeStudy> study_bode(const study::Scenario& scenario, const BodeOr
   if (!session) return session.problems();
   const base::Result<std::vector<double>> output = outputs_of(*session, b, order.periods);
   if (!output) return output.problems();
-  if (const base::Problems problems = still_on_its_way(b, *output); !problems.empty()) return problems;
+  if (const base::Problems problems = still_on_its_way(b, *output, scenario.duration_s); !problems.empty())
+    return problems;
   const Answer answer = answer_to(b.signal, *output);
   b.points = loop_points(b.signal, answer, b.period_s);
   b.beside = answer.beside;

@@ -94,6 +94,11 @@ void look_at_delay(const Scenario& s, base::Problems& out) {
 
 /// Of every drive: where the torque reverses, a leg changes over from one switch to the other, whichever way it is chopped.
 void look_at_dead_time(const Scenario& s, base::Problems& out) {
+  constexpr double shortest_s = 20e-9;  // two clocks of a fast timer; no switch turns off sooner
+  if (s.control.mode != Mode::off && s.bridge.dead_time_s > 0 && s.bridge.dead_time_s < shortest_s)
+    out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s),
+                   "is over before any switch is off: less than 20e-9",
+                   "give what the gate drivers need, as 500e-9"});
   if (s.control.mode != Mode::off && !(s.bridge.dead_time_s > 0))
     out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s),
                    "turns one switch of a leg on while the other turns off, and real ones short the bus then",

@@ -116,8 +116,8 @@ std::string on_gains(const LoopGains& g, const std::string& key, double period_s
 /// Poles that are slower than the plant's own ask the loop to hold it back.
 std::string on_sign(const LoopGains& g, const std::string& key) {
   if (!(g.d1 < 0.0) || g.origin.starts_with("given")) return {};
-  return "the " + g.loop + " loop's gain on its error is negative, " + three_digits(1e6 * g.d1) +
-         "e-6: at a change it first goes the other way; " + key +
+  return "the " + g.loop + " loop's gain on its error is negative, d1 = " + three_digits(g.d1) +
+         ": at a change it first goes the other way; " + key +
          ".settle_s asks for a loop that is slower than what it controls: give a shorter one";
 }
 

@@ -89,6 +89,33 @@ TEST(Emf, ATrapezoidBetweenLinesIsFoundAgain) {
   EXPECT_NEAR(K_t / found->constants.phase_fundamental.value, ideal.sector_mean / ideal.fundamental, 2e-3);
 }
 
+/// A probe left at x10, or a heading in mV: the mean of both channels is the constant of no motor.
+TEST(Emf, ChannelsThatContradictEachOtherAreRefused) {
+  for (const double factor : {0.001, 0.1, 0.5, 0.88, 1.2, 10.0}) {
+    EmfTruth t = clean(false);
+    t.channels = 2;
+    analysis::EmfRequest request = drawn_record(t);
+    for (double& u : request.record.channels[1].u_V) u *= factor;
+    const auto found = analysis::measure_emf(request);
+    ASSERT_FALSE(found) << factor;
+    EXPECT_THAT(found.problems()[0].limit, HasSubstr("differ more than those of one motor")) << factor;
+  }
+}
+
+/// Whichever of the two is right lies within the bounds.
+TEST(Emf, ChannelsThatDifferByAFewPerCentWidenTheBounds) {
+  for (const double factor : {0.92, 0.97, 1.03, 1.08}) {
+    EmfTruth t = clean(false);
+    t.channels = 2;
+    analysis::EmfRequest request = drawn_record(t);
+    for (double& u : request.record.channels[1].u_V) u *= factor;
+    const auto found = analysis::measure_emf(request);
+    ASSERT_TRUE(found) << factor;
+    EXPECT_TRUE(found->constants.phase_fundamental.holds(t.flux_Vs)) << factor;
+    EXPECT_TRUE(found->constants.phase_fundamental.holds(t.flux_Vs * factor)) << factor;
+  }
+}
+
 TEST(Emf, APhaseOfATrapezoidIsFlatForAsLongAsItIs) {
   EmfTruth t = clean(true);
   t.star = true;

@@ -121,7 +121,7 @@ TEST(BodeAtTheEnd, ADriveOnItsWayIsRefused) {
   s.reference.value = 400;
   const std::string told = problem_of(s);
   EXPECT_TRUE(told.starts_with(
-      "duration_s: ends while the drive is still on its way to 400: in the measurement it went from "))
+      "duration_s: ends while the drive is still on its way to 400 rad/s: in the measurement it went from "))
       << told;
   EXPECT_NE(told.find(" in each period of a multisine of +-20 rad/s"), std::string::npos) << told;
   s.load.inertia_kg_m2 = 0.0;

@@ -44,7 +44,7 @@ double lag_deg(const HarmonicFit& fit, std::size_t channel) {
 
 /// Which way the channels follow each other, or that they are no three phases.
 base::Problems direction(const EmfRequest& request, const HarmonicFit& fit, EmfResult& out) {
-  constexpr double near_deg = 20.0;
+  constexpr double near_deg = 10.0;
   out.all_phases = fit.channels.size() > 1;
   for (std::size_t c = 1; c < fit.channels.size(); ++c) {
     const double lag = lag_deg(fit, c), forward = 120.0 * static_cast<double>(c), backward = 360.0 - forward;
@@ -252,10 +252,12 @@ base::Result<EmfResult> measure_emf(const EmfRequest& request) {
   if (!problems.empty()) return problems;
   take_channels(request, *fit, out);
   if (base::Problems clipped = check_clipped(request.record, out); !clipped.empty()) return clipped;
+  if (base::Problems apart = check_alike(out); !apart.empty()) return apart;
   MeanShape mean = mean_shape(*fit, out);
   take_harmonics(mean, out);
   take_constants(*fit, mean, out);
   allow_for_clipping(out);
+  allow_for_unlike_channels(out);
   if (base::Problems beyond = check_plausible(out); !beyond.empty()) return beyond;
   take_table(mean.phase, out);
   out.fit = *fit;

@@ -191,6 +191,40 @@ base::Problems check_clipped(const EmfRecord& record, const EmfResult& result) {
   return {};
 }
 
+double unlike(const EmfResult& result) {
+  const auto [least, greatest] =
+      std::minmax_element(result.channels.begin(), result.channels.end(),
+                          [](const auto& a, const auto& b) { return a.peak_V.value < b.peak_V.value; });
+  if (result.channels.empty()) return 0.0;
+  return (greatest->peak_V.value - least->peak_V.value) / (greatest->peak_V.value + least->peak_V.value);
+}
+
+/// Phases of one motor differ by a few per cent, ten times by a probe's divider, a thousand times by a unit.
+base::Problems check_alike(const EmfResult& result) {
+  constexpr double most = 0.05;
+  if (!(unlike(result) > most)) return {};
+  std::string each;
+  for (const EmfChannelResult& channel : result.channels)
+    each += (each.empty() ? "" : ", ") + channel.name + " " + base::three_digits(channel.peak_V.value) + " V";
+  return {{.where = "voltage",
+           .value = each,
+           .limit = "have fundamentals that differ more than those of one motor",
+           .cure = "look at the dividers of the probes and at the units of the columns"}};
+}
+
+/// Which of the channels is right nobody knows: the constants' bounds reach as far as each.
+void allow_for_unlike_channels(EmfResult& result) {
+  constexpr double usual = 0.01;
+  const double half = unlike(result), part = half * (1.0 + half);  // a mean of squares lies beyond the middle
+  if (!(half > usual)) return;
+  EmfConstants& k = result.constants;
+  for (Interval* i :
+       {&k.line_peak, &k.line_rms, &k.line_fundamental, &k.phase_peak, &k.phase_rms, &k.phase_fundamental}) {
+    i->low -= part * i->value;
+    i->high += part * i->value;
+  }
+}
+
 base::Problems check_plausible(const EmfResult& result) {
   const base::Plausible likely = base::plausible("mV s");
   const double pairs = std::max(result.pole_pairs, 1), mV_s = 1e3 * pairs * result.constants.line_peak.value;

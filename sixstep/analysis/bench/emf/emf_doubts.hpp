@@ -26,6 +26,10 @@ base::Problems check_clipped(const EmfRecord& record, const EmfResult& result);
 bool may_be_clipped(const EmfChannelResult& channel);
 void allow_for_clipping(EmfResult& result);
 
+/// Fundamentals that differ by more than those of one motor; by less, but more than usual, they widen the constants' bounds.
+base::Problems check_alike(const EmfResult& result);
+void allow_for_unlike_channels(EmfResult& result);
+
 /// Constants that no motor has (base/plausible.hpp).
 base::Problems check_plausible(const EmfResult& result);
 
