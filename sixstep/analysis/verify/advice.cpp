@@ -13,7 +13,6 @@
 namespace sixstep::analysis {
 namespace {
 
-using control::Chopping;
 using control::Mode;
 using design::Concern;
 using design::DesignSpec;
@@ -82,7 +81,7 @@ bool holds(const DesignOrder& order, const DesignSpec& spec, TrialBudget& budget
 /// What may make it usable, the likeliest first.
 std::vector<DesignSpec> rescues(const DesignOrder& order, const DriveDesign& d) {
   std::vector<DesignSpec> all = single_changes(order, d);
-  for (DesignSpec& spec : joint_changes(order, d)) all.push_back(std::move(spec));
+  for (const DesignSpec& spec : joint_changes(order, d)) all.push_back(spec);
   if (!order.spec.rotor.hall) return all;
   const DesignSpec own_period = on_encoder(order, order.spec.period_s);
   if (order.spec.mode == Mode::position) {
