@@ -3,6 +3,7 @@
 #pragma once
 #include "sixstep/rig/any_drive.hpp"
 #include "sixstep/rig/fault.hpp"
+#include "sixstep/rig/modulator.hpp"
 #include "sixstep/rig/ports_of.hpp"
 
 namespace sixstep::rig {
@@ -22,11 +23,8 @@ control::BridgeCommand<double> in_si(const control::BridgeCommand<Scalar>& c, co
 }
 
 template <class Scalar>
-control::LegCommands<double> in_si(const control::LegCommands<Scalar>& c, const Bases&) {
-  control::LegCommands<double> legs{.enabled = c.enabled, .fault = c.fault};
-  for (unsigned k = 0; k < 3; ++k)
-    legs.leg[k] = {c.leg[k].state, c.leg[k].switches, to_si(c.leg[k].duty, 1.0)};
-  return legs;
+control::LegCommands<double> in_si(const control::LegCommands<Scalar>& c, const Bases& bases) {
+  return widened(c, bases);
 }
 
 template <class Scalar>

@@ -245,6 +245,17 @@ TEST(OperatingPoint, SlowRotationLeadsToStandstill) {
   }
 }
 
+/// Dry friction does not go as the rotor slows down: what just turns has it as what turns slowly has, and no more of it than it is driven.
+TEST(OperatingPoint, WhatJustTurnsHasTheFrictionOfSlowRotation) {
+  Bench b = maxon_bench();
+  b.motor.shaft.coulomb_Nm = 0.1;
+  const OperatingPoint still = at(b, 0.0), slow = at(b, 0.01), slower = at(b, 0.005);
+  EXPECT_NEAR(still.torque_Nm - still.shaft_torque_Nm, 0.1, 1e-12);
+  EXPECT_NEAR(2 * slower.shaft_torque_Nm - slow.shaft_torque_Nm, still.shaft_torque_Nm, 1e-9);
+  b.motor.shaft.coulomb_Nm = 2 * still.torque_Nm;
+  EXPECT_EQ(at(b, 0.0).shaft_torque_Nm, 0.0);
+}
+
 TEST(OperatingPoint, ChoppedIntervalCoversARunTenTimesAsLong) {
   constexpr std::uint64_t seed = 20260611;
   constexpr int drawn = 8;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/analysis/curve/operating_point.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
@@ -57,8 +58,14 @@ OperatingPoint point_of(const Bench& b, double speed, const Sums& sums) {
   return p;
 }
 
+/// At speed 0 the rotor just turns, the way it is driven: dry friction takes its part of the torque, and all of a lower one.
+double friction_at(const plant::Shaft& shaft, double speed, double torque_Nm) {
+  if (speed != 0) return friction_Nm(shaft, speed);
+  return std::copysign(std::min(shaft.coulomb_Nm, std::fabs(torque_Nm)), torque_Nm);
+}
+
 void take_to_shaft(const Bench& b, OperatingPoint& p) {
-  p.shaft_torque_Nm = p.torque_Nm - friction_Nm(b.motor.shaft, p.speed_rad_s);
+  p.shaft_torque_Nm = p.torque_Nm - friction_at(b.motor.shaft, p.speed_rad_s, p.torque_Nm);
   p.friction_W = friction_Nm(b.motor.shaft, p.speed_rad_s) * p.speed_rad_s;
   p.shaft_W = p.shaft_torque_Nm * p.speed_rad_s;
   if (p.supplied_W > 0 && p.shaft_W > 0)
