@@ -42,7 +42,7 @@ std::vector<double> in_degrees(std::vector<double> angles) {
 Group currents(const Trace& trace, bool of_field) {
   Group g{.id = "currents", .title = "Currents", .unit = "A", .height_px = 270, .quantity = "current"};
   // It is one phase's current or another's at every instant: drawn first, it lies beneath them.
-  if (!of_field) add(g, trace, "i_m_A", "i_m", "main");
+  if (!of_field) add(g, trace, "i_m_A", "i_m", "beneath");
   add(g, trace, "i_a_A", "i_a", "a");
   add(g, trace, "i_b_A", "i_b", "b");
   add(g, trace, "i_c_A", "i_c", "c");

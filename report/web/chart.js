@@ -7,7 +7,7 @@ const GUTTER = {left: 62, right: 56};  // the same for all, so that one instant 
 let palette = {};
 function readPalette() {
   const style = getComputedStyle(document.documentElement);
-  const names = ['ink', 'quiet', 'grid', 'line', 'paper', 'a', 'b', 'c', 'a-soft', 'b-soft', 'c-soft', 'main', 'reference', 'accent'];
+  const names = ['ink', 'quiet', 'grid', 'line', 'paper', 'a', 'b', 'c', 'a-soft', 'b-soft', 'c-soft', 'main', 'beneath', 'reference', 'accent'];
   // A canvas does not know color-mix(): let the browser compute it.
   const probe = document.body.appendChild(document.createElement('i'));
   palette = Object.fromEntries(names.map((name) => {
@@ -88,9 +88,9 @@ function inLanes(chart, raw) {
 
 function curveOptions(curve, index, chart, count) {
   const color = () => palette[curve.style];
-  // What others are drawn over is a band beneath them, so that both are seen where they are one.
-  const beneath = curve.style === 'main' && chart.curves.slice(index + 1).some((c) => c.style !== 'reference');
-  const options = {label: curve.label, stroke: beneath ? () => translucent(color(), 0.35) : color, width: beneath ? 5 : curve.style === 'main' ? 1.8 : 1.3, points: {show: false}, spanGaps: chart.joined};
+  // A pale band lies beneath curves that it is one with at times, so that both are seen there.
+  const width = {beneath: 5, main: 1.8}[curve.style] ?? 1.3;
+  const options = {label: curve.label, stroke: color, width, points: {show: false}, spanGaps: chart.joined};
   if (curve.style === 'reference') Object.assign(options, {dash: [6, 4], width: 1.6});
   // What lies below the curve, without a line of its own.
   if (curve.region) Object.assign(options, {stroke: 'transparent', width: 0, fill: () => translucent(color(), 0.16), fillTo: () => 0});
