@@ -243,12 +243,13 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("MOTOR", a.motor, "motor's name or file; with --scenario that one's");
   design.add_option("--scenario", a.scenario, "a scenario whose board, motor and task are designed for");
   design.add_option("--mode", a.mode, "current, speed or position; current");
-  design.add_option("--settle", a.settle_s,
-                    "settling time of the mode's PI loop in s; 1e-3, speed 10e-3 or what the sensor allows");
+  design.add_option(
+      "--settle", a.settle_s,
+      "settling time of the mode's PI loop in s; 1e-3 or 8 L/R if shorter, speed 10e-3 or what the sensor allows");
   design.add_option("--damping", a.damping, "of the placed poles, above 0 to 1; 0.9");
   design.add_option(
       "--current-settle", a.current_settle_s,
-      "speed, position: settling time of the current loop in s; 1e-3, or a tenth of the speed loop's");
+      "speed, position: settling time of the current loop in s; 1e-3, 8 L/R or a tenth of the speed loop's, the shortest");
   design.add_option("--method", a.method, "pole-placement, cancellation or symmetrical-optimum")
       ->capture_default_str();
   design.add_option("--bandwidth", a.bandwidth_rad_s,

@@ -16,6 +16,7 @@
 #include "sixstep/analysis/verify/first_scenario.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
+#include "text/export/core_costs.hpp"
 #include "text/scenario/json_schema.hpp"
 #include "text/scenario/starter_scenario.hpp"
 
@@ -76,6 +77,10 @@ Exit new_command(const NewArguments& a) {
                   "next: sixstep run {} --html {}\n",
                   text::visible(path), text::visible(schema), text::shell_word(path),
                   text::shell_word(fs::path(path).replace_extension(".html").string())));
+  if (scenario->pwm.period_s < text::stm32_least_period_s)
+    print(fmt::format(
+        "note: {}; this winding's ripple asks for it, and a choke in each line allows a longer one\n",
+        text::too_short_for_images(scenario->pwm.period_s)));
   return Exit::ok;
 }
 

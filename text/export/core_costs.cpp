@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -103,6 +104,16 @@ std::optional<CoreCost> core_cost(std::string_view core, std::string_view drive,
   const Words* size = row_of(sizes, {core, drive, arithmetic});
   if (!tick || !size) return std::nullopt;
   return CoreCost{std::string(tick->back()), std::string((*size)[3])};
+}
+
+std::string too_short_for_images(double period_s) {
+  if (period_s >= atmega_least_period_s) return {};
+  const std::string period = fmt::format("a control period of {:.4g} us is shorter than", 1e6 * period_s);
+  const std::string atmega = fmt::format("{:.0f} us", 1e6 * atmega_least_period_s);
+  if (period_s >= stm32_least_period_s)
+    return fmt::format("{} the ATmega2560's image needs, {}", period, atmega);
+  return fmt::format("{} either image needs: {:.1f} us on the STM32F303, {} on the ATmega2560", period,
+                     std::ceil(1e7 * stm32_least_period_s) / 10, atmega);
 }
 
 std::string core_cost_lines(const study::Compiled& c) {

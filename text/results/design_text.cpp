@@ -162,9 +162,9 @@ std::string design_verdict(const analysis::DesignStudy& s) {
     text += measured == 0.0 ? ", no overshoot" : ", overshoot " + quantity_text(measured, overshoot->unit, 3);
     text += at_worst(s, "overshoot", measured, 3);
   }
-  if (const auto* swing = find(s, "swing around the target"))
+  if (const auto* swing = find(s, analysis::swing_at_target))
     text += ", then swings by " + quantity_text(swing->measured, swing->unit, 3) +
-            at_worst(s, "swing around the target", swing->measured, 3);
+            at_worst(s, analysis::swing_at_target, swing->measured, 3);
   return text + "; " + conditions(s);
 }
 

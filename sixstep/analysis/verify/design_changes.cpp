@@ -55,7 +55,9 @@ void slow_down(DesignSpec& w, const DriveDesign& d, double times) {
     w.bandwidth_rad_s = plain(*w.bandwidth_rad_s / times, base::Towards::down);
     return;
   }
-  const double usual = has_speed_loop(w) ? design::usual_speed_settle_s : design::usual_current_settle_s;
+  const auto& inner = d.loops.front().placed;
+  const double current = inner ? inner->settle_s : design::usual_current_settle_s;
+  const double usual = has_speed_loop(w) ? design::usual_speed_settle_s : current;
   w.settle_s = plain(times * d.spec.settle_s.value_or(usual), base::Towards::up);
 }
 

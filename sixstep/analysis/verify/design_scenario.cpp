@@ -191,7 +191,7 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, study::Scenario
                       "current ripple"),
        design::current_ripple_A(d.motor, d.bus_V, d.spec.period_s, d.spec.chopping, duty),
        "PWM alone, without commutation"},
-      {of(study::MetricKind::settling_time, false, "settling of the start"), linear.settling_s,
+      {of(study::MetricKind::settling_time, false, settling_of_start), linear.settling_s,
        "designed, were there no limits"},
       {of(study::MetricKind::overshoot, false, "overshoot of the start"), linear.overshoot * t.first,
        "designed, were there no limits"},
@@ -216,12 +216,6 @@ void add_speed(const DriveDesign& d, const DesignSubject& subject, study::Scenar
   s.reference.values = {t.first, t.first + t.step};
   s.reference.unit.emplace(design::motion_of(d.motor).unit("rad/s").linear);
   add_speed_figures(d, t, s);
-}
-
-/// The thesis's, in degrees; in mm twenty pole pitches, which is as many commutations.
-double usual_move(const DriveDesign& d) {
-  if (!design::motion_of(d.motor).linear) return 1000.0;
-  return plain_number(20 * 1e3 * base::pi / d.motor.machine.pole_pairs);
 }
 
 void add_position(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
@@ -260,12 +254,17 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
   };
   if (counts)
     s.compare.push_back({window_measure(study::MetricKind::peak_to_peak, study::Signal::position,
-                                        end - 0.2 * (end - travel), end, "swing around the target"),
+                                        end - 0.2 * (end - travel), end, swing_at_target),
                          0.0, "none wanted"});
   s.require = {{overshoot, std::nullopt, counts ? steps : 1e-9 * std::fabs(step)}};
 }
 
 }  // namespace
+
+double usual_move(const DriveDesign& d) {
+  if (!design::motion_of(d.motor).linear) return 1000.0;
+  return plain_number(20 * 1e3 * base::pi / d.motor.machine.pole_pairs);
+}
 
 study::Scenario design_scenario(const DriveDesign& design, const DesignSubject& subject) {
   study::Scenario s = common(design, subject);

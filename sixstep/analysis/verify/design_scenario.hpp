@@ -22,11 +22,18 @@ struct DesignSubject {
   std::optional<study::Scenario> board{};
   std::optional<rig::CurrentMeasurement> currents{};  ///< instead of what that board has
   /// Height of the step in the unit of the mode, as the motor's kind has it: of a linear one m/s and mm. Else one at which
-  /// no limit acts (current, speed), the thesis's 1000 degrees, or twenty pole pitches.
+  /// no limit acts (current, speed), usual_move().
   std::optional<double> step{};
   /// Of the bridge, where no board says it. A scenario that shall become a header is run with one: real bridges are shorted without.
   double dead_time_s = 0.0;
 };
+
+/// Names of figures that decide whether a design is usable.
+inline constexpr const char *settling_of_start = "settling of the start",
+                            *swing_at_target = "swing around the target";
+
+/// What a position is moved by where nobody says: the thesis's 1000 degrees; in mm twenty pole pitches, which is as many commutations.
+double usual_move(const design::DriveDesign& design);
 
 /// - current: rotor held in the middle of a sector, a step of the setpoint; settling and overshoot at the
 ///   controller's samples, ripple of the last ten periods.

@@ -20,10 +20,14 @@ using control::Mode;
 // The thesis's choices (chapter 6), and the ratio of its two loops.
 constexpr double inner_faster = 10.0;
 
-double settle_of_current(const DesignSpec& w) {
-  if (w.mode == Mode::current) return w.settle_s.value_or(usual_current_settle_s);
+/// A pair placed slower than 2 time_constants_to_settle L/R wants a negative proportional gain.
+constexpr double winding_times = 8.0;
+
+double settle_of_current(const DesignSpec& w, const MotorModel& m) {
+  const double usual = usual_current_settle_s_of(m);
+  if (w.mode == Mode::current) return w.settle_s.value_or(usual);
   return w.current_settle_s.value_or(
-      std::fmin(usual_current_settle_s, w.settle_s.value_or(usual_speed_settle_s) / inner_faster));
+      std::fmin(usual, w.settle_s.value_or(usual_speed_settle_s) / inner_faster));
 }
 
 DriveLoops loops_of(const DriveDesign& d, const MotorModel& motor, int delay_periods) {
@@ -87,7 +91,7 @@ base::Result<LoopDesign> by_rule(const char* name, const char* method, const bas
 base::Result<LoopDesign> current_loop(const DriveDesign& d) {
   const DesignSpec& w = d.spec;
   const LoopWinding winding = driven_pair(d.motor, w.chopping);
-  const double settle = settle_of_current(w);
+  const double settle = settle_of_current(w, d.motor);
   base::Result<LoopDesign> loop =
       w.method == GainMethod::cancellation
           ? by_rule("current", "pole-zero cancellation",
@@ -232,6 +236,12 @@ void finish(DriveDesign& d) {
 }
 
 }  // namespace
+
+double usual_current_settle_s_of(const MotorModel& m) {
+  const double by_winding = winding_times * m.machine.L_H / m.machine.R_ohm;
+  return by_winding < usual_current_settle_s ? base::shortened(by_winding, 2, base::Towards::down)
+                                             : usual_current_settle_s;
+}
 
 void judge_loop(LoopDesign& loop, const Transfer& open, const Transfer& other, const SensedLoop& sensed,
                 double period_s, double band) {

@@ -25,10 +25,11 @@ enum class GainMethod : std::uint8_t { pole_placement, cancellation, symmetrical
 struct DesignSpec {
   control::Mode mode = control::Mode::current;  ///< current, speed or position
   GainMethod method = GainMethod::pole_placement;
-  /// Of the PI of the mode; 1 ms for current; for speed 10 ms, or what the sensor allows where that is more.
+  /// Of the PI of the mode; for current 1 ms, or 8 L/R where that is shorter; for speed 10 ms, or what the sensor allows where that is
+  /// more.
   std::optional<double> settle_s;
-  std::optional<double>
-      current_settle_s;  ///< of the inner loop; 1 ms, or a tenth of the speed loop's if shorter
+  /// Of the inner loop; as above, or a tenth of the speed loop's where that is shorter.
+  std::optional<double> current_settle_s;
   double damping = usual_damping;
   std::optional<double> bandwidth_rad_s;  ///< of the loop the method is for; else 4.6/settle_s
   double period_s = 30e-6;
@@ -41,6 +42,9 @@ struct DesignSpec {
   /// That the drive is to hold; else a tenth of the speed that the bus reaches, bus/K_t.
   std::optional<double> lowest_speed_rad_s;
 };
+
+/// Settling time of a current loop that nobody gives one: 1 ms, or 8 L/R where that is shorter. In s.
+double usual_current_settle_s_of(const MotorModel& motor);
 
 /// A spec as for a board that is built: Hall probes, and a command that counts one period late.
 inline DesignSpec on_a_board() {

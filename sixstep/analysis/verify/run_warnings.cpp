@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/analysis/verify/run_warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/analysis/verify/board.hpp"
+#include "sixstep/analysis/verify/design_scenario.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/motion.hpp"
+
+namespace sixstep::analysis {
+namespace {
+
+void warn(DesignStudy& s, design::Concern of, std::string what, bool grave) {
+  s.warnings.push_back({.what = std::move(what), .cure = "", .grave = grave, .of = of});
+}
+
+/// The torque ripple of the commutations can be wider than the band of a small step: then settling times say
+/// nothing.
+bool drowned(const DesignStudy& s) {
+  if (!s.ideal_swing_rad_s || s.scenario.reference.values.size() < 2) return false;
+  const std::vector<double>& levels = s.scenario.reference.values;
+  return *s.ideal_swing_rad_s > 2 * design::settling_band(s.design) * std::fabs(levels[1] - levels[0]);
+}
+
+/// Where to look out of tolerance.
+std::string chiefly(const RobustFigure& f) { return f.culprit.empty() ? "" : ", chiefly for " + f.culprit; }
+
+/// At a duty below a half hard chopping has no mean voltage that drives.
+bool from_half_the_bus(const DesignStudy& s) {
+  return s.design.spec.mode == control::Mode::current && s.design.spec.chopping == control::Chopping::hard;
+}
+
+/// A loop at whose limits the run was not to come must settle as designed; a quarter more is told.
+void look_at_settling(DesignStudy& s) {
+  const study::ComparisonResult* c = figure_of(s.outcome, "settling time");
+  if (!c || s.design.spec.mode == control::Mode::position) return;
+  if (drowned(s))
+    warn(
+        s, design::Concern::settling,
+        "the commutations' ripple in speed, " +
+            base::three_digits(figure_of(s.outcome, "speed ripple")->measured) +
+            " rad/s, is wider than 2 % of the largest step at which no limit acts: its settling time says nothing",
+        false);
+  else if (!std::isfinite(c->measured))
+    warn(s, design::Concern::settling, "in the simulation it never settles", true);
+  else if (c->measured > 1.25 * c->value)
+    warn(s, design::Concern::settling,
+         "in the simulation it settles in " + base::three_digits(1e3 * c->measured) + " ms, designed were " +
+             base::three_digits(1e3 * c->value) + " ms" +
+             (from_half_the_bus(s)
+                  ? ": from rest the integral has to reach half the bus before hard chopping drives"
+                  : ""),
+         false);
+}
+
+/// A limit cycle swings further than the commutations do.
+void look_at_swing(DesignStudy& s) {
+  const std::optional<double> allowed = s.allowed_swing_rad_s;
+  const study::ComparisonResult* swing = figure_of(s.outcome, "speed ripple");
+  if (!allowed || !swing || swing->measured <= *allowed) return;
+  warn(s, design::Concern::swing,
+       "in the simulation the speed swings by " + base::three_digits(swing->measured) +
+           " rad/s without end; with ideal sensors by " + base::three_digits(*s.ideal_swing_rad_s) + " rad/s",
+       true);
+}
+
+/// A second-order loop overshoots by less than its step however little it is damped: what does so by more hardly stands.
+void look_at_overshoot(DesignStudy& s, double overshoot, const std::string& when,
+                       const std::string& where = "") {
+  const std::vector<double>& levels = s.scenario.reference.values;
+  if (s.design.spec.mode != control::Mode::speed || levels.size() < 2 || drowned(s)) return;
+  const double step = std::fabs(levels[1] - levels[0]);
+  if (!(overshoot > step)) return;
+  warn(s, design::Concern::settling,
+       when + " a step of the speed overshoots by " + base::three_digits(100 * overshoot / step) +
+           " % of it" + where,
+       true);
+}
+
+/// On Hall probes a drive may stop anywhere within some 60 electrical degrees.
+void look_at_rest(DesignStudy& s, double swing, const std::string& when, const std::string& where = "") {
+  const base::LinearUnit unit = design::motion_of(s.scenario.sheet).unit("deg");
+  const double move = std::max(usual_move(s.design), unit.factor * std::fabs(s.scenario.reference.value));
+  if (!(swing > move / 10)) return;
+  const std::string in_unit = " " + std::string(unit.linear);
+  warn(s, design::Concern::requirement,
+       when + " the position swings around its target by " + base::three_digits(swing) + in_unit +
+           ", more than a tenth of a move of " + base::rounded(move, 4) + in_unit + where,
+       true);
+}
+
+void look_at_run(DesignStudy& s) {
+  if (s.outcome.fault)
+    warn(s, design::Concern::fault, "a fault stopped the simulation: " + base::to_string(*s.outcome.fault),
+         true);
+  look_at_swing(s);
+  look_at_settling(s);
+  if (const study::ComparisonResult* start = figure_of(s.outcome, settling_of_start);
+      start && !std::isfinite(start->measured) && s.usable())
+    warn(s, design::Concern::settling, "in the simulation the start from rest never settles", true);
+  if (const study::ComparisonResult* o = figure_of(s.outcome, "overshoot"))
+    look_at_overshoot(s, o->measured, "in the simulation");
+  if (const study::ComparisonResult* swing = figure_of(s.outcome, swing_at_target))
+    look_at_rest(s, swing->measured, "in the simulation");
+  for (const study::Verdict& v : s.outcome.verdicts)
+    if (!v.ok && s.usable())  // else the reason is told
+      warn(s, design::Concern::requirement,
+           "in the simulation the " + v.figure + " is " + base::three_digits(v.measured) + " " + v.unit,
+           true);
+}
+
+/// A move out of tolerance.
+void look_at_worst_move(DesignStudy& s, const RobustFigure& f, const std::string& where) {
+  if (s.design.spec.mode != control::Mode::position) return;
+  const base::LinearUnit unit = design::motion_of(s.scenario.sheet).unit("deg");
+  const double allowed = unit.factor * allowed_overshoot_deg(s.design, s.scenario.reference.value);
+  if (f.figure == "overshoot" && f.worst > allowed)
+    warn(s, design::Concern::requirement,
+         "out of tolerance it overshoots by " + base::three_digits(f.worst) + " " + std::string(unit.linear) +
+             where,
+         true);
+  if (f.figure == swing_at_target && s.usable()) look_at_rest(s, f.worst, "out of tolerance", where);
+}
+
+void look_at_worst(DesignStudy& s, const RobustFigure& f) {
+  const std::string where = ": " + f.at + chiefly(f);
+  const std::optional<double> swing = s.allowed_swing_rad_s;
+  const bool lost = std::isfinite(f.nominal) && !std::isfinite(f.worst);
+  if (f.figure == "speed ripple" && swing && f.nominal <= *swing && f.worst > *swing)
+    warn(s, design::Concern::swing,
+         "out of tolerance the speed swings by " + base::three_digits(f.worst) + " rad/s without end" + where,
+         true);
+  if (f.figure == "settling time" && !drowned(s) && lost)
+    warn(s, design::Concern::settling, "out of tolerance it never settles" + where, true);
+  if (f.figure == settling_of_start && lost && s.usable())
+    warn(s, design::Concern::settling, "out of tolerance the start from rest never settles" + where, true);
+  if (f.figure == "overshoot" && s.usable()) look_at_overshoot(s, f.worst, "out of tolerance", where);
+  look_at_worst_move(s, f, where);
+}
+
+void look_at_tolerances(DesignStudy& s) {
+  if (!s.robustness) return;
+  for (const RobustFigure& f : s.robustness->figures) look_at_worst(s, f);
+  for (const RobustFigure& f : s.robustness->phases)
+    if (f.worst < 30.0 && f.nominal >= 30.0)
+      warn(s, design::Concern::settling,
+           "out of tolerance the " + f.figure + " falls to " + base::three_digits(std::max(f.worst, 0.0)) +
+               " degrees with one period of delay: " + f.at + chiefly(f),
+           false);
+}
+
+}  // namespace
+
+const study::ComparisonResult* figure_of(const study::Outcome& outcome, const std::string& figure) {
+  for (const study::ComparisonResult& c : outcome.comparisons)
+    if (c.figure == figure) return &c;
+  return nullptr;
+}
+
+void add_run_warnings(DesignStudy& s) {
+  look_at_run(s);
+  look_at_tolerances(s);
+  std::stable_partition(s.warnings.begin(), s.warnings.end(),
+                        [](const design::Warning& w) { return w.grave; });
+}
+
+}  // namespace sixstep::analysis
