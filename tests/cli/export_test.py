@@ -111,6 +111,13 @@ class Gate(ProgramTest):
         again = self.run_program("export", "header", self.scenario(BOARD)).stdout
         self.assertEqual(text, again, "no date")
 
+    def test_a_header_tells_what_its_run_showed_and_nobody_asked(self):
+        """Slower than 9.2 L/R the placed loop's proportional gain is negative: 2 x 4.6/T_reg is below R/L."""
+        slow = self.run_program("export", "header", self.scenario(BOARD), "--set", "control.current={settle_s=0.02}", *DESPITE).stdout
+        plain = self.run_program("export", "header", self.scenario(BOARD)).stdout
+        self.assertIn("gain on its error is negative", slow)
+        self.assertNotIn("gain on its error is negative", plain)
+
     def test_the_run_computes_as_the_chip_will(self):
         text = self.run_program("export", "header", self.scenario(BOARD), "--arithmetic", "q15").stdout
         ran = self.run_program("run", self.scenario(BOARD), "--set", "control.arithmetic=q15", "--json", "-").stdout
