@@ -19,6 +19,7 @@
 #include "files/text_file.hpp"
 #include "report/emf_page.hpp"
 #include "report/identify_page.hpp"
+#include "sixstep/analysis/bench/built_machines.hpp"
 #include "sixstep/base/plausible.hpp"
 #include "sixstep/base/range_text.hpp"
 #include "sixstep/base/written.hpp"
@@ -186,8 +187,8 @@ void write_emf(const EmfArguments& a, const text::MeasuredEmf& measured, const a
 Exit emf_command(const EmfArguments& arguments) {
   EmfArguments a = arguments;
   base::Problems problems = check(a);
-  hold(problems, "--speed", a.speed_rpm, base::allowed(base::above(0.0), "rpm"),
-       "give the shaft's speed in rpm");
+  hold(problems, "--speed", a.speed_rpm, analysis::built_shaft_rpm,
+       "give the shaft's speed in rpm: that of the voltage is so many times the pole pairs");
   hold(problems, "--tolerance", a.tolerance_percent, base::strictly_between(0, 100),
        "5 is usual: magnets differ by so much");
   if (!problems.empty()) return refused(problems);

@@ -53,6 +53,7 @@ struct Seen {
   double seconds = 0.0;
   std::vector<std::string> channels;
   double line_peak_mV_s = 0.0;
+  bool backward = false;
 };
 inline Seen seen(const std::string& bytes, const BenchColumns& columns = {}) {
   Seen out;
@@ -64,6 +65,7 @@ inline Seen seen(const std::string& bytes, const BenchColumns& columns = {}) {
   if (!found) return out.problem = to_string(found.problems()[0]), out;
   out.rows = found->rows;
   out.seconds = found->seconds;
+  out.backward = found->backward;
   for (const auto& c : found->channels) out.channels.push_back(c.name);
   out.line_peak_mV_s = 1e3 * pairs * found->constants.line_peak.value;
   return out;

@@ -46,7 +46,7 @@ inductance_mH = { value = 0.572, frame = "terminal" }
 force_constant_N_A = { value = 1.675, frame = "terminal" }
 mass_kg = 0.03375
 viscous_friction_N_s_m = 0.01825
-coulomb_friction_N = 0.2
+coulomb_friction_N = 0.05
 stall_force_N = 39.0
 no_load_speed_m_s = 14.05
 no_load_current_mA = 185

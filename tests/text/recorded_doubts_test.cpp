@@ -83,6 +83,71 @@ TEST(RecordedDoubts, ColumnsThatAreNotUsedAreNamed) {
   EXPECT_THAT(seen(four, between_lines).notes, ElementsAre("not used: CH4 (more than 3 voltages)"));
 }
 
+/// A column that the reader knows is not called unknown: the reason says what it is and what was taken in its place.
+TEST(RecordedDoubts, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
+  const auto notes = [](const std::string& more, const BenchColumns& columns = {}) {
+    return seen(table("time [s],u_ab [V],u_bc [V]," + more + "\n",
+                      [&](int, double t, double a, double b) {
+                        std::string row = fmt::format("{:.6f},{:.5f},{:.5f}", t, a, b);
+                        for (std::ptrdiff_t n = std::count(more.begin(), more.end(), ','); n >= 0; --n)
+                          row += fmt::format(",{}", n % 2);
+                        return row + "\n";
+                      }),
+                columns)
+        .notes;
+  };
+  EXPECT_THAT(
+      notes("u_a,u_b [V]"),
+      ElementsAre("not used: u_a, u_b (a terminal against one point; those between terminals are used)"));
+  EXPECT_THAT(notes("hall1,H2,code"),
+              ElementsAre("not used: hall1, H2 (a Hall line, no voltage), code (Hall codes, no voltage)"));
+  EXPECT_THAT(notes("i_a [A],speed"),
+              ElementsAre("not used: i_a (in A), speed (its heading says nothing that is known here)"));
+  EXPECT_THAT(notes("u_a [mA]"), ElementsAre("not used: u_a (in mA)"));
+}
+
+/// Any of the three voltages will do, and no two of them turn the motor's direction about.
+TEST(RecordedDoubts, AnyTwoVoltagesOfThreeAreUsed) {
+  for (const char* head : {"time [s],u_ab,u_bc\n", "time [s],u_bc,u_ca\n", "time [s],u_ca,u_ab\n"}) {
+    const Seen found = seen(plain(head));
+    ASSERT_EQ(found.problem, "") << head;
+    EXPECT_EQ(found.notes.size(), 0u) << head;
+    EXPECT_EQ(found.channels.size(), 2u) << head;
+    EXPECT_FALSE(found.backward) << head;
+    EXPECT_NEAR(found.line_peak_mV_s / right_mV_s, 1.0, 1e-5) << head;
+  }
+  // The columns' order is not the phases'.
+  const Seen turned = seen(plain("time [s],u_ab,u_ca\n"));
+  EXPECT_TRUE(turned.backward);
+  EXPECT_THAT(turned.channels, ElementsAre("u_ca", "u_ab"));
+  EXPECT_THAT(seen(plain("time [s],u_ca,x\n")).channels, ElementsAre("u_ca"));
+}
+
+TEST(RecordedDoubts, WhatIsAskedForDecidesBetweenVoltagesOfTwoKinds) {
+  const std::string both = table("time [s],u_ab,u_a,u_b,u_c\n", [](int, double t, double a, double b) {
+    const double k = 1.0 / std::sqrt(3.0);  // three voltages of the size of phases, 120 degrees apart
+    return fmt::format("{:.6f},{:.5f},{:.5f},{:.5f},{:.5f}\n", t, a, k * a, k * b, -k * (a + b));
+  });
+  BenchColumns star;
+  star.between = analysis::EmfBetween::star;
+  EXPECT_THAT(seen(both).channels, ElementsAre("u_a", "u_b", "u_c"));
+  EXPECT_THAT(seen(both).notes,
+              ElementsAre("not used: u_ab (between terminals; those against one point are used)"));
+  EXPECT_THAT(seen(both, star).channels, ElementsAre("u_a", "u_b", "u_c"));
+  EXPECT_THAT(seen(both, between_lines).channels, ElementsAre("u_ab"));
+  EXPECT_NEAR(seen(both).line_peak_mV_s, seen(both, between_lines).line_peak_mV_s, 1e-3);
+  const std::string one_each = plain("time [s],u_ab,u_a\n");
+  EXPECT_THAT(seen(one_each).channels, ElementsAre("u_ab"));
+  EXPECT_THAT(seen(one_each, star).channels, ElementsAre("u_a"));
+}
+
+/// Without a heading that is known everything is a voltage, but what is known to be none.
+TEST(RecordedDoubts, AHallLineIsTakenForNoVoltage) {
+  const Seen found = seen(plain("time [s],CH1,hall1\n"), between_lines);
+  EXPECT_THAT(found.channels, ElementsAre("CH1"));
+  EXPECT_THAT(found.notes, ElementsAre("not used: hall1 (a Hall line, no voltage)"));
+}
+
 TEST(RecordedDoubts, TwoColumnsOfOneNameAreToldApartByPlace) {
   const std::string file = plain("time [s],u_ab,u_ab\n");
   EXPECT_THAT(seen(file).problem,
@@ -130,10 +195,14 @@ TEST(RecordedDoubts, ARateInThePreamble) {
 }
 
 TEST(RecordedDoubts, WhatNoMotorHasIsRefused) {
-  EXPECT_THAT(seen(plain("time [s],u_ab [kV],u_bc [kV]\n", "{:.0f},{:.5f},{:.5f}\n", 1e6)).problem,
-              AllOf(HasSubstr("no motor has less than"), HasSubstr("look at the units")));
-  EXPECT_THAT(seen(plain("time [s],u_ab,u_bc\n", "{:.0f},{:.5f},{:.5f}\n", 1e6)).problem,
-              HasSubstr("no motor has"));
+  // Microseconds that are headed as seconds: 117 Hz become 117 uHz.
+  EXPECT_THAT(
+      seen(plain("time [s],u_ab,u_bc\n", "{:.0f},{:.5f},{:.5f}\n", 1e6)).problem,
+      AllOf(HasSubstr("time makes 0.001 rpm with 7 pole pairs"), HasSubstr("look at the unit of time")));
+  // Millivolts that are headed as kilovolts.
+  EXPECT_THAT(seen(plain("time [s],u_ab [kV],u_bc [kV]\n", "{:.6f},{:.5f},{:.5f}\n", 1.0, 1e3)).problem,
+              AllOf(HasSubstr("no brushless machine is built with more than 1e+06"),
+                    HasSubstr("the voltage is taken too great")));
 }
 
 TEST(RecordedDoubts, ClippedNoisyAndTornRecordingsAreCalledSo) {

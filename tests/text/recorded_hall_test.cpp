@@ -140,6 +140,31 @@ TEST(RecordedHall, HeadsOfManyMakes) {
   }
 }
 
+TEST(RecordedHall, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
+  const auto notes = [](const char* head, const char* more) {
+    std::string file = std::string(head) + "\n";
+    for (int row = 0; row < 300; ++row)
+      file += fmt::format("{:.5f},{},{}\n", row * 5e-5, bits(codes[row / 10 % 6]), more);
+    const Seen found = seen(file);
+    EXPECT_EQ(found.problem, "") << head;
+    return found.notes;
+  };
+  EXPECT_THAT(notes("time,hall1,hall2,hall3,code", "5"),
+              ElementsAre("not used: code (Hall codes; the three lines are used)"));
+  EXPECT_THAT(notes("time,hall1,hall2,hall3,u_bc,u_ca", "1,2"),
+              ElementsAre("not used: u_bc, u_ca (between terminals, of which u_ab and u_bc are needed)"));
+  EXPECT_THAT(
+      notes("time,hall1,hall2,hall3,u_b,aux", "1,2"),
+      ElementsAre("not used: u_b (of terminals, of which u_a, u_b and u_c are needed), aux (its heading "
+                  "says nothing that is known here)"));
+  EXPECT_THAT(notes("time,hall1,hall2,hall3,u_ab,u_bc,u_a", "1,2,3"),
+              ElementsAre("not used: u_a (a terminal against one point; those between terminals are used)"));
+  std::string file = "time,hall1,hall\n";
+  for (int row = 0; row < 300; ++row)
+    file += fmt::format("{:.5f},{},{}\n", row * 5e-5, codes[row / 10 % 6] >> 2, codes[row / 10 % 6]);
+  EXPECT_THAT(seen(file).notes, ElementsAre("not used: hall1 (a Hall line; the codes are used)"));
+}
+
 TEST(RecordedHall, ABadCellIsNamed) {
   std::string file = "time,hall1,hall2,hall3\n";
   for (int row = 0; row < 300; ++row)

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "text/keys/units.hpp"
+#include "text/recording/bench_columns.hpp"
 #include "text/recording/columns.hpp"
 #include "text/recording/heading.hpp"
 #include "text/recording/times.hpp"
@@ -14,52 +15,19 @@
 namespace text {
 namespace {
 
-using Columns = std::vector<Picked>;
-using Names = std::initializer_list<std::string_view>;
-
-/// All of them, or as many as come before the first that is missing.
-base::Result<Columns> columns_like(const Recording& recording, std::initializer_list<Names> wanted) {
-  Columns out;
-  for (const Names names : wanted) {
-    const base::Result<Picked> found = find_column(recording, names);
-    if (!found) return found.problems();
-    if (!found->column) break;
-    out.push_back(*found);
-  }
-  return out;
-}
-
-base::Result<Columns> line_voltages(const Recording& r) {
-  return columns_like(
-      r, {{"uab", "vab", "eab", "ab"}, {"ubc", "vbc", "ebc", "bc"}, {"uca", "vca", "eca", "ca"}});
-}
-base::Result<Columns> terminal_voltages(const Recording& r) {
-  return columns_like(r, {{"ua", "va", "ea", "phasea", "vphasea"},
-                          {"ub", "vb", "eb", "phaseb", "vphaseb"},
-                          {"uc", "vc", "ec", "phasec", "vphasec"}});
-}
-
-struct Voltages {
-  Columns columns;
-  std::optional<analysis::EmfBetween> between;
-};
-
-/// By the options, else by the headings: between lines, where both are there.
-base::Result<Voltages> voltages_of(const Recording& r, const BenchColumns& wanted) {
+/// By the options, else by the headings. A log of Hall lines needs the first two of three voltages, a back-EMF any.
+base::Result<Voltages> voltages_of(const Recording& r, const BenchColumns& wanted,
+                                   Columns (*taken)(const Three&)) {
   if (!wanted.voltages.empty()) {
     base::Result<Columns> named = columns_called(r, wanted.voltages);
     if (!named) return named.problems();
     return Voltages{std::move(*named), wanted.between};
   }
-  const base::Result<Columns> lines = line_voltages(r), terminals = terminal_voltages(r);
+  const base::Result<Three> lines = three_of(r, names_between_terminals());
   if (!lines) return lines.problems();
+  const base::Result<Three> terminals = three_of(r, names_of_terminals());
   if (!terminals) return terminals.problems();
-  const bool star = wanted.between == analysis::EmfBetween::star;
-  if (lines->size() > 1 && !star) return Voltages{*lines, analysis::EmfBetween::lines};
-  if (terminals->size() == 3)
-    return Voltages{*terminals, wanted.between.value_or(analysis::EmfBetween::star)};
-  if (!lines->empty()) return Voltages{*lines, wanted.between.value_or(analysis::EmfBetween::lines)};
-  return Voltages{*terminals, wanted.between};
+  return chosen(taken(*lines), taken(*terminals), wanted.between);
 }
 
 bool is_of_kind(const RecordedColumn& column, std::string_view unit) {
@@ -93,30 +61,31 @@ bool is_among(const Columns& columns, const RecordedColumn& column) {
 }
 
 /// Each column that is not used, with its reason. Where columns were asked for by name, nobody wonders.
-void note_rest(const Recording& r, const Columns& used, const RecordedColumn* time, Notes& notes) {
+void note_rest(const Recording& r, const Columns& used, const RecordedColumn* time, const BenchUse& use,
+               Notes& notes) {
   std::vector<NotUsed> rest;
   for (const RecordedColumn& column : r.columns) {
     if (&column == time || !column.filled || is_among(used, column)) continue;
     if (is_other_time(column, time)) continue;
-    const bool in_volts = column.unit.empty() || column.letter || is_of_kind(column, "V");
-    rest.push_back({column.name, !column.has_numbers() ? "holds no numbers"
-                                 : in_volts            ? "its heading says nothing that is known here"
-                                                       : "in " + column.unit});
+    rest.push_back({column.name, column.has_numbers() ? why_not_used(column, use) : "holds no numbers"});
   }
   note_not_used(rest, notes);
 }
 
-/// "CH1" or no heading at all: whatever holds numbers and is neither a time nor in the unit of another thing.
+Meaning meaning_of_first(const Columns& columns) {
+  return columns.empty() ? Meaning::unknown : meaning_of(*columns.front().column);
+}
+
+/// "CH1" or no heading at all: whatever holds numbers and is neither a time, a Hall line nor in the unit of another thing.
 Columns whatever_is_a_voltage(const Recording& r, const RecordedColumn* time, Notes& notes) {
   Columns out;
   std::vector<NotUsed> rest;
   for (const RecordedColumn& column : r.columns) {
     if (&column == time || !column.filled || is_other_time(column, time)) continue;
-    const bool other_unit = !column.unit.empty() && !column.letter && !is_of_kind(column, "V");
     if (!column.has_numbers())
       rest.push_back({column.name, "holds no numbers"});
-    else if (other_unit)
-      rest.push_back({column.name, "in " + column.unit});
+    else if (is_of_other_unit(column) || meaning_of(column) != Meaning::unknown)
+      rest.push_back({column.name, why_not_used(column, {})});
     else if (out.size() == analysis::most_emf_channels)
       rest.push_back({column.name, fmt::format("more than {} voltages", analysis::most_emf_channels)});
     else
@@ -189,12 +158,12 @@ base::Result<Codes> codes_of(const Recording& r, const Columns& lines) {
 /// By the options, else by the headings; what a logic analyzer heads "logic" are lines, where there are three.
 base::Result<Columns> hall_columns(const Recording& r, const BenchColumns& wanted, Notes& notes) {
   if (!wanted.hall.empty()) return columns_called(r, wanted.hall);
-  base::Result<Columns> lines = columns_like(r, {{"hall1", "h1", "halla", "ha", "hallu", "hu"},
-                                                 {"hall2", "h2", "hallb", "hb", "hallv", "hv"},
-                                                 {"hall3", "h3", "hallc", "hc", "hallw", "hw"}});
-  if (!lines || lines->size() == 3) return lines;
-  base::Result<Columns> code = columns_like(r, {{"hall", "code", "hallcode", "hallstate"}});
-  if (!code || !code->empty()) return code;
+  const base::Result<Three> three = three_of(r, names_of_hall_lines());
+  if (!three) return three.problems();
+  if (Columns lines = from_the_first(*three); lines.size() == 3) return lines;
+  const base::Result<Picked> code = find_column(r, names_of_hall_codes());
+  if (!code) return code.problems();
+  if (code->column) return Columns{*code};
   Columns logic;
   for (const RecordedColumn& column : r.columns)
     if (bare_name(column.heading) == "logic") logic.push_back({&column, ""});
@@ -244,7 +213,7 @@ base::Result<analysis::HallLog> hall_log_of(const Recording& r, const BenchColum
   base::Result<Times> times = times_of(r, wanted.interval_s, notes);
   if (!times) return times.problems();
   if (base::Problems wrong = check_other_times(r, times->column); !wrong.empty()) return wrong;
-  const base::Result<Voltages> voltages = voltages_of(r, wanted);
+  const base::Result<Voltages> voltages = voltages_of(r, wanted, from_the_first);
   if (!voltages) return voltages.problems();
   out.codes = without_rows(std::move(*codes), times->left_out);
   if (!voltages->columns.empty())
@@ -252,7 +221,8 @@ base::Result<analysis::HallLog> hall_log_of(const Recording& r, const BenchColum
   out.t_s = std::move(times->t_s);
   Columns used = *lines;
   used.insert(used.end(), voltages->columns.begin(), voltages->columns.end());
-  if (wanted.hall.empty()) note_rest(r, used, times->column, notes);
+  const BenchUse use{true, lines->size() == 1, !wanted.voltages.empty(), meaning_of_first(voltages->columns)};
+  if (wanted.hall.empty()) note_rest(r, used, times->column, use, notes);
   return out;
 }
 
@@ -262,12 +232,13 @@ base::Result<analysis::EmfRecord> emf_record_of(const Recording& r, const BenchC
   base::Result<Times> times = times_of(r, wanted.interval_s, notes);
   if (!times) return times.problems();
   if (base::Problems wrong = check_other_times(r, times->column); !wrong.empty()) return wrong;
-  base::Result<Voltages> voltages = voltages_of(r, wanted);
+  base::Result<Voltages> voltages = voltages_of(r, wanted, in_turn);
   if (!voltages) return voltages.problems();
   if (voltages->columns.empty())
     voltages = Voltages{whatever_is_a_voltage(r, times->column, notes), wanted.between};
   else if (wanted.voltages.empty())
-    note_rest(r, voltages->columns, times->column, notes);
+    note_rest(r, voltages->columns, times->column, {false, false, false, meaning_of_first(voltages->columns)},
+              notes);
   if (voltages->columns.empty())
     return of_recording(r, "has no column of voltages: it has " + headings_of(r), "name the columns");
   if (!voltages->between)

@@ -77,18 +77,27 @@ base::Result<Conversion> conversion_of(const Recording& r, const Picked& picked,
   return found;
 }
 
+bool is_one_of(std::string_view bare, std::span<const std::string_view> names) {
+  return std::find(names.begin(), names.end(), bare) != names.end();
+}
+
+/// With what stands in the place of a unit: "u_a" is no u in amperes.
+bool is_called_as_a_whole(const RecordedColumn& column, std::span<const std::string_view> names) {
+  return (column.unit.empty() || column.letter) && is_one_of(bare_name(column.heading), names);
+}
+
 }  // namespace
 
-base::Result<Picked> find_column(const Recording& recording, std::initializer_list<std::string_view> names) {
-  const auto is_one = [&](std::string_view bare) {
-    return std::find(names.begin(), names.end(), bare) != names.end();
-  };
+bool is_called(const RecordedColumn& column, std::span<const std::string_view> names) {
+  return is_called_as_a_whole(column, names) || is_one_of(column.bare, names);
+}
+
+base::Result<Picked> find_column(const Recording& recording, std::span<const std::string_view> names) {
   Picked found;
   std::vector<const RecordedColumn*> all;
   for (const RecordedColumn& column : recording.columns) {
-    const bool whole = (column.unit.empty() || column.letter) && is_one(bare_name(column.heading));
-    if (!whole && !is_one(column.bare)) continue;
-    if (all.empty()) found = {&column, whole ? std::string() : column.unit};
+    if (!is_called(column, names)) continue;
+    if (all.empty()) found = {&column, is_called_as_a_whole(column, names) ? std::string() : column.unit};
     all.push_back(&column);
   }
   if (all.size() > 1) return several(recording, found.column->name, all);

@@ -3,6 +3,7 @@
 #pragma once
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,8 +19,15 @@ struct Picked {
   std::string unit;
 };
 
-/// The column whose bare name is one of these; null where there is none. A Problem where two are.
-base::Result<Picked> find_column(const Recording& recording, std::initializer_list<std::string_view> names);
+/// Whether its bare name is one of these.
+bool is_called(const RecordedColumn& column, std::span<const std::string_view> names);
+
+/// The column that is called so; null where there is none. A Problem where two are.
+base::Result<Picked> find_column(const Recording& recording, std::span<const std::string_view> names);
+inline base::Result<Picked> find_column(const Recording& recording,
+                                        std::initializer_list<std::string_view> names) {
+  return find_column(recording, std::span(names.begin(), names.size()));
+}
 
 /// The columns with those headings, "column 3" by its place; of one heading that is given as often as columns have it, each in turn. A
 /// Problem that says which there are.

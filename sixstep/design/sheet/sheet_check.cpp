@@ -22,11 +22,7 @@ struct Reason {
 constexpr Reason reasons[] = {
     {"nominal_voltage_V", "the scenario's supply decides; the sheet's other values belong to it"},
     {"no_load_voltage_V", "the voltage of the no-load point"},
-    {"no_load_speed_rpm", "friction is given by other lines"},
-    {"no_load_current_mA", "friction is given by other lines"},
     {"second_no_load_voltage_V", "the voltage of the second no-load point"},
-    {"second_no_load_speed_rpm", "friction is given by other lines"},
-    {"second_no_load_current_mA", "friction is given by other lines"},
     {"nominal_speed_rpm", "a rating, of a winding as warm as the maker chose"},
     {"nominal_torque_mNm",
      "a rating; makers disagree whether friction is taken off, so K_t is not read from it"},
@@ -80,11 +76,22 @@ class Lines {
 
  private:
   std::string why_not(std::string_view key) const {
+    if (key.ends_with("no_load_speed_rpm") || key.ends_with("no_load_current_mA")) return why_no_point(key);
     for (const Reason& reason : reasons)
       if (reason.key == key) return std::string(reason.why);
     if (constants_.K_e_V_s)
       return "another print of the torque constant, which is read from " + constants_.K_e_V_s->from;
     return "not enough to go with it";
+  }
+  /// Friction comes of a no-load point only where the point is whole and no other line gives it.
+  std::string why_no_point(std::string_view key) const {
+    const Friction& f = constants_.friction;
+    const auto& used = constants_.used;
+    const bool whole =
+        key.starts_with("second_") ? f.split_viscous_Nm_s.has_value() : f.no_load_speed_rad_s > 0.0;
+    if (whole || std::find(used.begin(), used.end(), "viscous_friction_Nm_s") != used.end())
+      return "friction is given by other lines";
+    return "friction comes of a no-load current with its speed, or with its voltage, R and K_t";
   }
   const SheetConstants& constants_;
 };

@@ -7,6 +7,8 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/linear.hpp"
 #include "sixstep/design/sheet/sheet_check.hpp"
+#include "sixstep/design/sheet/sheet_no_load.hpp"
+#include "sixstep/design/sheet/sheet_term.hpp"
 
 namespace sixstep::design {
 namespace {
@@ -14,22 +16,6 @@ namespace {
 using base::Quantity;
 
 constexpr double rpm_per_rad_s = 30.0 / base::pi;
-
-/// A number with the relative doubt of its print. Products add doubts, powers multiply them.
-struct Term {
-  double value = 0.0;
-  double doubt = 0.0;
-};
-Term operator*(Term a, Term b) { return {a.value * b.value, a.doubt + b.doubt}; }
-Term operator/(Term a, Term b) { return {a.value / b.value, a.doubt + b.doubt}; }
-Term operator*(Term a, double exact) { return {a.value * exact, a.doubt}; }
-Term operator-(Term a, Term b) {
-  const double value = a.value - b.value;
-  return {value, (a.value * a.doubt + b.value * b.doubt) / value};
-}
-
-/// A voltage that a sheet's values belong to is exact by definition, whatever its digits.
-Term exact(double value) { return {value, 0.0}; }
 
 struct Factor {
   double ratio;
@@ -72,11 +58,6 @@ class Relations {
   }
 
  private:
-  static std::optional<Term> term(const std::optional<Quantity>& q, double unit = 1.0) {
-    if (!q || !(q->value > 0.0)) return {};
-    return Term{q->value * unit, relative_doubt(*q)};
-  }
-
   /// In the words and units of a linear motor; the deviation is what it was.
   static void in_metres(Relation& r) {
     const base::LinearUnit unit = base::in_linear(r.unit);
@@ -141,18 +122,11 @@ class Relations {
     }
   }
 
-  /// n_0 = k_n (U - R I_0), with the printed k_n or the torque constant's.
   void no_load() {
-    const std::optional<Term> speed = term(s_.no_load_speed_rpm);
-    const std::optional<Term> U = s_.no_load_voltage_V ? exact(s_.no_load_voltage_V->value) : U_;
-    if (!speed || !U || !R_ || !idle_ || !K_t_) return;
-    const Term drop = *R_ * *idle_;
-    if (!(drop.value < U->value)) return;
-    const std::optional<Quantity>& k_n = s_.speed_constant_rpm_V;
-    const bool printed = k_n && k_n->frame == "six-step" && k_n->value > 0.0;
-    const Term rpm_V = printed ? Term{k_n->value, relative_doubt(*k_n)} : exact(rpm_per_rad_s) / *K_t_;
-    add("no-load speed", printed ? "k_n (U - R I_0)" : "(U - R I_0) / k_M", "no-load speed",
-        rpm_V * (*U - drop), *speed, "rpm", no_load_margin, no_load_margin);
+    for (const NoLoadSides& n : no_load_sides(s_, c_)) {
+      Relation& r = add(n.name, n.left_words, n.right_words, n.left, n.right, n.unit, n.below, n.above);
+      if (r.remark.empty()) r.remark = n.remark;
+    }
   }
 
   void nominal() {

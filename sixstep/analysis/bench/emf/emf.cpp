@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sixstep/analysis/bench/built_machines.hpp"
 #include "sixstep/analysis/bench/distributions.hpp"
 #include "sixstep/analysis/bench/emf/emf_doubts.hpp"
 #include "sixstep/analysis/bench/emf/emf_shape.hpp"
@@ -249,6 +250,7 @@ base::Result<EmfResult> measure_emf(const EmfRequest& request) {
   out.change_Hz_s = fit->phase.rate[1] / base::turn_rad;
   base::Problems problems = direction(request, *fit, out);
   if (problems.empty()) problems = find_pole_pairs(request, *fit, out);
+  if (problems.empty()) problems = check_built_speed(out.frequency_Hz.value, out.pole_pairs);
   if (!problems.empty()) return problems;
   take_channels(request, *fit, out);
   if (base::Problems clipped = check_clipped(request.record, out); !clipped.empty()) return clipped;
@@ -258,7 +260,8 @@ base::Result<EmfResult> measure_emf(const EmfRequest& request) {
   take_constants(*fit, mean, out);
   allow_for_clipping(out);
   allow_for_unlike_channels(out);
-  if (base::Problems beyond = check_plausible(out); !beyond.empty()) return beyond;
+  problems = check_built_constant(out.constants.line_peak.value, out.frequency_Hz.value, out.pole_pairs);
+  if (!problems.empty()) return problems;
   take_table(mean.phase, out);
   out.fit = *fit;
   return out;

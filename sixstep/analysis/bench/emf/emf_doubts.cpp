@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "sixstep/base/angle.hpp"
-#include "sixstep/base/plausible.hpp"
 #include "sixstep/base/written.hpp"
 
 namespace sixstep::analysis {
@@ -223,18 +222,6 @@ void allow_for_unlike_channels(EmfResult& result) {
     i->low -= part * i->value;
     i->high += part * i->value;
   }
-}
-
-base::Problems check_plausible(const EmfResult& result) {
-  const base::Plausible likely = base::plausible("mV s");
-  const double pairs = std::max(result.pole_pairs, 1), mV_s = 1e3 * pairs * result.constants.line_peak.value;
-  if (mV_s >= likely.least && mV_s <= likely.most) return {};
-  return {{.where = "voltage",
-           .value = "",
-           .limit = "over speed is " + base::three_digits(mV_s) + " mV s/rad, line peak at " +
-                    base::three_digits(result.frequency_Hz.value) + " Hz, and no motor has less than " +
-                    base::three_digits(likely.least) + " or more than " + base::three_digits(likely.most),
-           .cure = "look at the units of time and voltage"}};
 }
 
 }  // namespace sixstep::analysis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings that give numbers, but none of the motor: noise, gaps, clipped tops, units that are off by a million.
+// Recordings that give numbers, but none of the motor: noise, gaps, clipped tops.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -29,8 +29,5 @@ void allow_for_clipping(EmfResult& result);
 /// Fundamentals that differ by more than those of one motor; by less, but more than usual, they widen the constants' bounds.
 base::Problems check_alike(const EmfResult& result);
 void allow_for_unlike_channels(EmfResult& result);
-
-/// Constants that no motor has (base/plausible.hpp).
-base::Problems check_plausible(const EmfResult& result);
 
 }  // namespace sixstep::analysis

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string>
 
+#include "sixstep/analysis/bench/built_machines.hpp"
 #include "sixstep/analysis/bench/hall/hall_place.hpp"
 #include "sixstep/analysis/bench/hall/hall_runs.hpp"
 #include "sixstep/analysis/bench/hall/motion_posterior.hpp"
-#include "sixstep/base/plausible.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/control/commutation.hpp"
 
@@ -220,13 +220,14 @@ base::Result<HallIdentity> identified(const HallLog& log, int pole_pairs, const 
 base::Result<HallIdentity> identify(const HallLog& log, int pole_pairs, const KeepGoing& keep_going) {
   base::Result<HallIdentity> found = identified(log, pole_pairs, keep_going);
   if (keep_going && !keep_going()) return base::Problem{"identify", "", "was interrupted", "start it again"};
-  if (!found || !found->place) return found;
-  const base::Plausible likely = base::plausible("mWb");
-  if (const double mWb = 1e3 * found->place->flux_linkage_Vs.value; mWb > likely.most)
-    return base::Problem{.where = "voltage",
-                         .limit = "over speed is a flux linkage of " + base::three_digits(mWb) +
-                                  " mWb, and no motor has more than " + base::three_digits(likely.most),
-                         .cure = "look at the units of time and voltage"};
+  if (!found) return found;
+  const double frequency_Hz = 1.0 / (6.0 * found->sector_s);
+  const int known_pairs = pole_pairs > 1 ? pole_pairs : 0;  // 1 asks for the six edges that all pairs share
+  base::Problems wrong = check_built_speed(frequency_Hz, known_pairs);
+  if (wrong.empty() && found->place)
+    wrong =
+        check_built_constant(std::sqrt(3.0) * found->place->flux_linkage_Vs.value, frequency_Hz, known_pairs);
+  if (!wrong.empty()) return wrong;
   return found;
 }
 
